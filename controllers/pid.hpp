@@ -1,0 +1,67 @@
+// PID control of the contraction ratio: positional form, derivative of the measurement through a first-order
+// filter, back-calculation against windup (Astrom & Hagglund 1995, section 3). Encoder counts in, mA out.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include <controllers/controller.hpp>
+
+namespace mckibben::controllers {
+
+/// u = rest + K (b r - y) + I + D, clamped; dI/dt = K/Ti (r - y) + (u - v)/Tt, with v the unclamped u.
+struct PidSettings {
+  static constexpr std::string_view kind = "pid";
+  std::string name{kind};
+  std::optional<double> proportional_mA = std::nullopt;
+  std::optional<double> integral_time_s = std::nullopt;
+  std::optional<double> derivative_time_s = std::nullopt;
+  int sample_ticks = 1;
+  double derivative_filter = 10.0;
+  double setpoint_weight = 1.0;
+  std::optional<double> tracking_time_s = std::nullopt;
+  double lowest_current_mA = 4.0, highest_current_mA = 20.0;
+  double rest_current_mA = 4.0;
+  int feedback_delay_ticks = 0;
+  std::optional<double> tuning_load_kg = std::nullopt;
+
+  /// Whether some gain is left to tuning.
+  bool needs_tuning() const { return !proportional_mA || !integral_time_s || !derivative_time_s; }
+
+  /// Throws std::invalid_argument if a gain is missing.
+  std::unique_ptr<Controller> make(const Knowledge& knowledge) const;
+
+  template <class Self, class Visitor>
+  static void fields(Self& self, Visitor& visit) {
+    visit("name", self.name, "name in tables and file names");
+    visit("proportional", self.proportional_mA, "mA", 0.0, 1e6,
+          "gain K, current for a whole contraction ratio; tuned if absent");
+    visit("integral_time", self.integral_time_s, "s", 0.0, 1e6,
+          "Ti; 0 for no integral action, tuned if absent");
+    visit("derivative_time", self.derivative_time_s, "s", 0.0, 1e3,
+          "Td; 0 for no derivative action, tuned if absent");
+    visit("sample_ticks", self.sample_ticks, 1, 1000, "ticks from one new current to the next");
+    visit("derivative_filter", self.derivative_filter, "1", 1.0, 100.0,
+          "N: the derivative is filtered with time constant Td/N");
+    visit("setpoint_weight", self.setpoint_weight, "1", 0.0, 1.0, "b: share of the target in the K term");
+    visit("tracking_time", self.tracking_time_s, "s", 1e-4, 1e6,
+          "Tt: how fast a limit unwinds the integral; sqrt(Ti Td) if absent, Ti without derivative action");
+    visit("lowest_current", self.lowest_current_mA, "mA", 0.0, 100.0, "lower limit of the output");
+    visit("highest_current", self.highest_current_mA, "mA", 0.0, 100.0, "upper limit of the output");
+    visit("rest_current", self.rest_current_mA, "mA", 0.0, 100.0,
+          "current before the first reading, and output without error");
+    visit("feedback_delay_ticks", self.feedback_delay_ticks, 0, 1000, "age of the counts that are used");
+    visit("tuning_load", self.tuning_load_kg, "kg", 0.0, 500.0,
+          "load at which missing gains are tuned; the scenario's median load if absent");
+  }
+  template <class Report>
+  void rules(Report& report) const {
+    if (highest_current_mA <= lowest_current_mA) report("highest_current", "must be above lowest_current");
+    if (rest_current_mA < lowest_current_mA || rest_current_mA > highest_current_mA)
+      report("rest_current", "must lie between lowest_current and highest_current");
+  }
+};
+
+}  // namespace mckibben::controllers

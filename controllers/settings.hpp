@@ -1,0 +1,25 @@
+// The one table of controllers: an entry here and its header make a controller known to scenarios.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <variant>
+
+#include <controllers/controller.hpp>
+#include <controllers/pid.hpp>
+#include <controllers/static_inverse.hpp>
+#include <controllers/waveform.hpp>
+
+namespace mckibben::controllers {
+
+using Settings = std::variant<PidSettings, StaticInverseSettings, SineCurrent, TriangleCurrent, StepCurrent,
+                              StairCurrent, ChirpCurrent, RecordedCurrent>;
+
+/// A controller at its beginning. Throws std::invalid_argument if the settings are incomplete: a PID whose
+/// gains are still to be tuned, a recording that was not read.
+std::unique_ptr<Controller> make(const Settings& settings, const Knowledge& knowledge);
+
+/// The name it goes by in tables and files.
+const std::string& name_of(const Settings& settings);
+
+}  // namespace mckibben::controllers

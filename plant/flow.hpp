@@ -1,0 +1,41 @@
+// Mass flow of a gas through a restriction, ISO 6358: choked below the critical pressure ratio, elliptic
+// above it, and linear for small differences, where the ellipse has an infinite slope.
+#pragma once
+
+#include <cmath>
+
+#include <plant/rig.hpp>
+
+namespace mckibben::plant {
+
+/// A restriction with a sonic conductance.
+struct Restriction {
+  double conductance_kg_per_s_Pa;  ///< C rho0
+  double critical_ratio;           ///< b_c
+  double linear_zone_Pa;
+
+  /// Mass flow [kg/s] from `from_Pa` to `to_Pa`, both absolute; negative when it runs back.
+  template <class S>
+  S flow_kg_per_s(const S& from_Pa, const S& to_Pa) const {
+    if (from_Pa < to_Pa) return -downhill(to_Pa, from_Pa);
+    return downhill(from_Pa, to_Pa);
+  }
+
+ private:
+  template <class S>
+  S downhill(const S& high_Pa, const S& low_Pa) const {
+    const S drop = high_Pa - low_Pa;
+    if (drop >= linear_zone_Pa) return turbulent(high_Pa, low_Pa);
+    return turbulent(high_Pa, S(high_Pa - linear_zone_Pa)) * (drop / linear_zone_Pa);
+  }
+  template <class S>
+  S turbulent(const S& high_Pa, const S& low_Pa) const {
+    using std::sqrt;
+    const S choked = conductance_kg_per_s_Pa * high_Pa;
+    const S excess = (low_Pa / high_Pa - critical_ratio) / (1.0 - critical_ratio);
+    if (excess <= 0.0) return choked;
+    return choked * sqrt(1.0 - excess * excess);
+  }
+};
+
+}  // namespace mckibben::plant

@@ -1,0 +1,54 @@
+// Thread friction: how large it can be (the level, T 4.2 and 4.6 or one of T 1.1 to 1.3) and what happens
+// inside that level (a bristle with memory, LuGre: Canudas de Wit, Olsson, Astrom, Lischinsky, IEEE TAC 40
+// (1995) 419-425).
+#pragma once
+
+#include <cmath>
+
+#include <plant/rig.hpp>
+
+namespace mckibben::plant {
+
+/// Where T 4.6 is used; its logarithm has no meaning at e = 0, so e is clamped to this range.
+inline constexpr double lowest_friction_ratio = 0.005, highest_friction_ratio = 0.28;
+
+/// The friction coefficient of T 4.6. The thesis prints 0.5 to 2.4; read as per cent (docs/equations.md).
+template <class S>
+S friction_coefficient(const Friction& p, const S& contraction_ratio, double current_speed_mA_per_s) {
+  using std::log;
+  S e = contraction_ratio;
+  if (e < lowest_friction_ratio) e = S(lowest_friction_ratio);
+  if (e > highest_friction_ratio) e = S(highest_friction_ratio);
+  const double nu = current_speed_mA_per_s;
+  return 0.01 * (p.f0 + p.f1_s2_per_mA2 * nu * nu + p.f2 * e + p.f3 * log(e));
+}
+
+/// Friction level G [N], never below the floor. Contact surface in m2, gauge pressure in Pa.
+template <class S>
+S friction_level_N(const Friction& p, const S& contraction_ratio, const S& surface_m2, const S& pressure_Pa,
+                   double current_speed_mA_per_s) {
+  using std::log;
+  using std::pow;
+  S normal_N = S(0.0);  // T 4.2
+  if (pressure_Pa > 0.0) normal_N = surface_m2 * pressure_Pa;
+  const bool pressed = normal_N > 1e-12;  // below it log and pow have no slope worth having
+  S level = S(0.0);
+  switch (p.law) {
+    case FrictionLaw::superposition:
+      level = friction_coefficient(p, contraction_ratio, current_speed_mA_per_s) * normal_N;
+      break;
+    case FrictionLaw::area:
+      level = p.mu0 * normal_N + p.adhesion_Pa * surface_m2;
+      break;
+    case FrictionLaw::logarithmic:
+      if (pressed) level = normal_N * (p.log_A - p.log_B * log(normal_N));
+      break;
+    case FrictionLaw::power:
+      if (pressed) level = p.power_alpha * normal_N + p.power_b * pow(normal_N, p.power_c);
+      break;
+  }
+  if (level < 0.0) level = S(0.0);
+  return p.scale * level + p.floor_N;
+}
+
+}  // namespace mckibben::plant

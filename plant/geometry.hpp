@@ -1,0 +1,67 @@
+// Braid geometry: what follows from the threads' constant length alone. Thesis 2.4 to 2.10 and 4.3.
+#pragma once
+
+#include <plant/rig.hpp>
+
+namespace mckibben::plant {
+
+/// Constants of a braid, computed once. All lengths in m, areas in m2, volumes in m3.
+class Braid {
+ public:
+  explicit Braid(const Muscle& muscle);
+
+  /// a (1 - k e)^2 - b, the bracket of T 2.8: braid force per area and pressure. Dimensionless; zero at
+  /// e_max.
+  template <class S>
+  S pull_ratio(const S& contraction_ratio) const {
+    const S u = 1.0 - k_ * contraction_ratio;
+    return a_ * u * u - b_;
+  }
+
+  /// Tondu-Lopez braid force [N] at a gauge pressure [Pa] (T 2.8).
+  template <class S>
+  S force_N(const S& contraction_ratio, const S& pressure_Pa) const {
+    return area_m2_ * pressure_Pa * pull_ratio(contraction_ratio);
+  }
+
+  /// dV/de [m3], by virtual work: F l0 de = P dV, so that pneumatic work is mechanical work exactly.
+  template <class S>
+  S volume_slope_m3(const S& contraction_ratio) const {
+    return length_m_ * area_m2_ * pull_ratio(contraction_ratio);
+  }
+
+  /// Gas volume [m3], the integral of the slope from A0 l0 plus the dead volume at e = 0.
+  template <class S>
+  S volume_m3(const S& contraction_ratio) const {
+    const S u = 1.0 - k_ * contraction_ratio;
+    return volume_at_rest_m3_ +
+           length_m_ * area_m2_ * (a_ * (1.0 - u * u * u) / (3.0 * k_) - b_ * contraction_ratio);
+  }
+
+  /// Contact surface of the threads [m2] (T 4.3). Needs e > 1 - 1/cos(alpha0) (squared), see `in_domain`.
+  template <class S>
+  S contact_surface_m2(const S& contraction_ratio) const {
+    using std::sqrt;
+    const S shortened = 1.0 - contraction_ratio;
+    const S root = sqrt(1.0 - surface_cosine_ * shortened * shortened);
+    return surface_factor_m2_ / (shortened * root);
+  }
+
+  /// Whether the laws above are defined at this contraction ratio, and the volume is positive.
+  bool in_domain(double contraction_ratio) const {
+    return contraction_ratio > lowest_ratio_ && contraction_ratio < highest_ratio_;
+  }
+
+  double largest_contraction_ratio() const { return (1.0 - std::sqrt(b_ / a_)) / k_; }  ///< e_max (T 2.10)
+  double largest_force_N(double pressure_Pa) const { return area_m2_ * pressure_Pa * (a_ - b_); }  ///< T 2.9
+  double rest_length_m() const { return length_m_; }
+
+ private:
+  double a_, b_, k_, area_m2_, length_m_, volume_at_rest_m3_;
+  double surface_factor_m2_, surface_cosine_, lowest_ratio_, highest_ratio_;
+};
+
+/// Above this contraction the muscle may be damaged (T 2.3).
+inline constexpr double risky_contraction_ratio = 0.20;
+
+}  // namespace mckibben::plant

@@ -1,0 +1,57 @@
+// What stands between plant and controller: digital-to-analogue converter, encoder, pressure gauge (T 3.1).
+#pragma once
+
+#include <cstdint>
+
+#include <plant/rig.hpp>
+
+namespace mckibben::plant {
+
+/// What disturbs the instruments, as root mean square of white Gaussian noise.
+struct Noise {
+  double encoder_jitter = 0.0;
+  double gauge_Pa = 0.0;
+  double current_mA = 0.0;
+
+  template <class Self, class Visitor>
+  static void fields(Self& self, Visitor& visit) {
+    visit("encoder_jitter", self.encoder_jitter, "1", 0.0, 0.1,
+          "rms of the position before it is counted, as contraction ratio");
+    visit("gauge", self.gauge_Pa, "Pa", 0.0, 1e5, "rms of the pressure gauge");
+    visit("current", self.current_mA, "mA", 0.0, 10.0,
+          "rms of the current that reaches the valve; not recorded");
+  }
+};
+
+/// The current [mA] a DAC gives when asked for one: clamped to its range, rounded to the nearest step.
+double dac_output_mA(const Dac& dac, double wanted_mA);
+
+/// Rise of the load for one encoder count [m].
+double count_height_m(const Encoder& encoder, const Joint& joint);
+
+/// A pulse counter on the encoder.
+///
+/// `ideal` counts floor(x / q). `crosswise` is the thesis's wiring: channel A drives the first counter and
+/// gates the second, B the other way round. Going up, B's rising edges count, a quarter cycle after A's;
+/// going down, A's, which then stand half a cycle further: so there is a play of a quarter count, and a load
+/// that trembles across the edge at the quarter cycle is counted up again and again without ever being
+/// counted down.
+class PulseCounter {
+ public:
+  /// Counters reset with the load at x = 0. `q` is the rise for one count [m].
+  PulseCounter(EncoderWiring wiring, double count_height_m) : wiring_(wiring), q_m_(count_height_m) {}
+
+  /// Counts at a rise x [m], reached from the last one without turning on the way.
+  std::int64_t count(double x_m);
+
+ private:
+  EncoderWiring wiring_;
+  double q_m_;
+  double last_m_ = 0.0;
+  std::int64_t counts_ = 0;
+};
+
+/// What the gauge shows at a gauge pressure [Pa].
+double gauge_reading_Pa(const Gauge& gauge, double pressure_Pa);
+
+}  // namespace mckibben::plant

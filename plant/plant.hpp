@@ -1,0 +1,177 @@
+// The nominal plant on one page: servo valve, hose, gas, Tondu-Lopez braid, thread friction, braid stop,
+// load. T = thesis, TL = Tondu & Lopez, IEEE Control Systems Magazine 20 (2000) 15-38. docs/equations.md has
+// them all.
+//
+//   State, Held --(moment)--> Moment: all that is known at this instant --(rates)--> dx/dt
+//
+// S is double, or a dual number where the Jacobian is wanted.
+#pragma once
+
+#include <plant/flow.hpp>
+#include <plant/friction.hpp>
+#include <plant/geometry.hpp>
+#include <plant/state.hpp>
+
+namespace mckibben::plant {
+
+/// Everything known at one instant. Forces in N and positive where they lift the load, flows in kg/s.
+template <class S>
+struct Moment {
+  S speed_m_per_s;                               // v = l0 w
+  S valve_opening;                               // u, -1 (venting) to 1 (filling)
+  S supply_flow, vent_flow, hose_flow;           // q_v = supply_flow - vent_flow, q_h
+  S volume_m3, volume_slope_m3;                  // V, dV/de
+  S braid_force_N, stop_force_N, guide_force_N;  // F, F_s, c v
+  S friction_level_N, friction_force_N;          // G, F_f
+  S bristle_rate_m_per_s;                        // dz/dt
+  S acceleration_m_per_s2;                       // dv/dt
+};
+
+class Plant {
+ public:
+  /// The rig with a load [kg] hung on it. The rig's values are taken as checked.
+  Plant(const Rig& rig, double load_kg);
+
+  /// Gauge pressure [Pa] the valve is asked for at a current [mA] (T 3.2), clamped to its trimmed range.
+  double reference_pressure_Pa(double current_mA) const;
+
+  /// State at the start of a run: at rest, both pressures at the reference of the first current.
+  State<double> at_rest(const Held& held) const;
+
+  /// The balances of the rig. Only for states inside `in_domain`.
+  template <class S>
+  Moment<S> moment(const State<S>& state, const Held& held) const;
+
+  template <class S>
+  State<S> rates(const State<S>& state, const Moment<S>& now) const;
+
+  template <class S>
+  Ledger<S> ledger_rates(const Moment<S>& now) const;
+
+  /// Whether every law is defined here: finite, braid neither folded nor torn, pressures above vacuum.
+  bool in_domain(const State<double>& state) const {
+    const double atmosphere = rig_.gas.atmosphere_Pa;
+    // A sum that is finite has only finite terms; comparisons with NaN are false.
+    return braid_.in_domain(state.joint.contraction_ratio) && state.side.valve_pressure_Pa > -atmosphere &&
+           state.side.muscle_pressure_Pa > -atmosphere &&
+           std::isfinite(state.side.valve_pressure_Pa + state.side.muscle_pressure_Pa + state.side.bristle_m +
+                         state.joint.contraction_speed_per_s);
+  }
+
+  /// Exact stick and slip: falls through zero when the slip mode must change. Only with Coulomb friction.
+  bool has_events() const { return rig_.friction.memory == FrictionMemory::coulomb; }
+  double event_margin(const State<double>& state, const Held& held) const;
+  /// Mode after such an event (or at the start). Sets the speed to exactly zero.
+  Slip slip_from_rest(State<double>& state, const Held& held) const;
+
+  const Rig& rig() const { return rig_; }
+  const Braid& braid() const { return braid_; }
+  double load_kg() const { return load_kg_; }
+  double moving_mass_kg() const { return mass_kg_; }
+  /// Mass of gas [kg] in valve and muscle.
+  double gas_mass_kg(const State<double>& state) const;
+  /// Kinetic and potential energy of the load [J], zero at rest at e = 0.
+  double mechanical_energy_J(const State<double>& state) const;
+
+ private:
+  template <class S>
+  void gas_balance(const State<S>& state, const Held& held, Moment<S>& now) const;
+  template <class S>
+  void force_balance(const State<S>& state, const Held& held, Moment<S>& now) const;
+
+  Rig rig_;
+  Braid braid_;
+  Restriction valve_, hose_;
+  double load_kg_, mass_kg_, weight_N_, gas_energy_J_per_kg_, supply_Pa_;
+};
+
+template <class S>
+Moment<S> Plant::moment(const State<S>& state, const Held& held) const {
+  Moment<S> now;
+  now.speed_m_per_s = braid_.rest_length_m() * state.joint.contraction_speed_per_s;
+  gas_balance(state, held, now);
+  force_balance(state, held, now);
+  return now;
+}
+
+// Pressure error opens one of two proportional valves (T 3.1); ISO 6358 flow through valve and hose.
+template <class S>
+void Plant::gas_balance(const State<S>& state, const Held& held, Moment<S>& now) const {
+  const double atmosphere = rig_.gas.atmosphere_Pa;
+  const S valve_Pa = state.side.valve_pressure_Pa + atmosphere;  // absolute from here
+  const S muscle_Pa = state.side.muscle_pressure_Pa + atmosphere;
+
+  S u = (held.reference_pressure_Pa - state.side.valve_pressure_Pa) / rig_.valve.proportional_band_Pa;
+  if (u > 1.0) u = S(1.0);
+  if (u < -1.0) u = S(-1.0);
+  now.valve_opening = u;
+  now.supply_flow = now.vent_flow = S(0.0);
+  if (u >= 0.0)
+    now.supply_flow = u * valve_.flow_kg_per_s(S(supply_Pa_), valve_Pa);
+  else
+    now.vent_flow = -u * valve_.flow_kg_per_s(valve_Pa, S(atmosphere));
+  now.hose_flow = hose_.flow_kg_per_s(valve_Pa, muscle_Pa);
+
+  now.volume_m3 = braid_.volume_m3(state.joint.contraction_ratio);
+  now.volume_slope_m3 = braid_.volume_slope_m3(state.joint.contraction_ratio);
+}
+
+// Braid force (T 2.8), thread friction (T 2.11, 4.2, 4.6 and LuGre), braid stop (Hunt-Crossley), hanging
+// load.
+template <class S>
+void Plant::force_balance(const State<S>& state, const Held& held, Moment<S>& now) const {
+  using std::abs;
+  const Friction& friction = rig_.friction;
+  const S& e = state.joint.contraction_ratio;
+  const S& z = state.side.bristle_m;
+  const S& v = now.speed_m_per_s;
+
+  now.braid_force_N = braid_.force_N(e, state.side.muscle_pressure_Pa);
+  now.guide_force_N = -rig_.joint.guide_damping_N_s_per_m * v;
+  now.stop_force_N = S(0.0);
+  if (e < 0.0) {
+    const S damping = 1.0 - rig_.muscle.stop_damping_s_per_m * v;
+    if (damping > 0.0)
+      now.stop_force_N = -rig_.muscle.stop_stiffness_N_per_m * braid_.rest_length_m() * e * damping;
+  }
+  const S others = now.braid_force_N + now.stop_force_N + now.guide_force_N - weight_N_;
+
+  const S surface = braid_.contact_surface_m2(e);
+  now.friction_level_N =
+      friction_level_N(friction, e, surface, state.side.muscle_pressure_Pa, held.current_speed_mA_per_s);
+  now.bristle_rate_m_per_s = S(0.0);
+  if (friction.memory == FrictionMemory::lugre) {
+    const double sigma0 = friction.bristle_stiffness_N_per_m;
+    now.bristle_rate_m_per_s = v - sigma0 * abs(v) * z / now.friction_level_N;
+    now.friction_force_N = -(sigma0 * z + friction.bristle_damping_N_s_per_m * now.bristle_rate_m_per_s);
+  } else if (held.slip == Slip::sticking) {
+    now.friction_force_N = -others;
+  } else {
+    now.friction_force_N = held.slip == Slip::rising ? S(-now.friction_level_N) : now.friction_level_N;
+  }
+  now.acceleration_m_per_s2 = (others + now.friction_force_N) / mass_kg_;
+}
+
+template <class S>
+State<S> Plant::rates(const State<S>& state, const Moment<S>& now) const {
+  const S& w = state.joint.contraction_speed_per_s;
+  const S muscle_Pa = state.side.muscle_pressure_Pa + rig_.gas.atmosphere_Pa;
+  const double RT = gas_energy_J_per_kg_;
+  State<S> dt;
+  dt.joint.contraction_ratio = w;
+  dt.joint.contraction_speed_per_s = now.acceleration_m_per_s2 / braid_.rest_length_m();
+  dt.side.valve_pressure_Pa = RT / rig_.valve.volume_m3 * (now.supply_flow - now.vent_flow - now.hose_flow);
+  dt.side.muscle_pressure_Pa = (RT * now.hose_flow - muscle_Pa * now.volume_slope_m3 * w) / now.volume_m3;
+  dt.side.bristle_m = now.bristle_rate_m_per_s;
+  return dt;
+}
+
+template <class S>
+Ledger<S> Plant::ledger_rates(const Moment<S>& now) const {
+  const S& v = now.speed_m_per_s;
+  return {now.supply_flow,           now.vent_flow,
+          S(now.braid_force_N * v),  S(-now.friction_force_N * v),
+          S(-now.guide_force_N * v), S(now.stop_force_N * v)};
+}
+
+}  // namespace mckibben::plant

@@ -1,0 +1,52 @@
+// What the plant remembers. What flows in time (State) is kept apart from what jumps at ticks (Held), and
+// what belongs to one muscle side from what belongs to the joint, because a second muscle may pull on the
+// same wheel.
+#pragma once
+
+namespace mckibben::plant {
+
+template <class S>
+struct JointState {
+  S contraction_ratio;        ///< e
+  S contraction_speed_per_s;  ///< w = de/dt
+};
+
+template <class S>
+struct SideState {
+  S valve_pressure_Pa;   ///< P_v, gauge, in the valve's controlled volume
+  S muscle_pressure_Pa;  ///< P_m, gauge
+  S bristle_m;           ///< z, deflection of the thread bristles
+};
+
+template <class S>
+struct State {
+  JointState<S> joint;
+  SideState<S> side;
+};
+
+/// Where air and work went since the start: integrals that nothing in the plant depends on.
+template <class S>
+struct Ledger {
+  S air_drawn_kg;            ///< from the supply
+  S air_vented_kg;           ///< to the atmosphere
+  S braid_work_J;            ///< done by the braid on the load
+  S thread_friction_work_J;  ///< taken by the threads
+  S guide_work_J;            ///< taken by the load guide
+  S stop_work_J;             ///< done by the taut threads on the load
+};
+
+inline constexpr int state_size = 5, ledger_size = 6;
+static_assert(sizeof(State<double>) == state_size * sizeof(double));
+static_assert(sizeof(Ledger<double>) == ledger_size * sizeof(double));
+
+/// Motion of a joint with Coulomb friction; `sticking` also means "not Coulomb's business" for LuGre threads.
+enum class Slip { sticking, rising, falling };
+
+/// What is constant between two ticks or events.
+struct Held {
+  double reference_pressure_Pa = 0.0;   ///< P_ref, gauge
+  double current_speed_mA_per_s = 0.0;  ///< nu of T 4.6: change of the held current over the last tick
+  Slip slip = Slip::sticking;
+};
+
+}  // namespace mckibben::plant

@@ -1,0 +1,126 @@
+// Parsing of the command line (CLI11) and the one place where failures become exit statuses.
+#include <csignal>
+#include <cstdio>
+#include <functional>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <sim/cli/cli.hpp>
+#include <sim/cli/exit_status.hpp>
+#include <sim/cli/verbs.hpp>
+#include <sim/engine/failure.hpp>
+#include <sim/input/diagnostics.hpp>
+#include <sim/output/folder.hpp>
+#include <sim/run/batch.hpp>
+
+namespace mckibben::cli {
+namespace {
+
+constexpr const char* examples =
+    "Examples:\n"
+    "  mckibben run scenarios/five_loads.yaml          controllers compared under five loads\n"
+    "  mckibben run my.yaml --out results --threads 1  somewhere else, on one thread\n"
+    "  mckibben replay measured/ --rig my_rig.yaml     measured currents on a rig of yours\n"
+    "  mckibben check my.yaml                          is the file right? nothing is run\n"
+    "Exit status: 0 done, 1 a criterion of yours is not met, 64 usage, 65 bad input file,\n"
+    "66 input file missing, 70 numerical failure or a defect of ours, 74 cannot write.\n";
+
+// Runs a verb and says on stderr what went wrong.
+int guarded(const std::function<int()>& verb) {
+  const auto say = [](const char* text) { fmt::print(stderr, "{}\n", text); };
+  try {
+    const int status = verb();
+    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
+      throw output::CannotWrite("cannot write to standard output");
+    return status;
+  } catch (const input::BadInput& error) {
+    say(error.what());
+    return bad_input;
+  } catch (const input::MissingInput& error) {
+    fmt::print(stderr, "mckibben: {}\n", error.what());
+    return missing_input;
+  } catch (const output::CannotWrite& error) {
+    fmt::print(stderr, "mckibben: {}\n", error.what());
+    return cannot_write;
+  } catch (const run::Interrupted&) {
+    say("mckibben: interrupted; nothing was written, earlier results are as they were");
+    return interrupted;
+  } catch (const engine::NumericalFailure& error) {
+    fmt::print(stderr, "mckibben: {}\n", error.what());
+    return failure;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "mckibben: {}\nThis is a defect of the program; please report it.\n", error.what());
+    return failure;
+  }
+}
+
+void add_common(CLI::App& verb, Options& options) {
+  verb.add_option("--out", options.out, "Results folder (default: out/<name>)")->type_name("DIR");
+  verb.add_flag("--json", options.json, "Print the result as one JSON document");
+  verb.add_option("--threads", options.threads,
+                  "Threads (default: all the machine has); results do not depend on it")
+      ->check(CLI::Range(1, 1024))
+      ->type_name("N");
+}
+
+}  // namespace
+
+int run(int argc, char** argv) {
+  CLI::App app("McKibben: a simulator of a pneumatic muscle that lifts a load, and of its controllers.",
+               "mckibben");
+  app.footer(examples);
+  app.set_version_flag("--version", std::string("mckibben ") + MCKIBBEN_VERSION);
+  app.require_subcommand(1);
+
+  Options options;
+  std::string path, kind = "scenario", format = "json";
+  std::vector<std::string> paths;
+  std::function<int()> chosen;
+
+  auto* run_verb =
+      app.add_subcommand("run", "Simulate each load x controller of a scenario; print tracking errors");
+  run_verb->add_option("scenario", path, "Scenario file")->required()->type_name("SCENARIO.yaml");
+  add_common(*run_verb, options);
+  run_verb->add_option("--seed", options.seed, "Seed of the noise (default: the scenario's)")->type_name("N");
+  run_verb->footer("Example:\n  mckibben run scenarios/five_loads.yaml\n");
+  run_verb->callback([&] { chosen = [&] { return run_scenario(path, options); }; });
+
+  auto* replay_verb =
+      app.add_subcommand("replay", "Simulate a data set's runs with their recorded currents; compare");
+  replay_verb->add_option("dataset", path, "Data set: its dataset.yaml or the folder")
+      ->required()
+      ->type_name("DATASET");
+  add_common(*replay_verb, options);
+  replay_verb->add_option("--rig", options.rig, "Rig file or shipped rig instead of the data set's")
+      ->type_name("RIG");
+  replay_verb->footer("Example:\n  mckibben replay measured/ --rig my_rig.yaml --out compared\n");
+  replay_verb->callback([&] { chosen = [&] { return replay_dataset(path, options); }; });
+
+  auto* check_verb =
+      app.add_subcommand("check", "Validate scenario, rig and data set files without running anything");
+  check_verb->add_option("files", paths, "Files to check")->required()->type_name("FILE");
+  check_verb->add_flag("--json", options.json, "Print the findings as one JSON document");
+  check_verb->footer("Example:\n  mckibben check scenarios/*.yaml\n");
+  check_verb->callback([&] { chosen = [&] { return check_files(paths, options); }; });
+
+  auto* schema_verb =
+      app.add_subcommand("schema", "Print the keys of a kind of file, as JSON Schema or as a table");
+  schema_verb->add_option("kind", kind, "Kind of file")->check(CLI::IsMember({"scenario", "rig", "dataset"}));
+  schema_verb
+      ->add_option("--format", format,
+                   "How to print it; yaml prints the rig `thesis` with every value, to start from")
+      ->check(CLI::IsMember({"json", "markdown", "yaml"}));
+  schema_verb->footer("Example:\n  mckibben schema scenario --format markdown\n");
+  schema_verb->callback([&] { chosen = [&] { return print_schema(kind, format); }; });
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? done : usage_error;
+  }
+  run::catch_interrupts();
+  return guarded(chosen);
+}
+
+}  // namespace mckibben::cli

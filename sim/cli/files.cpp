@@ -1,0 +1,119 @@
+// The verbs about files: check, schema.
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include <sim/cli/exit_status.hpp>
+#include <sim/cli/verbs.hpp>
+#include <sim/input/dataset.hpp>
+#include <sim/input/field_table.hpp>
+#include <sim/input/json_schema.hpp>
+#include <sim/input/rig_file.hpp>
+#include <sim/input/scenario.hpp>
+#include <sim/input/yaml_file.hpp>
+#include <sim/input/yaml_writer.hpp>
+
+namespace mckibben::cli {
+namespace {
+
+using input::Json;
+using input::Problem;
+
+/// Reads a file as what its `schema:` says it is; adds warnings. Throws what is wrong with it.
+void read_any(const std::filesystem::path& path, std::vector<Problem>& warnings) {
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored)) {
+    input::read_dataset(path);
+    return;
+  }
+  const input::YamlFile file = input::load_yaml(path);
+  const input::Node* schema = file.root.find("schema");
+  const std::string kind = schema == nullptr ? "" : schema->text.substr(0, schema->text.find('/'));
+  if (kind == "mckibben-rig") {
+    std::vector<input::InputFile> inputs;
+    input::read_rig(path.string(), inputs);
+  } else if (kind == "mckibben-dataset") {
+    input::read_dataset(path);
+  } else if (kind == "mckibben-scenario") {
+    input::read_scenario(path, warnings);
+  } else {
+    const std::string known =
+        fmt::format("{}, {} or {}", input::scenario_schema, input::rig_schema, input::dataset_schema);
+    input::Problems problems;
+    if (schema == nullptr)
+      problems.error(file.source, file.root.place,
+                     fmt::format("the file must say what it is: schema: {}", known));
+    else
+      problems.error(file.source, schema->place,
+                     fmt::format("unknown schema {}: known are {}", schema->text, known));
+    problems.raise();
+  }
+}
+
+Json problem_json(const Problem& problem) {
+  return {{"file", problem.file},
+          {"line", problem.place.line},
+          {"column", problem.place.column},
+          {"severity", problem.severity == input::Severity::warning ? "warning" : "error"},
+          {"message", problem.message}};
+}
+
+template <class Schema>
+int print_kind(std::string_view schema, const char* title, const Schema& fields, const std::string& format) {
+  if (format == "json")
+    fmt::print("{}\n", input::json_schema(schema, title, fields).dump(2));
+  else
+    fmt::print("{}", input::field_table(title, fields));
+  return done;
+}
+
+}  // namespace
+
+int check_files(const std::vector<std::string>& paths, const Options& options) {
+  int status = done;
+  Json findings = Json::array();
+  for (const auto& path : paths) {
+    std::vector<Problem> found;
+    int file_status = done;
+    std::string missing;
+    try {
+      read_any(path, found);
+    } catch (const input::BadInput& bad) {
+      file_status = bad_input;
+      found = bad.problems();
+    } catch (const input::MissingInput& error) {
+      file_status = missing_input;
+      missing = error.what();
+    }
+    status = status == done ? file_status : status;
+    Json entry{{"file", path}, {"ok", file_status == done}, {"problems", Json::array()}};
+    for (const auto& problem : found) {
+      entry["problems"].push_back(problem_json(problem));
+      fmt::print(stderr, "{}\n", to_text(problem));
+    }
+    if (!missing.empty()) {
+      entry["problems"].push_back({{"file", path}, {"severity", "error"}, {"message", missing}});
+      fmt::print(stderr, "mckibben: {}\n", missing);
+    }
+    findings.push_back(std::move(entry));
+    if (file_status == done && !options.json) fmt::print("{}: ok\n", path);
+  }
+  if (options.json) fmt::print("{}\n", Json{{"schema", "mckibben-check/1"}, {"files", findings}}.dump(2));
+  return status;
+}
+
+int print_schema(const std::string& kind, const std::string& format) {
+  if (format == "yaml") {
+    fmt::print("{}", input::to_yaml(input::rig_json(input::RigFile{})));
+    return done;
+  }
+  if (kind == "rig")
+    return print_kind(input::rig_schema, "Rig", input::list_fields<input::RigFile>(), format);
+  if (kind == "dataset")
+    return print_kind(input::dataset_schema, "Data set", input::list_fields<input::Dataset>(), format);
+  return print_kind(input::scenario_schema, "Scenario", input::list_fields<input::Scenario>(), format);
+}
+
+}  // namespace mckibben::cli

@@ -1,0 +1,109 @@
+// The verbs that simulate: run, replay. Each reads, computes, prints and writes.
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include <sim/cli/exit_status.hpp>
+#include <sim/cli/verbs.hpp>
+#include <sim/input/rig_file.hpp>
+#include <sim/output/csv.hpp>
+#include <sim/output/folder.hpp>
+#include <sim/output/plot.hpp>
+#include <sim/output/progress.hpp>
+#include <sim/output/run_json.hpp>
+#include <sim/output/table.hpp>
+#include <sim/run/batch.hpp>
+#include <sim/run/compare.hpp>
+#include <sim/run/replay.hpp>
+#include <sim/run/simulate.hpp>
+
+namespace mckibben::cli {
+namespace {
+
+std::filesystem::path destination(const Options& options, const std::string& name) {
+  return options.out.empty() ? std::filesystem::path("out") / name : std::filesystem::path(options.out);
+}
+
+void warn(const std::vector<input::Problem>& warnings) {
+  for (const auto& warning : warnings) fmt::print(stderr, "{}\n", to_text(warning));
+}
+
+void publish(output::ResultFolder& folder, const std::filesystem::path& where) {
+  const auto aside = folder.publish();
+  if (!aside.empty())
+    fmt::print(stderr, "mckibben: {} held other files; it is now {}\n", where.string(), aside.string());
+  fmt::print(stderr, "results in {}\n", where.string());
+}
+
+void print(const std::string& text) {
+  std::fwrite(text.data(), 1, text.size(), stdout);
+}
+
+}  // namespace
+
+int run_scenario(const std::string& path, const Options& options) {
+  std::vector<input::Problem> warnings;
+  input::Scenario scenario = input::read_scenario(std::filesystem::path(path), warnings);
+  warn(warnings);
+  if (options.seed) scenario.seed = *options.seed;
+  auto where = destination(options, scenario.name);
+  output::ResultFolder folder(where);
+
+  run::Comparison comparison;
+  {
+    output::Progress progress(scenario.name);
+    comparison = run::compare(scenario, options.threads, progress.hook());
+  }
+  if (comparison.interrupted) {  // what is finished is kept, beside any whole result
+    where += ".interrupted";
+    folder.go_to(where);
+  }
+  const double per_count = run::contraction_per_count(scenario.rig);
+  for (const auto& run : comparison.runs)
+    if (run.failure.empty())
+      folder.write(output::csv_name(run),
+                   output::csv_of(run.recording, per_count, comparison.target, scenario.rig.gauge.fitted));
+  const std::string document = output::json_of(scenario, comparison).dump(2) + "\n";
+  const std::string table = output::table_of(scenario, comparison);
+  folder.write("run.json", document);
+  folder.write("table.txt", table);
+  folder.write("tracking.svg", output::tracking_svg(scenario, comparison));
+  print(options.json ? document : table);
+  publish(folder, where);
+  if (comparison.interrupted) return interrupted;
+  if (std::any_of(comparison.runs.begin(), comparison.runs.end(),
+                  [](const auto& run) { return !run.failure.empty(); }))
+    return failure;
+  return comparison.unmet.empty() ? done : criterion_not_met;
+}
+
+int replay_dataset(const std::string& path, const Options& options) {
+  input::Dataset dataset = input::read_dataset(path);
+  if (!options.rig.empty()) dataset.rig = input::read_rig(options.rig, dataset.inputs);
+  const auto home = std::filesystem::absolute(dataset.path).lexically_normal().parent_path();
+  const auto where = destination(options, home.filename().string());
+  output::ResultFolder folder(where);
+
+  std::vector<run::ReplayedRun> runs;
+  {
+    output::Progress progress(home.filename().string());
+    runs = run::replay(dataset, options.threads, progress.hook());
+  }
+  const double per_count = run::contraction_per_count(dataset.rig);
+  for (const auto& run : runs)
+    if (run.failure.empty())
+      folder.write(run.id + ".csv", output::csv_of(run.recording, per_count, {}, dataset.rig.gauge.fitted));
+  const std::string document = output::json_of(dataset, runs).dump(2) + "\n";
+  const std::string table = output::table_of(dataset, runs);
+  folder.write("run.json", document);
+  folder.write("table.txt", table);
+  print(options.json ? document : table);
+  publish(folder, where);
+  const bool failed =
+      std::any_of(runs.begin(), runs.end(), [](const auto& run) { return !run.failure.empty(); });
+  return failed ? failure : done;
+}
+
+}  // namespace mckibben::cli

@@ -1,0 +1,27 @@
+// What each verb does. All throw what `cli.cpp` turns into an exit status, and return one otherwise.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace mckibben::cli {
+
+/// Options that verbs share.
+struct Options {
+  std::string out;  ///< results folder; empty for out/<name>
+  bool json = false;
+  unsigned threads = 0;  ///< 0: all the machine has
+  std::optional<std::uint64_t> seed;
+  std::string rig;  ///< rig that replaces the data set's; empty for none
+};
+
+int run_scenario(const std::string& path, const Options& options);
+int replay_dataset(const std::string& path, const Options& options);
+int check_files(const std::vector<std::string>& paths, const Options& options);
+/// `kind`: scenario, rig or dataset; `format`: json (JSON Schema), markdown (table of keys) or yaml (the rig
+/// `thesis` with every value, whatever the kind).
+int print_schema(const std::string& kind, const std::string& format);
+
+}  // namespace mckibben::cli

@@ -1,0 +1,73 @@
+// Which method carries a rig. `automatic` starts explicit and watches the steps: once ticks cost several
+// times what a rig of ordinary stiffness costs, BDF is cheaper and takes over for good.
+#include <utility>
+
+#include <sim/engine/cvode.hpp>
+#include <sim/engine/erk.hpp>
+#include <sim/engine/failure.hpp>
+#include <sim/engine/integrator.hpp>
+
+namespace mckibben::engine {
+namespace {
+
+class Automatic final : public Integrator {
+ public:
+  Automatic(const plant::Plant& rig, double tolerance, bool keep_ledger)
+      : erk_(make_erk(rig, tolerance, keep_ledger)), cvode_(make_cvode(rig, tolerance, keep_ledger)) {}
+
+  void advance(Flow& flow, plant::Held& held, double from_s, double to_s) override {
+    if (stiff_from_tick_ >= 0) {
+      cvode_->advance(flow, held, from_s, to_s);
+      return;
+    }
+    const auto [flow_before, held_before] = std::pair{flow, held};
+    try {
+      erk_->advance(flow, held, from_s, to_s);
+    } catch (const NumericalFailure&) {  // BDF may still manage; if not, its failure is the one reported
+      stiff_from_tick_ = ticks_;
+      flow = flow_before;
+      held = held_before;
+      cvode_->advance(flow, held, from_s, to_s);
+      return;
+    }
+    if (++ticks_ % window_ticks != 0) return;
+    const long cost = erk_->counters().right_hand_sides;
+    if (cost - cost_before_ > stiff_cost_per_tick * window_ticks) stiff_from_tick_ = ticks_;
+    cost_before_ = cost;
+  }
+
+  Counters counters() const override {
+    Counters sum = erk_->counters();
+    const Counters stiff = cvode_->counters();
+    sum.steps += stiff.steps;
+    sum.rejected_steps += stiff.rejected_steps;
+    sum.right_hand_sides += stiff.right_hand_sides;
+    sum.jacobians += stiff.jacobians;
+    sum.events += stiff.events;
+    sum.stiff_from_tick = stiff_from_tick_;
+    return sum;
+  }
+
+ private:
+  static constexpr long window_ticks = 20, stiff_cost_per_tick = 600;
+
+  std::unique_ptr<Integrator> erk_, cvode_;
+  long ticks_ = 0, cost_before_ = 0, stiff_from_tick_ = -1;
+};
+
+}  // namespace
+
+std::unique_ptr<Integrator> make_integrator(const plant::Plant& rig, const Settings& settings,
+                                            bool keep_ledger) {
+  switch (settings.method) {
+    case Method::erk:
+      return make_erk(rig, settings.tolerance, keep_ledger);
+    case Method::cvode:
+      return make_cvode(rig, settings.tolerance, keep_ledger);
+    case Method::automatic:
+      break;
+  }
+  return std::make_unique<Automatic>(rig, settings.tolerance, keep_ledger);
+}
+
+}  // namespace mckibben::engine

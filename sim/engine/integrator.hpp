@@ -1,0 +1,45 @@
+// The one interface behind which a SUNDIALS method carries the plant through a tick.
+#pragma once
+
+#include <memory>
+
+#include <sim/engine/problem.hpp>
+#include <sim/engine/settings.hpp>
+
+namespace mckibben::engine {
+
+/// What the solver did since it was made.
+struct Counters {
+  long steps = 0, rejected_steps = 0, right_hand_sides = 0, jacobians = 0, events = 0;
+  long stiff_from_tick = -1;  ///< tick at which `automatic` went over to CVODE; -1: never
+
+  template <class Self, class Visitor>
+  static void fields(Self& self, Visitor& visit) {
+    visit("steps", self.steps, 0, 1, "accepted steps");
+    visit("rejected_steps", self.rejected_steps, 0, 1, "steps tried again with a smaller size");
+    visit("right_hand_sides", self.right_hand_sides, 0, 1, "evaluations of the equations");
+    visit("jacobians", self.jacobians, 0, 1, "evaluations of their Jacobian");
+    visit("events", self.events, 0, 1, "stick and slip events");
+    visit("stiff_from_tick", self.stiff_from_tick, -1, 1, "tick of the change to CVODE; -1 for none");
+  }
+};
+
+class Integrator {
+ public:
+  Integrator() = default;
+  Integrator(const Integrator&) = delete;
+  Integrator& operator=(const Integrator&) = delete;
+  virtual ~Integrator() = default;
+
+  /// Carries `flow` from one instant to the next [s] with everything in `held` frozen, but for stick and
+  /// slip, which is switched where it happens. Throws NumericalFailure; `flow` is then what was last reached.
+  virtual void advance(Flow& flow, plant::Held& held, double from_s, double to_s) = 0;
+
+  virtual Counters counters() const = 0;
+};
+
+/// An integrator for a plant that outlives it. `keep_ledger`: carry the ledger along, at some cost.
+std::unique_ptr<Integrator> make_integrator(const plant::Plant& rig, const Settings& settings,
+                                            bool keep_ledger);
+
+}  // namespace mckibben::engine

@@ -1,0 +1,47 @@
+// Words for what the solvers report.
+#include <fmt/format.h>
+
+#include <sim/engine/sundials.hpp>
+
+namespace mckibben::engine {
+
+std::string cause_of(Trouble trouble, const char* solver, const std::string& message) {
+  const char* likely = "";
+  switch (trouble) {
+    case Trouble::too_many_steps:
+      likely =
+          "the steps became too small for one tick; the rig is probably stiff (bristle_stiffness, braid "
+          "stop, "
+          "hose) - try method: cvode, or a looser tolerance";
+      break;
+    case Trouble::too_accurate:
+      likely = "the tolerance asks for more digits than double precision has - loosen it";
+      break;
+    case Trouble::error_test:
+      likely =
+          "no step was small enough to pass the error test; a law of the rig probably jumps here, or is very "
+          "stiff - try method: cvode";
+      break;
+    case Trouble::outside_domain:
+      likely =
+          "the state left the range in which the rig's laws are defined (braid folded or past its shortest, "
+          "pressure below vacuum, not a number) - look at the rig's values and the load";
+      break;
+    case Trouble::convergence:
+      likely = "Newton's iteration did not converge - try method: erk, or a tighter tolerance";
+      break;
+    case Trouble::events:
+      likely = "stick and slip changed more than a thousand times in one tick - use memory: lugre";
+      break;
+    case Trouble::other:
+      likely = "this is not expected of a checked rig; please report it";
+      break;
+  }
+  return fmt::format("{}: {}{}", solver, likely, message.empty() ? "" : " [" + message + "]");
+}
+
+void keep_message(int code, const char*, const char*, char* message, void* text) {
+  if (code < 0) *static_cast<std::string*>(text) = message;
+}
+
+}  // namespace mckibben::engine

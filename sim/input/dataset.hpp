@@ -1,0 +1,54 @@
+// Measured data sets: which runs there are, their loads and tables, and the rig they were measured on.
+// A data set is a folder with `dataset.yaml` (schema mckibben-dataset/1) and a CSV table for each run.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <plant/rig.hpp>
+#include <sim/input/rig_file.hpp>
+
+namespace mckibben::input {
+
+inline constexpr std::string_view dataset_schema = "mckibben-dataset/1";
+
+/// One measured run: a row each tick, the first at time 0.
+struct Run {
+  std::string id;
+  std::string file;
+  double load_kg = 0.0;
+
+  std::vector<double> current_mA;  ///< held from its row to the next
+  std::vector<double> contraction_ratio;
+  std::optional<std::vector<double>> muscle_pressure_Pa;
+
+  template <class Self, class Visitor>
+  static void fields(Self& self, Visitor& visit) {
+    visit.required("id", self.id, "name of the run; results are written under it");
+    visit.required("file", self.file, "CSV table, relative to this file");
+    visit.required("load", self.load_kg, "kg", 0.01, 500.0, "mass of the load");
+  }
+};
+
+struct Dataset {
+  RigFile rig;
+  std::vector<Run> runs;
+
+  std::filesystem::path path;     ///< of the file `dataset.yaml`
+  std::vector<InputFile> inputs;  ///< the files it was read from
+
+  template <class Self, class Visitor>
+  static void fields(Self& self, Visitor& visit) {
+    visit("rig", self.rig, "the nominal rig: a shipped name, the path of a rig file, or changes in place");
+    visit.required("runs", self.runs, "the runs");
+  }
+};
+
+/// Reads a data set and all its tables. `path` is its file or its folder. Throws MissingInput; BadInput with
+/// the problems of all files.
+Dataset read_dataset(const std::filesystem::path& path);
+
+}  // namespace mckibben::input

@@ -1,0 +1,111 @@
+// Formatting, ordering and throwing of input problems; see the header.
+#include <algorithm>
+#include <tuple>
+
+#include <fmt/format.h>
+
+#include <sim/input/diagnostics.hpp>
+
+namespace mckibben::input {
+namespace {
+
+// A file of garbage must not drown the reader, nor memory.
+constexpr std::size_t most_shown = 100;
+constexpr std::size_t longest_line_shown = 400;
+
+/// Blanks as wide as the characters before `column`; tabs stay tabs, so the caret meets its character.
+std::string padding(const std::string& line, std::size_t column) {
+  std::string blanks;
+  std::size_t characters = 0;
+  for (const char c : line) {
+    if (is_utf8_continuation(c)) continue;
+    if (++characters >= column) return blanks;
+    blanks += c == '\t' ? '\t' : ' ';
+  }
+  while (++characters < column) blanks += ' ';
+  return blanks;
+}
+
+}  // namespace
+
+std::string to_text(const Problem& problem) {
+  const char* kind = problem.severity == Severity::warning ? "warning" : "error";
+  std::string text = fmt::format("{}:{}:{}: {}: {}", problem.file, problem.place.line, problem.place.column,
+                                 kind, problem.message);
+  if (problem.source_line.empty()) return text;
+  return text + '\n' + problem.source_line + '\n' + padding(problem.source_line, problem.place.column) + '^';
+}
+
+std::string to_text(const std::vector<Problem>& problems) {
+  std::string text;
+  for (const Problem& problem : problems) {
+    if (!text.empty()) text += '\n';
+    text += to_text(problem);
+  }
+  return text;
+}
+
+void Problems::error(const Source& source, Place place, std::string message) {
+  add(Severity::error, source, place, std::move(message));
+}
+
+void Problems::missing_file(const Source& source, Place place, std::string message) {
+  add(Severity::missing_file, source, place, std::move(message));
+}
+
+void Problems::warning(const Source& source, Place place, std::string message) {
+  add(Severity::warning, source, place, std::move(message));
+}
+
+void Problems::adopt(const std::vector<Problem>& found) {
+  for (const Problem& problem : found) add(problem);
+}
+
+void Problems::add(Severity severity, const Source& source, Place place, std::string message) {
+  std::string_view line = source.line(place.line);
+  if (line.size() > longest_line_shown) line = {};
+  add({severity, source.name(), place, std::move(message), std::string(line)});
+}
+
+void Problems::add(Problem problem) {
+  if (problem.severity != Severity::warning) ++errors_;
+  if (problem.severity == Severity::missing_file) ++missing_;
+  if (list_.size() < most_shown)
+    list_.push_back(std::move(problem));
+  else
+    ++not_kept_;
+}
+
+std::vector<Problem> Problems::sorted() const {
+  // Files keep the order in which their first problem was found.
+  std::vector<std::string> files;
+  for (const Problem& problem : list_)
+    if (std::find(files.begin(), files.end(), problem.file) == files.end()) files.push_back(problem.file);
+  const auto rank = [&](const Problem& problem) {
+    return std::tuple(std::find(files.begin(), files.end(), problem.file), problem.place.line,
+                      problem.place.column);
+  };
+  std::vector<Problem> result = list_;
+  std::stable_sort(result.begin(), result.end(),
+                   [&](const Problem& left, const Problem& right) { return rank(left) < rank(right); });
+  if (not_kept_ > 0) {
+    Problem rest = result.back();
+    rest.message = fmt::format("and {} more problems", not_kept_);
+    result.push_back(std::move(rest));
+  }
+  return result;
+}
+
+std::vector<Problem> Problems::warnings() const {
+  std::vector<Problem> result = sorted();
+  std::erase_if(result, [](const Problem& problem) { return problem.severity != Severity::warning; });
+  return result;
+}
+
+void Problems::raise() const {
+  if (errors_ == 0) return;
+  if (errors_ == missing_) throw MissingInput(to_text(sorted()));
+  throw BadInput(sorted());
+}
+
+}  // namespace mckibben::input

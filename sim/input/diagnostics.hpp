@@ -1,0 +1,85 @@
+// What is wrong in an input file, and where: each problem carries its file, line, column and source line and
+// prints as compilers do (file, line, excerpt, caret; the idea is Cantera's and GCC's). Problems are
+// collected, so that one run shows all of a file's errors; warnings are collected beside them and never
+// thrown.
+#pragma once
+
+#include <cstddef>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <sim/input/source.hpp>
+
+namespace mckibben::input {
+
+enum class Severity { error, missing_file, warning };
+
+/// One finding. Line and column count from 1; the column counts characters, not bytes.
+struct Problem {
+  Severity severity = Severity::error;
+  std::string file;
+  Place place;
+  std::string message;
+  std::string source_line;  ///< empty if too long to show
+};
+
+/// `FILE:LINE:COL: error: MESSAGE`, the source line if there is one, and a caret under the column. No newline
+/// at the end.
+std::string to_text(const Problem& problem);
+
+/// All problems joined, one after the other.
+std::string to_text(const std::vector<Problem>& problems);
+
+/// A file that can be read but not used (exit status 65). `what()` is the whole text to show.
+class BadInput : public std::runtime_error {
+ public:
+  explicit BadInput(std::vector<Problem> problems)
+      : std::runtime_error(to_text(problems)), problems_(std::move(problems)) {}
+  const std::vector<Problem>& problems() const { return problems_; }
+
+ private:
+  std::vector<Problem> problems_;
+};
+
+/// A file that went into a result.
+struct InputFile {
+  std::string name;
+  std::string sha256;
+};
+
+/// Collects the findings of one reading, over all files it touches, and which files those are.
+class Problems {
+ public:
+  void opened(const Source& source) { inputs_.push_back({source.name(), source.sha256()}); }
+  const std::vector<InputFile>& inputs() const { return inputs_; }
+
+  void error(const Source& source, Place place, std::string message);
+  /// A file named in `source` that is not there.
+  void missing_file(const Source& source, Place place, std::string message);
+  void warning(const Source& source, Place place, std::string message);
+  /// Takes over what was found while another file was read.
+  void adopt(const std::vector<Problem>& found);
+
+  /// How many errors so far, warnings not counted.
+  std::size_t errors() const { return errors_; }
+  /// Errors and warnings in the order of their place, file by file; of very many, the first hundred found.
+  std::vector<Problem> sorted() const;
+  std::vector<Problem> warnings() const;
+  /// Throws BadInput with all errors and warnings if there is an error; MissingInput if only files are
+  /// missing.
+  void raise() const;
+
+ private:
+  void add(Severity severity, const Source& source, Place place, std::string message);
+  void add(Problem problem);
+
+  std::vector<Problem> list_;
+  std::vector<InputFile> inputs_;
+  std::size_t errors_ = 0;
+  std::size_t not_kept_ = 0;
+  std::size_t missing_ = 0;
+};
+
+}  // namespace mckibben::input

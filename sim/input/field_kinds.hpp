@@ -1,0 +1,66 @@
+// What kinds of member a field list can hold, told apart at compile time. The lists themselves stand in the
+// structs of the plant, the controllers and this room (`fields`); the visitors here all use these concepts.
+#pragma once
+
+#include <array>
+#include <concepts>
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <variant>
+#include <vector>
+
+namespace mckibben::input {
+
+/// A struct with a field list.
+template <class T>
+concept Listed = requires(T& value, int& visitor) {
+  T::fields(value, visitor);
+};
+
+/// An enum whose spellings are listed by `names`.
+template <class T>
+concept Named = std::is_enum_v<T> && requires(T value) {
+  names(value);
+};
+
+/// A struct with rules between its fields.
+template <class T>
+concept Ruled = requires(const T& value, int& report) {
+  value.rules(report);
+};
+
+template <class T>
+inline constexpr bool is_variant = false;
+template <class... Ts>
+inline constexpr bool is_variant<std::variant<Ts...>> = true;
+
+template <class T>
+inline constexpr bool is_vector = false;
+template <class T>
+inline constexpr bool is_vector<std::vector<T>> = true;
+
+/// The spellings of an enum, in order.
+template <Named T>
+auto spellings() {
+  constexpr auto list = names(T{});
+  std::array<std::string_view, list.size()> texts;
+  for (std::size_t i = 0; i < list.size(); ++i) texts[i] = list[i].second;
+  return texts;
+}
+
+template <Named T>
+std::string_view spelling(T value) {
+  for (const auto& [known, text] : names(value))
+    if (known == value) return text;
+  return {};
+}
+
+/// The kinds of a variant's alternatives, in order.
+template <class T>
+inline constexpr std::array<std::string_view, 0> kinds{};
+template <class... Ts>
+inline constexpr std::array<std::string_view, sizeof...(Ts)> kinds<std::variant<Ts...>>{Ts::kind...};
+
+}  // namespace mckibben::input

@@ -1,0 +1,133 @@
+// A field list as plain data: what a struct's keys are, their units, ranges, defaults and meaning. Made once
+// from the struct's `fields`; the JSON Schema and the tables of the documentation are written from it.
+#pragma once
+
+#include <concepts>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include <controllers/target.hpp>
+#include <sim/input/field_kinds.hpp>
+#include <sim/input/fields_json.hpp>
+#include <sim/input/yaml_reader.hpp>
+
+namespace mckibben::input {
+
+// NOLINTNEXTLINE(bugprone-exception-escape): moving Json does not throw
+struct FieldInfo {
+  enum class Type { quantity, integer, boolean, choice, text, height, structure, variant };
+  /// The fields of a struct, or of one alternative of a variant.
+  struct Group {
+    std::string kind;  ///< empty for a plain struct
+    std::vector<FieldInfo> fields;
+  };
+
+  std::string key;
+  Type type = Type::text;
+  bool required = false;
+  bool is_list = false;
+  bool by_name = false;  ///< may also be a name or a path
+  std::string unit;      ///< of a quantity
+  Json lowest, highest;  ///< of a quantity (in `unit`) or an integer
+  Json default_value;    ///< as written in a file; null if there is none
+  std::vector<std::string> choices;
+  std::vector<Group> groups;
+  std::string meaning;
+};
+
+template <Listed T>
+std::vector<FieldInfo> list_fields();
+
+/// The visitor of a field list.
+class FieldLister {
+ public:
+  explicit FieldLister(std::vector<FieldInfo>& list) : list_(list) {}
+
+  void required(std::string_view key, const auto& value, const auto&... rest) {
+    (*this)(key, value, rest...);
+    list_.back().required = true;
+    list_.back().default_value = nullptr;
+  }
+
+  template <class T>
+  void operator()(std::string_view key, const T& value, std::string_view unit, double lowest, double highest,
+                  std::string_view meaning) {
+    FieldInfo& info = add(key, FieldInfo::Type::quantity, meaning);
+    info.unit = unit;
+    info.lowest = lowest;
+    info.highest = highest;
+    info.is_list = is_vector<T>;
+    if constexpr (std::same_as<T, double>) info.default_value = quantity_json(value, unit);
+  }
+  template <std::integral T>
+  void operator()(std::string_view key, const T& value, std::type_identity_t<T> lowest,
+                  std::type_identity_t<T> highest, std::string_view meaning) {
+    FieldInfo& info = add(key, FieldInfo::Type::integer, meaning);
+    info.lowest = lowest;
+    info.highest = highest;
+    info.default_value = value;
+  }
+  template <class T>
+  void operator()(std::string_view key, const T& value, std::string_view meaning) {
+    FieldInfo& info = add(key, FieldInfo::Type::text, meaning);
+    if constexpr (is_vector<T>) {
+      describe<typename T::value_type>(info);
+      info.is_list = true;
+    } else {
+      describe<T>(info);
+      if constexpr (!is_variant<T> && !Listed<T>) info.default_value = to_json(value);
+    }
+  }
+
+ private:
+  FieldInfo& add(std::string_view key, FieldInfo::Type type, std::string_view meaning) {
+    FieldInfo& info = list_.emplace_back();
+    info.key = key;
+    info.type = type;
+    info.meaning = meaning;
+    return info;
+  }
+  template <class T>
+  static void describe(FieldInfo& info) {
+    if constexpr (std::same_as<T, bool>) {
+      info.type = FieldInfo::Type::boolean;
+    } else if constexpr (std::same_as<T, std::string>) {
+      info.type = FieldInfo::Type::text;
+    } else if constexpr (std::same_as<T, controllers::Height>) {
+      info.type = FieldInfo::Type::height;
+    } else if constexpr (Named<T>) {
+      info.type = FieldInfo::Type::choice;
+      for (const std::string_view text : spellings<T>()) info.choices.emplace_back(text);
+    } else if constexpr (is_variant<T>) {
+      info.type = FieldInfo::Type::variant;
+      add_alternatives(info, static_cast<T*>(nullptr));
+    } else {
+      info.type = FieldInfo::Type::structure;
+      info.by_name = Spelling<T>::by_name;
+      info.groups.push_back({"", list_fields<T>()});
+    }
+  }
+  template <class... Ts>
+  static void add_alternatives(FieldInfo& info, std::variant<Ts...>*) {
+    (info.groups.push_back({std::string(Ts::kind), list_fields<Ts>()}), ...);
+  }
+
+  std::vector<FieldInfo>& list_;
+};
+
+template <Listed T>
+std::vector<FieldInfo> list_fields() {
+  std::vector<FieldInfo> list;
+  FieldLister lister(list);
+  const T defaults{};
+  T::fields(defaults, lister);
+  return list;
+}
+
+}  // namespace mckibben::input

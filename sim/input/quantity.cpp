@@ -1,0 +1,172 @@
+// Quantities through UDUNITS-2; see the header. UDUNITS is neither thread-safe nor strict about where a
+// number may stand ("5 3 kg" would be 15 kg), so calls are serialised and the unit's spelling is checked
+// first. It counts radians as dimensionless; a unit's definition still names them, which tells angles from
+// ratios.
+#include <cctype>
+#include <cmath>
+#include <memory>
+#include <mutex>
+#include <numbers>
+#include <optional>
+
+#include <fmt/format.h>
+#include <udunits2.h>
+
+#include <sim/input/number.hpp>
+#include <sim/input/quantity.hpp>
+
+namespace mckibben::input {
+namespace {
+
+struct FreeUnit {
+  void operator()(ut_unit* unit) const { ut_free(unit); }
+};
+struct FreeConverter {
+  void operator()(cv_converter* converter) const { cv_free(converter); }
+};
+using Unit = std::unique_ptr<ut_unit, FreeUnit>;
+using Converter = std::unique_ptr<cv_converter, FreeConverter>;
+
+std::mutex udunits_mutex;
+
+/// The unit database, read once. Call with the mutex held.
+ut_system* unit_system() {
+  struct FreeSystem {
+    void operator()(ut_system* system) const { ut_free_system(system); }
+  };
+  static const std::unique_ptr<ut_system, FreeSystem> system = [] {
+    ut_set_error_message_handler(ut_ignore);
+    std::unique_ptr<ut_system, FreeSystem> read(ut_read_xml(nullptr));
+    if (!read) throw std::runtime_error("the unit database of UDUNITS-2 (libudunits2-data) is not installed");
+    const Unit degree(ut_parse(read.get(), "degree", UT_ASCII));
+    ut_map_name_to_unit("deg", UT_ASCII, degree.get());
+    return read;
+  }();
+  return system.get();
+}
+
+/// Letters, digits that follow a letter or an exponent, and single operators: no second number, no offset.
+/// The only number is a leading "1/".
+bool spelt_like_a_unit(std::string_view text) {
+  constexpr std::size_t longest_unit = 60;  // UDUNITS' parser is recursive
+  if (text.size() > longest_unit) return false;
+  if (text.starts_with("1/")) text.remove_prefix(2);
+  char before = ' ';
+  for (const char c : text) {
+    const bool is_digit = std::isdigit(static_cast<unsigned char>(c)) != 0;
+    const bool is_letter =
+        std::isalpha(static_cast<unsigned char>(c)) != 0 || static_cast<unsigned char>(c) >= 0x80 || c == '%';
+    const bool after_letter = std::isalnum(static_cast<unsigned char>(before)) != 0;
+    const bool is_sign = c == '-' && (after_letter || before == '^');
+    if (is_digit && !after_letter && before != '^' && before != '-') return false;
+    if (!is_digit && !is_letter && !is_sign && std::string_view(" ./*^()").find(c) == std::string_view::npos)
+      return false;
+    before = c;
+  }
+  return !text.empty();
+}
+
+Unit parse_unit(std::string_view text) {
+  return Unit(ut_parse(unit_system(), std::string(text).c_str(), UT_UTF8));
+}
+
+bool is_angular(const ut_unit* unit) {
+  char definition[256];
+  const int length = ut_format(unit, definition, sizeof definition, UT_ASCII | UT_DEFINITION);
+  return length > 0 && static_cast<std::size_t>(length) < sizeof definition &&
+         std::string_view(definition).find("rad") != std::string_view::npos;
+}
+
+enum class Fit { fits, unknown, wrong };
+
+struct Conversion {
+  Fit fit = Fit::unknown;
+  double value = 0.0;
+};
+
+Conversion convert(double value, std::string_view from, std::string_view to) {
+  if (from == to) return {Fit::fits, value};
+  if (!spelt_like_a_unit(from)) return {};
+  const std::lock_guard lock(udunits_mutex);
+  const Unit given = parse_unit(from);
+  if (!given) return {};
+  const Unit wanted = parse_unit(to);
+  if (!wanted) throw std::logic_error(fmt::format("{} is no unit of UDUNITS-2", to));
+  if (is_angular(given.get()) != is_angular(wanted.get())) return {Fit::wrong};
+  // Asked of the quotient, because UDUNITS also converts reciprocals (Hz for s), hardly what was meant.
+  const Unit quotient(ut_divide(given.get(), wanted.get()));
+  const Converter converter(ut_get_converter(given.get(), wanted.get()));
+  if (!quotient || ut_is_dimensionless(quotient.get()) == 0 || !converter) return {Fit::wrong};
+  return {Fit::fits, cv_convert_double(converter.get(), value)};
+}
+
+/// Text split where the number ends; the unit may be empty.
+struct Split {
+  std::string_view number, unit;
+};
+
+Split split(std::string_view text) {
+  text = trimmed(text);
+  const std::size_t length = number_length(text);
+  return {text.substr(0, length), trimmed(text.substr(length))};
+}
+
+std::string_view usual_unit(std::string_view si_unit) {
+  if (si_unit == "Pa") return "bar";
+  if (si_unit == "rad") return "deg";
+  return si_unit;
+}
+
+}  // namespace
+
+double read_quantity(std::string_view text, std::string_view si_unit) {
+  const std::string_view whole = trimmed(text);
+  const auto [number, unit] = split(whole);
+  const std::string_view rest = whole.substr(number.size());
+  if (number.empty() ||
+      (!rest.empty() && std::string_view(".,_0123456789").find(rest.front()) != std::string_view::npos))
+    throw BadQuantity(why_no_number(whole));
+  const auto value = parse_number(number);
+  if (!value) throw BadQuantity(why_no_number(number));
+
+  if (si_unit == "1") {
+    if (unit.empty()) return *value;
+    if (unit == "%") return *value / 100.0;
+    throw BadQuantity(fmt::format("{} must be a bare number, without a unit: for example {}", whole, number));
+  }
+  if (unit.empty())
+    throw BadQuantity(fmt::format("{} has no unit; it is measured in {}: for example {}", whole, si_unit,
+                                  example_quantity(si_unit, number)));
+  const Conversion conversion = convert(*value, unit, si_unit);
+  if (conversion.fit == Fit::unknown)
+    throw BadQuantity(fmt::format("{}: {} is not a unit; wanted is {}: for example {}", whole, unit, si_unit,
+                                  example_quantity(si_unit, number)));
+  if (conversion.fit == Fit::wrong)
+    throw BadQuantity(fmt::format("{}: {} is the wrong kind of unit; wanted is {}: for example {}", whole,
+                                  unit, si_unit, example_quantity(si_unit, number)));
+  return conversion.value;
+}
+
+std::string write_quantity(double value, std::string_view si_unit) {
+  if (si_unit == "rad") {  // people think in degrees: where they read back to the same bits, they are written
+    const double degrees = std::round(value / (std::numbers::pi / 180.0) * 1e9) / 1e9;
+    const std::string text = write_number(degrees) + " deg";
+    if (read_quantity(text, si_unit) == value) return text;
+  }
+  return si_unit == "1" ? write_number(value) : fmt::format("{} {}", write_number(value), si_unit);
+}
+
+std::string show_limit(double limit, std::string_view si_unit, std::string_view text) {
+  if (si_unit == "1") return fmt::format("{:.6g}", limit);
+  const std::string_view given = split(text).unit;
+  const std::string_view unit = !given.empty() ? given : si_unit == "rad" ? "deg" : si_unit;
+  const Conversion shown = convert(limit, si_unit, unit);
+  return shown.fit == Fit::fits ? fmt::format("{:.6g} {}", shown.value, unit)
+                                : fmt::format("{:.6g} {}", limit, si_unit);
+}
+
+std::string example_quantity(std::string_view si_unit, std::string_view number) {
+  return si_unit == "1" ? std::string(number) : fmt::format("{} {}", number, usual_unit(si_unit));
+}
+
+}  // namespace mckibben::input

@@ -1,0 +1,32 @@
+// Quantities at the edge of the program: a number with its unit in a file, a plain double in SI inside.
+// Units are those of UDUNITS-2 (Unidata); it also checks that a unit measures the right thing.
+#pragma once
+
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+namespace mckibben::input {
+
+/// A text that is not the wanted quantity; `what()` names the text, what is wrong and an example.
+class BadQuantity : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// The value of `text`, such as "30 mm", in `si_unit`, such as "m". For the unit "1" a bare number is wanted
+/// (or per cent, "5 %"). Angles are not taken for ratios, nor ratios for angles. Safe to call from several
+/// threads. Throws BadQuantity; std::runtime_error if the unit database is not installed.
+double read_quantity(std::string_view text, std::string_view si_unit);
+
+/// Shortest digits that read back exactly, and the unit: "0.03 m". For the unit "1" the number alone.
+std::string write_quantity(double value, std::string_view si_unit);
+
+/// A limit as a person would like to read it beside `text`: in the unit that `text` uses, in degrees for
+/// angles, with six digits.
+std::string show_limit(double limit, std::string_view si_unit, std::string_view text = {});
+
+/// An example in a usual unit: "5 bar" for "Pa".
+std::string example_quantity(std::string_view si_unit, std::string_view number = "5");
+
+}  // namespace mckibben::input

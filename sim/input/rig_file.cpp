@@ -1,0 +1,129 @@
+// Rigs by name, path and change; see the header. Bases are followed to a shipped rig; a chain that comes back
+// to a file it has passed is an error.
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include <sim/input/rig_file.hpp>
+#include <sim/input/suggest.hpp>
+
+namespace mckibben::input {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::array<std::string_view, 1> shipped{"thesis"};
+
+bool is_shipped(std::string_view name) {
+  return std::find(shipped.begin(), shipped.end(), name) != shipped.end();
+}
+
+bool looks_like_path(std::string_view text) {
+  return text.find_first_of("/.") != std::string_view::npos;
+}
+
+/// Files being read, outermost first.
+using Chain = std::vector<fs::path>;
+
+void read_changes(const Source& source, const Node& map, RigFile& into, Problems& problems, Chain& chain,
+                  std::span<const std::string_view> also_allowed);
+
+void read_rig_map(const YamlFile& file, RigFile& into, Problems& problems, Chain& chain) {
+  constexpr std::string_view also_allowed[] = {"schema", "base"};
+  if (check_schema(file, rig_schema, problems))
+    read_changes(file.source, file.root, into, problems, chain, also_allowed);
+}
+
+void read_file(const Source& source, const Node& node, const fs::path& path, RigFile& into,
+               Problems& problems, Chain& chain) {
+  std::error_code ignored;
+  fs::path real = fs::weakly_canonical(path, ignored);
+  if (real.empty()) real = path;
+  if (std::find(chain.begin(), chain.end(), real) != chain.end()) {
+    problems.error(source, node.place, fmt::format("the base {} leads back to itself", node.text));
+    return;
+  }
+  chain.push_back(real);
+  try {
+    const YamlFile file = load_yaml(path);
+    problems.opened(file.source);
+    problems.adopt(file.found);
+    read_rig_map(file, into, problems, chain);
+  } catch (const MissingInput& missing) {
+    problems.missing_file(source, node.place, missing.what());
+  } catch (const BadInput& bad) {
+    problems.adopt(bad.problems());
+  }
+  chain.pop_back();
+}
+
+void read_reference(const Source& source, const Node& node, RigFile& into, Problems& problems, Chain& chain) {
+  if (is_shipped(node.text)) {
+    into = {};
+  } else if (looks_like_path(node.text)) {
+    read_file(source, node, (source.folder() / node.text).lexically_normal(), into, problems, chain);
+  } else {
+    problems.error(
+        source, node.place,
+        fmt::format("unknown rig {}{} (shipped: {}; or the path of a rig file, such as rigs/mine.yaml)",
+                    node.text, did_you_mean(node.text, shipped), join(shipped)));
+  }
+}
+
+void read_changes(const Source& source, const Node& map, RigFile& into, Problems& problems, Chain& chain,
+                  std::span<const std::string_view> also_allowed) {
+  into = {};
+  if (const Node* base = map.find("base")) {
+    if (base->kind == Node::Kind::scalar)
+      read_reference(source, *base, into, problems, chain);
+    else
+      problems.error(source, base->place,
+                     fmt::format("base must be the name or the path of a rig, not {}", base->kind_name()));
+  }
+  read_struct(source, map, into, problems, also_allowed);
+}
+
+}  // namespace
+
+std::span<const std::string_view> shipped_rigs() {
+  return shipped;
+}
+
+void Spelling<RigFile>::read(const Source& source, const Node& node, RigFile& into, Problems& problems) {
+  Chain chain;
+  constexpr std::string_view also_allowed[] = {"base"};
+  if (node.kind == Node::Kind::scalar)
+    read_reference(source, node, into, problems, chain);
+  else if (node.kind == Node::Kind::map)
+    read_changes(source, node, into, problems, chain, also_allowed);
+  else
+    problems.error(source, node.place,
+                   fmt::format("rig must be a name, a path or a map of changes, not {}", node.kind_name()));
+}
+
+RigFile read_rig(const std::string& name_or_path, std::vector<InputFile>& inputs) {
+  RigFile rig;
+  if (is_shipped(name_or_path)) return rig;
+  Problems problems;
+  const fs::path path = name_or_path;
+  const YamlFile file = load_yaml(path);
+  std::error_code ignored;
+  Chain chain{fs::weakly_canonical(path, ignored)};
+  problems.opened(file.source);
+  problems.adopt(file.found);
+  read_rig_map(file, rig, problems, chain);
+  problems.raise();
+  inputs.insert(inputs.end(), problems.inputs().begin(), problems.inputs().end());
+  return rig;
+}
+
+Json rig_json(const RigFile& rig) {
+  Json file{{"schema", rig_schema}};
+  file.update(to_json(rig));
+  return file;
+}
+
+}  // namespace mckibben::input

@@ -1,0 +1,169 @@
+// Reading of scenarios, and the rules that need more than one field; see the header.
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <unordered_map>
+
+#include <fmt/format.h>
+
+#include <plant/geometry.hpp>
+#include <sim/input/csv.hpp>
+#include <sim/input/file_names.hpp>
+#include <sim/input/number.hpp>
+#include <sim/input/scenario.hpp>
+#include <sim/input/suggest.hpp>
+
+namespace mckibben::input {
+namespace {
+
+/// The checks that look at a whole scenario and at the places in its file.
+class Checker {
+ public:
+  Checker(const YamlFile& file, Scenario& scenario, Problems& problems)
+      : source_(file.source), root_(file.root), scenario_(scenario), problems_(problems) {}
+
+  void check() {
+    check_name();
+    check_loads();
+    check_controllers();
+    check_criteria();
+    check_target();
+  }
+
+ private:
+  const Node& list(std::string_view key) const { return *root_.find(key); }
+
+  void check_name() {
+    const Node* given = root_.find("name");
+    if (given != nullptr && !is_file_safe(scenario_.name))
+      problems_.error(source_, given->place, fmt::format("name = {}: {}", scenario_.name, file_safe_rule));
+  }
+
+  void check_loads() {
+    const std::vector<double>& loads_kg = scenario_.loads_kg;
+    const Node& nodes = list("loads");
+    if (loads_kg.empty()) problems_.error(source_, nodes.place, "loads: at least one load is needed");
+    std::set<double> earlier;
+    for (std::size_t i = 0; i < loads_kg.size(); ++i) {
+      if (!earlier.insert(loads_kg[i]).second)
+        problems_.error(source_, nodes.children[i].place,
+                        fmt::format("loads: {} stands in the list already", nodes.children[i].text));
+    }
+  }
+
+  void check_controllers() {
+    const Node& nodes = list("controllers");
+    if (scenario_.controllers.empty())
+      problems_.error(source_, nodes.place, "controllers: at least one controller is needed");
+    std::unordered_map<std::string, std::size_t> first;
+    for (std::size_t i = 0; i < scenario_.controllers.size(); ++i) {
+      const Node& node = nodes.children[i];
+      const Node* given = node.find("name");
+      const Place place = given != nullptr ? given->place : node.place;
+      const std::string& name = controllers::name_of(scenario_.controllers[i]);
+      const auto [earlier, is_new] = first.try_emplace(name, node.place.line);
+      if (!is_file_safe(name))
+        problems_.error(source_, place, fmt::format("name = {}: {}", name, file_safe_rule));
+      else if (!is_new)
+        problems_.error(
+            source_, place,
+            fmt::format("the name {} is already that of the controller in line {}; give each a name", name,
+                        earlier->second));
+      if (auto* recorded = std::get_if<controllers::RecordedCurrent>(&scenario_.controllers[i]))
+        load_recording(*recorded, *node.find("file"));
+    }
+  }
+
+  void load_recording(controllers::RecordedCurrent& recorded, const Node& node) {
+    try {
+      const Source source =
+          Source::load((source_.folder() / recorded.file).lexically_normal(), largest_csv_bytes);
+      problems_.opened(source);
+      const std::string_view required[] = {"time_s", recorded.column};
+      TableProblems found(source, problems_);
+      const Table table = read_table(source, required, {}, found);
+      const Table::Column* current = table.find(recorded.column);
+      if (current == nullptr) return;
+      check_ticks(source, table, scenario_.rig.tick_s, found);
+      check_range(source, *current, 0.0, scenario_.rig.dac.largest_current_mA, "range of the rig's DAC",
+                  found);
+      recorded.samples_mA = current->values;
+    } catch (const MissingInput& missing) {
+      problems_.missing_file(source_, node.place, missing.what());
+    }
+  }
+
+  void check_criteria() {
+    std::vector<std::string_view> names;
+    for (const controllers::Settings& settings : scenario_.controllers)
+      names.push_back(controllers::name_of(settings));
+    for (std::size_t i = 0; i < scenario_.criteria.size(); ++i) {
+      const Node* given = list("criteria").children[i].find("controller");
+      const std::string& name = scenario_.criteria[i].controller;
+      if (!name.empty() && std::find(names.begin(), names.end(), name) == names.end())
+        problems_.error(source_, given->place,
+                        fmt::format("controller = {} is not a controller of this scenario: {}{}", name,
+                                    join(names), did_you_mean(name, names)));
+    }
+  }
+
+  void check_target() {
+    const auto [lowest, highest] =
+        controllers::range(scenario_.target, scenario_.duration_s, scenario_.rig.muscle.rest_length_m);
+    const double largest = plant::Braid(scenario_.rig.muscle).largest_contraction_ratio();
+    const Place place = list("target").place;
+    if (!std::isfinite(lowest) || !std::isfinite(highest) || highest > largest)
+      problems_.error(source_, place,
+                      fmt::format("the target rises to a contraction ratio of {:.4g}; "
+                                  "the muscle's limit is {:.4g} (T 2.10)",
+                                  highest, largest));
+    else if (highest > plant::risky_contraction_ratio)
+      problems_.warning(
+          source_, place,
+          fmt::format("the target rises to a contraction ratio of {:.4g}; above {:.2f} there is "
+                      "a risk to the muscle (T 2.3)",
+                      highest, plant::risky_contraction_ratio));
+    if (lowest < 0.0)
+      problems_.warning(source_, place,
+                        fmt::format("the target falls to a contraction ratio of {:.4g}; "
+                                    "below 0 the threads are taut",
+                                    lowest));
+  }
+
+  const Source& source_;
+  const Node& root_;
+  Scenario& scenario_;
+  Problems& problems_;
+};
+
+}  // namespace
+
+Scenario read_scenario(Source source, std::vector<Problem>& warnings) {
+  const YamlFile file = parse_yaml(std::move(source));
+  Problems problems;
+  problems.opened(file.source);
+  problems.adopt(file.found);
+  Scenario scenario;
+  scenario.name = made_file_safe(std::filesystem::path(file.source.name()).stem().string());
+  constexpr std::string_view also_allowed[] = {"schema"};
+  if (check_schema(file, scenario_schema, problems))
+    read_struct(file.source, file.root, scenario, problems, also_allowed);
+  if (problems.errors() == 0) Checker(file, scenario, problems).check();
+  problems.raise();
+  scenario.inputs = problems.inputs();
+  const std::vector<Problem> found = problems.warnings();
+  warnings.insert(warnings.end(), found.begin(), found.end());
+  return scenario;
+}
+
+Scenario read_scenario(const std::filesystem::path& path, std::vector<Problem>& warnings) {
+  return read_scenario(Source::load(path, largest_yaml_bytes), warnings);
+}
+
+Json scenario_json(const Scenario& scenario) {
+  Json file{{"schema", scenario_schema}};
+  file.update(to_json(scenario));
+  return file;
+}
+
+}  // namespace mckibben::input

@@ -1,0 +1,82 @@
+// A scenario: which rig lifts which loads along which target, under which controllers, and what counts as
+// good enough. `read_scenario` gives it complete, every default in place, or says all that is wrong.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <controllers/settings.hpp>
+#include <controllers/target.hpp>
+#include <plant/instruments.hpp>
+#include <plant/rig.hpp>
+#include <sim/input/rig_file.hpp>
+
+namespace mckibben::input {
+
+inline constexpr std::string_view scenario_schema = "mckibben-scenario/1";
+
+/// Limits on the tracking error; a run that exceeds one ends with exit status 1.
+struct Criterion {
+  std::string controller;
+  std::optional<double> rmse_below;
+  std::optional<double> largest_error_below;
+  std::optional<double> spread_below;
+
+  template <class Self, class Visitor>
+  static void fields(Self& self, Visitor& visit) {
+    visit("controller", self.controller, "name of the controller it is for; all if left out");
+    visit("rmse_below", self.rmse_below, "1", 0.0, 1.0, "root mean square error, as contraction ratio");
+    visit("largest_error_below", self.largest_error_below, "1", 0.0, 1.0,
+          "largest error, as contraction ratio");
+    visit("spread_below", self.spread_below, "1", 0.0, 1.0,
+          "difference of the rmse between the worst and the best load, as contraction ratio");
+  }
+  template <class Report>
+  void rules(Report& report) const {
+    if (!rmse_below && !largest_error_below && !spread_below)
+      report("rmse_below", "give this, largest_error_below or spread_below");
+  }
+};
+
+struct Scenario {
+  std::string name;
+  RigFile rig;
+  std::vector<double> loads_kg;
+  controllers::Target target;
+  double duration_s = 0.0;
+  std::vector<controllers::Settings> controllers;
+  plant::Noise noise;
+  std::uint64_t seed = 1;
+  std::vector<Criterion> criteria;
+
+  std::vector<InputFile> inputs;  ///< the files it was read from
+
+  template <class Self, class Visitor>
+  static void fields(Self& self, Visitor& visit) {
+    visit("name", self.name, "name of the results' folder; the file's name if left out");
+    visit("rig", self.rig, "a shipped name, the path of a rig file, or changes in place");
+    visit.required("loads", self.loads_kg, "kg", 0.01, 500.0, "masses of the loads");
+    visit.required("target", self.target, "the movement that is wanted");
+    visit.required("duration", self.duration_s, "s", 0.012, 3600.0, "length of each run");
+    visit.required("controllers", self.controllers, "what is to follow the target");
+    visit("noise", self.noise, "what disturbs the instruments");
+    visit("seed", self.seed, 0, std::numeric_limits<std::uint64_t>::max(), "where chance begins");
+    visit("criteria", self.criteria, "what counts as good enough");
+  }
+};
+
+/// Reads a scenario and the rig files and recorded currents that it names; `warnings` are added to.
+/// Throws MissingInput; BadInput with the problems of all files.
+Scenario read_scenario(const std::filesystem::path& path, std::vector<Problem>& warnings);
+/// The same from text at hand; relative paths start at the source's folder.
+Scenario read_scenario(Source source, std::vector<Problem>& warnings);
+
+/// The contents of a scenario file that holds every field.
+Json scenario_json(const Scenario& scenario);
+
+}  // namespace mckibben::input

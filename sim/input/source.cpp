@@ -1,0 +1,95 @@
+// Loading and addressing of text; see the header. UTF-8 is checked by RFC 3629 (no overlong forms, no
+// surrogates, nothing above U+10FFFF).
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <utility>
+
+#include <sim/input/hash.hpp>
+#include <sim/input/source.hpp>
+
+namespace mckibben::input {
+namespace {
+
+/// Length of the UTF-8 character at the start of `text`, 0 if it is none (or NUL).
+std::size_t character_length(std::string_view text) {
+  const auto byte = [&](std::size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0U; };
+  const auto continued = [&](std::size_t count) {
+    for (std::size_t i = 1; i <= count; ++i)
+      if (byte(i) < 0x80 || byte(i) > 0xBF) return false;
+    return true;
+  };
+  const unsigned first = byte(0), second = byte(1);
+  if (first >= 0x01 && first <= 0x7F) return 1;
+  if (first >= 0xC2 && first <= 0xDF && continued(1)) return 2;
+  if (first >= 0xE0 && first <= 0xEF && continued(2)) {
+    if ((first == 0xE0 && second < 0xA0) || (first == 0xED && second > 0x9F)) return 0;
+    return 3;
+  }
+  if (first >= 0xF0 && first <= 0xF4 && continued(3)) {
+    if ((first == 0xF0 && second < 0x90) || (first == 0xF4 && second > 0x8F)) return 0;
+    return 4;
+  }
+  return 0;
+}
+
+}  // namespace
+
+Source::Source(std::string name, std::string text, std::filesystem::path folder)
+    : name_(std::move(name)), text_(std::move(text)), sha256_(sha256_hex(text_)), folder_(std::move(folder)) {
+  if (text_.starts_with("\xEF\xBB\xBF")) text_.erase(0, 3);
+  starts_.push_back(0);
+  for (std::size_t i = 0; i < text_.size(); ++i)
+    if (text_[i] == '\n' && i + 1 < text_.size()) starts_.push_back(i + 1);
+}
+
+Source Source::load(const std::filesystem::path& path, std::size_t largest_bytes) {
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored))
+    throw MissingInput(path.string() + ": is a folder, not a file");
+  std::ifstream stream(path, std::ios::binary);
+  if (!stream) throw MissingInput(path.string() + ": cannot be opened: " + std::strerror(errno));
+  std::string text;
+  char block[1 << 16];
+  while (text.size() <= largest_bytes && stream) {
+    stream.read(block, sizeof block);
+    text.append(block, static_cast<std::size_t>(stream.gcount()));
+  }
+  if (stream.bad()) throw MissingInput(path.string() + ": cannot be read");
+  text.resize(std::min(text.size(), largest_bytes + 1));
+  return {path.string(), std::move(text), path.parent_path()};
+}
+
+std::string_view Source::line(std::size_t number) const {
+  if (number < 1 || number > starts_.size()) return {};
+  const std::size_t start = starts_[number - 1];
+  const std::size_t end = number < starts_.size() ? starts_[number] : text_.size();
+  std::string_view line = std::string_view(text_).substr(start, end - start);
+  if (line.ends_with('\n')) line.remove_suffix(1);
+  if (line.ends_with('\r')) line.remove_suffix(1);
+  return line;
+}
+
+Place Source::place(std::size_t number, std::size_t offset) const {
+  const std::string_view before = line(number).substr(0, std::min(offset, line(number).size()));
+  const auto characters =
+      std::count_if(before.begin(), before.end(), [](char c) { return !is_utf8_continuation(c); });
+  return {number, static_cast<std::size_t>(characters) + 1};
+}
+
+std::optional<Place> Source::first_bad_byte() const {
+  std::string_view rest = text_;
+  while (!rest.empty()) {
+    const std::size_t length = character_length(rest);
+    if (length == 0) {
+      const std::size_t offset = text_.size() - rest.size();
+      const auto after = std::upper_bound(starts_.begin(), starts_.end(), offset);
+      return place(static_cast<std::size_t>(after - starts_.begin()), offset - *std::prev(after));
+    }
+    rest.remove_prefix(length);
+  }
+  return std::nullopt;
+}
+
+}  // namespace mckibben::input

@@ -1,0 +1,58 @@
+// The text of one input file, kept whole so that a problem can show the line it is in. A UTF-8 byte order
+// mark is dropped and lines may end in LF or CRLF.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace mckibben::input {
+
+/// A position in a text; both count from 1, the column counts characters.
+struct Place {
+  std::size_t line = 1;
+  std::size_t column = 1;
+};
+
+/// A file that cannot be opened (exit status 66). `what()` says which and why.
+class MissingInput : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+constexpr bool is_utf8_continuation(char c) {
+  return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U;
+}
+
+class Source {
+ public:
+  /// `name` is what messages show; `folder` is where relative paths inside the text start.
+  Source(std::string name, std::string text, std::filesystem::path folder);
+  /// Reads a file; at most one byte more than `largest_bytes`, so that the caller sees it is too large.
+  /// Throws MissingInput.
+  static Source load(const std::filesystem::path& path, std::size_t largest_bytes);
+
+  const std::string& name() const { return name_; }
+  const std::string& text() const { return text_; }
+  /// Digest of the bytes as they were read.
+  const std::string& sha256() const { return sha256_; }
+  const std::filesystem::path& folder() const { return folder_; }
+  std::size_t lines() const { return starts_.size(); }
+  /// Line `number` (from 1) without its line end; empty when there is no such line.
+  std::string_view line(std::size_t number) const;
+  /// The place of byte `offset` of line `number`.
+  Place place(std::size_t number, std::size_t offset) const;
+  /// Place of the first byte that is NUL or not UTF-8, if any.
+  std::optional<Place> first_bad_byte() const;
+
+ private:
+  std::string name_, text_, sha256_;
+  std::filesystem::path folder_;
+  std::vector<std::size_t> starts_;
+};
+
+}  // namespace mckibben::input

@@ -1,0 +1,54 @@
+// Nearest known word; see the header.
+#include <algorithm>
+#include <numeric>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <sim/input/suggest.hpp>
+
+namespace mckibben::input {
+
+std::size_t edit_distance(std::string_view left, std::string_view right) {
+  std::vector<std::size_t> two_back(right.size() + 1), back(right.size() + 1), row(right.size() + 1);
+  std::iota(back.begin(), back.end(), std::size_t{0});
+  for (std::size_t i = 1; i <= left.size(); ++i) {
+    row[0] = i;
+    for (std::size_t j = 1; j <= right.size(); ++j) {
+      const std::size_t replaced = back[j - 1] + (left[i - 1] == right[j - 1] ? 0 : 1);
+      row[j] = std::min({replaced, back[j] + 1, row[j - 1] + 1});
+      if (i > 1 && j > 1 && left[i - 1] == right[j - 2] && left[i - 2] == right[j - 1])
+        row[j] = std::min(row[j], two_back[j - 2] + 1);
+    }
+    two_back.swap(back);
+    back.swap(row);
+  }
+  return back[right.size()];
+}
+
+std::optional<std::string_view> nearest(std::string_view word, std::span<const std::string_view> known) {
+  constexpr std::size_t longest_word = 100;  // nothing we know is longer; keeps garbage cheap
+  if (word.empty() || word.size() > longest_word) return std::nullopt;
+  std::optional<std::string_view> best;
+  std::size_t least = std::max<std::size_t>(1, (word.size() + 2) / 3) + 1;
+  for (const std::string_view candidate : known) {
+    const std::size_t distance = edit_distance(word, candidate);
+    if (distance < least && distance < candidate.size()) {
+      least = distance;
+      best = candidate;
+    }
+  }
+  return best;
+}
+
+std::string did_you_mean(std::string_view word, std::span<const std::string_view> known) {
+  const auto best = nearest(word, known);
+  return best ? fmt::format("; did you mean {}?", *best) : std::string{};
+}
+
+std::string join(std::span<const std::string_view> words) {
+  return fmt::format("{}", fmt::join(words, ", "));
+}
+
+}  // namespace mckibben::input

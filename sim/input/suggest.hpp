@@ -1,0 +1,24 @@
+// "Did you mean": the known word nearest to a misspelt one, by the Damerau-Levenshtein distance (insertions,
+// deletions, replacements and swaps of neighbours; optimal string alignment form).
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace mckibben::input {
+
+std::size_t edit_distance(std::string_view left, std::string_view right);
+
+/// The nearest of `known`, if near enough to be worth saying: up to one edit for each three characters.
+std::optional<std::string_view> nearest(std::string_view word, std::span<const std::string_view> known);
+
+/// `; did you mean WORD?` or nothing, to hang on a message.
+std::string did_you_mean(std::string_view word, std::span<const std::string_view> known);
+
+/// The words separated by commas.
+std::string join(std::span<const std::string_view> words);
+
+}  // namespace mckibben::input

@@ -1,0 +1,198 @@
+// Single values and their messages: each names key, value and rule; see the header.
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <system_error>
+
+#include <fmt/format.h>
+
+#include <sim/input/number.hpp>
+#include <sim/input/quantity.hpp>
+#include <sim/input/suggest.hpp>
+#include <sim/input/yaml_reader.hpp>
+
+namespace mckibben::input {
+namespace {
+
+constexpr std::size_t longest_text_shown = 60;
+
+std::string shown(const std::string& text) {
+  if (text.size() <= longest_text_shown) return text;
+  std::size_t end = longest_text_shown;
+  while (end > 0 && is_utf8_continuation(text[end])) --end;
+  return text.substr(0, end) + "...";
+}
+
+/// A plain whole number without leading zeros.
+template <class T>
+std::optional<T> parse_integer(const Node& node) {
+  const std::string_view text = node.text;
+  const std::string_view digits = text.substr(text.starts_with('-') ? 1 : 0);
+  if (node.quoted || (digits.size() > 1 && digits.front() == '0')) return std::nullopt;
+  T value{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+std::string integer_message(std::string_view key, const Node& node, auto lowest, auto highest,
+                            std::string_view meaning) {
+  return fmt::format("{} = {} must be a whole number from {} to {}{} ({})", key, shown(node.text), lowest,
+                     highest, node.quoted ? ", without quotes" : "", meaning);
+}
+
+}  // namespace
+
+bool ValueReader::is_map() {
+  if (map_.kind == Node::Kind::map) return true;
+  bad(map_, fmt::format("{} must be a map of keys, not {}", map_.key.empty() ? "this" : map_.key,
+                        map_.kind_name()));
+  return false;
+}
+
+const Node* ValueReader::take(std::string_view key) {
+  known_.push_back(key);
+  const Node* node = map_.find(key);
+  if (node == nullptr || node->kind != Node::Kind::null) return node;
+  bad(*node, fmt::format("{} has no value", key));
+  return nullptr;
+}
+
+void ValueReader::require(std::string_view key) {
+  if (map_.find(key) == nullptr) bad(map_, fmt::format("the key {} is missing", key));
+}
+
+void ValueReader::check_unknown(std::span<const std::string_view> also_allowed) {
+  std::vector<std::string_view> allowed(also_allowed.begin(), also_allowed.end());
+  allowed.insert(allowed.end(), known_.begin(), known_.end());
+  for (const Node& child : map_.children) {
+    if (std::find(allowed.begin(), allowed.end(), child.key) != allowed.end()) continue;
+    problems_.error(source_, child.key_place,
+                    fmt::format("unknown key {}{} (allowed: {})", shown(child.key),
+                                did_you_mean(child.key, allowed), join(allowed)));
+  }
+}
+
+void ValueReader::broken_rule(std::string_view key, std::string_view message) {
+  const Node* node = map_.find(key);
+  const bool has_text = node != nullptr && node->kind == Node::Kind::scalar;
+  bad(node != nullptr ? *node : map_, has_text ? fmt::format("{} = {}: {}", key, shown(node->text), message)
+                                               : fmt::format("{}: {}", key, message));
+}
+
+bool ValueReader::is_scalar(std::string_view key, const Node& node, std::string_view wanted) {
+  if (node.kind == Node::Kind::scalar) return true;
+  bad(node, fmt::format("{} must be {}, not {}", key, wanted, node.kind_name()));
+  return false;
+}
+
+bool ValueReader::is_list(std::string_view key, const Node& node) {
+  if (node.kind == Node::Kind::list) return true;
+  bad(node, node.kind == Node::Kind::scalar
+                ? fmt::format("{} must be a list: [{}]", key, shown(node.text))
+                : fmt::format("{} must be a list, not {}", key, node.kind_name()));
+  return false;
+}
+
+void ValueReader::quantity(std::string_view key, const Node& node, double& value, const Limits& limits) {
+  if (!is_scalar(key, node, fmt::format("one value, for example {}", example_quantity(limits.unit)))) return;
+  try {
+    const double read = read_quantity(node.text, limits.unit);
+    if (read >= limits.lowest && read <= limits.highest) {
+      value = read;
+      return;
+    }
+    bad(node, fmt::format("{} = {} is out of range: {} to {} ({})", key, shown(node.text),
+                          show_limit(limits.lowest, limits.unit, node.text),
+                          show_limit(limits.highest, limits.unit, node.text), limits.meaning));
+  } catch (const BadQuantity& error) {
+    bad(node, fmt::format("{} = {} ({})", key, error.what(), limits.meaning));
+  }
+}
+
+void ValueReader::signed_integer(std::string_view key, const Node& node, std::int64_t& value,
+                                 std::int64_t lowest, std::int64_t highest, std::string_view meaning) {
+  if (!is_scalar(key, node, "a whole number")) return;
+  const auto read = parse_integer<std::int64_t>(node);
+  if (read && *read >= lowest && *read <= highest)
+    value = *read;
+  else
+    bad(node, integer_message(key, node, lowest, highest, meaning));
+}
+
+void ValueReader::unsigned_integer(std::string_view key, const Node& node, std::uint64_t& value,
+                                   std::uint64_t lowest, std::uint64_t highest, std::string_view meaning) {
+  if (!is_scalar(key, node, "a whole number")) return;
+  const auto read = parse_integer<std::uint64_t>(node);
+  if (read && *read >= lowest && *read <= highest)
+    value = *read;
+  else
+    bad(node, integer_message(key, node, lowest, highest, meaning));
+}
+
+void ValueReader::boolean(std::string_view key, const Node& node, bool& value) {
+  if (!is_scalar(key, node, "true or false")) return;
+  if (!node.quoted && (node.text == "true" || node.text == "false"))
+    value = node.text == "true";
+  else
+    bad(node, fmt::format("{} = {} must be true or false{}", key, shown(node.text),
+                          node.quoted ? ", without quotes" : ""));
+}
+
+void ValueReader::text(std::string_view key, const Node& node, std::string& value) {
+  if (is_scalar(key, node, "a text")) value = node.text;
+}
+
+void ValueReader::height(std::string_view key, const Node& node, controllers::Height& value) {
+  if (!is_scalar(key, node, "a contraction ratio or a length, for example 0.1 or 30 mm")) return;
+  try {
+    const std::string_view whole = trimmed(node.text);
+    const bool is_ratio = number_length(whole) == whole.size() || whole.ends_with('%');
+    const double read = read_quantity(whole, is_ratio ? "1" : "m");
+    if (!std::isfinite(read)) throw BadQuantity(shown(node.text) + " is too large");
+    value = {read, !is_ratio};
+  } catch (const BadQuantity& error) {
+    bad(node, fmt::format("{} = {} (or a contraction ratio, without a unit)", key, error.what()));
+  }
+}
+
+std::optional<std::size_t> ValueReader::choice(std::string_view key, const Node& node,
+                                               std::span<const std::string_view> choices) {
+  if (!is_scalar(key, node, "one of: " + join(choices))) return std::nullopt;
+  const auto found = std::find(choices.begin(), choices.end(), node.text);
+  if (found != choices.end()) return static_cast<std::size_t>(found - choices.begin());
+  bad(node, fmt::format("{} = {} is not one of: {}{}", key, shown(node.text), join(choices),
+                        did_you_mean(node.text, choices)));
+  return std::nullopt;
+}
+
+std::optional<std::size_t> ValueReader::kind(std::string_view key, const Node& node,
+                                             std::span<const std::string_view> kinds) {
+  if (node.kind != Node::Kind::map) {
+    bad(node, fmt::format("{} must be a map of keys with its kind, not {}", key, node.kind_name()));
+    return std::nullopt;
+  }
+  const Node* given = node.find("kind");
+  if (given == nullptr) {
+    bad(node, fmt::format("the key kind is missing in {}; it is one of: {}", key, join(kinds)));
+    return std::nullopt;
+  }
+  return choice("kind", *given, kinds);
+}
+
+bool check_schema(const YamlFile& file, std::string_view schema, Problems& problems) {
+  const Node* given = file.root.find("schema");
+  if (given == nullptr) {
+    problems.error(file.source, file.root.place,
+                   fmt::format("the key schema is missing; the file should begin with `schema: {}`", schema));
+    return true;
+  }
+  if (given->kind == Node::Kind::scalar && given->text == schema) return true;
+  const std::string found =
+      given->kind == Node::Kind::scalar ? shown(given->text) : std::string(given->kind_name());
+  problems.error(file.source, given->place,
+                 fmt::format("schema = {} is not what is read here: {}", found, schema));
+  return false;
+}
+
+}  // namespace mckibben::input

@@ -1,0 +1,200 @@
+// Fills a struct from a YAML map by walking its field list, and collects every problem on the way: unknown
+// and missing keys, units, ranges, spellings, and last the rules between fields. Keys that are absent keep
+// the member's value, so a struct can be read as changes to another (a rig on its base).
+#pragma once
+
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include <controllers/target.hpp>
+#include <sim/input/diagnostics.hpp>
+#include <sim/input/field_kinds.hpp>
+#include <sim/input/yaml_file.hpp>
+
+namespace mckibben::input {
+
+/// Reads `node` into `into` by the field list of T, on top of what is there. `also_allowed` are keys that the
+/// caller reads itself.
+template <Listed T>
+void read_struct(const Source& source, const Node& node, T& into, Problems& problems,
+                 std::span<const std::string_view> also_allowed = {});
+
+/// How a struct is written where it stands inside another. Specialised for structs with other spellings than
+/// a map of keys (a rig may be given by its name).
+template <class T>
+struct Spelling {
+  static constexpr bool by_name = false;
+  static void read(const Source& source, const Node& node, T& into, Problems& problems) {
+    read_struct(source, node, into, problems);
+  }
+};
+
+/// Checks the line `schema: NAME/VERSION` of a file. False if it is another kind of file, not worth reading
+/// on.
+bool check_schema(const YamlFile& file, std::string_view schema, Problems& problems);
+
+/// Reads single values; says what is wrong with them. The same for all structs.
+class ValueReader {
+ public:
+  struct Limits {
+    std::string_view unit;
+    double lowest, highest;
+    std::string_view meaning;
+  };
+
+  ValueReader(const Source& source, const Node& map, Problems& problems)
+      : source_(source), map_(map), problems_(problems), errors_before_(problems.errors()) {}
+
+  bool is_map();
+  /// The value under `key`, noted as known. Null if absent, or left empty, which is a problem.
+  const Node* take(std::string_view key);
+  void require(std::string_view key);
+  void check_unknown(std::span<const std::string_view> also_allowed);
+  bool clean() const { return problems_.errors() == errors_before_; }
+  /// A rule that is broken: shown at the key's value, or at the whole map.
+  void broken_rule(std::string_view key, std::string_view message);
+
+ protected:
+  void quantity(std::string_view key, const Node& node, double& value, const Limits& limits);
+  void signed_integer(std::string_view key, const Node& node, std::int64_t& value, std::int64_t lowest,
+                      std::int64_t highest, std::string_view meaning);
+  void unsigned_integer(std::string_view key, const Node& node, std::uint64_t& value, std::uint64_t lowest,
+                        std::uint64_t highest, std::string_view meaning);
+  void boolean(std::string_view key, const Node& node, bool& value);
+  void text(std::string_view key, const Node& node, std::string& value);
+  void height(std::string_view key, const Node& node, controllers::Height& value);
+  /// Index of the spelling among `choices`.
+  std::optional<std::size_t> choice(std::string_view key, const Node& node,
+                                    std::span<const std::string_view> choices);
+  /// Index of `kind` of a map among `kinds`.
+  std::optional<std::size_t> kind(std::string_view key, const Node& node,
+                                  std::span<const std::string_view> kinds);
+  bool is_list(std::string_view key, const Node& node);
+
+  const Source& source_;
+  const Node& map_;
+  Problems& problems_;
+
+ private:
+  bool is_scalar(std::string_view key, const Node& node, std::string_view wanted);
+  void bad(const Node& node, std::string message) {
+    problems_.error(source_, node.place, std::move(message));
+  }
+
+  std::vector<std::string_view> known_;
+  std::size_t errors_before_;
+};
+
+/// The visitor of a field list.
+class StructReader : public ValueReader {
+ public:
+  using ValueReader::ValueReader;
+
+  template <class... Rest>
+  void required(std::string_view key, Rest&&... rest) {
+    require(key);
+    (*this)(key, std::forward<Rest>(rest)...);
+  }
+
+  /// Quantities: one, one that may be absent, or a list.
+  template <class T>
+  void operator()(std::string_view key, T& value, std::string_view unit, double lowest, double highest,
+                  std::string_view meaning) {
+    const Node* node = take(key);
+    if (node == nullptr) return;
+    const Limits limits{unit, lowest, highest, meaning};
+    if constexpr (std::same_as<T, double>) {
+      quantity(key, *node, value, limits);
+    } else if constexpr (std::same_as<T, std::optional<double>>) {
+      quantity(key, *node, value.emplace(), limits);
+    } else {
+      static_assert(std::same_as<T, std::vector<double>>);
+      if (!is_list(key, *node)) return;
+      value.assign(node->children.size(), 0.0);
+      for (std::size_t i = 0; i < value.size(); ++i) quantity(key, node->children[i], value[i], limits);
+    }
+  }
+
+  /// Whole numbers.
+  template <std::integral T>
+  void operator()(std::string_view key, T& value, std::type_identity_t<T> lowest,
+                  std::type_identity_t<T> highest, std::string_view meaning) {
+    const Node* node = take(key);
+    if (node == nullptr) return;
+    if constexpr (std::is_signed_v<T>) {
+      std::int64_t wide = value;
+      signed_integer(key, *node, wide, lowest, highest, meaning);
+      value = static_cast<T>(wide);
+    } else {
+      std::uint64_t wide = value;
+      unsigned_integer(key, *node, wide, lowest, highest, meaning);
+      value = static_cast<T>(wide);
+    }
+  }
+
+  /// Everything without unit and range.
+  template <class T>
+  void operator()(std::string_view key, T& value, std::string_view) {
+    if (const Node* node = take(key)) read(key, *node, value);
+  }
+
+ private:
+  template <class T>
+  void read(std::string_view key, const Node& node, T& value) {
+    if constexpr (std::same_as<T, bool>) {
+      boolean(key, node, value);
+    } else if constexpr (std::same_as<T, std::string>) {
+      text(key, node, value);
+    } else if constexpr (std::same_as<T, controllers::Height>) {
+      height(key, node, value);
+    } else if constexpr (Named<T>) {
+      if (const auto index = choice(key, node, spellings<T>())) value = names(T{})[*index].first;
+    } else if constexpr (is_vector<T>) {
+      if (!is_list(key, node)) return;
+      value.assign(node.children.size(), {});
+      for (std::size_t i = 0; i < value.size(); ++i) read(key, node.children[i], value[i]);
+    } else if constexpr (is_variant<T>) {
+      if (const auto index = kind(key, node, kinds<T>)) read_alternative(node, value, *index);
+    } else {
+      Spelling<T>::read(source_, node, value, problems_);
+    }
+  }
+
+  /// Makes `value` hold the alternative of that index and reads it.
+  template <std::size_t I = 0, class... Ts>
+  void read_alternative(const Node& node, std::variant<Ts...>& value, std::size_t index) {
+    if constexpr (I < sizeof...(Ts)) {
+      if (index != I) return read_alternative<I + 1>(node, value, index);
+      if (value.index() != I) value.template emplace<I>();
+      constexpr std::string_view also_allowed[] = {"kind"};
+      read_struct(source_, node, std::get<I>(value), problems_, also_allowed);
+    }
+  }
+};
+
+template <Listed T>
+void read_struct(const Source& source, const Node& node, T& into, Problems& problems,
+                 std::span<const std::string_view> also_allowed) {
+  StructReader reader(source, node, problems);
+  if (!reader.is_map()) return;
+  T::fields(into, reader);
+  reader.check_unknown(also_allowed);
+  if constexpr (Ruled<T>) {
+    const auto report = [&](std::string_view key, std::string_view message) {
+      reader.broken_rule(key, message);
+    };
+    if (reader.clean()) into.rules(report);
+  }
+}
+
+}  // namespace mckibben::input

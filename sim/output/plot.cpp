@@ -1,0 +1,123 @@
+// Panels, axes and lines of the tracking picture. Colours: Okabe & Ito's palette, told apart by the
+// colour-blind.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include <sim/output/plot.hpp>
+
+namespace mckibben::output {
+namespace {
+
+constexpr std::array<const char*, 7> colours{"#0072B2", "#D55E00", "#009E73", "#CC79A7",
+                                             "#E69F00", "#56B4E9", "#F0E442"};
+constexpr double panel_width = 900.0, panel_height = 190.0, left = 60.0, right = 20.0, top = 44.0, gap = 46.0;
+
+/// A step of 1, 2 or 5 times a power of ten that divides a span into about `parts`.
+double tick_step(double span, int parts) {
+  const double raw = span / parts, power = std::pow(10.0, std::floor(std::log10(raw)));
+  for (const double factor : {1.0, 2.0, 5.0})
+    if (factor * power >= raw) return factor * power;
+  return 10.0 * power;
+}
+
+struct Panel {
+  double y0_px;      // upper edge
+  double low, high;  // contraction ratios at lower and upper edge
+  double duration_s;
+
+  double x_px(double time_s) const { return left + panel_width * time_s / duration_s; }
+  double y_px(double ratio) const { return y0_px + panel_height * (high - ratio) / (high - low); }
+
+  std::string axes(const std::string& title) const {
+    std::string svg = fmt::format("<rect x='{}' y='{}' width='{}' height='{}' fill='none' stroke='#888'/>\n",
+                                  left, y0_px, panel_width, panel_height);
+    svg += fmt::format("<text x='{}' y='{}' font-weight='bold'>{}</text>\n", left, y0_px - 8, title);
+    const double step = tick_step(high - low, 6);
+    for (double r = std::ceil(low / step) * step; r <= high; r += step)
+      svg += fmt::format(
+          "<line x1='{0}' x2='{1}' y1='{2:.1f}' y2='{2:.1f}' stroke='#ddd'/><text x='{3}' y='{4:.1f}' "
+          "text-anchor='end'>{5:.3g}</text>\n",
+          left, left + panel_width, y_px(r), left - 6, y_px(r) + 4, std::abs(r) < 1e-9 ? 0.0 : r);
+    const double step_s = tick_step(duration_s, 10);
+    for (double t = 0.0; t <= duration_s * (1 + 1e-9); t += step_s)
+      svg += fmt::format("<text x='{:.1f}' y='{}' text-anchor='middle'>{:g} s</text>\n", x_px(t),
+                         y0_px + panel_height + 16, t);
+    return svg;
+  }
+
+  /// A line through one value each tick; at most a point for each pixel, the extreme ones of each.
+  template <class Value>
+  std::string line(std::size_t ticks, double tick_s, const char* colour, double width,
+                   const Value& value) const {
+    const auto per_pixel = std::max<std::size_t>(1, ticks / static_cast<std::size_t>(panel_width));
+    std::string points;
+    for (std::size_t k = 0; k < ticks; k += per_pixel) {
+      const auto put = [&](std::size_t i) {
+        points += fmt::format("{:.1f},{:.1f} ", x_px(static_cast<double>(i) * tick_s), y_px(value(i)));
+      };
+      std::size_t least = k, most = k;
+      for (std::size_t i = k; i < std::min(k + per_pixel, ticks); ++i) {
+        if (value(i) < value(least)) least = i;
+        if (value(i) > value(most)) most = i;
+      }
+      put(std::min(least, most));
+      if (least != most) put(std::max(least, most));
+    }
+    return fmt::format("<polyline fill='none' stroke='{}' stroke-width='{}' points='{}'/>\n", colour, width,
+                       points);
+  }
+};
+
+}  // namespace
+
+std::string tracking_svg(const input::Scenario& scenario, const run::Comparison& comparison) {
+  const std::size_t columns = scenario.controllers.size(), rows = scenario.loads_kg.size();
+  const double height = top + static_cast<double>(rows) * (panel_height + gap) + 10.0;
+  const double width = left + panel_width + right;
+  double low = *std::min_element(comparison.target.begin(), comparison.target.end());
+  double high = *std::max_element(comparison.target.begin(), comparison.target.end());
+  for (const auto& run : comparison.runs)
+    for (const auto& sample : run.recording.samples) {
+      low = std::min(low, sample.state.joint.contraction_ratio);
+      high = std::max(high, sample.state.joint.contraction_ratio);
+    }
+  const double margin = std::max(0.05 * (high - low), 1e-4);
+  const double tick_s = scenario.rig.tick_s;
+
+  std::string svg = fmt::format(
+      "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 {0} {1}' width='{0}' height='{1}' "
+      "font-family='sans-serif' "
+      "font-size='12'>\n<rect width='100%' height='100%' fill='white'/>\n",
+      width, height);
+  double x = left;
+  const auto legend = [&](const std::string& name, const char* colour) {
+    svg += fmt::format(
+        "<line x1='{0}' x2='{1}' y1='14' y2='14' stroke='{2}' stroke-width='2.5'/><text x='{3}' "
+        "y='18'>{4}</text>\n",
+        x, x + 22, colour, x + 27, name);
+    x += 50.0 + 7.0 * static_cast<double>(name.size());
+  };
+  legend("target", "#000000");
+  for (std::size_t c = 0; c < columns; ++c)
+    legend(controllers::name_of(scenario.controllers[c]), colours[c % colours.size()]);
+
+  for (std::size_t r = 0; r < rows; ++r) {
+    const Panel panel{top + static_cast<double>(r) * (panel_height + gap), low - margin, high + margin,
+                      static_cast<double>(comparison.target.size()) * tick_s};
+    svg += panel.axes(fmt::format("{:g} kg: contraction ratio", scenario.loads_kg[r]));
+    svg += panel.line(comparison.target.size(), tick_s, "#000000", 2.2,
+                      [&](std::size_t k) { return comparison.target[k]; });
+    for (std::size_t c = 0; c < columns; ++c) {
+      const auto& samples = comparison.runs[r * columns + c].recording.samples;
+      svg += panel.line(samples.size(), tick_s, colours[c % colours.size()], 1.4,
+                        [&](std::size_t k) { return samples[k].state.joint.contraction_ratio; });
+    }
+  }
+  return svg + "</svg>\n";
+}
+
+}  // namespace mckibben::output

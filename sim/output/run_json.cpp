@@ -1,0 +1,130 @@
+// Layout of the JSON documents.
+#include <optional>
+
+#include <fmt/format.h>
+
+#include <sim/engine/versions.hpp>
+#include <sim/input/fields_json.hpp>
+#include <sim/input/rig_file.hpp>
+#include <sim/output/run_json.hpp>
+
+namespace mckibben::output {
+namespace {
+
+using input::Json;
+
+Json or_null(const std::optional<double>& value) {
+  return value ? Json(*value) : Json(nullptr);
+}
+
+Json solver_json(const engine::Counters& counters) {
+  return {{"steps", counters.steps},
+          {"rejected_steps", counters.rejected_steps},
+          {"right_hand_sides", counters.right_hand_sides},
+          {"jacobians", counters.jacobians},
+          {"events", counters.events},
+          {"stiff_from_tick", counters.stiff_from_tick < 0 ? Json(nullptr) : Json(counters.stiff_from_tick)}};
+}
+
+Json ledger_json(const plant::Ledger<double>& books) {
+  return {{"air_drawn_kg", books.air_drawn_kg}, {"air_vented_kg", books.air_vented_kg},
+          {"braid_work_J", books.braid_work_J}, {"thread_friction_work_J", books.thread_friction_work_J},
+          {"guide_work_J", books.guide_work_J}, {"stop_work_J", books.stop_work_J}};
+}
+
+Json inputs_json(const std::vector<input::InputFile>& files) {
+  Json list = Json::array();
+  for (const auto& file : files) list.push_back({{"file", file.name}, {"sha256", file.sha256}});
+  return list;
+}
+
+Json heading(const char* schema, const std::vector<input::InputFile>& files) {
+  return {{"schema", schema},
+          {"program", {{"mckibben", MCKIBBEN_VERSION}, {"sundials", engine::sundials_version()}}},
+          {"input_files", inputs_json(files)}};
+}
+
+Json run_json(const run::TrackedRun& run) {
+  Json entry{{"load_kg", run.load_kg}, {"controller", run.controller}};
+  if (!run.failure.empty()) {
+    entry["failure"] = run.failure;
+    return entry;
+  }
+  const auto& m = run.metrics;
+  entry["file"] = csv_name(run);
+  entry["rmse"] = m.rmse;
+  entry["mae"] = m.mae;
+  entry["largest_error"] = m.largest_error;
+  entry["final_error"] = m.final_error;
+  entry["time_lag_s"] = or_null(m.time_lag_s);
+  entry["overshoot"] = or_null(m.overshoot);
+  entry["settling_time_s"] = or_null(m.settling_time_s);
+  entry["current_travel_mA"] = m.current_travel_mA;
+  entry["largest_contraction_ratio"] = run.recording.largest_contraction_ratio;
+  entry["ledger"] = ledger_json(run.recording.ledger);
+  entry["solver"] = solver_json(run.recording.solver);
+  return entry;
+}
+
+}  // namespace
+
+std::string csv_name(const run::TrackedRun& run) {
+  return fmt::format("{:g}kg_{}.csv", run.load_kg, run.controller);
+}
+
+Json json_of(const input::Scenario& scenario, const run::Comparison& comparison) {
+  Json document = heading("mckibben-run/1", scenario.inputs);
+  document["seed"] = scenario.seed;
+  document["tolerance"] = scenario.rig.integrator.tolerance;
+  document["scenario"] = input::scenario_json(scenario);
+  document["tuned"] = Json::array();
+  for (const auto& row : comparison.tuned)
+    document["tuned"].push_back({{"controller", row.controller},
+                                 {"load_kg", row.load_kg},
+                                 {"proportional_mA", row.tuned.gains.proportional_mA},
+                                 {"integral_time_s", row.tuned.gains.integral_time_s},
+                                 {"derivative_time_s", row.tuned.gains.derivative_time_s},
+                                 {"cost", row.tuned.cost},
+                                 {"evaluations", row.tuned.evaluations}});
+  document["runs"] = Json::array();
+  for (const auto& run : comparison.runs) document["runs"].push_back(run_json(run));
+  document["spreads"] = Json::array();
+  for (const auto& row : comparison.spreads) {
+    Json entry{{"controller", row.controller}};
+    if (row.rmse)
+      entry["rmse"] = {{"mean", row.rmse->mean},
+                       {"lowest", row.rmse->lowest},
+                       {"highest", row.rmse->highest},
+                       {"spread", row.rmse->width()},
+                       {"standard_deviation", row.rmse->standard_deviation}};
+    document["spreads"].push_back(std::move(entry));
+  }
+  document["criteria_not_met"] = comparison.unmet;
+  return document;
+}
+
+Json json_of(const input::Dataset& dataset, const std::vector<run::ReplayedRun>& runs) {
+  Json document = heading("mckibben-replay/1", dataset.inputs);
+  document["tolerance"] = dataset.rig.integrator.tolerance;
+  document["rig"] = input::rig_json(dataset.rig);
+  document["runs"] = Json::array();
+  for (const auto& run : runs) {
+    Json entry{{"id", run.id}, {"load_kg", run.load_kg}};
+    if (!run.failure.empty()) {
+      entry["failure"] = run.failure;
+    } else {
+      entry["file"] = run.id + ".csv";
+      entry["rmse"] = run.rmse;
+      entry["largest_error"] = run.largest_error;
+      entry["mean_error"] = run.mean_error;
+      entry["pressure_rmse_bar"] = run.pressure_rmse_Pa ? Json(*run.pressure_rmse_Pa / 1e5) : Json(nullptr);
+      entry["largest_contraction_ratio"] = run.recording.largest_contraction_ratio;
+      entry["ledger"] = ledger_json(run.recording.ledger);
+      entry["solver"] = solver_json(run.recording.solver);
+    }
+    document["runs"].push_back(std::move(entry));
+  }
+  return document;
+}
+
+}  // namespace mckibben::output

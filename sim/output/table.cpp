@@ -1,0 +1,145 @@
+// Layout of the tables.
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include <plant/geometry.hpp>
+#include <sim/output/table.hpp>
+
+namespace mckibben::output {
+namespace {
+
+/// A table whose columns are as wide as their widest cell; the first column and texts to the left, numbers to
+/// the right.
+class Grid {
+ public:
+  explicit Grid(std::vector<std::string> head, std::size_t text_columns)
+      : text_columns_(text_columns), rows_{std::move(head)} {}
+
+  void add(std::vector<std::string> row) { rows_.push_back(std::move(row)); }
+
+  std::string text() const {
+    std::vector<std::size_t> widths(rows_.front().size(), 0);
+    for (const auto& row : rows_)
+      for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
+    std::string text;
+    for (const auto& row : rows_) {
+      std::string line = " ";
+      for (std::size_t i = 0; i < row.size(); ++i)
+        line += i < text_columns_ ? fmt::format(" {:<{}}", row[i], widths[i])
+                                  : fmt::format("  {:>{}}", row[i], widths[i]);
+      text += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
+    }
+    return text;
+  }
+
+ private:
+  std::size_t text_columns_;
+  std::vector<std::vector<std::string>> rows_;
+};
+
+std::string cell(std::optional<double> value, double factor, int decimals) {
+  return value ? fmt::format("{:.{}f}", *value * factor, decimals) : "-";
+}
+
+std::string ratio(double value) {
+  return fmt::format("{:.5f}", value);
+}
+
+/// Thesis 2.3: what contraction does to a muscle.
+std::string contraction_note(const plant::Rig& rig, double reached, const std::string& who) {
+  const double limit = plant::Braid(rig.muscle).largest_contraction_ratio();
+  if (reached > limit)
+    return fmt::format(
+        "  {}: contraction ratio {:.4f} is above e_max = {:.4f}: impossible for a real muscle (T 2.3)\n", who,
+        reached, limit);
+  if (reached > plant::risky_contraction_ratio)
+    return fmt::format("  {}: contraction ratio {:.4f} is above {:.2f}: a risk to the muscle (T 2.3)\n", who,
+                       reached, plant::risky_contraction_ratio);
+  return "";
+}
+
+std::string section(const std::string& title, const std::string& body) {
+  return body.empty() ? "" : "\n" + title + "\n" + body;
+}
+
+std::string contraction_notes(const input::Scenario& scenario, const run::Comparison& comparison) {
+  std::string text;
+  for (const auto& run : comparison.runs)
+    text += contraction_note(scenario.rig, run.recording.largest_contraction_ratio,
+                             fmt::format("{} at {:g} kg", run.controller, run.load_kg));
+  return text;
+}
+
+}  // namespace
+
+std::string table_of(const input::Scenario& scenario, const run::Comparison& comparison) {
+  std::string text = fmt::format(
+      "{}: {} load{} x {} controller{}, {:g} s each; errors are contraction ratios (0.001 = {:g} mm)\n\n",
+      scenario.name, scenario.loads_kg.size(), scenario.loads_kg.size() == 1 ? "" : "s",
+      scenario.controllers.size(), scenario.controllers.size() == 1 ? "" : "s", scenario.duration_s,
+      scenario.rig.muscle.rest_length_m);
+  Grid runs({"load_kg", "controller", "rmse", "mae", "largest", "final", "lag_ms", "overshoot_%",
+             "settling_s", "air_g"},
+            2);
+  std::string failures;
+  for (const auto& run : comparison.runs) {
+    const auto& m = run.metrics;
+    const auto load = fmt::format("{:g}", run.load_kg);
+    if (!run.failure.empty()) {
+      runs.add({load, run.controller, "failed", "-", "-", "-", "-", "-", "-", "-"});
+      failures += fmt::format("  {} at {} kg: {}\n", run.controller, load, run.failure);
+      continue;
+    }
+    runs.add({load, run.controller, ratio(m.rmse), ratio(m.mae), ratio(m.largest_error),
+              fmt::format("{:+.5f}", m.final_error), cell(m.time_lag_s, 1e3, 0), cell(m.overshoot, 100.0, 1),
+              cell(m.settling_time_s, 1.0, 2), cell(m.air_kg, 1e3, 3)});
+  }
+  text += runs.text();
+
+  Grid spreads({"controller", "rmse mean", "lowest", "highest", "spread", "std dev"}, 1);
+  for (const auto& row : comparison.spreads)
+    if (row.rmse)
+      spreads.add({row.controller, ratio(row.rmse->mean), ratio(row.rmse->lowest), ratio(row.rmse->highest),
+                   ratio(row.rmse->width()), ratio(row.rmse->standard_deviation)});
+  text += section("rmse over the loads (spread: highest less lowest)", spreads.text());
+
+  std::string tuned;
+  for (const auto& row : comparison.tuned)
+    tuned += fmt::format(
+        "  {} at {:g} kg: proportional {:.4g} mA, integral_time {:.4g} s, derivative_time {:.4g} s ({} "
+        "runs)\n",
+        row.controller, row.load_kg, row.tuned.gains.proportional_mA, row.tuned.gains.integral_time_s,
+        row.tuned.gains.derivative_time_s, row.tuned.evaluations);
+  text += section("gains tuned", tuned);
+  text += section("contraction", contraction_notes(scenario, comparison));
+  text += section("failed", failures);
+  std::string unmet;
+  for (const auto& line : comparison.unmet) unmet += "  " + line + "\n";
+  text += section("criteria not met", unmet);
+  return text;
+}
+
+std::string table_of(const input::Dataset& dataset, const std::vector<run::ReplayedRun>& runs) {
+  std::string text = fmt::format(
+      "{}: {} run{} replayed; simulated less measured, as contraction ratio (0.001 = {:g} mm)\n\n",
+      dataset.path.string(), runs.size(), runs.size() == 1 ? "" : "s", dataset.rig.muscle.rest_length_m);
+  Grid grid({"run", "load_kg", "rmse", "largest", "mean", "pressure_rmse_bar"}, 1);
+  std::string failures, notes;
+  for (const auto& run : runs) {
+    const auto load = fmt::format("{:g}", run.load_kg);
+    if (!run.failure.empty()) {
+      grid.add({run.id, load, "failed", "-", "-", "-"});
+      failures += fmt::format("  {}: {}\n", run.id, run.failure);
+      continue;
+    }
+    grid.add({run.id, load, ratio(run.rmse), ratio(run.largest_error), fmt::format("{:+.5f}", run.mean_error),
+              cell(run.pressure_rmse_Pa, 1e-5, 4)});
+    notes += contraction_note(dataset.rig, run.recording.largest_contraction_ratio, run.id);
+  }
+  return text + grid.text() + section("contraction", notes) + section("failed", failures);
+}
+
+}  // namespace mckibben::output

@@ -1,0 +1,20 @@
+// Results as text for a terminal: the table a user came for.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <sim/input/dataset.hpp>
+#include <sim/input/scenario.hpp>
+#include <sim/run/compare.hpp>
+#include <sim/run/replay.hpp>
+
+namespace mckibben::output {
+
+/// Loads x controllers, each controller's spread over loads, gains that were tuned, and what to be warned of.
+std::string table_of(const input::Scenario& scenario, const run::Comparison& comparison);
+
+/// Measured against simulated, run by run.
+std::string table_of(const input::Dataset& dataset, const std::vector<run::ReplayedRun>& runs);
+
+}  // namespace mckibben::output

@@ -1,0 +1,57 @@
+// Worker threads that take the next job until there is none.
+#include <algorithm>
+#include <atomic>
+#include <csignal>
+#include <exception>
+#include <thread>
+#include <vector>
+
+#include <sim/run/batch.hpp>
+
+namespace mckibben::run {
+namespace {
+
+std::atomic<bool> asked_to_stop{false};
+static_assert(std::atomic<bool>::is_always_lock_free);
+
+}  // namespace
+
+void catch_interrupts() {
+  std::signal(SIGINT, [](int) {
+    asked_to_stop = true;
+    std::signal(SIGINT, SIG_DFL);  // a second Ctrl-C ends at once
+  });
+}
+
+bool interrupted() {
+  return asked_to_stop;
+}
+
+void for_each_job(std::size_t count, unsigned threads, const std::function<void(std::size_t)>& job,
+                  const std::function<void(std::size_t)>& done) {
+  std::atomic<std::size_t> next{0}, ended{0};
+  std::vector<std::exception_ptr> failures(count);
+  const auto work = [&] {
+    while (!interrupted()) {
+      const std::size_t index = next++;
+      if (index >= count) return;
+      try {
+        job(index);
+      } catch (...) {
+        failures[index] = std::current_exception();
+      }
+      done(++ended);
+    }
+  };
+  const std::size_t wanted = threads == 0 ? std::max(1u, std::thread::hardware_concurrency()) : threads;
+  {
+    std::vector<std::jthread> others;
+    for (std::size_t i = 1; i < std::min(wanted, count); ++i) others.emplace_back(work);
+    work();
+  }
+  for (const auto& failure : failures)
+    if (failure) std::rethrow_exception(failure);
+  if (next < count) throw Interrupted();
+}
+
+}  // namespace mckibben::run

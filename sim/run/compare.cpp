@@ -1,0 +1,185 @@
+// Loads x controllers; see the header.
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include <plant/geometry.hpp>
+#include <sim/engine/failure.hpp>
+#include <sim/run/batch.hpp>
+#include <sim/run/compare.hpp>
+#include <sim/run/simulate.hpp>
+
+namespace mckibben::run {
+namespace {
+
+using input::Scenario;
+
+// What a change of current costs in tuning [contraction ratio for each mA rms and tick]: enough to keep gains
+// from chasing single encoder counts, too little to matter for how the target is followed.
+constexpr double effort_weight = 2e-4;
+
+RunPlan plan_of(const Scenario& scenario, double load_kg, std::uint64_t stream) {
+  return {.rig = scenario.rig,
+          .load_kg = load_kg,
+          .ticks = static_cast<std::size_t>(std::llround(scenario.duration_s / scenario.rig.tick_s)),
+          .engine = scenario.rig.integrator,
+          .noise = scenario.noise,
+          .seed = scenario.seed,
+          .stream = stream,
+          .keep_ledger = true};
+}
+
+Metrics metrics_of(const Scenario& scenario, const std::vector<double>& target, const Recording& recording) {
+  std::vector<double> contraction, current_mA;
+  for (const auto& sample : recording.samples) {
+    contraction.push_back(sample.state.joint.contraction_ratio);
+    current_mA.push_back(sample.current_mA);
+  }
+  return measure({.target = target,
+                  .contraction = contraction,
+                  .current_mA = current_mA,
+                  .tick_s = scenario.rig.tick_s,
+                  .last_change_s = controllers::last_change_s(scenario.target),
+                  .air_kg = recording.ledger.air_drawn_kg});
+}
+
+double median(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  return values[(values.size() - 1) / 2];
+}
+
+class Comparing {
+ public:
+  Comparing(const Scenario& scenario, unsigned threads, const ProgressHook& progress)
+      : scenario_(scenario), threads_(threads), progress_(progress), settings_(scenario.controllers) {
+    const auto ticks = plan_of(scenario, 0.0, 0).ticks;
+    result_.target =
+        controllers::sample(scenario.target, ticks, scenario.rig.tick_s, scenario.rig.muscle.rest_length_m);
+  }
+
+  Comparison operator()() {
+    tune_all();
+    run_all();
+    spread_all();
+    judge();
+    return std::move(result_);
+  }
+
+ private:
+  std::unique_ptr<controllers::Controller> make(const controllers::Settings& settings) const {
+    return controllers::make(settings, knowledge_of(scenario_.rig, result_.target));
+  }
+
+  void tune_all() {
+    std::vector<controllers::PidSettings*> open;
+    for (auto& settings : settings_)
+      if (auto* pid = std::get_if<controllers::PidSettings>(&settings); pid && pid->needs_tuning())
+        open.push_back(pid);
+    result_.tuned.resize(open.size());
+    for_each_job(
+        open.size(), threads_, [&](std::size_t i) { result_.tuned[i] = tune_one(*open[i]); },
+        [&](std::size_t done) { progress_("tuning PID", done, open.size()); });
+  }
+
+  TunedController tune_one(controllers::PidSettings& pid) {
+    const double load_kg = pid.tuning_load_kg.value_or(median(scenario_.loads_kg));
+    const RunPlan plan = plan_of(scenario_, load_kg, 0);
+    const auto with = [&pid](const Gains& gains) {
+      controllers::PidSettings tried = pid;
+      tried.proportional_mA = gains.proportional_mA;
+      tried.integral_time_s = gains.integral_time_s;
+      tried.derivative_time_s = gains.derivative_time_s;
+      return tried;
+    };
+    const auto cost = [&](const Gains& gains) {
+      if (interrupted()) throw Interrupted();
+      const auto controller = make(with(gains));
+      const Recording recording = simulate(plan, *controller);
+      double sum_squared_mA = 0.0;
+      for (std::size_t k = 1; k < recording.samples.size(); ++k) {
+        const double change_mA = recording.samples[k].current_mA - recording.samples[k - 1].current_mA;
+        sum_squared_mA += change_mA * change_mA;
+      }
+      const double effort_mA = std::sqrt(sum_squared_mA / static_cast<double>(recording.samples.size()));
+      return metrics_of(scenario_, result_.target, recording).rmse + effort_weight * effort_mA;
+    };
+    const Tuned tuned = tune(cost, {pid.proportional_mA, pid.integral_time_s, pid.derivative_time_s});
+    pid = with(tuned.gains);
+    return {pid.name, load_kg, tuned};
+  }
+
+  void run_all() {
+    const std::size_t columns = settings_.size(), total = columns * scenario_.loads_kg.size();
+    for (std::size_t i = 0; i < total; ++i)
+      result_.runs.push_back({.load_kg = scenario_.loads_kg[i / columns],
+                              .controller = controllers::name_of(settings_[i % columns]),
+                              .failure = "interrupted before it began"});
+    try {
+      for_each_job(
+          total, threads_, [&](std::size_t i) { run_one(result_.runs[i], settings_[i % columns], i); },
+          [&](std::size_t done) { progress_("simulating", done, total); });
+    } catch (const Interrupted&) {
+      result_.interrupted = true;
+    }
+  }
+
+  void run_one(TrackedRun& run, const controllers::Settings& settings, std::size_t index) const {
+    try {
+      const auto controller = make(settings);
+      run.recording = simulate(plan_of(scenario_, run.load_kg, index + 1), *controller);
+      run.metrics = metrics_of(scenario_, result_.target, run.recording);
+      run.failure.clear();
+    } catch (const engine::NumericalFailure& failure) {
+      run.failure = failure.what();
+    }
+  }
+
+  void spread_all() {
+    for (const auto& settings : settings_) {
+      ControllerSpread row{.controller = controllers::name_of(settings)};
+      std::vector<double> rmse;
+      for (const auto& run : result_.runs)
+        if (run.controller == row.controller && run.failure.empty()) rmse.push_back(run.metrics.rmse);
+      if (!rmse.empty()) row.rmse = spread(rmse);
+      result_.spreads.push_back(std::move(row));
+    }
+  }
+
+  void judge() {
+    for (const auto& criterion : scenario_.criteria) {
+      const auto concerns = [&](const std::string& name) {
+        return criterion.controller.empty() || criterion.controller == name;
+      };
+      const auto check = [&](const std::string& who, const char* what, double value,
+                             std::optional<double> limit) {
+        if (limit && !(value < *limit))
+          result_.unmet.push_back(
+              fmt::format("{}: {} = {:.4g} is not below {:.4g}", who, what, value, *limit));
+      };
+      for (const auto& run : result_.runs) {
+        if (!concerns(run.controller) || !run.failure.empty()) continue;
+        const auto who = fmt::format("{} at {:g} kg", run.controller, run.load_kg);
+        check(who, "rmse", run.metrics.rmse, criterion.rmse_below);
+        check(who, "largest_error", run.metrics.largest_error, criterion.largest_error_below);
+      }
+      for (const auto& row : result_.spreads)
+        if (concerns(row.controller) && row.rmse)
+          check(row.controller, "spread", row.rmse->width(), criterion.spread_below);
+    }
+  }
+
+  const Scenario& scenario_;
+  unsigned threads_;
+  const ProgressHook& progress_;
+  std::vector<controllers::Settings> settings_;
+  Comparison result_;
+};
+
+}  // namespace
+
+Comparison compare(const Scenario& scenario, unsigned threads, const ProgressHook& progress) {
+  return Comparing(scenario, threads, progress)();
+}
+
+}  // namespace mckibben::run

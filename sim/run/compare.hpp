@@ -1,0 +1,54 @@
+// The main job: every load of a scenario under every controller, and how well each followed the target.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <sim/input/scenario.hpp>
+#include <sim/run/metrics.hpp>
+#include <sim/run/recording.hpp>
+#include <sim/run/tune_pid.hpp>
+
+namespace mckibben::run {
+
+/// One load under one controller.
+struct TrackedRun {
+  double load_kg = 0.0;
+  std::string controller;
+  Recording recording{};
+  Metrics metrics{};
+  std::string failure{};  ///< why there is no result; empty if there is one
+};
+
+/// Gains found for a PID that left some open.
+struct TunedController {
+  std::string controller;
+  double load_kg = 0.0;
+  Tuned tuned;
+};
+
+/// One controller over all loads that did not fail; absent if none of its runs ended well.
+struct ControllerSpread {
+  std::string controller;
+  std::optional<Spread> rmse{};
+};
+
+struct Comparison {
+  std::vector<double> target;  ///< contraction ratio at each tick
+  std::vector<TunedController> tuned;
+  std::vector<TrackedRun> runs;  ///< loads in order, for each all controllers in order
+  std::vector<ControllerSpread> spreads;
+  bool interrupted = false;        ///< the user stopped it; runs not begun say so in `failure`
+  std::vector<std::string> unmet;  ///< criteria of the scenario that are not met, in words
+};
+
+/// Hears of progress, from any thread: what is being done, how much of it is done.
+using ProgressHook = std::function<void(const std::string& what, std::size_t done, std::size_t total)>;
+
+/// Tunes what is to be tuned, runs everything on `threads` threads (0: all the machine has) and measures. The
+/// result does not depend on the number of threads. Throws Interrupted if stopped before the first run.
+Comparison compare(const input::Scenario& scenario, unsigned threads, const ProgressHook& progress);
+
+}  // namespace mckibben::run

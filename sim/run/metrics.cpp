@@ -1,0 +1,119 @@
+// Metrics by their definitions; each walks the run once, the lag once for each shift.
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <stdexcept>
+#include <vector>
+
+#include <sim/run/metrics.hpp>
+
+namespace mckibben::run {
+namespace {
+
+constexpr double same_instant_s = 1e-9;
+
+struct Range {
+  double low, high;
+  double width() const { return high - low; }
+};
+
+Range range_of(std::span<const double> values) {
+  const auto [low, high] = std::minmax_element(values.begin(), values.end());
+  return {*low, *high};
+}
+
+void check(const Followed& run) {
+  if (run.target.empty() || run.target.size() != run.contraction.size() ||
+      run.target.size() != run.current_mA.size())
+    throw std::invalid_argument("metrics: columns are empty or differ in length");
+  if (!(run.tick_s > 0.0)) throw std::invalid_argument("metrics: the tick must be above zero");
+}
+
+double mean_square_at_shift(const Followed& run, std::size_t shift) {
+  double sum = 0.0;
+  for (std::size_t k = 0; k < run.target.size(); ++k) {
+    const double error = run.contraction[k] - run.target[k < shift ? 0 : k - shift];
+    sum += error * error;
+  }
+  return sum / static_cast<double>(run.target.size());
+}
+
+}  // namespace
+
+std::optional<double> time_lag_s(const Followed& run) {
+  if (range_of(run.target).width() <= 0.0 || range_of(run.contraction).width() <= 0.0) return std::nullopt;
+  const double duration_s = static_cast<double>(run.target.size() - 1) * run.tick_s;
+  const auto most = static_cast<std::size_t>(std::min(2.0, 0.25 * duration_s) / run.tick_s + 1e-9);
+  std::vector<double> misfit(most + 2);  // one past the limit, so that the parabola has both its neighbours
+  for (std::size_t shift = 0; shift < misfit.size(); ++shift)
+    misfit[shift] = mean_square_at_shift(run, shift);
+  const auto best =
+      static_cast<std::size_t>(std::min_element(misfit.begin(), misfit.end() - 1) - misfit.begin());
+
+  double between = 0.0;
+  if (best > 0) {
+    const double before = misfit[best - 1], after = misfit[best + 1];
+    const double curvature = before - 2.0 * misfit[best] + after;
+    if (curvature > 0.0) between = std::clamp(0.5 * (before - after) / curvature, -0.5, 0.5);
+  }
+  return (static_cast<double>(best) + between) * run.tick_s;
+}
+
+std::optional<double> overshoot(const Followed& run) {
+  const Range range = range_of(run.target);
+  if (range.width() <= 0.0) return std::nullopt;
+  bool moved_up = false, moved_down = false;
+  double largest = 0.0;
+  for (std::size_t k = 1; k < run.target.size(); ++k) {
+    moved_up = moved_up || run.target[k] > run.target[k - 1];
+    moved_down = moved_down || run.target[k] < run.target[k - 1];
+    if (moved_up) largest = std::max(largest, run.contraction[k] - range.high);
+    if (moved_down) largest = std::max(largest, range.low - run.contraction[k]);
+  }
+  return largest / range.width();
+}
+
+std::optional<double> settling_time_s(const Followed& run) {
+  const double band = 0.02 * range_of(run.target).width();
+  if (!run.last_change_s || band <= 0.0) return std::nullopt;
+  std::size_t settled = run.target.size();  // first tick of the unbroken stretch within the band at the end
+  while (settled > 0 && std::abs(run.contraction[settled - 1] - run.target[settled - 1]) <= band) --settled;
+  const double end_s = static_cast<double>(run.target.size() - 1) * run.tick_s;
+  if (settled == run.target.size() || end_s < *run.last_change_s - same_instant_s) return std::nullopt;
+  return std::max(0.0, static_cast<double>(settled) * run.tick_s - *run.last_change_s);
+}
+
+Metrics measure(const Followed& run) {
+  check(run);
+  Metrics metrics;
+  const auto ticks = run.target.size();
+  for (std::size_t k = 0; k < ticks; ++k) {
+    const double error = run.contraction[k] - run.target[k];
+    metrics.rmse += error * error;
+    metrics.mae += std::abs(error);
+    metrics.largest_error = std::max(metrics.largest_error, std::abs(error));
+    if (k > 0) metrics.current_travel_mA += std::abs(run.current_mA[k] - run.current_mA[k - 1]);
+  }
+  metrics.rmse = std::sqrt(metrics.rmse / static_cast<double>(ticks));
+  metrics.mae /= static_cast<double>(ticks);
+  metrics.final_error = run.contraction.back() - run.target.back();
+  metrics.time_lag_s = time_lag_s(run);
+  metrics.overshoot = overshoot(run);
+  metrics.settling_time_s = settling_time_s(run);
+  metrics.air_kg = run.air_kg;
+  return metrics;
+}
+
+Spread spread(std::span<const double> values) {
+  if (values.empty()) throw std::invalid_argument("spread: no values");
+  const auto count = static_cast<double>(values.size());
+  const Range range = range_of(values);
+  Spread spread{range.low, range.high, 0.0, 0.0};
+  for (const double value : values) spread.mean += value / count;
+  double squares = 0.0;
+  for (const double value : values) squares += (value - spread.mean) * (value - spread.mean);
+  if (values.size() > 1) spread.standard_deviation = std::sqrt(squares / (count - 1.0));
+  return spread;
+}
+
+}  // namespace mckibben::run

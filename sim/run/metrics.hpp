@@ -1,0 +1,62 @@
+// How well a target was followed: errors, lag, overshoot and settling of one run, and how far one
+// controller's figure spreads over the loads. Errors are e - target, in contraction ratio, from true (not
+// counted) values.
+#pragma once
+
+#include <optional>
+#include <span>
+
+namespace mckibben::run {
+
+/// One run, tick by tick from time 0.
+struct Followed {
+  std::span<const double> target;       ///< contraction ratio wanted
+  std::span<const double> contraction;  ///< contraction ratio reached
+  std::span<const double> current_mA;
+  double tick_s = 0.0;
+  std::optional<double> last_change_s = std::nullopt;  ///< from here settling counts; none if periodic
+  double air_kg = 0.0;                                 ///< drawn from the supply
+};
+
+struct Metrics {
+  double rmse = 0.0;           ///< root mean square error
+  double mae = 0.0;            ///< mean absolute error
+  double largest_error = 0.0;  ///< largest absolute error
+  double final_error = 0.0;    ///< error at the last tick, with its sign
+  std::optional<double> time_lag_s;
+  std::optional<double> overshoot;
+  std::optional<double> settling_time_s;
+  double current_travel_mA = 0.0;  ///< sum of all changes of current: the controller's effort
+  double air_kg = 0.0;
+};
+
+/// All metrics of a run. Throws std::invalid_argument if it is empty, its columns differ in length, or its
+/// tick is not above zero.
+Metrics measure(const Followed& run);
+
+/// The shift, up to 2 s or a quarter of the run, by which the delayed target fits best (least root mean
+/// square), refined between ticks by a parabola. Before time 0 the target counts as held. None if target or
+/// contraction does not move.
+std::optional<double> time_lag_s(const Followed& run);
+
+/// Largest excursion past the target's own range, as share of that range: above it once the target has moved
+/// up, below it once it has moved down. None for a constant target.
+std::optional<double> overshoot(const Followed& run);
+
+/// Time from the last commanded change until the error stays within 2 % of the target's range. None if it
+/// never does, if the target is periodic or constant.
+std::optional<double> settling_time_s(const Followed& run);
+
+/// One figure of a controller over several loads.
+struct Spread {
+  double lowest = 0.0, highest = 0.0;
+  double mean = 0.0;
+  double standard_deviation = 0.0;  ///< of the sample, n - 1; 0 for a single value
+
+  double width() const { return highest - lowest; }
+};
+
+/// Throws std::invalid_argument if there are no values.
+Spread spread(std::span<const double> values);
+
+}  // namespace mckibben::run

@@ -1,0 +1,30 @@
+// What one run leaves behind: a row for each tick, and sums.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <plant/state.hpp>
+#include <sim/engine/integrator.hpp>
+
+namespace mckibben::run {
+
+/// The rig at one tick, before its current is applied. True values, except the two that are read.
+struct Sample {
+  double time_s;
+  double current_mA;  ///< what the DAC gives from here to the next tick
+  plant::State<double> state;
+  std::int64_t counts;      ///< as the encoder counts
+  double gauge_Pa;          ///< as the gauge shows, if one is fitted
+  double braid_force_N;     ///< F
+  double friction_force_N;  ///< force of the threads on the load, positive upwards
+};
+
+struct Recording {
+  std::vector<Sample> samples;
+  plant::Ledger<double> ledger{};  ///< from the first tick to the last, if it was kept
+  engine::Counters solver;
+  double largest_contraction_ratio = 0.0;
+};
+
+}  // namespace mckibben::run

@@ -1,0 +1,61 @@
+// Replay; see the header.
+#include <algorithm>
+#include <cmath>
+
+#include <controllers/waveform.hpp>
+#include <sim/engine/failure.hpp>
+#include <sim/run/batch.hpp>
+#include <sim/run/replay.hpp>
+#include <sim/run/simulate.hpp>
+
+namespace mckibben::run {
+namespace {
+
+ReplayedRun replay_one(const input::Run& measured, const input::RigFile& rig) {
+  ReplayedRun run{.id = measured.id, .load_kg = measured.load_kg};
+  controllers::RecordedCurrent recorded;
+  recorded.samples_mA = measured.current_mA;
+  const auto controller = recorded.make(knowledge_of(rig, {}));
+  try {
+    run.recording = simulate({.rig = rig,
+                              .load_kg = measured.load_kg,
+                              .ticks = measured.current_mA.size(),
+                              .engine = rig.integrator,
+                              .keep_ledger = true},
+                             *controller);
+  } catch (const engine::NumericalFailure& failure) {
+    run.failure = failure.what();
+    return run;
+  }
+  const double per_count = contraction_per_count(rig);
+  const auto rows = static_cast<double>(measured.current_mA.size());
+  double squares = 0.0, sum = 0.0, pressure_squares = 0.0;
+  for (std::size_t k = 0; k < measured.current_mA.size(); ++k) {
+    const auto& sample = run.recording.samples[k];
+    const double error = static_cast<double>(sample.counts) * per_count - measured.contraction_ratio[k];
+    squares += error * error;
+    sum += error;
+    run.largest_error = std::max(run.largest_error, std::abs(error));
+    if (measured.muscle_pressure_Pa) {
+      const double off_Pa = sample.state.side.muscle_pressure_Pa - (*measured.muscle_pressure_Pa)[k];
+      pressure_squares += off_Pa * off_Pa;
+    }
+  }
+  run.rmse = std::sqrt(squares / rows);
+  run.mean_error = sum / rows;
+  if (measured.muscle_pressure_Pa) run.pressure_rmse_Pa = std::sqrt(pressure_squares / rows);
+  return run;
+}
+
+}  // namespace
+
+std::vector<ReplayedRun> replay(const input::Dataset& dataset, unsigned threads,
+                                const ProgressHook& progress) {
+  std::vector<ReplayedRun> runs(dataset.runs.size());
+  for_each_job(
+      runs.size(), threads, [&](std::size_t i) { runs[i] = replay_one(dataset.runs[i], dataset.rig); },
+      [&](std::size_t done) { progress("replaying", done, runs.size()); });
+  return runs;
+}
+
+}  // namespace mckibben::run

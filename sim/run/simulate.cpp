@@ -1,0 +1,139 @@
+// The tick loop; see the header for the order of things within a tick.
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include <plant/plant.hpp>
+#include <sim/engine/integrator.hpp>
+#include <sim/run/simulate.hpp>
+
+namespace mckibben::run {
+namespace {
+
+/// Draws the noise of one run: the same for the same seed and stream, whatever runs beside it.
+class Disturbance {
+ public:
+  Disturbance(const plant::Noise& noise, std::uint64_t seed, std::uint64_t stream) : noise_(noise) {
+    std::seed_seq sequence{seed & 0xffffffffu, seed >> 32, stream & 0xffffffffu, stream >> 32};
+    random_.seed(sequence);
+  }
+  double jitter() { return noise_.encoder_jitter * draw(); }
+  double gauge_Pa() { return noise_.gauge_Pa * draw(); }
+  double current_mA() { return noise_.current_mA * draw(); }
+
+ private:
+  double draw() { return normal_(random_); }
+
+  plant::Noise noise_;
+  std::mt19937_64 random_;
+  std::normal_distribution<double> normal_;
+};
+
+class Run {
+ public:
+  Run(const RunPlan& plan, controllers::Controller& controller)
+      : plan_(plan),
+        controller_(controller),
+        plant_(plan.rig, plan.load_kg),
+        integrator_(engine::make_integrator(plant_, plan.engine, plan.keep_ledger)),
+        counter_(plan.rig.encoder.wiring, plant::count_height_m(plan.rig.encoder, plan.rig.joint)),
+        disturbance_(plan.noise, plan.seed, plan.stream) {}
+
+  Recording operator()() {
+    Recording recording;
+    recording.samples.reserve(plan_.ticks);
+    settle();
+    for (std::size_t k = 0; k < plan_.ticks; ++k) {
+      recording.samples.push_back(tick(static_cast<std::int64_t>(k)));
+      recording.largest_contraction_ratio =
+          std::max(recording.largest_contraction_ratio, flow_.state.joint.contraction_ratio);
+      if (k + 1 < plan_.ticks) integrate(static_cast<std::int64_t>(k));
+    }
+    recording.ledger = flow_.ledger;
+    recording.solver = integrator_->counters();
+    return recording;
+  }
+
+ private:
+  void settle() {
+    hold(controller_.rest().current_mA);
+    held_.current_speed_mA_per_s = 0.0;
+    flow_.state = plant_.at_rest(held_);
+    if (plant_.has_events()) held_.slip = plant_.slip_from_rest(flow_.state, held_);
+    const auto ticks = std::llround(plan_.rig.settling_time_s / plan_.rig.tick_s);
+    for (std::int64_t k = -ticks; k < 0; ++k) {
+      integrate(k);
+      counts();
+    }
+    flow_.ledger = {};
+  }
+
+  Sample tick(std::int64_t k) {
+    const double time_s = static_cast<double>(k) * plan_.rig.tick_s;
+    const std::int64_t read = counts();
+    const double before_mA = current_mA_;
+    hold(controller_.step({k, time_s, read}).current_mA);
+    held_.current_speed_mA_per_s = (current_mA_ - before_mA) / plan_.rig.tick_s;
+    // The level may have jumped with the current's speed (T 4.6): a load that stuck may be free now.
+    if (plant_.has_events() && held_.slip == plant::Slip::sticking)
+      held_.slip = plant_.slip_from_rest(flow_.state, held_);
+    const auto now = plant_.moment(flow_.state, held_);
+    const double gauge_Pa = flow_.state.side.muscle_pressure_Pa + disturbance_.gauge_Pa();
+    return {time_s,
+            current_mA_,
+            flow_.state,
+            read,
+            plant::gauge_reading_Pa(plan_.rig.gauge, gauge_Pa),
+            now.braid_force_N,
+            now.friction_force_N};
+  }
+
+  std::int64_t counts() {
+    const double ratio = flow_.state.joint.contraction_ratio + disturbance_.jitter();
+    return counter_.count(ratio * plan_.rig.muscle.rest_length_m);
+  }
+
+  void hold(double wanted_mA) {
+    current_mA_ =
+        controller_.already_quantised() ? wanted_mA : plant::dac_output_mA(plan_.rig.dac, wanted_mA);
+    held_.reference_pressure_Pa = plant_.reference_pressure_Pa(current_mA_ + disturbance_.current_mA());
+  }
+
+  void integrate(std::int64_t k) {
+    const double tick_s = plan_.rig.tick_s;
+    integrator_->advance(flow_, held_, static_cast<double>(k) * tick_s, static_cast<double>(k + 1) * tick_s);
+  }
+
+  const RunPlan& plan_;
+  controllers::Controller& controller_;
+  plant::Plant plant_;
+  std::unique_ptr<engine::Integrator> integrator_;
+  plant::PulseCounter counter_;
+  Disturbance disturbance_;
+  engine::Flow flow_;
+  plant::Held held_;
+  double current_mA_ = 0.0;
+};
+
+}  // namespace
+
+Recording simulate(const RunPlan& plan, controllers::Controller& controller) {
+  return Run(plan, controller)();
+}
+
+double contraction_per_count(const plant::Rig& rig) {
+  return plant::count_height_m(rig.encoder, rig.joint) / rig.muscle.rest_length_m;
+}
+
+controllers::Knowledge knowledge_of(const plant::Rig& rig, std::vector<double> target) {
+  return {.contraction_per_count = contraction_per_count(rig),
+          .tick_s = rig.tick_s,
+          .largest_current_mA = rig.dac.largest_current_mA,
+          .target = std::move(target),
+          .model = {rig.muscle.rest_radius_m, rig.muscle.rest_length_m, rig.muscle.braid_angle_rad,
+                    rig.muscle.end_correction},
+          .valve = {rig.valve.zero_current_mA, rig.valve.span_current_mA, rig.valve.zero_pressure_Pa,
+                    rig.valve.span_pressure_Pa}};
+}
+
+}  // namespace mckibben::run

@@ -1,0 +1,113 @@
+// The search: one coordinate for each open gain, the logarithm of it.
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <limits>
+#include <stdexcept>
+#include <vector>
+
+#include <nlopt.hpp>
+
+#include <sim/run/tune_pid.hpp>
+
+namespace mckibben::run {
+namespace {
+
+constexpr double very_bad = 1e12;  // finite, because the simplex computes with it
+
+// Which gains are searched, and the best that was met on the way.
+struct Search {
+  const std::function<double(const Gains&)>& cost;
+  std::vector<double Gains::*> open;
+  Gains gains;
+  Tuned best{{}, std::numeric_limits<double>::infinity(), 0};
+  std::vector<double> best_point{};
+  std::exception_ptr defect{};  // NLopt keeps no exception but its own
+
+  double evaluate() {
+    ++best.evaluations;
+    double value = very_bad;
+    try {
+      value = cost(gains);
+    } catch (const std::runtime_error&) {
+      return very_bad;  // gains with which the simulation fails
+    } catch (...) {
+      defect = std::current_exception();
+      throw;
+    }
+    if (!std::isfinite(value)) return very_bad;
+    if (value < best.cost) {
+      best.cost = value;
+      best.gains = gains;
+    }
+    return std::min(value, very_bad);
+  }
+};
+
+double objective(const std::vector<double>& logarithms, std::vector<double>&, void* data) {
+  auto& search = *static_cast<Search*>(data);
+  for (std::size_t i = 0; i < search.open.size(); ++i) search.gains.*search.open[i] = std::exp(logarithms[i]);
+  const double cost_before = search.best.cost;
+  const double value = search.evaluate();
+  if (search.best.cost < cost_before) search.best_point = logarithms;
+  return value;
+}
+
+void descend(nlopt::opt& simplex, std::vector<double> point, Search& search) {
+  double least = 0.0;
+  try {
+    simplex.optimize(point, least);
+  } catch (const nlopt::roundoff_limited&) {
+    // The best point met is still good.
+  } catch (const std::exception&) {
+    if (search.defect) std::rethrow_exception(search.defect);
+    throw;
+  }
+}
+
+}  // namespace
+
+Tuned tune(const std::function<double(const Gains&)>& cost, const GivenGains& given,
+           const TuningOptions& options) {
+  Search search{cost, {}, options.start};
+  const auto take = [&](const std::optional<double>& value, double Gains::*gain) {
+    if (value)
+      search.gains.*gain = *value;
+    else
+      search.open.push_back(gain);
+  };
+  take(given.proportional_mA, &Gains::proportional_mA);
+  take(given.integral_time_s, &Gains::integral_time_s);
+  take(given.derivative_time_s, &Gains::derivative_time_s);
+
+  if (search.open.empty()) {
+    search.evaluate();
+  } else {
+    const auto logarithms = [&](const Gains& gains) {
+      std::vector<double> values;
+      for (double Gains::*gain : search.open) values.push_back(std::log(gains.*gain));
+      return values;
+    };
+    nlopt::opt simplex(nlopt::LN_NELDERMEAD, static_cast<unsigned>(search.open.size()));
+    simplex.set_min_objective(objective, &search);
+    simplex.set_lower_bounds(logarithms(options.lowest));
+    simplex.set_upper_bounds(logarithms(options.highest));
+    simplex.set_initial_step(std::log(2.0));
+    simplex.set_xtol_abs(options.tolerance);
+    // A simplex can collapse on the rough cost of a counted position; a fresh one at the best point goes on.
+    double cost_before = 0.0;
+    auto point = logarithms(options.start);
+    do {
+      cost_before = search.best.cost;
+      simplex.set_maxeval(options.evaluations - search.best.evaluations);
+      descend(simplex, point, search);
+      point = search.best_point;
+    } while (search.best.cost < (1.0 - options.tolerance) * cost_before &&
+             search.best.evaluations < options.evaluations);
+  }
+  if (!std::isfinite(search.best.cost))
+    throw std::runtime_error("tuning: no gains gave a run that could be simulated");
+  return search.best;
+}
+
+}  // namespace mckibben::run

@@ -1,0 +1,194 @@
+// What a simulated second costs, in right-hand-side times measured in the same run, and which SUNDIALS it ran
+// on.
+//
+// Rides (those of the thesis's campaign): A = 11.138 kg, full sine at 16.7 mA/s; B = 23.406 kg at 8.3 mA/s,
+// which rests on the braid stop in every period. Each line prints its largest error in e against the tightest
+// tolerance.
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <numbers>
+#include <vector>
+
+#include <benchmark/benchmark.h>
+#include <dlfcn.h>
+#include <nvector/nvector_serial.h>
+
+#include <sim/engine/erk_method.hpp>
+#include <sim/engine/versions.hpp>
+
+namespace mckibben::engine {
+namespace {
+
+/// The library's own vector, for comparison.
+struct StockVector {
+  static constexpr int size = plant::state_size;
+  static double* data(N_Vector v) { return NV_DATA_S(v); }
+  static N_Vector make(SUNContext context) { return N_VNew_Serial(size, context); }
+};
+
+struct Ride {
+  double load_kg;
+  int ticks_per_period;
+};
+constexpr Ride rides[] = {{11.138, 200}, {23.406, 400}};
+constexpr int ride_ticks = 800;
+
+double current_mA(const Ride& ride, int tick) {
+  return 10.0 * (1.0 - std::cos(2.0 * std::numbers::pi * tick / ride.ticks_per_period));
+}
+
+std::vector<double> drive(const Ride& ride, const plant::Plant& plant, Integrator& integrator) {
+  Flow flow;
+  plant::Held held;
+  held.reference_pressure_Pa = plant.reference_pressure_Pa(0.0);
+  flow.state = plant.at_rest(held);
+  std::vector<double> e;
+  e.reserve(ride_ticks);
+  for (int k = 0; k < ride_ticks; ++k) {
+    held.reference_pressure_Pa = plant.reference_pressure_Pa(current_mA(ride, k));
+    integrator.advance(flow, held, 0.012 * k, 0.012 * (k + 1));
+    e.push_back(flow.state.joint.contraction_ratio);
+  }
+  return e;
+}
+
+/// Seconds of one right-hand side: mean over the states of a ride, each waiting for the one before.
+double right_hand_side_s() {
+  static const double cost_s = [] {
+    const Ride& ride = rides[0];
+    const plant::Plant plant(plant::Rig{}, ride.load_kg);
+    const auto integrator = make_integrator(plant, Settings{}, false);
+    std::vector<std::array<double, plant::state_size>> states;
+    std::vector<plant::Held> held;
+    Flow flow;
+    plant::Held now;
+    now.reference_pressure_Pa = plant.reference_pressure_Pa(0.0);
+    flow.state = plant.at_rest(now);
+    for (int k = 0; k < ride_ticks; ++k) {
+      now.reference_pressure_Pa = plant.reference_pressure_Pa(current_mA(ride, k));
+      integrator->advance(flow, now, 0.012 * k, 0.012 * (k + 1));
+      Problem<plant::state_size>::store(flow, states.emplace_back().data());
+      held.push_back(now);
+    }
+    Problem<plant::state_size> problem(plant);
+    double best_s = 1.0;
+    for (int trial = 0; trial < 50; ++trial) {
+      double chain = 0.0;
+      const auto start = std::chrono::steady_clock::now();
+      for (std::size_t k = 0; k < states.size(); ++k) {
+        auto y = states[k];
+        y[0] += chain;
+        problem.held = held[k];
+        std::array<double, plant::state_size> dydt{};
+        problem.rates(y.data(), dydt.data());
+        chain = 1e-18 * dydt[0] + 1e-30 * (dydt[1] + dydt[2] + dydt[3] + dydt[4]);
+        benchmark::DoNotOptimize(chain);
+      }
+      const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
+      best_s = std::min(best_s, took.count() / static_cast<double>(states.size()));
+    }
+    return best_s;
+  }();
+  return cost_s;
+}
+
+template <class Make>
+void ride_benchmark(benchmark::State& state, const Make& make) {
+  const Ride& ride = rides[state.range(0)];
+  const plant::Plant plant(plant::Rig{}, ride.load_kg);
+  const auto exact = drive(ride, plant, *make_integrator(plant, {Method::erk, tightest_tolerance}, false));
+  std::vector<double> e;
+  double best_s = 1e9;
+  for (auto _ : state) {
+    const auto integrator = make(plant);
+    const auto start = std::chrono::steady_clock::now();
+    e = drive(ride, plant, *integrator);
+    const double cost_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    best_s = std::min(best_s, cost_s);
+    state.SetIterationTime(cost_s);
+  }
+  double error = 0.0;
+  for (std::size_t k = 0; k < e.size(); ++k) error = std::max(error, std::abs(e[k] - exact[k]));
+  const double simulated_s = ride_ticks * 0.012;
+  state.counters["error_in_e"] = error;
+  state.counters["rhs_times_per_s"] = best_s / right_hand_side_s() / simulated_s;
+  state.counters["times_real_time"] = simulated_s / best_s;
+}
+
+// Tolerance at which both rides stay within 1e-6 in e.
+constexpr double loose = 5e-6;
+
+template <class V>
+void Erk_(benchmark::State& state) {
+  ride_benchmark(state, [](const plant::Plant& plant) { return std::make_unique<Erk<V>>(plant, loose); });
+}
+void Engine_(benchmark::State& state, Method method, bool ledger) {
+  ride_benchmark(state, [&](const plant::Plant& plant) {
+    return make_integrator(plant, {method, Settings{}.tolerance}, ledger);
+  });
+}
+
+BENCHMARK(Erk_<StateVector>)
+    ->Name("erk/error_1e-6/own_vector")
+    ->DenseRange(0, 1)
+    ->UseManualTime()
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK(Erk_<StockVector>)
+    ->Name("erk/error_1e-6/stock_vector")
+    ->DenseRange(0, 1)
+    ->UseManualTime()
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(Engine_, erk_default, Method::erk, false)
+    ->DenseRange(0, 1)
+    ->UseManualTime()
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(Engine_, erk_default_ledger, Method::erk, true)
+    ->DenseRange(0, 1)
+    ->UseManualTime()
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(Engine_, cvode_default, Method::cvode, false)
+    ->DenseRange(0, 1)
+    ->UseManualTime()
+    ->Unit(benchmark::kMillisecond);
+
+/// Nanoseconds for an element of a long vector sum: the library's loop, and the same loop compiled here.
+void print_library() {
+  Dl_info where{};
+  dladdr(reinterpret_cast<void*>(&N_VLinearSum_Serial), &where);
+  const Context context;
+  constexpr int n = 4096, repeats = 2000;
+  const Vector x(N_VNew_Serial(n, context)), y(N_VNew_Serial(n, context)), z(N_VNew_Serial(n, context));
+  N_VConst(1.0, x.get());
+  N_VConst(2.0, y.get());
+  const auto time_ns = [&](const auto& sum) {
+    const auto start = std::chrono::steady_clock::now();
+    for (int i = 0; i < repeats; ++i) sum();
+    return std::chrono::duration<double, std::nano>(std::chrono::steady_clock::now() - start).count() / n /
+           repeats;
+  };
+  const double library_ns = time_ns([&] { N_VLinearSum_Serial(2.0, x.get(), 3.0, y.get(), z.get()); });
+  const double here_ns = time_ns([&] {
+    for (int i = 0; i < n; ++i)
+      NV_Ith_S(z.get(), i) = 2.0 * NV_Ith_S(x.get(), i) + 3.0 * NV_Ith_S(y.get(), i);
+    benchmark::ClobberMemory();
+  });
+  std::printf(
+      "SUNDIALS %s, %s\n  its vector loop takes %.1f times as long as ours: it was built %s optimisation\n",
+      sundials_version().c_str(), where.dli_fname == nullptr ? "linked statically" : where.dli_fname,
+      library_ns / here_ns, library_ns > 2.0 * here_ns ? "without" : "with");
+  std::printf("a right-hand side takes %.1f ns\n", 1e9 * right_hand_side_s());
+}
+
+}  // namespace
+}  // namespace mckibben::engine
+
+int main(int argc, char** argv) {
+  benchmark::Initialize(&argc, argv);
+  mckibben::engine::print_library();
+  benchmark::RunSpecifiedBenchmarks();
+  return 0;
+}

@@ -1,0 +1,45 @@
+// See the header.
+#include "program.hpp"
+
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace mckibben::cli {
+namespace fs = std::filesystem;
+
+Scratch::Scratch() {
+  std::string name = (fs::temp_directory_path() / "mckibben-test.XXXXXX").string();
+  if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no scratch folder");
+  path_ = name;
+}
+
+Scratch::~Scratch() {
+  std::error_code ignored;
+  fs::remove_all(path_, ignored);
+}
+
+std::string read_text(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+void write_text(const fs::path& path, const std::string& text) {
+  std::ofstream(path, std::ios::binary) << text;
+}
+
+Said mckibben(const std::string& arguments, const fs::path& folder) {
+  const Scratch said;
+  const std::string command = "cd '" + folder.string() + "' && '" MCKIBBEN_PROGRAM "' " + arguments + " > '" +
+                              (said / "out").string() + "' 2> '" + (said / "err").string() + "'";
+  const int status = std::system(command.c_str());
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_text(said / "out"), read_text(said / "err")};
+}
+
+}  // namespace mckibben::cli

@@ -1,0 +1,45 @@
+// Runs the built program as a user would and collects what it says.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace mckibben::cli {
+
+struct Said {
+  int status = -1;
+  std::string out, err;
+};
+
+/// Runs `mckibben ARGUMENTS` through the shell, in `folder`.
+Said mckibben(const std::string& arguments, const std::filesystem::path& folder);
+
+/// A folder of its own for each test, gone when the test is over.
+class Scratch {
+ public:
+  Scratch();
+  Scratch(const Scratch&) = delete;
+  Scratch& operator=(const Scratch&) = delete;
+  ~Scratch();
+  operator const std::filesystem::path&() const { return path_; }
+  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+std::string read_text(const std::filesystem::path& path);
+void write_text(const std::filesystem::path& path, const std::string& text);
+
+/// A scenario that takes no time: one load, one waveform, one second.
+inline constexpr const char* quick_scenario =
+    "schema: mckibben-scenario/1\n"
+    "loads: [11.138 kg, 16.138 kg]\n"
+    "duration: 1 s\n"
+    "target: {kind: sine, mean: 0.05, amplitude: 0.02, period: 1 s}\n"
+    "controllers:\n"
+    "  - {kind: sine_current, low: 5 mA, high: 9 mA, period: 1 s}\n"
+    "  - {kind: static_inverse, assumed_load: 14 kg}\n"
+    "noise: {encoder_jitter: 1e-4}\n";
+
+}  // namespace mckibben::cli

@@ -1,0 +1,138 @@
+// The verbs run and replay from end to end: shipped scenarios, what is written, the same bytes from any
+// number of threads, and that a replayed simulation finds itself.
+#include <algorithm>
+#include <set>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <sim/input/fields_json.hpp>
+
+#include "program.hpp"
+
+namespace mckibben::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using input::Json;
+
+std::vector<std::string> shipped_scenarios() {
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator(MCKIBBEN_SOURCE_DIR "/scenarios"))
+    if (entry.path().extension() == ".yaml") names.push_back(entry.path().stem().string());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+class ShippedScenario : public testing::TestWithParam<std::string> {};
+
+TEST_P(ShippedScenario, RunsFromEndToEnd) {
+  const Scratch scratch;
+  const auto said = mckibben("run '" MCKIBBEN_SOURCE_DIR "/scenarios/" + GetParam() + ".yaml'", scratch);
+  EXPECT_EQ(said.status, 0) << said.err;
+  const fs::path folder = scratch / "out/" / GetParam();
+  EXPECT_EQ(read_text(folder / "table.txt"), said.out);
+  EXPECT_EQ(read_text(folder / "tracking.svg").rfind("<svg", 0), 0u);
+  const Json document = Json::parse(read_text(folder / "run.json"));
+  EXPECT_EQ(document.at("schema"), "mckibben-run/1");
+  const auto& scenario = document.at("scenario");
+  EXPECT_EQ(document.at("runs").size(), scenario.at("loads").size() * scenario.at("controllers").size());
+  EXPECT_EQ(document.at("input_files").at(0).at("sha256").get<std::string>().size(), 64u);
+  for (const auto& run : document.at("runs")) {
+    EXPECT_GE(run.at("rmse").get<double>(), 0.0);
+    EXPECT_LE(run.at("rmse").get<double>(), run.at("largest_error").get<double>());
+    const std::string csv = read_text(folder / run.at("file").get<std::string>());
+    EXPECT_EQ(csv.rfind("time_s,current_mA,contraction_ratio,contraction_speed_per_s,valve_pressure_bar,"
+                        "muscle_pressure_bar,encoder_contraction_ratio",
+                        0),
+              0u);
+    EXPECT_EQ(csv.find("nan"), std::string::npos);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, ShippedScenario, testing::ValuesIn(shipped_scenarios()),
+                         [](const auto& p) { return p.param; });
+
+TEST(FiveLoads, PidFollowsEveryLoadBetterThanTheStaticInverse) {
+  const Scratch scratch;
+  const auto said = mckibben("run '" MCKIBBEN_SOURCE_DIR "/scenarios/five_loads.yaml' --json", scratch);
+  ASSERT_EQ(said.status, 0) << said.err;
+  const Json document = Json::parse(said.out);
+  ASSERT_EQ(document.at("runs").size(), 10u);
+  for (std::size_t i = 0; i < 10; i += 2) {
+    EXPECT_EQ(document["runs"][i].at("controller"), "open_loop");
+    EXPECT_LT(document["runs"][i + 1].at("rmse").get<double>(),
+              0.5 * document["runs"][i].at("rmse").get<double>());
+  }
+}
+
+TEST(Run, GivesTheSameBytesFromAnyNumberOfThreads) {
+  const Scratch scratch;
+  write_text(scratch / "quick.yaml", quick_scenario);
+  ASSERT_EQ(mckibben("run quick.yaml --out one --threads 1", scratch).status, 0);
+  ASSERT_EQ(mckibben("run quick.yaml --out four --threads 4", scratch).status, 0);
+  std::set<std::string> names;
+  for (const auto& entry : fs::directory_iterator(scratch / "one"))
+    names.insert(entry.path().filename().string());
+  EXPECT_GE(names.size(), 7u);
+  for (const auto& name : names)
+    EXPECT_EQ(read_text(scratch / "one" / name), read_text(scratch / "four" / name)) << name;
+}
+
+TEST(Run, SeedChangesWhatChanceDoes) {
+  const Scratch scratch;
+  write_text(scratch / "quick.yaml", quick_scenario);
+  for (const char* seed : {"1", "2"})
+    ASSERT_EQ(mckibben(std::string("run quick.yaml --out s") + seed + " --seed " + seed, scratch).status, 0);
+  const std::string csv = "11.138kg_sine_current.csv";
+  EXPECT_NE(read_text(scratch / "s1" / csv), read_text(scratch / "s2" / csv));
+  EXPECT_EQ(Json::parse(read_text(scratch / "s2/run.json")).at("seed"), 2);
+}
+
+TEST(Run, ItsResolvedScenarioGivesTheSameResultAgain) {
+  const Scratch scratch;
+  write_text(scratch / "quick.yaml", quick_scenario);
+  ASSERT_EQ(mckibben("run quick.yaml --out first", scratch).status, 0);
+  write_text(scratch / "resolved.yaml",
+             Json::parse(read_text(scratch / "first/run.json")).at("scenario").dump(2));
+  ASSERT_EQ(mckibben("run resolved.yaml --out again", scratch).status, 0);
+  EXPECT_EQ(read_text(scratch / "first/table.txt"), read_text(scratch / "again/table.txt"));
+}
+
+TEST(Replay, OfASimulatedRunFindsItself) {
+  const Scratch scratch;
+  write_text(scratch / "quick.yaml", quick_scenario);
+  ASSERT_EQ(mckibben("run quick.yaml --out sim", scratch).status, 0);
+  // The simulation, read as a measurement: the true contraction ratio stands where a counted one would.
+  write_text(scratch / "dataset.yaml",
+             "schema: mckibben-dataset/1\nrig: thesis\nruns:\n"
+             "  - {id: a, file: sim/11.138kg_sine_current.csv, load: 11.138 kg}\n"
+             "  - {id: b, file: sim/16.138kg_sine_current.csv, load: 16.138 kg}\n");
+  const auto said = mckibben("replay . --out back --json", scratch);
+  ASSERT_EQ(said.status, 0) << said.err;
+  const Json document = Json::parse(said.out);
+  for (const auto& run : document.at("runs")) {
+    EXPECT_LT(run.at("largest_error").get<double>(), 4.4e-4);  // a count
+    EXPECT_LT(run.at("pressure_rmse_bar").get<double>(), 1e-12);
+  }
+  EXPECT_EQ(document.at("input_files").size(), 3u);
+  EXPECT_EQ(read_text(scratch / "back/a.csv").rfind("time_s,current_mA,contraction_ratio,", 0), 0u);
+}
+
+TEST(Replay, OnAnotherRigShowsTheDifference) {
+  const Scratch scratch;
+  write_text(scratch / "quick.yaml", quick_scenario);
+  ASSERT_EQ(mckibben("run quick.yaml --out sim", scratch).status, 0);
+  write_text(
+      scratch / "dataset.yaml",
+      "schema: mckibben-dataset/1\nruns: [{id: a, file: sim/11.138kg_sine_current.csv, load: 11.138 kg}]\n");
+  write_text(scratch / "thin.yaml", "schema: mckibben-rig/1\nmuscle: {rest_radius: 7 mm}\n");
+  const auto said = mckibben("replay dataset.yaml --rig thin.yaml --out thin --json", scratch);
+  ASSERT_EQ(said.status, 0) << said.err;
+  EXPECT_GT(Json::parse(said.out).at("runs").at(0).at("rmse").get<double>(), 0.005);
+  EXPECT_EQ(Json::parse(said.out).at("input_files").size(), 3u);
+}
+
+}  // namespace
+}  // namespace mckibben::cli

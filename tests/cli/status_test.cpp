@@ -1,0 +1,146 @@
+// Exit statuses, where words go, and what becomes of folders that are already there.
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include <sim/input/fields_json.hpp>
+
+#include "program.hpp"
+
+namespace mckibben::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Program : public testing::Test {
+ protected:
+  void SetUp() override { write_text(scratch / "quick.yaml", quick_scenario); }
+  Said run(const std::string& arguments) { return mckibben(arguments, scratch); }
+  Scratch scratch;
+};
+
+TEST_F(Program, HelpIsNotAnError) {
+  for (const char* arguments : {"--help", "run --help", "replay --help", "check --help", "schema --help"}) {
+    const auto said = run(arguments);
+    EXPECT_EQ(said.status, 0) << arguments;
+    EXPECT_NE(said.out.find("xample"), std::string::npos) << arguments;
+  }
+  EXPECT_EQ(run("--version").out, "mckibben " MCKIBBEN_VERSION "\n");
+}
+
+TEST_F(Program, UsageErrorsAre64) {
+  for (const char* arguments :
+       {"", "fly", "run", "run quick.yaml --threads 0", "run quick.yaml --threads many",
+        "run quick.yaml --frobnicate", "run quick.yaml more.yaml", "schema kitchen"}) {
+    const auto said = run(arguments);
+    EXPECT_EQ(said.status, 64) << arguments;
+    EXPECT_EQ(said.out, "") << arguments;
+    EXPECT_NE(said.err, "") << arguments;
+  }
+}
+
+TEST_F(Program, BadInputIs65AndNothingIsRun) {
+  write_text(scratch / "bad.yaml", std::string(quick_scenario) + "sede: 3\nduration: 1 s\n");
+  const auto said = run("run bad.yaml");
+  EXPECT_EQ(said.status, 65);
+  EXPECT_EQ(said.out, "");
+  EXPECT_NE(said.err.find("bad.yaml:9:1: error: "), std::string::npos) << said.err;
+  EXPECT_NE(said.err.find("did you mean seed"), std::string::npos) << said.err;
+  EXPECT_NE(said.err.find("bad.yaml:10:1: error: "), std::string::npos) << said.err;  // all errors at once
+  EXPECT_FALSE(fs::exists(scratch / "out"));
+}
+
+TEST_F(Program, MissingInputIs66) {
+  EXPECT_EQ(run("run nowhere.yaml").status, 66);
+  EXPECT_EQ(run("replay nowhere").status, 66);
+  EXPECT_EQ(run("check quick.yaml nowhere.yaml").status, 66);
+}
+
+TEST_F(Program, AnUnmetCriterionIs1) {
+  write_text(scratch / "strict.yaml", std::string(quick_scenario) + "criteria: [{rmse_below: 1e-9}]\n");
+  const auto said = run("run strict.yaml");
+  EXPECT_EQ(said.status, 1);
+  EXPECT_NE(said.out.find("criteria not met"), std::string::npos);
+  EXPECT_TRUE(fs::exists(scratch / "out/strict/run.json"));
+}
+
+// A load that a thread of a muscle cannot stop: it falls past the range of the laws.
+TEST_F(Program, ANumericalFailureIs70AndNamesTimeStateAndCause) {
+  write_text(scratch / "fall.yaml",
+             "schema: mckibben-scenario/1\nrig: {muscle: {stop_stiffness: 1e3 N/m, stop_damping: 0 s/m}}\n"
+             "loads: [400 kg, 11.138 kg]\nduration: 1 s\ntarget: {kind: steps, start: 0.01, moves: []}\n"
+             "controllers: [{kind: step_current, moves: []}]\n");
+  const auto said = run("run fall.yaml");
+  EXPECT_EQ(said.status, 70);
+  EXPECT_NE(said.out.find("integration failed at t = "), std::string::npos) << said.out;
+  EXPECT_NE(said.out.find("contraction_ratio = "), std::string::npos);
+  EXPECT_TRUE(fs::exists(scratch / "out/fall/11.138kg_step_current.csv"));  // the sound run is not lost
+}
+
+TEST_F(Program, WhatCannotBeWrittenIs74) {
+  write_text(scratch / "file", "mine");
+  EXPECT_EQ(run("run quick.yaml --out file").status, 74);
+  EXPECT_EQ(run("run quick.yaml --out file/below").status, 74);
+  EXPECT_EQ(read_text(scratch / "file"), "mine");
+  EXPECT_EQ(run("run quick.yaml --json > /dev/full; exit $?; true").status, 74);
+}
+
+TEST_F(Program, ResultsAreSwappedInWhole) {
+  ASSERT_EQ(run("run quick.yaml --out r").status, 0);
+  const auto before = fs::last_write_time(scratch / "r/run.json");
+  ASSERT_EQ(run("run quick.yaml --out r").status, 0);
+  EXPECT_NE(fs::last_write_time(scratch / "r/run.json"), before);
+  int entries = 0;  // quick.yaml and r: no leftovers
+  for ([[maybe_unused]] const auto& entry : fs::directory_iterator(static_cast<const fs::path&>(scratch)))
+    ++entries;
+  EXPECT_EQ(entries, 2);
+}
+
+TEST_F(Program, NothingOfTheUsersIsLost) {
+  ASSERT_EQ(run("run quick.yaml --out r").status, 0);
+  write_text(scratch / "r/notes.txt", "mine");
+  const auto said = run("run quick.yaml --out r");
+  EXPECT_EQ(said.status, 0);
+  EXPECT_EQ(read_text(scratch / "r.old-1/notes.txt"), "mine");
+  EXPECT_FALSE(fs::exists(scratch / "r/notes.txt"));
+  EXPECT_NE(said.err.find("r.old-1"), std::string::npos);
+}
+
+TEST_F(Program, AFailedRunLeavesEarlierResultsAlone) {
+  ASSERT_EQ(run("run quick.yaml --out r").status, 0);
+  const std::string before = read_text(scratch / "r/run.json");
+  write_text(scratch / "quick.yaml", "schema: mckibben-scenario/1\n");
+  EXPECT_EQ(run("run quick.yaml --out r").status, 65);
+  EXPECT_EQ(read_text(scratch / "r/run.json"), before);
+}
+
+TEST_F(Program, CheckTellsTheKindsApart) {
+  write_text(scratch / "rig.yaml", "schema: mckibben-rig/1\nmuscle: {rest_length: 250 mm}\n");
+  write_text(scratch / "odd.yaml", "schema: mckibben-kitchen/1\n");
+  EXPECT_EQ(run("check quick.yaml rig.yaml").out, "quick.yaml: ok\nrig.yaml: ok\n");
+  const auto said = run("check rig.yaml odd.yaml --json");
+  EXPECT_EQ(said.status, 65);
+  const auto document = input::Json::parse(said.out);
+  EXPECT_EQ(document.at("files").at(0).at("ok"), true);
+  EXPECT_EQ(document.at("files").at(1).at("problems").at(0).at("line"), 1);
+}
+
+TEST_F(Program, ShippedThesisRigIsTheBuiltInOne) {
+  const auto said = run("schema rig --format yaml");
+  EXPECT_EQ(said.status, 0);
+  // The shipped file is this text under a heading.
+  const std::string shipped = read_text(MCKIBBEN_SOURCE_DIR "/scenarios/rigs/thesis.yaml");
+  EXPECT_NE(shipped.find(said.out), std::string::npos);
+  write_text(scratch / "thesis.yaml", said.out);
+  EXPECT_EQ(run("check thesis.yaml").status, 0);
+}
+
+TEST_F(Program, TheReferencePageIsWhatTheProgramPrints) {
+  const std::string page = read_text(MCKIBBEN_SOURCE_DIR "/docs/reference.md");
+  for (const char* kind : {"scenario", "rig", "dataset"})
+    EXPECT_NE(page.find(run(std::string("schema ") + kind + " --format markdown").out), std::string::npos)
+        << "docs/reference.md is out of date: see docs/testing.md";
+}
+
+}  // namespace
+}  // namespace mckibben::cli

@@ -1,0 +1,97 @@
+// Form of the messages, carets under tabs and accents, and suggestions.
+#include <gtest/gtest.h>
+
+#include <sim/input/diagnostics.hpp>
+#include <sim/input/hash.hpp>
+#include <sim/input/suggest.hpp>
+
+namespace mckibben::input {
+namespace {
+
+std::string message_at(const std::string& text, Place place) {
+  const Source source("a.yaml", text, "");
+  Problems problems;
+  problems.error(source, place, "bad");
+  return to_text(problems.sorted());
+}
+
+TEST(Diagnostics, FileLineColumnExcerptCaret) {
+  EXPECT_EQ(message_at("x: 1\nrest: 9 m\n", {2, 7}), "a.yaml:2:7: error: bad\nrest: 9 m\n      ^");
+  EXPECT_EQ(message_at("x:\t1\r\n", {1, 4}), "a.yaml:1:4: error: bad\nx:\t1\n  \t^");
+  EXPECT_EQ(message_at("\xC3\xA9: 1\n", {1, 4}), "a.yaml:1:4: error: bad\n\xC3\xA9: 1\n   ^");
+  EXPECT_EQ(message_at("x", {1, 3}), "a.yaml:1:3: error: bad\nx\n  ^");
+}
+
+TEST(Diagnostics, AllErrorsInOrderAndWarningsDoNotThrow) {
+  const Source source("a.yaml", "one\ntwo\n", "");
+  Problems problems;
+  problems.warning(source, {2, 1}, "odd");
+  EXPECT_NO_THROW(problems.raise());
+  problems.error(source, {2, 1}, "second");
+  problems.error(source, {1, 1}, "first");
+  try {
+    problems.raise();
+    FAIL();
+  } catch (const BadInput& error) {
+    ASSERT_EQ(error.problems().size(), 3u);
+    EXPECT_EQ(error.problems()[0].message, "first");
+    EXPECT_NE(std::string(error.what()).find("a.yaml:2:1: warning: odd"), std::string::npos);
+  }
+}
+
+TEST(Diagnostics, OfVeryManyTheFirstHundredAndTheNumberOfTheRest) {
+  const Source source("a.yaml", "one\n", "");
+  Problems problems;
+  for (int i = 0; i < 130; ++i) problems.error(source, {1, 1}, "bad");
+  ASSERT_EQ(problems.sorted().size(), 101u);
+  EXPECT_EQ(problems.sorted().back().message, "and 30 more problems");
+}
+
+TEST(Diagnostics, OnlyMissingFilesAreMissingInput) {
+  const Source source("a.yaml", "one\n", "");
+  Problems problems;
+  problems.missing_file(source, {}, "gone");
+  EXPECT_THROW(problems.raise(), MissingInput);
+  problems.error(source, {}, "bad too");
+  EXPECT_THROW(problems.raise(), BadInput);
+  EXPECT_THROW(Source::load("no/such/file", 10), MissingInput);
+  EXPECT_THROW(Source::load(MCKIBBEN_SOURCE_DIR, 10), MissingInput);
+}
+
+TEST(Diagnostics, BytesThatAreNotText) {
+  const auto bad_at = [](const std::string& text) { return Source("a", text, "").first_bad_byte(); };
+  EXPECT_FALSE(bad_at("\xEF\xBB\xBFplain \xC2\xB5 \xE2\x82\xAC \xF0\x9F\x98\x80\n"));
+  for (const char* text :
+       {"a\nb\xFF", "a\nb\xC0\xAF", "a\nb\xED\xA0\x80", "a\nb\xF5\x80\x80\x80", "a\nb\xC3"}) {
+    const auto place = bad_at(text);
+    ASSERT_TRUE(place) << text;
+    EXPECT_EQ(place->line, 2u);
+    EXPECT_EQ(place->column, 2u);
+  }
+  EXPECT_TRUE(bad_at(std::string("a\0b", 3)));
+}
+
+TEST(Suggest, DistanceCountsSwapsOnce) {
+  EXPECT_EQ(edit_distance("", "abc"), 3u);
+  EXPECT_EQ(edit_distance("friction", "firction"), 1u);
+  EXPECT_EQ(edit_distance("length", "lenght"), 1u);
+  EXPECT_EQ(edit_distance("kitten", "sitting"), 3u);
+}
+
+TEST(Suggest, OnlyWhatIsNear) {
+  constexpr std::string_view known[] = {"rest_length", "rest_radius", "law"};
+  EXPECT_EQ(nearest("rest_lenght", known), "rest_length");
+  EXPECT_EQ(nearest("lwa", known), "law");
+  EXPECT_EQ(nearest("temperature", known), std::nullopt);
+  EXPECT_EQ(nearest("x", known), std::nullopt);
+  EXPECT_EQ(did_you_mean("radius", known), "");
+  EXPECT_EQ(did_you_mean("rest_radus", known), "; did you mean rest_radius?");
+}
+
+TEST(Hash, PublishedVectors) {  // FIPS 180-2, appendix B
+  EXPECT_EQ(sha256_hex(""), "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
+  EXPECT_EQ(sha256_hex("abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+}
+
+}  // namespace
+}  // namespace mckibben::input

@@ -1,0 +1,120 @@
+// Scenarios: what is read, what is left at its default, and that reading, writing and reading again changes
+// no bit.
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include <sim/input/yaml_writer.hpp>
+
+#include "good_scenario.hpp"
+
+namespace mckibben::input {
+namespace {
+
+TEST(Scenario, ReadsEveryKindOfField) {
+  const Scenario scenario = read_text(good_scenario);
+  EXPECT_EQ(scenario.name, "five_loads");
+  EXPECT_DOUBLE_EQ(scenario.rig.muscle.rest_length_m, 0.3);
+  EXPECT_DOUBLE_EQ(scenario.rig.muscle.braid_angle_rad, 21.0 * std::numbers::pi / 180.0);
+  EXPECT_EQ(scenario.rig.friction.law, plant::FrictionLaw::area);
+  EXPECT_TRUE(scenario.rig.gauge.fitted);
+  EXPECT_DOUBLE_EQ(scenario.rig.gas.temperature_K, 291.65);
+  EXPECT_DOUBLE_EQ(scenario.loads_kg.at(1), 13.87);
+  const auto& target = std::get<controllers::MinimumJerk>(scenario.target);
+  EXPECT_TRUE(target.moves.at(0).to.in_metres);
+  EXPECT_DOUBLE_EQ(target.moves.at(0).to.value, 0.03);
+  EXPECT_FALSE(target.moves.at(1).to.in_metres);
+  const auto& pid = std::get<controllers::PidSettings>(scenario.controllers.at(0));
+  EXPECT_DOUBLE_EQ(pid.proportional_mA.value(), 100.1);
+  EXPECT_FALSE(pid.derivative_time_s);
+  EXPECT_EQ(std::get<controllers::StepCurrent>(scenario.controllers.at(3)).moves.at(1).to_mA, 4.0);
+  EXPECT_DOUBLE_EQ(scenario.noise.gauge_Pa, 400.0);
+  EXPECT_EQ(scenario.seed, 18446744073709551615U);
+  EXPECT_EQ(scenario.rig.integrator.method, engine::Method::cvode);
+  EXPECT_DOUBLE_EQ(scenario.criteria.at(1).spread_below.value(), 0.05);
+}
+
+TEST(Scenario, LeavesTheRestAtItsDefault) {
+  const RigFile thesis;
+  const Scenario scenario = read_text(good_scenario);
+  EXPECT_EQ(scenario.rig.muscle.rest_radius_m, thesis.muscle.rest_radius_m);
+  EXPECT_EQ(scenario.rig.valve.conductance_m3_per_s_Pa, thesis.valve.conductance_m3_per_s_Pa);
+  EXPECT_EQ(scenario.rig.tick_s, thesis.tick_s);
+  EXPECT_EQ(controllers::name_of(scenario.controllers.at(1)), "static_inverse");
+}
+
+TEST(Scenario, ResolvedReadsBackBitForBit) {
+  const std::string once = scenario_json(read_text(good_scenario)).dump(2);
+  const std::string twice = scenario_json(read_text(once)).dump(2);
+  EXPECT_EQ(once, twice);  // shortest digits that read back: equal texts are equal bits
+}
+
+TEST(Scenario, YamlReadsBackBitForBit) {
+  const Scenario scenario = read_text(good_scenario);
+  EXPECT_EQ(scenario_json(read_text(to_yaml(scenario_json(scenario)))).dump(),
+            scenario_json(scenario).dump());
+}
+
+TEST(Yaml, QuotesWhatYamlWouldMisread) {
+  const Json object{{"a", "0.3 m"},
+                    {"b", "true"},
+                    {"c", "12"},
+                    {"d", "x: y"},
+                    {"e", ""},
+                    {"f", {"-1 s2/mA2", "4 %"}},
+                    {"g", {{"h", 1e-7}}},
+                    {"i", {Json{{"j", 1}, {"k", false}}}}};
+  EXPECT_EQ(to_yaml(object),
+            "a: 0.3 m\nb: \"true\"\nc: \"12\"\nd: \"x: y\"\ne: \"\"\nf: [-1 s2/mA2, 4 %]\n"
+            "g:\n  h: 1e-07\ni:\n  - j: 1\n    k: false\n");
+}
+
+TEST(Scenario, NameComesFromTheFile) {
+  std::string text = good_scenario;
+  text.erase(text.find("name: five_loads"), std::string_view("name: five_loads").size());
+  std::vector<Problem> warnings;
+  EXPECT_EQ(read_scenario(Source("some/where/my loads.yaml", text, ""), warnings).name, "my_loads");
+}
+
+TEST(Scenario, WarnsOfRisk) {
+  std::string text = good_scenario;
+  const std::string height = "to: 0.05";
+  text.replace(text.find(height), height.size(), "to: 0.25");
+  std::vector<Problem> warnings;
+  read_text(text, &warnings);
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_EQ(warnings[0].severity, Severity::warning);
+  EXPECT_EQ(warnings[0].place.line, 13u);
+  EXPECT_NE(warnings[0].message.find("risk to the muscle (T 2.3)"), std::string::npos);
+}
+
+TEST(Scenario, RecordedCurrentIsLoaded) {
+  const std::string text = good_scenario.substr(0, good_scenario.find("noise:")) +
+                           "  - {kind: recorded_current, file: tests/bad/good.csv}\n";
+  std::vector<Problem> warnings;
+  const Scenario scenario = read_scenario(Source("test.yaml", text, MCKIBBEN_SOURCE_DIR), warnings);
+  const auto& recorded = std::get<controllers::RecordedCurrent>(scenario.controllers.back());
+  EXPECT_EQ(recorded.samples_mA, (std::vector<double>{4.0, 4.0}));
+}
+
+TEST(Rig, ResolvedReadsBackBitForBit) {
+  RigFile rig;
+  rig.muscle.rest_radius_m = 0.0075 * (1.0 + 1e-15);
+  rig.encoder.wiring = plant::EncoderWiring::crosswise;
+  const YamlFile file = parse_yaml(Source("rig.yaml", to_json(rig).dump(), ""));
+  RigFile read;
+  Problems problems;
+  Spelling<RigFile>::read(file.source, file.root, read, problems);
+  EXPECT_EQ(problems.errors(), 0u);
+  EXPECT_EQ(rig_json(read).dump(), rig_json(rig).dump());
+  EXPECT_EQ(read.muscle.rest_radius_m, rig.muscle.rest_radius_m);
+}
+
+TEST(Rig, ShippedByName) {
+  std::vector<InputFile> inputs;
+  EXPECT_EQ(rig_json(read_rig("thesis", inputs)).dump(), rig_json(RigFile{}).dump());
+  EXPECT_THROW(read_rig("no/such/rig.yaml", inputs), MissingInput);
+}
+
+}  // namespace
+}  // namespace mckibben::input

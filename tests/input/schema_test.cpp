@@ -1,0 +1,72 @@
+// The JSON Schema and the documentation's tables know every key that the reader knows, because all come from
+// one list.
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include <sim/input/dataset.hpp>
+#include <sim/input/field_table.hpp>
+#include <sim/input/json_schema.hpp>
+
+#include "good_scenario.hpp"
+
+namespace mckibben::input {
+namespace {
+
+void collect_keys(const Json& value, std::set<std::string>& keys) {
+  if (value.is_object())
+    for (const auto& [key, inside] : value.items()) {
+      keys.insert(key);
+      collect_keys(inside, keys);
+    }
+  if (value.is_array())
+    for (const Json& each : value) collect_keys(each, keys);
+}
+
+void collect_properties(const Json& schema, std::set<std::string>& keys) {
+  if (schema.is_object())
+    for (const auto& [word, inside] : schema.items()) {
+      if (word == "properties")
+        for (const auto& [key, ignored] : inside.items()) keys.insert(key);
+      collect_properties(inside, keys);
+    }
+  if (schema.is_array())
+    for (const Json& each : schema) collect_properties(each, keys);
+}
+
+TEST(JsonSchema, HoldsEveryKeyOfAResolvedScenario) {
+  std::set<std::string> written, known;
+  collect_keys(scenario_json(read_text(good_scenario)), written);
+  collect_properties(json_schema(scenario_schema, "Scenario", list_fields<Scenario>()), known);
+  EXPECT_GT(written.size(), 80u);
+  for (const std::string& key : written) EXPECT_TRUE(known.contains(key)) << key;
+}
+
+TEST(JsonSchema, SaysWhatIsRequiredAndAllowed) {
+  const Json schema = json_schema(scenario_schema, "Scenario", list_fields<Scenario>());
+  EXPECT_EQ(schema["required"], (Json{"schema", "loads", "target", "duration", "controllers"}));
+  EXPECT_EQ(schema["properties"]["schema"]["const"], "mckibben-scenario/1");
+  EXPECT_EQ(schema["additionalProperties"], false);
+  EXPECT_EQ(schema["properties"]["target"]["oneOf"].size(), std::variant_size_v<controllers::Target>);
+  EXPECT_EQ(schema["properties"]["target"]["oneOf"][0]["properties"]["kind"]["const"], "steps");
+  const Json& rig = schema["properties"]["rig"]["oneOf"];
+  EXPECT_EQ(rig[1]["type"], "string");
+  EXPECT_EQ(rig[0]["properties"]["friction"]["properties"]["law"]["enum"].size(), 4u);
+  EXPECT_EQ(rig[0]["properties"]["dac"]["properties"]["bits"]["maximum"], 24);
+  EXPECT_EQ(rig[0]["properties"]["muscle"]["properties"]["braid_angle"]["description"],
+            "angle between thread and axis at rest, alpha0 (T 2.6); 5 deg to 50 deg");
+}
+
+TEST(FieldTable, HasARowForEachFieldAndASectionForEachPart) {
+  const std::string table = field_table("Rig", list_fields<RigFile>());
+  EXPECT_NE(table.find("| `tick` | s | 0.012 s | 0.0001 s to 1 s | time between two readings"),
+            std::string::npos);
+  EXPECT_NE(table.find("## Rig: muscle\n"), std::string::npos);
+  EXPECT_NE(table.find("| `bits` |  | 12 | 4 to 24 |"), std::string::npos);
+  const std::string runs = field_table("Data set", list_fields<Dataset>());
+  EXPECT_NE(runs.find("| `load` | kg | required | 0.01 kg to 500 kg | mass of the load |"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace mckibben::input

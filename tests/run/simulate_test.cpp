@@ -1,0 +1,166 @@
+// The tick loop: order of things in a tick, the static hysteresis loop, instruments, chance, and no heap on
+// the way.
+#include <cmath>
+#include <cstring>
+
+#include <gtest/gtest.h>
+
+#include <controllers/settings.hpp>
+#include <plant/plant.hpp>
+#include <sim/run/simulate.hpp>
+
+#include "heap_watch.hpp"
+
+namespace mckibben::run {
+namespace {
+
+RunPlan plan(double load_kg, std::size_t ticks) {
+  RunPlan s;
+  s.load_kg = load_kg;
+  s.ticks = ticks;
+  return s;
+}
+
+Recording ride(const RunPlan& s, const controllers::Settings& settings) {
+  const auto controller = controllers::make(settings, knowledge_of(s.rig, {}));
+  return simulate(s, *controller);
+}
+
+controllers::TriangleCurrent slow_triangle() {
+  controllers::TriangleCurrent current;
+  current.low_mA = 4.0;
+  current.high_mA = 20.0;
+  current.speed_mA_per_s = 0.5;
+  return current;
+}
+
+TEST(Simulate, TheCurrentOfARowIsFeltInTheNext) {
+  controllers::StepCurrent current;
+  current.start_mA = 8.0;
+  current.moves = {{0.036, 16.0}};
+  const auto recording = ride(plan(16.138, 6), current);
+  ASSERT_EQ(recording.samples.size(), 6u);
+  EXPECT_EQ(recording.samples[2].current_mA, recording.samples[0].current_mA);
+  EXPECT_NE(recording.samples[3].current_mA, recording.samples[2].current_mA);
+  EXPECT_NEAR(recording.samples[3].state.side.valve_pressure_Pa,
+              recording.samples[0].state.side.valve_pressure_Pa, 1.0);
+  EXPECT_GT(recording.samples[4].state.side.valve_pressure_Pa,
+            recording.samples[3].state.side.valve_pressure_Pa + 1e4);
+}
+
+// T 2.8, 4.1, 4.2 at rest: going up P (A [..] - f S) = m g + floor, coming down P (A [..] + f S) = m g -
+// floor.
+TEST(Simulate, ASlowRideRunsRoundTheStaticHysteresisLoop) {
+  const double load_kg = 16.138;
+  const plant::Rig rig;
+  const plant::Braid braid(rig.muscle);
+  const double area_m2 = std::numbers::pi * 7.5e-3 * 7.5e-3;
+  const auto recording = ride(plan(load_kg, 5400), slow_triangle());  // 64 s: up and down once
+  int up = 0, down = 0;
+  for (std::size_t k = 200; k + 1 < recording.samples.size(); ++k) {
+    const auto& state = recording.samples[k].state;
+    const double e = state.joint.contraction_ratio, w = state.joint.contraction_speed_per_s;
+    if (e < 0.03 || std::abs(w) < 2e-3) continue;
+    const double pull = area_m2 * braid.pull_ratio(e);
+    const double friction = plant::friction_coefficient(rig.friction, e, 0.0) * braid.contact_surface_m2(e);
+    const double sign = w > 0.0 ? 1.0 : -1.0;
+    const double guide_N = rig.joint.guide_damping_N_s_per_m * rig.muscle.rest_length_m * w;
+    const double expected_Pa = (load_kg * plant::gravity_m_per_s2 + sign * rig.friction.floor_N + guide_N) /
+                               (pull - sign * friction);
+    // What the statics leave out: what little the load accelerates.
+    EXPECT_NEAR(state.side.muscle_pressure_Pa, expected_Pa, 1e-3 * expected_Pa)
+        << "at e = " << e << ", w = " << w;
+    ++(w > 0.0 ? up : down);
+  }
+  EXPECT_GT(up, 300);
+  EXPECT_GT(down, 300);
+}
+
+TEST(Simulate, TouchesNoHeapBetweenFirstAndLastTick) {
+  class Watching final : public controllers::Controller {
+   public:
+    explicit Watching(std::int64_t last) : last_(last) {}
+    controllers::Command rest() override { return {4.0}; }
+    controllers::Command step(const controllers::Reading& reading) override {
+      if (reading.tick == 0) start_heap_watch();
+      if (reading.tick == last_) allocations = stop_heap_watch();
+      return {12.0 + 7.0 * std::sin(0.05 * static_cast<double>(reading.tick))};
+    }
+    long allocations = -1;
+
+   private:
+    std::int64_t last_;
+  };
+  for (const auto method : {engine::Method::erk, engine::Method::cvode, engine::Method::automatic})
+    for (const bool ledger : {false, true})
+      for (const auto memory : {plant::FrictionMemory::lugre, plant::FrictionMemory::coulomb}) {
+        RunPlan s = plan(13.87, 400);
+        s.engine.method = method;
+        s.keep_ledger = ledger;
+        s.rig.friction.memory = memory;
+        s.noise = {1e-4, 100.0, 0.01};
+        Watching controller(399);
+        simulate(s, controller);
+        EXPECT_EQ(controller.allocations, 0)
+            << "method " << static_cast<int>(method) << ", ledger " << ledger;
+      }
+}
+
+TEST(Simulate, HeapWatchSeesAllocations) {
+  start_heap_watch();
+  std::vector<int> touched(100);
+  EXPECT_NE(touched.data(), nullptr);
+  EXPECT_GT(stop_heap_watch(), 0);
+}
+
+TEST(Simulate, SameSeedAndStreamGiveTheSameBytesOthersDoNot) {
+  RunPlan s = plan(11.138, 300);
+  s.noise = {1e-4, 200.0, 0.02};
+  const auto same = [](const Recording& a, const Recording& b) {
+    for (std::size_t k = 0; k < a.samples.size(); ++k)
+      if (std::memcmp(&a.samples[k].state, &b.samples[k].state, sizeof a.samples[k].state) != 0 ||
+          a.samples[k].counts != b.samples[k].counts || a.samples[k].gauge_Pa != b.samples[k].gauge_Pa)
+        return false;
+    return true;
+  };
+  const auto first = ride(s, slow_triangle());
+  EXPECT_TRUE(same(first, ride(s, slow_triangle())));
+  RunPlan other = s;
+  other.seed = 2;
+  EXPECT_FALSE(same(first, ride(other, slow_triangle())));
+  other = s;
+  other.stream = 1;
+  EXPECT_FALSE(same(first, ride(other, slow_triangle())));
+}
+
+TEST(Simulate, ARecordedCurrentIsNotRoundedAgain) {
+  controllers::RecordedCurrent recorded;
+  recorded.samples_mA = {8.0001, 8.0002, 8.0003};
+  const auto recording = ride(plan(11.138, 3), recorded);
+  for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(recording.samples[k].current_mA, recorded.samples_mA[k]);
+  const auto rounded = ride(plan(11.138, 1), controllers::Settings(slow_triangle()));
+  EXPECT_EQ(rounded.samples[0].current_mA, 819.0 * 20.0 / 4096.0);  // 4 mA is between two steps
+}
+
+TEST(Simulate, TheEncoderReadsTheStateBeforeTheNewCurrent) {
+  const auto recording = ride(plan(11.138, 2000), slow_triangle());
+  const double per_count = contraction_per_count(plant::Rig{});
+  for (const auto& sample : recording.samples) {
+    const double e = sample.state.joint.contraction_ratio,
+                 read = static_cast<double>(sample.counts) * per_count;
+    EXPECT_LE(read, e + 1e-12);
+    EXPECT_GT(read, e - per_count - 1e-12);
+  }
+}
+
+TEST(Simulate, CurrentSpeedRaisesFrictionWhereTheLawSaysSo) {
+  RunPlan s = plan(16.138, 1200);
+  const auto nominal = ride(s, slow_triangle());
+  s.rig.friction.f1_s2_per_mA2 = 1.0;  // 0.25 per cent more at 0.5 mA/s
+  const auto faster = ride(s, slow_triangle());
+  EXPECT_LT(faster.samples.back().state.joint.contraction_ratio,
+            nominal.samples.back().state.joint.contraction_ratio - 1e-4);
+}
+
+}  // namespace
+}  // namespace mckibben::run
