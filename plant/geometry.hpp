@@ -64,4 +64,12 @@ class Braid {
 /// Above this contraction the muscle may be damaged (T 2.3).
 inline constexpr double risky_contraction_ratio = 0.20;
 
+/// What a contraction means for the muscle: nothing, a risk of damage, or that no real muscle reaches it
+/// (T 2.3, 2.10).
+enum class Verdict { safe, risk, impossible };
+inline Verdict verdict_on(const Muscle& muscle, double contraction_ratio) {
+  if (contraction_ratio > Braid(muscle).largest_contraction_ratio()) return Verdict::impossible;
+  return contraction_ratio > risky_contraction_ratio ? Verdict::risk : Verdict::safe;
+}
+
 }  // namespace mckibben::plant

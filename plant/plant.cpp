@@ -21,7 +21,6 @@ Plant::Plant(const Rig& rig, double load_kg)
       braid_(rig.muscle),
       valve_(restriction(rig, rig.valve.conductance_m3_per_s_Pa)),
       hose_(restriction(rig, rig.hose.conductance_m3_per_s_Pa)),
-      load_kg_(load_kg),
       mass_kg_(load_kg +
                rig.joint.wheel_inertia_kg_m2 / (rig.joint.wheel_radius_m * rig.joint.wheel_radius_m)),
       weight_N_(load_kg * gravity_m_per_s2),

@@ -65,9 +65,6 @@ class Plant {
   Slip slip_from_rest(State<double>& state, const Held& held) const;
 
   const Rig& rig() const { return rig_; }
-  const Braid& braid() const { return braid_; }
-  double load_kg() const { return load_kg_; }
-  double moving_mass_kg() const { return mass_kg_; }
   /// Mass of gas [kg] in valve and muscle.
   double gas_mass_kg(const State<double>& state) const;
   /// Kinetic and potential energy of the load [J], zero at rest at e = 0.
@@ -82,7 +79,7 @@ class Plant {
   Rig rig_;
   Braid braid_;
   Restriction valve_, hose_;
-  double load_kg_, mass_kg_, weight_N_, gas_energy_J_per_kg_, supply_Pa_;
+  double mass_kg_, weight_N_, gas_energy_J_per_kg_, supply_Pa_;
 };
 
 template <class S>

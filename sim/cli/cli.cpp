@@ -1,5 +1,7 @@
 // Parsing of the command line (CLI11) and the one place where failures become exit statuses.
-#include <csignal>
+#include <algorithm>
+#include <charconv>
+#include <cstdint>
 #include <cstdio>
 #include <functional>
 
@@ -9,8 +11,8 @@
 #include <sim/cli/cli.hpp>
 #include <sim/cli/exit_status.hpp>
 #include <sim/cli/verbs.hpp>
-#include <sim/engine/failure.hpp>
 #include <sim/input/diagnostics.hpp>
+#include <sim/input/suggest.hpp>
 #include <sim/output/folder.hpp>
 #include <sim/run/batch.hpp>
 
@@ -24,7 +26,7 @@ constexpr const char* examples =
     "  mckibben replay measured/ --rig my_rig.yaml     measured currents on a rig of yours\n"
     "  mckibben check my.yaml                          is the file right? nothing is run\n"
     "Exit status: 0 done, 1 a criterion of yours is not met, 64 usage, 65 bad input file,\n"
-    "66 input file missing, 70 numerical failure or a defect of ours, 74 cannot write.\n";
+    "66 input file missing, 70 numerical failure or a defect of ours, 74 cannot write, 130 interrupted.\n";
 
 // Runs a verb and says on stderr what went wrong.
 int guarded(const std::function<int()>& verb) {
@@ -46,9 +48,6 @@ int guarded(const std::function<int()>& verb) {
   } catch (const run::Interrupted&) {
     say("mckibben: interrupted; nothing was written, earlier results are as they were");
     return interrupted;
-  } catch (const engine::NumericalFailure& error) {
-    fmt::print(stderr, "mckibben: {}\n", error.what());
-    return failure;
   } catch (const std::exception& error) {
     fmt::print(stderr, "mckibben: {}\nThis is a defect of the program; please report it.\n", error.what());
     return failure;
@@ -64,6 +63,28 @@ void add_common(CLI::App& verb, Options& options) {
       ->type_name("N");
 }
 
+/// A whole number without sign or leading zeros that fits: as the scenario's own key is read.
+std::string is_seed(const std::string& text) {
+  std::uint64_t value = 0;
+  const char* end = text.data() + text.size();
+  const auto read = std::from_chars(text.data(), end, value);
+  const bool leading_zero = text.size() > 1 && text.front() == '0';
+  if (read.ec == std::errc{} && read.ptr == end && !leading_zero) return "";
+  return fmt::format("{} is not a whole number from 0 to 18446744073709551615", text);
+}
+
+/// CLI11 calls an unknown verb a missing one: says what was meant instead.
+bool is_unknown_verb(const CLI::App& app, int argc, char** argv) {
+  if (argc < 2 || argv[1][0] == '-') return false;
+  std::vector<std::string> verbs;
+  for (const auto* verb : app.get_subcommands({})) verbs.push_back(verb->get_name());
+  if (std::find(verbs.begin(), verbs.end(), argv[1]) != verbs.end()) return false;
+  const std::vector<std::string_view> known(verbs.begin(), verbs.end());
+  fmt::print(stderr, "mckibben: unknown verb {}{} (verbs: {}; --help explains them)\n", argv[1],
+             input::did_you_mean(argv[1], known), input::join(known));
+  return true;
+}
+
 }  // namespace
 
 int run(int argc, char** argv) {
@@ -75,6 +96,7 @@ int run(int argc, char** argv) {
 
   Options options;
   std::string path, kind = "scenario", format = "json";
+  std::string seed;
   std::vector<std::string> paths;
   std::function<int()> chosen;
 
@@ -82,9 +104,14 @@ int run(int argc, char** argv) {
       app.add_subcommand("run", "Simulate each load x controller of a scenario; print tracking errors");
   run_verb->add_option("scenario", path, "Scenario file")->required()->type_name("SCENARIO.yaml");
   add_common(*run_verb, options);
-  run_verb->add_option("--seed", options.seed, "Seed of the noise (default: the scenario's)")->type_name("N");
+  run_verb->add_option("--seed", seed, "Seed of the noise (default: the scenario's)")
+      ->check(is_seed)
+      ->type_name("N");
   run_verb->footer("Example:\n  mckibben run scenarios/five_loads.yaml\n");
-  run_verb->callback([&] { chosen = [&] { return run_scenario(path, options); }; });
+  run_verb->callback([&] {
+    if (!seed.empty()) options.seed = std::stoull(seed);
+    chosen = [&] { return run_scenario(path, options); };
+  });
 
   auto* replay_verb =
       app.add_subcommand("replay", "Simulate a data set's runs with their recorded currents; compare");
@@ -100,7 +127,7 @@ int run(int argc, char** argv) {
   auto* check_verb =
       app.add_subcommand("check", "Validate scenario, rig and data set files without running anything");
   check_verb->add_option("files", paths, "Files to check")->required()->type_name("FILE");
-  check_verb->add_flag("--json", options.json, "Print the findings as one JSON document");
+  add_common(*check_verb, options);
   check_verb->footer("Example:\n  mckibben check scenarios/*.yaml\n");
   check_verb->callback([&] { chosen = [&] { return check_files(paths, options); }; });
 
@@ -114,6 +141,7 @@ int run(int argc, char** argv) {
   schema_verb->footer("Example:\n  mckibben schema scenario --format markdown\n");
   schema_verb->callback([&] { chosen = [&] { return print_schema(kind, format); }; });
 
+  if (is_unknown_verb(app, argc, argv)) return usage_error;
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -14,6 +14,7 @@
 #include <sim/input/scenario.hpp>
 #include <sim/input/yaml_file.hpp>
 #include <sim/input/yaml_writer.hpp>
+#include <sim/output/folder.hpp>
 
 namespace mckibben::cli {
 namespace {
@@ -100,7 +101,13 @@ int check_files(const std::vector<std::string>& paths, const Options& options) {
     findings.push_back(std::move(entry));
     if (file_status == done && !options.json) fmt::print("{}: ok\n", path);
   }
-  if (options.json) fmt::print("{}\n", Json{{"schema", "mckibben-check/1"}, {"files", findings}}.dump(2));
+  const std::string document = Json{{"schema", "mckibben-check/1"}, {"files", findings}}.dump(2) + "\n";
+  if (!options.out.empty()) {
+    output::ResultFolder folder(options.out, "check");
+    folder.write("check.json", document);
+    folder.publish();
+  }
+  if (options.json) fmt::print("{}", document);
   return status;
 }
 

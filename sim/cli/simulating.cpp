@@ -33,7 +33,8 @@ void warn(const std::vector<input::Problem>& warnings) {
 void publish(output::ResultFolder& folder, const std::filesystem::path& where) {
   const auto aside = folder.publish();
   if (!aside.empty())
-    fmt::print(stderr, "mckibben: {} held other files; it is now {}\n", where.string(), aside.string());
+    fmt::print(stderr, "mckibben: {} was not an earlier result of this, as it was written; it is now {}\n",
+               where.string(), aside.string());
   fmt::print(stderr, "results in {}\n", where.string());
 }
 
@@ -49,7 +50,7 @@ int run_scenario(const std::string& path, const Options& options) {
   warn(warnings);
   if (options.seed) scenario.seed = *options.seed;
   auto where = destination(options, scenario.name);
-  output::ResultFolder folder(where);
+  output::ResultFolder folder(where, "run " + path);
 
   run::Comparison comparison;
   {
@@ -62,7 +63,7 @@ int run_scenario(const std::string& path, const Options& options) {
   }
   const double per_count = run::contraction_per_count(scenario.rig);
   for (const auto& run : comparison.runs)
-    if (run.failure.empty())
+    if (!run.recording.samples.empty())
       folder.write(output::csv_name(run),
                    output::csv_of(run.recording, per_count, comparison.target, scenario.rig.gauge.fitted));
   const std::string document = output::json_of(scenario, comparison).dump(2) + "\n";
@@ -70,8 +71,8 @@ int run_scenario(const std::string& path, const Options& options) {
   folder.write("run.json", document);
   folder.write("table.txt", table);
   folder.write("tracking.svg", output::tracking_svg(scenario, comparison));
-  print(options.json ? document : table);
   publish(folder, where);
+  print(options.json ? document : table);
   if (comparison.interrupted) return interrupted;
   if (std::any_of(comparison.runs.begin(), comparison.runs.end(),
                   [](const auto& run) { return !run.failure.empty(); }))
@@ -83,8 +84,8 @@ int replay_dataset(const std::string& path, const Options& options) {
   input::Dataset dataset = input::read_dataset(path);
   if (!options.rig.empty()) dataset.rig = input::read_rig(options.rig, dataset.inputs);
   const auto home = std::filesystem::absolute(dataset.path).lexically_normal().parent_path();
-  const auto where = destination(options, home.filename().string());
-  output::ResultFolder folder(where);
+  const auto where = destination(options, home.has_filename() ? home.filename().string() : "dataset");
+  output::ResultFolder folder(where, "replay " + path);
 
   std::vector<run::ReplayedRun> runs;
   {
@@ -93,14 +94,14 @@ int replay_dataset(const std::string& path, const Options& options) {
   }
   const double per_count = run::contraction_per_count(dataset.rig);
   for (const auto& run : runs)
-    if (run.failure.empty())
+    if (!run.recording.samples.empty())
       folder.write(run.id + ".csv", output::csv_of(run.recording, per_count, {}, dataset.rig.gauge.fitted));
   const std::string document = output::json_of(dataset, runs).dump(2) + "\n";
   const std::string table = output::table_of(dataset, runs);
   folder.write("run.json", document);
   folder.write("table.txt", table);
-  print(options.json ? document : table);
   publish(folder, where);
+  print(options.json ? document : table);
   const bool failed =
       std::any_of(runs.begin(), runs.end(), [](const auto& run) { return !run.failure.empty(); });
   return failed ? failure : done;

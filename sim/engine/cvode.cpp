@@ -67,22 +67,26 @@ class Cvode final : public Integrator {
       CVodeSetRootDirection(m, &falling);
       CVodeSetNoInactiveRootWarn(m);
     }
+    before_ = warm_up(*this, rig);
   }
 
   void advance(Flow& flow, plant::Held& held, double from_s, double to_s) override {
-    finished_.events += carry<V>(problem_, y_.get(), flow, held, from_s, to_s, "CVODE", [&](double& t) {
-      void* m = memory_.get();
-      message_.clear();
-      finished_ = plus_current(finished_);  // the library's counters start again
-      CVodeReInit(m, t, y_.get());
-      CVodeSetStopTime(m, to_s);
-      const int flag = CVode(m, to_s, y_.get(), &t, CV_NORMAL);
-      if (flag < 0) fail<V>(y_.get(), flow, t, cause_of(trouble_of(flag), "CVODE", message_));
-      return flag == CV_ROOT_RETURN;
-    });
+    finished_.events += carry<V>(problem_, y_.get(), flow, held, from_s, to_s, "CVODE", message_,
+                                 [&](double& t, Trouble& trouble) {
+                                   void* m = memory_.get();
+                                   message_.clear();
+                                   finished_ = plus_current(finished_);  // the library's counters start again
+                                   CVodeReInit(m, t, y_.get());
+                                   CVodeSetStopTime(m, to_s);
+                                   const int flag = CVode(m, to_s, y_.get(), &t, CV_NORMAL);
+                                   if (flag == CV_ROOT_RETURN) return Reached::event;
+                                   if (flag >= 0) return Reached::end;
+                                   trouble = trouble_of(flag);
+                                   return Reached::trouble;
+                                 });
   }
 
-  Counters counters() const override { return plus_current(finished_); }
+  Counters counters() const override { return plus_current(finished_) - before_; }
 
  private:
   struct Free {
@@ -114,7 +118,7 @@ class Cvode final : public Integrator {
   std::unique_ptr<std::remove_pointer_t<SUNMatrix>, MatrixDeleter> matrix_;
   std::unique_ptr<std::remove_pointer_t<SUNLinearSolver>, SolverDeleter> solver_;
   std::unique_ptr<void, Free> memory_;
-  Counters finished_;
+  Counters finished_, before_;
 };
 
 }  // namespace

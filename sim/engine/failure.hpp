@@ -13,8 +13,9 @@ class NumericalFailure : public std::runtime_error {
  public:
   NumericalFailure(double time_s, const plant::State<double>& state, const std::string& cause);
 
-  double time_s;
+  double time_s;  ///< below zero: while the rig settled
   plant::State<double> state;
+  std::string cause;
 };
 
 }  // namespace mckibben::engine

@@ -23,11 +23,15 @@ class Automatic final : public Integrator {
     const auto [flow_before, held_before] = std::pair{flow, held};
     try {
       erk_->advance(flow, held, from_s, to_s);
-    } catch (const NumericalFailure&) {  // BDF may still manage; if not, its failure is the one reported
+    } catch (const NumericalFailure& failure) {  // BDF may still manage
       stiff_from_tick_ = ticks_;
       flow = flow_before;
       held = held_before;
-      cvode_->advance(flow, held, from_s, to_s);
+      try {
+        cvode_->advance(flow, held, from_s, to_s);
+      } catch (const NumericalFailure& second) {
+        throw NumericalFailure(second.time_s, second.state, second.cause + "; before it, " + failure.cause);
+      }
       return;
     }
     if (++ticks_ % window_ticks != 0) return;
@@ -56,6 +60,16 @@ class Automatic final : public Integrator {
 };
 
 }  // namespace
+
+Counters operator-(const Counters& later, const Counters& earlier) {
+  Counters difference = later;
+  difference.steps -= earlier.steps;
+  difference.rejected_steps -= earlier.rejected_steps;
+  difference.right_hand_sides -= earlier.right_hand_sides;
+  difference.jacobians -= earlier.jacobians;
+  difference.events -= earlier.events;
+  return difference;
+}
 
 std::unique_ptr<Integrator> make_integrator(const plant::Plant& rig, const Settings& settings,
                                             bool keep_ledger) {

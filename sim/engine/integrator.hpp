@@ -11,18 +11,11 @@ namespace mckibben::engine {
 /// What the solver did since it was made.
 struct Counters {
   long steps = 0, rejected_steps = 0, right_hand_sides = 0, jacobians = 0, events = 0;
-  long stiff_from_tick = -1;  ///< tick at which `automatic` went over to CVODE; -1: never
-
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
-    visit("steps", self.steps, 0, 1, "accepted steps");
-    visit("rejected_steps", self.rejected_steps, 0, 1, "steps tried again with a smaller size");
-    visit("right_hand_sides", self.right_hand_sides, 0, 1, "evaluations of the equations");
-    visit("jacobians", self.jacobians, 0, 1, "evaluations of their Jacobian");
-    visit("events", self.events, 0, 1, "stick and slip events");
-    visit("stiff_from_tick", self.stiff_from_tick, -1, 1, "tick of the change to CVODE; -1 for none");
-  }
+  long stiff_from_tick = -1;  ///< ticks carried before `automatic` went over to CVODE; -1: never
 };
+
+/// What was done between two readings of one integrator.
+Counters operator-(const Counters& later, const Counters& earlier);
 
 class Integrator {
  public:

@@ -29,6 +29,7 @@ class Problem {
 
   const plant::Plant& plant() const { return plant_; }
   plant::Held held;
+  long refused = 0;  ///< trial states outside the domain of the laws, in this tick
 
   static plant::State<double> state_of(const double* y) {
     plant::State<double> state;

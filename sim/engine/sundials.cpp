@@ -1,18 +1,38 @@
 // Words for what the solvers report.
+#include <string_view>
+
 #include <fmt/format.h>
 
 #include <sim/engine/sundials.hpp>
 
 namespace mckibben::engine {
 
-std::string cause_of(Trouble trouble, const char* solver, const std::string& message) {
-  const char* likely = "";
+namespace {
+
+bool near_edge_of_domain(const plant::Plant& rig, const plant::State<double>& state) {
+  const auto leaves = [&](double ratio, double pressure_Pa) {
+    plant::State<double> moved = state;
+    moved.joint.contraction_ratio += ratio;
+    moved.side.valve_pressure_Pa += pressure_Pa;
+    moved.side.muscle_pressure_Pa += pressure_Pa;
+    return !rig.in_domain(moved);
+  };
+  return leaves(1e-3, 0.0) || leaves(-1e-3, 0.0) || leaves(0.0, -500.0);
+}
+
+}  // namespace
+
+std::string cause_of(Trouble trouble, const char* solver, const std::string& message, const plant::Plant& rig,
+                     const plant::State<double>& state) {
+  const bool explicit_method = solver == std::string_view("ERKStep");
+  if (trouble != Trouble::too_accurate && trouble != Trouble::events && near_edge_of_domain(rig, state))
+    trouble = Trouble::outside_domain;
+  std::string likely;
   switch (trouble) {
     case Trouble::too_many_steps:
       likely =
           "the steps became too small for one tick; the rig is probably stiff (bristle_stiffness, braid "
-          "stop, "
-          "hose) - try method: cvode, or a looser tolerance";
+          "stop, hose)";
       break;
     case Trouble::too_accurate:
       likely = "the tolerance asks for more digits than double precision has - loosen it";
@@ -20,7 +40,7 @@ std::string cause_of(Trouble trouble, const char* solver, const std::string& mes
     case Trouble::error_test:
       likely =
           "no step was small enough to pass the error test; a law of the rig probably jumps here, or is very "
-          "stiff - try method: cvode";
+          "stiff";
       break;
     case Trouble::outside_domain:
       likely =
@@ -37,6 +57,8 @@ std::string cause_of(Trouble trouble, const char* solver, const std::string& mes
       likely = "this is not expected of a checked rig; please report it";
       break;
   }
+  if (trouble == Trouble::too_many_steps || trouble == Trouble::error_test)
+    likely += explicit_method ? " - try method: cvode, or a looser tolerance" : " - try a looser tolerance";
   return fmt::format("{}: {}{}", solver, likely, message.empty() ? "" : " [" + message + "]");
 }
 

@@ -10,6 +10,7 @@
 #include <sundials/sundials_types.h>
 
 #include <sim/engine/failure.hpp>
+#include <sim/engine/integrator.hpp>
 #include <sim/engine/problem.hpp>
 #include <sim/engine/vector.hpp>
 
@@ -39,7 +40,7 @@ struct VectorDeleter {
 };
 using Vector = std::unique_ptr<std::remove_pointer_t<N_Vector>, VectorDeleter>;
 
-/// Right-hand side callback of both methods; positive where the solver should try a smaller step.
+/// Right-hand side callback; positive where the solver should try a smaller step.
 template <class V>
 [[gnu::flatten]] int right_hand_side(double, N_Vector y, N_Vector dydt, void* problem) {
   return static_cast<Problem<V::size>*>(problem)->rates(V::data(y), V::data(dydt)) ? 0 : 1;
@@ -66,42 +67,58 @@ Vector absolute_tolerances(SUNContext context, double tolerance) {
 inline constexpr int most_events_in_a_tick = 1000;
 
 /// Steps a tick may take before it is called a failure.
-inline constexpr long most_steps_in_a_tick = 200000;
+inline constexpr long most_steps_in_a_tick = 20000;
+
+/// Trial states outside the domain that a tick may meet.
+inline constexpr long most_refused_in_a_tick = 2000;
 
 enum class Trouble { too_many_steps, too_accurate, error_test, outside_domain, convergence, events, other };
-std::string cause_of(Trouble trouble, const char* solver, const std::string& message);
+/// What went wrong, its likely cause and what may help. Near the edge of the domain that is the likelier
+/// cause of a solver's trouble with its steps.
+std::string cause_of(Trouble trouble, const char* solver, const std::string& message, const plant::Plant& rig,
+                     const plant::State<double>& state);
 
 /// Keeps the library's own words instead of letting it print them.
 void keep_message(int code, const char* module, const char* function, char* message, void* text);
 
-/// Leaves in `flow` what was last reached, and throws.
-template <class V>
-[[noreturn]] void fail(N_Vector y, Flow& flow, double time_s, const std::string& cause) {
-  Problem<V::size>::load(V::data(y), flow);
-  throw NumericalFailure(time_s, flow.state, cause);
+/// The libraries allocate the last of their memory in their first step: it is done here, from rest. Returns
+/// what it cost, which is not the run's.
+inline Counters warm_up(Integrator& integrator, const plant::Plant& rig) {
+  Flow scratch{rig.at_rest({}), {}};
+  plant::Held held;
+  integrator.advance(scratch, held, 0.0, 1e-9);
+  return integrator.counters();
 }
 
-/// Carries flow and held through a tick, switching stick and slip where `evolve(t)` stops at an event.
-/// `evolve` starts from y at t, moves both on, and says whether it met an event before the end of the tick;
-/// it throws on failure. Returns the number of events.
+/// How far a solver came: to the end of the tick, to an event on the way, or not.
+enum class Reached { end, event, trouble };
+
+/// Carries flow and held through a tick, switching stick and slip where `evolve(t, trouble)` stops at an
+/// event. `evolve` starts from y at t, moves both on to what it reached, and says what that is and what
+/// troubled it. Returns the number of events. Throws NumericalFailure; `flow` is then what was last reached.
 template <class V, class Evolve>
 long carry(Problem<V::size>& problem, N_Vector y, Flow& flow, plant::Held& held, double from_s, double to_s,
-           const char* solver, const Evolve& evolve) {
+           const char* solver, const std::string& message, const Evolve& evolve) {
   problem.held = held;
   double t = from_s;
   for (long events = 0;; ++events) {
     problem.store(flow, V::data(y));
-    const bool event = evolve(t);
+    Trouble trouble = Trouble::outside_domain;
+    Reached reached = problem.plant().in_domain(flow.state) ? evolve(t, trouble) : Reached::trouble;
     problem.load(V::data(y), flow);
-    if (event) {
-      if (events == most_events_in_a_tick)
-        throw NumericalFailure(t, flow.state, cause_of(Trouble::events, solver, ""));
+    if (reached == Reached::event && events == most_events_in_a_tick) {
+      reached = Reached::trouble;
+      trouble = Trouble::events;
+    }
+    if (reached == Reached::trouble)
+      throw NumericalFailure(t, flow.state, cause_of(trouble, solver, message, problem.plant(), flow.state));
+    if (reached == Reached::event) {
       held.slip = problem.held.slip = problem.plant().slip_from_rest(flow.state, held);
       if (t < to_s) continue;
     }
     if (problem.plant().has_events() && held.slip == plant::Slip::sticking)
       flow.state.joint.contraction_speed_per_s = 0.0;  // to the last bit: Newton's solution is rounded
-    return events + (event ? 1 : 0);
+    return events + (reached == Reached::event ? 1 : 0);
   }
 }
 

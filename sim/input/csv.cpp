@@ -182,4 +182,10 @@ void check_range(const Source& source, const Table::Column& column, double lowes
   }
 }
 
+void check_dac_range(const Source& source, const Table::Column& current, double largest_current_mA,
+                     TableProblems& problems) {
+  constexpr double slack_mA = 1e-9;  // shortest digits of a sum of DAC steps
+  check_range(source, current, 0.0, largest_current_mA + slack_mA, "range of the rig's DAC", problems);
+}
+
 }  // namespace mckibben::input

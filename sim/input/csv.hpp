@@ -57,6 +57,10 @@ Table read_table(const Source& source, std::span<const std::string_view> require
 /// sound. Only the first departure is reported: all later rows would repeat it.
 void check_ticks(const Source& source, const Table& table, double tick_s, TableProblems& problems);
 
+/// Checks that every current is one that the rig's DAC can give.
+void check_dac_range(const Source& source, const Table::Column& current, double largest_current_mA,
+                     TableProblems& problems);
+
 /// Checks that lowest <= value <= highest in every row of a column.
 void check_range(const Source& source, const Table::Column& column, double lowest, double highest,
                  std::string_view meaning, TableProblems& problems);

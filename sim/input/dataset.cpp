@@ -14,7 +14,6 @@ namespace fs = std::filesystem;
 
 constexpr double bar_Pa = 1e5;
 constexpr double lowest_contraction = -0.2, highest_contraction = 1.0;
-constexpr double current_slack_mA = 1e-9;  // shortest digits of a sum of DAC steps
 
 void read_run(const Source& source, const Dataset& dataset, Run& run, Problems& problems) {
   constexpr std::string_view required[] = {"time_s", "current_mA", "contraction_ratio"};
@@ -26,8 +25,7 @@ void read_run(const Source& source, const Dataset& dataset, Run& run, Problems& 
   check_ticks(source, table, dataset.rig.tick_s, found);
   const Table::Column& current = *table.find("current_mA");
   const Table::Column& contraction = *table.find("contraction_ratio");
-  check_range(source, current, 0.0, dataset.rig.dac.largest_current_mA + current_slack_mA,
-              "range of the rig's DAC", found);
+  check_dac_range(source, current, dataset.rig.dac.largest_current_mA, found);
   check_range(source, contraction, lowest_contraction, highest_contraction, "what a muscle can do", found);
   run.current_mA = current.values;
   run.contraction_ratio = contraction.values;

@@ -150,7 +150,7 @@ double read_quantity(std::string_view text, std::string_view si_unit) {
 std::string write_quantity(double value, std::string_view si_unit) {
   if (si_unit == "rad") {  // people think in degrees: where they read back to the same bits, they are written
     const double degrees = std::round(value / (std::numbers::pi / 180.0) * 1e9) / 1e9;
-    const std::string text = write_number(degrees) + " deg";
+    std::string text = write_number(degrees) + " deg";
     if (read_quantity(text, si_unit) == value) return text;
   }
   return si_unit == "1" ? write_number(value) : fmt::format("{} {}", write_number(value), si_unit);

@@ -107,6 +107,9 @@ void Spelling<RigFile>::read(const Source& source, const Node& node, RigFile& in
 RigFile read_rig(const std::string& name_or_path, std::vector<InputFile>& inputs) {
   RigFile rig;
   if (is_shipped(name_or_path)) return rig;
+  if (!looks_like_path(name_or_path) && !fs::exists(name_or_path))
+    throw MissingInput(fmt::format("unknown rig {}{} (shipped: {}; or the path of a rig file)", name_or_path,
+                                   did_you_mean(name_or_path, shipped), join(shipped)));
   Problems problems;
   const fs::path path = name_or_path;
   const YamlFile file = load_yaml(path);

@@ -10,11 +10,16 @@
 #include <sim/input/csv.hpp>
 #include <sim/input/file_names.hpp>
 #include <sim/input/number.hpp>
+#include <sim/input/quantity.hpp>
 #include <sim/input/scenario.hpp>
 #include <sim/input/suggest.hpp>
 
 namespace mckibben::input {
 namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double most_ticks = 1e6;  // more would not fit into memory
 
 /// The checks that look at a whole scenario and at the places in its file.
 class Checker {
@@ -24,6 +29,8 @@ class Checker {
 
   void check() {
     check_name();
+    check_duration();
+    check_noise();
     check_loads();
     check_controllers();
     check_criteria();
@@ -37,6 +44,21 @@ class Checker {
     const Node* given = root_.find("name");
     if (given != nullptr && !is_file_safe(scenario_.name))
       problems_.error(source_, given->place, fmt::format("name = {}: {}", scenario_.name, file_safe_rule));
+  }
+
+  void check_duration() {
+    const double ticks = scenario_.duration_s / scenario_.rig.tick_s;
+    if (ticks < 1.0 - 1e-9 || ticks > most_ticks)
+      problems_.error(
+          source_, list("duration").place,
+          fmt::format("duration = {}: with the rig's tick of {} that is {:.4g} ticks; a run has 1 to {:g}",
+                      list("duration").text, write_quantity(scenario_.rig.tick_s, "s"), ticks, most_ticks));
+  }
+
+  void check_noise() {
+    if (scenario_.noise.gauge_Pa > 0.0 && !scenario_.rig.gauge.fitted)
+      problems_.warning(source_, list("noise").place,
+                        "noise.gauge has no effect: the rig has no gauge (gauge: {fitted: true})");
   }
 
   void check_loads() {
@@ -85,9 +107,10 @@ class Checker {
       const Table::Column* current = table.find(recorded.column);
       if (current == nullptr) return;
       check_ticks(source, table, scenario_.rig.tick_s, found);
-      check_range(source, *current, 0.0, scenario_.rig.dac.largest_current_mA, "range of the rig's DAC",
-                  found);
+      check_dac_range(source, *current, scenario_.rig.dac.largest_current_mA, found);
       recorded.samples_mA = current->values;
+      recorded.file =
+          fs::absolute(source.name()).lexically_normal().string();  // the resolved scenario runs anywhere
     } catch (const MissingInput& missing) {
       problems_.missing_file(source_, node.place, missing.what());
     }
@@ -144,7 +167,7 @@ Scenario read_scenario(Source source, std::vector<Problem>& warnings) {
   problems.opened(file.source);
   problems.adopt(file.found);
   Scenario scenario;
-  scenario.name = made_file_safe(std::filesystem::path(file.source.name()).stem().string());
+  scenario.name = made_file_safe(fs::path(file.source.name()).stem().string());
   constexpr std::string_view also_allowed[] = {"schema"};
   if (check_schema(file, scenario_schema, problems))
     read_struct(file.source, file.root, scenario, problems, also_allowed);

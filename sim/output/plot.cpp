@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include <sim/input/number.hpp>
 #include <sim/output/plot.hpp>
 
 namespace mckibben::output {
@@ -14,7 +15,7 @@ namespace {
 
 constexpr std::array<const char*, 7> colours{"#0072B2", "#D55E00", "#009E73", "#CC79A7",
                                              "#E69F00", "#56B4E9", "#F0E442"};
-constexpr double panel_width = 900.0, panel_height = 190.0, left = 60.0, right = 20.0, top = 44.0, gap = 46.0;
+constexpr double panel_width = 900.0, panel_height = 190.0, left = 60.0, right = 20.0, gap = 46.0;
 
 /// A step of 1, 2 or 5 times a power of ten that divides a span into about `parts`.
 double tick_step(double span, int parts) {
@@ -51,7 +52,7 @@ struct Panel {
 
   /// A line through one value each tick; at most a point for each pixel, the extreme ones of each.
   template <class Value>
-  std::string line(std::size_t ticks, double tick_s, const char* colour, double width,
+  std::string line(std::size_t ticks, double tick_s, const char* colour, const char* dash, double width,
                    const Value& value) const {
     const auto per_pixel = std::max<std::size_t>(1, ticks / static_cast<std::size_t>(panel_width));
     std::string points;
@@ -67,16 +68,55 @@ struct Panel {
       put(std::min(least, most));
       if (least != most) put(std::max(least, most));
     }
-    return fmt::format("<polyline fill='none' stroke='{}' stroke-width='{}' points='{}'/>\n", colour, width,
-                       points);
+    return fmt::format(
+        "<polyline fill='none' stroke='{}' stroke-dasharray='{}' stroke-width='{}' points='{}'/>\n", colour,
+        dash, width, points);
   }
 };
+
+/// Colours first, then the same ones dashed.
+const char* colour_of(std::size_t controller) {
+  return colours[controller % colours.size()];
+}
+const char* dash_of(std::size_t controller) {
+  constexpr std::array<const char*, 3> dashes{"none", "7 3", "2 3"};
+  return dashes[controller / colours.size() % dashes.size()];
+}
+
+struct Legend {
+  std::string svg;
+  double bottom_px = 14.0;
+};
+
+/// Names beside their lines, in as many rows as they need.
+Legend make_legend(const input::Scenario& scenario) {
+  Legend legend;
+  double x = left;
+  const auto add = [&](const std::string& name, const char* colour, const char* dash) {
+    const double needed = 40.0 + 7.5 * static_cast<double>(name.size());
+    if (x > left && x + needed > left + panel_width) {
+      x = left;
+      legend.bottom_px += 18.0;
+    }
+    legend.svg += fmt::format(
+        "<line x1='{0}' x2='{1}' y1='{2}' y2='{2}' stroke='{3}' stroke-dasharray='{4}' stroke-width='2.5'/>"
+        "<text x='{5}' y='{6}'>{7}</text>\n",
+        x, x + 22, legend.bottom_px, colour, dash, x + 27, legend.bottom_px + 4, name);
+    x += needed;
+  };
+  add("target", "#000000", "none");
+  for (std::size_t c = 0; c < scenario.controllers.size(); ++c)
+    add(controllers::name_of(scenario.controllers[c]), colour_of(c), dash_of(c));
+  return legend;
+}
 
 }  // namespace
 
 std::string tracking_svg(const input::Scenario& scenario, const run::Comparison& comparison) {
   const std::size_t columns = scenario.controllers.size(), rows = scenario.loads_kg.size();
-  const double height = top + static_cast<double>(rows) * (panel_height + gap) + 10.0;
+  const Legend legend = make_legend(scenario);
+  const double first_px = legend.bottom_px + 30.0;
+  const double height = first_px + static_cast<double>(rows) * (panel_height + gap) + 10.0;
   const double width = left + panel_width + right;
   double low = *std::min_element(comparison.target.begin(), comparison.target.end());
   double high = *std::max_element(comparison.target.begin(), comparison.target.end());
@@ -93,27 +133,16 @@ std::string tracking_svg(const input::Scenario& scenario, const run::Comparison&
       "font-family='sans-serif' "
       "font-size='12'>\n<rect width='100%' height='100%' fill='white'/>\n",
       width, height);
-  double x = left;
-  const auto legend = [&](const std::string& name, const char* colour) {
-    svg += fmt::format(
-        "<line x1='{0}' x2='{1}' y1='14' y2='14' stroke='{2}' stroke-width='2.5'/><text x='{3}' "
-        "y='18'>{4}</text>\n",
-        x, x + 22, colour, x + 27, name);
-    x += 50.0 + 7.0 * static_cast<double>(name.size());
-  };
-  legend("target", "#000000");
-  for (std::size_t c = 0; c < columns; ++c)
-    legend(controllers::name_of(scenario.controllers[c]), colours[c % colours.size()]);
-
+  svg += legend.svg;
   for (std::size_t r = 0; r < rows; ++r) {
-    const Panel panel{top + static_cast<double>(r) * (panel_height + gap), low - margin, high + margin,
+    const Panel panel{first_px + static_cast<double>(r) * (panel_height + gap), low - margin, high + margin,
                       static_cast<double>(comparison.target.size()) * tick_s};
-    svg += panel.axes(fmt::format("{:g} kg: contraction ratio", scenario.loads_kg[r]));
-    svg += panel.line(comparison.target.size(), tick_s, "#000000", 2.2,
+    svg += panel.axes(fmt::format("{} kg: contraction ratio", input::write_number(scenario.loads_kg[r])));
+    svg += panel.line(comparison.target.size(), tick_s, "#000000", "none", 2.2,
                       [&](std::size_t k) { return comparison.target[k]; });
     for (std::size_t c = 0; c < columns; ++c) {
       const auto& samples = comparison.runs[r * columns + c].recording.samples;
-      svg += panel.line(samples.size(), tick_s, colours[c % colours.size()], 1.4,
+      svg += panel.line(samples.size(), tick_s, colour_of(c), dash_of(c), 1.4,
                         [&](std::size_t k) { return samples[k].state.joint.contraction_ratio; });
     }
   }

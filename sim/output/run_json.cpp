@@ -3,8 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <plant/geometry.hpp>
 #include <sim/engine/versions.hpp>
 #include <sim/input/fields_json.hpp>
+#include <sim/input/number.hpp>
 #include <sim/input/rig_file.hpp>
 #include <sim/output/run_json.hpp>
 
@@ -44,14 +46,22 @@ Json heading(const char* schema, const std::vector<input::InputFile>& files) {
           {"input_files", inputs_json(files)}};
 }
 
-Json run_json(const run::TrackedRun& run) {
+/// Thesis 2.3: what contraction did to the muscle.
+Json contraction_json(const plant::Rig& rig, const run::Recording& recording) {
+  const char* said[] = {"safe", "risk", "impossible"};
+  return {{"largest_ratio", recording.largest_contraction_ratio},
+          {"verdict",
+           said[static_cast<int>(plant::verdict_on(rig.muscle, recording.largest_contraction_ratio))]}};
+}
+
+Json run_json(const plant::Rig& rig, const run::TrackedRun& run) {
   Json entry{{"load_kg", run.load_kg}, {"controller", run.controller}};
+  if (!run.recording.samples.empty()) entry["file"] = csv_name(run);
   if (!run.failure.empty()) {
     entry["failure"] = run.failure;
     return entry;
   }
   const auto& m = run.metrics;
-  entry["file"] = csv_name(run);
   entry["rmse"] = m.rmse;
   entry["mae"] = m.mae;
   entry["largest_error"] = m.largest_error;
@@ -60,7 +70,7 @@ Json run_json(const run::TrackedRun& run) {
   entry["overshoot"] = or_null(m.overshoot);
   entry["settling_time_s"] = or_null(m.settling_time_s);
   entry["current_travel_mA"] = m.current_travel_mA;
-  entry["largest_contraction_ratio"] = run.recording.largest_contraction_ratio;
+  entry["contraction"] = contraction_json(rig, run.recording);
   entry["ledger"] = ledger_json(run.recording.ledger);
   entry["solver"] = solver_json(run.recording.solver);
   return entry;
@@ -69,7 +79,7 @@ Json run_json(const run::TrackedRun& run) {
 }  // namespace
 
 std::string csv_name(const run::TrackedRun& run) {
-  return fmt::format("{:g}kg_{}.csv", run.load_kg, run.controller);
+  return fmt::format("{}kg_{}.csv", input::write_number(run.load_kg), run.controller);
 }
 
 Json json_of(const input::Scenario& scenario, const run::Comparison& comparison) {
@@ -78,7 +88,8 @@ Json json_of(const input::Scenario& scenario, const run::Comparison& comparison)
   document["tolerance"] = scenario.rig.integrator.tolerance;
   document["scenario"] = input::scenario_json(scenario);
   document["tuned"] = Json::array();
-  for (const auto& row : comparison.tuned)
+  for (const auto& row : comparison.tuned) {
+    if (!row.failure.empty()) continue;
     document["tuned"].push_back({{"controller", row.controller},
                                  {"load_kg", row.load_kg},
                                  {"proportional_mA", row.tuned.gains.proportional_mA},
@@ -86,8 +97,9 @@ Json json_of(const input::Scenario& scenario, const run::Comparison& comparison)
                                  {"derivative_time_s", row.tuned.gains.derivative_time_s},
                                  {"cost", row.tuned.cost},
                                  {"evaluations", row.tuned.evaluations}});
+  }
   document["runs"] = Json::array();
-  for (const auto& run : comparison.runs) document["runs"].push_back(run_json(run));
+  for (const auto& run : comparison.runs) document["runs"].push_back(run_json(scenario.rig, run));
   document["spreads"] = Json::array();
   for (const auto& row : comparison.spreads) {
     Json entry{{"controller", row.controller}};
@@ -100,6 +112,7 @@ Json json_of(const input::Scenario& scenario, const run::Comparison& comparison)
     document["spreads"].push_back(std::move(entry));
   }
   document["criteria_not_met"] = comparison.unmet;
+  if (comparison.interrupted) document["interrupted"] = true;
   return document;
 }
 
@@ -118,7 +131,7 @@ Json json_of(const input::Dataset& dataset, const std::vector<run::ReplayedRun>&
       entry["largest_error"] = run.largest_error;
       entry["mean_error"] = run.mean_error;
       entry["pressure_rmse_bar"] = run.pressure_rmse_Pa ? Json(*run.pressure_rmse_Pa / 1e5) : Json(nullptr);
-      entry["largest_contraction_ratio"] = run.recording.largest_contraction_ratio;
+      entry["contraction"] = contraction_json(dataset.rig, run.recording);
       entry["ledger"] = ledger_json(run.recording.ledger);
       entry["solver"] = solver_json(run.recording.solver);
     }

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <plant/geometry.hpp>
+#include <sim/input/number.hpp>
 #include <sim/output/table.hpp>
 
 namespace mckibben::output {
@@ -18,6 +19,7 @@ class Grid {
   explicit Grid(std::vector<std::string> head, std::size_t text_columns)
       : text_columns_(text_columns), rows_{std::move(head)} {}
 
+  bool empty() const { return rows_.size() == 1; }
   void add(std::vector<std::string> row) { rows_.push_back(std::move(row)); }
 
   std::string text() const {
@@ -50,14 +52,17 @@ std::string ratio(double value) {
 
 /// Thesis 2.3: what contraction does to a muscle.
 std::string contraction_note(const plant::Rig& rig, double reached, const std::string& who) {
-  const double limit = plant::Braid(rig.muscle).largest_contraction_ratio();
-  if (reached > limit)
-    return fmt::format(
-        "  {}: contraction ratio {:.4f} is above e_max = {:.4f}: impossible for a real muscle (T 2.3)\n", who,
-        reached, limit);
-  if (reached > plant::risky_contraction_ratio)
-    return fmt::format("  {}: contraction ratio {:.4f} is above {:.2f}: a risk to the muscle (T 2.3)\n", who,
-                       reached, plant::risky_contraction_ratio);
+  switch (plant::verdict_on(rig.muscle, reached)) {
+    case plant::Verdict::impossible:
+      return fmt::format(
+          "  {}: contraction ratio {:.4f} is above e_max = {:.4f}: impossible for a real muscle (T 2.3)\n",
+          who, reached, plant::Braid(rig.muscle).largest_contraction_ratio());
+    case plant::Verdict::risk:
+      return fmt::format("  {}: contraction ratio {:.4f} is above {:.2f}: a risk to the muscle (T 2.3)\n",
+                         who, reached, plant::risky_contraction_ratio);
+    case plant::Verdict::safe:
+      break;
+  }
   return "";
 }
 
@@ -69,7 +74,7 @@ std::string contraction_notes(const input::Scenario& scenario, const run::Compar
   std::string text;
   for (const auto& run : comparison.runs)
     text += contraction_note(scenario.rig, run.recording.largest_contraction_ratio,
-                             fmt::format("{} at {:g} kg", run.controller, run.load_kg));
+                             fmt::format("{} at {} kg", run.controller, input::write_number(run.load_kg)));
   return text;
 }
 
@@ -87,9 +92,9 @@ std::string table_of(const input::Scenario& scenario, const run::Comparison& com
   std::string failures;
   for (const auto& run : comparison.runs) {
     const auto& m = run.metrics;
-    const auto load = fmt::format("{:g}", run.load_kg);
+    const auto load = input::write_number(run.load_kg);
     if (!run.failure.empty()) {
-      runs.add({load, run.controller, "failed", "-", "-", "-", "-", "-", "-", "-"});
+      runs.add({load, run.controller, "no result", "-", "-", "-", "-", "-", "-", "-"});
       failures += fmt::format("  {} at {} kg: {}\n", run.controller, load, run.failure);
       continue;
     }
@@ -104,18 +109,19 @@ std::string table_of(const input::Scenario& scenario, const run::Comparison& com
     if (row.rmse)
       spreads.add({row.controller, ratio(row.rmse->mean), ratio(row.rmse->lowest), ratio(row.rmse->highest),
                    ratio(row.rmse->width()), ratio(row.rmse->standard_deviation)});
-  text += section("rmse over the loads (spread: highest less lowest)", spreads.text());
+  if (!spreads.empty()) text += section("rmse over the loads (spread: highest less lowest)", spreads.text());
 
   std::string tuned;
   for (const auto& row : comparison.tuned)
-    tuned += fmt::format(
-        "  {} at {:g} kg: proportional {:.4g} mA, integral_time {:.4g} s, derivative_time {:.4g} s ({} "
-        "runs)\n",
-        row.controller, row.load_kg, row.tuned.gains.proportional_mA, row.tuned.gains.integral_time_s,
-        row.tuned.gains.derivative_time_s, row.tuned.evaluations);
+    if (row.failure.empty())
+      tuned += fmt::format(
+          "  {} at {:g} kg: proportional {:.4g} mA, integral_time {:.4g} s, derivative_time {:.4g} s ({} "
+          "runs)\n",
+          row.controller, row.load_kg, row.tuned.gains.proportional_mA, row.tuned.gains.integral_time_s,
+          row.tuned.gains.derivative_time_s, row.tuned.evaluations);
   text += section("gains tuned", tuned);
   text += section("contraction", contraction_notes(scenario, comparison));
-  text += section("failed", failures);
+  text += section("no result", failures);
   std::string unmet;
   for (const auto& line : comparison.unmet) unmet += "  " + line + "\n";
   text += section("criteria not met", unmet);
@@ -129,9 +135,9 @@ std::string table_of(const input::Dataset& dataset, const std::vector<run::Repla
   Grid grid({"run", "load_kg", "rmse", "largest", "mean", "pressure_rmse_bar"}, 1);
   std::string failures, notes;
   for (const auto& run : runs) {
-    const auto load = fmt::format("{:g}", run.load_kg);
+    const auto load = input::write_number(run.load_kg);
     if (!run.failure.empty()) {
-      grid.add({run.id, load, "failed", "-", "-", "-"});
+      grid.add({run.id, load, "no result", "-", "-", "-"});
       failures += fmt::format("  {}: {}\n", run.id, run.failure);
       continue;
     }
@@ -139,7 +145,7 @@ std::string table_of(const input::Dataset& dataset, const std::vector<run::Repla
               cell(run.pressure_rmse_Pa, 1e-5, 4)});
     notes += contraction_note(dataset.rig, run.recording.largest_contraction_ratio, run.id);
   }
-  return text + grid.text() + section("contraction", notes) + section("failed", failures);
+  return text + grid.text() + section("contraction", notes) + section("no result", failures);
 }
 
 }  // namespace mckibben::output

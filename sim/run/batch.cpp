@@ -17,10 +17,12 @@ static_assert(std::atomic<bool>::is_always_lock_free);
 }  // namespace
 
 void catch_interrupts() {
-  std::signal(SIGINT, [](int) {
-    asked_to_stop = true;
-    std::signal(SIGINT, SIG_DFL);  // a second Ctrl-C ends at once
-  });
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP})
+    std::signal(signal, [](int again) {
+      asked_to_stop = true;
+      std::signal(again, SIG_DFL);  // a second one ends at once
+    });
+  std::signal(SIGPIPE, SIG_IGN);  // a reader that went away is a failed write
 }
 
 bool interrupted() {

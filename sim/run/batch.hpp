@@ -14,7 +14,8 @@ class Interrupted : public std::exception {
   const char* what() const noexcept override { return "interrupted"; }
 };
 
-/// Makes Ctrl-C stop long work between two jobs instead of ending the program.
+/// Makes Ctrl-C (and SIGTERM, SIGHUP) stop long work between two jobs instead of ending the program, and a
+/// broken pipe an ordinary failure to write.
 void catch_interrupts();
 bool interrupted();
 

@@ -1,11 +1,13 @@
 // Loads x controllers; see the header.
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <stdexcept>
 
 #include <fmt/format.h>
 
 #include <plant/geometry.hpp>
-#include <sim/engine/failure.hpp>
+#include <sim/input/number.hpp>
 #include <sim/run/batch.hpp>
 #include <sim/run/compare.hpp>
 #include <sim/run/simulate.hpp>
@@ -18,6 +20,10 @@ using input::Scenario;
 // What a change of current costs in tuning [contraction ratio for each mA rms and tick]: enough to keep gains
 // from chasing single encoder counts, too little to matter for how the target is followed.
 constexpr double effort_weight = 2e-4;
+
+// Gains must also do with the proportional gain this much higher, so that they are not tuned to the edge of
+// stability: the loop's own gain changes with load and contraction.
+constexpr double gain_margin = 2.0;
 
 RunPlan plan_of(const Scenario& scenario, double load_kg, std::uint64_t stream) {
   return {.rig = scenario.rig,
@@ -76,26 +82,33 @@ class Comparing {
     for (auto& settings : settings_)
       if (auto* pid = std::get_if<controllers::PidSettings>(&settings); pid && pid->needs_tuning())
         open.push_back(pid);
+    if (open.empty()) return;
     result_.tuned.resize(open.size());
+    const std::size_t most = open.size() * static_cast<std::size_t>(TuningOptions{}.evaluations);
+    std::atomic<std::size_t> evaluations{0};
+    progress_("tuning PID", 0, most);
     for_each_job(
-        open.size(), threads_, [&](std::size_t i) { result_.tuned[i] = tune_one(*open[i]); },
-        [&](std::size_t done) { progress_("tuning PID", done, open.size()); });
+        open.size(), threads_,
+        [&](std::size_t i) {
+          result_.tuned[i] = tune_one(*open[i], [&] { progress_("tuning PID", ++evaluations, most); });
+        },
+        [](std::size_t) {});
   }
 
-  TunedController tune_one(controllers::PidSettings& pid) {
+  TunedController tune_one(controllers::PidSettings& pid, const std::function<void()>& tried) {
     const double load_kg = pid.tuning_load_kg.value_or(median(scenario_.loads_kg));
     const RunPlan plan = plan_of(scenario_, load_kg, 0);
     const auto with = [&pid](const Gains& gains) {
-      controllers::PidSettings tried = pid;
-      tried.proportional_mA = gains.proportional_mA;
-      tried.integral_time_s = gains.integral_time_s;
-      tried.derivative_time_s = gains.derivative_time_s;
-      return tried;
+      controllers::PidSettings complete = pid;
+      complete.proportional_mA = gains.proportional_mA;
+      complete.integral_time_s = gains.integral_time_s;
+      complete.derivative_time_s = gains.derivative_time_s;
+      return complete;
     };
-    const auto cost = [&](const Gains& gains) {
-      if (interrupted()) throw Interrupted();
+    const auto cost_at = [&](const Gains& gains) {
       const auto controller = make(with(gains));
       const Recording recording = simulate(plan, *controller);
+      if (!recording.failure.empty()) throw std::runtime_error(recording.failure);
       double sum_squared_mA = 0.0;
       for (std::size_t k = 1; k < recording.samples.size(); ++k) {
         const double change_mA = recording.samples[k].current_mA - recording.samples[k - 1].current_mA;
@@ -104,9 +117,21 @@ class Comparing {
       const double effort_mA = std::sqrt(sum_squared_mA / static_cast<double>(recording.samples.size()));
       return metrics_of(scenario_, result_.target, recording).rmse + effort_weight * effort_mA;
     };
-    const Tuned tuned = tune(cost, {pid.proportional_mA, pid.integral_time_s, pid.derivative_time_s});
-    pid = with(tuned.gains);
-    return {pid.name, load_kg, tuned};
+    const auto cost = [&](const Gains& gains) {
+      if (interrupted()) throw Interrupted();
+      tried();
+      Gains higher = gains;
+      higher.proportional_mA *= gain_margin;
+      return 0.5 * (cost_at(gains) + cost_at(higher));
+    };
+    TunedController result{.controller = pid.name, .load_kg = load_kg};
+    try {
+      result.tuned = tune(cost, {pid.proportional_mA, pid.integral_time_s, pid.derivative_time_s});
+      pid = with(result.tuned.gains);
+    } catch (const std::runtime_error& failure) {
+      result.failure = failure.what();
+    }
+    return result;
   }
 
   void run_all() {
@@ -115,6 +140,7 @@ class Comparing {
       result_.runs.push_back({.load_kg = scenario_.loads_kg[i / columns],
                               .controller = controllers::name_of(settings_[i % columns]),
                               .failure = "interrupted before it began"});
+    progress_("simulating", 0, total);
     try {
       for_each_job(
           total, threads_, [&](std::size_t i) { run_one(result_.runs[i], settings_[i % columns], i); },
@@ -125,14 +151,15 @@ class Comparing {
   }
 
   void run_one(TrackedRun& run, const controllers::Settings& settings, std::size_t index) const {
-    try {
-      const auto controller = make(settings);
-      run.recording = simulate(plan_of(scenario_, run.load_kg, index + 1), *controller);
-      run.metrics = metrics_of(scenario_, result_.target, run.recording);
-      run.failure.clear();
-    } catch (const engine::NumericalFailure& failure) {
-      run.failure = failure.what();
-    }
+    for (const auto& tuning : result_.tuned)
+      if (tuning.controller == run.controller && !tuning.failure.empty()) {
+        run.failure = tuning.failure;
+        return;
+      }
+    const auto controller = make(settings);
+    run.recording = simulate(plan_of(scenario_, run.load_kg, index + 1), *controller);
+    run.failure = run.recording.failure;
+    if (run.failure.empty()) run.metrics = metrics_of(scenario_, result_.target, run.recording);
   }
 
   void spread_all() {
@@ -159,7 +186,7 @@ class Comparing {
       };
       for (const auto& run : result_.runs) {
         if (!concerns(run.controller) || !run.failure.empty()) continue;
-        const auto who = fmt::format("{} at {:g} kg", run.controller, run.load_kg);
+        const auto who = fmt::format("{} at {} kg", run.controller, input::write_number(run.load_kg));
         check(who, "rmse", run.metrics.rmse, criterion.rmse_below);
         check(who, "largest_error", run.metrics.largest_error, criterion.largest_error_below);
       }

@@ -26,7 +26,8 @@ struct TrackedRun {
 struct TunedController {
   std::string controller;
   double load_kg = 0.0;
-  Tuned tuned;
+  Tuned tuned{};
+  std::string failure{};  ///< why no gains were found; empty if they were
 };
 
 /// One controller over all loads that did not fail; absent if none of its runs ended well.
@@ -48,7 +49,7 @@ struct Comparison {
 using ProgressHook = std::function<void(const std::string& what, std::size_t done, std::size_t total)>;
 
 /// Tunes what is to be tuned, runs everything on `threads` threads (0: all the machine has) and measures. The
-/// result does not depend on the number of threads. Throws Interrupted if stopped before the first run.
+/// result does not depend on the number of threads. Throws Interrupted if stopped while tuning.
 Comparison compare(const input::Scenario& scenario, unsigned threads, const ProgressHook& progress);
 
 }  // namespace mckibben::run

@@ -11,6 +11,8 @@ namespace mckibben::run {
 namespace {
 
 constexpr double same_instant_s = 1e-9;
+constexpr double least_range =
+    1e-4;  // a target that moves less, a fraction of an encoder count, counts as constant
 
 struct Range {
   double low, high;
@@ -50,6 +52,7 @@ std::optional<double> time_lag_s(const Followed& run) {
   const auto best =
       static_cast<std::size_t>(std::min_element(misfit.begin(), misfit.end() - 1) - misfit.begin());
 
+  if (misfit[most + 1] < misfit[best]) return std::nullopt;  // the least lies outside what was searched
   double between = 0.0;
   if (best > 0) {
     const double before = misfit[best - 1], after = misfit[best + 1];
@@ -61,7 +64,7 @@ std::optional<double> time_lag_s(const Followed& run) {
 
 std::optional<double> overshoot(const Followed& run) {
   const Range range = range_of(run.target);
-  if (range.width() <= 0.0) return std::nullopt;
+  if (range.width() < least_range) return std::nullopt;
   bool moved_up = false, moved_down = false;
   double largest = 0.0;
   for (std::size_t k = 1; k < run.target.size(); ++k) {
@@ -75,7 +78,7 @@ std::optional<double> overshoot(const Followed& run) {
 
 std::optional<double> settling_time_s(const Followed& run) {
   const double band = 0.02 * range_of(run.target).width();
-  if (!run.last_change_s || band <= 0.0) return std::nullopt;
+  if (!run.last_change_s || band < 0.02 * least_range) return std::nullopt;
   std::size_t settled = run.target.size();  // first tick of the unbroken stretch within the band at the end
   while (settled > 0 && std::abs(run.contraction[settled - 1] - run.target[settled - 1]) <= band) --settled;
   const double end_s = static_cast<double>(run.target.size() - 1) * run.tick_s;

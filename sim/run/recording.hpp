@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include <plant/state.hpp>
@@ -24,7 +25,8 @@ struct Recording {
   std::vector<Sample> samples;
   plant::Ledger<double> ledger{};  ///< from the first tick to the last, if it was kept
   engine::Counters solver;
-  double largest_contraction_ratio = 0.0;
+  double largest_contraction_ratio = 0.0;  ///< at any tick
+  std::string failure;                     ///< why it ends early: the integrator gave up; empty if it did not
 };
 
 }  // namespace mckibben::run

@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include <controllers/waveform.hpp>
-#include <sim/engine/failure.hpp>
 #include <sim/run/batch.hpp>
 #include <sim/run/replay.hpp>
 #include <sim/run/simulate.hpp>
@@ -16,17 +15,14 @@ ReplayedRun replay_one(const input::Run& measured, const input::RigFile& rig) {
   controllers::RecordedCurrent recorded;
   recorded.samples_mA = measured.current_mA;
   const auto controller = recorded.make(knowledge_of(rig, {}));
-  try {
-    run.recording = simulate({.rig = rig,
-                              .load_kg = measured.load_kg,
-                              .ticks = measured.current_mA.size(),
-                              .engine = rig.integrator,
-                              .keep_ledger = true},
-                             *controller);
-  } catch (const engine::NumericalFailure& failure) {
-    run.failure = failure.what();
-    return run;
-  }
+  run.recording = simulate({.rig = rig,
+                            .load_kg = measured.load_kg,
+                            .ticks = measured.current_mA.size(),
+                            .engine = rig.integrator,
+                            .keep_ledger = true},
+                           *controller);
+  run.failure = run.recording.failure;
+  if (!run.failure.empty()) return run;
   const double per_count = contraction_per_count(rig);
   const auto rows = static_cast<double>(measured.current_mA.size());
   double squares = 0.0, sum = 0.0, pressure_squares = 0.0;
@@ -52,6 +48,7 @@ ReplayedRun replay_one(const input::Run& measured, const input::RigFile& rig) {
 std::vector<ReplayedRun> replay(const input::Dataset& dataset, unsigned threads,
                                 const ProgressHook& progress) {
   std::vector<ReplayedRun> runs(dataset.runs.size());
+  progress("replaying", 0, runs.size());
   for_each_job(
       runs.size(), threads, [&](std::size_t i) { runs[i] = replay_one(dataset.runs[i], dataset.rig); },
       [&](std::size_t done) { progress("replaying", done, runs.size()); });

@@ -2,8 +2,10 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <utility>
 
 #include <plant/plant.hpp>
+#include <sim/engine/failure.hpp>
 #include <sim/engine/integrator.hpp>
 #include <sim/run/simulate.hpp>
 
@@ -40,18 +42,22 @@ class Run {
         disturbance_(plan.noise, plan.seed, plan.stream) {}
 
   Recording operator()() {
-    Recording recording;
-    recording.samples.reserve(plan_.ticks);
-    settle();
-    for (std::size_t k = 0; k < plan_.ticks; ++k) {
-      recording.samples.push_back(tick(static_cast<std::int64_t>(k)));
-      recording.largest_contraction_ratio =
-          std::max(recording.largest_contraction_ratio, flow_.state.joint.contraction_ratio);
-      if (k + 1 < plan_.ticks) integrate(static_cast<std::int64_t>(k));
+    recording_.samples.reserve(plan_.ticks);
+    try {
+      settle();
+      for (std::size_t k = 0; k < plan_.ticks; ++k) {
+        recording_.samples.push_back(tick(static_cast<std::int64_t>(k)));
+        recording_.largest_contraction_ratio =
+            std::max(recording_.largest_contraction_ratio, flow_.state.joint.contraction_ratio);
+        if (k + 1 < plan_.ticks) integrate(static_cast<std::int64_t>(k));
+      }
+    } catch (const engine::NumericalFailure& failure) {
+      recording_.failure = failure.what();
     }
-    recording.ledger = flow_.ledger;
-    recording.solver = integrator_->counters();
-    return recording;
+    recording_.ledger = flow_.ledger;
+    recording_.solver = integrator_->counters();
+    if (recording_.solver.stiff_from_tick >= 0) recording_.solver.stiff_from_tick -= settling_ticks();
+    return std::move(recording_);
   }
 
  private:
@@ -60,8 +66,7 @@ class Run {
     held_.current_speed_mA_per_s = 0.0;
     flow_.state = plant_.at_rest(held_);
     if (plant_.has_events()) held_.slip = plant_.slip_from_rest(flow_.state, held_);
-    const auto ticks = std::llround(plan_.rig.settling_time_s / plan_.rig.tick_s);
-    for (std::int64_t k = -ticks; k < 0; ++k) {
+    for (std::int64_t k = -settling_ticks(); k < 0; ++k) {
       integrate(k);
       counts();
     }
@@ -99,6 +104,8 @@ class Run {
     held_.reference_pressure_Pa = plant_.reference_pressure_Pa(current_mA_ + disturbance_.current_mA());
   }
 
+  long settling_ticks() const { return std::lround(plan_.rig.settling_time_s / plan_.rig.tick_s); }
+
   void integrate(std::int64_t k) {
     const double tick_s = plan_.rig.tick_s;
     integrator_->advance(flow_, held_, static_cast<double>(k) * tick_s, static_cast<double>(k + 1) * tick_s);
@@ -110,6 +117,7 @@ class Run {
   std::unique_ptr<engine::Integrator> integrator_;
   plant::PulseCounter counter_;
   Disturbance disturbance_;
+  Recording recording_;
   engine::Flow flow_;
   plant::Held held_;
   double current_mA_ = 0.0;

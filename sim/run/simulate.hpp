@@ -26,7 +26,8 @@ struct RunPlan {
   bool keep_ledger = false;
 };
 
-/// Simulates one run. Throws engine::NumericalFailure. Touches no heap between the first tick and the last.
+/// Simulates one run. If the integrator gives up, the recording ends there and says why. Touches no heap
+/// between the first tick and the last.
 Recording simulate(const RunPlan& plan, controllers::Controller& controller);
 
 /// What the data sheets of a rig tell a controller, and the target [contraction ratio] at each tick.

@@ -4,6 +4,7 @@
 #include <exception>
 #include <limits>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
 #include <nlopt.hpp>
@@ -22,6 +23,7 @@ struct Search {
   Gains gains;
   Tuned best{{}, std::numeric_limits<double>::infinity(), 0};
   std::vector<double> best_point{};
+  std::string last_failure{};
   std::exception_ptr defect{};  // NLopt keeps no exception but its own
 
   double evaluate() {
@@ -29,7 +31,8 @@ struct Search {
     double value = very_bad;
     try {
       value = cost(gains);
-    } catch (const std::runtime_error&) {
+    } catch (const std::runtime_error& failure) {
+      last_failure = failure.what();
       return very_bad;  // gains with which the simulation fails
     } catch (...) {
       defect = std::current_exception();
@@ -106,7 +109,8 @@ Tuned tune(const std::function<double(const Gains&)>& cost, const GivenGains& gi
              search.best.evaluations < options.evaluations);
   }
   if (!std::isfinite(search.best.cost))
-    throw std::runtime_error("tuning: no gains gave a run that could be simulated");
+    throw std::runtime_error("tuning: no gains gave a run that could be simulated; the last one: " +
+                             search.last_failure);
   return search.best;
 }
 

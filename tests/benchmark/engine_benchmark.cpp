@@ -120,7 +120,7 @@ void ride_benchmark(benchmark::State& state, const Make& make) {
 }
 
 // Tolerance at which both rides stay within 1e-6 in e.
-constexpr double loose = 5e-6;
+constexpr double loose = 4e-6;
 
 template <class V>
 void Erk_(benchmark::State& state) {

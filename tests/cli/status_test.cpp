@@ -31,12 +31,18 @@ TEST_F(Program, HelpIsNotAnError) {
 TEST_F(Program, UsageErrorsAre64) {
   for (const char* arguments :
        {"", "fly", "run", "run quick.yaml --threads 0", "run quick.yaml --threads many",
-        "run quick.yaml --frobnicate", "run quick.yaml more.yaml", "schema kitchen"}) {
+        "run quick.yaml --frobnicate", "run quick.yaml more.yaml", "schema kitchen",
+        "run quick.yaml --seed -1", "run quick.yaml --seed 010", "run quick.yaml --seed 1e3",
+        "run quick.yaml --seed 99999999999999999999"}) {
     const auto said = run(arguments);
     EXPECT_EQ(said.status, 64) << arguments;
     EXPECT_EQ(said.out, "") << arguments;
     EXPECT_NE(said.err, "") << arguments;
   }
+}
+
+TEST_F(Program, AnUnknownVerbIsNamedWithWhatWasMeant) {
+  EXPECT_NE(run("replya x").err.find("unknown verb replya; did you mean replay?"), std::string::npos);
 }
 
 TEST_F(Program, BadInputIs65AndNothingIsRun) {
@@ -74,6 +80,7 @@ TEST_F(Program, ANumericalFailureIs70AndNamesTimeStateAndCause) {
   EXPECT_EQ(said.status, 70);
   EXPECT_NE(said.out.find("integration failed at t = "), std::string::npos) << said.out;
   EXPECT_NE(said.out.find("contraction_ratio = "), std::string::npos);
+  EXPECT_NE(said.out.find("(settling)"), std::string::npos);
   EXPECT_TRUE(fs::exists(scratch / "out/fall/11.138kg_step_current.csv"));  // the sound run is not lost
 }
 
@@ -104,6 +111,74 @@ TEST_F(Program, NothingOfTheUsersIsLost) {
   EXPECT_EQ(read_text(scratch / "r.old-1/notes.txt"), "mine");
   EXPECT_FALSE(fs::exists(scratch / "r/notes.txt"));
   EXPECT_NE(said.err.find("r.old-1"), std::string::npos);
+}
+
+TEST_F(Program, AResultOfAnotherJobOrOneThatWasChangedIsSetAside) {
+  write_text(scratch / "other.yaml", quick_scenario);
+  ASSERT_EQ(run("run quick.yaml --out r").status, 0);
+  const std::string first = read_text(scratch / "r/run.json");
+  ASSERT_EQ(run("run other.yaml --out r").status, 0);
+  EXPECT_EQ(read_text(scratch / "r.old-1/run.json"), first);
+  write_text(scratch / "r/table.txt", "annotated");
+  ASSERT_EQ(run("run other.yaml --out r").status, 0);
+  EXPECT_EQ(read_text(scratch / "r.old-2/table.txt"), "annotated");
+}
+
+TEST_F(Program, TheCurrentFolderIsNeverReplaced) {
+  for (const char* out : {".", "..", "/"}) {
+    const auto said = run(std::string("run quick.yaml --out ") + out);
+    EXPECT_EQ(said.status, 74) << out;
+    EXPECT_EQ(said.out, "") << out;
+  }
+  EXPECT_EQ(read_text(scratch / "quick.yaml"), quick_scenario);
+}
+
+TEST_F(Program, ResultsGoWhereALinkLeads) {
+  fs::create_directory(scratch / "disk");
+  fs::create_directory_symlink(scratch / "disk", scratch / "link");
+  fs::create_directory_symlink(scratch / "nowhere", scratch / "dangling");
+  ASSERT_EQ(run("run quick.yaml --out link").status, 0);
+  EXPECT_TRUE(fs::is_symlink(scratch / "link"));
+  EXPECT_TRUE(fs::exists(scratch / "disk/run.json"));
+  EXPECT_EQ(run("run quick.yaml --out dangling").status, 74);
+}
+
+TEST_F(Program, ABrokenPipeLosesNoResult) {
+  run("run quick.yaml --json --out r | true; true");
+  EXPECT_TRUE(fs::exists(scratch / "r/run.json"));
+  for (const auto& entry : fs::directory_iterator(static_cast<const fs::path&>(scratch)))
+    EXPECT_EQ(entry.path().filename().string().find(".writing-"), std::string::npos) << entry.path();
+}
+
+TEST_F(Program, LoadsThatDifferLittleGetFilesOfTheirOwn) {
+  write_text(
+      scratch / "close.yaml",
+      "schema: mckibben-scenario/1\nloads: [11.138 kg, 11.1380001 kg]\nduration: 1 s\n"
+      "target: {kind: steps, start: 0.01, moves: []}\ncontrollers: [{kind: step_current, moves: []}]\n");
+  ASSERT_EQ(run("run close.yaml").status, 0);
+  EXPECT_TRUE(fs::exists(scratch / "out/close/11.138kg_step_current.csv"));
+  EXPECT_TRUE(fs::exists(scratch / "out/close/11.1380001kg_step_current.csv"));
+}
+
+TEST_F(Program, APidThatCannotBeTunedFailsAlone) {
+  write_text(scratch / "heavy.yaml",
+             "schema: mckibben-scenario/1\nrig: {muscle: {contact_surface: printed}}\nloads: [11.138 kg]\n"
+             "duration: 1 s\ntarget: {kind: steps, start: 0.01, moves: []}\n"
+             "controllers: [{kind: pid, tuning_load: 500 kg}, {kind: step_current, moves: []}]\n");
+  const auto said = run("run heavy.yaml");
+  EXPECT_EQ(said.status, 70);
+  EXPECT_NE(said.out.find("no gains gave a run that could be simulated"), std::string::npos) << said.out;
+  EXPECT_TRUE(fs::exists(scratch / "out/heavy/11.138kg_step_current.csv"));
+  EXPECT_FALSE(fs::exists(scratch / "out/heavy/11.138kg_pid.csv"));
+}
+
+TEST_F(Program, RiskToTheMuscleIsInTheJson) {
+  write_text(scratch / "high.yaml",
+             "schema: mckibben-scenario/1\nloads: [11.138 kg]\nduration: 3 s\n"
+             "target: {kind: steps, start: 0.01, moves: []}\ncontrollers: [{kind: step_current, start: 18 "
+             "mA, moves: []}]\n");
+  const auto document = input::Json::parse(run("run high.yaml --json").out);
+  EXPECT_EQ(document.at("runs").at(0).at("contraction").at("verdict"), "risk");
 }
 
 TEST_F(Program, AFailedRunLeavesEarlierResultsAlone) {

@@ -88,7 +88,7 @@ TEST(Lag, IsNeverNegativeNorBeyondItsLimit) {
   EXPECT_EQ(time_lag_s(ahead.view()), 0.0);
   const Columns far_behind{sampled(400, ramp),
                            sampled(400, [&](double t) { return ramp(std::max(0.0, t - 3.0)); })};
-  EXPECT_NEAR(time_lag_s(far_behind.view()).value(), 0.25 * 399 * tick_s, tick_s);
+  EXPECT_FALSE(time_lag_s(far_behind.view()));  // it lies outside what is searched: not known, not the limit
 }
 
 TEST(Lag, OfAMuscleThatDoesNotMoveIsUnknown) {

@@ -76,34 +76,85 @@ TEST(Simulate, ASlowRideRunsRoundTheStaticHysteresisLoop) {
   EXPECT_GT(down, 300);
 }
 
-TEST(Simulate, TouchesNoHeapBetweenFirstAndLastTick) {
-  class Watching final : public controllers::Controller {
-   public:
-    explicit Watching(std::int64_t last) : last_(last) {}
-    controllers::Command rest() override { return {4.0}; }
-    controllers::Command step(const controllers::Reading& reading) override {
-      if (reading.tick == 0) start_heap_watch();
-      if (reading.tick == last_) allocations = stop_heap_watch();
-      return {12.0 + 7.0 * std::sin(0.05 * static_cast<double>(reading.tick))};
-    }
-    long allocations = -1;
+/// Hands on to another controller and watches the heap from the first tick to the last.
+class Watched final : public controllers::Controller {
+ public:
+  Watched(std::unique_ptr<controllers::Controller> inner, std::int64_t last)
+      : inner_(std::move(inner)), last_(last) {}
+  controllers::Command rest() override { return inner_->rest(); }
+  controllers::Command step(const controllers::Reading& reading) override {
+    if (reading.tick == 0) start_heap_watch();
+    const auto command = inner_->step(reading);
+    if (reading.tick == last_) allocations = stop_heap_watch();
+    return command;
+  }
+  long allocations = -1;
 
-   private:
-    std::int64_t last_;
+ private:
+  std::unique_ptr<controllers::Controller> inner_;
+  std::int64_t last_;
+};
+
+std::vector<controllers::Settings> one_of_each() {
+  controllers::PidSettings pid;
+  pid.proportional_mA = 60.0;
+  pid.integral_time_s = 0.2;
+  pid.derivative_time_s = 0.05;
+  pid.feedback_delay_ticks = 3;
+  controllers::StaticInverseSettings inverse;
+  inverse.assumed_load_kg = 14.0;
+  controllers::StepCurrent steps;
+  steps.moves = {{1.0, 12.0}, {2.0, 6.0}};
+  controllers::RecordedCurrent recorded;
+  recorded.samples_mA = std::vector<double>(100, 10.0);
+  return {pid,
+          inverse,
+          controllers::SineCurrent{},
+          slow_triangle(),
+          steps,
+          controllers::StairCurrent{},
+          controllers::ChirpCurrent{},
+          recorded};
+}
+
+TEST(Simulate, TouchesNoHeapBetweenFirstAndLastTick) {
+  constexpr std::size_t ticks = 300;
+  const auto allocations = [&](const RunPlan& plan, const controllers::Settings& settings) {
+    const std::vector<double> target(ticks, 0.1);
+    Watched controller(controllers::make(settings, knowledge_of(plan.rig, target)), ticks - 1);
+    EXPECT_EQ(simulate(plan, controller).failure, "");
+    return controller.allocations;
   };
   for (const auto method : {engine::Method::erk, engine::Method::cvode, engine::Method::automatic})
     for (const bool ledger : {false, true})
       for (const auto memory : {plant::FrictionMemory::lugre, plant::FrictionMemory::coulomb}) {
-        RunPlan s = plan(13.87, 400);
-        s.engine.method = method;
-        s.keep_ledger = ledger;
-        s.rig.friction.memory = memory;
-        s.noise = {1e-4, 100.0, 0.01};
-        Watching controller(399);
-        simulate(s, controller);
-        EXPECT_EQ(controller.allocations, 0)
+        RunPlan p = plan(13.87, ticks);
+        p.engine.method = method;
+        p.keep_ledger = ledger;
+        p.rig.friction.memory = memory;
+        p.rig.encoder.wiring = plant::EncoderWiring::crosswise;
+        p.noise = {1e-4, 100.0, 0.01};
+        EXPECT_EQ(allocations(p, one_of_each().front()), 0)
             << "method " << static_cast<int>(method) << ", ledger " << ledger;
       }
+  for (const auto& settings : one_of_each())
+    EXPECT_EQ(allocations(plan(13.87, ticks), settings), 0) << controllers::name_of(settings);
+  EXPECT_EQ(one_of_each().size(), std::variant_size_v<controllers::Settings>);
+}
+
+// A load that the stop cannot hold falls out of the range of the laws.
+TEST(Simulate, AFailureEndsTheRecordingAndSaysWhy) {
+  RunPlan p = plan(400.0, 100);
+  p.rig.muscle.stop_stiffness_N_per_m = 1e3;
+  p.rig.muscle.stop_damping_s_per_m = 0.0;
+  const auto settling = ride(p, slow_triangle());
+  EXPECT_NE(settling.failure.find("(settling)"), std::string::npos) << settling.failure;
+  EXPECT_TRUE(settling.samples.empty());
+  p.rig.settling_time_s = 0.0;
+  const auto falling = ride(p, slow_triangle());
+  EXPECT_NE(falling.failure.find("left the range"), std::string::npos) << falling.failure;
+  EXPECT_GT(falling.samples.size(), 2u);
+  EXPECT_LT(falling.samples.size(), 100u);
 }
 
 TEST(Simulate, HeapWatchSeesAllocations) {

@@ -1,0 +1,64 @@
+// Jobs over threads: each once, the first failure by index, and an orderly stop.
+#include <atomic>
+#include <csignal>
+#include <cstdlib>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <sim/run/batch.hpp>
+
+namespace mckibben::run {
+namespace {
+
+TEST(Batch, DoesEachJobOnceOnAnyNumberOfThreads) {
+  for (const unsigned threads : {1u, 2u, 7u, 64u}) {
+    std::vector<std::atomic<int>> times(20);
+    std::atomic<std::size_t> last{0};
+    for_each_job(
+        times.size(), threads, [&](std::size_t i) { ++times[i]; },
+        [&](std::size_t done) { last = std::max(last.load(), done); });
+    for (const auto& count : times) EXPECT_EQ(count, 1);
+    EXPECT_EQ(last, times.size());
+  }
+}
+
+TEST(Batch, ThrowsTheFirstFailureByIndexAfterAllHaveEnded) {
+  std::atomic<int> ended{0};
+  const auto job = [&](std::size_t i) {
+    ++ended;
+    if (i == 3 || i == 7) throw std::runtime_error(std::to_string(i));
+  };
+  try {
+    for_each_job(10, 4, job, [](std::size_t) {});
+    FAIL();
+  } catch (const std::runtime_error& failure) {
+    EXPECT_STREQ(failure.what(), "3");
+  }
+  EXPECT_EQ(ended, 10);
+}
+
+TEST(Batch, StopsBetweenJobsWhenInterrupted) {
+  const auto work = [] {
+    catch_interrupts();
+    int begun = 0;
+    try {
+      for_each_job(
+          10, 1,
+          [&](std::size_t i) {
+            ++begun;
+            if (i == 2) std::raise(SIGINT);
+          },
+          [](std::size_t) {});
+    } catch (const Interrupted&) {
+      std::_Exit(begun);  // the job that was running is finished, no other begun
+    }
+    std::_Exit(100);
+  };
+  EXPECT_EXIT(work(), testing::ExitedWithCode(3), "");
+}
+
+}  // namespace
+}  // namespace mckibben::run
