@@ -3,7 +3,11 @@
 #pragma once
 
 #include <cstdint>
+#include <stdexcept>
+#include <string>
 #include <vector>
+
+#include <controllers/reach.hpp>
 
 namespace mckibben::controllers {
 
@@ -22,12 +26,17 @@ struct Command {
   double current_mA = 0.0;
 };
 
-/// Nominal braid force law (T 2.8): F = pi r0^2 P [a (1 - k e)^2 - b].
+/// Nominal braid: force (T 2.8, 4.30) F = pi r0^2 P [a (1 - k e)^2 - b], and contact surface (T 4.3).
 struct ForceModel {
   double rest_radius_m = 0.0;
   double rest_length_m = 0.0;
   double braid_angle_rad = 0.0;
   double end_correction = 0.0;
+  bool surface_as_printed = false;  ///< T 4.3 as printed, without the square on its cosine
+
+  double force_N(double contraction_ratio, double pressure_Pa) const;
+  double contact_surface_m2(double contraction_ratio) const;
+  double largest_contraction_ratio() const;  ///< e_max (T 2.10)
 };
 
 /// Nominal line of the servo valve, from current to gauge pressure (T 3.2).
@@ -36,6 +45,10 @@ struct ValveLine {
   double span_current_mA = 0.0;
   double zero_pressure_Pa = 0.0;
   double span_pressure_Pa = 0.0;
+
+  double slope_Pa_per_mA() const;
+  double pressure_Pa(double current_mA) const;  ///< kept between its ends
+  double current_mA(double pressure_Pa) const;  ///< kept between its ends
 };
 
 /// What a controller is told on paper before the run.
@@ -46,9 +59,23 @@ struct Knowledge {
   std::vector<double> target;       ///< contraction ratio wanted at each tick; its last value holds after it
   ForceModel model;
   ValveLine valve;
+  Reach reach;  ///< what the hardware can follow; empty where nobody computed it
 
   /// Contraction ratio wanted at `tick`; 0 where there is no target.
   double target_at(std::int64_t tick) const;
+};
+
+/// Something a controller found out about its load or its own limits.
+struct Finding {
+  std::string name;
+  std::string unit;
+  double value = 0.0;
+};
+
+/// A controller cannot do its work: the load does not move, or lies outside what it was calibrated for.
+class ControllerFailure : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
 };
 
 class Controller {
@@ -61,8 +88,14 @@ class Controller {
   /// Current held while the rig settles, before the first reading.
   virtual Command rest() = 0;
 
-  /// Called once for each tick, in order, beginning with tick 0.
+  /// Ticks it needs after settling and before tick 0, to find out about its load. They are not recorded.
+  virtual std::int64_t preparation_ticks() const { return 0; }
+
+  /// Called once for each tick, in order, beginning with tick -preparation_ticks(). Throws ControllerFailure.
   virtual Command step(const Reading& reading) = 0;
+
+  /// What it found out, once its last step is done.
+  virtual std::vector<Finding> findings() const { return {}; }
 
   /// True if the currents are already what a DAC gave and must not be rounded again.
   virtual bool already_quantised() const { return false; }

@@ -2,19 +2,20 @@
 // filter, back-calculation against windup (Astrom & Hagglund 1995, section 3). Encoder counts in, mA out.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <controllers/controller.hpp>
 
 namespace mckibben::controllers {
 
-/// u = rest + K (b r - y) + I + D, clamped; dI/dt = K/Ti (r - y) + (u - v)/Tt, with v the unclamped u.
-struct PidSettings {
-  static constexpr std::string_view kind = "pid";
-  std::string name{kind};
+/// Everything about the feedback itself.
+struct PidTerms {
   std::optional<double> proportional_mA = std::nullopt;
   std::optional<double> integral_time_s = std::nullopt;
   std::optional<double> derivative_time_s = std::nullopt;
@@ -23,19 +24,14 @@ struct PidSettings {
   double setpoint_weight = 1.0;
   std::optional<double> tracking_time_s = std::nullopt;
   double lowest_current_mA = 4.0, highest_current_mA = 20.0;
-  double rest_current_mA = 4.0;
   int feedback_delay_ticks = 0;
   std::optional<double> tuning_load_kg = std::nullopt;
 
   /// Whether some gain is left to tuning.
   bool needs_tuning() const { return !proportional_mA || !integral_time_s || !derivative_time_s; }
 
-  /// Throws std::invalid_argument if a gain is missing.
-  std::unique_ptr<Controller> make(const Knowledge& knowledge) const;
-
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
-    visit("name", self.name, "name in tables and file names");
     visit("proportional", self.proportional_mA, "mA", 0.0, 1e6,
           "gain K, current for a whole contraction ratio; tuned if absent");
     visit("integral_time", self.integral_time_s, "s", 0.0, 1e6,
@@ -50,8 +46,6 @@ struct PidSettings {
           "Tt: how fast a limit unwinds the integral; sqrt(Ti Td) if absent, Ti without derivative action");
     visit("lowest_current", self.lowest_current_mA, "mA", 0.0, 100.0, "lower limit of the output");
     visit("highest_current", self.highest_current_mA, "mA", 0.0, 100.0, "upper limit of the output");
-    visit("rest_current", self.rest_current_mA, "mA", 0.0, 100.0,
-          "current before the first reading, and output without error");
     visit("feedback_delay_ticks", self.feedback_delay_ticks, 0, 1000, "age of the counts that are used");
     visit("tuning_load", self.tuning_load_kg, "kg", 0.0, 500.0,
           "load at which missing gains are tuned; the scenario's median load if absent");
@@ -59,6 +53,55 @@ struct PidSettings {
   template <class Report>
   void rules(Report& report) const {
     if (highest_current_mA <= lowest_current_mA) report("highest_current", "must be above lowest_current");
+  }
+};
+
+/// u = base + K (b r - y) + I + D, clamped; dI/dt = K/Ti (r - y) + (u - v)/Tt, with v the unclamped u. The
+/// base is a fixed current or a feedforward.
+class PidLoop {
+ public:
+  /// Throws std::invalid_argument if a gain is missing.
+  PidLoop(const PidTerms& terms, const Knowledge& knowledge);
+
+  /// Output [mA] for the counts of this tick; new at each sample only. Called once each tick.
+  double step(const Reading& reading, double base_mA);
+
+  double clamped(double current_mA) const;
+
+ private:
+  std::int64_t delayed(const Reading& reading);
+  double sample(std::int64_t counts, std::int64_t tick, double base_mA);
+
+  PidTerms terms_;
+  Knowledge knowledge_;
+  double K_mA_, Ti_s_, Td_s_, h_s_;
+  double highest_mA_, lowest_mA_;
+  double Tt_s_ = 0.0;
+  std::vector<std::int64_t> past_counts_;
+  std::size_t oldest_ = 0;
+  bool first_ = true;
+  double y_before_ = 0.0, I_mA_ = 0.0, D_mA_ = 0.0, output_mA_ = 0.0;
+};
+
+/// The PID around a fixed current.
+struct PidSettings : PidTerms {
+  static constexpr std::string_view kind = "pid";
+  std::string name{kind};
+  double rest_current_mA = 4.0;
+
+  /// Throws std::invalid_argument if a gain is missing.
+  std::unique_ptr<Controller> make(const Knowledge& knowledge) const;
+
+  template <class Self, class Visitor>
+  static void fields(Self& self, Visitor& visit) {
+    visit("name", self.name, "name in tables and file names");
+    PidTerms::fields(self, visit);
+    visit("rest_current", self.rest_current_mA, "mA", 0.0, 100.0,
+          "current before the first reading, and output without error");
+  }
+  template <class Report>
+  void rules(Report& report) const {
+    PidTerms::rules(report);
     if (rest_current_mA < lowest_current_mA || rest_current_mA > highest_current_mA)
       report("rest_current", "must lie between lowest_current and highest_current");
   }

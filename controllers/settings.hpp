@@ -6,14 +6,18 @@
 #include <variant>
 
 #include <controllers/controller.hpp>
+#include <controllers/feedforward_pid.hpp>
+#include <controllers/open_loop.hpp>
+#include <controllers/open_loop_limited.hpp>
 #include <controllers/pid.hpp>
 #include <controllers/static_inverse.hpp>
 #include <controllers/waveform.hpp>
 
 namespace mckibben::controllers {
 
-using Settings = std::variant<PidSettings, StaticInverseSettings, SineCurrent, TriangleCurrent, StepCurrent,
-                              StairCurrent, ChirpCurrent, RecordedCurrent>;
+using Settings = std::variant<PidSettings, FeedforwardPidSettings, OpenLoopSettings, OpenLoopLimitedSettings,
+                              StaticInverseSettings, SineCurrent, TriangleCurrent, StepCurrent, StairCurrent,
+                              ChirpCurrent, RecordedCurrent>;
 
 /// A controller at its beginning. Throws std::invalid_argument if the settings are incomplete: a PID whose
 /// gains are still to be tuned, a recording that was not read.
@@ -21,5 +25,11 @@ std::unique_ptr<Controller> make(const Settings& settings, const Knowledge& know
 
 /// The name it goes by in tables and files.
 const std::string& name_of(const Settings& settings);
+
+/// The feedback terms of a controller that has some, else null.
+PidTerms* pid_terms(Settings& settings);
+
+/// What a controller that needs a calibration says about it, else null.
+CalibratedSettings* calibrated(Settings& settings);
 
 }  // namespace mckibben::controllers

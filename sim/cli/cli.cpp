@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <cstdio>
 #include <functional>
+#include <map>
+#include <string>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -23,6 +25,8 @@ constexpr const char* examples =
     "Examples:\n"
     "  mckibben run scenarios/five_loads.yaml          controllers compared under five loads\n"
     "  mckibben run my.yaml --out results --threads 1  somewhere else, on one thread\n"
+    "  mckibben dataset scenarios/thesis_campaign.yaml synthetic calibration data\n"
+    "  mckibben calibrate data/                        the thesis's models from it\n"
     "  mckibben replay measured/ --rig my_rig.yaml     measured currents on a rig of yours\n"
     "  mckibben check my.yaml                          is the file right? nothing is run\n"
     "Exit status: 0 done, 1 a criterion of yours is not met, 64 usage, 65 bad input file,\n"
@@ -85,6 +89,42 @@ bool is_unknown_verb(const CLI::App& app, int argc, char** argv) {
   return true;
 }
 
+void add_calibrate(CLI::App& verb, std::string& path, CalibrateOptions& how) {
+  using namespace thesis;
+  verb.add_option("dataset", path, "Data set: its dataset.yaml or the folder")
+      ->required()
+      ->type_name("DATASET");
+  verb.add_flag("--kgf", how.kgf, "Pressures of figures and report in kgf/m2, as the thesis prints them");
+  const auto choice = [&verb](const char* name, auto& value, auto choices, const char* help) {
+    const auto choose = [&value, choices](const std::string& text) { value = choices.at(text); };
+    verb.add_option_function<std::string>(name, choose, help)->check(CLI::IsMember(choices))->type_name("");
+  };
+  choice("--pressure", how.fits.processing.pressure,
+         std::map<std::string, PressureSource>{{"current", PressureSource::current},
+                                               {"gauge", PressureSource::gauge}},
+         "Pressure from the current by the valve's line (default: current) or from the gauge");
+  choice("--acceleration", how.fits.processing.acceleration,
+         std::map<std::string, Acceleration>{{"counted", Acceleration::counted},
+                                             {"neglected", Acceleration::neglected}},
+         "Acceleration in the force balance (default: counted)");
+  choice("--fit", how.fits.fitting,
+         std::map<std::string, PressureFitting>{{"joint", PressureFitting::joint},
+                                                {"sequence", PressureFitting::sequence}},
+         "Pressure coefficients from all samples at once, or from the thesis's sequence of fits (default: "
+         "joint)");
+  verb.add_option("--load-order", how.fits.orders.load, "Highest order in load (default: 3, the thesis's)")
+      ->check(CLI::Range(0, 3))
+      ->type_name("N");
+  verb.add_option("--speed-order", how.fits.orders.speed,
+                  "Highest order in the current's speed (default: 2, the thesis's)")
+      ->check(CLI::Range(0, 2))
+      ->type_name("N");
+  verb.footer(
+      "Example:\n  mckibben calibrate data --out calibration\n"
+      "Writes calibration.yaml (for the open-loop controllers), calibration.json, report.txt and "
+      "figures/.\n");
+}
+
 }  // namespace
 
 int run(int argc, char** argv) {
@@ -113,6 +153,28 @@ int run(int argc, char** argv) {
     chosen = [&] { return run_scenario(path, options); };
   });
 
+  auto* dataset_verb = app.add_subcommand(
+      "dataset", "Simulate a campaign; write a calibration data set and, apart, the truth");
+  dataset_verb->add_option("campaign", path, "Campaign file")->required()->type_name("CAMPAIGN.yaml");
+  add_common(*dataset_verb, options);
+  dataset_verb->add_option("--seed", seed, "Seed of the noise (default: the campaign's)")
+      ->check(is_seed)
+      ->type_name("N");
+  dataset_verb->footer(
+      "Example:\n  mckibben dataset scenarios/thesis_campaign.yaml --out data\n"
+      "Writes data/ and data-truth/. If interrupted, the same command goes on where it stopped.\n");
+  dataset_verb->callback([&] {
+    if (!seed.empty()) options.seed = std::stoull(seed);
+    chosen = [&] { return make_dataset(path, options); };
+  });
+
+  CalibrateOptions how;
+  auto* calibrate_verb = app.add_subcommand(
+      "calibrate", "Fit the thesis's friction and pressure models to a data set; draw its figures");
+  add_common(*calibrate_verb, options);
+  add_calibrate(*calibrate_verb, path, how);
+  calibrate_verb->callback([&] { chosen = [&] { return calibrate_dataset(path, options, how); }; });
+
   auto* replay_verb =
       app.add_subcommand("replay", "Simulate a data set's runs with their recorded currents; compare");
   replay_verb->add_option("dataset", path, "Data set: its dataset.yaml or the folder")
@@ -125,7 +187,7 @@ int run(int argc, char** argv) {
   replay_verb->callback([&] { chosen = [&] { return replay_dataset(path, options); }; });
 
   auto* check_verb =
-      app.add_subcommand("check", "Validate scenario, rig and data set files without running anything");
+      app.add_subcommand("check", "Validate scenario, campaign, rig and data set files; nothing is run");
   check_verb->add_option("files", paths, "Files to check")->required()->type_name("FILE");
   add_common(*check_verb, options);
   check_verb->footer("Example:\n  mckibben check scenarios/*.yaml\n");
@@ -133,7 +195,8 @@ int run(int argc, char** argv) {
 
   auto* schema_verb =
       app.add_subcommand("schema", "Print the keys of a kind of file, as JSON Schema or as a table");
-  schema_verb->add_option("kind", kind, "Kind of file")->check(CLI::IsMember({"scenario", "rig", "dataset"}));
+  schema_verb->add_option("kind", kind, "Kind of file")
+      ->check(CLI::IsMember({"scenario", "campaign", "rig", "dataset"}));
   schema_verb
       ->add_option("--format", format,
                    "How to print it; yaml prints the rig `thesis` with every value, to start from")

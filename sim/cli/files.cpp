@@ -7,6 +7,8 @@
 
 #include <sim/cli/exit_status.hpp>
 #include <sim/cli/verbs.hpp>
+#include <sim/input/calibration_file.hpp>
+#include <sim/input/campaign.hpp>
 #include <sim/input/dataset.hpp>
 #include <sim/input/field_table.hpp>
 #include <sim/input/json_schema.hpp>
@@ -37,11 +39,17 @@ void read_any(const std::filesystem::path& path, std::vector<Problem>& warnings)
     input::read_rig(path.string(), inputs);
   } else if (kind == "mckibben-dataset") {
     input::read_dataset(path);
+  } else if (kind == "mckibben-campaign") {
+    input::read_campaign(path);
+  } else if (kind == "mckibben-calibration") {
+    std::vector<input::InputFile> inputs;
+    input::read_calibration(path, inputs);
   } else if (kind == "mckibben-scenario") {
     input::read_scenario(path, warnings);
   } else {
     const std::string known =
-        fmt::format("{}, {} or {}", input::scenario_schema, input::rig_schema, input::dataset_schema);
+        fmt::format("{}, {}, {}, {} or {}", input::scenario_schema, input::campaign_schema, input::rig_schema,
+                    input::dataset_schema, input::calibration_schema);
     input::Problems problems;
     if (schema == nullptr)
       problems.error(file.source, file.root.place,
@@ -118,6 +126,8 @@ int print_schema(const std::string& kind, const std::string& format) {
   }
   if (kind == "rig")
     return print_kind(input::rig_schema, "Rig", input::list_fields<input::RigFile>(), format);
+  if (kind == "campaign")
+    return print_kind(input::campaign_schema, "Campaign", input::list_fields<input::Campaign>(), format);
   if (kind == "dataset")
     return print_kind(input::dataset_schema, "Data set", input::list_fields<input::Dataset>(), format);
   return print_kind(input::scenario_schema, "Scenario", input::list_fields<input::Scenario>(), format);

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <sim/cli/exit_status.hpp>
+#include <sim/cli/results.hpp>
 #include <sim/cli/verbs.hpp>
 #include <sim/input/rig_file.hpp>
 #include <sim/output/csv.hpp>
@@ -22,24 +23,8 @@
 namespace mckibben::cli {
 namespace {
 
-std::filesystem::path destination(const Options& options, const std::string& name) {
-  return options.out.empty() ? std::filesystem::path("out") / name : std::filesystem::path(options.out);
-}
-
 void warn(const std::vector<input::Problem>& warnings) {
   for (const auto& warning : warnings) fmt::print(stderr, "{}\n", to_text(warning));
-}
-
-void publish(output::ResultFolder& folder, const std::filesystem::path& where) {
-  const auto aside = folder.publish();
-  if (!aside.empty())
-    fmt::print(stderr, "mckibben: {} was not an earlier result of this, as it was written; it is now {}\n",
-               where.string(), aside.string());
-  fmt::print(stderr, "results in {}\n", where.string());
-}
-
-void print(const std::string& text) {
-  std::fwrite(text.data(), 1, text.size(), stdout);
 }
 
 }  // namespace
@@ -84,12 +69,14 @@ int replay_dataset(const std::string& path, const Options& options) {
   input::Dataset dataset = input::read_dataset(path);
   if (!options.rig.empty()) dataset.rig = input::read_rig(options.rig, dataset.inputs);
   const auto home = std::filesystem::absolute(dataset.path).lexically_normal().parent_path();
-  const auto where = destination(options, home.has_filename() ? home.filename().string() : "dataset");
+  const std::string name = home.has_filename() ? home.filename().string() : "dataset";
+  const auto where = destination(options, name + "-replay");
+  keep_apart(where, home);
   output::ResultFolder folder(where, "replay " + path);
 
   std::vector<run::ReplayedRun> runs;
   {
-    output::Progress progress(home.filename().string());
+    output::Progress progress(name);
     runs = run::replay(dataset, options.threads, progress.hook());
   }
   const double per_count = run::contraction_per_count(dataset.rig);

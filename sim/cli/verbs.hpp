@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include <sim/thesis/calibrate.hpp>
+
 namespace mckibben::cli {
 
 /// Options that verbs share.
@@ -17,11 +19,19 @@ struct Options {
   std::string rig;  ///< rig that replaces the data set's; empty for none
 };
 
+/// What `calibrate` may be asked for besides.
+struct CalibrateOptions {
+  thesis::Options fits;
+  bool kgf = false;  ///< pressures of figures and report in kgf/m2
+};
+
 int run_scenario(const std::string& path, const Options& options);
+int make_dataset(const std::string& path, const Options& options);
 int replay_dataset(const std::string& path, const Options& options);
+int calibrate_dataset(const std::string& path, const Options& options, const CalibrateOptions& how);
 int check_files(const std::vector<std::string>& paths, const Options& options);
-/// `kind`: scenario, rig or dataset; `format`: json (JSON Schema), markdown (table of keys) or yaml (the rig
-/// `thesis` with every value, whatever the kind).
+/// `kind`: scenario, campaign, rig or dataset; `format`: json (JSON Schema), markdown (table of keys) or yaml
+/// (the rig `thesis` with every value, whatever the kind).
 int print_schema(const std::string& kind, const std::string& format);
 
 }  // namespace mckibben::cli

@@ -1,13 +1,15 @@
 // Reading of scenarios, and the rules that need more than one field; see the header.
 #include <algorithm>
 #include <cmath>
-#include <set>
+#include <map>
+#include <optional>
 #include <unordered_map>
 
 #include <fmt/format.h>
 
 #include <plant/geometry.hpp>
-#include <sim/input/csv.hpp>
+#include <sim/input/calibration_file.hpp>
+#include <sim/input/common_checks.hpp>
 #include <sim/input/file_names.hpp>
 #include <sim/input/number.hpp>
 #include <sim/input/quantity.hpp>
@@ -25,13 +27,13 @@ constexpr double most_ticks = 1e6;  // more would not fit into memory
 class Checker {
  public:
   Checker(const YamlFile& file, Scenario& scenario, Problems& problems)
-      : source_(file.source), root_(file.root), scenario_(scenario), problems_(problems) {}
+      : file_(file), source_(file.source), root_(file.root), scenario_(scenario), problems_(problems) {}
 
   void check() {
-    check_name();
+    check_name(file_, scenario_.name, problems_);
     check_duration();
     check_noise();
-    check_loads();
+    check_loads(file_, scenario_.loads_kg, problems_);
     check_controllers();
     check_criteria();
     check_target();
@@ -39,12 +41,6 @@ class Checker {
 
  private:
   const Node& list(std::string_view key) const { return *root_.find(key); }
-
-  void check_name() {
-    const Node* given = root_.find("name");
-    if (given != nullptr && !is_file_safe(scenario_.name))
-      problems_.error(source_, given->place, fmt::format("name = {}: {}", scenario_.name, file_safe_rule));
-  }
 
   void check_duration() {
     const double ticks = scenario_.duration_s / scenario_.rig.tick_s;
@@ -59,18 +55,6 @@ class Checker {
     if (scenario_.noise.gauge_Pa > 0.0 && !scenario_.rig.gauge.fitted)
       problems_.warning(source_, list("noise").place,
                         "noise.gauge has no effect: the rig has no gauge (gauge: {fitted: true})");
-  }
-
-  void check_loads() {
-    const std::vector<double>& loads_kg = scenario_.loads_kg;
-    const Node& nodes = list("loads");
-    if (loads_kg.empty()) problems_.error(source_, nodes.place, "loads: at least one load is needed");
-    std::set<double> earlier;
-    for (std::size_t i = 0; i < loads_kg.size(); ++i) {
-      if (!earlier.insert(loads_kg[i]).second)
-        problems_.error(source_, nodes.children[i].place,
-                        fmt::format("loads: {} stands in the list already", nodes.children[i].text));
-    }
   }
 
   void check_controllers() {
@@ -92,27 +76,48 @@ class Checker {
             fmt::format("the name {} is already that of the controller in line {}; give each a name", name,
                         earlier->second));
       if (auto* recorded = std::get_if<controllers::RecordedCurrent>(&scenario_.controllers[i]))
-        load_recording(*recorded, *node.find("file"));
+        load_recording(*recorded, source_, *node.find("file"), scenario_.rig, problems_);
+      if (auto* calibrated = controllers::calibrated(scenario_.controllers[i]))
+        load_calibration(*calibrated, node);
     }
   }
 
-  void load_recording(controllers::RecordedCurrent& recorded, const Node& node) {
+  // Several controllers may share a calibration: it is read, and complained about, once.
+  const std::optional<controllers::Calibration>& calibration(const std::string& file, const Node& node) {
+    const auto path = (source_.folder() / file).lexically_normal();
+    const auto [entry, is_new] = calibrations_.try_emplace(path.string());
+    if (!is_new) return entry->second;
     try {
-      const Source source =
-          Source::load((source_.folder() / recorded.file).lexically_normal(), largest_csv_bytes);
-      problems_.opened(source);
-      const std::string_view required[] = {"time_s", recorded.column};
-      TableProblems found(source, problems_);
-      const Table table = read_table(source, required, {}, found);
-      const Table::Column* current = table.find(recorded.column);
-      if (current == nullptr) return;
-      check_ticks(source, table, scenario_.rig.tick_s, found);
-      check_dac_range(source, *current, scenario_.rig.dac.largest_current_mA, found);
-      recorded.samples_mA = current->values;
-      recorded.file =
-          fs::absolute(source.name()).lexically_normal().string();  // the resolved scenario runs anywhere
+      entry->second = read_calibration(path, scenario_.inputs);
     } catch (const MissingInput& missing) {
       problems_.missing_file(source_, node.place, missing.what());
+    } catch (const BadInput& bad) {
+      problems_.adopt(bad.problems());
+    }
+    return entry->second;
+  }
+
+  void load_calibration(controllers::CalibratedSettings& settings, const Node& node) {
+    const auto& model = calibration(settings.calibration, *node.find("calibration"));
+    if (!model) return;
+    settings.model = *model;
+    const controllers::CalibratedRange& range = settings.model.range;
+    const auto check = [&](const Node* given, std::string_view key, double value, double lowest,
+                           double highest, std::string_view unit) {
+      if (settings.extrapolate || (value >= lowest && value <= highest)) return;
+      problems_.error(source_, given != nullptr ? given->place : node.place,
+                      fmt::format("{} = {:g} {} is outside what {} was made with, {:g} to {:g} {}; calibrate "
+                                  "on both sides of it, or allow it with extrapolate: true",
+                                  key, value, unit, settings.calibration, lowest, highest, unit));
+    };
+    if (settings.assumed_load_kg) {
+      check(node.find("assumed_load"), "assumed_load", *settings.assumed_load_kg, range.lowest_load_kg,
+            range.highest_load_kg, "kg");
+    } else {
+      const Node* weighing = node.find("weighing");
+      check(weighing != nullptr ? weighing->find("speed") : nullptr, "weighing.speed",
+            settings.weighing.speed_mA_per_s, range.lowest_speed_mA_per_s, range.highest_speed_mA_per_s,
+            "mA/s");
     }
   }
 
@@ -153,10 +158,12 @@ class Checker {
                                     lowest));
   }
 
+  const YamlFile& file_;
   const Source& source_;
   const Node& root_;
   Scenario& scenario_;
   Problems& problems_;
+  std::map<std::string, std::optional<controllers::Calibration>> calibrations_;
 };
 
 }  // namespace
@@ -173,7 +180,7 @@ Scenario read_scenario(Source source, std::vector<Problem>& warnings) {
     read_struct(file.source, file.root, scenario, problems, also_allowed);
   if (problems.errors() == 0) Checker(file, scenario, problems).check();
   problems.raise();
-  scenario.inputs = problems.inputs();
+  scenario.inputs.insert(scenario.inputs.begin(), problems.inputs().begin(), problems.inputs().end());
   const std::vector<Problem> found = problems.warnings();
   warnings.insert(warnings.end(), found.begin(), found.end());
   return scenario;

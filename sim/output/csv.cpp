@@ -2,7 +2,9 @@
 #include <charconv>
 #include <cmath>
 
+#include <plant/plant.hpp>
 #include <sim/output/csv.hpp>
+#include <sim/run/simulate.hpp>
 
 namespace mckibben::output {
 namespace {
@@ -47,6 +49,49 @@ std::string csv_of(const run::Recording& recording, double per_count, const std:
     column(row.friction_force_N);
     if (!target.empty()) column(target[k]);
     if (gauge) column(row.gauge_Pa / 1e5);
+    text += '\n';
+  }
+  return text;
+}
+
+std::string csv_of(const input::Run& measured, double tick_s) {
+  const auto& pressure_Pa = measured.muscle_pressure_Pa;
+  std::string text = "time_s,current_mA,contraction_ratio";
+  text += pressure_Pa ? ",muscle_pressure_bar\n" : "\n";
+  for (std::size_t k = 0; k < measured.current_mA.size(); ++k) {
+    append(text, tidy_s(static_cast<double>(k) * tick_s));
+    for (const double value : {measured.current_mA[k], measured.contraction_ratio[k]}) {
+      text += ',';
+      append(text, value);
+    }
+    if (pressure_Pa) {
+      text += ',';
+      append(text, (*pressure_Pa)[k] / 1e5);
+    }
+    text += '\n';
+  }
+  return text;
+}
+
+std::string thesis_ascii(const run::Recording& recording, const plant::Rig& rig, double load_kg) {
+  const plant::Plant plant(rig, load_kg);
+  const double per_count = run::contraction_per_count(rig), tick_s = rig.tick_s;
+  const auto& samples = recording.samples;
+  // Before the first row the rig was at rest.
+  const auto counts = [&](std::size_t rows_ago, std::size_t k) {
+    return samples[k < rows_ago ? 0 : k - rows_ago].counts;
+  };
+  std::string text;
+  for (std::size_t k = 0; k < samples.size(); ++k) {
+    const auto last = counts(0, k), before = counts(1, k), earlier = counts(2, k);
+    append(text, samples[k].current_mA);
+    for (const double value :
+         {static_cast<double>(last) * per_count, static_cast<double>(last - before) * per_count / tick_s,
+          static_cast<double>(last - 2 * before + earlier) * per_count / (tick_s * tick_s),
+          plant.reference_pressure_Pa(samples[k].current_mA) / 1e5}) {
+      text += ' ';
+      append(text, value);
+    }
     text += '\n';
   }
   return text;

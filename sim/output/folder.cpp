@@ -1,11 +1,10 @@
-// Staging, manifest and swap of a results folder.
+// Staging, manifest and swap of results folders.
 #include <algorithm>
 #include <cerrno>
 #include <charconv>
 #include <cstring>
 #include <fstream>
 #include <iterator>
-#include <set>
 #include <system_error>
 #include <utility>
 
@@ -26,9 +25,16 @@ constexpr const char* manifest_name = ".mckibben-files";  // the job, then diges
   throw CannotWrite(fmt::format("cannot write {}: {}", path.string(), reason));
 }
 
-std::string text_of(const fs::path& path) {
+std::string digest_of(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
+  return input::sha256_hex(std::string{std::istreambuf_iterator<char>(file), {}});
+}
+
+FileNames list_files(const fs::path& folder) {
+  FileNames names;
+  for (const auto& entry : fs::recursive_directory_iterator(folder))
+    if (!entry.is_directory()) names.insert(entry.path().lexically_relative(folder).generic_string());
+  return names;
 }
 
 /// Whether a folder holds a result of this job as it was written, and nothing that somebody put there or
@@ -37,25 +43,14 @@ bool is_untouched_result(const fs::path& folder, const std::string& job) {
   std::ifstream list(folder / manifest_name);
   std::string line;
   if (!std::getline(list, line) || line != job) return false;
-  std::set<std::string> ours{manifest_name};
+  FileNames ours{manifest_name};
   while (std::getline(list, line)) {
     const auto gap = line.find("  ");
-    if (gap == std::string::npos) return false;
-    const std::string name = line.substr(gap + 2);
-    if (input::sha256_hex(text_of(folder / name)) != line.substr(0, gap)) return false;
-    ours.insert(name);
+    if (gap == std::string::npos || digest_of(folder / line.substr(gap + 2)) != line.substr(0, gap))
+      return false;
+    ours.insert(line.substr(gap + 2));
   }
-  return std::all_of(fs::directory_iterator(folder), fs::directory_iterator(), [&](const auto& entry) {
-    return entry.is_regular_file() && ours.contains(entry.path().filename().string());
-  });
-}
-
-fs::path first_free(const fs::path& path) {
-  for (int n = 1;; ++n) {
-    fs::path candidate = path;
-    candidate += fmt::format(".old-{}", n);
-    if (!fs::exists(fs::symlink_status(candidate))) return candidate;
-  }
+  return holds_only(folder, ours);
 }
 
 /// Staging folders are called .NAME.writing-PID. One whose process is gone was left behind by a killed
@@ -76,19 +71,93 @@ void remove_abandoned(const fs::path& destination) {
 
 }  // namespace
 
-ResultFolder::ResultFolder(const fs::path& destination, std::string job) : job_(std::move(job)) {
+bool holds_only(const fs::path& folder, const FileNames& names) {
+  std::set<fs::path> folders;
+  for (const auto& name : names)
+    for (fs::path above = fs::path(name).parent_path(); !above.empty(); above = above.parent_path())
+      folders.insert(above);
+  const fs::recursive_directory_iterator entries(folder);
+  return std::all_of(begin(entries), end(entries), [&](const auto& entry) {
+    const fs::path name = entry.path().lexically_relative(folder);
+    if (entry.symlink_status().type() == fs::file_type::directory) return folders.contains(name);
+    return entry.is_regular_file() && names.contains(name.generic_string());
+  });
+}
+
+fs::path first_free(const fs::path& path) {
+  for (int n = 1;; ++n) {
+    fs::path candidate = path;
+    candidate += fmt::format(".old-{}", n);
+    if (!fs::exists(fs::symlink_status(candidate))) return candidate;
+  }
+}
+
+fs::path result_path(const fs::path& wanted) {
   std::error_code error;
-  if (fs::is_symlink(destination, error) && !fs::exists(destination, error))
-    fail(destination, "it is a link that leads nowhere");
-  go_to(destination);
+  if (fs::is_symlink(wanted, error) && !fs::exists(wanted, error))
+    fail(wanted, "it is a link that leads nowhere");
+  fs::path path = fs::weakly_canonical(fs::absolute(wanted, error), error).lexically_normal();
+  if (!path.has_filename()) path = path.parent_path();  // a trailing slash
+  if (error || !path.has_filename()) fail(wanted, "not a folder that can be written");
   const fs::path here = fs::current_path(error) / "";
-  if (here.string().starts_with((destination_ / "").string()))
-    fail(destination, "it is, or holds, the current folder; name a folder of its own");
-  fs::create_directories(destination_.parent_path(), error);
-  if (error) fail(destination_.parent_path(), error.message());
-  if (fs::exists(destination_, error) && !fs::is_directory(destination_, error))
-    fail(destination_, "there is a file of that name");
+  if (here.string().starts_with((path / "").string()))
+    fail(wanted, "it is, or holds, the current folder; name a folder of its own");
+  fs::create_directories(path.parent_path(), error);
+  if (error) fail(path.parent_path(), error.message());
+  if (fs::exists(path, error) && !fs::is_directory(path, error)) fail(path, "there is a file of that name");
+  return path;
+}
+
+void write_whole(const fs::path& path, const std::string& content) {
+  std::error_code error;
+  fs::create_directories(path.parent_path(), error);
+  if (error) fail(path.parent_path(), error.message());
+  fs::path part = path;
+  part += unfinished_suffix;
+  std::ofstream file(part, std::ios::binary);
+  file.write(content.data(), static_cast<std::streamsize>(content.size()));
+  file.close();
+  if (!file) fail(path, std::strerror(errno));
+  fs::rename(part, path, error);
+  if (error) fail(path, error.message());
+}
+
+fs::path put_in_place(const fs::path& staging, const fs::path& destination, const std::string& job) {
+  FileNames names = list_files(staging);
+  names.erase(manifest_name);
+  std::string list = job + "\n";
+  for (const auto& name : names) list += fmt::format("{}  {}\n", digest_of(staging / name), name);
+  write_whole(staging / manifest_name, list);
+
+  std::error_code error;
+  fs::path aside;
+  const bool replaces = fs::exists(destination, error);
+  bool keeps = false;
+  try {
+    keeps = replaces && !fs::is_empty(destination) && !is_untouched_result(destination, job);
+  } catch (const fs::filesystem_error& unreadable) {
+    fail(destination, unreadable.code().message());
+  }
+  if (replaces) {
+    aside = keeps ? first_free(destination) : fs::path(staging.string() + ".old");
+    fs::rename(destination, aside, error);
+    if (error) fail(destination, error.message());
+  }
+  fs::rename(staging, destination, error);
+  if (error) {
+    std::error_code ignored;
+    if (replaces) fs::rename(aside, destination, ignored);
+    fail(destination, error.message());
+  }
+  if (keeps) return aside;
+  fs::remove_all(aside, error);
+  return {};
+}
+
+ResultFolder::ResultFolder(const fs::path& destination, std::string job) : job_(std::move(job)) {
+  go_to(destination);
   remove_abandoned(destination_);
+  std::error_code error;
   staging_ =
       destination_.parent_path() / fmt::format(".{}.writing-{}", destination_.filename().string(), getpid());
   if (!fs::create_directory(staging_, error))
@@ -96,10 +165,7 @@ ResultFolder::ResultFolder(const fs::path& destination, std::string job) : job_(
 }
 
 void ResultFolder::go_to(const fs::path& destination) {
-  std::error_code error;
-  destination_ = fs::weakly_canonical(fs::absolute(destination, error), error).lexically_normal();
-  if (!destination_.has_filename()) destination_ = destination_.parent_path();  // a trailing slash
-  if (error || !destination_.has_filename()) fail(destination, "not a folder that can be written");
+  destination_ = result_path(destination);
 }
 
 ResultFolder::~ResultFolder() {
@@ -108,42 +174,13 @@ ResultFolder::~ResultFolder() {
 }
 
 void ResultFolder::write(const std::string& name, const std::string& content) {
-  const fs::path path = staging_ / name;
-  std::ofstream file(path, std::ios::binary);
-  file.write(content.data(), static_cast<std::streamsize>(content.size()));
-  file.close();
-  if (!file) fail(destination_ / name, std::strerror(errno));
-  if (name != manifest_name) manifest_.push_back(fmt::format("{}  {}", input::sha256_hex(content), name));
+  write_whole(staging_ / name, content);
 }
 
 fs::path ResultFolder::publish() {
-  std::sort(manifest_.begin(), manifest_.end());
-  write(manifest_name, fmt::format("{}\n{}\n", job_, fmt::join(manifest_, "\n")));
-
-  std::error_code error;
-  fs::path aside;
-  const bool replaces = fs::exists(destination_, error);
-  bool keeps = false;
-  try {
-    keeps = replaces && !fs::is_empty(destination_) && !is_untouched_result(destination_, job_);
-  } catch (const fs::filesystem_error& unreadable) {
-    fail(destination_, unreadable.code().message());
-  }
-  if (replaces) {
-    aside = keeps ? first_free(destination_) : fs::path(staging_.string() + ".old");
-    fs::rename(destination_, aside, error);
-    if (error) fail(destination_, error.message());
-  }
-  fs::rename(staging_, destination_, error);
-  if (error) {
-    std::error_code ignored;
-    if (replaces) fs::rename(aside, destination_, ignored);
-    fail(destination_, error.message());
-  }
+  fs::path aside = put_in_place(staging_, destination_, job_);
   staging_.clear();
-  if (keeps) return aside;
-  fs::remove_all(aside, error);
-  return {};
+  return aside;
 }
 
 }  // namespace mckibben::output

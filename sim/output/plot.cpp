@@ -1,7 +1,5 @@
-// Panels, axes and lines of the tracking picture. Colours: Okabe & Ito's palette, told apart by the
-// colour-blind.
+// Panels, axes and lines of the tracking picture.
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <vector>
 
@@ -9,21 +7,12 @@
 
 #include <sim/input/number.hpp>
 #include <sim/output/plot.hpp>
+#include <sim/output/svg.hpp>
 
 namespace mckibben::output {
 namespace {
 
-constexpr std::array<const char*, 7> colours{"#0072B2", "#D55E00", "#009E73", "#CC79A7",
-                                             "#E69F00", "#56B4E9", "#F0E442"};
 constexpr double panel_width = 900.0, panel_height = 190.0, left = 60.0, right = 20.0, gap = 46.0;
-
-/// A step of 1, 2 or 5 times a power of ten that divides a span into about `parts`.
-double tick_step(double span, int parts) {
-  const double raw = span / parts, power = std::pow(10.0, std::floor(std::log10(raw)));
-  for (const double factor : {1.0, 2.0, 5.0})
-    if (factor * power >= raw) return factor * power;
-  return 10.0 * power;
-}
 
 struct Panel {
   double y0_px;      // upper edge
@@ -128,12 +117,7 @@ std::string tracking_svg(const input::Scenario& scenario, const run::Comparison&
   const double margin = std::max(0.05 * (high - low), 1e-4);
   const double tick_s = scenario.rig.tick_s;
 
-  std::string svg = fmt::format(
-      "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 {0} {1}' width='{0}' height='{1}' "
-      "font-family='sans-serif' "
-      "font-size='12'>\n<rect width='100%' height='100%' fill='white'/>\n",
-      width, height);
-  svg += legend.svg;
+  std::string svg = svg_begin(width, height) + legend.svg;
   for (std::size_t r = 0; r < rows; ++r) {
     const Panel panel{first_px + static_cast<double>(r) * (panel_height + gap), low - margin, high + margin,
                       static_cast<double>(comparison.target.size()) * tick_s};

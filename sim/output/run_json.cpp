@@ -19,15 +19,6 @@ Json or_null(const std::optional<double>& value) {
   return value ? Json(*value) : Json(nullptr);
 }
 
-Json solver_json(const engine::Counters& counters) {
-  return {{"steps", counters.steps},
-          {"rejected_steps", counters.rejected_steps},
-          {"right_hand_sides", counters.right_hand_sides},
-          {"jacobians", counters.jacobians},
-          {"events", counters.events},
-          {"stiff_from_tick", counters.stiff_from_tick < 0 ? Json(nullptr) : Json(counters.stiff_from_tick)}};
-}
-
 Json ledger_json(const plant::Ledger<double>& books) {
   return {{"air_drawn_kg", books.air_drawn_kg}, {"air_vented_kg", books.air_vented_kg},
           {"braid_work_J", books.braid_work_J}, {"thread_friction_work_J", books.thread_friction_work_J},
@@ -38,12 +29,6 @@ Json inputs_json(const std::vector<input::InputFile>& files) {
   Json list = Json::array();
   for (const auto& file : files) list.push_back({{"file", file.name}, {"sha256", file.sha256}});
   return list;
-}
-
-Json heading(const char* schema, const std::vector<input::InputFile>& files) {
-  return {{"schema", schema},
-          {"program", {{"mckibben", MCKIBBEN_VERSION}, {"sundials", engine::sundials_version()}}},
-          {"input_files", inputs_json(files)}};
 }
 
 /// Thesis 2.3: what contraction did to the muscle.
@@ -73,17 +58,34 @@ Json run_json(const plant::Rig& rig, const run::TrackedRun& run) {
   entry["contraction"] = contraction_json(rig, run.recording);
   entry["ledger"] = ledger_json(run.recording.ledger);
   entry["solver"] = solver_json(run.recording.solver);
+  for (const auto& one : run.recording.findings)
+    entry["findings"][one.name] = {{"value", one.value}, {"unit", one.unit}};
   return entry;
 }
 
 }  // namespace
+
+Json heading_json(const char* schema, const std::vector<input::InputFile>& files) {
+  return {{"schema", schema},
+          {"program", {{"mckibben", MCKIBBEN_VERSION}, {"sundials", engine::sundials_version()}}},
+          {"input_files", inputs_json(files)}};
+}
+
+Json solver_json(const engine::Counters& counters) {
+  return {{"steps", counters.steps},
+          {"rejected_steps", counters.rejected_steps},
+          {"right_hand_sides", counters.right_hand_sides},
+          {"jacobians", counters.jacobians},
+          {"events", counters.events},
+          {"stiff_from_tick", counters.stiff_from_tick < 0 ? Json(nullptr) : Json(counters.stiff_from_tick)}};
+}
 
 std::string csv_name(const run::TrackedRun& run) {
   return fmt::format("{}kg_{}.csv", input::write_number(run.load_kg), run.controller);
 }
 
 Json json_of(const input::Scenario& scenario, const run::Comparison& comparison) {
-  Json document = heading("mckibben-run/1", scenario.inputs);
+  Json document = heading_json("mckibben-run/1", scenario.inputs);
   document["seed"] = scenario.seed;
   document["tolerance"] = scenario.rig.integrator.tolerance;
   document["scenario"] = input::scenario_json(scenario);
@@ -117,7 +119,7 @@ Json json_of(const input::Scenario& scenario, const run::Comparison& comparison)
 }
 
 Json json_of(const input::Dataset& dataset, const std::vector<run::ReplayedRun>& runs) {
-  Json document = heading("mckibben-replay/1", dataset.inputs);
+  Json document = heading_json("mckibben-replay/1", dataset.inputs);
   document["tolerance"] = dataset.rig.integrator.tolerance;
   document["rig"] = input::rig_json(dataset.rig);
   document["runs"] = Json::array();

@@ -16,6 +16,10 @@ namespace mckibben::output {
 input::Json json_of(const input::Scenario& scenario, const run::Comparison& comparison);
 input::Json json_of(const input::Dataset& dataset, const std::vector<run::ReplayedRun>& runs);
 
+/// How every such document begins: its schema, versions, hashes of the input files.
+input::Json heading_json(const char* schema, const std::vector<input::InputFile>& files);
+input::Json solver_json(const engine::Counters& counters);
+
 /// File name of one run's CSV in the results folder.
 std::string csv_name(const run::TrackedRun& run);
 

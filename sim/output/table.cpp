@@ -7,40 +7,11 @@
 
 #include <plant/geometry.hpp>
 #include <sim/input/number.hpp>
+#include <sim/output/grid.hpp>
 #include <sim/output/table.hpp>
 
 namespace mckibben::output {
 namespace {
-
-/// A table whose columns are as wide as their widest cell; the first column and texts to the left, numbers to
-/// the right.
-class Grid {
- public:
-  explicit Grid(std::vector<std::string> head, std::size_t text_columns)
-      : text_columns_(text_columns), rows_{std::move(head)} {}
-
-  bool empty() const { return rows_.size() == 1; }
-  void add(std::vector<std::string> row) { rows_.push_back(std::move(row)); }
-
-  std::string text() const {
-    std::vector<std::size_t> widths(rows_.front().size(), 0);
-    for (const auto& row : rows_)
-      for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
-    std::string text;
-    for (const auto& row : rows_) {
-      std::string line = " ";
-      for (std::size_t i = 0; i < row.size(); ++i)
-        line += i < text_columns_ ? fmt::format(" {:<{}}", row[i], widths[i])
-                                  : fmt::format("  {:>{}}", row[i], widths[i]);
-      text += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
-    }
-    return text;
-  }
-
- private:
-  std::size_t text_columns_;
-  std::vector<std::vector<std::string>> rows_;
-};
 
 std::string cell(std::optional<double> value, double factor, int decimals) {
   return value ? fmt::format("{:.{}f}", *value * factor, decimals) : "-";
@@ -75,6 +46,20 @@ std::string contraction_notes(const input::Scenario& scenario, const run::Compar
   for (const auto& run : comparison.runs)
     text += contraction_note(scenario.rig, run.recording.largest_contraction_ratio,
                              fmt::format("{} at {} kg", run.controller, input::write_number(run.load_kg)));
+  return text;
+}
+
+std::string findings(const run::Comparison& comparison) {
+  std::string text;
+  for (const auto& run : comparison.runs) {
+    std::string line;
+    for (const auto& one : run.recording.findings) {
+      if (one.unit == "1" && one.value == 0.0) continue;  // nothing to say: no tick was outside
+      line += fmt::format("{}{} {:.4g}{}", line.empty() ? "" : ", ", one.name, one.value,
+                          one.unit == "1" ? "" : " " + one.unit);
+    }
+    if (!line.empty()) text += fmt::format("  {} at {:g} kg: {}\n", run.controller, run.load_kg, line);
+  }
   return text;
 }
 
@@ -120,6 +105,7 @@ std::string table_of(const input::Scenario& scenario, const run::Comparison& com
           row.controller, row.load_kg, row.tuned.gains.proportional_mA, row.tuned.gains.integral_time_s,
           row.tuned.gains.derivative_time_s, row.tuned.evaluations);
   text += section("gains tuned", tuned);
+  text += section("found out by the controllers", findings(comparison));
   text += section("contraction", contraction_notes(scenario, comparison));
   text += section("no result", failures);
   std::string unmet;
@@ -146,6 +132,41 @@ std::string table_of(const input::Dataset& dataset, const std::vector<run::Repla
     notes += contraction_note(dataset.rig, run.recording.largest_contraction_ratio, run.id);
   }
   return text + grid.text() + section("contraction", notes) + section("no result", failures);
+}
+
+std::string table_of(const input::Campaign& campaign, const input::Json& document) {
+  Grid grid({"load_kg", "runs", "rows", "simulated_s", "largest_contraction", "steps", "right_hand_sides"},
+            0);
+  std::string failures, notes;
+  std::size_t all_rows = 0;
+  for (const double load_kg : campaign.loads_kg) {
+    std::size_t runs = 0, rows = 0;
+    long steps = 0, right_hand_sides = 0;
+    double largest = 0.0;
+    for (const auto& run : document.at("runs")) {
+      if (run.at("load_kg") != load_kg) continue;
+      if (run.contains("failure")) {
+        failures +=
+            fmt::format("  {}: {}\n", run.at("id").get<std::string>(), run.at("failure").get<std::string>());
+        continue;
+      }
+      ++runs;
+      rows += run.at("rows").get<std::size_t>();
+      largest = std::max(largest, run.at("largest_contraction_ratio").get<double>());
+      steps += run.at("solver").at("steps").get<long>();
+      right_hand_sides += run.at("solver").at("right_hand_sides").get<long>();
+    }
+    all_rows += rows;
+    grid.add({fmt::format("{:g}", load_kg), std::to_string(runs), std::to_string(rows),
+              fmt::format("{:.1f}", static_cast<double>(rows) * campaign.rig.tick_s),
+              fmt::format("{:.4f}", largest), std::to_string(steps), std::to_string(right_hand_sides)});
+    notes += contraction_note(campaign.rig, largest, fmt::format("{:g} kg", load_kg));
+  }
+  return fmt::format("{}: {} load{} x {} current{} x {}, {} rows, {:.1f} s simulated\n\n", campaign.name,
+                     campaign.loads_kg.size(), campaign.loads_kg.size() == 1 ? "" : "s",
+                     campaign.currents.size(), campaign.currents.size() == 1 ? "" : "s", campaign.repeats,
+                     all_rows, static_cast<double>(all_rows) * campaign.rig.tick_s) +
+         grid.text() + section("contraction, as counted", notes) + section("failed", failures);
 }
 
 }  // namespace mckibben::output

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include <sim/input/campaign.hpp>
 #include <sim/input/dataset.hpp>
 #include <sim/input/scenario.hpp>
 #include <sim/run/compare.hpp>
@@ -16,5 +17,8 @@ std::string table_of(const input::Scenario& scenario, const run::Comparison& com
 
 /// Measured against simulated, run by run.
 std::string table_of(const input::Dataset& dataset, const std::vector<run::ReplayedRun>& runs);
+
+/// What a campaign gave, load by load. `document` is its campaign.json.
+std::string table_of(const input::Campaign& campaign, const input::Json& document);
 
 }  // namespace mckibben::output

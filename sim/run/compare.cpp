@@ -10,6 +10,7 @@
 #include <sim/input/number.hpp>
 #include <sim/run/batch.hpp>
 #include <sim/run/compare.hpp>
+#include <sim/run/reachable.hpp>
 #include <sim/run/simulate.hpp>
 
 namespace mckibben::run {
@@ -62,6 +63,8 @@ class Comparing {
     const auto ticks = plan_of(scenario, 0.0, 0).ticks;
     result_.target =
         controllers::sample(scenario.target, ticks, scenario.rig.tick_s, scenario.rig.muscle.rest_length_m);
+    knowledge_ = knowledge_of(scenario.rig, result_.target);
+    knowledge_.reach = reachable(scenario.rig);
   }
 
   Comparison operator()() {
@@ -74,14 +77,14 @@ class Comparing {
 
  private:
   std::unique_ptr<controllers::Controller> make(const controllers::Settings& settings) const {
-    return controllers::make(settings, knowledge_of(scenario_.rig, result_.target));
+    return controllers::make(settings, knowledge_);
   }
 
   void tune_all() {
-    std::vector<controllers::PidSettings*> open;
+    std::vector<controllers::Settings*> open;
     for (auto& settings : settings_)
-      if (auto* pid = std::get_if<controllers::PidSettings>(&settings); pid && pid->needs_tuning())
-        open.push_back(pid);
+      if (const auto* terms = controllers::pid_terms(settings); terms && terms->needs_tuning())
+        open.push_back(&settings);
     if (open.empty()) return;
     result_.tuned.resize(open.size());
     const std::size_t most = open.size() * static_cast<std::size_t>(TuningOptions{}.evaluations);
@@ -95,14 +98,16 @@ class Comparing {
         [](std::size_t) {});
   }
 
-  TunedController tune_one(controllers::PidSettings& pid, const std::function<void()>& tried) {
+  TunedController tune_one(controllers::Settings& settings, const std::function<void()>& tried) {
+    const controllers::PidTerms& pid = *controllers::pid_terms(settings);
     const double load_kg = pid.tuning_load_kg.value_or(median(scenario_.loads_kg));
     const RunPlan plan = plan_of(scenario_, load_kg, 0);
-    const auto with = [&pid](const Gains& gains) {
-      controllers::PidSettings complete = pid;
-      complete.proportional_mA = gains.proportional_mA;
-      complete.integral_time_s = gains.integral_time_s;
-      complete.derivative_time_s = gains.derivative_time_s;
+    const auto with = [&settings](const Gains& gains) {
+      controllers::Settings complete = settings;
+      controllers::PidTerms& terms = *controllers::pid_terms(complete);
+      terms.proportional_mA = gains.proportional_mA;
+      terms.integral_time_s = gains.integral_time_s;
+      terms.derivative_time_s = gains.derivative_time_s;
       return complete;
     };
     const auto cost_at = [&](const Gains& gains) {
@@ -124,10 +129,10 @@ class Comparing {
       higher.proportional_mA *= gain_margin;
       return 0.5 * (cost_at(gains) + cost_at(higher));
     };
-    TunedController result{.controller = pid.name, .load_kg = load_kg};
+    TunedController result{.controller = controllers::name_of(settings), .load_kg = load_kg};
     try {
       result.tuned = tune(cost, {pid.proportional_mA, pid.integral_time_s, pid.derivative_time_s});
-      pid = with(result.tuned.gains);
+      settings = with(result.tuned.gains);
     } catch (const std::runtime_error& failure) {
       result.failure = failure.what();
     }
@@ -200,6 +205,7 @@ class Comparing {
   unsigned threads_;
   const ProgressHook& progress_;
   std::vector<controllers::Settings> settings_;
+  controllers::Knowledge knowledge_;
   Comparison result_;
 };
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include <controllers/controller.hpp>
 #include <plant/state.hpp>
 #include <sim/engine/integrator.hpp>
 
@@ -26,7 +27,9 @@ struct Recording {
   plant::Ledger<double> ledger{};  ///< from the first tick to the last, if it was kept
   engine::Counters solver;
   double largest_contraction_ratio = 0.0;  ///< at any tick
-  std::string failure;                     ///< why it ends early: the integrator gave up; empty if it did not
+  std::string
+      failure{};  ///< why it ends early: the integrator or the controller gave up; empty if it did not
+  std::vector<controllers::Finding> findings{};  ///< what the controller found out
 };
 
 }  // namespace mckibben::run

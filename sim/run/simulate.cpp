@@ -45,6 +45,7 @@ class Run {
     recording_.samples.reserve(plan_.ticks);
     try {
       settle();
+      prepare();
       for (std::size_t k = 0; k < plan_.ticks; ++k) {
         recording_.samples.push_back(tick(static_cast<std::int64_t>(k)));
         recording_.largest_contraction_ratio =
@@ -53,10 +54,14 @@ class Run {
       }
     } catch (const engine::NumericalFailure& failure) {
       recording_.failure = failure.what();
+    } catch (const controllers::ControllerFailure& failure) {
+      recording_.failure = failure.what();
     }
     recording_.ledger = flow_.ledger;
     recording_.solver = integrator_->counters();
-    if (recording_.solver.stiff_from_tick >= 0) recording_.solver.stiff_from_tick -= settling_ticks();
+    if (recording_.solver.stiff_from_tick >= 0)
+      recording_.solver.stiff_from_tick -= settling_ticks() + controller_.preparation_ticks();
+    recording_.findings = controller_.findings();
     return std::move(recording_);
   }
 
@@ -66,9 +71,18 @@ class Run {
     held_.current_speed_mA_per_s = 0.0;
     flow_.state = plant_.at_rest(held_);
     if (plant_.has_events()) held_.slip = plant_.slip_from_rest(flow_.state, held_);
-    for (std::int64_t k = -settling_ticks(); k < 0; ++k) {
+    const std::int64_t end = -controller_.preparation_ticks();
+    for (std::int64_t k = end - settling_ticks(); k < end; ++k) {
       integrate(k);
       counts();
+    }
+  }
+
+  // The ticks that a controller needs to find out about its load.
+  void prepare() {
+    for (std::int64_t k = -controller_.preparation_ticks(); k < 0; ++k) {
+      tick(k);
+      integrate(k);
     }
     flow_.ledger = {};
   }
@@ -139,9 +153,10 @@ controllers::Knowledge knowledge_of(const plant::Rig& rig, std::vector<double> t
           .largest_current_mA = rig.dac.largest_current_mA,
           .target = std::move(target),
           .model = {rig.muscle.rest_radius_m, rig.muscle.rest_length_m, rig.muscle.braid_angle_rad,
-                    rig.muscle.end_correction},
+                    rig.muscle.end_correction, rig.muscle.contact_surface == plant::ContactSurface::printed},
           .valve = {rig.valve.zero_current_mA, rig.valve.span_current_mA, rig.valve.zero_pressure_Pa,
-                    rig.valve.span_pressure_Pa}};
+                    rig.valve.span_pressure_Pa},
+          .reach = {}};
 }
 
 }  // namespace mckibben::run

@@ -1,6 +1,7 @@
 // One run of a rig under a controller, tick by tick.
 //
-//   settle: the controller's rest current is held for the settling time, then at each tick t_k = k * tick
+//   settle: the controller's rest current is held for the settling time, then at each tick t_k = k * tick,
+//   beginning with the controller's preparation at k < 0, which leaves no row:
 //     x- = state; counts = encoder(x-); i = DAC(controller(counts)); row k = (t_k, i, x-); x+ = integrate(x-,
 //     i)
 #pragma once
@@ -26,11 +27,12 @@ struct RunPlan {
   bool keep_ledger = false;
 };
 
-/// Simulates one run. If the integrator gives up, the recording ends there and says why. Touches no heap
-/// between the first tick and the last.
+/// Simulates one run. If the integrator or the controller gives up, the recording ends there and says why.
+/// Touches no heap between the first tick and the last.
 Recording simulate(const RunPlan& plan, controllers::Controller& controller);
 
 /// What the data sheets of a rig tell a controller, and the target [contraction ratio] at each tick.
+/// Without `reach`, which takes a moment to compute: see `reachable`.
 controllers::Knowledge knowledge_of(const plant::Rig& rig, std::vector<double> target);
 
 /// Contraction ratio of one encoder count.

@@ -20,7 +20,9 @@ using input::Json;
 std::vector<std::string> shipped_scenarios() {
   std::vector<std::string> names;
   for (const auto& entry : fs::directory_iterator(MCKIBBEN_SOURCE_DIR "/scenarios"))
-    if (entry.path().extension() == ".yaml") names.push_back(entry.path().stem().string());
+    if (entry.path().extension() == ".yaml" &&
+        read_text(entry.path()).find("schema: mckibben-scenario/") != std::string::npos)
+      names.push_back(entry.path().stem().string());
   std::sort(names.begin(), names.end());
   return names;
 }
@@ -118,6 +120,19 @@ TEST(Replay, OfASimulatedRunFindsItself) {
   }
   EXPECT_EQ(document.at("input_files").size(), 3u);
   EXPECT_EQ(read_text(scratch / "back/a.csv").rfind("time_s,current_mA,contraction_ratio,", 0), 0u);
+}
+
+TEST(Replay, NeverTakesThePlaceOfItsData) {
+  const Scratch scratch;
+  write_text(scratch / "quick.yaml", quick_scenario);
+  ASSERT_EQ(mckibben("run quick.yaml", scratch).status, 0);
+  write_text(
+      scratch / "out/quick/dataset.yaml",
+      "schema: mckibben-dataset/1\nruns: [{id: a, file: 11.138kg_sine_current.csv, load: 11.138 kg}]\n");
+  EXPECT_EQ(mckibben("replay out/quick --out out/quick", scratch).status, 74);
+  EXPECT_EQ(mckibben("replay out/quick", scratch).status, 0);
+  EXPECT_TRUE(fs::exists(scratch / "out/quick/dataset.yaml"));
+  EXPECT_TRUE(fs::exists(scratch / "out/quick-replay/a.csv"));
 }
 
 TEST(Replay, OnAnotherRigShowsTheDifference) {

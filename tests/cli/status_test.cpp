@@ -20,7 +20,8 @@ class Program : public testing::Test {
 };
 
 TEST_F(Program, HelpIsNotAnError) {
-  for (const char* arguments : {"--help", "run --help", "replay --help", "check --help", "schema --help"}) {
+  for (const char* arguments :
+       {"--help", "run --help", "dataset --help", "replay --help", "check --help", "schema --help"}) {
     const auto said = run(arguments);
     EXPECT_EQ(said.status, 0) << arguments;
     EXPECT_NE(said.out.find("xample"), std::string::npos) << arguments;
@@ -212,7 +213,7 @@ TEST_F(Program, ShippedThesisRigIsTheBuiltInOne) {
 
 TEST_F(Program, TheReferencePageIsWhatTheProgramPrints) {
   const std::string page = read_text(MCKIBBEN_SOURCE_DIR "/docs/reference.md");
-  for (const char* kind : {"scenario", "rig", "dataset"})
+  for (const char* kind : {"scenario", "campaign", "rig", "dataset"})
     EXPECT_NE(page.find(run(std::string("schema ") + kind + " --format markdown").out), std::string::npos)
         << "docs/reference.md is out of date: see docs/testing.md";
 }

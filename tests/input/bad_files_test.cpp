@@ -10,6 +10,8 @@
 
 #include <gtest/gtest.h>
 
+#include <sim/input/calibration_file.hpp>
+#include <sim/input/campaign.hpp>
 #include <sim/input/dataset.hpp>
 #include <sim/input/rig_file.hpp>
 #include <sim/input/scenario.hpp>
@@ -39,6 +41,10 @@ std::string said_about(const fs::path& file) {
       read_rig(file.string(), inputs);
     else if (name.starts_with("dataset_"))
       read_dataset(file);
+    else if (name.starts_with("calibration_"))
+      read_calibration(file, inputs);
+    else if (name.starts_with("campaign_"))
+      read_campaign(file);
     else
       read_scenario(file, warnings);
   } catch (const BadInput& error) {

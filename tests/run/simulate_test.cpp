@@ -7,6 +7,8 @@
 
 #include <controllers/settings.hpp>
 #include <plant/plant.hpp>
+#include <sim/input/calibration_file.hpp>
+#include <sim/run/reachable.hpp>
 #include <sim/run/simulate.hpp>
 
 #include "heap_watch.hpp"
@@ -82,6 +84,7 @@ class Watched final : public controllers::Controller {
   Watched(std::unique_ptr<controllers::Controller> inner, std::int64_t last)
       : inner_(std::move(inner)), last_(last) {}
   controllers::Command rest() override { return inner_->rest(); }
+  std::int64_t preparation_ticks() const override { return inner_->preparation_ticks(); }
   controllers::Command step(const controllers::Reading& reading) override {
     if (reading.tick == 0) start_heap_watch();
     const auto command = inner_->step(reading);
@@ -97,9 +100,6 @@ class Watched final : public controllers::Controller {
 
 std::vector<controllers::Settings> one_of_each() {
   controllers::PidSettings pid;
-  pid.proportional_mA = 60.0;
-  pid.integral_time_s = 0.2;
-  pid.derivative_time_s = 0.05;
   pid.feedback_delay_ticks = 3;
   controllers::StaticInverseSettings inverse;
   inverse.assumed_load_kg = 14.0;
@@ -107,21 +107,39 @@ std::vector<controllers::Settings> one_of_each() {
   steps.moves = {{1.0, 12.0}, {2.0, 6.0}};
   controllers::RecordedCurrent recorded;
   recorded.samples_mA = std::vector<double>(100, 10.0);
-  return {pid,
-          inverse,
-          controllers::SineCurrent{},
-          slow_triangle(),
-          steps,
-          controllers::StairCurrent{},
-          controllers::ChirpCurrent{},
-          recorded};
+  std::vector<controllers::Settings> all{pid,
+                                         controllers::FeedforwardPidSettings{},
+                                         controllers::OpenLoopSettings{},
+                                         controllers::OpenLoopLimitedSettings{},
+                                         inverse,
+                                         controllers::SineCurrent{},
+                                         slow_triangle(),
+                                         steps,
+                                         controllers::StairCurrent{},
+                                         controllers::ChirpCurrent{},
+                                         recorded};
+  std::vector<input::InputFile> inputs;
+  const auto model = input::read_calibration(MCKIBBEN_TEST_DATA "/calibration.yaml", inputs);
+  for (auto& settings : all) {
+    if (auto* terms = controllers::pid_terms(settings)) {
+      terms->proportional_mA = 60.0;
+      terms->integral_time_s = 0.2;
+      terms->derivative_time_s = 0.05;
+    }
+    if (auto* calibrated = controllers::calibrated(settings)) {
+      calibrated->model = model;
+      calibrated->extrapolate = true;
+    }
+  }
+  return all;
 }
 
 TEST(Simulate, TouchesNoHeapBetweenFirstAndLastTick) {
   constexpr std::size_t ticks = 300;
   const auto allocations = [&](const RunPlan& plan, const controllers::Settings& settings) {
-    const std::vector<double> target(ticks, 0.1);
-    Watched controller(controllers::make(settings, knowledge_of(plan.rig, target)), ticks - 1);
+    auto knowledge = knowledge_of(plan.rig, std::vector<double>(ticks, 0.1));
+    knowledge.reach = reachable(plan.rig);
+    Watched controller(controllers::make(settings, knowledge), ticks - 1);
     EXPECT_EQ(simulate(plan, controller).failure, "");
     return controller.allocations;
   };

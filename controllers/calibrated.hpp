@@ -1,0 +1,86 @@
+// What the model-based controllers share: they load a calibration, weigh the load before tick 0 unless they
+// are told it, and then ask the inverse for currents.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <controllers/inverse.hpp>
+#include <controllers/weighing.hpp>
+
+namespace mckibben::controllers {
+
+struct CalibratedSettings {
+  std::string calibration;
+  Calibration model;  ///< filled from the file by whoever can read it, before make()
+  std::optional<double> assumed_load_kg = std::nullopt;
+  WeighingSettings weighing;
+  bool extrapolate = false;
+
+  template <class Self, class Visitor>
+  static void fields(Self& self, Visitor& visit) {
+    visit.required("calibration", self.calibration, "path of the calibration that `calibrate` wrote");
+    visit("assumed_load", self.assumed_load_kg, "kg", 0.01, 500.0,
+          "load it believes in; weighed before the run if absent");
+    visit("weighing", self.weighing, "how the load is weighed");
+    visit("extrapolate", self.extrapolate,
+          "whether loads, contractions and current speeds outside the calibrated range are allowed");
+  }
+  template <class Report>
+  void rules(Report& report) const {
+    if (calibration.empty()) report("calibration", "must name a file");
+  }
+};
+
+/// Preparation and the inverse; what is done from tick 0 on is the derived controller's.
+class CalibratedController : public Controller {
+ public:
+  CalibratedController(const CalibratedSettings& settings, const Knowledge& knowledge);
+
+  Command rest() final;
+  std::int64_t preparation_ticks() const final;
+  Command step(const Reading& reading) final;
+  std::vector<Finding> findings() const override;
+
+ protected:
+  /// The load is known: plans may be made, memory taken.
+  virtual void prepare() {}
+  /// Current to begin with, once the load is known.
+  virtual double first_mA() = 0;
+  /// Current on the way to the first one, once the load is known and before tick 0; `way_mA` leads there.
+  virtual double settle_mA(const Reading&, double way_mA) { return way_mA; }
+  /// Current at tick 0 and after.
+  virtual double drive_mA(const Reading& reading) = 0;
+
+  /// Current that the inverse asks for; what it had to leave out is counted. With `lag_s` the pressure by
+  /// which a muscle that lags so far stays behind is taken off again.
+  double ask_mA(Branch branch, double contraction_ratio, double contraction_speed_per_s, double lag_s = 0.0);
+  /// The same for a load that comes to rest at a contraction ratio from below; nothing is counted.
+  double begin_mA(double contraction_ratio, double lag_s = 0.0);
+  /// Current that follows the target from tick to tick, held while the target rests; after `begin_mA`.
+  double follow_mA(double contraction_ratio);
+
+  const Knowledge& knowledge() const { return knowledge_; }
+  const Inverse& inverse() const { return *inverse_; }
+  double load_kg() const { return load_kg_; }
+  /// Contraction ratio that was last asked for.
+  double asked_ratio() const { return asked_ratio_; }
+  double current_mA() const { return current_mA_; }
+
+ private:
+  void know(double load_kg);
+  double current_of(Branch branch, const Answer& answer, double lag_s) const;
+
+  CalibratedSettings settings_;
+  Knowledge knowledge_;
+  std::optional<Weighing> weighing_;
+  std::optional<Inverse> inverse_;
+  WeighedLoad weighed_;
+  double load_kg_ = 0.0, first_mA_ = 0.0, current_mA_ = 0.0, asked_ratio_ = 0.0;
+  bool load_outside_ = false;
+  std::int64_t ratio_outside_ = 0, speed_outside_ = 0, unreachable_ = 0;
+};
+
+}  // namespace mckibben::controllers

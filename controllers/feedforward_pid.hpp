@@ -1,0 +1,34 @@
+// The thesis's inverse as feedforward with a PID around it (ours): the inverse knows the muscle, the PID
+// makes up for what the inverse does not know.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include <controllers/calibrated.hpp>
+#include <controllers/pid.hpp>
+
+namespace mckibben::controllers {
+
+struct FeedforwardPidSettings : CalibratedSettings, PidTerms {
+  static constexpr std::string_view kind = "feedforward_pid";
+  std::string name{kind};
+
+  /// Throws std::invalid_argument if a gain is missing.
+  std::unique_ptr<Controller> make(const Knowledge& knowledge) const;
+
+  template <class Self, class Visitor>
+  static void fields(Self& self, Visitor& visit) {
+    visit("name", self.name, "name in tables and file names");
+    CalibratedSettings::fields(self, visit);
+    PidTerms::fields(self, visit);
+  }
+  template <class Report>
+  void rules(Report& report) const {
+    CalibratedSettings::rules(report);
+    PidTerms::rules(report);
+  }
+};
+
+}  // namespace mckibben::controllers

@@ -1,0 +1,27 @@
+// The thesis's inverse within the rig's limits (ours; T 5 suggests it): the target is first slowed to what is
+// reachable, and the current leads it by the lag of valve and hose.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include <controllers/calibrated.hpp>
+
+namespace mckibben::controllers {
+
+struct OpenLoopLimitedSettings : CalibratedSettings {
+  static constexpr std::string_view kind = "open_loop_limited";
+  std::string name{kind};
+
+  /// Throws std::invalid_argument if `knowledge.reach` is empty.
+  std::unique_ptr<Controller> make(const Knowledge& knowledge) const;
+
+  template <class Self, class Visitor>
+  static void fields(Self& self, Visitor& visit) {
+    visit("name", self.name, "name in tables and file names");
+    CalibratedSettings::fields(self, visit);
+  }
+};
+
+}  // namespace mckibben::controllers

@@ -1,0 +1,86 @@
+// Friction from the calibrated coefficient and the contact surface (T 4.2, 4.3, 4.29), braid force from the
+// data sheet (T 4.30), load from their difference (T 4.31), averaged.
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <sstream>
+
+#include <controllers/weighing.hpp>
+
+namespace mckibben::controllers {
+namespace {
+
+constexpr double gravity_m_per_s2 = 9.80665;
+
+// A contraction counts from here on: before, the threads have not let go of the load in full.
+constexpr std::int64_t counts_to_let_go = 5;
+constexpr int fewest_samples = 5;
+
+}  // namespace
+
+Weighing::Weighing(const WeighingSettings& settings, const FrictionModel& friction,
+                   const CalibratedRange& range, const Knowledge& knowledge)
+    : settings_(settings),
+      friction_(friction),
+      range_(range),
+      braid_(knowledge.model),
+      valve_(knowledge.valve),
+      contraction_per_count_(knowledge.contraction_per_count),
+      tick_s_(knowledge.tick_s),
+      contractions_(settings.contractions),
+      ticks_each_(std::llround(
+          std::ceil(2.0 * (settings.high_mA - settings.low_mA) / settings.speed_mA_per_s / tick_s_))),
+      seen_(static_cast<std::size_t>(settings.contractions)) {}
+
+double Weighing::current_mA(std::int64_t tick) const {
+  const double rise_s = (settings_.high_mA - settings_.low_mA) / settings_.speed_mA_per_s;
+  const double time_s = static_cast<double>(tick % ticks_each_) * tick_s_;
+  const double from_top_mA = settings_.speed_mA_per_s * std::abs(time_s - rise_s);
+  return std::clamp(settings_.high_mA - from_top_mA, settings_.low_mA, settings_.high_mA);
+}
+
+// The acceleration is left out of T 4.31, as T 4.3 says it may. Its mean over a contraction is the speed
+// gained over the time taken, about 0.1 m/s2; from counts it cannot be had, since one count in one tick of 12
+// ms looks like 0.9 m/s2.
+void Weighing::see(std::int64_t tick, std::int64_t counts) {
+  Contraction& one = seen_[static_cast<std::size_t>(tick / ticks_each_)];
+  const std::int64_t into = tick % ticks_each_;
+  if (into == 0) one.lowest_counts = one.highest_counts = counts;
+  one.lowest_counts = std::min(one.lowest_counts, counts);
+  one.highest_counts = std::max(one.highest_counts, counts);
+  const bool rising_current = 2 * (into + 1) <= ticks_each_;
+  const double e = (static_cast<double>(counts) + 0.5) * contraction_per_count_;
+  if (!rising_current || counts < one.lowest_counts + counts_to_let_go || e < range_.lowest_ratio ||
+      e > range_.highest_ratio)
+    return;
+  const double pressure_Pa = valve_.pressure_Pa(current_mA(tick));
+  const double friction_N =
+      friction_.coefficient(e, settings_.speed_mA_per_s) * braid_.contact_surface_m2(e) * pressure_Pa;
+  one.sum_kg += (braid_.force_N(e, pressure_Pa) - friction_N) / gravity_m_per_s2;
+  ++one.samples;
+}
+
+WeighedLoad Weighing::result() const {
+  double sum_kg = 0.0, squares = 0.0;
+  for (std::size_t i = 0; i < seen_.size(); ++i) {
+    const Contraction& one = seen_[i];
+    if (one.samples < fewest_samples) {
+      std::ostringstream text;
+      text << "weighing: in contraction " << i + 1 << " of " << seen_.size() << " the load moved by "
+           << one.highest_counts - one.lowest_counts << " counts, to a contraction ratio of "
+           << static_cast<double>(one.highest_counts) * contraction_per_count_ << ", of which " << one.samples
+           << " samples can be used (at least " << fewest_samples
+           << "; calibrated are contraction ratios from " << range_.lowest_ratio << " to "
+           << range_.highest_ratio << "). A higher weighing.high (now " << settings_.high_mA
+           << " mA) lifts it further, a lower weighing.speed gives more samples";
+      throw ControllerFailure(text.str());
+    }
+    sum_kg += one.sum_kg / one.samples;
+  }
+  const auto n = static_cast<double>(seen_.size());
+  const double mean_kg = sum_kg / n;
+  for (const Contraction& one : seen_) squares += std::pow(one.sum_kg / one.samples - mean_kg, 2);
+  return {mean_kg, std::sqrt(squares / (n - 1.0))};
+}
+
+}  // namespace mckibben::controllers

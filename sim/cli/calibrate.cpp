@@ -1,0 +1,39 @@
+// The verb `calibrate`: a data set's friction and pressure models, with all figures of the thesis.
+#include <filesystem>
+
+#include <sim/cli/exit_status.hpp>
+#include <sim/cli/results.hpp>
+#include <sim/cli/verbs.hpp>
+#include <sim/input/calibration_file.hpp>
+#include <sim/input/dataset.hpp>
+#include <sim/output/calibration_report.hpp>
+#include <sim/output/chart.hpp>
+#include <sim/output/folder.hpp>
+#include <sim/thesis/calibrate.hpp>
+#include <sim/thesis/figures.hpp>
+
+namespace mckibben::cli {
+
+int calibrate_dataset(const std::string& path, const Options& options, const CalibrateOptions& how) {
+  const input::Dataset dataset = input::read_dataset(path);
+  const auto home = std::filesystem::absolute(dataset.path).lexically_normal().parent_path();
+  const auto where = destination(options, home.filename().string() + "-calibration");
+  keep_apart(where, home);
+  output::ResultFolder folder(where, "calibrate " + path);
+
+  const thesis::CalibrationResult result = thesis::calibrate(dataset, how.fits);
+  const std::string document = output::json_of(dataset, result, how.fits).dump(2) + "\n";
+  const std::string report = output::report_of(dataset, result, how.fits, how.kgf);
+  folder.write("calibration.yaml", input::calibration_yaml(result.calibration));
+  folder.write("calibration.json", document);
+  folder.write("report.txt", report);
+  for (const thesis::Figure& figure : thesis::figures(result, how.kgf)) {
+    folder.write("figures/" + figure.file_name() + ".csv", output::csv_of(figure));
+    folder.write("figures/" + figure.file_name() + ".svg", output::chart_svg(figure));
+  }
+  print(options.json ? document : report);
+  publish(folder, where);
+  return done;
+}
+
+}  // namespace mckibben::cli

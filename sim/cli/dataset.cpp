@@ -1,0 +1,50 @@
+// The verb `dataset`: a campaign's runs, written one by one, so that an interrupted campaign goes on.
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include <sim/cli/exit_status.hpp>
+#include <sim/cli/results.hpp>
+#include <sim/cli/verbs.hpp>
+#include <sim/input/campaign.hpp>
+#include <sim/output/campaign_folder.hpp>
+#include <sim/output/progress.hpp>
+#include <sim/output/table.hpp>
+#include <sim/run/batch.hpp>
+
+namespace mckibben::cli {
+
+int make_dataset(const std::string& path, const Options& options) {
+  input::Campaign campaign = input::read_campaign(std::filesystem::path(path));
+  if (options.seed) campaign.seed = *options.seed;
+  const auto where = destination(options, campaign.name);
+  output::CampaignFolder folder(where, campaign);
+  if (!folder.note().empty()) fmt::print(stderr, "mckibben: {}\n", folder.note());
+  try {
+    output::Progress progress(campaign.name);
+    run::run_jobs(
+        campaign, folder.missing(), options.threads, [&](const run::CampaignRun& run) { folder.put(run); },
+        progress.hook());
+  } catch (const run::Interrupted&) {
+    const std::size_t total = folder.jobs().size();
+    fmt::print(stderr,
+               "mckibben: interrupted; {} of {} runs are in {}\n"
+               "The same command goes on from there. Earlier results are as they were.\n",
+               total - folder.missing().size(), total, folder.unfinished().string());
+    return interrupted;
+  }
+  const input::Json document = folder.document();
+  print(options.json ? document.dump(2) + "\n" : output::table_of(campaign, document));
+  const auto places = folder.publish(document);
+  say_moved(places.data, places.data_moved_to);
+  say_moved(places.truth, places.truth_moved_to);
+  fmt::print(stderr, "data set in {}, truth in {}\n", places.data.string(), places.truth.string());
+  const auto& runs = document.at("runs");
+  const bool failed =
+      std::any_of(runs.begin(), runs.end(), [](const auto& run) { return run.contains("failure"); });
+  return failed ? failure : done;
+}
+
+}  // namespace mckibben::cli

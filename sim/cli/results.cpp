@@ -1,0 +1,40 @@
+// Destination, printing and publishing of results; see the header.
+#include <cstdio>
+#include <system_error>
+
+#include <fmt/format.h>
+
+#include <sim/cli/results.hpp>
+
+namespace mckibben::cli {
+
+std::filesystem::path destination(const Options& options, const std::string& name) {
+  return options.out.empty() ? std::filesystem::path("out") / name : std::filesystem::path(options.out);
+}
+
+void keep_apart(const std::filesystem::path& where, const std::filesystem::path& data) {
+  namespace fs = std::filesystem;
+  std::error_code ignored;
+  for (fs::path folder = fs::absolute(data).lexically_normal(); folder != folder.parent_path();
+       folder = folder.parent_path())
+    if (fs::equivalent(where, folder, ignored))
+      throw output::CannotWrite(fmt::format(
+          "cannot write {}: the data set that is read is there; give another --out", where.string()));
+}
+
+void print(const std::string& text) {
+  std::fwrite(text.data(), 1, text.size(), stdout);
+}
+
+void publish(output::ResultFolder& folder, const std::filesystem::path& where) {
+  say_moved(where, folder.publish());
+  fmt::print(stderr, "results in {}\n", where.string());
+}
+
+void say_moved(const std::filesystem::path& where, const std::filesystem::path& aside) {
+  if (!aside.empty())
+    fmt::print(stderr, "mckibben: {} was not an earlier result of this, as it was written; it is now {}\n",
+               where.string(), aside.string());
+}
+
+}  // namespace mckibben::cli

@@ -1,0 +1,69 @@
+// Reading and writing of calibrations; see the header.
+#include <fmt/format.h>
+
+#include <sim/input/calibration_file.hpp>
+#include <sim/input/yaml_reader.hpp>
+#include <sim/input/yaml_writer.hpp>
+
+namespace mckibben::input {
+namespace {
+
+/// Finds lists of a pressure model that are empty; the visitor of a field list.
+class PolynomialCheck {
+ public:
+  PolynomialCheck(const YamlFile& file, std::string_view model, Problems& problems)
+      : source_(file.source), model_(*file.root.find(model)), problems_(problems) {}
+
+  void required(std::string_view key, const controllers::InLoad& polynomial, const auto&...) {
+    if (polynomial.empty())
+      problems_.error(source_, model_.find(key)->place,
+                      fmt::format("{}: at least one coefficient is needed", key));
+  }
+
+ private:
+  const Source& source_;
+  const Node& model_;
+  Problems& problems_;
+};
+
+void check_range(const YamlFile& file, const controllers::CalibratedRange& range, Problems& problems) {
+  const Node& node = *file.root.find("range");
+  const auto ordered = [&](std::string_view key, double lowest, double highest) {
+    if (lowest > highest)
+      problems.error(file.source, node.find(key)->place,
+                     fmt::format("{} = {} is above the highest, {}", key, lowest, highest));
+  };
+  ordered("lowest_ratio", range.lowest_ratio, range.highest_ratio);
+  ordered("lowest_load", range.lowest_load_kg, range.highest_load_kg);
+  ordered("lowest_speed", range.lowest_speed_mA_per_s, range.highest_speed_mA_per_s);
+}
+
+}  // namespace
+
+controllers::Calibration read_calibration(const std::filesystem::path& path, std::vector<InputFile>& inputs) {
+  const YamlFile file = load_yaml(path);
+  Problems problems;
+  problems.opened(file.source);
+  problems.adopt(file.found);
+  controllers::Calibration calibration;
+  constexpr std::string_view also_allowed[] = {"schema"};
+  if (check_schema(file, calibration_schema, problems))
+    read_struct(file.source, file.root, calibration, problems, also_allowed);
+  if (problems.errors() == 0) {
+    PolynomialCheck contraction(file, "contraction", problems), relaxation(file, "relaxation", problems);
+    controllers::ContractionModel::fields(calibration.contraction, contraction);
+    controllers::RelaxationModel::fields(calibration.relaxation, relaxation);
+    check_range(file, calibration.range, problems);
+  }
+  problems.raise();
+  inputs.insert(inputs.end(), problems.inputs().begin(), problems.inputs().end());
+  return calibration;
+}
+
+std::string calibration_yaml(const controllers::Calibration& calibration) {
+  Json file{{"schema", calibration_schema}};
+  file.update(to_json(calibration));
+  return to_yaml(file);
+}
+
+}  // namespace mckibben::input

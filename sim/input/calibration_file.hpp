@@ -1,0 +1,24 @@
+// Calibrations in files (schema mckibben-calibration/1): what `calibrate` writes and the open-loop
+// controllers load. One field list (controllers/calibration.hpp) serves both ways.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <controllers/calibration.hpp>
+#include <sim/input/diagnostics.hpp>
+#include <sim/input/fields_json.hpp>
+
+namespace mckibben::input {
+
+inline constexpr std::string_view calibration_schema = "mckibben-calibration/1";
+
+/// Reads a calibration; the file read is added to `inputs`. Throws MissingInput, BadInput.
+controllers::Calibration read_calibration(const std::filesystem::path& path, std::vector<InputFile>& inputs);
+
+/// The text of a calibration file.
+std::string calibration_yaml(const controllers::Calibration& calibration);
+
+}  // namespace mckibben::input

@@ -1,0 +1,92 @@
+// Reading of campaigns, and the rules that need more than one field; see the header.
+#include <cmath>
+#include <unordered_map>
+
+#include <fmt/format.h>
+
+#include <sim/input/campaign.hpp>
+#include <sim/input/common_checks.hpp>
+#include <sim/input/file_names.hpp>
+
+namespace mckibben::input {
+namespace {
+
+// Names of runs are longer by load and repeat, and must still be file-safe.
+constexpr std::size_t longest_current_name = 80;
+
+std::string default_name(const CampaignWaveform& waveform, std::size_t place, std::size_t count) {
+  const auto [own, kind] = std::visit(
+      [](const auto& one) { return std::pair<std::string, std::string_view>(one.name, one.kind); }, waveform);
+  if (own != kind) return own;
+  const std::size_t width = std::max<std::size_t>(2, std::to_string(count).size());
+  return fmt::format("c{:0{}}", place + 1, width);
+}
+
+void check_currents(const YamlFile& file, Campaign& campaign, Problems& problems) {
+  const Node& nodes = *file.root.find("currents");
+  if (campaign.currents.empty())
+    problems.error(file.source, nodes.place, "currents: at least one current is needed");
+  std::unordered_map<std::string, std::size_t> first;
+  for (std::size_t i = 0; i < campaign.currents.size(); ++i) {
+    CampaignCurrent& current = campaign.currents[i];
+    const Node& node = nodes.children[i];
+    const Node& waveform = *node.find("current");
+    const Node* given = node.find("name");
+    if (given == nullptr) {
+      given = waveform.find("name");
+      current.name = default_name(current.current, i, campaign.currents.size());
+    }
+    const Place place = given != nullptr ? given->place : node.place;
+    const auto [earlier, is_new] = first.try_emplace(current.name, node.place.line);
+    if (!is_file_safe(current.name))
+      problems.error(file.source, place, fmt::format("name = {}: {}", current.name, file_safe_rule));
+    else if (current.name.size() > longest_current_name)
+      problems.error(file.source, place,
+                     fmt::format("name: {} letters are too many; at most {}", current.name.size(),
+                                 longest_current_name));
+    else if (!is_new)
+      problems.error(file.source, place,
+                     fmt::format("the name {} is already that of the current in line {}; give each a name",
+                                 current.name, earlier->second));
+    if (std::llround(current.duration_s / campaign.rig.tick_s) < 1)
+      problems.error(file.source, node.find("duration")->place,
+                     fmt::format("duration = {}: shorter than half a tick of {} ms",
+                                 node.find("duration")->text, 1e3 * campaign.rig.tick_s));
+    if (auto* recorded = std::get_if<controllers::RecordedCurrent>(&current.current))
+      load_recording(*recorded, file.source, *waveform.find("file"), campaign.rig, problems);
+  }
+}
+
+}  // namespace
+
+Campaign read_campaign(Source source) {
+  const YamlFile file = parse_yaml(std::move(source));
+  Problems problems;
+  problems.opened(file.source);
+  problems.adopt(file.found);
+  Campaign campaign;
+  campaign.name = made_file_safe(std::filesystem::path(file.source.name()).stem().string());
+  constexpr std::string_view also_allowed[] = {"schema"};
+  if (check_schema(file, campaign_schema, problems))
+    read_struct(file.source, file.root, campaign, problems, also_allowed);
+  if (problems.errors() == 0) {
+    check_name(file, campaign.name, problems);
+    check_loads(file, campaign.loads_kg, problems);
+    check_currents(file, campaign, problems);
+  }
+  problems.raise();
+  campaign.inputs = problems.inputs();
+  return campaign;
+}
+
+Campaign read_campaign(const std::filesystem::path& path) {
+  return read_campaign(Source::load(path, largest_yaml_bytes));
+}
+
+Json campaign_json(const Campaign& campaign) {
+  Json file{{"schema", campaign_schema}};
+  file.update(to_json(campaign));
+  return file;
+}
+
+}  // namespace mckibben::input

@@ -1,0 +1,72 @@
+// A campaign: which currents are to drive which loads on a rig, and how often, to get calibration data
+// (T 3.3). `read_campaign` gives it complete, every default in place, or says all that is wrong.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <limits>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include <controllers/waveform.hpp>
+#include <plant/instruments.hpp>
+#include <sim/input/rig_file.hpp>
+
+namespace mckibben::input {
+
+inline constexpr std::string_view campaign_schema = "mckibben-campaign/1";
+
+using CampaignWaveform =
+    std::variant<controllers::SineCurrent, controllers::TriangleCurrent, controllers::StepCurrent,
+                 controllers::StairCurrent, controllers::ChirpCurrent, controllers::RecordedCurrent>;
+
+/// One current, and how long it is played.
+struct CampaignCurrent {
+  std::string name;
+  double duration_s = 0.0;
+  CampaignWaveform current;
+
+  template <class Self, class Visitor>
+  static void fields(Self& self, Visitor& visit) {
+    visit("name", self.name,
+          "part of the names of its runs; if left out, that of the waveform, or c and its place in the list");
+    visit.required("duration", self.duration_s, "s", 1e-4, 3600.0, "length of each run");
+    visit.required("current", self.current, "the waveform");
+  }
+};
+
+struct Campaign {
+  std::string name;
+  RigFile rig;
+  std::vector<double> loads_kg;
+  std::vector<CampaignCurrent> currents;
+  int repeats = 1;
+  plant::Noise noise;
+  std::uint64_t seed = 1;
+
+  std::vector<InputFile> inputs;  ///< the files it was read from
+
+  template <class Self, class Visitor>
+  static void fields(Self& self, Visitor& visit) {
+    visit("name", self.name, "name of the results' folder; the file's name if left out");
+    visit("rig", self.rig, "a shipped name, the path of a rig file, or changes in place");
+    visit.required("loads", self.loads_kg, "kg", 0.01, 500.0, "masses of the loads");
+    visit.required("currents", self.currents, "currents that drive each load");
+    visit("repeats", self.repeats, 1, 10000, "how often each load is driven by each current");
+    visit("noise", self.noise, "what disturbs the instruments");
+    visit("seed", self.seed, 0, std::numeric_limits<std::uint64_t>::max(), "where chance begins");
+  }
+};
+
+/// Reads a campaign and the rig files and recorded currents that it names. Throws MissingInput; BadInput with
+/// the problems of all files.
+Campaign read_campaign(const std::filesystem::path& path);
+/// The same from text at hand; relative paths start at the source's folder.
+Campaign read_campaign(Source source);
+
+/// The contents of a campaign file that holds every field.
+Json campaign_json(const Campaign& campaign);
+
+}  // namespace mckibben::input

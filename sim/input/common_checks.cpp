@@ -1,0 +1,48 @@
+// Checks shared by the readers of scenarios and campaigns; see the header.
+#include <set>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include <sim/input/common_checks.hpp>
+#include <sim/input/csv.hpp>
+#include <sim/input/file_names.hpp>
+
+namespace mckibben::input {
+
+void check_name(const YamlFile& file, const std::string& name, Problems& problems) {
+  const Node* given = file.root.find("name");
+  if (given != nullptr && !is_file_safe(name))
+    problems.error(file.source, given->place, fmt::format("name = {}: {}", name, file_safe_rule));
+}
+
+void check_loads(const YamlFile& file, const std::vector<double>& loads_kg, Problems& problems) {
+  const Node& nodes = *file.root.find("loads");
+  if (loads_kg.empty()) problems.error(file.source, nodes.place, "loads: at least one load is needed");
+  std::set<double> earlier;
+  for (std::size_t i = 0; i < loads_kg.size(); ++i)
+    if (!earlier.insert(loads_kg[i]).second)
+      problems.error(file.source, nodes.children[i].place,
+                     fmt::format("loads: {} stands in the list already", nodes.children[i].text));
+}
+
+void load_recording(controllers::RecordedCurrent& recorded, const Source& source, const Node& node,
+                    const plant::Rig& rig, Problems& problems) {
+  try {
+    const Source table_source =
+        Source::load((source.folder() / recorded.file).lexically_normal(), largest_csv_bytes);
+    problems.opened(table_source);
+    const std::string_view required[] = {"time_s", recorded.column};
+    TableProblems found(table_source, problems);
+    const Table table = read_table(table_source, required, {}, found);
+    const Table::Column* current = table.find(recorded.column);
+    if (current == nullptr) return;
+    check_ticks(table_source, table, rig.tick_s, found);
+    check_range(table_source, *current, 0.0, rig.dac.largest_current_mA, "range of the rig's DAC", found);
+    recorded.samples_mA = current->values;
+  } catch (const MissingInput& missing) {
+    problems.missing_file(source, node.place, missing.what());
+  }
+}
+
+}  // namespace mckibben::input

@@ -1,0 +1,25 @@
+// Checks that kinds of files share: the name of a result, the loads, and currents recorded in tables.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <controllers/waveform.hpp>
+#include <plant/rig.hpp>
+#include <sim/input/diagnostics.hpp>
+#include <sim/input/yaml_file.hpp>
+
+namespace mckibben::input {
+
+/// The key `name` of a file, if it is there, must be file-safe.
+void check_name(const YamlFile& file, const std::string& name, Problems& problems);
+
+/// The key `loads` of a file must hold at least one load, and none twice.
+void check_loads(const YamlFile& file, const std::vector<double>& loads_kg, Problems& problems);
+
+/// Reads the table that `recorded` names (at `node`, the value of its key `file`), one row each tick of
+/// `rig`, within the range of its DAC.
+void load_recording(controllers::RecordedCurrent& recorded, const Source& source, const Node& node,
+                    const plant::Rig& rig, Problems& problems);
+
+}  // namespace mckibben::input

@@ -1,0 +1,237 @@
+// Plan, files and end of a campaign's folders; see the header.
+//
+// OUT.unfinished/  plan.json          whose runs these are
+//                  data/, truth/      what will be OUT and OUT-truth
+//                  runs/<id>.json     a run's entry in campaign.json; written last, so it says the run is
+//                  there
+#include <algorithm>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include <sim/engine/versions.hpp>
+#include <sim/input/hash.hpp>
+#include <sim/input/yaml_writer.hpp>
+#include <sim/output/campaign_folder.hpp>
+#include <sim/output/csv.hpp>
+#include <sim/output/run_json.hpp>
+#include <sim/run/simulate.hpp>
+
+namespace mckibben::output {
+namespace fs = std::filesystem;
+namespace {
+
+using input::Json;
+
+constexpr const char* plan_file = "plan.json";
+constexpr const char* plan_schema = "mckibben-campaign-plan/1";
+
+// Everything that a run's bytes depend on.
+std::string digest(const input::Campaign& campaign) {
+  std::string text = input::campaign_json(campaign).dump();
+  for (const auto& current : campaign.currents)
+    if (const auto* recorded = std::get_if<controllers::RecordedCurrent>(&current.current))
+      text += Json(recorded->samples_mA).dump();
+  return input::sha256_hex(text);
+}
+
+Json plan_of(const input::Campaign& campaign, const std::vector<run::CampaignJob>& jobs) {
+  Json plan{{"schema", plan_schema},
+            {"program", {{"mckibben", MCKIBBEN_VERSION}, {"sundials", engine::sundials_version()}}},
+            {"campaign_sha256", digest(campaign)},
+            {"ids", Json::array()}};
+  for (const auto& job : jobs) plan["ids"].push_back(job.id);
+  return plan;
+}
+
+std::optional<Json> read_json(const fs::path& path) {
+  std::error_code missing;
+  if (!fs::is_regular_file(path, missing)) return std::nullopt;
+  try {
+    return Json::parse(input::Source::load(path, input::largest_yaml_bytes).text());
+  } catch (const Json::exception&) {
+    return std::nullopt;
+  }
+}
+
+/// Files of one run inside OUT.unfinished.
+struct RunFiles {
+  explicit RunFiles(const std::string& id)
+      : table("data/" + id + ".csv"),
+        ascii("data/thesis/" + id + ".txt"),
+        truth("truth/" + id + ".csv"),
+        entry("runs/" + id + ".json") {}
+  std::string table, ascii, truth, entry;
+};
+
+/// All files that a campaign with these ids can have written there.
+FileNames files_of(const std::vector<std::string>& ids) {
+  FileNames names{plan_file,          "data/dataset.yaml",    "data/rig.yaml",        "data/campaign.json",
+                  "truth/truth.yaml", "data/.mckibben-files", "truth/.mckibben-files"};
+  for (const auto& id : ids) {
+    const RunFiles files(id);
+    names.insert({files.table, files.ascii, files.truth, files.entry});
+  }
+  const FileNames whole = names;
+  for (const auto& name : whole) names.insert(name + unfinished_suffix);
+  return names;
+}
+
+/// What a folder with this plan may hold for us to remove it. A plan is written whole or not at all, so what
+/// is no plan is not ours.
+FileNames files_of(const std::optional<Json>& plan) {
+  try {
+    if (plan && plan->at("schema") == plan_schema)
+      return files_of(plan->at("ids").get<std::vector<std::string>>());
+  } catch (const Json::exception&) {
+    // Somebody else's JSON.
+  }
+  return {std::string(plan_file) + unfinished_suffix};
+}
+
+Json entry_of(const input::Campaign& campaign, const run::CampaignRun& run) {
+  const auto& current = campaign.currents[run.job.current];
+  Json entry{{"id", run.job.id},
+             {"load_kg", run.job.load_kg},
+             {"current", current.name},
+             {"repeat", run.job.repeat}};
+  if (!run.failure.empty()) {
+    entry["failure"] = run.failure;
+    return entry;
+  }
+  const auto& samples = run.recording.samples;
+  std::int64_t largest = samples.front().counts;
+  for (const auto& sample : samples) largest = std::max(largest, sample.counts);
+  entry["file"] = run.job.id + ".csv";
+  entry["rows"] = samples.size();
+  entry["largest_contraction_ratio"] =
+      static_cast<double>(largest) * run::contraction_per_count(campaign.rig);
+  entry["solver"] = solver_json(run.recording.solver);
+  return entry;
+}
+
+bool failed(const Json& entry) {
+  return entry.contains("failure");
+}
+
+/// The shipped rig's name, if this is one; otherwise empty.
+std::string shipped_name(const input::RigFile& rig) {
+  const Json wanted = input::rig_json(rig);
+  std::vector<input::InputFile> none;
+  for (const auto name : input::shipped_rigs())
+    if (input::rig_json(input::read_rig(std::string(name), none)) == wanted) return std::string(name);
+  return "";
+}
+
+Json dataset_json(const std::string& rig, const Json& entries) {
+  Json file{{"schema", input::dataset_schema}, {"rig", rig}, {"runs", Json::array()}};
+  for (const auto& entry : entries)
+    if (!failed(entry))
+      file["runs"].push_back({{"id", entry.at("id")},
+                              {"file", entry.at("file")},
+                              {"load", input::quantity_json(entry.at("load_kg").get<double>(), "kg")}});
+  return file;
+}
+
+Json truth_json(const input::Campaign& campaign, const Json& entries) {
+  Json file{{"schema", "mckibben-truth/1"}, {"seed", campaign.seed}};
+  file["noise"] = input::to_json(campaign.noise);
+  file["rig"] = input::to_json(campaign.rig);
+  file["runs"] = dataset_json("", entries).at("runs");
+  return file;
+}
+
+}  // namespace
+
+CampaignFolder::CampaignFolder(const fs::path& destination, const input::Campaign& campaign)
+    : campaign_(campaign),
+      jobs_(run::jobs_of(campaign)),
+      destination_(result_path(destination)),
+      truth_(result_path(destination_.string() + "-truth")),
+      unfinished_(result_path(destination_.string() + ".unfinished")) {
+  try {
+    open();
+  } catch (const fs::filesystem_error& error) {
+    throw CannotWrite(fmt::format("cannot write {}: {}", unfinished_.string(), error.code().message()));
+  }
+}
+
+void CampaignFolder::open() {
+  const Json plan = plan_of(campaign_, jobs_);
+  if (fs::exists(unfinished_) && !fs::is_empty(unfinished_)) {
+    const auto found = read_json(unfinished_ / plan_file);
+    if (found == plan) {
+      note_ = fmt::format("{}: {} of {} runs are there already; going on", unfinished_.string(),
+                          jobs_.size() - missing().size(), jobs_.size());
+      return;
+    }
+    if (holds_only(unfinished_, files_of(found))) {
+      fs::remove_all(unfinished_);
+      note_ = fmt::format("{} was of another campaign or version; starting anew", unfinished_.string());
+    } else {
+      const fs::path aside = first_free(unfinished_);
+      fs::rename(unfinished_, aside);
+      note_ = fmt::format("{} held other files and is now {}; starting anew", unfinished_.string(),
+                          aside.string());
+    }
+  }
+  write_whole(unfinished_ / plan_file, plan.dump(2) + "\n");
+}
+
+std::vector<run::CampaignJob> CampaignFolder::missing() const {
+  std::vector<run::CampaignJob> list;
+  for (const auto& job : jobs_) {
+    const RunFiles files(job.id);
+    const auto entry = read_json(unfinished_ / files.entry);
+    const auto is_there = [&](const std::string& name) { return fs::exists(unfinished_ / name); };
+    if (!entry ||
+        (!failed(*entry) && !(is_there(files.table) && is_there(files.ascii) && is_there(files.truth))))
+      list.push_back(job);
+  }
+  return list;
+}
+
+void CampaignFolder::put(const run::CampaignRun& run) const {
+  const RunFiles files(run.job.id);
+  const input::RigFile& rig = campaign_.rig;
+  if (run.failure.empty()) {
+    write_whole(unfinished_ / files.table, csv_of(run::measured(campaign_, run), rig.tick_s));
+    write_whole(unfinished_ / files.ascii, thesis_ascii(run.recording, rig, run.job.load_kg));
+    write_whole(unfinished_ / files.truth,
+                csv_of(run.recording, run::contraction_per_count(rig), {}, rig.gauge.fitted));
+  }
+  write_whole(unfinished_ / files.entry, entry_of(campaign_, run).dump(2) + "\n");
+}
+
+Json CampaignFolder::document() const {
+  Json document = heading_json("mckibben-campaign-run/1", campaign_.inputs);
+  document["seed"] = campaign_.seed;
+  document["tolerance"] = campaign_.rig.integrator.tolerance;
+  document["campaign"] = input::campaign_json(campaign_);
+  document["runs"] = Json::array();
+  for (const auto& job : jobs_)
+    document["runs"].push_back(read_json(unfinished_ / RunFiles(job.id).entry).value());
+  return document;
+}
+
+CampaignFolder::Places CampaignFolder::publish(const Json& document) const {
+  const Json& entries = document.at("runs");
+  std::string rig = shipped_name(campaign_.rig);
+  if (rig.empty()) {
+    rig = "rig.yaml";
+    write_whole(unfinished_ / "data" / rig, input::to_yaml(input::rig_json(campaign_.rig)));
+  }
+  write_whole(unfinished_ / "data/dataset.yaml", input::to_yaml(dataset_json(rig, entries)));
+  write_whole(unfinished_ / "data/campaign.json", document.dump(2) + "\n");
+  write_whole(unfinished_ / "truth/truth.yaml", input::to_yaml(truth_json(campaign_, entries)));
+  std::vector<std::string> ids;
+  for (const auto& entry : entries) ids.push_back(entry.at("id").get<std::string>());
+  Places places{destination_, {}, truth_, {}};
+  places.truth_moved_to = put_in_place(unfinished_ / "truth", truth_, "truth of " + campaign_.name);
+  places.data_moved_to = put_in_place(unfinished_ / "data", destination_, "dataset " + campaign_.name);
+  std::error_code ignored;
+  if (holds_only(unfinished_, files_of(ids))) fs::remove_all(unfinished_, ignored);
+  return places;
+}
+
+}  // namespace mckibben::output

@@ -1,0 +1,53 @@
+// The results of a campaign on their way to disk: runs are written one by one into OUT.unfinished, so that a
+// campaign that was interrupted goes on where it stopped. At the end the data set takes its place as OUT and
+// the truth, which no calibration reads, as OUT-truth.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <sim/input/campaign.hpp>
+#include <sim/input/fields_json.hpp>
+#include <sim/output/folder.hpp>
+#include <sim/run/campaign.hpp>
+
+namespace mckibben::output {
+
+class CampaignFolder {
+ public:
+  /// Opens OUT.unfinished for `destination` = OUT. What is there is kept if it belongs to the same campaign
+  /// and program; an earlier campaign's is removed; anything else is moved aside. Throws CannotWrite.
+  CampaignFolder(const std::filesystem::path& destination, const input::Campaign& campaign);
+
+  /// What became of what was there before, in words; empty if nothing was there.
+  const std::string& note() const { return note_; }
+  /// All runs of the campaign, and those that are not on disk yet.
+  const std::vector<run::CampaignJob>& jobs() const { return jobs_; }
+  std::vector<run::CampaignJob> missing() const;
+  std::filesystem::path unfinished() const { return unfinished_; }
+
+  /// Writes the files of one run; from any thread, one call for each run. Throws CannotWrite.
+  void put(const run::CampaignRun& run) const;
+
+  /// campaign.json, once no run is missing: the campaign with every default, versions, hashes of the input
+  /// files, and of each run rows, counted contraction and solver counts. Nothing in it is truth.
+  input::Json document() const;
+
+  /// Where the results are, and where folders that were not ours have been moved to (empty: none was there).
+  struct Places {
+    std::filesystem::path data, data_moved_to, truth, truth_moved_to;
+  };
+  /// Lets both folders take their places. Throws CannotWrite.
+  Places publish(const input::Json& document) const;
+
+ private:
+  void open();
+
+  const input::Campaign& campaign_;
+  std::vector<run::CampaignJob> jobs_;
+  std::filesystem::path destination_, truth_, unfinished_;
+  std::string note_;
+};
+
+}  // namespace mckibben::output

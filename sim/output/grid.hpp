@@ -1,0 +1,44 @@
+// Columns of text for a terminal; shared by the tables.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+namespace mckibben::output {
+
+/// A table whose columns are as wide as their widest cell; the first column and texts to the left, numbers to
+/// the right.
+class Grid {
+ public:
+  explicit Grid(std::vector<std::string> head, std::size_t text_columns)
+      : text_columns_(text_columns), rows_{std::move(head)} {}
+
+  bool empty() const { return rows_.size() == 1; }
+  void add(std::vector<std::string> row) { rows_.push_back(std::move(row)); }
+
+  std::string text() const {
+    std::vector<std::size_t> widths(rows_.front().size(), 0);
+    for (const auto& row : rows_)
+      for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
+    std::string text;
+    for (const auto& row : rows_) {
+      std::string line = " ";
+      for (std::size_t i = 0; i < row.size(); ++i)
+        line += i < text_columns_ ? fmt::format(" {:<{}}", row[i], widths[i])
+                                  : fmt::format("  {:>{}}", row[i], widths[i]);
+      text += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
+    }
+    return text;
+  }
+
+ private:
+  std::size_t text_columns_;
+  std::vector<std::vector<std::string>> rows_;
+};
+
+}  // namespace mckibben::output

@@ -1,0 +1,49 @@
+// The runs of a campaign: every load under every current, repeated, each with noise of its own; and what the
+// instruments would have recorded of them.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <sim/input/campaign.hpp>
+#include <sim/input/dataset.hpp>
+#include <sim/run/compare.hpp>
+#include <sim/run/recording.hpp>
+
+namespace mckibben::run {
+
+/// One run that a campaign asks for.
+struct CampaignJob {
+  std::string id;  ///< m<load>_<current>, with repeats m<load>_<current>_r<repeat>; loads and repeats from 1
+  double load_kg = 0.0;
+  std::size_t current = 0;  ///< place in the campaign's list
+  int repeat = 1;
+  std::uint64_t stream = 0;  ///< of its noise
+};
+
+/// One run that was made.
+struct CampaignRun {
+  CampaignJob job;
+  Recording recording{};
+  std::string failure{};  ///< why the integrator gave up; empty if it did not
+};
+
+/// All runs of a campaign: loads in order, for each all currents, for each all repeats. Ids are unique.
+std::vector<CampaignJob> jobs_of(const input::Campaign& campaign);
+
+/// Simulates one of them. The result depends on nothing but campaign and job. Touches no files.
+CampaignRun run_job(const input::Campaign& campaign, const CampaignJob& job);
+
+/// Simulates `jobs` on `threads` threads (0: all the machine has). `finished` is given each run as it ends,
+/// from any thread, in any order. Throws Interrupted; what `finished` throws.
+void run_jobs(const input::Campaign& campaign, std::span<const CampaignJob> jobs, unsigned threads,
+              const std::function<void(const CampaignRun&)>& finished, const ProgressHook& progress);
+
+/// What was measured in a run: currents, counted contraction ratios, pressures if the rig has a gauge.
+input::Run measured(const input::Campaign& campaign, const CampaignRun& run);
+
+}  // namespace mckibben::run

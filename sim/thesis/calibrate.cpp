@@ -1,0 +1,140 @@
+// See the header.
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include <sim/thesis/calibrate.hpp>
+
+namespace mckibben::thesis {
+namespace {
+
+constexpr double largest_number = 1e300;  // what a calibration file may hold in place of infinity
+
+std::string list(const std::vector<double>& values) {
+  std::string text;
+  for (const double value : values) text += fmt::format("{}{:.5g}", text.empty() ? "" : ", ", value);
+  return text;
+}
+
+std::string also(const Grid& grid) {
+  if (grid.left_out.empty()) return "";
+  return fmt::format("; {} run{} could not be used, the first is {}: {}", grid.left_out.size(),
+                     grid.left_out.size() == 1 ? "" : "s", grid.left_out.front().id,
+                     grid.left_out.front().why);
+}
+
+/// Enough loads and speeds for the orders that are asked for.
+void check_grid(const input::Dataset& dataset, const Grid& grid, const Orders& orders) {
+  constexpr int highest_speed_order = 2, highest_load_order = 3;  // T 4.13, T 4.15
+  const auto loads = static_cast<std::size_t>(std::min(orders.load, highest_load_order)) + 1;
+  const auto speeds = static_cast<std::size_t>(std::min(orders.speed, highest_speed_order)) + 1;
+  if (grid.loads_kg.size() < loads)
+    refuse(dataset,
+           fmt::format("a polynomial of order {} in the load (T 4.14 to 4.28) needs {} loads, and there "
+                       "{} {} ({} kg): measure more loads, or ask for --load-order {}{}",
+                       loads - 1, loads, grid.loads_kg.size() == 1 ? "is" : "are", grid.loads_kg.size(),
+                       list(grid.loads_kg), grid.loads_kg.size() - 1, also(grid)));
+  for (const double load_kg : grid.loads_kg) {
+    std::vector<double> found;
+    for (const Cell& cell : grid.of(Direction::contraction))
+      if (cell.load_kg == load_kg) found.push_back(cell.speed_mA_per_s);
+    if (found.size() < speeds)
+      refuse(
+          dataset,
+          fmt::format("a polynomial of order {} in the current's speed (T 4.9 to 4.13) needs {} speeds, and "
+                      "with {:g} kg there {} {} ({} mA/s): measure more periods of the current, or ask for "
+                      "--speed-order {}{}",
+                      speeds - 1, speeds, load_kg, found.size() == 1 ? "is" : "are", found.size(),
+                      list(found), found.size() - 1, also(grid)));
+  }
+}
+
+/// Friction that drives the motion on the whole is no friction.
+void check_friction(const input::Dataset& dataset, const Grid& grid) {
+  for (const Direction direction : directions) {
+    double sum = 0.0;
+    for (const Cell& cell : grid.of(direction)) sum += vector(cell.samples.coefficient).sum();
+    if (sum <= 0.0)
+      refuse(dataset,
+             fmt::format(
+                 "in {} the muscle as computed (T 2.8) pulls {} than load and inertia explain, so friction "
+                 "comes out negative: wrong rig or loads? rest_radius, braid_angle, end_correction and "
+                 "the valve's line decide",
+                 name_of(direction), direction == Direction::contraction ? "less" : "more"));
+  }
+}
+
+controllers::CalibratedRange range_of(const Grid& grid) {
+  controllers::CalibratedRange range;
+  range.lowest_ratio = 1.0;
+  for (const Direction direction : directions)
+    for (const Cell& cell : grid.of(direction)) {
+      const auto e = vector(cell.samples.contraction_ratio);
+      range.lowest_ratio = std::min(range.lowest_ratio, e.minCoeff());
+      range.highest_ratio = std::max(range.highest_ratio, e.maxCoeff());
+    }
+  range.lowest_load_kg = grid.loads_kg.front();
+  range.highest_load_kg = grid.loads_kg.back();
+  range.lowest_speed_mA_per_s = grid.speeds_mA_per_s.front();
+  range.highest_speed_mA_per_s = grid.speeds_mA_per_s.back();
+  return range;
+}
+
+class Details {
+ public:
+  explicit Details(std::vector<controllers::FittedCoefficient>& list) : list_(list) {}
+
+  void add(std::string name, const Estimate& estimate) {
+    list_.push_back({std::move(name), estimate.value, std::min(estimate.standard_error, largest_number),
+                     std::min(estimate.condition, largest_number), estimate.determined()});
+  }
+  void add(Direction direction, const FrictionFit& fit) {
+    const std::string name = fmt::format("{}_friction.", name_of(direction));
+    add(name + "f0", fit.f0);
+    add(name + "f1", fit.f1);
+    add(name + "f2", fit.f2);
+    add(name + "f3", fit.f3);
+  }
+  void add(const PressureFit& fit, PressureFitting fitting) {
+    for (std::size_t curve = 0; curve < fit.shape.curves.size(); ++curve)
+      for (int i = 0; i <= fit.shape.curves[curve].load_order; ++i)
+        add(fmt::format("{}[{}]", fit.shape.curves[curve].name, i),
+            fitting == PressureFitting::joint ? fit.joint_estimates[curve][static_cast<std::size_t>(i)]
+                                              : fit.in_load[curve].estimate(i));
+  }
+
+ private:
+  std::vector<controllers::FittedCoefficient>& list_;
+};
+
+}  // namespace
+
+CalibrationResult calibrate(const input::Dataset& dataset, const Options& options) {
+  CalibrationResult result;
+  result.grid = make_grid(dataset, options.processing);
+  check_grid(dataset, result.grid, options.orders);
+  check_friction(dataset, result.grid);
+
+  controllers::Calibration& calibration = result.calibration;
+  Details details(calibration.details);
+  for (const Direction direction : directions) {
+    const auto i = static_cast<std::size_t>(direction);
+    result.friction[i] = fit_friction(result.grid, direction, std::min(options.orders.speed, 1));
+    result.pressure[i] = fit_pressure(result.grid, direction, options.orders);
+    details.add(direction, result.friction[i]);
+    details.add(result.pressure[i], options.fitting);
+  }
+  const auto chosen = [&](Direction direction) -> const PressureModel& {
+    const PressureFit& fit = result.pressure_of(direction);
+    return options.fitting == PressureFitting::joint ? fit.joint : fit.sequence;
+  };
+  calibration.contraction_friction = result.friction_of(Direction::contraction).model();
+  calibration.relaxation_friction = result.friction_of(Direction::relaxation).model();
+  calibration.contraction = contraction_model(chosen(Direction::contraction));
+  calibration.relaxation = relaxation_model(chosen(Direction::relaxation));
+  calibration.range = range_of(result.grid);
+  return result;
+}
+
+}  // namespace mckibben::thesis

@@ -1,0 +1,42 @@
+// From a measured data set to the models that the thesis's controller needs (T 4.1, 4.2): friction
+// coefficient and pressure, for contraction and relaxation.
+#pragma once
+
+#include <array>
+
+#include <controllers/calibration.hpp>
+#include <sim/input/dataset.hpp>
+#include <sim/thesis/cells.hpp>
+#include <sim/thesis/friction.hpp>
+#include <sim/thesis/pressure.hpp>
+
+namespace mckibben::thesis {
+
+/// Which pressure coefficients go into the calibration: those of all samples at once, or those of the
+/// thesis's sequence of fits.
+enum class PressureFitting { joint, sequence };
+
+struct Options {
+  ProcessingOptions processing;
+  Orders orders;
+  PressureFitting fitting = PressureFitting::joint;
+};
+
+struct CalibrationResult {
+  Grid grid;
+  std::array<FrictionFit, 2> friction;  ///< by Direction
+  std::array<PressureFit, 2> pressure;  ///< by Direction
+  controllers::Calibration calibration;
+
+  const FrictionFit& friction_of(Direction direction) const {
+    return friction[static_cast<std::size_t>(direction)];
+  }
+  const PressureFit& pressure_of(Direction direction) const {
+    return pressure[static_cast<std::size_t>(direction)];
+  }
+};
+
+/// Throws input::BadInput if the data set cannot bear the fits; the message says what would help.
+CalibrationResult calibrate(const input::Dataset& dataset, const Options& options);
+
+}  // namespace mckibben::thesis

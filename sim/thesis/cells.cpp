@@ -1,0 +1,74 @@
+// See the header.
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include <sim/thesis/cells.hpp>
+
+namespace mckibben::thesis {
+namespace {
+
+/// Means of values that lie within `apart` of the smallest of their group, ascending.
+std::vector<double> grouped(std::vector<double> values, double apart) {
+  std::sort(values.begin(), values.end());
+  std::vector<double> means;
+  for (std::size_t i = 0; i < values.size();) {
+    double sum = 0.0;
+    std::size_t n = 0;
+    for (const double first = values[i]; i < values.size() && values[i] <= first * (1.0 + apart); ++i, ++n)
+      sum += values[i];
+    means.push_back(sum / static_cast<double>(n));
+  }
+  return means;
+}
+
+double nearest(const std::vector<double>& values, double wanted) {
+  return *std::min_element(values.begin(), values.end(),
+                           [&](double a, double b) { return std::abs(a - wanted) < std::abs(b - wanted); });
+}
+
+void put(std::vector<Cell>& cells, double load_kg, double speed, const Samples& samples) {
+  const auto same = [&](const Cell& cell) { return cell.load_kg == load_kg && cell.speed_mA_per_s == speed; };
+  auto cell = std::find_if(cells.begin(), cells.end(), same);
+  if (cell == cells.end()) cell = cells.insert(cell, {load_kg, speed, {}});
+  cell->samples.append(samples);
+}
+
+}  // namespace
+
+Grid make_grid(const input::Dataset& dataset, const ProcessingOptions& options) {
+  constexpr double same_speed = 0.02;
+  Grid grid;
+  std::vector<ProcessedRun> used;
+  for (const input::Run& run : dataset.runs) {
+    ProcessedRun processed = process(run, dataset, options);
+    if (processed.unusable.empty())
+      used.push_back(std::move(processed));
+    else
+      grid.left_out.push_back({processed.id, processed.unusable});
+  }
+  if (used.empty())
+    refuse(dataset, fmt::format("no run can be used for calibration; {}: {}", grid.left_out.front().id,
+                                grid.left_out.front().why));
+  for (const ProcessedRun& run : used) {
+    grid.loads_kg.push_back(run.load_kg);
+    grid.speeds_mA_per_s.push_back(run.current_speed_mA_per_s);
+  }
+  std::sort(grid.loads_kg.begin(), grid.loads_kg.end());
+  grid.loads_kg.erase(std::unique(grid.loads_kg.begin(), grid.loads_kg.end()), grid.loads_kg.end());
+  grid.speeds_mA_per_s = grouped(grid.speeds_mA_per_s, same_speed);
+  for (const ProcessedRun& run : used) {
+    grid.dropped += run.dropped;
+    for (const Direction direction : directions)
+      put(grid.cells[static_cast<std::size_t>(direction)], run.load_kg,
+          nearest(grid.speeds_mA_per_s, run.current_speed_mA_per_s), run.of(direction));
+  }
+  for (auto& cells : grid.cells)
+    std::sort(cells.begin(), cells.end(), [](const Cell& a, const Cell& b) {
+      return a.load_kg != b.load_kg ? a.load_kg < b.load_kg : a.speed_mA_per_s < b.speed_mA_per_s;
+    });
+  return grid;
+}
+
+}  // namespace mckibben::thesis

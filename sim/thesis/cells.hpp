@@ -1,0 +1,44 @@
+// The grid of a campaign: all samples of one load and one current speed are a cell. Speeds that differ by
+// less than two per cent are one speed.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include <sim/input/dataset.hpp>
+#include <sim/thesis/processing.hpp>
+
+namespace mckibben::thesis {
+
+struct Cell {
+  double load_kg = 0.0, speed_mA_per_s = 0.0;
+  Samples samples;
+};
+
+/// A run that was not used, and why.
+struct LeftOut {
+  std::string id, why;
+};
+
+struct Grid {
+  std::vector<double> loads_kg, speeds_mA_per_s;  ///< ascending
+  std::array<std::vector<Cell>, 2> cells;         ///< by Direction; by load, then by speed; none is empty
+  std::vector<LeftOut> left_out;
+  Dropped dropped;  ///< of the runs that were used
+
+  const std::vector<Cell>& of(Direction direction) const {
+    return cells[static_cast<std::size_t>(direction)];
+  }
+};
+
+/// Processes every run and sorts it in. Throws input::BadInput.
+Grid make_grid(const input::Dataset& dataset, const ProcessingOptions& options);
+
+/// A column of samples as Eigen sees it.
+inline Eigen::Map<const Eigen::VectorXd> vector(const std::vector<double>& values) {
+  return {values.data(), static_cast<Eigen::Index>(values.size())};
+}
+
+}  // namespace mckibben::thesis

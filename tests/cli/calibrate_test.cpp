@@ -1,0 +1,66 @@
+// The verb calibrate from end to end: a campaign simulated, calibrated, its files; and data that are too few.
+#include <filesystem>
+#include <string>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <sim/input/fields_json.hpp>
+
+#include "program.hpp"
+
+namespace mckibben::cli {
+namespace {
+
+std::string campaign(const std::string& loads) {
+  return "schema: mckibben-campaign/1\nloads: " + loads +
+         "\ncurrents:\n"
+         "  - {duration: 7.2 s, current: {kind: sine_current, low: 0 mA, high: 20 mA, period: 2.4 s}}\n"
+         "  - {duration: 10.8 s, current: {kind: sine_current, low: 0 mA, high: 20 mA, period: 3.6 s}}\n"
+         "  - {duration: 18 s, current: {kind: sine_current, low: 0 mA, high: 20 mA, period: 6 s}}\n";
+}
+
+TEST(Calibrate, TurnsADataSetIntoAFileForControllersAndFigures) {
+  const Scratch scratch;
+  write_text(scratch / "small.yaml", campaign("[11.138 kg, 14 kg, 18.87 kg, 23.406 kg]"));
+  ASSERT_EQ(mckibben("dataset small.yaml --out data", scratch).status, 0);
+  const Said said = mckibben("calibrate data --out cal --json", scratch);
+  ASSERT_EQ(said.status, 0) << said.err;
+  const std::filesystem::path folder = scratch / "cal";
+  const auto document = input::Json::parse(said.out);
+  EXPECT_EQ(document.at("schema"), "mckibben-calibration-report/1");
+  EXPECT_EQ(document.at("loads_kg").size(), 4u);
+  EXPECT_EQ(said.out, read_text(folder / "calibration.json"));
+  EXPECT_NE(read_text(folder / "report.txt").find("spread (standard deviation over mean)"),
+            std::string::npos);
+  for (int figure = 2; figure <= 49; ++figure) {
+    const std::string name = fmt::format("figures/figure_4_{:02}", figure);
+    EXPECT_TRUE(std::filesystem::exists(folder / (name + ".csv"))) << name;
+    EXPECT_EQ(read_text(folder / (name + ".svg")).rfind("<svg", 0), 0u) << name;
+  }
+  const Said checked = mckibben("check cal/calibration.yaml", scratch);
+  EXPECT_EQ(checked.status, 0) << checked.err;
+
+  ASSERT_EQ(mckibben("calibrate data --out kgf --kgf", scratch).status, 0);
+  EXPECT_EQ(read_text(scratch / "kgf" / "calibration.yaml"), read_text(folder / "calibration.yaml"));
+  EXPECT_NE(read_text(scratch / "kgf" / "figures/figure_4_35.csv").find("kgf_per_m2"), std::string::npos);
+}
+
+TEST(Calibrate, RefusesTooFewLoadsAndSaysWhatHelps) {
+  const Scratch scratch;
+  write_text(scratch / "small.yaml", campaign("[11.138 kg, 14 kg]"));
+  ASSERT_EQ(mckibben("dataset small.yaml --out data", scratch).status, 0);
+  const Said said = mckibben("calibrate data --out cal", scratch);
+  EXPECT_EQ(said.status, 65);
+  EXPECT_NE(said.err.find("needs 4 loads, and there are 2"), std::string::npos) << said.err;
+  EXPECT_FALSE(std::filesystem::exists(scratch / "cal"));
+  EXPECT_EQ(mckibben("calibrate data --out cal --load-order 1", scratch).status, 0);
+  const std::string data_set = read_text(scratch / "data" / "dataset.yaml");
+  EXPECT_EQ(mckibben("calibrate data --out data --load-order 1", scratch).status, 74);  // would replace it
+  EXPECT_EQ(read_text(scratch / "data" / "dataset.yaml"), data_set);
+  EXPECT_EQ(mckibben("calibrate data --pressure truth", scratch).status, 64);
+  EXPECT_EQ(mckibben("calibrate nowhere", scratch).status, 66);
+}
+
+}  // namespace
+}  // namespace mckibben::cli

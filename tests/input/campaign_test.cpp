@@ -1,0 +1,91 @@
+// Campaigns: what is read, names of currents, round trips, and that the shipped one is the thesis's.
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include <sim/input/campaign.hpp>
+#include <sim/input/json_schema.hpp>
+#include <sim/input/yaml_writer.hpp>
+
+namespace mckibben::input {
+namespace {
+
+const std::string good_campaign = R"(schema: mckibben-campaign/1
+rig: {gauge: {fitted: true}}
+loads: [11.138 kg, 13870 g]
+currents:
+  - {duration: 2 s, current: {kind: sine_current, low: 0 mA, high: 20 mA, period: 2.4 s}}
+  - {duration: 999 ms, current: {kind: triangle_current, name: slow, low: 4 mA, high: 20 mA, speed: 5.6 mA/s}}
+  - {name: up, duration: 2 s, current: {kind: stair_current, low: 4 mA, high: 20 mA, steps: 4, dwell: 0.2 s}}
+  - {duration: 2 s, current: {kind: recorded_current, file: tests/bad/good.csv}}
+repeats: 3
+noise: {encoder_jitter: 5e-5, current: 0.01 mA}
+seed: 7
+)";
+
+Campaign read_text(const std::string& text) {
+  return read_campaign(Source("some/my campaign.yaml", text, MCKIBBEN_SOURCE_DIR));
+}
+
+TEST(Campaign, ReadsEveryKindOfField) {
+  const Campaign campaign = read_text(good_campaign);
+  EXPECT_EQ(campaign.name, "my_campaign");
+  EXPECT_TRUE(campaign.rig.gauge.fitted);
+  EXPECT_DOUBLE_EQ(campaign.loads_kg.at(1), 13.87);
+  EXPECT_DOUBLE_EQ(campaign.currents.at(1).duration_s, 0.999);
+  EXPECT_DOUBLE_EQ(std::get<controllers::SineCurrent>(campaign.currents.at(0).current).period_s, 2.4);
+  EXPECT_EQ(std::get<controllers::RecordedCurrent>(campaign.currents.at(3).current).samples_mA,
+            (std::vector<double>{4.0, 4.0}));
+  EXPECT_EQ(campaign.repeats, 3);
+  EXPECT_EQ(campaign.noise.encoder_jitter, 5e-5);
+  EXPECT_EQ(campaign.seed, 7u);
+  EXPECT_EQ(campaign.inputs.size(), 2u);
+}
+
+TEST(Campaign, CurrentsWithoutANameAreNamedAfterWaveformOrPlace) {
+  const Campaign campaign = read_text(good_campaign);
+  EXPECT_EQ(campaign.currents.at(0).name, "c01");
+  EXPECT_EQ(campaign.currents.at(1).name, "slow");
+  EXPECT_EQ(campaign.currents.at(2).name, "up");
+  EXPECT_EQ(campaign.currents.at(3).name, "c04");
+}
+
+TEST(Campaign, ResolvedReadsBackBitForBit) {
+  const Json once = campaign_json(read_text(good_campaign));
+  EXPECT_EQ(campaign_json(read_text(once.dump(2))).dump(), once.dump());
+  EXPECT_EQ(campaign_json(read_text(to_yaml(once))).dump(), once.dump());
+}
+
+TEST(Campaign, SchemaOffersGivenCurrentsOnly) {
+  const Json schema = json_schema(campaign_schema, "Campaign", list_fields<Campaign>());
+  EXPECT_EQ(schema["required"], (Json{"schema", "loads", "currents"}));
+  const Json& current = schema["properties"]["currents"]["items"];
+  EXPECT_EQ(current["required"], (Json{"duration", "current"}));
+  EXPECT_EQ(current["properties"]["current"]["oneOf"].size(), 6u);
+}
+
+// T 3.3: twenty speeds of the current, 16.7 to 5.6 mA/s, five periods each; T 4.2: five loads.
+TEST(Campaign, ShippedOneIsTheThesiss) {
+  const Campaign campaign = read_campaign(MCKIBBEN_SOURCE_DIR "/scenarios/thesis_campaign.yaml");
+  EXPECT_EQ(campaign.loads_kg, (std::vector<double>{11.138, 13.870, 16.138, 18.870, 23.406}));
+  ASSERT_EQ(campaign.currents.size(), 20u);
+  for (std::size_t i = 0; i < 20; ++i) {
+    const int samples = i < 19 ? 200 + 20 * static_cast<int>(i) : 600;
+    const CampaignCurrent& current = campaign.currents[i];
+    const auto& sine = std::get<controllers::SineCurrent>(current.current);
+    EXPECT_EQ(current.name, "n" + std::to_string(samples));
+    EXPECT_NEAR(sine.period_s / campaign.rig.tick_s, samples, 1e-9);
+    EXPECT_NEAR(current.duration_s / sine.period_s, 5.0, 1e-12);
+    EXPECT_EQ(sine.low_mA, 0.0);
+    EXPECT_EQ(sine.high_mA, 20.0);
+  }
+  const auto speed = [&](std::size_t i) {
+    return 40.0 / std::get<controllers::SineCurrent>(campaign.currents[i].current).period_s;
+  };
+  EXPECT_NEAR(speed(0), 16.7, 0.05);
+  EXPECT_NEAR(speed(19), 5.6, 0.05);
+  EXPECT_EQ(rig_json(campaign.rig), rig_json(RigFile{}));
+}
+
+}  // namespace
+}  // namespace mckibben::input

@@ -1,0 +1,51 @@
+// Controllers that need a calibration: it is read with the scenario, once, and counted among its inputs.
+#include <algorithm>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include <sim/input/scenario.hpp>
+
+namespace mckibben::input {
+namespace {
+
+const std::string text = R"(schema: mckibben-scenario/1
+loads: [16.138 kg]
+duration: 1 s
+target: {kind: points, points: [{at: 0 s, to: 0.05}]}
+controllers:
+  - {kind: open_loop, calibration: calibration.yaml}
+  - {kind: open_loop, name: up, calibration: calibration.yaml, mode: triangle, to: 30 mm, speed: 0.2 1/s}
+  - {kind: feedforward_pid, calibration: calibration.yaml, weighing: {speed: 8 mA/s}}
+)";
+
+Scenario read() {
+  std::vector<Problem> warnings;
+  return read_scenario(Source("test.yaml", text, MCKIBBEN_TEST_DATA), warnings);
+}
+
+TEST(OpenLoopScenario, LoadsTheCalibrationOfEachController) {
+  Scenario scenario = read();
+  for (auto& settings : scenario.controllers) {
+    const auto* calibrated = controllers::calibrated(settings);
+    ASSERT_NE(calibrated, nullptr);
+    EXPECT_EQ(calibrated->model.contraction.a0, (controllers::InLoad{3e3, 2e4}));
+    EXPECT_EQ(calibrated->model.range.highest_load_kg, 23.5);
+  }
+  const auto& up = std::get<controllers::OpenLoopSettings>(scenario.controllers[1]);
+  EXPECT_EQ(up.mode, controllers::OpenLoopMode::triangle);
+  EXPECT_EQ(up.speed_per_s, 0.2);
+  EXPECT_NEAR(up.to.ratio(0.3), 0.1, 1e-12);
+  EXPECT_EQ(std::get<controllers::FeedforwardPidSettings>(scenario.controllers[2]).weighing.speed_mA_per_s,
+            8.0);
+}
+
+TEST(OpenLoopScenario, CountsTheCalibrationAmongItsInputsOnce) {
+  const Scenario scenario = read();
+  const auto is_calibration = [](const InputFile& file) { return file.name.ends_with("calibration.yaml"); };
+  EXPECT_EQ(std::count_if(scenario.inputs.begin(), scenario.inputs.end(), is_calibration), 1);
+  EXPECT_EQ(scenario.inputs.front().name, "test.yaml");
+}
+
+}  // namespace
+}  // namespace mckibben::input

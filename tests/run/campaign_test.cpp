@@ -1,0 +1,136 @@
+// The runs of a campaign: their names, noise of their own, no dependence on order or threads, and an end in
+// the middle.
+#include <csignal>
+#include <cstdlib>
+#include <map>
+#include <mutex>
+#include <set>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include <sim/run/batch.hpp>
+#include <sim/run/campaign.hpp>
+#include <sim/run/simulate.hpp>
+
+namespace mckibben::run {
+namespace {
+
+input::Campaign small_campaign() {
+  input::Campaign campaign;
+  campaign.loads_kg = {11.138, 23.406};
+  controllers::SineCurrent sine;
+  sine.low_mA = 0.0;
+  sine.period_s = 2.4;
+  campaign.currents = {{"a", 0.6, sine}, {"b", 0.3, controllers::StepCurrent{}}};
+  campaign.repeats = 2;
+  campaign.noise.encoder_jitter = 1e-3;
+  return campaign;
+}
+
+const ProgressHook no_progress = [](const std::string&, std::size_t, std::size_t) {};
+
+std::vector<double> ratios(const input::Campaign& campaign, const CampaignJob& job) {
+  return measured(campaign, run_job(campaign, job)).contraction_ratio;
+}
+
+TEST(Campaign, EveryRunHasAnIdAndAStreamOfItsOwn) {
+  const auto jobs = jobs_of(small_campaign());
+  ASSERT_EQ(jobs.size(), 8u);
+  EXPECT_EQ(jobs[0].id, "m1_a_r1");
+  EXPECT_EQ(jobs[7].id, "m2_b_r2");
+  std::set<std::string> ids;
+  std::set<std::uint64_t> streams;
+  for (const auto& job : jobs) {
+    ids.insert(job.id);
+    streams.insert(job.stream);
+  }
+  EXPECT_EQ(ids.size(), 8u);
+  EXPECT_EQ(streams.size(), 8u);
+  EXPECT_EQ(jobs[5].load_kg, 23.406);
+}
+
+TEST(Campaign, TheThesissHas100RunsOfFivePeriods) {
+  const auto campaign = input::read_campaign(MCKIBBEN_SOURCE_DIR "/scenarios/thesis_campaign.yaml");
+  const auto jobs = jobs_of(campaign);
+  ASSERT_EQ(jobs.size(), 100u);
+  EXPECT_EQ(jobs[0].id, "m1_n200");
+  const auto run = run_job(campaign, jobs[0]);
+  ASSERT_EQ(run.recording.samples.size(), 1000u);  // 5 x 200
+  EXPECT_EQ(run.recording.samples[0].current_mA, 0.0);
+  EXPECT_EQ(run.recording.samples[100].current_mA, 20.0);  // half a period later
+  EXPECT_EQ(run.recording.samples[200].current_mA, 0.0);
+  EXPECT_GT(run.recording.largest_contraction_ratio, 0.15);
+}
+
+TEST(Campaign, RepeatsDifferByTheirNoiseAndARunIsAlwaysTheSame) {
+  const auto campaign = small_campaign();
+  const auto jobs = jobs_of(campaign);
+  EXPECT_NE(ratios(campaign, jobs[0]), ratios(campaign, jobs[1]));
+  EXPECT_EQ(ratios(campaign, jobs[1]), ratios(campaign, jobs[1]));
+  auto reseeded = campaign;
+  reseeded.seed = 2;
+  EXPECT_NE(ratios(campaign, jobs[0]), ratios(reseeded, jobs[0]));
+}
+
+TEST(Campaign, MeasuredIsWhatTheInstrumentsShow) {
+  auto campaign = small_campaign();
+  campaign.rig.gauge.fitted = true;
+  campaign.rig.gauge.resolution_Pa = 1e3;
+  const auto run = run_job(campaign, jobs_of(campaign)[0]);
+  const auto table = measured(campaign, run);
+  ASSERT_EQ(table.current_mA.size(), 50u);
+  const auto& sample = run.recording.samples[49];
+  EXPECT_EQ(table.contraction_ratio[49],
+            static_cast<double>(sample.counts) * contraction_per_count(campaign.rig));
+  EXPECT_EQ(table.muscle_pressure_Pa.value()[49], sample.gauge_Pa);
+  EXPECT_NE(sample.gauge_Pa, sample.state.side.muscle_pressure_Pa);
+}
+
+TEST(Campaign, RunsDoNotDependOnThreads) {
+  const auto campaign = small_campaign();
+  const auto jobs = jobs_of(campaign);
+  std::mutex mutex;
+  std::map<std::string, std::vector<double>> one, four;
+  for (auto [threads, found] : {std::pair{1u, &one}, std::pair{4u, &four}})
+    run_jobs(
+        campaign, jobs, threads,
+        [&](const CampaignRun& run) {
+          const std::scoped_lock lock(mutex);
+          (*found)[run.job.id] = measured(campaign, run).contraction_ratio;
+        },
+        no_progress);
+  EXPECT_EQ(one.size(), 8u);
+  EXPECT_EQ(one, four);
+}
+
+TEST(Campaign, AFailureIsKeptWithItsRun) {
+  auto campaign = small_campaign();
+  campaign.rig.muscle.stop_stiffness_N_per_m = 1e3;  // the load falls past the range of the laws
+  campaign.rig.muscle.stop_damping_s_per_m = 0.0;
+  campaign.loads_kg = {400.0};
+  const auto run = run_job(campaign, jobs_of(campaign)[0]);
+  EXPECT_NE(run.failure.find("integration failed"), std::string::npos);
+}
+
+// In a process of its own: asking to stop cannot be taken back.
+TEST(CampaignDeathTest, CtrlCEndsItBetweenTwoRuns) {
+  const auto campaign = small_campaign();
+  const auto stopped_after_three = [&] {
+    catch_interrupts();
+    int ended = 0;
+    const auto finished = [&](const CampaignRun&) {
+      if (++ended == 3) std::raise(SIGINT);
+    };
+    try {
+      run_jobs(campaign, jobs_of(campaign), 1, finished, no_progress);
+    } catch (const Interrupted&) {
+      std::_Exit(ended);
+    }
+    std::_Exit(100);
+  };
+  EXPECT_EXIT(stopped_after_three(), testing::ExitedWithCode(3), "");
+}
+
+}  // namespace
+}  // namespace mckibben::run

@@ -1,0 +1,226 @@
+// A small campaign on the simulated rig, calibrated from end to end; figures; data that cannot be calibrated.
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <sim/input/calibration_file.hpp>
+#include <sim/output/calibration_report.hpp>
+#include <sim/output/chart.hpp>
+#include <sim/thesis/calibrate.hpp>
+#include <sim/thesis/figures.hpp>
+
+#include "small_campaign.hpp"
+
+namespace mckibben::thesis {
+namespace {
+
+const input::Dataset& campaign() {
+  static const input::Dataset dataset = small_campaign();
+  return dataset;
+}
+
+const CalibrationResult& calibrated() {
+  static const CalibrationResult result = calibrate(campaign(), {});
+  return result;
+}
+
+TEST(Calibrate, DescribesTheRigOverAllLoadsAndSpeeds) {
+  for (const Direction direction : directions) {
+    const PressureFit& fit = calibrated().pressure_of(direction);
+    EXPECT_LT(fit.deviation.joint, 0.15 * fit.mean_Pa) << name_of(direction);
+    EXPECT_LE(fit.deviation.own, fit.deviation.fixed * (1.0 + 1e-9));
+    EXPECT_LE(fit.deviation.fixed, fit.deviation.in_speed * (1.0 + 1e-9));
+    EXPECT_GT(calibrated().friction_of(direction).mean, 0.0);
+  }
+  EXPECT_EQ(calibrated().grid.loads_kg.size(), 5u);
+  EXPECT_EQ(calibrated().grid.speeds_mA_per_s.size(), 4u);
+}
+
+TEST(Calibrate, WithTheTruePressureFindsTheTrueFriction) {
+  Options options;
+  options.processing.pressure = PressureSource::gauge;
+  const FrictionFit fit = calibrate(campaign(), options).friction_of(Direction::contraction);
+  const plant::Friction truth;  // per cent
+  EXPECT_NEAR(fit.f0.value, 0.01 * truth.f0, 0.1 * 0.01 * truth.f0);
+  EXPECT_NEAR(fit.f2.value, 0.01 * truth.f2, 0.1 * std::abs(0.01 * truth.f2));
+  // From the current alone, the lag of valve and hose looks like friction that grows with the current's
+  // speed.
+  const FrictionFit& from_current = calibrated().friction_of(Direction::contraction);
+  EXPECT_GT(from_current.mean, 1.2 * fit.mean);
+  EXPECT_GT(from_current.f1.value, 10.0 * std::abs(fit.f1.value));
+}
+
+TEST(Calibrate, TheFileReadsBackToTheSameModels) {
+  const auto path = std::filesystem::temp_directory_path() / fmt::format("calibration_{}.yaml", getpid());
+  std::ofstream(path) << input::calibration_yaml(calibrated().calibration);
+  std::vector<input::InputFile> inputs;
+  const controllers::Calibration read = input::read_calibration(path, inputs);
+  std::filesystem::remove(path);
+  EXPECT_EQ(input::to_json(read), input::to_json(calibrated().calibration));
+  EXPECT_EQ(inputs.size(), 1u);
+  EXPECT_EQ(read.contraction.a1_0.size(), 4u);
+  EXPECT_EQ(read.relaxation.b4_0.size(), 2u);
+  EXPECT_EQ(read.range.lowest_load_kg, 11.138);
+}
+
+TEST(Calibrate, TheThesissSequenceIsThereToBeChosen) {
+  Options options;
+  options.fitting = PressureFitting::sequence;
+  const CalibrationResult result = calibrate(campaign(), options);
+  EXPECT_EQ(result.calibration.contraction.a0,
+            contraction_model(result.pressure_of(Direction::contraction).sequence).a0);
+  EXPECT_NE(result.calibration.contraction.a0, calibrated().calibration.contraction.a0);
+}
+
+TEST(Calibrate, WhatIsNotDeterminedIsNamedAndNotPrinted) {
+  CalibrationResult result = calibrated();
+  Estimate& f1 = result.friction[0].f1;
+  f1 = {0.0123456, 0.02, 5.0, {}};
+  judge(f1);
+  const std::string report = output::report_of(campaign(), result, {}, false);
+  EXPECT_NE(report.find("f1  not determined: not told from 0"), std::string::npos);
+  EXPECT_EQ(report.find("0.0123456"), std::string::npos);
+  const auto document = output::json_of(campaign(), result, {});
+  const auto& entry = document.at("friction").at("contraction").at("f1_s2_per_mA2");
+  EXPECT_TRUE(entry.at("value").is_null());
+  EXPECT_EQ(entry.at("not_determined"), "not told from 0");
+}
+
+TEST(Figures, AreAllThereWithEqualColumns) {
+  const auto all = figures(calibrated(), false);
+  ASSERT_EQ(all.size(), 48u);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const Figure& figure = all[i];
+    EXPECT_EQ(figure.number, fmt::format("4.{}", i + 2));
+    ASSERT_GE(figure.columns.size(), 3u - (figure.curves.size() == 1 ? 1u : 0u)) << figure.number;
+    for (const Column& column : figure.columns) {
+      EXPECT_EQ(column.values.size(), figure.columns[0].values.size()) << figure.number;
+      EXPECT_LE(column.values.size(), most_dots);
+      EXPECT_GE(column.values.size(), 4u);
+      for (const double value : column.values)
+        EXPECT_TRUE(std::isfinite(value)) << figure.number << column.name;
+    }
+    for (const Curved& curve : figure.curves) {
+      EXPECT_LT(curve.x, figure.columns.size());
+      EXPECT_LT(curve.y, figure.columns.size());
+    }
+    const std::string svg = output::chart_svg(figure), csv = output::csv_of(figure);
+    EXPECT_NE(svg.find("Figure " + figure.number), std::string::npos);
+    EXPECT_EQ(svg.find("nan"), std::string::npos);
+    EXPECT_EQ(csv.rfind(figure.columns[0].name + ",", 0), 0u);
+  }
+  EXPECT_EQ(all[0].file_name(), "figure_4_02");
+  EXPECT_EQ(all[47].file_name(), "figure_4_49");
+}
+
+TEST(Figures, ShowTheThesissSpeedsOrTheNearest) {
+  const auto all = figures(calibrated(), false);
+  EXPECT_NE(all[4].title.find("16.7 mA/s"), std::string::npos);
+  EXPECT_NE(all[0].title.find("6.7 mA/s"), std::string::npos);  // slowest of the small campaign
+}
+
+TEST(Figures, InKgfAreTheSamePressures) {
+  const auto pascal = figures(calibrated(), false), kgf = figures(calibrated(), true);
+  const Figure &a0 = pascal[33], &a0_kgf = kgf[33], &a3_kgf = kgf[38];
+  ASSERT_EQ(a0.number, "4.35");
+  EXPECT_EQ(a0.columns[1].name, "a0_Pa");
+  EXPECT_EQ(a0_kgf.columns[1].name, "a0_kgf_per_m2");
+  EXPECT_NEAR(a0.columns[1].values[0] / a0_kgf.columns[1].values[0], 9.80665, 1e-9);
+  EXPECT_EQ(a3_kgf.columns[1].values, pascal[38].columns[1].values);  // an exponent has no unit
+}
+
+/// What is said about data that cannot be calibrated.
+std::string refusal(const input::Dataset& dataset, const Options& options = {}) {
+  try {
+    calibrate(dataset, options);
+  } catch (const input::BadInput& bad) {
+    return bad.what();
+  }
+  return "accepted";
+}
+
+testing::AssertionResult says(const std::string& text, const std::string& part) {
+  if (text.find(part) != std::string::npos) return testing::AssertionSuccess();
+  return testing::AssertionFailure() << "\"" << part << "\" is not in: " << text;
+}
+
+TEST(BadData, TooFewLoadsForTheOrdersSayHowMany) {
+  input::Dataset dataset = campaign();
+  std::erase_if(dataset.runs, [](const auto& run) { return run.load_kg > 17.0; });
+  const std::string text = refusal(dataset);
+  EXPECT_TRUE(says(text, "small/dataset.yaml"));
+  EXPECT_TRUE(says(text,
+                   "of order 3 in the load (T 4.14 to 4.28) needs 4 loads, and there are 3 "
+                   "(11.138, 13.87, 16.138 kg)"));
+  EXPECT_TRUE(says(text, "--load-order 2"));
+  Options options;
+  options.orders.load = 2;
+  EXPECT_EQ(refusal(dataset, options), "accepted");
+}
+
+TEST(BadData, TooFewSpeedsForTheOrdersSayHowMany) {
+  input::Dataset dataset = campaign();
+  std::erase_if(dataset.runs,
+                [](const auto& run) { return run.load_kg > 20.0 && run.current_mA.size() < 1200; });
+  const std::string text = refusal(dataset);
+  EXPECT_TRUE(says(text, "needs 3 speeds, and with 23.406 kg there are 2"));
+  EXPECT_TRUE(says(text, "--speed-order 1"));
+}
+
+TEST(BadData, NoMotionIsSaid) {
+  input::Dataset dataset = small_campaign({11.138}, {3.6});
+  for (double& ratio : dataset.runs[0].contraction_ratio) ratio = 0.0;
+  EXPECT_TRUE(says(refusal(dataset), "the muscle hardly moves"));
+}
+
+TEST(BadData, AConstantCurrentIsSaid) {
+  input::Dataset dataset = small_campaign({11.138}, {3.6});
+  for (double& current : dataset.runs[0].current_mA) current = 12.0;
+  EXPECT_TRUE(says(refusal(dataset), "its current hardly changes"));
+}
+
+TEST(BadData, ACurrentWithoutASingleSpeedIsSaid) {
+  input::Dataset dataset = small_campaign({11.138}, {3.6});
+  input::Run& run = dataset.runs[0];
+  const input::Run faster = ride(11.138, 2.4);
+  run.current_mA.insert(run.current_mA.end(), faster.current_mA.begin(), faster.current_mA.end());
+  run.contraction_ratio.insert(run.contraction_ratio.end(), faster.contraction_ratio.begin(),
+                               faster.contraction_ratio.end());
+  EXPECT_TRUE(says(refusal(dataset), "has no single speed"));
+}
+
+TEST(BadData, RunsThatCannotBeUsedAreLeftOutAndNamed) {
+  input::Dataset dataset = campaign();
+  for (double& ratio : dataset.runs[3].contraction_ratio) ratio = 0.0;
+  const CalibrationResult result = calibrate(dataset, {});
+  ASSERT_EQ(result.grid.left_out.size(), 1u);
+  EXPECT_EQ(result.grid.left_out[0].id, dataset.runs[3].id);
+  EXPECT_TRUE(says(output::report_of(dataset, result, {}, false), result.grid.left_out[0].why));
+}
+
+TEST(BadData, AWrongRigIsNoticed) {
+  input::Dataset dataset = campaign();
+  dataset.rig.encoder.pulses_per_turn = 500;
+  EXPECT_TRUE(says(refusal(dataset), "no multiples of this rig's encoder count"));
+  dataset = campaign();
+  dataset.rig.muscle.end_correction = 1.6;
+  EXPECT_TRUE(says(refusal(dataset), "beyond this rig's limit"));
+  dataset = campaign();
+  dataset.rig.muscle.rest_radius_m = 6e-3;
+  EXPECT_TRUE(says(refusal(dataset), "wrong rig or loads?"));
+}
+
+TEST(BadData, TheGaugeMustBeThereIfItIsAskedFor) {
+  input::Dataset dataset = campaign();
+  dataset.runs[1].muscle_pressure_Pa.reset();
+  Options options;
+  options.processing.pressure = PressureSource::gauge;
+  EXPECT_TRUE(says(refusal(dataset, options), "has no column muscle_pressure_bar"));
+}
+
+}  // namespace
+}  // namespace mckibben::thesis

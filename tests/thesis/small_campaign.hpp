@@ -1,0 +1,75 @@
+// Data for the tests: samples made by the thesis's formulas, and a small campaign on the simulated rig.
+#pragma once
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include <controllers/settings.hpp>
+#include <sim/input/dataset.hpp>
+#include <sim/run/simulate.hpp>
+#include <sim/thesis/cells.hpp>
+
+namespace mckibben::thesis {
+
+/// Cells at these loads and speeds whose contraction ratios run from 0.005 to 0.25; pressure_Pa and
+/// coefficient are what `pressure` and `coefficient` give for (e, load, speed).
+template <class Pressure, class Coefficient>
+Grid planted_grid(const std::vector<double>& loads_kg, const std::vector<double>& speeds,
+                  const Pressure& pressure, const Coefficient& coefficient) {
+  Grid grid;
+  grid.loads_kg = loads_kg;
+  grid.speeds_mA_per_s = speeds;
+  for (auto& cells : grid.cells)
+    for (const double load : loads_kg)
+      for (const double speed : speeds) {
+        Cell cell{load, speed, {}};
+        for (int i = 0; i < 200; ++i) {
+          const double e = 0.005 + 0.245 * i / 199.0;
+          cell.samples.contraction_ratio.push_back(e);
+          cell.samples.pressure_Pa.push_back(pressure(e, load, speed));
+          cell.samples.coefficient.push_back(coefficient(e, load, speed));
+        }
+        cells.push_back(std::move(cell));
+      }
+  return grid;
+}
+
+/// A ride of the thesis's rig under a sine of 0 to 20 mA, as a data set would hold it.
+inline input::Run ride(double load_kg, double period_s, double cycles = 3.0) {
+  run::RunPlan plan;
+  plan.load_kg = load_kg;
+  plan.rig.gauge.fitted = true;
+  plan.ticks = static_cast<std::size_t>(std::llround(cycles * period_s / plan.rig.tick_s));
+  controllers::SineCurrent sine;
+  sine.low_mA = 0.0;
+  sine.high_mA = 20.0;
+  sine.period_s = period_s;
+  const auto controller = sine.make(run::knowledge_of(plan.rig, {}));
+  const auto recording = run::simulate(plan, *controller);
+  input::Run result;
+  result.id = fmt::format("m{:.0f}_{:.0f}", 1e3 * load_kg, 1e3 * period_s);
+  result.load_kg = load_kg;
+  result.muscle_pressure_Pa.emplace();
+  for (const auto& sample : recording.samples) {
+    result.current_mA.push_back(sample.current_mA);
+    result.contraction_ratio.push_back(static_cast<double>(sample.counts) *
+                                       run::contraction_per_count(plan.rig));
+    result.muscle_pressure_Pa->push_back(sample.gauge_Pa);
+  }
+  return result;
+}
+
+inline input::Dataset small_campaign(const std::vector<double>& loads_kg = {11.138, 13.870, 16.138, 18.870,
+                                                                            23.406},
+                                     const std::vector<double>& periods_s = {2.4, 3.6, 4.8, 6.0}) {
+  input::Dataset dataset;
+  dataset.path = "small/dataset.yaml";
+  for (const double load : loads_kg)
+    for (const double period : periods_s) dataset.runs.push_back(ride(load, period));
+  return dataset;
+}
+
+}  // namespace mckibben::thesis
