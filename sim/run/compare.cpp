@@ -101,7 +101,8 @@ class Comparing {
   TunedController tune_one(controllers::Settings& settings, const std::function<void()>& tried) {
     const controllers::PidTerms& pid = *controllers::pid_terms(settings);
     const double load_kg = pid.tuning_load_kg.value_or(median(scenario_.loads_kg));
-    const RunPlan plan = plan_of(scenario_, load_kg, 0);
+    RunPlan plan = plan_of(scenario_, load_kg, 0);
+    plan.keep_ledger = false;  // nothing here asks where the air went
     const auto with = [&settings](const Gains& gains) {
       controllers::Settings complete = settings;
       controllers::PidTerms& terms = *controllers::pid_terms(complete);
