@@ -14,9 +14,11 @@
 #include <sim/cli/exit_status.hpp>
 #include <sim/cli/verbs.hpp>
 #include <sim/input/diagnostics.hpp>
+#include <sim/input/quantity.hpp>
 #include <sim/input/suggest.hpp>
 #include <sim/output/folder.hpp>
 #include <sim/run/batch.hpp>
+#include <sim/study/study.hpp>
 
 namespace mckibben::cli {
 namespace {
@@ -27,6 +29,7 @@ constexpr const char* examples =
     "  mckibben run my.yaml --out results --threads 1  somewhere else, on one thread\n"
     "  mckibben dataset scenarios/thesis_campaign.yaml synthetic calibration data\n"
     "  mckibben calibrate data/                        the thesis's models from it\n"
+    "  mckibben map out/calibration/calibration.yaml   errors of the thesis's controller over its targets\n"
     "  mckibben replay measured/ --rig my_rig.yaml     measured currents on a rig of yours\n"
     "  mckibben check my.yaml                          is the file right? nothing is run\n"
     "Exit status: 0 done, 1 a criterion of yours is not met, 64 usage, 65 bad input file,\n"
@@ -125,6 +128,55 @@ void add_calibrate(CLI::App& verb, std::string& path, CalibrateOptions& how) {
       "figures/.\n");
 }
 
+/// Reads a quantity above 0 and up to `most`; what is wrong with it is a usage error.
+double positive_quantity(const std::string& text, const char* unit, double most) {
+  double value = 0.0;
+  try {
+    value = input::read_quantity(text, unit);
+  } catch (const input::BadQuantity& error) {
+    throw CLI::ValidationError(error.what());
+  }
+  if (value > 0.0 && value <= most) return value;
+  throw CLI::ValidationError(
+      fmt::format("{} must be above 0 and at most {}", text, input::write_quantity(most, unit)));
+}
+
+void add_map(CLI::App& verb, std::string& path, Options& options, MapOptions& how) {
+  verb.add_option("calibration", path, "Calibration file that `calibrate` wrote")
+      ->required()
+      ->type_name("CALIBRATION");
+  verb.add_option_function<std::vector<std::string>>(
+          "--load",
+          [&how](const std::vector<std::string>& texts) {
+            for (const auto& text : texts) how.loads_kg.push_back(positive_quantity(text, "kg", 500.0));
+          },
+          "Load such as \"8.87 kg\"; may be repeated (default: the thesis's five and its unseen 8.87 kg, "
+          "those "
+          "that the calibration covers)")
+      ->allow_extra_args(false)
+      ->type_name("LOAD");
+  verb.add_option("--rig", options.rig, "Rig file or shipped rig (default: thesis)")->type_name("RIG");
+  verb.add_flag("--up", how.up, "Going up only");
+  verb.add_flag("--down", how.down, "Going down only");
+  verb.add_option("--ratios", how.ratios, "How many target contraction ratios, up to e_max (default: 30)")
+      ->check(CLI::Range(1, 1000))
+      ->type_name("N");
+  verb.add_option("--speeds", how.speeds, "How many target speeds (default: 5)")
+      ->check(CLI::Range(1, 1000))
+      ->type_name("N");
+  verb.add_option_function<std::string>(
+          "--fastest",
+          [&how](const std::string& text) { how.fastest_per_s = positive_quantity(text, "1/s", 100.0); },
+          "The largest target speed (default: \"0.5 1/s\")")
+      ->type_name("SPEED");
+  verb.add_flag("--extrapolate", how.extrapolate,
+                "Allow loads, contraction ratios and current speeds outside the calibrated range");
+  verb.footer(
+      "Example:\n  mckibben map out/thesis_campaign-calibration/calibration.yaml --load \"8.87 kg\" "
+      "--extrapolate\n"
+      "Writes map.csv, table.txt, map.json and a picture for each load.\n");
+}
+
 }  // namespace
 
 int run(int argc, char** argv) {
@@ -174,6 +226,29 @@ int run(int argc, char** argv) {
   add_common(*calibrate_verb, options);
   add_calibrate(*calibrate_verb, path, how);
   calibrate_verb->callback([&] { chosen = [&] { return calibrate_dataset(path, options, how); }; });
+
+  MapOptions targets;
+  auto* map_verb = app.add_subcommand(
+      "map", "Map the errors of the thesis's open-loop controller over its targets (figures 4.50, 4.51)");
+  add_common(*map_verb, options);
+  add_map(*map_verb, path, options, targets);
+  map_verb->callback([&] { chosen = [&] { return map_errors(path, options, targets); }; });
+
+  std::string study;
+  auto* study_verb = app.add_subcommand(
+      "study", "Simulate and calibrate a campaign; compare what was found with what was true");
+  study_verb
+      ->add_option("name", study,
+                   "lag (friction or lag of valve and hose?), counting (what counts at each tick do to the "
+                   "load), figures (the thesis's accuracy beside ours)")
+      ->required()
+      ->check(CLI::IsMember(std::vector<std::string>(study::names.begin(), study::names.end())));
+  study_verb->add_option("campaign", path, "Campaign file")->required()->type_name("CAMPAIGN.yaml");
+  add_common(*study_verb, options);
+  study_verb->footer(
+      "Example:\n  mckibben study lag scenarios/thesis_campaign.yaml\n"
+      "Writes NAME.md (the page), NAME.csv and NAME.svg (its picture), NAME.json (every number).\n");
+  study_verb->callback([&] { chosen = [&] { return make_study(study, path, options); }; });
 
   auto* replay_verb =
       app.add_subcommand("replay", "Simulate a data set's runs with their recorded currents; compare");

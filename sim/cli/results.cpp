@@ -18,8 +18,8 @@ void keep_apart(const std::filesystem::path& where, const std::filesystem::path&
   for (fs::path folder = fs::absolute(data).lexically_normal(); folder != folder.parent_path();
        folder = folder.parent_path())
     if (fs::equivalent(where, folder, ignored))
-      throw output::CannotWrite(fmt::format(
-          "cannot write {}: the data set that is read is there; give another --out", where.string()));
+      throw output::CannotWrite(
+          fmt::format("cannot write {}: what is read is there; give another --out", where.string()));
 }
 
 void print(const std::string& text) {

@@ -25,10 +25,22 @@ struct CalibrateOptions {
   bool kgf = false;  ///< pressures of figures and report in kgf/m2
 };
 
+/// What `map` may be asked for besides.
+struct MapOptions {
+  std::vector<double> loads_kg;   ///< empty for the thesis's
+  bool up = false, down = false;  ///< neither for both
+  int ratios = 30, speeds = 5;    ///< how many targets
+  double fastest_per_s = 0.5;     ///< the largest target speed
+  bool extrapolate = false;
+};
+
 int run_scenario(const std::string& path, const Options& options);
 int make_dataset(const std::string& path, const Options& options);
 int replay_dataset(const std::string& path, const Options& options);
 int calibrate_dataset(const std::string& path, const Options& options, const CalibrateOptions& how);
+int map_errors(const std::string& path, const Options& options, const MapOptions& how);
+/// `name`: one of study::names; `path` the campaign's.
+int make_study(const std::string& name, const std::string& path, const Options& options);
 int check_files(const std::vector<std::string>& paths, const Options& options);
 /// `kind`: scenario, campaign, rig or dataset; `format`: json (JSON Schema), markdown (table of keys) or yaml
 /// (the rig `thesis` with every value, whatever the kind).

@@ -59,7 +59,8 @@ std::string escaped(const std::string& text) {
 
 std::string frame(const thesis::Figure& figure, const Axis& x, const Axis& y) {
   std::string svg = svg_begin(width, height);
-  svg += fmt::format("<text x='{}' y='20' font-weight='bold'>Figure {}: {}</text>\n", left, figure.number,
+  const std::string number = figure.number.empty() ? "" : "Figure " + figure.number + ": ";
+  svg += fmt::format("<text x='{}' y='20' font-weight='bold'>{}{}</text>\n", left, number,
                      escaped(figure.title));
   x.ticks(8, [&](double px, const std::string& text) {
     svg += fmt::format(

@@ -23,7 +23,7 @@ struct Curved {
 };
 
 struct Figure {
-  std::string number;  ///< "4.2"
+  std::string number;  ///< "4.2"; empty for a picture that is not the thesis's
   std::string title, x_label, y_label;
   std::vector<Column> columns;  ///< all of one length
   std::vector<Curved> curves;

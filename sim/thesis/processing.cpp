@@ -121,7 +121,7 @@ class Processor {
       else if (up * (counts_[after] - counts_[before]) < options_.window_counts)
         ++result.dropped.not_following;
       else
-        add(k, up, result.samples[up > 0.0 ? 0 : 1]);
+        add(k, up, result);
     }
   }
 
@@ -141,7 +141,10 @@ class Processor {
            (rig_.tick_s * rig_.tick_s);
   }
 
-  void add(std::size_t k, double up, Samples& samples) const {
+  void add(std::size_t k, double up, ProcessedRun& result) const {
+    const std::size_t direction = up > 0.0 ? 0 : 1;
+    Samples& samples = result.samples[direction];
+    result.rows[direction].push_back(k);
     const double e = ratio(k), pressure = pressure_Pa(k);
     const double generated_N = braid_.force_N(e, pressure);
     const double friction_N =

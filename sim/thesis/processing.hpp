@@ -58,8 +58,9 @@ struct Dropped {
 struct ProcessedRun {
   std::string id;
   double load_kg = 0.0;
-  double current_speed_mA_per_s = 0.0;  ///< mean magnitude over whole half periods
-  std::array<Samples, 2> samples;       ///< by Direction
+  double current_speed_mA_per_s = 0.0;           ///< mean magnitude over whole half periods
+  std::array<Samples, 2> samples;                ///< by Direction
+  std::array<std::vector<std::size_t>, 2> rows;  ///< of the table, one for each sample
   Dropped dropped;
   std::string unusable;  ///< why the run cannot be used; empty if it can
 

@@ -1,0 +1,205 @@
+// Blue for too low, orange for too high, white for right: told apart by the colour-blind (Okabe & Ito's blue
+// and vermillion). A colour scale holds nine tenths of the errors within reach: what lies beyond is often so
+// far off that nothing else would be seen.
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include <sim/output/heat_map.hpp>
+#include <sim/output/svg.hpp>
+
+namespace mckibben::output {
+namespace {
+
+using controllers::Branch;
+
+constexpr double panel_width = 390.0, panel_height = 210.0, left = 62.0, top = 74.0;
+constexpr double between_x = 56.0, between_y = 66.0, scale_width = 14.0, right = 92.0, bottom = 104.0;
+
+std::string colour(double share) {  // from -1 to 1
+  constexpr double low[] = {0, 114, 178}, high[] = {213, 94, 0};
+  const double depth = std::min(std::abs(share), 1.0);
+  const auto mixed = [&](int i) {
+    return static_cast<int>(std::lround(std::lerp(255.0, (share < 0.0 ? low : high)[i], depth)));
+  };
+  return fmt::format("#{:02x}{:02x}{:02x}", mixed(0), mixed(1), mixed(2));
+}
+
+/// One kind of error, and where its colours end.
+struct Measure {
+  double (run::MapCell::*error)() const;
+  const char* title;
+  double limit;
+};
+
+double limit_of(const run::LoadMap& load, double (run::MapCell::*error)() const) {
+  std::vector<double> within, all;
+  for (const auto& map : load.branches)
+    for (const auto& cell : map.cells) {
+      if (!cell.arrival) continue;
+      all.push_back(std::abs((cell.*error)()));
+      if (cell.reachable) within.push_back(all.back());
+    }
+  std::vector<double>& sizes = within.empty() ? all : within;
+  std::sort(sizes.begin(), sizes.end());
+  const double most = sizes.empty() ? 0.0 : sizes[9 * (sizes.size() - 1) / 10];
+  return most > 0.0 ? tick_step(most, 1) : 1.0;
+}
+
+/// Edges of the cells around ascending values: halfway between two, as far outside.
+std::vector<double> edges(const std::vector<double>& values) {
+  const std::size_t n = values.size();
+  if (n == 1) return {0.5 * values[0], 1.5 * values[0]};
+  std::vector<double> at{values[0] - 0.5 * (values[1] - values[0])};
+  for (std::size_t i = 1; i < n; ++i) at.push_back(0.5 * (values[i - 1] + values[i]));
+  at.push_back(values[n - 1] + 0.5 * (values[n - 1] - values[n - 2]));
+  return at;
+}
+
+class Panel {
+ public:
+  Panel(const run::MapPlan& plan, double x_px, double y_px)
+      : plan_(plan),
+        ratios_(edges(plan.ratios)),
+        speeds_(edges(plan.speeds_per_s)),
+        x_px_(x_px),
+        y_px_(y_px) {}
+
+  std::string cells(const run::BranchMap& map, const Measure& measure) const {
+    std::string svg, marks;
+    for (std::size_t i = 0; i < map.cells.size(); ++i) {
+      const auto& cell = map.cells[i];
+      const std::size_t column = i % plan_.ratios.size(), row = i / plan_.ratios.size();
+      const double left_px = x(ratios_[column]), right_px = x(ratios_[column + 1]);
+      const double top_px = y(speeds_[row + 1]), bottom_px = y(speeds_[row]);
+      const std::string fill =
+          cell.arrival ? colour((cell.*measure.error)() / measure.limit) : std::string("#999");
+      svg += fmt::format("<rect x='{:.1f}' y='{:.1f}' width='{:.1f}' height='{:.1f}' fill='{}'/>\n", left_px,
+                         top_px, right_px - left_px, bottom_px - top_px, fill);
+      const double x_px = 0.5 * (left_px + right_px), y_px = 0.5 * (top_px + bottom_px);
+      if (cell.asked.unreachable)
+        marks += fmt::format("M{:.1f} {:.1f}l6 6m0 -6l-6 6", x_px - 3.0, y_px - 3.0);
+      else if (!cell.as_asked())
+        marks += fmt::format("M{:.1f} {:.1f}h2", x_px - 1.0, y_px);
+    }
+    return svg + fmt::format("<path d='{}' stroke='#333' stroke-width='1.4' fill='none'/>\n", marks);
+  }
+
+  /// The largest speed over the way of the load, cut off at the panel's upper edge.
+  std::string border(const run::ErrorMaps& maps, const controllers::ReachOfLoad& limits,
+                     Branch branch) const {
+    const bool up = branch == Branch::contraction;
+    const double from = std::max(up ? limits.lowest_rising : limits.lowest_falling, ratios_.front());
+    const double to = std::min(limits.highest, ratios_.back());
+    if (from >= to) return "";
+    std::string path = fmt::format("M{:.1f} {:.1f}", x(from), y(speeds_.front()));
+    constexpr int parts = 200;
+    for (int i = 0; i <= parts; ++i) {
+      const double ratio = std::lerp(from, to, static_cast<double>(i) / parts);
+      const double speed = maps.reach.at_ratio(up ? limits.rising_per_s : limits.falling_per_s, ratio);
+      path += fmt::format("L{:.1f} {:.1f}", x(ratio), y(std::clamp(speed, speeds_.front(), speeds_.back())));
+    }
+    path += fmt::format("L{:.1f} {:.1f}", x(to), y(speeds_.front()));
+    const auto line = [&](const char* stroke, double width) {
+      return fmt::format("<path class='border' d='{}' fill='none' stroke='{}' stroke-width='{}'/>\n", path,
+                         stroke, width);
+    };
+    return line("white", 5.0) + line("black", 2.2);
+  }
+
+  std::string axes(const std::string& title) const {
+    std::string svg = fmt::format(
+        "<rect x='{0:.1f}' y='{1:.1f}' width='{2}' height='{3}' fill='none' stroke='#555'/>\n"
+        "<text x='{0:.1f}' y='{4:.1f}' font-weight='bold'>{5}</text>\n",
+        x_px_, y_px_, panel_width, panel_height, y_px_ - 8.0, title);
+    const double step = tick_step(ratios_.back() - ratios_.front(), 7);
+    for (double i = std::ceil(ratios_.front() / step); i * step <= ratios_.back(); i += 1.0)
+      svg += fmt::format("<text x='{:.1f}' y='{:.1f}' text-anchor='middle'>{:.3g}</text>\n", x(i * step),
+                         y_px_ + panel_height + 16.0, i * step);
+    // Few speeds are named each, many by every n-th.
+    const std::size_t every = 1 + (plan_.speeds_per_s.size() - 1) / 10;
+    for (std::size_t i = 0; i < plan_.speeds_per_s.size(); i += every)
+      svg += fmt::format("<text x='{:.1f}' y='{:.1f}' text-anchor='end'>{:.3g}</text>\n", x_px_ - 6.0,
+                         y(plan_.speeds_per_s[i]) + 4.0, plan_.speeds_per_s[i]);
+    return svg + fmt::format(
+                     "<text x='{0:.1f}' y='{1:.1f}' text-anchor='middle'>target contraction ratio</text>\n"
+                     "<text x='{2:.1f}' y='{3:.1f}' text-anchor='middle' transform='rotate(-90 {2:.1f} "
+                     "{3:.1f})'>target speed [1/s]</text>\n",
+                     x_px_ + 0.5 * panel_width, y_px_ + panel_height + 34.0, x_px_ - 40.0,
+                     y_px_ + 0.5 * panel_height);
+  }
+
+ private:
+  double x(double ratio) const {
+    return x_px_ + panel_width * (ratio - ratios_.front()) / (ratios_.back() - ratios_.front());
+  }
+  double y(double speed) const {
+    return y_px_ + panel_height * (speeds_.back() - speed) / (speeds_.back() - speeds_.front());
+  }
+
+  const run::MapPlan& plan_;
+  std::vector<double> ratios_, speeds_;
+  double x_px_, y_px_;
+};
+
+std::string scale_svg(const Measure& measure, double x_px, double y_px) {
+  std::string svg;
+  constexpr int steps = 40;
+  for (int i = 0; i < steps; ++i)
+    svg += fmt::format("<rect x='{}' y='{:.2f}' width='{}' height='{:.2f}' fill='{}'/>\n", x_px,
+                       y_px + panel_height * i / steps, scale_width, panel_height / steps + 0.3,
+                       colour(1.0 - 2.0 * (i + 0.5) / steps));
+  for (const double share : {-1.0, -0.5, 0.0, 0.5, 1.0})
+    svg += fmt::format("<text x='{}' y='{:.1f}'>{}{}</text>\n", x_px + scale_width + 5.0,
+                       y_px + 4.0 + panel_height * (0.5 - 0.5 * share),
+                       share == 1.0    ? "≥ "
+                       : share == -1.0 ? "≤ "
+                                       : "",
+                       share == 0.0 ? "0" : fmt::format("{:+.3g}", share * measure.limit));
+  return svg + fmt::format("<rect x='{}' y='{}' width='{}' height='{}' fill='none' stroke='#555'/>\n", x_px,
+                           y_px, scale_width, panel_height);
+}
+
+}  // namespace
+
+std::string heat_map_svg(const run::MapPlan& plan, const run::ErrorMaps& maps, const run::LoadMap& load) {
+  const Measure measures[] = {
+      {&run::MapCell::ratio_error, "error of contraction ratio", limit_of(load, &run::MapCell::ratio_error)},
+      {&run::MapCell::speed_error_per_s, "error of speed [1/s]",
+       limit_of(load, &run::MapCell::speed_error_per_s)}};
+  const auto columns = static_cast<double>(load.branches.size());
+  const double width = left + columns * panel_width + (columns - 1.0) * between_x + right;
+  const double height = top + 2.0 * panel_height + between_y + bottom;
+  std::string svg = svg_begin(width, height);
+  svg += fmt::format(
+      "<text x='{}' y='26' font-size='15' font-weight='bold'>{:g} kg (weighed as {:.2f} kg, {:+.1f} %{}): "
+      "error at arrival, reached less target</text>\n",
+      left, load.load_kg, load.weighed_kg, 100.0 * load.weighing_error(),
+      run::covers(plan.calibration.range, load.load_kg) ? "" : "; extrapolated");
+  double y_px = top;
+  for (const Measure& measure : measures) {
+    double x_px = left;
+    for (const auto& map : load.branches) {
+      const Panel panel(plan, x_px, y_px);
+      const char* way = map.branch == Branch::contraction ? "up" : "down";
+      svg += panel.cells(map, measure) + panel.border(maps, load.limits, map.branch) +
+             panel.axes(fmt::format("{}: {}", way, measure.title));
+      x_px += panel_width + between_x;
+    }
+    svg += scale_svg(measure, x_px - between_x + 16.0, y_px);
+    y_px += panel_height + between_y;
+  }
+  const char* legend[] = {"line: border of what the rig can reach; positive errors: too high, too fast",
+                          "x: the inverse finds no current speed; dot: beyond its calibrated range or the "
+                          "valve's line; grey: no run"};
+  double legend_px = height - 34.0;
+  for (const char* text : legend) {
+    svg += fmt::format("<text x='{}' y='{}'>{}</text>\n", left, legend_px, text);
+    legend_px += 18.0;
+  }
+  return svg + "</svg>\n";
+}
+
+}  // namespace mckibben::output

@@ -1,0 +1,14 @@
+// One load's error maps as a picture: up and down beside each other, errors of contraction ratio above those
+// of speed, with the border of what the rig can reach.
+#pragma once
+
+#include <string>
+
+#include <sim/run/error_map.hpp>
+
+namespace mckibben::output {
+
+/// `load` is one of the plan's that has a map.
+std::string heat_map_svg(const run::MapPlan& plan, const run::ErrorMaps& maps, const run::LoadMap& load);
+
+}  // namespace mckibben::output

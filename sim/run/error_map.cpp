@@ -1,0 +1,172 @@
+// Weighing first, then one run a target; see the header.
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include <controllers/open_loop.hpp>
+#include <sim/run/batch.hpp>
+#include <sim/run/error_map.hpp>
+#include <sim/run/reachable.hpp>
+#include <sim/run/simulate.hpp>
+
+namespace mckibben::run {
+namespace {
+
+using controllers::Branch;
+
+// A current that creeps for longer is no triangle that anybody waits for (extrapolation can ask for one).
+constexpr double longest_s = 600.0;
+
+double finding(const std::vector<controllers::Finding>& findings, std::string_view name) {
+  const auto is_it = [name](const auto& one) { return one.name == name; };
+  return std::find_if(findings.begin(), findings.end(), is_it)->value;
+}
+
+class Mapping {
+ public:
+  Mapping(const MapPlan& plan, unsigned threads, const ProgressHook& progress)
+      : plan_(plan), threads_(threads), progress_(progress), knowledge_(knowledge_of(plan.rig, {})) {}
+
+  ErrorMaps operator()() {
+    maps_.reach = reachable(plan_.rig);
+    for (const double load_kg : plan_.loads_kg)
+      maps_.loads.push_back({.load_kg = load_kg, .limits = maps_.reach.at_load(load_kg)});
+    each("weighing", maps_.loads.size(), [&](std::size_t i) { weigh(maps_.loads[i]); });
+
+    struct Job {
+      const LoadMap* load;
+      Branch branch;
+      MapCell* cell;
+    };
+    std::vector<Job> jobs;
+    for (auto& load : maps_.loads) {
+      if (!load.failure.empty()) continue;
+      for (const Branch branch : plan_.branches) load.branches.push_back(targets(load, branch));
+      for (auto& map : load.branches)
+        for (auto& cell : map.cells) jobs.push_back({&load, map.branch, &cell});
+    }
+    each("simulating", jobs.size(),
+         [&](std::size_t i) { run(*jobs[i].load, jobs[i].branch, *jobs[i].cell); });
+    return std::move(maps_);
+  }
+
+ private:
+  void each(const std::string& what, std::size_t count, const std::function<void(std::size_t)>& job) {
+    progress_(what, 0, count);
+    for_each_job(count, threads_, job, [&](std::size_t done) { progress_(what, done, count); });
+  }
+
+  controllers::OpenLoopSettings settings() const {
+    controllers::OpenLoopSettings settings;
+    settings.model = plan_.calibration;
+    settings.extrapolate = plan_.extrapolate;
+    return settings;
+  }
+
+  Recording simulated(double load_kg, std::size_t ticks, const controllers::OpenLoopSettings& how) const {
+    const auto controller = how.make(knowledge_);
+    return simulate({.rig = plan_.rig, .load_kg = load_kg, .ticks = ticks, .engine = plan_.engine},
+                    *controller);
+  }
+
+  void weigh(LoadMap& load) const {
+    const Recording recording = simulated(load.load_kg, 1, settings());
+    load.failure = recording.failure;
+    load.weighed_kg = finding(recording.findings, "weighed_load");
+    load.spread_kg = finding(recording.findings, "weighed_load_spread");
+  }
+
+  // The load that the controller goes on with once it has weighed one.
+  double believed_kg(const LoadMap& load) const {
+    const auto& range = plan_.calibration.range;
+    return plan_.extrapolate ? load.weighed_kg
+                             : std::clamp(load.weighed_kg, range.lowest_load_kg, range.highest_load_kg);
+  }
+
+  BranchMap targets(const LoadMap& load, Branch branch) const {
+    BranchMap map{branch, {}};
+    for (const double speed_per_s : plan_.speeds_per_s)
+      for (const double ratio : plan_.ratios)
+        map.cells.push_back(
+            {.ratio = ratio,
+             .speed_per_s = speed_per_s,
+             .reachable = within_reach(maps_.reach, load.limits, branch, ratio, speed_per_s)});
+    return map;
+  }
+
+  void run(const LoadMap& load, Branch branch, MapCell& cell) const {
+    const double sign = branch == Branch::contraction ? 1.0 : -1.0;
+    controllers::OpenLoopSettings how = settings();
+    how.assumed_load_kg = believed_kg(load);
+    how.mode = controllers::OpenLoopMode::triangle;
+    how.to = {cell.ratio, false};
+    how.speed_per_s = sign * cell.speed_per_s;
+
+    const controllers::Inverse inverse(plan_.calibration, *how.assumed_load_kg, knowledge_.valve,
+                                       plan_.extrapolate);
+    cell.asked = inverse(branch, cell.ratio, how.speed_per_s);
+    cell.off_the_line = cell.asked.pressure_Pa < knowledge_.valve.zero_pressure_Pa ||
+                        cell.asked.pressure_Pa > knowledge_.valve.span_pressure_Pa;
+
+    const auto plans = how.make(knowledge_);
+    plans->rest();
+    const double at_s = finding(plans->findings(), "arrival");
+    if (!(at_s <= longest_s)) {
+      cell.failure = fmt::format("its current takes {:.3g} s, more than {:g} s", at_s, longest_s);
+      return;
+    }
+    const double at_ticks = at_s / plan_.rig.tick_s;
+    const auto before = static_cast<std::size_t>(at_ticks);
+    const Recording recording = simulated(load.load_kg, before + 2, how);
+    cell.failure = recording.failure;
+    if (!cell.failure.empty()) return;
+    const auto &a = recording.samples[before].state.joint, &b = recording.samples[before + 1].state.joint;
+    const double share = at_ticks - static_cast<double>(before);
+    cell.arrival = {std::lerp(a.contraction_ratio, b.contraction_ratio, share),
+                    sign * std::lerp(a.contraction_speed_per_s, b.contraction_speed_per_s, share)};
+  }
+
+  const MapPlan& plan_;
+  unsigned threads_;
+  const ProgressHook& progress_;
+  controllers::Knowledge knowledge_;
+  ErrorMaps maps_{};
+};
+
+}  // namespace
+
+MapError error_over(const BranchMap& map, const std::function<bool(const MapCell&)>& chosen) {
+  MapError error;
+  for (const auto& cell : map.cells) {
+    if (!cell.arrival || !chosen(cell)) continue;
+    ++error.cells;
+    error.ratio += std::pow(cell.ratio_error(), 2);
+    error.speed_per_s += std::pow(cell.speed_error_per_s(), 2);
+  }
+  const auto n = static_cast<double>(std::max<std::size_t>(error.cells, 1));
+  error.ratio = std::sqrt(error.ratio / n);
+  error.speed_per_s = std::sqrt(error.speed_per_s / n);
+  return error;
+}
+
+bool covers(const controllers::CalibratedRange& range, double load_kg) {
+  constexpr double rounding = 1e-9;
+  return load_kg >= range.lowest_load_kg * (1.0 - rounding) &&
+         load_kg <= range.highest_load_kg * (1.0 + rounding);
+}
+
+bool within_reach(const controllers::Reach& reach, const controllers::ReachOfLoad& limits, Branch branch,
+                  double ratio, double speed_per_s) {
+  const bool up = branch == Branch::contraction;
+  return ratio >= (up ? limits.lowest_rising : limits.lowest_falling) && ratio <= limits.highest &&
+         speed_per_s <= reach.at_ratio(up ? limits.rising_per_s : limits.falling_per_s, ratio);
+}
+
+ErrorMaps error_maps(const MapPlan& plan, unsigned threads, const ProgressHook& progress) {
+  return Mapping(plan, threads, progress)();
+}
+
+}  // namespace mckibben::run

@@ -1,0 +1,113 @@
+// The verb map from end to end: a campaign, its calibration, its maps; and loads that cannot be mapped.
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include <sim/input/fields_json.hpp>
+
+#include "program.hpp"
+
+namespace mckibben::cli {
+namespace {
+
+constexpr const char* campaign =
+    "schema: mckibben-campaign/1\nloads: [11.138 kg, 14 kg, 18.87 kg, 23.406 kg]\n"
+    "currents:\n"
+    "  - {duration: 7.2 s, current: {kind: sine_current, low: 0 mA, high: 20 mA, period: 2.4 s}}\n"
+    "  - {duration: 10.8 s, current: {kind: sine_current, low: 0 mA, high: 20 mA, period: 3.6 s}}\n"
+    "  - {duration: 18 s, current: {kind: sine_current, low: 0 mA, high: 20 mA, period: 6 s}}\n";
+
+class Map : public testing::Test {
+ protected:
+  void SetUp() override {
+    write_text(scratch / "small.yaml", campaign);
+    ASSERT_EQ(mckibben("dataset small.yaml --out data", scratch).status, 0);
+    ASSERT_EQ(mckibben("calibrate data --out cal", scratch).status, 0);
+  }
+  Said run(const std::string& arguments) {
+    return mckibben("map cal/calibration.yaml " + arguments, scratch);
+  }
+  Scratch scratch;
+};
+
+TEST_F(Map, CoversTargetsAndDrawsThem) {
+  const Said said = run("--load '14 kg' --load 18.87kg --ratios 12 --speeds 3 --json");
+  ASSERT_EQ(said.status, 0) << said.err;
+  const std::filesystem::path folder = scratch / "out" / "map-cal";
+  const auto document = input::Json::parse(said.out);
+  EXPECT_EQ(said.out, read_text(folder / "map.json"));
+  EXPECT_EQ(document.at("schema"), "mckibben-map/1");
+  EXPECT_EQ(document.at("target_ratios").size(), 12u);
+  ASSERT_EQ(document.at("loads").size(), 2u);
+  for (const auto& load : document.at("loads")) {
+    EXPECT_LT(std::abs(load.at("weighing_error").get<double>()), 0.15);  // T 5
+    ASSERT_EQ(load.at("branches").size(), 2u);
+    for (const auto& branch : load.at("branches")) {
+      const auto &within = branch.at("within_reach"), &beyond = branch.at("beyond_reach");
+      EXPECT_EQ(within.at("targets").get<int>() + beyond.at("targets").get<int>(), 36);
+      // T 5: errors are large where the speed cannot be reached.
+      EXPECT_GT(beyond.at("speed_rms_per_s").get<double>(), within.at("speed_rms_per_s").get<double>());
+    }
+  }
+  const std::string csv = read_text(folder / "map.csv");
+  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + 2 * 2 * 36);
+  EXPECT_NE(read_text(folder / "table.txt").find("18.87"), std::string::npos);
+  for (const char* name : {"map_14kg.svg", "map_18.87kg.svg"}) {
+    const std::string svg = read_text(folder / name);
+    EXPECT_EQ(svg.rfind("<svg", 0), 0u) << name;
+    EXPECT_NE(svg.find("class='border'"), std::string::npos) << name;
+    EXPECT_EQ(svg.find("nan"), std::string::npos) << name;
+  }
+}
+
+TEST_F(Map, OneBranchAloneAndOneTarget) {
+  const Said said = run("--load '14 kg' --down --ratios 1 --speeds 1 --fastest '0.1 1/s' --out one");
+  ASSERT_EQ(said.status, 0) << said.err;
+  const std::string csv = read_text(scratch / "one" / "map.csv");
+  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 2);
+  EXPECT_NE(csv.find("\n14,"), std::string::npos);
+  EXPECT_NE(csv.find(",down,"), std::string::npos);
+}
+
+TEST_F(Map, LoadsBeyondTheCalibrationOnlyWhenAskedFor) {
+  const Said refused = run("--load '8.87 kg'");
+  EXPECT_EQ(refused.status, 65);
+  for (const char* words : {"11.138 to 23.406 kg", "8.87 kg lies outside", "--extrapolate"})
+    EXPECT_NE(refused.err.find(words), std::string::npos) << refused.err;
+  EXPECT_FALSE(std::filesystem::exists(scratch / "out"));
+
+  const Said allowed = run("--load '8.87 kg' --ratios 4 --speeds 2 --extrapolate");
+  EXPECT_EQ(allowed.status, 0) << allowed.err;
+  EXPECT_NE(allowed.out.find("8.87 kg: extrapolated"), std::string::npos) << allowed.out;
+
+  const Said usual = run("--ratios 2 --speeds 1 --out usual");
+  EXPECT_EQ(usual.status, 0) << usual.err;
+  EXPECT_NE(usual.err.find("8.87 kg"), std::string::npos) << usual.err;
+  EXPECT_FALSE(std::filesystem::exists(scratch / "usual" / "map_8.87kg.svg"));
+  EXPECT_TRUE(std::filesystem::exists(scratch / "usual" / "map_23.406kg.svg"));
+}
+
+TEST_F(Map, BadInput) {
+  EXPECT_NE(mckibben("map --help", scratch).out.find("Example"), std::string::npos);
+  for (const char* arguments : {"--load '0 kg'", "--load '-3 kg'", "--load 16", "--load '16 m'",
+                                "--load '501 kg'", "--ratios 0", "--fastest '0 1/s'", "--fastest '1 m'"}) {
+    const Said said = run(arguments);
+    EXPECT_EQ(said.status, 64) << arguments << said.err;
+    EXPECT_NE(said.err, "") << arguments;
+  }
+  EXPECT_NE(run("--load '0 kg'").err.find("above 0 and at most 500 kg"), std::string::npos);
+  EXPECT_EQ(mckibben("map nowhere.yaml", scratch).status, 66);
+  EXPECT_EQ(mckibben("map small.yaml", scratch).status, 65);
+  const std::string before = read_text(scratch / "cal" / "calibration.yaml");
+  EXPECT_EQ(run("--load '14 kg' --out cal").status, 74);  // would replace what is read
+  EXPECT_EQ(read_text(scratch / "cal" / "calibration.yaml"), before);
+  const Said heavy = run("--load '14 kg' --load '120 kg' --extrapolate --ratios 2 --speeds 1");
+  EXPECT_EQ(heavy.status, 70);
+  EXPECT_NE(heavy.out.find("120 kg: no map: weighing"), std::string::npos) << heavy.out;
+}
+
+}  // namespace
+}  // namespace mckibben::cli

@@ -1,0 +1,52 @@
+// The verb study from end to end: its files, its JSON, and what it refuses.
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include <sim/input/fields_json.hpp>
+
+#include "program.hpp"
+
+namespace mckibben::cli {
+namespace {
+
+std::string campaign(const std::string& loads) {
+  return "schema: mckibben-campaign/1\nname: small\nloads: " + loads +
+         "\ncurrents:\n"
+         "  - {duration: 7.2 s, current: {kind: sine_current, low: 0 mA, high: 20 mA, period: 2.4 s}}\n"
+         "  - {duration: 10.8 s, current: {kind: sine_current, low: 0 mA, high: 20 mA, period: 3.6 s}}\n"
+         "  - {duration: 18 s, current: {kind: sine_current, low: 0 mA, high: 20 mA, period: 6 s}}\n";
+}
+
+TEST(Study, WritesPagePictureTableAndDocument) {
+  const Scratch scratch;
+  write_text(scratch / "small.yaml", campaign("[11.138 kg, 14 kg, 18.87 kg, 23.406 kg]"));
+  for (const std::string name : {"lag", "counting", "figures"}) {
+    const Said said = mckibben("study " + name + " small.yaml", scratch);
+    ASSERT_EQ(said.status, 0) << said.err;
+    const std::filesystem::path folder = scratch / "out" / ("study-" + name);
+    EXPECT_EQ(said.out, read_text(folder / (name + ".md")));
+    EXPECT_NE(said.out.find("from the campaign `small`, 12 runs"), std::string::npos);
+    EXPECT_EQ(read_text(folder / (name + ".svg")).rfind("<svg", 0), 0u);
+    EXPECT_NE(read_text(folder / (name + ".csv")).find(','), std::string::npos);
+    const auto document = input::Json::parse(read_text(folder / (name + ".json")));
+    EXPECT_EQ(document.at("schema"), "mckibben-study/1");
+    EXPECT_EQ(document.at("study"), name);
+  }
+  const Said json = mckibben("study lag small.yaml --json --threads 1", scratch);
+  EXPECT_EQ(json.out, read_text(scratch / "out/study-lag/lag.json"));
+}
+
+TEST(Study, RefusesWhatItCannotJudge) {
+  const Scratch scratch;
+  EXPECT_EQ(mckibben("study friction small.yaml", scratch).status, 64);
+  EXPECT_EQ(mckibben("study lag missing.yaml", scratch).status, 66);
+  write_text(scratch / "small.yaml", campaign("[11.138 kg, 23.406 kg]"));
+  const Said few = mckibben("study lag small.yaml", scratch);
+  EXPECT_EQ(few.status, 65);
+  EXPECT_NE(few.err.find("needs 4 loads"), std::string::npos) << few.err;
+  EXPECT_TRUE(std::filesystem::is_empty(scratch / "out"));  // no result, whole or in part
+}
+
+}  // namespace
+}  // namespace mckibben::cli
