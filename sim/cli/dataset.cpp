@@ -20,6 +20,7 @@ int make_dataset(const std::string& path, const Options& options) {
   input::Campaign campaign = input::read_campaign(std::filesystem::path(path));
   if (options.seed) campaign.seed = *options.seed;
   const auto where = destination(options, campaign.name);
+  keep_apart(where, std::filesystem::absolute(path).parent_path());
   output::CampaignFolder folder(where, campaign);
   if (!folder.note().empty()) fmt::print(stderr, "mckibben: {}\n", folder.note());
   try {
@@ -36,8 +37,8 @@ int make_dataset(const std::string& path, const Options& options) {
     return interrupted;
   }
   const input::Json document = folder.document();
-  print(options.json ? document.dump(2) + "\n" : output::table_of(campaign, document));
   const auto places = folder.publish(document);
+  print(options.json ? document.dump(2) + "\n" : output::table_of(campaign, document));
   say_moved(places.data, places.data_moved_to);
   say_moved(places.truth, places.truth_moved_to);
   fmt::print(stderr, "data set in {}, truth in {}\n", places.data.string(), places.truth.string());

@@ -35,6 +35,7 @@ int run_scenario(const std::string& path, const Options& options) {
   warn(warnings);
   if (options.seed) scenario.seed = *options.seed;
   auto where = destination(options, scenario.name);
+  keep_apart(where, std::filesystem::absolute(path).parent_path());
   output::ResultFolder folder(where, "run " + path);
 
   run::Comparison comparison;

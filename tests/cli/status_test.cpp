@@ -134,6 +134,18 @@ TEST_F(Program, TheCurrentFolderIsNeverReplaced) {
   EXPECT_EQ(read_text(scratch / "quick.yaml"), quick_scenario);
 }
 
+TEST_F(Program, AFolderThatIsReadFromIsNeverReplaced) {
+  fs::create_directory(scratch / "mine");
+  write_text(scratch / "mine/quick.yaml", quick_scenario);
+  write_text(
+      scratch / "mine/campaign.yaml",
+      "schema: mckibben-campaign/1\nloads: [11 kg]\n"
+      "currents: [{duration: 1 s, current: {kind: sine_current, low: 5 mA, high: 9 mA, period: 1 s}}]\n");
+  EXPECT_EQ(run("run mine/quick.yaml --out mine").status, 74);
+  EXPECT_EQ(run("dataset mine/campaign.yaml --out mine").status, 74);
+  EXPECT_TRUE(fs::exists(scratch / "mine/quick.yaml"));
+}
+
 TEST_F(Program, ResultsGoWhereALinkLeads) {
   fs::create_directory(scratch / "disk");
   fs::create_directory_symlink(scratch / "disk", scratch / "link");
