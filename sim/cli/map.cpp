@@ -27,6 +27,7 @@ constexpr double thesis_loads_kg[] = {8.87, 11.138, 13.870, 16.138, 18.870, 23.4
 /// Cells side by side from 0 to `end`: their middles.
 std::vector<double> middles(int n, double end) {
   std::vector<double> values;
+  values.reserve(static_cast<std::size_t>(n));
   for (int i = 0; i < n; ++i) values.push_back(end * (i + 0.5) / n);
   return values;
 }
@@ -34,6 +35,7 @@ std::vector<double> middles(int n, double end) {
 /// Parts of `fastest`: its n-th, ... , itself.
 std::vector<double> parts(int n, double fastest) {
   std::vector<double> values;
+  values.reserve(static_cast<std::size_t>(n));
   for (int i = 1; i <= n; ++i) values.push_back(fastest * i / n);
   return values;
 }
