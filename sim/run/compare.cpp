@@ -64,7 +64,9 @@ class Comparing {
     result_.target =
         controllers::sample(scenario.target, ticks, scenario.rig.tick_s, scenario.rig.muscle.rest_length_m);
     knowledge_ = knowledge_of(scenario.rig, result_.target);
-    knowledge_.reach = reachable(scenario.rig);
+    if (std::any_of(settings_.begin(), settings_.end(),
+                    [](auto& each) { return controllers::calibrated(each); }))
+      knowledge_.reach = reachable(scenario.rig);  // only the model-based ones ask for it
   }
 
   Comparison operator()() {

@@ -109,26 +109,6 @@ TEST(Preparation, AnOpenLoopControllerWeighsTheLoadToTheThesissFifteenPerCent) {
   }
 }
 
-/// Passes everything on and watches the heap from tick 0 to the last.
-class Watched final : public controllers::Controller {
- public:
-  Watched(std::unique_ptr<controllers::Controller> inner, std::int64_t last)
-      : inner_(std::move(inner)), last_(last) {}
-  controllers::Command rest() override { return inner_->rest(); }
-  std::int64_t preparation_ticks() const override { return inner_->preparation_ticks(); }
-  controllers::Command step(const controllers::Reading& reading) override {
-    if (reading.tick == 0) start_heap_watch();
-    const auto command = inner_->step(reading);
-    if (reading.tick == last_) allocations = stop_heap_watch();
-    return command;
-  }
-  long allocations = -1;
-
- private:
-  std::unique_ptr<controllers::Controller> inner_;
-  std::int64_t last_;
-};
-
 TEST(Preparation, WhatItNeedsIsAllocatedBeforeTickZero) {
   controllers::OpenLoopLimitedSettings settings;
   settings.model = rough_calibration();

@@ -78,26 +78,6 @@ TEST(Simulate, ASlowRideRunsRoundTheStaticHysteresisLoop) {
   EXPECT_GT(down, 300);
 }
 
-/// Hands on to another controller and watches the heap from the first tick to the last.
-class Watched final : public controllers::Controller {
- public:
-  Watched(std::unique_ptr<controllers::Controller> inner, std::int64_t last)
-      : inner_(std::move(inner)), last_(last) {}
-  controllers::Command rest() override { return inner_->rest(); }
-  std::int64_t preparation_ticks() const override { return inner_->preparation_ticks(); }
-  controllers::Command step(const controllers::Reading& reading) override {
-    if (reading.tick == 0) start_heap_watch();
-    const auto command = inner_->step(reading);
-    if (reading.tick == last_) allocations = stop_heap_watch();
-    return command;
-  }
-  long allocations = -1;
-
- private:
-  std::unique_ptr<controllers::Controller> inner_;
-  std::int64_t last_;
-};
-
 std::vector<controllers::Settings> one_of_each() {
   controllers::PidSettings pid;
   pid.feedback_delay_ticks = 3;
