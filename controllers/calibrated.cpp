@@ -56,23 +56,25 @@ Command CalibratedController::step(const Reading& reading) {
   return {settle_mA(reading, std::min(first_mA_, low_mA + way_mA))};
 }
 
+// A calibrated load must not be refused, or extrapolated, because it was weighed a little wrong: it is taken
+// as the range's end.
 void CalibratedController::know(double load_kg) {
   const CalibratedRange& range = settings_.model.range;
   const double within_kg = std::clamp(load_kg, range.lowest_load_kg, range.highest_load_kg);
-  load_outside_ = within_kg != load_kg;
-  // A calibrated load must not be refused because it was weighed a little wrong.
   const double tolerance_kg = weighing_ ? weighing_tolerance * load_kg : 0.0;
-  if (!settings_.extrapolate && std::abs(load_kg - within_kg) > tolerance_kg) {
+  const bool near = std::abs(load_kg - within_kg) <= tolerance_kg;
+  if (!near && !settings_.extrapolate_load) {
     std::ostringstream text;
     text << (weighing_ ? "the load was weighed as " : "the load is assumed to be ") << load_kg
          << " kg; the calibration was made with loads from " << range.lowest_load_kg << " to "
          << range.highest_load_kg
-         << " kg. Calibrate with loads on both sides of it, or allow it with extrapolate: true";
+         << " kg. Calibrate with loads on both sides of it, or allow it with extrapolate_load: true";
     throw ControllerFailure(text.str());
   }
-  if (!settings_.extrapolate) load_kg = within_kg;
-  load_kg_ = load_kg;
-  inverse_.emplace(settings_.model, load_kg, knowledge_.valve, settings_.extrapolate);
+  load_extrapolated_ = !near;
+  load_at_range_end_ = near && within_kg != load_kg;
+  load_kg_ = near ? within_kg : load_kg;
+  inverse_.emplace(settings_.model, load_kg_, knowledge_.valve, settings_.extrapolate_target);
   prepare();
   first_mA_ = first_mA();
 }
@@ -88,6 +90,7 @@ double CalibratedController::ask_mA(Branch branch, double contraction_ratio, dou
   const Answer answer = (*inverse_)(branch, contraction_ratio, contraction_speed_per_s);
   ratio_outside_ += answer.ratio_outside ? 1 : 0;
   speed_outside_ += answer.speed_outside ? 1 : 0;
+  extrapolated_ += settings_.extrapolate_target && (answer.ratio_outside || answer.speed_outside) ? 1 : 0;
   unreachable_ += answer.unreachable ? 1 : 0;
   asked_ratio_ = contraction_ratio;
   return current_mA_ = current_of(branch, answer, lag_s);
@@ -112,11 +115,14 @@ std::vector<Finding> CalibratedController::findings() const {
   if (weighing_) {
     found.push_back({"weighed_load", "kg", weighed_.load_kg});
     found.push_back({"weighed_load_spread", "kg", weighed_.spread_kg});
+    found.push_back({"believed_load", "kg", load_kg_});
   }
   const auto count = [](std::int64_t ticks) { return static_cast<double>(ticks); };
-  found.push_back({"load_outside_calibration", "1", load_outside_ ? 1.0 : 0.0});
+  found.push_back({"load_extrapolated", "1", load_extrapolated_ ? 1.0 : 0.0});
+  found.push_back({"load_taken_as_range_end", "1", load_at_range_end_ ? 1.0 : 0.0});
   found.push_back({"ticks_outside_calibrated_contraction", "1", count(ratio_outside_)});
   found.push_back({"ticks_outside_calibrated_speed", "1", count(speed_outside_)});
+  found.push_back({"ticks_extrapolated", "1", count(extrapolated_)});
   found.push_back({"ticks_unreachable", "1", count(unreachable_)});
   return found;
 }

@@ -17,7 +17,7 @@ struct CalibratedSettings {
   Calibration model;  ///< filled from the file by whoever can read it, before make()
   std::optional<double> assumed_load_kg = std::nullopt;
   WeighingSettings weighing;
-  bool extrapolate = false;
+  bool extrapolate_load = false, extrapolate_target = false;
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
@@ -25,8 +25,11 @@ struct CalibratedSettings {
     visit("assumed_load", self.assumed_load_kg, "kg", 0.01, 500.0,
           "load it believes in; weighed before the run if absent");
     visit("weighing", self.weighing, "how the load is weighed");
-    visit("extrapolate", self.extrapolate,
-          "whether loads, contractions and current speeds outside the calibrated range are allowed");
+    visit("extrapolate_load", self.extrapolate_load,
+          "whether a load, and a weighing speed, outside the calibrated range are allowed");
+    visit("extrapolate_target", self.extrapolate_target,
+          "whether contraction ratios and current speeds may leave the calibrated range on the way; if not, "
+          "they are brought to its end");
   }
   template <class Report>
   void rules(Report& report) const {
@@ -79,8 +82,8 @@ class CalibratedController : public Controller {
   std::optional<Inverse> inverse_;
   WeighedLoad weighed_;
   double load_kg_ = 0.0, first_mA_ = 0.0, current_mA_ = 0.0, asked_ratio_ = 0.0;
-  bool load_outside_ = false;
-  std::int64_t ratio_outside_ = 0, speed_outside_ = 0, unreachable_ = 0;
+  bool load_extrapolated_ = false, load_at_range_end_ = false;
+  std::int64_t ratio_outside_ = 0, speed_outside_ = 0, extrapolated_ = 0, unreachable_ = 0;
 };
 
 }  // namespace mckibben::controllers

@@ -15,6 +15,12 @@ double square(double value) {
 
 }  // namespace
 
+double value_of(const std::vector<Finding>& findings, std::string_view name) {
+  const auto is_it = [name](const Finding& one) { return one.name == name; };
+  const auto found = std::find_if(findings.begin(), findings.end(), is_it);
+  return found == findings.end() ? 0.0 : found->value;
+}
+
 Controller::~Controller() = default;
 
 double Knowledge::target_at(std::int64_t tick) const {

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <controllers/reach.hpp>
@@ -71,6 +72,9 @@ struct Finding {
   std::string unit;
   double value = 0.0;
 };
+
+/// The value of the finding of that name; 0 if there is none.
+double value_of(const std::vector<Finding>& findings, std::string_view name);
 
 /// A controller cannot do its work: the load does not move, or lies outside what it was calibrated for.
 class ControllerFailure : public std::runtime_error {

@@ -7,11 +7,12 @@
 namespace mckibben::controllers {
 namespace {
 
-template <class Part>
-Part* part_of(Settings& settings) {
+template <class Part, class Whole>
+Part* part_of(Whole& settings) {
   return std::visit(
       [](auto& one) -> Part* {
-        if constexpr (std::derived_from<std::remove_reference_t<decltype(one)>, Part>) return &one;
+        if constexpr (std::derived_from<std::remove_cvref_t<decltype(one)>, std::remove_const_t<Part>>)
+          return &one;
         return nullptr;
       },
       settings);
@@ -33,6 +34,10 @@ PidTerms* pid_terms(Settings& settings) {
 
 CalibratedSettings* calibrated(Settings& settings) {
   return part_of<CalibratedSettings>(settings);
+}
+
+const CalibratedSettings* calibrated(const Settings& settings) {
+  return part_of<const CalibratedSettings>(settings);
 }
 
 }  // namespace mckibben::controllers

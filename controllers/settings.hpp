@@ -31,5 +31,6 @@ PidTerms* pid_terms(Settings& settings);
 
 /// What a controller that needs a calibration says about it, else null.
 CalibratedSettings* calibrated(Settings& settings);
+const CalibratedSettings* calibrated(const Settings& settings);
 
 }  // namespace mckibben::controllers

@@ -169,11 +169,13 @@ void add_map(CLI::App& verb, std::string& path, Options& options, MapOptions& ho
           [&how](const std::string& text) { how.fastest_per_s = positive_quantity(text, "1/s", 100.0); },
           "The largest target speed (default: \"0.5 1/s\")")
       ->type_name("SPEED");
-  verb.add_flag("--extrapolate", how.extrapolate,
-                "Allow loads, contraction ratios and current speeds outside the calibrated range");
+  verb.add_flag("--extrapolate-load", how.extrapolate_load, "Allow loads outside the calibrated range");
+  verb.add_flag("--extrapolate-target", how.extrapolate_target,
+                "Let contraction ratios and current speeds leave the calibrated range; otherwise they are "
+                "brought to its end");
   verb.footer(
       "Example:\n  mckibben map out/thesis_campaign-calibration/calibration.yaml --load \"8.87 kg\" "
-      "--extrapolate\n"
+      "--extrapolate-load\n"
       "Writes map.csv, table.txt, map.json and a picture for each load.\n");
 }
 

@@ -47,7 +47,7 @@ std::vector<double> loads_of(const std::string& path, const controllers::Calibra
   if (wanted.empty()) wanted.assign(std::begin(thesis_loads_kg), std::end(thesis_loads_kg));
   std::sort(wanted.begin(), wanted.end());
   wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
-  if (how.extrapolate) return wanted;
+  if (how.extrapolate_load) return wanted;
 
   std::string outside;
   for (const double load_kg : wanted)
@@ -59,7 +59,7 @@ std::vector<double> loads_of(const std::string& path, const controllers::Calibra
   const std::string text = fmt::format(
       "made with loads from {:g} to {:g} kg, which {} {} outside; calibrate with loads on both sides, or "
       "allow it "
-      "with --extrapolate",
+      "with --extrapolate-load",
       range.lowest_load_kg, range.highest_load_kg, outside,
       outside.find(',') == std::string::npos ? "lies" : "lie");
   if (!how.loads_kg.empty() || covered.empty())
@@ -82,7 +82,8 @@ int map_errors(const std::string& path, const Options& options, const MapOptions
   if (how.down || !how.up) plan.branches.push_back(controllers::Branch::relaxation);
   plan.ratios = middles(how.ratios, plant::Braid(rig.muscle).largest_contraction_ratio());
   plan.speeds_per_s = parts(how.speeds, how.fastest_per_s);
-  plan.extrapolate = how.extrapolate;
+  plan.extrapolate_load = how.extrapolate_load;
+  plan.extrapolate_target = how.extrapolate_target;
 
   const auto file = std::filesystem::absolute(path).lexically_normal();
   const std::string stem = file.stem().string(), home = file.parent_path().filename().string();
@@ -102,7 +103,7 @@ int map_errors(const std::string& path, const Options& options, const MapOptions
                    output::heat_map_svg(plan, maps, load));
   const std::string document = output::json_of(plan, maps, files).dump(2) + "\n";
   const std::string table = output::table_of(plan, maps);
-  folder.write("map.csv", output::csv_of(plan, maps));
+  folder.write("map.csv", output::csv_of(maps));
   folder.write("map.json", document);
   folder.write("table.txt", table);
   publish(folder, where);

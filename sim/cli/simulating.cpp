@@ -43,6 +43,7 @@ int run_scenario(const std::string& path, const Options& options) {
     output::Progress progress(scenario.name);
     comparison = run::compare(scenario, options.threads, progress.hook());
   }
+  for (const auto& text : comparison.warnings) fmt::print(stderr, "mckibben: warning: {}\n", text);
   if (comparison.interrupted) {  // what is finished is kept, beside any whole result
     where += ".interrupted";
     folder.go_to(where);

@@ -31,7 +31,7 @@ struct MapOptions {
   bool up = false, down = false;  ///< neither for both
   int ratios = 30, speeds = 5;    ///< how many targets
   double fastest_per_s = 0.5;     ///< the largest target speed
-  bool extrapolate = false;
+  bool extrapolate_load = false, extrapolate_target = false;
 };
 
 int run_scenario(const std::string& path, const Options& options);

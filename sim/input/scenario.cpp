@@ -104,10 +104,10 @@ class Checker {
     const controllers::CalibratedRange& range = settings.model.range;
     const auto check = [&](const Node* given, std::string_view key, double value, double lowest,
                            double highest, std::string_view unit) {
-      if (settings.extrapolate || (value >= lowest && value <= highest)) return;
+      if (settings.extrapolate_load || (value >= lowest && value <= highest)) return;
       problems_.error(source_, given != nullptr ? given->place : node.place,
                       fmt::format("{} = {:g} {} is outside what {} was made with, {:g} to {:g} {}; calibrate "
-                                  "on both sides of it, or allow it with extrapolate: true",
+                                  "on both sides of it, or allow it with extrapolate_load: true",
                                   key, value, unit, settings.calibration, lowest, highest, unit));
     };
     if (settings.assumed_load_kg) {

@@ -65,18 +65,17 @@ Json branch_json(const run::ErrorMaps& maps, const run::MapPlan& plan, const run
 
 }  // namespace
 
-std::string csv_of(const run::MapPlan& plan, const run::ErrorMaps& maps) {
+std::string csv_of(const run::ErrorMaps& maps) {
   std::string text =
-      "load_kg,weighed_load_kg,load_outside_calibration,branch,target_ratio,target_speed_per_s,reached_ratio,"
+      "load_kg,weighed_load_kg,load_extrapolated,branch,target_ratio,target_speed_per_s,reached_ratio,"
       "reached_speed_per_s,"
       "ratio_error,speed_error_per_s,reachable,ratio_outside_calibration,current_speed_outside_calibration,"
       "no_current_speed,off_the_valves_line\n";
   for (const auto& load : maps.loads)
     for (const auto& map : load.branches)
       for (const auto& cell : map.cells) {
-        text += fmt::format("{},{},{:d},{},{},{},", load.load_kg, load.weighed_kg,
-                            !covers(plan.calibration.range, load.load_kg), name_of(map.branch), cell.ratio,
-                            cell.speed_per_s);
+        text += fmt::format("{},{},{:d},{},{},{},", load.load_kg, load.weighed_kg, load.extrapolated,
+                            name_of(map.branch), cell.ratio, cell.speed_per_s);
         text += cell.arrival ? fmt::format("{},{},{},{}", cell.arrival->ratio, cell.arrival->speed_per_s,
                                            cell.ratio_error(), cell.speed_error_per_s())
                              : ",,,";
@@ -101,9 +100,12 @@ std::string table_of(const run::MapPlan& plan, const run::ErrorMaps& maps) {
   for (const auto& load : maps.loads) {
     if (!load.failure.empty()) notes += fmt::format("  {:g} kg: no map: {}\n", load.load_kg, load.failure);
     const auto& range = plan.calibration.range;
-    if (!covers(range, load.load_kg))
+    if (load.extrapolated)
       notes += fmt::format("  {:g} kg: extrapolated; calibrated are {:g} to {:g} kg\n", load.load_kg,
                            range.lowest_load_kg, range.highest_load_kg);
+    else if (load.failure.empty() && !covers(range, load.weighed_kg))
+      notes += fmt::format("  {:g} kg: weighed within 10 % of the calibrated loads, taken as {:g} kg\n",
+                           load.load_kg, load.believed_kg);
     for (const auto& map : load.branches) {
       const Summary summary(map);
       const auto per_cent = [&](std::size_t part) {
@@ -140,18 +142,20 @@ input::Json json_of(const run::MapPlan& plan, const run::ErrorMaps& maps,
   static_cast<plant::Rig&>(rig) = plan.rig;
   rig.integrator = plan.engine;
   document["rig"] = input::rig_json(rig);
-  document["extrapolate"] = plan.extrapolate;
+  document["extrapolate_load"] = plan.extrapolate_load;
+  document["extrapolate_target"] = plan.extrapolate_target;
   document["calibrated"] = input::to_json(plan.calibration.range);
   document["target_ratios"] = plan.ratios;
   document["target_speeds_per_s"] = plan.speeds_per_s;
   document["loads"] = Json::array();
   for (const auto& load : maps.loads) {
-    Json entry{{"load_kg", load.load_kg}, {"extrapolated", !covers(plan.calibration.range, load.load_kg)}};
+    Json entry{{"load_kg", load.load_kg}, {"extrapolated", load.extrapolated}};
     if (!load.failure.empty()) {
       entry["failure"] = load.failure;
     } else {
       entry["weighed_load_kg"] = load.weighed_kg;
       entry["weighed_load_spread_kg"] = load.spread_kg;
+      entry["believed_load_kg"] = load.believed_kg;
       entry["weighing_error"] = load.weighing_error();
     }
     entry["lowest_ratio_rising"] = load.limits.lowest_rising;

@@ -11,7 +11,7 @@
 namespace mckibben::output {
 
 /// A row for each target of each load and branch; empty cells where there was no run.
-std::string csv_of(const run::MapPlan& plan, const run::ErrorMaps& maps);
+std::string csv_of(const run::ErrorMaps& maps);
 
 /// Weighed loads, and rms errors within and beyond what the rig can reach.
 std::string table_of(const run::MapPlan& plan, const run::ErrorMaps& maps);

@@ -177,7 +177,7 @@ std::string heat_map_svg(const run::MapPlan& plan, const run::ErrorMaps& maps, c
       "<text x='{}' y='26' font-size='15' font-weight='bold'>{:g} kg (weighed as {:.2f} kg, {:+.1f} %{}): "
       "error at arrival, reached less target</text>\n",
       left, load.load_kg, load.weighed_kg, 100.0 * load.weighing_error(),
-      run::covers(plan.calibration.range, load.load_kg) ? "" : "; extrapolated");
+      load.extrapolated ? "; extrapolated" : "");
   double y_px = top;
   for (const Measure& measure : measures) {
     double x_px = left;

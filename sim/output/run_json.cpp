@@ -39,9 +39,32 @@ Json contraction_json(const plant::Rig& rig, const run::Recording& recording) {
            said[static_cast<int>(plant::verdict_on(rig.muscle, recording.largest_contraction_ratio))]}};
 }
 
+Json beyond_json(const run::Beyond& beyond, const char* asked, const char* limit) {
+  return {{"ticks", beyond.ticks},
+          {asked, beyond.asked},
+          {limit, beyond.limit},
+          {"at_contraction_ratio", beyond.ratio},
+          {"direction", beyond.up ? "up" : "down"}};
+}
+
+/// Only the limits that the target passes.
+Json unreachable_json(const run::Unreachable& found) {
+  Json entry{{"ticks", found.ticks},
+             {"of_ticks", found.of_ticks},
+             {"ticks_without_current_speed", found.ticks_without_current_speed}};
+  if (found.too_fast.ticks > 0)
+    entry["too_fast"] = beyond_json(found.too_fast, "asked_per_s", "largest_reachable_per_s");
+  if (found.too_high.ticks > 0)
+    entry["too_high"] = beyond_json(found.too_high, "asked_ratio", "largest_reachable_ratio");
+  if (found.too_low.ticks > 0)
+    entry["too_low"] = beyond_json(found.too_low, "asked_ratio", "smallest_reachable_ratio");
+  return entry;
+}
+
 Json run_json(const plant::Rig& rig, const run::TrackedRun& run) {
   Json entry{{"load_kg", run.load_kg}, {"controller", run.controller}};
   if (!run.recording.samples.empty()) entry["file"] = csv_name(run);
+  if (run.unreachable.any()) entry["unreachable"] = unreachable_json(run.unreachable);
   if (!run.failure.empty()) {
     entry["failure"] = run.failure;
     return entry;
@@ -114,6 +137,7 @@ Json json_of(const input::Scenario& scenario, const run::Comparison& comparison)
     document["spreads"].push_back(std::move(entry));
   }
   document["criteria_not_met"] = comparison.unmet;
+  document["warnings"] = comparison.warnings;
   if (comparison.interrupted) document["interrupted"] = true;
   return document;
 }

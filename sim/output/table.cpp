@@ -21,6 +21,32 @@ std::string ratio(double value) {
   return fmt::format("{:.5f}", value);
 }
 
+/// How a run stands to its calibration; explained below the table by `footnotes`.
+std::string mark(const run::TrackedRun& run) {
+  const auto has = [&](const char* name) {
+    return controllers::value_of(run.recording.findings, name) != 0.0;
+  };
+  return has("load_extrapolated") || has("ticks_extrapolated") ? "*"
+         : has("load_taken_as_range_end")                      ? "+"
+                                                               : "";
+}
+
+std::string footnotes(const std::vector<run::TrackedRun>& runs) {
+  const auto any = [&](const char* sign) {
+    return std::any_of(runs.begin(), runs.end(), [&](const auto& run) { return mark(run) == sign; });
+  };
+  std::string text;
+  if (any("*"))
+    text +=
+        "  * extrapolated: the load, or where the target leads, is outside the calibrated range; a mean with "
+        "* holds such a run\n";
+  if (any("+"))
+    text +=
+        "  + the load was weighed less than 10 % outside the calibrated range and taken as the range's end; "
+        "not extrapolated\n";
+  return text;
+}
+
 /// Thesis 2.3: what contraction does to a muscle.
 std::string contraction_note(const plant::Rig& rig, double reached, const std::string& who) {
   switch (plant::verdict_on(rig.muscle, reached)) {
@@ -79,21 +105,27 @@ std::string table_of(const input::Scenario& scenario, const run::Comparison& com
     const auto& m = run.metrics;
     const auto load = input::write_number(run.load_kg);
     if (!run.failure.empty()) {
-      runs.add({load, run.controller, "no result", "-", "-", "-", "-", "-", "-", "-"});
+      runs.add({load, run.controller + mark(run), "no result", "-", "-", "-", "-", "-", "-", "-"});
       failures += fmt::format("  {} at {} kg: {}\n", run.controller, load, run.failure);
       continue;
     }
-    runs.add({load, run.controller, ratio(m.rmse), ratio(m.mae), ratio(m.largest_error),
+    runs.add({load, run.controller + mark(run), ratio(m.rmse), ratio(m.mae), ratio(m.largest_error),
               fmt::format("{:+.5f}", m.final_error), cell(m.time_lag_s, 1e3, 0), cell(m.overshoot, 100.0, 1),
               cell(m.settling_time_s, 1.0, 2), cell(m.air_kg, 1e3, 3)});
   }
-  text += runs.text();
+  text += runs.text() + footnotes(comparison.runs);
 
+  const auto extrapolated = [&](const std::string& controller) {
+    return std::any_of(comparison.runs.begin(), comparison.runs.end(), [&](const auto& run) {
+      return run.controller == controller && run.failure.empty() && mark(run) == "*";
+    });
+  };
   Grid spreads({"controller", "rmse mean", "lowest", "highest", "spread", "std dev"}, 1);
   for (const auto& row : comparison.spreads)
     if (row.rmse)
-      spreads.add({row.controller, ratio(row.rmse->mean), ratio(row.rmse->lowest), ratio(row.rmse->highest),
-                   ratio(row.rmse->width()), ratio(row.rmse->standard_deviation)});
+      spreads.add({row.controller + (extrapolated(row.controller) ? "*" : ""), ratio(row.rmse->mean),
+                   ratio(row.rmse->lowest), ratio(row.rmse->highest), ratio(row.rmse->width()),
+                   ratio(row.rmse->standard_deviation)});
   if (!spreads.empty()) text += section("rmse over the loads (spread: highest less lowest)", spreads.text());
 
   std::string tuned;

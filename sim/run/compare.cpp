@@ -3,6 +3,8 @@
 #include <atomic>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
+#include <variant>
 
 #include <fmt/format.h>
 
@@ -74,6 +76,7 @@ class Comparing {
     run_all();
     spread_all();
     judge();
+    warn();
     return std::move(result_);
   }
 
@@ -167,7 +170,38 @@ class Comparing {
     const auto controller = make(settings);
     run.recording = simulate(plan_of(scenario_, run.load_kg, index + 1), *controller);
     run.failure = run.recording.failure;
+    if (controllers::calibrated(settings)) run.unreachable = unreachable_of(run, settings);
     if (run.failure.empty()) run.metrics = metrics_of(scenario_, result_.target, run.recording);
+  }
+
+  Unreachable unreachable_of(const TrackedRun& run, const controllers::Settings& settings) const {
+    const controllers::Reach& reach = knowledge_.reach;
+    const controllers::ReachOfLoad limits = reach.at_load(run.load_kg);
+    const auto* open = std::get_if<controllers::OpenLoopSettings>(&settings);
+    Unreachable found =
+        open && open->mode == controllers::OpenLoopMode::triangle
+            ? unreachable(open->to.ratio(knowledge_.model.rest_length_m), open->speed_per_s, reach, limits)
+            : unreachable(result_.target, knowledge_.tick_s, reach, limits, knowledge_.contraction_per_count);
+    found.ticks_without_current_speed =
+        static_cast<std::size_t>(controllers::value_of(run.recording.findings, "ticks_unreachable"));
+    return found;
+  }
+
+  // One for each load and reason: controllers that ask the same in vain share it.
+  void warn() {
+    std::vector<std::pair<std::string, std::string>> said;  // beginning, reason
+    for (const auto& run : result_.runs) {
+      if (!run.unreachable.any()) continue;
+      const std::string reason =
+          fmt::format("{} kg: {}", input::write_number(run.load_kg), run.unreachable.text());
+      const auto same =
+          std::find_if(said.begin(), said.end(), [&](const auto& one) { return one.second == reason; });
+      if (same == said.end())
+        said.emplace_back(fmt::format("{}: {}", scenario_.name, run.controller), reason);
+      else
+        same->first += ", " + run.controller;
+    }
+    for (const auto& [who, reason] : said) result_.warnings.push_back(who + " at " + reason);
   }
 
   void spread_all() {

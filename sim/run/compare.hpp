@@ -10,6 +10,7 @@
 #include <sim/run/metrics.hpp>
 #include <sim/run/recording.hpp>
 #include <sim/run/tune_pid.hpp>
+#include <sim/run/unreachable.hpp>
 
 namespace mckibben::run {
 
@@ -19,7 +20,8 @@ struct TrackedRun {
   std::string controller;
   Recording recording{};
   Metrics metrics{};
-  std::string failure{};  ///< why there is no result; empty if there is one
+  std::string failure{};      ///< why there is no result; empty if there is one
+  Unreachable unreachable{};  ///< what the target asks in vain of a controller that plans its way
 };
 
 /// Gains found for a PID that left some open.
@@ -41,8 +43,9 @@ struct Comparison {
   std::vector<TunedController> tuned;
   std::vector<TrackedRun> runs;  ///< loads in order, for each all controllers in order
   std::vector<ControllerSpread> spreads;
-  bool interrupted = false;        ///< the user stopped it; runs not begun say so in `failure`
-  std::vector<std::string> unmet;  ///< criteria of the scenario that are not met, in words
+  bool interrupted = false;           ///< the user stopped it; runs not begun say so in `failure`
+  std::vector<std::string> unmet;     ///< criteria of the scenario that are not met, in words
+  std::vector<std::string> warnings;  ///< targets out of reach: scenario, load, controllers, why, what helps
 };
 
 /// Hears of progress, from any thread: what is being done, how much of it is done.

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <string_view>
 
 #include <fmt/format.h>
 
@@ -15,15 +14,10 @@
 namespace mckibben::run {
 namespace {
 
-using controllers::Branch;
+using controllers::Branch, controllers::value_of;
 
 // A current that creeps for longer is no triangle that anybody waits for (extrapolation can ask for one).
 constexpr double longest_s = 600.0;
-
-double finding(const std::vector<controllers::Finding>& findings, std::string_view name) {
-  const auto is_it = [name](const auto& one) { return one.name == name; };
-  return std::find_if(findings.begin(), findings.end(), is_it)->value;
-}
 
 class Mapping {
  public:
@@ -62,7 +56,8 @@ class Mapping {
   controllers::OpenLoopSettings settings() const {
     controllers::OpenLoopSettings settings;
     settings.model = plan_.calibration;
-    settings.extrapolate = plan_.extrapolate;
+    settings.extrapolate_load = plan_.extrapolate_load;
+    settings.extrapolate_target = plan_.extrapolate_target;
     return settings;
   }
 
@@ -75,15 +70,10 @@ class Mapping {
   void weigh(LoadMap& load) const {
     const Recording recording = simulated(load.load_kg, 1, settings());
     load.failure = recording.failure;
-    load.weighed_kg = finding(recording.findings, "weighed_load");
-    load.spread_kg = finding(recording.findings, "weighed_load_spread");
-  }
-
-  // The load that the controller goes on with once it has weighed one.
-  double believed_kg(const LoadMap& load) const {
-    const auto& range = plan_.calibration.range;
-    return plan_.extrapolate ? load.weighed_kg
-                             : std::clamp(load.weighed_kg, range.lowest_load_kg, range.highest_load_kg);
+    load.weighed_kg = value_of(recording.findings, "weighed_load");
+    load.spread_kg = value_of(recording.findings, "weighed_load_spread");
+    load.believed_kg = value_of(recording.findings, "believed_load");
+    load.extrapolated = value_of(recording.findings, "load_extrapolated") != 0.0;
   }
 
   BranchMap targets(const LoadMap& load, Branch branch) const {
@@ -100,20 +90,20 @@ class Mapping {
   void run(const LoadMap& load, Branch branch, MapCell& cell) const {
     const double sign = branch == Branch::contraction ? 1.0 : -1.0;
     controllers::OpenLoopSettings how = settings();
-    how.assumed_load_kg = believed_kg(load);
+    how.assumed_load_kg = load.believed_kg;
     how.mode = controllers::OpenLoopMode::triangle;
     how.to = {cell.ratio, false};
     how.speed_per_s = sign * cell.speed_per_s;
 
     const controllers::Inverse inverse(plan_.calibration, *how.assumed_load_kg, knowledge_.valve,
-                                       plan_.extrapolate);
+                                       plan_.extrapolate_target);
     cell.asked = inverse(branch, cell.ratio, how.speed_per_s);
     cell.off_the_line = cell.asked.pressure_Pa < knowledge_.valve.zero_pressure_Pa ||
                         cell.asked.pressure_Pa > knowledge_.valve.span_pressure_Pa;
 
     const auto plans = how.make(knowledge_);
     plans->rest();
-    const double at_s = finding(plans->findings(), "arrival");
+    const double at_s = value_of(plans->findings(), "arrival");
     if (!(at_s <= longest_s)) {
       cell.failure = fmt::format("its current takes {:.3g} s, more than {:g} s", at_s, longest_s);
       return;

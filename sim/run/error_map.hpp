@@ -26,7 +26,7 @@ struct MapPlan {
   std::vector<controllers::Branch> branches;
   std::vector<double> ratios;        ///< targets, ascending
   std::vector<double> speeds_per_s;  ///< targets, ascending, positive on both branches
-  bool extrapolate = false;          ///< as the controller's setting
+  bool extrapolate_load = false, extrapolate_target = false;  ///< as the controller's settings
 };
 
 /// Where the load was when the controller said it would be there.
@@ -61,6 +61,8 @@ struct BranchMap {
 struct LoadMap {
   double load_kg = 0.0;
   double weighed_kg = 0.0, spread_kg = 0.0;
+  double believed_kg = 0.0;  ///< what the controller goes on with: weighed, or the calibrated range's end
+  bool extrapolated = false;
   std::string failure{};  ///< why there is no map: it could not be weighed, or the calibration does not hold
   controllers::ReachOfLoad limits{};
   std::vector<BranchMap> branches{};

@@ -260,7 +260,7 @@ Json document(const Evidence& evidence, const Ours& ours) {
 Weighing weigh(const Evidence& evidence, const thesis::CalibrationResult& calibration, double load_kg) {
   controllers::OpenLoopSettings settings;
   settings.model = calibration.calibration;
-  settings.extrapolate = true;  // the thesis's 8.87 kg is lighter than all it calibrated with
+  settings.extrapolate_load = true;  // the thesis's 8.87 kg is lighter than all it calibrated with
   const input::Campaign& campaign = evidence.campaign;
   const auto controller = settings.make(run::knowledge_of(campaign.rig, {}));
   const run::Recording recording = run::simulate({.rig = campaign.rig,
@@ -271,10 +271,8 @@ Weighing weigh(const Evidence& evidence, const thesis::CalibrationResult& calibr
                                                   .seed = campaign.seed},
                                                  *controller);
   Weighing result{.load_kg = load_kg, .failure = recording.failure};
-  for (const controllers::Finding& finding : recording.findings) {
-    if (finding.name == "weighed_load") result.weighed_kg = finding.value;
-    if (finding.name == "weighed_load_spread") result.spread_kg = finding.value;
-  }
+  result.weighed_kg = controllers::value_of(recording.findings, "weighed_load");
+  result.spread_kg = controllers::value_of(recording.findings, "weighed_load_spread");
   return result;
 }
 

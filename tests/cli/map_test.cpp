@@ -75,11 +75,11 @@ TEST_F(Map, OneBranchAloneAndOneTarget) {
 TEST_F(Map, LoadsBeyondTheCalibrationOnlyWhenAskedFor) {
   const Said refused = run("--load '8.87 kg'");
   EXPECT_EQ(refused.status, 65);
-  for (const char* words : {"11.138 to 23.406 kg", "8.87 kg lies outside", "--extrapolate"})
+  for (const char* words : {"11.138 to 23.406 kg", "8.87 kg lies outside", "--extrapolate-load"})
     EXPECT_NE(refused.err.find(words), std::string::npos) << refused.err;
   EXPECT_FALSE(std::filesystem::exists(scratch / "out"));
 
-  const Said allowed = run("--load '8.87 kg' --ratios 4 --speeds 2 --extrapolate");
+  const Said allowed = run("--load '8.87 kg' --ratios 4 --speeds 2 --extrapolate-load");
   EXPECT_EQ(allowed.status, 0) << allowed.err;
   EXPECT_NE(allowed.out.find("8.87 kg: extrapolated"), std::string::npos) << allowed.out;
 
@@ -104,7 +104,7 @@ TEST_F(Map, BadInput) {
   const std::string before = read_text(scratch / "cal" / "calibration.yaml");
   EXPECT_EQ(run("--load '14 kg' --out cal").status, 74);  // would replace what is read
   EXPECT_EQ(read_text(scratch / "cal" / "calibration.yaml"), before);
-  const Said heavy = run("--load '14 kg' --load '120 kg' --extrapolate --ratios 2 --speeds 1");
+  const Said heavy = run("--load '14 kg' --load '120 kg' --extrapolate-load --ratios 2 --speeds 1");
   EXPECT_EQ(heavy.status, 70);
   EXPECT_NE(heavy.out.find("120 kg: no map: weighing"), std::string::npos) << heavy.out;
 }

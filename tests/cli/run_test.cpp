@@ -77,11 +77,54 @@ TEST(FiveLoads, AnswersTheThesissQuestion) {
   EXPECT_LT(mean_rmse("pid"), 0.5 * mean_rmse("open_loop"));
   EXPECT_LT(mean_rmse("pid"), mean_rmse("pid_delay_2"));
   EXPECT_LT(mean_rmse("pid_delay_2"), mean_rmse("pid_delay_5"));
+  // Within the calibrated speeds, slowing the target and taking out the lag pays.
+  EXPECT_LT(mean_rmse("open_loop_limited"), 0.75 * mean_rmse("open_loop"));
+  // Only 8.87 kg is extrapolated, and it is the one that cannot follow.
+  ASSERT_EQ(document.at("warnings").size(), 1u);
+  EXPECT_NE(document.at("warnings")[0].get<std::string>().find("at 8.87 kg: the target is out of reach"),
+            std::string::npos);
+  for (const auto& run : document.at("runs")) {
+    if (!run.contains("findings")) continue;
+    const bool unknown = run.at("load_kg") == 8.87;
+    const auto finding = [&](const char* name) { return run.at("findings").at(name).at("value"); };
+    EXPECT_EQ(finding("load_extrapolated"), unknown ? 1.0 : 0.0);
+    EXPECT_EQ(finding("ticks_extrapolated"), 0.0);
+    EXPECT_EQ(run.contains("unreachable"), unknown);
+  }
   for (const auto& run : document.at("runs")) {
     if (run.at("controller") != "open_loop") continue;
     const double weighed_kg = run.at("findings").at("weighed_load").at("value").get<double>();
     EXPECT_NEAR(weighed_kg / run.at("load_kg").get<double>(), 1.0, 0.15);  // the thesis: below 15 %
   }
+}
+
+TEST(Run, MarksWhatIsExtrapolatedAndWarnsOfWhatIsOutOfReach) {
+  const Scratch scratch;
+  write_text(scratch / "far.yaml",
+             "schema: mckibben-scenario/1\nloads: [8.87 kg, 11.138 kg, 16.138 kg]\nduration: 2 s\n"
+             "target: {kind: ramps, start: 0.1, moves: [{at: 0.5 s, lasting: 0.1 s, to: 0.24}]}\n"
+             "controllers:\n"
+             "  - {kind: open_loop, calibration: '" MCKIBBEN_SOURCE_DIR
+             "/scenarios/thesis_calibration.yaml', extrapolate_load: true}\n"
+             "  - {kind: open_loop, name: far, calibration: '" MCKIBBEN_SOURCE_DIR
+             "/scenarios/thesis_calibration.yaml', extrapolate_load: true, extrapolate_target: true}\n"
+             "  - {kind: step_current, moves: []}\n");
+  const auto said = mckibben("run far.yaml", scratch);
+  ASSERT_EQ(said.status, 0) << said.err;
+  for (const char* row : {"8.87    open_loop* ", "11.138  open_loop+ ", "16.138  open_loop ", "16.138  far* ",
+                          "  * extrapolated: ", "  + the load was weighed less than 10 % outside"})
+    EXPECT_NE(said.out.find(row), std::string::npos) << row << said.out;
+  EXPECT_EQ(said.out.find("step_current*"), std::string::npos);
+  for (const char* words : {"warning: far: open_loop, far at 16.138 kg: the target is out of reach at ",
+                            " of 167 ticks (", "the largest reachable speed there is ", "a slower target"})
+    EXPECT_NE(said.err.find(words), std::string::npos) << words << said.err;
+  EXPECT_EQ(said.err.find("step_current at"), std::string::npos) << said.err;
+  const Json document = Json::parse(read_text(scratch / "out/far/run.json"));
+  ASSERT_GE(document.at("warnings").size(), 3u);
+  EXPECT_NE(said.err.find(document.at("warnings")[0].get<std::string>()), std::string::npos);
+  const Json& found = document.at("runs")[0].at("unreachable");
+  EXPECT_GT(found.at("too_fast").at("asked_per_s").get<double>(),
+            found.at("too_fast").at("largest_reachable_per_s").get<double>());
 }
 
 TEST(Run, GivesTheSameBytesFromAnyNumberOfThreads) {

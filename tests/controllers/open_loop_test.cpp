@@ -87,12 +87,33 @@ TEST(OpenLoop, RefusesALoadItWasNotCalibratedForUnlessToldSo) {
     FAIL() << "8.87 kg is below the lightest calibrated load";
   } catch (const ControllerFailure& failure) {
     EXPECT_NE(std::string(failure.what()).find("from 11 to 23.5 kg"), std::string::npos) << failure.what();
-    EXPECT_NE(std::string(failure.what()).find("extrapolate: true"), std::string::npos);
+    EXPECT_NE(std::string(failure.what()).find("extrapolate_load: true"), std::string::npos);
   }
-  settings.extrapolate = true;
+  settings.extrapolate_load = true;
   const auto controller = settings.make(knowledge);
   controller->rest();
-  EXPECT_EQ(finding(*controller, "load_outside_calibration"), 1.0);
+  EXPECT_EQ(finding(*controller, "load_extrapolated"), 1.0);
+  EXPECT_EQ(finding(*controller, "load_taken_as_range_end"), 0.0);
+}
+
+// Each flag frees its own: the load says nothing about the target, nor the target about the load.
+TEST(OpenLoop, ExtrapolatesLoadAndTargetApart) {
+  std::vector<double> target;
+  for (int k = 0; k < 100; ++k) target.push_back(0.15 + 0.001 * k);  // calibrated to 0.20
+  const Knowledge knowledge = data_sheets(target);
+  auto settings = with_planted_load<OpenLoopSettings>();
+  settings.extrapolate_load = true;
+  const auto kept = settings.make(knowledge);
+  const auto kept_mA = play(*kept, target.size());
+  EXPECT_EQ(kept_mA[99], kept_mA[60]);
+  EXPECT_EQ(finding(*kept, "ticks_extrapolated"), 0.0);
+  settings.extrapolate_load = false;
+  settings.extrapolate_target = true;
+  const auto free = settings.make(knowledge);
+  EXPECT_GT(play(*free, target.size())[99], kept_mA[99]);
+  EXPECT_GE(finding(*free, "ticks_extrapolated"), 49.0);
+  settings.assumed_load_kg = 8.87;
+  EXPECT_THROW(settings.make(knowledge)->rest(), ControllerFailure);
 }
 
 TEST(OpenLoop, TriangleReachesItsCurrentAtTheSpeedOfTheInverse) {
@@ -134,6 +155,7 @@ TEST(OpenLoop, WeighsBeforeTheRunAndThenGoesToItsFirstCurrent) {
         controller->step({k, 0.0, static_cast<std::int64_t>(50.0 + 60.0 * (current_mA - 4.0))}).current_mA;
   EXPECT_EQ(controller->step({0, 0.0, 100}).current_mA, current_mA) << "it is at its first current already";
   EXPECT_GT(finding(*controller, "weighed_load"), 11.0);
+  EXPECT_LE(finding(*controller, "believed_load"), 23.5) << "the range's end, if it was weighed beyond";
 }
 
 TEST(OpenLoopLimited, NeedsToKnowWhatIsReachable) {

@@ -114,7 +114,7 @@ TEST(ErrorMap, MeansAreOverTheChosenCellsThatHaveARun) {
 TEST(ErrorMap, ALoadThatCannotBeWeighedHasNoMapAndSaysWhy) {
   MapPlan plan = small_plan();
   plan.loads_kg = {16.138, 120.0};
-  plan.extrapolate = true;
+  plan.extrapolate_load = true;
   const ErrorMaps maps = mapped(plan);
   EXPECT_EQ(maps.loads[0].branches.size(), 2u);
   EXPECT_NE(maps.loads[1].failure.find("weighing"), std::string::npos) << maps.loads[1].failure;

@@ -108,7 +108,7 @@ std::vector<controllers::Settings> one_of_each() {
     }
     if (auto* calibrated = controllers::calibrated(settings)) {
       calibrated->model = model;
-      calibrated->extrapolate = true;
+      calibrated->extrapolate_load = true;
     }
   }
   return all;

@@ -1,0 +1,91 @@
+// Targets against the limits of a made-up rig: up at 0.5 /s, down at 0.25 /s, from 0.01 (from above 0.03) to
+// 0.2.
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <sim/run/unreachable.hpp>
+
+namespace mckibben::run {
+namespace {
+
+constexpr double tick_s = 0.012, count = 4.363e-4;
+
+controllers::Reach even_reach() {
+  controllers::Reach reach;
+  reach.ratio = {0.0, 0.3};
+  controllers::ReachOfLoad load;
+  load.load_kg = 16.0;
+  load.lowest_rising = 0.01;
+  load.lowest_falling = 0.03;
+  load.highest = 0.2;
+  load.rising_per_s = {0.5, 0.5};
+  load.falling_per_s = {0.25, 0.25};
+  load.rising_lag_s = load.falling_lag_s = {0.0, 0.0};
+  reach.loads = {load};
+  return reach;
+}
+
+Unreachable look(const std::vector<double>& target) {
+  const auto reach = even_reach();
+  return unreachable(target, tick_s, reach, reach.at_load(16.0), count);
+}
+
+std::vector<double> ramp(double from, double to, double speed_per_s) {
+  std::vector<double> target{from};
+  const double step = speed_per_s * tick_s;
+  while (step > 0.0 ? target.back() + step < to : target.back() + step > to)
+    target.push_back(target.back() + step);
+  return target;
+}
+
+TEST(Unreachable, WhatTheRigCanDoIsNotWarnedOf) {
+  EXPECT_FALSE(look(ramp(0.02, 0.19, 0.49)).any());
+  EXPECT_FALSE(look(ramp(0.19, 0.04, -0.24)).any());
+  EXPECT_FALSE(look(std::vector<double>(50, 0.2 + 0.5 * count)).any()) << "less than a count is no height";
+}
+
+TEST(Unreachable, TooFastNamesTicksAndTheLargestSpeed) {
+  const auto target = ramp(0.02, 0.19, 0.8);
+  const Unreachable found = look(target);
+  EXPECT_EQ(found.ticks, target.size() - 1);
+  EXPECT_EQ(found.too_fast.ticks, target.size() - 1);
+  EXPECT_NEAR(found.too_fast.asked, 0.8, 1e-9);
+  EXPECT_EQ(found.too_fast.limit, 0.5);
+  EXPECT_NE(found.text().find("the largest reachable speed there is 0.5 /s"), std::string::npos)
+      << found.text();
+  EXPECT_NE(found.text().find("a slower target"), std::string::npos);
+}
+
+TEST(Unreachable, HeightsDependOnTheDirectionTheyAreReachedFrom) {
+  EXPECT_EQ(look({0.02, 0.02, 0.02}).ticks, 0u);
+  const Unreachable from_above = look({0.05, 0.05 - 0.002, 0.046, 0.02, 0.02});
+  EXPECT_EQ(from_above.too_low.ticks, 2u);
+  EXPECT_EQ(from_above.too_low.limit, 0.03);
+  const Unreachable high = look({0.19, 0.195, 0.2, 0.205, 0.21});
+  EXPECT_EQ(high.too_high.ticks, 2u);
+  EXPECT_EQ(high.too_high.asked, 0.21);
+  EXPECT_NE(high.text().find("the largest reachable one is 0.200"), std::string::npos) << high.text();
+  EXPECT_EQ(high.text().find("slower"), std::string::npos) << "time does not lift it";
+}
+
+TEST(Unreachable, OnePointAtOneSpeed) {
+  const auto reach = even_reach();
+  const auto limits = reach.at_load(16.0);
+  EXPECT_FALSE(unreachable(0.1, 0.4, reach, limits).any());
+  EXPECT_TRUE(unreachable(0.1, -0.4, reach, limits).any()) << "down it is slower";
+  EXPECT_FALSE(unreachable(0.1, -0.4, reach, limits).too_fast.up);
+  EXPECT_EQ(unreachable(0.25, 0.1, reach, limits).too_high.ticks, 1u);
+}
+
+TEST(Unreachable, AModelWithoutACurrentSpeedIsSaidToo) {
+  Unreachable found = look({0.1, 0.1});
+  found.ticks_without_current_speed = 3;
+  EXPECT_TRUE(found.any());
+  EXPECT_NE(found.text().find("at 3 ticks the calibrated model has no current speed"), std::string::npos)
+      << found.text();
+}
+
+}  // namespace
+}  // namespace mckibben::run
