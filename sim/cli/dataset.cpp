@@ -1,5 +1,6 @@
 // The verb `dataset`: a campaign's runs, written one by one, so that an interrupted campaign goes on.
 #include <algorithm>
+#include <atomic>
 #include <cstdio>
 #include <filesystem>
 
@@ -22,18 +23,22 @@ int make_dataset(const std::string& path, const Options& options) {
   const auto where = destination(options, campaign.name);
   keep_apart(where, std::filesystem::absolute(path).parent_path());
   output::CampaignFolder folder(where, campaign);
+  std::atomic<std::size_t> there = folder.jobs().size() - folder.missing().size();
   if (!folder.note().empty()) fmt::print(stderr, "mckibben: {}\n", folder.note());
   try {
     output::Progress progress(campaign.name);
     run::run_jobs(
-        campaign, folder.missing(), options.threads, [&](const run::CampaignRun& run) { folder.put(run); },
+        campaign, folder.missing(), options.threads,
+        [&](const run::CampaignRun& run) {
+          folder.put(run);
+          ++there;
+        },
         progress.hook());
   } catch (const run::Interrupted&) {
-    const std::size_t total = folder.jobs().size();
     fmt::print(stderr,
                "mckibben: interrupted; {} of {} runs are in {}\n"
                "The same command goes on from there. Earlier results are as they were.\n",
-               total - folder.missing().size(), total, folder.unfinished().string());
+               there.load(), folder.jobs().size(), folder.unfinished().string());
     return interrupted;
   }
   const input::Json document = folder.document();

@@ -2,9 +2,14 @@
 //
 // OUT.unfinished/  plan.json          whose runs these are
 //                  data/, truth/      what will be OUT and OUT-truth
-//                  runs/<id>.json     a run's entry in campaign.json; written last, so it says the run is
-//                  there
+//                  runs/<id>.json     a run's entry in campaign.json, size and digest of its files; written
+//                  last,
+//                                     so it says that the run is there, and whether it is still as it was
+//                                     written
 #include <algorithm>
+#include <cstdint>
+#include <fstream>
+#include <iterator>
 #include <optional>
 
 #include <fmt/format.h>
@@ -63,6 +68,33 @@ struct RunFiles {
         entry("runs/" + id + ".json") {}
   std::string table, ascii, truth, entry;
 };
+
+std::string bytes_of(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+/// What runs/<id>.json holds, sealed by its own digest.
+Json sealed(const Json& entry, const Json& files) {
+  return {{"entry", entry}, {"files", files}, {"sha256", input::sha256_hex(entry.dump() + files.dump())}};
+}
+
+/// Whether a run's files and entry are as they were written.
+bool is_whole(const fs::path& folder, const Json& record) {
+  try {
+    if (record != sealed(record.at("entry"), record.at("files"))) return false;
+    for (const auto& file : record.at("files")) {
+      const fs::path path = folder / file.at("name").get<std::string>();
+      std::error_code missing;
+      if (fs::file_size(path, missing) != file.at("bytes").get<std::uintmax_t>() || missing ||
+          input::sha256_hex(bytes_of(path)) != file.at("sha256").get<std::string>())
+        return false;
+    }
+    return true;
+  } catch (const Json::exception&) {
+    return false;
+  }
+}
 
 /// All files that a campaign with these ids can have written there.
 FileNames files_of(const std::vector<std::string>& ids) {
@@ -161,8 +193,7 @@ void CampaignFolder::open() {
   if (fs::exists(unfinished_) && !fs::is_empty(unfinished_)) {
     const auto found = read_json(unfinished_ / plan_file);
     if (found == plan) {
-      note_ = fmt::format("{}: {} of {} runs are there already; going on", unfinished_.string(),
-                          jobs_.size() - missing().size(), jobs_.size());
+      find_missing();
       return;
     }
     if (holds_only(unfinished_, files_of(found))) {
@@ -176,31 +207,42 @@ void CampaignFolder::open() {
     }
   }
   write_whole(unfinished_ / plan_file, plan.dump(2) + "\n");
+  missing_ = jobs_;
 }
 
-std::vector<run::CampaignJob> CampaignFolder::missing() const {
-  std::vector<run::CampaignJob> list;
+// A run that is not as it was written is made again: nothing else in the folder tells whether it was its rows
+// or its entry that somebody changed.
+void CampaignFolder::find_missing() {
+  std::string damaged;
+  std::size_t count = 0;
   for (const auto& job : jobs_) {
-    const RunFiles files(job.id);
-    const auto entry = read_json(unfinished_ / files.entry);
-    const auto is_there = [&](const std::string& name) { return fs::exists(unfinished_ / name); };
-    if (!entry ||
-        (!failed(*entry) && !(is_there(files.table) && is_there(files.ascii) && is_there(files.truth))))
-      list.push_back(job);
+    const auto record = read_json(unfinished_ / RunFiles(job.id).entry);
+    const bool there = fs::exists(unfinished_ / RunFiles(job.id).entry);
+    if (record && is_whole(unfinished_, *record)) continue;
+    missing_.push_back(job);
+    if (there && ++count <= 3) damaged += (count > 1 ? ", " : "") + job.id;
   }
-  return list;
+  note_ = fmt::format("{}: {} of {} runs are there already; going on", unfinished_.string(),
+                      jobs_.size() - missing_.size(), jobs_.size());
+  if (count > 0)
+    note_ += fmt::format("\nmckibben: {} run{} not as written, and made again: {}{}", count,
+                         count == 1 ? " is" : "s are", damaged, count > 3 ? ", ..." : "");
 }
 
 void CampaignFolder::put(const run::CampaignRun& run) const {
   const RunFiles files(run.job.id);
   const input::RigFile& rig = campaign_.rig;
+  Json written = Json::array();
+  const auto write = [&](const std::string& name, const std::string& text) {
+    write_whole(unfinished_ / name, text);
+    written.push_back({{"name", name}, {"bytes", text.size()}, {"sha256", input::sha256_hex(text)}});
+  };
   if (run.failure.empty()) {
-    write_whole(unfinished_ / files.table, csv_of(run::measured(campaign_, run), rig.tick_s));
-    write_whole(unfinished_ / files.ascii, thesis_ascii(run.recording, rig, run.job.load_kg));
-    write_whole(unfinished_ / files.truth,
-                csv_of(run.recording, run::contraction_per_count(rig), {}, rig.gauge.fitted));
+    write(files.table, csv_of(run::measured(campaign_, run), rig.tick_s));
+    write(files.ascii, thesis_ascii(run.recording, rig, run.job.load_kg));
+    write(files.truth, csv_of(run.recording, run::contraction_per_count(rig), {}, rig.gauge.fitted));
   }
-  write_whole(unfinished_ / files.entry, entry_of(campaign_, run).dump(2) + "\n");
+  write_whole(unfinished_ / files.entry, sealed(entry_of(campaign_, run), written).dump(2) + "\n");
 }
 
 Json CampaignFolder::document() const {
@@ -210,7 +252,7 @@ Json CampaignFolder::document() const {
   document["campaign"] = input::campaign_json(campaign_);
   document["runs"] = Json::array();
   for (const auto& job : jobs_)
-    document["runs"].push_back(read_json(unfinished_ / RunFiles(job.id).entry).value());
+    document["runs"].push_back(read_json(unfinished_ / RunFiles(job.id).entry).value().at("entry"));
   return document;
 }
 

@@ -17,14 +17,15 @@ namespace mckibben::output {
 class CampaignFolder {
  public:
   /// Opens OUT.unfinished for `destination` = OUT. What is there is kept if it belongs to the same campaign
-  /// and program; an earlier campaign's is removed; anything else is moved aside. Throws CannotWrite.
+  /// and program and is as it was written; an earlier campaign's is removed; anything else is moved aside.
+  /// Throws CannotWrite.
   CampaignFolder(const std::filesystem::path& destination, const input::Campaign& campaign);
 
   /// What became of what was there before, in words; empty if nothing was there.
   const std::string& note() const { return note_; }
-  /// All runs of the campaign, and those that are not on disk yet.
+  /// All runs of the campaign, and those that were not on disk, as they were written, when it was opened.
   const std::vector<run::CampaignJob>& jobs() const { return jobs_; }
-  std::vector<run::CampaignJob> missing() const;
+  const std::vector<run::CampaignJob>& missing() const { return missing_; }
   std::filesystem::path unfinished() const { return unfinished_; }
 
   /// Writes the files of one run; from any thread, one call for each run. Throws CannotWrite.
@@ -43,9 +44,10 @@ class CampaignFolder {
 
  private:
   void open();
+  void find_missing();
 
   const input::Campaign& campaign_;
-  std::vector<run::CampaignJob> jobs_;
+  std::vector<run::CampaignJob> jobs_, missing_;
   std::filesystem::path destination_, truth_, unfinished_;
   std::string note_;
 };

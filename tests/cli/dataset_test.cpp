@@ -179,6 +179,32 @@ TEST_F(Dataset, AnInterruptedOneGoesOnAndItsFilesAreTheSame) {
   EXPECT_FALSE(exists("parts.unfinished"));
 }
 
+TEST_F(Dataset, RunsThatSomebodyChangedAreMadeAgain) {
+  ASSERT_EQ(run("dataset small.yaml --out whole").status, 0);
+  begin(scratch / "parts", input::read_campaign(scratch / "small.yaml"), 7);
+  const auto unfinished = scratch / "parts.unfinished";
+  const auto spoil = [&](const std::string& name, const std::string& old, const std::string& with) {
+    std::string text = read_text(unfinished / name);
+    const auto at = text.find(old);
+    ASSERT_NE(at, std::string::npos) << name;
+    write_text(unfinished / name, text.replace(at, old.size(), with));
+  };
+  spoil("data/m1_c01_r1.csv", "0.012,", "0.013,");  // same size
+  spoil("truth/m1_c01_r2.csv", "\n0.024,", "\n");   // shorter
+  spoil("data/thesis/m1_up_r1.txt", "4", "4.0");    // longer
+  spoil("runs/m1_up_r2.json", "\"rows\": ", "\"rows\": 1");
+  write_text(unfinished / "runs/m2_c01_r1.json", "{}");
+  const auto untouched = fs::last_write_time(unfinished / "data/m2_c01_r2.csv");
+  const auto said = run("dataset small.yaml --out parts");
+  ASSERT_EQ(said.status, 0) << said.err;
+  for (const char* words :
+       {"2 of 8 runs are there already", "5 runs are not as written, and made again: m1_c01_r1"})
+    EXPECT_NE(said.err.find(words), std::string::npos) << said.err;
+  EXPECT_EQ(fs::last_write_time(scratch / "parts/m2_c01_r2.csv"), untouched);
+  EXPECT_EQ(contents(scratch / "whole"), contents(scratch / "parts"));
+  EXPECT_EQ(contents(scratch / "whole-truth"), contents(scratch / "parts-truth"));
+}
+
 TEST_F(Dataset, ACampaignThatChangedStartsAnew) {
   begin(scratch / "parts", input::read_campaign(scratch / "small.yaml"), 5);
   const auto said = run("dataset small.yaml --out parts --seed 9");
