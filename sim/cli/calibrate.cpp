@@ -33,6 +33,7 @@ int calibrate_dataset(const std::string& path, const Options& options, const Cal
   }
   print(options.json ? document : report);
   publish(folder, where);
+  warn(output::warnings_of(result, how.fits));
   return done;
 }
 

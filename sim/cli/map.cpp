@@ -87,7 +87,9 @@ int map_errors(const std::string& path, const Options& options, const MapOptions
 
   const auto file = std::filesystem::absolute(path).lexically_normal();
   const std::string stem = file.stem().string(), home = file.parent_path().filename().string();
-  const std::string name = "map-" + (stem == "calibration" && !home.empty() ? home : stem);
+  std::string name = fmt::format("map-{}", stem == "calibration" && !home.empty() ? home : stem);
+  if (!options.rig.empty())
+    name = fmt::format("{}-{}", name, std::filesystem::path(options.rig).stem().string());
   const auto where = destination(options, name);
   keep_apart(where, file.parent_path());
   output::ResultFolder folder(where, "map " + path);

@@ -31,6 +31,10 @@ void publish(output::ResultFolder& folder, const std::filesystem::path& where) {
   fmt::print(stderr, "results in {}\n", where.string());
 }
 
+void warn(const std::vector<std::string>& warnings) {
+  for (const auto& text : warnings) fmt::print(stderr, "mckibben: warning: {}\n", text);
+}
+
 void say_moved(const std::filesystem::path& where, const std::filesystem::path& aside) {
   if (!aside.empty())
     fmt::print(stderr, "mckibben: {} was not an earlier result of this, as it was written; it is now {}\n",

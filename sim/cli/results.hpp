@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include <sim/cli/verbs.hpp>
 #include <sim/output/folder.hpp>
@@ -21,6 +22,9 @@ void print(const std::string& text);
 
 /// Lets a results folder take its place, and says so.
 void publish(output::ResultFolder& folder, const std::filesystem::path& where);
+
+/// Says on stderr what the user should know of a result.
+void warn(const std::vector<std::string>& warnings);
 
 /// Says that a folder that was not ours has been moved from `where` to `aside`, unless that is empty.
 void say_moved(const std::filesystem::path& where, const std::filesystem::path& aside);

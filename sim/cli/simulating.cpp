@@ -21,18 +21,10 @@
 #include <sim/run/simulate.hpp>
 
 namespace mckibben::cli {
-namespace {
-
-void warn(const std::vector<input::Problem>& warnings) {
-  for (const auto& warning : warnings) fmt::print(stderr, "{}\n", to_text(warning));
-}
-
-}  // namespace
-
 int run_scenario(const std::string& path, const Options& options) {
   std::vector<input::Problem> warnings;
   input::Scenario scenario = input::read_scenario(std::filesystem::path(path), warnings);
-  warn(warnings);
+  for (const auto& warning : warnings) fmt::print(stderr, "{}\n", to_text(warning));
   if (options.seed) scenario.seed = *options.seed;
   auto where = destination(options, scenario.name);
   keep_apart(where, std::filesystem::absolute(path).parent_path());
@@ -43,7 +35,7 @@ int run_scenario(const std::string& path, const Options& options) {
     output::Progress progress(scenario.name);
     comparison = run::compare(scenario, options.threads, progress.hook());
   }
-  for (const auto& text : comparison.warnings) fmt::print(stderr, "mckibben: warning: {}\n", text);
+  warn(comparison.warnings);
   if (comparison.interrupted) {  // what is finished is kept, beside any whole result
     where += ".interrupted";
     folder.go_to(where);

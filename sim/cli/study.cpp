@@ -5,6 +5,7 @@
 #include <sim/cli/results.hpp>
 #include <sim/cli/verbs.hpp>
 #include <sim/input/campaign.hpp>
+#include <sim/output/calibration_report.hpp>
 #include <sim/output/chart.hpp>
 #include <sim/output/progress.hpp>
 #include <sim/output/run_json.hpp>
@@ -14,7 +15,7 @@ namespace mckibben::cli {
 
 int make_study(const std::string& name, const std::string& path, const Options& options) {
   input::Campaign campaign = input::read_campaign(std::filesystem::path(path));
-  const auto where = destination(options, "study-" + name);
+  const auto where = destination(options, "study-" + name + "-" + campaign.name);
   output::ResultFolder folder(where, "study " + name + " " + path);
   study::Evidence evidence;
   {
@@ -33,6 +34,7 @@ int make_study(const std::string& name, const std::string& path, const Options& 
   folder.write(name + ".json", text);
   print(options.json ? text : made.page);
   publish(folder, where);
+  warn(output::warnings_of(evidence.from_current, {}));
   return evidence.failed.empty() ? done : failure;
 }
 

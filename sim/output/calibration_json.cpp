@@ -26,6 +26,7 @@ Json estimate_json(const thesis::Estimate& estimate) {
 Json dropped_json(const thesis::Dropped& dropped) {
   return {{"current_off_the_line", dropped.off_the_line},
           {"too_near_zero_for_ln_e", dropped.near_zero},
+          {"above_e_max", dropped.beyond_limit},
           {"still_or_not_following", dropped.not_following},
           {"before_the_current_moves", dropped.first_rows}};
 }
@@ -121,6 +122,7 @@ Json json_of(const input::Dataset& dataset, const thesis::CalibrationResult& res
       {"window_counts", options.processing.window_counts}, {"most_dots_in_a_figure", thesis::most_dots}};
   document["loads_kg"] = grid.loads_kg;
   document["current_speeds_mA_per_s"] = grid.speeds_mA_per_s;
+  document["warnings"] = warnings_of(result, options);
   document["rows_dropped"] = dropped_json(grid.dropped);
   document["runs_left_out"] = Json::array();
   for (const auto& run : grid.left_out)

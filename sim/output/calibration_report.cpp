@@ -20,9 +20,9 @@ std::string number_of(const thesis::Estimate& estimate, double factor) {
   return "not determined: " + estimate.why_not + (bounded ? fmt::format(", below {:.2g}", bound) : "");
 }
 
-std::string per_cent(double part, double whole) {
-  const double value = 100.0 * part / whole;
-  return value < 1e4 ? fmt::format("{:.2f}", value) : fmt::format("{:.1e}", value);
+bool usable(double spread) {
+  constexpr double most = 1.0;
+  return spread >= 0.0 && spread <= most;
 }
 
 std::string heading(const input::Dataset& dataset, const thesis::CalibrationResult& result,
@@ -54,9 +54,9 @@ std::string rows_text(const thesis::Grid& grid) {
       "line, {} "
       "too near e = 0 for ln e,\n           {} where the muscle is still or does not follow the current, {} "
       "before "
-      "the current moves\n",
+      "the current moves,\n           {} with a contraction ratio above e_max (T 2.10)\n",
       used[0], used[1], grid.dropped.off_the_line, grid.dropped.near_zero, grid.dropped.not_following,
-      grid.dropped.first_rows);
+      grid.dropped.first_rows, grid.dropped.beyond_limit);
 }
 
 std::string spreads(const thesis::CalibrationResult& result) {
@@ -66,8 +66,7 @@ std::string spreads(const thesis::CalibrationResult& result) {
   const auto& pc = result.pressure_of(Direction::contraction);
   const auto& pr = result.pressure_of(Direction::relaxation);
   grid.add({"friction coefficient, mean", fmt::format("{:.5f}", fc.mean), fmt::format("{:.5f}", fr.mean)});
-  grid.add({"  superposition (T 4.6), spread %", fmt::format("{:.1f}", 100.0 * fc.spread()),
-            fmt::format("{:.1f}", 100.0 * fr.spread())});
+  grid.add({"  superposition (T 4.6), spread %", spread_text(fc.spread(), 1), spread_text(fr.spread(), 1)});
   grid.add({"pressure, mean [bar]", fmt::format("{:.3f}", pc.mean_Pa * 1e-5),
             fmt::format("{:.3f}", pr.mean_Pa * 1e-5)});
   const std::pair<const char*, double thesis::Stages::*> stages[] = {
@@ -78,7 +77,8 @@ std::string spreads(const thesis::CalibrationResult& result) {
       {"  polynomials in load of those (T 4.14 to 4.28)", &thesis::Stages::in_load},
       {"  the same equations, all samples at once", &thesis::Stages::joint}};
   for (const auto& [name, stage] : stages)
-    grid.add({name, per_cent(pc.deviation.*stage, pc.mean_Pa), per_cent(pr.deviation.*stage, pr.mean_Pa)});
+    grid.add({name, spread_text(pc.deviation.*stage / pc.mean_Pa, 2),
+              spread_text(pr.deviation.*stage / pr.mean_Pa, 2)});
   return "\nspread (standard deviation over mean)\n" + grid.text();
 }
 
@@ -117,12 +117,44 @@ std::string pressure(const thesis::CalibrationResult& result, const thesis::Opti
 
 }  // namespace
 
+std::string spread_text(double spread, int decimals, const char* unit) {
+  return usable(spread) ? fmt::format("{:.{}f}{}", 100.0 * spread, decimals, unit)
+                        : "not usable (above 100 %)";
+}
+
+std::vector<std::string> warnings_of(const thesis::CalibrationResult& result,
+                                     const thesis::Options& options) {
+  std::vector<std::string> warnings;
+  for (const Direction direction : thesis::directions) {
+    if (!usable(result.friction_of(direction).spread()))
+      warnings.push_back(
+          fmt::format("friction in {} is not usable: samples scatter round the fitted coefficient (T 4.6) by "
+                      "more than its "
+                      "mean, and so will what is weighed with it; larger currents, more periods, smaller "
+                      "noise or pressure "
+                      "from a gauge may help",
+                      name_of(direction)));
+    const auto& fit = result.pressure_of(direction);
+    const bool joint = options.fitting == thesis::PressureFitting::joint;
+    if (!usable((joint ? fit.deviation.joint : fit.deviation.in_load) / fit.mean_Pa))
+      warnings.push_back(fmt::format(
+          "pressure in {} is not usable: samples scatter round the fitted pressure by more than its "
+          "mean; {}",
+          name_of(direction),
+          joint ? "more loads or lower orders may help" : "fit all samples at once (--fit joint)"));
+  }
+  return warnings;
+}
+
 std::string report_of(const input::Dataset& dataset, const thesis::CalibrationResult& result,
                       const thesis::Options& options, bool kgf) {
   std::string text = heading(dataset, result, options) + spreads(result) + friction(result) +
                      pressure(result, options, kgf) + rows_text(result.grid);
   if (!result.grid.left_out.empty()) text += "\nruns left out\n";
   for (const auto& run : result.grid.left_out) text += fmt::format("  {}: {}\n", run.id, run.why);
+  const auto warnings = warnings_of(result, options);
+  if (!warnings.empty()) text += "\nwarnings\n";
+  for (const auto& warning : warnings) text += "  " + warning + "\n";
   return text;
 }
 

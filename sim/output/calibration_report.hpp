@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include <sim/input/dataset.hpp>
 #include <sim/input/fields_json.hpp>
@@ -13,6 +14,13 @@ namespace mckibben::output {
 /// Spreads, coefficients, what was dropped and why. Pressures in Pa, or in kgf/m2 as the thesis prints them.
 std::string report_of(const input::Dataset& dataset, const thesis::CalibrationResult& result,
                       const thesis::Options& options, bool kgf);
+
+/// A spread (standard deviation over mean, 1 for 100 %) with that many decimals and `unit` behind it. Above
+/// 100 % a model says nothing, and digits would only look as if it did; the number is in the JSON.
+std::string spread_text(double spread, int decimals, const char* unit = "");
+
+/// Fits that cannot be used (spread above 100 %), and what may help.
+std::vector<std::string> warnings_of(const thesis::CalibrationResult& result, const thesis::Options& options);
 
 /// Every number of every fit with standard error and condition number; SI throughout.
 input::Json json_of(const input::Dataset& dataset, const thesis::CalibrationResult& result,

@@ -1,5 +1,6 @@
 // See the header.
 #include <algorithm>
+#include <filesystem>
 #include <utility>
 
 #include <plant/geometry.hpp>
@@ -101,7 +102,8 @@ Evidence gather(input::Campaign campaign, unsigned threads, const run::ProgressH
       evidence.campaign, jobs, threads, [&](const run::CampaignRun& run) { runs[run.job.stream - 1] = run; },
       progress);
   evidence.dataset.rig = evidence.campaign.rig;
-  evidence.dataset.path = evidence.campaign.name;
+  const auto& files = evidence.campaign.inputs;
+  evidence.dataset.path = files.empty() ? evidence.campaign.name : files.front().name;
   evidence.dataset.inputs = evidence.campaign.inputs;
   for (run::CampaignRun& run : runs) {
     if (!run.failure.empty()) {
@@ -111,9 +113,11 @@ Evidence gather(input::Campaign campaign, unsigned threads, const run::ProgressH
     evidence.dataset.runs.push_back(run::measured(evidence.campaign, run));
     evidence.recordings.push_back(std::move(run.recording));
   }
-  thesis::Options gauge;
+  thesis::Options current;
+  current.orders_can_be_asked = false;  // a study has no such options
+  thesis::Options gauge = current;
   gauge.processing.pressure = thesis::PressureSource::gauge;
-  evidence.from_current = thesis::calibrate(evidence.dataset, {});
+  evidence.from_current = thesis::calibrate(evidence.dataset, current);
   evidence.from_gauge = thesis::calibrate(evidence.dataset, gauge);
   look_up(evidence);
   return evidence;

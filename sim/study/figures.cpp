@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <controllers/open_loop.hpp>
+#include <sim/output/calibration_report.hpp>
 #include <sim/run/simulate.hpp>
 #include <sim/study/counting.hpp>
 #include <sim/study/figures.hpp>
@@ -18,7 +19,11 @@ using input::Json;
 using thesis::Direction;
 
 std::string per_cent(double ratio) {
-  return fmt::format("{:.{}f} %", 100.0 * ratio, std::abs(ratio) < 10.0 ? 1 : 0);
+  return fmt::format("{:.1f} %", 100.0 * ratio);
+}
+
+std::string spread(double ratio) {
+  return output::spread_text(ratio, 1, " %");
 }
 
 double largest_error(const std::vector<Weighing>& weighings) {
@@ -86,7 +91,7 @@ std::string side_by_side(const Evidence& evidence, const Ours& ours) {
   rows.push_back({"largest error of a weighed load (T 5)", "below " + per_cent(printed_largest_error),
                   per_cent(largest), verdict(largest, printed_largest_error)});
   const auto add = [&](const std::string& name, double printed, double value) {
-    rows.push_back({name, "below " + per_cent(printed), per_cent(value), verdict(value, printed)});
+    rows.push_back({name, "below " + per_cent(printed), spread(value), verdict(value, printed)});
   };
   for (const Direction direction : thesis::directions)
     add(fmt::format("friction coefficient, spread over mean, {}", thesis::name_of(direction)),
@@ -122,7 +127,7 @@ std::string friction(const Ours& ours) {
   std::vector<std::vector<std::string>> rows{
       {"spread over mean of the friction coefficient", "contraction", "relaxation"}};
   for (const Spreads& spreads : ours.friction)
-    rows.push_back({name_of(spreads), per_cent(spreads.friction[0]), per_cent(spreads.friction[1])});
+    rows.push_back({name_of(spreads), spread(spreads.friction[0]), spread(spreads.friction[1])});
   return table(rows);
 }
 
@@ -142,7 +147,7 @@ std::string why_friction(const Evidence& evidence, const Ours& ours) {
         *std::min_element(ours.friction.begin(), ours.friction.end(),
                           [&](const auto& a, const auto& b) { return a.friction[i] < b.friction[i]; });
     text += fmt::format(" In {} the least spread is {} ({}).", thesis::name_of(thesis::directions[i]),
-                        per_cent(best.friction[i]), name_of(best));
+                        spread(best.friction[i]), name_of(best));
     reached = reached && best.friction[i] < printed_friction_spread;
   }
   text += fmt::format(
@@ -179,8 +184,8 @@ std::string why_pressure(const Evidence& evidence) {
       "- **Pressure.** Each load and speed by itself is described to {} and {} (contraction, relaxation). {} "
       "Which of its stages the thesis's figure is for, it does not say. See "
       "[calibration](../calibration.md#pressure-against-contraction).\n",
-      per_cent(contraction.deviation.own / contraction.mean_Pa),
-      per_cent(relaxation.deviation.own / relaxation.mean_Pa),
+      spread(contraction.deviation.own / contraction.mean_Pa),
+      spread(relaxation.deviation.own / relaxation.mean_Pa),
       lost
           ? "The sequence of fits loses that, because factor and exponent become polynomials in load that do "
             "not know of each other; all samples at once keep it."

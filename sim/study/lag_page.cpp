@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <plant/friction.hpp>
+#include <sim/output/calibration_report.hpp>
 #include <sim/study/lag.hpp>
 #include <sim/study/page.hpp>
 
@@ -41,8 +42,8 @@ std::string coefficients(const Evidence& evidence, Direction direction) {
                  text_of(gauge.f1, squared), known(law.f1_s2_per_mA2 * squared)},
                 {"mean coefficient", fmt::format("{:.4f}", current.mean), fmt::format("{:.4f}", gauge.mean),
                  ""},
-                {"spread over mean", fmt::format("{:.0f} %", 100.0 * current.spread()),
-                 fmt::format("{:.0f} %", 100.0 * gauge.spread()), ""}});
+                {"spread over mean", output::spread_text(current.spread(), 0, " %"),
+                 output::spread_text(gauge.spread(), 0, " %"), ""}});
 }
 
 /// How much of f1 nu2 goes away with the true pressure, in words.
@@ -180,8 +181,12 @@ Study study_lag(const Evidence& evidence) {
   page +=
       "\n## The lag itself\n\nIn a ramp the muscle's pressure stays s nu L behind the one taken from the "
       "current, "
-      "with s the slope of the valve's line. L is fitted to the used rows (through zero); the shift is their "
-      "mean, line less muscle. f are means over the same rows.\n\n";
+      "with s the slope of the valve's line. L is fitted to the used rows (through zero), each with its own "
+      "di/dt in the place of nu; the shift is their mean, line less muscle. f are means over the same rows. "
+      "The "
+      "printed shift is not s nu L of the printed nu and L: nu is a mean over whole half periods, and on a "
+      "sine "
+      "di/dt in the used rows is not that mean.\n\n";
   for (const Direction direction : thesis::directions) page += shifts(lag, evidence, direction);
   page +=
       "## The load weighed with it (T 4.31)\n\nError in kg over the rows of contraction, mean +- standard "

@@ -17,36 +17,49 @@ std::string list(const std::vector<double>& values) {
   return text;
 }
 
-std::string also(const Grid& grid) {
+std::string runs_left_out(const Grid& grid) {
   if (grid.left_out.empty()) return "";
   return fmt::format("; {} run{} could not be used, the first is {}: {}", grid.left_out.size(),
                      grid.left_out.size() == 1 ? "" : "s", grid.left_out.front().id,
                      grid.left_out.front().why);
 }
 
+/// Too few for an order. If that is because nothing moved, more of the same would not help: the cause leads.
+[[noreturn]] void refuse_few(const input::Dataset& dataset, const Grid& grid, const Options& options,
+                             const std::string& short_of, const char* more, const char* option,
+                             std::size_t order) {
+  const std::string still = grid.still_runs(dataset.rig.valve);
+  const std::string instead =
+      options.orders_can_be_asked ? fmt::format(", or ask for {} {}", option, order) : "";
+  if (!still.empty()) refuse(dataset, fmt::format("{}{}. Without these runs, {}", still, instead, short_of));
+  refuse(dataset, fmt::format("{}: measure {}{}{}", short_of, more, instead, runs_left_out(grid)));
+}
+
 /// Enough loads and speeds for the orders that are asked for.
-void check_grid(const input::Dataset& dataset, const Grid& grid, const Orders& orders) {
+void check_grid(const input::Dataset& dataset, const Grid& grid, const Options& options) {
   constexpr int highest_speed_order = 2, highest_load_order = 3;  // T 4.13, T 4.15
-  const auto loads = static_cast<std::size_t>(std::min(orders.load, highest_load_order)) + 1;
-  const auto speeds = static_cast<std::size_t>(std::min(orders.speed, highest_speed_order)) + 1;
+  const auto loads = static_cast<std::size_t>(std::min(options.orders.load, highest_load_order)) + 1;
+  const auto speeds = static_cast<std::size_t>(std::min(options.orders.speed, highest_speed_order)) + 1;
   if (grid.loads_kg.size() < loads)
-    refuse(dataset,
-           fmt::format("a polynomial of order {} in the load (T 4.14 to 4.28) needs {} loads, and there "
-                       "{} {} ({} kg): measure more loads, or ask for --load-order {}{}",
-                       loads - 1, loads, grid.loads_kg.size() == 1 ? "is" : "are", grid.loads_kg.size(),
-                       list(grid.loads_kg), grid.loads_kg.size() - 1, also(grid)));
+    refuse_few(dataset, grid, options,
+               fmt::format("a polynomial of order {} in the load (T 4.14 to 4.28) needs {} loads, and there "
+                           "{} {} ({} kg{})",
+                           loads - 1, loads, grid.loads_kg.size() == 1 ? "is" : "are", grid.loads_kg.size(),
+                           list(grid.loads_kg),
+                           grid.merged_loads > 0 ? "; loads within 0.1 % of each other are one" : ""),
+               "more loads", "--load-order", grid.loads_kg.size() - 1);
   for (const double load_kg : grid.loads_kg) {
     std::vector<double> found;
     for (const Cell& cell : grid.of(Direction::contraction))
       if (cell.load_kg == load_kg) found.push_back(cell.speed_mA_per_s);
     if (found.size() < speeds)
-      refuse(
-          dataset,
+      refuse_few(
+          dataset, grid, options,
           fmt::format("a polynomial of order {} in the current's speed (T 4.9 to 4.13) needs {} speeds, and "
-                      "with {:g} kg there {} {} ({} mA/s): measure more periods of the current, or ask for "
-                      "--speed-order {}{}",
+                      "with {:g} kg there {} {} ({} mA/s)",
                       speeds - 1, speeds, load_kg, found.size() == 1 ? "is" : "are", found.size(),
-                      list(found), found.size() - 1, also(grid)));
+                      list(found)),
+          "more periods of the current", "--speed-order", found.size() - 1);
   }
 }
 
@@ -113,7 +126,7 @@ class Details {
 CalibrationResult calibrate(const input::Dataset& dataset, const Options& options) {
   CalibrationResult result;
   result.grid = make_grid(dataset, options.processing);
-  check_grid(dataset, result.grid, options.orders);
+  check_grid(dataset, result.grid, options);
   check_friction(dataset, result.grid);
 
   controllers::Calibration& calibration = result.calibration;

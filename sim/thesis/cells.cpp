@@ -37,8 +37,26 @@ void put(std::vector<Cell>& cells, double load_kg, double speed, const Samples& 
 
 }  // namespace
 
+std::string Grid::still_runs(const plant::Valve& valve) const {
+  std::size_t still = 0;
+  const LeftOut* first = nullptr;
+  double largest_mA = 0.0;
+  for (const LeftOut& run : left_out) {
+    if (!run.still) continue;
+    if (++still == 1) first = &run;
+    largest_mA = std::max(largest_mA, run.largest_current_mA);
+  }
+  if (first == nullptr) return "";
+  constexpr double nearly = 0.95;  // of the span current: there is hardly more to be had
+  return fmt::format("nothing moves enough in {} run{}, the first is {}: {}. What helps: {}", still,
+                     still == 1 ? "" : "s", first->id, first->why,
+                     largest_mA < nearly * valve.span_current_mA
+                         ? fmt::format("a larger current, up to the valve's {:g} mA", valve.span_current_mA)
+                         : "lighter loads or slower currents, if loads, rig and encoder are right");
+}
+
 Grid make_grid(const input::Dataset& dataset, const ProcessingOptions& options) {
-  constexpr double same_speed = 0.02;
+  constexpr double same_speed = 0.02, same_load = 1e-3;
   Grid grid;
   std::vector<ProcessedRun> used;
   for (const input::Run& run : dataset.runs) {
@@ -46,22 +64,30 @@ Grid make_grid(const input::Dataset& dataset, const ProcessingOptions& options) 
     if (processed.unusable.empty())
       used.push_back(std::move(processed));
     else
-      grid.left_out.push_back({processed.id, processed.unusable});
+      grid.left_out.push_back({processed.id, processed.unusable, processed.still,
+                               *std::max_element(run.current_mA.begin(), run.current_mA.end())});
   }
-  if (used.empty())
-    refuse(dataset, fmt::format("no run can be used for calibration; {}: {}", grid.left_out.front().id,
-                                grid.left_out.front().why));
+  if (used.empty()) {
+    const std::string still = grid.still_runs(dataset.rig.valve);
+    refuse(dataset,
+           "no run can be used for calibration: " +
+               (still.empty() ? fmt::format("{}: {}", grid.left_out.front().id, grid.left_out.front().why)
+                              : still));
+  }
   for (const ProcessedRun& run : used) {
     grid.loads_kg.push_back(run.load_kg);
     grid.speeds_mA_per_s.push_back(run.current_speed_mA_per_s);
   }
   std::sort(grid.loads_kg.begin(), grid.loads_kg.end());
   grid.loads_kg.erase(std::unique(grid.loads_kg.begin(), grid.loads_kg.end()), grid.loads_kg.end());
+  const std::size_t distinct = grid.loads_kg.size();
+  grid.loads_kg = grouped(grid.loads_kg, same_load);
+  grid.merged_loads = distinct - grid.loads_kg.size();
   grid.speeds_mA_per_s = grouped(grid.speeds_mA_per_s, same_speed);
   for (const ProcessedRun& run : used) {
     grid.dropped += run.dropped;
     for (const Direction direction : directions)
-      put(grid.cells[static_cast<std::size_t>(direction)], run.load_kg,
+      put(grid.cells[static_cast<std::size_t>(direction)], nearest(grid.loads_kg, run.load_kg),
           nearest(grid.speeds_mA_per_s, run.current_speed_mA_per_s), run.of(direction));
   }
   for (auto& cells : grid.cells)

@@ -13,6 +13,7 @@ namespace {
 
 constexpr double steady_speed = 0.05;       // half periods of one run agree in speed within this
 constexpr std::size_t fewest_samples = 20;  // in each direction
+constexpr double overshoot = 0.05;  // above e_max by this share of it a swing may go, a right rig no further
 
 /// The farthest current since the last turn, and the rows at which it stood.
 struct Extreme {
@@ -65,7 +66,8 @@ class Processor {
     count();
     const auto halves = half_periods(run_.current_mA);
     if (halves.empty()) {
-      result.unusable = "its current hardly changes";
+      result.unusable = "its current hardly changes (" + moved() + ")";
+      result.still = true;
       return result;
     }
     result.current_speed_mA_per_s = mean_speed_mA_per_s(halves, rig_.tick_s, result.unusable);
@@ -73,20 +75,29 @@ class Processor {
     for (const HalfPeriod& half : halves) take(half, result);
     result.dropped.first_rows = counts_.size() - taken_;
     for (const Direction direction : directions)
-      if (const std::size_t n = result.of(direction).size(); n < fewest_samples)
-        result.unusable =
-            fmt::format("only {} usable rows in {}: the muscle hardly moves", n, name_of(direction));
+      if (const std::size_t n = result.of(direction).size(); n < fewest_samples) {
+        result.unusable = fmt::format("only {} usable rows in {}: the muscle hardly moves ({})", n,
+                                      name_of(direction), moved());
+        result.still = true;
+      }
     return result;
   }
 
  private:
+  std::string moved() const {
+    const auto [low_mA, high_mA] = std::minmax_element(run_.current_mA.begin(), run_.current_mA.end());
+    const auto [low, high] = std::minmax_element(counts_.begin(), counts_.end());
+    return fmt::format("by {:g} counts in all, with currents from {:.3g} to {:.3g} mA", *high - *low, *low_mA,
+                       *high_mA);
+  }
+
   void count() {
     double off = 0.0;
     for (const double ratio : run_.contraction_ratio) {
       const double counts = ratio / per_count_;
       counts_.push_back(std::round(counts));
       off += std::abs(counts - counts_.back());
-      if (ratio >= braid_.largest_contraction_ratio())
+      if (ratio >= (1.0 + overshoot) * braid_.largest_contraction_ratio())
         refuse(
             dataset_,
             fmt::format("run {}: contraction ratio {:.4f} is beyond this rig's limit {:.4f} (T 2.10): wrong "
@@ -118,6 +129,8 @@ class Processor {
         ++result.dropped.off_the_line;
       else if (counts_[k] < options_.lowest_counts)
         ++result.dropped.near_zero;
+      else if (ratio(k) >= braid_.largest_contraction_ratio())
+        ++result.dropped.beyond_limit;
       else if (up * (counts_[after] - counts_[before]) < options_.window_counts)
         ++result.dropped.not_following;
       else
@@ -178,6 +191,7 @@ void Samples::append(const Samples& other) {
 Dropped& Dropped::operator+=(const Dropped& other) {
   off_the_line += other.off_the_line;
   near_zero += other.near_zero;
+  beyond_limit += other.beyond_limit;
   not_following += other.not_following;
   first_rows += other.first_rows;
   return *this;

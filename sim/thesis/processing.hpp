@@ -49,10 +49,11 @@ struct Dropped {
   std::size_t off_the_line = 0;   ///< current where the valve's line is flat, dead below its zero
   std::size_t near_zero = 0;      ///< too few counts for ln e
   std::size_t not_following = 0;  ///< muscle still, or moving against the current's direction
+  std::size_t beyond_limit = 0;   ///< contraction ratio a little above e_max, where the braid pulls no more
   std::size_t first_rows = 0;     ///< no differences yet, or the current has not begun to move
 
   Dropped& operator+=(const Dropped& other);
-  std::size_t all() const { return off_the_line + near_zero + not_following + first_rows; }
+  std::size_t all() const { return off_the_line + near_zero + beyond_limit + not_following + first_rows; }
 };
 
 struct ProcessedRun {
@@ -63,6 +64,7 @@ struct ProcessedRun {
   std::array<std::vector<std::size_t>, 2> rows;  ///< of the table, one for each sample
   Dropped dropped;
   std::string unusable;  ///< why the run cannot be used; empty if it can
+  bool still = false;    ///< it cannot because nothing moves enough
 
   const Samples& of(Direction direction) const { return samples[static_cast<std::size_t>(direction)]; }
 };

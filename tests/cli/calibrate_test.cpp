@@ -46,6 +46,20 @@ TEST(Calibrate, TurnsADataSetIntoAFileForControllersAndFigures) {
   EXPECT_NE(read_text(scratch / "kgf" / "figures/figure_4_35.csv").find("kgf_per_m2"), std::string::npos);
 }
 
+TEST(Calibrate, WarnsOfFitsThatCannotBeUsed) {
+  const Scratch scratch;
+  write_text(scratch / "noisy.yaml",
+             campaign("[11.138 kg, 14 kg, 18.87 kg, 23.406 kg]") + "noise: {encoder_jitter: 5e-3}\n");
+  ASSERT_EQ(mckibben("dataset noisy.yaml --out data", scratch).status, 0);
+  const Said said = mckibben("calibrate data --out cal", scratch);
+  EXPECT_EQ(said.status, 0) << said.err;
+  EXPECT_NE(said.err.find("mckibben: warning: friction in relaxation is not usable"), std::string::npos)
+      << said.err;
+  EXPECT_NE(said.out.find("not usable (above 100 %)"), std::string::npos) << said.out;
+  const auto document = input::Json::parse(read_text(scratch / "cal" / "calibration.json"));
+  EXPECT_GT(document.at("friction").at("relaxation").at("spread").get<double>(), 1.0);
+}
+
 TEST(Calibrate, RefusesTooFewLoadsAndSaysWhatHelps) {
   const Scratch scratch;
   write_text(scratch / "small.yaml", campaign("[11.138 kg, 14 kg]"));

@@ -24,9 +24,11 @@ TEST(Study, WritesPagePictureTableAndDocument) {
   for (const std::string name : {"lag", "counting", "figures"}) {
     const Said said = mckibben("study " + name + " small.yaml", scratch);
     ASSERT_EQ(said.status, 0) << said.err;
-    const std::filesystem::path folder = scratch / "out" / ("study-" + name);
+    const std::filesystem::path folder = scratch / "out" / ("study-" + name + "-small");
     EXPECT_EQ(said.out, read_text(folder / (name + ".md")));
     EXPECT_NE(said.out.find("from the campaign `small`, 12 runs"), std::string::npos);
+    EXPECT_EQ(said.out.find("a test makes the page again"), std::string::npos)
+        << "only those in docs/studies";
     EXPECT_EQ(read_text(folder / (name + ".svg")).rfind("<svg", 0), 0u);
     EXPECT_NE(read_text(folder / (name + ".csv")).find(','), std::string::npos);
     const auto document = input::Json::parse(read_text(folder / (name + ".json")));
@@ -34,7 +36,7 @@ TEST(Study, WritesPagePictureTableAndDocument) {
     EXPECT_EQ(document.at("study"), name);
   }
   const Said json = mckibben("study lag small.yaml --json --threads 1", scratch);
-  EXPECT_EQ(json.out, read_text(scratch / "out/study-lag/lag.json"));
+  EXPECT_EQ(json.out, read_text(scratch / "out/study-lag-small/lag.json"));
 }
 
 TEST(Study, RefusesWhatItCannotJudge) {
@@ -44,7 +46,9 @@ TEST(Study, RefusesWhatItCannotJudge) {
   write_text(scratch / "small.yaml", campaign("[11.138 kg, 23.406 kg]"));
   const Said few = mckibben("study lag small.yaml", scratch);
   EXPECT_EQ(few.status, 65);
+  EXPECT_NE(few.err.find("small.yaml:1:1: error: "), std::string::npos) << few.err;
   EXPECT_NE(few.err.find("needs 4 loads"), std::string::npos) << few.err;
+  EXPECT_EQ(few.err.find("--load-order"), std::string::npos) << few.err;
   EXPECT_TRUE(std::filesystem::is_empty(scratch / "out"));  // no result, whole or in part
 }
 

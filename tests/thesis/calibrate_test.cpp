@@ -1,5 +1,7 @@
 // A small campaign on the simulated rig, calibrated from end to end; figures; data that cannot be calibrated.
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <filesystem>
 #include <fstream>
 
@@ -7,6 +9,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <plant/geometry.hpp>
 #include <sim/input/calibration_file.hpp>
 #include <sim/output/calibration_report.hpp>
 #include <sim/output/chart.hpp>
@@ -175,6 +178,91 @@ TEST(BadData, NoMotionIsSaid) {
   input::Dataset dataset = small_campaign({11.138}, {3.6});
   for (double& ratio : dataset.runs[0].contraction_ratio) ratio = 0.0;
   EXPECT_TRUE(says(refusal(dataset), "the muscle hardly moves"));
+}
+
+// Were the heavier loads counted as too few, the advice would be to measure more of what does not move.
+TEST(BadData, WhereNothingMovesThatLeads) {
+  input::Dataset dataset = campaign();
+  for (auto& run : dataset.runs) {
+    if (run.load_kg < 15.0) continue;
+    for (double& ratio : run.contraction_ratio) ratio = 0.0;
+    for (double& current : run.current_mA) current *= 0.4;
+  }
+  const std::string text = refusal(dataset);
+  EXPECT_TRUE(
+      says(text, "dataset.yaml:1:1: error: nothing moves enough in 12 runs, the first is m16138_2400"));
+  EXPECT_TRUE(says(text, "by 0 counts in all, with currents from 0 to 8 mA"));
+  EXPECT_TRUE(says(text, "What helps: a larger current, up to the valve's 20 mA"));
+  EXPECT_TRUE(
+      says(text, "Without these runs, a polynomial of order 3 in the load (T 4.14 to 4.28) needs 4 loads"));
+  EXPECT_FALSE(says(text, "measure more loads"));
+}
+
+TEST(BadData, WithTheWholeCurrentALighterLoadHelps) {
+  input::Dataset dataset = small_campaign({11.138}, {3.6});
+  for (double& ratio : dataset.runs[0].contraction_ratio) ratio = 0.0;
+  const std::string text = refusal(dataset);
+  EXPECT_TRUE(says(text, "no run can be used for calibration: nothing moves enough in 1 run"));
+  EXPECT_TRUE(says(text, "lighter loads"));
+}
+
+TEST(BadData, NearlyEqualLoadsAreOne) {
+  input::Dataset dataset = campaign();
+  for (auto& run : dataset.runs)
+    if (run.load_kg == 13.870) run.load_kg = 11.138 * (1.0 + 1e-6);
+  EXPECT_EQ(make_grid(dataset, {}).loads_kg.size(), 4u);
+  EXPECT_EQ(make_grid(dataset, {}).merged_loads, 1u);
+  std::erase_if(dataset.runs, [](const auto& run) { return run.load_kg > 20.0; });
+  const std::string text = refusal(dataset);
+  EXPECT_TRUE(says(text, "needs 4 loads, and there are 3"));
+  EXPECT_TRUE(says(text, "loads within 0.1 % of each other are one"));
+}
+
+TEST(BadData, WhoHasNoOptionsForOrdersIsNotToldOfThem) {
+  input::Dataset dataset = campaign();
+  std::erase_if(dataset.runs, [](const auto& run) { return run.load_kg > 17.0; });
+  Options options;
+  options.orders_can_be_asked = false;
+  EXPECT_TRUE(says(refusal(dataset, options), "measure more loads"));
+  EXPECT_FALSE(says(refusal(dataset, options), "--load-order"));
+}
+
+// A swing may carry the muscle a little beyond e_max, where the braid pulls no more.
+TEST(BadData, RowsALittleAboveTheLimitAreDroppedAndCounted) {
+  input::Dataset dataset = campaign();
+  const auto before = calibrate(dataset, {}).grid.dropped;
+  EXPECT_EQ(before.beyond_limit, 0u);
+  const double limit = plant::Braid(dataset.rig.muscle).largest_contraction_ratio();
+  const double per_count = run::contraction_per_count(dataset.rig);
+  auto& ratios = dataset.runs[0].contraction_ratio;
+  const auto highest = std::max_element(ratios.begin() + 150, ratios.end()) - ratios.begin();
+  for (auto k = highest - 12; k < highest; ++k)
+    ratios[static_cast<std::size_t>(k)] = per_count * std::ceil(1.01 * limit / per_count);
+  const auto result = calibrate(dataset, {});
+  EXPECT_GT(result.grid.dropped.beyond_limit, 5u);
+  EXPECT_TRUE(says(output::report_of(dataset, result, {}, false),
+                   fmt::format("{} with a contraction ratio above e_max", result.grid.dropped.beyond_limit)));
+  EXPECT_LT(result.calibration.range.highest_ratio, limit);
+}
+
+TEST(Report, SpreadsAboveTheMeanAreNotPrintedAsNumbersButWarnedOf) {
+  EXPECT_EQ(output::spread_text(0.056, 1, " %"), "5.6 %");
+  EXPECT_EQ(output::spread_text(1.0, 2), "100.00");
+  EXPECT_EQ(output::spread_text(27.16, 1, " %"), "not usable (above 100 %)");
+  EXPECT_EQ(output::spread_text(NAN, 1), "not usable (above 100 %)");
+  EXPECT_TRUE(output::warnings_of(calibrated(), {}).empty());
+  CalibrationResult result = calibrated();
+  result.friction[1].standard_deviation = 12.5 * result.friction[1].mean;
+  const auto warnings = output::warnings_of(result, {});
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_TRUE(says(warnings[0], "friction in relaxation is not usable"));
+  const std::string report = output::report_of(campaign(), result, {}, false);
+  EXPECT_TRUE(says(report, "not usable (above 100 %)"));
+  EXPECT_TRUE(says(report, "\nwarnings\n  friction in relaxation"));
+  EXPECT_FALSE(says(report, "1250"));
+  const auto document = output::json_of(campaign(), result, {});
+  EXPECT_NEAR(document.at("friction").at("relaxation").at("spread").get<double>(), 12.5, 1e-9);
+  EXPECT_EQ(document.at("warnings").size(), 1u);
 }
 
 TEST(BadData, AConstantCurrentIsSaid) {
