@@ -201,7 +201,7 @@ class Comparing {
       else
         same->first += ", " + run.controller;
     }
-    for (const auto& [who, reason] : said) result_.warnings.push_back(who + " at " + reason);
+    for (const auto& [who, reason] : said) result_.warnings.push_back(fmt::format("{} at {}", who, reason));
   }
 
   void spread_all() {

@@ -86,8 +86,9 @@ std::string Unreachable::text() const {
   if (ticks > 0)
     text = fmt::format("the target is out of reach at {} of {} ticks ({})", ticks, of_ticks, what);
   if (ticks_without_current_speed > 0) {
-    text += fmt::format("{} {} ticks the calibrated model has no current speed for the target's",
-                        ticks > 0 ? ", and at" : "at", ticks_without_current_speed);
+    text += fmt::format("{} {} tick{} the calibrated model has no current speed for the target's",
+                        ticks > 0 ? ", and at" : "at", ticks_without_current_speed,
+                        ticks_without_current_speed == 1 ? "" : "s");
     if (too_fast.ticks == 0) join(helps, "a slower target, or a calibration with faster currents");
   }
   return text + ". What would help: " + helps;
