@@ -4,8 +4,6 @@
 
 #include <cmath>
 
-#include <plant/rig.hpp>
-
 namespace mckibben::plant {
 
 /// A restriction with a sonic conductance.

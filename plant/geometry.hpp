@@ -24,6 +24,13 @@ class Braid {
     return area_m2_ * pressure_Pa * pull_ratio(contraction_ratio);
   }
 
+  /// The same with another end correction, k + shift.
+  template <class S>
+  S force_N(const S& contraction_ratio, const S& pressure_Pa, const S& end_correction_shift) const {
+    const S u = 1.0 - (k_ + end_correction_shift) * contraction_ratio;
+    return area_m2_ * pressure_Pa * (a_ * u * u - b_);
+  }
+
   /// dV/de [m3], by virtual work: F l0 de = P dV, so that pneumatic work is mechanical work exactly.
   template <class S>
   S volume_slope_m3(const S& contraction_ratio) const {

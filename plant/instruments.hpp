@@ -7,11 +7,15 @@
 
 namespace mckibben::plant {
 
-/// What disturbs the instruments, as root mean square of white Gaussian noise.
+/// What disturbs instruments and valve: white Gaussian noise by its root mean square, and two slow
+/// disturbances of the reference pressure, a sine and an Ornstein-Uhlenbeck process (Uhlenbeck & Ornstein,
+/// Phys. Rev. 36 (1930) 823-841). Those of size zero draw nothing.
 struct Noise {
   double encoder_jitter = 0.0;
   double gauge_Pa = 0.0;
   double current_mA = 0.0;
+  double ripple_Pa = 0.0, ripple_period_s = 7.0;
+  double wander_Pa = 0.0, wander_time_s = 5.0;
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
@@ -20,6 +24,12 @@ struct Noise {
     visit("gauge", self.gauge_Pa, "Pa", 0.0, 1e5, "rms of the pressure gauge");
     visit("current", self.current_mA, "mA", 0.0, 10.0,
           "rms of the current that reaches the valve; not recorded");
+    visit("ripple", self.ripple_Pa, "Pa", 0.0, 1e5,
+          "amplitude of a sine on the valve's reference pressure, its phase by chance");
+    visit("ripple_period", self.ripple_period_s, "s", 0.1, 1e4, "its period");
+    visit("wander", self.wander_Pa, "Pa", 0.0, 1e5,
+          "rms of a slow random wander of the valve's reference pressure");
+    visit("wander_time", self.wander_time_s, "s", 0.1, 1e4, "time after which 1/e of a deviation is left");
   }
 };
 

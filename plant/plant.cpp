@@ -21,9 +21,12 @@ Plant::Plant(const Rig& rig, double load_kg)
       braid_(rig.muscle),
       valve_(restriction(rig, rig.valve.conductance_m3_per_s_Pa)),
       hose_(restriction(rig, rig.hose.conductance_m3_per_s_Pa)),
-      mass_kg_(load_kg +
+      unit_flow_(restriction(rig, 1.0)),
+      effects_(!rig.effects.absent()),
+      remembers_(rig.effects.remember()),
+      mass_kg_(load_kg + rig.joint.load_offset_kg +
                rig.joint.wheel_inertia_kg_m2 / (rig.joint.wheel_radius_m * rig.joint.wheel_radius_m)),
-      weight_N_(load_kg * gravity_m_per_s2),
+      weight_N_((load_kg + rig.joint.load_offset_kg) * gravity_m_per_s2),
       gas_energy_J_per_kg_(rig.gas.gas_constant_J_per_kg_K * rig.gas.temperature_K),
       supply_Pa_(rig.valve.supply_pressure_Pa + rig.gas.atmosphere_Pa) {}
 
@@ -39,19 +42,19 @@ State<double> Plant::at_rest(const Held& held) const {
   return {{0.0, 0.0}, {held.reference_pressure_Pa, held.reference_pressure_Pa, 0.0}};
 }
 
-double Plant::event_margin(const State<double>& state, const Held& held) const {
+double Plant::event_margin(const State<double>& state, const Memory<double>& memory, const Held& held) const {
   // Break-away margin while sticking (a guard on the speed would rest at zero), the speed while slipping.
   if (held.slip == Slip::rising) return state.joint.contraction_speed_per_s;
   if (held.slip == Slip::falling) return -state.joint.contraction_speed_per_s;
-  const auto now = moment(state, held);
+  const auto now = moment(state, memory, held);
   return now.friction_level_N - std::abs(now.friction_force_N);
 }
 
-Slip Plant::slip_from_rest(State<double>& state, const Held& held) const {
+Slip Plant::slip_from_rest(State<double>& state, const Memory<double>& memory, const Held& held) const {
   state.joint.contraction_speed_per_s = 0.0;
   Held stuck = held;
   stuck.slip = Slip::sticking;
-  const auto now = moment(state, stuck);
+  const auto now = moment(state, memory, stuck);
   const double pulled_N = -now.friction_force_N;  // all other forces
   // An event is located to rounding only: a margin that is zero but for that means the load has broken away.
   const bool holds = std::abs(pulled_N) < now.friction_level_N * (1.0 - 1e-9);

@@ -2,8 +2,9 @@
 // load. T = thesis, TL = Tondu & Lopez, IEEE Control Systems Magazine 20 (2000) 15-38. docs/equations.md has
 // them all.
 //
-//   State, Held --(moment)--> Moment: all that is known at this instant --(rates)--> dx/dt
+//   State, Memory, Held --(moment)--> Moment: all that is known at this instant --(rates)--> dx/dt
 //
+// Effects that the rig has switched on come in where `effects_` stands; without any, no line of theirs runs.
 // S is double, or a dual number where the Jacobian is wanted.
 #pragma once
 
@@ -25,6 +26,8 @@ struct Moment {
   S friction_level_N, friction_force_N;          // G, F_f
   S bristle_rate_m_per_s;                        // dz/dt
   S acceleration_m_per_s2;                       // dv/dt
+  S leak_flow, effects_pull_N;                   // what effects take and add
+  Memory<S> memory_rates;                        // of effects
 };
 
 class Plant {
@@ -40,7 +43,14 @@ class Plant {
 
   /// The balances of the rig. Only for states inside `in_domain`.
   template <class S>
-  Moment<S> moment(const State<S>& state, const Held& held) const;
+  Moment<S> moment(const State<S>& state, const Memory<S>& memory, const Held& held) const;
+  /// The same with effects as they are at rest.
+  template <class S>
+  Moment<S> moment(const State<S>& state, const Held& held) const {
+    Memory<S> none;
+    none.fill(S(0.0));
+    return moment(state, none, held);
+  }
 
   template <class S>
   State<S> rates(const State<S>& state, const Moment<S>& now) const;
@@ -58,11 +68,14 @@ class Plant {
                          state.joint.contraction_speed_per_s);
   }
 
+  /// Whether an effect with a memory is switched on.
+  bool remembers() const { return remembers_; }
+
   /// Exact stick and slip: falls through zero when the slip mode must change. Only with Coulomb friction.
   bool has_events() const { return rig_.friction.memory == FrictionMemory::coulomb; }
-  double event_margin(const State<double>& state, const Held& held) const;
+  double event_margin(const State<double>& state, const Memory<double>& memory, const Held& held) const;
   /// Mode after such an event (or at the start). Sets the speed to exactly zero.
-  Slip slip_from_rest(State<double>& state, const Held& held) const;
+  Slip slip_from_rest(State<double>& state, const Memory<double>& memory, const Held& held) const;
 
   const Rig& rig() const { return rig_; }
   /// Mass of gas [kg] in valve and muscle.
@@ -72,51 +85,78 @@ class Plant {
 
  private:
   template <class S>
-  void gas_balance(const State<S>& state, const Held& held, Moment<S>& now) const;
+  Instant<S> instant(const State<S>& state, const Moment<S>& now) const;
   template <class S>
-  void force_balance(const State<S>& state, const Held& held, Moment<S>& now) const;
+  void gas_balance(const State<S>& state, const Memory<S>& memory, const Held& held, Moment<S>& now) const;
+  template <class S>
+  void force_balance(const State<S>& state, const Memory<S>& memory, const Held& held, Moment<S>& now) const;
 
   Rig rig_;
   Braid braid_;
-  Restriction valve_, hose_;
+  Restriction valve_, hose_, unit_flow_;
+  bool effects_, remembers_;  // any switched on; any with a memory
   double mass_kg_, weight_N_, gas_energy_J_per_kg_, supply_Pa_;
 };
 
 template <class S>
-Moment<S> Plant::moment(const State<S>& state, const Held& held) const {
+Moment<S> Plant::moment(const State<S>& state, const Memory<S>& memory, const Held& held) const {
   Moment<S> now;
   now.speed_m_per_s = braid_.rest_length_m() * state.joint.contraction_speed_per_s;
-  gas_balance(state, held, now);
-  force_balance(state, held, now);
+  gas_balance(state, memory, held, now);
+  force_balance(state, memory, held, now);
   return now;
+}
+
+template <class S>
+Instant<S> Plant::instant(const State<S>& state, const Moment<S>& now) const {
+  const S& e = state.joint.contraction_ratio;
+  return {e,         braid_.rest_length_m() * e, now.speed_m_per_s,    state.side.muscle_pressure_Pa,
+          weight_N_, rig_.gas.atmosphere_Pa,     gas_energy_J_per_kg_, unit_flow_};
 }
 
 // Pressure error opens one of two proportional valves (T 3.1); ISO 6358 flow through valve and hose.
 template <class S>
-void Plant::gas_balance(const State<S>& state, const Held& held, Moment<S>& now) const {
+void Plant::gas_balance(const State<S>& state, const Memory<S>& memory, const Held& held,
+                        Moment<S>& now) const {
   const double atmosphere = rig_.gas.atmosphere_Pa;
   const S valve_Pa = state.side.valve_pressure_Pa + atmosphere;  // absolute from here
   const S muscle_Pa = state.side.muscle_pressure_Pa + atmosphere;
 
-  S u = (held.reference_pressure_Pa - state.side.valve_pressure_Pa) / rig_.valve.proportional_band_Pa;
+  S error_Pa = held.reference_pressure_Pa - state.side.valve_pressure_Pa;
+  S supply_Pa = S(supply_Pa_);
+  if (effects_) {
+    error_Pa = error_Pa + rig_.effects.valve_error_shift_Pa(error_Pa);
+    supply_Pa = supply_Pa - rig_.effects.supply_drop_Pa(memory);
+  }
+  S u = error_Pa / rig_.valve.proportional_band_Pa;
   if (u > 1.0) u = S(1.0);
   if (u < -1.0) u = S(-1.0);
+  const S wanted = u;
+  if (effects_) u = rig_.effects.valve_opening(wanted, memory);
   now.valve_opening = u;
   now.supply_flow = now.vent_flow = S(0.0);
   if (u >= 0.0)
-    now.supply_flow = u * valve_.flow_kg_per_s(S(supply_Pa_), valve_Pa);
+    now.supply_flow = u * valve_.flow_kg_per_s(supply_Pa, valve_Pa);
   else
     now.vent_flow = -u * valve_.flow_kg_per_s(valve_Pa, S(atmosphere));
   now.hose_flow = hose_.flow_kg_per_s(valve_Pa, muscle_Pa);
 
   now.volume_m3 = braid_.volume_m3(state.joint.contraction_ratio);
   now.volume_slope_m3 = braid_.volume_slope_m3(state.joint.contraction_ratio);
+
+  now.leak_flow = S(0.0);
+  if (effects_) {
+    const auto known = instant(state, now);
+    now.leak_flow = rig_.effects.outflow_kg_per_s(known);
+    now.memory_rates = rig_.effects.memory_rates(known, Inflow<S>{wanted, now.supply_flow}, memory);
+  }
 }
 
 // Braid force (T 2.8), thread friction (T 2.11, 4.2, 4.6 and LuGre), braid stop (Hunt-Crossley), hanging
 // load.
 template <class S>
-void Plant::force_balance(const State<S>& state, const Held& held, Moment<S>& now) const {
+void Plant::force_balance(const State<S>& state, const Memory<S>& memory, const Held& held,
+                          Moment<S>& now) const {
   using std::abs;
   const Friction& friction = rig_.friction;
   const S& e = state.joint.contraction_ratio;
@@ -131,11 +171,20 @@ void Plant::force_balance(const State<S>& state, const Held& held, Moment<S>& no
     if (damping > 0.0)
       now.stop_force_N = -rig_.muscle.stop_stiffness_N_per_m * braid_.rest_length_m() * e * damping;
   }
-  const S others = now.braid_force_N + now.stop_force_N + now.guide_force_N - weight_N_;
-
   const S surface = braid_.contact_surface_m2(e);
   now.friction_level_N =
       friction_level_N(friction, e, surface, state.side.muscle_pressure_Pa, held.current_speed_mA_per_s);
+  now.effects_pull_N = S(0.0);
+  if (effects_) {
+    const auto known = instant(state, now);
+    const S& pressure_Pa = state.side.muscle_pressure_Pa;
+    now.braid_force_N = braid_.force_N(e, pressure_Pa, rig_.effects.end_correction_shift(known));
+    now.effects_pull_N = rig_.effects.pull_N(known, memory);
+    const S threads_N = now.friction_level_N - friction.floor_N;  // the floor is not friction of threads
+    now.friction_level_N = threads_N * rig_.effects.friction_factor(known, memory) + friction.floor_N;
+  }
+  const S others = now.braid_force_N + now.stop_force_N + now.guide_force_N - weight_N_ + now.effects_pull_N;
+
   now.bristle_rate_m_per_s = S(0.0);
   if (friction.memory == FrictionMemory::lugre) {
     const double sigma0 = friction.bristle_stiffness_N_per_m;
@@ -160,15 +209,25 @@ State<S> Plant::rates(const State<S>& state, const Moment<S>& now) const {
   dt.side.valve_pressure_Pa = RT / rig_.valve.volume_m3 * (now.supply_flow - now.vent_flow - now.hose_flow);
   dt.side.muscle_pressure_Pa = (RT * now.hose_flow - muscle_Pa * now.volume_slope_m3 * w) / now.volume_m3;
   dt.side.bristle_m = now.bristle_rate_m_per_s;
+  if (effects_) {
+    const double n = rig_.effects.gas_exponent();
+    dt.side.valve_pressure_Pa = n * dt.side.valve_pressure_Pa;
+    dt.side.muscle_pressure_Pa = n * (dt.side.muscle_pressure_Pa - RT * now.leak_flow / now.volume_m3);
+  }
   return dt;
 }
 
 template <class S>
 Ledger<S> Plant::ledger_rates(const Moment<S>& now) const {
   const S& v = now.speed_m_per_s;
-  return {now.supply_flow,           now.vent_flow,
-          S(now.braid_force_N * v),  S(-now.friction_force_N * v),
-          S(-now.guide_force_N * v), S(now.stop_force_N * v)};
+  return {now.supply_flow,
+          now.vent_flow,
+          now.leak_flow,
+          S(now.braid_force_N * v),
+          S(-now.friction_force_N * v),
+          S(-now.guide_force_N * v),
+          S(now.stop_force_N * v),
+          S(now.effects_pull_N * v)};
 }
 
 }  // namespace mckibben::plant

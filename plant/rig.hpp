@@ -12,6 +12,8 @@
 #include <string_view>
 #include <utility>
 
+#include <plant/effects.hpp>
+
 namespace mckibben::plant {
 
 inline constexpr double gravity_m_per_s2 = 9.80665;
@@ -193,6 +195,7 @@ struct Joint {
   double wheel_radius_m = 0.030;
   double wheel_inertia_kg_m2 = 1.0e-4;
   double guide_damping_N_s_per_m = 20.0;
+  double load_offset_kg = 0.0;
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
@@ -200,6 +203,8 @@ struct Joint {
     visit("wheel_inertia", self.wheel_inertia_kg_m2, "kg.m2", 0.0, 10.0, "its moment of inertia, J");
     visit("guide_damping", self.guide_damping_N_s_per_m, "N.s/m", 0.0, 1e5,
           "viscous friction of the load guide, c");
+    visit("load_offset", self.load_offset_kg, "kg", -5.0, 5.0,
+          "what hangs on the wheel beside the load: hook, cord, error of the scales");
   }
 };
 
@@ -253,6 +258,7 @@ struct Rig {
   Dac dac;
   Encoder encoder;
   Gauge gauge;
+  Effects effects;
   double tick_s = 0.012;
   double settling_time_s = 2.004;
 
@@ -267,10 +273,19 @@ struct Rig {
     visit("dac", self.dac, "current output");
     visit("encoder", self.encoder, "position input");
     visit("gauge", self.gauge, "optional pressure gauge");
+    visit("effects", self.effects, "what the nominal rig leaves out; each absent unless given a size");
     visit("tick", self.tick_s, "s", 1e-4, 1.0, "time between two readings; the current is held in between");
     visit("settling_time", self.settling_time_s, "s", 0.0, 1000.0,
           "how long the first current is held before the first reading (rounded to ticks)");
   }
 };
+
+/// A rig as its owner believes it to be: without effects, and with nothing beside the load on the wheel.
+template <class R>
+R nominal(R rig) {
+  rig.effects = {};
+  rig.joint.load_offset_kg = 0.0;
+  return rig;
+}
 
 }  // namespace mckibben::plant

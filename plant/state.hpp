@@ -3,6 +3,10 @@
 // same wheel.
 #pragma once
 
+#include <array>
+
+#include <plant/effects.hpp>
+
 namespace mckibben::plant {
 
 template <class S>
@@ -24,18 +28,24 @@ struct State {
   SideState<S> side;
 };
 
+/// What effects with a memory remember, in the order of their table; all zero at the start of a run.
+template <class S>
+using Memory = std::array<S, Effects::memories>;
+
 /// Where air and work went since the start: integrals that nothing in the plant depends on.
 template <class S>
 struct Ledger {
   S air_drawn_kg;            ///< from the supply
-  S air_vented_kg;           ///< to the atmosphere
+  S air_vented_kg;           ///< to the atmosphere, through the valve
+  S air_leaked_kg;           ///< to the atmosphere, from the muscle
   S braid_work_J;            ///< done by the braid on the load
   S thread_friction_work_J;  ///< taken by the threads
   S guide_work_J;            ///< taken by the load guide
   S stop_work_J;             ///< done by the taut threads on the load
+  S effects_work_J;          ///< done by the pull of effects on the load
 };
 
-inline constexpr int state_size = 5, ledger_size = 6;
+inline constexpr int state_size = 5, memory_size = Effects::memories, ledger_size = 8;
 static_assert(sizeof(State<double>) == state_size * sizeof(double));
 static_assert(sizeof(Ledger<double>) == ledger_size * sizeof(double));
 

@@ -31,6 +31,8 @@ constexpr const char* examples =
     "  mckibben calibrate data/                        the thesis's models from it\n"
     "  mckibben map out/calibration/calibration.yaml   errors of the thesis's controller over its targets\n"
     "  mckibben replay measured/ --rig my_rig.yaml     measured currents on a rig of yours\n"
+    "  mckibben effects                                what a rig may have besides the nominal\n"
+    "  mckibben diagnose measured/                     what does the rig lack? finds it and adds it\n"
     "  mckibben check my.yaml                          is the file right? nothing is run\n"
     "Exit status: 0 done, 1 a criterion of yours is not met, 64 usage, 65 bad input file,\n"
     "66 input file missing, 70 numerical failure or a defect of ours, 74 cannot write, 130 interrupted.\n";
@@ -179,6 +181,20 @@ void add_map(CLI::App& verb, std::string& path, Options& options, MapOptions& ho
       "Writes map.csv, table.txt, map.json and a picture for each load.\n");
 }
 
+void add_diagnose(CLI::App& verb, std::string& path, Options& options, std::string& seed, std::string& plan) {
+  verb.add_option("dataset", path, "Data set: its dataset.yaml or the folder")
+      ->required()
+      ->type_name("DATASET");
+  verb.add_option("--rig", options.rig, "Rig file or shipped rig instead of the data set's")
+      ->type_name("RIG");
+  verb.add_option("--seed", seed, "Seed of the resampling (default: 1)")->check(is_seed)->type_name("N");
+  verb.add_option("--plan", plan, "Write the measurement that would tell more, if one would, as a campaign")
+      ->type_name("FILE");
+  verb.footer(
+      "Example:\n  mckibben diagnose measured/ --out diagnosis --plan next.yaml\n"
+      "Writes report.html (to read), rig.yaml (the corrected rig, for run and replay) and diagnosis.json.\n");
+}
+
 }  // namespace
 
 int run(int argc, char** argv) {
@@ -263,12 +279,29 @@ int run(int argc, char** argv) {
   replay_verb->footer("Example:\n  mckibben replay measured/ --rig my_rig.yaml --out compared\n");
   replay_verb->callback([&] { chosen = [&] { return replay_dataset(path, options); }; });
 
+  std::string plan;
+  auto* diagnose_verb = app.add_subcommand(
+      "diagnose", "Find where model and data disagree; name the missing effect, add it, show the gap shrink");
+  add_common(*diagnose_verb, options);
+  add_diagnose(*diagnose_verb, path, options, seed, plan);
+  diagnose_verb->callback([&] {
+    if (!seed.empty()) options.seed = std::stoull(seed);
+    chosen = [&] { return diagnose_dataset(path, options, plan); };
+  });
+
   auto* check_verb =
       app.add_subcommand("check", "Validate scenario, campaign, rig and data set files; nothing is run");
   check_verb->add_option("files", paths, "Files to check")->required()->type_name("FILE");
   add_common(*check_verb, options);
   check_verb->footer("Example:\n  mckibben check scenarios/*.yaml\n");
   check_verb->callback([&] { chosen = [&] { return check_files(paths, options); }; });
+
+  auto* effects_verb = app.add_subcommand(
+      "effects", "The catalogue of effects that a rig may have: laws, parameters, sources");
+  effects_verb->add_option("names", paths, "Only these, with how to switch them on")->type_name("NAME");
+  add_common(*effects_verb, options);
+  effects_verb->footer("Example:\n  mckibben effects muscle_leak\n");
+  effects_verb->callback([&] { chosen = [&] { return list_effects(paths, options); }; });
 
   auto* schema_verb =
       app.add_subcommand("schema", "Print the keys of a kind of file, as JSON Schema or as a table");

@@ -37,11 +37,15 @@ struct MapOptions {
 int run_scenario(const std::string& path, const Options& options);
 int make_dataset(const std::string& path, const Options& options);
 int replay_dataset(const std::string& path, const Options& options);
+/// `plan`: where to write the next experiment as a campaign; empty for nowhere.
+int diagnose_dataset(const std::string& path, const Options& options, const std::string& plan);
 int calibrate_dataset(const std::string& path, const Options& options, const CalibrateOptions& how);
 int map_errors(const std::string& path, const Options& options, const MapOptions& how);
 /// `name`: one of study::names; `path` the campaign's.
 int make_study(const std::string& name, const std::string& path, const Options& options);
 int check_files(const std::vector<std::string>& paths, const Options& options);
+/// The catalogue of effects, or those of these names.
+int list_effects(const std::vector<std::string>& names, const Options& options);
 /// `kind`: scenario, campaign, rig or dataset; `format`: json (JSON Schema), markdown (table of keys) or yaml
 /// (the rig `thesis` with every value, whatever the kind).
 int print_schema(const std::string& kind, const std::string& format);

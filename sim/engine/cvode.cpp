@@ -52,7 +52,7 @@ class Cvode final : public Integrator {
     memory_.reset(CVodeCreate(CV_BDF, context_));
     if (!memory_) throw std::bad_alloc();
     void* m = memory_.get();
-    problem_.store(Flow{rig.at_rest({}), {}}, V::data(y_.get()));
+    problem_.store(Flow{rig.at_rest({}), {}, {}}, V::data(y_.get()));
     CVodeInit(m, right_hand_side<V>, 0.0, y_.get());
     CVodeSetErrHandlerFn(m, keep_message, &message_);
     CVodeSetUserData(m, &problem_);
@@ -95,7 +95,9 @@ class Cvode final : public Integrator {
 
   static int exact_jacobian(double, N_Vector y, N_Vector, SUNMatrix j, void* problem, N_Vector, N_Vector,
                             N_Vector) {
-    return jacobian(*static_cast<const Problem<V::size>*>(problem), V::data(y), values<V::size>(j)) ? 0 : 1;
+    return jacobian(*static_cast<const Problem<typename V::layout>*>(problem), V::data(y), values<V::size>(j))
+               ? 0
+               : 1;
   }
 
   Counters plus_current(Counters c) const {
@@ -112,7 +114,7 @@ class Cvode final : public Integrator {
   }
 
   Context context_;
-  Problem<V::size> problem_;
+  Problem<typename V::layout> problem_;
   std::string message_;
   Vector y_;
   std::unique_ptr<std::remove_pointer_t<SUNMatrix>, MatrixDeleter> matrix_;
@@ -126,8 +128,9 @@ class Cvode final : public Integrator {
 std::unique_ptr<Integrator> make_cvode(const plant::Plant& rig, double tolerance, bool keep_ledger) {
   // BDF adds up more local errors than ERKStep: measured, this factor gives it the same global error.
   tolerance = std::max(0.02 * tolerance, 1e-13);
-  if (keep_ledger) return std::make_unique<Cvode<AuditedVector>>(rig, tolerance);
-  return std::make_unique<Cvode<StateVector>>(rig, tolerance);
+  return with_vector(rig, keep_ledger, [&]<class V>(V*) -> std::unique_ptr<Integrator> {
+    return std::make_unique<Cvode<V>>(rig, tolerance);
+  });
 }
 
 }  // namespace mckibben::engine

@@ -1,4 +1,4 @@
-// The explicit method for state alone or with ledger; see erk_method.hpp.
+// The explicit method for each layout of the state; see erk_method.hpp.
 #include <sim/engine/erk.hpp>
 #include <sim/engine/erk_method.hpp>
 
@@ -23,8 +23,9 @@ Trouble erk_trouble(int flag) {
 }
 
 std::unique_ptr<Integrator> make_erk(const plant::Plant& rig, double tolerance, bool keep_ledger) {
-  if (keep_ledger) return std::make_unique<Erk<AuditedVector>>(rig, tolerance);
-  return std::make_unique<Erk<StateVector>>(rig, tolerance);
+  return with_vector(rig, keep_ledger, [&]<class V>(V*) -> std::unique_ptr<Integrator> {
+    return std::make_unique<Erk<V>>(rig, tolerance);
+  });
 }
 
 }  // namespace mckibben::engine

@@ -1,20 +1,16 @@
 // ARKODE ERKStep, reset at each tick because the current jumps there (a step across the jump is accepted with
-// a wrong answer). Step sizes are chosen here, by a PI rule (Gustafsson, ACM TOMS 17 (1991) 533-554), so that
-// a tick is divided evenly: a last step cut short in every tick would make the first of the next one start
-// small again.
+// a wrong answer).
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 
 #include <arkode/arkode_erkstep.h>
 
+#include <sim/engine/even_steps.hpp>
 #include <sim/engine/integrator.hpp>
 #include <sim/engine/sundials.hpp>
 
 namespace mckibben::engine {
-
-Trouble erk_trouble(int flag);
 
 /// V: kind of SUNDIALS vector, see sundials.hpp.
 template <class V>
@@ -31,7 +27,7 @@ class Erk final : public Integrator {
     ERKStepSetInterpolantDegree(m, 1);  // only asked for at the ends of steps, unless events are looked for
     ERKStepSetMaxErrTestFails(m, 50);   // the braid stop may need more than the library's 7
     ERKStepSetMaxNumSteps(m, most_steps_in_a_tick);
-    ERKStepSetAdaptivityFn(m, choose_step, this);
+    ERKStepSetAdaptivityFn(m, EvenSteps::choose, &steps_);
     ERKStepSetSafetyFactor(m, 1.0);
     ERKStepSetErrorBias(m, 1.0);
     ERKStepSetFixedStepBounds(m, 1.0, 1.0);
@@ -47,19 +43,18 @@ class Erk final : public Integrator {
 
   void advance(Flow& flow, plant::Held& held, double from_s, double to_s) override {
     problem_.refused = 0;
-    tick_s_ = to_s - from_s;
-    stop_s_ = to_s;
+    steps_.begin(from_s, to_s);
     events_ += carry<V>(problem_, y_.get(), flow, held, from_s, to_s, "ERKStep", message_,
                         [&](double& t, Trouble& trouble) {
                           void* m = memory_.get();
                           message_.clear();
-                          reached_s_ = t;
+                          steps_.reached_s = t;
                           ERKStepReset(m, t, y_.get());
                           ERKStepSetStopTime(m, to_s);
                           const int flag = ERKStepEvolve(m, to_s, y_.get(), &t, ARK_NORMAL);
                           if (flag == ARK_ROOT_RETURN) return Reached::event;
                           if (flag >= 0) return Reached::end;
-                          t = reached_s_;  // the library tells the time of the stage that failed
+                          t = steps_.reached_s;  // the library tells the time of the stage that failed
                           trouble = erk_trouble(flag);
                           return Reached::trouble;
                         });
@@ -84,44 +79,22 @@ class Erk final : public Integrator {
   };
 
   // ERKStep gives up at the first stage that a right-hand side refuses. Outside the domain of the laws it
-  // gets rates that no step can pass its error test with, so that it tries a smaller one. They differ from
-  // call to call: equal ones would cancel in the error estimate.
+  // gets rates that no step can pass its error test with, so that it tries a smaller one.
   static int forbidding_right_hand_side(double t, N_Vector y, N_Vector dydt, void* problem) {
     if (right_hand_side<V>(t, y, dydt, problem) == 0) return 0;
-    auto& refused = static_cast<Problem<V::size>*>(problem)->refused;
+    auto& refused = static_cast<Problem<typename V::layout>*>(problem)->refused;
     if (refused > most_refused_in_a_tick) return -1;
-    const double rate_per_s = 1e9 * static_cast<double>(1 + refused++ % 7);
     std::fill_n(V::data(dydt), V::size, 0.0);
-    for (std::size_t i = 0; i < working_size.size(); ++i) V::data(dydt)[i] = rate_per_s * working_size[i];
-    return 0;
-  }
-
-  // Called with the local error (1 = tolerance) of a step of size h that ends, or if rejected begins, at t.
-  static int choose_step(N_Vector, double t, double h, double, double, double error, double, double, int, int,
-                         double* next, void* self) {
-    auto& erk = *static_cast<Erk*>(self);
-    const float now = std::log(static_cast<float>(std::max(error, 1e-10)));  // exact enough for a step size
-    const bool accepted = error <= 1.0;
-    const float change = std::exp(accepted ? -0.16F * now + 0.05F * erk.log_of_last_error_ : -0.2F * now);
-    const double wanted = 0.9 * h * static_cast<double>(change);
-    if (accepted) {
-      erk.log_of_last_error_ = now;
-      erk.reached_s_ = t;
-    }
-    const double left_s = erk.stop_s_ - t;
-    const double span_s =
-        left_s > 1e-9 * erk.tick_s_ ? left_s : erk.tick_s_;  // at the end: plan the next tick
-    *next = span_s / std::ceil(span_s / wanted);
+    forbid(V::data(dydt), refused++);
     return 0;
   }
 
   Context context_;
-  Problem<V::size> problem_;
+  Problem<typename V::layout> problem_;
   std::string message_;
   Vector y_;
   std::unique_ptr<void, Free> memory_;
-  double stop_s_ = 0.0, tick_s_ = 0.0, reached_s_ = 0.0;
-  float log_of_last_error_ = 0.0F;
+  EvenSteps steps_;
   long events_ = 0;
   Counters before_;
 };

@@ -10,37 +10,47 @@
 
 namespace mckibben::engine {
 
-using Dual = Eigen::AutoDiffScalar<Eigen::Matrix<double, plant::state_size, 1>>;
-
-/// d(dy/dt)/dy of state and, where carried, ledger [SI units of each]; false outside the domain of the laws.
-/// At a kink (valve closing, stop touched, v = 0) it is the derivative of the side the state stands on.
-template <int N, class Matrix>
-bool jacobian(const Problem<N>& problem, const double* y, Matrix& result) {
-  const auto at = Problem<N>::state_of(y);
+/// d(dy/dt)/dy of all components [SI units of each]; false outside the domain of the laws. At a kink (valve
+/// closing, stop touched, v = 0) it is the derivative of the side the state stands on.
+template <class L, class Matrix>
+bool jacobian(const Problem<L>& problem, const double* y, Matrix& result) {
+  using Dual = Eigen::AutoDiffScalar<Eigen::Matrix<double, L::steering, 1>>;
+  const auto at = Problem<L>::state_of(y);
   if (!problem.plant().in_domain(at)) return false;
-  const auto seed = [](double value, int index) { return Dual(value, plant::state_size, index); };
+  const auto seed = [](double value, int index) { return Dual(value, L::steering, index); };
   const plant::State<Dual> state{
       {seed(at.joint.contraction_ratio, 0), seed(at.joint.contraction_speed_per_s, 1)},
       {seed(at.side.valve_pressure_Pa, 2), seed(at.side.muscle_pressure_Pa, 3), seed(at.side.bristle_m, 4)}};
-  const auto now = problem.plant().moment(state, problem.held);
+  plant::Memory<Dual> memory;
+  memory.fill(Dual(0.0));
+  if constexpr (L::remembers) {
+    for (int i = 0; i < static_cast<int>(plant::memory_size); ++i)
+      memory[static_cast<std::size_t>(i)] = seed(y[plant::state_size + i], plant::state_size + i);
+  }
+  const auto now = problem.plant().moment(state, memory, problem.held);
   const auto rates = problem.plant().rates(state, now);
-  const auto row = [&](int i, const Dual& rate) {
-    result.row(i).setZero();
-    result.row(i).template head<plant::state_size>() = rate.derivatives().transpose();
+  int next = 0;
+  const auto row = [&](const Dual& rate) {
+    result.row(next).setZero();
+    result.row(next++).template head<L::steering>() = rate.derivatives().transpose();
   };
-  row(0, rates.joint.contraction_ratio);
-  row(1, rates.joint.contraction_speed_per_s);
-  row(2, rates.side.valve_pressure_Pa);
-  row(3, rates.side.muscle_pressure_Pa);
-  row(4, rates.side.bristle_m);
-  if constexpr (Problem<N>::keeps_ledger) {
+  row(rates.joint.contraction_ratio);
+  row(rates.joint.contraction_speed_per_s);
+  row(rates.side.valve_pressure_Pa);
+  row(rates.side.muscle_pressure_Pa);
+  row(rates.side.bristle_m);
+  if constexpr (L::remembers)
+    for (const Dual& rate : now.memory_rates) row(rate);
+  if constexpr (L::audits) {
     const auto ledger = problem.plant().ledger_rates(now);
-    row(5, ledger.air_drawn_kg);
-    row(6, ledger.air_vented_kg);
-    row(7, ledger.braid_work_J);
-    row(8, ledger.thread_friction_work_J);
-    row(9, ledger.guide_work_J);
-    row(10, ledger.stop_work_J);
+    row(ledger.air_drawn_kg);
+    row(ledger.air_vented_kg);
+    row(ledger.air_leaked_kg);
+    row(ledger.braid_work_J);
+    row(ledger.thread_friction_work_J);
+    row(ledger.guide_work_J);
+    row(ledger.stop_work_J);
+    row(ledger.effects_work_J);
   }
   return true;
 }

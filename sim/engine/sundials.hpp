@@ -16,9 +16,22 @@
 
 namespace mckibben::engine {
 
-/// The vectors that the methods work on. A kind of vector V offers size, make(context) and data(vector).
-using StateVector = FixedVector<plant::state_size, plant::state_size>;
-using AuditedVector = FixedVector<plant::state_size + plant::ledger_size, plant::state_size>;
+/// The vectors that the methods work on. A kind of vector V offers layout, size, make(context), data(vector).
+template <bool remembers, bool audits>
+struct PlantVector : FixedVector<Layout<remembers, audits>::size, Layout<remembers, audits>::steering> {
+  using layout = Layout<remembers, audits>;
+};
+
+/// make(V*) for the vector V that a rig needs.
+template <class Make>
+auto with_vector(const plant::Plant& rig, bool keep_ledger, const Make& make) {
+  const auto null = [&]<bool remembers, bool audits>() {
+    return make(static_cast<PlantVector<remembers, audits>*>(nullptr));
+  };
+  if (rig.remembers())
+    return keep_ledger ? null.template operator()<true, true>() : null.template operator()<true, false>();
+  return keep_ledger ? null.template operator()<false, true>() : null.template operator()<false, false>();
+}
 
 /// A SUNDIALS context: one for each integrator, since it is not shared between threads.
 class Context {
@@ -43,23 +56,30 @@ using Vector = std::unique_ptr<std::remove_pointer_t<N_Vector>, VectorDeleter>;
 /// Right-hand side callback; positive where the solver should try a smaller step.
 template <class V>
 [[gnu::flatten]] int right_hand_side(double, N_Vector y, N_Vector dydt, void* problem) {
-  return static_cast<Problem<V::size>*>(problem)->rates(V::data(y), V::data(dydt)) ? 0 : 1;
+  return static_cast<Problem<typename V::layout>*>(problem)->rates(V::data(y), V::data(dydt)) ? 0 : 1;
 }
 
 /// Event callback of both methods (stick and slip).
 template <class V>
 int event_margin(double, N_Vector y, double* margin, void* problem) {
-  const auto& p = *static_cast<Problem<V::size>*>(problem);
-  *margin = p.plant().event_margin(p.state_of(V::data(y)), p.held);
+  const auto& p = *static_cast<Problem<typename V::layout>*>(problem);
+  *margin = p.plant().event_margin(p.state_of(V::data(y)), p.memory_of(V::data(y)), p.held);
   return 0;
 }
 
 /// Absolute tolerances: the working sizes times the tolerance; passengers get a weight of no consequence.
 template <class V>
 Vector absolute_tolerances(SUNContext context, double tolerance) {
+  using L = typename V::layout;
   Vector v(V::make(context));
   std::fill_n(V::data(v.get()), V::size, 1.0);
-  for (std::size_t i = 0; i < working_size.size(); ++i) V::data(v.get())[i] = tolerance * working_size[i];
+  for (double* lane = V::data(v.get()); lane < V::data(v.get()) + V::size; lane += L::size) {
+    for (std::size_t i = 0; i < working_size.size(); ++i) lane[i] = tolerance * working_size[i];
+    if constexpr (L::remembers) {
+      for (std::size_t i = 0; i < plant::memory_size; ++i)
+        lane[working_size.size() + i] = tolerance * plant::Effects::memory_sizes[i];
+    }
+  }
   return v;
 }
 
@@ -72,7 +92,16 @@ inline constexpr long most_steps_in_a_tick = 20000;
 /// Trial states outside the domain that a tick may meet.
 inline constexpr long most_refused_in_a_tick = 2000;
 
+/// Rates that no step can pass its error test with. They differ from call to call: equal ones would cancel in
+/// the error estimate.
+inline void forbid(double* dydt, long call) {
+  const double rate_per_s = 1e9 * static_cast<double>(1 + call % 7);
+  for (std::size_t i = 0; i < working_size.size(); ++i) dydt[i] = rate_per_s * working_size[i];
+}
+
 enum class Trouble { too_many_steps, too_accurate, error_test, outside_domain, convergence, events, other };
+/// Of a return value of ERKStep.
+Trouble erk_trouble(int flag);
 /// What went wrong, its likely cause and what may help. Near the edge of the domain that is the likelier
 /// cause of a solver's trouble with its steps.
 std::string cause_of(Trouble trouble, const char* solver, const std::string& message, const plant::Plant& rig,
@@ -84,7 +113,7 @@ void keep_message(int code, const char* module, const char* function, char* mess
 /// The libraries allocate the last of their memory in their first step: it is done here, from rest. Returns
 /// what it cost, which is not the run's.
 inline Counters warm_up(Integrator& integrator, const plant::Plant& rig) {
-  Flow scratch{rig.at_rest({}), {}};
+  Flow scratch{rig.at_rest({}), {}, {}};
   plant::Held held;
   integrator.advance(scratch, held, 0.0, 1e-9);
   return integrator.counters();
@@ -97,8 +126,8 @@ enum class Reached { end, event, trouble };
 /// event. `evolve` starts from y at t, moves both on to what it reached, and says what that is and what
 /// troubled it. Returns the number of events. Throws NumericalFailure; `flow` is then what was last reached.
 template <class V, class Evolve>
-long carry(Problem<V::size>& problem, N_Vector y, Flow& flow, plant::Held& held, double from_s, double to_s,
-           const char* solver, const std::string& message, const Evolve& evolve) {
+long carry(Problem<typename V::layout>& problem, N_Vector y, Flow& flow, plant::Held& held, double from_s,
+           double to_s, const char* solver, const std::string& message, const Evolve& evolve) {
   problem.held = held;
   double t = from_s;
   for (long events = 0;; ++events) {
@@ -113,7 +142,7 @@ long carry(Problem<V::size>& problem, N_Vector y, Flow& flow, plant::Held& held,
     if (reached == Reached::trouble)
       throw NumericalFailure(t, flow.state, cause_of(trouble, solver, message, problem.plant(), flow.state));
     if (reached == Reached::event) {
-      held.slip = problem.held.slip = problem.plant().slip_from_rest(flow.state, held);
+      held.slip = problem.held.slip = problem.plant().slip_from_rest(flow.state, flow.memory, held);
       if (t < to_s) continue;
     }
     if (problem.plant().has_events() && held.slip == plant::Slip::sticking)

@@ -14,8 +14,10 @@ namespace mckibben::input {
 /// The key `name` of a file, if it is there, must be file-safe.
 void check_name(const YamlFile& file, const std::string& name, Problems& problems);
 
-/// The key `loads` of a file must hold at least one load, and none twice.
-void check_loads(const YamlFile& file, const std::vector<double>& loads_kg, Problems& problems);
+/// The key `loads` of a file must hold at least one load, none twice, and none that the rig's load offset
+/// takes away.
+void check_loads(const YamlFile& file, const std::vector<double>& loads_kg, const plant::Rig& rig,
+                 Problems& problems);
 
 /// Reads the table that `recorded` names (at `node`, the value of its key `file`), one row each tick of
 /// `rig`, within the range of its DAC.

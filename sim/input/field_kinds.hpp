@@ -31,6 +31,12 @@ concept Ruled = requires(const T& value, int& report) {
   value.rules(report);
 };
 
+/// A struct that can be switched off; then it is not written.
+template <class T>
+concept Switchable = requires(const T& value) {
+  { value.absent() } -> std::same_as<bool>;
+};
+
 template <class T>
 inline constexpr bool is_variant = false;
 template <class... Ts>

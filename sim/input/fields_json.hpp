@@ -1,5 +1,6 @@
 // Writes a struct as JSON by walking its field list: the resolved input, all defaults in place. Quantities
-// carry their unit, so what is written can be read again (JSON is YAML) and gives the same struct.
+// carry their unit, so what is written can be read again (JSON is YAML) and gives the same struct. What is
+// switched off (an effect) is left out.
 #pragma once
 
 #include <concepts>
@@ -57,6 +58,8 @@ class JsonWriter {
   }
   template <class T>
   void operator()(std::string_view key, const T& value, std::string_view) {
+    if constexpr (Switchable<T>)
+      if (value.absent()) return;
     put(key, to_json(value));
   }
 

@@ -33,7 +33,7 @@ class Checker {
     check_name(file_, scenario_.name, problems_);
     check_duration();
     check_noise();
-    check_loads(file_, scenario_.loads_kg, problems_);
+    check_loads(file_, scenario_.loads_kg, scenario_.rig, problems_);
     check_controllers();
     check_criteria();
     check_target();

@@ -249,7 +249,11 @@ Json CampaignFolder::document() const {
   Json document = heading_json("mckibben-campaign-run/1", campaign_.inputs);
   document["seed"] = campaign_.seed;
   document["tolerance"] = campaign_.rig.integrator.tolerance;
-  document["campaign"] = input::campaign_json(campaign_);
+  // As its owner knows it; what is hidden stands in truth.yaml.
+  input::Campaign known = campaign_;
+  known.rig = plant::nominal(known.rig);
+  document["campaign"] = input::campaign_json(known);
+  document["campaign"].erase("noise");
   document["runs"] = Json::array();
   for (const auto& job : jobs_)
     document["runs"].push_back(read_json(unfinished_ / RunFiles(job.id).entry).value().at("entry"));
@@ -258,10 +262,11 @@ Json CampaignFolder::document() const {
 
 CampaignFolder::Places CampaignFolder::publish(const Json& document) const {
   const Json& entries = document.at("runs");
-  std::string rig = shipped_name(campaign_.rig);
+  const input::RigFile known = plant::nominal(campaign_.rig);
+  std::string rig = shipped_name(known);
   if (rig.empty()) {
     rig = "rig.yaml";
-    write_whole(unfinished_ / "data" / rig, input::to_yaml(input::rig_json(campaign_.rig)));
+    write_whole(unfinished_ / "data" / rig, input::to_yaml(input::rig_json(known)));
   }
   write_whole(unfinished_ / "data/dataset.yaml", input::to_yaml(dataset_json(rig, entries)));
   write_whole(unfinished_ / "data/campaign.json", document.dump(2) + "\n");

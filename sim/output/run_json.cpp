@@ -20,9 +20,14 @@ Json or_null(const std::optional<double>& value) {
 }
 
 Json ledger_json(const plant::Ledger<double>& books) {
-  return {{"air_drawn_kg", books.air_drawn_kg}, {"air_vented_kg", books.air_vented_kg},
-          {"braid_work_J", books.braid_work_J}, {"thread_friction_work_J", books.thread_friction_work_J},
-          {"guide_work_J", books.guide_work_J}, {"stop_work_J", books.stop_work_J}};
+  return {{"air_drawn_kg", books.air_drawn_kg},
+          {"air_vented_kg", books.air_vented_kg},
+          {"air_leaked_kg", books.air_leaked_kg},
+          {"braid_work_J", books.braid_work_J},
+          {"thread_friction_work_J", books.thread_friction_work_J},
+          {"guide_work_J", books.guide_work_J},
+          {"stop_work_J", books.stop_work_J},
+          {"effects_work_J", books.effects_work_J}};
 }
 
 Json inputs_json(const std::vector<input::InputFile>& files) {

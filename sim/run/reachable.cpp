@@ -168,7 +168,8 @@ controllers::ReachOfLoad reach_of(const plant::Rig& rig, double load_kg, const s
 
 }  // namespace
 
-controllers::Reach reachable(const plant::Rig& rig) {
+controllers::Reach reachable(const plant::Rig& true_rig) {
+  const plant::Rig rig = plant::nominal(true_rig);
   const plant::Braid braid(rig.muscle);
   controllers::Reach reach;
   // Just short of e_max, where the braid pulls no more and every pressure is infinite.

@@ -16,10 +16,11 @@ struct Sample {
   double time_s;
   double current_mA;  ///< what the DAC gives from here to the next tick
   plant::State<double> state;
-  std::int64_t counts;      ///< as the encoder counts
-  double gauge_Pa;          ///< as the gauge shows, if one is fitted
-  double braid_force_N;     ///< F
-  double friction_force_N;  ///< force of the threads on the load, positive upwards
+  std::int64_t counts;          ///< as the encoder counts
+  double gauge_Pa;              ///< as the gauge shows, if one is fitted
+  double braid_force_N;         ///< F
+  double friction_force_N;      ///< force of the threads on the load, positive upwards
+  double effects_pull_N = 0.0;  ///< force of effects on the load, positive upwards
 };
 
 struct Recording {

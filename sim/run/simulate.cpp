@@ -1,6 +1,7 @@
 // The tick loop; see the header for the order of things within a tick.
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <random>
 #include <utility>
 
@@ -15,18 +16,34 @@ namespace {
 /// Draws the noise of one run: the same for the same seed and stream, whatever runs beside it.
 class Disturbance {
  public:
-  Disturbance(const plant::Noise& noise, std::uint64_t seed, std::uint64_t stream) : noise_(noise) {
+  Disturbance(const plant::Noise& noise, double tick_s, std::uint64_t seed, std::uint64_t stream)
+      : noise_(noise), kept_(std::exp(-tick_s / noise.wander_time_s)) {
     std::seed_seq sequence{seed & 0xffffffffu, seed >> 32, stream & 0xffffffffu, stream >> 32};
     random_.seed(sequence);
+    if (noise_.ripple_Pa > 0.0) phase_ = std::uniform_real_distribution(0.0, 2.0 * std::numbers::pi)(random_);
+    if (noise_.wander_Pa > 0.0) wander_ = draw();
   }
   double jitter() { return noise_.encoder_jitter * draw(); }
   double gauge_Pa() { return noise_.gauge_Pa * draw(); }
   double current_mA() { return noise_.current_mA * draw(); }
+  /// Of the reference pressure; to be asked once a tick.
+  double reference_Pa(double time_s) {
+    double sum_Pa = 0.0;
+    if (noise_.ripple_Pa > 0.0)
+      sum_Pa +=
+          noise_.ripple_Pa * std::sin(2.0 * std::numbers::pi * time_s / noise_.ripple_period_s + phase_);
+    if (noise_.wander_Pa > 0.0) {
+      sum_Pa += noise_.wander_Pa * wander_;
+      wander_ = kept_ * wander_ + std::sqrt(1.0 - kept_ * kept_) * draw();  // exact over a tick
+    }
+    return sum_Pa;
+  }
 
  private:
   double draw() { return normal_(random_); }
 
   plant::Noise noise_;
+  double kept_, phase_ = 0.0, wander_ = 0.0;
   std::mt19937_64 random_;
   std::normal_distribution<double> normal_;
 };
@@ -39,9 +56,13 @@ class Run {
         plant_(plan.rig, plan.load_kg),
         integrator_(engine::make_integrator(plant_, plan.engine, plan.keep_ledger)),
         counter_(plan.rig.encoder.wiring, plant::count_height_m(plan.rig.encoder, plan.rig.joint)),
-        disturbance_(plan.noise, plan.seed, plan.stream) {}
+        disturbance_(plan.noise, plan.rig.tick_s, plan.seed, plan.stream) {}
 
   Recording operator()() {
+    if (plan_.load_kg + plan_.rig.joint.load_offset_kg <= 0.0) {
+      recording_.failure = "load and load_offset of the rig leave no load";
+      return std::move(recording_);
+    }
     recording_.samples.reserve(plan_.ticks);
     try {
       settle();
@@ -67,12 +88,15 @@ class Run {
 
  private:
   void settle() {
+    plant_.rig().effects.wheel_m(0.0, plays_);
     hold(controller_.rest().current_mA);
+    held_.reference_pressure_Pa = reference_Pa_;
     held_.current_speed_mA_per_s = 0.0;
     flow_.state = plant_.at_rest(held_);
-    if (plant_.has_events()) held_.slip = plant_.slip_from_rest(flow_.state, held_);
+    if (plant_.has_events()) held_.slip = plant_.slip_from_rest(flow_.state, flow_.memory, held_);
     const std::int64_t end = -controller_.preparation_ticks();
     for (std::int64_t k = end - settling_ticks(); k < end; ++k) {
+      disturb(k);
       integrate(k);
       counts();
     }
@@ -92,11 +116,12 @@ class Run {
     const std::int64_t read = counts();
     const double before_mA = current_mA_;
     hold(controller_.step({k, time_s, read}).current_mA);
+    disturb(k);
     held_.current_speed_mA_per_s = (current_mA_ - before_mA) / plan_.rig.tick_s;
     // The level may have jumped with the current's speed (T 4.6): a load that stuck may be free now.
     if (plant_.has_events() && held_.slip == plant::Slip::sticking)
-      held_.slip = plant_.slip_from_rest(flow_.state, held_);
-    const auto now = plant_.moment(flow_.state, held_);
+      held_.slip = plant_.slip_from_rest(flow_.state, flow_.memory, held_);
+    const auto now = plant_.moment(flow_.state, flow_.memory, held_);
     const double gauge_Pa = flow_.state.side.muscle_pressure_Pa + disturbance_.gauge_Pa();
     return {time_s,
             current_mA_,
@@ -104,18 +129,28 @@ class Run {
             read,
             plant::gauge_reading_Pa(plan_.rig.gauge, gauge_Pa),
             now.braid_force_N,
-            now.friction_force_N};
+            now.friction_force_N,
+            now.effects_pull_N};
   }
 
   std::int64_t counts() {
-    const double ratio = flow_.state.joint.contraction_ratio + disturbance_.jitter();
-    return counter_.count(ratio * plan_.rig.muscle.rest_length_m);
+    const double length_m = plan_.rig.muscle.rest_length_m;
+    const double wheel_m =
+        plant_.rig().effects.wheel_m(flow_.state.joint.contraction_ratio * length_m, plays_);
+    return counter_.count(wheel_m + disturbance_.jitter() * length_m);
   }
 
   void hold(double wanted_mA) {
     current_mA_ =
         controller_.already_quantised() ? wanted_mA : plant::dac_output_mA(plan_.rig.dac, wanted_mA);
-    held_.reference_pressure_Pa = plant_.reference_pressure_Pa(current_mA_ + disturbance_.current_mA());
+    const double wanted_Pa = plant_.reference_pressure_Pa(current_mA_ + disturbance_.current_mA());
+    reference_Pa_ = plant_.rig().effects.reference_Pa(wanted_Pa, plays_);
+  }
+
+  // The slow disturbances come on top of what effects make of the reference.
+  void disturb(std::int64_t k) {
+    const double time_s = static_cast<double>(k) * plan_.rig.tick_s;
+    held_.reference_pressure_Pa = reference_Pa_ + disturbance_.reference_Pa(time_s);
   }
 
   long settling_ticks() const { return std::lround(plan_.rig.settling_time_s / plan_.rig.tick_s); }
@@ -130,11 +165,12 @@ class Run {
   plant::Plant plant_;
   std::unique_ptr<engine::Integrator> integrator_;
   plant::PulseCounter counter_;
+  plant::Effects::Plays plays_{};
   Disturbance disturbance_;
   Recording recording_;
   engine::Flow flow_;
   plant::Held held_;
-  double current_mA_ = 0.0;
+  double current_mA_ = 0.0, reference_Pa_ = 0.0;
 };
 
 }  // namespace

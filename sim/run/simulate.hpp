@@ -31,7 +31,8 @@ struct RunPlan {
 /// Touches no heap between the first tick and the last.
 Recording simulate(const RunPlan& plan, controllers::Controller& controller);
 
-/// What the data sheets of a rig tell a controller, and the target [contraction ratio] at each tick.
+/// What the data sheets of a rig tell a controller, and the target [contraction ratio] at each tick. Nothing
+/// of its effects.
 /// Without `reach`, which takes a moment to compute: see `reachable`.
 controllers::Knowledge knowledge_of(const plant::Rig& rig, std::vector<double> target);
 

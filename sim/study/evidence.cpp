@@ -54,10 +54,11 @@ class Witness {
   double acceleration_m_per_s2(const run::Sample& now) const {
     const plant::Joint& joint = rig_.joint;
     const double v = rig_.muscle.rest_length_m * now.state.joint.contraction_speed_per_s;
+    const double hung_kg = load_kg_ + joint.load_offset_kg;
     const double moved_kg =
-        load_kg_ + joint.wheel_inertia_kg_m2 / (joint.wheel_radius_m * joint.wheel_radius_m);
+        hung_kg + joint.wheel_inertia_kg_m2 / (joint.wheel_radius_m * joint.wheel_radius_m);
     return (now.braid_force_N + now.friction_force_N - joint.guide_damping_N_s_per_m * v -
-            load_kg_ * plant::gravity_m_per_s2) /
+            hung_kg * plant::gravity_m_per_s2 + now.effects_pull_N) /
            moved_kg;
   }
 

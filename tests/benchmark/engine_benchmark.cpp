@@ -20,12 +20,15 @@
 #include <sim/engine/erk_method.hpp>
 #include <sim/engine/versions.hpp>
 
+#include "switched_on.hpp"
+
 namespace mckibben::engine {
 namespace {
 
 /// The library's own vector, for comparison.
 struct StockVector {
-  static constexpr int size = plant::state_size;
+  using layout = Layout<false, false>;
+  static constexpr int size = layout::size;
   static double* data(N_Vector v) { return NV_DATA_S(v); }
   static N_Vector make(SUNContext context) { return N_VNew_Serial(size, context); }
 };
@@ -71,10 +74,10 @@ double right_hand_side_s() {
     for (int k = 0; k < ride_ticks; ++k) {
       now.reference_pressure_Pa = plant.reference_pressure_Pa(current_mA(ride, k));
       integrator->advance(flow, now, 0.012 * k, 0.012 * (k + 1));
-      Problem<plant::state_size>::store(flow, states.emplace_back().data());
+      Problem<Layout<false, false>>::store(flow, states.emplace_back().data());
       held.push_back(now);
     }
-    Problem<plant::state_size> problem(plant);
+    Problem<Layout<false, false>> problem(plant);
     double best_s = 1.0;
     for (int trial = 0; trial < 50; ++trial) {
       double chain = 0.0;
@@ -97,9 +100,9 @@ double right_hand_side_s() {
 }
 
 template <class Make>
-void ride_benchmark(benchmark::State& state, const Make& make) {
+void ride_benchmark(benchmark::State& state, const Make& make, const plant::Rig& rig = {}) {
   const Ride& ride = rides[state.range(0)];
-  const plant::Plant plant(plant::Rig{}, ride.load_kg);
+  const plant::Plant plant(rig, ride.load_kg);
   const auto exact = drive(ride, plant, *make_integrator(plant, {Method::erk, tightest_tolerance}, false));
   std::vector<double> e;
   double best_s = 1e9;
@@ -132,7 +135,23 @@ void Engine_(benchmark::State& state, Method method, bool ledger) {
   });
 }
 
-BENCHMARK(Erk_<StateVector>)
+/// The default method with effects: none of them with a memory, one with, all at once.
+plant::Rig viscous() {
+  plant::Rig rig;
+  plant::switch_on(rig.effects.get<plant::ViscousDamping>(), plant::ViscousDamping::variants.front());
+  return rig;
+}
+plant::Rig creeping() {
+  plant::Rig rig;
+  plant::switch_on(rig.effects.get<plant::BladderCreep>(), plant::BladderCreep::variants.front());
+  return rig;
+}
+void Effects_(benchmark::State& state, const plant::Rig& rig) {
+  ride_benchmark(
+      state, [](const plant::Plant& plant) { return make_integrator(plant, Settings{}, false); }, rig);
+}
+
+BENCHMARK(Erk_<PlantVector<false, false>>)
     ->Name("erk/error_1e-6/own_vector")
     ->DenseRange(0, 1)
     ->UseManualTime()
@@ -151,6 +170,18 @@ BENCHMARK_CAPTURE(Engine_, erk_default_ledger, Method::erk, true)
     ->UseManualTime()
     ->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(Engine_, cvode_default, Method::cvode, false)
+    ->DenseRange(0, 1)
+    ->UseManualTime()
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(Effects_, viscous_damping, viscous())
+    ->DenseRange(0, 1)
+    ->UseManualTime()
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(Effects_, bladder_creep, creeping())
+    ->DenseRange(0, 1)
+    ->UseManualTime()
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(Effects_, all, plant::rig_with_all_effects())
     ->DenseRange(0, 1)
     ->UseManualTime()
     ->Unit(benchmark::kMillisecond);

@@ -20,8 +20,8 @@ class Program : public testing::Test {
 };
 
 TEST_F(Program, HelpIsNotAnError) {
-  for (const char* arguments :
-       {"--help", "run --help", "dataset --help", "replay --help", "check --help", "schema --help"}) {
+  for (const char* arguments : {"--help", "run --help", "dataset --help", "replay --help", "effects --help",
+                                "check --help", "schema --help"}) {
     const auto said = run(arguments);
     EXPECT_EQ(said.status, 0) << arguments;
     EXPECT_NE(said.out.find("xample"), std::string::npos) << arguments;

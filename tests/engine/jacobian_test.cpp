@@ -7,48 +7,74 @@
 
 #include <sim/engine/jacobian.hpp>
 
+#include "switched_on.hpp"
+
 namespace mckibben::engine {
 namespace {
 
-TEST(Jacobian, IsTheSlopeOfTheEquations) {
-  constexpr int n = plant::state_size + plant::ledger_size;
+/// At 200 random states.
+template <class L>
+void expect_slopes(const plant::Rig& rig) {
+  constexpr int n = L::size;
   std::mt19937_64 random(20);
   const auto between = [&](double low, double high) {
     return std::uniform_real_distribution(low, high)(random);
   };
-  for (const auto law : {plant::FrictionLaw::superposition, plant::FrictionLaw::area,
-                         plant::FrictionLaw::logarithmic, plant::FrictionLaw::power}) {
-    plant::Rig rig;
-    rig.friction.law = law;
-    const plant::Plant plant(rig, 15.0);
-    Problem<n> problem(plant);
-    for (int trial = 0; trial < 200; ++trial) {
-      problem.held.reference_pressure_Pa = between(0.5e5, 5e5);
-      const std::array<double, n> y{between(-0.01, 0.25), between(0.05, 1.0) * (trial % 2 ? 1 : -1),
-                                    between(0.5e5, 5e5), between(0.5e5, 5e5), between(-1e-4, 1e-4)};
-      Eigen::Matrix<double, n, n> exact;
-      ASSERT_TRUE(jacobian(problem, y.data(), exact));
-      for (int column = 0; column < plant::state_size; ++column) {
-        const auto j = static_cast<std::size_t>(column);
-        const double h = 1e-6 * working_size[j];
-        std::array<double, n> up = y, down = y, f_up{}, f_down{};
-        up[j] += h;
-        down[j] -= h;
-        ASSERT_TRUE(problem.rates(up.data(), f_up.data()) && problem.rates(down.data(), f_down.data()));
-        for (int row = 0; row < n; ++row) {
-          const auto i = static_cast<std::size_t>(row);
-          const double slope = (f_up[i] - f_down[i]) / (2.0 * h);
-          const double size = std::abs(slope) + (std::abs(f_up[i]) + 1e-12) / working_size[j];
-          EXPECT_NEAR(exact(row, column), slope, 2e-5 * size) << "row " << row << " column " << column;
-        }
+  const plant::Plant plant(rig, 15.0);
+  Problem<L> problem(plant);
+  for (int trial = 0; trial < 200; ++trial) {
+    problem.held.reference_pressure_Pa = between(0.5e5, 5e5);
+    std::array<double, n> y{between(-0.01, 0.25), between(0.05, 1.0) * (trial % 2 ? 1 : -1),
+                            between(0.5e5, 5e5), between(0.5e5, 5e5), between(-1e-4, 1e-4)};
+    const auto size_of = [](int column) {
+      const auto j = static_cast<std::size_t>(column);
+      return column < plant::state_size ? working_size[j]
+                                        : plant::Effects::memory_sizes[j - working_size.size()];
+    };
+    for (int i = plant::state_size; i < L::steering; ++i)
+      y[static_cast<std::size_t>(i)] = between(0.1, 0.9) * size_of(i);
+    Eigen::Matrix<double, n, n> exact;
+    ASSERT_TRUE(jacobian(problem, y.data(), exact));
+    for (int column = 0; column < L::steering; ++column) {
+      const auto j = static_cast<std::size_t>(column);
+      const double h = 1e-6 * size_of(column);
+      std::array<double, n> up = y, down = y, f_up{}, f_down{};
+      up[j] += h;
+      down[j] -= h;
+      ASSERT_TRUE(problem.rates(up.data(), f_up.data()) && problem.rates(down.data(), f_down.data()));
+      for (int row = 0; row < n; ++row) {
+        const auto i = static_cast<std::size_t>(row);
+        const double slope = (f_up[i] - f_down[i]) / (2.0 * h);
+        const double size = std::abs(slope) + (std::abs(f_up[i]) + 1e-12) / size_of(column);
+        EXPECT_NEAR(exact(row, column), slope, 2e-5 * size) << "row " << row << " column " << column;
       }
     }
   }
 }
 
+TEST(Jacobian, IsTheSlopeOfTheEquations) {
+  for (const auto law : {plant::FrictionLaw::superposition, plant::FrictionLaw::area,
+                         plant::FrictionLaw::logarithmic, plant::FrictionLaw::power}) {
+    plant::Rig rig;
+    rig.friction.law = law;
+    expect_slopes<Layout<false, true>>(rig);
+  }
+}
+
+TEST(Jacobian, KnowsEveryEffectAndWhatItRemembers) {
+  expect_slopes<Layout<true, true>>(plant::rig_with_all_effects());
+  for (const auto& [name, rig] : plant::rigs_with_one_effect()) {
+    SCOPED_TRACE(name);
+    if (plant::Plant(rig, 15.0).remembers())
+      expect_slopes<Layout<true, false>>(rig);
+    else
+      expect_slopes<Layout<false, false>>(rig);
+  }
+}
+
 TEST(Jacobian, IsRefusedOutsideTheDomain) {
   const plant::Plant plant(plant::Rig{}, 15.0);
-  const Problem<plant::state_size> problem(plant);
+  const Problem<Layout<false, false>> problem(plant);
   const std::array<double, plant::state_size> y{0.9, 0.0, 1e5, 1e5, 0.0};
   Eigen::Matrix<double, plant::state_size, plant::state_size> result;
   EXPECT_FALSE(jacobian(problem, y.data(), result));

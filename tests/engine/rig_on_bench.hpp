@@ -16,7 +16,7 @@ class RigOnBench {
   void start(double current_mA) {
     held.reference_pressure_Pa = plant.reference_pressure_Pa(current_mA);
     flow.state = plant.at_rest(held);
-    if (plant.has_events()) held.slip = plant.slip_from_rest(flow.state, held);
+    if (plant.has_events()) held.slip = plant.slip_from_rest(flow.state, flow.memory, held);
   }
 
   /// Holds a current for some ticks.

@@ -38,7 +38,7 @@ TEST_P(StickSlip, HoldsTheLoadStillAndBreaksAwayAtTheLevel) {
   int k = 0;
   for (; k < 2000 && bench.held.slip == plant::Slip::sticking; ++k) {
     EXPECT_EQ(bench.flow.state.joint.contraction_ratio, e);
-    last_margin_N = bench.plant.event_margin(bench.flow.state, bench.held);
+    last_margin_N = bench.plant.event_margin(bench.flow.state, bench.flow.memory, bench.held);
     EXPECT_GT(last_margin_N, 0.0);
     bench.hold(14.0 - 0.002 * k);
   }

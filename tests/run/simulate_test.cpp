@@ -12,6 +12,7 @@
 #include <sim/run/simulate.hpp>
 
 #include "heap_watch.hpp"
+#include "switched_on.hpp"
 
 namespace mckibben::run {
 namespace {
@@ -134,6 +135,10 @@ TEST(Simulate, TouchesNoHeapBetweenFirstAndLastTick) {
         p.noise = {1e-4, 100.0, 0.01};
         EXPECT_EQ(allocations(p, one_of_each().front()), 0)
             << "method " << static_cast<int>(method) << ", ledger " << ledger;
+        p.rig.effects = plant::rig_with_all_effects().effects;
+        p.noise.ripple_Pa = p.noise.wander_Pa = 100.0;
+        EXPECT_EQ(allocations(p, one_of_each().front()), 0)
+            << "with effects, method " << static_cast<int>(method) << ", ledger " << ledger;
       }
   for (const auto& settings : one_of_each())
     EXPECT_EQ(allocations(plan(13.87, ticks), settings), 0) << controllers::name_of(settings);

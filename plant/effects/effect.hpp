@@ -1,0 +1,79 @@
+// What every effect can see and say. An effect is a departure from the nominal rig: a plain struct in a
+// header of its own with
+//   name, acts_on, law, sentence, source   what `mckibben effects` prints
+//   its parameters and `fields`            as every settings struct
+//   absent()                               true where the rig is the nominal one, bit for bit
+//   variants                               how a diagnosis looks for it, one entry for each law variant
+// and those of these functions that it needs (S is double, or a dual number):
+//   S pull_N(now, memory)                  force on the load, positive upwards
+//   S friction_factor(now, memory)         multiplies the friction level G
+//   S end_correction_shift(now)            added to k, in the braid force only
+//   S outflow_kg_per_s(now)                gas that leaves the muscle
+//   double gas_exponent()                  multiplies both pressure rates
+//   S valve_error_shift_Pa(error)          added to P_ref - P_v
+//   S valve_opening(wanted, memory)        by how much the valve opens
+//   S supply_drop_Pa(memory)               taken from the supply pressure
+//   S memory_rate(now, inflow, memory)     d(memory)/dt; a memory starts at zero; `memory_size` is its scale
+//   double reference_Pa(wanted, play)      at each tick: the reference that the valve follows
+//   double wheel_m(rise, play)             at each tick: where the encoder's wheel stands
+//   double reading_factor()                multiplies what the encoder reads of it
+// Effects never see each other: shifts add up, factors multiply, plays in series are one play as wide as all
+// of them. So their order cannot matter.
+#pragma once
+
+#include <algorithm>
+#include <optional>
+#include <string_view>
+
+#include <plant/flow.hpp>
+
+namespace mckibben::plant {
+
+/// What is known at an instant, before any effect. Pressures gauge.
+template <class S>
+struct Instant {
+  S contraction_ratio;    ///< e
+  S rise_m;               ///< x = l0 e
+  S speed_m_per_s;        ///< v = l0 w
+  S muscle_pressure_Pa;   ///< P_m
+  double weight_N;        ///< m g
+  double atmosphere_Pa;   ///< absolute
+  double gas_J_per_kg;    ///< R T
+  Restriction unit_flow;  ///< of a conductance of 1 m3/(s Pa)
+};
+
+/// What flows into the plant at that instant, after all effects on it.
+template <class S>
+struct Inflow {
+  S wanted_opening;   ///< u, what the proportional band asks for
+  S supply_kg_per_s;  ///< drawn from the supply
+};
+
+/// What moves only when pushed: stays where it is until its input is more than half a width away.
+struct Play {
+  std::optional<double> at{};
+  double follow(double input, double half_width) {
+    const double before = at.value_or(input);
+    at = std::min(std::max(before, input - half_width), input + half_width);
+    return *at;
+  }
+};
+
+/// Memories follow within this time at the fastest, so that a tiny time constant asks for no infinite rate.
+inline constexpr double fastest_s = 1e-6;
+
+enum class Sign { positive, either };
+
+/// One law variant, as a diagnosis fits it. Values in the units of the field list.
+struct Variant {
+  std::string_view name;       ///< of the variant; empty if the effect has one law only
+  std::string_view amplitude;  ///< key of the parameter that switches it on
+  double absent;               ///< its value without the effect
+  double typical;              ///< deviation from it that matters, with the sign that is likelier
+  Sign sign;                   ///< whether the deviation may have the other sign too
+  double step;                 ///< deviation for differences: small where the law is smooth at `absent`
+  std::string_view shape{};    ///< key of the parameter that shapes it; empty if there is none
+  double low = 0.0, middle = 0.0, high = 0.0;  ///< shapes to begin from
+};
+
+}  // namespace mckibben::plant

@@ -1,0 +1,28 @@
+// The encoder's wheel hangs behind the load by a play, as a loose coupling or a slipping cord makes it.
+#pragma once
+
+#include <array>
+
+#include <plant/effects/effect.hpp>
+
+namespace mckibben::plant {
+
+struct EncoderBacklash {
+  static constexpr std::string_view name = "encoder_backlash", acts_on = "reading, at ticks",
+                                    law = "the wheel is a play of full width w behind the load",
+                                    sentence =
+                                        "after each turn the reading stands still until the play is used up",
+                                    source = "play operator; Nordin & Gutman, Automatica 38 (2002) 1633-1649";
+  static constexpr std::array variants{Variant{"", "width", 0.0, 5e-4, Sign::positive, 1e-4}};
+
+  double width_m = 0.0;
+
+  template <class Self, class Visitor>
+  static void fields(Self& self, Visitor& visit) {
+    visit("width", self.width_m, "m", 0.0, 0.02, "w, full width; 0: absent");
+  }
+  bool absent() const { return width_m == 0.0; }
+  double wheel_m(double rise_m, Play& play) const { return play.follow(rise_m, 0.5 * width_m); }
+};
+
+}  // namespace mckibben::plant

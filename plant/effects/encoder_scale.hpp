@@ -1,0 +1,26 @@
+// The encoder reads too much or too little: a wheel of another radius than thought.
+#pragma once
+
+#include <array>
+
+#include <plant/effects/effect.hpp>
+
+namespace mckibben::plant {
+
+struct EncoderScale {
+  static constexpr std::string_view name = "encoder_scale", acts_on = "reading", law = "reads (1 + s) x",
+                                    sentence = "the encoder reads too much or too little, in proportion",
+                                    source = "wheel radius out of tolerance";
+  static constexpr std::array variants{Variant{"", "error", 0.0, 0.01, Sign::either, 1e-5}};
+
+  double error = 0.0;
+
+  template <class Self, class Visitor>
+  static void fields(Self& self, Visitor& visit) {
+    visit("error", self.error, "1", -0.3, 0.3, "s; 0: absent");
+  }
+  bool absent() const { return error == 0.0; }
+  double reading_factor() const { return 1.0 + error; }
+};
+
+}  // namespace mckibben::plant

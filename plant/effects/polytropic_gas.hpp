@@ -1,0 +1,30 @@
+// Gas that has no time to take the walls' temperature: between isothermal (n = 1) and adiabatic (n = 1.4).
+#pragma once
+
+#include <array>
+
+#include <plant/effects/effect.hpp>
+
+namespace mckibben::plant {
+
+struct PolytropicGas {
+  static constexpr std::string_view
+      name = "polytropic_gas",
+      acts_on = "gas", law = "dP_v/dt = n R T (q_v - q_h)/V_v; dP_m/dt = n (R T q_h - P_abs dV/dt)/V",
+      sentence = "pressures change faster than in gas that keeps its temperature",
+      source =
+          "polytropic change of state; Richer & Hurmuzlu, ASME J. Dyn. Syst. Meas. Control 122 (2000) "
+          "416-425";
+  static constexpr std::array variants{Variant{"", "exponent", 1.0, 0.2, Sign::positive, 2e-4}};
+
+  double exponent = 1.0;
+
+  template <class Self, class Visitor>
+  static void fields(Self& self, Visitor& visit) {
+    visit("exponent", self.exponent, "1", 1.0, 1.67, "n; 1: absent (isothermal)");
+  }
+  bool absent() const { return exponent == 1.0; }
+  double gas_exponent() const { return exponent; }
+};
+
+}  // namespace mckibben::plant

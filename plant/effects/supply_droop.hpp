@@ -1,0 +1,43 @@
+// A supply that gives way: a vessel before the valve, filled through a line of limited conductance.
+#pragma once
+
+#include <algorithm>
+#include <array>
+
+#include <plant/effects/effect.hpp>
+
+namespace mckibben::plant {
+
+struct SupplyDroop {
+  static constexpr std::string_view
+      name = "supply_droop",
+      acts_on = "supply, with a memory",
+      law = "V_s/(R T) dP_s/dt = g_s (P_supply - P_s) - q_in, q_in = what the supply valve draws",
+      sentence = "the supply pressure sinks while the valve fills the muscle",
+      source = "mass balance of a vessel behind a linear restriction";
+  static constexpr std::array variants{
+      Variant{"", "line_resistance", 0.0, 1e8, Sign::positive, 1e6, "volume", 5e-5, 3e-4, 2e-3}};
+  static constexpr double memory_size = 1e5;  // Pa
+
+  double volume_m3 = 5e-4, line_resistance_s_Pa_per_kg = 0.0;
+
+  template <class Self, class Visitor>
+  static void fields(Self& self, Visitor& visit) {
+    visit("volume", self.volume_m3, "m3", 1e-6, 1.0, "V_s");
+    visit("line_resistance", self.line_resistance_s_Pa_per_kg, "s.Pa/kg", 0.0, 1e10, "1/g_s; 0: absent");
+  }
+  bool absent() const { return line_resistance_s_Pa_per_kg == 0.0; }
+
+  template <class S>
+  S supply_drop_Pa(const S& drop_Pa) const {
+    return drop_Pa;
+  }
+  template <class S>
+  S memory_rate(const Instant<S>& now, const Inflow<S>& inflow, const S& drop_Pa) const {
+    const double stiffness_Pa_per_kg = now.gas_J_per_kg / volume_m3;
+    const double resistance = std::max(line_resistance_s_Pa_per_kg, fastest_s * stiffness_Pa_per_kg);
+    return stiffness_Pa_per_kg * (inflow.supply_kg_per_s - drop_Pa / resistance);
+  }
+};
+
+}  // namespace mckibben::plant

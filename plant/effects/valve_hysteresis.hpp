@@ -1,0 +1,29 @@
+// A valve whose reference lags behind by a play: friction of the spool, or magnetic hysteresis.
+#pragma once
+
+#include <array>
+
+#include <plant/effects/effect.hpp>
+
+namespace mckibben::plant {
+
+struct ValveHysteresis {
+  static constexpr std::string_view
+      name = "valve_hysteresis",
+      acts_on = "valve, at ticks",
+      law = "the clamped P_ref passes a play of half width h, updated at each tick",
+      sentence = "the valve keeps its reference pressure until the current has moved some way",
+      source = "play operator; Visintin, Differential Models of Hysteresis (1994)";
+  static constexpr std::array variants{Variant{"", "half_width", 0.0, 5e3, Sign::positive, 1e3}};
+
+  double half_width_Pa = 0.0;
+
+  template <class Self, class Visitor>
+  static void fields(Self& self, Visitor& visit) {
+    visit("half_width", self.half_width_Pa, "Pa", 0.0, 2e5, "h; 0: absent");
+  }
+  bool absent() const { return half_width_Pa == 0.0; }
+  double reference_Pa(double wanted_Pa, Play& play) const { return play.follow(wanted_Pa, half_width_Pa); }
+};
+
+}  // namespace mckibben::plant

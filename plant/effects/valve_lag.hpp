@@ -1,0 +1,39 @@
+// The valve's spool needs time to follow its command.
+#pragma once
+
+#include <algorithm>
+#include <array>
+
+#include <plant/effects/effect.hpp>
+
+namespace mckibben::plant {
+
+struct ValveLag {
+  static constexpr std::string_view name = "valve_lag", acts_on = "valve, with a memory",
+                                    law = "tau du_a/dt = u - u_a, the valve opens by u_a",
+                                    sentence = "the valve opens and closes with a delay of first order",
+                                    source =
+                                        "first-order spool dynamics; Sorli, Figliolini, Pastorelli, "
+                                        "IEEE/ASME Trans. Mechatronics 9 (2004) 78-86";
+  static constexpr std::array variants{Variant{"", "time", 0.0, 0.02, Sign::positive, 2e-3}};
+  static constexpr double memory_size = 1.0;
+
+  double time_s = 0.0;
+
+  template <class Self, class Visitor>
+  static void fields(Self& self, Visitor& visit) {
+    visit("time", self.time_s, "s", 0.0, 2.0, "tau; 0: absent");
+  }
+  bool absent() const { return time_s == 0.0; }
+
+  template <class S>
+  S valve_opening(const S&, const S& opened) const {
+    return opened;
+  }
+  template <class S>
+  S memory_rate(const Instant<S>&, const Inflow<S>& inflow, const S& opened) const {
+    return (inflow.wanted_opening - opened) / std::max(time_s, fastest_s);
+  }
+};
+
+}  // namespace mckibben::plant

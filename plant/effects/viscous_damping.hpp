@@ -1,0 +1,32 @@
+// Viscous damping of the muscle or its guide: the linear term of every friction model.
+#pragma once
+
+#include <array>
+
+#include <plant/effects/effect.hpp>
+
+namespace mckibben::plant {
+
+struct ViscousDamping {
+  static constexpr std::string_view name = "viscous_damping", acts_on = "pull", law = "-c v",
+                                    sentence = "a force against the speed, in proportion to it",
+                                    source =
+                                        "Newton's viscous friction; Armstrong-Helouvry et al., "
+                                        "Automatica 30 (1994) 1083-1138";
+  static constexpr std::array variants{Variant{"", "damping", 0.0, 50.0, Sign::positive, 0.1}};
+
+  double damping_N_s_per_m = 0.0;
+
+  template <class Self, class Visitor>
+  static void fields(Self& self, Visitor& visit) {
+    visit("damping", self.damping_N_s_per_m, "N.s/m", 0.0, 5e3, "c; 0: absent");
+  }
+  bool absent() const { return damping_N_s_per_m == 0.0; }
+
+  template <class S>
+  S pull_N(const Instant<S>& now, const S&) const {
+    return -damping_N_s_per_m * now.speed_m_per_s;
+  }
+};
+
+}  // namespace mckibben::plant

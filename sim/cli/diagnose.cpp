@@ -1,0 +1,80 @@
+// The verb `diagnose`: what a rig lacks, found in measured runs.
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include <fmt/format.h>
+
+#include <sim/cli/exit_status.hpp>
+#include <sim/cli/results.hpp>
+#include <sim/cli/verbs.hpp>
+#include <sim/diagnose/diagnose.hpp>
+#include <sim/engine/failure.hpp>
+#include <sim/input/rig_file.hpp>
+#include <sim/output/diagnosis_json.hpp>
+#include <sim/output/diagnosis_report.hpp>
+#include <sim/output/diagnosis_rig.hpp>
+#include <sim/output/diagnosis_table.hpp>
+#include <sim/output/diagnosis_words.hpp>
+#include <sim/output/progress.hpp>
+
+namespace mckibben::cli {
+namespace {
+
+/// Throws output::CannotWrite if another file than an earlier plan stands there.
+void check_plan(const std::string& plan) {
+  if (plan.empty() || !std::filesystem::exists(plan)) return;
+  std::ifstream file(plan);
+  std::string first;
+  std::getline(file, first);
+  if (!first.starts_with(output::plan_heading))
+    throw output::CannotWrite(
+        fmt::format("cannot write {}: what is there is not an earlier plan; give another --plan", plan));
+}
+
+void write_plan(const std::string& plan, const input::Dataset& data, const diagnose::Diagnosis& found) {
+  if (plan.empty()) return;
+  if (!found.next_experiment) {
+    fmt::print(stderr, "mckibben: no plan is written: no further measurement is asked for\n");
+    return;
+  }
+  output::write_whole(std::filesystem::absolute(plan), output::plan_yaml(data, found));
+  fmt::print(stderr, "plan in {}\n", plan);
+}
+
+}  // namespace
+
+int diagnose_dataset(const std::string& path, const Options& options, const std::string& plan) {
+  input::Dataset data = input::read_dataset(path);
+  if (!options.rig.empty()) data.rig = input::read_rig(options.rig, data.inputs);
+  const std::string name = output::name_of(data);
+  const auto where = destination(options, "diagnose-" + name);
+  keep_apart(where, std::filesystem::absolute(data.path).lexically_normal().parent_path());
+  check_plan(plan);
+  output::ResultFolder folder(where, "diagnose " + path);
+
+  diagnose::Diagnosis found;
+  try {
+    output::Progress progress(name);
+    const diagnose::Settings settings{options.threads, options.seed.value_or(1)};
+    found = diagnose::diagnose(data, settings, progress.hook());
+  } catch (const engine::NumericalFailure& error) {
+    fmt::print(stderr, "mckibben: the data cannot be simulated on this rig: {}\n", error.what());
+    return failure;
+  }
+  const std::string document = output::json_of(data, found).dump(2) + "\n";
+  folder.write("diagnosis.json", document);
+  folder.write("rig.yaml", output::rig_yaml(data, found));
+  folder.write("report.html", output::report_html(data, found));
+  publish(folder, where);
+  write_plan(plan, data, found);
+  const auto file = [&](const char* leaf) { return (where / leaf).string(); };
+  print(options.json ? document
+                     : output::table_of(data, found) + fmt::format("\nreport {}\nrig    {}\nall    {}\n",
+                                                                   file("report.html"), file("rig.yaml"),
+                                                                   file("diagnosis.json")));
+  return done;
+}
+
+}  // namespace mckibben::cli

@@ -1,0 +1,197 @@
+// The verb effects: the catalogue of what a rig may have besides the nominal, from the table that the plant
+// computes with (plant/effects.hpp) and the lists that the reader checks with.
+#include <algorithm>
+#include <cstdio>
+#include <tuple>
+#include <type_traits>
+
+#include <fmt/format.h>
+
+#include <plant/effects.hpp>
+#include <sim/cli/exit_status.hpp>
+#include <sim/cli/results.hpp>
+#include <sim/cli/verbs.hpp>
+#include <sim/input/field_list.hpp>
+#include <sim/input/suggest.hpp>
+#include <sim/input/yaml_writer.hpp>
+#include <sim/output/folder.hpp>
+#include <sim/output/grid.hpp>
+
+namespace mckibben::cli {
+namespace {
+
+using input::FieldInfo;
+using input::Json;
+
+/// One effect of the table, its types forgotten.
+struct Entry {
+  std::string_view name, acts_on, law, sentence, source;
+  std::vector<plant::Variant> variants;
+  std::vector<FieldInfo> fields;
+};
+
+template <class E>
+Entry entry_of() {
+  return {E::name,
+          E::acts_on,
+          E::law,
+          E::sentence,
+          E::source,
+          {E::variants.begin(), E::variants.end()},
+          input::list_fields<E>()};
+}
+
+std::vector<Entry> catalogue() {
+  return std::apply(
+      [](const auto&... effect) { return std::vector{entry_of<std::decay_t<decltype(effect)>>()...}; },
+      plant::Effects::Table{});
+}
+
+/// Not an effect with a name of its own, but what a diagnosis writes where it knows none.
+bool is_residual(const Entry& entry) {
+  return entry.variants.empty();
+}
+
+const FieldInfo& field(const Entry& entry, std::string_view key) {
+  return *std::find_if(entry.fields.begin(), entry.fields.end(),
+                       [key](const auto& info) { return info.key == key; });
+}
+
+Json quantity(const Entry& entry, std::string_view key, double value) {
+  return input::quantity_json(value, field(entry, key).unit);
+}
+
+/// How a rig file switches it on, one way for each law variant.
+std::vector<Json> examples(const Entry& entry) {
+  std::vector<Json> list;
+  for (const plant::Variant& variant : entry.variants) {
+    Json keys = Json::object();
+    if (!variant.name.empty()) keys["variant"] = variant.name;
+    keys[std::string(variant.amplitude)] =
+        quantity(entry, variant.amplitude, variant.absent + variant.typical);
+    if (!variant.shape.empty())
+      keys[std::string(variant.shape)] = quantity(entry, variant.shape, variant.middle);
+    list.push_back({{"effects", {{std::string(entry.name), keys}}}});
+  }
+  if (is_residual(entry))
+    list.push_back(
+        {{"effects",
+          {{std::string(entry.name), {{"terms", {Json{{"of", "P e"}, {"coefficient", "-2 N"}}}}}}}}});
+  return list;
+}
+
+Json parameter_json(const Entry& entry, const FieldInfo& info) {
+  Json json{{"key", info.key}, {"meaning", info.meaning}};
+  if (info.type == FieldInfo::Type::quantity) {
+    json["unit"] = info.unit;
+    json["lowest"] = info.lowest;
+    json["highest"] = info.highest;
+    json["default"] = info.default_value;
+    for (const plant::Variant& variant : entry.variants)
+      if (variant.amplitude == info.key) json["absent"] = variant.absent;
+  }
+  if (!info.choices.empty()) json["choices"] = info.choices;
+  for (const auto& group : info.groups)
+    for (const FieldInfo& inside : group.fields) json["each"].push_back(parameter_json(entry, inside));
+  return json;
+}
+
+Json json_of(const Entry& entry) {
+  Json json{{"name", entry.name},         {"acts_on", entry.acts_on}, {"law", entry.law},
+            {"meaning", entry.sentence},  {"source", entry.source},   {"parameters", Json::array()},
+            {"examples", examples(entry)}};
+  for (const FieldInfo& info : entry.fields) json["parameters"].push_back(parameter_json(entry, info));
+  return json;
+}
+
+std::string range(const FieldInfo& info) {
+  if (info.type == FieldInfo::Type::quantity)
+    return fmt::format("{:g} to {:g}", info.lowest.get<double>(), info.highest.get<double>());
+  return info.choices.empty() ? "" : fmt::format("{}", fmt::join(info.choices, ", "));
+}
+
+void add_rows(const std::vector<FieldInfo>& fields, const std::string& indent, output::Grid& grid) {
+  for (const FieldInfo& info : fields) {
+    const auto text = info.default_value.is_string() ? info.default_value.get<std::string>()
+                      : info.default_value.is_null() ? ""
+                                                     : info.default_value.dump();
+    grid.add({"  " + indent + info.key, info.unit == "1" ? "" : info.unit, range(info), text, info.meaning});
+    for (const auto& group : info.groups) add_rows(group.fields, indent + "  ", grid);
+  }
+}
+
+std::string details(const Entry& entry) {
+  std::string text = fmt::format("{}: {}\n  acts on  {}\n  law      {}\n  source   {}\n", entry.name,
+                                 entry.sentence, entry.acts_on, entry.law, entry.source);
+  output::Grid grid({"  parameter", "unit", "range", "default", "meaning"}, 5);
+  add_rows(entry.fields, "", grid);
+  return text + grid.text();
+}
+
+std::string how_to(const Entry& entry) {
+  std::string text;
+  for (const Json& example : examples(entry)) {
+    text += text.empty() ? "\n  in a rig file, for example:\n" : "\n  or:\n";
+    const std::string yaml = input::to_yaml(example);
+    for (std::size_t at = 0; at < yaml.size(); at = yaml.find('\n', at) + 1)
+      text += "    " + yaml.substr(at, yaml.find('\n', at) + 1 - at);
+  }
+  return text;
+}
+
+std::string overview(const std::vector<Entry>& all) {
+  output::Grid grid({"name", "acts on", "size", "what it is"}, 4);
+  for (const Entry& entry : all) {
+    std::string size;
+    for (const plant::Variant& variant : entry.variants)
+      size += (size.empty() ? "" : " or ") + std::string(variant.amplitude);
+    if (!is_residual(entry))
+      grid.add({std::string(entry.name), std::string(entry.acts_on), size, std::string(entry.sentence)});
+  }
+  std::string text = fmt::format(
+      "What a rig may have besides the nominal rig; absent unless its size is given in the rig file.\n\n{}\n",
+      grid.text());
+  for (const Entry& entry : all)
+    text += (is_residual(entry) ? "Besides, where no name fits:\n\n" : "") + details(entry) + "\n";
+  return text + "How to switch one on: mckibben effects NAME\n";
+}
+
+}  // namespace
+
+int list_effects(const std::vector<std::string>& names, const Options& options) {
+  const std::vector<Entry> all = catalogue();
+  std::vector<std::string_view> known;
+  known.reserve(all.size());
+  for (const Entry& entry : all) known.push_back(entry.name);
+  std::vector<Entry> chosen;
+  for (const auto& name : names) {
+    const auto at = std::find(known.begin(), known.end(), name);
+    if (at == known.end()) {
+      fmt::print(stderr, "mckibben: unknown effect {}{} (known: {})\n", name,
+                 input::did_you_mean(name, known), input::join(known));
+      return usage_error;
+    }
+    chosen.push_back(all[static_cast<std::size_t>(at - known.begin())]);
+  }
+  Json list = Json::array(), apart = nullptr;
+  for (const Entry& entry : names.empty() ? all : chosen) {
+    if (is_residual(entry))
+      apart = json_of(entry);
+    else
+      list.push_back(json_of(entry));
+  }
+  Json document{{"schema", "mckibben-effects/1"}, {"effects", std::move(list)}};
+  if (!apart.is_null()) document["residual_law"] = std::move(apart);
+  const std::string json = document.dump(2) + "\n";
+  std::string text = names.empty() ? overview(all) : "";
+  for (const Entry& entry : chosen) text += (text.empty() ? "" : "\n") + details(entry) + how_to(entry);
+  if (!options.out.empty()) {
+    output::ResultFolder folder(options.out, "effects");
+    folder.write("effects.json", json);
+    publish(folder, options.out);
+  }
+  print(options.json ? json : text);
+  return done;
+}
+
+}  // namespace mckibben::cli

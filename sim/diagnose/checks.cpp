@@ -1,0 +1,351 @@
+// Checks of measured data; see the header. Thresholds are in counts of the encoder.
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <span>
+
+#include <fmt/format.h>
+
+#include <sim/diagnose/checks.hpp>
+#include <sim/diagnose/labels.hpp>
+#include <sim/run/batch.hpp>
+#include <sim/run/simulate.hpp>
+
+namespace mckibben::diagnose {
+namespace {
+
+using Series = std::vector<double>;
+
+constexpr double bar_Pa = 1e5;
+
+double range(std::span<const double> values) {
+  const auto [low, high] = std::minmax_element(values.begin(), values.end());
+  return *high - *low;
+}
+
+/// Straight line through `values` over `model`; its slope is 0 where the model stands still.
+struct Line {
+  double slope = 0.0, mean_difference = 0.0;
+  Line(const Series& values, const Series& model) {
+    const auto rows = static_cast<double>(values.size());
+    const double mean = std::accumulate(values.begin(), values.end(), 0.0) / rows;
+    const double model_mean = std::accumulate(model.begin(), model.end(), 0.0) / rows;
+    double along = 0.0, squares = 0.0;
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      along += (values[k] - mean) * (model[k] - model_mean);
+      squares += (model[k] - model_mean) * (model[k] - model_mean);
+    }
+    if (squares > 0.0) slope = along / squares;
+    mean_difference = mean - model_mean;
+  }
+};
+
+// Units.
+
+/// What a column would be multiplied by, if it were in this unit.
+struct Unit {
+  double factor;
+  std::string_view name;
+};
+
+/// The unit that explains a slope between measured and predicted values.
+std::optional<std::string_view> other_unit(double slope, std::initializer_list<Unit> units) {
+  for (const Unit& unit : units) {
+    const bool far_from_right = std::abs(std::log(unit.factor)) > std::log(2.0);
+    if (far_from_right && slope > 0.0 && std::abs(std::log(slope / unit.factor)) < std::log(1.25))
+      return unit.name;
+  }
+  return std::nullopt;
+}
+
+void check_units(const input::Dataset& data, const std::vector<Readings>& model) {
+  const plant::Rig& rig = data.rig;
+  const double count = run::contraction_per_count(rig);
+  const double dead_mA = rig.valve.zero_current_mA, amperes_mA = rig.valve.span_current_mA / 400.0;
+  std::vector<input::Problem> problems;
+  for (std::size_t i = 0; i < data.runs.size(); ++i) {
+    const input::Run& run = data.runs[i];
+    const auto bad = [&](std::string message) {
+      input::Problem problem;
+      problem.file = (data.path.parent_path() / run.file).lexically_normal().string();
+      problem.message = std::move(message);
+      problems.push_back(std::move(problem));
+    };
+    const double largest_mA = *std::max_element(run.current_mA.begin(), run.current_mA.end());
+    if (largest_mA > 0.0 && largest_mA < amperes_mA)
+      bad(fmt::format("current_mA: never above {:.3g}; this looks like amperes, not mA", largest_mA));
+    else if (largest_mA < dead_mA && range(run.contraction_ratio) > 20.0 * count)
+      bad(fmt::format(
+          "current_mA: never above {:.3g}, where the valve does nothing (below {:.3g} mA), yet the "
+          "muscle moves; is this another unit, or a share of the range?",
+          largest_mA, dead_mA));
+    if (range(model[i].contraction_ratio) > 20.0 * count) {
+      const double length_m = rig.muscle.rest_length_m;
+      const auto unit = other_unit(Line(run.contraction_ratio, model[i].contraction_ratio).slope,
+                                   {{100.0, "per cent"},
+                                    {length_m, "metres"},
+                                    {1e3 * length_m, "millimetres"},
+                                    {1.0 / count, "counts"}});
+      if (unit) bad(fmt::format("contraction_ratio: this looks like {}, not a ratio", *unit));
+    }
+    if (!run.muscle_pressure_Pa) continue;
+    const Line pressure(*run.muscle_pressure_Pa, model[i].pressure_Pa);
+    if (range(model[i].pressure_Pa) > 0.3 * bar_Pa) {
+      const auto unit = other_unit(
+          pressure.slope, {{100.0, "kPa"}, {14.504, "psi"}, {1e3, "mbar"}, {0.1, "MPa"}, {1e5, "Pa"}});
+      if (unit) bad(fmt::format("muscle_pressure_bar: this looks like {}, not bar", *unit));
+      if (pressure.slope < 0.5 || pressure.slope > 2.0) continue;
+    }
+    if (std::abs(pressure.mean_difference / rig.gas.atmosphere_Pa - 1.0) < 0.2)
+      bad("muscle_pressure_bar: about one atmosphere too high; this looks like absolute, not gauge pressure");
+  }
+  if (!problems.empty()) throw input::BadInput(std::move(problems));
+}
+
+// Single runs.
+
+/// Rows from `begin` to before `end`.
+struct Stretch {
+  std::size_t begin, end;
+};
+
+/// By how much the model's movement changes from one tick to the next at most, within 0.3 s of each row: what
+/// a load can do there, also if a hidden effect makes it come early or late.
+Series sharpest_nearby(const Series& model, double tick_s) {
+  const auto reach = static_cast<std::size_t>(std::lround(0.3 / tick_s));
+  Series sharpest(model.size(), 0.0);
+  for (std::size_t k = 1; k + 1 < model.size(); ++k) {
+    const double bend = std::abs(model[k + 1] - 2.0 * model[k] + model[k - 1]);
+    const std::size_t last = std::min(model.size() - 1, k + reach);
+    for (std::size_t near = k > reach ? k - reach : 0; near <= last; ++near)
+      sharpest[near] = std::max(sharpest[near], bend);
+  }
+  return sharpest;
+}
+
+/// Readings that leave the line through their neighbours with a jump and come back to it with another, within
+/// five ticks. At the ends of a run it must stand still: there one jump is all that is seen.
+std::vector<Stretch> spikes(Series values, const Series& sharpest, double count) {
+  constexpr std::size_t widest = 5;
+  std::vector<Stretch> found;
+  const std::size_t rows = values.size();
+  for (std::size_t begin = 0; begin < rows && rows > 3; ++begin) {
+    for (std::size_t end = begin + 1; end <= std::min(rows, begin + widest); ++end) {
+      const bool first = begin == 0, last = end == rows;
+      if ((first || last) && end - begin > 1) break;
+      // Beyond the ends of the run the movement is taken to go on.
+      const double before = first ? 3.0 * values[1] - 2.0 * values[2] : values[begin - 1];
+      const double after = last ? 3.0 * values[rows - 2] - 2.0 * values[rows - 3] : values[end];
+      const auto width = static_cast<double>(end - begin);
+      const double limit = 5.0 * count + sharpest[begin] * (width + 1.0);
+      const double slope = (after - before) / (width + 1.0);
+      const double there = values[begin] - before - slope, back = after - values[end - 1] - slope;
+      const double least = std::min(std::abs(there), std::abs(back));
+      if ((first || last) && std::abs(slope) > 2.0 * count) continue;
+      if (least < limit || there * back >= 0.0 || std::abs(there + back) > 0.5 * least) continue;
+      const bool inside = begin > 1 && end + 1 < rows;
+      const double alike = 3.0 * count + 2.0 * sharpest[begin];
+      if (inside && (std::abs(values[begin - 1] - values[begin - 2] - slope) > alike ||
+                     std::abs(values[end + 1] - values[end] - slope) > alike))
+        continue;
+      found.push_back({begin, end});
+      for (std::size_t k = begin; k < end; ++k)  // must not make its neighbours look wrong
+        values[k] = before + slope * static_cast<double>(k - begin + 1);
+      break;
+    }
+  }
+  return found;
+}
+
+/// A row at which the reading jumps and stays: the load moves before and after as if nothing had happened.
+std::optional<std::size_t> lost_counts(const Series& values, const Series& sharpest,
+                                       const std::vector<bool>& masked, double count) {
+  for (std::size_t k = 2; k + 1 < values.size(); ++k) {
+    if (masked[k - 2] || masked[k - 1] || masked[k] || masked[k + 1]) continue;
+    const double before = values[k - 1] - values[k - 2], after = values[k + 1] - values[k];
+    const double jump = std::abs(values[k] - values[k - 1] - 0.5 * (before + after));
+    if (jump > 20.0 * count + 4.0 * sharpest[k] && std::abs(after - before) < 0.25 * jump) return k;
+  }
+  return std::nullopt;
+}
+
+/// Where the reading stays the same to the last bit although the model moves far. Friction may hold a load
+/// that the model moves, and so may the braid stop: the reading must also stop as no friction could stop it,
+/// or catch up with a jump, or miss a great deal.
+std::vector<Stretch> frozen(const Series& values, const Series& model, double count, double tick_s) {
+  const auto shortest = static_cast<std::size_t>(std::lround(0.5 / tick_s));
+  std::vector<Stretch> found;
+  for (std::size_t begin = 0, end; begin < values.size(); begin = end) {
+    end = begin + 1;
+    while (end < values.size() && values[end] == values[begin]) ++end;
+    if (end - begin < shortest || values[begin] < 3.0 * count) continue;
+    const double missed = range({model.data() + begin, end - begin});
+    const bool stops_dead = begin > 0 && std::abs(values[begin] - values[begin - 1]) > 10.0 * count;
+    const bool jumps = end < values.size() && std::abs(values[end] - values[begin]) > 6.0 * count;
+    if (missed > 200.0 * count || (missed > 100.0 * count && (stops_dead || jumps)))
+      found.push_back({begin + 1, end});
+  }
+  return found;
+}
+
+class Checker {
+ public:
+  Checker(const input::Dataset& data, unsigned threads)
+      : data_(data),
+        threads_(threads),
+        count_(run::contraction_per_count(data.rig)),
+        model_(data.runs.size()) {
+    for (const input::Run& run : data.runs) doubts_.masked.emplace_back(run.current_mA.size(), false);
+    left_out_.assign(data.runs.size(), false);
+    run::for_each_job(
+        data.runs.size(), threads,
+        [&](std::size_t i) {
+          const Hanging hanging{data.rig, data.runs[i].load_kg};
+          model_[i] = std::move(predict(data.runs[i], {&hanging, 1}).front());
+        },
+        [](std::size_t) {});
+  }
+
+  Doubts operator()() {
+    check_units(data_, model_);
+    for (std::size_t i = 0; i < data_.runs.size(); ++i) {
+      gauge(i);
+      if (moves(i)) readings(i);
+    }
+    labels();
+    enough();
+    for (std::size_t i = 0; i < left_out_.size(); ++i)
+      if (left_out_[i]) doubts_.left_out.push_back(i);
+    return std::move(doubts_);
+  }
+
+ private:
+  void warn(std::size_t run, std::string_view what) {
+    doubts_.warnings.push_back(fmt::format("run {}: {}", data_.runs[run].id, what));
+  }
+  void leave_out(std::size_t run, std::string_view why) {
+    warn(run, fmt::format("{}; left out", why));
+    left_out_[run] = true;
+  }
+  double time_s(std::size_t row) const { return static_cast<double>(row) * data_.rig.tick_s; }
+  Runs usable() const {
+    Runs runs;
+    for (std::size_t i = 0; i < left_out_.size(); ++i)
+      if (!left_out_[i]) runs.push_back(i);
+    return runs;
+  }
+
+  void gauge(std::size_t i) {
+    const auto& shown = data_.runs[i].muscle_pressure_Pa;
+    if (!shown) return;
+    const bool constant = range(*shown) == 0.0;
+    const bool should_move = range(model_[i].pressure_Pa) > 0.3 * bar_Pa;
+    if (!constant && (!should_move || std::abs(Line(*shown, model_[i].pressure_Pa).slope) > 0.1)) return;
+    doubts_.dead_gauges.push_back(i);
+    warn(i, fmt::format("muscle_pressure_bar {}: the gauge is ignored",
+                        constant ? fmt::format("is {:.4g} throughout", shown->front() / bar_Pa)
+                                 : "does not follow the current"));
+  }
+
+  bool moves(std::size_t i) {
+    const input::Run& run = data_.runs[i];
+    const double largest_mA = *std::max_element(run.current_mA.begin(), run.current_mA.end());
+    const double dead_mA = data_.rig.valve.zero_current_mA +
+                           1e-3 * (data_.rig.valve.span_current_mA - data_.rig.valve.zero_current_mA);
+    const double should_m = range(model_[i].contraction_ratio) * data_.rig.muscle.rest_length_m;
+    if (largest_mA <= dead_mA)
+      leave_out(i, fmt::format("the current stays at or below {:.4g} mA and moves nothing", largest_mA));
+    else if (range(run.contraction_ratio) > 1.5 * count_)
+      return true;
+    else if (range(model_[i].contraction_ratio) > 20.0 * count_)
+      leave_out(i, fmt::format("the reading never changes, though the load should move by {:.3g} mm (is the "
+                               "encoder connected, the load held?)",
+                               1e3 * should_m));
+    else
+      leave_out(i, "nothing moves");
+    return false;
+  }
+
+  void readings(std::size_t i) {
+    const Series& values = data_.runs[i].contraction_ratio;
+    const Series& model = model_[i].contraction_ratio;
+    std::vector<bool>& masked = doubts_.masked[i];
+    const Series sharpest = sharpest_nearby(model, data_.rig.tick_s);
+    const auto outliers = spikes(values, sharpest, count_);
+    const auto stuck = frozen(values, model, count_, data_.rig.tick_s);
+    const auto mask = [&](const Stretch& stretch) {
+      std::fill(masked.begin() + static_cast<std::ptrdiff_t>(stretch.begin),
+                masked.begin() + static_cast<std::ptrdiff_t>(stretch.end), true);
+    };
+    std::for_each(outliers.begin(), outliers.end(), mask);
+    if (!outliers.empty()) {
+      std::string times;
+      for (std::size_t n = 0; n < std::min<std::size_t>(outliers.size(), 3); ++n)
+        times += fmt::format("{}{:.3f} s", n > 0 ? ", " : "", time_s(outliers[n].begin));
+      warn(i, fmt::format("{} outlier{} in contraction_ratio, at {}{}; not used", outliers.size(),
+                          outliers.size() > 1 ? "s" : "", times, outliers.size() > 3 ? " and later" : ""));
+    }
+    std::for_each(stuck.begin(), stuck.end(), mask);
+    for (const Stretch& stretch : stuck)
+      warn(i,
+           fmt::format("contraction_ratio is frozen from {:.3f} s to {:.3f} s though the load should move; "
+                       "not used",
+                       time_s(stretch.begin - 1), time_s(stretch.end - 1)));
+    const auto lost = std::count(masked.begin(), masked.end(), true);
+    if (const auto row = lost_counts(values, sharpest, masked, count_))
+      leave_out(i,
+                fmt::format("contraction_ratio jumps by {:.3g} at {:.3f} s and stays there: counts were lost",
+                            values[*row] - values[*row - 1], time_s(*row)));
+    else if (static_cast<double>(lost) > 0.3 * static_cast<double>(masked.size()))
+      leave_out(i, "too little of it is left");
+  }
+
+  void labels() {
+    const Runs runs = usable();
+    const auto wrong = wrong_labels(data_, doubts_.masked, runs, threads_);
+    for (const WrongLabel& label : wrong)
+      leave_out(label.run,
+                fmt::format("the load is labelled {:.6g} kg, but everything else says about {:.1f} kg",
+                            data_.runs[label.run].load_kg, label.load_kg));
+    if (3 * wrong.size() > runs.size())
+      doubts_.cannot_tell =
+          "too many runs contradict the others about their load: weigh the loads again, or give the rig's "
+          "parameters more exactly";
+  }
+
+  void enough() {
+    if (doubts_.cannot_tell) return;
+    const Runs runs = usable();
+    if (runs.size() < 3) {
+      doubts_.cannot_tell = fmt::format(
+          "{} usable run{}: too few to choose on some and judge on others; at least four runs would help, "
+          "with "
+          "two loads and two kinds of current",
+          runs.size(), runs.size() == 1 ? "" : "s");
+      return;
+    }
+    const double first_kg = data_.runs[runs.front()].load_kg;
+    if (std::all_of(runs.begin(), runs.end(), [&](std::size_t i) {
+          return std::abs(data_.runs[i].load_kg - first_kg) < 0.01 * first_kg;
+        }))
+      doubts_.warnings.push_back(
+          fmt::format("all runs have the same load, {:.6g} kg: what grows with the load cannot be told from "
+                      "what does not",
+                      first_kg));
+  }
+
+  const input::Dataset& data_;
+  unsigned threads_;
+  double count_;
+  std::vector<Readings> model_;
+  std::vector<bool> left_out_;
+  Doubts doubts_;
+};
+
+}  // namespace
+
+Doubts check(const input::Dataset& data, unsigned threads) {
+  return Checker(data, threads)();
+}
+
+}  // namespace mckibben::diagnose

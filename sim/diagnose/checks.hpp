@@ -1,0 +1,33 @@
+// Whether measured data can be trusted, before anything is concluded from them: wrong units are errors; what
+// else looks wrong is masked or left out, and said by name.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <sim/diagnose/experiment.hpp>
+#include <sim/input/dataset.hpp>
+
+namespace mckibben::diagnose {
+
+struct Doubts {
+  std::vector<std::vector<bool>> masked;     ///< [run][row]: readings that are not the load's
+  Runs left_out;                             ///< ascending
+  Runs dead_gauges;                          ///< runs whose muscle pressure says nothing: ignore it
+  std::vector<std::string> warnings;         ///< each names its run
+  std::optional<std::string> cannot_tell{};  ///< why no answer is possible, and what would help
+};
+
+/// Looks for single readings and jumps that no load could follow, a reading that froze, gauges that are dead,
+/// runs that never move, labels of loads that contradict the other runs, and too few runs or loads. The model
+/// is the data set's rig as it is, so a test fires only where no effect of the catalogue and no tolerance of
+/// a parameter could be the reason.
+///
+/// Labels of loads that contradict the other runs: see labels.hpp.
+///
+/// Throws input::BadInput where a column is in another unit than it says; engine::NumericalFailure;
+/// run::Interrupted.
+Doubts check(const input::Dataset& data, unsigned threads);
+
+}  // namespace mckibben::diagnose

@@ -1,0 +1,215 @@
+// The workflow; see the header and docs/diagnosis.md.
+#include <algorithm>
+#include <cmath>
+
+#include <sim/diagnose/checks.hpp>
+#include <sim/diagnose/diagnose.hpp>
+#include <sim/diagnose/interval.hpp>
+#include <sim/diagnose/law.hpp>
+#include <sim/diagnose/naming.hpp>
+#include <sim/diagnose/plan.hpp>
+#include <sim/diagnose/story.hpp>
+#include <sim/diagnose/where.hpp>
+#include <sim/run/simulate.hpp>
+
+namespace mckibben::diagnose {
+namespace {
+
+/// Scatter over long times that is assumed until a model has been fitted.
+constexpr double first_temperature = 20.0;
+/// Residuals within so many floors [rms] are taken for noise, slow disturbances included.
+constexpr double near_floor = 4.0;
+/// Mean squares above the floor: what is worth a search for a law, and what no disturbance would leave.
+constexpr double worth_a_law = 0.15, beyond_disturbance = 60.0;
+/// Shares of the gap that effects must close to be named, and a law to be believed.
+constexpr double least_named = 0.4, least_law = 0.3;
+/// The rate of false alarms that the thresholds are set for; docs/diagnosis.md has what was measured.
+constexpr double false_alarm_rate = 0.03;
+
+constexpr std::size_t usual_steps = 20;
+
+input::Dataset without_gauges(input::Dataset data, const Runs& dead) {
+  for (const std::size_t run : dead) data.runs[run].muscle_pressure_Pa.reset();
+  return data;
+}
+
+class Workflow {
+ public:
+  Workflow(const input::Dataset& data, const Settings& settings, const run::ProgressHook& progress)
+      : settings_(settings),
+        progress_(progress),
+        doubts_((progress("checking", 0, usual_steps), check(data, settings.threads))),
+        data_(without_gauges(data, doubts_.dead_gauges)),
+        experiment_(data_, doubts_.masked, settings.threads),
+        nominal_(data.rig),
+        case_{experiment_, nominal_, {}, first_temperature} {}
+
+  Diagnosis operator()() {
+    result_.seed = settings_.seed;
+    result_.warnings = doubts_.warnings;
+    result_.false_alarm_rate = false_alarm_rate;
+    result_.corrected = data_.rig;
+    for (std::size_t run = 0; run < data_.runs.size(); ++run)
+      if (!std::binary_search(doubts_.left_out.begin(), doubts_.left_out.end(), run)) usable_.push_back(run);
+    if (doubts_.cannot_tell) {
+      result_.because = *doubts_.cannot_tell;
+      return std::move(result_);
+    }
+    case_.split = split(data_, usable_);
+    step("replaying");
+    replay();
+    recalibrate();
+    judge();
+    report();
+    return std::move(result_);
+  }
+
+ private:
+  void step(const std::string& what) { progress_(what, std::min(++steps_, usual_steps), usual_steps); }
+
+  void replay() {
+    nominal_fit_.held_out = experiment_.residuals(nominal_, case_.split.held_out);
+    auto& fitted = nominal_fit_.fitted;
+    fitted.model = {nominal_, nominal_parameters(nominal_)};
+    auto slopes = experiment_.slopes(nominal_, fitted.model.free, case_.split.training);
+    fitted.residuals = std::move(slopes.residuals);
+    fitted.columns = std::move(slopes.columns);
+  }
+
+  void recalibrate() {
+    step("recalibrating");
+    recalibrated_ = contend(case_, nominal_fit_.fitted.model);
+    if (!recalibrated_.fitted.failure.empty()) throw std::runtime_error(recalibrated_.fitted.failure);
+    const auto& residuals = recalibrated_.fitted.residuals;
+    if (excess(residuals) + 1.0 > near_floor * near_floor) return;
+    case_.temperature = temperature(experiment_, residuals, case_.split.training);
+    recalibrated_ = contend(case_, recalibrated_.fitted.model);
+  }
+
+  void judge() {
+    const auto& held = case_.split.held_out;
+    const auto tell = [this](const std::string& what) { step(what); };
+    const auto recalibration = compare(experiment_, nominal_fit_.held_out, recalibrated_.held_out, held);
+    const Eigen::VectorXd reference =
+        recalibration.gained > 0.0 ? recalibrated_.held_out : nominal_fit_.held_out;
+    naming_ = name_effects(case_, nominal_fit_, recalibrated_, reference, tell);
+    const bool named = !naming_.effects.empty();
+    const Eigen::VectorXd& with_names = named ? naming_.best.held_out : reference;
+    const double left = excess(with_names);
+    const double named_share = named ? compare(experiment_, reference, with_names, held).share : 0.0;
+    if (left > worth_a_law && left > 0.05 * excess(nominal_fit_.held_out))
+      law_ = find_law(case_, recalibrated_, reference, tell);
+    const bool lawful = !law_.terms.empty() && law_.gain.share > least_law &&
+                        (!named || excess(law_.contender.held_out) < 0.4 * left);
+    if (lawful) {
+      result_.verdict = Verdict::unknown_effect;
+      chosen_ = &law_.contender;
+    } else if (named && (named_share >= least_named || excess(reference) < worth_a_law)) {
+      result_.verdict = Verdict::missing_effect;
+      result_.effects = naming_.effects;
+      chosen_ = &naming_.best;
+    } else if (left > beyond_disturbance) {
+      result_.verdict = Verdict::unknown_effect;
+    } else {
+      result_.verdict = convinces(recalibration) ? Verdict::recalibrate : Verdict::nothing_missing;
+    }
+  }
+
+  void report() {
+    result_.ranking = naming_.ranking;
+    result_.confusion_names = naming_.confusion_names;
+    result_.confusion = naming_.confusion;
+    const auto& held = case_.split.held_out;
+    if (result_.verdict == Verdict::nothing_missing) {
+      chosen_rig_ = nominal_;
+    } else {
+      step("fitting all runs");
+      Case all = case_;
+      all.split.training = usable_;
+      all.temperature = temperature(experiment_, chosen_->fitted.residuals, case_.split.training);
+      const auto whole = fit(experiment_, chosen_->fitted.model, usable_, {.temperature = all.temperature});
+      const auto bounds = intervals(experiment_, whole, usable_, all.temperature);
+      tell_parameters(result_, whole.model, bounds, recalibrated_.fitted.model.rig);
+      static_cast<plant::Rig&>(result_.corrected) = whole.model.rig;
+      chosen_rig_ = chosen_->fitted.model.rig;
+      for (const auto& path : whole.without_influence)
+        result_.warnings.push_back("no reading depends on " + path + ": its value says nothing");
+    }
+    if (result_.verdict == Verdict::unknown_effect)
+      result_.law_valid_for =
+          "the currents, loads and speeds of these runs; a force stands for whatever acts so";
+    const Eigen::VectorXd corrected = experiment_.residuals(chosen_rig_, held);
+    result_.gap = {experiment_.floor().ratio, experiment_.rmse(nominal_fit_.held_out, held),
+                   experiment_.rmse(recalibrated_.held_out, held), experiment_.rmse(corrected, held), 0.0};
+    const auto above = [&](double rmse) {
+      return std::max(0.0, rmse * rmse - result_.gap.noise_floor * result_.gap.noise_floor);
+    };
+    if (above(result_.gap.nominal_rmse) > 0.0)
+      result_.gap.closed =
+          std::clamp(1.0 - above(result_.gap.corrected_rmse) / above(result_.gap.nominal_rmse), 0.0, 1.0);
+    step("mapping");
+    result_.where = where(experiment_, recalibrated_.fitted.model.rig, usable_, settings_.seed);
+    tell_runs();
+    plan_next();
+    result_.because = because(result_);
+  }
+
+  // What each run measured, and what the three rigs make of it.
+  void tell_runs() {
+    for (std::size_t run = 0; run < data_.runs.size(); ++run) {
+      const auto& measured = data_.runs[run];
+      const auto& held = case_.split.held_out;
+      RunGap gap;
+      gap.id = measured.id;
+      gap.load_kg = measured.load_kg;
+      gap.held_out = std::binary_search(held.begin(), held.end(), run);
+      gap.left_out = !std::binary_search(usable_.begin(), usable_.end(), run);
+      gap.measured = measured.contraction_ratio;
+      for (double& ratio : gap.measured) ratio += 0.5 * experiment_.floor().count;
+      const auto tell = [&](const plant::Rig& rig, double& rmse, std::vector<double>& readings) {
+        rmse = experiment_.rmse(experiment_.residuals(rig, {run}), {run});
+        readings = experiment_.readings(rig, run).contraction_ratio;
+      };
+      tell(nominal_, gap.nominal_rmse, gap.nominal);
+      tell(recalibrated_.fitted.model.rig, gap.recalibrated_rmse, gap.recalibrated);
+      tell(chosen_rig_, gap.corrected_rmse, gap.corrected);
+      result_.runs.push_back(std::move(gap));
+    }
+  }
+
+  // What would separate the effect named from the first of those it may be.
+  void plan_next() {
+    if (result_.effects.empty() || naming_.rivals.empty()) return;
+    step("planning");
+    const auto& effect = result_.effects.front();
+    const double scatter = temperature(experiment_, chosen_->fitted.residuals, case_.split.training);
+    result_.next_experiment =
+        plan(experiment_, naming_.first, naming_.rivals.front(),
+             {effect.name, effect.confusable_with.front()}, result_.gap.corrected_rmse, 1.0 / scatter);
+  }
+
+  Settings settings_;
+  const run::ProgressHook& progress_;
+  Doubts doubts_;
+  input::Dataset data_;
+  Experiment experiment_;
+  plant::Rig nominal_;
+  Case case_;
+  Runs usable_;
+  Contender nominal_fit_;  ///< the rig as described, nothing moved
+  Contender recalibrated_;
+  Naming naming_;
+  Law law_;
+  const Contender* chosen_ = &recalibrated_;
+  plant::Rig chosen_rig_;  ///< fitted to the training runs
+  Diagnosis result_;
+  std::size_t steps_ = 0;
+};
+
+}  // namespace
+
+Diagnosis diagnose(const input::Dataset& data, const Settings& settings, const run::ProgressHook& progress) {
+  return Workflow(data, settings, progress)();
+}
+
+}  // namespace mckibben::diagnose

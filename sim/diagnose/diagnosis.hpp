@@ -1,0 +1,129 @@
+// What a diagnosis finds out: where model and data disagree, what is missing, the rig with it, and how far
+// the gap has shrunk on runs that the fit has not seen.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <sim/input/campaign.hpp>
+#include <sim/input/dataset.hpp>
+
+namespace mckibben::diagnose {
+
+/// `nothing_missing`: the gap is within noise. `recalibrate`: nominal parameters explain it.
+/// `missing_effect`: effects of the catalogue do. `unknown_effect`: something real outside the catalogue.
+/// `cannot_tell`: the data do not decide.
+enum class Verdict { nothing_missing, recalibrate, missing_effect, unknown_effect, cannot_tell };
+constexpr auto names(Verdict) {
+  using enum Verdict;
+  return std::array{std::pair{nothing_missing, std::string_view{"nothing_missing"}},
+                    std::pair{recalibrate, std::string_view{"recalibrate"}},
+                    std::pair{missing_effect, std::string_view{"missing_effect"}},
+                    std::pair{unknown_effect, std::string_view{"unknown_effect"}},
+                    std::pair{cannot_tell, std::string_view{"cannot_tell"}}};
+}
+
+/// A fitted number with its 95 % interval.
+struct Estimate {
+  std::string name;  ///< key in the effect's part of a rig file, or path in the rig
+  std::string unit;
+  double value = 0.0, low = 0.0, high = 0.0;
+};
+
+struct NamedEffect {
+  std::string name, variant;
+  std::vector<std::string> confusable_with{};  ///< effects that explain these data as well
+  std::vector<Estimate> parameters{};
+};
+
+/// A nominal parameter after calibration.
+struct Moved {
+  Estimate fitted;
+  double nominal = 0.0;
+  double deviations = 0.0;  ///< of its prior
+};
+
+struct LawTerm {
+  std::string term;
+  Estimate coefficient;
+};
+
+/// One cell of the map of disagreement.
+struct Cell {
+  std::string factor, cell;
+  std::size_t rows = 0;       ///< of all runs; 0: never visited
+  double mean = 0.0;          ///< measured minus recalibrated model, contraction ratio
+  double rms = 0.0;           ///< of the same
+  double share_of_gap = 0.0;  ///< of the sum of squares above the floor, within its factor
+  double p_value = 1.0;       ///< of the mean, by sign flips of segments
+  bool significant = false;   ///< under a false-discovery rate of 5 %
+};
+
+/// One candidate as it was judged in a round.
+struct Ranked {
+  std::string name, variant;
+  int round = 1;
+  double score = 0.0;  ///< expected drop of the misfit (projected score test), 1: a hundredth of the largest
+  double likeness = 0.0;  ///< to the round's best: cosine of what they change
+  bool refitted = false;
+  double training_rmse = 0.0, held_out_rmse = 0.0;  ///< after the refit
+  std::string outcome{};                            ///< why it was taken or not
+};
+
+/// A nominal parameter that imitates the effect found: moved by so many prior deviations without it, by so
+/// many with it.
+struct Absorbed {
+  std::string path;
+  double without = 0.0, with = 0.0;
+};
+
+struct RunGap {
+  std::string id;
+  double load_kg = 0.0;
+  bool held_out = false, left_out = false;  ///< left out: its data or label are in doubt
+  double nominal_rmse = 0.0, recalibrated_rmse = 0.0, corrected_rmse = 0.0;
+  std::vector<double> measured{}, nominal{}, recalibrated{}, corrected{};  ///< contraction ratio, each tick
+};
+
+struct Gap {
+  double noise_floor = 0.0, nominal_rmse = 0.0, recalibrated_rmse = 0.0, corrected_rmse = 0.0;  ///< held out
+  double closed = 0.0;  ///< share of the mean square above the floor that is gone
+};
+
+struct NextExperiment {
+  std::vector<std::string> separates;
+  std::string current;     ///< in words
+  std::string waveform{};  ///< kind in a scenario file
+  double load_kg = 0.0;
+  double expected_power = 0.0;           ///< probability to tell them apart at 5 %
+  input::CampaignCurrent measurement{};  ///< the same current as a campaign or a scenario plays it
+};
+
+// NOLINTNEXTLINE(bugprone-exception-escape): moving a rig does not throw
+struct Diagnosis {
+  Verdict verdict = Verdict::cannot_tell;
+  std::string because;  ///< the verdict in a sentence
+  std::vector<NamedEffect> effects{};
+  std::vector<Moved> recalibrated{};  ///< as in the corrected rig
+  std::vector<Absorbed> absorbed{};
+  std::vector<LawTerm> residual_law{};
+  std::string law_valid_for{};
+  std::vector<Cell> where{};
+  std::vector<Ranked> ranking{};
+  std::vector<std::string> confusion_names{};    ///< best candidates of the first round
+  std::vector<std::vector<double>> confusion{};  ///< likeness among them
+  Gap gap{};
+  std::vector<RunGap> runs{};
+  std::optional<NextExperiment> next_experiment{};
+  std::vector<std::string> warnings{};
+  input::RigFile corrected{};
+  double false_alarm_rate = 0.0;
+  std::uint64_t seed = 1;
+};
+
+}  // namespace mckibben::diagnose

@@ -1,0 +1,156 @@
+// Residuals and slopes; see the header. Parameters fly in flocks of seven beside the rig they are changes of.
+#include <algorithm>
+#include <cmath>
+
+#include <sim/diagnose/experiment.hpp>
+#include <sim/engine/flock.hpp>
+#include <sim/run/batch.hpp>
+#include <sim/run/simulate.hpp>
+
+namespace mckibben::diagnose {
+namespace {
+
+/// Jitter of a reading before it is counted that a good encoder has anyway.
+constexpr double least_jitter = 5e-5;
+
+/// Whether all readings are whole counts.
+bool counted(const input::Dataset& data, double count) {
+  for (const input::Run& run : data.runs) {
+    for (const double ratio : run.contraction_ratio)
+      if (std::abs(ratio / count - std::round(ratio / count)) > 0.01) return false;
+  }
+  return true;
+}
+
+/// Noise of the gauges from the second differences of what they show: what changes so fast is not the gas.
+double gauge_noise_Pa(const input::Dataset& data) {
+  double squares = 0.0;
+  std::size_t count = 0;
+  for (const input::Run& run : data.runs) {
+    if (!run.muscle_pressure_Pa) continue;
+    const auto& p = *run.muscle_pressure_Pa;
+    std::vector<double> second;
+    for (std::size_t k = 2; k < p.size(); ++k) second.push_back(std::abs(p[k] - 2.0 * p[k - 1] + p[k - 2]));
+    if (second.empty()) continue;
+    // The median is blind to the few ticks at which the gas itself turns.
+    std::nth_element(second.begin(), second.begin() + static_cast<std::ptrdiff_t>(second.size() / 2),
+                     second.end());
+    const double deviation = second[second.size() / 2] / 0.6745 / std::sqrt(6.0);
+    squares += deviation * deviation;
+    ++count;
+  }
+  return count == 0 ? 0.0 : std::max(std::sqrt(squares / static_cast<double>(count)), 50.0);
+}
+
+}  // namespace
+
+Experiment::Experiment(const input::Dataset& data, std::vector<std::vector<bool>> masked, unsigned threads)
+    : data_(data), masked_(std::move(masked)), threads_(threads) {
+  const double count = run::contraction_per_count(data.rig);
+  if (counted(data, count)) floor_.count = count;
+  floor_.ratio = std::sqrt(floor_.count * floor_.count / 12.0 + least_jitter * least_jitter);
+  floor_.pressure_Pa = gauge_noise_Pa(data);
+}
+
+std::size_t Experiment::rows(std::size_t run) const {
+  const input::Run& measured = data_.runs[run];
+  return measured.current_mA.size() * (measured.muscle_pressure_Pa ? 2 : 1);
+}
+
+std::vector<Experiment::Part> Experiment::parts(const Runs& runs) const {
+  std::vector<Part> list;
+  Eigen::Index begin = 0;
+  for (const std::size_t run : runs) {
+    list.push_back({run, begin, static_cast<Eigen::Index>(data_.runs[run].current_mA.size())});
+    begin += static_cast<Eigen::Index>(rows(run));
+  }
+  return list;
+}
+
+void Experiment::compare(const Readings& readings, std::size_t run, double* residuals) const {
+  const input::Run& measured = data_.runs[run];
+  const std::size_t ticks = measured.current_mA.size();
+  for (std::size_t k = 0; k < ticks; ++k) {
+    const bool counts = !masked_[run][k];
+    // A counter rounds down: the middle of its count is the best guess.
+    const double ratio = measured.contraction_ratio[k] + 0.5 * floor_.count;
+    residuals[k] = counts ? (ratio - readings.contraction_ratio[k]) / floor_.ratio : 0.0;
+    if (measured.muscle_pressure_Pa)
+      residuals[ticks + k] =
+          counts ? ((*measured.muscle_pressure_Pa)[k] - readings.pressure_Pa[k]) / floor_.pressure_Pa : 0.0;
+  }
+}
+
+Eigen::VectorXd Experiment::residuals(const plant::Rig& rig, const Runs& runs) const {
+  return slopes(rig, std::span<const Change>{}, runs).residuals;
+}
+
+Experiment::Slopes Experiment::slopes(const plant::Rig& rig, std::span<const Parameter> parameters,
+                                      const Runs& runs) const {
+  std::vector<Change> changes;
+  for (const Parameter& p : parameters) {
+    const double value = value_of(rig, p.path);
+    double change = p.logarithmic ? value * p.step : p.step;
+    // Not over the edge of its range, and not over the kink that an effect has where it is absent.
+    if (value + change > p.highest || value + change < p.lowest) change = -change;
+    changes.push_back(
+        {[path = p.path, value, change](Hanging& h) { *find(h.rig, path).value = value + change; },
+         p.logarithmic ? change / value : change / p.scale});
+  }
+  return slopes(rig, changes, runs);
+}
+
+Experiment::Slopes Experiment::slopes(const plant::Rig& rig, std::span<const Change> changes,
+                                      const Runs& runs) const {
+  constexpr std::size_t wing = engine::Flock::most - 1;
+  const std::size_t flocks = std::max<std::size_t>(1, (changes.size() + wing - 1) / wing);
+  const auto list = parts(runs);
+  Eigen::Index total = 0;
+  for (const std::size_t run : runs) total += static_cast<Eigen::Index>(rows(run));
+  Slopes result{Eigen::VectorXd(total), Eigen::MatrixXd(total, static_cast<Eigen::Index>(changes.size()))};
+  const auto job = [&](std::size_t index) {
+    const Part& part = list[index / flocks];
+    const std::size_t first = index % flocks * wing, last = std::min(changes.size(), first + wing);
+    const input::Run& measured = data_.runs[part.run];
+    std::vector<Hanging> rigs{{rig, measured.load_kg}};
+    for (std::size_t c = first; c < last; ++c) {
+      rigs.push_back(rigs.front());
+      changes[c].apply(rigs.back());
+    }
+    const auto readings = predict(measured, rigs);
+    if (first == 0) compare(readings[0], part.run, result.residuals.data() + part.begin);
+    for (std::size_t c = first; c < last; ++c) {
+      const Readings& changed = readings[1 + c - first];
+      double* column = result.columns.col(static_cast<Eigen::Index>(c)).data() + part.begin;
+      const auto ticks = static_cast<std::size_t>(part.rows);
+      for (std::size_t k = 0; k < ticks; ++k) {
+        const bool counts = !masked_[part.run][k];
+        const double ratio = changed.contraction_ratio[k] - readings[0].contraction_ratio[k];
+        column[k] = counts ? ratio / (floor_.ratio * changes[c].size) : 0.0;
+        if (measured.muscle_pressure_Pa) {
+          const double pressure_Pa = changed.pressure_Pa[k] - readings[0].pressure_Pa[k];
+          column[ticks + k] = counts ? pressure_Pa / (floor_.pressure_Pa * changes[c].size) : 0.0;
+        }
+      }
+    }
+  };
+  run::for_each_job(list.size() * flocks, threads_, job, [](std::size_t) {});
+  return result;
+}
+
+Readings Experiment::readings(const plant::Rig& rig, std::size_t run) const {
+  const Hanging hanging{rig, data_.runs[run].load_kg};
+  return predict(data_.runs[run], {&hanging, 1}).front();
+}
+
+double Experiment::rmse(const Eigen::VectorXd& residuals, const Runs& runs) const {
+  double squares = 0.0;
+  std::size_t count = 0;
+  for (const Part& part : parts(runs)) {
+    squares += residuals.segment(part.begin, part.rows).squaredNorm();
+    count += static_cast<std::size_t>(std::count(masked_[part.run].begin(), masked_[part.run].end(), false));
+  }
+  return floor_.ratio * std::sqrt(squares / static_cast<double>(std::max<std::size_t>(count, 1)));
+}
+
+}  // namespace mckibben::diagnose

@@ -1,0 +1,80 @@
+// Measured runs against a rig: how far they are apart, in units of what the instruments cannot see, and how
+// that changes with each parameter.
+#pragma once
+
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include <sim/diagnose/parameter.hpp>
+#include <sim/diagnose/predict.hpp>
+#include <sim/input/dataset.hpp>
+
+namespace mckibben::diagnose {
+
+/// What the instruments cannot see, rms.
+struct NoiseFloor {
+  double count = 0.0;        ///< contraction ratio of one count; 0: the readings are not counted
+  double ratio = 0.0;        ///< of the contraction ratio: count and jitter
+  double pressure_Pa = 0.0;  ///< of the gauge; 0: none fitted
+};
+
+/// Runs by their index in the data set.
+using Runs = std::vector<std::size_t>;
+
+class Experiment {
+ public:
+  /// `masked[run][row]` rows do not count. The data set outlives this.
+  Experiment(const input::Dataset& data, std::vector<std::vector<bool>> masked, unsigned threads);
+
+  const input::Dataset& data() const { return data_; }
+  const NoiseFloor& floor() const { return floor_; }
+  /// The gauge's noise is known only once a model fits: that of its fastest changes, never above.
+  std::size_t rows(std::size_t run) const;
+
+  /// Measured minus predicted, over the floor, for each tick of each run: contraction ratio, then pressure
+  /// where there is a gauge. Masked rows are 0.
+  Eigen::VectorXd residuals(const plant::Rig& rig, const Runs& runs) const;
+
+  /// The same, and the derivative of the prediction with respect to each parameter's scaled value (rows: as
+  /// the residuals; columns: as the parameters).
+  struct Slopes {
+    Eigen::VectorXd residuals;
+    Eigen::MatrixXd columns;
+  };
+  Slopes slopes(const plant::Rig& rig, std::span<const Parameter> parameters, const Runs& runs) const;
+  /// The derivative with respect to other changes: each makes a changed rig and load from the given ones, for
+  /// a change of `size` in the units of its choice.
+  struct Change {
+    std::function<void(Hanging&)> apply;
+    double size = 1.0;
+  };
+  Slopes slopes(const plant::Rig& rig, std::span<const Change> changes, const Runs& runs) const;
+
+  /// Readings of one run.
+  Readings readings(const plant::Rig& rig, std::size_t run) const;
+
+  /// Root mean square of measured minus predicted contraction ratio.
+  double rmse(const Eigen::VectorXd& residuals, const Runs& runs) const;
+  /// The part of a residual vector that is one run's contraction ratio: offset and length.
+  struct Part {
+    std::size_t run;
+    Eigen::Index begin, rows;
+  };
+  std::vector<Part> parts(const Runs& runs) const;
+
+  unsigned threads() const { return threads_; }
+
+ private:
+  void compare(const Readings& readings, std::size_t run, double* residuals) const;
+
+  const input::Dataset& data_;
+  std::vector<std::vector<bool>> masked_;
+  unsigned threads_;
+  NoiseFloor floor_;
+};
+
+}  // namespace mckibben::diagnose

@@ -1,0 +1,43 @@
+// Least squares with priors and bounds (Ceres Solver): the most probable values of a rig's parameters, given
+// measured runs.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include <sim/diagnose/experiment.hpp>
+
+namespace mckibben::diagnose {
+
+/// A rig and what is free in it.
+struct Model {
+  plant::Rig rig;  ///< with the values as they stand
+  std::vector<Parameter> free{};
+  std::vector<Candidate> effects{};  ///< that have been added, in this order
+};
+
+struct FitSettings {
+  double temperature =
+      1.0;  ///< how much more the residuals scatter, over long times, than white noise at the floor
+  int most_iterations = 12;
+  /// Slopes taken over from an earlier fit, by path, instead of computed anew: nominal parameters hardly
+  /// move.
+  const std::vector<std::pair<std::string, Eigen::VectorXd>>* frozen = nullptr;
+};
+
+struct Fitted {
+  Model model;
+  Eigen::VectorXd residuals;  ///< of the fitted runs
+  Eigen::MatrixXd columns;    ///< slopes at the end, a column for each free parameter
+  double cost = 0.0;          ///< residuals and priors: sum of squares / temperature + deviations^2
+  bool converged = false;
+  std::vector<std::string> without_influence{};  ///< parameters that no reading depends on
+  std::string failure{};                         ///< why there is no fit; empty if there is
+};
+
+/// Throws run::Interrupted.
+Fitted fit(const Experiment& experiment, Model start, const Runs& runs, const FitSettings& settings);
+
+}  // namespace mckibben::diagnose

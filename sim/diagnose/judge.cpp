@@ -1,0 +1,109 @@
+// Splits, scatter and comparison; see the header.
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include <sim/diagnose/judge.hpp>
+
+namespace mckibben::diagnose {
+namespace {
+
+constexpr double segment_s = 1.5;
+
+// What an improvement must be on runs that the fit has not seen. Set on data sets with other seeds than those
+// that the benchmark scores.
+constexpr double least_share = 0.10, least_gain = 0.03, least_significance = 2.0, clear_share = 0.5;
+
+Eigen::Index segment_rows(const Experiment& experiment) {
+  return std::max<Eigen::Index>(1, std::lround(segment_s / experiment.data().rig.tick_s));
+}
+
+}  // namespace
+
+Split split(const input::Dataset& data, const Runs& usable) {
+  std::map<double, Runs> by_load;
+  for (const std::size_t run : usable) by_load[data.runs[run].load_kg].push_back(run);
+  Split result;
+  if (by_load.size() >= 3) {
+    // The loads nearest the middle of the range of loads, those with fewest runs first.
+    std::vector<Runs> inner;
+    for (auto it = std::next(by_load.begin()); it != std::prev(by_load.end()); ++it)
+      inner.push_back(it->second);
+    std::stable_sort(inner.begin(), inner.end(),
+                     [](const Runs& a, const Runs& b) { return a.size() < b.size(); });
+    for (const Runs& runs : inner) {
+      if (!result.held_out.empty() && 5 * (result.held_out.size() + runs.size()) > 2 * usable.size())
+        continue;
+      if (3 * result.held_out.size() >= usable.size()) break;
+      result.held_out.insert(result.held_out.end(), runs.begin(), runs.end());
+    }
+  }
+  if (result.held_out.empty() || 2 * result.held_out.size() > usable.size()) {
+    result.held_out.assign(usable.end() - static_cast<std::ptrdiff_t>(usable.size() / 3), usable.end());
+  }
+  std::sort(result.held_out.begin(), result.held_out.end());
+  for (const std::size_t run : usable)
+    if (!std::binary_search(result.held_out.begin(), result.held_out.end(), run))
+      result.training.push_back(run);
+  return result;
+}
+
+double temperature(const Experiment& experiment, const Eigen::VectorXd& residuals, const Runs& runs) {
+  const Eigen::Index lags = segment_rows(experiment);
+  double sum = 0.0;
+  Eigen::Index rows = 0;
+  for (const auto& part : experiment.parts(runs)) {
+    const auto r = residuals.segment(part.begin, part.rows);
+    sum += r.squaredNorm();
+    for (Eigen::Index k = 1; k < std::min(lags, part.rows); ++k) {
+      const double weight = 1.0 - static_cast<double>(k) / static_cast<double>(lags);
+      sum += 2.0 * weight * r.head(part.rows - k).dot(r.tail(part.rows - k));
+    }
+    rows += part.rows;
+  }
+  return std::max(1.0, sum / static_cast<double>(std::max<Eigen::Index>(rows, 1)));
+}
+
+double excess(const Eigen::VectorXd& residuals) {
+  return residuals.squaredNorm() / static_cast<double>(std::max<Eigen::Index>(residuals.size(), 1)) - 1.0;
+}
+
+Improvement compare(const Experiment& experiment, const Eigen::VectorXd& before, const Eigen::VectorXd& after,
+                    const Runs& runs) {
+  const Eigen::Index segment = segment_rows(experiment);
+  Improvement result;
+  std::vector<double> gains;
+  double total = 0.0;
+  Eigen::Index begin = 0;
+  for (const std::size_t run : runs) {
+    const auto rows = static_cast<Eigen::Index>(experiment.rows(run));
+    double gained = 0.0;
+    for (Eigen::Index at = 0; at < rows; at += segment) {
+      const Eigen::Index length = std::min(segment, rows - at);
+      gains.push_back(before.segment(begin + at, length).squaredNorm() -
+                      after.segment(begin + at, length).squaredNorm());
+      gained += gains.back();
+    }
+    result.better += gained > 0.0 ? 1 : 0;
+    ++result.runs;
+    total += gained;
+    begin += rows;
+  }
+  const auto n = static_cast<double>(gains.size());
+  double scatter = 0.0;
+  for (const double gain : gains) scatter += (gain - total / n) * (gain - total / n);
+  const double deviation = std::sqrt(scatter * n / std::max(1.0, n - 1.0));
+  result.gained = total / static_cast<double>(std::max<Eigen::Index>(before.size(), 1));
+  result.share = result.gained / std::max(excess(before), 0.05);
+  result.significance = deviation > 0.0 ? total / deviation : 0.0;
+  return result;
+}
+
+bool convinces(const Improvement& improvement) {
+  // Where the gap sits in a few segments, their scatter is as large as the gain, however clear it is.
+  const bool clear = improvement.significance >= least_significance || improvement.share >= clear_share;
+  return improvement.share >= least_share && improvement.gained >= least_gain && clear &&
+         2 * improvement.better > improvement.runs;
+}
+
+}  // namespace mckibben::diagnose

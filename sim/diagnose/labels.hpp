@@ -1,0 +1,23 @@
+// Loads weighed by their own runs: a label that contradicts what all other runs say.
+#pragma once
+
+#include <vector>
+
+#include <sim/diagnose/experiment.hpp>
+
+namespace mckibben::diagnose {
+
+struct WrongLabel {
+  std::size_t run;
+  double load_kg;  ///< that it seems to have
+};
+
+/// The runs whose label is doubted. The load that fits a run best, less its label, is compared with that of
+/// the other runs: an offset common to all, or in proportion to the load, is no wrong label, and hidden
+/// effects scatter it. The run must then fit much better, and the others much worse with the same offset.
+/// None below four runs; errors below about 0.8 kg at 11 kg, 1.2 kg at 23 kg are not found. Throws
+/// engine::NumericalFailure, run::Interrupted.
+std::vector<WrongLabel> wrong_labels(const input::Dataset& data, const std::vector<std::vector<bool>>& masked,
+                                     Runs runs, unsigned threads);
+
+}  // namespace mckibben::diagnose

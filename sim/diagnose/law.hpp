@@ -1,0 +1,19 @@
+// A law for what no effect of the catalogue explains: terms are taken from a library one by one, as long as
+// each helps on runs held out, and fitted inside the simulation (forward selection; the library is that of
+// plant/effects/residual_force.hpp).
+#pragma once
+
+#include <sim/diagnose/naming.hpp>
+
+namespace mckibben::diagnose {
+
+struct Law {
+  Contender contender{};             ///< its rig carries the terms
+  Improvement gain{};                ///< on the runs held out, against the reference
+  std::vector<std::size_t> terms{};  ///< of the rig that were added; empty: no law was found
+};
+
+Law find_law(const Case& c, const Contender& base, const Eigen::VectorXd& reference,
+             const std::function<void(const std::string&)>& step);
+
+}  // namespace mckibben::diagnose

@@ -1,0 +1,157 @@
+// Parameters by path; see the header. The field lists of the plant are walked with the path as a guide.
+#include <algorithm>
+#include <cmath>
+#include <concepts>
+#include <stdexcept>
+#include <tuple>
+
+#include <sim/diagnose/parameter.hpp>
+
+namespace mckibben::diagnose {
+namespace {
+
+/// The visitor of a field list that follows a path.
+class Guide {
+ public:
+  explicit Guide(std::string_view path) : rest_(path) {}
+
+  void operator()(std::string_view key, double& value, std::string_view unit, double lowest, double highest,
+                  std::string_view) {
+    if (key == rest_) found = {&value, std::string(unit), lowest, highest};
+  }
+  template <class T, class... Rest>
+  requires(!std::same_as<T, double>) void operator()(std::string_view key, T& value, const Rest&...) {
+    if constexpr (requires { T::fields(value, *this); }) {
+      enter(key, [&] { T::fields(value, *this); });
+    } else if constexpr (requires { T::value_type::fields(value.front(), *this); }) {
+      enter(key, [&] {
+        for (std::size_t i = 0; i < value.size(); ++i)
+          enter(std::to_string(i), [&] { T::value_type::fields(value[i], *this); });
+      });
+    }
+  }
+
+  void required(std::string_view key, auto& value, const auto&... rest) { (*this)(key, value, rest...); }
+
+  Found found;
+
+ private:
+  // Goes on inside `key` if the path leads there.
+  template <class Inside>
+  void enter(std::string_view key, const Inside& inside) {
+    if (rest_.size() <= key.size() || !rest_.starts_with(key) || rest_[key.size()] != '.') return;
+    const std::string_view whole = rest_;
+    rest_.remove_prefix(key.size() + 1);
+    inside();
+    rest_ = whole;
+  }
+
+  std::string_view rest_;
+};
+
+}  // namespace
+
+Found find(plant::Rig& rig, std::string_view path) {
+  Guide guide(path);
+  plant::Rig::fields(rig, guide);
+  if (guide.found.value == nullptr) throw std::invalid_argument("no parameter " + std::string(path));
+  return guide.found;
+}
+
+double Parameter::unscaled(double number) const {
+  return logarithmic ? std::exp(number) : origin + number * scale;
+}
+double Parameter::scaled(double value) const {
+  return logarithmic ? std::log(value) : (value - origin) / scale;
+}
+
+double value_of(const plant::Rig& rig, std::string_view path) {
+  plant::Rig copy = rig;
+  return *find(copy, path).value;
+}
+
+std::vector<Parameter> nominal_parameters(const plant::Rig& nominal) {
+  // Deviations: relative to the value, or absolute where the value may be zero. Machined lengths are known to
+  // a per cent, catalogue conductances and friction to ten, trimmed pressures to a reading of the gauge.
+  struct Prior {
+    std::string_view path;
+    double relative, absolute;
+  };
+  constexpr Prior priors[] = {{"muscle.rest_radius", 0.01, 0.0}, {"muscle.end_correction", 0.01, 0.0},
+                              {"muscle.braid_angle", 0.01, 0.0}, {"muscle.dead_volume", 0.3, 0.0},
+                              {"friction.scale", 0.1, 0.0},      {"valve.conductance", 0.1, 0.0},
+                              {"valve.zero_pressure", 0.0, 1e3}, {"valve.span_pressure", 0.0, 2e3},
+                              {"hose.conductance", 0.1, 0.0},    {"joint.guide_damping", 0.2, 0.0},
+                              {"joint.load_offset", 0.0, 0.05}};
+  std::vector<Parameter> list;
+  plant::Rig rig = nominal;
+  for (const Prior& prior : priors) {
+    const Found found = find(rig, prior.path);
+    const double deviation = prior.relative * std::abs(*found.value) + prior.absolute;
+    if (deviation <= 0.0) continue;
+    list.push_back({.path = std::string(prior.path),
+                    .origin = *found.value,
+                    .scale = deviation,
+                    .step = 0.02 * deviation,
+                    .lowest = std::max(found.lowest, *found.value - most_deviations * deviation),
+                    .highest = std::min(found.highest, *found.value + most_deviations * deviation),
+                    .has_prior = true});
+  }
+  return list;
+}
+
+plant::Rig Candidate::chosen(plant::Rig rig) const {
+  for (const auto& [law, name] : names(plant::BladderLaw{})) {
+    if (effect == plant::BladderElasticity::name && variant == name)
+      rig.effects.get<plant::BladderElasticity>().variant = law;
+  }
+  return rig;
+}
+
+std::vector<Parameter> Candidate::parameters(const plant::Rig& rig) const {
+  plant::Rig copy = rig;
+  const Found size = find(copy, amplitude);
+  std::vector<Parameter> list{{.path = amplitude,
+                               .origin = absent,
+                               .scale = std::abs(typical),
+                               .step = step,
+                               .lowest = either_sign || typical < 0.0 ? size.lowest : absent,
+                               .highest = either_sign || typical > 0.0 ? size.highest : absent}};
+  if (!shape.empty()) {
+    const Found form = find(copy, shape);
+    list.push_back({.path = shape,
+                    .scale = 1.0,
+                    .step = 0.01,
+                    .lowest = std::max(form.lowest, shapes.front() / 10.0),
+                    .highest = std::min(form.highest, shapes.back() * 10.0),
+                    .logarithmic = true});
+  }
+  return list;
+}
+
+std::vector<Candidate> catalogue() {
+  std::vector<Candidate> list;
+  const auto add = [&]<class E>(const E& effect) {
+    for (const plant::Variant& law : E::variants) {
+      const std::string prefix = "effects." + std::string(effect.name) + ".";
+      Candidate c{.effect = std::string(effect.name),
+                  .variant = std::string(law.name),
+                  .amplitude = prefix + std::string(law.amplitude),
+                  .shape = law.shape.empty() ? "" : prefix + std::string(law.shape),
+                  .absent = law.absent,
+                  .typical = law.typical,
+                  .step = law.step,
+                  .either_sign = law.sign == plant::Sign::either,
+                  .shapes = {}};
+      if (!law.shape.empty()) {
+        c.shapes = {law.low, law.middle, law.high};
+        c.complexity = 2;
+      }
+      list.push_back(std::move(c));
+    }
+  };
+  std::apply([&](const auto&... effect) { (add(effect), ...); }, plant::Effects::Table{});
+  return list;
+}
+
+}  // namespace mckibben::diagnose

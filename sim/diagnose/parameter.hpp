@@ -1,0 +1,64 @@
+// Parameters of a rig by name: those that a calibration may move, with what a data sheet says of them, and
+// those that switch effects on. A name is the path of keys in a rig file, `muscle.rest_radius`.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <plant/rig.hpp>
+
+namespace mckibben::diagnose {
+
+/// A number in a rig, found by its path. `value` points into the rig it was found in.
+struct Found {
+  double* value = nullptr;
+  std::string unit;
+  double lowest = 0.0, highest = 0.0;
+};
+
+/// Throws std::invalid_argument for a path that leads to no number.
+Found find(plant::Rig& rig, std::string_view path);
+double value_of(const plant::Rig& rig, std::string_view path);
+
+/// A parameter that a fit may move.
+struct Parameter {
+  std::string path;
+  double origin = 0.0;  ///< where the fit counts from: the nominal value, or that of an absent effect
+  double scale = 1.0;   ///< what it counts in: a prior deviation, or a size that matters
+  double step = 0.0;    ///< for differences
+  double lowest = 0.0, highest = 0.0;
+  bool has_prior = false;    ///< normal round `origin`, with `scale` as deviation
+  bool logarithmic = false;  ///< counts in logarithms, from 1 in its unit
+
+  double unscaled(double number) const;
+  double scaled(double value) const;
+};
+
+/// How many prior deviations a calibration may move a parameter. Further, it is not the rig that was
+/// described: something is missing.
+inline constexpr double most_deviations = 3.0;
+
+/// The nominal parameters, with priors as tight as a data sheet or a ruler.
+std::vector<Parameter> nominal_parameters(const plant::Rig& nominal);
+
+/// One law variant of an effect of the catalogue.
+struct Candidate {
+  std::string effect;            ///< its name
+  std::string variant;           ///< of the law; empty if there is one only
+  std::string amplitude, shape;  ///< paths; `shape` empty if there is none
+  double absent = 0.0, typical = 0.0, step = 0.0;
+  bool either_sign = false;
+  std::vector<double> shapes;  ///< to begin from
+  int complexity = 1;          ///< parameters
+
+  /// The rig with this law chosen, still without size.
+  plant::Rig chosen(plant::Rig rig) const;
+  /// What a fit moves: amplitude and, if any, shape.
+  std::vector<Parameter> parameters(const plant::Rig& rig) const;
+};
+
+/// The whole catalogue, in the order of its table.
+std::vector<Candidate> catalogue();
+
+}  // namespace mckibben::diagnose

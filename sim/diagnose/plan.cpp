@@ -1,0 +1,177 @@
+// The menu, and the power of each item; see the header.
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <variant>
+
+#include <Eigen/Core>
+#include <fmt/format.h>
+
+#include <plant/instruments.hpp>
+#include <sim/diagnose/plan.hpp>
+#include <sim/engine/failure.hpp>
+#include <sim/run/batch.hpp>
+#include <sim/run/simulate.hpp>
+
+namespace mckibben::diagnose {
+namespace {
+
+constexpr double lasting_s = 10.0;
+constexpr double least_power = 0.1;
+
+/// A current of the menu.
+struct Item {
+  std::string words;
+  input::CampaignCurrent current;
+};
+
+template <class Waveform>
+Item item(std::string words, Waveform waveform) {
+  return {fmt::format("{}, {:g} s", words, lasting_s), {waveform.name, lasting_s, std::move(waveform)}};
+}
+
+controllers::SineCurrent sine(std::string name, double low_mA, double high_mA, double period_s) {
+  return {.name = std::move(name), .low_mA = low_mA, .high_mA = high_mA, .period_s = period_s};
+}
+
+/// Steps in the tact of three ticks, as no waveform adds a triangle to a ramp.
+controllers::StepCurrent triangles_on_a_ramp(double low_mA, double high_mA, double height_mA, double tick_s) {
+  const controllers::TriangleCurrent triangle{.low_mA = 0.0, .high_mA = height_mA, .period_s = 1.25};
+  controllers::StepCurrent steps{.name = "triangles_on_a_ramp", .start_mA = low_mA, .moves = {}};
+  for (int k = 1; 3.0 * k * tick_s < lasting_s; ++k) {
+    const double time_s = 3.0 * k * tick_s;
+    steps.moves.push_back(
+        {time_s, std::lerp(low_mA, high_mA - height_mA, time_s / lasting_s) + triangle.at(time_s)});
+  }
+  return steps;
+}
+
+std::vector<Item> menu(const plant::Rig& rig) {
+  const double low = rig.valve.zero_current_mA;
+  const double high = std::min(rig.valve.span_current_mA, rig.dac.largest_current_mA);
+  const double span = high - low;
+  const auto at = [&](double share) { return low + share * span; };
+  controllers::StairCurrent stair{.name = "staircase", .low_mA = low, .high_mA = high, .steps = 6};
+  stair.dwell_s = lasting_s / (2.0 * stair.steps + 1.0);
+  const controllers::StepCurrent steps{
+      .name = "long_holds", .start_mA = low, .moves = {{0.5, at(0.6)}, {3.6, at(0.15)}, {6.8, at(0.9)}}};
+  const controllers::ChirpCurrent chirp{.name = "chirp",
+                                        .low_mA = at(0.1),
+                                        .high_mA = at(0.9),
+                                        .first_frequency_Hz = 0.1,
+                                        .last_frequency_Hz = 2.0,
+                                        .lasting_s = lasting_s};
+  std::vector<Item> items;
+  items.push_back(item(fmt::format("one slow sine from {:g} to {:g} mA and back", low, high),
+                       sine("slow_sine", low, high, lasting_s)));
+  items.push_back(item(fmt::format("fast sine between {:g} and {:g} mA, 1.25 s each", low, high),
+                       sine("fast_sine", low, high, 1.25)));
+  items.push_back(item(fmt::format("small sine between {:.3g} and {:.3g} mA, 2.5 s each", at(0.4), at(0.6)),
+                       sine("small_sine", at(0.4), at(0.6), 2.5)));
+  items.push_back(item(fmt::format("staircase from {:g} to {:g} mA in {} steps and down again, {:.2g} s each",
+                                   low, high, stair.steps, stair.dwell_s),
+                       stair));
+  items.push_back(item(
+      fmt::format("small triangles of {:.2g} mA on a slow ramp from {:g} to {:g} mA", span / 16.0, low, high),
+      triangles_on_a_ramp(low, high, span / 16.0, rig.tick_s)));
+  items.push_back(item(
+      fmt::format("steps to {:.3g}, {:.3g} and {:.3g} mA, each held for 3 s", at(0.6), at(0.15), at(0.9)),
+      steps));
+  items.push_back(
+      item(fmt::format("chirp between {:.3g} and {:.3g} mA, from 0.1 to 2 Hz", at(0.1), at(0.9)), chirp));
+  return items;
+}
+
+/// The data set's loads, their halves and 1.3 times them, none within 8 % of another, none that the rig would
+/// not lift by 5 % of its length.
+std::vector<double> loads_kg(const input::Dataset& data, const plant::Rig& rig) {
+  std::vector<double> wanted;
+  for (const double factor : {1.0, 0.5, 1.3})
+    for (const input::Run& run : data.runs) wanted.push_back(factor * run.load_kg);
+  const auto force = run::knowledge_of(rig, {}).model;
+  const double most_kg = force.force_N(0.05, rig.valve.span_pressure_Pa) / plant::gravity_m_per_s2;
+  std::vector<double> kept;
+  for (const double load_kg : wanted) {
+    const bool known = std::any_of(kept.begin(), kept.end(),
+                                   [&](double other) { return std::abs(load_kg / other - 1.0) < 0.08; });
+    if (load_kg < most_kg && !known) kept.push_back(load_kg);
+  }
+  return kept;
+}
+
+/// The current as the DAC gives it, at each tick.
+input::Run played(const Item& item, const plant::Rig& rig, double load_kg) {
+  input::Run run;
+  run.load_kg = load_kg;
+  for (int k = 0; k * rig.tick_s < lasting_s; ++k)
+    run.current_mA.push_back(std::visit(
+        [&](const auto& waveform) {
+          if constexpr (requires { waveform.at(0.0); })
+            return plant::dac_output_mA(rig.dac, waveform.at(k * rig.tick_s));
+          else
+            return 0.0;  // a recorded current: not on the menu
+        },
+        item.current.current));
+  return run;
+}
+
+/// Sum of squares of the difference between two readings that no offset and no gain takes away.
+double unexplained(const std::vector<double>& one, const std::vector<double>& other) {
+  const auto rows = static_cast<Eigen::Index>(one.size());
+  Eigen::VectorXd shape = Eigen::Map<const Eigen::VectorXd>(one.data(), rows);
+  Eigen::VectorXd difference = Eigen::Map<const Eigen::VectorXd>(other.data(), rows) - shape;
+  shape.array() -= shape.mean();
+  difference.array() -= difference.mean();
+  if (shape.squaredNorm() > 0.0) difference -= shape * (shape.dot(difference) / shape.squaredNorm());
+  return difference.squaredNorm();
+}
+
+/// Probability that a noncentral chi-square variable with one degree of freedom, the square of a normal one
+/// round sqrt(noncentrality), exceeds the central one's 95 % point.
+double power(double noncentrality) {
+  constexpr double limit = 1.959964;
+  const auto below = [](double z) { return 0.5 * std::erfc(-z / std::sqrt(2.0)); };
+  return below(std::sqrt(noncentrality) - limit) + below(-std::sqrt(noncentrality) - limit);
+}
+
+}  // namespace
+
+std::optional<NextExperiment> plan(const Experiment& experiment, const plant::Rig& named,
+                                   const plant::Rig& rival, std::vector<std::string> names,
+                                   double noise_ratio, double effective_share) {
+  if (!(effective_share > 0.0 && effective_share <= 1.0))
+    throw std::invalid_argument("effective_share must be above 0 and at most 1");
+  const std::vector<Item> items = menu(named);
+  const std::vector<double> loads = loads_kg(experiment.data(), named);
+  const double noise = std::max(noise_ratio, experiment.floor().ratio);
+  std::vector<double> noncentrality(items.size() * loads.size(), 0.0);
+  run::for_each_job(
+      noncentrality.size(), experiment.threads(),
+      [&](std::size_t job) {
+        const double load_kg = loads[job / items.size()];
+        const Hanging both[] = {{named, load_kg}, {rival, load_kg}};
+        try {
+          const auto readings = predict(played(items[job % items.size()], named, load_kg), both);
+          noncentrality[job] = unexplained(readings[0].contraction_ratio, readings[1].contraction_ratio) /
+                               (noise * noise) * effective_share;
+        } catch (const engine::NumericalFailure&) {
+          // Not an experiment to propose.
+        }
+      },
+      [](std::size_t) {});
+  if (noncentrality.empty()) return std::nullopt;
+  const auto best = std::max_element(noncentrality.begin(), noncentrality.end());
+  if (power(*best) < least_power) return std::nullopt;
+  const auto job = static_cast<std::size_t>(best - noncentrality.begin());
+  const Item& chosen = items[job % items.size()];
+  return NextExperiment{
+      .separates = std::move(names),
+      .current = chosen.words,
+      .waveform =
+          std::visit([](const auto& waveform) { return std::string(waveform.kind); }, chosen.current.current),
+      .load_kg = loads[job / items.size()],
+      .expected_power = power(*best),
+      .measurement = chosen.current};
+}
+
+}  // namespace mckibben::diagnose

@@ -1,0 +1,95 @@
+// Score tests; see the header. Slopes are one-sided, since some laws have a kink where they are absent, and
+// taken twice: over a small step, and over a size that matters, because a muscle that swings answers a small
+// change in another way than a large one.
+#include <algorithm>
+#include <cmath>
+
+#include <sim/diagnose/screen.hpp>
+
+namespace mckibben::diagnose {
+Projector::Projector(const Fitted& fitted, double temperature)
+    : rows_(fitted.residuals.size()), weight_(1.0 / std::sqrt(temperature)) {
+  const auto& free = fitted.model.free;
+  std::vector<Eigen::Index> kept;
+  for (std::size_t j = 0; j < free.size(); ++j) {
+    const double value = value_of(fitted.model.rig, free[j].path);
+    const double edge = 1e-6 * (free[j].highest - free[j].lowest);
+    const bool inside = value > free[j].lowest + edge && value < free[j].highest - edge;
+    if (inside) kept.push_back(static_cast<Eigen::Index>(j));
+  }
+  const auto count = static_cast<Eigen::Index>(kept.size());
+  columns_.setZero(rows_ + count, count);
+  for (Eigen::Index c = 0; c < count; ++c) {
+    const auto j = kept[static_cast<std::size_t>(c)];
+    columns_.col(c).head(rows_) = weight_ * fitted.columns.col(j);
+    if (free[static_cast<std::size_t>(j)].has_prior) columns_(rows_ + c, c) = 1.0;
+  }
+  normal_.compute(columns_.transpose() * columns_ + 1e-9 * Eigen::MatrixXd::Identity(count, count));
+}
+
+Eigen::VectorXd Projector::operator()(const Eigen::VectorXd& values) const {
+  Eigen::VectorXd whole = Eigen::VectorXd::Zero(columns_.rows());
+  whole.head(rows_) = weight_ * values;
+  return whole - columns_ * normal_.solve(columns_.transpose() * whole);
+}
+
+std::vector<Score> screen(const Experiment& experiment, const Fitted& fitted,
+                          const std::vector<Candidate>& candidates, const Runs& runs, double temperature) {
+  struct Trial {
+    std::size_t candidate;
+    double shape;
+  };
+  std::vector<Trial> trials;
+  std::vector<Experiment::Change> changes;
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    const Candidate& c = candidates[i];
+    const bool added = std::any_of(fitted.model.effects.begin(), fitted.model.effects.end(),
+                                   [&](const Candidate& other) { return other.effect == c.effect; });
+    if (added) continue;
+    const auto shapes = c.shapes.empty() ? std::vector{0.0} : c.shapes;
+    for (const double shape : shapes) {
+      for (const double size : {c.step, 0.5 * c.typical}) {
+        trials.push_back({i, shape});
+        changes.push_back({[&c, shape, size](Hanging& h) {
+                             h.rig = c.chosen(h.rig);
+                             if (!c.shape.empty()) *find(h.rig, c.shape).value = shape;
+                             *find(h.rig, c.amplitude).value = c.absent + size;
+                           },
+                           size});
+      }
+    }
+  }
+  const auto slopes = experiment.slopes(fitted.model.rig, changes, runs);
+  const Projector project(fitted, temperature);
+  const Eigen::VectorXd residuals = project(fitted.residuals);
+  std::vector<Score> scores(candidates.size());
+  for (std::size_t i = 0; i < candidates.size(); ++i) scores[i].candidate = candidates[i];
+  for (std::size_t t = 0; t < trials.size(); ++t) {
+    const Candidate& c = candidates[trials[t].candidate];
+    Score& score = scores[trials[t].candidate];
+    Eigen::VectorXd column = project(slopes.columns.col(static_cast<Eigen::Index>(t)));
+    const double length = column.squaredNorm(), along = column.dot(residuals);
+    if (!(length > 0.0)) continue;
+    const double amplitude = along / length;
+    const bool possible = c.either_sign || (amplitude > 0.0) == (c.typical > 0.0);
+    const double drop = possible ? along * along / length : 0.0;
+    if (score.column.size() > 0 && drop <= score.drop) continue;
+    score.drop = drop;
+    score.amplitude = c.absent + amplitude;
+    score.shape = trials[t].shape;
+    score.column = std::move(column);
+  }
+  std::stable_sort(scores.begin(), scores.end(),
+                   [](const Score& a, const Score& b) { return a.drop > b.drop; });
+  return scores;
+}
+
+double likeness(const Score& a, const Score& b) {
+  if (a.column.size() == 0 || b.column.size() == 0) return 0.0;
+  // Scores of two screenings may differ in how many parameters were free: the readings come first.
+  const Eigen::Index rows = std::min(a.column.size(), b.column.size());
+  const auto x = a.column.head(rows), y = b.column.head(rows);
+  return std::abs(x.dot(y)) / std::max(x.norm() * y.norm(), 1e-300);
+}
+
+}  // namespace mckibben::diagnose

@@ -1,0 +1,107 @@
+// See the header.
+#include <cmath>
+#include <tuple>
+
+#include <fmt/format.h>
+
+#include <sim/diagnose/story.hpp>
+
+namespace mckibben::diagnose {
+namespace {
+
+std::string words(const plant::ForceTerm& term) {
+  if (term.of == plant::Basis::sine)
+    return fmt::format("sin(2 pi x / {:.3f} mm {:+.2f})", 1e3 * term.wavelength_m, term.phase_rad);
+  for (const auto& [basis, name] : names(plant::Basis{}))
+    if (basis == term.of) return std::string(name);
+  return {};
+}
+
+std::string sentence_of(const std::string& effect) {
+  std::string text;
+  std::apply([&](const auto&... e) { ((effect == e.name ? void(text = e.sentence) : void()), ...); },
+             plant::Effects::Table{});
+  return text;
+}
+
+}  // namespace
+
+void tell_parameters(Diagnosis& diagnosis, const Model& model, const std::vector<Bounds>& bounds,
+                     const plant::Rig& recalibrated) {
+  const auto& terms = model.rig.effects.get<plant::ResidualForce>().terms;
+  plant::Rig rig = model.rig;
+  for (std::size_t j = 0; j < model.free.size(); ++j) {
+    const Parameter& p = model.free[j];
+    Estimate estimate{p.path, find(rig, p.path).unit, bounds[j].value, bounds[j].low, bounds[j].high};
+    if (p.has_prior) {
+      const double moved = p.scaled(estimate.value);
+      diagnosis.recalibrated.push_back({estimate, p.origin, moved});
+      diagnosis.absorbed.push_back({p.path, p.scaled(value_of(recalibrated, p.path)), moved});
+      continue;
+    }
+    for (auto& effect : diagnosis.effects) {
+      const std::string prefix = fmt::format("effects.{}.", effect.name);
+      if (!p.path.starts_with(prefix)) continue;
+      estimate.name = p.path.substr(prefix.size());
+      effect.parameters.push_back(estimate);
+    }
+    if (p.path.ends_with(".coefficient") && diagnosis.residual_law.size() < terms.size()) {
+      estimate.name = words(terms[diagnosis.residual_law.size()]);
+      diagnosis.residual_law.push_back({estimate.name, estimate});
+    }
+  }
+}
+
+std::string because(const Diagnosis& d) {
+  const auto gap = fmt::format(
+      "On runs that the fit has not seen the error falls from {:.2e} to {:.2e} in contraction "
+      "ratio; the instruments cannot see below {:.2e}.",
+      d.gap.nominal_rmse, d.gap.corrected_rmse, d.gap.noise_floor);
+  switch (d.verdict) {
+    case Verdict::nothing_missing:
+      return fmt::format(
+          "Model and data agree to within noise: on runs held out they differ by {:.2e} in contraction "
+          "ratio, and neither other values of the nominal parameters nor any effect of the catalogue "
+          "makes that convincingly less.",
+          d.gap.nominal_rmse);
+    case Verdict::recalibrate: {
+      std::string moved;
+      for (const Moved& m : d.recalibrated) {
+        if (std::abs(m.deviations) < 1.0) continue;
+        moved += fmt::format("{}{} from {:.4g} to {:.4g} {}", moved.empty() ? "" : ", ", m.fitted.name,
+                             m.nominal, m.fitted.value, m.fitted.unit == "1" ? "" : m.fitted.unit);
+      }
+      return fmt::format(
+          "No effect is missing; other values of the nominal parameters explain the gap{}{}. {}",
+          moved.empty() ? "" : ": ", moved, gap);
+    }
+    case Verdict::missing_effect: {
+      std::string said;
+      for (const NamedEffect& effect : d.effects) {
+        said += fmt::format("{}{} ({})", said.empty() ? "" : ", and ", effect.name, sentence_of(effect.name));
+        if (!effect.confusable_with.empty())
+          said +=
+              fmt::format(" - these data cannot tell it from {}", fmt::join(effect.confusable_with, ", "));
+      }
+      return fmt::format("Missing: {}. {}", said, gap);
+    }
+    case Verdict::unknown_effect: {
+      std::string law;
+      for (const LawTerm& term : d.residual_law)
+        law += fmt::format("{}{:.3g} N x {}", law.empty() ? "" : " + ", term.coefficient.value, term.term);
+      if (law.empty())
+        return "Something real is missing, but no effect of the catalogue explains it, and no simple law of "
+               "force was "
+               "found either.";
+      return fmt::format(
+          "Something is missing that no effect of the catalogue explains; as a force on the load it is "
+          "{}. {}",
+          law, gap);
+    }
+    case Verdict::cannot_tell:
+      break;
+  }
+  return "The data do not decide what is missing.";
+}
+
+}  // namespace mckibben::diagnose

@@ -1,0 +1,172 @@
+// Layout of diagnosis.json. Its first keys are relied on from outside (schema mckibben-diagnosis/1).
+#include <algorithm>
+#include <string>
+
+#include <ceres/version.h>
+
+#include <sim/diagnose/parameter.hpp>
+#include <sim/input/field_kinds.hpp>
+#include <sim/input/rig_file.hpp>
+#include <sim/output/diagnosis_json.hpp>
+#include <sim/output/diagnosis_words.hpp>
+#include <sim/output/run_json.hpp>
+
+namespace mckibben::output {
+namespace {
+
+using input::Json;
+
+Json ci95(const diagnose::Estimate& estimate) {
+  return {estimate.low, estimate.high};
+}
+
+Json value_json(const diagnose::Estimate& estimate) {
+  return {{"value", estimate.value}, {"unit", estimate.unit}, {"ci95", ci95(estimate)}};
+}
+
+std::string last_part(const std::string& path) {
+  return path.substr(path.rfind('.') + 1);
+}
+
+/// The last part of a path, `rest_radius`; with its part of the rig, `valve_conductance`, where another
+/// parameter that a calibration may move ends alike.
+std::string short_key(const std::string& path, const plant::Rig& nominal) {
+  const auto movable = diagnose::nominal_parameters(nominal);
+  const auto alike = [&](const auto& other) {
+    return other.path != path && last_part(other.path) == last_part(path);
+  };
+  if (std::none_of(movable.begin(), movable.end(), alike)) return last_part(path);
+  std::string key = path;
+  std::replace(key.begin(), key.end(), '.', '_');
+  return key;
+}
+
+Json effects_json(const diagnose::Diagnosis& diagnosis) {
+  Json list = Json::array();
+  for (const auto& effect : diagnosis.effects) {
+    Json parameters = Json::object();
+    for (const auto& parameter : effect.parameters) parameters[parameter.name] = value_json(parameter);
+    list.push_back({{"name", effect.name},
+                    {"variant", effect.variant},
+                    {"confusable_with", effect.confusable_with},
+                    {"parameters", parameters}});
+  }
+  return list;
+}
+
+Json recalibrated_json(const diagnose::Diagnosis& diagnosis, const plant::Rig& nominal) {
+  Json all = Json::object();
+  for (const auto& moved : diagnosis.recalibrated)
+    all[short_key(moved.fitted.name, nominal)] = {
+        {"path", moved.fitted.name}, {"nominal", moved.nominal},   {"fitted", moved.fitted.value},
+        {"unit", moved.fitted.unit}, {"ci95", ci95(moved.fitted)}, {"deviations", moved.deviations}};
+  return all;
+}
+
+Json law_json(const diagnose::Diagnosis& diagnosis) {
+  if (diagnosis.residual_law.empty()) return nullptr;
+  Json terms = Json::array();
+  for (const auto& term : diagnosis.residual_law)
+    terms.push_back({{"term", term.term},
+                     {"coefficient", term.coefficient.value},
+                     {"unit", term.coefficient.unit},
+                     {"ci95", ci95(term.coefficient)}});
+  return {{"terms", terms}, {"valid_for", diagnosis.law_valid_for}};
+}
+
+Json where_json(const diagnose::Diagnosis& diagnosis) {
+  Json list = Json::array();
+  for (const auto& cell : diagnosis.where)
+    list.push_back({{"factor", cell.factor},
+                    {"cell", cell.cell},
+                    {"share_of_gap", cell.share_of_gap},
+                    {"significant", cell.significant},
+                    {"rows", cell.rows},
+                    {"mean", cell.mean},
+                    {"rms", cell.rms},
+                    {"p_value", cell.p_value}});
+  return list;
+}
+
+Json gap_json(const diagnose::Diagnosis& diagnosis) {
+  const auto& gap = diagnosis.gap;
+  return {{"held_out_runs", held_out(diagnosis)}, {"noise_floor", gap.noise_floor},
+          {"nominal_rmse", gap.nominal_rmse},     {"recalibrated_rmse", gap.recalibrated_rmse},
+          {"corrected_rmse", gap.corrected_rmse}, {"closed", gap.closed}};
+}
+
+Json next_json(const diagnose::Diagnosis& diagnosis) {
+  if (!diagnosis.next_experiment) return nullptr;
+  const auto& next = *diagnosis.next_experiment;
+  return {{"separates", next.separates},
+          {"current", next.current},
+          {"load_kg", next.load_kg},
+          {"expected_power", next.expected_power},
+          {"waveform", next.waveform}};
+}
+
+Json runs_json(const diagnose::Diagnosis& diagnosis) {
+  Json list = Json::array();
+  for (const auto& run : diagnosis.runs)
+    list.push_back({{"id", run.id},
+                    {"load_kg", run.load_kg},
+                    {"held_out", run.held_out},
+                    {"left_out", run.left_out},
+                    {"nominal_rmse", run.nominal_rmse},
+                    {"recalibrated_rmse", run.recalibrated_rmse},
+                    {"corrected_rmse", run.corrected_rmse}});
+  return list;
+}
+
+Json ranking_json(const diagnose::Diagnosis& diagnosis) {
+  Json list = Json::array();
+  for (const auto& one : diagnosis.ranking) {
+    Json entry{{"round", one.round},    {"name", one.name},         {"variant", one.variant},
+               {"score", one.score},    {"likeness", one.likeness}, {"refitted", one.refitted},
+               {"outcome", one.outcome}};
+    if (one.refitted) {
+      entry["training_rmse"] = one.training_rmse;
+      entry["held_out_rmse"] = one.held_out_rmse;
+    }
+    list.push_back(std::move(entry));
+  }
+  return list;
+}
+
+Json absorbed_json(const diagnose::Diagnosis& diagnosis) {
+  Json list = Json::array();
+  for (const auto& one : diagnosis.absorbed)
+    list.push_back({{"path", one.path}, {"deviations_without", one.without}, {"deviations_with", one.with}});
+  return list;
+}
+
+}  // namespace
+
+Json json_of(const input::Dataset& data, const diagnose::Diagnosis& diagnosis) {
+  Json document{{"schema", "mckibben-diagnosis/1"},
+                {"verdict", std::string(input::spelling(diagnosis.verdict))},
+                {"because", diagnosis.because},
+                {"effects", effects_json(diagnosis)},
+                {"recalibrated", recalibrated_json(diagnosis, data.rig)},
+                {"residual_law", law_json(diagnosis)},
+                {"where", where_json(diagnosis)},
+                {"gap", gap_json(diagnosis)},
+                {"next_experiment", next_json(diagnosis)},
+                {"false_alarm_rate", diagnosis.false_alarm_rate},
+                {"seed", diagnosis.seed},
+                {"warnings", diagnosis.warnings},
+                {"runs", runs_json(diagnosis)},
+                {"ranking", ranking_json(diagnosis)},
+                {"confusion", {{"names", diagnosis.confusion_names}, {"likeness", diagnosis.confusion}}},
+                {"absorbed", absorbed_json(diagnosis)}};
+  Json heading = heading_json("mckibben-diagnosis/1", data.inputs);
+  heading["program"]["ceres"] = CERES_VERSION_STRING;
+  document["program"] = heading["program"];
+  document["input_files"] = heading["input_files"];
+  document["tolerance"] = data.rig.integrator.tolerance;
+  document["rig"] = input::rig_json(data.rig);
+  document["corrected_rig"] = input::rig_json(diagnosis.corrected);
+  return document;
+}
+
+}  // namespace mckibben::output

@@ -1,0 +1,91 @@
+// Rig and campaign files of a diagnosis; see the header.
+
+#include <fmt/format.h>
+
+#include <sim/input/campaign.hpp>
+#include <sim/input/yaml_writer.hpp>
+#include <sim/output/diagnosis_rig.hpp>
+#include <sim/output/diagnosis_words.hpp>
+
+namespace mckibben::output {
+namespace {
+
+using input::Json;
+
+/// Those members of `to` that `from` has otherwise or not at all.
+Json changes(const Json& from, const Json& to) {
+  Json changed = Json::object();
+  for (const auto& [key, value] : to.items()) {
+    const bool known = from.contains(key);
+    if (!known || value != from.at(key))
+      changed[key] = known && value.is_object() ? changes(from.at(key), value) : value;
+  }
+  return changed;
+}
+
+/// The corrected rig as it stands in a file, without schema.
+Json corrected_rig(const input::Dataset& data, const diagnose::Diagnosis& diagnosis) {
+  const Json shipped = input::to_json(input::RigFile{});
+  Json rig = input::to_json(diagnosis.corrected);
+  if (input::to_json(data.rig) == shipped) {
+    Json file{{"base", "thesis"}};
+    file.update(changes(shipped, rig));
+    return file;
+  }
+  return rig;
+}
+
+/// A text as comment, whatever lines it has.
+std::string comment(const std::string& text) {
+  std::string lines = "# ";
+  for (const char c : text) lines += c == '\n' ? std::string("\n# ") : std::string(1, c);
+  return lines + "\n";
+}
+
+std::string estimate_line(const std::string& name, const diagnose::Estimate& estimate,
+                          const std::string& note) {
+  const Readable shown = readable(estimate);
+  return comment(fmt::format("  {} {}{}, 95 % interval {}", name, shown.value, note, shown.interval));
+}
+
+std::string origin(const input::Dataset& data, const diagnose::Diagnosis& diagnosis) {
+  std::string text =
+      comment(fmt::format("The rig as a diagnosis of {} found it. {}.", name_of(data), title_of(diagnosis)));
+  if (!diagnosis.because.empty()) text += comment(diagnosis.because);
+  for (const auto& effect : diagnosis.effects) {
+    text += comment(
+        fmt::format("Added: {}: {}", full_name(effect.name, effect.variant), words_of(effect.name).sentence));
+    for (const auto& parameter : effect.parameters) text += estimate_line(parameter.name, parameter, "");
+  }
+  if (!diagnosis.residual_law.empty())
+    text += comment("Added: a force outside the catalogue, valid for " + diagnosis.law_valid_for);
+  for (const auto& term : diagnosis.residual_law) text += estimate_line(term.term, term.coefficient, "");
+  if (!diagnosis.recalibrated.empty()) text += comment("Recalibrated:");
+  for (const auto& moved : diagnosis.recalibrated)
+    text += estimate_line(moved.fitted.name, moved.fitted,
+                          fmt::format(" (nominal {})", readable(moved.nominal, moved.fitted.unit)));
+  return text;
+}
+
+}  // namespace
+
+std::string rig_yaml(const input::Dataset& data, const diagnose::Diagnosis& diagnosis) {
+  Json file{{"schema", input::rig_schema}};
+  file.update(corrected_rig(data, diagnosis));
+  return origin(data, diagnosis) + input::to_yaml(file);
+}
+
+std::string plan_yaml(const input::Dataset& data, const diagnose::Diagnosis& diagnosis) {
+  const auto& next = diagnosis.next_experiment.value();
+  const Json file{{"schema", input::campaign_schema},
+                  {"rig", corrected_rig(data, diagnosis)},
+                  {"loads", Json::array({input::quantity_json(next.load_kg, "kg")})},
+                  {"currents", Json::array({input::to_json(next.measurement)})}};
+  return fmt::format("{} of {}.\n", plan_heading, name_of(data)) +
+         comment(fmt::format("It separates {} with a probability of {:.0f} %: {}.", listed(next.separates),
+                             100.0 * next.expected_power, next.current)) +
+         comment("`mckibben dataset` makes the current's table and what the corrected rig would do.") +
+         comment("Add the measured run to the data set and diagnose again.") + input::to_yaml(file);
+}
+
+}  // namespace mckibben::output

@@ -1,0 +1,94 @@
+// Layout of the text; see the header.
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include <sim/input/field_kinds.hpp>
+#include <sim/input/number.hpp>
+#include <sim/output/diagnosis_table.hpp>
+#include <sim/output/diagnosis_words.hpp>
+#include <sim/output/grid.hpp>
+
+namespace mckibben::output {
+namespace {
+
+using diagnose::Diagnosis;
+
+std::string section(const std::string& title, const std::string& body) {
+  return body.empty() ? "" : "\n" + title + "\n" + body;
+}
+
+std::string warnings(const Diagnosis& diagnosis) {
+  std::string text = diagnosis.warnings.empty() ? "" : "\n";
+  for (const auto& warning : diagnosis.warnings) text += fmt::format("warning: {}\n", warning);
+  return text;
+}
+
+std::string added(const Diagnosis& diagnosis) {
+  Grid grid({"effect", "parameter", "value", "95 % interval"}, 4);
+  const auto add = [&](const std::string& effect, const std::string& name, const diagnose::Estimate& fitted) {
+    const Readable shown = readable(fitted);
+    grid.add({effect, name, shown.value, shown.interval});
+  };
+  for (const auto& effect : diagnosis.effects)
+    for (const auto& parameter : effect.parameters)
+      add(full_name(effect.name, effect.variant), parameter.name, parameter);
+  for (const auto& term : diagnosis.residual_law) add("residual_law", term.term, term.coefficient);
+  return grid.empty() ? "" : grid.text();
+}
+
+std::string moved(const Diagnosis& diagnosis) {
+  Grid grid({"parameter", "nominal", "fitted", "95 % interval", "deviations"}, 4);
+  for (const auto& one : diagnosis.recalibrated) {
+    if (std::abs(one.deviations) <= 1.0) continue;
+    const Readable shown = readable(one.fitted);
+    grid.add({one.fitted.name, readable(one.nominal, one.fitted.unit), shown.value, shown.interval,
+              fmt::format("{:+.1f}", one.deviations)});
+  }
+  return grid.empty() ? "" : grid.text();
+}
+
+std::string gap(const Diagnosis& diagnosis) {
+  const auto& gap = diagnosis.gap;
+  Grid grid({"nominal", "recalibrated", "corrected", "noise floor", "closed"}, 0);
+  const auto ratio = [](double value) { return fmt::format("{:.6f}", value); };
+  grid.add({ratio(gap.nominal_rmse), ratio(gap.recalibrated_rmse), ratio(gap.corrected_rmse),
+            ratio(gap.noise_floor), fmt::format("{:.1f} %", 100.0 * gap.closed)});
+  return grid.text();
+}
+
+std::string twins(const Diagnosis& diagnosis) {
+  std::string text;
+  for (const auto& effect : diagnosis.effects)
+    if (!effect.confusable_with.empty())
+      text += fmt::format("  {}: {}\n", effect.name, listed(effect.confusable_with));
+  return text;
+}
+
+std::string next(const Diagnosis& diagnosis) {
+  if (!diagnosis.next_experiment) return "";
+  const auto& next = *diagnosis.next_experiment;
+  return fmt::format("  {}, with {} kg: separates {} with a probability of {:.0f} %\n", next.current,
+                     input::write_number(next.load_kg), listed(next.separates), 100.0 * next.expected_power);
+}
+
+}  // namespace
+
+std::string table_of(const input::Dataset& data, const Diagnosis& diagnosis) {
+  const auto unseen = held_out(diagnosis);
+  std::string text = fmt::format(
+      "{}: {} runs, {} held out; errors are contraction ratios (0.001 = {:g} mm)\n", data.path.string(),
+      data.runs.size(), unseen.empty() ? "none" : listed(unseen), data.rig.muscle.rest_length_m);
+  text += warnings(diagnosis);
+  text += fmt::format("\n{}: {}\n", input::spelling(diagnosis.verdict), title_of(diagnosis));
+  if (!diagnosis.because.empty()) text += diagnosis.because + "\n";
+  text += section("added to the rig", added(diagnosis));
+  if (!diagnosis.residual_law.empty() && !diagnosis.law_valid_for.empty())
+    text += "  residual_law is valid for " + diagnosis.law_valid_for + "\n";
+  text += section("recalibrated by more than a deviation of what a data sheet promises", moved(diagnosis));
+  if (!unseen.empty()) text += section("rmse of the runs held out", gap(diagnosis));
+  text += section("explain these data as well", twins(diagnosis));
+  return text + section("to measure next", next(diagnosis));
+}
+
+}  // namespace mckibben::output

@@ -1,0 +1,119 @@
+// Units, digits and names; see the header.
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+#include <tuple>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <plant/effects.hpp>
+#include <sim/output/diagnosis_words.hpp>
+
+namespace mckibben::output {
+namespace {
+
+struct UsualUnit {
+  double factor = 1.0;  ///< number in this unit for one of the SI unit
+  std::string name;
+};
+
+/// The unit in which a number of that size is said. Conductances count litres of the reference state.
+UsualUnit usual(std::string_view si_unit, double size) {
+  if (si_unit == "1") return {1.0, ""};
+  if (si_unit == "m" && size < 1.0) return {1e3, "mm"};
+  if (si_unit == "m/s" && size < 1.0) return {1e3, "mm/s"};
+  if (si_unit == "m3" && size < 1e-2) return {1e6, "ml"};
+  if (si_unit == "s" && size < 0.5) return {1e3, "ms"};
+  if (si_unit == "kg" && size < 0.5) return {1e3, "g"};
+  if (si_unit == "rad") return {180.0 / std::numbers::pi, "deg"};
+  if (si_unit == "Pa" && size >= 100.0) return size < 2e4 ? UsualUnit{1e-2, "mbar"} : UsualUnit{1e-5, "bar"};
+  if (si_unit == "m3/(s.Pa)") return {6e9, "l/(min bar)"};
+  std::string name(si_unit);
+  std::replace(name.begin(), name.end(), '.', ' ');
+  return {1.0, name};
+}
+
+std::string with_unit(const std::string& number, const UsualUnit& unit) {
+  return unit.name.empty() ? number : number + " " + unit.name;
+}
+
+/// With this many decimals, or with an exponent where that would be unreadable.
+std::string digits(double value, int decimals) {
+  const double size = std::abs(value);
+  return size >= 1e6 || (size > 0.0 && size < 1e-4) ? fmt::format("{:.3e}", value)
+                                                    : fmt::format("{:.{}f}", value, decimals);
+}
+
+}  // namespace
+
+std::string name_of(const input::Dataset& data) {
+  const auto home = std::filesystem::absolute(data.path).lexically_normal().parent_path();
+  return home.has_filename() ? home.filename().string() : "dataset";
+}
+
+std::string readable(double value, std::string_view si_unit) {
+  const UsualUnit unit = usual(si_unit, std::abs(value));
+  return with_unit(fmt::format("{:.4g}", value * unit.factor), unit);
+}
+
+Readable readable(const diagnose::Estimate& estimate) {
+  const UsualUnit unit = usual(estimate.unit, std::abs(estimate.value));
+  const double value = estimate.value * unit.factor, low = estimate.low * unit.factor,
+               high = estimate.high * unit.factor, half = 0.5 * (high - low);
+  if (!std::isfinite(half) || half <= 0.0) return {readable(estimate.value, estimate.unit), "unknown"};
+  const int decimals = std::clamp(1 - static_cast<int>(std::floor(std::log10(half))), 0, 9);
+  return {with_unit(digits(value, decimals), unit),
+          with_unit(digits(low, decimals) + " to " + digits(high, decimals), unit)};
+}
+
+std::string height(double ratio, const plant::Rig& rig) {
+  return fmt::format("{:.3g} mm", ratio * rig.muscle.rest_length_m * 1e3);
+}
+
+std::string listed(const std::vector<std::string>& names) {
+  if (names.size() < 2) return names.empty() ? "" : names.front();
+  return fmt::format("{} and {}", fmt::join(names.begin(), names.end() - 1, ", "), names.back());
+}
+
+std::string title_of(const diagnose::Diagnosis& diagnosis) {
+  std::vector<std::string> found;
+  for (const auto& effect : diagnosis.effects) found.push_back(effect.name);
+  switch (diagnosis.verdict) {
+    case diagnose::Verdict::nothing_missing:
+      return "Nothing is missing";
+    case diagnose::Verdict::recalibrate:
+      return "The rig needs other numbers, not another effect";
+    case diagnose::Verdict::missing_effect:
+      return "Missing: " + listed(found);
+    case diagnose::Verdict::unknown_effect:
+      return found.empty() ? "Something outside the catalogue is missing"
+                           : "Missing: " + listed(found) + ", and something outside the catalogue";
+    case diagnose::Verdict::cannot_tell:
+      break;
+  }
+  return "These data cannot tell";
+}
+
+std::string full_name(const std::string& name, const std::string& variant) {
+  return variant.empty() ? name : fmt::format("{} ({})", name, variant);
+}
+
+std::vector<std::string> held_out(const diagnose::Diagnosis& diagnosis) {
+  std::vector<std::string> ids;
+  for (const auto& run : diagnosis.runs)
+    if (run.held_out) ids.push_back(run.id);
+  return ids;
+}
+
+EffectWords words_of(std::string_view effect) {
+  EffectWords words;
+  const auto look = [&]<class E>(const E&) {
+    if (effect == E::name) words = {E::law, E::sentence, E::source};
+  };
+  std::apply([&](const auto&... each) { (look(each), ...); }, plant::Effects::Table{});
+  return words;
+}
+
+}  // namespace mckibben::output

@@ -1,0 +1,48 @@
+// How a diagnosis speaks to people: numbers in units that they use, with the digits that their intervals
+// allow, and names of what was found. Shared by the table, the report and the comments of the rig file.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <sim/diagnose/diagnosis.hpp>
+#include <sim/input/dataset.hpp>
+
+namespace mckibben::output {
+
+/// Name of the folder that a data set is in.
+std::string name_of(const input::Dataset& data);
+
+/// A number given in SI, in a usual unit: "0.5 bar" for 5e4 Pa.
+std::string readable(double value, std::string_view si_unit);
+
+/// A fitted number and its 95 % interval, both with the digits that the interval allows: "7.68 mm",
+/// "7.66 to 7.70 mm". An interval that is not known is "unknown".
+struct Readable {
+  std::string value, interval;
+};
+Readable readable(const diagnose::Estimate& estimate);
+
+/// A difference of contraction ratios as height of the load [mm].
+std::string height(double ratio, const plant::Rig& rig);
+
+/// "a", "a and b", "a, b and c".
+std::string listed(const std::vector<std::string>& names);
+
+/// The verdict as a heading, with the effects' names.
+std::string title_of(const diagnose::Diagnosis& diagnosis);
+
+/// "bladder_elasticity (strain_limit)": an effect with the variant of its law, if it has several.
+std::string full_name(const std::string& name, const std::string& variant);
+
+/// Ids of the runs held out.
+std::vector<std::string> held_out(const diagnose::Diagnosis& diagnosis);
+
+/// What the catalogue says of an effect; empty for a name that is not in it.
+struct EffectWords {
+  std::string_view law, sentence, source;
+};
+EffectWords words_of(std::string_view effect);
+
+}  // namespace mckibben::output

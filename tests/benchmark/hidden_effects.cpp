@@ -1,0 +1,216 @@
+// See the header.
+#include "hidden_effects.hpp"
+
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <random>
+
+#include <fmt/format.h>
+
+#include <controllers/waveform.hpp>
+#include <plant/instruments.hpp>
+#include <sim/diagnose/parameter.hpp>
+#include <sim/run/simulate.hpp>
+
+namespace mckibben::diagnose {
+namespace {
+
+class Dice {
+ public:
+  explicit Dice(std::uint64_t seed) : random_(seed) {}
+  double between(double low, double high) { return std::uniform_real_distribution(low, high)(random_); }
+  double normal() { return std::normal_distribution(0.0, 1.0)(random_); }
+
+ private:
+  std::mt19937_64 random_;
+};
+
+struct Kind {
+  std::string title;
+  Verdict verdict;
+  std::vector<std::string> effects;
+  std::vector<Planted> plan;  ///< sizes, before the dice
+  plant::Noise noise{};
+  std::vector<plant::ForceTerm> law{};
+};
+
+const std::vector<Kind>& all_kinds() {
+  static const std::vector<Kind> list = [] {
+    const auto e = [](const char* effect, const char* key) {
+      return fmt::format("effects.{}.{}", effect, key);
+    };
+    std::vector<Kind> kinds;
+    struct Size {
+      const char *effect, *key;
+      double absent, small, large;
+      const char* shape;
+      double form;
+    };
+    const Size sizes[] = {{"viscous_damping", "damping", 0, 25, 120, nullptr, 0},
+                          {"guide_friction", "coefficient", 0, 0.01, 0.04, nullptr, 0},
+                          {"speed_dependent_friction", "ratio", 1, 0.85, 0.6, "speed", 0.02},
+                          {"bladder_elasticity", "stiffness", 0, 60, 300, nullptr, 0},
+                          {"bladder_creep", "stiffness", 0, 60, 250, "time", 1.5},
+                          {"end_cap_correction", "slope", 0, 0.004, 0.015, nullptr, 0},
+                          {"muscle_leak", "conductance", 0, 5e-11, 2e-10, nullptr, 0},
+                          {"polytropic_gas", "exponent", 1, 1.08, 1.3, nullptr, 0},
+                          {"valve_lag", "time", 0, 0.01, 0.04, nullptr, 0},
+                          {"valve_dead_band", "half_width", 0, 2e3, 8e3, nullptr, 0},
+                          {"valve_hysteresis", "half_width", 0, 2e3, 8e3, nullptr, 0},
+                          {"supply_droop", "line_resistance", 0, 3e7, 1e8, "volume", 3e-4},
+                          {"friction_warm_up", "change", 0, -0.12, -0.35, "time", 5.0},
+                          {"encoder_backlash", "width", 0, 3e-4, 1.2e-3, nullptr, 0},
+                          {"encoder_scale", "error", 0, 0.01, 0.03, nullptr, 0}};
+    for (const Size& s : sizes) {
+      for (const bool large : {false, true}) {
+        Kind kind{fmt::format("{} {}", s.effect, large ? "large" : "small"),
+                  Verdict::missing_effect,
+                  {s.effect},
+                  {{e(s.effect, s.key), large ? s.large : s.small}}};
+        if (s.shape != nullptr) kind.plan.push_back({e(s.effect, s.shape), s.form});
+        kinds.push_back(std::move(kind));
+      }
+    }
+    const auto pair = [&](std::size_t a, std::size_t b) {
+      Kind kind{fmt::format("{} + {}", sizes[a].effect, sizes[b].effect),
+                Verdict::missing_effect,
+                {sizes[a].effect, sizes[b].effect},
+                {{e(sizes[a].effect, sizes[a].key), sizes[a].large},
+                 {e(sizes[b].effect, sizes[b].key), sizes[b].large}}};
+      for (const Size& s : {sizes[a], sizes[b]})
+        if (s.shape != nullptr) kind.plan.push_back({e(s.effect, s.shape), s.form});
+      kinds.push_back(std::move(kind));
+    };
+    pair(7, 1);
+    pair(6, 2);
+    pair(3, 13);
+    pair(9, 0);
+    const auto moved = [&](const char* path, double value) {
+      kinds.push_back({fmt::format("recalibrate {}", path), Verdict::recalibrate, {}, {{path, value}}});
+    };
+    moved("muscle.rest_radius", 7.5e-3 * 1.017);
+    moved("muscle.end_correction", 1.30 * 0.984);
+    moved("friction.scale", 1.2);
+    moved("hose.conductance", 1.5e-8 * 0.8);
+    const auto null = [&](const char* title, plant::Noise noise) {
+      kinds.push_back({title, Verdict::nothing_missing, {}, {}, noise});
+    };
+    null("nothing, white", {});
+    null("nothing, much jitter", {.encoder_jitter = 2e-4});
+    null("nothing, ripple", {.ripple_Pa = 400.0, .ripple_period_s = 7.0});
+    null("nothing, strong ripple", {.ripple_Pa = 900.0, .ripple_period_s = 4.0});
+    null("nothing, wander", {.wander_Pa = 400.0, .wander_time_s = 5.0});
+    const auto law = [&](const char* title, std::vector<plant::ForceTerm> terms) {
+      kinds.push_back({title, Verdict::unknown_effect, {}, {}, {}, std::move(terms)});
+    };
+    using plant::Basis;
+    law("unknown, force along the stroke",
+        {{.of = Basis::sine, .coefficient_N = 6.0, .wavelength_m = 0.011, .phase_rad = 1.0}});
+    law("unknown, longer wave",
+        {{.of = Basis::sine, .coefficient_N = 5.0, .wavelength_m = 0.025, .phase_rad = 0.4}});
+    law("unknown, two waves", {{.of = Basis::sine, .coefficient_N = 5.0, .wavelength_m = 0.017},
+                               {.of = Basis::sine, .coefficient_N = 3.0, .wavelength_m = 0.0075}});
+    law("unknown, friction along the stroke", {{.of = Basis::direction_ratio, .coefficient_N = -60.0}});
+    return kinds;
+  }();
+  return list;
+}
+
+/// A current of a kind of its own for each run: two sines, steps, stairs, triangle, chirp.
+std::vector<double> current_mA(std::size_t run, std::size_t rows, Dice& dice) {
+  std::vector<double> list;
+  const double low = dice.between(3.0, 5.0), high = dice.between(17.0, 20.0), period = dice.between(2.0, 5.0);
+  double level = 4.0;
+  std::size_t until = 100;
+  for (std::size_t k = 0; k < rows; ++k) {
+    const double t = 0.012 * static_cast<double>(k);
+    const double phase = t / period;
+    switch (run % 5) {
+      case 0:
+        list.push_back(low + 0.5 * (high - low) * (1.0 - std::cos(2.0 * std::numbers::pi * phase)));
+        break;
+      case 1:
+        if (k == until) {
+          level = dice.between(4.0, 19.0);
+          until += static_cast<std::size_t>(dice.between(50.0, 130.0));
+        }
+        list.push_back(level);
+        break;
+      case 2: {
+        const double steps = std::floor(t / 0.9);
+        list.push_back(4.0 + 16.0 * (steps <= 5.0 ? steps / 5.0 : std::max(0.0, (10.0 - steps) / 5.0)));
+        break;
+      }
+      case 3: {
+        const double saw = phase - std::floor(phase);
+        list.push_back(low + (high - low) * (saw < 0.5 ? 2.0 * saw : 2.0 - 2.0 * saw));
+        break;
+      }
+      default:
+        list.push_back(12.0 - 7.0 * std::cos(2.0 * std::numbers::pi * (0.1 * t + 0.04 * t * t)));
+    }
+  }
+  return list;
+}
+
+}  // namespace
+
+std::size_t kinds() {
+  return all_kinds().size();
+}
+
+Hidden hide(std::size_t index, std::uint64_t seed) {
+  const Kind& kind = all_kinds()[index];
+  Dice dice(1000 * seed + index);
+  Hidden hidden{.title = kind.title, .verdict = kind.verdict, .effects = kind.effects};
+  plant::Rig truth;
+  // Every rig is a little off its data sheet; where nothing is to be found, less than one would notice.
+  for (const Parameter& p : nominal_parameters(plant::Rig{})) {
+    const double share = kind.verdict == Verdict::nothing_missing ? 0.0 : 0.1;
+    *find(truth, p.path).value = p.origin + share * p.scale * dice.normal();
+  }
+  for (const Planted& planted : kind.plan) {
+    const Found found = find(truth, planted.path);
+    const bool nominal = !planted.path.starts_with("effects.");
+    const double absent = nominal ? planted.value : value_of(plant::Rig{}, planted.path);
+    const bool shape = &planted != &kind.plan.front() && kind.effects.size() < 2;
+    const double factor = dice.between(0.8, 1.25);
+    *found.value = nominal ? planted.value
+                   : shape ? planted.value * factor
+                           : absent + factor * (planted.value - absent);
+    hidden.truth.push_back({planted.path, *found.value});
+  }
+  truth.effects.get<plant::GuideFriction>().slip_speed_m_per_s = 1e-3 * dice.between(0.6, 1.5);
+  truth.effects.get<plant::ResidualForce>().terms = kind.law;
+  plant::Noise noise = kind.noise;
+  if (noise.encoder_jitter == 0.0) noise.encoder_jitter = 5e-5;
+  const double loads_kg[] = {11.138, 11.138, 16.138, 16.138, 23.406, 23.406, 13.870, 18.870, 18.870};
+  const std::size_t currents[] = {0, 1, 2, 3, 0, 1, 4, 3, 1};
+  for (std::size_t run = 0; run < 9; ++run) {
+    const auto rows = static_cast<std::size_t>(dice.between(600.0, 900.0));
+    controllers::RecordedCurrent recorded;
+    recorded.samples_mA = current_mA(currents[run], rows, dice);
+    for (double& i : recorded.samples_mA) i = plant::dac_output_mA(truth.dac, i);
+    const auto controller = recorded.make(run::knowledge_of(truth, {}));
+    const auto recording = run::simulate({.rig = truth,
+                                          .load_kg = loads_kg[run],
+                                          .ticks = rows,
+                                          .engine = {engine::Method::cvode, 1e-8},
+                                          .noise = noise,
+                                          .seed = seed,
+                                          .stream = 100 * index + run},
+                                         *controller);
+    input::Run measured;
+    measured.id = fmt::format("r{:02}", run + 1);
+    measured.load_kg = loads_kg[run];
+    measured.current_mA = recorded.samples_mA;
+    for (const auto& sample : recording.samples)
+      measured.contraction_ratio.push_back(static_cast<double>(sample.counts) *
+                                           run::contraction_per_count(truth));
+    hidden.data.runs.push_back(std::move(measured));
+  }
+  return hidden;
+}
+
+}  // namespace mckibben::diagnose

@@ -1,0 +1,33 @@
+// Measured data with something hidden in it, for scoring the diagnosis: made with the other engine and
+// another tolerance than the diagnosis uses, laws sharper or softer than its own, a rig a little off its data
+// sheet, jitter, counts and slow disturbances.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <sim/diagnose/diagnosis.hpp>
+#include <sim/input/dataset.hpp>
+
+namespace mckibben::diagnose {
+
+struct Planted {
+  std::string path;  ///< of the parameter in a rig file
+  double value;
+};
+
+struct Hidden {
+  std::string title;
+  Verdict verdict = Verdict::missing_effect;
+  std::vector<std::string> effects{};
+  std::vector<Planted> truth{};
+  input::Dataset data{};
+};
+
+/// What may be hidden. `kind` counts from 0 to kinds() - 1: each effect at two sizes, pairs, changed nominal
+/// parameters, nulls with white, wandering and rippling disturbance, laws outside the catalogue.
+std::size_t kinds();
+Hidden hide(std::size_t kind, std::uint64_t seed);
+
+}  // namespace mckibben::diagnose

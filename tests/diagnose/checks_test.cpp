@@ -1,0 +1,193 @@
+// Bad data: each kind is found and named, and sound data with a hidden effect are left alone.
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+#include <sim/diagnose/checks.hpp>
+
+#include "planted.hpp"
+
+namespace mckibben::diagnose {
+namespace {
+
+/// Two loads under three currents.
+input::Dataset sound() {
+  static const input::Dataset data = planted({}, {11.138, 16.138}, three_kinds(), 1);
+  return data;
+}
+input::Dataset with_gauge() {
+  static const input::Dataset data = [] {
+    plant::Rig truth;
+    truth.gauge.fitted = true;
+    return planted(truth, {11.138, 16.138}, three_kinds(), 2);
+  }();
+  return data;
+}
+
+bool says(const Doubts& doubts, std::string_view words) {
+  return std::any_of(doubts.warnings.begin(), doubts.warnings.end(),
+                     [&](const std::string& warning) { return warning.find(words) != std::string::npos; });
+}
+
+/// Row numbers that are masked in a run.
+std::vector<std::size_t> masked(const Doubts& doubts, std::size_t run) {
+  std::vector<std::size_t> rows;
+  for (std::size_t k = 0; k < doubts.masked[run].size(); ++k)
+    if (doubts.masked[run][k]) rows.push_back(k);
+  return rows;
+}
+
+/// The message of the error that the data end in; empty if they do not.
+std::string error(const input::Dataset& data) {
+  try {
+    check(data, 2);
+  } catch (const input::BadInput& bad) {
+    return bad.what();
+  }
+  return "";
+}
+
+void expect_no_doubts(const Doubts& doubts) {
+  EXPECT_EQ(doubts.warnings, std::vector<std::string>{});
+  EXPECT_EQ(doubts.left_out, Runs{});
+  EXPECT_EQ(doubts.dead_gauges, Runs{});
+  EXPECT_FALSE(doubts.cannot_tell);
+  for (std::size_t run = 0; run < doubts.masked.size(); ++run) EXPECT_TRUE(masked(doubts, run).empty());
+}
+
+TEST(Checks, SoundDataRaiseNoDoubts) {
+  expect_no_doubts(check(sound(), 2));
+  expect_no_doubts(check(with_gauge(), 1));
+}
+
+TEST(Checks, HiddenEffectsAreNotTakenForBadData) {
+  plant::Rig friction, leak, backlash;
+  friction.effects.get<plant::SpeedDependentFriction>().ratio = 0.4;
+  leak.effects.get<plant::MuscleLeak>().conductance_m3_per_s_Pa = 3e-10;
+  backlash.effects.get<plant::EncoderBacklash>().width_m = 2e-3;
+  const auto kinds = three_kinds();
+  for (const plant::Rig& truth : {friction, leak, backlash})
+    expect_no_doubts(check(planted(truth, {11.138, 23.406}, {kinds[0], kinds[1]}, 3), 2));
+}
+
+TEST(Checks, ReadingsThatNoLoadCouldFollowAreMaskedOneByOne) {
+  auto data = sound();
+  auto& readings = data.runs[1].contraction_ratio;
+  readings[200] += 0.05;
+  for (std::size_t k = 330; k < 333; ++k) readings[k] -= 0.04;
+  readings[0] += 0.03;
+  const Doubts doubts = check(data, 2);
+  EXPECT_EQ(masked(doubts, 1), (std::vector<std::size_t>{0, 200, 330, 331, 332}));
+  EXPECT_TRUE(says(doubts, "run r02: 3 outliers in contraction_ratio, at 0.000 s, 2.400 s, 3.960 s"));
+  EXPECT_EQ(doubts.left_out, Runs{});
+  EXPECT_TRUE(masked(doubts, 0).empty());
+}
+
+TEST(Checks, AnEncoderThatSticksIsMaskedWhileItSticks) {
+  auto data = sound();
+  auto& readings = data.runs[0].contraction_ratio;
+  std::fill(readings.begin() + 36, readings.begin() + 110, readings[36]);
+  const Doubts doubts = check(data, 2);
+  EXPECT_TRUE(says(doubts, "run r01: contraction_ratio is frozen from 0.432 s to 1.308 s"));
+  EXPECT_TRUE(doubts.masked[0][37]);
+  EXPECT_TRUE(doubts.masked[0][109]);
+  EXPECT_FALSE(doubts.masked[0][110]);
+  EXPECT_EQ(doubts.left_out, Runs{});
+}
+
+TEST(Checks, ARunThatLostCountsIsLeftOut) {
+  auto data = sound();
+  auto& readings = data.runs[1].contraction_ratio;  // a staircase, standing still at 3.4 s
+  for (std::size_t k = 280; k < readings.size(); ++k) readings[k] += 0.03;
+  const Doubts doubts = check(data, 2);
+  EXPECT_EQ(doubts.left_out, Runs{1});
+  EXPECT_TRUE(says(doubts, "run r02: contraction_ratio jumps by 0.03 at 3.360 s"));
+}
+
+TEST(Checks, RunsThatNeverMoveAreLeftOut) {
+  auto data = sound();
+  std::fill(data.runs[2].current_mA.begin(), data.runs[2].current_mA.end(), 3.9);
+  std::fill(data.runs[2].contraction_ratio.begin(), data.runs[2].contraction_ratio.end(), 0.0);
+  std::fill(data.runs[4].contraction_ratio.begin(), data.runs[4].contraction_ratio.end(), 0.0);
+  const Doubts doubts = check(data, 2);
+  EXPECT_EQ(doubts.left_out, (Runs{2, 4}));
+  EXPECT_TRUE(says(doubts, "run r03: the current stays at or below 3.9 mA"));
+  EXPECT_TRUE(says(doubts, "run r05: the reading never changes, though"));
+  EXPECT_FALSE(doubts.cannot_tell);
+}
+
+TEST(Checks, TooFewRunsCannotTell) {
+  auto data = sound();
+  data.runs.resize(2);
+  const Doubts two = check(data, 2);
+  ASSERT_TRUE(two.cannot_tell);
+  EXPECT_NE(two.cannot_tell->find("at least four runs"), std::string::npos);
+  for (input::Run& run : data.runs)
+    std::fill(run.contraction_ratio.begin(), run.contraction_ratio.end(), 0.0);
+  const Doubts none = check(data, 2);
+  EXPECT_EQ(none.left_out, (Runs{0, 1}));
+  EXPECT_TRUE(none.cannot_tell);
+}
+
+TEST(Checks, OneLoadOnlyIsSaid) {
+  const Doubts doubts = check(planted({}, {16.138}, three_kinds(), 4), 2);
+  EXPECT_TRUE(says(doubts, "all runs have the same load, 16.138 kg"));
+  EXPECT_FALSE(doubts.cannot_tell);
+}
+
+TEST(Checks, WrongUnitsAreErrorsThatNameFileAndColumn) {
+  auto amperes = sound();
+  for (double& current : amperes.runs[3].current_mA) current *= 1e-3;
+  EXPECT_EQ(error(amperes),
+            "planted/r04.csv:1:1: error: current_mA: never above 0.02; this looks like amperes, not mA");
+  auto share = sound();
+  for (double& current : share.runs[0].current_mA) current = (current - 4.0) / 16.0;
+  EXPECT_NE(error(share).find("a share of the range"), std::string::npos);
+  auto per_cent = sound();
+  for (double& ratio : per_cent.runs[1].contraction_ratio) ratio *= 100.0;
+  EXPECT_EQ(error(per_cent),
+            "planted/r02.csv:1:1: error: contraction_ratio: this looks like per cent, not a ratio");
+  auto metres = sound();
+  for (double& ratio : metres.runs[1].contraction_ratio) ratio *= metres.rig.muscle.rest_length_m;
+  EXPECT_NE(error(metres).find("metres"), std::string::npos);
+}
+
+TEST(Checks, PressureInAnotherUnitIsAnError) {
+  auto kilopascal = with_gauge(), absolute = with_gauge();
+  for (double& pressure : *kilopascal.runs[5].muscle_pressure_Pa) pressure *= 100.0;
+  EXPECT_EQ(error(kilopascal),
+            "planted/r06.csv:1:1: error: muscle_pressure_bar: this looks like kPa, not bar");
+  for (double& pressure : *absolute.runs[0].muscle_pressure_Pa) pressure += 1.013e5;
+  EXPECT_NE(error(absolute).find("r01.csv:1:1: error: muscle_pressure_bar: about one atmosphere"),
+            std::string::npos);
+}
+
+TEST(Checks, ADeadGaugeIsIgnoredNotTheRun) {
+  auto data = with_gauge();
+  for (double& pressure : *data.runs[1].muscle_pressure_Pa) pressure = 2.5e5;
+  const Doubts doubts = check(data, 2);
+  EXPECT_EQ(doubts.dead_gauges, Runs{1});
+  EXPECT_EQ(doubts.left_out, Runs{});
+  EXPECT_TRUE(says(doubts, "run r02: muscle_pressure_bar is 2.5 throughout"));
+}
+
+TEST(Checks, AMislabelledLoadIsFoundAndSaid) {
+  plant::Rig truth;
+  truth.effects.get<plant::MuscleLeak>().conductance_m3_per_s_Pa = 2e-10;
+  const auto kinds = three_kinds();
+  auto data = planted(truth, {11.138, 16.138}, {kinds[0], kinds[1]}, 5);
+  data.runs[1].load_kg = 16.138;
+  const Doubts doubts = check(data, 2);
+  EXPECT_EQ(doubts.left_out, Runs{1});
+  EXPECT_TRUE(says(doubts, "run r02: the load is labelled 16.138 kg, but everything else says about 11."));
+  EXPECT_EQ(check(data, 1).warnings, doubts.warnings);
+}
+
+TEST(Checks, AnOffsetOfAllLoadsIsNoWrongLabel) {
+  auto data = sound();
+  for (input::Run& run : data.runs) run.load_kg += 1.5;
+  expect_no_doubts(check(data, 2));
+}
+
+}  // namespace
+}  // namespace mckibben::diagnose

@@ -1,0 +1,45 @@
+// The workflow where nothing is hidden, and what its results may not depend on. Data with something hidden:
+// tests/workflow.
+#include <gtest/gtest.h>
+
+#include <sim/diagnose/diagnose.hpp>
+#include <sim/diagnose/experiment.hpp>
+
+#include "planted.hpp"
+
+namespace mckibben::diagnose {
+namespace {
+
+input::Dataset small(const plant::Rig& truth) {
+  auto currents = three_kinds();
+  currents.pop_back();
+  for (auto& current : currents) current.duration_s = 4.0;
+  return planted(truth, {11.138, 16.138, 23.406}, currents, 7);
+}
+
+Diagnosis of(const input::Dataset& data, unsigned threads) {
+  return diagnose(data, {.threads = threads, .seed = 3}, [](const auto&, auto, auto) {});
+}
+
+TEST(Diagnose, HasTheSameSlopesForAnyNumberOfThreads) {
+  const auto data = small(plant::Rig{});
+  std::vector<std::vector<bool>> masked;
+  for (const auto& run : data.runs) masked.emplace_back(run.current_mA.size(), false);
+  const auto parameters = nominal_parameters(data.rig);
+  const Runs runs{0, 3, 4};
+  const auto one = Experiment(data, masked, 1).slopes(data.rig, parameters, runs);
+  const auto three = Experiment(data, masked, 3).slopes(data.rig, parameters, runs);
+  EXPECT_EQ(one.residuals, three.residuals);
+  EXPECT_EQ(one.columns, three.columns);
+  EXPECT_GT(one.columns.norm(), 1.0);
+}
+
+TEST(Diagnose, SaysThatNothingIsMissingWhereNothingIs) {
+  const auto found = of(small(plant::Rig{}), 0);
+  EXPECT_EQ(found.verdict, Verdict::nothing_missing);
+  EXPECT_TRUE(found.effects.empty());
+  EXPECT_LT(found.gap.nominal_rmse, 1.3 * found.gap.noise_floor);
+}
+
+}  // namespace
+}  // namespace mckibben::diagnose

@@ -1,0 +1,52 @@
+// Parameters by path, and what the catalogue says of each effect.
+#include <set>
+#include <stdexcept>
+
+#include <gtest/gtest.h>
+
+#include <sim/diagnose/parameter.hpp>
+
+namespace mckibben::diagnose {
+namespace {
+
+TEST(Parameters, AreFoundByTheirPathThroughPartsEffectsAndLists) {
+  plant::Rig rig;
+  rig.effects.get<plant::ResidualForce>().terms.resize(2);
+  *find(rig, "muscle.rest_radius").value = 8e-3;
+  *find(rig, "effects.muscle_leak.conductance").value = 1e-10;
+  *find(rig, "effects.residual_law.terms.1.coefficient").value = 3.0;
+  EXPECT_EQ(rig.muscle.rest_radius_m, 8e-3);
+  EXPECT_EQ(rig.effects.get<plant::MuscleLeak>().conductance_m3_per_s_Pa, 1e-10);
+  EXPECT_EQ(rig.effects.get<plant::ResidualForce>().terms[1].coefficient_N, 3.0);
+  EXPECT_EQ(find(rig, "effects.muscle_leak.conductance").unit, "m3/(s.Pa)");
+  for (const char* path :
+       {"muscle", "muscle.radius", "rest_radius", "effects.residual_law.terms.2.coefficient", ""})
+    EXPECT_THROW(find(rig, path), std::invalid_argument) << path;
+}
+
+TEST(Catalogue, HoldsAllFifteenEffectsAndEveryLawMovesSomething) {
+  std::set<std::string> effects;
+  for (const Candidate& c : catalogue()) {
+    effects.insert(c.effect);
+    const plant::Rig rig = c.chosen(plant::Rig{});
+    EXPECT_EQ(value_of(rig, c.amplitude), c.absent) << c.effect;
+    for (const Parameter& p : c.parameters(rig)) {
+      EXPECT_LT(p.lowest, p.highest) << p.path;
+      EXPECT_NEAR(p.unscaled(p.scaled(1.5 * p.lowest + 0.7)), 1.5 * p.lowest + 0.7, 1e-12) << p.path;
+    }
+    EXPECT_EQ(c.shapes.empty(), c.shape.empty());
+  }
+  EXPECT_EQ(effects.size(), 15u);
+}
+
+TEST(NominalParameters, StayWithinThreeDeviationsOfTheirDataSheet) {
+  for (const Parameter& p : nominal_parameters(plant::Rig{})) {
+    EXPECT_EQ(p.origin, value_of(plant::Rig{}, p.path));
+    EXPECT_GE(p.scaled(p.lowest), -most_deviations - 1e-9) << p.path;
+    EXPECT_LE(p.scaled(p.highest), most_deviations + 1e-9) << p.path;
+    EXPECT_TRUE(p.has_prior);
+  }
+}
+
+}  // namespace
+}  // namespace mckibben::diagnose

@@ -1,0 +1,54 @@
+// Data sets whose answer is known: a rig with an effect in it, simulated by the product's own tick loop, read
+// with counts and jitter as instruments would, and handed over with the nominal rig beside it.
+#pragma once
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include <sim/input/campaign.hpp>
+#include <sim/input/dataset.hpp>
+#include <sim/run/campaign.hpp>
+
+namespace mckibben::diagnose {
+
+/// A slow sine over the whole range; a staircase; fast triangles. Five seconds each.
+inline std::vector<input::CampaignCurrent> three_kinds() {
+  controllers::SineCurrent sine;
+  sine.period_s = 2.5;
+  controllers::StairCurrent stair;
+  stair.steps = 3;
+  stair.dwell_s = 0.7;
+  controllers::TriangleCurrent triangle;
+  triangle.low_mA = 6.0;
+  triangle.high_mA = 18.0;
+  triangle.speed_mA_per_s = 12.0;
+  return {{"sine", 5.0, sine}, {"stair", 5.0, stair}, {"triangle", 5.0, triangle}};
+}
+
+/// Each load under each current, runs r01, r02 and so on (loads in order, for each all currents). With a
+/// gauge if `truth` has one. The data set's rig is `nominal`.
+inline input::Dataset planted(const plant::Rig& truth, std::vector<double> loads_kg,
+                              std::vector<input::CampaignCurrent> currents, std::uint64_t seed,
+                              const plant::Rig& nominal = {}) {
+  input::Campaign campaign;
+  static_cast<plant::Rig&>(campaign.rig) = truth;
+  campaign.loads_kg = std::move(loads_kg);
+  campaign.currents = std::move(currents);
+  campaign.noise = {.encoder_jitter = 5e-5, .gauge_Pa = 400.0};
+  campaign.seed = seed;
+  input::Dataset data;
+  static_cast<plant::Rig&>(data.rig) = nominal;
+  data.rig.gauge = truth.gauge;
+  data.path = "planted/dataset.yaml";
+  for (const run::CampaignJob& job : run::jobs_of(campaign)) {
+    data.runs.push_back(run::measured(campaign, run::run_job(campaign, job)));
+    data.runs.back().id = fmt::format("r{:02}", data.runs.size());
+    data.runs.back().file = data.runs.back().id + ".csv";
+  }
+  return data;
+}
+
+}  // namespace mckibben::diagnose

@@ -1,0 +1,203 @@
+// What a diagnosis writes and prints: the contract's keys, a rig that reads back to the same bits, a plan
+// that is a campaign, a page that needs nothing but itself.
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <sim/input/campaign.hpp>
+#include <sim/input/rig_file.hpp>
+#include <sim/output/diagnosis_json.hpp>
+#include <sim/output/diagnosis_report.hpp>
+#include <sim/output/diagnosis_rig.hpp>
+#include <sim/output/diagnosis_table.hpp>
+#include <sim/output/diagnosis_words.hpp>
+
+#include "diagnosed.hpp"
+
+namespace mckibben::output {
+namespace {
+
+using input::Json;
+
+TEST(DiagnosisJson, HoldsWhatIsPromised) {
+  const Json document = Json::parse(json_of(measured(), diagnosed()).dump());
+  EXPECT_EQ(document.begin().key(), "schema");
+  EXPECT_EQ(document.at("schema"), "mckibben-diagnosis/1");
+  EXPECT_EQ(document.at("verdict"), "missing_effect");
+  const Json& leak = document.at("effects").at(0);
+  EXPECT_EQ(leak.at("name"), "muscle_leak");
+  EXPECT_EQ(leak.at("variant"), "");
+  EXPECT_EQ(leak.at("confusable_with"), Json::array());
+  const Json conductance{
+      {"value", 1.0314159e-10}, {"unit", "m3/(s.Pa)"}, {"ci95", Json::array({0.97e-10, 1.09e-10})}};
+  EXPECT_EQ(leak.at("parameters").at("conductance"), conductance);
+  EXPECT_EQ(document.at("effects").at(1).at("confusable_with").at(0), "valve_hysteresis");
+  const Json& law = document.at("residual_law");
+  const Json term{
+      {"term", "sgn v"}, {"coefficient", -0.51}, {"unit", "N"}, {"ci95", Json::array({-0.7, -0.32})}};
+  EXPECT_EQ(law.at("terms").at(1), term);
+  EXPECT_EQ(law.at("valid_for"), "rises up to 60 mm, speeds up to 0.2 m/s");
+  const Json& cell = document.at("where").at(0);
+  EXPECT_EQ(cell.at("factor"), "direction");
+  EXPECT_EQ(cell.at("cell"), "contracting");
+  EXPECT_EQ(cell.at("share_of_gap"), 0.62);
+  EXPECT_EQ(cell.at("significant"), true);
+  const Json gap{{"held_out_runs", Json::array({"r05", "r06"})},
+                 {"noise_floor", 1.3e-4},
+                 {"nominal_rmse", 0.0093},
+                 {"recalibrated_rmse", 0.0022},
+                 {"corrected_rmse", 1.6e-4},
+                 {"closed", 0.9876}};
+  EXPECT_EQ(document.at("gap"), gap);
+  const Json& next = document.at("next_experiment");
+  EXPECT_EQ(next.at("separates").size(), 2u);
+  EXPECT_EQ(next.at("current"), "stairs from 4 to 20 mA, 2 s each");
+  EXPECT_EQ(next.at("load_kg"), 16.138);
+  EXPECT_EQ(next.at("expected_power"), 0.93);
+  EXPECT_EQ(document.at("false_alarm_rate"), 0.03);
+  EXPECT_EQ(document.at("seed"), 7);
+  EXPECT_EQ(document.at("runs").at(3).at("left_out"), true);
+  EXPECT_FALSE(document.at("ranking").at(2).contains("held_out_rmse"));  // was not refitted
+  EXPECT_EQ(document.at("confusion").at("likeness").at(1).at(2), 0.93);
+  EXPECT_EQ(document.at("input_files").at(0).at("file"), "measured/dataset.yaml");
+  EXPECT_TRUE(document.at("program").contains("ceres"));
+}
+
+TEST(DiagnosisJson, NamesAParameterByItsPartOnlyWhereTheLastWordIsNotEnough) {
+  const Json moved = json_of(measured(), diagnosed()).at("recalibrated");
+  EXPECT_EQ(moved.at("rest_radius").at("nominal"), 0.0075);
+  EXPECT_EQ(moved.at("rest_radius").at("fitted"), 0.00768123456789);
+  EXPECT_EQ(moved.at("rest_radius").at("deviations"), 2.4);
+  EXPECT_EQ(moved.at("valve_conductance").at("fitted"), 1.1e-8);
+  EXPECT_EQ(moved.at("hose_conductance").at("fitted"), 0.9e-8);
+  diagnose::Diagnosis one = diagnosed();
+  one.recalibrated = {one.recalibrated[2]};  // the key does not depend on what else moved
+  EXPECT_TRUE(json_of(measured(), one).at("recalibrated").contains("valve_conductance"));
+}
+
+TEST(DiagnosisJson, IsNullWhereThereIsNothing) {
+  diagnose::Diagnosis empty;
+  empty.effects = {
+      {.name = "muscle_leak",
+       .variant = "",
+       .parameters = {{"conductance", "m3/(s.Pa)", 1e-10, 0.0, std::numeric_limits<double>::infinity()}}}};
+  const Json document = Json::parse(json_of(measured(), empty).dump());
+  EXPECT_EQ(document.at("verdict"), "cannot_tell");
+  EXPECT_TRUE(document.at("residual_law").is_null());
+  EXPECT_TRUE(document.at("next_experiment").is_null());
+  EXPECT_EQ(document.at("recalibrated"), Json::object());
+  EXPECT_TRUE(document.at("effects").at(0).at("parameters").at("conductance").at("ci95").at(1).is_null());
+}
+
+/// `text` read as a rig file.
+input::RigFile read_back(const std::string& text) {
+  const auto path = std::filesystem::temp_directory_path() /
+                    ("mckibben-rig-" + std::to_string(std::hash<std::string>{}(text)) + ".yaml");
+  std::ofstream(path) << text;
+  std::vector<input::InputFile> inputs;
+  const input::RigFile rig = input::read_rig(path.string(), inputs);
+  std::filesystem::remove(path);
+  return rig;
+}
+
+TEST(DiagnosisRig, ReadsBackToTheSameNumbers) {
+  const diagnose::Diagnosis found = diagnosed();
+  const std::string text = rig_yaml(measured(), found);
+  EXPECT_EQ(input::rig_json(read_back(text)), input::rig_json(found.corrected)) << text;
+  EXPECT_NE(text.find("\nbase: thesis\n"), std::string::npos);
+  EXPECT_EQ(text.find("rest_length:"), std::string::npos) << "holds what did not change";
+  EXPECT_EQ(text.find("viscous_damping"), std::string::npos) << "holds an effect that is off";
+  EXPECT_NE(text.find("95 % interval 0.582 to 0.654 l/(min bar)"), std::string::npos) << text;
+}
+
+TEST(DiagnosisRig, HoldsEveryFieldOfARigThatIsNotShipped) {
+  input::Dataset data = measured();
+  data.rig.muscle.rest_length_m = 0.4;
+  diagnose::Diagnosis found = diagnosed();
+  found.corrected.muscle.rest_length_m = 0.4;
+  const std::string text = rig_yaml(data, found);
+  EXPECT_EQ(text.find("base:"), std::string::npos);
+  EXPECT_NE(text.find("settling_time:"), std::string::npos);
+  EXPECT_EQ(input::rig_json(read_back(text)), input::rig_json(found.corrected)) << text;
+}
+
+TEST(DiagnosisRig, IsTheNominalOneWhereNothingWasFound) {
+  diagnose::Diagnosis nothing;
+  nothing.because = "the gap is within noise,\nschema: mckibben-scenario/1";  // stays a comment
+  const input::RigFile rig = read_back(rig_yaml(measured(), nothing));
+  EXPECT_EQ(input::rig_json(rig), input::rig_json(input::RigFile{}));
+}
+
+TEST(DiagnosisPlan, IsACampaignWithThatCurrentAndLoadOnTheCorrectedRig) {
+  const diagnose::Diagnosis found = diagnosed();
+  const std::string text = plan_yaml(measured(), found);
+  EXPECT_EQ(text.rfind(plan_heading, 0), 0u);
+  const input::Campaign campaign = input::read_campaign(input::Source("plan.yaml", text, "."));
+  EXPECT_EQ(campaign.loads_kg, std::vector<double>{16.138});
+  ASSERT_EQ(campaign.currents.size(), 1u);
+  EXPECT_TRUE(std::holds_alternative<controllers::StairCurrent>(campaign.currents[0].current));
+  EXPECT_EQ(input::rig_json(campaign.rig), input::rig_json(found.corrected));
+}
+
+TEST(DiagnosisReport, IsWholeInItselfAndSafe) {
+  const std::string html = report_html(measured(), diagnosed());
+  for (const char* outside : {"<script", "http:", "https:", "src=", "href=", "url(", "@import"})
+    EXPECT_EQ(html.find(outside), std::string::npos) << outside;
+  EXPECT_EQ(html.find("<held out>"), std::string::npos);
+  EXPECT_NE(html.find("&lt;held out&gt;"), std::string::npos);
+  EXPECT_EQ(html.find("nan"), std::string::npos);
+  EXPECT_LT(html.find("Warning:"), html.find("<h1>"));
+  // The steps in their order, and each run held out with its picture.
+  std::size_t at = 0;
+  for (const char* part : {"<h1>Missing: muscle_leak and valve_dead_band", "The gap", "Run r05", "Run r06",
+                           "What was added", "Where they disagree", "never visited", "Candidates",
+                           "Which can be taken for which", "had absorbed", "What else it could be",
+                           "could as well be valve_hysteresis", "What to measure next", "stairs from 4"}) {
+    const std::size_t found = html.find(part, at);
+    ASSERT_NE(found, std::string::npos) << part;
+    at = found;
+  }
+  EXPECT_EQ(html.find("Run r01:"), std::string::npos);  // was trained on
+}
+
+TEST(DiagnosisReport, LeavesOutWhatThereIsNot) {
+  diagnose::Diagnosis nothing;
+  nothing.verdict = diagnose::Verdict::nothing_missing;
+  const std::string html = report_html(measured(), nothing);
+  EXPECT_NE(html.find("<h1>Nothing is missing</h1>"), std::string::npos);
+  for (const char* part : {"What was added", "Candidates", "What to measure next", "had absorbed", "<svg"})
+    EXPECT_EQ(html.find(part), std::string::npos) << part;
+  EXPECT_EQ(html.find("nan"), std::string::npos);
+  nothing.runs = {{.id = "empty", .held_out = true}};
+  EXPECT_EQ(report_html(measured(), nothing).find("nan"), std::string::npos);
+}
+
+TEST(DiagnosisTable, SaysWhatCounts) {
+  const std::string text = table_of(measured(), diagnosed());
+  EXPECT_LT(text.find("warning: run r04"), text.find("missing_effect: "));
+  EXPECT_NE(text.find("0.619 l/(min bar)"), std::string::npos) << text;
+  EXPECT_NE(text.find("muscle.rest_radius"), std::string::npos);
+  EXPECT_EQ(text.find("muscle.braid_angle"), std::string::npos) << "moved by half a deviation only";
+  EXPECT_NE(text.find("valve_dead_band: valve_hysteresis"), std::string::npos);
+  EXPECT_NE(text.find("98.8 %"), std::string::npos);
+  EXPECT_NE(text.find("16.138 kg: separates valve_dead_band and valve_hysteresis"), std::string::npos);
+}
+
+TEST(DiagnosisWords, GiveAsManyDigitsAsTheIntervalAllows) {
+  const auto shown = readable(diagnose::Estimate{"r", "m", 0.00768123, 0.00766123, 0.00770123});
+  EXPECT_EQ(shown.value, "7.681 mm");
+  EXPECT_EQ(shown.interval, "7.661 to 7.701 mm");
+  EXPECT_EQ(readable(diagnose::Estimate{"c", "1", -0.5, -0.7, -0.3}).value, "-0.50");
+  EXPECT_EQ(readable(diagnose::Estimate{"c", "1", 2.0, 2.0, 2.0}).interval, "unknown");
+  EXPECT_EQ(readable(5e4, "Pa"), "0.5 bar");
+  EXPECT_EQ(readable(0.012, "s"), "12 ms");
+  EXPECT_EQ(readable(20.0, "N.s/m"), "20 N s/m");
+}
+
+}  // namespace
+}  // namespace mckibben::output

@@ -1,0 +1,371 @@
+// Every effect of the table, by itself: what it says of itself, that absent it is not there, that no value of
+// its parameters breaks it, what it may not do to energy, and its law where that has a closed form.
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <random>
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include <plant/plant.hpp>
+
+#include "switched_on.hpp"
+
+namespace mckibben::plant {
+namespace {
+
+class Chance {
+ public:
+  double between(double low, double high) { return std::uniform_real_distribution(low, high)(random_); }
+  bool coin() { return between(0.0, 1.0) < 0.5; }
+  State<double> state() {
+    return {{between(-0.05, 0.6), between(-20.0, 20.0)},
+            {between(-0.9e5, 10e5), between(-0.9e5, 10e5), between(-1e-3, 1e-3)}};
+  }
+  Memory<double> memory() {
+    Memory<double> memory;
+    for (std::size_t i = 0; i < memory.size(); ++i) memory[i] = between(-1.0, 2.0) * Effects::memory_sizes[i];
+    return memory;
+  }
+  /// At an instant in the range of use.
+  Instant<double> instant() {
+    const double e = between(-0.01, 0.28);
+    return {e,        0.3 * e, between(-0.5, 0.5), between(0.0, 5e5), between(50.0, 300.0),
+            101325.0, 84150.0, {1.185, 0.3, 1e3}};
+  }
+
+ private:
+  std::mt19937_64 random_{5};
+};
+
+/// All that the plant computes, as bytes would be compared.
+std::vector<double> all_of(const Plant& plant, const State<double>& state, const Memory<double>& memory) {
+  Held held;
+  held.reference_pressure_Pa = 3e5;
+  held.current_speed_mA_per_s = 8.0;
+  const auto now = plant.moment(state, memory, held);
+  const auto dt = plant.rates(state, now);
+  const auto books = plant.ledger_rates(now);
+  std::vector<double> values(sizeof dt / sizeof(double) + sizeof books / sizeof(double));
+  std::memcpy(values.data(), &dt, sizeof dt);
+  std::memcpy(values.data() + sizeof dt / sizeof(double), &books, sizeof books);
+  values.insert(values.end(), {now.valve_opening, now.supply_flow, now.friction_level_N});
+  if (plant.remembers()) values.insert(values.end(), now.memory_rates.begin(), now.memory_rates.end());
+  return values;
+}
+
+template <class E>
+class EachEffect : public testing::Test {};
+template <class T>
+struct TypesOf;
+template <class... E>
+struct TypesOf<std::tuple<E...>> {
+  using type = testing::Types<E...>;
+};
+TYPED_TEST_SUITE(EachEffect, typename TypesOf<Effects::Table>::type);
+
+TYPED_TEST(EachEffect, SaysWhatItIs) {
+  for (const std::string_view text :
+       {TypeParam::name, TypeParam::acts_on, TypeParam::law, TypeParam::sentence, TypeParam::source}) {
+    EXPECT_FALSE(text.empty());
+    EXPECT_EQ(text.find('\n'), std::string_view::npos) << text;
+  }
+  EXPECT_EQ(TypeParam::name.find_first_not_of("abcdefghijklmnopqrstuvwxyz_"), std::string_view::npos);
+  EXPECT_TRUE(TypeParam{}.absent());
+}
+
+TYPED_TEST(EachEffect, VariantsNameRealKeysAndKeepToTheirRanges) {
+  for (const Variant& variant : TypeParam::variants) {
+    SCOPED_TRACE(std::string(variant.amplitude));
+    TypeParam effect;
+    auto parameters = parameters_of(effect, variant.name);
+    const auto* amplitude = find(parameters, variant.amplitude);
+    ASSERT_NE(amplitude, nullptr);
+    EXPECT_EQ(*amplitude->value, variant.absent);  // the default
+    for (const double deviation : {variant.typical, variant.step}) {
+      *amplitude->value = variant.absent + deviation;
+      EXPECT_FALSE(effect.absent());
+      for (const double sign : {1.0, -1.0})
+        if (sign > 0.0 || variant.sign == Sign::either) {
+          EXPECT_GE(variant.absent + sign * deviation, amplitude->lowest);
+          EXPECT_LE(variant.absent + sign * deviation, amplitude->highest);
+        }
+    }
+    if (variant.sign == Sign::positive) {
+      EXPECT_EQ(amplitude->lowest, variant.absent);
+    }
+    EXPECT_LE(std::abs(variant.step), std::abs(variant.typical));
+    *amplitude->value = variant.absent;
+    EXPECT_TRUE(effect.absent());
+    if (variant.shape.empty()) continue;
+    const auto* shape = find(parameters, variant.shape);
+    ASSERT_NE(shape, nullptr);
+    EXPECT_LT(variant.low, variant.middle);
+    EXPECT_LT(variant.middle, variant.high);
+    EXPECT_GE(variant.low, shape->lowest);
+    EXPECT_LE(variant.high, shape->highest);
+  }
+}
+
+TYPED_TEST(EachEffect, DefaultsLieWithinTheirRanges) {
+  TypeParam effect;
+  for (const auto& parameter : parameters_of(effect)) {
+    EXPECT_GE(*parameter.value, parameter.lowest) << parameter.key;
+    EXPECT_LE(*parameter.value, parameter.highest) << parameter.key;
+  }
+}
+
+TYPED_TEST(EachEffect, AbsentItIsNotThereWhateverItsShape) {
+  Chance chance;
+  for (const Variant& variant : TypeParam::variants) {
+    Rig odd;
+    auto& effect = odd.effects.template get<TypeParam>();
+    for (const auto& parameter : parameters_of(effect, variant.name))
+      *parameter.value = parameter.key == variant.amplitude
+                             ? variant.absent
+                             : chance.between(parameter.lowest, parameter.highest);
+    ASSERT_TRUE(odd.effects.absent());
+    // Another effect beside it, so that the table is walked at all.
+    Rig other, both = odd;
+    for (auto* rig : {&other, &both})
+      rig->effects.template get<ResidualForce>().terms = {{Basis::speed, 3.0}};
+    for (int i = 0; i < 20; ++i) {
+      const auto state = chance.state();
+      const auto memory = chance.memory();
+      EXPECT_EQ(all_of(Plant(odd, 12.0), state, memory), all_of(Plant(Rig{}, 12.0), state, memory));
+      EXPECT_EQ(all_of(Plant(both, 12.0), state, memory), all_of(Plant(other, 12.0), state, memory));
+    }
+  }
+}
+
+TYPED_TEST(EachEffect, IsFiniteOverItsWholeRange) {
+  Chance chance;
+  const Plant nominal(Rig{}, 12.0);
+  for (const Variant& variant : TypeParam::variants)
+    for (int i = 0; i < 400; ++i) {
+      Rig rig;
+      auto& effect = rig.effects.template get<TypeParam>();
+      for (const auto& [key, value, lowest, highest] : parameters_of(effect, variant.name)) {
+        const double share = chance.between(0.0, 1.0);
+        if (share < 0.2)
+          *value = lowest;
+        else if (share < 0.4)
+          *value = highest;
+        else if (share < 0.6)
+          *value = std::nextafter(variant.absent, highest);  // next to nothing, where a quotient may burst
+        else
+          *value = chance.between(lowest, highest);
+        *value = std::clamp(*value, lowest, highest);
+      }
+      const auto state = chance.state();
+      ASSERT_TRUE(nominal.in_domain(state));
+      for (const double value : all_of(Plant(rig, 12.0), state, chance.memory()))
+        ASSERT_TRUE(std::isfinite(value)) << i;
+      Effects::Plays plays{};
+      EXPECT_TRUE(std::isfinite(rig.effects.wheel_m(0.1, plays) + rig.effects.reference_Pa(1e5, plays)));
+    }
+}
+
+TEST(Catalogue, HasTheNamesThatResultsAreComparedBy) {
+  std::set<std::string_view> names;
+  std::apply([&](const auto&... effect) { (names.insert(effect.name), ...); }, Effects::Table{});
+  EXPECT_EQ(names.size(), Effects::count);
+  for (const char* name :
+       {"viscous_damping", "guide_friction", "speed_dependent_friction", "bladder_elasticity",
+        "bladder_creep", "end_cap_correction", "muscle_leak", "polytropic_gas", "valve_lag",
+        "valve_dead_band", "valve_hysteresis", "supply_droop", "friction_warm_up", "encoder_backlash",
+        "encoder_scale", "residual_law"})
+    EXPECT_TRUE(names.contains(name)) << name;
+  EXPECT_EQ(ResidualForce::variants.size(), 0u);
+}
+
+TEST(Catalogue, ForcesThatDissipateNeverPush) {
+  Chance chance;
+  ViscousDamping viscous;
+  GuideFriction guide;
+  switch_on(viscous, ViscousDamping::variants[0]);
+  switch_on(guide, GuideFriction::variants[0]);
+  for (int i = 0; i < 200; ++i) {
+    const auto now = chance.instant();
+    EXPECT_LE(viscous.pull_N(now, 0.0) * now.speed_m_per_s, 0.0);
+    EXPECT_LE(guide.pull_N(now, 0.0) * now.speed_m_per_s, 0.0);
+    EXPECT_LE(std::abs(guide.pull_N(now, 0.0)), 0.02 * now.weight_N);
+  }
+}
+
+TEST(Catalogue, CreepGivesBackNoMoreThanItStored) {
+  Chance chance;
+  BladderCreep creep{.stiffness_N_per_m = 300.0, .time_s = 0.7};
+  for (int i = 0; i < 200; ++i) {
+    const auto now = chance.instant();
+    const double crept_m = chance.between(-0.02, 0.1), stretch_m = now.rise_m - crept_m;
+    const double crept_rate = creep.memory_rate(now, Inflow<double>{}, crept_m);
+    const double stored_W = 300.0 * stretch_m * (now.speed_m_per_s - crept_rate);
+    EXPECT_LE(creep.pull_N(now, crept_m) * now.speed_m_per_s + stored_W, 1e-12);
+    EXPECT_NEAR(creep.pull_N(now, now.rise_m), 0.0, 1e-12);  // crept to where it is: no force
+  }
+}
+
+TEST(Catalogue, ElasticityDependsOnTheRiseAlone) {
+  Chance chance;
+  for (const Variant& variant : BladderElasticity::variants) {
+    BladderElasticity elastic;
+    switch_on(elastic, variant);
+    for (int i = 0; i < 100; ++i) {
+      const auto now = chance.instant();
+      auto other = chance.instant();
+      other.contraction_ratio = now.contraction_ratio;
+      other.rise_m = now.rise_m;
+      EXPECT_EQ(elastic.pull_N(now, 0.0), elastic.pull_N(other, 0.0));  // so round a cycle its work is zero
+      EXPECT_LE(elastic.pull_N(now, 0.0) * now.rise_m, 0.0);
+    }
+  }
+  const BladderElasticity saturating{.variant = BladderLaw::saturating, .force_N = 10.0, .ratio = 0.05};
+  Instant<double> now{0.05, 0.015, 0.0, 0.0, 0.0, 0.0, 0.0, {}};
+  EXPECT_NEAR(saturating.pull_N(now, 0.0), -10.0 * (1.0 - std::exp(-1.0)), 1e-12);
+  now.contraction_ratio = -1e-9;  // straight on, without a kink
+  EXPECT_NEAR(saturating.pull_N(now, 0.0) / -1e-9, -10.0 / 0.05, 1e-6);
+}
+
+TEST(Catalogue, FrictionFactorsStayPositive) {
+  Chance chance;
+  for (int i = 0; i < 200; ++i) {
+    SpeedDependentFriction speed{chance.between(0.05, 5.0), chance.between(5e-4, 1.0)};
+    FrictionWarmUp warm{chance.between(-0.95, 5.0), chance.between(0.1, 1e5)};
+    const auto now = chance.instant();
+    EXPECT_GE(speed.friction_factor(now, 0.0), 0.05);
+    EXPECT_GE(warm.friction_factor(now, chance.between(0.0, 1.0)), 0.05 - 1e-12);
+  }
+  auto now = Chance().instant();
+  const SpeedDependentFriction stribeck{0.6, 0.02};
+  for (const double v : {0.02, -0.02}) {
+    now.speed_m_per_s = v;
+    EXPECT_NEAR(stribeck.friction_factor(now, 0.0), 0.6 + 0.4 * std::exp(-1.0), 1e-15);
+  }
+  now.speed_m_per_s = 0.0;
+  EXPECT_EQ(stribeck.friction_factor(now, 0.0), 1.0);
+}
+
+TEST(Catalogue, GasOnlyLeaksOutAndAsIso6358SaysItDoes) {
+  const MuscleLeak leak{1e-10};
+  Instant<double> now = Chance().instant();
+  now.muscle_pressure_Pa = 0.0;
+  EXPECT_EQ(leak.outflow_kg_per_s(now), 0.0);
+  for (const double P : {1.0, 1e3, 1e5, 5e5}) {
+    now.muscle_pressure_Pa = P;
+    EXPECT_GT(leak.outflow_kg_per_s(now), 0.0);
+  }
+  EXPECT_NEAR(leak.outflow_kg_per_s(now), 1e-10 * 1.185 * (5e5 + 101325.0), 1e-18);  // choked
+}
+
+TEST(Catalogue, ADeadBandIsTakenOffTheError) {
+  const ValveDeadBand band{5e3};
+  const auto left_Pa = [&](double error_Pa) { return error_Pa + band.valve_error_shift_Pa(error_Pa); };
+  EXPECT_EQ(left_Pa(4e3), 0.0);
+  EXPECT_EQ(left_Pa(-5e3), 0.0);
+  EXPECT_EQ(left_Pa(7e3), 2e3);
+  EXPECT_EQ(left_Pa(-8e3), -3e3);
+}
+
+TEST(Catalogue, APlayMovesOnlyWhenPushed) {
+  Play play;
+  EXPECT_EQ(play.follow(1.0, 0.5), 1.0);  // begins in the middle
+  EXPECT_EQ(play.follow(1.4, 0.5), 1.0);
+  EXPECT_EQ(play.follow(3.0, 0.5), 2.5);
+  EXPECT_EQ(play.follow(2.1, 0.5), 2.5);
+  EXPECT_EQ(play.follow(1.0, 0.5), 1.5);
+}
+
+TEST(Catalogue, BacklashIsAFullWidthAndTheScaleOfWhatTheWheelSays) {
+  Effects effects;
+  effects.get<EncoderBacklash>().width_m = 1e-3;
+  effects.get<EncoderScale>().error = 0.02;
+  Effects::Plays plays{};
+  EXPECT_EQ(effects.wheel_m(0.0, plays), 0.0);
+  EXPECT_NEAR(effects.wheel_m(0.01, plays), 1.02 * (0.01 - 0.5e-3), 1e-15);
+  EXPECT_NEAR(effects.wheel_m(0.009, plays), 1.02 * (0.01 - 0.5e-3), 1e-15);
+  EXPECT_NEAR(effects.wheel_m(0.0, plays), 1.02 * 0.5e-3, 1e-15);
+  effects.get<ValveHysteresis>().half_width_Pa = 5e3;
+  EXPECT_EQ(effects.reference_Pa(1e5, plays), 1e5);
+  EXPECT_EQ(effects.reference_Pa(2e5, plays), 1.95e5);
+  EXPECT_EQ(effects.reference_Pa(1.91e5, plays), 1.95e5);
+}
+
+TEST(Catalogue, EndCapsChangeTheForceOnly) {
+  Rig capped, shifted;
+  capped.effects.get<EndCapCorrection>().slope = 0.01;
+  shifted.muscle.end_correction += 0.03;
+  const State<double> state{{0.1, 0.0}, {3e5, 3e5, 0.0}};
+  const auto with = Plant(capped, 12.0).moment(state, Held{});
+  EXPECT_NEAR(with.braid_force_N, Plant(shifted, 12.0).moment(state, Held{}).braid_force_N, 1e-9);
+  EXPECT_EQ(with.volume_slope_m3, Plant(Rig{}, 12.0).moment(state, Held{}).volume_slope_m3);
+}
+
+// dP/P = -n dV/V where no gas flows.
+TEST(Catalogue, PolytropicGasKeepsPVn) {
+  Rig rig;
+  rig.effects.get<PolytropicGas>().exponent = 1.3;
+  const State<double> state{{0.1, 0.7}, {3e5, 3e5, 0.0}};
+  const Plant plant(rig, 12.0);
+  const auto now = plant.moment(state, Held{});
+  EXPECT_NEAR(plant.rates(state, now).side.muscle_pressure_Pa / (3e5 + 101325.0),
+              -1.3 * now.volume_slope_m3 * 0.7 / now.volume_m3, 1e-12);
+}
+
+TEST(Catalogue, TheResidualLawIsTheSumOfItsTerms) {
+  ResidualForce law;
+  const Instant<double> now{0.1, 0.03, -0.2, 3e5, 98.0665, 101325.0, 84150.0, {}};
+  for (const auto& [of, value] : names(Basis{})) {
+    law.terms = {{of, 2.0, 0.12}};
+    const double expected[] = {1.0, 0.1, 0.01, 3.0, 0.3, 1.0, -2.0, -4.0, -1.0, -0.1, -3.0, 1.0, 0.0};
+    EXPECT_NEAR(law.pull_N(now, 0.0), 2.0 * expected[static_cast<std::size_t>(of)], 1e-12) << value;
+  }
+  law.terms = {{Basis::constant, 2.0}, {Basis::pressure, -1.0}};
+  EXPECT_NEAR(law.pull_N(now, 0.0), -1.0, 1e-12);
+}
+
+template <class T>
+struct Turned;
+template <class... E>
+struct Turned<std::tuple<E...>> {
+  template <std::size_t... i>
+  static auto turn(std::index_sequence<i...>)
+      -> EffectSet<std::tuple_element_t<sizeof...(E) - 1 - i, std::tuple<E...>>...>;
+  using type = decltype(turn(std::index_sequence_for<E...>{}));
+};
+
+TEST(Catalogue, TheOrderOfTheTableDoesNotMatter) {
+  const Effects forth = rig_with_all_effects().effects;
+  Turned<Effects::Table>::type back;
+  std::apply([&](auto&... effect) { ((effect = forth.get<std::decay_t<decltype(effect)>>()), ...); },
+             back.all);
+  Chance chance;
+  Effects::Plays plays{}, others{};
+  const auto same = [](double a, double b) { EXPECT_NEAR(a, b, 1e-12 * (std::abs(a) + 1.0)); };
+  for (int i = 0; i < 100; ++i) {
+    const auto now = chance.instant();
+    const auto memory = chance.memory();
+    Memory<double> turned = memory;
+    std::reverse(turned.begin(), turned.end());
+    const Inflow<double> inflow{chance.between(-1.0, 1.0), chance.between(0.0, 1e-3)};
+    same(forth.pull_N(now, memory), back.pull_N(now, turned));
+    same(forth.friction_factor(now, memory), back.friction_factor(now, turned));
+    same(forth.valve_opening(0.3, memory), back.valve_opening(0.3, turned));
+    same(forth.supply_drop_Pa(memory), back.supply_drop_Pa(turned));
+    const auto rates = forth.memory_rates(now, inflow, memory);
+    auto turned_rates = back.memory_rates(now, inflow, turned);
+    std::reverse(turned_rates.begin(), turned_rates.end());
+    for (std::size_t m = 0; m < rates.size(); ++m) same(rates[m], turned_rates[m]);
+    same(forth.end_correction_shift(now), back.end_correction_shift(now));
+    same(forth.valve_error_shift_Pa(1e4), back.valve_error_shift_Pa(1e4));
+    same(forth.outflow_kg_per_s(now), back.outflow_kg_per_s(now));
+    same(forth.gas_exponent(), back.gas_exponent());
+    const double rise_m = chance.between(0.0, 0.1), wanted_Pa = chance.between(0.5e5, 5e5);
+    same(forth.wheel_m(rise_m, plays), back.wheel_m(rise_m, others));
+    same(forth.reference_Pa(wanted_Pa, plays), back.reference_Pa(wanted_Pa, others));
+  }
+}
+
+}  // namespace
+}  // namespace mckibben::plant
