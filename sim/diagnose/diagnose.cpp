@@ -1,6 +1,9 @@
 // The workflow; see the header and docs/diagnosis.md.
 #include <algorithm>
 #include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
 
 #include <sim/diagnose/checks.hpp>
 #include <sim/diagnose/diagnose.hpp>
@@ -33,6 +36,34 @@ input::Dataset without_gauges(input::Dataset data, const Runs& dead) {
   return data;
 }
 
+Runs all_but(const Runs& left_out, std::size_t count) {
+  Runs list;
+  for (std::size_t run = 0; run < count; ++run)
+    if (!std::binary_search(left_out.begin(), left_out.end(), run)) list.push_back(run);
+  return list;
+}
+
+/// The ranges that the runs cover, in words.
+std::string visited(const input::Dataset& data, const Runs& runs) {
+  struct Range {
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    void see(double value) {
+      low = std::min(low, value);
+      high = std::max(high, value);
+    }
+  } current_mA, load_kg, ratio;
+  for (const std::size_t run : runs) {
+    for (const double value : data.runs[run].current_mA) current_mA.see(value);
+    for (const double value : data.runs[run].contraction_ratio) ratio.see(value);
+    load_kg.see(data.runs[run].load_kg);
+  }
+  return fmt::format(
+      "currents of {:.3g} to {:.3g} mA, loads of {:.4g} to {:.4g} kg and contraction ratios of {:.3f} to "
+      "{:.3f}, "
+      "as in these runs",
+      current_mA.low, current_mA.high, load_kg.low, load_kg.high, ratio.low, ratio.high);
+}
+
 class Workflow {
  public:
   Workflow(const input::Dataset& data, const Settings& settings, const run::ProgressHook& progress)
@@ -40,17 +71,22 @@ class Workflow {
         progress_(progress),
         doubts_((progress("checking", 0, usual_steps), check(data, settings.threads))),
         data_(without_gauges(data, doubts_.dead_gauges)),
-        experiment_(data_, doubts_.masked, settings.threads),
+        usable_(all_but(doubts_.left_out, data.runs.size())),
+        experiment_(data_, doubts_.masked, settings.threads, usable_),
         nominal_(data.rig),
         case_{experiment_, nominal_, {}, first_temperature} {}
 
   Diagnosis operator()() {
     result_.seed = settings_.seed;
     result_.warnings = doubts_.warnings;
+    const NoiseFloor& floor = experiment_.floor();
+    if (floor.repeats >= floor.ratio)
+      result_.warnings.push_back(fmt::format(
+          "equal runs differ by {:.2g} in contraction ratio (rms over sqrt 2), more than a count and its "
+          "jitter explain: this is taken for the noise floor",
+          floor.repeats));
     result_.false_alarm_rate = false_alarm_rate;
     result_.corrected = data_.rig;
-    for (std::size_t run = 0; run < data_.runs.size(); ++run)
-      if (!std::binary_search(doubts_.left_out.begin(), doubts_.left_out.end(), run)) usable_.push_back(run);
     if (doubts_.cannot_tell) {
       result_.because = *doubts_.cannot_tell;
       return std::move(result_);
@@ -98,7 +134,7 @@ class Workflow {
     const double left = excess(with_names);
     const double named_share = named ? compare(experiment_, reference, with_names, held).share : 0.0;
     if (left > worth_a_law && left > 0.05 * excess(nominal_fit_.held_out))
-      law_ = find_law(case_, recalibrated_, reference, tell);
+      law_ = find_law(case_, {&recalibrated_, &nominal_fit_}, reference, tell);
     const bool lawful = !law_.terms.empty() && law_.gain.share > least_law &&
                         (!named || excess(law_.contender.held_out) < 0.4 * left);
     if (lawful) {
@@ -124,20 +160,22 @@ class Workflow {
       chosen_rig_ = nominal_;
     } else {
       step("fitting all runs");
-      Case all = case_;
-      all.split.training = usable_;
-      all.temperature = temperature(experiment_, chosen_->fitted.residuals, case_.split.training);
-      const auto whole = fit(experiment_, chosen_->fitted.model, usable_, {.temperature = all.temperature});
-      const auto bounds = intervals(experiment_, whole, usable_, all.temperature);
+      const double scatter = temperature(experiment_, chosen_->fitted.residuals, case_.split.training);
+      auto whole = fit(experiment_, chosen_->fitted.model, usable_, {.temperature = scatter});
+      const bool failed = !whole.failure.empty();
+      if (failed) {
+        result_.warnings.push_back(
+            "the fit to all runs failed, the numbers are those of the training runs: " + whole.failure);
+        whole = chosen_->fitted;
+      }
+      const auto bounds = intervals(experiment_, whole, failed ? case_.split.training : usable_, scatter);
       tell_parameters(result_, whole.model, bounds, recalibrated_.fitted.model.rig);
       static_cast<plant::Rig&>(result_.corrected) = whole.model.rig;
       chosen_rig_ = chosen_->fitted.model.rig;
       for (const auto& path : whole.without_influence)
         result_.warnings.push_back("no reading depends on " + path + ": its value says nothing");
     }
-    if (result_.verdict == Verdict::unknown_effect)
-      result_.law_valid_for =
-          "the currents, loads and speeds of these runs; a force stands for whatever acts so";
+    if (result_.verdict == Verdict::unknown_effect) result_.law_valid_for = visited(data_, usable_);
     const Eigen::VectorXd corrected = experiment_.residuals(chosen_rig_, held);
     result_.gap = {experiment_.floor().ratio, experiment_.rmse(nominal_fit_.held_out, held),
                    experiment_.rmse(recalibrated_.held_out, held), experiment_.rmse(corrected, held), 0.0};
@@ -192,10 +230,10 @@ class Workflow {
   const run::ProgressHook& progress_;
   Doubts doubts_;
   input::Dataset data_;
+  Runs usable_;
   Experiment experiment_;
   plant::Rig nominal_;
   Case case_;
-  Runs usable_;
   Contender nominal_fit_;  ///< the rig as described, nothing moved
   Contender recalibrated_;
   Naming naming_;

@@ -1,8 +1,10 @@
 // Residuals and slopes; see the header. Parameters fly in flocks of seven beside the rig they are changes of.
 #include <algorithm>
 #include <cmath>
+#include <mutex>
 
 #include <sim/diagnose/experiment.hpp>
+#include <sim/engine/failure.hpp>
 #include <sim/engine/flock.hpp>
 #include <sim/run/batch.hpp>
 #include <sim/run/simulate.hpp>
@@ -42,13 +44,35 @@ double gauge_noise_Pa(const input::Dataset& data) {
   return count == 0 ? 0.0 : std::max(std::sqrt(squares / static_cast<double>(count)), 50.0);
 }
 
+/// Scatter of the contraction ratio between runs of the same current and load; 0 if there are none.
+double repeatability(const input::Dataset& data, const std::vector<std::vector<bool>>& masked,
+                     const Runs& trusted) {
+  double squares = 0.0, count = 0.0;
+  for (auto a = trusted.begin(); a != trusted.end(); ++a) {
+    for (auto b = std::next(a); b != trusted.end(); ++b) {
+      const input::Run &one = data.runs[*a], &other = data.runs[*b];
+      if (one.load_kg != other.load_kg || one.current_mA != other.current_mA) continue;
+      for (std::size_t k = 0; k < one.contraction_ratio.size(); ++k) {
+        if (masked[*a][k] || masked[*b][k]) continue;
+        const double difference = one.contraction_ratio[k] - other.contraction_ratio[k];
+        squares += 0.5 * difference * difference;
+        count += 1.0;
+      }
+    }
+  }
+  return count > 0.0 ? std::sqrt(squares / count) : 0.0;
+}
+
 }  // namespace
 
-Experiment::Experiment(const input::Dataset& data, std::vector<std::vector<bool>> masked, unsigned threads)
+Experiment::Experiment(const input::Dataset& data, std::vector<std::vector<bool>> masked, unsigned threads,
+                       const Runs& trusted)
     : data_(data), masked_(std::move(masked)), threads_(threads) {
   const double count = run::contraction_per_count(data.rig);
   if (counted(data, count)) floor_.count = count;
-  floor_.ratio = std::sqrt(floor_.count * floor_.count / 12.0 + least_jitter * least_jitter);
+  floor_.repeats = repeatability(data, masked_, trusted);
+  floor_.ratio = std::max(floor_.repeats, std::sqrt(floor_.count * floor_.count / 12.0 +
+                                                    least_jitter * least_jitter + tolerance * tolerance));
   floor_.pressure_Pa = gauge_noise_Pa(data);
 }
 
@@ -108,9 +132,8 @@ Experiment::Slopes Experiment::slopes(const plant::Rig& rig, std::span<const Cha
   Eigen::Index total = 0;
   for (const std::size_t run : runs) total += static_cast<Eigen::Index>(rows(run));
   Slopes result{Eigen::VectorXd(total), Eigen::MatrixXd(total, static_cast<Eigen::Index>(changes.size()))};
-  const auto job = [&](std::size_t index) {
-    const Part& part = list[index / flocks];
-    const std::size_t first = index % flocks * wing, last = std::min(changes.size(), first + wing);
+  // Flies changes [first, last) of a run beside the rig itself.
+  const auto fly = [&](const Part& part, std::size_t first, std::size_t last) {
     const input::Run& measured = data_.runs[part.run];
     std::vector<Hanging> rigs{{rig, measured.load_kg}};
     for (std::size_t c = first; c < last; ++c) {
@@ -134,7 +157,34 @@ Experiment::Slopes Experiment::slopes(const plant::Rig& rig, std::span<const Cha
       }
     }
   };
+  std::mutex guard;
+  std::vector<bool> failed(changes.size());
+  const auto job = [&](std::size_t index) {
+    const Part& part = list[index / flocks];
+    const std::size_t first = index % flocks * wing, last = std::min(changes.size(), first + wing);
+    try {
+      fly(part, first, last);
+      return;
+    } catch (const engine::NumericalFailure&) {
+      const auto may_fail = [](const Change& change) { return change.may_fail; };
+      if (!std::any_of(changes.begin() + static_cast<std::ptrdiff_t>(first),
+                       changes.begin() + static_cast<std::ptrdiff_t>(last), may_fail))
+        throw;
+    }
+    if (first == 0) fly(part, 0, 0);
+    for (std::size_t c = first; c < last; ++c) {
+      try {
+        fly(part, c, c + 1);
+      } catch (const engine::NumericalFailure&) {
+        if (!changes[c].may_fail) throw;
+        const std::lock_guard lock(guard);
+        failed[c] = true;
+      }
+    }
+  };
   run::for_each_job(list.size() * flocks, threads_, job, [](std::size_t) {});
+  for (std::size_t c = 0; c < changes.size(); ++c)
+    if (failed[c]) result.columns.col(static_cast<Eigen::Index>(c)).setZero();
   return result;
 }
 

@@ -18,7 +18,8 @@ namespace mckibben::diagnose {
 /// What the instruments cannot see, rms.
 struct NoiseFloor {
   double count = 0.0;        ///< contraction ratio of one count; 0: the readings are not counted
-  double ratio = 0.0;        ///< of the contraction ratio: count and jitter
+  double ratio = 0.0;        ///< of the contraction ratio: the largest of instruments and repeats
+  double repeats = 0.0;      ///< of the contraction ratio, between equal runs; 0: none are equal
   double pressure_Pa = 0.0;  ///< of the gauge; 0: none fitted
 };
 
@@ -27,8 +28,10 @@ using Runs = std::vector<std::size_t>;
 
 class Experiment {
  public:
-  /// `masked[run][row]` rows do not count. The data set outlives this.
-  Experiment(const input::Dataset& data, std::vector<std::vector<bool>> masked, unsigned threads);
+  /// `masked[run][row]` rows do not count. `trusted` runs say how well equal runs repeat. The data set
+  /// outlives this.
+  Experiment(const input::Dataset& data, std::vector<std::vector<bool>> masked, unsigned threads,
+             const Runs& trusted = {});
 
   const input::Dataset& data() const { return data_; }
   const NoiseFloor& floor() const { return floor_; }
@@ -51,6 +54,7 @@ class Experiment {
   struct Change {
     std::function<void(Hanging&)> apply;
     double size = 1.0;
+    bool may_fail = false;  ///< a rig that cannot be simulated with it gets a column of zeros
   };
   Slopes slopes(const plant::Rig& rig, std::span<const Change> changes, const Runs& runs) const;
 

@@ -11,16 +11,21 @@
 namespace mckibben::diagnose {
 namespace {
 
+constexpr int most_rounds = 5, iterations_a_round = 8;
+/// Less descent in a round than this moves no parameter by a tenth of its deviation.
+constexpr double least_descent = 0.01;
+
 class Misfit final : public ceres::CostFunction {
  public:
-  Misfit(const Experiment& experiment, const Model& model, const Runs& runs, const FitSettings& settings)
-      : experiment_(experiment), model_(model), runs_(runs), settings_(settings) {
+  Misfit(const Experiment& experiment, const Model& model, const Runs& runs, double temperature,
+         const KnownSlopes& known)
+      : experiment_(experiment), model_(model), runs_(runs), temperature_(temperature), known_(known) {
     for (const std::size_t run : runs) rows_ += static_cast<Eigen::Index>(experiment.rows(run));
     for (const Parameter& p : model.free) priors_ += p.has_prior ? 1 : 0;
     set_num_residuals(static_cast<int>(rows_ + priors_));
     mutable_parameter_block_sizes()->push_back(static_cast<int>(model.free.size()));
     for (std::size_t j = 0; j < model.free.size(); ++j)
-      if (frozen(model.free[j]) == nullptr) fresh_.push_back(model.free[j]);
+      if (known_slope(model.free[j]) == nullptr) fresh_.push_back(model.free[j]);
   }
 
   plant::Rig rig_at(const double* values) const {
@@ -37,7 +42,7 @@ class Misfit final : public ceres::CostFunction {
     Eigen::MatrixXd columns(rows_, static_cast<Eigen::Index>(model_.free.size()));
     Eigen::Index next = 0;
     for (std::size_t j = 0; j < model_.free.size(); ++j) {
-      const auto* known = frozen(model_.free[j]);
+      const auto* known = known_slope(model_.free[j]);
       if (known != nullptr)
         columns.col(static_cast<Eigen::Index>(j)) = *known;
       else
@@ -48,7 +53,7 @@ class Misfit final : public ceres::CostFunction {
 
   bool Evaluate(double const* const* values, double* residuals, double** jacobians) const override {
     if (thrown_) return false;
-    const double weight = 1.0 / std::sqrt(settings_.temperature);
+    const double weight = 1.0 / std::sqrt(temperature_);
     const bool wanted = jacobians != nullptr && jacobians[0] != nullptr;
     try {
       const plant::Rig rig = rig_at(values[0]);
@@ -84,9 +89,8 @@ class Misfit final : public ceres::CostFunction {
   }
 
  private:
-  const Eigen::VectorXd* frozen(const Parameter& p) const {
-    if (settings_.frozen == nullptr) return nullptr;
-    for (const auto& [path, column] : *settings_.frozen)
+  const Eigen::VectorXd* known_slope(const Parameter& p) const {
+    for (const auto& [path, column] : known_)
       if (path == p.path) return &column;
     return nullptr;
   }
@@ -94,57 +98,90 @@ class Misfit final : public ceres::CostFunction {
   const Experiment& experiment_;
   const Model& model_;
   const Runs& runs_;
-  const FitSettings& settings_;
+  double temperature_;
+  const KnownSlopes& known_;
   Eigen::Index rows_ = 0, priors_ = 0;
   std::vector<Parameter> fresh_;
   mutable std::exception_ptr thrown_;
 };
 
+/// Residuals and priors: sum of squares / temperature + deviations^2.
+double cost_of(const Fitted& fitted, double temperature) {
+  double cost = fitted.residuals.squaredNorm() / temperature;
+  for (const Parameter& p : fitted.model.free) {
+    const double deviations = p.has_prior ? p.scaled(value_of(fitted.model.rig, p.path)) : 0.0;
+    cost += deviations * deviations;
+  }
+  return cost;
+}
+
+/// Moves the rig of `model` to the least misfit along these slopes. The reason why not, if it cannot.
+std::string descend(Misfit& misfit, Model& model, int most_iterations) {
+  std::vector<double> values;
+  for (const Parameter& p : model.free) values.push_back(p.scaled(value_of(model.rig, p.path)));
+  ceres::Problem::Options ownership;
+  ownership.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+  ceres::Problem problem(ownership);
+  problem.AddResidualBlock(&misfit, nullptr, values.data());
+  for (std::size_t j = 0; j < values.size(); ++j) {
+    const Parameter& p = model.free[j];
+    problem.SetParameterLowerBound(values.data(), static_cast<int>(j), p.scaled(p.lowest));
+    problem.SetParameterUpperBound(values.data(), static_cast<int>(j), p.scaled(p.highest));
+  }
+  ceres::Solver::Options options;
+  options.linear_solver_type = ceres::DENSE_QR;
+  options.max_num_iterations = most_iterations;
+  options.function_tolerance = 1e-4;
+  options.parameter_tolerance = 1e-5;
+  options.logging_type = ceres::SILENT;
+  options.num_threads = 1;  // the simulations have their own
+  ceres::Solver::Summary summary;
+  ceres::Solve(options, &problem, &summary);
+  misfit.rethrow();
+  if (!summary.IsSolutionUsable()) return summary.message;
+  model.rig = misfit.rig_at(values.data());
+  return {};
+}
+
 }  // namespace
+
+KnownSlopes slopes_of_nominal(const Fitted& fitted) {
+  KnownSlopes list;
+  for (std::size_t j = 0; j < fitted.model.free.size(); ++j)
+    if (fitted.model.free[j].has_prior)
+      list.emplace_back(fitted.model.free[j].path, fitted.columns.col(static_cast<Eigen::Index>(j)));
+  return list;
+}
 
 Fitted fit(const Experiment& experiment, Model start, const Runs& runs, const FitSettings& settings) {
   Fitted result;
   result.model = std::move(start);
-  Model& model = result.model;
-  Misfit misfit(experiment, model, runs, settings);
-  std::vector<double> values;
-  ceres::Problem::Options ownership;
-  ownership.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
-  ceres::Problem problem(ownership);
-  for (const Parameter& p : model.free) values.push_back(p.scaled(value_of(model.rig, p.path)));
-  if (!values.empty()) {
-    problem.AddResidualBlock(&misfit, nullptr, values.data());
-    for (std::size_t j = 0; j < values.size(); ++j) {
-      const Parameter& p = model.free[j];
-      problem.SetParameterLowerBound(values.data(), static_cast<int>(j), p.scaled(p.lowest));
-      problem.SetParameterUpperBound(values.data(), static_cast<int>(j), p.scaled(p.highest));
+  // Whether the rig can be simulated, a little changed too.
+  const auto look = [&](const KnownSlopes& known) {
+    try {
+      auto at = Misfit(experiment, result.model, runs, settings.temperature, known).slopes(result.model.rig);
+      result.residuals = std::move(at.residuals);
+      result.columns = std::move(at.columns);
+      result.cost = cost_of(result, settings.temperature);
+    } catch (const engine::NumericalFailure& failure) {
+      result.failure = failure.what();
     }
-    ceres::Solver::Options options;
-    options.linear_solver_type = ceres::DENSE_QR;
-    options.max_num_iterations = settings.most_iterations;
-    options.function_tolerance = 1e-4;
-    options.parameter_tolerance = 1e-5;
-    options.logging_type = ceres::SILENT;
-    options.num_threads = 1;  // the simulations have their own
-    ceres::Solver::Summary summary;
-    ceres::Solve(options, &problem, &summary);
-    misfit.rethrow();
-    if (!summary.IsSolutionUsable()) {
-      result.failure = summary.message;
-      return result;
-    }
-    result.converged = summary.termination_type == ceres::CONVERGENCE;
-    model.rig = misfit.rig_at(values.data());
+    return result.failure.empty();
+  };
+  const bool rough = settings.known != nullptr;
+  const KnownSlopes none;
+  if (!rough && !look(none)) return result;
+  for (int round = 0; round < (rough ? 1 : most_rounds) && !result.model.free.empty(); ++round) {
+    const KnownSlopes known = rough ? *settings.known : slopes_of_nominal(result);
+    const double before = result.cost;
+    Misfit misfit(experiment, result.model, runs, settings.temperature, known);
+    result.failure = descend(misfit, result.model, iterations_a_round);
+    if (!result.failure.empty() || !look(rough ? known : none)) return result;
+    if (before - result.cost < least_descent * (1.0 + 0.01 * result.cost)) break;
   }
-  auto at = misfit.slopes(model.rig);
-  result.residuals = std::move(at.residuals);
-  result.columns = std::move(at.columns);
-  result.cost = result.residuals.squaredNorm() / settings.temperature;
-  for (std::size_t j = 0; j < values.size(); ++j) {
-    if (model.free[j].has_prior) result.cost += values[j] * values[j];
+  for (std::size_t j = 0; j < result.model.free.size(); ++j)
     if (result.columns.col(static_cast<Eigen::Index>(j)).squaredNorm() < 1e-12)
-      result.without_influence.push_back(model.free[j].path);
-  }
+      result.without_influence.push_back(result.model.free[j].path);
   return result;
 }
 

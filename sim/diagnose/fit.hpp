@@ -18,13 +18,13 @@ struct Model {
   std::vector<Candidate> effects{};  ///< that have been added, in this order
 };
 
+/// Slopes of parameters, by path.
+using KnownSlopes = std::vector<std::pair<std::string, Eigen::VectorXd>>;
+
 struct FitSettings {
   double temperature =
       1.0;  ///< how much more the residuals scatter, over long times, than white noise at the floor
-  int most_iterations = 12;
-  /// Slopes taken over from an earlier fit, by path, instead of computed anew: nominal parameters hardly
-  /// move.
-  const std::vector<std::pair<std::string, Eigen::VectorXd>>* frozen = nullptr;
+  const KnownSlopes* known = nullptr;  ///< for a rough fit: slopes taken over from an earlier one
 };
 
 struct Fitted {
@@ -32,12 +32,15 @@ struct Fitted {
   Eigen::VectorXd residuals;  ///< of the fitted runs
   Eigen::MatrixXd columns;    ///< slopes at the end, a column for each free parameter
   double cost = 0.0;          ///< residuals and priors: sum of squares / temperature + deviations^2
-  bool converged = false;
   std::vector<std::string> without_influence{};  ///< parameters that no reading depends on
   std::string failure{};                         ///< why there is no fit; empty if there is
 };
 
-/// Throws run::Interrupted.
+/// The slopes of the parameters that have a prior.
+KnownSlopes slopes_of_nominal(const Fitted& fitted);
+
+/// Slopes of nominal parameters, which hardly move, are computed once a round of descent, the others at each
+/// step; the last round's are computed anew. Throws run::Interrupted.
 Fitted fit(const Experiment& experiment, Model start, const Runs& runs, const FitSettings& settings);
 
 }  // namespace mckibben::diagnose

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -14,9 +15,15 @@ namespace {
 using plant::Basis;
 
 constexpr std::size_t most_terms = 3;
-constexpr double probe_N = 0.01;  ///< force for slopes
+/// Waves whose lengths differ by less [logarithm] are one proposal.
+constexpr double alike = 0.15;
+/// Proposals that are fitted, of each base.
+constexpr std::size_t most_fits = 4;
+/// Forces for slopes: next to nothing, and of a size that matters, because a muscle that swings answers a
+/// small change in another way than a large one.
+constexpr double probes_N[] = {0.01, 5.0, -5.0, 40.0, -40.0}, wave_probes_N[] = {0.01, 3.0};
 
-plant::ForceTerm wave(double wavelength_m, double phase_rad) {
+plant::ForceTerm wave(double probe_N, double wavelength_m, double phase_rad) {
   return {.of = Basis::sine, .coefficient_N = probe_N, .wavelength_m = wavelength_m, .phase_rad = phase_rad};
 }
 
@@ -33,36 +40,41 @@ struct Proposal {
   plant::ForceTerm term{};
 };
 
-/// The term that promises most, next to what is free already.
-Proposal propose(const Case& c, const Fitted& fitted) {
+/// The terms that promise most, next to what is free already: one of each kind, best first.
+std::vector<Proposal> propose(const Case& c, const Fitted& fitted) {
   std::vector<plant::ForceTerm> probes;
   for (const auto& [basis, name] : names(Basis{})) {
-    if (basis != Basis::sine && basis != Basis::constant)
-      probes.push_back({.of = basis, .coefficient_N = probe_N});
+    if (basis == Basis::sine || basis == Basis::constant) continue;
+    for (const double probe_N : probes_N) probes.push_back({.of = basis, .coefficient_N = probe_N});
   }
   const std::size_t plain = probes.size();
   for (const double wavelength : wavelengths_m(c.nominal)) {
-    probes.push_back(wave(wavelength, 0.0));
-    probes.push_back(wave(wavelength, std::numbers::pi / 2.0));
+    for (const double probe_N : wave_probes_N) {
+      probes.push_back(wave(probe_N, wavelength, 0.0));
+      probes.push_back(wave(probe_N, wavelength, std::numbers::pi / 2.0));
+    }
   }
   std::vector<Experiment::Change> changes;
   changes.reserve(probes.size());
   for (const auto& term : probes)
     changes.push_back(
-        {[term](Hanging& h) { h.rig.effects.get<plant::ResidualForce>().terms.push_back(term); }, 1.0});
+        {[term](Hanging& h) { h.rig.effects.get<plant::ResidualForce>().terms.push_back(term); },
+         term.coefficient_N, true});
   const auto slopes = c.experiment.slopes(fitted.model.rig, changes, c.split.training);
-  const Projector project(fitted, c.temperature);
+  // As long as nothing fits, the misfit itself is the scatter.
+  const Projector project(
+      fitted, std::max(c.temperature, temperature(c.experiment, fitted.residuals, c.split.training)));
   const Eigen::VectorXd residuals = project(fitted.residuals);
-  Proposal best;
+  std::vector<Proposal> list;
   const auto column = [&](std::size_t i) {
     return project(slopes.columns.col(static_cast<Eigen::Index>(i)));
   };
   for (std::size_t i = 0; i < plain; ++i) {
     const Eigen::VectorXd slope = column(i);
     const double along = slope.dot(residuals), length = slope.squaredNorm();
-    if (length < 1e-12 || along * along / length <= best.drop) continue;
-    best = {along * along / length, probes[i]};
-    best.term.coefficient_N = probe_N * along / length;
+    if (length < 1e-12) continue;
+    list.push_back({along * along / length, probes[i]});
+    list.back().term.coefficient_N = along / length;
   }
   for (std::size_t i = plain; i < probes.size(); i += 2) {
     Eigen::MatrixXd pair(residuals.size(), 2);
@@ -70,10 +82,21 @@ Proposal propose(const Case& c, const Fitted& fitted) {
     const Eigen::Matrix2d normal = pair.transpose() * pair;
     const Eigen::Vector2d along = pair.transpose() * residuals;
     const Eigen::Vector2d size = normal.ldlt().solve(along);
-    const double drop = size.dot(along);
-    if (!(drop > best.drop)) continue;
-    best = {drop, wave(probes[i].wavelength_m, std::atan2(size[1], size[0]))};
-    best.term.coefficient_N = probe_N * size.norm();
+    list.push_back(
+        {size.dot(along), wave(size.norm(), probes[i].wavelength_m, std::atan2(size[1], size[0]))});
+  }
+  std::erase_if(list, [](const Proposal& p) { return !(p.drop > 0.0); });
+  std::stable_sort(list.begin(), list.end(),
+                   [](const Proposal& a, const Proposal& b) { return a.drop > b.drop; });
+  const auto same_kind = [](const plant::ForceTerm& a, const plant::ForceTerm& b) {
+    return a.of == b.of && std::abs(std::log(a.wavelength_m / b.wavelength_m)) < alike;
+  };
+  std::vector<Proposal> best;
+  for (const Proposal& proposal : list) {
+    const bool known = std::any_of(best.begin(), best.end(), [&](const Proposal& other) {
+      return same_kind(other.term, proposal.term);
+    });
+    if (!known && best.size() < most_fits) best.push_back(proposal);
   }
   return best;
 }
@@ -100,19 +123,32 @@ Model with_term(const Model& model, const plant::ForceTerm& term) {
 
 }  // namespace
 
-Law find_law(const Case& c, const Contender& base, const Eigen::VectorXd& reference,
+Law find_law(const Case& c, const std::vector<const Contender*>& bases, const Eigen::VectorXd& reference,
              const std::function<void(const std::string&)>& step) {
-  Law law{.contender = base};
+  Law law{.contender = *bases.front()};
   Eigen::VectorXd before = reference;
   for (std::size_t round = 0; round < most_terms; ++round) {
     step(fmt::format("looking for a law, term {}", round + 1));
-    const Proposal proposal = propose(c, law.contender.fitted);
-    if (proposal.drop <= 0.0) break;
-    auto next = contend(c, with_term(law.contender.fitted.model, proposal.term));
-    if (!next.fitted.failure.empty()) break;
-    if (!convinces(compare(c.experiment, before, next.held_out, c.split.held_out))) break;
-    law.terms.push_back(next.fitted.model.rig.effects.get<plant::ResidualForce>().terms.size() - 1);
-    law.contender = std::move(next);
+    std::optional<Contender> next;
+    const auto extend = [&](const Contender& base) {
+      const auto known = slopes_of_nominal(base.fitted);
+      for (const Proposal& proposal : propose(c, base.fitted)) {
+        auto longer = contend(c, with_term(base.fitted.model, proposal.term), &known);
+        if (longer.fitted.failure.empty() && (!next || longer.fitted.cost < next->fitted.cost))
+          next = std::move(longer);
+      }
+    };
+    if (round == 0)
+      for (const Contender* base : bases) extend(*base);
+    else
+      extend(law.contender);
+    if (!next) break;
+    auto polished = contend(c, next->fitted.model);
+    if (polished.fitted.failure.empty() && polished.fitted.cost < next->fitted.cost)
+      next = std::move(polished);
+    if (!convinces(compare(c.experiment, before, next->held_out, c.split.held_out))) break;
+    law.terms.push_back(next->fitted.model.rig.effects.get<plant::ResidualForce>().terms.size() - 1);
+    law.contender = std::move(*next);
     before = law.contender.held_out;
     if (excess(before) < 0.04) break;
   }

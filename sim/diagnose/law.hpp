@@ -13,7 +13,9 @@ struct Law {
   std::vector<std::size_t> terms{};  ///< of the rig that were added; empty: no law was found
 };
 
-Law find_law(const Case& c, const Contender& base, const Eigen::VectorXd& reference,
+/// Begins at whichever of `bases` leads to the better fit: one that is recalibrated may have bent far to
+/// imitate what is missing.
+Law find_law(const Case& c, const std::vector<const Contender*>& bases, const Eigen::VectorXd& reference,
              const std::function<void(const std::string&)>& step);
 
 }  // namespace mckibben::diagnose

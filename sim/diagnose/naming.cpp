@@ -1,25 +1,34 @@
 // Screen, refit, choose, and again; see the header.
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <optional>
 
 #include <fmt/format.h>
 
 #include <sim/diagnose/naming.hpp>
+#include <sim/engine/failure.hpp>
 
 namespace mckibben::diagnose {
 namespace {
 
-constexpr std::size_t most_effects = 3, most_refits = 7;
+constexpr std::size_t most_effects = 3, most_refits = 7, most_substitutes = 3, most_firsts = 3;
 /// Candidates that change the readings so alike are refitted whatever their score.
 constexpr double alike = 0.7;
 /// Scores below this share of the best are not worth a refit.
 constexpr double least_score = 0.05;
 /// Expected drops below this are chance.
 constexpr double chance = 6.0;
+/// A difference of costs that scatter does not make.
+constexpr double clear = 12.0;
 /// An effect that closes less of the whole gap than this mends the law of another rather than being one.
 constexpr double least_of_all = 0.01;
 /// Held-out mean square above the floor at which there is nothing left to find.
 constexpr double nothing_left = 0.04;
+
+/// Held-out mean square above the floor at which two effects at once are looked for, and the share of it that
+/// they must close.
+constexpr double worth_a_pair = 4.0, most_of_it = 0.6;
 
 struct Trial {
   Score score;
@@ -32,22 +41,14 @@ std::string title(const Candidate& c) {
   return c.variant.empty() ? c.effect : c.effect + " (" + c.variant + ")";
 }
 
-std::vector<std::pair<std::string, Eigen::VectorXd>> columns_of(const Fitted& fitted) {
-  std::vector<std::pair<std::string, Eigen::VectorXd>> list;
-  for (std::size_t j = 0; j < fitted.model.free.size(); ++j)
-    list.emplace_back(fitted.model.free[j].path, fitted.columns.col(static_cast<Eigen::Index>(j)));
-  return list;
-}
-
 /// A size that a fit has not driven against a bound, nor to nothing.
 bool has_size(const Model& model, const Candidate& c) {
   const double value = value_of(model.rig, c.amplitude);
   for (const Parameter& p : model.free) {
     if (p.path != c.amplitude) continue;
     const double edge = 1e-3 * (p.highest - p.lowest);
-    const bool at_bound = (value > p.highest - edge && p.highest != c.absent) ||
-                          (value < p.lowest + edge && p.lowest != c.absent && c.either_sign);
-    return !at_bound && std::abs(value - c.absent) > 1e-3 * std::abs(c.typical);
+    const bool at_bound = value > p.highest - edge || (value < p.lowest + edge && c.either_sign);
+    return !at_bound && std::abs(value - c.absent) > 1.1 * least_amplitude * std::abs(c.typical);
   }
   return false;
 }
@@ -97,8 +98,8 @@ std::vector<Trial> refit(const Case& c, const std::vector<Screening>& screenings
       const Score& score = scores[place];
       if (!wanted(score, scores.front())) continue;
       step("trying " + title(score.candidate));
-      const auto frozen = columns_of(base->fitted);
-      auto contender = contend(c, with(c, base->fitted.model, score), &frozen);
+      const auto known = slopes_of_nominal(base->fitted);
+      auto contender = contend(c, with(c, base->fitted.model, score), &known);
       if (!contender.fitted.failure.empty()) continue;
       trials.push_back({score, place, std::move(contender), {}});
       if (place > 0) continue;
@@ -129,19 +130,118 @@ std::vector<Trial> refit(const Case& c, const std::vector<Screening>& screenings
 bool as_good(const Case& c, const Contender& chosen, const Contender& rival) {
   const auto worse = compare(c.experiment, rival.held_out, chosen.held_out, c.split.held_out);
   const double costlier = rival.fitted.cost - chosen.fitted.cost;
-  return costlier < 12.0 || (worse.gained < 0.05 && costlier < 0.1 * chosen.fitted.cost);
+  return costlier < clear || (worse.gained < 0.05 && costlier < 0.1 * chosen.fitted.cost);
+}
+
+Screening screen_at(const Case& c, const Contender& base) {
+  // As long as nothing fits, the misfit itself is the scatter: no nominal parameter is worth believing far
+  // from its data sheet for the sake of details.
+  const double scatter =
+      std::max(c.temperature, temperature(c.experiment, base.fitted.residuals, c.split.training));
+  return {&base, screen(c.experiment, base.fitted, catalogue(), c.split.training, scatter)};
+}
+
+/// Another effect that serves clearly better than the one that `smaller` is without.
+std::optional<Trial> substitute(const Case& c, const Contender& smaller, const Candidate& gone,
+                                const Contender& best, const std::function<void(const std::string&)>& step) {
+  const Screening screening = screen_at(c, smaller);
+  const auto known = slopes_of_nominal(smaller.fitted);
+  for (std::size_t place = 0; place < most_substitutes; ++place) {
+    const Score& score = screening.scores[place];
+    if (score.drop < chance) break;
+    if (score.candidate.effect == gone.effect) continue;
+    step(fmt::format("trying {} instead of {}", title(score.candidate), title(gone)));
+    Trial trial{score, place, contend(c, with(c, smaller.fitted.model, score), &known), {}};
+    if (!trial.contender.fitted.failure.empty()) continue;
+    polish(c, trial, step);
+    const auto gain = compare(c.experiment, best.held_out, trial.contender.held_out, c.split.held_out);
+    if (has_size(trial.contender.fitted.model, score.candidate) && gain.gained > 0.0 &&
+        best.fitted.cost - trial.contender.fitted.cost > clear)
+      return trial;
+  }
+  return std::nullopt;
+}
+
+/// Two effects that help only together: next to one that fits best but does not convince, another one with
+/// which it closes most of the gap.
+std::optional<std::array<Trial, 2>> pair_of(const Case& c, const std::vector<Trial>& trials,
+                                            const Eigen::VectorXd& before,
+                                            const std::function<void(const std::string&)>& step) {
+  for (std::size_t i = 0; i < std::min(trials.size(), most_firsts); ++i) {
+    const Trial& first = trials[i];
+    if (!has_size(first.contender.fitted.model, first.score.candidate)) continue;
+    const Screening screening = screen_at(c, first.contender);
+    const auto known = slopes_of_nominal(first.contender.fitted);
+    for (std::size_t place = 0; place < most_substitutes; ++place) {
+      const Score& score = screening.scores[place];
+      if (score.drop < chance) break;
+      step(fmt::format("trying {} with {}", title(first.score.candidate), title(score.candidate)));
+      Trial second{score, place, contend(c, with(c, first.contender.fitted.model, score), &known), {}};
+      if (!second.contender.fitted.failure.empty()) continue;
+      const auto closes = [&] {
+        second.gain = compare(c.experiment, before, second.contender.held_out, c.split.held_out);
+        return second.gain.share;
+      };
+      if (closes() < 0.5 * most_of_it) continue;
+      polish(c, second, step);
+      closes();
+      const auto beyond =
+          compare(c.experiment, first.contender.held_out, second.contender.held_out, c.split.held_out);
+      if (has_size(second.contender.fitted.model, score.candidate) &&
+          has_size(second.contender.fitted.model, first.score.candidate) && second.gain.share > most_of_it &&
+          convinces(second.gain) && convinces(beyond))
+        return std::array{first, second};
+    }
+  }
+  return std::nullopt;
+}
+
+/// What was taken first may have stood in for what came after it: drops effects that are no longer needed,
+/// and swaps those that another one beats now.
+void revise(const Case& c, Naming& result, const Eigen::VectorXd& reference,
+            const std::function<void(const std::string&)>& step) {
+  for (std::size_t i = 0; i + 1 < result.best.fitted.model.effects.size();) {
+    const Candidate old = result.best.fitted.model.effects[i];
+    step("trying without " + title(old));
+    auto smaller = contend(c, without(result.best.fitted.model, i));
+    if (!smaller.fitted.failure.empty()) return;
+    const auto worse = compare(c.experiment, smaller.held_out, result.best.held_out, c.split.held_out);
+    const auto place = result.effects.begin() + static_cast<std::ptrdiff_t>(i);
+    const bool needed = convinces(worse) || worse.gained > least_of_all * std::max(excess(reference), 1.0);
+    if (!needed) {
+      result.best = std::move(smaller);
+      result.effects.erase(place);
+      if (i == 0) result.rivals.clear();  // they were its rivals
+      continue;
+    }
+    const bool met = excess(result.best.held_out) < nothing_left &&
+                     excess(result.best.fitted.residuals) < 2.0 * nothing_left;
+    if (!met) {
+      if (auto better = substitute(c, smaller, old, result.best, step)) {
+        result.best = std::move(better->contender);
+        result.effects.erase(place);  // the new one stands last in the model, too
+        const Candidate& candidate = better->score.candidate;
+        result.effects.push_back({.name = candidate.effect, .variant = candidate.variant});
+        if (i == 0) result.rivals.clear();
+        continue;
+      }
+    }
+    ++i;
+  }
 }
 
 }  // namespace
 
-Contender contend(const Case& c, Model model,
-                  const std::vector<std::pair<std::string, Eigen::VectorXd>>* frozen) {
+Contender contend(const Case& c, Model model, const KnownSlopes* known) {
   Contender contender;
   contender.fitted =
-      fit(c.experiment, std::move(model), c.split.training,
-          {.temperature = c.temperature, .most_iterations = frozen != nullptr ? 8 : 12, .frozen = frozen});
-  if (contender.fitted.failure.empty())
+      fit(c.experiment, std::move(model), c.split.training, {.temperature = c.temperature, .known = known});
+  if (!contender.fitted.failure.empty()) return contender;
+  try {
     contender.held_out = c.experiment.residuals(contender.fitted.model.rig, c.split.held_out);
+  } catch (const engine::NumericalFailure& failure) {
+    contender.fitted.failure = failure.what();
+  }
   return contender;
 }
 
@@ -160,7 +260,7 @@ Model with(const Case& c, const Model& model, const Score& score) {
     double squares = 0.0;
     try {
       squares = c.experiment.residuals(bigger.rig, c.split.training).squaredNorm();
-    } catch (const std::exception&) {
+    } catch (const engine::NumericalFailure&) {
       continue;  // too much of it for the rig to move
     }
     if (best == candidate.absent || squares < least) {
@@ -179,20 +279,12 @@ Naming name_effects(const Case& c, const Contender& nominal, const Contender& re
   Naming result;
   result.best = recalibrated;
   Eigen::VectorXd before = reference;
-  const auto all = catalogue();
   for (int round = 1; round <= static_cast<int>(most_effects); ++round) {
     step("screening");
-    const auto at = [&](const Contender& base) {
-      // As long as nothing fits, the misfit itself is the scatter: no nominal parameter is worth believing
-      // far from its data sheet for the sake of details.
-      const double scatter =
-          std::max(c.temperature, temperature(c.experiment, base.fitted.residuals, c.split.training));
-      return Screening{&base, screen(c.experiment, base.fitted, all, c.split.training, scatter)};
-    };
     // At the rig as described first: the recalibrated one may have bent far to imitate what is missing.
     std::vector<Screening> screenings;
-    if (round == 1) screenings.push_back(at(nominal));
-    screenings.push_back(at(result.best));
+    if (round == 1) screenings.push_back(screen_at(c, nominal));
+    screenings.push_back(screen_at(c, result.best));
     const auto& scores = screenings.front().scores;
     if (round == 1) {
       const std::size_t shown = std::min<std::size_t>(8, scores.size());
@@ -211,7 +303,7 @@ Naming name_effects(const Case& c, const Contender& nominal, const Contender& re
     for (const Trial& trial : trials) {
       if (!has_size(trial.contender.fitted.model, trial.score.candidate)) continue;
       const bool relieves = !something_left && trial.gain.gained > -0.01 &&
-                            result.best.fitted.cost - trial.contender.fitted.cost > 12.0;
+                            result.best.fitted.cost - trial.contender.fitted.cost > clear;
       const bool worthwhile = trial.gain.gained > least_of_all * excess(reference);
       if ((convinces(trial.gain) && worthwhile) || relieves) {
         chosen = &trial;
@@ -243,6 +335,17 @@ Naming name_effects(const Case& c, const Contender& nominal, const Contender& re
         ranked.outcome = score.drop > 0.0 ? "score too small" : "no influence, or the wrong sign";
       if (ranked.score > 0.0) result.ranking.push_back(ranked);
     }
+    if (chosen == nullptr && result.effects.empty() && excess(before) > worth_a_pair) {
+      if (auto both = pair_of(c, trials, before, step)) {
+        for (const Trial& one : *both)
+          result.effects.push_back(
+              {.name = one.score.candidate.effect, .variant = one.score.candidate.variant});
+        result.best = std::move(both->back().contender);
+        revise(c, result, reference, step);
+        before = result.best.held_out;
+        continue;
+      }
+    }
     if (chosen == nullptr) break;
     NamedEffect named{.name = chosen->score.candidate.effect, .variant = chosen->score.candidate.variant};
     for (const Trial& rival : trials) {
@@ -258,21 +361,7 @@ Naming name_effects(const Case& c, const Contender& nominal, const Contender& re
     if (round == 1) result.first = chosen->contender.fitted.model.rig;
     result.effects.push_back(std::move(named));
     result.best = chosen->contender;
-    // What was taken first may have stood in for what came after it.
-    for (std::size_t i = 0; i + 1 < result.best.fitted.model.effects.size();) {
-      step("trying without " + title(result.best.fitted.model.effects[i]));
-      auto smaller = contend(c, without(result.best.fitted.model, i));
-      if (!smaller.fitted.failure.empty()) break;
-      const auto worse = compare(c.experiment, smaller.held_out, result.best.held_out, c.split.held_out);
-      const bool needed = convinces(worse) || worse.gained > least_of_all * std::max(excess(reference), 1.0);
-      if (needed) {
-        ++i;
-        continue;
-      }
-      result.best = std::move(smaller);
-      result.effects.erase(result.effects.begin() + static_cast<std::ptrdiff_t>(i));
-      if (i == 0) result.rivals.clear();  // they were its rivals
-    }
+    revise(c, result, reference, step);
     before = result.best.held_out;
   }
   return result;

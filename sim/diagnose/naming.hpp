@@ -35,9 +35,8 @@ struct Case {
   double temperature;
 };
 
-/// Fits a model to the training runs. `frozen` as in FitSettings.
-Contender contend(const Case& c, Model model,
-                  const std::vector<std::pair<std::string, Eigen::VectorXd>>* frozen = nullptr);
+/// Fits a model to the training runs. `known` as in FitSettings.
+Contender contend(const Case& c, Model model, const KnownSlopes* known = nullptr);
 
 /// The model with one candidate more, at the size that serves best along the direction of its score.
 Model with(const Case& c, const Model& model, const Score& score);

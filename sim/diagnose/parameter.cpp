@@ -111,19 +111,22 @@ plant::Rig Candidate::chosen(plant::Rig rig) const {
 std::vector<Parameter> Candidate::parameters(const plant::Rig& rig) const {
   plant::Rig copy = rig;
   const Found size = find(copy, amplitude);
+  // Next to nothing is as good as nothing, and can be stiff: a supply line of no resistance, a lag of no
+  // time.
+  const double least = absent + least_amplitude * typical;
   std::vector<Parameter> list{{.path = amplitude,
                                .origin = absent,
                                .scale = std::abs(typical),
                                .step = step,
-                               .lowest = either_sign || typical < 0.0 ? size.lowest : absent,
-                               .highest = either_sign || typical > 0.0 ? size.highest : absent}};
+                               .lowest = either_sign || typical < 0.0 ? size.lowest : least,
+                               .highest = either_sign || typical > 0.0 ? size.highest : least}};
   if (!shape.empty()) {
     const Found form = find(copy, shape);
     list.push_back({.path = shape,
                     .scale = 1.0,
                     .step = 0.01,
-                    .lowest = std::max(form.lowest, shapes.front() / 10.0),
-                    .highest = std::min(form.highest, shapes.back() * 10.0),
+                    .lowest = std::max(form.lowest, shapes.front() / 4.0),
+                    .highest = std::min(form.highest, shapes.back() * 4.0),
                     .logarithmic = true});
   }
   return list;

@@ -42,6 +42,9 @@ inline constexpr double most_deviations = 3.0;
 /// The nominal parameters, with priors as tight as a data sheet or a ruler.
 std::vector<Parameter> nominal_parameters(const plant::Rig& nominal);
 
+/// Sizes below this share of the typical one are as good as absent.
+inline constexpr double least_amplitude = 0.01;
+
 /// One law variant of an effect of the catalogue.
 struct Candidate {
   std::string effect;            ///< its name

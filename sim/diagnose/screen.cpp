@@ -55,7 +55,7 @@ std::vector<Score> screen(const Experiment& experiment, const Fitted& fitted,
                              if (!c.shape.empty()) *find(h.rig, c.shape).value = shape;
                              *find(h.rig, c.amplitude).value = c.absent + size;
                            },
-                           size});
+                           size, true});
       }
     }
   }

@@ -1,6 +1,7 @@
 // See the header.
 #include "hidden_effects.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <numbers>
@@ -26,6 +27,13 @@ class Dice {
   std::mt19937_64 random_;
 };
 
+/// Whether an effect's size may have either sign: even seeds hide the other one.
+bool either_sign(const std::string& path) {
+  for (const Candidate& c : catalogue())
+    if (c.amplitude == path) return c.either_sign;
+  return false;
+}
+
 struct Kind {
   std::string title;
   Verdict verdict;
@@ -33,6 +41,7 @@ struct Kind {
   std::vector<Planted> plan;  ///< sizes, before the dice
   plant::Noise noise{};
   std::vector<plant::ForceTerm> law{};
+  bool gauge = false;
 };
 
 const std::vector<Kind>& all_kinds() {
@@ -112,6 +121,18 @@ const std::vector<Kind>& all_kinds() {
     law("unknown, two waves", {{.of = Basis::sine, .coefficient_N = 5.0, .wavelength_m = 0.017},
                                {.of = Basis::sine, .coefficient_N = 3.0, .wavelength_m = 0.0075}});
     law("unknown, friction along the stroke", {{.of = Basis::direction_ratio, .coefficient_N = -60.0}});
+    const auto with_gauge = [&](const char* title) {
+      Kind kind = *std::find_if(kinds.begin(), kinds.end(), [&](const Kind& k) { return k.title == title; });
+      kind.title = "gauge: " + kind.title;
+      kind.gauge = true;
+      kinds.push_back(std::move(kind));
+    };
+    with_gauge("muscle_leak small");
+    with_gauge("valve_hysteresis small");
+    with_gauge("polytropic_gas + guide_friction");
+    with_gauge("muscle_leak + speed_dependent_friction");
+    with_gauge("nothing, ripple");
+    with_gauge("unknown, longer wave");
     return kinds;
   }();
   return list;
@@ -160,6 +181,10 @@ std::size_t kinds() {
   return all_kinds().size();
 }
 
+const std::string& title(std::size_t kind) {
+  return all_kinds()[kind].title;
+}
+
 Hidden hide(std::size_t index, std::uint64_t seed) {
   const Kind& kind = all_kinds()[index];
   Dice dice(1000 * seed + index);
@@ -176,15 +201,28 @@ Hidden hide(std::size_t index, std::uint64_t seed) {
     const double absent = nominal ? planted.value : value_of(plant::Rig{}, planted.path);
     const bool shape = &planted != &kind.plan.front() && kind.effects.size() < 2;
     const double factor = dice.between(0.8, 1.25);
+    const double sign = seed % 2 == 0 && either_sign(planted.path) ? -1.0 : 1.0;
     *found.value = nominal ? planted.value
                    : shape ? planted.value * factor
-                           : absent + factor * (planted.value - absent);
+                           : absent + sign * factor * (planted.value - absent);
     hidden.truth.push_back({planted.path, *found.value});
+  }
+  auto& bladder = truth.effects.get<plant::BladderElasticity>();
+  if (bladder.stiffness_N_per_m > 0.0 && seed % 3 == 0) {
+    bladder.variant = plant::BladderLaw::saturating;
+    bladder.force_N = bladder.stiffness_N_per_m * 0.03;
+    bladder.ratio = 0.06;
+    bladder.stiffness_N_per_m = 0.0;
+    std::erase_if(hidden.truth, [](const Planted& p) { return p.path.ends_with("stiffness"); });
+    hidden.truth.push_back({"effects.bladder_elasticity.force", bladder.force_N});
+    hidden.truth.push_back({"effects.bladder_elasticity.ratio", bladder.ratio});
   }
   truth.effects.get<plant::GuideFriction>().slip_speed_m_per_s = 1e-3 * dice.between(0.6, 1.5);
   truth.effects.get<plant::ResidualForce>().terms = kind.law;
   plant::Noise noise = kind.noise;
   if (noise.encoder_jitter == 0.0) noise.encoder_jitter = 5e-5;
+  if (kind.gauge) noise.gauge_Pa = 400.0;
+  truth.gauge.fitted = hidden.data.rig.gauge.fitted = kind.gauge;
   const double loads_kg[] = {11.138, 11.138, 16.138, 16.138, 23.406, 23.406, 13.870, 18.870, 18.870};
   const std::size_t currents[] = {0, 1, 2, 3, 0, 1, 4, 3, 1};
   for (std::size_t run = 0; run < 9; ++run) {
@@ -208,6 +246,10 @@ Hidden hide(std::size_t index, std::uint64_t seed) {
     for (const auto& sample : recording.samples)
       measured.contraction_ratio.push_back(static_cast<double>(sample.counts) *
                                            run::contraction_per_count(truth));
+    if (kind.gauge) {
+      measured.muscle_pressure_Pa.emplace();
+      for (const auto& sample : recording.samples) measured.muscle_pressure_Pa->push_back(sample.gauge_Pa);
+    }
     hidden.data.runs.push_back(std::move(measured));
   }
   return hidden;

@@ -1,5 +1,7 @@
 // The workflow where nothing is hidden, and what its results may not depend on. Data with something hidden:
 // tests/workflow.
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include <sim/diagnose/diagnose.hpp>
@@ -32,6 +34,27 @@ TEST(Diagnose, HasTheSameSlopesForAnyNumberOfThreads) {
   EXPECT_EQ(one.residuals, three.residuals);
   EXPECT_EQ(one.columns, three.columns);
   EXPECT_GT(one.columns.norm(), 1.0);
+}
+
+TEST(Diagnose, TakesForNoiseWhatRepeatedRunsDoNotRepeat) {
+  auto data = small(plant::Rig{});
+  const auto masked = [&] {
+    std::vector<std::vector<bool>> rows;
+    for (const auto& run : data.runs) rows.emplace_back(run.current_mA.size(), false);
+    return rows;
+  };
+  const NoiseFloor single = Experiment(data, masked(), 1).floor();
+  EXPECT_EQ(single.repeats, 0.0);
+  EXPECT_NEAR(single.ratio, std::hypot(single.count / std::sqrt(12.0), 5e-5), 1e-6);
+
+  data.runs.push_back(data.runs.front());
+  for (double& ratio : data.runs.back().contraction_ratio) ratio += 6.0 * single.count;
+  const std::size_t last = data.runs.size() - 1;
+  EXPECT_NEAR(Experiment(data, masked(), 1, {0, 1, last}).floor().ratio, 6.0 * single.count / std::sqrt(2.0),
+              1e-9);
+  EXPECT_EQ(Experiment(data, masked(), 1, {0, 1}).floor().ratio, single.ratio);
+  data.runs.back().load_kg += 1.0;
+  EXPECT_EQ(Experiment(data, masked(), 1, {0, 1, last}).floor().ratio, single.ratio);
 }
 
 TEST(Diagnose, SaysThatNothingIsMissingWhereNothingIs) {
