@@ -14,6 +14,7 @@
 #include <sim/input/json_schema.hpp>
 #include <sim/input/rig_file.hpp>
 #include <sim/input/scenario.hpp>
+#include <sim/input/suggest.hpp>
 #include <sim/input/yaml_file.hpp>
 #include <sim/input/yaml_writer.hpp>
 #include <sim/output/folder.hpp>
@@ -47,16 +48,16 @@ void read_any(const std::filesystem::path& path, std::vector<Problem>& warnings)
   } else if (kind == "mckibben-scenario") {
     input::read_scenario(path, warnings);
   } else {
-    const std::string known =
-        fmt::format("{}, {}, {}, {} or {}", input::scenario_schema, input::campaign_schema, input::rig_schema,
-                    input::dataset_schema, input::calibration_schema);
+    constexpr std::string_view known[] = {input::scenario_schema, input::campaign_schema, input::rig_schema,
+                                          input::dataset_schema, input::calibration_schema};
     input::Problems problems;
     if (schema == nullptr)
       problems.error(file.source, file.root.place,
-                     fmt::format("the file must say what it is: schema: {}", known));
+                     fmt::format("the file must say what it is: schema: one of {}", input::join(known)));
     else
       problems.error(file.source, schema->place,
-                     fmt::format("unknown schema {}: known are {}", schema->text, known));
+                     fmt::format("unknown schema {}{} (known: {})", schema->text,
+                                 input::did_you_mean(schema->text, known), input::join(known)));
     problems.raise();
   }
 }

@@ -34,6 +34,8 @@ struct MapOptions {
   bool extrapolate_load = false, extrapolate_target = false;
 };
 
+/// Writes a scenario with comments, to start from. Throws output::CannotWrite if there is a file already.
+int write_scenario(const std::string& path, const Options& options);
 int run_scenario(const std::string& path, const Options& options);
 int make_dataset(const std::string& path, const Options& options);
 int replay_dataset(const std::string& path, const Options& options);
@@ -44,7 +46,9 @@ int map_errors(const std::string& path, const Options& options, const MapOptions
 /// `name`: one of study::names; `path` the campaign's.
 int make_study(const std::string& name, const std::string& path, const Options& options);
 int check_files(const std::vector<std::string>& paths, const Options& options);
-/// The catalogue of effects, or those of these names.
+/// Every name that `list_effects` knows.
+std::vector<std::string> names_of_effects();
+/// The catalogue of effects, or those of these names, which must be known.
 int list_effects(const std::vector<std::string>& names, const Options& options);
 /// `kind`: scenario, campaign, rig or dataset; `format`: json (JSON Schema), markdown (table of keys) or yaml
 /// (the rig `thesis` with every value, whatever the kind).
