@@ -4,6 +4,7 @@
 
 #include <sim/cli/app.hpp>
 #include <sim/cli/options.hpp>
+#include <sim/engine/settings.hpp>
 
 namespace mckibben::cli {
 namespace {
@@ -167,6 +168,23 @@ void add_schema(CLI::App& app, Asked& asked) {
   verb.callback([&asked] { asked.chosen = [&asked] { return print_schema(asked.kind, asked.format); }; });
 }
 
+void add_doctor(CLI::App& app, Asked& asked) {
+  CLI::App& verb = *app.add_subcommand(
+      "doctor", "Is the program sound here? Integrates known cases; prints versions and builds");
+  verb.group("Find out");
+  add_json(verb, asked.options);
+  asked.tolerance = engine::Settings{}.tolerance;
+  verb.add_option("--tolerance", asked.tolerance, "Of the integration (default: 1e-6, as in a rig)")
+      ->check(CLI::Range(engine::tightest_tolerance, 1e-3))
+      ->type_name("RATIO");
+  verb.footer(
+      "Examples:\n"
+      "  mckibben doctor\n"
+      "  mckibben doctor --json > doctor.json             to go with a report of something odd\n"
+      "Exit status: 70 if a case is not found, 74 if out/ cannot be written.\n");
+  verb.callback([&asked] { asked.chosen = [&asked] { return examine(asked.tolerance, asked.options); }; });
+}
+
 }  // namespace
 
 void add_simulating_verbs(CLI::App& app, Asked& asked) {
@@ -184,6 +202,7 @@ void add_helping_verbs(CLI::App& app, Asked& asked) {
   add_effects(app, asked);
   add_check(app, asked);
   add_schema(app, asked);
+  add_doctor(app, asked);
 }
 
 void build(CLI::App& app, Asked& asked) {

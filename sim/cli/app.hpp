@@ -18,6 +18,7 @@ struct Asked {
   std::vector<std::string> names;
   CalibrateOptions calibration;
   MapOptions targets;
+  double tolerance = 0.0;
   std::function<int()> chosen;  ///< does what the verb is for
 };
 

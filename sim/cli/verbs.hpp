@@ -45,6 +45,8 @@ int calibrate_dataset(const std::string& path, const Options& options, const Cal
 int map_errors(const std::string& path, const Options& options, const MapOptions& how);
 /// `name`: one of study::names; `path` the campaign's.
 int make_study(const std::string& name, const std::string& path, const Options& options);
+/// Is the program sound here? `tolerance`: of the integration.
+int examine(double tolerance, const Options& options);
 int check_files(const std::vector<std::string>& paths, const Options& options);
 /// Every name that `list_effects` knows.
 std::vector<std::string> names_of_effects();
