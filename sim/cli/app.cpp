@@ -118,6 +118,32 @@ void add_diagnose(CLI::App& app, Asked& asked) {
   });
 }
 
+void add_diff(CLI::App& app, Asked& asked) {
+  CLI::App& verb = *app.add_subcommand(
+      "diff", "Compare two folders that run or replay wrote: inputs, metrics, trajectories");
+  verb.group("Find out");
+  verb.add_option("left", asked.path, "Folder that run or replay wrote")->required()->type_name("FOLDER");
+  verb.add_option("right", asked.other, "Another one, written by the same verb")
+      ->required()
+      ->type_name("FOLDER");
+  add_out(verb, asked.options, "nothing is written");
+  add_json(verb, asked.options);
+  verb.add_option("--tolerance", asked.allowed,
+                  "Difference of the contraction ratio that is allowed at any tick; more is exit status 1 "
+                  "(default: any)")
+      ->check(CLI::Range(0.0, 1.0))
+      ->type_name("RATIO");
+  verb.footer(
+      "Examples:\n"
+      "  mckibben diff out/five_loads out/mine            what differs?\n"
+      "  mckibben diff before/ after/ --tolerance 1e-6    has anything changed? for a script\n");
+  verb.callback([&asked] {
+    asked.chosen = [&asked] {
+      return compare_folders(asked.path, asked.other, asked.allowed, asked.options);
+    };
+  });
+}
+
 void add_effects(CLI::App& app, Asked& asked) {
   CLI::App& verb = *app.add_subcommand(
       "effects", "The catalogue of effects that a rig may have: laws, parameters, sources");
@@ -125,7 +151,7 @@ void add_effects(CLI::App& app, Asked& asked) {
   verb.add_option("names", asked.names, "Only these, with how to switch them on")
       ->check(one_of("effect", names_of_effects()))
       ->type_name("");
-  add_common(verb, asked.options);
+  add_common(verb, asked.options, "nothing is written");
   verb.footer(
       "Examples:\n"
       "  mckibben effects                                 all of them\n"
@@ -138,7 +164,7 @@ void add_check(CLI::App& app, Asked& asked) {
       *app.add_subcommand("check", "Validate scenario, campaign, rig and data set files; nothing is run");
   verb.group("Find out");
   verb.add_option("files", asked.names, "Files to check")->required()->type_name("FILE");
-  add_common(verb, asked.options);
+  add_common(verb, asked.options, "nothing is written");
   verb.footer(
       "Examples:\n"
       "  mckibben check scenarios/*.yaml\n"
@@ -199,6 +225,7 @@ void add_comparing_verbs(CLI::App& app, Asked& asked) {
 }
 
 void add_helping_verbs(CLI::App& app, Asked& asked) {
+  add_diff(app, asked);
   add_effects(app, asked);
   add_check(app, asked);
   add_schema(app, asked);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,11 +15,12 @@ namespace mckibben::cli {
 /// What the command line asks for.
 struct Asked {
   Options options;
-  std::string path, kind = "scenario", format = "json", study, plan;
+  std::string path, kind = "scenario", format = "json", study, plan, other;
   std::vector<std::string> names;
   CalibrateOptions calibration;
   MapOptions targets;
   double tolerance = 0.0;
+  std::optional<double> allowed;
   std::function<int()> chosen;  ///< does what the verb is for
 };
 

@@ -43,8 +43,9 @@ std::vector<std::string> options_of(const CLI::App& app) {
 
 }  // namespace
 
-void add_out(CLI::App& verb, Options& options) {
-  verb.add_option("--out", options.out, "Results folder (default: out/<name>)")->type_name("DIR");
+void add_out(CLI::App& verb, Options& options, const std::string& otherwise) {
+  verb.add_option("--out", options.out, fmt::format("Results folder (default: {})", otherwise))
+      ->type_name("DIR");
 }
 
 void add_json(CLI::App& verb, Options& options) {
@@ -58,8 +59,8 @@ void add_threads(CLI::App& verb, Options& options) {
       ->type_name("N");
 }
 
-void add_common(CLI::App& verb, Options& options) {
-  add_out(verb, options);
+void add_common(CLI::App& verb, Options& options, const std::string& otherwise) {
+  add_out(verb, options, otherwise);
   add_json(verb, options);
   add_threads(verb, options);
 }

@@ -12,11 +12,12 @@
 
 namespace mckibben::cli {
 
-void add_out(CLI::App& verb, Options& options);
+/// `otherwise`: where results go without it.
+void add_out(CLI::App& verb, Options& options, const std::string& otherwise = "out/<name>");
 void add_json(CLI::App& verb, Options& options);
 void add_threads(CLI::App& verb, Options& options);
 /// --out, --json, --threads
-void add_common(CLI::App& verb, Options& options);
+void add_common(CLI::App& verb, Options& options, const std::string& otherwise = "out/<name>");
 /// `what`: what the seed is of, and its default.
 void add_seed(CLI::App& verb, Options& options, const std::string& what);
 void add_rig(CLI::App& verb, Options& options, const std::string& what);

@@ -47,6 +47,10 @@ int map_errors(const std::string& path, const Options& options, const MapOptions
 int make_study(const std::string& name, const std::string& path, const Options& options);
 /// Is the program sound here? `tolerance`: of the integration.
 int examine(double tolerance, const Options& options);
+/// Compares two folders that `run` or `replay` wrote. `tolerance`: largest difference of the contraction
+/// ratio that is allowed, if the user sets one.
+int compare_folders(const std::string& left, const std::string& right, std::optional<double> tolerance,
+                    const Options& options);
 int check_files(const std::vector<std::string>& paths, const Options& options);
 /// Every name that `list_effects` knows.
 std::vector<std::string> names_of_effects();
