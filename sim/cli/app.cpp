@@ -211,6 +211,24 @@ void add_doctor(CLI::App& app, Asked& asked) {
   verb.callback([&asked] { asked.chosen = [&asked] { return examine(asked.tolerance, asked.options); }; });
 }
 
+void add_completion(CLI::App& app, Asked& asked) {
+  CLI::App& verb = *app.add_subcommand(
+      "completion", "Print a script by which the shell completes verbs, options and values");
+  verb.group("Find out");
+  verb.add_option("shell", asked.shell, "For which shell")
+      ->required()
+      ->check(one_of("shell", {"bash", "zsh"}))
+      ->type_name("");
+  add_json(verb, asked.options);
+  verb.footer(
+      "Examples:\n"
+      "  mckibben completion bash > ~/.local/share/bash-completion/completions/mckibben\n"
+      "  mckibben completion zsh > ~/.zfunc/_mckibben     where ~/.zfunc is in fpath, before compinit\n"
+      "Or for this session only: source <(mckibben completion bash)\n");
+  verb.callback(
+      [&asked] { asked.chosen = [&asked] { return print_completion(asked.shell, asked.options); }; });
+}
+
 }  // namespace
 
 void add_simulating_verbs(CLI::App& app, Asked& asked) {
@@ -230,6 +248,7 @@ void add_helping_verbs(CLI::App& app, Asked& asked) {
   add_check(app, asked);
   add_schema(app, asked);
   add_doctor(app, asked);
+  add_completion(app, asked);
 }
 
 void build(CLI::App& app, Asked& asked) {

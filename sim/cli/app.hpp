@@ -15,7 +15,7 @@ namespace mckibben::cli {
 /// What the command line asks for.
 struct Asked {
   Options options;
-  std::string path, kind = "scenario", format = "json", study, plan, other;
+  std::string path, kind = "scenario", format = "json", study, plan, other, shell;
   std::vector<std::string> names;
   CalibrateOptions calibration;
   MapOptions targets;

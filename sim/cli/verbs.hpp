@@ -56,6 +56,8 @@ int check_files(const std::vector<std::string>& paths, const Options& options);
 std::vector<std::string> names_of_effects();
 /// The catalogue of effects, or those of these names, which must be known.
 int list_effects(const std::vector<std::string>& names, const Options& options);
+/// A script that completes verbs, options and values; `shell`: bash or zsh.
+int print_completion(const std::string& shell, const Options& options);
 /// `kind`: scenario, campaign, rig or dataset; `format`: json (JSON Schema), markdown (table of keys) or yaml
 /// (the rig `thesis` with every value, whatever the kind).
 int print_schema(const std::string& kind, const std::string& format);
