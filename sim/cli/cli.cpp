@@ -39,7 +39,8 @@ int guarded(const std::function<int()>& verb) {
     fmt::print(stderr, "mckibben: {}\n", error.what());
     return cannot_write;
   } catch (const run::Interrupted&) {
-    say("mckibben: interrupted; nothing was written, earlier results are as they were");
+    say("mckibben: interrupted before there was a result; nothing was written, earlier results are as they "
+        "were.\nThe same command begins again.");
     return interrupted;
   } catch (const std::exception& error) {
     fmt::print(stderr, "mckibben: {}\nThis is a defect of the program; please report it.\n", error.what());

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <sim/cli/exit_status.hpp>
+#include <sim/cli/results.hpp>
 #include <sim/cli/verbs.hpp>
 #include <sim/input/calibration_file.hpp>
 #include <sim/input/campaign.hpp>
@@ -73,9 +74,9 @@ Json problem_json(const Problem& problem) {
 template <class Schema>
 int print_kind(std::string_view schema, const char* title, const Schema& fields, const std::string& format) {
   if (format == "json")
-    fmt::print("{}\n", input::json_schema(schema, title, fields).dump(2));
+    print(input::json_schema(schema, title, fields).dump(2) + "\n");
   else
-    fmt::print("{}", input::field_table(title, fields));
+    print(input::field_table(title, fields));
   return done;
 }
 
@@ -108,7 +109,7 @@ int check_files(const std::vector<std::string>& paths, const Options& options) {
       fmt::print(stderr, "mckibben: {}\n", missing);
     }
     findings.push_back(std::move(entry));
-    if (file_status == done && !options.json) fmt::print("{}: ok\n", path);
+    if (file_status == done && !options.json) print(path + ": ok\n");
   }
   const std::string document = Json{{"schema", "mckibben-check/1"}, {"files", findings}}.dump(2) + "\n";
   if (!options.out.empty()) {
@@ -116,13 +117,13 @@ int check_files(const std::vector<std::string>& paths, const Options& options) {
     folder.write("check.json", document);
     folder.publish();
   }
-  if (options.json) fmt::print("{}", document);
+  if (options.json) print(document);
   return status;
 }
 
 int print_schema(const std::string& kind, const std::string& format) {
   if (format == "yaml") {
-    fmt::print("{}", input::to_yaml(input::rig_json(input::RigFile{})));
+    print(input::to_yaml(input::rig_json(input::RigFile{})));
     return done;
   }
   if (kind == "rig")
