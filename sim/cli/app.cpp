@@ -25,12 +25,12 @@ constexpr const char* last_words =
     "Exit status: 0 done, 1 a criterion of yours is not met, 64 usage, 65 bad input file,\n"
     "66 input file missing, 70 numerical failure or a defect of ours, 74 cannot write, 130 interrupted.\n";
 
-/// What CLI11 writes, without what it adds to the words of ours: ranges, exclusions, a colon before choices.
+/// What CLI11 writes, without what it adds to our words: exclusions, a colon before choices.
 class Help : public CLI::Formatter {
   std::string make_option_opts(const CLI::Option* option) const override {
     if (option->get_type_size() == 0) return "";
     std::string type = option->get_type_name();
-    type = type.starts_with(':') ? type.substr(1) : type.substr(0, type.find(':'));
+    if (type.starts_with(':')) type.erase(0, 1);
     const bool many = option->get_expected_max() == CLI::detail::expected_max_vector_size;
     return " " + type + (many ? " ..." : "");
   }
@@ -131,7 +131,7 @@ void add_diff(CLI::App& app, Asked& asked) {
   verb.add_option("--tolerance", asked.allowed,
                   "Difference of the contraction ratio that is allowed at any tick; more is exit status 1 "
                   "(default: any)")
-      ->check(CLI::Range(0.0, 1.0))
+      ->check(from_to(0.0, 1.0))
       ->type_name("RATIO");
   verb.footer(
       "Examples:\n"
@@ -201,7 +201,7 @@ void add_doctor(CLI::App& app, Asked& asked) {
   add_json(verb, asked.options);
   asked.tolerance = engine::Settings{}.tolerance;
   verb.add_option("--tolerance", asked.tolerance, "Of the integration (default: 1e-6, as in a rig)")
-      ->check(CLI::Range(engine::tightest_tolerance, 1e-3))
+      ->check(from_to(engine::tightest_tolerance, 1e-3))
       ->type_name("RATIO");
   verb.footer(
       "Examples:\n"

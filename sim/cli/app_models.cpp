@@ -43,11 +43,11 @@ void add_calibrate(CLI::App& app, Asked& asked) {
       "Pressure coefficients from all samples at once, or from the thesis's sequence of fits (default: "
       "joint)");
   verb.add_option("--load-order", how.fits.orders.load, "Highest order in load (default: 3, the thesis's)")
-      ->check(CLI::Range(0, 3))
+      ->check(from_to(0, 3))
       ->type_name("N");
   verb.add_option("--speed-order", how.fits.orders.speed,
                   "Highest order in the current's speed (default: 2, the thesis's)")
-      ->check(CLI::Range(0, 2))
+      ->check(from_to(0, 2))
       ->type_name("N");
   verb.footer(
       "Examples:\n"
@@ -82,10 +82,10 @@ void add_map(CLI::App& app, Asked& asked) {
   verb.add_flag("--up", how.up, "Going up only");
   verb.add_flag("--down", how.down, "Going down only");
   verb.add_option("--ratios", how.ratios, "How many target contraction ratios, up to e_max (default: 30)")
-      ->check(CLI::Range(1, 1000))
+      ->check(from_to(1, 1000))
       ->type_name("N");
   verb.add_option("--speeds", how.speeds, "How many target speeds (default: 5)")
-      ->check(CLI::Range(1, 1000))
+      ->check(from_to(1, 1000))
       ->type_name("N");
   verb.add_option_function<std::string>(
           "--fastest",

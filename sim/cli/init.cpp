@@ -90,6 +90,7 @@ std::string scenario_to_start_from(const std::string& file) {
 
 int write_scenario(const std::string& path, const Options& options) {
   const std::filesystem::path file = path;
+  if (path.empty()) throw output::CannotWrite("cannot write a file without a name");
   if (std::filesystem::exists(std::filesystem::symlink_status(file)))
     throw output::CannotWrite(fmt::format("cannot write {}: it is there already; give another name", path));
   const std::string text = scenario_to_start_from(path);

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <sim/cli/options.hpp>
+#include <sim/input/number.hpp>
 #include <sim/input/quantity.hpp>
 #include <sim/input/suggest.hpp>
 
@@ -25,7 +26,9 @@ std::string is_seed(const std::string& text) {
 std::string not_among(std::string_view kind, std::string_view word, const std::vector<std::string>& words) {
   const std::vector<std::string_view> known(words.begin(), words.end());
   if (std::find(known.begin(), known.end(), word) != known.end()) return "";
-  return fmt::format("unknown {} {}{}", kind, word, input::did_you_mean(word, known));
+  constexpr std::size_t shortest = 3;  // less is a letter or two, near to anything
+  return fmt::format("unknown {} {}{}", kind, word,
+                     word.size() < shortest ? "" : input::did_you_mean(word, known));
 }
 
 std::string join(const std::vector<std::string>& words) {
@@ -55,7 +58,7 @@ void add_json(CLI::App& verb, Options& options) {
 void add_threads(CLI::App& verb, Options& options) {
   verb.add_option("--threads", options.threads,
                   "Threads (default: all the machine has); results do not depend on it")
-      ->check(CLI::Range(1, 1024))
+      ->check(from_to(1, 1024))
       ->type_name("N");
 }
 
@@ -90,6 +93,15 @@ CLI::Validator one_of(const std::string& kind, const std::vector<std::string>& w
   return {check, list + "}"};
 }
 
+CLI::Validator from_to(double lowest, double highest) {
+  const auto check = [lowest, highest](const std::string& text) {
+    const auto value = input::parse_number(text);
+    if (value && *value >= lowest && *value <= highest) return std::string{};
+    return fmt::format("{} is not a number from {:g} to {:g}", text, lowest, highest);
+  };
+  return {check, ""};
+}
+
 double positive_quantity(const std::string& text, const char* unit, double most) {
   double value = 0.0;
   try {
@@ -116,7 +128,9 @@ std::string unknown_word(const CLI::App& app, const std::vector<std::string_view
   for (const auto* verb : app.get_subcommands({})) verbs.push_back(verb->get_name());
   const std::string_view first = arguments.front();
   if (first.empty() || first.front() != '-') {
-    const std::string wrong = not_among("verb", first, verbs);
+    std::vector<std::string> words = verbs;
+    words.emplace_back("--help");  // for those who try `help`
+    const std::string wrong = not_among("verb", first, words);
     if (!wrong.empty()) return fmt::format("{} (verbs: {}; --help explains them)", wrong, join(verbs));
   }
   const CLI::App& verb = first.starts_with('-') ? app : *app.get_subcommand(std::string(first));

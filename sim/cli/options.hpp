@@ -26,6 +26,9 @@ void add_dataset(CLI::App& verb, std::string& path);
 /// A value that must be one of these words, each a `kind`; help and completion show them as {a,b}.
 CLI::Validator one_of(const std::string& kind, const std::vector<std::string>& words);
 
+/// A number within these limits; anything else is a usage error that names them.
+CLI::Validator from_to(double lowest, double highest);
+
 /// A quantity such as "8.87 kg", above 0 and up to `most`; what is wrong with it is a usage error.
 double positive_quantity(const std::string& text, const char* unit, double most);
 

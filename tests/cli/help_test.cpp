@@ -91,6 +91,9 @@ TEST(DidYouMean, ForVerbsOptionsAndValues) {
            {"run --oout=x", "unknown option --oout; did you mean --out?"},
            {"calibrate x --kfg", "unknown option --kfg; did you mean --kgf?"},
            {"map x --extrapolate-laod", "did you mean --extrapolate-load?"},
+           {"help", "unknown verb help; did you mean --help?"},
+           {"run x.yaml --threads 0", "0 is not a number from 1 to 1024"},
+           {"diff a b --tolerance nan", "nan is not a number from 0 to 1"},
            {"--versoin", "unknown option --versoin; did you mean --version?"},
            {"--json run x.yaml",
             "unknown option --json (options: -h, --help, --version; those of a verb stand"},
@@ -105,6 +108,7 @@ TEST(DidYouMean, ForVerbsOptionsAndValues) {
     EXPECT_EQ(said.out, "") << slip.arguments;
     EXPECT_NE(said.err.find(slip.said), std::string::npos) << said.err;
   }
+  EXPECT_EQ(mckibben("run -x", scratch).err.find("did you mean"), std::string::npos);
   const Said far = mckibben("quench x", scratch);
   EXPECT_EQ(far.err.find("did you mean"), std::string::npos) << far.err;
   EXPECT_NE(far.err.find("verbs: init, run, dataset, "), std::string::npos) << far.err;

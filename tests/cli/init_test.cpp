@@ -60,7 +60,7 @@ TEST(Init, NeverOverwrites) {
   const Scratch scratch;
   write_text(scratch / "mine.yaml", "mine");
   fs::create_symlink("nowhere", scratch / "link.yaml");
-  for (const char* name : {"mine.yaml", "link.yaml", ".", "mine.yaml/below.yaml"}) {
+  for (const char* name : {"mine.yaml", "link.yaml", ".", "mine.yaml/below.yaml", "''"}) {
     const Said said = mckibben(std::string("init ") + name, scratch);
     EXPECT_EQ(said.status, 74) << name;
     EXPECT_EQ(said.out, "") << name;
