@@ -9,6 +9,7 @@
 #include <sim/output/calibration_report.hpp>
 #include <sim/output/chart.hpp>
 #include <sim/output/folder.hpp>
+#include <sim/run/batch.hpp>
 #include <sim/thesis/calibrate.hpp>
 #include <sim/thesis/figures.hpp>
 
@@ -22,6 +23,7 @@ int calibrate_dataset(const std::string& path, const Options& options, const Cal
   output::ResultFolder folder(where, "calibrate " + path);
 
   const thesis::CalibrationResult result = thesis::calibrate(dataset, how.fits);
+  if (run::interrupted()) throw run::Interrupted();
   const std::string document = output::json_of(dataset, result, how.fits).dump(2) + "\n";
   const std::string report = output::report_of(dataset, result, how.fits, how.kgf);
   folder.write("calibration.yaml", input::calibration_yaml(result.calibration));

@@ -12,7 +12,6 @@
 #include <sim/cli/results.hpp>
 #include <sim/cli/verbs.hpp>
 #include <sim/input/field_list.hpp>
-#include <sim/input/suggest.hpp>
 #include <sim/input/yaml_writer.hpp>
 #include <sim/output/folder.hpp>
 #include <sim/output/grid.hpp>
@@ -158,21 +157,19 @@ std::string overview(const std::vector<Entry>& all) {
 
 }  // namespace
 
+std::vector<std::string> names_of_effects() {
+  std::vector<std::string> names;
+  for (const Entry& entry : catalogue()) names.emplace_back(entry.name);
+  return names;
+}
+
 int list_effects(const std::vector<std::string>& names, const Options& options) {
   const std::vector<Entry> all = catalogue();
-  std::vector<std::string_view> known;
-  known.reserve(all.size());
-  for (const Entry& entry : all) known.push_back(entry.name);
   std::vector<Entry> chosen;
-  for (const auto& name : names) {
-    const auto at = std::find(known.begin(), known.end(), name);
-    if (at == known.end()) {
-      fmt::print(stderr, "mckibben: unknown effect {}{} (known: {})\n", name,
-                 input::did_you_mean(name, known), input::join(known));
-      return usage_error;
-    }
-    chosen.push_back(all[static_cast<std::size_t>(at - known.begin())]);
-  }
+  chosen.reserve(names.size());
+  for (const auto& name : names)
+    chosen.push_back(
+        *std::find_if(all.begin(), all.end(), [&name](const Entry& entry) { return entry.name == name; }));
   Json list = Json::array(), apart = nullptr;
   for (const Entry& entry : names.empty() ? all : chosen) {
     if (is_residual(entry))

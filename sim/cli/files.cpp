@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <sim/cli/exit_status.hpp>
+#include <sim/cli/results.hpp>
 #include <sim/cli/verbs.hpp>
 #include <sim/input/calibration_file.hpp>
 #include <sim/input/campaign.hpp>
@@ -14,6 +15,7 @@
 #include <sim/input/json_schema.hpp>
 #include <sim/input/rig_file.hpp>
 #include <sim/input/scenario.hpp>
+#include <sim/input/suggest.hpp>
 #include <sim/input/yaml_file.hpp>
 #include <sim/input/yaml_writer.hpp>
 #include <sim/output/folder.hpp>
@@ -47,16 +49,16 @@ void read_any(const std::filesystem::path& path, std::vector<Problem>& warnings)
   } else if (kind == "mckibben-scenario") {
     input::read_scenario(path, warnings);
   } else {
-    const std::string known =
-        fmt::format("{}, {}, {}, {} or {}", input::scenario_schema, input::campaign_schema, input::rig_schema,
-                    input::dataset_schema, input::calibration_schema);
+    constexpr std::string_view known[] = {input::scenario_schema, input::campaign_schema, input::rig_schema,
+                                          input::dataset_schema, input::calibration_schema};
     input::Problems problems;
     if (schema == nullptr)
       problems.error(file.source, file.root.place,
-                     fmt::format("the file must say what it is: schema: {}", known));
+                     fmt::format("the file must say what it is: schema: one of {}", input::join(known)));
     else
       problems.error(file.source, schema->place,
-                     fmt::format("unknown schema {}: known are {}", schema->text, known));
+                     fmt::format("unknown schema {}{} (known: {})", schema->text,
+                                 input::did_you_mean(schema->text, known), input::join(known)));
     problems.raise();
   }
 }
@@ -72,9 +74,9 @@ Json problem_json(const Problem& problem) {
 template <class Schema>
 int print_kind(std::string_view schema, const char* title, const Schema& fields, const std::string& format) {
   if (format == "json")
-    fmt::print("{}\n", input::json_schema(schema, title, fields).dump(2));
+    print(input::json_schema(schema, title, fields).dump(2) + "\n");
   else
-    fmt::print("{}", input::field_table(title, fields));
+    print(input::field_table(title, fields));
   return done;
 }
 
@@ -107,7 +109,7 @@ int check_files(const std::vector<std::string>& paths, const Options& options) {
       fmt::print(stderr, "mckibben: {}\n", missing);
     }
     findings.push_back(std::move(entry));
-    if (file_status == done && !options.json) fmt::print("{}: ok\n", path);
+    if (file_status == done && !options.json) print(path + ": ok\n");
   }
   const std::string document = Json{{"schema", "mckibben-check/1"}, {"files", findings}}.dump(2) + "\n";
   if (!options.out.empty()) {
@@ -115,13 +117,13 @@ int check_files(const std::vector<std::string>& paths, const Options& options) {
     folder.write("check.json", document);
     folder.publish();
   }
-  if (options.json) fmt::print("{}", document);
+  if (options.json) print(document);
   return status;
 }
 
 int print_schema(const std::string& kind, const std::string& format) {
   if (format == "yaml") {
-    fmt::print("{}", input::to_yaml(input::rig_json(input::RigFile{})));
+    print(input::to_yaml(input::rig_json(input::RigFile{})));
     return done;
   }
   if (kind == "rig")

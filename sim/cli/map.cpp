@@ -16,6 +16,7 @@
 #include <sim/output/folder.hpp>
 #include <sim/output/heat_map.hpp>
 #include <sim/output/progress.hpp>
+#include <sim/run/batch.hpp>
 #include <sim/run/error_map.hpp>
 
 namespace mckibben::cli {
@@ -99,17 +100,32 @@ int map_errors(const std::string& path, const Options& options, const MapOptions
     output::Progress progress(name);
     maps = run::error_maps(plan, options.threads, progress.hook());
   }
+  const auto place = maps.interrupted ? beside(where) : where;
+  if (maps.interrupted) folder.go_to(place);
   for (const auto& load : maps.loads)
     if (load.failure.empty())
       folder.write(fmt::format("map_{}kg.svg", input::write_number(load.load_kg)),
                    output::heat_map_svg(plan, maps, load));
-  const std::string document = output::json_of(plan, maps, files).dump(2) + "\n";
+  input::Json json = output::json_of(plan, maps, files);
+  if (maps.interrupted) json["interrupted"] = true;
+  const std::string document = json.dump(2) + "\n";
   const std::string table = output::table_of(plan, maps);
   folder.write("map.csv", output::csv_of(maps));
   folder.write("map.json", document);
   folder.write("table.txt", table);
-  publish(folder, where);
+  publish(folder, place);
   print(options.json ? document : table);
+  if (maps.interrupted) {
+    std::size_t all = 0, finished = 0;
+    for (const auto& load : maps.loads)
+      for (const auto& branch : load.branches)
+        for (const auto& cell : branch.cells) {
+          ++all;
+          if (cell.failure != run::not_begun) ++finished;
+        }
+    say_interrupted(finished, all, "targets", where);
+    return interrupted;
+  }
   const bool failed = std::any_of(maps.loads.begin(), maps.loads.end(),
                                   [](const auto& load) { return !load.failure.empty(); });
   return failed ? failure : done;

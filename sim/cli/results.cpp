@@ -31,6 +31,22 @@ void publish(output::ResultFolder& folder, const std::filesystem::path& where) {
   fmt::print(stderr, "results in {}\n", where.string());
 }
 
+std::filesystem::path beside(const std::filesystem::path& where) {
+  std::filesystem::path other = where;
+  if (!other.has_filename()) other = other.parent_path();
+  other += ".interrupted";
+  return other;
+}
+
+void say_interrupted(std::size_t finished, std::size_t all, const char* what,
+                     const std::filesystem::path& whole) {
+  fmt::print(
+      stderr,
+      "mckibben: interrupted; {} of {} {} are finished and in {}\n"
+      "The same command makes all of them again. Earlier results in {} are as they were, if there are any.\n",
+      finished, all, what, beside(whole).string(), whole.string());
+}
+
 void warn(const std::vector<std::string>& warnings) {
   for (const auto& text : warnings) fmt::print(stderr, "mckibben: warning: {}\n", text);
 }

@@ -23,6 +23,14 @@ void print(const std::string& text);
 /// Lets a results folder take its place, and says so.
 void publish(output::ResultFolder& folder, const std::filesystem::path& where);
 
+/// Where the finished part of an interrupted result goes: beside any whole one.
+std::filesystem::path beside(const std::filesystem::path& where);
+
+/// Says what an interruption left of the result that would stand in `whole`, and how to go on. `what`: runs,
+/// targets.
+void say_interrupted(std::size_t finished, std::size_t all, const char* what,
+                     const std::filesystem::path& whole);
+
 /// Says on stderr what the user should know of a result.
 void warn(const std::vector<std::string>& warnings);
 

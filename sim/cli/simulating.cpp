@@ -21,12 +21,22 @@
 #include <sim/run/simulate.hpp>
 
 namespace mckibben::cli {
+namespace {
+
+template <class Run>
+std::size_t begun(const std::vector<Run>& runs) {
+  return static_cast<std::size_t>(
+      std::count_if(runs.begin(), runs.end(), [](const auto& run) { return run.failure != run::not_begun; }));
+}
+
+}  // namespace
+
 int run_scenario(const std::string& path, const Options& options) {
   std::vector<input::Problem> warnings;
   input::Scenario scenario = input::read_scenario(std::filesystem::path(path), warnings);
   for (const auto& warning : warnings) fmt::print(stderr, "{}\n", to_text(warning));
   if (options.seed) scenario.seed = *options.seed;
-  auto where = destination(options, scenario.name);
+  const auto where = destination(options, scenario.name);
   keep_apart(where, std::filesystem::absolute(path).parent_path());
   output::ResultFolder folder(where, "run " + path);
 
@@ -36,10 +46,8 @@ int run_scenario(const std::string& path, const Options& options) {
     comparison = run::compare(scenario, options.threads, progress.hook());
   }
   warn(comparison.warnings);
-  if (comparison.interrupted) {  // what is finished is kept, beside any whole result
-    where += ".interrupted";
-    folder.go_to(where);
-  }
+  const auto place = comparison.interrupted ? beside(where) : where;
+  if (comparison.interrupted) folder.go_to(place);
   const double per_count = run::contraction_per_count(scenario.rig);
   for (const auto& run : comparison.runs)
     if (!run.recording.samples.empty())
@@ -50,9 +58,12 @@ int run_scenario(const std::string& path, const Options& options) {
   folder.write("run.json", document);
   folder.write("table.txt", table);
   folder.write("tracking.svg", output::tracking_svg(scenario, comparison));
-  publish(folder, where);
+  publish(folder, place);
   print(options.json ? document : table);
-  if (comparison.interrupted) return interrupted;
+  if (comparison.interrupted) {
+    say_interrupted(begun(comparison.runs), comparison.runs.size(), "runs", where);
+    return interrupted;
+  }
   if (std::any_of(comparison.runs.begin(), comparison.runs.end(),
                   [](const auto& run) { return !run.failure.empty(); }))
     return failure;
@@ -73,16 +84,25 @@ int replay_dataset(const std::string& path, const Options& options) {
     output::Progress progress(name);
     runs = run::replay(dataset, options.threads, progress.hook());
   }
+  const bool stopped = begun(runs) < runs.size();
+  const auto place = stopped ? beside(where) : where;
+  if (stopped) folder.go_to(place);
   const double per_count = run::contraction_per_count(dataset.rig);
   for (const auto& run : runs)
     if (!run.recording.samples.empty())
       folder.write(run.id + ".csv", output::csv_of(run.recording, per_count, {}, dataset.rig.gauge.fitted));
-  const std::string document = output::json_of(dataset, runs).dump(2) + "\n";
+  input::Json json = output::json_of(dataset, runs);
+  if (stopped) json["interrupted"] = true;
+  const std::string document = json.dump(2) + "\n";
   const std::string table = output::table_of(dataset, runs);
   folder.write("run.json", document);
   folder.write("table.txt", table);
-  publish(folder, where);
+  publish(folder, place);
   print(options.json ? document : table);
+  if (stopped) {
+    say_interrupted(begun(runs), runs.size(), "runs", where);
+    return interrupted;
+  }
   const bool failed =
       std::any_of(runs.begin(), runs.end(), [](const auto& run) { return !run.failure.empty(); });
   return failed ? failure : done;

@@ -34,6 +34,8 @@ struct MapOptions {
   bool extrapolate_load = false, extrapolate_target = false;
 };
 
+/// Writes a scenario with comments, to start from. Throws output::CannotWrite if there is a file already.
+int write_scenario(const std::string& path, const Options& options);
 int run_scenario(const std::string& path, const Options& options);
 int make_dataset(const std::string& path, const Options& options);
 int replay_dataset(const std::string& path, const Options& options);
@@ -43,9 +45,19 @@ int calibrate_dataset(const std::string& path, const Options& options, const Cal
 int map_errors(const std::string& path, const Options& options, const MapOptions& how);
 /// `name`: one of study::names; `path` the campaign's.
 int make_study(const std::string& name, const std::string& path, const Options& options);
+/// Is the program sound here? `tolerance`: of the integration.
+int examine(double tolerance, const Options& options);
+/// Compares two folders that `run` or `replay` wrote. `tolerance`: largest difference of the contraction
+/// ratio that is allowed, if the user sets one.
+int compare_folders(const std::string& left, const std::string& right, std::optional<double> tolerance,
+                    const Options& options);
 int check_files(const std::vector<std::string>& paths, const Options& options);
-/// The catalogue of effects, or those of these names.
+/// Every name that `list_effects` knows.
+std::vector<std::string> names_of_effects();
+/// The catalogue of effects, or those of these names, which must be known.
 int list_effects(const std::vector<std::string>& names, const Options& options);
+/// A script that completes verbs, options and values; `shell`: bash or zsh.
+int print_completion(const std::string& shell, const Options& options);
 /// `kind`: scenario, campaign, rig or dataset; `format`: json (JSON Schema), markdown (table of keys) or yaml
 /// (the rig `thesis` with every value, whatever the kind).
 int print_schema(const std::string& kind, const std::string& format);

@@ -1,6 +1,7 @@
 // A progress line on a terminal, nothing in a pipe.
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <functional>
 #include <mutex>
@@ -8,9 +9,14 @@
 
 namespace mckibben::output {
 
+/// "title: what [###...] done/total, 20 s left", no longer than `width` characters. The time left is said
+/// once a second has been measured, as if what is left went on as what is done.
+std::string progress_line(const std::string& title, const std::string& what, std::size_t done,
+                          std::size_t total, double elapsed_s, std::size_t width);
+
 class Progress {
  public:
-  /// Shows "title: what [###...] done/total" on stderr while it is a terminal.
+  /// Shows that line on stderr while it is a terminal.
   explicit Progress(std::string title);
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
@@ -21,11 +27,14 @@ class Progress {
   std::function<void(const std::string& what, std::size_t done, std::size_t total)> hook();
 
  private:
+  using Clock = std::chrono::steady_clock;
+
   void show(const std::string& what, std::size_t done, std::size_t total);
 
   std::string title_, what_;
   bool terminal_;
   std::size_t shown_ = 0;
+  Clock::time_point began_{}, drawn_{};
   std::mutex mutex_;
 };
 

@@ -3,8 +3,12 @@
 #include <atomic>
 #include <csignal>
 #include <exception>
+#include <string_view>
 #include <thread>
+#include <tuple>
 #include <vector>
+
+#include <unistd.h>
 
 #include <sim/run/batch.hpp>
 
@@ -20,6 +24,9 @@ void catch_interrupts() {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP})
     std::signal(signal, [](int again) {
       asked_to_stop = true;
+      // All that a signal handler may do to be seen.
+      constexpr std::string_view notice = "\nmckibben: stopping after what is under way; again: at once\n";
+      if (again == SIGINT) std::ignore = write(STDERR_FILENO, notice.data(), notice.size());
       std::signal(again, SIG_DFL);  // a second one ends at once
     });
   std::signal(SIGPIPE, SIG_IGN);  // a reader that went away is a failed write

@@ -19,6 +19,9 @@ class Interrupted : public std::exception {
 void catch_interrupts();
 bool interrupted();
 
+/// Why a run has no result that was not begun when the user stopped.
+inline constexpr const char* not_begun = "interrupted before it began";
+
 /// Calls job(0) ... job(count - 1) on `threads` threads (0: as many as the machine has) and waits. `done`
 /// hears how many have ended, from any thread. The first failure by index is thrown again after all have
 /// ended; Interrupted if the user asked to stop before all were begun.

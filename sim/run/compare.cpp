@@ -150,7 +150,7 @@ class Comparing {
     for (std::size_t i = 0; i < total; ++i)
       result_.runs.push_back({.load_kg = scenario_.loads_kg[i / columns],
                               .controller = controllers::name_of(settings_[i % columns]),
-                              .failure = "interrupted before it began"});
+                              .failure = not_begun});
     progress_("simulating", 0, total);
     try {
       for_each_job(

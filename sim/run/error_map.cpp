@@ -42,8 +42,12 @@ class Mapping {
       for (auto& map : load.branches)
         for (auto& cell : map.cells) jobs.push_back({&load, map.branch, &cell});
     }
-    each("simulating", jobs.size(),
-         [&](std::size_t i) { run(*jobs[i].load, jobs[i].branch, *jobs[i].cell); });
+    try {
+      each("simulating", jobs.size(),
+           [&](std::size_t i) { run(*jobs[i].load, jobs[i].branch, *jobs[i].cell); });
+    } catch (const Interrupted&) {
+      maps_.interrupted = true;
+    }
     return std::move(maps_);
   }
 
@@ -80,14 +84,15 @@ class Mapping {
     BranchMap map{branch, {}};
     for (const double speed_per_s : plan_.speeds_per_s)
       for (const double ratio : plan_.ratios)
-        map.cells.push_back(
-            {.ratio = ratio,
-             .speed_per_s = speed_per_s,
-             .reachable = within_reach(maps_.reach, load.limits, branch, ratio, speed_per_s)});
+        map.cells.push_back({.ratio = ratio,
+                             .speed_per_s = speed_per_s,
+                             .reachable = within_reach(maps_.reach, load.limits, branch, ratio, speed_per_s),
+                             .failure = not_begun});
     return map;
   }
 
   void run(const LoadMap& load, Branch branch, MapCell& cell) const {
+    cell.failure.clear();
     const double sign = branch == Branch::contraction ? 1.0 : -1.0;
     controllers::OpenLoopSettings how = settings();
     how.assumed_load_kg = load.believed_kg;

@@ -73,6 +73,7 @@ struct LoadMap {
 struct ErrorMaps {
   controllers::Reach reach;
   std::vector<LoadMap> loads;
+  bool interrupted = false;  ///< the user stopped it; cells not begun say so in `failure`
 };
 
 /// Root mean squares over some of a map's cells.
@@ -93,7 +94,7 @@ bool within_reach(const controllers::Reach& reach, const controllers::ReachOfLoa
 
 /// Weighs each load once, as the controller does, then runs the controller to every target with that load as
 /// the one it believes in. On `threads` threads (0: all the machine has); the result does not depend on it.
-/// Throws Interrupted.
+/// Throws Interrupted if stopped while weighing.
 ErrorMaps error_maps(const MapPlan& plan, unsigned threads, const ProgressHook& progress);
 
 }  // namespace mckibben::run

@@ -47,11 +47,18 @@ ReplayedRun replay_one(const input::Run& measured, const input::RigFile& rig) {
 
 std::vector<ReplayedRun> replay(const input::Dataset& dataset, unsigned threads,
                                 const ProgressHook& progress) {
-  std::vector<ReplayedRun> runs(dataset.runs.size());
+  std::vector<ReplayedRun> runs;
+  runs.reserve(dataset.runs.size());
+  for (const auto& run : dataset.runs)
+    runs.push_back({.id = run.id, .load_kg = run.load_kg, .failure = not_begun});
   progress("replaying", 0, runs.size());
-  for_each_job(
-      runs.size(), threads, [&](std::size_t i) { runs[i] = replay_one(dataset.runs[i], dataset.rig); },
-      [&](std::size_t done) { progress("replaying", done, runs.size()); });
+  try {
+    for_each_job(
+        runs.size(), threads, [&](std::size_t i) { runs[i] = replay_one(dataset.runs[i], dataset.rig); },
+        [&](std::size_t done) { progress("replaying", done, runs.size()); });
+  } catch (const Interrupted&) {
+    // said by the runs that were not begun
+  }
   return runs;
 }
 

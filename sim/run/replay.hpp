@@ -24,7 +24,8 @@ struct ReplayedRun {
   std::string failure{};                     ///< why the integrator gave up; empty if it did not
 };
 
-/// Simulates every run of a data set. Throws Interrupted.
+/// Simulates every run of a data set. Of runs that were not begun when the user stopped, `failure` says so
+/// (`not_begun`).
 std::vector<ReplayedRun> replay(const input::Dataset& dataset, unsigned threads,
                                 const ProgressHook& progress);
 

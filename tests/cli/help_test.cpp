@@ -1,0 +1,129 @@
+// Help, and what is said of words that are none: for every verb, from the program's own list of verbs.
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <sim/cli/app.hpp>
+
+#include "program.hpp"
+
+namespace mckibben::cli {
+namespace {
+
+std::vector<std::string> verbs() {
+  CLI::App app("", "mckibben");
+  Asked asked;
+  build(app, asked);
+  std::vector<std::string> names;
+  for (const auto* verb : app.get_subcommands({})) names.push_back(verb->get_name());
+  return names;
+}
+
+/// The commands of a help text, without what is said of them: two blanks and more end one.
+std::vector<std::string> commands(const std::string& help) {
+  std::vector<std::string> found;
+  std::istringstream lines(help);
+  for (std::string line; std::getline(lines, line);)
+    if (line.rfind("  mckibben ", 0) == 0) {
+      const std::string command = line.substr(11);
+      found.push_back(command.substr(0, std::min(command.find("  "), command.find(" >"))));
+    }
+  return found;
+}
+
+/// Whether the command line is one that the program takes; nothing is run.
+std::string refusal(const std::string& command) {
+  CLI::App app("", "mckibben");
+  Asked asked;
+  build(app, asked);
+  try {
+    app.parse(command);
+  } catch (const CLI::ParseError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Help, OfTheProgramTeaches) {
+  const Scratch scratch;
+  const Said said = mckibben("--help", scratch);
+  EXPECT_EQ(said.status, 0);
+  EXPECT_NE(said.out.find("simulates a pneumatic muscle"), std::string::npos);
+  EXPECT_GE(commands(said.out).size(), 3u);
+  for (const std::string& command : commands(said.out)) EXPECT_EQ(refusal(command), "") << command;
+  for (const std::string& verb : verbs())
+    EXPECT_NE(said.out.find("\n  " + verb + " "), std::string::npos) << verb;
+  EXPECT_EQ(said.out.find("Subcommands"), std::string::npos) << "a verb is in no group";
+}
+
+TEST(Help, OfEveryVerbHasExamplesThatItTakes) {
+  const Scratch scratch;
+  for (const std::string& verb : verbs()) {
+    const Said said = mckibben(verb + " --help", scratch);
+    EXPECT_EQ(said.status, 0) << verb;
+    EXPECT_EQ(said.err, "") << verb;
+    EXPECT_NE(said.out.find("Examples:\n"), std::string::npos) << verb;
+    EXPECT_GE(commands(said.out).size(), 2u) << said.out;
+    for (const std::string& command : commands(said.out)) {
+      EXPECT_EQ(command.rfind(verb, 0), 0u) << command;
+      EXPECT_EQ(refusal(command), "") << command;
+    }
+  }
+}
+
+TEST(Help, ThatCannotBePrintedIs74) {
+  const Scratch scratch;
+  EXPECT_EQ(mckibben("run --help > /dev/full; exit $?; true", scratch).status, 74);
+}
+
+struct Slip {
+  const char *arguments, *said;
+};
+
+TEST(DidYouMean, ForVerbsOptionsAndValues) {
+  const Scratch scratch;
+  for (const Slip& slip : {
+           Slip{"replya x", "unknown verb replya; did you mean replay?"},
+           {"", "a verb is missing; to begin: mckibben init my.yaml"},
+           {"run x.yaml --treads 3", "unknown option --treads; did you mean --threads?"},
+           {"run --oout=x", "unknown option --oout; did you mean --out?"},
+           {"calibrate x --kfg", "unknown option --kfg; did you mean --kgf?"},
+           {"map x --extrapolate-laod", "did you mean --extrapolate-load?"},
+           {"help", "unknown verb help; did you mean --help?"},
+           {"run x.yaml --threads 0", "0 is not a number from 1 to 1024"},
+           {"diff a b --tolerance nan", "nan is not a number from 0 to 1"},
+           {"--versoin", "unknown option --versoin; did you mean --version?"},
+           {"--json run x.yaml",
+            "unknown option --json (options: -h, --help, --version; those of a verb stand"},
+           {"calibrate x --fit jiont", "unknown choice jiont; did you mean joint?"},
+           {"study lga x", "unknown study lga; did you mean lag?"},
+           {"schema senario", "unknown kind senario; did you mean scenario?"},
+           {"schema rig --format yml", "unknown format yml; did you mean yaml?"},
+           {"effects muscle_leek", "unknown effect muscle_leek; did you mean muscle_leak?"},
+       }) {
+    const Said said = mckibben(slip.arguments, scratch);
+    EXPECT_EQ(said.status, 64) << slip.arguments;
+    EXPECT_EQ(said.out, "") << slip.arguments;
+    EXPECT_NE(said.err.find(slip.said), std::string::npos) << said.err;
+  }
+  EXPECT_EQ(mckibben("run -x", scratch).err.find("did you mean"), std::string::npos);
+  const Said far = mckibben("quench x", scratch);
+  EXPECT_EQ(far.err.find("did you mean"), std::string::npos) << far.err;
+  EXPECT_NE(far.err.find("verbs: init, run, dataset, "), std::string::npos) << far.err;
+}
+
+TEST(DidYouMean, ForEffectsInRigFiles) {
+  const Scratch scratch;
+  write_text(scratch / "rig.yaml",
+             "schema: mckibben-rig/1\neffects:\n  muscle_leek: {conductance: 1e-10 m3/(s Pa)}\n"
+             "  valve_lag: {tmie: 20 ms}\n  hardening_braid: {}\n");
+  const Said said = mckibben("check rig.yaml", scratch);
+  EXPECT_EQ(said.status, 65);
+  EXPECT_NE(said.err.find("did you mean muscle_leak?"), std::string::npos) << said.err;
+  EXPECT_NE(said.err.find("did you mean time?"), std::string::npos) << said.err;
+}
+
+}  // namespace
+}  // namespace mckibben::cli

@@ -1,0 +1,147 @@
+// Ctrl-C on a terminal: each long verb shows how far it is, then stops, keeps what is finished where that is
+// of use, and says how to go on.
+#include <cstdlib>
+#include <fstream>
+#include <string>
+
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <sim/input/fields_json.hpp>
+
+#include "program.hpp"
+
+namespace mckibben::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using input::Json;
+
+class Interrupt : public testing::Test {
+ protected:
+  /// Runs the verb on a terminal of its own and presses Ctrl-C once what it shows matches `shown`.
+  Said stop(const std::string& arguments, const std::string& shown) {
+    write_text(scratch / "verb.sh", "echo $$ > pid\nexec '" MCKIBBEN_PROGRAM "' " + arguments + "\n");
+    write_text(scratch / "stop.sh",
+               "rm -f terminal pid\n"
+               "script -qefc 'sh verb.sh' terminal > /dev/null < /dev/null & all=$!\n"
+               "until grep -aqE '" +
+                   shown +
+                   "' terminal || ! kill -0 $all; do sleep 0.02; done 2> /dev/null\n"
+                   "kill -INT $(cat pid); wait $all\n");
+    const std::string command = "cd '" + static_cast<const fs::path&>(scratch).string() + "' && sh stop.sh";
+    const int status = std::system(command.c_str());
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, "", read_text(scratch / "terminal")};
+  }
+  bool exists(const std::string& name) { return fs::exists(scratch / name); }
+  /// Results, whole or begun, and what is set aside.
+  std::size_t entries(const std::string& folder) {
+    return static_cast<std::size_t>(
+        std::distance(fs::directory_iterator(scratch / folder), fs::directory_iterator()));
+  }
+  Scratch scratch;
+};
+
+constexpr const char* some_done = "[]] [1-9][0-9]*/";
+
+/// Forty runs of a long time.
+std::string long_scenario() {
+  std::string text = "schema: mckibben-scenario/1\nloads: [10 kg";
+  for (int i = 1; i < 40; ++i) text += ", " + std::to_string(10 + i) + " kg";
+  return text +
+         "]\nduration: 200 s\ntarget: {kind: steps, start: 0.05, moves: []}\n"
+         "controllers: [{kind: triangle_current, low: 4 mA, high: 12 mA, period: 2 s}]\n";
+}
+
+/// Forty times the same measurement.
+void write_long_dataset(const fs::path& folder) {
+  fs::create_directory(folder);
+  std::ofstream table(folder / "r.csv");
+  table << "time_s,current_mA,contraction_ratio\n";
+  for (int k = 0; k < 8000; ++k) table << std::to_string(0.012 * k) << ',' << (k / 100 % 8 + 4) << ",0.05\n";
+  std::string text = "schema: mckibben-dataset/1\nruns:\n";
+  for (int i = 10; i < 50; ++i) {
+    const std::string n = std::to_string(i);
+    text += "  - {id: r";
+    text += n + ", file: r.csv, load: " + n + " kg}\n";
+  }
+  write_text(folder / "dataset.yaml", text);
+}
+
+TEST_F(Interrupt, OfRunLeavesTheRunsThatAreFinished) {
+  write_text(scratch / "long.yaml", long_scenario());
+  fs::create_directories(scratch / "out/long");
+  write_text(scratch / "out/long/notes.txt", "mine");
+  const Said said = stop("run long.yaml --threads 1", some_done);
+  EXPECT_EQ(said.status, 130);
+  for (const char* words :
+       {"long: simulating [", "stopping after what is under way", " of 40 runs are finished",
+        "in out/long.interrupted", "The same command makes all of them again"})
+    EXPECT_NE(said.err.find(words), std::string::npos) << words << said.err;
+  EXPECT_EQ(read_text(scratch / "out/long/notes.txt"), "mine");
+  const Json document = Json::parse(read_text(scratch / "out/long.interrupted/run.json"));
+  EXPECT_EQ(document.at("interrupted"), true);
+  std::size_t finished = 0;
+  for (const Json& run : document.at("runs"))
+    if (!run.contains("failure")) {
+      ++finished;
+      EXPECT_TRUE(exists("out/long.interrupted/" + run.at("file").get<std::string>()));
+    }
+  EXPECT_GT(finished, 0u);
+  EXPECT_LT(finished, 40u);
+  EXPECT_NE(said.err.find("interrupted; " + std::to_string(finished) + " of 40"), std::string::npos);
+  EXPECT_EQ(entries("out"), 2u);
+}
+
+TEST_F(Interrupt, OfReplayLeavesTheRunsThatAreFinished) {
+  write_long_dataset(scratch / "data");
+  const Said said = stop("replay data --threads 1 --json", some_done);
+  EXPECT_EQ(said.status, 130);
+  EXPECT_NE(said.err.find("of 40 runs are finished and in out/data-replay.interrupted"), std::string::npos)
+      << said.err;
+  const Json document = Json::parse(read_text(scratch / "out/data-replay.interrupted/run.json"));
+  EXPECT_EQ(document.at("interrupted"), true);
+  EXPECT_FALSE(document.at("runs")[0].contains("failure"));
+  EXPECT_TRUE(exists("out/data-replay.interrupted/r10.csv"));
+  EXPECT_EQ(document.at("runs")[39].at("failure"), "interrupted before it began");
+  EXPECT_EQ(entries("out"), 1u);
+}
+
+TEST_F(Interrupt, OfMapLeavesTheTargetsThatAreFinished) {
+  const Said said =
+      stop("map '" MCKIBBEN_SOURCE_DIR
+           "/scenarios/thesis_calibration.yaml' --load '16.138 kg' --ratios 300 --speeds 20 --out m",
+           "simulating .*[]] [1-9][0-9]*/");
+  EXPECT_EQ(said.status, 130);
+  EXPECT_NE(said.err.find("of 12000 targets are finished and in m.interrupted"), std::string::npos)
+      << said.err;
+  const Json document = Json::parse(read_text(scratch / "m.interrupted/map.json"));
+  EXPECT_EQ(document.at("interrupted"), true);
+  EXPECT_FALSE(exists("m"));
+}
+
+// One result, made of all runs: there is nothing to keep before the end, and nothing is left behind.
+TEST_F(Interrupt, OfStudyAndDiagnoseLeavesEarlierResultsAlone) {
+  const std::string campaign =
+      "schema: mckibben-campaign/1\nloads: [11.138 kg, 14 kg, 18.87 kg, 23.406 kg]\n"
+      "noise: {encoder_jitter: 1e-4}\nrig: {effects: {valve_lag: {time: 40 ms}}}\n"
+      "currents: [{duration: 20 s, current: {kind: sine_current, low: 0 mA, high: 20 mA, period: 2 s}}]\n";
+  write_text(scratch / "long.yaml", campaign + "repeats: 200\n");
+  write_text(scratch / "some.yaml", campaign + "repeats: 3\n");
+  ASSERT_EQ(mckibben("dataset some.yaml --out data", scratch).status, 0);
+  for (const char* arguments : {"study lag long.yaml", "diagnose data"}) {
+    const Said said = stop(arguments, some_done);
+    EXPECT_EQ(said.status, 130) << arguments << said.err;
+    for (const char* words : {"nothing was written", "The same command begins again"})
+      EXPECT_NE(said.err.find(words), std::string::npos) << said.err;
+    EXPECT_EQ(entries("out"), 0u) << arguments;
+  }
+}
+
+TEST_F(Interrupt, ProgressIsForTerminalsOnly) {
+  write_text(scratch / "quick.yaml", quick_scenario);
+  EXPECT_EQ(mckibben("run quick.yaml", scratch).err, "results in out/quick\n");
+}
+
+}  // namespace
+}  // namespace mckibben::cli
