@@ -124,7 +124,7 @@ std::string html_of(const Contents& contents) {
   html += "<script>document.documentElement.classList.add('live')</script>\n</head>\n<body>\n";
   html += fmt::format("<p class='small'>{}</p>\n<h1>{}</h1>\n<p class='lead'>{}</p>\n",
                       escaped(contents.about), escaped(contents.title), escaped(contents.sentence));
-  html += "<div class='wide'>\n" + contents.table + "</div>\n";
+  html += "<div class='wide result'>\n" + contents.table + "</div>\n";
   for (const auto& warning : contents.warnings)
     html += "<p class='warning'><b>Warning:</b> " + escaped(warning) + "</p>\n";
   html += "<details><summary>All figures, as printed</summary><pre>" + escaped(contents.details) +

@@ -33,6 +33,8 @@ std::string sentence(const input::Dataset& dataset, const std::vector<run::Repla
   }
   if (worst == nullptr) return "No run could be simulated to its end.";
   const double rmse = std::sqrt(squares / static_cast<double>(rows));
+  if (rmse == 0.0)
+    return fmt::format("Simulated and measured height agree in every count of all {} runs.", ended);
   std::string text = fmt::format(
       "Simulated and measured height of the load differ by {:.3f} mm (contraction ratio {:.6f}), root "
       "mean square over {} run{}",

@@ -29,13 +29,14 @@ std::string sentence(const input::Scenario& scenario, const run::Comparison& com
   }
   if (best == nullptr) return "No run came to its end.";
   const auto loads = scenario.loads_kg.size();
-  std::string text =
-      fmt::format("{} follows the target{} root mean square error is {:.2f} mm (contraction ratio {:.5f}){}.",
-                  best->controller, best == worst ? "; its" : " best; its", best->rmse->mean * length_mm,
-                  best->rmse->mean, loads == 1 ? "" : ", the mean over " + loads_text(loads));
+  const std::string error = fmt::format("root mean square error {:.2f} mm (contraction ratio {:.5f}){}",
+                                        best->rmse->mean * length_mm, best->rmse->mean,
+                                        loads == 1 ? "" : ", the mean over " + loads_text(loads));
+  std::string text = fmt::format("{}: {}.", best->controller, error);
   if (best != worst)
-    text += fmt::format(" Of the {} controllers {} is the worst: {:.2f} mm.", comparison.spreads.size(),
-                        worst->controller, worst->rmse->mean * length_mm);
+    text = fmt::format("{} follows the target best: {}. Of the {} controllers {} is the worst: {:.2f} mm.",
+                       best->controller, error, comparison.spreads.size(), worst->controller,
+                       worst->rmse->mean * length_mm);
   const auto failed = std::count_if(comparison.runs.begin(), comparison.runs.end(),
                                     [](const auto& run) { return !run.failure.empty(); });
   if (failed > 0) text += fmt::format(" {} of {} runs have no result.", failed, comparison.runs.size());

@@ -62,9 +62,9 @@ class RigPicture {
     this.current = part('text', {x: 62, y: 234, 'text-anchor': 'middle'});
     this.bars = [['asked', 'reference_pressure'], ['valve', 'valve_pressure'], ['muscle', 'muscle_pressure']].map(([name, key], i) => {
       const y = 178 + 28 * i;
-      part('text', {class: 'soft', x: 178, y: y + 13, 'text-anchor': 'end'}).append(name);
-      part('rect', {class: 'frame', x: 184, y, width: 100, height: 16});
-      return {key, bar: part('rect', {class: 'bar', x: 184, y, height: 16}), text: part('text', {x: 290, y: y + 13})};
+      part('text', {class: 'soft', x: 186, y: y + 13, 'text-anchor': 'end'}).append(name);
+      part('rect', {class: 'frame', x: 192, y, width: 100, height: 16});
+      return {key, bar: part('rect', {class: 'bar', x: 192, y, height: 16}), text: part('text', {x: 298, y: y + 13})};
     });
     this.numbers = part('text', {x: 34, y: 286});
   }
