@@ -16,6 +16,7 @@
 #include <sim/output/folder.hpp>
 #include <sim/output/heat_map.hpp>
 #include <sim/output/progress.hpp>
+#include <sim/report/report.hpp>
 #include <sim/run/error_map.hpp>
 
 namespace mckibben::cli {
@@ -108,6 +109,7 @@ int map_errors(const std::string& path, const Options& options, const MapOptions
   folder.write("map.csv", output::csv_of(maps));
   folder.write("map.json", document);
   folder.write("table.txt", table);
+  folder.write("report.html", report::report_html(plan, maps));
   publish(folder, where);
   print(options.json ? document : table);
   const bool failed = std::any_of(maps.loads.begin(), maps.loads.end(),

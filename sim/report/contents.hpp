@@ -54,12 +54,21 @@ struct Loop {
   bool dots = false;  ///< a dot for each tick in place of a line
 };
 
+/// A picture that is drawn already.
+struct Picture {
+  std::string caption;  ///< may be empty
+  std::string svg;
+};
+
 struct Contents {
   std::string title, about;
   std::vector<std::string> warnings{};
-  std::string sentence;  ///< the result in one sentence
-  std::string table;     ///< the result as HTML
-  std::string details;   ///< all of it, as text
+  std::string sentence{};  ///< the result in one sentence
+  std::string table{};     ///< the result as HTML
+  std::string details{};   ///< all of it, as text
+  std::string beside{};    ///< what is where in the folder
+  std::vector<Picture> pictures{};
+  bool wide_pictures = false;  ///< one in a row
   plant::Rig rig{};
   std::vector<Plot> plots{};
   std::vector<Loop> loops{};

@@ -77,8 +77,9 @@ std::string stills(const Contents& contents) {
   for (std::size_t g = 0; g < contents.groups.size(); ++g) {
     const Group& group = contents.groups[g];
     html += fmt::format("<section class='group' data-group='{}'>\n<h3>{}</h3>\n", g, escaped(group.name));
-    html += "<p class='keys still'><span>" + key("given") +
-            escaped(contents.plots.front().lines.front().label) + "</span>";
+    html += "<p class='keys still'>";
+    if (const Line& first = contents.plots.front().lines.front(); first.given)
+      html += "<span>" + key("given") + escaped(first.label) + "</span>";
     for (const auto& run : group.runs)
       html += fmt::format("<span class='c{} d{}'>{}{}</span>", run.style % 7, run.style % 4, key("run"),
                           escaped(run.name));
@@ -96,6 +97,17 @@ std::string stills(const Contents& contents) {
   return html;
 }
 
+std::string pictures(const Contents& contents) {
+  if (contents.pictures.empty()) return "";
+  std::string html =
+      fmt::format("<h2>Figures</h2>\n<div class='drawn{}'>\n", contents.wide_pictures ? "" : " pictures");
+  for (const auto& picture : contents.pictures)
+    html += "<figure>\n" + picture.svg +
+            (picture.caption.empty() ? "" : "<figcaption>" + escaped(picture.caption) + "</figcaption>") +
+            "</figure>\n";
+  return html + "</div>\n";
+}
+
 /// Where the script puts its plots; hidden without it.
 constexpr const char* live =
     "<section class='live-only' aria-label='Plots'>\n"
@@ -107,7 +119,7 @@ constexpr const char* live =
     "<figure><svg id='rig' role='img' viewBox='0 0 560 300' aria-label='The rig at the time of the "
     "cursor'></svg>\n"
     "<figcaption id='rig-caption'></figcaption></figure>\n"
-    "<div class='wide'><table id='readout'></table></div>\n"
+    "<div class='wide result'><table id='readout'></table></div>\n"
     "<p class='small'>Tick runs to compare; the round mark chooses the one drawn above. Move over a plot to "
     "set "
     "the time, drag to zoom, double-click to see the whole run. Keys: space plays, left and right step.</p>\n"
@@ -116,30 +128,29 @@ constexpr const char* live =
 }  // namespace
 
 std::string html_of(const Contents& contents) {
+  const bool runs = !contents.groups.empty();
   std::string html = fmt::format(
       "<!DOCTYPE html>\n<html lang='en'>\n<head>\n<meta charset='utf-8'>\n"
       "<meta name='viewport' content='width=device-width,initial-scale=1'>\n<title>{}</title>\n",
       escaped(contents.title));
-  html += fmt::format("<style>\n{}\n{}</style>\n", uplot_css, page_css);
-  html += "<script>document.documentElement.classList.add('live')</script>\n</head>\n<body>\n";
+  html += fmt::format("<style>\n{}\n{}</style>\n", runs ? uplot_css : "", page_css);
+  if (runs) html += "<script>document.documentElement.classList.add('live')</script>\n";
+  html += "</head>\n<body>\n";
   html += fmt::format("<p class='small'>{}</p>\n<h1>{}</h1>\n<p class='lead'>{}</p>\n",
                       escaped(contents.about), escaped(contents.title), escaped(contents.sentence));
   html += "<div class='wide result'>\n" + contents.table + "</div>\n";
   for (const auto& warning : contents.warnings)
     html += "<p class='warning'><b>Warning:</b> " + escaped(warning) + "</p>\n";
-  html += "<details><summary>All figures, as printed</summary><pre>" + escaped(contents.details) +
+  html += "<details><summary>All numbers, as printed</summary><pre>" + escaped(contents.details) +
           "</pre></details>\n";
-  if (!contents.groups.empty())
-    html += live + ("<h2>Loops<span class='still'> and targets</span></h2>\n" + stills(contents));
-  html += fmt::format(
-      "<p class='small'>mckibben {}. Every number of every tick is in the CSV files beside this page; input, "
-      "versions and hashes are in run.json.</p>\n",
-      MCKIBBEN_VERSION);
-  html += fmt::format(
-      "<details class='small'><summary>Licence of uPlot, which draws the plots over "
-      "time</summary><pre>{}</pre></details>\n",
-      escaped(uplot_licence));
-  if (!contents.groups.empty()) {
+  html += pictures(contents);
+  if (runs) html += live + ("<h2>Loops<span class='still'> and targets</span></h2>\n" + stills(contents));
+  html += fmt::format("<p class='small'>mckibben {}. {}</p>\n", MCKIBBEN_VERSION, escaped(contents.beside));
+  if (runs) {
+    html += fmt::format(
+        "<details class='small'><summary>Licence of uPlot, which draws the plots over "
+        "time</summary><pre>{}</pre></details>\n",
+        escaped(uplot_licence));
     html += "<script type='application/json' id='data'>" + data_of(contents) + "</script>\n";
     html += fmt::format("<script>\n{}\n</script>\n<script>\n'use strict';\n", uplot_js);
     for (const auto& part : {data_js, plots_js, loops_js, rig_js, page_js}) html += part;

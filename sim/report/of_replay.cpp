@@ -109,6 +109,9 @@ std::string report_html(const input::Dataset& dataset, const std::vector<run::Re
       .sentence = sentence(dataset, runs),
       .table = table(dataset, runs),
       .details = output::table_of(dataset, runs),
+      .beside =
+          "Every number of every tick is in the CSV files beside this page; input, versions and hashes are "
+          "in run.json.",
       .rig = dataset.rig,
       .plots = plots_for(dataset.rig, "Measured", "Error: simulated less measured, both as counted", gauge),
       .loops = loops()};

@@ -132,6 +132,9 @@ std::string report_html(const input::Scenario& scenario, const run::Comparison& 
                     .sentence = sentence(scenario, comparison),
                     .table = table(scenario, comparison),
                     .details = output::table_of(scenario, comparison),
+                    .beside =
+                        "Every number of every tick is in the CSV files beside this page; input, versions "
+                        "and hashes are in run.json.",
                     .rig = scenario.rig,
                     .plots = plots_for(scenario.rig, "Target", "Error: contraction less target", false),
                     .loops = loops()};

@@ -2,15 +2,25 @@
 const view = {group: null, shown: new Set(), drawn: 0, time: 0, plots: [], playing: 0};
 const calm = matchMedia('(prefers-reduced-motion: reduce)').matches;
 const drawing = new RigPicture(byId('rig'));
-const columns = [['contraction', 'contraction', 5], ['error', 'error', 5], ['current', 'mA', 2],
+const allColumns = [['contraction', 'contraction', 5], ['error', 'error', 5], ['current', 'mA', 2],
                  ['muscle_pressure', 'bar', 3], ['braid_force', 'braid, N', 1], ['friction_force', 'friction, N', 1]];
+let columns = [];  // those that this group has
 
 const written = (value, digits) => (value === null || value === undefined ? '-' : value.toFixed(digits));
 
 /** Table of the runs: which are shown, which is drawn, their values at the time. */
 function makeReadout() {
   const {group} = view;
-  const head = make('tr', {}, make('th', {scope: 'col'}, 'run'), ...columns.map(([, name]) => make('th', {scope: 'col'}, name)));
+  columns = allColumns.filter(([key]) => group.runs.some((run) => run.values[key]));
+  const every = make('input', {type: 'checkbox', 'aria-label': 'compare all'});
+  every.checked = view.shown.size === group.runs.length;
+  every.addEventListener('change', () => {
+    view.shown = new Set(every.checked ? group.runs.keys() : []);
+    makeReadout();
+    showRuns();
+  });
+  const all = group.runs.length > 1 ? make('label', {}, every, ' all') : '';
+  const head = make('tr', {}, make('th', {scope: 'col'}, 'run ', all), ...columns.map(([, name]) => make('th', {scope: 'col'}, name)));
   const rows = group.runs.map((run, i) => {
     const tick = make('input', {type: 'checkbox', 'aria-label': 'compare ' + run.name});
     const mark = make('input', {type: 'radio', name: 'drawn', 'aria-label': 'draw ' + run.name});
@@ -42,10 +52,15 @@ function showRuns() {
   setTime(view.time);
 }
 
+/** All runs, or of many the first, the middle and the last. */
+function shownAtFirst(count) {
+  return new Set(count <= 8 ? Array(count).keys() : [0, Math.floor(count / 2), count - 1]);
+}
+
 function showGroup(index) {
   stop();
   view.group = openGroup(index);
-  view.shown = new Set(view.group.runs.keys());
+  view.shown = shownAtFirst(view.group.runs.length);
   view.drawn = Math.min(view.drawn, view.group.runs.length - 1);
   view.time = Math.min(view.time, endTime());
   byId('group').value = index;
@@ -73,7 +88,7 @@ function setTime(time) {
   markLoops(group, tick, view.shown);
   const run = group.runs[view.drawn];
   drawing.draw(valuesAt(run.values, tick), valuesAt(group.given, tick), group.load_kg);
-  byId('rig-caption').textContent = `${run.name}, ${group.name}, to scale. Dashed: where the load should be.`;
+  byId('rig-caption').textContent = `${run.name}, ${group.name}, to scale.${group.given.given_contraction ? ` Dashed: ${report.plots[0].lines[0].label.toLowerCase()}.` : ''}`;
 }
 
 function stop() {

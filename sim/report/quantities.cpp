@@ -75,4 +75,24 @@ std::vector<Loop> loops() {
        "contraction", "friction_coefficient", "contraction ratio", "friction coefficient", true}};
 }
 
+std::vector<Plot> measured_plots() {
+  return {{"height",
+           "Contraction, as counted",
+           "contraction ratio",
+           {{.key = "contraction", .label = "contraction", .main = true}}},
+          {"current", "Current", "mA", {{.key = "current", .label = "current", .main = true}}},
+          {"pressures",
+           "Pressures",
+           "bar",
+           {{.key = "reference_pressure", .label = "asked of the valve", .main = true},
+            {.key = "muscle_pressure", .label = "gauge on the muscle"}}}};
+}
+
+std::vector<Loop> measured_loops() {
+  return {{"current", "Contraction and pressure asked of the valve", "reference_pressure", "contraction",
+           "pressure asked of the valve in bar", "contraction ratio"},
+          {"pressure", "Pressure and contraction", "contraction", "muscle_pressure", "contraction ratio",
+           "muscle pressure in bar"}};
+}
+
 }  // namespace mckibben::report

@@ -20,4 +20,9 @@ std::vector<Plot> plots_for(const plant::Rig& rig, const std::string& wanted, co
 
 std::vector<Loop> loops();
 
+/// The same of what is measured alone: contraction, current, the pressure asked for by the valve's line, and
+/// that of the gauge where there is one.
+std::vector<Plot> measured_plots();
+std::vector<Loop> measured_loops();
+
 }  // namespace mckibben::report

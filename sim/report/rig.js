@@ -62,9 +62,10 @@ class RigPicture {
     this.current = part('text', {x: 62, y: 234, 'text-anchor': 'middle'});
     this.bars = [['asked', 'reference_pressure'], ['valve', 'valve_pressure'], ['muscle', 'muscle_pressure']].map(([name, key], i) => {
       const y = 178 + 28 * i;
-      part('text', {class: 'soft', x: 186, y: y + 13, 'text-anchor': 'end'}).append(name);
-      part('rect', {class: 'frame', x: 192, y, width: 100, height: 16});
-      return {key, bar: part('rect', {class: 'bar', x: 192, y, height: 16}), text: part('text', {x: 298, y: y + 13})};
+      const label = part('text', {class: 'soft', x: 186, y: y + 13, 'text-anchor': 'end'});
+      label.append(name);
+      const frame = part('rect', {class: 'frame', x: 192, y, width: 100, height: 16});
+      return {key, name: label, frame, bar: part('rect', {class: 'bar', x: 192, y, height: 16}), text: part('text', {x: 298, y: y + 13})};
     });
     this.numbers = part('text', {x: 34, y: 286});
   }
@@ -114,11 +115,14 @@ class RigPicture {
     this.target.setAttribute('d', wanted === undefined || wanted === null ? '' :
       `M${x - 62} ${wheel.y + 125 - wanted * report.rig.rest_length_m * mm}h124`);
     this.current.textContent = `${values.current.toFixed(2)} mA`;
-    for (const {key, bar, text} of this.bars) {
+    for (const {key, name, frame, bar, text} of this.bars) {
+      const absent = values[key] === undefined || values[key] === null;  // no gauge
+      for (const part of [name, frame, bar, text]) part.style.display = absent ? 'none' : '';
+      if (absent) continue;
       bar.setAttribute('width', Math.max(0, (100 * values[key]) / report.rig.supply_bar));
       text.textContent = `${values[key].toFixed(2)} bar`;
     }
-    this.svg.style.setProperty('--full', `${Math.round(10 + (70 * values.muscle_pressure) / report.rig.supply_bar)}%`);
+    this.svg.style.setProperty('--full', `${Math.round(10 + (70 * (values.muscle_pressure ?? values.reference_pressure)) / report.rig.supply_bar)}%`);
     this.numbers.textContent = `length ${(1e3 * shape.length).toFixed(1)} mm, radius ${(1e3 * shape.radius).toFixed(2)} mm, ` +
       `braid angle ${((180 * shape.angle) / Math.PI).toFixed(1)}°`;
   }

@@ -99,6 +99,11 @@ std::string chart(const std::string& head, const std::string& x_label, const std
   return svg + "</svg>\n";
 }
 
+/// Every how many of `ticks` are looked at.
+std::size_t stride(std::size_t ticks, std::size_t most) {
+  return std::max<std::size_t>(1, (ticks + most - 1) / most);
+}
+
 const AtTick* find(const std::vector<Quantity>& quantities, const std::string& key) {
   for (const auto& quantity : quantities)
     if (quantity.key == key) return &quantity.at;
@@ -116,12 +121,11 @@ std::size_t ticks_looked_at(std::size_t runs) {
 }
 
 std::string still_svg(const Group& group, const Plot& plot, double tick_s, std::size_t most) {
-  const std::size_t stride = std::max<std::size_t>(1, (group.ticks + most - 1) / most);
   std::vector<Curve> curves;
   const auto add = [&](const std::string& kind, const AtTick* at, std::size_t ticks) {
     if (at == nullptr) return;
     Curve curve{.kind = kind};
-    for (std::size_t k = 0; k < ticks; k += stride)
+    for (std::size_t k = 0; k < ticks; k += stride(ticks, most))
       curve.points.emplace_back(static_cast<double>(k) * tick_s, (*at)(k));
     curves.push_back(std::move(curve));
   };
@@ -135,13 +139,13 @@ std::string still_svg(const Group& group, const Plot& plot, double tick_s, std::
 }
 
 std::string loop_svg(const Group& group, const Loop& loop, std::size_t most) {
-  const std::size_t stride = std::max<std::size_t>(1, (group.ticks + most - 1) / most);
   std::vector<Curve> curves;
   for (const auto& run : group.runs) {
     const AtTick *x = find(run.quantities, loop.x), *y = find(run.quantities, loop.y);
     if (x == nullptr || y == nullptr) continue;
     Curve curve{.kind = run_class(run, loop.dots ? "dots" : "run"), .dots = loop.dots};
-    for (std::size_t k = 0; k < run.ticks; k += stride) curve.points.emplace_back((*x)(k), (*y)(k));
+    for (std::size_t k = 0; k < run.ticks; k += stride(run.ticks, most))
+      curve.points.emplace_back((*x)(k), (*y)(k));
     curves.push_back(std::move(curve));
   }
   const std::string head = fmt::format("class='loop' data-loop='{}' data-keys='{} {}' aria-label='{}, {}'",

@@ -229,3 +229,34 @@ test('a replay shows measured against simulated, run by run', async () => {
   assert.deepEqual(requests, [url]);
   await done();
 });
+
+test('a data set shows what was measured and nothing else; of many runs three at first', async () => {
+  const {page, close: done, complaints, requests, url} = await open('campaign');
+  const csv = table('campaign/m2_sine_r10.csv');
+  await page.click("tr[data-group='1'] th");
+  const shown = () => page.evaluate(() => view.plots[0].chart.series.slice(1).filter((one) => one.show).length);
+  assert.equal(await shown(), 3);
+  await page.locator('#readout thead input').check();
+  assert.equal(await shown(), 10);
+  for (const [plot, label, column] of [['height', 'contraction', csv.contraction_ratio], ['current', 'current', csv.current_mA],
+                                       ['pressures', 'gauge on the muscle', csv.muscle_pressure_bar]])
+    near((await seriesOf(page, plot))[`${label}, m2_sine_r10`].values, column, rangeOf(column), label);
+  const keys = await page.evaluate(() => [...new Set(report.groups.flatMap((group) => group.runs.flatMap((run) => Object.keys(run.values))))]);
+  assert.deepEqual(keys.sort(), ['contraction', 'current', 'muscle_pressure', 'reference_pressure']);
+  assert.deepEqual(complaints, []);
+  assert.deepEqual(requests, [url]);
+  await done();
+});
+
+test('a map is a page of pictures without scripts, and fits a narrow screen', async () => {
+  const {page, close: done, complaints, requests, url} = await open('map', {viewport: {width: 400, height: 800}});
+  const rows = await page.locator('tbody tr').count();
+  assert.ok(rows >= 2);
+  assert.equal(await page.locator('figure svg:visible').count(), rows / 2);  // up and down
+  assert.equal(await page.locator('script').count(), 0);
+  const [wide, inner] = await page.evaluate(() => [document.documentElement.scrollWidth, innerWidth]);
+  assert.ok(wide <= inner, `${wide} > ${inner}`);
+  assert.deepEqual(complaints, []);
+  assert.deepEqual(requests, [url]);
+  await done();
+});
