@@ -116,7 +116,7 @@ constexpr const char* live =
     "<input id='time' type='range' min='0' step='any' aria-label='Time'>\n"
     "<output id='clock'></output>\n"
     "<button id='whole' type='button'>Whole run</button></div>\n"
-    "<figure><svg id='rig' role='img' viewBox='0 0 560 300' aria-label='The rig at the time of the "
+    "<figure><svg id='rig' role='img' aria-label='The rig at the time of the "
     "cursor'></svg>\n"
     "<figcaption id='rig-caption'></figcaption></figure>\n"
     "<div class='wide result'><table id='readout'></table></div>\n"

@@ -29,16 +29,17 @@ std::string sentence(const input::Scenario& scenario, const run::Comparison& com
   }
   if (best == nullptr) return "No run came to its end.";
   const auto loads = scenario.loads_kg.size();
-  const std::string error = fmt::format("root mean square error {:.2f} mm (contraction ratio {:.5f}){}",
-                                        best->rmse->mean * length_mm, best->rmse->mean,
-                                        loads == 1 ? "" : ", the mean over " + loads_text(loads));
+  const auto failed = std::count_if(comparison.runs.begin(), comparison.runs.end(),
+                                    [](const auto& run) { return !run.failure.empty(); });
+  const std::string error = fmt::format(
+      "root mean square error {:.2f} mm (contraction ratio {:.5f}){}", best->rmse->mean * length_mm,
+      best->rmse->mean,
+      loads == 1 ? "" : ", the mean over " + (failed > 0 ? "the loads with a result" : loads_text(loads)));
   std::string text = fmt::format("{}: {}.", best->controller, error);
   if (best != worst)
     text = fmt::format("{} follows the target best: {}. Of the {} controllers {} is the worst: {:.2f} mm.",
                        best->controller, error, comparison.spreads.size(), worst->controller,
                        worst->rmse->mean * length_mm);
-  const auto failed = std::count_if(comparison.runs.begin(), comparison.runs.end(),
-                                    [](const auto& run) { return !run.failure.empty(); });
   if (failed > 0) text += fmt::format(" {} of {} runs have no result.", failed, comparison.runs.size());
   if (!comparison.unmet.empty())
     text += fmt::format(" {} of the scenario's criteria {} not met.", comparison.unmet.size(),
@@ -72,12 +73,15 @@ std::string table(const input::Scenario& scenario, const run::Comparison& compar
     }
     html += "</tr>\n";
   };
+  std::size_t group = 0;  // loads without any row have none
   for (std::size_t r = 0; r < scenario.loads_kg.size(); ++r) {
     const auto run = [&](std::size_t c) -> const run::TrackedRun& {
       return comparison.runs[r * columns + c];
     };
+    bool shown = false;
+    for (std::size_t c = 0; c < columns; ++c) shown = shown || !run(c).recording.samples.empty();
     row(
-        fmt::format("<tr data-group='{}'><th scope='row'>{} kg</th>", r,
+        fmt::format("<tr{}><th scope='row'>{} kg</th>", shown ? fmt::format(" data-group='{}'", group++) : "",
                     input::write_number(scenario.loads_kg[r])),
         [&](std::size_t c) {
           return run(c).failure.empty() ? std::optional(run(c).metrics.rmse) : std::nullopt;

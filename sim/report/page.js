@@ -26,7 +26,12 @@ function makeReadout() {
     const mark = make('input', {type: 'radio', name: 'drawn', 'aria-label': 'draw ' + run.name});
     tick.checked = view.shown.has(i);
     mark.checked = view.drawn === i;
-    tick.addEventListener('change', () => { tick.checked ? view.shown.add(i) : view.shown.delete(i); showRuns(); });
+    tick.addEventListener('change', () => {
+      if (tick.checked) view.shown.add(i);
+      else view.shown.delete(i);
+      every.checked = view.shown.size === group.runs.length;
+      showRuns();
+    });
     mark.addEventListener('change', () => { view.drawn = i; showRuns(); });
     const label = make('label', {}, tick, swatch(runColour(run), runDash(run)), run.name);
     return make('tr', {'data-run': run.name}, make('th', {scope: 'row'}, mark, label), ...columns.map(([key]) => make('td', {'data-key': key})));

@@ -26,6 +26,14 @@ function seriesOf(plot, group) {
   return all;
 }
 
+/** Range of an axis: a little more than the values, and never so little that its numbers are all digits. */
+function heights(low, high) {
+  if (low === null) return [0, 1];
+  const least = 2e-3 * Math.max(Math.abs(low), Math.abs(high)) || 1e-6;
+  const spare = Math.max(0.05 * (high - low), (least - (high - low)) / 2);
+  return [low - spare, high + spare];
+}
+
 class Plot {
   /** hears: {time(t), zoom(from, to)} are told what the user does. */
   constructor(plot, group, hears) {
@@ -42,9 +50,9 @@ class Plot {
     this.chart = new uPlot({
       ...this.size(),
       legend: {show: false},
-      scales: {x: {time: false}},
+      scales: {x: {time: false}, y: {range: (_, low, high) => heights(low, high)}},
       cursor: {x: false, y: false, points: {show: false}, drag: {x: true, y: false}},
-      axes: [{...axis, values: (_, values) => values.map((v) => +v.toFixed(6) + ' s')}, {...axis, size: 62}],
+      axes: [{...axis, values: (_, values) => values.map((v) => +v.toFixed(6) + ' s')}, {...axis, size: 62, values: (_, values) => values.map((v) => String(+v.toPrecision(6)))}],
       series: [{}, ...this.series.map((one) => ({
         stroke: colour(one.colour), width: one.run === null ? 2 : 1.4, dash: one.dash, points: {show: false},
         label: one.line.label + (one.run === null ? '' : ', ' + group.runs[one.run].name),

@@ -36,18 +36,21 @@ function threadPaths(shape, phase, hand, left, axis, fitting) {
 class RigPicture {
   constructor(svg) {
     this.svg = svg;
-    const {rest_length_m: l0, wheel_radius_m: wheel, rest_radius_m: r0} = report.rig;
+    const {rest_length_m: l0, wheel_radius_m: wheel, rest_radius_m: r0, braid_angle_rad: alpha0} = report.rig;
     this.mm = 300 / l0;  // units for a metre: the muscle at rest is 300 wide
     this.left = 40;
-    this.axis = 60;
-    this.wheel = {x: this.left + 300 + 70, y: this.axis + wheel * this.mm, r: wheel * this.mm};
+    this.axis = Math.max(74, 28 + (r0 * this.mm) / Math.sin(alpha0));
+    const drawn = Math.min(60, Math.max(10, wheel * this.mm));  // a wheel out of all proportion is not to scale
+    this.wheel = {x: this.left + 300 + Math.max(70, drawn + 14), y: this.axis + drawn, r: drawn};
     this.fitting = 0.8 * r0 * this.mm;
+    const floor = this.axis + 130;
+    svg.setAttribute('viewBox', `0 0 560 ${Math.max(this.wheel.y + 205, floor + 80)}`);
     const part = (name, attributes) => svg.appendChild(make(name, attributes));
     part('rect', {class: 'metal', x: 18, y: this.axis - 40, width: 12, height: 80});
     part('path', {class: 'metal', d: `M${this.wheel.x} ${this.wheel.y}L${this.wheel.x - 26} ${this.wheel.y + 60}H${this.wheel.x + 6}Z`});
     part('circle', {class: 'metal', cx: this.wheel.x, cy: this.wheel.y, r: this.wheel.r});
     this.spoke = part('path', {class: 'cord'});
-    this.hose = part('path', {class: 'hose', d: `M62 190C62 130 36 130 36 ${this.axis + 10}V${this.axis}`});
+    this.hose = part('path', {class: 'hose', d: `M62 ${floor}C62 ${floor - 60} 36 ${floor - 60} 36 ${this.axis + 10}V${this.axis}`});
     this.behind = part('path', {class: 'thread behind'});
     this.tube = part('path', {class: 'tube'});
     this.front = part('path', {class: 'thread'});
@@ -57,17 +60,17 @@ class RigPicture {
     this.target = part('path', {class: 'target'});
     this.load = part('rect', {class: 'load', width: 88, height: 50, rx: 4});
     this.loadText = part('text', {class: 'load-text', 'text-anchor': 'middle'});
-    part('rect', {class: 'metal', x: 18, y: 190, width: 88, height: 56, rx: 4});
-    part('text', {x: 62, y: 212, 'text-anchor': 'middle'}).append('valve');
-    this.current = part('text', {x: 62, y: 234, 'text-anchor': 'middle'});
+    part('rect', {class: 'metal', x: 18, y: floor, width: 88, height: 56, rx: 4});
+    part('text', {x: 62, y: floor + 22, 'text-anchor': 'middle'}).append('valve');
+    this.current = part('text', {x: 62, y: floor + 44, 'text-anchor': 'middle'});
     this.bars = [['asked', 'reference_pressure'], ['valve', 'valve_pressure'], ['muscle', 'muscle_pressure']].map(([name, key], i) => {
-      const y = 178 + 28 * i;
+      const y = floor - 12 + 28 * i;
       const label = part('text', {class: 'soft', x: 186, y: y + 13, 'text-anchor': 'end'});
       label.append(name);
       const frame = part('rect', {class: 'frame', x: 192, y, width: 100, height: 16});
       return {key, name: label, frame, bar: part('rect', {class: 'bar', x: 192, y, height: 16}), text: part('text', {x: 298, y: y + 13})};
     });
-    this.numbers = part('text', {x: 34, y: 286});
+    this.numbers = part('text', {x: 34, y: 20});
   }
 
   /** `values` of one run and what was given, at one tick. */
@@ -102,9 +105,9 @@ class RigPicture {
       for (const [key, value] of Object.entries(at)) end.setAttribute(key, value);
     });
     const rise = values.contraction * report.rig.rest_length_m * mm;
-    const top = wheel.y + 125 - rise, x = wheel.x + wheel.r;
+    const top = wheel.y + 140 - rise, x = wheel.x + wheel.r;
     this.cord.setAttribute('d', `M${right + 10} ${axis}H${wheel.x}A${wheel.r} ${wheel.r} 0 0 1 ${x} ${wheel.y}V${top}`);
-    const turned = -rise / wheel.r;
+    const turned = -(values.contraction * report.rig.rest_length_m) / report.rig.wheel_radius_m;
     this.spoke.setAttribute('d', `M${wheel.x} ${wheel.y}l${0.8 * wheel.r * Math.sin(turned)} ${-0.8 * wheel.r * Math.cos(turned)}`);
     this.load.setAttribute('x', x - 44);
     this.load.setAttribute('y', top);
@@ -113,7 +116,7 @@ class RigPicture {
     this.loadText.textContent = `${+loadKg.toPrecision(4)} kg`;
     const wanted = given.given_contraction;
     this.target.setAttribute('d', wanted === undefined || wanted === null ? '' :
-      `M${x - 62} ${wheel.y + 125 - wanted * report.rig.rest_length_m * mm}h124`);
+      `M${x - 62} ${wheel.y + 140 - wanted * report.rig.rest_length_m * mm}h124`);
     this.current.textContent = `${values.current.toFixed(2)} mA`;
     for (const {key, name, frame, bar, text} of this.bars) {
       const absent = values[key] === undefined || values[key] === null;  // no gauge

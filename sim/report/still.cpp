@@ -15,7 +15,7 @@ namespace {
 
 using output::escaped;
 
-constexpr double width = 460.0, height = 300.0, left = 58.0, right = 10.0, top = 10.0, bottom = 42.0;
+constexpr double width = 460.0, height = 300.0, left = 66.0, right = 10.0, top = 10.0, bottom = 42.0;
 
 struct Curve {
   std::string kind;  // class and data-run
@@ -29,7 +29,7 @@ struct Axis {
   void hold(double value) { low = std::min(low, value), high = std::max(high, value); }
   void close() {
     if (low > high) low = 0.0, high = 1.0;
-    const double margin = std::max(0.04 * (high - low), 1e-6 + 1e-6 * std::abs(high));
+    const double margin = std::max(0.04 * (high - low), 1e-6 + 2e-3 * std::abs(high));
     low -= margin, high += margin;
   }
   double px(double value) const { return from_px + (to_px - from_px) * (value - low) / (high - low); }
@@ -93,7 +93,7 @@ std::string chart(const std::string& head, const std::string& x_label, const std
   });
   svg += fmt::format("<text x='{}' y='{}' text-anchor='middle'>{}</text>\n", 0.5 * (left + width - right),
                      height - 8, escaped(x_label));
-  svg += fmt::format("<text x='12' y='{0}' text-anchor='middle' transform='rotate(-90 12 {0})'>{1}</text>\n",
+  svg += fmt::format("<text x='11' y='{0}' text-anchor='middle' transform='rotate(-90 11 {0})'>{1}</text>\n",
                      0.5 * (top + height - bottom), escaped(y_label));
   for (const auto& curve : curves) svg += path(curve, x, y);
   return svg + "</svg>\n";
