@@ -5,7 +5,8 @@ const byId = (id) => document.getElementById(id);
 /** An element with attributes and children; of SVG if it is one of these. */
 function make(name, attributes = {}, ...children) {
   const isSvg = ['svg', 'path', 'circle', 'line', 'rect', 'text', 'g', 'ellipse'].includes(name);
-  const element = isSvg ? document.createElementNS('http://www.w3.org/2000/svg', name) : document.createElement(name);
+  const element =
+      isSvg ? document.createElementNS('http://www.w3.org/2000/svg', name) : document.createElement(name);
   for (const [key, value] of Object.entries(attributes)) element.setAttribute(key, value);
   element.append(...children);
   return element;
@@ -34,9 +35,13 @@ function openGroup(index) {
   const packed = report.groups[index];
   const times = timesOf(packed);
   const all = (quantities) =>
-    Object.fromEntries(Object.entries(quantities).map(([key, one]) => [key, unpack(one, times.length)]));
+      Object.fromEntries(Object.entries(quantities).map(([key, one]) => [key, unpack(one, times.length)]));
   return {
-    index, times, name: packed.name, load_kg: packed.load_kg, given: all(packed.given),
+    index,
+    times,
+    name: packed.name,
+    load_kg: packed.load_kg,
+    given: all(packed.given),
     runs: packed.runs.map((run) => ({name: run.name, style: run.style, values: all(run.values)})),
   };
 }
@@ -46,8 +51,10 @@ function indexAt(times, time) {
   let low = 0, high = times.length - 1;
   while (low < high) {
     const middle = (low + high + 1) >> 1;
-    if (times[middle] <= time + 1e-9) low = middle;
-    else high = middle - 1;
+    if (times[middle] <= time + 1e-9)
+      low = middle;
+    else
+      high = middle - 1;
   }
   return low;
 }

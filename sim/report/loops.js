@@ -1,5 +1,5 @@
-// Loops: pictures that are in the page already (sim/report/still.cpp). Here runs are hidden in them, and a dot
-// marks where each run is at the time of the cursor.
+// Loops: pictures that are in the page already (sim/report/still.cpp). Here runs are hidden in them, and a
+// dot marks where each run is at the time of the cursor.
 
 /** Pixel of a value on an axis written as "low high from_px to_px". */
 function pixel(axis, value) {
@@ -26,8 +26,12 @@ function markLoops(group, tick, shown) {
     for (const index of shown) {
       const {values, style} = group.runs[index];
       if (values[x][tick] === null || values[y][tick] === null) continue;
-      svg.append(make('circle', {class: `dot c${style % 7}`, r: 5, cx: pixel(svg.dataset.x, values[x][tick]),
-                                 cy: pixel(svg.dataset.y, values[y][tick])}));
+      svg.append(make('circle', {
+        class: `dot c${style % 7}`,
+        r: 5,
+        cx: pixel(svg.dataset.x, values[x][tick]),
+        cy: pixel(svg.dataset.y, values[y][tick])
+      }));
     }
   }
 }

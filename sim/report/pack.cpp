@@ -13,12 +13,14 @@ constexpr std::size_t most_columns = 1000, least_columns = 100, all_columns = 80
 constexpr double most_code = 65534.0;
 constexpr std::uint16_t none = 65535;
 
-/// Smallest and largest of the ticks from `begin` to `end`, the earlier one first.
+/// Smallest and largest of the ticks from `begin` to `end` that have a value, the earlier one first.
 std::pair<double, double> extremes(const AtTick& at, std::size_t begin, std::size_t end) {
   double least = at(begin), most = least;
   bool rising = true;
   for (std::size_t k = begin + 1; k < end; ++k) {
     const double value = at(k);
+    if (std::isnan(value)) continue;
+    if (std::isnan(least)) least = most = value;
     if (value < least) least = value, rising = false;
     if (value > most) most = value, rising = true;
   }

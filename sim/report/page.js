@@ -1,9 +1,19 @@
-// What the page shows now: one group, the runs ticked in it, one of them drawn as the rig, one time, one zoom.
-const view = {group: null, shown: new Set(), drawn: 0, time: 0, plots: [], playing: 0};
+// What the page shows now: one group, the runs ticked in it, one of them drawn as the rig, one time, one
+// zoom.
+const view = {
+  group: null,
+  shown: new Set(),
+  drawn: 0,
+  time: 0,
+  plots: [],
+  playing: 0
+};
 const calm = matchMedia('(prefers-reduced-motion: reduce)').matches;
 const drawing = new RigPicture(byId('rig'));
-const allColumns = [['contraction', 'contraction', 5], ['error', 'error', 5], ['current', 'mA', 2],
-                 ['muscle_pressure', 'bar', 3], ['braid_force', 'braid, N', 1], ['friction_force', 'friction, N', 1]];
+const allColumns = [
+  ['contraction', 'contraction', 5], ['error', 'error', 5], ['current', 'mA', 2],
+  ['muscle_pressure', 'bar', 3], ['braid_force', 'braid, N', 1], ['friction_force', 'friction, N', 1]
+];
 let columns = [];  // those that this group has
 
 const written = (value, digits) => (value === null || value === undefined ? '-' : value.toFixed(digits));
@@ -20,21 +30,30 @@ function makeReadout() {
     showRuns();
   });
   const all = group.runs.length > 1 ? make('label', {}, every, ' all') : '';
-  const head = make('tr', {}, make('th', {scope: 'col'}, 'run ', all), ...columns.map(([, name]) => make('th', {scope: 'col'}, name)));
+  const head = make(
+      'tr', {}, make('th', {scope: 'col'}, 'run ', all),
+      ...columns.map(([, name]) => make('th', {scope: 'col'}, name)));
   const rows = group.runs.map((run, i) => {
     const tick = make('input', {type: 'checkbox', 'aria-label': 'compare ' + run.name});
     const mark = make('input', {type: 'radio', name: 'drawn', 'aria-label': 'draw ' + run.name});
     tick.checked = view.shown.has(i);
     mark.checked = view.drawn === i;
     tick.addEventListener('change', () => {
-      if (tick.checked) view.shown.add(i);
-      else view.shown.delete(i);
+      if (tick.checked)
+        view.shown.add(i);
+      else
+        view.shown.delete(i);
       every.checked = view.shown.size === group.runs.length;
       showRuns();
     });
-    mark.addEventListener('change', () => { view.drawn = i; showRuns(); });
+    mark.addEventListener('change', () => {
+      view.drawn = i;
+      showRuns();
+    });
     const label = make('label', {}, tick, swatch(runColour(run), runDash(run)), run.name);
-    return make('tr', {'data-run': run.name}, make('th', {scope: 'row'}, mark, label), ...columns.map(([key]) => make('td', {'data-key': key})));
+    return make(
+        'tr', {'data-run': run.name}, make('th', {scope: 'row'}, mark, label),
+        ...columns.map(([key]) => make('td', {'data-key': key})));
   });
   byId('readout').replaceChildren(make('thead', {}, head), make('tbody', {}, ...rows));
 }
@@ -43,8 +62,14 @@ function makePlots(zoom) {
   for (const plot of view.plots) plot.remove();
   byId('plots').replaceChildren();
   const hears = {
-    time: (time) => { stop(); setTime(time); },
-    zoom: (min, max) => { for (const plot of view.plots) plot.zoom(min, max); for (const plot of view.plots) plot.at(view.time); },
+    time: (time) => {
+      stop();
+      setTime(time);
+    },
+    zoom: (min, max) => {
+      for (const plot of view.plots) plot.zoom(min, max);
+      for (const plot of view.plots) plot.at(view.time);
+    },
   };
   view.plots = report.plots.map((plot) => new Plot(plot, view.group, hears));
   if (zoom) view.plots[0].zoom(...zoom);
@@ -77,7 +102,8 @@ function showGroup(index) {
 }
 
 const endTime = () => view.group.times[view.group.times.length - 1];
-const valuesAt = (quantities, tick) => Object.fromEntries(Object.entries(quantities).map(([key, all]) => [key, all[tick]]));
+const valuesAt = (quantities, tick) =>
+    Object.fromEntries(Object.entries(quantities).map(([key, all]) => [key, all[tick]]));
 
 function setTime(time) {
   const {group} = view;
@@ -88,28 +114,37 @@ function setTime(time) {
   byId('clock').textContent = view.time.toFixed(2) + ' s';
   group.runs.forEach((run, i) => {
     const cells = byId('readout').tBodies[0].rows[i].cells;
-    columns.forEach(([key, , digits], c) => { cells[c + 1].textContent = written(run.values[key] && run.values[key][tick], digits); });
+    columns.forEach(([key, , digits], c) => {
+      cells[c + 1].textContent = written(run.values[key] && run.values[key][tick], digits);
+    });
   });
   markLoops(group, tick, view.shown);
   const run = group.runs[view.drawn];
   drawing.draw(valuesAt(run.values, tick), valuesAt(group.given, tick), group.load_kg);
-  byId('rig-caption').textContent = `${run.name}, ${group.name}, to scale.${group.given.given_contraction ? ` Dashed: ${report.plots[0].lines[0].label.toLowerCase()}.` : ''}`;
+  byId('rig-caption').textContent = `${run.name}, ${group.name}, to scale.${
+      group.given.given_contraction ? ` Dashed: ${report.plots[0].lines[0].label.toLowerCase()}.` : ''}`;
 }
 
 function stop() {
   cancelAnimationFrame(view.playing);
   view.playing = 0;
-  byId('play').textContent = calm ? 'Step 0.5 s' : 'Play';
+  byId('play').textContent = calm ? 'Step' : 'Play';
 }
 
-/** Real time; the whole run again once it has ended. Those who want no motion get a step for each press. */
+const speed = () => Number(byId('speed').value);
+
+/**
+ * At the speed chosen; the whole run again once it has ended. Those who want no motion get a step for each
+ * press.
+ */
 function play() {
   if (view.playing) return stop();
-  if (calm) return setTime(view.time >= endTime() ? 0 : view.time + 0.5);
-  let from = view.time >= endTime() - 1e-6 ? 0 : view.time, begun = null;
+  if (calm) return setTime(view.time >= endTime() ? 0 : view.time + 0.5 * speed());
+  if (view.time >= endTime() - 1e-6) setTime(0);
+  let last = null;
   const frame = (now) => {
-    begun = begun ?? now;
-    setTime(from + (now - begun) / 1000);
+    setTime(view.time + ((now - (last ?? now)) / 1000) * speed());
+    last = now;
     if (view.time >= endTime()) return stop();
     view.playing = requestAnimationFrame(frame);
   };
@@ -126,20 +161,35 @@ byId('group').parentElement.hidden = report.groups.length < 2;
 byId('group').addEventListener('change', (event) => showGroup(Number(event.target.value)));
 byId('play').addEventListener('click', play);
 byId('whole').addEventListener('click', wholeRun);
-byId('time').addEventListener('input', (event) => { stop(); setTime(Number(event.target.value)); });
+byId('time').addEventListener('input', (event) => {
+  stop();
+  setTime(Number(event.target.value));
+});
 for (const row of document.querySelectorAll('tr[data-group]'))
   row.addEventListener('click', () => showGroup(Number(row.dataset.group)));
 document.addEventListener('keydown', (event) => {
-  if (event.target.closest('input, select, button, summary, a') || event.ctrlKey || event.altKey || event.metaKey) return;
+  if (event.target.closest('input, select, button, summary, a') || event.ctrlKey || event.altKey ||
+      event.metaKey)
+    return;
   const step = {ArrowLeft: -0.1, ArrowRight: 0.1}[event.key];
-  if (event.key === ' ') play();
-  else if (step) { stop(); setTime(view.time + step); }
-  else return;
+  if (event.key === ' ')
+    play();
+  else if (step) {
+    stop();
+    setTime(view.time + step);
+  } else
+    return;
   event.preventDefault();
 });
-new ResizeObserver(() => { for (const plot of view.plots) plot.resize(); setTime(view.time); }).observe(byId('plots'));
+new ResizeObserver(() => {
+  for (const plot of view.plots) plot.resize();
+  setTime(view.time);
+}).observe(byId('plots'));
 matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => makePlots(zoomNow()));
 for (const [when, paper] of [['beforeprint', true], ['afterprint', false]])
-  addEventListener(when, () => { document.documentElement.classList.toggle('paper', paper); makePlots(zoomNow()); });
+  addEventListener(when, () => {
+    document.documentElement.classList.toggle('paper', paper);
+    makePlots(zoomNow());
+  });
 showGroup(0);
 stop();

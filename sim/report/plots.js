@@ -6,8 +6,12 @@ const runDash = (run) => dashes[run.style % 4];
 
 /** A short line as a key in a legend. */
 function swatch(colourClass, dash) {
-  const line = make('path', {d: 'M0 5H34', class: colourClass, style: 'fill:none;stroke:currentColor;stroke-width:3',
-                             'stroke-dasharray': dash.join(' ')});
+  const line = make('path', {
+    d: 'M0 5H34',
+    class: colourClass,
+    style: 'fill:none;stroke:currentColor;stroke-width:3',
+    'stroke-dasharray': dash.join(' ')
+  });
   return make('svg', {viewBox: '0 0 34 10', 'aria-hidden': 'true'}, line);
 }
 
@@ -17,7 +21,8 @@ function seriesOf(plot, group) {
   const all = [];
   plot.lines.forEach((line) => {
     if (line.given && group.given[line.key])
-      all.push({line, run: null, values: group.given[line.key], dash: several ? dashes[1] : [], colour: 'ink'});
+      all.push(
+          {line, run: null, values: group.given[line.key], dash: several ? dashes[1] : [], colour: 'ink'});
   });
   group.runs.forEach((run, index) => plot.lines.forEach((line, i) => {
     if (line.given || !run.values[line.key]) return;
@@ -40,29 +45,50 @@ class Plot {
     this.plot = plot;
     this.series = seriesOf(plot, group);
     const crowded = group.runs.length > 2;
-    this.hidden = new Set(plot.lines.filter((line) => crowded && !line.given && !line.main).map((line) => line.key));
+    this.hidden =
+        new Set(plot.lines.filter((line) => crowded && !line.given && !line.main).map((line) => line.key));
     this.box = make('div', {class: 'plot', 'data-plot': plot.id});
     this.now = make('div', {class: 'now'});
     this.head = make('h3', {}, plot.title, make('span', {class: 'unit'}, plot.unit), ...this.keys());
     this.runDashes = group.runs.map(runDash);
     byId('plots').append(this.head, this.box);
-    const axis = {stroke: colour('soft'), grid: {stroke: colour('line'), width: 1}, ticks: {stroke: colour('line')}};
-    this.chart = new uPlot({
+    const data = [group.times, ...this.series.map((one) => one.values)];
+    this.chart = new uPlot(this.options(group, hears), data, this.box);
+    this.chart.over.append(this.now);
+  }
+
+  /** What uPlot is told. */
+  options(group, hears) {
+    const line = colour('line');
+    const axis = {stroke: colour('soft'), grid: {stroke: line, width: 1}, ticks: {stroke: line}};
+    const seconds = (_, values) => values.map((v) => +v.toFixed(6) + ' s');
+    const short = (_, values) => values.map((v) => String(+v.toPrecision(6)));
+    const seriesOptions = (one) => {
+      const run = one.run === null ? '' : ', ' + group.runs[one.run].name;
+      const width = one.run === null ? 2 : 1.4;
+      return {
+        label: one.line.label + run,
+        stroke: colour(one.colour),
+        dash: one.dash,
+        width,
+        points: {show: false}
+      };
+    };
+    const moved = (u) => {
+      if (u.cursor.event && u.cursor.left >= 0) hears.time(u.posToVal(u.cursor.left, 'x'));
+    };
+    const scaled = (u, key) => {
+      if (key === 'x') hears.zoom(u.scales.x.min, u.scales.x.max);
+    };
+    return {
       ...this.size(),
       legend: {show: false},
       scales: {x: {time: false}, y: {range: (_, low, high) => heights(low, high)}},
       cursor: {x: false, y: false, points: {show: false}, drag: {x: true, y: false}},
-      axes: [{...axis, values: (_, values) => values.map((v) => +v.toFixed(6) + ' s')}, {...axis, size: 62, values: (_, values) => values.map((v) => String(+v.toPrecision(6)))}],
-      series: [{}, ...this.series.map((one) => ({
-        stroke: colour(one.colour), width: one.run === null ? 2 : 1.4, dash: one.dash, points: {show: false},
-        label: one.line.label + (one.run === null ? '' : ', ' + group.runs[one.run].name),
-      }))],
-      hooks: {
-        setCursor: [(u) => { if (u.cursor.event && u.cursor.left >= 0) hears.time(u.posToVal(u.cursor.left, 'x')); }],
-        setScale: [(u, key) => { if (key === 'x') hears.zoom(u.scales.x.min, u.scales.x.max); }],
-      },
-    }, [group.times, ...this.series.map((one) => one.values)], this.box);
-    this.chart.over.append(this.now);
+      axes: [{...axis, values: seconds}, {...axis, values: short, size: 62}],
+      series: [{}, ...this.series.map(seriesOptions)],
+      hooks: {setCursor: [moved], setScale: [scaled]},
+    };
   }
 
   /** Buttons for the quantities, where there are several. */
@@ -71,8 +97,9 @@ class Plot {
     if (lines.length < 2) return [];
     return lines.map((line) => {
       const dash = this.series.find((one) => one.line === line).dash;
-      const button = make('button', {type: 'button', class: 'quantity', 'aria-pressed': !this.hidden.has(line.key)},
-                          swatch('', dash), line.label);
+      const button = make(
+          'button', {type: 'button', class: 'quantity', 'aria-pressed': !this.hidden.has(line.key)},
+          swatch('', dash), line.label);
       button.addEventListener('click', () => {
         if (!this.hidden.delete(line.key)) this.hidden.add(line.key);
         button.setAttribute('aria-pressed', !this.hidden.has(line.key));
@@ -89,7 +116,10 @@ class Plot {
 
   resize() { this.chart.setSize(this.size()); }
 
-  /** Draws only these runs (a set of indices). Dashes tell quantities apart, or runs where there is one quantity. */
+  /**
+   * Draws only these runs (a set of indices). Dashes tell quantities apart, or runs where there is one
+   * quantity.
+   */
   show(runs) {
     this.shownRuns = runs;
     const visible = (line) => !line.given && !this.hidden.has(line.key);
@@ -97,7 +127,8 @@ class Plot {
     this.head.classList.toggle('single', single);
     this.chart.batch(() => this.series.forEach((one, i) => {
       if (one.run !== null) this.chart.series[i + 1].dash = single ? this.runDashes[one.run] : one.dash;
-      this.chart.setSeries(i + 1, {show: !this.hidden.has(one.line.key) && (one.run === null || runs.has(one.run))});
+      this.chart.setSeries(
+          i + 1, {show: !this.hidden.has(one.line.key) && (one.run === null || runs.has(one.run))});
     }));
     this.chart.redraw();
   }

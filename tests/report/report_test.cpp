@@ -81,6 +81,15 @@ TEST(Pack, KeepsASpikeOfOneTickInALongRunAndItsOrder) {
   }
 }
 
+TEST(Pack, AColumnWithSomeValuesHasTheirExtremes) {
+  constexpr double hole = std::numeric_limits<double>::quiet_NaN();
+  const std::vector<double> column{hole, 4.0, hole, 1.0, 2.0, hole, hole, hole, hole, hole};
+  const auto values = unpacked(pack([&](std::size_t k) { return column[k]; }, 10, 10, 5), 4);
+  EXPECT_NEAR(values[0], 4.0, 1e-4);
+  EXPECT_EQ(values[1], 1.0);
+  EXPECT_TRUE(std::isnan(values[2]) && std::isnan(values[3]));
+}
+
 /// Runs that shake as much as they can: the worst case for size.
 Contents shaking(std::size_t groups, std::size_t ticks) {
   Contents contents{.title = "shaking </script><b>&'",
