@@ -51,7 +51,8 @@ struct Plot {
 /// Two quantities of the same run against each other.
 struct Loop {
   std::string id, title, x, y, x_label, y_label;
-  bool dots = false;  ///< a dot for each tick in place of a line
+  bool dots = false;                 ///< a dot for each tick in place of a line
+  std::string given_x{}, given_y{};  ///< what was measured of the same, if it was
 };
 
 /// A picture that is drawn already.

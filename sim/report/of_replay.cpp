@@ -113,7 +113,8 @@ std::string report_html(const input::Dataset& dataset, const std::vector<run::Re
           "Every number of every tick is in the CSV files beside this page; input, versions and hashes are "
           "in run.json.",
       .rig = dataset.rig,
-      .plots = plots_for(dataset.rig, "Measured", "Error: simulated less measured, both as counted", gauge),
+      .plots = plots_for(dataset.rig, "Contraction, measured and simulated", "Measured",
+                         "Error: simulated less measured, both as counted", gauge),
       .loops = loops()};
   for (std::size_t i = 0; i < runs.size(); ++i)
     if (!runs[i].recording.samples.empty())

@@ -140,7 +140,8 @@ std::string report_html(const input::Scenario& scenario, const run::Comparison& 
                         "Every number of every tick is in the CSV files beside this page; input, versions "
                         "and hashes are in run.json.",
                     .rig = scenario.rig,
-                    .plots = plots_for(scenario.rig, "Target", "Error: contraction less target", false),
+                    .plots = plots_for(scenario.rig, "Target and contraction", "Target",
+                                       "Error: contraction less target", false),
                     .loops = loops()};
   for (std::size_t r = 0; r < scenario.loads_kg.size(); ++r)
     if (auto group = group_of(scenario, comparison, r); !group.runs.empty())

@@ -36,8 +36,8 @@ std::vector<Quantity> quantities_of(const run::Recording& recording, const plant
   return all;
 }
 
-std::vector<Plot> plots_for(const plant::Rig& rig, const std::string& wanted, const std::string& error,
-                            bool gauge) {
+std::vector<Plot> plots_for(const plant::Rig& rig, const std::string& title, const std::string& wanted,
+                            const std::string& error, bool gauge) {
   Plot pressures{"pressures",
                  "Pressures",
                  "bar",
@@ -53,7 +53,7 @@ std::vector<Plot> plots_for(const plant::Rig& rig, const std::string& wanted, co
                {.key = "weight", .label = "weight of the load, downwards", .given = true}}};
   if (!rig.effects.absent()) forces.lines.push_back({.key = "effects_pull", .label = "effects of the rig"});
   return {{"height",
-           wanted + " and contraction",
+           title,
            "contraction ratio",
            {{.key = "given_contraction", .label = wanted, .given = true},
             {.key = "contraction", .label = "contraction", .main = true}}},
@@ -66,7 +66,7 @@ std::vector<Plot> plots_for(const plant::Rig& rig, const std::string& wanted, co
 std::vector<Loop> loops() {
   return {
       {"pressure", "Pressure and contraction", "contraction", "muscle_pressure", "contraction ratio",
-       "muscle pressure in bar"},
+       "muscle pressure in bar", false, "given_contraction", "given_pressure"},
       {"force", "Braid force and contraction", "contraction", "braid_force", "contraction ratio",
        "braid force in N"},
       {"friction",

@@ -13,10 +13,11 @@ namespace mckibben::report {
 /// Refers to `recording` and copies `plant`.
 std::vector<Quantity> quantities_of(const run::Recording& recording, const plant::Plant& plant);
 
-/// The plots for a rig, beginning with that of contraction. `wanted` is the label of what is given there
-/// (key "given_contraction"); `gauge` tells that muscle pressure was measured (key "given_pressure").
-std::vector<Plot> plots_for(const plant::Rig& rig, const std::string& wanted, const std::string& error,
-                            bool gauge);
+/// The plots for a rig, beginning with that of contraction, which has this title. `wanted` is the label of
+/// what is given there (key "given_contraction"); `gauge` tells that muscle pressure was measured (key
+/// "given_pressure").
+std::vector<Plot> plots_for(const plant::Rig& rig, const std::string& title, const std::string& wanted,
+                            const std::string& error, bool gauge);
 
 std::vector<Loop> loops();
 

@@ -140,6 +140,13 @@ std::string still_svg(const Group& group, const Plot& plot, double tick_s, std::
 
 std::string loop_svg(const Group& group, const Loop& loop, std::size_t most) {
   std::vector<Curve> curves;
+  const AtTick *measured_x = find(group.given, loop.given_x), *measured_y = find(group.given, loop.given_y);
+  if (measured_x != nullptr && measured_y != nullptr) {
+    Curve curve{.kind = "class='given'"};
+    for (std::size_t k = 0; k < group.ticks; k += stride(group.ticks, most))
+      curve.points.emplace_back((*measured_x)(k), (*measured_y)(k));
+    curves.push_back(std::move(curve));
+  }
   for (const auto& run : group.runs) {
     const AtTick *x = find(run.quantities, loop.x), *y = find(run.quantities, loop.y);
     if (x == nullptr || y == nullptr) continue;

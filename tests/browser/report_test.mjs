@@ -273,6 +273,17 @@ test('a data set shows what was measured and nothing else; of many runs three at
   await done();
 });
 
+test('a replay with a gauge shows the measured pressure too, over time and in the loop', async () => {
+  const {page, close: done, complaints} = await open('gauged');
+  const csv = table('campaign/m1_sine_r01.csv');
+  near(
+      (await seriesOf(page, 'pressures')).measured.values, csv.muscle_pressure_bar,
+      rangeOf(csv.muscle_pressure_bar), 'measured');
+  assert.ok(await page.locator('.group.chosen svg[data-loop=\'pressure\'] path.given').isVisible());
+  assert.deepEqual(complaints, []);
+  await done();
+});
+
 test('a map is a page of pictures without scripts, and fits a narrow screen', async () => {
   const {page, close: done, complaints, requests, url} =
       await open('map', {viewport: {width: 400, height: 800}});

@@ -24,5 +24,6 @@ runs:
 END
 "$program" replay measured --out "$folder/replayed" > /dev/null
 "$program" dataset "$here/campaign.yaml" --out "$folder/campaign" > /dev/null
+"$program" replay campaign --out "$folder/gauged" > /dev/null
 "$program" map "$here/../data/calibration.yaml" --ratios 6 --speeds 2 --out "$folder/map" > /dev/null
 node --test --test-reporter=spec report_test.mjs

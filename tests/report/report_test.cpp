@@ -97,7 +97,7 @@ Contents shaking(std::size_t groups, std::size_t ticks) {
                     .sentence = "",
                     .table = "",
                     .details = "",
-                    .plots = plots_for({}, "Target", "Error", false),
+                    .plots = plots_for({}, "Target and contraction", "Target", "Error", false),
                     .loops = loops()};
   for (std::size_t g = 0; g < groups; ++g) {
     Group group{.name = "</script>", .ticks = ticks};
