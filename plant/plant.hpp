@@ -78,6 +78,8 @@ class Plant {
   Slip slip_from_rest(State<double>& state, const Memory<double>& memory, const Held& held) const;
 
   const Rig& rig() const { return rig_; }
+  /// Weight [N] of what hangs on the wheel.
+  double weight_N() const { return weight_N_; }
   /// Mass of gas [kg] in valve and muscle.
   double gas_mass_kg(const State<double>& state) const;
   /// Kinetic and potential energy of the load [J], zero at rest at e = 0.

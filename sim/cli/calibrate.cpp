@@ -9,6 +9,7 @@
 #include <sim/output/calibration_report.hpp>
 #include <sim/output/chart.hpp>
 #include <sim/output/folder.hpp>
+#include <sim/report/report.hpp>
 #include <sim/run/batch.hpp>
 #include <sim/thesis/calibrate.hpp>
 #include <sim/thesis/figures.hpp>
@@ -29,7 +30,9 @@ int calibrate_dataset(const std::string& path, const Options& options, const Cal
   folder.write("calibration.yaml", input::calibration_yaml(result.calibration));
   folder.write("calibration.json", document);
   folder.write("report.txt", report);
-  for (const thesis::Figure& figure : thesis::figures(result, how.kgf)) {
+  const auto figures = thesis::figures(result, how.kgf);
+  folder.write("report.html", report::report_html(dataset, result, how.fits, how.kgf, figures));
+  for (const thesis::Figure& figure : figures) {
     folder.write("figures/" + figure.file_name() + ".csv", output::csv_of(figure));
     folder.write("figures/" + figure.file_name() + ".svg", output::chart_svg(figure));
   }

@@ -10,9 +10,11 @@
 #include <sim/cli/results.hpp>
 #include <sim/cli/verbs.hpp>
 #include <sim/input/campaign.hpp>
+#include <sim/input/dataset.hpp>
 #include <sim/output/campaign_folder.hpp>
 #include <sim/output/progress.hpp>
 #include <sim/output/table.hpp>
+#include <sim/report/report.hpp>
 #include <sim/run/batch.hpp>
 
 namespace mckibben::cli {
@@ -42,7 +44,9 @@ int make_dataset(const std::string& path, const Options& options) {
     return interrupted;
   }
   const input::Json document = folder.document();
-  const auto places = folder.publish(document);
+  const auto places = folder.publish(document, [&](const std::filesystem::path& data) {
+    return report::report_html(campaign, document, input::read_dataset(data));
+  });
   print(options.json ? document.dump(2) + "\n" : output::table_of(campaign, document));
   say_moved(places.data, places.data_moved_to);
   say_moved(places.truth, places.truth_moved_to);

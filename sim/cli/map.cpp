@@ -16,6 +16,7 @@
 #include <sim/output/folder.hpp>
 #include <sim/output/heat_map.hpp>
 #include <sim/output/progress.hpp>
+#include <sim/report/report.hpp>
 #include <sim/run/batch.hpp>
 #include <sim/run/error_map.hpp>
 
@@ -113,6 +114,7 @@ int map_errors(const std::string& path, const Options& options, const MapOptions
   folder.write("map.csv", output::csv_of(maps));
   folder.write("map.json", document);
   folder.write("table.txt", table);
+  folder.write("report.html", report::report_html(plan, maps));
   publish(folder, place);
   print(options.json ? document : table);
   if (maps.interrupted) {

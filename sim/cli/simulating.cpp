@@ -15,6 +15,7 @@
 #include <sim/output/progress.hpp>
 #include <sim/output/run_json.hpp>
 #include <sim/output/table.hpp>
+#include <sim/report/report.hpp>
 #include <sim/run/batch.hpp>
 #include <sim/run/compare.hpp>
 #include <sim/run/replay.hpp>
@@ -58,6 +59,7 @@ int run_scenario(const std::string& path, const Options& options) {
   folder.write("run.json", document);
   folder.write("table.txt", table);
   folder.write("tracking.svg", output::tracking_svg(scenario, comparison));
+  folder.write("report.html", report::report_html(scenario, comparison));
   publish(folder, place);
   print(options.json ? document : table);
   if (comparison.interrupted) {
@@ -97,6 +99,7 @@ int replay_dataset(const std::string& path, const Options& options) {
   const std::string table = output::table_of(dataset, runs);
   folder.write("run.json", document);
   folder.write("table.txt", table);
+  folder.write("report.html", report::report_html(dataset, runs));
   publish(folder, place);
   print(options.json ? document : table);
   if (stopped) {

@@ -109,6 +109,7 @@ Json json_of(const input::Dataset& dataset, const thesis::CalibrationResult& res
              const thesis::Options& options) {
   const auto& grid = result.grid;
   Json document = heading_json("mckibben-calibration-report/1", dataset.inputs);
+  document["report"] = "report.html";
   document["options"] = {
       {"pressure", options.processing.pressure == thesis::PressureSource::current ? "current" : "gauge"},
       {"acceleration",

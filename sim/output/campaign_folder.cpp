@@ -98,8 +98,8 @@ bool is_whole(const fs::path& folder, const Json& record) {
 
 /// All files that a campaign with these ids can have written there.
 FileNames files_of(const std::vector<std::string>& ids) {
-  FileNames names{plan_file,          "data/dataset.yaml",    "data/rig.yaml",        "data/campaign.json",
-                  "truth/truth.yaml", "data/.mckibben-files", "truth/.mckibben-files"};
+  FileNames names{plan_file,          "data/dataset.yaml", "data/rig.yaml",        "data/campaign.json",
+                  "data/report.html", "truth/truth.yaml",  "data/.mckibben-files", "truth/.mckibben-files"};
   for (const auto& id : ids) {
     const RunFiles files(id);
     names.insert({files.table, files.ascii, files.truth, files.entry});
@@ -260,7 +260,7 @@ Json CampaignFolder::document() const {
   return document;
 }
 
-CampaignFolder::Places CampaignFolder::publish(const Json& document) const {
+CampaignFolder::Places CampaignFolder::publish(const Json& document, const Report& report) const {
   const Json& entries = document.at("runs");
   const input::RigFile known = plant::nominal(campaign_.rig);
   std::string rig = shipped_name(known);
@@ -270,6 +270,8 @@ CampaignFolder::Places CampaignFolder::publish(const Json& document) const {
   }
   write_whole(unfinished_ / "data/dataset.yaml", input::to_yaml(dataset_json(rig, entries)));
   write_whole(unfinished_ / "data/campaign.json", document.dump(2) + "\n");
+  if (!std::all_of(entries.begin(), entries.end(), failed))
+    write_whole(unfinished_ / "data/report.html", report(unfinished_ / "data"));
   write_whole(unfinished_ / "truth/truth.yaml", input::to_yaml(truth_json(campaign_, entries)));
   std::vector<std::string> ids;
   for (const auto& entry : entries) ids.push_back(entry.at("id").get<std::string>());

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -39,8 +40,10 @@ class CampaignFolder {
   struct Places {
     std::filesystem::path data, data_moved_to, truth, truth_moved_to;
   };
+  /// Makes report.html of the data set in a folder; asked if there is a run in it.
+  using Report = std::function<std::string(const std::filesystem::path& data)>;
   /// Lets both folders take their places. Throws CannotWrite.
-  Places publish(const input::Json& document) const;
+  Places publish(const input::Json& document, const Report& report) const;
 
  private:
   void open();

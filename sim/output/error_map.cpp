@@ -137,6 +137,7 @@ std::string table_of(const run::MapPlan& plan, const run::ErrorMaps& maps) {
 input::Json json_of(const run::MapPlan& plan, const run::ErrorMaps& maps,
                     const std::vector<input::InputFile>& files) {
   Json document = heading_json("mckibben-map/1", files);
+  document["report"] = "report.html";
   document["tolerance"] = plan.engine.tolerance;
   input::RigFile rig;
   static_cast<plant::Rig&>(rig) = plan.rig;

@@ -114,6 +114,7 @@ std::string csv_name(const run::TrackedRun& run) {
 
 Json json_of(const input::Scenario& scenario, const run::Comparison& comparison) {
   Json document = heading_json("mckibben-run/1", scenario.inputs);
+  document["report"] = "report.html";
   document["seed"] = scenario.seed;
   document["tolerance"] = scenario.rig.integrator.tolerance;
   document["scenario"] = input::scenario_json(scenario);
@@ -149,6 +150,7 @@ Json json_of(const input::Scenario& scenario, const run::Comparison& comparison)
 
 Json json_of(const input::Dataset& dataset, const std::vector<run::ReplayedRun>& runs) {
   Json document = heading_json("mckibben-replay/1", dataset.inputs);
+  document["report"] = "report.html";
   document["tolerance"] = dataset.rig.integrator.tolerance;
   document["rig"] = input::rig_json(dataset.rig);
   document["runs"] = Json::array();

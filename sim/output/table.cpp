@@ -21,19 +21,10 @@ std::string ratio(double value) {
   return fmt::format("{:.5f}", value);
 }
 
-/// How a run stands to its calibration; explained below the table by `footnotes`.
-std::string mark(const run::TrackedRun& run) {
-  const auto has = [&](const char* name) {
-    return controllers::value_of(run.recording.findings, name) != 0.0;
-  };
-  return has("load_extrapolated") || has("ticks_extrapolated") ? "*"
-         : has("load_taken_as_range_end")                      ? "+"
-                                                               : "";
-}
-
 std::string footnotes(const std::vector<run::TrackedRun>& runs) {
   const auto any = [&](const char* sign) {
-    return std::any_of(runs.begin(), runs.end(), [&](const auto& run) { return mark(run) == sign; });
+    return std::any_of(runs.begin(), runs.end(),
+                       [&](const auto& run) { return extrapolation_mark(run) == sign; });
   };
   std::string text;
   if (any("*"))
@@ -91,6 +82,15 @@ std::string findings(const run::Comparison& comparison) {
 
 }  // namespace
 
+std::string extrapolation_mark(const run::TrackedRun& run) {
+  const auto has = [&](const char* name) {
+    return controllers::value_of(run.recording.findings, name) != 0.0;
+  };
+  return has("load_extrapolated") || has("ticks_extrapolated") ? "*"
+         : has("load_taken_as_range_end")                      ? "+"
+                                                               : "";
+}
+
 std::string table_of(const input::Scenario& scenario, const run::Comparison& comparison) {
   std::string text = fmt::format(
       "{}: {} load{} x {} controller{}, {:g} s each; errors are contraction ratios (0.001 = {:g} mm)\n\n",
@@ -105,19 +105,20 @@ std::string table_of(const input::Scenario& scenario, const run::Comparison& com
     const auto& m = run.metrics;
     const auto load = input::write_number(run.load_kg);
     if (!run.failure.empty()) {
-      runs.add({load, run.controller + mark(run), "no result", "-", "-", "-", "-", "-", "-", "-"});
+      runs.add(
+          {load, run.controller + extrapolation_mark(run), "no result", "-", "-", "-", "-", "-", "-", "-"});
       failures += fmt::format("  {} at {} kg: {}\n", run.controller, load, run.failure);
       continue;
     }
-    runs.add({load, run.controller + mark(run), ratio(m.rmse), ratio(m.mae), ratio(m.largest_error),
-              fmt::format("{:+.5f}", m.final_error), cell(m.time_lag_s, 1e3, 0), cell(m.overshoot, 100.0, 1),
-              cell(m.settling_time_s, 1.0, 2), cell(m.air_kg, 1e3, 3)});
+    runs.add({load, run.controller + extrapolation_mark(run), ratio(m.rmse), ratio(m.mae),
+              ratio(m.largest_error), fmt::format("{:+.5f}", m.final_error), cell(m.time_lag_s, 1e3, 0),
+              cell(m.overshoot, 100.0, 1), cell(m.settling_time_s, 1.0, 2), cell(m.air_kg, 1e3, 3)});
   }
   text += runs.text() + footnotes(comparison.runs);
 
   const auto extrapolated = [&](const std::string& controller) {
     return std::any_of(comparison.runs.begin(), comparison.runs.end(), [&](const auto& run) {
-      return run.controller == controller && run.failure.empty() && mark(run) == "*";
+      return run.controller == controller && run.failure.empty() && extrapolation_mark(run) == "*";
     });
   };
   Grid spreads({"controller", "rmse mean", "lowest", "highest", "spread", "std dev"}, 1);

@@ -40,6 +40,7 @@ Json run_shipped(const std::string& name) {
   EXPECT_EQ(read_text(folder / "tracking.svg").rfind("<svg", 0), 0u);
   Json document = Json::parse(read_text(folder / "run.json"));
   EXPECT_EQ(document.at("schema"), "mckibben-run/1");
+  EXPECT_EQ(read_text(folder / document.at("report").get<std::string>()).rfind("<!DOCTYPE html>", 0), 0u);
   const auto& scenario = document.at("scenario");
   EXPECT_EQ(document.at("runs").size(), scenario.at("loads").size() * scenario.at("controllers").size());
   EXPECT_EQ(document.at("input_files").at(0).at("sha256").get<std::string>().size(), 64u);

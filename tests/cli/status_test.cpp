@@ -77,6 +77,9 @@ TEST_F(Program, ANumericalFailureIs70AndNamesTimeStateAndCause) {
   EXPECT_NE(said.out.find("contraction_ratio = "), std::string::npos);
   EXPECT_NE(said.out.find("(settling)"), std::string::npos);
   EXPECT_TRUE(fs::exists(scratch / "out/fall/11.138kg_step_current.csv"));  // the sound run is not lost
+  const std::string report = read_text(scratch / "out/fall/report.html");   // and the page leads to it alone
+  EXPECT_NE(report.find("<tr><th scope='row'>400 kg</th><td>no result</td>"), std::string::npos);
+  EXPECT_NE(report.find("<tr data-group='0'><th scope='row'>11.138 kg</th>"), std::string::npos);
 }
 
 TEST_F(Program, WhatCannotBeWrittenIs74) {

@@ -1,0 +1,165 @@
+// Order of the page, and what the script is told.
+#include <fmt/format.h>
+
+#include <sim/input/number.hpp>
+#include <sim/output/diagnosis_figures.hpp>
+#include <sim/report/files.hpp>
+#include <sim/report/html.hpp>
+#include <sim/report/pack.hpp>
+#include <sim/report/still.hpp>
+
+namespace mckibben::report {
+namespace {
+
+using input::Json;
+using output::escaped;
+
+Json plot_json(const Plot& plot) {
+  Json lines = Json::array();
+  for (const auto& line : plot.lines)
+    lines.push_back({{"key", line.key}, {"label", line.label}, {"given", line.given}, {"main", line.main}});
+  return {{"id", plot.id}, {"title", plot.title}, {"unit", plot.unit}, {"lines", lines}};
+}
+
+Json group_json(const Group& group, std::size_t all_runs) {
+  const std::size_t per_column = ticks_per_column(group.ticks, all_runs);
+  Json entry{{"name", group.name},      {"load_kg", group.load_kg},
+             {"ticks", group.ticks},    {"ticks_per_column", per_column},
+             {"given", Json::object()}, {"runs", Json::array()}};
+  for (const auto& quantity : group.given)
+    entry["given"][quantity.key] = pack(quantity.at, group.ticks, group.ticks, per_column);
+  for (const auto& run : group.runs) {
+    Json values = Json::object();
+    for (const auto& quantity : run.quantities)
+      values[quantity.key] = pack(quantity.at, group.ticks, run.ticks, per_column);
+    entry["runs"].push_back({{"name", run.name}, {"style", run.style}, {"values", values}});
+  }
+  return entry;
+}
+
+Json rig_json(const plant::Rig& rig) {
+  return {{"rest_length_m", rig.muscle.rest_length_m},
+          {"rest_radius_m", rig.muscle.rest_radius_m},
+          {"braid_angle_rad", rig.muscle.braid_angle_rad},
+          {"wheel_radius_m", rig.joint.wheel_radius_m},
+          {"supply_bar", rig.valve.supply_pressure_Pa / 1e5}};
+}
+
+std::size_t runs_of(const Contents& contents) {
+  std::size_t runs = 0;
+  for (const auto& group : contents.groups) runs += group.runs.size();
+  return runs;
+}
+
+/// As JSON that can stand inside <script>: no "</script>", no "<!--".
+std::string data_of(const Contents& contents) {
+  Json data{{"tick_s", contents.rig.tick_s}, {"rig", rig_json(contents.rig)}};
+  for (const auto& plot : contents.plots) data["plots"].push_back(plot_json(plot));
+  for (const auto& group : contents.groups) data["groups"].push_back(group_json(group, runs_of(contents)));
+  std::string text;
+  for (const char c : data.dump())
+    if (c == '<')
+      text += "\\u003c";
+    else
+      text += c;
+  return text;
+}
+
+std::string key(const char* kind) {
+  return fmt::format("<svg viewBox='0 0 34 10' aria-hidden='true'><path class='{}' d='M0 5H34'/></svg>",
+                     kind);
+}
+
+/// What is there without scripts: tracking and loops of every group.
+std::string stills(const Contents& contents) {
+  std::string html;
+  const std::size_t most = ticks_looked_at(runs_of(contents));
+  for (std::size_t g = 0; g < contents.groups.size(); ++g) {
+    const Group& group = contents.groups[g];
+    html += fmt::format("<section class='group' data-group='{}'>\n<h3>{}</h3>\n", g, escaped(group.name));
+    html += "<p class='keys still'>";
+    if (const Line& first = contents.plots.front().lines.front(); first.given)
+      html += "<span>" + key("given") + escaped(first.label) + "</span>";
+    for (const auto& run : group.runs)
+      html += fmt::format("<span class='c{} d{}'>{}{}</span>", run.style % 7, run.style % 4, key("run"),
+                          escaped(run.name));
+    html += "</p>\n<div class='pictures'>\n";
+    const Plot& plot = contents.plots.front();
+    html += fmt::format("<figure class='still'>\n{}<figcaption>{}</figcaption></figure>\n",
+                        still_svg(group, plot, contents.rig.tick_s, most), escaped(plot.title));
+    for (const auto& loop : contents.loops) {
+      const std::string svg = loop_svg(group, loop, most);
+      if (!svg.empty())
+        html += fmt::format("<figure>\n{}<figcaption>{}</figcaption></figure>\n", svg, escaped(loop.title));
+    }
+    html += "</div>\n</section>\n";
+  }
+  return html;
+}
+
+std::string pictures(const Contents& contents) {
+  if (contents.pictures.empty()) return "";
+  std::string html =
+      fmt::format("<h2>Figures</h2>\n<div class='drawn{}'>\n", contents.wide_pictures ? "" : " pictures");
+  for (const auto& picture : contents.pictures)
+    html += "<figure>\n" + picture.svg +
+            (picture.caption.empty() ? "" : "<figcaption>" + escaped(picture.caption) + "</figcaption>") +
+            "</figure>\n";
+  return html + "</div>\n";
+}
+
+/// Where the script puts its plots; hidden without it.
+constexpr const char* live =
+    "<section class='live-only' aria-label='Plots'>\n"
+    "<div class='controls'><label>Show <select id='group'></select></label>\n"
+    "<button id='play' type='button'>Play</button>\n"
+    "<select id='speed' aria-label='Speed'><option value='0.25'>1/4 x</option><option value='1' selected>1 "
+    "x</option>"
+    "<option value='4'>4 x</option><option value='16'>16 x</option></select>\n"
+    "<input id='time' type='range' min='0' step='any' aria-label='Time'>\n"
+    "<output id='clock'></output>\n"
+    "<button id='whole' type='button'>Whole run</button></div>\n"
+    "<figure><svg id='rig' role='img' aria-label='The rig at the time of the "
+    "cursor'></svg>\n"
+    "<figcaption id='rig-caption'></figcaption></figure>\n"
+    "<div class='wide result'><table id='readout'></table></div>\n"
+    "<p class='small'>Tick runs to compare; the round mark chooses the one drawn above. Move over a plot to "
+    "set "
+    "the time, drag to zoom, double-click to see the whole run. Keys: space plays, left and right step.</p>\n"
+    "<div id='plots'></div>\n</section>\n";
+
+}  // namespace
+
+std::string html_of(const Contents& contents) {
+  const bool runs = !contents.groups.empty();
+  std::string html = fmt::format(
+      "<!DOCTYPE html>\n<html lang='en'>\n<head>\n<meta charset='utf-8'>\n"
+      "<meta name='viewport' content='width=device-width,initial-scale=1'>\n<title>{}</title>\n",
+      escaped(contents.title));
+  html += fmt::format("<style>\n{}\n{}</style>\n", runs ? uplot_css : "", page_css);
+  if (runs) html += "<script>document.documentElement.classList.add('live')</script>\n";
+  html += "</head>\n<body>\n";
+  html += fmt::format("<p class='small'>{}</p>\n<h1>{}</h1>\n<p class='lead'>{}</p>\n",
+                      escaped(contents.about), escaped(contents.title), escaped(contents.sentence));
+  html += "<div class='wide result'>\n" + contents.table + "</div>\n";
+  for (const auto& warning : contents.warnings)
+    html += "<p class='warning'><b>Warning:</b> " + escaped(warning) + "</p>\n";
+  html += "<details><summary>All numbers, as printed</summary><pre>" + escaped(contents.details) +
+          "</pre></details>\n";
+  html += pictures(contents);
+  if (runs) html += live + ("<h2>Loops<span class='still'> and targets</span></h2>\n" + stills(contents));
+  html += fmt::format("<p class='small'>mckibben {}. {}</p>\n", MCKIBBEN_VERSION, escaped(contents.beside));
+  if (runs) {
+    html += fmt::format(
+        "<details class='small'><summary>Licence of uPlot, which draws the plots over "
+        "time</summary><pre>{}</pre></details>\n",
+        escaped(uplot_licence));
+    html += "<script type='application/json' id='data'>" + data_of(contents) + "</script>\n";
+    html += fmt::format("<script>\n{}\n</script>\n<script>\n'use strict';\n", uplot_js);
+    for (const auto& part : {data_js, plots_js, loops_js, rig_js, page_js}) html += part;
+    html += "</script>\n";
+  }
+  return html + "</body>\n</html>\n";
+}
+
+}  // namespace mckibben::report

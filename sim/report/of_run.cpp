@@ -1,0 +1,152 @@
+// The report of `run`: which controller follows best, rmse by load and controller, the runs of each load.
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include <sim/input/number.hpp>
+#include <sim/output/diagnosis_figures.hpp>
+#include <sim/output/table.hpp>
+#include <sim/report/html.hpp>
+#include <sim/report/quantities.hpp>
+#include <sim/report/report.hpp>
+
+namespace mckibben::report {
+namespace {
+
+using output::escaped;
+
+std::string loads_text(std::size_t count) {
+  return count == 1 ? "one load" : fmt::format("{} loads", count);
+}
+
+std::string sentence(const input::Scenario& scenario, const run::Comparison& comparison) {
+  const double length_mm = 1e3 * scenario.rig.muscle.rest_length_m;
+  const run::ControllerSpread *best = nullptr, *worst = nullptr;
+  for (const auto& one : comparison.spreads) {
+    if (!one.rmse) continue;
+    if (best == nullptr || one.rmse->mean < best->rmse->mean) best = &one;
+    if (worst == nullptr || one.rmse->mean > worst->rmse->mean) worst = &one;
+  }
+  if (best == nullptr) return "No run came to its end.";
+  const auto loads = scenario.loads_kg.size();
+  const auto failed = std::count_if(comparison.runs.begin(), comparison.runs.end(),
+                                    [](const auto& run) { return !run.failure.empty(); });
+  const std::string error = fmt::format(
+      "root mean square error {:.2f} mm (contraction ratio {:.5f}){}", best->rmse->mean * length_mm,
+      best->rmse->mean,
+      loads == 1 ? "" : ", the mean over " + (failed > 0 ? "the loads with a result" : loads_text(loads)));
+  std::string text = fmt::format("{}: {}.", best->controller, error);
+  if (best != worst)
+    text = fmt::format("{} follows the target best: {}. Of the {} controllers {} is the worst: {:.2f} mm.",
+                       best->controller, error, comparison.spreads.size(), worst->controller,
+                       worst->rmse->mean * length_mm);
+  if (failed > 0) text += fmt::format(" {} of {} runs have no result.", failed, comparison.runs.size());
+  if (!comparison.unmet.empty())
+    text += fmt::format(" {} of the scenario's criteria {} not met.", comparison.unmet.size(),
+                        comparison.unmet.size() == 1 ? "is" : "are");
+  return text;
+}
+
+/// rmse in mm, a row for each load; the smallest of a row is marked.
+std::string table(const input::Scenario& scenario, const run::Comparison& comparison) {
+  const std::size_t columns = scenario.controllers.size();
+  const double length_mm = 1e3 * scenario.rig.muscle.rest_length_m;
+  std::string html =
+      "<table><caption>Root mean square error in mm; the smallest of each row is bold</caption>\n"
+      "<thead><tr><th scope='col'>load</th>";
+  for (const auto& one : scenario.controllers)
+    html += "<th scope='col'>" + escaped(controllers::name_of(one)) + "</th>";
+  html += "</tr></thead>\n<tbody>\n";
+  bool marked = false;
+  const auto row = [&](const std::string& head, const auto& rmse_of, const auto& mark_of) {
+    std::optional<double> least;
+    for (std::size_t c = 0; c < columns; ++c)
+      if (const std::optional<double> rmse = rmse_of(c); rmse && (!least || *rmse < *least)) least = rmse;
+    html += head;
+    for (std::size_t c = 0; c < columns; ++c) {
+      const std::optional<double> rmse = rmse_of(c);
+      const std::string mark = mark_of(c);
+      marked = marked || !mark.empty();
+      html += rmse ? fmt::format("<td{}>{:.3f}{}</td>", rmse == least && columns > 1 ? " class='best'" : "",
+                                 *rmse * length_mm, mark)
+                   : "<td>no result</td>";
+    }
+    html += "</tr>\n";
+  };
+  std::size_t group = 0;  // loads without any row have none
+  for (std::size_t r = 0; r < scenario.loads_kg.size(); ++r) {
+    const auto run = [&](std::size_t c) -> const run::TrackedRun& {
+      return comparison.runs[r * columns + c];
+    };
+    bool shown = false;
+    for (std::size_t c = 0; c < columns; ++c) shown = shown || !run(c).recording.samples.empty();
+    row(
+        fmt::format("<tr{}><th scope='row'>{} kg</th>", shown ? fmt::format(" data-group='{}'", group++) : "",
+                    input::write_number(scenario.loads_kg[r])),
+        [&](std::size_t c) {
+          return run(c).failure.empty() ? std::optional(run(c).metrics.rmse) : std::nullopt;
+        },
+        [&](std::size_t c) { return run(c).failure.empty() ? output::extrapolation_mark(run(c)) : ""; });
+  }
+  if (scenario.loads_kg.size() > 1)
+    row(
+        "<tr class='mean'><th scope='row'>mean</th>",
+        [&](std::size_t c) {
+          const auto& rmse = comparison.spreads[c].rmse;
+          return rmse ? std::optional(rmse->mean) : std::nullopt;
+        },
+        [](std::size_t) { return std::string(); });
+  html += "</tbody></table>\n";
+  if (marked)
+    html +=
+        "<p class='small'>* extrapolated: load or target outside the calibrated range; + load taken as the "
+        "end of that range</p>\n";
+  return html;
+}
+
+Group group_of(const input::Scenario& scenario, const run::Comparison& comparison, std::size_t r) {
+  const std::size_t columns = scenario.controllers.size();
+  const double load_kg = scenario.loads_kg[r];
+  const plant::Plant plant(scenario.rig, load_kg);
+  const auto* target = &comparison.target;
+  Group group{.name = input::write_number(load_kg) + " kg", .load_kg = load_kg, .ticks = target->size()};
+  group.given = {{"given_contraction", [target](std::size_t k) { return (*target)[k]; }},
+                 {"weight", [weight_N = plant.weight_N()](std::size_t) { return weight_N; }}};
+  for (std::size_t c = 0; c < columns; ++c) {
+    const run::TrackedRun& run = comparison.runs[r * columns + c];
+    const auto* rows = &run.recording.samples;
+    if (rows->empty()) continue;
+    Run shown{.name = run.controller, .style = c, .ticks = rows->size()};
+    shown.quantities = quantities_of(run.recording, plant);
+    shown.quantities.push_back({"error", [rows, target](std::size_t k) {
+                                  return (*rows)[k].state.joint.contraction_ratio - (*target)[k];
+                                }});
+    group.runs.push_back(std::move(shown));
+  }
+  return group;
+}
+
+}  // namespace
+
+std::string report_html(const input::Scenario& scenario, const run::Comparison& comparison) {
+  Contents contents{.title = scenario.name,
+                    .about = fmt::format("Simulated: {}, {:g} s each", loads_text(scenario.loads_kg.size()),
+                                         scenario.duration_s),
+                    .warnings = comparison.warnings,
+                    .sentence = sentence(scenario, comparison),
+                    .table = table(scenario, comparison),
+                    .details = output::table_of(scenario, comparison),
+                    .beside =
+                        "Every number of every tick is in the CSV files beside this page; input, versions "
+                        "and hashes are in run.json.",
+                    .rig = scenario.rig,
+                    .plots = plots_for(scenario.rig, "Target and contraction", "Target",
+                                       "Error: contraction less target", false),
+                    .loops = loops()};
+  for (std::size_t r = 0; r < scenario.loads_kg.size(); ++r)
+    if (auto group = group_of(scenario, comparison, r); !group.runs.empty())
+      contents.groups.push_back(std::move(group));
+  return html_of(contents);
+}
+
+}  // namespace mckibben::report

@@ -1,0 +1,37 @@
+// report.html of each verb: one self-contained page with the result and, of runs, plots over
+// time, loops and a drawing of the rig.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <sim/input/campaign.hpp>
+#include <sim/input/dataset.hpp>
+#include <sim/input/fields_json.hpp>
+#include <sim/input/scenario.hpp>
+#include <sim/run/compare.hpp>
+#include <sim/run/error_map.hpp>
+#include <sim/run/replay.hpp>
+#include <sim/thesis/calibrate.hpp>
+#include <sim/thesis/figures.hpp>
+
+namespace mckibben::report {
+
+/// Every load under every controller.
+std::string report_html(const input::Scenario& scenario, const run::Comparison& comparison);
+
+/// Measured runs and their simulation.
+std::string report_html(const input::Dataset& dataset, const std::vector<run::ReplayedRun>& runs);
+
+/// A campaign's measurements. `document` is its campaign.json.
+std::string report_html(const input::Campaign& campaign, const input::Json& document,
+                        const input::Dataset& dataset);
+
+/// The models of a data set, and their figures.
+std::string report_html(const input::Dataset& dataset, const thesis::CalibrationResult& result,
+                        const thesis::Options& options, bool kgf, const std::vector<thesis::Figure>& figures);
+
+/// Error maps.
+std::string report_html(const run::MapPlan& plan, const run::ErrorMaps& maps);
+
+}  // namespace mckibben::report

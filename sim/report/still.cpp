@@ -1,0 +1,163 @@
+// Axes and lines; see the header.
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include <sim/output/diagnosis_figures.hpp>
+#include <sim/output/svg.hpp>
+#include <sim/report/still.hpp>
+
+namespace mckibben::report {
+namespace {
+
+using output::escaped;
+
+constexpr double width = 460.0, height = 300.0, left = 66.0, right = 10.0, top = 10.0, bottom = 42.0;
+
+struct Curve {
+  std::string kind;  // class and data-run
+  bool dots = false;
+  std::vector<std::pair<double, double>> points{};
+};
+
+struct Axis {
+  double from_px, to_px, low = 1e300, high = -1e300;
+
+  void hold(double value) { low = std::min(low, value), high = std::max(high, value); }
+  void close() {
+    if (low > high) low = 0.0, high = 1.0;
+    const double margin = std::max(0.04 * (high - low), 1e-6 + 2e-3 * std::abs(high));
+    low -= margin, high += margin;
+  }
+  double px(double value) const { return from_px + (to_px - from_px) * (value - low) / (high - low); }
+
+  template <class Draw>
+  void ticks(int parts, const Draw& draw) const {
+    const double step = output::tick_step(high - low, parts);
+    for (double i = std::ceil(low / step); i <= std::floor(high / step); i += 1.0)
+      draw(px(i * step), fmt::format("{:.4g}", i * step + 0.0));  // + 0.0 makes 0 of -0
+  }
+  std::string attribute(char name) const {
+    return fmt::format(" data-{}='{} {} {} {}'", name, low, high, from_px, to_px);
+  }
+};
+
+std::string path(const Curve& curve, const Axis& x, const Axis& y) {
+  std::string d;
+  double last_x = 0.0, last_y = 0.0;
+  bool down = false;
+  for (const auto& [at_x, at_y] : curve.points) {
+    if (!std::isfinite(at_x + at_y)) {
+      down = false;
+      continue;
+    }
+    const double to_x = x.px(at_x), to_y = y.px(at_y);
+    if (down && std::hypot(to_x - last_x, to_y - last_y) < 0.8) continue;
+    d +=
+        fmt::format("{}{:.1f} {:.1f}{}", down && !curve.dots ? 'L' : 'M', to_x, to_y, curve.dots ? "h0" : "");
+    down = true;
+    last_x = to_x, last_y = to_y;
+  }
+  return d.empty() ? "" : fmt::format("<path {} d='{}'/>\n", curve.kind, d);
+}
+
+std::string chart(const std::string& head, const std::string& x_label, const std::string& y_label,
+                  const std::vector<Curve>& curves) {
+  Axis x{left, width - right}, y{height - bottom, top};
+  bool any = false;
+  for (const auto& curve : curves)
+    for (const auto& [at_x, at_y] : curve.points)
+      if (std::isfinite(at_x + at_y)) {
+        x.hold(at_x);
+        y.hold(at_y);
+        any = true;
+      }
+  if (!any) return "";
+  x.close();
+  y.close();
+  std::string svg = fmt::format("<svg role='img' viewBox='0 0 {} {}' {}{}{}>\n", width, height, head,
+                                x.attribute('x'), y.attribute('y'));
+  x.ticks(6, [&](double px, const std::string& text) {
+    svg += fmt::format(
+        "<path class='grid' d='M{0:.1f} {1}V{2}'/><text x='{0:.1f}' y='{3}' "
+        "text-anchor='middle'>{4}</text>\n",
+        px, top, height - bottom, height - bottom + 15, text);
+  });
+  y.ticks(5, [&](double px, const std::string& text) {
+    svg += fmt::format(
+        "<path class='grid' d='M{0} {1:.1f}H{2}'/><text x='{3}' y='{4:.1f}' text-anchor='end'>{5}</text>\n",
+        left, px, width - right, left - 5, px + 4, text);
+  });
+  svg += fmt::format("<text x='{}' y='{}' text-anchor='middle'>{}</text>\n", 0.5 * (left + width - right),
+                     height - 8, escaped(x_label));
+  svg += fmt::format("<text x='11' y='{0}' text-anchor='middle' transform='rotate(-90 11 {0})'>{1}</text>\n",
+                     0.5 * (top + height - bottom), escaped(y_label));
+  for (const auto& curve : curves) svg += path(curve, x, y);
+  return svg + "</svg>\n";
+}
+
+/// Every how many of `ticks` are looked at.
+std::size_t stride(std::size_t ticks, std::size_t most) {
+  return std::max<std::size_t>(1, (ticks + most - 1) / most);
+}
+
+const AtTick* find(const std::vector<Quantity>& quantities, const std::string& key) {
+  for (const auto& quantity : quantities)
+    if (quantity.key == key) return &quantity.at;
+  return nullptr;
+}
+
+std::string run_class(const Run& run, const char* shape = "run") {
+  return fmt::format("class='{} c{} d{}' data-run='{}'", shape, run.style % 7, run.style % 4, run.style);
+}
+
+}  // namespace
+
+std::size_t ticks_looked_at(std::size_t runs) {
+  return std::clamp<std::size_t>(50000 / std::max<std::size_t>(runs, 1), 100, 4000);
+}
+
+std::string still_svg(const Group& group, const Plot& plot, double tick_s, std::size_t most) {
+  std::vector<Curve> curves;
+  const auto add = [&](const std::string& kind, const AtTick* at, std::size_t ticks) {
+    if (at == nullptr) return;
+    Curve curve{.kind = kind};
+    for (std::size_t k = 0; k < ticks; k += stride(ticks, most))
+      curve.points.emplace_back(static_cast<double>(k) * tick_s, (*at)(k));
+    curves.push_back(std::move(curve));
+  };
+  for (const auto& line : plot.lines) {
+    if (line.given) add("class='given'", find(group.given, line.key), group.ticks);
+    if (line.given || !line.main) continue;
+    for (const auto& run : group.runs) add(run_class(run), find(run.quantities, line.key), run.ticks);
+  }
+  return chart(fmt::format("aria-label='{}, {}'", escaped(plot.title), escaped(group.name)), "time in s",
+               plot.unit, curves);
+}
+
+std::string loop_svg(const Group& group, const Loop& loop, std::size_t most) {
+  std::vector<Curve> curves;
+  const AtTick *measured_x = find(group.given, loop.given_x), *measured_y = find(group.given, loop.given_y);
+  if (measured_x != nullptr && measured_y != nullptr) {
+    Curve curve{.kind = "class='given'"};
+    for (std::size_t k = 0; k < group.ticks; k += stride(group.ticks, most))
+      curve.points.emplace_back((*measured_x)(k), (*measured_y)(k));
+    curves.push_back(std::move(curve));
+  }
+  for (const auto& run : group.runs) {
+    const AtTick *x = find(run.quantities, loop.x), *y = find(run.quantities, loop.y);
+    if (x == nullptr || y == nullptr) continue;
+    Curve curve{.kind = run_class(run, loop.dots ? "dots" : "run"), .dots = loop.dots};
+    for (std::size_t k = 0; k < run.ticks; k += stride(run.ticks, most))
+      curve.points.emplace_back((*x)(k), (*y)(k));
+    curves.push_back(std::move(curve));
+  }
+  const std::string head = fmt::format("class='loop' data-loop='{}' data-keys='{} {}' aria-label='{}, {}'",
+                                       loop.id, loop.x, loop.y, escaped(loop.title), escaped(group.name));
+  return chart(head, loop.x_label, loop.y_label, curves);
+}
+
+}  // namespace mckibben::report

@@ -1,0 +1,173 @@
+// The report's page: what is packed comes back, extremes survive, the page needs nothing but itself and stays
+// small. How it looks and moves is tested in tests/browser.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <sim/report/html.hpp>
+#include <sim/report/pack.hpp>
+#include <sim/report/quantities.hpp>
+#include <sim/report/still.hpp>
+
+namespace mckibben::report {
+namespace {
+
+/// What the page's script makes of a packed quantity.
+std::vector<double> unpacked(const input::Json& packed, std::size_t count) {
+  const std::string letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  const auto bits = packed.at("bits").get<std::string>();
+  const double low = packed.at("low").get<double>(), step = packed.at("step").get<double>();
+  if (bits.empty()) return std::vector<double>(count, low);
+  std::vector<unsigned> bytes;
+  unsigned held = 0, bits_held = 0;
+  for (const char c : bits) {
+    if (c == '=') break;
+    held = held << 6 | static_cast<unsigned>(letters.find(c));
+    bits_held += 6;
+    if (bits_held >= 8) {
+      bits_held -= 8;
+      bytes.push_back(held >> bits_held & 255u);
+    }
+  }
+  std::vector<double> values;
+  for (std::size_t i = 0; i + 1 < bytes.size(); i += 2) {
+    const unsigned code = bytes[i] | bytes[i + 1] << 8;
+    values.push_back(code == 65535 ? std::numeric_limits<double>::quiet_NaN() : low + code * step);
+  }
+  EXPECT_EQ(values.size(), count);
+  return values;
+}
+
+TEST(Pack, WritesBase64AsTheStandardDoes) {
+  EXPECT_EQ(base64({}), "");
+  EXPECT_EQ(base64({'f'}), "Zg==");
+  EXPECT_EQ(base64({'f', 'o'}), "Zm8=");
+  EXPECT_EQ(base64({'f', 'o', 'o', 'b', 'a', 'r'}), "Zm9vYmFy");
+}
+
+TEST(Pack, KeepsEveryTickOfAShortRunToA65534thOfItsRange) {
+  const AtTick at = [](std::size_t k) { return 0.2 * std::sin(0.1 * static_cast<double>(k)); };
+  EXPECT_EQ(ticks_per_column(500, 10), 1u);
+  const auto values = unpacked(pack(at, 500, 500, 1), 500);
+  for (std::size_t k = 0; k < values.size(); ++k) EXPECT_NEAR(values[k], at(k), 0.4 / 65534.0) << k;
+}
+
+TEST(Pack, LeavesHolesWhereThereIsNoValue) {
+  const AtTick at = [](std::size_t k) {
+    return k == 2 ? std::numeric_limits<double>::quiet_NaN() : static_cast<double>(k);
+  };
+  const auto values = unpacked(pack(at, 6, 4, 1), 6);
+  EXPECT_NEAR(values[1], 1.0, 3.0 / 65534.0);
+  for (const std::size_t hole : {2u, 4u, 5u}) EXPECT_TRUE(std::isnan(values[hole])) << hole;
+  EXPECT_EQ(unpacked(pack([](std::size_t) { return 7.25; }, 3, 3, 1), 3), std::vector<double>(3, 7.25));
+}
+
+TEST(Pack, KeepsASpikeOfOneTickInALongRunAndItsOrder) {
+  constexpr std::size_t ticks = 100000, spike = 54321;
+  const AtTick at = [](std::size_t k) { return k == spike ? -3.0 : 1.0 + 1e-9 * static_cast<double>(k); };
+  const std::size_t wide = ticks_per_column(ticks, 1);
+  ASSERT_GT(wide, 1u);
+  const auto values = unpacked(pack(at, ticks, ticks, wide), points(ticks, wide));
+  EXPECT_LE(values.size(), 2000u);
+  const std::size_t column = spike / wide;
+  EXPECT_NEAR(std::min(values[2 * column], values[2 * column + 1]), -3.0, 1e-3);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (i / 2 == column) continue;
+    EXPECT_NEAR(values[i], 1.0, 1e-3) << i;
+  }
+}
+
+TEST(Pack, AColumnWithSomeValuesHasTheirExtremes) {
+  constexpr double hole = std::numeric_limits<double>::quiet_NaN();
+  const std::vector<double> column{hole, 4.0, hole, 1.0, 2.0, hole, hole, hole, hole, hole};
+  const auto values = unpacked(pack([&](std::size_t k) { return column[k]; }, 10, 10, 5), 4);
+  EXPECT_NEAR(values[0], 4.0, 1e-4);
+  EXPECT_EQ(values[1], 1.0);
+  EXPECT_TRUE(std::isnan(values[2]) && std::isnan(values[3]));
+}
+
+/// Runs that shake as much as they can: the worst case for size.
+Contents shaking(std::size_t groups, std::size_t ticks) {
+  Contents contents{.title = "shaking </script><b>&'",
+                    .about = "",
+                    .sentence = "",
+                    .table = "",
+                    .details = "",
+                    .plots = plots_for({}, "Target and contraction", "Target", "Error", false),
+                    .loops = loops()};
+  for (std::size_t g = 0; g < groups; ++g) {
+    Group group{.name = "</script>", .ticks = ticks};
+    const auto noise = [g](double seed) {
+      return [seed, g](std::size_t k) {
+        return std::sin(seed * static_cast<double>((k + 3) * (k + 7 + g) % 100003));
+      };
+    };
+    group.given = {{"given_contraction", noise(1.1)}, {"weight", [](std::size_t) { return 100.0; }}};
+    Run run{.name = "simulated", .ticks = ticks};
+    double seed = 0.3;
+    for (const char* key : {"contraction", "error", "current", "reference_pressure", "valve_pressure",
+                            "muscle_pressure", "braid_force", "friction_force", "friction_coefficient"})
+      run.quantities.push_back({key, noise(seed += 0.17)});
+    group.runs.push_back(std::move(run));
+    contents.groups.push_back(std::move(group));
+  }
+  return contents;
+}
+
+std::size_t count(const std::string& text, std::string_view what) {
+  std::size_t found = 0;
+  for (auto at = text.find(what); at != std::string::npos; at = text.find(what, at + 1)) ++found;
+  return found;
+}
+
+TEST(Page, AsksForNothingOutsideItselfAndCannotBeBrokenByNames) {
+  const std::string html = html_of(shaking(2, 100));
+  EXPECT_EQ(html.find(" src="), std::string::npos);
+  EXPECT_EQ(html.find("<link"), std::string::npos);
+  EXPECT_EQ(html.find("@import"), std::string::npos);
+  EXPECT_EQ(count(html, "<script"), count(html, "</script>"));
+  EXPECT_EQ(count(html, "<script"), 4u);
+  EXPECT_NE(html.find("shaking &lt;/script&gt;&lt;b&gt;&amp;&#39;"), std::string::npos);
+  EXPECT_NE(html.find("The MIT License"), std::string::npos);
+  EXPECT_NE(html.find("Leon Sorokin"), std::string::npos);
+}
+
+TEST(Page, OfAHundredRunsStaysBelowTenMegabytesHoweverTheyShake) {
+  EXPECT_LT(html_of(shaking(100, 1600)).size(), 10'000'000u);  // the longest that are not decimated
+}
+
+TEST(Still, LeavesOutALoopThatNoRunHas) {
+  Group group{.name = "1 kg", .ticks = 2};
+  group.runs.push_back(
+      {.name = "pid", .ticks = 2, .quantities = {{"contraction", [](std::size_t) { return 0.1; }}}});
+  EXPECT_EQ(loop_svg(group, loops().front(), 100), "");
+}
+
+TEST(Quantities, FrictionCoefficientIsFrictionOverNormalForceWhileThreadsSlide) {
+  const plant::Plant plant({}, 11.138);
+  run::Recording recording;
+  run::Sample sample{};
+  sample.state = {{0.1, 0.05}, {2e5, 2e5, 0.0}};
+  sample.friction_force_N = -40.0;
+  recording.samples.push_back(sample);
+  sample.state.joint.contraction_speed_per_s = 0.0;
+  recording.samples.push_back(sample);
+  for (const auto& quantity : quantities_of(recording, plant)) {
+    if (quantity.key != "friction_coefficient") continue;
+    // T 4.3 by hand: 2 pi r0 l0 sin(a0) / ((1 - e) sqrt(1 - cos2(a0) (1 - e)^2)), e = 0.1, 2 bar
+    const double a0 = 20.0 * std::acos(-1.0) / 180.0, c = std::cos(a0);
+    const double surface_m2 =
+        2.0 * std::acos(-1.0) * 7.5e-3 * 0.3 * std::sin(a0) / (0.9 * std::sqrt(1.0 - c * c * 0.81));
+    EXPECT_NEAR(quantity.at(0), 40.0 / (surface_m2 * 2e5), 1e-9);
+    EXPECT_TRUE(std::isnan(quantity.at(1)));
+    return;
+  }
+  FAIL() << "no friction coefficient";
+}
+
+}  // namespace
+}  // namespace mckibben::report
