@@ -15,6 +15,8 @@ namespace {
 using plant::Basis;
 
 constexpr std::size_t most_terms = 3;
+/// Mean square above the floor at which a term more would describe noise.
+constexpr double met = 0.15;
 /// Waves whose lengths differ by less [logarithm] are one proposal.
 constexpr double alike = 0.15;
 /// Proposals that are fitted, of each base.
@@ -150,7 +152,7 @@ Law find_law(const Case& c, const std::vector<const Contender*>& bases, const Ei
     law.terms.push_back(next->fitted.model.rig.effects.get<plant::ResidualForce>().terms.size() - 1);
     law.contender = std::move(*next);
     before = law.contender.held_out;
-    if (excess(before) < 0.04) break;
+    if (excess(before) < met) break;
   }
   law.gain = compare(c.experiment, reference, law.contender.held_out, c.split.held_out);
   return law;
