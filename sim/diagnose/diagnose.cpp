@@ -126,10 +126,15 @@ class Workflow {
     const auto& held = case_.split.held_out;
     const auto tell = [this](const std::string& what) { step(what); };
     const auto recalibration = compare(experiment_, nominal_fit_.held_out, recalibrated_.held_out, held);
-    const Eigen::VectorXd reference =
-        recalibration.gained > 0.0 ? recalibrated_.held_out : nominal_fit_.held_out;
+    if (recalibration.gained <= 0.0) chosen_ = &nominal_fit_;
+    const Eigen::VectorXd reference = chosen_->held_out;
     naming_ = name_effects(case_, nominal_fit_, recalibrated_, reference, tell);
-    const bool named = !naming_.effects.empty();
+    // A gauge that misleads may be met by an effect that takes the motion further away.
+    const bool named = !naming_.effects.empty() &&
+                       experiment_.rmse(naming_.best.held_out, held) < experiment_.rmse(reference, held);
+    if (!named && !naming_.effects.empty())
+      result_.warnings.push_back(
+          "effects that would explain the gauge's pressures make the motion worse: is the gauge right?");
     const Eigen::VectorXd& with_names = named ? naming_.best.held_out : reference;
     const double left = excess(with_names);
     const double named_share = named ? compare(experiment_, reference, with_names, held).share : 0.0;
@@ -156,7 +161,7 @@ class Workflow {
     result_.confusion_names = naming_.confusion_names;
     result_.confusion = naming_.confusion;
     const auto& held = case_.split.held_out;
-    if (result_.verdict == Verdict::nothing_missing) {
+    if (result_.verdict == Verdict::nothing_missing || chosen_ == &nominal_fit_) {
       chosen_rig_ = nominal_;
     } else {
       step("fitting all runs");

@@ -146,10 +146,7 @@ std::vector<Candidate> catalogue() {
                   .step = law.step,
                   .either_sign = law.sign == plant::Sign::either,
                   .shapes = {}};
-      if (!law.shape.empty()) {
-        c.shapes = {law.low, law.middle, law.high};
-        c.complexity = 2;
-      }
+      if (!law.shape.empty()) c.shapes = {law.low, law.middle, law.high};
       list.push_back(std::move(c));
     }
   };

@@ -53,7 +53,6 @@ struct Candidate {
   double absent = 0.0, typical = 0.0, step = 0.0;
   bool either_sign = false;
   std::vector<double> shapes;  ///< to begin from
-  int complexity = 1;          ///< parameters
 
   /// The rig with this law chosen, still without size.
   plant::Rig chosen(plant::Rig rig) const;

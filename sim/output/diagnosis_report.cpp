@@ -130,11 +130,9 @@ std::string absorbed(const Diagnosis& diagnosis) {
 std::string colophon(const input::Dataset& data, const Diagnosis& diagnosis) {
   std::string html = fmt::format(
       "<p class='small'>Heights are heights of the load: 0.001 of contraction ratio is {:g} mm. The noise "
-      "floor "
-      "is what counting and jitter of the encoder let nobody see. In {:.0f} % of data sets without a missing "
-      "effect one is named all the same. Seed {}; mckibben {}. Exact numbers are in diagnosis.json, the rig "
-      "in "
-      "rig.yaml.</p>\n",
+      "floor is what counting and jitter of the encoder let nobody see, or what equal runs differ by. The "
+      "thresholds aim at naming an effect where none is missing in {:.0f} % of data sets. Seed {}; mckibben "
+      "{}. Exact numbers are in diagnosis.json, the rig in rig.yaml.</p>\n",
       data.rig.muscle.rest_length_m, 100.0 * diagnosis.false_alarm_rate, diagnosis.seed, MCKIBBEN_VERSION);
   return html;
 }
