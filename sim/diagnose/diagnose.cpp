@@ -130,9 +130,10 @@ class Workflow {
     const Eigen::VectorXd reference = chosen_->held_out;
     naming_ = name_effects(case_, nominal_fit_, recalibrated_, reference, tell);
     // A gauge that misleads may be met by an effect that takes the motion further away.
-    const bool named = !naming_.effects.empty() &&
-                       experiment_.rmse(naming_.best.held_out, held) < experiment_.rmse(reference, held);
-    if (!named && !naming_.effects.empty())
+    const bool misled = experiment_.floor().pressure_Pa > 0.0 && !naming_.effects.empty() &&
+                        experiment_.rmse(naming_.best.held_out, held) >= experiment_.rmse(reference, held);
+    const bool named = !naming_.effects.empty() && !misled;
+    if (misled)
       result_.warnings.push_back(
           "effects that would explain the gauge's pressures make the motion worse: is the gauge right?");
     const Eigen::VectorXd& with_names = named ? naming_.best.held_out : reference;
