@@ -141,7 +141,7 @@ class Workflow {
     const double named_share = named ? compare(experiment_, reference, with_names, held).share : 0.0;
     if (left > worth_a_law && left > 0.05 * excess(nominal_fit_.held_out))
       law_ = find_law(case_, {&recalibrated_, &nominal_fit_}, reference, tell);
-    const bool lawful = !law_.terms.empty() && law_.gain.share > least_law &&
+    const bool lawful = law_.terms > 0 && law_.gain.share > least_law &&
                         (!named || excess(law_.contender.held_out) < 0.4 * left);
     if (lawful) {
       result_.verdict = Verdict::unknown_effect;
@@ -211,8 +211,9 @@ class Workflow {
       gap.measured = measured.contraction_ratio;
       for (double& ratio : gap.measured) ratio += 0.5 * experiment_.floor().count;
       const auto tell = [&](const plant::Rig& rig, double& rmse, std::vector<double>& readings) {
-        rmse = experiment_.rmse(experiment_.residuals(rig, {run}), {run});
-        readings = experiment_.readings(rig, run).contraction_ratio;
+        auto simulated = experiment_.readings(rig, run);
+        rmse = experiment_.rmse(experiment_.residuals(simulated, run), {run});
+        readings = std::move(simulated.contraction_ratio);
       };
       tell(nominal_, gap.nominal_rmse, gap.nominal);
       tell(recalibrated_.fitted.model.rig, gap.recalibrated_rmse, gap.recalibrated);

@@ -35,6 +35,11 @@ struct Estimate {
   double value = 0.0, low = 0.0, high = 0.0;
 };
 
+/// As it is told: "valve_dead_band", "bladder_elasticity (linear)".
+inline std::string full_name(const std::string& name, const std::string& variant) {
+  return variant.empty() ? name : name + " (" + variant + ")";
+}
+
 struct NamedEffect {
   std::string name, variant;
   std::vector<std::string> confusable_with{};  ///< effects that explain these data as well

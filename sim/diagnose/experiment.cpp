@@ -190,6 +190,12 @@ Experiment::Slopes Experiment::slopes(const plant::Rig& rig, std::span<const Cha
   return result;
 }
 
+Eigen::VectorXd Experiment::residuals(const Readings& readings, std::size_t run) const {
+  Eigen::VectorXd list(static_cast<Eigen::Index>(rows(run)));
+  compare(readings, run, list.data());
+  return list;
+}
+
 Readings Experiment::readings(const plant::Rig& rig, std::size_t run) const {
   const Hanging hanging{rig, data_.runs[run].load_kg};
   return predict(data_.runs[run], {&hanging, 1}).front();

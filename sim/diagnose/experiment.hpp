@@ -58,6 +58,9 @@ class Experiment {
   };
   Slopes slopes(const plant::Rig& rig, std::span<const Change> changes, const Runs& runs) const;
 
+  /// The same of one run whose readings are known.
+  Eigen::VectorXd residuals(const Readings& readings, std::size_t run) const;
+
   /// Readings of one run.
   Readings readings(const plant::Rig& rig, std::size_t run) const;
 

@@ -149,7 +149,7 @@ Law find_law(const Case& c, const std::vector<const Contender*>& bases, const Ei
     if (polished.fitted.failure.empty() && polished.fitted.cost < next->fitted.cost)
       next = std::move(polished);
     if (!convinces(compare(c.experiment, before, next->held_out, c.split.held_out))) break;
-    law.terms.push_back(next->fitted.model.rig.effects.get<plant::ResidualForce>().terms.size() - 1);
+    ++law.terms;
     law.contender = std::move(*next);
     before = law.contender.held_out;
     if (excess(before) < met) break;

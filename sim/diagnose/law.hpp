@@ -8,9 +8,9 @@
 namespace mckibben::diagnose {
 
 struct Law {
-  Contender contender{};             ///< its rig carries the terms
-  Improvement gain{};                ///< on the runs held out, against the reference
-  std::vector<std::size_t> terms{};  ///< of the rig that were added; empty: no law was found
+  Contender contender{};  ///< its rig carries the terms
+  Improvement gain{};     ///< on the runs held out, against the reference
+  std::size_t terms = 0;  ///< that were added; 0: no law was found
 };
 
 /// Begins at whichever of `bases` leads to the better fit: one that is recalibrated may have bent far to

@@ -38,7 +38,7 @@ struct Trial {
 };
 
 std::string title(const Candidate& c) {
-  return c.variant.empty() ? c.effect : c.effect + " (" + c.variant + ")";
+  return full_name(c.effect, c.variant);
 }
 
 /// A size that a fit has not driven against a bound, nor to nothing.
@@ -78,6 +78,17 @@ void polish(const Case& c, Trial& trial, const std::function<void(const std::str
     trial.contender = std::move(polished);
 }
 
+/// One candidate more than `base`, fitted with the slopes that `base` has. Look at the fit's failure.
+Trial rough(const Case& c, const Contender& base, const Score& score, std::size_t place) {
+  const auto known = slopes_of_nominal(base.fitted);
+  return {score, place, contend(c, with(c, base.fitted.model, score), &known), {}};
+}
+
+/// Nothing left to find, in the runs held out and in those fitted.
+bool meets(const Contender& contender) {
+  return excess(contender.held_out) < nothing_left && excess(contender.fitted.residuals) < 2.0 * nothing_left;
+}
+
 /// Refits of a round: the best of each screening and those like them, roughly first, then in full those that
 /// promise. Once one meets the data, only those like it are tried.
 std::vector<Trial> refit(const Case& c, const std::vector<Screening>& screenings,
@@ -98,15 +109,12 @@ std::vector<Trial> refit(const Case& c, const std::vector<Screening>& screenings
       const Score& score = scores[place];
       if (!wanted(score, scores.front())) continue;
       step("trying " + title(score.candidate));
-      const auto known = slopes_of_nominal(base->fitted);
-      auto contender = contend(c, with(c, base->fitted.model, score), &known);
-      if (!contender.fitted.failure.empty()) continue;
-      trials.push_back({score, place, std::move(contender), {}});
+      Trial trial = rough(c, *base, score, place);
+      if (!trial.contender.fitted.failure.empty()) continue;
+      trials.push_back(std::move(trial));
       if (place > 0) continue;
       polish(c, trials.back(), step);
-      const auto& best = trials.back().contender;
-      if (excess(best.held_out) < nothing_left && excess(best.fitted.residuals) < 2.0 * nothing_left)
-        solved = &score;
+      if (meets(trials.back().contender)) solved = &score;
     }
   }
   const auto by_cost = [](const Trial& a, const Trial& b) {
@@ -145,13 +153,12 @@ Screening screen_at(const Case& c, const Contender& base) {
 std::optional<Trial> substitute(const Case& c, const Contender& smaller, const Candidate& gone,
                                 const Contender& best, const std::function<void(const std::string&)>& step) {
   const Screening screening = screen_at(c, smaller);
-  const auto known = slopes_of_nominal(smaller.fitted);
   for (std::size_t place = 0; place < most_substitutes; ++place) {
     const Score& score = screening.scores[place];
     if (score.drop < chance) break;
     if (score.candidate.effect == gone.effect) continue;
     step(fmt::format("trying {} instead of {}", title(score.candidate), title(gone)));
-    Trial trial{score, place, contend(c, with(c, smaller.fitted.model, score), &known), {}};
+    Trial trial = rough(c, smaller, score, place);
     if (!trial.contender.fitted.failure.empty()) continue;
     polish(c, trial, step);
     const auto gain = compare(c.experiment, best.held_out, trial.contender.held_out, c.split.held_out);
@@ -171,12 +178,11 @@ std::optional<std::array<Trial, 2>> pair_of(const Case& c, const std::vector<Tri
     const Trial& first = trials[i];
     if (!has_size(first.contender.fitted.model, first.score.candidate)) continue;
     const Screening screening = screen_at(c, first.contender);
-    const auto known = slopes_of_nominal(first.contender.fitted);
     for (std::size_t place = 0; place < most_substitutes; ++place) {
       const Score& score = screening.scores[place];
       if (score.drop < chance) break;
       step(fmt::format("trying {} with {}", title(first.score.candidate), title(score.candidate)));
-      Trial second{score, place, contend(c, with(c, first.contender.fitted.model, score), &known), {}};
+      Trial second = rough(c, first.contender, score, place);
       if (!second.contender.fitted.failure.empty()) continue;
       const auto closes = [&] {
         second.gain = compare(c.experiment, before, second.contender.held_out, c.split.held_out);
@@ -214,9 +220,7 @@ void revise(const Case& c, Naming& result, const Eigen::VectorXd& reference,
       if (i == 0) result.rivals.clear();  // they were its rivals
       continue;
     }
-    const bool met = excess(result.best.held_out) < nothing_left &&
-                     excess(result.best.fitted.residuals) < 2.0 * nothing_left;
-    if (!met) {
+    if (!meets(result.best)) {
       if (auto better = substitute(c, smaller, old, result.best, step)) {
         result.best = std::move(better->contender);
         result.effects.erase(place);  // the new one stands last in the model, too

@@ -12,6 +12,23 @@
 
 namespace mckibben::engine {
 
+/// What every ERKStep of ours is set to: Cash-Karp in steps that divide a tick evenly. V: kind of its vector.
+template <class V>
+void set_up_erk(void* m, const Context& context, double tolerance, void* user, EvenSteps& steps,
+                std::string& message) {
+  ERKStepSetErrHandlerFn(m, keep_message, &message);
+  ERKStepSetUserData(m, user);
+  ERKStepSVtolerances(m, tolerance, absolute_tolerances<V>(context, tolerance).get());
+  ERKStepSetTableNum(m, ARKODE_CASH_KARP_6_4_5);
+  ERKStepSetInterpolantDegree(m, 1);  // only asked for at the ends of steps, unless events are looked for
+  ERKStepSetMaxErrTestFails(m, 50);   // the braid stop may need more than the library's 7
+  ERKStepSetMaxNumSteps(m, most_steps_in_a_tick);
+  ERKStepSetAdaptivityFn(m, EvenSteps::choose, &steps);
+  ERKStepSetSafetyFactor(m, 1.0);
+  ERKStepSetErrorBias(m, 1.0);
+  ERKStepSetFixedStepBounds(m, 1.0, 1.0);
+}
+
 /// V: kind of SUNDIALS vector, see sundials.hpp.
 template <class V>
 class Erk final : public Integrator {
@@ -20,17 +37,7 @@ class Erk final : public Integrator {
     memory_.reset(ERKStepCreate(forbidding_right_hand_side, 0.0, y_.get(), context_));
     if (!memory_) throw std::bad_alloc();
     void* m = memory_.get();
-    ERKStepSetErrHandlerFn(m, keep_message, &message_);
-    ERKStepSetUserData(m, &problem_);
-    ERKStepSVtolerances(m, tolerance, absolute_tolerances<V>(context_, tolerance).get());
-    ERKStepSetTableNum(m, ARKODE_CASH_KARP_6_4_5);
-    ERKStepSetInterpolantDegree(m, 1);  // only asked for at the ends of steps, unless events are looked for
-    ERKStepSetMaxErrTestFails(m, 50);   // the braid stop may need more than the library's 7
-    ERKStepSetMaxNumSteps(m, most_steps_in_a_tick);
-    ERKStepSetAdaptivityFn(m, EvenSteps::choose, &steps_);
-    ERKStepSetSafetyFactor(m, 1.0);
-    ERKStepSetErrorBias(m, 1.0);
-    ERKStepSetFixedStepBounds(m, 1.0, 1.0);
+    set_up_erk<V>(m, context_, tolerance, &problem_, steps_, message_);
     if (rig.has_events()) {
       int falling = -1;
       ERKStepSetInterpolantDegree(m, 3);

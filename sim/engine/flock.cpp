@@ -3,11 +3,8 @@
 #include <array>
 #include <stdexcept>
 
-#include <arkode/arkode_erkstep.h>
-
-#include <sim/engine/even_steps.hpp>
+#include <sim/engine/erk_method.hpp>
 #include <sim/engine/flock.hpp>
-#include <sim/engine/sundials.hpp>
 
 namespace mckibben::engine {
 namespace {
@@ -28,18 +25,7 @@ class ErkFlock final : public Flock {
     count_ = plants.size();
     memory_.reset(ERKStepCreate(right_hand_sides, 0.0, y_.get(), context_));
     if (!memory_) throw std::bad_alloc();
-    void* m = memory_.get();
-    ERKStepSetErrHandlerFn(m, keep_message, &message_);
-    ERKStepSetUserData(m, this);
-    ERKStepSVtolerances(m, tolerance, absolute_tolerances<V>(context_, tolerance).get());
-    ERKStepSetTableNum(m, ARKODE_CASH_KARP_6_4_5);
-    ERKStepSetInterpolantDegree(m, 1);
-    ERKStepSetMaxErrTestFails(m, 50);
-    ERKStepSetMaxNumSteps(m, most_steps_in_a_tick);
-    ERKStepSetAdaptivityFn(m, EvenSteps::choose, &steps_);
-    ERKStepSetSafetyFactor(m, 1.0);
-    ERKStepSetErrorBias(m, 1.0);
-    ERKStepSetFixedStepBounds(m, 1.0, 1.0);
+    set_up_erk<V>(memory_.get(), context_, tolerance, this, steps_, message_);
   }
 
   void advance(std::span<Flow> flows, std::span<const plant::Held> held, double from_s,

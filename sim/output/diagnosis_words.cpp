@@ -88,16 +88,11 @@ std::string title_of(const diagnose::Diagnosis& diagnosis) {
     case diagnose::Verdict::missing_effect:
       return "Missing: " + listed(found);
     case diagnose::Verdict::unknown_effect:
-      return found.empty() ? "Something outside the catalogue is missing"
-                           : "Missing: " + listed(found) + ", and something outside the catalogue";
+      return "Something outside the catalogue is missing";
     case diagnose::Verdict::cannot_tell:
       break;
   }
   return "These data cannot tell";
-}
-
-std::string full_name(const std::string& name, const std::string& variant) {
-  return variant.empty() ? name : fmt::format("{} ({})", name, variant);
 }
 
 std::vector<std::string> held_out(const diagnose::Diagnosis& diagnosis) {

@@ -33,8 +33,7 @@ std::string listed(const std::vector<std::string>& names);
 /// The verdict as a heading, with the effects' names.
 std::string title_of(const diagnose::Diagnosis& diagnosis);
 
-/// "bladder_elasticity (strain_limit)": an effect with the variant of its law, if it has several.
-std::string full_name(const std::string& name, const std::string& variant);
+using diagnose::full_name;
 
 /// Ids of the runs held out.
 std::vector<std::string> held_out(const diagnose::Diagnosis& diagnosis);

@@ -109,9 +109,7 @@ std::string report_html(const input::Dataset& dataset, const std::vector<run::Re
       .sentence = sentence(dataset, runs),
       .table = table(dataset, runs),
       .details = output::table_of(dataset, runs),
-      .beside =
-          "Every number of every tick is in the CSV files beside this page; input, versions and hashes are "
-          "in run.json.",
+      .beside = std::string(beside_runs),
       .rig = dataset.rig,
       .plots = plots_for(dataset.rig, "Contraction, measured and simulated", "Measured",
                          "Error: simulated less measured, both as counted", gauge),

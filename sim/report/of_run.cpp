@@ -136,9 +136,7 @@ std::string report_html(const input::Scenario& scenario, const run::Comparison& 
                     .sentence = sentence(scenario, comparison),
                     .table = table(scenario, comparison),
                     .details = output::table_of(scenario, comparison),
-                    .beside =
-                        "Every number of every tick is in the CSV files beside this page; input, versions "
-                        "and hashes are in run.json.",
+                    .beside = std::string(beside_runs),
                     .rig = scenario.rig,
                     .plots = plots_for(scenario.rig, "Target and contraction", "Target",
                                        "Error: contraction less target", false),

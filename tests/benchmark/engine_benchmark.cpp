@@ -14,7 +14,6 @@
 #include <vector>
 
 #include <benchmark/benchmark.h>
-#include <dlfcn.h>
 #include <nvector/nvector_serial.h>
 
 #include <sim/engine/erk_method.hpp>
@@ -186,31 +185,12 @@ BENCHMARK_CAPTURE(Effects_, all, plant::rig_with_all_effects())
     ->UseManualTime()
     ->Unit(benchmark::kMillisecond);
 
-/// Nanoseconds for an element of a long vector sum: the library's loop, and the same loop compiled here.
 void print_library() {
-  Dl_info where{};
-  dladdr(reinterpret_cast<void*>(&N_VLinearSum_Serial), &where);
-  const Context context;
-  constexpr int n = 4096, repeats = 2000;
-  const Vector x(N_VNew_Serial(n, context)), y(N_VNew_Serial(n, context)), z(N_VNew_Serial(n, context));
-  N_VConst(1.0, x.get());
-  N_VConst(2.0, y.get());
-  const auto time_ns = [&](const auto& sum) {
-    const auto start = std::chrono::steady_clock::now();
-    for (int i = 0; i < repeats; ++i) sum();
-    return std::chrono::duration<double, std::nano>(std::chrono::steady_clock::now() - start).count() / n /
-           repeats;
-  };
-  const double library_ns = time_ns([&] { N_VLinearSum_Serial(2.0, x.get(), 3.0, y.get(), z.get()); });
-  const double here_ns = time_ns([&] {
-    for (int i = 0; i < n; ++i)
-      NV_Ith_S(z.get(), i) = 2.0 * NV_Ith_S(x.get(), i) + 3.0 * NV_Ith_S(y.get(), i);
-    benchmark::ClobberMemory();
-  });
+  const SundialsBuild build = sundials_build();
   std::printf(
       "SUNDIALS %s, %s\n  its vector loop takes %.1f times as long as ours: it was built %s optimisation\n",
-      sundials_version().c_str(), where.dli_fname == nullptr ? "linked statically" : where.dli_fname,
-      library_ns / here_ns, library_ns > 2.0 * here_ns ? "without" : "with");
+      build.version.c_str(), build.file.empty() ? "linked statically" : build.file.c_str(), build.slowness,
+      build.slowness > 2.0 ? "without" : "with");
   std::printf("a right-hand side takes %.1f ns\n", 1e9 * right_hand_side_s());
 }
 

@@ -4,24 +4,12 @@
 
 #include <gtest/gtest.h>
 
-#include <sim/diagnose/diagnose.hpp>
 #include <sim/diagnose/experiment.hpp>
 
 #include "planted.hpp"
 
 namespace mckibben::diagnose {
 namespace {
-
-input::Dataset small(const plant::Rig& truth) {
-  auto currents = three_kinds();
-  currents.pop_back();
-  for (auto& current : currents) current.duration_s = 4.0;
-  return planted(truth, {11.138, 16.138, 23.406}, currents, 7);
-}
-
-Diagnosis of(const input::Dataset& data, unsigned threads) {
-  return diagnose(data, {.threads = threads, .seed = 3}, [](const auto&, auto, auto) {});
-}
 
 TEST(Diagnose, HasTheSameSlopesForAnyNumberOfThreads) {
   const auto data = small(plant::Rig{});
@@ -58,7 +46,7 @@ TEST(Diagnose, TakesForNoiseWhatRepeatedRunsDoNotRepeat) {
 }
 
 TEST(Diagnose, SaysThatNothingIsMissingWhereNothingIs) {
-  const auto found = of(small(plant::Rig{}), 0);
+  const auto found = diagnosis_of(small(plant::Rig{}), 0);
   EXPECT_EQ(found.verdict, Verdict::nothing_missing);
   EXPECT_TRUE(found.effects.empty());
   EXPECT_LT(found.gap.nominal_rmse, 1.3 * found.gap.noise_floor);

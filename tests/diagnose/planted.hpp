@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include <sim/diagnose/diagnose.hpp>
 #include <sim/input/campaign.hpp>
 #include <sim/input/dataset.hpp>
 #include <sim/run/campaign.hpp>
@@ -49,6 +50,18 @@ inline input::Dataset planted(const plant::Rig& truth, std::vector<double> loads
     data.runs.back().file = data.runs.back().id + ".csv";
   }
   return data;
+}
+
+/// Six runs of four seconds, enough for a whole diagnosis: three loads, the middle one held out.
+inline input::Dataset small(const plant::Rig& truth) {
+  auto currents = three_kinds();
+  currents.pop_back();
+  for (auto& current : currents) current.duration_s = 4.0;
+  return planted(truth, {11.138, 16.138, 23.406}, currents, 7);
+}
+
+inline Diagnosis diagnosis_of(const input::Dataset& data, unsigned threads) {
+  return diagnose(data, {.threads = threads, .seed = 3}, [](const auto&, auto, auto) {});
 }
 
 }  // namespace mckibben::diagnose

@@ -1,30 +1,17 @@
 // The workflow on data whose answer is known. The benchmark scores many more; these must hold whenever.
 #include <gtest/gtest.h>
 
-#include <sim/diagnose/diagnose.hpp>
-
 #include "diagnose/planted.hpp"
 
 namespace mckibben::diagnose {
 namespace {
-
-input::Dataset small(const plant::Rig& truth) {
-  auto currents = three_kinds();
-  currents.pop_back();
-  for (auto& current : currents) current.duration_s = 4.0;
-  return planted(truth, {11.138, 16.138, 23.406}, currents, 7);
-}
-
-Diagnosis of(const input::Dataset& data, unsigned threads) {
-  return diagnose(data, {.threads = threads, .seed = 3}, [](const auto&, auto, auto) {});
-}
 
 TEST(Diagnose, NamesTheLeakThatIsHidden) {
   plant::Rig truth;
   truth.effects.get<plant::MuscleLeak>().conductance_m3_per_s_Pa = 2e-10;
   truth.muscle.rest_radius_m *= 1.003;
   const auto data = small(truth);
-  const auto found = of(data, 2);
+  const auto found = diagnosis_of(data, 2);
   EXPECT_EQ(found.verdict, Verdict::missing_effect);
   ASSERT_EQ(found.effects.size(), 1u);
   EXPECT_EQ(found.effects[0].name, "muscle_leak");
@@ -45,7 +32,7 @@ TEST(Diagnose, FindsALawForWhatIsInNoCatalogue) {
   plant::Rig truth;
   truth.effects.get<plant::ResidualForce>().terms = {
       {.of = plant::Basis::sine, .coefficient_N = 6.0, .wavelength_m = 0.012, .phase_rad = 0.8}};
-  const auto found = of(small(truth), 0);
+  const auto found = diagnosis_of(small(truth), 0);
   EXPECT_EQ(found.verdict, Verdict::unknown_effect);
   ASSERT_FALSE(found.residual_law.empty());
   const auto& term = found.corrected.effects.get<plant::ResidualForce>().terms.front();
