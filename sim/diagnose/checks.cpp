@@ -1,12 +1,11 @@
 // Checks of measured data; see the header. Thresholds are in counts of the encoder.
 #include <algorithm>
 #include <cmath>
-#include <numeric>
-#include <span>
 
 #include <fmt/format.h>
 
 #include <sim/diagnose/checks.hpp>
+#include <sim/diagnose/columns.hpp>
 #include <sim/diagnose/labels.hpp>
 #include <sim/run/batch.hpp>
 #include <sim/run/simulate.hpp>
@@ -14,95 +13,8 @@
 namespace mckibben::diagnose {
 namespace {
 
-using Series = std::vector<double>;
-
-constexpr double bar_Pa = 1e5;
-
-double range(std::span<const double> values) {
-  const auto [low, high] = std::minmax_element(values.begin(), values.end());
-  return *high - *low;
-}
-
-/// Straight line through `values` over `model`; its slope is 0 where the model stands still.
-struct Line {
-  double slope = 0.0, mean_difference = 0.0;
-  Line(const Series& values, const Series& model) {
-    const auto rows = static_cast<double>(values.size());
-    const double mean = std::accumulate(values.begin(), values.end(), 0.0) / rows;
-    const double model_mean = std::accumulate(model.begin(), model.end(), 0.0) / rows;
-    double along = 0.0, squares = 0.0;
-    for (std::size_t k = 0; k < values.size(); ++k) {
-      along += (values[k] - mean) * (model[k] - model_mean);
-      squares += (model[k] - model_mean) * (model[k] - model_mean);
-    }
-    if (squares > 0.0) slope = along / squares;
-    mean_difference = mean - model_mean;
-  }
-};
-
-// Units.
-
-/// What a column would be multiplied by, if it were in this unit.
-struct Unit {
-  double factor;
-  std::string_view name;
-};
-
-/// The unit that explains a slope between measured and predicted values.
-std::optional<std::string_view> other_unit(double slope, std::initializer_list<Unit> units) {
-  for (const Unit& unit : units) {
-    const bool far_from_right = std::abs(std::log(unit.factor)) > std::log(2.0);
-    if (far_from_right && slope > 0.0 && std::abs(std::log(slope / unit.factor)) < std::log(1.25))
-      return unit.name;
-  }
-  return std::nullopt;
-}
-
-void check_units(const input::Dataset& data, const std::vector<Readings>& model) {
-  const plant::Rig& rig = data.rig;
-  const double count = run::contraction_per_count(rig);
-  const double dead_mA = rig.valve.zero_current_mA, amperes_mA = rig.valve.span_current_mA / 400.0;
-  std::vector<input::Problem> problems;
-  for (std::size_t i = 0; i < data.runs.size(); ++i) {
-    const input::Run& run = data.runs[i];
-    const auto bad = [&](std::string message) {
-      input::Problem problem;
-      problem.file = (data.path.parent_path() / run.file).lexically_normal().string();
-      problem.message = std::move(message);
-      problems.push_back(std::move(problem));
-    };
-    const double largest_mA = *std::max_element(run.current_mA.begin(), run.current_mA.end());
-    if (largest_mA > 0.0 && largest_mA < amperes_mA)
-      bad(fmt::format("current_mA: never above {:.3g}; this looks like amperes, not mA", largest_mA));
-    else if (largest_mA < dead_mA && range(run.contraction_ratio) > 20.0 * count)
-      bad(fmt::format(
-          "current_mA: never above {:.3g}, where the valve does nothing (below {:.3g} mA), yet the "
-          "muscle moves; is this another unit, or a share of the range?",
-          largest_mA, dead_mA));
-    if (range(model[i].contraction_ratio) > 20.0 * count) {
-      const double length_m = rig.muscle.rest_length_m;
-      const auto unit = other_unit(Line(run.contraction_ratio, model[i].contraction_ratio).slope,
-                                   {{100.0, "per cent"},
-                                    {length_m, "metres"},
-                                    {1e3 * length_m, "millimetres"},
-                                    {1.0 / count, "counts"}});
-      if (unit) bad(fmt::format("contraction_ratio: this looks like {}, not a ratio", *unit));
-    }
-    if (!run.muscle_pressure_Pa) continue;
-    const Line pressure(*run.muscle_pressure_Pa, model[i].pressure_Pa);
-    if (range(model[i].pressure_Pa) > 0.3 * bar_Pa) {
-      const auto unit = other_unit(
-          pressure.slope, {{100.0, "kPa"}, {14.504, "psi"}, {1e3, "mbar"}, {0.1, "MPa"}, {1e5, "Pa"}});
-      if (unit) bad(fmt::format("muscle_pressure_bar: this looks like {}, not bar", *unit));
-      if (pressure.slope < 0.5 || pressure.slope > 2.0) continue;
-    }
-    if (std::abs(pressure.mean_difference / rig.gas.atmosphere_Pa - 1.0) < 0.2)
-      bad("muscle_pressure_bar: about one atmosphere too high; this looks like absolute, not gauge pressure");
-  }
-  if (!problems.empty()) throw input::BadInput(std::move(problems));
-}
-
-// Single runs.
+/// What gauges cannot resolve anyway.
+constexpr double gauge_step_Pa = 2e3;
 
 /// Rows from `begin` to before `end`.
 struct Stretch {
@@ -160,11 +72,16 @@ std::vector<Stretch> spikes(Series values, const Series& sharpest, double count)
 /// A row at which the reading jumps and stays: the load moves before and after as if nothing had happened.
 std::optional<std::size_t> lost_counts(const Series& values, const Series& sharpest,
                                        const std::vector<bool>& masked, double count) {
+  std::vector<double> steps;
+  for (std::size_t k = 1; k < values.size(); ++k) steps.push_back(std::abs(values[k] - values[k - 1]));
+  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
+  std::nth_element(steps.begin(), middle, steps.end());
+  const double noise = 8.0 * *middle;
   for (std::size_t k = 2; k + 1 < values.size(); ++k) {
     if (masked[k - 2] || masked[k - 1] || masked[k] || masked[k + 1]) continue;
     const double before = values[k - 1] - values[k - 2], after = values[k + 1] - values[k];
     const double jump = std::abs(values[k] - values[k - 1] - 0.5 * (before + after));
-    if (jump > 20.0 * count + 4.0 * sharpest[k] && std::abs(after - before) < 0.25 * jump) return k;
+    if (jump > noise + 20.0 * count + 4.0 * sharpest[k] && std::abs(after - before) < 0.25 * jump) return k;
   }
   return std::nullopt;
 }
@@ -212,6 +129,7 @@ class Checker {
       gauge(i);
       if (moves(i)) readings(i);
     }
+    copies();
     labels();
     enough();
     for (std::size_t i = 0; i < left_out_.size(); ++i)
@@ -240,11 +158,33 @@ class Checker {
     if (!shown) return;
     const bool constant = range(*shown) == 0.0;
     const bool should_move = range(model_[i].pressure_Pa) > 0.3 * bar_Pa;
-    if (!constant && (!should_move || std::abs(Line(*shown, model_[i].pressure_Pa).slope) > 0.1)) return;
+    if (!constant && (!should_move || Line(*shown, model_[i].pressure_Pa).slope > 0.1)) {
+      mask_spikes(i, "muscle_pressure_bar", *shown, model_[i].pressure_Pa, gauge_step_Pa);
+      return;
+    }
     doubts_.dead_gauges.push_back(i);
     warn(i, fmt::format("muscle_pressure_bar {}: the gauge is ignored",
                         constant ? fmt::format("is {:.4g} throughout", shown->front() / bar_Pa)
                                  : "does not follow the current"));
+  }
+
+  void mask(std::size_t run, const Stretch& stretch) {
+    std::fill(doubts_.masked[run].begin() + static_cast<std::ptrdiff_t>(stretch.begin),
+              doubts_.masked[run].begin() + static_cast<std::ptrdiff_t>(stretch.end), true);
+  }
+
+  void mask_spikes(std::size_t i, std::string_view column, const Series& values, const Series& model,
+                   double step) {
+    const auto outliers = spikes(values, sharpest_nearby(model, data_.rig.tick_s), step);
+    if (outliers.empty()) return;
+    std::string times;
+    for (std::size_t n = 0; n < outliers.size(); ++n) {
+      mask(i, outliers[n]);
+      if (n < 3) times += fmt::format("{}{:.3f} s", n > 0 ? ", " : "", time_s(outliers[n].begin));
+    }
+    warn(i,
+         fmt::format("{} outlier{} in {}, at {}{}; not used", outliers.size(), outliers.size() > 1 ? "s" : "",
+                     column, times, outliers.size() > 3 ? " and later" : ""));
   }
 
   bool moves(std::size_t i) {
@@ -271,26 +211,15 @@ class Checker {
     const Series& model = model_[i].contraction_ratio;
     std::vector<bool>& masked = doubts_.masked[i];
     const Series sharpest = sharpest_nearby(model, data_.rig.tick_s);
-    const auto outliers = spikes(values, sharpest, count_);
+    mask_spikes(i, "contraction_ratio", values, model, count_);
     const auto stuck = frozen(values, model, count_, data_.rig.tick_s);
-    const auto mask = [&](const Stretch& stretch) {
-      std::fill(masked.begin() + static_cast<std::ptrdiff_t>(stretch.begin),
-                masked.begin() + static_cast<std::ptrdiff_t>(stretch.end), true);
-    };
-    std::for_each(outliers.begin(), outliers.end(), mask);
-    if (!outliers.empty()) {
-      std::string times;
-      for (std::size_t n = 0; n < std::min<std::size_t>(outliers.size(), 3); ++n)
-        times += fmt::format("{}{:.3f} s", n > 0 ? ", " : "", time_s(outliers[n].begin));
-      warn(i, fmt::format("{} outlier{} in contraction_ratio, at {}{}; not used", outliers.size(),
-                          outliers.size() > 1 ? "s" : "", times, outliers.size() > 3 ? " and later" : ""));
-    }
-    std::for_each(stuck.begin(), stuck.end(), mask);
-    for (const Stretch& stretch : stuck)
+    for (const Stretch& stretch : stuck) {
+      mask(i, stretch);
       warn(i,
            fmt::format("contraction_ratio is frozen from {:.3f} s to {:.3f} s though the load should move; "
                        "not used",
                        time_s(stretch.begin - 1), time_s(stretch.end - 1)));
+    }
     const auto lost = std::count(masked.begin(), masked.end(), true);
     if (const auto row = lost_counts(values, sharpest, masked, count_))
       leave_out(i,
@@ -300,13 +229,46 @@ class Checker {
       leave_out(i, "too little of it is left");
   }
 
+  // The same file twice says nothing new, and would stand on both sides of the split.
+  void copies() {
+    for (std::size_t i = 0; i < data_.runs.size(); ++i) {
+      const auto same = [&](const input::Run& run) {
+        return run.contraction_ratio == data_.runs[i].contraction_ratio &&
+               run.current_mA == data_.runs[i].current_mA;
+      };
+      const auto last = data_.runs.begin() + static_cast<std::ptrdiff_t>(i);
+      const auto first = std::find_if(data_.runs.begin(), last, same);
+      if (first != last && !left_out_[i])
+        leave_out(i, fmt::format("equal to run {} in every reading: a copy", first->id));
+    }
+  }
+
   void labels() {
     const Runs runs = usable();
-    const auto wrong = wrong_labels(data_, doubts_.masked, runs, threads_);
-    for (const WrongLabel& label : wrong)
-      leave_out(label.run,
-                fmt::format("the load is labelled {:.6g} kg, but everything else says about {:.1f} kg",
-                            data_.runs[label.run].load_kg, label.load_kg));
+    if (runs.size() < least_labels)
+      doubts_.warnings.push_back(fmt::format(
+          "{} usable runs: too few to check the labels of the loads against each other", runs.size()));
+    const auto [wrong, common_ratio] = check_labels(data_, doubts_.masked, runs, threads_);
+    constexpr double pound_kg = 0.45359237;
+    if (std::abs(common_ratio / pound_kg - 1.0) < 0.06) {
+      input::Problem problem;
+      problem.file = data_.path.string();
+      problem.message =
+          fmt::format("load: all runs fit best at {:.2f} times their loads; these look like pounds, not kg",
+                      common_ratio);
+      throw input::BadInput({problem});
+    }
+    for (const WrongLabel& label : wrong) {
+      if (label.zero != 0.0)
+        leave_out(label.run,
+                  fmt::format("contraction_ratio is shifted by {:.2g} against the other runs: was the "
+                              "encoder set to zero elsewhere?",
+                              label.zero));
+      else
+        leave_out(label.run,
+                  fmt::format("the load is labelled {:.6g} kg, but everything else says about {:.1f} kg",
+                              data_.runs[label.run].load_kg, label.load_kg));
+    }
     if (3 * wrong.size() > runs.size())
       doubts_.cannot_tell =
           "too many runs contradict the others about their load: weigh the loads again, or give the rig's "

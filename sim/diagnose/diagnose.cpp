@@ -24,10 +24,14 @@ constexpr double first_temperature = 20.0;
 constexpr double near_floor = 4.0;
 /// Mean squares above the floor: what is worth a search for a law, and what no disturbance would leave.
 constexpr double worth_a_law = 0.15, beyond_disturbance = 60.0;
-/// Shares of the gap that effects must close to be named, and a law to be believed.
-constexpr double least_named = 0.4, least_law = 0.3;
+/// Shares of the gap that effects must close to be named, to be named whatever is left, and a law to be
+/// believed.
+constexpr double least_named = 0.4, most_of_it = 0.9, least_law = 0.3;
 /// The rate of false alarms that the thresholds are set for; docs/diagnosis.md has what was measured.
 constexpr double false_alarm_rate = 0.03;
+
+/// What is left of the motion where a gauge and the motion may contradict each other.
+constexpr double contradicted = 1.0;
 
 constexpr std::size_t usual_steps = 20;
 
@@ -64,6 +68,11 @@ std::string visited(const input::Dataset& data, const Runs& runs) {
       current_mA.low, current_mA.high, load_kg.low, load_kg.high, ratio.low, ratio.high);
 }
 
+/// What the motion alone has left on the runs held out: mean square above the floor's.
+double motion_left(const Gap& gap) {
+  return std::pow(gap.corrected_rmse / gap.noise_floor, 2) - 1.0;
+}
+
 class Workflow {
  public:
   Workflow(const input::Dataset& data, const Settings& settings, const run::ProgressHook& progress)
@@ -76,6 +85,8 @@ class Workflow {
         nominal_(data.rig),
         case_{experiment_, nominal_, {}, first_temperature} {}
 
+  bool gauged() const { return experiment_.floor().pressure_Pa > 0.0; }
+
   Diagnosis operator()() {
     result_.seed = settings_.seed;
     result_.warnings = doubts_.warnings;
@@ -85,6 +96,11 @@ class Workflow {
           "equal runs differ by {:.2g} in contraction ratio (rms over sqrt 2), more than a count and its "
           "jitter explain: this is taken for the noise floor",
           floor.repeats));
+    else if (floor.noise > 0.0)
+      result_.warnings.push_back(fmt::format(
+          "contraction_ratio scatters by {:.2g} from tick to tick (rms), far more than counts do: "
+          "this is taken for the noise floor",
+          floor.noise));
     result_.false_alarm_rate = false_alarm_rate;
     result_.corrected = data_.rig;
     if (doubts_.cannot_tell) {
@@ -110,12 +126,17 @@ class Workflow {
     auto slopes = experiment_.slopes(nominal_, fitted.model.free, case_.split.training);
     fitted.residuals = std::move(slopes.residuals);
     fitted.columns = std::move(slopes.columns);
+    fitted.cost = fitted.residuals.squaredNorm() / case_.temperature;
   }
 
   void recalibrate() {
     step("recalibrating");
     recalibrated_ = contend(case_, nominal_fit_.fitted.model);
-    if (!recalibrated_.fitted.failure.empty()) throw std::runtime_error(recalibrated_.fitted.failure);
+    if (!recalibrated_.fitted.failure.empty()) {
+      result_.warnings.push_back("the nominal parameters could not be fitted: " +
+                                 recalibrated_.fitted.failure);
+      recalibrated_ = nominal_fit_;
+    }
     const auto& residuals = recalibrated_.fitted.residuals;
     if (excess(residuals) + 1.0 > near_floor * near_floor) return;
     case_.temperature = temperature(experiment_, residuals, case_.split.training);
@@ -130,7 +151,7 @@ class Workflow {
     const Eigen::VectorXd reference = chosen_->held_out;
     naming_ = name_effects(case_, nominal_fit_, recalibrated_, reference, tell);
     // A gauge that misleads may be met by an effect that takes the motion further away.
-    const bool misled = experiment_.floor().pressure_Pa > 0.0 && !naming_.effects.empty() &&
+    const bool misled = gauged() && !naming_.effects.empty() &&
                         experiment_.rmse(naming_.best.held_out, held) >= experiment_.rmse(reference, held);
     const bool named = !naming_.effects.empty() && !misled;
     if (misled)
@@ -146,15 +167,35 @@ class Workflow {
     if (lawful) {
       result_.verdict = Verdict::unknown_effect;
       chosen_ = &law_.contender;
-    } else if (named && (named_share >= least_named || excess(reference) < worth_a_law)) {
+    } else if (named && (left < beyond_disturbance || named_share >= most_of_it) &&
+               (named_share >= least_named || excess(reference) < worth_a_law)) {
       result_.verdict = Verdict::missing_effect;
       result_.effects = naming_.effects;
       chosen_ = &naming_.best;
+      if (left + 1.0 > near_floor * near_floor)
+        result_.warnings.push_back(
+            fmt::format("{:.1f} noise floors are left with the effects named: more is missing, or their laws "
+                        "are not quite these",
+                        std::sqrt(left + 1.0)));
     } else if (left > beyond_disturbance) {
       result_.verdict = Verdict::unknown_effect;
+      for (const NamedEffect& effect : naming_.effects)
+        result_.warnings.push_back(
+            fmt::format("{} comes nearest, but with it {:.1f} noise floors are left: not named",
+                        full_name(effect.name, effect.variant), std::sqrt(left + 1.0)));
     } else {
       result_.verdict = convinces(recalibration) ? Verdict::recalibrate : Verdict::nothing_missing;
+      tell_invisible();
     }
+  }
+
+  // What nobody could have seen is not "nothing".
+  void tell_invisible() {
+    if (naming_.invisible.empty()) return;
+    const auto list = fmt::format("{}", fmt::join(naming_.invisible, ", "));
+    if (result_.verdict == Verdict::nothing_missing && 2 * naming_.invisible.size() > catalogue().size())
+      result_.verdict = Verdict::cannot_tell;
+    result_.warnings.push_back("these data would not show, even at its usual size: " + list);
   }
 
   void report() {
@@ -167,7 +208,8 @@ class Workflow {
     } else {
       step("fitting all runs");
       const double scatter = temperature(experiment_, chosen_->fitted.residuals, case_.split.training);
-      auto whole = fit(experiment_, chosen_->fitted.model, usable_, {.temperature = scatter});
+      auto whole =
+          fit(experiment_, chosen_->fitted.model, usable_, {.temperature = scatter, .thorough = true});
       const bool failed = !whole.failure.empty();
       if (failed) {
         result_.warnings.push_back(
@@ -178,8 +220,8 @@ class Workflow {
       tell_parameters(result_, whole.model, bounds, recalibrated_.fitted.model.rig);
       static_cast<plant::Rig&>(result_.corrected) = whole.model.rig;
       chosen_rig_ = chosen_->fitted.model.rig;
-      for (const auto& path : whole.without_influence)
-        result_.warnings.push_back("no reading depends on " + path + ": its value says nothing");
+      for (const auto& path : whole.model.refused)
+        result_.warnings.push_back("no reading depends on " + path + ": it was not fitted");
     }
     if (result_.verdict == Verdict::unknown_effect) result_.law_valid_for = visited(data_, usable_);
     const Eigen::VectorXd corrected = experiment_.residuals(chosen_rig_, held);
@@ -222,15 +264,16 @@ class Workflow {
     }
   }
 
-  // What would separate the effect named from the first of those it may be.
+  // What would separate the effect named first from those it may be, or the next one.
   void plan_next() {
-    if (result_.effects.empty() || naming_.rivals.empty()) return;
-    step("planning");
-    const auto& effect = result_.effects.front();
-    const double scatter = temperature(experiment_, chosen_->fitted.residuals, case_.split.training);
-    result_.next_experiment =
-        plan(experiment_, naming_.first, naming_.rivals.front(),
-             {effect.name, effect.confusable_with.front()}, result_.gap.corrected_rmse, 1.0 / scatter);
+    if (result_.effects.empty()) return;
+    for (const Doubt& doubt : naming_.doubts) {
+      step("planning");
+      const double scatter = temperature(experiment_, chosen_->fitted.residuals, case_.split.training);
+      result_.next_experiment = plan(experiment_, doubt.with_effect, doubt.with_rival,
+                                     {doubt.effect, doubt.rival}, result_.gap.corrected_rmse, 1.0 / scatter);
+      if (result_.next_experiment) return;
+    }
   }
 
   Settings settings_;
@@ -254,7 +297,19 @@ class Workflow {
 }  // namespace
 
 Diagnosis diagnose(const input::Dataset& data, const Settings& settings, const run::ProgressHook& progress) {
-  return Workflow(data, settings, progress)();
+  Workflow workflow(data, settings, progress);
+  Diagnosis result = workflow();
+  const double left = motion_left(result.gap);
+  if (!workflow.gauged() || !(left >= contradicted)) return result;
+  // No model meets the gauge and the motion: perhaps one meets the motion alone.
+  const auto plain = without_gauges(data, all_but({}, data.runs.size()));
+  Diagnosis ungauged = Workflow(plain, settings, progress)();
+  if (ungauged.verdict == Verdict::cannot_tell || motion_left(ungauged.gap) > 0.25 * left) return result;
+  ungauged.warnings.insert(
+      ungauged.warnings.begin(),
+      "muscle_pressure_bar is ignored: no model meets both it and the motion, but one meets the motion alone "
+      "(has the gauge an offset, another scale, a limit; was it on another muscle?)");
+  return ungauged;
 }
 
 }  // namespace mckibben::diagnose

@@ -56,6 +56,7 @@ struct Moved {
 struct LawTerm {
   std::string term;
   Estimate coefficient;
+  std::vector<Estimate> shape{};  ///< wavelength and phase of a wave
 };
 
 /// One cell of the map of disagreement.

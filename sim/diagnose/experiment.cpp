@@ -1,6 +1,7 @@
 // Residuals and slopes; see the header. Parameters fly in flocks of seven beside the rig they are changes of.
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <mutex>
 
 #include <sim/diagnose/experiment.hpp>
@@ -15,13 +16,33 @@ namespace {
 /// Jitter of a reading before it is counted that a good encoder has anyway.
 constexpr double least_jitter = 5e-5;
 
-/// Whether the readings are whole counts, but for a few that something else has spoilt.
-bool counted(const input::Dataset& data, double count) {
-  std::size_t whole = 0, all = 0;
+/// The last decimal that any reading has, for files rounded to a few: 0 if there are more than seven.
+double last_decimal(const input::Dataset& data) {
+  double unit = 1e-3;
   for (const input::Run& run : data.runs) {
-    all += run.contraction_ratio.size();
-    for (const double ratio : run.contraction_ratio)
-      whole += std::abs(ratio / count - std::round(ratio / count)) <= 0.01 ? 1 : 0;
+    for (const double ratio : run.contraction_ratio) {
+      while (std::abs(ratio / unit - std::round(ratio / unit)) > 1e-6) {
+        unit /= 10.0;
+        if (unit < 1e-7) return 0.0;
+      }
+    }
+  }
+  return unit;
+}
+
+/// Whether the readings are whole counts to the last decimal, but for a few that something else has spoilt.
+bool counted(const input::Dataset& data, const std::vector<std::vector<bool>>& masked, double count,
+             double decimal) {
+  const double tolerance = 0.01 + 0.5 * decimal / count;
+  if (tolerance > 0.2) return false;  // everything would be whole
+  std::size_t whole = 0, all = 0;
+  for (std::size_t i = 0; i < data.runs.size(); ++i) {
+    for (std::size_t k = 0; k < data.runs[i].contraction_ratio.size(); ++k) {
+      if (masked[i][k]) continue;
+      const double counts = data.runs[i].contraction_ratio[k] / count;
+      ++all;
+      whole += std::abs(counts - std::round(counts)) <= tolerance ? 1 : 0;
+    }
   }
   return 100 * whole >= 99 * all;
 }
@@ -44,6 +65,23 @@ double gauge_noise_Pa(const input::Dataset& data) {
     ++count;
   }
   return count == 0 ? 0.0 : std::max(std::sqrt(squares / static_cast<double>(count)), 50.0);
+}
+
+/// White noise of the contraction ratio, from its fourth differences: no load moves so fast, and the median
+/// is blind to single jumps.
+double scatter(const input::Dataset& data, const std::vector<std::vector<bool>>& masked) {
+  std::vector<double> fourth;
+  for (std::size_t i = 0; i < data.runs.size(); ++i) {
+    const auto& e = data.runs[i].contraction_ratio;
+    for (std::size_t k = 4; k < e.size(); ++k)
+      if (std::none_of(masked[i].begin() + static_cast<std::ptrdiff_t>(k - 4),
+                       masked[i].begin() + static_cast<std::ptrdiff_t>(k + 1), std::identity{}))
+        fourth.push_back(std::abs(e[k] - 4.0 * e[k - 1] + 6.0 * e[k - 2] - 4.0 * e[k - 3] + e[k - 4]));
+  }
+  if (fourth.empty()) return 0.0;
+  const auto middle = fourth.begin() + static_cast<std::ptrdiff_t>(fourth.size() / 2);
+  std::nth_element(fourth.begin(), middle, fourth.end());
+  return *middle / 0.6745 / std::sqrt(70.0);
 }
 
 /// Scatter of the contraction ratio between runs of the same current and load; 0 if there are none.
@@ -71,10 +109,15 @@ Experiment::Experiment(const input::Dataset& data, std::vector<std::vector<bool>
                        const Runs& trusted)
     : data_(data), masked_(std::move(masked)), threads_(threads) {
   const double count = run::contraction_per_count(data.rig);
-  if (counted(data, count)) floor_.count = count;
+  const double decimal = last_decimal(data);
+  if (counted(data, masked_, count, decimal)) floor_.count = count;
   floor_.repeats = repeatability(data, masked_, trusted);
-  floor_.ratio = std::max(floor_.repeats, std::sqrt(floor_.count * floor_.count / 12.0 +
-                                                    least_jitter * least_jitter + tolerance * tolerance));
+  floor_.ratio = std::sqrt((floor_.count * floor_.count + decimal * decimal) / 12.0 +
+                           least_jitter * least_jitter + tolerance * tolerance);
+  const double noise = scatter(data, masked_);
+  if (noise > 2.0 * floor_.ratio)
+    floor_.ratio = floor_.noise = noise;  // counting alone can look like its own
+  floor_.ratio = std::max(floor_.repeats, floor_.ratio);
   floor_.pressure_Pa = gauge_noise_Pa(data);
 }
 

@@ -20,6 +20,7 @@ struct NoiseFloor {
   double count = 0.0;        ///< contraction ratio of one count; 0: the readings are not counted
   double ratio = 0.0;        ///< of the contraction ratio: the largest of instruments and repeats
   double repeats = 0.0;      ///< of the contraction ratio, between equal runs; 0: none are equal
+  double noise = 0.0;        ///< of the contraction ratio, from tick to tick; 0: what counting makes
   double pressure_Pa = 0.0;  ///< of the gauge; 0: none fitted
 };
 

@@ -11,9 +11,12 @@
 namespace mckibben::diagnose {
 namespace {
 
-constexpr int most_rounds = 5, iterations_a_round = 8;
-/// Less descent in a round than this moves no parameter by a tenth of its deviation.
+constexpr int most_rounds = 5, most_thorough = 20, iterations_a_round = 8;
+/// A round of less descent is the last. In units of the cost, where 1 is what a parameter costs that is moved
+/// by its deviation; the more misfit, the coarser, since what is missing moves parameters further than that.
 constexpr double least_descent = 0.01;
+/// Sum of squares of a slope [floors per scale], below which it is rounding.
+constexpr double least_influence = 1e-12;
 
 class Misfit final : public ceres::CostFunction {
  public:
@@ -115,8 +118,26 @@ double cost_of(const Fitted& fitted, double temperature) {
   return cost;
 }
 
+/// "Converged" would be the wrong word for what never had a reason to move.
+void refuse_without_influence(Fitted& fitted) {
+  std::vector<Parameter> free;
+  std::vector<Eigen::Index> kept;
+  for (std::size_t j = 0; j < fitted.model.free.size(); ++j) {
+    Parameter& p = fitted.model.free[j];
+    const auto column = static_cast<Eigen::Index>(j);
+    if (fitted.columns.col(column).squaredNorm() < least_influence) {
+      fitted.model.refused.push_back(p.path);
+    } else {
+      kept.push_back(column);
+      free.push_back(std::move(p));
+    }
+  }
+  fitted.model.free = std::move(free);
+  fitted.columns = Eigen::MatrixXd(fitted.columns(Eigen::all, kept));
+}
+
 /// Moves the rig of `model` to the least misfit along these slopes. The reason why not, if it cannot.
-std::string descend(Misfit& misfit, Model& model, int most_iterations) {
+std::string descend(Misfit& misfit, Model& model, bool thorough) {
   std::vector<double> values;
   for (const Parameter& p : model.free) values.push_back(p.scaled(value_of(model.rig, p.path)));
   ceres::Problem::Options ownership;
@@ -130,9 +151,9 @@ std::string descend(Misfit& misfit, Model& model, int most_iterations) {
   }
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::DENSE_QR;
-  options.max_num_iterations = most_iterations;
-  options.function_tolerance = 1e-4;
-  options.parameter_tolerance = 1e-5;
+  options.max_num_iterations = iterations_a_round;
+  options.function_tolerance = thorough ? 1e-7 : 1e-4;
+  options.parameter_tolerance = thorough ? 1e-7 : 1e-5;
   options.logging_type = ceres::SILENT;
   options.num_threads = 1;  // the simulations have their own
   ceres::Solver::Summary summary;
@@ -170,18 +191,20 @@ Fitted fit(const Experiment& experiment, Model start, const Runs& runs, const Fi
   };
   const bool rough = settings.known != nullptr;
   const KnownSlopes none;
-  if (!rough && !look(none)) return result;
-  for (int round = 0; round < (rough ? 1 : most_rounds) && !result.model.free.empty(); ++round) {
+  if (!rough) {
+    if (!look(none)) return result;
+    refuse_without_influence(result);
+  }
+  const int rounds = rough ? 1 : settings.thorough ? most_thorough : most_rounds;
+  const double coarseness = settings.thorough ? 0.0 : 0.01;
+  for (int round = 0; round < rounds && !result.model.free.empty(); ++round) {
     const KnownSlopes known = rough ? *settings.known : slopes_of_nominal(result);
     const double before = result.cost;
     Misfit misfit(experiment, result.model, runs, settings.temperature, known);
-    result.failure = descend(misfit, result.model, iterations_a_round);
+    result.failure = descend(misfit, result.model, settings.thorough);
     if (!result.failure.empty() || !look(rough ? known : none)) return result;
-    if (before - result.cost < least_descent * (1.0 + 0.01 * result.cost)) break;
+    if (before - result.cost < least_descent * (1.0 + coarseness * result.cost)) break;
   }
-  for (std::size_t j = 0; j < result.model.free.size(); ++j)
-    if (result.columns.col(static_cast<Eigen::Index>(j)).squaredNorm() < 1e-12)
-      result.without_influence.push_back(result.model.free[j].path);
   return result;
 }
 

@@ -15,7 +15,8 @@ namespace mckibben::diagnose {
 struct Model {
   plant::Rig rig;  ///< with the values as they stand
   std::vector<Parameter> free{};
-  std::vector<Candidate> effects{};  ///< that have been added, in this order
+  std::vector<Candidate> effects{};    ///< that have been added, in this order
+  std::vector<std::string> refused{};  ///< not free, although asked for: no reading depends on them
 };
 
 /// Slopes of parameters, by path.
@@ -24,6 +25,7 @@ using KnownSlopes = std::vector<std::pair<std::string, Eigen::VectorXd>>;
 struct FitSettings {
   double temperature =
       1.0;  ///< how much more the residuals scatter, over long times, than white noise at the floor
+  bool thorough = false;               ///< to the bottom of the valley, for numbers that are told
   const KnownSlopes* known = nullptr;  ///< for a rough fit: slopes taken over from an earlier one
 };
 
@@ -32,13 +34,14 @@ struct Fitted {
   Eigen::VectorXd residuals;  ///< of the fitted runs
   Eigen::MatrixXd columns;    ///< slopes at the end, a column for each free parameter
   double cost = 0.0;          ///< residuals and priors: sum of squares / temperature + deviations^2
-  std::vector<std::string> without_influence{};  ///< parameters that no reading depends on
-  std::string failure{};                         ///< why there is no fit; empty if there is
+  std::string failure{};      ///< why there is no fit; empty if there is
 };
 
 /// The slopes of the parameters that have a prior.
 KnownSlopes slopes_of_nominal(const Fitted& fitted);
 
+/// A parameter that no reading depends on is refused: it keeps its value and is free no more.
+///
 /// Slopes of nominal parameters, which hardly move, are computed once a round of descent, the others at each
 /// step; the last round's are computed anew. Throws run::Interrupted.
 Fitted fit(const Experiment& experiment, Model start, const Runs& runs, const FitSettings& settings);

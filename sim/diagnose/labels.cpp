@@ -40,6 +40,12 @@ class Scales {
   /// The run whose label is most in doubt among `runs`.
   std::optional<WrongLabel> worst(const Runs& runs) const;
 
+  double common_ratio(const Runs& runs) const {
+    Series ratios;
+    for (const std::size_t run : runs) ratios.push_back(loads_kg_[run] / data_.runs[run].load_kg);
+    return median(std::move(ratios));
+  }
+
  private:
   /// Residuals and slope for the load, at other loads than the labels.
   Experiment::Slopes at(const Series& loads_kg, const Runs& runs) const {
@@ -59,6 +65,15 @@ class Scales {
     for (const auto& part : parts(runs))
       sums[part.run] = slopes.residuals.segment(part.begin, part.rows).squaredNorm();
     return sums;
+  }
+  /// The shift of the run's readings that explains them better than any load does; 0 if none does.
+  double shift(std::size_t run, const Series& usual_kg) const {
+    const auto slopes = at(usual_kg, {run});
+    const auto part = parts({run}).front();
+    const auto residuals = slopes.residuals.segment(part.begin, part.rows);
+    const double mean = residuals.mean();
+    const double left = (residuals.array() - mean).matrix().squaredNorm();
+    return left < squares_[run] ? mean * Experiment(data_, masked_, threads_).floor().ratio : 0.0;
   }
   void weigh(const Runs& runs);
 
@@ -131,26 +146,28 @@ std::optional<WrongLabel> Scales::worst(const Runs& runs) const {
     const Series same = squares(same_kg, runs);
     if (of_others(run, [&](std::size_t other) { return same[other] / usual[other]; }) < others_suffer)
       continue;
-    return WrongLabel{run, label_kg(run) + away_kg[run]};
+    return WrongLabel{run, label_kg(run) + away_kg[run], shift(run, usual_kg)};
   }
   return std::nullopt;
 }
 
 }  // namespace
 
-std::vector<WrongLabel> wrong_labels(const input::Dataset& data, const std::vector<std::vector<bool>>& masked,
-                                     Runs runs, unsigned threads) {
-  std::vector<WrongLabel> wrong;
-  if (runs.size() < 4) return wrong;
+Labels check_labels(const input::Dataset& data, const std::vector<std::vector<bool>>& masked, Runs runs,
+                    unsigned threads) {
+  Labels labels;
+  if (runs.size() < least_labels) return labels;
   const Scales scales(data, masked, runs, threads);
-  // The worst first, because it disturbs the others' medians.
-  while (runs.size() >= 4) {
+  labels.common_ratio = scales.common_ratio(runs);
+  // The worst first, because it disturbs the others' medians: two that were exchanged come one after the
+  // other.
+  while (runs.size() + labels.wrong.size() >= least_labels && runs.size() > 2) {
     const auto next = scales.worst(runs);
     if (!next) break;
-    wrong.push_back(*next);
+    labels.wrong.push_back(*next);
     std::erase(runs, next->run);
   }
-  return wrong;
+  return labels;
 }
 
 }  // namespace mckibben::diagnose

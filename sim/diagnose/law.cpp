@@ -123,10 +123,39 @@ Model with_term(const Model& model, const plant::ForceTerm& term) {
   return bigger;
 }
 
+/// The model without one of its terms.
+Model without_term(const Model& model, std::size_t term) {
+  Model smaller = model;
+  auto& terms = smaller.rig.effects.get<plant::ResidualForce>().terms;
+  const auto prefix = [](std::size_t index) { return fmt::format("effects.residual_law.terms.{}.", index); };
+  std::erase_if(smaller.free, [&](const Parameter& p) { return p.path.starts_with(prefix(term)); });
+  for (std::size_t next = term + 1; next < terms.size(); ++next)
+    for (Parameter& p : smaller.free)
+      if (p.path.starts_with(prefix(next))) p.path = prefix(next - 1) + p.path.substr(prefix(next).size());
+  terms.erase(terms.begin() + static_cast<std::ptrdiff_t>(term));
+  return smaller;
+}
+
+/// What was taken first may have stood in for what came after it.
+void drop_needless(const Case& c, Law& law, const Step& step) {
+  for (std::size_t i = 0; law.terms > 1 && i < law.terms;) {
+    step("looking for a law, without one term");
+    const auto& terms = law.contender.fitted.model.rig.effects.get<plant::ResidualForce>().terms;
+    auto shorter = contend(c, without_term(law.contender.fitted.model, terms.size() - law.terms + i));
+    if (!shorter.fitted.failure.empty() ||
+        convinces(compare(c.experiment, shorter.held_out, law.contender.held_out, c.split.held_out))) {
+      ++i;
+    } else {
+      law.contender = std::move(shorter);
+      --law.terms;
+    }
+  }
+}
+
 }  // namespace
 
 Law find_law(const Case& c, const std::vector<const Contender*>& bases, const Eigen::VectorXd& reference,
-             const std::function<void(const std::string&)>& step) {
+             const Step& step) {
   Law law{.contender = *bases.front()};
   Eigen::VectorXd before = reference;
   for (std::size_t round = 0; round < most_terms; ++round) {
@@ -154,6 +183,7 @@ Law find_law(const Case& c, const std::vector<const Contender*>& bases, const Ei
     before = law.contender.held_out;
     if (excess(before) < met) break;
   }
+  drop_needless(c, law, step);
   law.gain = compare(c.experiment, reference, law.contender.held_out, c.split.held_out);
   return law;
 }

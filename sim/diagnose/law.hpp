@@ -1,6 +1,6 @@
 // A law for what no effect of the catalogue explains: terms are taken from a library one by one, as long as
-// each helps on runs held out, and fitted inside the simulation (forward selection; the library is that of
-// plant/effects/residual_force.hpp).
+// each helps on runs held out, fitted inside the simulation, and dropped again if the others do without it
+// (stepwise selection; the library is that of plant/effects/residual_force.hpp).
 #pragma once
 
 #include <sim/diagnose/naming.hpp>
@@ -16,6 +16,6 @@ struct Law {
 /// Begins at whichever of `bases` leads to the better fit: one that is recalibrated may have bent far to
 /// imitate what is missing.
 Law find_law(const Case& c, const std::vector<const Contender*>& bases, const Eigen::VectorXd& reference,
-             const std::function<void(const std::string&)>& step);
+             const Step& step);
 
 }  // namespace mckibben::diagnose

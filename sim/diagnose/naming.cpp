@@ -1,13 +1,12 @@
 // Screen, refit, choose, and again; see the header.
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <optional>
 
 #include <fmt/format.h>
 
 #include <sim/diagnose/naming.hpp>
-#include <sim/engine/failure.hpp>
+#include <sim/diagnose/revise.hpp>
 
 namespace mckibben::diagnose {
 namespace {
@@ -16,84 +15,18 @@ constexpr std::size_t most_effects = 3, most_refits = 7, most_substitutes = 3, m
 /// Candidates that change the readings so alike are refitted whatever their score.
 constexpr double alike = 0.7;
 /// Scores below this share of the best are not worth a refit.
-constexpr double least_score = 0.05;
-/// Expected drops below this are chance.
-constexpr double chance = 6.0;
-/// A difference of costs that scatter does not make.
-constexpr double clear = 12.0;
-/// An effect that closes less of the whole gap than this mends the law of another rather than being one.
-constexpr double least_of_all = 0.01;
-/// Held-out mean square above the floor at which there is nothing left to find.
-constexpr double nothing_left = 0.04;
+constexpr double least_score =
+    0.05;  /// Noncentrality at which a test at 5 % has a power of 90 % (chi-square, one degree of freedom).
+constexpr double visible = 10.5;
 
 /// Held-out mean square above the floor at which two effects at once are looked for, and the share of it that
 /// they must close.
 constexpr double worth_a_pair = 4.0, most_of_it = 0.6;
 
-struct Trial {
-  Score score;
-  std::size_t place;  ///< among the scores
-  Contender contender;
-  Improvement gain;
-};
-
-std::string title(const Candidate& c) {
-  return full_name(c.effect, c.variant);
-}
-
-/// A size that a fit has not driven against a bound, nor to nothing.
-bool has_size(const Model& model, const Candidate& c) {
-  const double value = value_of(model.rig, c.amplitude);
-  for (const Parameter& p : model.free) {
-    if (p.path != c.amplitude) continue;
-    const double edge = 1e-3 * (p.highest - p.lowest);
-    const bool at_bound = value > p.highest - edge || (value < p.lowest + edge && c.either_sign);
-    return !at_bound && std::abs(value - c.absent) > 1.1 * least_amplitude * std::abs(c.typical);
-  }
-  return false;
-}
-
-/// The model without one of its effects.
-Model without(const Model& model, std::size_t effect) {
-  Model smaller = model;
-  const Candidate& gone = model.effects[effect];
-  *find(smaller.rig, gone.amplitude).value = gone.absent;
-  std::erase_if(smaller.free,
-                [&](const Parameter& p) { return p.path == gone.amplitude || p.path == gone.shape; });
-  smaller.effects.erase(smaller.effects.begin() + static_cast<std::ptrdiff_t>(effect));
-  return smaller;
-}
-
-/// What a screening was made at, and what it found.
-struct Screening {
-  const Contender* base;
-  std::vector<Score> scores;
-};
-
-/// Fits a trial with all slopes anew.
-void polish(const Case& c, Trial& trial, const std::function<void(const std::string&)>& step) {
-  step("fitting " + title(trial.score.candidate));
-  auto polished = contend(c, trial.contender.fitted.model);
-  if (polished.fitted.failure.empty() && polished.fitted.cost < trial.contender.fitted.cost)
-    trial.contender = std::move(polished);
-}
-
-/// One candidate more than `base`, fitted with the slopes that `base` has. Look at the fit's failure.
-Trial rough(const Case& c, const Contender& base, const Score& score, std::size_t place) {
-  const auto known = slopes_of_nominal(base.fitted);
-  return {score, place, contend(c, with(c, base.fitted.model, score), &known), {}};
-}
-
-/// Nothing left to find, in the runs held out and in those fitted.
-bool meets(const Contender& contender) {
-  return excess(contender.held_out) < nothing_left && excess(contender.fitted.residuals) < 2.0 * nothing_left;
-}
-
 /// Refits of a round: the best of each screening and those like them, roughly first, then in full those that
 /// promise. Once one meets the data, only those like it are tried.
 std::vector<Trial> refit(const Case& c, const std::vector<Screening>& screenings,
-                         const Eigen::VectorXd& reference,
-                         const std::function<void(const std::string&)>& step) {
+                         const Eigen::VectorXd& reference, const Step& step) {
   std::vector<Trial> trials;
   const Score* solved = nullptr;
   const auto wanted = [&](const Score& score, const Score& front) {
@@ -134,46 +67,10 @@ std::vector<Trial> refit(const Case& c, const std::vector<Screening>& screenings
   return trials;
 }
 
-/// Whether `rival` explains these data as well as `chosen`.
-bool as_good(const Case& c, const Contender& chosen, const Contender& rival) {
-  const auto worse = compare(c.experiment, rival.held_out, chosen.held_out, c.split.held_out);
-  const double costlier = rival.fitted.cost - chosen.fitted.cost;
-  return costlier < clear || (worse.gained < 0.05 && costlier < 0.1 * chosen.fitted.cost);
-}
-
-Screening screen_at(const Case& c, const Contender& base) {
-  // As long as nothing fits, the misfit itself is the scatter: no nominal parameter is worth believing far
-  // from its data sheet for the sake of details.
-  const double scatter =
-      std::max(c.temperature, temperature(c.experiment, base.fitted.residuals, c.split.training));
-  return {&base, screen(c.experiment, base.fitted, catalogue(), c.split.training, scatter)};
-}
-
-/// Another effect that serves clearly better than the one that `smaller` is without.
-std::optional<Trial> substitute(const Case& c, const Contender& smaller, const Candidate& gone,
-                                const Contender& best, const std::function<void(const std::string&)>& step) {
-  const Screening screening = screen_at(c, smaller);
-  for (std::size_t place = 0; place < most_substitutes; ++place) {
-    const Score& score = screening.scores[place];
-    if (score.drop < chance) break;
-    if (score.candidate.effect == gone.effect) continue;
-    step(fmt::format("trying {} instead of {}", title(score.candidate), title(gone)));
-    Trial trial = rough(c, smaller, score, place);
-    if (!trial.contender.fitted.failure.empty()) continue;
-    polish(c, trial, step);
-    const auto gain = compare(c.experiment, best.held_out, trial.contender.held_out, c.split.held_out);
-    if (has_size(trial.contender.fitted.model, score.candidate) && gain.gained > 0.0 &&
-        best.fitted.cost - trial.contender.fitted.cost > clear)
-      return trial;
-  }
-  return std::nullopt;
-}
-
 /// Two effects that help only together: next to one that fits best but does not convince, another one with
 /// which it closes most of the gap.
 std::optional<std::array<Trial, 2>> pair_of(const Case& c, const std::vector<Trial>& trials,
-                                            const Eigen::VectorXd& before,
-                                            const std::function<void(const std::string&)>& step) {
+                                            const Eigen::VectorXd& before, const Step& step) {
   for (std::size_t i = 0; i < std::min(trials.size(), most_firsts); ++i) {
     const Trial& first = trials[i];
     if (!has_size(first.contender.fitted.model, first.score.candidate)) continue;
@@ -202,84 +99,23 @@ std::optional<std::array<Trial, 2>> pair_of(const Case& c, const std::vector<Tri
   return std::nullopt;
 }
 
-/// What was taken first may have stood in for what came after it: drops effects that are no longer needed,
-/// and swaps those that another one beats now.
-void revise(const Case& c, Naming& result, const Eigen::VectorXd& reference,
-            const std::function<void(const std::string&)>& step) {
-  for (std::size_t i = 0; i + 1 < result.best.fitted.model.effects.size();) {
-    const Candidate old = result.best.fitted.model.effects[i];
-    step("trying without " + title(old));
-    auto smaller = contend(c, without(result.best.fitted.model, i));
-    if (!smaller.fitted.failure.empty()) return;
-    const auto worse = compare(c.experiment, smaller.held_out, result.best.held_out, c.split.held_out);
-    const auto place = result.effects.begin() + static_cast<std::ptrdiff_t>(i);
-    const bool needed = convinces(worse) || worse.gained > least_of_all * std::max(excess(reference), 1.0);
-    if (!needed) {
-      result.best = std::move(smaller);
-      result.effects.erase(place);
-      if (i == 0) result.rivals.clear();  // they were its rivals
-      continue;
-    }
-    if (!meets(result.best)) {
-      if (auto better = substitute(c, smaller, old, result.best, step)) {
-        result.best = std::move(better->contender);
-        result.effects.erase(place);  // the new one stands last in the model, too
-        const Candidate& candidate = better->score.candidate;
-        result.effects.push_back({.name = candidate.effect, .variant = candidate.variant});
-        if (i == 0) result.rivals.clear();
-        continue;
-      }
-    }
-    ++i;
+/// Effects whose usual size would change these readings, next to what the free parameters can, by less than
+/// a test at 5 % finds as a rule.
+std::vector<std::string> invisible(const Case& c, const std::vector<Score>& scores) {
+  std::vector<std::string> names;
+  for (const Score& score : scores) {
+    const Candidate& candidate = score.candidate;
+    if (carries(c.nominal, candidate.effect)) continue;
+    const double drop = score.column.squaredNorm() * candidate.typical * candidate.typical;
+    if (drop < visible) names.push_back(title(candidate));
   }
+  return names;
 }
 
 }  // namespace
 
-Contender contend(const Case& c, Model model, const KnownSlopes* known) {
-  Contender contender;
-  contender.fitted =
-      fit(c.experiment, std::move(model), c.split.training, {.temperature = c.temperature, .known = known});
-  if (!contender.fitted.failure.empty()) return contender;
-  try {
-    contender.held_out = c.experiment.residuals(contender.fitted.model.rig, c.split.held_out);
-  } catch (const engine::NumericalFailure& failure) {
-    contender.fitted.failure = failure.what();
-  }
-  return contender;
-}
-
-Model with(const Case& c, const Model& model, const Score& score) {
-  const Candidate& candidate = score.candidate;
-  Model bigger = model;
-  bigger.rig = candidate.chosen(bigger.rig);
-  const auto parameters = candidate.parameters(bigger.rig);
-  if (!candidate.shape.empty()) *find(bigger.rig, candidate.shape).value = score.shape;
-  // The score is a straight line drawn at nothing; the law may bend.
-  double least = 0.0, best = candidate.absent;
-  for (const double share : {0.1, 0.3, 0.6, 1.0, 1.6}) {
-    const double size = std::clamp(candidate.absent + share * (score.amplitude - candidate.absent),
-                                   parameters[0].lowest, parameters[0].highest);
-    *find(bigger.rig, candidate.amplitude).value = size;
-    double squares = 0.0;
-    try {
-      squares = c.experiment.residuals(bigger.rig, c.split.training).squaredNorm();
-    } catch (const engine::NumericalFailure&) {
-      continue;  // too much of it for the rig to move
-    }
-    if (best == candidate.absent || squares < least) {
-      least = squares;
-      best = size;
-    }
-  }
-  *find(bigger.rig, candidate.amplitude).value = best;
-  bigger.free.insert(bigger.free.end(), parameters.begin(), parameters.end());
-  bigger.effects.push_back(candidate);
-  return bigger;
-}
-
 Naming name_effects(const Case& c, const Contender& nominal, const Contender& recalibrated,
-                    const Eigen::VectorXd& reference, const std::function<void(const std::string&)>& step) {
+                    const Eigen::VectorXd& reference, const Step& step) {
   Naming result;
   result.best = recalibrated;
   Eigen::VectorXd before = reference;
@@ -291,6 +127,7 @@ Naming name_effects(const Case& c, const Contender& nominal, const Contender& re
     screenings.push_back(screen_at(c, result.best));
     const auto& scores = screenings.front().scores;
     if (round == 1) {
+      result.invisible = invisible(c, screenings.back().scores);
       const std::size_t shown = std::min<std::size_t>(8, scores.size());
       for (std::size_t i = 0; i < shown; ++i) {
         result.confusion_names.push_back(title(scores[i].candidate));
@@ -360,14 +197,16 @@ Naming name_effects(const Case& c, const Contender& nominal, const Contender& re
         continue;
       if (!as_good(c, chosen->contender, rival.contender)) continue;
       named.confusable_with.push_back(other);
-      if (round == 1) result.rivals.push_back(rival.contender.fitted.model.rig);
+      result.doubts.push_back(
+          {named.name, other, chosen->contender.fitted.model.rig, rival.contender.fitted.model.rig});
     }
-    if (round == 1) result.first = chosen->contender.fitted.model.rig;
     result.effects.push_back(std::move(named));
     result.best = chosen->contender;
     revise(c, result, reference, step);
     before = result.best.held_out;
   }
+  drop_uncertain(c, result, step);
+  sort_by_importance(c, result);
   return result;
 }
 

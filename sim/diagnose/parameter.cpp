@@ -4,6 +4,7 @@
 #include <concepts>
 #include <stdexcept>
 #include <tuple>
+#include <type_traits>
 
 #include <sim/diagnose/parameter.hpp>
 
@@ -49,7 +50,23 @@ class Guide {
   std::string_view rest_;
 };
 
+/// Calls `tell` with the effect of this name in the rig.
+template <class Tell>
+void with_effect(plant::Rig& rig, std::string_view effect, const Tell& tell) {
+  const auto look = [&]<class E>(E& mine) {
+    if (effect == E::name) tell(mine);
+  };
+  std::apply([&](const auto&... e) { (look(rig.effects.get<std::remove_cvref_t<decltype(e)>>()), ...); },
+             plant::Effects::Table{});
+}
+
 }  // namespace
+
+bool carries(plant::Rig rig, std::string_view effect) {
+  bool present = false;
+  with_effect(rig, effect, [&](const auto& mine) { present = !mine.absent(); });
+  return present;
+}
 
 Found find(plant::Rig& rig, std::string_view path) {
   Guide guide(path);
@@ -97,15 +114,44 @@ std::vector<Parameter> nominal_parameters(const plant::Rig& nominal) {
                     .highest = std::min(found.highest, *found.value + most_deviations * deviation),
                     .has_prior = true});
   }
+  for (const Candidate& candidate : catalogue()) {
+    if (!candidate.carried(nominal)) continue;
+    for (Parameter p : candidate.parameters(nominal)) {
+      // Somebody has put it there: its size is a guess, good within a factor of a few.
+      p.origin = value_of(nominal, p.path);
+      const double size = p.origin - (p.path == candidate.amplitude ? candidate.absent : 0.0);
+      p.scale = std::abs(size);
+      if (p.logarithmic) p.step *= p.scale;
+      p.logarithmic = false;
+      p.has_prior = true;
+      p.lowest = std::max(std::min(p.lowest, p.origin), p.origin - most_deviations * p.scale);
+      p.highest = std::min(std::max(p.highest, p.origin), p.origin + most_deviations * p.scale);
+      list.push_back(std::move(p));
+    }
+  }
   return list;
 }
 
 plant::Rig Candidate::chosen(plant::Rig rig) const {
-  for (const auto& [law, name] : names(plant::BladderLaw{})) {
-    if (effect == plant::BladderElasticity::name && variant == name)
-      rig.effects.get<plant::BladderElasticity>().variant = law;
-  }
+  with_effect(rig, effect, [&](auto& mine) {
+    if constexpr (requires { mine.variant; }) {
+      for (const auto& [law, name] : names(mine.variant))
+        if (name == variant) mine.variant = law;
+    }
+  });
   return rig;
+}
+
+bool Candidate::carried(plant::Rig rig) const {
+  bool present = false, same_law = true;
+  with_effect(rig, effect, [&](const auto& mine) {
+    present = !mine.absent();
+    if constexpr (requires { mine.variant; }) {
+      for (const auto& [law, name] : names(mine.variant))
+        if (law == mine.variant) same_law = name == variant;
+    }
+  });
+  return present && same_law;
 }
 
 std::vector<Parameter> Candidate::parameters(const plant::Rig& rig) const {

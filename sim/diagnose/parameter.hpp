@@ -21,6 +21,9 @@ struct Found {
 Found find(plant::Rig& rig, std::string_view path);
 double value_of(const plant::Rig& rig, std::string_view path);
 
+/// Whether this effect of the catalogue is in the rig.
+bool carries(plant::Rig rig, std::string_view effect);
+
 /// A parameter that a fit may move.
 struct Parameter {
   std::string path;
@@ -39,7 +42,8 @@ struct Parameter {
 /// described: something is missing.
 inline constexpr double most_deviations = 3.0;
 
-/// The nominal parameters, with priors as tight as a data sheet or a ruler.
+/// The nominal parameters, with priors as tight as a data sheet or a ruler. Those of effects that the rig has
+/// already count with them; their size is believed to a factor of a few.
 std::vector<Parameter> nominal_parameters(const plant::Rig& nominal);
 
 /// Sizes below this share of the typical one are as good as absent.
@@ -56,6 +60,8 @@ struct Candidate {
 
   /// The rig with this law chosen, still without size.
   plant::Rig chosen(plant::Rig rig) const;
+  /// Whether the rig has this effect, with this law.
+  bool carried(plant::Rig rig) const;
   /// What a fit moves: amplitude and, if any, shape.
   std::vector<Parameter> parameters(const plant::Rig& rig) const;
 };

@@ -43,9 +43,7 @@ std::vector<Score> screen(const Experiment& experiment, const Fitted& fitted,
   std::vector<Experiment::Change> changes;
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     const Candidate& c = candidates[i];
-    const bool added = std::any_of(fitted.model.effects.begin(), fitted.model.effects.end(),
-                                   [&](const Candidate& other) { return other.effect == c.effect; });
-    if (added) continue;
+    if (carries(fitted.model.rig, c.effect)) continue;
     const auto shapes = c.shapes.empty() ? std::vector{0.0} : c.shapes;
     for (const double shape : shapes) {
       for (const double size : {c.step, 0.5 * c.typical}) {

@@ -34,7 +34,7 @@ struct Score {
   Eigen::VectorXd column{};  ///< slope, less what the free parameters imitate; of the residuals' size
 };
 
-/// The candidates, best first. Those already in the model, and those with the wrong sign, score 0.
+/// The candidates, best first. Those already in the rig, and those with the wrong sign, score 0.
 std::vector<Score> screen(const Experiment& experiment, const Fitted& fitted,
                           const std::vector<Candidate>& candidates, const Runs& runs, double temperature);
 

@@ -9,6 +9,8 @@
 namespace mckibben::diagnose {
 namespace {
 
+constexpr std::string_view law_terms = "effects.residual_law.terms.";
+
 std::string words(const plant::ForceTerm& term) {
   if (term.of == plant::Basis::sine)
     return fmt::format("sin(2 pi x / {:.3f} mm {:+.2f})", 1e3 * term.wavelength_m, term.phase_rad);
@@ -45,9 +47,16 @@ void tell_parameters(Diagnosis& diagnosis, const Model& model, const std::vector
       estimate.name = p.path.substr(prefix.size());
       effect.parameters.push_back(estimate);
     }
-    if (p.path.ends_with(".coefficient") && diagnosis.residual_law.size() < terms.size()) {
-      estimate.name = words(terms[diagnosis.residual_law.size()]);
+    if (!p.path.starts_with(law_terms)) continue;
+    // terms.INDEX.KEY: the nominal rig may have had terms of its own.
+    const std::size_t dot = p.path.find('.', law_terms.size());
+    estimate.name = p.path.substr(dot + 1);
+    if (estimate.name == "coefficient") {
+      const auto index = std::stoul(p.path.substr(law_terms.size(), dot - law_terms.size()));
+      estimate.name = words(terms[index]);
       diagnosis.residual_law.push_back({estimate.name, estimate});
+    } else {
+      diagnosis.residual_law.back().shape.push_back(estimate);  // a term's coefficient comes first
     }
   }
 }

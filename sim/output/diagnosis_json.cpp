@@ -66,11 +66,14 @@ Json recalibrated_json(const diagnose::Diagnosis& diagnosis, const plant::Rig& n
 Json law_json(const diagnose::Diagnosis& diagnosis) {
   if (diagnosis.residual_law.empty()) return nullptr;
   Json terms = Json::array();
-  for (const auto& term : diagnosis.residual_law)
-    terms.push_back({{"term", term.term},
-                     {"coefficient", term.coefficient.value},
-                     {"unit", term.coefficient.unit},
-                     {"ci95", ci95(term.coefficient)}});
+  for (const auto& term : diagnosis.residual_law) {
+    Json one = {{"term", term.term},
+                {"coefficient", term.coefficient.value},
+                {"unit", term.coefficient.unit},
+                {"ci95", ci95(term.coefficient)}};
+    for (const auto& shape : term.shape) one[shape.name] = value_json(shape);
+    terms.push_back(std::move(one));
+  }
   return {{"terms", terms}, {"valid_for", diagnosis.law_valid_for}};
 }
 

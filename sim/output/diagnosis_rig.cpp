@@ -59,7 +59,10 @@ std::string origin(const input::Dataset& data, const diagnose::Diagnosis& diagno
   }
   if (!diagnosis.residual_law.empty())
     text += comment("Added: a force outside the catalogue, valid for " + diagnosis.law_valid_for);
-  for (const auto& term : diagnosis.residual_law) text += estimate_line(term.term, term.coefficient, "");
+  for (const auto& term : diagnosis.residual_law) {
+    text += estimate_line(term.term, term.coefficient, "");
+    for (const auto& shape : term.shape) text += estimate_line("  " + shape.name, shape, "");
+  }
   if (!diagnosis.recalibrated.empty()) text += comment("Recalibrated:");
   for (const auto& moved : diagnosis.recalibrated)
     text += estimate_line(moved.fitted.name, moved.fitted,

@@ -145,8 +145,9 @@ TEST(Checks, WrongUnitsAreErrorsThatNameFileAndColumn) {
   EXPECT_NE(error(share).find("a share of the range"), std::string::npos);
   auto per_cent = sound();
   for (double& ratio : per_cent.runs[1].contraction_ratio) ratio *= 100.0;
-  EXPECT_EQ(error(per_cent),
-            "planted/r02.csv:1:1: error: contraction_ratio: this looks like per cent, not a ratio");
+  EXPECT_EQ(
+      error(per_cent),
+      "planted/r02.csv:1:1: error: contraction_ratio: up to 31.15; this looks like per cent, not a ratio");
   auto metres = sound();
   for (double& ratio : metres.runs[1].contraction_ratio) ratio *= metres.rig.muscle.rest_length_m;
   EXPECT_NE(error(metres).find("metres"), std::string::npos);
@@ -156,7 +157,7 @@ TEST(Checks, PressureInAnotherUnitIsAnError) {
   auto kilopascal = with_gauge(), absolute = with_gauge();
   for (double& pressure : *kilopascal.runs[5].muscle_pressure_Pa) pressure *= 100.0;
   EXPECT_EQ(error(kilopascal),
-            "planted/r06.csv:1:1: error: muscle_pressure_bar: this looks like kPa, not bar");
+            "planted/r06.csv:1:1: error: muscle_pressure_bar: up to 435.8; this looks like kPa, not bar");
   for (double& pressure : *absolute.runs[0].muscle_pressure_Pa) pressure += 1.013e5;
   EXPECT_NE(error(absolute).find("r01.csv:1:1: error: muscle_pressure_bar: about one atmosphere"),
             std::string::npos);
@@ -181,6 +182,57 @@ TEST(Checks, AMislabelledLoadIsFoundAndSaid) {
   EXPECT_EQ(doubts.left_out, Runs{1});
   EXPECT_TRUE(says(doubts, "run r02: the load is labelled 16.138 kg, but everything else says about 11."));
   EXPECT_EQ(check(data, 1).warnings, doubts.warnings);
+}
+
+TEST(Checks, TwoExchangedLabelsOfFourAreBothFound) {
+  const auto kinds = three_kinds();
+  auto data = planted({}, {11.138, 16.138, 18.87, 23.406}, {kinds[0]}, 6);
+  std::swap(data.runs[0].load_kg, data.runs[2].load_kg);
+  const Doubts doubts = check(data, 2);
+  EXPECT_EQ(doubts.left_out, (Runs{0, 2}));
+  EXPECT_TRUE(doubts.cannot_tell);  // two of four
+}
+
+TEST(Checks, ARunWithAnotherZeroIsNotTakenForAnotherLoad) {
+  auto data = sound();
+  for (double& ratio : data.runs[2].contraction_ratio) ratio += 0.02;
+  const Doubts doubts = check(data, 2);
+  EXPECT_EQ(doubts.left_out, Runs{2});
+  EXPECT_TRUE(says(doubts, "run r03: contraction_ratio is shifted by 0.02"));
+}
+
+TEST(Checks, LoadsInPoundsAreAnError) {
+  auto data = sound();
+  for (input::Run& run : data.runs) run.load_kg /= 0.45359237;
+  EXPECT_NE(error(data).find("these look like pounds, not kg"), std::string::npos);
+}
+
+TEST(Checks, ThreeRunsAreTooFewToCheckLabelsAndItSaysSo) {
+  auto data = sound();
+  data.runs.resize(3);
+  const Doubts doubts = check(data, 2);
+  EXPECT_TRUE(says(doubts, "3 usable runs: too few to check the labels of the loads"));
+  EXPECT_FALSE(doubts.cannot_tell);
+}
+
+TEST(Checks, ACopyOfARunIsLeftOut) {
+  auto data = sound();
+  data.runs.push_back(data.runs[1]);
+  data.runs.back().id = "r07";
+  const Doubts doubts = check(data, 2);
+  EXPECT_EQ(doubts.left_out, Runs{6});
+  EXPECT_TRUE(says(doubts, "run r07: equal to run r02 in every reading: a copy"));
+}
+
+TEST(Checks, AGaugeThatRunsBackwardsIsIgnoredAndItsSpikesAreMasked) {
+  auto data = with_gauge();
+  for (double& pressure : *data.runs[0].muscle_pressure_Pa) pressure = 5e5 - pressure;
+  (*data.runs[3].muscle_pressure_Pa)[200] += 1e5;
+  const Doubts doubts = check(data, 2);
+  EXPECT_EQ(doubts.dead_gauges, Runs{0});
+  EXPECT_TRUE(says(doubts, "run r01: muscle_pressure_bar does not follow the current"));
+  EXPECT_EQ(masked(doubts, 3), std::vector<std::size_t>{200});
+  EXPECT_TRUE(says(doubts, "run r04: 1 outlier in muscle_pressure_bar, at 2.400 s"));
 }
 
 TEST(Checks, AnOffsetOfAllLoadsIsNoWrongLabel) {

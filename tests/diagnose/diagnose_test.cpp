@@ -1,10 +1,12 @@
 // The workflow where nothing is hidden, and what its results may not depend on. Data with something hidden:
 // tests/workflow.
 #include <cmath>
+#include <random>
 
 #include <gtest/gtest.h>
 
 #include <sim/diagnose/experiment.hpp>
+#include <sim/diagnose/fit.hpp>
 
 #include "planted.hpp"
 
@@ -43,6 +45,55 @@ TEST(Diagnose, TakesForNoiseWhatRepeatedRunsDoNotRepeat) {
   EXPECT_EQ(Experiment(data, masked(), 1, {0, 1}).floor().ratio, single.ratio);
   data.runs.back().load_kg += 1.0;
   EXPECT_EQ(Experiment(data, masked(), 1, {0, 1, last}).floor().ratio, single.ratio);
+}
+
+TEST(Diagnose, KnowsCountsAlsoWhenTheyAreRoundedToAFewDecimals) {
+  auto data = small(plant::Rig{});
+  const auto floor = [&] {
+    std::vector<std::vector<bool>> masked;
+    for (const auto& run : data.runs) masked.emplace_back(run.current_mA.size(), false);
+    return Experiment(data, masked, 1).floor();
+  };
+  const NoiseFloor exact = floor();
+  for (input::Run& run : data.runs)
+    for (double& ratio : run.contraction_ratio) ratio = std::round(ratio * 1e4) / 1e4;
+  EXPECT_EQ(floor().count, exact.count);
+  EXPECT_GT(floor().ratio, exact.ratio);
+  EXPECT_LT(floor().ratio, 1.1 * exact.ratio);
+  for (input::Run& run : data.runs)
+    for (double& ratio : run.contraction_ratio) ratio += 1e-4;  // no counts any more
+  EXPECT_EQ(floor().count, 0.0);
+}
+
+TEST(Diagnose, TakesForNoiseWhatScattersFromTickToTick) {
+  auto data = small(plant::Rig{});
+  std::mt19937_64 dice(1);
+  std::normal_distribution<double> noise(0.0, 2e-3);
+  std::vector<std::vector<bool>> masked;
+  for (auto& run : data.runs) {
+    masked.emplace_back(run.current_mA.size(), false);
+    for (double& ratio : run.contraction_ratio) ratio += noise(dice);
+  }
+  EXPECT_NEAR(Experiment(data, masked, 1).floor().ratio, 2e-3, 2e-4);
+}
+
+TEST(Fit, RefusesParametersThatNoReadingDependsOn) {
+  const auto data = small(plant::Rig{});
+  std::vector<std::vector<bool>> masked;
+  for (const auto& run : data.runs) masked.emplace_back(run.current_mA.size(), false);
+  Model model{.rig = data.rig, .free = nominal_parameters(data.rig)};
+  // The warm-up's time says nothing as long as nothing warms up.
+  model.free.push_back({.path = "effects.friction_warm_up.time",
+                        .scale = 1.0,
+                        .step = 0.01,
+                        .lowest = 1.0,
+                        .highest = 100.0,
+                        .logarithmic = true});
+  const Fitted fitted = fit(Experiment(data, masked, 2), model, {0, 2, 5}, {.temperature = 1.0});
+  EXPECT_EQ(fitted.failure, "");
+  EXPECT_EQ(fitted.model.refused, std::vector<std::string>{"effects.friction_warm_up.time"});
+  EXPECT_EQ(fitted.model.free.size() + 1, model.free.size());
+  EXPECT_EQ(fitted.columns.cols(), static_cast<Eigen::Index>(fitted.model.free.size()));
 }
 
 TEST(Diagnose, SaysThatNothingIsMissingWhereNothingIs) {

@@ -1,4 +1,5 @@
 // Parameters by path, and what the catalogue says of each effect.
+#include <algorithm>
 #include <set>
 #include <stdexcept>
 
@@ -46,6 +47,30 @@ TEST(NominalParameters, StayWithinThreeDeviationsOfTheirDataSheet) {
     EXPECT_LE(p.scaled(p.highest), most_deviations + 1e-9) << p.path;
     EXPECT_TRUE(p.has_prior);
   }
+}
+
+TEST(NominalParameters, IncludeTheSizesOfEffectsThatTheRigHas) {
+  plant::Rig rig;
+  rig.effects.get<plant::ValveDeadBand>().half_width_Pa = 4e3;
+  auto& bladder = rig.effects.get<plant::BladderElasticity>();
+  bladder.variant = plant::BladderLaw::saturating;
+  bladder.stiffness_N_per_m = 50.0;  // of the law that is not chosen
+  bladder.force_N = 8.0;
+  const auto list = nominal_parameters(rig);
+  const auto named = [&](std::string_view path) {
+    return std::find_if(list.begin(), list.end(), [&](const Parameter& p) { return p.path == path; });
+  };
+  const auto band = named("effects.valve_dead_band.half_width");
+  ASSERT_NE(band, list.end());
+  EXPECT_TRUE(band->has_prior);
+  EXPECT_EQ(band->origin, 4e3);
+  EXPECT_LT(band->lowest, 1e3);
+  EXPECT_EQ(band->highest, 16e3);
+  ASSERT_NE(named("effects.bladder_elasticity.ratio"), list.end());
+  EXPECT_EQ(named("effects.bladder_elasticity.stiffness"), list.end());
+  EXPECT_TRUE(carries(rig, "valve_dead_band"));
+  EXPECT_FALSE(carries(rig, "muscle_leak"));
+  EXPECT_EQ(nominal_parameters(plant::Rig{}).size() + 3, list.size());
 }
 
 }  // namespace

@@ -41,5 +41,30 @@ TEST(Diagnose, FindsALawForWhatIsInNoCatalogue) {
   EXPECT_GT(found.gap.closed, 0.9);
 }
 
+TEST(Diagnose, FitsTheSizeOfAnEffectThatTheRigHasAlready) {
+  plant::Rig truth, guess;
+  truth.effects.get<plant::ValveDeadBand>().half_width_Pa = 7.9e3;
+  guess.effects.get<plant::ValveDeadBand>().half_width_Pa = 4e3;
+  auto data = small(truth);
+  static_cast<plant::Rig&>(data.rig) = guess;
+  const auto found = diagnosis_of(data, 0);
+  EXPECT_EQ(found.verdict, Verdict::recalibrate);
+  EXPECT_TRUE(found.effects.empty());
+  EXPECT_NEAR(found.corrected.effects.get<plant::ValveDeadBand>().half_width_Pa, 7.9e3, 300.0);
+  EXPECT_GT(found.gap.closed, 0.95);
+}
+
+TEST(Diagnose, IgnoresAGaugeThatContradictsTheMotion) {
+  plant::Rig truth;
+  truth.gauge.fitted = true;
+  auto data = small(truth);
+  for (input::Run& run : data.runs)
+    for (double& pressure : *run.muscle_pressure_Pa) pressure += 0.3e5;
+  const auto found = diagnosis_of(data, 0);
+  EXPECT_EQ(found.verdict, Verdict::nothing_missing);
+  ASSERT_FALSE(found.warnings.empty());
+  EXPECT_NE(found.warnings.front().find("muscle_pressure_bar is ignored"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace mckibben::diagnose

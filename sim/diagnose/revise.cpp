@@ -1,0 +1,120 @@
+// See the header.
+#include <algorithm>
+#include <limits>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include <sim/diagnose/interval.hpp>
+#include <sim/diagnose/revise.hpp>
+#include <sim/engine/failure.hpp>
+
+namespace mckibben::diagnose {
+namespace {
+
+constexpr std::size_t most_substitutes = 3;
+
+/// Another effect that serves clearly better than the one that `smaller` is without.
+std::optional<Trial> substitute(const Case& c, const Contender& smaller, const Candidate& gone,
+                                const Contender& best, const Step& step) {
+  const Screening screening = screen_at(c, smaller);
+  for (std::size_t place = 0; place < most_substitutes; ++place) {
+    const Score& score = screening.scores[place];
+    if (score.drop < chance) break;
+    if (score.candidate.effect == gone.effect) continue;
+    step(fmt::format("trying {} instead of {}", title(score.candidate), title(gone)));
+    Trial trial = rough(c, smaller, score, place);
+    if (!trial.contender.fitted.failure.empty()) continue;
+    polish(c, trial, step);
+    const auto gain = compare(c.experiment, best.held_out, trial.contender.held_out, c.split.held_out);
+    if (has_size(trial.contender.fitted.model, score.candidate) && gain.gained > 0.0 &&
+        best.fitted.cost - trial.contender.fitted.cost > clear)
+      return trial;
+  }
+  return std::nullopt;
+}
+
+void forget(Naming& result, std::size_t effect) {
+  const auto place = result.effects.begin() + static_cast<std::ptrdiff_t>(effect);
+  std::erase_if(result.doubts, [&](const Doubt& doubt) { return doubt.effect == place->name; });
+  result.effects.erase(place);
+}
+
+}  // namespace
+
+void revise(const Case& c, Naming& result, const Eigen::VectorXd& reference, const Step& step) {
+  for (std::size_t i = 0; i + 1 < result.best.fitted.model.effects.size();) {
+    const Candidate old = result.best.fitted.model.effects[i];
+    step("trying without " + title(old));
+    auto smaller = contend(c, without(result.best.fitted.model, i));
+    if (!smaller.fitted.failure.empty()) return;
+    const auto worse = compare(c.experiment, smaller.held_out, result.best.held_out, c.split.held_out);
+    const bool needed = convinces(worse) || worse.gained > least_of_all * std::max(excess(reference), 1.0);
+    if (!needed) {
+      result.best = std::move(smaller);
+      forget(result, i);
+      continue;
+    }
+    if (!meets(result.best)) {
+      if (auto better = substitute(c, smaller, old, result.best, step)) {
+        result.best = std::move(better->contender);
+        forget(result, i);  // the new one stands last in the model, too
+        const Candidate& candidate = better->score.candidate;
+        result.effects.push_back({.name = candidate.effect, .variant = candidate.variant});
+        continue;
+      }
+    }
+    ++i;
+  }
+}
+
+void drop_uncertain(const Case& c, Naming& result, const Step& step) {
+  for (std::size_t i = 0; i < result.effects.size();) {
+    const Fitted& fitted = result.best.fitted;
+    const double scatter = temperature(c.experiment, fitted.residuals, c.split.training);
+    const auto bounds = intervals(c.experiment, fitted, c.split.training, scatter);
+    const Candidate& candidate = fitted.model.effects[i];
+    bool certain = false;
+    for (std::size_t j = 0; j < bounds.size(); ++j) {
+      const Parameter& p = fitted.model.free[j];
+      if (p.path != candidate.amplitude) continue;
+      const bool either = bounds[j].low < candidate.absent && bounds[j].high > candidate.absent;
+      certain = !either && bounds[j].low > p.lowest && bounds[j].high < p.highest;
+    }
+    if (certain) {
+      ++i;
+      continue;
+    }
+    step("trying without " + title(candidate));
+    auto smaller = contend(c, without(fitted.model, i));
+    if (!smaller.fitted.failure.empty()) return;
+    result.best = std::move(smaller);
+    forget(result, i);
+  }
+}
+
+void sort_by_importance(const Case& c, Naming& result) {
+  std::vector<std::pair<std::string, double>> left;
+  const Model& model = result.best.fitted.model;
+  for (std::size_t i = 0; i < result.effects.size(); ++i) {
+    double squares = std::numeric_limits<double>::infinity();
+    try {
+      squares = c.experiment.residuals(without(model, i).rig, c.split.held_out).squaredNorm();
+    } catch (const engine::NumericalFailure&) {
+      // What cannot even be simulated without it matters most.
+    }
+    left.emplace_back(result.effects[i].name, squares);
+  }
+  const auto first = [&](const std::string& a, const std::string& b) {
+    const auto of = [&](const std::string& effect) {
+      return std::find_if(left.begin(), left.end(), [&](const auto& l) { return l.first == effect; })->second;
+    };
+    return of(a) > of(b);
+  };
+  std::stable_sort(result.effects.begin(), result.effects.end(),
+                   [&](const auto& a, const auto& b) { return first(a.name, b.name); });
+  std::stable_sort(result.doubts.begin(), result.doubts.end(),
+                   [&](const Doubt& a, const Doubt& b) { return first(a.effect, b.effect); });
+}
+
+}  // namespace mckibben::diagnose

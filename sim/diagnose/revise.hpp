@@ -1,0 +1,22 @@
+// Second thoughts about effects that have been named: which are still needed, which another one beats, which
+// have no certain size, and which matters most.
+#pragma once
+
+#include <sim/diagnose/naming.hpp>
+
+namespace mckibben::diagnose {
+
+/// An effect that closes less of the whole gap than this mends the law of another rather than being one.
+inline constexpr double least_of_all = 0.01;
+
+/// What was taken first may have stood in for what came after it: drops effects that are no longer needed,
+/// and swaps those that another one beats now.
+void revise(const Case& c, Naming& result, const Eigen::VectorXd& reference, const Step& step);
+
+/// Drops effects whose 95 % interval reaches "absent" or a bound.
+void drop_uncertain(const Case& c, Naming& result, const Step& step);
+
+/// Sorts by how much worse the runs held out are without each effect, everything else as it is.
+void sort_by_importance(const Case& c, Naming& result);
+
+}  // namespace mckibben::diagnose

@@ -1,0 +1,108 @@
+// See the header.
+#include <algorithm>
+#include <cmath>
+
+#include <sim/diagnose/diagnosis.hpp>
+#include <sim/diagnose/trial.hpp>
+#include <sim/engine/failure.hpp>
+
+namespace mckibben::diagnose {
+
+std::string title(const Candidate& c) {
+  return full_name(c.effect, c.variant);
+}
+
+bool has_size(const Model& model, const Candidate& c) {
+  const double value = value_of(model.rig, c.amplitude);
+  for (const Parameter& p : model.free) {
+    if (p.path != c.amplitude) continue;
+    const double edge = 1e-3 * (p.highest - p.lowest);
+    const bool at_bound = value > p.highest - edge || (value < p.lowest + edge && c.either_sign);
+    return !at_bound && std::abs(value - c.absent) > 1.1 * least_amplitude * std::abs(c.typical);
+  }
+  return false;
+}
+
+Model without(const Model& model, std::size_t effect) {
+  Model smaller = model;
+  const Candidate& gone = model.effects[effect];
+  *find(smaller.rig, gone.amplitude).value = gone.absent;
+  std::erase_if(smaller.free,
+                [&](const Parameter& p) { return p.path == gone.amplitude || p.path == gone.shape; });
+  smaller.effects.erase(smaller.effects.begin() + static_cast<std::ptrdiff_t>(effect));
+  return smaller;
+}
+
+Contender contend(const Case& c, Model model, const KnownSlopes* known) {
+  Contender contender;
+  contender.fitted =
+      fit(c.experiment, std::move(model), c.split.training, {.temperature = c.temperature, .known = known});
+  if (!contender.fitted.failure.empty()) return contender;
+  try {
+    contender.held_out = c.experiment.residuals(contender.fitted.model.rig, c.split.held_out);
+  } catch (const engine::NumericalFailure& failure) {
+    contender.fitted.failure = failure.what();
+  }
+  return contender;
+}
+
+Model with(const Case& c, const Model& model, const Score& score) {
+  const Candidate& candidate = score.candidate;
+  Model bigger = model;
+  bigger.rig = candidate.chosen(bigger.rig);
+  const auto parameters = candidate.parameters(bigger.rig);
+  if (!candidate.shape.empty()) *find(bigger.rig, candidate.shape).value = score.shape;
+  // The score is a straight line drawn at nothing; the law may bend.
+  double least = 0.0, best = candidate.absent;
+  for (const double share : {0.1, 0.3, 0.6, 1.0, 1.6}) {
+    const double size = std::clamp(candidate.absent + share * (score.amplitude - candidate.absent),
+                                   parameters[0].lowest, parameters[0].highest);
+    *find(bigger.rig, candidate.amplitude).value = size;
+    double squares = 0.0;
+    try {
+      squares = c.experiment.residuals(bigger.rig, c.split.training).squaredNorm();
+    } catch (const engine::NumericalFailure&) {
+      continue;  // too much of it for the rig to move
+    }
+    if (best == candidate.absent || squares < least) {
+      least = squares;
+      best = size;
+    }
+  }
+  *find(bigger.rig, candidate.amplitude).value = best;
+  bigger.free.insert(bigger.free.end(), parameters.begin(), parameters.end());
+  bigger.effects.push_back(candidate);
+  return bigger;
+}
+
+Screening screen_at(const Case& c, const Contender& base) {
+  // As long as nothing fits, the misfit itself is the scatter: no nominal parameter is worth believing far
+  // from its data sheet for the sake of details.
+  const double scatter =
+      std::max(c.temperature, temperature(c.experiment, base.fitted.residuals, c.split.training));
+  return {&base, screen(c.experiment, base.fitted, catalogue(), c.split.training, scatter)};
+}
+
+Trial rough(const Case& c, const Contender& base, const Score& score, std::size_t place) {
+  const auto known = slopes_of_nominal(base.fitted);
+  return {score, place, contend(c, with(c, base.fitted.model, score), &known), {}};
+}
+
+void polish(const Case& c, Trial& trial, const Step& step) {
+  step("fitting " + title(trial.score.candidate));
+  auto polished = contend(c, trial.contender.fitted.model);
+  if (polished.fitted.failure.empty() && polished.fitted.cost < trial.contender.fitted.cost)
+    trial.contender = std::move(polished);
+}
+
+bool meets(const Contender& contender) {
+  return excess(contender.held_out) < nothing_left && excess(contender.fitted.residuals) < 2.0 * nothing_left;
+}
+
+bool as_good(const Case& c, const Contender& chosen, const Contender& rival) {
+  const auto worse = compare(c.experiment, rival.held_out, chosen.held_out, c.split.held_out);
+  const double costlier = rival.fitted.cost - chosen.fitted.cost;
+  return costlier < clear || (worse.gained < 0.05 && costlier < 0.1 * chosen.fitted.cost);
+}
+
+}  // namespace mckibben::diagnose

@@ -1,0 +1,80 @@
+// One try of an effect: a candidate added to a model, fitted, and judged on runs held out.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <sim/diagnose/fit.hpp>
+#include <sim/diagnose/judge.hpp>
+#include <sim/diagnose/screen.hpp>
+
+namespace mckibben::diagnose {
+
+/// What stays the same throughout a diagnosis.
+struct Case {
+  const Experiment& experiment;
+  const plant::Rig& nominal;
+  Split split;
+  double temperature;
+};
+
+/// A fitted model and what it makes of the runs held out.
+struct Contender {
+  Fitted fitted{};
+  Eigen::VectorXd held_out{};
+};
+
+struct Trial {
+  Score score;
+  std::size_t place;  ///< among the scores
+  Contender contender;
+  Improvement gain;
+};
+
+/// What a screening was made at, and what it found.
+struct Screening {
+  const Contender* base;
+  std::vector<Score> scores;
+};
+
+/// Told what is being done.
+using Step = std::function<void(const std::string&)>;
+
+/// Expected drops below this are chance.
+inline constexpr double chance = 6.0;
+/// A difference of costs that scatter does not make.
+inline constexpr double clear = 12.0;
+/// Held-out mean square above the floor at which there is nothing left to find.
+inline constexpr double nothing_left = 0.04;
+
+/// Fits a model to the training runs. `known` as in FitSettings.
+Contender contend(const Case& c, Model model, const KnownSlopes* known = nullptr);
+
+/// The model with one candidate more, at the size that serves best along the direction of its score.
+Model with(const Case& c, const Model& model, const Score& score);
+
+/// The model without one of its effects.
+Model without(const Model& model, std::size_t effect);
+
+/// The whole catalogue's scores next to a model.
+Screening screen_at(const Case& c, const Contender& base);
+
+/// One candidate more than `base`, fitted with the slopes that `base` has. Look at the fit's failure.
+Trial rough(const Case& c, const Contender& base, const Score& score, std::size_t place);
+
+/// Fits a trial with all slopes anew.
+void polish(const Case& c, Trial& trial, const Step& step);
+
+/// A size that a fit has not driven against a bound, nor to nothing.
+bool has_size(const Model& model, const Candidate& candidate);
+
+/// Nothing left to find, in the runs held out and in those fitted.
+bool meets(const Contender& contender);
+
+/// Whether `rival` explains these data as well as `chosen`.
+bool as_good(const Case& c, const Contender& chosen, const Contender& rival);
+
+std::string title(const Candidate& candidate);
+
+}  // namespace mckibben::diagnose
