@@ -14,8 +14,9 @@ def mathml(tex):
     if not markup:
         message = xml.fromstring(done.stdout).findtext(".//message")
         raise RuntimeError(f"formula: {message}\n{tex}")
+    markup = re.sub(r"(<mo[^>]*>)-(</mo>)", "\\1\N{MINUS SIGN}\\2", markup[1])
     source = f'<span class="source">{html.escape(", ".join(tags))}</span>' if tags else ""
-    return f'<div class="formula"><math display="block">{markup[1]}</math>{source}</div>'
+    return f'<div class="formula"><math display="block">{markup}</math>{source}</div>'
 
 
 def on_page_markdown(markdown, **_):
