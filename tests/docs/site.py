@@ -66,7 +66,7 @@ def faults(site):
 
 def main():
     source, site = map(Path, sys.argv[1:])
-    built = subprocess.run(["mkdocs", "build", "--strict", "--quiet", "--site-dir", site.resolve()], cwd=source,
+    built = subprocess.run(["mkdocs", "build", "--strict", "--site-dir", site.resolve()], cwd=source,
                            capture_output=True, text=True)
     found = re.findall(r"^.*WARNING.*$|^.*ERROR.*$|^RuntimeError.*$", built.stderr, re.M) if built.returncode else []
     if built.returncode and not found:
