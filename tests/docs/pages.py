@@ -61,8 +61,8 @@ def as_a_browser_shows(report, time):
     moved.write_text(report.read_text() + f"<script>const cursor = document.getElementById('time');"
                      f"cursor.value = {time}; cursor.dispatchEvent(new Event('input'));</script>")
     sandbox = ["--no-sandbox"] if os.getuid() == 0 else []  # Chromium's sandbox refuses root
-    done = subprocess.run(["chromium", "--headless", "--disable-gpu", *sandbox, "--virtual-time-budget=2000",
-                           "--dump-dom", moved.as_uri()], capture_output=True, text=True, timeout=120, check=True)
+    done = subprocess.run([os.environ.get("CHROMIUM", "chromium"), "--headless", "--disable-gpu", *sandbox,
+                           "--virtual-time-budget=2000", "--dump-dom", moved.as_uri()], capture_output=True, text=True, timeout=120, check=True)
     return done.stdout
 
 
