@@ -156,7 +156,8 @@ void add_effects(CLI::App& app, Asked& asked) {
   verb.footer(
       "Examples:\n"
       "  mckibben effects                                 all of them\n"
-      "  mckibben effects muscle_leak                     its law, and what to write into a rig file\n");
+      "  mckibben effects muscle_leak                     its law, and what to write into a rig file\n"
+      "  mckibben effects --out pictures                  effects.json, and a picture of what each does\n");
   verb.callback([&asked] { asked.chosen = [&asked] { return list_effects(asked.names, asked.options); }; });
 }
 

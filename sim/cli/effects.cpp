@@ -13,6 +13,7 @@
 #include <sim/cli/verbs.hpp>
 #include <sim/input/field_list.hpp>
 #include <sim/input/yaml_writer.hpp>
+#include <sim/output/effect_pictures.hpp>
 #include <sim/output/folder.hpp>
 #include <sim/output/grid.hpp>
 
@@ -185,6 +186,8 @@ int list_effects(const std::vector<std::string>& names, const Options& options) 
   if (!options.out.empty()) {
     output::ResultFolder folder(options.out, "effects");
     folder.write("effects.json", json);
+    for (const Entry& entry : names.empty() ? all : chosen)
+      if (!is_residual(entry)) folder.write(std::string(entry.name) + ".svg", output::effect_svg(entry.name));
     publish(folder, options.out);
   }
   print(options.json ? json : text);

@@ -93,8 +93,10 @@ TEST_F(EffectsVerb, TellsOneByItsName) {
   EXPECT_NE(said.out.find("valve_lag: "), std::string::npos);
   EXPECT_EQ(said.out.find("muscle_leak"), std::string::npos);
   EXPECT_EQ(Json::parse(run("effects valve_lag --json").out).at("effects").size(), 1u);
-  ASSERT_EQ(run("effects --out list --json").status, 0);
-  EXPECT_EQ(read_text(scratch / "list/effects.json"), run("effects --json").out);
+  ASSERT_EQ(run("effects muscle_leak --out list --json").status, 0);
+  EXPECT_EQ(read_text(scratch / "list/effects.json"), run("effects muscle_leak --json").out);
+  EXPECT_NE(read_text(scratch / "list/muscle_leak.svg").find("<svg"), std::string::npos);
+  EXPECT_FALSE(fs::exists(scratch / "list/valve_lag.svg"));
 }
 
 TEST_F(EffectsVerb, AnUnknownNameIsAUsageError) {

@@ -1,0 +1,162 @@
+// Rides, axes and lines; see the header. One scale for all pictures, so that they can be laid side by side.
+#include <array>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include <controllers/waveform.hpp>
+#include <plant/plant.hpp>
+#include <sim/diagnose/parameter.hpp>
+#include <sim/output/diagnosis_words.hpp>
+#include <sim/output/effect_pictures.hpp>
+#include <sim/output/svg.hpp>
+#include <sim/run/simulate.hpp>
+
+namespace mckibben::output {
+namespace {
+
+constexpr double load_kg = 16.138, low_mA = 4.0, high_mA = 14.0;
+
+/// A triangle of current, and where its panel lies.
+struct Ride {
+  const char* title;
+  double period_s, duration_s;
+  double left;  // edge of the panel [px]
+};
+constexpr std::array rides{Ride{"slow: up and down in 20 s", 20.0, 40.0, 56.0},
+                           Ride{"fast: up and down in 2.5 s", 2.5, 10.0, 336.0}};
+constexpr double picture_width = 600.0, picture_height = 380.0, panel_width = 250.0, top = 92.0,
+                 bottom = 330.0;
+constexpr double lowest_bar = 0.4, highest_bar = 3.5, lowest_ratio = -0.01, highest_ratio = 0.25;
+
+double x_px(const Ride& ride, double bar) {
+  return ride.left + panel_width * (bar - lowest_bar) / (highest_bar - lowest_bar);
+}
+double y_px(double ratio) {
+  return bottom - (bottom - top) * (ratio - lowest_ratio) / (highest_ratio - lowest_ratio);
+}
+
+/// Inks for a light and for a dark page: the picture follows what the reader's system asks for.
+constexpr const char* style =
+    "<style>\n"
+    ".ground { fill: #ffffff } text { fill: #222222 } .grid { stroke: #e2e2e2 } .frame { stroke: #888888 }\n"
+    ".nominal { stroke: #a6a6a6 } .first { stroke: #0072B2 } .second { stroke: #D55E00 }\n"
+    "@media (prefers-color-scheme: dark) {\n"
+    "  .ground { fill: #1e2129 } text { fill: #e6e6e6 } .grid { stroke: #3a3f4b }\n"
+    "  .nominal { stroke: #737a87 } .first { stroke: #56B4E9 } .second { stroke: #E69F00 }\n"
+    "}\n</style>\n";
+
+std::string line(const char* ink, double wide, const std::string& d) {
+  return fmt::format(
+      "<path class='{}' fill='none' stroke-width='{}' stroke-linejoin='round' stroke-linecap='round' "
+      "d='{}'/>\n",
+      ink, wide, d);
+}
+
+/// The loop that one sees from outside: pressure that the current asks for, contraction as the encoder has
+/// it.
+std::string loop(const plant::Rig& rig, const Ride& ride, const char* ink, double wide) {
+  controllers::TriangleCurrent current;
+  current.low_mA = low_mA;
+  current.high_mA = high_mA;
+  current.period_s = ride.period_s;
+  const auto ticks = static_cast<std::size_t>(std::lround(ride.duration_s / rig.tick_s));
+  const auto controller = current.make(run::knowledge_of(rig, std::vector<double>(ticks, 0.0)));
+  const run::Recording recording =
+      run::simulate({.rig = rig, .load_kg = load_kg, .ticks = ticks}, *controller);
+  if (!recording.failure.empty()) throw std::runtime_error(recording.failure);
+  const plant::Plant plant(rig, load_kg);
+  const double count = run::contraction_per_count(rig);
+  std::string d;
+  double last_x = 0.0, last_y = 0.0;
+  for (const run::Sample& sample : recording.samples) {
+    const double x = x_px(ride, plant.reference_pressure_Pa(sample.current_mA) / 1e5);
+    const double y = y_px((static_cast<double>(sample.counts) + 0.5) * count);
+    if (!d.empty() && std::hypot(x - last_x, y - last_y) < 2.5) continue;
+    d += fmt::format("{}{:.1f} {:.1f}", d.empty() ? 'M' : 'L', x, y);
+    last_x = x, last_y = y;
+  }
+  return line(ink, wide, d);
+}
+
+std::string axes(const Ride& ride) {
+  std::string svg = fmt::format("<text x='{}' y='{}'>{}</text>\n", ride.left, top - 8, ride.title);
+  for (const double bar : {1.0, 2.0, 3.0})
+    svg += fmt::format(
+        "<path class='grid' d='M{0:.1f} {1}V{2}'/><text x='{0:.1f}' y='{3}' "
+        "text-anchor='middle'>{4}</text>\n",
+        x_px(ride, bar), top, bottom, bottom + 17, bar);
+  for (const double ratio : {0.0, 0.05, 0.1, 0.15, 0.2})
+    svg += fmt::format(
+        "<path class='grid' d='M{0} {1:.1f}h{2}'/><text x='{3}' y='{4:.1f}' text-anchor='end'>{5}</text>\n",
+        ride.left, y_px(ratio), panel_width, ride.left - 6, y_px(ratio) + 4.5,
+        &ride == &rides.front() ? fmt::format("{}", ratio) : "");
+  return svg + fmt::format("<rect class='frame' fill='none' x='{}' y='{}' width='{}' height='{}'/>\n",
+                           ride.left, top, panel_width, bottom - top);
+}
+
+/// A size at which the effect is plain to see, in sizes that matter to a diagnosis. Where none is in reach,
+/// as with the gas (no heat exchanged at n = 1.4), the picture shows just that.
+double telling_size(const diagnose::Candidate& law) {
+  struct Times {
+    std::string_view effect;
+    double times;
+  };
+  constexpr Times others[] = {
+      {"bladder_creep", 10.0}, {"encoder_backlash", 12.0},        {"muscle_leak", 12.0},
+      {"polytropic_gas", 2.0}, {"speed_dependent_friction", 2.0}, {"supply_droop", 20.0},
+      {"valve_lag", 10.0},     {"friction_warm_up", 3.0}};
+  for (const auto& [effect, times] : others)
+    if (law.effect == effect) return law.absent + times * law.typical;
+  return law.absent + 4.0 * law.typical;
+}
+
+}  // namespace
+
+std::string effect_svg(std::string_view effect) {
+  const plant::Rig nominal;
+  std::vector<std::pair<std::string, plant::Rig>> laws;
+  for (const auto& law : diagnose::catalogue()) {
+    if (law.effect != effect) continue;
+    auto& [words, rig] =
+        laws.emplace_back(law.variant.empty() ? "" : law.variant + ": ", law.chosen(nominal));
+    const auto set = [&, &words = words, &rig = rig](const std::string& path, double value) {
+      const auto found = diagnose::find(rig, path);
+      *found.value = value;
+      words += fmt::format("{}{} {}", words.empty() || words.ends_with(": ") ? "" : ", ",
+                           path.substr(path.rfind('.') + 1), readable(value, found.unit));
+    };
+    set(law.amplitude, telling_size(law));
+    if (!law.shape.empty()) set(law.shape, law.shapes[1]);
+  }
+  if (laws.empty()) throw std::invalid_argument("no picture of " + std::string(effect));
+
+  constexpr std::array inks{"first", "second"};
+  std::string svg = fmt::format(
+      "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 {0} {1}' width='{0}' height='{1}' "
+      "font-family='sans-serif' font-size='14'>\n{2}<rect class='ground' width='100%' height='100%'/>\n"
+      "<text x='12' y='22' font-weight='bold'>{3}</text>\n",
+      picture_width, picture_height, style, effect);
+  const auto legend = [&](double x, double y, const char* ink, double wide, const std::string& words) {
+    svg += line(ink, wide, fmt::format("M{} {}h22", x, y - 5)) +
+           fmt::format("<text x='{}' y='{}'>{}</text>\n", x + 30, y, words);
+  };
+  legend(460, 22, "nominal", 4.0, "nominal rig");
+  for (std::size_t i = 0; i < laws.size(); ++i)
+    legend(12, 44.0 + 20.0 * static_cast<double>(i), inks[i], 2.2, laws[i].first);
+  for (const Ride& ride : rides) {
+    svg += axes(ride) + loop(nominal, ride, "nominal", 4.0);
+    for (std::size_t i = 0; i < laws.size(); ++i) svg += loop(laws[i].second, ride, inks[i], 2.2);
+  }
+  svg += fmt::format(
+      "<text x='{}' y='{}' text-anchor='middle'>pressure that the current asks for [bar]</text>\n"
+      "<text x='14' y='{}' text-anchor='middle' transform='rotate(-90 14 {})'>contraction ratio</text>\n",
+      0.5 * (rides[0].left + rides[1].left + panel_width), picture_height - 10, 0.5 * (top + bottom),
+      0.5 * (top + bottom));
+  return svg + "</svg>\n";
+}
+
+}  // namespace mckibben::output
