@@ -220,6 +220,13 @@ class Workflow {
       tell_parameters(result_, whole.model, bounds, recalibrated_.fitted.model.rig);
       static_cast<plant::Rig&>(result_.corrected) = whole.model.rig;
       chosen_rig_ = chosen_->fitted.model.rig;
+      for (const Moved& moved : result_.recalibrated)
+        if (std::abs(moved.deviations) > 0.999 * most_deviations)
+          result_.warnings.push_back(
+              fmt::format("{} stands at the edge of what its data sheet allows, {:+.0f} deviations: measure "
+                          "it, or something "
+                          "that acts like it is missing",
+                          moved.fitted.name, moved.deviations));
       for (const auto& path : whole.model.refused)
         result_.warnings.push_back("no reading depends on " + path + ": it was not fitted");
     }

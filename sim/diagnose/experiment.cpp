@@ -3,6 +3,7 @@
 #include <cmath>
 #include <functional>
 #include <mutex>
+#include <numeric>
 
 #include <sim/diagnose/experiment.hpp>
 #include <sim/engine/failure.hpp>
@@ -17,10 +18,10 @@ namespace {
 constexpr double least_jitter = 5e-5;
 
 /// The last decimal that any reading has, for files rounded to a few: 0 if there are more than seven.
-double last_decimal(const input::Dataset& data) {
+double last_decimal(const input::Dataset& data, const Runs& runs) {
   double unit = 1e-3;
-  for (const input::Run& run : data.runs) {
-    for (const double ratio : run.contraction_ratio) {
+  for (const std::size_t run : runs) {
+    for (const double ratio : data.runs[run].contraction_ratio) {
       while (std::abs(ratio / unit - std::round(ratio / unit)) > 1e-6) {
         unit /= 10.0;
         if (unit < 1e-7) return 0.0;
@@ -31,12 +32,12 @@ double last_decimal(const input::Dataset& data) {
 }
 
 /// Whether the readings are whole counts to the last decimal, but for a few that something else has spoilt.
-bool counted(const input::Dataset& data, const std::vector<std::vector<bool>>& masked, double count,
-             double decimal) {
+bool counted(const input::Dataset& data, const std::vector<std::vector<bool>>& masked, const Runs& runs,
+             double count, double decimal) {
   const double tolerance = 0.01 + 0.5 * decimal / count;
   if (tolerance > 0.2) return false;  // everything would be whole
   std::size_t whole = 0, all = 0;
-  for (std::size_t i = 0; i < data.runs.size(); ++i) {
+  for (const std::size_t i : runs) {
     for (std::size_t k = 0; k < data.runs[i].contraction_ratio.size(); ++k) {
       if (masked[i][k]) continue;
       const double counts = data.runs[i].contraction_ratio[k] / count;
@@ -69,9 +70,9 @@ double gauge_noise_Pa(const input::Dataset& data) {
 
 /// White noise of the contraction ratio, from its fourth differences: no load moves so fast, and the median
 /// is blind to single jumps.
-double scatter(const input::Dataset& data, const std::vector<std::vector<bool>>& masked) {
+double scatter(const input::Dataset& data, const std::vector<std::vector<bool>>& masked, const Runs& runs) {
   std::vector<double> fourth;
-  for (std::size_t i = 0; i < data.runs.size(); ++i) {
+  for (const std::size_t i : runs) {
     const auto& e = data.runs[i].contraction_ratio;
     for (std::size_t k = 4; k < e.size(); ++k)
       if (std::none_of(masked[i].begin() + static_cast<std::ptrdiff_t>(k - 4),
@@ -106,15 +107,19 @@ double repeatability(const input::Dataset& data, const std::vector<std::vector<b
 }  // namespace
 
 Experiment::Experiment(const input::Dataset& data, std::vector<std::vector<bool>> masked, unsigned threads,
-                       const Runs& trusted)
+                       Runs trusted)
     : data_(data), masked_(std::move(masked)), threads_(threads) {
   const double count = run::contraction_per_count(data.rig);
-  const double decimal = last_decimal(data);
-  if (counted(data, masked_, count, decimal)) floor_.count = count;
   floor_.repeats = repeatability(data, masked_, trusted);
+  if (trusted.empty()) {
+    trusted.resize(data.runs.size());
+    std::iota(trusted.begin(), trusted.end(), std::size_t{0});
+  }
+  const double decimal = last_decimal(data, trusted);
+  if (counted(data, masked_, trusted, count, decimal)) floor_.count = count;
   floor_.ratio = std::sqrt((floor_.count * floor_.count + decimal * decimal) / 12.0 +
                            least_jitter * least_jitter + tolerance * tolerance);
-  const double noise = scatter(data, masked_);
+  const double noise = scatter(data, masked_, trusted);
   if (noise > 2.0 * floor_.ratio)
     floor_.ratio = floor_.noise = noise;  // counting alone can look like its own
   floor_.ratio = std::max(floor_.repeats, floor_.ratio);

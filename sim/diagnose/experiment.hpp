@@ -29,10 +29,10 @@ using Runs = std::vector<std::size_t>;
 
 class Experiment {
  public:
-  /// `masked[run][row]` rows do not count. `trusted` runs say how well equal runs repeat. The data set
-  /// outlives this.
+  /// `masked[run][row]` rows do not count. `trusted` runs say what the noise floor is; none: all do,
+  /// but none is compared with another. The data set outlives this.
   Experiment(const input::Dataset& data, std::vector<std::vector<bool>> masked, unsigned threads,
-             const Runs& trusted = {});
+             Runs trusted = {});
 
   const input::Dataset& data() const { return data_; }
   const NoiseFloor& floor() const { return floor_; }

@@ -4,6 +4,7 @@
 #include <exception>
 
 #include <ceres/ceres.h>
+#include <glog/logging.h>
 
 #include <sim/diagnose/fit.hpp>
 #include <sim/engine/failure.hpp>
@@ -155,7 +156,8 @@ std::string descend(Misfit& misfit, Model& model, bool thorough) {
   options.function_tolerance = thorough ? 1e-7 : 1e-4;
   options.parameter_tolerance = thorough ? 1e-7 : 1e-5;
   options.logging_type = ceres::SILENT;
-  options.num_threads = 1;  // the simulations have their own
+  options.num_threads = 1;                 // the simulations have their own
+  FLAGS_minloglevel = google::GLOG_FATAL;  // a refused step is no news
   ceres::Solver::Summary summary;
   ceres::Solve(options, &problem, &summary);
   misfit.rethrow();

@@ -87,7 +87,7 @@ std::vector<Item> menu(const plant::Rig& rig) {
 std::vector<double> loads_kg(const input::Dataset& data, const plant::Rig& rig) {
   std::vector<double> wanted;
   for (const double factor : {1.0, 0.5, 1.3})
-    for (const input::Run& run : data.runs) wanted.push_back(factor * run.load_kg);
+    for (const input::Run& run : data.runs) wanted.push_back(std::round(1e3 * factor * run.load_kg) / 1e3);
   const auto force = run::knowledge_of(rig, {}).model;
   const double most_kg = force.force_N(0.05, rig.valve.span_pressure_Pa) / plant::gravity_m_per_s2;
   std::vector<double> kept;
