@@ -170,11 +170,14 @@ std::string added_html(const Diagnosis& diagnosis) {
 std::string gap_html(const Diagnosis& diagnosis, const std::vector<const diagnose::RunGap*>& runs,
                      const plant::Rig& rig) {
   if (runs.empty()) return "";
-  return "<p>Nominal is the rig as it was described, recalibrated has its numbers fitted and nothing added, "
-         "corrected has what was found. No fit has seen the runs held out: they decide. The axis is "
-         "logarithmic.<span class='live-only'> A click on a run leads to its plots.</span></p>\n" +
+  const bool changed = output::changed(diagnosis);
+  return fmt::format(
+             "<p>Nominal is the rig as it was described, recalibrated has its numbers fitted and nothing "
+             "added{}. No fit has seen the runs held out: they decide. The axis is logarithmic.<span "
+             "class='live-only'> A click on a run leads to its plots.</span></p>\n",
+             changed ? ", corrected has what was found" : "") +
          figures_html({{"Root mean square error of height, run by run.",
-                        errors_svg(runs, diagnosis.gap.noise_floor, output::changed(diagnosis), rig)}});
+                        errors_svg(runs, diagnosis.gap.noise_floor, changed, rig)}});
 }
 
 bool gauged(const input::Dataset& data) {
@@ -261,7 +264,9 @@ std::vector<Chapter> story(const input::Dataset& data, const Diagnosis& diagnosi
 }
 
 std::vector<Chapter> doubts_and_plan(const input::Dataset& data, const Diagnosis& diagnosis) {
-  return {{"What else it could be", twins_html(data, diagnosis)},
+  return {{diagnosis.effects.empty() && diagnosis.residual_law.empty() ? "Which candidates look alike"
+                                                                       : "What else it could be",
+           twins_html(data, diagnosis)},
           {"What to measure next", next_html(diagnosis)}};
 }
 

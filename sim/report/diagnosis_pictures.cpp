@@ -140,7 +140,8 @@ std::vector<Picture> ranking_pictures(const Diagnosis& diagnosis, const plant::R
       bars += label(x0 + one->score / most * span + 5, y + 13, "start", rounded(one->score, 1), "soft halo");
       y += 21.0;
       if (!one->refitted) continue;
-      bars += label(width - 4, y + 7, "end", one->outcome + ": " + height(one->held_out_rmse, rig), "soft");
+      bars +=
+          label(width - 4, y + 7, "end", one->outcome + ": " + height(one->held_out_rmse, rig), "soft halo");
       y += 17.0;
     }
     svg += stroke(chance, begin, chance, y, "floor") + bars;
@@ -186,7 +187,7 @@ std::string absorbed_svg(const Diagnosis& diagnosis) {
   for (double i = -std::floor(most / step); i * step <= most * (1 + 1e-9); i += 1.0) {
     const double x = middle + i * step * span / most;
     svg += stroke(x, 18, x, bottom, i == 0.0 ? "axis" : "grid");
-    svg += label(x, 12, "middle", rounded(i * step, step < 1.0 ? 1 : 0, true), "soft");
+    svg += label(x, 12, "middle", i == 0.0 ? "0" : rounded(i * step, step < 1.0 ? 1 : 0, true), "soft");
   }
   for (const auto& one : diagnosis.absorbed) {
     svg += label(middle - span - 14, y + 15, "end", one.path);
@@ -204,7 +205,13 @@ std::string absorbed_svg(const Diagnosis& diagnosis) {
 std::string errors_svg(const std::vector<const diagnose::RunGap*>& runs, double noise_floor, bool changed,
                        const plant::Rig& rig) {
   const auto shown = std::span(models).first(changed ? 3 : 2);
-  constexpr double x0 = 106.0, x1 = 330.0, pitch = 24.0;
+  constexpr double x1 = 330.0, pitch = 24.0;
+  const auto name_of = [](const diagnose::RunGap& run) {
+    return run.id + (run.left_out ? ", left out" : run.held_out ? ", held out" : "");
+  };
+  std::size_t longest = 0;
+  for (const auto* run : runs) longest = std::max(longest, name_of(*run).size());
+  const double x0 = std::clamp(14.0 + 7.4 * static_cast<double>(longest), 80.0, 220.0);
   const double mm = 1e3 * rig.muscle.rest_length_m;
   double low = noise_floor > 0.0 ? noise_floor : 1e-4, high = low;
   for (const auto* run : runs)
@@ -236,8 +243,7 @@ std::string errors_svg(const std::vector<const diagnose::RunGap*>& runs, double 
   for (std::size_t i = 0; i < runs.size(); ++i, y += pitch) {
     const auto& run = *runs[i];
     svg += fmt::format("<g data-group='{}'>", i) + bar(0, y, width, pitch, "row");
-    svg += label(x0 - 12, y + 16, "end", fmt::format("{}{}", run.id, run.held_out ? ", held out" : ""),
-                 run.held_out ? "strong" : "");
+    svg += label(x0 - 12, y + 16, "end", name_of(run), run.held_out ? "strong" : "");
     double least = x1, most = x0;
     for (const auto& model : shown)
       if (const double rmse = run.*model.rmse; std::isfinite(rmse))

@@ -19,11 +19,11 @@ function swatch(colourClass, dash) {
 function seriesOf(plot, group) {
   const given = plot.lines.filter((line) => line.given && group.given[line.key]);
   const several = given.length > 1 || plot.lines.filter((line) => !line.given).length > 1;
-  const all = given.map((line, i) => ({
+  const all = given.map((line) => ({
                           line,
                           run: null,
                           values: group.given[line.key],
-                          dash: several ? dashes[(i + 1) % 4] : [],
+                          dash: several ? dashes[plot.lines.indexOf(line) % 4] : [],
                           colour: 'ink'
                         }));
   group.runs.forEach((run, index) => plot.lines.forEach((line, i) => {
