@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -13,11 +14,12 @@
 #include <sim/engine/failure.hpp>
 #include <sim/input/rig_file.hpp>
 #include <sim/output/diagnosis_json.hpp>
-#include <sim/output/diagnosis_report.hpp>
 #include <sim/output/diagnosis_rig.hpp>
 #include <sim/output/diagnosis_table.hpp>
 #include <sim/output/diagnosis_words.hpp>
 #include <sim/output/progress.hpp>
+#include <sim/report/report.hpp>
+#include <sim/run/replay.hpp>
 
 namespace mckibben::cli {
 namespace {
@@ -55,10 +57,15 @@ int diagnose_dataset(const std::string& path, const Options& options, const std:
   output::ResultFolder folder(where, "diagnose " + path);
 
   diagnose::Diagnosis found;
+  std::vector<run::ReplayedRun> nominal, corrected;  // for pressures and forces
   try {
     output::Progress progress(name);
     const diagnose::Settings settings{options.threads, options.seed.value_or(1)};
     found = diagnose::diagnose(data, settings, progress.hook());
+    nominal = run::replay(data, options.threads, progress.hook());
+    input::Dataset mended = data;
+    mended.rig = found.corrected;
+    corrected = run::replay(mended, options.threads, progress.hook());
   } catch (const engine::NumericalFailure& error) {
     fmt::print(stderr, "mckibben: the data cannot be simulated on this rig: {}\n", error.what());
     return failure;
@@ -66,7 +73,7 @@ int diagnose_dataset(const std::string& path, const Options& options, const std:
   const std::string document = output::json_of(data, found).dump(2) + "\n";
   folder.write("diagnosis.json", document);
   folder.write("rig.yaml", output::rig_yaml(data, found));
-  folder.write("report.html", output::report_html(data, found));
+  folder.write("report.html", report::report_html(data, found, nominal, corrected));
   publish(folder, where);
   write_plan(plan, data, found);
   const auto file = [&](const char* leaf) { return (where / leaf).string(); };

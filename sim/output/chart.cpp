@@ -44,19 +44,6 @@ class Axis {
   double low_ = 1e300, high_ = -1e300;
 };
 
-/// XML's own characters in a text.
-std::string escaped(const std::string& text) {
-  std::string result;
-  for (const char c : text)
-    if (c == '&')
-      result += "&amp;";
-    else if (c == '<')
-      result += "&lt;";
-    else
-      result += c;
-  return result;
-}
-
 std::string frame(const thesis::Figure& figure, const Axis& x, const Axis& y) {
   std::string svg = svg_begin(width, height);
   const std::string number = figure.number.empty() ? "" : "Figure " + figure.number + ": ";

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <sim/input/field_kinds.hpp>
-#include <sim/input/number.hpp>
 #include <sim/output/diagnosis_table.hpp>
 #include <sim/output/diagnosis_words.hpp>
 #include <sim/output/grid.hpp>
@@ -46,7 +45,7 @@ std::string moved(const Diagnosis& diagnosis) {
     if (std::abs(one.deviations) <= 1.0) continue;
     const Readable shown = readable(one.fitted);
     grid.add({one.fitted.name, readable(one.nominal, one.fitted.unit), shown.value, shown.interval,
-              fmt::format("{:+.1f}", one.deviations)});
+              rounded(one.deviations, 1, true)});
   }
   return grid.empty() ? "" : grid.text();
 }
@@ -71,8 +70,8 @@ std::string twins(const Diagnosis& diagnosis) {
 std::string next(const Diagnosis& diagnosis) {
   if (!diagnosis.next_experiment) return "";
   const auto& next = *diagnosis.next_experiment;
-  return fmt::format("  {}, with {} kg: separates {} with a probability of {:.0f} %\n", next.current,
-                     input::write_number(next.load_kg), listed(next.separates), 100.0 * next.expected_power);
+  return fmt::format("  {}, with {}: separates {} with a probability of {:.0f} %\n", next.current,
+                     mass(next.load_kg), listed(next.separates), 100.0 * next.expected_power);
 }
 
 }  // namespace

@@ -69,7 +69,20 @@ Readable readable(const diagnose::Estimate& estimate) {
 }
 
 std::string height(double ratio, const plant::Rig& rig) {
-  return fmt::format("{:.3g} mm", ratio * rig.muscle.rest_length_m * 1e3);
+  const double mm = ratio * rig.muscle.rest_length_m * 1e3, size = std::abs(mm);
+  const int decimals = size > 0.0 ? std::clamp(2 - static_cast<int>(std::floor(std::log10(size))), 0, 3) : 3;
+  return rounded(mm, decimals) + " mm";
+}
+
+std::string mass(double kg) {
+  return fmt::format("{:.6g} kg", kg);
+}
+
+std::string rounded(double value, int decimals, bool sign) {
+  std::string text = fmt::format("{:.{}f}", value, decimals);
+  const bool nothing = text.find_first_of("123456789") == std::string::npos;
+  if (nothing && text.front() == '-') text.erase(0, 1);
+  return sign && value > 0.0 && !nothing ? "+" + text : text;
 }
 
 std::string listed(const std::vector<std::string>& names) {
@@ -100,6 +113,10 @@ std::vector<std::string> held_out(const diagnose::Diagnosis& diagnosis) {
   for (const auto& run : diagnosis.runs)
     if (run.held_out) ids.push_back(run.id);
   return ids;
+}
+
+bool changed(const diagnose::Diagnosis& diagnosis) {
+  return !diagnosis.effects.empty() || !diagnosis.residual_law.empty() || !diagnosis.recalibrated.empty();
 }
 
 EffectWords words_of(std::string_view effect) {

@@ -24,8 +24,14 @@ struct Readable {
 };
 Readable readable(const diagnose::Estimate& estimate);
 
-/// A difference of contraction ratios as height of the load [mm].
+/// A difference of contraction ratios as height of the load: "1.96 mm", never finer than a micrometre.
 std::string height(double ratio, const plant::Rig& rig);
+
+/// A mass as a label tells it: six digits, "11.138 kg".
+std::string mass(double kg);
+
+/// With so many decimals, without the sign of a rounded nothing; `sign`: "+" before what is above 0.
+std::string rounded(double value, int decimals, bool sign = false);
 
 /// "a", "a and b", "a, b and c".
 std::string listed(const std::vector<std::string>& names);
@@ -37,6 +43,9 @@ using diagnose::full_name;
 
 /// Ids of the runs held out.
 std::vector<std::string> held_out(const diagnose::Diagnosis& diagnosis);
+
+/// Whether the corrected rig is another than the nominal one.
+bool changed(const diagnose::Diagnosis& diagnosis);
 
 /// What the catalogue says of an effect; empty for a name that is not in it.
 struct EffectWords {

@@ -1,9 +1,10 @@
-// What all pictures share. Colours: Okabe & Ito's palette, told apart by the colour-blind.
+// What all pictures share, and pages. Colours: Okabe & Ito's palette, told apart by the colour-blind.
 #pragma once
 
 #include <array>
 #include <cmath>
 #include <string>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -18,6 +19,33 @@ inline double tick_step(double span, int parts) {
   for (const double factor : {1.0, 2.0, 5.0})
     if (factor * power >= raw) return factor * power;
   return 10.0 * power;
+}
+
+/// `text` as it may stand in a picture or a page, between tags or in an attribute.
+inline std::string escaped(std::string_view text) {
+  std::string safe;
+  for (const char c : text) {
+    switch (c) {
+      case '<':
+        safe += "&lt;";
+        break;
+      case '>':
+        safe += "&gt;";
+        break;
+      case '&':
+        safe += "&amp;";
+        break;
+      case '\'':
+        safe += "&#39;";
+        break;
+      case '"':
+        safe += "&quot;";
+        break;
+      default:
+        safe += c;
+    }
+  }
+  return safe;
 }
 
 /// The first lines of a picture: its size in pixels, a white ground.

@@ -20,6 +20,7 @@ struct Quantity {
 };
 
 /// One controller, or the simulation of one measured run.
+/// What it does not have of its own is what was given to its group.
 struct Run {
   std::string name;
   std::size_t style = 0;  ///< which colour and dash; the same in every group
@@ -46,6 +47,9 @@ struct Line {
 struct Plot {
   std::string id, title, unit;
   std::vector<Line> lines;
+  bool still = false;  ///< a picture of it is there without scripts too
+  /// Above 0: what cannot be seen, marked by two lines. The axis is linear within it, logarithmic beyond.
+  double floor = 0.0;
 };
 
 /// Two quantities of the same run against each other.
@@ -61,19 +65,25 @@ struct Picture {
   std::string svg;
 };
 
+/// A headed part of the page, as HTML; left out if it is empty.
+struct Chapter {
+  std::string title, html;
+};
+
 struct Contents {
   std::string title, about;
   std::vector<std::string> warnings{};
-  std::string sentence{};  ///< the result in one sentence
-  std::string table{};     ///< the result as HTML
-  std::string details{};   ///< all of it, as text
-  std::string beside{};    ///< what is where in the folder
-  std::vector<Picture> pictures{};
-  bool wide_pictures = false;  ///< one in a row
+  std::string sentence{};                 ///< the result in one sentence
+  std::string table{};                    ///< the result as HTML
+  std::string details{};                  ///< all of it, as text
+  std::string beside{};                   ///< what is where in the folder
+  std::vector<Chapter> chapters{};        ///< before the runs
+  std::vector<Chapter> later_chapters{};  ///< after them
   plant::Rig rig{};
   std::vector<Plot> plots{};
   std::vector<Loop> loops{};
   std::vector<Group> groups{};
+  std::size_t drawn = 0;  ///< which run of a group is drawn as the rig at first
 };
 
 }  // namespace mckibben::report

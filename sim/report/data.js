@@ -30,19 +30,24 @@ function timesOf(group) {
   return Array.from({length: 2 * Math.ceil(ticks / wide)}, (_, i) => (i * wide * report.tick_s) / 2);
 }
 
-/** A group with its numbers: {name, load_kg, times, given: {key: values}, runs: [{name, style, values}]}. */
+/**
+ * A group with its numbers: {name, load_kg, times, given: {key: values}, runs: [{name, style, values}]}. What
+ * a run does not have of its own is what was given.
+ */
 function openGroup(index) {
   const packed = report.groups[index];
   const times = timesOf(packed);
   const all = (quantities) =>
       Object.fromEntries(Object.entries(quantities).map(([key, one]) => [key, unpack(one, times.length)]));
+  const given = all(packed.given);
   return {
     index,
     times,
     name: packed.name,
     load_kg: packed.load_kg,
-    given: all(packed.given),
-    runs: packed.runs.map((run) => ({name: run.name, style: run.style, values: all(run.values)})),
+    given,
+    runs: packed.runs.map(
+        (run) => ({name: run.name, style: run.style, values: {...given, ...all(run.values)}})),
   };
 }
 

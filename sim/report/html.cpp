@@ -2,7 +2,7 @@
 #include <fmt/format.h>
 
 #include <sim/input/number.hpp>
-#include <sim/output/diagnosis_figures.hpp>
+#include <sim/output/svg.hpp>
 #include <sim/report/files.hpp>
 #include <sim/report/html.hpp>
 #include <sim/report/pack.hpp>
@@ -18,7 +18,8 @@ Json plot_json(const Plot& plot) {
   Json lines = Json::array();
   for (const auto& line : plot.lines)
     lines.push_back({{"key", line.key}, {"label", line.label}, {"given", line.given}, {"main", line.main}});
-  return {{"id", plot.id}, {"title", plot.title}, {"unit", plot.unit}, {"lines", lines}};
+  return {
+      {"id", plot.id}, {"title", plot.title}, {"unit", plot.unit}, {"lines", lines}, {"floor", plot.floor}};
 }
 
 Json group_json(const Group& group, std::size_t all_runs) {
@@ -53,7 +54,7 @@ std::size_t runs_of(const Contents& contents) {
 
 /// As JSON that can stand inside <script>: no "</script>", no "<!--".
 std::string data_of(const Contents& contents) {
-  Json data{{"tick_s", contents.rig.tick_s}, {"rig", rig_json(contents.rig)}};
+  Json data{{"tick_s", contents.rig.tick_s}, {"rig", rig_json(contents.rig)}, {"drawn", contents.drawn}};
   for (const auto& plot : contents.plots) data["plots"].push_back(plot_json(plot));
   for (const auto& group : contents.groups) data["groups"].push_back(group_json(group, runs_of(contents)));
   std::string text;
@@ -70,7 +71,7 @@ std::string key(const char* kind) {
                      kind);
 }
 
-/// What is there without scripts: tracking and loops of every group.
+/// What is there without scripts: loops of every group, and plots that are wanted as pictures.
 std::string stills(const Contents& contents) {
   std::string html;
   const std::size_t most = ticks_looked_at(runs_of(contents));
@@ -84,9 +85,10 @@ std::string stills(const Contents& contents) {
       html += fmt::format("<span class='c{} d{}'>{}{}</span>", run.style % 7, run.style % 4, key("run"),
                           escaped(run.name));
     html += "</p>\n<div class='pictures'>\n";
-    const Plot& plot = contents.plots.front();
-    html += fmt::format("<figure class='still'>\n{}<figcaption>{}</figcaption></figure>\n",
-                        still_svg(group, plot, contents.rig.tick_s, most), escaped(plot.title));
+    for (const Plot& plot : contents.plots)
+      if (plot.still)
+        html += fmt::format("<figure class='still'>\n{}<figcaption>{}</figcaption></figure>\n",
+                            still_svg(group, plot, contents.rig.tick_s, most), escaped(plot.title));
     for (const auto& loop : contents.loops) {
       const std::string svg = loop_svg(group, loop, most);
       if (!svg.empty())
@@ -97,15 +99,11 @@ std::string stills(const Contents& contents) {
   return html;
 }
 
-std::string pictures(const Contents& contents) {
-  if (contents.pictures.empty()) return "";
-  std::string html =
-      fmt::format("<h2>Figures</h2>\n<div class='drawn{}'>\n", contents.wide_pictures ? "" : " pictures");
-  for (const auto& picture : contents.pictures)
-    html += "<figure>\n" + picture.svg +
-            (picture.caption.empty() ? "" : "<figcaption>" + escaped(picture.caption) + "</figcaption>") +
-            "</figure>\n";
-  return html + "</div>\n";
+std::string chapters_html(const std::vector<Chapter>& chapters) {
+  std::string html;
+  for (const auto& chapter : chapters)
+    if (!chapter.html.empty()) html += fmt::format("<h2>{}</h2>\n{}", escaped(chapter.title), chapter.html);
+  return html;
 }
 
 /// Where the script puts its plots; hidden without it.
@@ -130,6 +128,15 @@ constexpr const char* live =
 
 }  // namespace
 
+std::string figures_html(const std::vector<Picture>& pictures, bool wide) {
+  std::string html = fmt::format("<div class='drawn{}'>\n", wide ? "" : " pictures");
+  for (const auto& picture : pictures)
+    html += "<figure>\n" + picture.svg +
+            (picture.caption.empty() ? "" : "<figcaption>" + escaped(picture.caption) + "</figcaption>") +
+            "</figure>\n";
+  return html + "</div>\n";
+}
+
 std::string html_of(const Contents& contents) {
   const bool runs = !contents.groups.empty();
   std::string html = fmt::format(
@@ -146,8 +153,10 @@ std::string html_of(const Contents& contents) {
     html += "<p class='warning'><b>Warning:</b> " + escaped(warning) + "</p>\n";
   html += "<details><summary>All numbers, as printed</summary><pre>" + escaped(contents.details) +
           "</pre></details>\n";
-  html += pictures(contents);
-  if (runs) html += live + ("<h2>Loops<span class='still'> and targets</span></h2>\n" + stills(contents));
+  html += chapters_html(contents.chapters);
+  if (runs)
+    html += live + ("<h2>Loops<span class='still'> and plots over time</span></h2>\n" + stills(contents));
+  html += chapters_html(contents.later_chapters);
   html += fmt::format("<p class='small'>mckibben {}. {}</p>\n", MCKIBBEN_VERSION, escaped(contents.beside));
   if (runs) {
     html += fmt::format(

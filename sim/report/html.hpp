@@ -2,11 +2,15 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include <sim/report/contents.hpp>
 
 namespace mckibben::report {
 
 std::string html_of(const Contents& contents);
+
+/// Pictures with captions, side by side, or each as wide as the page.
+std::string figures_html(const std::vector<Picture>& pictures, bool wide = false);
 
 }  // namespace mckibben::report

@@ -25,7 +25,7 @@ function markLoops(group, tick, shown) {
     for (const dot of svg.querySelectorAll('.dot')) dot.remove();
     for (const index of shown) {
       const {values, style} = group.runs[index];
-      if (values[x][tick] === null || values[y][tick] === null) continue;
+      if ((values[x]?.[tick] ?? null) === null || (values[y]?.[tick] ?? null) === null) continue;
       svg.append(make('circle', {
         class: `dot c${style % 7}`,
         r: 5,

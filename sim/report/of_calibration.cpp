@@ -3,7 +3,6 @@
 
 #include <sim/output/calibration_report.hpp>
 #include <sim/output/chart.hpp>
-#include <sim/output/diagnosis_figures.hpp>
 #include <sim/report/html.hpp>
 #include <sim/report/report.hpp>
 
@@ -55,8 +54,11 @@ std::string report_html(const input::Dataset& dataset, const thesis::Calibration
       .beside =
           "The calibration itself is in calibration.yaml, every number of every fit in calibration.json, the "
           "figures as tables and pictures in figures/."};
+  std::vector<Picture> pictures;
+  pictures.reserve(figures.size());
   for (const auto& figure : figures)
-    contents.pictures.push_back({"", output::chart_svg(figure)});  // which has its title in it
+    pictures.push_back({"", output::chart_svg(figure)});  // which has its title in it
+  contents.chapters = {{"Figures", figures_html(pictures)}};
   return html_of(contents);
 }
 

@@ -35,8 +35,8 @@ std::string report_html(const run::MapPlan& plan, const run::ErrorMaps& maps) {
                     .about = fmt::format("{} loads, {} contraction ratios x {} speeds, a run for each",
                                          maps.loads.size(), plan.ratios.size(), plan.speeds_per_s.size()),
                     .details = output::table_of(plan, maps),
-                    .beside = "Every target is in map.csv, limits and inputs are in map.json.",
-                    .wide_pictures = true};
+                    .beside = "Every target is in map.csv, limits and inputs are in map.json."};
+  std::vector<Picture> pictures;
   std::string& html = contents.table;
   html =
       "<table><caption>Root mean square error of height at the time of arrival, in mm; reachable: what the "
@@ -64,7 +64,7 @@ std::string report_html(const run::MapPlan& plan, const run::ErrorMaps& maps) {
           load.load_kg, map.branch == controllers::Branch::contraction ? "up" : "down", load.weighed_kg,
           100.0 * share, within.mm(length_mm), beyond.mm(length_mm));
     }
-    contents.pictures.push_back(
+    pictures.push_back(
         {fmt::format(
              "{:g} kg. White is right, orange too high or too fast, blue too low or too slow; inside the "
              "line is what the rig can reach.",
@@ -72,6 +72,7 @@ std::string report_html(const run::MapPlan& plan, const run::ErrorMaps& maps) {
          output::heat_map_svg(plan, maps, load)});
   }
   html += "</tbody></table>\n";
+  if (!pictures.empty()) contents.chapters = {{"Figures", figures_html(pictures, true)}};
   contents.sentence =
       all_within.cells == 0
           ? "No target that the rig can reach was run."

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include <sim/input/number.hpp>
-#include <sim/output/diagnosis_figures.hpp>
+#include <sim/output/svg.hpp>
 #include <sim/output/table.hpp>
 #include <sim/report/html.hpp>
 #include <sim/report/quantities.hpp>

@@ -3,7 +3,7 @@
 const view = {
   group: null,
   shown: new Set(),
-  drawn: 0,
+  drawn: report.drawn,
   time: 0,
   plots: [],
   playing: 0
@@ -11,8 +11,9 @@ const view = {
 const calm = matchMedia('(prefers-reduced-motion: reduce)').matches;
 const drawing = new RigPicture(byId('rig'));
 const allColumns = [
-  ['contraction', 'contraction', 5], ['error', 'error', 5], ['current', 'mA', 2],
-  ['muscle_pressure', 'bar', 3], ['braid_force', 'braid, N', 1], ['friction_force', 'friction, N', 1]
+  ['contraction', 'contraction', 5], ['error', 'error', 5], ['error_mm', 'error, mm', 3],
+  ['current', 'mA', 2], ['muscle_pressure', 'bar', 3], ['braid_force', 'braid, N', 1],
+  ['friction_force', 'friction, N', 1]
 ];
 let columns = [];  // those that this group has
 
@@ -165,7 +166,7 @@ byId('time').addEventListener('input', (event) => {
   stop();
   setTime(Number(event.target.value));
 });
-for (const row of document.querySelectorAll('tr[data-group]'))
+for (const row of document.querySelectorAll('tr[data-group], g[data-group]'))
   row.addEventListener('click', () => showGroup(Number(row.dataset.group)));
 document.addEventListener('keydown', (event) => {
   if (event.target.closest('input, select, button, summary, a') || event.ctrlKey || event.altKey ||

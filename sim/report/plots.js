@@ -17,18 +17,28 @@ function swatch(colourClass, dash) {
 
 /** What is drawn in a plot of a group: [{line, run, values, dash, colour}], given lines first. */
 function seriesOf(plot, group) {
-  const several = plot.lines.filter((line) => !line.given).length > 1;
-  const all = [];
-  plot.lines.forEach((line) => {
-    if (line.given && group.given[line.key])
-      all.push(
-          {line, run: null, values: group.given[line.key], dash: several ? dashes[1] : [], colour: 'ink'});
-  });
+  const given = plot.lines.filter((line) => line.given && group.given[line.key]);
+  const several = given.length > 1 || plot.lines.filter((line) => !line.given).length > 1;
+  const all = given.map((line) => ({
+                          line,
+                          run: null,
+                          values: group.given[line.key],
+                          dash: several ? dashes[plot.lines.indexOf(line) % 4] : [],
+                          colour: 'ink'
+                        }));
   group.runs.forEach((run, index) => plot.lines.forEach((line, i) => {
     if (line.given || !run.values[line.key]) return;
     all.push({line, run: index, values: run.values[line.key], dash: dashes[i % 4], colour: runColour(run)});
   }));
   return all;
+}
+
+/** 0 and the powers of ten beyond `floor` between two values. */
+function powers(floor, low, high) {
+  const all = [0];
+  for (let power = 10 ** Math.ceil(Math.log10(floor) + 0.2); power <= Math.max(-low, high); power *= 10)
+    all.push(-power, power);
+  return all.filter((value) => low <= value && value <= high).sort((a, b) => a - b);
 }
 
 /** Range of an axis: a little more than the values, and never so little that its numbers are all digits. */
@@ -83,12 +93,58 @@ class Plot {
     return {
       ...this.size(),
       legend: {show: false},
-      scales: {x: {time: false}, y: {range: (_, low, high) => heights(low, high)}},
+      scales: {x: {time: false}, y: this.scale()},
       cursor: {x: false, y: false, points: {show: false}, drag: {x: true, y: false}},
-      axes: [{...axis, values: seconds}, {...axis, values: short, size: 62}],
+      axes: [{...axis, values: seconds}, {...axis, values: short, size: 62, ...this.steps()}],
       series: [{}, ...this.series.map(seriesOptions)],
-      hooks: {setCursor: [moved], setScale: [scaled]},
+      hooks: {setCursor: [moved], setScale: [scaled], draw: [(u) => this.markFloor(u)]},
     };
+  }
+
+  /** Linear; where there is a floor, linear within it, logarithmic beyond. */
+  scale() {
+    const {floor} = this.plot;
+    if (!floor) return {range: (_, low, high) => heights(low, high)};
+    return {
+      distr: 4,
+      asinh: floor,
+      range: (_, low, high) => heights(Math.min(low, -1.5 * floor), Math.max(high, 1.5 * floor))
+    };
+  }
+
+  /** Where such an axis has its numbers. */
+  steps() {
+    const {floor} = this.plot;
+    return floor ? {splits: (_, axis, low, high) => powers(floor, low, high), filter: (_, splits) => splits} :
+                   {};
+  }
+
+  /** Two lines, between which nobody can tell. */
+  markFloor(u) {
+    const {floor} = this.plot;
+    if (!floor) return;
+    const {left, width} = u.bbox, pixels = devicePixelRatio;
+    const context = u.ctx;
+    context.save();
+    context.strokeStyle = context.fillStyle = colour('ink');
+    context.setLineDash([4 * pixels, 3 * pixels]);
+    context.lineWidth = pixels;
+    for (const at of [floor, -floor]) {
+      const y = u.valToPos(at, 'y', true);
+      context.beginPath();
+      context.moveTo(left, y);
+      context.lineTo(left + width, y);
+      context.stroke();
+    }
+    context.font = `${12 * pixels}px system-ui, sans-serif`;
+    context.textAlign = 'right';
+    const place = ['noise floor', left + width - 4 * pixels, u.valToPos(floor, 'y', true) - 4 * pixels];
+    context.setLineDash([]);
+    context.lineWidth = 4 * pixels;
+    context.strokeStyle = colour('ground');
+    context.strokeText(...place);
+    context.fillText(...place);
+    context.restore();
   }
 
   /** Buttons for the quantities, where there are several. */

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include <sim/diagnose/diagnosis.hpp>
 #include <sim/input/campaign.hpp>
 #include <sim/input/dataset.hpp>
 #include <sim/input/fields_json.hpp>
@@ -30,6 +31,12 @@ std::string report_html(const input::Campaign& campaign, const input::Json& docu
 /// The models of a data set, and their figures.
 std::string report_html(const input::Dataset& dataset, const thesis::CalibrationResult& result,
                         const thesis::Options& options, bool kgf, const std::vector<thesis::Figure>& figures);
+
+/// What a diagnosis found. `nominal` and `corrected`: the same runs replayed on the rig as described and as
+/// corrected; may be empty.
+std::string report_html(const input::Dataset& data, const diagnose::Diagnosis& diagnosis,
+                        const std::vector<run::ReplayedRun>& nominal,
+                        const std::vector<run::ReplayedRun>& corrected);
 
 /// Error maps.
 std::string report_html(const run::MapPlan& plan, const run::ErrorMaps& maps);

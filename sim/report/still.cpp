@@ -6,7 +6,6 @@
 
 #include <fmt/format.h>
 
-#include <sim/output/diagnosis_figures.hpp>
 #include <sim/output/svg.hpp>
 #include <sim/report/still.hpp>
 
@@ -23,8 +22,9 @@ struct Curve {
   std::vector<std::pair<double, double>> points{};
 };
 
+/// Linear; or, with a floor, linear within it and logarithmic beyond.
 struct Axis {
-  double from_px, to_px, low = 1e300, high = -1e300;
+  double from_px, to_px, floor = 0.0, low = 1e300, high = -1e300;
 
   void hold(double value) { low = std::min(low, value), high = std::max(high, value); }
   void close() {
@@ -32,10 +32,21 @@ struct Axis {
     const double margin = std::max(0.04 * (high - low), 1e-6 + 2e-3 * std::abs(high));
     low -= margin, high += margin;
   }
-  double px(double value) const { return from_px + (to_px - from_px) * (value - low) / (high - low); }
+  double bent(double value) const { return floor > 0.0 ? std::asinh(value / floor) : value; }
+  double px(double value) const {
+    return from_px + (to_px - from_px) * (bent(value) - bent(low)) / (bent(high) - bent(low));
+  }
 
   template <class Draw>
   void ticks(int parts, const Draw& draw) const {
+    if (floor > 0.0) {  // 0 and powers of ten
+      draw(px(0.0), "0");
+      const double first = std::pow(10.0, std::ceil(std::log10(floor) + 0.2));
+      for (double power = first; power <= std::max(-low, high); power *= 10.0)
+        for (const double value : {-power, power})
+          if (low <= value && value <= high) draw(px(value), fmt::format("{:g}", value));
+      return;
+    }
     const double step = output::tick_step(high - low, parts);
     for (double i = std::ceil(low / step); i <= std::floor(high / step); i += 1.0)
       draw(px(i * step), fmt::format("{:.4g}", i * step + 0.0));  // + 0.0 makes 0 of -0
@@ -65,8 +76,8 @@ std::string path(const Curve& curve, const Axis& x, const Axis& y) {
 }
 
 std::string chart(const std::string& head, const std::string& x_label, const std::string& y_label,
-                  const std::vector<Curve>& curves) {
-  Axis x{left, width - right}, y{height - bottom, top};
+                  const std::vector<Curve>& curves, double floor = 0.0) {
+  Axis x{left, width - right}, y{height - bottom, top, floor};
   bool any = false;
   for (const auto& curve : curves)
     for (const auto& [at_x, at_y] : curve.points)
@@ -76,6 +87,7 @@ std::string chart(const std::string& head, const std::string& x_label, const std
         any = true;
       }
   if (!any) return "";
+  if (floor > 0.0) y.hold(-1.5 * floor), y.hold(1.5 * floor);
   x.close();
   y.close();
   std::string svg = fmt::format("<svg role='img' viewBox='0 0 {} {}' {}{}{}>\n", width, height, head,
@@ -96,6 +108,11 @@ std::string chart(const std::string& head, const std::string& x_label, const std
   svg += fmt::format("<text x='11' y='{0}' text-anchor='middle' transform='rotate(-90 11 {0})'>{1}</text>\n",
                      0.5 * (top + height - bottom), escaped(y_label));
   for (const auto& curve : curves) svg += path(curve, x, y);
+  if (floor > 0.0)
+    svg += fmt::format(
+        "<path class='floor' d='M{0} {1:.1f}H{2}M{0} {3:.1f}H{2}'/><text x='{4}' y='{5:.1f}' "
+        "class='halo' text-anchor='end'>noise floor</text>\n",
+        left, y.px(floor), width - right, y.px(-floor), width - right - 3, y.px(floor) - 4);
   return svg + "</svg>\n";
 }
 
@@ -108,6 +125,12 @@ const AtTick* find(const std::vector<Quantity>& quantities, const std::string& k
   for (const auto& quantity : quantities)
     if (quantity.key == key) return &quantity.at;
   return nullptr;
+}
+
+/// Of a run, or else of what was given to all.
+const AtTick* find(const Group& group, const Run& run, const std::string& key) {
+  const AtTick* own = find(run.quantities, key);
+  return own != nullptr ? own : find(group.given, key);
 }
 
 std::string run_class(const Run& run, const char* shape = "run") {
@@ -135,7 +158,7 @@ std::string still_svg(const Group& group, const Plot& plot, double tick_s, std::
     for (const auto& run : group.runs) add(run_class(run), find(run.quantities, line.key), run.ticks);
   }
   return chart(fmt::format("aria-label='{}, {}'", escaped(plot.title), escaped(group.name)), "time in s",
-               plot.unit, curves);
+               plot.unit, curves, plot.floor);
 }
 
 std::string loop_svg(const Group& group, const Loop& loop, std::size_t most) {
@@ -148,7 +171,7 @@ std::string loop_svg(const Group& group, const Loop& loop, std::size_t most) {
     curves.push_back(std::move(curve));
   }
   for (const auto& run : group.runs) {
-    const AtTick *x = find(run.quantities, loop.x), *y = find(run.quantities, loop.y);
+    const AtTick *x = find(group, run, loop.x), *y = find(group, run, loop.y);
     if (x == nullptr || y == nullptr) continue;
     Curve curve{.kind = run_class(run, loop.dots ? "dots" : "run"), .dots = loop.dots};
     for (std::size_t k = 0; k < run.ticks; k += stride(run.ticks, most))

@@ -284,6 +284,71 @@ test('a replay with a gauge shows the measured pressure too, over time and in th
   await done();
 });
 
+test('a diagnosis shows the runs held out first, as measured and by each rig', async () => {
+  const {page, close: done, complaints, requests, url} = await open('diagnosis');
+  assert.match(await page.textContent('.lead'), /Missing: muscle_leak/);
+  assert.equal(await page.locator('#group option').first().textContent(), 'm2_sine, 16.138 kg, held out');
+  const csv = table('leaky/m2_sine.csv'), mended = table('mended/m2_sine.csv');
+  const height = await seriesOf(page, 'height'), error = await seriesOf(page, 'error');
+  const half = height.Measured.values[0] - csv.contraction_ratio[0];  // the middle of a count
+  assert.ok(half > 2.1e-4 && half < 2.3e-4, `${half}`);
+  near(
+      height.Measured.values, csv.contraction_ratio.map((e) => e + half), rangeOf(csv.contraction_ratio),
+      'e');
+  const worst = {};
+  for (const rig of ['nominal', 'recalibrated', 'corrected']) {
+    const model = height[`contraction, ${rig}`].values, less = error[`error, ${rig}`].values;
+    near(less, height.Measured.values.map((e, k) => 300 * (e - model[k])), 300, rig);
+    worst[rig] = Math.max(...less.map(Math.abs));
+  }
+  assert.ok(worst.corrected < 0.25 && worst.nominal > 4 * worst.corrected, JSON.stringify(worst));
+  const pressures = await seriesOf(page, 'pressures');  // of the corrected rig, as anybody can replay it
+  near(
+      pressures['muscle, corrected'].values, mended.muscle_pressure_bar, rangeOf(mended.muscle_pressure_bar),
+      'bar');
+  assert.match(await page.textContent('#rig-caption'), /^corrected, m2_sine/);
+  assert.deepEqual(complaints, []);
+  assert.deepEqual(requests, [url]);
+  await done();
+});
+
+test('the axis of a diagnosis\'s errors lets the noise floor be seen', async () => {
+  const {page, close: done} = await open('diagnosis');
+  const [zero, floor, most, high] = await page.evaluate(() => {
+    const {chart, plot} = view.plots.find((one) => one.plot.id === 'error');
+    const at = (value) => chart.valToPos(value, 'y');
+    return [at(0), at(plot.floor), at(chart.scales.y.max), chart.over.clientHeight];
+  });
+  assert.ok(most < floor && zero - floor > 0.05 * high, `${[zero, floor, most, high]}`);
+  await done();
+});
+
+test('a click on a run of the picture leads to its plots, also on a narrow screen', async () => {
+  const {page, close: done, complaints} = await open('diagnosis', {viewport: {width: 400, height: 800}});
+  await page.locator('g[data-group=\'1\']').click();
+  assert.equal(await page.inputValue('#group'), '1');
+  assert.equal(await page.locator('.group.chosen h3').textContent(), 'm1_sine, 11.138 kg');
+  const [wide, inner] = await page.evaluate(() => [document.documentElement.scrollWidth, innerWidth]);
+  assert.ok(wide <= inner, `${wide} > ${inner}`);
+  assert.deepEqual(complaints, []);
+  await done();
+});
+
+test('without scripts a diagnosis tells its whole story', async () => {
+  const {page, close: done} = await open('diagnosis', {javaScriptEnabled: false});
+  assert.deepEqual(await page.locator('h2').allTextContents(), [
+    'Where they disagree', 'What explains it', 'What was added', 'How far the gap shrank',
+    'Loops and plots over time', 'What else it could be', 'What to measure next'
+  ]);
+  assert.ok(await page.locator('.tables', {hasText: 'conductance'}).isVisible());
+  assert.ok(await page.locator('svg[aria-label=\'Disagreement by pressure\']').isVisible());
+  assert.ok(await page.locator('svg[aria-label=\'Errors of each run\']').isVisible());
+  const held = page.locator('section.group').first();
+  assert.equal(await held.locator('svg[viewBox="0 0 460 300"]:visible').count(), 4);
+  assert.equal(await held.locator('path.floor').count(), 1);
+  await done();
+});
+
 test('a map is a page of pictures without scripts, and fits a narrow screen', async () => {
   const {page, close: done, complaints, requests, url} =
       await open('map', {viewport: {width: 400, height: 800}});

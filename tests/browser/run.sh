@@ -26,4 +26,7 @@ END
 "$program" dataset "$here/campaign.yaml" --out "$folder/campaign" > /dev/null
 "$program" replay campaign --out "$folder/gauged" > /dev/null
 "$program" map "$here/../data/calibration.yaml" --ratios 6 --speeds 2 --out "$folder/map" > /dev/null
+"$program" dataset "$here/leaky.yaml" --out "$folder/leaky" > /dev/null
+"$program" diagnose leaky --out "$folder/diagnosis" > /dev/null
+"$program" replay leaky --rig diagnosis/rig.yaml --out "$folder/mended" > /dev/null
 node --test --test-reporter=spec report_test.mjs

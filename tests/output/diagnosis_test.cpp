@@ -1,5 +1,5 @@
 // What a diagnosis writes and prints: the contract's keys, a rig that reads back to the same bits, a plan
-// that is a campaign, a page that needs nothing but itself.
+// that is a campaign.
 #include <filesystem>
 #include <fstream>
 #include <limits>
@@ -12,7 +12,6 @@
 #include <sim/input/campaign.hpp>
 #include <sim/input/rig_file.hpp>
 #include <sim/output/diagnosis_json.hpp>
-#include <sim/output/diagnosis_report.hpp>
 #include <sim/output/diagnosis_rig.hpp>
 #include <sim/output/diagnosis_table.hpp>
 #include <sim/output/diagnosis_words.hpp>
@@ -144,39 +143,6 @@ TEST(DiagnosisPlan, IsACampaignWithThatCurrentAndLoadOnTheCorrectedRig) {
   EXPECT_EQ(input::rig_json(campaign.rig), input::rig_json(found.corrected));
 }
 
-TEST(DiagnosisReport, IsWholeInItselfAndSafe) {
-  const std::string html = report_html(measured(), diagnosed());
-  for (const char* outside : {"<script", "http:", "https:", "src=", "href=", "url(", "@import"})
-    EXPECT_EQ(html.find(outside), std::string::npos) << outside;
-  EXPECT_EQ(html.find("<held out>"), std::string::npos);
-  EXPECT_NE(html.find("&lt;held out&gt;"), std::string::npos);
-  EXPECT_EQ(html.find("nan"), std::string::npos);
-  EXPECT_LT(html.find("Warning:"), html.find("<h1>"));
-  // The steps in their order, and each run held out with its picture.
-  std::size_t at = 0;
-  for (const char* part : {"<h1>Missing: muscle_leak and valve_dead_band", "The gap", "Run r05", "Run r06",
-                           "What was added", "Where they disagree", "never visited", "Candidates",
-                           "Which can be taken for which", "had absorbed", "What else it could be",
-                           "could as well be valve_hysteresis", "What to measure next", "stairs from 4"}) {
-    const std::size_t found = html.find(part, at);
-    ASSERT_NE(found, std::string::npos) << part;
-    at = found;
-  }
-  EXPECT_EQ(html.find("Run r01:"), std::string::npos);  // was trained on
-}
-
-TEST(DiagnosisReport, LeavesOutWhatThereIsNot) {
-  diagnose::Diagnosis nothing;
-  nothing.verdict = diagnose::Verdict::nothing_missing;
-  const std::string html = report_html(measured(), nothing);
-  EXPECT_NE(html.find("<h1>Nothing is missing</h1>"), std::string::npos);
-  for (const char* part : {"What was added", "Candidates", "What to measure next", "had absorbed", "<svg"})
-    EXPECT_EQ(html.find(part), std::string::npos) << part;
-  EXPECT_EQ(html.find("nan"), std::string::npos);
-  nothing.runs = {{.id = "empty", .held_out = true}};
-  EXPECT_EQ(report_html(measured(), nothing).find("nan"), std::string::npos);
-}
-
 TEST(DiagnosisTable, SaysWhatCounts) {
   const std::string text = table_of(measured(), diagnosed());
   EXPECT_LT(text.find("warning: run r04"), text.find("missing_effect: "));
@@ -197,6 +163,11 @@ TEST(DiagnosisWords, GiveAsManyDigitsAsTheIntervalAllows) {
   EXPECT_EQ(readable(5e4, "Pa"), "0.5 bar");
   EXPECT_EQ(readable(0.012, "s"), "12 ms");
   EXPECT_EQ(readable(20.0, "N.s/m"), "20 N s/m");
+  EXPECT_EQ(mass(30.427799999999998), "30.4278 kg");
+  EXPECT_EQ(rounded(-0.04, 1, true), "0.0");
+  EXPECT_EQ(rounded(0.06, 1, true), "+0.1");
+  EXPECT_EQ(height(1e-8, plant::Rig{}), "0.000 mm");
+  EXPECT_EQ(height(6.19e-3, plant::Rig{}), "1.86 mm");
 }
 
 }  // namespace

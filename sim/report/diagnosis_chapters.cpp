@@ -1,0 +1,273 @@
+// Words, tables and where the pictures go; see the header.
+#include <algorithm>
+#include <cmath>
+#include <initializer_list>
+
+#include <fmt/format.h>
+
+#include <sim/input/field_kinds.hpp>
+#include <sim/output/diagnosis_words.hpp>
+#include <sim/output/svg.hpp>
+#include <sim/report/diagnosis_chapters.hpp>
+#include <sim/report/diagnosis_pictures.hpp>
+#include <sim/report/html.hpp>
+
+namespace mckibben::report {
+namespace {
+
+using diagnose::Diagnosis;
+using diagnose::Estimate;
+using diagnose::full_name;
+using output::escaped;
+using output::readable;
+using output::rounded;
+
+/// `head` may break after its underscores.
+std::string row(const std::string& head, std::initializer_list<std::string> cells) {
+  std::string html = "<tr><th scope='row'>";
+  for (const char c : escaped(head)) html += c == '_' ? "_<wbr>" : std::string(1, c);
+  html += "</th>";
+  for (const auto& cell : cells) html += "<td>" + escaped(cell) + "</td>";
+  return html + "</tr>\n";
+}
+
+std::string table(const std::string& caption, std::initializer_list<const char*> head,
+                  const std::string& rows) {
+  std::string html = "<table><caption>" + escaped(caption) + "</caption>\n<thead><tr>";
+  for (const char* name : head) html += fmt::format("<th scope='col'>{}</th>", name);
+  return html + "</tr></thead>\n<tbody>\n" + rows + "</tbody></table>\n";
+}
+
+std::string paragraph(const std::string& text) {
+  return "<p>" + escaped(text) + "</p>\n";
+}
+
+std::string found_row(const std::string& of, const std::string& name, const Estimate& fitted) {
+  const auto shown = readable(fitted);
+  return row(of, {name, shown.value, shown.interval});
+}
+
+/// What was added; or else what was recalibrated by more than a data sheet promises.
+std::string found(const Diagnosis& diagnosis) {
+  std::string rows;
+  for (const auto& effect : diagnosis.effects)
+    for (const auto& parameter : effect.parameters)
+      rows += found_row(full_name(effect.name, effect.variant), parameter.name, parameter);
+  for (const auto& term : diagnosis.residual_law)
+    rows += found_row("residual_law", term.term, term.coefficient);
+  if (rows.empty())
+    for (const auto& moved : diagnosis.recalibrated)
+      if (std::abs(moved.deviations) > 1.0)
+        rows += found_row("recalibrated", moved.fitted.name, moved.fitted);
+  const std::string verdict = fmt::format("Verdict: {}", input::spelling(diagnosis.verdict));
+  if (rows.empty()) return "<p><b>" + escaped(verdict) + "</b></p>\n";
+  return table(verdict, {"found", "parameter", "value", "95 % interval"}, rows);
+}
+
+std::string gap_row(const char* name, double rmse, const diagnose::Gap& gap, const plant::Rig& rig) {
+  return row(name, {output::height(rmse, rig), gap.noise_floor > 0.0
+                                                   ? fmt::format("{:.{}f} \u00d7", rmse / gap.noise_floor,
+                                                                 rmse < 10.0 * gap.noise_floor ? 1 : 0)
+                                                   : "-"});
+}
+
+/// Where much of the gap sits in little of the data, in a sentence; empty if it is spread evenly.
+std::string concentration(const Diagnosis& diagnosis) {
+  const diagnose::Cell* densest = nullptr;
+  double most = 1.5, in = 0.0;  // share of the gap over share of the rows
+  for (const auto& cell : diagnosis.where) {
+    std::size_t rows = 0;
+    for (const auto& other : diagnosis.where)
+      if (other.factor == cell.factor) rows += other.rows;
+    if (!cell.significant || cell.share_of_gap < 0.25 || rows == 0) continue;
+    const double share = static_cast<double>(cell.rows) / static_cast<double>(rows);
+    if (cell.share_of_gap / share > most) densest = &cell, most = cell.share_of_gap / share, in = share;
+  }
+  if (diagnosis.gap.recalibrated_rmse < 1.1 * diagnosis.gap.noise_floor)
+    return paragraph("Nothing is left here: the recalibrated model is as near as the noise floor.");
+  if (densest == nullptr) return "";
+  return paragraph(fmt::format("It is concentrated at {} {}: {:.0f} % of the gap in {:.0f} % of the time.",
+                               densest->factor, densest->cell, 100.0 * densest->share_of_gap, 100.0 * in));
+}
+
+std::string where_html(const Diagnosis& diagnosis, const plant::Rig& rig) {
+  if (diagnosis.where.empty()) return "";
+  return paragraph(
+             "Measured less recalibrated model, before anything was added, as height of the load, averaged "
+             "over parts of the data. Orange: the load was higher than the model says; blue: lower. Framed "
+             "and marked with *: the mean of this part differs from the mean over all parts of its picture "
+             "(where there is only one, from 0) by more than chance; of all marks 5 % may be false. Dashed: "
+             "the data never went there, so nothing is known of it.") +
+         concentration(diagnosis) + figures_html(where_pictures(diagnosis, rig));
+}
+
+std::string ranking_html(const Diagnosis& diagnosis, const plant::Rig& rig) {
+  if (diagnosis.ranking.empty()) return "";
+  return paragraph(
+             "Every effect of the catalogue is tried. Its score is how far the misfit would fall with a "
+             "little of it, beyond what the nominal parameters can imitate; left of the dashed line it is "
+             "chance. The best "
+             "are fitted: under their bars stands what came of it, with the error left on the runs held "
+             "out. Once one is taken, all others are tried again in a further round. All bars have one "
+             "scale.") +
+         figures_html(ranking_pictures(diagnosis, rig));
+}
+
+std::string law_html(const Diagnosis& diagnosis) {
+  if (diagnosis.residual_law.empty()) return "";
+  std::string html =
+      "<h3>residual_law</h3>\n" +
+      paragraph(
+          "A force outside the catalogue, positive upwards: the sum of the terms above, each a coefficient "
+          "times what it stands for (x rise of the load, v its speed in 0.1 m/s, P in bar, m g in 98.0665 "
+          "N).");
+  if (!diagnosis.law_valid_for.empty()) html += paragraph("Valid for " + diagnosis.law_valid_for + ".");
+  return html;
+}
+
+std::string recalibrated_html(const Diagnosis& diagnosis) {
+  if (diagnosis.recalibrated.empty()) return "";
+  std::string rows;
+  for (const auto& moved : diagnosis.recalibrated) {
+    const auto shown = readable(moved.fitted);
+    rows += row(moved.fitted.name, {readable(moved.nominal, moved.fitted.unit), shown.value, shown.interval,
+                                    rounded(moved.deviations, 1, true)});
+  }
+  return "<div class='wide'>" +
+         table(
+             "Recalibrated; deviations are those within which a data sheet or a ruler gives "
+             "the value",
+             {"parameter", "nominal", "fitted", "95 % interval", "deviations"}, rows) +
+         "</div>\n";
+}
+
+std::string absorbed_html(const Diagnosis& diagnosis) {
+  if (diagnosis.effects.empty() && diagnosis.residual_law.empty()) return "";
+  if (diagnosis.absorbed.empty()) return "";
+  return "<h3>What the numbers had absorbed</h3>\n" +
+         paragraph(
+             "A nominal parameter that is wrong in the right way imitates a missing effect. With the effect "
+             "in the model it should return towards 0.") +
+         "<p class='keys'><span class='c3'><svg viewBox='0 0 34 10' aria-hidden='true'><path class='bar' "
+         "d='M0 1H34V9H0Z'/></svg>without what was added</span><span class='c0'><svg viewBox='0 0 34 10' "
+         "aria-hidden='true'><path class='bar' d='M0 1H34V9H0Z'/></svg>with it</span></p>\n" +
+         figures_html({{"How far each was moved, in deviations as above.", absorbed_svg(diagnosis)}});
+}
+
+std::string added_html(const Diagnosis& diagnosis) {
+  std::string html;
+  for (const auto& effect : diagnosis.effects) {
+    const auto words = output::words_of(effect.name);
+    std::string says(words.sentence);
+    if (!says.empty() && says[0] >= 'a' && says[0] <= 'z') says[0] = static_cast<char>(says[0] - 'a' + 'A');
+    html += fmt::format("<h3>{}</h3>\n<p>{}.<br>Law: <code>{}</code><br><span class='small'>{}</span></p>\n",
+                        escaped(full_name(effect.name, effect.variant)), escaped(says), escaped(words.law),
+                        escaped(words.source));
+  }
+  return html + law_html(diagnosis) + recalibrated_html(diagnosis) + absorbed_html(diagnosis);
+}
+
+std::string gap_html(const Diagnosis& diagnosis, const std::vector<const diagnose::RunGap*>& runs,
+                     const plant::Rig& rig) {
+  if (runs.empty()) return "";
+  const bool changed = output::changed(diagnosis);
+  return fmt::format(
+             "<p>Nominal is the rig as it was described, recalibrated has its numbers fitted and nothing "
+             "added{}. No fit has seen the runs held out: they decide. The axis is logarithmic.<span "
+             "class='live-only'> A click on a run leads to its plots.</span></p>\n",
+             changed ? ", corrected has what was found" : "") +
+         figures_html({{"Root mean square error of height, run by run.",
+                        errors_svg(runs, diagnosis.gap.noise_floor, changed, rig)}});
+}
+
+bool gauged(const input::Dataset& data) {
+  return std::any_of(data.runs.begin(), data.runs.end(),
+                     [](const auto& run) { return run.muscle_pressure_Pa.has_value(); });
+}
+
+std::string twins_html(const input::Dataset& data, const Diagnosis& diagnosis) {
+  std::string html;
+  for (const auto& effect : diagnosis.effects)
+    html += paragraph(
+        effect.confusable_with.empty()
+            ? fmt::format("{}: no other effect of the catalogue explains these data as well.", effect.name)
+            : fmt::format("{} could as well be {}: these data cannot tell them apart.", effect.name,
+                          output::listed(effect.confusable_with)));
+  if (!gauged(data) && (!diagnosis.effects.empty() || !diagnosis.residual_law.empty()))
+    html += paragraph(
+        "The data hold no muscle pressure. One measured quantity can show one unknown only: what looks like "
+        "a missing force could be a missing flow of gas that has the same consequences for the load. A "
+        "pressure gauge on the muscle decides it.");
+  const std::string likeness = confusion_svg(diagnosis);
+  if (likeness.empty()) return html;
+  return html + figures_html({{"Likeness of what the best candidates change in these data, before anything "
+                               "was added: at 1 they look the same, above 0.9 (framed) a little of the one "
+                               "cannot be told from a little of the other, at 0 they have nothing in common.",
+                               likeness}});
+}
+
+/// What to do where no measurement of the menu is proposed.
+std::string without_plan(const Diagnosis& diagnosis) {
+  using enum diagnose::Verdict;
+  const bool twins = std::any_of(diagnosis.effects.begin(), diagnosis.effects.end(),
+                                 [](const auto& effect) { return !effect.confusable_with.empty(); });
+  if (diagnosis.verdict == missing_effect)
+    return paragraph(twins ? "No current that was tried would tell these names apart."
+                           : "No further measurement is needed to choose between names.");
+  if (diagnosis.verdict == recalibrate)
+    return paragraph("Check the numbers that moved most against a ruler or the data sheet.");
+  if (diagnosis.verdict == unknown_effect && !diagnosis.law_valid_for.empty())
+    return paragraph("Wherever the rig is to be used beyond what the law is valid for.");
+  return "";
+}
+
+std::string next_html(const Diagnosis& diagnosis) {
+  if (!diagnosis.next_experiment) return without_plan(diagnosis);
+  const auto& next = *diagnosis.next_experiment;
+  return fmt::format(
+      "<p><b>{}</b>, with a load of {}. It would tell {} apart with a probability of {:.0f} % (test at 5 %). "
+      "The option <code>--plan FILE</code> writes it as a campaign.</p>\n",
+      escaped(next.current), output::mass(next.load_kg), escaped(output::listed(next.separates)),
+      100.0 * next.expected_power);
+}
+
+}  // namespace
+
+std::string result_table(const input::Dataset& data, const Diagnosis& diagnosis) {
+  const auto& gap = diagnosis.gap;
+  const auto unseen = output::held_out(diagnosis);
+  std::string html = "<div class='tables'>\n" + found(diagnosis);
+  if (unseen.empty()) return html + "</div>\n";
+  std::string caption =
+      fmt::format("Error of height on the runs held out ({}), root mean square.", output::listed(unseen));
+  std::string rows = gap_row("nominal", gap.nominal_rmse, gap, data.rig) +
+                     gap_row("recalibrated", gap.recalibrated_rmse, gap, data.rig);
+  if (output::changed(diagnosis)) {
+    caption += fmt::format(" Of its square above the noise floor {:.1f} % is gone.", 100.0 * gap.closed);
+    rows += gap_row("corrected", gap.corrected_rmse, gap, data.rig);
+  }
+  rows += row("noise floor", {output::height(gap.noise_floor, data.rig), ""});
+  html += table(caption, {"rig", "error", "over floor"}, rows);
+  return html + "</div>\n";
+}
+
+std::vector<Chapter> story(const input::Dataset& data, const Diagnosis& diagnosis,
+                           const std::vector<const diagnose::RunGap*>& runs) {
+  const plant::Rig& rig = data.rig;
+  return {
+      {"Where they disagree", where_html(diagnosis, rig)},
+      {diagnosis.effects.empty() ? "What was tried" : "What explains it", ranking_html(diagnosis, rig)},
+      {diagnosis.effects.empty() && diagnosis.residual_law.empty() ? "What was changed" : "What was added",
+       added_html(diagnosis)},
+      {output::changed(diagnosis) ? "How far the gap shrank" : "The gap, run by run",
+       gap_html(diagnosis, runs, rig)}};
+}
+
+std::vector<Chapter> doubts_and_plan(const input::Dataset& data, const Diagnosis& diagnosis) {
+  return {{diagnosis.effects.empty() && diagnosis.residual_law.empty() ? "Which candidates look alike"
+                                                                       : "What else it could be",
+           twins_html(data, diagnosis)},
+          {"What to measure next", next_html(diagnosis)}};
+}
+
+}  // namespace mckibben::report

@@ -1,0 +1,261 @@
+// Rows of labels, bars and cells; see the header.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <span>
+#include <string_view>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include <sim/output/diagnosis_words.hpp>
+#include <sim/output/svg.hpp>
+#include <sim/report/diagnosis_pictures.hpp>
+
+namespace mckibben::report {
+namespace {
+
+using diagnose::Diagnosis;
+using diagnose::full_name;
+using output::escaped;
+using output::height;
+using output::rounded;
+
+constexpr double width = 460.0;
+
+std::string picture(double height_px, const std::string& says, const std::string& body) {
+  return fmt::format("<svg role='img' viewBox='0 0 {} {:.0f}' aria-label='{}'>\n{}</svg>\n", width, height_px,
+                     escaped(says), body);
+}
+
+std::string label(double x, double y, std::string_view anchor, std::string_view text,
+                  std::string_view kind = "") {
+  return fmt::format("<text x='{:.1f}' y='{:.1f}' text-anchor='{}' class='{}'>{}</text>\n", x, y, anchor,
+                     kind, escaped(text));
+}
+
+std::string bar(double x, double y, double wide, double high, std::string_view kind) {
+  return fmt::format("<rect x='{:.1f}' y='{:.1f}' width='{:.1f}' height='{:.1f}' class='{}'/>\n", x, y,
+                     std::max(wide, 0.8), high, kind);
+}
+
+std::string stroke(double x1, double y1, double x2, double y2, std::string_view kind) {
+  return fmt::format("<path d='M{:.1f} {:.1f}L{:.1f} {:.1f}' class='{}'/>\n", x1, y1, x2, y2, kind);
+}
+
+/// A cell coloured by a value from -1 (blue) over 0 (none) to 1 (orange).
+std::string heat(double x, double y, double wide, double high, double part) {
+  return fmt::format(
+      "<rect x='{:.1f}' y='{:.1f}' width='{:.1f}' height='{:.1f}' class='heat {}' fill-opacity='{:.2f}'/>\n",
+      x, y, wide, high, part > 0.0 ? "c1" : "c0", 0.55 * std::min(std::abs(part), 1.0));
+}
+
+/// Values of `list` with equal `key`, in the order in which the keys first come.
+template <class List, class Key>
+auto grouped(const List& list, const Key& key) {
+  using Value = typename List::value_type;
+  std::vector<std::pair<std::decay_t<decltype(key(list.front()))>, std::vector<const Value*>>> groups;
+  for (const Value& value : list) {
+    const auto same = [&](const auto& group) { return group.first == key(value); };
+    auto at = std::find_if(groups.begin(), groups.end(), same);
+    if (at == groups.end()) at = groups.insert(groups.end(), {key(value), {}});
+    at->second.push_back(&value);
+  }
+  return groups;
+}
+
+/// The three models, told apart by colour and shape.
+struct Model {
+  const char *name, *colour;
+  double diagnose::RunGap::*rmse;
+  const char* shape;  ///< a path round 0, 0
+};
+constexpr std::array<Model, 3> models{
+    {{"nominal", "c1", &diagnose::RunGap::nominal_rmse, "m-5 0a5 5 0 1 0 10 0a5 5 0 1 0 -10 0"},
+     {"recalibrated", "c3", &diagnose::RunGap::recalibrated_rmse, "m-4.5 -4.5h9v9h-9z"},
+     {"corrected", "c0", &diagnose::RunGap::corrected_rmse, "m0 -6l6 6l-6 6l-6 -6z"}}};
+
+std::string mark(double x, double y, const Model& model) {
+  return fmt::format("<path class='mark {}' d='M{:.1f} {:.1f}{}'/>\n", model.colour, x, y, model.shape);
+}
+
+}  // namespace
+
+std::vector<Picture> where_pictures(const Diagnosis& diagnosis, const plant::Rig& rig) {
+  constexpr double x0 = 140.0, wide = 132.0, x1 = 288.0, span = 124.0, pitch = 25.0;
+  double most = std::max(diagnosis.gap.noise_floor, 1e-12);  // less than that is pale
+  for (const auto& cell : diagnosis.where)
+    if (cell.rows > 0) most = std::max(most, std::abs(cell.mean));
+  std::vector<Picture> pictures;
+  for (const auto& [factor, cells] : grouped(diagnosis.where, [](const auto& cell) { return cell.factor; })) {
+    std::string svg = label(0, 14, "start", factor, "strong") +
+                      label(x0 + 0.5 * wide, 14, "middle", "mean", "soft") +
+                      label(x1, 14, "start", "share of the gap", "soft");
+    double y = 22.0;
+    for (const auto* cell : cells) {
+      svg += label(x0 - 8, y + 15, "end", cell->cell);
+      if (cell->rows == 0) {
+        svg += bar(x0, y, wide, 21.0, "empty") + label(x0 + 0.5 * wide, y + 15, "middle", "never visited");
+      } else {
+        svg += heat(x0, y, wide, 21.0, cell->mean / most);
+        if (cell->significant) svg += bar(x0 + 1, y + 1, wide - 2, 19.0, "frame");
+        svg += label(x0 + 0.5 * wide, y + 15, "middle",
+                     fmt::format("{}{}{}", cell->mean * rig.muscle.rest_length_m >= 5e-7 ? "+" : "",
+                                 height(cell->mean, rig), cell->significant ? " *" : ""));
+        svg += bar(x1, y + 4, cell->share_of_gap * span, 13.0, "bar");
+        svg += label(x1 + cell->share_of_gap * span + 6, y + 15, "start",
+                     fmt::format("{:.0f} %", 100.0 * cell->share_of_gap), "soft");
+      }
+      y += pitch;
+    }
+    pictures.push_back({"", picture(y, "Disagreement by " + factor, svg)});
+  }
+  return pictures;
+}
+
+std::vector<Picture> ranking_pictures(const Diagnosis& diagnosis, const plant::Rig& rig) {
+  constexpr double x0 = 212.0, span = 200.0, least_share = 0.01;
+  double most = score_of_chance;
+  for (const auto& one : diagnosis.ranking) most = std::max(most, one.score);
+  const auto rounds = grouped(diagnosis.ranking, [](const auto& one) { return one.round; });
+  std::vector<Picture> pictures;
+  for (const auto& [round, all] : rounds) {
+    const std::string heading = fmt::format("Round {}", round);
+    std::string svg;
+    if (rounds.size() > 1) svg += label(0, 14, "start", heading, "strong");
+    const double begin = rounds.size() > 1 ? 20.0 : 0.0;
+    double y = begin;
+    const double chance = x0 + score_of_chance / most * span;
+    std::string bars;
+    std::map<std::string, std::vector<std::string>> others;  // by outcome
+    for (const auto* one : all) {
+      if (!one->refitted && one->score < least_share * most) {
+        others[one->outcome].push_back(full_name(one->name, one->variant));
+        continue;
+      }
+      const bool taken = one->outcome.starts_with("taken");
+      bars += label(x0 - 8, y + 13, "end", full_name(one->name, one->variant), taken ? "strong" : "");
+      bars += bar(x0, y + 2, one->score / most * span, 13.0, taken ? "bar c0" : "bar");
+      bars += label(x0 + one->score / most * span + 5, y + 13, "start", rounded(one->score, 1), "soft halo");
+      y += 21.0;
+      if (!one->refitted) continue;
+      bars +=
+          label(width - 4, y + 7, "end", one->outcome + ": " + height(one->held_out_rmse, rig), "soft halo");
+      y += 17.0;
+    }
+    svg += stroke(chance, begin, chance, y, "floor") + bars;
+    svg += label(chance + 4, y + 12, "start", "chance", "soft");
+    std::string caption;
+    for (const auto& [outcome, names] : others)
+      caption +=
+          fmt::format("{}Not drawn, {}: {}.", caption.empty() ? "" : " ", outcome, output::listed(names));
+    if (y > begin) pictures.push_back({caption, picture(y + 16, "Candidates, " + heading, svg)});
+  }
+  return pictures;
+}
+
+std::string confusion_svg(const Diagnosis& diagnosis) {
+  const auto& names = diagnosis.confusion_names;
+  if (names.empty()) return "";
+  constexpr double x0 = 222.0;
+  const double cell = std::min(29.0, (width - x0) / static_cast<double>(names.size()));
+  std::string svg;
+  double y = 20.0;
+  for (std::size_t i = 0; i < std::min(names.size(), diagnosis.confusion.size()); ++i, y += cell) {
+    const double middle = 0.5 * cell + 4.0;
+    svg += label(x0 - 8, y + middle, "end", fmt::format("{}  {}", names[i], i + 1));
+    svg += label(x0 + cell * (static_cast<double>(i) + 0.5), 13, "middle", std::to_string(i + 1));
+    for (std::size_t j = 0; j < std::min(names.size(), diagnosis.confusion[i].size()); ++j) {
+      const double likeness = diagnosis.confusion[i][j], x = x0 + cell * static_cast<double>(j);
+      svg += heat(x, y, cell - 1, cell - 1, std::abs(likeness));
+      if (i != j && std::abs(likeness) > 0.9) svg += bar(x + 1, y + 1, cell - 3, cell - 3, "frame");
+      svg += label(x + 0.5 * cell - 0.5, y + middle, "middle", i == j ? "" : rounded(likeness, 2), "tiny");
+    }
+  }
+  return picture(y + 2, "How alike candidates are", svg);
+}
+
+std::string absorbed_svg(const Diagnosis& diagnosis) {
+  constexpr double middle = 306.0, span = 140.0;
+  double most = 1.0, y = 24.0;
+  for (const auto& one : diagnosis.absorbed)
+    most = std::max({most, std::abs(one.without), std::abs(one.with)});
+  const double bottom = y + 26.0 * static_cast<double>(diagnosis.absorbed.size());
+  std::string svg;
+  const double step = output::tick_step(2.0 * most, 6);
+  for (double i = -std::floor(most / step); i * step <= most * (1 + 1e-9); i += 1.0) {
+    const double x = middle + i * step * span / most;
+    svg += stroke(x, 18, x, bottom, i == 0.0 ? "axis" : "grid");
+    svg += label(x, 12, "middle", i == 0.0 ? "0" : rounded(i * step, step < 1.0 ? 1 : 0, true), "soft");
+  }
+  for (const auto& one : diagnosis.absorbed) {
+    svg += label(middle - span - 14, y + 15, "end", one.path);
+    const auto from_middle = [&](double value, double at, std::string_view kind) {
+      const double end = middle + value * span / most;
+      svg += bar(std::min(middle, end), at, std::abs(end - middle), 8.0, kind);
+    };
+    from_middle(one.without, y + 3, "bar c3");
+    from_middle(one.with, y + 12, "bar c0");
+    y += 26.0;
+  }
+  return picture(bottom + 4, "Prior deviations by which nominal parameters are moved", svg);
+}
+
+std::string errors_svg(const std::vector<const diagnose::RunGap*>& runs, double noise_floor, bool changed,
+                       const plant::Rig& rig) {
+  const auto shown = std::span(models).first(changed ? 3 : 2);
+  constexpr double x1 = 330.0, pitch = 24.0;
+  const auto name_of = [](const diagnose::RunGap& run) {
+    return run.id + (run.left_out ? ", left out" : run.held_out ? ", held out" : "");
+  };
+  std::size_t longest = 0;
+  for (const auto* run : runs) longest = std::max(longest, name_of(*run).size());
+  const double x0 = std::clamp(14.0 + 7.4 * static_cast<double>(longest), 80.0, 220.0);
+  const double mm = 1e3 * rig.muscle.rest_length_m;
+  double low = noise_floor > 0.0 ? noise_floor : 1e-4, high = low;
+  for (const auto* run : runs)
+    for (const auto& model : shown)
+      if (const double rmse = run->*model.rmse; std::isfinite(rmse) && rmse > 0.0)
+        low = std::min(low, std::max(rmse, 0.01 * high)), high = std::max(high, rmse);
+  low *= 0.8, high *= 1.25;
+  const auto x = [&](double rmse) {
+    return x0 + (x1 - x0) * std::log(std::max(rmse, low) / low) / std::log(high / low);
+  };
+  double y = 62.0, key_x = x0;
+  const double bottom = y + pitch * static_cast<double>(runs.size());
+  std::string svg;
+  for (const auto& model : shown) {
+    svg += mark(key_x, 9, model) + label(key_x + 9, 14, "start", model.name);
+    key_x += 26.0 + 7.2 * static_cast<double>(std::string_view(model.name).size());
+  }
+  svg += label(width, 48, "end", changed ? "nominal \u2192 corrected" : "nominal", "soft");
+  for (double power = std::pow(10.0, std::ceil(std::log10(low * mm))); power <= high * mm; power *= 10.0)
+    for (const double value : {power, 2.0 * power, 5.0 * power}) {
+      if (value > high * mm) continue;
+      svg += stroke(x(value / mm), 52, x(value / mm), bottom, "grid");
+      if (value == power) svg += label(x(value / mm), 48, "middle", fmt::format("{:g} mm", value), "soft");
+    }
+  if (noise_floor > 0.0) {
+    svg += stroke(x(noise_floor), 36, x(noise_floor), bottom, "floor");
+    svg += label(x(noise_floor) - 4, 33, "start", "noise floor " + height(noise_floor, rig), "soft");
+  }
+  for (std::size_t i = 0; i < runs.size(); ++i, y += pitch) {
+    const auto& run = *runs[i];
+    svg += fmt::format("<g data-group='{}'>", i) + bar(0, y, width, pitch, "row");
+    svg += label(x0 - 12, y + 16, "end", name_of(run), run.held_out ? "strong" : "");
+    double least = x1, most = x0;
+    for (const auto& model : shown)
+      if (const double rmse = run.*model.rmse; std::isfinite(rmse))
+        least = std::min(least, x(rmse)), most = std::max(most, x(rmse));
+    if (least < most) svg += stroke(least, y + 12, most, y + 12, "axis");
+    for (const auto& model : shown)
+      if (const double rmse = run.*model.rmse; std::isfinite(rmse)) svg += mark(x(rmse), y + 12, model);
+    const std::string corrected = changed ? " \u2192 " + height(run.corrected_rmse, rig) : "";
+    svg += label(width, y + 16, "end", height(run.nominal_rmse, rig) + corrected, "soft");
+    svg += "</g>\n";
+  }
+  return picture(bottom + 4, "Errors of each run", svg);
+}
+
+}  // namespace mckibben::report

@@ -1,0 +1,35 @@
+// The pictures of a diagnosis, drawn by us: where model and data disagree, how candidates rank and resemble
+// each other, what nominal parameters had absorbed, errors run by run. All are 460 units wide, so that their
+// text stays readable on a small screen; colours are those of the page's style (c0 to c6).
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <plant/rig.hpp>
+#include <sim/diagnose/diagnosis.hpp>
+#include <sim/report/contents.hpp>
+
+namespace mckibben::report {
+
+/// Scores up to this say nothing (sim/diagnose).
+inline constexpr double score_of_chance = 6.0;
+
+/// The map of disagreement: a picture for each factor.
+std::vector<Picture> where_pictures(const diagnose::Diagnosis& diagnosis, const plant::Rig& rig);
+
+/// Candidates, a picture for each round, their bars on one scale.
+std::vector<Picture> ranking_pictures(const diagnose::Diagnosis& diagnosis, const plant::Rig& rig);
+
+/// How alike the best candidates are; empty if there are none.
+std::string confusion_svg(const diagnose::Diagnosis& diagnosis);
+
+/// Prior deviations by which nominal parameters are moved without and with the effects.
+std::string absorbed_svg(const diagnose::Diagnosis& diagnosis);
+
+/// Errors of the models, run by run in this order, on a logarithmic axis. A row leads to its run's plots
+/// (data-group). `changed`: whether there is a corrected rig.
+std::string errors_svg(const std::vector<const diagnose::RunGap*>& runs, double noise_floor, bool changed,
+                       const plant::Rig& rig);
+
+}  // namespace mckibben::report

@@ -1,0 +1,157 @@
+// The page of a diagnosis: its story in order, its pictures, its runs; with something in every part of it and
+// with next to nothing. How it looks and moves is tested in tests/browser.
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <sim/report/diagnosis_pictures.hpp>
+#include <sim/report/report.hpp>
+
+#include "diagnosed.hpp"
+
+namespace mckibben::report {
+namespace {
+
+using output::diagnosed;
+
+/// With currents, so that runs can be drawn.
+input::Dataset measured() {
+  input::Dataset data = output::measured();
+  const auto found = diagnosed();
+  for (std::size_t i = 0; i < data.runs.size(); ++i) {
+    data.runs[i].contraction_ratio = found.runs[i].measured;
+    data.runs[i].current_mA.assign(found.runs[i].measured.size(), 12.0);
+  }
+  return data;
+}
+
+std::size_t count(const std::string& text, std::string_view what) {
+  std::size_t found = 0;
+  for (auto at = text.find(what); at != std::string::npos; at = text.find(what, at + 1)) ++found;
+  return found;
+}
+
+/// What is read: the page without its scripts and licence.
+std::string visible(const std::string& html) {
+  return html.substr(html.find("<body>"), html.find("Licence of uPlot") - html.find("<body>"));
+}
+
+TEST(DiagnosisPage, TellsTheStoryInOrder) {
+  const std::string html = report_html(measured(), diagnosed(), {}, {});
+  EXPECT_EQ(count(html, "<script"), count(html, "</script>"));
+  EXPECT_EQ(html.find(" src="), std::string::npos);
+  EXPECT_EQ(html.find("href="), std::string::npos);
+  EXPECT_EQ(html.find("<held out>"), std::string::npos);  // of the sentence, which tries to be a tag
+  EXPECT_EQ(visible(html).find("nan"), std::string::npos);
+  std::size_t at = 0;
+  for (const char* part : {"<h1>Diagnosis of measured",
+                           "runs &lt;held out&gt;",
+                           "Verdict: missing_effect",
+                           "0.619 l/(min bar)",
+                           "0.582 to 0.654 l/(min bar)",
+                           "Error of height on the runs held out (r05 and r06)",
+                           "72 \u00d7",
+                           "noise floor",
+                           "Warning:",
+                           "Where they disagree",
+                           "never visited",
+                           "What explains it",
+                           "What was added",
+                           "muscle.rest_<wbr>radius",
+                           "had absorbed",
+                           "How far the gap shrank",
+                           "id='rig'",
+                           "r05, 13.87 kg, held out",
+                           "r01, 11.138 kg<",
+                           "r04, 23.406 kg, left out",
+                           "What else it could be",
+                           "valve_dead_band could as well be valve_hysteresis",
+                           "What to measure next",
+                           "stairs from 4",
+                           "a load of 16.138 kg",
+                           "not one measured on these data"}) {
+    const std::size_t found = html.find(part, at);
+    ASSERT_NE(found, std::string::npos) << part;
+    at = found;
+  }
+}
+
+TEST(DiagnosisPage, LeavesOutWhatThereIsNot) {
+  diagnose::Diagnosis nothing;
+  nothing.verdict = diagnose::Verdict::nothing_missing;
+  const std::string html = report_html(measured(), nothing, {}, {});
+  EXPECT_NE(html.find("Nothing is missing."), std::string::npos);
+  for (const char* part : {"<h2>", "<svg", "<script", "nan"})
+    EXPECT_EQ(html.find(part), std::string::npos) << part;
+  nothing.runs = {{.id = "empty", .held_out = true}};
+  EXPECT_EQ(report_html(measured(), nothing, {}, {}).find("nan"), std::string::npos);
+}
+
+TEST(DiagnosisPage, HasNoCorrectedRigWhereNothingWasChanged) {
+  diagnose::Diagnosis found = diagnosed();
+  found.verdict = diagnose::Verdict::nothing_missing;
+  found.effects.clear();
+  found.residual_law.clear();
+  found.recalibrated.clear();
+  const std::string html = report_html(measured(), found, {}, {});
+  EXPECT_NE(html.find("\"name\":\"recalibrated\""), std::string::npos);
+  EXPECT_EQ(html.find("\"name\":\"corrected\""), std::string::npos);
+  EXPECT_EQ(html.find("\u2192"), std::string::npos);  // nominal -> corrected
+}
+
+TEST(DiagnosisPictures, BarsOfAllRoundsHaveOneScaleAndNothingIsDrawnLargeBelowChance) {
+  diagnose::Diagnosis found = diagnosed();
+  found.ranking = {{"muscle_leak", "", 1, 50.0, 1.0, false, 0.0, 0.0, "score too small"},
+                   {"valve_lag", "", 2, 25.0, 1.0, false, 0.0, 0.0, "score too small"}};
+  const auto rounds = ranking_pictures(found, {});
+  ASSERT_EQ(rounds.size(), 2u);
+  EXPECT_NE(rounds[0].svg.find("width='200.0' height='13.0' class='bar'"), std::string::npos);
+  EXPECT_NE(rounds[1].svg.find("width='100.0' height='13.0' class='bar'"), std::string::npos);
+  found.ranking = {{"valve_lag", "", 1, 0.6, 1.0, false, 0.0, 0.0, "score too small"}};
+  EXPECT_NE(ranking_pictures(found, {})[0].svg.find("width='20.0' height='13.0'"), std::string::npos);
+}
+
+TEST(DiagnosisPictures, FrameOnlyWhatIsSignificantAndStayPaleBelowTheNoiseFloor) {
+  diagnose::Diagnosis found = diagnosed();
+  const auto factors = where_pictures(found, {});
+  ASSERT_EQ(factors.size(), 2u);  // direction, pressure
+  EXPECT_EQ(count(factors[0].svg, "class='frame'"), 1u);
+  EXPECT_EQ(count(factors[1].svg, "class='frame'"), 2u);
+  EXPECT_EQ(count(factors[1].svg, "class='empty'"), 1u);
+  EXPECT_NE(factors[0].svg.find("+0.360 mm *"), std::string::npos);
+  found.where = {{"direction", "contracting", 2000, 0.5 * found.gap.noise_floor, 1e-4, 1.0, 0.5, false}};
+  EXPECT_NE(where_pictures(found, {})[0].svg.find("fill-opacity='0.28'"), std::string::npos);  // half of 0.55
+}
+
+TEST(DiagnosisPage, OfAHundredRunsStaysBelowTenMegabytes) {
+  diagnose::Diagnosis found = diagnosed();
+  input::Dataset data = measured();
+  const auto run = found.runs.front();
+  const auto recorded = data.runs.front();
+  found.runs.clear();
+  data.runs.clear();
+  run::ReplayedRun replayed;
+  replayed.recording.samples.resize(run.measured.size());
+  for (std::size_t k = 0; k < run.measured.size(); ++k) {
+    auto& sample = replayed.recording.samples[k];
+    const double shaken = static_cast<double>(k * k % 101) / 101.0;
+    sample.state.side = {1e5 * shaken, 2e5 * shaken, 0.0};
+    sample.braid_force_N = sample.friction_force_N = sample.effects_pull_N = shaken;
+  }
+  std::vector<run::ReplayedRun> replays;
+  for (int i = 0; i < 100; ++i) {
+    found.runs.push_back(run);
+    data.runs.push_back(recorded);
+    found.runs.back().id = data.runs.back().id = replayed.id = fmt::format("r{}", i);
+    replays.push_back(replayed);
+  }
+  const std::string html = report_html(data, found, replays, replays);
+  EXPECT_LT(html.size(), 10'000'000u);
+  EXPECT_NE(html.find("effects_pull"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace mckibben::report
