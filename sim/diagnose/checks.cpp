@@ -272,7 +272,7 @@ class Checker {
     if (3 * wrong.size() > runs.size())
       doubts_.cannot_tell =
           "too many runs contradict the others about their load: weigh the loads again, or give the rig's "
-          "parameters more exactly";
+          "parameters more exactly.";
   }
 
   void enough() {
@@ -281,8 +281,7 @@ class Checker {
     if (runs.size() < 3) {
       doubts_.cannot_tell = fmt::format(
           "{} usable run{}: too few to choose on some and judge on others; at least four runs would help, "
-          "with "
-          "two loads and two kinds of current",
+          "with two loads and two kinds of current.",
           runs.size(), runs.size() == 1 ? "" : "s");
       return;
     }

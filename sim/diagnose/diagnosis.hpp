@@ -74,7 +74,7 @@ struct Cell {
 struct Ranked {
   std::string name, variant;
   int round = 1;
-  double score = 0.0;  ///< expected drop of the misfit (projected score test), 1: a hundredth of the largest
+  double score = 0.0;     ///< expected drop of the misfit (projected score test)
   double likeness = 0.0;  ///< to the round's best: cosine of what they change
   bool refitted = false;
   double training_rmse = 0.0, held_out_rmse = 0.0;  ///< after the refit
@@ -128,7 +128,7 @@ struct Diagnosis {
   std::optional<NextExperiment> next_experiment{};
   std::vector<std::string> warnings{};
   input::RigFile corrected{};
-  double false_alarm_rate = 0.0;
+  double false_alarm_rate = 0.0;  ///< that the thresholds were set for
   std::uint64_t seed = 1;
 };
 

@@ -12,8 +12,11 @@ namespace {
 constexpr std::string_view law_terms = "effects.residual_law.terms.";
 
 std::string words(const plant::ForceTerm& term) {
-  if (term.of == plant::Basis::sine)
-    return fmt::format("sin(2 pi x / {:.3f} mm {:+.2f})", 1e3 * term.wavelength_m, term.phase_rad);
+  if (term.of == plant::Basis::sine) {
+    const bool shifted = std::abs(term.phase_rad) >= 0.005;
+    return fmt::format("sin(2 pi x / {:.3f} mm{})", 1e3 * term.wavelength_m,
+                       shifted ? fmt::format(" {:+.2f}", term.phase_rad) : "");
+  }
   for (const auto& [basis, name] : names(plant::Basis{}))
     if (basis == term.of) return std::string(name);
   return {};
@@ -62,17 +65,21 @@ void tell_parameters(Diagnosis& diagnosis, const Model& model, const std::vector
 }
 
 std::string because(const Diagnosis& d) {
+  const auto mm = [&](double ratio) {
+    return fmt::format("{:.2g} mm", 1e3 * ratio * d.corrected.muscle.rest_length_m);
+  };
   const auto gap = fmt::format(
-      "On runs that the fit has not seen the error falls from {:.2e} to {:.2e} in contraction "
-      "ratio; the instruments cannot see below {:.2e}.",
-      d.gap.nominal_rmse, d.gap.corrected_rmse, d.gap.noise_floor);
+      "On runs that the fit has not seen the error of the load's height falls from {} to {}; the instruments "
+      "cannot see below {}.",
+      mm(d.gap.nominal_rmse), mm(d.gap.corrected_rmse), mm(d.gap.noise_floor));
   switch (d.verdict) {
     case Verdict::nothing_missing:
       return fmt::format(
-          "Model and data agree to within noise: on runs held out they differ by {:.2e} in contraction "
-          "ratio, and neither other values of the nominal parameters nor any effect of the catalogue "
-          "makes that convincingly less.",
-          d.gap.nominal_rmse);
+          "Model and data agree to within noise: on runs held out the load's height differs by {}, and "
+          "neither "
+          "other values of the nominal parameters nor any effect of the catalogue makes that convincingly "
+          "less.",
+          mm(d.gap.nominal_rmse));
     case Verdict::recalibrate: {
       std::string moved;
       for (const Moved& m : d.recalibrated) {
@@ -110,7 +117,9 @@ std::string because(const Diagnosis& d) {
     case Verdict::cannot_tell:
       break;
   }
-  return "The data do not decide what is missing.";
+  return "Nothing was found, but these data would not show more than half of the effects of the catalogue at "
+         "their "
+         "usual size: whether one is missing they cannot tell.";
 }
 
 }  // namespace mckibben::diagnose

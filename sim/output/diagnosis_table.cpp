@@ -78,9 +78,10 @@ std::string next(const Diagnosis& diagnosis) {
 
 std::string table_of(const input::Dataset& data, const Diagnosis& diagnosis) {
   const auto unseen = held_out(diagnosis);
-  std::string text = fmt::format(
-      "{}: {} runs, {} held out; errors are contraction ratios (0.001 = {:g} mm)\n", data.path.string(),
-      data.runs.size(), unseen.empty() ? "none" : listed(unseen), data.rig.muscle.rest_length_m);
+  std::string text =
+      fmt::format("{}: {} run{}, {} held out; errors are contraction ratios (0.001 = {:g} mm)\n",
+                  data.path.string(), data.runs.size(), data.runs.size() == 1 ? "" : "s",
+                  unseen.empty() ? "none" : listed(unseen), data.rig.muscle.rest_length_m);
   text += warnings(diagnosis);
   text += fmt::format("\n{}: {}\n", input::spelling(diagnosis.verdict), title_of(diagnosis));
   if (!diagnosis.because.empty()) text += diagnosis.because + "\n";

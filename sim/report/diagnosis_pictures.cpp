@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include <sim/diagnose/trial.hpp>
 #include <sim/output/diagnosis_words.hpp>
 #include <sim/output/svg.hpp>
 #include <sim/report/diagnosis_pictures.hpp>
@@ -116,7 +117,7 @@ std::vector<Picture> where_pictures(const Diagnosis& diagnosis, const plant::Rig
 
 std::vector<Picture> ranking_pictures(const Diagnosis& diagnosis, const plant::Rig& rig) {
   constexpr double x0 = 212.0, span = 200.0, least_share = 0.01;
-  double most = score_of_chance;
+  double most = diagnose::chance;
   for (const auto& one : diagnosis.ranking) most = std::max(most, one.score);
   const auto rounds = grouped(diagnosis.ranking, [](const auto& one) { return one.round; });
   std::vector<Picture> pictures;
@@ -126,7 +127,7 @@ std::vector<Picture> ranking_pictures(const Diagnosis& diagnosis, const plant::R
     if (rounds.size() > 1) svg += label(0, 14, "start", heading, "strong");
     const double begin = rounds.size() > 1 ? 20.0 : 0.0;
     double y = begin;
-    const double chance = x0 + score_of_chance / most * span;
+    const double limit = x0 + diagnose::chance / most * span;
     std::string bars;
     std::map<std::string, std::vector<std::string>> others;  // by outcome
     for (const auto* one : all) {
@@ -144,8 +145,8 @@ std::vector<Picture> ranking_pictures(const Diagnosis& diagnosis, const plant::R
           label(width - 4, y + 7, "end", one->outcome + ": " + height(one->held_out_rmse, rig), "soft halo");
       y += 17.0;
     }
-    svg += stroke(chance, begin, chance, y, "floor") + bars;
-    svg += label(chance + 4, y + 12, "start", "chance", "soft");
+    svg += stroke(limit, begin, limit, y, "floor") + bars;
+    svg += label(limit + 4, y + 12, "start", "chance", "soft");
     std::string caption;
     for (const auto& [outcome, names] : others)
       caption +=

@@ -12,9 +12,6 @@
 
 namespace mckibben::report {
 
-/// Scores up to this say nothing (sim/diagnose).
-inline constexpr double score_of_chance = 6.0;
-
 /// The map of disagreement: a picture for each factor.
 std::vector<Picture> where_pictures(const diagnose::Diagnosis& diagnosis, const plant::Rig& rig);
 
