@@ -30,6 +30,7 @@ std::string padding(const std::string& line, std::size_t column) {
 
 std::string to_text(const Problem& problem) {
   const char* kind = problem.severity == Severity::warning ? "warning" : "error";
+  if (problem.place.line == 0) return fmt::format("{}: {}: {}", problem.file, kind, problem.message);
   std::string text = fmt::format("{}:{}:{}: {}: {}", problem.file, problem.place.line, problem.place.column,
                                  kind, problem.message);
   if (problem.source_line.empty()) return text;

@@ -39,7 +39,11 @@ std::size_t character_length(std::string_view text) {
 Source::Source(std::string name, std::string text, std::filesystem::path folder)
     : name_(std::move(name)), text_(std::move(text)), sha256_(sha256_hex(text_)), folder_(std::move(folder)) {
   if (text_.starts_with("\xEF\xBB\xBF")) text_.erase(0, 3);
-  starts_.push_back(0);
+  find_lines();
+}
+
+void Source::find_lines() {
+  starts_.assign(1, 0);
   for (std::size_t i = 0; i < text_.size(); ++i)
     if (text_[i] == '\n' && i + 1 < text_.size()) starts_.push_back(i + 1);
 }
@@ -76,6 +80,18 @@ Place Source::place(std::size_t number, std::size_t offset) const {
   const auto characters =
       std::count_if(before.begin(), before.end(), [](char c) { return !is_utf8_continuation(c); });
   return {number, static_cast<std::size_t>(characters) + 1};
+}
+
+void Source::reread_as_latin1() {
+  std::string utf8;
+  utf8.reserve(text_.size());
+  for (const char c : text_) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte >= 0x80) utf8 += static_cast<char>(0xC0U | byte >> 6U);
+    utf8 += byte >= 0x80 ? static_cast<char>(0x80U | (byte & 0x3FU)) : c;
+  }
+  text_ = std::move(utf8);
+  find_lines();
 }
 
 std::optional<Place> Source::first_bad_byte() const {

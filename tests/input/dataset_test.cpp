@@ -24,18 +24,18 @@ TEST(Csv, AnyOrderExtraColumnsQuotesCrlfAndByteOrderMark) {
   Problems problems;
   TableProblems found(source, problems);
   const Table table = read_table(source, required, optional, found);
-  check_ticks(source, table, 0.012, found);
+  check_ticks(table, 0.012, found);
   EXPECT_EQ(found.count(), 0u);
   EXPECT_EQ(table.find("current_mA")->values, (std::vector<double>{4.0, 4.5}));
   EXPECT_EQ(table.find("gauge"), nullptr);
-  EXPECT_EQ(Table::place(source, *table.find("time_s"), 1).column, 6u);
+  EXPECT_EQ(table.place(source, *table.find("time_s"), 1).column, 6u);
 }
 
 TEST(Csv, TimesWithinAMicrosecondAreTicks) {
   const Source source("a.csv", "time_s,current_mA\n0,4\n0.0120009,4\n0.0239992,4\n", "");
   Problems problems;
   TableProblems found(source, problems);
-  check_ticks(source, read_table(source, required, optional, found), 0.012, found);
+  check_ticks(read_table(source, required, optional, found), 0.012, found);
   EXPECT_EQ(found.count(), 0u);
 }
 
@@ -44,7 +44,7 @@ TEST(Csv, RangeIsCheckedRowByRow) {
   Problems problems;
   TableProblems found(source, problems);
   const Table table = read_table(source, required, optional, found);
-  check_range(source, *table.find("current_mA"), 0.0, 20.0, "DAC", found);
+  check_range(table, *table.find("current_mA"), 0.0, 20.0, "DAC", found);
   ASSERT_EQ(problems.errors(), 1u);
   EXPECT_EQ(problems.sorted()[0].place.line, 3u);
   EXPECT_EQ(problems.sorted()[0].place.column, 7u);
