@@ -24,7 +24,8 @@ struct MatContents {
 MatContents read_mat(const std::string& bytes, const std::vector<std::string>& wanted);
 
 /// A MAT-file with a vector for each column, `units` and `descriptions` (structs with a text for each), and a
-/// variable for the title and each attribute. The same table gives the same bytes. Throws BadFile.
+/// variable for the title and each attribute. The same table gives the same bytes. Safe to call from several
+/// threads. Throws BadFile.
 std::string mat_of(const Table& table);
 
 }  // namespace mckibben::formats

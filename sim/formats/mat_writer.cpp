@@ -2,6 +2,7 @@
 // date.
 #include <array>
 #include <memory>
+#include <mutex>
 
 #include <fmt/format.h>
 #include <matio.h>
@@ -49,6 +50,8 @@ Variable texts(const char* name, const std::vector<Column>& columns, Text text_o
 }  // namespace
 
 std::string mat_of(const Table& table) {
+  static std::mutex library;  // nothing is promised of its threads
+  const std::lock_guard lock(library);
   const MemoryFile file;
   {
     const std::unique_ptr<mat_t, CloseMat> mat(
