@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <sim/input/diagnostics.hpp>
+#include <sim/input/utf8.hpp>
 
 namespace mckibben::input {
 namespace {
@@ -64,7 +65,8 @@ void Problems::adopt(const std::vector<Problem>& found) {
 
 void Problems::add(Severity severity, const Source& source, Place place, std::string message) {
   std::string_view line = source.line(place.line);
-  if (line.size() > longest_line_shown) line = {};
+  if (line.size() > longest_line_shown || printable(line) != line) line = {};
+  message = printable(message);
   add({severity, source.name(), place, std::move(message), std::string(line)});
 }
 

@@ -82,7 +82,7 @@ class Formats(unittest.TestCase):
 
     # ---- LabVIEW
 
-    def lvm(self, sign=".", separator="\t", x="One", segments=1, remark=""):
+    def lvm(self, sign=".", separator="\t", x="One", segments=1, remark="", says_sign=True):
         """A writer of .lvm as LabVIEW writes it."""
         join = separator.join
 
@@ -90,7 +90,7 @@ class Formats(unittest.TestCase):
             text = lambda value: repr(value).replace(".", sign)
             named = {"\t": "Tab", ",": "Comma"}[separator]
             lines = ["LabVIEW Measurement", join(["Writer_Version", "2"]), join(["Reader_Version", "2"]),
-                     join(["Separator", named]), join(["Decimal_Separator", sign]),
+                     join(["Separator", named]), *([join(["Decimal_Separator", sign])] if says_sign else []),
                      join(["Multi_Headings", "Yes"]), join(["X_Columns", x]), join(["Time_Pref", "Relative"]),
                      join(["Operator", "Müller"]), join(["Date", "2026/01/31"]), join(["Time", "12:00:00" + sign + "5"]),
                      "***End_of_Header***", separator]
@@ -124,6 +124,10 @@ class Formats(unittest.TestCase):
 
     def test_lvm_with_decimal_comma_remarks_and_the_ending_in_capitals(self):
         self.same(".LVM", self.lvm(sign=",", remark="ok, so far"))
+
+    def test_lvm_of_version_1_with_decimal_comma(self):
+        self.same(".lvm", self.lvm(sign=",", says_sign=False))
+        self.same(".lvm", self.lvm(sign=",", says_sign=False, x="No"))
 
     def test_lvm_with_commas_between(self):
         self.same(".lvm", self.lvm(separator=","))
