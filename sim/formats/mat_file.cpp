@@ -162,9 +162,9 @@ std::vector<double> values(mat_t* mat, std::string_view where) {
   const auto count = numbers_in(*variable);
   if (!count || variable->rank != 2)
     throw BadFile(fmt::format("{} has {} dimensions; wanted is a vector", path, variable->rank));
+  if (*count == 0) throw BadFile(fmt::format("{} is empty", path));
   const std::size_t rows = variable->dims[0], columns = variable->dims[1];
-  if (*count > 0 && (variable->data == nullptr ||
-                     variable->nbytes < *count * static_cast<std::size_t>(variable->data_size)))
+  if (variable->data == nullptr || variable->nbytes < *count * static_cast<std::size_t>(variable->data_size))
     throw BadFile(fmt::format("{} is damaged: its numbers are not all there", path));
   if (column > columns) throw BadFile(fmt::format("{} has {} columns", path, columns));
   if (column > 0) return doubles(*variable, (column - 1) * rows, rows);

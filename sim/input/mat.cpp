@@ -13,23 +13,29 @@
 namespace mckibben::input {
 namespace {
 
+/// What there is, if what was wanted is not among it.
 std::string found_names(const std::vector<std::string>& names, const std::string& wanted) {
+  constexpr std::size_t most_shown = 20;
+  if (std::find(names.begin(), names.end(), wanted.substr(0, wanted.find('('))) != names.end()) return "";
   const std::vector<std::string_view> known(names.begin(), names.end());
   if (known.empty()) return " (found: no variable of numbers)";
-  return fmt::format("{} (found: {})", did_you_mean(wanted, known), join(known));
+  return fmt::format("{} (found: {}{})", did_you_mean(wanted, known),
+                     join(std::span(known).first(std::min(known.size(), most_shown))),
+                     known.size() > most_shown ? ", ..." : "");
 }
 
-void check_numbers(const Table& table, TableProblems& problems) {
+void check_numbers(Table& table, TableProblems& problems) {
   const std::vector<double>& first = table.columns.front().values;
-  if (first.empty()) problems.add(nowhere, fmt::format("{} is empty", table.columns.front().in_file));
-  for (const Table::Column& column : table.columns) {
+  for (Table::Column& column : table.columns) {
     if (column.values.size() != first.size())
       problems.add(nowhere, fmt::format("{} has {} numbers and {} has {}; there must be as many",
                                         table.columns.front().in_file, first.size(), column.in_file,
                                         column.values.size()));
-    for (std::size_t row = 0; row < column.values.size(); ++row)
-      if (!std::isfinite(column.values[row]))
-        problems.add(table, column, row, fmt::format("{} is not a finite number", column.values[row]));
+    for (std::size_t row = 0; row < column.values.size(); ++row) {
+      if (std::isfinite(column.values[row])) continue;
+      problems.add(table, column, row, fmt::format("{} is not a finite number", column.values[row]));
+      column.values[row] = std::nan("");  // is in no range, so nothing more is said of it
+    }
   }
 }
 

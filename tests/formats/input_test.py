@@ -220,6 +220,68 @@ class Formats(unittest.TestCase):
         self.near(".mat", self.mat(shape), columns=columns)
         self.near(".mat", self.mat(shape, do_compression=True), columns=columns)
 
+    def test_every_format_in_one_data_set(self):
+        """What a run says of its columns goes before what the data set says."""
+        folder = pathlib.Path(tempfile.mkdtemp(dir=self.folder))
+        (folder / "rig.yaml").write_text((self.data / "rig.yaml").read_text())
+        table = self.tables["m1_c01"]
+        self.lvm()(folder / "a.lvm", table)
+        self.mat(lambda t: {"t": t["time_s"] * 1000, "I": t["current_mA"], "e": t["contraction_ratio"]})(folder / "b.mat", table)
+        (folder / "c.txt").write_text((self.data / "thesis/m1_c01.txt").read_text())
+        (folder / "d.csv").write_text((self.data / "m1_c01.csv").read_text())
+        (folder / "dataset.yaml").write_text("""schema: mckibben-dataset/1
+rig: rig.yaml
+columns:
+  time: {column: t, unit: ms}
+  current: {column: I, unit: mA}
+  contraction: {column: e, unit: 1}
+runs:
+  - {id: b, file: b.mat, load: 11.138 kg}
+  - {id: c, file: c.txt, load: 11.138 kg,
+     columns: {rows_are_ticks: true, current: {column: 1, unit: mA}, contraction: {column: 2, unit: 1}}}
+  - {id: a, file: a.lvm, load: 11.138 kg,
+     columns: {time: {column: X_Value, unit: s}, current: {column: current_mA, unit: mA}, contraction: {column: contraction_ratio, unit: 1}}}
+  - {id: d, file: d.csv, load: 11.138 kg,
+     columns: {rows_are_ticks: true, current: {column: current_mA, unit: mA}, contraction: {column: contraction_ratio, unit: 1}}}
+""")
+        found = self.replay(folder)
+        self.assertEqual([run["id"] for run in found], ["b", "c", "a", "d"])
+        for run_ in found:
+            self.assertEqual(run_["rmse"], self.expected[0]["rmse"])
+            self.assertEqual(run_["solver"], self.expected[0]["solver"])
+
+    def test_what_is_wrong_in_a_mat_is_named(self):
+        def refused(message, **changes):
+            table = {k: numpy.array(v[:5]) for k, v in self.tables["m1_c01"].items()}
+            for name, value in changes.items():
+                if callable(value):
+                    value(table[name])
+                else:
+                    table[name] = value
+            scipy.io.savemat(self.folder / "w.mat", {k: v for k, v in table.items() if v is not None})
+            (self.folder / "w.yaml").write_text("schema: mckibben-dataset/1\nruns: [{id: r, file: w.mat, load: 11 kg}]\n")
+            said = run(self.folder, "check", "w.yaml", status=65).stderr
+            self.assertEqual(said, f"w.mat: error: {message}\n")
+
+        def put(row, value):
+            def change(array):
+                array[row] = value
+            return change
+
+        refused("current_mA(3): nan is not a finite number", current_mA=put(2, numpy.nan))
+        refused("current_mA(1): inf is not a finite number", current_mA=put(0, numpy.inf))
+        refused("current_mA(4): current_mA = 20.5 is out of range: 0 to 20 (range of the rig's DAC)", current_mA=put(3, 20.5))
+        refused("contraction_ratio(5): contraction_ratio = 1.5 is out of range: -0.2 to 1 (what a muscle can do)",
+                contraction_ratio=put(4, 1.5))
+        refused("time_s(3): time_s = 0.012 is repeated: expected is 0.024", time_s=put(2, 0.012))
+        refused("time_s has 5 numbers and current_mA has 2; there must be as many", current_mA=numpy.array([4.0, 4.0]))
+        refused("current_mA is empty", current_mA=numpy.array([]))
+        refused("there is no variable current_mA (found: time_s, contraction_ratio, muscle_pressure_bar)", current_mA=None)
+        refused("current_mA is complex; wanted is a vector of real numbers (found: time_s, contraction_ratio, "
+                "muscle_pressure_bar)", current_mA=numpy.array([1j] * 5))
+        refused("contraction_ratio has 2 rows and 3 columns; name one: contraction_ratio(:,1)",
+                contraction_ratio=numpy.zeros((2, 3)))
+
     def test_mat_of_every_damage(self):
         """Cut off anywhere, or with any byte wrong, it is read or refused, and nothing else."""
         self.mat(lambda table: {k: v[:4] for k, v in table.items()}, do_compression=True)(self.folder / "whole.mat",
