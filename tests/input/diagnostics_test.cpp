@@ -2,9 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <sim/input/diagnostics.hpp>
-#include <sim/input/utf8.hpp>
 #include <sim/input/hash.hpp>
 #include <sim/input/suggest.hpp>
+#include <sim/input/utf8.hpp>
 
 namespace mckibben::input {
 namespace {
