@@ -59,12 +59,14 @@ void add_run(CLI::App& app, Asked& asked) {
   verb.add_option("scenario", asked.path, "Scenario file")->required()->type_name("SCENARIO.yaml");
   add_common(verb, asked.options);
   add_seed(verb, asked.options, "the noise (default: the scenario's)");
+  add_formats(verb, asked.options);
   verb.footer(
       "Examples:\n"
       "  mckibben run scenarios/five_loads.yaml\n"
       "  mckibben run my.yaml --out results --seed 2      somewhere else, with other noise\n"
       "  mckibben run my.yaml --json > result.json        for a script\n"
-      "Writes table.txt, run.json, tracking.svg and a CSV for each run.\n");
+      "  mckibben run my.yaml --format mat,netcdf         for MATLAB, Octave, Python besides\n"
+      "Writes table.txt, run.json, report.html, tracking.svg and a CSV for each run.\n");
   verb.callback([&asked] { asked.chosen = [&asked] { return run_scenario(asked.path, asked.options); }; });
 }
 
@@ -75,6 +77,7 @@ void add_make_dataset(CLI::App& app, Asked& asked) {
   verb.add_option("campaign", asked.path, "Campaign file")->required()->type_name("CAMPAIGN.yaml");
   add_common(verb, asked.options);
   add_seed(verb, asked.options, "the noise (default: the campaign's)");
+  add_formats(verb, asked.options);
   verb.footer(
       "Examples:\n"
       "  mckibben dataset scenarios/thesis_campaign.yaml --out data\n"
@@ -90,9 +93,11 @@ void add_replay(CLI::App& app, Asked& asked) {
   add_dataset(verb, asked.path);
   add_common(verb, asked.options);
   add_rig(verb, asked.options, "instead of the data set's");
+  add_formats(verb, asked.options);
   verb.footer(
       "Examples:\n"
       "  mckibben replay measured/\n"
+      "  mckibben replay labview.yaml --format mat        .lvm and .mat in, .mat out: docs/formats.md\n"
       "  mckibben replay measured/ --rig my_rig.yaml --out compared\n"
       "Writes table.txt, run.json and the simulation of each run as CSV.\n");
   verb.callback([&asked] { asked.chosen = [&asked] { return replay_dataset(asked.path, asked.options); }; });

@@ -24,7 +24,7 @@ int make_dataset(const std::string& path, const Options& options) {
   if (options.seed) campaign.seed = *options.seed;
   const auto where = destination(options, campaign.name);
   keep_apart(where, std::filesystem::absolute(path).parent_path());
-  output::CampaignFolder folder(where, campaign);
+  output::CampaignFolder folder(where, campaign, options.formats);
   std::atomic<std::size_t> there = folder.jobs().size() - folder.missing().size();
   if (!folder.note().empty()) fmt::print(stderr, "mckibben: {}\n", folder.note());
   try {

@@ -64,11 +64,14 @@ void read_any(const std::filesystem::path& path, std::vector<Problem>& warnings)
 }
 
 Json problem_json(const Problem& problem) {
-  return {{"file", problem.file},
-          {"line", problem.place.line},
-          {"column", problem.place.column},
-          {"severity", problem.severity == input::Severity::warning ? "warning" : "error"},
-          {"message", problem.message}};
+  Json entry{{"file", problem.file}};
+  if (problem.place.line > 0) {
+    entry["line"] = problem.place.line;
+    entry["column"] = problem.place.column;
+  }
+  entry["severity"] = problem.severity == input::Severity::warning ? "warning" : "error";
+  entry["message"] = problem.message;
+  return entry;
 }
 
 template <class Schema>

@@ -9,6 +9,7 @@
 #include <sim/input/number.hpp>
 #include <sim/input/quantity.hpp>
 #include <sim/input/suggest.hpp>
+#include <sim/output/run_files.hpp>
 
 namespace mckibben::cli {
 namespace {
@@ -71,6 +72,17 @@ void add_common(CLI::App& verb, Options& options, const std::string& otherwise) 
 void add_seed(CLI::App& verb, Options& options, const std::string& what) {
   const auto read = [&options](const std::string& text) { options.seed = std::stoull(text); };
   verb.add_option_function<std::string>("--seed", read, "Seed of " + what)->check(is_seed)->type_name("N");
+}
+
+void add_formats(CLI::App& verb, Options& options) {
+  verb.add_option(
+          "--format", options.formats,
+          "Formats of the runs, with commas between: csv, mat (MATLAB, Octave), netcdf (NetCDF-4); CSV is "
+          "always written")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->check(one_of("format", {output::run_formats.begin(), output::run_formats.end()}))
+      ->type_name("");
 }
 
 void add_rig(CLI::App& verb, Options& options, const std::string& what) {

@@ -20,6 +20,8 @@ void add_threads(CLI::App& verb, Options& options);
 void add_common(CLI::App& verb, Options& options, const std::string& otherwise = "out/<name>");
 /// `what`: what the seed is of, and its default.
 void add_seed(CLI::App& verb, Options& options, const std::string& what);
+/// In which formats runs are written.
+void add_formats(CLI::App& verb, Options& options);
 void add_rig(CLI::App& verb, Options& options, const std::string& what);
 void add_dataset(CLI::App& verb, std::string& path);
 

@@ -200,8 +200,8 @@ RunDifference compare_run(const RunFolder& left, const Json& a, const RunFolder&
     run.note = add_note(run.note, "only tables in CSV are compared");
     return run;
   }
-  compare_tables(input::Source::load(left.path / file, input::largest_csv_bytes),
-                 input::Source::load(right.path / other, input::largest_csv_bytes), run);
+  compare_tables(input::Source::load(left.path / file, input::largest_table_bytes),
+                 input::Source::load(right.path / other, input::largest_table_bytes), run);
   return run;
 }
 

@@ -8,11 +8,13 @@
 #include <sim/cli/exit_status.hpp>
 #include <sim/cli/results.hpp>
 #include <sim/cli/verbs.hpp>
+#include <sim/input/number.hpp>
 #include <sim/input/rig_file.hpp>
 #include <sim/output/csv.hpp>
 #include <sim/output/folder.hpp>
 #include <sim/output/plot.hpp>
 #include <sim/output/progress.hpp>
+#include <sim/output/run_files.hpp>
 #include <sim/output/run_json.hpp>
 #include <sim/output/table.hpp>
 #include <sim/report/report.hpp>
@@ -28,6 +30,13 @@ template <class Run>
 std::size_t begun(const std::vector<Run>& runs) {
   return static_cast<std::size_t>(
       std::count_if(runs.begin(), runs.end(), [](const auto& run) { return run.failure != run::not_begun; }));
+}
+
+void write_run(output::ResultFolder& folder, output::Package& package, const std::string& stem,
+               const std::string& title, const formats::Table& table, const Options& options) {
+  for (const auto& file : output::run_files(stem, table, options.formats))
+    folder.write(file.name, file.content);
+  package.runs.push_back({stem, title});
 }
 
 }  // namespace
@@ -50,10 +59,21 @@ int run_scenario(const std::string& path, const Options& options) {
   const auto place = comparison.interrupted ? beside(where) : where;
   if (comparison.interrupted) folder.go_to(place);
   const double per_count = run::contraction_per_count(scenario.rig);
-  for (const auto& run : comparison.runs)
-    if (!run.recording.samples.empty())
-      folder.write(output::csv_name(run),
-                   output::csv_of(run.recording, per_count, comparison.target, scenario.rig.gauge.fitted));
+  const bool gauge = scenario.rig.gauge.fitted;
+  output::Package package{scenario.name, output::recorded_columns(true, gauge), {}};
+  for (const auto& run : comparison.runs) {
+    if (run.recording.samples.empty()) continue;
+    const std::string title = fmt::format("{} kg, {}", input::write_number(run.load_kg), run.controller);
+    write_run(folder, package, output::file_stem(run), title,
+              {scenario.name + ": " + title,
+               output::columns_of(run.recording, per_count, comparison.target, gauge),
+               {{"source", output::program_name()},
+                {"load_kg", run.load_kg},
+                {"controller", run.controller},
+                {"seed", std::to_string(scenario.seed)}}},
+              options);
+  }
+  folder.write(output::package_file, output::datapackage(package));
   const std::string document = output::json_of(scenario, comparison).dump(2) + "\n";
   const std::string table = output::table_of(scenario, comparison);
   folder.write("run.json", document);
@@ -90,9 +110,19 @@ int replay_dataset(const std::string& path, const Options& options) {
   const auto place = stopped ? beside(where) : where;
   if (stopped) folder.go_to(place);
   const double per_count = run::contraction_per_count(dataset.rig);
-  for (const auto& run : runs)
-    if (!run.recording.samples.empty())
-      folder.write(run.id + ".csv", output::csv_of(run.recording, per_count, {}, dataset.rig.gauge.fitted));
+  const bool gauge = dataset.rig.gauge.fitted;
+  output::Package package{"Replay of " + name, output::recorded_columns(false, gauge), {}};
+  for (const auto& run : runs) {
+    if (run.recording.samples.empty()) continue;
+    const std::string title = fmt::format("{}, {} kg", run.id, input::write_number(run.load_kg));
+    write_run(
+        folder, package, run.id, title,
+        {package.title + ": " + title,
+         output::columns_of(run.recording, per_count, {}, gauge),
+         {{"source", output::program_name()}, {"load_kg", run.load_kg}, {"controller", "recorded current"}}},
+        options);
+  }
+  folder.write(output::package_file, output::datapackage(package));
   input::Json json = output::json_of(dataset, runs);
   if (stopped) json["interrupted"] = true;
   const std::string document = json.dump(2) + "\n";

@@ -16,7 +16,8 @@ struct Options {
   bool json = false;
   unsigned threads = 0;  ///< 0: all the machine has
   std::optional<std::uint64_t> seed;
-  std::string rig;  ///< rig that replaces the data set's; empty for none
+  std::vector<std::string> formats;  ///< of runs, besides CSV: of output::run_formats
+  std::string rig;                   ///< rig that replaces the data set's; empty for none
 };
 
 /// What `calibrate` may be asked for besides.

@@ -38,15 +38,15 @@ void load_recording(controllers::RecordedCurrent& recorded, const Source& source
                     const plant::Rig& rig, Problems& problems) {
   try {
     const Source table_source =
-        Source::load((source.folder() / recorded.file).lexically_normal(), largest_csv_bytes);
+        Source::load((source.folder() / recorded.file).lexically_normal(), largest_table_bytes);
     problems.opened(table_source);
     const std::string_view required[] = {"time_s", recorded.column};
     TableProblems found(table_source, problems);
     const Table table = read_table(table_source, required, {}, found);
     const Table::Column* current = table.find(recorded.column);
     if (current == nullptr) return;
-    check_ticks(table_source, table, rig.tick_s, found);
-    check_range(table_source, *current, 0.0, rig.dac.largest_current_mA, "range of the rig's DAC", found);
+    check_ticks(table, rig.tick_s, found);
+    check_range(table, *current, 0.0, rig.dac.largest_current_mA, "range of the rig's DAC", found);
     recorded.samples_mA = current->values;
   } catch (const MissingInput& missing) {
     problems.missing_file(source, node.place, missing.what());

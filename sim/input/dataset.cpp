@@ -3,37 +3,14 @@
 
 #include <fmt/format.h>
 
-#include <sim/input/csv.hpp>
 #include <sim/input/dataset.hpp>
 #include <sim/input/file_names.hpp>
+#include <sim/input/run_file.hpp>
 
 namespace mckibben::input {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr double bar_Pa = 1e5;
-constexpr double lowest_contraction = -0.2, highest_contraction = 1.0;
-
-void read_run(const Source& source, const Dataset& dataset, Run& run, Problems& problems) {
-  constexpr std::string_view required[] = {"time_s", "current_mA", "contraction_ratio"};
-  constexpr std::string_view optional[] = {"muscle_pressure_bar"};
-  problems.opened(source);
-  TableProblems found(source, problems);
-  const Table table = read_table(source, required, optional, found);
-  if (table.columns.size() < std::size(required)) return;
-  check_ticks(source, table, dataset.rig.tick_s, found);
-  const Table::Column& current = *table.find("current_mA");
-  const Table::Column& contraction = *table.find("contraction_ratio");
-  check_dac_range(source, current, dataset.rig.dac.largest_current_mA, found);
-  check_range(source, contraction, lowest_contraction, highest_contraction, "what a muscle can do", found);
-  run.current_mA = current.values;
-  run.contraction_ratio = contraction.values;
-  if (const Table::Column* pressure = table.find("muscle_pressure_bar")) {
-    run.muscle_pressure_Pa = pressure->values;
-    for (double& value : *run.muscle_pressure_Pa) value *= bar_Pa;
-  }
-}
 
 void check_ids(const YamlFile& file, const Dataset& dataset, Problems& problems) {
   const Node& list = *file.root.find("runs");
@@ -51,6 +28,15 @@ void check_ids(const YamlFile& file, const Dataset& dataset, Problems& problems)
   }
 }
 
+/// False if a unit is wrong: the numbers would be, too.
+bool check_columns(const YamlFile& file, Problems& problems) {
+  const std::size_t before = problems.errors();
+  if (const Node* shared = file.root.find("columns")) check_units(file.source, *shared, problems);
+  for (const Node& run : file.root.find("runs")->children)
+    if (const Node* own = run.find("columns")) check_units(file.source, *own, problems);
+  return problems.errors() == before;
+}
+
 }  // namespace
 
 Dataset read_dataset(const fs::path& path) {
@@ -66,16 +52,9 @@ Dataset read_dataset(const fs::path& path) {
     read_struct(file.source, file.root, dataset, problems, also_allowed);
   if (problems.errors() == 0) {
     check_ids(file, dataset, problems);
-    for (std::size_t i = 0; i < dataset.runs.size(); ++i) {
-      Run& run = dataset.runs[i];
-      try {
-        read_run(Source::load((file.source.folder() / run.file).lexically_normal(), largest_csv_bytes),
-                 dataset, run, problems);
-      } catch (const MissingInput& missing) {
-        problems.missing_file(file.source, file.root.find("runs")->children[i].find("file")->place,
-                              missing.what());
-      }
-    }
+    if (check_columns(file, problems))
+      for (std::size_t i = 0; i < dataset.runs.size(); ++i)
+        read_run_file(file, file.root.find("runs")->children[i], dataset, dataset.runs[i], problems);
   }
   problems.raise();
   dataset.inputs = problems.inputs();

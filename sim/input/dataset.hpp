@@ -1,5 +1,6 @@
 // Measured data sets: which runs there are, their loads and tables, and the rig they were measured on.
-// A data set is a folder with `dataset.yaml` (schema mckibben-dataset/1) and a CSV table for each run.
+// A data set is a folder with `dataset.yaml` (schema mckibben-dataset/1) and a table for each run, as CSV
+// or in another format.
 #pragma once
 
 #include <filesystem>
@@ -9,6 +10,7 @@
 #include <vector>
 
 #include <plant/rig.hpp>
+#include <sim/input/columns.hpp>
 #include <sim/input/rig_file.hpp>
 
 namespace mckibben::input {
@@ -20,6 +22,8 @@ struct Run {
   std::string id;
   std::string file;
   double load_kg = 0.0;
+  ColumnMap columns;
+  int segment = 0;
 
   std::vector<double> current_mA;  ///< held from its row to the next
   std::vector<double> contraction_ratio;
@@ -28,13 +32,20 @@ struct Run {
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
     visit.required("id", self.id, "name of the run; results are written under it");
-    visit.required("file", self.file, "CSV table, relative to this file");
+    visit.required(
+        "file", self.file,
+        "its table, relative to this file; the ending tells the format: .csv, .lvm, .mat, or .txt, .dat, "
+        ".asc for numbers without headings");
     visit.required("load", self.load_kg, "kg", 0.01, 500.0, "mass of the load");
+    visit("columns", self.columns, "where this run's file differs from the data set's columns");
+    visit("segment", self.segment, 0, 100000,
+          "which segment of an .lvm; 0: all of them, one after the other");
   }
 };
 
 struct Dataset {
   RigFile rig;
+  ColumnMap columns;
   std::vector<Run> runs;
 
   std::filesystem::path path;     ///< of the file `dataset.yaml`
@@ -43,6 +54,10 @@ struct Dataset {
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
     visit("rig", self.rig, "the nominal rig: a shipped name, the path of a rig file, or changes in place");
+    visit(
+        "columns", self.columns,
+        "where the runs' files hold what is wanted, and in which units; without it under our names, time_s, "
+        "current_mA, contraction_ratio, muscle_pressure_bar");
     visit.required("runs", self.runs, "the runs");
   }
 };

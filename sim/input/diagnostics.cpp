@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <sim/input/diagnostics.hpp>
+#include <sim/input/utf8.hpp>
 
 namespace mckibben::input {
 namespace {
@@ -30,6 +31,7 @@ std::string padding(const std::string& line, std::size_t column) {
 
 std::string to_text(const Problem& problem) {
   const char* kind = problem.severity == Severity::warning ? "warning" : "error";
+  if (problem.place.line == 0) return fmt::format("{}: {}: {}", problem.file, kind, problem.message);
   std::string text = fmt::format("{}:{}:{}: {}: {}", problem.file, problem.place.line, problem.place.column,
                                  kind, problem.message);
   if (problem.source_line.empty()) return text;
@@ -63,7 +65,8 @@ void Problems::adopt(const std::vector<Problem>& found) {
 
 void Problems::add(Severity severity, const Source& source, Place place, std::string message) {
   std::string_view line = source.line(place.line);
-  if (line.size() > longest_line_shown) line = {};
+  if (line.size() > longest_line_shown || printable(line) != line) line = {};
+  message = printable(message);
   add({severity, source.name(), place, std::move(message), std::string(line)});
 }
 

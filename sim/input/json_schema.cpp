@@ -40,7 +40,7 @@ Json value_schema(const FieldInfo& info) {
     case FieldInfo::Type::choice:
       return {{"enum", info.choices}};
     case FieldInfo::Type::text:
-      return {{"type", "string"}};
+      return {{"type", {"string", "number"}}};  // the reader takes 3 for a text as well
     case FieldInfo::Type::height:
       return {{"anyOf", {Json{{"type", "number"}}, with_unit("[^0-9 .,].*")}}};
     case FieldInfo::Type::structure:

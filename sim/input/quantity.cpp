@@ -79,25 +79,22 @@ bool is_angular(const ut_unit* unit) {
 
 enum class Fit { fits, unknown, wrong };
 
-struct Conversion {
-  Fit fit = Fit::unknown;
-  double value = 0.0;
-};
-
-Conversion convert(double value, std::string_view from, std::string_view to) {
-  if (from == to) return {Fit::fits, value};
-  if (!spelt_like_a_unit(from)) return {};
+/// Converts the values if the units fit.
+Fit convert(std::span<double> values, std::string_view from, std::string_view to) {
+  if (from == to) return Fit::fits;
+  if (!spelt_like_a_unit(from)) return Fit::unknown;
   const std::lock_guard lock(udunits_mutex);
   const Unit given = parse_unit(from);
-  if (!given) return {};
+  if (!given) return Fit::unknown;
   const Unit wanted = parse_unit(to);
   if (!wanted) throw std::logic_error(fmt::format("{} is no unit of UDUNITS-2", to));
-  if (is_angular(given.get()) != is_angular(wanted.get())) return {Fit::wrong};
+  if (is_angular(given.get()) != is_angular(wanted.get())) return Fit::wrong;
   // Asked of the quotient, because UDUNITS also converts reciprocals (Hz for s), hardly what was meant.
   const Unit quotient(ut_divide(given.get(), wanted.get()));
   const Converter converter(ut_get_converter(given.get(), wanted.get()));
-  if (!quotient || ut_is_dimensionless(quotient.get()) == 0 || !converter) return {Fit::wrong};
-  return {Fit::fits, cv_convert_double(converter.get(), value)};
+  if (!quotient || ut_is_dimensionless(quotient.get()) == 0 || !converter) return Fit::wrong;
+  cv_convert_doubles(converter.get(), values.data(), values.size(), values.data());
+  return Fit::fits;
 }
 
 /// Text split where the number ends; the unit may be empty.
@@ -137,14 +134,31 @@ double read_quantity(std::string_view text, std::string_view si_unit) {
   if (unit.empty())
     throw BadQuantity(fmt::format("{} has no unit; it is measured in {}: for example {}", whole, si_unit,
                                   example_quantity(si_unit, number)));
-  const Conversion conversion = convert(*value, unit, si_unit);
-  if (conversion.fit == Fit::unknown)
+  double converted = *value;
+  const Fit fit = convert({&converted, 1}, unit, si_unit);
+  if (fit == Fit::unknown)
     throw BadQuantity(fmt::format("{}: {} is not a unit; wanted is {}: for example {}", whole, unit, si_unit,
                                   example_quantity(si_unit, number)));
-  if (conversion.fit == Fit::wrong)
+  if (fit == Fit::wrong)
     throw BadQuantity(fmt::format("{}: {} is the wrong kind of unit; wanted is {}: for example {}", whole,
                                   unit, si_unit, example_quantity(si_unit, number)));
-  return conversion.value;
+  return converted;
+}
+
+std::string unit_problem(std::string_view unit, std::string_view wanted) {
+  switch (convert({}, unit, wanted)) {
+    case Fit::unknown:
+      return fmt::format("{} is not a unit; wanted is {}", unit, wanted);
+    case Fit::wrong:
+      return fmt::format("{} is the wrong kind of unit; wanted is {}", unit, wanted);
+    case Fit::fits:
+      break;
+  }
+  return "";
+}
+
+void convert_units(std::span<double> values, std::string_view unit, std::string_view wanted) {
+  if (convert(values, unit, wanted) != Fit::fits) throw std::logic_error("units that do not fit");
 }
 
 std::string write_quantity(double value, std::string_view si_unit) {
@@ -160,9 +174,9 @@ std::string show_limit(double limit, std::string_view si_unit, std::string_view 
   if (si_unit == "1") return fmt::format("{:.6g}", limit);
   const std::string_view given = split(text).unit;
   const std::string_view unit = !given.empty() ? given : si_unit == "rad" ? "deg" : si_unit;
-  const Conversion shown = convert(limit, si_unit, unit);
-  return shown.fit == Fit::fits ? fmt::format("{:.6g} {}", shown.value, unit)
-                                : fmt::format("{:.6g} {}", limit, si_unit);
+  double shown = limit;
+  return convert({&shown, 1}, si_unit, unit) == Fit::fits ? fmt::format("{:.6g} {}", shown, unit)
+                                                          : fmt::format("{:.6g} {}", limit, si_unit);
 }
 
 std::string example_quantity(std::string_view si_unit, std::string_view number) {

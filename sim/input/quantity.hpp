@@ -2,6 +2,7 @@
 // Units are those of UDUNITS-2 (Unidata); it also checks that a unit measures the right thing.
 #pragma once
 
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -18,6 +19,13 @@ class BadQuantity : public std::runtime_error {
 /// (or per cent, "5 %"). Angles are not taken for ratios, nor ratios for angles. Safe to call from several
 /// threads. Throws BadQuantity; std::runtime_error if the unit database is not installed.
 double read_quantity(std::string_view text, std::string_view si_unit);
+
+/// What is wrong with `unit` for what is measured in `wanted`: "V is the wrong kind of unit"; empty if
+/// nothing.
+std::string unit_problem(std::string_view unit, std::string_view wanted);
+
+/// Converts numbers from `unit` to `wanted`, which unit_problem must have found well.
+void convert_units(std::span<double> values, std::string_view unit, std::string_view wanted);
 
 /// Shortest digits that read back exactly, and the unit: "0.03 m". For the unit "1" the number alone.
 std::string write_quantity(double value, std::string_view si_unit);

@@ -1,5 +1,4 @@
-// Loading and addressing of text; see the header. UTF-8 is checked by RFC 3629 (no overlong forms, no
-// surrogates, nothing above U+10FFFF).
+// Loading and addressing of text; see the header.
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
@@ -8,38 +7,17 @@
 
 #include <sim/input/hash.hpp>
 #include <sim/input/source.hpp>
+#include <sim/input/utf8.hpp>
 
 namespace mckibben::input {
-namespace {
-
-/// Length of the UTF-8 character at the start of `text`, 0 if it is none (or NUL).
-std::size_t character_length(std::string_view text) {
-  const auto byte = [&](std::size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0U; };
-  const auto continued = [&](std::size_t count) {
-    for (std::size_t i = 1; i <= count; ++i)
-      if (byte(i) < 0x80 || byte(i) > 0xBF) return false;
-    return true;
-  };
-  const unsigned first = byte(0), second = byte(1);
-  if (first >= 0x01 && first <= 0x7F) return 1;
-  if (first >= 0xC2 && first <= 0xDF && continued(1)) return 2;
-  if (first >= 0xE0 && first <= 0xEF && continued(2)) {
-    if ((first == 0xE0 && second < 0xA0) || (first == 0xED && second > 0x9F)) return 0;
-    return 3;
-  }
-  if (first >= 0xF0 && first <= 0xF4 && continued(3)) {
-    if ((first == 0xF0 && second < 0x90) || (first == 0xF4 && second > 0x8F)) return 0;
-    return 4;
-  }
-  return 0;
-}
-
-}  // namespace
-
 Source::Source(std::string name, std::string text, std::filesystem::path folder)
     : name_(std::move(name)), text_(std::move(text)), sha256_(sha256_hex(text_)), folder_(std::move(folder)) {
   if (text_.starts_with("\xEF\xBB\xBF")) text_.erase(0, 3);
-  starts_.push_back(0);
+  find_lines();
+}
+
+void Source::find_lines() {
+  starts_.assign(1, 0);
   for (std::size_t i = 0; i < text_.size(); ++i)
     if (text_[i] == '\n' && i + 1 < text_.size()) starts_.push_back(i + 1);
 }
@@ -78,10 +56,22 @@ Place Source::place(std::size_t number, std::size_t offset) const {
   return {number, static_cast<std::size_t>(characters) + 1};
 }
 
+void Source::reread_as_latin1() {
+  std::string utf8;
+  utf8.reserve(text_.size());
+  for (const char c : text_) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte >= 0x80) utf8 += static_cast<char>(0xC0U | byte >> 6U);
+    utf8 += byte >= 0x80 ? static_cast<char>(0x80U | (byte & 0x3FU)) : c;
+  }
+  text_ = std::move(utf8);
+  find_lines();
+}
+
 std::optional<Place> Source::first_bad_byte() const {
   std::string_view rest = text_;
   while (!rest.empty()) {
-    const std::size_t length = character_length(rest);
+    const std::size_t length = utf8_length(rest);
     if (length == 0) {
       const std::size_t offset = text_.size() - rest.size();
       const auto after = std::upper_bound(starts_.begin(), starts_.end(), offset);

@@ -18,6 +18,9 @@ struct Place {
   std::size_t column = 1;
 };
 
+/// The place of what stands in no line: in a file that is no text.
+inline constexpr Place nowhere{0, 0};
+
 /// A file that cannot be opened (exit status 66). `what()` says which and why.
 class MissingInput : public std::runtime_error {
  public:
@@ -48,8 +51,12 @@ class Source {
   Place place(std::size_t number, std::size_t offset) const;
   /// Place of the first byte that is NUL or not UTF-8, if any.
   std::optional<Place> first_bad_byte() const;
+  /// Takes the bytes for Latin-1, as Windows programs write, not for UTF-8.
+  void reread_as_latin1();
 
  private:
+  void find_lines();
+
   std::string name_, text_, sha256_;
   std::filesystem::path folder_;
   std::vector<std::size_t> starts_;

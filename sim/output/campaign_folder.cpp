@@ -11,14 +11,17 @@
 #include <fstream>
 #include <iterator>
 #include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include <sim/engine/versions.hpp>
 #include <sim/input/hash.hpp>
+#include <sim/input/number.hpp>
 #include <sim/input/yaml_writer.hpp>
 #include <sim/output/campaign_folder.hpp>
 #include <sim/output/csv.hpp>
+#include <sim/output/run_files.hpp>
 #include <sim/output/run_json.hpp>
 #include <sim/run/simulate.hpp>
 
@@ -40,10 +43,12 @@ std::string digest(const input::Campaign& campaign) {
   return input::sha256_hex(text);
 }
 
-Json plan_of(const input::Campaign& campaign, const std::vector<run::CampaignJob>& jobs) {
+Json plan_of(const input::Campaign& campaign, const std::vector<run::CampaignJob>& jobs,
+             const std::vector<std::string>& formats) {
   Json plan{{"schema", plan_schema},
             {"program", {{"mckibben", MCKIBBEN_VERSION}, {"sundials", engine::sundials_version()}}},
             {"campaign_sha256", digest(campaign)},
+            {"formats", formats},
             {"ids", Json::array()}};
   for (const auto& job : jobs) plan["ids"].push_back(job.id);
   return plan;
@@ -62,11 +67,12 @@ std::optional<Json> read_json(const fs::path& path) {
 /// Files of one run inside OUT.unfinished.
 struct RunFiles {
   explicit RunFiles(const std::string& id)
-      : table("data/" + id + ".csv"),
+      : data("data/" + id),
+        truth("truth/" + id),
         ascii("data/thesis/" + id + ".txt"),
-        truth("truth/" + id + ".csv"),
         entry("runs/" + id + ".json") {}
-  std::string table, ascii, truth, entry;
+  std::string data, truth;  ///< without ending
+  std::string ascii, entry;
 };
 
 std::string bytes_of(const fs::path& path) {
@@ -100,9 +106,12 @@ bool is_whole(const fs::path& folder, const Json& record) {
 FileNames files_of(const std::vector<std::string>& ids) {
   FileNames names{plan_file,          "data/dataset.yaml", "data/rig.yaml",        "data/campaign.json",
                   "data/report.html", "truth/truth.yaml",  "data/.mckibben-files", "truth/.mckibben-files"};
+  for (const char* folder : {"data/", "truth/"}) names.insert(std::string(folder) + package_file);
   for (const auto& id : ids) {
     const RunFiles files(id);
-    names.insert({files.table, files.ascii, files.truth, files.entry});
+    names.insert({files.ascii, files.entry});
+    for (const auto& stem : {files.data, files.truth})
+      for (auto& name : run_file_names(stem)) names.insert(std::move(name));
   }
   const FileNames whole = names;
   for (const auto& name : whole) names.insert(name + unfinished_suffix);
@@ -175,8 +184,10 @@ Json truth_json(const input::Campaign& campaign, const Json& entries) {
 
 }  // namespace
 
-CampaignFolder::CampaignFolder(const fs::path& destination, const input::Campaign& campaign)
+CampaignFolder::CampaignFolder(const fs::path& destination, const input::Campaign& campaign,
+                               std::vector<std::string> formats)
     : campaign_(campaign),
+      formats_(std::move(formats)),
       jobs_(run::jobs_of(campaign)),
       destination_(result_path(destination)),
       truth_(result_path(destination_.string() + "-truth")),
@@ -189,7 +200,10 @@ CampaignFolder::CampaignFolder(const fs::path& destination, const input::Campaig
 }
 
 void CampaignFolder::open() {
-  const Json plan = plan_of(campaign_, jobs_);
+  std::erase(formats_, "csv");
+  std::sort(formats_.begin(), formats_.end());
+  formats_.erase(std::unique(formats_.begin(), formats_.end()), formats_.end());
+  const Json plan = plan_of(campaign_, jobs_, formats_);
   if (fs::exists(unfinished_) && !fs::is_empty(unfinished_)) {
     const auto found = read_json(unfinished_ / plan_file);
     if (found == plan) {
@@ -238,11 +252,36 @@ void CampaignFolder::put(const run::CampaignRun& run) const {
     written.push_back({{"name", name}, {"bytes", text.size()}, {"sha256", input::sha256_hex(text)}});
   };
   if (run.failure.empty()) {
-    write(files.table, csv_of(run::measured(campaign_, run), rig.tick_s));
     write(files.ascii, thesis_ascii(run.recording, rig, run.job.load_kg));
-    write(files.truth, csv_of(run.recording, run::contraction_per_count(rig), {}, rig.gauge.fitted));
+    const auto measured = table_of(run, "measured", columns_of(run::measured(campaign_, run), rig.tick_s));
+    const auto truth = table_of(
+        run, "truth", columns_of(run.recording, run::contraction_per_count(rig), {}, rig.gauge.fitted));
+    for (const auto& [stem, table] : {std::pair{&files.data, &measured}, std::pair{&files.truth, &truth}})
+      for (const auto& file : run_files(*stem, *table, formats_)) write(file.name, file.content);
   }
   write_whole(unfinished_ / files.entry, sealed(entry_of(campaign_, run), written).dump(2) + "\n");
+}
+
+formats::Table CampaignFolder::table_of(const run::CampaignRun& run, const char* what,
+                                        std::vector<formats::Column> columns) const {
+  return {fmt::format("{}: {}, {}", campaign_.name, run.job.id, what),
+          std::move(columns),
+          {{"source", program_name()},
+           {"load_kg", run.job.load_kg},
+           {"current", campaign_.currents[run.job.current].name},
+           {"repeat", static_cast<double>(run.job.repeat)},
+           {"seed", std::to_string(campaign_.seed)}}};
+}
+
+std::string CampaignFolder::package(const char* what, std::vector<formats::Column> columns,
+                                    const Json& entries) const {
+  Package package{fmt::format("{}: {}", campaign_.name, what), std::move(columns), {}};
+  for (const auto& entry : entries)
+    if (!failed(entry))
+      package.runs.push_back({entry.at("id").get<std::string>(),
+                              fmt::format("{} kg, {}", input::write_number(entry.at("load_kg").get<double>()),
+                                          entry.at("current").get<std::string>())});
+  return datapackage(package);
 }
 
 Json CampaignFolder::document() const {
@@ -270,6 +309,10 @@ CampaignFolder::Places CampaignFolder::publish(const Json& document, const Repor
   }
   write_whole(unfinished_ / "data/dataset.yaml", input::to_yaml(dataset_json(rig, entries)));
   write_whole(unfinished_ / "data/campaign.json", document.dump(2) + "\n");
+  const bool gauge = campaign_.rig.gauge.fitted;
+  write_whole(unfinished_ / "data" / package_file, package("measured", measured_columns(gauge), entries));
+  write_whole(unfinished_ / "truth" / package_file,
+              package("truth", recorded_columns(false, gauge), entries));
   if (!std::all_of(entries.begin(), entries.end(), failed))
     write_whole(unfinished_ / "data/report.html", report(unfinished_ / "data"));
   write_whole(unfinished_ / "truth/truth.yaml", input::to_yaml(truth_json(campaign_, entries)));

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include <sim/formats/table.hpp>
 #include <sim/input/campaign.hpp>
 #include <sim/input/fields_json.hpp>
 #include <sim/output/folder.hpp>
@@ -19,8 +20,9 @@ class CampaignFolder {
  public:
   /// Opens OUT.unfinished for `destination` = OUT. What is there is kept if it belongs to the same campaign
   /// and program and is as it was written; an earlier campaign's is removed; anything else is moved aside.
-  /// Throws CannotWrite.
-  CampaignFolder(const std::filesystem::path& destination, const input::Campaign& campaign);
+  /// `formats`: of the runs, besides CSV (run_formats). Throws CannotWrite.
+  CampaignFolder(const std::filesystem::path& destination, const input::Campaign& campaign,
+                 std::vector<std::string> formats = {});
 
   /// What became of what was there before, in words; empty if nothing was there.
   const std::string& note() const { return note_; }
@@ -49,7 +51,13 @@ class CampaignFolder {
   void open();
   void find_missing();
 
+  formats::Table table_of(const run::CampaignRun& run, const char* what,
+                          std::vector<formats::Column> columns) const;
+  std::string package(const char* what, std::vector<formats::Column> columns,
+                      const input::Json& entries) const;
+
   const input::Campaign& campaign_;
+  std::vector<std::string> formats_;
   std::vector<run::CampaignJob> jobs_, missing_;
   std::filesystem::path destination_, truth_, unfinished_;
   std::string note_;

@@ -1,4 +1,4 @@
-// The columns of a recording.
+// The columns of a recording, in the order of the file.
 #include <charconv>
 #include <cmath>
 
@@ -22,54 +22,85 @@ double tidy_s(double time_s) {
 
 }  // namespace
 
-std::string csv_of(const run::Recording& recording, double per_count, const std::vector<double>& target,
-                   bool gauge) {
-  std::string text =
-      "time_s,current_mA,contraction_ratio,contraction_speed_per_s,valve_pressure_bar,muscle_pressure_bar,"
-      "encoder_contraction_ratio,bristle_m,braid_force_N,friction_force_N";
-  if (!target.empty()) text += ",target_contraction_ratio";
-  if (gauge) text += ",gauge_pressure_bar";
-  text += '\n';
-  text.reserve(text.size() + recording.samples.size() * 180);
-  for (std::size_t k = 0; k < recording.samples.size(); ++k) {
-    const auto& row = recording.samples[k];
-    append(text, tidy_s(row.time_s));
-    const auto column = [&text](double value) {
-      text += ',';
-      append(text, value);
-    };
-    column(row.current_mA);
-    column(row.state.joint.contraction_ratio);
-    column(row.state.joint.contraction_speed_per_s);
-    column(row.state.side.valve_pressure_Pa / 1e5);
-    column(row.state.side.muscle_pressure_Pa / 1e5);
-    column(static_cast<double>(row.counts) * per_count);
-    column(row.state.side.bristle_m);
-    column(row.braid_force_N);
-    column(row.friction_force_N);
-    if (!target.empty()) column(target[k]);
-    if (gauge) column(row.gauge_Pa / 1e5);
-    text += '\n';
-  }
-  return text;
+std::vector<formats::Column> recorded_columns(bool target, bool gauge) {
+  std::vector<formats::Column> columns{
+      {"time_s", "s", "time since the run began", {}},
+      {"current_mA", "mA", "current to the valve, from this row to the next", {}},
+      {"contraction_ratio", "1", "contraction ratio of the muscle, true", {}},
+      {"contraction_speed_per_s", "s-1", "speed of the contraction ratio, true", {}},
+      {"valve_pressure_bar", "bar", "gauge pressure at the valve, true", {}},
+      {"muscle_pressure_bar", "bar", "gauge pressure in the muscle, true", {}},
+      {"encoder_contraction_ratio", "1", "contraction ratio as the encoder counts it", {}},
+      {"bristle_m", "m", "deflection of the bristles of thread friction, true", {}},
+      {"braid_force_N", "N", "force of the braid on the load, upwards", {}},
+      {"friction_force_N", "N", "force of thread friction on the load, upwards", {}}};
+  if (target) columns.push_back({"target_contraction_ratio", "1", "contraction ratio that is asked for", {}});
+  if (gauge) columns.push_back({"gauge_pressure_bar", "bar", "gauge pressure in the muscle as measured", {}});
+  return columns;
 }
 
-std::string csv_of(const input::Run& measured, double tick_s) {
-  const auto& pressure_Pa = measured.muscle_pressure_Pa;
-  std::string text = "time_s,current_mA,contraction_ratio";
-  text += pressure_Pa ? ",muscle_pressure_bar\n" : "\n";
-  for (std::size_t k = 0; k < measured.current_mA.size(); ++k) {
-    append(text, tidy_s(static_cast<double>(k) * tick_s));
-    for (const double value : {measured.current_mA[k], measured.contraction_ratio[k]}) {
-      text += ',';
-      append(text, value);
-    }
-    if (pressure_Pa) {
-      text += ',';
-      append(text, (*pressure_Pa)[k] / 1e5);
-    }
-    text += '\n';
+std::vector<formats::Column> columns_of(const run::Recording& recording, double per_count,
+                                        const std::vector<double>& target, bool gauge) {
+  std::vector<formats::Column> columns = recorded_columns(!target.empty(), gauge);
+  for (auto& column : columns) column.values.reserve(recording.samples.size());
+  for (std::size_t k = 0; k < recording.samples.size(); ++k) {
+    const auto& row = recording.samples[k];
+    auto column = columns.begin();
+    const auto put = [&column](double value) { (column++)->values.push_back(value); };
+    put(tidy_s(row.time_s));
+    put(row.current_mA);
+    put(row.state.joint.contraction_ratio);
+    put(row.state.joint.contraction_speed_per_s);
+    put(row.state.side.valve_pressure_Pa / 1e5);
+    put(row.state.side.muscle_pressure_Pa / 1e5);
+    put(static_cast<double>(row.counts) * per_count);
+    put(row.state.side.bristle_m);
+    put(row.braid_force_N);
+    put(row.friction_force_N);
+    if (!target.empty()) put(target[k]);
+    if (gauge) put(row.gauge_Pa / 1e5);
   }
+  return columns;
+}
+
+std::vector<formats::Column> measured_columns(bool gauge) {
+  std::vector<formats::Column> columns{
+      {"time_s", "s", "time since the run began", {}},
+      {"current_mA", "mA", "current to the valve, from this row to the next", {}},
+      {"contraction_ratio", "1", "contraction ratio of the muscle as the encoder counts it", {}}};
+  if (gauge)
+    columns.push_back({"muscle_pressure_bar", "bar", "gauge pressure in the muscle as measured", {}});
+  return columns;
+}
+
+std::vector<formats::Column> columns_of(const input::Run& measured, double tick_s) {
+  std::vector<formats::Column> columns = measured_columns(measured.muscle_pressure_Pa.has_value());
+  for (std::size_t k = 0; k < measured.current_mA.size(); ++k)
+    columns[0].values.push_back(tidy_s(static_cast<double>(k) * tick_s));
+  columns[1].values = measured.current_mA;
+  columns[2].values = measured.contraction_ratio;
+  if (measured.muscle_pressure_Pa)
+    for (const double value : *measured.muscle_pressure_Pa) columns[3].values.push_back(value / 1e5);
+  return columns;
+}
+
+std::string csv_of(const std::vector<formats::Column>& columns) {
+  constexpr std::size_t usual_cell = 18;
+  const std::size_t rows = columns.front().values.size();
+  std::string text;
+  text.reserve((rows + 1) * columns.size() * usual_cell);
+  const auto end_cell = [&](const formats::Column& column) {
+    text += &column == &columns.back() ? '\n' : ',';
+  };
+  for (const auto& column : columns) {
+    text += column.name;
+    end_cell(column);
+  }
+  for (std::size_t k = 0; k < rows; ++k)
+    for (const auto& column : columns) {
+      append(text, column.values[k]);
+      end_cell(column);
+    }
   return text;
 }
 

@@ -1,23 +1,31 @@
-// Recordings as text: one row each tick, shortest digits that read back exactly. CSV has its header on line
-// 1; the thesis's own files (T 3.3) have none.
+// Recordings as tables and as text: one row each tick, shortest digits that read back exactly. CSV has its
+// header on line 1; the thesis's own files (T 3.3) have none.
 #pragma once
 
 #include <string>
 #include <vector>
 
 #include <plant/rig.hpp>
+#include <sim/formats/table.hpp>
 #include <sim/input/dataset.hpp>
 #include <sim/run/recording.hpp>
 
 namespace mckibben::output {
 
-/// True values, and what the encoder counted. `target` [contraction ratio] and the gauge are columns where
-/// there are any. `per_count` is the contraction ratio of one encoder count.
-std::string csv_of(const run::Recording& recording, double per_count, const std::vector<double>& target,
-                   bool gauge);
+/// Columns of a recording: true values, and what the encoder counted. A target and a gauge are columns where
+/// there are any.
+std::vector<formats::Column> recorded_columns(bool target, bool gauge);
+/// The same with their values. `target` [contraction ratio] may be empty. `per_count` is the contraction
+/// ratio of one encoder count.
+std::vector<formats::Column> columns_of(const run::Recording& recording, double per_count,
+                                        const std::vector<double>& target, bool gauge);
 
-/// What was measured, as a data set's table.
-std::string csv_of(const input::Run& measured, double tick_s);
+/// Columns of a data set's table: what was measured.
+std::vector<formats::Column> measured_columns(bool gauge);
+std::vector<formats::Column> columns_of(const input::Run& measured, double tick_s);
+
+/// Columns of one length as CSV.
+std::string csv_of(const std::vector<formats::Column>& columns);
 
 /// The thesis's file: current [mA], contraction ratio, its speed [1/s] and acceleration [1/s2], pressure
 /// [bar], separated by blanks. All but the current are calculated: ratio from counts, speed and acceleration

@@ -68,7 +68,7 @@ Json unreachable_json(const run::Unreachable& found) {
 
 Json run_json(const plant::Rig& rig, const run::TrackedRun& run) {
   Json entry{{"load_kg", run.load_kg}, {"controller", run.controller}};
-  if (!run.recording.samples.empty()) entry["file"] = csv_name(run);
+  if (!run.recording.samples.empty()) entry["file"] = file_stem(run) + ".csv";
   if (run.unreachable.any()) entry["unreachable"] = unreachable_json(run.unreachable);
   if (!run.failure.empty()) {
     entry["failure"] = run.failure;
@@ -108,8 +108,8 @@ Json solver_json(const engine::Counters& counters) {
           {"stiff_from_tick", counters.stiff_from_tick < 0 ? Json(nullptr) : Json(counters.stiff_from_tick)}};
 }
 
-std::string csv_name(const run::TrackedRun& run) {
-  return fmt::format("{}kg_{}.csv", input::write_number(run.load_kg), run.controller);
+std::string file_stem(const run::TrackedRun& run) {
+  return fmt::format("{}kg_{}", input::write_number(run.load_kg), run.controller);
 }
 
 Json json_of(const input::Scenario& scenario, const run::Comparison& comparison) {

@@ -20,7 +20,7 @@ input::Json json_of(const input::Dataset& dataset, const std::vector<run::Replay
 input::Json heading_json(const char* schema, const std::vector<input::InputFile>& files);
 input::Json solver_json(const engine::Counters& counters);
 
-/// File name of one run's CSV in the results folder.
-std::string csv_name(const run::TrackedRun& run);
+/// Name of one run's files in the results folder, without ending.
+std::string file_stem(const run::TrackedRun& run);
 
 }  // namespace mckibben::output

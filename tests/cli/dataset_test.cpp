@@ -152,31 +152,41 @@ TEST_F(Dataset, ThreadsDoNotMatter) {
   ASSERT_EQ(run("dataset small.yaml --out four --threads 4").status, 0);
   EXPECT_EQ(contents(scratch / "one"), contents(scratch / "four"));
   EXPECT_EQ(contents(scratch / "one-truth"), contents(scratch / "four-truth"));
-  EXPECT_EQ(contents(scratch / "one").size(), 8u + 8u + 5u);  // with report and list of files
+  EXPECT_EQ(contents(scratch / "one").size(), 8u + 8u + 6u);  // with report, datapackage and list of files
 }
 
 /// Leaves OUT.unfinished as a campaign does that was stopped after `runs` runs.
-void begin(const fs::path& out, const input::Campaign& campaign, std::size_t runs) {
-  const output::CampaignFolder folder(out, campaign);
+void begin(const fs::path& out, const input::Campaign& campaign, std::size_t runs,
+           const std::vector<std::string>& formats = {}) {
+  const output::CampaignFolder folder(out, campaign, formats);
   for (std::size_t i = 0; i < runs; ++i) folder.put(run::run_job(campaign, folder.jobs()[i]));
 }
 
 TEST_F(Dataset, AnInterruptedOneGoesOnAndItsFilesAreTheSame) {
-  ASSERT_EQ(run("dataset small.yaml --out whole").status, 0);
-  begin(scratch / "parts", input::read_campaign(scratch / "small.yaml"), 5);
+  ASSERT_EQ(run("dataset small.yaml --out whole --format mat,netcdf").status, 0);
+  begin(scratch / "parts", input::read_campaign(scratch / "small.yaml"), 5, {"netcdf", "mat", "csv"});
   // One of them was killed before its last file; another left half a file that nobody waits for.
   fs::remove(scratch / "parts.unfinished/runs/m1_up_r2.json");
   fs::remove(scratch / "parts.unfinished/data/m1_up_r1.csv");
   write_text(scratch / "parts.unfinished/data/m2_up_r2.csv.part", "time_s,curr");
-  const auto finished = scratch / "parts.unfinished/data/m1_c01_r1.csv";
+  const auto finished = scratch / "parts.unfinished/data/m1_c01_r1.nc";
   const auto before = fs::last_write_time(finished);
-  const auto said = run("dataset small.yaml --out parts");
+  const auto said = run("dataset small.yaml --out parts --format mat,netcdf");
   ASSERT_EQ(said.status, 0) << said.err;
   EXPECT_NE(said.err.find("3 of 8 runs are there already"), std::string::npos) << said.err;
-  EXPECT_EQ(fs::last_write_time(scratch / "parts/m1_c01_r1.csv"), before);  // not made again
+  EXPECT_EQ(fs::last_write_time(scratch / "parts/m1_c01_r1.nc"), before);  // not made again
   EXPECT_EQ(contents(scratch / "whole"), contents(scratch / "parts"));
   EXPECT_EQ(contents(scratch / "whole-truth"), contents(scratch / "parts-truth"));
   EXPECT_FALSE(exists("parts.unfinished"));
+}
+
+TEST_F(Dataset, OtherFormatsStartAnewAndNothingIsLeftOver) {
+  begin(scratch / "parts", input::read_campaign(scratch / "small.yaml"), 5, {"mat"});
+  const auto said = run("dataset small.yaml --out parts");
+  ASSERT_EQ(said.status, 0) << said.err;
+  EXPECT_NE(said.err.find("starting anew"), std::string::npos) << said.err;
+  for (const auto& [name, text] : contents(scratch / "parts")) EXPECT_FALSE(name.ends_with(".mat")) << name;
+  EXPECT_FALSE(exists("parts.unfinished.old-1"));
 }
 
 TEST_F(Dataset, RunsThatSomebodyChangedAreMadeAgain) {

@@ -1,11 +1,18 @@
 // Tables and data sets that are fine: columns in any order, quotes, line ends, byte order mark, gauges.
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <random>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
+#include <sim/input/ascii.hpp>
 #include <sim/input/csv.hpp>
 #include <sim/input/dataset.hpp>
+#include <sim/input/lvm.hpp>
 
 namespace mckibben::input {
 namespace {
@@ -24,18 +31,18 @@ TEST(Csv, AnyOrderExtraColumnsQuotesCrlfAndByteOrderMark) {
   Problems problems;
   TableProblems found(source, problems);
   const Table table = read_table(source, required, optional, found);
-  check_ticks(source, table, 0.012, found);
+  check_ticks(table, 0.012, found);
   EXPECT_EQ(found.count(), 0u);
   EXPECT_EQ(table.find("current_mA")->values, (std::vector<double>{4.0, 4.5}));
   EXPECT_EQ(table.find("gauge"), nullptr);
-  EXPECT_EQ(Table::place(source, *table.find("time_s"), 1).column, 6u);
+  EXPECT_EQ(table.place(source, *table.find("time_s"), 1).column, 6u);
 }
 
 TEST(Csv, TimesWithinAMicrosecondAreTicks) {
   const Source source("a.csv", "time_s,current_mA\n0,4\n0.0120009,4\n0.0239992,4\n", "");
   Problems problems;
   TableProblems found(source, problems);
-  check_ticks(source, read_table(source, required, optional, found), 0.012, found);
+  check_ticks(read_table(source, required, optional, found), 0.012, found);
   EXPECT_EQ(found.count(), 0u);
 }
 
@@ -44,10 +51,69 @@ TEST(Csv, RangeIsCheckedRowByRow) {
   Problems problems;
   TableProblems found(source, problems);
   const Table table = read_table(source, required, optional, found);
-  check_range(source, *table.find("current_mA"), 0.0, 20.0, "DAC", found);
+  check_range(table, *table.find("current_mA"), 0.0, 20.0, "DAC", found);
   ASSERT_EQ(problems.errors(), 1u);
   EXPECT_EQ(problems.sorted()[0].place.line, 3u);
   EXPECT_EQ(problems.sorted()[0].place.column, 7u);
+}
+
+constexpr const char* good_lvm =
+    "LabVIEW "
+    "Measurement\t\nSeparator\tTab\nDecimal_Separator\t,\nX_Columns\tMulti\n***End_of_Header***\t\n\t\n"
+    "Channels\t2\nX_Dimension\tTime\tTime\nX0\t0,0\t0,0\n***Start_Special***\nx\n***End_Special***\n"
+    "***End_of_Header***\t\t\nX_Value\tI\tX_Value\tratio\tComment\n0,0\t4\t0,0\t0,1\n0,012\t4,5\t0,012\t0,"
+    "1\tso\n\n"
+    "Channels\t2\nX0\t0,0\t0,0\n***End_of_Header***\nX_Value\tI\tX_Value\tratio\n0,024\t4\t0,024\t0,1\n";
+constexpr const char* good_ascii = "# made by hand\n0 4 0.1\n 0.012 ; 4.5\t0.2\n0.024 4 0.1 \n\n";
+
+/// Reads a text as a run; the problems, and whether the table is sound: rows in step, numbers finite.
+std::pair<std::size_t, bool> read_as_run(const std::string& text, bool lvm) {
+  const Source source(lvm ? "a.lvm" : "a.txt", text, "");
+  Problems problems;
+  TableProblems found(source, problems);
+  const std::vector<WantedColumn> channels{
+      {"time_s", ""}, {"current_mA", "I"}, {"contraction_ratio", "ratio"}};
+  const std::vector<WantedColumn> numbers{{"time_s", "1"}, {"current_mA", "2"}, {"contraction_ratio", "3"}};
+  const Table table = lvm ? read_lvm(source, channels, 0, found) : read_ascii(source, numbers, found);
+  check_ticks(table, 0.012, found);
+  bool sound = !table.columns.empty();
+  for (const auto& column : table.columns)
+    sound =
+        sound && column.values.size() == table.lines.size() &&
+        std::all_of(column.values.begin(), column.values.end(), [](double x) { return std::isfinite(x); });
+  return {found.count(), sound};
+}
+
+TEST(Tables, MutilatedOnesAreReadWholeOrRefused) {
+  std::mt19937 random(1);
+  const char* pieces[] = {
+      "\t", ",", ";", "\n", "Channels\t", "***End_of_Header***", "LabVIEW Measurement\n", "\"", "-", "1e999"};
+  for (const bool lvm : {true, false}) {
+    const std::string good = lvm ? good_lvm : good_ascii;
+    EXPECT_EQ(read_as_run(good, lvm), (std::pair<std::size_t, bool>{0, true}));
+    std::size_t refused = 0;
+    for (int n = 0; n < 1500; ++n) {
+      std::string text = good;
+      const std::size_t at = random() % text.size();
+      switch (random() % 4) {
+        case 0:
+          text[at] = static_cast<char>(random() % 128);
+          break;
+        case 1:
+          text.erase(at, random() % 20);
+          break;
+        case 2:
+          text.insert(at, pieces[random() % std::size(pieces)]);
+          break;
+        default:
+          text.resize(at);
+      }
+      const auto [problems, sound] = read_as_run(text, lvm);
+      EXPECT_TRUE(problems > 0 || sound) << text;
+      refused += problems > 0 ? 1 : 0;
+    }
+    EXPECT_GT(refused, 500u);
+  }
 }
 
 /// A folder of its own, removed at the end.

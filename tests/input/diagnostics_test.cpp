@@ -4,6 +4,7 @@
 #include <sim/input/diagnostics.hpp>
 #include <sim/input/hash.hpp>
 #include <sim/input/suggest.hpp>
+#include <sim/input/utf8.hpp>
 
 namespace mckibben::input {
 namespace {
@@ -45,6 +46,14 @@ TEST(Diagnostics, OfVeryManyTheFirstHundredAndTheNumberOfTheRest) {
   for (int i = 0; i < 130; ++i) problems.error(source, {1, 1}, "bad");
   ASSERT_EQ(problems.sorted().size(), 101u);
   EXPECT_EQ(problems.sorted().back().message, "and 30 more problems");
+}
+
+TEST(Diagnostics, WhatAFileHoldsDoesNothingToATerminal) {
+  EXPECT_EQ(printable("a\tb \xC3\xBC\n"), "a\tb \xC3\xBC\n");
+  EXPECT_EQ(printable("\x1B[2J \xC2\x9B \xC3 \x7F"), "?[2J ? ? ?");
+  Problems problems;
+  problems.error(Source("a.csv", "x\x1B[2J\n", ""), {1, 1}, "\x1B[2J is not a number");
+  EXPECT_EQ(to_text(problems.sorted()), "a.csv:1:1: error: ?[2J is not a number");
 }
 
 TEST(Diagnostics, OnlyMissingFilesAreMissingInput) {

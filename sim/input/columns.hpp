@@ -1,0 +1,69 @@
+// Where a measured file holds what we ask for, and in which units: the map `columns` of a data set, from our
+// quantities to the file's columns.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <plant/rig.hpp>
+#include <sim/input/table.hpp>
+#include <sim/input/yaml_file.hpp>
+
+namespace mckibben::input {
+
+/// One quantity: where it stands and how its numbers are to be read.
+struct ColumnPlace {
+  std::string column;  ///< empty: not said
+  std::string unit;
+  double zero = 0.0, factor = 1.0;
+
+  bool absent() const { return column.empty(); }
+
+  template <class Self, class Visitor>
+  static void fields(Self& self, Visitor& visit) {
+    visit.required(
+        "column", self.column,
+        "heading in a .csv, channel (or number) in an .lvm, variable, run.field or data(:,2) in a .mat, "
+        "number from 1 in a .txt");
+    visit.required("unit", self.unit, "unit of its numbers; 1 for a ratio, count for encoder counts");
+    visit("zero", self.zero, "1", -1e12, 1e12, "taken from each number, in that unit, first of all");
+    visit("factor", self.factor, "1", -1e12, 1e12, "each is multiplied by it then: a gear, a sensor, a sign");
+  }
+
+  template <class Report>
+  void rules(Report& report) const {
+    if (factor == 0.0) report("factor", "it must not be 0");
+  }
+};
+
+struct ColumnMap {
+  ColumnPlace time, current, contraction, muscle_pressure;
+  bool rows_are_ticks = false;
+
+  template <class Self, class Visitor>
+  static void fields(Self& self, Visitor& visit) {
+    visit("time", self.time, "time since the first row");
+    visit("current", self.current, "current to the valve");
+    visit("contraction", self.contraction,
+          "height of the load: ratio, angle of the wheel, travel of the rope, or encoder counts");
+    visit("muscle_pressure", self.muscle_pressure, "gauge pressure in the muscle, where it was measured");
+    visit("rows_are_ticks", self.rows_are_ticks, "the file holds no time: its rows are one tick apart");
+  }
+
+  template <class Report>
+  void rules(Report& report) const {
+    if (rows_are_ticks && !time.absent()) report("rows_are_ticks", "and yet a column of time is named");
+  }
+};
+
+/// Checks the units of a map; `map` is the value of `columns`.
+void check_units(const Source& source, const Node& map, Problems& problems);
+
+/// `own` where it says something, otherwise `shared`.
+ColumnMap merged(const ColumnMap& shared, const ColumnMap& own);
+
+/// Brings a table that was read with a map to our units: time_s, current_mA, contraction_ratio,
+/// muscle_pressure_bar. Lengths and angles become ratios by the rig's wheel and the muscle's rest length.
+void convert_columns(Table& table, const ColumnMap& map, const plant::Rig& rig);
+
+}  // namespace mckibben::input

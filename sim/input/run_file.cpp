@@ -1,0 +1,167 @@
+// Formats of runs; see the header.
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include <sim/input/ascii.hpp>
+#include <sim/input/csv.hpp>
+#include <sim/input/lvm.hpp>
+#include <sim/input/mat.hpp>
+#include <sim/input/run_file.hpp>
+#include <sim/input/suggest.hpp>
+
+namespace mckibben::input {
+namespace {
+
+constexpr double bar_Pa = 1e5;
+constexpr double lowest_contraction = -0.2, highest_contraction = 1.0;
+
+enum class Format { csv, lvm, mat, ascii };
+
+std::optional<Format> format_of(const std::string& file) {
+  std::string ending = std::filesystem::path(file).extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  if (ending == ".csv") return Format::csv;
+  if (ending == ".lvm") return Format::lvm;
+  if (ending == ".mat") return Format::mat;
+  if (ending == ".txt" || ending == ".dat" || ending == ".asc") return Format::ascii;
+  return std::nullopt;
+}
+
+/// What is looked for; problems are those of the map, shown in the data set's file.
+class Wanted {
+ public:
+  Wanted(const YamlFile& file, const Node& run, Format format, const ColumnMap& map, Problems& problems)
+      : file_(file), run_(run), format_(format), problems_(problems) {
+    add_time(map);
+    add("current", "current_mA", map.current, true);
+    add("contraction", "contraction_ratio", map.contraction, true);
+    add("muscle_pressure", "muscle_pressure_bar", map.muscle_pressure, false);
+  }
+  const std::vector<WantedColumn>& columns() const { return columns_; }
+
+ private:
+  void add_time(const ColumnMap& map) {
+    if (map.rows_are_ticks) return;
+    if (!map.time.absent() || format_ == Format::csv || format_ == Format::mat)
+      add("time", "time_s", map.time, true);
+    else if (format_ == Format::lvm)
+      columns_.push_back({"time_s", "", true});
+    else
+      missing("time", " (or rows_are_ticks: true, if it holds no time)");
+  }
+
+  void add(const char* quantity, const char* name, const ColumnPlace& place, bool needed) {
+    if (!place.absent()) {
+      columns_.push_back({name, place.column, true});
+      if (format_ == Format::ascii) check_number(quantity, place.column);
+    } else if (format_ != Format::ascii) {
+      columns_.push_back({name, name, needed});
+    } else if (needed) {
+      missing(quantity, "");
+    }
+  }
+
+  void missing(const char* quantity, const char* otherwise) {
+    problems_.error(
+        file_.source, run_.find("file")->place,
+        fmt::format("{} has no headings: columns must say where {} stands, for example {}: {{column: 1, "
+                    "unit: {}}}{}",
+                    run_.find("file")->text, quantity, quantity,
+                    quantity == std::string_view("time")      ? "s"
+                    : quantity == std::string_view("current") ? "mA"
+                                                              : "1",
+                    otherwise));
+  }
+
+  void check_number(const char* quantity, const std::string& column) {
+    std::size_t number = 0;
+    const char* const last = column.data() + column.size();
+    const auto [end, error] = std::from_chars(column.data(), last, number);
+    if (error == std::errc{} && end == last && number >= 1 && number <= 100000) return;
+    const Node* own = run_.find("columns");
+    if (own == nullptr || own->find(quantity) == nullptr) own = file_.root.find("columns");
+    problems_.error(file_.source, own->find(quantity)->find("column")->place,
+                    fmt::format("column = {}: {} has no headings; give the column's number, from 1", column,
+                                run_.find("file")->text));
+  }
+
+  const YamlFile& file_;
+  const Node& run_;
+  Format format_;
+  Problems& problems_;
+  std::vector<WantedColumn> columns_;
+};
+
+Table read_as(Format format, const Source& source, const std::vector<WantedColumn>& wanted,
+              std::size_t segment, TableProblems& problems) {
+  switch (format) {
+    case Format::csv:
+      return read_csv(source, wanted, problems);
+    case Format::lvm:
+      return read_lvm(source, wanted, segment, problems);
+    case Format::mat:
+      return read_mat_table(source, wanted, problems);
+    case Format::ascii:
+      break;
+  }
+  return read_ascii(source, wanted, problems);
+}
+
+void read_table_of(Source source, Format format, const Wanted& wanted, const ColumnMap& map,
+                   const Dataset& dataset, Run& run, Problems& problems) {
+  problems.opened(source);
+  if (format == Format::lvm && source.first_bad_byte()) source.reread_as_latin1();
+  TableProblems found(source, problems);
+  Table table = read_as(format, source, wanted.columns(), static_cast<std::size_t>(run.segment), found);
+  Table::Column *current = table.find("current_mA"), *contraction = table.find("contraction_ratio");
+  if (current == nullptr || contraction == nullptr) return;
+  convert_columns(table, map, dataset.rig);
+  check_ticks(table, dataset.rig.tick_s, found);
+  check_dac_range(table, *current, dataset.rig.dac.largest_current_mA, found);
+  check_range(table, *contraction, lowest_contraction, highest_contraction, "what a muscle can do", found);
+  run.current_mA = std::move(current->values);
+  run.contraction_ratio = std::move(contraction->values);
+  if (Table::Column* pressure = table.find("muscle_pressure_bar")) {
+    run.muscle_pressure_Pa = std::move(pressure->values);
+    for (double& value : *run.muscle_pressure_Pa) value *= bar_Pa;
+  }
+}
+
+}  // namespace
+
+void read_run_file(const YamlFile& file, const Node& node, const Dataset& dataset, Run& run,
+                   Problems& problems) {
+  const Place place = node.find("file")->place;
+  const std::optional<Format> format = format_of(run.file);
+  if (!format) {
+    problems.error(
+        file.source, place,
+        fmt::format("file = {}: its ending must tell its format: .csv, .lvm, .mat, or .txt, .dat, .asc "
+                    "for numbers without headings",
+                    run.file));
+    return;
+  }
+  if (run.segment != 0 && *format != Format::lvm)
+    problems.error(file.source, node.find("segment")->place, "segment: only .lvm files have segments");
+  const ColumnMap map = merged(dataset.columns, run.columns);
+  const std::size_t errors = problems.errors();
+  const Wanted wanted(file, node, *format, map, problems);
+  if (problems.errors() > errors) return;
+  try {
+    read_table_of(Source::load((file.source.folder() / run.file).lexically_normal(), largest_table_bytes),
+                  *format, wanted, map, dataset, run, problems);
+  } catch (const MissingInput& missing) {
+    problems.missing_file(file.source, place, missing.what());
+  }
+}
+
+}  // namespace mckibben::input

@@ -1,0 +1,115 @@
+// Places and checks of tables; see the header.
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include <sim/input/cells.hpp>
+#include <sim/input/number.hpp>
+#include <sim/input/table.hpp>
+
+namespace mckibben::input {
+namespace {
+
+constexpr std::size_t most_problems = 20;
+constexpr double tick_tolerance_s = 1e-6;
+
+}  // namespace
+
+const Table::Column* Table::find(std::string_view name) const {
+  const auto found =
+      std::find_if(columns.begin(), columns.end(), [&](const Column& column) { return column.name == name; });
+  return found == columns.end() ? nullptr : &*found;
+}
+
+Table::Column* Table::find(std::string_view name) {
+  return const_cast<Column*>(std::as_const(*this).find(name));
+}
+
+Place Table::place(const Source& source, const Column& column, std::size_t row) const {
+  if (lines.empty()) return nowhere;
+  const std::vector<Cell> cells = split_cells(source.line(lines[row]), separator);
+  return source.place(lines[row], column.index < cells.size() ? cells[column.index].offset : 0);
+}
+
+TableProblems::~TableProblems() {
+  if (count_ > most_problems)
+    problems_.error(source_, last_, fmt::format("and {} more problems in this file", count_ - most_problems));
+}
+
+void TableProblems::add(Place place, std::string message) {
+  if (++count_ <= most_problems) problems_.error(source_, place, std::move(message));
+  last_ = place;
+}
+
+void TableProblems::add(const Table& table, const Table::Column& column, std::size_t row,
+                        const std::string& message) {
+  if (table.lines.empty())
+    add(nowhere, fmt::format("{}({}): {}", column.in_file, row + 1, message));
+  else if (column.in_file == column.name)
+    add(table.place(source_, column, row), message);
+  else
+    add(table.place(source_, column, row), fmt::format("{}: {}", column.in_file, message));
+}
+
+bool check_text(const Source& source, TableProblems& problems) {
+  if (source.text().size() > largest_table_bytes)
+    problems.add({}, fmt::format("larger than {} MB", largest_table_bytes >> 20U));
+  else if (const auto bad = source.first_bad_byte())
+    problems.add(*bad, "this is not UTF-8 text");
+  else if (source.text().empty())
+    problems.add({}, "the file is empty");
+  return problems.count() == 0;
+}
+
+namespace {
+
+void check_ticks_of(const Table& table, const Table::Column& column, double tick_s, TableProblems& problems) {
+  const std::vector<double>& time_s = column.values;
+  for (std::size_t k = 0; k < time_s.size(); ++k) {
+    const double expected_s = static_cast<double>(k) * tick_s;
+    if (std::abs(time_s[k] - expected_s) <= tick_tolerance_s) continue;
+    const double step_s = k > 0 ? time_s[k] - time_s[k - 1] : 0.0;
+    std::string what = fmt::format("is not a tick of {} ms", 1e3 * tick_s);
+    if (k == 0)
+      what = "is not the beginning";
+    else if (step_s == 0.0)
+      what = "is repeated";
+    else if (step_s < 0.0)
+      what = "runs backwards";
+    else if (step_s > 1.5 * tick_s)
+      what = "comes after a gap";
+    problems.add(
+        table, column, k,
+        fmt::format("time_s = {} {}: expected is {:.6g}", write_number(time_s[k]), what, expected_s));
+    return;
+  }
+}
+
+}  // namespace
+
+void check_ticks(const Table& table, double tick_s, TableProblems& problems) {
+  if (problems.count() > 0) return;
+  for (const Table::Column& column : table.columns)
+    if (column.name == "time_s" && problems.count() == 0) check_ticks_of(table, column, tick_s, problems);
+}
+
+void check_range(const Table& table, const Table::Column& column, double lowest, double highest,
+                 std::string_view meaning, TableProblems& problems) {
+  for (std::size_t row = 0; row < column.values.size(); ++row) {
+    const double value = column.values[row];
+    if (value < lowest || value > highest)
+      problems.add(table, column, row,
+                   fmt::format("{} = {} is out of range: {:.6g} to {:.6g} ({})", column.name,
+                               write_number(value), lowest, highest, meaning));
+  }
+}
+
+void check_dac_range(const Table& table, const Table::Column& current, double largest_current_mA,
+                     TableProblems& problems) {
+  constexpr double slack_mA = 1e-9;  // shortest digits of a sum of DAC steps
+  check_range(table, current, 0.0, largest_current_mA + slack_mA, "range of the rig's DAC", problems);
+}
+
+}  // namespace mckibben::input

@@ -1,0 +1,100 @@
+// MAT-files and NetCDF files from the inside: round trip, refusals, damage. That other programs read them,
+// and that we read theirs, is tested beside this with scipy, ncdump and Octave.
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <sim/formats/mat_file.hpp>
+#include <sim/formats/netcdf_file.hpp>
+
+namespace mckibben::formats {
+namespace {
+
+Table table() {
+  return {"two rows",
+          {{"time_s", "s", "time", {0.0, 0.012}}, {"current_mA", "mA", "current", {4.0, 0.1 + 0.2}}},
+          {{"load_kg", 11.138}, {"source", "mckibben"}}};
+}
+
+std::string refusal(const std::string& bytes) {
+  try {
+    read_mat(bytes, {"time_s"});
+  } catch (const BadFile& bad) {
+    return bad.what();
+  }
+  return "";
+}
+
+TEST(MatFile, ReadsBackWhatItWrote) {
+  const std::string bytes = mat_of(table());
+  EXPECT_EQ(bytes, mat_of(table()));
+  const MatContents read = read_mat(bytes, {"current_mA", "load_kg", "current_mA(:,1)"});
+  EXPECT_EQ(read.names, (std::vector<std::string>{"time_s", "current_mA", "load_kg"}));
+  ASSERT_EQ(read.found.size(), 3u);
+  EXPECT_EQ(read.found[0].values, table().columns[1].values);
+  EXPECT_EQ(read.found[1].values, std::vector<double>{11.138});
+  EXPECT_EQ(read.found[2].values, table().columns[1].values);
+}
+
+TEST(MatFile, SaysWhatIsNotAVector) {
+  const std::vector<std::string> wanted{"nothing",       "units",    "title",       "units.time_s",
+                                        "units.nothing", "time_s.x", "time_s(:,2)", "time_s(:,x)"};
+  const std::vector<std::string> said{
+      "there is no variable nothing", "units is a struct",          "title is text",
+      "units.time_s is text",         "units has no field nothing", "time_s is not a struct",
+      "time_s has 1 columns",         "time_s(:,x) is no column"};
+  const MatContents read = read_mat(mat_of(table()), wanted);
+  for (std::size_t i = 0; i < wanted.size(); ++i)
+    EXPECT_TRUE(read.found[i].problem.starts_with(said[i])) << read.found[i].problem;
+}
+
+TEST(MatFile, TellsItsRelatives) {
+  const std::string whole = mat_of(table());
+  std::string later = "MATLAB 7.3 MAT-file" + whole.substr(19), other = whole;
+  other[125] = 3;
+  EXPECT_NE(refusal(later).find("save it with -v7"), std::string::npos) << refusal(later);
+  EXPECT_NE(refusal("\x89HDF\r\n\x1A\n and more").find("HDF5"), std::string::npos);
+  EXPECT_NE(refusal("# Created by Octave 7.3.0").find("save it with -v7"), std::string::npos);
+  EXPECT_NE(refusal(other).find("version 0x0300"), std::string::npos) << refusal(other);
+  EXPECT_EQ(refusal(""), "the file is empty");
+  EXPECT_NE(refusal("time_s,current_mA\n").find("not a MAT-file of level 5"), std::string::npos);
+  EXPECT_EQ(refusal(whole.substr(0, 128)), "there are no variables in it");
+}
+
+TEST(MatFile, CutOffAnywhereIsNoticed) {
+  const std::string whole = mat_of(table());
+  for (std::size_t size = 1; size < whole.size(); size += 7)
+    EXPECT_NE(refusal(whole.substr(0, size)), "") << size << " bytes";
+}
+
+TEST(MatFile, SizesThatCannotBeAreNotBelieved) {
+  const std::size_t rows = 128 + 8 + 16 + 8;  // heading, tag, flags, tag of the dimensions
+  for (const std::size_t byte : {1, 3}) {     // some thousand numbers, and a billion; two are there
+    std::string bytes = mat_of(table());
+    ASSERT_EQ(bytes[rows], 2);
+    bytes[rows + byte] = 0x3F;
+    EXPECT_NE(refusal(bytes).find("its 1. variable: its sizes and contents do not agree"), std::string::npos)
+        << refusal(bytes);
+  }
+}
+
+TEST(NetcdfFile, SameBytesFromManyThreads) {
+  const std::string wanted = netcdf_of(table());
+  EXPECT_TRUE(wanted.starts_with("\x89HDF"));
+  std::vector<std::string> made(4);
+  std::vector<std::thread> threads;
+  for (std::string& one : made) threads.emplace_back([&one] { one = netcdf_of(table()); });
+  for (std::thread& thread : threads) thread.join();
+  for (const std::string& one : made) EXPECT_EQ(one, wanted);
+}
+
+TEST(NetcdfFile, NamesThatCannotBeAreRefused) {
+  Table bad = table();
+  bad.columns[1].name = "a/b";
+  EXPECT_THROW(netcdf_of(bad), BadFile);
+}
+
+}  // namespace
+}  // namespace mckibben::formats
