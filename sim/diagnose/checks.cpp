@@ -13,6 +13,8 @@
 namespace mckibben::diagnose {
 namespace {
 
+/// To choose on some and judge on others.
+constexpr std::size_t least_runs = 3;
 /// What gauges cannot resolve anyway.
 constexpr double gauge_step_Pa = 2e3;
 
@@ -245,7 +247,7 @@ class Checker {
 
   void labels() {
     const Runs runs = usable();
-    if (runs.size() < least_labels)
+    if (runs.size() >= least_runs && runs.size() < least_labels)
       doubts_.warnings.push_back(fmt::format(
           "{} usable runs: too few to check the labels of the loads against each other", runs.size()));
     const auto [wrong, common_ratio] = check_labels(data_, doubts_.masked, runs, threads_);
@@ -278,7 +280,7 @@ class Checker {
   void enough() {
     if (doubts_.cannot_tell) return;
     const Runs runs = usable();
-    if (runs.size() < 3) {
+    if (runs.size() < least_runs) {
       doubts_.cannot_tell = fmt::format(
           "{} usable run{}: too few to choose on some and judge on others; at least four runs would help, "
           "with two loads and two kinds of current.",

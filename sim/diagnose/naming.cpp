@@ -173,7 +173,10 @@ Naming name_effects(const Case& c, const Contender& nominal, const Contender& re
           ranked.outcome = "does not help on runs held out";
       }
       if (!ranked.refitted)
-        ranked.outcome = score.drop > 0.0 ? "score too small" : "no influence, or the wrong sign";
+        ranked.outcome = score.drop <= 0.0 ? "no influence, or the wrong sign"
+                         : chosen != nullptr && meets(chosen->contender)
+                             ? "not tried: with the one taken nothing is left to explain"
+                             : "score too small";
       if (ranked.score > 0.0) result.ranking.push_back(ranked);
     }
     if (chosen == nullptr && result.effects.empty() && excess(before) > worth_a_pair) {

@@ -212,7 +212,7 @@ std::string errors_svg(const std::vector<const diagnose::RunGap*>& runs, double 
   };
   std::size_t longest = 0;
   for (const auto* run : runs) longest = std::max(longest, name_of(*run).size());
-  const double x0 = std::clamp(14.0 + 7.4 * static_cast<double>(longest), 80.0, 220.0);
+  const double x0 = std::clamp(16.0 + 8.2 * static_cast<double>(longest), 80.0, 240.0);
   const double mm = 1e3 * rig.muscle.rest_length_m;
   double low = noise_floor > 0.0 ? noise_floor : 1e-4, high = low;
   for (const auto* run : runs)
