@@ -71,11 +71,17 @@ void check_units(const input::Dataset& data, const std::vector<Readings>& model)
           largest_mA, dead_mA));
     if (range(model[i].contraction_ratio) > 20.0 * count) {
       const double length_m = rig.muscle.rest_length_m;
-      const auto unit = other_unit(Line(run.contraction_ratio, model[i].contraction_ratio).slope,
-                                   {{100.0, "per cent"},
-                                    {length_m, "metres"},
-                                    {1e3 * length_m, "millimetres"},
-                                    {1.0 / count, "counts"}});
+      const double slope = Line(run.contraction_ratio, model[i].contraction_ratio).slope;
+      const auto unit = other_unit(slope, {{100.0, "per cent"},
+                                           {length_m, "metres"},
+                                           {1e3 * length_m, "millimetres"},
+                                           {1.0 / count, "counts"}});
+      if (slope < -0.3)
+        bad(fmt::format(
+            "contraction_ratio: from {:.3g} to {:.3g}, and it falls while the current rises; is its "
+            "sign or its zero another?",
+            run.contraction_ratio.front(),
+            *std::min_element(run.contraction_ratio.begin(), run.contraction_ratio.end())));
       if (unit)
         bad(fmt::format("contraction_ratio: up to {:.4g}; this looks like {}, not a ratio",
                         *std::max_element(run.contraction_ratio.begin(), run.contraction_ratio.end()),

@@ -101,6 +101,8 @@ class Workflow {
           "contraction_ratio scatters by {:.2g} from tick to tick (rms), far more than counts do: "
           "this is taken for the noise floor",
           floor.noise));
+    if (carries(nominal_, plant::ResidualForce::name))
+      result_.warnings.push_back("the rig's residual_law is kept as it is: if it is wrong, take it out");
     result_.false_alarm_rate = false_alarm_rate;
     result_.corrected = data_.rig;
     if (doubts_.cannot_tell) {
@@ -131,7 +133,21 @@ class Workflow {
 
   void recalibrate() {
     step("recalibrating");
-    recalibrated_ = contend(case_, nominal_fit_.fitted.model);
+    Model slight = nominal_fit_.fitted.model;
+    bool has_effects = false;
+    for (const Candidate& effect : catalogue()) {
+      if (!effect.carried(nominal_)) continue;
+      *find(slight.rig, effect.amplitude).value = effect.absent + 2.0 * least_amplitude * effect.typical;
+      has_effects = true;
+    }
+    recalibrated_ = contend(case_, nominal_fit_.fitted.model, nullptr, has_effects);
+    if (has_effects) {
+      // They may be there in vain: from next to nothing the way down can be another.
+      auto other = contend(case_, slight, nullptr, true);
+      if (other.fitted.failure.empty() &&
+          (!recalibrated_.fitted.failure.empty() || other.fitted.cost < recalibrated_.fitted.cost))
+        recalibrated_ = std::move(other);
+    }
     if (!recalibrated_.fitted.failure.empty()) {
       result_.warnings.push_back("the nominal parameters could not be fitted: " +
                                  recalibrated_.fitted.failure);
@@ -140,7 +156,8 @@ class Workflow {
     const auto& residuals = recalibrated_.fitted.residuals;
     if (excess(residuals) + 1.0 > near_floor * near_floor) return;
     case_.temperature = temperature(experiment_, residuals, case_.split.training);
-    recalibrated_ = contend(case_, recalibrated_.fitted.model);
+    auto again = contend(case_, recalibrated_.fitted.model);
+    if (again.fitted.failure.empty()) recalibrated_ = std::move(again);
   }
 
   void judge() {
@@ -179,12 +196,16 @@ class Workflow {
                         std::sqrt(left + 1.0)));
     } else if (left > beyond_disturbance) {
       result_.verdict = Verdict::unknown_effect;
+      std::vector<std::string> names;
       for (const NamedEffect& effect : naming_.effects)
+        names.push_back(full_name(effect.name, effect.variant));
+      if (named)
         result_.warnings.push_back(
-            fmt::format("{} comes nearest, but with it {:.1f} noise floors are left: not named",
-                        full_name(effect.name, effect.variant), std::sqrt(left + 1.0)));
+            fmt::format("nearest comes {}, but {:.1f} noise floors are left: not named",
+                        fmt::join(names, " with "), std::sqrt(left + 1.0)));
     } else {
-      result_.verdict = convinces(recalibration) ? Verdict::recalibrate : Verdict::nothing_missing;
+      const bool gap = excess(nominal_fit_.held_out) > nothing_left;
+      result_.verdict = gap && convinces(recalibration) ? Verdict::recalibrate : Verdict::nothing_missing;
       tell_invisible();
     }
   }
@@ -195,7 +216,7 @@ class Workflow {
     const auto list = fmt::format("{}", fmt::join(naming_.invisible, ", "));
     if (result_.verdict == Verdict::nothing_missing && 2 * naming_.invisible.size() > catalogue().size())
       result_.verdict = Verdict::cannot_tell;
-    result_.warnings.push_back("these data would not show, even at its usual size: " + list);
+    result_.warnings.push_back("these data would not show, even at their usual size: " + list);
   }
 
   void report() {
@@ -203,7 +224,9 @@ class Workflow {
     result_.confusion_names = naming_.confusion_names;
     result_.confusion = naming_.confusion;
     const auto& held = case_.split.held_out;
-    if (result_.verdict == Verdict::nothing_missing || chosen_ == &nominal_fit_) {
+    const bool as_it_was =
+        result_.verdict == Verdict::nothing_missing || result_.verdict == Verdict::cannot_tell;
+    if (as_it_was || chosen_ == &nominal_fit_) {
       chosen_rig_ = nominal_;
     } else {
       step("fitting all runs");
@@ -221,7 +244,8 @@ class Workflow {
       static_cast<plant::Rig&>(result_.corrected) = whole.model.rig;
       chosen_rig_ = chosen_->fitted.model.rig;
       for (const Moved& moved : result_.recalibrated)
-        if (std::abs(moved.deviations) > 0.999 * most_deviations)
+        if (std::abs(moved.deviations) > 0.999 * most_deviations &&
+            !moved.fitted.name.starts_with("effects."))
           result_.warnings.push_back(
               fmt::format("{} stands at the edge of what its data sheet allows, {:+.0f} deviations: measure "
                           "it, or something "

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -51,6 +52,9 @@ struct Moved {
   Estimate fitted;
   double nominal = 0.0;
   double deviations = 0.0;  ///< of its prior
+
+  /// Worth telling: further than a data sheet promises, or the size of an effect.
+  bool notable() const { return std::abs(deviations) > 1.0 || fitted.name.starts_with("effects."); }
 };
 
 struct LawTerm {

@@ -49,10 +49,11 @@ bool counted(const input::Dataset& data, const std::vector<std::vector<bool>>& m
 }
 
 /// Noise of the gauges from the second differences of what they show: what changes so fast is not the gas.
-double gauge_noise_Pa(const input::Dataset& data) {
+double gauge_noise_Pa(const input::Dataset& data, const Runs& runs) {
   double squares = 0.0;
   std::size_t count = 0;
-  for (const input::Run& run : data.runs) {
+  for (const std::size_t index : runs) {
+    const input::Run& run = data.runs[index];
     if (!run.muscle_pressure_Pa) continue;
     const auto& p = *run.muscle_pressure_Pa;
     std::vector<double> second;
@@ -123,7 +124,7 @@ Experiment::Experiment(const input::Dataset& data, std::vector<std::vector<bool>
   if (noise > 2.0 * floor_.ratio)
     floor_.ratio = floor_.noise = noise;  // counting alone can look like its own
   floor_.ratio = std::max(floor_.repeats, floor_.ratio);
-  floor_.pressure_Pa = gauge_noise_Pa(data);
+  floor_.pressure_Pa = gauge_noise_Pa(data, trusted);
 }
 
 std::size_t Experiment::rows(std::size_t run) const {

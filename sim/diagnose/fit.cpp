@@ -171,7 +171,7 @@ std::string descend(Misfit& misfit, Model& model, bool thorough) {
 KnownSlopes slopes_of_nominal(const Fitted& fitted) {
   KnownSlopes list;
   for (std::size_t j = 0; j < fitted.model.free.size(); ++j)
-    if (fitted.model.free[j].has_prior)
+    if (fitted.model.free[j].has_prior && !fitted.model.free[j].of_effect())
       list.emplace_back(fitted.model.free[j].path, fitted.columns.col(static_cast<Eigen::Index>(j)));
   return list;
 }

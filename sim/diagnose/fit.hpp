@@ -37,7 +37,7 @@ struct Fitted {
   std::string failure{};      ///< why there is no fit; empty if there is
 };
 
-/// The slopes of the parameters that have a prior.
+/// The slopes of the nominal parameters, without effects: those may move far.
 KnownSlopes slopes_of_nominal(const Fitted& fitted);
 
 /// A parameter that no reading depends on is refused: it keeps its value and is free no more.

@@ -15,8 +15,8 @@ constexpr std::size_t most_effects = 3, most_refits = 7, most_substitutes = 3, m
 /// Candidates that change the readings so alike are refitted whatever their score.
 constexpr double alike = 0.7;
 /// Scores below this share of the best are not worth a refit.
-constexpr double least_score =
-    0.05;  /// Noncentrality at which a test at 5 % has a power of 90 % (chi-square, one degree of freedom).
+constexpr double least_score = 0.05;
+/// Noncentrality at which a test at 5 % has a power of 90 % (chi-square, one degree of freedom).
 constexpr double visible = 10.5;
 
 /// Held-out mean square above the floor at which two effects at once are looked for, and the share of it that
@@ -97,6 +97,16 @@ std::optional<std::array<Trial, 2>> pair_of(const Case& c, const std::vector<Tri
     }
   }
   return std::nullopt;
+}
+
+/// What has been named itself is no alternative any more.
+void tidy_doubts(Naming& result) {
+  const auto named = [&](const std::string& effect) {
+    return std::any_of(result.effects.begin(), result.effects.end(),
+                       [&](const NamedEffect& other) { return other.name == effect; });
+  };
+  for (NamedEffect& effect : result.effects) std::erase_if(effect.confusable_with, named);
+  std::erase_if(result.doubts, [&](const Doubt& doubt) { return named(doubt.rival); });
 }
 
 /// Effects whose usual size would change these readings, next to what the free parameters can, by less than
@@ -209,6 +219,7 @@ Naming name_effects(const Case& c, const Contender& nominal, const Contender& re
     before = result.best.held_out;
   }
   drop_uncertain(c, result, step);
+  tidy_doubts(result);
   sort_by_importance(c, result);
   return result;
 }

@@ -121,7 +121,10 @@ std::vector<Parameter> nominal_parameters(const plant::Rig& nominal) {
       p.origin = value_of(nominal, p.path);
       const double size = p.origin - (p.path == candidate.amplitude ? candidate.absent : 0.0);
       p.scale = std::abs(size);
-      if (p.logarithmic) p.step *= p.scale;
+      if (p.logarithmic)
+        p.step *= p.scale;
+      else
+        p.scale = std::max(p.scale, std::abs(candidate.typical));
       p.logarithmic = false;
       p.has_prior = true;
       p.lowest = std::max(std::min(p.lowest, p.origin), p.origin - most_deviations * p.scale);

@@ -34,6 +34,7 @@ struct Parameter {
   bool has_prior = false;    ///< normal round `origin`, with `scale` as deviation
   bool logarithmic = false;  ///< counts in logarithms, from 1 in its unit
 
+  bool of_effect() const { return path.starts_with("effects."); }
   double unscaled(double number) const;
   double scaled(double value) const;
 };
@@ -43,7 +44,8 @@ struct Parameter {
 inline constexpr double most_deviations = 3.0;
 
 /// The nominal parameters, with priors as tight as a data sheet or a ruler. Those of effects that the rig has
-/// already count with them; their size is believed to a factor of a few.
+/// already count with them; their size is believed to a factor of a
+/// few, or to what is typical, whichever is more.
 std::vector<Parameter> nominal_parameters(const plant::Rig& nominal);
 
 /// Sizes below this share of the typical one are as good as absent.

@@ -14,8 +14,10 @@ constexpr std::string_view law_terms = "effects.residual_law.terms.";
 std::string words(const plant::ForceTerm& term) {
   if (term.of == plant::Basis::sine) {
     const bool shifted = std::abs(term.phase_rad) >= 0.005;
-    return fmt::format("sin(2 pi x / {:.3f} mm{})", 1e3 * term.wavelength_m,
-                       shifted ? fmt::format(" {:+.2f}", term.phase_rad) : "");
+    return fmt::format(
+        "sin(2 pi x / {:.3f} mm{})", 1e3 * term.wavelength_m,
+        shifted ? fmt::format(" {} {:.2f} rad", term.phase_rad < 0.0 ? "-" : "+", std::abs(term.phase_rad))
+                : "");
   }
   for (const auto& [basis, name] : names(plant::Basis{}))
     if (basis == term.of) return std::string(name);
@@ -83,13 +85,12 @@ std::string because(const Diagnosis& d) {
     case Verdict::recalibrate: {
       std::string moved;
       for (const Moved& m : d.recalibrated) {
-        if (std::abs(m.deviations) < 1.0) continue;
-        moved += fmt::format("{}{} from {:.4g} to {:.4g} {}", moved.empty() ? "" : ", ", m.fitted.name,
-                             m.nominal, m.fitted.value, m.fitted.unit == "1" ? "" : m.fitted.unit);
+        if (!m.notable()) continue;
+        moved += fmt::format("{}{} from {:.4g} to {:.4g}{}", moved.empty() ? "" : ", ", m.fitted.name,
+                             m.nominal, m.fitted.value, m.fitted.unit == "1" ? "" : " " + m.fitted.unit);
       }
-      return fmt::format(
-          "No effect is missing; other values of the nominal parameters explain the gap{}{}. {}",
-          moved.empty() ? "" : ": ", moved, gap);
+      return fmt::format("No effect is missing; other values of the rig's parameters explain the gap{}{}. {}",
+                         moved.empty() ? "" : ": ", moved, gap);
     }
     case Verdict::missing_effect: {
       std::string said;

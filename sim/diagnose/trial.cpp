@@ -33,10 +33,10 @@ Model without(const Model& model, std::size_t effect) {
   return smaller;
 }
 
-Contender contend(const Case& c, Model model, const KnownSlopes* known) {
+Contender contend(const Case& c, Model model, const KnownSlopes* known, bool thorough) {
   Contender contender;
-  contender.fitted =
-      fit(c.experiment, std::move(model), c.split.training, {.temperature = c.temperature, .known = known});
+  contender.fitted = fit(c.experiment, std::move(model), c.split.training,
+                         {.temperature = c.temperature, .thorough = thorough, .known = known});
   if (!contender.fitted.failure.empty()) return contender;
   try {
     contender.held_out = c.experiment.residuals(contender.fitted.model.rig, c.split.held_out);

@@ -48,8 +48,8 @@ inline constexpr double clear = 12.0;
 /// Held-out mean square above the floor at which there is nothing left to find.
 inline constexpr double nothing_left = 0.04;
 
-/// Fits a model to the training runs. `known` as in FitSettings.
-Contender contend(const Case& c, Model model, const KnownSlopes* known = nullptr);
+/// Fits a model to the training runs. `known`, `thorough` as in FitSettings.
+Contender contend(const Case& c, Model model, const KnownSlopes* known = nullptr, bool thorough = false);
 
 /// The model with one candidate more, at the size that serves best along the direction of its score.
 Model with(const Case& c, const Model& model, const Score& score);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <plant/rig.hpp>
@@ -33,6 +34,7 @@ struct ColumnPlace {
   template <class Report>
   void rules(Report& report) const {
     if (factor == 0.0) report("factor", "it must not be 0");
+    if (column.empty() && !unit.empty()) report("column", "it must not be empty");
   }
 };
 
@@ -53,6 +55,14 @@ struct ColumnMap {
   template <class Report>
   void rules(Report& report) const {
     if (rows_are_ticks && !time.absent()) report("rows_are_ticks", "and yet a column of time is named");
+    const std::pair<const char*, const ColumnPlace*> places[] = {{"time", &time},
+                                                                 {"current", &current},
+                                                                 {"contraction", &contraction},
+                                                                 {"muscle_pressure", &muscle_pressure}};
+    for (const auto& [key, place] : places)
+      for (const auto* other = places; other->second != place; ++other)
+        if (!place->absent() && place->column == other->second->column)
+          report(key, std::string("it stands in the same column as ") + other->first);
   }
 };
 

@@ -50,7 +50,10 @@ class Wanted {
 
  private:
   void add_time(const ColumnMap& map) {
-    if (map.rows_are_ticks) return;
+    if (map.rows_are_ticks) {
+      if (format_ == Format::csv || format_ == Format::mat) columns_.push_back({"time_s", "time_s", false});
+      return;
+    }
     if (!map.time.absent() || format_ == Format::csv || format_ == Format::mat)
       add("time", "time_s", map.time, true);
     else if (format_ == Format::lvm)
@@ -124,6 +127,8 @@ void read_table_of(Source source, Format format, const Wanted& wanted, const Col
   Table table = read_as(format, source, wanted.columns(), static_cast<std::size_t>(run.segment), found);
   Table::Column *current = table.find("current_mA"), *contraction = table.find("contraction_ratio");
   if (current == nullptr || contraction == nullptr) return;
+  if (const Table::Column* time = table.find("time_s"); time != nullptr && map.rows_are_ticks)
+    found.add(table, *time, 0, "rows_are_ticks is said, and yet the file holds time_s");
   convert_columns(table, map, dataset.rig);
   check_ticks(table, dataset.rig.tick_s, found);
   check_dac_range(table, *current, dataset.rig.dac.largest_current_mA, found);

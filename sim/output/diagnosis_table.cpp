@@ -42,7 +42,7 @@ std::string added(const Diagnosis& diagnosis) {
 std::string moved(const Diagnosis& diagnosis) {
   Grid grid({"parameter", "nominal", "fitted", "95 % interval", "deviations"}, 4);
   for (const auto& one : diagnosis.recalibrated) {
-    if (std::abs(one.deviations) <= 1.0) continue;
+    if (!one.notable()) continue;
     const Readable shown = readable(one.fitted);
     grid.add({one.fitted.name, readable(one.nominal, one.fitted.unit), shown.value, shown.interval,
               rounded(one.deviations, 1, true)});

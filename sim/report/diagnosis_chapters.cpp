@@ -104,10 +104,11 @@ std::string where_html(const Diagnosis& diagnosis, const plant::Rig& rig) {
 std::string ranking_html(const Diagnosis& diagnosis, const plant::Rig& rig) {
   if (diagnosis.ranking.empty()) return "";
   return paragraph(
-             "Every effect of the catalogue is tried. Its score is how far the misfit would fall with a "
+             "Every effect of the catalogue is scored. The score is how far the misfit would fall with a "
              "little of it, beyond what the nominal parameters can imitate; left of the dashed line it is "
-             "chance. The best "
-             "are fitted: under their bars stands what came of it, with the error left on the runs held "
+             "chance, and an effect that would have to act the wrong way round has none. The best of two "
+             "screenings, of the rig as described and as recalibrated, are fitted: under their bars stands "
+             "what came of it, with the error left on the runs held "
              "out. Once one is taken, all others are tried again in a further round. All bars have one "
              "scale.") +
          figures_html(ranking_pictures(diagnosis, rig));

@@ -153,6 +153,12 @@ TEST(Checks, WrongUnitsAreErrorsThatNameFileAndColumn) {
   EXPECT_NE(error(metres).find("metres"), std::string::npos);
 }
 
+TEST(Checks, ContractionWithTheOtherSignIsAnError) {
+  auto data = sound();
+  for (double& ratio : data.runs[0].contraction_ratio) ratio *= -0.5;
+  EXPECT_NE(error(data).find("it falls while the current rises"), std::string::npos);
+}
+
 TEST(Checks, PressureInAnotherUnitIsAnError) {
   auto kilopascal = with_gauge(), absolute = with_gauge();
   for (double& pressure : *kilopascal.runs[5].muscle_pressure_Pa) pressure *= 100.0;

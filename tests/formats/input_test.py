@@ -242,13 +242,24 @@ runs:
   - {id: a, file: a.lvm, load: 11.138 kg,
      columns: {time: {column: X_Value, unit: s}, current: {column: current_mA, unit: mA}, contraction: {column: contraction_ratio, unit: 1}}}
   - {id: d, file: d.csv, load: 11.138 kg,
-     columns: {rows_are_ticks: true, current: {column: current_mA, unit: mA}, contraction: {column: contraction_ratio, unit: 1}}}
+     columns: {time: {column: time_s, unit: s}, current: {column: current_mA, unit: mA}, contraction: {column: contraction_ratio, unit: 1}}}
 """)
         found = self.replay(folder)
         self.assertEqual([run["id"] for run in found], ["b", "c", "a", "d"])
         for run_ in found:
             self.assertEqual(run_["rmse"], self.expected[0]["rmse"])
             self.assertEqual(run_["solver"], self.expected[0]["solver"])
+
+    def test_a_map_that_contradicts_the_file_or_itself_is_refused(self):
+        (self.folder / "e.csv").write_text((self.data / "m1_c01.csv").read_text())
+        for columns, message in [
+                ("rows_are_ticks: true", "e.csv:2:1: error: rows_are_ticks is said, and yet the file holds time_s"),
+                ('current: {column: "", unit: A}', "it must not be empty"),
+                ("current: {column: current_mA, unit: mA}, contraction: {column: current_mA, unit: 1}",
+                 "it stands in the same column as current")]:
+            (self.folder / "e.yaml").write_text("schema: mckibben-dataset/1\n"
+                f"runs: [{{id: r, file: e.csv, load: 11 kg, columns: {{{columns}}}}}]\n")
+            self.assertIn(message, run(self.folder, "check", "e.yaml", status=65).stderr)
 
     def test_what_is_wrong_in_a_mat_is_named(self):
         def refused(message, **changes):

@@ -54,6 +54,15 @@ TEST(Diagnose, FitsTheSizeOfAnEffectThatTheRigHasAlready) {
   EXPECT_GT(found.gap.closed, 0.95);
 }
 
+TEST(Diagnose, TakesOutAnEffectThatTheRigHasInVain) {
+  auto data = small(plant::Rig{});
+  data.rig.effects.get<plant::GuideFriction>().coefficient = 0.1;
+  const auto found = diagnosis_of(data, 0);
+  EXPECT_EQ(found.verdict, Verdict::recalibrate);
+  EXPECT_LT(found.corrected.effects.get<plant::GuideFriction>().coefficient, 2e-3);
+  EXPECT_NE(found.because.find("effects.guide_friction.coefficient from 0.1 to"), std::string::npos);
+}
+
 TEST(Diagnose, IgnoresAGaugeThatContradictsTheMotion) {
   plant::Rig truth;
   truth.gauge.fitted = true;
