@@ -24,6 +24,8 @@ constexpr double first_temperature = 20.0;
 constexpr double near_floor = 4.0;
 /// Mean squares above the floor: what is worth a search for a law, and what no disturbance would leave.
 constexpr double worth_a_law = 0.15, beyond_disturbance = 60.0;
+/// What no fit of the right effect that stopped early would leave.
+constexpr double hopeless = 600.0;
 /// Shares of the gap that effects must close to be named, to be named whatever is left, and a law to be
 /// believed.
 constexpr double least_named = 0.4, most_of_it = 0.9, least_law = 0.3;
@@ -184,7 +186,7 @@ class Workflow {
     if (lawful) {
       result_.verdict = Verdict::unknown_effect;
       chosen_ = &law_.contender;
-    } else if (named && (left < beyond_disturbance || named_share >= most_of_it) &&
+    } else if (named && (left < hopeless || named_share >= most_of_it) &&
                (named_share >= least_named || excess(reference) < worth_a_law)) {
       result_.verdict = Verdict::missing_effect;
       result_.effects = naming_.effects;

@@ -78,8 +78,10 @@ void drop_uncertain(const Case& c, Naming& result, const Step& step) {
     for (std::size_t j = 0; j < bounds.size(); ++j) {
       const Parameter& p = fitted.model.free[j];
       if (p.path != candidate.amplitude) continue;
-      const bool either = bounds[j].low < candidate.absent && bounds[j].high > candidate.absent;
-      certain = !either && bounds[j].low > p.lowest && bounds[j].high < p.highest;
+      // Towards "absent"; that it may be as large as its law allows is no reason.
+      const bool above = bounds[j].value > candidate.absent;
+      const double edge = candidate.either_sign ? candidate.absent : above ? p.lowest : p.highest;
+      certain = above ? bounds[j].low > edge : bounds[j].high < edge;
     }
     if (certain) {
       ++i;

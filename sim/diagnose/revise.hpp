@@ -13,7 +13,7 @@ inline constexpr double least_of_all = 0.01;
 /// and swaps those that another one beats now.
 void revise(const Case& c, Naming& result, const Eigen::VectorXd& reference, const Step& step);
 
-/// Drops effects whose 95 % interval reaches "absent" or a bound.
+/// Drops effects whose 95 % interval reaches "absent".
 void drop_uncertain(const Case& c, Naming& result, const Step& step);
 
 /// Sorts by how much worse the runs held out are without each effect, everything else as it is.
