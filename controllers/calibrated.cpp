@@ -17,6 +17,7 @@ constexpr double weighing_tolerance = 0.10;
 
 CalibratedController::CalibratedController(const CalibratedSettings& settings, const Knowledge& knowledge)
     : settings_(settings), knowledge_(knowledge) {
+  settings_.follow(working_range(knowledge));
   if (!settings.assumed_load_kg)
     weighing_.emplace(settings.weighing, settings.model.contraction_friction, settings.model.range,
                       knowledge);
@@ -32,7 +33,7 @@ Command CalibratedController::rest() {
 std::int64_t CalibratedController::preparation_ticks() const {
   if (!weighing_) return 0;
   const ValveLine& valve = knowledge_.valve;
-  const double way_s = (valve.span_current_mA - valve.zero_current_mA) / settings_.weighing.speed_mA_per_s;
+  const double way_s = (valve.span_current_mA - valve.zero_current_mA) / *settings_.weighing.speed_mA_per_s;
   return weighing_->ticks() + std::llround((way_s + settling_s) / knowledge_.tick_s);
 }
 
@@ -50,9 +51,9 @@ Command CalibratedController::step(const Reading& reading) {
     weighed_ = weighing_->result();
     know(weighed_.load_kg);
   }
-  const double low_mA = settings_.weighing.low_mA;
+  const double low_mA = *settings_.weighing.low_mA;
   const double way_mA =
-      static_cast<double>(tick - weighing_->ticks()) * knowledge_.tick_s * settings_.weighing.speed_mA_per_s;
+      static_cast<double>(tick - weighing_->ticks()) * knowledge_.tick_s * *settings_.weighing.speed_mA_per_s;
   return {settle_mA(reading, std::min(first_mA_, low_mA + way_mA))};
 }
 

@@ -19,6 +19,8 @@ struct CalibratedSettings {
   WeighingSettings weighing;
   bool extrapolate_load = false, extrapolate_target = false;
 
+  void follow(const CurrentRange& range) { weighing.follow(range); }
+
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
     visit.required("calibration", self.calibration, "path of the calibration that `calibrate` wrote");

@@ -18,6 +18,11 @@ struct FeedforwardPidSettings : CalibratedSettings, PidTerms {
   /// Throws std::invalid_argument if a gain is missing.
   std::unique_ptr<Controller> make(const Knowledge& knowledge) const;
 
+  void follow(const CurrentRange& range) {
+    CalibratedSettings::follow(range);
+    PidTerms::follow(range);
+  }
+
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
     visit("name", self.name, "name in tables and file names");

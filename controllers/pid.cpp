@@ -19,7 +19,7 @@ double given(const std::optional<double>& gain) {
 class Pid final : public Controller {
  public:
   Pid(const PidSettings& settings, const Knowledge& knowledge)
-      : loop_(settings, knowledge), rest_mA_(settings.rest_current_mA) {}
+      : loop_(settings, knowledge), rest_mA_(*settings.rest_current_mA) {}
 
   Command rest() override { return {loop_.clamped(rest_mA_)}; }
   Command step(const Reading& reading) override { return {loop_.step(reading, rest_mA_)}; }
@@ -29,17 +29,32 @@ class Pid final : public Controller {
   double rest_mA_;
 };
 
+PidTerms followed(PidTerms terms, const Knowledge& knowledge) {
+  terms.follow(working_range(knowledge));
+  return terms;
+}
+
 }  // namespace
 
+void PidTerms::follow(const CurrentRange& range) {
+  if (!lowest_current_mA) lowest_current_mA = range.lowest_mA;
+  if (!highest_current_mA) highest_current_mA = range.highest_mA;
+}
+
+void PidSettings::follow(const CurrentRange& range) {
+  PidTerms::follow(range);
+  if (!rest_current_mA) rest_current_mA = lowest_current_mA;
+}
+
 PidLoop::PidLoop(const PidTerms& terms, const Knowledge& knowledge)
-    : terms_(terms),
+    : terms_(followed(terms, knowledge)),
       knowledge_(knowledge),
       K_mA_(given(terms.proportional_mA)),
       Ti_s_(given(terms.integral_time_s)),
       Td_s_(given(terms.derivative_time_s)),
       h_s_(terms.sample_ticks * knowledge.tick_s),
-      highest_mA_(std::min(terms.highest_current_mA, knowledge.largest_current_mA)),
-      lowest_mA_(std::min(terms.lowest_current_mA, highest_mA_)),
+      highest_mA_(std::min(*terms_.highest_current_mA, knowledge.largest_current_mA)),
+      lowest_mA_(std::min(*terms_.lowest_current_mA, highest_mA_)),
       past_counts_(static_cast<std::size_t>(terms.feedback_delay_ticks) + 1) {
   const double usual_s = Td_s_ > 0.0 ? std::sqrt(Ti_s_ * Td_s_) : Ti_s_;
   Tt_s_ = std::max(terms.tracking_time_s.value_or(usual_s), h_s_);  // faster than a sample would swing
@@ -83,7 +98,9 @@ double PidLoop::sample(std::int64_t counts, std::int64_t tick, double base_mA) {
 }
 
 std::unique_ptr<Controller> PidSettings::make(const Knowledge& knowledge) const {
-  return std::make_unique<Pid>(*this, knowledge);
+  PidSettings settings = *this;
+  settings.follow(working_range(knowledge));
+  return std::make_unique<Pid>(settings, knowledge);
 }
 
 }  // namespace mckibben::controllers

@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include <controllers/controller.hpp>
+#include <controllers/current_range.hpp>
 
 namespace mckibben::controllers {
 
@@ -23,12 +23,14 @@ struct PidTerms {
   double derivative_filter = 10.0;
   double setpoint_weight = 1.0;
   std::optional<double> tracking_time_s = std::nullopt;
-  double lowest_current_mA = 4.0, highest_current_mA = 20.0;
+  std::optional<double> lowest_current_mA = std::nullopt, highest_current_mA = std::nullopt;
   int feedback_delay_ticks = 0;
   std::optional<double> tuning_load_kg = std::nullopt;
 
   /// Whether some gain is left to tuning.
   bool needs_tuning() const { return !proportional_mA || !integral_time_s || !derivative_time_s; }
+  /// Limits that are left open become the ends of `range`.
+  void follow(const CurrentRange& range);
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
@@ -44,15 +46,20 @@ struct PidTerms {
     visit("setpoint_weight", self.setpoint_weight, "1", 0.0, 1.0, "b: share of the target in the K term");
     visit("tracking_time", self.tracking_time_s, "s", 1e-4, 1e6,
           "Tt: how fast a limit unwinds the integral; sqrt(Ti Td) if absent, Ti without derivative action");
-    visit("lowest_current", self.lowest_current_mA, "mA", 0.0, 100.0, "lower limit of the output");
-    visit("highest_current", self.highest_current_mA, "mA", 0.0, 100.0, "upper limit of the output");
+    visit("lowest_current", self.lowest_current_mA, "mA", 0.0, 100.0,
+          "lower limit of the output; the valve's zero_current if absent");
+    visit(
+        "highest_current", self.highest_current_mA, "mA", 0.0, 100.0,
+        "upper limit of the output; the valve's span_current, or the DAC's largest_current if that is lower, "
+        "if absent");
     visit("feedback_delay_ticks", self.feedback_delay_ticks, 0, 1000, "age of the counts that are used");
     visit("tuning_load", self.tuning_load_kg, "kg", 0.0, 500.0,
           "load at which missing gains are tuned; the scenario's median load if absent");
   }
   template <class Report>
   void rules(Report& report) const {
-    if (highest_current_mA <= lowest_current_mA) report("highest_current", "must be above lowest_current");
+    if (lowest_current_mA && highest_current_mA && *highest_current_mA <= *lowest_current_mA)
+      report("highest_current", "must be above lowest_current");
   }
 };
 
@@ -87,8 +94,9 @@ class PidLoop {
 struct PidSettings : PidTerms {
   static constexpr std::string_view kind = "pid";
   std::string name{kind};
-  double rest_current_mA = 4.0;
+  std::optional<double> rest_current_mA = std::nullopt;
 
+  void follow(const CurrentRange& range);
   /// Throws std::invalid_argument if a gain is missing.
   std::unique_ptr<Controller> make(const Knowledge& knowledge) const;
 
@@ -97,12 +105,13 @@ struct PidSettings : PidTerms {
     visit("name", self.name, "name in tables and file names");
     PidTerms::fields(self, visit);
     visit("rest_current", self.rest_current_mA, "mA", 0.0, 100.0,
-          "current before the first reading, and output without error");
+          "current before the first reading, and output without error; lowest_current if absent");
   }
   template <class Report>
   void rules(Report& report) const {
     PidTerms::rules(report);
-    if (rest_current_mA < lowest_current_mA || rest_current_mA > highest_current_mA)
+    if (rest_current_mA && ((lowest_current_mA && *rest_current_mA < *lowest_current_mA) ||
+                            (highest_current_mA && *rest_current_mA > *highest_current_mA)))
       report("rest_current", "must lie between lowest_current and highest_current");
   }
 };

@@ -1,4 +1,5 @@
 // What holds for every controller of the table.
+#include <algorithm>
 #include <concepts>
 #include <type_traits>
 
@@ -26,6 +27,27 @@ std::unique_ptr<Controller> make(const Settings& settings, const Knowledge& know
 
 const std::string& name_of(const Settings& settings) {
   return std::visit([](const auto& one) -> const std::string& { return one.name; }, settings);
+}
+
+void follow(Settings& settings, const CurrentRange& range) {
+  std::visit(
+      [&](auto& one) {
+        if constexpr (requires { one.follow(range); }) one.follow(range);
+      },
+      settings);
+}
+
+std::optional<CurrentRange> limits_of(const Settings& settings, const Knowledge& knowledge) {
+  const auto* open_loop = std::get_if<OpenLoopSettings>(&settings);
+  if (open_loop != nullptr && open_loop->mode == OpenLoopMode::triangle) return std::nullopt;
+  Settings complete = settings;
+  follow(complete, working_range(knowledge));
+  if (const PidTerms* terms = pid_terms(complete))
+    return CurrentRange{*terms->lowest_current_mA,
+                        std::min(*terms->highest_current_mA, knowledge.largest_current_mA)};
+  if (calibrated(complete) != nullptr || std::holds_alternative<StaticInverseSettings>(complete))
+    return working_range(knowledge);
+  return std::nullopt;
 }
 
 PidTerms* pid_terms(Settings& settings) {

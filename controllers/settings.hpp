@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <variant>
 
@@ -25,6 +26,12 @@ std::unique_ptr<Controller> make(const Settings& settings, const Knowledge& know
 
 /// The name it goes by in tables and files.
 const std::string& name_of(const Settings& settings);
+
+/// Currents that are left open become what they follow: the ends of what the rig's valve answers to.
+void follow(Settings& settings, const CurrentRange& range);
+
+/// Between which currents the controller works; none for a given current, which has no limits of its own.
+std::optional<CurrentRange> limits_of(const Settings& settings, const Knowledge& knowledge);
 
 /// The feedback terms of a controller that has some, else null.
 PidTerms* pid_terms(Settings& settings);

@@ -59,8 +59,12 @@ double TriangleCurrent::at(double time_s) const {
   return std::lerp(low_mA, high_mA, phase < 0.5 ? 2.0 * phase : 2.0 - 2.0 * phase);
 }
 
+void StepCurrent::follow(const CurrentRange& range) {
+  if (!start_mA) start_mA = range.lowest_mA;
+}
+
 double StepCurrent::at(double time_s) const {
-  double current_mA = start_mA;
+  double current_mA = start_mA.value();
   for (const CurrentMove& move : moves) {
     if (time_s < move.at_s - instant_s) break;
     current_mA = move.to_mA;
@@ -87,8 +91,10 @@ std::unique_ptr<Controller> SineCurrent::make(const Knowledge&) const {
 std::unique_ptr<Controller> TriangleCurrent::make(const Knowledge&) const {
   return std::make_unique<Player<TriangleCurrent>>(*this);
 }
-std::unique_ptr<Controller> StepCurrent::make(const Knowledge&) const {
-  return std::make_unique<Player<StepCurrent>>(*this);
+std::unique_ptr<Controller> StepCurrent::make(const Knowledge& knowledge) const {
+  StepCurrent settings = *this;
+  settings.follow(working_range(knowledge));
+  return std::make_unique<Player<StepCurrent>>(std::move(settings));
 }
 std::unique_ptr<Controller> StairCurrent::make(const Knowledge&) const {
   return std::make_unique<Player<StairCurrent>>(*this);

@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include <controllers/controller.hpp>
+#include <controllers/current_range.hpp>
 
 namespace mckibben::controllers {
 
@@ -91,16 +91,19 @@ struct CurrentMove {
 struct StepCurrent {
   static constexpr std::string_view kind = "step_current";
   std::string name{kind};
-  double start_mA = 4.0;
+  std::optional<double> start_mA = std::nullopt;
   std::vector<CurrentMove> moves;
 
+  void follow(const CurrentRange& range);
+  /// Only once the start is known.
   double at(double time_s) const;
   std::unique_ptr<Controller> make(const Knowledge& knowledge) const;
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
     visit("name", self.name, "name in tables and file names");
-    visit("start", self.start_mA, "mA", 0.0, 100.0, "current before the first step");
+    visit("start", self.start_mA, "mA", 0.0, 100.0,
+          "current before the first step; the valve's zero_current if absent");
     visit.required("moves", self.moves, "steps in order of time; an empty list holds the start");
   }
   template <class Report>

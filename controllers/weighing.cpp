@@ -18,25 +18,34 @@ constexpr int fewest_samples = 5;
 
 }  // namespace
 
-Weighing::Weighing(const WeighingSettings& settings, const FrictionModel& friction,
-                   const CalibratedRange& range, const Knowledge& knowledge)
-    : settings_(settings),
-      friction_(friction),
+void WeighingSettings::follow(const CurrentRange& range) {
+  if (!speed_mA_per_s) speed_mA_per_s = 0.375 * range.width_mA();
+  if (!low_mA) low_mA = range.lowest_mA;
+  if (!high_mA) high_mA = range.lowest_mA + 0.25 * range.width_mA();
+}
+
+Weighing::Weighing(WeighingSettings settings, const FrictionModel& friction, const CalibratedRange& range,
+                   const Knowledge& knowledge)
+    : friction_(friction),
       range_(range),
       braid_(knowledge.model),
       valve_(knowledge.valve),
       contraction_per_count_(knowledge.contraction_per_count),
       tick_s_(knowledge.tick_s),
       contractions_(settings.contractions),
-      ticks_each_(std::llround(
-          std::ceil(2.0 * (settings.high_mA - settings.low_mA) / settings.speed_mA_per_s / tick_s_))),
-      seen_(static_cast<std::size_t>(settings.contractions)) {}
+      seen_(static_cast<std::size_t>(settings.contractions)) {
+  settings.follow(working_range(knowledge));
+  speed_mA_per_s_ = *settings.speed_mA_per_s;
+  low_mA_ = *settings.low_mA;
+  high_mA_ = *settings.high_mA;
+  ticks_each_ = std::llround(std::ceil(2.0 * (high_mA_ - low_mA_) / speed_mA_per_s_ / tick_s_));
+}
 
 double Weighing::current_mA(std::int64_t tick) const {
-  const double rise_s = (settings_.high_mA - settings_.low_mA) / settings_.speed_mA_per_s;
+  const double rise_s = (high_mA_ - low_mA_) / speed_mA_per_s_;
   const double time_s = static_cast<double>(tick % ticks_each_) * tick_s_;
-  const double from_top_mA = settings_.speed_mA_per_s * std::abs(time_s - rise_s);
-  return std::clamp(settings_.high_mA - from_top_mA, settings_.low_mA, settings_.high_mA);
+  const double from_top_mA = speed_mA_per_s_ * std::abs(time_s - rise_s);
+  return std::clamp(high_mA_ - from_top_mA, low_mA_, high_mA_);
 }
 
 // The acceleration is left out of T 4.31, as T 4.3 says it may. Its mean over a contraction is the speed
@@ -55,7 +64,7 @@ void Weighing::see(std::int64_t tick, std::int64_t counts) {
     return;
   const double pressure_Pa = valve_.pressure_Pa(current_mA(tick));
   const double friction_N =
-      friction_.coefficient(e, settings_.speed_mA_per_s) * braid_.contact_surface_m2(e) * pressure_Pa;
+      friction_.coefficient(e, speed_mA_per_s_) * braid_.contact_surface_m2(e) * pressure_Pa;
   one.sum_kg += (braid_.force_N(e, pressure_Pa) - friction_N) / gravity_m_per_s2;
   ++one.samples;
 }
@@ -71,7 +80,7 @@ WeighedLoad Weighing::result() const {
            << static_cast<double>(one.highest_counts) * contraction_per_count_ << ", of which " << one.samples
            << " samples can be used (at least " << fewest_samples
            << "; calibrated are contraction ratios from " << range_.lowest_ratio << " to "
-           << range_.highest_ratio << "). A higher weighing.high (now " << settings_.high_mA
+           << range_.highest_ratio << "). A higher weighing.high (now " << high_mA_
            << " mA) lifts it further, a lower weighing.speed gives more samples";
       throw ControllerFailure(text.str());
     }

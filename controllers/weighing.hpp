@@ -3,30 +3,38 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string_view>
 #include <vector>
 
 #include <controllers/calibration.hpp>
-#include <controllers/controller.hpp>
+#include <controllers/current_range.hpp>
 
 namespace mckibben::controllers {
 
 /// The triangles of current that lift the load.
 struct WeighingSettings {
   int contractions = 5;
-  double speed_mA_per_s = 6.0;
-  double low_mA = 4.0, high_mA = 8.0;
+  std::optional<double> speed_mA_per_s = std::nullopt;
+  std::optional<double> low_mA = std::nullopt, high_mA = std::nullopt;
+
+  /// What is left open becomes the thesis's share of `range`: of its 4 to 20 mA, up to 8 mA at 6 mA/s
+  /// (T 4.3).
+  void follow(const CurrentRange& range);
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
     visit("contractions", self.contractions, 2, 1000, "how often the load is lifted (T 4.3: five times)");
-    visit("speed", self.speed_mA_per_s, "mA/s", 1e-3, 1e5, "speed of the current");
-    visit("low", self.low_mA, "mA", 0.0, 100.0, "current between two contractions");
-    visit("high", self.high_mA, "mA", 0.0, 100.0, "current at the top of each");
+    visit("speed", self.speed_mA_per_s, "mA/s", 1e-3, 1e5,
+          "speed of the current; 3/8 of the valve's span in a second if absent");
+    visit("low", self.low_mA, "mA", 0.0, 100.0,
+          "current between two contractions; the valve's zero_current if absent");
+    visit("high", self.high_mA, "mA", 0.0, 100.0,
+          "current at the top of each; a quarter of the valve's span up if absent");
   }
   template <class Report>
   void rules(Report& report) const {
-    if (high_mA <= low_mA) report("high", "must be above low");
+    if (low_mA && high_mA && *high_mA <= *low_mA) report("high", "must be above low");
   }
 };
 
@@ -38,7 +46,7 @@ struct WeighedLoad {
 /// One weighing, tick by tick: `current_mA` is what the DAC is to give, `see` is told what came of it.
 class Weighing {
  public:
-  Weighing(const WeighingSettings& settings, const FrictionModel& friction, const CalibratedRange& range,
+  Weighing(WeighingSettings settings, const FrictionModel& friction, const CalibratedRange& range,
            const Knowledge& knowledge);
 
   std::int64_t ticks() const { return contractions_ * ticks_each_; }
@@ -59,13 +67,13 @@ class Weighing {
     std::int64_t lowest_counts = 0, highest_counts = 0;
   };
 
-  WeighingSettings settings_;
   FrictionModel friction_;
   CalibratedRange range_;
   ForceModel braid_;
   ValveLine valve_;
   double contraction_per_count_, tick_s_;
-  std::int64_t contractions_, ticks_each_;
+  std::int64_t contractions_, ticks_each_ = 0;
+  double speed_mA_per_s_ = 0.0, low_mA_ = 0.0, high_mA_ = 0.0;
   std::vector<Contraction> seen_;
 };
 

@@ -11,6 +11,7 @@ Braid::Braid(const Muscle& muscle) {
   k_ = muscle.end_correction;
   area_m2_ = std::numbers::pi * muscle.rest_radius_m * muscle.rest_radius_m;
   length_m_ = muscle.rest_length_m;
+  stop_N_per_m_ = muscle.stop_stiffness_N_per_m;
   volume_at_rest_m3_ = muscle.dead_volume_m3 + area_m2_ * length_m_;
   surface_factor_m2_ = 2.0 * std::numbers::pi * muscle.rest_radius_m * length_m_ * sine;
   surface_cosine_ = muscle.contact_surface == ContactSurface::squared ? cosine * cosine : cosine;

@@ -61,10 +61,15 @@ class Braid {
 
   double largest_contraction_ratio() const { return (1.0 - std::sqrt(b_ / a_)) / k_; }  ///< e_max (T 2.10)
   double largest_force_N(double pressure_Pa) const { return area_m2_ * pressure_Pa * (a_ - b_); }  ///< T 2.9
+  /// Largest load [kg] that the taut threads bear: put on them at once it may stretch them by half of what
+  /// lays them along the axis, where the laws end.
+  double largest_load_kg() const {
+    return -0.25 * lowest_ratio_ * length_m_ * stop_N_per_m_ / gravity_m_per_s2;
+  }
   double rest_length_m() const { return length_m_; }
 
  private:
-  double a_, b_, k_, area_m2_, length_m_, volume_at_rest_m3_;
+  double a_, b_, k_, area_m2_, length_m_, volume_at_rest_m3_, stop_N_per_m_;
   double surface_factor_m2_, surface_cosine_, lowest_ratio_, highest_ratio_;
 };
 

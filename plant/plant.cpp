@@ -24,6 +24,7 @@ Plant::Plant(const Rig& rig, double load_kg)
       unit_flow_(restriction(rig, 1.0)),
       effects_(!rig.effects.absent()),
       remembers_(rig.effects.remember()),
+      polytropic_(rig.effects.gas_exponent() != 1.0),
       mass_kg_(load_kg + rig.joint.load_offset_kg +
                rig.joint.wheel_inertia_kg_m2 / (rig.joint.wheel_radius_m * rig.joint.wheel_radius_m)),
       weight_N_((load_kg + rig.joint.load_offset_kg) * gravity_m_per_s2),
@@ -43,9 +44,12 @@ State<double> Plant::at_rest(const Held& held) const {
 }
 
 double Plant::event_margin(const State<double>& state, const Memory<double>& memory, const Held& held) const {
-  // Break-away margin while sticking (a guard on the speed would rest at zero), the speed while slipping.
-  if (held.slip == Slip::rising) return state.joint.contraction_speed_per_s;
-  if (held.slip == Slip::falling) return -state.joint.contraction_speed_per_s;
+  // Break-away margin while sticking (a guard on the speed would rest at zero). While slipping the speed,
+  // with a little to spare: a load that starts from rest the wrong way would begin at zero and never cross
+  // it.
+  constexpr double spare_per_s = 1e-9;
+  if (held.slip == Slip::rising) return spare_per_s + state.joint.contraction_speed_per_s;
+  if (held.slip == Slip::falling) return spare_per_s - state.joint.contraction_speed_per_s;
   const auto now = moment(state, memory, held);
   return now.friction_level_N - std::abs(now.friction_force_N);
 }
@@ -73,6 +77,40 @@ double Plant::mechanical_energy_J(const State<double>& state) const {
   const double length = braid_.rest_length_m();
   const double speed = length * state.joint.contraction_speed_per_s;
   return 0.5 * mass_kg_ * speed * speed + weight_N_ * length * state.joint.contraction_ratio;
+}
+
+Ledger<double> Plant::opened(const State<double>& state) const {
+  const double valve_kg =
+      (state.side.valve_pressure_Pa + rig_.gas.atmosphere_Pa) * rig_.valve.volume_m3 / gas_energy_J_per_kg_;
+  Ledger<double> books{};
+  books.valve_air_kg = valve_kg;
+  books.muscle_air_kg = gas_mass_kg(state) - valve_kg;
+  return books;
+}
+
+Imbalance Plant::imbalance(const State<double>& from, const State<double>& to,
+                           const Ledger<double>& books) const {
+  const double first_kg = gas_mass_kg(from), all_kg = first_kg + books.air_drawn_kg;
+  const double net_kg = books.air_drawn_kg - books.air_vented_kg - books.air_leaked_kg;
+  double lost_kg = net_kg - (gas_mass_kg(to) - first_kg);
+  if (polytropic_) {
+    // p V changes by n R T of what flows in and by (1 - n) of the work done; what flows is mass as well.
+    const double n = rig_.effects.gas_exponent();
+    lost_kg = (n * books.air_inflow_J - (n - 1.0) * books.gas_work_J) / gas_energy_J_per_kg_ -
+              (gas_mass_kg(to) - first_kg);
+    const double missing_kg = net_kg - (books.valve_air_kg + books.muscle_air_kg - first_kg);
+    lost_kg = std::max(std::abs(lost_kg), std::abs(missing_kg));
+  }
+
+  const double lost_J = books.braid_work_J + books.stop_work_J + books.effects_work_J -
+                        books.thread_friction_work_J - books.guide_work_J -
+                        (mechanical_energy_J(to) - mechanical_energy_J(from));
+  // A load that hardly moved did no work to speak of: count at least that of a hundredth of the length.
+  const double least_J = 0.01 * weight_N_ * braid_.rest_length_m();
+  const double work_J = std::abs(books.braid_work_J) + std::abs(books.stop_work_J) +
+                        std::abs(books.effects_work_J) + std::abs(books.thread_friction_work_J) +
+                        std::abs(books.guide_work_J);
+  return {std::abs(lost_kg) / all_kg, std::abs(lost_J) / std::max(work_J, least_J)};
 }
 
 }  // namespace mckibben::plant

@@ -56,7 +56,9 @@ class Plant {
   State<S> rates(const State<S>& state, const Moment<S>& now) const;
 
   template <class S>
-  Ledger<S> ledger_rates(const Moment<S>& now) const;
+  Ledger<S> ledger_rates(const State<S>& state, const Moment<S>& now, const Ledger<double>& books) const;
+  /// A ledger as it is opened: nothing has come or gone, and all gas has the walls' temperature.
+  Ledger<double> opened(const State<double>& state) const;
 
   /// Whether every law is defined here: finite, braid neither folded nor torn, pressures above vacuum.
   bool in_domain(const State<double>& state) const {
@@ -71,6 +73,9 @@ class Plant {
   /// Whether an effect with a memory is switched on.
   bool remembers() const { return remembers_; }
 
+  /// Whether the gas has a temperature of its own, which its ledger follows.
+  bool polytropic() const { return polytropic_; }
+
   /// Exact stick and slip: falls through zero when the slip mode must change. Only with Coulomb friction.
   bool has_events() const { return rig_.friction.memory == FrictionMemory::coulomb; }
   double event_margin(const State<double>& state, const Memory<double>& memory, const Held& held) const;
@@ -80,14 +85,19 @@ class Plant {
   const Rig& rig() const { return rig_; }
   /// Weight [N] of what hangs on the wheel.
   double weight_N() const { return weight_N_; }
-  /// Mass of gas [kg] in valve and muscle.
+  /// Mass of gas [kg] in valve and muscle, at the walls' temperature.
   double gas_mass_kg(const State<double>& state) const;
   /// Kinetic and potential energy of the load [J], zero at rest at e = 0.
   double mechanical_energy_J(const State<double>& state) const;
+  /// What the ledger cannot account for of the way from one state to another.
+  Imbalance imbalance(const State<double>& from, const State<double>& to, const Ledger<double>& books) const;
 
  private:
   template <class S>
   Instant<S> instant(const State<S>& state, const Moment<S>& now) const;
+  template <class S>
+  void gas_books(const State<S>& state, const Moment<S>& now, const Ledger<double>& books,
+                 Ledger<S>& rates) const;
   template <class S>
   void gas_balance(const State<S>& state, const Memory<S>& memory, const Held& held, Moment<S>& now) const;
   template <class S>
@@ -96,7 +106,7 @@ class Plant {
   Rig rig_;
   Braid braid_;
   Restriction valve_, hose_, unit_flow_;
-  bool effects_, remembers_;  // any switched on; any with a memory
+  bool effects_, remembers_, polytropic_;  // any switched on; any with a memory; the gas is not isothermal
   double mass_kg_, weight_N_, gas_energy_J_per_kg_, supply_Pa_;
 };
 
@@ -220,16 +230,48 @@ State<S> Plant::rates(const State<S>& state, const Moment<S>& now) const {
 }
 
 template <class S>
-Ledger<S> Plant::ledger_rates(const Moment<S>& now) const {
+Ledger<S> Plant::ledger_rates(const State<S>& state, const Moment<S>& now,
+                              const Ledger<double>& books) const {
   const S& v = now.speed_m_per_s;
-  return {now.supply_flow,
-          now.vent_flow,
-          now.leak_flow,
-          S(now.braid_force_N * v),
-          S(-now.friction_force_N * v),
-          S(-now.guide_force_N * v),
-          S(now.stop_force_N * v),
-          S(now.effects_pull_N * v)};
+  const S none = S(0.0);
+  Ledger<S> rates{now.supply_flow,
+                  now.vent_flow,
+                  now.leak_flow,
+                  S(now.braid_force_N * v),
+                  S(-now.friction_force_N * v),
+                  S(-now.guide_force_N * v),
+                  S(now.stop_force_N * v),
+                  S(now.effects_pull_N * v),
+                  none,
+                  none,
+                  none,
+                  none};
+  if (polytropic_) gas_books(state, now, books, rates);
+  return rates;
+}
+
+// The pressure rates count each flow q as the enthalpy of q at the walls' temperature T. Gas of another
+// temperature carries it with another mass: q T/T_gas of the volume it leaves, where p V = m R T_gas.
+template <class S>
+void Plant::gas_books(const State<S>& state, const Moment<S>& now, const Ledger<double>& books,
+                      Ledger<S>& rates) const {
+  const double atmosphere = rig_.gas.atmosphere_Pa, RT = gas_energy_J_per_kg_;
+  const S muscle_Pa = state.side.muscle_pressure_Pa + atmosphere;
+  const S in_valve = books.valve_air_kg * RT /
+                     ((state.side.valve_pressure_Pa + atmosphere) * rig_.valve.volume_m3);  // T/T_gas
+  const S in_muscle = books.muscle_air_kg * RT / (muscle_Pa * now.volume_m3);
+  const auto carried = [](const S& flow, const S& from, const S& back) {
+    return S(flow * (flow < 0.0 ? back : from));
+  };
+  const S outside = S(1.0);
+  rates.air_drawn_kg = carried(now.supply_flow, outside, in_valve);
+  rates.air_vented_kg = carried(now.vent_flow, in_valve, outside);
+  rates.air_leaked_kg = carried(now.leak_flow, in_muscle, outside);
+  const S through_hose = carried(now.hose_flow, in_valve, in_muscle);
+  rates.valve_air_kg = rates.air_drawn_kg - rates.air_vented_kg - through_hose;
+  rates.muscle_air_kg = through_hose - rates.air_leaked_kg;
+  rates.air_inflow_J = RT * (now.supply_flow - now.vent_flow - now.leak_flow);
+  rates.gas_work_J = muscle_Pa * now.volume_slope_m3 * state.joint.contraction_speed_per_s;
 }
 
 }  // namespace mckibben::plant

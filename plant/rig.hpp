@@ -249,6 +249,9 @@ struct Gauge {
 
 /// The whole rig, all parts of one muscle side and the joint it moves.
 struct Rig {
+  /// No valve or hose is quicker than this, and no step of a solver should have to be.
+  static constexpr double quickest_s = 1e-6;
+
   Muscle muscle;
   Friction friction;
   Valve valve;
@@ -277,6 +280,24 @@ struct Rig {
     visit("tick", self.tick_s, "s", 1e-4, 1.0, "time between two readings; the current is held in between");
     visit("settling_time", self.settling_time_s, "s", 0.0, 1000.0,
           "how long the first current is held before the first reading (rounded to ticks)");
+  }
+  /// Volumes must not fill in no time.
+  template <class Report>
+  void rules(Report& report) const {
+    const double supply_Pa = valve.supply_pressure_Pa + gas.atmosphere_Pa;
+    const double volume_rate_m3_per_s_Pa =
+        gas.gas_constant_J_per_kg_K * gas.temperature_K * gas.reference_density_kg_per_m3;
+    const auto filling_s = [&](double conductance_m3_per_s_Pa, double volume_m3, double difference_Pa) {
+      return volume_m3 * difference_Pa / (volume_rate_m3_per_s_Pa * conductance_m3_per_s_Pa * supply_Pa);
+    };
+    if (filling_s(valve.conductance_m3_per_s_Pa, valve.volume_m3, valve.proportional_band_Pa) < quickest_s)
+      report("valve",
+             "the open valve would move its volume by a whole proportional_band in less than 1 us: take a "
+             "smaller conductance, a larger volume or a wider proportional_band");
+    if (filling_s(hose.conductance_m3_per_s_Pa, valve.volume_m3, hose.linear_zone_Pa) < quickest_s)
+      report("hose",
+             "it would move the valve's volume by a whole linear_zone in less than 1 us: take a smaller "
+             "conductance, a larger linear_zone or a larger volume of the valve");
   }
 };
 

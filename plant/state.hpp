@@ -43,11 +43,21 @@ struct Ledger {
   S guide_work_J;            ///< taken by the load guide
   S stop_work_J;             ///< done by the taut threads on the load
   S effects_work_J;          ///< done by the pull of effects on the load
+  // Only where the gas is polytropic; else pressures and volumes tell what is there.
+  S valve_air_kg, muscle_air_kg;  ///< what is there, not a sum
+  S air_inflow_J;                 ///< R T of all that came less what went, as the gas law counts it
+  S gas_work_J;                   ///< done by the muscle's gas on its walls, atmosphere included
 };
 
-inline constexpr int state_size = 5, memory_size = Effects::memories, ledger_size = 8;
+inline constexpr int state_size = 5, memory_size = Effects::memories;
+inline constexpr int ledger_size = 12, isothermal_ledger_size = 8;
 static_assert(sizeof(State<double>) == state_size * sizeof(double));
 static_assert(sizeof(Ledger<double>) == ledger_size * sizeof(double));
+
+/// Share that a ledger leaves unexplained: of the gas that was there or came, of the work done.
+struct Imbalance {
+  double gas = 0.0, energy = 0.0;
+};
 
 /// Motion of a joint with Coulomb friction; `sticking` also means "not Coulomb's business" for LuGre threads.
 enum class Slip { sticking, rising, falling };

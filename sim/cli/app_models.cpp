@@ -75,7 +75,7 @@ void add_map(CLI::App& app, Asked& asked) {
             for (const auto& text : texts) how.loads_kg.push_back(positive_quantity(text, "kg", 500.0));
           },
           "Load such as \"8.87 kg\"; may be repeated (default: the thesis's five and its unseen 8.87 kg, "
-          "those that the calibration covers)")
+          "those that the calibration covers; of a calibration for other loads its ends and middle)")
       ->allow_extra_args(false)
       ->type_name("LOAD");
   add_rig(verb, asked.options, "(default: thesis)");

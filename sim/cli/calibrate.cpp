@@ -20,14 +20,16 @@ int calibrate_dataset(const std::string& path, const Options& options, const Cal
   const input::Dataset dataset = input::read_dataset(path);
   const auto home = std::filesystem::absolute(dataset.path).lexically_normal().parent_path();
   const auto where = destination(options, home.filename().string() + "-calibration");
-  keep_apart(where, home);
-  output::ResultFolder folder(where, "calibrate " + path);
+  keep_apart(where, dataset.inputs);
+  output::ResultFolder folder(where, "calibrate " + path, say);
 
   const thesis::CalibrationResult result = thesis::calibrate(dataset, how.fits);
   if (run::interrupted()) throw run::Interrupted();
   const std::string document = output::json_of(dataset, result, how.fits).dump(2) + "\n";
   const std::string report = output::report_of(dataset, result, how.fits, how.kgf);
-  folder.write("calibration.yaml", input::calibration_yaml(result.calibration));
+  std::string spreads = "# Spread (standard deviation over mean) of the samples round each model:\n";
+  for (const auto& line : output::meanings_of(result, how.fits)) spreads += "#   " + line + "\n";
+  folder.write("calibration.yaml", spreads + input::calibration_yaml(result.calibration));
   folder.write("calibration.json", document);
   folder.write("report.txt", report);
   const auto figures = thesis::figures(result, how.kgf);

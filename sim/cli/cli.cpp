@@ -1,9 +1,12 @@
 // Parsing of the command line (CLI11) and the one place where failures become exit statuses.
 #include <cstdio>
+#include <filesystem>
 #include <functional>
+#include <new>
 #include <sstream>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -14,20 +17,21 @@
 #include <sim/cli/exit_status.hpp>
 #include <sim/cli/options.hpp>
 #include <sim/cli/results.hpp>
+#include <sim/formats/table.hpp>
 #include <sim/input/diagnostics.hpp>
+#include <sim/input/utf8.hpp>
 #include <sim/output/folder.hpp>
 #include <sim/run/batch.hpp>
 
 namespace mckibben::cli {
 namespace {
 
-// Runs a verb and says on stderr what went wrong.
-int guarded(const std::function<int()>& verb) {
+/// Does it and says on stderr what went wrong.
+int guarded(const std::function<int()>& work) {
   const auto say = [](const char* text) { fmt::print(stderr, "{}\n", text); };
   try {
-    const int status = verb();
-    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
-      throw output::CannotWrite("cannot write to standard output");
+    const int status = work();
+    check_printed();
     return status;
   } catch (const input::BadInput& error) {
     say(error.what());
@@ -38,10 +42,22 @@ int guarded(const std::function<int()>& verb) {
   } catch (const output::CannotWrite& error) {
     fmt::print(stderr, "mckibben: {}\n", error.what());
     return cannot_write;
+  } catch (const formats::BadFile& error) {
+    fmt::print(stderr, "mckibben: {}\n", error.what());
+    return cannot_write;
   } catch (const run::Interrupted&) {
     say("mckibben: interrupted before there was a result; nothing was written, earlier results are as they "
         "were.\nThe same command begins again.");
     return interrupted;
+  } catch (const std::filesystem::filesystem_error& error) {
+    fmt::print(stderr, "mckibben: cannot use {}: {}\n", error.path1().string(), error.code().message());
+    return cannot_write;
+  } catch (const std::system_error& error) {
+    fmt::print(stderr, "mckibben: this machine does not give what is needed: {}\n", error.what());
+    return failure;
+  } catch (const std::bad_alloc&) {
+    say("mckibben: there is not enough memory for this");
+    return failure;
   } catch (const std::exception& error) {
     fmt::print(stderr, "mckibben: {}\nThis is a defect of the program; please report it.\n", error.what());
     return failure;
@@ -55,13 +71,27 @@ int wrong_usage(const std::string& verb, std::string_view what) {
   return usage_error;
 }
 
-}  // namespace
+/// Names of files go into results and lists of files, which are UTF-8 in lines; empty if all can.
+std::string odd_name(const std::vector<std::string_view>& arguments) {
+  constexpr const char* rule =
+      "holds control characters or is not UTF-8, which no result can name; rename it";
+  const auto is_odd = [](std::string_view text) {
+    return text.find_first_of("\n\t") != std::string_view::npos || input::printable(text) != text;
+  };
+  for (const std::string_view text : arguments)
+    if (is_odd(text)) return fmt::format("the name {} {}", input::printable(text), rule);
+  std::error_code ignored;
+  const std::string here = std::filesystem::current_path(ignored).string();
+  return is_odd(here) ? fmt::format("the current folder, {}, {}", input::printable(here), rule) : "";
+}
 
-int run(int argc, char** argv) {
+/// Reads the command line and does what it asks for.
+int parse_and_do(int argc, char** argv) {
   CLI::App app("", "mckibben");
   Asked asked;
   build(app, asked);
   const std::vector<std::string_view> arguments(argv + (argc > 0 ? 1 : 0), argv + argc);
+  if (const std::string odd = odd_name(arguments); !odd.empty()) return wrong_usage("", odd);
   if (const std::string wrong = unknown_word(app, arguments); !wrong.empty()) {
     fmt::print(stderr, "mckibben: {}\n", wrong);
     return usage_error;
@@ -70,18 +100,23 @@ int run(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0)
-      return guarded([&] {
-        std::ostringstream help;
-        app.exit(error, help);
-        print(help.str());
-        return done;
-      });
+    if (error.get_exit_code() == 0) {
+      std::ostringstream help;
+      app.exit(error, help);
+      print(help.str());
+      return done;
+    }
     const auto verbs = app.get_subcommands();
     return wrong_usage(verbs.empty() ? "" : verbs.front()->get_name(), error.what());
   }
   run::catch_interrupts();
-  return guarded(asked.chosen);
+  return asked.chosen();
+}
+
+}  // namespace
+
+int run(int argc, char** argv) {
+  return guarded([&] { return parse_and_do(argc, argv); });
 }
 
 }  // namespace mckibben::cli

@@ -23,10 +23,10 @@ int make_dataset(const std::string& path, const Options& options) {
   input::Campaign campaign = input::read_campaign(std::filesystem::path(path));
   if (options.seed) campaign.seed = *options.seed;
   const auto where = destination(options, campaign.name);
-  keep_apart(where, std::filesystem::absolute(path).parent_path());
-  output::CampaignFolder folder(where, campaign, options.formats);
+  for (const char* suffix : {"", "-truth", ".unfinished"})
+    keep_apart(where.string() + suffix, campaign.inputs);
+  output::CampaignFolder folder(where, campaign, options.formats, say);
   std::atomic<std::size_t> there = folder.jobs().size() - folder.missing().size();
-  if (!folder.note().empty()) fmt::print(stderr, "mckibben: {}\n", folder.note());
   try {
     output::Progress progress(campaign.name);
     run::run_jobs(
@@ -44,13 +44,11 @@ int make_dataset(const std::string& path, const Options& options) {
     return interrupted;
   }
   const input::Json document = folder.document();
-  const auto places = folder.publish(document, [&](const std::filesystem::path& data) {
+  folder.publish(document, [&](const std::filesystem::path& data) {
     return report::report_html(campaign, document, input::read_dataset(data));
   });
   print(options.json ? document.dump(2) + "\n" : output::table_of(campaign, document));
-  say_moved(places.data, places.data_moved_to);
-  say_moved(places.truth, places.truth_moved_to);
-  fmt::print(stderr, "data set in {}, truth in {}\n", places.data.string(), places.truth.string());
+  fmt::print(stderr, "data set in {}, truth in {}\n", folder.data().string(), folder.truth().string());
   const auto& runs = document.at("runs");
   const bool failed =
       std::any_of(runs.begin(), runs.end(), [](const auto& run) { return run.contains("failure"); });

@@ -1,11 +1,11 @@
 // The verb `diagnose`: what a rig lacks, found in measured runs.
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <string>
 #include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <sim/cli/exit_status.hpp>
 #include <sim/cli/results.hpp>
@@ -19,6 +19,7 @@
 #include <sim/output/diagnosis_words.hpp>
 #include <sim/output/progress.hpp>
 #include <sim/report/report.hpp>
+#include <sim/run/batch.hpp>
 #include <sim/run/replay.hpp>
 
 namespace mckibben::cli {
@@ -26,11 +27,12 @@ namespace {
 
 /// Throws output::CannotWrite if another file than an earlier plan stands there.
 void check_plan(const std::string& plan) {
-  if (plan.empty() || !std::filesystem::exists(plan)) return;
-  std::ifstream file(plan);
-  std::string first;
-  std::getline(file, first);
-  if (!first.starts_with(output::plan_heading))
+  std::error_code error;
+  const bool there = !plan.empty() && std::filesystem::exists(plan, error);
+  if (error) throw output::CannotWrite(fmt::format("cannot write {}: {}", plan, error.message()));
+  if (!there) return;
+  const auto found = output::read_regular(plan);
+  if (!found || !found->starts_with(output::plan_heading))
     throw output::CannotWrite(
         fmt::format("cannot write {}: what is there is not an earlier plan; give another --plan", plan));
 }
@@ -38,7 +40,9 @@ void check_plan(const std::string& plan) {
 void write_plan(const std::string& plan, const input::Dataset& data, const diagnose::Diagnosis& found) {
   if (plan.empty()) return;
   if (!found.next_experiment) {
-    fmt::print(stderr, "mckibben: no plan is written: no further measurement is asked for\n");
+    const std::string instead = output::what_next(found);
+    fmt::print(stderr, "mckibben: no plan is written: no measurement of the menu is asked for{}{}\n",
+               instead.empty() ? "" : ". ", instead);
     return;
   }
   output::write_whole(std::filesystem::absolute(plan), output::plan_yaml(data, found));
@@ -52,20 +56,25 @@ int diagnose_dataset(const std::string& path, const Options& options, const std:
   if (!options.rig.empty()) data.rig = input::read_rig(options.rig, data.inputs);
   const std::string name = output::name_of(data);
   const auto where = destination(options, "diagnose-" + name);
-  keep_apart(where, std::filesystem::absolute(data.path).lexically_normal().parent_path());
+  keep_apart(where, data.inputs);
   check_plan(plan);
-  output::ResultFolder folder(where, "diagnose " + path);
+  output::ResultFolder folder(where, "diagnose " + path, say);
 
   diagnose::Diagnosis found;
+  std::vector<std::string> known;                    // so far
   std::vector<run::ReplayedRun> nominal, corrected;  // for pressures and forces
   try {
     output::Progress progress(name);
-    const diagnose::Settings settings{options.threads, options.seed.value_or(1)};
+    const diagnose::Settings settings{options.threads, options.seed.value_or(1),
+                                      [&](const std::string& what) { known.push_back(what); }};
     found = diagnose::diagnose(data, settings, progress.hook());
     nominal = run::replay(data, options.threads, progress.hook());
     input::Dataset mended = data;
     mended.rig = found.corrected;
     corrected = run::replay(mended, options.threads, progress.hook());
+  } catch (const run::Interrupted&) {
+    if (!known.empty()) fmt::print(stderr, "known so far:\n  {}\n", fmt::join(known, "\n  "));
+    throw;
   } catch (const engine::NumericalFailure& error) {
     fmt::print(stderr, "mckibben: the data cannot be simulated on this rig: {}\n", error.what());
     return failure;

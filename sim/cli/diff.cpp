@@ -141,9 +141,8 @@ int compare_folders(const std::string& left, const std::string& right, std::opti
   document.update(json_of(found));
   const std::string json = document.dump(2) + "\n";
   if (!options.out.empty()) {
-    keep_apart(options.out, left);
-    keep_apart(options.out, right);
-    output::ResultFolder folder(options.out, "diff " + left + " " + right);
+    keep_apart(options.out, {{left + "/run.json", ""}, {right + "/run.json", ""}});
+    output::ResultFolder folder(options.out, "diff " + left + " " + right, say);
     folder.write("diff.json", json);
     folder.write("table.txt", text);
     publish(folder, options.out);

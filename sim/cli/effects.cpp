@@ -184,7 +184,7 @@ int list_effects(const std::vector<std::string>& names, const Options& options) 
   std::string text = names.empty() ? overview(all) : "";
   for (const Entry& entry : chosen) text += (text.empty() ? "" : "\n") + details(entry) + how_to(entry);
   if (!options.out.empty()) {
-    output::ResultFolder folder(options.out, "effects");
+    output::ResultFolder folder(options.out, "effects", say);
     folder.write("effects.json", json);
     for (const Entry& entry : names.empty() ? all : chosen)
       if (!is_residual(entry)) folder.write(std::string(entry.name) + ".svg", output::effect_svg(entry.name));

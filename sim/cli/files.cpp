@@ -16,9 +16,11 @@
 #include <sim/input/rig_file.hpp>
 #include <sim/input/scenario.hpp>
 #include <sim/input/suggest.hpp>
+#include <sim/input/utf8.hpp>
 #include <sim/input/yaml_file.hpp>
 #include <sim/input/yaml_writer.hpp>
 #include <sim/output/folder.hpp>
+#include <sim/run/sanity.hpp>
 
 namespace mckibben::cli {
 namespace {
@@ -26,13 +28,22 @@ namespace {
 using input::Json;
 using input::Problem;
 
-/// Reads a file as what its `schema:` says it is; adds warnings. Throws what is wrong with it.
-void read_any(const std::filesystem::path& path, std::vector<Problem>& warnings) {
+/// Reads a data set and looks at what it says; adds warnings. Throws what is wrong with it. Returns what was
+/// looked at.
+std::string read_measured(const std::filesystem::path& path, std::vector<Problem>& warnings) {
+  const input::Dataset data = input::read_dataset(path);
+  const run::Look look = run::look(data);
+  run::raise(data, look.findings);
+  warnings = run::problems_of(data, look.findings);
+  return fmt::format("{} of {} runs simulated: stroke, sign, units, order of loads", look.runs,
+                     data.runs.size());
+}
+
+/// Reads a file as what its `schema:` says it is; adds warnings. Throws what is wrong with it. Returns what
+/// was looked at besides.
+std::string read_any(const std::filesystem::path& path, std::vector<Problem>& warnings) {
   std::error_code ignored;
-  if (std::filesystem::is_directory(path, ignored)) {
-    input::read_dataset(path);
-    return;
-  }
+  if (std::filesystem::is_directory(path, ignored)) return read_measured(path, warnings);
   const input::YamlFile file = input::load_yaml(path);
   const input::Node* schema = file.root.find("schema");
   const std::string kind = schema == nullptr ? "" : schema->text.substr(0, schema->text.find('/'));
@@ -40,7 +51,7 @@ void read_any(const std::filesystem::path& path, std::vector<Problem>& warnings)
     std::vector<input::InputFile> inputs;
     input::read_rig(path.string(), inputs);
   } else if (kind == "mckibben-dataset") {
-    input::read_dataset(path);
+    return read_measured(path, warnings);
   } else if (kind == "mckibben-campaign") {
     input::read_campaign(path);
   } else if (kind == "mckibben-calibration") {
@@ -57,10 +68,11 @@ void read_any(const std::filesystem::path& path, std::vector<Problem>& warnings)
                      fmt::format("the file must say what it is: schema: one of {}", input::join(known)));
     else
       problems.error(file.source, schema->place,
-                     fmt::format("unknown schema {}{} (known: {})", schema->text,
+                     fmt::format("unknown schema {}{} (known: {})", input::shortened(schema->text),
                                  input::did_you_mean(schema->text, known), input::join(known)));
     problems.raise();
   }
+  return "";
 }
 
 Json problem_json(const Problem& problem) {
@@ -91,9 +103,9 @@ int check_files(const std::vector<std::string>& paths, const Options& options) {
   for (const auto& path : paths) {
     std::vector<Problem> found;
     int file_status = done;
-    std::string missing;
+    std::string missing, looked;
     try {
-      read_any(path, found);
+      looked = read_any(path, found);
     } catch (const input::BadInput& bad) {
       file_status = bad_input;
       found = bad.problems();
@@ -111,12 +123,18 @@ int check_files(const std::vector<std::string>& paths, const Options& options) {
       entry["problems"].push_back({{"file", path}, {"severity", "error"}, {"message", missing}});
       fmt::print(stderr, "mckibben: {}\n", missing);
     }
+    if (!looked.empty()) entry["looked_at"] = looked;
     findings.push_back(std::move(entry));
-    if (file_status == done && !options.json) print(path + ": ok\n");
+    if (file_status == done && !options.json)
+      print(fmt::format("{}: ok{}\n", path, looked.empty() ? "" : fmt::format(" ({})", looked)));
   }
   const std::string document = Json{{"schema", "mckibben-check/1"}, {"files", findings}}.dump(2) + "\n";
   if (!options.out.empty()) {
-    output::ResultFolder folder(options.out, "check");
+    std::vector<input::InputFile> read;
+    read.reserve(paths.size());
+    for (const auto& path : paths) read.push_back({path, ""});
+    keep_apart(options.out, read);
+    output::ResultFolder folder(options.out, "check", say);
     folder.write("check.json", document);
     folder.publish();
   }

@@ -91,10 +91,14 @@ std::string scenario_to_start_from(const std::string& file) {
 int write_scenario(const std::string& path, const Options& options) {
   const std::filesystem::path file = path;
   if (path.empty()) throw output::CannotWrite("cannot write a file without a name");
-  if (std::filesystem::exists(std::filesystem::symlink_status(file)))
+  std::error_code error;
+  const auto there = std::filesystem::symlink_status(file, error);
+  if (!std::filesystem::status_known(there))
+    throw output::CannotWrite(fmt::format("cannot write {}: {}", path, error.message()));
+  if (std::filesystem::exists(there))
     throw output::CannotWrite(fmt::format("cannot write {}: it is there already; give another name", path));
   const std::string text = scenario_to_start_from(path);
-  output::write_whole(std::filesystem::absolute(file), text);
+  output::write_whole(std::filesystem::absolute(file), text, output::Earlier::is_refused);
   print(options.json ? input::Json{{"schema", "mckibben-init/1"}, {"file", path}}.dump(2) + "\n"
                      : fmt::format("{0} is written; read and change it, then: mckibben run {0}\n", path));
   return done;

@@ -42,11 +42,20 @@ std::vector<double> parts(int n, double fastest) {
   return values;
 }
 
-/// Loads asked for, or the thesis's that the calibration covers. Throws BadInput.
+/// The thesis's loads, if the calibration is of its kind, else the calibration's own: both ends and the
+/// middle.
+std::vector<double> usual_loads(const controllers::CalibratedRange& range) {
+  if (std::count_if(std::begin(thesis_loads_kg), std::end(thesis_loads_kg),
+                    [&](double load_kg) { return run::covers(range, load_kg); }) > 1)
+    return {std::begin(thesis_loads_kg), std::end(thesis_loads_kg)};
+  return {range.lowest_load_kg, 0.5 * (range.lowest_load_kg + range.highest_load_kg), range.highest_load_kg};
+}
+
+/// Loads asked for, or the usual ones that the calibration covers. Throws BadInput.
 std::vector<double> loads_of(const std::string& path, const controllers::CalibratedRange& range,
                              const MapOptions& how) {
   std::vector<double> wanted = how.loads_kg, covered;
-  if (wanted.empty()) wanted.assign(std::begin(thesis_loads_kg), std::end(thesis_loads_kg));
+  if (wanted.empty()) wanted = usual_loads(range);
   std::sort(wanted.begin(), wanted.end());
   wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
   if (how.extrapolate_load) return wanted;
@@ -93,8 +102,8 @@ int map_errors(const std::string& path, const Options& options, const MapOptions
   if (!options.rig.empty())
     name = fmt::format("{}-{}", name, std::filesystem::path(options.rig).stem().string());
   const auto where = destination(options, name);
-  keep_apart(where, file.parent_path());
-  output::ResultFolder folder(where, "map " + path);
+  keep_apart(where, files);
+  output::ResultFolder folder(where, "map " + path, say);
 
   run::ErrorMaps maps;
   {

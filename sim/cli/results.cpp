@@ -12,22 +12,27 @@ std::filesystem::path destination(const Options& options, const std::string& nam
   return options.out.empty() ? std::filesystem::path("out") / name : std::filesystem::path(options.out);
 }
 
-void keep_apart(const std::filesystem::path& where, const std::filesystem::path& data) {
+void keep_apart(const std::filesystem::path& where, const std::vector<input::InputFile>& read) {
   namespace fs = std::filesystem;
   std::error_code ignored;
-  for (fs::path folder = fs::absolute(data).lexically_normal(); folder != folder.parent_path();
-       folder = folder.parent_path())
-    if (fs::equivalent(where, folder, ignored))
-      throw output::CannotWrite(
-          fmt::format("cannot write {}: what is read is there; give another --out", where.string()));
+  const auto refuse_within = [&](const fs::path& file, const std::string& name) {
+    for (fs::path folder = file.parent_path(); folder != folder.parent_path(); folder = folder.parent_path())
+      if (fs::equivalent(where, folder, ignored))
+        output::cannot_write(where, fmt::format("{} is read from there; give another --out", name));
+  };
+  for (const auto& file : read) {  // where a link is, and where it leads to
+    const fs::path path = fs::absolute(file.name, ignored).lexically_normal();
+    refuse_within(path, file.name);
+    refuse_within(fs::weakly_canonical(path, ignored), file.name);
+  }
 }
 
-void print(const std::string& text) {
-  std::fwrite(text.data(), 1, text.size(), stdout);
+void say(const std::string& text) {
+  fmt::print(stderr, "mckibben: {}\n", text);
 }
 
 void publish(output::ResultFolder& folder, const std::filesystem::path& where) {
-  say_moved(where, folder.publish());
+  folder.publish();
   fmt::print(stderr, "results in {}\n", where.string());
 }
 
@@ -49,12 +54,6 @@ void say_interrupted(std::size_t finished, std::size_t all, const char* what,
 
 void warn(const std::vector<std::string>& warnings) {
   for (const auto& text : warnings) fmt::print(stderr, "mckibben: warning: {}\n", text);
-}
-
-void say_moved(const std::filesystem::path& where, const std::filesystem::path& aside) {
-  if (!aside.empty())
-    fmt::print(stderr, "mckibben: {} was not an earlier result of this, as it was written; it is now {}\n",
-               where.string(), aside.string());
 }
 
 }  // namespace mckibben::cli

@@ -5,7 +5,9 @@
 #include <string>
 #include <vector>
 
+#include <sim/cli/streams.hpp>
 #include <sim/cli/verbs.hpp>
+#include <sim/input/diagnostics.hpp>
 #include <sim/output/folder.hpp>
 
 namespace mckibben::cli {
@@ -13,12 +15,12 @@ namespace mckibben::cli {
 /// The folder asked for, or out/<name>.
 std::filesystem::path destination(const Options& options, const std::string& name);
 
-/// Throws output::CannotWrite if the folder `where` is, or holds, the folder `data` that is being read: a
-/// results folder replaces what stood there.
-void keep_apart(const std::filesystem::path& where, const std::filesystem::path& data);
+/// Throws output::CannotWrite if one of the files that are read is in the folder `where`: a results folder
+/// replaces what stood there, or sets it aside.
+void keep_apart(const std::filesystem::path& where, const std::vector<input::InputFile>& read);
 
-/// Prints a result on stdout, to the byte.
-void print(const std::string& text);
+/// Tells the user on stderr, in a line.
+void say(const std::string& text);
 
 /// Lets a results folder take its place, and says so.
 void publish(output::ResultFolder& folder, const std::filesystem::path& where);
@@ -33,8 +35,5 @@ void say_interrupted(std::size_t finished, std::size_t all, const char* what,
 
 /// Says on stderr what the user should know of a result.
 void warn(const std::vector<std::string>& warnings);
-
-/// Says that a folder that was not ours has been moved from `where` to `aside`, unless that is empty.
-void say_moved(const std::filesystem::path& where, const std::filesystem::path& aside);
 
 }  // namespace mckibben::cli

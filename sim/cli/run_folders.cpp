@@ -12,16 +12,17 @@
 
 #include <sim/cli/run_folders.hpp>
 #include <sim/input/csv.hpp>
+#include <sim/input/json_file.hpp>
+#include <sim/input/limits.hpp>
 #include <sim/input/number.hpp>
 #include <sim/input/source.hpp>
+#include <sim/input/utf8.hpp>
 
 namespace mckibben::cli {
 namespace {
 
 namespace fs = std::filesystem;
 using input::Json;
-
-constexpr std::size_t largest_document_bytes = 1U << 28U;
 
 struct RunFolder {
   fs::path path;
@@ -41,16 +42,7 @@ RunFolder read_folder(const fs::path& path) {
   if (!fs::exists(file, ignored))
     throw input::MissingInput(path.string() +
                               ": is not a folder that run or replay wrote: no run.json in it");
-  const input::Source source = input::Source::load(file, largest_document_bytes);
-  RunFolder folder{path, {}};
-  try {
-    folder.document = Json::parse(source.text());
-  } catch (const Json::parse_error& error) {
-    const auto end =
-        source.text().begin() + static_cast<std::ptrdiff_t>(std::min(error.byte, source.text().size()));
-    const auto line = static_cast<std::size_t>(std::count(source.text().begin(), end, '\n')) + 1;
-    refuse(file, {line, 1}, "is not JSON from here on; it was changed or cut off");
-  }
+  RunFolder folder{path, input::read_json(input::Source::load(file, input::most_json_bytes))};
   const Json& document = folder.document;
   const std::string schema =
       document.is_object() && document.contains("schema") && document.at("schema").is_string()
@@ -59,7 +51,7 @@ RunFolder read_folder(const fs::path& path) {
   if (schema != "mckibben-run/1" && schema != "mckibben-replay/1")
     refuse(file, {},
            fmt::format("schema = {} is not what is compared: mckibben-run/1, mckibben-replay/1",
-                       schema.empty() ? "nothing" : schema));
+                       schema.empty() ? "nothing" : input::shortened(schema)));
   if (!document.contains("runs") || !document.at("runs").is_array())
     refuse(file, {}, "holds no list of runs");
   return folder;
@@ -122,6 +114,14 @@ std::string run_name(const Json& run) {
 }
 
 std::vector<std::string> columns_of(const input::Source& source) {
+  input::Problems problems;
+  {
+    input::TableProblems found(source, problems);
+    const std::string_view head = source.line(1);
+    const auto count = static_cast<std::size_t>(std::count(head.begin(), head.end(), ',')) + 1;
+    if (input::check_text(source, found)) input::check_columns(count, {}, found);
+  }
+  problems.raise();
   std::vector<std::string> names;
   const std::string_view head = source.line(1);
   for (std::size_t from = 0; from <= head.size();) {
@@ -200,8 +200,8 @@ RunDifference compare_run(const RunFolder& left, const Json& a, const RunFolder&
     run.note = add_note(run.note, "only tables in CSV are compared");
     return run;
   }
-  compare_tables(input::Source::load(left.path / file, input::largest_table_bytes),
-                 input::Source::load(right.path / other, input::largest_table_bytes), run);
+  compare_tables(input::Source::load(left.path / file, input::most_text_bytes),
+                 input::Source::load(right.path / other, input::most_text_bytes), run);
   return run;
 }
 

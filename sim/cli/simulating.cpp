@@ -21,7 +21,9 @@
 #include <sim/run/batch.hpp>
 #include <sim/run/compare.hpp>
 #include <sim/run/replay.hpp>
+#include <sim/run/sanity.hpp>
 #include <sim/run/simulate.hpp>
+#include <sim/run/warnings.hpp>
 
 namespace mckibben::cli {
 namespace {
@@ -39,6 +41,20 @@ void write_run(output::ResultFolder& folder, output::Package& package, const std
   package.runs.push_back({stem, title});
 }
 
+/// What looks wrong in the data, and what is doubtful in their simulation. Throws input::BadInput where a
+/// comparison with them would mean nothing.
+std::vector<std::string> sane(const input::Dataset& dataset, const std::vector<run::ReplayedRun>& runs) {
+  const auto findings = run::sanity(dataset, run::expected_of(runs));
+  run::raise(dataset, findings);
+  std::vector<std::string> warnings;
+  warnings.reserve(findings.size());
+  for (const auto& finding : findings) warnings.push_back(run::text_of(dataset, finding));
+  for (const auto& run : runs)
+    for (const auto& doubt : run::doubts(run.recording))
+      warnings.push_back(run::warning_of_run(run.id, doubt));
+  return warnings;
+}
+
 }  // namespace
 
 int run_scenario(const std::string& path, const Options& options) {
@@ -47,8 +63,8 @@ int run_scenario(const std::string& path, const Options& options) {
   for (const auto& warning : warnings) fmt::print(stderr, "{}\n", to_text(warning));
   if (options.seed) scenario.seed = *options.seed;
   const auto where = destination(options, scenario.name);
-  keep_apart(where, std::filesystem::absolute(path).parent_path());
-  output::ResultFolder folder(where, "run " + path);
+  keep_apart(where, scenario.inputs);
+  output::ResultFolder folder(where, "run " + path, say);
 
   run::Comparison comparison;
   {
@@ -98,8 +114,8 @@ int replay_dataset(const std::string& path, const Options& options) {
   const auto home = std::filesystem::absolute(dataset.path).lexically_normal().parent_path();
   const std::string name = home.has_filename() ? home.filename().string() : "dataset";
   const auto where = destination(options, name + "-replay");
-  keep_apart(where, home);
-  output::ResultFolder folder(where, "replay " + path);
+  keep_apart(where, dataset.inputs);
+  output::ResultFolder folder(where, "replay " + path, say);
 
   std::vector<run::ReplayedRun> runs;
   {
@@ -107,6 +123,8 @@ int replay_dataset(const std::string& path, const Options& options) {
     runs = run::replay(dataset, options.threads, progress.hook());
   }
   const bool stopped = begun(runs) < runs.size();
+  const auto warnings = sane(dataset, runs);
+  warn(warnings);
   const auto place = stopped ? beside(where) : where;
   if (stopped) folder.go_to(place);
   const double per_count = run::contraction_per_count(dataset.rig);
@@ -124,12 +142,13 @@ int replay_dataset(const std::string& path, const Options& options) {
   }
   folder.write(output::package_file, output::datapackage(package));
   input::Json json = output::json_of(dataset, runs);
+  json["warnings"] = warnings;
   if (stopped) json["interrupted"] = true;
   const std::string document = json.dump(2) + "\n";
   const std::string table = output::table_of(dataset, runs);
   folder.write("run.json", document);
   folder.write("table.txt", table);
-  folder.write("report.html", report::report_html(dataset, runs));
+  folder.write("report.html", report::report_html(dataset, runs, warnings));
   publish(folder, place);
   print(options.json ? document : table);
   if (stopped) {

@@ -16,7 +16,8 @@ namespace mckibben::cli {
 int make_study(const std::string& name, const std::string& path, const Options& options) {
   input::Campaign campaign = input::read_campaign(std::filesystem::path(path));
   const auto where = destination(options, "study-" + name + "-" + campaign.name);
-  output::ResultFolder folder(where, "study " + name + " " + path);
+  keep_apart(where, campaign.inputs);
+  output::ResultFolder folder(where, "study " + name + " " + path, say);
   study::Evidence evidence;
   {
     output::Progress progress(campaign.name);

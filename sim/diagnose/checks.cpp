@@ -5,14 +5,21 @@
 #include <fmt/format.h>
 
 #include <sim/diagnose/checks.hpp>
-#include <sim/diagnose/columns.hpp>
 #include <sim/diagnose/labels.hpp>
+#include <sim/diagnose/repair.hpp>
 #include <sim/run/batch.hpp>
+#include <sim/run/sanity.hpp>
+#include <sim/run/series.hpp>
 #include <sim/run/simulate.hpp>
 
 namespace mckibben::diagnose {
 namespace {
 
+using run::Line;
+using run::range;
+using Series = std::vector<double>;
+
+constexpr double bar_Pa = 1e5;
 /// To choose on some and judge on others.
 constexpr std::size_t least_runs = 3;
 /// What gauges cannot resolve anyway.
@@ -88,21 +95,42 @@ std::optional<std::size_t> lost_counts(const Series& values, const Series& sharp
   return std::nullopt;
 }
 
+/// Where a reading stands still.
+struct Still : Stretch {
+  enum class Why { frozen, saturated, stuck } why;
+};
+
 /// Where the reading stays the same to the last bit although the model moves far. Friction may hold a load
 /// that the model moves, and so may the braid stop: the reading must also stop as no friction could stop it,
-/// or catch up with a jump, or miss a great deal.
-std::vector<Stretch> frozen(const Series& values, const Series& model, double count, double tick_s) {
+/// or catch up with a jump, or miss a great deal. A load that comes to rest by itself is held by a valve that
+/// is stuck; readings cut off on their way up and down, at the highest of the run, by the end of their range.
+std::vector<Still> stills(const Series& values, const Series& model, double count, double tick_s) {
   const auto shortest = static_cast<std::size_t>(std::lround(0.5 / tick_s));
-  std::vector<Stretch> found;
+  constexpr std::size_t nearby = 5;
+  const double highest = *std::max_element(values.begin(), values.end());
+  std::vector<Still> found;
   for (std::size_t begin = 0, end; begin < values.size(); begin = end) {
     end = begin + 1;
     while (end < values.size() && values[end] == values[begin]) ++end;
-    if (end - begin < shortest || values[begin] < 3.0 * count) continue;
+    if (end - begin < shortest) continue;
+    // Resting on the stop is no fault, and what leaves it is quick, but not as quick as that.
+    const bool catches_up = end < values.size() && std::abs(values[end] - values[begin]) > 60.0 * count;
+    if (values[begin] < 3.0 * count && !catches_up) continue;
     const double missed = range({model.data() + begin, end - begin});
+    const bool inside = begin >= nearby && end + nearby <= values.size();
+    const auto moves = [&](std::size_t from, std::size_t to) {
+      return std::abs(values[from] - values[to]) > static_cast<double>(nearby) * count;
+    };
+    const bool cut_off = values[begin] == highest && inside && moves(begin - nearby, begin) &&
+                         moves(end - 1, end + nearby - 1);
     const bool stops_dead = begin > 0 && std::abs(values[begin] - values[begin - 1]) > 10.0 * count;
     const bool jumps = end < values.size() && std::abs(values[end] - values[begin]) > 6.0 * count;
-    if (missed > 200.0 * count || (missed > 100.0 * count && (stops_dead || jumps)))
-      found.push_back({begin + 1, end});
+    if (cut_off && !jumps && missed > 80.0 * count)
+      found.push_back({{begin + 1, end}, Still::Why::saturated});
+    else if (missed > 100.0 * count && (stops_dead || jumps))
+      found.push_back({{begin + 1, end}, Still::Why::frozen});
+    else if (missed > 200.0 * count)
+      found.push_back({{begin + 1, end}, Still::Why::stuck});
   }
   return found;
 }
@@ -126,7 +154,7 @@ class Checker {
   }
 
   Doubts operator()() {
-    check_units(data_, model_);
+    insane();
     for (std::size_t i = 0; i < data_.runs.size(); ++i) {
       gauge(i);
       if (moves(i)) readings(i);
@@ -143,9 +171,23 @@ class Checker {
   void warn(std::size_t run, std::string_view what) {
     doubts_.warnings.push_back(fmt::format("run {}: {}", data_.runs[run].id, what));
   }
+  void find(std::size_t run, std::string kind, std::string action, std::string words) {
+    doubts_.findings.push_back({.run = data_.runs[run].id,
+                                .kind = std::move(kind),
+                                .action = std::move(action),
+                                .words = std::move(words)});
+  }
   void leave_out(std::size_t run, std::string_view why) {
     warn(run, fmt::format("{}; left out", why));
+    find(run, "reading", "left out", fmt::format("was left out: {}", why));
     left_out_[run] = true;
+  }
+  void leave_out_for(const Fault& fault) {
+    Finding finding = told(data_, fault);
+    warn(fault.run, finding.words + "; left out");
+    finding.words += " (left out)";
+    doubts_.findings.push_back(std::move(finding));
+    left_out_[fault.run] = true;
   }
   double time_s(std::size_t row) const { return static_cast<double>(row) * data_.rig.tick_s; }
   Runs usable() const {
@@ -153,6 +195,29 @@ class Checker {
     for (std::size_t i = 0; i < left_out_.size(); ++i)
       if (!left_out_[i]) runs.push_back(i);
     return runs;
+  }
+
+  // Columns and loads that are not what they are called end it; labels that were exchanged cost their runs.
+  void insane() {
+    std::vector<run::Expected> expected;
+    for (const Readings& readings : model_)
+      expected.push_back({readings.contraction_ratio, readings.pressure_Pa});
+    const auto findings = run::sanity(data_, expected);
+    run::raise(data_, findings);
+    for (const run::Finding& finding : findings) {
+      const std::string text = run::text_of(data_, finding);
+      // More runs are weighed one against the others later, exactly.
+      if (finding.exchanged.empty() && data_.runs.size() >= least_labels) continue;
+      for (const std::size_t i : finding.runs) left_out_[i] = true;
+      for (const run::SeemingLoad& one : finding.exchanged)
+        find(one.run, "load", "left out",
+             fmt::format("was left out: it has the label of another load and moves like {:.6g} kg",
+                         one.load_kg));
+      if (3 * finding.runs.size() > data_.runs.size() || usable().size() < least_runs)
+        doubts_.cannot_tell = text + ".";
+      else
+        doubts_.warnings.push_back(text + "; left out");
+    }
   }
 
   void gauge(std::size_t i) {
@@ -214,14 +279,8 @@ class Checker {
     std::vector<bool>& masked = doubts_.masked[i];
     const Series sharpest = sharpest_nearby(model, data_.rig.tick_s);
     mask_spikes(i, "contraction_ratio", values, model, count_);
-    const auto stuck = frozen(values, model, count_, data_.rig.tick_s);
-    for (const Stretch& stretch : stuck) {
-      mask(i, stretch);
-      warn(i,
-           fmt::format("contraction_ratio is frozen from {:.3f} s to {:.3f} s though the load should move; "
-                       "not used",
-                       time_s(stretch.begin - 1), time_s(stretch.end - 1)));
-    }
+    for (const Still& still : stills(values, model, count_, data_.rig.tick_s)) stands_still(i, still);
+    if (left_out_[i]) return;
     const auto lost = std::count(masked.begin(), masked.end(), true);
     if (const auto row = lost_counts(values, sharpest, masked, count_))
       leave_out(i,
@@ -229,6 +288,23 @@ class Checker {
                             values[*row] - values[*row - 1], time_s(*row)));
     else if (static_cast<double>(lost) > 0.3 * static_cast<double>(masked.size()))
       leave_out(i, "too little of it is left");
+  }
+
+  void stands_still(std::size_t i, const Still& still) {
+    const double from_s = time_s(still.begin - 1), to_s = time_s(still.end - 1);
+    if (still.why == Still::Why::stuck) {
+      if (!left_out_[i])
+        leave_out(i, fmt::format("the load stands still from {:.3f} s to {:.3f} s though the current should "
+                                 "move it: the valve was stuck, or something held the load",
+                                 from_s, to_s));
+      return;
+    }
+    mask(i, still);
+    const auto what =
+        fmt::format("contraction_ratio is {} from {:.3f} s to {:.3f} s though the load should move; not used",
+                    still.why == Still::Why::frozen ? "frozen" : "saturated", from_s, to_s);
+    warn(i, what);
+    find(i, still.why == Still::Why::frozen ? "frozen" : "saturated", "masked", what);
   }
 
   // The same file twice says nothing new, and would stand on both sides of the split.
@@ -246,10 +322,12 @@ class Checker {
   }
 
   void labels() {
+    if (doubts_.cannot_tell) return;
     const Runs runs = usable();
     if (runs.size() >= least_runs && runs.size() < least_labels)
       doubts_.warnings.push_back(fmt::format(
-          "{} usable runs: too few to check the labels of the loads against each other", runs.size()));
+          "{} usable runs: their loads are in order, but too few to weigh each against the others",
+          runs.size()));
     const auto [wrong, common_ratio] = check_labels(data_, doubts_.masked, runs, threads_);
     constexpr double pound_kg = 0.45359237;
     if (std::abs(common_ratio / pound_kg - 1.0) < 0.06) {
@@ -261,11 +339,8 @@ class Checker {
       throw input::BadInput({problem});
     }
     for (const WrongLabel& label : wrong) {
-      if (label.zero != 0.0)
-        leave_out(label.run,
-                  fmt::format("contraction_ratio is shifted by {:.2g} against the other runs: was the "
-                              "encoder set to zero elsewhere?",
-                              label.zero));
+      if (label.other)
+        leave_out_for(*label.other);
       else
         leave_out(label.run,
                   fmt::format("the load is labelled {:.6g} kg, but everything else says about {:.1f} kg",

@@ -1,27 +1,30 @@
 // The workflow; see the header and docs/diagnosis.md.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include <fmt/format.h>
 
 #include <sim/diagnose/checks.hpp>
 #include <sim/diagnose/diagnose.hpp>
+#include <sim/diagnose/faults.hpp>
 #include <sim/diagnose/interval.hpp>
 #include <sim/diagnose/law.hpp>
 #include <sim/diagnose/naming.hpp>
 #include <sim/diagnose/plan.hpp>
+#include <sim/diagnose/ranking.hpp>
+#include <sim/diagnose/repair.hpp>
+#include <sim/diagnose/run_gaps.hpp>
+#include <sim/diagnose/start.hpp>
 #include <sim/diagnose/story.hpp>
 #include <sim/diagnose/where.hpp>
 #include <sim/run/simulate.hpp>
+#include <sim/run/warnings.hpp>
 
 namespace mckibben::diagnose {
 namespace {
 
 /// Scatter over long times that is assumed until a model has been fitted.
 constexpr double first_temperature = 20.0;
-/// Residuals within so many floors [rms] are taken for noise, slow disturbances included.
-constexpr double near_floor = 4.0;
 /// Mean squares above the floor: what is worth a search for a law, and what no disturbance would leave.
 constexpr double worth_a_law = 0.15, beyond_disturbance = 60.0;
 /// What no fit of the right effect that stopped early would leave.
@@ -35,7 +38,8 @@ constexpr double false_alarm_rate = 0.03;
 /// What is left of the motion where a gauge and the motion may contradict each other.
 constexpr double contradicted = 1.0;
 
-constexpr std::size_t usual_steps = 20;
+/// How often data are mended and looked at again.
+constexpr int most_repairs = 2;
 
 input::Dataset without_gauges(input::Dataset data, const Runs& dead) {
   for (const std::size_t run : dead) data.runs[run].muscle_pressure_Pa.reset();
@@ -49,27 +53,6 @@ Runs all_but(const Runs& left_out, std::size_t count) {
   return list;
 }
 
-/// The ranges that the runs cover, in words.
-std::string visited(const input::Dataset& data, const Runs& runs) {
-  struct Range {
-    double low = std::numeric_limits<double>::infinity(), high = -low;
-    void see(double value) {
-      low = std::min(low, value);
-      high = std::max(high, value);
-    }
-  } current_mA, load_kg, ratio;
-  for (const std::size_t run : runs) {
-    for (const double value : data.runs[run].current_mA) current_mA.see(value);
-    for (const double value : data.runs[run].contraction_ratio) ratio.see(value);
-    load_kg.see(data.runs[run].load_kg);
-  }
-  return fmt::format(
-      "currents of {:.3g} to {:.3g} mA, loads of {:.4g} to {:.4g} kg and contraction ratios of {:.3f} to "
-      "{:.3f}, "
-      "as in these runs",
-      current_mA.low, current_mA.high, load_kg.low, load_kg.high, ratio.low, ratio.high);
-}
-
 /// What the motion alone has left on the runs held out: mean square above the floor's.
 double motion_left(const Gap& gap) {
   return std::pow(gap.corrected_rmse / gap.noise_floor, 2) - 1.0;
@@ -77,51 +60,70 @@ double motion_left(const Gap& gap) {
 
 class Workflow {
  public:
-  Workflow(const input::Dataset& data, const Settings& settings, const run::ProgressHook& progress)
+  Workflow(const input::Dataset& data, const Doubts& doubts, const Settings& settings, const Step& step)
       : settings_(settings),
-        progress_(progress),
-        doubts_((progress("checking", 0, usual_steps), check(data, settings.threads))),
+        step_(step),
+        doubts_(doubts),
         data_(without_gauges(data, doubts_.dead_gauges)),
         usable_(all_but(doubts_.left_out, data.runs.size())),
         experiment_(data_, doubts_.masked, settings.threads, usable_),
         nominal_(data.rig),
-        case_{experiment_, nominal_, {}, first_temperature} {}
+        case_{
+            experiment_, nominal_, {}, first_temperature, [this](const std::string& what) { learn(what); }} {}
 
   bool gauged() const { return experiment_.floor().pressure_Pa > 0.0; }
 
-  Diagnosis operator()() {
+  /// Faults of the recording that stand in the way; none if `operator()` has a result. `look`: for such.
+  const std::vector<Fault>& faults() const { return faults_; }
+
+  Diagnosis operator()(bool look) {
     result_.seed = settings_.seed;
-    result_.warnings = doubts_.warnings;
+    result_.warnings = run::grouped(doubts_.warnings);
+    result_.faults = doubts_.findings;
     const NoiseFloor& floor = experiment_.floor();
     if (floor.repeats >= floor.ratio)
       result_.warnings.push_back(fmt::format(
           "equal runs differ by {:.2g} in contraction ratio (rms over sqrt 2), more than a count and its "
           "jitter explain: this is taken for the noise floor",
           floor.repeats));
-    else if (floor.noise > 0.0)
+    else if (floor.noisy)
       result_.warnings.push_back(fmt::format(
           "contraction_ratio scatters by {:.2g} from tick to tick (rms), far more than counts do: "
           "this is taken for the noise floor",
-          floor.noise));
+          floor.jitter));
     if (carries(nominal_, plant::ResidualForce::name))
       result_.warnings.push_back("the rig's residual_law is kept as it is: if it is wrong, take it out");
     result_.false_alarm_rate = false_alarm_rate;
     result_.corrected = data_.rig;
     if (doubts_.cannot_tell) {
-      result_.because = *doubts_.cannot_tell;
+      result_.because = faults_in_words(result_) + *doubts_.cannot_tell;
       return std::move(result_);
     }
     case_.split = split(data_, usable_);
     step("replaying");
     replay();
+    if (look) faults_ = suspects();
+    if (!faults_.empty()) return std::move(result_);
     recalibrate();
     judge();
+    const Contender& final = chosen_ == &nominal_fit_ ? recalibrated_ : *chosen_;
+    if (look && !far_from(final).empty()) faults_ = examine(experiment_, final.fitted.model, usable_, {});
+    if (!faults_.empty()) return std::move(result_);
+    doubt();
     report();
     return std::move(result_);
   }
 
  private:
-  void step(const std::string& what) { progress_(what, std::min(++steps_, usual_steps), usual_steps); }
+  void step(const std::string& what) { step_(what); }
+  void learn(const std::string& what) {
+    if (settings_.learned) settings_.learned(what);
+  }
+  void learn_gap(const std::string& of, const Eigen::VectorXd& held_out) {
+    learn(fmt::format("{}: {:.2f} mm (rms) on the runs held out, the noise floor is {:.3f} mm", of,
+                      1e3 * nominal_.muscle.rest_length_m * experiment_.rmse(held_out, case_.split.held_out),
+                      1e3 * nominal_.muscle.rest_length_m * experiment_.floor().ratio));
+  }
 
   void replay() {
     nominal_fit_.held_out = experiment_.residuals(nominal_, case_.split.held_out);
@@ -131,6 +133,21 @@ class Workflow {
     fitted.residuals = std::move(slopes.residuals);
     fitted.columns = std::move(slopes.columns);
     fitted.cost = fitted.residuals.squaredNorm() / case_.temperature;
+    learn_gap("the rig as described", nominal_fit_.held_out);
+  }
+
+  // Far from the rig that is described straight lines mislead: a second look, from a fit to the runs that are
+  // not suspected.
+  std::vector<Fault> suspects() const {
+    const Model& described = nominal_fit_.fitted.model;
+    auto faults = examine(experiment_, described, usable_, catalogue());
+    Runs others;
+    for (const std::size_t run : usable_)
+      if (std::none_of(faults.begin(), faults.end(), [&](const Fault& fault) { return fault.run == run; }))
+        others.push_back(run);
+    if (faults.empty() || others.empty()) return faults;
+    const auto fitted = fit(experiment_, described, others, {.temperature = first_temperature});
+    return fitted.failure.empty() ? examine(experiment_, fitted.model, usable_, catalogue()) : faults;
   }
 
   void recalibrate() {
@@ -155,6 +172,7 @@ class Workflow {
                                  recalibrated_.fitted.failure);
       recalibrated_ = nominal_fit_;
     }
+    learn_gap("recalibrated", recalibrated_.held_out);
     const auto& residuals = recalibrated_.fitted.residuals;
     if (excess(residuals) + 1.0 > near_floor * near_floor) return;
     case_.temperature = temperature(experiment_, residuals, case_.split.training);
@@ -173,6 +191,7 @@ class Workflow {
     const bool misled = gauged() && !naming_.effects.empty() &&
                         experiment_.rmse(naming_.best.held_out, held) >= experiment_.rmse(reference, held);
     const bool named = !naming_.effects.empty() && !misled;
+    if (named) learn_gap("with what was taken", naming_.best.held_out);
     if (misled)
       result_.warnings.push_back(
           "effects that would explain the gauge's pressures make the motion worse: is the gauge right?");
@@ -221,7 +240,37 @@ class Workflow {
     result_.warnings.push_back("these data would not show, even at their usual size: " + list);
   }
 
+  /// Runs that leave more above the floor than noise and slow disturbances would, in words.
+  std::vector<std::string> far_from(const Contender& contender) const {
+    std::vector<std::string> list;
+    const auto look_at = [&](const Eigen::VectorXd& residuals, const Runs& runs) {
+      for (const auto& part : experiment_.parts(runs)) {
+        const double left = excess(residuals.segment(part.begin, part.rows));
+        if (left > near_floor * near_floor)
+          list.push_back(fmt::format("{} by {:.0f}", data_.runs[part.run].id, std::sqrt(left)));
+      }
+    };
+    look_at(contender.fitted.residuals, case_.split.training);
+    look_at(contender.held_out, case_.split.held_out);
+    std::sort(list.begin(), list.end());
+    return list;
+  }
+
+  // "Nothing is missing" is for data that agree run by run.
+  void doubt() {
+    const bool quiet = result_.verdict == Verdict::nothing_missing || result_.verdict == Verdict::recalibrate;
+    if (!quiet) return;
+    const bool agrees = result_.verdict == Verdict::recalibrate || far_from(nominal_fit_).empty();
+    if (!agrees && chosen_ != &nominal_fit_) result_.verdict = Verdict::recalibrate;
+    const bool moved = result_.verdict == Verdict::recalibrate;
+    result_.unexplained = fmt::format("{}", fmt::join(far_from(moved ? *chosen_ : nominal_fit_), ", "));
+    const bool recorder = std::any_of(result_.faults.begin(), result_.faults.end(),
+                                      [](const Finding& finding) { return finding.common; });
+    if (!result_.unexplained.empty() || recorder) result_.verdict = Verdict::cannot_tell;
+  }
+
   void report() {
+    if (result_.effects.empty()) disown(naming_.ranking);
     result_.ranking = naming_.ranking;
     result_.confusion_names = naming_.confusion_names;
     result_.confusion = naming_.confusion;
@@ -258,8 +307,12 @@ class Workflow {
     }
     if (result_.verdict == Verdict::unknown_effect) result_.law_valid_for = visited(data_, usable_);
     const Eigen::VectorXd corrected = experiment_.residuals(chosen_rig_, held);
-    result_.gap = {experiment_.floor().ratio, experiment_.rmse(nominal_fit_.held_out, held),
-                   experiment_.rmse(recalibrated_.held_out, held), experiment_.rmse(corrected, held), 0.0};
+    result_.gap = {experiment_.floor().ratio,
+                   experiment_.rmse(nominal_fit_.held_out, held),
+                   experiment_.rmse(recalibrated_.held_out, held),
+                   experiment_.rmse(corrected, held),
+                   0.0,
+                   experiment_.floor().jitter};
     const auto above = [&](double rmse) {
       return std::max(0.0, rmse * rmse - result_.gap.noise_floor * result_.gap.noise_floor);
     };
@@ -268,33 +321,13 @@ class Workflow {
           std::clamp(1.0 - above(result_.gap.corrected_rmse) / above(result_.gap.nominal_rmse), 0.0, 1.0);
     step("mapping");
     result_.where = where(experiment_, recalibrated_.fitted.model.rig, usable_, settings_.seed);
-    tell_runs();
+    result_.start = look_at_start(experiment_, chosen_rig_, usable_);
+    result_.runs = gaps_of_runs(experiment_, case_.split.held_out, usable_,
+                                {nominal_, recalibrated_.fitted.model.rig, chosen_rig_});
     plan_next();
     result_.because = because(result_);
-  }
-
-  // What each run measured, and what the three rigs make of it.
-  void tell_runs() {
-    for (std::size_t run = 0; run < data_.runs.size(); ++run) {
-      const auto& measured = data_.runs[run];
-      const auto& held = case_.split.held_out;
-      RunGap gap;
-      gap.id = measured.id;
-      gap.load_kg = measured.load_kg;
-      gap.held_out = std::binary_search(held.begin(), held.end(), run);
-      gap.left_out = !std::binary_search(usable_.begin(), usable_.end(), run);
-      gap.measured = measured.contraction_ratio;
-      for (double& ratio : gap.measured) ratio += 0.5 * experiment_.floor().count;
-      const auto tell = [&](const plant::Rig& rig, double& rmse, std::vector<double>& readings) {
-        auto simulated = experiment_.readings(rig, run);
-        rmse = experiment_.rmse(experiment_.residuals(simulated, run), {run});
-        readings = std::move(simulated.contraction_ratio);
-      };
-      tell(nominal_, gap.nominal_rmse, gap.nominal);
-      tell(recalibrated_.fitted.model.rig, gap.recalibrated_rmse, gap.recalibrated);
-      tell(chosen_rig_, gap.corrected_rmse, gap.corrected);
-      result_.runs.push_back(std::move(gap));
-    }
+    if (result_.verdict != Verdict::nothing_missing)
+      result_.because += sentence_of(result_.start, result_.gap);
   }
 
   // What would separate the effect named first from those it may be, or the next one.
@@ -310,7 +343,7 @@ class Workflow {
   }
 
   Settings settings_;
-  const run::ProgressHook& progress_;
+  const Step& step_;
   Doubts doubts_;
   input::Dataset data_;
   Runs usable_;
@@ -323,20 +356,34 @@ class Workflow {
   Law law_;
   const Contender* chosen_ = &recalibrated_;
   plant::Rig chosen_rig_;  ///< fitted to the training runs
+  std::vector<Fault> faults_;
   Diagnosis result_;
-  std::size_t steps_ = 0;
 };
+
+/// The workflow, again each time that faults of the recording have been mended.
+std::pair<Diagnosis, bool> mended(input::Dataset data, const Settings& settings, const Step& step) {
+  step("checking");
+  Doubts doubts = check(data, settings.threads);
+  for (int repairs = 0;; ++repairs) {
+    Workflow workflow(data, doubts, settings, step);
+    Diagnosis result = workflow(repairs < most_repairs);
+    if (workflow.faults().empty()) return {std::move(result), workflow.gauged()};
+    mend(data, doubts, workflow.faults());
+  }
+}
 
 }  // namespace
 
 Diagnosis diagnose(const input::Dataset& data, const Settings& settings, const run::ProgressHook& progress) {
-  Workflow workflow(data, settings, progress);
-  Diagnosis result = workflow();
+  std::size_t steps = 0;
+  std::string without;
+  const Step step = [&](const std::string& what) { progress(without + what, ++steps, 0); };
+  auto [result, gauged] = mended(data, settings, step);
   const double left = motion_left(result.gap);
-  if (!workflow.gauged() || !(left >= contradicted)) return result;
+  if (!gauged || !(left >= contradicted)) return result;
   // No model meets the gauge and the motion: perhaps one meets the motion alone.
-  const auto plain = without_gauges(data, all_but({}, data.runs.size()));
-  Diagnosis ungauged = Workflow(plain, settings, progress)();
+  without = "without the gauge: ";
+  Diagnosis ungauged = mended(without_gauges(data, all_but({}, data.runs.size())), settings, step).first;
   if (ungauged.verdict == Verdict::cannot_tell || motion_left(ungauged.gap) > 0.25 * left) return result;
   ungauged.warnings.insert(
       ungauged.warnings.begin(),

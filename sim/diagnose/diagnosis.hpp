@@ -34,6 +34,7 @@ struct Estimate {
   std::string name;  ///< key in the effect's part of a rig file, or path in the rig
   std::string unit;
   double value = 0.0, low = 0.0, high = 0.0;
+  bool determined = true;  ///< false: the interval is all that is allowed, or a whole turn of an angle
 };
 
 /// As it is told: "valve_dead_band", "bladder_elasticity (linear)".
@@ -74,15 +75,17 @@ struct Cell {
   bool significant = false;   ///< under a false-discovery rate of 5 %
 };
 
-/// One candidate as it was judged in a round.
+/// One candidate as it was judged in a round. The misfit is the sum of squares over their long-term variance,
+/// and the squares of the nominal parameters' deviations.
 struct Ranked {
-  std::string name, variant;
+  std::string name{}, variant{};
   int round = 1;
-  double score = 0.0;     ///< expected drop of the misfit (projected score test)
+  double score = 0.0;     ///< expected fall of the misfit (projected score test)
   double likeness = 0.0;  ///< to the round's best: cosine of what they change
   bool refitted = false;
   double training_rmse = 0.0, held_out_rmse = 0.0;  ///< after the refit
   std::string outcome{};                            ///< why it was taken or not
+  double fall = 0.0;                                ///< of the misfit, by the refit
 };
 
 /// A nominal parameter that imitates the effect found: moved by so many prior deviations without it, by so
@@ -100,9 +103,41 @@ struct RunGap {
   std::vector<double> measured{}, nominal{}, recalibrated{}, corrected{};  ///< contraction ratio, each tick
 };
 
+/// What is wrong with the recording of a run.
+struct Finding {
+  std::string run;   ///< its id
+  std::string kind;  ///< late, drift, another_rig and so on
+  double size = 0.0;
+  std::string unit{};
+  std::string action;   ///< corrected, left out
+  std::string words;    ///< after the run's name: "is 3 ticks late and was shifted"
+  bool common = false;  ///< all runs have it
+};
+
 struct Gap {
   double noise_floor = 0.0, nominal_rmse = 0.0, recalibrated_rmse = 0.0, corrected_rmse = 0.0;  ///< held out
   double closed = 0.0;  ///< share of the mean square above the floor that is gone
+  double jitter = 0.0;  ///< of the encoder, as the readings show it; counts in the floor
+
+  /// How many noise floors the corrected rig leaves; 0 if nothing was compared.
+  double floors_left() const { return noise_floor > 0.0 ? corrected_rmse / noise_floor : 0.0; }
+};
+
+/// More noise floors than this are something to explain.
+inline constexpr double explained_floors = 2.0;
+
+/// Where runs begin, as a suspect: a rig that had not settled moves for reasons that no model of it knows.
+struct Start {
+  double share_of_gap = 0.0,
+         share_of_time = 0.0;  ///< of what the corrected rig leaves, in the first `lasting_s`
+  double lasting_s = 0.0;
+  std::vector<std::string>
+      unsettled{};  ///< runs that move from the first reading on, as no settled load does
+
+  /// What is left sits there, or runs are seen to move.
+  bool suspect() const {
+    return !unsettled.empty() || (share_of_gap > 0.5 && share_of_gap > 2.0 * share_of_time);
+  }
 };
 
 struct NextExperiment {
@@ -124,6 +159,7 @@ struct Diagnosis {
   std::vector<LawTerm> residual_law{};
   std::string law_valid_for{};
   std::vector<Cell> where{};
+  Start start{};
   std::vector<Ranked> ranking{};
   std::vector<std::string> confusion_names{};    ///< best candidates of the first round
   std::vector<std::vector<double>> confusion{};  ///< likeness among them
@@ -131,6 +167,8 @@ struct Diagnosis {
   std::vector<RunGap> runs{};
   std::optional<NextExperiment> next_experiment{};
   std::vector<std::string> warnings{};
+  std::vector<Finding> faults{};  ///< of the recording; the verdict is on what is left
+  std::string unexplained{};      ///< runs that no model comes near, in words
   input::RigFile corrected{};
   double false_alarm_rate = 0.0;  ///< that the thresholds were set for
   std::uint64_t seed = 1;

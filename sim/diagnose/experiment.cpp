@@ -1,131 +1,21 @@
 // Residuals and slopes; see the header. Parameters fly in flocks of seven beside the rig they are changes of.
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <mutex>
-#include <numeric>
 
 #include <sim/diagnose/experiment.hpp>
 #include <sim/engine/failure.hpp>
 #include <sim/engine/flock.hpp>
 #include <sim/run/batch.hpp>
-#include <sim/run/simulate.hpp>
 
 namespace mckibben::diagnose {
-namespace {
-
-/// Jitter of a reading before it is counted that a good encoder has anyway.
-constexpr double least_jitter = 5e-5;
-
-/// The last decimal that any reading has, for files rounded to a few: 0 if there are more than seven.
-double last_decimal(const input::Dataset& data, const Runs& runs) {
-  double unit = 1e-3;
-  for (const std::size_t run : runs) {
-    for (const double ratio : data.runs[run].contraction_ratio) {
-      while (std::abs(ratio / unit - std::round(ratio / unit)) > 1e-6) {
-        unit /= 10.0;
-        if (unit < 1e-7) return 0.0;
-      }
-    }
-  }
-  return unit;
-}
-
-/// Whether the readings are whole counts to the last decimal, but for a few that something else has spoilt.
-bool counted(const input::Dataset& data, const std::vector<std::vector<bool>>& masked, const Runs& runs,
-             double count, double decimal) {
-  const double tolerance = 0.01 + 0.5 * decimal / count;
-  if (tolerance > 0.2) return false;  // everything would be whole
-  std::size_t whole = 0, all = 0;
-  for (const std::size_t i : runs) {
-    for (std::size_t k = 0; k < data.runs[i].contraction_ratio.size(); ++k) {
-      if (masked[i][k]) continue;
-      const double counts = data.runs[i].contraction_ratio[k] / count;
-      ++all;
-      whole += std::abs(counts - std::round(counts)) <= tolerance ? 1 : 0;
-    }
-  }
-  return 100 * whole >= 99 * all;
-}
-
-/// Noise of the gauges from the second differences of what they show: what changes so fast is not the gas.
-double gauge_noise_Pa(const input::Dataset& data, const Runs& runs) {
-  double squares = 0.0;
-  std::size_t count = 0;
-  for (const std::size_t index : runs) {
-    const input::Run& run = data.runs[index];
-    if (!run.muscle_pressure_Pa) continue;
-    const auto& p = *run.muscle_pressure_Pa;
-    std::vector<double> second;
-    for (std::size_t k = 2; k < p.size(); ++k) second.push_back(std::abs(p[k] - 2.0 * p[k - 1] + p[k - 2]));
-    if (second.empty()) continue;
-    // The median is blind to the few ticks at which the gas itself turns.
-    std::nth_element(second.begin(), second.begin() + static_cast<std::ptrdiff_t>(second.size() / 2),
-                     second.end());
-    const double deviation = second[second.size() / 2] / 0.6745 / std::sqrt(6.0);
-    squares += deviation * deviation;
-    ++count;
-  }
-  return count == 0 ? 0.0 : std::max(std::sqrt(squares / static_cast<double>(count)), 50.0);
-}
-
-/// White noise of the contraction ratio, from its fourth differences: no load moves so fast, and the median
-/// is blind to single jumps.
-double scatter(const input::Dataset& data, const std::vector<std::vector<bool>>& masked, const Runs& runs) {
-  std::vector<double> fourth;
-  for (const std::size_t i : runs) {
-    const auto& e = data.runs[i].contraction_ratio;
-    for (std::size_t k = 4; k < e.size(); ++k)
-      if (std::none_of(masked[i].begin() + static_cast<std::ptrdiff_t>(k - 4),
-                       masked[i].begin() + static_cast<std::ptrdiff_t>(k + 1), std::identity{}))
-        fourth.push_back(std::abs(e[k] - 4.0 * e[k - 1] + 6.0 * e[k - 2] - 4.0 * e[k - 3] + e[k - 4]));
-  }
-  if (fourth.empty()) return 0.0;
-  const auto middle = fourth.begin() + static_cast<std::ptrdiff_t>(fourth.size() / 2);
-  std::nth_element(fourth.begin(), middle, fourth.end());
-  return *middle / 0.6745 / std::sqrt(70.0);
-}
-
-/// Scatter of the contraction ratio between runs of the same current and load; 0 if there are none.
-double repeatability(const input::Dataset& data, const std::vector<std::vector<bool>>& masked,
-                     const Runs& trusted) {
-  double squares = 0.0, count = 0.0;
-  for (auto a = trusted.begin(); a != trusted.end(); ++a) {
-    for (auto b = std::next(a); b != trusted.end(); ++b) {
-      const input::Run &one = data.runs[*a], &other = data.runs[*b];
-      if (one.load_kg != other.load_kg || one.current_mA != other.current_mA) continue;
-      for (std::size_t k = 0; k < one.contraction_ratio.size(); ++k) {
-        if (masked[*a][k] || masked[*b][k]) continue;
-        const double difference = one.contraction_ratio[k] - other.contraction_ratio[k];
-        squares += 0.5 * difference * difference;
-        count += 1.0;
-      }
-    }
-  }
-  return count > 0.0 ? std::sqrt(squares / count) : 0.0;
-}
-
-}  // namespace
 
 Experiment::Experiment(const input::Dataset& data, std::vector<std::vector<bool>> masked, unsigned threads,
                        Runs trusted)
-    : data_(data), masked_(std::move(masked)), threads_(threads) {
-  const double count = run::contraction_per_count(data.rig);
-  floor_.repeats = repeatability(data, masked_, trusted);
-  if (trusted.empty()) {
-    trusted.resize(data.runs.size());
-    std::iota(trusted.begin(), trusted.end(), std::size_t{0});
-  }
-  const double decimal = last_decimal(data, trusted);
-  if (counted(data, masked_, trusted, count, decimal)) floor_.count = count;
-  floor_.ratio = std::sqrt((floor_.count * floor_.count + decimal * decimal) / 12.0 +
-                           least_jitter * least_jitter + tolerance * tolerance);
-  const double noise = scatter(data, masked_, trusted);
-  if (noise > 2.0 * floor_.ratio)
-    floor_.ratio = floor_.noise = noise;  // counting alone can look like its own
-  floor_.ratio = std::max(floor_.repeats, floor_.ratio);
-  floor_.pressure_Pa = gauge_noise_Pa(data, trusted);
-}
+    : data_(data),
+      masked_(std::move(masked)),
+      threads_(threads),
+      floor_(noise_floor(data, masked_, std::move(trusted))) {}
 
 std::size_t Experiment::rows(std::size_t run) const {
   const input::Run& measured = data_.runs[run];

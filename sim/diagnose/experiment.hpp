@@ -9,20 +9,12 @@
 
 #include <Eigen/Core>
 
+#include <sim/diagnose/noise.hpp>
 #include <sim/diagnose/parameter.hpp>
 #include <sim/diagnose/predict.hpp>
 #include <sim/input/dataset.hpp>
 
 namespace mckibben::diagnose {
-
-/// What the instruments cannot see, rms.
-struct NoiseFloor {
-  double count = 0.0;        ///< contraction ratio of one count; 0: the readings are not counted
-  double ratio = 0.0;        ///< of the contraction ratio: the largest of instruments and repeats
-  double repeats = 0.0;      ///< of the contraction ratio, between equal runs; 0: none are equal
-  double noise = 0.0;        ///< of the contraction ratio, from tick to tick; 0: what counting makes
-  double pressure_Pa = 0.0;  ///< of the gauge; 0: none fitted
-};
 
 /// Runs by their index in the data set.
 using Runs = std::vector<std::size_t>;
@@ -36,7 +28,6 @@ class Experiment {
 
   const input::Dataset& data() const { return data_; }
   const NoiseFloor& floor() const { return floor_; }
-  /// The gauge's noise is known only once a model fits: that of its fastest changes, never above.
   std::size_t rows(std::size_t run) const;
 
   /// Measured minus predicted, over the floor, for each tick of each run: contraction ratio, then pressure

@@ -153,6 +153,8 @@ std::string descend(Misfit& misfit, Model& model, bool thorough) {
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::DENSE_QR;
   options.max_num_iterations = iterations_a_round;
+  // Steps are projected onto the bounds; a line search along them would need all slopes at each trial.
+  options.max_num_line_search_step_size_iterations = 0;
   options.function_tolerance = thorough ? 1e-7 : 1e-4;
   options.parameter_tolerance = thorough ? 1e-7 : 1e-5;
   options.logging_type = ceres::SILENT;
@@ -163,6 +165,9 @@ std::string descend(Misfit& misfit, Model& model, bool thorough) {
   misfit.rethrow();
   if (!summary.IsSolutionUsable()) return summary.message;
   model.rig = misfit.rig_at(values.data());
+  for (const Parameter& p : model.free)
+    if (p.period > 0.0)
+      *find(model.rig, p.path).value = std::remainder(value_of(model.rig, p.path), p.period);
   return {};
 }
 

@@ -1,12 +1,63 @@
 // Intervals; see the header.
 #include <algorithm>
 #include <cmath>
+#include <random>
 
 #include <Eigen/Cholesky>
 
+#include <plant/instruments.hpp>
 #include <sim/diagnose/interval.hpp>
 
 namespace mckibben::diagnose {
+namespace {
+
+constexpr int draws = 100;
+
+/// Errors of the scaled parameters that counting and its jitter alone make, times their transpose, on
+/// average. A load at rest has one error for as long as it rests, and the same in every run that rests there;
+/// so the encoder is simulated on the fitted motion, moved by changes of the parameters that are drawn from
+/// `spread`, widened until they move the load by about a count. `gain`: from residuals to parameters.
+Eigen::MatrixXd counting_errors(const Experiment& experiment, const Fitted& fitted, const Runs& runs,
+                                const Eigen::MatrixXd& gain, const Eigen::MatrixXd& spread) {
+  const auto size = gain.rows();
+  Eigen::MatrixXd errors = Eigen::MatrixXd::Zero(size, size);
+  const NoiseFloor& floor = experiment.floor();
+  if (floor.count <= 0.0) return errors;
+  const double counts = floor.ratio / floor.count;  // to a residual of one
+  const auto parts = experiment.parts(runs);
+  double moved = 0.0, rows = 0.0;
+  for (const auto& part : parts) {
+    const auto columns = fitted.columns.middleRows(part.begin, part.rows);
+    moved += counts * counts * (columns * spread).cwiseProduct(columns).sum();
+    rows += static_cast<double>(part.rows);
+  }
+  const double wider = std::max(1.0, std::sqrt(rows / std::max(moved, 1e-12)));
+  const Eigen::MatrixXd root = wider * Eigen::MatrixXd(spread.llt().matrixL());
+  std::mt19937_64 random(1);
+  std::normal_distribution<double> normal;
+  Eigen::VectorXd noise = Eigen::VectorXd::Zero(fitted.residuals.size());
+  for (int draw = 0; draw < draws; ++draw) {
+    Eigen::VectorXd change(size);
+    for (double& one : change) one = normal(random);
+    const Eigen::VectorXd motion = counts * (fitted.columns * (root * change));
+    for (const auto& part : parts) {
+      plant::PulseCounter counter(experiment.data().rig.encoder.wiring, 1.0);
+      const auto& measured = experiment.data().runs[part.run].contraction_ratio;
+      for (Eigen::Index k = 0; k < part.rows; ++k) {
+        const Eigen::Index row = part.begin + k;
+        const double at = measured[static_cast<std::size_t>(k)] / floor.count + 0.5 -
+                          counts * fitted.residuals[row] + motion[row];
+        const auto counted = counter.count(at + floor.jitter / floor.count * normal(random));
+        noise[row] = (static_cast<double>(counted) + 0.5 - at) / counts;
+      }
+    }
+    const Eigen::VectorXd error = gain * noise;
+    errors += error * error.transpose() / draws;
+  }
+  return errors;
+}
+
+}  // namespace
 
 std::vector<Bounds> intervals(const Experiment& experiment, const Fitted& fitted, const Runs& runs,
                               double temperature) {
@@ -31,18 +82,27 @@ std::vector<Bounds> intervals(const Experiment& experiment, const Fitted& fitted
   }
   const Eigen::MatrixXd inverse = information.ldlt().solve(Eigen::MatrixXd::Identity(count, count));
   const Eigen::MatrixXd robust = inverse * scatter * inverse;
-  // Few clusters make the sandwich too optimistic: the wider of the two, and a little for their number.
+  const Eigen::MatrixXd counted =
+      inverse * priors * inverse + counting_errors(experiment, fitted, runs,
+                                                   inverse * fitted.columns.transpose() / temperature,
+                                                   robust + inverse);
+  // Few clusters make the sandwich too optimistic: the widest of the three, and a little for their number.
   const double few =
       std::sqrt(static_cast<double>(segments) / std::max(1.0, static_cast<double>(segments - count)));
   std::vector<Bounds> list;
   for (Eigen::Index j = 0; j < count; ++j) {
     const Parameter& p = free[static_cast<std::size_t>(j)];
     const double value = value_of(fitted.model.rig, p.path);
-    const double half = 1.96 * few * std::sqrt(std::max(robust(j, j), inverse(j, j)));
+    const double half = 1.96 * few * std::sqrt(std::max({robust(j, j), inverse(j, j), counted(j, j)}));
     const double at = p.scaled(value);
     const double ends[] = {p.unscaled(at - half), p.unscaled(at + half)};
-    list.push_back({value, std::clamp(std::min(ends[0], ends[1]), p.lowest, p.highest),
-                    std::clamp(std::max(ends[0], ends[1]), p.lowest, p.highest)});
+    const double low = std::min(ends[0], ends[1]), high = std::max(ends[0], ends[1]);
+    if (p.period > 0.0)
+      list.push_back({value, std::max(low, value - 0.5 * p.period), std::min(high, value + 0.5 * p.period),
+                      high - low < p.period});
+    else
+      list.push_back({value, std::clamp(low, p.lowest, p.highest), std::clamp(high, p.lowest, p.highest),
+                      low > p.lowest || high < p.highest});
   }
   return list;
 }

@@ -1,5 +1,7 @@
 // How well the data determine what was fitted: 95 % intervals that hold for residuals that are neither white
-// nor normal (sandwich estimator with segments as clusters: White, Econometrica 48 (1980) 817-838).
+// nor normal (sandwich estimator with segments as clusters: White, Econometrica 48 (1980) 817-838), nor
+// without error where a reading stands still on a count (what counting does to the fit, by simulation:
+// parametric bootstrap, Efron & Tibshirani, An Introduction to the Bootstrap, 1993).
 #pragma once
 
 #include <sim/diagnose/fit.hpp>
@@ -8,6 +10,7 @@ namespace mckibben::diagnose {
 
 struct Bounds {
   double value, low, high;
+  bool determined;  ///< less than all that is allowed, or than a whole turn of an angle
 };
 
 /// One for each free parameter of a model fitted to `runs`.

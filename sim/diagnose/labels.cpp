@@ -7,6 +7,7 @@
 #include <optional>
 
 #include <sim/diagnose/labels.hpp>
+#include <sim/diagnose/shapes.hpp>
 
 namespace mckibben::diagnose {
 namespace {
@@ -66,14 +67,27 @@ class Scales {
       sums[part.run] = slopes.residuals.segment(part.begin, part.rows).squaredNorm();
     return sums;
   }
-  /// The shift of the run's readings that explains them better than any load does; 0 if none does.
-  double shift(std::size_t run, const Series& usual_kg) const {
-    const auto slopes = at(usual_kg, {run});
-    const auto part = parts({run}).front();
-    const auto residuals = slopes.residuals.segment(part.begin, part.rows);
-    const double mean = residuals.mean();
-    const double left = (residuals.array() - mean).matrix().squaredNorm();
-    return left < squares_[run] ? mean * Experiment(data_, masked_, threads_).floor().ratio : 0.0;
+  /// What explains the run better than any load does: another zero, or another current. None if nothing does.
+  std::optional<Fault> other_fault(std::size_t run, const Series& usual_kg) const {
+    input::Dataset usual = data_;
+    usual.runs[run].load_kg = usual_kg[run];
+    const Experiment experiment(usual, masked_, threads_);
+    const auto slopes = experiment.slopes(usual.rig, currents_in_error(), {run});
+    const auto part = experiment.parts({run}).front();
+    const Eigen::VectorXd residuals = slopes.residuals.segment(part.begin, part.rows);
+    double least = squares_[run];
+    std::optional<Fault> best;
+    const auto consider = [&](FaultKind kind, const Eigen::VectorXd& column) {
+      const double size = column.dot(residuals) / column.squaredNorm();
+      const double left = (residuals - size * column).squaredNorm();
+      if (!(left < least)) return;
+      least = left;
+      best = Fault{run, kind, size};
+    };
+    consider(FaultKind::zero, Eigen::VectorXd::Constant(part.rows, 1.0 / experiment.floor().ratio));
+    consider(FaultKind::current_scale, slopes.columns.col(0).segment(part.begin, part.rows));
+    consider(FaultKind::current_offset, slopes.columns.col(1).segment(part.begin, part.rows));
+    return best;
   }
   void weigh(const Runs& runs);
 
@@ -146,7 +160,7 @@ std::optional<WrongLabel> Scales::worst(const Runs& runs) const {
     const Series same = squares(same_kg, runs);
     if (of_others(run, [&](std::size_t other) { return same[other] / usual[other]; }) < others_suffer)
       continue;
-    return WrongLabel{run, label_kg(run) + away_kg[run], shift(run, usual_kg)};
+    return WrongLabel{run, label_kg(run) + away_kg[run], other_fault(run, usual_kg)};
   }
   return std::nullopt;
 }

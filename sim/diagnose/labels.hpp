@@ -1,16 +1,18 @@
 // Loads weighed by their own runs: a label that contradicts what all other runs say.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include <sim/diagnose/experiment.hpp>
+#include <sim/diagnose/faults.hpp>
 
 namespace mckibben::diagnose {
 
 struct WrongLabel {
   std::size_t run;
-  double load_kg;  ///< that it seems to have
-  double zero;     ///< contraction ratio by which it is shifted instead, if that explains it better; else 0
+  double load_kg;                ///< that it seems to have
+  std::optional<Fault> other{};  ///< of its readings or its current, if that explains it better
 };
 
 struct Labels {

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <plant/geometry.hpp>
+#include <sim/diagnose/interval.hpp>
 #include <sim/diagnose/law.hpp>
 
 namespace mckibben::diagnose {
@@ -117,8 +118,12 @@ Model with_term(const Model& model, const plant::ForceTerm& term) {
                            .lowest = 0.7 * term.wavelength_m,
                            .highest = 1.4 * term.wavelength_m,
                            .logarithmic = true});
-    bigger.free.push_back(
-        {.path = path + "phase", .scale = 1.0, .step = 1e-3, .lowest = -7.0, .highest = 7.0});
+    bigger.free.push_back({.path = path + "phase",
+                           .scale = 1.0,
+                           .step = 1e-3,
+                           .lowest = -7.0,
+                           .highest = 7.0,
+                           .period = 2.0 * std::numbers::pi});
   }
   return bigger;
 }
@@ -149,6 +154,35 @@ void drop_needless(const Case& c, Law& law, const Step& step) {
       law.contender = std::move(shorter);
       --law.terms;
     }
+  }
+}
+
+/// Drops terms whose 95 % interval says nothing, not even their sign.
+void drop_uncertain(const Case& c, Law& law, const Step& step) {
+  for (std::size_t i = 0; i < law.terms;) {
+    const Fitted& fitted = law.contender.fitted;
+    const double scatter = temperature(c.experiment, fitted.residuals, c.split.training);
+    const auto bounds = intervals(c.experiment, fitted, c.split.training, scatter);
+    const std::size_t all = fitted.model.rig.effects.get<plant::ResidualForce>().terms.size();
+    const std::size_t term = all - law.terms + i;
+    const std::string path = fmt::format("effects.residual_law.terms.{}.", term);
+    bool certain = true;
+    for (std::size_t j = 0; j < bounds.size(); ++j) {
+      const std::string& name = fitted.model.free[j].path;
+      if (!name.starts_with(path)) continue;
+      const bool sign = bounds[j].low > 0.0 || bounds[j].high < 0.0;
+      certain = certain && bounds[j].determined && (sign || !name.ends_with("coefficient"));
+    }
+    if (certain) {
+      ++i;
+      continue;
+    }
+    step("looking for a law, without one term");
+    auto shorter = contend(c, without_term(fitted.model, term));
+    if (!shorter.fitted.failure.empty()) return;
+    law.contender = std::move(shorter);
+    --law.terms;
+    i = 0;
   }
 }
 
@@ -184,6 +218,7 @@ Law find_law(const Case& c, const std::vector<const Contender*>& bases, const Ei
     if (excess(before) < met) break;
   }
   drop_needless(c, law, step);
+  drop_uncertain(c, law, step);
   law.gain = compare(c.experiment, reference, law.contender.held_out, c.split.held_out);
   return law;
 }

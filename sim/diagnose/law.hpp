@@ -1,6 +1,7 @@
 // A law for what no effect of the catalogue explains: terms are taken from a library one by one, as long as
-// each helps on runs held out, fitted inside the simulation, and dropped again if the others do without it
-// (stepwise selection; the library is that of plant/effects/residual_force.hpp).
+// each helps on runs held out, fitted inside the simulation, and dropped again if the others do without it or
+// if the data do not determine it (stepwise selection; the library is that of
+// plant/effects/residual_force.hpp).
 #pragma once
 
 #include <sim/diagnose/naming.hpp>

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <sim/diagnose/naming.hpp>
+#include <sim/diagnose/ranking.hpp>
 #include <sim/diagnose/revise.hpp>
 
 namespace mckibben::diagnose {
@@ -153,47 +154,27 @@ Naming name_effects(const Case& c, const Contender& nominal, const Contender& re
     const Trial* chosen = nullptr;
     for (const Trial& trial : trials) {
       if (!has_size(trial.contender.fitted.model, trial.score.candidate)) continue;
-      const bool relieves = !something_left && trial.gain.gained > -0.01 &&
-                            result.best.fitted.cost - trial.contender.fitted.cost > clear;
-      const bool worthwhile = trial.gain.gained > least_of_all * excess(reference);
+      const double fall = result.best.fitted.cost - trial.contender.fitted.cost;
+      const bool relieves = !something_left && trial.gain.gained > -0.01 && fall > clear;
+      const bool worthwhile = fall > chance && trial.gain.gained > least_of_all * excess(reference);
       if ((convinces(trial.gain) && worthwhile) || relieves) {
         chosen = &trial;
         break;
       }
     }
-    for (const Score& score : scores) {
-      Ranked ranked{.name = score.candidate.effect,
-                    .variant = score.candidate.variant,
-                    .round = round,
-                    .score = score.drop,
-                    .likeness = likeness(score, scores.front())};
-      for (const Trial& trial : trials) {
-        if (trial.score.candidate.amplitude != score.candidate.amplitude) continue;
-        ranked.refitted = true;
-        ranked.training_rmse = c.experiment.rmse(trial.contender.fitted.residuals, c.split.training);
-        ranked.held_out_rmse = c.experiment.rmse(trial.contender.held_out, c.split.held_out);
-        if (&trial == chosen)
-          ranked.outcome = "taken: the best fit, and better on runs held out";
-        else if (!has_size(trial.contender.fitted.model, trial.score.candidate))
-          ranked.outcome = "its size went to nothing or to a bound";
-        else if (chosen != nullptr)
-          ranked.outcome =
-              as_good(c, chosen->contender, trial.contender) ? "explains the data as well" : "fits less well";
-        else
-          ranked.outcome = "does not help on runs held out";
-      }
-      if (!ranked.refitted)
-        ranked.outcome = score.drop <= 0.0 ? "no influence, or the wrong sign"
-                         : chosen != nullptr && meets(chosen->contender)
-                             ? "not tried: with the one taken nothing is left to explain"
-                             : "score too small";
-      if (ranked.score > 0.0) result.ranking.push_back(ranked);
-    }
+    const auto judged = ranked(c, round, screenings, trials, chosen, result.best);
+    result.ranking.insert(result.ranking.end(), judged.begin(), judged.end());
     if (chosen == nullptr && result.effects.empty() && excess(before) > worth_a_pair) {
       if (auto both = pair_of(c, trials, before, step)) {
-        for (const Trial& one : *both)
-          result.effects.push_back(
-              {.name = one.score.candidate.effect, .variant = one.score.candidate.variant});
+        const double fall = result.best.fitted.cost - both->back().contender.fitted.cost;
+        for (const Trial& one : *both) {
+          const Candidate& candidate = one.score.candidate;
+          const bool first = &one == &both->front();
+          take(c, result.ranking, candidate, both->back(), fall,
+               fmt::format("with {} it closes most of the gap",
+                           title(both->at(first ? 1 : 0).score.candidate)));
+          result.effects.push_back({.name = candidate.effect, .variant = candidate.variant});
+        }
         result.best = std::move(both->back().contender);
         revise(c, result, reference, step);
         before = result.best.held_out;
@@ -201,6 +182,7 @@ Naming name_effects(const Case& c, const Contender& nominal, const Contender& re
       }
     }
     if (chosen == nullptr) break;
+    c.learned(fmt::format("taken in round {}: {}", round, title(chosen->score.candidate)));
     NamedEffect named{.name = chosen->score.candidate.effect, .variant = chosen->score.candidate.variant};
     for (const Trial& rival : trials) {
       const auto& other = rival.score.candidate.effect;

@@ -33,6 +33,7 @@ struct Parameter {
   double lowest = 0.0, highest = 0.0;
   bool has_prior = false;    ///< normal round `origin`, with `scale` as deviation
   bool logarithmic = false;  ///< counts in logarithms, from 1 in its unit
+  double period = 0.0;       ///< values so far apart are the same, an angle; 0: none are
 
   bool of_effect() const { return path.starts_with("effects."); }
   double unscaled(double number) const;

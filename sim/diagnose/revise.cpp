@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <sim/diagnose/interval.hpp>
+#include <sim/diagnose/ranking.hpp>
 #include <sim/diagnose/revise.hpp>
 #include <sim/engine/failure.hpp>
 
@@ -51,15 +52,19 @@ void revise(const Case& c, Naming& result, const Eigen::VectorXd& reference, con
     const auto worse = compare(c.experiment, smaller.held_out, result.best.held_out, c.split.held_out);
     const bool needed = convinces(worse) || worse.gained > least_of_all * std::max(excess(reference), 1.0);
     if (!needed) {
+      give_up(result.ranking, old, "not needed beside what came later");
       result.best = std::move(smaller);
       forget(result, i);
       continue;
     }
     if (!meets(result.best)) {
       if (auto better = substitute(c, smaller, old, result.best, step)) {
+        const Candidate& candidate = better->score.candidate;
+        give_up(result.ranking, old, title(candidate) + " serves better");
+        take(c, result.ranking, candidate, *better, smaller.fitted.cost - better->contender.fitted.cost,
+             "serves better than " + title(old));
         result.best = std::move(better->contender);
         forget(result, i);  // the new one stands last in the model, too
-        const Candidate& candidate = better->score.candidate;
         result.effects.push_back({.name = candidate.effect, .variant = candidate.variant});
         continue;
       }
@@ -90,6 +95,7 @@ void drop_uncertain(const Case& c, Naming& result, const Step& step) {
     step("trying without " + title(candidate));
     auto smaller = contend(c, without(fitted.model, i));
     if (!smaller.fitted.failure.empty()) return;
+    give_up(result.ranking, candidate, "its 95 % interval reaches nothing");
     result.best = std::move(smaller);
     forget(result, i);
   }

@@ -1,4 +1,6 @@
 // See the header.
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <tuple>
 
@@ -39,7 +41,8 @@ void tell_parameters(Diagnosis& diagnosis, const Model& model, const std::vector
   plant::Rig rig = model.rig;
   for (std::size_t j = 0; j < model.free.size(); ++j) {
     const Parameter& p = model.free[j];
-    Estimate estimate{p.path, find(rig, p.path).unit, bounds[j].value, bounds[j].low, bounds[j].high};
+    Estimate estimate{p.path,        find(rig, p.path).unit, bounds[j].value,
+                      bounds[j].low, bounds[j].high,         bounds[j].determined};
     if (p.has_prior) {
       const double moved = p.scaled(estimate.value);
       diagnosis.recalibrated.push_back({estimate, p.origin, moved});
@@ -66,7 +69,21 @@ void tell_parameters(Diagnosis& diagnosis, const Model& model, const std::vector
   }
 }
 
-std::string because(const Diagnosis& d) {
+std::string faults_in_words(const Diagnosis& d) {
+  std::string text;
+  for (const Finding& finding : d.faults) {
+    if (finding.common && &finding != &d.faults.front() && finding.kind == d.faults.front().kind) continue;
+    text += fmt::format("{}{} {}", text.empty() ? "" : "; ",
+                        finding.common ? "every run" : "run " + finding.run, finding.words);
+  }
+  if (text.empty()) return text;
+  text.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(text.front())));
+  return text + ". ";
+}
+
+namespace {
+
+std::string verdict_in_words(const Diagnosis& d) {
   const auto mm = [&](double ratio) {
     return fmt::format("{:.2g} mm", 1e3 * ratio * d.corrected.muscle.rest_length_m);
   };
@@ -77,10 +94,11 @@ std::string because(const Diagnosis& d) {
   switch (d.verdict) {
     case Verdict::nothing_missing:
       return fmt::format(
-          "Model and data agree to within noise: on runs held out the load's height differs by {}, and "
+          "{} to within noise: on runs held out the load's height differs by {}, and "
           "neither "
           "other values of the nominal parameters nor any effect of the catalogue makes that convincingly "
           "less.",
+          d.faults.empty() ? "Model and data agree" : "Apart from that model and data agree",
           mm(d.gap.nominal_rmse));
     case Verdict::recalibrate: {
       std::string moved;
@@ -118,9 +136,24 @@ std::string because(const Diagnosis& d) {
     case Verdict::cannot_tell:
       break;
   }
+  if (!d.unexplained.empty())
+    return fmt::format(
+        "Something is wrong that these data do not settle: no model comes near every run (in noise floors: "
+        "{}), and no "
+        "effect convinces on the runs held out.",
+        d.unexplained);
+  if (std::any_of(d.faults.begin(), d.faults.end(), [](const Finding& f) { return f.common; }))
+    return "Apart from that model and data agree, but whether the recorder does it or the rig, these data "
+           "cannot tell.";
   return "Nothing was found, but these data would not show more than half of the effects of the catalogue at "
          "their "
          "usual size: whether one is missing they cannot tell.";
+}
+
+}  // namespace
+
+std::string because(const Diagnosis& diagnosis) {
+  return faults_in_words(diagnosis) + verdict_in_words(diagnosis);
 }
 
 }  // namespace mckibben::diagnose

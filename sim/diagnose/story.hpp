@@ -13,7 +13,11 @@ namespace mckibben::diagnose {
 void tell_parameters(Diagnosis& diagnosis, const Model& model, const std::vector<Bounds>& bounds,
                      const plant::Rig& recalibrated);
 
-/// The verdict in a sentence. Needs everything else.
+/// What is wrong with the recording, each run by name, and what all have in common once; empty, or sentences
+/// and a space.
+std::string faults_in_words(const Diagnosis& diagnosis);
+
+/// The faults, then the verdict in a sentence. Needs everything else.
 std::string because(const Diagnosis& diagnosis);
 
 }  // namespace mckibben::diagnose

@@ -11,12 +11,16 @@
 
 namespace mckibben::diagnose {
 
+/// Told what is being done, or what is known so far.
+using Step = std::function<void(const std::string&)>;
+
 /// What stays the same throughout a diagnosis.
 struct Case {
   const Experiment& experiment;
   const plant::Rig& nominal;
   Split split;
   double temperature;
+  Step learned;  ///< hears what is known so far
 };
 
 /// A fitted model and what it makes of the runs held out.
@@ -38,10 +42,7 @@ struct Screening {
   std::vector<Score> scores;
 };
 
-/// Told what is being done.
-using Step = std::function<void(const std::string&)>;
-
-/// Expected drops below this are chance.
+/// Falls of the misfit below this, expected or come true, are chance.
 inline constexpr double chance = 6.0;
 /// A difference of costs that scatter does not make.
 inline constexpr double clear = 12.0;

@@ -154,6 +154,7 @@ std::vector<Factor> factors_of(const Experiment& experiment, const plant::Rig& r
                            "", [](const Row& row) { return row.contraction_ratio; }));
   factors.push_back(
       binned("time in run", equal(0.0, longest_s, 4), 1.0, "s", [](const Row& row) { return row.time_s; }));
+  factors.push_back(binned("start of run", {1.0, 4.0}, 1.0, "s", [](const Row& row) { return row.time_s; }));
   factors.push_back(binned("time since reversal", {0.1, 0.5, 2.0}, 1.0, "s",
                            [](const Row& row) { return row.since_turn_s; }));
   factors.back().cell = [bin = factors.back().cell](const Row& row) -> std::ptrdiff_t {

@@ -40,7 +40,7 @@ class Erk final : public Integrator {
     set_up_erk<V>(m, context_, tolerance, &problem_, steps_, message_);
     if (rig.has_events()) {
       int falling = -1;
-      ERKStepSetInterpolantDegree(m, 3);
+      ERKStepSetInterpolantDegree(m, 5);  // the state at an event as exact as at the end of a step
       ERKStepRootInit(m, 1, event_margin<V>);
       ERKStepSetRootDirection(m, &falling);
       ERKStepSetNoInactiveRootWarn(m);

@@ -11,7 +11,7 @@ namespace {
 
 template <bool remembers, int lanes>
 class ErkFlock final : public Flock {
-  using L = Layout<remembers, false>;
+  using L = Layout<remembers, Books::none>;
   struct V : FixedVector<L::size * lanes, L::steering, lanes> {
     using layout = L;
   };

@@ -16,24 +16,22 @@ class Automatic final : public Integrator {
       : erk_(make_erk(rig, tolerance, keep_ledger)), cvode_(make_cvode(rig, tolerance, keep_ledger)) {}
 
   void advance(Flow& flow, plant::Held& held, double from_s, double to_s) override {
-    if (stiff_from_tick_ >= 0) {
-      cvode_->advance(flow, held, from_s, to_s);
-      return;
-    }
+    const bool stiff = stiff_from_tick_ >= 0;
     const auto [flow_before, held_before] = std::pair{flow, held};
     try {
-      erk_->advance(flow, held, from_s, to_s);
-    } catch (const NumericalFailure& failure) {  // BDF may still manage
-      stiff_from_tick_ = ticks_;
+      (stiff ? cvode_ : erk_)->advance(flow, held, from_s, to_s);
+    } catch (const NumericalFailure& failure) {  // the other may still manage
       flow = flow_before;
       held = held_before;
       try {
-        cvode_->advance(flow, held, from_s, to_s);
+        (stiff ? erk_ : cvode_)->advance(flow, held, from_s, to_s);
       } catch (const NumericalFailure& second) {
         throw NumericalFailure(second.time_s, second.state, second.cause + "; before it, " + failure.cause);
       }
+      if (!stiff) stiff_from_tick_ = ticks_;
       return;
     }
+    if (stiff) return;
     if (++ticks_ % window_ticks != 0) return;
     const long cost = erk_->counters().right_hand_sides;
     if (cost - cost_before_ > stiff_cost_per_tick * window_ticks) stiff_from_tick_ = ticks_;

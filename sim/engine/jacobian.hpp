@@ -42,7 +42,7 @@ bool jacobian(const Problem<L>& problem, const double* y, Matrix& result) {
   if constexpr (L::remembers)
     for (const Dual& rate : now.memory_rates) row(rate);
   if constexpr (L::audits) {
-    const auto ledger = problem.plant().ledger_rates(now);
+    const auto ledger = problem.plant().ledger_rates(state, now, Problem<L>::ledger_of(y));
     row(ledger.air_drawn_kg);
     row(ledger.air_vented_kg);
     row(ledger.air_leaked_kg);
@@ -51,6 +51,12 @@ bool jacobian(const Problem<L>& problem, const double* y, Matrix& result) {
     row(ledger.guide_work_J);
     row(ledger.stop_work_J);
     row(ledger.effects_work_J);
+    if constexpr (L::entries == plant::ledger_size) {  // of the gas that is there already it makes little
+      row(ledger.valve_air_kg);
+      row(ledger.muscle_air_kg);
+      row(ledger.air_inflow_J);
+      row(ledger.gas_work_J);
+    }
   }
   return true;
 }

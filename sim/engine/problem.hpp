@@ -20,12 +20,19 @@ struct Flow {
 /// Working size of each state: an error of tolerance times this may be made in a step.
 inline constexpr std::array<double, plant::state_size> working_size{0.3, 1.0, 5e5, 5e5, 1e-4};
 
+/// How much of the ledger is kept: nothing, what isothermal gas needs, or all.
+enum class Books { none, isothermal, polytropic };
+
 /// Which components there are.
-template <bool remembers_, bool audits_>
+template <bool remembers_, Books books_>
 struct Layout {
-  static constexpr bool remembers = remembers_, audits = audits_;
+  static constexpr bool remembers = remembers_, audits = books_ != Books::none;
   static constexpr int steering = plant::state_size + (remembers ? static_cast<int>(plant::memory_size) : 0);
-  static constexpr int size = steering + (audits ? plant::ledger_size : 0);
+  static constexpr int entries = books_ == Books::none         ? 0
+                                 : books_ == Books::isothermal ? plant::isothermal_ledger_size
+                                                               : plant::ledger_size;
+  static constexpr int size = steering + entries;
+  static constexpr std::size_t ledger_bytes = entries * sizeof(double);
 };
 
 template <class L>
@@ -51,16 +58,22 @@ class Problem {
     return memory;
   }
 
+  static plant::Ledger<double> ledger_of(const double* y) {
+    plant::Ledger<double> ledger{};
+    if constexpr (L::audits) std::memcpy(&ledger, y + L::steering, L::ledger_bytes);
+    return ledger;
+  }
+
   static void store(const Flow& flow, double* y) {
     std::memcpy(y, &flow.state, sizeof flow.state);
     if constexpr (L::remembers) std::memcpy(y + plant::state_size, flow.memory.data(), sizeof flow.memory);
-    if constexpr (L::audits) std::memcpy(y + L::steering, &flow.ledger, sizeof flow.ledger);
+    if constexpr (L::audits) std::memcpy(y + L::steering, &flow.ledger, L::ledger_bytes);
   }
 
   static void load(const double* y, Flow& flow) {
     std::memcpy(&flow.state, y, sizeof flow.state);
     if constexpr (L::remembers) std::memcpy(flow.memory.data(), y + plant::state_size, sizeof flow.memory);
-    if constexpr (L::audits) std::memcpy(&flow.ledger, y + L::steering, sizeof flow.ledger);
+    if constexpr (L::audits) std::memcpy(&flow.ledger, y + L::steering, L::ledger_bytes);
   }
 
   /// dy/dt; false where a law is not defined (a trial stage of the solver may go there).
@@ -75,8 +88,8 @@ class Problem {
       std::memcpy(dydt + plant::state_size, memories.data(), sizeof memories);
     }
     if constexpr (L::audits) {
-      const auto ledger = plant_.ledger_rates(now);
-      std::memcpy(dydt + L::steering, &ledger, sizeof ledger);
+      const auto ledger = plant_.ledger_rates(state, now, ledger_of(y));
+      std::memcpy(dydt + L::steering, &ledger, L::ledger_bytes);
     }
     return true;
   }

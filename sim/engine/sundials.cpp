@@ -1,4 +1,5 @@
 // Words for what the solvers report.
+#include <algorithm>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -9,7 +10,8 @@ namespace mckibben::engine {
 
 namespace {
 
-bool near_edge_of_domain(const plant::Plant& rig, const plant::State<double>& state) {
+/// Which of the domain's edges the state has come to, in words; empty if to none.
+std::string edge_of_domain(const plant::Plant& rig, const plant::State<double>& state) {
   const auto leaves = [&](double ratio, double pressure_Pa) {
     plant::State<double> moved = state;
     moved.joint.contraction_ratio += ratio;
@@ -17,7 +19,18 @@ bool near_edge_of_domain(const plant::Plant& rig, const plant::State<double>& st
     moved.side.muscle_pressure_Pa += pressure_Pa;
     return !rig.in_domain(moved);
   };
-  return leaves(1e-3, 0.0) || leaves(-1e-3, 0.0) || leaves(0.0, -500.0);
+  // Within a fiftieth of what lays the threads along the axis, or there within a millisecond.
+  const double e = state.joint.contraction_ratio, soon = 1e-3 * state.joint.contraction_speed_per_s;
+  if ((e < 0.0 && leaves(0.02 * e - 1e-4, 0.0)) || (soon < 0.0 && leaves(soon, 0.0)))
+    return "the load has stretched the taut threads until they lie along the muscle: take a smaller load, a "
+           "stiffer stop (muscle.stop_stiffness) or more stop_damping";
+  if (leaves(std::max(1e-3, soon), 0.0))
+    return "the muscle has been thrown past its shortest length: look at the load, and at how fast valve and "
+           "hose fill the muscle";
+  if (leaves(0.0, -500.0))
+    return "a pressure has fallen to vacuum: look at how fast the load moves, and at the conductances of "
+           "valve and hose";
+  return "";
 }
 
 }  // namespace
@@ -25,7 +38,8 @@ bool near_edge_of_domain(const plant::Plant& rig, const plant::State<double>& st
 std::string cause_of(Trouble trouble, const char* solver, const std::string& message, const plant::Plant& rig,
                      const plant::State<double>& state) {
   const bool explicit_method = solver == std::string_view("ERKStep");
-  if (trouble != Trouble::too_accurate && trouble != Trouble::events && near_edge_of_domain(rig, state))
+  const std::string edge = edge_of_domain(rig, state);
+  if (trouble != Trouble::too_accurate && trouble != Trouble::events && !edge.empty())
     trouble = Trouble::outside_domain;
   std::string likely;
   switch (trouble) {
@@ -43,9 +57,8 @@ std::string cause_of(Trouble trouble, const char* solver, const std::string& mes
           "stiff";
       break;
     case Trouble::outside_domain:
-      likely =
-          "the state left the range in which the rig's laws are defined (braid folded or past its shortest, "
-          "pressure below vacuum, not a number) - look at the rig's values and the load";
+      likely = "the state left the range in which the rig's laws are defined - " +
+               (edge.empty() ? "it is not a number: look at the rig's values and the load" : edge);
       break;
     case Trouble::convergence:
       likely = "Newton's iteration did not converge - try method: erk, or a tighter tolerance";

@@ -17,20 +17,20 @@
 namespace mckibben::engine {
 
 /// The vectors that the methods work on. A kind of vector V offers layout, size, make(context), data(vector).
-template <bool remembers, bool audits>
-struct PlantVector : FixedVector<Layout<remembers, audits>::size, Layout<remembers, audits>::steering> {
-  using layout = Layout<remembers, audits>;
+template <bool remembers, Books books>
+struct PlantVector : FixedVector<Layout<remembers, books>::size, Layout<remembers, books>::steering> {
+  using layout = Layout<remembers, books>;
 };
 
 /// make(V*) for the vector V that a rig needs.
 template <class Make>
 auto with_vector(const plant::Plant& rig, bool keep_ledger, const Make& make) {
-  const auto null = [&]<bool remembers, bool audits>() {
-    return make(static_cast<PlantVector<remembers, audits>*>(nullptr));
+  const auto with_books = [&]<bool remembers>(std::bool_constant<remembers>) {
+    if (!keep_ledger) return make(static_cast<PlantVector<remembers, Books::none>*>(nullptr));
+    if (rig.polytropic()) return make(static_cast<PlantVector<remembers, Books::polytropic>*>(nullptr));
+    return make(static_cast<PlantVector<remembers, Books::isothermal>*>(nullptr));
   };
-  if (rig.remembers())
-    return keep_ledger ? null.template operator()<true, true>() : null.template operator()<true, false>();
-  return keep_ledger ? null.template operator()<false, true>() : null.template operator()<false, false>();
+  return rig.remembers() ? with_books(std::true_type{}) : with_books(std::false_type{});
 }
 
 /// A SUNDIALS context: one for each integrator, since it is not shared between threads.
@@ -111,11 +111,14 @@ std::string cause_of(Trouble trouble, const char* solver, const std::string& mes
 void keep_message(int code, const char* module, const char* function, char* message, void* text);
 
 /// The libraries allocate the last of their memory in their first step: it is done here, from rest. Returns
-/// what it cost, which is not the run's.
+/// what it cost, which is not the run's; nor is a failure.
 inline Counters warm_up(Integrator& integrator, const plant::Plant& rig) {
-  Flow scratch{rig.at_rest({}), {}, {}};
+  Flow scratch{rig.at_rest({}), {}, rig.opened(rig.at_rest({}))};
   plant::Held held;
-  integrator.advance(scratch, held, 0.0, 1e-9);
+  try {
+    integrator.advance(scratch, held, 0.0, 1e-9);
+  } catch (const NumericalFailure&) {  // what troubles this rig, the run will tell
+  }
   return integrator.counters();
 }
 

@@ -1,6 +1,8 @@
 // A child process that hands its result over in a file in memory; see the header.
 #include <cerrno>
 #include <exception>
+#include <new>
+#include <string>
 #include <system_error>
 
 #include <fcntl.h>
@@ -15,7 +17,7 @@
 namespace mckibben::formats {
 namespace {
 
-enum Ending { whole = 0, refused = 1, broken = 2 };
+enum Ending { whole = 0, refused = 1, broken = 2, no_machine = 3 };
 
 constexpr rlim_t longest_s = 20;  // of computing: a damaged file can also make for an endless loop
 
@@ -34,6 +36,12 @@ constexpr rlim_t longest_s = 20;  // of computing: a damaged file can also make 
     } catch (const BadFile& bad) {
       result.append(bad.what());
       ending = refused;
+    } catch (const std::system_error& error) {
+      result.append(std::to_string(error.code().value()));
+      ending = no_machine;
+    } catch (const std::bad_alloc&) {
+      result.append(std::to_string(ENOMEM));
+      ending = no_machine;
     }
   } catch (const std::exception&) {
     ending = broken;
@@ -53,6 +61,8 @@ std::string in_child(const std::function<std::string()>& work) {
   }
   if (WIFEXITED(status) && WEXITSTATUS(status) == whole) return result.bytes();
   if (WIFEXITED(status) && WEXITSTATUS(status) == refused) throw BadFile(result.bytes());
+  if (WIFEXITED(status) && WEXITSTATUS(status) == no_machine)
+    throw std::system_error(std::stoi(result.bytes()), std::generic_category(), "a child process");
   throw BadFile("the file is damaged: it cannot be read");
 }
 

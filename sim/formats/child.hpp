@@ -8,7 +8,8 @@
 namespace mckibben::formats {
 
 /// What `work` returns, done in a child process that ends with it. Throws BadFile if the child does not come
-/// to its end, and for BadFile in it. Call where no other threads run that hold locks.
+/// to its end, and for BadFile in it; std::system_error if the machine has no process, descriptor or memory
+/// for it. Call where no other threads run that hold locks.
 std::string in_child(const std::function<std::string()>& work);
 
 }  // namespace mckibben::formats

@@ -1,10 +1,12 @@
 // Reading of MAT-files with libmatio; see the header. The library trusts what a file says of itself, so its
 // frame and sizes are judged first, and the library runs in a child process.
 #include <algorithm>
+#include <cerrno>
 #include <charconv>
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <system_error>
 #include <utility>
 
 #include <fmt/format.h>
@@ -18,7 +20,6 @@
 namespace mckibben::formats {
 namespace {
 
-constexpr std::size_t most_numbers = 1U << 24U;  // a million ticks in sixteen columns
 constexpr std::size_t most_names = 10000;
 
 struct CloseMat {
@@ -201,6 +202,7 @@ class Parcel {
 std::string parcel(const std::string& path, const std::vector<std::string>& wanted) {
   Mat_LogInitFunc("mckibben", [](int, char*) {});
   const Mat mat(Mat_Open(path.c_str(), MAT_ACC_RDONLY));
+  if (!mat && errno == EMFILE) throw std::system_error(errno, std::generic_category());
   if (!mat) throw BadFile("this is not a MAT-file that can be read");
   Parcel out;
   for (const std::string& where : wanted) {

@@ -17,9 +17,10 @@ namespace mckibben::formats {
 namespace {
 
 constexpr std::size_t heading_bytes = 128, tag_bytes = 8;
-constexpr std::size_t most_inflated = 1U << 28U;  // larger variables are not read, and not checked
+constexpr std::size_t most_inflated = 1U << 28U;  // of all variables
 constexpr std::uint32_t matrix_type = 14, compressed_type = 15;
-constexpr std::uint32_t struct_class = 2, first_numeric_class = 6, last_numeric_class = 15;
+constexpr std::uint32_t cell_class = 1, struct_class = 2, first_numeric_class = 6, last_numeric_class = 15,
+                        opaque_class = 17;
 
 [[noreturn]] void damaged() {
   throw BadFile("its sizes and contents do not agree: the file is damaged");
@@ -82,25 +83,33 @@ std::size_t count_of(const Element& dimensions, bool big_endian) {
   return count;
 }
 
-/// Numbers must be as many as the dimensions say, here and in the fields of structs. Other kinds are not
-/// read.
+/// Numbers, cells and fields of structs must be as many as the dimensions say, and those inside of them too:
+/// libmatio makes room for what is said. Of other kinds it reads no more than the dimensions.
 void check_matrix(std::string_view content, bool big_endian, int depth) {
   constexpr int deepest = 50;
   if (content.empty()) return;  // an empty field
   if (depth > deepest) damaged();
   Elements parts(content, big_endian);
   const std::uint32_t kind = word(parts.next().content, 0, big_endian) & 0xFFU;
-  if (kind != struct_class && (kind < first_numeric_class || kind > last_numeric_class)) return;
+  if (kind == opaque_class) return;  // an object of MATLAB's, which has no dimensions here
   const std::size_t count = count_of(parts.next(), big_endian);
   parts.next();  // its name
-  if (kind != struct_class) {
+  if (kind >= first_numeric_class && kind <= last_numeric_class) {
     const Element numbers = parts.next();
     const std::size_t bytes = number_bytes(numbers.type);
     if (bytes == 0 || numbers.content.size() != count * bytes) damaged();
     return;
   }
-  parts.next();  // length of field names
-  parts.next();  // field names
+  if (count > most_numbers)
+    throw BadFile(fmt::format("it has more than {} elements, which is more than is read", most_numbers));
+  if (kind != cell_class && kind != struct_class) return;
+  std::size_t held = count;
+  if (kind == struct_class) {
+    const std::size_t length = word(parts.next().content, 0, big_endian);
+    const std::size_t names = parts.next().content.size();
+    held *= length == 0 ? 0 : names / length;
+  }
+  if (held > content.size() / tag_bytes) damaged();
   while (!parts.empty()) {
     const Element field = parts.next();
     if (field.type != matrix_type) damaged();
@@ -108,14 +117,16 @@ void check_matrix(std::string_view content, bool big_endian, int depth) {
   }
 }
 
-/// What zlib makes of it, all of which must be there and right; empty if it is too large.
-std::string inflated(std::string_view compressed) {
+/// What zlib makes of it, all of which must be there and right; `left` is how much it may be, and is used up.
+std::string inflated(std::string_view compressed, std::size_t& left) {
   z_stream stream{};
   if (inflateInit(&stream) != Z_OK) throw BadFile("there is no memory to read it");
   const std::unique_ptr<z_stream, int (*)(z_stream*)> owner(&stream, inflateEnd);
   stream.next_in = const_cast<Bytef*>(reinterpret_cast<const Bytef*>(compressed.data()));
   stream.avail_in = static_cast<uInt>(compressed.size());
   std::string bytes;
+  constexpr std::size_t densest = 1032;  // what zlib can make of a byte
+  bytes.reserve(std::min(left, compressed.size() * densest));
   std::array<char, 1U << 16U> block;
   for (int status = Z_OK; status != Z_STREAM_END;) {
     stream.next_out = reinterpret_cast<Bytef*>(block.data());
@@ -123,15 +134,17 @@ std::string inflated(std::string_view compressed) {
     status = inflate(&stream, Z_NO_FLUSH);
     if (status != Z_OK && status != Z_STREAM_END) damaged();
     bytes.append(block.data(), block.size() - stream.avail_out);
-    if (bytes.size() > most_inflated) return {};
+    if (bytes.size() > left)
+      throw BadFile(fmt::format("uncompressed, they are larger than {} MB; save only what is wanted",
+                                most_inflated >> 20U));
   }
+  left -= bytes.size();
   return bytes;
 }
 
-void check_variable(std::uint32_t type, std::string_view content, bool big_endian) {
+void check_variable(std::uint32_t type, std::string_view content, bool big_endian, std::size_t& left) {
   if (type == matrix_type) return check_matrix(content, big_endian, 0);
-  const std::string bytes = inflated(content);
-  if (bytes.empty()) return;
+  const std::string bytes = inflated(content, left);
   const Element matrix = Elements(bytes, big_endian).next();
   if (matrix.type != matrix_type) damaged();
   check_matrix(matrix.content, big_endian, 0);
@@ -171,6 +184,7 @@ bool check_heading(std::string_view bytes) {
 void check_mat_frame(std::string_view bytes) {
   const bool big_endian = check_heading(bytes);
   int number = 1;
+  std::size_t left = most_inflated;
   for (std::size_t at = heading_bytes; at < bytes.size(); ++number) {
     if (bytes.size() - at < tag_bytes)
       throw BadFile(fmt::format("the file ends in its {}. variable; it is cut off", number));
@@ -183,7 +197,7 @@ void check_mat_frame(std::string_view bytes) {
           fmt::format("its {}. variable should have {} bytes and has {}: the file is damaged or cut off",
                       number, size, bytes.size() - at - tag_bytes));
     try {
-      check_variable(type, bytes.substr(at + tag_bytes, size), big_endian);
+      check_variable(type, bytes.substr(at + tag_bytes, size), big_endian, left);
     } catch (const BadFile& bad) {
       throw BadFile(fmt::format("its {}. variable: {}", number, bad.what()));
     }

@@ -2,9 +2,12 @@
 // gives numbers for those that are not there, and does not look at zlib's check sums.
 #pragma once
 
+#include <cstddef>
 #include <string_view>
 
 namespace mckibben::formats {
+
+inline constexpr std::size_t most_numbers = 1U << 24U;  // of a variable: a million ticks in sixteen columns
 
 /// Throws BadFile if these are not the bytes of a whole MAT-file of level 5; tells what they are instead,
 /// where it can be told, and what to do.

@@ -8,6 +8,7 @@
 
 #include <sim/input/ascii.hpp>
 #include <sim/input/cells.hpp>
+#include <sim/input/limits.hpp>
 #include <sim/input/number.hpp>
 
 namespace mckibben::input {
@@ -47,6 +48,7 @@ Table read_ascii(const Source& source, std::span<const WantedColumn> wanted, Tab
     if (first == 0) {
       first = line;
       width = cells.size();
+      check_columns(width, {line, 1}, problems);
       for (const Table::Column& column : table.columns)
         if (column.index >= width)
           problems.add({line, 1}, fmt::format("there is no {}: this row has {}", column.in_file, width));

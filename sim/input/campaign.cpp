@@ -6,6 +6,7 @@
 
 #include <sim/input/campaign.hpp>
 #include <sim/input/common_checks.hpp>
+#include <sim/input/current_checks.hpp>
 #include <sim/input/file_names.hpp>
 
 namespace mckibben::input {
@@ -52,6 +53,8 @@ void check_currents(const YamlFile& file, Campaign& campaign, Problems& problems
       problems.error(file.source, node.find("duration")->place,
                      fmt::format("duration = {}: shorter than half a tick of {} ms",
                                  node.find("duration")->text, 1e3 * campaign.rig.tick_s));
+    if (auto* steps = std::get_if<controllers::StepCurrent>(&current.current))
+      steps->follow(working_range(campaign.rig));
     if (auto* recorded = std::get_if<controllers::RecordedCurrent>(&current.current))
       load_recording(*recorded, file.source, *waveform.find("file"), campaign.rig, problems);
   }

@@ -4,12 +4,23 @@
 
 #include <fmt/format.h>
 
+#include <plant/geometry.hpp>
 #include <sim/input/common_checks.hpp>
 #include <sim/input/csv.hpp>
 #include <sim/input/file_names.hpp>
+#include <sim/input/limits.hpp>
 #include <sim/input/quantity.hpp>
 
 namespace mckibben::input {
+
+std::string too_heavy(double load_kg, const plant::Rig& rig) {
+  const double most_kg = plant::Braid(rig.muscle).largest_load_kg();
+  if (load_kg + rig.joint.load_offset_kg <= most_kg) return "";
+  return fmt::format(
+      "the taut threads of this muscle bear {:.3g} kg before they lie along it; a stiffer stop "
+      "(muscle.stop_stiffness, {}) or a wider braid_angle bears more",
+      most_kg, write_quantity(rig.muscle.stop_stiffness_N_per_m, "N/m"));
+}
 
 void check_name(const YamlFile& file, const std::string& name, Problems& problems) {
   const Node* given = file.root.find("name");
@@ -31,6 +42,8 @@ void check_loads(const YamlFile& file, const std::vector<double>& loads_kg, cons
       problems.error(file.source, node.place,
                      fmt::format("loads: {} and the rig's joint.load_offset of {} leave no load", node.text,
                                  write_quantity(offset_kg, "kg")));
+    else if (const auto why = too_heavy(loads_kg[i], rig); !why.empty())
+      problems.error(file.source, node.place, fmt::format("loads: {}: {}", node.text, why));
   }
 }
 
@@ -38,7 +51,7 @@ void load_recording(controllers::RecordedCurrent& recorded, const Source& source
                     const plant::Rig& rig, Problems& problems) {
   try {
     const Source table_source =
-        Source::load((source.folder() / recorded.file).lexically_normal(), largest_table_bytes);
+        Source::load((source.folder() / recorded.file).lexically_normal(), most_text_bytes);
     problems.opened(table_source);
     const std::string_view required[] = {"time_s", recorded.column};
     TableProblems found(table_source, problems);

@@ -14,8 +14,11 @@ namespace mckibben::input {
 /// The key `name` of a file, if it is there, must be file-safe.
 void check_name(const YamlFile& file, const std::string& name, Problems& problems);
 
-/// The key `loads` of a file must hold at least one load, none twice, and none that the rig's load offset
-/// takes away.
+/// Why the rig's taut threads cannot bear a load; empty if they can.
+std::string too_heavy(double load_kg, const plant::Rig& rig);
+
+/// The key `loads` of a file must hold at least one load, none twice, none that the rig's load offset takes
+/// away, and none that is too heavy.
 void check_loads(const YamlFile& file, const std::vector<double>& loads_kg, const plant::Rig& rig,
                  Problems& problems);
 

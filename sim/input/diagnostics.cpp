@@ -12,7 +12,7 @@ namespace {
 
 // A file of garbage must not drown the reader, nor memory.
 constexpr std::size_t most_shown = 100;
-constexpr std::size_t longest_line_shown = 400;
+constexpr std::size_t longest_line_shown = 400, longest_message = 1000;
 
 /// Blanks as wide as the characters before `column`; tabs stay tabs, so the caret meets its character.
 std::string padding(const std::string& line, std::size_t column) {
@@ -66,7 +66,7 @@ void Problems::adopt(const std::vector<Problem>& found) {
 void Problems::add(Severity severity, const Source& source, Place place, std::string message) {
   std::string_view line = source.line(place.line);
   if (line.size() > longest_line_shown || printable(line) != line) line = {};
-  message = printable(message);
+  message = printable(shortened(message, longest_message));
   add({severity, source.name(), place, std::move(message), std::string(line)});
 }
 

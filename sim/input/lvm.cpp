@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include <sim/input/cells.hpp>
+#include <sim/input/limits.hpp>
 #include <sim/input/lvm.hpp>
 #include <sim/input/number.hpp>
 #include <sim/input/suggest.hpp>
@@ -160,12 +161,13 @@ class LvmReader {
     if (error == std::errc{} && end == last && number >= 1 && number <= names.size()) return number - 1;
     if (wanted.needed)
       problems_.add({line_, 1}, fmt::format("the channel {} is missing{} (found: {})", wanted.in_file,
-                                            did_you_mean(wanted.in_file, names), join(names)));
+                                            did_you_mean(wanted.in_file, names), join_few(names)));
     return std::nullopt;
   }
 
   void find_columns(const Header& found) {
     labels_ = cells();
+    if (!check_columns(labels_.size(), {line_, 1}, problems_)) return;
     std::vector<Table::Column> columns;
     bool has_own_time = true;
     for (const WantedColumn& wanted : wanted_) {

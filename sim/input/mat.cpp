@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <sim/formats/mat_file.hpp>
+#include <sim/input/limits.hpp>
 #include <sim/input/mat.hpp>
 #include <sim/input/suggest.hpp>
 
@@ -15,13 +16,10 @@ namespace {
 
 /// What there is, if what was wanted is not among it.
 std::string found_names(const std::vector<std::string>& names, const std::string& wanted) {
-  constexpr std::size_t most_shown = 20;
   if (std::find(names.begin(), names.end(), wanted.substr(0, wanted.find('('))) != names.end()) return "";
   const std::vector<std::string_view> known(names.begin(), names.end());
   if (known.empty()) return " (found: no variable of numbers)";
-  return fmt::format("{} (found: {}{})", did_you_mean(wanted, known),
-                     join(std::span(known).first(std::min(known.size(), most_shown))),
-                     known.size() > most_shown ? ", ..." : "");
+  return fmt::format("{} (found: {})", did_you_mean(wanted, known), join_few(known));
 }
 
 void check_numbers(Table& table, TableProblems& problems) {
@@ -42,8 +40,8 @@ void check_numbers(Table& table, TableProblems& problems) {
 }  // namespace
 
 Table read_mat_table(const Source& source, std::span<const WantedColumn> wanted, TableProblems& problems) {
-  if (source.text().size() > largest_table_bytes) {
-    problems.add(nowhere, fmt::format("larger than {} MB", largest_table_bytes >> 20U));
+  if (source.text().size() > most_mat_bytes) {
+    problems.add(nowhere, fmt::format("larger than {} MB", most_mat_bytes >> 20U));
     return {};
   }
   Table table;
@@ -62,6 +60,10 @@ Table read_mat_table(const Source& source, std::span<const WantedColumn> wanted,
   } catch (const formats::BadFile& bad) {
     problems.add(nowhere, bad.what());
   }
+  for (const Table::Column& column : table.columns)
+    if (column.values.size() > most_rows)
+      problems.add(nowhere, fmt::format("{} has {} numbers; at most {} are read", column.in_file,
+                                        column.values.size(), most_rows));
   if (problems.count() == 0) check_numbers(table, problems);
   return table;
 }

@@ -3,17 +3,20 @@
 // first. It counts radians as dimensionless; a unit's definition still names them, which tells angles from
 // ratios.
 #include <cctype>
+#include <cerrno>
 #include <cmath>
 #include <memory>
 #include <mutex>
 #include <numbers>
 #include <optional>
+#include <system_error>
 
 #include <fmt/format.h>
 #include <udunits2.h>
 
 #include <sim/input/number.hpp>
 #include <sim/input/quantity.hpp>
+#include <sim/input/utf8.hpp>
 
 namespace mckibben::input {
 namespace {
@@ -27,6 +30,8 @@ struct FreeConverter {
 using Unit = std::unique_ptr<ut_unit, FreeUnit>;
 using Converter = std::unique_ptr<cv_converter, FreeConverter>;
 
+constexpr std::size_t longest_quantity = 200;
+
 std::mutex udunits_mutex;
 
 /// The unit database, read once. Call with the mutex held.
@@ -37,6 +42,7 @@ ut_system* unit_system() {
   static const std::unique_ptr<ut_system, FreeSystem> system = [] {
     ut_set_error_message_handler(ut_ignore);
     std::unique_ptr<ut_system, FreeSystem> read(ut_read_xml(nullptr));
+    if (!read && errno == EMFILE) throw std::system_error(errno, std::generic_category(), "units");
     if (!read) throw std::runtime_error("the unit database of UDUNITS-2 (libudunits2-data) is not installed");
     const Unit degree(ut_parse(read.get(), "degree", UT_ASCII));
     ut_map_name_to_unit("deg", UT_ASCII, degree.get());
@@ -118,6 +124,9 @@ std::string_view usual_unit(std::string_view si_unit) {
 
 double read_quantity(std::string_view text, std::string_view si_unit) {
   const std::string_view whole = trimmed(text);
+  if (whole.size() > longest_quantity)
+    throw BadQuantity(
+        fmt::format("{} is no quantity: it has more than {} characters", shortened(whole), longest_quantity));
   const auto [number, unit] = split(whole);
   const std::string_view rest = whole.substr(number.size());
   if (number.empty() ||
@@ -146,11 +155,12 @@ double read_quantity(std::string_view text, std::string_view si_unit) {
 }
 
 std::string unit_problem(std::string_view unit, std::string_view wanted) {
+  const std::string shown = shortened(unit);
   switch (convert({}, unit, wanted)) {
     case Fit::unknown:
-      return fmt::format("{} is not a unit; wanted is {}", unit, wanted);
+      return fmt::format("{} is not a unit; wanted is {}", shown, wanted);
     case Fit::wrong:
-      return fmt::format("{} is the wrong kind of unit; wanted is {}", unit, wanted);
+      return fmt::format("{} is the wrong kind of unit; wanted is {}", shown, wanted);
     case Fit::fits:
       break;
   }

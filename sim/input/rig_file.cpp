@@ -9,6 +9,7 @@
 
 #include <sim/input/rig_file.hpp>
 #include <sim/input/suggest.hpp>
+#include <sim/input/utf8.hpp>
 
 namespace mckibben::input {
 namespace {
@@ -43,7 +44,7 @@ void read_file(const Source& source, const Node& node, const fs::path& path, Rig
   fs::path real = fs::weakly_canonical(path, ignored);
   if (real.empty()) real = path;
   if (std::find(chain.begin(), chain.end(), real) != chain.end()) {
-    problems.error(source, node.place, fmt::format("the base {} leads back to itself", node.text));
+    problems.error(source, node.place, fmt::format("the base {} leads back to itself", shortened(node.text)));
     return;
   }
   chain.push_back(real);
@@ -69,7 +70,7 @@ void read_reference(const Source& source, const Node& node, RigFile& into, Probl
     problems.error(
         source, node.place,
         fmt::format("unknown rig {}{} (shipped: {}; or the path of a rig file, such as rigs/mine.yaml)",
-                    node.text, did_you_mean(node.text, shipped), join(shipped)));
+                    shortened(node.text), did_you_mean(node.text, shipped), join(shipped)));
   }
 }
 
@@ -107,13 +108,13 @@ void Spelling<RigFile>::read(const Source& source, const Node& node, RigFile& in
 RigFile read_rig(const std::string& name_or_path, std::vector<InputFile>& inputs) {
   RigFile rig;
   if (is_shipped(name_or_path)) return rig;
-  if (!looks_like_path(name_or_path) && !fs::exists(name_or_path))
+  std::error_code ignored;
+  if (!looks_like_path(name_or_path) && !fs::exists(name_or_path, ignored))
     throw MissingInput(fmt::format("unknown rig {}{} (shipped: {}; or the path of a rig file)", name_or_path,
                                    did_you_mean(name_or_path, shipped), join(shipped)));
   Problems problems;
   const fs::path path = name_or_path;
   const YamlFile file = load_yaml(path);
-  std::error_code ignored;
   Chain chain{fs::weakly_canonical(path, ignored)};
   problems.opened(file.source);
   problems.adopt(file.found);

@@ -11,7 +11,9 @@
 #include <fmt/format.h>
 
 #include <sim/input/ascii.hpp>
+#include <sim/input/column_hints.hpp>
 #include <sim/input/csv.hpp>
+#include <sim/input/limits.hpp>
 #include <sim/input/lvm.hpp>
 #include <sim/input/mat.hpp>
 #include <sim/input/run_file.hpp>
@@ -22,6 +24,7 @@ namespace {
 
 constexpr double bar_Pa = 1e5;
 constexpr double lowest_contraction = -0.2, highest_contraction = 1.0;
+constexpr double lowest_gauge_bar = -2.0, highest_gauge_bar = 100.0;  // a vacuum, and noise
 
 enum class Format { csv, lvm, mat, ascii };
 
@@ -108,7 +111,7 @@ Table read_as(Format format, const Source& source, const std::vector<WantedColum
               std::size_t segment, TableProblems& problems) {
   switch (format) {
     case Format::csv:
-      return read_csv(source, wanted, problems);
+      return read_csv(source, wanted, problems, hint_of_missing);
     case Format::lvm:
       return read_lvm(source, wanted, segment, problems);
     case Format::mat:
@@ -130,9 +133,12 @@ void read_table_of(Source source, Format format, const Wanted& wanted, const Col
   if (const Table::Column* time = table.find("time_s"); time != nullptr && map.rows_are_ticks)
     found.add(table, *time, 0, "rows_are_ticks is said, and yet the file holds time_s");
   convert_columns(table, map, dataset.rig);
-  check_ticks(table, dataset.rig.tick_s, found);
-  check_dac_range(table, *current, dataset.rig.dac.largest_current_mA, found);
-  check_range(table, *contraction, lowest_contraction, highest_contraction, "what a muscle can do", found);
+  const double largest_mA = dataset.rig.dac.largest_current_mA;
+  ColumnChecks checks(table, map, found);
+  checks.time(dataset.rig.tick_s);
+  checks.current(largest_mA);
+  checks.contraction(lowest_contraction, highest_contraction, largest_mA);
+  checks.pressure(lowest_gauge_bar, highest_gauge_bar);
   run.current_mA = std::move(current->values);
   run.contraction_ratio = std::move(contraction->values);
   if (Table::Column* pressure = table.find("muscle_pressure_bar")) {
@@ -162,7 +168,7 @@ void read_run_file(const YamlFile& file, const Node& node, const Dataset& datase
   const Wanted wanted(file, node, *format, map, problems);
   if (problems.errors() > errors) return;
   try {
-    read_table_of(Source::load((file.source.folder() / run.file).lexically_normal(), largest_table_bytes),
+    read_table_of(Source::load((file.source.folder() / run.file).lexically_normal(), most_text_bytes),
                   *format, wanted, map, dataset, run, problems);
   } catch (const MissingInput& missing) {
     problems.missing_file(file.source, place, missing.what());

@@ -10,6 +10,7 @@
 #include <plant/geometry.hpp>
 #include <sim/input/calibration_file.hpp>
 #include <sim/input/common_checks.hpp>
+#include <sim/input/current_checks.hpp>
 #include <sim/input/file_names.hpp>
 #include <sim/input/number.hpp>
 #include <sim/input/quantity.hpp>
@@ -34,6 +35,7 @@ class Checker {
     check_duration();
     check_noise();
     check_loads(file_, scenario_.loads_kg, scenario_.rig, problems_);
+    check_rig();
     check_controllers();
     check_criteria();
     check_target();
@@ -57,6 +59,11 @@ class Checker {
                         "noise.gauge has no effect: the rig has no gauge (gauge: {fitted: true})");
   }
 
+  void check_rig() {
+    const Node* rig = root_.find("rig");
+    check_dac(scenario_.rig, source_, rig != nullptr ? rig->place : root_.place, problems_);
+  }
+
   void check_controllers() {
     const Node& nodes = list("controllers");
     if (scenario_.controllers.empty())
@@ -77,6 +84,7 @@ class Checker {
                         earlier->second));
       if (auto* recorded = std::get_if<controllers::RecordedCurrent>(&scenario_.controllers[i]))
         load_recording(*recorded, source_, *node.find("file"), scenario_.rig, problems_);
+      follow_valve(scenario_.controllers[i], source_, node, scenario_.rig, problems_);
       if (auto* calibrated = controllers::calibrated(scenario_.controllers[i]))
         load_calibration(*calibrated, node);
     }
@@ -116,7 +124,7 @@ class Checker {
     } else {
       const Node* weighing = node.find("weighing");
       check(weighing != nullptr ? weighing->find("speed") : nullptr, "weighing.speed",
-            settings.weighing.speed_mA_per_s, range.lowest_speed_mA_per_s, range.highest_speed_mA_per_s,
+            *settings.weighing.speed_mA_per_s, range.lowest_speed_mA_per_s, range.highest_speed_mA_per_s,
             "mA/s");
     }
   }

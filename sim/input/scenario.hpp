@@ -62,7 +62,7 @@ struct Scenario {
     visit("rig", self.rig, "a shipped name, the path of a rig file, or changes in place");
     visit.required("loads", self.loads_kg, "kg", 0.01, 500.0, "masses of the loads");
     visit.required("target", self.target, "the movement that is wanted");
-    visit.required("duration", self.duration_s, "s", 0.012, 3600.0, "length of each run");
+    visit.required("duration", self.duration_s, "s", 1e-4, 3600.0, "length of each run");
     visit.required("controllers", self.controllers, "what is to follow the target");
     visit("noise", self.noise, "what disturbs the instruments");
     visit("seed", self.seed, 0, std::numeric_limits<std::uint64_t>::max(), "where chance begins");

@@ -10,6 +10,13 @@
 #include <sim/input/utf8.hpp>
 
 namespace mckibben::input {
+namespace {
+
+constexpr std::size_t longest_path = 400;      // that is shown
+constexpr std::size_t most_lines = 1U << 24U;  // that are told apart; no reader takes as many
+
+}  // namespace
+
 Source::Source(std::string name, std::string text, std::filesystem::path folder)
     : name_(std::move(name)), text_(std::move(text)), sha256_(sha256_hex(text_)), folder_(std::move(folder)) {
   if (text_.starts_with("\xEF\xBB\xBF")) text_.erase(0, 3);
@@ -18,8 +25,11 @@ Source::Source(std::string name, std::string text, std::filesystem::path folder)
 
 void Source::find_lines() {
   starts_.assign(1, 0);
-  for (std::size_t i = 0; i < text_.size(); ++i)
-    if (text_[i] == '\n' && i + 1 < text_.size()) starts_.push_back(i + 1);
+  for (std::size_t at = text_.find('\n'); at != std::string::npos && at + 1 < text_.size();
+       at = text_.find('\n', at + 1)) {
+    if (starts_.size() == most_lines) return;
+    starts_.push_back(at + 1);
+  }
 }
 
 Source Source::load(const std::filesystem::path& path, std::size_t largest_bytes) {
@@ -27,8 +37,12 @@ Source Source::load(const std::filesystem::path& path, std::size_t largest_bytes
   if (std::filesystem::is_directory(path, ignored))
     throw MissingInput(path.string() + ": is a folder, not a file");
   std::ifstream stream(path, std::ios::binary);
-  if (!stream) throw MissingInput(path.string() + ": cannot be opened: " + std::strerror(errno));
+  if (!stream)
+    throw MissingInput(shortened(path.string(), longest_path) +
+                       ": cannot be opened: " + std::strerror(errno));
   std::string text;
+  const auto bytes = std::filesystem::file_size(path, ignored);
+  if (!ignored) text.reserve(std::min<std::size_t>(bytes, largest_bytes) + 1);
   char block[1 << 16];
   while (text.size() <= largest_bytes && stream) {
     stream.read(block, sizeof block);
@@ -58,7 +72,8 @@ Place Source::place(std::size_t number, std::size_t offset) const {
 
 void Source::reread_as_latin1() {
   std::string utf8;
-  utf8.reserve(text_.size());
+  utf8.reserve(text_.size() + static_cast<std::size_t>(std::count_if(
+                                  text_.begin(), text_.end(), [](char c) { return (c & 0x80) != 0; })));
   for (const char c : text_) {
     const auto byte = static_cast<unsigned char>(c);
     if (byte >= 0x80) utf8 += static_cast<char>(0xC0U | byte >> 6U);

@@ -1,14 +1,22 @@
 // Nearest known word; see the header.
 #include <algorithm>
 #include <numeric>
+#include <string>
 #include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <sim/input/suggest.hpp>
+#include <sim/input/utf8.hpp>
 
 namespace mckibben::input {
+
+namespace {
+
+constexpr std::size_t longest_word = 100;  // nothing we know is longer; keeps garbage cheap
+
+}  // namespace
 
 std::size_t edit_distance(std::string_view left, std::string_view right) {
   std::vector<std::size_t> two_back(right.size() + 1), back(right.size() + 1), row(right.size() + 1);
@@ -28,11 +36,11 @@ std::size_t edit_distance(std::string_view left, std::string_view right) {
 }
 
 std::optional<std::string_view> nearest(std::string_view word, std::span<const std::string_view> known) {
-  constexpr std::size_t longest_word = 100;  // nothing we know is longer; keeps garbage cheap
   if (word.empty() || word.size() > longest_word) return std::nullopt;
   std::optional<std::string_view> best;
   std::size_t least = std::max<std::size_t>(1, (word.size() + 2) / 3) + 1;
   for (const std::string_view candidate : known) {
+    if (candidate.size() > longest_word) continue;
     const std::size_t distance = edit_distance(word, candidate);
     if (distance < least && distance < candidate.size()) {
       least = distance;
@@ -49,6 +57,14 @@ std::string did_you_mean(std::string_view word, std::span<const std::string_view
 
 std::string join(std::span<const std::string_view> words) {
   return fmt::format("{}", fmt::join(words, ", "));
+}
+
+std::string join_few(std::span<const std::string_view> words) {
+  constexpr std::size_t most_shown = 20;
+  std::vector<std::string> shown;
+  for (const std::string_view word : words.first(std::min(words.size(), most_shown)))
+    shown.push_back(shortened(word));
+  return fmt::format("{}{}", fmt::join(shown, ", "), words.size() > most_shown ? ", ..." : "");
 }
 
 }  // namespace mckibben::input

@@ -21,4 +21,7 @@ std::string did_you_mean(std::string_view word, std::span<const std::string_view
 /// The words separated by commas.
 std::string join(std::span<const std::string_view> words);
 
+/// The same of what a file holds: the first twenty, each shortened.
+std::string join_few(std::span<const std::string_view> words);
+
 }  // namespace mckibben::input

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <sim/input/cells.hpp>
+#include <sim/input/limits.hpp>
 #include <sim/input/number.hpp>
 #include <sim/input/table.hpp>
 
@@ -55,8 +56,13 @@ void TableProblems::add(const Table& table, const Table::Column& column, std::si
 }
 
 bool check_text(const Source& source, TableProblems& problems) {
-  if (source.text().size() > largest_table_bytes)
-    problems.add({}, fmt::format("larger than {} MB", largest_table_bytes >> 20U));
+  std::string problem;
+  if (source.text().size() > most_text_bytes)
+    problems.add({}, fmt::format("larger than {} MB", most_text_bytes >> 20U));
+  else if (source.lines() > most_rows)
+    problems.add({most_rows + 1, 1}, fmt::format("more than {} rows", most_rows));
+  else if (const std::size_t line = first_long_line(source, problem); line > 0)
+    problems.add({line, 1}, problem);
   else if (const auto bad = source.first_bad_byte())
     problems.add(*bad, "this is not UTF-8 text");
   else if (source.text().empty())
@@ -105,12 +111,6 @@ void check_range(const Table& table, const Table::Column& column, double lowest,
                    fmt::format("{} = {} is out of range: {:.6g} to {:.6g} ({})", column.name,
                                write_number(value), lowest, highest, meaning));
   }
-}
-
-void check_dac_range(const Table& table, const Table::Column& current, double largest_current_mA,
-                     TableProblems& problems) {
-  constexpr double slack_mA = 1e-9;  // shortest digits of a sum of DAC steps
-  check_range(table, current, 0.0, largest_current_mA + slack_mA, "range of the rig's DAC", problems);
 }
 
 }  // namespace mckibben::input

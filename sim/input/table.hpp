@@ -12,9 +12,6 @@
 
 namespace mckibben::input {
 
-/// Of a table in any format.
-inline constexpr std::size_t largest_table_bytes = 1U << 30U;
-
 /// A column that is looked for.
 struct WantedColumn {
   std::string name;     ///< as we call it, with its unit: current_mA
@@ -67,10 +64,6 @@ bool check_text(const Source& source, TableProblems& problems);
 /// Checks that each column `time_s` is k * tick_s for k = 0, 1, ... within a microsecond, if all rows were
 /// sound. Only the first departure is reported: all later rows would repeat it.
 void check_ticks(const Table& table, double tick_s, TableProblems& problems);
-
-/// Checks that every current is one that the rig's DAC can give.
-void check_dac_range(const Table& table, const Table::Column& current, double largest_current_mA,
-                     TableProblems& problems);
 
 /// Checks that lowest <= value <= highest in every row of a column.
 void check_range(const Table& table, const Table::Column& column, double lowest, double highest,

@@ -14,4 +14,7 @@ std::size_t utf8_length(std::string_view text);
 /// line end, with which a file could make a terminal do things.
 std::string printable(std::string_view text);
 
+/// `text`, or its beginning and "..." where it has more than `longest` bytes: what a message quotes.
+std::string shortened(std::string_view text, std::size_t longest = 60);
+
 }  // namespace mckibben::input

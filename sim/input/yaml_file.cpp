@@ -11,12 +11,12 @@
 #include <yaml-cpp/eventhandler.h>
 #include <yaml-cpp/yaml.h>
 
+#include <sim/input/limits.hpp>
+#include <sim/input/utf8.hpp>
 #include <sim/input/yaml_file.hpp>
 
 namespace mckibben::input {
 namespace {
-
-constexpr std::size_t deepest_nesting = 32;
 
 /// Builds the tree from yaml-cpp's events.
 class TreeBuilder : public YAML::EventHandler {
@@ -36,11 +36,13 @@ class TreeBuilder : public YAML::EventHandler {
   }
   void OnAnchor(const YAML::Mark& mark, const std::string& name) override {
     problems_.error(source_, place(mark),
-                    fmt::format("anchors (&{}) are not accepted here; write the value out", name));
+                    fmt::format("anchors (&{}) are not accepted here; write the value out", shortened(name)));
   }
   void OnScalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t,
                 const std::string& value) override {
     if (!is_closed(mark)) problems_.error(source_, place(mark), "a quote is opened but never closed");
+    if (printable(value) != value)
+      problems_.error(source_, place(mark), "control characters are not accepted");
     begin(Node::Kind::scalar, mark, tag, value);
   }
   void OnSequenceStart(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t,
@@ -93,17 +95,21 @@ class TreeBuilder : public YAML::EventHandler {
     Node node;
     node.kind = kind;
     node.place = place(mark);
+    if (++values_ > most_yaml_values) {
+      problems_.error(source_, node.place, fmt::format("more than {} keys and values", most_yaml_values));
+      problems_.raise();
+    }
     node.text = text;
     node.quoted = tag == "!";
     if (!tag.empty() && tag != "?" && tag != "!")
-      problems_.error(source_, node.place, fmt::format("tags ({}) are not accepted here", tag));
+      problems_.error(source_, node.place, fmt::format("tags ({}) are not accepted here", shortened(tag)));
     if (!open_.empty() && open_.back().node.kind == Node::Kind::map && !open_.back().key) {
       begin_key(node);
       if (kind == Node::Kind::null || kind == Node::Kind::scalar) return;
     }
     if (kind == Node::Kind::list || kind == Node::Kind::map) {
-      if (open_.size() >= deepest_nesting) {
-        problems_.error(source_, node.place, fmt::format("nested deeper than {} levels", deepest_nesting));
+      if (open_.size() >= deepest_yaml) {
+        problems_.error(source_, node.place, fmt::format("nested deeper than {} levels", deepest_yaml));
         problems_.raise();
       }
       open_.push_back({std::move(node)});
@@ -120,9 +126,9 @@ class TreeBuilder : public YAML::EventHandler {
     } else if (key.text == "<<") {
       problems_.error(source_, key.place, "merge keys (<<) are not accepted here; write the values out");
     } else if (const auto [first, is_new] = map.keys.try_emplace(key.text, key.place); !is_new) {
-      repeated_.error(
-          source_, key.place,
-          fmt::format("repeated key {}; it stands in line {} already", key.text, first->second.line));
+      repeated_.error(source_, key.place,
+                      fmt::format("repeated key {}; it stands in line {} already", shortened(key.text),
+                                  first->second.line));
     }
     map.key.emplace(key.text, key.place);
   }
@@ -152,7 +158,7 @@ class TreeBuilder : public YAML::EventHandler {
   Problems& problems_;
   Problems& repeated_;
   Place last_;
-  std::size_t last_offset_ = 0;
+  std::size_t last_offset_ = 0, values_ = 0;
   std::vector<Open> open_;
   std::optional<Node> root_;
 };
@@ -179,8 +185,11 @@ std::string in_words(const std::string& message) {
 }
 
 void check_bytes(const Source& source, Problems& problems) {
+  std::string problem;
   if (source.text().size() > largest_yaml_bytes) {
     problems.error(source, {}, fmt::format("larger than {} MB", largest_yaml_bytes >> 20U));
+  } else if (const std::size_t line = first_long_line(source, problem); line > 0) {
+    problems.error(source, {line, 1}, problem);
   } else if (const auto bad = source.first_bad_byte()) {
     problems.error(source, *bad, "this is not UTF-8 text");
   }

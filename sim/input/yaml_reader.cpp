@@ -9,19 +9,11 @@
 #include <sim/input/number.hpp>
 #include <sim/input/quantity.hpp>
 #include <sim/input/suggest.hpp>
+#include <sim/input/utf8.hpp>
 #include <sim/input/yaml_reader.hpp>
 
 namespace mckibben::input {
 namespace {
-
-constexpr std::size_t longest_text_shown = 60;
-
-std::string shown(const std::string& text) {
-  if (text.size() <= longest_text_shown) return text;
-  std::size_t end = longest_text_shown;
-  while (end > 0 && is_utf8_continuation(text[end])) --end;
-  return text.substr(0, end) + "...";
-}
 
 /// A plain whole number without leading zeros.
 template <class T>
@@ -37,7 +29,7 @@ std::optional<T> parse_integer(const Node& node) {
 
 std::string integer_message(std::string_view key, const Node& node, auto lowest, auto highest,
                             std::string_view meaning) {
-  return fmt::format("{} = {} must be a whole number from {} to {}{} ({})", key, shown(node.text), lowest,
+  return fmt::format("{} = {} must be a whole number from {} to {}{} ({})", key, shortened(node.text), lowest,
                      highest, node.quoted ? ", without quotes" : "", meaning);
 }
 
@@ -68,7 +60,7 @@ void ValueReader::check_unknown(std::span<const std::string_view> also_allowed) 
   for (const Node& child : map_.children) {
     if (std::find(allowed.begin(), allowed.end(), child.key) != allowed.end()) continue;
     problems_.error(source_, child.key_place,
-                    fmt::format("unknown key {}{} (allowed: {})", shown(child.key),
+                    fmt::format("unknown key {}{} (allowed: {})", shortened(child.key),
                                 did_you_mean(child.key, allowed), join(allowed)));
   }
 }
@@ -76,8 +68,9 @@ void ValueReader::check_unknown(std::span<const std::string_view> also_allowed) 
 void ValueReader::broken_rule(std::string_view key, std::string_view message) {
   const Node* node = map_.find(key);
   const bool has_text = node != nullptr && node->kind == Node::Kind::scalar;
-  bad(node != nullptr ? *node : map_, has_text ? fmt::format("{} = {}: {}", key, shown(node->text), message)
-                                               : fmt::format("{}: {}", key, message));
+  bad(node != nullptr ? *node : map_, has_text
+                                          ? fmt::format("{} = {}: {}", key, shortened(node->text), message)
+                                          : fmt::format("{}: {}", key, message));
 }
 
 bool ValueReader::is_scalar(std::string_view key, const Node& node, std::string_view wanted) {
@@ -89,7 +82,7 @@ bool ValueReader::is_scalar(std::string_view key, const Node& node, std::string_
 bool ValueReader::is_list(std::string_view key, const Node& node) {
   if (node.kind == Node::Kind::list) return true;
   bad(node, node.kind == Node::Kind::scalar
-                ? fmt::format("{} must be a list: [{}]", key, shown(node.text))
+                ? fmt::format("{} must be a list: [{}]", key, shortened(node.text))
                 : fmt::format("{} must be a list, not {}", key, node.kind_name()));
   return false;
 }
@@ -102,7 +95,7 @@ void ValueReader::quantity(std::string_view key, const Node& node, double& value
       value = read;
       return;
     }
-    bad(node, fmt::format("{} = {} is out of range: {} to {} ({})", key, shown(node.text),
+    bad(node, fmt::format("{} = {} is out of range: {} to {} ({})", key, shortened(node.text),
                           show_limit(limits.lowest, limits.unit, node.text),
                           show_limit(limits.highest, limits.unit, node.text), limits.meaning));
   } catch (const BadQuantity& error) {
@@ -135,7 +128,7 @@ void ValueReader::boolean(std::string_view key, const Node& node, bool& value) {
   if (!node.quoted && (node.text == "true" || node.text == "false"))
     value = node.text == "true";
   else
-    bad(node, fmt::format("{} = {} must be true or false{}", key, shown(node.text),
+    bad(node, fmt::format("{} = {} must be true or false{}", key, shortened(node.text),
                           node.quoted ? ", without quotes" : ""));
 }
 
@@ -149,7 +142,7 @@ void ValueReader::height(std::string_view key, const Node& node, controllers::He
     const std::string_view whole = trimmed(node.text);
     const bool is_ratio = number_length(whole) == whole.size() || whole.ends_with('%');
     const double read = read_quantity(whole, is_ratio ? "1" : "m");
-    if (!std::isfinite(read)) throw BadQuantity(shown(node.text) + " is too large");
+    if (!std::isfinite(read)) throw BadQuantity(shortened(node.text) + " is too large");
     value = {read, !is_ratio};
   } catch (const BadQuantity& error) {
     bad(node, fmt::format("{} = {} (or a contraction ratio, without a unit)", key, error.what()));
@@ -161,7 +154,7 @@ std::optional<std::size_t> ValueReader::choice(std::string_view key, const Node&
   if (!is_scalar(key, node, "one of: " + join(choices))) return std::nullopt;
   const auto found = std::find(choices.begin(), choices.end(), node.text);
   if (found != choices.end()) return static_cast<std::size_t>(found - choices.begin());
-  bad(node, fmt::format("{} = {} is not one of: {}{}", key, shown(node.text), join(choices),
+  bad(node, fmt::format("{} = {} is not one of: {}{}", key, shortened(node.text), join(choices),
                         did_you_mean(node.text, choices)));
   return std::nullopt;
 }
@@ -189,7 +182,7 @@ bool check_schema(const YamlFile& file, std::string_view schema, Problems& probl
   }
   if (given->kind == Node::Kind::scalar && given->text == schema) return true;
   const std::string found =
-      given->kind == Node::Kind::scalar ? shown(given->text) : std::string(given->kind_name());
+      given->kind == Node::Kind::scalar ? shortened(given->text) : std::string(given->kind_name());
   problems.error(file.source, given->place,
                  fmt::format("schema = {} is not what is read here: {}", found, schema));
   return false;

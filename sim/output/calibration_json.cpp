@@ -123,6 +123,7 @@ Json json_of(const input::Dataset& dataset, const thesis::CalibrationResult& res
       {"window_counts", options.processing.window_counts}, {"most_dots_in_a_figure", thesis::most_dots}};
   document["loads_kg"] = grid.loads_kg;
   document["current_speeds_mA_per_s"] = grid.speeds_mA_per_s;
+  document["spreads_mean"] = meanings_of(result, options);
   document["warnings"] = warnings_of(result, options);
   document["rows_dropped"] = dropped_json(grid.dropped);
   document["runs_left_out"] = Json::array();

@@ -6,6 +6,7 @@
 #include <sim/output/calibration_report.hpp>
 #include <sim/output/grid.hpp>
 #include <sim/thesis/figures.hpp>
+#include <sim/thesis/quality.hpp>
 
 namespace mckibben::output {
 namespace {
@@ -21,8 +22,7 @@ std::string number_of(const thesis::Estimate& estimate, double factor) {
 }
 
 bool usable(double spread) {
-  constexpr double most = 1.0;
-  return spread >= 0.0 && spread <= most;
+  return spread >= 0.0 && spread <= thesis::largest_usable_spread;
 }
 
 std::string heading(const input::Dataset& dataset, const thesis::CalibrationResult& result,
@@ -122,34 +122,41 @@ std::string spread_text(double spread, int decimals, const char* unit) {
                         : "not usable (above 100 %)";
 }
 
+std::vector<std::string> meanings_of(const thesis::CalibrationResult& result,
+                                     const thesis::Options& options) {
+  std::vector<std::string> lines;
+  for (const auto& model : thesis::quality_of(result, options))
+    lines.push_back(
+        fmt::format("{}: {}: {}", model.name(), spread_text(model.spread, 1, " %"), model.meaning()));
+  return lines;
+}
+
 std::vector<std::string> warnings_of(const thesis::CalibrationResult& result,
                                      const thesis::Options& options) {
+  using thesis::Quality;
   std::vector<std::string> warnings;
-  for (const Direction direction : thesis::directions) {
-    if (!usable(result.friction_of(direction).spread()))
-      warnings.push_back(
-          fmt::format("friction in {} is not usable: samples scatter round the fitted coefficient (T 4.6) by "
-                      "more than its "
-                      "mean, and so will what is weighed with it; larger currents, more periods, smaller "
-                      "noise or pressure "
-                      "from a gauge may help",
-                      name_of(direction)));
-    const auto& fit = result.pressure_of(direction);
-    const bool joint = options.fitting == thesis::PressureFitting::joint;
-    if (!usable((joint ? fit.deviation.joint : fit.deviation.in_load) / fit.mean_Pa))
-      warnings.push_back(fmt::format(
-          "pressure in {} is not usable: samples scatter round the fitted pressure by more than its "
-          "mean; {}",
-          name_of(direction),
-          joint ? "more loads or lower orders may help" : "fit all samples at once (--fit joint)"));
+  for (const Quality& quality : thesis::quality_of(result, options)) {
+    if (quality.grade() != Quality::Grade::not_usable) continue;
+    const std::string pressure_help = options.fitting == thesis::PressureFitting::joint
+                                          ? "more loads or lower orders may help"
+                                          : "fit all samples at once (--fit joint)";
+    warnings.push_back(
+        quality.name() +
+        (quality.model == Quality::Model::friction
+             ? " is not usable: samples scatter round the fitted coefficient (T 4.6) by more than its mean, "
+               "and so will what is weighed with it; larger currents, more periods, smaller noise or "
+               "pressure from a gauge may help"
+             : " is not usable: samples scatter round the fitted pressure by more than its mean; " +
+                   pressure_help));
   }
   return warnings;
 }
 
 std::string report_of(const input::Dataset& dataset, const thesis::CalibrationResult& result,
                       const thesis::Options& options, bool kgf) {
-  std::string text = heading(dataset, result, options) + spreads(result) + friction(result) +
-                     pressure(result, options, kgf) + rows_text(result.grid);
+  std::string text = heading(dataset, result, options) + spreads(result) + "\nwhat the spreads mean\n";
+  for (const auto& line : meanings_of(result, options)) text += "  " + line + "\n";
+  text += friction(result) + pressure(result, options, kgf) + rows_text(result.grid);
   if (!result.grid.left_out.empty()) text += "\nruns left out\n";
   for (const auto& run : result.grid.left_out) text += fmt::format("  {}: {}\n", run.id, run.why);
   const auto warnings = warnings_of(result, options);

@@ -4,12 +4,10 @@
 //                  data/, truth/      what will be OUT and OUT-truth
 //                  runs/<id>.json     a run's entry in campaign.json, size and digest of its files; written
 //                  last,
-//                                     so it says that the run is there, and whether it is still as it was
-//                                     written
+//                                     so it says that the run is there, and whether it is as it was written
+//                  publish            while both take their places (publication.hpp)
 #include <algorithm>
 #include <cstdint>
-#include <fstream>
-#include <iterator>
 #include <optional>
 #include <utility>
 
@@ -21,6 +19,7 @@
 #include <sim/input/yaml_writer.hpp>
 #include <sim/output/campaign_folder.hpp>
 #include <sim/output/csv.hpp>
+#include <sim/output/publication.hpp>
 #include <sim/output/run_files.hpp>
 #include <sim/output/run_json.hpp>
 #include <sim/run/simulate.hpp>
@@ -55,10 +54,10 @@ Json plan_of(const input::Campaign& campaign, const std::vector<run::CampaignJob
 }
 
 std::optional<Json> read_json(const fs::path& path) {
-  std::error_code missing;
-  if (!fs::is_regular_file(path, missing)) return std::nullopt;
+  const auto text = read_regular(path);
+  if (!text) return std::nullopt;
   try {
-    return Json::parse(input::Source::load(path, input::largest_yaml_bytes).text());
+    return Json::parse(*text);
   } catch (const Json::exception&) {
     return std::nullopt;
   }
@@ -75,11 +74,6 @@ struct RunFiles {
   std::string ascii, entry;
 };
 
-std::string bytes_of(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
 /// What runs/<id>.json holds, sealed by its own digest.
 Json sealed(const Json& entry, const Json& files) {
   return {{"entry", entry}, {"files", files}, {"sha256", input::sha256_hex(entry.dump() + files.dump())}};
@@ -90,10 +84,9 @@ bool is_whole(const fs::path& folder, const Json& record) {
   try {
     if (record != sealed(record.at("entry"), record.at("files"))) return false;
     for (const auto& file : record.at("files")) {
-      const fs::path path = folder / file.at("name").get<std::string>();
-      std::error_code missing;
-      if (fs::file_size(path, missing) != file.at("bytes").get<std::uintmax_t>() || missing ||
-          input::sha256_hex(bytes_of(path)) != file.at("sha256").get<std::string>())
+      const auto content = read_regular(folder / file.at("name").get<std::string>());
+      if (!content || content->size() != file.at("bytes").get<std::size_t>() ||
+          input::sha256_hex(*content) != file.at("sha256").get<std::string>())
         return false;
     }
     return true;
@@ -104,17 +97,17 @@ bool is_whole(const fs::path& folder, const Json& record) {
 
 /// All files that a campaign with these ids can have written there.
 FileNames files_of(const std::vector<std::string>& ids) {
-  FileNames names{plan_file,          "data/dataset.yaml", "data/rig.yaml",        "data/campaign.json",
-                  "data/report.html", "truth/truth.yaml",  "data/.mckibben-files", "truth/.mckibben-files"};
-  for (const char* folder : {"data/", "truth/"}) names.insert(std::string(folder) + package_file);
+  FileNames names{plan_file,         record_name,          "data/dataset.yaml",
+                  "data/rig.yaml",   "data/campaign.json", "data/report.html",
+                  "truth/truth.yaml"};
+  for (const char* folder : {"data/", "truth/"})
+    for (const char* file : {package_file, manifest_name}) names.insert(std::string(folder) + file);
   for (const auto& id : ids) {
     const RunFiles files(id);
     names.insert({files.ascii, files.entry});
     for (const auto& stem : {files.data, files.truth})
       for (auto& name : run_file_names(stem)) names.insert(std::move(name));
   }
-  const FileNames whole = names;
-  for (const auto& name : whole) names.insert(name + unfinished_suffix);
   return names;
 }
 
@@ -127,7 +120,15 @@ FileNames files_of(const std::optional<Json>& plan) {
   } catch (const Json::exception&) {
     // Somebody else's JSON.
   }
-  return {std::string(plan_file) + unfinished_suffix};
+  return {};
+}
+
+/// The files below a folder, named from there.
+Digests below(const std::string& folder, const Digests& files) {
+  Digests found;
+  for (const auto& [name, digest] : files)
+    if (name.starts_with(folder + "/")) found[name.substr(folder.size() + 1)] = digest;
+  return found;
 }
 
 Json entry_of(const input::Campaign& campaign, const run::CampaignRun& run) {
@@ -185,18 +186,17 @@ Json truth_json(const input::Campaign& campaign, const Json& entries) {
 }  // namespace
 
 CampaignFolder::CampaignFolder(const fs::path& destination, const input::Campaign& campaign,
-                               std::vector<std::string> formats)
+                               std::vector<std::string> formats, Say say)
     : campaign_(campaign),
       formats_(std::move(formats)),
       jobs_(run::jobs_of(campaign)),
       destination_(result_path(destination)),
       truth_(result_path(destination_.string() + "-truth")),
-      unfinished_(result_path(destination_.string() + ".unfinished")) {
-  try {
-    open();
-  } catch (const fs::filesystem_error& error) {
-    throw CannotWrite(fmt::format("cannot write {}: {}", unfinished_.string(), error.code().message()));
-  }
+      unfinished_(result_path(destination_.string() + ".unfinished")),
+      say_(std::move(say)) {
+  for (const auto* place : {&destination_, &truth_, &unfinished_})
+    locks_.emplace_back(*place, "dataset " + campaign.name);
+  writing(unfinished_, [&] { open(); });
 }
 
 void CampaignFolder::open() {
@@ -204,21 +204,15 @@ void CampaignFolder::open() {
   std::sort(formats_.begin(), formats_.end());
   formats_.erase(std::unique(formats_.begin(), formats_.end()), formats_.end());
   const Json plan = plan_of(campaign_, jobs_, formats_);
+  const bool finished = finish(unfinished_, say_);
   if (fs::exists(unfinished_) && !fs::is_empty(unfinished_)) {
     const auto found = read_json(unfinished_ / plan_file);
-    if (found == plan) {
+    if (found == plan && !finished) {
       find_missing();
       return;
     }
-    if (holds_only(unfinished_, files_of(found))) {
-      fs::remove_all(unfinished_);
-      note_ = fmt::format("{} was of another campaign or version; starting anew", unfinished_.string());
-    } else {
-      const fs::path aside = first_free(unfinished_);
-      fs::rename(unfinished_, aside);
-      note_ = fmt::format("{} held other files and is now {}; starting anew", unfinished_.string(),
-                          aside.string());
-    }
+    if (clear(unfinished_, files_of(found), {plan_file}, unfinished_, say_) && !finished)
+      say_(fmt::format("{} was of another campaign or version; starting anew", unfinished_.string()));
   }
   write_whole(unfinished_ / plan_file, plan.dump(2) + "\n");
   missing_ = jobs_;
@@ -236,11 +230,11 @@ void CampaignFolder::find_missing() {
     missing_.push_back(job);
     if (there && ++count <= 3) damaged += (count > 1 ? ", " : "") + job.id;
   }
-  note_ = fmt::format("{}: {} of {} runs are there already; going on", unfinished_.string(),
-                      jobs_.size() - missing_.size(), jobs_.size());
+  say_(fmt::format("{}: {} of {} runs are there already; going on", unfinished_.string(),
+                   jobs_.size() - missing_.size(), jobs_.size()));
   if (count > 0)
-    note_ += fmt::format("\nmckibben: {} run{} not as written, and made again: {}{}", count,
-                         count == 1 ? " is" : "s are", damaged, count > 3 ? ", ..." : "");
+    say_(fmt::format("{} run{} not as written, and made again: {}{}", count, count == 1 ? " is" : "s are",
+                     damaged, count > 3 ? ", ..." : ""));
 }
 
 void CampaignFolder::put(const run::CampaignRun& run) const {
@@ -248,7 +242,7 @@ void CampaignFolder::put(const run::CampaignRun& run) const {
   const input::RigFile& rig = campaign_.rig;
   Json written = Json::array();
   const auto write = [&](const std::string& name, const std::string& text) {
-    write_whole(unfinished_ / name, text);
+    write_staged(unfinished_ / name, text);
     written.push_back({{"name", name}, {"bytes", text.size()}, {"sha256", input::sha256_hex(text)}});
   };
   if (run.failure.empty()) {
@@ -259,7 +253,7 @@ void CampaignFolder::put(const run::CampaignRun& run) const {
     for (const auto& [stem, table] : {std::pair{&files.data, &measured}, std::pair{&files.truth, &truth}})
       for (const auto& file : run_files(*stem, *table, formats_)) write(file.name, file.content);
   }
-  write_whole(unfinished_ / files.entry, sealed(entry_of(campaign_, run), written).dump(2) + "\n");
+  write_staged(unfinished_ / files.entry, sealed(entry_of(campaign_, run), written).dump(2) + "\n");
 }
 
 formats::Table CampaignFolder::table_of(const run::CampaignRun& run, const char* what,
@@ -299,31 +293,47 @@ Json CampaignFolder::document() const {
   return document;
 }
 
-CampaignFolder::Places CampaignFolder::publish(const Json& document, const Report& report) const {
+// What stands in both folders beside the runs.
+Digests CampaignFolder::write_rest(const Json& document, const Report& report) const {
+  Digests files;
+  const auto write = [&](const std::string& name, const std::string& text) {
+    write_staged(unfinished_ / name, text);
+    files[name] = input::sha256_hex(text);
+  };
   const Json& entries = document.at("runs");
   const input::RigFile known = plant::nominal(campaign_.rig);
   std::string rig = shipped_name(known);
   if (rig.empty()) {
     rig = "rig.yaml";
-    write_whole(unfinished_ / "data" / rig, input::to_yaml(input::rig_json(known)));
+    write("data/" + rig, input::to_yaml(input::rig_json(known)));
   }
-  write_whole(unfinished_ / "data/dataset.yaml", input::to_yaml(dataset_json(rig, entries)));
-  write_whole(unfinished_ / "data/campaign.json", document.dump(2) + "\n");
+  write("data/dataset.yaml", input::to_yaml(dataset_json(rig, entries)));
+  write("data/campaign.json", document.dump(2) + "\n");
   const bool gauge = campaign_.rig.gauge.fitted;
-  write_whole(unfinished_ / "data" / package_file, package("measured", measured_columns(gauge), entries));
-  write_whole(unfinished_ / "truth" / package_file,
-              package("truth", recorded_columns(false, gauge), entries));
+  write(std::string("data/") + package_file, package("measured", measured_columns(gauge), entries));
+  write(std::string("truth/") + package_file, package("truth", recorded_columns(false, gauge), entries));
   if (!std::all_of(entries.begin(), entries.end(), failed))
-    write_whole(unfinished_ / "data/report.html", report(unfinished_ / "data"));
-  write_whole(unfinished_ / "truth/truth.yaml", input::to_yaml(truth_json(campaign_, entries)));
-  std::vector<std::string> ids;
-  for (const auto& entry : entries) ids.push_back(entry.at("id").get<std::string>());
-  Places places{destination_, {}, truth_, {}};
-  places.truth_moved_to = put_in_place(unfinished_ / "truth", truth_, "truth of " + campaign_.name);
-  places.data_moved_to = put_in_place(unfinished_ / "data", destination_, "dataset " + campaign_.name);
-  std::error_code ignored;
-  if (holds_only(unfinished_, files_of(ids))) fs::remove_all(unfinished_, ignored);
-  return places;
+    write("data/report.html", report(unfinished_ / "data"));
+  write("truth/truth.yaml", input::to_yaml(truth_json(campaign_, entries)));
+  return files;
+}
+
+void CampaignFolder::publish(const Json& document, const Report& report) const {
+  writing(unfinished_, [&] {
+    Digests files = write_rest(document, report);
+    std::vector<std::string> ids;
+    for (const auto& job : jobs_) {
+      ids.push_back(job.id);
+      const Json record = read_json(unfinished_ / RunFiles(job.id).entry).value_or(Json::object());
+      for (const auto& file : record.value("files", Json::array()))
+        files[file.at("name").get<std::string>()] = file.at("sha256").get<std::string>();
+    }
+    const std::vector<Move> moves{{"truth", truth_, "truth of " + campaign_.name},
+                                  {"data", destination_, "dataset " + campaign_.name}};
+    for (const Move& move : moves) seal(unfinished_ / move.folder, move.job, below(move.folder, files));
+    for (const Aside& aside : put_in_place(unfinished_, moves)) say_(to_text(aside));
+    if (!is_on_its_way(unfinished_)) clear(unfinished_, files_of(ids), {plan_file}, unfinished_, say_);
+  });
 }
 
 }  // namespace mckibben::output

@@ -20,12 +20,11 @@ class CampaignFolder {
  public:
   /// Opens OUT.unfinished for `destination` = OUT. What is there is kept if it belongs to the same campaign
   /// and program and is as it was written; an earlier campaign's is removed; anything else is moved aside.
-  /// `formats`: of the runs, besides CSV (run_formats). Throws CannotWrite.
+  /// `formats`: of the runs, besides CSV (run_formats). `say`: hears what became of what was there before.
+  /// Throws CannotWrite, at once if another program is writing there.
   CampaignFolder(const std::filesystem::path& destination, const input::Campaign& campaign,
-                 std::vector<std::string> formats = {});
+                 std::vector<std::string> formats, Say say);
 
-  /// What became of what was there before, in words; empty if nothing was there.
-  const std::string& note() const { return note_; }
   /// All runs of the campaign, and those that were not on disk, as they were written, when it was opened.
   const std::vector<run::CampaignJob>& jobs() const { return jobs_; }
   const std::vector<run::CampaignJob>& missing() const { return missing_; }
@@ -38,18 +37,20 @@ class CampaignFolder {
   /// files, and of each run rows, counted contraction and solver counts. Nothing in it is truth.
   input::Json document() const;
 
-  /// Where the results are, and where folders that were not ours have been moved to (empty: none was there).
-  struct Places {
-    std::filesystem::path data, data_moved_to, truth, truth_moved_to;
-  };
   /// Makes report.html of the data set in a folder; asked if there is a run in it.
   using Report = std::function<std::string(const std::filesystem::path& data)>;
-  /// Lets both folders take their places. Throws CannotWrite.
-  Places publish(const input::Json& document, const Report& report) const;
+  /// Lets both folders take their places, once every file is there as it was written: both or neither. Says
+  /// what was set aside. Throws CannotWrite.
+  void publish(const input::Json& document, const Report& report) const;
+
+  /// The data set's folder, and that of the truth.
+  const std::filesystem::path& data() const { return destination_; }
+  const std::filesystem::path& truth() const { return truth_; }
 
  private:
   void open();
   void find_missing();
+  Digests write_rest(const input::Json& document, const Report& report) const;
 
   formats::Table table_of(const run::CampaignRun& run, const char* what,
                           std::vector<formats::Column> columns) const;
@@ -60,7 +61,8 @@ class CampaignFolder {
   std::vector<std::string> formats_;
   std::vector<run::CampaignJob> jobs_, missing_;
   std::filesystem::path destination_, truth_, unfinished_;
-  std::string note_;
+  Say say_;
+  std::vector<Lock> locks_;
 };
 
 }  // namespace mckibben::output

@@ -21,7 +21,9 @@ Json ci95(const diagnose::Estimate& estimate) {
 }
 
 Json value_json(const diagnose::Estimate& estimate) {
-  return {{"value", estimate.value}, {"unit", estimate.unit}, {"ci95", ci95(estimate)}};
+  Json json{{"value", estimate.value}, {"unit", estimate.unit}, {"ci95", ci95(estimate)}};
+  if (!estimate.determined) json["determined"] = false;
+  return json;
 }
 
 std::string last_part(const std::string& path) {
@@ -95,7 +97,15 @@ Json gap_json(const diagnose::Diagnosis& diagnosis) {
   const auto& gap = diagnosis.gap;
   return {{"held_out_runs", held_out(diagnosis)}, {"noise_floor", gap.noise_floor},
           {"nominal_rmse", gap.nominal_rmse},     {"recalibrated_rmse", gap.recalibrated_rmse},
-          {"corrected_rmse", gap.corrected_rmse}, {"closed", gap.closed}};
+          {"corrected_rmse", gap.corrected_rmse}, {"closed", gap.closed},
+          {"encoder_jitter", gap.jitter}};
+}
+
+Json start_json(const diagnose::Start& start) {
+  return {{"lasting_s", start.lasting_s},
+          {"share_of_gap", start.share_of_gap},
+          {"share_of_time", start.share_of_time},
+          {"unsettled", start.unsettled}};
 }
 
 Json next_json(const diagnose::Diagnosis& diagnosis) {
@@ -130,6 +140,7 @@ Json ranking_json(const diagnose::Diagnosis& diagnosis) {
     if (one.refitted) {
       entry["training_rmse"] = one.training_rmse;
       entry["held_out_rmse"] = one.held_out_rmse;
+      entry["fall"] = one.fall;
     }
     list.push_back(std::move(entry));
   }
@@ -143,6 +154,19 @@ Json absorbed_json(const diagnose::Diagnosis& diagnosis) {
   return list;
 }
 
+Json faults_json(const diagnose::Diagnosis& diagnosis) {
+  Json list = Json::array();
+  for (const auto& one : diagnosis.faults)
+    list.push_back({{"run", one.run},
+                    {"kind", one.kind},
+                    {"size", one.size},
+                    {"unit", one.unit},
+                    {"action", one.action},
+                    {"common", one.common},
+                    {"words", one.words}});
+  return list;
+}
+
 }  // namespace
 
 Json json_of(const input::Dataset& data, const diagnose::Diagnosis& diagnosis) {
@@ -153,11 +177,13 @@ Json json_of(const input::Dataset& data, const diagnose::Diagnosis& diagnosis) {
                 {"recalibrated", recalibrated_json(diagnosis, data.rig)},
                 {"residual_law", law_json(diagnosis)},
                 {"where", where_json(diagnosis)},
+                {"start_of_run", start_json(diagnosis.start)},
                 {"gap", gap_json(diagnosis)},
                 {"next_experiment", next_json(diagnosis)},
                 {"false_alarm_rate", diagnosis.false_alarm_rate},
                 {"seed", diagnosis.seed},
                 {"warnings", diagnosis.warnings},
+                {"faults", faults_json(diagnosis)},
                 {"runs", runs_json(diagnosis)},
                 {"ranking", ranking_json(diagnosis)},
                 {"confusion", {{"names", diagnosis.confusion_names}, {"likeness", diagnosis.confusion}}},

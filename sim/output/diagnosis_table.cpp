@@ -68,7 +68,10 @@ std::string twins(const Diagnosis& diagnosis) {
 }
 
 std::string next(const Diagnosis& diagnosis) {
-  if (!diagnosis.next_experiment) return "";
+  if (!diagnosis.next_experiment) {
+    const bool left = diagnosis.gap.floors_left() > diagnose::explained_floors;
+    return left ? "  " + what_next(diagnosis) + "\n" : "";
+  }
   const auto& next = *diagnosis.next_experiment;
   return fmt::format("  {}, with {}: separates {} with a probability of {:.0f} %\n", next.current,
                      mass(next.load_kg), listed(next.separates), 100.0 * next.expected_power);

@@ -62,6 +62,7 @@ Readable readable(const diagnose::Estimate& estimate) {
   const UsualUnit unit = usual(estimate.unit, std::abs(estimate.value));
   const double value = estimate.value * unit.factor, low = estimate.low * unit.factor,
                high = estimate.high * unit.factor, half = 0.5 * (high - low);
+  if (!estimate.determined) return {readable(estimate.value, estimate.unit), "not determined by these data"};
   if (!std::isfinite(half) || half <= 0.0) return {readable(estimate.value, estimate.unit), "unknown"};
   const int decimals = std::clamp(1 - static_cast<int>(std::floor(std::log10(half))), 0, 9);
   return {with_unit(digits(value, decimals), unit),
@@ -106,6 +107,28 @@ std::string title_of(const diagnose::Diagnosis& diagnosis) {
       break;
   }
   return "These data cannot tell";
+}
+
+std::string what_next(const diagnose::Diagnosis& diagnosis) {
+  using enum diagnose::Verdict;
+  const double floors = diagnosis.gap.floors_left();
+  if (floors > diagnose::explained_floors)
+    return fmt::format(
+        "{:.1f} noise floors are left on the runs held out, so there is something to explain yet. Measure "
+        "one "
+        "of the runs again: what two equal runs differ by is noise, what is left beyond it is not in the "
+        "rig.",
+        floors);
+  const bool twins = std::any_of(diagnosis.effects.begin(), diagnosis.effects.end(),
+                                 [](const auto& effect) { return !effect.confusable_with.empty(); });
+  if (diagnosis.verdict == missing_effect)
+    return twins ? "No current that was tried would tell these names apart."
+                 : "No further measurement is needed to choose between names.";
+  if (diagnosis.verdict == recalibrate)
+    return "Check the numbers that moved most against a ruler or the data sheet.";
+  if (diagnosis.verdict == unknown_effect && !diagnosis.law_valid_for.empty())
+    return "Measure wherever the rig is to be used beyond what the law is valid for.";
+  return "";
 }
 
 std::vector<std::string> held_out(const diagnose::Diagnosis& diagnosis) {

@@ -41,6 +41,10 @@ std::string title_of(const diagnose::Diagnosis& diagnosis);
 
 using diagnose::full_name;
 
+/// What to do where no measurement is proposed; empty if there is nothing to say. Nobody is told that no more
+/// is needed while noise floors are left.
+std::string what_next(const diagnose::Diagnosis& diagnosis);
+
 /// Ids of the runs held out.
 std::vector<std::string> held_out(const diagnose::Diagnosis& diagnosis);
 

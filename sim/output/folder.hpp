@@ -1,52 +1,50 @@
-// Results folders that appear whole or not at all: files are written into a folder beside the destination,
-// which takes its name at the end. What stood there before is removed only if it is the earlier result of the
-// same job, untouched; anything else is set aside under another name.
+// Results folders that appear whole or not at all: files are written into a hidden folder beside the
+// destination, which takes its place at the end. What stood there before is removed only if it is the earlier
+// result of the same job, untouched; anything else is set aside under another name.
 #pragma once
 
 #include <filesystem>
-#include <set>
-#include <stdexcept>
+#include <functional>
 #include <string>
+#include <vector>
+
+#include <sim/output/file.hpp>
+#include <sim/output/lock.hpp>
+#include <sim/output/manifest.hpp>
 
 namespace mckibben::output {
 
-/// Something could not be written (exit status 74). `what()` names the path and the system's reason.
-class CannotWrite : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
-
-/// Paths of files inside a folder, relative to it, with /.
-using FileNames = std::set<std::string>;
+/// Tells the user, in a line.
+using Say = std::function<void(const std::string&)>;
 
 /// `wanted` as an absolute path without links and slash at its end; the folder above it is made. Throws
 /// CannotWrite if a file stands there, if it is a link that leads nowhere, or if it is the current folder or
 /// holds it.
 std::filesystem::path result_path(const std::filesystem::path& wanted);
 
-/// Writes a file, and the folders above it, so that it appears whole or not at all. Throws CannotWrite.
-void write_whole(const std::filesystem::path& path, const std::string& content);
+/// Completes what a killed program was putting in place from a container, and says so; whether there was any.
+bool finish(const std::filesystem::path& container, const Say& say);
 
-/// What write_whole leaves beside a file if the program is killed while it writes.
-inline constexpr const char* unfinished_suffix = ".part";
+/// Removes a container that holds nothing but these files, `last` of them last; else renames it to the first
+/// free name after `otherwise` and says so. Whether it was removed.
+bool clear(const std::filesystem::path& container, const FileNames& names, const FileNames& last,
+           const std::filesystem::path& otherwise, const Say& say);
 
-/// Whether a folder holds nothing but these files and the folders they are in.
-bool holds_only(const std::filesystem::path& folder, const FileNames& names);
-
-/// `path` with the first of .old-1, .old-2, ... that is free.
-std::filesystem::path first_free(const std::filesystem::path& path);
-
-/// Lets the folder `staging` take the place of `destination`, with a list of its files and their digests.
-/// `job` says what the result is of (verb and input). What stood there is removed if it is an earlier result
-/// of that job and as it was written; otherwise it is set aside, and where to is returned. Throws
-/// CannotWrite; the old folder is then where it was.
-std::filesystem::path put_in_place(const std::filesystem::path& staging,
-                                   const std::filesystem::path& destination, const std::string& job);
+/// Does something with `path`; what the file system objects to becomes CannotWrite.
+template <class Work>
+auto writing(const std::filesystem::path& path, const Work& work) {
+  try {
+    return work();
+  } catch (const std::filesystem::filesystem_error& error) {
+    cannot_write(path, error.code().message());
+  }
+}
 
 class ResultFolder {
  public:
-  /// Prepares to write `destination`, the result of `job`. Throws CannotWrite.
-  ResultFolder(const std::filesystem::path& destination, std::string job);
+  /// Prepares to write `destination`, the result of `job`. `say`: hears what an earlier run left and what
+  /// became of it. Throws CannotWrite, at once if another program is writing there.
+  ResultFolder(const std::filesystem::path& destination, std::string job, Say say);
   ResultFolder(const ResultFolder&) = delete;
   ResultFolder& operator=(const ResultFolder&) = delete;
   /// Removes what was written, unless it was published.
@@ -58,12 +56,18 @@ class ResultFolder {
   /// Writes one file of the result; `name` may lead through folders (`figures/one.csv`). Throws CannotWrite.
   void write(const std::string& name, const std::string& content);
 
-  /// Lets the folder take its place, as put_in_place does.
-  std::filesystem::path publish();
+  /// Lets the folder take its place, once every file is there as it was written. Says what was set aside.
+  void publish();
 
  private:
-  std::filesystem::path destination_, staging_;
+  ResultFolder(std::string job, Say say);
+
+  std::filesystem::path destination_, container_;
   std::string job_;
+  Say say_;
+  std::vector<Lock> locks_;
+  Descriptor begun_;
+  Digests files_;
 };
 
 }  // namespace mckibben::output

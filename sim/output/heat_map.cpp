@@ -27,14 +27,28 @@ std::string colour(double share) {  // from -1 to 1
   return fmt::format("#{:02x}{:02x}{:02x}", mixed(0), mixed(1), mixed(2));
 }
 
-/// One kind of error, and where its colours end.
+/// What is written beside ratios and speeds, and how many of the unit a ratio of 1 is.
+struct Words {
+  double factor;
+  const char *ratio, *speed, *ratio_error, *speed_error;
+};
+Words words_of(MapUnit unit, const plant::Rig& rig) {
+  if (unit == MapUnit::ratio)
+    return {1.0, "target contraction ratio", "target speed [1/s]", "error of contraction ratio",
+            "error of speed [1/s]"};
+  return {1e3 * rig.muscle.rest_length_m, "target contraction [mm]", "target speed [mm/s]",
+          "error of height [mm]", "error of speed [mm/s]"};
+}
+
+/// One kind of error, and where its colours end, in ratios.
 struct Measure {
   double (run::MapCell::*error)() const;
   const char* title;
   double limit;
 };
 
-double limit_of(const run::LoadMap& load, double (run::MapCell::*error)() const) {
+/// A round number of the unit of which a ratio of 1 is `factor`.
+double limit_of(const run::LoadMap& load, double (run::MapCell::*error)() const, double factor) {
   std::vector<double> within, all;
   for (const auto& map : load.branches)
     for (const auto& cell : map.cells) {
@@ -45,7 +59,7 @@ double limit_of(const run::LoadMap& load, double (run::MapCell::*error)() const)
   std::vector<double>& sizes = within.empty() ? all : within;
   std::sort(sizes.begin(), sizes.end());
   const double most = sizes.empty() ? 0.0 : sizes[9 * (sizes.size() - 1) / 10];
-  return most > 0.0 ? tick_step(most, 1) : 1.0;
+  return most > 0.0 ? tick_step(factor * most, 1) / factor : 1.0;
 }
 
 /// Edges of the cells around ascending values: halfway between two, as far outside.
@@ -60,8 +74,9 @@ std::vector<double> edges(const std::vector<double>& values) {
 
 class Panel {
  public:
-  Panel(const run::MapPlan& plan, double x_px, double y_px)
+  Panel(const run::MapPlan& plan, const Words& words, double x_px, double y_px)
       : plan_(plan),
+        words_(words),
         ratios_(edges(plan.ratios)),
         speeds_(edges(plan.speeds_per_s)),
         x_px_(x_px),
@@ -114,21 +129,21 @@ class Panel {
         "<rect x='{0:.1f}' y='{1:.1f}' width='{2}' height='{3}' fill='none' stroke='#555'/>\n"
         "<text x='{0:.1f}' y='{4:.1f}' font-weight='bold'>{5}</text>\n",
         x_px_, y_px_, panel_width, panel_height, y_px_ - 8.0, title);
-    const double step = tick_step(ratios_.back() - ratios_.front(), 7);
+    const double step = tick_step(words_.factor * (ratios_.back() - ratios_.front()), 7) / words_.factor;
     for (double i = std::ceil(ratios_.front() / step); i * step <= ratios_.back(); i += 1.0)
       svg += fmt::format("<text x='{:.1f}' y='{:.1f}' text-anchor='middle'>{:.3g}</text>\n", x(i * step),
-                         y_px_ + panel_height + 16.0, i * step);
+                         y_px_ + panel_height + 16.0, words_.factor * i * step + 0.0);  // + 0.0 makes 0 of -0
     // Few speeds are named each, many by every n-th.
     const std::size_t every = 1 + (plan_.speeds_per_s.size() - 1) / 10;
     for (std::size_t i = 0; i < plan_.speeds_per_s.size(); i += every)
       svg += fmt::format("<text x='{:.1f}' y='{:.1f}' text-anchor='end'>{:.3g}</text>\n", x_px_ - 6.0,
-                         y(plan_.speeds_per_s[i]) + 4.0, plan_.speeds_per_s[i]);
+                         y(plan_.speeds_per_s[i]) + 4.0, words_.factor * plan_.speeds_per_s[i]);
     return svg + fmt::format(
-                     "<text x='{0:.1f}' y='{1:.1f}' text-anchor='middle'>target contraction ratio</text>\n"
+                     "<text x='{0:.1f}' y='{1:.1f}' text-anchor='middle'>{4}</text>\n"
                      "<text x='{2:.1f}' y='{3:.1f}' text-anchor='middle' transform='rotate(-90 {2:.1f} "
-                     "{3:.1f})'>target speed [1/s]</text>\n",
+                     "{3:.1f})'>{5}</text>\n",
                      x_px_ + 0.5 * panel_width, y_px_ + panel_height + 34.0, x_px_ - 40.0,
-                     y_px_ + 0.5 * panel_height);
+                     y_px_ + 0.5 * panel_height, words_.ratio, words_.speed);
   }
 
  private:
@@ -140,11 +155,12 @@ class Panel {
   }
 
   const run::MapPlan& plan_;
+  const Words& words_;
   std::vector<double> ratios_, speeds_;
   double x_px_, y_px_;
 };
 
-std::string scale_svg(const Measure& measure, double x_px, double y_px) {
+std::string scale_svg(const Measure& measure, double factor, double x_px, double y_px) {
   std::string svg;
   constexpr int steps = 40;
   for (int i = 0; i < steps; ++i)
@@ -157,18 +173,20 @@ std::string scale_svg(const Measure& measure, double x_px, double y_px) {
                        share == 1.0    ? "≥ "
                        : share == -1.0 ? "≤ "
                                        : "",
-                       share == 0.0 ? "0" : fmt::format("{:+.3g}", share * measure.limit));
+                       share == 0.0 ? "0" : fmt::format("{:+.3g}", share * measure.limit * factor));
   return svg + fmt::format("<rect x='{}' y='{}' width='{}' height='{}' fill='none' stroke='#555'/>\n", x_px,
                            y_px, scale_width, panel_height);
 }
 
 }  // namespace
 
-std::string heat_map_svg(const run::MapPlan& plan, const run::ErrorMaps& maps, const run::LoadMap& load) {
-  const Measure measures[] = {
-      {&run::MapCell::ratio_error, "error of contraction ratio", limit_of(load, &run::MapCell::ratio_error)},
-      {&run::MapCell::speed_error_per_s, "error of speed [1/s]",
-       limit_of(load, &run::MapCell::speed_error_per_s)}};
+std::string heat_map_svg(const run::MapPlan& plan, const run::ErrorMaps& maps, const run::LoadMap& load,
+                         MapUnit unit) {
+  const Words words = words_of(unit, plan.rig);
+  const Measure measures[] = {{&run::MapCell::ratio_error, words.ratio_error,
+                               limit_of(load, &run::MapCell::ratio_error, words.factor)},
+                              {&run::MapCell::speed_error_per_s, words.speed_error,
+                               limit_of(load, &run::MapCell::speed_error_per_s, words.factor)}};
   const auto columns = static_cast<double>(load.branches.size());
   const double width = left + columns * panel_width + (columns - 1.0) * between_x + right;
   const double height = top + 2.0 * panel_height + between_y + bottom;
@@ -182,13 +200,13 @@ std::string heat_map_svg(const run::MapPlan& plan, const run::ErrorMaps& maps, c
   for (const Measure& measure : measures) {
     double x_px = left;
     for (const auto& map : load.branches) {
-      const Panel panel(plan, x_px, y_px);
+      const Panel panel(plan, words, x_px, y_px);
       const char* way = map.branch == Branch::contraction ? "up" : "down";
       svg += panel.cells(map, measure) + panel.border(maps, load.limits, map.branch) +
              panel.axes(fmt::format("{}: {}", way, measure.title));
       x_px += panel_width + between_x;
     }
-    svg += scale_svg(measure, x_px - between_x + 16.0, y_px);
+    svg += scale_svg(measure, words.factor, x_px - between_x + 16.0, y_px);
     y_px += panel_height + between_y;
   }
   const char* legend[] = {"line: border of what the rig can reach; positive errors: too high, too fast",

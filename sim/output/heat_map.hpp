@@ -8,7 +8,11 @@
 
 namespace mckibben::output {
 
+/// What its numbers are: contraction ratios and 1/s, or height of the load in mm and mm/s.
+enum class MapUnit { ratio, mm };
+
 /// `load` is one of the plan's that has a map.
-std::string heat_map_svg(const run::MapPlan& plan, const run::ErrorMaps& maps, const run::LoadMap& load);
+std::string heat_map_svg(const run::MapPlan& plan, const run::ErrorMaps& maps, const run::LoadMap& load,
+                         MapUnit unit = MapUnit::ratio);
 
 }  // namespace mckibben::output

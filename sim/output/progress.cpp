@@ -29,6 +29,8 @@ std::string words_of(double seconds) {
 
 std::string progress_line(const std::string& title, const std::string& what, std::size_t done,
                           std::size_t total, double elapsed_s, std::size_t width) {
+  if (total == 0 && done > 0)
+    return fmt::format("{}: {}, step {}, {} so far", title, what, done, words_of(elapsed_s)).substr(0, width);
   constexpr std::size_t bar = 30;
   const std::size_t filled = total == 0 ? bar : std::min(done, total) * bar / total;
   std::string line = fmt::format("{}: {} [{}{}] {}/{}", title, what, std::string(filled, '#'),
@@ -39,7 +41,8 @@ std::string progress_line(const std::string& title, const std::string& what, std
   return line.substr(0, width);
 }
 
-Progress::Progress(std::string title) : title_(std::move(title)), terminal_(isatty(STDERR_FILENO) == 1) {}
+Progress::Progress(std::string title, std::chrono::milliseconds every)
+    : title_(std::move(title)), terminal_(isatty(STDERR_FILENO) == 1), every_(every) {}
 
 Progress::~Progress() {
   if (terminal_) std::fputs("\r\033[K", stderr);
@@ -58,12 +61,18 @@ void Progress::show(const std::string& what, std::size_t done, std::size_t total
     shown_ = 0;
     began_ = now;
   }
+  const bool open_ended = total == 0 && done > 0;
+  const double so_far_s = std::chrono::duration<double>(now - made_).count();
+  if (!terminal_ && open_ended && now - drawn_ >= every_) {
+    drawn_ = now;
+    fmt::print(stderr, "{}\n", progress_line(title_, what, done, total, so_far_s, 200));
+  }
   if (!terminal_ || done < shown_) return;  // a slower thread may report late
   shown_ = done;
   if (!begins && done < total && now - drawn_ < std::chrono::milliseconds(50))
     return;  // faster than one sees
   drawn_ = now;
-  const double elapsed_s = std::chrono::duration<double>(now - began_).count();
+  const double elapsed_s = open_ended ? so_far_s : std::chrono::duration<double>(now - began_).count();
   // One character less than the terminal is wide: some go on to the next line after the last.
   const auto line =
       fmt::format("\r{}\033[K", progress_line(title_, what, done, total, elapsed_s, terminal_width() - 1));

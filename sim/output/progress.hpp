@@ -1,4 +1,4 @@
-// A progress line on a terminal, nothing in a pipe.
+// A progress line on a terminal; in a pipe nothing, but for a line now and then of work without a known end.
 #pragma once
 
 #include <chrono>
@@ -10,14 +10,15 @@
 namespace mckibben::output {
 
 /// "title: what [###...] done/total, 20 s left", no longer than `width` characters. The time left is said
-/// once a second has been measured, as if what is left went on as what is done.
+/// once a second has been measured, as if what is left went on as what is done. Work without a known end
+/// (`total` 0, steps counted in `done`): "title: what, step 12, 20 s so far".
 std::string progress_line(const std::string& title, const std::string& what, std::size_t done,
                           std::size_t total, double elapsed_s, std::size_t width);
 
 class Progress {
  public:
-  /// Shows that line on stderr while it is a terminal.
-  explicit Progress(std::string title);
+  /// Shows that line on stderr while it is a terminal; else, of work without a known end, once in `every`.
+  explicit Progress(std::string title, std::chrono::milliseconds every = std::chrono::minutes(1));
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
   /// Clears the line.
@@ -33,8 +34,9 @@ class Progress {
 
   std::string title_, what_;
   bool terminal_;
+  std::chrono::milliseconds every_;
   std::size_t shown_ = 0;
-  Clock::time_point began_{}, drawn_{};
+  Clock::time_point made_ = Clock::now(), began_{}, drawn_{made_};
   std::mutex mutex_;
 };
 

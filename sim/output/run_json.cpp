@@ -9,6 +9,7 @@
 #include <sim/input/number.hpp>
 #include <sim/input/rig_file.hpp>
 #include <sim/output/run_json.hpp>
+#include <sim/run/remarks.hpp>
 
 namespace mckibben::output {
 namespace {
@@ -19,15 +20,24 @@ Json or_null(const std::optional<double>& value) {
   return value ? Json(*value) : Json(nullptr);
 }
 
-Json ledger_json(const plant::Ledger<double>& books) {
-  return {{"air_drawn_kg", books.air_drawn_kg},
-          {"air_vented_kg", books.air_vented_kg},
-          {"air_leaked_kg", books.air_leaked_kg},
-          {"braid_work_J", books.braid_work_J},
-          {"thread_friction_work_J", books.thread_friction_work_J},
-          {"guide_work_J", books.guide_work_J},
-          {"stop_work_J", books.stop_work_J},
-          {"effects_work_J", books.effects_work_J}};
+Json ledger_json(const plant::Rig& rig, const run::Recording& recording) {
+  const auto& books = recording.ledger;
+  Json ledger{
+      {"air_drawn_kg", books.air_drawn_kg},
+      {"air_vented_kg", books.air_vented_kg},
+      {"air_leaked_kg", books.air_leaked_kg},
+      {"braid_work_J", books.braid_work_J},
+      {"thread_friction_work_J", books.thread_friction_work_J},
+      {"guide_work_J", books.guide_work_J},
+      {"stop_work_J", books.stop_work_J},
+      {"effects_work_J", books.effects_work_J},
+      {"unexplained_share", {{"gas", recording.imbalance.gas}, {"energy", recording.imbalance.energy}}}};
+  if (rig.effects.gas_exponent() != 1.0)
+    ledger.update({{"valve_air_kg", books.valve_air_kg},
+                   {"muscle_air_kg", books.muscle_air_kg},
+                   {"air_inflow_J", books.air_inflow_J},
+                   {"gas_work_J", books.gas_work_J}});
+  return ledger;
 }
 
 Json inputs_json(const std::vector<input::InputFile>& files) {
@@ -83,8 +93,10 @@ Json run_json(const plant::Rig& rig, const run::TrackedRun& run) {
   entry["overshoot"] = or_null(m.overshoot);
   entry["settling_time_s"] = or_null(m.settling_time_s);
   entry["current_travel_mA"] = m.current_travel_mA;
+  entry["at_lowest_current"] = or_null(m.at_lowest_current);
+  entry["at_highest_current"] = or_null(m.at_highest_current);
   entry["contraction"] = contraction_json(rig, run.recording);
-  entry["ledger"] = ledger_json(run.recording.ledger);
+  entry["ledger"] = ledger_json(rig, run.recording);
   entry["solver"] = solver_json(run.recording.solver);
   for (const auto& one : run.recording.findings)
     entry["findings"][one.name] = {{"value", one.value}, {"unit", one.unit}};
@@ -127,6 +139,9 @@ Json json_of(const input::Scenario& scenario, const run::Comparison& comparison)
                                  {"integral_time_s", row.tuned.gains.integral_time_s},
                                  {"derivative_time_s", row.tuned.gains.derivative_time_s},
                                  {"cost", row.tuned.cost},
+                                 {"cost_at_start", or_null(row.tuned.start_cost)},
+                                 {"cost_without_feedback", or_null(row.idle_cost)},
+                                 {"gained_nothing", run::gained_nothing(row)},
                                  {"evaluations", row.tuned.evaluations}});
   }
   document["runs"] = Json::array();
@@ -165,7 +180,7 @@ Json json_of(const input::Dataset& dataset, const std::vector<run::ReplayedRun>&
       entry["mean_error"] = run.mean_error;
       entry["pressure_rmse_bar"] = run.pressure_rmse_Pa ? Json(*run.pressure_rmse_Pa / 1e5) : Json(nullptr);
       entry["contraction"] = contraction_json(dataset.rig, run.recording);
-      entry["ledger"] = ledger_json(run.recording.ledger);
+      entry["ledger"] = ledger_json(dataset.rig, run.recording);
       entry["solver"] = solver_json(run.recording.solver);
     }
     document["runs"].push_back(std::move(entry));

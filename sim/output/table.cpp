@@ -9,6 +9,7 @@
 #include <sim/input/number.hpp>
 #include <sim/output/grid.hpp>
 #include <sim/output/table.hpp>
+#include <sim/run/remarks.hpp>
 
 namespace mckibben::output {
 namespace {
@@ -54,6 +55,22 @@ std::string contraction_note(const plant::Rig& rig, double reached, const std::s
   return "";
 }
 
+std::string percent(std::optional<double> share) {
+  return share ? fmt::format("{:.0f}", 100.0 * *share) : "-";
+}
+
+std::string tuned_line(const run::TunedController& row) {
+  const auto cost = [](std::optional<double> value) {
+    return value ? fmt::format("{:.3g}", *value) : std::string("no result");
+  };
+  return fmt::format(
+      "  {} at {:g} kg: proportional {:.4g} mA, integral_time {:.4g} s, derivative_time {:.4g} s ({} runs); "
+      "cost {:.3g}, at the start {}, without feedback {}{}\n",
+      row.controller, row.load_kg, row.tuned.gains.proportional_mA, row.tuned.gains.integral_time_s,
+      row.tuned.gains.derivative_time_s, row.tuned.evaluations, row.tuned.cost, cost(row.tuned.start_cost),
+      cost(row.idle_cost), run::gained_nothing(row) ? ": the tuning gained nothing" : "");
+}
+
 std::string section(const std::string& title, const std::string& body) {
   return body.empty() ? "" : "\n" + title + "\n" + body;
 }
@@ -97,22 +114,25 @@ std::string table_of(const input::Scenario& scenario, const run::Comparison& com
       scenario.name, scenario.loads_kg.size(), scenario.loads_kg.size() == 1 ? "" : "s",
       scenario.controllers.size(), scenario.controllers.size() == 1 ? "" : "s", scenario.duration_s,
       scenario.rig.muscle.rest_length_m);
-  Grid runs({"load_kg", "controller", "rmse", "mae", "largest", "final", "lag_ms", "overshoot_%",
-             "settling_s", "air_g"},
+  const double length_mm = 1e3 * scenario.rig.muscle.rest_length_m;
+  Grid runs({"load_kg", "controller", "rmse", "rmse_mm", "mae", "largest", "final", "lag_ms", "overshoot_%",
+             "settling_s", "air_g", "at_limit_%"},
             2);
   std::string failures;
   for (const auto& run : comparison.runs) {
     const auto& m = run.metrics;
     const auto load = input::write_number(run.load_kg);
     if (!run.failure.empty()) {
-      runs.add(
-          {load, run.controller + extrapolation_mark(run), "no result", "-", "-", "-", "-", "-", "-", "-"});
+      runs.add({load, run.controller + extrapolation_mark(run), "no result", "-", "-", "-", "-", "-", "-",
+                "-", "-", "-"});
       failures += fmt::format("  {} at {} kg: {}\n", run.controller, load, run.failure);
       continue;
     }
-    runs.add({load, run.controller + extrapolation_mark(run), ratio(m.rmse), ratio(m.mae),
-              ratio(m.largest_error), fmt::format("{:+.5f}", m.final_error), cell(m.time_lag_s, 1e3, 0),
-              cell(m.overshoot, 100.0, 1), cell(m.settling_time_s, 1.0, 2), cell(m.air_kg, 1e3, 3)});
+    runs.add({load, run.controller + extrapolation_mark(run), ratio(m.rmse), cell(m.rmse, length_mm, 2),
+              ratio(m.mae), ratio(m.largest_error), fmt::format("{:+.5f}", m.final_error),
+              cell(m.time_lag_s, 1e3, 0), cell(m.overshoot, 100.0, 1), cell(m.settling_time_s, 1.0, 2),
+              cell(m.air_kg, 1e3, 3),
+              percent(run.limits ? std::optional(run::share_at_limit(run)) : std::nullopt)});
   }
   text += runs.text() + footnotes(comparison.runs);
 
@@ -121,22 +141,17 @@ std::string table_of(const input::Scenario& scenario, const run::Comparison& com
       return run.controller == controller && run.failure.empty() && extrapolation_mark(run) == "*";
     });
   };
-  Grid spreads({"controller", "rmse mean", "lowest", "highest", "spread", "std dev"}, 1);
+  Grid spreads({"controller", "rmse mean", "mean_mm", "lowest", "highest", "spread", "std dev"}, 1);
   for (const auto& row : comparison.spreads)
     if (row.rmse)
       spreads.add({row.controller + (extrapolated(row.controller) ? "*" : ""), ratio(row.rmse->mean),
-                   ratio(row.rmse->lowest), ratio(row.rmse->highest), ratio(row.rmse->width()),
-                   ratio(row.rmse->standard_deviation)});
+                   cell(row.rmse->mean, length_mm, 2), ratio(row.rmse->lowest), ratio(row.rmse->highest),
+                   ratio(row.rmse->width()), ratio(row.rmse->standard_deviation)});
   if (!spreads.empty()) text += section("rmse over the loads (spread: highest less lowest)", spreads.text());
 
   std::string tuned;
   for (const auto& row : comparison.tuned)
-    if (row.failure.empty())
-      tuned += fmt::format(
-          "  {} at {:g} kg: proportional {:.4g} mA, integral_time {:.4g} s, derivative_time {:.4g} s ({} "
-          "runs)\n",
-          row.controller, row.load_kg, row.tuned.gains.proportional_mA, row.tuned.gains.integral_time_s,
-          row.tuned.gains.derivative_time_s, row.tuned.evaluations);
+    if (row.failure.empty()) tuned += tuned_line(row);
   text += section("gains tuned", tuned);
   text += section("found out by the controllers", findings(comparison));
   text += section("contraction", contraction_notes(scenario, comparison));
@@ -151,17 +166,18 @@ std::string table_of(const input::Dataset& dataset, const std::vector<run::Repla
   std::string text = fmt::format(
       "{}: {} run{} replayed; simulated less measured, as contraction ratio (0.001 = {:g} mm)\n\n",
       dataset.path.string(), runs.size(), runs.size() == 1 ? "" : "s", dataset.rig.muscle.rest_length_m);
-  Grid grid({"run", "load_kg", "rmse", "largest", "mean", "pressure_rmse_bar"}, 1);
+  const double length_mm = 1e3 * dataset.rig.muscle.rest_length_m;
+  Grid grid({"run", "load_kg", "rmse", "rmse_mm", "largest", "mean", "pressure_rmse_bar"}, 1);
   std::string failures, notes;
   for (const auto& run : runs) {
     const auto load = input::write_number(run.load_kg);
     if (!run.failure.empty()) {
-      grid.add({run.id, load, "no result", "-", "-", "-"});
+      grid.add({run.id, load, "no result", "-", "-", "-", "-"});
       failures += fmt::format("  {}: {}\n", run.id, run.failure);
       continue;
     }
-    grid.add({run.id, load, ratio(run.rmse), ratio(run.largest_error), fmt::format("{:+.5f}", run.mean_error),
-              cell(run.pressure_rmse_Pa, 1e-5, 4)});
+    grid.add({run.id, load, ratio(run.rmse), cell(run.rmse, length_mm, 3), ratio(run.largest_error),
+              fmt::format("{:+.5f}", run.mean_error), cell(run.pressure_rmse_Pa, 1e-5, 4)});
     notes += contraction_note(dataset.rig, run.recording.largest_contraction_ratio, run.id);
   }
   return text + grid.text() + section("contraction", notes) + section("no result", failures);

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -35,6 +36,7 @@ struct Group {
   std::size_t ticks = 0;
   std::vector<Quantity> given{};  ///< target, or what was measured
   std::vector<Run> runs{};
+  std::optional<double> rmse{};  ///< what runs are chosen by, contraction ratio
 };
 
 /// One line of a plot, by the key of its quantity. Where many runs are compared, only main lines are drawn
@@ -54,9 +56,9 @@ struct Plot {
 
 /// Two quantities of the same run against each other.
 struct Loop {
-  std::string id, title, x, y, x_label, y_label;
-  bool dots = false;                 ///< a dot for each tick in place of a line
-  std::string given_x{}, given_y{};  ///< what was measured of the same, if it was
+  std::string id, title, x, y, x_label, y_label;  ///< an axis labelled `ratio_unit` shows lengths as wanted
+  bool dots = false;                              ///< a dot for each tick in place of a line
+  std::string given_x{}, given_y{};               ///< what was measured of the same, if it was
 };
 
 /// A picture that is drawn already.
@@ -73,13 +75,15 @@ struct Chapter {
 struct Contents {
   std::string title, about;
   std::vector<std::string> warnings{};
-  std::string sentence{};                 ///< the result in one sentence
+  std::string sentence{};                 ///< the result in one sentence, as HTML
   std::string table{};                    ///< the result as HTML
   std::string details{};                  ///< all of it, as text
   std::string beside{};                   ///< what is where in the folder
   std::vector<Chapter> chapters{};        ///< before the runs
   std::vector<Chapter> later_chapters{};  ///< after them
+  bool lengths = true;                    ///< it has some, and the reader may choose their unit
   plant::Rig rig{};
+  bool gauge = false;  ///< muscle pressure was measured
   std::vector<Plot> plots{};
   std::vector<Loop> loops{};
   std::vector<Group> groups{};

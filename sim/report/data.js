@@ -12,6 +12,12 @@ function make(name, attributes = {}, ...children) {
   return element;
 }
 
+/** What a value of this unit is shown as: ratios are heights in mm, unless the reader wants ratios. */
+function shownAs(unit) {
+  if (unit !== 'contraction ratio' || byId('in-ratio').checked) return {unit, factor: 1};
+  return {unit: 'mm', factor: 1e3 * report.rig.rest_length_m};
+}
+
 /** Values of a packed quantity; null where there is none. */
 function unpack(packed, count) {
   if (packed.bits === '') return new Array(count).fill(packed.low);

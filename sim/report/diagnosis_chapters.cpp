@@ -8,9 +8,11 @@
 #include <sim/input/field_kinds.hpp>
 #include <sim/output/diagnosis_words.hpp>
 #include <sim/output/svg.hpp>
+#include <sim/report/by_load.hpp>
 #include <sim/report/diagnosis_chapters.hpp>
 #include <sim/report/diagnosis_pictures.hpp>
 #include <sim/report/html.hpp>
+#include <sim/report/length.hpp>
 
 namespace mckibben::report {
 namespace {
@@ -29,6 +31,10 @@ std::string row(const std::string& head, std::initializer_list<std::string> cell
   html += "</th>";
   for (const auto& cell : cells) html += "<td>" + escaped(cell) + "</td>";
   return html + "</tr>\n";
+}
+
+std::string folded(const std::string& summary, const std::string& html) {
+  return "<details><summary>" + escaped(summary) + "</summary>\n" + html + "</details>\n";
 }
 
 std::string table(const std::string& caption, std::initializer_list<const char*> head,
@@ -65,10 +71,11 @@ std::string found(const Diagnosis& diagnosis) {
 }
 
 std::string gap_row(const char* name, double rmse, const diagnose::Gap& gap, const plant::Rig& rig) {
-  return row(name, {output::height(rmse, rig), gap.noise_floor > 0.0
-                                                   ? fmt::format("{:.{}f} \u00d7", rmse / gap.noise_floor,
+  const std::string floors = gap.noise_floor > 0.0 ? fmt::format("{:.{}f} \u00d7", rmse / gap.noise_floor,
                                                                  rmse < 10.0 * gap.noise_floor ? 1 : 0)
-                                                   : "-"});
+                                                   : "-";
+  return fmt::format("<tr><th scope='row'>{}</th><td>{}</td><td>{}</td></tr>\n", name, height_html(rmse, rig),
+                     floors);
 }
 
 /// Where much of the gap sits in little of the data, in a sentence; empty if it is spread evenly.
@@ -104,13 +111,13 @@ std::string where_html(const Diagnosis& diagnosis, const plant::Rig& rig) {
 std::string ranking_html(const Diagnosis& diagnosis, const plant::Rig& rig) {
   if (diagnosis.ranking.empty()) return "";
   return paragraph(
-             "Every effect of the catalogue is scored. The score is how far the misfit would fall with a "
-             "little of it, beyond what the nominal parameters can imitate; left of the dashed line it is "
-             "chance, and an effect that would have to act the wrong way round has none. The best of two "
-             "screenings, of the rig as described and as recalibrated, are fitted: under their bars stands "
-             "what came of it, with the error left on the runs held "
-             "out. Once one is taken, all others are tried again in a further round. All bars have one "
-             "scale.") +
+             "Every effect of the catalogue is scored: how far the misfit would fall with a little of it, "
+             "beyond what the nominal parameters can imitate (dashed bars); an effect that would have to act "
+             "the wrong way round has none. The best of two screenings, of the rig as described and as "
+             "recalibrated, are fitted: their full bars show how far the misfit did fall, and under them "
+             "stands what came of it, with the error left on the runs held out. Left of the dashed line a "
+             "fall is chance, and nothing is taken from there. Once one is taken, all others are tried again "
+             "in a further round. All bars have one logarithmic scale.") +
          figures_html(ranking_pictures(diagnosis, rig));
 }
 
@@ -168,17 +175,31 @@ std::string added_html(const Diagnosis& diagnosis) {
   return html + law_html(diagnosis) + recalibrated_html(diagnosis) + absorbed_html(diagnosis);
 }
 
+/// Errors that are left, by load.
+std::string loads_html(const std::vector<const diagnose::RunGap*>& runs, bool changed,
+                       const plant::Rig& rig) {
+  std::vector<Judged> judged;
+  for (std::size_t i = 0; i < runs.size(); ++i)
+    if (const double rmse = left_of(*runs[i], changed); std::isfinite(rmse) && !runs[i]->left_out)
+      judged.push_back({runs[i]->id, runs[i]->load_kg, rmse, i});
+  return paragraph(changed ? "What is left with the corrected rig:" : "What is left once recalibrated:") +
+         by_load_html(judged, rig);
+}
+
 std::string gap_html(const Diagnosis& diagnosis, const std::vector<const diagnose::RunGap*>& runs,
                      const plant::Rig& rig) {
   if (runs.empty()) return "";
   const bool changed = output::changed(diagnosis);
+  const std::string picture = figures_html({{"Root mean square error of height, run by run.",
+                                             errors_svg(runs, diagnosis.gap.noise_floor, changed, rig)}});
   return fmt::format(
              "<p>Nominal is the rig as it was described, recalibrated has its numbers fitted and nothing "
              "added{}. No fit has seen the runs held out: they decide. The axis is logarithmic.<span "
              "class='live-only'> A click on a run leads to its plots.</span></p>\n",
              changed ? ", corrected has what was found" : "") +
-         figures_html({{"Root mean square error of height, run by run.",
-                        errors_svg(runs, diagnosis.gap.noise_floor, changed, rig)}});
+         (runs.size() > many_runs
+              ? loads_html(runs, changed, rig) + folded(fmt::format("All {} runs", runs.size()), picture)
+              : picture);
 }
 
 bool gauged(const input::Dataset& data) {
@@ -207,23 +228,11 @@ std::string twins_html(const input::Dataset& data, const Diagnosis& diagnosis) {
                                likeness}});
 }
 
-/// What to do where no measurement of the menu is proposed.
-std::string without_plan(const Diagnosis& diagnosis) {
-  using enum diagnose::Verdict;
-  const bool twins = std::any_of(diagnosis.effects.begin(), diagnosis.effects.end(),
-                                 [](const auto& effect) { return !effect.confusable_with.empty(); });
-  if (diagnosis.verdict == missing_effect)
-    return paragraph(twins ? "No current that was tried would tell these names apart."
-                           : "No further measurement is needed to choose between names.");
-  if (diagnosis.verdict == recalibrate)
-    return paragraph("Check the numbers that moved most against a ruler or the data sheet.");
-  if (diagnosis.verdict == unknown_effect && !diagnosis.law_valid_for.empty())
-    return paragraph("Wherever the rig is to be used beyond what the law is valid for.");
-  return "";
-}
-
 std::string next_html(const Diagnosis& diagnosis) {
-  if (!diagnosis.next_experiment) return without_plan(diagnosis);
+  if (!diagnosis.next_experiment) {
+    const std::string words = output::what_next(diagnosis);
+    return words.empty() ? "" : paragraph(words);
+  }
   const auto& next = *diagnosis.next_experiment;
   return fmt::format(
       "<p><b>{}</b>, with a load of {}. It would tell {} apart with a probability of {:.0f} % (test at 5 %). "
@@ -234,22 +243,30 @@ std::string next_html(const Diagnosis& diagnosis) {
 
 }  // namespace
 
+double left_of(const diagnose::RunGap& run, bool changed) {
+  return changed ? run.corrected_rmse : run.recalibrated_rmse;
+}
+
 std::string result_table(const input::Dataset& data, const Diagnosis& diagnosis) {
   const auto& gap = diagnosis.gap;
   const auto unseen = output::held_out(diagnosis);
   std::string html = "<div class='tables'>\n" + found(diagnosis);
   if (unseen.empty()) return html + "</div>\n";
-  std::string caption =
-      fmt::format("Error of height on the runs held out ({}), root mean square.", output::listed(unseen));
+  const bool few = unseen.size() <= 6;
+  std::string caption = fmt::format("Error of height on the {}, root mean square.",
+                                    few ? "runs held out (" + output::listed(unseen) + ")"
+                                        : fmt::format("{} runs held out", unseen.size()));
   std::string rows = gap_row("nominal", gap.nominal_rmse, gap, data.rig) +
                      gap_row("recalibrated", gap.recalibrated_rmse, gap, data.rig);
   if (output::changed(diagnosis)) {
     caption += fmt::format(" Of its square above the noise floor {:.1f} % is gone.", 100.0 * gap.closed);
     rows += gap_row("corrected", gap.corrected_rmse, gap, data.rig);
   }
-  rows += row("noise floor", {output::height(gap.noise_floor, data.rig), ""});
-  html += table(caption, {"rig", "error", "over floor"}, rows);
-  return html + "</div>\n";
+  rows += fmt::format("<tr><th scope='row'>noise floor</th><td>{}</td><td></td></tr>\n",
+                      height_html(gap.noise_floor, data.rig));
+  html += "<div>" + table(caption, {"rig", "error", "over floor"}, rows);
+  if (!few) html += folded("Which runs are held out", paragraph(output::listed(unseen)));
+  return html + "</div></div>\n";
 }
 
 std::vector<Chapter> story(const input::Dataset& data, const Diagnosis& diagnosis,

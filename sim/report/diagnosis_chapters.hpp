@@ -10,6 +10,9 @@
 
 namespace mckibben::report {
 
+/// The error that is left in a run: of the corrected rig, or where nothing was changed the recalibrated one.
+double left_of(const diagnose::RunGap& run, bool changed);
+
 /// The result as two tables: what was found, and the errors on the runs held out.
 std::string result_table(const input::Dataset& data, const diagnose::Diagnosis& diagnosis);
 

@@ -13,6 +13,7 @@
 #include <sim/output/diagnosis_words.hpp>
 #include <sim/output/svg.hpp>
 #include <sim/report/diagnosis_pictures.hpp>
+#include <sim/report/length.hpp>
 
 namespace mckibben::report {
 namespace {
@@ -20,7 +21,6 @@ namespace {
 using diagnose::Diagnosis;
 using diagnose::full_name;
 using output::escaped;
-using output::height;
 using output::rounded;
 
 constexpr double width = 460.0;
@@ -30,10 +30,20 @@ std::string picture(double height_px, const std::string& says, const std::string
                      escaped(says), body);
 }
 
+std::string marked_label(double x, double y, std::string_view anchor, std::string_view svg,
+                         std::string_view kind = "") {
+  return fmt::format("<text x='{:.1f}' y='{:.1f}' text-anchor='{}' class='{}'>{}</text>\n", x, y, anchor,
+                     kind, svg);
+}
+
 std::string label(double x, double y, std::string_view anchor, std::string_view text,
                   std::string_view kind = "") {
-  return fmt::format("<text x='{:.1f}' y='{:.1f}' text-anchor='{}' class='{}'>{}</text>\n", x, y, anchor,
-                     kind, escaped(text));
+  return marked_label(x, y, anchor, escaped(text), kind);
+}
+
+/// A height in the unit that the reader wants, as part of a label.
+std::string height(double ratio, const plant::Rig& rig, bool sign = false) {
+  return height_html(ratio, rig, "tspan", sign);
 }
 
 std::string bar(double x, double y, double wide, double high, std::string_view kind) {
@@ -90,7 +100,7 @@ std::vector<Picture> where_pictures(const Diagnosis& diagnosis, const plant::Rig
     if (cell.rows > 0) most = std::max(most, std::abs(cell.mean));
   std::vector<Picture> pictures;
   for (const auto& [factor, cells] : grouped(diagnosis.where, [](const auto& cell) { return cell.factor; })) {
-    std::string svg = label(0, 14, "start", factor, "strong") +
+    std::string svg = label(0, 14, "start", factor == "contraction" ? ratio_unit : factor, "strong") +
                       label(x0 + 0.5 * wide, 14, "middle", "mean", "soft") +
                       label(x1, 14, "start", "share of the gap", "soft");
     double y = 22.0;
@@ -101,9 +111,8 @@ std::vector<Picture> where_pictures(const Diagnosis& diagnosis, const plant::Rig
       } else {
         svg += heat(x0, y, wide, 21.0, cell->mean / most);
         if (cell->significant) svg += bar(x0 + 1, y + 1, wide - 2, 19.0, "frame");
-        svg += label(x0 + 0.5 * wide, y + 15, "middle",
-                     fmt::format("{}{}{}", cell->mean * rig.muscle.rest_length_m >= 5e-7 ? "+" : "",
-                                 height(cell->mean, rig), cell->significant ? " *" : ""));
+        svg += marked_label(x0 + 0.5 * wide, y + 15, "middle",
+                            height(cell->mean, rig, true) + (cell->significant ? " *" : ""));
         svg += bar(x1, y + 4, cell->share_of_gap * span, 13.0, "bar");
         svg += label(x1 + cell->share_of_gap * span + 6, y + 15, "start",
                      fmt::format("{:.0f} %", 100.0 * cell->share_of_gap), "soft");
@@ -117,8 +126,11 @@ std::vector<Picture> where_pictures(const Diagnosis& diagnosis, const plant::Rig
 
 std::vector<Picture> ranking_pictures(const Diagnosis& diagnosis, const plant::Rig& rig) {
   constexpr double x0 = 212.0, span = 200.0, least_share = 0.01;
-  double most = diagnose::chance;
-  for (const auto& one : diagnosis.ranking) most = std::max(most, one.score);
+  // What a fit made of it; where there is none, what the score promises.
+  const auto fall = [](const diagnose::Ranked& one) { return one.refitted ? one.fall : one.score; };
+  double most = 10.0 * diagnose::chance;
+  for (const auto& one : diagnosis.ranking) most = std::max(most, fall(one));
+  const auto length = [&](double value) { return span * std::log(std::max(value, 1.0)) / std::log(most); };
   const auto rounds = grouped(diagnosis.ranking, [](const auto& one) { return one.round; });
   std::vector<Picture> pictures;
   for (const auto& [round, all] : rounds) {
@@ -127,22 +139,24 @@ std::vector<Picture> ranking_pictures(const Diagnosis& diagnosis, const plant::R
     if (rounds.size() > 1) svg += label(0, 14, "start", heading, "strong");
     const double begin = rounds.size() > 1 ? 20.0 : 0.0;
     double y = begin;
-    const double limit = x0 + diagnose::chance / most * span;
+    const double limit = x0 + length(diagnose::chance);
     std::string bars;
     std::map<std::string, std::vector<std::string>> others;  // by outcome
     for (const auto* one : all) {
-      if (!one->refitted && one->score < least_share * most) {
+      if (!one->refitted && (one->score < diagnose::chance || one->score < least_share * most)) {
         others[one->outcome].push_back(full_name(one->name, one->variant));
         continue;
       }
       const bool taken = one->outcome.starts_with("taken");
       bars += label(x0 - 8, y + 13, "end", full_name(one->name, one->variant), taken ? "strong" : "");
-      bars += bar(x0, y + 2, one->score / most * span, 13.0, taken ? "bar c0" : "bar");
-      bars += label(x0 + one->score / most * span + 5, y + 13, "start", rounded(one->score, 1), "soft halo");
+      const double end = length(fall(*one));
+      bars += bar(x0, y + 2, end, 13.0, !one->refitted ? "empty" : taken ? "bar c0" : "bar");
+      bars += label(x0 + end + 5, y + 13, "start", rounded(fall(*one), std::abs(fall(*one)) < 100.0 ? 1 : 0),
+                    "soft halo");
       y += 21.0;
       if (!one->refitted) continue;
-      bars +=
-          label(width - 4, y + 7, "end", one->outcome + ": " + height(one->held_out_rmse, rig), "soft halo");
+      bars += marked_label(width - 4, y + 7, "end",
+                           escaped(one->outcome) + ": " + height(one->held_out_rmse, rig), "soft halo");
       y += 17.0;
     }
     svg += stroke(limit, begin, limit, y, "floor") + bars;
@@ -213,7 +227,6 @@ std::string errors_svg(const std::vector<const diagnose::RunGap*>& runs, double 
   std::size_t longest = 0;
   for (const auto* run : runs) longest = std::max(longest, name_of(*run).size());
   const double x0 = std::clamp(16.0 + 8.2 * static_cast<double>(longest), 80.0, 240.0);
-  const double mm = 1e3 * rig.muscle.rest_length_m;
   double low = noise_floor > 0.0 ? noise_floor : 1e-4, high = low;
   for (const auto* run : runs)
     for (const auto& model : shown)
@@ -231,19 +244,26 @@ std::string errors_svg(const std::vector<const diagnose::RunGap*>& runs, double 
     key_x += 26.0 + 7.2 * static_cast<double>(std::string_view(model.name).size());
   }
   svg += label(width, 48, "end", changed ? "nominal \u2192 corrected" : "nominal", "soft");
-  for (double power = std::pow(10.0, std::ceil(std::log10(low * mm))); power <= high * mm; power *= 10.0)
-    for (const double value : {power, 2.0 * power, 5.0 * power}) {
-      if (value > high * mm) continue;
-      svg += stroke(x(value / mm), 52, x(value / mm), bottom, "grid");
-      if (value == power) svg += label(x(value / mm), 48, "middle", fmt::format("{:g} mm", value), "soft");
-    }
+  const auto grid = [&](double factor, const char* unit) {  // of which a ratio of 1 has `factor`
+    std::string lines;
+    const double most = high * factor;
+    for (double power = std::pow(10.0, std::ceil(std::log10(low * factor))); power <= most; power *= 10.0)
+      for (const double value : {power, 2.0 * power, 5.0 * power}) {
+        if (value > most) continue;
+        const double at = x(value / factor);
+        lines += stroke(at, 52, at, bottom, "grid");
+        if (value == power) lines += label(at, 48, "middle", fmt::format("{:g}{}", value, unit), "soft");
+      }
+    return lines;
+  };
+  svg += either(grid(length_mm(rig), " mm"), grid(1.0, ""), "g");
   if (noise_floor > 0.0) {
     svg += stroke(x(noise_floor), 36, x(noise_floor), bottom, "floor");
-    svg += label(x(noise_floor) - 4, 33, "start", "noise floor " + height(noise_floor, rig), "soft");
+    svg += marked_label(x(noise_floor) - 4, 33, "start", "noise floor " + height(noise_floor, rig), "soft");
   }
   for (std::size_t i = 0; i < runs.size(); ++i, y += pitch) {
     const auto& run = *runs[i];
-    svg += fmt::format("<g data-group='{}'>", i) + bar(0, y, width, pitch, "row");
+    svg += fmt::format("<a href='#group-{0}' data-group='{0}'>", i) + bar(0, y, width, pitch, "row");
     svg += label(x0 - 12, y + 16, "end", name_of(run), run.held_out ? "strong" : "");
     double least = x1, most = x0;
     for (const auto& model : shown)
@@ -253,8 +273,7 @@ std::string errors_svg(const std::vector<const diagnose::RunGap*>& runs, double 
     for (const auto& model : shown)
       if (const double rmse = run.*model.rmse; std::isfinite(rmse)) svg += mark(x(rmse), y + 12, model);
     const std::string corrected = changed ? " \u2192 " + height(run.corrected_rmse, rig) : "";
-    svg += label(width, y + 16, "end", height(run.nominal_rmse, rig) + corrected, "soft");
-    svg += "</g>\n";
+    svg += marked_label(width, y + 16, "end", height(run.nominal_rmse, rig) + corrected, "soft") + "</a>\n";
   }
   return picture(bottom + 4, "Errors of each run", svg);
 }

@@ -5,7 +5,9 @@
 #include <sim/output/svg.hpp>
 #include <sim/report/files.hpp>
 #include <sim/report/html.hpp>
+#include <sim/report/length.hpp>
 #include <sim/report/pack.hpp>
+#include <sim/report/rig_words.hpp>
 #include <sim/report/still.hpp>
 
 namespace mckibben::report {
@@ -27,6 +29,7 @@ Json group_json(const Group& group, std::size_t all_runs) {
   Json entry{{"name", group.name},      {"load_kg", group.load_kg},
              {"ticks", group.ticks},    {"ticks_per_column", per_column},
              {"given", Json::object()}, {"runs", Json::array()}};
+  if (group.rmse) entry["rmse"] = *group.rmse;
   for (const auto& quantity : group.given)
     entry["given"][quantity.key] = pack(quantity.at, group.ticks, group.ticks, per_column);
   for (const auto& run : group.runs) {
@@ -38,12 +41,15 @@ Json group_json(const Group& group, std::size_t all_runs) {
   return entry;
 }
 
-Json rig_json(const plant::Rig& rig) {
+Json rig_json(const plant::Rig& rig, bool gauge) {
   return {{"rest_length_m", rig.muscle.rest_length_m},
           {"rest_radius_m", rig.muscle.rest_radius_m},
           {"braid_angle_rad", rig.muscle.braid_angle_rad},
           {"wheel_radius_m", rig.joint.wheel_radius_m},
-          {"supply_bar", rig.valve.supply_pressure_Pa / 1e5}};
+          {"supply_bar", rig.valve.supply_pressure_Pa / 1e5},
+          {"zero_mA", rig.valve.zero_current_mA},
+          {"span_mA", rig.valve.span_current_mA},
+          {"gauge", gauge}};
 }
 
 std::size_t runs_of(const Contents& contents) {
@@ -54,7 +60,9 @@ std::size_t runs_of(const Contents& contents) {
 
 /// As JSON that can stand inside <script>: no "</script>", no "<!--".
 std::string data_of(const Contents& contents) {
-  Json data{{"tick_s", contents.rig.tick_s}, {"rig", rig_json(contents.rig)}, {"drawn", contents.drawn}};
+  Json data{{"tick_s", contents.rig.tick_s},
+            {"rig", rig_json(contents.rig, contents.gauge)},
+            {"drawn", contents.drawn}};
   for (const auto& plot : contents.plots) data["plots"].push_back(plot_json(plot));
   for (const auto& group : contents.groups) data["groups"].push_back(group_json(group, runs_of(contents)));
   std::string text;
@@ -77,7 +85,8 @@ std::string stills(const Contents& contents) {
   const std::size_t most = ticks_looked_at(runs_of(contents));
   for (std::size_t g = 0; g < contents.groups.size(); ++g) {
     const Group& group = contents.groups[g];
-    html += fmt::format("<section class='group' data-group='{}'>\n<h3>{}</h3>\n", g, escaped(group.name));
+    html += fmt::format("<section class='group' id='group-{0}' data-group='{0}'>\n<h3>{1}</h3>\n", g,
+                        escaped(group.name));
     html += "<p class='keys still'>";
     if (const Line& first = contents.plots.front().lines.front(); first.given)
       html += "<span>" + key("given") + escaped(first.label) + "</span>";
@@ -88,9 +97,9 @@ std::string stills(const Contents& contents) {
     for (const Plot& plot : contents.plots)
       if (plot.still)
         html += fmt::format("<figure class='still'>\n{}<figcaption>{}</figcaption></figure>\n",
-                            still_svg(group, plot, contents.rig.tick_s, most), escaped(plot.title));
+                            still_svg(group, plot, contents.rig, most), escaped(plot.title));
     for (const auto& loop : contents.loops) {
-      const std::string svg = loop_svg(group, loop, most);
+      const std::string svg = loop_svg(group, loop, contents.rig, most);
       if (!svg.empty())
         html += fmt::format("<figure>\n{}<figcaption>{}</figcaption></figure>\n", svg, escaped(loop.title));
     }
@@ -106,25 +115,41 @@ std::string chapters_html(const std::vector<Chapter>& chapters) {
   return html;
 }
 
-/// Where the script puts its plots; hidden without it.
-constexpr const char* live =
-    "<section class='live-only' aria-label='Plots'>\n"
-    "<div class='controls'><label>Show <select id='group'></select></label>\n"
+/// What moves time and chooses runs; hidden without the script.
+constexpr const char* controls =
+    "<div class='controls live-only'><label>Show <select id='group'></select></label>\n"
     "<button id='play' type='button'>Play</button>\n"
     "<select id='speed' aria-label='Speed'><option value='0.25'>1/4 x</option><option value='1' selected>1 "
     "x</option>"
     "<option value='4'>4 x</option><option value='16'>16 x</option></select>\n"
     "<input id='time' type='range' min='0' step='any' aria-label='Time'>\n"
     "<output id='clock'></output>\n"
-    "<button id='whole' type='button'>Whole run</button></div>\n"
-    "<figure><svg id='rig' role='img' aria-label='The rig at the time of the "
-    "cursor'></svg>\n"
-    "<figcaption id='rig-caption'></figcaption></figure>\n"
-    "<div class='wide result'><table id='readout'></table></div>\n"
-    "<p class='small'>Tick runs to compare; the round mark chooses the one drawn above. Move over a plot to "
-    "set "
-    "the time, drag to zoom, double-click to see the whole run. Keys: space plays, left and right step.</p>\n"
-    "<div id='plots'></div>\n</section>\n";
+    "<button id='whole' type='button'>Whole run</button></div>\n";
+
+/// The rig, the readout, and where the script puts its plots.
+std::string rig_and_plots(const Contents& contents) {
+  return "<div class='stage'>\n<figure class='live-only'><svg id='rig' role='img' aria-label='The rig at the "
+         "time of the cursor'></svg>\n<figcaption id='rig-caption'></figcaption></figure>\n<div>\n<div "
+         "class='wide result live-only'><table id='readout'></table></div>\n"
+         "<p class='small live-only'>Tick runs to compare; the round mark chooses the one that is drawn. "
+         "Move "
+         "over a plot to set the time, drag to zoom, double-click to see the whole run. Keys: space plays, "
+         "left and right step.</p>\n" +
+         rig_html(contents.rig, contents.gauge) +
+         "</div>\n</div>\n<div id='plots' class='live-only'></div>\n";
+}
+
+/// One box: of several the first, the others when asked for.
+std::string warnings_html(const std::vector<std::string>& warnings) {
+  if (warnings.empty()) return "";
+  const std::string first = "<b>Warning:</b> " + escaped(warnings.front());
+  if (warnings.size() == 1) return "<p class='warning'>" + first + "</p>\n";
+  std::string html =
+      fmt::format("<div class='warning'><p>{}</p>\n<details><summary>{} more warning{}</summary><ul>\n",
+                  first, warnings.size() - 1, warnings.size() == 2 ? "" : "s");
+  for (std::size_t i = 1; i < warnings.size(); ++i) html += "<li>" + escaped(warnings[i]) + "</li>\n";
+  return html + "</ul></details></div>\n";
+}
 
 }  // namespace
 
@@ -146,16 +171,17 @@ std::string html_of(const Contents& contents) {
   html += fmt::format("<style>\n{}\n{}</style>\n", runs ? uplot_css : "", page_css);
   if (runs) html += "<script>document.documentElement.classList.add('live')</script>\n";
   html += "</head>\n<body>\n";
+  if (contents.lengths) html += unit_switch;
   html += fmt::format("<p class='small'>{}</p>\n<h1>{}</h1>\n<p class='lead'>{}</p>\n",
-                      escaped(contents.about), escaped(contents.title), escaped(contents.sentence));
+                      escaped(contents.about), escaped(contents.title), contents.sentence);
   html += "<div class='wide result'>\n" + contents.table + "</div>\n";
-  for (const auto& warning : contents.warnings)
-    html += "<p class='warning'><b>Warning:</b> " + escaped(warning) + "</p>\n";
+  html += warnings_html(contents.warnings);
   html += "<details><summary>All numbers, as printed</summary><pre>" + escaped(contents.details) +
           "</pre></details>\n";
   html += chapters_html(contents.chapters);
   if (runs)
-    html += live + ("<h2>Loops<span class='still'> and plots over time</span></h2>\n" + stills(contents));
+    html += "<h2 id='runs'>The rig and its runs</h2>\n" + std::string(controls) + rig_and_plots(contents) +
+            ("<h2>Loops<span class='still'> and plots over time</span></h2>\n" + stills(contents));
   html += chapters_html(contents.later_chapters);
   html += fmt::format("<p class='small'>mckibben {}. {}</p>\n", MCKIBBEN_VERSION, escaped(contents.beside));
   if (runs) {

@@ -5,7 +5,9 @@
 
 #include <sim/input/number.hpp>
 #include <sim/output/table.hpp>
+#include <sim/report/by_load.hpp>
 #include <sim/report/html.hpp>
+#include <sim/report/length.hpp>
 #include <sim/report/quantities.hpp>
 #include <sim/report/report.hpp>
 
@@ -42,6 +44,7 @@ std::string report_html(const input::Campaign& campaign, const input::Json& docu
           "Every number of every tick is in the CSV files beside this page; input, versions and "
           "hashes are in campaign.json, the truth in a folder of its own.",
       .rig = dataset.rig,
+      .gauge = dataset.rig.gauge.fitted,
       .plots = measured_plots(),
       .loops = measured_loops()};
   std::string rows;
@@ -60,26 +63,28 @@ std::string report_html(const input::Campaign& campaign, const input::Json& docu
                                                               measured.contraction_ratio.end()));
     }
     const bool any = !group.runs.empty();
+    const std::size_t place = contents.groups.size();
     rows += fmt::format(
-        "<tr{}><th scope='row'>{}</th><td>{}</td><td>{}</td><td>{:.1f}</td><td>{:.4f}</td></tr>\n",
-        any ? fmt::format(" data-group='{}'", contents.groups.size()) : "", group.name, load.runs, load.rows,
-        static_cast<double>(load.rows) * dataset.rig.tick_s, load.largest);
+        "<tr{}><th scope='row'>{}</th><td>{}</td><td>{}</td><td>{:.1f}</td><td>{}</td></tr>\n",
+        any ? fmt::format(" data-group='{}'", place) : "", any ? link_html(place, group.name) : group.name,
+        load.runs, load.rows, static_cast<double>(load.rows) * dataset.rig.tick_s,
+        length_html(load.largest, dataset.rig, 2));
     all.runs += load.runs;
     all.rows += load.rows;
     all.largest = std::max(all.largest, load.largest);
     if (any) contents.groups.push_back(std::move(group));
   }
   contents.sentence = fmt::format(
-      "{} run{} with {} load{} and {} current{}, {:.1f} minutes in all; the muscle shortens by up to {:.1f} "
-      "%.",
+      "{} run{} with {} load{} and {} current{}, {:.1f} minutes in all; the muscle shortens by up to {}.",
       all.runs, all.runs == 1 ? "" : "s", campaign.loads_kg.size(), campaign.loads_kg.size() == 1 ? "" : "s",
       campaign.currents.size(), campaign.currents.size() == 1 ? "" : "s",
-      static_cast<double>(all.rows) * dataset.rig.tick_s / 60.0, 100.0 * all.largest);
+      static_cast<double>(all.rows) * dataset.rig.tick_s / 60.0,
+      full_length_html(all.largest, dataset.rig, 1));
   contents.table =
       "<table><caption>What was measured</caption>\n<thead><tr><th scope='col'>load</th><th "
       "scope='col'>runs</th><th scope='col'>rows</th><th scope='col'>seconds</th><th "
-      "scope='col'>largest contraction ratio</th></tr></thead>\n<tbody>\n" +
-      rows + "</tbody></table>\n";
+      "scope='col'>largest contraction, " +
+      length_unit_html() + "</th></tr></thead>\n<tbody>\n" + rows + "</tbody></table>\n";
   return html_of(contents);
 }
 

@@ -2,6 +2,7 @@
 // three rigs make of it, those held out first.
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <string_view>
 #include <utility>
 
@@ -9,8 +10,11 @@
 
 #include <sim/output/diagnosis_table.hpp>
 #include <sim/output/diagnosis_words.hpp>
+#include <sim/output/svg.hpp>
+#include <sim/report/by_load.hpp>
 #include <sim/report/diagnosis_chapters.hpp>
 #include <sim/report/html.hpp>
+#include <sim/report/length.hpp>
 #include <sim/report/quantities.hpp>
 #include <sim/report/report.hpp>
 
@@ -33,15 +37,18 @@ std::vector<RunGap> as_described(const input::Dataset& data, const std::vector<R
   return runs;
 }
 
-/// Those held out, then those of the fit, then those left out.
-std::vector<const RunGap*> ordered(const std::vector<RunGap>& all) {
+/// Those held out, then those of the fit, then those left out; of many the worst first in each.
+std::vector<const RunGap*> ordered(const std::vector<RunGap>& all, bool changed) {
   std::vector<const RunGap*> runs;
   for (const RunGap& run : all)
     if (!run.measured.empty()) runs.push_back(&run);
-  std::stable_sort(runs.begin(), runs.end(), [](const RunGap* a, const RunGap* b) {
-    const auto place = [](const RunGap* run) { return run->left_out ? 2 : run->held_out ? 0 : 1; };
-    return place(a) < place(b);
-  });
+  const bool many = runs.size() > many_runs;
+  const auto place = [&](const RunGap* run) {
+    const double left = many ? left_of(*run, changed) : 0.0;
+    return std::pair(run->left_out ? 2 : run->held_out ? 0 : 1, std::isfinite(left) ? -left : 0.0);
+  };
+  std::stable_sort(runs.begin(), runs.end(),
+                   [&](const RunGap* a, const RunGap* b) { return place(a) < place(b); });
   return runs;
 }
 
@@ -54,24 +61,29 @@ auto by_id(const Runs& runs, const std::string& id) {
 
 /// One model's readings, and its pressures and forces where it was replayed.
 Run shown(const char* name, std::size_t style, const RunGap& gap, const std::vector<double>& readings,
-          double length_mm, const ReplayedRun* replayed, const plant::Plant& plant) {
+          const ReplayedRun* replayed, const input::Run* recorded, const plant::Plant& plant) {
   Run run{.name = name, .style = style, .ticks = std::min(readings.size(), gap.measured.size())};
   const auto *model = &readings, *measured = &gap.measured;
   run.quantities = {{"contraction", [model](std::size_t k) { return (*model)[k]; }},
-                    {"error_mm", [=](std::size_t k) { return length_mm * ((*measured)[k] - (*model)[k]); }}};
+                    {"error", [=](std::size_t k) { return (*measured)[k] - (*model)[k]; }}};
   if (replayed == nullptr || replayed->recording.samples.size() < run.ticks) return run;
   constexpr std::array<std::string_view, 5> wanted{"valve_pressure", "muscle_pressure", "braid_force",
                                                    "friction_force", "effects_pull"};
   for (auto& quantity : quantities_of(replayed->recording, plant))
     if (std::find(wanted.begin(), wanted.end(), quantity.key) != wanted.end())
       run.quantities.push_back(std::move(quantity));
+  if (recorded != nullptr && recorded->muscle_pressure_Pa)
+    run.quantities.push_back(
+        {"pressure_error", [replayed, recorded](std::size_t k) {
+           const auto& sample = replayed->recording.samples[k];
+           return ((*recorded->muscle_pressure_Pa)[k] - sample.state.side.muscle_pressure_Pa) / 1e5;
+         }});
   return run;
 }
 
 Group group_of(const input::Dataset& data, const Diagnosis& diagnosis, const RunGap& gap,
                const ReplayedRun* nominal, const ReplayedRun* corrected) {
   const plant::Plant nominal_plant(data.rig, gap.load_kg), mended(diagnosis.corrected, gap.load_kg);
-  const double length_mm = 1e3 * data.rig.muscle.rest_length_m;
   Group group{.name = fmt::format("{}, {}{}", gap.id, output::mass(gap.load_kg),
                                   gap.left_out   ? ", left out"
                                   : gap.held_out ? ", held out"
@@ -80,7 +92,9 @@ Group group_of(const input::Dataset& data, const Diagnosis& diagnosis, const Run
               .ticks = gap.measured.size()};
   group.given = {{"given_contraction", [&gap](std::size_t k) { return gap.measured[k]; }},
                  {"weight", [weight_N = mended.weight_N()](std::size_t) { return weight_N; }}};
-  if (const auto* run = by_id(data.runs, gap.id); run != nullptr && run->current_mA.size() >= group.ticks) {
+  const input::Run* recorded = by_id(data.runs, gap.id);
+  if (recorded != nullptr && recorded->current_mA.size() < group.ticks) recorded = nullptr;
+  if (const auto* run = recorded) {
     group.given.push_back({"current", [run](std::size_t k) { return run->current_mA[k]; }});
     group.given.push_back({"reference_pressure", [run, nominal_plant](std::size_t k) {
                              return nominal_plant.reference_pressure_Pa(run->current_mA[k]) / 1e5;
@@ -89,28 +103,31 @@ Group group_of(const input::Dataset& data, const Diagnosis& diagnosis, const Run
       group.given.push_back(
           {"given_pressure", [run](std::size_t k) { return (*run->muscle_pressure_Pa)[k] / 1e5; }});
   }
+  if (const double left = left_of(gap, output::changed(diagnosis)); std::isfinite(left) && left > 0.0)
+    group.rmse = left;
   const auto add = [&](Run run) {
     if (run.ticks > 0) group.runs.push_back(std::move(run));
   };
-  add(shown("nominal", 1, gap, gap.nominal, length_mm, nominal, nominal_plant));
-  add(shown("recalibrated", 3, gap, gap.recalibrated, length_mm, nullptr, nominal_plant));
-  if (output::changed(diagnosis))
-    add(shown("corrected", 0, gap, gap.corrected, length_mm, corrected, mended));
+  add(shown("nominal", 1, gap, gap.nominal, nominal, recorded, nominal_plant));
+  add(shown("recalibrated", 3, gap, gap.recalibrated, nullptr, recorded, nominal_plant));
+  if (output::changed(diagnosis)) add(shown("corrected", 0, gap, gap.corrected, corrected, recorded, mended));
   return group;
 }
 
+bool gauged(const input::Dataset& data) {
+  return std::any_of(data.runs.begin(), data.runs.end(),
+                     [](const auto& run) { return run.muscle_pressure_Pa.has_value(); });
+}
+
 std::vector<Plot> plots(const input::Dataset& data, const Diagnosis& diagnosis) {
-  const bool gauge =
-      std::any_of(data.runs.begin(), data.runs.end(), [](const auto& run) { return run.muscle_pressure_Pa; });
-  const double floor_mm = 1e3 * data.rig.muscle.rest_length_m * diagnosis.gap.noise_floor;
+  const double floor = diagnosis.gap.noise_floor;
   auto all = plots_for(diagnosis.corrected, "Contraction, measured and by each rig", "Measured",
                        fmt::format("Error: measured less model, as height of the load{}",
-                                   floor_mm > 0.0 ? "; logarithmic beyond the noise floor" : ""),
-                       gauge);
+                                   floor > 0.0 ? "; logarithmic beyond the noise floor" : ""),
+                       gauged(data));
   for (Plot& plot : all) {
-    if (plot.id == "error")
-      plot = {plot.id, plot.title, "mm", {{.key = "error_mm", .label = "error", .main = true}},
-              true,    floor_mm};
+    if (plot.id == "error") plot.still = true, plot.floor = floor;
+    if (plot.id == "pressure_error") plot.title = "Error of the pressure: measured less model";
     for (Line& line : plot.lines)  // one for all rigs
       if (line.key == "current" || line.key == "reference_pressure") line.given = true;
   }
@@ -119,7 +136,7 @@ std::vector<Plot> plots(const input::Dataset& data, const Diagnosis& diagnosis) 
 
 std::vector<Loop> loops_of_runs() {
   return {{"asked", "Contraction and pressure asked of the valve", "reference_pressure", "contraction",
-           "pressure asked of the valve in bar", "contraction ratio", false, "reference_pressure",
+           "pressure asked of the valve in bar", std::string(ratio_unit), false, "reference_pressure",
            "given_contraction"},
           loops().front()};
 }
@@ -129,25 +146,30 @@ std::vector<Loop> loops_of_runs() {
 std::string report_html(const input::Dataset& data, const Diagnosis& diagnosis,
                         const std::vector<ReplayedRun>& nominal, const std::vector<ReplayedRun>& corrected) {
   const auto measured_only = diagnosis.runs.empty() ? as_described(data, nominal) : std::vector<RunGap>{};
-  const auto runs = ordered(diagnosis.runs.empty() ? measured_only : diagnosis.runs);
+  const auto runs =
+      ordered(diagnosis.runs.empty() ? measured_only : diagnosis.runs, output::changed(diagnosis));
   Contents contents{
       .title = "Diagnosis of " + output::name_of(data),
       .about = fmt::format("{} run{}, {} held out", data.runs.size(), data.runs.size() == 1 ? "" : "s",
                            output::held_out(diagnosis).size()),
       .warnings = diagnosis.warnings,
-      .sentence = diagnosis.because.empty() ? output::title_of(diagnosis) + "." : diagnosis.because,
+      .sentence =
+          output::escaped(diagnosis.because.empty() ? output::title_of(diagnosis) + "." : diagnosis.because),
       .table = result_table(data, diagnosis),
       .details = output::table_of(data, diagnosis),
       .beside = fmt::format(
           "Heights are heights of the load: 0.001 of contraction ratio is {:g} mm. The noise floor is what "
-          "counting and jitter of the encoder let nobody see, or what equal runs differ by. The thresholds "
-          "were set to name an effect where none is missing in {:.0f} % of data sets: a rate aimed at, not "
+          "counting and jitter of the encoder (here {}) let nobody see, or what equal runs differ by. The "
+          "thresholds were set to name an effect where none is missing in {:.0f} % of data sets: a rate "
+          "aimed at, not "
           "one measured on these data. Seed {}. Every number is in diagnosis.json, the corrected rig in "
           "rig.yaml.",
-          data.rig.muscle.rest_length_m, 100.0 * diagnosis.false_alarm_rate, diagnosis.seed),
-      .chapters = story(data, diagnosis, ordered(diagnosis.runs)),
+          data.rig.muscle.rest_length_m, output::height(diagnosis.gap.jitter, data.rig),
+          100.0 * diagnosis.false_alarm_rate, diagnosis.seed),
+      .chapters = story(data, diagnosis, ordered(diagnosis.runs, output::changed(diagnosis))),
       .later_chapters = doubts_and_plan(data, diagnosis),
       .rig = diagnosis.corrected,
+      .gauge = gauged(data),
       .plots = plots(data, diagnosis),
       .loops = loops_of_runs(),
       .drawn = output::changed(diagnosis) ? 2u : 0u};  // the corrected

@@ -7,6 +7,7 @@
 #include <sim/output/error_map.hpp>
 #include <sim/output/heat_map.hpp>
 #include <sim/report/html.hpp>
+#include <sim/report/length.hpp>
 #include <sim/report/report.hpp>
 
 namespace mckibben::report {
@@ -21,16 +22,13 @@ struct Sum {
     squares += error.ratio * error.ratio * static_cast<double>(error.cells);
     cells += error.cells;
   }
-  std::string mm(double length_mm) const {
-    return cells == 0 ? "-"
-                      : fmt::format("{:.1f}", length_mm * std::sqrt(squares / static_cast<double>(cells)));
-  }
+  double rms() const { return std::sqrt(squares / static_cast<double>(cells)); }
+  std::string cell(const plant::Rig& rig) const { return cells == 0 ? "-" : length_html(rms(), rig, 1); }
 };
 
 }  // namespace
 
 std::string report_html(const run::MapPlan& plan, const run::ErrorMaps& maps) {
-  const double length_mm = 1e3 * plan.rig.muscle.rest_length_m;
   Contents contents{.title = "Errors of the thesis's controller",
                     .about = fmt::format("{} loads, {} contraction ratios x {} speeds, a run for each",
                                          maps.loads.size(), plan.ratios.size(), plan.speeds_per_s.size()),
@@ -38,13 +36,12 @@ std::string report_html(const run::MapPlan& plan, const run::ErrorMaps& maps) {
                     .beside = "Every target is in map.csv, limits and inputs are in map.json."};
   std::vector<Picture> pictures;
   std::string& html = contents.table;
-  html =
-      "<table><caption>Root mean square error of height at the time of arrival, in mm; reachable: what the "
-      "rig "
-      "can pass at that speed</caption>\n<thead><tr><th scope='col'>load</th><th "
-      "scope='col'>direction</th><th "
-      "scope='col'>weighed, kg</th><th scope='col'>reachable</th><th scope='col'>error there, mm</th><th "
-      "scope='col'>error beyond, mm</th></tr></thead>\n<tbody>\n";
+  html = fmt::format(
+      "<table><caption>Root mean square error of height at the time of arrival; reachable: what the rig can "
+      "pass at that speed</caption>\n<thead><tr><th scope='col'>load</th><th scope='col'>direction</th><th "
+      "scope='col'>weighed, kg</th><th scope='col'>reachable</th><th scope='col'>error there, {0}</th><th "
+      "scope='col'>error beyond, {0}</th></tr></thead>\n<tbody>\n",
+      length_unit_html());
   Sum all_within, all_beyond;
   for (const auto& load : maps.loads) {
     if (!load.failure.empty()) {
@@ -62,24 +59,26 @@ std::string report_html(const run::MapPlan& plan, const run::ErrorMaps& maps) {
           "<tr><th scope='row'>{:g} kg</th><td>{}</td><td>{:.3f}</td><td>{:.0f} %</td><td>{}</td>"
           "<td>{}</td></tr>\n",
           load.load_kg, map.branch == controllers::Branch::contraction ? "up" : "down", load.weighed_kg,
-          100.0 * share, within.mm(length_mm), beyond.mm(length_mm));
+          100.0 * share, within.cell(plan.rig), beyond.cell(plan.rig));
     }
     pictures.push_back(
         {fmt::format(
              "{:g} kg. White is right, orange too high or too fast, blue too low or too slow; inside the "
              "line is what the rig can reach.",
              load.load_kg),
-         output::heat_map_svg(plan, maps, load)});
+         either(output::heat_map_svg(plan, maps, load, output::MapUnit::mm),
+                output::heat_map_svg(plan, maps, load), "div")});
   }
   html += "</tbody></table>\n";
   if (!pictures.empty()) contents.chapters = {{"Figures", figures_html(pictures, true)}};
   contents.sentence =
       all_within.cells == 0
           ? "No target that the rig can reach was run."
-          : fmt::format(
-                "Where the rig can go, the load arrives {} mm off, root mean square over {} targets{}.",
-                all_within.mm(length_mm), all_within.cells,
-                all_beyond.cells == 0 ? "" : "; beyond, " + all_beyond.mm(length_mm) + " mm off");
+          : fmt::format("Where the rig can go, the load arrives {} off, root mean square over {} targets{}.",
+                        full_length_html(all_within.rms(), plan.rig, 1), all_within.cells,
+                        all_beyond.cells == 0
+                            ? ""
+                            : "; beyond, " + full_length_html(all_beyond.rms(), plan.rig, 1) + " off");
   return html_of(contents);
 }
 

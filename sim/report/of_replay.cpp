@@ -2,13 +2,16 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <numeric>
 
 #include <fmt/format.h>
 
 #include <sim/input/number.hpp>
 #include <sim/output/svg.hpp>
 #include <sim/output/table.hpp>
+#include <sim/report/by_load.hpp>
 #include <sim/report/html.hpp>
+#include <sim/report/length.hpp>
 #include <sim/report/quantities.hpp>
 #include <sim/report/report.hpp>
 #include <sim/run/simulate.hpp>
@@ -19,7 +22,6 @@ namespace {
 using output::escaped;
 
 std::string sentence(const input::Dataset& dataset, const std::vector<run::ReplayedRun>& runs) {
-  const double length_mm = 1e3 * dataset.rig.muscle.rest_length_m;
   const run::ReplayedRun* worst = nullptr;
   double squares = 0.0;
   std::size_t rows = 0, ended = 0;
@@ -35,43 +37,68 @@ std::string sentence(const input::Dataset& dataset, const std::vector<run::Repla
   const double rmse = std::sqrt(squares / static_cast<double>(rows));
   if (rmse == 0.0)
     return fmt::format("Simulated and measured height agree in every count of all {} runs.", ended);
-  std::string text = fmt::format(
-      "Simulated and measured height of the load differ by {:.3f} mm (contraction ratio {:.6f}), root "
-      "mean square over {} run{}",
-      rmse * length_mm, rmse, ended, ended == 1 ? "" : "s");
-  text += ended == 1 ? "." : fmt::format("; by most in {}: {:.3f} mm.", worst->id, worst->rmse * length_mm);
+  std::string text =
+      fmt::format("Simulated and measured height of the load differ by {}, root mean square over {} run{}",
+                  full_length_html(rmse, dataset.rig), ended, ended == 1 ? "" : "s");
+  text += ended == 1 ? "."
+                     : fmt::format("; by most in {}: {}.", escaped(worst->id),
+                                   full_length_html(worst->rmse, dataset.rig));
   if (ended < runs.size())
     text += fmt::format(" {} of {} runs have no result.", runs.size() - ended, runs.size());
   return text;
 }
 
+/// In the order in which the page shows them: as measured, or of many the worst first, and last those
+/// without a result.
+std::vector<std::size_t> order(const std::vector<run::ReplayedRun>& runs) {
+  std::vector<std::size_t> all(runs.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  if (runs.size() <= many_runs) return all;
+  const auto badness = [&](std::size_t i) { return runs[i].failure.empty() ? runs[i].rmse : -1.0; };
+  std::stable_sort(all.begin(), all.end(),
+                   [&](std::size_t a, std::size_t b) { return badness(a) > badness(b); });
+  return all;
+}
+
+bool drawn(const run::ReplayedRun& run) {
+  return !run.recording.samples.empty();
+}
+
+std::string row(const run::ReplayedRun& run, std::size_t group, const plant::Rig& rig, bool gauge) {
+  std::string html =
+      drawn(run) ? fmt::format("<tr data-group='{}'><th scope='row'>{}</th>", group, link_html(group, run.id))
+                 : "<tr><th scope='row'>" + escaped(run.id) + "</th>";
+  html += "<td>" + input::write_number(run.load_kg) + "</td>";
+  if (!run.failure.empty())
+    return html + fmt::format("<td colspan='{}'>no result</td></tr>\n", gauge ? 4 : 3);
+  html += fmt::format("<td>{}</td><td>{}</td><td>{}</td>", length_html(run.rmse, rig),
+                      length_html(run.largest_error, rig), length_html(run.mean_error, rig, 3, true));
+  if (gauge)
+    html += run.pressure_rmse_Pa ? fmt::format("<td>{:.4f}</td>", *run.pressure_rmse_Pa / 1e5) : "<td>-</td>";
+  return html + "</tr>\n";
+}
+
+/// Every run; of many the loads first.
 std::string table(const input::Dataset& dataset, const std::vector<run::ReplayedRun>& runs) {
-  const double length_mm = 1e3 * dataset.rig.muscle.rest_length_m;
   const bool gauge =
       std::any_of(runs.begin(), runs.end(), [](const auto& run) { return run.pressure_rmse_Pa; });
   std::string html = fmt::format(
       "<table><caption>Simulated less measured height</caption>\n<thead><tr><th scope='col'>run</th><th "
-      "scope='col'>load, kg</th><th scope='col'>rmse, mm</th><th scope='col'>largest, mm</th><th "
-      "scope='col'>mean, mm</th>{}</tr></thead>\n<tbody>\n",
-      gauge ? "<th scope='col'>pressure rmse, bar</th>" : "");
+      "scope='col'>load, kg</th><th scope='col'>rmse, {0}</th><th scope='col'>largest, {0}</th><th "
+      "scope='col'>mean, {0}</th>{1}</tr></thead>\n<tbody>\n",
+      length_unit_html(), gauge ? "<th scope='col'>pressure rmse, bar</th>" : "");
+  std::vector<Judged> judged;
   std::size_t group = 0;
-  for (const auto& run : runs) {
-    const bool shown = !run.recording.samples.empty();
-    html += fmt::format("<tr{}><th scope='row'>{}</th><td>{}</td>",
-                        shown ? fmt::format(" data-group='{}'", group++) : "", escaped(run.id),
-                        input::write_number(run.load_kg));
-    if (!run.failure.empty()) {
-      html += fmt::format("<td colspan='{}'>no result</td></tr>\n", gauge ? 4 : 3);
-      continue;
-    }
-    html += fmt::format("<td>{:.3f}</td><td>{:.3f}</td><td>{:+.3f}</td>", run.rmse * length_mm,
-                        run.largest_error * length_mm, run.mean_error * length_mm);
-    if (gauge)
-      html +=
-          run.pressure_rmse_Pa ? fmt::format("<td>{:.4f}</td>", *run.pressure_rmse_Pa / 1e5) : "<td>-</td>";
-    html += "</tr>\n";
+  for (const std::size_t i : order(runs)) {
+    html += row(runs[i], group, dataset.rig, gauge);
+    if (runs[i].failure.empty()) judged.push_back({runs[i].id, runs[i].load_kg, runs[i].rmse, group});
+    if (drawn(runs[i])) ++group;
   }
-  return html + "</tbody></table>\n";
+  html += "</tbody></table>\n";
+  if (runs.size() <= many_runs) return html;
+  return by_load_html(judged, dataset.rig) +
+         fmt::format("<details><summary>All {} runs, the worst first</summary>\n{}</details>\n", runs.size(),
+                     html);
 }
 
 Group group_of(const input::Dataset& dataset, const input::Run& measured, const run::ReplayedRun& run) {
@@ -82,6 +109,7 @@ Group group_of(const input::Dataset& dataset, const input::Run& measured, const 
               .ticks = measured.contraction_ratio.size()};
   group.given = {{"given_contraction", [&measured](std::size_t k) { return measured.contraction_ratio[k]; }},
                  {"weight", [weight_N = plant.weight_N()](std::size_t) { return weight_N; }}};
+  if (run.failure.empty()) group.rmse = run.rmse;
   if (measured.muscle_pressure_Pa)
     group.given.push_back(
         {"given_pressure", [&measured](std::size_t k) { return (*measured.muscle_pressure_Pa)[k] / 1e5; }});
@@ -91,13 +119,19 @@ Group group_of(const input::Dataset& dataset, const input::Run& measured, const 
       {"error", [rows, &measured, per_count = run::contraction_per_count(dataset.rig)](std::size_t k) {
          return static_cast<double>((*rows)[k].counts) * per_count - measured.contraction_ratio[k];
        }});
+  if (measured.muscle_pressure_Pa)
+    shown.quantities.push_back(
+        {"pressure_error", [rows, &measured](std::size_t k) {
+           return ((*rows)[k].state.side.muscle_pressure_Pa - (*measured.muscle_pressure_Pa)[k]) / 1e5;
+         }});
   group.runs.push_back(std::move(shown));
   return group;
 }
 
 }  // namespace
 
-std::string report_html(const input::Dataset& dataset, const std::vector<run::ReplayedRun>& runs) {
+std::string report_html(const input::Dataset& dataset, const std::vector<run::ReplayedRun>& runs,
+                        const std::vector<std::string>& warnings) {
   const std::string name =
       std::filesystem::absolute(dataset.path).lexically_normal().parent_path().filename().string();
   const bool gauge = std::any_of(dataset.runs.begin(), dataset.runs.end(), [](const auto& measured) {
@@ -106,17 +140,18 @@ std::string report_html(const input::Dataset& dataset, const std::vector<run::Re
   Contents contents{
       .title = "Replay of " + name,
       .about = fmt::format("{} measured runs, simulated with their recorded currents", runs.size()),
+      .warnings = warnings,
       .sentence = sentence(dataset, runs),
       .table = table(dataset, runs),
       .details = output::table_of(dataset, runs),
       .beside = std::string(beside_runs),
       .rig = dataset.rig,
+      .gauge = gauge,
       .plots = plots_for(dataset.rig, "Contraction, measured and simulated", "Measured",
                          "Error: simulated less measured, both as counted", gauge),
       .loops = loops()};
-  for (std::size_t i = 0; i < runs.size(); ++i)
-    if (!runs[i].recording.samples.empty())
-      contents.groups.push_back(group_of(dataset, dataset.runs[i], runs[i]));
+  for (const std::size_t i : order(runs))
+    if (drawn(runs[i])) contents.groups.push_back(group_of(dataset, dataset.runs[i], runs[i]));
   return html_of(contents);
 }
 

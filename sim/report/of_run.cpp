@@ -6,9 +6,12 @@
 #include <sim/input/number.hpp>
 #include <sim/output/svg.hpp>
 #include <sim/output/table.hpp>
+#include <sim/report/by_load.hpp>
 #include <sim/report/html.hpp>
+#include <sim/report/length.hpp>
 #include <sim/report/quantities.hpp>
 #include <sim/report/report.hpp>
+#include <sim/run/remarks.hpp>
 
 namespace mckibben::report {
 namespace {
@@ -20,7 +23,6 @@ std::string loads_text(std::size_t count) {
 }
 
 std::string sentence(const input::Scenario& scenario, const run::Comparison& comparison) {
-  const double length_mm = 1e3 * scenario.rig.muscle.rest_length_m;
   const run::ControllerSpread *best = nullptr, *worst = nullptr;
   for (const auto& one : comparison.spreads) {
     if (!one.rmse) continue;
@@ -32,14 +34,21 @@ std::string sentence(const input::Scenario& scenario, const run::Comparison& com
   const auto failed = std::count_if(comparison.runs.begin(), comparison.runs.end(),
                                     [](const auto& run) { return !run.failure.empty(); });
   const std::string error = fmt::format(
-      "root mean square error {:.2f} mm (contraction ratio {:.5f}){}", best->rmse->mean * length_mm,
-      best->rmse->mean,
+      "root mean square error {}{}", full_length_html(best->rmse->mean, scenario.rig, 2),
       loads == 1 ? "" : ", the mean over " + (failed > 0 ? "the loads with a result" : loads_text(loads)));
-  std::string text = fmt::format("{}: {}.", best->controller, error);
+  const std::string name = escaped(best->controller);
+  std::string text = fmt::format("{}: {}.", name, error);
   if (best != worst)
-    text = fmt::format("{} follows the target best: {}. Of the {} controllers {} is the worst: {:.2f} mm.",
-                       best->controller, error, comparison.spreads.size(), worst->controller,
-                       worst->rmse->mean * length_mm);
+    text = fmt::format("{} {}: {}. Of the {} controllers {} is the worst: {}.", name,
+                       run::in_doubt(comparison, best->controller) ? "errs least" : "follows the target best",
+                       error, comparison.spreads.size(), escaped(worst->controller),
+                       full_length_html(worst->rmse->mean, scenario.rig, 2));
+  if (const std::string stood = run::limit_words(comparison, best->controller); !stood.empty())
+    text += fmt::format(" {} {}.", name, stood);
+  if (std::any_of(comparison.tuned.begin(), comparison.tuned.end(), [&](const auto& tuned) {
+        return tuned.controller == best->controller && run::gained_nothing(tuned);
+      }))
+    text += fmt::format(" The tuning of {} gained nothing: see the warnings.", name);
   if (failed > 0) text += fmt::format(" {} of {} runs have no result.", failed, comparison.runs.size());
   if (!comparison.unmet.empty())
     text += fmt::format(" {} of the scenario's criteria {} not met.", comparison.unmet.size(),
@@ -50,10 +59,9 @@ std::string sentence(const input::Scenario& scenario, const run::Comparison& com
 /// rmse in mm, a row for each load; the smallest of a row is marked.
 std::string table(const input::Scenario& scenario, const run::Comparison& comparison) {
   const std::size_t columns = scenario.controllers.size();
-  const double length_mm = 1e3 * scenario.rig.muscle.rest_length_m;
-  std::string html =
-      "<table><caption>Root mean square error in mm; the smallest of each row is bold</caption>\n"
-      "<thead><tr><th scope='col'>load</th>";
+  std::string html = "<table><caption>Root mean square error, " + length_unit_html() +
+                     (columns > 1 ? "; the smallest of each row is bold" : "") +
+                     "</caption>\n<thead><tr><th scope='col'>load</th>";
   for (const auto& one : scenario.controllers)
     html += "<th scope='col'>" + escaped(controllers::name_of(one)) + "</th>";
   html += "</tr></thead>\n<tbody>\n";
@@ -67,8 +75,8 @@ std::string table(const input::Scenario& scenario, const run::Comparison& compar
       const std::optional<double> rmse = rmse_of(c);
       const std::string mark = mark_of(c);
       marked = marked || !mark.empty();
-      html += rmse ? fmt::format("<td{}>{:.3f}{}</td>", rmse == least && columns > 1 ? " class='best'" : "",
-                                 *rmse * length_mm, mark)
+      html += rmse ? fmt::format("<td{}>{}{}</td>", rmse == least && columns > 1 ? " class='best'" : "",
+                                 length_html(*rmse, scenario.rig), mark)
                    : "<td>no result</td>";
     }
     html += "</tr>\n";
@@ -80,13 +88,15 @@ std::string table(const input::Scenario& scenario, const run::Comparison& compar
     };
     bool shown = false;
     for (std::size_t c = 0; c < columns; ++c) shown = shown || !run(c).recording.samples.empty();
+    const std::string load = input::write_number(scenario.loads_kg[r]) + " kg";
     row(
-        fmt::format("<tr{}><th scope='row'>{} kg</th>", shown ? fmt::format(" data-group='{}'", group++) : "",
-                    input::write_number(scenario.loads_kg[r])),
+        shown ? fmt::format("<tr data-group='{}'><th scope='row'>{}</th>", group, link_html(group, load))
+              : fmt::format("<tr><th scope='row'>{}</th>", load),
         [&](std::size_t c) {
           return run(c).failure.empty() ? std::optional(run(c).metrics.rmse) : std::nullopt;
         },
         [&](std::size_t c) { return run(c).failure.empty() ? output::extrapolation_mark(run(c)) : ""; });
+    if (shown) ++group;
   }
   if (scenario.loads_kg.size() > 1)
     row(
@@ -102,6 +112,33 @@ std::string table(const input::Scenario& scenario, const run::Comparison& compar
         "<p class='small'>* extrapolated: load or target outside the calibrated range; + load taken as the "
         "end of that range</p>\n";
   return html;
+}
+
+/// How long each run was at a limit of its current; empty where none was for 1 % of its time.
+std::string limits_table(const input::Scenario& scenario, const run::Comparison& comparison) {
+  const std::size_t columns = scenario.controllers.size();
+  std::string head, rows;
+  for (const auto& one : scenario.controllers)
+    head += "<th scope='col'>" + escaped(controllers::name_of(one)) + "</th>";
+  double most = 0.0;
+  for (std::size_t r = 0; r < scenario.loads_kg.size(); ++r) {
+    rows += "<tr><th scope='row'>" + input::write_number(scenario.loads_kg[r]) + " kg</th>";
+    for (std::size_t c = 0; c < columns; ++c) {
+      const run::TrackedRun& run = comparison.runs[r * columns + c];
+      const bool told = run.limits && run.failure.empty();
+      const double share = told ? run::share_at_limit(run) : 0.0;
+      most = std::max(most, share);
+      rows += told ? fmt::format("<td>{:.0f}</td>", 100.0 * share) : "<td>-</td>";
+    }
+    rows += "</tr>\n";
+  }
+  if (most < 0.01) return "";
+  return fmt::format(
+      "<details class='limits'><summary>Controllers stood at a limit of their current for up to {:.0f} % of "
+      "the time</summary>\n<table><caption>Share of the time at the lowest or highest current, in "
+      "%</caption>\n<thead><tr><th scope='col'>load</th>{}</tr></thead>\n<tbody>\n{}</tbody></table>\n"
+      "</details>\n",
+      100.0 * most, head, rows);
 }
 
 Group group_of(const input::Scenario& scenario, const run::Comparison& comparison, std::size_t r) {
@@ -134,10 +171,11 @@ std::string report_html(const input::Scenario& scenario, const run::Comparison& 
                                          scenario.duration_s),
                     .warnings = comparison.warnings,
                     .sentence = sentence(scenario, comparison),
-                    .table = table(scenario, comparison),
+                    .table = table(scenario, comparison) + limits_table(scenario, comparison),
                     .details = output::table_of(scenario, comparison),
                     .beside = std::string(beside_runs),
                     .rig = scenario.rig,
+                    .gauge = scenario.rig.gauge.fitted,
                     .plots = plots_for(scenario.rig, "Target and contraction", "Target",
                                        "Error: contraction less target", false),
                     .loops = loops()};

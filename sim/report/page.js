@@ -10,14 +10,23 @@ const view = {
 };
 const calm = matchMedia('(prefers-reduced-motion: reduce)').matches;
 const drawing = new RigPicture(byId('rig'));
+const ratio = 'contraction ratio';
 const allColumns = [
-  ['contraction', 'contraction', 5], ['error', 'error', 5], ['error_mm', 'error, mm', 3],
-  ['current', 'mA', 2], ['muscle_pressure', 'bar', 3], ['braid_force', 'braid, N', 1],
-  ['friction_force', 'friction, N', 1]
+  ['contraction', 'contraction', ratio, 5], ['error', 'error', ratio, 5], ['current', 'current', 'mA', 2],
+  ['muscle_pressure', 'muscle', 'bar', 3], ['pressure_error', 'error', 'bar', 3],
+  ['braid_force', 'braid', 'N', 1], ['friction_force', 'friction', 'N', 1]
 ];
 let columns = [];  // those that this group has
 
-const written = (value, digits) => (value === null || value === undefined ? '-' : value.toFixed(digits));
+/** A value as the reader wants it; mm have two decimals less than ratios. */
+function written(value, unit, digits) {
+  if (value === null || value === undefined) return '-';
+  const {unit: as, factor} = shownAs(unit);
+  return (value * factor).toFixed(as === unit ? digits : digits - 2);
+}
+
+/** Name of a unit over a column. */
+const heading = (unit) => shownAs(unit).unit.replace('contraction ', '');
 
 /** Table of the runs: which are shown, which is drawn, their values at the time. */
 function makeReadout() {
@@ -33,7 +42,7 @@ function makeReadout() {
   const all = group.runs.length > 1 ? make('label', {}, every, ' all') : '';
   const head = make(
       'tr', {}, make('th', {scope: 'col'}, 'run ', all),
-      ...columns.map(([, name]) => make('th', {scope: 'col'}, name)));
+      ...columns.map(([, name, unit]) => make('th', {scope: 'col'}, `${name}, ${heading(unit)}`)));
   const rows = group.runs.map((run, i) => {
     const tick = make('input', {type: 'checkbox', 'aria-label': 'compare ' + run.name});
     const mark = make('input', {type: 'radio', name: 'drawn', 'aria-label': 'draw ' + run.name});
@@ -115,14 +124,14 @@ function setTime(time) {
   byId('clock').textContent = view.time.toFixed(2) + ' s';
   group.runs.forEach((run, i) => {
     const cells = byId('readout').tBodies[0].rows[i].cells;
-    columns.forEach(([key, , digits], c) => {
-      cells[c + 1].textContent = written(run.values[key] && run.values[key][tick], digits);
+    columns.forEach(([key, , unit, digits], c) => {
+      cells[c + 1].textContent = written(run.values[key] && run.values[key][tick], unit, digits);
     });
   });
   markLoops(group, tick, view.shown);
   const run = group.runs[view.drawn];
   drawing.draw(valuesAt(run.values, tick), valuesAt(group.given, tick), group.load_kg);
-  byId('rig-caption').textContent = `${run.name}, ${group.name}, to scale.${
+  byId('rig-caption').textContent = `${run.name}, ${group.name}, ${drawing.scale}.${
       group.given.given_contraction ? ` Dashed: ${report.plots[0].lines[0].label.toLowerCase()}.` : ''}`;
 }
 
@@ -157,7 +166,15 @@ function wholeRun() { view.plots[0].zoom(0, endTime()); }
 
 const zoomNow = () => [view.plots[0].chart.scales.x.min, view.plots[0].chart.scales.x.max];
 
-report.groups.forEach((group, i) => byId('group').append(make('option', {value: i}, group.name)));
+/** The list of groups; where they can be compared, each with its error. */
+function nameGroups() {
+  const mm = shownAs(ratio).unit === ratio ? '' : ' mm';
+  const error = ({rmse}) => rmse === undefined ? '' : `: rmse ${written(rmse, ratio, 5)}${mm}`;
+  byId('group').replaceChildren(
+      ...report.groups.map((group, i) => make('option', {value: i}, group.name + error(group))));
+}
+
+nameGroups();
 byId('group').parentElement.hidden = report.groups.length < 2;
 byId('group').addEventListener('change', (event) => showGroup(Number(event.target.value)));
 byId('play').addEventListener('click', play);
@@ -166,8 +183,21 @@ byId('time').addEventListener('input', (event) => {
   stop();
   setTime(Number(event.target.value));
 });
-for (const row of document.querySelectorAll('tr[data-group], g[data-group]'))
-  row.addEventListener('click', () => showGroup(Number(row.dataset.group)));
+for (const row of document.querySelectorAll('tr[data-group], a[data-group]'))
+  row.addEventListener('click', (event) => {
+    event.preventDefault();
+    event.stopPropagation();
+    showGroup(Number(row.dataset.group));
+    byId('runs').scrollIntoView({behavior: calm ? 'auto' : 'smooth'});
+    byId('group').focus({preventScroll: true});
+  });
+for (const choice of document.querySelectorAll('.unit-choice input'))
+  choice.addEventListener('change', () => {
+    nameGroups();
+    byId('group').value = view.group.index;
+    makeReadout();
+    makePlots(zoomNow());
+  });
 document.addEventListener('keydown', (event) => {
   if (event.target.closest('input, select, button, summary, a') || event.ctrlKey || event.altKey ||
       event.metaKey)

@@ -52,17 +52,19 @@ function heights(low, high) {
 class Plot {
   /** hears: {time(t), zoom(from, to)} are told what the user does. */
   constructor(plot, group, hears) {
-    this.plot = plot;
+    const {unit, factor} = shownAs(plot.unit);
+    this.plot = {...plot, floor: plot.floor * factor};
     this.series = seriesOf(plot, group);
     const crowded = group.runs.length > 2;
     this.hidden =
         new Set(plot.lines.filter((line) => crowded && !line.given && !line.main).map((line) => line.key));
-    this.box = make('div', {class: 'plot', 'data-plot': plot.id});
+    this.box = make('div', {class: 'plot'});
     this.now = make('div', {class: 'now'});
-    this.head = make('h3', {}, plot.title, make('span', {class: 'unit'}, plot.unit), ...this.keys());
+    this.head = make('h3', {}, plot.title, make('span', {class: 'unit'}, unit), ...this.keys());
     this.runDashes = group.runs.map(runDash);
-    byId('plots').append(this.head, this.box);
-    const data = [group.times, ...this.series.map((one) => one.values)];
+    byId('plots').append(make('div', {class: 'cell', 'data-plot': plot.id}, this.head, this.box));
+    const scaled = (values) => values.map((value) => value === null ? null : value * factor);
+    const data = [group.times, ...this.series.map((one) => factor === 1 ? one.values : scaled(one.values))];
     this.chart = new uPlot(this.options(group, hears), data, this.box);
     this.chart.over.append(this.now);
   }
@@ -166,8 +168,8 @@ class Plot {
   }
 
   size() {
-    const width = Math.max(200, byId('plots').clientWidth);
-    return {width, height: width < 500 ? 180 : 230};
+    const width = Math.max(200, this.box.clientWidth);
+    return {width, height: Math.round(Math.min(420, Math.max(200, 0.45 * width)))};
   }
 
   resize() { this.chart.setSize(this.size()); }

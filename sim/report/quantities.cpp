@@ -2,6 +2,7 @@
 #include <cmath>
 #include <limits>
 
+#include <sim/report/length.hpp>
 #include <sim/report/quantities.hpp>
 
 namespace mckibben::report {
@@ -52,34 +53,41 @@ std::vector<Plot> plots_for(const plant::Rig& rig, const std::string& title, con
                {.key = "friction_force", .label = "friction of the threads"},
                {.key = "weight", .label = "weight of the load, downwards", .given = true}}};
   if (!rig.effects.absent()) forces.lines.push_back({.key = "effects_pull", .label = "effects of the rig"});
-  return {{"height",
-           title,
-           "contraction ratio",
-           {{.key = "given_contraction", .label = wanted, .given = true},
-            {.key = "contraction", .label = "contraction", .main = true}},
-           true},
-          {"error", error, "contraction ratio", {{.key = "error", .label = "error", .main = true}}},
-          {"current", "Current", "mA", {{.key = "current", .label = "current", .main = true}}},
-          std::move(pressures),
-          std::move(forces)};
+  std::vector<Plot> plots{
+      {"height",
+       title,
+       std::string(ratio_unit),
+       {{.key = "given_contraction", .label = wanted, .given = true},
+        {.key = "contraction", .label = "contraction", .main = true}},
+       true},
+      {"error", error, std::string(ratio_unit), {{.key = "error", .label = "error", .main = true}}},
+      {"current", "Current", "mA", {{.key = "current", .label = "current", .main = true}}},
+      std::move(pressures),
+      std::move(forces)};
+  if (gauge)
+    plots.insert(plots.begin() + 4, {"pressure_error",
+                                     "Error of the pressure: simulated less measured",
+                                     "bar",
+                                     {{.key = "pressure_error", .label = "error", .main = true}}});
+  return plots;
 }
 
 std::vector<Loop> loops() {
   return {
-      {"pressure", "Pressure and contraction", "contraction", "muscle_pressure", "contraction ratio",
+      {"pressure", "Pressure and contraction", "contraction", "muscle_pressure", std::string(ratio_unit),
        "muscle pressure in bar", false, "given_contraction", "given_pressure"},
-      {"force", "Braid force and contraction", "contraction", "braid_force", "contraction ratio",
+      {"force", "Braid force and contraction", "contraction", "braid_force", std::string(ratio_unit),
        "braid force in N"},
       {"friction",
        "Friction coefficient and contraction: friction of the threads for each newton of normal force, while "
        "they slide",
-       "contraction", "friction_coefficient", "contraction ratio", "friction coefficient", true}};
+       "contraction", "friction_coefficient", std::string(ratio_unit), "friction coefficient", true}};
 }
 
 std::vector<Plot> measured_plots() {
   return {{"height",
            "Contraction, as counted",
-           "contraction ratio",
+           std::string(ratio_unit),
            {{.key = "contraction", .label = "contraction", .main = true}},
            true},
           {"current", "Current", "mA", {{.key = "current", .label = "current", .main = true}}},
@@ -92,8 +100,8 @@ std::vector<Plot> measured_plots() {
 
 std::vector<Loop> measured_loops() {
   return {{"current", "Contraction and pressure asked of the valve", "reference_pressure", "contraction",
-           "pressure asked of the valve in bar", "contraction ratio"},
-          {"pressure", "Pressure and contraction", "contraction", "muscle_pressure", "contraction ratio",
+           "pressure asked of the valve in bar", std::string(ratio_unit)},
+          {"pressure", "Pressure and contraction", "contraction", "muscle_pressure", std::string(ratio_unit),
            "muscle pressure in bar"}};
 }
 

@@ -20,7 +20,7 @@ inline constexpr std::string_view beside_runs =
 
 /// The plots for a rig, beginning with that of contraction, which has this title. `wanted` is the label of
 /// what is given there (key "given_contraction"); `gauge` tells that muscle pressure was measured (key
-/// "given_pressure").
+/// "given_pressure"), and what the simulation makes of it is wrong by "pressure_error".
 std::vector<Plot> plots_for(const plant::Rig& rig, const std::string& title, const std::string& wanted,
                             const std::string& error, bool gauge);
 

@@ -22,7 +22,8 @@ namespace mckibben::report {
 std::string report_html(const input::Scenario& scenario, const run::Comparison& comparison);
 
 /// Measured runs and their simulation.
-std::string report_html(const input::Dataset& dataset, const std::vector<run::ReplayedRun>& runs);
+std::string report_html(const input::Dataset& dataset, const std::vector<run::ReplayedRun>& runs,
+                        const std::vector<std::string>& warnings = {});
 
 /// A campaign's measurements. `document` is its campaign.json.
 std::string report_html(const input::Campaign& campaign, const input::Json& document,

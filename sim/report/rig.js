@@ -35,6 +35,8 @@ function threadPaths(shape, phase, hand, left, axis, fitting) {
   return paths;
 }
 
+const short = (value) => String(+value.toPrecision(4));
+
 class RigPicture {
   constructor(svg) {
     this.svg = svg;
@@ -42,8 +44,9 @@ class RigPicture {
     this.mm = 300 / l0;  // units for a metre: the muscle at rest is 300 wide
     this.left = 40;
     this.axis = Math.max(74, 28 + (r0 * this.mm) / Math.sin(alpha0));
-    const drawn =
-        Math.min(60, Math.max(10, wheel * this.mm));  // a wheel out of all proportion is not to scale
+    const drawn = Math.min(60, Math.max(10, wheel * this.mm));
+    const outOfProportion = Math.abs(drawn - wheel * this.mm) > 0.5;
+    this.scale = outOfProportion ? 'to scale but for the wheel' : 'to scale';
     this.wheel = {x: this.left + 300 + Math.max(70, drawn + 14), y: this.axis + drawn, r: drawn};
     this.fitting = 0.8 * r0 * this.mm;
     const floor = this.axis + 130;
@@ -55,7 +58,10 @@ class RigPicture {
       d: `M${this.wheel.x} ${this.wheel.y}L${this.wheel.x - 26} ${this.wheel.y + 60}H${this.wheel.x + 6}Z`
     });
     part('circle', {class: 'metal', cx: this.wheel.x, cy: this.wheel.y, r: this.wheel.r});
+    part('text', {class: 'soft', x: this.wheel.x - 34, y: this.wheel.y + 56, 'text-anchor': 'end'})
+        .append(`wheel ${short(1e3 * wheel)} mm`);
     this.spoke = part('path', {class: 'cord'});
+    part('circle', {class: 'frame encoder', cx: this.wheel.x, cy: this.wheel.y, r: 5});
     this.hose = part('path', {
       class: 'hose',
       d: `M62 ${floor}C62 ${floor - 60} 36 ${floor - 60} 36 ${this.axis + 10}V${this.axis}`
@@ -70,8 +76,13 @@ class RigPicture {
     this.load = part('rect', {class: 'load', width: 88, height: 50, rx: 4});
     this.loadText = part('text', {class: 'load-text', 'text-anchor': 'middle'});
     part('rect', {class: 'metal', x: 18, y: floor, width: 88, height: 56, rx: 4});
+    const {zero_mA, span_mA, supply_bar} = report.rig;
     part('text', {x: 62, y: floor + 22, 'text-anchor': 'middle'}).append('valve');
     this.current = part('text', {x: 62, y: floor + 44, 'text-anchor': 'middle'});
+    part('text', {class: 'soft range', x: 62, y: floor + 73, 'text-anchor': 'middle'})
+        .append(`${short(zero_mA)} to ${short(span_mA)} mA`);
+    part('text', {class: 'soft', x: 192, y: floor - 24}).append(`0 to ${short(supply_bar)} bar`);
+    if (report.rig.gauge) this.drawGauge(part);
     this.bars = [
       ['asked', 'reference_pressure'], ['valve', 'valve_pressure'], ['muscle', 'muscle_pressure']
     ].map(([name, key], i) => {
@@ -88,6 +99,15 @@ class RigPicture {
       };
     });
     this.numbers = part('text', {x: 34, y: 20});
+  }
+
+  /** A dial on the fixed end of the muscle. */
+  drawGauge(part) {
+    const x = this.left + 34, y = this.axis + this.fitting + 46;
+    part('path', {class: 'frame gauge', d: `M${x} ${y - 14}V${this.axis + this.fitting}`});
+    part('circle', {class: 'frame gauge', cx: x, cy: y, r: 14});
+    part('path', {class: 'frame gauge', d: `M${x} ${y}l6 -7`});
+    part('text', {class: 'soft', x: x + 20, y: y + 5}).append('gauge');
   }
 
   /** `values` of one run and what was given, at one tick. */

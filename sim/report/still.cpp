@@ -1,12 +1,14 @@
 // Axes and lines; see the header.
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include <sim/output/svg.hpp>
+#include <sim/report/length.hpp>
 #include <sim/report/still.hpp>
 
 namespace mckibben::report {
@@ -37,19 +39,21 @@ struct Axis {
     return from_px + (to_px - from_px) * (bent(value) - bent(low)) / (bent(high) - bent(low));
   }
 
+  /// Numbers of a unit of which one value is `factor`.
   template <class Draw>
-  void ticks(int parts, const Draw& draw) const {
+  void ticks(int parts, double factor, const Draw& draw) const {
     if (floor > 0.0) {  // 0 and powers of ten
       draw(px(0.0), "0");
-      const double first = std::pow(10.0, std::ceil(std::log10(floor) + 0.2));
-      for (double power = first; power <= std::max(-low, high); power *= 10.0)
+      const double first = std::pow(10.0, std::ceil(std::log10(floor * factor) + 0.2));
+      for (double power = first; power <= factor * std::max(-low, high); power *= 10.0)
         for (const double value : {-power, power})
-          if (low <= value && value <= high) draw(px(value), fmt::format("{:g}", value));
+          if (factor * low <= value && value <= factor * high)
+            draw(px(value / factor), fmt::format("{:g}", value));
       return;
     }
-    const double step = output::tick_step(high - low, parts);
-    for (double i = std::ceil(low / step); i <= std::floor(high / step); i += 1.0)
-      draw(px(i * step), fmt::format("{:.4g}", i * step + 0.0));  // + 0.0 makes 0 of -0
+    const double step = output::tick_step(factor * (high - low), parts);
+    for (double i = std::ceil(factor * low / step); i <= std::floor(factor * high / step); i += 1.0)
+      draw(px(i * step / factor), fmt::format("{:.4g}", i * step + 0.0));  // + 0.0 makes 0 of -0
   }
   std::string attribute(char name) const {
     return fmt::format(" data-{}='{} {} {} {}'", name, low, high, from_px, to_px);
@@ -75,8 +79,41 @@ std::string path(const Curve& curve, const Axis& x, const Axis& y) {
   return d.empty() ? "" : fmt::format("<path {} d='{}'/>\n", curve.kind, d);
 }
 
+/// Grid, numbers and label of an axis, drawn in a unit.
+using InUnit = std::function<std::string(double factor, const std::string& label)>;
+
+/// In mm and as ratios where that is what it shows.
+std::string axis_svg(const std::string& label, const plant::Rig& rig, const InUnit& drawn) {
+  if (label != ratio_unit) return drawn(1.0, label);
+  return either(drawn(length_mm(rig), "height in mm"), drawn(1.0, label), "g");
+}
+
+std::string across(const Axis& x, double factor, const std::string& label) {
+  std::string svg = fmt::format("<text x='{}' y='{}' text-anchor='middle'>{}</text>\n",
+                                0.5 * (left + width - right), height - 8, escaped(label));
+  x.ticks(6, factor, [&](double px, const std::string& text) {
+    svg += fmt::format(
+        "<path class='grid' d='M{0:.1f} {1}V{2}'/><text x='{0:.1f}' y='{3}' "
+        "text-anchor='middle'>{4}</text>\n",
+        px, top, height - bottom, height - bottom + 15, text);
+  });
+  return svg;
+}
+
+std::string upwards(const Axis& y, double factor, const std::string& label) {
+  std::string svg =
+      fmt::format("<text x='11' y='{0}' text-anchor='middle' transform='rotate(-90 11 {0})'>{1}</text>\n",
+                  0.5 * (top + height - bottom), escaped(label));
+  y.ticks(5, factor, [&](double px, const std::string& text) {
+    svg += fmt::format(
+        "<path class='grid' d='M{0} {1:.1f}H{2}'/><text x='{3}' y='{4:.1f}' text-anchor='end'>{5}</text>\n",
+        left, px, width - right, left - 5, px + 4, text);
+  });
+  return svg;
+}
+
 std::string chart(const std::string& head, const std::string& x_label, const std::string& y_label,
-                  const std::vector<Curve>& curves, double floor = 0.0) {
+                  const std::vector<Curve>& curves, const plant::Rig& rig, double floor = 0.0) {
   Axis x{left, width - right}, y{height - bottom, top, floor};
   bool any = false;
   for (const auto& curve : curves)
@@ -92,21 +129,8 @@ std::string chart(const std::string& head, const std::string& x_label, const std
   y.close();
   std::string svg = fmt::format("<svg role='img' viewBox='0 0 {} {}' {}{}{}>\n", width, height, head,
                                 x.attribute('x'), y.attribute('y'));
-  x.ticks(6, [&](double px, const std::string& text) {
-    svg += fmt::format(
-        "<path class='grid' d='M{0:.1f} {1}V{2}'/><text x='{0:.1f}' y='{3}' "
-        "text-anchor='middle'>{4}</text>\n",
-        px, top, height - bottom, height - bottom + 15, text);
-  });
-  y.ticks(5, [&](double px, const std::string& text) {
-    svg += fmt::format(
-        "<path class='grid' d='M{0} {1:.1f}H{2}'/><text x='{3}' y='{4:.1f}' text-anchor='end'>{5}</text>\n",
-        left, px, width - right, left - 5, px + 4, text);
-  });
-  svg += fmt::format("<text x='{}' y='{}' text-anchor='middle'>{}</text>\n", 0.5 * (left + width - right),
-                     height - 8, escaped(x_label));
-  svg += fmt::format("<text x='11' y='{0}' text-anchor='middle' transform='rotate(-90 11 {0})'>{1}</text>\n",
-                     0.5 * (top + height - bottom), escaped(y_label));
+  svg += axis_svg(x_label, rig, [&x](double factor, const auto& label) { return across(x, factor, label); });
+  svg += axis_svg(y_label, rig, [&y](double factor, const auto& label) { return upwards(y, factor, label); });
   for (const auto& curve : curves) svg += path(curve, x, y);
   if (floor > 0.0)
     svg += fmt::format(
@@ -143,13 +167,13 @@ std::size_t ticks_looked_at(std::size_t runs) {
   return std::clamp<std::size_t>(50000 / std::max<std::size_t>(runs, 1), 100, 4000);
 }
 
-std::string still_svg(const Group& group, const Plot& plot, double tick_s, std::size_t most) {
+std::string still_svg(const Group& group, const Plot& plot, const plant::Rig& rig, std::size_t most) {
   std::vector<Curve> curves;
   const auto add = [&](const std::string& kind, const AtTick* at, std::size_t ticks) {
     if (at == nullptr) return;
     Curve curve{.kind = kind};
     for (std::size_t k = 0; k < ticks; k += stride(ticks, most))
-      curve.points.emplace_back(static_cast<double>(k) * tick_s, (*at)(k));
+      curve.points.emplace_back(static_cast<double>(k) * rig.tick_s, (*at)(k));
     curves.push_back(std::move(curve));
   };
   for (const auto& line : plot.lines) {
@@ -158,10 +182,10 @@ std::string still_svg(const Group& group, const Plot& plot, double tick_s, std::
     for (const auto& run : group.runs) add(run_class(run), find(run.quantities, line.key), run.ticks);
   }
   return chart(fmt::format("aria-label='{}, {}'", escaped(plot.title), escaped(group.name)), "time in s",
-               plot.unit, curves, plot.floor);
+               plot.unit, curves, rig, plot.floor);
 }
 
-std::string loop_svg(const Group& group, const Loop& loop, std::size_t most) {
+std::string loop_svg(const Group& group, const Loop& loop, const plant::Rig& rig, std::size_t most) {
   std::vector<Curve> curves;
   const AtTick *measured_x = find(group.given, loop.given_x), *measured_y = find(group.given, loop.given_y);
   if (measured_x != nullptr && measured_y != nullptr) {
@@ -180,7 +204,7 @@ std::string loop_svg(const Group& group, const Loop& loop, std::size_t most) {
   }
   const std::string head = fmt::format("class='loop' data-loop='{}' data-keys='{} {}' aria-label='{}, {}'",
                                        loop.id, loop.x, loop.y, escaped(loop.title), escaped(group.name));
-  return chart(head, loop.x_label, loop.y_label, curves);
+  return chart(head, loop.x_label, loop.y_label, curves, rig);
 }
 
 }  // namespace mckibben::report

@@ -4,6 +4,7 @@
 #include <csignal>
 #include <exception>
 #include <string_view>
+#include <system_error>
 #include <thread>
 #include <tuple>
 #include <vector>
@@ -29,7 +30,6 @@ void catch_interrupts() {
       if (again == SIGINT) std::ignore = write(STDERR_FILENO, notice.data(), notice.size());
       std::signal(again, SIG_DFL);  // a second one ends at once
     });
-  std::signal(SIGPIPE, SIG_IGN);  // a reader that went away is a failed write
 }
 
 bool interrupted() {
@@ -55,7 +55,10 @@ void for_each_job(std::size_t count, unsigned threads, const std::function<void(
   const std::size_t wanted = threads == 0 ? std::max(1u, std::thread::hardware_concurrency()) : threads;
   {
     std::vector<std::jthread> others;
-    for (std::size_t i = 1; i < std::min(wanted, count); ++i) others.emplace_back(work);
+    try {
+      for (std::size_t i = 1; i < std::min(wanted, count); ++i) others.emplace_back(work);
+    } catch (const std::system_error&) {  // no more threads are to be had: these do it
+    }
     work();
   }
   for (const auto& failure : failures)

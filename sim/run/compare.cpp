@@ -13,49 +13,18 @@
 #include <sim/run/batch.hpp>
 #include <sim/run/compare.hpp>
 #include <sim/run/reachable.hpp>
+#include <sim/run/remarks.hpp>
 #include <sim/run/simulate.hpp>
+#include <sim/run/track.hpp>
+#include <sim/run/warnings.hpp>
 
 namespace mckibben::run {
 namespace {
 
 using input::Scenario;
 
-// What a change of current costs in tuning [contraction ratio for each mA rms and tick]: enough to keep gains
-// from chasing single encoder counts, too little to matter for how the target is followed.
-constexpr double effort_weight = 2e-4;
-
-// Gains must also do with the proportional gain this much higher, so that they are not tuned to the edge of
-// stability: the loop's own gain changes with load and contraction.
-constexpr double gain_margin = 2.0;
-
-RunPlan plan_of(const Scenario& scenario, double load_kg, std::uint64_t stream) {
-  return {.rig = scenario.rig,
-          .load_kg = load_kg,
-          .ticks = static_cast<std::size_t>(std::llround(scenario.duration_s / scenario.rig.tick_s)),
-          .engine = scenario.rig.integrator,
-          .noise = scenario.noise,
-          .seed = scenario.seed,
-          .stream = stream,
-          .keep_ledger = true};
-}
-
-Metrics metrics_of(const Scenario& scenario, const std::vector<double>& target, const Recording& recording) {
-  std::vector<double> contraction, current_mA;
-  for (const auto& sample : recording.samples) {
-    contraction.push_back(sample.state.joint.contraction_ratio);
-    current_mA.push_back(sample.current_mA);
-  }
-  return measure({.target = target,
-                  .contraction = contraction,
-                  .current_mA = current_mA,
-                  .tick_s = scenario.rig.tick_s,
-                  .last_change_s = controllers::last_change_s(scenario.target),
-                  .air_kg = recording.ledger.air_drawn_kg});
-}
-
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return values[(values.size() - 1) / 2];
+std::string id_of(const std::string& controller, double load_kg) {
+  return fmt::format("{} at {} kg", controller, input::write_number(load_kg));
 }
 
 class Comparing {
@@ -98,51 +67,10 @@ class Comparing {
     for_each_job(
         open.size(), threads_,
         [&](std::size_t i) {
-          result_.tuned[i] = tune_one(*open[i], [&] { progress_("tuning PID", ++evaluations, most); });
+          result_.tuned[i] = tune_controller(scenario_, knowledge_, *open[i],
+                                             [&] { progress_("tuning PID", ++evaluations, most); });
         },
         [](std::size_t) {});
-  }
-
-  TunedController tune_one(controllers::Settings& settings, const std::function<void()>& tried) {
-    const controllers::PidTerms& pid = *controllers::pid_terms(settings);
-    const double load_kg = pid.tuning_load_kg.value_or(median(scenario_.loads_kg));
-    RunPlan plan = plan_of(scenario_, load_kg, 0);
-    plan.keep_ledger = false;  // nothing here asks where the air went
-    const auto with = [&settings](const Gains& gains) {
-      controllers::Settings complete = settings;
-      controllers::PidTerms& terms = *controllers::pid_terms(complete);
-      terms.proportional_mA = gains.proportional_mA;
-      terms.integral_time_s = gains.integral_time_s;
-      terms.derivative_time_s = gains.derivative_time_s;
-      return complete;
-    };
-    const auto cost_at = [&](const Gains& gains) {
-      const auto controller = make(with(gains));
-      const Recording recording = simulate(plan, *controller);
-      if (!recording.failure.empty()) throw std::runtime_error(recording.failure);
-      double sum_squared_mA = 0.0;
-      for (std::size_t k = 1; k < recording.samples.size(); ++k) {
-        const double change_mA = recording.samples[k].current_mA - recording.samples[k - 1].current_mA;
-        sum_squared_mA += change_mA * change_mA;
-      }
-      const double effort_mA = std::sqrt(sum_squared_mA / static_cast<double>(recording.samples.size()));
-      return metrics_of(scenario_, result_.target, recording).rmse + effort_weight * effort_mA;
-    };
-    const auto cost = [&](const Gains& gains) {
-      if (interrupted()) throw Interrupted();
-      tried();
-      Gains higher = gains;
-      higher.proportional_mA *= gain_margin;
-      return 0.5 * (cost_at(gains) + cost_at(higher));
-    };
-    TunedController result{.controller = controllers::name_of(settings), .load_kg = load_kg};
-    try {
-      result.tuned = tune(cost, {pid.proportional_mA, pid.integral_time_s, pid.derivative_time_s});
-      settings = with(result.tuned.gains);
-    } catch (const std::runtime_error& failure) {
-      result.failure = failure.what();
-    }
-    return result;
   }
 
   void run_all() {
@@ -171,7 +99,9 @@ class Comparing {
     run.recording = simulate(plan_of(scenario_, run.load_kg, index + 1), *controller);
     run.failure = run.recording.failure;
     if (controllers::calibrated(settings)) run.unreachable = unreachable_of(run, settings);
-    if (run.failure.empty()) run.metrics = metrics_of(scenario_, result_.target, run.recording);
+    if (!run.failure.empty()) return;
+    run.limits = limits_of(settings, knowledge_, scenario_.rig);
+    run.metrics = metrics_of(scenario_, result_.target, run.recording, run.limits);
   }
 
   Unreachable unreachable_of(const TrackedRun& run, const controllers::Settings& settings) const {
@@ -187,21 +117,20 @@ class Comparing {
     return found;
   }
 
-  // One for each load and reason: controllers that ask the same in vain share it.
   void warn() {
-    std::vector<std::pair<std::string, std::string>> said;  // beginning, reason
+    std::vector<std::string> all;
     for (const auto& run : result_.runs) {
-      if (!run.unreachable.any()) continue;
-      const std::string reason =
-          fmt::format("{} kg: {}", input::write_number(run.load_kg), run.unreachable.text());
-      const auto same =
-          std::find_if(said.begin(), said.end(), [&](const auto& one) { return one.second == reason; });
-      if (same == said.end())
-        said.emplace_back(fmt::format("{}: {}", scenario_.name, run.controller), reason);
-      else
-        same->first += ", " + run.controller;
+      const std::string id = id_of(run.controller, run.load_kg);
+      if (run.unreachable.any()) all.push_back(warning_of_run(id, run.unreachable.text()));
+      if (const std::string stood = limit_warning(run, scenario_.rig); !stood.empty())
+        all.push_back(warning_of_run(id, stood));
+      for (const auto& doubt : doubts(run.recording)) all.push_back(warning_of_run(id, doubt));
     }
-    for (const auto& [who, reason] : said) result_.warnings.push_back(fmt::format("{} at {}", who, reason));
+    for (const auto& tuned : result_.tuned)
+      if (gained_nothing(tuned))
+        all.push_back(
+            warning_of_run(id_of(tuned.controller, tuned.load_kg), tuning_warning(tuned, scenario_.rig)));
+    result_.warnings = grouped(all);
   }
 
   void spread_all() {
@@ -228,7 +157,7 @@ class Comparing {
       };
       for (const auto& run : result_.runs) {
         if (!concerns(run.controller) || !run.failure.empty()) continue;
-        const auto who = fmt::format("{} at {} kg", run.controller, input::write_number(run.load_kg));
+        const auto who = id_of(run.controller, run.load_kg);
         check(who, "rmse", run.metrics.rmse, criterion.rmse_below);
         check(who, "largest_error", run.metrics.largest_error, criterion.largest_error_below);
       }

@@ -9,7 +9,7 @@
 #include <sim/input/scenario.hpp>
 #include <sim/run/metrics.hpp>
 #include <sim/run/recording.hpp>
-#include <sim/run/tune_pid.hpp>
+#include <sim/run/tune_controller.hpp>
 #include <sim/run/unreachable.hpp>
 
 namespace mckibben::run {
@@ -22,14 +22,7 @@ struct TrackedRun {
   Metrics metrics{};
   std::string failure{};      ///< why there is no result; empty if there is one
   Unreachable unreachable{};  ///< what the target asks in vain of a controller that plans its way
-};
-
-/// Gains found for a PID that left some open.
-struct TunedController {
-  std::string controller;
-  double load_kg = 0.0;
-  Tuned tuned{};
-  std::string failure{};  ///< why no gains were found; empty if they were
+  std::optional<controllers::CurrentRange> limits{};  ///< of its current, as the DAC gives them
 };
 
 /// One controller over all loads that did not fail; absent if none of its runs ended well.
@@ -43,9 +36,10 @@ struct Comparison {
   std::vector<TunedController> tuned;
   std::vector<TrackedRun> runs;  ///< loads in order, for each all controllers in order
   std::vector<ControllerSpread> spreads;
-  bool interrupted = false;           ///< the user stopped it; runs not begun say so in `failure`
-  std::vector<std::string> unmet;     ///< criteria of the scenario that are not met, in words
-  std::vector<std::string> warnings;  ///< targets out of reach: scenario, load, controllers, why, what helps
+  bool interrupted = false;        ///< the user stopped it; runs not begun say so in `failure`
+  std::vector<std::string> unmet;  ///< criteria of the scenario that are not met, in words
+  std::vector<std::string>
+      warnings;  ///< targets out of reach and doubtful runs: scenario, load, controllers, why
 };
 
 /// Hears of progress, from any thread: what is being done, how much of it is done.

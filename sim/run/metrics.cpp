@@ -40,6 +40,11 @@ double mean_square_at_shift(const Followed& run, std::size_t shift) {
   return sum / static_cast<double>(run.target.size());
 }
 
+double share_of(std::span<const double> values, const auto& is_one) {
+  return static_cast<double>(std::count_if(values.begin(), values.end(), is_one)) /
+         static_cast<double>(values.size());
+}
+
 }  // namespace
 
 std::optional<double> time_lag_s(const Followed& run) {
@@ -104,6 +109,14 @@ Metrics measure(const Followed& run) {
   metrics.overshoot = overshoot(run);
   metrics.settling_time_s = settling_time_s(run);
   metrics.air_kg = run.air_kg;
+  if (run.limits) {
+    constexpr double rounding_mA = 1e-9;
+    const auto [lowest_mA, highest_mA] = *run.limits;
+    metrics.at_lowest_current = share_of(
+        run.current_mA, [least_mA = lowest_mA](double i_mA) { return i_mA <= least_mA + rounding_mA; });
+    metrics.at_highest_current = share_of(
+        run.current_mA, [most_mA = highest_mA](double i_mA) { return i_mA >= most_mA - rounding_mA; });
+  }
   return metrics;
 }
 

@@ -6,6 +6,8 @@
 #include <optional>
 #include <span>
 
+#include <controllers/current_range.hpp>
+
 namespace mckibben::run {
 
 /// One run, tick by tick from time 0.
@@ -16,6 +18,8 @@ struct Followed {
   double tick_s = 0.0;
   std::optional<double> last_change_s = std::nullopt;  ///< from here settling counts; none if periodic
   double air_kg = 0.0;                                 ///< drawn from the supply
+  /// Ends of the controller's current, as the DAC gives them; none if it has no limits.
+  std::optional<controllers::CurrentRange> limits = std::nullopt;
 };
 
 struct Metrics {
@@ -28,6 +32,8 @@ struct Metrics {
   std::optional<double> settling_time_s;
   double current_travel_mA = 0.0;  ///< sum of all changes of current: the controller's effort
   double air_kg = 0.0;
+  /// Shares of the ticks at which the current is at an end of its limits; none without limits.
+  std::optional<double> at_lowest_current, at_highest_current;
 };
 
 /// All metrics of a run. Throws std::invalid_argument if it is empty, its columns differ in length, or its

@@ -26,11 +26,16 @@ struct Sample {
 struct Recording {
   std::vector<Sample> samples;
   plant::Ledger<double> ledger{};  ///< from the first tick to the last, if it was kept
+  plant::Imbalance imbalance{};    ///< what that ledger leaves unexplained
   engine::Counters solver;
   double largest_contraction_ratio = 0.0;  ///< at any tick
   std::string
       failure{};  ///< why it ends early: the integrator or the controller gave up; empty if it did not
   std::vector<controllers::Finding> findings{};  ///< what the controller found out
 };
+
+/// What should not be believed of a run that came to its end, in words: a ledger that does not close, laws
+/// used where no muscle follows them. Empty for nearly all.
+std::vector<std::string> doubts(const Recording& recording);
 
 }  // namespace mckibben::run

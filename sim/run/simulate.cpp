@@ -79,6 +79,8 @@ class Run {
       recording_.failure = failure.what();
     }
     recording_.ledger = flow_.ledger;
+    if (plan_.keep_ledger && !recording_.samples.empty())
+      recording_.imbalance = plant_.imbalance(recording_.samples.front().state, flow_.state, flow_.ledger);
     recording_.solver = integrator_->counters();
     if (recording_.solver.stiff_from_tick >= 0)
       recording_.solver.stiff_from_tick -= settling_ticks() + controller_.preparation_ticks();
@@ -93,6 +95,7 @@ class Run {
     held_.reference_pressure_Pa = reference_Pa_;
     held_.current_speed_mA_per_s = 0.0;
     flow_.state = plant_.at_rest(held_);
+    flow_.ledger = plant_.opened(flow_.state);
     if (plant_.has_events()) held_.slip = plant_.slip_from_rest(flow_.state, flow_.memory, held_);
     const std::int64_t end = -controller_.preparation_ticks();
     for (std::int64_t k = end - settling_ticks(); k < end; ++k) {
@@ -108,7 +111,7 @@ class Run {
       tick(k);
       integrate(k);
     }
-    flow_.ledger = {};
+    flow_.ledger = plant_.opened(flow_.state);
   }
 
   Sample tick(std::int64_t k) {

@@ -21,7 +21,7 @@ struct Search {
   const std::function<double(const Gains&)>& cost;
   std::vector<double Gains::*> open;
   Gains gains;
-  Tuned best{{}, std::numeric_limits<double>::infinity(), 0};
+  Tuned best{{}, std::numeric_limits<double>::infinity()};
   std::vector<double> best_point{};
   std::string last_failure{};
   std::exception_ptr defect{};  // NLopt keeps no exception but its own
@@ -39,6 +39,7 @@ struct Search {
       throw;
     }
     if (!std::isfinite(value)) return very_bad;
+    if (best.evaluations == 1) best.start_cost = value;
     if (value < best.cost) {
       best.cost = value;
       best.gains = gains;
@@ -69,6 +70,13 @@ void descend(nlopt::opt& simplex, std::vector<double> point, Search& search) {
 }
 
 }  // namespace
+
+TuningOptions TuningOptions::for_span(double span_mA) {
+  TuningOptions options;
+  for (Gains* gains : {&options.start, &options.lowest, &options.highest})
+    gains->proportional_mA *= span_mA / thesis_span_mA;
+  return options;
+}
 
 Tuned tune(const std::function<double(const Gains&)>& cost, const GivenGains& given,
            const TuningOptions& options) {

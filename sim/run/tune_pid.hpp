@@ -7,6 +7,9 @@
 
 namespace mckibben::run {
 
+/// From 4 to 20 mA: of what the tuning was set up with.
+inline constexpr double thesis_span_mA = 16.0;
+
 struct Gains {
   double proportional_mA = 0.0;
   double integral_time_s = 0.0;
@@ -20,18 +23,23 @@ struct GivenGains {
   std::optional<double> derivative_time_s = std::nullopt;
 };
 
+/// The proportional gains are those for a valve with `thesis_span_mA`.
 struct TuningOptions {
   Gains start{60.0, 0.15, 0.05};
   Gains lowest{1.0, 0.01, 1e-3};
   Gains highest{2000.0, 20.0, 1.0};
   int evaluations = 150;
   double tolerance = 0.01;  ///< stops when gains and cost change by less than this share
+
+  /// The same for a valve with another span of current: a gain is a current.
+  static TuningOptions for_span(double span_mA);
 };
 
 struct Tuned {
   Gains gains;
   double cost = 0.0;
   int evaluations = 0;
+  std::optional<double> start_cost = std::nullopt;  ///< of the gains it began with, if they gave one
 };
 
 /// The gains with the least cost found. A cost that is not finite, or throws std::runtime_error, counts as

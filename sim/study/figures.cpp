@@ -11,6 +11,7 @@
 #include <sim/study/figures.hpp>
 #include <sim/study/lag.hpp>
 #include <sim/study/page.hpp>
+#include <sim/thesis/quality.hpp>
 
 namespace mckibben::study {
 namespace {
@@ -95,7 +96,7 @@ std::string side_by_side(const Evidence& evidence, const Ours& ours) {
   };
   for (const Direction direction : thesis::directions)
     add(fmt::format("friction coefficient, spread over mean, {}", thesis::name_of(direction)),
-        printed_friction_spread, ours.friction.front().friction[static_cast<std::size_t>(direction)]);
+        thesis::printed_friction_spread, ours.friction.front().friction[static_cast<std::size_t>(direction)]);
   const std::pair<const char*, double thesis::Stages::*> stages[] = {
       {"each load and speed by itself (T 4.7)", &thesis::Stages::own},
       {"the thesis's sequence of fits (T 4.14 to 4.28)", &thesis::Stages::in_load},
@@ -104,7 +105,7 @@ std::string side_by_side(const Evidence& evidence, const Ours& ours) {
     for (const auto& [name, stage] : stages) {
       const thesis::PressureFit& fit = evidence.from_current.pressure_of(direction);
       add(fmt::format("pressure, spread over mean, {}, {}", thesis::name_of(direction), name),
-          printed_pressure_spread, fit.deviation.*stage / fit.mean_Pa);
+          thesis::printed_pressure_spread, fit.deviation.*stage / fit.mean_Pa);
     }
   return table(rows);
 }
@@ -148,7 +149,7 @@ std::string why_friction(const Evidence& evidence, const Ours& ours) {
                           [&](const auto& a, const auto& b) { return a.friction[i] < b.friction[i]; });
     text += fmt::format(" In {} the least spread is {} ({}).", thesis::name_of(thesis::directions[i]),
                         spread(best.friction[i]), name_of(best));
-    reached = reached && best.friction[i] < printed_friction_spread;
+    reached = reached && best.friction[i] < thesis::printed_friction_spread;
   }
   text += fmt::format(
       " The spread is divided by the mean, which the lag takes from {:.4f} to {:.4f} in contraction "
@@ -161,6 +162,12 @@ std::string why_friction(const Evidence& evidence, const Ours& ours) {
   return text;
 }
 
+double weighing_speed_mA_per_s(const plant::Rig& rig) {
+  controllers::WeighingSettings weighing;
+  weighing.follow(controllers::working_range(run::knowledge_of(rig, {})));
+  return *weighing.speed_mA_per_s;
+}
+
 std::string why_load(const Evidence& evidence, const Ours& ours) {
   const Weighed all = measure_lag(evidence).weighed_all;
   const Errors runs = measure_counting(evidence).alone.runs;
@@ -171,7 +178,7 @@ std::string why_load(const Evidence& evidence, const Ours& ours) {
       "wrong as well, and {:+.2f} kg are left ([lag](lag.md)). The same in the weighing, at {:g} mA/s: with "
       "the calibrated friction errors reach {}, with the friction found with the true pressure, which has no "
       "lag in it, {}. Counting shifts the mean of a whole run by {:+.2f} kg ([counting](counting.md)).\n",
-      all.true_friction.mean(), all.from_current.mean(), controllers::WeighingSettings{}.speed_mA_per_s,
+      all.true_friction.mean(), all.from_current.mean(), weighing_speed_mA_per_s(evidence.campaign.rig),
       per_cent(largest_error(ours.weighed)), per_cent(largest_error(ours.without_lag)), counting_kg);
 }
 
@@ -242,8 +249,8 @@ Json document(const Evidence& evidence, const Ours& ours) {
              {"weighed_kg", printed_weighed_kg},
              {"error", printed_error},
              {"largest_error_below", printed_largest_error},
-             {"friction_spread_below", printed_friction_spread},
-             {"pressure_spread_below", printed_pressure_spread}}}};
+             {"friction_spread_below", thesis::printed_friction_spread},
+             {"pressure_spread_below", thesis::printed_pressure_spread}}}};
   all["weighed"] = json_of(ours.weighed);
   all["weighed_with_friction_from_true_pressure"] = json_of(ours.without_lag);
   for (const Spreads& spreads : ours.friction)

@@ -15,9 +15,8 @@ struct Weighing {
 
 /// What the thesis prints.
 inline constexpr double printed_load_kg = 8.87, printed_weighed_kg = 9.45;
-inline constexpr double printed_error = 0.065;  ///< T 4.3; of 8.87 kg
-inline constexpr double printed_largest_error = 0.15, printed_friction_spread = 0.10,
-                        printed_pressure_spread = 0.15;  ///< T 5: "below"
+inline constexpr double printed_error = 0.065;         ///< T 4.3; of 8.87 kg
+inline constexpr double printed_largest_error = 0.15;  ///< T 5: "below"
 
 Weighing weigh(const Evidence& evidence, const thesis::CalibrationResult& calibration, double load_kg);
 Study study_figures(const Evidence& evidence);

@@ -2,6 +2,7 @@
 //
 //   benchmark_diagnosis [SEED [SEEDS [TITLE]]]   seeds SEED to SEED + SEEDS - 1 (default 101, 3 of them), of
 //                                                what has a title that begins so (default: all)
+//   benchmark_diagnosis --corrupted [SEED [only=NAME]]   the same for data that were spoilt on purpose
 //
 // Thresholds of the workflow were set on seeds below 100.
 #include <algorithm>
@@ -14,6 +15,7 @@
 
 #include <sim/diagnose/diagnose.hpp>
 
+#include "corrupted_benchmark.hpp"
 #include "hidden_effects.hpp"
 
 namespace {
@@ -41,6 +43,19 @@ struct Tally {
 }  // namespace
 
 int main(int argc, char** argv) {
+  const std::vector<std::string> words(argv + 1, argv + argc);
+  if (!words.empty() && words.front() == "--corrupted") {
+    std::uint64_t seed = 201;
+    std::string only;
+    for (std::size_t i = 1; i < words.size(); ++i) {
+      if (words[i].starts_with("only="))
+        only = words[i].substr(5);
+      else
+        seed = std::strtoull(words[i].c_str(), nullptr, 10);
+    }
+    diagnose::score_corrupted(seed, only);
+    return 0;
+  }
   const auto number = [&](int at, std::uint64_t otherwise) {
     return argc > at ? std::strtoull(argv[at], nullptr, 10) : otherwise;
   };

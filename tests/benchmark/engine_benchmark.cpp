@@ -26,7 +26,7 @@ namespace {
 
 /// The library's own vector, for comparison.
 struct StockVector {
-  using layout = Layout<false, false>;
+  using layout = Layout<false, Books::none>;
   static constexpr int size = layout::size;
   static double* data(N_Vector v) { return NV_DATA_S(v); }
   static N_Vector make(SUNContext context) { return N_VNew_Serial(size, context); }
@@ -73,10 +73,10 @@ double right_hand_side_s() {
     for (int k = 0; k < ride_ticks; ++k) {
       now.reference_pressure_Pa = plant.reference_pressure_Pa(current_mA(ride, k));
       integrator->advance(flow, now, 0.012 * k, 0.012 * (k + 1));
-      Problem<Layout<false, false>>::store(flow, states.emplace_back().data());
+      Problem<Layout<false, Books::none>>::store(flow, states.emplace_back().data());
       held.push_back(now);
     }
-    Problem<Layout<false, false>> problem(plant);
+    Problem<Layout<false, Books::none>> problem(plant);
     double best_s = 1.0;
     for (int trial = 0; trial < 50; ++trial) {
       double chain = 0.0;
@@ -150,7 +150,7 @@ void Effects_(benchmark::State& state, const plant::Rig& rig) {
       state, [](const plant::Plant& plant) { return make_integrator(plant, Settings{}, false); }, rig);
 }
 
-BENCHMARK(Erk_<PlantVector<false, false>>)
+BENCHMARK(Erk_<PlantVector<false, Books::none>>)
     ->Name("erk/error_1e-6/own_vector")
     ->DenseRange(0, 1)
     ->UseManualTime()

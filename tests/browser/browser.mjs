@@ -1,4 +1,5 @@
 // A browser with a page: what it complains of and asks for is written down.
+import assert from 'node:assert/strict';
 import {readFileSync} from 'node:fs';
 import {chromium} from 'playwright-core';
 
@@ -26,3 +27,24 @@ export function table(path) {
   const [head, ...rows] = readFileSync(path, 'utf8').trim().split('\n').map((line) => line.split(','));
   return Object.fromEntries(head.map((name, i) => [name, rows.map((row) => Number(row[i]))]));
 }
+
+/** Numbers and visibility of a plot's series, by label. */
+export const seriesOf = (page, plot) => page.evaluate((id) => {
+  const {chart} = view.plots.find((one) => one.plot.id === id);
+  return Object.fromEntries(
+      chart.series.slice(1).map((one, i) => [one.label, {values: chart.data[i + 1], show: one.show}]));
+}, plot);
+
+export const zoomOf = (page) =>
+    page.evaluate(() => view.plots.map(({chart}) => [chart.scales.x.min, chart.scales.x.max]));
+
+export function near(found, expected, range, what) {
+  assert.equal(found.length, expected.length, what);
+  for (let k = 0; k < found.length; ++k)
+    assert.ok(
+        Math.abs(found[k] - expected[k]) <= range / 60000,
+        `${what}, row ${k}: ${found[k]} instead of ${expected[k]}`);
+}
+/** Ratios as the plots show them at first: heights of the load on a muscle of 300 mm. */
+export const mm = (ratios) => ratios.map((ratio) => 300 * ratio);
+export const rangeOf = (values) => Math.max(...values) - Math.min(...values);

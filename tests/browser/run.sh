@@ -29,4 +29,4 @@ END
 "$program" dataset "$here/leaky.yaml" --out "$folder/leaky" > /dev/null
 "$program" diagnose leaky --out "$folder/diagnosis" > /dev/null
 "$program" replay leaky --rig diagnosis/rig.yaml --out "$folder/mended" > /dev/null
-node --test --test-reporter=spec report_test.mjs
+node --test --test-reporter=spec report_test.mjs results_test.mjs

@@ -33,6 +33,11 @@ TEST(Calibrate, TurnsADataSetIntoAFileForControllersAndFigures) {
   EXPECT_EQ(said.out, read_text(folder / "calibration.json"));
   EXPECT_NE(read_text(folder / "report.txt").find("spread (standard deviation over mean)"),
             std::string::npos);
+  for (const char* place : {"report.txt", "calibration.yaml", "calibration.json"}) {
+    const std::string text = read_text(folder / place);
+    EXPECT_NE(text.find("the thesis reports below 10 % (T 5)"), std::string::npos) << place;
+    EXPECT_NE(text.find("pressure in relaxation: "), std::string::npos) << place;
+  }
   for (int figure = 2; figure <= 49; ++figure) {
     const std::string name = fmt::format("figures/figure_4_{:02}", figure);
     EXPECT_TRUE(std::filesystem::exists(folder / (name + ".csv"))) << name;

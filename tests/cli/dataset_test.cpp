@@ -158,7 +158,7 @@ TEST_F(Dataset, ThreadsDoNotMatter) {
 /// Leaves OUT.unfinished as a campaign does that was stopped after `runs` runs.
 void begin(const fs::path& out, const input::Campaign& campaign, std::size_t runs,
            const std::vector<std::string>& formats = {}) {
-  const output::CampaignFolder folder(out, campaign, formats);
+  const output::CampaignFolder folder(out, campaign, formats, [](const std::string&) {});
   for (std::size_t i = 0; i < runs; ++i) folder.put(run::run_job(campaign, folder.jobs()[i]));
 }
 
@@ -168,7 +168,7 @@ TEST_F(Dataset, AnInterruptedOneGoesOnAndItsFilesAreTheSame) {
   // One of them was killed before its last file; another left half a file that nobody waits for.
   fs::remove(scratch / "parts.unfinished/runs/m1_up_r2.json");
   fs::remove(scratch / "parts.unfinished/data/m1_up_r1.csv");
-  write_text(scratch / "parts.unfinished/data/m2_up_r2.csv.part", "time_s,curr");
+  write_text(scratch / "parts.unfinished/data/.mckibben-3", "time_s,curr");
   const auto finished = scratch / "parts.unfinished/data/m1_c01_r1.nc";
   const auto before = fs::last_write_time(finished);
   const auto said = run("dataset small.yaml --out parts --format mat,netcdf");
@@ -273,8 +273,9 @@ TEST_F(Dataset, CtrlCEndsWith130AndSaysHowToGoOn) {
 
 TEST_F(Dataset, ARunThatFailsIs70AndTheOthersAreThere) {
   write_text(scratch / "fall.yaml",
-             "schema: mckibben-campaign/1\nrig: {muscle: {stop_stiffness: 1e3 N/m, stop_damping: 0 s/m}}\n"
-             "loads: [400 kg, 11.138 kg]\n"
+             "schema: mckibben-campaign/1\nrig: {muscle: {stop_stiffness: 1e5 N/m},"
+             " effects: {residual_law: {terms: [{of: m g, coefficient: -400 N}]}}}\n"
+             "loads: [45 kg, 11.138 kg]\n"
              "currents: [{duration: 1 s, current: {kind: step_current, moves: []}}]\n");
   const auto said = run("dataset fall.yaml");
   EXPECT_EQ(said.status, 70);

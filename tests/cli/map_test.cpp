@@ -3,6 +3,8 @@
 #include <cmath>
 #include <filesystem>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -88,6 +90,23 @@ TEST_F(Map, LoadsBeyondTheCalibrationOnlyWhenAskedFor) {
   EXPECT_NE(usual.err.find("8.87 kg"), std::string::npos) << usual.err;
   EXPECT_FALSE(std::filesystem::exists(scratch / "usual" / "map_8.87kg.svg"));
   EXPECT_TRUE(std::filesystem::exists(scratch / "usual" / "map_23.406kg.svg"));
+}
+
+TEST_F(Map, CalibrationForOtherLoadsIsMappedAtItsOwn) {
+  std::string text = read_text(scratch / "cal/calibration.yaml");
+  for (const auto& [was, is] : {std::pair{"lowest_load: 11.138 kg", "lowest_load: 12 kg"},
+                                std::pair{"highest_load: 23.406 kg", "highest_load: 13 kg"}}) {
+    ASSERT_NE(text.find(was), std::string::npos) << text;
+    text.replace(text.find(was), std::string(was).size(), is);
+  }
+  write_text(scratch / "other.yaml", text);
+  const Said said = mckibben("map other.yaml --up --ratios 1 --speeds 1 --json", scratch);
+  ASSERT_EQ(said.status, 0) << said.err;
+  EXPECT_EQ(said.err.find("8.87"), std::string::npos) << said.err;
+  std::vector<double> loads_kg;
+  const auto document = input::Json::parse(said.out);
+  for (const auto& load : document.at("loads")) loads_kg.push_back(load.at("load_kg").get<double>());
+  EXPECT_EQ(loads_kg, (std::vector<double>{12.0, 12.5, 13.0}));
 }
 
 TEST_F(Map, BadInput) {

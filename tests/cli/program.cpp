@@ -35,9 +35,13 @@ void write_text(const fs::path& path, const std::string& text) {
 }
 
 Said mckibben(const std::string& arguments, const fs::path& folder) {
+  return shell("\"$M\" " + arguments, folder);
+}
+
+Said shell(const std::string& script, const fs::path& folder) {
   const Scratch said;
-  const std::string command = "cd '" + folder.string() + "' && '" MCKIBBEN_PROGRAM "' " + arguments + " > '" +
-                              (said / "out").string() + "' 2> '" + (said / "err").string() + "'";
+  const std::string command = "cd '" + folder.string() + "' && M='" MCKIBBEN_PROGRAM "' && { " + script +
+                              "; } > '" + (said / "out").string() + "' 2> '" + (said / "err").string() + "'";
   const int status = std::system(command.c_str());
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_text(said / "out"), read_text(said / "err")};
 }

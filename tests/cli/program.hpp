@@ -14,6 +14,9 @@ struct Said {
 /// Runs `mckibben ARGUMENTS` through the shell, in `folder`.
 Said mckibben(const std::string& arguments, const std::filesystem::path& folder);
 
+/// Runs a script of sh in `folder`, in which "$M" is the program; the status is the script's.
+Said shell(const std::string& script, const std::filesystem::path& folder);
+
 /// A folder of its own for each test, gone when the test is over.
 class Scratch {
  public:

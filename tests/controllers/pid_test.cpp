@@ -20,6 +20,7 @@ Knowledge wanting(std::vector<double> target) {
   knowledge.contraction_per_count = per_count;
   knowledge.tick_s = tick_s;
   knowledge.largest_current_mA = 20.0;
+  knowledge.valve = {4.0, 20.0, 0.5e5, 5.0e5};
   knowledge.target = std::move(target);
   return knowledge;
 }

@@ -57,10 +57,10 @@ TEST(Weighing, RecoversAPlantedLoad) {
   const Knowledge knowledge = data_sheets({});
   const Calibration calibration = planted_calibration();
   for (const double load_kg : {11.138, 16.138, 23.406}) {
-    const WeighingSettings settings{.high_mA = 9.0};
+    const WeighingSettings settings{.speed_mA_per_s = 6.0, .high_mA = 9.0};
     Weighing weighing(settings, calibration.contraction_friction, calibration.range, knowledge);
     weigh(weighing, knowledge, [&](double current_mA) {
-      return rest_ratio(knowledge, calibration.contraction_friction, settings.speed_mA_per_s, load_kg,
+      return rest_ratio(knowledge, calibration.contraction_friction, *settings.speed_mA_per_s, load_kg,
                         current_mA);
     });
     EXPECT_NEAR(weighing.result().load_kg, load_kg, 2e-3 * load_kg);
@@ -71,13 +71,13 @@ TEST(Weighing, RecoversAPlantedLoad) {
 TEST(Weighing, SpreadIsTheStandardDeviationOverTheContractions) {
   const Knowledge knowledge = data_sheets({});
   const Calibration calibration = planted_calibration();
-  const WeighingSettings settings{.contractions = 3};
+  const WeighingSettings settings{.contractions = 3, .speed_mA_per_s = 6.0};
   Weighing weighing(settings, calibration.contraction_friction, calibration.range, knowledge);
   const double loads_kg[] = {15.0, 16.0, 17.0};
   for (std::int64_t k = 0; k < weighing.ticks(); ++k) {
     const double load_kg = loads_kg[k / (weighing.ticks() / 3)];
-    const double e = rest_ratio(knowledge, calibration.contraction_friction, settings.speed_mA_per_s, load_kg,
-                                weighing.current_mA(k));
+    const double e = rest_ratio(knowledge, calibration.contraction_friction, *settings.speed_mA_per_s,
+                                load_kg, weighing.current_mA(k));
     weighing.see(k, static_cast<std::int64_t>(e / knowledge.contraction_per_count));
   }
   EXPECT_NEAR(weighing.result().load_kg, 16.0, 0.05);

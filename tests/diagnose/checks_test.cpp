@@ -138,8 +138,10 @@ TEST(Checks, OneLoadOnlyIsSaid) {
 TEST(Checks, WrongUnitsAreErrorsThatNameFileAndColumn) {
   auto amperes = sound();
   for (double& current : amperes.runs[3].current_mA) current *= 1e-3;
-  EXPECT_EQ(error(amperes),
-            "planted/r04.csv:1:1: error: current_mA: never above 0.02; this looks like amperes, not mA");
+  EXPECT_EQ(
+      error(amperes),
+      "planted/dataset.yaml: error: run r04: current: never above 0.02 mA; this looks like amperes, not "
+      "mA; write columns: {current: {column: current_mA, unit: A}}");
   auto share = sound();
   for (double& current : share.runs[0].current_mA) current = (current - 4.0) / 16.0;
   EXPECT_NE(error(share).find("a share of the range"), std::string::npos);
@@ -147,7 +149,9 @@ TEST(Checks, WrongUnitsAreErrorsThatNameFileAndColumn) {
   for (double& ratio : per_cent.runs[1].contraction_ratio) ratio *= 100.0;
   EXPECT_EQ(
       error(per_cent),
-      "planted/r02.csv:1:1: error: contraction_ratio: up to 31.15; this looks like per cent, not a ratio");
+      "planted/dataset.yaml: error: run r02: contraction is up to 31.15, 100 times what the rig would do; "
+      "this looks like per cent, not a ratio; write columns: {contraction: {column: contraction_ratio, unit: "
+      "\"%\"}}");
   auto metres = sound();
   for (double& ratio : metres.runs[1].contraction_ratio) ratio *= metres.rig.muscle.rest_length_m;
   EXPECT_NE(error(metres).find("metres"), std::string::npos);
@@ -163,10 +167,10 @@ TEST(Checks, PressureInAnotherUnitIsAnError) {
   auto kilopascal = with_gauge(), absolute = with_gauge();
   for (double& pressure : *kilopascal.runs[5].muscle_pressure_Pa) pressure *= 100.0;
   EXPECT_EQ(error(kilopascal),
-            "planted/r06.csv:1:1: error: muscle_pressure_bar: up to 435.8; this looks like kPa, not bar");
+            "planted/dataset.yaml: error: run r06: muscle_pressure is up to 435.8 bar; this looks like kPa, "
+            "not bar; write columns: {muscle_pressure: {column: muscle_pressure_bar, unit: kPa}}");
   for (double& pressure : *absolute.runs[0].muscle_pressure_Pa) pressure += 1.013e5;
-  EXPECT_NE(error(absolute).find("r01.csv:1:1: error: muscle_pressure_bar: about one atmosphere"),
-            std::string::npos);
+  EXPECT_NE(error(absolute).find("run r01: muscle_pressure is about one atmosphere"), std::string::npos);
 }
 
 TEST(Checks, ADeadGaugeIsIgnoredNotTheRun) {
@@ -199,12 +203,38 @@ TEST(Checks, TwoExchangedLabelsOfFourAreBothFound) {
   EXPECT_TRUE(doubts.cannot_tell);  // two of four
 }
 
+TEST(Checks, ExchangedLabelsOfThreeRunsAreNamedAndNothingElseIs) {
+  const auto kinds = three_kinds();
+  auto data = planted({}, {11.138, 16.138, 23.406}, {kinds[0]}, 6);
+  std::swap(data.runs[0].load_kg, data.runs[1].load_kg);
+  const Doubts doubts = check(data, 2);
+  EXPECT_EQ(doubts.left_out, (Runs{0, 1}));
+  ASSERT_TRUE(doubts.cannot_tell);
+  EXPECT_NE(doubts.cannot_tell->find("runs r01, r02: "), std::string::npos);
+  EXPECT_NE(doubts.cannot_tell->find("write load: 11.138 kg for r01, load: 16.138 kg for r02"),
+            std::string::npos);
+}
+
+TEST(Checks, LoadsInGramsAreAnError) {
+  auto data = sound();
+  for (input::Run& run : data.runs) run.load_kg *= 1e-3;
+  EXPECT_NE(error(data).find("kg that are written in g"), std::string::npos);
+}
+
 TEST(Checks, ARunWithAnotherZeroIsNotTakenForAnotherLoad) {
   auto data = sound();
   for (double& ratio : data.runs[2].contraction_ratio) ratio += 0.02;
   const Doubts doubts = check(data, 2);
   EXPECT_EQ(doubts.left_out, Runs{2});
-  EXPECT_TRUE(says(doubts, "run r03: contraction_ratio is shifted by 0.02"));
+  EXPECT_TRUE(says(doubts, "run r03: has its zero moved by 4"));
+}
+
+TEST(Checks, ARunWithAnotherCurrentIsNotTakenForAnotherLoad) {
+  auto data = sound();
+  for (double& current_mA : data.runs[0].current_mA) current_mA *= 1.07;
+  const Doubts doubts = check(data, 2);
+  ASSERT_EQ(doubts.left_out, Runs{0});
+  EXPECT_TRUE(says(doubts, "run r01: has a current that is 1.06")) << doubts.warnings.front();
 }
 
 TEST(Checks, LoadsInPoundsAreAnError) {
@@ -217,7 +247,7 @@ TEST(Checks, ThreeRunsAreTooFewToCheckLabelsAndItSaysSo) {
   auto data = sound();
   data.runs.resize(3);
   const Doubts doubts = check(data, 2);
-  EXPECT_TRUE(says(doubts, "3 usable runs: too few to check the labels of the loads"));
+  EXPECT_TRUE(says(doubts, "3 usable runs: their loads are in order, but too few to weigh"));
   EXPECT_FALSE(doubts.cannot_tell);
 }
 

@@ -57,7 +57,7 @@ TEST(Where, FrictionShowsInTheDirection) {
   EXPECT_GT(down.mean, 5e-4);
   std::map<std::string, double> shares;
   for (const Cell& cell : cells) shares[cell.factor] += cell.share_of_gap;
-  EXPECT_EQ(shares.size(), 8u);
+  EXPECT_EQ(shares.size(), 9u);
   for (const auto& [factor, share] : shares) EXPECT_NEAR(share, 1.0, 1e-12) << factor;
 }
 

@@ -83,6 +83,49 @@ TEST(Effects, GasMassAndEnergyAddUpWithLeakAndPulls) {
   }
 }
 
+// Gas of its own temperature: what flows is mass and carries energy, and both add up, over many cycles.
+TEST(Effects, GasMassAndEnergyAddUpWithPolytropicGas) {
+  plant::Rig rig;
+  rig.effects.get<plant::PolytropicGas>().exponent = 1.4;
+  rig.effects.get<plant::MuscleLeak>().conductance_m3_per_s_Pa = 1e-10;
+  for (const auto method : {Method::erk, Method::cvode}) {
+    RigOnBench bench(rig, 13.87, {method, 1e-9}, true);
+    bench.start(4.0);
+    const auto before = bench.flow.state;
+    for (int k = 0; k < 1500; ++k) bench.hold(12.0 - 8.0 * std::cos(0.1 * k));
+    const auto& books = bench.flow.ledger;
+    EXPECT_GT(books.air_leaked_kg, 1e-4);
+    const auto imbalance = bench.plant.imbalance(before, bench.flow.state, books);
+    EXPECT_LT(imbalance.gas, 1e-7);
+    EXPECT_LT(imbalance.energy, 1e-7);
+    // p V = m R T, in both volumes at once: the temperature has not run away.
+    const double warmth =
+        bench.plant.gas_mass_kg(bench.flow.state) / (books.valve_air_kg + books.muscle_air_kg);
+    EXPECT_GT(warmth, 0.7);
+    EXPECT_LT(warmth, 1.4);
+  }
+}
+
+// With the hose shut nothing flows: T V^(n-1) stays.
+TEST(Effects, EnclosedPolytropicGasGrowsColdAsItExpands) {
+  plant::Rig rig;
+  rig.hose.conductance_m3_per_s_Pa = 1e-12;
+  rig.effects.get<plant::PolytropicGas>().exponent = 1.4;
+  RigOnBench bench(rig, 11.138, {Method::erk, 1e-10}, true);
+  bench.start(14.0);
+  const plant::Braid braid(rig.muscle);
+  const auto volume_m3 = [&] { return braid.volume_m3(bench.flow.state.joint.contraction_ratio); };
+  const auto temperature_K = [&] {
+    return (bench.flow.state.side.muscle_pressure_Pa + 101325.0) * volume_m3() /
+           (287.05 * bench.flow.ledger.muscle_air_kg);
+  };
+  const double first_m3 = volume_m3();
+  EXPECT_NEAR(temperature_K(), 293.15, 1e-9);
+  bench.hold(14.0, 5);
+  EXPECT_LT(temperature_K(), 260.0);
+  EXPECT_NEAR(temperature_K() / 293.15, std::pow(first_m3 / volume_m3(), 0.4), 5e-4);
+}
+
 TEST(Effects, AnEnclosedMuscleThatMovesKeepsPVn) {
   for (const double n : {1.0, 1.4}) {
     plant::Rig rig;

@@ -57,24 +57,24 @@ TEST(Jacobian, IsTheSlopeOfTheEquations) {
                          plant::FrictionLaw::logarithmic, plant::FrictionLaw::power}) {
     plant::Rig rig;
     rig.friction.law = law;
-    expect_slopes<Layout<false, true>>(rig);
+    expect_slopes<Layout<false, Books::isothermal>>(rig);
   }
 }
 
 TEST(Jacobian, KnowsEveryEffectAndWhatItRemembers) {
-  expect_slopes<Layout<true, true>>(plant::rig_with_all_effects());
+  expect_slopes<Layout<true, Books::polytropic>>(plant::rig_with_all_effects());
   for (const auto& [name, rig] : plant::rigs_with_one_effect()) {
     SCOPED_TRACE(name);
     if (plant::Plant(rig, 15.0).remembers())
-      expect_slopes<Layout<true, false>>(rig);
+      expect_slopes<Layout<true, Books::none>>(rig);
     else
-      expect_slopes<Layout<false, false>>(rig);
+      expect_slopes<Layout<false, Books::none>>(rig);
   }
 }
 
 TEST(Jacobian, IsRefusedOutsideTheDomain) {
   const plant::Plant plant(plant::Rig{}, 15.0);
-  const Problem<Layout<false, false>> problem(plant);
+  const Problem<Layout<false, Books::none>> problem(plant);
   const std::array<double, plant::state_size> y{0.9, 0.0, 1e5, 1e5, 0.0};
   Eigen::Matrix<double, plant::state_size, plant::state_size> result;
   EXPECT_FALSE(jacobian(problem, y.data(), result));

@@ -16,6 +16,7 @@ class RigOnBench {
   void start(double current_mA) {
     held.reference_pressure_Pa = plant.reference_pressure_Pa(current_mA);
     flow.state = plant.at_rest(held);
+    flow.ledger = plant.opened(flow.state);
     if (plant.has_events()) held.slip = plant.slip_from_rest(flow.state, flow.memory, held);
   }
 

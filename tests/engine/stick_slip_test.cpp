@@ -64,6 +64,21 @@ TEST_P(StickSlip, FollowsTheBristlesOnASlowRideButForTheirDeflection) {
   EXPECT_GT(exact[2] - exact[0], 0.005);  // the loop is open: lower when going up than when coming down
 }
 
+// From a start the wrong way the speed never falls through zero: friction once pushed such a load along.
+TEST_P(StickSlip, FrictionNeverPushesALoadThatStartsTheWrongWay) {
+  RigOnBench bench(coulomb_rig(), 11.138, {GetParam(), 1e-7});
+  bench.start(4.0);
+  bench.hold(12.0, 60);
+  bench.held.slip = plant::Slip::falling;  // and yet the muscle lifts it
+  bench.flow.state.joint.contraction_speed_per_s = 0.0;
+  for (int k = 0; k < 20; ++k) {
+    bench.hold(20.0);
+    const double speed = bench.flow.state.joint.contraction_speed_per_s;
+    const auto now = bench.plant.moment(bench.flow.state, bench.held);
+    EXPECT_LE(now.friction_force_N * speed, 1e-6) << k;
+  }
+}
+
 TEST(StickSlip, MethodsAgree) {
   const auto end = [](Method method) {
     RigOnBench bench(coulomb_rig(), 11.138, {method, 1e-9});

@@ -80,6 +80,30 @@ TEST(MatFile, SizesThatCannotBeAreNotBelieved) {
   }
 }
 
+/// A variable of cells, or a struct, that says it has more elements than it holds.
+std::string hollow(char kind, std::size_t count) {
+  const auto word = [](std::size_t value) {
+    std::string bytes;
+    for (unsigned shift = 0; shift < 32; shift += 8) bytes += static_cast<char>(value >> shift & 0xFFU);
+    return bytes;
+  };
+  std::string parts = word(6) + word(8) + kind + std::string(7, '\0');  // flags
+  parts += word(5) + word(8) + word(1) + word(count);                   // dimensions
+  parts += word(1U << 16U | 1U) + "c" + std::string(3, '\0');           // name
+  if (kind == 2) parts += word(4U << 16U | 5U) + word(8) + word(1) + word(8) + "x" + std::string(7, '\0');
+  return mat_of(table()).substr(0, 128) + word(14) + word(parts.size()) + parts;
+}
+
+TEST(MatFile, RoomIsNotMadeForWhatIsOnlySaid) {
+  for (const char kind : {'\1', '\2'}) {
+    EXPECT_EQ(refusal(hollow(kind, 1U << 30U)),
+              "its 1. variable: it has more than 16777216 elements, which is more than is read");
+    EXPECT_EQ(refusal(hollow(kind, 1U << 20U)),
+              "its 1. variable: its sizes and contents do not agree: the file is damaged");
+  }
+  EXPECT_EQ(refusal(hollow(1, 0)), "");
+}
+
 TEST(NetcdfFile, SameBytesFromManyThreads) {
   const std::string wanted = netcdf_of(table());
   EXPECT_TRUE(wanted.starts_with("\x89HDF"));

@@ -42,6 +42,13 @@ TEST(Campaign, ReadsEveryKindOfField) {
   EXPECT_EQ(campaign.inputs.size(), 2u);
 }
 
+TEST(Campaign, StepsBeginAtTheValvesZeroCurrent) {
+  const Campaign campaign = read_text(
+      "schema: mckibben-campaign/1\nrig: {valve: {zero_current: 1 mA}}\nloads: [11 kg]\n"
+      "currents: [{duration: 2 s, current: {kind: step_current, moves: [{at: 1 s, to: 9 mA}]}}]\n");
+  EXPECT_EQ(std::get<controllers::StepCurrent>(campaign.currents.at(0).current).start_mA, 1.0);
+}
+
 TEST(Campaign, CurrentsWithoutANameAreNamedAfterWaveformOrPlace) {
   const Campaign campaign = read_text(good_campaign);
   EXPECT_EQ(campaign.currents.at(0).name, "c01");

@@ -38,6 +38,41 @@ TEST(Csv, AnyOrderExtraColumnsQuotesCrlfAndByteOrderMark) {
   EXPECT_EQ(table.place(source, *table.find("time_s"), 1).column, 6u);
 }
 
+TEST(Csv, SemicolonsTabsAndDecimalCommasAreRead) {
+  for (const char* text : {"time_s;current_mA;\"a; b, c\"\n0;4;x\n0,012;4,5;\n",
+                           "time_s\tcurrent_mA\tp [bar, gauge]\n0\t4\tx\n0.012\t4.5\t\n"}) {
+    const Source source("a.csv", text, "");
+    Problems problems;
+    TableProblems found(source, problems);
+    const Table table = read_table(source, required, optional, found);
+    check_ticks(table, 0.012, found);
+    EXPECT_EQ(found.count(), 0u) << text;
+    ASSERT_NE(table.find("current_mA"), nullptr);
+    EXPECT_EQ(table.find("current_mA")->values, (std::vector<double>{4.0, 4.5}));
+    EXPECT_EQ(table.place(source, *table.find("current_mA"), 1).column, 7u);
+  }
+}
+
+/// What is said of a CSV file whose decimal signs or columns are not what they should be.
+std::string said_of(const char* text) {
+  const Source source("a.csv", text, "");
+  Problems problems;
+  {
+    TableProblems found(source, problems);
+    read_table(source, required, optional, found);
+  }
+  return to_text(problems.sorted());
+}
+
+TEST(Csv, DecimalSignsThatCannotBeAreSaid) {
+  EXPECT_NE(said_of("time_s,current_mA\n0,012,4,5\n")
+                .find("this row has 4 cells; the header has 2; with decimal "
+                      "commas columns must stand between semicolons or tabs"),
+            std::string::npos);
+  EXPECT_NE(said_of("time_s;current_mA\n0,012;4.5\n").find("the decimal sign of this file is a comma"),
+            std::string::npos);
+}
+
 TEST(Csv, TimesWithinAMicrosecondAreTicks) {
   const Source source("a.csv", "time_s,current_mA\n0,4\n0.0120009,4\n0.0239992,4\n", "");
   Problems problems;

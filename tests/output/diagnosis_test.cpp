@@ -51,7 +51,8 @@ TEST(DiagnosisJson, HoldsWhatIsPromised) {
                  {"nominal_rmse", 0.0093},
                  {"recalibrated_rmse", 0.0022},
                  {"corrected_rmse", 1.6e-4},
-                 {"closed", 0.9876}};
+                 {"closed", 0.9876},
+                 {"encoder_jitter", 0.0}};
   EXPECT_EQ(document.at("gap"), gap);
   const Json& next = document.at("next_experiment");
   EXPECT_EQ(next.at("separates").size(), 2u);

@@ -1,4 +1,8 @@
 // The progress line: how much is done, and the time left once it can be told.
+#include <algorithm>
+#include <chrono>
+#include <string>
+
 #include <gtest/gtest.h>
 
 #include <sim/output/progress.hpp>
@@ -22,6 +26,23 @@ TEST(Progress, SaysNoTimeThatCannotBeTold) {
   EXPECT_EQ(progress_line("a", "b", 4, 4, 9.0, 200), "a: b [##############################] 4/4");
   EXPECT_EQ(progress_line("a", "b", 0, 0, 9.0, 200), "a: b [##############################] 0/0");
   EXPECT_EQ(progress_line("a", "b", 5, 4, 9.0, 200), "a: b [##############################] 5/4");
+}
+
+TEST(Progress, HasNoBarForWorkWithoutAKnownEnd) {
+  EXPECT_EQ(progress_line("a", "b", 23, 0, 75.0, 200), "a: b, step 23, 1 min 15 s so far");
+}
+
+TEST(Progress, SaysALineNowAndThenInAPipeOfSuchWork) {
+  testing::internal::CaptureStderr();
+  {
+    Progress progress("a", std::chrono::milliseconds(0));
+    progress.hook()("b", 1, 0);
+    progress.hook()("c", 1, 2);
+    Progress("d").hook()("e", 1, 0);
+  }
+  const std::string said = testing::internal::GetCapturedStderr();
+  EXPECT_TRUE(said.starts_with("a: b, step 1, ")) << said;
+  EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 1) << said;
 }
 
 TEST(Progress, FitsTheTerminal) {

@@ -46,7 +46,7 @@ std::vector<double> all_of(const Plant& plant, const State<double>& state, const
   held.current_speed_mA_per_s = 8.0;
   const auto now = plant.moment(state, memory, held);
   const auto dt = plant.rates(state, now);
-  const auto books = plant.ledger_rates(now);
+  const auto books = plant.ledger_rates(state, now, plant.opened(state));
   std::vector<double> values(sizeof dt / sizeof(double) + sizeof books / sizeof(double));
   std::memcpy(values.data(), &dt, sizeof dt);
   std::memcpy(values.data() + sizeof dt / sizeof(double), &books, sizeof books);

@@ -43,7 +43,7 @@ TEST(DiagnosisPage, TellsTheStoryInOrder) {
   const std::string html = report_html(measured(), diagnosed(), {}, {});
   EXPECT_EQ(count(html, "<script"), count(html, "</script>"));
   EXPECT_EQ(html.find(" src="), std::string::npos);
-  EXPECT_EQ(html.find("href="), std::string::npos);
+  EXPECT_EQ(count(html, "href="), count(html, "href='#"));
   EXPECT_EQ(html.find("<held out>"), std::string::npos);  // of the sentence, which tries to be a tag
   EXPECT_EQ(visible(html).find("nan"), std::string::npos);
   std::size_t at = 0;
@@ -102,16 +102,39 @@ TEST(DiagnosisPage, HasNoCorrectedRigWhereNothingWasChanged) {
   EXPECT_EQ(html.find("\u2192"), std::string::npos);  // nominal -> corrected
 }
 
-TEST(DiagnosisPictures, BarsOfAllRoundsHaveOneScaleAndNothingIsDrawnLargeBelowChance) {
+TEST(DiagnosisPictures, BarsOfAllRoundsHaveOneScaleAndNothingIsDrawnBelowChanceThatWasNotFitted) {
   diagnose::Diagnosis found = diagnosed();
-  found.ranking = {{"muscle_leak", "", 1, 50.0, 1.0, false, 0.0, 0.0, "score too small"},
-                   {"valve_lag", "", 2, 25.0, 1.0, false, 0.0, 0.0, "score too small"}};
+  found.ranking = {{"muscle_leak", "", 1, 10000.0, 1.0, false, 0.0, 0.0, "score too small"},
+                   {"valve_lag", "", 2, 100.0, 1.0, false, 0.0, 0.0, "score too small"},
+                   {"supply_line", "", 2, 5.9, 1.0, false, 0.0, 0.0, "score too small"}};
   const auto rounds = ranking_pictures(found, {});
   ASSERT_EQ(rounds.size(), 2u);
-  EXPECT_NE(rounds[0].svg.find("width='200.0' height='13.0' class='bar'"), std::string::npos);
-  EXPECT_NE(rounds[1].svg.find("width='100.0' height='13.0' class='bar'"), std::string::npos);
-  found.ranking = {{"valve_lag", "", 1, 0.6, 1.0, false, 0.0, 0.0, "score too small"}};
-  EXPECT_NE(ranking_pictures(found, {})[0].svg.find("width='20.0' height='13.0'"), std::string::npos);
+  EXPECT_NE(rounds[0].svg.find("width='200.0' height='13.0' class='empty'"), std::string::npos);
+  EXPECT_NE(rounds[1].svg.find("width='100.0' height='13.0' class='empty'"), std::string::npos);
+  EXPECT_EQ(rounds[1].svg.find("supply_line"), std::string::npos);
+  EXPECT_NE(rounds[1].caption.find("supply_line"), std::string::npos);
+}
+
+// The statistic by which an effect was taken is the one that is drawn: how far the misfit fell, not what the
+// score at the rig as described had promised.
+TEST(DiagnosisPictures, WhatWasTakenLiesBeyondChance) {
+  diagnose::Diagnosis found = diagnosed();
+  found.ranking = {{"muscle_leak", "", 1, 9.0, 1.0, true, 0.0009, 0.0010, "taken: the best fit", 10000.0}};
+  const std::string svg = ranking_pictures(found, {}).front().svg;
+  EXPECT_NE(svg.find("width='200.0' height='13.0' class='bar c0'"), std::string::npos) << svg;
+  EXPECT_NE(svg.find(">10000<"), std::string::npos) << svg;
+}
+
+TEST(DiagnosisPage, AsksForNothingMoreOnlyWhereNothingIsLeft) {
+  diagnose::Diagnosis found = diagnosed();
+  found.next_experiment.reset();
+  found.effects.back().confusable_with.clear();
+  const std::string enough = "No further measurement is needed";
+  EXPECT_NE(report_html(measured(), found, {}, {}).find(enough), std::string::npos);
+  found.gap.corrected_rmse = 25.0 * found.gap.noise_floor;
+  const std::string html = report_html(measured(), found, {}, {});
+  EXPECT_EQ(html.find(enough), std::string::npos);
+  EXPECT_NE(html.find("25.0 noise floors are left"), std::string::npos);
 }
 
 TEST(DiagnosisPictures, FrameOnlyWhatIsSignificantAndStayPaleBelowTheNoiseFloor) {
@@ -121,9 +144,31 @@ TEST(DiagnosisPictures, FrameOnlyWhatIsSignificantAndStayPaleBelowTheNoiseFloor)
   EXPECT_EQ(count(factors[0].svg, "class='frame'"), 1u);
   EXPECT_EQ(count(factors[1].svg, "class='frame'"), 2u);
   EXPECT_EQ(count(factors[1].svg, "class='empty'"), 1u);
-  EXPECT_NE(factors[0].svg.find("+0.360 mm *"), std::string::npos);
+  EXPECT_NE(factors[0].svg.find("<tspan class='mm'>+0.360 mm</tspan><tspan class='ratio'>+0.00120</tspan> *"),
+            std::string::npos);
   found.where = {{"direction", "contracting", 2000, 0.5 * found.gap.noise_floor, 1e-4, 1.0, 0.5, false}};
   EXPECT_NE(where_pictures(found, {})[0].svg.find("fill-opacity='0.28'"), std::string::npos);  // half of 0.55
+}
+
+TEST(DiagnosisPage, OfManyRunsNamesTheWorstOfEachLoadAndFoldsTheNamesOfThoseHeldOut) {
+  diagnose::Diagnosis found = diagnosed();
+  const auto run = found.runs.front();
+  found.runs.clear();
+  for (int i = 0; i < 20; ++i) {
+    found.runs.push_back(run);
+    found.runs.back().id = fmt::format("n{}", i);
+    found.runs.back().held_out = i % 2 == 0;
+    found.runs.back().left_out = false;
+    found.runs.back().corrected_rmse = 1e-4 * (i + 1);
+  }
+  const std::string html = visible(report_html(measured(), found, {}, {}));
+  EXPECT_NE(html.find("Error of height on the 10 runs held out, root"), std::string::npos);
+  EXPECT_NE(html.find("<details><summary>Which runs are held out</summary>"), std::string::npos);
+  const auto loads = html.find("class='by-load'");
+  ASSERT_NE(loads, std::string::npos);
+  EXPECT_NE(html.find("data-group='10'>n19</a>", loads), std::string::npos);  // after the ten held out
+  EXPECT_LT(loads, html.find("All 20 runs"));
+  EXPECT_LT(html.find(">n18, held out<"), html.find(">n0, held out<"));
 }
 
 TEST(DiagnosisPage, OfAHundredRunsStaysBelowTenMegabytes) {

@@ -6,11 +6,16 @@
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <sim/report/by_load.hpp>
 #include <sim/report/html.hpp>
+#include <sim/report/length.hpp>
 #include <sim/report/pack.hpp>
 #include <sim/report/quantities.hpp>
+#include <sim/report/report.hpp>
+#include <sim/report/rig_words.hpp>
 #include <sim/report/still.hpp>
 
 namespace mckibben::report {
@@ -140,11 +145,120 @@ TEST(Page, OfAHundredRunsStaysBelowTenMegabytesHoweverTheyShake) {
   EXPECT_LT(html_of(shaking(100, 1600)).size(), 10'000'000u);  // the longest that are not decimated
 }
 
+TEST(Page, OfOneWarningHasABoxAndOfManyOneBox) {
+  Contents contents;
+  contents.warnings = {"a < b"};
+  EXPECT_EQ(count(html_of(contents), "class='warning'"), 1u);
+  for (int i = 0; i < 5; ++i) contents.warnings.push_back("other");
+  const std::string html = html_of(contents);
+  EXPECT_EQ(count(html, "class='warning'"), 1u);
+  EXPECT_EQ(count(html, "a &lt; b"), 1u);
+  EXPECT_EQ(count(html, "<li>other"), 5u);
+  EXPECT_NE(html.find("5 more warnings"), std::string::npos);
+}
+
+TEST(Length, IsThereInBothUnitsWithTheSameDigits) {
+  EXPECT_EQ(length_html(0.01, {}), "<span class='mm'>3.000</span><span class='ratio'>0.01000</span>");
+  EXPECT_EQ(full_length_html(-0.01, {}, 1),
+            "<span class='mm'>-3.0 mm</span><span class='ratio'>-0.010 (contraction ratio)</span>");
+  EXPECT_NE(length_html(0.01, {}, 3, true).find("+3.000"), std::string::npos);
+}
+
+TEST(Still, AnAxisOfLengthsHasRoundNumbersInBothUnits) {
+  Group group{.name = "1 kg", .ticks = 2};
+  group.runs.push_back(
+      {.name = "pid",
+       .ticks = 2,
+       .quantities = {{"contraction", [](std::size_t k) { return 0.1 * static_cast<double>(k); }},
+                      {"muscle_pressure", [](std::size_t k) { return static_cast<double>(k); }}}});
+  const std::string svg = loop_svg(group, loops().front(), {}, 100);
+  const auto mm = svg.find("<g class='mm'>"), ratio = svg.find("<g class='ratio'>");
+  ASSERT_LT(mm, ratio);
+  ASSERT_NE(ratio, std::string::npos);
+  for (const char* number : {">10<", ">20<", ">30<", "height in mm"})
+    EXPECT_NE(svg.substr(mm, ratio - mm).find(number), std::string::npos) << number;
+  for (const char* number : {">0.04<", ">0.1<", ">contraction ratio<"})
+    EXPECT_NE(svg.find(number, ratio), std::string::npos) << number;
+  EXPECT_EQ(count(svg, ">muscle pressure in bar<"), 1u);
+}
+
+TEST(ByLoad, NamesTheWorstRunOfEachLoadAndLeadsToIt) {
+  const std::string html =
+      by_load_html({{"b", 20.0, 0.03, 0}, {"a", 10.0, 0.02, 1}, {"c", 20.0, 0.01, 2}}, {});
+  const auto light = html.find(">10<"), heavy = html.find(">20<");
+  ASSERT_LT(light, heavy);
+  ASSERT_NE(heavy, std::string::npos);
+  EXPECT_NE(html.find("<td>2</td><td><span class='mm'>6.000</span>", heavy), std::string::npos);  // median
+  EXPECT_NE(html.find("<span class='mm'>9.000</span>", heavy), std::string::npos);
+  EXPECT_NE(html.find("<a href='#group-0' data-group='0'>b</a>", heavy), std::string::npos);
+}
+
+/// A replay of so many runs, each worse than the one before.
+std::string replayed(std::size_t runs) {
+  input::Dataset data;
+  data.path = "measured/dataset.yaml";
+  std::vector<run::ReplayedRun> all;
+  for (std::size_t i = 0; i < runs; ++i) {
+    input::Run measured;
+    measured.id = fmt::format("r{}", i);
+    measured.load_kg = 5.0;
+    measured.contraction_ratio = measured.current_mA = {0.1, 0.1};
+    measured.muscle_pressure_Pa = {1e5, 1e5};
+    data.runs.push_back(measured);
+    run::ReplayedRun run{.id = measured.id, .load_kg = 5.0};
+    run.rmse = 0.001 * static_cast<double>(i + 1);
+    run.recording.samples.resize(2);
+    all.push_back(run);
+  }
+  return report_html(data, all);
+}
+
+TEST(Replay, OfManyRunsBeginsWithTheLoadsAndShowsTheWorstFirst) {
+  const std::string few = replayed(12), many = replayed(13);
+  EXPECT_EQ(few.find("by-load"), std::string::npos);
+  EXPECT_NE(few.find("id='group-0' data-group='0'>\n<h3>r0, 5 kg"), std::string::npos);
+  const auto loads = many.find("class='by-load'"), all = many.find("All 13 runs, the worst first");
+  ASSERT_LT(loads, all);
+  ASSERT_NE(all, std::string::npos);
+  EXPECT_LT(many.find(">r12</a>", all), many.find(">r11</a>", all));
+  EXPECT_NE(many.find("id='group-0' data-group='0'>\n<h3>r12, 5 kg"), std::string::npos);
+}
+
+TEST(Replay, WithAGaugeDrawsTheErrorOfThePressure) {
+  EXPECT_NE(replayed(1).find("\"pressure_error\":{"), std::string::npos);
+}
+
+TEST(Run, SaysHowLongControllersStoodAtALimitOfTheirCurrent) {
+  input::Scenario scenario;
+  scenario.loads_kg = {5.0};
+  scenario.controllers = {controllers::PidSettings{}};
+  run::Comparison comparison;
+  comparison.runs.resize(1);
+  EXPECT_EQ(report_html(scenario, comparison).find("class='limits'"), std::string::npos);
+  comparison.runs[0].limits = controllers::CurrentRange{4.0, 20.0};
+  comparison.runs[0].metrics.at_lowest_current = 0.31;
+  const std::string html = report_html(scenario, comparison);
+  EXPECT_NE(html.find("at a limit of their current for up to 31 % of the time"), std::string::npos);
+  EXPECT_NE(html.find("<th scope='row'>5 kg</th><td>31</td>"), std::string::npos);
+}
+
+TEST(RigWords, TellWhatTheRigHasAndWhatItHasNot) {
+  plant::Rig rig;
+  EXPECT_NE(rig_html(rig, false).find("<dt>gauge</dt><dd>none"), std::string::npos);
+  EXPECT_NE(rig_html(rig, false).find("none: nominal laws only"), std::string::npos);
+  rig.valve.zero_current_mA = 0.0;
+  rig.joint.wheel_radius_m = 0.2;
+  rig.effects.get<plant::MuscleLeak>().conductance_m3_per_s_Pa = 1e-10;
+  const std::string html = rig_html(rig, true);
+  for (const char* part : {"200 mm in radius", "0 to 20 mA", "on the muscle", "<dd>muscle_leak"})
+    EXPECT_NE(html.find(part), std::string::npos) << part << html;
+}
+
 TEST(Still, LeavesOutALoopThatNoRunHas) {
   Group group{.name = "1 kg", .ticks = 2};
   group.runs.push_back(
       {.name = "pid", .ticks = 2, .quantities = {{"contraction", [](std::size_t) { return 0.1; }}}});
-  EXPECT_EQ(loop_svg(group, loops().front(), 100), "");
+  EXPECT_EQ(loop_svg(group, loops().front(), {}, 100), "");
 }
 
 TEST(Quantities, FrictionCoefficientIsFrictionOverNormalForceWhileThreadsSlide) {

@@ -16,12 +16,12 @@ namespace {
 TEST(Batch, DoesEachJobOnceOnAnyNumberOfThreads) {
   for (const unsigned threads : {1u, 2u, 7u, 64u}) {
     std::vector<std::atomic<int>> times(20);
-    std::atomic<std::size_t> last{0};
+    std::vector<std::atomic<int>> heard(times.size() + 1);
     for_each_job(
-        times.size(), threads, [&](std::size_t i) { ++times[i]; },
-        [&](std::size_t done) { last = std::max(last.load(), done); });
+        times.size(), threads, [&](std::size_t i) { ++times[i]; }, [&](std::size_t done) { ++heard.at(done); });
     for (const auto& count : times) EXPECT_EQ(count, 1);
-    EXPECT_EQ(last, times.size());
+    EXPECT_EQ(heard[0], 0);
+    for (std::size_t done = 1; done < heard.size(); ++done) EXPECT_EQ(heard[done], 1);
   }
 }
 

@@ -42,6 +42,15 @@ TEST(Metrics, ErrorsFollowTheirDefinitions) {
   EXPECT_EQ(metrics.air_kg, 2e-3);
 }
 
+TEST(Metrics, CountsTheTicksAtAnEndOfTheCurrent) {
+  const Columns run{{0.1, 0.1, 0.1, 0.1}, {0.1, 0.1, 0.1, 0.1}, {4.0, 10.0, 4.0, 20.0}};
+  Followed view = run.view();
+  EXPECT_FALSE(measure(view).at_lowest_current) << "no limits";
+  view.limits = {4.0, 20.0};
+  EXPECT_EQ(measure(view).at_lowest_current, 0.5);
+  EXPECT_EQ(measure(view).at_highest_current, 0.25);
+}
+
 TEST(Metrics, ConstantTargetHasNoLagOvershootOrSettling) {
   const Columns run{{0.1, 0.1, 0.1}, {0.0, 0.2, 0.1}};
   Followed view = run.view();

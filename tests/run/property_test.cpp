@@ -1,7 +1,7 @@
-// Random rigs under random currents: whatever the values, a run stays within what is physically possible.
+// Random rigs under random currents: whatever the values, a run stays within what is physically possible, and
+// what went in and what came out add up.
 #include <algorithm>
 #include <cmath>
-#include <random>
 
 #include <gtest/gtest.h>
 
@@ -9,23 +9,15 @@
 #include <plant/plant.hpp>
 #include <sim/run/simulate.hpp>
 
+#include "random_rides.hpp"
+
 namespace mckibben::run {
 namespace {
 
-class Chance {
- public:
-  explicit Chance(unsigned seed) : random_(seed) {}
-  double between(double low, double high) { return std::uniform_real_distribution(low, high)(random_); }
-  double around(double value, double factor) {
-    return value * std::exp(between(-std::log(factor), std::log(factor)));
-  }
-  int pick(int count) { return std::uniform_int_distribution(0, count - 1)(random_); }
+using plant::Chance;
+using plant::random_current;
 
- private:
-  std::mt19937 random_;
-};
-
-plant::Rig random_rig(Chance& chance) {
+plant::Rig tuned_rig(Chance& chance) {
   plant::Rig rig;
   rig.muscle.rest_length_m = chance.around(0.3, 2.0);
   rig.muscle.rest_radius_m = chance.around(7.5e-3, 1.7);
@@ -59,27 +51,12 @@ plant::Rig random_rig(Chance& chance) {
   return rig;
 }
 
-/// Jumps, ramps and rests in any order.
-std::vector<double> random_current(Chance& chance, std::size_t ticks) {
-  std::vector<double> current_mA;
-  double now_mA = chance.between(0.0, 20.0);
-  while (current_mA.size() < ticks) {
-    const double to_mA = chance.between(0.0, 20.0);
-    const int lasting = 1 + chance.pick(80);
-    const bool jump = chance.pick(3) == 0;
-    for (int i = 1; i <= lasting && current_mA.size() < ticks; ++i)
-      current_mA.push_back(jump ? to_mA : now_mA + (to_mA - now_mA) * i / lasting);
-    now_mA = to_mA;
-  }
-  return current_mA;
-}
-
 class AnyRig : public testing::TestWithParam<unsigned> {};
 
 TEST_P(AnyRig, StaysWithinWhatIsPossible) {
   Chance chance(GetParam());
   RunPlan plan;
-  plan.rig = random_rig(chance);
+  plan.rig = tuned_rig(chance);
   plan.load_kg = chance.between(0.5, 40.0);
   plan.ticks = 600;
   plan.keep_ledger = true;
@@ -112,6 +89,53 @@ TEST_P(AnyRig, StaysWithinWhatIsPossible) {
   EXPECT_GE(recording.ledger.air_drawn_kg, 0.0);
   EXPECT_GE(recording.ledger.air_vented_kg, 0.0);
   EXPECT_GE(recording.ledger.guide_work_J, 0.0);
+}
+
+constexpr auto methods = {engine::Method::automatic, engine::Method::erk, engine::Method::cvode};
+
+// The first two seeds: Coulomb friction that, with CVODE, once pushed the load over the top.
+TEST(ModerateRigs, CloseTheirBooksWithEveryMethodAndAgree) {
+  for (const unsigned seed : {100228u, 100161u, 100004u, 100059u, 100065u, 100069u}) {
+    SCOPED_TRACE(seed);
+    const Recording first = random_ride(seed, false, engine::Method::erk);
+    const auto& end = first.samples.back().state;
+    for (const auto method : methods) {
+      SCOPED_TRACE(static_cast<int>(method));
+      const Recording run = random_ride(seed, false, method);
+      ASSERT_EQ(run.failure, "");
+      EXPECT_LT(run.imbalance.gas, 1e-6);
+      EXPECT_LT(run.imbalance.energy, 1e-6);
+      EXPECT_TRUE(doubts(run).empty());
+      EXPECT_NEAR(run.ledger.thread_friction_work_J, first.ledger.thread_friction_work_J, 2e-5);
+      EXPECT_NEAR(run.samples.back().state.joint.contraction_ratio, end.joint.contraction_ratio, 1e-5);
+    }
+  }
+}
+
+TEST(WholeRange, RunsOrSaysWhatToDoAndClosesItsBooksOrSaysSo) {
+  for (unsigned seed = 1; seed <= 12; ++seed) {
+    SCOPED_TRACE(seed);
+    const Recording run = random_ride(seed, true, engine::Method::automatic);
+    EXPECT_EQ(run.failure, "");
+    EXPECT_TRUE((run.imbalance.gas <= 1e-4 && run.imbalance.energy <= 1e-4) || !doubts(run).empty());
+  }
+}
+
+TEST(Doubts, TellOfBooksThatDoNotCloseAndOfSuction) {
+  Recording run;
+  Sample sample{};
+  sample.state = {{0.1, 0.0}, {1e5, 1e5, 0.0}};
+  run.samples.push_back(sample);
+  run.imbalance = {9e-5, 9e-5};
+  EXPECT_TRUE(doubts(run).empty());
+  run.imbalance.energy = 0.012;
+  sample.time_s = 0.5;
+  sample.state.side.muscle_pressure_Pa = -0.79e5;
+  run.samples.push_back(sample);
+  const auto said = doubts(run);
+  ASSERT_EQ(said.size(), 2u);
+  EXPECT_NE(said[0].find("1.2 % of the work"), std::string::npos) << said[0];
+  EXPECT_NE(said[1].find("0.79 bar below the atmosphere at 0.500 s"), std::string::npos) << said[1];
 }
 
 INSTANTIATE_TEST_SUITE_P(Seeds, AnyRig, testing::Range(1u, 61u));

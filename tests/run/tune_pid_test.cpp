@@ -73,6 +73,16 @@ TEST(Tune, StaysWithinItsBoundsAndItsNumberOfEvaluations) {
   EXPECT_LT(tuned.cost, bowl(options.start));
 }
 
+TEST(Tune, BeginsWithAGainThatFitsTheValvesSpan) {
+  const TuningOptions thesis, half = TuningOptions::for_span(0.5 * thesis_span_mA);
+  EXPECT_EQ(half.start.proportional_mA, 0.5 * thesis.start.proportional_mA);
+  EXPECT_EQ(half.highest.proportional_mA, 0.5 * thesis.highest.proportional_mA);
+  EXPECT_EQ(half.start.integral_time_s, thesis.start.integral_time_s);
+  const Tuned tuned = tune(bowl, {}, half);
+  EXPECT_NEAR(tuned.start_cost.value(), bowl(half.start), 1e-9);
+  EXPECT_LT(tuned.cost, *tuned.start_cost);
+}
+
 TEST(Tune, SameCostGivesTheSameGains) {
   const Tuned first = tune(bowl), second = tune(bowl);
   EXPECT_EQ(first.gains.proportional_mA, second.gains.proportional_mA);

@@ -15,6 +15,7 @@
 #include <sim/output/chart.hpp>
 #include <sim/thesis/calibrate.hpp>
 #include <sim/thesis/figures.hpp>
+#include <sim/thesis/quality.hpp>
 
 #include "small_campaign.hpp"
 
@@ -243,6 +244,22 @@ TEST(BadData, RowsALittleAboveTheLimitAreDroppedAndCounted) {
   EXPECT_TRUE(says(output::report_of(dataset, result, {}, false),
                    fmt::format("{} with a contraction ratio above e_max", result.grid.dropped.beyond_limit)));
   EXPECT_LT(result.calibration.range.highest_ratio, limit);
+}
+
+TEST(Report, SaysWhatASpreadMeans) {
+  const auto meaning = [](Quality::Model model, double spread) {
+    return Quality{model, Direction::contraction, spread}.meaning();
+  };
+  EXPECT_EQ(meaning(Quality::Model::friction, 0.099), "good, the thesis reports below 10 % (T 5)");
+  EXPECT_EQ(meaning(Quality::Model::pressure, 0.149), "good, the thesis reports below 15 % (T 5)");
+  EXPECT_TRUE(says(meaning(Quality::Model::friction, 0.325), "rough, the thesis reports below 10 % (T 5)"));
+  EXPECT_TRUE(says(meaning(Quality::Model::pressure, 1.0), "rough, "));
+  EXPECT_TRUE(says(meaning(Quality::Model::pressure, 1.01), "samples scatter by more than the mean"));
+  EXPECT_TRUE(says(meaning(Quality::Model::friction, NAN), "samples scatter by more than the mean"));
+  const auto lines = output::meanings_of(calibrated(), {});
+  ASSERT_EQ(lines.size(), 4u);
+  const std::string report = output::report_of(campaign(), calibrated(), {}, false);
+  for (const auto& line : lines) EXPECT_TRUE(says(report, "  " + line + "\n")) << line;
 }
 
 TEST(Report, SpreadsAboveTheMeanAreNotPrintedAsNumbersButWarnedOf) {

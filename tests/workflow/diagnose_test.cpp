@@ -1,5 +1,9 @@
 // The workflow on data whose answer is known. The benchmark scores many more; these must hold whenever.
+#include <cmath>
+
 #include <gtest/gtest.h>
+
+#include <sim/run/simulate.hpp>
 
 #include "diagnose/planted.hpp"
 
@@ -73,6 +77,33 @@ TEST(Diagnose, IgnoresAGaugeThatContradictsTheMotion) {
   EXPECT_EQ(found.verdict, Verdict::nothing_missing);
   ASSERT_FALSE(found.warnings.empty());
   EXPECT_NE(found.warnings.front().find("muscle_pressure_bar is ignored"), std::string::npos);
+}
+
+TEST(Diagnose, SaysARunThatIsLateInTheVerdictAndShiftsIt) {
+  auto data = small(plant::Rig{});
+  auto& ratios = data.runs[1].contraction_ratio;
+  ratios.insert(ratios.begin(), 3, ratios.front());
+  ratios.resize(data.runs[1].current_mA.size());
+  const auto found = diagnosis_of(data, 0);
+  EXPECT_TRUE(found.because.starts_with("Run r02 is 3 ticks late and was shifted. Apart from that"))
+      << found.because;
+  EXPECT_TRUE(found.effects.empty());
+  ASSERT_EQ(found.faults.size(), 1u);
+  EXPECT_EQ(found.faults[0].kind, "late");
+  EXPECT_EQ(found.faults[0].size, 3.0);
+  EXPECT_LT(found.runs[1].corrected_rmse, 2.0 * found.gap.noise_floor);
+}
+
+TEST(Diagnose, NamesNoEffectForADriftThatAllRunsHave) {
+  auto data = small(plant::Rig{});
+  const double count = run::contraction_per_count(data.rig);
+  for (input::Run& run : data.runs)
+    for (std::size_t k = 0; k < run.contraction_ratio.size(); ++k)
+      run.contraction_ratio[k] += count * std::floor(static_cast<double>(k) / 40.0);
+  const auto found = diagnosis_of(data, 0);
+  EXPECT_EQ(found.verdict, Verdict::cannot_tell);
+  EXPECT_TRUE(found.effects.empty());
+  EXPECT_TRUE(found.because.starts_with("Every run drifts by 1.")) << found.because;
 }
 
 }  // namespace

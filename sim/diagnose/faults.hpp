@@ -1,0 +1,46 @@
+// Runs whose recording is at fault: late, drifting, with another zero, from another rig. Each run is compared
+// with the floor and with what the other runs say of the rig.
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include <sim/diagnose/experiment.hpp>
+#include <sim/diagnose/fit.hpp>
+
+namespace mckibben::diagnose {
+
+/// Sizes: ticks late; the share by which the current is too high, or by how many mA; contraction ratio at the
+/// run's end; contraction ratio; counts or contraction ratio from `row` on; the share by which readings are
+/// too high; ticks of readings that are gone at `row`; nothing for another rig.
+enum class FaultKind {
+  late,
+  current_scale,
+  current_offset,
+  drift,
+  zero,
+  slipped,
+  reading_scale,
+  rows_lost,
+  another_rig
+};
+
+struct Fault {
+  std::size_t run;
+  FaultKind kind;
+  double size = 0.0;
+  std::size_t row = 0;
+  bool common = false;  ///< all runs have it: it is the recorder's, or it is real
+};
+
+/// Residuals within so many floors [rms] are taken for noise, slow disturbances included.
+inline constexpr double near_floor = 4.0;
+
+/// The faults that take every run near the floor where the rig of `at`, with its free parameters fitted to
+/// all `runs`, does not: a few runs' own, or one that all have in common. None if most of the runs disagree
+/// with the rig in other ways, or if an effect of `catalogue` does nearly as well. Throws
+/// engine::NumericalFailure, run::Interrupted.
+std::vector<Fault> examine(const Experiment& experiment, const Model& at, const Runs& runs,
+                           const std::vector<Candidate>& effects);
+
+}  // namespace mckibben::diagnose

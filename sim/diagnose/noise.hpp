@@ -1,0 +1,32 @@
+// What the instruments cannot see, from the readings themselves: the width of a count, the jitter before it
+// is counted, what equal runs differ by, the noise of gauges.
+#pragma once
+
+#include <vector>
+
+#include <sim/input/dataset.hpp>
+
+namespace mckibben::diagnose {
+
+/// Root mean squares.
+struct NoiseFloor {
+  double count = 0.0;        ///< contraction ratio of one count; 0: the readings are not counted
+  double jitter = 0.0;       ///< of the contraction ratio before it is counted
+  double ratio = 0.0;        ///< of the contraction ratio: the largest of instruments and repeats
+  double repeats = 0.0;      ///< of the contraction ratio, between equal runs; 0: none are equal
+  double pressure_Pa = 0.0;  ///< of the gauge; 0: none fitted
+  bool noisy = false;        ///< the jitter is more than a count of the rig's encoder
+};
+
+/// `masked[run][row]` rows do not count. `trusted` runs are looked at, and compared where they are equal;
+/// none: all are looked at, and none is compared.
+///
+/// Jitter of counted readings: counts that go back and forth. With d the differences from tick to tick, the
+/// mean of -d(k) d(k+1) is 0 for a count that is passed once and grows with the jitter; what it should be at
+/// a speed s, for all phases within a count alike, follows from E[n(k) - n(j)]^2 = E[y^2 + {y}(1 - {y})], y
+/// normal round s (k - j) with twice the jitter's variance, {y} its fraction (a quantiser's second moment;
+/// Widrow & Kollar, Quantization Noise, Cambridge 2008). Of other readings: fourth differences.
+NoiseFloor noise_floor(const input::Dataset& data, const std::vector<std::vector<bool>>& masked,
+                       std::vector<std::size_t> trusted);
+
+}  // namespace mckibben::diagnose

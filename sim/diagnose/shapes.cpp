@@ -1,0 +1,67 @@
+// See the header.
+#include <algorithm>
+
+#include <sim/diagnose/shapes.hpp>
+
+namespace mckibben::diagnose {
+namespace {
+
+/// Rows at which something may have begun, evenly spread.
+constexpr Eigen::Index beginnings = 60;
+
+Eigen::VectorXd from_row(Eigen::VectorXd column, Eigen::Index row) {
+  column.head(row).setZero();
+  return column;
+}
+
+}  // namespace
+
+Eigen::VectorXd lateness(const Eigen::VectorXd& model, int ticks) {
+  Eigen::VectorXd column(model.size());
+  for (Eigen::Index k = 0; k < model.size(); ++k)
+    column[k] = (model[std::clamp<Eigen::Index>(k - ticks, 0, model.size() - 1)] - model[k]) /
+                static_cast<double>(ticks);
+  return column;
+}
+
+Eigen::VectorXd ramp(Eigen::Index rows) {
+  return Eigen::VectorXd::LinSpaced(rows, 0.0, 1.0);
+}
+
+std::vector<Experiment::Change> currents_in_error() {
+  constexpr double share = 0.02, offset_mA = 0.1;
+  return {{[](Hanging& h) {
+             h.rig.valve.zero_current_mA *= 1.0 + share;
+             h.rig.valve.span_current_mA *= 1.0 + share;
+           },
+           share},
+          {[](Hanging& h) {
+             h.rig.valve.zero_current_mA += offset_mA;
+             h.rig.valve.span_current_mA += offset_mA;
+           },
+           offset_mA}};
+}
+
+void each_shape(const Undisturbed& run, const std::function<void(const Shape&)>& visit) {
+  const Eigen::Index rows = run.model.size();
+  visit({FaultKind::zero, 0, 0.0, Eigen::VectorXd::Ones(rows)});
+  visit({FaultKind::drift, 0, 0.0, ramp(rows)});
+  for (int ticks = 1; ticks <= 12; ++ticks)
+    for (const int signed_ticks : {ticks, -ticks})
+      visit({FaultKind::late, 0, static_cast<double>(signed_ticks), lateness(run.model, signed_ticks)});
+  visit({FaultKind::current_scale, 0, 0.0, run.scale});
+  visit({FaultKind::current_offset, 0, 0.0, run.offset});
+  visit({FaultKind::reading_scale, 0, 0.0, run.model});
+  const Eigen::Index stride = std::max<Eigen::Index>(1, rows / beginnings);
+  for (Eigen::Index row = stride; row + stride < rows; row += stride)
+    visit(
+        {FaultKind::slipped, static_cast<std::size_t>(row), 0.0, from_row(Eigen::VectorXd::Ones(rows), row)});
+  for (const int ticks : {2, 5, 10, -2, -5, -10}) {
+    const Eigen::VectorXd early = -lateness(run.model, -ticks);
+    for (Eigen::Index row = stride; row + stride < rows; row += stride)
+      visit({FaultKind::rows_lost, static_cast<std::size_t>(row), static_cast<double>(ticks),
+             from_row(early, row)});
+  }
+}
+
+}  // namespace mckibben::diagnose

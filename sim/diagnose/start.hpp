@@ -1,0 +1,20 @@
+// Whether runs began settled, as the simulation takes it: a rig that is still moving or filling at the first
+// reading disagrees with every model of it, for as long as that lasts.
+#pragma once
+
+#include <string>
+
+#include <plant/rig.hpp>
+#include <sim/diagnose/diagnosis.hpp>
+#include <sim/diagnose/experiment.hpp>
+
+namespace mckibben::diagnose {
+
+/// What is left with the corrected rig in the first seconds of these runs, and which of them move from the
+/// first reading on by more than four counts beyond what that rig does. Throws engine::NumericalFailure.
+Start look_at_start(const Experiment& experiment, const plant::Rig& corrected, const Runs& runs);
+
+/// It in a sentence; empty if there is nothing to suspect, or nothing left to explain.
+std::string sentence_of(const Start& start, const Gap& gap);
+
+}  // namespace mckibben::diagnose

@@ -1,0 +1,29 @@
+// Many runs in a few lines: by load, with the worst named. And how a page leads to the plots of a run.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include <plant/rig.hpp>
+
+namespace mckibben::report {
+
+/// Above so many, a page begins with a summary and its runs are in order of their error, the worst first.
+inline constexpr std::size_t many_runs = 12;
+
+/// One run, how wrong its simulation is, and the group of the page that draws it.
+struct Judged {
+  std::string id;
+  double load_kg = 0.0;
+  double rmse = 0.0;  ///< contraction ratio
+  std::size_t group = 0;
+};
+
+/// A row for each load, the lightest first: how many runs, median and largest error, which run has that.
+std::string by_load_html(const std::vector<Judged>& runs, const plant::Rig& rig);
+
+/// `text`, which leads to the plots of a group.
+std::string link_html(std::size_t group, const std::string& text);
+
+}  // namespace mckibben::report

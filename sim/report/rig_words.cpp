@@ -1,0 +1,66 @@
+// One line for each part.
+#include <tuple>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include <plant/instruments.hpp>
+#include <sim/input/number.hpp>
+#include <sim/output/diagnosis_words.hpp>
+#include <sim/output/svg.hpp>
+#include <sim/report/rig_words.hpp>
+
+namespace mckibben::report {
+namespace {
+
+using output::readable;
+
+std::string mm(double length_m) {
+  return fmt::format("{:.4g} mm", 1e3 * length_m);
+}
+
+std::string muscle(const plant::Muscle& muscle) {
+  return fmt::format("{} long, {} in radius and braided at {:.3g} deg, at rest", mm(muscle.rest_length_m),
+                     mm(muscle.rest_radius_m), muscle.braid_angle_rad / plant::degree_rad);
+}
+
+std::string valve(const plant::Valve& valve) {
+  return fmt::format("{:g} to {:g} mA for {} to {}; supply {}", valve.zero_current_mA, valve.span_current_mA,
+                     readable(valve.zero_pressure_Pa, "Pa"), readable(valve.span_pressure_Pa, "Pa"),
+                     readable(valve.supply_pressure_Pa, "Pa"));
+}
+
+std::string effects(const plant::Effects& effects) {
+  std::vector<std::string> names;
+  const auto note = [&](const auto& effect) {
+    if (!effect.absent()) names.emplace_back(effect.name);
+  };
+  std::apply([&](const auto&... effect) { (note(effect), ...); }, effects.all);
+  return names.empty() ? "none: nominal laws only" : output::listed(names);
+}
+
+}  // namespace
+
+std::string rig_html(const plant::Rig& rig, bool gauge) {
+  std::string html = "<dl class='small'>";
+  const auto part = [&](const char* name, const std::string& says) {
+    html += fmt::format("<dt>{}</dt><dd>{}</dd>\n", name, output::escaped(says));
+  };
+  part("muscle", muscle(rig.muscle));
+  part("wheel", mm(rig.joint.wheel_radius_m) + " in radius" +
+                    (rig.joint.load_offset_kg == 0.0
+                         ? ""
+                         : "; " + readable(rig.joint.load_offset_kg, "kg") + " hang on it besides the load"));
+  part("encoder", "on the wheel: a count is " + readable(plant::count_height_m(rig.encoder, rig.joint), "m") +
+                      " of height");
+  part("valve", valve(rig.valve));
+  part("hose", "sonic conductance " + readable(rig.hose.conductance_m3_per_s_Pa, "m3/(s.Pa)"));
+  part("gauge", !gauge ? "none"
+                : rig.gauge.resolution_Pa > 0
+                    ? "on the muscle, in steps of " + readable(rig.gauge.resolution_Pa, "Pa")
+                    : "on the muscle");
+  part("effects", effects(rig.effects));
+  return html + "</dl>\n";
+}
+
+}  // namespace mckibben::report

@@ -1,0 +1,228 @@
+// See the header. Units are suspected from the slope of what was measured over what the rig would do.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include <plant/geometry.hpp>
+#include <sim/input/column_hints.hpp>
+#include <sim/run/column_sanity.hpp>
+#include <sim/run/series.hpp>
+#include <sim/run/simulate.hpp>
+
+namespace mckibben::run {
+namespace {
+
+using input::ColumnPlace;
+using input::line_of;
+using Series = std::vector<double>;
+
+constexpr double bar_Pa = 1e5;
+constexpr double same = 1.25;                // factors as near as that are one
+constexpr double near_one = 2.0, far = 5.0;  // factors that effects reach; that nothing but a unit does
+constexpr double alike = 0.8;                // correlation with the model, if only the unit is wrong
+constexpr double moves = 20.0;               // counts
+
+double largest(const Series& values) {
+  return *std::max_element(values.begin(), values.end());
+}
+double lowest(const Series& values) {
+  return *std::min_element(values.begin(), values.end());
+}
+
+ColumnPlace with_unit(ColumnPlace place, std::string unit) {
+  place.unit = std::move(unit);
+  return place;
+}
+
+/// What one of a unit is as a contraction ratio.
+double ratio_of(const std::string& unit, const plant::Rig& rig) {
+  input::Table one;
+  one.columns.push_back({"contraction_ratio", "", 0, {1.0}});
+  input::ColumnMap map;
+  map.contraction = {"one", unit};
+  input::convert_columns(one, map, rig);
+  return one.columns.front().values.front();
+}
+
+/// Rows in which nothing but the scale differs.
+bool only_scaled(const Series& measured, const Series& model, double factor) {
+  double scaled = 0.0, as_is = 0.0;
+  for (std::size_t k = 0; k < model.size(); ++k) {
+    scaled += std::pow(measured[k] / factor - model[k], 2);
+    as_is += std::pow(measured[k] - model[k], 2);
+  }
+  return scaled < 0.04 * as_is;
+}
+
+class Columns {
+ public:
+  Columns(const input::Dataset& data, std::vector<Finding>& findings)
+      : data_(data),
+        findings_(findings),
+        longest_(plant::Braid(data.rig.muscle).largest_contraction_ratio()) {}
+
+  void look(std::size_t i, const Expected& expected) {
+    const input::Run& run = data_.runs[i];
+    map_ = with_names(input::merged(data_.columns, run.columns));
+    run_ = i;
+    if (exchanged(run)) return;
+    current(run);
+    if (expected.contraction_ratio.size() != run.contraction_ratio.size()) return;
+    contraction(run.contraction_ratio, expected.contraction_ratio);
+    if (run.muscle_pressure_Pa) pressure(*run.muscle_pressure_Pa, expected.pressure_Pa);
+  }
+
+ private:
+  static input::ColumnMap with_names(input::ColumnMap map) {
+    if (map.current.absent()) map.current = {"current_mA", "mA"};
+    if (map.contraction.absent()) map.contraction = {"contraction_ratio", "1"};
+    if (map.muscle_pressure.absent()) map.muscle_pressure = {"muscle_pressure_bar", "bar"};
+    return map;
+  }
+
+  /// One finding for all runs of which the same is to be said; `seen` is of the first.
+  void find(const char* quantity, const std::string& seen, const std::string& so) {
+    const auto same_as = [&](const Finding& finding) { return finding.message.ends_with(so); };
+    const auto found = std::find_if(findings_.begin(), findings_.end(), same_as);
+    if (found == findings_.end())
+      findings_.push_back({quantity, {run_}, fmt::format("{}{}", seen, so)});
+    else
+      found->runs.push_back(run_);
+  }
+  static std::string mend(std::string_view what, std::string_view line) {
+    return fmt::format("{}; write columns: {{{}}}", what, line);
+  }
+
+  bool exchanged(const input::Run& run) {
+    if (!run.muscle_pressure_Pa) return false;
+    const double most_bar = largest(*run.muscle_pressure_Pa) / bar_Pa;
+    if (most_bar < 1.2 * data_.rig.valve.supply_pressure_Pa / bar_Pa ||
+        most_bar > data_.rig.dac.largest_current_mA + 1e-6 ||
+        largest(run.current_mA) > 1.05 * data_.rig.valve.supply_pressure_Pa / bar_Pa)
+      return false;
+    std::swap(map_.current.column, map_.muscle_pressure.column);
+    find("muscle_pressure",
+         fmt::format("muscle_pressure is up to {:.4g} bar, more than the supply has, and the current up to "
+                     "{:.3g} mA: ",
+                     most_bar, largest(run.current_mA)),
+         mend("these two columns look exchanged",
+              fmt::format("{}, {}", line_of("current", map_.current),
+                          line_of("muscle_pressure", map_.muscle_pressure))));
+    return true;
+  }
+
+  void current(const input::Run& run) {
+    const double dead_mA = data_.rig.valve.zero_current_mA;
+    const double amperes_mA = data_.rig.valve.span_current_mA / 400.0;
+    const double most_mA = largest(run.current_mA);
+    const std::string never = fmt::format("current: never above {:.3g} mA", most_mA);
+    if (most_mA > 0.0 && most_mA < amperes_mA)
+      find("current", never,
+           mend("; this looks like amperes, not mA", line_of("current", with_unit(map_.current, "A"))));
+    else if (most_mA < dead_mA && range(run.contraction_ratio) > moves * contraction_per_count(data_.rig))
+      find("current", never,
+           fmt::format(", where the valve does nothing (below {:.3g} mA), yet the muscle moves; is this "
+                       "another unit, or a share of the range? unit, zero and factor in columns: current "
+                       "say so",
+                       dead_mA));
+  }
+
+  void contraction(const Series& measured, const Series& model) {
+    if (range(model) <= moves * contraction_per_count(data_.rig)) return;
+    const Line line(measured, model);
+    ColumnPlace meant = map_.contraction;
+    if (line.slope < -0.3 && line.correlation < -0.5) {
+      meant.factor = -meant.factor;
+      find(
+          "contraction",
+          fmt::format("contraction goes from {:.3g} to {:.3g}: ", measured.front(), lowest(measured)),
+          mend("it falls while the current rises; its sign is the other one", line_of("contraction", meant)));
+      return;
+    }
+    if (line.slope <= 0.0 || line.correlation < alike) return;
+    const auto unit = contraction_unit(measured, model, line.slope);
+    if (!unit) return;
+    meant = with_unit(std::move(meant), *unit);
+    const std::string seen = fmt::format("contraction is up to {:.4g}, {:.3g} times what the rig would do; ",
+                                         largest(measured), line.slope);
+    if (unit->empty())
+      find("contraction", seen,
+           "this looks like a ratio that was divided by the rest length in millimetres, as if it were mm");
+    else
+      find("contraction", seen,
+           mend(fmt::format("this looks like {}, not {}", in_words(*unit), in_words(map_.contraction.unit)),
+                line_of("contraction", meant)));
+  }
+
+  /// The unit that explains the slope; empty for a ratio that was taken for mm before.
+  std::optional<std::string> contraction_unit(const Series& measured, const Series& model,
+                                              double slope) const {
+    const double as_read = ratio_of(map_.contraction.unit, data_.rig);
+    std::optional<std::string> found;
+    double nearest = std::log(same);
+    const auto consider = [&](const std::string& unit, double factor) {
+      // What a muscle can do may be another load or another supply just as well.
+      if (factor > 1.0 && largest(measured) < 1.2 * longest_) return;
+      const double size = std::abs(std::log(factor)), off = std::abs(std::log(slope / factor));
+      if (size < std::log(near_one) || off > nearest) return;
+      if (size < std::log(far) && !only_scaled(measured, model, factor)) return;
+      nearest = off;
+      found = unit;
+    };
+    for (const char* unit : {"1", "%", "mm", "cm", "m", "in", "count", "deg", "rad"})
+      consider(unit, as_read / ratio_of(unit, data_.rig));
+    if (map_.contraction.unit == "1") consider("", ratio_of("mm", data_.rig));
+    return found;
+  }
+
+  static std::string in_words(const std::string& unit) {
+    if (unit == "1") return "a ratio";
+    if (unit == "%") return "per cent";
+    if (unit == "mm") return "millimetres (mm)";
+    if (unit == "m") return "metres";
+    return unit == "count" ? "counts" : unit;
+  }
+
+  void pressure(const Series& shown, const Series& model) {
+    const Line line(shown, model);
+    ColumnPlace meant = map_.muscle_pressure;
+    if (range(model) > 0.3 * bar_Pa) {
+      for (const auto& [factor, unit] :
+           {std::pair{100.0, "kPa"}, {14.504, "psi"}, {1e3, "mbar"}, {0.1, "MPa"}, {1e5, "Pa"}}) {
+        if (line.slope <= 0.0 || std::abs(std::log(line.slope / factor)) > std::log(same)) continue;
+        find("muscle_pressure", fmt::format("muscle_pressure is up to {:.4g} bar; ", largest(shown) / bar_Pa),
+             mend(fmt::format("this looks like {}, not bar", unit),
+                  line_of("muscle_pressure", with_unit(map_.muscle_pressure, unit))));
+      }
+      if (line.slope < 0.5 || line.slope > 2.0) return;
+    }
+    const auto an_atmosphere = [&](double difference_Pa) {
+      return std::abs(difference_Pa / data_.rig.gas.atmosphere_Pa - 1.0) < 0.2;
+    };
+    if (!an_atmosphere(line.mean_difference) || !an_atmosphere(lowest(shown) - lowest(model))) return;
+    if (meant.unit == "bar") meant.zero += data_.rig.gas.atmosphere_Pa / bar_Pa / meant.factor;
+    find("muscle_pressure", "muscle_pressure is about one atmosphere too high; ",
+         mend("this looks like absolute, not gauge pressure: the zero takes the atmosphere off",
+              line_of("muscle_pressure", meant)));
+  }
+
+  const input::Dataset& data_;
+  std::vector<Finding>& findings_;
+  double longest_;  ///< contraction ratio that a muscle reaches without a load
+  input::ColumnMap map_;
+  std::size_t run_ = 0;
+};
+
+}  // namespace
+
+void check_columns(const input::Dataset& data, const std::vector<Expected>& expected,
+                   std::vector<Finding>& findings) {
+  Columns columns(data, findings);
+  for (std::size_t i = 0; i < data.runs.size(); ++i)
+    if (!data.runs[i].current_mA.empty()) columns.look(i, expected[i]);
+}
+
+}  // namespace mckibben::run

@@ -1,0 +1,170 @@
+// See the header. With each effect of the catalogue and with muscles a third stronger or weaker, what runs
+// seem to carry is off by a factor common to all, and by less than half of the difference of their loads.
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include <plant/geometry.hpp>
+#include <sim/input/number.hpp>
+#include <sim/run/load_sanity.hpp>
+
+namespace mckibben::run {
+namespace {
+
+using Series = std::vector<double>;
+
+constexpr double lifted = 0.01;            // contraction ratio of a load that hangs and does not rest
+constexpr std::size_t least_rows = 40;     // of those
+constexpr double least_difference = 0.08;  // of loads that are compared, of the heavier one
+constexpr double reversed = 0.5;           // of that difference: so far the other way round
+constexpr double agrees = 0.35;            // the same with the labels exchanged
+
+double median(Series values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+struct Weighed {
+  std::size_t run;
+  double label_kg, seems_kg;
+};
+
+/// What the braid carries at what was measured, in the middle of what friction makes of it. Where the
+/// simulated load hangs as well, by how much more it carries than that one: what the simulation is off by in
+/// friction and inertia, the measurement is too.
+std::optional<Weighed> weigh(const plant::Braid& braid, std::size_t index, const input::Run& run,
+                             const Expected& expected) {
+  const auto carried_kg = [&](double contraction_ratio, std::size_t k) {
+    return braid.force_N(contraction_ratio, expected.pressure_Pa[k]) / plant::gravity_m_per_s2;
+  };
+  Series plain_kg, compared_kg;
+  for (std::size_t k = 0; k < std::min(run.contraction_ratio.size(), expected.pressure_Pa.size()); ++k) {
+    const double measured = run.contraction_ratio[k], simulated = expected.contraction_ratio[k];
+    if (measured < lifted || !braid.in_domain(measured)) continue;
+    plain_kg.push_back(carried_kg(measured, k));
+    if (simulated > lifted) compared_kg.push_back(run.load_kg + plain_kg.back() - carried_kg(simulated, k));
+  }
+  if (plain_kg.size() < least_rows) return std::nullopt;
+  const bool both = 2 * compared_kg.size() > plain_kg.size();
+  return Weighed{index, run.load_kg, median(std::move(both ? compared_kg : plain_kg))};
+}
+
+std::vector<Weighed> weigh(const input::Dataset& data, const std::vector<Expected>& expected) {
+  const plant::Braid braid(data.rig.muscle);
+  std::vector<Weighed> list;
+  for (std::size_t i = 0; i < data.runs.size(); ++i)
+    if (const auto one = weigh(braid, i, data.runs[i], expected[i])) list.push_back(*one);
+  return list;
+}
+
+double common_ratio(const std::vector<Weighed>& list) {
+  Series ratios;
+  for (const Weighed& one : list) ratios.push_back(one.seems_kg / one.label_kg);
+  return median(std::move(ratios));
+}
+
+std::vector<std::size_t> runs_of(const std::vector<Weighed>& list) {
+  std::vector<std::size_t> runs;
+  runs.reserve(list.size());
+  for (const Weighed& one : list) runs.push_back(one.run);
+  return runs;
+}
+
+/// A load that is written in another unit: what is carried over what is written. A muscle of half or twice
+/// the force comes near to pounds, none to the others.
+struct LoadUnit {
+  double ratio, near, sure;  ///< `near`, `sure`: factors
+  const char* says;
+};
+
+std::optional<Finding> other_unit(const std::vector<Weighed>& list) {
+  constexpr LoadUnit units[] = {
+      {1e3, 2.0, 2.0, "kg that are written in g: write kg"},
+      {1.0 / plant::gravity_m_per_s2, 1.25, 1.25, "N, not kg: write the mass, N / 9.81"},
+      {0.45359237, 1.2, 1.08, "pounds, not kg: write lb"}};
+  const double ratio = common_ratio(list);
+  if (ratio <= 0.0) return std::nullopt;
+  for (const LoadUnit& unit : units) {
+    const double off = std::abs(std::log(ratio / unit.ratio));
+    if (off > std::log(unit.near)) continue;
+    return Finding{
+        "load", runs_of(list),
+        fmt::format("load = {} kg, but it moves like {:.3g} kg, and all loads are off by about that "
+                    "factor; these look like {}",
+                    input::write_number(list.front().label_kg), list.front().seems_kg, unit.says),
+        off < std::log(unit.sure)};
+  }
+  return std::nullopt;
+}
+
+/// How much nearer the labels of two runs come to what they seem to weigh if they are exchanged; 0 if they
+/// contradict the order of the loads too little.
+double gain(const Weighed& a, const Weighed& b) {
+  const double difference_kg = b.label_kg - a.label_kg;
+  if (difference_kg < 0.0) return gain(b, a);
+  const double least_kg = least_difference * b.label_kg;
+  const double reversed_kg = a.seems_kg - b.seems_kg;
+  if (difference_kg < least_kg || reversed_kg < std::max(reversed * difference_kg, least_kg)) return 0.0;
+  return reversed_kg * difference_kg;
+}
+
+/// The labels exchanged in pairs, the worst first, until heavier ones contract less.
+std::vector<Weighed> in_order(std::vector<Weighed> list) {
+  for (std::size_t swaps = 0; swaps < list.size(); ++swaps) {
+    double most = 0.0;
+    std::pair<std::size_t, std::size_t> worst;
+    for (std::size_t a = 0; a < list.size(); ++a)
+      for (std::size_t b = 0; b < a; ++b)
+        if (const double better = gain(list[a], list[b]); better > most) {
+          most = better;
+          worst = {a, b};
+        }
+    if (most == 0.0) break;
+    std::swap(list[worst.first].label_kg, list[worst.second].label_kg);
+  }
+  return list;
+}
+
+std::optional<Finding> exchanged_labels(const input::Dataset& data, const std::vector<Weighed>& list) {
+  const std::vector<Weighed> ordered = in_order(list);
+  const double scale = common_ratio(ordered);
+  Finding finding{"load", {}, "", false};
+  std::string written, seems;
+  bool all_agree = true;
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    const double label_kg = list[i].label_kg, other_kg = ordered[i].label_kg;
+    if (label_kg == other_kg) continue;
+    finding.runs.push_back(list[i].run);
+    finding.exchanged.push_back({list[i].run, other_kg});
+    all_agree = all_agree && std::abs(list[i].seems_kg - scale * other_kg) <
+                                 agrees * std::abs(label_kg - other_kg) * scale;
+    const std::string& id = data.runs[list[i].run].id;
+    const char* const comma = written.empty() ? "" : ", ";
+    written += fmt::format("{}load: {} kg for {}", comma, input::write_number(other_kg), id);
+    seems += fmt::format("{}{} ({} kg) like {:.1f} kg", comma, id, input::write_number(label_kg),
+                         list[i].seems_kg);
+  }
+  if (finding.runs.empty()) return std::nullopt;
+  if (!all_agree) finding.exchanged.clear();
+  finding.message =
+      fmt::format("at equal pressure a heavier load contracts less, but {}: {}", seems,
+                  all_agree ? "these labels look exchanged; write " + written
+                            : "are the labels right, and were the encoders set to zero at the same place?");
+  return finding;
+}
+
+}  // namespace
+
+void check_loads(const input::Dataset& data, const std::vector<Expected>& expected,
+                 std::vector<Finding>& findings) {
+  const std::vector<Weighed> list = weigh(data, expected);
+  if (list.empty()) return;
+  auto found = other_unit(list);
+  if (!found) found = exchanged_labels(data, list);
+  if (found) findings.push_back(std::move(*found));
+}
+
+}  // namespace mckibben::run

@@ -1,0 +1,15 @@
+// Loads weighed by the muscle: at equal pressure a heavier one contracts less. Static and quick: the braid
+// force at what was measured, with the pressure that the rig would have, less the same of the simulation.
+#pragma once
+
+#include <vector>
+
+#include <sim/run/sanity.hpp>
+
+namespace mckibben::run {
+
+/// All loads in another unit; labels that two or more runs have of each other. Adds to `findings`.
+void check_loads(const input::Dataset& data, const std::vector<Expected>& expected,
+                 std::vector<Finding>& findings);
+
+}  // namespace mckibben::run

@@ -1,0 +1,41 @@
+// What a run that came to its end should not be believed without a word.
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include <sim/run/recording.hpp>
+
+namespace mckibben::run {
+namespace {
+
+/// Share of gas or work that a ledger may leave unexplained.
+constexpr double most_imbalance = 1e-4;
+
+/// Below the atmosphere by more than this [Pa], a tube no longer fills its braid.
+constexpr double suction_Pa = 100.0;
+
+}  // namespace
+
+std::vector<std::string> doubts(const Recording& recording) {
+  std::vector<std::string> found;
+  const auto& [gas, energy] = recording.imbalance;
+  if (!(std::max(gas, energy) <= most_imbalance))
+    found.push_back(fmt::format(
+        "the ledger leaves {:.2g} % of the gas and {:.2g} % of the work unexplained: the integration "
+        "is no more exact than that; a tighter integrator.tolerance helps",
+        100.0 * gas, 100.0 * energy));
+  if (recording.samples.empty()) return found;
+  const auto lowest = std::min_element(
+      recording.samples.begin(), recording.samples.end(), [](const Sample& a, const Sample& b) {
+        return a.state.side.muscle_pressure_Pa < b.state.side.muscle_pressure_Pa;
+      });
+  if (lowest->state.side.muscle_pressure_Pa < -suction_Pa)
+    found.push_back(fmt::format(
+        "the muscle's pressure falls to {:.3g} bar below the atmosphere at {:.3f} s, because it grows faster "
+        "than the hose fills it: a real tube would collapse there, while the braid law lets it push",
+        -lowest->state.side.muscle_pressure_Pa / 1e5, lowest->time_s));
+  return found;
+}
+
+}  // namespace mckibben::run

@@ -1,0 +1,105 @@
+// Words for limits and tunings; see the header.
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include <sim/input/number.hpp>
+#include <sim/run/remarks.hpp>
+#include <sim/run/simulate.hpp>
+
+namespace mckibben::run {
+namespace {
+
+constexpr double worth_saying = 0.01;
+constexpr double no_gain = 0.95;  // of the cost without feedback
+
+/// Without the DAC's rounding, which would fill the text with digits.
+std::string current(double value_mA) {
+  return input::write_number(std::round(100.0 * value_mA) / 100.0) + " mA";
+}
+
+std::string place_and_share(bool low, const controllers::CurrentRange& limits, double share) {
+  return fmt::format("at its {} current, {}, for {:.0f} % of the time", low ? "lowest" : "highest",
+                     current(low ? limits.lowest_mA : limits.highest_mA), 100.0 * share);
+}
+
+/// Why it stood there, and the key to change: the controller's own limit, or the valve's.
+std::string cause(bool low, const controllers::CurrentRange& limits, const plant::Rig& rig) {
+  const auto valve = controllers::working_range(knowledge_of(rig, {}));
+  const double step_mA = rig.dac.largest_current_mA / std::ldexp(1.0, rig.dac.bits);
+  if (low && limits.lowest_mA > valve.lowest_mA + step_mA)
+    return fmt::format("the rig's valve goes down to {}: lower lowest_current", current(valve.lowest_mA));
+  if (!low && limits.highest_mA < valve.highest_mA - step_mA)
+    return fmt::format("the rig's valve goes up to {}: raise highest_current", current(valve.highest_mA));
+  return low ? "the target asks for less pressure than the valve gives: a target that stays higher, a "
+               "heavier load or a lower valve.zero_pressure would help"
+             : "the target asks for more pressure than the valve gives: a lower target, a lighter load or a "
+               "higher valve.span_pressure (and supply_pressure) would help";
+}
+
+std::string limit_warning(const Metrics& metrics, const std::optional<controllers::CurrentRange>& limits,
+                          const plant::Rig& rig) {
+  const double lowest = metrics.at_lowest_current.value_or(0.0);
+  const double highest = metrics.at_highest_current.value_or(0.0);
+  if (!limits || lowest + highest < mostly) return "";
+  const bool low = lowest >= highest;
+  return fmt::format("it stood {}; {}", place_and_share(low, *limits, low ? lowest : highest),
+                     cause(low, *limits, rig));
+}
+
+}  // namespace
+
+double share_at_limit(const TrackedRun& run) {
+  return run.metrics.at_lowest_current.value_or(0.0) + run.metrics.at_highest_current.value_or(0.0);
+}
+
+std::string limit_words(const Comparison& comparison, std::string_view controller) {
+  const TrackedRun* most = nullptr;
+  double lowest = 0.0, highest = 0.0, runs = 0.0;
+  for (const TrackedRun& run : comparison.runs) {
+    if (run.controller != controller || !run.failure.empty() || !run.limits) continue;
+    lowest += *run.metrics.at_lowest_current;
+    highest += *run.metrics.at_highest_current;
+    runs += 1.0;
+    if (most == nullptr || share_at_limit(run) > share_at_limit(*most)) most = &run;
+  }
+  if (most == nullptr || (lowest + highest) / runs < worth_saying) return "";
+  std::string words;
+  if (lowest > 0.0) words = place_and_share(true, *most->limits, lowest / runs);
+  if (highest > 0.0)
+    words += (words.empty() ? "" : " and ") + place_and_share(false, *most->limits, highest / runs);
+  if (runs > 1.0)
+    words += fmt::format(" (with {} kg for {:.0f} %)", input::write_number(most->load_kg),
+                         100.0 * share_at_limit(*most));
+  return "stood " + words;
+}
+
+std::string limit_warning(const TrackedRun& run, const plant::Rig& rig) {
+  return limit_warning(run.metrics, run.limits, rig);
+}
+
+bool gained_nothing(const TunedController& tuned) {
+  return tuned.failure.empty() && tuned.idle_cost && tuned.tuned.cost > no_gain * *tuned.idle_cost;
+}
+
+bool in_doubt(const Comparison& comparison, std::string_view controller) {
+  const auto has = [&](const auto& list, const auto& is_bad) {
+    return std::any_of(list.begin(), list.end(),
+                       [&](const auto& one) { return one.controller == controller && is_bad(one); });
+  };
+  return has(comparison.runs, [](const TrackedRun& run) { return share_at_limit(run) >= mostly; }) ||
+         has(comparison.tuned, gained_nothing);
+}
+
+std::string tuning_warning(const TunedController& tuned, const plant::Rig& rig) {
+  const std::string limit = limit_warning(tuned.metrics, tuned.limits, rig);
+  return fmt::format(
+      "its tuning gained nothing: the cost is {:.3g}, without any feedback {:.3g}; {}", tuned.tuned.cost,
+      *tuned.idle_cost,
+      limit.empty() ? "feedback does not help with this target: can the load follow it (tuning_load), is the "
+                      "delay too long (feedback_delay_ticks)?"
+                    : limit);
+}
+
+}  // namespace mckibben::run

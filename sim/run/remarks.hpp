@@ -1,0 +1,36 @@
+// What must be said beside the figures of a comparison: controllers that stood at a limit of their current,
+// tunings that gained nothing. Table, report and warnings take their words from here.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include <plant/rig.hpp>
+#include <sim/run/compare.hpp>
+
+namespace mckibben::run {
+
+/// From this share of the time on at a limit, a run says more of the limit than of its controller.
+inline constexpr double mostly = 0.5;
+
+/// Share of a run's ticks at the lowest or highest current of its controller; 0 where it has no limits.
+double share_at_limit(const TrackedRun& run);
+
+/// How often a controller stood at a limit, over its runs: "stood at its lowest current, 4 mA, for 7 % of the
+/// time (with 8.87 kg for 31 %)". Empty below 1 %.
+std::string limit_words(const Comparison& comparison, std::string_view controller);
+
+/// The same of one run, with what would help: for a warning. Empty unless it stood there `mostly`.
+std::string limit_warning(const TrackedRun& run, const plant::Rig& rig);
+
+/// True if the tuned gains follow the target no better than no feedback at all.
+bool gained_nothing(const TunedController& tuned);
+
+/// That it gained nothing, the likely cause, and the key to change. Only if so.
+std::string tuning_warning(const TunedController& tuned, const plant::Rig& rig);
+
+/// True if a small error says little for a controller: in some run it stood mostly at a limit, or its tuning
+/// gained nothing.
+bool in_doubt(const Comparison& comparison, std::string_view controller);
+
+}  // namespace mckibben::run

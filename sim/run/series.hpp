@@ -1,0 +1,38 @@
+// Two series of readings beside each other: ranges and straight lines.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <span>
+
+namespace mckibben::run {
+
+/// Largest less smallest.
+inline double range(std::span<const double> values) {
+  const auto [low, high] = std::minmax_element(values.begin(), values.end());
+  return *high - *low;
+}
+
+/// Straight line through `values` over `model`; its slope is 0 where the model stands still, and its
+/// correlation where one of them does.
+struct Line {
+  double slope = 0.0, correlation = 0.0, mean_difference = 0.0;
+
+  Line(std::span<const double> values, std::span<const double> model) {
+    const auto rows = static_cast<double>(values.size());
+    const double mean = std::accumulate(values.begin(), values.end(), 0.0) / rows;
+    const double model_mean = std::accumulate(model.begin(), model.end(), 0.0) / rows;
+    double along = 0.0, squares = 0.0, model_squares = 0.0;
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      along += (values[k] - mean) * (model[k] - model_mean);
+      squares += (values[k] - mean) * (values[k] - mean);
+      model_squares += (model[k] - model_mean) * (model[k] - model_mean);
+    }
+    if (model_squares > 0.0) slope = along / model_squares;
+    if (model_squares > 0.0 && squares > 0.0) correlation = along / std::sqrt(squares * model_squares);
+    mean_difference = mean - model_mean;
+  }
+};
+
+}  // namespace mckibben::run

@@ -1,0 +1,30 @@
+// The gains that a controller of a scenario leaves open, tuned on the scenario's own target at one load.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+
+#include <sim/input/scenario.hpp>
+#include <sim/run/metrics.hpp>
+#include <sim/run/tune_pid.hpp>
+
+namespace mckibben::run {
+
+/// Gains found for a PID that left some open.
+struct TunedController {
+  std::string controller;
+  double load_kg = 0.0;
+  Tuned tuned{};
+  std::string failure{};                              ///< why no gains were found; empty if they were
+  std::optional<double> idle_cost{};                  ///< without feedback: proportional gain 0
+  Metrics metrics{};                                  ///< with the tuned gains
+  std::optional<controllers::CurrentRange> limits{};  ///< of its current, as the DAC gives them
+};
+
+/// Tunes `settings` and fills the gains in. `knowledge` holds the target; `tried` hears of each trial.
+/// Throws Interrupted.
+TunedController tune_controller(const input::Scenario& scenario, const controllers::Knowledge& knowledge,
+                                controllers::Settings& settings, const std::function<void()>& tried);
+
+}  // namespace mckibben::run

@@ -1,0 +1,77 @@
+// See the header.
+#include "corrupted_benchmark.hpp"
+
+#include <algorithm>
+#include <chrono>
+
+#include <fmt/format.h>
+
+#include <sim/diagnose/diagnose.hpp>
+#include <sim/input/diagnostics.hpp>
+
+#include "corruptions.hpp"
+
+namespace mckibben::diagnose {
+namespace {
+
+struct Said {
+  std::string verdict, sentence;
+  std::vector<std::string> effects{};
+};
+
+Said said_of(const input::Dataset& data, std::uint64_t seed) {
+  try {
+    const auto found = diagnose(data, {.threads = 0, .seed = seed}, [](auto, auto, auto) {});
+    Said said{.verdict = {}, .sentence = found.because};
+    for (const auto& [value, name] : names(found.verdict))
+      if (value == found.verdict) said.verdict = name;
+    for (const auto& effect : found.effects) said.effects.push_back(effect.name);
+    return said;
+  } catch (const input::BadInput& bad) {
+    return {.verdict = "refused", .sentence = bad.what()};
+  }
+}
+
+bool names_it(const Corruption& corruption, const std::string& sentence) {
+  return sentence.find(corruption.run) != std::string::npos &&
+         std::any_of(corruption.culprit.begin(), corruption.culprit.end(),
+                     [&](const std::string& word) { return sentence.find(word) != std::string::npos; });
+}
+
+}  // namespace
+
+void score_corrupted(std::uint64_t seed, const std::string& only) {
+  int all = 0, wrong = 0, named = 0, within_noise = 0, kept = 0, hidden_effects = 0;
+  for (const Hidden& base : sound_data(seed)) {
+    for (const Corruption& corruption : corruptions()) {
+      const std::string label = base.title + ": " + corruption.name;
+      if (label.find(only) == std::string::npos) continue;
+      input::Dataset data = base.data;
+      corruption.spoil(data);
+      const auto start = std::chrono::steady_clock::now();
+      const Said said = said_of(data, seed);
+      const double took_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+      const bool right = names_it(corruption, said.sentence);
+      const bool wrongly = std::any_of(said.effects.begin(), said.effects.end(), [&](const auto& effect) {
+        return std::find(base.effects.begin(), base.effects.end(), effect) == base.effects.end();
+      });
+      const bool silent = said.verdict == "nothing_missing" && !right;
+      ++all;
+      named += right ? 1 : 0;
+      wrong += wrongly ? 1 : 0;
+      within_noise += silent ? 1 : 0;
+      hidden_effects += base.effects.empty() ? 0 : 1;
+      kept += !said.effects.empty() && !wrongly ? 1 : 0;
+      fmt::print("{:<56} {:<16} {:<26} {:6.1f} s  {}{}{}\n    {}\n", label, said.verdict,
+                 fmt::join(said.effects, " + "), took_s, right ? "" : "NOT NAMED ",
+                 wrongly ? "WRONG NAME " : "", silent ? "WITHIN NOISE" : "", said.sentence);
+      std::fflush(stdout);
+    }
+  }
+  fmt::print("{:<44} {:>4} of {}\n", "culprits named", named, all);
+  fmt::print("{:<44} {:>4} of {}\n", "wrong names", wrong, all);
+  fmt::print("{:<44} {:>4} of {}\n", "\"within noise\", no culprit named", within_noise, all);
+  fmt::print("{:<44} {:>4} of {}\n", "effects named all the same", kept, hidden_effects);
+}
+
+}  // namespace mckibben::diagnose

@@ -1,0 +1,227 @@
+// See the header.
+#include "corruptions.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include <sim/diagnose/predict.hpp>
+#include <sim/run/simulate.hpp>
+
+namespace mckibben::diagnose {
+namespace {
+
+constexpr double length_m = 0.3;  // of the muscle: what a mm is in contraction ratio
+constexpr std::size_t rows = 660;
+
+std::size_t kind_of(const std::string& name) {
+  for (std::size_t kind = 0; kind < kinds(); ++kind)
+    if (title(kind) == name) return kind;
+  throw std::logic_error("no data set hides " + name);
+}
+
+/// The same six of the nine runs, cut to one length: every load, all kinds of current but one.
+Hidden six_runs(const std::string& name, std::uint64_t seed) {
+  Hidden hidden = hide(kind_of(name), seed);
+  std::vector<input::Run> kept;
+  for (const std::size_t run : {0u, 1u, 3u, 4u, 6u, 7u}) {
+    kept.push_back(std::move(hidden.data.runs[run]));
+    kept.back().current_mA.resize(std::min(rows, kept.back().current_mA.size()));
+    kept.back().contraction_ratio.resize(kept.back().current_mA.size());
+    kept.back().id = "r0" + std::to_string(kept.size());
+    kept.back().file = kept.back().id + ".csv";
+  }
+  hidden.data.runs = std::move(kept);
+  hidden.data.path = "corrupted/dataset.yaml";
+  return hidden;
+}
+
+using Series = std::vector<double>;
+
+input::Run& run(input::Dataset& data, std::size_t number) {
+  return data.runs[number - 1];
+}
+
+/// Readings that come some ticks late; early if negative.
+void late(input::Run& run, int ticks) {
+  const Series was = run.contraction_ratio;
+  const auto last = static_cast<int>(was.size()) - 1;
+  for (int k = 0; k <= last; ++k)
+    run.contraction_ratio[static_cast<std::size_t>(k)] =
+        was[static_cast<std::size_t>(std::clamp(k - ticks, 0, last))];
+}
+
+double counted(const input::Dataset& data, double ratio) {
+  const double count = run::contraction_per_count(data.rig);
+  return count * std::floor(ratio / count + 0.5);
+}
+
+/// A straight line added to the readings, from 0 to so much at the end.
+void drift(const input::Dataset& data, input::Run& run, double end_mm) {
+  const auto all = static_cast<double>(run.contraction_ratio.size());
+  for (std::size_t k = 0; k < run.contraction_ratio.size(); ++k)
+    run.contraction_ratio[k] =
+        counted(data, run.contraction_ratio[k] + 1e-3 * end_mm / length_m * static_cast<double>(k) / all);
+}
+
+/// So many counts more from a row on.
+void slip(const input::Dataset& data, input::Run& run, std::size_t row, int counts) {
+  for (std::size_t k = row; k < run.contraction_ratio.size(); ++k)
+    run.contraction_ratio[k] += counts * run::contraction_per_count(data.rig);
+}
+
+/// The run made again on the nominal rig with something wrong in it that the table does not tell.
+void make_again(input::Dataset& data, input::Run& run, const Series& true_current_mA, double load_kg,
+                const plant::Rig& truth) {
+  input::Run moved = run;
+  moved.current_mA = true_current_mA;
+  const Hanging hanging{truth, load_kg};
+  const auto readings = predict(moved, {&hanging, 1}).front().contraction_ratio;
+  const double count = run::contraction_per_count(data.rig);
+  for (std::size_t k = 0; k < readings.size(); ++k)
+    run.contraction_ratio[k] = count * std::floor(readings[k] / count);
+}
+
+void lose_rows(input::Run& run, std::size_t row, std::size_t count) {
+  const auto cut = [&](Series& values) {
+    const auto begin = values.begin() + static_cast<std::ptrdiff_t>(row);
+    values.erase(begin, begin + static_cast<std::ptrdiff_t>(count));
+  };
+  cut(run.contraction_ratio);
+  run.current_mA.resize(run.contraction_ratio.size());
+}
+
+}  // namespace
+
+const std::vector<Corruption>& corruptions() {
+  using Data = input::Dataset;
+  const auto each = [](auto change) {
+    return [change](Data& data) {
+      for (input::Run& one : data.runs) change(data, one);
+    };
+  };
+  static const std::vector<Corruption> list = {
+      {"late 3", "r02", {"late"}, [](Data& d) { late(run(d, 2), 3); }},
+      {"late 1", "r03", {"late"}, [](Data& d) { late(run(d, 3), 1); }},
+      {"early 2", "r05", {"early"}, [](Data& d) { late(run(d, 5), -2); }},
+      {"late 5 twice", "r04", {"late"}, [](Data& d) { late(run(d, 1), 5), late(run(d, 4), 5); }},
+      {"late 2 everywhere", "", {"late"}, each([](Data&, input::Run& r) { late(r, 2); })},
+      {"another rig",
+       "r04",
+       {"another rig"},
+       [](Data& d) {
+         const auto other = six_runs("bladder_elasticity large", 77);
+         run(d, 4) = other.data.runs[3];
+       }},
+      {"another muscle",
+       "r01",
+       {"another rig"},
+       [](Data& d) {
+         plant::Rig truth;
+         truth.muscle.rest_radius_m *= 1.04;
+         truth.muscle.end_correction *= 1.02;
+         make_again(d, run(d, 1), run(d, 1).current_mA, run(d, 1).load_kg, truth);
+       }},
+      {"current x 1.05",
+       "r05",
+       {"current"},
+       [](Data& d) {
+         for (double& i : run(d, 5).current_mA) i *= 1.05;
+       }},
+      {"current x 0.97",
+       "r03",
+       {"current"},
+       [](Data& d) {
+         for (double& i : run(d, 3).current_mA) i *= 0.97;
+       }},
+      {"current + 0.3 mA",
+       "r02",
+       {"current"},
+       [](Data& d) {
+         for (double& i : run(d, 2).current_mA) i += 0.3;
+       }},
+      {"drift 1 mm", "r06", {"drift"}, [](Data& d) { drift(d, run(d, 6), 1.0); }},
+      {"drift -0.6 mm", "r01", {"drift"}, [](Data& d) { drift(d, run(d, 1), -0.6); }},
+      {"drift 1 mm everywhere", "", {"drift"}, each([](Data& d, input::Run& r) { drift(d, r, 1.0); })},
+      {"zero 4 counts", "r03", {"zero"}, [](Data& d) { slip(d, run(d, 3), 0, 4); }},
+      {"zero 1 to 3 counts",
+       "",
+       {"zero"},
+       [](Data& d) {
+         const int counts[] = {2, -1, 3, 1, -3, 2};
+         for (std::size_t r = 0; r < d.runs.size(); ++r) slip(d, d.runs[r], 0, counts[r % 6]);
+       }},
+      {"zero 5 counts everywhere", "", {"zero"}, each([](Data& d, input::Run& r) { slip(d, r, 0, 5); })},
+      {"slip 8 counts", "r04", {"slip", "lost"}, [](Data& d) { slip(d, run(d, 4), 300, 8); }},
+      {"slip -4 counts", "r02", {"slip", "lost"}, [](Data& d) { slip(d, run(d, 2), 400, -4); }},
+      {"valve stuck in half",
+       "r05",
+       {"stuck"},
+       [](Data& d) {
+         Series stuck = run(d, 5).current_mA;
+         for (std::size_t k = stuck.size() / 2; k < stuck.size(); ++k) stuck[k] = stuck[stuck.size() / 2];
+         make_again(d, run(d, 5), stuck, run(d, 5).load_kg, plant::Rig{});
+       }},
+      {"valve stuck for 2 s",
+       "r01",
+       {"stuck"},
+       [](Data& d) {
+         Series stuck = run(d, 1).current_mA;
+         for (std::size_t k = 250; k < 417; ++k) stuck[k] = stuck[250];
+         make_again(d, run(d, 1), stuck, run(d, 1).load_kg, plant::Rig{});
+       }},
+      {"saturated",
+       "r01",
+       {"saturated", "frozen"},
+       [](Data& d) {
+         auto& e = run(d, 1).contraction_ratio;
+         const double most = counted(d, 0.8 * *std::max_element(e.begin(), e.end()));
+         for (double& ratio : e) ratio = std::min(ratio, most);
+       }},
+      {"frozen for 1 s",
+       "r04",
+       {"frozen"},
+       [](Data& d) {
+         auto& e = run(d, 4).contraction_ratio;
+         std::fill(e.begin() + 200, e.begin() + 283, e[200]);
+       }},
+      {"reading x 1.03",
+       "r06",
+       {"scale"},
+       [](Data& d) {
+         for (double& ratio : run(d, 6).contraction_ratio) ratio = counted(d, 1.03 * ratio);
+       }},
+      {"5 rows lost", "r03", {"rows", "lost"}, [](Data& d) { lose_rows(run(d, 3), 320, 5); }},
+      {"loads in g", "", {"g, not kg", "grams", "in g"}, each([](Data&, input::Run& r) {
+         r.load_kg *= 0.001;
+       })},
+      {"loads in lb", "", {"pounds", "lb"}, each([](Data&, input::Run& r) { r.load_kg /= 0.45359237; })},
+      {"loads exchanged", "r04", {"load"}, [](Data& d) { std::swap(run(d, 1).load_kg, run(d, 4).load_kg); }},
+      {"load + 20 %", "r03", {"load"}, [](Data& d) { run(d, 3).load_kg *= 1.2; }},
+      {"mm for a ratio", "", {"mm", "millimetres"}, each([](Data&, input::Run& r) {
+         for (double& ratio : r.contraction_ratio) ratio *= 1e3 * length_m;
+       })},
+      {"ratio / 300", "", {"mm", "millimetres", "metres", "stroke"}, each([](Data&, input::Run& r) {
+         for (double& ratio : r.contraction_ratio) ratio /= 1e3 * length_m;
+       })},
+      {"wrong sign",
+       "r02",
+       {"sign"},
+       [](Data& d) {
+         for (double& ratio : run(d, 2).contraction_ratio) ratio = -ratio;
+       }},
+      {"the same run twice", "r06", {"copy"}, [](Data& d) {
+         run(d, 6) = run(d, 1);
+         run(d, 6).id = "r06";
+       }}};
+  return list;
+}
+
+std::vector<Hidden> sound_data(std::uint64_t seed) {
+  std::vector<Hidden> list;
+  for (const char* name : {"nothing, ripple", "muscle_leak large", "speed_dependent_friction large"})
+    list.push_back(six_runs(name, seed));
+  return list;
+}
+
+}  // namespace mckibben::diagnose

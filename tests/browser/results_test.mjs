@@ -1,0 +1,146 @@
+// The pages of many runs, of a diagnosis and of a map as a reader meets them.
+import assert from 'node:assert/strict';
+import {after, test} from 'node:test';
+
+import {close, mm, near, open, rangeOf, seriesOf, table} from './browser.mjs';
+
+after(close);
+
+test('without scripts the unit can be chosen too', async () => {
+  const {page, close: done} = await open('map', {javaScriptEnabled: false});
+  const lead = page.locator('.lead'), figure = page.locator('figure').first();
+  assert.match(await lead.innerText(), / mm/);
+  assert.ok(await figure.getByText('target speed [mm/s]').first().isVisible());
+  await page.locator('#in-ratio').check();
+  assert.doesNotMatch(await lead.innerText(), / mm/);
+  assert.ok(await figure.getByText('target speed [1/s]').first().isVisible());
+  await done();
+});
+
+test('of many runs the loads come first, the worst is named, and its name leads to its plots', async () => {
+  const {page, close: done, complaints} = await open('gauged');
+  const rows = await page.locator('.by-load tbody tr').count();
+  assert.equal(rows, 2);
+  assert.match(await page.locator('#group option').first().textContent(), /: rmse \d\.\d+ mm$/);
+  const errors =
+      await page.locator('#group option')
+          .evaluateAll((all) => all.map((one) => Number(/rmse ([\d.]+)/.exec(one.textContent)[1])));
+  assert.deepEqual(errors, [...errors].sort((a, b) => b - a));
+  const link = page.locator('.by-load a').last();
+  await link.focus();
+  await page.keyboard.press('Enter');
+  const name = await link.textContent();
+  assert.match(await page.locator('#group option:checked').textContent(), new RegExp('^' + name + ','));
+  await page.waitForFunction(() => document.getElementById('runs').getBoundingClientRect().top < 200);
+  assert.deepEqual(complaints, []);
+  await done();
+});
+
+test('the rig is drawn as it is, and wide pages are used', async () => {
+  const {page, close: done} = await open('gauged', {viewport: {width: 1600, height: 1000}});
+  assert.ok(await page.locator('#rig circle.gauge').isVisible());
+  assert.match(await page.locator('#rig').textContent(), /wheel 30 mm.*4 to 20 mA/);
+  const boxes = await page.locator('.cell').evaluateAll(
+      (all) => all.map((one) => one.getBoundingClientRect()).map(({left, width}) => [left, width]));
+  assert.equal(boxes.length, 6);
+  assert.ok(boxes[1][0] > boxes[0][0] + 600 && boxes[1][1] > 600, JSON.stringify(boxes));
+  const short = await open('short');
+  assert.equal(await short.page.locator('#rig .gauge').count(), 0);
+  await short.close();
+  await done();
+});
+
+test('a replay with a gauge shows the measured pressure too, over time and in the loop', async () => {
+  const {page, close: done, complaints} = await open('gauged');
+  const csv = table('campaign/m1_sine_r01.csv'), simulated = table('gauged/m1_sine_r01.csv');
+  await page.evaluate(() => showGroup(report.groups.findIndex(({name}) => name.startsWith('m1_sine_r01,'))));
+  near(
+      (await seriesOf(page, 'pressures')).measured.values, csv.muscle_pressure_bar,
+      rangeOf(csv.muscle_pressure_bar), 'measured');
+  const error = simulated.muscle_pressure_bar.map((bar, k) => bar - csv.muscle_pressure_bar[k]);
+  near((await seriesOf(page, 'pressure_error'))['error, simulated'].values, error, rangeOf(error), 'error');
+  assert.ok(await page.locator('.group.chosen svg[data-loop=\'pressure\'] path.given').isVisible());
+  assert.deepEqual(complaints, []);
+  await done();
+});
+
+test('a diagnosis shows the runs held out first, as measured and by each rig', async () => {
+  const {page, close: done, complaints, requests, url} = await open('diagnosis');
+  assert.match(await page.textContent('.lead'), /Missing: muscle_leak/);
+  assert.match(
+      await page.locator('#group option').first().textContent(),
+      /^m2_sine, 16.138 kg, held out: rmse 0\.\d+ mm$/);
+  const csv = table('leaky/m2_sine.csv'), mended = table('mended/m2_sine.csv');
+  const height = await seriesOf(page, 'height'), error = await seriesOf(page, 'error');
+  const half = height.Measured.values[0] / 300 - csv.contraction_ratio[0];  // the middle of a count
+  assert.ok(half > 2.1e-4 && half < 2.3e-4, `${half}`);
+  near(
+      height.Measured.values, mm(csv.contraction_ratio.map((e) => e + half)),
+      rangeOf(mm(csv.contraction_ratio)), 'e');
+  const worst = {};
+  for (const rig of ['nominal', 'recalibrated', 'corrected']) {
+    const model = height[`contraction, ${rig}`].values, less = error[`error, ${rig}`].values;
+    near(less, height.Measured.values.map((e, k) => e - model[k]), 300, rig);
+    worst[rig] = Math.max(...less.map(Math.abs));
+  }
+  assert.ok(worst.corrected < 0.25 && worst.nominal > 4 * worst.corrected, JSON.stringify(worst));
+  const pressures = await seriesOf(page, 'pressures');  // of the corrected rig, as anybody can replay it
+  near(
+      pressures['muscle, corrected'].values, mended.muscle_pressure_bar, rangeOf(mended.muscle_pressure_bar),
+      'bar');
+  assert.match(await page.textContent('#rig-caption'), /^corrected, m2_sine/);
+  assert.deepEqual(complaints, []);
+  assert.deepEqual(requests, [url]);
+  await done();
+});
+
+test('the axis of a diagnosis\'s errors lets the noise floor be seen', async () => {
+  const {page, close: done} = await open('diagnosis');
+  const [zero, floor, most, high] = await page.evaluate(() => {
+    const {chart, plot} = view.plots.find((one) => one.plot.id === 'error');
+    const at = (value) => chart.valToPos(value, 'y');
+    return [at(0), at(plot.floor), at(chart.scales.y.max), chart.over.clientHeight];
+  });
+  assert.ok(most < floor && zero - floor > 0.05 * high, `${[zero, floor, most, high]}`);
+  await done();
+});
+
+test('a click on a run of the picture leads to its plots, also on a narrow screen', async () => {
+  const {page, close: done, complaints} = await open('diagnosis', {viewport: {width: 400, height: 800}});
+  await page.locator('svg a[data-group=\'1\']').click();
+  assert.equal(await page.inputValue('#group'), '1');
+  assert.equal(await page.locator('.group.chosen h3').textContent(), 'm1_sine, 11.138 kg');
+  const [wide, inner] = await page.evaluate(() => [document.documentElement.scrollWidth, innerWidth]);
+  assert.ok(wide <= inner, `${wide} > ${inner}`);
+  assert.deepEqual(complaints, []);
+  await done();
+});
+
+test('without scripts a diagnosis tells its whole story', async () => {
+  const {page, close: done} = await open('diagnosis', {javaScriptEnabled: false});
+  assert.deepEqual(await page.locator('h2').allTextContents(), [
+    'Where they disagree', 'What explains it', 'What was added', 'How far the gap shrank',
+    'The rig and its runs', 'Loops and plots over time', 'What else it could be', 'What to measure next'
+  ]);
+  assert.ok(await page.locator('.tables', {hasText: 'conductance'}).isVisible());
+  assert.ok(await page.locator('svg[aria-label=\'Disagreement by pressure\']').isVisible());
+  assert.ok(await page.locator('svg[aria-label=\'Errors of each run\']').isVisible());
+  const held = page.locator('section.group').first();
+  assert.equal(await held.locator('svg[viewBox="0 0 460 300"]:visible').count(), 4);
+  assert.equal(await held.locator('path.floor').count(), 1);
+  await done();
+});
+
+test('a map is a page of pictures without scripts, and fits a narrow screen', async () => {
+  const {page, close: done, complaints, requests, url} =
+      await open('map', {viewport: {width: 400, height: 800}});
+  const rows = await page.locator('tbody tr').count();
+  assert.ok(rows >= 2);
+  assert.equal(await page.locator('figure svg:visible').count(), rows / 2);  // up and down
+  assert.equal(await page.locator('script').count(), 0);
+  const [wide, inner] = await page.evaluate(() => [document.documentElement.scrollWidth, innerWidth]);
+  assert.ok(wide <= inner, `${wide} > ${inner}`);
+  assert.deepEqual(complaints, []);
+  assert.deepEqual(requests, [url]);
+  await done();
+});

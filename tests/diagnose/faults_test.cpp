@@ -1,0 +1,156 @@
+// Runs whose recording is at fault, each kind alone: found in its run, with its size; and sound runs left
+// alone.
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include <gtest/gtest.h>
+
+#include <sim/diagnose/repair.hpp>
+#include <sim/run/simulate.hpp>
+
+#include "planted.hpp"
+
+namespace mckibben::diagnose {
+namespace {
+
+const input::Dataset& sound() {
+  static const input::Dataset data = small(plant::Rig{});
+  return data;
+}
+
+Doubts no_doubts(const input::Dataset& data) {
+  Doubts doubts;
+  for (const input::Run& run : data.runs) doubts.masked.emplace_back(run.current_mA.size(), false);
+  return doubts;
+}
+
+std::vector<Fault> faults_of(const input::Dataset& data, const std::vector<Candidate>& effects = {}) {
+  const Experiment experiment(data, no_doubts(data).masked, 2);
+  return examine(experiment, {data.rig, nominal_parameters(data.rig)}, {0, 1, 2, 3, 4, 5}, effects);
+}
+
+using Spoil = std::function<void(double& ratio, double k)>;
+
+input::Dataset spoilt(std::size_t run, const Spoil& spoil) {
+  input::Dataset data = sound();
+  auto& ratios = data.runs[run].contraction_ratio;
+  for (std::size_t k = 0; k < ratios.size(); ++k) spoil(ratios[k], static_cast<double>(k));
+  return data;
+}
+
+double count() {
+  return run::contraction_per_count(plant::Rig{});
+}
+
+void delay(input::Run& run, std::size_t ticks, std::size_t from = 0) {
+  auto& ratios = run.contraction_ratio;
+  for (std::size_t k = ratios.size(); k-- > from + ticks;) ratios[k] = ratios[k - ticks];
+}
+
+void expect_one(const input::Dataset& data, FaultKind kind, std::size_t run, double size, double tolerance) {
+  const auto faults = faults_of(data);
+  ASSERT_EQ(faults.size(), 1u);
+  EXPECT_EQ(faults[0].kind, kind);
+  EXPECT_EQ(faults[0].run, run);
+  EXPECT_NEAR(faults[0].size, size, tolerance);
+  EXPECT_FALSE(faults[0].common);
+}
+
+TEST(Faults, SoundRunsHaveNone) {
+  EXPECT_TRUE(faults_of(sound()).empty());
+}
+
+TEST(Faults, AnEffectThatIsMissingIsNone) {
+  plant::Rig lag, creep;
+  lag.effects.get<plant::ValveLag>().time_s = 0.03;
+  creep.effects.get<plant::BladderCreep>().stiffness_N_per_m = 200.0;
+  creep.effects.get<plant::BladderCreep>().time_s = 1.5;
+  for (const plant::Rig& truth : {lag, creep}) EXPECT_TRUE(faults_of(small(truth), catalogue()).empty());
+}
+
+TEST(Faults, ARunThatIsLate) {
+  auto data = sound();
+  delay(data.runs[1], 3);
+  expect_one(data, FaultKind::late, 1, 3.0, 0.3);
+}
+
+TEST(Faults, CurrentThatTheValveDidNotHave) {
+  auto scaled = sound(), moved = sound();
+  for (double& current_mA : scaled.runs[4].current_mA) current_mA *= 1.05;
+  for (double& current_mA : moved.runs[0].current_mA) current_mA += 0.4;
+  expect_one(scaled, FaultKind::current_scale, 4, 0.05, 0.005);
+  expect_one(moved, FaultKind::current_offset, 0, 0.4, 0.05);
+}
+
+TEST(Faults, ReadingsThatDriftOrHaveAnotherZeroOrScale) {
+  const double rows = static_cast<double>(sound().runs[0].contraction_ratio.size());
+  const auto drift = [&](double& ratio, double k) { ratio += count() * std::round(8.0 * k / rows); };
+  expect_one(spoilt(5, drift), FaultKind::drift, 5, 8.0 * count(), 0.5 * count());
+  const auto zero = [](double& ratio, double) { ratio += 5.0 * count(); };
+  expect_one(spoilt(2, zero), FaultKind::zero, 2, 5.0 * count(), 0.5 * count());
+  const auto scale = [](double& ratio, double) { ratio = count() * std::floor(1.04 * ratio / count()); };
+  expect_one(spoilt(3, scale), FaultKind::reading_scale, 3, 0.04, 0.005);
+}
+
+TEST(Faults, CountsAndRowsThatAreLostOnTheWay) {
+  const auto slip = [](double& ratio, double k) { ratio -= k >= 180.0 ? 8.0 * count() : 0.0; };
+  const auto slipped = faults_of(spoilt(1, slip));
+  ASSERT_EQ(slipped.size(), 1u);
+  EXPECT_EQ(slipped[0].kind, FaultKind::slipped);
+  EXPECT_NEAR(slipped[0].size, -8.0 * count(), count());
+  EXPECT_NEAR(static_cast<double>(slipped[0].row), 180.0, 10.0);
+  auto lost = sound();
+  delay(lost.runs[2], 6, 150);
+  expect_one(lost, FaultKind::rows_lost, 2, -6.0, 1.0);
+}
+
+TEST(Faults, ARunFromAnotherRig) {
+  plant::Rig other;
+  other.muscle.rest_radius_m *= 1.05;
+  other.muscle.end_correction *= 1.03;
+  auto data = sound();
+  data.runs[2] = small(other).runs[2];
+  expect_one(data, FaultKind::another_rig, 2, 0.0, 0.0);
+}
+
+TEST(Faults, WhatAllRunsHaveInCommonIsTheRecorders) {
+  auto late = sound(), drifting = sound();
+  for (input::Run& run : late.runs) delay(run, 2);
+  for (input::Run& run : drifting.runs)
+    for (std::size_t k = 0; k < run.contraction_ratio.size(); ++k)
+      run.contraction_ratio[k] += count() * std::floor(static_cast<double>(k) / 40.0);
+  for (const auto& [data, kind] : {std::pair{late, FaultKind::late}, std::pair{drifting, FaultKind::drift}}) {
+    const auto faults = faults_of(data, catalogue());
+    ASSERT_EQ(faults.size(), 6u);
+    for (const Fault& fault : faults) {
+      EXPECT_EQ(fault.kind, kind);
+      EXPECT_TRUE(fault.common);
+    }
+  }
+}
+
+TEST(Faults, AreMendedWhereThatIsSafeAndElseLeftOut) {
+  auto data = sound();
+  const auto before = data.runs;
+  delay(data.runs[0], 2);
+  for (double& ratio : data.runs[1].contraction_ratio) ratio += 3.0 * count();
+  Doubts doubts = no_doubts(data);
+  mend(data, doubts,
+       {{0, FaultKind::late, 2.1}, {1, FaultKind::zero, 3.2 * count()}, {4, FaultKind::drift, 2e-3}});
+  const auto& shifted = data.runs[0].contraction_ratio;
+  const std::size_t rows = shifted.size();
+  for (std::size_t k = 0; k + 2 < rows; ++k) ASSERT_EQ(shifted[k], before[0].contraction_ratio[k]);
+  EXPECT_FALSE(doubts.masked[0][rows - 3]);
+  EXPECT_TRUE(doubts.masked[0][rows - 2]);
+  EXPECT_TRUE(doubts.masked[0][rows - 1]);
+  EXPECT_NEAR(data.runs[1].contraction_ratio[100], before[1].contraction_ratio[100], 1e-12);
+  EXPECT_EQ(doubts.left_out, Runs{4});
+  ASSERT_EQ(doubts.findings.size(), 3u);
+  EXPECT_EQ(doubts.findings[0].words, "is 2 ticks late and was shifted");
+  EXPECT_EQ(doubts.findings[1].words, "has its zero moved by 3.2 counts (corrected)");
+  EXPECT_EQ(doubts.findings[2].words, "drifts by 0.6 mm from its beginning to its end (left out)");
+}
+
+}  // namespace
+}  // namespace mckibben::diagnose

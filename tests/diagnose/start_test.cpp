@@ -1,0 +1,41 @@
+// Runs that do not begin settled: seen, and said.
+#include <gtest/gtest.h>
+
+#include <sim/diagnose/start.hpp>
+
+#include "planted.hpp"
+
+namespace mckibben::diagnose {
+namespace {
+
+Start look(const input::Dataset& data) {
+  std::vector<std::vector<bool>> masked;
+  Runs runs;
+  for (const auto& run : data.runs) {
+    runs.push_back(masked.size());
+    masked.emplace_back(run.current_mA.size(), false);
+  }
+  return look_at_start(Experiment(data, masked, 1), data.rig, runs);
+}
+
+TEST(Start, IsASuspectWhereRunsBeginInMotion) {
+  auto data = small(plant::Rig{});
+  const Gap gap{.noise_floor = 1e-4, .corrected_rmse = 1e-3};
+  EXPECT_FALSE(look(data).suspect());
+  EXPECT_EQ(sentence_of(look(data), gap), "");
+  constexpr std::ptrdiff_t lost = 40;  // the recorder was switched on late, while the sine was rising
+  auto& late = data.runs[2];
+  late.contraction_ratio.erase(late.contraction_ratio.begin(), late.contraction_ratio.begin() + lost);
+  late.current_mA.erase(late.current_mA.begin(), late.current_mA.begin() + lost);
+  const Start start = look(data);
+  EXPECT_EQ(start.unsettled, std::vector<std::string>{"r03"});
+  EXPECT_GT(start.share_of_gap, 0.5);
+  EXPECT_LT(start.share_of_time, 0.3);
+  const std::string said = sentence_of(start, gap);
+  EXPECT_NE(said.find("in the first 1 s"), std::string::npos) << said;
+  EXPECT_NE(said.find("Not settled at the start"), std::string::npos) << said;
+  EXPECT_EQ(sentence_of(start, {.noise_floor = 1e-3, .corrected_rmse = 1e-3}), "");
+}
+
+}  // namespace
+}  // namespace mckibben::diagnose

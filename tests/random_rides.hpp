@@ -1,0 +1,35 @@
+// A random rig under a random current, known by its seed; shared by tests and benchmark.
+#pragma once
+
+#include <algorithm>
+#include <vector>
+
+#include <controllers/waveform.hpp>
+#include <sim/run/simulate.hpp>
+
+#include "random_rigs.hpp"
+
+namespace mckibben::run {
+
+struct RandomRide {
+  RunPlan plan;
+  controllers::RecordedCurrent current;
+
+  RandomRide(unsigned seed, bool whole_range) {
+    plant::Chance chance(seed);
+    const auto [rig, load_kg] = plant::random_rig(chance, whole_range);
+    plan.rig = rig;
+    plan.load_kg = load_kg;
+    plan.ticks = static_cast<std::size_t>(std::clamp(5.0 / rig.tick_s, 50.0, 600.0));
+    plan.keep_ledger = true;
+    current.samples_mA = plant::random_current(chance, plan.ticks, rig.dac.largest_current_mA);
+  }
+};
+
+inline Recording random_ride(unsigned seed, bool whole_range, engine::Method method) {
+  RandomRide ride(seed, whole_range);
+  ride.plan.engine.method = method;
+  return simulate(ride.plan, *ride.current.make(knowledge_of(ride.plan.rig, {})));
+}
+
+}  // namespace mckibben::run

@@ -1,0 +1,64 @@
+// Words for controllers at a limit and for tunings that gained nothing, from made-up runs.
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include <sim/run/remarks.hpp>
+
+namespace mckibben::run {
+namespace {
+
+TrackedRun stood(double load_kg, double lowest, double highest) {
+  TrackedRun run{.load_kg = load_kg, .controller = "pid"};
+  run.limits = {4.0, 20.0};
+  run.metrics.at_lowest_current = lowest;
+  run.metrics.at_highest_current = highest;
+  return run;
+}
+
+Comparison of(const std::vector<TrackedRun>& runs) {
+  Comparison comparison;
+  comparison.runs = runs;
+  return comparison;
+}
+
+TEST(Remarks, SayHowLongAControllerStoodAtALimitAndWithWhichLoadMost) {
+  EXPECT_EQ(limit_words(of({stood(8.0, 0.3, 0.0)}), "pid"),
+            "stood at its lowest current, 4 mA, for 30 % of the time");
+  EXPECT_EQ(limit_words(of({stood(8.0, 0.3, 0.0), stood(9.5, 0.1, 0.1)}), "pid"),
+            "stood at its lowest current, 4 mA, for 20 % of the time and at its highest current, 20 mA, "
+            "for 5 % of the time (with 8 kg for 30 %)");
+  EXPECT_EQ(limit_words(of({stood(8.0, 0.005, 0.0)}), "pid"), "");
+  EXPECT_EQ(limit_words(of({stood(8.0, 0.5, 0.0)}), "other"), "");
+}
+
+TEST(Remarks, NameTheKeyThatWouldHelp) {
+  plant::Rig rig;
+  EXPECT_EQ(limit_warning(stood(8.0, 0.4, 0.0), rig), "");
+  EXPECT_NE(limit_warning(stood(8.0, 0.6, 0.0), rig).find("valve.zero_pressure"), std::string::npos);
+  EXPECT_NE(limit_warning(stood(8.0, 0.0, 0.6), rig).find("valve.span_pressure"), std::string::npos);
+  rig.valve.zero_current_mA = 0.0;
+  EXPECT_NE(limit_warning(stood(8.0, 0.6, 0.0), rig).find("goes down to 0 mA: lower lowest_current"),
+            std::string::npos);
+}
+
+TEST(Remarks, ATuningMustBeatNoFeedback) {
+  TunedController tuned{.controller = "pid", .load_kg = 8.0};
+  tuned.tuned.cost = 0.02;
+  EXPECT_FALSE(gained_nothing(tuned)) << "nothing to compare with";
+  tuned.idle_cost = 0.1;
+  EXPECT_FALSE(gained_nothing(tuned));
+  tuned.tuned.cost = 0.099;
+  EXPECT_TRUE(gained_nothing(tuned));
+  EXPECT_EQ(tuning_warning(tuned, {}),
+            "its tuning gained nothing: the cost is 0.099, without any feedback 0.1; feedback "
+            "does not help with this target: can the load follow it (tuning_load), is the delay too long "
+            "(feedback_delay_ticks)?");
+  Comparison comparison = of({stood(8.0, 0.1, 0.1)});
+  EXPECT_FALSE(in_doubt(comparison, "pid"));
+  comparison.tuned = {tuned};
+  EXPECT_TRUE(in_doubt(comparison, "pid"));
+}
+
+}  // namespace
+}  // namespace mckibben::run

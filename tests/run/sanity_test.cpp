@@ -1,0 +1,200 @@
+// Data that are not what they are called are said to be so, with the line to write; sound data of rigs that
+// are another than described are left alone.
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <sim/run/campaign.hpp>
+#include <sim/run/sanity.hpp>
+
+#include "switched_on.hpp"
+
+namespace mckibben::run {
+namespace {
+
+/// Three loads under a sine and a staircase, counted; the data set's rig is the nominal one.
+input::Dataset measured_on(const plant::Rig& truth, std::vector<double> loads_kg = {11.138, 16.138, 23.406},
+                           const plant::Rig& nominal = {}) {
+  controllers::SineCurrent sine;
+  sine.low_mA = 0.0;
+  sine.period_s = 2.5;
+  controllers::StairCurrent stair;
+  stair.steps = 3;
+  stair.dwell_s = 0.5;
+  input::Campaign campaign;
+  static_cast<plant::Rig&>(campaign.rig) = truth;
+  campaign.loads_kg = std::move(loads_kg);
+  campaign.currents = {{"sine", 3.0, sine}, {"stair", 3.0, stair}};
+  campaign.noise = {.encoder_jitter = 5e-5, .gauge_Pa = 400.0};
+  input::Dataset data;
+  data.path = "measured/dataset.yaml";
+  static_cast<plant::Rig&>(data.rig) = nominal;
+  data.rig.gauge = truth.gauge;
+  for (const CampaignJob& job : jobs_of(campaign)) {
+    data.runs.push_back(measured(campaign, run_job(campaign, job)));
+    data.runs.back().id = fmt::format("r{:02}", data.runs.size());
+  }
+  return data;
+}
+
+const input::Dataset& sound() {
+  static const input::Dataset data = [] {
+    plant::Rig rig;
+    rig.gauge.fitted = true;
+    return measured_on(rig);
+  }();
+  return data;
+}
+
+std::vector<std::string> said(const input::Dataset& data) {
+  std::vector<std::string> list;
+  for (const auto& problem : problems_of(data, look(data).findings)) list.push_back(to_text(problem));
+  return list;
+}
+
+/// The only thing that is said.
+std::string says(const input::Dataset& data) {
+  const auto list = said(data);
+  EXPECT_EQ(list.size(), 1u);
+  return list.empty() ? "" : list.front();
+}
+
+input::Dataset scaled(double factor, std::vector<std::size_t> runs = {0, 1, 2, 3, 4, 5}) {
+  auto data = sound();
+  for (const std::size_t run : runs)
+    for (double& ratio : data.runs[run].contraction_ratio) ratio *= factor;
+  return data;
+}
+
+TEST(Sanity, SoundDataOfOtherRigsAreLeftAlone) {
+  std::vector<plant::NamedRig> rigs = plant::rigs_with_one_effect();
+  for (const double strength : {2.0 / 3.0, 4.0 / 3.0}) {
+    rigs.push_back({fmt::format("{:.2f} times as strong", strength), {}});
+    rigs.back().rig.muscle.rest_radius_m *= std::sqrt(strength);
+  }
+  rigs.push_back({"less air", {}});
+  rigs.back().rig.valve.span_pressure_Pa *= 0.7;
+  rigs.push_back({"gauge", {}});
+  rigs.back().rig.gauge.fitted = true;
+  for (const auto& [name, rig] : rigs) EXPECT_EQ(said(measured_on(rig)), std::vector<std::string>{}) << name;
+}
+
+TEST(Sanity, OneLoadThatAWeakMuscleHardlyLiftsIsNoOtherUnit) {
+  for (const double strength : {0.5, 0.6, 2.0 / 3.0, 0.8, 1.5}) {
+    plant::Rig rig;
+    rig.muscle.rest_radius_m *= std::sqrt(strength);
+    EXPECT_EQ(said(measured_on(rig, {36.0})), std::vector<std::string>{}) << strength;
+  }
+}
+
+TEST(Sanity, ARatioThatIsCalledMillimetresIsSaidWithTheLineToWrite) {
+  auto data = scaled(1.0 / 300.0);
+  data.columns.contraction = {"contraction_ratio", "mm"};
+  const std::string text = says(data);
+  EXPECT_TRUE(text.starts_with("measured/dataset.yaml: error: all runs: contraction is up to ")) << text;
+  EXPECT_TRUE(
+      text.ends_with("this looks like a ratio, not millimetres (mm); write columns: {contraction: "
+                     "{column: contraction_ratio, unit: 1}}"))
+      << text;
+}
+
+TEST(Sanity, OtherUnitsAreNamed) {
+  const auto expect = [](double factor, const char* words) {
+    EXPECT_NE(says(scaled(factor)).find(words), std::string::npos) << factor;
+  };
+  expect(
+      300.0,
+      "millimetres (mm), not a ratio; write columns: {contraction: {column: contraction_ratio, unit: mm}}");
+  expect(100.0,
+         "per cent, not a ratio; write columns: {contraction: {column: contraction_ratio, unit: \"%\"}}");
+  expect(0.3, "metres, not a ratio");
+  expect(1.0 / 300.0, "a ratio that was divided by the rest length in millimetres");
+  auto inches = scaled(1.0 / 25.4);
+  inches.columns.contraction = {"rope", "mm"};
+  EXPECT_NE(says(inches).find("{contraction: {column: rope, unit: in}}"), std::string::npos);
+}
+
+TEST(Sanity, OneRunInAnotherUnitIsNamed) {
+  EXPECT_TRUE(says(scaled(100.0, {2})).starts_with("measured/dataset.yaml: error: run r03: "));
+}
+
+TEST(Sanity, TheOtherSignIsSaidOnceWithItsFactor) {
+  const std::string text = says(scaled(-1.0, {1, 4}));
+  EXPECT_NE(text.find("error: runs r02, r05: "), std::string::npos) << text;
+  EXPECT_NE(text.find("{column: contraction_ratio, unit: 1, factor: -1}"), std::string::npos) << text;
+  auto data = scaled(-1.0);
+  data.columns.contraction = {"rope", "mm", 412.5, 2.0};
+  EXPECT_NE(says(data).find("{column: rope, unit: mm, zero: 412.5, factor: -2}"), std::string::npos);
+}
+
+TEST(Sanity, ExchangedColumnsAreSaid) {
+  auto data = sound();
+  for (input::Run& run : data.runs) {
+    auto bar = *run.muscle_pressure_Pa;
+    for (std::size_t k = 0; k < bar.size(); ++k) {
+      bar[k] /= 1e5;
+      (*run.muscle_pressure_Pa)[k] = run.current_mA[k] * 1e5;
+    }
+    run.current_mA = bar;
+  }
+  EXPECT_NE(
+      says(data).find("look exchanged; write columns: {current: {column: muscle_pressure_bar, unit: mA}, "
+                      "muscle_pressure: {column: current_mA, unit: bar}}"),
+      std::string::npos);
+}
+
+TEST(Sanity, AllLoadsInAnotherUnitAreSaid) {
+  const auto expect = [](input::Dataset data, double factor, const char* words) {
+    for (input::Run& run : data.runs) run.load_kg *= factor;
+    const std::string text = says(data);
+    EXPECT_NE(text.find(": all runs: load = "), std::string::npos) << words << text;
+    EXPECT_TRUE(text.ends_with(words)) << words << text;
+    return text.starts_with("measured/dataset.yaml: error");
+  };
+  EXPECT_TRUE(expect(sound(), 1e-3, "these look like kg that are written in g: write kg"));
+  EXPECT_TRUE(expect(sound(), 9.80665, "these look like N, not kg: write the mass, N / 9.81"));
+  expect(sound(), 2.20462, "these look like pounds, not kg: write lb");
+}
+
+/// Runs 0 and 1 have the first load, 2 and 3 the second, 4 and 5 the third.
+input::Dataset labelled(const input::Dataset& sound_data, std::vector<std::size_t> runs,
+                        const std::vector<double>& labels_kg) {
+  input::Dataset data = sound_data;
+  data.runs.clear();
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    data.runs.push_back(sound_data.runs[runs[i]]);
+    data.runs.back().load_kg = labels_kg[i];
+  }
+  return data;
+}
+
+TEST(Sanity, ExchangedLabelsOfTwoOrThreeRunsAreFound) {
+  const std::string two = says(labelled(sound(), {0, 2, 4}, {16.138, 11.138, 23.406}));
+  EXPECT_TRUE(two.starts_with("measured/dataset.yaml: warning: runs r01, r03: ")) << two;
+  EXPECT_TRUE(two.ends_with("write load: 11.138 kg for r01, load: 16.138 kg for r03")) << two;
+  const std::string pair = says(labelled(sound(), {1, 5}, {23.406, 11.138}));
+  EXPECT_TRUE(pair.ends_with("write load: 11.138 kg for r02, load: 23.406 kg for r06")) << pair;
+  const std::string around = says(labelled(sound(), {0, 2, 4}, {16.138, 23.406, 11.138}));
+  EXPECT_TRUE(
+      around.ends_with("write load: 11.138 kg for r01, load: 16.138 kg for r03, load: 23.406 kg for r05"))
+      << around;
+}
+
+// Also with an effect in the rig, or another muscle: the order of the loads needs no exact model.
+TEST(Sanity, ExchangedLabelsAreFoundWhateverTheRigHas) {
+  auto rigs = plant::rigs_with_one_effect();
+  rigs.push_back({"weak", {}});
+  rigs.back().rig.muscle.rest_radius_m *= std::sqrt(2.0 / 3.0);
+  for (const auto& [name, rig] : rigs) {
+    const auto data = measured_on(rig);
+    const auto findings = look(labelled(data, {0, 2, 4}, {11.138, 23.406, 16.138})).findings;
+    ASSERT_EQ(findings.size(), 1u) << name;
+    EXPECT_EQ(findings.front().runs, (std::vector<std::size_t>{1, 2})) << name;
+    EXPECT_FALSE(findings.front().exchanged.empty()) << name;
+  }
+}
+
+}  // namespace
+}  // namespace mckibben::run
