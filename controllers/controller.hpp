@@ -15,6 +15,9 @@ namespace mckibben::controllers {
 /// Times closer than this are one instant: k * tick_s may miss a written time by rounding.
 inline constexpr double instant_s = 1e-9;
 
+/// Standard gravity.
+inline constexpr double gravity_m_per_s2 = 9.80665;
+
 /// What the hardware shows at tick k, at k * tick_s.
 struct Reading {
   std::int64_t tick = 0;

@@ -6,8 +6,6 @@
 namespace mckibben::controllers {
 namespace {
 
-constexpr double gravity_m_per_s2 = 9.80665;
-
 class StaticInverse final : public Controller {
  public:
   StaticInverse(double load_N, const ForceModel& model, const Knowledge& knowledge)

@@ -10,8 +10,6 @@
 namespace mckibben::controllers {
 namespace {
 
-constexpr double gravity_m_per_s2 = 9.80665;
-
 // A contraction counts from here on: before, the threads have not let go of the load in full.
 constexpr std::int64_t counts_to_let_go = 5;
 constexpr int fewest_samples = 5;

@@ -29,7 +29,7 @@ struct Restriction {
   template <class S>
   S turbulent(const S& high_Pa, const S& low_Pa) const {
     using std::sqrt;
-    const S choked = conductance_kg_per_s_Pa * high_Pa;
+    S choked = conductance_kg_per_s_Pa * high_Pa;
     const S excess = (low_Pa / high_Pa - critical_ratio) / (1.0 - critical_ratio);
     if (excess <= 0.0) return choked;
     return choked * sqrt(1.0 - excess * excess);

@@ -21,7 +21,7 @@ constexpr const char* what_it_is =
     "  mckibben diagnose measured/  takes your measurements and names what your rig has besides\n";
 
 constexpr const char* last_words =
-    "mckibben VERB --help explains a verb, with examples. In a checkout, ./mckibben test runs every test.\n"
+    "mckibben VERB --help explains a verb, with examples. In a checkout, ./mckibben test runs its tests.\n"
     "Results go to stdout, everything else to stderr.\n"
     "Exit status: 0 done, 1 a criterion of yours is not met, 64 usage, 65 bad input file,\n"
     "66 input file missing, 70 numerical failure or a defect of ours, 74 cannot write, 130 interrupted.\n";

@@ -25,7 +25,7 @@ struct Part {
   std::string_view key, yaml;
 };
 
-constexpr Part parts[] = {
+constexpr Part scenario_parts[] = {
     {"rig",
      "rig:\n"
      "  base: thesis\n"
@@ -78,7 +78,7 @@ std::string scenario_to_start_from(const std::string& file) {
       "schema: {2}\n",
       file, std::filesystem::path(file).stem().string(), input::scenario_schema);
   const auto fields = input::list_fields<input::Scenario>();
-  for (const Part& part : parts) {
+  for (const Part& part : scenario_parts) {
     const auto info =
         std::find_if(fields.begin(), fields.end(), [&](const FieldInfo& one) { return one.key == part.key; });
     text += "\n" + comment_of(*info) + std::string(part.yaml);

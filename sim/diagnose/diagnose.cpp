@@ -23,15 +23,13 @@
 namespace mckibben::diagnose {
 namespace {
 
-/// Scatter over long times that is assumed until a model has been fitted.
-constexpr double first_temperature = 20.0;
 /// Mean squares above the floor: what is worth a search for a law, and what no disturbance would leave.
 constexpr double worth_a_law = 0.15, beyond_disturbance = 60.0;
 /// What no fit of the right effect that stopped early would leave.
 constexpr double hopeless = 600.0;
 /// Shares of the gap that effects must close to be named, to be named whatever is left, and a law to be
 /// believed.
-constexpr double least_named = 0.4, most_of_it = 0.9, least_law = 0.3;
+constexpr double least_named = 0.4, nearly_all = 0.9, least_law = 0.3;
 /// The rate of false alarms that the thresholds are set for; docs/diagnosis.md has what was measured.
 constexpr double false_alarm_rate = 0.03;
 
@@ -233,7 +231,7 @@ class Workflow {
     if (lawful) {
       result_.verdict = Verdict::unknown_effect;
       chosen_ = &law_.contender;
-    } else if (named && (left < hopeless || named_share >= most_of_it) &&
+    } else if (named && (left < hopeless || named_share >= nearly_all) &&
                (named_share >= least_named || excess(reference) < worth_a_law)) {
       result_.verdict = Verdict::missing_effect;
       result_.effects = naming_.effects;

@@ -8,6 +8,7 @@
 #include <Eigen/QR>
 
 #include <sim/diagnose/faults.hpp>
+#include <sim/diagnose/judge.hpp>
 #include <sim/diagnose/regression.hpp>
 #include <sim/diagnose/shapes.hpp>
 
@@ -23,8 +24,6 @@ constexpr double explained = 0.03;
 /// Mean square, in floors, of a run that no shape explains: from here on it is of another rig. Less may as
 /// well be left by a law that is not quite right.
 constexpr double of_another_rig = 64.0;
-/// Variance of residuals over long times, where nothing is known yet: priors count against it.
-constexpr double temperature = 20.0;
 /// Leaving out runs is worth a thought if an effect then leaves less than this share of what any leaves.
 constexpr double worth_suspecting = 0.5;
 /// Shapes that begin at a row of their choice must do that much better.
@@ -107,7 +106,7 @@ class Examination {
   }
   /// Of a run's residuals, in floors.
   double mean_square(const Eigen::VectorXd& left, std::size_t i) const {
-    return temperature * left.segment(begin(i), rows(i)).squaredNorm() / static_cast<double>(rows(i));
+    return first_temperature * left.segment(begin(i), rows(i)).squaredNorm() / static_cast<double>(rows(i));
   }
   double worst(const Regression& fitted) const {
     double most = 0.0;
@@ -152,7 +151,7 @@ class Examination {
 };
 
 void Examination::fly() {
-  weight_ = 1.0 / (experiment_.floor().ratio * std::sqrt(temperature));
+  weight_ = 1.0 / (experiment_.floor().ratio * std::sqrt(first_temperature));
   const auto fitted = experiment_.slopes(at_.rig, at_.free, runs_);
   const auto driven = experiment_.slopes(at_.rig, currents_in_error(), runs_);
   const auto parts = experiment_.parts(runs_);

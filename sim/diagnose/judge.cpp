@@ -8,8 +8,6 @@
 namespace mckibben::diagnose {
 namespace {
 
-constexpr double segment_s = 1.5;
-
 // What an improvement must be on runs that the fit has not seen. Set on data sets with other seeds than those
 // that the benchmark scores.
 constexpr double least_share = 0.10, least_gain = 0.03, least_significance = 2.0, clear_share = 0.5;

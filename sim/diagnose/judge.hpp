@@ -19,14 +19,20 @@ Split split(const input::Dataset& data, const Runs& usable);
 /// say less than as much white noise would.
 double temperature(const Experiment& experiment, const Eigen::VectorXd& residuals, const Runs& runs);
 
+/// What is assumed of it until a model has been fitted: priors count against it.
+inline constexpr double first_temperature = 20.0;
+
 /// Mean square of residuals above that of the floor.
 double excess(const Eigen::VectorXd& residuals);
+
+/// Residuals are judged by segments of this length, which scatter by themselves.
+inline constexpr double segment_s = 1.5;
 
 /// How much better `after` is than `before`, on the same runs.
 struct Improvement {
   double gained = 0.0;               ///< mean square, in units of the floor's
   double share = 0.0;                ///< of the excess that `before` had
-  double significance = 0.0;         ///< over its standard error, from segments of 1.5 s
+  double significance = 0.0;         ///< over its standard error, from segments
   std::size_t better = 0, runs = 0;  ///< runs it improves
 };
 Improvement compare(const Experiment& experiment, const Eigen::VectorXd& before, const Eigen::VectorXd& after,

@@ -19,7 +19,7 @@ constexpr std::size_t most_terms = 3;
 /// Mean square above the floor at which a term more would describe noise.
 constexpr double met = 0.15;
 /// Waves whose lengths differ by less [logarithm] are one proposal.
-constexpr double alike = 0.15;
+constexpr double same_wave = 0.15;
 /// Proposals that are fitted, of each base.
 constexpr std::size_t most_fits = 4;
 /// Forces for slopes: next to nothing, and of a size that matters, because a muscle that swings answers a
@@ -92,7 +92,7 @@ std::vector<Proposal> propose(const Case& c, const Fitted& fitted) {
   std::stable_sort(list.begin(), list.end(),
                    [](const Proposal& a, const Proposal& b) { return a.drop > b.drop; });
   const auto same_kind = [](const plant::ForceTerm& a, const plant::ForceTerm& b) {
-    return a.of == b.of && std::abs(std::log(a.wavelength_m / b.wavelength_m)) < alike;
+    return a.of == b.of && std::abs(std::log(a.wavelength_m / b.wavelength_m)) < same_wave;
   };
   std::vector<Proposal> best;
   for (const Proposal& proposal : list) {

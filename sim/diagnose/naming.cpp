@@ -12,9 +12,9 @@
 namespace mckibben::diagnose {
 namespace {
 
-constexpr std::size_t most_effects = 3, most_refits = 7, most_substitutes = 3, most_firsts = 3;
+constexpr std::size_t most_effects = 3, most_refits = 7, most_firsts = 3;
 /// Candidates that change the readings so alike are refitted whatever their score.
-constexpr double alike = 0.7;
+constexpr double likeness_refitted = 0.7;
 /// Scores below this share of the best are not worth a refit.
 constexpr double least_score = 0.05;
 /// Noncentrality at which a test at 5 % has a power of 90 % (chi-square, one degree of freedom).
@@ -35,8 +35,8 @@ std::vector<Trial> refit(const Case& c, const std::vector<Screening>& screenings
       return t.score.candidate.amplitude == score.candidate.amplitude;
     });
     if (known || trials.size() == most_refits || score.drop < chance) return false;
-    if (solved != nullptr) return likeness(score, *solved) > 0.5 * alike;
-    return score.drop > least_score * front.drop || likeness(score, front) > alike;
+    if (solved != nullptr) return likeness(score, *solved) > 0.5 * likeness_refitted;
+    return score.drop > least_score * front.drop || likeness(score, front) > likeness_refitted;
   };
   for (std::size_t place = 0; place < screenings.front().scores.size(); ++place) {
     for (const auto& [base, scores] : screenings) {

@@ -13,8 +13,6 @@
 namespace mckibben::diagnose {
 namespace {
 
-constexpr std::size_t most_substitutes = 3;
-
 /// Another effect that serves clearly better than the one that `smaller` is without.
 std::optional<Trial> substitute(const Case& c, const Contender& smaller, const Candidate& gone,
                                 const Contender& best, const Step& step) {

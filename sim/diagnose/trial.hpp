@@ -42,6 +42,8 @@ struct Screening {
   std::vector<Score> scores;
 };
 
+/// Candidates of a screening that are tried where the best alone will not do.
+inline constexpr std::size_t most_substitutes = 3;
 /// Falls of the misfit below this, expected or come true, are chance.
 inline constexpr double chance = 6.0;
 /// A difference of costs that scatter does not make.

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include <sim/diagnose/judge.hpp>
 #include <sim/diagnose/where.hpp>
 #include <sim/run/batch.hpp>
 #include <sim/run/simulate.hpp>
@@ -15,11 +16,9 @@
 namespace mckibben::diagnose {
 namespace {
 
-constexpr double segment_s = 1.5;
 constexpr int flips = 999;
 constexpr double false_discoveries = 0.05;
 constexpr double rest_mm_per_s = 0.5;  // slower is standing
-constexpr double bar_Pa = 1e5;
 
 /// One reading and the state the model was in.
 struct Row {
@@ -148,7 +147,7 @@ std::vector<Factor> factors_of(const Experiment& experiment, const plant::Rig& r
                            [](const Row& row) { return std::abs(row.speed_mm_per_s); }));
   factors.push_back(std::move(load));
   factors.push_back(binned("pressure", equal(rig.valve.zero_pressure_Pa, rig.valve.span_pressure_Pa, 5),
-                           bar_Pa, "bar", [](const Row& row) { return row.pressure_Pa; }));
+                           Pa_per_bar, "bar", [](const Row& row) { return row.pressure_Pa; }));
   factors.push_back(binned("contraction",
                            equal(0.0, run::knowledge_of(rig, {}).model.largest_contraction_ratio(), 6), 1.0,
                            "", [](const Row& row) { return row.contraction_ratio; }));

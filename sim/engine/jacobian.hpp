@@ -1,12 +1,9 @@
 // Exact Jacobian of the plant by forward differentiation: the same equations, evaluated on dual numbers.
 #pragma once
 
-#include <Eigen/Core>
-
 #include <plant/plant.hpp>
+#include <sim/engine/dual.hpp>
 #include <sim/engine/problem.hpp>
-
-#include <unsupported/Eigen/AutoDiff>
 
 namespace mckibben::engine {
 
@@ -14,15 +11,15 @@ namespace mckibben::engine {
 /// closing, stop touched, v = 0) it is the derivative of the side the state stands on.
 template <class L, class Matrix>
 bool jacobian(const Problem<L>& problem, const double* y, Matrix& result) {
-  using Dual = Eigen::AutoDiffScalar<Eigen::Matrix<double, L::steering, 1>>;
+  using Number = Dual<L::steering>;
   const auto at = Problem<L>::state_of(y);
   if (!problem.plant().in_domain(at)) return false;
-  const auto seed = [](double value, int index) { return Dual(value, L::steering, index); };
-  const plant::State<Dual> state{
+  const auto seed = [](double value, int index) { return Number::unknown(value, index); };
+  const plant::State<Number> state{
       {seed(at.joint.contraction_ratio, 0), seed(at.joint.contraction_speed_per_s, 1)},
       {seed(at.side.valve_pressure_Pa, 2), seed(at.side.muscle_pressure_Pa, 3), seed(at.side.bristle_m, 4)}};
-  plant::Memory<Dual> memory;
-  memory.fill(Dual(0.0));
+  plant::Memory<Number> memory;
+  memory.fill(0.0);
   if constexpr (L::remembers) {
     for (int i = 0; i < static_cast<int>(plant::memory_size); ++i)
       memory[static_cast<std::size_t>(i)] = seed(y[plant::state_size + i], plant::state_size + i);
@@ -30,9 +27,9 @@ bool jacobian(const Problem<L>& problem, const double* y, Matrix& result) {
   const auto now = problem.plant().moment(state, memory, problem.held);
   const auto rates = problem.plant().rates(state, now);
   int next = 0;
-  const auto row = [&](const Dual& rate) {
+  const auto row = [&](const Number& rate) {
     result.row(next).setZero();
-    result.row(next++).template head<L::steering>() = rate.derivatives().transpose();
+    result.row(next++).template head<L::steering>() = rate.slopes.transpose();
   };
   row(rates.joint.contraction_ratio);
   row(rates.joint.contraction_speed_per_s);
@@ -40,7 +37,7 @@ bool jacobian(const Problem<L>& problem, const double* y, Matrix& result) {
   row(rates.side.muscle_pressure_Pa);
   row(rates.side.bristle_m);
   if constexpr (L::remembers)
-    for (const Dual& rate : now.memory_rates) row(rate);
+    for (const Number& rate : now.memory_rates) row(rate);
   if constexpr (L::audits) {
     const auto ledger = problem.plant().ledger_rates(state, now, Problem<L>::ledger_of(y));
     row(ledger.air_drawn_kg);

@@ -4,32 +4,22 @@
 #include <cerrno>
 #include <charconv>
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <system_error>
 #include <utility>
 
 #include <fmt/format.h>
-#include <matio.h>
 
 #include <sim/formats/child.hpp>
 #include <sim/formats/mat_file.hpp>
 #include <sim/formats/mat_frame.hpp>
+#include <sim/formats/mat_handles.hpp>
 #include <sim/formats/memory_file.hpp>
 
 namespace mckibben::formats {
 namespace {
 
 constexpr std::size_t most_names = 10000;
-
-struct CloseMat {
-  void operator()(mat_t* file) const { Mat_Close(file); }
-};
-struct FreeVariable {
-  void operator()(matvar_t* variable) const { Mat_VarFree(variable); }
-};
-using Mat = std::unique_ptr<mat_t, CloseMat>;
-using Variable = std::unique_ptr<matvar_t, FreeVariable>;
 
 bool is_numeric(matio_classes kind) {
   return kind >= MAT_C_DOUBLE && kind <= MAT_C_UINT64;

@@ -1,25 +1,16 @@
 // Writing of MAT-files with libmatio; see mat_file.hpp. The heading is ours: the library's own holds the
 // date.
 #include <array>
-#include <memory>
 #include <mutex>
 
 #include <fmt/format.h>
-#include <matio.h>
 
 #include <sim/formats/mat_file.hpp>
+#include <sim/formats/mat_handles.hpp>
 #include <sim/formats/memory_file.hpp>
 
 namespace mckibben::formats {
 namespace {
-
-struct CloseMat {
-  void operator()(mat_t* file) const { Mat_Close(file); }
-};
-struct FreeVariable {
-  void operator()(matvar_t* variable) const { Mat_VarFree(variable); }
-};
-using Variable = std::unique_ptr<matvar_t, FreeVariable>;
 
 Variable numbers(const std::string& name, std::vector<double> values) {
   std::array<std::size_t, 2> dims{values.size(), 1};
@@ -54,7 +45,7 @@ std::string mat_of(const Table& table) {
   const std::lock_guard lock(library);
   const MemoryFile file;
   {
-    const std::unique_ptr<mat_t, CloseMat> mat(
+    const Mat mat(
         Mat_CreateVer(file.path().c_str(), "MATLAB 5.0 MAT-file, written by mckibben", MAT_FT_MAT5));
     const auto write = [&mat](const Variable& variable) {
       if (!mat || !variable || Mat_VarWrite(mat.get(), variable.get(), MAT_COMPRESSION_NONE) != 0)

@@ -14,9 +14,9 @@ std::string mA(double value_mA) {
   return write_quantity(value_mA, "mA");
 }
 
-class Checker {
+class CurrentChecker {
  public:
-  Checker(const Source& source, const Node& node, const plant::Rig& rig, Problems& problems)
+  CurrentChecker(const Source& source, const Node& node, const plant::Rig& rig, Problems& problems)
       : source_(source), node_(node), range_(working_range(rig)), problems_(problems) {
     top_ = rig.dac.largest_current_mA < rig.valve.span_current_mA ? "the DAC's largest_current"
                                                                   : "the valve's span_current";
@@ -81,7 +81,7 @@ void follow_valve(controllers::Settings& settings, const Source& source, const N
                   const plant::Rig& rig, Problems& problems) {
   controllers::follow(settings, working_range(rig));
   if (const auto* terms = controllers::pid_terms(settings)) {
-    Checker pid(source, node, rig, problems);
+    CurrentChecker pid(source, node, rig, problems);
     const bool works =
         pid.ends("lowest_current", *terms->lowest_current_mA, "highest_current", *terms->highest_current_mA);
     if (const auto* one = std::get_if<controllers::PidSettings>(&settings); one != nullptr && works)
@@ -89,7 +89,7 @@ void follow_valve(controllers::Settings& settings, const Source& source, const N
   }
   if (const auto* calibrated = controllers::calibrated(settings))
     if (const Node* weighing = node.find("weighing"))
-      Checker(source, *weighing, rig, problems)
+      CurrentChecker(source, *weighing, rig, problems)
           .ends("low", *calibrated->weighing.low_mA, "high", *calibrated->weighing.high_mA);
 }
 

@@ -25,9 +25,9 @@ namespace fs = std::filesystem;
 constexpr double most_ticks = 1e6;  // more would not fit into memory
 
 /// The checks that look at a whole scenario and at the places in its file.
-class Checker {
+class ScenarioChecker {
  public:
-  Checker(const YamlFile& file, Scenario& scenario, Problems& problems)
+  ScenarioChecker(const YamlFile& file, Scenario& scenario, Problems& problems)
       : file_(file), source_(file.source), root_(file.root), scenario_(scenario), problems_(problems) {}
 
   void check() {
@@ -186,7 +186,7 @@ Scenario read_scenario(Source source, std::vector<Problem>& warnings) {
   constexpr std::string_view also_allowed[] = {"schema"};
   if (check_schema(file, scenario_schema, problems))
     read_struct(file.source, file.root, scenario, problems, also_allowed);
-  if (problems.errors() == 0) Checker(file, scenario, problems).check();
+  if (problems.errors() == 0) ScenarioChecker(file, scenario, problems).check();
   problems.raise();
   scenario.inputs.insert(scenario.inputs.begin(), problems.inputs().begin(), problems.inputs().end());
   const std::vector<Problem> found = problems.warnings();

@@ -13,10 +13,6 @@ namespace {
 
 using diagnose::Diagnosis;
 
-std::string section(const std::string& title, const std::string& body) {
-  return body.empty() ? "" : "\n" + title + "\n" + body;
-}
-
 std::string warnings(const Diagnosis& diagnosis) {
   std::string text = diagnosis.warnings.empty() ? "" : "\n";
   for (const auto& warning : diagnosis.warnings) text += fmt::format("warning: {}\n", warning);

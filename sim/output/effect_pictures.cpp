@@ -28,15 +28,15 @@ struct Ride {
 };
 constexpr std::array rides{Ride{"slow: up and down in 20 s", 20.0, 40.0, 56.0},
                            Ride{"fast: up and down in 2.5 s", 2.5, 10.0, 336.0}};
-constexpr double picture_width = 600.0, picture_height = 380.0, panel_width = 250.0, top = 92.0,
-                 bottom = 330.0;
+constexpr double picture_width = 600.0, picture_height = 380.0, loop_width = 250.0, loop_top = 92.0,
+                 loop_bottom = 330.0;
 constexpr double lowest_bar = 0.4, highest_bar = 3.5, lowest_ratio = -0.01, highest_ratio = 0.25;
 
 double x_px(const Ride& ride, double bar) {
-  return ride.left + panel_width * (bar - lowest_bar) / (highest_bar - lowest_bar);
+  return ride.left + loop_width * (bar - lowest_bar) / (highest_bar - lowest_bar);
 }
 double y_px(double ratio) {
-  return bottom - (bottom - top) * (ratio - lowest_ratio) / (highest_ratio - lowest_ratio);
+  return loop_bottom - (loop_bottom - loop_top) * (ratio - lowest_ratio) / (highest_ratio - lowest_ratio);
 }
 
 /// Inks for a light and for a dark page: the picture follows what the reader's system asks for.
@@ -83,19 +83,19 @@ std::string loop(const plant::Rig& rig, const Ride& ride, const char* ink, doubl
 }
 
 std::string axes(const Ride& ride) {
-  std::string svg = fmt::format("<text x='{}' y='{}'>{}</text>\n", ride.left, top - 8, ride.title);
+  std::string svg = fmt::format("<text x='{}' y='{}'>{}</text>\n", ride.left, loop_top - 8, ride.title);
   for (const double bar : {1.0, 2.0, 3.0})
     svg += fmt::format(
         "<path class='grid' d='M{0:.1f} {1}V{2}'/><text x='{0:.1f}' y='{3}' "
         "text-anchor='middle'>{4}</text>\n",
-        x_px(ride, bar), top, bottom, bottom + 17, bar);
+        x_px(ride, bar), loop_top, loop_bottom, loop_bottom + 17, bar);
   for (const double ratio : {0.0, 0.05, 0.1, 0.15, 0.2})
     svg += fmt::format(
         "<path class='grid' d='M{0} {1:.1f}h{2}'/><text x='{3}' y='{4:.1f}' text-anchor='end'>{5}</text>\n",
-        ride.left, y_px(ratio), panel_width, ride.left - 6, y_px(ratio) + 4.5,
+        ride.left, y_px(ratio), loop_width, ride.left - 6, y_px(ratio) + 4.5,
         &ride == &rides.front() ? fmt::format("{}", ratio) : "");
   return svg + fmt::format("<rect class='frame' fill='none' x='{}' y='{}' width='{}' height='{}'/>\n",
-                           ride.left, top, panel_width, bottom - top);
+                           ride.left, loop_top, loop_width, loop_bottom - loop_top);
 }
 
 /// A size at which the effect is plain to see, in sizes that matter to a diagnosis. Where none is in reach,
@@ -154,8 +154,8 @@ std::string effect_svg(std::string_view effect) {
   svg += fmt::format(
       "<text x='{}' y='{}' text-anchor='middle'>pressure that the current asks for [bar]</text>\n"
       "<text x='14' y='{}' text-anchor='middle' transform='rotate(-90 14 {})'>contraction ratio</text>\n",
-      0.5 * (rides[0].left + rides[1].left + panel_width), picture_height - 10, 0.5 * (top + bottom),
-      0.5 * (top + bottom));
+      0.5 * (rides[0].left + rides[1].left + loop_width), picture_height - 10, 0.5 * (loop_top + loop_bottom),
+      0.5 * (loop_top + loop_bottom));
   return svg + "</svg>\n";
 }
 

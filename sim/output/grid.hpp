@@ -11,6 +11,11 @@
 
 namespace mckibben::output {
 
+/// A part of a text under its title; nothing where there is nothing to say.
+inline std::string section(const std::string& title, const std::string& body) {
+  return body.empty() ? "" : "\n" + title + "\n" + body;
+}
+
 /// A table whose columns are as wide as their widest cell; the first column and texts to the left, numbers to
 /// the right.
 class Grid {

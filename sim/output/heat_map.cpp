@@ -1,6 +1,6 @@
-// Blue for too low, orange for too high, white for right: told apart by the colour-blind (Okabe & Ito's blue
-// and vermillion). A colour scale holds nine tenths of the errors within reach: what lies beyond is often so
-// far off that nothing else would be seen.
+// Blue for too low, orange for too high, white for map_right: told apart by the colour-blind (Okabe & Ito's
+// blue and vermillion). A colour scale holds nine tenths of the errors within reach: what lies beyond is
+// often so far off that nothing else would be seen.
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -15,8 +15,8 @@ namespace {
 
 using controllers::Branch;
 
-constexpr double panel_width = 390.0, panel_height = 210.0, left = 62.0, top = 74.0;
-constexpr double between_x = 56.0, between_y = 66.0, scale_width = 14.0, right = 92.0, bottom = 104.0;
+constexpr double map_width = 390.0, map_height = 210.0, map_left = 62.0, map_top = 74.0;
+constexpr double between_x = 56.0, between_y = 66.0, scale_width = 14.0, map_right = 92.0, map_bottom = 104.0;
 
 std::string colour(double share) {  // from -1 to 1
   constexpr double low[] = {0, 114, 178}, high[] = {213, 94, 0};
@@ -72,9 +72,9 @@ std::vector<double> edges(const std::vector<double>& values) {
   return at;
 }
 
-class Panel {
+class MapPanel {
  public:
-  Panel(const run::MapPlan& plan, const Words& words, double x_px, double y_px)
+  MapPanel(const run::MapPlan& plan, const Words& words, double x_px, double y_px)
       : plan_(plan),
         words_(words),
         ratios_(edges(plan.ratios)),
@@ -128,11 +128,11 @@ class Panel {
     std::string svg = fmt::format(
         "<rect x='{0:.1f}' y='{1:.1f}' width='{2}' height='{3}' fill='none' stroke='#555'/>\n"
         "<text x='{0:.1f}' y='{4:.1f}' font-weight='bold'>{5}</text>\n",
-        x_px_, y_px_, panel_width, panel_height, y_px_ - 8.0, title);
+        x_px_, y_px_, map_width, map_height, y_px_ - 8.0, title);
     const double step = tick_step(words_.factor * (ratios_.back() - ratios_.front()), 7) / words_.factor;
     for (double i = std::ceil(ratios_.front() / step); i * step <= ratios_.back(); i += 1.0)
       svg += fmt::format("<text x='{:.1f}' y='{:.1f}' text-anchor='middle'>{:.3g}</text>\n", x(i * step),
-                         y_px_ + panel_height + 16.0, words_.factor * i * step + 0.0);  // + 0.0 makes 0 of -0
+                         y_px_ + map_height + 16.0, words_.factor * i * step + 0.0);  // + 0.0 makes 0 of -0
     // Few speeds are named each, many by every n-th.
     const std::size_t every = 1 + (plan_.speeds_per_s.size() - 1) / 10;
     for (std::size_t i = 0; i < plan_.speeds_per_s.size(); i += every)
@@ -142,16 +142,16 @@ class Panel {
                      "<text x='{0:.1f}' y='{1:.1f}' text-anchor='middle'>{4}</text>\n"
                      "<text x='{2:.1f}' y='{3:.1f}' text-anchor='middle' transform='rotate(-90 {2:.1f} "
                      "{3:.1f})'>{5}</text>\n",
-                     x_px_ + 0.5 * panel_width, y_px_ + panel_height + 34.0, x_px_ - 40.0,
-                     y_px_ + 0.5 * panel_height, words_.ratio, words_.speed);
+                     x_px_ + 0.5 * map_width, y_px_ + map_height + 34.0, x_px_ - 40.0,
+                     y_px_ + 0.5 * map_height, words_.ratio, words_.speed);
   }
 
  private:
   double x(double ratio) const {
-    return x_px_ + panel_width * (ratio - ratios_.front()) / (ratios_.back() - ratios_.front());
+    return x_px_ + map_width * (ratio - ratios_.front()) / (ratios_.back() - ratios_.front());
   }
   double y(double speed) const {
-    return y_px_ + panel_height * (speeds_.back() - speed) / (speeds_.back() - speeds_.front());
+    return y_px_ + map_height * (speeds_.back() - speed) / (speeds_.back() - speeds_.front());
   }
 
   const run::MapPlan& plan_;
@@ -165,17 +165,17 @@ std::string scale_svg(const Measure& measure, double factor, double x_px, double
   constexpr int steps = 40;
   for (int i = 0; i < steps; ++i)
     svg += fmt::format("<rect x='{}' y='{:.2f}' width='{}' height='{:.2f}' fill='{}'/>\n", x_px,
-                       y_px + panel_height * i / steps, scale_width, panel_height / steps + 0.3,
+                       y_px + map_height * i / steps, scale_width, map_height / steps + 0.3,
                        colour(1.0 - 2.0 * (i + 0.5) / steps));
   for (const double share : {-1.0, -0.5, 0.0, 0.5, 1.0})
     svg += fmt::format("<text x='{}' y='{:.1f}'>{}{}</text>\n", x_px + scale_width + 5.0,
-                       y_px + 4.0 + panel_height * (0.5 - 0.5 * share),
+                       y_px + 4.0 + map_height * (0.5 - 0.5 * share),
                        share == 1.0    ? "≥ "
                        : share == -1.0 ? "≤ "
                                        : "",
                        share == 0.0 ? "0" : fmt::format("{:+.3g}", share * measure.limit * factor));
   return svg + fmt::format("<rect x='{}' y='{}' width='{}' height='{}' fill='none' stroke='#555'/>\n", x_px,
-                           y_px, scale_width, panel_height);
+                           y_px, scale_width, map_height);
 }
 
 }  // namespace
@@ -188,33 +188,33 @@ std::string heat_map_svg(const run::MapPlan& plan, const run::ErrorMaps& maps, c
                               {&run::MapCell::speed_error_per_s, words.speed_error,
                                limit_of(load, &run::MapCell::speed_error_per_s, words.factor)}};
   const auto columns = static_cast<double>(load.branches.size());
-  const double width = left + columns * panel_width + (columns - 1.0) * between_x + right;
-  const double height = top + 2.0 * panel_height + between_y + bottom;
+  const double width = map_left + columns * map_width + (columns - 1.0) * between_x + map_right;
+  const double height = map_top + 2.0 * map_height + between_y + map_bottom;
   std::string svg = svg_begin(width, height);
   svg += fmt::format(
       "<text x='{}' y='26' font-size='15' font-weight='bold'>{:g} kg (weighed as {:.2f} kg, {:+.1f} %{}): "
       "error at arrival, reached less target</text>\n",
-      left, load.load_kg, load.weighed_kg, 100.0 * load.weighing_error(),
+      map_left, load.load_kg, load.weighed_kg, 100.0 * load.weighing_error(),
       load.extrapolated ? "; extrapolated" : "");
-  double y_px = top;
+  double y_px = map_top;
   for (const Measure& measure : measures) {
-    double x_px = left;
+    double x_px = map_left;
     for (const auto& map : load.branches) {
-      const Panel panel(plan, words, x_px, y_px);
+      const MapPanel panel(plan, words, x_px, y_px);
       const char* way = map.branch == Branch::contraction ? "up" : "down";
       svg += panel.cells(map, measure) + panel.border(maps, load.limits, map.branch) +
              panel.axes(fmt::format("{}: {}", way, measure.title));
-      x_px += panel_width + between_x;
+      x_px += map_width + between_x;
     }
     svg += scale_svg(measure, words.factor, x_px - between_x + 16.0, y_px);
-    y_px += panel_height + between_y;
+    y_px += map_height + between_y;
   }
   const char* legend[] = {"line: border of what the rig can reach; positive errors: too high, too fast",
                           "x: the inverse finds no current speed; dot: beyond its calibrated range or the "
                           "valve's line; grey: no run"};
   double legend_px = height - 34.0;
   for (const char* text : legend) {
-    svg += fmt::format("<text x='{}' y='{}'>{}</text>\n", left, legend_px, text);
+    svg += fmt::format("<text x='{}' y='{}'>{}</text>\n", map_left, legend_px, text);
     legend_px += 18.0;
   }
   return svg + "</svg>\n";

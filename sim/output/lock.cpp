@@ -16,12 +16,12 @@ namespace mckibben::output {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr std::string_view heading = "mckibben ";
+constexpr std::string_view opening = "mckibben ";
 
 std::string holder(const std::string& job) {
   utsname machine{};
   const bool known = uname(&machine) == 0;
-  return fmt::format("{}{} (process {} on {})\n", heading, job, getpid(),
+  return fmt::format("{}{} (process {} on {})\n", opening, job, getpid(),
                      known ? machine.nodename : "an unknown machine");
 }
 
@@ -37,7 +37,7 @@ Lock::Lock(const fs::path& place, const std::string& job)
     file_ = open_file(path_, O_RDWR | O_CREAT | O_APPEND);
     if (!file_) cannot_write(path_, errno);
     const auto said = read_regular(file_);
-    if (!said || (!said->empty() && !said->starts_with(heading)))
+    if (!said || (!said->empty() && !said->starts_with(opening)))
       cannot_write(path_, "it stands where the lock of the results folder would be, and is not ours");
     taken = take(file_, path_);
     if (taken == Taken::is_held)

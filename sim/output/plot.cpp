@@ -12,30 +12,32 @@
 namespace mckibben::output {
 namespace {
 
-constexpr double panel_width = 900.0, panel_height = 190.0, left = 60.0, right = 20.0, gap = 46.0;
+constexpr double plot_width = 900.0, plot_height = 190.0, plot_left = 60.0, plot_right = 20.0,
+                 plot_gap = 46.0;
 
-struct Panel {
+struct PlotPanel {
   double y0_px;      // upper edge
   double low, high;  // contraction ratios at lower and upper edge
   double duration_s;
 
-  double x_px(double time_s) const { return left + panel_width * time_s / duration_s; }
-  double y_px(double ratio) const { return y0_px + panel_height * (high - ratio) / (high - low); }
+  double x_px(double time_s) const { return plot_left + plot_width * time_s / duration_s; }
+  double y_px(double ratio) const { return y0_px + plot_height * (high - ratio) / (high - low); }
 
   std::string axes(const std::string& title) const {
     std::string svg = fmt::format("<rect x='{}' y='{}' width='{}' height='{}' fill='none' stroke='#888'/>\n",
-                                  left, y0_px, panel_width, panel_height);
-    svg += fmt::format("<text x='{}' y='{}' font-weight='bold'>{}</text>\n", left, y0_px - 8, title);
+                                  plot_left, y0_px, plot_width, plot_height);
+    svg += fmt::format("<text x='{}' y='{}' font-weight='bold'>{}</text>\n", plot_left, y0_px - 8, title);
     const double step = tick_step(high - low, 6);
     for (double r = std::ceil(low / step) * step; r <= high; r += step)
       svg += fmt::format(
           "<line x1='{0}' x2='{1}' y1='{2:.1f}' y2='{2:.1f}' stroke='#ddd'/><text x='{3}' y='{4:.1f}' "
           "text-anchor='end'>{5:.3g}</text>\n",
-          left, left + panel_width, y_px(r), left - 6, y_px(r) + 4, std::abs(r) < 1e-9 ? 0.0 : r);
+          plot_left, plot_left + plot_width, y_px(r), plot_left - 6, y_px(r) + 4,
+          std::abs(r) < 1e-9 ? 0.0 : r);
     const double step_s = tick_step(duration_s, 10);
     for (double t = 0.0; t <= duration_s * (1 + 1e-9); t += step_s)
       svg += fmt::format("<text x='{:.1f}' y='{}' text-anchor='middle'>{:g} s</text>\n", x_px(t),
-                         y0_px + panel_height + 16, t);
+                         y0_px + plot_height + 16, t);
     return svg;
   }
 
@@ -43,7 +45,7 @@ struct Panel {
   template <class Value>
   std::string line(std::size_t ticks, double tick_s, const char* colour, const char* dash, double width,
                    const Value& value) const {
-    const auto per_pixel = std::max<std::size_t>(1, ticks / static_cast<std::size_t>(panel_width));
+    const auto per_pixel = std::max<std::size_t>(1, ticks / static_cast<std::size_t>(plot_width));
     std::string points;
     for (std::size_t k = 0; k < ticks; k += per_pixel) {
       const auto put = [&](std::size_t i) {
@@ -80,11 +82,11 @@ struct Legend {
 /// Names beside their lines, in as many rows as they need.
 Legend make_legend(const input::Scenario& scenario) {
   Legend legend;
-  double x = left;
+  double x = plot_left;
   const auto add = [&](const std::string& name, const char* colour, const char* dash) {
     const double needed = 40.0 + 7.5 * static_cast<double>(name.size());
-    if (x > left && x + needed > left + panel_width) {
-      x = left;
+    if (x > plot_left && x + needed > plot_left + plot_width) {
+      x = plot_left;
       legend.bottom_px += 18.0;
     }
     legend.svg += fmt::format(
@@ -105,8 +107,8 @@ std::string tracking_svg(const input::Scenario& scenario, const run::Comparison&
   const std::size_t columns = scenario.controllers.size(), rows = scenario.loads_kg.size();
   const Legend legend = make_legend(scenario);
   const double first_px = legend.bottom_px + 30.0;
-  const double height = first_px + static_cast<double>(rows) * (panel_height + gap) + 10.0;
-  const double width = left + panel_width + right;
+  const double height = first_px + static_cast<double>(rows) * (plot_height + plot_gap) + 10.0;
+  const double width = plot_left + plot_width + plot_right;
   double low = *std::min_element(comparison.target.begin(), comparison.target.end());
   double high = *std::max_element(comparison.target.begin(), comparison.target.end());
   for (const auto& run : comparison.runs)
@@ -119,8 +121,8 @@ std::string tracking_svg(const input::Scenario& scenario, const run::Comparison&
 
   std::string svg = svg_begin(width, height) + legend.svg;
   for (std::size_t r = 0; r < rows; ++r) {
-    const Panel panel{first_px + static_cast<double>(r) * (panel_height + gap), low - margin, high + margin,
-                      static_cast<double>(comparison.target.size()) * tick_s};
+    const PlotPanel panel{first_px + static_cast<double>(r) * (plot_height + plot_gap), low - margin,
+                          high + margin, static_cast<double>(comparison.target.size()) * tick_s};
     svg += panel.axes(fmt::format("{} kg: contraction ratio", input::write_number(scenario.loads_kg[r])));
     svg += panel.line(comparison.target.size(), tick_s, "#000000", "none", 2.2,
                       [&](std::size_t k) { return comparison.target[k]; });

@@ -71,10 +71,6 @@ std::string tuned_line(const run::TunedController& row) {
       cost(row.idle_cost), run::gained_nothing(row) ? ": the tuning gained nothing" : "");
 }
 
-std::string section(const std::string& title, const std::string& body) {
-  return body.empty() ? "" : "\n" + title + "\n" + body;
-}
-
 std::string contraction_notes(const input::Scenario& scenario, const run::Comparison& comparison) {
   std::string text;
   for (const auto& run : comparison.runs)

@@ -202,11 +202,6 @@ std::string gap_html(const Diagnosis& diagnosis, const std::vector<const diagnos
               : picture);
 }
 
-bool gauged(const input::Dataset& data) {
-  return std::any_of(data.runs.begin(), data.runs.end(),
-                     [](const auto& run) { return run.muscle_pressure_Pa.has_value(); });
-}
-
 std::string twins_html(const input::Dataset& data, const Diagnosis& diagnosis) {
   std::string html;
   for (const auto& effect : diagnosis.effects)
@@ -242,6 +237,11 @@ std::string next_html(const Diagnosis& diagnosis) {
 }
 
 }  // namespace
+
+bool gauged(const input::Dataset& data) {
+  return std::any_of(data.runs.begin(), data.runs.end(),
+                     [](const auto& run) { return run.muscle_pressure_Pa.has_value(); });
+}
 
 double left_of(const diagnose::RunGap& run, bool changed) {
   return changed ? run.corrected_rmse : run.recalibrated_rmse;

@@ -22,4 +22,7 @@ std::vector<Chapter> story(const input::Dataset& data, const diagnose::Diagnosis
 
 std::vector<Chapter> doubts_and_plan(const input::Dataset& data, const diagnose::Diagnosis& diagnosis);
 
+/// Whether some run has a muscle pressure.
+bool gauged(const input::Dataset& data);
+
 }  // namespace mckibben::report

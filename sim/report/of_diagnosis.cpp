@@ -114,11 +114,6 @@ Group group_of(const input::Dataset& data, const Diagnosis& diagnosis, const Run
   return group;
 }
 
-bool gauged(const input::Dataset& data) {
-  return std::any_of(data.runs.begin(), data.runs.end(),
-                     [](const auto& run) { return run.muscle_pressure_Pa.has_value(); });
-}
-
 std::vector<Plot> plots(const input::Dataset& data, const Diagnosis& diagnosis) {
   const double floor = diagnosis.gap.noise_floor;
   auto all = plots_for(diagnosis.corrected, "Contraction, measured and by each rig", "Measured",

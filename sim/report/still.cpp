@@ -16,7 +16,8 @@ namespace {
 
 using output::escaped;
 
-constexpr double width = 460.0, height = 300.0, left = 66.0, right = 10.0, top = 10.0, bottom = 42.0;
+constexpr double picture_width = 460.0, picture_height = 300.0, left = 66.0, right = 10.0, top = 10.0,
+                 bottom = 42.0;
 
 struct Curve {
   std::string kind;  // class and data-run
@@ -90,12 +91,12 @@ std::string axis_svg(const std::string& label, const plant::Rig& rig, const InUn
 
 std::string across(const Axis& x, double factor, const std::string& label) {
   std::string svg = fmt::format("<text x='{}' y='{}' text-anchor='middle'>{}</text>\n",
-                                0.5 * (left + width - right), height - 8, escaped(label));
+                                0.5 * (left + picture_width - right), picture_height - 8, escaped(label));
   x.ticks(6, factor, [&](double px, const std::string& text) {
     svg += fmt::format(
         "<path class='grid' d='M{0:.1f} {1}V{2}'/><text x='{0:.1f}' y='{3}' "
         "text-anchor='middle'>{4}</text>\n",
-        px, top, height - bottom, height - bottom + 15, text);
+        px, top, picture_height - bottom, picture_height - bottom + 15, text);
   });
   return svg;
 }
@@ -103,18 +104,18 @@ std::string across(const Axis& x, double factor, const std::string& label) {
 std::string upwards(const Axis& y, double factor, const std::string& label) {
   std::string svg =
       fmt::format("<text x='11' y='{0}' text-anchor='middle' transform='rotate(-90 11 {0})'>{1}</text>\n",
-                  0.5 * (top + height - bottom), escaped(label));
+                  0.5 * (top + picture_height - bottom), escaped(label));
   y.ticks(5, factor, [&](double px, const std::string& text) {
     svg += fmt::format(
         "<path class='grid' d='M{0} {1:.1f}H{2}'/><text x='{3}' y='{4:.1f}' text-anchor='end'>{5}</text>\n",
-        left, px, width - right, left - 5, px + 4, text);
+        left, px, picture_width - right, left - 5, px + 4, text);
   });
   return svg;
 }
 
 std::string chart(const std::string& head, const std::string& x_label, const std::string& y_label,
                   const std::vector<Curve>& curves, const plant::Rig& rig, double floor = 0.0) {
-  Axis x{left, width - right}, y{height - bottom, top, floor};
+  Axis x{left, picture_width - right}, y{picture_height - bottom, top, floor};
   bool any = false;
   for (const auto& curve : curves)
     for (const auto& [at_x, at_y] : curve.points)
@@ -127,8 +128,8 @@ std::string chart(const std::string& head, const std::string& x_label, const std
   if (floor > 0.0) y.hold(-1.5 * floor), y.hold(1.5 * floor);
   x.close();
   y.close();
-  std::string svg = fmt::format("<svg role='img' viewBox='0 0 {} {}' {}{}{}>\n", width, height, head,
-                                x.attribute('x'), y.attribute('y'));
+  std::string svg = fmt::format("<svg role='img' viewBox='0 0 {} {}' {}{}{}>\n", picture_width,
+                                picture_height, head, x.attribute('x'), y.attribute('y'));
   svg += axis_svg(x_label, rig, [&x](double factor, const auto& label) { return across(x, factor, label); });
   svg += axis_svg(y_label, rig, [&y](double factor, const auto& label) { return upwards(y, factor, label); });
   for (const auto& curve : curves) svg += path(curve, x, y);
@@ -136,7 +137,7 @@ std::string chart(const std::string& head, const std::string& x_label, const std
     svg += fmt::format(
         "<path class='floor' d='M{0} {1:.1f}H{2}M{0} {3:.1f}H{2}'/><text x='{4}' y='{5:.1f}' "
         "class='halo' text-anchor='end'>noise floor</text>\n",
-        left, y.px(floor), width - right, y.px(-floor), width - right - 3, y.px(floor) - 4);
+        left, y.px(floor), picture_width - right, y.px(-floor), picture_width - right - 3, y.px(floor) - 4);
   return svg + "</svg>\n";
 }
 

@@ -21,7 +21,7 @@ constexpr double effort_weight = 2e-4;
 // stability: the loop's own gain changes with load and contraction.
 constexpr double gain_margin = 2.0;
 
-double median(std::vector<double> values) {
+double lower_median(std::vector<double> values) {
   std::sort(values.begin(), values.end());
   return values[(values.size() - 1) / 2];
 }
@@ -104,7 +104,7 @@ TunedController tune_controller(const input::Scenario& scenario, const controlle
                                 controllers::Settings& settings, const std::function<void()>& tried) {
   const controllers::PidTerms& pid = *controllers::pid_terms(settings);
   TunedController result{.controller = controllers::name_of(settings),
-                         .load_kg = pid.tuning_load_kg.value_or(median(scenario.loads_kg))};
+                         .load_kg = pid.tuning_load_kg.value_or(lower_median(scenario.loads_kg))};
   const Tuning tuning(scenario, knowledge, settings, result.load_kg);
   const auto cost = [&](const Gains& gains) {
     if (interrupted()) throw Interrupted();

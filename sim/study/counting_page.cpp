@@ -44,7 +44,7 @@ std::string weighings(const std::vector<double>& shown, const Weighings& weighed
 }
 
 /// The first whole contraction under the lightest load and the fastest current.
-thesis::Figure picture(const Evidence& evidence) {
+thesis::Figure counting_picture(const Evidence& evidence) {
   const auto& grid = evidence.from_current.grid;
   const double tick_s = evidence.campaign.rig.tick_s;
   thesis::Figure figure;
@@ -170,7 +170,7 @@ Study study_counting(const Evidence& evidence) {
       "{:+.2f}, {:+.2f} and {:+.2f} kg.\n",
       alone.all[counted].deviation(), alone.all[neglected].deviation(), alone.all[truly].deviation(),
       alone.runs[counted].mean(), alone.runs[neglected].mean(), alone.runs[truly].mean());
-  return {"counting", std::move(page), picture(evidence), document(counting)};
+  return {"counting", std::move(page), counting_picture(evidence), document(counting)};
 }
 
 }  // namespace mckibben::study

@@ -199,7 +199,7 @@ std::string why_pressure(const Evidence& evidence) {
           : "The polynomials in load keep that.");
 }
 
-thesis::Figure picture(const Ours& ours) {
+thesis::Figure figures_picture(const Ours& ours) {
   thesis::Figure figure;
   figure.title = "error of the weighed load, five contractions";
   figure.x_label = "load [kg]";
@@ -301,7 +301,7 @@ Study study_figures(const Evidence& evidence) {
       loads(ours) + "## Spread of friction by how the data are processed\n\n" + friction(ours) +
       "## Why they differ\n\n" + why_friction(evidence, ours) + why_load(evidence, ours) +
       why_pressure(evidence);
-  return {"figures", std::move(page), picture(ours), document(evidence, ours)};
+  return {"figures", std::move(page), figures_picture(ours), document(evidence, ours)};
 }
 
 }  // namespace mckibben::study

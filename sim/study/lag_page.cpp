@@ -89,7 +89,7 @@ std::string loads(const Lag& lag) {
 }
 
 /// Means in steps of e, at the slowest and the fastest current.
-thesis::Figure picture(const Evidence& evidence) {
+thesis::Figure lag_picture(const Evidence& evidence) {
   const auto& speeds = evidence.from_current.grid.speeds_mA_per_s;
   constexpr double step = 0.01;
   thesis::Figure figure;
@@ -204,7 +204,7 @@ Study study_lag(const Evidence& evidence) {
       lightest, heaviest,
       lightest * heaviest < 0.0 ? ": one coefficient for all loads (T 4.6) cannot take the lag out of each"
                                 : "");
-  return {"lag", std::move(page), picture(evidence), document(lag, evidence)};
+  return {"lag", std::move(page), lag_picture(evidence), document(lag, evidence)};
 }
 
 }  // namespace mckibben::study

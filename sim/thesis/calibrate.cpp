@@ -11,7 +11,7 @@ namespace {
 
 constexpr double largest_number = 1e300;  // what a calibration file may hold in place of infinity
 
-std::string list(const std::vector<double>& values) {
+std::string listed(const std::vector<double>& values) {
   std::string text;
   for (const double value : values) text += fmt::format("{}{:.5g}", text.empty() ? "" : ", ", value);
   return text;
@@ -45,7 +45,7 @@ void check_grid(const input::Dataset& dataset, const Grid& grid, const Options& 
                fmt::format("a polynomial of order {} in the load (T 4.14 to 4.28) needs {} loads, and there "
                            "{} {} ({} kg{})",
                            loads - 1, loads, grid.loads_kg.size() == 1 ? "is" : "are", grid.loads_kg.size(),
-                           list(grid.loads_kg),
+                           listed(grid.loads_kg),
                            grid.merged_loads > 0 ? "; loads within 0.1 % of each other are one" : ""),
                "more loads", "--load-order", grid.loads_kg.size() - 1);
   for (const double load_kg : grid.loads_kg) {
@@ -58,7 +58,7 @@ void check_grid(const input::Dataset& dataset, const Grid& grid, const Options& 
           fmt::format("a polynomial of order {} in the current's speed (T 4.9 to 4.13) needs {} speeds, and "
                       "with {:g} kg there {} {} ({} mA/s)",
                       speeds - 1, speeds, load_kg, found.size() == 1 ? "is" : "are", found.size(),
-                      list(found)),
+                      listed(found)),
           "more periods of the current", "--speed-order", found.size() - 1);
   }
 }

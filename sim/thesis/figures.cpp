@@ -14,8 +14,6 @@ namespace {
 using Eigen::Index, Eigen::VectorXd;
 
 constexpr double shown_speeds_mA_per_s[] = {5.6, 6.7, 8.3, 11.1, 16.7};  // T figures 4.2 to 4.25
-constexpr const char* ratio = "contraction_ratio";
-constexpr const char* speed = "current_speed_mA_per_s";
 constexpr const char* coefficient = "friction_coefficient";
 
 const FrictionAtSpeed& nearest(const FrictionFit& fit, double wanted) {
@@ -40,7 +38,7 @@ Figure against_ratio(std::string number, const std::string& name, const Friction
                 "coefficient of friction",
                 {},
                 {}};
-  figure.columns = {{ratio, shown.contraction_ratio},
+  figure.columns = {{ratio_column, shown.contraction_ratio},
                     {coefficient, shown.coefficient},
                     {"model", list(model(vector(shown.contraction_ratio)))}};
   figure.curves = {{"data", 0, 1, true}, {"model", 0, 2}};
@@ -68,7 +66,7 @@ void per_speed(const FrictionFit& fit, std::vector<Figure>& all) {
                   fmt::format("p{}", i),
                   {},
                   {}};
-    figure.columns = {{speed, {}}, {fmt::format("p{}", i), {}}, {"standard_error", {}}};
+    figure.columns = {{speed_column, {}}, {fmt::format("p{}", i), {}}, {"standard_error", {}}};
     for (const auto& at : fit.speeds) {
       figure.columns[0].values.push_back(at.speed_mA_per_s);
       figure.columns[1].values.push_back(at.fifth_order.values(i));
@@ -91,7 +89,7 @@ Figure parts(const FrictionFit& fit) {
                 {},
                 {}};
   const double constant_part = fit.f0.value + fit.f1.value * nu * nu;
-  figure.columns = {{ratio, list(grid)},
+  figure.columns = {{ratio_column, list(grid)},
                     {"constant", std::vector<double>(100, constant_part)},
                     {"linear", list(fit.f2.value * grid)},
                     {"logarithmic", list((fit.f3.value * grid.array().log()).matrix())},
@@ -102,7 +100,7 @@ Figure parts(const FrictionFit& fit) {
 
 Figure on_speed(const FrictionFit& fit) {
   Figure figure{"4.19", "f1(nu2) of the superposition (T 4.6)", "current speed [mA/s]", "f1(nu2)", {}, {}};
-  figure.columns = {{speed, {}}, {"data", {}}, {"linear_in_square", {}}};
+  figure.columns = {{speed_column, {}}, {"data", {}}, {"linear_in_square", {}}};
   figure.curves = {{"data", 0, 1, true}, {"linear in nu2", 0, 2}};
   const bool has_quadratic = fit.quadratic.values.size() > 0;
   if (has_quadratic) {
@@ -127,7 +125,7 @@ Figure all_speeds(const FrictionFit& fit) {
                 "coefficient of friction",
                 {},
                 {}};
-  figure.columns = {{speed, {}}, {ratio, {}}, {coefficient, {}}, {"model", {}}};
+  figure.columns = {{speed_column, {}}, {ratio_column, {}}, {coefficient, {}}, {"model", {}}};
   for (const auto& at : fit.speeds) {
     const Samples shown = thinned(at.samples, std::max<std::size_t>(1, most_dots / fit.speeds.size()));
     const VectorXd model = superposed(fit, vector(shown.contraction_ratio), at.speed_mA_per_s);
@@ -149,7 +147,7 @@ Figure deviations(const FrictionFit& contraction, const FrictionFit& relaxation)
                 "standard deviation",
                 {},
                 {}};
-  figure.columns = {{speed, {}}};
+  figure.columns = {{speed_column, {}}};
   for (const auto& at : contraction.speeds) figure.columns[0].values.push_back(at.speed_mA_per_s);
   const auto add = [&](const char* direction, const FrictionFit& fit) {
     const std::size_t first = figure.columns.size();

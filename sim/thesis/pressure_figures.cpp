@@ -11,9 +11,6 @@ namespace {
 
 using Eigen::Index, Eigen::VectorXd;
 
-constexpr const char* ratio = "contraction_ratio";
-constexpr const char* speed = "current_speed_mA_per_s";
-
 class PressureFigures {
  public:
   PressureFigures(const CalibrationResult& result, bool kgf, std::vector<Figure>& all)
@@ -60,7 +57,7 @@ class PressureFigures {
                       fmt::format("Superposition (T 4.7): contraction, {:g} kg, {:.1f} mA/s",
                                   cells[middle]->load_kg, cells[middle]->speed_mA_per_s),
                       "contraction ratio", fmt::format("pressure [{}]", label_));
-    f.columns = {{ratio, shown.contraction_ratio},
+    f.columns = {{ratio_column, shown.contraction_ratio},
                  {"pressure_" + unit_, scaled(vector(shown.pressure_Pa))},
                  {"constant_" + unit_, scaled(c(0) * basis.col(0))},
                  {"linear_" + unit_, scaled(c(1) * basis.col(1))},
@@ -76,7 +73,7 @@ class PressureFigures {
   void shift() {
     Figure f = figure("4.28", "Shift of the pressure with load and current speed, contraction",
                       "contraction ratio", fmt::format("pressure [{}]", label_));
-    f.columns = {{"load_kg", {}}, {speed, {}}, {ratio, {}}, {"pressure_" + unit_, {}}};
+    f.columns = {{"load_kg", {}}, {speed_column, {}}, {ratio_column, {}}, {"pressure_" + unit_, {}}};
     const auto& cells = result_.grid.of(Direction::contraction);
     std::vector<std::size_t> corners;
     for (std::size_t c = 0; c < cells.size(); ++c) {
@@ -107,7 +104,7 @@ class PressureFigures {
                       fmt::format("{} against current speed, {}, {:g} kg", name, name_of(direction),
                                   result_.grid.loads_kg.front()),
                       "current speed [mA/s]", fmt::format("{} [{}]", name, label_));
-    f.columns = {{speed, {}}, {fmt::format("{}_{}", name, unit_), {}}, {"model_" + unit_, {}}};
+    f.columns = {{speed_column, {}}, {fmt::format("{}_{}", name, unit_), {}}, {"model_" + unit_, {}}};
     const std::size_t cells = lightest(direction).size();
     for (std::size_t c = 0; c < cells; ++c) {
       const PressureCell& cell = fit.cells[c];
@@ -128,7 +125,7 @@ class PressureFigures {
                       fmt::format("Standard deviation of the pressure from the model, {}, {:g} kg",
                                   name_of(direction), result_.grid.loads_kg.front()),
                       "current speed [mA/s]", fmt::format("standard deviation [{}]", label_));
-    f.columns = {{speed, {}}};
+    f.columns = {{speed_column, {}}};
     const std::pair<const char*, double Stages::*> stages[] = {{"in_speed", &Stages::in_speed},
                                                                {"own_fit", &Stages::own},
                                                                {"in_load", &Stages::in_load},

@@ -11,6 +11,10 @@ namespace mckibben::thesis {
 
 void add_pressure_figures(const CalibrationResult& result, bool kgf, std::vector<Figure>& all);
 
+// Names of columns.
+inline constexpr const char* ratio_column = "contraction_ratio";
+inline constexpr const char* speed_column = "current_speed_mA_per_s";
+
 std::vector<double> list(const Eigen::VectorXd& values);
 /// Every n-th sample, so that there are at most `most`, by contraction ratio.
 Samples thinned(const Samples& samples, std::size_t most = most_dots);

@@ -12,17 +12,9 @@
 namespace mckibben::cli {
 namespace {
 
-std::string campaign(const std::string& loads) {
-  return "schema: mckibben-campaign/1\nloads: " + loads +
-         "\ncurrents:\n"
-         "  - {duration: 7.2 s, current: {kind: sine_current, low: 0 mA, high: 20 mA, period: 2.4 s}}\n"
-         "  - {duration: 10.8 s, current: {kind: sine_current, low: 0 mA, high: 20 mA, period: 3.6 s}}\n"
-         "  - {duration: 18 s, current: {kind: sine_current, low: 0 mA, high: 20 mA, period: 6 s}}\n";
-}
-
 TEST(Calibrate, TurnsADataSetIntoAFileForControllersAndFigures) {
   const Scratch scratch;
-  write_text(scratch / "small.yaml", campaign("[11.138 kg, 14 kg, 18.87 kg, 23.406 kg]"));
+  write_text(scratch / "small.yaml", campaign_of_sines());
   ASSERT_EQ(mckibben("dataset small.yaml --out data", scratch).status, 0);
   const Said said = mckibben("calibrate data --out cal --json", scratch);
   ASSERT_EQ(said.status, 0) << said.err;
@@ -53,8 +45,7 @@ TEST(Calibrate, TurnsADataSetIntoAFileForControllersAndFigures) {
 
 TEST(Calibrate, WarnsOfFitsThatCannotBeUsed) {
   const Scratch scratch;
-  write_text(scratch / "noisy.yaml",
-             campaign("[11.138 kg, 14 kg, 18.87 kg, 23.406 kg]") + "noise: {encoder_jitter: 5e-3}\n");
+  write_text(scratch / "noisy.yaml", campaign_of_sines() + "noise: {encoder_jitter: 5e-3}\n");
   ASSERT_EQ(mckibben("dataset noisy.yaml --out data", scratch).status, 0);
   const Said said = mckibben("calibrate data --out cal", scratch);
   EXPECT_EQ(said.status, 0) << said.err;
@@ -67,7 +58,7 @@ TEST(Calibrate, WarnsOfFitsThatCannotBeUsed) {
 
 TEST(Calibrate, RefusesTooFewLoadsAndSaysWhatHelps) {
   const Scratch scratch;
-  write_text(scratch / "small.yaml", campaign("[11.138 kg, 14 kg]"));
+  write_text(scratch / "small.yaml", campaign_of_sines("[11.138 kg, 14 kg]"));
   ASSERT_EQ(mckibben("dataset small.yaml --out data", scratch).status, 0);
   const Said said = mckibben("calibrate data --out cal", scratch);
   EXPECT_EQ(said.status, 65);

@@ -17,12 +17,6 @@ namespace {
 namespace fs = std::filesystem;
 using input::Json;
 
-constexpr const char* campaign =
-    "schema: mckibben-campaign/1\nloads: [11.138 kg, 14 kg, 18.87 kg, 23.406 kg]\ncurrents:\n"
-    "  - {duration: 7.2 s, current: {kind: sine_current, low: 0 mA, high: 20 mA, period: 2.4 s}}\n"
-    "  - {duration: 10.8 s, current: {kind: sine_current, low: 0 mA, high: 20 mA, period: 3.6 s}}\n"
-    "  - {duration: 18 s, current: {kind: sine_current, low: 0 mA, high: 20 mA, period: 6 s}}\n";
-
 // A law that pulls a heavy load past the range in which the braid is defined.
 constexpr const char* falls =
     "{muscle: {stop_stiffness: 1e5 N/m}, effects: {residual_law: {terms: [{of: m g, coefficient: -400 N}]}}}";
@@ -52,7 +46,7 @@ class Contract : public testing::Test {
                std::string("schema: mckibben-scenario/1\nrig: ") + falls +
                    "\nloads: [45 kg]\nduration: 1 s\ntarget: {kind: steps, start: 0.01, moves: []}\n"
                    "controllers: [{kind: step_current, moves: []}]\n");
-    write_text(s / "campaign.yaml", campaign);
+    write_text(s / "campaign.yaml", campaign_of_sines());
     write_text(
         s / "falling_campaign.yaml",
         std::string("schema: mckibben-campaign/1\nrig: ") + falls +

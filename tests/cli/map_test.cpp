@@ -15,17 +15,10 @@
 namespace mckibben::cli {
 namespace {
 
-constexpr const char* campaign =
-    "schema: mckibben-campaign/1\nloads: [11.138 kg, 14 kg, 18.87 kg, 23.406 kg]\n"
-    "currents:\n"
-    "  - {duration: 7.2 s, current: {kind: sine_current, low: 0 mA, high: 20 mA, period: 2.4 s}}\n"
-    "  - {duration: 10.8 s, current: {kind: sine_current, low: 0 mA, high: 20 mA, period: 3.6 s}}\n"
-    "  - {duration: 18 s, current: {kind: sine_current, low: 0 mA, high: 20 mA, period: 6 s}}\n";
-
 class Map : public testing::Test {
  protected:
   void SetUp() override {
-    write_text(scratch / "small.yaml", campaign);
+    write_text(scratch / "small.yaml", campaign_of_sines());
     ASSERT_EQ(mckibben("dataset small.yaml --out data", scratch).status, 0);
     ASSERT_EQ(mckibben("calibrate data --out cal", scratch).status, 0);
   }

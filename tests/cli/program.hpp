@@ -45,4 +45,13 @@ inline constexpr const char* quick_scenario =
     "  - {kind: static_inverse, assumed_load: 14 kg}\n"
     "noise: {encoder_jitter: 1e-4}\n";
 
+/// A campaign that is just enough for a calibration: three sines with each load.
+inline std::string campaign_of_sines(const std::string& loads = "[11.138 kg, 14 kg, 18.87 kg, 23.406 kg]") {
+  return "schema: mckibben-campaign/1\nloads: " + loads +
+         "\ncurrents:\n"
+         "  - {duration: 7.2 s, current: {kind: sine_current, low: 0 mA, high: 20 mA, period: 2.4 s}}\n"
+         "  - {duration: 10.8 s, current: {kind: sine_current, low: 0 mA, high: 20 mA, period: 3.6 s}}\n"
+         "  - {duration: 18 s, current: {kind: sine_current, low: 0 mA, high: 20 mA, period: 6 s}}\n";
+}
+
 }  // namespace mckibben::cli

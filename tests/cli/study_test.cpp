@@ -10,17 +10,9 @@
 namespace mckibben::cli {
 namespace {
 
-std::string campaign(const std::string& loads) {
-  return "schema: mckibben-campaign/1\nname: small\nloads: " + loads +
-         "\ncurrents:\n"
-         "  - {duration: 7.2 s, current: {kind: sine_current, low: 0 mA, high: 20 mA, period: 2.4 s}}\n"
-         "  - {duration: 10.8 s, current: {kind: sine_current, low: 0 mA, high: 20 mA, period: 3.6 s}}\n"
-         "  - {duration: 18 s, current: {kind: sine_current, low: 0 mA, high: 20 mA, period: 6 s}}\n";
-}
-
 TEST(Study, WritesPagePictureTableAndDocument) {
   const Scratch scratch;
-  write_text(scratch / "small.yaml", campaign("[11.138 kg, 14 kg, 18.87 kg, 23.406 kg]"));
+  write_text(scratch / "small.yaml", campaign_of_sines());
   for (const std::string name : {"lag", "counting", "figures"}) {
     const Said said = mckibben("study " + name + " small.yaml", scratch);
     ASSERT_EQ(said.status, 0) << said.err;
@@ -43,7 +35,7 @@ TEST(Study, RefusesWhatItCannotJudge) {
   const Scratch scratch;
   EXPECT_EQ(mckibben("study friction small.yaml", scratch).status, 64);
   EXPECT_EQ(mckibben("study lag missing.yaml", scratch).status, 66);
-  write_text(scratch / "small.yaml", campaign("[11.138 kg, 23.406 kg]"));
+  write_text(scratch / "small.yaml", campaign_of_sines("[11.138 kg, 23.406 kg]"));
   const Said few = mckibben("study lag small.yaml", scratch);
   EXPECT_EQ(few.status, 65);
   EXPECT_NE(few.err.find("small.yaml:1:1: error: "), std::string::npos) << few.err;

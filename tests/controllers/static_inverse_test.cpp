@@ -14,7 +14,7 @@ namespace {
 
 constexpr double alpha_rad = 20.0 * std::numbers::pi / 180.0;
 
-Knowledge wanting(std::vector<double> target) {
+Knowledge given(std::vector<double> target) {
   Knowledge knowledge;
   knowledge.contraction_per_count = 4.363e-4;
   knowledge.tick_s = 0.012;
@@ -34,7 +34,7 @@ double force_N(double current_mA, double e, double r0_m) {
 
 TEST(StaticInverse, PressureItAsksForCarriesTheAssumedLoad) {
   const std::vector<double> target{0.02, 0.05, 0.1, 0.15, 0.2};
-  const auto controller = StaticInverseSettings{.assumed_load_kg = 16.138}.make(wanting(target));
+  const auto controller = StaticInverseSettings{.assumed_load_kg = 16.138}.make(given(target));
   EXPECT_EQ(controller->rest().current_mA, controller->step({0, 0.0, 0}).current_mA);
   for (std::size_t k = 0; k < target.size(); ++k) {
     const double current_mA = controller->step({static_cast<std::int64_t>(k), 0.0, 0}).current_mA;
@@ -46,19 +46,19 @@ TEST(StaticInverse, PressureItAsksForCarriesTheAssumedLoad) {
 
 TEST(StaticInverse, BelievesItsOwnRadiusIfGivenOne) {
   const StaticInverseSettings settings{.assumed_load_kg = 11.138, .rest_radius_m = 8.0e-3};
-  const double current_mA = settings.make(wanting({0.1}))->step({0, 0.0, 0}).current_mA;
+  const double current_mA = settings.make(given({0.1}))->step({0, 0.0, 0}).current_mA;
   EXPECT_NEAR(force_N(current_mA, 0.1, 8.0e-3), 11.138 * 9.80665, 1e-9);
 }
 
 TEST(StaticInverse, StaysOnTheValvesLine) {
-  const auto controller = StaticInverseSettings{.assumed_load_kg = 23.406}.make(wanting({0.297, 0.9}));
+  const auto controller = StaticInverseSettings{.assumed_load_kg = 23.406}.make(given({0.297, 0.9}));
   EXPECT_EQ(controller->step({0, 0.0, 0}).current_mA, 20.0) << "nearly e_max";
   EXPECT_EQ(controller->step({1, 0.012, 0}).current_mA, 20.0) << "beyond e_max";
-  EXPECT_EQ(StaticInverseSettings{.assumed_load_kg = 0.1}.make(wanting({0.0}))->rest().current_mA, 4.0);
+  EXPECT_EQ(StaticInverseSettings{.assumed_load_kg = 0.1}.make(given({0.0}))->rest().current_mA, 4.0);
 }
 
 TEST(StaticInverse, DoesNotLookAtTheCounts) {
-  const auto controller = StaticInverseSettings{.assumed_load_kg = 16.0}.make(wanting({0.1}));
+  const auto controller = StaticInverseSettings{.assumed_load_kg = 16.0}.make(given({0.1}));
   EXPECT_EQ(controller->step({0, 0.0, 0}).current_mA, controller->step({0, 0.0, 400}).current_mA);
 }
 

@@ -12,8 +12,6 @@
 namespace mckibben::controllers {
 namespace {
 
-constexpr double gravity_m_per_s2 = 9.80665;
-
 // Contraction ratio at which braid force less friction carries the load (T 4.29 to 4.31 without
 // acceleration).
 double rest_ratio(const Knowledge& knowledge, const FrictionModel& friction, double nu, double load_kg,

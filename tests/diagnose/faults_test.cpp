@@ -14,7 +14,7 @@
 namespace mckibben::diagnose {
 namespace {
 
-const input::Dataset& sound() {
+const input::Dataset& undisturbed() {
   static const input::Dataset data = small(plant::Rig{});
   return data;
 }
@@ -33,7 +33,7 @@ std::vector<Fault> faults_of(const input::Dataset& data, const std::vector<Candi
 using Spoil = std::function<void(double& ratio, double k)>;
 
 input::Dataset spoilt(std::size_t run, const Spoil& spoil) {
-  input::Dataset data = sound();
+  input::Dataset data = undisturbed();
   auto& ratios = data.runs[run].contraction_ratio;
   for (std::size_t k = 0; k < ratios.size(); ++k) spoil(ratios[k], static_cast<double>(k));
   return data;
@@ -58,7 +58,7 @@ void expect_one(const input::Dataset& data, FaultKind kind, std::size_t run, dou
 }
 
 TEST(Faults, SoundRunsHaveNone) {
-  EXPECT_TRUE(faults_of(sound()).empty());
+  EXPECT_TRUE(faults_of(undisturbed()).empty());
 }
 
 TEST(Faults, AnEffectThatIsMissingIsNone) {
@@ -70,13 +70,13 @@ TEST(Faults, AnEffectThatIsMissingIsNone) {
 }
 
 TEST(Faults, ARunThatIsLate) {
-  auto data = sound();
+  auto data = undisturbed();
   delay(data.runs[1], 3);
   expect_one(data, FaultKind::late, 1, 3.0, 0.3);
 }
 
 TEST(Faults, CurrentThatTheValveDidNotHave) {
-  auto scaled = sound(), moved = sound();
+  auto scaled = undisturbed(), moved = undisturbed();
   for (double& current_mA : scaled.runs[4].current_mA) current_mA *= 1.05;
   for (double& current_mA : moved.runs[0].current_mA) current_mA += 0.4;
   expect_one(scaled, FaultKind::current_scale, 4, 0.05, 0.005);
@@ -84,7 +84,7 @@ TEST(Faults, CurrentThatTheValveDidNotHave) {
 }
 
 TEST(Faults, ReadingsThatDriftOrHaveAnotherZeroOrScale) {
-  const double rows = static_cast<double>(sound().runs[0].contraction_ratio.size());
+  const double rows = static_cast<double>(undisturbed().runs[0].contraction_ratio.size());
   const auto drift = [&](double& ratio, double k) { ratio += count() * std::round(8.0 * k / rows); };
   expect_one(spoilt(5, drift), FaultKind::drift, 5, 8.0 * count(), 0.5 * count());
   const auto zero = [](double& ratio, double) { ratio += 5.0 * count(); };
@@ -100,7 +100,7 @@ TEST(Faults, CountsAndRowsThatAreLostOnTheWay) {
   EXPECT_EQ(slipped[0].kind, FaultKind::slipped);
   EXPECT_NEAR(slipped[0].size, -8.0 * count(), count());
   EXPECT_NEAR(static_cast<double>(slipped[0].row), 180.0, 10.0);
-  auto lost = sound();
+  auto lost = undisturbed();
   delay(lost.runs[2], 6, 150);
   expect_one(lost, FaultKind::rows_lost, 2, -6.0, 1.0);
 }
@@ -109,13 +109,13 @@ TEST(Faults, ARunFromAnotherRig) {
   plant::Rig other;
   other.muscle.rest_radius_m *= 1.05;
   other.muscle.end_correction *= 1.03;
-  auto data = sound();
+  auto data = undisturbed();
   data.runs[2] = small(other).runs[2];
   expect_one(data, FaultKind::another_rig, 2, 0.0, 0.0);
 }
 
 TEST(Faults, WhatAllRunsHaveInCommonIsTheRecorders) {
-  auto late = sound(), drifting = sound();
+  auto late = undisturbed(), drifting = undisturbed();
   for (input::Run& run : late.runs) delay(run, 2);
   for (input::Run& run : drifting.runs)
     for (std::size_t k = 0; k < run.contraction_ratio.size(); ++k)
@@ -131,7 +131,7 @@ TEST(Faults, WhatAllRunsHaveInCommonIsTheRecorders) {
 }
 
 TEST(Faults, AreMendedWhereThatIsSafeAndElseLeftOut) {
-  auto data = sound();
+  auto data = undisturbed();
   const auto before = data.runs;
   delay(data.runs[0], 2);
   for (double& ratio : data.runs[1].contraction_ratio) ratio += 3.0 * count();

@@ -14,14 +14,14 @@
 namespace mckibben::engine {
 namespace {
 
-double current_mA(int k) {
+double stepped_mA(int k) {
   return 12.0 + 6.0 * std::sin(0.15 * k) + (k > 30 ? 2.0 : 0.0);
 }
 
 Flow end_of_ride(const plant::Rig& rig, Settings settings, int ticks) {
   RigOnBench bench(rig, 13.87, settings);
-  bench.start(current_mA(0));
-  for (int k = 0; k < ticks; ++k) bench.hold(current_mA(k));
+  bench.start(stepped_mA(0));
+  for (int k = 0; k < ticks; ++k) bench.hold(stepped_mA(k));
   return bench.flow;
 }
 
@@ -222,7 +222,7 @@ TEST(Effects, TakeTheSameStepsWithAndWithoutTheLedger) {
   RigOnBench plain(rig, 11.138, {Method::erk, 1e-6}), audited(rig, 11.138, {Method::erk, 1e-6}, true);
   for (auto* bench : {&plain, &audited}) {
     bench->start(4.0);
-    for (int k = 0; k < 60; ++k) bench->hold(current_mA(k));
+    for (int k = 0; k < 60; ++k) bench->hold(stepped_mA(k));
   }
   EXPECT_EQ(std::memcmp(&plain.flow.state, &audited.flow.state, sizeof plain.flow.state), 0);
   EXPECT_EQ(plain.flow.memory, audited.flow.memory);

@@ -23,12 +23,12 @@ noise: {encoder_jitter: 5e-5, current: 0.01 mA}
 seed: 7
 )";
 
-Campaign read_text(const std::string& text) {
+Campaign campaign_of(const std::string& text) {
   return read_campaign(Source("some/my campaign.yaml", text, MCKIBBEN_SOURCE_DIR));
 }
 
 TEST(Campaign, ReadsEveryKindOfField) {
-  const Campaign campaign = read_text(good_campaign);
+  const Campaign campaign = campaign_of(good_campaign);
   EXPECT_EQ(campaign.name, "my_campaign");
   EXPECT_TRUE(campaign.rig.gauge.fitted);
   EXPECT_DOUBLE_EQ(campaign.loads_kg.at(1), 13.87);
@@ -43,14 +43,14 @@ TEST(Campaign, ReadsEveryKindOfField) {
 }
 
 TEST(Campaign, StepsBeginAtTheValvesZeroCurrent) {
-  const Campaign campaign = read_text(
+  const Campaign campaign = campaign_of(
       "schema: mckibben-campaign/1\nrig: {valve: {zero_current: 1 mA}}\nloads: [11 kg]\n"
       "currents: [{duration: 2 s, current: {kind: step_current, moves: [{at: 1 s, to: 9 mA}]}}]\n");
   EXPECT_EQ(std::get<controllers::StepCurrent>(campaign.currents.at(0).current).start_mA, 1.0);
 }
 
 TEST(Campaign, CurrentsWithoutANameAreNamedAfterWaveformOrPlace) {
-  const Campaign campaign = read_text(good_campaign);
+  const Campaign campaign = campaign_of(good_campaign);
   EXPECT_EQ(campaign.currents.at(0).name, "c01");
   EXPECT_EQ(campaign.currents.at(1).name, "slow");
   EXPECT_EQ(campaign.currents.at(2).name, "up");
@@ -58,9 +58,9 @@ TEST(Campaign, CurrentsWithoutANameAreNamedAfterWaveformOrPlace) {
 }
 
 TEST(Campaign, ResolvedReadsBackBitForBit) {
-  const Json once = campaign_json(read_text(good_campaign));
-  EXPECT_EQ(campaign_json(read_text(once.dump(2))).dump(), once.dump());
-  EXPECT_EQ(campaign_json(read_text(to_yaml(once))).dump(), once.dump());
+  const Json once = campaign_json(campaign_of(good_campaign));
+  EXPECT_EQ(campaign_json(campaign_of(once.dump(2))).dump(), once.dump());
+  EXPECT_EQ(campaign_json(campaign_of(to_yaml(once))).dump(), once.dump());
 }
 
 TEST(Campaign, SchemaOffersGivenCurrentsOnly) {

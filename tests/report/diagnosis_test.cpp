@@ -10,6 +10,7 @@
 #include <sim/report/diagnosis_pictures.hpp>
 #include <sim/report/report.hpp>
 
+#include "count.hpp"
 #include "diagnosed.hpp"
 
 namespace mckibben::report {
@@ -26,12 +27,6 @@ input::Dataset measured() {
     data.runs[i].current_mA.assign(found.runs[i].measured.size(), 12.0);
   }
   return data;
-}
-
-std::size_t count(const std::string& text, std::string_view what) {
-  std::size_t found = 0;
-  for (auto at = text.find(what); at != std::string::npos; at = text.find(what, at + 1)) ++found;
-  return found;
 }
 
 /// What is read: the page without its scripts and licence.

@@ -18,6 +18,8 @@
 #include <sim/report/rig_words.hpp>
 #include <sim/report/still.hpp>
 
+#include "count.hpp"
+
 namespace mckibben::report {
 namespace {
 
@@ -121,12 +123,6 @@ Contents shaking(std::size_t groups, std::size_t ticks) {
     contents.groups.push_back(std::move(group));
   }
   return contents;
-}
-
-std::size_t count(const std::string& text, std::string_view what) {
-  std::size_t found = 0;
-  for (auto at = text.find(what); at != std::string::npos; at = text.find(what, at + 1)) ++found;
-  return found;
 }
 
 TEST(Page, AsksForNothingOutsideItselfAndCannotBeBrokenByNames) {

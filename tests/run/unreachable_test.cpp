@@ -10,7 +10,7 @@
 namespace mckibben::run {
 namespace {
 
-constexpr double tick_s = 0.012, count = 4.363e-4;
+constexpr double each_s = 0.012, count = 4.363e-4;
 
 controllers::Reach even_reach() {
   controllers::Reach reach;
@@ -29,12 +29,12 @@ controllers::Reach even_reach() {
 
 Unreachable look(const std::vector<double>& target) {
   const auto reach = even_reach();
-  return unreachable(target, tick_s, reach, reach.at_load(16.0), count);
+  return unreachable(target, each_s, reach, reach.at_load(16.0), count);
 }
 
 std::vector<double> ramp(double from, double to, double speed_per_s) {
   std::vector<double> target{from};
-  const double step = speed_per_s * tick_s;
+  const double step = speed_per_s * each_s;
   while (step > 0.0 ? target.back() + step < to : target.back() + step > to)
     target.push_back(target.back() + step);
   return target;
