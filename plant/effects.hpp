@@ -2,6 +2,7 @@
 // A sixteenth effect is a header in effects/, a line in the table and a test (docs/add_an_effect.md).
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <concepts>
 #include <cstddef>
@@ -33,7 +34,78 @@ concept Remembers = requires {
   E::memory_size;
 };
 
-template <class... Effect>
+template <class E>
+constexpr bool declares(Hook hook) {
+  return std::find(E::hooks.begin(), E::hooks.end(), hook) != E::hooks.end();
+}
+
+/// Whether an effect has the function of a hook, as it is called.
+template <class E>
+constexpr bool has(Hook hook) {
+  using Now = const Instant<double>&;
+  using enum Hook;
+  switch (hook) {
+    case pull:
+      return requires(const E& e, Now now, double m) {
+        { e.pull_N(now, m) } -> std::same_as<double>;
+      };
+    case friction_factor:
+      return requires(const E& e, Now now, double m) {
+        { e.friction_factor(now, m) } -> std::same_as<double>;
+      };
+    case end_correction_shift:
+      return requires(const E& e, Now now) {
+        { e.end_correction_shift(now) } -> std::same_as<double>;
+      };
+    case outflow:
+      return requires(const E& e, Now now) {
+        { e.outflow_kg_per_s(now) } -> std::same_as<double>;
+      };
+    case gas_exponent:
+      return requires(const E& e) {
+        { e.gas_exponent() } -> std::same_as<double>;
+      };
+    case valve_error_shift:
+      return requires(const E& e, double p) {
+        { e.valve_error_shift_Pa(p) } -> std::same_as<double>;
+      };
+    case valve_opening:
+      return requires(const E& e, double u, double m) {
+        { e.valve_opening(u, m) } -> std::same_as<double>;
+      };
+    case supply_drop:
+      return requires(const E& e, double m) {
+        { e.supply_drop_Pa(m) } -> std::same_as<double>;
+      };
+    case reference:
+      return requires(const E& e, double p, Play& play) {
+        { e.reference_Pa(p, play) } -> std::same_as<double>;
+      };
+    case wheel:
+      return requires(const E& e, double x, Play& play) {
+        { e.wheel_m(x, play) } -> std::same_as<double>;
+      };
+    case reading_factor:
+      return requires(const E& e) {
+        { e.reading_factor() } -> std::same_as<double>;
+      };
+  }
+  return false;
+}
+
+/// Exactly the hooks that are declared, at least one, and a rate for a memory: a misspelled function would
+/// otherwise never be called.
+template <class E>
+concept IsEffect = !E::hooks.empty() && [] {
+  for (std::size_t i = 0; i < hooks; ++i)
+    if (has<E>(static_cast<Hook>(i)) != declares<E>(static_cast<Hook>(i))) return false;
+  return Remembers<E> ==
+         requires(const E& e, const Instant<double>& now, const Inflow<double>& in, double m) {
+    { e.memory_rate(now, in, m) } -> std::same_as<double>;
+  };
+}();
+
+template <IsEffect... Effect>
 class EffectSet {
  public:
   using Table = std::tuple<Effect...>;
@@ -80,17 +152,16 @@ class EffectSet {
   template <class S>
   S pull_N(const Instant<S>& now, const std::array<S, memories>& memory) const {
     S sum = S(0.0);
-    each([&](const auto& effect, auto slot) {
-      if constexpr (requires { effect.pull_N(now, now.rise_m); })
-        sum = sum + effect.pull_N(now, recall(memory, slot));
+    each([&]<class E>(const E& effect, auto slot) {
+      if constexpr (declares<E>(Hook::pull)) sum = sum + effect.pull_N(now, recall(memory, slot));
     });
     return sum;
   }
   template <class S>
   S friction_factor(const Instant<S>& now, const std::array<S, memories>& memory) const {
     S product = S(1.0);
-    each([&](const auto& effect, auto slot) {
-      if constexpr (requires { effect.friction_factor(now, now.rise_m); })
+    each([&]<class E>(const E& effect, auto slot) {
+      if constexpr (declares<E>(Hook::friction_factor))
         product = product * effect.friction_factor(now, recall(memory, slot));
     });
     return product;
@@ -98,41 +169,39 @@ class EffectSet {
   template <class S>
   S end_correction_shift(const Instant<S>& now) const {
     S sum = S(0.0);
-    each([&](const auto& effect, auto) {
-      if constexpr (requires { effect.end_correction_shift(now); })
-        sum = sum + effect.end_correction_shift(now);
+    each([&]<class E>(const E& effect, auto) {
+      if constexpr (declares<E>(Hook::end_correction_shift)) sum = sum + effect.end_correction_shift(now);
     });
     return sum;
   }
   template <class S>
   S outflow_kg_per_s(const Instant<S>& now) const {
     S sum = S(0.0);
-    each([&](const auto& effect, auto) {
-      if constexpr (requires { effect.outflow_kg_per_s(now); }) sum = sum + effect.outflow_kg_per_s(now);
+    each([&]<class E>(const E& effect, auto) {
+      if constexpr (declares<E>(Hook::outflow)) sum = sum + effect.outflow_kg_per_s(now);
     });
     return sum;
   }
   double gas_exponent() const {
     double product = 1.0;
-    each([&](const auto& effect, auto) {
-      if constexpr (requires { effect.gas_exponent(); }) product *= effect.gas_exponent();
+    each([&]<class E>(const E& effect, auto) {
+      if constexpr (declares<E>(Hook::gas_exponent)) product *= effect.gas_exponent();
     });
     return product;
   }
   template <class S>
   S valve_error_shift_Pa(const S& error_Pa) const {
     S sum = S(0.0);
-    each([&](const auto& effect, auto) {
-      if constexpr (requires { effect.valve_error_shift_Pa(error_Pa); })
-        sum = sum + effect.valve_error_shift_Pa(error_Pa);
+    each([&]<class E>(const E& effect, auto) {
+      if constexpr (declares<E>(Hook::valve_error_shift)) sum = sum + effect.valve_error_shift_Pa(error_Pa);
     });
     return sum;
   }
   template <class S>
   S valve_opening(const S& wanted, const std::array<S, memories>& memory) const {
     S opening = wanted;
-    each([&](const auto& effect, auto slot) {
-      if constexpr (requires { effect.valve_opening(wanted, wanted); })
+    each([&]<class E>(const E& effect, auto slot) {
+      if constexpr (declares<E>(Hook::valve_opening))
         opening = effect.valve_opening(opening, recall(memory, slot));
     });
     return opening;
@@ -140,9 +209,8 @@ class EffectSet {
   template <class S>
   S supply_drop_Pa(const std::array<S, memories>& memory) const {
     S sum = S(0.0);
-    each([&](const auto& effect, auto slot) {
-      if constexpr (requires { effect.supply_drop_Pa(sum); })
-        sum = sum + effect.supply_drop_Pa(recall(memory, slot));
+    each([&]<class E>(const E& effect, auto slot) {
+      if constexpr (declares<E>(Hook::supply_drop)) sum = sum + effect.supply_drop_Pa(recall(memory, slot));
     });
     return sum;
   }
@@ -162,9 +230,9 @@ class EffectSet {
   /// The reference pressure [Pa] that the valve follows, of the one that the current asks for.
   double reference_Pa(double wanted_Pa, Plays& plays) const {
     std::size_t index = 0;
-    return at_tick(wanted_Pa, [&](const auto& effect, double value) {
+    return at_tick(wanted_Pa, [&]<class E>(const E& effect, double value) {
       Play& play = plays[index++];
-      if constexpr (requires { effect.reference_Pa(value, play); })
+      if constexpr (declares<E>(Hook::reference))
         return effect.absent() ? value : effect.reference_Pa(value, play);
       else
         return value;
@@ -173,16 +241,16 @@ class EffectSet {
   /// What the encoder's wheel says of the load's rise [m].
   double wheel_m(double rise_m, Plays& plays) const {
     std::size_t index = 0;
-    const double wheel_m = at_tick(rise_m, [&](const auto& effect, double value) {
+    const double wheel_m = at_tick(rise_m, [&]<class E>(const E& effect, double value) {
       Play& play = plays[index++];
-      if constexpr (requires { effect.wheel_m(value, play); })
+      if constexpr (declares<E>(Hook::wheel))
         return effect.absent() ? value : effect.wheel_m(value, play);
       else
         return value;
     });
     double factor = 1.0;
-    each([&](const auto& effect, auto) {
-      if constexpr (requires { effect.reading_factor(); }) factor *= effect.reading_factor();
+    each([&]<class E>(const E& effect, auto) {
+      if constexpr (declares<E>(Hook::reading_factor)) factor *= effect.reading_factor();
     });
     return factor * wheel_m;
   }

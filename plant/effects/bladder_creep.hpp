@@ -8,12 +8,12 @@
 namespace mckibben::plant {
 
 struct BladderCreep {
-  static constexpr std::string_view name = "bladder_creep", acts_on = "pull, with a memory",
-                                    law = "-k_c (x - x_c), tau dx_c/dt = x - x_c",
+  static constexpr std::string_view name = "bladder_creep", law = "-k_c (x - x_c), tau dx_c/dt = x - x_c",
                                     sentence = "the rubber pulls back after a move and then gives way",
                                     source =
                                         "Maxwell element; on creep of a muscle: Minh, Kamers, Ramon, "
                                         "Van Brussel, Mechatronics 22 (2012) 923-933";
+  static constexpr std::array hooks{Hook::pull};
   static constexpr std::array variants{
       Variant{"", "stiffness", 0.0, 100.0, Sign::positive, 0.1, "time", 0.3, 1.5, 8.0}};
   static constexpr double memory_size = 0.1;  // m

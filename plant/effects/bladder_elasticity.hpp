@@ -18,12 +18,13 @@ constexpr auto names(BladderLaw) {
 }
 
 struct BladderElasticity {
-  static constexpr std::string_view name = "bladder_elasticity", acts_on = "pull",
+  static constexpr std::string_view name = "bladder_elasticity",
                                     law = "linear: -k_b x; saturating: -F_b (1 - exp(-e / e_b))",
                                     sentence = "the rubber tube pulls back as the muscle shortens",
                                     source =
                                         "Klute & Hannaford, ASME J. Dyn. Syst. Meas. Control 122 (2000) "
                                         "386-388 (elastic energy of the bladder)";
+  static constexpr std::array hooks{Hook::pull};
   static constexpr std::array variants{
       Variant{"linear", "stiffness", 0.0, 100.0, Sign::positive, 0.1},
       Variant{"saturating", "force", 0.0, 10.0, Sign::positive, 0.01, "ratio", 0.02, 0.06, 0.15}};

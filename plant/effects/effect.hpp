@@ -1,6 +1,8 @@
 // What every effect can see and say. An effect is a departure from the nominal rig: a plain struct in a
 // header of its own with
-//   name, acts_on, law, sentence, source   what `mckibben effects` prints
+//   name, law, sentence, source            what `mckibben effects` prints
+//   hooks                                  which of the functions below it has: one that is declared and not
+//                                          there, or there and not declared, does not compile
 //   its parameters and `fields`            as every settings struct
 //   absent()                               true where the rig is the nominal one, bit for bit
 //   variants                               how a diagnosis looks for it, one entry for each law variant
@@ -22,6 +24,8 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
 #include <optional>
 #include <string_view>
 
@@ -61,6 +65,30 @@ struct Play {
 
 /// Memories follow within this time at the fastest, so that a tiny time constant asks for no infinite rate.
 inline constexpr double fastest_s = 1e-6;
+
+/// Where an effect acts: the functions above, but for `memory_rate`, which goes with `memory_size`.
+enum class Hook {
+  pull,
+  friction_factor,
+  end_correction_shift,
+  outflow,
+  gas_exponent,
+  valve_error_shift,
+  valve_opening,
+  supply_drop,
+  reference,
+  wheel,
+  reading_factor
+};
+inline constexpr std::size_t hooks = 11;
+
+/// What the hook acts on, for people.
+constexpr std::string_view words(Hook hook) {
+  constexpr std::array<std::string_view, hooks> list{
+      "pull",   "friction level",  "braid force",       "gas",    "gas", "valve", "valve",
+      "supply", "valve, at ticks", "reading, at ticks", "reading"};
+  return list[static_cast<std::size_t>(hook)];
+}
 
 enum class Sign { positive, either };
 

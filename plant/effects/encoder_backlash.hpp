@@ -8,11 +8,12 @@
 namespace mckibben::plant {
 
 struct EncoderBacklash {
-  static constexpr std::string_view name = "encoder_backlash", acts_on = "reading, at ticks",
+  static constexpr std::string_view name = "encoder_backlash",
                                     law = "the wheel is a play of full width w behind the load",
                                     sentence =
                                         "after each turn the reading stands still until the play is used up",
                                     source = "play operator; Nordin & Gutman, Automatica 38 (2002) 1633-1649";
+  static constexpr std::array hooks{Hook::wheel};
   static constexpr std::array variants{Variant{"", "width", 0.0, 5e-4, Sign::positive, 1e-4}};
 
   double width_m = 0.0;

@@ -8,9 +8,10 @@
 namespace mckibben::plant {
 
 struct EncoderScale {
-  static constexpr std::string_view name = "encoder_scale", acts_on = "reading", law = "reads (1 + s) x",
+  static constexpr std::string_view name = "encoder_scale", law = "reads (1 + s) x",
                                     sentence = "the encoder reads too much or too little, in proportion",
                                     source = "wheel radius out of tolerance";
+  static constexpr std::array hooks{Hook::reading_factor};
   static constexpr std::array variants{Variant{"", "error", 0.0, 0.01, Sign::either, 1e-5}};
 
   double error = 0.0;

@@ -8,12 +8,13 @@
 namespace mckibben::plant {
 
 struct EndCapCorrection {
-  static constexpr std::string_view name = "end_cap_correction", acts_on = "braid force",
+  static constexpr std::string_view name = "end_cap_correction",
                                     law = "k = k_0 + k_1 P_m / (1 bar), in the force only",
                                     sentence = "the correction for the conical ends depends on pressure",
                                     source =
                                         "k: Tondu & Lopez, IEEE Control Systems Magazine 20 (2000) 15-38; "
                                         "its change with pressure to first order";
+  static constexpr std::array hooks{Hook::end_correction_shift};
   static constexpr std::array variants{Variant{"", "slope", 0.0, 0.01, Sign::either, 1e-5}};
 
   double slope = 0.0;

@@ -8,12 +8,13 @@
 namespace mckibben::plant {
 
 struct FrictionWarmUp {
-  static constexpr std::string_view name = "friction_warm_up", acts_on = "friction level, with a memory",
+  static constexpr std::string_view name = "friction_warm_up",
                                     law = "G x [1 + d (1 - exp(-t / tau))], t from the start of the run",
                                     sentence = "thread friction changes while the muscle warms up",
                                     source =
                                         "running-in of rubber and thread; first-order approach to a "
                                         "steady temperature";
+  static constexpr std::array hooks{Hook::friction_factor};
   static constexpr std::array variants{
       Variant{"", "change", 0.0, -0.2, Sign::either, -2e-4, "time", 1.5, 5.0, 20.0}};
   static constexpr double memory_size = 1.0;

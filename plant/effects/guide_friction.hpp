@@ -9,11 +9,12 @@
 namespace mckibben::plant {
 
 struct GuideFriction {
-  static constexpr std::string_view name = "guide_friction", acts_on = "pull", law = "-mu m g tanh(v / v_0)",
+  static constexpr std::string_view name = "guide_friction", law = "-mu m g tanh(v / v_0)",
                                     sentence = "dry friction that grows with the load, not with the pressure",
                                     source =
                                         "Coulomb's law, smoothed by tanh (Andersson, Soderberg, "
                                         "Bjorklund, Tribology Int. 40 (2007) 580-587)";
+  static constexpr std::array hooks{Hook::pull};
   static constexpr std::array variants{
       Variant{"", "coefficient", 0.0, 0.02, Sign::positive, 2e-5, "slip_speed", 5e-4, 1e-3, 2e-3}};
 

@@ -8,10 +8,11 @@
 namespace mckibben::plant {
 
 struct MuscleLeak {
-  static constexpr std::string_view name = "muscle_leak", acts_on = "gas",
+  static constexpr std::string_view name = "muscle_leak",
                                     law = "ISO 6358 flow through C_l from the muscle to the atmosphere",
                                     sentence = "gas leaks from the muscle to the atmosphere",
                                     source = "ISO 6358 (choked and elliptic flow)";
+  static constexpr std::array hooks{Hook::outflow};
   static constexpr std::array variants{Variant{"", "conductance", 0.0, 1e-10, Sign::positive, 1e-13}};
 
   double conductance_m3_per_s_Pa = 0.0;

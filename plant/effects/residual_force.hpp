@@ -111,10 +111,10 @@ struct ForceTerm {
 };
 
 struct ResidualForce {
-  static constexpr std::string_view name = "residual_law", acts_on = "pull",
-                                    law = "sum of coefficient x term",
+  static constexpr std::string_view name = "residual_law", law = "sum of coefficient x term",
                                     sentence = "a force outside the catalogue, as a diagnosis found it",
                                     source = "sparse regression on the disagreement with measured data";
+  static constexpr std::array hooks{Hook::pull};
   static constexpr std::array<Variant, 0> variants{};
 
   std::vector<ForceTerm> terms{};

@@ -10,11 +10,12 @@ namespace mckibben::plant {
 struct SpeedDependentFriction {
   static constexpr std::string_view
       name = "speed_dependent_friction",
-      acts_on = "friction level", law = "G x [rho + (1 - rho) exp(-|v| / v_s)]",
+      law = "G x [rho + (1 - rho) exp(-|v| / v_s)]",
       sentence = "thread friction that falls (rho < 1) or rises (rho > 1) with speed",
       source =
           "Stribeck (1902); Tondu & Lopez, IEEE Control Systems Magazine 20 (2000) 15-38, "
           "three-parameter friction";
+  static constexpr std::array hooks{Hook::friction_factor};
   static constexpr std::array variants{
       Variant{"", "ratio", 1.0, -0.3, Sign::either, -3e-4, "speed", 0.005, 0.02, 0.08}};
 

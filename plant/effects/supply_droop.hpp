@@ -11,10 +11,10 @@ namespace mckibben::plant {
 struct SupplyDroop {
   static constexpr std::string_view
       name = "supply_droop",
-      acts_on = "supply, with a memory",
       law = "V_s/(R T) dP_s/dt = g_s (P_supply - P_s) - q_in, q_in = what the supply valve draws",
       sentence = "the supply pressure sinks while the valve fills the muscle",
       source = "mass balance of a vessel behind a linear restriction";
+  static constexpr std::array hooks{Hook::supply_drop};
   static constexpr std::array variants{
       Variant{"", "line_resistance", 0.0, 1e8, Sign::positive, 1e6, "volume", 5e-5, 3e-4, 2e-3}};
   static constexpr double memory_size = 1e5;  // Pa

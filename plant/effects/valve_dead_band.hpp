@@ -10,11 +10,12 @@ namespace mckibben::plant {
 struct ValveDeadBand {
   static constexpr std::string_view
       name = "valve_dead_band",
-      acts_on = "valve", law = "the error P_ref - P_v acts only beyond +-delta, less delta",
+      law = "the error P_ref - P_v acts only beyond +-delta, less delta",
       sentence = "the valve does nothing about pressure errors below a threshold",
       source =
           "spool overlap; Tao & Kokotovic, Adaptive Control of Systems with Actuator and Sensor "
           "Nonlinearities (1996)";
+  static constexpr std::array hooks{Hook::valve_error_shift};
   static constexpr std::array variants{Variant{"", "half_width", 0.0, 5e3, Sign::positive, 100.0}};
 
   double half_width_Pa = 0.0;

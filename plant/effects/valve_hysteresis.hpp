@@ -10,10 +10,10 @@ namespace mckibben::plant {
 struct ValveHysteresis {
   static constexpr std::string_view
       name = "valve_hysteresis",
-      acts_on = "valve, at ticks",
       law = "the clamped P_ref passes a play of half width h, updated at each tick",
       sentence = "the valve keeps its reference pressure until the current has moved some way",
       source = "play operator; Visintin, Differential Models of Hysteresis (1994)";
+  static constexpr std::array hooks{Hook::reference};
   static constexpr std::array variants{Variant{"", "half_width", 0.0, 5e3, Sign::positive, 1e3}};
 
   double half_width_Pa = 0.0;

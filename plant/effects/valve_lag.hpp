@@ -9,12 +9,12 @@
 namespace mckibben::plant {
 
 struct ValveLag {
-  static constexpr std::string_view name = "valve_lag", acts_on = "valve, with a memory",
-                                    law = "tau du_a/dt = u - u_a, the valve opens by u_a",
+  static constexpr std::string_view name = "valve_lag", law = "tau du_a/dt = u - u_a, the valve opens by u_a",
                                     sentence = "the valve opens and closes with a delay of first order",
                                     source =
                                         "first-order spool dynamics; Sorli, Figliolini, Pastorelli, "
                                         "IEEE/ASME Trans. Mechatronics 9 (2004) 78-86";
+  static constexpr std::array hooks{Hook::valve_opening};
   static constexpr std::array variants{Variant{"", "time", 0.0, 0.02, Sign::positive, 2e-3}};
   static constexpr double memory_size = 1.0;
 

@@ -8,11 +8,12 @@
 namespace mckibben::plant {
 
 struct ViscousDamping {
-  static constexpr std::string_view name = "viscous_damping", acts_on = "pull", law = "-c v",
+  static constexpr std::string_view name = "viscous_damping", law = "-c v",
                                     sentence = "a force against the speed, in proportion to it",
                                     source =
                                         "Newton's viscous friction; Armstrong-Helouvry et al., "
                                         "Automatica 30 (1994) 1083-1138";
+  static constexpr std::array hooks{Hook::pull};
   static constexpr std::array variants{Variant{"", "damping", 0.0, 50.0, Sign::positive, 0.1}};
 
   double damping_N_s_per_m = 0.0;

@@ -25,15 +25,25 @@ using input::Json;
 
 /// One effect of the table, its types forgotten.
 struct Entry {
-  std::string_view name, acts_on, law, sentence, source;
+  std::string_view name;
+  std::string acts_on;
+  std::string_view law, sentence, source;
   std::vector<plant::Variant> variants;
   std::vector<FieldInfo> fields;
 };
 
 template <class E>
+std::string acts_on() {
+  std::vector<std::string_view> list;
+  for (const plant::Hook hook : E::hooks) list.push_back(plant::words(hook));
+  if (plant::Remembers<E>) list.push_back("with a memory");
+  return fmt::format("{}", fmt::join(list, ", "));
+}
+
+template <class E>
 Entry entry_of() {
   return {E::name,
-          E::acts_on,
+          acts_on<E>(),
           E::law,
           E::sentence,
           E::source,
@@ -146,7 +156,7 @@ std::string overview(const std::vector<Entry>& all) {
     for (const plant::Variant& variant : entry.variants)
       size += (size.empty() ? "" : " or ") + std::string(variant.amplitude);
     if (!is_residual(entry))
-      grid.add({std::string(entry.name), std::string(entry.acts_on), size, std::string(entry.sentence)});
+      grid.add({std::string(entry.name), entry.acts_on, size, std::string(entry.sentence)});
   }
   std::string text = fmt::format(
       "What a rig may have besides the nominal rig; absent unless its size is given in the rig file.\n\n{}\n",

@@ -38,6 +38,8 @@ constexpr double false_alarm_rate = 0.03;
 /// What is left of the motion where a gauge and the motion may contradict each other.
 constexpr double contradicted = 1.0;
 
+/// Effects that are tried beside faults of a few runs.
+constexpr std::size_t most_suspected = 3;
 /// How often data are mended and looked at again.
 constexpr int most_repairs = 2;
 
@@ -145,9 +147,35 @@ class Workflow {
     for (const std::size_t run : usable_)
       if (std::none_of(faults.begin(), faults.end(), [&](const Fault& fault) { return fault.run == run; }))
         others.push_back(run);
-    if (faults.empty() || others.empty()) return faults;
+    if (faults.empty()) return beside_an_effect();
+    if (others.empty()) return faults;
     const auto fitted = fit(experiment_, described, others, {.temperature = first_temperature});
     return fitted.failure.empty() ? examine(experiment_, fitted.model, usable_, catalogue()) : faults;
+  }
+
+  // An effect fitted to all runs would be bent by those at fault: each that is suspected is fitted to the
+  // others, and the faults are looked up from there.
+  std::vector<Fault> beside_an_effect() const {
+    const Model& described = nominal_fit_.fitted.model;
+    auto suspicions = suspect(experiment_, described, usable_, catalogue());
+    if (suspicions.size() > most_suspected) suspicions.resize(most_suspected);
+    const auto others = [](const std::vector<Fault>& faults) {
+      return std::count_if(faults.begin(), faults.end(),
+                           [](const Fault& fault) { return fault.kind == FaultKind::another_rig; });
+    };
+    std::vector<Fault> best;
+    for (const Suspicion& suspicion : suspicions) {
+      step_("trying " + title(suspicion.effect.candidate) + " beside faults of runs");
+      Case of_sound = case_;
+      of_sound.split.training = suspicion.sound;
+      const auto contender = contend(of_sound, with(of_sound, described, suspicion.effect));
+      if (!contender.fitted.failure.empty()) continue;
+      auto faults = examine(experiment_, contender.fitted.model, usable_, {});
+      if (faults.empty()) continue;
+      if (best.empty() || std::pair(others(faults), faults.size()) < std::pair(others(best), best.size()))
+        best = std::move(faults);
+    }
+    return best;
   }
 
   void recalibrate() {

@@ -25,6 +25,8 @@ constexpr double explained = 0.03;
 constexpr double of_another_rig = 64.0;
 /// Variance of residuals over long times, where nothing is known yet: priors count against it.
 constexpr double temperature = 20.0;
+/// Leaving out runs is worth a thought if an effect then leaves less than this share of what any leaves.
+constexpr double worth_suspecting = 0.5;
 /// Shapes that begin at a row of their choice must do that much better.
 constexpr double for_choice = 0.9;
 /// At least so many runs must be sound, and so many times as many as are not.
@@ -49,16 +51,19 @@ class Examination {
     fly();
   }
 
+  /// See `suspect`.
+  std::vector<Suspicion> suspicions();
+
   std::vector<Fault> operator()() {
     const Regression alone = regression(Kept(runs_.size(), true));
-    double worst = 0.0;
-    for (std::size_t i = 0; i < runs_.size(); ++i) worst = std::max(worst, mean_square(alone.left(), i));
-    if (runs_.size() <= least_sound || worst <= unquestioned) return {};
-    Hypothesis best = few(worst > sound ? sound : unquestioned);
+    const double most = worst(alone);
+    if (runs_.size() <= least_sound || most <= unquestioned) return {};
+    Hypothesis best = few(most > sound ? sound : unquestioned);
     for (const Hypothesis& other :
          {common_lateness(alone), own_line(FaultKind::zero), own_line(FaultKind::drift)})
       if (other.cost < best.cost) best = other;
     if (best.faults.empty() || best.cost > strictly_better * alone.cost()) return {};
+    draw_effects();
     if (best.cost > strictly_better * with_an_effect(alone)) return {};
     return best.faults;
   }
@@ -69,7 +74,18 @@ class Examination {
   Eigen::Index begin(std::size_t i) const { return begins_[i]; }
   Eigen::Index rows(std::size_t i) const { return begins_[i + 1] - begins_[i]; }
 
+  /// A candidate's straight line, drawn at half its typical size.
+  struct Drawn {
+    const Candidate* candidate;
+    double shape;
+    Eigen::VectorXd column;
+    bool possible(double amplitude) const {
+      return candidate->either_sign || amplitude * candidate->typical >= 0.0;
+    }
+  };
+
   void fly();
+  void draw_effects();
   double with_an_effect(const Regression& alone) const;
   Hypothesis few(double near) const;
   Hypothesis common_lateness(const Regression& alone) const;
@@ -92,6 +108,11 @@ class Examination {
   /// Of a run's residuals, in floors.
   double mean_square(const Eigen::VectorXd& left, std::size_t i) const {
     return temperature * left.segment(begin(i), rows(i)).squaredNorm() / static_cast<double>(rows(i));
+  }
+  double worst(const Regression& fitted) const {
+    double most = 0.0;
+    for (std::size_t i = 0; i < runs_.size(); ++i) most = std::max(most, mean_square(fitted.left(), i));
+    return most;
   }
   /// Contraction ratio as the regression counts it.
   Eigen::VectorXd weighted(const Eigen::VectorXd& ratio) const { return weight_ * ratio; }
@@ -127,6 +148,7 @@ class Examination {
   Eigen::VectorXd residuals_;         ///< then a row for each prior
   Eigen::MatrixXd columns_;           ///< of the free parameters
   std::vector<Undisturbed> undisturbed_;
+  std::vector<Drawn> drawn_;
 };
 
 void Examination::fly() {
@@ -158,10 +180,8 @@ void Examination::fly() {
   }
 }
 
-/// What one effect of the catalogue leaves at best.
-double Examination::with_an_effect(const Regression& alone) const {
+void Examination::draw_effects() {
   std::vector<Experiment::Change> changes;
-  std::vector<double> signs;  // that an effect must have; 0: either
   for (const Candidate& c : effects_) {
     if (carries(at_.rig, c.effect)) continue;
     for (const double shape : c.shapes.empty() ? std::vector{0.0} : c.shapes) {
@@ -171,23 +191,84 @@ double Examination::with_an_effect(const Regression& alone) const {
                            *find(h.rig, c.amplitude).value = c.absent + 0.5 * c.typical;
                          },
                          0.5 * c.typical, true});
-      signs.push_back(c.either_sign ? 0.0 : c.typical);
+      drawn_.push_back({&c, shape, Eigen::VectorXd::Zero(residuals_.size())});
     }
   }
-  if (changes.empty()) return infinite;
+  if (changes.empty()) return;
   const auto slopes = experiment_.slopes(at_.rig, changes, runs_);
   const auto parts = experiment_.parts(runs_);
-  double most = 0.0;
-  for (std::size_t c = 0; c < changes.size(); ++c) {
-    Eigen::VectorXd column = Eigen::VectorXd::Zero(residuals_.size());
+  for (std::size_t c = 0; c < changes.size(); ++c)
     for (std::size_t i = 0; i < parts.size(); ++i)
-      column.segment(begin(i), rows(i)) =
+      drawn_[c].column.segment(begin(i), rows(i)) =
           experiment_.floor().ratio * weight_ *
           slopes.columns.col(static_cast<Eigen::Index>(c)).segment(parts[i].begin, parts[i].rows);
-    const auto [drop, amplitude] = alone.gain(column, 0);
-    if (amplitude * signs[c] >= 0.0) most = std::max(most, drop);
+}
+
+/// What one effect of the catalogue leaves at best.
+double Examination::with_an_effect(const Regression& alone) const {
+  if (drawn_.empty()) return infinite;
+  double most = 0.0;
+  for (const Drawn& effect : drawn_) {
+    const auto [drop, amplitude] = alone.gain(effect.column, 0);
+    if (effect.possible(amplitude)) most = std::max(most, drop);
   }
   return alone.cost() - most;
+}
+
+std::vector<Suspicion> Examination::suspicions() {
+  const Kept all(runs_.size(), true);
+  if (worst(regression(all)) <= sound) return {};
+  draw_effects();
+  const std::size_t most_odd = runs_.size() / (sound_for_one + 1);
+  const double at_best = with_an_effect(regression(all));
+  std::vector<std::pair<double, Suspicion>> list;
+  for (const Drawn& effect : drawn_) {
+    const auto without = [&](const Kept& kept) {
+      Regression fitted = regression(kept);
+      Eigen::VectorXd column = effect.column;
+      for (std::size_t i = 0; i < runs_.size(); ++i)
+        if (!kept[i]) column.segment(begin(i), rows(i)).setZero();
+      const double amplitude = fitted.gain(column, 0).amplitude;
+      if (effect.possible(amplitude)) fitted.add(std::move(column));
+      return std::pair{fitted.cost(), amplitude};
+    };
+    Kept kept = all;
+    auto [cost, amplitude] = without(kept);
+    for (std::size_t odd = 0; odd < most_odd; ++odd) {
+      std::size_t oddest = 0;
+      double least = infinite, its_amplitude = 0.0;
+      for (std::size_t i = 0; i < runs_.size(); ++i) {
+        if (!kept[i]) continue;
+        kept[i] = false;
+        const auto [left, size] = without(kept);
+        kept[i] = true;
+        if (left < least) {
+          least = left;
+          oddest = i;
+          its_amplitude = size;
+        }
+      }
+      kept[oddest] = false;
+      cost = least;
+      amplitude = its_amplitude;
+    }
+    if (cost > worth_suspecting * at_best || !effect.possible(amplitude)) continue;
+    const Candidate& c = *effect.candidate;
+    Suspicion suspicion{{c, 0.0, c.absent + amplitude, effect.shape, {}}, {}};
+    for (std::size_t i = 0; i < runs_.size(); ++i)
+      if (kept[i]) suspicion.sound.push_back(runs_[i]);
+    list.emplace_back(cost, std::move(suspicion));
+  }
+  std::stable_sort(list.begin(), list.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<Suspicion> best;
+  for (auto& [cost, suspicion] : list)  // each effect once
+    if (std::none_of(best.begin(), best.end(),
+                     [&, &mine = suspicion.effect.candidate](const Suspicion& other) {
+                       return other.effect.candidate.effect == mine.effect &&
+                              other.effect.candidate.variant == mine.variant;
+                     }))
+      best.push_back(std::move(suspicion));
+  return best;
 }
 
 /// The fault of the dictionary that explains run `i` next to those kept; another rig if none does. None if
@@ -305,6 +386,12 @@ Hypothesis Examination::own_line(FaultKind kind) const {
 std::vector<Fault> examine(const Experiment& experiment, const Model& at, const Runs& runs,
                            const std::vector<Candidate>& effects) {
   return Examination(experiment, at, runs, effects)();
+}
+
+std::vector<Suspicion> suspect(const Experiment& experiment, const Model& at, const Runs& runs,
+                               const std::vector<Candidate>& effects) {
+  if (runs.size() <= least_sound) return {};
+  return Examination(experiment, at, runs, effects).suspicions();
 }
 
 }  // namespace mckibben::diagnose

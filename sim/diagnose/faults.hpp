@@ -7,6 +7,7 @@
 
 #include <sim/diagnose/experiment.hpp>
 #include <sim/diagnose/fit.hpp>
+#include <sim/diagnose/screen.hpp>
 
 namespace mckibben::diagnose {
 
@@ -42,5 +43,16 @@ inline constexpr double near_floor = 4.0;
 /// engine::NumericalFailure, run::Interrupted.
 std::vector<Fault> examine(const Experiment& experiment, const Model& at, const Runs& runs,
                            const std::vector<Candidate>& effects);
+
+/// An effect that may be missing beside faults of a few runs: it comes much closer to the others than any
+/// effect comes to all.
+struct Suspicion {
+  Score effect;  ///< without its column
+  Runs sound;    ///< runs that may be fitted with it
+};
+
+/// The most promising first; none where leaving runs out helps little. Throws as `examine`.
+std::vector<Suspicion> suspect(const Experiment& experiment, const Model& at, const Runs& runs,
+                               const std::vector<Candidate>& effects);
 
 }  // namespace mckibben::diagnose

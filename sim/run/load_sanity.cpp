@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <span>
 
 #include <fmt/format.h>
 
@@ -17,6 +18,8 @@ using Series = std::vector<double>;
 
 constexpr double lifted = 0.01;            // contraction ratio of a load that hangs and does not rest
 constexpr std::size_t least_rows = 40;     // of those
+constexpr std::size_t still_rows = 20;     // of a reading at the end of its range, or frozen
+constexpr double moving = 0.01;            // contraction ratio that the simulated load moves in that time
 constexpr double least_difference = 0.08;  // of loads that are compared, of the heavier one
 constexpr double reversed = 0.5;           // of that difference: so far the other way round
 constexpr double agrees = 0.35;            // the same with the labels exchanged
@@ -32,6 +35,16 @@ struct Weighed {
   double label_kg, seems_kg;
 };
 
+/// Whether the reading stands still round row `k` though the simulated load moves.
+bool stands_still(const Series& measured, const Series& simulated, std::size_t k) {
+  const std::size_t end = std::min({k + still_rows, measured.size(), simulated.size()});
+  const auto of = [&](const Series& series) {
+    return std::span(series).subspan(k - std::min(k, still_rows), end - k + std::min(k, still_rows));
+  };
+  const auto [low, high] = std::ranges::minmax(of(simulated));
+  return high - low > moving && std::ranges::all_of(of(measured), [&](double m) { return m == measured[k]; });
+}
+
 /// What the braid carries at what was measured, in the middle of what friction makes of it. Where the
 /// simulated load hangs as well, by how much more it carries than that one: what the simulation is off by in
 /// friction and inertia, the measurement is too.
@@ -44,6 +57,7 @@ std::optional<Weighed> weigh(const plant::Braid& braid, std::size_t index, const
   for (std::size_t k = 0; k < std::min(run.contraction_ratio.size(), expected.pressure_Pa.size()); ++k) {
     const double measured = run.contraction_ratio[k], simulated = expected.contraction_ratio[k];
     if (measured < lifted || !braid.in_domain(measured)) continue;
+    if (stands_still(run.contraction_ratio, expected.contraction_ratio, k)) continue;
     plain_kg.push_back(carried_kg(measured, k));
     if (simulated > lifted) compared_kg.push_back(run.load_kg + plain_kg.back() - carried_kg(simulated, k));
   }

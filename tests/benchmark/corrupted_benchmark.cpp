@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <sim/diagnose/diagnose.hpp>
+#include <sim/engine/failure.hpp>
 #include <sim/input/diagnostics.hpp>
 
 #include "corruptions.hpp"
@@ -29,6 +30,8 @@ Said said_of(const input::Dataset& data, std::uint64_t seed) {
     return said;
   } catch (const input::BadInput& bad) {
     return {.verdict = "refused", .sentence = bad.what()};
+  } catch (const engine::NumericalFailure& failure) {
+    return {.verdict = "failed", .sentence = failure.what()};
   }
 }
 

@@ -1,9 +1,12 @@
 // Bad data: each kind is found and named, and sound data with a hidden effect are left alone.
 #include <algorithm>
+#include <cmath>
 
 #include <gtest/gtest.h>
 
 #include <sim/diagnose/checks.hpp>
+#include <sim/diagnose/predict.hpp>
+#include <sim/run/simulate.hpp>
 
 #include "planted.hpp"
 
@@ -93,6 +96,52 @@ TEST(Checks, AnEncoderThatSticksIsMaskedWhileItSticks) {
   EXPECT_TRUE(doubts.masked[0][109]);
   EXPECT_FALSE(doubts.masked[0][110]);
   EXPECT_EQ(doubts.left_out, Runs{});
+}
+
+TEST(Checks, ReadingsFrozenWhileTheLoadLeavesTheStopAreMasked) {
+  auto data = sound();
+  auto& readings = data.runs[0].contraction_ratio;  // a sine, which begins on the stop
+  const auto leaves =
+      std::find_if(readings.begin(), readings.end(), [](double ratio) { return ratio > 0.0; });
+  std::fill(leaves, leaves + 60, 0.0);
+  const auto end = static_cast<std::size_t>(leaves - readings.begin()) + 60;
+  const Doubts doubts = check(data, 2);
+  EXPECT_TRUE(says(doubts, "run r01: contraction_ratio is frozen from"));
+  EXPECT_TRUE(doubts.masked[0][end - 1]);
+  EXPECT_FALSE(doubts.masked[0][end]);
+  EXPECT_EQ(doubts.left_out, Runs{});
+}
+
+TEST(Checks, ReadingsCutOffByTheEndOfTheirRangeAreSaidAndNotTakenForAnotherLoad) {
+  controllers::TriangleCurrent slow;
+  slow.low_mA = 4.0;
+  slow.high_mA = 14.0;
+  slow.speed_mA_per_s = 4.0;
+  auto data = planted({}, {11.138, 13.87, 16.138, 18.87}, {{"triangle", 5.0, slow}}, 5);
+  auto& readings = data.runs[0].contraction_ratio;
+  const double count = run::contraction_per_count(data.rig);
+  const double most =
+      count * std::floor(0.8 * *std::max_element(readings.begin(), readings.end()) / count + 0.5);
+  for (double& ratio : readings) ratio = std::min(ratio, most);
+  const Doubts doubts = check(data, 2);
+  EXPECT_TRUE(says(doubts, "run r01: contraction_ratio is saturated from"));
+  for (const std::size_t row : masked(doubts, 0)) EXPECT_EQ(readings[row], most);
+  EXPECT_TRUE(says(doubts, "run r01: too little of it is left"));
+  EXPECT_EQ(doubts.left_out, Runs{0});
+}
+
+TEST(Checks, AValveThatStuckCostsItsRun) {
+  auto data = sound();
+  input::Run stuck = data.runs[0];
+  std::fill(stuck.current_mA.begin() + 150, stuck.current_mA.end(), stuck.current_mA[150]);
+  const Hanging hanging{data.rig, stuck.load_kg};
+  data.runs[0].contraction_ratio = predict(stuck, {&hanging, 1}).front().contraction_ratio;
+  const double count = run::contraction_per_count(data.rig);
+  for (double& ratio : data.runs[0].contraction_ratio) ratio = count * std::floor(ratio / count);
+  const Doubts doubts = check(data, 2);
+  EXPECT_TRUE(says(doubts, "run r01: the load stands still from"));
+  EXPECT_TRUE(says(doubts, "the valve was stuck, or something held the load"));
+  EXPECT_EQ(doubts.left_out, Runs{0});
 }
 
 TEST(Checks, ARunThatLostCountsIsLeftOut) {

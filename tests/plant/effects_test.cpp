@@ -67,12 +67,49 @@ TYPED_TEST_SUITE(EachEffect, typename TypesOf<Effects::Table>::type);
 
 TYPED_TEST(EachEffect, SaysWhatItIs) {
   for (const std::string_view text :
-       {TypeParam::name, TypeParam::acts_on, TypeParam::law, TypeParam::sentence, TypeParam::source}) {
+       {TypeParam::name, TypeParam::law, TypeParam::sentence, TypeParam::source}) {
     EXPECT_FALSE(text.empty());
     EXPECT_EQ(text.find('\n'), std::string_view::npos) << text;
   }
   EXPECT_EQ(TypeParam::name.find_first_not_of("abcdefghijklmnopqrstuvwxyz_"), std::string_view::npos);
   EXPECT_TRUE(TypeParam{}.absent());
+}
+
+struct Drag {
+  static constexpr std::array hooks{Hook::pull};
+  template <class S>
+  S pull_N(const Instant<S>& now, const S&) const {
+    return -now.speed_m_per_s;
+  }
+};
+struct MisspelledDrag {
+  static constexpr std::array hooks{Hook::pull};
+  template <class S>
+  S pul_N(const Instant<S>& now, const S&) const {
+    return -now.speed_m_per_s;
+  }
+};
+struct DragWithoutMemory {
+  static constexpr std::array hooks{Hook::pull};
+  template <class S>
+  S pull_N(const Instant<S>& now) const {
+    return -now.speed_m_per_s;
+  }
+};
+struct DragNotDeclared : Drag {
+  static constexpr std::array hooks{Hook::wheel};
+  double wheel_m(double rise_m, Play&) const { return rise_m; }
+};
+struct MemoryWithoutRate : Drag {
+  static constexpr double memory_size = 1.0;
+};
+
+TEST(Hooks, AreThoseThatAreDeclared) {
+  EXPECT_TRUE(IsEffect<Drag>);
+  EXPECT_FALSE(IsEffect<MisspelledDrag>);
+  EXPECT_FALSE(IsEffect<DragWithoutMemory>);
+  EXPECT_FALSE(IsEffect<DragNotDeclared>);
+  EXPECT_FALSE(IsEffect<MemoryWithoutRate>);
 }
 
 TYPED_TEST(EachEffect, VariantsNameRealKeysAndKeepToTheirRanges) {

@@ -18,7 +18,8 @@ TEST(Batch, DoesEachJobOnceOnAnyNumberOfThreads) {
     std::vector<std::atomic<int>> times(20);
     std::vector<std::atomic<int>> heard(times.size() + 1);
     for_each_job(
-        times.size(), threads, [&](std::size_t i) { ++times[i]; }, [&](std::size_t done) { ++heard.at(done); });
+        times.size(), threads, [&](std::size_t i) { ++times[i]; },
+        [&](std::size_t done) { ++heard.at(done); });
     for (const auto& count : times) EXPECT_EQ(count, 1);
     EXPECT_EQ(heard[0], 0);
     for (std::size_t done = 1; done < heard.size(); ++done) EXPECT_EQ(heard[done], 1);

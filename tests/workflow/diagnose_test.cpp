@@ -114,6 +114,19 @@ TEST(Diagnose, SaysARunThatIsLateInTheVerdictAndShiftsIt) {
   EXPECT_LT(found.runs[1].corrected_rmse, 2.0 * found.gap.noise_floor);
 }
 
+TEST(Diagnose, FindsTheRunThatIsLateBesideAnEffectThatIsMissing) {
+  plant::Rig truth;
+  truth.effects.get<plant::SpeedDependentFriction>().ratio = 0.4;
+  auto data = small(truth);
+  auto& ratios = data.runs[1].contraction_ratio;
+  ratios.insert(ratios.begin(), 3, ratios.front());
+  ratios.resize(data.runs[1].current_mA.size());
+  const auto found = diagnosis_of(data, 0);
+  EXPECT_TRUE(found.because.starts_with("Run r02 is 3 ticks late and was shifted.")) << found.because;
+  ASSERT_EQ(found.effects.size(), 1u);
+  EXPECT_EQ(found.effects[0].name, "speed_dependent_friction");
+}
+
 TEST(Diagnose, NamesNoEffectForADriftThatAllRunsHave) {
   auto data = small(plant::Rig{});
   const double count = run::contraction_per_count(data.rig);
