@@ -2,43 +2,22 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <memory>
 
-#include <plant/plant.hpp>
 #include <sim/cli/known_cases.hpp>
 #include <sim/engine/failure.hpp>
-#include <sim/engine/integrator.hpp>
+#include <sim/ride/ride.hpp>
 
 namespace mckibben::cli {
 namespace {
 
 constexpr double tick_s = 0.012;
 
-/// A rig with its integrator, moved by hand.
-class Bench {
- public:
-  Bench(const plant::Rig& rig, double load_kg, const engine::Settings& settings)
-      : plant(rig, load_kg), integrator_(engine::make_integrator(plant, settings, false)) {}
-
-  void start(double current_mA) {
-    held.reference_pressure_Pa = plant.reference_pressure_Pa(current_mA);
-    flow.state = plant.at_rest(held);
-    if (plant.has_events()) held.slip = plant.slip_from_rest(flow.state, flow.memory, held);
-  }
-  void hold(double current_mA, int ticks) {
-    held.reference_pressure_Pa = plant.reference_pressure_Pa(current_mA);
-    for (int i = 0; i < ticks; ++i, ++tick_)
-      integrator_->advance(flow, held, tick_s * tick_, tick_s * (tick_ + 1));
-  }
-
-  plant::Plant plant;
-  engine::Flow flow;
-  plant::Held held;
-
- private:
-  std::unique_ptr<engine::Integrator> integrator_;
-  int tick_ = 0;
-};
+/// Holds a current [mA] for some ticks.
+void hold(ride::Ride& ride, double current_mA, int ticks) {
+  const auto begun = std::lround(ride.time_s() / tick_s);
+  for (int k = 1; k <= ticks; ++k)
+    ride.step({.current_mA = current_mA}, tick_s * static_cast<double>(begun + k));
+}
 
 /// Through a choked valve air flows at a constant rate: the pressure rises along a straight line, R T / V
 /// times the flow (ISO 6358). Returns the relative error after a tick.
@@ -46,12 +25,12 @@ double choked_filling(const engine::Settings& settings) {
   plant::Rig rig;
   rig.hose.conductance_m3_per_s_Pa = 1e-12;  // as good as shut
   rig.valve.supply_pressure_Pa = 20e5;       // choked up to 5.3 bar of gauge pressure
-  Bench bench(rig, 10.0, settings);
-  bench.start(4.0);
-  bench.hold(20.0, 1);  // more than a proportional band away: fully open
+  ride::Ride ride({rig, 10.0}, settings);
+  ride.start({.current_mA = 4.0}, 0.0);
+  hold(ride, 20.0, 1);  // more than a proportional band away: fully open
   const double flow_kg_per_s = 4e-9 * 1.185 * (20e5 + 101325.0);
   const double rise_Pa = 287.05 * 293.15 / 5e-5 * flow_kg_per_s * tick_s;
-  return std::abs((bench.flow.state.side.valve_pressure_Pa - 0.5e5) / rise_Pa - 1.0);
+  return std::abs((ride.flow().state.side.valve_pressure_Pa - 0.5e5) / rise_Pa - 1.0);
 }
 
 /// Without pull and friction the load falls freely: e - g t^2 / (2 l0). Returns the error of e.
@@ -64,28 +43,30 @@ double free_fall(const engine::Settings& settings) {
   rig.friction.floor_N = 1e-3;
   rig.joint.guide_damping_N_s_per_m = 0.0;
   rig.joint.wheel_inertia_kg_m2 = 0.0;
-  Bench bench(rig, 400.0, settings);
-  bench.start(4.0);
-  bench.flow.state.joint.contraction_ratio = 0.28;
-  bench.held.slip = plant::Slip::falling;
-  bench.hold(4.0, 10);
+  ride::Ride ride({rig, 400.0}, settings);
+  ride.start({.current_mA = 4.0}, 0.0);
+  auto lifted = ride.save();
+  lifted.flows[0].state.joint.contraction_ratio = 0.28;
+  lifted.held[0].slip = plant::Slip::falling;
+  ride.restore(lifted);
+  hold(ride, 4.0, 10);
   const double t_s = 10 * tick_s;
   const double expected = 0.28 - 0.5 * 9.80665 * t_s * t_s / 0.3;
-  return std::abs(bench.flow.state.joint.contraction_ratio - expected);
+  return std::abs(ride.flow().state.joint.contraction_ratio - expected);
 }
 
 /// The thesis's rig under steps of current. Returns the largest error of e at the stored rows; those of the
 /// pressure count as much if they are fifty times as large in bar.
 double stored_steps(const engine::Settings& settings) {
-  Bench bench(plant::Rig{}, stored_load_kg, settings);
-  bench.start(stored_rows[0].current_mA);
-  bench.hold(stored_rows[0].current_mA, 167);  // settling
+  ride::Ride ride({plant::Rig{}, stored_load_kg}, settings);
+  ride.start({.current_mA = stored_rows[0].current_mA}, 0.0);
+  hold(ride, stored_rows[0].current_mA, 167);  // settling
   double worst = 0.0;
   for (const StoredRow& row : stored_rows) {
-    const auto& state = bench.flow.state;
+    const auto& state = ride.flow().state;
     worst = std::max({worst, std::abs(state.joint.contraction_ratio - row.contraction_ratio),
                       std::abs(state.side.muscle_pressure_Pa / 1e5 - row.muscle_pressure_bar) / 50.0});
-    bench.hold(row.current_mA, stored_ticks);
+    hold(ride, row.current_mA, stored_ticks);
   }
   return worst;
 }

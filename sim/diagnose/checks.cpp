@@ -147,7 +147,7 @@ class Checker {
         data.runs.size(), threads,
         [&](std::size_t i) {
           const Hanging hanging{data.rig, data.runs[i].load_kg};
-          model_[i] = std::move(predict(data.runs[i], {&hanging, 1}).front());
+          model_[i] = std::move(predict(data.runs[i], {&hanging, 1}, data.rig.integrator.method).front());
         },
         [](std::size_t) {});
   }

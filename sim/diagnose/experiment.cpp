@@ -81,7 +81,7 @@ Experiment::Slopes Experiment::slopes(const plant::Rig& rig, std::span<const Cha
       rigs.push_back(rigs.front());
       changes[c].apply(rigs.back());
     }
-    const auto readings = predict(measured, rigs);
+    const auto readings = predict(measured, rigs, data_.rig.integrator.method);
     if (first == 0) compare(readings[0], part.run, result.residuals.data() + part.begin);
     for (std::size_t c = first; c < last; ++c) {
       const Readings& changed = readings[1 + c - first];
@@ -137,7 +137,7 @@ Eigen::VectorXd Experiment::residuals(const Readings& readings, std::size_t run)
 
 Readings Experiment::readings(const plant::Rig& rig, std::size_t run) const {
   const Hanging hanging{rig, data_.runs[run].load_kg};
-  return predict(data_.runs[run], {&hanging, 1}).front();
+  return predict(data_.runs[run], {&hanging, 1}, data_.rig.integrator.method).front();
 }
 
 double Experiment::rmse(const Eigen::VectorXd& residuals, const Runs& runs) const {

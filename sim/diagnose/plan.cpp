@@ -151,7 +151,8 @@ std::optional<NextExperiment> plan(const Experiment& experiment, const plant::Ri
         const double load_kg = loads[job / items.size()];
         const Hanging both[] = {{named, load_kg}, {rival, load_kg}};
         try {
-          const auto readings = predict(played(items[job % items.size()], named, load_kg), both);
+          const auto readings = predict(played(items[job % items.size()], named, load_kg), both,
+                                        experiment.data().rig.integrator.method);
           noncentrality[job] = unexplained(readings[0].contraction_ratio, readings[1].contraction_ratio) /
                                (noise * noise) * effective_share;
         } catch (const engine::NumericalFailure&) {

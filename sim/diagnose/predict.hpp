@@ -5,18 +5,14 @@
 #include <span>
 #include <vector>
 
-#include <plant/rig.hpp>
 #include <plant/state.hpp>
 #include <sim/diagnose/parameter.hpp>
 #include <sim/input/dataset.hpp>
+#include <sim/ride/ride.hpp>
 
 namespace mckibben::diagnose {
 
-/// A rig with a load [kg] on it.
-struct Hanging {
-  plant::Rig rig;
-  double load_kg;
-};
+using ride::Hanging;
 
 /// At each tick, before counting.
 struct Readings {
@@ -25,11 +21,18 @@ struct Readings {
   std::vector<plant::State<double>> states;  ///< of the first rig only
 };
 
-/// Readings of up to engine::Flock::most rigs in common steps. The ticks are those of the first rig. Throws
-/// engine::NumericalFailure.
-std::vector<Readings> predict(const input::Run& run, std::span<const Hanging> rigs);
+/// Readings of up to engine::Flock::most rigs, in common steps where these can be had (ride::Ride). The ticks
+/// are those of the first rig. Throws engine::NumericalFailure.
+std::vector<Readings> predict(const input::Run& run, std::span<const Hanging> rigs,
+                              engine::Method method = engine::Method::automatic);
 
 /// Tolerance of these simulations: their error in e, some 5e-6, is far below a count.
 inline constexpr double tolerance = 1e-5;
+/// That of rigs without common steps: a difference between two of them is to be theirs, not that of their
+/// steps.
+inline constexpr double tolerance_alone = 1e-7;
+
+/// How `predict` integrates these rigs.
+engine::Settings settings_for(std::span<const Hanging> rigs, engine::Method method);
 
 }  // namespace mckibben::diagnose

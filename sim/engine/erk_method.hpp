@@ -29,6 +29,16 @@ void set_up_erk(void* m, const Context& context, double tolerance, void* user, E
   ERKStepSetFixedStepBounds(m, 1.0, 1.0);
 }
 
+inline Pace pace_of(void* m, const EvenSteps& steps) {
+  Pace pace{.log_of_last_error = steps.log_of_last_error};
+  ERKStepGetCurrentStep(m, &pace.step_s);
+  return pace;
+}
+inline void resume_at(const Pace& pace, void* m, EvenSteps& steps) {
+  steps.log_of_last_error = pace.log_of_last_error;
+  ERKStepSetInitStep(m, pace.step_s);
+}
+
 /// V: kind of SUNDIALS vector, see sundials.hpp.
 template <class V>
 class Erk final : public Integrator {
@@ -68,6 +78,8 @@ class Erk final : public Integrator {
   }
 
   Counters counters() const override { return all_counters() - before_; }
+  Pace pace() const override { return pace_of(memory_.get(), steps_); }
+  void resume(const Pace& pace) override { resume_at(pace, memory_.get(), steps_); }
 
  private:
   Counters all_counters() const {

@@ -23,10 +23,10 @@ class EvenSteps {
     auto& steps = *static_cast<EvenSteps*>(self);
     const float now = std::log(static_cast<float>(std::max(error, 1e-10)));  // exact enough for a step size
     const bool accepted = error <= 1.0;
-    const float change = std::exp(accepted ? -0.16F * now + 0.05F * steps.log_of_last_error_ : -0.2F * now);
+    const float change = std::exp(accepted ? -0.16F * now + 0.05F * steps.log_of_last_error : -0.2F * now);
     const double wanted = 0.9 * h * static_cast<double>(change);
     if (accepted) {
-      steps.log_of_last_error_ = now;
+      steps.log_of_last_error = now;
       steps.reached_s = t;
     }
     const double left_s = steps.stop_s_ - t;
@@ -37,10 +37,10 @@ class EvenSteps {
   }
 
   double reached_s = 0.0;  ///< end of the last accepted step
+  float log_of_last_error = 0.0F;
 
  private:
   double stop_s_ = 0.0, tick_s_ = 0.0;
-  float log_of_last_error_ = 0.0F;
 };
 
 }  // namespace mckibben::engine

@@ -51,6 +51,9 @@ class ErkFlock final : public Flock {
                            cause_of(erk_trouble(flag), "ERKStep", message_, problems_[0].plant(), state));
   }
 
+  Pace pace() const override { return pace_of(memory_.get(), steps_); }
+  void resume(const Pace& pace) override { resume_at(pace, memory_.get(), steps_); }
+
  private:
   struct Free {
     void operator()(void* memory) const { ERKStepFree(&memory); }

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include <plant/plant.hpp>
-#include <sim/engine/problem.hpp>
+#include <sim/engine/integrator.hpp>
 
 namespace mckibben::engine {
 
@@ -26,6 +26,9 @@ class Flock {
   /// NumericalFailure (of the first rig).
   virtual void advance(std::span<Flow> flows, std::span<const plant::Held> held, double from_s,
                        double to_s) = 0;
+
+  virtual Pace pace() const = 0;
+  virtual void resume(const Pace& pace) = 0;
 };
 
 /// A flock of 1 to `most` plants, which outlive it. LuGre friction only: exact stick and slip switches each

@@ -50,6 +50,20 @@ class Automatic final : public Integrator {
     return sum;
   }
 
+  Pace pace() const override {
+    Pace pace = erk_->pace();
+    pace.ticks = ticks_;
+    pace.cost = erk_->counters().right_hand_sides - cost_before_;
+    pace.stiff_from_tick = stiff_from_tick_;
+    return pace;
+  }
+  void resume(const Pace& pace) override {
+    erk_->resume(pace);
+    ticks_ = pace.ticks;
+    cost_before_ = erk_->counters().right_hand_sides - pace.cost;
+    stiff_from_tick_ = pace.stiff_from_tick;
+  }
+
  private:
   static constexpr long window_ticks = 20, stiff_cost_per_tick = 600;
 

@@ -1,4 +1,4 @@
-// The one interface behind which a SUNDIALS method carries the plant through a tick.
+// The one interface behind which a SUNDIALS method carries the plant from instant to instant.
 #pragma once
 
 #include <memory>
@@ -17,6 +17,14 @@ struct Counters {
 /// What was done between two readings of one integrator.
 Counters operator-(const Counters& later, const Counters& earlier);
 
+/// What an integrator keeps from one instant to the next beside the flow: another one of the same plant and
+/// settings that resumes at it takes the same steps.
+struct Pace {
+  double step_s = 0.0;  ///< that comes next; 0: not known yet
+  float log_of_last_error = 0.0F;
+  long ticks = 0, cost = 0, stiff_from_tick = -1;  ///< of `automatic`; cost: since it last looked
+};
+
 class Integrator {
  public:
   Integrator() = default;
@@ -29,6 +37,9 @@ class Integrator {
   virtual void advance(Flow& flow, plant::Held& held, double from_s, double to_s) = 0;
 
   virtual Counters counters() const = 0;
+
+  virtual Pace pace() const = 0;
+  virtual void resume(const Pace& pace) = 0;
 };
 
 /// An integrator for a plant that outlives it. `keep_ledger`: carry the ledger along, at some cost.

@@ -1,13 +1,12 @@
-// The tick loop; see the header for the order of things within a tick.
+// What drives a ride tick by tick: a controller, through the instruments, with noise.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <random>
 #include <utility>
 
-#include <plant/plant.hpp>
 #include <sim/engine/failure.hpp>
-#include <sim/engine/integrator.hpp>
+#include <sim/ride/ride.hpp>
 #include <sim/run/simulate.hpp>
 
 namespace mckibben::run {
@@ -53,8 +52,7 @@ class Run {
   Run(const RunPlan& plan, controllers::Controller& controller)
       : plan_(plan),
         controller_(controller),
-        plant_(plan.rig, plan.load_kg),
-        integrator_(engine::make_integrator(plant_, plan.engine, plan.keep_ledger)),
+        ride_({plan.rig, plan.load_kg}, plan.engine, plan.keep_ledger),
         counter_(plan.rig.encoder.wiring, plant::count_height_m(plan.rig.encoder, plan.rig.joint)),
         disturbance_(plan.noise, plan.rig.tick_s, plan.seed, plan.stream) {}
 
@@ -70,18 +68,19 @@ class Run {
       for (std::size_t k = 0; k < plan_.ticks; ++k) {
         recording_.samples.push_back(tick(static_cast<std::int64_t>(k)));
         recording_.largest_contraction_ratio =
-            std::max(recording_.largest_contraction_ratio, flow_.state.joint.contraction_ratio);
-        if (k + 1 < plan_.ticks) integrate(static_cast<std::int64_t>(k));
+            std::max(recording_.largest_contraction_ratio, ride_.flow().state.joint.contraction_ratio);
+        if (k + 1 < plan_.ticks) ride_.advance();
       }
     } catch (const engine::NumericalFailure& failure) {
       recording_.failure = failure.what();
     } catch (const controllers::ControllerFailure& failure) {
       recording_.failure = failure.what();
     }
-    recording_.ledger = flow_.ledger;
+    const engine::Flow& end = ride_.flow();
+    recording_.ledger = end.ledger;
     if (plan_.keep_ledger && !recording_.samples.empty())
-      recording_.imbalance = plant_.imbalance(recording_.samples.front().state, flow_.state, flow_.ledger);
-    recording_.solver = integrator_->counters();
+      recording_.imbalance = ride_.plant().imbalance(recording_.samples.front().state, end.state, end.ledger);
+    recording_.solver = ride_.counters();
     if (recording_.solver.stiff_from_tick >= 0)
       recording_.solver.stiff_from_tick -= settling_ticks() + controller_.preparation_ticks();
     recording_.findings = controller_.findings();
@@ -90,17 +89,12 @@ class Run {
 
  private:
   void settle() {
-    plant_.rig().effects.wheel_m(0.0, plays_);
-    hold(controller_.rest().current_mA);
-    held_.reference_pressure_Pa = reference_Pa_;
-    held_.current_speed_mA_per_s = 0.0;
-    flow_.state = plant_.at_rest(held_);
-    flow_.ledger = plant_.opened(flow_.state);
-    if (plant_.has_events()) held_.slip = plant_.slip_from_rest(flow_.state, flow_.memory, held_);
-    const std::int64_t end = -controller_.preparation_ticks();
-    for (std::int64_t k = end - settling_ticks(); k < end; ++k) {
-      disturb(k);
-      integrate(k);
+    const std::int64_t end = -controller_.preparation_ticks(), begin = end - settling_ticks();
+    ask(controller_.rest().current_mA);
+    ride_.start(drive_, time_s(begin));
+    for (std::int64_t k = begin; k < end; ++k) {
+      drive_.stray_pressure_Pa = disturbance_.reference_Pa(time_s(k));
+      ride_.step(drive_, time_s(k + 1));
       counts();
     }
   }
@@ -109,26 +103,21 @@ class Run {
   void prepare() {
     for (std::int64_t k = -controller_.preparation_ticks(); k < 0; ++k) {
       tick(k);
-      integrate(k);
+      ride_.advance();
     }
-    flow_.ledger = plant_.opened(flow_.state);
+    ride_.open_ledger();
   }
 
   Sample tick(std::int64_t k) {
-    const double time_s = static_cast<double>(k) * plan_.rig.tick_s;
     const std::int64_t read = counts();
-    const double before_mA = current_mA_;
-    hold(controller_.step({k, time_s, read}).current_mA);
-    disturb(k);
-    held_.current_speed_mA_per_s = (current_mA_ - before_mA) / plan_.rig.tick_s;
-    // The level may have jumped with the current's speed (T 4.6): a load that stuck may be free now.
-    if (plant_.has_events() && held_.slip == plant::Slip::sticking)
-      held_.slip = plant_.slip_from_rest(flow_.state, flow_.memory, held_);
-    const auto now = plant_.moment(flow_.state, flow_.memory, held_);
-    const double gauge_Pa = flow_.state.side.muscle_pressure_Pa + disturbance_.gauge_Pa();
-    return {time_s,
-            current_mA_,
-            flow_.state,
+    ask(controller_.step({k, time_s(k), read}).current_mA);
+    drive_.stray_pressure_Pa = disturbance_.reference_Pa(time_s(k));
+    ride_.hold(drive_, time_s(k + 1));
+    const auto now = ride_.moment();
+    const double gauge_Pa = ride_.reading().muscle_pressure_Pa + disturbance_.gauge_Pa();
+    return {time_s(k),
+            drive_.current_mA,
+            ride_.flow().state,
             read,
             plant::gauge_reading_Pa(plan_.rig.gauge, gauge_Pa),
             now.braid_force_N,
@@ -137,43 +126,26 @@ class Run {
   }
 
   std::int64_t counts() {
-    const double length_m = plan_.rig.muscle.rest_length_m;
-    const double wheel_m =
-        plant_.rig().effects.wheel_m(flow_.state.joint.contraction_ratio * length_m, plays_);
-    return counter_.count(wheel_m + disturbance_.jitter() * length_m);
+    const double jitter_m = disturbance_.jitter() * plan_.rig.muscle.rest_length_m;
+    return counter_.count(ride_.reading().wheel_m + jitter_m);
   }
 
-  void hold(double wanted_mA) {
-    current_mA_ =
+  void ask(double wanted_mA) {
+    drive_.current_mA =
         controller_.already_quantised() ? wanted_mA : plant::dac_output_mA(plan_.rig.dac, wanted_mA);
-    const double wanted_Pa = plant_.reference_pressure_Pa(current_mA_ + disturbance_.current_mA());
-    reference_Pa_ = plant_.rig().effects.reference_Pa(wanted_Pa, plays_);
+    drive_.stray_current_mA = disturbance_.current_mA();
   }
 
-  // The slow disturbances come on top of what effects make of the reference.
-  void disturb(std::int64_t k) {
-    const double time_s = static_cast<double>(k) * plan_.rig.tick_s;
-    held_.reference_pressure_Pa = reference_Pa_ + disturbance_.reference_Pa(time_s);
-  }
-
+  double time_s(std::int64_t k) const { return static_cast<double>(k) * plan_.rig.tick_s; }
   long settling_ticks() const { return std::lround(plan_.rig.settling_time_s / plan_.rig.tick_s); }
-
-  void integrate(std::int64_t k) {
-    const double tick_s = plan_.rig.tick_s;
-    integrator_->advance(flow_, held_, static_cast<double>(k) * tick_s, static_cast<double>(k + 1) * tick_s);
-  }
 
   const RunPlan& plan_;
   controllers::Controller& controller_;
-  plant::Plant plant_;
-  std::unique_ptr<engine::Integrator> integrator_;
+  ride::Ride ride_;
+  ride::Drive drive_;
   plant::PulseCounter counter_;
-  plant::Effects::Plays plays_{};
   Disturbance disturbance_;
   Recording recording_;
-  engine::Flow flow_;
-  plant::Held held_;
-  double current_mA_ = 0.0, reference_Pa_ = 0.0;
 };
 
 }  // namespace

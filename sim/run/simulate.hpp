@@ -1,9 +1,8 @@
-// One run of a rig under a controller, tick by tick.
+// One run of a rig under a controller, which drives a ride tick by tick.
 //
 //   settle: the controller's rest current is held for the settling time, then at each tick t_k = k * tick,
 //   beginning with the controller's preparation at k < 0, which leaves no row:
-//     x- = state; counts = encoder(x-); i = DAC(controller(counts)); row k = (t_k, i, x-); x+ = integrate(x-,
-//     i)
+//     counts = encoder(x-); i = DAC(controller(counts)); row k = (t_k, i, x-); the ride steps to t_(k+1)
 #pragma once
 
 #include <cstddef>

@@ -53,10 +53,10 @@ inline input::Dataset planted(const plant::Rig& truth, std::vector<double> loads
 }
 
 /// Six runs of four seconds, enough for a whole diagnosis: three loads, the middle one held out.
-inline input::Dataset small(const plant::Rig& truth) {
+inline input::Dataset small(const plant::Rig& truth, double duration_s = 4.0) {
   auto currents = three_kinds();
   currents.pop_back();
-  for (auto& current : currents) current.duration_s = 4.0;
+  for (auto& current : currents) current.duration_s = duration_s;
   return planted(truth, {11.138, 16.138, 23.406}, currents, 7);
 }
 

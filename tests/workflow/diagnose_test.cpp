@@ -32,6 +32,26 @@ TEST(Diagnose, NamesTheLeakThatIsHidden) {
   for (const auto& run : found.runs) EXPECT_EQ(run.held_out, run.load_kg == 16.138) << run.id;
 }
 
+// Exact stick and slip has no common steps: each rig rides alone.
+TEST(Diagnose, NamesTheLeakOfARigWithCoulombFrictionAndNothingWhereNothingIs) {
+  plant::Rig nominal;
+  nominal.friction.memory = plant::FrictionMemory::coulomb;
+  plant::Rig leaking = nominal;
+  leaking.effects.get<plant::MuscleLeak>().conductance_m3_per_s_Pa = 2e-10;
+  for (const bool leaks : {false, true}) {
+    auto data = small(leaks ? leaking : nominal, 2.6);
+    static_cast<plant::Rig&>(data.rig) = nominal;
+    const auto found = diagnosis_of(data, 0);
+    EXPECT_EQ(found.verdict, leaks ? Verdict::missing_effect : Verdict::nothing_missing) << found.because;
+    ASSERT_EQ(found.effects.size(), leaks ? 1u : 0u) << found.because;
+    if (!leaks) continue;
+    EXPECT_EQ(found.effects[0].name, "muscle_leak");
+    EXPECT_GT(2e-10, found.effects[0].parameters[0].low);
+    EXPECT_LT(2e-10, found.effects[0].parameters[0].high);
+    EXPECT_GT(found.gap.closed, 0.95);
+  }
+}
+
 TEST(Diagnose, FindsALawForWhatIsInNoCatalogue) {
   plant::Rig truth;
   truth.effects.get<plant::ResidualForce>().terms = {

@@ -1,0 +1,114 @@
+// The rig as a thing that is stepped, by whatever drives it. The order of an instant, which stands in
+// ride.cpp and nowhere else:
+//
+//   x-         state that was reached; what the instruments see of it
+//   hold       held = { play(P_ref(i)) + stray, nu = change of i / length of the step }
+//              Coulomb friction: a load that sticks is judged anew
+//   moment     forces and flows at (x-, held)
+//   advance    x+ = integrate(x-, held); what the instruments see of it
+//
+// Times are the caller's. A ride carries one rig, or several under the same drive: in common steps where they
+// can be had, for differences between rigs that are free of the noise of steps.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include <plant/plant.hpp>
+#include <sim/engine/flock.hpp>
+#include <sim/engine/integrator.hpp>
+
+namespace mckibben::ride {
+
+/// A rig with a load [kg] on it.
+struct Hanging {
+  plant::Rig rig;
+  double load_kg;
+};
+
+/// What acts on a rig from outside, from one instant to the next.
+struct Drive {
+  double current_mA = 0.0;         ///< as a DAC gives it
+  double stray_current_mA = 0.0;   ///< reaches the valve besides, and is in no table
+  double stray_pressure_Pa = 0.0;  ///< on the reference that the valve follows, in the end
+};
+
+/// What instruments see at an instant, before they count or round.
+struct Reading {
+  double wheel_m = 0.0;  ///< rise that the encoder's wheel shows
+  double muscle_pressure_Pa = 0.0;
+};
+
+/// Whether these rigs ride in common steps: more than one, none with exact stick and slip, and not with
+/// CVODE.
+bool have_common_steps(std::span<const Hanging> rigs, engine::Method method);
+
+class Ride {
+ public:
+  /// All that changes on the way, one entry for each rig.
+  struct Saved {
+    std::vector<engine::Flow> flows;
+    std::vector<plant::Held> held;
+    std::vector<plant::Effects::Plays> plays;
+    std::vector<Reading> readings;
+    std::vector<engine::Pace> paces;  ///< one for each integrator
+    double time_s = 0.0, until_s = 0.0, current_mA = 0.0;
+  };
+
+  /// 1 to engine::Flock::most rigs. In common steps they have no ledger. Throws std::invalid_argument.
+  Ride(std::span<const Hanging> rigs, const engine::Settings& settings, bool keep_ledger = false);
+  Ride(const Hanging& rig, const engine::Settings& settings, bool keep_ledger = false)
+      : Ride(std::span(&rig, 1), settings, keep_ledger) {}
+  Ride(const Ride& other);
+  Ride(Ride&&) = default;
+  Ride& operator=(Ride&&) = default;
+  ~Ride() = default;
+
+  /// At rest, both pressures as the drive asks for, the encoder at zero. A load may still sink onto the braid
+  /// stop: the steps of the rig's settling time follow.
+  void start(const Drive& drive, double at_s);
+
+  /// An instant and the way to the next [s]; touches no heap. Throws NumericalFailure; the ride is then where
+  /// it last came to.
+  std::span<const Reading> step(const Drive& drive, double until_s) {
+    hold(drive, until_s);
+    return advance();
+  }
+
+  // A step's two halves, for those who look at the moment between them. Throws std::invalid_argument where
+  // `until_s` is not later than the present instant.
+  void hold(const Drive& drive, double until_s);
+  std::span<const Reading> advance();
+
+  const plant::Plant& plant(std::size_t rig = 0) const { return plants_[rig]; }
+  const engine::Flow& flow(std::size_t rig = 0) const { return now_.flows[rig]; }
+  const Reading& reading(std::size_t rig = 0) const { return now_.readings[rig]; }
+  plant::Moment<double> moment(std::size_t rig = 0) const {
+    return plants_[rig].moment(now_.flows[rig].state, now_.flows[rig].memory, now_.held[rig]);
+  }
+  double time_s() const { return now_.time_s; }
+  /// What the solver of the first rig did. Not of rigs in common steps.
+  engine::Counters counters() const;
+
+  /// Nothing has come or gone from here on.
+  void open_ledger();
+
+  /// A ride that goes on from what was saved goes the same way, to the bit. `saved` is of a ride of as many
+  /// rigs with the same settings.
+  Saved save() const;
+  void restore(const Saved& saved);
+
+ private:
+  void make_integrators();
+  void read();
+
+  std::vector<plant::Plant> plants_;
+  engine::Settings settings_;
+  bool together_, keep_ledger_;
+  std::unique_ptr<engine::Flock> flock_;                          // either this
+  std::vector<std::unique_ptr<engine::Integrator>> integrators_;  // or one for each rig
+  Saved now_;
+};
+
+}  // namespace mckibben::ride

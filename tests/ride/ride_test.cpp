@@ -1,0 +1,137 @@
+// The step-able rig: what is saved, restored or copied goes on to the same bits; when a drive is felt;
+// several rigs on one ride.
+#include <cmath>
+#include <cstring>
+#include <stdexcept>
+
+#include <gtest/gtest.h>
+
+#include <sim/ride/ride.hpp>
+
+#include "switched_on.hpp"
+
+namespace mckibben::ride {
+namespace {
+
+constexpr double load_kg = 16.138, tick_s = 0.012;
+
+plant::Rig with_friction(plant::Rig rig, plant::FrictionMemory memory) {
+  rig.friction.memory = memory;
+  return rig;
+}
+
+/// Up and down, so that the load moves, turns and sticks.
+Drive drive_at(int k) {
+  return {.current_mA = 11.0 - 6.0 * std::cos(0.05 * k), .stray_pressure_Pa = k % 5 == 0 ? 300.0 : 0.0};
+}
+
+void go(Ride& ride, int from, int to) {
+  for (int k = from; k < to; ++k) ride.step(drive_at(k), tick_s * (k + 1));
+}
+
+bool same_bits(const Ride& a, const Ride& b, std::size_t rig = 0) {
+  const auto same = [](const auto& x, const auto& y) { return std::memcmp(&x, &y, sizeof x) == 0; };
+  return same(a.flow(rig).state, b.flow(rig).state) && same(a.flow(rig).memory, b.flow(rig).memory) &&
+         same(a.flow(rig).ledger, b.flow(rig).ledger) && a.reading(rig).wheel_m == b.reading(rig).wheel_m &&
+         a.time_s() == b.time_s();
+}
+
+TEST(Ride, GoesOnToTheSameBitsFromWhatWasSavedAndAsACopy) {
+  for (const auto method : {engine::Method::erk, engine::Method::cvode, engine::Method::automatic})
+    for (const auto memory : {plant::FrictionMemory::lugre, plant::FrictionMemory::coulomb})
+      for (const plant::Rig& rig : {plant::Rig{}, plant::rig_with_all_effects()}) {
+        Ride ride({with_friction(rig, memory), load_kg}, {method, 1e-6}, true);
+        ride.start(drive_at(0), 0.0);
+        for (int begin = 0; begin < 120; begin += 7) {
+          const Ride::Saved saved = ride.save();
+          Ride copy = ride;
+          go(ride, begin, begin + 7);
+          go(copy, begin, begin + 7);
+          EXPECT_TRUE(same_bits(ride, copy)) << "copied before tick " << begin;
+          copy.restore(saved);
+          EXPECT_EQ(copy.time_s(), tick_s * begin);
+          go(copy, begin, begin + 7);
+          EXPECT_TRUE(same_bits(ride, copy)) << "restored at tick " << begin;
+        }
+        EXPECT_GT(ride.flow().state.joint.contraction_ratio, 0.05);
+      }
+}
+
+TEST(Ride, ADriveIsFeltFromItsInstantOn) {
+  Ride ride({plant::Rig{}, load_kg}, {engine::Method::erk, 1e-6});
+  ride.start({.current_mA = 8.0}, 0.0);
+  const double before_Pa = ride.flow().state.side.valve_pressure_Pa;
+  EXPECT_EQ(before_Pa, ride.plant().reference_pressure_Pa(8.0));
+  ride.hold({.current_mA = 12.0}, tick_s);
+  EXPECT_EQ(ride.flow().state.side.valve_pressure_Pa, before_Pa);
+  EXPECT_GT(ride.moment().supply_flow, 0.0);
+  ride.advance();
+  EXPECT_GT(ride.flow().state.side.valve_pressure_Pa, before_Pa + 1e4);
+  EXPECT_EQ(ride.time_s(), tick_s);
+}
+
+// T 4.6: the level grows with the speed of the current, (12 - 8) mA in the length of the step.
+TEST(Ride, TheCurrentsSpeedIsItsChangeOverTheStep) {
+  plant::Rig rig;
+  rig.friction.f1_s2_per_mA2 = 1e-4;
+  Ride ride({rig, load_kg}, {engine::Method::erk, 1e-6});
+  ride.start({.current_mA = 8.0}, 0.0);
+  for (const double step_s : {0.012, 0.05}) {
+    ride.hold({.current_mA = 8.0}, ride.time_s() + step_s);
+    const double still_N = ride.moment().friction_level_N - rig.friction.floor_N;
+    ride.hold({.current_mA = 12.0}, ride.time_s() + step_s);
+    const double speed_mA_per_s = 4.0 / step_s;
+    EXPECT_NEAR(
+        (ride.moment().friction_level_N - rig.friction.floor_N) / still_N,
+        plant::friction_coefficient(rig.friction, ride.flow().state.joint.contraction_ratio, speed_mA_per_s) /
+            plant::friction_coefficient(rig.friction, ride.flow().state.joint.contraction_ratio, 0.0),
+        1e-12);
+    ride.hold({.current_mA = 8.0}, ride.time_s() + step_s);
+  }
+}
+
+TEST(Ride, TimesAreTheCallers) {
+  const auto arrive = [](double step_s) {
+    Ride ride({plant::Rig{}, load_kg}, {engine::Method::erk, 1e-9});
+    ride.start({.current_mA = 4.0}, 0.0);
+    for (int k = 1; k * step_s < 1.0 + 1e-9; ++k) ride.step({.current_mA = 12.0}, k * step_s);
+    return ride.flow().state.joint.contraction_ratio;
+  };
+  const double e = arrive(0.01);
+  EXPECT_GT(e, 0.05);
+  EXPECT_NEAR(arrive(0.001), e, 1e-7);
+  EXPECT_NEAR(arrive(0.25), e, 1e-7);
+}
+
+TEST(Ride, CarriesSeveralRigsEachWhereItGoesAlone) {
+  plant::Rig lagging;
+  lagging.effects.get<plant::ValveLag>().time_s = 0.03;
+  for (const auto memory : {plant::FrictionMemory::lugre, plant::FrictionMemory::coulomb}) {
+    const Hanging rigs[] = {{with_friction({}, memory), 11.0}, {with_friction(lagging, memory), load_kg}};
+    EXPECT_EQ(have_common_steps(rigs, engine::Method::automatic), memory == plant::FrictionMemory::lugre);
+    Ride together(rigs, {engine::Method::erk, 1e-9});
+    together.start(drive_at(0), 0.0);
+    go(together, 0, 84);
+    for (std::size_t i = 0; i < 2; ++i) {
+      Ride alone(rigs[i], {engine::Method::erk, 1e-9});
+      alone.start(drive_at(0), 0.0);
+      go(alone, 0, 84);
+      EXPECT_NEAR(together.reading(i).wheel_m, alone.reading().wheel_m, 3e-8) << i;
+      EXPECT_GT(together.reading(i).wheel_m, 0.015);
+    }
+    Ride copy = together;
+    go(together, 84, 120);
+    go(copy, 84, 120);
+    for (std::size_t i = 0; i < 2; ++i) EXPECT_TRUE(same_bits(together, copy, i)) << i;
+  }
+}
+
+TEST(Ride, RefusesWhatItCannotDo) {
+  EXPECT_THROW(Ride(std::span<const Hanging>{}, {}), std::invalid_argument);
+  Ride ride({plant::Rig{}, load_kg}, {});
+  ride.start({.current_mA = 4.0}, 1.0);
+  EXPECT_THROW(ride.step({.current_mA = 4.0}, 1.0), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace mckibben::ride
