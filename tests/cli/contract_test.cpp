@@ -19,7 +19,7 @@ using input::Json;
 
 // A law that pulls a heavy load past the range in which the braid is defined.
 constexpr const char* falls =
-    "{muscle: {stop_stiffness: 1e5 N/m}, effects: {residual_law: {terms: [{of: m g, coefficient: -400 N}]}}}";
+    "{muscle: {stop_stiffness: 1e5 N/m}, effects: {residual_law: {terms: [{of: m g, coefficient: -800 N}]}}}";
 
 /// Two runs in which nothing moves: enough to be read, too little for a diagnosis.
 void write_still_runs(const fs::path& folder) {
@@ -53,7 +53,7 @@ class Contract : public testing::Test {
             "\nloads: [45 kg]\ncurrents: [{duration: 1 s, current: {kind: step_current, moves: []}}]\n");
     write_text(s / "falling_rig.yaml",
                "schema: mckibben-rig/1\nmuscle: {stop_stiffness: 1e5 N/m}\n"
-               "effects: {residual_law: {terms: [{of: m g, coefficient: -400 N}]}}\n");
+               "effects: {residual_law: {terms: [{of: m g, coefficient: -800 N}]}}\n");
     write_still_runs(s / "still");
     write_text(s / "heavy.yaml",
                "schema: mckibben-dataset/1\nrig: falling_rig.yaml\nruns:\n"
