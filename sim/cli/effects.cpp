@@ -35,6 +35,7 @@ struct Entry {
 template <class E>
 std::string acts_on() {
   std::vector<std::string_view> list;
+  list.reserve(E::hooks.size() + 1);
   for (const plant::Hook hook : E::hooks) list.push_back(plant::words(hook));
   if (plant::Remembers<E>) list.push_back("with a memory");
   return fmt::format("{}", fmt::join(list, ", "));
