@@ -7,6 +7,7 @@
 #include <sim/diagnose/checks.hpp>
 #include <sim/diagnose/diagnose.hpp>
 #include <sim/diagnose/faults.hpp>
+#include <sim/diagnose/first_look.hpp>
 #include <sim/diagnose/interval.hpp>
 #include <sim/diagnose/law.hpp>
 #include <sim/diagnose/naming.hpp>
@@ -36,8 +37,6 @@ constexpr double false_alarm_rate = 0.03;
 /// What is left of the motion where a gauge and the motion may contradict each other.
 constexpr double contradicted = 1.0;
 
-/// Effects that are tried beside faults of a few runs.
-constexpr std::size_t most_suspected = 3;
 /// How often data are mended and looked at again.
 constexpr int most_repairs = 2;
 
@@ -102,12 +101,13 @@ class Workflow {
     case_.split = split(data_, usable_);
     step("replaying");
     replay();
-    if (look) faults_ = suspects();
+    if (look) faults_ = first_look(case_, nominal_fit_.fitted.model, usable_, step_);
     if (!faults_.empty()) return std::move(result_);
     recalibrate();
     judge();
     const Contender& final = chosen_ == &nominal_fit_ ? recalibrated_ : *chosen_;
-    if (look && !far_from(final).empty()) faults_ = examine(experiment_, final.fitted.model, usable_, {});
+    if (look && !far_from(final).empty())
+      faults_ = examine(experiment_, final.fitted.model, usable_, {}).faults;
     if (!faults_.empty()) return std::move(result_);
     doubt();
     report();
@@ -134,46 +134,6 @@ class Workflow {
     fitted.columns = std::move(slopes.columns);
     fitted.cost = fitted.residuals.squaredNorm() / case_.temperature;
     learn_gap("the rig as described", nominal_fit_.held_out);
-  }
-
-  // Far from the rig that is described straight lines mislead: a second look, from a fit to the runs that are
-  // not suspected.
-  std::vector<Fault> suspects() const {
-    const Model& described = nominal_fit_.fitted.model;
-    auto faults = examine(experiment_, described, usable_, catalogue());
-    Runs others;
-    for (const std::size_t run : usable_)
-      if (std::none_of(faults.begin(), faults.end(), [&](const Fault& fault) { return fault.run == run; }))
-        others.push_back(run);
-    if (faults.empty()) return beside_an_effect();
-    if (others.empty()) return faults;
-    const auto fitted = fit(experiment_, described, others, {.temperature = first_temperature});
-    return fitted.failure.empty() ? examine(experiment_, fitted.model, usable_, catalogue()) : faults;
-  }
-
-  // An effect fitted to all runs would be bent by those at fault: each that is suspected is fitted to the
-  // others, and the faults are looked up from there.
-  std::vector<Fault> beside_an_effect() const {
-    const Model& described = nominal_fit_.fitted.model;
-    auto suspicions = suspect(experiment_, described, usable_, catalogue());
-    if (suspicions.size() > most_suspected) suspicions.resize(most_suspected);
-    const auto others = [](const std::vector<Fault>& faults) {
-      return std::count_if(faults.begin(), faults.end(),
-                           [](const Fault& fault) { return fault.kind == FaultKind::another_rig; });
-    };
-    std::vector<Fault> best;
-    for (const Suspicion& suspicion : suspicions) {
-      step_("trying " + title(suspicion.effect.candidate) + " beside faults of runs");
-      Case of_sound = case_;
-      of_sound.split.training = suspicion.sound;
-      const auto contender = contend(of_sound, with(of_sound, described, suspicion.effect));
-      if (!contender.fitted.failure.empty()) continue;
-      auto faults = examine(experiment_, contender.fitted.model, usable_, {});
-      if (faults.empty()) continue;
-      if (best.empty() || std::pair(others(faults), faults.size()) < std::pair(others(best), best.size()))
-        best = std::move(faults);
-    }
-    return best;
   }
 
   void recalibrate() {

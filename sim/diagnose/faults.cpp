@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <optional>
+#include <set>
 
 #include <Eigen/QR>
 
@@ -50,10 +52,7 @@ class Examination {
     fly();
   }
 
-  /// See `suspect`.
-  std::vector<Suspicion> suspicions();
-
-  std::vector<Fault> operator()() {
+  Examined operator()() {
     const Regression alone = regression(Kept(runs_.size(), true));
     const double most = worst(alone);
     if (runs_.size() <= least_sound || most <= unquestioned) return {};
@@ -61,10 +60,13 @@ class Examination {
     for (const Hypothesis& other :
          {common_lateness(alone), own_line(FaultKind::zero), own_line(FaultKind::drift)})
       if (other.cost < best.cost) best = other;
-    if (best.faults.empty() || best.cost > strictly_better * alone.cost()) return {};
+    const bool better = !best.faults.empty() && best.cost <= strictly_better * alone.cost();
+    if (!better && most <= sound) return {};
     draw_effects();
-    if (best.cost > strictly_better * with_an_effect(alone)) return {};
-    return best.faults;
+    const double with_an_effect = alone.cost() - most_gained(alone);
+    if (better && best.cost <= strictly_better * with_an_effect) return {best.faults, {}};
+    if (most <= sound) return {};
+    return {{}, suspicions(with_an_effect)};
   }
 
  private:
@@ -83,24 +85,33 @@ class Examination {
     }
   };
 
+  /// What an effect leaves of the runs that it fits best, and its size there.
+  struct Trimmed {
+    Kept kept;
+    double cost, amplitude;
+  };
+
   void fly();
   void draw_effects();
-  double with_an_effect(const Regression& alone) const;
+  double most_gained(const Regression& alone) const;
+  Trimmed trimmed(const Drawn& effect, std::map<Kept, Regression>& fits) const;
+  std::vector<Suspicion> suspicions(double at_best) const;
   Hypothesis few(double near) const;
   Hypothesis common_lateness(const Regression& alone) const;
   Hypothesis own_line(FaultKind kind) const;
   std::optional<Fault> look_up(std::size_t i, Kept kept) const;
 
+  /// With rows of 0 for the runs that are not kept.
+  template <class Rows>
+  Rows only(const Kept& kept, Rows values) const {
+    for (std::size_t i = 0; i < runs_.size(); ++i)
+      if (!kept[i]) values.middleRows(begin(i), rows(i)).setZero();
+    return values;
+  }
   /// The rig's parameters fitted to the runs that are kept.
   Regression regression(const Kept& kept) const {
-    Eigen::VectorXd values = residuals_;
-    Eigen::MatrixXd columns = columns_;
-    for (std::size_t i = 0; i < runs_.size(); ++i) {
-      if (kept[i]) continue;
-      values.segment(begin(i), rows(i)).setZero();
-      columns.middleRows(begin(i), rows(i)).setZero();
-    }
-    Regression result(std::move(values));
+    const Eigen::MatrixXd columns = only(kept, columns_);
+    Regression result(only(kept, residuals_));
     for (Eigen::Index j = 0; j < columns.cols(); ++j) result.add(columns.col(j));
     return result;
   }
@@ -203,70 +214,61 @@ void Examination::draw_effects() {
           slopes.columns.col(static_cast<Eigen::Index>(c)).segment(parts[i].begin, parts[i].rows);
 }
 
-/// What one effect of the catalogue leaves at best.
-double Examination::with_an_effect(const Regression& alone) const {
-  if (drawn_.empty()) return infinite;
+/// What one effect of the catalogue takes off the misfit at best; all of nothing if there is none.
+double Examination::most_gained(const Regression& alone) const {
+  if (drawn_.empty()) return -infinite;
   double most = 0.0;
   for (const Drawn& effect : drawn_) {
     const auto [drop, amplitude] = alone.gain(effect.column, 0);
     if (effect.possible(amplitude)) most = std::max(most, drop);
   }
-  return alone.cost() - most;
+  return most;
 }
 
-std::vector<Suspicion> Examination::suspicions() {
-  const Kept all(runs_.size(), true);
-  if (worst(regression(all)) <= sound) return {};
-  draw_effects();
-  const std::size_t most_odd = runs_.size() / (sound_for_one + 1);
-  const double at_best = with_an_effect(regression(all));
-  std::vector<std::pair<double, Suspicion>> list;
-  for (const Drawn& effect : drawn_) {
-    const auto without = [&](const Kept& kept) {
-      Regression fitted = regression(kept);
-      Eigen::VectorXd column = effect.column;
-      for (std::size_t i = 0; i < runs_.size(); ++i)
-        if (!kept[i]) column.segment(begin(i), rows(i)).setZero();
-      const double amplitude = fitted.gain(column, 0).amplitude;
-      if (effect.possible(amplitude)) fitted.add(std::move(column));
-      return std::pair{fitted.cost(), amplitude};
-    };
-    Kept kept = all;
-    auto [cost, amplitude] = without(kept);
-    for (std::size_t odd = 0; odd < most_odd; ++odd) {
-      std::size_t oddest = 0;
-      double least = infinite, its_amplitude = 0.0;
-      for (std::size_t i = 0; i < runs_.size(); ++i) {
-        if (!kept[i]) continue;
-        kept[i] = false;
-        const auto [left, size] = without(kept);
-        kept[i] = true;
-        if (left < least) {
-          least = left;
-          oddest = i;
-          its_amplitude = size;
-        }
-      }
-      kept[oddest] = false;
-      cost = least;
-      amplitude = its_amplitude;
+/// As many runs as may be at fault are left out, each time the one without which least is left. `fits`: those
+/// without an effect, which are the same for all.
+Examination::Trimmed Examination::trimmed(const Drawn& effect, std::map<Kept, Regression>& fits) const {
+  const auto left_of = [&](const Kept& kept) {
+    auto fit = fits.find(kept);
+    if (fit == fits.end()) fit = fits.emplace(kept, regression(kept)).first;
+    const auto [drop, amplitude] = fit->second.gain(only(kept, effect.column), 0);
+    return Trimmed{kept, fit->second.cost() - (effect.possible(amplitude) ? drop : 0.0), amplitude};
+  };
+  Trimmed best = left_of(Kept(runs_.size(), true));
+  for (std::size_t odd = 0; odd < runs_.size() / (sound_for_one + 1); ++odd) {
+    Trimmed least{.kept = {}, .cost = infinite, .amplitude = 0.0};
+    for (std::size_t i = 0; i < runs_.size(); ++i) {
+      if (!best.kept[i]) continue;
+      Kept fewer = best.kept;
+      fewer[i] = false;
+      if (Trimmed left = left_of(fewer); left.cost < least.cost) least = std::move(left);
     }
-    if (cost > worth_suspecting * at_best || !effect.possible(amplitude)) continue;
-    const Candidate& c = *effect.candidate;
-    Suspicion suspicion{{c, 0.0, c.absent + amplitude, effect.shape, {}}, {}};
-    for (std::size_t i = 0; i < runs_.size(); ++i)
-      if (kept[i]) suspicion.sound.push_back(runs_[i]);
-    list.emplace_back(cost, std::move(suspicion));
+    best = std::move(least);
   }
-  std::stable_sort(list.begin(), list.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  return best;
+}
+
+/// Effects that leave far less, without a few runs, than `at_best` any leaves of all; each in its best shape.
+std::vector<Suspicion> Examination::suspicions(double at_best) const {
+  std::map<Kept, Regression> fits;
+  std::vector<std::pair<Trimmed, const Drawn*>> list;
+  for (const Drawn& effect : drawn_) {
+    Trimmed left = trimmed(effect, fits);
+    if (left.cost <= worth_suspecting * at_best && effect.possible(left.amplitude))
+      list.emplace_back(std::move(left), &effect);
+  }
+  std::stable_sort(list.begin(), list.end(),
+                   [](const auto& a, const auto& b) { return a.first.cost < b.first.cost; });
+  std::set<const Candidate*> told;
   std::vector<Suspicion> best;
-  for (auto& [cost, suspicion] : list)  // each effect once
-    if (std::none_of(best.begin(), best.end(),
-                     [&, &mine = suspicion.effect.candidate](const Suspicion& other) {
-                       return other.effect.candidate.effect == mine.effect &&
-                              other.effect.candidate.variant == mine.variant;
-                     }))
-      best.push_back(std::move(suspicion));
+  for (const auto& [left, effect] : list) {
+    const Candidate& c = *effect->candidate;
+    if (!told.insert(&c).second) continue;
+    Suspicion& suspicion = best.emplace_back(
+        Suspicion{{.candidate = c, .amplitude = c.absent + left.amplitude, .shape = effect->shape}, {}});
+    for (std::size_t i = 0; i < runs_.size(); ++i)
+      if (left.kept[i]) suspicion.sound.push_back(runs_[i]);
+  }
   return best;
 }
 
@@ -382,15 +384,9 @@ Hypothesis Examination::own_line(FaultKind kind) const {
 
 }  // namespace
 
-std::vector<Fault> examine(const Experiment& experiment, const Model& at, const Runs& runs,
-                           const std::vector<Candidate>& effects) {
-  return Examination(experiment, at, runs, effects)();
-}
-
-std::vector<Suspicion> suspect(const Experiment& experiment, const Model& at, const Runs& runs,
-                               const std::vector<Candidate>& effects) {
-  if (runs.size() <= least_sound) return {};
-  return Examination(experiment, at, runs, effects).suspicions();
+Examined examine(const Experiment& experiment, const Model& at, const Runs& runs,
+                 const std::vector<Candidate>& catalogue) {
+  return Examination(experiment, at, runs, catalogue)();
 }
 
 }  // namespace mckibben::diagnose

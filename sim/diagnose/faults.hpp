@@ -37,13 +37,6 @@ struct Fault {
 /// Residuals within so many floors [rms] are taken for noise, slow disturbances included.
 inline constexpr double near_floor = 4.0;
 
-/// The faults that take every run near the floor where the rig of `at`, with its free parameters fitted to
-/// all `runs`, does not: a few runs' own, or one that all have in common. None if most of the runs disagree
-/// with the rig in other ways, or if an effect of `catalogue` does nearly as well. Throws
-/// engine::NumericalFailure, run::Interrupted.
-std::vector<Fault> examine(const Experiment& experiment, const Model& at, const Runs& runs,
-                           const std::vector<Candidate>& effects);
-
 /// An effect that may be missing beside faults of a few runs: it comes much closer to the others than any
 /// effect comes to all.
 struct Suspicion {
@@ -51,8 +44,16 @@ struct Suspicion {
   Runs sound;    ///< runs that may be fitted with it
 };
 
-/// The most promising first; none where leaving runs out helps little. Throws as `examine`.
-std::vector<Suspicion> suspect(const Experiment& experiment, const Model& at, const Runs& runs,
-                               const std::vector<Candidate>& effects);
+struct Examined {
+  std::vector<Fault> faults{};
+  std::vector<Suspicion> suspicions{};  ///< where there are no such faults; the most promising first
+};
+
+/// The faults that take every run near the floor where the rig of `at`, with its free parameters fitted to
+/// all `runs`, does not: a few runs' own, or one that all have in common. None if most of the runs disagree
+/// with the rig in other ways, or if an effect of `catalogue` does nearly as well; then what of it is to be
+/// suspected. Throws engine::NumericalFailure, run::Interrupted.
+Examined examine(const Experiment& experiment, const Model& at, const Runs& runs,
+                 const std::vector<Candidate>& catalogue);
 
 }  // namespace mckibben::diagnose

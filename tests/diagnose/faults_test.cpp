@@ -27,7 +27,7 @@ Doubts no_doubts(const input::Dataset& data) {
 
 std::vector<Fault> faults_of(const input::Dataset& data, const std::vector<Candidate>& effects = {}) {
   const Experiment experiment(data, no_doubts(data).masked, 2);
-  return examine(experiment, {data.rig, nominal_parameters(data.rig)}, {0, 1, 2, 3, 4, 5}, effects);
+  return examine(experiment, {data.rig, nominal_parameters(data.rig)}, {0, 1, 2, 3, 4, 5}, effects).faults;
 }
 
 using Spoil = std::function<void(double& ratio, double k)>;
