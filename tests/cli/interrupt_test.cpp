@@ -124,10 +124,10 @@ TEST_F(Interrupt, OfMapLeavesTheTargetsThatAreFinished) {
 TEST_F(Interrupt, OfStudyAndDiagnoseLeavesEarlierResultsAlone) {
   const std::string campaign =
       "schema: mckibben-campaign/1\nloads: [11.138 kg, 14 kg, 18.87 kg, 23.406 kg]\n"
-      "noise: {encoder_jitter: 1e-4}\nrig: {effects: {valve_lag: {time: 40 ms}}}\n"
-      "currents: [{duration: 20 s, current: {kind: sine_current, low: 0 mA, high: 20 mA, period: 2 s}}]\n";
-  write_text(scratch / "long.yaml", campaign + "repeats: 200\n");
-  write_text(scratch / "some.yaml", campaign + "repeats: 3\n");
+      "noise: {encoder_jitter: 1e-4}\n"
+      "currents: [{duration: 8 s, current: {kind: sine_current, low: 0 mA, high: 20 mA, period: 2 s}}]\n";
+  write_text(scratch / "long.yaml", campaign + "repeats: 400\n");
+  write_text(scratch / "some.yaml", campaign);
   ASSERT_EQ(mckibben("dataset some.yaml --out data", scratch).status, 0);
   for (const char* arguments : {"study lag long.yaml", "diagnose data"}) {
     const bool open_ended = arguments[0] == 'd';  // its known end is that of what is found
