@@ -97,7 +97,7 @@ constexpr bool has(Hook hook) {
 /// otherwise never be called.
 template <class E>
 concept IsEffect = !E::hooks.empty() && [] {
-  for (std::size_t i = 0; i < hooks; ++i)
+  for (std::size_t i = 0; i < hook_count; ++i)
     if (has<E>(static_cast<Hook>(i)) != declares<E>(static_cast<Hook>(i))) return false;
   return Remembers<E> ==
          requires(const E& e, const Instant<double>& now, const Inflow<double>& in, double m) {

@@ -17,6 +17,7 @@
 namespace mckibben::plant {
 
 inline constexpr double gravity_m_per_s2 = 9.80665;
+inline constexpr double Pa_per_bar = 1e5;
 inline constexpr double degree_rad = std::numbers::pi / 180.0;
 
 /// How the thread contact surface is computed (T 4.3): `squared` is exact geometry, `printed` as the thesis

@@ -80,11 +80,11 @@ enum class Hook {
   wheel,
   reading_factor
 };
-inline constexpr std::size_t hooks = 11;
+inline constexpr std::size_t hook_count = static_cast<std::size_t>(Hook::reading_factor) + 1;
 
 /// What the hook acts on, for people.
 constexpr std::string_view words(Hook hook) {
-  constexpr std::array<std::string_view, hooks> list{
+  constexpr std::array<std::string_view, hook_count> list{
       "pull",   "friction level",  "braid force",       "gas",    "gas", "valve", "valve",
       "supply", "valve, at ticks", "reading, at ticks", "reading"};
   return list[static_cast<std::size_t>(hook)];

@@ -21,12 +21,7 @@ int print_error = 0;  // errno of the first failure
 
 /// As far as it goes.
 ssize_t write_to_stderr(void*, const char* text, std::size_t size) {
-  for (std::size_t done = 0; done < size;) {
-    const ssize_t count = write(STDERR_FILENO, text + done, size - done);
-    if (count < 0 && errno == EINTR) continue;
-    if (count <= 0) break;
-    done += static_cast<std::size_t>(count);
-  }
+  std::ignore = output::write_all(STDERR_FILENO, {text, size});
   return static_cast<ssize_t>(size);
 }
 

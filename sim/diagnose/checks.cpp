@@ -223,14 +223,14 @@ class Checker {
     const auto& shown = data_.runs[i].muscle_pressure_Pa;
     if (!shown) return;
     const bool constant = range(*shown) == 0.0;
-    const bool should_move = range(model_[i].pressure_Pa) > 0.3 * Pa_per_bar;
+    const bool should_move = range(model_[i].pressure_Pa) > 0.3 * plant::Pa_per_bar;
     if (!constant && (!should_move || Line(*shown, model_[i].pressure_Pa).slope > 0.1)) {
       mask_spikes(i, "muscle_pressure_bar", *shown, model_[i].pressure_Pa, gauge_step_Pa);
       return;
     }
     doubts_.dead_gauges.push_back(i);
     warn(i, fmt::format("muscle_pressure_bar {}: the gauge is ignored",
-                        constant ? fmt::format("is {:.4g} throughout", shown->front() / Pa_per_bar)
+                        constant ? fmt::format("is {:.4g} throughout", shown->front() / plant::Pa_per_bar)
                                  : "does not follow the current"));
   }
 

@@ -16,8 +16,6 @@
 
 namespace mckibben::diagnose {
 
-inline constexpr double Pa_per_bar = 1e5;
-
 /// Runs by their index in the data set.
 using Runs = std::vector<std::size_t>;
 

@@ -1,5 +1,4 @@
 // A recorded current drives a ride; see the header.
-#include <algorithm>
 #include <cmath>
 
 #include <sim/diagnose/predict.hpp>
@@ -7,11 +6,7 @@
 namespace mckibben::diagnose {
 
 engine::Settings settings_for(std::span<const Hanging> rigs, engine::Method method) {
-  const bool alone =
-      method == engine::Method::cvode || std::any_of(rigs.begin(), rigs.end(), [](const Hanging& one) {
-        return one.rig.friction.memory == plant::FrictionMemory::coulomb;
-      });
-  return {method, alone ? tolerance_alone : tolerance};
+  return {method, ride::can_share_steps(rigs, method) ? tolerance : tolerance_alone};
 }
 
 std::vector<Readings> predict(const input::Run& run, std::span<const Hanging> rigs, engine::Method method) {

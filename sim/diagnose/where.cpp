@@ -147,7 +147,7 @@ std::vector<Factor> factors_of(const Experiment& experiment, const plant::Rig& r
                            [](const Row& row) { return std::abs(row.speed_mm_per_s); }));
   factors.push_back(std::move(load));
   factors.push_back(binned("pressure", equal(rig.valve.zero_pressure_Pa, rig.valve.span_pressure_Pa, 5),
-                           Pa_per_bar, "bar", [](const Row& row) { return row.pressure_Pa; }));
+                           plant::Pa_per_bar, "bar", [](const Row& row) { return row.pressure_Pa; }));
   factors.push_back(binned("contraction",
                            equal(0.0, run::knowledge_of(rig, {}).model.largest_contraction_ratio(), 6), 1.0,
                            "", [](const Row& row) { return row.contraction_ratio; }));

@@ -22,7 +22,6 @@
 namespace mckibben::input {
 namespace {
 
-constexpr double bar_Pa = 1e5;
 constexpr double lowest_contraction = -0.2, highest_contraction = 1.0;
 constexpr double lowest_gauge_bar = -2.0, highest_gauge_bar = 100.0;  // a vacuum, and noise
 
@@ -143,7 +142,7 @@ void read_table_of(Source source, Format format, const Wanted& wanted, const Col
   run.contraction_ratio = std::move(contraction->values);
   if (Table::Column* pressure = table.find("muscle_pressure_bar")) {
     run.muscle_pressure_Pa = std::move(pressure->values);
-    for (double& value : *run.muscle_pressure_Pa) value *= bar_Pa;
+    for (double& value : *run.muscle_pressure_Pa) value *= plant::Pa_per_bar;
   }
 }
 

@@ -56,7 +56,7 @@ void write_file(const fs::path& path, const std::string& content, Earlier earlie
   if (error) cannot_write(path.parent_path(), error.value());
   Temporary made = make_temporary(path.parent_path());
   try {
-    if (const int failed = write_all(made.file, content)) cannot_write(path, failed);
+    if (const int failed = write_all(made.file.number(), content)) cannot_write(path, failed);
     if (durable && fsync(made.file.number()) != 0) cannot_write(path, errno);
     if (earlier == Earlier::is_refused)
       rename_new(made.path, path);
@@ -129,11 +129,11 @@ std::optional<std::string> read_regular(const fs::path& path) {
   return read_regular(open_file(path, O_RDONLY));
 }
 
-int write_all(const Descriptor& file, const std::string& content) {
-  for (std::string_view rest = content; !rest.empty();) {
-    const ssize_t count = write(file.number(), rest.data(), rest.size());
+int write_all(int descriptor, std::string_view content) {
+  while (!content.empty()) {
+    const ssize_t count = write(descriptor, content.data(), content.size());
     if (count > 0)
-      rest.remove_prefix(static_cast<std::size_t>(count));
+      content.remove_prefix(static_cast<std::size_t>(count));
     else if (count == 0 || errno != EINTR)
       return count == 0 ? ENOSPC : errno;
   }

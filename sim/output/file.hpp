@@ -6,6 +6,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 
 namespace mckibben::output {
 
@@ -50,7 +51,7 @@ std::optional<std::string> read_regular(const Descriptor& file);
 std::optional<std::string> read_regular(const std::filesystem::path& path);
 
 /// Writes all of it. 0 or an errno.
-int write_all(const Descriptor& file, const std::string& content);
+int write_all(int descriptor, std::string_view content);
 
 /// What may stand where a file is to be written.
 enum class Earlier { is_replaced, is_refused };

@@ -115,7 +115,7 @@ void ResultFolder::go_to(const fs::path& destination) {
 }
 
 void ResultFolder::write(const std::string& name, const std::string& content) {
-  if (const int failed = write_all(begun_, name + "\n")) cannot_write(container_, failed);
+  if (const int failed = write_all(begun_.number(), name + "\n")) cannot_write(container_, failed);
   write_staged(container_ / result_name / name, content);
   files_[name] = input::sha256_hex(content);
 }

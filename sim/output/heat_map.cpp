@@ -1,6 +1,6 @@
-// Blue for too low, orange for too high, white for map_right: told apart by the colour-blind (Okabe & Ito's
-// blue and vermillion). A colour scale holds nine tenths of the errors within reach: what lies beyond is
-// often so far off that nothing else would be seen.
+// Blue for too low, orange for too high, white for right: told apart by the colour-blind (Okabe & Ito's blue
+// and vermillion). A colour scale holds nine tenths of the errors within reach: what lies beyond is often so
+// far off that nothing else would be seen.
 #include <algorithm>
 #include <cmath>
 #include <vector>

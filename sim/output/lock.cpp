@@ -48,7 +48,7 @@ Lock::Lock(const fs::path& place, const std::string& job)
       cannot_write(place, fmt::format("its file system has no locks ({}); give an --out elsewhere",
                                       std::strerror(errno)));
   }
-  if (ftruncate(file_.number(), 0) == 0) std::ignore = write_all(file_, holder(job));
+  if (ftruncate(file_.number(), 0) == 0) std::ignore = write_all(file_.number(), holder(job));
 }
 
 Lock::~Lock() {

@@ -6,15 +6,17 @@
 
 namespace mckibben::ride {
 
-bool have_common_steps(std::span<const Hanging> rigs, engine::Method method) {
-  return rigs.size() > 1 && method != engine::Method::cvode &&
+bool can_share_steps(std::span<const Hanging> rigs, engine::Method method) {
+  return method != engine::Method::cvode &&
          std::none_of(rigs.begin(), rigs.end(), [](const Hanging& hanging) {
            return hanging.rig.friction.memory == plant::FrictionMemory::coulomb;
          });
 }
 
 Ride::Ride(std::span<const Hanging> rigs, const engine::Settings& settings, bool keep_ledger)
-    : settings_(settings), together_(have_common_steps(rigs, settings.method)), keep_ledger_(keep_ledger) {
+    : settings_(settings),
+      together_(rigs.size() > 1 && can_share_steps(rigs, settings.method)),
+      keep_ledger_(keep_ledger) {
   if (rigs.empty() || rigs.size() > engine::Flock::most)
     throw std::invalid_argument("a ride carries 1 to 8 rigs");
   for (const Hanging& hanging : rigs) plants_.emplace_back(hanging.rig, hanging.load_kg);
@@ -42,6 +44,12 @@ void Ride::make_integrators() {
       integrators_.push_back(engine::make_integrator(plant, settings_, keep_ledger_));
 }
 
+double Ride::reference_Pa(std::size_t rig, const Drive& drive) {
+  const plant::Plant& plant = plants_[rig];
+  const double wanted_Pa = plant.reference_pressure_Pa(drive.current_mA + drive.stray_current_mA);
+  return plant.rig().effects.reference_Pa(wanted_Pa, now_.plays[rig]) + drive.stray_pressure_Pa;
+}
+
 void Ride::start(const Drive& drive, double at_s) {
   now_.time_s = at_s;
   now_.current_mA = drive.current_mA;
@@ -49,9 +57,7 @@ void Ride::start(const Drive& drive, double at_s) {
     const plant::Plant& plant = plants_[i];
     now_.plays[i] = {};
     plant.rig().effects.wheel_m(0.0, now_.plays[i]);
-    const double wanted_Pa = plant.reference_pressure_Pa(drive.current_mA + drive.stray_current_mA);
-    now_.held[i] = {.reference_pressure_Pa =
-                        plant.rig().effects.reference_Pa(wanted_Pa, now_.plays[i]) + drive.stray_pressure_Pa};
+    now_.held[i] = {.reference_pressure_Pa = reference_Pa(i, drive)};
     now_.flows[i] = {.state = plant.at_rest(now_.held[i])};
     now_.flows[i].ledger = plant.opened(now_.flows[i].state);
     if (plant.has_events())
@@ -65,9 +71,7 @@ void Ride::hold(const Drive& drive, double until_s) {
   for (std::size_t i = 0; i < plants_.size(); ++i) {
     const plant::Plant& plant = plants_[i];
     plant::Held& held = now_.held[i];
-    const double wanted_Pa = plant.reference_pressure_Pa(drive.current_mA + drive.stray_current_mA);
-    held.reference_pressure_Pa =
-        plant.rig().effects.reference_Pa(wanted_Pa, now_.plays[i]) + drive.stray_pressure_Pa;
+    held.reference_pressure_Pa = reference_Pa(i, drive);
     held.current_speed_mA_per_s = (drive.current_mA - now_.current_mA) / (until_s - now_.time_s);
     // The level may have jumped with the current's speed (T 4.6): a load that stuck may be free now.
     if (plant.has_events() && held.slip == plant::Slip::sticking)

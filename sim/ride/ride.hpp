@@ -40,9 +40,8 @@ struct Reading {
   double muscle_pressure_Pa = 0.0;
 };
 
-/// Whether these rigs ride in common steps: more than one, none with exact stick and slip, and not with
-/// CVODE.
-bool have_common_steps(std::span<const Hanging> rigs, engine::Method method);
+/// Whether rigs can ride in common steps: none with exact stick and slip, and not with CVODE.
+bool can_share_steps(std::span<const Hanging> rigs, engine::Method method);
 
 class Ride {
  public:
@@ -101,6 +100,8 @@ class Ride {
 
  private:
   void make_integrators();
+  /// What the valve of a rig is to follow. Pushes the plays on the way.
+  double reference_Pa(std::size_t rig, const Drive& drive);
   void read();
 
   std::vector<plant::Plant> plants_;

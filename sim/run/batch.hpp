@@ -14,8 +14,7 @@ class Interrupted : public std::exception {
   const char* what() const noexcept override { return "interrupted"; }
 };
 
-/// Makes Ctrl-C (and SIGTERM, SIGHUP) stop long work between two jobs instead of ending the program, and a
-/// broken pipe an ordinary failure to write.
+/// Makes Ctrl-C (and SIGTERM, SIGHUP) stop long work between two jobs instead of ending the program.
 void catch_interrupts();
 bool interrupted();
 

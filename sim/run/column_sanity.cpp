@@ -19,7 +19,6 @@ using input::ColumnPlace;
 using input::line_of;
 using Series = std::vector<double>;
 
-constexpr double bar_Pa = 1e5;
 constexpr double same = 1.25;                // factors as near as that are one
 constexpr double near_one = 2.0, far = 5.0;  // factors that effects reach; that nothing but a unit does
 constexpr double alike = 0.8;                // correlation with the model, if only the unit is wrong
@@ -98,10 +97,10 @@ class Columns {
 
   bool exchanged(const input::Run& run) {
     if (!run.muscle_pressure_Pa) return false;
-    const double most_bar = largest(*run.muscle_pressure_Pa) / bar_Pa;
-    if (most_bar < 1.2 * data_.rig.valve.supply_pressure_Pa / bar_Pa ||
+    const double most_bar = largest(*run.muscle_pressure_Pa) / plant::Pa_per_bar;
+    if (most_bar < 1.2 * data_.rig.valve.supply_pressure_Pa / plant::Pa_per_bar ||
         most_bar > data_.rig.dac.largest_current_mA + 1e-6 ||
-        largest(run.current_mA) > 1.05 * data_.rig.valve.supply_pressure_Pa / bar_Pa)
+        largest(run.current_mA) > 1.05 * data_.rig.valve.supply_pressure_Pa / plant::Pa_per_bar)
       return false;
     std::swap(map_.current.column, map_.muscle_pressure.column);
     find("muscle_pressure",
@@ -189,11 +188,12 @@ class Columns {
   void pressure(const Series& shown, const Series& model) {
     const Line line(shown, model);
     ColumnPlace meant = map_.muscle_pressure;
-    if (range(model) > 0.3 * bar_Pa) {
+    if (range(model) > 0.3 * plant::Pa_per_bar) {
       for (const auto& [factor, unit] :
            {std::pair{100.0, "kPa"}, {14.504, "psi"}, {1e3, "mbar"}, {0.1, "MPa"}, {1e5, "Pa"}}) {
         if (line.slope <= 0.0 || std::abs(std::log(line.slope / factor)) > std::log(same)) continue;
-        find("muscle_pressure", fmt::format("muscle_pressure is up to {:.4g} bar; ", largest(shown) / bar_Pa),
+        find("muscle_pressure",
+             fmt::format("muscle_pressure is up to {:.4g} bar; ", largest(shown) / plant::Pa_per_bar),
              mend(fmt::format("this looks like {}, not bar", unit),
                   line_of("muscle_pressure", with_unit(map_.muscle_pressure, unit))));
       }
@@ -203,7 +203,7 @@ class Columns {
       return std::abs(difference_Pa / data_.rig.gas.atmosphere_Pa - 1.0) < 0.2;
     };
     if (!an_atmosphere(line.mean_difference) || !an_atmosphere(lowest(shown) - lowest(model))) return;
-    if (meant.unit == "bar") meant.zero += data_.rig.gas.atmosphere_Pa / bar_Pa / meant.factor;
+    if (meant.unit == "bar") meant.zero += data_.rig.gas.atmosphere_Pa / plant::Pa_per_bar / meant.factor;
     find("muscle_pressure", "muscle_pressure is about one atmosphere too high; ",
          mend("this looks like absolute, not gauge pressure: the zero takes the atmosphere off",
               line_of("muscle_pressure", meant)));

@@ -10,6 +10,7 @@
 #include <plant/geometry.hpp>
 #include <sim/input/number.hpp>
 #include <sim/run/load_sanity.hpp>
+#include <sim/run/series.hpp>
 
 namespace mckibben::run {
 namespace {
@@ -41,8 +42,8 @@ bool stands_still(const Series& measured, const Series& simulated, std::size_t k
   const auto of = [&](const Series& series) {
     return std::span(series).subspan(k - std::min(k, still_rows), end - k + std::min(k, still_rows));
   };
-  const auto [low, high] = std::ranges::minmax(of(simulated));
-  return high - low > moving && std::ranges::all_of(of(measured), [&](double m) { return m == measured[k]; });
+  if (!std::ranges::all_of(of(measured), [&](double m) { return m == measured[k]; })) return false;
+  return range(of(simulated)) > moving;
 }
 
 /// What the braid carries at what was measured, in the middle of what friction makes of it. Where the

@@ -34,7 +34,7 @@ std::vector<std::string> doubts(const Recording& recording) {
     found.push_back(fmt::format(
         "the muscle's pressure falls to {:.3g} bar below the atmosphere at {:.3f} s, because it grows faster "
         "than the hose fills it: a real tube would collapse there, while the braid law lets it push",
-        -lowest->state.side.muscle_pressure_Pa / 1e5, lowest->time_s));
+        -lowest->state.side.muscle_pressure_Pa / plant::Pa_per_bar, lowest->time_s));
   return found;
 }
 

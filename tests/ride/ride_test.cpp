@@ -108,7 +108,7 @@ TEST(Ride, CarriesSeveralRigsEachWhereItGoesAlone) {
   lagging.effects.get<plant::ValveLag>().time_s = 0.03;
   for (const auto memory : {plant::FrictionMemory::lugre, plant::FrictionMemory::coulomb}) {
     const Hanging rigs[] = {{with_friction({}, memory), 11.0}, {with_friction(lagging, memory), load_kg}};
-    EXPECT_EQ(have_common_steps(rigs, engine::Method::automatic), memory == plant::FrictionMemory::lugre);
+    EXPECT_EQ(can_share_steps(rigs, engine::Method::automatic), memory == plant::FrictionMemory::lugre);
     Ride together(rigs, {engine::Method::erk, 1e-9});
     together.start(drive_at(0), 0.0);
     go(together, 0, 84);
