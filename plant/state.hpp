@@ -1,9 +1,10 @@
 // What the plant remembers. What flows in time (State) is kept apart from what jumps at ticks (Held), and
-// what belongs to one muscle side from what belongs to the joint, because a second muscle may pull on the
-// same wheel.
+// what belongs to one muscle side from what belongs to the joint. A second muscle that pulls on the same
+// wheel is the `opposite` of each; where there is none, nobody looks at it.
 #pragma once
 
 #include <array>
+#include <optional>
 
 #include <plant/effects.hpp>
 
@@ -11,7 +12,7 @@ namespace mckibben::plant {
 
 template <class S>
 struct JointState {
-  S contraction_ratio;        ///< e
+  S contraction_ratio;        ///< e, of the muscle; of the first one of a pair
   S contraction_speed_per_s;  ///< w = de/dt
 };
 
@@ -25,14 +26,18 @@ struct SideState {
 template <class S>
 struct State {
   JointState<S> joint;
-  SideState<S> side;
+  SideState<S> side, opposite;
 };
 
-/// What effects with a memory remember, in the order of their table; all zero at the start of a run.
+/// What effects with a memory remember on one side, in the order of their table; all zero at the start.
 template <class S>
-using Memory = std::array<S, Effects::memories>;
+using SideMemory = std::array<S, Effects::memories>;
+template <class S>
+struct Memory {
+  SideMemory<S> side, opposite;
+};
 
-/// Where air and work went since the start: integrals that nothing in the plant depends on.
+/// Where air and work went since the start, on both sides: integrals that nothing in the plant depends on.
 template <class S>
 struct Ledger {
   S air_drawn_kg;            ///< from the supply
@@ -40,18 +45,22 @@ struct Ledger {
   S air_leaked_kg;           ///< to the atmosphere, from the muscle
   S braid_work_J;            ///< done by the braid on the load
   S thread_friction_work_J;  ///< taken by the threads
-  S guide_work_J;            ///< taken by the load guide
+  S guide_work_J;            ///< taken by the load guide, or by the bearings of a pair
   S stop_work_J;             ///< done by the taut threads on the load
   S effects_work_J;          ///< done by the pull of effects on the load
+  S bench_work_J;            ///< done on the cord by what gives the muscle its length
   // Only where the gas is polytropic; else pressures and volumes tell what is there.
   S valve_air_kg, muscle_air_kg;  ///< what is there, not a sum
   S air_inflow_J;                 ///< R T of all that came less what went, as the gas law counts it
-  S gas_work_J;                   ///< done by the muscle's gas on its walls, atmosphere included
+  S gas_work_J;                   ///< done by the muscles' gas on their walls, atmosphere included
+  S opposite_valve_air_kg, opposite_muscle_air_kg;
 };
 
-inline constexpr int state_size = 5, memory_size = Effects::memories;
-inline constexpr int ledger_size = 12, isothermal_ledger_size = 8;
-static_assert(sizeof(State<double>) == state_size * sizeof(double));
+/// Components of a state with one muscle, with two, and of what else an integrator may carry.
+inline constexpr int single_size = 5, pair_size = 8, memory_size = Effects::memories;
+inline constexpr int ledger_size = 15, isothermal_ledger_size = 9;
+static_assert(sizeof(State<double>) == pair_size * sizeof(double));
+static_assert(sizeof(Memory<double>) == 2 * memory_size * sizeof(double));
 static_assert(sizeof(Ledger<double>) == ledger_size * sizeof(double));
 
 /// Share that a ledger leaves unexplained: of the gas that was there or came, of the work done.
@@ -62,11 +71,19 @@ struct Imbalance {
 /// Motion of a joint with Coulomb friction; `sticking` also means "not Coulomb's business" for LuGre threads.
 enum class Slip { sticking, rising, falling };
 
-/// What is constant between two ticks or events.
-struct Held {
+/// What is constant on one side between two ticks or events.
+struct HeldSide {
   double reference_pressure_Pa = 0.0;   ///< P_ref, gauge
   double current_speed_mA_per_s = 0.0;  ///< nu of T 4.6: change of the held current over the last tick
+  /// Where the muscle's pressure is given, valve and hose do not exist: how fast it runs to its next value.
+  std::optional<double> pressure_rate_Pa_per_s{};
+};
+
+struct Held : HeldSide {
   Slip slip = Slip::sticking;
+  /// The muscle's length is given: w stays what it is, whatever force that takes.
+  bool length_is_given = false;
+  HeldSide opposite{};
 };
 
 }  // namespace mckibben::plant

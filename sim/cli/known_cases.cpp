@@ -16,7 +16,7 @@ constexpr double tick_s = 0.012;
 void hold(ride::Ride& ride, double current_mA, int ticks) {
   const auto begun = std::lround(ride.time_s() / tick_s);
   for (int k = 1; k <= ticks; ++k)
-    ride.step({.current_mA = current_mA}, tick_s * static_cast<double>(begun + k));
+    ride.step({{.current_mA = current_mA}}, tick_s * static_cast<double>(begun + k));
 }
 
 /// Through a choked valve air flows at a constant rate: the pressure rises along a straight line, R T / V
@@ -25,8 +25,8 @@ double choked_filling(const engine::Settings& settings) {
   plant::Rig rig;
   rig.hose.conductance_m3_per_s_Pa = 1e-12;  // as good as shut
   rig.valve.supply_pressure_Pa = 20e5;       // choked up to 5.3 bar of gauge pressure
-  ride::Ride ride({rig, 10.0}, settings);
-  ride.start({.current_mA = 4.0}, 0.0);
+  ride::Ride ride(ride::Hanging{rig, 10.0}, settings);
+  ride.start({{.current_mA = 4.0}}, 0.0);
   hold(ride, 20.0, 1);  // more than a proportional band away: fully open
   const double flow_kg_per_s = 4e-9 * 1.185 * (20e5 + 101325.0);
   const double rise_Pa = 287.05 * 293.15 / 5e-5 * flow_kg_per_s * tick_s;
@@ -43,8 +43,8 @@ double free_fall(const engine::Settings& settings) {
   rig.friction.floor_N = 1e-3;
   rig.joint.guide_damping_N_s_per_m = 0.0;
   rig.joint.wheel_inertia_kg_m2 = 0.0;
-  ride::Ride ride({rig, 400.0}, settings);
-  ride.start({.current_mA = 4.0}, 0.0);
+  ride::Ride ride(ride::Hanging{rig, 400.0}, settings);
+  ride.start({{.current_mA = 4.0}}, 0.0);
   auto lifted = ride.save();
   lifted.flows[0].state.joint.contraction_ratio = 0.28;
   lifted.held[0].slip = plant::Slip::falling;
@@ -58,8 +58,8 @@ double free_fall(const engine::Settings& settings) {
 /// The thesis's rig under steps of current. Returns the largest error of e at the stored rows; those of the
 /// pressure count as much if they are fifty times as large in bar.
 double stored_steps(const engine::Settings& settings) {
-  ride::Ride ride({plant::Rig{}, stored_load_kg}, settings);
-  ride.start({.current_mA = stored_rows[0].current_mA}, 0.0);
+  ride::Ride ride(ride::Hanging{plant::Rig{}, stored_load_kg}, settings);
+  ride.start({{.current_mA = stored_rows[0].current_mA}}, 0.0);
   hold(ride, stored_rows[0].current_mA, 167);  // settling
   double worst = 0.0;
   for (const StoredRow& row : stored_rows) {

@@ -20,7 +20,8 @@ std::vector<Readings> predict(const input::Run& run, std::span<const Hanging> ri
   }
 
   ride::Ride ride(rigs, settings_for(rigs, method));
-  ride::Drive drive{.current_mA = run.current_mA.front()};
+  ride::Drive drive;
+  drive.current_mA = run.current_mA.front();
   const long settling = std::lround(first.settling_time_s / first.tick_s);
   ride.start(drive, time_s(-settling));
   for (long k = -settling; k < 0; ++k) ride.step(drive, time_s(k + 1));

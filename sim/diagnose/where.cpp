@@ -75,12 +75,12 @@ std::vector<Row> rows_of(const Experiment& experiment, const plant::Rig& rig, co
     for (std::size_t k = 0; k < states.size(); ++k) {
       const double residual = residuals[parts[i].begin + static_cast<Eigen::Index>(k)];
       if (residual == 0.0) continue;  // masked
-      const auto& [joint, side] = states[k];
+      const auto& joint = states[k].joint;
       rows.push_back({.residual = experiment.floor().ratio * residual,
                       .segment = segments + k / per_segment,
                       .load_kg = experiment.data().runs[runs[i]].load_kg,
                       .speed_mm_per_s = 1e3 * rig.muscle.rest_length_m * joint.contraction_speed_per_s,
-                      .pressure_Pa = side.muscle_pressure_Pa,
+                      .pressure_Pa = states[k].side.muscle_pressure_Pa,
                       .contraction_ratio = joint.contraction_ratio,
                       .time_s = static_cast<double>(k) * rig.tick_s,
                       .since_turn_s = since_s[k]});

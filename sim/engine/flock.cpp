@@ -11,7 +11,7 @@ namespace {
 
 template <bool remembers, int lanes>
 class ErkFlock final : public Flock {
-  using L = Layout<remembers, Books::none>;
+  using L = Layout<1, remembers, Books::none>;
   struct V : FixedVector<L::size * lanes, L::steering, lanes> {
     using layout = L;
   };
@@ -100,6 +100,8 @@ std::unique_ptr<Flock> make_flock(std::span<const plant::Plant> plants, double t
   if (plants.empty() || plants.size() > Flock::most) throw std::invalid_argument("a flock has 1 to 8 rigs");
   if (std::any_of(plants.begin(), plants.end(), [](const auto& rig) { return rig.has_events(); }))
     throw std::invalid_argument("exact stick and slip (memory: coulomb) has no common steps");
+  if (std::any_of(plants.begin(), plants.end(), [](const auto& rig) { return rig.opposite().has_value(); }))
+    throw std::invalid_argument("pairs of muscles have no common steps");
   const bool remembers =
       std::any_of(plants.begin(), plants.end(), [](const auto& rig) { return rig.remembers(); });
   return remembers ? of_size<true>(plants, tolerance) : of_size<false>(plants, tolerance);

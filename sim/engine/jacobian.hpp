@@ -13,19 +13,31 @@ template <class L, class Matrix>
 bool jacobian(const Problem<L>& problem, const double* y, Matrix& result) {
   using Number = Dual<L::steering>;
   const auto at = Problem<L>::state_of(y);
-  if (!problem.plant().in_domain(at)) return false;
-  const auto seed = [](double value, int index) { return Number::unknown(value, index); };
-  const plant::State<Number> state{
-      {seed(at.joint.contraction_ratio, 0), seed(at.joint.contraction_speed_per_s, 1)},
-      {seed(at.side.valve_pressure_Pa, 2), seed(at.side.muscle_pressure_Pa, 3), seed(at.side.bristle_m, 4)}};
+  if (!problem.plant().template in_domain<L::sides>(at)) return false;
+  int unknowns = 0;
+  const auto seed = [&](double value) { return Number::unknown(value, unknowns++); };
+  const auto side_of = [&](const plant::SideState<double>& side) {
+    plant::SideState<Number> seeded;
+    seeded.valve_pressure_Pa = seed(side.valve_pressure_Pa);
+    seeded.muscle_pressure_Pa = seed(side.muscle_pressure_Pa);
+    seeded.bristle_m = seed(side.bristle_m);
+    return seeded;
+  };
+  plant::State<Number> state;
+  state.joint.contraction_ratio = seed(at.joint.contraction_ratio);
+  state.joint.contraction_speed_per_s = seed(at.joint.contraction_speed_per_s);
+  state.side = side_of(at.side);
+  if constexpr (L::sides == 2) state.opposite = side_of(at.opposite);
   plant::Memory<Number> memory;
-  memory.fill(0.0);
+  memory.side.fill(0.0);
+  memory.opposite.fill(0.0);
   if constexpr (L::remembers) {
-    for (int i = 0; i < static_cast<int>(plant::memory_size); ++i)
-      memory[static_cast<std::size_t>(i)] = seed(y[plant::state_size + i], plant::state_size + i);
+    for (Number& one : memory.side) one = seed(y[unknowns]);
+    if constexpr (L::sides == 2)
+      for (Number& one : memory.opposite) one = seed(y[unknowns]);
   }
-  const auto now = problem.plant().moment(state, memory, problem.held);
-  const auto rates = problem.plant().rates(state, now);
+  const auto now = problem.plant().template moment<L::sides>(state, memory, problem.held);
+  const auto rates = problem.plant().template rates<L::sides>(state, now);
   int next = 0;
   const auto row = [&](const Number& rate) {
     result.row(next).setZero();
@@ -33,13 +45,20 @@ bool jacobian(const Problem<L>& problem, const double* y, Matrix& result) {
   };
   row(rates.joint.contraction_ratio);
   row(rates.joint.contraction_speed_per_s);
-  row(rates.side.valve_pressure_Pa);
-  row(rates.side.muscle_pressure_Pa);
-  row(rates.side.bristle_m);
-  if constexpr (L::remembers)
+  const auto rows_of = [&](const plant::SideState<Number>& side) {
+    row(side.valve_pressure_Pa);
+    row(side.muscle_pressure_Pa);
+    row(side.bristle_m);
+  };
+  rows_of(rates.side);
+  if constexpr (L::sides == 2) rows_of(rates.opposite);
+  if constexpr (L::remembers) {
     for (const Number& rate : now.memory_rates) row(rate);
+    if constexpr (L::sides == 2)
+      for (const Number& rate : now.opposite.memory_rates) row(rate);
+  }
   if constexpr (L::audits) {
-    const auto ledger = problem.plant().ledger_rates(state, now, Problem<L>::ledger_of(y));
+    const auto ledger = problem.plant().template ledger_rates<L::sides>(state, now, Problem<L>::ledger_of(y));
     row(ledger.air_drawn_kg);
     row(ledger.air_vented_kg);
     row(ledger.air_leaked_kg);
@@ -48,11 +67,14 @@ bool jacobian(const Problem<L>& problem, const double* y, Matrix& result) {
     row(ledger.guide_work_J);
     row(ledger.stop_work_J);
     row(ledger.effects_work_J);
+    row(ledger.bench_work_J);
     if constexpr (L::entries == plant::ledger_size) {  // of the gas that is there already it makes little
       row(ledger.valve_air_kg);
       row(ledger.muscle_air_kg);
       row(ledger.air_inflow_J);
       row(ledger.gas_work_J);
+      row(ledger.opposite_valve_air_kg);
+      row(ledger.opposite_muscle_air_kg);
     }
   }
   return true;

@@ -1,6 +1,7 @@
 // What an integrator sees: a right-hand side over a fixed number of components, frozen between ticks. First
-// the plant's state; then what its effects remember, if one does; then its ledger, if it is kept, which never
-// steers the steps, so that a run with and without it takes the same steps bit for bit.
+// the plant's state, with one muscle or two; then what their effects remember, if one does; then the ledger,
+// if it is kept, which never steers the steps, so that a run with and without it takes the same steps bit for
+// bit.
 #pragma once
 
 #include <array>
@@ -18,22 +19,34 @@ struct Flow {
 };
 
 /// Working size of each state: an error of tolerance times this may be made in a step.
-inline constexpr std::array<double, plant::state_size> working_size{0.3, 1.0, 5e5, 5e5, 1e-4};
+inline constexpr std::array<double, plant::pair_size> working_size{0.3, 1.0, 5e5, 5e5, 1e-4, 5e5, 5e5, 1e-4};
 
 /// How much of the ledger is kept: nothing, what isothermal gas needs, or all.
 enum class Books { none, isothermal, polytropic };
 
 /// Which components there are.
-template <bool remembers_, Books books_>
+template <int sides_, bool remembers_, Books books_>
 struct Layout {
+  static constexpr int sides = sides_;
   static constexpr bool remembers = remembers_, audits = books_ != Books::none;
-  static constexpr int steering = plant::state_size + (remembers ? static_cast<int>(plant::memory_size) : 0);
+  static constexpr int states = sides == 1 ? plant::single_size : plant::pair_size;
+  static constexpr int memories = remembers ? sides * plant::memory_size : 0;
+  static constexpr int steering = states + memories;
   static constexpr int entries = books_ == Books::none         ? 0
                                  : books_ == Books::isothermal ? plant::isothermal_ledger_size
                                                                : plant::ledger_size;
   static constexpr int size = steering + entries;
-  static constexpr std::size_t ledger_bytes = entries * sizeof(double);
+  static constexpr std::size_t state_bytes = states * sizeof(double),
+                               memory_bytes = memories * sizeof(double),
+                               ledger_bytes = entries * sizeof(double);
 };
+
+/// Working size of a component that steers the steps.
+template <class L>
+constexpr double size_of(int component) {
+  if (component < L::states) return working_size[static_cast<std::size_t>(component)];
+  return plant::Effects::memory_sizes[static_cast<std::size_t>((component - L::states) % plant::memory_size)];
+}
 
 template <class L>
 class Problem {
@@ -48,13 +61,13 @@ class Problem {
 
   static plant::State<double> state_of(const double* y) {
     plant::State<double> state;
-    std::memcpy(&state, y, sizeof state);
+    std::memcpy(&state, y, L::state_bytes);
     return state;
   }
 
   static plant::Memory<double> memory_of(const double* y) {
     plant::Memory<double> memory{};
-    if constexpr (L::remembers) std::memcpy(memory.data(), y + plant::state_size, sizeof memory);
+    if constexpr (L::remembers) std::memcpy(&memory, y + L::states, L::memory_bytes);
     return memory;
   }
 
@@ -65,30 +78,32 @@ class Problem {
   }
 
   static void store(const Flow& flow, double* y) {
-    std::memcpy(y, &flow.state, sizeof flow.state);
-    if constexpr (L::remembers) std::memcpy(y + plant::state_size, flow.memory.data(), sizeof flow.memory);
+    std::memcpy(y, &flow.state, L::state_bytes);
+    if constexpr (L::remembers) std::memcpy(y + L::states, &flow.memory, L::memory_bytes);
     if constexpr (L::audits) std::memcpy(y + L::steering, &flow.ledger, L::ledger_bytes);
   }
 
   static void load(const double* y, Flow& flow) {
-    std::memcpy(&flow.state, y, sizeof flow.state);
-    if constexpr (L::remembers) std::memcpy(flow.memory.data(), y + plant::state_size, sizeof flow.memory);
+    std::memcpy(&flow.state, y, L::state_bytes);
+    if constexpr (L::remembers) std::memcpy(&flow.memory, y + L::states, L::memory_bytes);
     if constexpr (L::audits) std::memcpy(&flow.ledger, y + L::steering, L::ledger_bytes);
   }
 
   /// dy/dt; false where a law is not defined (a trial stage of the solver may go there).
-  bool rates(const double* y, double* dydt) const {
+  [[gnu::flatten]] bool rates(const double* y, double* dydt) const {
     const auto state = state_of(y);
-    if (!plant_.in_domain(state)) return false;
-    const auto now = plant_.moment(state, memory_of(y), held);
-    const auto rates = plant_.rates(state, now);
-    std::memcpy(dydt, &rates, sizeof rates);
+    if (!plant_.template in_domain<L::sides>(state)) return false;
+    const auto now = plant_.template moment<L::sides>(state, memory_of(y), held);
+    const auto rates = plant_.template rates<L::sides>(state, now);
+    std::memcpy(dydt, &rates, L::state_bytes);
     if constexpr (L::remembers) {  // a plant beside others may have no effects at all
-      const auto memories = plant_.remembers() ? now.memory_rates : plant::Memory<double>{};
-      std::memcpy(dydt + plant::state_size, memories.data(), sizeof memories);
+      plant::Memory<double> memories{};
+      if (plant_.remembers()) memories.side = now.memory_rates;
+      if constexpr (L::sides == 2) memories.opposite = now.opposite.memory_rates;
+      std::memcpy(dydt + L::states, &memories, L::memory_bytes);
     }
     if constexpr (L::audits) {
-      const auto ledger = plant_.ledger_rates(state, now, ledger_of(y));
+      const auto ledger = plant_.template ledger_rates<L::sides>(state, now, ledger_of(y));
       std::memcpy(dydt + L::steering, &ledger, L::ledger_bytes);
     }
     return true;

@@ -17,20 +17,26 @@
 namespace mckibben::engine {
 
 /// The vectors that the methods work on. A kind of vector V offers layout, size, make(context), data(vector).
-template <bool remembers, Books books>
-struct PlantVector : FixedVector<Layout<remembers, books>::size, Layout<remembers, books>::steering> {
-  using layout = Layout<remembers, books>;
+template <int sides, bool remembers, Books books>
+struct PlantVector
+    : FixedVector<Layout<sides, remembers, books>::size, Layout<sides, remembers, books>::steering> {
+  using layout = Layout<sides, remembers, books>;
 };
 
 /// make(V*) for the vector V that a rig needs.
 template <class Make>
 auto with_vector(const plant::Plant& rig, bool keep_ledger, const Make& make) {
-  const auto with_books = [&]<bool remembers>(std::bool_constant<remembers>) {
-    if (!keep_ledger) return make(static_cast<PlantVector<remembers, Books::none>*>(nullptr));
-    if (rig.polytropic()) return make(static_cast<PlantVector<remembers, Books::polytropic>*>(nullptr));
-    return make(static_cast<PlantVector<remembers, Books::isothermal>*>(nullptr));
+  const auto with_books = [&]<int sides, bool remembers>(std::integral_constant<int, sides>,
+                                                         std::bool_constant<remembers>) {
+    if (!keep_ledger) return make(static_cast<PlantVector<sides, remembers, Books::none>*>(nullptr));
+    if (rig.polytropic() || sides == 2)
+      return make(static_cast<PlantVector<sides, remembers, Books::polytropic>*>(nullptr));
+    return make(static_cast<PlantVector<1, remembers, Books::isothermal>*>(nullptr));
   };
-  return rig.remembers() ? with_books(std::true_type{}) : with_books(std::false_type{});
+  const std::integral_constant<int, 1> one;
+  const std::integral_constant<int, 2> two;  // with every component: pairs are few, and each kind is compiled
+  if (rig.opposite()) return with_books(two, std::true_type{});
+  return rig.remembers() ? with_books(one, std::true_type{}) : with_books(one, std::false_type{});
 }
 
 /// A SUNDIALS context: one for each integrator, since it is not shared between threads.
@@ -55,7 +61,7 @@ using Vector = std::unique_ptr<std::remove_pointer_t<N_Vector>, VectorDeleter>;
 
 /// Right-hand side callback; positive where the solver should try a smaller step.
 template <class V>
-[[gnu::flatten]] int right_hand_side(double, N_Vector y, N_Vector dydt, void* problem) {
+int right_hand_side(double, N_Vector y, N_Vector dydt, void* problem) {
   return static_cast<Problem<typename V::layout>*>(problem)->rates(V::data(y), V::data(dydt)) ? 0 : 1;
 }
 
@@ -74,11 +80,7 @@ Vector absolute_tolerances(SUNContext context, double tolerance) {
   Vector v(V::make(context));
   std::fill_n(V::data(v.get()), V::size, 1.0);
   for (double* lane = V::data(v.get()); lane < V::data(v.get()) + V::size; lane += L::size) {
-    for (std::size_t i = 0; i < working_size.size(); ++i) lane[i] = tolerance * working_size[i];
-    if constexpr (L::remembers) {
-      for (std::size_t i = 0; i < plant::memory_size; ++i)
-        lane[working_size.size() + i] = tolerance * plant::Effects::memory_sizes[i];
-    }
+    for (int i = 0; i < L::steering; ++i) lane[i] = tolerance * size_of<L>(i);
   }
   return v;
 }
@@ -96,7 +98,7 @@ inline constexpr long most_refused_in_a_tick = 2000;
 /// the error estimate.
 inline void forbid(double* dydt, long call) {
   const double rate_per_s = 1e9 * static_cast<double>(1 + call % 7);
-  for (std::size_t i = 0; i < working_size.size(); ++i) dydt[i] = rate_per_s * working_size[i];
+  for (std::size_t i = 0; i < std::size_t{plant::single_size}; ++i) dydt[i] = rate_per_s * working_size[i];
 }
 
 enum class Trouble { too_many_steps, too_accurate, error_test, outside_domain, convergence, events, other };

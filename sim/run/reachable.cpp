@@ -96,7 +96,7 @@ class Moving {
   static double valve_flow(const plant::Moment<double>& now) { return now.supply_flow - now.vent_flow; }
 
   State<double> state_at(double e, double pressure_Pa, double speed_per_s = 0.0) const {
-    return {{e, direction_ * speed_per_s}, {pressure_Pa, pressure_Pa, 0.0}};
+    return {{e, direction_ * speed_per_s}, {pressure_Pa, pressure_Pa, 0.0}, {}};
   }
 
   // Force left over for moving up, with friction and guide against the movement. Ascends with pressure,

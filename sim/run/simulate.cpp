@@ -52,7 +52,7 @@ class Run {
   Run(const RunPlan& plan, controllers::Controller& controller)
       : plan_(plan),
         controller_(controller),
-        ride_({plan.rig, plan.load_kg}, plan.engine, plan.keep_ledger),
+        ride_(ride::Hanging{plan.rig, plan.load_kg}, plan.engine, plan.keep_ledger),
         counter_(plan.rig.encoder.wiring, plant::count_height_m(plan.rig.encoder, plan.rig.joint)),
         disturbance_(plan.noise, plan.rig.tick_s, plan.seed, plan.stream) {}
 

@@ -26,7 +26,7 @@ namespace {
 
 /// The library's own vector, for comparison.
 struct StockVector {
-  using layout = Layout<false, Books::none>;
+  using layout = Layout<1, false, Books::none>;
   static constexpr int size = layout::size;
   static double* data(N_Vector v) { return NV_DATA_S(v); }
   static N_Vector make(SUNContext context) { return N_VNew_Serial(size, context); }
@@ -64,7 +64,7 @@ double right_hand_side_s() {
     const Ride& ride = rides[0];
     const plant::Plant plant(plant::Rig{}, ride.load_kg);
     const auto integrator = make_integrator(plant, Settings{}, false);
-    std::vector<std::array<double, plant::state_size>> states;
+    std::vector<std::array<double, plant::single_size>> states;
     std::vector<plant::Held> held;
     Flow flow;
     plant::Held now;
@@ -73,10 +73,10 @@ double right_hand_side_s() {
     for (int k = 0; k < ride_ticks; ++k) {
       now.reference_pressure_Pa = plant.reference_pressure_Pa(current_mA(ride, k));
       integrator->advance(flow, now, 0.012 * k, 0.012 * (k + 1));
-      Problem<Layout<false, Books::none>>::store(flow, states.emplace_back().data());
+      Problem<Layout<1, false, Books::none>>::store(flow, states.emplace_back().data());
       held.push_back(now);
     }
-    Problem<Layout<false, Books::none>> problem(plant);
+    Problem<Layout<1, false, Books::none>> problem(plant);
     double best_s = 1.0;
     for (int trial = 0; trial < 50; ++trial) {
       double chain = 0.0;
@@ -85,7 +85,7 @@ double right_hand_side_s() {
         auto y = states[k];
         y[0] += chain;
         problem.held = held[k];
-        std::array<double, plant::state_size> dydt{};
+        std::array<double, plant::single_size> dydt{};
         problem.rates(y.data(), dydt.data());
         chain = 1e-18 * dydt[0] + 1e-30 * (dydt[1] + dydt[2] + dydt[3] + dydt[4]);
         benchmark::DoNotOptimize(chain);
@@ -150,7 +150,7 @@ void Effects_(benchmark::State& state, const plant::Rig& rig) {
       state, [](const plant::Plant& plant) { return make_integrator(plant, Settings{}, false); }, rig);
 }
 
-BENCHMARK(Erk_<PlantVector<false, Books::none>>)
+BENCHMARK(Erk_<PlantVector<1, false, Books::none>>)
     ->Name("erk/error_1e-6/own_vector")
     ->DenseRange(0, 1)
     ->UseManualTime()

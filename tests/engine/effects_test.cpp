@@ -32,8 +32,8 @@ TEST(Effects, BothMethodsGiveOneAnswerWithEachOfThem) {
     const auto cvode = end_of_ride(rig, {Method::cvode, 1e-9}, 50);
     EXPECT_NEAR(erk.state.joint.contraction_ratio, cvode.state.joint.contraction_ratio, 2e-8);
     EXPECT_NEAR(erk.state.side.muscle_pressure_Pa, cvode.state.side.muscle_pressure_Pa, 0.2);
-    for (std::size_t i = 0; i < erk.memory.size(); ++i)
-      EXPECT_NEAR(erk.memory[i], cvode.memory[i], 1e-6 * plant::Effects::memory_sizes[i]);
+    for (std::size_t i = 0; i < erk.memory.side.size(); ++i)
+      EXPECT_NEAR(erk.memory.side[i], cvode.memory.side[i], 1e-6 * plant::Effects::memory_sizes[i]);
   }
 }
 
@@ -196,7 +196,7 @@ TEST(Effects, CreepIsForgottenAndTheSupplyOnlySinks) {
   for (int k = 0; k < 100; ++k) {
     bench.hold(16.0);
     largest_N = std::min(largest_N, pull_N());
-    const double drop_Pa = rig.effects.supply_drop_Pa(bench.flow.memory);
+    const double drop_Pa = rig.effects.supply_drop_Pa(bench.flow.memory.side);
     EXPECT_GE(drop_Pa, 0.0);
     deepest_Pa = std::max(deepest_Pa, drop_Pa);
   }
@@ -204,7 +204,7 @@ TEST(Effects, CreepIsForgottenAndTheSupplyOnlySinks) {
   EXPECT_GT(deepest_Pa, 1e4);
   bench.hold(16.0, 100);
   EXPECT_NEAR(pull_N(), 0.0, 0.02);
-  EXPECT_LT(rig.effects.supply_drop_Pa(bench.flow.memory), 1e3);
+  EXPECT_LT(rig.effects.supply_drop_Pa(bench.flow.memory.side), 1e3);
 }
 
 // A load that sticks exactly is loosened by an effect as by anything else.
@@ -225,7 +225,7 @@ TEST(Effects, TakeTheSameStepsWithAndWithoutTheLedger) {
     for (int k = 0; k < 60; ++k) bench->hold(stepped_mA(k));
   }
   EXPECT_EQ(std::memcmp(&plain.flow.state, &audited.flow.state, sizeof plain.flow.state), 0);
-  EXPECT_EQ(plain.flow.memory, audited.flow.memory);
+  EXPECT_EQ(plain.flow.memory.side, audited.flow.memory.side);
 }
 
 }  // namespace

@@ -21,11 +21,13 @@ class Chance {
   bool coin() { return between(0.0, 1.0) < 0.5; }
   State<double> state() {
     return {{between(-0.05, 0.6), between(-20.0, 20.0)},
-            {between(-0.9e5, 10e5), between(-0.9e5, 10e5), between(-1e-3, 1e-3)}};
+            {between(-0.9e5, 10e5), between(-0.9e5, 10e5), between(-1e-3, 1e-3)},
+            {}};
   }
   Memory<double> memory() {
-    Memory<double> memory;
-    for (std::size_t i = 0; i < memory.size(); ++i) memory[i] = between(-1.0, 2.0) * Effects::memory_sizes[i];
+    Memory<double> memory{};
+    for (std::size_t i = 0; i < memory.side.size(); ++i)
+      memory.side[i] = between(-1.0, 2.0) * Effects::memory_sizes[i];
     return memory;
   }
   /// At an instant in the range of use.
@@ -296,7 +298,7 @@ TEST(Catalogue, EndCapsChangeTheForceOnly) {
   Rig capped, shifted;
   capped.effects.get<EndCapCorrection>().slope = 0.01;
   shifted.muscle.end_correction += 0.03;
-  const State<double> state{{0.1, 0.0}, {3e5, 3e5, 0.0}};
+  const State<double> state{{0.1, 0.0}, {3e5, 3e5, 0.0}, {}};
   const auto with = Plant(capped, 12.0).moment(state, Held{});
   EXPECT_NEAR(with.braid_force_N, Plant(shifted, 12.0).moment(state, Held{}).braid_force_N, 1e-9);
   EXPECT_EQ(with.volume_slope_m3, Plant(Rig{}, 12.0).moment(state, Held{}).volume_slope_m3);
@@ -306,7 +308,7 @@ TEST(Catalogue, EndCapsChangeTheForceOnly) {
 TEST(Catalogue, PolytropicGasKeepsPVn) {
   Rig rig;
   rig.effects.get<PolytropicGas>().exponent = 1.3;
-  const State<double> state{{0.1, 0.7}, {3e5, 3e5, 0.0}};
+  const State<double> state{{0.1, 0.7}, {3e5, 3e5, 0.0}, {}};
   const Plant plant(rig, 12.0);
   const auto now = plant.moment(state, Held{});
   EXPECT_NEAR(plant.rates(state, now).side.muscle_pressure_Pa / (3e5 + 101325.0),
@@ -345,8 +347,8 @@ TEST(Catalogue, TheOrderOfTheTableDoesNotMatter) {
   const auto same = [](double a, double b) { EXPECT_NEAR(a, b, 1e-12 * (std::abs(a) + 1.0)); };
   for (int i = 0; i < 100; ++i) {
     const auto now = chance.instant();
-    const auto memory = chance.memory();
-    Memory<double> turned = memory;
+    const auto memory = chance.memory().side;
+    auto turned = memory;
     std::reverse(turned.begin(), turned.end());
     const Inflow<double> inflow{chance.between(-1.0, 1.0), chance.between(0.0, 1e-3)};
     same(forth.pull_N(now, memory), back.pull_N(now, turned));

@@ -90,7 +90,7 @@ TEST(Valve, FollowsItsTrimmedLine) {
 TEST(Plant, WarmGasFlowsLess) {
   Held held;
   held.reference_pressure_Pa = 5e5;
-  const State<double> state{{0.1, 0.0}, {1e5, 1e5, 0.0}};
+  const State<double> state{{0.1, 0.0}, {1e5, 1e5, 0.0}, {}};
   Rig warm;
   warm.gas.temperature_K = 4.0 * 293.15 / 3.0;
   const double nominal = Plant(Rig{}, 10.0).moment(state, held).supply_flow;
@@ -99,7 +99,7 @@ TEST(Plant, WarmGasFlowsLess) {
 
 TEST(Plant, BalancesGravityAndInertia) {
   const Plant plant(Rig{}, 10.0);
-  State<double> state{{0.1, 0.5}, {2e5, 2e5, 1e-5}};
+  State<double> state{{0.1, 0.5}, {2e5, 2e5, 1e-5}, {}};
   Held held;
   held.reference_pressure_Pa = 2e5;
   const auto now = plant.moment(state, held);
@@ -111,7 +111,7 @@ TEST(Plant, BalancesGravityAndInertia) {
 
 TEST(Plant, SlidingThreadsPullWithTheFrictionLevel) {
   const Plant plant(Rig{}, 10.0);
-  State<double> state{{0.1, 0.5}, {2e5, 2e5, 0.0}};
+  State<double> state{{0.1, 0.5}, {2e5, 2e5, 0.0}, {}};
   state.side.bristle_m = plant.moment(state, Held{}).friction_level_N / 4e5;  // dz/dt = 0 while v > 0
   const auto now = plant.moment(state, Held{});
   EXPECT_NEAR(now.bristle_rate_m_per_s, 0.0, 1e-15);
@@ -120,7 +120,7 @@ TEST(Plant, SlidingThreadsPullWithTheFrictionLevel) {
 
 TEST(Plant, TautThreadsOnlyPush) {
   const Plant plant(Rig{}, 10.0);
-  State<double> state{{-0.001, 0.0}, {0.0, 0.0, 0.0}};
+  State<double> state{{-0.001, 0.0}, {0.0, 0.0, 0.0}, {}};
   EXPECT_NEAR(plant.moment(state, Held{}).stop_force_N, 3e5 * 0.0003, 1e-9);
   state.joint.contraction_speed_per_s = 10.0;  // leaving fast: damping must not turn into a pull
   EXPECT_EQ(plant.moment(state, Held{}).stop_force_N, 0.0);

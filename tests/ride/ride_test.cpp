@@ -22,7 +22,7 @@ plant::Rig with_friction(plant::Rig rig, plant::FrictionMemory memory) {
 
 /// Up and down, so that the load moves, turns and sticks.
 Drive drive_at(int k) {
-  return {.current_mA = 11.0 - 6.0 * std::cos(0.05 * k), .stray_pressure_Pa = k % 5 == 0 ? 300.0 : 0.0};
+  return {{.current_mA = 11.0 - 6.0 * std::cos(0.05 * k), .stray_pressure_Pa = k % 5 == 0 ? 300.0 : 0.0}};
 }
 
 void go(Ride& ride, int from, int to) {
@@ -40,7 +40,7 @@ TEST(Ride, GoesOnToTheSameBitsFromWhatWasSavedAndAsACopy) {
   for (const auto method : {engine::Method::erk, engine::Method::cvode, engine::Method::automatic})
     for (const auto memory : {plant::FrictionMemory::lugre, plant::FrictionMemory::coulomb})
       for (const plant::Rig& rig : {plant::Rig{}, plant::rig_with_all_effects()}) {
-        Ride ride({with_friction(rig, memory), load_kg}, {method, 1e-6}, true);
+        Ride ride(Hanging{with_friction(rig, memory), load_kg}, {method, 1e-6}, true);
         ride.start(drive_at(0), 0.0);
         for (int begin = 0; begin < 120; begin += 7) {
           const Ride::Saved saved = ride.save();
@@ -58,11 +58,11 @@ TEST(Ride, GoesOnToTheSameBitsFromWhatWasSavedAndAsACopy) {
 }
 
 TEST(Ride, ADriveIsFeltFromItsInstantOn) {
-  Ride ride({plant::Rig{}, load_kg}, {engine::Method::erk, 1e-6});
-  ride.start({.current_mA = 8.0}, 0.0);
+  Ride ride(Hanging{plant::Rig{}, load_kg}, {engine::Method::erk, 1e-6});
+  ride.start({{.current_mA = 8.0}}, 0.0);
   const double before_Pa = ride.flow().state.side.valve_pressure_Pa;
   EXPECT_EQ(before_Pa, ride.plant().reference_pressure_Pa(8.0));
-  ride.hold({.current_mA = 12.0}, tick_s);
+  ride.hold({{.current_mA = 12.0}}, tick_s);
   EXPECT_EQ(ride.flow().state.side.valve_pressure_Pa, before_Pa);
   EXPECT_GT(ride.moment().supply_flow, 0.0);
   ride.advance();
@@ -74,27 +74,27 @@ TEST(Ride, ADriveIsFeltFromItsInstantOn) {
 TEST(Ride, TheCurrentsSpeedIsItsChangeOverTheStep) {
   plant::Rig rig;
   rig.friction.f1_s2_per_mA2 = 1e-4;
-  Ride ride({rig, load_kg}, {engine::Method::erk, 1e-6});
-  ride.start({.current_mA = 8.0}, 0.0);
+  Ride ride(Hanging{rig, load_kg}, {engine::Method::erk, 1e-6});
+  ride.start({{.current_mA = 8.0}}, 0.0);
   for (const double step_s : {0.012, 0.05}) {
-    ride.hold({.current_mA = 8.0}, ride.time_s() + step_s);
+    ride.hold({{.current_mA = 8.0}}, ride.time_s() + step_s);
     const double still_N = ride.moment().friction_level_N - rig.friction.floor_N;
-    ride.hold({.current_mA = 12.0}, ride.time_s() + step_s);
+    ride.hold({{.current_mA = 12.0}}, ride.time_s() + step_s);
     const double speed_mA_per_s = 4.0 / step_s;
     EXPECT_NEAR(
         (ride.moment().friction_level_N - rig.friction.floor_N) / still_N,
         plant::friction_coefficient(rig.friction, ride.flow().state.joint.contraction_ratio, speed_mA_per_s) /
             plant::friction_coefficient(rig.friction, ride.flow().state.joint.contraction_ratio, 0.0),
         1e-12);
-    ride.hold({.current_mA = 8.0}, ride.time_s() + step_s);
+    ride.hold({{.current_mA = 8.0}}, ride.time_s() + step_s);
   }
 }
 
 TEST(Ride, TimesAreTheCallers) {
   const auto arrive = [](double step_s) {
-    Ride ride({plant::Rig{}, load_kg}, {engine::Method::erk, 1e-9});
-    ride.start({.current_mA = 4.0}, 0.0);
-    for (int k = 1; k * step_s < 1.0 + 1e-9; ++k) ride.step({.current_mA = 12.0}, k * step_s);
+    Ride ride(Hanging{plant::Rig{}, load_kg}, {engine::Method::erk, 1e-9});
+    ride.start({{.current_mA = 4.0}}, 0.0);
+    for (int k = 1; k * step_s < 1.0 + 1e-9; ++k) ride.step({{.current_mA = 12.0}}, k * step_s);
     return ride.flow().state.joint.contraction_ratio;
   };
   const double e = arrive(0.01);
@@ -128,9 +128,9 @@ TEST(Ride, CarriesSeveralRigsEachWhereItGoesAlone) {
 
 TEST(Ride, RefusesWhatItCannotDo) {
   EXPECT_THROW(Ride(std::span<const Hanging>{}, {}), std::invalid_argument);
-  Ride ride({plant::Rig{}, load_kg}, {});
-  ride.start({.current_mA = 4.0}, 1.0);
-  EXPECT_THROW(ride.step({.current_mA = 4.0}, 1.0), std::invalid_argument);
+  Ride ride(Hanging{plant::Rig{}, load_kg}, {});
+  ride.start({{.current_mA = 4.0}}, 1.0);
+  EXPECT_THROW(ride.step({{.current_mA = 4.0}}, 1.0), std::invalid_argument);
 }
 
 }  // namespace

@@ -1,0 +1,210 @@
+// One side of a joint: servo valve, hose, gas, Tondu-Lopez braid, thread friction, braid stop. T = thesis,
+// TL = Tondu & Lopez, IEEE Control Systems Magazine 20 (2000) 15-38. docs/equations.md has them all.
+//
+//   where the cord's end is and how fast, SideState, memory, HeldSide --> SideMoment --> d(SideState)/dt
+//
+// Effects that the rig has switched on come in where `effects_` stands; without any, no line of theirs runs.
+// S is double, or a dual number where the Jacobian is wanted.
+#pragma once
+
+#include <plant/flow.hpp>
+#include <plant/friction.hpp>
+#include <plant/geometry.hpp>
+#include <plant/state.hpp>
+
+namespace mckibben::plant {
+
+/// The cord's end of one muscle, as the joint moves it.
+template <class S>
+struct Stroke {
+  S contraction_ratio;  ///< e
+  S speed_per_s;        ///< w = de/dt
+};
+
+/// Everything known of a side at one instant. Forces in N and positive where they shorten the muscle, flows
+/// in kg/s.
+template <class S>
+struct SideMoment {
+  S speed_m_per_s;                       // v = l0 w
+  S wanted_opening, valve_opening;       // u, -1 (venting) to 1 (filling): before and after effects
+  S supply_flow, vent_flow, hose_flow;   // q_v = supply_flow - vent_flow, q_h
+  S volume_m3, volume_slope_m3;          // V, dV/de
+  S braid_force_N, stop_force_N;         // F, F_s
+  S friction_level_N, friction_force_N;  // G, F_f
+  S bristle_rate_m_per_s;                // dz/dt
+  S leak_flow, effects_pull_N;           // what effects take and add
+  SideMemory<S> memory_rates;            // of effects
+
+  /// T, what the cord carries.
+  S cord_force_N() const { return braid_force_N + stop_force_N + effects_pull_N + friction_force_N; }
+};
+
+class Side {
+ public:
+  /// `weight_N`: of what hangs on the cord; 0 in a pair.
+  Side(const Rig& rig, double weight_N);
+
+  /// Pressure error opens one of two proportional valves (T 3.1); ISO 6358 flow through valve and hose.
+  template <class S>
+  void gas_balance(const Stroke<S>& stroke, const SideState<S>& state, const SideMemory<S>& memory,
+                   const HeldSide& held, SideMoment<S>& now) const;
+  /// Braid force (T 2.8), braid stop (Hunt-Crossley), friction level (T 2.11, 4.2, 4.6) and what LuGre's
+  /// bristle makes of it. After the gas.
+  template <class S>
+  void forces(const Stroke<S>& stroke, const SideState<S>& state, const SideMemory<S>& memory,
+              const HeldSide& held, SideMoment<S>& now) const;
+  /// What effects remember, where `supply_flow` [kg/s] is drawn from the supply by all sides. After the gas.
+  template <class S>
+  void remember(const Stroke<S>& stroke, const SideState<S>& state, const SideMemory<S>& memory,
+                const S& supply_flow, SideMoment<S>& now) const;
+  template <class S>
+  SideState<S> rates(const Stroke<S>& stroke, const SideState<S>& state, const SideMoment<S>& now) const;
+
+  bool in_domain(double contraction_ratio, const SideState<double>& state) const {
+    const double atmosphere = rig_.gas.atmosphere_Pa;
+    // A sum that is finite has only finite terms; comparisons with NaN are false.
+    return braid_.in_domain(contraction_ratio) && state.valve_pressure_Pa > -atmosphere &&
+           state.muscle_pressure_Pa > -atmosphere &&
+           std::isfinite(state.valve_pressure_Pa + state.muscle_pressure_Pa + state.bristle_m);
+  }
+
+  double reference_pressure_Pa(double current_mA) const;
+  /// Gas [kg] in valve and muscle, and in the valve alone, at the walls' temperature.
+  double air_kg(double contraction_ratio, const SideState<double>& state) const;
+  double valve_air_kg(const SideState<double>& state) const;
+
+  const Rig& rig() const { return rig_; }
+  const Braid& braid() const { return braid_; }
+  bool has_effects() const { return effects_; }
+  /// R T [J/kg].
+  double gas_energy_J_per_kg() const { return gas_energy_J_per_kg_; }
+
+ private:
+  template <class S>
+  Instant<S> instant(const Stroke<S>& stroke, const SideState<S>& state, const SideMoment<S>& now) const {
+    const S& e = stroke.contraction_ratio;
+    return {e,         braid_.rest_length_m() * e, now.speed_m_per_s,    state.muscle_pressure_Pa,
+            weight_N_, rig_.gas.atmosphere_Pa,     gas_energy_J_per_kg_, unit_flow_};
+  }
+  template <class S>
+  void valve_flows(const SideState<S>& state, const SideMemory<S>& memory, const HeldSide& held,
+                   SideMoment<S>& now) const;
+
+  Rig rig_;
+  Braid braid_;
+  Restriction valve_, hose_, unit_flow_;
+  bool effects_;
+  double weight_N_, gas_energy_J_per_kg_, supply_Pa_;
+};
+
+template <class S>
+void Side::valve_flows(const SideState<S>& state, const SideMemory<S>& memory, const HeldSide& held,
+                       SideMoment<S>& now) const {
+  const double atmosphere = rig_.gas.atmosphere_Pa;
+  const S valve_Pa = state.valve_pressure_Pa + atmosphere;  // absolute from here
+  const S muscle_Pa = state.muscle_pressure_Pa + atmosphere;
+
+  S error_Pa = held.reference_pressure_Pa - state.valve_pressure_Pa;
+  S supply_Pa = S(supply_Pa_);
+  if (effects_) {
+    error_Pa = error_Pa + rig_.effects.valve_error_shift_Pa(error_Pa);
+    supply_Pa = supply_Pa - rig_.effects.supply_drop_Pa(memory);
+  }
+  S u = error_Pa / rig_.valve.proportional_band_Pa;
+  if (u > 1.0) u = S(1.0);
+  if (u < -1.0) u = S(-1.0);
+  now.wanted_opening = u;
+  if (effects_) u = rig_.effects.valve_opening(now.wanted_opening, memory);
+  now.valve_opening = u;
+  now.supply_flow = now.vent_flow = S(0.0);
+  if (u >= 0.0)
+    now.supply_flow = u * valve_.flow_kg_per_s(supply_Pa, valve_Pa);
+  else
+    now.vent_flow = -u * valve_.flow_kg_per_s(valve_Pa, S(atmosphere));
+  now.hose_flow = hose_.flow_kg_per_s(valve_Pa, muscle_Pa);
+}
+
+template <class S>
+void Side::gas_balance(const Stroke<S>& stroke, const SideState<S>& state, const SideMemory<S>& memory,
+                       const HeldSide& held, SideMoment<S>& now) const {
+  const S& e = stroke.contraction_ratio;
+  now.speed_m_per_s = braid_.rest_length_m() * stroke.speed_per_s;
+  if (!held.pressure_rate_Pa_per_s) valve_flows(state, memory, held, now);
+
+  now.volume_m3 = braid_.volume_m3(e);
+  now.volume_slope_m3 = braid_.volume_slope_m3(e);
+
+  now.leak_flow = S(0.0);
+  if (effects_) now.leak_flow = rig_.effects.outflow_kg_per_s(instant(stroke, state, now));
+  if (held.pressure_rate_Pa_per_s) {  // whatever keeps the pressure brings the gas that this takes
+    const S muscle_Pa = state.muscle_pressure_Pa + rig_.gas.atmosphere_Pa;
+    const double n = effects_ ? rig_.effects.gas_exponent() : 1.0;
+    now.wanted_opening = now.valve_opening = now.vent_flow = S(0.0);
+    now.hose_flow = (now.volume_m3 * (*held.pressure_rate_Pa_per_s / n) +
+                     muscle_Pa * now.volume_slope_m3 * stroke.speed_per_s) /
+                        gas_energy_J_per_kg_ +
+                    now.leak_flow;
+    now.supply_flow = now.hose_flow;
+  }
+}
+
+template <class S>
+void Side::remember(const Stroke<S>& stroke, const SideState<S>& state, const SideMemory<S>& memory,
+                    const S& supply_flow, SideMoment<S>& now) const {
+  now.memory_rates = rig_.effects.memory_rates(instant(stroke, state, now),
+                                               Inflow<S>{now.wanted_opening, supply_flow}, memory);
+}
+
+template <class S>
+void Side::forces(const Stroke<S>& stroke, const SideState<S>& state, const SideMemory<S>& memory,
+                  const HeldSide& held, SideMoment<S>& now) const {
+  using std::abs;
+  const Friction& friction = rig_.friction;
+  const S& e = stroke.contraction_ratio;
+  const S& z = state.bristle_m;
+  const S& v = now.speed_m_per_s;
+  const S& pressure_Pa = state.muscle_pressure_Pa;
+
+  now.braid_force_N = braid_.force_N(e, pressure_Pa);
+  now.stop_force_N = S(0.0);
+  if (e < 0.0) {
+    const S damping = 1.0 - rig_.muscle.stop_damping_s_per_m * v;
+    if (damping > 0.0)
+      now.stop_force_N = -rig_.muscle.stop_stiffness_N_per_m * braid_.rest_length_m() * e * damping;
+  }
+  const S surface = braid_.contact_surface_m2(e);
+  now.friction_level_N = friction_level_N(friction, e, surface, pressure_Pa, held.current_speed_mA_per_s);
+  now.effects_pull_N = S(0.0);
+  if (effects_) {
+    const auto known = instant(stroke, state, now);
+    now.braid_force_N = braid_.force_N(e, pressure_Pa, rig_.effects.end_correction_shift(known));
+    now.effects_pull_N = rig_.effects.pull_N(known, memory);
+    const S threads_N = now.friction_level_N - friction.floor_N;  // the floor is not friction of threads
+    now.friction_level_N = threads_N * rig_.effects.friction_factor(known, memory) + friction.floor_N;
+  }
+  now.bristle_rate_m_per_s = S(0.0);
+  if (friction.memory == FrictionMemory::lugre) {
+    const double sigma0 = friction.bristle_stiffness_N_per_m;
+    now.bristle_rate_m_per_s = v - sigma0 * abs(v) * z / now.friction_level_N;
+    now.friction_force_N = -(sigma0 * z + friction.bristle_damping_N_s_per_m * now.bristle_rate_m_per_s);
+  }
+}
+
+template <class S>
+SideState<S> Side::rates(const Stroke<S>& stroke, const SideState<S>& state, const SideMoment<S>& now) const {
+  const S muscle_Pa = state.muscle_pressure_Pa + rig_.gas.atmosphere_Pa;
+  const double RT = gas_energy_J_per_kg_;
+  SideState<S> dt;
+  dt.valve_pressure_Pa = RT / rig_.valve.volume_m3 * (now.supply_flow - now.vent_flow - now.hose_flow);
+  dt.muscle_pressure_Pa =
+      (RT * now.hose_flow - muscle_Pa * now.volume_slope_m3 * stroke.speed_per_s) / now.volume_m3;
+  dt.bristle_m = now.bristle_rate_m_per_s;
+  if (effects_) {
+    const double n = rig_.effects.gas_exponent();
+    dt.valve_pressure_Pa = n * dt.valve_pressure_Pa;
+    dt.muscle_pressure_Pa = n * (dt.muscle_pressure_Pa - RT * now.leak_flow / now.volume_m3);
+  }
+  return dt;
+}
+
+}  // namespace mckibben::plant

@@ -1,0 +1,147 @@
+// Two muscles on one wheel, muscles at given pressure and at given length: nothing is lost, what is saved
+// goes on to the same bits, both kinds of friction, the effects.
+#include <cmath>
+#include <stdexcept>
+
+#include <gtest/gtest.h>
+
+#include <sim/ride/ride.hpp>
+
+#include "switched_on.hpp"
+
+namespace mckibben::ride {
+namespace {
+
+using engine::Method;
+
+plant::Rig rubbing(plant::Rig rig, plant::FrictionMemory memory) {
+  rig.friction.memory = memory;
+  return rig;
+}
+
+/// One muscle fills while the other vents, and back.
+Drive turning(double at_s) {
+  Drive drive;
+  drive.current_mA = 11.0 + 4.0 * std::sin(2.0 * at_s);
+  drive.opposite.current_mA = 11.0 - 4.0 * std::sin(2.0 * at_s);
+  return drive;
+}
+
+/// As a test bench would: from one length and pressure to others, with rests between.
+Drive pulling(double at_s) {
+  Drive drive;
+  drive.muscle_pressure_Pa = 3e5 + 1e5 * std::sin(at_s);
+  drive.contraction_ratio = 0.1 + 0.05 * std::sin(std::floor(2.0 * at_s));
+  return drive;
+}
+
+struct Journey {
+  Drive (*drive)(double);
+  bool pair;
+};
+
+Ride ride_of(const Journey& journey, const plant::Rig& rig, Method method) {
+  const engine::Settings settings{method, 1e-7};
+  Ride ride = journey.pair ? Ride(Paired{rig, rig}, settings, true) : Ride(Hanging{rig, 5.0}, settings, true);
+  ride.start(journey.drive(0.0), 0.0);
+  return ride;
+}
+
+TEST(Drives, LoseNoGasAndNoEnergyWithOneMuscleOrTwo) {
+  for (const Journey& journey : {Journey{turning, true}, Journey{pulling, false}})
+    for (const auto method : {Method::erk, Method::cvode})
+      for (const auto memory : {plant::FrictionMemory::lugre, plant::FrictionMemory::coulomb})
+        for (const plant::Rig& rig : {plant::Rig{}, plant::rig_with_all_effects()}) {
+          // Without a bristle nothing is left that would steer CVODE's steps: see docs/architecture.md.
+          if (!journey.pair && memory == plant::FrictionMemory::coulomb && method == Method::cvode) continue;
+          Ride ride = ride_of(journey, rubbing(rig, memory), method);
+          const auto first = ride.flow().state;
+          for (int k = 1; k <= 300; ++k) ride.step(journey.drive(0.01 * k), 0.01 * k);
+          const auto lost = ride.plant().imbalance(first, ride.flow().state, ride.flow().ledger);
+          EXPECT_LT(lost.gas, 1e-6) << journey.pair << static_cast<int>(memory);
+          EXPECT_LT(lost.energy, 1e-6) << journey.pair << static_cast<int>(memory);
+          EXPECT_GT(std::abs(ride.flow().ledger.braid_work_J), 1.0);
+        }
+}
+
+TEST(Drives, GoOnToTheSameBitsFromWhatWasSaved) {
+  for (const Journey& journey : {Journey{turning, true}, Journey{pulling, false}}) {
+    Ride ride = ride_of(journey, plant::rig_with_all_effects(), Method::automatic);
+    for (int k = 1; k <= 50; ++k) ride.step(journey.drive(0.01 * k), 0.01 * k);
+    Ride copy = ride;
+    for (int k = 51; k <= 100; ++k) {
+      ride.step(journey.drive(0.01 * k), 0.01 * k);
+      copy.step(journey.drive(0.01 * k), 0.01 * k);
+    }
+    const auto &a = ride.flow().state, &b = copy.flow().state;
+    EXPECT_EQ(a.joint.contraction_ratio, b.joint.contraction_ratio);
+    EXPECT_EQ(a.side.muscle_pressure_Pa, b.side.muscle_pressure_Pa);
+    EXPECT_EQ(a.opposite.bristle_m, b.opposite.bristle_m);
+    EXPECT_EQ(ride.moment().cord_force_N(), copy.moment().cord_force_N());
+  }
+}
+
+// Equal muscles at equal pressures: whatever rubs, the link hangs where it hung.
+TEST(Drives, EqualMusclesHoldTheLinkWhereItHangs) {
+  for (const auto memory : {plant::FrictionMemory::lugre, plant::FrictionMemory::coulomb}) {
+    const plant::Rig rig = rubbing({}, memory);
+    Ride ride(Paired{rig, rig}, {Method::erk, 1e-7});
+    Drive drive;
+    drive.current_mA = drive.opposite.current_mA = 12.0;
+    ride.start(drive, 0.0);
+    for (int k = 1; k <= 100; ++k) ride.step(drive, 0.01 * k);
+    EXPECT_NEAR(ride.plant().angle_rad(ride.flow().state.joint.contraction_ratio), 0.0, 1e-9);
+    EXPECT_NEAR(ride.moment().cord_force_N(), ride.moment().opposite.cord_force_N(), 1e-6);
+    EXPECT_EQ(ride.reading().muscle_pressure_Pa, ride.reading().opposite_pressure_Pa);
+  }
+}
+
+// The link's side that is blown up pulls it up, by the balance of the cords and the link's weight.
+TEST(Drives, AtRestTheCordsCarryTheLink) {
+  Paired pair;
+  pair.link.damping_N_m_s_per_rad = 2.0;
+  Ride ride(pair, {Method::erk, 1e-7});
+  Drive drive;
+  drive.current_mA = 14.0;
+  drive.opposite.current_mA = 10.0;
+  ride.start(drive, 0.0);
+  for (int k = 1; k <= 800; ++k) ride.step(drive, 0.01 * k);
+  const auto now = ride.moment();
+  const double angle = ride.plant().angle_rad(ride.flow().state.joint.contraction_ratio);
+  EXPECT_GT(angle, 0.05);
+  EXPECT_NEAR(0.03 * (now.cord_force_N() - now.opposite.cord_force_N()),
+              2.0 * 9.80665 * 0.25 * std::sin(angle), 1e-3);
+  EXPECT_NEAR(ride.reading().wheel_m, 0.03 * angle, 1e-12);
+}
+
+// Exact stick and slip at a given length: the threads pull with their whole level against the way the end
+// goes, keep that force where it stops, and have none before it has moved.
+TEST(Drives, CoulombThreadsKeepTheirForceWhereABenchStops) {
+  Ride ride(Hanging{rubbing({}, plant::FrictionMemory::coulomb), 0.0}, {Method::erk, 1e-7});
+  Drive drive;
+  drive.muscle_pressure_Pa = 3e5;
+  drive.contraction_ratio = 0.05;
+  ride.start(drive, 0.0);
+  EXPECT_EQ(ride.moment().friction_force_N, 0.0);
+  drive.contraction_ratio = 0.06;
+  ride.step(drive, 0.1);
+  EXPECT_EQ(ride.moment().friction_force_N, -ride.moment().friction_level_N);
+  ride.step(drive, 0.2);
+  EXPECT_EQ(ride.moment().friction_force_N, -ride.moment().friction_level_N);
+  drive.contraction_ratio = 0.055;
+  ride.step(drive, 0.3);
+  EXPECT_EQ(ride.moment().friction_force_N, ride.moment().friction_level_N);
+}
+
+TEST(Drives, APairOfDifferentFrictionOrGasIsRefused) {
+  Paired pair;
+  const engine::Settings settings;
+  pair.opposite.friction.memory = plant::FrictionMemory::coulomb;
+  EXPECT_THROW(Ride(pair, settings), std::invalid_argument);
+  pair.opposite = pair.rig;
+  pair.opposite.gas.temperature_K += 1.0;
+  EXPECT_THROW(Ride(pair, settings), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace mckibben::ride
