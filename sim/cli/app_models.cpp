@@ -10,7 +10,7 @@
 namespace mckibben::cli {
 namespace {
 
-constexpr const char* group = "The thesis's models";
+constexpr const char* models_group = "The thesis's models";
 
 template <class T>
 void add_choice(CLI::App& verb, const char* name, T& value, const std::map<std::string, T>& choices,
@@ -27,7 +27,7 @@ void add_calibrate(CLI::App& app, Asked& asked) {
   CLI::App& verb = *app.add_subcommand(
       "calibrate", "Fit the thesis's friction and pressure models to a data set; draw its figures");
   CalibrateOptions& how = asked.calibration;
-  verb.group(group);
+  verb.group(models_group);
   add_dataset(verb, asked.path);
   add_common(verb, asked.options);
   verb.add_flag("--kgf", how.kgf, "Pressures of figures and report in kgf/m2, as the thesis prints them");
@@ -64,7 +64,7 @@ void add_map(CLI::App& app, Asked& asked) {
   CLI::App& verb = *app.add_subcommand(
       "map", "Map the errors of the thesis's open-loop controller over its targets (figures 4.50, 4.51)");
   MapOptions& how = asked.targets;
-  verb.group(group);
+  verb.group(models_group);
   verb.add_option("calibration", asked.path, "Calibration file that `calibrate` wrote")
       ->required()
       ->type_name("CALIBRATION");
@@ -109,7 +109,7 @@ void add_map(CLI::App& app, Asked& asked) {
 void add_study(CLI::App& app, Asked& asked) {
   CLI::App& verb = *app.add_subcommand(
       "study", "Simulate and calibrate a campaign; compare what was found with what was true");
-  verb.group(group);
+  verb.group(models_group);
   verb.add_option("name", asked.study,
                   "lag (friction or lag of valve and hose?), counting (what counts at each tick do to the "
                   "load), figures (the thesis's accuracy beside ours)")

@@ -98,9 +98,9 @@ Improvement compare(const Experiment& experiment, const Eigen::VectorXd& before,
 }
 
 bool convinces(const Improvement& improvement) {
-  // Where the gap sits in a few segments, their scatter is as large as the gain, however clear it is.
-  const bool clear = improvement.significance >= least_significance || improvement.share >= clear_share;
-  return improvement.share >= least_share && improvement.gained >= least_gain && clear &&
+  // Where the gap sits in a few segments, their scatter is as large as the gain, however certain it is.
+  const bool certain = improvement.significance >= least_significance || improvement.share >= clear_share;
+  return improvement.share >= least_share && improvement.gained >= least_gain && certain &&
          2 * improvement.better > improvement.runs;
 }
 

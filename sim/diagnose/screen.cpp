@@ -35,11 +35,11 @@ Eigen::VectorXd Projector::operator()(const Eigen::VectorXd& values) const {
 
 std::vector<Score> screen(const Experiment& experiment, const Fitted& fitted,
                           const std::vector<Candidate>& candidates, const Runs& runs, double temperature) {
-  struct Trial {
+  struct Probe {
     std::size_t candidate;
     double shape;
   };
-  std::vector<Trial> trials;
+  std::vector<Probe> probes;
   std::vector<Experiment::Change> changes;
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     const Candidate& c = candidates[i];
@@ -47,7 +47,7 @@ std::vector<Score> screen(const Experiment& experiment, const Fitted& fitted,
     const auto shapes = c.shapes.empty() ? std::vector{0.0} : c.shapes;
     for (const double shape : shapes) {
       for (const double size : {c.step, 0.5 * c.typical}) {
-        trials.push_back({i, shape});
+        probes.push_back({i, shape});
         changes.push_back({[&c, shape, size](Hanging& h) {
                              h.rig = c.chosen(h.rig);
                              if (!c.shape.empty()) *find(h.rig, c.shape).value = shape;
@@ -62,9 +62,9 @@ std::vector<Score> screen(const Experiment& experiment, const Fitted& fitted,
   const Eigen::VectorXd residuals = project(fitted.residuals);
   std::vector<Score> scores(candidates.size());
   for (std::size_t i = 0; i < candidates.size(); ++i) scores[i].candidate = candidates[i];
-  for (std::size_t t = 0; t < trials.size(); ++t) {
-    const Candidate& c = candidates[trials[t].candidate];
-    Score& score = scores[trials[t].candidate];
+  for (std::size_t t = 0; t < probes.size(); ++t) {
+    const Candidate& c = candidates[probes[t].candidate];
+    Score& score = scores[probes[t].candidate];
     Eigen::VectorXd column = project(slopes.columns.col(static_cast<Eigen::Index>(t)));
     const double length = column.squaredNorm(), along = column.dot(residuals);
     if (!(length > 0.0)) continue;
@@ -74,7 +74,7 @@ std::vector<Score> screen(const Experiment& experiment, const Fitted& fitted,
     if (score.column.size() > 0 && drop <= score.drop) continue;
     score.drop = drop;
     score.amplitude = c.absent + amplitude;
-    score.shape = trials[t].shape;
+    score.shape = probes[t].shape;
     score.column = std::move(column);
   }
   std::stable_sort(scores.begin(), scores.end(),

@@ -16,15 +16,15 @@ constexpr std::size_t longest_line_shown = 400, longest_message = 1000;
 
 /// Blanks as wide as the characters before `column`; tabs stay tabs, so the caret meets its character.
 std::string padding(const std::string& line, std::size_t column) {
-  std::string blanks;
+  std::string spaces;
   std::size_t characters = 0;
   for (const char c : line) {
     if (is_utf8_continuation(c)) continue;
-    if (++characters >= column) return blanks;
-    blanks += c == '\t' ? '\t' : ' ';
+    if (++characters >= column) return spaces;
+    spaces += c == '\t' ? '\t' : ' ';
   }
-  while (++characters < column) blanks += ' ';
-  return blanks;
+  while (++characters < column) spaces += ' ';
+  return spaces;
 }
 
 }  // namespace

@@ -65,8 +65,8 @@ std::string twins(const Diagnosis& diagnosis) {
 
 std::string next(const Diagnosis& diagnosis) {
   if (!diagnosis.next_experiment) {
-    const bool left = diagnosis.gap.floors_left() > diagnose::explained_floors;
-    return left ? "  " + what_next(diagnosis) + "\n" : "";
+    const bool unexplained = diagnosis.gap.floors_left() > diagnose::explained_floors;
+    return unexplained ? "  " + what_next(diagnosis) + "\n" : "";
   }
   const auto& next = *diagnosis.next_experiment;
   return fmt::format("  {}, with {}: separates {} with a probability of {:.0f} %\n", next.current,

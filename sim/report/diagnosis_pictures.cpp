@@ -82,7 +82,7 @@ struct Model {
   double diagnose::RunGap::*rmse;
   const char* shape;  ///< a path round 0, 0
 };
-constexpr std::array<Model, 3> models{
+constexpr std::array<Model, 3> compared_models{
     {{"nominal", "c1", &diagnose::RunGap::nominal_rmse, "m-5 0a5 5 0 1 0 10 0a5 5 0 1 0 -10 0"},
      {"recalibrated", "c3", &diagnose::RunGap::recalibrated_rmse, "m-4.5 -4.5h9v9h-9z"},
      {"corrected", "c0", &diagnose::RunGap::corrected_rmse, "m0 -6l6 6l-6 6l-6 -6z"}}};
@@ -219,7 +219,7 @@ std::string absorbed_svg(const Diagnosis& diagnosis) {
 
 std::string errors_svg(const std::vector<const diagnose::RunGap*>& runs, double noise_floor, bool changed,
                        const plant::Rig& rig) {
-  const auto shown = std::span(models).first(changed ? 3 : 2);
+  const auto shown = std::span(compared_models).first(changed ? 3 : 2);
   constexpr double x1 = 330.0, pitch = 24.0;
   const auto name_of = [](const diagnose::RunGap& run) {
     return run.id + (run.left_out ? ", left out" : run.held_out ? ", held out" : "");

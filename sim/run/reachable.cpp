@@ -13,7 +13,7 @@ namespace {
 using plant::Held;
 using plant::State;
 
-constexpr std::size_t rows = 50, columns = 30;
+constexpr std::size_t grid_rows = 50, grid_columns = 30;
 constexpr double lightest_kg = 1.0;
 constexpr double slope_step = 1e-4;  // in e, for dP/de
 constexpr double slow_per_s = 1e-3;  // a ramp so slow that only its lag is left
@@ -174,12 +174,12 @@ controllers::Reach reachable(const plant::Rig& true_rig) {
   controllers::Reach reach;
   // Just short of e_max, where the braid pulls no more and every pressure is infinite.
   const double top = 0.95 * braid.largest_contraction_ratio();
-  for (std::size_t i = 0; i < rows; ++i)
-    reach.ratio.push_back(top * static_cast<double>(i) / static_cast<double>(rows - 1));
+  for (std::size_t i = 0; i < grid_rows; ++i)
+    reach.ratio.push_back(top * static_cast<double>(i) / static_cast<double>(grid_rows - 1));
   const double heaviest_kg = std::max(
       braid.largest_force_N(rig.valve.span_pressure_Pa) / plant::gravity_m_per_s2, 2.0 * lightest_kg);
-  for (std::size_t i = 0; i < columns; ++i) {
-    const double share = static_cast<double>(i) / static_cast<double>(columns - 1);
+  for (std::size_t i = 0; i < grid_columns; ++i) {
+    const double share = static_cast<double>(i) / static_cast<double>(grid_columns - 1);
     reach.loads.push_back(
         reach_of(rig, lightest_kg * std::pow(heaviest_kg / lightest_kg, share), reach.ratio));
   }

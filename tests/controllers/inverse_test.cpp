@@ -73,8 +73,8 @@ TEST(Inverse, OfTwoPositiveRootsTakesTheOneThatLeadsToRest) {
   const Inverse inverse(calibration, load_kg, valve, false);
   const double w = ramp_per_s(inverse, Branch::relaxation, e, nu);
   const double q2 = 80.0 * w / e, q0 = slope_Pa(inverse, Branch::relaxation, e, 0.0) * w;
-  const double other = q0 / (q2 * nu);  // the product of the roots is q0/q2
-  ASSERT_GT(other, nu) << "the planted root must be the smaller one for this test";
+  const double other_root = q0 / (q2 * nu);  // the product of the roots is q0/q2
+  ASSERT_GT(other_root, nu) << "the planted root must be the smaller one for this test";
   EXPECT_NEAR(inverse(Branch::relaxation, e, w).current_speed_mA_per_s, nu, 1e-6 * nu);
   // Continuously to rest: half the speed needs about half the current speed, not a faster one.
   const Inverse free(calibration, load_kg, valve, true);

@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view required[] = {"time_s", "current_mA"};
+constexpr std::string_view both_columns[] = {"time_s", "current_mA"};
 constexpr std::string_view optional[] = {"gauge"};
 
 TEST(Csv, AnyOrderExtraColumnsQuotesCrlfAndByteOrderMark) {
@@ -30,7 +30,7 @@ TEST(Csv, AnyOrderExtraColumnsQuotesCrlfAndByteOrderMark) {
                       "");
   Problems problems;
   TableProblems found(source, problems);
-  const Table table = read_table(source, required, optional, found);
+  const Table table = read_table(source, both_columns, optional, found);
   check_ticks(table, 0.012, found);
   EXPECT_EQ(found.count(), 0u);
   EXPECT_EQ(table.find("current_mA")->values, (std::vector<double>{4.0, 4.5}));
@@ -44,7 +44,7 @@ TEST(Csv, SemicolonsTabsAndDecimalCommasAreRead) {
     const Source source("a.csv", text, "");
     Problems problems;
     TableProblems found(source, problems);
-    const Table table = read_table(source, required, optional, found);
+    const Table table = read_table(source, both_columns, optional, found);
     check_ticks(table, 0.012, found);
     EXPECT_EQ(found.count(), 0u) << text;
     ASSERT_NE(table.find("current_mA"), nullptr);
@@ -59,7 +59,7 @@ std::string said_of(const char* text) {
   Problems problems;
   {
     TableProblems found(source, problems);
-    read_table(source, required, optional, found);
+    read_table(source, both_columns, optional, found);
   }
   return to_text(problems.sorted());
 }
@@ -77,7 +77,7 @@ TEST(Csv, TimesWithinAMicrosecondAreTicks) {
   const Source source("a.csv", "time_s,current_mA\n0,4\n0.0120009,4\n0.0239992,4\n", "");
   Problems problems;
   TableProblems found(source, problems);
-  check_ticks(read_table(source, required, optional, found), 0.012, found);
+  check_ticks(read_table(source, both_columns, optional, found), 0.012, found);
   EXPECT_EQ(found.count(), 0u);
 }
 
@@ -85,7 +85,7 @@ TEST(Csv, RangeIsCheckedRowByRow) {
   const Source source("a.csv", "time_s,current_mA\n0,4\n0.012,21\n", "");
   Problems problems;
   TableProblems found(source, problems);
-  const Table table = read_table(source, required, optional, found);
+  const Table table = read_table(source, both_columns, optional, found);
   check_range(table, *table.find("current_mA"), 0.0, 20.0, "DAC", found);
   ASSERT_EQ(problems.errors(), 1u);
   EXPECT_EQ(problems.sorted()[0].place.line, 3u);

@@ -9,7 +9,7 @@
 namespace mckibben::input {
 namespace {
 
-const std::string text = R"(schema: mckibben-scenario/1
+const std::string good_open_loop = R"(schema: mckibben-scenario/1
 loads: [16.138 kg]
 duration: 1 s
 target: {kind: points, points: [{at: 0 s, to: 0.05}]}
@@ -21,7 +21,7 @@ controllers:
 
 Scenario read() {
   std::vector<Problem> warnings;
-  return read_scenario(Source("test.yaml", text, MCKIBBEN_TEST_DATA), warnings);
+  return read_scenario(Source("test.yaml", good_open_loop, MCKIBBEN_TEST_DATA), warnings);
 }
 
 TEST(OpenLoopScenario, LoadsTheCalibrationOfEachController) {

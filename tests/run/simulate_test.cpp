@@ -117,7 +117,7 @@ std::vector<controllers::Settings> one_of_each() {
 
 TEST(Simulate, TouchesNoHeapBetweenFirstAndLastTick) {
   constexpr std::size_t ticks = 300;
-  const auto allocations = [&](const RunPlan& plan, const controllers::Settings& settings) {
+  const auto allocations_of = [&](const RunPlan& plan, const controllers::Settings& settings) {
     auto knowledge = knowledge_of(plan.rig, std::vector<double>(ticks, 0.1));
     knowledge.reach = reachable(plan.rig);
     Watched controller(controllers::make(settings, knowledge), ticks - 1);
@@ -133,15 +133,15 @@ TEST(Simulate, TouchesNoHeapBetweenFirstAndLastTick) {
         p.rig.friction.memory = memory;
         p.rig.encoder.wiring = plant::EncoderWiring::crosswise;
         p.noise = {1e-4, 100.0, 0.01};
-        EXPECT_EQ(allocations(p, one_of_each().front()), 0)
+        EXPECT_EQ(allocations_of(p, one_of_each().front()), 0)
             << "method " << static_cast<int>(method) << ", ledger " << ledger;
         p.rig.effects = plant::rig_with_all_effects().effects;
         p.noise.ripple_Pa = p.noise.wander_Pa = 100.0;
-        EXPECT_EQ(allocations(p, one_of_each().front()), 0)
+        EXPECT_EQ(allocations_of(p, one_of_each().front()), 0)
             << "with effects, method " << static_cast<int>(method) << ", ledger " << ledger;
       }
   for (const auto& settings : one_of_each())
-    EXPECT_EQ(allocations(plan(13.87, ticks), settings), 0) << controllers::name_of(settings);
+    EXPECT_EQ(allocations_of(plan(13.87, ticks), settings), 0) << controllers::name_of(settings);
   EXPECT_EQ(one_of_each().size(), std::variant_size_v<controllers::Settings>);
 }
 

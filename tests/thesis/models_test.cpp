@@ -96,14 +96,15 @@ Eigen::VectorXd in_load(std::initializer_list<double> coefficients) {
   return v;
 }
 
-const Planted contraction(Direction::contraction,
-                          {in_load({2e3, 5e4}), in_load({1.0, -50.0, 800.0, 2e3}),
-                           in_load({-100.0, 3e4, -1e5}), in_load({0.5, -10.0, 100.0}),
-                           in_load({1.0, 20.0, 300.0}), in_load({-0.3, 25.0}), in_load({500.0, 4e3})});
-const Planted relaxation(Direction::relaxation,
-                         {in_load({100.0, 500.0}), in_load({3e3, 4e4}), in_load({1e4, 5e4}),
-                          in_load({20.0, 100.0}), in_load({-0.2, 24.0}), in_load({1.0, 10.0}),
-                          in_load({-20.0, 100.0}), in_load({300.0, 3e3})});
+const Planted planted_contraction(Direction::contraction,
+                                  {in_load({2e3, 5e4}), in_load({1.0, -50.0, 800.0, 2e3}),
+                                   in_load({-100.0, 3e4, -1e5}), in_load({0.5, -10.0, 100.0}),
+                                   in_load({1.0, 20.0, 300.0}), in_load({-0.3, 25.0}),
+                                   in_load({500.0, 4e3})});
+const Planted planted_relaxation(Direction::relaxation,
+                                 {in_load({100.0, 500.0}), in_load({3e3, 4e4}), in_load({1e4, 5e4}),
+                                  in_load({20.0, 100.0}), in_load({-0.2, 24.0}), in_load({1.0, 10.0}),
+                                  in_load({-20.0, 100.0}), in_load({300.0, 3e3})});
 
 class PlantedPressure : public testing::TestWithParam<const Planted*> {};
 
@@ -131,12 +132,12 @@ TEST_P(PlantedPressure, ComesBackFromTheSequenceAndFromAllSamplesAtOnce) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Both, PlantedPressure, testing::Values(&contraction, &relaxation),
+INSTANTIATE_TEST_SUITE_P(Both, PlantedPressure, testing::Values(&planted_contraction, &planted_relaxation),
                          [](const auto& p) { return std::string(name_of(p.param->direction)); });
 
 TEST(PressureFit, OrdersThatAreCappedLeaveSmallerPolynomials) {
   const PressureFit fit =
-      fit_pressure(contraction.grid({11.0, 23.0}), Direction::contraction, {.speed = 0, .load = 1});
+      fit_pressure(planted_contraction.grid({11.0, 23.0}), Direction::contraction, {.speed = 0, .load = 1});
   for (const Curve& curve : fit.shape.curves) {
     EXPECT_EQ(curve.power, 0);
     EXPECT_LE(curve.load_order, 1);
@@ -147,14 +148,14 @@ TEST(PressureFit, OrdersThatAreCappedLeaveSmallerPolynomials) {
 
 TEST(PressureFit, OneLoadNeedsNoPolynomialInLoad) {
   const PressureFit fit =
-      fit_pressure(relaxation.grid({16.0}), Direction::relaxation, {.speed = 2, .load = 0});
+      fit_pressure(planted_relaxation.grid({16.0}), Direction::relaxation, {.speed = 2, .load = 0});
   EXPECT_LT(fit.deviation.joint, 1e-4 * fit.mean_Pa);
-  EXPECT_NEAR(fit.joint.exponent_at(16.0), relaxation.model.exponent_at(16.0), 0.01);
+  EXPECT_NEAR(fit.joint.exponent_at(16.0), planted_relaxation.model.exponent_at(16.0), 0.01);
 }
 
 TEST(PressureModel, IsTheSumThatTheThesisPrints) {
   const double e = 0.1, nu = 8.0, m = 15.0;
-  const auto c = contraction_model(contraction.model);
+  const auto c = contraction_model(planted_contraction.model);
   const auto at = [m](const controllers::InLoad& p) {
     double value = 0.0;
     for (const double each : p) value = value * m + each;
@@ -162,7 +163,8 @@ TEST(PressureModel, IsTheSumThatTheThesisPrints) {
   };
   const double a1 = at(c.a1_0) * nu + at(c.a1_1), a2 = at(c.a2_0) * nu + at(c.a2_1);
   const double printed = at(c.a0) + a1 * e + a2 * std::exp(at(c.a3) * e) + at(c.a4) * std::log(e);
-  EXPECT_NEAR(contraction.model.pressure_Pa(Eigen::VectorXd::Constant(1, e), m, nu)(0), printed, 1e-6);
+  EXPECT_NEAR(planted_contraction.model.pressure_Pa(Eigen::VectorXd::Constant(1, e), m, nu)(0), printed,
+              1e-6);
 }
 
 }  // namespace
