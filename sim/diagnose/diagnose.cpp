@@ -101,7 +101,7 @@ class Workflow {
     case_.split = split(data_, usable_);
     step("replaying");
     replay();
-    if (look) faults_ = first_look(case_, nominal_fit_.fitted.model, usable_, step_);
+    if (look) faults_ = first_look(case_, doubts_, nominal_fit_.fitted.model, usable_, step_);
     if (!faults_.empty()) return std::move(result_);
     recalibrate();
     judge();

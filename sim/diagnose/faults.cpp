@@ -2,23 +2,16 @@
 // fault must be far larger than what is left of the others.
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <map>
-#include <optional>
-#include <set>
 
 #include <Eigen/QR>
 
-#include <sim/diagnose/faults.hpp>
-#include <sim/diagnose/judge.hpp>
-#include <sim/diagnose/regression.hpp>
-#include <sim/diagnose/shapes.hpp>
+#include <sim/diagnose/examination.hpp>
 
 namespace mckibben::diagnose {
 namespace {
 
-/// Mean squares, in floors: of runs that raise no question; of runs that are taken for sound.
-constexpr double unquestioned = 4.0, sound = near_floor * near_floor;
+/// Mean square, in floors, of runs that raise no question.
+constexpr double unquestioned = 4.0;
 /// Faults must leave less than this share of the misfit that the rig, or an effect, leaves.
 constexpr double strictly_better = 0.3;
 /// A shape explains a run if it leaves so little of its misfit.
@@ -26,140 +19,48 @@ constexpr double explained = 0.03;
 /// Mean square, in floors, of a run that no shape explains: from here on it is of another rig. Less may as
 /// well be left by a law that is not quite right.
 constexpr double of_another_rig = 64.0;
-/// Leaving out runs is worth a thought if an effect then leaves less than this share of what any leaves.
-constexpr double worth_suspecting = 0.5;
 /// Shapes that begin at a row of their choice must do that much better.
 constexpr double for_choice = 0.9;
-/// At least so many runs must be sound, and so many times as many as are not.
-constexpr std::size_t least_sound = 3, sound_for_one = 2;
 /// Where one run is looked for, the worst so many are tried.
 constexpr std::size_t most_tried = 6;
 /// Smaller sizes are nothing to talk of.
 constexpr double least_scale = 0.004, least_mA = 0.03, least_drift = 5e-4, least_ticks = 0.6;
 
-constexpr double infinite = std::numeric_limits<double>::infinity();
+}  // namespace
 
-struct Hypothesis {
-  std::vector<Fault> faults{};
-  double cost = infinite;
-};
+Examined Examination::operator()() {
+  const Regression alone = regression(Kept(runs_.size(), true));
+  const double most = worst(alone);
+  if (runs_.size() <= least_sound || most <= unquestioned) return {};
+  Hypothesis best = few(most > sound ? sound : unquestioned);
+  for (const Hypothesis& other :
+       {common_lateness(alone), own_line(FaultKind::zero), own_line(FaultKind::drift)})
+    if (other.cost < best.cost) best = other;
+  const bool better = !best.faults.empty() && best.cost <= strictly_better * alone.cost();
+  if (!better && most <= sound) return {};
+  draw_effects();
+  const double with_an_effect = alone.cost() - most_gained(alone);
+  if (better && best.cost <= strictly_better * with_an_effect) return {best.faults, {}};
+  if (most <= sound) return {};
+  return {{}, suspicions(alone, with_an_effect)};
+}
 
-class Examination {
- public:
-  Examination(const Experiment& experiment, const Model& at, const Runs& runs,
-              const std::vector<Candidate>& effects)
-      : experiment_(experiment), at_(at), runs_(runs), effects_(effects) {
-    fly();
+bool Examination::worth_telling(FaultKind kind, double size) const {
+  switch (kind) {
+    case FaultKind::late:
+    case FaultKind::rows_lost:
+      return std::abs(size) >= least_ticks;
+    case FaultKind::current_scale:
+    case FaultKind::reading_scale:
+      return std::abs(size) >= least_scale;
+    case FaultKind::current_offset:
+      return std::abs(size) >= least_mA;
+    case FaultKind::drift:
+      return std::abs(size) >= least_drift;
+    default:
+      return std::abs(size) >= 0.6 * count();
   }
-
-  Examined operator()() {
-    const Regression alone = regression(Kept(runs_.size(), true));
-    const double most = worst(alone);
-    if (runs_.size() <= least_sound || most <= unquestioned) return {};
-    Hypothesis best = few(most > sound ? sound : unquestioned);
-    for (const Hypothesis& other :
-         {common_lateness(alone), own_line(FaultKind::zero), own_line(FaultKind::drift)})
-      if (other.cost < best.cost) best = other;
-    const bool better = !best.faults.empty() && best.cost <= strictly_better * alone.cost();
-    if (!better && most <= sound) return {};
-    draw_effects();
-    const double with_an_effect = alone.cost() - most_gained(alone);
-    if (better && best.cost <= strictly_better * with_an_effect) return {best.faults, {}};
-    if (most <= sound) return {};
-    return {{}, suspicions(with_an_effect)};
-  }
-
- private:
-  using Kept = std::vector<bool>;
-
-  Eigen::Index begin(std::size_t i) const { return begins_[i]; }
-  Eigen::Index rows(std::size_t i) const { return begins_[i + 1] - begins_[i]; }
-
-  /// A candidate's straight line, drawn at half its typical size.
-  struct Drawn {
-    const Candidate* candidate;
-    double shape;
-    Eigen::VectorXd column;
-    bool possible(double amplitude) const {
-      return candidate->either_sign || amplitude * candidate->typical >= 0.0;
-    }
-  };
-
-  /// What an effect leaves of the runs that it fits best, and its size there.
-  struct Trimmed {
-    Kept kept;
-    double cost, amplitude;
-  };
-
-  void fly();
-  void draw_effects();
-  double most_gained(const Regression& alone) const;
-  Trimmed trimmed(const Drawn& effect, std::map<Kept, Regression>& fits) const;
-  std::vector<Suspicion> suspicions(double at_best) const;
-  Hypothesis few(double near) const;
-  Hypothesis common_lateness(const Regression& alone) const;
-  Hypothesis own_line(FaultKind kind) const;
-  std::optional<Fault> look_up(std::size_t i, Kept kept) const;
-
-  /// With rows of 0 for the runs that are not kept.
-  template <class Rows>
-  Rows only(const Kept& kept, Rows values) const {
-    for (std::size_t i = 0; i < runs_.size(); ++i)
-      if (!kept[i]) values.middleRows(begin(i), rows(i)).setZero();
-    return values;
-  }
-  /// The rig's parameters fitted to the runs that are kept.
-  Regression regression(const Kept& kept) const {
-    const Eigen::MatrixXd columns = only(kept, columns_);
-    Regression result(only(kept, residuals_));
-    for (Eigen::Index j = 0; j < columns.cols(); ++j) result.add(columns.col(j));
-    return result;
-  }
-  /// Of a run's residuals, in floors.
-  double mean_square(const Eigen::VectorXd& left, std::size_t i) const {
-    return first_temperature * left.segment(begin(i), rows(i)).squaredNorm() / static_cast<double>(rows(i));
-  }
-  double worst(const Regression& fitted) const {
-    double most = 0.0;
-    for (std::size_t i = 0; i < runs_.size(); ++i) most = std::max(most, mean_square(fitted.left(), i));
-    return most;
-  }
-  /// Contraction ratio as the regression counts it.
-  Eigen::VectorXd weighted(const Eigen::VectorXd& ratio) const { return weight_ * ratio; }
-  Eigen::VectorXd everywhere(std::size_t i, const Eigen::VectorXd& part) const {
-    Eigen::VectorXd column = Eigen::VectorXd::Zero(residuals_.size());
-    column.segment(begin(i), rows(i)) = part;
-    return column;
-  }
-  double count() const { return std::max(experiment_.floor().count, experiment_.floor().ratio); }
-  bool worth_telling(FaultKind kind, double size) const {
-    switch (kind) {
-      case FaultKind::late:
-      case FaultKind::rows_lost:
-        return std::abs(size) >= least_ticks;
-      case FaultKind::current_scale:
-      case FaultKind::reading_scale:
-        return std::abs(size) >= least_scale;
-      case FaultKind::current_offset:
-        return std::abs(size) >= least_mA;
-      case FaultKind::drift:
-        return std::abs(size) >= least_drift;
-      default:
-        return std::abs(size) >= 0.6 * count();
-    }
-  }
-
-  const Experiment& experiment_;
-  const Model& at_;
-  const Runs& runs_;
-  const std::vector<Candidate>& effects_;
-  double weight_ = 1.0;               ///< of a contraction ratio
-  std::vector<Eigen::Index> begins_;  ///< of each run's rows; one more for the end of the last
-  Eigen::VectorXd residuals_;         ///< then a row for each prior
-  Eigen::MatrixXd columns_;           ///< of the free parameters
-  std::vector<Undisturbed> undisturbed_;
-  std::vector<Drawn> drawn_;
-};
+}
 
 void Examination::fly() {
   weight_ = 1.0 / (experiment_.floor().ratio * std::sqrt(first_temperature));
@@ -188,88 +89,6 @@ void Examination::fly() {
     residuals_[begins_.back() + j] = -p.scaled(value_of(at_.rig, p.path));
     columns_(begins_.back() + j, j) = 1.0;
   }
-}
-
-void Examination::draw_effects() {
-  std::vector<Experiment::Change> changes;
-  for (const Candidate& c : effects_) {
-    if (carries(at_.rig, c.effect)) continue;
-    for (const double shape : c.shapes.empty() ? std::vector{0.0} : c.shapes) {
-      changes.push_back({[&c, shape](Hanging& h) {
-                           h.rig = c.chosen(h.rig);
-                           if (!c.shape.empty()) *find(h.rig, c.shape).value = shape;
-                           *find(h.rig, c.amplitude).value = c.absent + 0.5 * c.typical;
-                         },
-                         0.5 * c.typical, true});
-      drawn_.push_back({&c, shape, Eigen::VectorXd::Zero(residuals_.size())});
-    }
-  }
-  if (changes.empty()) return;
-  const auto slopes = experiment_.slopes(at_.rig, changes, runs_);
-  const auto parts = experiment_.parts(runs_);
-  for (std::size_t c = 0; c < changes.size(); ++c)
-    for (std::size_t i = 0; i < parts.size(); ++i)
-      drawn_[c].column.segment(begin(i), rows(i)) =
-          experiment_.floor().ratio * weight_ *
-          slopes.columns.col(static_cast<Eigen::Index>(c)).segment(parts[i].begin, parts[i].rows);
-}
-
-/// What one effect of the catalogue takes off the misfit at best; all of nothing if there is none.
-double Examination::most_gained(const Regression& alone) const {
-  if (drawn_.empty()) return -infinite;
-  double most = 0.0;
-  for (const Drawn& effect : drawn_) {
-    const auto [drop, amplitude] = alone.gain(effect.column, 0);
-    if (effect.possible(amplitude)) most = std::max(most, drop);
-  }
-  return most;
-}
-
-/// As many runs as may be at fault are left out, each time the one without which least is left. `fits`: those
-/// without an effect, which are the same for all.
-Examination::Trimmed Examination::trimmed(const Drawn& effect, std::map<Kept, Regression>& fits) const {
-  const auto left_of = [&](const Kept& kept) {
-    auto fit = fits.find(kept);
-    if (fit == fits.end()) fit = fits.emplace(kept, regression(kept)).first;
-    const auto [drop, amplitude] = fit->second.gain(only(kept, effect.column), 0);
-    return Trimmed{kept, fit->second.cost() - (effect.possible(amplitude) ? drop : 0.0), amplitude};
-  };
-  Trimmed best = left_of(Kept(runs_.size(), true));
-  for (std::size_t odd = 0; odd < runs_.size() / (sound_for_one + 1); ++odd) {
-    Trimmed least{.kept = {}, .cost = infinite, .amplitude = 0.0};
-    for (std::size_t i = 0; i < runs_.size(); ++i) {
-      if (!best.kept[i]) continue;
-      Kept fewer = best.kept;
-      fewer[i] = false;
-      if (Trimmed left = left_of(fewer); left.cost < least.cost) least = std::move(left);
-    }
-    best = std::move(least);
-  }
-  return best;
-}
-
-/// Effects that leave far less, without a few runs, than `at_best` any leaves of all; each in its best shape.
-std::vector<Suspicion> Examination::suspicions(double at_best) const {
-  std::map<Kept, Regression> fits;
-  std::vector<std::pair<Trimmed, const Drawn*>> list;
-  for (const Drawn& effect : drawn_) {
-    Trimmed left = trimmed(effect, fits);
-    if (left.cost <= worth_suspecting * at_best && effect.possible(left.amplitude))
-      list.emplace_back(std::move(left), &effect);
-  }
-  std::stable_sort(list.begin(), list.end(),
-                   [](const auto& a, const auto& b) { return a.first.cost < b.first.cost; });
-  std::set<const Candidate*> told;
-  std::vector<Suspicion> best;
-  for (const auto& [left, effect] : list) {
-    const Candidate& c = *effect->candidate;
-    if (!told.insert(&c).second) continue;
-    Suspicion& suspicion = best.emplace_back(
-        Suspicion{{.candidate = c, .amplitude = c.absent + left.amplitude, .shape = effect->shape}, {}});
-    for (std::size_t i = 0; i < runs_.size(); ++i)
-      if (left.kept[i]) suspicion.sound.push_back(runs_[i]);
-  }
-  return best;
 }
 
 /// The fault of the dictionary that explains run `i` next to those kept; another rig if none does. None if
@@ -336,13 +155,18 @@ Hypothesis Examination::few(double near) const {
   }
 }
 
+Eigen::VectorXd Examination::all_late(int ticks) const {
+  Eigen::VectorXd column = Eigen::VectorXd::Zero(residuals_.size());
+  for (std::size_t i = 0; i < runs_.size(); ++i)
+    column.segment(begin(i), rows(i)) = weighted(lateness(undisturbed_[i].model, ticks));
+  return column;
+}
+
 /// All runs late by the same whole number of ticks.
 Hypothesis Examination::common_lateness(const Regression& alone) const {
   Hypothesis best;
-  for (const int ticks : {1, 2, 3, 4, 5, 6, -1, -2, -3, -4, -5, -6}) {
-    Eigen::VectorXd column = Eigen::VectorXd::Zero(residuals_.size());
-    for (std::size_t i = 0; i < runs_.size(); ++i)
-      column.segment(begin(i), rows(i)) = weighted(lateness(undisturbed_[i].model, ticks));
+  for (const int ticks : common_ticks) {
+    const Eigen::VectorXd column = all_late(ticks);
     const double amplitude = alone.gain(column, 0).amplitude;
     if (std::abs(amplitude - ticks) > 0.5) continue;
     Regression with = alone;
@@ -381,8 +205,6 @@ Hypothesis Examination::own_line(FaultKind kind) const {
   for (Fault& fault : found.faults) fault.common = common;
   return found;
 }
-
-}  // namespace
 
 Examined examine(const Experiment& experiment, const Model& at, const Runs& runs,
                  const std::vector<Candidate>& catalogue) {

@@ -37,16 +37,17 @@ struct Fault {
 /// Residuals within so many floors [rms] are taken for noise, slow disturbances included.
 inline constexpr double near_floor = 4.0;
 
-/// An effect that may be missing beside faults of a few runs: it comes much closer to the others than any
-/// effect comes to all.
+/// An effect that may be missing beside faults of a few runs, or one of all runs: with these it comes much
+/// closer than any effect does without.
 struct Suspicion {
-  Score effect;  ///< without its column
-  Runs sound;    ///< runs that may be fitted with it
+  Score effect{};               ///< without its column
+  Runs sound{};                 ///< runs that may be fitted with it
+  std::vector<Fault> common{};  ///< to be mended before
 };
 
 struct Examined {
   std::vector<Fault> faults{};
-  std::vector<Suspicion> suspicions{};  ///< where there are no such faults; the most promising first
+  std::vector<Suspicion> suspicions{};  ///< where there are no such faults; first those beside a few runs
 };
 
 /// The faults that take every run near the floor where the rig of `at`, with its free parameters fitted to

@@ -4,50 +4,64 @@
 #include <utility>
 
 #include <sim/diagnose/first_look.hpp>
+#include <sim/diagnose/repair.hpp>
 
 namespace mckibben::diagnose {
 namespace {
 
-/// Effects that are tried beside faults of a few runs.
-constexpr std::size_t most_suspected = 3;
-
-/// How little a list explains: runs of another rig count most, then runs at fault.
+/// Runs of another rig, then faults; one of all runs counts once.
 std::pair<std::ptrdiff_t, std::size_t> shortfall(const std::vector<Fault>& faults) {
   return {std::count_if(faults.begin(), faults.end(),
                         [](const Fault& fault) { return fault.kind == FaultKind::another_rig; }),
-          faults.size()};
+          faults.front().common ? 1 : faults.size()};
 }
 
-// An effect fitted to all runs would be bent by those at fault: each that is suspected is fitted to the
-// others, and the faults are looked up from there.
-std::vector<Fault> beside_an_effect(const Case& c, const Model& described, const Runs& usable,
-                                    const std::vector<Suspicion>& suspicions, const Step& step) {
+// An effect fitted to all runs as they are would be bent by those at fault: each that is suspected is fitted
+// to the others, or to all with their common fault taken out, and the faults are looked up from there. A
+// common fault must then do better than a second effect.
+std::vector<Fault> beside_an_effect(const Case& c, const Doubts& doubts, const Model& described,
+                                    const Runs& usable, const std::vector<Suspicion>& suspicions,
+                                    const Step& step) {
+  const std::pair<std::ptrdiff_t, std::size_t> one_fault{0, 1};
   std::vector<Fault> best;
-  for (std::size_t i = 0; i < std::min(suspicions.size(), most_suspected); ++i) {
-    const Suspicion& suspicion = suspicions[i];
+  for (const Suspicion& suspicion : suspicions) {
+    const bool common = !suspicion.common.empty();
     step("trying " + title(suspicion.effect.candidate) + " beside faults of runs");
-    Case of_sound = c;
-    of_sound.split.training = suspicion.sound;
+    input::Dataset data = c.experiment.data();
+    Doubts mended = doubts;
+    mend(data, mended, suspicion.common);
+    const Experiment experiment(data, mended.masked, c.experiment.threads(), usable);
+    const Case of_sound{experiment, c.nominal, {suspicion.sound, c.split.held_out}, c.temperature, c.learned};
     const auto contender = contend(of_sound, with(of_sound, described, suspicion.effect));
     if (!contender.fitted.failure.empty()) continue;
-    auto faults = examine(c.experiment, contender.fitted.model, usable, {}).faults;
-    if (!faults.empty() && (best.empty() || shortfall(faults) < shortfall(best))) best = std::move(faults);
+    auto faults =
+        examine(c.experiment, contender.fitted.model, usable, common ? catalogue() : std::vector<Candidate>{})
+            .faults;
+    if (!faults.empty() && (best.empty() || explains_more(faults, best))) best = std::move(faults);
+    if (!best.empty() && shortfall(best) == one_fault) break;
   }
   return best;
 }
 
 }  // namespace
 
-std::vector<Fault> first_look(const Case& c, const Model& described, const Runs& usable, const Step& step) {
+bool explains_more(const std::vector<Fault>& faults, const std::vector<Fault>& others) {
+  return shortfall(faults) < shortfall(others);
+}
+
+std::vector<Fault> first_look(const Case& c, const Doubts& doubts, const Model& described, const Runs& usable,
+                              const Step& step) {
   const auto [faults, suspicions] = examine(c.experiment, described, usable, catalogue());
-  if (faults.empty()) return beside_an_effect(c, described, usable, suspicions, step);
+  if (faults.empty()) return beside_an_effect(c, doubts, described, usable, suspicions, step);
   Runs others;
   for (const std::size_t run : usable)
     if (std::none_of(faults.begin(), faults.end(), [&](const Fault& fault) { return fault.run == run; }))
       others.push_back(run);
   if (others.empty()) return faults;
   const auto fitted = fit(c.experiment, described, others, {.temperature = first_temperature});
-  return fitted.failure.empty() ? examine(c.experiment, fitted.model, usable, catalogue()).faults : faults;
+  if (!fitted.failure.empty()) return faults;
+  const auto again = examine(c.experiment, fitted.model, usable, catalogue()).faults;
+  return !again.empty() && explains_more(faults, again) ? faults : again;
 }
 
 }  // namespace mckibben::diagnose

@@ -3,13 +3,20 @@
 
 #include <vector>
 
+#include <sim/diagnose/checks.hpp>
 #include <sim/diagnose/faults.hpp>
 #include <sim/diagnose/trial.hpp>
 
 namespace mckibben::diagnose {
 
-/// Examines the runs from the rig as `described`, then from a fit to those that are not suspected; beside an
-/// effect that may be missing, too. Throws engine::NumericalFailure, run::Interrupted.
-std::vector<Fault> first_look(const Case& c, const Model& described, const Runs& usable, const Step& step);
+/// Whether `faults` leave less to be explained than `others`; neither is empty. A run of another rig leaves
+/// most, and a fault that all runs have is one.
+bool explains_more(const std::vector<Fault>& faults, const std::vector<Fault>& others);
+
+/// Examines the runs from the rig as `described`, then from a fit to those that are not suspected, and takes
+/// the list that explains more; beside an effect that may be missing, too. Throws engine::NumericalFailure,
+/// run::Interrupted.
+std::vector<Fault> first_look(const Case& c, const Doubts& doubts, const Model& described, const Runs& usable,
+                              const Step& step);
 
 }  // namespace mckibben::diagnose

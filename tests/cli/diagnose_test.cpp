@@ -43,6 +43,11 @@ TEST(Diagnose, WritesOverNothingThatItDidNotMake) {
   EXPECT_EQ(plan.status, 74);
   EXPECT_NE(plan.err.find("not an earlier plan"), std::string::npos) << plan.err;
   EXPECT_EQ(read_text(scratch / "data/dataset.yaml"), data_set);
+  // A pipe that nobody writes to would be read for ever.
+  const Said pipe = shell("mkfifo p; \"$M\" diagnose data --plan p", scratch);
+  EXPECT_EQ(pipe.status, 74);
+  EXPECT_NE(pipe.err.find("not an earlier plan"), std::string::npos) << pipe.err;
+  EXPECT_TRUE(std::filesystem::is_fifo(scratch / "p"));
   EXPECT_EQ(mckibben("diagnose data --rig nothing_like_it", scratch).status, 66);
   EXPECT_FALSE(std::filesystem::exists(scratch / "out"));
 }

@@ -139,6 +139,14 @@ TEST_F(Memory, OfFilesThatAreRefused) {
   EXPECT_EQ(sh("ulimit -v 1048576; \"$M\" diff a a").status, 65);
 }
 
+// Root may have as many processes as it likes; for others there is no thread but the first.
+TEST_F(Machine, WithoutASecondThreadTheRunsAreMadeAllTheSame) {
+  const Said said = sh("export M; bash -c 'ulimit -u 1; exec \"$M\" run quick.yaml --out r --threads 4'");
+  EXPECT_EQ(said.status, 0) << said.err;
+  EXPECT_EQ(said.err.find("defect"), std::string::npos) << said.err;
+  EXPECT_TRUE(is_whole("r"));
+}
+
 // A thread's stack is as large as `ulimit -s` says, and there is no room for even one.
 TEST_F(Memory, WithoutThreadsTheResultIsTheSame) {
   ASSERT_EQ(run("run quick.yaml --out many --threads 4").status, 0);

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <sim/diagnose/first_look.hpp>
 #include <sim/diagnose/repair.hpp>
 #include <sim/run/simulate.hpp>
 
@@ -128,6 +129,41 @@ TEST(Faults, WhatAllRunsHaveInCommonIsTheRecorders) {
       EXPECT_TRUE(fault.common);
     }
   }
+}
+
+// No effect alone, and no lateness alone, comes near: with both there is something to fit.
+TEST(Faults, OfAllRunsAreSuspectedBesideAnEffect) {
+  plant::Rig truth;
+  truth.effects.get<plant::SpeedDependentFriction>().ratio = 0.8;
+  auto data = small(truth);
+  for (input::Run& run : data.runs) delay(run, 3);
+  const Experiment experiment(data, no_doubts(data).masked, 2);
+  const auto found =
+      examine(experiment, {data.rig, nominal_parameters(data.rig)}, {0, 1, 2, 3, 4, 5}, catalogue());
+  EXPECT_TRUE(found.faults.empty());
+  ASSERT_FALSE(found.suspicions.empty());
+  const Suspicion& first = found.suspicions.front();
+  EXPECT_EQ(first.effect.candidate.effect, "speed_dependent_friction");
+  EXPECT_LT(first.effect.amplitude, 1.0);
+  EXPECT_EQ(first.sound.size(), 6u);
+  ASSERT_EQ(first.common.size(), 6u);
+  for (const Fault& fault : first.common) {
+    EXPECT_EQ(fault.kind, FaultKind::late);
+    EXPECT_EQ(fault.size, 3.0);
+  }
+}
+
+TEST(Faults, ThatSayWhatItIsAreBetterThanAnotherRig) {
+  const std::vector<Fault> slipped{{1, FaultKind::slipped}}, other{{1, FaultKind::another_rig}},
+      two{{1, FaultKind::late}, {4, FaultKind::drift}};
+  std::vector<Fault> all;
+  for (std::size_t run = 0; run < 6; ++run) all.push_back({run, FaultKind::late, 2.0, 0, true});
+  EXPECT_TRUE(explains_more(slipped, other));
+  EXPECT_TRUE(explains_more(two, other));
+  EXPECT_TRUE(explains_more(slipped, two));
+  EXPECT_TRUE(explains_more(all, two));
+  EXPECT_FALSE(explains_more(all, slipped));
+  EXPECT_FALSE(explains_more(slipped, all));
 }
 
 TEST(Faults, AreMendedWhereThatIsSafeAndElseLeftOut) {

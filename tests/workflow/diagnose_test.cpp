@@ -127,6 +127,20 @@ TEST(Diagnose, FindsTheRunThatIsLateBesideAnEffectThatIsMissing) {
   EXPECT_EQ(found.effects[0].name, "speed_dependent_friction");
 }
 
+TEST(Diagnose, FindsThatAllRunsAreLateBesideAnEffectThatIsMissing) {
+  plant::Rig truth;
+  truth.effects.get<plant::SpeedDependentFriction>().ratio = 0.8;
+  auto data = small(truth);
+  for (input::Run& run : data.runs) {
+    run.contraction_ratio.insert(run.contraction_ratio.begin(), 3, run.contraction_ratio.front());
+    run.contraction_ratio.resize(run.current_mA.size());
+  }
+  const auto found = diagnosis_of(data, 0);
+  EXPECT_TRUE(found.because.starts_with("Every run is 3 ticks late and was shifted.")) << found.because;
+  ASSERT_EQ(found.effects.size(), 1u) << found.because;
+  EXPECT_EQ(found.effects[0].name, "speed_dependent_friction");
+}
+
 TEST(Diagnose, NamesNoEffectForADriftThatAllRunsHave) {
   auto data = small(plant::Rig{});
   const double count = run::contraction_per_count(data.rig);
