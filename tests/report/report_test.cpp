@@ -261,7 +261,7 @@ TEST(Quantities, FrictionCoefficientIsFrictionOverNormalForceWhileThreadsSlide) 
   const plant::Plant plant({}, 11.138);
   run::Recording recording;
   run::Sample sample{};
-  sample.state = {{0.1, 0.05}, {2e5, 2e5, 0.0}};
+  sample.state = {{0.1, 0.05}, {2e5, 2e5, 0.0}, {}};
   sample.friction_force_N = -40.0;
   recording.samples.push_back(sample);
   sample.state.joint.contraction_speed_per_s = 0.0;

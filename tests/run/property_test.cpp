@@ -70,7 +70,8 @@ TEST_P(AnyRig, StaysWithinWhatIsPossible) {
   const double per_count = contraction_per_count(plan.rig);
   double lowest = 0.0, highest = 0.0;
   for (const auto& sample : recording.samples) {
-    const auto& [joint, side] = sample.state;
+    const auto& joint = sample.state.joint;
+    const auto& side = sample.state.side;
     ASSERT_TRUE(plant.in_domain(sample.state)) << "t = " << sample.time_s;
     ASSERT_TRUE(std::isfinite(sample.braid_force_N) && std::isfinite(sample.friction_force_N));
     EXPECT_GE(side.valve_pressure_Pa, -1.0);  // never below the atmosphere, never above the supply
@@ -124,7 +125,7 @@ TEST(WholeRange, RunsOrSaysWhatToDoAndClosesItsBooksOrSaysSo) {
 TEST(Doubts, TellOfBooksThatDoNotCloseAndOfSuction) {
   Recording run;
   Sample sample{};
-  sample.state = {{0.1, 0.0}, {1e5, 1e5, 0.0}};
+  sample.state = {{0.1, 0.0}, {1e5, 1e5, 0.0}, {}};
   run.samples.push_back(sample);
   run.imbalance = {9e-5, 9e-5};
   EXPECT_TRUE(doubts(run).empty());
