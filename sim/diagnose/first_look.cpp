@@ -16,6 +16,16 @@ std::pair<std::ptrdiff_t, std::size_t> shortfall(const std::vector<Fault>& fault
           faults.front().common ? 1 : faults.size()};
 }
 
+/// Whether a model that is fitted to all runs as they are takes each of them near the floor.
+bool explains_all(const Case& c, const Model& model, const Runs& usable) {
+  const auto fitted = fit(c.experiment, model, usable, {.temperature = first_temperature});
+  if (!fitted.failure.empty()) return false;
+  const auto parts = c.experiment.parts(usable);
+  return std::all_of(parts.begin(), parts.end(), [&](const auto& part) {
+    return excess(fitted.residuals.segment(part.begin, part.rows)) + 1.0 <= near_floor * near_floor;
+  });
+}
+
 // An effect fitted to all runs as they are would be bent by those at fault: each that is suspected is fitted
 // to the others, or to all with their common fault taken out, and the faults are looked up from there. A
 // common fault must then do better than a second effect.
@@ -37,6 +47,7 @@ std::vector<Fault> beside_an_effect(const Case& c, const Doubts& doubts, const M
     auto faults =
         examine(c.experiment, contender.fitted.model, usable, common ? catalogue() : std::vector<Candidate>{})
             .faults;
+    if (!faults.empty() && !common && explains_all(c, contender.fitted.model, usable)) return {};
     if (!faults.empty() && (best.empty() || explains_more(faults, best))) best = std::move(faults);
     if (!best.empty() && shortfall(best) == one_fault) break;
   }
