@@ -37,8 +37,8 @@ class Plant {
  public:
   /// The rig with a load [kg] hung on it. The rig's values are taken as checked.
   Plant(const Rig& rig, double load_kg);
-  /// Two rigs' sides on the wheel of the first. Both must have the same kind of friction memory; throws
-  /// std::invalid_argument.
+  /// Two rigs' sides on the wheel of the first. Throws std::invalid_argument unless both have the same kind
+  /// of friction memory and breathe the same gas.
   Plant(const Rig& rig, const Rig& opposite, const Link& link);
 
   /// Gauge pressure [Pa] the valve is asked for at a current [mA] (T 3.2), clamped to its trimmed range.
