@@ -26,17 +26,14 @@ struct PlantVector
 /// make(V*) for the vector V that a rig needs.
 template <class Make>
 auto with_vector(const plant::Plant& rig, bool keep_ledger, const Make& make) {
-  const auto with_books = [&]<int sides, bool remembers>(std::integral_constant<int, sides>,
-                                                         std::bool_constant<remembers>) {
-    if (!keep_ledger) return make(static_cast<PlantVector<sides, remembers, Books::none>*>(nullptr));
-    if (rig.polytropic() || sides == 2)
-      return make(static_cast<PlantVector<sides, remembers, Books::polytropic>*>(nullptr));
+  // With every component, ledger or not: pairs are few, and each kind of vector is compiled with each method.
+  if (rig.opposite()) return make(static_cast<PlantVector<2, true, Books::polytropic>*>(nullptr));
+  const auto with_books = [&]<bool remembers>(std::bool_constant<remembers>) {
+    if (!keep_ledger) return make(static_cast<PlantVector<1, remembers, Books::none>*>(nullptr));
+    if (rig.polytropic()) return make(static_cast<PlantVector<1, remembers, Books::polytropic>*>(nullptr));
     return make(static_cast<PlantVector<1, remembers, Books::isothermal>*>(nullptr));
   };
-  const std::integral_constant<int, 1> one;
-  const std::integral_constant<int, 2> two;  // with every component: pairs are few, and each kind is compiled
-  if (rig.opposite()) return with_books(two, std::true_type{});
-  return rig.remembers() ? with_books(one, std::true_type{}) : with_books(one, std::false_type{});
+  return rig.remembers() ? with_books(std::true_type{}) : with_books(std::false_type{});
 }
 
 /// A SUNDIALS context: one for each integrator, since it is not shared between threads.
