@@ -60,7 +60,7 @@ struct Ledger {
 inline constexpr int single_size = 5, pair_size = 8, memory_size = Effects::memories;
 inline constexpr int ledger_size = 15, isothermal_ledger_size = 9;
 static_assert(sizeof(State<double>) == pair_size * sizeof(double));
-static_assert(sizeof(Memory<double>) == 2 * memory_size * sizeof(double));
+static_assert(sizeof(Memory<double>) == 2 * sizeof(SideMemory<double>));
 static_assert(sizeof(Ledger<double>) == ledger_size * sizeof(double));
 
 /// Share that a ledger leaves unexplained: of the gas that was there or came, of the work done.
