@@ -13,7 +13,6 @@ Plant::Plant(const Rig& rig, double load_kg)
       radius_m_(rig.joint.wheel_radius_m),
       mass_kg_(load_kg + rig.joint.load_offset_kg +
                rig.joint.wheel_inertia_kg_m2 / (rig.joint.wheel_radius_m * rig.joint.wheel_radius_m)),
-      weight_N_((load_kg + rig.joint.load_offset_kg) * gravity_m_per_s2),
       damping_N_s_per_m_(rig.joint.guide_damping_N_s_per_m) {}
 
 Plant::Plant(const Rig& rig, const Rig& opposite, const Link& link)
@@ -21,11 +20,10 @@ Plant::Plant(const Rig& rig, const Rig& opposite, const Link& link)
       opposite_(std::in_place, opposite, 0.0),
       link_(link),
       remembers_(rig.effects.remember() || opposite.effects.remember()),
-      polytropic_(rig.effects.gas_exponent() != 1.0 || opposite.effects.gas_exponent() != 1.0),
+      polytropic_(rig.effects.gas_exponent() != 1.0),
       radius_m_(rig.joint.wheel_radius_m),
       opposite_share_(rig.muscle.rest_length_m / opposite.muscle.rest_length_m),
       mass_kg_((rig.joint.wheel_inertia_kg_m2 + link.inertia_kg_m2) / (radius_m_ * radius_m_)),
-      weight_N_(0.0),
       damping_N_s_per_m_(link.damping_N_m_s_per_rad / (radius_m_ * radius_m_)) {
   if (rig.friction.memory != opposite.friction.memory)
     throw std::invalid_argument("both sides of a pair have the same friction memory");
@@ -50,8 +48,7 @@ double Plant::event_margin(const State<double>& state, const Memory<double>& mem
   if (held.slip == Slip::rising) return spare_per_s + state.joint.contraction_speed_per_s;
   if (held.slip == Slip::falling) return spare_per_s - state.joint.contraction_speed_per_s;
   const auto now = moment(state, memory, held);
-  return opposite_ ? friction_level_N<2>(now) - std::abs(friction_force_N<2>(now))
-                   : friction_level_N<1>(now) - std::abs(friction_force_N<1>(now));
+  return friction_level_N(now) - std::abs(friction_force_N(now));
 }
 
 Slip Plant::slip_from_rest(State<double>& state, const Memory<double>& memory, const Held& held) const {
@@ -59,11 +56,9 @@ Slip Plant::slip_from_rest(State<double>& state, const Memory<double>& memory, c
   Held stuck = held;
   stuck.slip = Slip::sticking;
   const auto now = moment(state, memory, stuck);
-  const double pulled_N =
-      -(opposite_ ? friction_force_N<2>(now) : friction_force_N<1>(now));  // by all others
-  const double level_N = opposite_ ? friction_level_N<2>(now) : friction_level_N<1>(now);
+  const double pulled_N = -friction_force_N(now);  // all other forces
   // An event is located to rounding only: a margin that is zero but for that means the load has broken away.
-  const bool holds = std::abs(pulled_N) < level_N * (1.0 - 1e-9);
+  const bool holds = std::abs(pulled_N) < friction_level_N(now) * (1.0 - 1e-9);
   if (holds) return Slip::sticking;
   return pulled_N > 0.0 ? Slip::rising : Slip::falling;
 }
@@ -84,7 +79,7 @@ double Plant::mechanical_energy_J(const State<double>& state) const {
   const double length = side_.braid().rest_length_m();
   const double speed = length * state.joint.contraction_speed_per_s;
   const double moving_J = 0.5 * mass_kg_ * speed * speed;
-  if (!opposite_) return moving_J + weight_N_ * length * state.joint.contraction_ratio;
+  if (!opposite_) return moving_J + weight_N() * length * state.joint.contraction_ratio;
   const double lean_rad = angle_rad(state.joint.contraction_ratio) - link_.hangs_at_rad;
   return moving_J + link_.mass_kg * gravity_m_per_s2 * link_.length_m * (1.0 - std::cos(lean_rad));
 }
@@ -122,8 +117,8 @@ Imbalance Plant::imbalance(const State<double>& from, const State<double>& to,
                         books.thread_friction_work_J - books.guide_work_J + books.bench_work_J -
                         (mechanical_energy_J(to) - mechanical_energy_J(from));
   // A load that hardly moved did no work to speak of: count at least that of a hundredth of the length.
-  const double weight_N = opposite_ ? link_.mass_kg * gravity_m_per_s2 : weight_N_;
-  const double least_J = 0.01 * weight_N * side_.braid().rest_length_m();
+  const double hanging_N = opposite_ ? link_.mass_kg * gravity_m_per_s2 : weight_N();
+  const double least_J = 0.01 * hanging_N * side_.braid().rest_length_m();
   const double work_J = std::abs(books.braid_work_J) + std::abs(books.stop_work_J) +
                         std::abs(books.effects_work_J) + std::abs(books.thread_friction_work_J) +
                         std::abs(books.guide_work_J) + std::abs(books.bench_work_J);

@@ -114,7 +114,7 @@ class Plant {
 
   const Rig& rig() const { return side_.rig(); }
   /// Weight [N] of what hangs on the wheel; 0 of a pair.
-  double weight_N() const { return weight_N_; }
+  double weight_N() const { return side_.weight_N(); }
   /// Joint angle [rad] of a pair.
   double angle_rad(double contraction_ratio) const {
     return (contraction_ratio - link_.contraction_ratio) * side_.braid().rest_length_m() / radius_m_;
@@ -149,6 +149,12 @@ class Plant {
     if constexpr (sides == 1) return now.friction_level_N;
     return now.friction_level_N + now.opposite.friction_level_N;
   }
+  double friction_force_N(const Moment<double>& now) const {
+    return opposite_ ? friction_force_N<2>(now) : friction_force_N<1>(now);
+  }
+  double friction_level_N(const Moment<double>& now) const {
+    return opposite_ ? friction_level_N<2>(now) : friction_level_N<1>(now);
+  }
   template <int sides, class S>
   void joint_balance(const State<S>& state, const Held& held, Moment<S>& now) const;
 
@@ -156,7 +162,7 @@ class Plant {
   std::optional<Side> opposite_;
   Link link_{};
   bool remembers_, polytropic_;  // any effect with a memory; the gas is not isothermal
-  double radius_m_, opposite_share_ = 0.0, mass_kg_, weight_N_, damping_N_s_per_m_;
+  double radius_m_, opposite_share_ = 0.0, mass_kg_, damping_N_s_per_m_;
 };
 
 template <int sides, class S>
@@ -185,7 +191,7 @@ template <int sides, class S>
 void Plant::joint_balance(const State<S>& state, const Held& held, Moment<S>& now) const {
   using std::sin;
   now.guide_force_N = -damping_N_s_per_m_ * now.speed_m_per_s;
-  S others = now.braid_force_N + now.stop_force_N + now.guide_force_N - weight_N_ + now.effects_pull_N;
+  S others = now.braid_force_N + now.stop_force_N + now.guide_force_N - weight_N() + now.effects_pull_N;
   if constexpr (sides == 2) {
     const S lean = (state.joint.contraction_ratio - link_.contraction_ratio) *
                        (side_.braid().rest_length_m() / radius_m_) -

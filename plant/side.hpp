@@ -75,6 +75,7 @@ class Side {
 
   const Rig& rig() const { return rig_; }
   const Braid& braid() const { return braid_; }
+  double weight_N() const { return weight_N_; }
   bool has_effects() const { return effects_; }
   /// R T [J/kg].
   double gas_energy_J_per_kg() const { return gas_energy_J_per_kg_; }

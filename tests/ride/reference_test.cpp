@@ -17,14 +17,14 @@ namespace {
 
 using engine::Method;
 
-constexpr double stamp_s = 0.012, bar = 1e5;
+constexpr double stamp_s = 0.012, bar = plant::Pa_per_bar;
 constexpr int settling = 167;  // ticks, 2.004 s
 
 using Columns = std::map<std::string, std::vector<double>>;
 
 Columns read_reference(const std::string& name) {
   std::ifstream file(MCKIBBEN_TEST_DATA "/reference/" + name + ".csv");
-  std::string line, heading;
+  std::string line;
   std::getline(file, line);
   std::vector<std::string> headings;
   for (std::size_t at = 0; at <= line.size(); at = line.find(',', at) + 1) {
