@@ -4,7 +4,7 @@
 
 #include <sim/cli/app.hpp>
 #include <sim/cli/options.hpp>
-#include <sim/engine/settings.hpp>
+#include <sim/solver/settings.hpp>
 
 namespace mckibben::cli {
 namespace {
@@ -206,9 +206,9 @@ void add_doctor(CLI::App& app, Asked& asked) {
       "doctor", "Is the program sound here? Integrates known cases; prints versions and builds");
   verb.group("Find out");
   add_json(verb, asked.options);
-  asked.tolerance = engine::Settings{}.tolerance;
+  asked.tolerance = solver::Settings{}.tolerance;
   verb.add_option("--tolerance", asked.tolerance, "Of the integration (default: 1e-6, as in a rig)")
-      ->check(from_to(engine::tightest_tolerance, 1e-3))
+      ->check(from_to(solver::tightest_tolerance, 1e-3))
       ->type_name("RATIO");
   verb.footer(
       "Examples:\n"

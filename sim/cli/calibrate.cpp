@@ -5,7 +5,7 @@
 #include <sim/cli/results.hpp>
 #include <sim/cli/verbs.hpp>
 #include <sim/input/calibration_file.hpp>
-#include <sim/input/dataset.hpp>
+#include <sim/input/dataset_file.hpp>
 #include <sim/output/calibration_report.hpp>
 #include <sim/output/chart.hpp>
 #include <sim/output/folder.hpp>
@@ -17,7 +17,7 @@
 namespace mckibben::cli {
 
 int calibrate_dataset(const std::string& path, const Options& options, const CalibrateOptions& how) {
-  const input::Dataset dataset = input::read_dataset(path);
+  const domain::Dataset dataset = input::read_dataset(path);
   const auto home = std::filesystem::absolute(dataset.path).lexically_normal().parent_path();
   const auto where = destination(options, home.filename().string() + "-calibration");
   keep_apart(where, dataset.inputs);

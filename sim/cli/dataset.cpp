@@ -9,8 +9,8 @@
 #include <sim/cli/exit_status.hpp>
 #include <sim/cli/results.hpp>
 #include <sim/cli/verbs.hpp>
-#include <sim/input/campaign.hpp>
-#include <sim/input/dataset.hpp>
+#include <sim/input/campaign_file.hpp>
+#include <sim/input/dataset_file.hpp>
 #include <sim/output/campaign_folder.hpp>
 #include <sim/output/progress.hpp>
 #include <sim/output/table.hpp>
@@ -20,7 +20,7 @@
 namespace mckibben::cli {
 
 int make_dataset(const std::string& path, const Options& options) {
-  input::Campaign campaign = input::read_campaign(std::filesystem::path(path));
+  domain::Campaign campaign = input::read_campaign(std::filesystem::path(path));
   if (options.seed) campaign.seed = *options.seed;
   const auto where = destination(options, campaign.name);
   for (const char* suffix : {"", "-truth", ".unfinished"})

@@ -12,7 +12,8 @@
 #include <sim/cli/verbs.hpp>
 #include <sim/diagnose/diagnose.hpp>
 #include <sim/engine/failure.hpp>
-#include <sim/input/rig_file.hpp>
+#include <sim/input/dataset_file.hpp>
+#include <sim/input/rigs.hpp>
 #include <sim/output/diagnosis_json.hpp>
 #include <sim/output/diagnosis_rig.hpp>
 #include <sim/output/diagnosis_table.hpp>
@@ -37,7 +38,7 @@ void check_plan(const std::string& plan) {
         fmt::format("cannot write {}: what is there is not an earlier plan; give another --plan", plan));
 }
 
-void write_plan(const std::string& plan, const input::Dataset& data, const diagnose::Diagnosis& found) {
+void write_plan(const std::string& plan, const domain::Dataset& data, const diagnose::Diagnosis& found) {
   if (plan.empty()) return;
   if (!found.next_experiment) {
     const std::string instead = output::what_next(found);
@@ -52,7 +53,7 @@ void write_plan(const std::string& plan, const input::Dataset& data, const diagn
 }  // namespace
 
 int diagnose_dataset(const std::string& path, const Options& options, const std::string& plan) {
-  input::Dataset data = input::read_dataset(path);
+  domain::Dataset data = input::read_dataset(path);
   if (!options.rig.empty()) data.rig = input::read_rig(options.rig, data.inputs);
   const std::string name = output::name_of(data);
   const auto where = destination(options, "diagnose-" + name);
@@ -69,7 +70,7 @@ int diagnose_dataset(const std::string& path, const Options& options, const std:
                                       [&](const std::string& what) { known.push_back(what); }};
     found = diagnose::diagnose(data, settings, progress.hook());
     nominal = run::replay(data, options.threads, progress.hook());
-    input::Dataset mended = data;
+    domain::Dataset mended = data;
     mended.rig = found.corrected;
     corrected = run::replay(mended, options.threads, progress.hook());
   } catch (const run::Interrupted&) {

@@ -9,9 +9,9 @@
 #include <sim/cli/exit_status.hpp>
 #include <sim/cli/results.hpp>
 #include <sim/cli/verbs.hpp>
+#include <sim/domain/number.hpp>
 #include <sim/input/calibration_file.hpp>
-#include <sim/input/number.hpp>
-#include <sim/input/rig_file.hpp>
+#include <sim/input/rigs.hpp>
 #include <sim/output/error_map.hpp>
 #include <sim/output/folder.hpp>
 #include <sim/output/heat_map.hpp>
@@ -82,10 +82,10 @@ std::vector<double> loads_of(const std::string& path, const controllers::Calibra
 }  // namespace
 
 int map_errors(const std::string& path, const Options& options, const MapOptions& how) {
-  std::vector<input::InputFile> files;
+  std::vector<domain::InputFile> files;
   run::MapPlan plan;
   plan.calibration = input::read_calibration(path, files);
-  const input::RigFile rig = input::read_rig(options.rig.empty() ? "thesis" : options.rig, files);
+  const domain::RigFile rig = input::read_rig(options.rig.empty() ? "thesis" : options.rig, files);
   plan.rig = rig;
   plan.engine = rig.integrator;
   plan.loads_kg = loads_of(path, plan.calibration.range, how);
@@ -114,7 +114,7 @@ int map_errors(const std::string& path, const Options& options, const MapOptions
   if (maps.interrupted) folder.go_to(place);
   for (const auto& load : maps.loads)
     if (load.failure.empty())
-      folder.write(fmt::format("map_{}kg.svg", input::write_number(load.load_kg)),
+      folder.write(fmt::format("map_{}kg.svg", domain::write_number(load.load_kg)),
                    output::heat_map_svg(plan, maps, load));
   input::Json json = output::json_of(plan, maps, files);
   if (maps.interrupted) json["interrupted"] = true;

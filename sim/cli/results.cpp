@@ -12,7 +12,7 @@ std::filesystem::path destination(const Options& options, const std::string& nam
   return options.out.empty() ? std::filesystem::path("out") / name : std::filesystem::path(options.out);
 }
 
-void keep_apart(const std::filesystem::path& where, const std::vector<input::InputFile>& read) {
+void keep_apart(const std::filesystem::path& where, const std::vector<domain::InputFile>& read) {
   namespace fs = std::filesystem;
   std::error_code ignored;
   const auto refuse_within = [&](const fs::path& file, const std::string& name) {

@@ -17,7 +17,7 @@ std::filesystem::path destination(const Options& options, const std::string& nam
 
 /// Throws output::CannotWrite if one of the files that are read is in the folder `where`: a results folder
 /// replaces what stood there, or sets it aside.
-void keep_apart(const std::filesystem::path& where, const std::vector<input::InputFile>& read);
+void keep_apart(const std::filesystem::path& where, const std::vector<domain::InputFile>& read);
 
 /// Tells the user on stderr, in a line.
 void say(const std::string& text);

@@ -8,8 +8,10 @@
 #include <sim/cli/exit_status.hpp>
 #include <sim/cli/results.hpp>
 #include <sim/cli/verbs.hpp>
-#include <sim/input/number.hpp>
-#include <sim/input/rig_file.hpp>
+#include <sim/domain/number.hpp>
+#include <sim/input/dataset_file.hpp>
+#include <sim/input/rigs.hpp>
+#include <sim/input/scenario_file.hpp>
 #include <sim/output/csv.hpp>
 #include <sim/output/folder.hpp>
 #include <sim/output/plot.hpp>
@@ -43,7 +45,7 @@ void write_run(output::ResultFolder& folder, output::Package& package, const std
 
 /// What looks wrong in the data, and what is doubtful in their simulation. Throws input::BadInput where a
 /// comparison with them would mean nothing.
-std::vector<std::string> sane(const input::Dataset& dataset, const std::vector<run::ReplayedRun>& runs) {
+std::vector<std::string> sane(const domain::Dataset& dataset, const std::vector<run::ReplayedRun>& runs) {
   const auto findings = run::sanity(dataset, run::expected_of(runs));
   run::raise(dataset, findings);
   std::vector<std::string> warnings;
@@ -59,7 +61,7 @@ std::vector<std::string> sane(const input::Dataset& dataset, const std::vector<r
 
 int run_scenario(const std::string& path, const Options& options) {
   std::vector<input::Problem> warnings;
-  input::Scenario scenario = input::read_scenario(std::filesystem::path(path), warnings);
+  domain::Scenario scenario = input::read_scenario(std::filesystem::path(path), warnings);
   for (const auto& warning : warnings) fmt::print(stderr, "{}\n", to_text(warning));
   if (options.seed) scenario.seed = *options.seed;
   const auto where = destination(options, scenario.name);
@@ -79,7 +81,7 @@ int run_scenario(const std::string& path, const Options& options) {
   output::Package package{scenario.name, output::recorded_columns(true, gauge), {}};
   for (const auto& run : comparison.runs) {
     if (run.recording.samples.empty()) continue;
-    const std::string title = fmt::format("{} kg, {}", input::write_number(run.load_kg), run.controller);
+    const std::string title = fmt::format("{} kg, {}", domain::write_number(run.load_kg), run.controller);
     write_run(folder, package, output::file_stem(run), title,
               {scenario.name + ": " + title,
                output::columns_of(run.recording, per_count, comparison.target, gauge),
@@ -109,7 +111,7 @@ int run_scenario(const std::string& path, const Options& options) {
 }
 
 int replay_dataset(const std::string& path, const Options& options) {
-  input::Dataset dataset = input::read_dataset(path);
+  domain::Dataset dataset = input::read_dataset(path);
   if (!options.rig.empty()) dataset.rig = input::read_rig(options.rig, dataset.inputs);
   const auto home = std::filesystem::absolute(dataset.path).lexically_normal().parent_path();
   const std::string name = home.has_filename() ? home.filename().string() : "dataset";
@@ -132,7 +134,7 @@ int replay_dataset(const std::string& path, const Options& options) {
   output::Package package{"Replay of " + name, output::recorded_columns(false, gauge), {}};
   for (const auto& run : runs) {
     if (run.recording.samples.empty()) continue;
-    const std::string title = fmt::format("{}, {} kg", run.id, input::write_number(run.load_kg));
+    const std::string title = fmt::format("{}, {} kg", run.id, domain::write_number(run.load_kg));
     write_run(
         folder, package, run.id, title,
         {package.title + ": " + title,

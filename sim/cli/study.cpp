@@ -4,7 +4,7 @@
 #include <sim/cli/exit_status.hpp>
 #include <sim/cli/results.hpp>
 #include <sim/cli/verbs.hpp>
-#include <sim/input/campaign.hpp>
+#include <sim/input/campaign_file.hpp>
 #include <sim/output/calibration_report.hpp>
 #include <sim/output/chart.hpp>
 #include <sim/output/progress.hpp>
@@ -14,7 +14,7 @@
 namespace mckibben::cli {
 
 int make_study(const std::string& name, const std::string& path, const Options& options) {
-  input::Campaign campaign = input::read_campaign(std::filesystem::path(path));
+  domain::Campaign campaign = input::read_campaign(std::filesystem::path(path));
   const auto where = destination(options, "study-" + name + "-" + campaign.name);
   keep_apart(where, campaign.inputs);
   output::ResultFolder folder(where, "study " + name + " " + path, say);
