@@ -43,7 +43,7 @@ int calibrate_dataset(const CalibrateOptions& options) {
   if (run::interrupted()) throw run::Interrupted();
   warn(output::warnings_of(result, options.fits));
 
-  const std::string document = output::json_of(dataset, result, options.fits).dump(2) + "\n";
+  const std::string document = output::json_of(dataset, result, options.fits);
   const std::string report = output::report_of(dataset, result, options.fits, options.kgf);
   std::string spreads = "# Spread (standard deviation over mean) of the samples round each model:\n";
   for (const auto& line : output::meanings_of(result, options.fits)) spreads += "#   " + line + "\n";

@@ -51,15 +51,14 @@ int make_dataset(const DatasetOptions& options) {
                there.load(), folder.jobs().size(), folder.unfinished().string());
     return interrupted;
   }
-  const input::Json document = folder.document();
-  folder.publish(document, [&](const std::filesystem::path& data) {
-    return report::report_html(campaign, document, input::read_dataset(data));
+  const std::vector<run::EndedRun> runs = folder.runs();
+  folder.publish(runs, [&](const std::filesystem::path& data) {
+    return report::report_html(campaign, runs, input::read_dataset(data));
   });
-  print(options, {document.dump(2) + "\n", output::table_of(campaign, document)});
+  print(options, {output::json_of(campaign, runs), output::table_of(campaign, runs)});
   fmt::print(stderr, "data set in {}, truth in {}\n", folder.data().string(), folder.truth().string());
-  const auto& runs = document.at("runs");
   const bool failed =
-      std::any_of(runs.begin(), runs.end(), [](const auto& run) { return run.contains("failure"); });
+      std::any_of(runs.begin(), runs.end(), [](const auto& run) { return !run.failure.empty(); });
   return failed ? failure : done;
 }
 

@@ -96,7 +96,7 @@ int diagnose_dataset(const DiagnoseOptions& options) {
     return failure;
   }
   const diagnose::Diagnosis& diagnosis = found.diagnosis;
-  const std::string document = output::json_of(data, diagnosis).dump(2) + "\n";
+  const std::string document = output::json_of(data, diagnosis);
   job.write("diagnosis.json", document);
   job.write("rig.yaml", output::rig_yaml(data, diagnosis));
   job.write("report.html", report::report_html(data, diagnosis, found.nominal, found.corrected));

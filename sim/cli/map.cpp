@@ -140,9 +140,7 @@ int map_errors(const MapOptions& options) {
     if (load.failure.empty())
       job.write(fmt::format("map_{}kg.svg", domain::write_number(load.load_kg)),
                 output::heat_map_svg(plan, maps, load));
-  input::Json json = output::json_of(plan, maps, files);
-  if (maps.interrupted) json["interrupted"] = true;
-  const std::string document = json.dump(2) + "\n";
+  const std::string document = output::json_of(plan, maps, files);
   const std::string table = output::table_of(plan, maps);
   job.write("map.csv", output::csv_of(maps));
   job.write("map.json", document);

@@ -123,7 +123,7 @@ int run_scenario(const RunOptions& options) {
   comparison.warnings.insert(comparison.warnings.begin(), of_reader.begin(), of_reader.end());
   if (comparison.interrupted) job.interrupted(begun(comparison.runs), comparison.runs.size(), "runs");
 
-  const std::string document = output::json_of(scenario, comparison).dump(2) + "\n";
+  const std::string document = output::json_of(scenario, comparison);
   const std::string table = output::table_of(scenario, comparison);
   write_tables(job, scenario, comparison, options.formats);
   job.write("run.json", document);
@@ -144,13 +144,9 @@ int replay_dataset(const ReplayOptions& options) {
       with_progress(name, [&](const auto& hook) { return run::replay(dataset, options.threads, hook); });
   const auto warnings = sane(dataset, runs);
   warn(warnings);
-  const bool interrupted = begun(runs) < runs.size();
-  if (interrupted) job.interrupted(begun(runs), runs.size(), "runs");
+  if (begun(runs) < runs.size()) job.interrupted(begun(runs), runs.size(), "runs");
 
-  input::Json json = output::json_of(dataset, runs);
-  json["warnings"] = warnings;
-  if (interrupted) json["interrupted"] = true;
-  const std::string document = json.dump(2) + "\n";
+  const std::string document = output::json_of(dataset, runs, warnings);
   const std::string table = output::table_of(dataset, runs);
   write_tables(job, name, dataset, runs, options.formats);
   job.write("run.json", document);

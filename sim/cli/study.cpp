@@ -10,7 +10,6 @@
 #include <sim/input/campaign_file.hpp>
 #include <sim/output/calibration_report.hpp>
 #include <sim/output/chart.hpp>
-#include <sim/output/run_json.hpp>
 #include <sim/study/study.hpp>
 
 namespace mckibben::cli {
@@ -31,16 +30,11 @@ int make_study(const StudyOptions& options) {
   warn(output::warnings_of(evidence.from_current, {}));
 
   const study::Study made = study::make(options.study, evidence);
-  input::Json document = output::heading_json("mckibben-study/1", evidence.dataset.inputs);
-  document["study"] = made.name;
-  document["runs_failed"] = evidence.failed;
-  document.update(made.document);
-  const std::string text = document.dump(2) + "\n";
   job.write(made.name + ".md", made.page);
   job.write(made.name + ".csv", output::csv_of(made.picture));
   job.write(made.name + ".svg", output::chart_svg(made.picture));
-  job.write(made.name + ".json", text);
-  return job.finish({text, made.page}, evidence.failed.empty() ? done : failure);
+  job.write(made.name + ".json", made.document);
+  return job.finish({made.document, made.page}, evidence.failed.empty() ? done : failure);
 }
 
 }  // namespace

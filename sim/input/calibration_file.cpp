@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <sim/input/calibration_file.hpp>
+#include <sim/input/fields_json.hpp>
 #include <sim/input/yaml_reader.hpp>
 #include <sim/input/yaml_writer.hpp>
 

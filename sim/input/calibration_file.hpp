@@ -9,7 +9,6 @@
 
 #include <controllers/calibration.hpp>
 #include <sim/input/diagnostics.hpp>
-#include <sim/input/fields_json.hpp>
 
 namespace mckibben::input {
 

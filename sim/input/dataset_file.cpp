@@ -8,6 +8,7 @@
 #include <sim/input/file_names.hpp>
 #include <sim/input/run_file.hpp>
 #include <sim/input/utf8.hpp>
+#include <sim/input/yaml_reader.hpp>
 
 namespace mckibben::input {
 namespace {

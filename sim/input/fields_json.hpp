@@ -15,11 +15,10 @@
 
 #include <controllers/target.hpp>
 #include <sim/input/field_kinds.hpp>
+#include <sim/input/json.hpp>
 #include <sim/input/quantity.hpp>
 
 namespace mckibben::input {
-
-using Json = nlohmann::ordered_json;
 
 /// Any value that a field list can hold.
 template <class T>

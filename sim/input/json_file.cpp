@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <sim/input/diagnostics.hpp>
 #include <sim/input/json_file.hpp>

@@ -1,7 +1,7 @@
 // JSON documents that this program wrote and reads again.
 #pragma once
 
-#include <sim/input/fields_json.hpp>
+#include <sim/input/json.hpp>
 #include <sim/input/source.hpp>
 
 namespace mckibben::input {

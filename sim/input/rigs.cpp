@@ -7,9 +7,11 @@
 
 #include <fmt/format.h>
 
+#include <sim/input/fields_json.hpp>
 #include <sim/input/rigs.hpp>
 #include <sim/input/suggest.hpp>
 #include <sim/input/utf8.hpp>
+#include <sim/input/yaml_reader.hpp>
 
 namespace mckibben::input {
 namespace {

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include <sim/domain/rig_file.hpp>
-#include <sim/input/fields_json.hpp>
-#include <sim/input/yaml_reader.hpp>
+#include <sim/input/json.hpp>
+#include <sim/input/yaml_file.hpp>
 
 namespace mckibben::input {
 

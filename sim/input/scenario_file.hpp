@@ -8,7 +8,7 @@
 
 #include <sim/domain/scenario.hpp>
 #include <sim/input/diagnostics.hpp>
-#include <sim/input/fields_json.hpp>
+#include <sim/input/json.hpp>
 #include <sim/input/rigs.hpp>
 #include <sim/input/source.hpp>
 

@@ -5,6 +5,8 @@
 #include <string_view>
 #include <utility>
 
+#include <nlohmann/json.hpp>
+
 #include <sim/input/number.hpp>
 #include <sim/input/yaml_writer.hpp>
 

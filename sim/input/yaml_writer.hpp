@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include <sim/input/fields_json.hpp>
+#include <sim/input/json.hpp>
 
 namespace mckibben::input {
 

@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include <sim/output/calibration_report.hpp>
-#include <sim/output/run_json.hpp>
+#include <sim/output/json_parts.hpp>
 #include <sim/thesis/figures.hpp>
 
 namespace mckibben::output {
@@ -105,8 +105,8 @@ Json pressure_json(const thesis::PressureFit& fit, const std::vector<double>& lo
 
 }  // namespace
 
-Json json_of(const domain::Dataset& dataset, const thesis::CalibrationResult& result,
-             const thesis::Options& options) {
+std::string json_of(const domain::Dataset& dataset, const thesis::CalibrationResult& result,
+                    const thesis::Options& options) {
   const auto& grid = result.grid;
   Json document = heading_json("mckibben-calibration-report/1", dataset.inputs);
   document["report"] = "report.html";
@@ -134,7 +134,7 @@ Json json_of(const domain::Dataset& dataset, const thesis::CalibrationResult& re
     document["friction"][name] = friction_json(result.friction_of(direction));
     document["pressure"][name] = pressure_json(result.pressure_of(direction), grid.loads_kg);
   }
-  return document;
+  return text_of(document);
 }
 
 }  // namespace mckibben::output

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include <sim/domain/dataset.hpp>
-#include <sim/input/fields_json.hpp>
 #include <sim/thesis/calibrate.hpp>
 
 namespace mckibben::output {
@@ -26,8 +25,9 @@ std::vector<std::string> meanings_of(const thesis::CalibrationResult& result, co
 /// Fits that cannot be used (spread above 100 %), and what may help.
 std::vector<std::string> warnings_of(const thesis::CalibrationResult& result, const thesis::Options& options);
 
-/// Every number of every fit with standard error and condition number; SI throughout.
-input::Json json_of(const domain::Dataset& dataset, const thesis::CalibrationResult& result,
+/// The text of calibration.json: every number of every fit with standard error and condition number; SI
+/// throughout.
+std::string json_of(const domain::Dataset& dataset, const thesis::CalibrationResult& result,
                     const thesis::Options& options);
 
 }  // namespace mckibben::output

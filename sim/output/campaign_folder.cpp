@@ -7,7 +7,6 @@
 //                                     so it says that the run is there, and whether it is as it was written
 //                  publish            while both take their places (publication.hpp)
 #include <algorithm>
-#include <cstdint>
 #include <optional>
 #include <utility>
 
@@ -16,15 +15,14 @@
 #include <sim/domain/number.hpp>
 #include <sim/engine/versions.hpp>
 #include <sim/input/campaign_file.hpp>
-#include <sim/input/dataset_file.hpp>
 #include <sim/input/hash.hpp>
 #include <sim/input/rigs.hpp>
 #include <sim/input/yaml_writer.hpp>
 #include <sim/output/campaign_folder.hpp>
+#include <sim/output/campaign_json.hpp>
 #include <sim/output/csv.hpp>
 #include <sim/output/publication.hpp>
 #include <sim/output/run_files.hpp>
-#include <sim/output/run_json.hpp>
 #include <sim/run/simulate.hpp>
 
 namespace mckibben::output {
@@ -134,31 +132,6 @@ Digests below(const std::string& folder, const Digests& files) {
   return found;
 }
 
-Json entry_of(const domain::Campaign& campaign, const run::CampaignRun& run) {
-  const auto& current = campaign.currents[run.job.current];
-  Json entry{{"id", run.job.id},
-             {"load_kg", run.job.load_kg},
-             {"current", current.name},
-             {"repeat", run.job.repeat}};
-  if (!run.failure.empty()) {
-    entry["failure"] = run.failure;
-    return entry;
-  }
-  const auto& samples = run.recording.samples;
-  std::int64_t largest = samples.front().counts;
-  for (const auto& sample : samples) largest = std::max(largest, sample.counts);
-  entry["file"] = run.job.id + ".csv";
-  entry["rows"] = samples.size();
-  entry["largest_contraction_ratio"] =
-      static_cast<double>(largest) * run::contraction_per_count(campaign.rig);
-  entry["solver"] = solver_json(run.recording.solver);
-  return entry;
-}
-
-bool failed(const Json& entry) {
-  return entry.contains("failure");
-}
-
 /// The shipped rig's name, if this is one; otherwise empty.
 std::string shipped_name(const domain::RigFile& rig) {
   const Json wanted = input::rig_json(rig);
@@ -166,24 +139,6 @@ std::string shipped_name(const domain::RigFile& rig) {
   for (const auto name : input::shipped_rigs())
     if (input::rig_json(input::read_rig(std::string(name), none)) == wanted) return std::string(name);
   return "";
-}
-
-Json dataset_json(const std::string& rig, const Json& entries) {
-  Json file{{"schema", input::dataset_schema}, {"rig", rig}, {"runs", Json::array()}};
-  for (const auto& entry : entries)
-    if (!failed(entry))
-      file["runs"].push_back({{"id", entry.at("id")},
-                              {"file", entry.at("file")},
-                              {"load", input::quantity_json(entry.at("load_kg").get<double>(), "kg")}});
-  return file;
-}
-
-Json truth_json(const domain::Campaign& campaign, const Json& entries) {
-  Json file{{"schema", "mckibben-truth/1"}, {"seed", campaign.seed}};
-  file["noise"] = input::to_json(campaign.noise);
-  file["rig"] = input::to_json(campaign.rig);
-  file["runs"] = dataset_json("", entries).at("runs");
-  return file;
 }
 
 }  // namespace
@@ -256,7 +211,8 @@ void CampaignFolder::put(const run::CampaignRun& run) const {
     for (const auto& [stem, table] : {std::pair{&files.data, &measured}, std::pair{&files.truth, &truth}})
       for (const auto& file : run_files(*stem, *table, formats_)) write(file.name, file.content);
   }
-  write_staged(unfinished_ / files.entry, sealed(entry_of(campaign_, run), written).dump(2) + "\n");
+  write_staged(unfinished_ / files.entry,
+               sealed(entry_json(campaign_, run::ended(campaign_, run)), written).dump(2) + "\n");
 }
 
 formats::Table CampaignFolder::table_of(const run::CampaignRun& run, const char* what,
@@ -271,60 +227,49 @@ formats::Table CampaignFolder::table_of(const run::CampaignRun& run, const char*
 }
 
 std::string CampaignFolder::package(const char* what, std::vector<formats::Column> columns,
-                                    const Json& entries) const {
+                                    const std::vector<run::EndedRun>& runs) const {
   Package package{fmt::format("{}: {}", campaign_.name, what), std::move(columns), {}};
-  for (const auto& entry : entries)
-    if (!failed(entry))
-      package.runs.push_back(
-          {entry.at("id").get<std::string>(),
-           fmt::format("{} kg, {}", domain::write_number(entry.at("load_kg").get<double>()),
-                       entry.at("current").get<std::string>())});
+  for (const auto& run : runs)
+    if (run.failure.empty())
+      package.runs.push_back({run.job.id, fmt::format("{} kg, {}", domain::write_number(run.job.load_kg),
+                                                      campaign_.currents[run.job.current].name)});
   return datapackage(package);
 }
 
-Json CampaignFolder::document() const {
-  Json document = heading_json("mckibben-campaign-run/1", campaign_.inputs);
-  document["seed"] = campaign_.seed;
-  document["tolerance"] = campaign_.rig.integrator.tolerance;
-  // As its owner knows it; what is hidden stands in truth.yaml.
-  domain::Campaign known = campaign_;
-  known.rig = plant::nominal(known.rig);
-  document["campaign"] = input::campaign_json(known);
-  document["campaign"].erase("noise");
-  document["runs"] = Json::array();
+std::vector<run::EndedRun> CampaignFolder::runs() const {
+  std::vector<run::EndedRun> list;
   for (const auto& job : jobs_)
-    document["runs"].push_back(read_json(unfinished_ / RunFiles(job.id).entry).value().at("entry"));
-  return document;
+    list.push_back(ended_run(job, read_json(unfinished_ / RunFiles(job.id).entry).value().at("entry")));
+  return list;
 }
 
 // What stands in both folders beside the runs.
-Digests CampaignFolder::write_rest(const Json& document, const Report& report) const {
+Digests CampaignFolder::write_rest(const std::vector<run::EndedRun>& runs, const Report& report) const {
   Digests files;
   const auto write = [&](const std::string& name, const std::string& text) {
     write_staged(unfinished_ / name, text);
     files[name] = input::sha256_hex(text);
   };
-  const Json& entries = document.at("runs");
   const domain::RigFile known = plant::nominal(campaign_.rig);
   std::string rig = shipped_name(known);
   if (rig.empty()) {
     rig = "rig.yaml";
     write("data/" + rig, input::to_yaml(input::rig_json(known)));
   }
-  write("data/dataset.yaml", input::to_yaml(dataset_json(rig, entries)));
-  write("data/campaign.json", document.dump(2) + "\n");
+  write("data/dataset.yaml", input::to_yaml(dataset_json(rig, runs)));
+  write("data/campaign.json", json_of(campaign_, runs));
   const bool gauge = campaign_.rig.gauge.fitted;
-  write(std::string("data/") + package_file, package("measured", measured_columns(gauge), entries));
-  write(std::string("truth/") + package_file, package("truth", recorded_columns(false, gauge), entries));
-  if (!std::all_of(entries.begin(), entries.end(), failed))
+  write(std::string("data/") + package_file, package("measured", measured_columns(gauge), runs));
+  write(std::string("truth/") + package_file, package("truth", recorded_columns(false, gauge), runs));
+  if (std::any_of(runs.begin(), runs.end(), [](const auto& run) { return run.failure.empty(); }))
     write("data/report.html", report(unfinished_ / "data"));
-  write("truth/truth.yaml", input::to_yaml(truth_json(campaign_, entries)));
+  write("truth/truth.yaml", input::to_yaml(truth_json(campaign_, runs)));
   return files;
 }
 
-void CampaignFolder::publish(const Json& document, const Report& report) const {
+void CampaignFolder::publish(const std::vector<run::EndedRun>& runs, const Report& report) const {
   writing(unfinished_, [&] {
-    Digests files = write_rest(document, report);
+    Digests files = write_rest(runs, report);
     std::vector<std::string> ids;
     for (const auto& job : jobs_) {
       ids.push_back(job.id);

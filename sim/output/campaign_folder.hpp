@@ -10,7 +10,6 @@
 
 #include <sim/domain/campaign.hpp>
 #include <sim/formats/table.hpp>
-#include <sim/input/fields_json.hpp>
 #include <sim/output/folder.hpp>
 #include <sim/run/campaign.hpp>
 
@@ -33,15 +32,14 @@ class CampaignFolder {
   /// Writes the files of one run; from any thread, one call for each run. Throws CannotWrite.
   void put(const run::CampaignRun& run) const;
 
-  /// campaign.json, once no run is missing: the campaign with every default, versions, hashes of the input
-  /// files, and of each run rows, counted contraction and solver counts. Nothing in it is truth.
-  input::Json document() const;
+  /// What each run came to, once none is missing.
+  std::vector<run::EndedRun> runs() const;
 
   /// Makes report.html of the data set in a folder; asked if there is a run in it.
   using Report = std::function<std::string(const std::filesystem::path& data)>;
   /// Lets both folders take their places, once every file is there as it was written: both or neither. Says
   /// what was set aside. Throws CannotWrite.
-  void publish(const input::Json& document, const Report& report) const;
+  void publish(const std::vector<run::EndedRun>& runs, const Report& report) const;
 
   /// The data set's folder, and that of the truth.
   const std::filesystem::path& data() const { return destination_; }
@@ -50,12 +48,12 @@ class CampaignFolder {
  private:
   void open();
   void find_missing();
-  Digests write_rest(const input::Json& document, const Report& report) const;
+  Digests write_rest(const std::vector<run::EndedRun>& runs, const Report& report) const;
 
   formats::Table table_of(const run::CampaignRun& run, const char* what,
                           std::vector<formats::Column> columns) const;
   std::string package(const char* what, std::vector<formats::Column> columns,
-                      const input::Json& entries) const;
+                      const std::vector<run::EndedRun>& runs) const;
 
   const domain::Campaign& campaign_;
   std::vector<std::string> formats_;
@@ -64,5 +62,9 @@ class CampaignFolder {
   Say say_;
   std::vector<Lock> locks_;
 };
+
+/// The text of campaign.json: the campaign with every default, versions, hashes of the input files, and of
+/// each run rows, counted contraction and solver counts. Nothing in it is truth.
+std::string json_of(const domain::Campaign& campaign, const std::vector<run::EndedRun>& runs);
 
 }  // namespace mckibben::output

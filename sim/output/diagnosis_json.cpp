@@ -9,7 +9,7 @@
 #include <sim/input/rigs.hpp>
 #include <sim/output/diagnosis_json.hpp>
 #include <sim/output/diagnosis_words.hpp>
-#include <sim/output/run_json.hpp>
+#include <sim/output/json_parts.hpp>
 
 namespace mckibben::output {
 namespace {
@@ -169,7 +169,7 @@ Json faults_json(const diagnose::Diagnosis& diagnosis) {
 
 }  // namespace
 
-Json json_of(const domain::Dataset& data, const diagnose::Diagnosis& diagnosis) {
+std::string json_of(const domain::Dataset& data, const diagnose::Diagnosis& diagnosis) {
   Json document{{"schema", "mckibben-diagnosis/1"},
                 {"verdict", std::string(input::spelling(diagnosis.verdict))},
                 {"because", diagnosis.because},
@@ -195,7 +195,7 @@ Json json_of(const domain::Dataset& data, const diagnose::Diagnosis& diagnosis) 
   document["tolerance"] = data.rig.integrator.tolerance;
   document["rig"] = input::rig_json(data.rig);
   document["corrected_rig"] = input::rig_json(diagnosis.corrected);
-  return document;
+  return text_of(document);
 }
 
 }  // namespace mckibben::output

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <sim/input/campaign_file.hpp>
+#include <sim/input/fields_json.hpp>
 #include <sim/input/rigs.hpp>
 #include <sim/input/yaml_writer.hpp>
 #include <sim/output/diagnosis_rig.hpp>

@@ -6,7 +6,7 @@
 #include <sim/input/rigs.hpp>
 #include <sim/output/error_map.hpp>
 #include <sim/output/grid.hpp>
-#include <sim/output/run_json.hpp>
+#include <sim/output/json_parts.hpp>
 
 namespace mckibben::output {
 namespace {
@@ -134,7 +134,7 @@ std::string table_of(const run::MapPlan& plan, const run::ErrorMaps& maps) {
   return notes.empty() ? text : text + "\n" + notes;
 }
 
-input::Json json_of(const run::MapPlan& plan, const run::ErrorMaps& maps,
+std::string json_of(const run::MapPlan& plan, const run::ErrorMaps& maps,
                     const std::vector<domain::InputFile>& files) {
   Json document = heading_json("mckibben-map/1", files);
   document["report"] = "report.html";
@@ -166,7 +166,8 @@ input::Json json_of(const run::MapPlan& plan, const run::ErrorMaps& maps,
     for (const auto& map : load.branches) entry["branches"].push_back(branch_json(maps, plan, load, map));
     document["loads"].push_back(std::move(entry));
   }
-  return document;
+  if (maps.interrupted) document["interrupted"] = true;
+  return text_of(document);
 }
 
 }  // namespace mckibben::output

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include <sim/input/diagnostics.hpp>
-#include <sim/input/fields_json.hpp>
 #include <sim/run/error_map.hpp>
 
 namespace mckibben::output {
@@ -16,8 +15,9 @@ std::string csv_of(const run::ErrorMaps& maps);
 /// Weighed loads, and rms errors within and beyond what the rig can reach.
 std::string table_of(const run::MapPlan& plan, const run::ErrorMaps& maps);
 
-/// The same numbers, targets, limits of each load, resolved rig, hashes of the files read.
-input::Json json_of(const run::MapPlan& plan, const run::ErrorMaps& maps,
+/// The text of map.json: the same numbers, targets, limits of each load, resolved rig, hashes of the files
+/// read.
+std::string json_of(const run::MapPlan& plan, const run::ErrorMaps& maps,
                     const std::vector<domain::InputFile>& files);
 
 }  // namespace mckibben::output

@@ -1,15 +1,16 @@
 // Layout of the JSON documents.
+#include <algorithm>
 #include <optional>
 
 #include <fmt/format.h>
 
 #include <plant/geometry.hpp>
 #include <sim/domain/number.hpp>
-#include <sim/engine/versions.hpp>
-#include <sim/input/fields_json.hpp>
 #include <sim/input/rigs.hpp>
 #include <sim/input/scenario_file.hpp>
+#include <sim/output/json_parts.hpp>
 #include <sim/output/run_json.hpp>
+#include <sim/run/batch.hpp>
 #include <sim/run/remarks.hpp>
 
 namespace mckibben::output {
@@ -39,12 +40,6 @@ Json ledger_json(const plant::Rig& rig, const run::Recording& recording) {
                    {"air_inflow_J", books.air_inflow_J},
                    {"gas_work_J", books.gas_work_J}});
   return ledger;
-}
-
-Json inputs_json(const std::vector<domain::InputFile>& files) {
-  Json list = Json::array();
-  for (const auto& file : files) list.push_back({{"file", file.name}, {"sha256", file.sha256}});
-  return list;
 }
 
 /// Thesis 2.3: what contraction did to the muscle.
@@ -106,26 +101,11 @@ Json run_json(const plant::Rig& rig, const run::TrackedRun& run) {
 
 }  // namespace
 
-Json heading_json(const char* schema, const std::vector<domain::InputFile>& files) {
-  return {{"schema", schema},
-          {"program", {{"mckibben", MCKIBBEN_VERSION}, {"sundials", engine::sundials_version()}}},
-          {"input_files", inputs_json(files)}};
-}
-
-Json solver_json(const engine::Counters& counters) {
-  return {{"steps", counters.steps},
-          {"rejected_steps", counters.rejected_steps},
-          {"right_hand_sides", counters.right_hand_sides},
-          {"jacobians", counters.jacobians},
-          {"events", counters.events},
-          {"stiff_from_tick", counters.stiff_from_tick < 0 ? Json(nullptr) : Json(counters.stiff_from_tick)}};
-}
-
 std::string file_stem(const run::TrackedRun& run) {
   return fmt::format("{}kg_{}", domain::write_number(run.load_kg), run.controller);
 }
 
-Json json_of(const domain::Scenario& scenario, const run::Comparison& comparison) {
+std::string json_of(const domain::Scenario& scenario, const run::Comparison& comparison) {
   Json document = heading_json("mckibben-run/1", scenario.inputs);
   document["report"] = "report.html";
   document["seed"] = scenario.seed;
@@ -161,10 +141,11 @@ Json json_of(const domain::Scenario& scenario, const run::Comparison& comparison
   document["criteria_not_met"] = comparison.unmet;
   document["warnings"] = comparison.warnings;
   if (comparison.interrupted) document["interrupted"] = true;
-  return document;
+  return text_of(document);
 }
 
-Json json_of(const domain::Dataset& dataset, const std::vector<run::ReplayedRun>& runs) {
+std::string json_of(const domain::Dataset& dataset, const std::vector<run::ReplayedRun>& runs,
+                    const std::vector<std::string>& warnings) {
   Json document = heading_json("mckibben-replay/1", dataset.inputs);
   document["report"] = "report.html";
   document["tolerance"] = dataset.rig.integrator.tolerance;
@@ -186,7 +167,10 @@ Json json_of(const domain::Dataset& dataset, const std::vector<run::ReplayedRun>
     }
     document["runs"].push_back(std::move(entry));
   }
-  return document;
+  document["warnings"] = warnings;
+  if (std::any_of(runs.begin(), runs.end(), [](const auto& run) { return run.failure == run::not_begun; }))
+    document["interrupted"] = true;
+  return text_of(document);
 }
 
 }  // namespace mckibben::output

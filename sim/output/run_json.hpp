@@ -1,4 +1,4 @@
-// Results as JSON: the run.json of a results folder, and what --json prints.
+// Results as JSON: the text of run.json, which --json prints as well.
 #pragma once
 
 #include <string>
@@ -13,12 +13,9 @@ namespace mckibben::output {
 
 /// Resolved input, versions, seed, tolerance, hashes of the input files, results and solver counts. Holds
 /// nothing that differs between two runs of the same input.
-input::Json json_of(const domain::Scenario& scenario, const run::Comparison& comparison);
-input::Json json_of(const domain::Dataset& dataset, const std::vector<run::ReplayedRun>& runs);
-
-/// How every such document begins: its schema, versions, hashes of the input files.
-input::Json heading_json(const char* schema, const std::vector<domain::InputFile>& files);
-input::Json solver_json(const engine::Counters& counters);
+std::string json_of(const domain::Scenario& scenario, const run::Comparison& comparison);
+std::string json_of(const domain::Dataset& dataset, const std::vector<run::ReplayedRun>& runs,
+                    const std::vector<std::string>& warnings);
 
 /// Name of one run's files in the results folder, without ending.
 std::string file_stem(const run::TrackedRun& run);

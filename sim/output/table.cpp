@@ -179,7 +179,7 @@ std::string table_of(const domain::Dataset& dataset, const std::vector<run::Repl
   return text + grid.text() + section("contraction", notes) + section("no result", failures);
 }
 
-std::string table_of(const domain::Campaign& campaign, const input::Json& document) {
+std::string table_of(const domain::Campaign& campaign, const std::vector<run::EndedRun>& ended) {
   Grid grid({"load_kg", "runs", "rows", "simulated_s", "largest_contraction", "steps", "right_hand_sides"},
             0);
   std::string failures, notes;
@@ -188,18 +188,17 @@ std::string table_of(const domain::Campaign& campaign, const input::Json& docume
     std::size_t runs = 0, rows = 0;
     long steps = 0, right_hand_sides = 0;
     double largest = 0.0;
-    for (const auto& run : document.at("runs")) {
-      if (run.at("load_kg") != load_kg) continue;
-      if (run.contains("failure")) {
-        failures +=
-            fmt::format("  {}: {}\n", run.at("id").get<std::string>(), run.at("failure").get<std::string>());
+    for (const run::EndedRun& run : ended) {
+      if (run.job.load_kg != load_kg) continue;
+      if (!run.failure.empty()) {
+        failures += fmt::format("  {}: {}\n", run.job.id, run.failure);
         continue;
       }
       ++runs;
-      rows += run.at("rows").get<std::size_t>();
-      largest = std::max(largest, run.at("largest_contraction_ratio").get<double>());
-      steps += run.at("solver").at("steps").get<long>();
-      right_hand_sides += run.at("solver").at("right_hand_sides").get<long>();
+      rows += run.rows;
+      largest = std::max(largest, run.largest_contraction_ratio);
+      steps += run.solver.steps;
+      right_hand_sides += run.solver.right_hand_sides;
     }
     all_rows += rows;
     grid.add({fmt::format("{:g}", load_kg), std::to_string(runs), std::to_string(rows),

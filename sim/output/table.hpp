@@ -7,6 +7,7 @@
 #include <sim/domain/campaign.hpp>
 #include <sim/domain/dataset.hpp>
 #include <sim/domain/scenario.hpp>
+#include <sim/run/campaign.hpp>
 #include <sim/run/compare.hpp>
 #include <sim/run/replay.hpp>
 
@@ -22,7 +23,7 @@ std::string extrapolation_mark(const run::TrackedRun& run);
 /// Measured against simulated, run by run.
 std::string table_of(const domain::Dataset& dataset, const std::vector<run::ReplayedRun>& runs);
 
-/// What a campaign gave, load by load. `document` is its campaign.json.
-std::string table_of(const domain::Campaign& campaign, const input::Json& document);
+/// What a campaign gave, load by load.
+std::string table_of(const domain::Campaign& campaign, const std::vector<run::EndedRun>& ended);
 
 }  // namespace mckibben::output

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <sim/domain/number.hpp>
+#include <sim/input/fields_json.hpp>
 #include <sim/output/svg.hpp>
 #include <sim/report/files.hpp>
 #include <sim/report/html.hpp>
@@ -24,6 +25,10 @@ Json plot_json(const Plot& plot) {
       {"id", plot.id}, {"title", plot.title}, {"unit", plot.unit}, {"lines", lines}, {"floor", plot.floor}};
 }
 
+Json packed_json(const Packed& packed) {
+  return {{"low", packed.low}, {"step", packed.step}, {"bits", packed.bits}};
+}
+
 Json group_json(const Group& group, std::size_t all_runs) {
   const std::size_t per_column = ticks_per_column(group.ticks, all_runs);
   Json entry{{"name", group.name},      {"load_kg", group.load_kg},
@@ -31,11 +36,11 @@ Json group_json(const Group& group, std::size_t all_runs) {
              {"given", Json::object()}, {"runs", Json::array()}};
   if (group.rmse) entry["rmse"] = *group.rmse;
   for (const auto& quantity : group.given)
-    entry["given"][quantity.key] = pack(quantity.at, group.ticks, group.ticks, per_column);
+    entry["given"][quantity.key] = packed_json(pack(quantity.at, group.ticks, group.ticks, per_column));
   for (const auto& run : group.runs) {
     Json values = Json::object();
     for (const auto& quantity : run.quantities)
-      values[quantity.key] = pack(quantity.at, group.ticks, run.ticks, per_column);
+      values[quantity.key] = packed_json(pack(quantity.at, group.ticks, run.ticks, per_column));
     entry["runs"].push_back({{"name", run.name}, {"style", run.style}, {"values", values}});
   }
   return entry;

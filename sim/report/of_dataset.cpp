@@ -34,12 +34,12 @@ Run shown(const domain::Run& measured, std::size_t style, const plant::Plant& pl
 
 }  // namespace
 
-std::string report_html(const domain::Campaign& campaign, const input::Json& document,
+std::string report_html(const domain::Campaign& campaign, const std::vector<run::EndedRun>& ended,
                         const domain::Dataset& dataset) {
   Contents contents{
       .title = campaign.name,
       .about = "Synthetic measurements: what encoder, current output and gauge say",
-      .details = output::table_of(campaign, document),
+      .details = output::table_of(campaign, ended),
       .beside =
           "Every number of every tick is in the CSV files beside this page; input, versions and "
           "hashes are in campaign.json, the truth in a folder of its own.",

@@ -38,7 +38,7 @@ std::size_t points(std::size_t ticks, std::size_t per_column) {
   return per_column == 1 ? ticks : 2 * ((ticks + per_column - 1) / per_column);
 }
 
-input::Json pack(const AtTick& at, std::size_t ticks, std::size_t present, std::size_t per_column) {
+Packed pack(const AtTick& at, std::size_t ticks, std::size_t present, std::size_t per_column) {
   std::vector<double> values;
   values.reserve(points(ticks, per_column));
   for (std::size_t k = 0; k < present; k += per_column) {
@@ -75,7 +75,7 @@ input::Json pack(const AtTick& at, std::size_t ticks, std::size_t present, std::
       bytes.push_back(static_cast<unsigned char>(code >> 8));
     }
   }
-  return {{"low", low}, {"step", step}, {"bits", base64(bytes)}};
+  return {low, step, base64(bytes)};
 }
 
 std::string base64(const std::vector<unsigned char>& bytes) {

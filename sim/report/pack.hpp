@@ -2,8 +2,9 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
+#include <vector>
 
-#include <sim/input/fields_json.hpp>
 #include <sim/report/contents.hpp>
 
 namespace mckibben::report {
@@ -14,10 +15,15 @@ std::size_t ticks_per_column(std::size_t ticks, std::size_t runs);
 /// How many points `pack` makes: a tick each, or two for each column.
 std::size_t points(std::size_t ticks, std::size_t per_column);
 
-/// {"low", "step", "bits"}: value = low + step * code; code 65535 stands for none. Of each column of
-/// `per_column` ticks the smallest and the largest value are kept, in the order in which they came. Empty
-/// bits: all are `low`. From tick `present` on there are no values.
-input::Json pack(const AtTick& at, std::size_t ticks, std::size_t present, std::size_t per_column);
+/// value = low + step * code, a code for each point; 65535 stands for none.
+struct Packed {
+  double low = 0.0, step = 0.0;
+  std::string bits;  ///< the codes; empty: all values are `low`
+};
+
+/// Of each column of `per_column` ticks the smallest and the largest value are kept, in the order in which
+/// they came. From tick `present` on there are no values.
+Packed pack(const AtTick& at, std::size_t ticks, std::size_t present, std::size_t per_column);
 
 /// Bytes in letters.
 std::string base64(const std::vector<unsigned char>& bytes);

@@ -9,7 +9,7 @@
 #include <sim/domain/campaign.hpp>
 #include <sim/domain/dataset.hpp>
 #include <sim/domain/scenario.hpp>
-#include <sim/input/fields_json.hpp>
+#include <sim/run/campaign.hpp>
 #include <sim/run/compare.hpp>
 #include <sim/run/error_map.hpp>
 #include <sim/run/replay.hpp>
@@ -25,8 +25,8 @@ std::string report_html(const domain::Scenario& scenario, const run::Comparison&
 std::string report_html(const domain::Dataset& dataset, const std::vector<run::ReplayedRun>& runs,
                         const std::vector<std::string>& warnings = {});
 
-/// A campaign's measurements. `document` is its campaign.json.
-std::string report_html(const domain::Campaign& campaign, const input::Json& document,
+/// A campaign's measurements.
+std::string report_html(const domain::Campaign& campaign, const std::vector<run::EndedRun>& ended,
                         const domain::Dataset& dataset);
 
 /// The models of a data set, and their figures.

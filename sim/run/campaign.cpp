@@ -50,6 +50,15 @@ void run_jobs(const domain::Campaign& campaign, std::span<const CampaignJob> job
       [&](std::size_t done) { progress("simulating", done, jobs.size()); });
 }
 
+EndedRun ended(const domain::Campaign& campaign, const CampaignRun& run) {
+  if (!run.failure.empty()) return {run.job, run.failure};
+  const auto& samples = run.recording.samples;
+  std::int64_t largest = samples.front().counts;
+  for (const Sample& sample : samples) largest = std::max(largest, sample.counts);
+  return {run.job, "", samples.size(), static_cast<double>(largest) * contraction_per_count(campaign.rig),
+          run.recording.solver};
+}
+
 domain::Run measured(const domain::Campaign& campaign, const CampaignRun& run) {
   domain::Run table;
   table.id = run.job.id;

@@ -32,6 +32,15 @@ struct CampaignRun {
   std::string failure{};  ///< why the integrator gave up; empty if it did not
 };
 
+/// What is kept of a run whose rows are on disk.
+struct EndedRun {
+  CampaignJob job;
+  std::string failure{};  ///< as in CampaignRun; then there is nothing else
+  std::size_t rows = 0;
+  double largest_contraction_ratio = 0.0;  ///< as counted
+  engine::Counters solver{};
+};
+
 /// All runs of a campaign: loads in order, for each all currents, for each all repeats. Ids are unique.
 std::vector<CampaignJob> jobs_of(const domain::Campaign& campaign);
 
@@ -42,6 +51,8 @@ CampaignRun run_job(const domain::Campaign& campaign, const CampaignJob& job);
 /// from any thread, in any order. Throws Interrupted; what `finished` throws.
 void run_jobs(const domain::Campaign& campaign, std::span<const CampaignJob> jobs, unsigned threads,
               const std::function<void(const CampaignRun&)>& finished, const ProgressHook& progress);
+
+EndedRun ended(const domain::Campaign& campaign, const CampaignRun& run);
 
 /// What was measured in a run: currents, counted contraction ratios, pressures if the rig has a gauge.
 domain::Run measured(const domain::Campaign& campaign, const CampaignRun& run);

@@ -5,6 +5,7 @@
 
 #include <sim/study/counting.hpp>
 #include <sim/study/page.hpp>
+#include <sim/study/page_json.hpp>
 
 namespace mckibben::study {
 namespace {
@@ -105,7 +106,7 @@ Json json_of(const Weighings& weighed) {
   return all;
 }
 
-Json document(const Counting& counting) {
+Json numbers_of(const Counting& counting) {
   Json all{{"speed_step_per_s", counting.speed_step_per_s},
            {"acceleration_step_per_s2", counting.acceleration_step_per_s2},
            {"speed_per_s", json_of(counting.all_speed_per_s)},
@@ -170,7 +171,8 @@ Study study_counting(const Evidence& evidence) {
       "{:+.2f}, {:+.2f} and {:+.2f} kg.\n",
       alone.all[counted].deviation(), alone.all[neglected].deviation(), alone.all[truly].deviation(),
       alone.runs[counted].mean(), alone.runs[neglected].mean(), alone.runs[truly].mean());
-  return {"counting", std::move(page), counting_picture(evidence), document(counting)};
+  return {"counting", std::move(page), counting_picture(evidence),
+          document_of(evidence, "counting", numbers_of(counting))};
 }
 
 }  // namespace mckibben::study

@@ -11,6 +11,7 @@
 #include <sim/study/figures.hpp>
 #include <sim/study/lag.hpp>
 #include <sim/study/page.hpp>
+#include <sim/study/page_json.hpp>
 #include <sim/thesis/quality.hpp>
 
 namespace mckibben::study {
@@ -243,7 +244,7 @@ Json json_of(const std::vector<Weighing>& weighings) {
   return all;
 }
 
-Json document(const Evidence& evidence, const Ours& ours) {
+Json numbers_of(const Evidence& evidence, const Ours& ours) {
   Json all{{"printed",
             {{"load_kg", printed_load_kg},
              {"weighed_kg", printed_weighed_kg},
@@ -301,7 +302,8 @@ Study study_figures(const Evidence& evidence) {
       loads(ours) + "## Spread of friction by how the data are processed\n\n" + friction(ours) +
       "## Why they differ\n\n" + why_friction(evidence, ours) + why_load(evidence, ours) +
       why_pressure(evidence);
-  return {"figures", std::move(page), figures_picture(ours), document(evidence, ours)};
+  return {"figures", std::move(page), figures_picture(ours),
+          document_of(evidence, "figures", numbers_of(evidence, ours))};
 }
 
 }  // namespace mckibben::study

@@ -9,6 +9,7 @@
 #include <sim/output/calibration_report.hpp>
 #include <sim/study/lag.hpp>
 #include <sim/study/page.hpp>
+#include <sim/study/page_json.hpp>
 
 namespace mckibben::study {
 namespace {
@@ -139,7 +140,7 @@ Json json_of(const FrictionFit& fit) {
           {"mean", fit.mean},      {"spread", fit.spread()}};
 }
 
-Json document(const Lag& lag, const Evidence& evidence) {
+Json numbers_of(const Lag& lag, const Evidence& evidence) {
   Json all;
   for (const Direction direction : thesis::directions) {
     Json& here = all[std::string(name_of(direction))];
@@ -204,7 +205,8 @@ Study study_lag(const Evidence& evidence) {
       lightest, heaviest,
       lightest * heaviest < 0.0 ? ": one coefficient for all loads (T 4.6) cannot take the lag out of each"
                                 : "");
-  return {"lag", std::move(page), lag_picture(evidence), document(lag, evidence)};
+  return {"lag", std::move(page), lag_picture(evidence),
+          document_of(evidence, "lag", numbers_of(lag, evidence))};
 }
 
 }  // namespace mckibben::study

@@ -38,10 +38,6 @@ std::string bias_and_spread(const Tally& tally) {
   return fmt::format("{:+.2f} +- {:.2f}", tally.mean(), tally.deviation());
 }
 
-input::Json json_of(const Tally& tally) {
-  return {{"mean", tally.mean()}, {"standard_deviation", tally.deviation()}, {"rows", tally.count()}};
-}
-
 std::string heading(const Evidence& evidence, const std::string& name, const std::string& title) {
   const auto& grid = evidence.from_current.grid;
   std::string text = fmt::format("# {}\n\n", title);

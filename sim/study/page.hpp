@@ -4,7 +4,6 @@
 #include <string>
 #include <vector>
 
-#include <sim/input/fields_json.hpp>
 #include <sim/study/evidence.hpp>
 
 namespace mckibben::study {
@@ -17,9 +16,6 @@ std::string text_of(const thesis::Estimate& estimate, double factor = 1.0);
 
 /// "+0.12 +- 0.34": mean and spread.
 std::string bias_and_spread(const Tally& tally);
-
-/// Mean, spread, number of rows.
-input::Json json_of(const Tally& tally);
 
 /// The first lines of a page: title, what made it, picture.
 std::string heading(const Evidence& evidence, const std::string& name, const std::string& title);

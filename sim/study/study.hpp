@@ -5,7 +5,6 @@
 #include <string>
 #include <string_view>
 
-#include <sim/input/fields_json.hpp>
 #include <sim/study/evidence.hpp>
 #include <sim/thesis/figures.hpp>
 
@@ -17,7 +16,7 @@ struct Study {
   std::string name;
   std::string page;  ///< Markdown; shows the picture as <name>.svg
   thesis::Figure picture;
-  input::Json document;  ///< every number of the page
+  std::string document;  ///< every number of the page, as the text of a JSON file
 };
 
 /// One of `names`.

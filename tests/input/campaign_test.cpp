@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <sim/input/campaign_file.hpp>
+#include <sim/input/fields_json.hpp>
 #include <sim/input/json_schema.hpp>
 #include <sim/input/yaml_writer.hpp>
 

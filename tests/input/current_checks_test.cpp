@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <sim/input/fields_json.hpp>
 #include <sim/input/scenario_file.hpp>
 
 namespace mckibben::input {

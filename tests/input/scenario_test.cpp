@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <sim/input/fields_json.hpp>
 #include <sim/input/yaml_writer.hpp>
 
 #include "good_scenario.hpp"

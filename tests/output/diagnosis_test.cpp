@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include <sim/input/campaign_file.hpp>
+#include <sim/input/fields_json.hpp>
 #include <sim/input/rigs.hpp>
 #include <sim/output/diagnosis_json.hpp>
 #include <sim/output/diagnosis_rig.hpp>
@@ -24,7 +25,7 @@ namespace {
 using input::Json;
 
 TEST(DiagnosisJson, HoldsWhatIsPromised) {
-  const Json document = Json::parse(json_of(measured(), diagnosed()).dump());
+  const Json document = Json::parse(json_of(measured(), diagnosed()));
   EXPECT_EQ(document.begin().key(), "schema");
   EXPECT_EQ(document.at("schema"), "mckibben-diagnosis/1");
   EXPECT_EQ(document.at("verdict"), "missing_effect");
@@ -69,7 +70,7 @@ TEST(DiagnosisJson, HoldsWhatIsPromised) {
 }
 
 TEST(DiagnosisJson, NamesAParameterByItsPartOnlyWhereTheLastWordIsNotEnough) {
-  const Json moved = json_of(measured(), diagnosed()).at("recalibrated");
+  const Json moved = Json::parse(json_of(measured(), diagnosed())).at("recalibrated");
   EXPECT_EQ(moved.at("rest_radius").at("nominal"), 0.0075);
   EXPECT_EQ(moved.at("rest_radius").at("fitted"), 0.00768123456789);
   EXPECT_EQ(moved.at("rest_radius").at("deviations"), 2.4);
@@ -77,7 +78,7 @@ TEST(DiagnosisJson, NamesAParameterByItsPartOnlyWhereTheLastWordIsNotEnough) {
   EXPECT_EQ(moved.at("hose_conductance").at("fitted"), 0.9e-8);
   diagnose::Diagnosis one = diagnosed();
   one.recalibrated = {one.recalibrated[2]};  // the key does not depend on what else moved
-  EXPECT_TRUE(json_of(measured(), one).at("recalibrated").contains("valve_conductance"));
+  EXPECT_TRUE(Json::parse(json_of(measured(), one)).at("recalibrated").contains("valve_conductance"));
 }
 
 TEST(DiagnosisJson, IsNullWhereThereIsNothing) {
@@ -86,7 +87,7 @@ TEST(DiagnosisJson, IsNullWhereThereIsNothing) {
       {.name = "muscle_leak",
        .variant = "",
        .parameters = {{"conductance", "m3/(s.Pa)", 1e-10, 0.0, std::numeric_limits<double>::infinity()}}}};
-  const Json document = Json::parse(json_of(measured(), empty).dump());
+  const Json document = Json::parse(json_of(measured(), empty));
   EXPECT_EQ(document.at("verdict"), "cannot_tell");
   EXPECT_TRUE(document.at("residual_law").is_null());
   EXPECT_TRUE(document.at("next_experiment").is_null());

@@ -25,10 +25,9 @@ namespace mckibben::report {
 namespace {
 
 /// What the page's script makes of a packed quantity.
-std::vector<double> unpacked(const input::Json& packed, std::size_t count) {
+std::vector<double> unpacked(const Packed& packed, std::size_t count) {
   const std::string letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  const auto bits = packed.at("bits").get<std::string>();
-  const double low = packed.at("low").get<double>(), step = packed.at("step").get<double>();
+  const auto& [low, step, bits] = packed;
   if (bits.empty()) return std::vector<double>(count, low);
   std::vector<unsigned> bytes;
   unsigned held = 0, bits_held = 0;

@@ -12,6 +12,7 @@
 #include <plant/geometry.hpp>
 #include <sim/domain/objection.hpp>
 #include <sim/input/calibration_file.hpp>
+#include <sim/input/fields_json.hpp>
 #include <sim/output/calibration_report.hpp>
 #include <sim/output/chart.hpp>
 #include <sim/thesis/calibrate.hpp>
@@ -89,7 +90,7 @@ TEST(Calibrate, WhatIsNotDeterminedIsNamedAndNotPrinted) {
   const std::string report = output::report_of(campaign(), result, {}, false);
   EXPECT_NE(report.find("f1  not determined: not told from 0"), std::string::npos);
   EXPECT_EQ(report.find("0.0123456"), std::string::npos);
-  const auto document = output::json_of(campaign(), result, {});
+  const auto document = input::Json::parse(output::json_of(campaign(), result, {}));
   const auto& entry = document.at("friction").at("contraction").at("f1_s2_per_mA2");
   EXPECT_TRUE(entry.at("value").is_null());
   EXPECT_EQ(entry.at("not_determined"), "not told from 0");
@@ -277,7 +278,7 @@ TEST(Report, SpreadsAboveTheMeanAreNotPrintedAsNumbersButWarnedOf) {
   EXPECT_TRUE(says(report, "not usable (above 100 %)"));
   EXPECT_TRUE(says(report, "\nwarnings\n  friction in relaxation"));
   EXPECT_FALSE(says(report, "1250"));
-  const auto document = output::json_of(campaign(), result, {});
+  const auto document = input::Json::parse(output::json_of(campaign(), result, {}));
   EXPECT_NEAR(document.at("friction").at("relaxation").at("spread").get<double>(), 12.5, 1e-9);
   EXPECT_EQ(document.at("warnings").size(), 1u);
 }
