@@ -36,14 +36,15 @@ namespace mckibben::plant {
 /// What is known at an instant, before any effect. Pressures gauge.
 template <class S>
 struct Instant {
-  S contraction_ratio;    ///< e
-  S rise_m;               ///< x = l0 e
-  S speed_m_per_s;        ///< v = l0 w
-  S muscle_pressure_Pa;   ///< P_m
-  double weight_N;        ///< m g
-  double atmosphere_Pa;   ///< absolute
-  double gas_J_per_kg;    ///< R T
-  Restriction unit_flow;  ///< of a conductance of 1 m3/(s Pa)
+  using P = AsParameter<S>;
+  S contraction_ratio;         ///< e
+  S rise_m;                    ///< x = l0 e
+  S speed_m_per_s;             ///< v = l0 w
+  S muscle_pressure_Pa;        ///< P_m
+  P weight_N;                  ///< m g
+  P atmosphere_Pa;             ///< absolute
+  P gas_J_per_kg;              ///< R T
+  RestrictionOf<P> unit_flow;  ///< of a conductance of 1 m3/(s Pa)
 };
 
 /// What flows into the plant at that instant, after all effects on it.
