@@ -4,7 +4,8 @@
 //   where the cord's end is and how fast, SideState, memory, HeldSide --> SideMoment --> d(SideState)/dt
 //
 // Effects that the rig has switched on come in where `effects_` stands; without any, no line of theirs runs.
-// S is double, or a dual number where the Jacobian is wanted.
+// S is double, a dual number where the Jacobian is wanted, or lanes that hold several rigs; P is what their
+// parameters are made of.
 #pragma once
 
 #include <plant/flow.hpp>
