@@ -64,7 +64,7 @@ double right_hand_side_s() {
   static const double cost_s = [] {
     const Ride& ride = rides[0];
     const plant::Plant plant(plant::Rig{}, ride.load_kg);
-    const auto integrator = make_integrator(plant, Settings{}, false);
+    const auto integrator = make_integrator(plant, solver::Settings{}, false);
     std::vector<std::array<double, plant::single_size>> states;
     std::vector<plant::Held> held;
     Flow flow;
@@ -131,7 +131,7 @@ void Erk_(benchmark::State& state) {
 }
 void Engine_(benchmark::State& state, Method method, bool ledger) {
   ride_benchmark(state, [&](const plant::Plant& plant) {
-    return make_integrator(plant, {method, Settings{}.tolerance}, ledger);
+    return make_integrator(plant, {method, solver::Settings{}.tolerance}, ledger);
   });
 }
 
@@ -148,7 +148,7 @@ plant::Rig creeping() {
 }
 void Effects_(benchmark::State& state, const plant::Rig& rig) {
   ride_benchmark(
-      state, [](const plant::Plant& plant) { return make_integrator(plant, Settings{}, false); }, rig);
+      state, [](const plant::Plant& plant) { return make_integrator(plant, solver::Settings{}, false); }, rig);
 }
 
 /// Eight rigs in common steps, their loads `spread_kg` apart: what one of them costs.
