@@ -11,7 +11,7 @@
 namespace mckibben::engine {
 
 /// The plants, and the first again where there are fewer than lanes; nothing if they differ in more than
-/// numbers (friction law, variant of an effect, terms of a law). One muscle each.
+/// numbers (friction law, variant of an effect that two of them have). One muscle each.
 std::optional<plant::PlantOf<Lanes>> abreast(std::span<const plant::Plant> plants);
 
 /// What they hold, in the same way. All of them are driven alike.

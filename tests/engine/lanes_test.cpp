@@ -159,39 +159,53 @@ TEST(Abreast, RigsKeepToTheirOwnLaws) {
 
 TEST(Abreast, AnEffectOfOneRigIsNotItsNeighbours) {
   Chance chance(4);
-  for (const auto& [name, rig] : plant::rigs_with_one_effect()) {
-    if (rig.effects.get<plant::ResidualForce>().absent()) {
-      Eight eight(chance, plant::nominal(rig));
-      plant::Rig struck = eight.plants[5].rig();
+  const auto rigs = plant::rigs_with_one_effect();
+  for (std::size_t first = 0; first < rigs.size(); ++first) {
+    Eight eight(chance, plant::Rig{});
+    std::string names;
+    for (std::size_t lane = 0; lane < Lanes::count; lane += 2) {  // every second rig has another effect
+      const auto& [name, rig] = rigs[(first + 2 * lane) % rigs.size()];
+      plant::Rig struck = eight.plants[lane].rig();
       struck.effects = rig.effects;
-      // The law variant of an effect is no number: all have it, absent.
-      for (auto& plant : eight.plants) {
-        plant::Rig one = plant.rig();
-        one.effects.get<plant::BladderElasticity>().variant =
-            rig.effects.get<plant::BladderElasticity>().variant;
-        plant = {one, plant.load_kg()};
-      }
-      eight.plants[5] = {struck, 14.0};
-      for (std::size_t i = 0; i < 5; ++i) EXPECT_EQ(eight.rates_alone(2).size(), 5u) << name;
-      const auto together = eight.rates();
-      for (std::size_t i = 0; i < 5; ++i) {
-        const double alone = eight.rates_alone(2)[i], alone_struck = eight.rates_alone(5)[i];
-        EXPECT_NEAR(together[i][2], alone, 1e-11 * (std::abs(alone) + 1.0)) << name;
-        EXPECT_NEAR(together[i][5], alone_struck, 1e-11 * (std::abs(alone_struck) + 1.0)) << name;
-      }
+      eight.plants[lane] = {struck, eight.plants[lane].load_kg()};
+      names += name + ' ';
+    }
+    const auto together = eight.rates();
+    for (std::size_t lane = 0; lane < Lanes::count; ++lane) {
+      const auto alone = eight.rates_alone(lane);
+      for (std::size_t i = 0; i < 5; ++i)
+        EXPECT_NEAR(together[i][lane], alone[i], 1e-11 * (std::abs(alone[i]) + 1.0)) << names << lane;
     }
   }
 }
 
+TEST(Abreast, TermsOfALawAreEachTheirOwn) {
+  using plant::Basis;
+  Chance chance(6);
+  Eight eight(chance, plant::Rig{});
+  const auto give = [&](std::size_t lane, std::vector<plant::ForceTerm> terms) {
+    plant::Rig rig = eight.plants[lane].rig();
+    rig.effects.get<plant::ResidualForce>().terms = std::move(terms);
+    eight.plants[lane] = {rig, eight.plants[lane].load_kg()};
+  };
+  give(1, {{Basis::speed, 3.0}});
+  give(2, {{Basis::sine, 4.0, 0.02, 0.3}, {Basis::sine, -2.0, 0.05, 1.0}});
+  give(5, {{Basis::direction_pressure, 2.0}, {Basis::speed, -1.0}});
+  give(7, {{Basis::sine, 1.0, 0.01, 0.0}});
+  expect_alike(eight, "terms");
+}
+
 TEST(Abreast, RigsOfAnotherKindAreNot) {
-  plant::Rig other;
-  other.friction.law = plant::FrictionLaw::area;
-  const std::vector<plant::Plant> unlike{{plant::Rig{}, 12.0}, {other, 12.0}};
-  EXPECT_FALSE(abreast(unlike).has_value());
-  plant::Rig with_term;
-  with_term.effects.get<plant::ResidualForce>().terms = {{plant::Basis::speed, 3.0}};
-  const std::vector<plant::Plant> unequal{{plant::Rig{}, 12.0}, {with_term, 12.0}};
-  EXPECT_FALSE(abreast(unequal).has_value());
+  plant::Rig area;
+  area.friction.law = plant::FrictionLaw::area;
+  EXPECT_FALSE(abreast(std::vector<plant::Plant>{{plant::Rig{}, 12.0}, {area, 12.0}}).has_value());
+  plant::Rig linear, saturating;
+  linear.effects.get<plant::BladderElasticity>().stiffness_N_per_m = 50.0;
+  auto& bladder = saturating.effects.get<plant::BladderElasticity>();
+  bladder.variant = plant::BladderLaw::saturating;
+  bladder.force_N = 5.0;
+  EXPECT_FALSE(abreast(std::vector<plant::Plant>{{linear, 12.0}, {saturating, 12.0}}).has_value());
+  EXPECT_TRUE(abreast(std::vector<plant::Plant>{{plant::Rig{}, 12.0}, {saturating, 12.0}}).has_value());
 }
 
 TEST(Abreast, EachMachineGetsTheSameBits) {
