@@ -94,14 +94,14 @@ void write_tables(Job& job, const std::string& name, const domain::Dataset& data
   job.write(output::package_file, output::datapackage(package));
 }
 
-/// What looks wrong in the data, and what is doubtful in their simulation. Throws input::BadInput where a
+/// What looks wrong in the data, and what is doubtful in their simulation. Throws domain::UnfitData where a
 /// comparison with them would mean nothing.
 std::vector<std::string> sane(const domain::Dataset& dataset, const std::vector<run::ReplayedRun>& runs) {
-  const auto findings = run::sanity(dataset, run::expected_of(runs));
-  run::raise(dataset, findings);
+  const auto objections = run::sanity(dataset, run::expected_of(runs));
+  run::raise(dataset, objections);
   std::vector<std::string> warnings;
-  warnings.reserve(findings.size());
-  for (const auto& finding : findings) warnings.push_back(run::text_of(dataset, finding));
+  warnings.reserve(objections.size());
+  for (const auto& objection : objections) warnings.push_back(domain::text_of(dataset, objection));
   for (const auto& run : runs)
     for (const auto& doubt : run::doubts(run.recording))
       warnings.push_back(run::warning_of_run(run.id, doubt));
@@ -114,9 +114,13 @@ int run_scenario(const RunOptions& options) {
   for (const auto& problem : problems) fmt::print(stderr, "{}\n", to_text(problem));
   if (options.seed) scenario.seed = *options.seed;
   Job job(options, "run " + options.scenario, scenario.name, scenario.inputs);
-  const run::Comparison comparison = with_progress(
+  run::Comparison comparison = with_progress(
       scenario.name, [&](const auto& hook) { return run::compare(scenario, options.threads, hook); });
   warn(comparison.warnings);
+  std::vector<std::string> of_reader;  // said already
+  of_reader.reserve(problems.size());
+  for (const auto& problem : problems) of_reader.push_back(where(problem) + ": " + problem.message);
+  comparison.warnings.insert(comparison.warnings.begin(), of_reader.begin(), of_reader.end());
   if (comparison.interrupted) job.interrupted(begun(comparison.runs), comparison.runs.size(), "runs");
 
   const std::string document = output::json_of(scenario, comparison).dump(2) + "\n";
