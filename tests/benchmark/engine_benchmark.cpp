@@ -148,7 +148,8 @@ plant::Rig creeping() {
 }
 void Effects_(benchmark::State& state, const plant::Rig& rig) {
   ride_benchmark(
-      state, [](const plant::Plant& plant) { return make_integrator(plant, solver::Settings{}, false); }, rig);
+      state, [](const plant::Plant& plant) { return make_integrator(plant, solver::Settings{}, false); },
+      rig);
 }
 
 /// Eight rigs in common steps, their loads `spread_kg` apart: what one of them costs.
