@@ -1,4 +1,14 @@
-// The whole workflow: replay, recalibrate, map, name, add, show the gap, judge.
+// The whole workflow, in running order:
+//
+//   check      which data can be trusted; faults of recordings are mended   checks, labels, first_look,
+//   repair baseline   the rig as described, then with its numbers fitted           baseline where      the
+//   map of what remains                                      where name       effects of the catalogue that
+//   runs held out ask for          naming, trial, revise, ranking law        a force law for what they leave
+//   law decide     the verdict                                                  decide plan       the numbers
+//   of the rig that is handed over, the measurement that would tell more   story, plan
+//
+// All of it stands on a few tools: runs against a rig (experiment), fits (fit, interval), slopes (screen).
+// Every number that decides is in thresholds.hpp.
 #pragma once
 
 #include <cstdint>

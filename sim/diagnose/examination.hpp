@@ -13,11 +13,12 @@
 #include <sim/diagnose/judge.hpp>
 #include <sim/diagnose/regression.hpp>
 #include <sim/diagnose/shapes.hpp>
+#include <sim/diagnose/thresholds.hpp>
 
 namespace mckibben::diagnose {
 
 /// Mean square, in floors, of runs that are taken for sound.
-inline constexpr double sound = near_floor * near_floor;
+inline constexpr double sound = thresholds.near.mean_square();
 /// At least so many runs must be sound, and so many times as many as are not.
 inline constexpr std::size_t least_sound = 3, sound_for_one = 2;
 /// By which all runs may be late: each is a line of its own.

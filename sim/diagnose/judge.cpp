@@ -8,10 +8,6 @@
 namespace mckibben::diagnose {
 namespace {
 
-// What an improvement must be on runs that the fit has not seen. Set on data sets with other seeds than those
-// that the benchmark scores.
-constexpr double least_share = 0.10, least_gain = 0.03, least_significance = 2.0, clear_share = 0.5;
-
 Eigen::Index segment_rows(const Experiment& experiment) {
   return std::max<Eigen::Index>(1, std::lround(segment_s / experiment.data().rig.tick_s));
 }
@@ -97,11 +93,13 @@ Improvement compare(const Experiment& experiment, const Eigen::VectorXd& before,
   return result;
 }
 
-bool convinces(const Improvement& improvement) {
+bool convinces(const Improvement& improvement, const ImprovementThresholds& least) {
   // Where the gap sits in a few segments, their scatter is as large as the gain, however certain it is.
-  const bool certain = improvement.significance >= least_significance || improvement.share >= clear_share;
-  return improvement.share >= least_share && improvement.gained >= least_gain && certain &&
-         2 * improvement.better > improvement.runs;
+  const bool certain =
+      improvement.significance >= least.significance || improvement.share >= least.clear_share;
+  const double better = least.better * static_cast<double>(improvement.runs);
+  return improvement.share >= least.share && improvement.gained >= least.gained && certain &&
+         static_cast<double>(improvement.better) > better;
 }
 
 }  // namespace mckibben::diagnose

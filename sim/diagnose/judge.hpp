@@ -3,6 +3,7 @@
 #pragma once
 
 #include <sim/diagnose/experiment.hpp>
+#include <sim/diagnose/thresholds.hpp>
 
 namespace mckibben::diagnose {
 
@@ -39,6 +40,6 @@ Improvement compare(const Experiment& experiment, const Eigen::VectorXd& before,
                     const Runs& runs);
 
 /// Whether an improvement is worth a change of the model.
-bool convinces(const Improvement& improvement);
+bool convinces(const Improvement& improvement, const ImprovementThresholds& least = thresholds.improvement);
 
 }  // namespace mckibben::diagnose

@@ -9,6 +9,7 @@
 #include <plant/geometry.hpp>
 #include <sim/diagnose/interval.hpp>
 #include <sim/diagnose/law.hpp>
+#include <sim/diagnose/thresholds.hpp>
 
 namespace mckibben::diagnose {
 namespace {
@@ -16,8 +17,6 @@ namespace {
 using plant::Basis;
 
 constexpr std::size_t most_terms = 3;
-/// Mean square above the floor at which a term more would describe noise.
-constexpr double met = 0.15;
 /// Waves whose lengths differ by less [logarithm] are one proposal.
 constexpr double same_wave = 0.15;
 /// Proposals that are fitted, of each base.
@@ -215,7 +214,7 @@ Law find_law(const Case& c, const std::vector<const Contender*>& bases, const Ei
     ++law.terms;
     law.contender = std::move(*next);
     before = law.contender.held_out;
-    if (excess(before) < met) break;
+    if (excess(before) < thresholds.decide.worth_a_law) break;  // a term more would describe noise
   }
   drop_needless(c, law, step);
   drop_uncertain(c, law, step);

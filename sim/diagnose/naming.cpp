@@ -59,7 +59,7 @@ std::vector<Trial> refit(const Case& c, const std::vector<Screening>& screenings
     // A rival that the rough fit leaves far behind, or that does not help at all, is not polished.
     const auto rough = compare(c.experiment, reference, trials[i].contender.held_out, c.split.held_out);
     const bool close = trials[i].contender.fitted.cost < 3.0 * trials[0].contender.fitted.cost + 50.0;
-    const bool helps = rough.share > 0.02 || excess(reference) < nothing_left;
+    const bool helps = rough.share > 0.02 || excess(reference) < thresholds.near.nothing_left;
     if (trials[i].place > 0 && close && helps) polish(c, trials[i], step);
   }
   std::stable_sort(trials.begin(), trials.end(), by_cost);
@@ -146,7 +146,7 @@ Naming name_effects(const Case& c, const Contender& nominal, const Contender& re
         for (std::size_t j = 0; j < shown; ++j) row.push_back(likeness(scores[i], scores[j]));
       }
     }
-    const bool something_left = excess(before) > nothing_left;
+    const bool something_left = excess(before) > thresholds.near.nothing_left;
     const bool strained =
         screenings.back().scores.front().drop > 15.0;  // priors strained, although the data are met
     std::vector<Trial> trials;

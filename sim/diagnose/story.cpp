@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <sim/diagnose/story.hpp>
 
@@ -79,6 +80,35 @@ std::string faults_in_words(const Diagnosis& d) {
   if (text.empty()) return text;
   text.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(text.front())));
   return text + ". ";
+}
+
+std::string remark_in_words(Remark remark, const Naming& naming, double left) {
+  std::vector<std::string> names;
+  for (const NamedEffect& effect : naming.effects) names.push_back(full_name(effect.name, effect.variant));
+  const double floors = std::sqrt(left + 1.0);
+  switch (remark) {
+    case Remark::gauge_misleads:
+      return "effects that would explain the gauge's pressures make the motion worse: is the gauge right?";
+    case Remark::more_is_missing:
+      return fmt::format(
+          "{:.1f} noise floors are left with the effects named: more is missing, or their laws are not quite "
+          "these",
+          floors);
+    case Remark::not_named:
+      return fmt::format("nearest comes {}, but {:.1f} noise floors are left: not named",
+                         fmt::join(names, " with "), floors);
+    case Remark::invisible:
+      break;
+  }
+  return fmt::format("these data would not show, even at their usual size: {}",
+                     fmt::join(naming.invisible, ", "));
+}
+
+std::string far_runs_in_words(const std::vector<FarRun>& runs) {
+  std::vector<std::string> list;
+  for (const FarRun& run : runs) list.push_back(fmt::format("{} by {:.0f}", run.id, std::sqrt(run.left)));
+  std::sort(list.begin(), list.end());
+  return fmt::format("{}", fmt::join(list, ", "));
 }
 
 namespace {

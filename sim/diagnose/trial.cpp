@@ -96,7 +96,8 @@ void polish(const Case& c, Trial& trial, const Step& step) {
 }
 
 bool meets(const Contender& contender) {
-  return excess(contender.held_out) < nothing_left && excess(contender.fitted.residuals) < 2.0 * nothing_left;
+  const double nothing = thresholds.near.nothing_left;
+  return excess(contender.held_out) < nothing && excess(contender.fitted.residuals) < 2.0 * nothing;
 }
 
 bool as_good(const Case& c, const Contender& chosen, const Contender& rival) {

@@ -48,8 +48,6 @@ inline constexpr std::size_t most_substitutes = 3;
 inline constexpr double chance = 6.0;
 /// A difference of costs that scatter does not make.
 inline constexpr double clear = 12.0;
-/// Held-out mean square above the floor at which there is nothing left to find.
-inline constexpr double nothing_left = 0.04;
 
 /// Fits a model to the training runs. `known`, `thorough` as in FitSettings.
 Contender contend(const Case& c, Model model, const KnownSlopes* known = nullptr, bool thorough = false);
