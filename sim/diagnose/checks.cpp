@@ -1,4 +1,4 @@
-// Checks of measured data; see the header. Thresholds are in counts of the encoder.
+// Checks of measured data; see the header.
 #include <algorithm>
 #include <cmath>
 
@@ -7,8 +7,10 @@
 #include <sim/diagnose/checks.hpp>
 #include <sim/diagnose/labels.hpp>
 #include <sim/diagnose/repair.hpp>
+#include <sim/diagnose/thresholds.hpp>
 #include <sim/run/batch.hpp>
 #include <sim/run/sanity.hpp>
+#include <sim/run/sanity_thresholds.hpp>
 #include <sim/run/series.hpp>
 #include <sim/run/simulate.hpp>
 
@@ -19,20 +21,17 @@ using run::Line;
 using run::range;
 using Series = std::vector<double>;
 
-/// To choose on some and judge on others.
-constexpr std::size_t least_runs = 3;
-/// What gauges cannot resolve anyway.
-constexpr double gauge_step_Pa = 2e3;
+constexpr const CheckThresholds& of_check = thresholds.check;
 
 /// Rows from `begin` to before `end`.
 struct Stretch {
   std::size_t begin, end;
 };
 
-/// By how much the model's movement changes from one tick to the next at most, within 0.3 s of each row: what
+/// By how much the model's movement changes from one tick to the next at most, nearby: what
 /// a load can do there, also if a hidden effect makes it come early or late.
 Series sharpest_nearby(const Series& model, double tick_s) {
-  const auto reach = static_cast<std::size_t>(std::lround(0.3 / tick_s));
+  const auto reach = static_cast<std::size_t>(std::lround(of_check.sharp_reach_s / tick_s));
   Series sharpest(model.size(), 0.0);
   for (std::size_t k = 1; k + 1 < model.size(); ++k) {
     const double bend = std::abs(model[k + 1] - 2.0 * model[k] + model[k - 1]);
@@ -44,27 +43,27 @@ Series sharpest_nearby(const Series& model, double tick_s) {
 }
 
 /// Readings that leave the line through their neighbours with a jump and come back to it with another, within
-/// five ticks. At the ends of a run it must stand still: there one jump is all that is seen.
+/// a few ticks. At the ends of a run it must stand still: there one jump is all that is seen.
 std::vector<Stretch> spikes(Series values, const Series& sharpest, double count) {
-  constexpr std::size_t widest = 5;
   std::vector<Stretch> found;
   const std::size_t rows = values.size();
   for (std::size_t begin = 0; begin < rows && rows > 3; ++begin) {
-    for (std::size_t end = begin + 1; end <= std::min(rows, begin + widest); ++end) {
+    for (std::size_t end = begin + 1; end <= std::min(rows, begin + of_check.spike_ticks); ++end) {
       const bool first = begin == 0, last = end == rows;
       if ((first || last) && end - begin > 1) break;
       // Beyond the ends of the run the movement is taken to go on.
       const double before = first ? 3.0 * values[1] - 2.0 * values[2] : values[begin - 1];
       const double after = last ? 3.0 * values[rows - 2] - 2.0 * values[rows - 3] : values[end];
       const auto width = static_cast<double>(end - begin);
-      const double limit = 5.0 * count + sharpest[begin] * (width + 1.0);
+      const double limit = of_check.spike_counts * count + sharpest[begin] * (width + 1.0);
       const double slope = (after - before) / (width + 1.0);
       const double there = values[begin] - before - slope, back = after - values[end - 1] - slope;
       const double least = std::min(std::abs(there), std::abs(back));
-      if ((first || last) && std::abs(slope) > 2.0 * count) continue;
-      if (least < limit || there * back >= 0.0 || std::abs(there + back) > 0.5 * least) continue;
+      if ((first || last) && std::abs(slope) > of_check.end_counts * count) continue;
+      if (least < limit || there * back >= 0.0 || std::abs(there + back) > of_check.spike_balance * least)
+        continue;
       const bool inside = begin > 1 && end + 1 < rows;
-      const double alike = 3.0 * count + 2.0 * sharpest[begin];
+      const double alike = of_check.beside_counts * count + of_check.beside_bends * sharpest[begin];
       if (inside && (std::abs(values[begin - 1] - values[begin - 2] - slope) > alike ||
                      std::abs(values[end + 1] - values[end] - slope) > alike))
         continue;
@@ -84,12 +83,14 @@ std::optional<std::size_t> lost_counts(const Series& values, const Series& sharp
   for (std::size_t k = 1; k < values.size(); ++k) steps.push_back(std::abs(values[k] - values[k - 1]));
   const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
   std::nth_element(steps.begin(), middle, steps.end());
-  const double noise = 8.0 * *middle;
+  const double noise = of_check.lost_steps * *middle;
   for (std::size_t k = 2; k + 1 < values.size(); ++k) {
     if (masked[k - 2] || masked[k - 1] || masked[k] || masked[k + 1]) continue;
     const double before = values[k - 1] - values[k - 2], after = values[k + 1] - values[k];
     const double jump = std::abs(values[k] - values[k - 1] - 0.5 * (before + after));
-    if (jump > noise + 20.0 * count + 4.0 * sharpest[k] && std::abs(after - before) < 0.25 * jump) return k;
+    if (jump > noise + of_check.lost_counts * count + of_check.lost_bends * sharpest[k] &&
+        std::abs(after - before) < of_check.lost_change * jump)
+      return k;
   }
   return std::nullopt;
 }
@@ -104,8 +105,8 @@ struct Still : Stretch {
 /// or catch up with a jump, or miss a great deal. A load that comes to rest by itself is held by a valve that
 /// is stuck; readings cut off on their way up and down, at the highest of the run, by the end of their range.
 std::vector<Still> stills(const Series& values, const Series& model, double count, double tick_s) {
-  const auto shortest = static_cast<std::size_t>(std::lround(0.5 / tick_s));
-  constexpr std::size_t nearby = 5;
+  const auto shortest = static_cast<std::size_t>(std::lround(of_check.still_s / tick_s));
+  const std::size_t nearby = of_check.cut_off_ticks;
   const double highest = *std::max_element(values.begin(), values.end());
   std::vector<Still> found;
   for (std::size_t begin = 0, end; begin < values.size(); begin = end) {
@@ -113,22 +114,26 @@ std::vector<Still> stills(const Series& values, const Series& model, double coun
     while (end < values.size() && values[end] == values[begin]) ++end;
     if (end - begin < shortest) continue;
     // Resting on the stop is no fault, and what leaves it is quick, but not as quick as that.
-    const bool catches_up = end < values.size() && std::abs(values[end] - values[begin]) > 60.0 * count;
-    if (values[begin] < 3.0 * count && !catches_up) continue;
+    const bool catches_up =
+        end < values.size() && std::abs(values[end] - values[begin]) > of_check.off_zero_counts * count;
+    if (values[begin] < of_check.at_zero_counts * count && !catches_up) continue;
     const double missed = range({model.data() + begin, end - begin});
     const bool inside = begin >= nearby && end + nearby <= values.size();
     const auto moves = [&](std::size_t from, std::size_t to) {
-      return std::abs(values[from] - values[to]) > static_cast<double>(nearby) * count;
+      return std::abs(values[from] - values[to]) >
+             of_check.cut_off_speed * static_cast<double>(nearby) * count;
     };
     const bool cut_off = values[begin] == highest && inside && moves(begin - nearby, begin) &&
                          moves(end - 1, end + nearby - 1);
-    const bool stops_dead = begin > 0 && std::abs(values[begin] - values[begin - 1]) > 10.0 * count;
-    const bool jumps = end < values.size() && std::abs(values[end] - values[begin]) > 6.0 * count;
-    if (cut_off && !jumps && missed > 80.0 * count)
+    const bool stops_dead =
+        begin > 0 && std::abs(values[begin] - values[begin - 1]) > of_check.stops_dead_counts * count;
+    const bool jumps =
+        end < values.size() && std::abs(values[end] - values[begin]) > of_check.catches_up_counts * count;
+    if (cut_off && !jumps && missed > of_check.saturated_counts * count)
       found.push_back({{begin + 1, end}, Still::Why::saturated});
-    else if (missed > 100.0 * count && (stops_dead || jumps))
+    else if (missed > of_check.frozen_counts * count && (stops_dead || jumps))
       found.push_back({{begin + 1, end}, Still::Why::frozen});
-    else if (missed > 200.0 * count)
+    else if (missed > of_check.stuck_counts * count)
       found.push_back({{begin + 1, end}, Still::Why::stuck});
   }
   return found;
@@ -196,6 +201,10 @@ class Checker {
     return runs;
   }
 
+  static bool too_many(std::size_t contradicted, std::size_t runs) {
+    return static_cast<double>(contradicted) > of_check.most_contradicted * static_cast<double>(runs);
+  }
+
   // Columns and loads that are not what they are called end it; labels that were exchanged cost their runs.
   void insane() {
     std::vector<run::Expected> expected;
@@ -206,13 +215,13 @@ class Checker {
     for (const run::Finding& finding : findings) {
       const std::string text = run::text_of(data_, finding);
       // More runs are weighed one against the others later, exactly.
-      if (finding.exchanged.empty() && data_.runs.size() >= least_labels) continue;
+      if (finding.exchanged.empty() && data_.runs.size() >= thresholds.label.least_runs) continue;
       for (const std::size_t i : finding.runs) left_out_[i] = true;
       for (const run::SeemingLoad& one : finding.exchanged)
         find(one.run, "load", "left out",
              fmt::format("was left out: it has the label of another load and moves like {:.6g} kg",
                          one.load_kg));
-      if (3 * finding.runs.size() > data_.runs.size() || usable().size() < least_runs)
+      if (too_many(finding.runs.size(), data_.runs.size()) || usable().size() < of_check.least_runs)
         doubts_.cannot_tell = text + ".";
       else
         doubts_.warnings.push_back(text + "; left out");
@@ -223,9 +232,9 @@ class Checker {
     const auto& shown = data_.runs[i].muscle_pressure_Pa;
     if (!shown) return;
     const bool constant = range(*shown) == 0.0;
-    const bool should_move = range(model_[i].pressure_Pa) > 0.3 * plant::Pa_per_bar;
-    if (!constant && (!should_move || Line(*shown, model_[i].pressure_Pa).slope > 0.1)) {
-      mask_spikes(i, "muscle_pressure_bar", *shown, model_[i].pressure_Pa, gauge_step_Pa);
+    const bool should_move = range(model_[i].pressure_Pa) > of_check.gauge_bar * plant::Pa_per_bar;
+    if (!constant && (!should_move || Line(*shown, model_[i].pressure_Pa).slope > of_check.gauge_slope)) {
+      mask_spikes(i, "muscle_pressure_bar", *shown, model_[i].pressure_Pa, of_check.gauge_step_Pa);
       return;
     }
     doubts_.dead_gauges.push_back(i);
@@ -256,14 +265,15 @@ class Checker {
   bool moves(std::size_t i) {
     const input::Run& run = data_.runs[i];
     const double largest_mA = *std::max_element(run.current_mA.begin(), run.current_mA.end());
-    const double dead_mA = data_.rig.valve.zero_current_mA +
-                           1e-3 * (data_.rig.valve.span_current_mA - data_.rig.valve.zero_current_mA);
+    const double dead_mA =
+        data_.rig.valve.zero_current_mA +
+        of_check.dead_current * (data_.rig.valve.span_current_mA - data_.rig.valve.zero_current_mA);
     const double should_m = range(model_[i].contraction_ratio) * data_.rig.muscle.rest_length_m;
     if (largest_mA <= dead_mA)
       leave_out(i, fmt::format("the current stays at or below {:.4g} mA and moves nothing", largest_mA));
-    else if (range(run.contraction_ratio) > 1.5 * count_)
+    else if (range(run.contraction_ratio) > of_check.moving_counts * count_)
       return true;
-    else if (range(model_[i].contraction_ratio) > 20.0 * count_)
+    else if (range(model_[i].contraction_ratio) > of_check.should_move_counts * count_)
       leave_out(i, fmt::format("the reading never changes, though the load should move by {:.3g} mm (is the "
                                "encoder connected, the load held?)",
                                1e3 * should_m));
@@ -285,7 +295,7 @@ class Checker {
       leave_out(i,
                 fmt::format("contraction_ratio jumps by {:.3g} at {:.3f} s and stays there: counts were lost",
                             values[*row] - values[*row - 1], time_s(*row)));
-    else if (static_cast<double>(lost) > 0.3 * static_cast<double>(masked.size()))
+    else if (static_cast<double>(lost) > of_check.most_masked * static_cast<double>(masked.size()))
       leave_out(i, "too little of it is left");
   }
 
@@ -323,13 +333,12 @@ class Checker {
   void labels() {
     if (doubts_.cannot_tell) return;
     const Runs runs = usable();
-    if (runs.size() >= least_runs && runs.size() < least_labels)
+    if (runs.size() >= of_check.least_runs && runs.size() < thresholds.label.least_runs)
       doubts_.warnings.push_back(fmt::format(
           "{} usable runs: their loads are in order, but too few to weigh each against the others",
           runs.size()));
     const auto [wrong, common_ratio] = check_labels(data_, doubts_.masked, runs, threads_);
-    constexpr double pound_kg = 0.45359237;
-    if (std::abs(common_ratio / pound_kg - 1.0) < 0.06) {
+    if (std::abs(common_ratio / run::pound_kg - 1.0) < thresholds.label.pounds) {
       input::Problem problem;
       problem.file = data_.path.string();
       problem.message =
@@ -345,7 +354,7 @@ class Checker {
                   fmt::format("the load is labelled {:.6g} kg, but everything else says about {:.1f} kg",
                               data_.runs[label.run].load_kg, label.load_kg));
     }
-    if (3 * wrong.size() > runs.size())
+    if (too_many(wrong.size(), runs.size()))
       doubts_.cannot_tell =
           "too many runs contradict the others about their load: weigh the loads again, or give the rig's "
           "parameters more exactly.";
@@ -354,7 +363,7 @@ class Checker {
   void enough() {
     if (doubts_.cannot_tell) return;
     const Runs runs = usable();
-    if (runs.size() < least_runs) {
+    if (runs.size() < of_check.least_runs) {
       doubts_.cannot_tell = fmt::format(
           "{} usable run{}: too few to choose on some and judge on others; at least four runs would help, "
           "with two loads and two kinds of current.",
@@ -363,7 +372,7 @@ class Checker {
     }
     const double first_kg = data_.runs[runs.front()].load_kg;
     if (std::all_of(runs.begin(), runs.end(), [&](std::size_t i) {
-          return std::abs(data_.runs[i].load_kg - first_kg) < 0.01 * first_kg;
+          return std::abs(data_.runs[i].load_kg - first_kg) < of_check.same_load * first_kg;
         }))
       doubts_.warnings.push_back(
           fmt::format("all runs have the same load, {:.6g} kg: what grows with the load cannot be told from "

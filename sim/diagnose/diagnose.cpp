@@ -19,17 +19,12 @@
 #include <sim/diagnose/run_gaps.hpp>
 #include <sim/diagnose/start.hpp>
 #include <sim/diagnose/story.hpp>
+#include <sim/diagnose/thresholds.hpp>
 #include <sim/diagnose/where.hpp>
 #include <sim/run/warnings.hpp>
 
 namespace mckibben::diagnose {
 namespace {
-
-/// The rate of false alarms that the thresholds are set for; docs/diagnosis.md has what was measured.
-constexpr double false_alarm_rate = 0.03;
-
-/// How often data are mended and looked at again.
-constexpr int most_repairs = 2;
 
 input::Dataset without_gauges(input::Dataset data, const Runs& dead) {
   for (const std::size_t run : dead) data.runs[run].muscle_pressure_Pa.reset();
@@ -58,8 +53,9 @@ class Workflow {
         usable_(all_but(doubts_.left_out, data.runs.size())),
         experiment_(data_, doubts_.masked, settings.threads, usable_),
         nominal_(data.rig),
-        case_{
-            experiment_, nominal_, {}, first_temperature, [this](const std::string& what) { learn(what); }} {}
+        case_{experiment_, nominal_, {}, thresholds.scatter.first_inflation, [this](const std::string& what) {
+                learn(what);
+              }} {}
 
   bool gauged() const { return experiment_.floor().pressure_Pa > 0.0; }
 
@@ -105,7 +101,7 @@ class Workflow {
     result_.seed = settings_.seed;
     result_.warnings = run::grouped(doubts_.warnings);
     result_.faults = doubts_.findings;
-    result_.false_alarm_rate = false_alarm_rate;
+    result_.false_alarm_rate = thresholds.decide.false_alarm_rate;
     result_.corrected = data_.rig;
     evidence_.usable = !doubts_.cannot_tell;
     evidence_.common_fault = std::any_of(doubts_.findings.begin(), doubts_.findings.end(),
@@ -248,7 +244,9 @@ class Workflow {
     tell_parameters(result_, whole.model, bounds, recalibrated_.fitted.model.rig);
     static_cast<plant::Rig&>(result_.corrected) = whole.model.rig;
     for (const Moved& moved : result_.recalibrated)
-      if (std::abs(moved.deviations) > 0.999 * most_deviations && !moved.fitted.name.starts_with("effects."))
+      if (std::abs(moved.deviations) >
+              thresholds.parameter.at_the_edge * thresholds.parameter.most_deviations &&
+          !moved.fitted.name.starts_with("effects."))
         warn(
             fmt::format("{} stands at the edge of what its data sheet allows, {:+.0f} deviations: measure "
                         "it, or something that acts like it is missing",
@@ -319,7 +317,7 @@ std::pair<Diagnosis, bool> mended(input::Dataset data, const Settings& settings,
   Doubts doubts = check(data, settings.threads);
   for (int repairs = 0;; ++repairs) {
     Workflow workflow(data, doubts, settings, step);
-    Diagnosis result = workflow(repairs < most_repairs);
+    Diagnosis result = workflow(repairs < thresholds.fault.most_repairs);
     if (workflow.faults().empty()) return {std::move(result), workflow.gauged()};
     mend(data, doubts, workflow.faults());
   }

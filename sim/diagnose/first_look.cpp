@@ -19,7 +19,7 @@ std::pair<std::ptrdiff_t, std::size_t> shortfall(const std::vector<Fault>& fault
 
 /// Whether a model that is fitted to all runs as they are takes each of them near the floor.
 bool explains_all(const Case& c, const Model& model, const Runs& usable) {
-  const auto fitted = fit(c.experiment, model, usable, {.temperature = first_temperature});
+  const auto fitted = fit(c.experiment, model, usable, {.temperature = thresholds.scatter.first_inflation});
   if (!fitted.failure.empty()) return false;
   const auto parts = c.experiment.parts(usable);
   return std::all_of(parts.begin(), parts.end(), [&](const auto& part) {
@@ -70,7 +70,8 @@ std::vector<Fault> first_look(const Case& c, const Doubts& doubts, const Model& 
     if (std::none_of(faults.begin(), faults.end(), [&](const Fault& fault) { return fault.run == run; }))
       others.push_back(run);
   if (others.empty()) return faults;
-  const auto fitted = fit(c.experiment, described, others, {.temperature = first_temperature});
+  const auto fitted =
+      fit(c.experiment, described, others, {.temperature = thresholds.scatter.first_inflation});
   if (!fitted.failure.empty()) return faults;
   const auto again = examine(c.experiment, fitted.model, usable, catalogue()).faults;
   return !again.empty() && explains_more(faults, again) ? faults : again;

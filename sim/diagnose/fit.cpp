@@ -7,17 +7,11 @@
 #include <glog/logging.h>
 
 #include <sim/diagnose/fit.hpp>
+#include <sim/diagnose/thresholds.hpp>
 #include <sim/engine/failure.hpp>
 
 namespace mckibben::diagnose {
 namespace {
-
-constexpr int most_rounds = 5, most_thorough = 20, iterations_a_round = 8;
-/// A round of less descent is the last. In units of the cost, where 1 is what a parameter costs that is moved
-/// by its deviation; the more misfit, the coarser, since what is missing moves parameters further than that.
-constexpr double least_descent = 0.01;
-/// Sum of squares of a slope [floors per scale], below which it is rounding.
-constexpr double least_influence = 1e-12;
 
 class Misfit final : public ceres::CostFunction {
  public:
@@ -126,7 +120,7 @@ void refuse_without_influence(Fitted& fitted) {
   for (std::size_t j = 0; j < fitted.model.free.size(); ++j) {
     Parameter& p = fitted.model.free[j];
     const auto column = static_cast<Eigen::Index>(j);
-    if (fitted.columns.col(column).squaredNorm() < least_influence) {
+    if (fitted.columns.col(column).squaredNorm() < thresholds.fit.least_influence) {
       fitted.model.refused.push_back(p.path);
     } else {
       kept.push_back(column);
@@ -152,11 +146,13 @@ std::string descend(Misfit& misfit, Model& model, bool thorough) {
   }
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::DENSE_QR;
-  options.max_num_iterations = iterations_a_round;
+  options.max_num_iterations = thresholds.fit.iterations;
   // Steps are projected onto the bounds; a line search along them would need all slopes at each trial.
   options.max_num_line_search_step_size_iterations = 0;
-  options.function_tolerance = thorough ? 1e-7 : 1e-4;
-  options.parameter_tolerance = thorough ? 1e-7 : 1e-5;
+  options.function_tolerance =
+      thorough ? thresholds.fit.thorough_cost_tolerance : thresholds.fit.cost_tolerance;
+  options.parameter_tolerance =
+      thorough ? thresholds.fit.thorough_parameter_tolerance : thresholds.fit.parameter_tolerance;
   options.logging_type = ceres::SILENT;
   options.num_threads = 1;                 // the simulations have their own
   FLAGS_minloglevel = google::GLOG_FATAL;  // a refused step is no news
@@ -202,15 +198,15 @@ Fitted fit(const Experiment& experiment, Model start, const Runs& runs, const Fi
     if (!look(none)) return result;
     refuse_without_influence(result);
   }
-  const int rounds = rough ? 1 : settings.thorough ? most_thorough : most_rounds;
-  const double coarseness = settings.thorough ? 0.0 : 0.01;
+  const int rounds = rough ? 1 : settings.thorough ? thresholds.fit.thorough_rounds : thresholds.fit.rounds;
+  const double coarseness = settings.thorough ? 0.0 : thresholds.fit.coarseness;
   for (int round = 0; round < rounds && !result.model.free.empty(); ++round) {
     const KnownSlopes known = rough ? *settings.known : slopes_of_nominal(result);
     const double before = result.cost;
     Misfit misfit(experiment, result.model, runs, settings.temperature, known);
     result.failure = descend(misfit, result.model, settings.thorough);
     if (!result.failure.empty() || !look(rough ? known : none)) return result;
-    if (before - result.cost < least_descent * (1.0 + coarseness * result.cost)) break;
+    if (before - result.cost < thresholds.fit.least_descent * (1.0 + coarseness * result.cost)) break;
   }
   return result;
 }

@@ -7,11 +7,12 @@
 
 #include <plant/instruments.hpp>
 #include <sim/diagnose/interval.hpp>
+#include <sim/diagnose/thresholds.hpp>
 
 namespace mckibben::diagnose {
 namespace {
 
-constexpr int draws = 100;
+constexpr int draws = thresholds.interval.draws;
 
 /// Errors of the scaled parameters that counting and its jitter alone make, times their transpose, on
 /// average. A load at rest has one error for as long as it rests, and the same in every run that rests there;
@@ -31,7 +32,7 @@ Eigen::MatrixXd counting_errors(const Experiment& experiment, const Fitted& fitt
     moved += counts * counts * (columns * spread).cwiseProduct(columns).sum();
     rows += static_cast<double>(part.rows);
   }
-  const double wider = std::max(1.0, std::sqrt(rows / std::max(moved, 1e-12)));
+  const double wider = std::max(1.0, std::sqrt(rows / std::max(moved, thresholds.interval.still)));
   const Eigen::MatrixXd root = wider * Eigen::MatrixXd(spread.llt().matrixL());
   std::mt19937_64 random(1);
   std::normal_distribution<double> normal;
@@ -63,7 +64,8 @@ std::vector<Bounds> intervals(const Experiment& experiment, const Fitted& fitted
                               double temperature) {
   const auto& free = fitted.model.free;
   const auto count = static_cast<Eigen::Index>(free.size());
-  const Eigen::Index segment = std::max<Eigen::Index>(1, std::lround(1.5 / experiment.data().rig.tick_s));
+  const Eigen::Index segment =
+      std::max<Eigen::Index>(1, std::lround(thresholds.scatter.segment_s / experiment.data().rig.tick_s));
   Eigen::MatrixXd priors = Eigen::MatrixXd::Zero(count, count);
   for (Eigen::Index j = 0; j < count; ++j)
     if (free[static_cast<std::size_t>(j)].has_prior) priors(j, j) = 1.0;
@@ -93,7 +95,8 @@ std::vector<Bounds> intervals(const Experiment& experiment, const Fitted& fitted
   for (Eigen::Index j = 0; j < count; ++j) {
     const Parameter& p = free[static_cast<std::size_t>(j)];
     const double value = value_of(fitted.model.rig, p.path);
-    const double half = 1.96 * few * std::sqrt(std::max({robust(j, j), inverse(j, j), counted(j, j)}));
+    const double half =
+        thresholds.interval.normal * few * std::sqrt(std::max({robust(j, j), inverse(j, j), counted(j, j)}));
     const double at = p.scaled(value);
     const double ends[] = {p.unscaled(at - half), p.unscaled(at + half)};
     const double low = std::min(ends[0], ends[1]), high = std::max(ends[0], ends[1]);

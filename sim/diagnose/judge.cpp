@@ -4,12 +4,13 @@
 #include <map>
 
 #include <sim/diagnose/judge.hpp>
+#include <sim/diagnose/thresholds.hpp>
 
 namespace mckibben::diagnose {
 namespace {
 
 Eigen::Index segment_rows(const Experiment& experiment) {
-  return std::max<Eigen::Index>(1, std::lround(segment_s / experiment.data().rig.tick_s));
+  return std::max<Eigen::Index>(1, std::lround(thresholds.scatter.segment_s / experiment.data().rig.tick_s));
 }
 
 }  // namespace
@@ -17,8 +18,12 @@ Eigen::Index segment_rows(const Experiment& experiment) {
 Split split(const input::Dataset& data, const Runs& usable) {
   std::map<double, Runs> by_load;
   for (const std::size_t run : usable) by_load[data.runs[run].load_kg].push_back(run);
+  const HeldOutThresholds& by = thresholds.held_out;
   Split result;
-  if (by_load.size() >= 3) {
+  const auto share = [&](std::size_t runs) {
+    return static_cast<double>(runs) / static_cast<double>(usable.size());
+  };
+  if (by_load.size() >= by.least_loads) {
     // The loads nearest the middle of the range of loads, those with fewest runs first.
     std::vector<Runs> inner;
     for (auto it = std::next(by_load.begin()); it != std::prev(by_load.end()); ++it)
@@ -26,14 +31,14 @@ Split split(const input::Dataset& data, const Runs& usable) {
     std::stable_sort(inner.begin(), inner.end(),
                      [](const Runs& a, const Runs& b) { return a.size() < b.size(); });
     for (const Runs& runs : inner) {
-      if (!result.held_out.empty() && 5 * (result.held_out.size() + runs.size()) > 2 * usable.size())
-        continue;
-      if (3 * result.held_out.size() >= usable.size()) break;
+      if (!result.held_out.empty() && share(result.held_out.size() + runs.size()) > by.most) continue;
+      if (share(result.held_out.size()) >= by.enough) break;
       result.held_out.insert(result.held_out.end(), runs.begin(), runs.end());
     }
   }
-  if (result.held_out.empty() || 2 * result.held_out.size() > usable.size()) {
-    result.held_out.assign(usable.end() - static_cast<std::ptrdiff_t>(usable.size() / 3), usable.end());
+  if (result.held_out.empty() || share(result.held_out.size()) > by.most_of_all) {
+    const double last = by.last * static_cast<double>(usable.size());
+    result.held_out.assign(usable.end() - static_cast<std::ptrdiff_t>(last), usable.end());
   }
   std::sort(result.held_out.begin(), result.held_out.end());
   for (const std::size_t run : usable)
@@ -88,7 +93,7 @@ Improvement compare(const Experiment& experiment, const Eigen::VectorXd& before,
   for (const double gain : gains) scatter += (gain - total / n) * (gain - total / n);
   const double deviation = std::sqrt(scatter * n / std::max(1.0, n - 1.0));
   result.gained = total / static_cast<double>(std::max<Eigen::Index>(before.size(), 1));
-  result.share = result.gained / std::max(excess(before), 0.05);
+  result.share = result.gained / std::max(excess(before), thresholds.improvement.least_gap);
   result.significance = deviation > 0.0 ? total / deviation : 0.0;
   return result;
 }

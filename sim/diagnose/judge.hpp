@@ -16,18 +16,12 @@ struct Split {
 /// out.
 Split split(const input::Dataset& data, const Runs& usable);
 
-/// Variance of the residuals over long times (Bartlett's window, 1.5 s), at least 1: by this factor the data
+/// Variance of the residuals over long times (Bartlett's window), at least 1: by this factor the data
 /// say less than as much white noise would.
 double temperature(const Experiment& experiment, const Eigen::VectorXd& residuals, const Runs& runs);
 
-/// What is assumed of it until a model has been fitted: priors count against it.
-inline constexpr double first_temperature = 20.0;
-
 /// Mean square of residuals above that of the floor.
 double excess(const Eigen::VectorXd& residuals);
-
-/// Residuals are judged by segments of this length, which scatter by themselves.
-inline constexpr double segment_s = 1.5;
 
 /// How much better `after` is than `before`, on the same runs.
 struct Improvement {

@@ -16,14 +16,7 @@ namespace {
 
 using plant::Basis;
 
-constexpr std::size_t most_terms = 3;
-/// Waves whose lengths differ by less [logarithm] are one proposal.
-constexpr double same_wave = 0.15;
-/// Proposals that are fitted, of each base.
-constexpr std::size_t most_fits = 4;
-/// Forces for slopes: next to nothing, and of a size that matters, because a muscle that swings answers a
-/// small change in another way than a large one.
-constexpr double probes_N[] = {0.01, 5.0, -5.0, 40.0, -40.0}, wave_probes_N[] = {0.01, 3.0};
+constexpr const LawThresholds& of_law = thresholds.law;
 
 plant::ForceTerm wave(double probe_N, double wavelength_m, double phase_rad) {
   return {.of = Basis::sine, .coefficient_N = probe_N, .wavelength_m = wavelength_m, .phase_rad = phase_rad};
@@ -33,7 +26,8 @@ plant::ForceTerm wave(double probe_N, double wavelength_m, double phase_rad) {
 std::vector<double> wavelengths_m(const plant::Rig& rig) {
   const double rise_m = plant::Braid(rig.muscle).largest_contraction_ratio() * rig.muscle.rest_length_m;
   std::vector<double> list;
-  for (double periods = 1.0; periods <= 20.0; periods += 0.5) list.push_back(rise_m / periods);
+  for (double periods = of_law.first_periods; periods <= of_law.last_periods; periods += of_law.step_periods)
+    list.push_back(rise_m / periods);
   return list;
 }
 
@@ -47,11 +41,11 @@ std::vector<Proposal> propose(const Case& c, const Fitted& fitted) {
   std::vector<plant::ForceTerm> probes;
   for (const auto& [basis, name] : names(Basis{})) {
     if (basis == Basis::sine || basis == Basis::constant) continue;
-    for (const double probe_N : probes_N) probes.push_back({.of = basis, .coefficient_N = probe_N});
+    for (const double probe_N : of_law.probes_N) probes.push_back({.of = basis, .coefficient_N = probe_N});
   }
   const std::size_t plain = probes.size();
   for (const double wavelength : wavelengths_m(c.nominal)) {
-    for (const double probe_N : wave_probes_N) {
+    for (const double probe_N : of_law.wave_probes_N) {
       probes.push_back(wave(probe_N, wavelength, 0.0));
       probes.push_back(wave(probe_N, wavelength, std::numbers::pi / 2.0));
     }
@@ -74,7 +68,7 @@ std::vector<Proposal> propose(const Case& c, const Fitted& fitted) {
   for (std::size_t i = 0; i < plain; ++i) {
     const Eigen::VectorXd slope = column(i);
     const double along = slope.dot(residuals), length = slope.squaredNorm();
-    if (length < 1e-12) continue;
+    if (length < of_law.no_slope) continue;
     list.push_back({along * along / length, probes[i]});
     list.back().term.coefficient_N = along / length;
   }
@@ -91,14 +85,14 @@ std::vector<Proposal> propose(const Case& c, const Fitted& fitted) {
   std::stable_sort(list.begin(), list.end(),
                    [](const Proposal& a, const Proposal& b) { return a.drop > b.drop; });
   const auto same_kind = [](const plant::ForceTerm& a, const plant::ForceTerm& b) {
-    return a.of == b.of && std::abs(std::log(a.wavelength_m / b.wavelength_m)) < same_wave;
+    return a.of == b.of && std::abs(std::log(a.wavelength_m / b.wavelength_m)) < of_law.same_wave;
   };
   std::vector<Proposal> best;
   for (const Proposal& proposal : list) {
     const bool known = std::any_of(best.begin(), best.end(), [&](const Proposal& other) {
       return same_kind(other.term, proposal.term);
     });
-    if (!known && best.size() < most_fits) best.push_back(proposal);
+    if (!known && best.size() < of_law.most_fits) best.push_back(proposal);
   }
   return best;
 }
@@ -109,19 +103,22 @@ Model with_term(const Model& model, const plant::ForceTerm& term) {
   auto& terms = bigger.rig.effects.get<plant::ResidualForce>().terms;
   const std::string path = fmt::format("effects.residual_law.terms.{}.", terms.size());
   terms.push_back(term);
-  bigger.free.push_back(
-      {.path = path + "coefficient", .scale = 1.0, .step = 0.01, .lowest = -1e3, .highest = 1e3});
+  bigger.free.push_back({.path = path + "coefficient",
+                         .scale = 1.0,
+                         .step = of_law.step_N,
+                         .lowest = -of_law.most_N,
+                         .highest = of_law.most_N});
   if (term.of == Basis::sine) {
     bigger.free.push_back({.path = path + "wavelength",
-                           .step = 1e-3,
-                           .lowest = 0.7 * term.wavelength_m,
-                           .highest = 1.4 * term.wavelength_m,
+                           .step = of_law.wave_step,
+                           .lowest = of_law.shorter * term.wavelength_m,
+                           .highest = of_law.longer * term.wavelength_m,
                            .logarithmic = true});
     bigger.free.push_back({.path = path + "phase",
                            .scale = 1.0,
-                           .step = 1e-3,
-                           .lowest = -7.0,
-                           .highest = 7.0,
+                           .step = of_law.wave_step,
+                           .lowest = -of_law.most_phase,
+                           .highest = of_law.most_phase,
                            .period = 2.0 * std::numbers::pi});
   }
   return bigger;
@@ -191,7 +188,7 @@ Law find_law(const Case& c, const std::vector<const Contender*>& bases, const Ei
              const Step& step) {
   Law law{.contender = *bases.front()};
   Eigen::VectorXd before = reference;
-  for (std::size_t round = 0; round < most_terms; ++round) {
+  for (std::size_t round = 0; round < of_law.most_terms; ++round) {
     step(fmt::format("looking for a law, term {}", round + 1));
     std::optional<Contender> next;
     const auto extend = [&](const Contender& base) {

@@ -8,21 +8,12 @@
 #include <sim/diagnose/naming.hpp>
 #include <sim/diagnose/ranking.hpp>
 #include <sim/diagnose/revise.hpp>
+#include <sim/diagnose/thresholds.hpp>
 
 namespace mckibben::diagnose {
 namespace {
 
-constexpr std::size_t most_effects = 3, most_refits = 7, most_firsts = 3;
-/// Candidates that change the readings so alike are refitted whatever their score.
-constexpr double likeness_refitted = 0.7;
-/// Scores below this share of the best are not worth a refit.
-constexpr double least_score = 0.05;
-/// Noncentrality at which a test at 5 % has a power of 90 % (chi-square, one degree of freedom).
-constexpr double visible = 10.5;
-
-/// Held-out mean square above the floor at which two effects at once are looked for, and the share of it that
-/// they must close.
-constexpr double worth_a_pair = 4.0, most_of_it = 0.6;
+constexpr const NameThresholds& to_name = thresholds.name;
 
 /// Refits of a round: the best of each screening and those like them, roughly first, then in full those that
 /// promise. Once one meets the data, only those like it are tried.
@@ -34,9 +25,10 @@ std::vector<Trial> refit(const Case& c, const std::vector<Screening>& screenings
     const bool known = std::any_of(trials.begin(), trials.end(), [&](const Trial& t) {
       return t.score.candidate.amplitude == score.candidate.amplitude;
     });
-    if (known || trials.size() == most_refits || score.drop < chance) return false;
-    if (solved != nullptr) return likeness(score, *solved) > 0.5 * likeness_refitted;
-    return score.drop > least_score * front.drop || likeness(score, front) > likeness_refitted;
+    if (known || trials.size() == to_name.most_refits || score.drop < thresholds.near.chance) return false;
+    if (solved != nullptr) return likeness(score, *solved) > to_name.likeness_solved;
+    return score.drop > to_name.least_score * front.drop ||
+           likeness(score, front) > to_name.likeness_refitted;
   };
   for (std::size_t place = 0; place < screenings.front().scores.size(); ++place) {
     for (const auto& [base, scores] : screenings) {
@@ -55,11 +47,12 @@ std::vector<Trial> refit(const Case& c, const std::vector<Screening>& screenings
     return a.contender.fitted.cost < b.contender.fitted.cost;
   };
   std::stable_sort(trials.begin(), trials.end(), by_cost);
-  for (std::size_t i = 0; i < std::min<std::size_t>(trials.size(), 3); ++i) {
+  for (std::size_t i = 0; i < std::min<std::size_t>(trials.size(), to_name.most_polished); ++i) {
     // A rival that the rough fit leaves far behind, or that does not help at all, is not polished.
     const auto rough = compare(c.experiment, reference, trials[i].contender.held_out, c.split.held_out);
-    const bool close = trials[i].contender.fitted.cost < 3.0 * trials[0].contender.fitted.cost + 50.0;
-    const bool helps = rough.share > 0.02 || excess(reference) < thresholds.near.nothing_left;
+    const bool close = trials[i].contender.fitted.cost <
+                       to_name.close_factor * trials[0].contender.fitted.cost + to_name.close_cost;
+    const bool helps = rough.share > to_name.helps || excess(reference) < thresholds.near.nothing_left;
     if (trials[i].place > 0 && close && helps) polish(c, trials[i], step);
   }
   std::stable_sort(trials.begin(), trials.end(), by_cost);
@@ -72,13 +65,13 @@ std::vector<Trial> refit(const Case& c, const std::vector<Screening>& screenings
 /// which it closes most of the gap.
 std::optional<std::array<Trial, 2>> pair_of(const Case& c, const std::vector<Trial>& trials,
                                             const Eigen::VectorXd& before, const Step& step) {
-  for (std::size_t i = 0; i < std::min(trials.size(), most_firsts); ++i) {
+  for (std::size_t i = 0; i < std::min(trials.size(), to_name.most_firsts); ++i) {
     const Trial& first = trials[i];
     if (!has_size(first.contender.fitted.model, first.score.candidate)) continue;
     const Screening screening = screen_at(c, first.contender);
-    for (std::size_t place = 0; place < most_substitutes; ++place) {
+    for (std::size_t place = 0; place < to_name.most_substitutes; ++place) {
       const Score& score = screening.scores[place];
-      if (score.drop < chance) break;
+      if (score.drop < thresholds.near.chance) break;
       step(fmt::format("trying {} with {}", title(first.score.candidate), title(score.candidate)));
       Trial second = rough(c, first.contender, score, place);
       if (!second.contender.fitted.failure.empty()) continue;
@@ -86,14 +79,14 @@ std::optional<std::array<Trial, 2>> pair_of(const Case& c, const std::vector<Tri
         second.gain = compare(c.experiment, before, second.contender.held_out, c.split.held_out);
         return second.gain.share;
       };
-      if (closes() < 0.5 * most_of_it) continue;
+      if (closes() < to_name.rough_pair_share) continue;
       polish(c, second, step);
       closes();
       const auto beyond =
           compare(c.experiment, first.contender.held_out, second.contender.held_out, c.split.held_out);
       if (has_size(second.contender.fitted.model, score.candidate) &&
-          has_size(second.contender.fitted.model, first.score.candidate) && second.gain.share > most_of_it &&
-          convinces(second.gain) && convinces(beyond))
+          has_size(second.contender.fitted.model, first.score.candidate) &&
+          second.gain.share > to_name.pair_share && convinces(second.gain) && convinces(beyond))
         return std::array{first, second};
     }
   }
@@ -118,7 +111,7 @@ std::vector<std::string> invisible(const Case& c, const std::vector<Score>& scor
     const Candidate& candidate = score.candidate;
     if (carries(c.nominal, candidate.effect)) continue;
     const double drop = score.column.squaredNorm() * candidate.typical * candidate.typical;
-    if (drop < visible) names.push_back(title(candidate));
+    if (drop < thresholds.screen.visible) names.push_back(title(candidate));
   }
   return names;
 }
@@ -130,7 +123,7 @@ Naming name_effects(const Case& c, const Contender& nominal, const Contender& re
   Naming result;
   result.best = recalibrated;
   Eigen::VectorXd before = reference;
-  for (int round = 1; round <= static_cast<int>(most_effects); ++round) {
+  for (int round = 1; round <= static_cast<int>(to_name.most_effects); ++round) {
     step("screening");
     // At the rig as described first: the recalibrated one may have bent far to imitate what is missing.
     std::vector<Screening> screenings;
@@ -139,7 +132,7 @@ Naming name_effects(const Case& c, const Contender& nominal, const Contender& re
     const auto& scores = screenings.front().scores;
     if (round == 1) {
       result.invisible = invisible(c, screenings.back().scores);
-      const std::size_t shown = std::min<std::size_t>(8, scores.size());
+      const std::size_t shown = std::min(to_name.shown_alike, scores.size());
       for (std::size_t i = 0; i < shown; ++i) {
         result.confusion_names.push_back(title(scores[i].candidate));
         auto& row = result.confusion.emplace_back();
@@ -147,16 +140,18 @@ Naming name_effects(const Case& c, const Contender& nominal, const Contender& re
       }
     }
     const bool something_left = excess(before) > thresholds.near.nothing_left;
-    const bool strained =
-        screenings.back().scores.front().drop > 15.0;  // priors strained, although the data are met
+    const bool strained = screenings.back().scores.front().drop >
+                          to_name.strained;  // priors strained, although the data are met
     std::vector<Trial> trials;
     if (something_left || strained) trials = refit(c, screenings, before, step);
     const Trial* chosen = nullptr;
     for (const Trial& trial : trials) {
       if (!has_size(trial.contender.fitted.model, trial.score.candidate)) continue;
       const double fall = result.best.fitted.cost - trial.contender.fitted.cost;
-      const bool relieves = !something_left && trial.gain.gained > -0.01 && fall > clear;
-      const bool worthwhile = fall > chance && trial.gain.gained > least_of_all * excess(reference);
+      const bool relieves =
+          !something_left && trial.gain.gained > -to_name.relief_loss && fall > thresholds.near.clear;
+      const bool worthwhile =
+          fall > thresholds.near.chance && trial.gain.gained > to_name.least_of_all * excess(reference);
       if ((convinces(trial.gain) && worthwhile) || relieves) {
         chosen = &trial;
         break;
@@ -164,7 +159,7 @@ Naming name_effects(const Case& c, const Contender& nominal, const Contender& re
     }
     const auto judged = ranked(c, round, screenings, trials, chosen, result.best);
     result.ranking.insert(result.ranking.end(), judged.begin(), judged.end());
-    if (chosen == nullptr && result.effects.empty() && excess(before) > worth_a_pair) {
+    if (chosen == nullptr && result.effects.empty() && excess(before) > to_name.worth_a_pair) {
       if (auto both = pair_of(c, trials, before, step)) {
         const double fall = result.best.fitted.cost - both->back().contender.fitted.cost;
         for (const Trial& one : *both) {

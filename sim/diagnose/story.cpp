@@ -8,6 +8,7 @@
 #include <fmt/ranges.h>
 
 #include <sim/diagnose/story.hpp>
+#include <sim/diagnose/thresholds.hpp>
 
 namespace mckibben::diagnose {
 namespace {
@@ -16,7 +17,7 @@ constexpr std::string_view law_terms = "effects.residual_law.terms.";
 
 std::string words(const plant::ForceTerm& term) {
   if (term.of == plant::Basis::sine) {
-    const bool shifted = std::abs(term.phase_rad) >= 0.005;
+    const bool shifted = std::abs(term.phase_rad) >= thresholds.law.told_phase;
     return fmt::format(
         "sin(2 pi x / {:.3f} mm{})", 1e3 * term.wavelength_m,
         shifted ? fmt::format(" {} {:.2f} rad", term.phase_rad < 0.0 ? "-" : "+", std::abs(term.phase_rad))

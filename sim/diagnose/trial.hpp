@@ -42,13 +42,6 @@ struct Screening {
   std::vector<Score> scores;
 };
 
-/// Candidates of a screening that are tried where the best alone will not do.
-inline constexpr std::size_t most_substitutes = 3;
-/// Falls of the misfit below this, expected or come true, are chance.
-inline constexpr double chance = 6.0;
-/// A difference of costs that scatter does not make.
-inline constexpr double clear = 12.0;
-
 /// Fits a model to the training runs. `known`, `thorough` as in FitSettings.
 Contender contend(const Case& c, Model model, const KnownSlopes* known = nullptr, bool thorough = false);
 

@@ -112,7 +112,7 @@ std::string title_of(const diagnose::Diagnosis& diagnosis) {
 std::string what_next(const diagnose::Diagnosis& diagnosis) {
   using enum diagnose::Verdict;
   const double floors = diagnosis.gap.floors_left();
-  if (floors > diagnose::explained_floors)
+  if (floors > diagnose::thresholds.start.explained_floors)
     return fmt::format(
         "{:.1f} noise floors are left on the runs held out, so there is something to explain yet. Measure "
         "one "

@@ -9,12 +9,10 @@
 #include <sim/run/load_sanity.hpp>
 #include <sim/run/replay.hpp>
 #include <sim/run/sanity.hpp>
+#include <sim/run/sanity_thresholds.hpp>
 
 namespace mckibben::run {
 namespace {
-
-/// So much is simulated in a few seconds: the thesis's campaign.
-constexpr std::size_t most_rows = 200'000, most_rows_of_a_run = 20'000;
 
 using input::Node;
 
@@ -61,6 +59,7 @@ std::vector<Expected> expected_of(const std::vector<ReplayedRun>& replayed) {
 }
 
 Look look(const input::Dataset& data) {
+  const auto& [most_rows, most_rows_of_a_run] = sanity_thresholds.look;
   std::size_t rows = 0;
   for (const input::Run& run : data.runs) rows += std::min(run.current_mA.size(), most_rows_of_a_run);
   const std::size_t step = rows / most_rows + 1;

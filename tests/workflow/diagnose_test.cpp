@@ -140,7 +140,8 @@ TEST(Diagnose, AccusesNoRunThatAnEffectExplainsWithTheOthers) {
   for (const input::Run& run : data.runs) doubts.masked.emplace_back(run.contraction_ratio.size());
   const Experiment experiment(data, doubts.masked, 0, runs);
   const plant::Rig& rig = data.rig;
-  const Case c{experiment, rig, split(data, runs), first_temperature, [](const std::string&) {}};
+  const Case c{experiment, rig, split(data, runs), thresholds.scatter.first_inflation,
+               [](const std::string&) {}};
   EXPECT_TRUE(first_look(c, doubts, {rig, nominal_parameters(rig)}, runs, c.learned).empty());
 }
 
