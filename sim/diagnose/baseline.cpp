@@ -30,7 +30,7 @@ Contender replay(const Case& c) {
   auto slopes = c.experiment.slopes(c.nominal, fitted.model.free, c.split.training);
   fitted.residuals = std::move(slopes.residuals);
   fitted.columns = std::move(slopes.columns);
-  fitted.cost = fitted.residuals.squaredNorm() / c.temperature;
+  fitted.cost = fitted.residuals.squaredNorm() / c.inflation;
   return nominal;
 }
 
@@ -48,7 +48,7 @@ Recalibrated recalibrate(Case& c, const Contender& nominal) {
   if (!best.fitted.failure.empty()) result = {nominal, best.fitted.failure};
   const auto& residuals = best.fitted.residuals;
   if (excess(residuals) + 1.0 > thresholds.near.mean_square()) return result;
-  c.temperature = temperature(c.experiment, residuals, c.split.training);
+  c.inflation = variance_inflation(c.experiment, residuals, c.split.training);
   auto again = contend(c, best.fitted.model);
   if (again.fitted.failure.empty()) best = std::move(again);
   return result;

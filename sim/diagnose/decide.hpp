@@ -6,7 +6,7 @@
 #include <vector>
 
 #include <sim/diagnose/diagnosis.hpp>
-#include <sim/diagnose/judge.hpp>
+#include <sim/diagnose/held_out.hpp>
 #include <sim/diagnose/thresholds.hpp>
 
 namespace mckibben::diagnose {

@@ -5,14 +5,14 @@
 #include <fmt/format.h>
 
 #include <sim/diagnose/baseline.hpp>
-#include <sim/diagnose/checks.hpp>
+#include <sim/diagnose/check.hpp>
 #include <sim/diagnose/decide.hpp>
 #include <sim/diagnose/diagnose.hpp>
 #include <sim/diagnose/faults.hpp>
 #include <sim/diagnose/first_look.hpp>
 #include <sim/diagnose/interval.hpp>
 #include <sim/diagnose/law.hpp>
-#include <sim/diagnose/naming.hpp>
+#include <sim/diagnose/name.hpp>
 #include <sim/diagnose/plan.hpp>
 #include <sim/diagnose/ranking.hpp>
 #include <sim/diagnose/repair.hpp>
@@ -45,13 +45,13 @@ double motion_left(const Gap& gap) {
 
 class Workflow {
  public:
-  Workflow(const input::Dataset& data, const Doubts& doubts, const Settings& settings, const Step& step)
+  Workflow(const input::Dataset& data, const Checked& checked, const Settings& settings, const Step& step)
       : settings_(settings),
         step_(step),
-        doubts_(doubts),
-        data_(without_gauges(data, doubts_.dead_gauges)),
-        usable_(all_but(doubts_.left_out, data.runs.size())),
-        experiment_(data_, doubts_.masked, settings.threads, usable_),
+        checked_(checked),
+        data_(without_gauges(data, checked_.dead_gauges)),
+        usable_(all_but(checked_.left_out, data.runs.size())),
+        experiment_(data_, checked_.masked, settings.threads, usable_),
         nominal_(data.rig),
         case_{experiment_, nominal_, {}, thresholds.scatter.first_inflation, [this](const std::string& what) {
                 learn(what);
@@ -64,10 +64,10 @@ class Workflow {
 
   Diagnosis operator()(bool look) {
     tell_check();
-    if (doubts_.cannot_tell) return unusable();
+    if (checked_.cannot_tell) return unusable();
     case_.split = split(data_, usable_);
     replay_as_described();
-    if (look) faults_ = first_look(case_, doubts_, nominal_fit_.fitted.model, usable_, step_);
+    if (look) faults_ = first_look(case_, checked_, nominal_fit_.fitted.model, usable_, step_);
     if (!faults_.empty()) return std::move(result_);
     fit_numbers();
     map_where();
@@ -99,12 +99,12 @@ class Workflow {
 
   void tell_check() {
     result_.seed = settings_.seed;
-    result_.warnings = run::grouped(doubts_.warnings);
-    result_.faults = doubts_.findings;
+    result_.warnings = run::grouped(checked_.warnings);
+    result_.faults = checked_.findings;
     result_.false_alarm_rate = thresholds.decide.false_alarm_rate;
     result_.corrected = data_.rig;
-    evidence_.usable = !doubts_.cannot_tell;
-    evidence_.common_fault = std::any_of(doubts_.findings.begin(), doubts_.findings.end(),
+    evidence_.usable = !checked_.cannot_tell;
+    evidence_.common_fault = std::any_of(checked_.findings.begin(), checked_.findings.end(),
                                          [](const Finding& finding) { return finding.common; });
     const NoiseFloor& floor = experiment_.floor();
     if (floor.repeats >= floor.ratio)
@@ -123,7 +123,7 @@ class Workflow {
 
   Diagnosis unusable() {
     result_.verdict = decide(evidence_, thresholds).verdict;
-    result_.because = faults_in_words(result_) + *doubts_.cannot_tell;
+    result_.because = faults_in_words(result_) + *checked_.cannot_tell;
     return std::move(result_);
   }
 
@@ -232,15 +232,15 @@ class Workflow {
   void fit_all_runs(const Fitted& chosen) {
     step_("fitting all runs");
     chosen_rig_ = chosen.model.rig;
-    chosen_scatter_ = temperature(experiment_, chosen.residuals, case_.split.training);
-    auto whole = fit(experiment_, chosen.model, usable_, {.temperature = chosen_scatter_, .thorough = true});
+    chosen_inflation_ = variance_inflation(experiment_, chosen.residuals, case_.split.training);
+    auto whole = fit(experiment_, chosen.model, usable_, {.inflation = chosen_inflation_, .thorough = true});
     const bool failed = !whole.failure.empty();
     if (failed) {
       warn("the fit to all runs failed, the numbers are those of the training runs: " + whole.failure);
       whole = chosen;
     }
     const auto bounds =
-        intervals(experiment_, whole, failed ? case_.split.training : usable_, chosen_scatter_);
+        intervals(experiment_, whole, failed ? case_.split.training : usable_, chosen_inflation_);
     tell_parameters(result_, whole.model, bounds, recalibrated_.fitted.model.rig);
     static_cast<plant::Rig&>(result_.corrected) = whole.model.rig;
     for (const Moved& moved : result_.recalibrated)
@@ -281,7 +281,7 @@ class Workflow {
       step_("planning");
       result_.next_experiment =
           plan(experiment_, doubt.with_effect, doubt.with_rival, {doubt.effect, doubt.rival},
-               result_.gap.corrected_rmse, 1.0 / chosen_scatter_);
+               result_.gap.corrected_rmse, 1.0 / chosen_inflation_);
       if (result_.next_experiment) return;
     }
   }
@@ -294,7 +294,7 @@ class Workflow {
 
   Settings settings_;
   const Step& step_;
-  Doubts doubts_;
+  Checked checked_;
   input::Dataset data_;
   Runs usable_;
   Experiment experiment_;
@@ -305,8 +305,8 @@ class Workflow {
   Naming naming_;
   Law law_;
   Evidence evidence_;
-  plant::Rig chosen_rig_;        ///< fitted to the training runs
-  double chosen_scatter_ = 1.0;  ///< of its residuals over long times
+  plant::Rig chosen_rig_;          ///< fitted to the training runs
+  double chosen_inflation_ = 1.0;  ///< of its residuals over long times
   std::vector<Fault> faults_;
   Diagnosis result_;
 };
@@ -314,12 +314,12 @@ class Workflow {
 /// The workflow, again each time that faults of the recording have been mended.
 std::pair<Diagnosis, bool> mended(input::Dataset data, const Settings& settings, const Step& step) {
   step("checking");
-  Doubts doubts = check(data, settings.threads);
+  Checked checked = check(data, settings.threads);
   for (int repairs = 0;; ++repairs) {
-    Workflow workflow(data, doubts, settings, step);
+    Workflow workflow(data, checked, settings, step);
     Diagnosis result = workflow(repairs < thresholds.fault.most_repairs);
     if (workflow.faults().empty()) return {std::move(result), workflow.gauged()};
-    mend(data, doubts, workflow.faults());
+    mend(data, checked, workflow.faults());
   }
 }
 

@@ -1,14 +1,17 @@
 // The whole workflow, in running order:
 //
-//   check      which data can be trusted; faults of recordings are mended   checks, labels, first_look,
-//   repair baseline   the rig as described, then with its numbers fitted           baseline where      the
-//   map of what remains                                      where name       effects of the catalogue that
-//   runs held out ask for          naming, trial, revise, ranking law        a force law for what they leave
-//   law decide     the verdict                                                  decide plan       the numbers
-//   of the rig that is handed over, the measurement that would tell more   story, plan
+//   check      which data can be trusted                check, odd_readings, labels
+//              faults of recordings, found and mended   first_look, faults, suspicions, shapes, repair
+//   baseline   the rig as described, then recalibrated  baseline
+//   where      the map of what remains                  where
+//   name       effects that runs held out ask for       name, trial, revise, ranking
+//   law        a law of force for what they leave       law
+//   decide     the verdict                              decide
+//   plan       the measurement that would tell more     plan
 //
-// All of it stands on a few tools: runs against a rig (experiment), fits (fit, interval), slopes (screen).
-// Every number that decides is in thresholds.hpp.
+// and then tells what was found (story, start, run_gaps). All of it stands on a few tools: runs against a rig
+// (experiment, predict, noise, parameter), fits (fit, interval), slopes (screen, regression), runs held out
+// (held_out). Every number that decides is in thresholds.hpp.
 #pragma once
 
 #include <cstdint>

@@ -31,7 +31,7 @@ constexpr auto names(Verdict) {
 }
 
 /// A fitted number with its 95 % interval.
-struct Estimate {
+struct FittedNumber {
   std::string name;  ///< key in the effect's part of a rig file, or path in the rig
   std::string unit;
   double value = 0.0, low = 0.0, high = 0.0;
@@ -46,12 +46,12 @@ inline std::string full_name(const std::string& name, const std::string& variant
 struct NamedEffect {
   std::string name, variant;
   std::vector<std::string> confusable_with{};  ///< effects that explain these data as well
-  std::vector<Estimate> parameters{};
+  std::vector<FittedNumber> parameters{};
 };
 
 /// A nominal parameter after calibration.
 struct Moved {
-  Estimate fitted;
+  FittedNumber fitted;
   double nominal = 0.0;
   double deviations = 0.0;  ///< of its prior
 
@@ -63,8 +63,8 @@ struct Moved {
 
 struct LawTerm {
   std::string term;
-  Estimate coefficient;
-  std::vector<Estimate> shape{};  ///< wavelength and phase of a wave
+  FittedNumber coefficient;
+  std::vector<FittedNumber> shape{};  ///< wavelength and phase of a wave
 };
 
 /// One cell of the map of disagreement.

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include <sim/diagnose/faults.hpp>
-#include <sim/diagnose/judge.hpp>
+#include <sim/diagnose/held_out.hpp>
 #include <sim/diagnose/regression.hpp>
 #include <sim/diagnose/shapes.hpp>
 #include <sim/diagnose/thresholds.hpp>

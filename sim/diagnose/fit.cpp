@@ -15,9 +15,9 @@ namespace {
 
 class Misfit final : public ceres::CostFunction {
  public:
-  Misfit(const Experiment& experiment, const Model& model, const Runs& runs, double temperature,
+  Misfit(const Experiment& experiment, const Model& model, const Runs& runs, double inflation,
          const KnownSlopes& known)
-      : experiment_(experiment), model_(model), runs_(runs), temperature_(temperature), known_(known) {
+      : experiment_(experiment), model_(model), runs_(runs), inflation_(inflation), known_(known) {
     for (const std::size_t run : runs) rows_ += static_cast<Eigen::Index>(experiment.rows(run));
     for (const Parameter& p : model.free) priors_ += p.has_prior ? 1 : 0;
     set_num_residuals(static_cast<int>(rows_ + priors_));
@@ -51,7 +51,7 @@ class Misfit final : public ceres::CostFunction {
 
   bool Evaluate(double const* const* values, double* residuals, double** jacobians) const override {
     if (thrown_) return false;
-    const double weight = 1.0 / std::sqrt(temperature_);
+    const double weight = 1.0 / std::sqrt(inflation_);
     const bool wanted = jacobians != nullptr && jacobians[0] != nullptr;
     try {
       const plant::Rig rig = rig_at(values[0]);
@@ -96,16 +96,16 @@ class Misfit final : public ceres::CostFunction {
   const Experiment& experiment_;
   const Model& model_;
   const Runs& runs_;
-  double temperature_;
+  double inflation_;
   const KnownSlopes& known_;
   Eigen::Index rows_ = 0, priors_ = 0;
   std::vector<Parameter> fresh_;
   mutable std::exception_ptr thrown_;
 };
 
-/// Residuals and priors: sum of squares / temperature + deviations^2.
-double cost_of(const Fitted& fitted, double temperature) {
-  double cost = fitted.residuals.squaredNorm() / temperature;
+/// Residuals and priors: sum of squares / inflation + deviations^2.
+double cost_of(const Fitted& fitted, double inflation) {
+  double cost = fitted.residuals.squaredNorm() / inflation;
   for (const Parameter& p : fitted.model.free) {
     const double deviations = p.has_prior ? p.scaled(value_of(fitted.model.rig, p.path)) : 0.0;
     cost += deviations * deviations;
@@ -183,10 +183,10 @@ Fitted fit(const Experiment& experiment, Model start, const Runs& runs, const Fi
   // Whether the rig can be simulated, a little changed too.
   const auto look = [&](const KnownSlopes& known) {
     try {
-      auto at = Misfit(experiment, result.model, runs, settings.temperature, known).slopes(result.model.rig);
+      auto at = Misfit(experiment, result.model, runs, settings.inflation, known).slopes(result.model.rig);
       result.residuals = std::move(at.residuals);
       result.columns = std::move(at.columns);
-      result.cost = cost_of(result, settings.temperature);
+      result.cost = cost_of(result, settings.inflation);
     } catch (const engine::NumericalFailure& failure) {
       result.failure = failure.what();
     }
@@ -203,7 +203,7 @@ Fitted fit(const Experiment& experiment, Model start, const Runs& runs, const Fi
   for (int round = 0; round < rounds && !result.model.free.empty(); ++round) {
     const KnownSlopes known = rough ? *settings.known : slopes_of_nominal(result);
     const double before = result.cost;
-    Misfit misfit(experiment, result.model, runs, settings.temperature, known);
+    Misfit misfit(experiment, result.model, runs, settings.inflation, known);
     result.failure = descend(misfit, result.model, settings.thorough);
     if (!result.failure.empty() || !look(rough ? known : none)) return result;
     if (before - result.cost < thresholds.fit.least_descent * (1.0 + coarseness * result.cost)) break;

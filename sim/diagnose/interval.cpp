@@ -61,7 +61,7 @@ Eigen::MatrixXd counting_errors(const Experiment& experiment, const Fitted& fitt
 }  // namespace
 
 std::vector<Bounds> intervals(const Experiment& experiment, const Fitted& fitted, const Runs& runs,
-                              double temperature) {
+                              double inflation) {
   const auto& free = fitted.model.free;
   const auto count = static_cast<Eigen::Index>(free.size());
   const Eigen::Index segment =
@@ -69,7 +69,7 @@ std::vector<Bounds> intervals(const Experiment& experiment, const Fitted& fitted
   Eigen::MatrixXd priors = Eigen::MatrixXd::Zero(count, count);
   for (Eigen::Index j = 0; j < count; ++j)
     if (free[static_cast<std::size_t>(j)].has_prior) priors(j, j) = 1.0;
-  const Eigen::MatrixXd information = fitted.columns.transpose() * fitted.columns / temperature + priors;
+  const Eigen::MatrixXd information = fitted.columns.transpose() * fitted.columns / inflation + priors;
   Eigen::MatrixXd scatter = priors;
   Eigen::Index begin = 0, segments = 0;
   for (const std::size_t run : runs) {
@@ -77,7 +77,7 @@ std::vector<Bounds> intervals(const Experiment& experiment, const Fitted& fitted
     for (Eigen::Index at = 0; at < rows; at += segment, ++segments) {
       const Eigen::Index length = std::min(segment, rows - at);
       const Eigen::VectorXd score = fitted.columns.middleRows(begin + at, length).transpose() *
-                                    fitted.residuals.segment(begin + at, length) / temperature;
+                                    fitted.residuals.segment(begin + at, length) / inflation;
       scatter += score * score.transpose();
     }
     begin += rows;
@@ -86,7 +86,7 @@ std::vector<Bounds> intervals(const Experiment& experiment, const Fitted& fitted
   const Eigen::MatrixXd robust = inverse * scatter * inverse;
   const Eigen::MatrixXd counted =
       inverse * priors * inverse + counting_errors(experiment, fitted, runs,
-                                                   inverse * fitted.columns.transpose() / temperature,
+                                                   inverse * fitted.columns.transpose() / inflation,
                                                    robust + inverse);
   // Few clusters make the sandwich too optimistic: the widest of the three, and a little for their number.
   const double few =

@@ -7,6 +7,7 @@
 #include <sim/diagnose/labels.hpp>
 #include <sim/diagnose/shapes.hpp>
 #include <sim/diagnose/thresholds.hpp>
+#include <sim/run/series.hpp>
 
 namespace mckibben::diagnose {
 namespace {
@@ -16,13 +17,6 @@ using Series = std::vector<double>;  // a value for each run of the data set
 /// An offset that no parameter in error makes.
 double sure_of_kg(double load_kg) {
   return thresholds.label.sure_kg + thresholds.label.sure_share * load_kg;
-}
-
-double median(Series values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  if (values.size() % 2 == 1) return *middle;
-  return 0.5 * (*middle + *std::max_element(values.begin(), middle));
 }
 
 class Scales {
@@ -39,7 +33,7 @@ class Scales {
   double common_ratio(const Runs& runs) const {
     Series ratios;
     for (const std::size_t run : runs) ratios.push_back(loads_kg_[run] / data_.runs[run].load_kg);
-    return median(std::move(ratios));
+    return run::median(std::move(ratios));
   }
 
  private:
@@ -130,7 +124,7 @@ std::optional<WrongLabel> Scales::worst(const Runs& runs) const {
     Series values;
     for (const std::size_t other : runs)
       if (other != run) values.push_back(value(other));
-    return median(std::move(values));
+    return run::median(std::move(values));
   };
   // How far each run's offset is from that of the others, and its load with theirs.
   Series away_kg(data_.runs.size(), 0.0), usual_kg = away_kg, doubt = away_kg;

@@ -36,51 +36,68 @@ struct Proposal {
   plant::ForceTerm term{};
 };
 
-/// The terms that promise most, next to what is free already: one of each kind, best first.
-std::vector<Proposal> propose(const Case& c, const Fitted& fitted) {
-  std::vector<plant::ForceTerm> probes;
+/// Terms of which slopes are taken: plain ones, then for each wave its sine and its cosine.
+struct Probes {
+  std::vector<plant::ForceTerm> terms{};
+  std::size_t plain = 0;
+};
+
+Probes probes_of(const plant::Rig& rig) {
+  Probes probes;
   for (const auto& [basis, name] : names(Basis{})) {
     if (basis == Basis::sine || basis == Basis::constant) continue;
-    for (const double probe_N : of_law.probes_N) probes.push_back({.of = basis, .coefficient_N = probe_N});
+    for (const double probe_N : of_law.probes_N)
+      probes.terms.push_back({.of = basis, .coefficient_N = probe_N});
   }
-  const std::size_t plain = probes.size();
-  for (const double wavelength : wavelengths_m(c.nominal)) {
+  probes.plain = probes.terms.size();
+  for (const double wavelength : wavelengths_m(rig)) {
     for (const double probe_N : of_law.wave_probes_N) {
-      probes.push_back(wave(probe_N, wavelength, 0.0));
-      probes.push_back(wave(probe_N, wavelength, std::numbers::pi / 2.0));
+      probes.terms.push_back(wave(probe_N, wavelength, 0.0));
+      probes.terms.push_back(wave(probe_N, wavelength, std::numbers::pi / 2.0));
     }
   }
+  return probes;
+}
+
+/// What each probe promises, next to what is free already.
+std::vector<Proposal> score(const Case& c, const Fitted& fitted, const Probes& probes) {
   std::vector<Experiment::Change> changes;
-  changes.reserve(probes.size());
-  for (const auto& term : probes)
+  changes.reserve(probes.terms.size());
+  for (const auto& term : probes.terms)
     changes.push_back(
         {[term](Hanging& h) { h.rig.effects.get<plant::ResidualForce>().terms.push_back(term); },
          term.coefficient_N, true});
   const auto slopes = c.experiment.slopes(fitted.model.rig, changes, c.split.training);
   // As long as nothing fits, the misfit itself is the scatter.
   const Projector project(
-      fitted, std::max(c.temperature, temperature(c.experiment, fitted.residuals, c.split.training)));
+      fitted, std::max(c.inflation, variance_inflation(c.experiment, fitted.residuals, c.split.training)));
   const Eigen::VectorXd residuals = project(fitted.residuals);
   std::vector<Proposal> list;
   const auto column = [&](std::size_t i) {
     return project(slopes.columns.col(static_cast<Eigen::Index>(i)));
   };
-  for (std::size_t i = 0; i < plain; ++i) {
+  for (std::size_t i = 0; i < probes.plain; ++i) {
     const Eigen::VectorXd slope = column(i);
     const double along = slope.dot(residuals), length = slope.squaredNorm();
     if (length < of_law.no_slope) continue;
-    list.push_back({along * along / length, probes[i]});
+    list.push_back({along * along / length, probes.terms[i]});
     list.back().term.coefficient_N = along / length;
   }
-  for (std::size_t i = plain; i < probes.size(); i += 2) {
+  for (std::size_t i = probes.plain; i < probes.terms.size(); i += 2) {
     Eigen::MatrixXd pair(residuals.size(), 2);
     pair << column(i), column(i + 1);
     const Eigen::Matrix2d normal = pair.transpose() * pair;
     const Eigen::Vector2d along = pair.transpose() * residuals;
     const Eigen::Vector2d size = normal.ldlt().solve(along);
     list.push_back(
-        {size.dot(along), wave(size.norm(), probes[i].wavelength_m, std::atan2(size[1], size[0]))});
+        {size.dot(along), wave(size.norm(), probes.terms[i].wavelength_m, std::atan2(size[1], size[0]))});
   }
+  return list;
+}
+
+/// The terms that promise most: one of each kind, best first.
+std::vector<Proposal> propose(const Case& c, const Fitted& fitted) {
+  std::vector<Proposal> list = score(c, fitted, probes_of(c.nominal));
   std::erase_if(list, [](const Proposal& p) { return !(p.drop > 0.0); });
   std::stable_sort(list.begin(), list.end(),
                    [](const Proposal& a, const Proposal& b) { return a.drop > b.drop; });
@@ -157,8 +174,8 @@ void drop_needless(const Case& c, Law& law, const Step& step) {
 void drop_uncertain(const Case& c, Law& law, const Step& step) {
   for (std::size_t i = 0; i < law.terms;) {
     const Fitted& fitted = law.contender.fitted;
-    const double scatter = temperature(c.experiment, fitted.residuals, c.split.training);
-    const auto bounds = intervals(c.experiment, fitted, c.split.training, scatter);
+    const double inflation = variance_inflation(c.experiment, fitted.residuals, c.split.training);
+    const auto bounds = intervals(c.experiment, fitted, c.split.training, inflation);
     const std::size_t all = fitted.model.rig.effects.get<plant::ResidualForce>().terms.size();
     const std::size_t term = all - law.terms + i;
     const std::string path = fmt::format("effects.residual_law.terms.{}.", term);

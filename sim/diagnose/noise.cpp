@@ -9,6 +9,7 @@
 #include <sim/diagnose/noise.hpp>
 #include <sim/diagnose/predict.hpp>
 #include <sim/diagnose/thresholds.hpp>
+#include <sim/run/series.hpp>
 #include <sim/run/simulate.hpp>
 
 namespace mckibben::diagnose {
@@ -61,9 +62,7 @@ double gauge_noise_Pa(const input::Dataset& data, const Runs& runs) {
     for (std::size_t k = 2; k < p.size(); ++k) second.push_back(std::abs(p[k] - 2.0 * p[k - 1] + p[k - 2]));
     if (second.empty()) continue;
     // The median is blind to the few ticks at which the gas itself turns.
-    std::nth_element(second.begin(), second.begin() + static_cast<std::ptrdiff_t>(second.size() / 2),
-                     second.end());
-    const double deviation = second[second.size() / 2] / assumed.normal_median / std::sqrt(6.0);
+    const double deviation = run::upper_median(std::move(second)) / assumed.normal_median / std::sqrt(6.0);
     squares += deviation * deviation;
     ++count;
   }
@@ -83,9 +82,7 @@ double scatter(const input::Dataset& data, const std::vector<std::vector<bool>>&
         fourth.push_back(std::abs(e[k] - 4.0 * e[k - 1] + 6.0 * e[k - 2] - 4.0 * e[k - 3] + e[k - 4]));
   }
   if (fourth.empty()) return 0.0;
-  const auto middle = fourth.begin() + static_cast<std::ptrdiff_t>(fourth.size() / 2);
-  std::nth_element(fourth.begin(), middle, fourth.end());
-  return *middle / assumed.normal_median / std::sqrt(70.0);
+  return run::upper_median(std::move(fourth)) / assumed.normal_median / std::sqrt(70.0);
 }
 
 /// Scatter of the contraction ratio between runs of the same current and load; 0 if there are none.

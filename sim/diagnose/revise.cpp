@@ -77,8 +77,8 @@ void revise(const Case& c, Naming& result, const Eigen::VectorXd& reference, con
 void drop_uncertain(const Case& c, Naming& result, const Step& step) {
   for (std::size_t i = 0; i < result.effects.size();) {
     const Fitted& fitted = result.best.fitted;
-    const double scatter = temperature(c.experiment, fitted.residuals, c.split.training);
-    const auto bounds = intervals(c.experiment, fitted, c.split.training, scatter);
+    const double inflation = variance_inflation(c.experiment, fitted.residuals, c.split.training);
+    const auto bounds = intervals(c.experiment, fitted, c.split.training, inflation);
     const Candidate& candidate = fitted.model.effects[i];
     bool certain = false;
     for (std::size_t j = 0; j < bounds.size(); ++j) {

@@ -2,7 +2,7 @@
 // have no certain size, and which matters most.
 #pragma once
 
-#include <sim/diagnose/naming.hpp>
+#include <sim/diagnose/name.hpp>
 
 namespace mckibben::diagnose {
 

@@ -8,8 +8,8 @@
 #include <sim/diagnose/thresholds.hpp>
 
 namespace mckibben::diagnose {
-Projector::Projector(const Fitted& fitted, double temperature)
-    : rows_(fitted.residuals.size()), weight_(1.0 / std::sqrt(temperature)) {
+Projector::Projector(const Fitted& fitted, double inflation)
+    : rows_(fitted.residuals.size()), weight_(1.0 / std::sqrt(inflation)) {
   const auto& free = fitted.model.free;
   std::vector<Eigen::Index> kept;
   for (std::size_t j = 0; j < free.size(); ++j) {
@@ -36,7 +36,7 @@ Eigen::VectorXd Projector::operator()(const Eigen::VectorXd& values) const {
 }
 
 std::vector<Score> screen(const Experiment& experiment, const Fitted& fitted,
-                          const std::vector<Candidate>& candidates, const Runs& runs, double temperature) {
+                          const std::vector<Candidate>& candidates, const Runs& runs, double inflation) {
   struct Probe {
     std::size_t candidate;
     double shape;
@@ -60,7 +60,7 @@ std::vector<Score> screen(const Experiment& experiment, const Fitted& fitted,
     }
   }
   const auto slopes = experiment.slopes(fitted.model.rig, changes, runs);
-  const Projector project(fitted, temperature);
+  const Projector project(fitted, inflation);
   const Eigen::VectorXd residuals = project(fitted.residuals);
   std::vector<Score> scores(candidates.size());
   for (std::size_t i = 0; i < candidates.size(); ++i) scores[i].candidate = candidates[i];

@@ -9,7 +9,7 @@
 #include <sim/diagnose/diagnosis.hpp>
 #include <sim/diagnose/fit.hpp>
 #include <sim/diagnose/interval.hpp>
-#include <sim/diagnose/naming.hpp>
+#include <sim/diagnose/name.hpp>
 
 namespace mckibben::diagnose {
 

@@ -39,7 +39,7 @@ Model without(const Model& model, std::size_t effect) {
 Contender contend(const Case& c, Model model, const KnownSlopes* known, bool thorough) {
   Contender contender;
   contender.fitted = fit(c.experiment, std::move(model), c.split.training,
-                         {.temperature = c.temperature, .thorough = thorough, .known = known});
+                         {.inflation = c.inflation, .thorough = thorough, .known = known});
   if (!contender.fitted.failure.empty()) return contender;
   try {
     contender.held_out = c.experiment.residuals(contender.fitted.model.rig, c.split.held_out);
@@ -82,7 +82,7 @@ Screening screen_at(const Case& c, const Contender& base) {
   // As long as nothing fits, the misfit itself is the scatter: no nominal parameter is worth believing far
   // from its data sheet for the sake of details.
   const double scatter =
-      std::max(c.temperature, temperature(c.experiment, base.fitted.residuals, c.split.training));
+      std::max(c.inflation, variance_inflation(c.experiment, base.fitted.residuals, c.split.training));
   return {&base, screen(c.experiment, base.fitted, catalogue(), c.split.training, scatter)};
 }
 

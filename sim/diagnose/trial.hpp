@@ -6,7 +6,7 @@
 #include <vector>
 
 #include <sim/diagnose/fit.hpp>
-#include <sim/diagnose/judge.hpp>
+#include <sim/diagnose/held_out.hpp>
 #include <sim/diagnose/screen.hpp>
 
 namespace mckibben::diagnose {
@@ -19,7 +19,7 @@ struct Case {
   const Experiment& experiment;
   const plant::Rig& nominal;
   Split split;
-  double temperature;
+  double inflation;
   Step learned;  ///< hears what is known so far
 };
 

@@ -9,7 +9,7 @@
 
 #include <fmt/format.h>
 
-#include <sim/diagnose/judge.hpp>
+#include <sim/diagnose/held_out.hpp>
 #include <sim/diagnose/thresholds.hpp>
 #include <sim/diagnose/where.hpp>
 #include <sim/run/batch.hpp>

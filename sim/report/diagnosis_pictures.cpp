@@ -9,7 +9,7 @@
 
 #include <fmt/format.h>
 
-#include <sim/diagnose/trial.hpp>
+#include <sim/diagnose/thresholds.hpp>
 #include <sim/output/axes.hpp>
 #include <sim/output/diagnosis_words.hpp>
 #include <sim/output/svg.hpp>

@@ -20,12 +20,6 @@ using Series = std::vector<double>;
 
 constexpr const LoadThresholds& of_loads = sanity_thresholds.load;
 
-double median(Series values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 struct Weighed {
   std::size_t run;
   double label_kg, seems_kg;
@@ -62,7 +56,7 @@ std::optional<Weighed> weigh(const plant::Braid& braid, std::size_t index, const
   if (plain_kg.size() < of_loads.least_rows) return std::nullopt;
   const bool both = static_cast<double>(compared_kg.size()) >
                     of_loads.compared_share * static_cast<double>(plain_kg.size());
-  return Weighed{index, run.load_kg, median(std::move(both ? compared_kg : plain_kg))};
+  return Weighed{index, run.load_kg, upper_median(std::move(both ? compared_kg : plain_kg))};
 }
 
 std::vector<Weighed> weigh(const input::Dataset& data, const std::vector<Expected>& expected) {
@@ -76,7 +70,7 @@ std::vector<Weighed> weigh(const input::Dataset& data, const std::vector<Expecte
 double common_ratio(const std::vector<Weighed>& list) {
   Series ratios;
   for (const Weighed& one : list) ratios.push_back(one.seems_kg / one.label_kg);
-  return median(std::move(ratios));
+  return upper_median(std::move(ratios));
 }
 
 std::vector<std::size_t> runs_of(const std::vector<Weighed>& list) {

@@ -18,7 +18,7 @@ Split split(const input::Dataset& data, const Runs& usable);
 
 /// Variance of the residuals over long times (Bartlett's window), at least 1: by this factor the data
 /// say less than as much white noise would.
-double temperature(const Experiment& experiment, const Eigen::VectorXd& residuals, const Runs& runs);
+double variance_inflation(const Experiment& experiment, const Eigen::VectorXd& residuals, const Runs& runs);
 
 /// Mean square of residuals above that of the floor.
 double excess(const Eigen::VectorXd& residuals);

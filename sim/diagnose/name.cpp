@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include <sim/diagnose/naming.hpp>
+#include <sim/diagnose/name.hpp>
 #include <sim/diagnose/ranking.hpp>
 #include <sim/diagnose/revise.hpp>
 #include <sim/diagnose/thresholds.hpp>
@@ -116,6 +116,71 @@ std::vector<std::string> invisible(const Case& c, const std::vector<Score>& scor
   return names;
 }
 
+/// At the rig as described first: the recalibrated one may have bent far to imitate what is missing.
+std::vector<Screening> screenings_of(const Case& c, int round, const Contender& nominal,
+                                     const Contender& best) {
+  std::vector<Screening> screenings;
+  if (round == 1) screenings.push_back(screen_at(c, nominal));
+  screenings.push_back(screen_at(c, best));
+  return screenings;
+}
+
+/// What the first look at the catalogue says: what would not show, and what looks alike.
+void tell_first(const Case& c, const std::vector<Screening>& screenings, Naming& result) {
+  const auto& scores = screenings.front().scores;
+  result.invisible = invisible(c, screenings.back().scores);
+  const std::size_t shown = std::min(to_name.shown_alike, scores.size());
+  for (std::size_t i = 0; i < shown; ++i) {
+    result.confusion_names.push_back(title(scores[i].candidate));
+    auto& row = result.confusion.emplace_back();
+    for (std::size_t j = 0; j < shown; ++j) row.push_back(likeness(scores[i], scores[j]));
+  }
+}
+
+/// The best fit of those that convince on the runs held out; with nothing left there, one that relieves
+/// strained priors. Null if there is none.
+const Trial* choose(const std::vector<Trial>& trials, const Contender& best, double left, double whole_gap) {
+  for (const Trial& trial : trials) {
+    if (!has_size(trial.contender.fitted.model, trial.score.candidate)) continue;
+    const double fall = best.fitted.cost - trial.contender.fitted.cost;
+    const bool relieves = left <= thresholds.near.nothing_left && trial.gain.gained > -to_name.relief_loss &&
+                          fall > thresholds.near.clear;
+    const bool worthwhile =
+        fall > thresholds.near.chance && trial.gain.gained > to_name.least_of_all * whole_gap;
+    if ((convinces(trial.gain) && worthwhile) || relieves) return &trial;
+  }
+  return nullptr;
+}
+
+void take_one(const Case& c, Naming& result, const std::vector<Trial>& trials, const Trial& chosen) {
+  NamedEffect named{.name = chosen.score.candidate.effect, .variant = chosen.score.candidate.variant};
+  for (const Trial& rival : trials) {
+    const auto& other = rival.score.candidate.effect;
+    if (other == named.name || !has_size(rival.contender.fitted.model, rival.score.candidate)) continue;
+    if (std::find(named.confusable_with.begin(), named.confusable_with.end(), other) !=
+        named.confusable_with.end())
+      continue;
+    if (!as_good(c, chosen.contender, rival.contender)) continue;
+    named.confusable_with.push_back(other);
+    result.doubts.push_back(
+        {named.name, other, chosen.contender.fitted.model.rig, rival.contender.fitted.model.rig});
+  }
+  result.effects.push_back(std::move(named));
+  result.best = chosen.contender;
+}
+
+void take_both(const Case& c, Naming& result, std::array<Trial, 2> both) {
+  const double fall = result.best.fitted.cost - both.back().contender.fitted.cost;
+  for (const Trial& one : both) {
+    const Candidate& candidate = one.score.candidate;
+    const Trial& other = both.at(&one == &both.front() ? 1 : 0);
+    take(c, result.ranking, candidate, both.back(), fall,
+         fmt::format("with {} it closes most of the gap", title(other.score.candidate)));
+    result.effects.push_back({.name = candidate.effect, .variant = candidate.variant});
+  }
+  result.best = std::move(both.back().contender);
+}
+
 }  // namespace
 
 Naming name_effects(const Case& c, const Contender& nominal, const Contender& recalibrated,
@@ -125,73 +190,25 @@ Naming name_effects(const Case& c, const Contender& nominal, const Contender& re
   Eigen::VectorXd before = reference;
   for (int round = 1; round <= static_cast<int>(to_name.most_effects); ++round) {
     step("screening");
-    // At the rig as described first: the recalibrated one may have bent far to imitate what is missing.
-    std::vector<Screening> screenings;
-    if (round == 1) screenings.push_back(screen_at(c, nominal));
-    screenings.push_back(screen_at(c, result.best));
-    const auto& scores = screenings.front().scores;
-    if (round == 1) {
-      result.invisible = invisible(c, screenings.back().scores);
-      const std::size_t shown = std::min(to_name.shown_alike, scores.size());
-      for (std::size_t i = 0; i < shown; ++i) {
-        result.confusion_names.push_back(title(scores[i].candidate));
-        auto& row = result.confusion.emplace_back();
-        for (std::size_t j = 0; j < shown; ++j) row.push_back(likeness(scores[i], scores[j]));
-      }
-    }
-    const bool something_left = excess(before) > thresholds.near.nothing_left;
-    const bool strained = screenings.back().scores.front().drop >
-                          to_name.strained;  // priors strained, although the data are met
+    const auto screenings = screenings_of(c, round, nominal, result.best);
+    if (round == 1) tell_first(c, screenings, result);
+    const double left = excess(before);
+    // Priors may be strained although the data are met.
+    const bool strained = screenings.back().scores.front().drop > to_name.strained;
     std::vector<Trial> trials;
-    if (something_left || strained) trials = refit(c, screenings, before, step);
-    const Trial* chosen = nullptr;
-    for (const Trial& trial : trials) {
-      if (!has_size(trial.contender.fitted.model, trial.score.candidate)) continue;
-      const double fall = result.best.fitted.cost - trial.contender.fitted.cost;
-      const bool relieves =
-          !something_left && trial.gain.gained > -to_name.relief_loss && fall > thresholds.near.clear;
-      const bool worthwhile =
-          fall > thresholds.near.chance && trial.gain.gained > to_name.least_of_all * excess(reference);
-      if ((convinces(trial.gain) && worthwhile) || relieves) {
-        chosen = &trial;
-        break;
-      }
-    }
+    if (left > thresholds.near.nothing_left || strained) trials = refit(c, screenings, before, step);
+    const Trial* const chosen = choose(trials, result.best, left, excess(reference));
     const auto judged = ranked(c, round, screenings, trials, chosen, result.best);
     result.ranking.insert(result.ranking.end(), judged.begin(), judged.end());
-    if (chosen == nullptr && result.effects.empty() && excess(before) > to_name.worth_a_pair) {
-      if (auto both = pair_of(c, trials, before, step)) {
-        const double fall = result.best.fitted.cost - both->back().contender.fitted.cost;
-        for (const Trial& one : *both) {
-          const Candidate& candidate = one.score.candidate;
-          const bool first = &one == &both->front();
-          take(c, result.ranking, candidate, both->back(), fall,
-               fmt::format("with {} it closes most of the gap",
-                           title(both->at(first ? 1 : 0).score.candidate)));
-          result.effects.push_back({.name = candidate.effect, .variant = candidate.variant});
-        }
-        result.best = std::move(both->back().contender);
-        revise(c, result, reference, step);
-        before = result.best.held_out;
-        continue;
-      }
+    if (chosen != nullptr) {
+      c.learned(fmt::format("taken in round {}: {}", round, title(chosen->score.candidate)));
+      take_one(c, result, trials, *chosen);
+    } else {
+      if (!result.effects.empty() || !(left > to_name.worth_a_pair)) break;
+      auto both = pair_of(c, trials, before, step);
+      if (!both) break;
+      take_both(c, result, std::move(*both));
     }
-    if (chosen == nullptr) break;
-    c.learned(fmt::format("taken in round {}: {}", round, title(chosen->score.candidate)));
-    NamedEffect named{.name = chosen->score.candidate.effect, .variant = chosen->score.candidate.variant};
-    for (const Trial& rival : trials) {
-      const auto& other = rival.score.candidate.effect;
-      if (other == named.name || !has_size(rival.contender.fitted.model, rival.score.candidate)) continue;
-      if (std::find(named.confusable_with.begin(), named.confusable_with.end(), other) !=
-          named.confusable_with.end())
-        continue;
-      if (!as_good(c, chosen->contender, rival.contender)) continue;
-      named.confusable_with.push_back(other);
-      result.doubts.push_back(
-          {named.name, other, chosen->contender.fitted.model.rig, rival.contender.fitted.model.rig});
-    }
-    result.effects.push_back(std::move(named));
-    result.best = chosen->contender;
     revise(c, result, reference, step);
     before = result.best.held_out;
   }

@@ -1,9 +1,9 @@
-// Splits, scatter and comparison; see the header.
+// Splits, variance over long times, comparison; see the header.
 #include <algorithm>
 #include <cmath>
 #include <map>
 
-#include <sim/diagnose/judge.hpp>
+#include <sim/diagnose/held_out.hpp>
 #include <sim/diagnose/thresholds.hpp>
 
 namespace mckibben::diagnose {
@@ -47,7 +47,7 @@ Split split(const input::Dataset& data, const Runs& usable) {
   return result;
 }
 
-double temperature(const Experiment& experiment, const Eigen::VectorXd& residuals, const Runs& runs) {
+double variance_inflation(const Experiment& experiment, const Eigen::VectorXd& residuals, const Runs& runs) {
   const Eigen::Index lags = segment_rows(experiment);
   double sum = 0.0;
   Eigen::Index rows = 0;

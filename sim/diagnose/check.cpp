@@ -4,8 +4,9 @@
 
 #include <fmt/format.h>
 
-#include <sim/diagnose/checks.hpp>
+#include <sim/diagnose/check.hpp>
 #include <sim/diagnose/labels.hpp>
+#include <sim/diagnose/odd_readings.hpp>
 #include <sim/diagnose/repair.hpp>
 #include <sim/diagnose/thresholds.hpp>
 #include <sim/run/batch.hpp>
@@ -19,134 +20,17 @@ namespace {
 
 using run::Line;
 using run::range;
-using Series = std::vector<double>;
 
 constexpr const CheckThresholds& of_check = thresholds.check;
 
-/// Rows from `begin` to before `end`.
-struct Stretch {
-  std::size_t begin, end;
-};
-
-/// By how much the model's movement changes from one tick to the next at most, nearby: what
-/// a load can do there, also if a hidden effect makes it come early or late.
-Series sharpest_nearby(const Series& model, double tick_s) {
-  const auto reach = static_cast<std::size_t>(std::lround(of_check.sharp_reach_s / tick_s));
-  Series sharpest(model.size(), 0.0);
-  for (std::size_t k = 1; k + 1 < model.size(); ++k) {
-    const double bend = std::abs(model[k + 1] - 2.0 * model[k] + model[k - 1]);
-    const std::size_t last = std::min(model.size() - 1, k + reach);
-    for (std::size_t near = k > reach ? k - reach : 0; near <= last; ++near)
-      sharpest[near] = std::max(sharpest[near], bend);
-  }
-  return sharpest;
-}
-
-/// Readings that leave the line through their neighbours with a jump and come back to it with another, within
-/// a few ticks. At the ends of a run it must stand still: there one jump is all that is seen.
-std::vector<Stretch> spikes(Series values, const Series& sharpest, double count) {
-  std::vector<Stretch> found;
-  const std::size_t rows = values.size();
-  for (std::size_t begin = 0; begin < rows && rows > 3; ++begin) {
-    for (std::size_t end = begin + 1; end <= std::min(rows, begin + of_check.spike_ticks); ++end) {
-      const bool first = begin == 0, last = end == rows;
-      if ((first || last) && end - begin > 1) break;
-      // Beyond the ends of the run the movement is taken to go on.
-      const double before = first ? 3.0 * values[1] - 2.0 * values[2] : values[begin - 1];
-      const double after = last ? 3.0 * values[rows - 2] - 2.0 * values[rows - 3] : values[end];
-      const auto width = static_cast<double>(end - begin);
-      const double limit = of_check.spike_counts * count + sharpest[begin] * (width + 1.0);
-      const double slope = (after - before) / (width + 1.0);
-      const double there = values[begin] - before - slope, back = after - values[end - 1] - slope;
-      const double least = std::min(std::abs(there), std::abs(back));
-      if ((first || last) && std::abs(slope) > of_check.end_counts * count) continue;
-      if (least < limit || there * back >= 0.0 || std::abs(there + back) > of_check.spike_balance * least)
-        continue;
-      const bool inside = begin > 1 && end + 1 < rows;
-      const double alike = of_check.beside_counts * count + of_check.beside_bends * sharpest[begin];
-      if (inside && (std::abs(values[begin - 1] - values[begin - 2] - slope) > alike ||
-                     std::abs(values[end + 1] - values[end] - slope) > alike))
-        continue;
-      found.push_back({begin, end});
-      for (std::size_t k = begin; k < end; ++k)  // must not make its neighbours look wrong
-        values[k] = before + slope * static_cast<double>(k - begin + 1);
-      break;
-    }
-  }
-  return found;
-}
-
-/// A row at which the reading jumps and stays: the load moves before and after as if nothing had happened.
-std::optional<std::size_t> lost_counts(const Series& values, const Series& sharpest,
-                                       const std::vector<bool>& masked, double count) {
-  std::vector<double> steps;
-  for (std::size_t k = 1; k < values.size(); ++k) steps.push_back(std::abs(values[k] - values[k - 1]));
-  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-  std::nth_element(steps.begin(), middle, steps.end());
-  const double noise = of_check.lost_steps * *middle;
-  for (std::size_t k = 2; k + 1 < values.size(); ++k) {
-    if (masked[k - 2] || masked[k - 1] || masked[k] || masked[k + 1]) continue;
-    const double before = values[k - 1] - values[k - 2], after = values[k + 1] - values[k];
-    const double jump = std::abs(values[k] - values[k - 1] - 0.5 * (before + after));
-    if (jump > noise + of_check.lost_counts * count + of_check.lost_bends * sharpest[k] &&
-        std::abs(after - before) < of_check.lost_change * jump)
-      return k;
-  }
-  return std::nullopt;
-}
-
-/// Where a reading stands still.
-struct Still : Stretch {
-  enum class Why { frozen, saturated, stuck } why;
-};
-
-/// Where the reading stays the same to the last bit although the model moves far. Friction may hold a load
-/// that the model moves, and so may the braid stop: the reading must also stop as no friction could stop it,
-/// or catch up with a jump, or miss a great deal. A load that comes to rest by itself is held by a valve that
-/// is stuck; readings cut off on their way up and down, at the highest of the run, by the end of their range.
-std::vector<Still> stills(const Series& values, const Series& model, double count, double tick_s) {
-  const auto shortest = static_cast<std::size_t>(std::lround(of_check.still_s / tick_s));
-  const std::size_t nearby = of_check.cut_off_ticks;
-  const double highest = *std::max_element(values.begin(), values.end());
-  std::vector<Still> found;
-  for (std::size_t begin = 0, end; begin < values.size(); begin = end) {
-    end = begin + 1;
-    while (end < values.size() && values[end] == values[begin]) ++end;
-    if (end - begin < shortest) continue;
-    // Resting on the stop is no fault, and what leaves it is quick, but not as quick as that.
-    const bool catches_up =
-        end < values.size() && std::abs(values[end] - values[begin]) > of_check.off_zero_counts * count;
-    if (values[begin] < of_check.at_zero_counts * count && !catches_up) continue;
-    const double missed = range({model.data() + begin, end - begin});
-    const bool inside = begin >= nearby && end + nearby <= values.size();
-    const auto moves = [&](std::size_t from, std::size_t to) {
-      return std::abs(values[from] - values[to]) >
-             of_check.cut_off_speed * static_cast<double>(nearby) * count;
-    };
-    const bool cut_off = values[begin] == highest && inside && moves(begin - nearby, begin) &&
-                         moves(end - 1, end + nearby - 1);
-    const bool stops_dead =
-        begin > 0 && std::abs(values[begin] - values[begin - 1]) > of_check.stops_dead_counts * count;
-    const bool jumps =
-        end < values.size() && std::abs(values[end] - values[begin]) > of_check.catches_up_counts * count;
-    if (cut_off && !jumps && missed > of_check.saturated_counts * count)
-      found.push_back({{begin + 1, end}, Still::Why::saturated});
-    else if (missed > of_check.frozen_counts * count && (stops_dead || jumps))
-      found.push_back({{begin + 1, end}, Still::Why::frozen});
-    else if (missed > of_check.stuck_counts * count)
-      found.push_back({{begin + 1, end}, Still::Why::stuck});
-  }
-  return found;
-}
-
-class Checker {
+class DatasetChecker {
  public:
-  Checker(const input::Dataset& data, unsigned threads)
+  DatasetChecker(const input::Dataset& data, unsigned threads)
       : data_(data),
         threads_(threads),
         count_(run::contraction_per_count(data.rig)),
         model_(data.runs.size()) {
-    for (const input::Run& run : data.runs) doubts_.masked.emplace_back(run.current_mA.size(), false);
+    for (const input::Run& run : data.runs) checked_.masked.emplace_back(run.current_mA.size(), false);
     left_out_.assign(data.runs.size(), false);
     run::for_each_job(
         data.runs.size(), threads,
@@ -157,7 +41,7 @@ class Checker {
         [](std::size_t) {});
   }
 
-  Doubts operator()() {
+  Checked operator()() {
     insane();
     for (std::size_t i = 0; i < data_.runs.size(); ++i) {
       gauge(i);
@@ -167,19 +51,19 @@ class Checker {
     labels();
     enough();
     for (std::size_t i = 0; i < left_out_.size(); ++i)
-      if (left_out_[i]) doubts_.left_out.push_back(i);
-    return std::move(doubts_);
+      if (left_out_[i]) checked_.left_out.push_back(i);
+    return std::move(checked_);
   }
 
  private:
   void warn(std::size_t run, std::string_view what) {
-    doubts_.warnings.push_back(fmt::format("run {}: {}", data_.runs[run].id, what));
+    checked_.warnings.push_back(fmt::format("run {}: {}", data_.runs[run].id, what));
   }
   void find(std::size_t run, std::string kind, std::string action, std::string words) {
-    doubts_.findings.push_back({.run = data_.runs[run].id,
-                                .kind = std::move(kind),
-                                .action = std::move(action),
-                                .words = std::move(words)});
+    checked_.findings.push_back({.run = data_.runs[run].id,
+                                 .kind = std::move(kind),
+                                 .action = std::move(action),
+                                 .words = std::move(words)});
   }
   void leave_out(std::size_t run, std::string_view why) {
     warn(run, fmt::format("{}; left out", why));
@@ -190,7 +74,7 @@ class Checker {
     Finding finding = told(data_, fault);
     warn(fault.run, finding.words + "; left out");
     finding.words += " (left out)";
-    doubts_.findings.push_back(std::move(finding));
+    checked_.findings.push_back(std::move(finding));
     left_out_[fault.run] = true;
   }
   double time_s(std::size_t row) const { return static_cast<double>(row) * data_.rig.tick_s; }
@@ -222,9 +106,9 @@ class Checker {
              fmt::format("was left out: it has the label of another load and moves like {:.6g} kg",
                          one.load_kg));
       if (too_many(finding.runs.size(), data_.runs.size()) || usable().size() < of_check.least_runs)
-        doubts_.cannot_tell = text + ".";
+        checked_.cannot_tell = text + ".";
       else
-        doubts_.warnings.push_back(text + "; left out");
+        checked_.warnings.push_back(text + "; left out");
     }
   }
 
@@ -237,15 +121,15 @@ class Checker {
       mask_spikes(i, "muscle_pressure_bar", *shown, model_[i].pressure_Pa, of_check.gauge_step_Pa);
       return;
     }
-    doubts_.dead_gauges.push_back(i);
+    checked_.dead_gauges.push_back(i);
     warn(i, fmt::format("muscle_pressure_bar {}: the gauge is ignored",
                         constant ? fmt::format("is {:.4g} throughout", shown->front() / plant::Pa_per_bar)
                                  : "does not follow the current"));
   }
 
   void mask(std::size_t run, const Stretch& stretch) {
-    std::fill(doubts_.masked[run].begin() + static_cast<std::ptrdiff_t>(stretch.begin),
-              doubts_.masked[run].begin() + static_cast<std::ptrdiff_t>(stretch.end), true);
+    std::fill(checked_.masked[run].begin() + static_cast<std::ptrdiff_t>(stretch.begin),
+              checked_.masked[run].begin() + static_cast<std::ptrdiff_t>(stretch.end), true);
   }
 
   void mask_spikes(std::size_t i, std::string_view column, const Series& values, const Series& model,
@@ -285,7 +169,7 @@ class Checker {
   void readings(std::size_t i) {
     const Series& values = data_.runs[i].contraction_ratio;
     const Series& model = model_[i].contraction_ratio;
-    std::vector<bool>& masked = doubts_.masked[i];
+    std::vector<bool>& masked = checked_.masked[i];
     const Series sharpest = sharpest_nearby(model, data_.rig.tick_s);
     mask_spikes(i, "contraction_ratio", values, model, count_);
     for (const Still& still : stills(values, model, count_, data_.rig.tick_s)) stands_still(i, still);
@@ -331,13 +215,13 @@ class Checker {
   }
 
   void labels() {
-    if (doubts_.cannot_tell) return;
+    if (checked_.cannot_tell) return;
     const Runs runs = usable();
     if (runs.size() >= of_check.least_runs && runs.size() < thresholds.label.least_runs)
-      doubts_.warnings.push_back(fmt::format(
+      checked_.warnings.push_back(fmt::format(
           "{} usable runs: their loads are in order, but too few to weigh each against the others",
           runs.size()));
-    const auto [wrong, common_ratio] = check_labels(data_, doubts_.masked, runs, threads_);
+    const auto [wrong, common_ratio] = check_labels(data_, checked_.masked, runs, threads_);
     if (std::abs(common_ratio / run::pound_kg - 1.0) < thresholds.label.pounds) {
       input::Problem problem;
       problem.file = data_.path.string();
@@ -355,16 +239,16 @@ class Checker {
                               data_.runs[label.run].load_kg, label.load_kg));
     }
     if (too_many(wrong.size(), runs.size()))
-      doubts_.cannot_tell =
+      checked_.cannot_tell =
           "too many runs contradict the others about their load: weigh the loads again, or give the rig's "
           "parameters more exactly.";
   }
 
   void enough() {
-    if (doubts_.cannot_tell) return;
+    if (checked_.cannot_tell) return;
     const Runs runs = usable();
     if (runs.size() < of_check.least_runs) {
-      doubts_.cannot_tell = fmt::format(
+      checked_.cannot_tell = fmt::format(
           "{} usable run{}: too few to choose on some and judge on others; at least four runs would help, "
           "with two loads and two kinds of current.",
           runs.size(), runs.size() == 1 ? "" : "s");
@@ -374,7 +258,7 @@ class Checker {
     if (std::all_of(runs.begin(), runs.end(), [&](std::size_t i) {
           return std::abs(data_.runs[i].load_kg - first_kg) < of_check.same_load * first_kg;
         }))
-      doubts_.warnings.push_back(
+      checked_.warnings.push_back(
           fmt::format("all runs have the same load, {:.6g} kg: what grows with the load cannot be told from "
                       "what does not",
                       first_kg));
@@ -385,13 +269,13 @@ class Checker {
   double count_;
   std::vector<Readings> model_;
   std::vector<bool> left_out_;
-  Doubts doubts_;
+  Checked checked_;
 };
 
 }  // namespace
 
-Doubts check(const input::Dataset& data, unsigned threads) {
-  return Checker(data, threads)();
+Checked check(const input::Dataset& data, unsigned threads) {
+  return DatasetChecker(data, threads)();
 }
 
 }  // namespace mckibben::diagnose
