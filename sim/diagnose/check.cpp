@@ -25,12 +25,12 @@ constexpr const CheckThresholds& of_check = thresholds.check;
 
 class DatasetChecker {
  public:
-  DatasetChecker(const input::Dataset& data, unsigned threads)
+  DatasetChecker(const domain::Dataset& data, unsigned threads)
       : data_(data),
         threads_(threads),
         count_(run::contraction_per_count(data.rig)),
         model_(data.runs.size()) {
-    for (const input::Run& run : data.runs) checked_.masked.emplace_back(run.current_mA.size(), false);
+    for (const domain::Run& run : data.runs) checked_.masked.emplace_back(run.current_mA.size(), false);
     left_out_.assign(data.runs.size(), false);
     run::for_each_job(
         data.runs.size(), threads,
@@ -147,7 +147,7 @@ class DatasetChecker {
   }
 
   bool moves(std::size_t i) {
-    const input::Run& run = data_.runs[i];
+    const domain::Run& run = data_.runs[i];
     const double largest_mA = *std::max_element(run.current_mA.begin(), run.current_mA.end());
     const double dead_mA =
         data_.rig.valve.zero_current_mA +
@@ -203,7 +203,7 @@ class DatasetChecker {
   // The same file twice says nothing new, and would stand on both sides of the split.
   void copies() {
     for (std::size_t i = 0; i < data_.runs.size(); ++i) {
-      const auto same = [&](const input::Run& run) {
+      const auto same = [&](const domain::Run& run) {
         return run.contraction_ratio == data_.runs[i].contraction_ratio &&
                run.current_mA == data_.runs[i].current_mA;
       };
@@ -264,7 +264,7 @@ class DatasetChecker {
                       first_kg));
   }
 
-  const input::Dataset& data_;
+  const domain::Dataset& data_;
   unsigned threads_;
   double count_;
   std::vector<Readings> model_;
@@ -274,7 +274,7 @@ class DatasetChecker {
 
 }  // namespace
 
-Checked check(const input::Dataset& data, unsigned threads) {
+Checked check(const domain::Dataset& data, unsigned threads) {
   return DatasetChecker(data, threads)();
 }
 

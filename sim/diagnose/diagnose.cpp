@@ -26,7 +26,7 @@
 namespace mckibben::diagnose {
 namespace {
 
-input::Dataset without_gauges(input::Dataset data, const Runs& dead) {
+domain::Dataset without_gauges(domain::Dataset data, const Runs& dead) {
   for (const std::size_t run : dead) data.runs[run].muscle_pressure_Pa.reset();
   return data;
 }
@@ -45,7 +45,7 @@ double motion_left(const Gap& gap) {
 
 class Workflow {
  public:
-  Workflow(const input::Dataset& data, const Checked& checked, const Settings& settings, const Step& step)
+  Workflow(const domain::Dataset& data, const Checked& checked, const Settings& settings, const Step& step)
       : settings_(settings),
         step_(step),
         checked_(checked),
@@ -295,7 +295,7 @@ class Workflow {
   Settings settings_;
   const Step& step_;
   Checked checked_;
-  input::Dataset data_;
+  domain::Dataset data_;
   Runs usable_;
   Experiment experiment_;
   plant::Rig nominal_;
@@ -312,7 +312,7 @@ class Workflow {
 };
 
 /// The workflow, again each time that faults of the recording have been mended.
-std::pair<Diagnosis, bool> mended(input::Dataset data, const Settings& settings, const Step& step) {
+std::pair<Diagnosis, bool> mended(domain::Dataset data, const Settings& settings, const Step& step) {
   step("checking");
   Checked checked = check(data, settings.threads);
   for (int repairs = 0;; ++repairs) {
@@ -325,7 +325,7 @@ std::pair<Diagnosis, bool> mended(input::Dataset data, const Settings& settings,
 
 }  // namespace
 
-Diagnosis diagnose(const input::Dataset& data, const Settings& settings, const run::ProgressHook& progress) {
+Diagnosis diagnose(const domain::Dataset& data, const Settings& settings, const run::ProgressHook& progress) {
   std::size_t steps = 0;
   std::string without;
   const Step step = [&](const std::string& what) { progress(without + what, ++steps, 0); };

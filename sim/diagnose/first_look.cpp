@@ -35,7 +35,7 @@ Contender with_suspect(const Case& c, const Checked& checked, const Model& descr
     return contend(of_sound, with(of_sound, described, suspicion.effect));
   };
   if (suspicion.common.empty()) return fitted(c.experiment);
-  input::Dataset data = c.experiment.data();
+  domain::Dataset data = c.experiment.data();
   Checked mended = checked;
   mend(data, mended, suspicion.common);
   return fitted(Experiment(data, mended.masked, c.experiment.threads(), usable));

@@ -7,7 +7,7 @@
 
 #include <plant/state.hpp>
 #include <sim/diagnose/parameter.hpp>
-#include <sim/input/dataset.hpp>
+#include <sim/domain/dataset.hpp>
 #include <sim/ride/ride.hpp>
 
 namespace mckibben::diagnose {
@@ -23,10 +23,10 @@ struct Readings {
 
 /// Readings of up to engine::Flock::most rigs, in common steps where these can be had (ride::Ride). The ticks
 /// are those of the first rig. Throws engine::NumericalFailure.
-std::vector<Readings> predict(const input::Run& run, std::span<const Hanging> rigs,
-                              engine::Method method = engine::Method::automatic);
+std::vector<Readings> predict(const domain::Run& run, std::span<const Hanging> rigs,
+                              solver::Method method = solver::Method::automatic);
 
 /// How `predict` integrates these rigs.
-engine::Settings settings_for(std::span<const Hanging> rigs, engine::Method method);
+solver::Settings settings_for(std::span<const Hanging> rigs, solver::Method method);
 
 }  // namespace mckibben::diagnose

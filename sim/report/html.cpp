@@ -1,7 +1,7 @@
 // Order of the page, and what the script is told.
 #include <fmt/format.h>
 
-#include <sim/input/number.hpp>
+#include <sim/domain/number.hpp>
 #include <sim/output/svg.hpp>
 #include <sim/report/files.hpp>
 #include <sim/report/html.hpp>
