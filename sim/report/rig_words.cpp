@@ -8,6 +8,7 @@
 #include <sim/domain/number.hpp>
 #include <sim/output/diagnosis_words.hpp>
 #include <sim/output/svg.hpp>
+#include <sim/report/length.hpp>
 #include <sim/report/rig_words.hpp>
 
 namespace mckibben::report {
@@ -51,8 +52,11 @@ std::string rig_html(const plant::Rig& rig, bool gauge) {
                     (rig.joint.load_offset_kg == 0.0
                          ? ""
                          : "; " + readable(rig.joint.load_offset_kg, "kg") + " hang on it besides the load"));
-  part("encoder", "on the wheel: a count is " + readable(plant::count_height_m(rig.encoder, rig.joint), "m") +
-                      " of height");
+  html +=
+      fmt::format("<dt>encoder</dt><dd>{}</dd>\n",
+                  text_html("on the wheel: a count is " +
+                                readable(plant::count_height_m(rig.encoder, rig.joint), "m") + " of height",
+                            rig));
   part("valve", valve(rig.valve));
   part("hose", "sonic conductance " + readable(rig.hose.conductance_m3_per_s_Pa, "m3/(s.Pa)"));
   part("gauge", !gauge ? "none"
