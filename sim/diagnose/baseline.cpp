@@ -47,7 +47,7 @@ Recalibrated recalibrate(Case& c, const Contender& nominal) {
   }
   if (!best.fitted.failure.empty()) result = {nominal, best.fitted.failure};
   const auto& residuals = best.fitted.residuals;
-  if (excess(residuals) + 1.0 > thresholds.near.mean_square()) return result;
+  if (!near_floor(residuals)) return result;
   c.inflation = variance_inflation(c.experiment, residuals, c.split.training);
   auto again = contend(c, best.fitted.model);
   if (again.fitted.failure.empty()) best = std::move(again);

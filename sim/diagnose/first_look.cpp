@@ -23,7 +23,7 @@ bool explains_all(const Case& c, const Model& model, const Runs& usable) {
   if (!fitted.failure.empty()) return false;
   const auto parts = c.experiment.parts(usable);
   return std::all_of(parts.begin(), parts.end(), [&](const auto& part) {
-    return excess(fitted.residuals.segment(part.begin, part.rows)) + 1.0 <= thresholds.near.mean_square();
+    return near_floor(fitted.residuals.segment(part.begin, part.rows));
   });
 }
 

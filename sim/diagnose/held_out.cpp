@@ -67,6 +67,10 @@ double excess(const Eigen::VectorXd& residuals) {
   return residuals.squaredNorm() / static_cast<double>(std::max<Eigen::Index>(residuals.size(), 1)) - 1.0;
 }
 
+bool near_floor(const Eigen::VectorXd& residuals) {
+  return excess(residuals) + 1.0 <= thresholds.near.mean_square();
+}
+
 Improvement compare(const Experiment& experiment, const Eigen::VectorXd& before, const Eigen::VectorXd& after,
                     const Runs& runs) {
   const Eigen::Index segment = segment_rows(experiment);

@@ -23,6 +23,9 @@ double variance_inflation(const Experiment& experiment, const Eigen::VectorXd& r
 /// Mean square of residuals above that of the floor.
 double excess(const Eigen::VectorXd& residuals);
 
+/// Whether residuals are no more than noise and slow disturbances leave.
+bool near_floor(const Eigen::VectorXd& residuals);
+
 /// How much better `after` is than `before`, on the same runs.
 struct Improvement {
   double gained = 0.0;               ///< mean square, in units of the floor's
