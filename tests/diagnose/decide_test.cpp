@@ -77,10 +77,12 @@ struct Way {
   std::vector<Remark> remarks{};
 };
 
-const std::vector<Way>& ways() {
+using Ways = std::vector<Way>;
+
+Ways to_nothing_missing() {
   using enum Chosen;
   using enum Remark;
-  static const std::vector<Way> all{
+  return {
       {"agreement", agreeing(), [](Evidence&) {}, nothing_missing, nominal},
       {"a small gap that nothing closes", agreeing(), [](Evidence& e) { e.nominal_left = 10.0; },
        nothing_missing, nominal},
@@ -95,7 +97,13 @@ const std::vector<Way>& ways() {
        nothing_missing,
        nominal,
        {invisible}},
+  };
+}
 
+Ways to_recalibrate() {
+  using enum Chosen;
+  using enum Remark;
+  return {
       {"other numbers", other_numbers(), [](Evidence&) {}, recalibrate, recalibrated},
       {"other numbers of data that show little",
        other_numbers(),
@@ -124,7 +132,12 @@ const std::vector<Way>& ways() {
          e.far_from_nominal = {{"r01", 20.0}};
        },
        recalibrate, recalibrated},
+  };
+}
 
+Ways to_missing_effect() {
+  using enum Chosen;
+  return {
       {"an effect", one_name(), [](Evidence&) {}, missing_effect, named},
       {"an effect that closes just enough", one_name(), [](Evidence& e) { e.named_share = at.named_share; },
        missing_effect, named},
@@ -143,7 +156,7 @@ const std::vector<Way>& ways() {
        [](Evidence& e) { e.named_left = above(close.mean_square()) - 1.0; },
        missing_effect,
        named,
-       {more_is_missing}},
+       {Remark::more_is_missing}},
       {"an effect that leaves nearly too much",
        one_name(),
        [](Evidence& e) {
@@ -152,7 +165,7 @@ const std::vector<Way>& ways() {
        },
        missing_effect,
        named,
-       {more_is_missing}},
+       {Remark::more_is_missing}},
       {"an effect that leaves too much",
        one_name(),
        [](Evidence& e) {
@@ -161,7 +174,7 @@ const std::vector<Way>& ways() {
        },
        unknown_effect,
        recalibrated,
-       {not_named}},
+       {Remark::not_named}},
       {"an effect that leaves too much of far more",
        one_name(),
        [](Evidence& e) {
@@ -170,7 +183,7 @@ const std::vector<Way>& ways() {
        },
        missing_effect,
        named,
-       {more_is_missing}},
+       {Remark::more_is_missing}},
       {"an effect, and a law that is not far better", one_name(),
        [](Evidence& e) {
          e.law_terms = 2;
@@ -180,7 +193,13 @@ const std::vector<Way>& ways() {
        missing_effect, named},
       {"an effect beside a fault of all runs", one_name(), [](Evidence& e) { e.common_fault = true; },
        missing_effect, named},
+  };
+}
 
+Ways to_unknown_effect() {
+  using enum Chosen;
+  using enum Remark;
+  return {
       {"a law", one_law(), [](Evidence&) {}, unknown_effect, law},
       {"a law that closes just too little", one_law(), [](Evidence& e) { e.law_share = at.law_share; },
        unknown_effect, recalibrated},
@@ -216,7 +235,13 @@ const std::vector<Way>& ways() {
        unknown_effect,
        law,
        {gauge_misleads}},
+  };
+}
 
+Ways to_cannot_tell() {
+  using enum Chosen;
+  using enum Remark;
+  return {
       {"data that cannot be used", one_name(), [](Evidence& e) { e.usable = false; }, cannot_tell, nominal},
       {"more than half of the catalogue would not show",
        agreeing(),
@@ -239,18 +264,19 @@ const std::vector<Way>& ways() {
        },
        cannot_tell, nominal},
   };
-  return all;
 }
 
 TEST(Decide, EachWayToAVerdict) {
-  for (const Way& way : ways()) {
-    Evidence evidence = way.evidence;
-    way.but(evidence);
-    const Decision found = decide(evidence, thresholds);
-    EXPECT_EQ(found.verdict, way.verdict) << way.what;
-    EXPECT_EQ(found.chosen, way.chosen) << way.what;
-    EXPECT_EQ(found.remarks, way.remarks) << way.what;
-  }
+  for (const Ways& ways :
+       {to_nothing_missing(), to_recalibrate(), to_missing_effect(), to_unknown_effect(), to_cannot_tell()})
+    for (const Way& way : ways) {
+      Evidence evidence = way.evidence;
+      way.but(evidence);
+      const Decision found = decide(evidence, thresholds);
+      EXPECT_EQ(found.verdict, way.verdict) << way.what;
+      EXPECT_EQ(found.chosen, way.chosen) << way.what;
+      EXPECT_EQ(found.remarks, way.remarks) << way.what;
+    }
 }
 
 TEST(Decide, NamesTheRunsThatNoModelComesNear) {
