@@ -92,8 +92,8 @@ std::string remark_in_words(Remark remark, const Naming& naming, double left) {
       return "effects that would explain the gauge's pressures make the motion worse: is the gauge right?";
     case Remark::more_is_missing:
       return fmt::format(
-          "{:.1f} noise floors are left with the effects named: more is missing, or their laws are not quite "
-          "these",
+          "{:.1f} noise floors are left with the effects named: more is missing, or their laws are "
+          "not quite these",
           floors);
     case Remark::not_named:
       return fmt::format("nearest comes {}, but {:.1f} noise floors are left: not named",
@@ -153,8 +153,7 @@ std::string law_in_words(const Diagnosis& d) {
     law += fmt::format("{}{:.3g} N x {}", law.empty() ? "" : " + ", term.coefficient.value, term.term);
   if (law.empty())
     return "Something real is missing, but no effect of the catalogue explains it, and no simple law of "
-           "force "
-           "was found either.";
+           "force was found either.";
   return fmt::format(
       "Something is missing that no effect of the catalogue explains; as a force on the load it is {}. {}",
       law, gap_in_words(d));
