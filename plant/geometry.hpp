@@ -111,10 +111,10 @@ inline constexpr double risky_contraction_ratio = 0.20;
 
 /// What a contraction means for the muscle: nothing, a risk of damage, or that no real muscle reaches it
 /// (T 2.3, 2.10).
-enum class Verdict { safe, risk, impossible };
-inline Verdict verdict_on(const Muscle& muscle, double contraction_ratio) {
-  if (contraction_ratio > Braid(muscle).largest_contraction_ratio()) return Verdict::impossible;
-  return contraction_ratio > risky_contraction_ratio ? Verdict::risk : Verdict::safe;
+enum class Danger { safe, risk, impossible };
+inline Danger danger_of(const Muscle& muscle, double contraction_ratio) {
+  if (contraction_ratio > Braid(muscle).largest_contraction_ratio()) return Danger::impossible;
+  return contraction_ratio > risky_contraction_ratio ? Danger::risk : Danger::safe;
 }
 
 }  // namespace mckibben::plant

@@ -1,44 +1,30 @@
-// The workflow; see the header and docs/diagnosis.md.
+// The workflow, in running order; see the header and docs/diagnosis.md.
 #include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
 
-#include <sim/diagnose/checks.hpp>
+#include <sim/diagnose/baseline.hpp>
+#include <sim/diagnose/check.hpp>
+#include <sim/diagnose/decide.hpp>
 #include <sim/diagnose/diagnose.hpp>
 #include <sim/diagnose/faults.hpp>
 #include <sim/diagnose/first_look.hpp>
 #include <sim/diagnose/interval.hpp>
 #include <sim/diagnose/law.hpp>
-#include <sim/diagnose/naming.hpp>
+#include <sim/diagnose/name.hpp>
 #include <sim/diagnose/plan.hpp>
 #include <sim/diagnose/ranking.hpp>
 #include <sim/diagnose/repair.hpp>
 #include <sim/diagnose/run_gaps.hpp>
 #include <sim/diagnose/start.hpp>
 #include <sim/diagnose/story.hpp>
+#include <sim/diagnose/thresholds.hpp>
 #include <sim/diagnose/where.hpp>
-#include <sim/run/simulate.hpp>
 #include <sim/run/warnings.hpp>
 
 namespace mckibben::diagnose {
 namespace {
-
-/// Mean squares above the floor: what is worth a search for a law, and what no disturbance would leave.
-constexpr double worth_a_law = 0.15, beyond_disturbance = 60.0;
-/// What no fit of the right effect that stopped early would leave.
-constexpr double hopeless = 600.0;
-/// Shares of the gap that effects must close to be named, to be named whatever is left, and a law to be
-/// believed.
-constexpr double least_named = 0.4, nearly_all = 0.9, least_law = 0.3;
-/// The rate of false alarms that the thresholds are set for; docs/diagnosis.md has what was measured.
-constexpr double false_alarm_rate = 0.03;
-
-/// What is left of the motion where a gauge and the motion may contradict each other.
-constexpr double contradicted = 1.0;
-
-/// How often data are mended and looked at again.
-constexpr int most_repairs = 2;
 
 domain::Dataset without_gauges(domain::Dataset data, const Runs& dead) {
   for (const std::size_t run : dead) data.runs[run].muscle_pressure_Pa.reset();
@@ -59,16 +45,17 @@ double motion_left(const Gap& gap) {
 
 class Workflow {
  public:
-  Workflow(const domain::Dataset& data, const Doubts& doubts, const Settings& settings, const Step& step)
+  Workflow(const domain::Dataset& data, const Checked& checked, const Settings& settings, const Step& step)
       : settings_(settings),
         step_(step),
-        doubts_(doubts),
-        data_(without_gauges(data, doubts_.dead_gauges)),
-        usable_(all_but(doubts_.left_out, data.runs.size())),
-        experiment_(data_, doubts_.masked, settings.threads, usable_),
+        checked_(checked),
+        data_(without_gauges(data, checked_.dead_gauges)),
+        usable_(all_but(checked_.left_out, data.runs.size())),
+        experiment_(data_, checked_.masked, settings.threads, usable_),
         nominal_(data.rig),
-        case_{
-            experiment_, nominal_, {}, first_temperature, [this](const std::string& what) { learn(what); }} {}
+        case_{experiment_, nominal_, {}, thresholds.scatter.first_inflation, [this](const std::string& what) {
+                learn(what);
+              }} {}
 
   bool gauged() const { return experiment_.floor().pressure_Pa > 0.0; }
 
@@ -76,261 +63,238 @@ class Workflow {
   const std::vector<Fault>& faults() const { return faults_; }
 
   Diagnosis operator()(bool look) {
-    result_.seed = settings_.seed;
-    result_.warnings = run::grouped(doubts_.warnings);
-    result_.faults = doubts_.findings;
-    const NoiseFloor& floor = experiment_.floor();
-    if (floor.repeats >= floor.ratio)
-      result_.warnings.push_back(fmt::format(
-          "equal runs differ by {:.2g} in contraction ratio (rms over sqrt 2), more than a count and its "
-          "jitter explain: this is taken for the noise floor",
-          floor.repeats));
-    else if (floor.noisy)
-      result_.warnings.push_back(fmt::format(
-          "contraction_ratio scatters by {:.2g} from tick to tick (rms), far more than counts do: "
-          "this is taken for the noise floor",
-          floor.jitter));
-    if (carries(nominal_, plant::ResidualForce::name))
-      result_.warnings.push_back("the rig's residual_law is kept as it is: if it is wrong, take it out");
-    result_.false_alarm_rate = false_alarm_rate;
-    result_.corrected = data_.rig;
-    if (doubts_.cannot_tell) {
-      result_.because = faults_in_words(result_) + *doubts_.cannot_tell;
-      return std::move(result_);
-    }
+    tell_check();
+    if (checked_.cannot_tell) return unusable();
     case_.split = split(data_, usable_);
-    step("replaying");
-    replay();
-    if (look) faults_ = first_look(case_, doubts_, nominal_fit_.fitted.model, usable_, step_);
+    replay_as_described();
+    if (look) faults_ = first_look(case_, checked_, nominal_fit_.fitted.model, usable_, step_);
     if (!faults_.empty()) return std::move(result_);
-    recalibrate();
-    judge();
-    const Contender& final = chosen_ == &nominal_fit_ ? recalibrated_ : *chosen_;
-    if (look && !far_from(final).empty())
-      faults_ = examine(experiment_, final.fitted.model, usable_, {}).faults;
+    fit_numbers();
+    map_where();
+    name();
+    look_for_law();
+    const Decision decision = decide(evidence_, thresholds);
+    if (look) faults_ = faults_beside(decision.chosen);
     if (!faults_.empty()) return std::move(result_);
-    doubt();
-    report();
+    hand_over(decision);
+    show_gap();
+    plan_next();
+    tell_verdict();
     return std::move(result_);
   }
 
  private:
-  void step(const std::string& what) { step_(what); }
   void learn(const std::string& what) {
     if (settings_.learned) settings_.learned(what);
   }
   void learn_gap(const std::string& of, const Eigen::VectorXd& held_out) {
     learn(fmt::format("{}: {:.2f} mm (rms) on the runs held out, the noise floor is {:.3f} mm", of,
-                      1e3 * nominal_.muscle.rest_length_m * experiment_.rmse(held_out, case_.split.held_out),
+                      1e3 * nominal_.muscle.rest_length_m * rmse(held_out),
                       1e3 * nominal_.muscle.rest_length_m * experiment_.floor().ratio));
   }
+  double rmse(const Eigen::VectorXd& held_out) const {
+    return experiment_.rmse(held_out, case_.split.held_out);
+  }
+  void warn(std::string what) { result_.warnings.push_back(std::move(what)); }
 
-  void replay() {
-    nominal_fit_.held_out = experiment_.residuals(nominal_, case_.split.held_out);
-    auto& fitted = nominal_fit_.fitted;
-    fitted.model = {nominal_, nominal_parameters(nominal_)};
-    auto slopes = experiment_.slopes(nominal_, fitted.model.free, case_.split.training);
-    fitted.residuals = std::move(slopes.residuals);
-    fitted.columns = std::move(slopes.columns);
-    fitted.cost = fitted.residuals.squaredNorm() / case_.temperature;
+  void tell_check() {
+    result_.seed = settings_.seed;
+    result_.warnings = run::grouped(checked_.warnings);
+    result_.faults = checked_.findings;
+    result_.false_alarm_rate = thresholds.decide.false_alarm_rate;
+    result_.corrected = data_.rig;
+    evidence_.usable = !checked_.cannot_tell;
+    evidence_.common_fault = std::any_of(checked_.findings.begin(), checked_.findings.end(),
+                                         [](const Finding& finding) { return finding.common; });
+    const NoiseFloor& floor = experiment_.floor();
+    if (floor.repeats >= floor.ratio)
+      warn(
+          fmt::format("equal runs differ by {:.2g} in contraction ratio (rms over sqrt 2), more than a count "
+                      "and its jitter explain: this is taken for the noise floor",
+                      floor.repeats));
+    else if (floor.noisy)
+      warn(
+          fmt::format("contraction_ratio scatters by {:.2g} from tick to tick (rms), far more than counts "
+                      "do: this is taken for the noise floor",
+                      floor.jitter));
+    if (carries(nominal_, plant::ResidualForce::name))
+      warn("the rig's residual_law is kept as it is: if it is wrong, take it out");
+  }
+
+  Diagnosis unusable() {
+    result_.verdict = decide(evidence_, thresholds).verdict;
+    result_.because = faults_in_words(result_) + *checked_.cannot_tell;
+    return std::move(result_);
+  }
+
+  void replay_as_described() {
+    step_("replaying");
+    nominal_fit_ = replay(case_);
     learn_gap("the rig as described", nominal_fit_.held_out);
   }
 
-  void recalibrate() {
-    step("recalibrating");
-    Model slight = nominal_fit_.fitted.model;
-    bool has_effects = false;
-    for (const Candidate& effect : catalogue()) {
-      if (!effect.carried(nominal_)) continue;
-      *find(slight.rig, effect.amplitude).value = effect.absent + 2.0 * least_amplitude * effect.typical;
-      has_effects = true;
-    }
-    recalibrated_ = contend(case_, nominal_fit_.fitted.model, nullptr, has_effects);
-    if (has_effects) {
-      // They may be there in vain: from next to nothing the way down can be another.
-      auto other = contend(case_, slight, nullptr, true);
-      if (other.fitted.failure.empty() &&
-          (!recalibrated_.fitted.failure.empty() || other.fitted.cost < recalibrated_.fitted.cost))
-        recalibrated_ = std::move(other);
-    }
-    if (!recalibrated_.fitted.failure.empty()) {
-      result_.warnings.push_back("the nominal parameters could not be fitted: " +
-                                 recalibrated_.fitted.failure);
-      recalibrated_ = nominal_fit_;
-    }
+  void fit_numbers() {
+    step_("recalibrating");
+    auto [contender, failure] = recalibrate(case_, nominal_fit_);
+    recalibrated_ = std::move(contender);
+    if (!failure.empty()) warn("the nominal parameters could not be fitted: " + failure);
     learn_gap("recalibrated", recalibrated_.held_out);
-    const auto& residuals = recalibrated_.fitted.residuals;
-    if (excess(residuals) + 1.0 > near_floor * near_floor) return;
-    case_.temperature = temperature(experiment_, residuals, case_.split.training);
-    auto again = contend(case_, recalibrated_.fitted.model);
-    if (again.fitted.failure.empty()) recalibrated_ = std::move(again);
+    evidence_.nominal_left = excess(nominal_fit_.held_out);
+    evidence_.recalibrated_left = excess(recalibrated_.held_out);
+    evidence_.recalibration =
+        compare(experiment_, nominal_fit_.held_out, recalibrated_.held_out, case_.split.held_out);
+    evidence_.far_from_nominal = far_from(nominal_fit_);
+    evidence_.far_from_recalibrated = far_from(recalibrated_);
   }
 
-  void judge() {
-    const auto& held = case_.split.held_out;
-    const auto tell = [this](const std::string& what) { step(what); };
-    const auto recalibration = compare(experiment_, nominal_fit_.held_out, recalibrated_.held_out, held);
-    if (recalibration.gained <= 0.0) chosen_ = &nominal_fit_;
-    const Eigen::VectorXd reference = chosen_->held_out;
-    naming_ = name_effects(case_, nominal_fit_, recalibrated_, reference, tell);
+  void map_where() {
+    step_("mapping");
+    result_.where = where(experiment_, recalibrated_.fitted.model.rig, usable_, settings_.seed);
+  }
+
+  /// Residuals held out that an improvement is measured against.
+  const Eigen::VectorXd& reference() const {
+    return evidence_.recalibration_helps() ? recalibrated_.held_out : nominal_fit_.held_out;
+  }
+
+  void name() {
+    naming_ = name_effects(case_, nominal_fit_, recalibrated_, reference(), step_);
+    evidence_.invisible = naming_.invisible.size();
+    evidence_.catalogue = catalogue().size();
+    evidence_.names = naming_.effects.size();
+    if (naming_.effects.empty()) return;
+    const Eigen::VectorXd& named = naming_.best.held_out;
+    evidence_.named_left = excess(named);
+    evidence_.named_share = compare(experiment_, reference(), named, case_.split.held_out).share;
     // A gauge that misleads may be met by an effect that takes the motion further away.
-    const bool misled = gauged() && !naming_.effects.empty() &&
-                        experiment_.rmse(naming_.best.held_out, held) >= experiment_.rmse(reference, held);
-    const bool named = !naming_.effects.empty() && !misled;
-    if (named) learn_gap("with what was taken", naming_.best.held_out);
-    if (misled)
-      result_.warnings.push_back(
-          "effects that would explain the gauge's pressures make the motion worse: is the gauge right?");
-    const Eigen::VectorXd& with_names = named ? naming_.best.held_out : reference;
-    const double left = excess(with_names);
-    const double named_share = named ? compare(experiment_, reference, with_names, held).share : 0.0;
-    if (left > worth_a_law && left > 0.05 * excess(nominal_fit_.held_out))
-      law_ = find_law(case_, {&recalibrated_, &nominal_fit_}, reference, tell);
-    const bool lawful = law_.terms > 0 && law_.gain.share > least_law &&
-                        (!named || excess(law_.contender.held_out) < 0.4 * left);
-    if (lawful) {
-      result_.verdict = Verdict::unknown_effect;
-      chosen_ = &law_.contender;
-    } else if (named && (left < hopeless || named_share >= nearly_all) &&
-               (named_share >= least_named || excess(reference) < worth_a_law)) {
-      result_.verdict = Verdict::missing_effect;
-      result_.effects = naming_.effects;
-      chosen_ = &naming_.best;
-      if (left + 1.0 > near_floor * near_floor)
-        result_.warnings.push_back(
-            fmt::format("{:.1f} noise floors are left with the effects named: more is missing, or their laws "
-                        "are not quite these",
-                        std::sqrt(left + 1.0)));
-    } else if (left > beyond_disturbance) {
-      result_.verdict = Verdict::unknown_effect;
-      std::vector<std::string> names;
-      for (const NamedEffect& effect : naming_.effects)
-        names.push_back(full_name(effect.name, effect.variant));
-      if (named)
-        result_.warnings.push_back(
-            fmt::format("nearest comes {}, but {:.1f} noise floors are left: not named",
-                        fmt::join(names, " with "), std::sqrt(left + 1.0)));
-    } else {
-      const bool gap = excess(nominal_fit_.held_out) > nothing_left;
-      result_.verdict = gap && convinces(recalibration) ? Verdict::recalibrate : Verdict::nothing_missing;
-      tell_invisible();
+    evidence_.gauge_misleads = gauged() && rmse(named) >= rmse(reference());
+    if (evidence_.named()) learn_gap("with what was taken", named);
+  }
+
+  void look_for_law() {
+    if (!asks_for_law(evidence_, thresholds)) return;
+    law_ = find_law(case_, {&recalibrated_, &nominal_fit_}, reference(), step_);
+    evidence_.law_terms = law_.terms;
+    evidence_.law_left = excess(law_.contender.held_out);
+    evidence_.law_share = law_.gain.share;
+  }
+
+  const Contender& contender(Chosen chosen) const {
+    switch (chosen) {
+      case Chosen::law:
+        return law_.contender;
+      case Chosen::named:
+        return naming_.best;
+      case Chosen::recalibrated:
+        return recalibrated_;
+      case Chosen::nominal:
+        break;
     }
+    return nominal_fit_;
   }
 
-  // What nobody could have seen is not "nothing".
-  void tell_invisible() {
-    if (naming_.invisible.empty()) return;
-    const auto list = fmt::format("{}", fmt::join(naming_.invisible, ", "));
-    if (result_.verdict == Verdict::nothing_missing && 2 * naming_.invisible.size() > catalogue().size())
-      result_.verdict = Verdict::cannot_tell;
-    result_.warnings.push_back("these data would not show, even at their usual size: " + list);
-  }
-
-  /// Runs that leave more above the floor than noise and slow disturbances would, in words.
-  std::vector<std::string> far_from(const Contender& contender) const {
-    std::vector<std::string> list;
+  /// Runs that leave more above the floor than noise and slow disturbances would.
+  std::vector<FarRun> far_from(const Contender& contender) const {
+    std::vector<FarRun> list;
     const auto look_at = [&](const Eigen::VectorXd& residuals, const Runs& runs) {
       for (const auto& part : experiment_.parts(runs)) {
-        const double left = excess(residuals.segment(part.begin, part.rows));
-        if (left > near_floor * near_floor)
-          list.push_back(fmt::format("{} by {:.0f}", data_.runs[part.run].id, std::sqrt(left)));
+        const auto of_run = residuals.segment(part.begin, part.rows);
+        if (!near_floor(of_run)) list.push_back({data_.runs[part.run].id, excess(of_run)});
       }
     };
     look_at(contender.fitted.residuals, case_.split.training);
     look_at(contender.held_out, case_.split.held_out);
-    std::sort(list.begin(), list.end());
     return list;
   }
 
-  // "Nothing is missing" is for data that agree run by run.
-  void doubt() {
-    const bool quiet = result_.verdict == Verdict::nothing_missing || result_.verdict == Verdict::recalibrate;
-    if (!quiet) return;
-    const bool agrees = result_.verdict == Verdict::recalibrate || far_from(nominal_fit_).empty();
-    if (!agrees && chosen_ != &nominal_fit_) result_.verdict = Verdict::recalibrate;
-    const bool moved = result_.verdict == Verdict::recalibrate;
-    result_.unexplained = fmt::format("{}", fmt::join(far_from(moved ? *chosen_ : nominal_fit_), ", "));
-    const bool recorder = std::any_of(result_.faults.begin(), result_.faults.end(),
-                                      [](const Finding& finding) { return finding.common; });
-    if (!result_.unexplained.empty() || recorder) result_.verdict = Verdict::cannot_tell;
+  /// Faults of runs that a fitted model does not come near.
+  std::vector<Fault> faults_beside(Chosen chosen) const {
+    const Contender& fitted = chosen == Chosen::nominal ? recalibrated_ : contender(chosen);
+    if (far_from(fitted).empty()) return {};
+    return examine(experiment_, fitted.fitted.model, usable_, {}).faults;
   }
 
-  void report() {
+  void hand_over(const Decision& decision) {
+    result_.verdict = decision.verdict;
+    if (decision.verdict == Verdict::missing_effect) result_.effects = naming_.effects;
+    for (const Remark remark : decision.remarks) warn(remark_in_words(remark, naming_, evidence_.left()));
+    result_.unexplained = far_runs_in_words(decision.unexplained);
     if (result_.effects.empty()) disown(naming_.ranking);
     result_.ranking = naming_.ranking;
     result_.confusion_names = naming_.confusion_names;
     result_.confusion = naming_.confusion;
-    const auto& held = case_.split.held_out;
-    const bool as_it_was =
-        result_.verdict == Verdict::nothing_missing || result_.verdict == Verdict::cannot_tell;
-    if (as_it_was || chosen_ == &nominal_fit_) {
-      chosen_rig_ = nominal_;
-    } else {
-      step("fitting all runs");
-      const double scatter = temperature(experiment_, chosen_->fitted.residuals, case_.split.training);
-      auto whole =
-          fit(experiment_, chosen_->fitted.model, usable_, {.temperature = scatter, .thorough = true});
-      const bool failed = !whole.failure.empty();
-      if (failed) {
-        result_.warnings.push_back(
-            "the fit to all runs failed, the numbers are those of the training runs: " + whole.failure);
-        whole = chosen_->fitted;
-      }
-      const auto bounds = intervals(experiment_, whole, failed ? case_.split.training : usable_, scatter);
-      tell_parameters(result_, whole.model, bounds, recalibrated_.fitted.model.rig);
-      static_cast<plant::Rig&>(result_.corrected) = whole.model.rig;
-      chosen_rig_ = chosen_->fitted.model.rig;
-      for (const Moved& moved : result_.recalibrated)
-        if (std::abs(moved.deviations) > 0.999 * most_deviations &&
-            !moved.fitted.name.starts_with("effects."))
-          result_.warnings.push_back(
-              fmt::format("{} stands at the edge of what its data sheet allows, {:+.0f} deviations: measure "
-                          "it, or something "
-                          "that acts like it is missing",
-                          moved.fitted.name, moved.deviations));
-      for (const auto& path : whole.model.refused)
-        result_.warnings.push_back("no reading depends on " + path + ": it was not fitted");
+    if (decision.verdict == Verdict::unknown_effect) result_.law_valid_for = visited(data_, usable_);
+    chosen_rig_ = nominal_;
+    if (decision.chosen != Chosen::nominal) fit_all_runs(contender(decision.chosen).fitted);
+  }
+
+  /// The numbers that are told, of the model that was chosen on the training runs.
+  void fit_all_runs(const Fitted& chosen) {
+    step_("fitting all runs");
+    chosen_rig_ = chosen.model.rig;
+    chosen_inflation_ = variance_inflation(experiment_, chosen.residuals, case_.split.training);
+    auto whole = fit(experiment_, chosen.model, usable_, {.inflation = chosen_inflation_, .thorough = true});
+    const bool failed = !whole.failure.empty();
+    if (failed) {
+      warn("the fit to all runs failed, the numbers are those of the training runs: " + whole.failure);
+      whole = chosen;
     }
-    if (result_.verdict == Verdict::unknown_effect) result_.law_valid_for = visited(data_, usable_);
-    const Eigen::VectorXd corrected = experiment_.residuals(chosen_rig_, held);
-    result_.gap = {experiment_.floor().ratio,
-                   experiment_.rmse(nominal_fit_.held_out, held),
-                   experiment_.rmse(recalibrated_.held_out, held),
-                   experiment_.rmse(corrected, held),
-                   0.0,
-                   experiment_.floor().jitter};
-    const auto above = [&](double rmse) {
-      return std::max(0.0, rmse * rmse - result_.gap.noise_floor * result_.gap.noise_floor);
+    const auto bounds =
+        intervals(experiment_, whole, failed ? case_.split.training : usable_, chosen_inflation_);
+    tell_parameters(result_, whole.model, bounds, recalibrated_.fitted.model.rig);
+    static_cast<plant::Rig&>(result_.corrected) = whole.model.rig;
+    for (const Moved& moved : result_.recalibrated)
+      if (std::abs(moved.deviations) >
+              thresholds.parameter.at_the_edge * thresholds.parameter.most_deviations &&
+          !moved.fitted.name.starts_with("effects."))
+        warn(
+            fmt::format("{} stands at the edge of what its data sheet allows, {:+.0f} deviations: measure "
+                        "it, or something that acts like it is missing",
+                        moved.fitted.name, moved.deviations));
+    for (const auto& path : whole.model.refused)
+      warn("no reading depends on " + path + ": it was not fitted");
+  }
+
+  /// How far the gap shrank, on the runs held out and run by run.
+  void show_gap() {
+    const Eigen::VectorXd corrected = experiment_.residuals(chosen_rig_, case_.split.held_out);
+    Gap& gap = result_.gap;
+    gap = {.noise_floor = experiment_.floor().ratio,
+           .nominal_rmse = rmse(nominal_fit_.held_out),
+           .recalibrated_rmse = rmse(recalibrated_.held_out),
+           .corrected_rmse = rmse(corrected),
+           .jitter = experiment_.floor().jitter};
+    const auto above = [&](double error) {
+      return std::max(0.0, error * error - gap.noise_floor * gap.noise_floor);
     };
-    if (above(result_.gap.nominal_rmse) > 0.0)
-      result_.gap.closed =
-          std::clamp(1.0 - above(result_.gap.corrected_rmse) / above(result_.gap.nominal_rmse), 0.0, 1.0);
-    step("mapping");
-    result_.where = where(experiment_, recalibrated_.fitted.model.rig, usable_, settings_.seed);
+    if (above(gap.nominal_rmse) > 0.0)
+      gap.closed = std::clamp(1.0 - above(gap.corrected_rmse) / above(gap.nominal_rmse), 0.0, 1.0);
     result_.start = look_at_start(experiment_, chosen_rig_, usable_);
     result_.runs = gaps_of_runs(experiment_, case_.split.held_out, usable_,
                                 {nominal_, recalibrated_.fitted.model.rig, chosen_rig_});
-    plan_next();
-    result_.because = because(result_);
-    if (result_.verdict != Verdict::nothing_missing)
-      result_.because += sentence_of(result_.start, result_.gap);
   }
 
   // What would separate the effect named first from those it may be, or the next one.
   void plan_next() {
     if (result_.effects.empty()) return;
     for (const Doubt& doubt : naming_.doubts) {
-      step("planning");
-      const double scatter = temperature(experiment_, chosen_->fitted.residuals, case_.split.training);
-      result_.next_experiment = plan(experiment_, doubt.with_effect, doubt.with_rival,
-                                     {doubt.effect, doubt.rival}, result_.gap.corrected_rmse, 1.0 / scatter);
+      step_("planning");
+      result_.next_experiment =
+          plan(experiment_, doubt.with_effect, doubt.with_rival, {doubt.effect, doubt.rival},
+               result_.gap.corrected_rmse, 1.0 / chosen_inflation_);
       if (result_.next_experiment) return;
     }
   }
 
+  void tell_verdict() {
+    result_.because = because(result_);
+    if (result_.verdict != Verdict::nothing_missing)
+      result_.because += sentence_of(result_.start, result_.gap);
+  }
+
   Settings settings_;
   const Step& step_;
-  Doubts doubts_;
+  Checked checked_;
   domain::Dataset data_;
   Runs usable_;
   Experiment experiment_;
@@ -340,8 +304,9 @@ class Workflow {
   Contender recalibrated_;
   Naming naming_;
   Law law_;
-  const Contender* chosen_ = &recalibrated_;
-  plant::Rig chosen_rig_;  ///< fitted to the training runs
+  Evidence evidence_;
+  plant::Rig chosen_rig_;          ///< fitted to the training runs
+  double chosen_inflation_ = 1.0;  ///< of its residuals over long times
   std::vector<Fault> faults_;
   Diagnosis result_;
 };
@@ -349,12 +314,12 @@ class Workflow {
 /// The workflow, again each time that faults of the recording have been mended.
 std::pair<Diagnosis, bool> mended(domain::Dataset data, const Settings& settings, const Step& step) {
   step("checking");
-  Doubts doubts = check(data, settings.threads);
+  Checked checked = check(data, settings.threads);
   for (int repairs = 0;; ++repairs) {
-    Workflow workflow(data, doubts, settings, step);
-    Diagnosis result = workflow(repairs < most_repairs);
+    Workflow workflow(data, checked, settings, step);
+    Diagnosis result = workflow(repairs < thresholds.fault.most_repairs);
     if (workflow.faults().empty()) return {std::move(result), workflow.gauged()};
-    mend(data, doubts, workflow.faults());
+    mend(data, checked, workflow.faults());
   }
 }
 
@@ -366,11 +331,11 @@ Diagnosis diagnose(const domain::Dataset& data, const Settings& settings, const 
   const Step step = [&](const std::string& what) { progress(without + what, ++steps, 0); };
   auto [result, gauged] = mended(data, settings, step);
   const double left = motion_left(result.gap);
-  if (!gauged || !(left >= contradicted)) return result;
+  if (!gauged || !gauge_is_suspect(left, thresholds)) return result;
   // No model meets the gauge and the motion: perhaps one meets the motion alone.
   without = "without the gauge: ";
   Diagnosis ungauged = mended(without_gauges(data, all_but({}, data.runs.size())), settings, step).first;
-  if (ungauged.verdict == Verdict::cannot_tell || motion_left(ungauged.gap) > 0.25 * left) return result;
+  if (!better_without_gauge(left, motion_left(ungauged.gap), ungauged.verdict, thresholds)) return result;
   ungauged.warnings.insert(
       ungauged.warnings.begin(),
       "muscle_pressure_bar is ignored: no model meets both it and the motion, but one meets the motion alone "

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include <sim/diagnose/thresholds.hpp>
 #include <sim/domain/campaign.hpp>
 #include <sim/domain/dataset.hpp>
 
@@ -30,7 +31,7 @@ constexpr auto names(Verdict) {
 }
 
 /// A fitted number with its 95 % interval.
-struct Estimate {
+struct FittedNumber {
   std::string name;  ///< key in the effect's part of a rig file, or path in the rig
   std::string unit;
   double value = 0.0, low = 0.0, high = 0.0;
@@ -45,23 +46,25 @@ inline std::string full_name(const std::string& name, const std::string& variant
 struct NamedEffect {
   std::string name, variant;
   std::vector<std::string> confusable_with{};  ///< effects that explain these data as well
-  std::vector<Estimate> parameters{};
+  std::vector<FittedNumber> parameters{};
 };
 
 /// A nominal parameter after calibration.
 struct Moved {
-  Estimate fitted;
+  FittedNumber fitted;
   double nominal = 0.0;
   double deviations = 0.0;  ///< of its prior
 
   /// Worth telling: further than a data sheet promises, or the size of an effect.
-  bool notable() const { return std::abs(deviations) > 1.0 || fitted.name.starts_with("effects."); }
+  bool notable() const {
+    return std::abs(deviations) > thresholds.parameter.notable || fitted.name.starts_with("effects.");
+  }
 };
 
 struct LawTerm {
   std::string term;
-  Estimate coefficient;
-  std::vector<Estimate> shape{};  ///< wavelength and phase of a wave
+  FittedNumber coefficient;
+  std::vector<FittedNumber> shape{};  ///< wavelength and phase of a wave
 };
 
 /// One cell of the map of disagreement.
@@ -72,7 +75,7 @@ struct Cell {
   double rms = 0.0;           ///< of the same
   double share_of_gap = 0.0;  ///< of the sum of squares above the floor, within its factor
   double p_value = 1.0;       ///< of the mean, by sign flips of segments
-  bool significant = false;   ///< under a false-discovery rate of 5 %
+  bool significant = false;   ///< under the false-discovery rate
 };
 
 /// One candidate as it was judged in a round. The misfit is the sum of squares over their long-term variance,
@@ -123,9 +126,6 @@ struct Gap {
   double floors_left() const { return noise_floor > 0.0 ? corrected_rmse / noise_floor : 0.0; }
 };
 
-/// More noise floors than this are something to explain.
-inline constexpr double explained_floors = 2.0;
-
 /// Where runs begin, as a suspect: a rig that had not settled moves for reasons that no model of it knows.
 struct Start {
   double share_of_gap = 0.0,
@@ -136,7 +136,9 @@ struct Start {
 
   /// What is left sits there, or runs are seen to move.
   bool suspect() const {
-    return !unsettled.empty() || (share_of_gap > 0.5 && share_of_gap > 2.0 * share_of_time);
+    const StartThresholds& t = thresholds.start;
+    return !unsettled.empty() ||
+           (share_of_gap > t.share_of_gap && share_of_gap > t.over_time * share_of_time);
   }
 };
 

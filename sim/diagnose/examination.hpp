@@ -3,25 +3,21 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <limits>
 #include <map>
 #include <optional>
 #include <vector>
 
 #include <sim/diagnose/faults.hpp>
-#include <sim/diagnose/judge.hpp>
+#include <sim/diagnose/held_out.hpp>
 #include <sim/diagnose/regression.hpp>
 #include <sim/diagnose/shapes.hpp>
+#include <sim/diagnose/thresholds.hpp>
 
 namespace mckibben::diagnose {
 
 /// Mean square, in floors, of runs that are taken for sound.
-inline constexpr double sound = near_floor * near_floor;
-/// At least so many runs must be sound, and so many times as many as are not.
-inline constexpr std::size_t least_sound = 3, sound_for_one = 2;
-/// By which all runs may be late: each is a line of its own.
-inline constexpr std::array common_ticks{1, 2, 3, 4, 5, 6, -1, -2, -3, -4, -5, -6};
+inline constexpr double sound = thresholds.near.mean_square();
 inline constexpr double infinite = std::numeric_limits<double>::infinity();
 
 struct Hypothesis {
@@ -96,7 +92,8 @@ class Examination {
   }
   /// Of a run's residuals, in floors.
   double mean_square(const Eigen::VectorXd& left, std::size_t i) const {
-    return first_temperature * left.segment(begin(i), rows(i)).squaredNorm() / static_cast<double>(rows(i));
+    return thresholds.scatter.first_inflation * left.segment(begin(i), rows(i)).squaredNorm() /
+           static_cast<double>(rows(i));
   }
   double worst(const Regression& fitted) const {
     double most = 0.0;

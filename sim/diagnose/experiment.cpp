@@ -65,6 +65,32 @@ Experiment::Slopes Experiment::slopes(const plant::Rig& rig, std::span<const Par
   return slopes(rig, changes, runs);
 }
 
+void Experiment::fly(const plant::Rig& rig, std::span<const Change> changes, std::size_t before,
+                     const Part& part, Slopes& result) const {
+  const domain::Run& measured = data_.runs[part.run];
+  std::vector<Hanging> rigs{{rig, measured.load_kg}};
+  for (const Change& change : changes) {
+    rigs.push_back(rigs.front());
+    change.apply(rigs.back());
+  }
+  const auto readings = predict(measured, rigs, data_.rig.integrator.method);
+  if (before == 0) compare(readings[0], part.run, result.residuals.data() + part.begin);
+  const auto ticks = static_cast<std::size_t>(part.rows);
+  for (std::size_t c = 0; c < changes.size(); ++c) {
+    const Readings& changed = readings[1 + c];
+    double* column = result.columns.col(static_cast<Eigen::Index>(before + c)).data() + part.begin;
+    for (std::size_t k = 0; k < ticks; ++k) {
+      const bool counts = !masked_[part.run][k];
+      const double ratio = changed.contraction_ratio[k] - readings[0].contraction_ratio[k];
+      column[k] = counts ? ratio / (floor_.ratio * changes[c].size) : 0.0;
+      if (measured.muscle_pressure_Pa) {
+        const double pressure_Pa = changed.pressure_Pa[k] - readings[0].pressure_Pa[k];
+        column[ticks + k] = counts ? pressure_Pa / (floor_.pressure_Pa * changes[c].size) : 0.0;
+      }
+    }
+  }
+}
+
 Experiment::Slopes Experiment::slopes(const plant::Rig& rig, std::span<const Change> changes,
                                       const Runs& runs) const {
   constexpr std::size_t wing = engine::Flock::most - 1;
@@ -73,49 +99,23 @@ Experiment::Slopes Experiment::slopes(const plant::Rig& rig, std::span<const Cha
   Eigen::Index total = 0;
   for (const std::size_t run : runs) total += static_cast<Eigen::Index>(rows(run));
   Slopes result{Eigen::VectorXd(total), Eigen::MatrixXd(total, static_cast<Eigen::Index>(changes.size()))};
-  // Flies changes [first, last) of a run beside the rig itself.
-  const auto fly = [&](const Part& part, std::size_t first, std::size_t last) {
-    const domain::Run& measured = data_.runs[part.run];
-    std::vector<Hanging> rigs{{rig, measured.load_kg}};
-    for (std::size_t c = first; c < last; ++c) {
-      rigs.push_back(rigs.front());
-      changes[c].apply(rigs.back());
-    }
-    const auto readings = predict(measured, rigs, data_.rig.integrator.method);
-    if (first == 0) compare(readings[0], part.run, result.residuals.data() + part.begin);
-    for (std::size_t c = first; c < last; ++c) {
-      const Readings& changed = readings[1 + c - first];
-      double* column = result.columns.col(static_cast<Eigen::Index>(c)).data() + part.begin;
-      const auto ticks = static_cast<std::size_t>(part.rows);
-      for (std::size_t k = 0; k < ticks; ++k) {
-        const bool counts = !masked_[part.run][k];
-        const double ratio = changed.contraction_ratio[k] - readings[0].contraction_ratio[k];
-        column[k] = counts ? ratio / (floor_.ratio * changes[c].size) : 0.0;
-        if (measured.muscle_pressure_Pa) {
-          const double pressure_Pa = changed.pressure_Pa[k] - readings[0].pressure_Pa[k];
-          column[ticks + k] = counts ? pressure_Pa / (floor_.pressure_Pa * changes[c].size) : 0.0;
-        }
-      }
-    }
-  };
   std::mutex guard;
   std::vector<bool> failed(changes.size());
   const auto job = [&](std::size_t index) {
     const Part& part = list[index / flocks];
     const std::size_t first = index % flocks * wing, last = std::min(changes.size(), first + wing);
+    const auto flock = changes.subspan(first, last - first);
     try {
-      fly(part, first, last);
+      fly(rig, flock, first, part, result);
       return;
     } catch (const engine::NumericalFailure&) {
-      const auto may_fail = [](const Change& change) { return change.may_fail; };
-      if (!std::any_of(changes.begin() + static_cast<std::ptrdiff_t>(first),
-                       changes.begin() + static_cast<std::ptrdiff_t>(last), may_fail))
+      if (std::none_of(flock.begin(), flock.end(), [](const Change& change) { return change.may_fail; }))
         throw;
     }
-    if (first == 0) fly(part, 0, 0);
+    if (first == 0) fly(rig, {}, 0, part, result);
     for (std::size_t c = first; c < last; ++c) {
       try {
-        fly(part, c, c + 1);
+        fly(rig, changes.subspan(c, 1), c, part, result);
       } catch (const engine::NumericalFailure&) {
         if (!changes[c].may_fail) throw;
         const std::lock_guard lock(guard);

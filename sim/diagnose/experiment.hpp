@@ -69,6 +69,9 @@ class Experiment {
 
  private:
   void compare(const Readings& readings, std::size_t run, double* residuals) const;
+  /// Flies `changes` of one run beside the rig itself; their columns follow on the first `before`.
+  void fly(const plant::Rig& rig, std::span<const Change> changes, std::size_t before, const Part& part,
+           Slopes& result) const;
 
   const domain::Dataset& data_;
   std::vector<std::vector<bool>> masked_;

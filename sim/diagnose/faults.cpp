@@ -6,41 +6,28 @@
 #include <Eigen/QR>
 
 #include <sim/diagnose/examination.hpp>
+#include <sim/diagnose/thresholds.hpp>
 
 namespace mckibben::diagnose {
 namespace {
 
-/// Mean square, in floors, of runs that raise no question.
-constexpr double unquestioned = 4.0;
-/// Faults must leave less than this share of the misfit that the rig, or an effect, leaves.
-constexpr double strictly_better = 0.3;
-/// A shape explains a run if it leaves so little of its misfit.
-constexpr double explained = 0.03;
-/// Mean square, in floors, of a run that no shape explains: from here on it is of another rig. Less may as
-/// well be left by a law that is not quite right.
-constexpr double of_another_rig = 64.0;
-/// Shapes that begin at a row of their choice must do that much better.
-constexpr double for_choice = 0.9;
-/// Where one run is looked for, the worst so many are tried.
-constexpr std::size_t most_tried = 6;
-/// Smaller sizes are nothing to talk of.
-constexpr double least_scale = 0.004, least_mA = 0.03, least_drift = 5e-4, least_ticks = 0.6;
+constexpr const FaultThresholds& of_faults = thresholds.fault;
 
 }  // namespace
 
 Examined Examination::operator()() {
   const Regression alone = regression(Kept(runs_.size(), true));
   const double most = worst(alone);
-  if (runs_.size() <= least_sound || most <= unquestioned) return {};
-  Hypothesis best = few(most > sound ? sound : unquestioned);
+  if (runs_.size() <= of_faults.least_sound || most <= of_faults.unquestioned) return {};
+  Hypothesis best = few(most > sound ? sound : of_faults.unquestioned);
   for (const Hypothesis& other :
        {common_lateness(alone), own_line(FaultKind::zero), own_line(FaultKind::drift)})
     if (other.cost < best.cost) best = other;
-  const bool better = !best.faults.empty() && best.cost <= strictly_better * alone.cost();
+  const bool better = !best.faults.empty() && best.cost <= of_faults.strictly_better * alone.cost();
   if (!better && most <= sound) return {};
   draw_effects();
   const double with_an_effect = alone.cost() - most_gained(alone);
-  if (better && best.cost <= strictly_better * with_an_effect) return {best.faults, {}};
+  if (better && best.cost <= of_faults.strictly_better * with_an_effect) return {best.faults, {}};
   if (most <= sound) return {};
   return {{}, suspicions(alone, with_an_effect)};
 }
@@ -49,21 +36,21 @@ bool Examination::worth_telling(FaultKind kind, double size) const {
   switch (kind) {
     case FaultKind::late:
     case FaultKind::rows_lost:
-      return std::abs(size) >= least_ticks;
+      return std::abs(size) >= of_faults.least_ticks;
     case FaultKind::current_scale:
     case FaultKind::reading_scale:
-      return std::abs(size) >= least_scale;
+      return std::abs(size) >= of_faults.least_scale;
     case FaultKind::current_offset:
-      return std::abs(size) >= least_mA;
+      return std::abs(size) >= of_faults.least_mA;
     case FaultKind::drift:
-      return std::abs(size) >= least_drift;
+      return std::abs(size) >= of_faults.least_drift;
     default:
-      return std::abs(size) >= 0.6 * count();
+      return std::abs(size) >= of_faults.least_counts * count();
   }
 }
 
 void Examination::fly() {
-  weight_ = 1.0 / (experiment_.floor().ratio * std::sqrt(first_temperature));
+  weight_ = 1.0 / (experiment_.floor().ratio * std::sqrt(thresholds.scatter.first_inflation));
   const auto fitted = experiment_.slopes(at_.rig, at_.free, runs_);
   const auto driven = experiment_.slopes(at_.rig, currents_in_error(), runs_);
   const auto parts = experiment_.parts(runs_);
@@ -100,8 +87,9 @@ std::optional<Fault> Examination::look_up(std::size_t i, Kept kept) const {
   double most = 0.0, size = 0.0;
   each_shape(undisturbed_[i], [&](const Shape& shape) {
     auto [drop, amplitude] = fitted.gain(weighted(shape.column), begin(i));
-    if (shape.row > 0) drop *= for_choice;
-    if (shape.drawn_at != 0.0 && std::abs(amplitude - shape.drawn_at) > 0.25 + 0.3 * std::abs(shape.drawn_at))
+    if (shape.row > 0) drop *= of_faults.for_choice;
+    if (shape.drawn_at != 0.0 && std::abs(amplitude - shape.drawn_at) >
+                                     of_faults.drawn_ticks + of_faults.drawn_share * std::abs(shape.drawn_at))
       return;
     if (drop <= most || !worth_telling(shape.kind, amplitude)) return;
     most = drop;
@@ -111,9 +99,9 @@ std::optional<Fault> Examination::look_up(std::size_t i, Kept kept) const {
   Regression with = fitted;
   if (most > 0.0) with.add(everywhere(i, weighted(best.column)));
   const double before = mean_square(fitted.left(), i);
-  if (mean_square(with.left(), i) <= std::max(sound, explained * before) && most > 0.0)
+  if (mean_square(with.left(), i) <= std::max(sound, of_faults.explained * before) && most > 0.0)
     return Fault{runs_[i], best.kind, size, best.row};
-  if (before < of_another_rig) return std::nullopt;
+  if (before < of_faults.another_rig) return std::nullopt;
   return Fault{runs_[i], FaultKind::another_rig};
 }
 
@@ -138,10 +126,12 @@ Hypothesis Examination::few(double near) const {
                 [](const Fault& a, const Fault& b) { return a.run < b.run; });
       return found;
     }
-    if (worst.size() <= least_sound || worst.size() - 1 < sound_for_one * (odd.size() + 1)) return {};
+    if (worst.size() <= of_faults.least_sound ||
+        worst.size() - 1 < of_faults.sound_for_one * (odd.size() + 1))
+      return {};
     double least = infinite;
     std::size_t oddest = 0;
-    for (std::size_t tried = 0; tried < std::min(worst.size(), most_tried); ++tried) {
+    for (std::size_t tried = 0; tried < std::min(worst.size(), of_faults.most_tried); ++tried) {
       Kept fewer = kept;
       fewer[worst[tried].second] = false;
       const double cost = regression(fewer).cost();
@@ -165,10 +155,10 @@ Eigen::VectorXd Examination::all_late(int ticks) const {
 /// All runs late by the same whole number of ticks.
 Hypothesis Examination::common_lateness(const Regression& alone) const {
   Hypothesis best;
-  for (const int ticks : common_ticks) {
+  for (const int ticks : of_faults.common_ticks) {
     const Eigen::VectorXd column = all_late(ticks);
     const double amplitude = alone.gain(column, 0).amplitude;
-    if (std::abs(amplitude - ticks) > 0.5) continue;
+    if (std::abs(amplitude - ticks) > of_faults.whole_tick) continue;
     Regression with = alone;
     with.add(column);
     if (with.cost() >= best.cost) continue;

@@ -34,9 +34,6 @@ struct Fault {
   bool common = false;  ///< all runs have it: it is the recorder's, or it is real
 };
 
-/// Residuals within so many floors [rms] are taken for noise, slow disturbances included.
-inline constexpr double near_floor = 4.0;
-
 /// An effect that may be missing beside faults of a few runs, or one of all runs: with these it comes much
 /// closer than any effect does without.
 struct Suspicion {

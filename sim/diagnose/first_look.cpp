@@ -5,6 +5,7 @@
 
 #include <sim/diagnose/first_look.hpp>
 #include <sim/diagnose/repair.hpp>
+#include <sim/diagnose/thresholds.hpp>
 
 namespace mckibben::diagnose {
 namespace {
@@ -18,18 +19,32 @@ std::pair<std::ptrdiff_t, std::size_t> shortfall(const std::vector<Fault>& fault
 
 /// Whether a model that is fitted to all runs as they are takes each of them near the floor.
 bool explains_all(const Case& c, const Model& model, const Runs& usable) {
-  const auto fitted = fit(c.experiment, model, usable, {.temperature = first_temperature});
+  const auto fitted = fit(c.experiment, model, usable, {.inflation = thresholds.scatter.first_inflation});
   if (!fitted.failure.empty()) return false;
   const auto parts = c.experiment.parts(usable);
   return std::all_of(parts.begin(), parts.end(), [&](const auto& part) {
-    return excess(fitted.residuals.segment(part.begin, part.rows)) + 1.0 <= near_floor * near_floor;
+    return near_floor(fitted.residuals.segment(part.begin, part.rows));
   });
+}
+
+/// The suspected effect fitted to the runs that may be sound, the fault that all have taken out.
+Contender with_suspect(const Case& c, const Checked& checked, const Model& described, const Runs& usable,
+                       const Suspicion& suspicion) {
+  const auto fitted = [&](const Experiment& experiment) {
+    const Case of_sound{experiment, c.nominal, {suspicion.sound, c.split.held_out}, c.inflation, c.learned};
+    return contend(of_sound, with(of_sound, described, suspicion.effect));
+  };
+  if (suspicion.common.empty()) return fitted(c.experiment);
+  domain::Dataset data = c.experiment.data();
+  Checked mended = checked;
+  mend(data, mended, suspicion.common);
+  return fitted(Experiment(data, mended.masked, c.experiment.threads(), usable));
 }
 
 // An effect fitted to all runs as they are would be bent by those at fault: each that is suspected is fitted
 // to the others, or to all with their common fault taken out, and the faults are looked up from there. A
 // common fault must then do better than a second effect.
-std::vector<Fault> beside_an_effect(const Case& c, const Doubts& doubts, const Model& described,
+std::vector<Fault> beside_an_effect(const Case& c, const Checked& checked, const Model& described,
                                     const Runs& usable, const std::vector<Suspicion>& suspicions,
                                     const Step& step) {
   const std::pair<std::ptrdiff_t, std::size_t> one_fault{0, 1};
@@ -37,12 +52,7 @@ std::vector<Fault> beside_an_effect(const Case& c, const Doubts& doubts, const M
   for (const Suspicion& suspicion : suspicions) {
     const bool common = !suspicion.common.empty();
     step("trying " + title(suspicion.effect.candidate) + " beside faults of runs");
-    domain::Dataset data = c.experiment.data();
-    Doubts mended = doubts;
-    mend(data, mended, suspicion.common);
-    const Experiment experiment(data, mended.masked, c.experiment.threads(), usable);
-    const Case of_sound{experiment, c.nominal, {suspicion.sound, c.split.held_out}, c.temperature, c.learned};
-    const auto contender = contend(of_sound, with(of_sound, described, suspicion.effect));
+    const auto contender = with_suspect(c, checked, described, usable, suspicion);
     if (!contender.fitted.failure.empty()) continue;
     auto faults =
         examine(c.experiment, contender.fitted.model, usable, common ? catalogue() : std::vector<Candidate>{})
@@ -60,16 +70,16 @@ bool explains_more(const std::vector<Fault>& faults, const std::vector<Fault>& o
   return shortfall(faults) < shortfall(others);
 }
 
-std::vector<Fault> first_look(const Case& c, const Doubts& doubts, const Model& described, const Runs& usable,
-                              const Step& step) {
+std::vector<Fault> first_look(const Case& c, const Checked& checked, const Model& described,
+                              const Runs& usable, const Step& step) {
   const auto [faults, suspicions] = examine(c.experiment, described, usable, catalogue());
-  if (faults.empty()) return beside_an_effect(c, doubts, described, usable, suspicions, step);
+  if (faults.empty()) return beside_an_effect(c, checked, described, usable, suspicions, step);
   Runs others;
   for (const std::size_t run : usable)
     if (std::none_of(faults.begin(), faults.end(), [&](const Fault& fault) { return fault.run == run; }))
       others.push_back(run);
   if (others.empty()) return faults;
-  const auto fitted = fit(c.experiment, described, others, {.temperature = first_temperature});
+  const auto fitted = fit(c.experiment, described, others, {.inflation = thresholds.scatter.first_inflation});
   if (!fitted.failure.empty()) return faults;
   const auto again = examine(c.experiment, fitted.model, usable, catalogue()).faults;
   return !again.empty() && explains_more(faults, again) ? faults : again;

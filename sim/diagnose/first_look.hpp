@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include <sim/diagnose/checks.hpp>
+#include <sim/diagnose/check.hpp>
 #include <sim/diagnose/faults.hpp>
 #include <sim/diagnose/trial.hpp>
 
@@ -16,7 +16,7 @@ bool explains_more(const std::vector<Fault>& faults, const std::vector<Fault>& o
 /// Examines the runs from the rig as `described`, then from a fit to those that are not suspected, and takes
 /// the list that explains more; beside an effect that may be missing, too. Throws engine::NumericalFailure,
 /// run::Interrupted.
-std::vector<Fault> first_look(const Case& c, const Doubts& doubts, const Model& described, const Runs& usable,
-                              const Step& step);
+std::vector<Fault> first_look(const Case& c, const Checked& checked, const Model& described,
+                              const Runs& usable, const Step& step);
 
 }  // namespace mckibben::diagnose

@@ -7,23 +7,17 @@
 #include <glog/logging.h>
 
 #include <sim/diagnose/fit.hpp>
+#include <sim/diagnose/thresholds.hpp>
 #include <sim/engine/failure.hpp>
 
 namespace mckibben::diagnose {
 namespace {
 
-constexpr int most_rounds = 5, most_thorough = 20, iterations_a_round = 8;
-/// A round of less descent is the last. In units of the cost, where 1 is what a parameter costs that is moved
-/// by its deviation; the more misfit, the coarser, since what is missing moves parameters further than that.
-constexpr double least_descent = 0.01;
-/// Sum of squares of a slope [floors per scale], below which it is rounding.
-constexpr double least_influence = 1e-12;
-
 class Misfit final : public ceres::CostFunction {
  public:
-  Misfit(const Experiment& experiment, const Model& model, const Runs& runs, double temperature,
+  Misfit(const Experiment& experiment, const Model& model, const Runs& runs, double inflation,
          const KnownSlopes& known)
-      : experiment_(experiment), model_(model), runs_(runs), temperature_(temperature), known_(known) {
+      : experiment_(experiment), model_(model), runs_(runs), inflation_(inflation), known_(known) {
     for (const std::size_t run : runs) rows_ += static_cast<Eigen::Index>(experiment.rows(run));
     for (const Parameter& p : model.free) priors_ += p.has_prior ? 1 : 0;
     set_num_residuals(static_cast<int>(rows_ + priors_));
@@ -57,7 +51,7 @@ class Misfit final : public ceres::CostFunction {
 
   bool Evaluate(double const* const* values, double* residuals, double** jacobians) const override {
     if (thrown_) return false;
-    const double weight = 1.0 / std::sqrt(temperature_);
+    const double weight = 1.0 / std::sqrt(inflation_);
     const bool wanted = jacobians != nullptr && jacobians[0] != nullptr;
     try {
       const plant::Rig rig = rig_at(values[0]);
@@ -102,16 +96,16 @@ class Misfit final : public ceres::CostFunction {
   const Experiment& experiment_;
   const Model& model_;
   const Runs& runs_;
-  double temperature_;
+  double inflation_;
   const KnownSlopes& known_;
   Eigen::Index rows_ = 0, priors_ = 0;
   std::vector<Parameter> fresh_;
   mutable std::exception_ptr thrown_;
 };
 
-/// Residuals and priors: sum of squares / temperature + deviations^2.
-double cost_of(const Fitted& fitted, double temperature) {
-  double cost = fitted.residuals.squaredNorm() / temperature;
+/// Residuals and priors: sum of squares / inflation + deviations^2.
+double cost_of(const Fitted& fitted, double inflation) {
+  double cost = fitted.residuals.squaredNorm() / inflation;
   for (const Parameter& p : fitted.model.free) {
     const double deviations = p.has_prior ? p.scaled(value_of(fitted.model.rig, p.path)) : 0.0;
     cost += deviations * deviations;
@@ -126,7 +120,7 @@ void refuse_without_influence(Fitted& fitted) {
   for (std::size_t j = 0; j < fitted.model.free.size(); ++j) {
     Parameter& p = fitted.model.free[j];
     const auto column = static_cast<Eigen::Index>(j);
-    if (fitted.columns.col(column).squaredNorm() < least_influence) {
+    if (fitted.columns.col(column).squaredNorm() < thresholds.fit.least_influence) {
       fitted.model.refused.push_back(p.path);
     } else {
       kept.push_back(column);
@@ -152,11 +146,13 @@ std::string descend(Misfit& misfit, Model& model, bool thorough) {
   }
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::DENSE_QR;
-  options.max_num_iterations = iterations_a_round;
+  options.max_num_iterations = thresholds.fit.iterations;
   // Steps are projected onto the bounds; a line search along them would need all slopes at each trial.
   options.max_num_line_search_step_size_iterations = 0;
-  options.function_tolerance = thorough ? 1e-7 : 1e-4;
-  options.parameter_tolerance = thorough ? 1e-7 : 1e-5;
+  options.function_tolerance =
+      thorough ? thresholds.fit.thorough_cost_tolerance : thresholds.fit.cost_tolerance;
+  options.parameter_tolerance =
+      thorough ? thresholds.fit.thorough_parameter_tolerance : thresholds.fit.parameter_tolerance;
   options.logging_type = ceres::SILENT;
   options.num_threads = 1;                 // the simulations have their own
   FLAGS_minloglevel = google::GLOG_FATAL;  // a refused step is no news
@@ -187,10 +183,10 @@ Fitted fit(const Experiment& experiment, Model start, const Runs& runs, const Fi
   // Whether the rig can be simulated, a little changed too.
   const auto look = [&](const KnownSlopes& known) {
     try {
-      auto at = Misfit(experiment, result.model, runs, settings.temperature, known).slopes(result.model.rig);
+      auto at = Misfit(experiment, result.model, runs, settings.inflation, known).slopes(result.model.rig);
       result.residuals = std::move(at.residuals);
       result.columns = std::move(at.columns);
-      result.cost = cost_of(result, settings.temperature);
+      result.cost = cost_of(result, settings.inflation);
     } catch (const engine::NumericalFailure& failure) {
       result.failure = failure.what();
     }
@@ -202,15 +198,15 @@ Fitted fit(const Experiment& experiment, Model start, const Runs& runs, const Fi
     if (!look(none)) return result;
     refuse_without_influence(result);
   }
-  const int rounds = rough ? 1 : settings.thorough ? most_thorough : most_rounds;
-  const double coarseness = settings.thorough ? 0.0 : 0.01;
+  const int rounds = rough ? 1 : settings.thorough ? thresholds.fit.thorough_rounds : thresholds.fit.rounds;
+  const double coarseness = settings.thorough ? 0.0 : thresholds.fit.coarseness;
   for (int round = 0; round < rounds && !result.model.free.empty(); ++round) {
     const KnownSlopes known = rough ? *settings.known : slopes_of_nominal(result);
     const double before = result.cost;
-    Misfit misfit(experiment, result.model, runs, settings.temperature, known);
+    Misfit misfit(experiment, result.model, runs, settings.inflation, known);
     result.failure = descend(misfit, result.model, settings.thorough);
     if (!result.failure.empty() || !look(rough ? known : none)) return result;
-    if (before - result.cost < least_descent * (1.0 + coarseness * result.cost)) break;
+    if (before - result.cost < thresholds.fit.least_descent * (1.0 + coarseness * result.cost)) break;
   }
   return result;
 }

@@ -23,7 +23,7 @@ struct Model {
 using KnownSlopes = std::vector<std::pair<std::string, Eigen::VectorXd>>;
 
 struct FitSettings {
-  double temperature =
+  double inflation =
       1.0;  ///< how much more the residuals scatter, over long times, than white noise at the floor
   bool thorough = false;               ///< to the bottom of the valley, for numbers that are told
   const KnownSlopes* known = nullptr;  ///< for a rough fit: slopes taken over from an earlier one
@@ -33,7 +33,7 @@ struct Fitted {
   Model model;
   Eigen::VectorXd residuals;  ///< of the fitted runs
   Eigen::MatrixXd columns;    ///< slopes at the end, a column for each free parameter
-  double cost = 0.0;          ///< residuals and priors: sum of squares / temperature + deviations^2
+  double cost = 0.0;          ///< residuals and priors: sum of squares / inflation + deviations^2
   std::string failure{};      ///< why there is no fit; empty if there is
 };
 

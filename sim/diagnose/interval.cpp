@@ -7,11 +7,12 @@
 
 #include <plant/instruments.hpp>
 #include <sim/diagnose/interval.hpp>
+#include <sim/diagnose/thresholds.hpp>
 
 namespace mckibben::diagnose {
 namespace {
 
-constexpr int draws = 100;
+constexpr int draws = thresholds.interval.draws;
 
 /// Errors of the scaled parameters that counting and its jitter alone make, times their transpose, on
 /// average. A load at rest has one error for as long as it rests, and the same in every run that rests there;
@@ -31,7 +32,7 @@ Eigen::MatrixXd counting_errors(const Experiment& experiment, const Fitted& fitt
     moved += counts * counts * (columns * spread).cwiseProduct(columns).sum();
     rows += static_cast<double>(part.rows);
   }
-  const double wider = std::max(1.0, std::sqrt(rows / std::max(moved, 1e-12)));
+  const double wider = std::max(1.0, std::sqrt(rows / std::max(moved, thresholds.interval.still)));
   const Eigen::MatrixXd root = wider * Eigen::MatrixXd(spread.llt().matrixL());
   std::mt19937_64 random(1);
   std::normal_distribution<double> normal;
@@ -60,14 +61,15 @@ Eigen::MatrixXd counting_errors(const Experiment& experiment, const Fitted& fitt
 }  // namespace
 
 std::vector<Bounds> intervals(const Experiment& experiment, const Fitted& fitted, const Runs& runs,
-                              double temperature) {
+                              double inflation) {
   const auto& free = fitted.model.free;
   const auto count = static_cast<Eigen::Index>(free.size());
-  const Eigen::Index segment = std::max<Eigen::Index>(1, std::lround(1.5 / experiment.data().rig.tick_s));
+  const Eigen::Index segment =
+      std::max<Eigen::Index>(1, std::lround(thresholds.scatter.segment_s / experiment.data().rig.tick_s));
   Eigen::MatrixXd priors = Eigen::MatrixXd::Zero(count, count);
   for (Eigen::Index j = 0; j < count; ++j)
     if (free[static_cast<std::size_t>(j)].has_prior) priors(j, j) = 1.0;
-  const Eigen::MatrixXd information = fitted.columns.transpose() * fitted.columns / temperature + priors;
+  const Eigen::MatrixXd information = fitted.columns.transpose() * fitted.columns / inflation + priors;
   Eigen::MatrixXd scatter = priors;
   Eigen::Index begin = 0, segments = 0;
   for (const std::size_t run : runs) {
@@ -75,7 +77,7 @@ std::vector<Bounds> intervals(const Experiment& experiment, const Fitted& fitted
     for (Eigen::Index at = 0; at < rows; at += segment, ++segments) {
       const Eigen::Index length = std::min(segment, rows - at);
       const Eigen::VectorXd score = fitted.columns.middleRows(begin + at, length).transpose() *
-                                    fitted.residuals.segment(begin + at, length) / temperature;
+                                    fitted.residuals.segment(begin + at, length) / inflation;
       scatter += score * score.transpose();
     }
     begin += rows;
@@ -84,7 +86,7 @@ std::vector<Bounds> intervals(const Experiment& experiment, const Fitted& fitted
   const Eigen::MatrixXd robust = inverse * scatter * inverse;
   const Eigen::MatrixXd counted =
       inverse * priors * inverse + counting_errors(experiment, fitted, runs,
-                                                   inverse * fitted.columns.transpose() / temperature,
+                                                   inverse * fitted.columns.transpose() / inflation,
                                                    robust + inverse);
   // Few clusters make the sandwich too optimistic: the widest of the three, and a little for their number.
   const double few =
@@ -93,7 +95,8 @@ std::vector<Bounds> intervals(const Experiment& experiment, const Fitted& fitted
   for (Eigen::Index j = 0; j < count; ++j) {
     const Parameter& p = free[static_cast<std::size_t>(j)];
     const double value = value_of(fitted.model.rig, p.path);
-    const double half = 1.96 * few * std::sqrt(std::max({robust(j, j), inverse(j, j), counted(j, j)}));
+    const double half =
+        thresholds.interval.normal * few * std::sqrt(std::max({robust(j, j), inverse(j, j), counted(j, j)}));
     const double at = p.scaled(value);
     const double ends[] = {p.unscaled(at - half), p.unscaled(at + half)};
     const double low = std::min(ends[0], ends[1]), high = std::max(ends[0], ends[1]);

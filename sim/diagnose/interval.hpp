@@ -15,6 +15,6 @@ struct Bounds {
 
 /// One for each free parameter of a model fitted to `runs`.
 std::vector<Bounds> intervals(const Experiment& experiment, const Fitted& fitted, const Runs& runs,
-                              double temperature);
+                              double inflation);
 
 }  // namespace mckibben::diagnose

@@ -1,6 +1,4 @@
-// One-dimensional fits of the load, and robust statistics of them; see the header. The thresholds were set
-// on 64 data sets (each effect of the catalogue at twice its typical size, each parameter at three prior
-// deviations, nine runs, five loads): no label was doubted wrongly, and of 2304 exchanged ones 6 were missed.
+// One-dimensional fits of the load, and robust statistics of them; see the header.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -8,26 +6,17 @@
 
 #include <sim/diagnose/labels.hpp>
 #include <sim/diagnose/shapes.hpp>
+#include <sim/diagnose/thresholds.hpp>
+#include <sim/run/series.hpp>
 
 namespace mckibben::diagnose {
 namespace {
 
 using Series = std::vector<double>;  // a value for each run of the data set
 
-constexpr double many_spreads = 4.0;   // of the other runs' offsets: median absolute deviations
-constexpr double trend = 0.1;          // of a load: parameters in error scatter offsets as much
-constexpr double still_there = 0.5;    // of the sum of squares, with the load that fits
-constexpr double others_suffer = 1.4;  // growth of theirs, with the same offset
-constexpr double exact_kg = 0.03;      // smaller steps do not matter
+/// An offset that no parameter in error makes.
 double sure_of_kg(double load_kg) {
-  return 2.0 * (0.15 + 0.02 * load_kg);
-}
-
-double median(Series values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  if (values.size() % 2 == 1) return *middle;
-  return 0.5 * (*middle + *std::max_element(values.begin(), middle));
+  return thresholds.label.sure_kg + thresholds.label.sure_share * load_kg;
 }
 
 class Scales {
@@ -44,15 +33,16 @@ class Scales {
   double common_ratio(const Runs& runs) const {
     Series ratios;
     for (const std::size_t run : runs) ratios.push_back(loads_kg_[run] / data_.runs[run].load_kg);
-    return median(std::move(ratios));
+    return run::median(std::move(ratios));
   }
 
  private:
   /// Residuals and slope for the load, at other loads than the labels.
   Experiment::Slopes at(const Series& loads_kg, const Runs& runs) const {
     domain::Dataset moved = data_;
-    for (const std::size_t run : runs) moved.runs[run].load_kg = std::max(loads_kg[run], 0.1);
-    constexpr double step_kg = 0.01;
+    for (const std::size_t run : runs)
+      moved.runs[run].load_kg = std::max(loads_kg[run], thresholds.label.least_kg);
+    constexpr double step_kg = thresholds.label.step_kg;
     const Experiment::Change heavier{[](Hanging& h) { h.load_kg += step_kg; }, step_kg};
     return Experiment(moved, masked_, threads_).slopes(moved.rig, {&heavier, 1}, runs);
   }
@@ -105,7 +95,7 @@ void Scales::weigh(const Runs& runs) {
   squares_.assign(loads_kg_.size(), std::numeric_limits<double>::infinity());
   Series tried_kg = loads_kg_, step_kg(loads_kg_.size(), 0.0);
   Runs moving = runs;
-  for (int iteration = 0; iteration < 6 && !moving.empty(); ++iteration) {
+  for (int iteration = 0; iteration < thresholds.label.steps && !moving.empty(); ++iteration) {
     const auto slopes = at(tried_kg, moving);
     for (const auto& part : parts(moving)) {
       const auto residuals = slopes.residuals.segment(part.begin, part.rows);
@@ -115,14 +105,15 @@ void Scales::weigh(const Runs& runs) {
       if (residuals.squaredNorm() < squares_[part.run]) {
         squares_[part.run] = residuals.squaredNorm();
         load_kg = tried_kg[part.run];
-        step = slope.dot(residuals) / std::max(slope.squaredNorm(), 1e-12);
-        step = std::clamp(step, -0.5 * load_kg, load_kg);
+        step = slope.dot(residuals) / std::max(slope.squaredNorm(), thresholds.fit.least_influence);
+        step = std::clamp(step, thresholds.label.least_step * load_kg, thresholds.label.most_step * load_kg);
       } else {
         step *= 0.5;
       }
       tried_kg[part.run] = load_kg + step;
     }
-    std::erase_if(moving, [&](std::size_t run) { return std::abs(step_kg[run]) < exact_kg; });
+    std::erase_if(moving,
+                  [&](std::size_t run) { return std::abs(step_kg[run]) < thresholds.label.exact_kg; });
   }
 }
 
@@ -133,7 +124,7 @@ std::optional<WrongLabel> Scales::worst(const Runs& runs) const {
     Series values;
     for (const std::size_t other : runs)
       if (other != run) values.push_back(value(other));
-    return median(std::move(values));
+    return run::median(std::move(values));
   };
   // How far each run's offset is from that of the others, and its load with theirs.
   Series away_kg(data_.runs.size(), 0.0), usual_kg = away_kg, doubt = away_kg;
@@ -144,8 +135,8 @@ std::optional<WrongLabel> Scales::worst(const Runs& runs) const {
         of_others(run, [&](std::size_t other) { return std::abs(offset_kg(other) - common_kg); });
     away_kg[run] = offset_kg(run) - common_kg;
     usual_kg[run] = label_kg(run) + common_kg;
-    const double limit_kg = std::max(many_spreads * spread_kg, sure_of_kg(label_kg(run))) +
-                            trend * std::abs(label_kg(run) - of_others(run, label_kg));
+    const double limit_kg = std::max(thresholds.label.spreads * spread_kg, sure_of_kg(label_kg(run))) +
+                            thresholds.label.trend * std::abs(label_kg(run) - of_others(run, label_kg));
     doubt[run] = std::abs(away_kg[run]) / limit_kg;
     if (doubt[run] > 1.0) doubted.push_back(run);
   }
@@ -154,11 +145,12 @@ std::optional<WrongLabel> Scales::worst(const Runs& runs) const {
             [&](std::size_t a, std::size_t b) { return doubt[a] > doubt[b]; });
   const Series usual = squares(usual_kg, runs);
   for (const std::size_t run : doubted) {
-    if (squares_[run] > still_there * usual[run]) continue;
+    if (squares_[run] > thresholds.label.still_there * usual[run]) continue;
     Series same_kg = usual_kg;
     for (double& load_kg : same_kg) load_kg += away_kg[run];
     const Series same = squares(same_kg, runs);
-    if (of_others(run, [&](std::size_t other) { return same[other] / usual[other]; }) < others_suffer)
+    if (of_others(run, [&](std::size_t other) { return same[other] / usual[other]; }) <
+        thresholds.label.others_suffer)
       continue;
     return WrongLabel{run, label_kg(run) + away_kg[run], other_fault(run, usual_kg)};
   }
@@ -170,12 +162,13 @@ std::optional<WrongLabel> Scales::worst(const Runs& runs) const {
 Labels check_labels(const domain::Dataset& data, const std::vector<std::vector<bool>>& masked, Runs runs,
                     unsigned threads) {
   Labels labels;
-  if (runs.size() < least_labels) return labels;
+  if (runs.size() < thresholds.label.least_runs) return labels;
   const Scales scales(data, masked, runs, threads);
   labels.common_ratio = scales.common_ratio(runs);
   // The worst first, because it disturbs the others' medians: two that were exchanged come one after the
   // other.
-  while (runs.size() + labels.wrong.size() >= least_labels && runs.size() > 2) {
+  while (runs.size() + labels.wrong.size() >= thresholds.label.least_runs &&
+         runs.size() >= thresholds.label.least_left) {
     const auto next = scales.worst(runs);
     if (!next) break;
     labels.wrong.push_back(*next);

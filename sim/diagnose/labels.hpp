@@ -20,9 +20,6 @@ struct Labels {
   double common_ratio = 1.0;  ///< median of the load that fits over its label
 };
 
-/// The least number of runs whose labels can contradict each other.
-inline constexpr std::size_t least_labels = 4;
-
 /// The runs whose label is doubted. The load that fits a run best, less its label, is compared with that of
 /// the other runs: an offset common to all, or in proportion to the load, is no wrong label, and hidden
 /// effects scatter it. The run must then fit much better, and the others much worse with the same offset.

@@ -9,22 +9,14 @@
 #include <plant/geometry.hpp>
 #include <sim/diagnose/interval.hpp>
 #include <sim/diagnose/law.hpp>
+#include <sim/diagnose/thresholds.hpp>
 
 namespace mckibben::diagnose {
 namespace {
 
 using plant::Basis;
 
-constexpr std::size_t most_terms = 3;
-/// Mean square above the floor at which a term more would describe noise.
-constexpr double met = 0.15;
-/// Waves whose lengths differ by less [logarithm] are one proposal.
-constexpr double same_wave = 0.15;
-/// Proposals that are fitted, of each base.
-constexpr std::size_t most_fits = 4;
-/// Forces for slopes: next to nothing, and of a size that matters, because a muscle that swings answers a
-/// small change in another way than a large one.
-constexpr double probes_N[] = {0.01, 5.0, -5.0, 40.0, -40.0}, wave_probes_N[] = {0.01, 3.0};
+constexpr const LawThresholds& of_law = thresholds.law;
 
 plant::ForceTerm wave(double probe_N, double wavelength_m, double phase_rad) {
   return {.of = Basis::sine, .coefficient_N = probe_N, .wavelength_m = wavelength_m, .phase_rad = phase_rad};
@@ -34,7 +26,8 @@ plant::ForceTerm wave(double probe_N, double wavelength_m, double phase_rad) {
 std::vector<double> wavelengths_m(const plant::Rig& rig) {
   const double rise_m = plant::Braid(rig.muscle).largest_contraction_ratio() * rig.muscle.rest_length_m;
   std::vector<double> list;
-  for (double periods = 1.0; periods <= 20.0; periods += 0.5) list.push_back(rise_m / periods);
+  for (double periods = of_law.first_periods; periods <= of_law.last_periods; periods += of_law.step_periods)
+    list.push_back(rise_m / periods);
   return list;
 }
 
@@ -43,63 +36,80 @@ struct Proposal {
   plant::ForceTerm term{};
 };
 
-/// The terms that promise most, next to what is free already: one of each kind, best first.
-std::vector<Proposal> propose(const Case& c, const Fitted& fitted) {
-  std::vector<plant::ForceTerm> probes;
+/// Terms of which slopes are taken: plain ones, then for each wave its sine and its cosine.
+struct Probes {
+  std::vector<plant::ForceTerm> terms{};
+  std::size_t plain = 0;
+};
+
+Probes probes_of(const plant::Rig& rig) {
+  Probes probes;
   for (const auto& [basis, name] : names(Basis{})) {
     if (basis == Basis::sine || basis == Basis::constant) continue;
-    for (const double probe_N : probes_N) probes.push_back({.of = basis, .coefficient_N = probe_N});
+    for (const double probe_N : of_law.probes_N)
+      probes.terms.push_back({.of = basis, .coefficient_N = probe_N});
   }
-  const std::size_t plain = probes.size();
-  for (const double wavelength : wavelengths_m(c.nominal)) {
-    for (const double probe_N : wave_probes_N) {
-      probes.push_back(wave(probe_N, wavelength, 0.0));
-      probes.push_back(wave(probe_N, wavelength, std::numbers::pi / 2.0));
+  probes.plain = probes.terms.size();
+  for (const double wavelength : wavelengths_m(rig)) {
+    for (const double probe_N : of_law.wave_probes_N) {
+      probes.terms.push_back(wave(probe_N, wavelength, 0.0));
+      probes.terms.push_back(wave(probe_N, wavelength, std::numbers::pi / 2.0));
     }
   }
+  return probes;
+}
+
+/// What each probe promises, next to what is free already.
+std::vector<Proposal> score(const Case& c, const Fitted& fitted, const Probes& probes) {
   std::vector<Experiment::Change> changes;
-  changes.reserve(probes.size());
-  for (const auto& term : probes)
+  changes.reserve(probes.terms.size());
+  for (const auto& term : probes.terms)
     changes.push_back(
         {[term](Hanging& h) { h.rig.effects.get<plant::ResidualForce>().terms.push_back(term); },
          term.coefficient_N, true});
   const auto slopes = c.experiment.slopes(fitted.model.rig, changes, c.split.training);
   // As long as nothing fits, the misfit itself is the scatter.
   const Projector project(
-      fitted, std::max(c.temperature, temperature(c.experiment, fitted.residuals, c.split.training)));
+      fitted, std::max(c.inflation, variance_inflation(c.experiment, fitted.residuals, c.split.training)));
   const Eigen::VectorXd residuals = project(fitted.residuals);
   std::vector<Proposal> list;
   const auto column = [&](std::size_t i) {
     return project(slopes.columns.col(static_cast<Eigen::Index>(i)));
   };
-  for (std::size_t i = 0; i < plain; ++i) {
+  for (std::size_t i = 0; i < probes.plain; ++i) {
     const Eigen::VectorXd slope = column(i);
     const double along = slope.dot(residuals), length = slope.squaredNorm();
-    if (length < 1e-12) continue;
-    list.push_back({along * along / length, probes[i]});
+    if (length < of_law.no_slope) continue;
+    list.push_back({along * along / length, probes.terms[i]});
     list.back().term.coefficient_N = along / length;
   }
-  for (std::size_t i = plain; i < probes.size(); i += 2) {
+  for (std::size_t i = probes.plain; i < probes.terms.size(); i += 2) {
     Eigen::MatrixXd pair(residuals.size(), 2);
     pair << column(i), column(i + 1);
     const Eigen::Matrix2d normal = pair.transpose() * pair;
     const Eigen::Vector2d along = pair.transpose() * residuals;
     const Eigen::Vector2d size = normal.ldlt().solve(along);
     list.push_back(
-        {size.dot(along), wave(size.norm(), probes[i].wavelength_m, std::atan2(size[1], size[0]))});
+        {size.dot(along), wave(size.norm(), probes.terms[i].wavelength_m, std::atan2(size[1], size[0]))});
   }
+  return list;
+}
+
+/// The terms that promise most: one of each kind, best first.
+std::vector<Proposal> propose(const Case& c, const Fitted& fitted) {
+  std::vector<Proposal> list = score(c, fitted, probes_of(c.nominal));
   std::erase_if(list, [](const Proposal& p) { return !(p.drop > 0.0); });
   std::stable_sort(list.begin(), list.end(),
                    [](const Proposal& a, const Proposal& b) { return a.drop > b.drop; });
   const auto same_kind = [](const plant::ForceTerm& a, const plant::ForceTerm& b) {
-    return a.of == b.of && std::abs(std::log(a.wavelength_m / b.wavelength_m)) < same_wave;
+    return a.of == b.of && std::abs(std::log(a.wavelength_m / b.wavelength_m)) < of_law.same_wave;
   };
   std::vector<Proposal> best;
   for (const Proposal& proposal : list) {
     const bool known = std::any_of(best.begin(), best.end(), [&](const Proposal& other) {
       return same_kind(other.term, proposal.term);
     });
-    if (!known && best.size() < most_fits) best.push_back(proposal);
+    if (!known && best.size() < of_law.most_fits) best.push_back(proposal);
   }
   return best;
 }
@@ -110,19 +120,22 @@ Model with_term(const Model& model, const plant::ForceTerm& term) {
   auto& terms = bigger.rig.effects.get<plant::ResidualForce>().terms;
   const std::string path = fmt::format("effects.residual_law.terms.{}.", terms.size());
   terms.push_back(term);
-  bigger.free.push_back(
-      {.path = path + "coefficient", .scale = 1.0, .step = 0.01, .lowest = -1e3, .highest = 1e3});
+  bigger.free.push_back({.path = path + "coefficient",
+                         .scale = 1.0,
+                         .step = of_law.step_N,
+                         .lowest = -of_law.most_N,
+                         .highest = of_law.most_N});
   if (term.of == Basis::sine) {
     bigger.free.push_back({.path = path + "wavelength",
-                           .step = 1e-3,
-                           .lowest = 0.7 * term.wavelength_m,
-                           .highest = 1.4 * term.wavelength_m,
+                           .step = of_law.wave_step,
+                           .lowest = of_law.shorter * term.wavelength_m,
+                           .highest = of_law.longer * term.wavelength_m,
                            .logarithmic = true});
     bigger.free.push_back({.path = path + "phase",
                            .scale = 1.0,
-                           .step = 1e-3,
-                           .lowest = -7.0,
-                           .highest = 7.0,
+                           .step = of_law.wave_step,
+                           .lowest = -of_law.most_phase,
+                           .highest = of_law.most_phase,
                            .period = 2.0 * std::numbers::pi});
   }
   return bigger;
@@ -161,8 +174,8 @@ void drop_needless(const Case& c, Law& law, const Step& step) {
 void drop_uncertain(const Case& c, Law& law, const Step& step) {
   for (std::size_t i = 0; i < law.terms;) {
     const Fitted& fitted = law.contender.fitted;
-    const double scatter = temperature(c.experiment, fitted.residuals, c.split.training);
-    const auto bounds = intervals(c.experiment, fitted, c.split.training, scatter);
+    const double inflation = variance_inflation(c.experiment, fitted.residuals, c.split.training);
+    const auto bounds = intervals(c.experiment, fitted, c.split.training, inflation);
     const std::size_t all = fitted.model.rig.effects.get<plant::ResidualForce>().terms.size();
     const std::size_t term = all - law.terms + i;
     const std::string path = fmt::format("effects.residual_law.terms.{}.", term);
@@ -192,7 +205,7 @@ Law find_law(const Case& c, const std::vector<const Contender*>& bases, const Ei
              const Step& step) {
   Law law{.contender = *bases.front()};
   Eigen::VectorXd before = reference;
-  for (std::size_t round = 0; round < most_terms; ++round) {
+  for (std::size_t round = 0; round < of_law.most_terms; ++round) {
     step(fmt::format("looking for a law, term {}", round + 1));
     std::optional<Contender> next;
     const auto extend = [&](const Contender& base) {
@@ -215,7 +228,7 @@ Law find_law(const Case& c, const std::vector<const Contender*>& bases, const Ei
     ++law.terms;
     law.contender = std::move(*next);
     before = law.contender.held_out;
-    if (excess(before) < met) break;
+    if (excess(before) < thresholds.decide.worth_a_law) break;  // a term more would describe noise
   }
   drop_needless(c, law, step);
   drop_uncertain(c, law, step);

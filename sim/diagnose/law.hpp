@@ -4,7 +4,7 @@
 // plant/effects/residual_force.hpp).
 #pragma once
 
-#include <sim/diagnose/naming.hpp>
+#include <sim/diagnose/name.hpp>
 
 namespace mckibben::diagnose {
 

@@ -8,6 +8,8 @@
 
 #include <sim/diagnose/noise.hpp>
 #include <sim/diagnose/predict.hpp>
+#include <sim/diagnose/thresholds.hpp>
+#include <sim/run/series.hpp>
 #include <sim/run/simulate.hpp>
 
 namespace mckibben::diagnose {
@@ -15,17 +17,16 @@ namespace {
 
 using Runs = std::vector<std::size_t>;
 
-/// What no sensor of a lab does better, and no simulation needs to [contraction ratio].
-constexpr double least_floor = 5e-5;
+constexpr const NoiseThresholds& assumed = thresholds.noise;
 
 /// The last decimal that any reading has, for files rounded to a few: 0 if there are more than seven.
 double last_decimal(const domain::Dataset& data, const Runs& runs) {
-  double unit = 1e-3;
+  double unit = assumed.first_decimal;
   for (const std::size_t run : runs) {
     for (const double ratio : data.runs[run].contraction_ratio) {
-      while (std::abs(ratio / unit - std::round(ratio / unit)) > 1e-6) {
+      while (std::abs(ratio / unit - std::round(ratio / unit)) > assumed.decimal_error) {
         unit /= 10.0;
-        if (unit < 1e-7) return 0.0;
+        if (unit < assumed.last_decimal) return 0.0;
       }
     }
   }
@@ -35,8 +36,8 @@ double last_decimal(const domain::Dataset& data, const Runs& runs) {
 /// Whether the readings are whole counts to the last decimal, but for a few that something else has spoilt.
 bool counted(const domain::Dataset& data, const std::vector<std::vector<bool>>& masked, const Runs& runs,
              double count, double decimal) {
-  const double tolerance = 0.01 + 0.5 * decimal / count;
-  if (tolerance > 0.2) return false;  // everything would be whole
+  const double tolerance = assumed.whole_count + 0.5 * decimal / count;
+  if (tolerance > assumed.telling_count) return false;  // everything would be whole
   std::size_t whole = 0, all = 0;
   for (const std::size_t i : runs) {
     for (std::size_t k = 0; k < data.runs[i].contraction_ratio.size(); ++k) {
@@ -46,7 +47,7 @@ bool counted(const domain::Dataset& data, const std::vector<std::vector<bool>>& 
       whole += std::abs(counts - std::round(counts)) <= tolerance ? 1 : 0;
     }
   }
-  return 100 * whole >= 99 * all;
+  return static_cast<double>(whole) >= assumed.counted_share * static_cast<double>(all);
 }
 
 /// Noise of the gauges from the second differences of what they show: what changes so fast is not the gas.
@@ -61,13 +62,12 @@ double gauge_noise_Pa(const domain::Dataset& data, const Runs& runs) {
     for (std::size_t k = 2; k < p.size(); ++k) second.push_back(std::abs(p[k] - 2.0 * p[k - 1] + p[k - 2]));
     if (second.empty()) continue;
     // The median is blind to the few ticks at which the gas itself turns.
-    std::nth_element(second.begin(), second.begin() + static_cast<std::ptrdiff_t>(second.size() / 2),
-                     second.end());
-    const double deviation = second[second.size() / 2] / 0.6745 / std::sqrt(6.0);
+    const double deviation = run::upper_median(std::move(second)) / assumed.normal_median / std::sqrt(6.0);
     squares += deviation * deviation;
     ++count;
   }
-  return count == 0 ? 0.0 : std::max(std::sqrt(squares / static_cast<double>(count)), 50.0);
+  return count == 0 ? 0.0
+                    : std::max(std::sqrt(squares / static_cast<double>(count)), assumed.least_pressure_Pa);
 }
 
 /// White noise of the contraction ratio, from its fourth differences: no load moves so fast, and the median
@@ -82,9 +82,7 @@ double scatter(const domain::Dataset& data, const std::vector<std::vector<bool>>
         fourth.push_back(std::abs(e[k] - 4.0 * e[k - 1] + 6.0 * e[k - 2] - 4.0 * e[k - 3] + e[k - 4]));
   }
   if (fourth.empty()) return 0.0;
-  const auto middle = fourth.begin() + static_cast<std::ptrdiff_t>(fourth.size() / 2);
-  std::nth_element(fourth.begin(), middle, fourth.end());
-  return *middle / 0.6745 / std::sqrt(70.0);
+  return run::upper_median(std::move(fourth)) / assumed.normal_median / std::sqrt(70.0);
 }
 
 /// Scatter of the contraction ratio between runs of the same current and load; 0 if there are none.
@@ -109,7 +107,7 @@ double repeatability(const domain::Dataset& data, const std::vector<std::vector<
 /// Mean of -d(k) d(k+1) for counts passed at `speed` with `jitter`, both in counts.
 double back_and_forth(double speed, double jitter) {
   double mean = jitter * jitter - speed * speed + 1.0 / 12.0;
-  for (int k = 1; k <= 40; ++k) {
+  for (int k = 1; k <= assumed.waves; ++k) {
     const double wave = 2.0 * std::numbers::pi * k, fading = std::exp(-wave * wave * jitter * jitter);
     mean -= fading * (std::cos(wave * speed) - 0.5 * std::cos(2.0 * wave * speed)) / (0.25 * wave * wave);
   }
@@ -119,16 +117,14 @@ double back_and_forth(double speed, double jitter) {
 /// Whether the load goes straight on within `reach` ticks each way: else its speed is not what the ends say.
 bool straight(const std::vector<double>& e, std::size_t k, std::size_t reach, double count) {
   const auto near = [&](std::size_t at) { return (e[at - 1] + e[at] + e[at + 1]) / (3.0 * count); };
-  return std::abs(near(k + reach - 1) - 2.0 * near(k) + near(k - reach + 1)) < 2.0;
+  return std::abs(near(k + reach - 1) - 2.0 * near(k) + near(k - reach + 1)) < assumed.straight_counts;
 }
 
 /// Jitter before counting, in counts.
 double dither(const domain::Dataset& data, const std::vector<std::vector<bool>>& masked, const Runs& runs,
               double count) {
-  constexpr std::size_t reach = 6;  // ticks each way, over which the load's speed is taken as steady
-  constexpr double fastest = 1.0;   // counts a tick: faster, the speed matters more than the jitter
-  constexpr double largest = 6.0;   // counts of a difference: more is a jump
-  constexpr std::size_t bins = 25;
+  constexpr std::size_t reach = assumed.steady_ticks, bins = assumed.speed_bins;
+  constexpr double fastest = assumed.fastest;
   double squares = 0.0;
   for (std::size_t j = 1; j <= reach; ++j) squares += 2.0 * static_cast<double>(j * j);
   std::array<double, bins> rows{};
@@ -144,7 +140,7 @@ double dither(const domain::Dataset& data, const std::vector<std::vector<bool>>&
         slope += static_cast<double>(j) * (e[k + j] - e[k - j]) / count;
       const double speed = std::abs(slope / squares);
       const double before = (e[k] - e[k - 1]) / count, after = (e[k + 1] - e[k]) / count;
-      if (speed >= fastest || std::max(std::abs(before), std::abs(after)) > largest) continue;
+      if (speed >= fastest || std::max(std::abs(before), std::abs(after)) > assumed.largest) continue;
       rows[static_cast<std::size_t>(speed / fastest * bins)] += 1.0;
       sum -= before * after;
     }
@@ -156,9 +152,10 @@ double dither(const domain::Dataset& data, const std::vector<std::vector<bool>>&
         total += rows[bin] * back_and_forth((static_cast<double>(bin) + 0.5) / bins * fastest, jitter);
     return total;
   };
-  double low = 0.0, high = 2.0;
+  double low = 0.0, high = assumed.most_jitter;
   if (sum <= expected(low)) return 0.0;
-  while (high - low > 1e-4) (expected(0.5 * (low + high)) < sum ? low : high) = 0.5 * (low + high);
+  while (high - low > assumed.jitter_error)
+    (expected(0.5 * (low + high)) < sum ? low : high) = 0.5 * (low + high);
   return 0.5 * (low + high);
 }
 
@@ -180,7 +177,8 @@ NoiseFloor noise_floor(const domain::Dataset& data, const std::vector<std::vecto
   floor.jitter = std::sqrt(std::max(0.0, noise * noise - rounding * rounding));
   floor.noisy = floor.jitter > count;
   if (floor.count > 0.0 && !floor.noisy) floor.jitter = count * dither(data, masked, trusted, count);
-  floor.ratio = std::max({floor.repeats, std::hypot(rounding, floor.jitter, tolerance), least_floor});
+  floor.ratio = std::max(
+      {floor.repeats, std::hypot(rounding, floor.jitter, thresholds.predict.tolerance), assumed.least_ratio});
   floor.pressure_Pa = gauge_noise_Pa(data, trusted);
   return floor;
 }

@@ -7,6 +7,7 @@
 #include <type_traits>
 
 #include <sim/diagnose/parameter.hpp>
+#include <sim/diagnose/thresholds.hpp>
 
 namespace mckibben::diagnose {
 namespace {
@@ -88,28 +89,17 @@ double value_of(const plant::Rig& rig, std::string_view path) {
 }
 
 std::vector<Parameter> nominal_parameters(const plant::Rig& nominal) {
-  // Deviations: relative to the value, or absolute where the value may be zero. Machined lengths are known to
-  // a per cent, catalogue conductances and friction to ten, trimmed pressures to a reading of the gauge.
-  struct Prior {
-    std::string_view path;
-    double relative, absolute;
-  };
-  constexpr Prior priors[] = {{"muscle.rest_radius", 0.01, 0.0}, {"muscle.end_correction", 0.01, 0.0},
-                              {"muscle.braid_angle", 0.01, 0.0}, {"muscle.dead_volume", 0.3, 0.0},
-                              {"friction.scale", 0.1, 0.0},      {"valve.conductance", 0.1, 0.0},
-                              {"valve.zero_pressure", 0.0, 1e3}, {"valve.span_pressure", 0.0, 2e3},
-                              {"hose.conductance", 0.1, 0.0},    {"joint.guide_damping", 0.2, 0.0},
-                              {"joint.load_offset", 0.0, 0.05}};
+  const double most_deviations = thresholds.parameter.most_deviations;
   std::vector<Parameter> list;
   plant::Rig rig = nominal;
-  for (const Prior& prior : priors) {
+  for (const Prior& prior : thresholds.parameter.priors) {
     const Found found = find(rig, prior.path);
     const double deviation = prior.relative * std::abs(*found.value) + prior.absolute;
     if (deviation <= 0.0) continue;
     list.push_back({.path = std::string(prior.path),
                     .origin = *found.value,
                     .scale = deviation,
-                    .step = 0.02 * deviation,
+                    .step = thresholds.parameter.step * deviation,
                     .lowest = std::max(found.lowest, *found.value - most_deviations * deviation),
                     .highest = std::min(found.highest, *found.value + most_deviations * deviation),
                     .has_prior = true});
@@ -162,7 +152,7 @@ std::vector<Parameter> Candidate::parameters(const plant::Rig& rig) const {
   const Found size = find(copy, amplitude);
   // Next to nothing is as good as nothing, and can be stiff: a supply line of no resistance, a lag of no
   // time.
-  const double least = absent + least_amplitude * typical;
+  const double least = absent + thresholds.parameter.least_size * typical;
   std::vector<Parameter> list{{.path = amplitude,
                                .origin = absent,
                                .scale = std::abs(typical),
@@ -173,9 +163,9 @@ std::vector<Parameter> Candidate::parameters(const plant::Rig& rig) const {
     const Found form = find(copy, shape);
     list.push_back({.path = shape,
                     .scale = 1.0,
-                    .step = 0.01,
-                    .lowest = std::max(form.lowest, shapes.front() / 4.0),
-                    .highest = std::min(form.highest, shapes.back() * 4.0),
+                    .step = thresholds.parameter.shape_step,
+                    .lowest = std::max(form.lowest, shapes.front() / thresholds.parameter.shape_range),
+                    .highest = std::min(form.highest, shapes.back() * thresholds.parameter.shape_range),
                     .logarithmic = true});
   }
   return list;

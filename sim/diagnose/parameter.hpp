@@ -40,17 +40,10 @@ struct Parameter {
   double scaled(double value) const;
 };
 
-/// How many prior deviations a calibration may move a parameter. Further, it is not the rig that was
-/// described: something is missing.
-inline constexpr double most_deviations = 3.0;
-
 /// The nominal parameters, with priors as tight as a data sheet or a ruler. Those of effects that the rig has
 /// already count with them; their size is believed to a factor of a
 /// few, or to what is typical, whichever is more.
 std::vector<Parameter> nominal_parameters(const plant::Rig& nominal);
-
-/// Sizes below this share of the typical one are as good as absent.
-inline constexpr double least_amplitude = 0.01;
 
 /// One law variant of an effect of the catalogue.
 struct Candidate {

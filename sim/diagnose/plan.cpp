@@ -9,6 +9,7 @@
 
 #include <plant/instruments.hpp>
 #include <sim/diagnose/plan.hpp>
+#include <sim/diagnose/thresholds.hpp>
 #include <sim/engine/failure.hpp>
 #include <sim/run/batch.hpp>
 #include <sim/run/simulate.hpp>
@@ -16,8 +17,7 @@
 namespace mckibben::diagnose {
 namespace {
 
-constexpr double lasting_s = 10.0;
-constexpr double least_power = 0.1;
+constexpr double lasting_s = thresholds.plan.lasting_s;
 
 /// A current of the menu.
 struct Item {
@@ -86,14 +86,16 @@ std::vector<Item> menu(const plant::Rig& rig) {
 /// not lift by 5 % of its length.
 std::vector<double> loads_kg(const domain::Dataset& data, const plant::Rig& rig) {
   std::vector<double> wanted;
-  for (const double factor : {1.0, 0.5, 1.3})
+  for (const double factor : thresholds.plan.loads)
     for (const domain::Run& run : data.runs) wanted.push_back(std::round(1e3 * factor * run.load_kg) / 1e3);
   const auto force = run::knowledge_of(rig, {}).model;
-  const double most_kg = force.force_N(0.05, rig.valve.span_pressure_Pa) / plant::gravity_m_per_s2;
+  const double most_kg =
+      force.force_N(thresholds.plan.least_rise, rig.valve.span_pressure_Pa) / plant::gravity_m_per_s2;
   std::vector<double> kept;
   for (const double load_kg : wanted) {
-    const bool known = std::any_of(kept.begin(), kept.end(),
-                                   [&](double other) { return std::abs(load_kg / other - 1.0) < 0.08; });
+    const bool known = std::any_of(kept.begin(), kept.end(), [&](double other) {
+      return std::abs(load_kg / other - 1.0) < thresholds.plan.same_load;
+    });
     if (load_kg < most_kg && !known) kept.push_back(load_kg);
   }
   return kept;
@@ -129,7 +131,7 @@ double unexplained(const std::vector<double>& one, const std::vector<double>& ot
 /// Probability that a noncentral chi-square variable with one degree of freedom, the square of a normal one
 /// round sqrt(noncentrality), exceeds the central one's 95 % point.
 double power(double noncentrality) {
-  constexpr double limit = 1.959964;
+  constexpr double limit = thresholds.plan.normal;
   const auto below = [](double z) { return 0.5 * std::erfc(-z / std::sqrt(2.0)); };
   return below(std::sqrt(noncentrality) - limit) + below(-std::sqrt(noncentrality) - limit);
 }
@@ -162,7 +164,7 @@ std::optional<NextExperiment> plan(const Experiment& experiment, const plant::Ri
       [](std::size_t) {});
   if (noncentrality.empty()) return std::nullopt;
   const auto best = std::max_element(noncentrality.begin(), noncentrality.end());
-  if (power(*best) < least_power) return std::nullopt;
+  if (power(*best) < thresholds.plan.least_power) return std::nullopt;
   const auto job = static_cast<std::size_t>(best - noncentrality.begin());
   const Item& chosen = items[job % items.size()];
   return NextExperiment{

@@ -2,11 +2,13 @@
 #include <cmath>
 
 #include <sim/diagnose/predict.hpp>
+#include <sim/diagnose/thresholds.hpp>
 
 namespace mckibben::diagnose {
 
 solver::Settings settings_for(std::span<const Hanging> rigs, solver::Method method) {
-  return {method, ride::can_share_steps(rigs, method) ? tolerance : tolerance_alone};
+  return {method, ride::can_share_steps(rigs, method) ? thresholds.predict.tolerance
+                                                      : thresholds.predict.tolerance_alone};
 }
 
 std::vector<Readings> predict(const domain::Run& run, std::span<const Hanging> rigs, solver::Method method) {

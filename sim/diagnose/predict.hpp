@@ -26,12 +26,6 @@ struct Readings {
 std::vector<Readings> predict(const domain::Run& run, std::span<const Hanging> rigs,
                               solver::Method method = solver::Method::automatic);
 
-/// Tolerance of these simulations: their error in e, some 5e-6, is far below a count.
-inline constexpr double tolerance = 1e-5;
-/// That of rigs without common steps: a difference between two of them is to be theirs, not that of their
-/// steps.
-inline constexpr double tolerance_alone = 1e-7;
-
 /// How `predict` integrates these rigs.
 solver::Settings settings_for(std::span<const Hanging> rigs, solver::Method method);
 

@@ -4,6 +4,8 @@
 
 #include <Eigen/Core>
 
+#include <sim/diagnose/thresholds.hpp>
+
 namespace mckibben::diagnose {
 
 class Regression {
@@ -14,7 +16,7 @@ class Regression {
   void add(Eigen::VectorXd column) {
     const double before = column.squaredNorm();
     for (int twice = 0; twice < 2; ++twice) column -= basis_ * (basis_.transpose() * column);
-    if (column.squaredNorm() <= 1e-10 * before) return;
+    if (column.squaredNorm() <= thresholds.fault.rounding * before) return;
     column.normalize();
     left_ -= column * column.dot(left_);
     basis_.conservativeResize(left_.size(), basis_.cols() + 1);
@@ -29,7 +31,7 @@ class Regression {
   Gain gain(const Eigen::VectorXd& part, Eigen::Index begin) const {
     const Eigen::VectorXd along = basis_.middleRows(begin, part.size()).transpose() * part;
     const double own = part.squaredNorm() - along.squaredNorm();
-    if (own <= 1e-10 * part.squaredNorm()) return {};
+    if (own <= thresholds.fault.rounding * part.squaredNorm()) return {};
     const double product = part.dot(left_.segment(begin, part.size()));
     return {product * product / own, product / own};
   }

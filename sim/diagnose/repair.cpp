@@ -103,14 +103,14 @@ Finding told(const domain::Dataset& data, const Fault& fault) {
   return finding;
 }
 
-void mend(domain::Dataset& data, Doubts& doubts, const std::vector<Fault>& faults) {
+void mend(domain::Dataset& data, Checked& checked, const std::vector<Fault>& faults) {
   const double count = run::contraction_per_count(data.rig);
   for (const Fault& fault : faults) {
     Finding finding = told(data, fault);
     domain::Run& run = data.runs[fault.run];
     const bool late = fault.kind == FaultKind::late, zero = fault.kind == FaultKind::zero;
     const bool common_drift = fault.kind == FaultKind::drift && fault.common;
-    if (late) shift(run, doubts.masked[fault.run], static_cast<int>(std::round(fault.size)));
+    if (late) shift(run, checked.masked[fault.run], static_cast<int>(std::round(fault.size)));
     if (zero) take_out(run, count, fault.size, fault.size);
     if (common_drift) take_out(run, count, 0.0, fault.size);
     if (late || zero || common_drift) {
@@ -118,11 +118,11 @@ void mend(domain::Dataset& data, Doubts& doubts, const std::vector<Fault>& fault
       finding.words += late ? " and was shifted" : " (corrected)";
     } else {
       finding.words += " (left out)";
-      doubts.left_out.push_back(fault.run);
+      checked.left_out.push_back(fault.run);
     }
-    doubts.findings.push_back(std::move(finding));
+    checked.findings.push_back(std::move(finding));
   }
-  std::sort(doubts.left_out.begin(), doubts.left_out.end());
+  std::sort(checked.left_out.begin(), checked.left_out.end());
 }
 
 }  // namespace mckibben::diagnose

@@ -2,7 +2,7 @@
 // left out.
 #pragma once
 
-#include <sim/diagnose/checks.hpp>
+#include <sim/diagnose/check.hpp>
 #include <sim/diagnose/faults.hpp>
 
 namespace mckibben::diagnose {
@@ -11,7 +11,7 @@ namespace mckibben::diagnose {
 Finding told(const domain::Dataset& data, const Fault& fault);
 
 /// Readings that come late are shifted by whole ticks, a moved zero is taken out, and so is a drift that all
-/// runs have; other runs are left out. All is told in `doubts.findings`.
-void mend(domain::Dataset& data, Doubts& doubts, const std::vector<Fault>& faults);
+/// runs have; other runs are left out. All is told in `checked.findings`.
+void mend(domain::Dataset& data, Checked& checked, const std::vector<Fault>& faults);
 
 }  // namespace mckibben::diagnose

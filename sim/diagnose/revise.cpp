@@ -8,6 +8,7 @@
 #include <sim/diagnose/interval.hpp>
 #include <sim/diagnose/ranking.hpp>
 #include <sim/diagnose/revise.hpp>
+#include <sim/diagnose/thresholds.hpp>
 #include <sim/engine/failure.hpp>
 
 namespace mckibben::diagnose {
@@ -17,9 +18,9 @@ namespace {
 std::optional<Trial> substitute(const Case& c, const Contender& smaller, const Candidate& gone,
                                 const Contender& best, const Step& step) {
   const Screening screening = screen_at(c, smaller);
-  for (std::size_t place = 0; place < most_substitutes; ++place) {
+  for (std::size_t place = 0; place < thresholds.name.most_substitutes; ++place) {
     const Score& score = screening.scores[place];
-    if (score.drop < chance) break;
+    if (score.drop < thresholds.near.chance) break;
     if (score.candidate.effect == gone.effect) continue;
     step(fmt::format("trying {} instead of {}", title(score.candidate), title(gone)));
     Trial trial = rough(c, smaller, score, place);
@@ -27,7 +28,7 @@ std::optional<Trial> substitute(const Case& c, const Contender& smaller, const C
     polish(c, trial, step);
     const auto gain = compare(c.experiment, best.held_out, trial.contender.held_out, c.split.held_out);
     if (has_size(trial.contender.fitted.model, score.candidate) && gain.gained > 0.0 &&
-        best.fitted.cost - trial.contender.fitted.cost > clear)
+        best.fitted.cost - trial.contender.fitted.cost > thresholds.near.clear)
       return trial;
   }
   return std::nullopt;
@@ -48,7 +49,9 @@ void revise(const Case& c, Naming& result, const Eigen::VectorXd& reference, con
     auto smaller = contend(c, without(result.best.fitted.model, i));
     if (!smaller.fitted.failure.empty()) return;
     const auto worse = compare(c.experiment, smaller.held_out, result.best.held_out, c.split.held_out);
-    const bool needed = convinces(worse) || worse.gained > least_of_all * std::max(excess(reference), 1.0);
+    const bool needed =
+        convinces(worse) || worse.gained > thresholds.name.least_of_all *
+                                               std::max(excess(reference), thresholds.name.least_whole_gap);
     if (!needed) {
       give_up(result.ranking, old, "not needed beside what came later");
       result.best = std::move(smaller);
@@ -74,8 +77,8 @@ void revise(const Case& c, Naming& result, const Eigen::VectorXd& reference, con
 void drop_uncertain(const Case& c, Naming& result, const Step& step) {
   for (std::size_t i = 0; i < result.effects.size();) {
     const Fitted& fitted = result.best.fitted;
-    const double scatter = temperature(c.experiment, fitted.residuals, c.split.training);
-    const auto bounds = intervals(c.experiment, fitted, c.split.training, scatter);
+    const double inflation = variance_inflation(c.experiment, fitted.residuals, c.split.training);
+    const auto bounds = intervals(c.experiment, fitted, c.split.training, inflation);
     const Candidate& candidate = fitted.model.effects[i];
     bool certain = false;
     for (std::size_t j = 0; j < bounds.size(); ++j) {

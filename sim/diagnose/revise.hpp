@@ -2,12 +2,9 @@
 // have no certain size, and which matters most.
 #pragma once
 
-#include <sim/diagnose/naming.hpp>
+#include <sim/diagnose/name.hpp>
 
 namespace mckibben::diagnose {
-
-/// An effect that closes less of the whole gap than this mends the law of another rather than being one.
-inline constexpr double least_of_all = 0.01;
 
 /// What was taken first may have stood in for what came after it: drops effects that are no longer needed,
 /// and swaps those that another one beats now.

@@ -47,8 +47,7 @@ std::string visited(const domain::Dataset& data, const Runs& runs) {
   }
   return fmt::format(
       "currents of {:.3g} to {:.3g} mA, loads of {:.4g} to {:.4g} kg and contraction ratios of {:.3f} to "
-      "{:.3f}, "
-      "as in these runs",
+      "{:.3f}, as in these runs",
       current_mA.low, current_mA.high, load_kg.low, load_kg.high, ratio.low, ratio.high);
 }
 

@@ -5,15 +5,16 @@
 #include <cmath>
 
 #include <sim/diagnose/screen.hpp>
+#include <sim/diagnose/thresholds.hpp>
 
 namespace mckibben::diagnose {
-Projector::Projector(const Fitted& fitted, double temperature)
-    : rows_(fitted.residuals.size()), weight_(1.0 / std::sqrt(temperature)) {
+Projector::Projector(const Fitted& fitted, double inflation)
+    : rows_(fitted.residuals.size()), weight_(1.0 / std::sqrt(inflation)) {
   const auto& free = fitted.model.free;
   std::vector<Eigen::Index> kept;
   for (std::size_t j = 0; j < free.size(); ++j) {
     const double value = value_of(fitted.model.rig, free[j].path);
-    const double edge = 1e-6 * (free[j].highest - free[j].lowest);
+    const double edge = thresholds.screen.at_bound * (free[j].highest - free[j].lowest);
     const bool inside = value > free[j].lowest + edge && value < free[j].highest - edge;
     if (inside) kept.push_back(static_cast<Eigen::Index>(j));
   }
@@ -24,7 +25,8 @@ Projector::Projector(const Fitted& fitted, double temperature)
     columns_.col(c).head(rows_) = weight_ * fitted.columns.col(j);
     if (free[static_cast<std::size_t>(j)].has_prior) columns_(rows_ + c, c) = 1.0;
   }
-  normal_.compute(columns_.transpose() * columns_ + 1e-9 * Eigen::MatrixXd::Identity(count, count));
+  normal_.compute(columns_.transpose() * columns_ +
+                  thresholds.screen.ridge * Eigen::MatrixXd::Identity(count, count));
 }
 
 Eigen::VectorXd Projector::operator()(const Eigen::VectorXd& values) const {
@@ -34,7 +36,7 @@ Eigen::VectorXd Projector::operator()(const Eigen::VectorXd& values) const {
 }
 
 std::vector<Score> screen(const Experiment& experiment, const Fitted& fitted,
-                          const std::vector<Candidate>& candidates, const Runs& runs, double temperature) {
+                          const std::vector<Candidate>& candidates, const Runs& runs, double inflation) {
   struct Probe {
     std::size_t candidate;
     double shape;
@@ -46,7 +48,7 @@ std::vector<Score> screen(const Experiment& experiment, const Fitted& fitted,
     if (carries(fitted.model.rig, c.effect)) continue;
     const auto shapes = c.shapes.empty() ? std::vector{0.0} : c.shapes;
     for (const double shape : shapes) {
-      for (const double size : {c.step, 0.5 * c.typical}) {
+      for (const double size : {c.step, thresholds.parameter.probe * c.typical}) {
         probes.push_back({i, shape});
         changes.push_back({[&c, shape, size](Hanging& h) {
                              h.rig = c.chosen(h.rig);
@@ -58,7 +60,7 @@ std::vector<Score> screen(const Experiment& experiment, const Fitted& fitted,
     }
   }
   const auto slopes = experiment.slopes(fitted.model.rig, changes, runs);
-  const Projector project(fitted, temperature);
+  const Projector project(fitted, inflation);
   const Eigen::VectorXd residuals = project(fitted.residuals);
   std::vector<Score> scores(candidates.size());
   for (std::size_t i = 0; i < candidates.size(); ++i) scores[i].candidate = candidates[i];
@@ -87,7 +89,7 @@ double likeness(const Score& a, const Score& b) {
   // Scores of two screenings may differ in how many parameters were free: the readings come first.
   const Eigen::Index rows = std::min(a.column.size(), b.column.size());
   const auto x = a.column.head(rows), y = b.column.head(rows);
-  return std::abs(x.dot(y)) / std::max(x.norm() * y.norm(), 1e-300);
+  return std::abs(x.dot(y)) / std::max(x.norm() * y.norm(), thresholds.screen.least_norm);
 }
 
 }  // namespace mckibben::diagnose

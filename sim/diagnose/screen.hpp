@@ -15,8 +15,8 @@ namespace mckibben::diagnose {
 /// parameter that stands at its bound is not free.
 class Projector {
  public:
-  Projector(const Fitted& fitted, double temperature);
-  /// What is left of `values`, over the root of the temperature; then a row for each free parameter's prior.
+  Projector(const Fitted& fitted, double inflation);
+  /// What is left of `values`, over the root of the inflation; then a row for each free parameter's prior.
   Eigen::VectorXd operator()(const Eigen::VectorXd& values) const;
 
  private:
@@ -28,7 +28,7 @@ class Projector {
 
 struct Score {
   Candidate candidate;
-  double drop = 0.0;         ///< expected in the sum of squares / temperature
+  double drop = 0.0;         ///< expected in the sum of squares / inflation
   double amplitude = 0.0;    ///< expected value of the amplitude parameter
   double shape = 0.0;        ///< of the shapes tried, the best
   Eigen::VectorXd column{};  ///< slope, less what the free parameters imitate; of the residuals' size
@@ -36,7 +36,7 @@ struct Score {
 
 /// The candidates, best first. Those already in the rig, and those with the wrong sign, score 0.
 std::vector<Score> screen(const Experiment& experiment, const Fitted& fitted,
-                          const std::vector<Candidate>& candidates, const Runs& runs, double temperature);
+                          const std::vector<Candidate>& candidates, const Runs& runs, double inflation);
 
 /// Cosine between what two effects change: at 1 these data cannot tell them apart.
 double likeness(const Score& a, const Score& b);

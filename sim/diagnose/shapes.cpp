@@ -2,12 +2,10 @@
 #include <algorithm>
 
 #include <sim/diagnose/shapes.hpp>
+#include <sim/diagnose/thresholds.hpp>
 
 namespace mckibben::diagnose {
 namespace {
-
-/// Rows at which something may have begun, evenly spread.
-constexpr Eigen::Index beginnings = 60;
 
 Eigen::VectorXd from_row(Eigen::VectorXd column, Eigen::Index row) {
   column.head(row).setZero();
@@ -29,7 +27,7 @@ Eigen::VectorXd ramp(Eigen::Index rows) {
 }
 
 std::vector<Experiment::Change> currents_in_error() {
-  constexpr double share = 0.02, offset_mA = 0.1;
+  constexpr double share = thresholds.fault.current_share, offset_mA = thresholds.fault.current_mA;
   return {{[](Hanging& h) {
              h.rig.valve.zero_current_mA *= 1.0 + share;
              h.rig.valve.span_current_mA *= 1.0 + share;
@@ -46,17 +44,17 @@ void each_shape(const Undisturbed& run, const std::function<void(const Shape&)>&
   const Eigen::Index rows = run.model.size();
   visit({FaultKind::zero, 0, 0.0, Eigen::VectorXd::Ones(rows)});
   visit({FaultKind::drift, 0, 0.0, ramp(rows)});
-  for (int ticks = 1; ticks <= 12; ++ticks)
+  for (int ticks = 1; ticks <= thresholds.fault.most_ticks; ++ticks)
     for (const int signed_ticks : {ticks, -ticks})
       visit({FaultKind::late, 0, static_cast<double>(signed_ticks), lateness(run.model, signed_ticks)});
   visit({FaultKind::current_scale, 0, 0.0, run.scale});
   visit({FaultKind::current_offset, 0, 0.0, run.offset});
   visit({FaultKind::reading_scale, 0, 0.0, run.model});
-  const Eigen::Index stride = std::max<Eigen::Index>(1, rows / beginnings);
+  const Eigen::Index stride = std::max<Eigen::Index>(1, rows / thresholds.fault.beginnings);
   for (Eigen::Index row = stride; row + stride < rows; row += stride)
     visit(
         {FaultKind::slipped, static_cast<std::size_t>(row), 0.0, from_row(Eigen::VectorXd::Ones(rows), row)});
-  for (const int ticks : {2, 5, 10, -2, -5, -10}) {
+  for (const int ticks : thresholds.fault.lost_ticks) {
     const Eigen::VectorXd early = -lateness(run.model, -ticks);
     for (Eigen::Index row = stride; row + stride < rows; row += stride)
       visit({FaultKind::rows_lost, static_cast<std::size_t>(row), static_cast<double>(ticks),

@@ -6,19 +6,17 @@
 #include <fmt/ranges.h>
 
 #include <sim/diagnose/start.hpp>
+#include <sim/diagnose/thresholds.hpp>
 #include <sim/run/simulate.hpp>
 
 namespace mckibben::diagnose {
 namespace {
 
-constexpr double longest_start_s = 4.0, share_of_run = 0.25;
-/// The first readings: too few for a current that changes after the first to have moved much.
-constexpr std::size_t first_rows = 6;
-constexpr double least_counts = 4.0, beyond_model = 3.0;
+constexpr const StartThresholds& of_start = thresholds.start;
 
 /// How far the load goes in the first readings.
 double moved(const std::vector<double>& ratio) {
-  const auto end = ratio.begin() + static_cast<std::ptrdiff_t>(std::min(ratio.size(), first_rows));
+  const auto end = ratio.begin() + static_cast<std::ptrdiff_t>(std::min(ratio.size(), of_start.first_rows));
   const auto [low, high] = std::minmax_element(ratio.begin(), end);
   return ratio.empty() ? 0.0 : *high - *low;
 }
@@ -31,9 +29,11 @@ Start look_at_start(const Experiment& experiment, const plant::Rig& corrected, c
   std::size_t longest = 0;
   for (const std::size_t run : runs)
     longest = std::max(longest, experiment.data().runs[run].contraction_ratio.size());
-  start.lasting_s = std::min(longest_start_s, share_of_run * static_cast<double>(longest) * tick_s);
+  start.lasting_s =
+      std::min(of_start.longest_s, of_start.share_of_run * static_cast<double>(longest) * tick_s);
   const auto first = static_cast<Eigen::Index>(std::lround(start.lasting_s / tick_s));
-  const double limit = least_counts * run::contraction_per_count(corrected) + 6.0 * experiment.floor().jitter;
+  const double limit =
+      of_start.counts * run::contraction_per_count(corrected) + of_start.jitters * experiment.floor().jitter;
   double early = 0.0, all = 0.0, early_rows = 0.0, all_rows = 0.0;
   for (const std::size_t run : runs) {
     const Readings readings = experiment.readings(corrected, run);
@@ -45,7 +45,7 @@ Start look_at_start(const Experiment& experiment, const plant::Rig& corrected, c
     early_rows += static_cast<double>(rows);
     all_rows += static_cast<double>(residuals.size());
     const auto& measured = experiment.data().runs[run];
-    if (moved(measured.contraction_ratio) > limit + beyond_model * moved(readings.contraction_ratio))
+    if (moved(measured.contraction_ratio) > limit + of_start.beyond_model * moved(readings.contraction_ratio))
       start.unsettled.push_back(measured.id);
   }
   if (all > 0.0) start.share_of_gap = std::clamp(early / all, 0.0, 1.0);
@@ -55,8 +55,8 @@ Start look_at_start(const Experiment& experiment, const plant::Rig& corrected, c
 
 std::string sentence_of(const Start& start, const Gap& gap) {
   std::string text;
-  if (gap.floors_left() <= explained_floors || !start.suspect()) return text;
-  if (start.share_of_gap > 0.5)
+  if (gap.floors_left() <= of_start.explained_floors || !start.suspect()) return text;
+  if (start.share_of_gap > of_start.share_of_gap)
     text +=
         fmt::format(" {:.0f} % of what is left lies in the first {:.2g} s of the runs, {:.0f} % of the time.",
                     100.0 * start.share_of_gap, start.lasting_s, 100.0 * start.share_of_time);

@@ -5,8 +5,10 @@
 #include <tuple>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <sim/diagnose/story.hpp>
+#include <sim/diagnose/thresholds.hpp>
 
 namespace mckibben::diagnose {
 namespace {
@@ -15,7 +17,7 @@ constexpr std::string_view law_terms = "effects.residual_law.terms.";
 
 std::string words(const plant::ForceTerm& term) {
   if (term.of == plant::Basis::sine) {
-    const bool shifted = std::abs(term.phase_rad) >= 0.005;
+    const bool shifted = std::abs(term.phase_rad) >= thresholds.law.told_phase;
     return fmt::format(
         "sin(2 pi x / {:.3f} mm{})", 1e3 * term.wavelength_m,
         shifted ? fmt::format(" {} {:.2f} rad", term.phase_rad < 0.0 ? "-" : "+", std::abs(term.phase_rad))
@@ -41,30 +43,30 @@ void tell_parameters(Diagnosis& diagnosis, const Model& model, const std::vector
   plant::Rig rig = model.rig;
   for (std::size_t j = 0; j < model.free.size(); ++j) {
     const Parameter& p = model.free[j];
-    Estimate estimate{p.path,        find(rig, p.path).unit, bounds[j].value,
-                      bounds[j].low, bounds[j].high,         bounds[j].determined};
+    FittedNumber number{p.path,        find(rig, p.path).unit, bounds[j].value,
+                        bounds[j].low, bounds[j].high,         bounds[j].determined};
     if (p.has_prior) {
-      const double moved = p.scaled(estimate.value);
-      diagnosis.recalibrated.push_back({estimate, p.origin, moved});
+      const double moved = p.scaled(number.value);
+      diagnosis.recalibrated.push_back({number, p.origin, moved});
       diagnosis.absorbed.push_back({p.path, p.scaled(value_of(recalibrated, p.path)), moved});
       continue;
     }
     for (auto& effect : diagnosis.effects) {
       const std::string prefix = fmt::format("effects.{}.", effect.name);
       if (!p.path.starts_with(prefix)) continue;
-      estimate.name = p.path.substr(prefix.size());
-      effect.parameters.push_back(estimate);
+      number.name = p.path.substr(prefix.size());
+      effect.parameters.push_back(number);
     }
     if (!p.path.starts_with(law_terms)) continue;
     // terms.INDEX.KEY: the nominal rig may have had terms of its own.
     const std::size_t dot = p.path.find('.', law_terms.size());
-    estimate.name = p.path.substr(dot + 1);
-    if (estimate.name == "coefficient") {
+    number.name = p.path.substr(dot + 1);
+    if (number.name == "coefficient") {
       const auto index = std::stoul(p.path.substr(law_terms.size(), dot - law_terms.size()));
-      estimate.name = words(terms[index]);
-      diagnosis.residual_law.push_back({estimate.name, estimate});
+      number.name = words(terms[index]);
+      diagnosis.residual_law.push_back({number.name, number});
     } else {
-      diagnosis.residual_law.back().shape.push_back(estimate);  // a term's coefficient comes first
+      diagnosis.residual_law.back().shape.push_back(number);  // a term's coefficient comes first
     }
   }
 }
@@ -81,73 +83,114 @@ std::string faults_in_words(const Diagnosis& d) {
   return text + ". ";
 }
 
-namespace {
-
-std::string verdict_in_words(const Diagnosis& d) {
-  const auto mm = [&](double ratio) {
-    return fmt::format("{:.2g} mm", 1e3 * ratio * d.corrected.muscle.rest_length_m);
-  };
-  const auto gap = fmt::format(
-      "On runs that the fit has not seen the error of the load's height falls from {} to {}; the instruments "
-      "cannot see below {}.",
-      mm(d.gap.nominal_rmse), mm(d.gap.corrected_rmse), mm(d.gap.noise_floor));
-  switch (d.verdict) {
-    case Verdict::nothing_missing:
+std::string remark_in_words(Remark remark, const Naming& naming, double left) {
+  std::vector<std::string> names;
+  for (const NamedEffect& effect : naming.effects) names.push_back(full_name(effect.name, effect.variant));
+  const double floors = std::sqrt(left + 1.0);
+  switch (remark) {
+    case Remark::gauge_misleads:
+      return "effects that would explain the gauge's pressures make the motion worse: is the gauge right?";
+    case Remark::more_is_missing:
       return fmt::format(
-          "{} to within noise: on runs held out the load's height differs by {}, and "
-          "neither "
-          "other values of the nominal parameters nor any effect of the catalogue makes that convincingly "
-          "less.",
-          d.faults.empty() ? "Model and data agree" : "Apart from that model and data agree",
-          mm(d.gap.nominal_rmse));
-    case Verdict::recalibrate: {
-      std::string moved;
-      for (const Moved& m : d.recalibrated) {
-        if (!m.notable()) continue;
-        moved += fmt::format("{}{} from {:.4g} to {:.4g}{}", moved.empty() ? "" : ", ", m.fitted.name,
-                             m.nominal, m.fitted.value, m.fitted.unit == "1" ? "" : " " + m.fitted.unit);
-      }
-      return fmt::format("No effect is missing; other values of the rig's parameters explain the gap{}{}. {}",
-                         moved.empty() ? "" : ": ", moved, gap);
-    }
-    case Verdict::missing_effect: {
-      std::string said;
-      for (const NamedEffect& effect : d.effects) {
-        said += fmt::format("{}{} ({})", said.empty() ? "" : ", and ", effect.name, sentence_of(effect.name));
-        if (!effect.confusable_with.empty())
-          said +=
-              fmt::format(" - these data cannot tell it from {}", fmt::join(effect.confusable_with, ", "));
-      }
-      return fmt::format("Missing: {}. {}", said, gap);
-    }
-    case Verdict::unknown_effect: {
-      std::string law;
-      for (const LawTerm& term : d.residual_law)
-        law += fmt::format("{}{:.3g} N x {}", law.empty() ? "" : " + ", term.coefficient.value, term.term);
-      if (law.empty())
-        return "Something real is missing, but no effect of the catalogue explains it, and no simple law of "
-               "force was "
-               "found either.";
-      return fmt::format(
-          "Something is missing that no effect of the catalogue explains; as a force on the load it is "
-          "{}. {}",
-          law, gap);
-    }
-    case Verdict::cannot_tell:
+          "{:.1f} noise floors are left with the effects named: more is missing, or their laws are "
+          "not quite these",
+          floors);
+    case Remark::not_named:
+      return fmt::format("nearest comes {}, but {:.1f} noise floors are left: not named",
+                         fmt::join(names, " with "), floors);
+    case Remark::invisible:
       break;
   }
+  return fmt::format("these data would not show, even at their usual size: {}",
+                     fmt::join(naming.invisible, ", "));
+}
+
+std::string far_runs_in_words(const std::vector<FarRun>& runs) {
+  std::vector<std::string> list;
+  for (const FarRun& run : runs) list.push_back(fmt::format("{} by {:.0f}", run.id, std::sqrt(run.left)));
+  std::sort(list.begin(), list.end());
+  return fmt::format("{}", fmt::join(list, ", "));
+}
+
+namespace {
+
+std::string height_in_words(const Diagnosis& d, double ratio) {
+  return fmt::format("{:.2g} mm", 1e3 * ratio * d.corrected.muscle.rest_length_m);
+}
+
+std::string gap_in_words(const Diagnosis& d) {
+  return fmt::format(
+      "On runs that the fit has not seen the error of the load's height falls from {} to {}; the instruments "
+      "cannot see below {}.",
+      height_in_words(d, d.gap.nominal_rmse), height_in_words(d, d.gap.corrected_rmse),
+      height_in_words(d, d.gap.noise_floor));
+}
+
+std::string numbers_in_words(const Diagnosis& d) {
+  std::string moved;
+  for (const Moved& m : d.recalibrated) {
+    if (!m.notable()) continue;
+    moved += fmt::format("{}{} from {:.4g} to {:.4g}{}", moved.empty() ? "" : ", ", m.fitted.name, m.nominal,
+                         m.fitted.value, m.fitted.unit == "1" ? "" : " " + m.fitted.unit);
+  }
+  return fmt::format("No effect is missing; other values of the rig's parameters explain the gap{}{}. {}",
+                     moved.empty() ? "" : ": ", moved, gap_in_words(d));
+}
+
+std::string effects_in_words(const Diagnosis& d) {
+  std::string said;
+  for (const NamedEffect& effect : d.effects) {
+    said += fmt::format("{}{} ({})", said.empty() ? "" : ", and ", effect.name, sentence_of(effect.name));
+    if (!effect.confusable_with.empty())
+      said += fmt::format(" - these data cannot tell it from {}", fmt::join(effect.confusable_with, ", "));
+  }
+  return fmt::format("Missing: {}. {}", said, gap_in_words(d));
+}
+
+std::string law_in_words(const Diagnosis& d) {
+  std::string law;
+  for (const LawTerm& term : d.residual_law)
+    law += fmt::format("{}{:.3g} N x {}", law.empty() ? "" : " + ", term.coefficient.value, term.term);
+  if (law.empty())
+    return "Something real is missing, but no effect of the catalogue explains it, and no simple law of "
+           "force was found either.";
+  return fmt::format(
+      "Something is missing that no effect of the catalogue explains; as a force on the load it is {}. {}",
+      law, gap_in_words(d));
+}
+
+std::string cannot_tell_in_words(const Diagnosis& d) {
   if (!d.unexplained.empty())
     return fmt::format(
         "Something is wrong that these data do not settle: no model comes near every run (in noise floors: "
-        "{}), and no "
-        "effect convinces on the runs held out.",
+        "{}), and no effect "
+        "convinces on the runs held out.",
         d.unexplained);
   if (std::any_of(d.faults.begin(), d.faults.end(), [](const Finding& f) { return f.common; }))
     return "Apart from that model and data agree, but whether the recorder does it or the rig, these data "
            "cannot tell.";
   return "Nothing was found, but these data would not show more than half of the effects of the catalogue at "
-         "their "
-         "usual size: whether one is missing they cannot tell.";
+         "their usual size: whether one is missing they cannot tell.";
+}
+
+std::string verdict_in_words(const Diagnosis& d) {
+  switch (d.verdict) {
+    case Verdict::nothing_missing:
+      return fmt::format(
+          "{} to within noise: on runs held out the load's height differs by {}, and neither other values of "
+          "the nominal parameters nor any effect of the catalogue makes that convincingly less.",
+          d.faults.empty() ? "Model and data agree" : "Apart from that model and data agree",
+          height_in_words(d, d.gap.nominal_rmse));
+    case Verdict::recalibrate:
+      return numbers_in_words(d);
+    case Verdict::missing_effect:
+      return effects_in_words(d);
+    case Verdict::unknown_effect:
+      return law_in_words(d);
+    case Verdict::cannot_tell:
+      break;
+  }
+  return cannot_tell_in_words(d);
 }
 
 }  // namespace

@@ -2,9 +2,14 @@
 // absorbed what, and one sentence that says it.
 #pragma once
 
+#include <string>
+#include <vector>
+
+#include <sim/diagnose/decide.hpp>
 #include <sim/diagnose/diagnosis.hpp>
 #include <sim/diagnose/fit.hpp>
 #include <sim/diagnose/interval.hpp>
+#include <sim/diagnose/name.hpp>
 
 namespace mckibben::diagnose {
 
@@ -16,6 +21,12 @@ void tell_parameters(Diagnosis& diagnosis, const Model& model, const std::vector
 /// What is wrong with the recording, each run by name, and what all have in common once; empty, or sentences
 /// and a space.
 std::string faults_in_words(const Diagnosis& diagnosis);
+
+/// A remark of the decision, as a warning. `left`: mean square above the floor's.
+std::string remark_in_words(Remark remark, const Naming& naming, double left);
+
+/// "r02 by 5, r07 by 12": runs that no model comes near, with the noise floors that are left.
+std::string far_runs_in_words(const std::vector<FarRun>& runs);
 
 /// The faults, then the verdict in a sentence. Needs everything else.
 std::string because(const Diagnosis& diagnosis);

@@ -5,17 +5,9 @@
 #include <set>
 
 #include <sim/diagnose/examination.hpp>
+#include <sim/diagnose/thresholds.hpp>
 
 namespace mckibben::diagnose {
-namespace {
-
-/// An effect is suspected if it then leaves of a run less than this share of what any leaves of all.
-constexpr double worth_suspecting = 0.75;
-/// Effects that are tried beside faults of a few runs, and beside one of all runs.
-constexpr std::size_t most_suspected = 3;
-
-}  // namespace
-
 void Examination::draw_effects() {
   std::vector<Experiment::Change> changes;
   for (const Candidate& c : effects_) {
@@ -24,9 +16,10 @@ void Examination::draw_effects() {
       changes.push_back({[&c, shape](Hanging& h) {
                            h.rig = c.chosen(h.rig);
                            if (!c.shape.empty()) *find(h.rig, c.shape).value = shape;
-                           *find(h.rig, c.amplitude).value = c.absent + 0.5 * c.typical;
+                           *find(h.rig, c.amplitude).value =
+                               c.absent + thresholds.parameter.probe * c.typical;
                          },
-                         0.5 * c.typical, true});
+                         thresholds.parameter.probe * c.typical, true});
       drawn_.push_back({&c, shape, Eigen::VectorXd::Zero(residuals_.size())});
     }
   }
@@ -62,7 +55,7 @@ Examination::Suspected Examination::trimmed(const Drawn& effect, std::map<Kept, 
                      amplitude};
   };
   Suspected best = left_of(Kept(runs_.size(), true));
-  for (std::size_t odd = 0; odd < runs_.size() / (sound_for_one + 1); ++odd) {
+  for (std::size_t odd = 0; odd < runs_.size() / (thresholds.fault.sound_for_one + 1); ++odd) {
     Suspected least{.effect = &effect, .kept = {}, .cost = infinite, .amplitude = 0.0};
     for (std::size_t i = 0; i < runs_.size(); ++i) {
       if (!best.kept[i]) continue;
@@ -78,14 +71,14 @@ Examination::Suspected Examination::trimmed(const Drawn& effect, std::map<Kept, 
 /// Each effect with all runs late by the same whole number of ticks.
 std::vector<Examination::Suspected> Examination::beside_lateness(const Regression& alone) const {
   std::vector<Suspected> list;
-  for (const int ticks : common_ticks) {
+  for (const int ticks : thresholds.fault.common_ticks) {
     const Eigen::VectorXd late = all_late(ticks);
     Regression all = alone;
     all.add(late);
     for (const Drawn& effect : drawn_) {
       Regression with = alone;
       with.add(effect.column);
-      if (std::abs(with.gain(late, 0).amplitude - ticks) > 0.5) continue;
+      if (std::abs(with.gain(late, 0).amplitude - ticks) > thresholds.fault.whole_tick) continue;
       const auto [drop, amplitude] = all.gain(effect.column, 0);
       list.push_back({&effect, Kept(runs_.size(), true), all.cost() - drop, amplitude, ticks});
     }
@@ -95,7 +88,7 @@ std::vector<Examination::Suspected> Examination::beside_lateness(const Regressio
 
 /// Those that leave far less of a run than `at_best` any effect leaves; each effect in its best shape.
 std::vector<Suspicion> Examination::most_promising(std::vector<Suspected> list, double at_best) const {
-  const double limit = worth_suspecting * at_best / static_cast<double>(runs_.size());
+  const double limit = thresholds.fault.worth_suspecting * at_best / static_cast<double>(runs_.size());
   std::erase_if(list, [&](const Suspected& one) {
     return one.cost_of_a_run() > limit || !one.effect->possible(one.amplitude);
   });
@@ -105,7 +98,7 @@ std::vector<Suspicion> Examination::most_promising(std::vector<Suspected> list, 
   std::vector<Suspicion> best;
   for (const Suspected& one : list) {
     const Candidate& c = *one.effect->candidate;
-    if (best.size() == most_suspected) break;
+    if (best.size() == thresholds.fault.most_suspected) break;
     if (!told.insert(&c).second) continue;
     Suspicion& suspicion = best.emplace_back();
     suspicion.effect = {.candidate = c, .amplitude = c.absent + one.amplitude, .shape = one.effect->shape};

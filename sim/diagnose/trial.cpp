@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include <sim/diagnose/diagnosis.hpp>
+#include <sim/diagnose/thresholds.hpp>
 #include <sim/diagnose/trial.hpp>
 #include <sim/engine/failure.hpp>
 
@@ -16,9 +17,11 @@ bool has_size(const Model& model, const Candidate& c) {
   const double value = value_of(model.rig, c.amplitude);
   for (const Parameter& p : model.free) {
     if (p.path != c.amplitude) continue;
-    const double edge = 1e-3 * (p.highest - p.lowest);
+    const double edge = thresholds.name.at_bound * (p.highest - p.lowest);
     const bool at_bound = value > p.highest - edge || (value < p.lowest + edge && c.either_sign);
-    return !at_bound && std::abs(value - c.absent) > 1.1 * least_amplitude * std::abs(c.typical);
+    return !at_bound && std::abs(value - c.absent) > thresholds.name.to_nothing *
+                                                         thresholds.parameter.least_size *
+                                                         std::abs(c.typical);
   }
   return false;
 }
@@ -36,7 +39,7 @@ Model without(const Model& model, std::size_t effect) {
 Contender contend(const Case& c, Model model, const KnownSlopes* known, bool thorough) {
   Contender contender;
   contender.fitted = fit(c.experiment, std::move(model), c.split.training,
-                         {.temperature = c.temperature, .thorough = thorough, .known = known});
+                         {.inflation = c.inflation, .thorough = thorough, .known = known});
   if (!contender.fitted.failure.empty()) return contender;
   try {
     contender.held_out = c.experiment.residuals(contender.fitted.model.rig, c.split.held_out);
@@ -54,7 +57,7 @@ Model with(const Case& c, const Model& model, const Score& score) {
   if (!candidate.shape.empty()) *find(bigger.rig, candidate.shape).value = score.shape;
   // The score is a straight line drawn at nothing; the law may bend.
   double least = 0.0, best = candidate.absent;
-  for (const double share : {0.1, 0.3, 0.6, 1.0, 1.6}) {
+  for (const double share : thresholds.name.first_sizes) {
     const double size = std::clamp(candidate.absent + share * (score.amplitude - candidate.absent),
                                    parameters[0].lowest, parameters[0].highest);
     *find(bigger.rig, candidate.amplitude).value = size;
@@ -79,7 +82,7 @@ Screening screen_at(const Case& c, const Contender& base) {
   // As long as nothing fits, the misfit itself is the scatter: no nominal parameter is worth believing far
   // from its data sheet for the sake of details.
   const double scatter =
-      std::max(c.temperature, temperature(c.experiment, base.fitted.residuals, c.split.training));
+      std::max(c.inflation, variance_inflation(c.experiment, base.fitted.residuals, c.split.training));
   return {&base, screen(c.experiment, base.fitted, catalogue(), c.split.training, scatter)};
 }
 
@@ -96,13 +99,15 @@ void polish(const Case& c, Trial& trial, const Step& step) {
 }
 
 bool meets(const Contender& contender) {
-  return excess(contender.held_out) < nothing_left && excess(contender.fitted.residuals) < 2.0 * nothing_left;
+  const double nothing = thresholds.near.nothing_left;
+  return excess(contender.held_out) < nothing && excess(contender.fitted.residuals) < 2.0 * nothing;
 }
 
 bool as_good(const Case& c, const Contender& chosen, const Contender& rival) {
   const auto worse = compare(c.experiment, rival.held_out, chosen.held_out, c.split.held_out);
   const double costlier = rival.fitted.cost - chosen.fitted.cost;
-  return costlier < clear || (worse.gained < 0.05 && costlier < 0.1 * chosen.fitted.cost);
+  return costlier < thresholds.near.clear || (worse.gained < thresholds.name.as_good_gained &&
+                                              costlier < thresholds.name.as_good_cost * chosen.fitted.cost);
 }
 
 }  // namespace mckibben::diagnose

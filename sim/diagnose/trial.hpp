@@ -6,7 +6,7 @@
 #include <vector>
 
 #include <sim/diagnose/fit.hpp>
-#include <sim/diagnose/judge.hpp>
+#include <sim/diagnose/held_out.hpp>
 #include <sim/diagnose/screen.hpp>
 
 namespace mckibben::diagnose {
@@ -19,7 +19,7 @@ struct Case {
   const Experiment& experiment;
   const plant::Rig& nominal;
   Split split;
-  double temperature;
+  double inflation;
   Step learned;  ///< hears what is known so far
 };
 
@@ -41,15 +41,6 @@ struct Screening {
   const Contender* base;
   std::vector<Score> scores;
 };
-
-/// Candidates of a screening that are tried where the best alone will not do.
-inline constexpr std::size_t most_substitutes = 3;
-/// Falls of the misfit below this, expected or come true, are chance.
-inline constexpr double chance = 6.0;
-/// A difference of costs that scatter does not make.
-inline constexpr double clear = 12.0;
-/// Held-out mean square above the floor at which there is nothing left to find.
-inline constexpr double nothing_left = 0.04;
 
 /// Fits a model to the training runs. `known`, `thorough` as in FitSettings.
 Contender contend(const Case& c, Model model, const KnownSlopes* known = nullptr, bool thorough = false);

@@ -4,11 +4,13 @@
 #include <iterator>
 #include <numeric>
 #include <random>
+#include <span>
 #include <string>
 
 #include <fmt/format.h>
 
-#include <sim/diagnose/judge.hpp>
+#include <sim/diagnose/held_out.hpp>
+#include <sim/diagnose/thresholds.hpp>
 #include <sim/diagnose/where.hpp>
 #include <sim/run/batch.hpp>
 #include <sim/run/simulate.hpp>
@@ -16,9 +18,7 @@
 namespace mckibben::diagnose {
 namespace {
 
-constexpr int flips = 999;
-constexpr double false_discoveries = 0.05;
-constexpr double rest_mm_per_s = 0.5;  // slower is standing
+constexpr const WhereThresholds& cells_by = thresholds.where;
 
 /// One reading and the state the model was in.
 struct Row {
@@ -68,7 +68,8 @@ std::vector<Row> rows_of(const Experiment& experiment, const plant::Rig& rig, co
       [&](std::size_t i) { readings[i] = experiment.readings(rig, runs[i]); }, [](std::size_t) {});
   std::vector<Row> rows;
   const auto parts = experiment.parts(runs);
-  const auto per_segment = static_cast<std::size_t>(std::lround(std::ceil(segment_s / rig.tick_s)));
+  const auto per_segment =
+      static_cast<std::size_t>(std::lround(std::ceil(thresholds.scatter.segment_s / rig.tick_s)));
   for (std::size_t i = 0; i < runs.size(); ++i) {
     const auto& states = readings[i].states;
     const auto since_s = since_turn_s(states, run::contraction_per_count(rig), rig.tick_s);
@@ -98,8 +99,9 @@ struct Factor {
 };
 
 /// Bins between ascending edges; the first and the last are open.
-Factor binned(std::string name, const std::vector<double>& edges, double per_unit, const std::string& unit,
+Factor binned(std::string name, std::span<const double> between, double per_unit, const std::string& unit,
               std::function<double(const Row&)> value) {
+  const std::vector<double> edges(between.begin(), between.end());
   Factor factor{std::move(name), {}, {}};
   factor.cells.push_back(fmt::format("below {:.3g} {}", edges.front() / per_unit, unit));
   for (std::size_t i = 1; i < edges.size(); ++i)
@@ -140,21 +142,24 @@ std::vector<Factor> factors_of(const Experiment& experiment, const plant::Rig& r
   std::vector<Factor> factors;
   factors.push_back(
       {"direction", {"contracting", "relaxing", "at rest"}, [](const Row& row) -> std::ptrdiff_t {
-         if (std::abs(row.speed_mm_per_s) < rest_mm_per_s) return 2;
+         if (std::abs(row.speed_mm_per_s) < cells_by.rest_mm_per_s) return 2;
          return row.speed_mm_per_s > 0.0 ? 0 : 1;
        }});
-  factors.push_back(binned("speed", {5.0, 25.0, 100.0}, 1.0, "mm/s",
+  factors.push_back(binned("speed", cells_by.speeds_mm_per_s, 1.0, "mm/s",
                            [](const Row& row) { return std::abs(row.speed_mm_per_s); }));
   factors.push_back(std::move(load));
-  factors.push_back(binned("pressure", equal(rig.valve.zero_pressure_Pa, rig.valve.span_pressure_Pa, 5),
+  factors.push_back(binned("pressure",
+                           equal(rig.valve.zero_pressure_Pa, rig.valve.span_pressure_Pa, cells_by.pressures),
                            plant::Pa_per_bar, "bar", [](const Row& row) { return row.pressure_Pa; }));
-  factors.push_back(binned("contraction",
-                           equal(0.0, run::knowledge_of(rig, {}).model.largest_contraction_ratio(), 6), 1.0,
-                           "", [](const Row& row) { return row.contraction_ratio; }));
   factors.push_back(
-      binned("time in run", equal(0.0, longest_s, 4), 1.0, "s", [](const Row& row) { return row.time_s; }));
-  factors.push_back(binned("start of run", {1.0, 4.0}, 1.0, "s", [](const Row& row) { return row.time_s; }));
-  factors.push_back(binned("time since reversal", {0.1, 0.5, 2.0}, 1.0, "s",
+      binned("contraction",
+             equal(0.0, run::knowledge_of(rig, {}).model.largest_contraction_ratio(), cells_by.contractions),
+             1.0, "", [](const Row& row) { return row.contraction_ratio; }));
+  factors.push_back(binned("time in run", equal(0.0, longest_s, cells_by.times), 1.0, "s",
+                           [](const Row& row) { return row.time_s; }));
+  factors.push_back(
+      binned("start of run", cells_by.start_s, 1.0, "s", [](const Row& row) { return row.time_s; }));
+  factors.push_back(binned("time since reversal", cells_by.since_reversal_s, 1.0, "s",
                            [](const Row& row) { return row.since_turn_s; }));
   factors.back().cell = [bin = factors.back().cell](const Row& row) -> std::ptrdiff_t {
     return row.since_turn_s < 0.0 ? -1 : bin(row);
@@ -169,16 +174,16 @@ std::vector<Factor> factors_of(const Experiment& experiment, const plant::Rig& r
 double by_sign_flips(const std::vector<double>& contributions, std::mt19937_64& random) {
   const double sum = std::abs(std::accumulate(contributions.begin(), contributions.end(), 0.0));
   int as_large = 0;
-  for (int flip = 0; flip < flips; ++flip) {
+  for (int flip = 0; flip < cells_by.flips; ++flip) {
     double flipped = 0.0;
     std::uint64_t bits = 0;
     for (std::size_t s = 0; s < contributions.size(); ++s) {
       if (s % 64 == 0) bits = random();
       flipped += (bits >> (s % 64) & 1U) != 0 ? contributions[s] : -contributions[s];
     }
-    if (std::abs(flipped) >= sum * (1.0 - 1e-12)) ++as_large;
+    if (std::abs(flipped) >= sum * (1.0 - cells_by.same_sum)) ++as_large;
   }
-  return (1.0 + as_large) / (1.0 + flips);
+  return (1.0 + as_large) / (1.0 + cells_by.flips);
 }
 
 /// The cells of one factor.
@@ -244,7 +249,8 @@ void mark_significant(std::vector<Cell>& cells) {
   std::sort(p.begin(), p.end());
   double limit = 0.0;
   for (std::size_t k = 0; k < p.size(); ++k)
-    if (p[k] <= false_discoveries * static_cast<double>(k + 1) / static_cast<double>(p.size())) limit = p[k];
+    if (p[k] <= cells_by.false_discoveries * static_cast<double>(k + 1) / static_cast<double>(p.size()))
+      limit = p[k];
   for (Cell& cell : cells) cell.significant = cell.rows > 0 && cell.p_value <= limit;
 }
 

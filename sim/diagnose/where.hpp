@@ -15,10 +15,10 @@ namespace mckibben::diagnose {
 ///
 /// What is tested: where a factor has several visited cells, that the cell's mean differs from the factor's
 /// mean, for a disagreement common to all cells says nothing about the factor; where it has one, that the
-/// mean is not zero. The sign of each 1.5 s segment's contribution is flipped at random 999 times (segments,
+/// mean is not zero. The sign of each segment's contribution is flipped at random (segments,
 /// because neighbouring rows are not independent; what lasts longer than a segment, such as one run's own
 /// offset, still looks more certain than it is). `significant` holds the false-discovery rate over all
-/// visited cells at 5 % (Benjamini & Hochberg, J. R. Stat. Soc. B 57 (1995) 289-300).
+/// visited cells (Benjamini & Hochberg, J. R. Stat. Soc. B 57 (1995) 289-300).
 ///
 /// Time since reversal counts from the last turn that was followed by more than one count of movement; rows
 /// before a run's first turn have none. The same for the same seed. Throws engine::NumericalFailure,

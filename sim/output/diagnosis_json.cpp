@@ -16,13 +16,13 @@ namespace {
 
 using input::Json;
 
-Json ci95(const diagnose::Estimate& estimate) {
-  return {estimate.low, estimate.high};
+Json ci95(const diagnose::FittedNumber& number) {
+  return {number.low, number.high};
 }
 
-Json value_json(const diagnose::Estimate& estimate) {
-  Json json{{"value", estimate.value}, {"unit", estimate.unit}, {"ci95", ci95(estimate)}};
-  if (!estimate.determined) json["determined"] = false;
+Json value_json(const diagnose::FittedNumber& number) {
+  Json json{{"value", number.value}, {"unit", number.unit}, {"ci95", ci95(number)}};
+  if (!number.determined) json["determined"] = false;
   return json;
 }
 

@@ -44,9 +44,9 @@ std::string comment(const std::string& text) {
   return lines + "\n";
 }
 
-std::string estimate_line(const std::string& name, const diagnose::Estimate& estimate,
-                          const std::string& note) {
-  const Readable shown = readable(estimate);
+std::string number_line(const std::string& name, const diagnose::FittedNumber& number,
+                        const std::string& note) {
+  const Readable shown = readable(number);
   return comment(fmt::format("  {} {}{}, 95 % interval {}", name, shown.value, note, shown.interval));
 }
 
@@ -57,18 +57,18 @@ std::string origin(const domain::Dataset& data, const diagnose::Diagnosis& diagn
   for (const auto& effect : diagnosis.effects) {
     text += comment(
         fmt::format("Added: {}: {}", full_name(effect.name, effect.variant), words_of(effect.name).sentence));
-    for (const auto& parameter : effect.parameters) text += estimate_line(parameter.name, parameter, "");
+    for (const auto& parameter : effect.parameters) text += number_line(parameter.name, parameter, "");
   }
   if (!diagnosis.residual_law.empty())
     text += comment("Added: a force outside the catalogue, valid for " + diagnosis.law_valid_for);
   for (const auto& term : diagnosis.residual_law) {
-    text += estimate_line(term.term, term.coefficient, "");
-    for (const auto& shape : term.shape) text += estimate_line("  " + shape.name, shape, "");
+    text += number_line(term.term, term.coefficient, "");
+    for (const auto& shape : term.shape) text += number_line("  " + shape.name, shape, "");
   }
   if (!diagnosis.recalibrated.empty()) text += comment("Recalibrated:");
   for (const auto& moved : diagnosis.recalibrated)
-    text += estimate_line(moved.fitted.name, moved.fitted,
-                          fmt::format(" (nominal {})", readable(moved.nominal, moved.fitted.unit)));
+    text += number_line(moved.fitted.name, moved.fitted,
+                        fmt::format(" (nominal {})", readable(moved.nominal, moved.fitted.unit)));
   return text;
 }
 

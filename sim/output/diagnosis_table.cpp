@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <sim/diagnose/thresholds.hpp>
 #include <sim/input/field_kinds.hpp>
 #include <sim/output/diagnosis_table.hpp>
 #include <sim/output/diagnosis_words.hpp>
@@ -21,7 +22,8 @@ std::string warnings(const Diagnosis& diagnosis) {
 
 std::string added(const Diagnosis& diagnosis) {
   Grid grid({"effect", "parameter", "value", "95 % interval"}, 4);
-  const auto add = [&](const std::string& effect, const std::string& name, const diagnose::Estimate& fitted) {
+  const auto add = [&](const std::string& effect, const std::string& name,
+                       const diagnose::FittedNumber& fitted) {
     const Readable shown = readable(fitted);
     grid.add({effect, name, shown.value, shown.interval});
   };
@@ -65,7 +67,7 @@ std::string twins(const Diagnosis& diagnosis) {
 
 std::string next(const Diagnosis& diagnosis) {
   if (!diagnosis.next_experiment) {
-    const bool unexplained = diagnosis.gap.floors_left() > diagnose::explained_floors;
+    const bool unexplained = diagnosis.gap.floors_left() > diagnose::thresholds.start.explained_floors;
     return unexplained ? "  " + what_next(diagnosis) + "\n" : "";
   }
   const auto& next = *diagnosis.next_experiment;

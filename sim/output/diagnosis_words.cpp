@@ -9,6 +9,7 @@
 #include <fmt/ranges.h>
 
 #include <plant/effects.hpp>
+#include <sim/diagnose/thresholds.hpp>
 #include <sim/output/diagnosis_words.hpp>
 
 namespace mckibben::output {
@@ -58,12 +59,12 @@ std::string readable(double value, std::string_view si_unit) {
   return with_unit(fmt::format("{:.4g}", value * unit.factor), unit);
 }
 
-Readable readable(const diagnose::Estimate& estimate) {
-  const UsualUnit unit = usual(estimate.unit, std::abs(estimate.value));
-  const double value = estimate.value * unit.factor, low = estimate.low * unit.factor,
-               high = estimate.high * unit.factor, half = 0.5 * (high - low);
-  if (!estimate.determined) return {readable(estimate.value, estimate.unit), "not determined by these data"};
-  if (!std::isfinite(half) || half <= 0.0) return {readable(estimate.value, estimate.unit), "unknown"};
+Readable readable(const diagnose::FittedNumber& number) {
+  const UsualUnit unit = usual(number.unit, std::abs(number.value));
+  const double value = number.value * unit.factor, low = number.low * unit.factor,
+               high = number.high * unit.factor, half = 0.5 * (high - low);
+  if (!number.determined) return {readable(number.value, number.unit), "not determined by these data"};
+  if (!std::isfinite(half) || half <= 0.0) return {readable(number.value, number.unit), "unknown"};
   const int decimals = std::clamp(1 - static_cast<int>(std::floor(std::log10(half))), 0, 9);
   return {with_unit(digits(value, decimals), unit),
           with_unit(digits(low, decimals) + " to " + digits(high, decimals), unit)};
@@ -112,7 +113,7 @@ std::string title_of(const diagnose::Diagnosis& diagnosis) {
 std::string what_next(const diagnose::Diagnosis& diagnosis) {
   using enum diagnose::Verdict;
   const double floors = diagnosis.gap.floors_left();
-  if (floors > diagnose::explained_floors)
+  if (floors > diagnose::thresholds.start.explained_floors)
     return fmt::format(
         "{:.1f} noise floors are left on the runs held out, so there is something to explain yet. Measure "
         "one "

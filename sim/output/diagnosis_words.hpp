@@ -22,7 +22,7 @@ std::string readable(double value, std::string_view si_unit);
 struct Readable {
   std::string value, interval;
 };
-Readable readable(const diagnose::Estimate& estimate);
+Readable readable(const diagnose::FittedNumber& number);
 
 /// A difference of contraction ratios as height of the load: "1.96 mm", never finer than a micrometre.
 std::string height(double ratio, const plant::Rig& rig);

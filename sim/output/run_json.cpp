@@ -45,9 +45,9 @@ Json ledger_json(const plant::Rig& rig, const run::Recording& recording) {
 /// Thesis 2.3: what contraction did to the muscle.
 Json contraction_json(const plant::Rig& rig, const run::Recording& recording) {
   const char* said[] = {"safe", "risk", "impossible"};
-  return {{"largest_ratio", recording.largest_contraction_ratio},
-          {"verdict",
-           said[static_cast<int>(plant::verdict_on(rig.muscle, recording.largest_contraction_ratio))]}};
+  return {
+      {"largest_ratio", recording.largest_contraction_ratio},
+      {"verdict", said[static_cast<int>(plant::danger_of(rig.muscle, recording.largest_contraction_ratio))]}};
 }
 
 Json beyond_json(const run::Beyond& beyond, const char* asked, const char* limit) {

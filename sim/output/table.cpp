@@ -41,15 +41,15 @@ std::string footnotes(const std::vector<run::TrackedRun>& runs) {
 
 /// Thesis 2.3: what contraction does to a muscle.
 std::string contraction_note(const plant::Rig& rig, double reached, const std::string& who) {
-  switch (plant::verdict_on(rig.muscle, reached)) {
-    case plant::Verdict::impossible:
+  switch (plant::danger_of(rig.muscle, reached)) {
+    case plant::Danger::impossible:
       return fmt::format(
           "  {}: contraction ratio {:.4f} is above e_max = {:.4f}: impossible for a real muscle (T 2.3)\n",
           who, reached, plant::Braid(rig.muscle).largest_contraction_ratio());
-    case plant::Verdict::risk:
+    case plant::Danger::risk:
       return fmt::format("  {}: contraction ratio {:.4f} is above {:.2f}: a risk to the muscle (T 2.3)\n",
                          who, reached, plant::risky_contraction_ratio);
-    case plant::Verdict::safe:
+    case plant::Danger::safe:
       break;
   }
   return "";

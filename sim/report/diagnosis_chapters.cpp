@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <sim/diagnose/thresholds.hpp>
 #include <sim/input/field_kinds.hpp>
 #include <sim/output/diagnosis_words.hpp>
 #include <sim/output/svg.hpp>
@@ -18,7 +19,7 @@ namespace mckibben::report {
 namespace {
 
 using diagnose::Diagnosis;
-using diagnose::Estimate;
+using diagnose::FittedNumber;
 using diagnose::full_name;
 using output::escaped;
 using output::readable;
@@ -48,7 +49,7 @@ std::string paragraph(const std::string& text) {
   return "<p>" + escaped(text) + "</p>\n";
 }
 
-std::string found_row(const std::string& of, const std::string& name, const Estimate& fitted) {
+std::string found_row(const std::string& of, const std::string& name, const FittedNumber& fitted) {
   const auto shown = readable(fitted);
   return row(of, {name, shown.value, shown.interval});
 }
@@ -100,12 +101,13 @@ std::string concentration(const Diagnosis& diagnosis, const plant::Rig& rig) {
 
 std::string where_html(const Diagnosis& diagnosis, const plant::Rig& rig) {
   if (diagnosis.where.empty()) return "";
-  return paragraph(
+  return paragraph(fmt::format(
              "Measured less recalibrated model, before anything was added, as height of the load, averaged "
              "over parts of the data. Orange: the load was higher than the model says; blue: lower. Framed "
              "and marked with *: the mean of this part differs from the mean over all parts of its picture "
-             "(where there is only one, from 0) by more than chance; of all marks 5 % may be false. Dashed: "
-             "the data never went there, so nothing is known of it.") +
+             "(where there is only one, from 0) by more than chance; of all marks {:g} % may be false. "
+             "Dashed: the data never went there, so nothing is known of it.",
+             100.0 * diagnose::thresholds.where.false_discoveries)) +
          concentration(diagnosis, rig) + figures_html(where_pictures(diagnosis, rig));
 }
 

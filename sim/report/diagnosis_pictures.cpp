@@ -9,7 +9,7 @@
 
 #include <fmt/format.h>
 
-#include <sim/diagnose/trial.hpp>
+#include <sim/diagnose/thresholds.hpp>
 #include <sim/output/axes.hpp>
 #include <sim/output/diagnosis_words.hpp>
 #include <sim/output/svg.hpp>
@@ -133,7 +133,7 @@ std::vector<Picture> ranking_pictures(const Diagnosis& diagnosis, const plant::R
   constexpr double x0 = 212.0, span = 200.0, least_share = 0.01;
   // What a fit made of it; where there is none, what the score promises.
   const auto fall = [](const diagnose::Ranked& one) { return one.refitted ? one.fall : one.score; };
-  double most = 10.0 * diagnose::chance;
+  double most = 10.0 * diagnose::thresholds.near.chance;
   for (const auto& one : diagnosis.ranking) most = std::max(most, fall(one));
   const auto length = [&](double value) { return span * std::log(std::max(value, 1.0)) / std::log(most); };
   const auto rounds = grouped(diagnosis.ranking, [](const auto& one) { return one.round; });
@@ -144,11 +144,12 @@ std::vector<Picture> ranking_pictures(const Diagnosis& diagnosis, const plant::R
     if (rounds.size() > 1) svg += label(0, 14, "start", heading, "strong");
     const double begin = rounds.size() > 1 ? 20.0 : 0.0;
     double y = begin;
-    const double limit = x0 + length(diagnose::chance);
+    const double limit = x0 + length(diagnose::thresholds.near.chance);
     std::string bars;
     std::map<std::string, std::vector<std::string>> others;  // by outcome
     for (const auto* one : all) {
-      if (!one->refitted && (one->score < diagnose::chance || one->score < least_share * most)) {
+      if (!one->refitted &&
+          (one->score < diagnose::thresholds.near.chance || one->score < least_share * most)) {
         others[one->outcome].push_back(full_name(one->name, one->variant));
         continue;
       }

@@ -11,6 +11,7 @@
 
 #include <plant/geometry.hpp>
 #include <sim/run/column_sanity.hpp>
+#include <sim/run/sanity_thresholds.hpp>
 #include <sim/run/series.hpp>
 #include <sim/run/simulate.hpp>
 
@@ -20,10 +21,7 @@ namespace {
 using domain::ColumnPlace, domain::line_of;
 using Series = std::vector<double>;
 
-constexpr double same = 1.25;                // factors as near as that are one
-constexpr double near_one = 2.0, far = 5.0;  // factors that effects reach; that nothing but a unit does
-constexpr double alike = 0.8;                // correlation with the model, if only the unit is wrong
-constexpr double moves = 20.0;               // counts
+constexpr const ColumnThresholds& of_columns = sanity_thresholds.column;
 
 double largest(const Series& values) {
   return *std::max_element(values.begin(), values.end());
@@ -58,7 +56,7 @@ bool only_scaled(const Series& measured, const Series& model, double factor) {
     scaled += std::pow(measured[k] / factor - model[k], 2);
     as_is += std::pow(measured[k] - model[k], 2);
   }
-  return scaled < 0.04 * as_is;
+  return scaled < of_columns.scaled_share * as_is;
 }
 
 class Columns {
@@ -103,9 +101,10 @@ class Columns {
   bool exchanged(const domain::Run& run) {
     if (!run.muscle_pressure_Pa) return false;
     const double most_bar = largest(*run.muscle_pressure_Pa) / plant::Pa_per_bar;
-    if (most_bar < 1.2 * data_.rig.valve.supply_pressure_Pa / plant::Pa_per_bar ||
-        most_bar > data_.rig.dac.largest_current_mA + 1e-6 ||
-        largest(run.current_mA) > 1.05 * data_.rig.valve.supply_pressure_Pa / plant::Pa_per_bar)
+    if (most_bar < of_columns.beyond_rig * data_.rig.valve.supply_pressure_Pa / plant::Pa_per_bar ||
+        most_bar > data_.rig.dac.largest_current_mA + of_columns.rounding_mA ||
+        largest(run.current_mA) >
+            of_columns.within_supply * data_.rig.valve.supply_pressure_Pa / plant::Pa_per_bar)
       return false;
     std::swap(map_.current.column, map_.muscle_pressure.column);
     find("muscle_pressure",
@@ -120,13 +119,14 @@ class Columns {
 
   void current(const domain::Run& run) {
     const double dead_mA = data_.rig.valve.zero_current_mA;
-    const double amperes_mA = data_.rig.valve.span_current_mA / 400.0;
+    const double amperes_mA = data_.rig.valve.span_current_mA * of_columns.amperes;
     const double most_mA = largest(run.current_mA);
     const std::string never = fmt::format("current: never above {:.3g} mA", most_mA);
     if (most_mA > 0.0 && most_mA < amperes_mA)
       find("current", never,
            mend("; this looks like amperes, not mA", line_of("current", with_unit(map_.current, "A"))));
-    else if (most_mA < dead_mA && range(run.contraction_ratio) > moves * contraction_per_count(data_.rig))
+    else if (most_mA < dead_mA &&
+             range(run.contraction_ratio) > of_columns.moving_counts * contraction_per_count(data_.rig))
       find("current", never,
            fmt::format(", where the valve does nothing (below {:.3g} mA), yet the muscle moves; is this "
                        "another unit, or a share of the range? unit, zero and factor in columns: current "
@@ -135,10 +135,10 @@ class Columns {
   }
 
   void contraction(const Series& measured, const Series& model) {
-    if (range(model) <= moves * contraction_per_count(data_.rig)) return;
+    if (range(model) <= of_columns.moving_counts * contraction_per_count(data_.rig)) return;
     const Line line(measured, model);
     ColumnPlace meant = map_.contraction;
-    if (line.slope < -0.3 && line.correlation < -0.5) {
+    if (line.slope < of_columns.fallen_slope && line.correlation < of_columns.fallen_correlation) {
       meant.factor = -meant.factor;
       find(
           "contraction",
@@ -146,7 +146,7 @@ class Columns {
           mend("it falls while the current rises; its sign is the other one", line_of("contraction", meant)));
       return;
     }
-    if (line.slope <= 0.0 || line.correlation < alike) return;
+    if (line.slope <= 0.0 || line.correlation < of_columns.alike) return;
     const auto unit = contraction_unit(measured, model, line.slope);
     if (!unit) return;
     meant = with_unit(std::move(meant), *unit);
@@ -166,13 +166,13 @@ class Columns {
                                               double slope) const {
     const double as_read = data_.runs[run_].ratio_per_unit;
     std::optional<std::string> found;
-    double nearest = std::log(same);
+    double nearest = std::log(of_columns.same);
     const auto consider = [&](const std::string& unit, double factor) {
       // What a muscle can do may be another load or another supply just as well.
-      if (factor > 1.0 && largest(measured) < 1.2 * longest_) return;
+      if (factor > 1.0 && largest(measured) < of_columns.beyond_rig * longest_) return;
       const double size = std::abs(std::log(factor)), off = std::abs(std::log(slope / factor));
-      if (size < std::log(near_one) || off > nearest) return;
-      if (size < std::log(far) && !only_scaled(measured, model, factor)) return;
+      if (size < std::log(of_columns.near_one) || off > nearest) return;
+      if (size < std::log(of_columns.far) && !only_scaled(measured, model, factor)) return;
       nearest = off;
       found = unit;
     };
@@ -192,19 +192,20 @@ class Columns {
   void pressure(const Series& shown, const Series& model) {
     const Line line(shown, model);
     ColumnPlace meant = map_.muscle_pressure;
-    if (range(model) > 0.3 * plant::Pa_per_bar) {
+    if (range(model) > of_columns.gauge_bar * plant::Pa_per_bar) {
       for (const auto& [factor, unit] :
            {std::pair{100.0, "kPa"}, {14.504, "psi"}, {1e3, "mbar"}, {0.1, "MPa"}, {1e5, "Pa"}}) {
-        if (line.slope <= 0.0 || std::abs(std::log(line.slope / factor)) > std::log(same)) continue;
+        if (line.slope <= 0.0 || std::abs(std::log(line.slope / factor)) > std::log(of_columns.same))
+          continue;
         find("muscle_pressure",
              fmt::format("muscle_pressure is up to {:.4g} bar; ", largest(shown) / plant::Pa_per_bar),
              mend(fmt::format("this looks like {}, not bar", unit),
                   line_of("muscle_pressure", with_unit(map_.muscle_pressure, unit))));
       }
-      if (line.slope < 0.5 || line.slope > 2.0) return;
+      if (line.slope < of_columns.least_gauge_slope || line.slope > of_columns.most_gauge_slope) return;
     }
     const auto an_atmosphere = [&](double difference_Pa) {
-      return std::abs(difference_Pa / data_.rig.gas.atmosphere_Pa - 1.0) < 0.2;
+      return std::abs(difference_Pa / data_.rig.gas.atmosphere_Pa - 1.0) < of_columns.atmosphere;
     };
     if (!an_atmosphere(line.mean_difference) || !an_atmosphere(lowest(shown) - lowest(model))) return;
     if (meant.unit == "bar") meant.zero += data_.rig.gas.atmosphere_Pa / plant::Pa_per_bar / meant.factor;

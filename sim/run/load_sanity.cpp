@@ -10,6 +10,7 @@
 #include <plant/geometry.hpp>
 #include <sim/domain/number.hpp>
 #include <sim/run/load_sanity.hpp>
+#include <sim/run/sanity_thresholds.hpp>
 #include <sim/run/series.hpp>
 
 namespace mckibben::run {
@@ -17,19 +18,7 @@ namespace {
 
 using Series = std::vector<double>;
 
-constexpr double lifted = 0.01;            // contraction ratio of a load that hangs and does not rest
-constexpr std::size_t least_rows = 40;     // of those
-constexpr std::size_t still_rows = 20;     // of a reading at the end of its range, or frozen
-constexpr double moving = 0.01;            // contraction ratio that the simulated load moves in that time
-constexpr double least_difference = 0.08;  // of loads that are compared, of the heavier one
-constexpr double reversed = 0.5;           // of that difference: so far the other way round
-constexpr double agrees = 0.35;            // the same with the labels exchanged
-
-double median(Series values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
+constexpr const LoadThresholds& of_loads = sanity_thresholds.load;
 
 struct Weighed {
   std::size_t run;
@@ -38,12 +27,13 @@ struct Weighed {
 
 /// Whether the reading stands still round row `k` though the simulated load moves.
 bool stands_still(const Series& measured, const Series& simulated, std::size_t k) {
-  const std::size_t end = std::min({k + still_rows, measured.size(), simulated.size()});
+  const std::size_t end = std::min({k + of_loads.still_rows, measured.size(), simulated.size()});
   const auto of = [&](const Series& series) {
-    return std::span(series).subspan(k - std::min(k, still_rows), end - k + std::min(k, still_rows));
+    return std::span(series).subspan(k - std::min(k, of_loads.still_rows),
+                                     end - k + std::min(k, of_loads.still_rows));
   };
   if (!std::ranges::all_of(of(measured), [&](double m) { return m == measured[k]; })) return false;
-  return range(of(simulated)) > moving;
+  return range(of(simulated)) > of_loads.moving;
 }
 
 /// What the braid carries at what was measured, in the middle of what friction makes of it. Where the
@@ -57,14 +47,16 @@ std::optional<Weighed> weigh(const plant::Braid& braid, std::size_t index, const
   Series plain_kg, compared_kg;
   for (std::size_t k = 0; k < std::min(run.contraction_ratio.size(), expected.pressure_Pa.size()); ++k) {
     const double measured = run.contraction_ratio[k], simulated = expected.contraction_ratio[k];
-    if (measured < lifted || !braid.in_domain(measured)) continue;
+    if (measured < of_loads.lifted || !braid.in_domain(measured)) continue;
     if (stands_still(run.contraction_ratio, expected.contraction_ratio, k)) continue;
     plain_kg.push_back(carried_kg(measured, k));
-    if (simulated > lifted) compared_kg.push_back(run.load_kg + plain_kg.back() - carried_kg(simulated, k));
+    if (simulated > of_loads.lifted)
+      compared_kg.push_back(run.load_kg + plain_kg.back() - carried_kg(simulated, k));
   }
-  if (plain_kg.size() < least_rows) return std::nullopt;
-  const bool both = 2 * compared_kg.size() > plain_kg.size();
-  return Weighed{index, run.load_kg, median(std::move(both ? compared_kg : plain_kg))};
+  if (plain_kg.size() < of_loads.least_rows) return std::nullopt;
+  const bool both = static_cast<double>(compared_kg.size()) >
+                    of_loads.compared_share * static_cast<double>(plain_kg.size());
+  return Weighed{index, run.load_kg, upper_median(std::move(both ? compared_kg : plain_kg))};
 }
 
 std::vector<Weighed> weigh(const domain::Dataset& data, const std::vector<Expected>& expected) {
@@ -78,7 +70,7 @@ std::vector<Weighed> weigh(const domain::Dataset& data, const std::vector<Expect
 double common_ratio(const std::vector<Weighed>& list) {
   Series ratios;
   for (const Weighed& one : list) ratios.push_back(one.seems_kg / one.label_kg);
-  return median(std::move(ratios));
+  return upper_median(std::move(ratios));
 }
 
 std::vector<std::size_t> runs_of(const std::vector<Weighed>& list) {
@@ -88,8 +80,7 @@ std::vector<std::size_t> runs_of(const std::vector<Weighed>& list) {
   return runs;
 }
 
-/// A load that is written in another unit: what is carried over what is written. A muscle of half or twice
-/// the force comes near to pounds, none to the others.
+/// A load that is written in another unit: what is carried over what is written.
 struct LoadUnit {
   double ratio, near, sure;  ///< `near`, `sure`: factors
   const char* says;
@@ -97,9 +88,10 @@ struct LoadUnit {
 
 std::optional<domain::Objection> other_unit(const std::vector<Weighed>& list) {
   constexpr LoadUnit units[] = {
-      {1e3, 2.0, 2.0, "kg that are written in g: write kg"},
-      {1.0 / plant::gravity_m_per_s2, 1.25, 1.25, "N, not kg: write the mass, N / 9.81"},
-      {0.45359237, 1.2, 1.08, "pounds, not kg: write lb"}};
+      {1e3, of_loads.near_grams, of_loads.near_grams, "kg that are written in g: write kg"},
+      {1.0 / plant::gravity_m_per_s2, of_loads.near_newtons, of_loads.near_newtons,
+       "N, not kg: write the mass, N / 9.81"},
+      {pound_kg, of_loads.near_pounds, of_loads.sure_pounds, "pounds, not kg: write lb"}};
   const double ratio = common_ratio(list);
   if (ratio <= 0.0) return std::nullopt;
   for (const LoadUnit& unit : units) {
@@ -120,9 +112,10 @@ std::optional<domain::Objection> other_unit(const std::vector<Weighed>& list) {
 double gain(const Weighed& a, const Weighed& b) {
   const double difference_kg = b.label_kg - a.label_kg;
   if (difference_kg < 0.0) return gain(b, a);
-  const double least_kg = least_difference * b.label_kg;
+  const double least_kg = of_loads.least_difference * b.label_kg;
   const double reversed_kg = a.seems_kg - b.seems_kg;
-  if (difference_kg < least_kg || reversed_kg < std::max(reversed * difference_kg, least_kg)) return 0.0;
+  if (difference_kg < least_kg || reversed_kg < std::max(of_loads.reversed * difference_kg, least_kg))
+    return 0.0;
   return reversed_kg * difference_kg;
 }
 
@@ -156,7 +149,7 @@ std::optional<domain::Objection> exchanged_labels(const domain::Dataset& data,
     objection.runs.push_back(list[i].run);
     objection.exchanged.push_back({list[i].run, other_kg});
     all_agree = all_agree && std::abs(list[i].seems_kg - scale * other_kg) <
-                                 agrees * std::abs(label_kg - other_kg) * scale;
+                                 of_loads.agrees * std::abs(label_kg - other_kg) * scale;
     const std::string& id = data.runs[list[i].run].id;
     const char* const comma = written.empty() ? "" : ", ";
     written += fmt::format("{}load: {} kg for {}", comma, domain::write_number(other_kg), id);

@@ -6,12 +6,10 @@
 #include <sim/run/load_sanity.hpp>
 #include <sim/run/replay.hpp>
 #include <sim/run/sanity.hpp>
+#include <sim/run/sanity_thresholds.hpp>
 
 namespace mckibben::run {
 namespace {
-
-/// So much is simulated in a few seconds: the thesis's campaign.
-constexpr std::size_t most_rows = 200'000, most_rows_of_a_run = 20'000;
 
 domain::Run beginning_of(domain::Run run, std::size_t rows) {
   rows = std::min(rows, run.current_mA.size());
@@ -43,6 +41,7 @@ std::vector<Expected> expected_of(const std::vector<ReplayedRun>& replayed) {
 }
 
 Look look(const domain::Dataset& data) {
+  const auto& [most_rows, most_rows_of_a_run] = sanity_thresholds.look;
   std::size_t rows = 0;
   for (const domain::Run& run : data.runs) rows += std::min(run.current_mA.size(), most_rows_of_a_run);
   const std::size_t step = rows / most_rows + 1;

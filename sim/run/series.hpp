@@ -1,10 +1,11 @@
-// Two series of readings beside each other: ranges and straight lines.
+// Series of readings: ranges, medians, and straight lines through two beside each other.
 #pragma once
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <span>
+#include <vector>
 
 namespace mckibben::run {
 
@@ -12,6 +13,21 @@ namespace mckibben::run {
 inline double range(std::span<const double> values) {
   const auto [low, high] = std::minmax_element(values.begin(), values.end());
   return *high - *low;
+}
+
+/// The middle value; the larger of the middle two, if they are two.
+inline double upper_median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// The middle value; the mean of the middle two, if they are two.
+inline double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  if (values.size() % 2 == 1) return *middle;
+  return 0.5 * (*middle + *std::max_element(values.begin(), middle));
 }
 
 /// Straight line through `values` over `model`; its slope is 0 where the model stands still, and its

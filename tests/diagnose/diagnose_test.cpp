@@ -89,7 +89,7 @@ TEST(Fit, RefusesParametersThatNoReadingDependsOn) {
                         .lowest = 1.0,
                         .highest = 100.0,
                         .logarithmic = true});
-  const Fitted fitted = fit(Experiment(data, masked, 2), model, {0, 2, 5}, {.temperature = 1.0});
+  const Fitted fitted = fit(Experiment(data, masked, 2), model, {0, 2, 5}, {.inflation = 1.0});
   EXPECT_EQ(fitted.failure, "");
   EXPECT_EQ(fitted.model.refused, std::vector<std::string>{"effects.friction_warm_up.time"});
   EXPECT_EQ(fitted.model.free.size() + 1, model.free.size());

@@ -20,10 +20,10 @@ const domain::Dataset& undisturbed() {
   return data;
 }
 
-Doubts no_doubts(const domain::Dataset& data) {
-  Doubts doubts;
-  for (const domain::Run& run : data.runs) doubts.masked.emplace_back(run.current_mA.size(), false);
-  return doubts;
+Checked no_doubts(const domain::Dataset& data) {
+  Checked checked;
+  for (const domain::Run& run : data.runs) checked.masked.emplace_back(run.current_mA.size(), false);
+  return checked;
 }
 
 std::vector<Fault> faults_of(const domain::Dataset& data, const std::vector<Candidate>& effects = {}) {
@@ -171,21 +171,21 @@ TEST(Faults, AreMendedWhereThatIsSafeAndElseLeftOut) {
   const auto before = data.runs;
   delay(data.runs[0], 2);
   for (double& ratio : data.runs[1].contraction_ratio) ratio += 3.0 * count();
-  Doubts doubts = no_doubts(data);
-  mend(data, doubts,
+  Checked checked = no_doubts(data);
+  mend(data, checked,
        {{0, FaultKind::late, 2.1}, {1, FaultKind::zero, 3.2 * count()}, {4, FaultKind::drift, 2e-3}});
   const auto& shifted = data.runs[0].contraction_ratio;
   const std::size_t rows = shifted.size();
   for (std::size_t k = 0; k + 2 < rows; ++k) ASSERT_EQ(shifted[k], before[0].contraction_ratio[k]);
-  EXPECT_FALSE(doubts.masked[0][rows - 3]);
-  EXPECT_TRUE(doubts.masked[0][rows - 2]);
-  EXPECT_TRUE(doubts.masked[0][rows - 1]);
+  EXPECT_FALSE(checked.masked[0][rows - 3]);
+  EXPECT_TRUE(checked.masked[0][rows - 2]);
+  EXPECT_TRUE(checked.masked[0][rows - 1]);
   EXPECT_NEAR(data.runs[1].contraction_ratio[100], before[1].contraction_ratio[100], 1e-12);
-  EXPECT_EQ(doubts.left_out, Runs{4});
-  ASSERT_EQ(doubts.findings.size(), 3u);
-  EXPECT_EQ(doubts.findings[0].words, "is 2 ticks late and was shifted");
-  EXPECT_EQ(doubts.findings[1].words, "has its zero moved by 3.2 counts (corrected)");
-  EXPECT_EQ(doubts.findings[2].words, "drifts by 0.6 mm from its beginning to its end (left out)");
+  EXPECT_EQ(checked.left_out, Runs{4});
+  ASSERT_EQ(checked.findings.size(), 3u);
+  EXPECT_EQ(checked.findings[0].words, "is 2 ticks late and was shifted");
+  EXPECT_EQ(checked.findings[1].words, "has its zero moved by 3.2 counts (corrected)");
+  EXPECT_EQ(checked.findings[2].words, "drifts by 0.6 mm from its beginning to its end (left out)");
 }
 
 }  // namespace

@@ -43,8 +43,8 @@ TEST(Catalogue, HoldsAllEffectsWithANameAndEveryLawMovesSomething) {
 TEST(NominalParameters, StayWithinThreeDeviationsOfTheirDataSheet) {
   for (const Parameter& p : nominal_parameters(plant::Rig{})) {
     EXPECT_EQ(p.origin, value_of(plant::Rig{}, p.path));
-    EXPECT_GE(p.scaled(p.lowest), -most_deviations - 1e-9) << p.path;
-    EXPECT_LE(p.scaled(p.highest), most_deviations + 1e-9) << p.path;
+    EXPECT_GE(p.scaled(p.lowest), -thresholds.parameter.most_deviations - 1e-9) << p.path;
+    EXPECT_LE(p.scaled(p.highest), thresholds.parameter.most_deviations + 1e-9) << p.path;
     EXPECT_TRUE(p.has_prior);
   }
 }

@@ -157,11 +157,11 @@ TEST(DiagnosisTable, SaysWhatCounts) {
 }
 
 TEST(DiagnosisWords, GiveAsManyDigitsAsTheIntervalAllows) {
-  const auto shown = readable(diagnose::Estimate{"r", "m", 0.00768123, 0.00766123, 0.00770123});
+  const auto shown = readable(diagnose::FittedNumber{"r", "m", 0.00768123, 0.00766123, 0.00770123});
   EXPECT_EQ(shown.value, "7.681 mm");
   EXPECT_EQ(shown.interval, "7.661 to 7.701 mm");
-  EXPECT_EQ(readable(diagnose::Estimate{"c", "1", -0.5, -0.7, -0.3}).value, "-0.50");
-  EXPECT_EQ(readable(diagnose::Estimate{"c", "1", 2.0, 2.0, 2.0}).interval, "unknown");
+  EXPECT_EQ(readable(diagnose::FittedNumber{"c", "1", -0.5, -0.7, -0.3}).value, "-0.50");
+  EXPECT_EQ(readable(diagnose::FittedNumber{"c", "1", 2.0, 2.0, 2.0}).interval, "unknown");
   EXPECT_EQ(readable(5e4, "Pa"), "0.5 bar");
   EXPECT_EQ(readable(0.012, "s"), "12 ms");
   EXPECT_EQ(readable(20.0, "N.s/m"), "20 N s/m");

@@ -137,12 +137,13 @@ TEST(Diagnose, AccusesNoRunThatAnEffectExplainsWithTheOthers) {
   const auto data = input::read_dataset(MCKIBBEN_TEST_DATA "/strong_friction/dataset.yaml");
   Runs runs(data.runs.size());
   std::iota(runs.begin(), runs.end(), 0);
-  Doubts doubts;
-  for (const domain::Run& run : data.runs) doubts.masked.emplace_back(run.contraction_ratio.size());
-  const Experiment experiment(data, doubts.masked, 0, runs);
+  Checked checked;
+  for (const domain::Run& run : data.runs) checked.masked.emplace_back(run.contraction_ratio.size());
+  const Experiment experiment(data, checked.masked, 0, runs);
   const plant::Rig& rig = data.rig;
-  const Case c{experiment, rig, split(data, runs), first_temperature, [](const std::string&) {}};
-  EXPECT_TRUE(first_look(c, doubts, {rig, nominal_parameters(rig)}, runs, c.learned).empty());
+  const Case c{experiment, rig, split(data, runs), thresholds.scatter.first_inflation,
+               [](const std::string&) {}};
+  EXPECT_TRUE(first_look(c, checked, {rig, nominal_parameters(rig)}, runs, c.learned).empty());
 }
 
 TEST(Diagnose, FindsThatAllRunsAreLateBesideAnEffectThatIsMissing) {

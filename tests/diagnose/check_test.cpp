@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include <sim/diagnose/checks.hpp>
+#include <sim/diagnose/check.hpp>
 #include <sim/diagnose/predict.hpp>
 #include <sim/domain/objection.hpp>
 #include <sim/run/simulate.hpp>
@@ -28,16 +28,16 @@ domain::Dataset with_gauge() {
   return data;
 }
 
-bool says(const Doubts& doubts, std::string_view words) {
-  return std::any_of(doubts.warnings.begin(), doubts.warnings.end(),
+bool says(const Checked& checked, std::string_view words) {
+  return std::any_of(checked.warnings.begin(), checked.warnings.end(),
                      [&](const std::string& warning) { return warning.find(words) != std::string::npos; });
 }
 
 /// Row numbers that are masked in a run.
-std::vector<std::size_t> masked(const Doubts& doubts, std::size_t run) {
+std::vector<std::size_t> masked(const Checked& checked, std::size_t run) {
   std::vector<std::size_t> rows;
-  for (std::size_t k = 0; k < doubts.masked[run].size(); ++k)
-    if (doubts.masked[run][k]) rows.push_back(k);
+  for (std::size_t k = 0; k < checked.masked[run].size(); ++k)
+    if (checked.masked[run][k]) rows.push_back(k);
   return rows;
 }
 
@@ -51,12 +51,12 @@ std::string error(const domain::Dataset& data) {
   return "";
 }
 
-void expect_no_doubts(const Doubts& doubts) {
-  EXPECT_EQ(doubts.warnings, std::vector<std::string>{});
-  EXPECT_EQ(doubts.left_out, Runs{});
-  EXPECT_EQ(doubts.dead_gauges, Runs{});
-  EXPECT_FALSE(doubts.cannot_tell);
-  for (std::size_t run = 0; run < doubts.masked.size(); ++run) EXPECT_TRUE(masked(doubts, run).empty());
+void expect_no_doubts(const Checked& checked) {
+  EXPECT_EQ(checked.warnings, std::vector<std::string>{});
+  EXPECT_EQ(checked.left_out, Runs{});
+  EXPECT_EQ(checked.dead_gauges, Runs{});
+  EXPECT_FALSE(checked.cannot_tell);
+  for (std::size_t run = 0; run < checked.masked.size(); ++run) EXPECT_TRUE(masked(checked, run).empty());
 }
 
 TEST(Checks, SoundDataRaiseNoDoubts) {
@@ -80,23 +80,23 @@ TEST(Checks, ReadingsThatNoLoadCouldFollowAreMaskedOneByOne) {
   readings[200] += 0.05;
   for (std::size_t k = 330; k < 333; ++k) readings[k] -= 0.04;
   readings[0] += 0.03;
-  const Doubts doubts = check(data, 2);
-  EXPECT_EQ(masked(doubts, 1), (std::vector<std::size_t>{0, 200, 330, 331, 332}));
-  EXPECT_TRUE(says(doubts, "run r02: 3 outliers in contraction_ratio, at 0.000 s, 2.400 s, 3.960 s"));
-  EXPECT_EQ(doubts.left_out, Runs{});
-  EXPECT_TRUE(masked(doubts, 0).empty());
+  const Checked checked = check(data, 2);
+  EXPECT_EQ(masked(checked, 1), (std::vector<std::size_t>{0, 200, 330, 331, 332}));
+  EXPECT_TRUE(says(checked, "run r02: 3 outliers in contraction_ratio, at 0.000 s, 2.400 s, 3.960 s"));
+  EXPECT_EQ(checked.left_out, Runs{});
+  EXPECT_TRUE(masked(checked, 0).empty());
 }
 
 TEST(Checks, AnEncoderThatSticksIsMaskedWhileItSticks) {
   auto data = sound();
   auto& readings = data.runs[0].contraction_ratio;
   std::fill(readings.begin() + 36, readings.begin() + 110, readings[36]);
-  const Doubts doubts = check(data, 2);
-  EXPECT_TRUE(says(doubts, "run r01: contraction_ratio is frozen from 0.432 s to 1.308 s"));
-  EXPECT_TRUE(doubts.masked[0][37]);
-  EXPECT_TRUE(doubts.masked[0][109]);
-  EXPECT_FALSE(doubts.masked[0][110]);
-  EXPECT_EQ(doubts.left_out, Runs{});
+  const Checked checked = check(data, 2);
+  EXPECT_TRUE(says(checked, "run r01: contraction_ratio is frozen from 0.432 s to 1.308 s"));
+  EXPECT_TRUE(checked.masked[0][37]);
+  EXPECT_TRUE(checked.masked[0][109]);
+  EXPECT_FALSE(checked.masked[0][110]);
+  EXPECT_EQ(checked.left_out, Runs{});
 }
 
 TEST(Checks, ReadingsFrozenWhileTheLoadLeavesTheStopAreMasked) {
@@ -106,11 +106,11 @@ TEST(Checks, ReadingsFrozenWhileTheLoadLeavesTheStopAreMasked) {
       std::find_if(readings.begin(), readings.end(), [](double ratio) { return ratio > 0.0; });
   std::fill(leaves, leaves + 60, 0.0);
   const auto end = static_cast<std::size_t>(leaves - readings.begin()) + 60;
-  const Doubts doubts = check(data, 2);
-  EXPECT_TRUE(says(doubts, "run r01: contraction_ratio is frozen from"));
-  EXPECT_TRUE(doubts.masked[0][end - 1]);
-  EXPECT_FALSE(doubts.masked[0][end]);
-  EXPECT_EQ(doubts.left_out, Runs{});
+  const Checked checked = check(data, 2);
+  EXPECT_TRUE(says(checked, "run r01: contraction_ratio is frozen from"));
+  EXPECT_TRUE(checked.masked[0][end - 1]);
+  EXPECT_FALSE(checked.masked[0][end]);
+  EXPECT_EQ(checked.left_out, Runs{});
 }
 
 TEST(Checks, ReadingsCutOffByTheEndOfTheirRangeAreSaidAndNotTakenForAnotherLoad) {
@@ -124,11 +124,11 @@ TEST(Checks, ReadingsCutOffByTheEndOfTheirRangeAreSaidAndNotTakenForAnotherLoad)
   const double most =
       count * std::floor(0.8 * *std::max_element(readings.begin(), readings.end()) / count + 0.5);
   for (double& ratio : readings) ratio = std::min(ratio, most);
-  const Doubts doubts = check(data, 2);
-  EXPECT_TRUE(says(doubts, "run r01: contraction_ratio is saturated from"));
-  for (const std::size_t row : masked(doubts, 0)) EXPECT_EQ(readings[row], most);
-  EXPECT_TRUE(says(doubts, "run r01: too little of it is left"));
-  EXPECT_EQ(doubts.left_out, Runs{0});
+  const Checked checked = check(data, 2);
+  EXPECT_TRUE(says(checked, "run r01: contraction_ratio is saturated from"));
+  for (const std::size_t row : masked(checked, 0)) EXPECT_EQ(readings[row], most);
+  EXPECT_TRUE(says(checked, "run r01: too little of it is left"));
+  EXPECT_EQ(checked.left_out, Runs{0});
 }
 
 TEST(Checks, AValveThatStuckCostsItsRun) {
@@ -139,19 +139,19 @@ TEST(Checks, AValveThatStuckCostsItsRun) {
   data.runs[0].contraction_ratio = predict(stuck, {&hanging, 1}).front().contraction_ratio;
   const double count = run::contraction_per_count(data.rig);
   for (double& ratio : data.runs[0].contraction_ratio) ratio = count * std::floor(ratio / count);
-  const Doubts doubts = check(data, 2);
-  EXPECT_TRUE(says(doubts, "run r01: the load stands still from"));
-  EXPECT_TRUE(says(doubts, "the valve was stuck, or something held the load"));
-  EXPECT_EQ(doubts.left_out, Runs{0});
+  const Checked checked = check(data, 2);
+  EXPECT_TRUE(says(checked, "run r01: the load stands still from"));
+  EXPECT_TRUE(says(checked, "the valve was stuck, or something held the load"));
+  EXPECT_EQ(checked.left_out, Runs{0});
 }
 
 TEST(Checks, ARunThatLostCountsIsLeftOut) {
   auto data = sound();
   auto& readings = data.runs[1].contraction_ratio;  // a staircase, standing still at 3.4 s
   for (std::size_t k = 280; k < readings.size(); ++k) readings[k] += 0.03;
-  const Doubts doubts = check(data, 2);
-  EXPECT_EQ(doubts.left_out, Runs{1});
-  EXPECT_TRUE(says(doubts, "run r02: contraction_ratio jumps by 0.03 at 3.360 s"));
+  const Checked checked = check(data, 2);
+  EXPECT_EQ(checked.left_out, Runs{1});
+  EXPECT_TRUE(says(checked, "run r02: contraction_ratio jumps by 0.03 at 3.360 s"));
 }
 
 TEST(Checks, RunsThatNeverMoveAreLeftOut) {
@@ -159,30 +159,30 @@ TEST(Checks, RunsThatNeverMoveAreLeftOut) {
   std::fill(data.runs[2].current_mA.begin(), data.runs[2].current_mA.end(), 3.9);
   std::fill(data.runs[2].contraction_ratio.begin(), data.runs[2].contraction_ratio.end(), 0.0);
   std::fill(data.runs[4].contraction_ratio.begin(), data.runs[4].contraction_ratio.end(), 0.0);
-  const Doubts doubts = check(data, 2);
-  EXPECT_EQ(doubts.left_out, (Runs{2, 4}));
-  EXPECT_TRUE(says(doubts, "run r03: the current stays at or below 3.9 mA"));
-  EXPECT_TRUE(says(doubts, "run r05: the reading never changes, though"));
-  EXPECT_FALSE(doubts.cannot_tell);
+  const Checked checked = check(data, 2);
+  EXPECT_EQ(checked.left_out, (Runs{2, 4}));
+  EXPECT_TRUE(says(checked, "run r03: the current stays at or below 3.9 mA"));
+  EXPECT_TRUE(says(checked, "run r05: the reading never changes, though"));
+  EXPECT_FALSE(checked.cannot_tell);
 }
 
 TEST(Checks, TooFewRunsCannotTell) {
   auto data = sound();
   data.runs.resize(2);
-  const Doubts two = check(data, 2);
+  const Checked two = check(data, 2);
   ASSERT_TRUE(two.cannot_tell);
   EXPECT_NE(two.cannot_tell->find("at least four runs"), std::string::npos);
   for (domain::Run& run : data.runs)
     std::fill(run.contraction_ratio.begin(), run.contraction_ratio.end(), 0.0);
-  const Doubts none = check(data, 2);
+  const Checked none = check(data, 2);
   EXPECT_EQ(none.left_out, (Runs{0, 1}));
   EXPECT_TRUE(none.cannot_tell);
 }
 
 TEST(Checks, OneLoadOnlyIsSaid) {
-  const Doubts doubts = check(planted({}, {16.138}, three_kinds(), 4), 2);
-  EXPECT_TRUE(says(doubts, "all runs have the same load, 16.138 kg"));
-  EXPECT_FALSE(doubts.cannot_tell);
+  const Checked checked = check(planted({}, {16.138}, three_kinds(), 4), 2);
+  EXPECT_TRUE(says(checked, "all runs have the same load, 16.138 kg"));
+  EXPECT_FALSE(checked.cannot_tell);
 }
 
 TEST(Checks, WrongUnitsAreErrorsThatNameFileAndColumn) {
@@ -226,10 +226,10 @@ TEST(Checks, PressureInAnotherUnitIsAnError) {
 TEST(Checks, ADeadGaugeIsIgnoredNotTheRun) {
   auto data = with_gauge();
   for (double& pressure : *data.runs[1].muscle_pressure_Pa) pressure = 2.5e5;
-  const Doubts doubts = check(data, 2);
-  EXPECT_EQ(doubts.dead_gauges, Runs{1});
-  EXPECT_EQ(doubts.left_out, Runs{});
-  EXPECT_TRUE(says(doubts, "run r02: muscle_pressure_bar is 2.5 throughout"));
+  const Checked checked = check(data, 2);
+  EXPECT_EQ(checked.dead_gauges, Runs{1});
+  EXPECT_EQ(checked.left_out, Runs{});
+  EXPECT_TRUE(says(checked, "run r02: muscle_pressure_bar is 2.5 throughout"));
 }
 
 TEST(Checks, AMislabelledLoadIsFoundAndSaid) {
@@ -238,30 +238,30 @@ TEST(Checks, AMislabelledLoadIsFoundAndSaid) {
   const auto kinds = three_kinds();
   auto data = planted(truth, {11.138, 16.138}, {kinds[0], kinds[1]}, 5);
   data.runs[1].load_kg = 16.138;
-  const Doubts doubts = check(data, 2);
-  EXPECT_EQ(doubts.left_out, Runs{1});
-  EXPECT_TRUE(says(doubts, "run r02: the load is labelled 16.138 kg, but everything else says about 11."));
-  EXPECT_EQ(check(data, 1).warnings, doubts.warnings);
+  const Checked checked = check(data, 2);
+  EXPECT_EQ(checked.left_out, Runs{1});
+  EXPECT_TRUE(says(checked, "run r02: the load is labelled 16.138 kg, but everything else says about 11."));
+  EXPECT_EQ(check(data, 1).warnings, checked.warnings);
 }
 
 TEST(Checks, TwoExchangedLabelsOfFourAreBothFound) {
   const auto kinds = three_kinds();
   auto data = planted({}, {11.138, 16.138, 18.87, 23.406}, {kinds[0]}, 6);
   std::swap(data.runs[0].load_kg, data.runs[2].load_kg);
-  const Doubts doubts = check(data, 2);
-  EXPECT_EQ(doubts.left_out, (Runs{0, 2}));
-  EXPECT_TRUE(doubts.cannot_tell);  // two of four
+  const Checked checked = check(data, 2);
+  EXPECT_EQ(checked.left_out, (Runs{0, 2}));
+  EXPECT_TRUE(checked.cannot_tell);  // two of four
 }
 
 TEST(Checks, ExchangedLabelsOfThreeRunsAreNamedAndNothingElseIs) {
   const auto kinds = three_kinds();
   auto data = planted({}, {11.138, 16.138, 23.406}, {kinds[0]}, 6);
   std::swap(data.runs[0].load_kg, data.runs[1].load_kg);
-  const Doubts doubts = check(data, 2);
-  EXPECT_EQ(doubts.left_out, (Runs{0, 1}));
-  ASSERT_TRUE(doubts.cannot_tell);
-  EXPECT_NE(doubts.cannot_tell->find("runs r01, r02: "), std::string::npos);
-  EXPECT_NE(doubts.cannot_tell->find("write load: 11.138 kg for r01, load: 16.138 kg for r02"),
+  const Checked checked = check(data, 2);
+  EXPECT_EQ(checked.left_out, (Runs{0, 1}));
+  ASSERT_TRUE(checked.cannot_tell);
+  EXPECT_NE(checked.cannot_tell->find("runs r01, r02: "), std::string::npos);
+  EXPECT_NE(checked.cannot_tell->find("write load: 11.138 kg for r01, load: 16.138 kg for r02"),
             std::string::npos);
 }
 
@@ -274,17 +274,17 @@ TEST(Checks, LoadsInGramsAreAnError) {
 TEST(Checks, ARunWithAnotherZeroIsNotTakenForAnotherLoad) {
   auto data = sound();
   for (double& ratio : data.runs[2].contraction_ratio) ratio += 0.02;
-  const Doubts doubts = check(data, 2);
-  EXPECT_EQ(doubts.left_out, Runs{2});
-  EXPECT_TRUE(says(doubts, "run r03: has its zero moved by 4"));
+  const Checked checked = check(data, 2);
+  EXPECT_EQ(checked.left_out, Runs{2});
+  EXPECT_TRUE(says(checked, "run r03: has its zero moved by 4"));
 }
 
 TEST(Checks, ARunWithAnotherCurrentIsNotTakenForAnotherLoad) {
   auto data = sound();
   for (double& current_mA : data.runs[0].current_mA) current_mA *= 1.07;
-  const Doubts doubts = check(data, 2);
-  ASSERT_EQ(doubts.left_out, Runs{0});
-  EXPECT_TRUE(says(doubts, "run r01: has a current that is 1.06")) << doubts.warnings.front();
+  const Checked checked = check(data, 2);
+  ASSERT_EQ(checked.left_out, Runs{0});
+  EXPECT_TRUE(says(checked, "run r01: has a current that is 1.06")) << checked.warnings.front();
 }
 
 TEST(Checks, LoadsInPoundsAreAnError) {
@@ -296,29 +296,29 @@ TEST(Checks, LoadsInPoundsAreAnError) {
 TEST(Checks, ThreeRunsAreTooFewToCheckLabelsAndItSaysSo) {
   auto data = sound();
   data.runs.resize(3);
-  const Doubts doubts = check(data, 2);
-  EXPECT_TRUE(says(doubts, "3 usable runs: their loads are in order, but too few to weigh"));
-  EXPECT_FALSE(doubts.cannot_tell);
+  const Checked checked = check(data, 2);
+  EXPECT_TRUE(says(checked, "3 usable runs: their loads are in order, but too few to weigh"));
+  EXPECT_FALSE(checked.cannot_tell);
 }
 
 TEST(Checks, ACopyOfARunIsLeftOut) {
   auto data = sound();
   data.runs.push_back(data.runs[1]);
   data.runs.back().id = "r07";
-  const Doubts doubts = check(data, 2);
-  EXPECT_EQ(doubts.left_out, Runs{6});
-  EXPECT_TRUE(says(doubts, "run r07: equal to run r02 in every reading: a copy"));
+  const Checked checked = check(data, 2);
+  EXPECT_EQ(checked.left_out, Runs{6});
+  EXPECT_TRUE(says(checked, "run r07: equal to run r02 in every reading: a copy"));
 }
 
 TEST(Checks, AGaugeThatRunsBackwardsIsIgnoredAndItsSpikesAreMasked) {
   auto data = with_gauge();
   for (double& pressure : *data.runs[0].muscle_pressure_Pa) pressure = 5e5 - pressure;
   (*data.runs[3].muscle_pressure_Pa)[200] += 1e5;
-  const Doubts doubts = check(data, 2);
-  EXPECT_EQ(doubts.dead_gauges, Runs{0});
-  EXPECT_TRUE(says(doubts, "run r01: muscle_pressure_bar does not follow the current"));
-  EXPECT_EQ(masked(doubts, 3), std::vector<std::size_t>{200});
-  EXPECT_TRUE(says(doubts, "run r04: 1 outlier in muscle_pressure_bar, at 2.400 s"));
+  const Checked checked = check(data, 2);
+  EXPECT_EQ(checked.dead_gauges, Runs{0});
+  EXPECT_TRUE(says(checked, "run r01: muscle_pressure_bar does not follow the current"));
+  EXPECT_EQ(masked(checked, 3), std::vector<std::size_t>{200});
+  EXPECT_TRUE(says(checked, "run r04: 1 outlier in muscle_pressure_bar, at 2.400 s"));
 }
 
 TEST(Checks, AnOffsetOfAllLoadsIsNoWrongLabel) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <sim/diagnose/experiment.hpp>
+#include <sim/diagnose/thresholds.hpp>
 
 namespace mckibben::diagnose {
 
@@ -15,18 +16,15 @@ struct Split {
 /// out.
 Split split(const domain::Dataset& data, const Runs& usable);
 
-/// Variance of the residuals over long times (Bartlett's window, 1.5 s), at least 1: by this factor the data
+/// Variance of the residuals over long times (Bartlett's window), at least 1: by this factor the data
 /// say less than as much white noise would.
-double temperature(const Experiment& experiment, const Eigen::VectorXd& residuals, const Runs& runs);
-
-/// What is assumed of it until a model has been fitted: priors count against it.
-inline constexpr double first_temperature = 20.0;
+double variance_inflation(const Experiment& experiment, const Eigen::VectorXd& residuals, const Runs& runs);
 
 /// Mean square of residuals above that of the floor.
 double excess(const Eigen::VectorXd& residuals);
 
-/// Residuals are judged by segments of this length, which scatter by themselves.
-inline constexpr double segment_s = 1.5;
+/// Whether residuals are no more than noise and slow disturbances leave.
+bool near_floor(const Eigen::VectorXd& residuals);
 
 /// How much better `after` is than `before`, on the same runs.
 struct Improvement {
@@ -39,6 +37,6 @@ Improvement compare(const Experiment& experiment, const Eigen::VectorXd& before,
                     const Runs& runs);
 
 /// Whether an improvement is worth a change of the model.
-bool convinces(const Improvement& improvement);
+bool convinces(const Improvement& improvement, const ImprovementThresholds& least = thresholds.improvement);
 
 }  // namespace mckibben::diagnose

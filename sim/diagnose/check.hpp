@@ -12,7 +12,7 @@
 
 namespace mckibben::diagnose {
 
-struct Doubts {
+struct Checked {
   std::vector<std::vector<bool>> masked;     ///< [run][row]: readings that are not the load's
   Runs left_out;                             ///< ascending
   Runs dead_gauges;                          ///< runs whose muscle pressure says nothing: ignore it
@@ -30,6 +30,6 @@ struct Doubts {
 ///
 /// Throws domain::UnfitData where a column is in another unit than it says; engine::NumericalFailure;
 /// run::Interrupted.
-Doubts check(const domain::Dataset& data, unsigned threads);
+Checked check(const domain::Dataset& data, unsigned threads);
 
 }  // namespace mckibben::diagnose

@@ -1,19 +1,16 @@
-// Splits, scatter and comparison; see the header.
+// Splits, variance over long times, comparison; see the header.
 #include <algorithm>
 #include <cmath>
 #include <map>
 
-#include <sim/diagnose/judge.hpp>
+#include <sim/diagnose/held_out.hpp>
+#include <sim/diagnose/thresholds.hpp>
 
 namespace mckibben::diagnose {
 namespace {
 
-// What an improvement must be on runs that the fit has not seen. Set on data sets with other seeds than those
-// that the benchmark scores.
-constexpr double least_share = 0.10, least_gain = 0.03, least_significance = 2.0, clear_share = 0.5;
-
 Eigen::Index segment_rows(const Experiment& experiment) {
-  return std::max<Eigen::Index>(1, std::lround(segment_s / experiment.data().rig.tick_s));
+  return std::max<Eigen::Index>(1, std::lround(thresholds.scatter.segment_s / experiment.data().rig.tick_s));
 }
 
 }  // namespace
@@ -21,8 +18,12 @@ Eigen::Index segment_rows(const Experiment& experiment) {
 Split split(const domain::Dataset& data, const Runs& usable) {
   std::map<double, Runs> by_load;
   for (const std::size_t run : usable) by_load[data.runs[run].load_kg].push_back(run);
+  const HeldOutThresholds& by = thresholds.held_out;
   Split result;
-  if (by_load.size() >= 3) {
+  const auto share = [&](std::size_t runs) {
+    return static_cast<double>(runs) / static_cast<double>(usable.size());
+  };
+  if (by_load.size() >= by.least_loads) {
     // The loads nearest the middle of the range of loads, those with fewest runs first.
     std::vector<Runs> inner;
     for (auto it = std::next(by_load.begin()); it != std::prev(by_load.end()); ++it)
@@ -30,14 +31,14 @@ Split split(const domain::Dataset& data, const Runs& usable) {
     std::stable_sort(inner.begin(), inner.end(),
                      [](const Runs& a, const Runs& b) { return a.size() < b.size(); });
     for (const Runs& runs : inner) {
-      if (!result.held_out.empty() && 5 * (result.held_out.size() + runs.size()) > 2 * usable.size())
-        continue;
-      if (3 * result.held_out.size() >= usable.size()) break;
+      if (!result.held_out.empty() && share(result.held_out.size() + runs.size()) > by.most) continue;
+      if (share(result.held_out.size()) >= by.enough) break;
       result.held_out.insert(result.held_out.end(), runs.begin(), runs.end());
     }
   }
-  if (result.held_out.empty() || 2 * result.held_out.size() > usable.size()) {
-    result.held_out.assign(usable.end() - static_cast<std::ptrdiff_t>(usable.size() / 3), usable.end());
+  if (result.held_out.empty() || share(result.held_out.size()) > by.most_of_all) {
+    const double last = by.last * static_cast<double>(usable.size());
+    result.held_out.assign(usable.end() - static_cast<std::ptrdiff_t>(last), usable.end());
   }
   std::sort(result.held_out.begin(), result.held_out.end());
   for (const std::size_t run : usable)
@@ -46,7 +47,7 @@ Split split(const domain::Dataset& data, const Runs& usable) {
   return result;
 }
 
-double temperature(const Experiment& experiment, const Eigen::VectorXd& residuals, const Runs& runs) {
+double variance_inflation(const Experiment& experiment, const Eigen::VectorXd& residuals, const Runs& runs) {
   const Eigen::Index lags = segment_rows(experiment);
   double sum = 0.0;
   Eigen::Index rows = 0;
@@ -64,6 +65,10 @@ double temperature(const Experiment& experiment, const Eigen::VectorXd& residual
 
 double excess(const Eigen::VectorXd& residuals) {
   return residuals.squaredNorm() / static_cast<double>(std::max<Eigen::Index>(residuals.size(), 1)) - 1.0;
+}
+
+bool near_floor(const Eigen::VectorXd& residuals) {
+  return excess(residuals) + 1.0 <= thresholds.near.mean_square();
 }
 
 Improvement compare(const Experiment& experiment, const Eigen::VectorXd& before, const Eigen::VectorXd& after,
@@ -92,16 +97,18 @@ Improvement compare(const Experiment& experiment, const Eigen::VectorXd& before,
   for (const double gain : gains) scatter += (gain - total / n) * (gain - total / n);
   const double deviation = std::sqrt(scatter * n / std::max(1.0, n - 1.0));
   result.gained = total / static_cast<double>(std::max<Eigen::Index>(before.size(), 1));
-  result.share = result.gained / std::max(excess(before), 0.05);
+  result.share = result.gained / std::max(excess(before), thresholds.improvement.least_gap);
   result.significance = deviation > 0.0 ? total / deviation : 0.0;
   return result;
 }
 
-bool convinces(const Improvement& improvement) {
+bool convinces(const Improvement& improvement, const ImprovementThresholds& least) {
   // Where the gap sits in a few segments, their scatter is as large as the gain, however certain it is.
-  const bool certain = improvement.significance >= least_significance || improvement.share >= clear_share;
-  return improvement.share >= least_share && improvement.gained >= least_gain && certain &&
-         2 * improvement.better > improvement.runs;
+  const bool certain =
+      improvement.significance >= least.significance || improvement.share >= least.clear_share;
+  const double better = least.better * static_cast<double>(improvement.runs);
+  return improvement.share >= least.share && improvement.gained >= least.gained && certain &&
+         static_cast<double>(improvement.better) > better;
 }
 
 }  // namespace mckibben::diagnose

@@ -1,0 +1,279 @@
+// Checks of measured data; see the header.
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include <sim/diagnose/check.hpp>
+#include <sim/diagnose/labels.hpp>
+#include <sim/diagnose/odd_readings.hpp>
+#include <sim/diagnose/repair.hpp>
+#include <sim/diagnose/thresholds.hpp>
+#include <sim/run/batch.hpp>
+#include <sim/run/sanity.hpp>
+#include <sim/run/sanity_thresholds.hpp>
+#include <sim/run/series.hpp>
+#include <sim/run/simulate.hpp>
+
+namespace mckibben::diagnose {
+namespace {
+
+using run::Line;
+using run::range;
+
+constexpr const CheckThresholds& of_check = thresholds.check;
+
+class DatasetChecker {
+ public:
+  DatasetChecker(const domain::Dataset& data, unsigned threads)
+      : data_(data),
+        threads_(threads),
+        count_(run::contraction_per_count(data.rig)),
+        model_(data.runs.size()) {
+    for (const domain::Run& run : data.runs) checked_.masked.emplace_back(run.current_mA.size(), false);
+    left_out_.assign(data.runs.size(), false);
+    run::for_each_job(
+        data.runs.size(), threads,
+        [&](std::size_t i) {
+          const Hanging hanging{data.rig, data.runs[i].load_kg};
+          model_[i] = std::move(predict(data.runs[i], {&hanging, 1}, data.rig.integrator.method).front());
+        },
+        [](std::size_t) {});
+  }
+
+  Checked operator()() {
+    insane();
+    for (std::size_t i = 0; i < data_.runs.size(); ++i) {
+      gauge(i);
+      if (moves(i)) readings(i);
+    }
+    copies();
+    labels();
+    enough();
+    for (std::size_t i = 0; i < left_out_.size(); ++i)
+      if (left_out_[i]) checked_.left_out.push_back(i);
+    return std::move(checked_);
+  }
+
+ private:
+  void warn(std::size_t run, std::string_view what) {
+    checked_.warnings.push_back(fmt::format("run {}: {}", data_.runs[run].id, what));
+  }
+  void find(std::size_t run, std::string kind, std::string action, std::string words) {
+    checked_.findings.push_back({.run = data_.runs[run].id,
+                                 .kind = std::move(kind),
+                                 .action = std::move(action),
+                                 .words = std::move(words)});
+  }
+  void leave_out(std::size_t run, std::string_view why) {
+    warn(run, fmt::format("{}; left out", why));
+    find(run, "reading", "left out", fmt::format("was left out: {}", why));
+    left_out_[run] = true;
+  }
+  void leave_out_for(const Fault& fault) {
+    Finding finding = told(data_, fault);
+    warn(fault.run, finding.words + "; left out");
+    finding.words += " (left out)";
+    checked_.findings.push_back(std::move(finding));
+    left_out_[fault.run] = true;
+  }
+  double time_s(std::size_t row) const { return static_cast<double>(row) * data_.rig.tick_s; }
+  Runs usable() const {
+    Runs runs;
+    for (std::size_t i = 0; i < left_out_.size(); ++i)
+      if (!left_out_[i]) runs.push_back(i);
+    return runs;
+  }
+
+  static bool too_many(std::size_t contradicted, std::size_t runs) {
+    return static_cast<double>(contradicted) > of_check.most_contradicted * static_cast<double>(runs);
+  }
+
+  // Columns and loads that are not what they are called end it; labels that were exchanged cost their runs.
+  void insane() {
+    std::vector<run::Expected> expected;
+    for (const Readings& readings : model_)
+      expected.push_back({readings.contraction_ratio, readings.pressure_Pa});
+    const auto findings = run::sanity(data_, expected);
+    run::raise(data_, findings);
+    for (const domain::Objection& finding : findings) {
+      const std::string text = domain::text_of(data_, finding);
+      // More runs are weighed one against the others later, exactly.
+      if (finding.exchanged.empty() && data_.runs.size() >= thresholds.label.least_runs) continue;
+      for (const std::size_t i : finding.runs) left_out_[i] = true;
+      for (const domain::SeemingLoad& one : finding.exchanged)
+        find(one.run, "load", "left out",
+             fmt::format("was left out: it has the label of another load and moves like {:.6g} kg",
+                         one.load_kg));
+      if (too_many(finding.runs.size(), data_.runs.size()) || usable().size() < of_check.least_runs)
+        checked_.cannot_tell = text + ".";
+      else
+        checked_.warnings.push_back(text + "; left out");
+    }
+  }
+
+  void gauge(std::size_t i) {
+    const auto& shown = data_.runs[i].muscle_pressure_Pa;
+    if (!shown) return;
+    const bool constant = range(*shown) == 0.0;
+    const bool should_move = range(model_[i].pressure_Pa) > of_check.gauge_bar * plant::Pa_per_bar;
+    if (!constant && (!should_move || Line(*shown, model_[i].pressure_Pa).slope > of_check.gauge_slope)) {
+      mask_spikes(i, "muscle_pressure_bar", *shown, model_[i].pressure_Pa, of_check.gauge_step_Pa);
+      return;
+    }
+    checked_.dead_gauges.push_back(i);
+    warn(i, fmt::format("muscle_pressure_bar {}: the gauge is ignored",
+                        constant ? fmt::format("is {:.4g} throughout", shown->front() / plant::Pa_per_bar)
+                                 : "does not follow the current"));
+  }
+
+  void mask(std::size_t run, const Stretch& stretch) {
+    std::fill(checked_.masked[run].begin() + static_cast<std::ptrdiff_t>(stretch.begin),
+              checked_.masked[run].begin() + static_cast<std::ptrdiff_t>(stretch.end), true);
+  }
+
+  void mask_spikes(std::size_t i, std::string_view column, const Series& values, const Series& model,
+                   double step) {
+    const auto outliers = spikes(values, sharpest_nearby(model, data_.rig.tick_s), step);
+    if (outliers.empty()) return;
+    std::string times;
+    for (std::size_t n = 0; n < outliers.size(); ++n) {
+      mask(i, outliers[n]);
+      if (n < 3) times += fmt::format("{}{:.3f} s", n > 0 ? ", " : "", time_s(outliers[n].begin));
+    }
+    warn(i,
+         fmt::format("{} outlier{} in {}, at {}{}; not used", outliers.size(), outliers.size() > 1 ? "s" : "",
+                     column, times, outliers.size() > 3 ? " and later" : ""));
+  }
+
+  bool moves(std::size_t i) {
+    const domain::Run& run = data_.runs[i];
+    const double largest_mA = *std::max_element(run.current_mA.begin(), run.current_mA.end());
+    const double dead_mA =
+        data_.rig.valve.zero_current_mA +
+        of_check.dead_current * (data_.rig.valve.span_current_mA - data_.rig.valve.zero_current_mA);
+    const double should_m = range(model_[i].contraction_ratio) * data_.rig.muscle.rest_length_m;
+    if (largest_mA <= dead_mA)
+      leave_out(i, fmt::format("the current stays at or below {:.4g} mA and moves nothing", largest_mA));
+    else if (range(run.contraction_ratio) > of_check.moving_counts * count_)
+      return true;
+    else if (range(model_[i].contraction_ratio) > of_check.should_move_counts * count_)
+      leave_out(i, fmt::format("the reading never changes, though the load should move by {:.3g} mm (is the "
+                               "encoder connected, the load held?)",
+                               1e3 * should_m));
+    else
+      leave_out(i, "nothing moves");
+    return false;
+  }
+
+  void readings(std::size_t i) {
+    const Series& values = data_.runs[i].contraction_ratio;
+    const Series& model = model_[i].contraction_ratio;
+    std::vector<bool>& masked = checked_.masked[i];
+    const Series sharpest = sharpest_nearby(model, data_.rig.tick_s);
+    mask_spikes(i, "contraction_ratio", values, model, count_);
+    for (const Still& still : stills(values, model, count_, data_.rig.tick_s)) stands_still(i, still);
+    if (left_out_[i]) return;
+    const auto lost = std::count(masked.begin(), masked.end(), true);
+    if (const auto row = lost_counts(values, sharpest, masked, count_))
+      leave_out(i,
+                fmt::format("contraction_ratio jumps by {:.3g} at {:.3f} s and stays there: counts were lost",
+                            values[*row] - values[*row - 1], time_s(*row)));
+    else if (static_cast<double>(lost) > of_check.most_masked * static_cast<double>(masked.size()))
+      leave_out(i, "too little of it is left");
+  }
+
+  void stands_still(std::size_t i, const Still& still) {
+    const double from_s = time_s(still.begin - 1), to_s = time_s(still.end - 1);
+    if (still.why == Still::Why::stuck) {
+      if (!left_out_[i])
+        leave_out(i, fmt::format("the load stands still from {:.3f} s to {:.3f} s though the current should "
+                                 "move it: the valve was stuck, or something held the load",
+                                 from_s, to_s));
+      return;
+    }
+    mask(i, still);
+    const auto what =
+        fmt::format("contraction_ratio is {} from {:.3f} s to {:.3f} s though the load should move; not used",
+                    still.why == Still::Why::frozen ? "frozen" : "saturated", from_s, to_s);
+    warn(i, what);
+    find(i, still.why == Still::Why::frozen ? "frozen" : "saturated", "masked", what);
+  }
+
+  // The same file twice says nothing new, and would stand on both sides of the split.
+  void copies() {
+    for (std::size_t i = 0; i < data_.runs.size(); ++i) {
+      const auto same = [&](const domain::Run& run) {
+        return run.contraction_ratio == data_.runs[i].contraction_ratio &&
+               run.current_mA == data_.runs[i].current_mA;
+      };
+      const auto last = data_.runs.begin() + static_cast<std::ptrdiff_t>(i);
+      const auto first = std::find_if(data_.runs.begin(), last, same);
+      if (first != last && !left_out_[i])
+        leave_out(i, fmt::format("equal to run {} in every reading: a copy", first->id));
+    }
+  }
+
+  void labels() {
+    if (checked_.cannot_tell) return;
+    const Runs runs = usable();
+    if (runs.size() >= of_check.least_runs && runs.size() < thresholds.label.least_runs)
+      checked_.warnings.push_back(fmt::format(
+          "{} usable runs: their loads are in order, but too few to weigh each against the others",
+          runs.size()));
+    const auto [wrong, common_ratio] = check_labels(data_, checked_.masked, runs, threads_);
+    if (std::abs(common_ratio / run::pound_kg - 1.0) < thresholds.label.pounds) {
+      throw domain::UnfitData(
+          data_,
+          fmt::format("load: all runs fit best at {:.2f} times their loads; these look like pounds, not kg",
+                      common_ratio));
+    }
+    for (const WrongLabel& label : wrong) {
+      if (label.other)
+        leave_out_for(*label.other);
+      else
+        leave_out(label.run,
+                  fmt::format("the load is labelled {:.6g} kg, but everything else says about {:.1f} kg",
+                              data_.runs[label.run].load_kg, label.load_kg));
+    }
+    if (too_many(wrong.size(), runs.size()))
+      checked_.cannot_tell =
+          "too many runs contradict the others about their load: weigh the loads again, or give the rig's "
+          "parameters more exactly.";
+  }
+
+  void enough() {
+    if (checked_.cannot_tell) return;
+    const Runs runs = usable();
+    if (runs.size() < of_check.least_runs) {
+      checked_.cannot_tell = fmt::format(
+          "{} usable run{}: too few to choose on some and judge on others; at least four runs would help, "
+          "with two loads and two kinds of current.",
+          runs.size(), runs.size() == 1 ? "" : "s");
+      return;
+    }
+    const double first_kg = data_.runs[runs.front()].load_kg;
+    if (std::all_of(runs.begin(), runs.end(), [&](std::size_t i) {
+          return std::abs(data_.runs[i].load_kg - first_kg) < of_check.same_load * first_kg;
+        }))
+      checked_.warnings.push_back(
+          fmt::format("all runs have the same load, {:.6g} kg: what grows with the load cannot be told from "
+                      "what does not",
+                      first_kg));
+  }
+
+  const domain::Dataset& data_;
+  unsigned threads_;
+  double count_;
+  std::vector<Readings> model_;
+  std::vector<bool> left_out_;
+  Checked checked_;
+};
+
+}  // namespace
+
+Checked check(const domain::Dataset& data, unsigned threads) {
+  return DatasetChecker(data, threads)();
+}
+
+}  // namespace mckibben::diagnose

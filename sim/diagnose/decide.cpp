@@ -1,0 +1,69 @@
+// See the header.
+#include <sim/diagnose/decide.hpp>
+
+namespace mckibben::diagnose {
+namespace {
+
+/// A law is believed if it closes much of the gap, and far more than the names do.
+bool lawful(const Evidence& e, const DecideThresholds& t) {
+  return e.law_terms > 0 && e.law_share > t.law_share &&
+         (!e.named() || e.law_left < t.law_beyond_names * e.left());
+}
+
+/// Names stand if they close much of a gap that is worth it, and do not leave far too much.
+bool names_stand(const Evidence& e, const DecideThresholds& t) {
+  if (!e.named()) return false;
+  const bool bearable = e.named_left < t.hopeless || e.named_share >= t.nearly_all;
+  return bearable && (e.named_share >= t.named_share || e.reference_left() < t.worth_a_law);
+}
+
+/// Where nothing is added. "Nothing is missing" is for data that would have shown it, and agree run by run.
+void decide_nothing_added(const Evidence& e, const Thresholds& t, Decision& decision) {
+  const bool gap = e.nominal_left > t.near.nothing_left;
+  bool recalibrate = gap && convinces(e.recalibration, t.improvement);
+  if (e.invisible > 0) decision.remarks.push_back(Remark::invisible);
+  const double most_invisible = t.decide.invisible * static_cast<double>(e.catalogue);
+  if (!recalibrate && static_cast<double>(e.invisible) > most_invisible) return;
+  recalibrate = recalibrate || (e.recalibration_helps() && !e.far_from_nominal.empty());
+  decision.unexplained = recalibrate ? e.far_from_recalibrated : e.far_from_nominal;
+  if (e.common_fault || !decision.unexplained.empty()) return;
+  decision.verdict = recalibrate ? Verdict::recalibrate : Verdict::nothing_missing;
+  decision.chosen = recalibrate ? Chosen::recalibrated : Chosen::nominal;
+}
+
+}  // namespace
+
+bool asks_for_law(const Evidence& e, const Thresholds& t) {
+  return e.left() > t.decide.worth_a_law && e.left() > t.decide.worth_a_law_share * e.nominal_left;
+}
+
+Decision decide(const Evidence& e, const Thresholds& t) {
+  Decision decision;
+  if (!e.usable) return decision;
+  if (e.gauge_misleads) decision.remarks.push_back(Remark::gauge_misleads);
+  if (lawful(e, t.decide)) {
+    decision.verdict = Verdict::unknown_effect;
+    decision.chosen = Chosen::law;
+  } else if (names_stand(e, t.decide)) {
+    decision.verdict = Verdict::missing_effect;
+    decision.chosen = Chosen::named;
+    if (e.named_left + 1.0 > t.near.mean_square()) decision.remarks.push_back(Remark::more_is_missing);
+  } else if (e.left() > t.decide.beyond_disturbance) {
+    decision.verdict = Verdict::unknown_effect;
+    decision.chosen = e.recalibration_helps() ? Chosen::recalibrated : Chosen::nominal;
+    if (e.named()) decision.remarks.push_back(Remark::not_named);
+  } else {
+    decide_nothing_added(e, t, decision);
+  }
+  return decision;
+}
+
+bool gauge_is_suspect(double motion_left, const Thresholds& t) {
+  return motion_left >= t.decide.contradicted;
+}
+
+bool better_without_gauge(double motion_left, double left_without, Verdict without, const Thresholds& t) {
+  return without != Verdict::cannot_tell && !(left_without > t.decide.without_gauge * motion_left);
+}
+
+}  // namespace mckibben::diagnose

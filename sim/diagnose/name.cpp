@@ -1,0 +1,221 @@
+// Screen, refit, choose, and again; see the header.
+#include <algorithm>
+#include <array>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include <sim/diagnose/name.hpp>
+#include <sim/diagnose/ranking.hpp>
+#include <sim/diagnose/revise.hpp>
+#include <sim/diagnose/thresholds.hpp>
+
+namespace mckibben::diagnose {
+namespace {
+
+constexpr const NameThresholds& to_name = thresholds.name;
+
+/// Refits of a round: the best of each screening and those like them, roughly first, then in full those that
+/// promise. Once one meets the data, only those like it are tried.
+std::vector<Trial> refit(const Case& c, const std::vector<Screening>& screenings,
+                         const Eigen::VectorXd& reference, const Step& step) {
+  std::vector<Trial> trials;
+  const Score* solved = nullptr;
+  const auto wanted = [&](const Score& score, const Score& front) {
+    const bool known = std::any_of(trials.begin(), trials.end(), [&](const Trial& t) {
+      return t.score.candidate.amplitude == score.candidate.amplitude;
+    });
+    if (known || trials.size() == to_name.most_refits || score.drop < thresholds.near.chance) return false;
+    if (solved != nullptr) return likeness(score, *solved) > to_name.likeness_solved;
+    return score.drop > to_name.least_score * front.drop ||
+           likeness(score, front) > to_name.likeness_refitted;
+  };
+  for (std::size_t place = 0; place < screenings.front().scores.size(); ++place) {
+    for (const auto& [base, scores] : screenings) {
+      const Score& score = scores[place];
+      if (!wanted(score, scores.front())) continue;
+      step("trying " + title(score.candidate));
+      Trial trial = rough(c, *base, score, place);
+      if (!trial.contender.fitted.failure.empty()) continue;
+      trials.push_back(std::move(trial));
+      if (place > 0) continue;
+      polish(c, trials.back(), step);
+      if (meets(trials.back().contender)) solved = &score;
+    }
+  }
+  const auto by_cost = [](const Trial& a, const Trial& b) {
+    return a.contender.fitted.cost < b.contender.fitted.cost;
+  };
+  std::stable_sort(trials.begin(), trials.end(), by_cost);
+  for (std::size_t i = 0; i < std::min<std::size_t>(trials.size(), to_name.most_polished); ++i) {
+    // A rival that the rough fit leaves far behind, or that does not help at all, is not polished.
+    const auto rough = compare(c.experiment, reference, trials[i].contender.held_out, c.split.held_out);
+    const bool close = trials[i].contender.fitted.cost <
+                       to_name.close_factor * trials[0].contender.fitted.cost + to_name.close_cost;
+    const bool helps = rough.share > to_name.helps || excess(reference) < thresholds.near.nothing_left;
+    if (trials[i].place > 0 && close && helps) polish(c, trials[i], step);
+  }
+  std::stable_sort(trials.begin(), trials.end(), by_cost);
+  for (Trial& trial : trials)
+    trial.gain = compare(c.experiment, reference, trial.contender.held_out, c.split.held_out);
+  return trials;
+}
+
+/// Two effects that help only together: next to one that fits best but does not convince, another one with
+/// which it closes most of the gap.
+std::optional<std::array<Trial, 2>> pair_of(const Case& c, const std::vector<Trial>& trials,
+                                            const Eigen::VectorXd& before, const Step& step) {
+  for (std::size_t i = 0; i < std::min(trials.size(), to_name.most_firsts); ++i) {
+    const Trial& first = trials[i];
+    if (!has_size(first.contender.fitted.model, first.score.candidate)) continue;
+    const Screening screening = screen_at(c, first.contender);
+    for (std::size_t place = 0; place < to_name.most_substitutes; ++place) {
+      const Score& score = screening.scores[place];
+      if (score.drop < thresholds.near.chance) break;
+      step(fmt::format("trying {} with {}", title(first.score.candidate), title(score.candidate)));
+      Trial second = rough(c, first.contender, score, place);
+      if (!second.contender.fitted.failure.empty()) continue;
+      const auto closes = [&] {
+        second.gain = compare(c.experiment, before, second.contender.held_out, c.split.held_out);
+        return second.gain.share;
+      };
+      if (closes() < to_name.rough_pair_share) continue;
+      polish(c, second, step);
+      closes();
+      const auto beyond =
+          compare(c.experiment, first.contender.held_out, second.contender.held_out, c.split.held_out);
+      if (has_size(second.contender.fitted.model, score.candidate) &&
+          has_size(second.contender.fitted.model, first.score.candidate) &&
+          second.gain.share > to_name.pair_share && convinces(second.gain) && convinces(beyond))
+        return std::array{first, second};
+    }
+  }
+  return std::nullopt;
+}
+
+/// What has been named itself is no alternative any more.
+void tidy_doubts(Naming& result) {
+  const auto named = [&](const std::string& effect) {
+    return std::any_of(result.effects.begin(), result.effects.end(),
+                       [&](const NamedEffect& other) { return other.name == effect; });
+  };
+  for (NamedEffect& effect : result.effects) std::erase_if(effect.confusable_with, named);
+  std::erase_if(result.doubts, [&](const Doubt& doubt) { return named(doubt.rival); });
+}
+
+/// Effects whose usual size would change these readings, next to what the free parameters can, by less than
+/// a test at 5 % finds as a rule.
+std::vector<std::string> invisible(const Case& c, const std::vector<Score>& scores) {
+  std::vector<std::string> names;
+  for (const Score& score : scores) {
+    const Candidate& candidate = score.candidate;
+    if (carries(c.nominal, candidate.effect)) continue;
+    const double drop = score.column.squaredNorm() * candidate.typical * candidate.typical;
+    if (drop < thresholds.screen.visible) names.push_back(title(candidate));
+  }
+  return names;
+}
+
+/// At the rig as described first: the recalibrated one may have bent far to imitate what is missing.
+std::vector<Screening> screenings_of(const Case& c, int round, const Contender& nominal,
+                                     const Contender& best) {
+  std::vector<Screening> screenings;
+  if (round == 1) screenings.push_back(screen_at(c, nominal));
+  screenings.push_back(screen_at(c, best));
+  return screenings;
+}
+
+/// What the first look at the catalogue says: what would not show, and what looks alike.
+void tell_first(const Case& c, const std::vector<Screening>& screenings, Naming& result) {
+  const auto& scores = screenings.front().scores;
+  result.invisible = invisible(c, screenings.back().scores);
+  const std::size_t shown = std::min(to_name.shown_alike, scores.size());
+  for (std::size_t i = 0; i < shown; ++i) {
+    result.confusion_names.push_back(title(scores[i].candidate));
+    auto& row = result.confusion.emplace_back();
+    for (std::size_t j = 0; j < shown; ++j) row.push_back(likeness(scores[i], scores[j]));
+  }
+}
+
+/// The best fit of those that convince on the runs held out; with nothing left there, one that relieves
+/// strained priors. Null if there is none.
+const Trial* choose(const std::vector<Trial>& trials, const Contender& best, double left, double whole_gap) {
+  for (const Trial& trial : trials) {
+    if (!has_size(trial.contender.fitted.model, trial.score.candidate)) continue;
+    const double fall = best.fitted.cost - trial.contender.fitted.cost;
+    const bool relieves = left <= thresholds.near.nothing_left && trial.gain.gained > -to_name.relief_loss &&
+                          fall > thresholds.near.clear;
+    const bool worthwhile =
+        fall > thresholds.near.chance && trial.gain.gained > to_name.least_of_all * whole_gap;
+    if ((convinces(trial.gain) && worthwhile) || relieves) return &trial;
+  }
+  return nullptr;
+}
+
+void take_one(const Case& c, Naming& result, const std::vector<Trial>& trials, const Trial& chosen) {
+  NamedEffect named{.name = chosen.score.candidate.effect, .variant = chosen.score.candidate.variant};
+  for (const Trial& rival : trials) {
+    const auto& other = rival.score.candidate.effect;
+    if (other == named.name || !has_size(rival.contender.fitted.model, rival.score.candidate)) continue;
+    if (std::find(named.confusable_with.begin(), named.confusable_with.end(), other) !=
+        named.confusable_with.end())
+      continue;
+    if (!as_good(c, chosen.contender, rival.contender)) continue;
+    named.confusable_with.push_back(other);
+    result.doubts.push_back(
+        {named.name, other, chosen.contender.fitted.model.rig, rival.contender.fitted.model.rig});
+  }
+  result.effects.push_back(std::move(named));
+  result.best = chosen.contender;
+}
+
+void take_both(const Case& c, Naming& result, std::array<Trial, 2> both) {
+  const double fall = result.best.fitted.cost - both.back().contender.fitted.cost;
+  for (const Trial& one : both) {
+    const Candidate& candidate = one.score.candidate;
+    const Trial& other = both.at(&one == &both.front() ? 1 : 0);
+    take(c, result.ranking, candidate, both.back(), fall,
+         fmt::format("with {} it closes most of the gap", title(other.score.candidate)));
+    result.effects.push_back({.name = candidate.effect, .variant = candidate.variant});
+  }
+  result.best = std::move(both.back().contender);
+}
+
+}  // namespace
+
+Naming name_effects(const Case& c, const Contender& nominal, const Contender& recalibrated,
+                    const Eigen::VectorXd& reference, const Step& step) {
+  Naming result;
+  result.best = recalibrated;
+  Eigen::VectorXd before = reference;
+  for (int round = 1; round <= static_cast<int>(to_name.most_effects); ++round) {
+    step("screening");
+    const auto screenings = screenings_of(c, round, nominal, result.best);
+    if (round == 1) tell_first(c, screenings, result);
+    const double left = excess(before);
+    // Priors may be strained although the data are met.
+    const bool strained = screenings.back().scores.front().drop > to_name.strained;
+    std::vector<Trial> trials;
+    if (left > thresholds.near.nothing_left || strained) trials = refit(c, screenings, before, step);
+    const Trial* const chosen = choose(trials, result.best, left, excess(reference));
+    const auto judged = ranked(c, round, screenings, trials, chosen, result.best);
+    result.ranking.insert(result.ranking.end(), judged.begin(), judged.end());
+    if (chosen != nullptr) {
+      c.learned(fmt::format("taken in round {}: {}", round, title(chosen->score.candidate)));
+      take_one(c, result, trials, *chosen);
+    } else {
+      if (!result.effects.empty() || !(left > to_name.worth_a_pair)) break;
+      auto both = pair_of(c, trials, before, step);
+      if (!both) break;
+      take_both(c, result, std::move(*both));
+    }
+    revise(c, result, reference, step);
+    before = result.best.held_out;
+  }
+  drop_uncertain(c, result, step);
+  tidy_doubts(result);
+  sort_by_importance(c, result);
+  return result;
+}
+
+}  // namespace mckibben::diagnose
