@@ -17,6 +17,7 @@
 #include <sim/input/dataset_file.hpp>
 #include <sim/input/field_table.hpp>
 #include <sim/input/json_schema.hpp>
+#include <sim/input/objection_places.hpp>
 #include <sim/input/rigs.hpp>
 #include <sim/input/scenario_file.hpp>
 #include <sim/input/suggest.hpp>
@@ -36,8 +37,10 @@ using input::Problem;
 std::string read_measured(const std::filesystem::path& path, std::vector<Problem>& warnings) {
   const domain::Dataset data = input::read_dataset(path);
   const run::Look look = run::look(data);
-  run::raise(data, look.findings);
-  warnings = run::problems_of(data, look.findings);
+  warnings = input::problems_of(data.path, with_runs_named(data, look.objections));
+  if (std::any_of(look.objections.begin(), look.objections.end(),
+                  [](const auto& one) { return one.certain; }))
+    throw input::BadInput(warnings);
   return fmt::format("{} of {} runs simulated: stroke, sign, units, order of loads", look.runs,
                      data.runs.size());
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -61,6 +62,9 @@ struct ColumnMap {
           report(key, std::string("it stands in the same column as ") + other->first);
   }
 };
+
+/// `QUANTITY: {column: C, unit: U, ...}`, as a data set's file says it.
+std::string line_of(std::string_view quantity, const ColumnPlace& place);
 
 /// `own` where it says something, otherwise `shared`.
 ColumnMap merged(const ColumnMap& shared, const ColumnMap& own);

@@ -1,7 +1,6 @@
 // See the header.
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -26,14 +25,6 @@ constexpr std::array<Quantity, 4> quantities{{{"time", "time_s", "s"},
                                               {"current", "current_mA", "mA"},
                                               {"contraction", "contraction_ratio", "1"},
                                               {"muscle_pressure", "muscle_pressure_bar", "bar"}}};
-
-/// As YAML takes it.
-std::string scalar(std::string_view text) {
-  const bool plain = !text.empty() && std::all_of(text.begin(), text.end(), [](unsigned char c) {
-    return std::isalnum(c) != 0 || c == '_';
-  });
-  return plain ? std::string(text) : fmt::format("\"{}\"", text);
-}
 
 /// The unit at the end of a heading, as in U_mA, `I [A]` or t(ms); ours if there is none that fits.
 std::string unit_in(std::string_view heading, const Quantity& quantity) {
@@ -76,15 +67,6 @@ ColumnMap with_our_names(ColumnMap map) {
 }
 
 }  // namespace
-
-std::string line_of(std::string_view quantity, const ColumnPlace& place) {
-  std::string line =
-      fmt::format("{}: {{column: {}, unit: {}", quantity, scalar(place.column), scalar(place.unit));
-  if (place.zero != 0.0) line += fmt::format(", zero: {}", write_number(place.zero));
-  if (place.factor != 1.0) line += fmt::format(", factor: {}", write_number(place.factor));
-  line += '}';
-  return line;
-}
 
 std::string hint_of_missing(const WantedColumn& column, std::span<const std::string_view> found) {
   const auto quantity = std::find_if(quantities.begin(), quantities.end(),
