@@ -29,8 +29,8 @@ struct FrictionModel {
 using InLoad = std::vector<double>;
 double at_load(const InLoad& polynomial, double load_kg);
 
-/// Contraction: P = a0 + a1 e + a2 exp(a3 e) + a4 ln e, a1 = a1_0 nu + a1_1, a2 = a2_0 nu + a2_1 (T 4.8
-/// to 4.20).
+/// Contraction: P = a0 + a1 e + a2 exp(a3 e) + a4 ln e, a1 = a1_0 nu + a1_1,
+/// a2 = a2_0 nu + a2_1 (T 4.8 to 4.20).
 struct ContractionModel {
   InLoad a0, a1_0, a1_1, a2_0, a2_1, a3, a4;
 

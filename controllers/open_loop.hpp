@@ -1,6 +1,6 @@
 // The thesis's controller (T 4.3): load weighed, then current from the inverse, no feedback. As the thesis
-// has it, a triangle of constant current speed to one contraction at one speed; or along a target, tick by
-// tick.
+// has it, a triangle of constant current speed to one contraction at one speed;
+// or along a target, tick by tick.
 #pragma once
 
 #include <array>

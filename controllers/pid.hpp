@@ -48,10 +48,9 @@ struct PidTerms {
           "Tt: how fast a limit unwinds the integral; sqrt(Ti Td) if absent, Ti without derivative action");
     visit("lowest_current", self.lowest_current_mA, "mA", 0.0, 100.0,
           "lower limit of the output; the valve's zero_current if absent");
-    visit(
-        "highest_current", self.highest_current_mA, "mA", 0.0, 100.0,
-        "upper limit of the output; the valve's span_current, or the DAC's largest_current if that is lower, "
-        "if absent");
+    visit("highest_current", self.highest_current_mA, "mA", 0.0, 100.0,
+          "upper limit of the output; the valve's span_current, "
+          "or the DAC's largest_current if that is lower, if absent");
     visit("feedback_delay_ticks", self.feedback_delay_ticks, 0, 1000, "age of the counts that are used");
     visit("tuning_load", self.tuning_load_kg, "kg", 0.0, 500.0,
           "load at which missing gains are tuned; the scenario's median load if absent");

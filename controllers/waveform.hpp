@@ -1,6 +1,6 @@
 // Currents given as a function of time, for open-loop experiments: sine, triangle (the
-// thesis's control signal, T 4.3), steps, stairs and a chirp; and a recorded current, played back as the DAC
-// gave it.
+// thesis's control signal, T 4.3), steps, stairs and a chirp;
+// and a recorded current, played back as the DAC gave it.
 #pragma once
 
 #include <cstddef>
@@ -164,8 +164,8 @@ struct ChirpCurrent {
   }
 };
 
-/// A current read from a table: one sample each tick, then the last one. It is what a DAC gave, so it is not
-/// rounded again.
+/// A current read from a table: one sample each tick, then the last one.
+/// It is what a DAC gave, so it is not rounded again.
 struct RecordedCurrent {
   static constexpr std::string_view kind = "recorded_current";
   std::string name{kind};

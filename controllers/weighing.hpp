@@ -18,8 +18,8 @@ struct WeighingSettings {
   std::optional<double> speed_mA_per_s = std::nullopt;
   std::optional<double> low_mA = std::nullopt, high_mA = std::nullopt;
 
-  /// What is left open becomes the thesis's share of `range`: of its 4 to 20 mA, up to 8 mA at 6 mA/s
-  /// (T 4.3).
+  /// What is left open becomes the thesis's share of `range`:
+  /// of its 4 to 20 mA, up to 8 mA at 6 mA/s (T 4.3).
   void follow(const CurrentRange& range);
 
   template <class Self, class Visitor>

@@ -1,5 +1,5 @@
 // The table of effects, and what they do together: shifts and pulls add up, factors multiply.
-// A sixteenth effect is a header in effects/, a line in the table and a test (docs/add_an_effect.md).
+// A further effect is a header in effects/, a line in the table and a test (docs/add_an_effect.md).
 #pragma once
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // Thread friction: how large it can be (the level, T 4.2 and 4.6 or one of T 1.1 to 1.3) and what happens
-// inside that level (a bristle with memory, LuGre: Canudas de Wit, Olsson, Astrom, Lischinsky, IEEE TAC 40
-// (1995) 419-425).
+// inside that level (a bristle with memory, LuGre: Canudas de Wit, Olsson,
+// Astrom, Lischinsky, IEEE TAC 40 (1995) 419-425).
 #pragma once
 
 #include <cmath>

@@ -12,8 +12,8 @@ class BraidOf {
  public:
   explicit BraidOf(const MuscleOf<P>& muscle);
 
-  /// a (1 - k e)^2 - b, the bracket of T 2.8: braid force per area and pressure. Dimensionless; zero at
-  /// e_max.
+  /// a (1 - k e)^2 - b, the bracket of T 2.8: braid force per area and pressure.
+  /// Dimensionless; zero at e_max.
   template <class S>
   S pull_ratio(const S& contraction_ratio) const {
     const S u = 1.0 - k_ * contraction_ratio;

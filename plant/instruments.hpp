@@ -44,8 +44,8 @@ double count_height_m(const Encoder& encoder, const Joint& joint);
 /// `ideal` counts floor(x / q). `crosswise` is the thesis's wiring: channel A drives the first counter and
 /// gates the second, B the other way round. Going up, B's rising edges count, a quarter cycle after A's;
 /// going down, A's, which then stand half a cycle further: so there is a play of a quarter count, and a load
-/// that trembles across the edge at the quarter cycle is counted up again and again without ever being
-/// counted down.
+/// that trembles across the edge at the quarter cycle is counted up
+/// again and again without ever being counted down.
 class PulseCounter {
  public:
   /// Counters reset with the load at x = 0. `q` is the rise for one count [m].

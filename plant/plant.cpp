@@ -36,8 +36,8 @@ template <class P>
 double PlantOf<P>::event_margin(const State<double>& state, const Memory<double>& memory,
                                 const HeldOf<P>& held) const {
   // Break-away margin while sticking (a guard on the speed would rest at zero). While slipping the speed,
-  // with a little to spare: a load that starts from rest the wrong way would begin at zero and never cross
-  // it.
+  // with a little to spare: a load that starts from rest the wrong
+  // way would begin at zero and never cross it.
   constexpr double spare_per_s = 1e-9;
   if (held.length_is_given) return spare_per_s;  // the bench decides
   if (held.slip == Slip::rising) return spare_per_s + state.joint.contraction_speed_per_s;

@@ -20,8 +20,8 @@ inline constexpr double gravity_m_per_s2 = 9.80665;
 inline constexpr double Pa_per_bar = 1e5;
 inline constexpr double degree_rad = std::numbers::pi / 180.0;
 
-/// How the thread contact surface is computed (T 4.3): `squared` is exact geometry, `printed` as the thesis
-/// prints it.
+/// How the thread contact surface is computed (T 4.3):
+/// `squared` is exact geometry, `printed` as the thesis prints it.
 enum class ContactSurface { squared, printed };
 constexpr auto names(ContactSurface) {
   using enum ContactSurface;
@@ -38,8 +38,8 @@ constexpr auto names(FrictionLaw) {
       std::pair{logarithmic, std::string_view{"logarithmic"}}, std::pair{power, std::string_view{"power"}}};
 }
 
-/// What happens inside the friction level: a bristle that remembers (LuGre), or exact stick and slip
-/// (Coulomb).
+/// What happens inside the friction level: a bristle that remembers (LuGre),
+/// or exact stick and slip (Coulomb).
 enum class FrictionMemory { lugre, coulomb };
 constexpr auto names(FrictionMemory) {
   using enum FrictionMemory;
@@ -47,8 +47,8 @@ constexpr auto names(FrictionMemory) {
                     std::pair{coulomb, std::string_view{"coulomb"}}};
 }
 
-/// How the encoder's pulses are counted: floor of the position, or the thesis's two crosswise counters
-/// (T 3.1).
+/// How the encoder's pulses are counted: floor of the position,
+/// or the thesis's two crosswise counters (T 3.1).
 enum class EncoderWiring { ideal, crosswise };
 constexpr auto names(EncoderWiring) {
   using enum EncoderWiring;

@@ -22,8 +22,8 @@ struct Stroke {
   S speed_per_s;        ///< w = de/dt
 };
 
-/// Everything known of a side at one instant. Forces in N and positive where they shorten the muscle, flows
-/// in kg/s.
+/// Everything known of a side at one instant.
+/// Forces in N and positive where they shorten the muscle, flows in kg/s.
 template <class S>
 struct SideMoment {
   S speed_m_per_s;                       // v = l0 w

@@ -41,6 +41,28 @@ inline diagnose::RunGap ride(const domain::Run& run, bool held_out) {
   return gap;
 }
 
+/// Where the gap is, and how candidates were ranked.
+inline void locate_and_rank(diagnose::Diagnosis& d) {
+  d.where = {{"direction", "contracting", 2000, 1.2e-3, 2e-3, 0.62, 0.001, true},
+             {"direction", "relaxing", 1800, -4e-4, 1e-3, 0.3, 0.3, false},
+             {"direction", "still", 40, 1e-4, 2e-4, 0.08, 0.9, false},
+             {"pressure", "below 1 bar", 600, -1.6e-3, 2e-3, 0.2, 0.002, true},
+             {"pressure", "1 to 2 bar", 900, -2e-4, 1e-3, 0.1, 0.5, false},
+             {"pressure", "2 to 3 bar", 900, 3e-4, 1e-3, 0.1, 0.4, false},
+             {"pressure", "3 to 4 bar", 900, 9e-4, 1e-3, 0.3, 0.01, true},
+             {"pressure", "above 4 bar", 0, 0.0, 0.0, 0.0, 1.0, false}};
+  d.ranking = {
+      {"muscle_leak", "", 1, 100.0, 1.0, true, 0.0009, 0.0010, "taken: best on the runs held out"},
+      {"valve_lag", "", 1, 61.0, 0.74, true, 0.0014, 0.0016, "does not help on runs held out"},
+      {"bladder_elasticity", "strain_limit", 1, 12.0, -0.31, false, 0.0, 0.0, "score too small"},
+      {"encoder_scale", "", 1, 0.2, 0.1, false, 0.0, 0.0, "no influence, or the wrong sign"},
+      {"bladder_creep", "", 1, 0.1, 0.1, false, 0.0, 0.0, "no influence, or the wrong sign"},
+      {"valve_dead_band", "", 2, 100.0, 1.0, true, 0.00015, 0.00016, "taken"},
+      {"valve_hysteresis", "", 2, 98.0, 0.97, true, 0.00015, 0.00016, "not told apart from the best"}};
+  d.confusion_names = {"muscle_leak", "valve_lag", "bladder_elasticity"};
+  d.confusion = {{1.0, 0.74, -0.31}, {0.74, 1.0, 0.93}, {-0.31, 0.93, 1.0}};
+}
+
 /// Two effects, one of which has a twin, and a law of two terms.
 inline diagnose::Diagnosis diagnosed() {
   using namespace diagnose;
@@ -67,24 +89,7 @@ inline diagnose::Diagnosis diagnosed() {
   d.residual_law = {{"sin(2 pi x / wavelength)", {"coefficient", "N", 4.0, 3.8, 4.2}},
                     {"sgn v", {"coefficient", "N", -0.51, -0.7, -0.32}}};
   d.law_valid_for = "rises up to 60 mm, speeds up to 0.2 m/s";
-  d.where = {{"direction", "contracting", 2000, 1.2e-3, 2e-3, 0.62, 0.001, true},
-             {"direction", "relaxing", 1800, -4e-4, 1e-3, 0.3, 0.3, false},
-             {"direction", "still", 40, 1e-4, 2e-4, 0.08, 0.9, false},
-             {"pressure", "below 1 bar", 600, -1.6e-3, 2e-3, 0.2, 0.002, true},
-             {"pressure", "1 to 2 bar", 900, -2e-4, 1e-3, 0.1, 0.5, false},
-             {"pressure", "2 to 3 bar", 900, 3e-4, 1e-3, 0.1, 0.4, false},
-             {"pressure", "3 to 4 bar", 900, 9e-4, 1e-3, 0.3, 0.01, true},
-             {"pressure", "above 4 bar", 0, 0.0, 0.0, 0.0, 1.0, false}};
-  d.ranking = {
-      {"muscle_leak", "", 1, 100.0, 1.0, true, 0.0009, 0.0010, "taken: best on the runs held out"},
-      {"valve_lag", "", 1, 61.0, 0.74, true, 0.0014, 0.0016, "does not help on runs held out"},
-      {"bladder_elasticity", "strain_limit", 1, 12.0, -0.31, false, 0.0, 0.0, "score too small"},
-      {"encoder_scale", "", 1, 0.2, 0.1, false, 0.0, 0.0, "no influence, or the wrong sign"},
-      {"bladder_creep", "", 1, 0.1, 0.1, false, 0.0, 0.0, "no influence, or the wrong sign"},
-      {"valve_dead_band", "", 2, 100.0, 1.0, true, 0.00015, 0.00016, "taken"},
-      {"valve_hysteresis", "", 2, 98.0, 0.97, true, 0.00015, 0.00016, "not told apart from the best"}};
-  d.confusion_names = {"muscle_leak", "valve_lag", "bladder_elasticity"};
-  d.confusion = {{1.0, 0.74, -0.31}, {0.74, 1.0, 0.93}, {-0.31, 0.93, 1.0}};
+  locate_and_rank(d);
   d.gap = {1.3e-4, 0.0093, 0.0022, 1.6e-4, 0.9876};
   const domain::Dataset data = measured();
   for (std::size_t i = 0; i < data.runs.size(); ++i) d.runs.push_back(ride(data.runs[i], i >= 4));

@@ -1,5 +1,5 @@
-// The rubber tube pulls back: it is stretched in girth and sheared against the threads when the muscle
-// shortens.
+// The rubber tube pulls back: it is stretched in girth and sheared
+// against the threads when the muscle shortens.
 #pragma once
 
 #include <array>

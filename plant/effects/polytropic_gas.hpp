@@ -14,8 +14,8 @@ struct PolytropicGasOf {
       law = "dP_v/dt = n R T (q_v - q_h)/V_v; dP_m/dt = n (R T q_h - P_abs dV/dt)/V",
       sentence = "pressures change faster than in gas that keeps its temperature",
       source =
-          "polytropic change of state; Richer & Hurmuzlu, ASME J. Dyn. Syst. Meas. Control 122 (2000) "
-          "416-425";
+          "polytropic change of state; Richer & Hurmuzlu, ASME J. Dyn. "
+          "Syst. Meas. Control 122 (2000) 416-425";
   static constexpr std::array hooks{Hook::gas_exponent};
   static constexpr std::array variants{Variant{"", "exponent", 1.0, 0.2, Sign::positive, 2e-4}};
 

@@ -1,6 +1,6 @@
 // A force that no effect of the catalogue explains, as a sum of simple terms: what a diagnosis writes into a
-// rig when it finds a law it has no name for (sparse regression: Brunton, Proctor, Kutz, PNAS 113 (2016)
-// 3932-3937).
+// rig when it finds a law it has no name for (sparse regression:
+// Brunton, Proctor, Kutz, PNAS 113 (2016) 3932-3937).
 #pragma once
 
 #include <array>

@@ -9,8 +9,8 @@ namespace mckibben::cli {
 namespace {
 
 constexpr const char* what_it_is =
-    "McKibben simulates a pneumatic muscle that lifts a load: servo valve, hose, gas, braid, thread "
-    "friction,\n"
+    "McKibben simulates a pneumatic muscle that lifts a load: "
+    "servo valve, hose, gas, braid, thread friction,\n"
     "encoder, and the controllers that move the load along a target. Given measurements of a real rig, it\n"
     "finds what that rig has and the simulated one lacks.\n"
     "\n"

@@ -75,11 +75,10 @@ void add_calibrate(CLI::App& app, Asked& asked) {
   add_choice(verb, "--acceleration", options.fits.processing.acceleration,
              {{"counted", Acceleration::counted}, {"neglected", Acceleration::neglected}},
              "Acceleration in the force balance (default: counted)");
-  add_choice(
-      verb, "--fit", options.fits.fitting,
-      {{"joint", PressureFitting::joint}, {"sequence", PressureFitting::sequence}},
-      "Pressure coefficients from all samples at once, or from the thesis's sequence of fits (default: "
-      "joint)");
+  add_choice(verb, "--fit", options.fits.fitting,
+             {{"joint", PressureFitting::joint}, {"sequence", PressureFitting::sequence}},
+             "Pressure coefficients from all samples at once, "
+             "or from the thesis's sequence of fits (default: joint)");
   verb.add_option("--load-order", options.fits.orders.load,
                   "Highest order in load (default: 3, the thesis's)")
       ->check(from_to(0, 3))
@@ -92,8 +91,8 @@ void add_calibrate(CLI::App& app, Asked& asked) {
       "Examples:\n"
       "  mckibben calibrate data --out calibration\n"
       "  mckibben calibrate data --pressure gauge --fit sequence --kgf   as the thesis did\n"
-      "Writes calibration.yaml (for the open-loop controllers), calibration.json, report.txt and "
-      "figures/.\n");
+      "Writes calibration.yaml (for the open-loop controllers), "
+      "calibration.json, report.txt and figures/.\n");
 }
 
 }  // namespace mckibben::cli

@@ -199,8 +199,8 @@ std::string zsh_script(const CLI::App& app) {
   for (const CLI::App* verb : app.get_subcommands({})) text += zsh_of(*verb);
   return text +
          "  esac\n}\n"
-         "if [[ ${funcstack[1]} == _mckibben ]]; then _mckibben \"$@\"; else compdef _mckibben mckibben; "
-         "fi\n";
+         "if [[ ${funcstack[1]} == _mckibben ]]; then _mckibben \"$@\"; "
+         "else compdef _mckibben mckibben; fi\n";
 }
 
 struct CompletionOptions : Options {

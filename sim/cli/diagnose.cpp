@@ -56,8 +56,8 @@ struct DiagnoseOptions : Options {
   std::string plan;  ///< where to write the next experiment as a campaign; empty for nowhere
 };
 
-/// What is found, and the runs replayed on the data set's rig and on the corrected one, for pressures and
-/// forces.
+/// What is found, and the runs replayed on the data set's rig and on
+/// the corrected one, for pressures and forces.
 struct Found {
   diagnose::Diagnosis diagnosis;
   std::vector<run::ReplayedRun> nominal, corrected;

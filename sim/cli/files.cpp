@@ -32,8 +32,8 @@ namespace {
 using input::Json;
 using input::Problem;
 
-/// Reads a data set and looks at what it says; adds warnings. Throws what is wrong with it. Returns what was
-/// looked at.
+/// Reads a data set and looks at what it says; adds warnings.
+/// Throws what is wrong with it. Returns what was looked at.
 std::string read_measured(const std::filesystem::path& path, std::vector<Problem>& warnings) {
   const domain::Dataset data = input::read_dataset(path);
   const run::Look look = run::look(data);
@@ -187,12 +187,11 @@ void add_schema(CLI::App& app, Asked& asked) {
   verb.add_option("kind", options.kind, "Kind of file (default: scenario)")
       ->check(one_of("kind", {"scenario", "campaign", "rig", "dataset"}))
       ->type_name("");
-  CLI::Option* format =
-      verb.add_option("--format", options.format,
-                      "How to print it (default: json); yaml prints the rig `thesis` with every value, to "
-                      "start from")
-          ->check(one_of("format", {"json", "markdown", "yaml"}))
-          ->type_name("");
+  CLI::Option* format = verb.add_option("--format", options.format,
+                                        "How to print it (default: json); yaml prints the rig "
+                                        "`thesis` with every value, to start from")
+                            ->check(one_of("format", {"json", "markdown", "yaml"}))
+                            ->type_name("");
   verb.add_flag("--json", options.json, "The same as --format json")->excludes(format);
   verb.footer(
       "Examples:\n"

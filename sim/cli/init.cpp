@@ -30,10 +30,10 @@ constexpr Part scenario_parts[] = {
     {"rig",
      "rig:\n"
      "  base: thesis\n"
-     "  #muscle: {rest_radius: 8 mm}                          # mckibben schema rig lists all that can "
-     "change\n"
-     "  #effects: {muscle_leak: {conductance: 1e-10 m3/(s.Pa)}}   # mckibben effects lists what can be "
-     "added\n"},
+     "  #muscle: {rest_radius: 8 mm}                          "
+     "# mckibben schema rig lists all that can change\n"
+     "  #effects: {muscle_leak: {conductance: 1e-10 m3/(s.Pa)}}   "
+     "# mckibben effects lists what can be added\n"},
     {"loads", "loads: [11.138 kg, 16.138 kg]\n"},
     {"duration", "duration: 6 s\n"},
     {"target",

@@ -52,8 +52,8 @@ std::vector<double> parts(int n, double fastest) {
   return values;
 }
 
-/// The thesis's loads, if the calibration is of its kind, else the calibration's own: both ends and the
-/// middle.
+/// The thesis's loads, if the calibration is of its kind,
+/// else the calibration's own: both ends and the middle.
 std::vector<double> usual_loads(const controllers::CalibratedRange& range) {
   if (std::count_if(std::begin(thesis_loads_kg), std::end(thesis_loads_kg),
                     [&](double load_kg) { return run::covers(range, load_kg); }) > 1)
@@ -78,8 +78,7 @@ std::vector<double> loads_of(const controllers::CalibratedRange& range, const Ma
   if (outside.empty()) return covered;
   const std::string text = fmt::format(
       "made with loads from {:g} to {:g} kg, which {} {} outside; calibrate with loads on both sides, or "
-      "allow it with "
-      "--extrapolate-load",
+      "allow it with --extrapolate-load",
       range.lowest_load_kg, range.highest_load_kg, outside,
       outside.find(',') == std::string::npos ? "lies" : "lie");
   if (!options.loads_kg.empty() || covered.empty())

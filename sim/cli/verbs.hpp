@@ -1,5 +1,5 @@
-// The verbs: each adds itself to the command line, with options of its own, in the file that does what it is
-// for.
+// The verbs: each adds itself to the command line, with options of its own,
+// in the file that does what it is for.
 #pragma once
 
 #include <sim/cli/app.hpp>

@@ -1,5 +1,5 @@
-// A campaign: which currents are to drive which loads on a rig, and how often, to get calibration data
-// (T 3.3).
+// A campaign: which currents are to drive which loads on a rig,
+// and how often, to get calibration data (T 3.3).
 #pragma once
 
 #include <cstdint>

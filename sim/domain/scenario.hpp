@@ -1,5 +1,5 @@
-// A scenario: which rig lifts which loads along which target, under which controllers, and what counts as
-// good enough.
+// A scenario: which rig lifts which loads along which target,
+// under which controllers, and what counts as good enough.
 #pragma once
 
 #include <cstdint>

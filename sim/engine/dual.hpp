@@ -1,6 +1,6 @@
 // Numbers that carry their slopes along (forward differentiation): value and derivatives by N unknowns. Like
-// Eigen's AutoDiffScalar, bit for bit, but evaluated operation by operation: what does not pile up types
-// compiles faster.
+// Eigen's AutoDiffScalar, bit for bit, but evaluated operation by operation:
+// what does not pile up types compiles faster.
 #pragma once
 
 #include <cmath>

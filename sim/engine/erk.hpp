@@ -1,5 +1,5 @@
-// ARKODE ERKStep, an explicit Runge-Kutta pair of order 5: the default, fastest while the bristles are not
-// too stiff.
+// ARKODE ERKStep, an explicit Runge-Kutta pair of order 5: the default,
+// fastest while the bristles are not too stiff.
 #pragma once
 
 #include <sim/engine/integrator.hpp>

@@ -1,5 +1,5 @@
-// Matrix and direct linear solver for CVODE's Newton iteration: fixed size, in Eigen, no allocation after
-// setup.
+// Matrix and direct linear solver for CVODE's Newton iteration:
+// fixed size, in Eigen, no allocation after setup.
 #pragma once
 
 #include <new>

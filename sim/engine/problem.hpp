@@ -1,7 +1,7 @@
 // What an integrator sees: a right-hand side over a fixed number of components, frozen between ticks. First
 // the plant's state, with one muscle or two; then what their effects remember, if one does; then the ledger,
-// if it is kept, which never steers the steps, so that a run with and without it takes the same steps bit for
-// bit.
+// if it is kept, which never steers the steps, so that a run with
+// and without it takes the same steps bit for bit.
 #pragma once
 
 #include <array>

@@ -45,16 +45,16 @@ std::string cause_of(Trouble trouble, const char* solver, const std::string& mes
   switch (trouble) {
     case Trouble::too_many_steps:
       likely =
-          "the steps became too small for one tick; the rig is probably stiff (bristle_stiffness, braid "
-          "stop, hose)";
+          "the steps became too small for one tick; "
+          "the rig is probably stiff (bristle_stiffness, braid stop, hose)";
       break;
     case Trouble::too_accurate:
       likely = "the tolerance asks for more digits than double precision has - loosen it";
       break;
     case Trouble::error_test:
       likely =
-          "no step was small enough to pass the error test; a law of the rig probably jumps here, or is very "
-          "stiff";
+          "no step was small enough to pass the error test; "
+          "a law of the rig probably jumps here, or is very stiff";
       break;
     case Trouble::outside_domain:
       likely = "the state left the range in which the rig's laws are defined - " +

@@ -1,5 +1,5 @@
-// Writing of MAT-files with libmatio; see mat_file.hpp. The heading is ours: the library's own holds the
-// date.
+// Writing of MAT-files with libmatio; see mat_file.hpp.
+// The heading is ours: the library's own holds the date.
 #include <array>
 #include <mutex>
 

@@ -1,5 +1,5 @@
-// Units of the map `columns` of a data set: whether they can be what they stand for, and tables brought to
-// ours.
+// Units of the map `columns` of a data set:
+// whether they can be what they stand for, and tables brought to ours.
 #pragma once
 
 #include <plant/rig.hpp>

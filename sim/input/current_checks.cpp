@@ -29,8 +29,8 @@ class CurrentChecker {
       const bool low_is_at_fault = above || node_.find(high_key) == nullptr;
       const std::string_view key = low_is_at_fault ? low_key : high_key;
       problems_.error(source_, place(key),
-                      fmt::format("{} = {}: from {} to {} no current moves the rig's valve, which works from "
-                                  "{} to {}",
+                      fmt::format("{} = {}: from {} to {} no current moves the rig's valve, "
+                                  "which works from {} to {}",
                                   key, mA(low_is_at_fault ? low_mA : high_mA), mA(low_mA), mA(high_mA),
                                   mA(range_.lowest_mA), mA(range_.highest_mA)));
       return false;
@@ -46,8 +46,7 @@ class CurrentChecker {
     if (rest_mA < low_mA || rest_mA > high_mA)
       problems_.error(
           source_, place("rest_current"),
-          fmt::format("rest_current = {}: must lie between lowest_current and highest_current, {} "
-                      "and {}",
+          fmt::format("rest_current = {}: must lie between lowest_current and highest_current, {} and {}",
                       mA(rest_mA), mA(low_mA), mA(high_mA)));
   }
 

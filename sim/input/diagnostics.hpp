@@ -1,7 +1,7 @@
 // What is wrong in an input file, and where: each problem carries its file, line, column and source line and
 // prints as compilers do (file, line, excerpt, caret; the idea is Cantera's and GCC's). Problems are
-// collected, so that one run shows all of a file's errors; warnings are collected beside them and never
-// thrown.
+// collected, so that one run shows all of a file's errors;
+// warnings are collected beside them and never thrown.
 #pragma once
 
 #include <cstddef>
@@ -67,8 +67,8 @@ class Problems {
   /// Errors and warnings in the order of their place, file by file; of very many, the first hundred found.
   std::vector<Problem> sorted() const;
   std::vector<Problem> warnings() const;
-  /// Throws BadInput with all errors and warnings if there is an error; MissingInput if only files are
-  /// missing.
+  /// Throws BadInput with all errors and warnings if there is an error;
+  /// MissingInput if only files are missing.
   void raise() const;
 
  private:

@@ -6,8 +6,8 @@
 
 namespace mckibben::input {
 
-/// The document. Throws BadInput with the place where it is no JSON, a number is too large, or a limit is
-/// passed.
+/// The document. Throws BadInput with the place where it is no JSON,
+/// a number is too large, or a limit is passed.
 Json read_json(const Source& source);
 
 }  // namespace mckibben::input

@@ -1,7 +1,7 @@
 // Quantities through UDUNITS-2; see the header. UDUNITS is neither thread-safe nor strict about where a
 // number may stand ("5 3 kg" would be 15 kg), so calls are serialised and the unit's spelling is checked
-// first. It counts radians as dimensionless; a unit's definition still names them, which tells angles from
-// ratios.
+// first. It counts radians as dimensionless;
+// a unit's definition still names them, which tells angles from ratios.
 #include <cctype>
 #include <cerrno>
 #include <cmath>

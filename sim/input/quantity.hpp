@@ -20,8 +20,8 @@ class BadQuantity : public std::runtime_error {
 /// threads. Throws BadQuantity; std::runtime_error if the unit database is not installed.
 double read_quantity(std::string_view text, std::string_view si_unit);
 
-/// What is wrong with `unit` for what is measured in `wanted`: "V is the wrong kind of unit"; empty if
-/// nothing.
+/// What is wrong with `unit` for what is measured in `wanted`:
+/// "V is the wrong kind of unit"; empty if nothing.
 std::string unit_problem(std::string_view unit, std::string_view wanted);
 
 /// Converts numbers from `unit` to `wanted`, which unit_problem must have found well.

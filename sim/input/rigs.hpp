@@ -20,15 +20,15 @@ inline constexpr std::string_view rig_schema = "mckibben-rig/1";
 /// Names of the rigs that come with the program.
 std::span<const std::string_view> shipped_rigs();
 
-/// The rig of that name, or of the file at that path; the files read are added to `inputs`. Throws
-/// MissingInput, BadInput.
+/// The rig of that name, or of the file at that path; the files read are added to `inputs`.
+/// Throws MissingInput, BadInput.
 RigFile read_rig(const std::string& name_or_path, std::vector<InputFile>& inputs);
 
 /// The contents of a rig file that holds every field.
 Json rig_json(const RigFile& rig);
 
-/// Reads what stands under `rig` in another file: a name, a path relative to the folder of `source`, or a map
-/// of changes.
+/// Reads what stands under `rig` in another file: a name,
+/// a path relative to the folder of `source`, or a map of changes.
 void read_named(const Source& source, const Node& node, RigFile& into, Problems& problems);
 
 }  // namespace mckibben::input

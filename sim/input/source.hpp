@@ -35,8 +35,8 @@ class Source {
  public:
   /// `name` is what messages show; `folder` is where relative paths inside the text start.
   Source(std::string name, std::string text, std::filesystem::path folder);
-  /// Reads a file; at most one byte more than `largest_bytes`, so that the caller sees it is too large.
-  /// Throws MissingInput.
+  /// Reads a file; at most one byte more than `largest_bytes`,
+  /// so that the caller sees it is too large. Throws MissingInput.
   static Source load(const std::filesystem::path& path, std::size_t largest_bytes);
 
   const std::string& name() const { return name_; }

@@ -64,8 +64,8 @@ class TreeBuilder : public YAML::EventHandler {
     std::unordered_map<std::string, Place> keys = {};
   };
 
-  /// Marks come in the order of the text, so characters are counted on from the last one: a file may be one
-  /// long line.
+  /// Marks come in the order of the text, so characters are counted on from the last one:
+  /// a file may be one long line.
   Place place(const YAML::Mark& mark) {
     if (mark.is_null()) return {};
     const auto line = static_cast<std::size_t>(mark.line) + 1;

@@ -29,8 +29,8 @@ template <Listed T>
 void read_struct(const Source& source, const Node& node, T& into, Problems& problems,
                  std::span<const std::string_view> also_allowed = {});
 
-/// Checks the line `schema: NAME/VERSION` of a file. False if it is another kind of file, not worth reading
-/// on.
+/// Checks the line `schema: NAME/VERSION` of a file.
+/// False if it is another kind of file, not worth reading on.
 bool check_schema(const YamlFile& file, std::string_view schema, Problems& problems);
 
 /// Reads single values; says what is wrong with them. The same for all structs.

@@ -1,6 +1,6 @@
 // Axes of all pictures: scales from values to pixels, round numbers on them, grid, frame and words. Inks are
-// attributes, which a style may overrule by class: `grid`, `axis` (the frame); a page does, and where it is
-// dark.
+// attributes, which a style may overrule by class: `grid`, `axis` (the frame);
+// a page does, and where it is dark.
 #pragma once
 
 #include <string>
@@ -30,8 +30,8 @@ struct Tick {
   std::string text;
 };
 
-/// About `parts` round numbers, of a unit of which a value of 1 has `factor`. With a floor: 0 and powers of
-/// ten.
+/// About `parts` round numbers, of a unit of which a value of 1 has `factor`.
+/// With a floor: 0 and powers of ten.
 std::vector<Tick> round_numbers(const Scale& scale, int parts, double factor = 1.0);
 
 /// An area with two axes; `y` has its lowest value at the lower edge.

@@ -51,10 +51,8 @@ std::string rows_text(const thesis::Grid& grid) {
       used[static_cast<std::size_t>(direction)] += cell.samples.size();
   return fmt::format(
       "\nrows\n  used: {} in contraction, {} in relaxation\n  dropped: {} with a current off the valve's "
-      "line, {} "
-      "too near e = 0 for ln e,\n           {} where the muscle is still or does not follow the current, {} "
-      "before "
-      "the current moves,\n           {} with a contraction ratio above e_max (T 2.10)\n",
+      "line, {} too near e = 0 for ln e,\n           {} where the muscle is still or does not follow the "
+      "current, {} before the current moves,\n           {} with a contraction ratio above e_max (T 2.10)\n",
       used[0], used[1], grid.dropped.off_the_line, grid.dropped.near_zero, grid.dropped.not_following,
       grid.dropped.first_rows, grid.dropped.beyond_limit);
 }

@@ -18,8 +18,8 @@ std::string report_of(const domain::Dataset& dataset, const thesis::CalibrationR
 /// 100 % a model says nothing, and digits would only look as if it did; the number is in the JSON.
 std::string spread_text(double spread, int decimals, const char* unit = "");
 
-/// What the spread of each model of the calibration means, a line each: good as the thesis's own, rough, not
-/// usable.
+/// What the spread of each model of the calibration means, a line each:
+/// good as the thesis's own, rough, not usable.
 std::vector<std::string> meanings_of(const thesis::CalibrationResult& result, const thesis::Options& options);
 
 /// Fits that cannot be used (spread above 100 %), and what may help.

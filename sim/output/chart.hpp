@@ -1,5 +1,5 @@
-// A figure of the calibration as a picture and as a table: axes with round numbers, dots for data, lines for
-// models.
+// A figure of the calibration as a picture and as a table:
+// axes with round numbers, dots for data, lines for models.
 #pragma once
 
 #include <string>

@@ -29,8 +29,8 @@ std::string csv_of(const std::vector<formats::Column>& columns);
 
 /// The thesis's file: current [mA], contraction ratio, its speed [1/s] and acceleration [1/s2], pressure
 /// [bar], separated by blanks. All but the current are calculated: ratio from counts, speed and acceleration
-/// from differences of counts over the last tick and the last two, pressure from the current by the valve's
-/// line.
+/// from differences of counts over the last tick and the last two,
+/// pressure from the current by the valve's line.
 std::string thesis_ascii(const run::Recording& recording, const plant::Rig& rig, double load_kg);
 
 }  // namespace mckibben::output

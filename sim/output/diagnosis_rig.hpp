@@ -16,8 +16,8 @@ std::string rig_yaml(const domain::Dataset& data, const diagnose::Diagnosis& dia
 /// How a file that plan_yaml made begins.
 inline constexpr const char* plan_heading = "# The measurement that a diagnosis asks for";
 
-/// A campaign file on the corrected rig with the current and load of the next experiment, which there must
-/// be.
+/// A campaign file on the corrected rig with the current and load
+/// of the next experiment, which there must be.
 std::string plan_yaml(const domain::Dataset& data, const diagnose::Diagnosis& diagnosis);
 
 }  // namespace mckibben::output

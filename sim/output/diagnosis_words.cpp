@@ -116,9 +116,8 @@ std::string what_next(const diagnose::Diagnosis& diagnosis) {
   if (floors > diagnose::thresholds.start.explained_floors)
     return fmt::format(
         "{:.1f} noise floors are left on the runs held out, so there is something to explain yet. Measure "
-        "one "
-        "of the runs again: what two equal runs differ by is noise, what is left beyond it is not in the "
-        "rig.",
+        "one of the runs again: what two equal runs differ by is noise, "
+        "what is left beyond it is not in the rig.",
         floors);
   const bool twins = std::any_of(diagnosis.effects.begin(), diagnosis.effects.end(),
                                  [](const auto& effect) { return !effect.confusable_with.empty(); });

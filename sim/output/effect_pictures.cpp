@@ -51,13 +51,13 @@ constexpr const char* style =
 
 std::string line(const char* ink, double wide, const std::string& d) {
   return fmt::format(
-      "<path class='{}' fill='none' stroke-width='{}' stroke-linejoin='round' stroke-linecap='round' "
-      "d='{}'/>\n",
+      "<path class='{}' fill='none' stroke-width='{}' stroke-linejoin='round' "
+      "stroke-linecap='round' d='{}'/>\n",
       ink, wide, d);
 }
 
-/// The loop that one sees from outside: pressure that the current asks for, contraction as the encoder has
-/// it.
+/// The loop that one sees from outside: pressure that the current asks for,
+/// contraction as the encoder has it.
 std::string loop(const plant::Rig& rig, const Ride& ride, const char* ink, double wide) {
   const Panel panel = panel_of(ride);
   controllers::TriangleCurrent current;

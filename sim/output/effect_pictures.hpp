@@ -1,6 +1,6 @@
 // What each effect does to the loop of pressure and contraction: the nominal rig in grey, the rig with the
-// effect in colour, on a slow and on a fast ride up and down. The catalogue itself says how large an effect
-// matters.
+// effect in colour, on a slow and on a fast ride up and down.
+// The catalogue itself says how large an effect matters.
 #pragma once
 
 #include <string>

@@ -88,8 +88,7 @@ std::string csv_of(const run::ErrorMaps& maps) {
 std::string table_of(const run::MapPlan& plan, const run::ErrorMaps& maps) {
   std::string text = fmt::format(
       "error maps of open_loop (T 4.3): {} contraction ratios from {:.3g} to {:.3g} x {} speeds from {:.3g} "
-      "to "
-      "{:.3g} /s\n"
+      "to {:.3g} /s\n"
       "rms errors of contraction ratio (0.001 = {:.2g} mm) and speed [1/s], at the time of arrival\n\n",
       plan.ratios.size(), plan.ratios.front(), plan.ratios.back(), plan.speeds_per_s.size(),
       plan.speeds_per_s.front(), plan.speeds_per_s.back(), plan.rig.muscle.rest_length_m);
@@ -128,9 +127,8 @@ std::string table_of(const run::MapPlan& plan, const run::ErrorMaps& maps) {
   if (!grid.empty()) text += grid.text();
   text +=
       "\nreachable: what the rig can pass at that speed; beyond: the other targets. asked: those reachable "
-      "that "
-      "the inverse\nanswers as asked, inside its calibrated contraction ratios and current speeds and on the "
-      "valve's line.\n";
+      "that the inverse\nanswers as asked, inside its calibrated contraction ratios and current speeds and "
+      "on the valve's line.\n";
   return notes.empty() ? text : text + "\n" + notes;
 }
 

@@ -56,8 +56,8 @@ int write_all(int descriptor, std::string_view content);
 /// What may stand where a file is to be written.
 enum class Earlier { is_replaced, is_refused };
 
-/// Writes a file, and the folders above it, so that it appears whole or not at all, also if the power fails.
-/// Throws CannotWrite.
+/// Writes a file, and the folders above it, so that it appears whole or not at all,
+/// also if the power fails. Throws CannotWrite.
 void write_whole(const std::filesystem::path& path, const std::string& content,
                  Earlier earlier = Earlier::is_replaced);
 

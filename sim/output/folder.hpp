@@ -18,8 +18,8 @@ namespace mckibben::output {
 using Say = std::function<void(const std::string&)>;
 
 /// `wanted` as an absolute path without links and slash at its end; the folder above it is made. Throws
-/// CannotWrite if a file stands there, if it is a link that leads nowhere, or if it is the current folder or
-/// holds it.
+/// CannotWrite if a file stands there, if it is a link that leads nowhere,
+/// or if it is the current folder or holds it.
 std::filesystem::path result_path(const std::filesystem::path& wanted);
 
 /// Completes what a killed program was putting in place from a container, and says so; whether there was any.

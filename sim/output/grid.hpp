@@ -16,8 +16,8 @@ inline std::string section(const std::string& title, const std::string& body) {
   return body.empty() ? "" : "\n" + title + "\n" + body;
 }
 
-/// A table whose columns are as wide as their widest cell; the first column and texts to the left, numbers to
-/// the right.
+/// A table whose columns are as wide as their widest cell;
+/// the first column and texts to the left, numbers to the right.
 class Grid {
  public:
   explicit Grid(std::vector<std::string> head, std::size_t text_columns)

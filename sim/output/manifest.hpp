@@ -1,7 +1,6 @@
-// What belongs to a results folder: the list of its files and their digests, which stands in the folder
-// itself
-// (.mckibben-files), and what follows from it: is the folder complete, and is there anything of somebody
-// else's?
+// What belongs to a results folder: the list of its files and their digests, which stands in the
+// folder itself (.mckibben-files), and what follows from it: is the folder complete,
+// and is there anything of somebody else's?
 #pragma once
 
 #include <filesystem>
@@ -25,8 +24,8 @@ bool holds_only(const std::filesystem::path& folder, const FileNames& names);
 /// it may be removed when the job is done again.
 bool is_ours(const std::filesystem::path& folder, const std::string& job);
 
-/// Writes the list of a result's files, once each is there as it was written and nothing else is. Throws
-/// CannotWrite.
+/// Writes the list of a result's files, once each is there as it was written and nothing else is.
+/// Throws CannotWrite.
 void seal(const std::filesystem::path& folder, const std::string& job, const Digests& files);
 
 /// The digest of the list in a folder that holds all that is listed, unchanged, and nothing else; else empty.

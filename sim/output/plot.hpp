@@ -1,5 +1,5 @@
-// The comparison as one SVG picture: for each load a panel with the target and every controller's
-// contraction.
+// The comparison as one SVG picture: for each load a panel with
+// the target and every controller's contraction.
 #pragma once
 
 #include <string>

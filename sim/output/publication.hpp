@@ -7,8 +7,8 @@
 //   4. the record is removed
 //
 // Whoever finds a record does what is left of 2 to 4. Which folders have changed places is told by their
-// lists of files, whose digests are in the record. As long as there is a record, the container may hold what
-// stood there.
+// lists of files, whose digests are in the record.
+// As long as there is a record, the container may hold what stood there.
 #pragma once
 
 #include <filesystem>

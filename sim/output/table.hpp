@@ -16,8 +16,8 @@ namespace mckibben::output {
 /// Loads x controllers, each controller's spread over loads, gains that were tuned, and what to be warned of.
 std::string table_of(const domain::Scenario& scenario, const run::Comparison& comparison);
 
-/// How a run stands to its controller's calibration: "*" extrapolated, "+" load taken as the range's end, or
-/// empty.
+/// How a run stands to its controller's calibration: "*" extrapolated,
+/// "+" load taken as the range's end, or empty.
 std::string extrapolation_mark(const run::TrackedRun& run);
 
 /// Measured against simulated, run by run.

@@ -130,8 +130,8 @@ std::string law_html(const Diagnosis& diagnosis, const plant::Rig& rig) {
       "<h3>residual_law</h3>\n" +
       paragraph(
           "A force outside the catalogue, positive upwards: the sum of the terms above, each a coefficient "
-          "times what it stands for (x rise of the load, v its speed in 0.1 m/s, P in bar, m g in 98.0665 "
-          "N).");
+          "times what it stands for (x rise of the load, v its speed in 0.1 m/s, "
+          "P in bar, m g in 98.0665 N).");
   if (!diagnosis.law_valid_for.empty())
     html += "<p>" + text_html("Valid for " + diagnosis.law_valid_for + ".", rig) + "</p>\n";
   return html;
@@ -146,10 +146,8 @@ std::string recalibrated_html(const Diagnosis& diagnosis) {
                                     rounded(moved.deviations, 1, true)});
   }
   return "<div class='wide'>" +
-         table(
-             "Recalibrated; deviations are those within which a data sheet or a ruler gives "
-             "the value",
-             {"parameter", "nominal", "fitted", "95 % interval", "deviations"}, rows) +
+         table("Recalibrated; deviations are those within which a data sheet or a ruler gives the value",
+               {"parameter", "nominal", "fitted", "95 % interval", "deviations"}, rows) +
          "</div>\n";
 }
 

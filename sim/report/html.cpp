@@ -125,8 +125,7 @@ constexpr const char* controls =
     "<div class='controls live-only'><label>Show <select id='group'></select></label>\n"
     "<button id='play' type='button'>Play</button>\n"
     "<select id='speed' aria-label='Speed'><option value='0.25'>1/4 x</option><option value='1' selected>1 "
-    "x</option>"
-    "<option value='4'>4 x</option><option value='16'>16 x</option></select>\n"
+    "x</option><option value='4'>4 x</option><option value='16'>16 x</option></select>\n"
     "<input id='time' type='range' min='0' step='any' aria-label='Time'>\n"
     "<output id='clock'></output>\n"
     "<button id='whole' type='button'>Whole run</button></div>\n";
@@ -137,9 +136,8 @@ std::string rig_and_plots(const Contents& contents) {
          "time of the cursor'></svg>\n<figcaption id='rig-caption'></figcaption></figure>\n<div>\n<div "
          "class='wide result live-only'><table id='readout'></table></div>\n"
          "<p class='small live-only'>Tick runs to compare; the round mark chooses the one that is drawn. "
-         "Move "
-         "over a plot to set the time, drag to zoom, double-click to see the whole run. Keys: space plays, "
-         "left and right step.</p>\n" +
+         "Move over a plot to set the time, drag to zoom, double-click to see the whole run. Keys: space "
+         "plays, left and right step.</p>\n" +
          rig_html(contents.rig, contents.gauge) +
          "</div>\n</div>\n<div id='plots' class='live-only'></div>\n";
 }

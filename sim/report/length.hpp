@@ -26,8 +26,8 @@ std::string length_html(double ratio, const plant::Rig& rig, int mm_decimals = 3
 /// The same with its unit: "1.180 mm" or "0.00393 (contraction ratio)".
 std::string full_length_html(double ratio, const plant::Rig& rig, int mm_decimals = 3);
 
-/// An error to three digits, never finer than a micrometre, with its unit: "1.96 mm" or "0.00653". `tag` may
-/// be "tspan".
+/// An error to three digits, never finer than a micrometre, with its unit:
+/// "1.96 mm" or "0.00653". `tag` may be "tspan".
 std::string height_html(double ratio, const plant::Rig& rig, std::string_view tag = "span",
                         bool sign = false);
 

@@ -25,26 +25,22 @@ struct Kind {
 constexpr Kind kinds[] = {
     {18, 26, "Friction coefficient, as calibrated (T 4.6)",
      "Each dot is a row of the measurements: the friction force that is left when the braid's force lifts "
-     "the "
-     "load, over the force that presses the threads together. The line is the model that goes into "
+     "the load, over the force that presses the threads together. The line is the model that goes into "
      "calibration.yaml. Good: the line runs through the middle of the cloud at every speed; the width of the "
      "cloud is the spread. 4.19 is the part that depends on the current's speed: good if the dots lie along "
-     "the line. 4.26 is the spread speed by speed: a high dot calls for a look at the "
-     "runs of that speed."},
+     "the line. 4.26 is the spread speed by speed: a high dot calls for a look at the runs of that speed."},
     {27, 34, "Pressure of one load (T 4.7 to 4.13)",
      "Which pressure holds the load at a contraction. Good: line and dots lie on each other. 4.28 shows "
      "whether pressure shifts with load and speed in an orderly way. 4.29 to 4.32 are coefficients against "
-     "the "
-     "current's speed, 4.33 and 4.34 the distance from the model: good if low at every speed."},
+     "the current's speed, 4.33 and 4.34 the distance from the model: good if low at every speed."},
     {35, 49, "Pressure coefficients against load (T 4.14 to 4.28)",
      "Every coefficient of the pressure model over the loads: dots by the thesis's sequence of fits, curves "
      "by that and by fitting all samples at once. Curves that part, or dots all over the place, mean that "
-     "the "
-     "data do not settle this coefficient by itself. That is no harm between the "
-     "calibrated loads as long as the spread of the pressure above is good: only the sum is used."},
+     "the data do not settle this coefficient by itself. That is no harm between the calibrated loads as "
+     "long as the spread of the pressure above is good: only the sum is used."},
     {2, 17, "Friction models that are not used (T 4.4, T 4.5)",
-     "The thesis tries two others first, drawn here for comparison. Nothing in calibration.yaml comes from "
-     "them."}};
+     "The thesis tries two others first, drawn here for comparison. "
+     "Nothing in calibration.yaml comes from them."}};
 
 int number_of(const thesis::Figure& figure) {
   int number = 0;

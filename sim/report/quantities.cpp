@@ -73,15 +73,14 @@ std::vector<Plot> plots_for(const plant::Rig& rig, const std::string& title, con
 }
 
 std::vector<Loop> loops() {
-  return {
-      {"pressure", "Pressure and contraction", "contraction", "muscle_pressure", std::string(ratio_unit),
-       "muscle pressure in bar", false, "given_contraction", "given_pressure"},
-      {"force", "Braid force and contraction", "contraction", "braid_force", std::string(ratio_unit),
-       "braid force in N"},
-      {"friction",
-       "Friction coefficient and contraction: friction of the threads for each newton of normal force, while "
-       "they slide",
-       "contraction", "friction_coefficient", std::string(ratio_unit), "friction coefficient", true}};
+  return {{"pressure", "Pressure and contraction", "contraction", "muscle_pressure", std::string(ratio_unit),
+           "muscle pressure in bar", false, "given_contraction", "given_pressure"},
+          {"force", "Braid force and contraction", "contraction", "braid_force", std::string(ratio_unit),
+           "braid force in N"},
+          {"friction",
+           "Friction coefficient and contraction: friction of the threads for "
+           "each newton of normal force, while they slide",
+           "contraction", "friction_coefficient", std::string(ratio_unit), "friction coefficient", true}};
 }
 
 std::vector<Plot> measured_plots() {

@@ -15,8 +15,8 @@ std::vector<Quantity> quantities_of(const run::Recording& recording, const plant
 
 /// What lies beside the page in a folder of runs.
 inline constexpr std::string_view beside_runs =
-    "Every number of every tick is in the CSV files beside this page; input, versions and hashes are in "
-    "run.json.";
+    "Every number of every tick is in the CSV files beside this page; "
+    "input, versions and hashes are in run.json.";
 
 /// The plots for a rig, beginning with that of contraction, which has this title. `wanted` is the label of
 /// what is given there (key "given_contraction"); `gauge` tells that muscle pressure was measured (key

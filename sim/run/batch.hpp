@@ -1,5 +1,5 @@
-// Independent jobs spread over threads. Each writes only its own result, so results do not depend on their
-// number.
+// Independent jobs spread over threads. Each writes only its own result,
+// so results do not depend on their number.
 #pragma once
 
 #include <cstddef>

@@ -108,8 +108,8 @@ class Columns {
       return false;
     std::swap(map_.current.column, map_.muscle_pressure.column);
     find("muscle_pressure",
-         fmt::format("muscle_pressure is up to {:.4g} bar, more than the supply has, and the current up to "
-                     "{:.3g} mA: ",
+         fmt::format("muscle_pressure is up to {:.4g} bar, more than the supply has, "
+                     "and the current up to {:.3g} mA: ",
                      most_bar, largest(run.current_mA)),
          mend("these two columns look exchanged",
               fmt::format("{}, {}", line_of("current", map_.current),
@@ -129,8 +129,8 @@ class Columns {
              range(run.contraction_ratio) > of_columns.moving_counts * contraction_per_count(data_.rig))
       find("current", never,
            fmt::format(", where the valve does nothing (below {:.3g} mA), yet the muscle moves; is this "
-                       "another unit, or a share of the range? unit, zero and factor in columns: current "
-                       "say so",
+                       "another unit, or a share of the range? unit, "
+                       "zero and factor in columns: current say so",
                        dead_mA));
   }
 

@@ -1,6 +1,6 @@
 // How well a target was followed: errors, lag, overshoot and settling of one run, and how far one
-// controller's figure spreads over the loads. Errors are e - target, in contraction ratio, from true (not
-// counted) values.
+// controller's figure spreads over the loads. Errors are e - target,
+// in contraction ratio, from true (not counted) values.
 #pragma once
 
 #include <optional>

@@ -19,8 +19,8 @@ constexpr double slope_step = 1e-4;  // in e, for dP/de
 constexpr double slow_per_s = 1e-3;  // a ramp so slow that only its lag is left
 constexpr double far_too_fast_per_s = 100.0;
 
-// Where an ascending function passes through zero: regula falsi (Illinois). The end nearer to zero if it does
-// not.
+// Where an ascending function passes through zero: regula falsi (Illinois).
+// The end nearer to zero if it does not.
 template <class Function>
 double root(const Function& f, double low, double high) {
   double at_low = f(low), at_high = f(high);

@@ -1,5 +1,5 @@
-// A data set simulated again with its recorded currents, and how far the simulation is from what was
-// measured.
+// A data set simulated again with its recorded currents,
+// and how far the simulation is from what was measured.
 #pragma once
 
 #include <optional>
@@ -24,8 +24,8 @@ struct ReplayedRun {
   std::string failure{};                     ///< why the integrator gave up; empty if it did not
 };
 
-/// Simulates every run of a data set. Of runs that were not begun when the user stopped, `failure` says so
-/// (`not_begun`).
+/// Simulates every run of a data set. Of runs that were not begun when the user stopped,
+/// `failure` says so (`not_begun`).
 std::vector<ReplayedRun> replay(const domain::Dataset& dataset, unsigned threads,
                                 const ProgressHook& progress);
 

@@ -11,8 +11,8 @@
 
 namespace mckibben::run {
 
-/// What the rig would do in a run, a value each tick; empty if it was not simulated, shorter if not to its
-/// end.
+/// What the rig would do in a run, a value each tick;
+/// empty if it was not simulated, shorter if not to its end.
 struct Expected {
   std::vector<double> contraction_ratio{}, pressure_Pa{};
 };

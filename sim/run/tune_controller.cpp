@@ -13,8 +13,8 @@ namespace mckibben::run {
 namespace {
 
 // What a change of current costs in tuning [contraction ratio for each mA rms and tick, at the thesis's
-// span]: enough to keep gains from chasing single encoder counts, too little to matter for how the target is
-// followed.
+// span]: enough to keep gains from chasing single encoder counts,
+// too little to matter for how the target is followed.
 constexpr double effort_weight = 2e-4;
 
 // Gains must also do with the proportional gain this much higher, so that they are not tuned to the edge of

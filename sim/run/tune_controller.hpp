@@ -22,8 +22,8 @@ struct TunedController {
   std::optional<controllers::CurrentRange> limits{};  ///< of its current, as the DAC gives them
 };
 
-/// Tunes `settings` and fills the gains in. `knowledge` holds the target; `tried` hears of each trial.
-/// Throws Interrupted.
+/// Tunes `settings` and fills the gains in. `knowledge` holds the target;
+/// `tried` hears of each trial. Throws Interrupted.
 TunedController tune_controller(const domain::Scenario& scenario, const controllers::Knowledge& knowledge,
                                 controllers::Settings& settings, const std::function<void()>& tried);
 

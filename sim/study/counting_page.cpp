@@ -131,16 +131,14 @@ Study study_counting(const Evidence& evidence) {
   page += fmt::format(
       "One count more or less in a tick of {:g} ms changes the contraction speed by {:.3f} 1/s and its "
       "acceleration by {:.2f} 1/s2, which is {:.2f} m/s2 of the load. So the picture's dots stand on lines "
-      "that "
-      "far apart.\n\n",
+      "that far apart.\n\n",
       1e3 * rig.tick_s, counting.speed_step_per_s, counting.acceleration_step_per_s2,
       counting.acceleration_step_m_per_s2);
   const Counted& w = counting.all_speed_per_s;
   page +=
       "## Speed and acceleration\n\nRoot mean squares over the rows that the calibration uses. Rounding is "
-      "what whole counts add to the difference of true positions; lateness is what that difference, which "
-      "is a mean over the last ticks, differs from the value at the instant.\n\nContraction speed "
-      "[1/s]:\n\n" +
+      "what whole counts add to the difference of true positions; lateness is what that difference, which is "
+      "a mean over the last ticks, differs from the value at the instant.\n\nContraction speed [1/s]:\n\n" +
       differences(shown, counting.speed_per_s, w) + "Acceleration of the load [m/s2]:\n\n" +
       differences(shown, counting.acceleration_m_per_s2, counting.all_acceleration_m_per_s2);
   const auto& by_speed = counting.acceleration_m_per_s2;
@@ -166,9 +164,8 @@ Study study_counting(const Evidence& evidence) {
   const Weighings& alone = counting.alone;
   page += fmt::format(
       "With all else true, a single row scatters by {:.2f} kg with counted accelerations, by {:.2f} kg "
-      "without "
-      "any and by {:.2f} kg with the true one. Over a whole run the rounding cancels: its mean is off by "
-      "{:+.2f}, {:+.2f} and {:+.2f} kg.\n",
+      "without any and by {:.2f} kg with the true one. Over a whole run the rounding cancels: its mean is "
+      "off by {:+.2f}, {:+.2f} and {:+.2f} kg.\n",
       alone.all[counted].deviation(), alone.all[neglected].deviation(), alone.all[truly].deviation(),
       alone.runs[counted].mean(), alone.runs[neglected].mean(), alone.runs[truly].mean());
   return {"counting", std::move(page), counting_picture(evidence),

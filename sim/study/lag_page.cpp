@@ -169,10 +169,8 @@ Study study_lag(const Evidence& evidence) {
   std::string page = heading(evidence, "lag", "Friction or lag?");
   page +=
       "The thesis has no gauge: it takes the pressure from the current, as if it followed at once (T 3.3). "
-      "Here "
-      "the same rows are processed twice, with that pressure and with the muscle's own, and both are "
-      "compared "
-      "with the friction that the simulated threads really had.\n\n";
+      "Here the same rows are processed twice, with that pressure and with the muscle's own, and both are "
+      "compared with the friction that the simulated threads really had.\n\n";
   page +=
       "## The friction law (T 4.6)\n\nStandard errors behind +-. They take residuals as independent, which "
       "they are not: read them as lower bounds.\n\n";
@@ -181,13 +179,10 @@ Study study_lag(const Evidence& evidence) {
   for (const Direction direction : thesis::directions) page += in_disguise(evidence, direction);
   page +=
       "\n## The lag itself\n\nIn a ramp the muscle's pressure stays s nu L behind the one taken from the "
-      "current, "
-      "with s the slope of the valve's line. L is fitted to the used rows (through zero), each with its own "
-      "di/dt in the place of nu; the shift is their mean, line less muscle. f are means over the same rows. "
-      "The "
-      "printed shift is not s nu L of the printed nu and L: nu is a mean over whole half periods, and on a "
-      "sine "
-      "di/dt in the used rows is not that mean.\n\n";
+      "current, with s the slope of the valve's line. L is fitted to the used rows (through zero), each with "
+      "its own di/dt in the place of nu; the shift is their mean, line less muscle. f are means over the "
+      "same rows. The printed shift is not s nu L of the printed nu and L: nu is a mean over whole half "
+      "periods, and on a sine di/dt in the used rows is not that mean.\n\n";
   for (const Direction direction : thesis::directions) page += shifts(lag, evidence, direction);
   page +=
       "## The load weighed with it (T 4.31)\n\nError in kg over the rows of contraction, mean +- standard "

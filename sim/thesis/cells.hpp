@@ -31,8 +31,8 @@ struct Grid {
   std::vector<LeftOut> left_out;
   Dropped dropped;  ///< of the runs that were used
 
-  /// How many runs were left out because nothing moves, with the first one and what would help; empty if
-  /// none.
+  /// How many runs were left out because nothing moves,
+  /// with the first one and what would help; empty if none.
   std::string still_runs(const plant::Valve& valve) const;
 
   const std::vector<Cell>& of(Direction direction) const {

@@ -91,107 +91,123 @@ void lose_rows(domain::Run& run, std::size_t row, std::size_t count) {
   run.current_mA.resize(run.contraction_ratio.size());
 }
 
-}  // namespace
-
-const std::vector<Corruption>& corruptions() {
-  using Data = domain::Dataset;
-  const auto each = [](auto change) {
-    return [change](Data& data) {
-      for (domain::Run& one : data.runs) change(data, one);
-    };
+/// The change, made to every run.
+template <class Change>
+auto each(Change change) {
+  return [change](domain::Dataset& data) {
+    for (domain::Run& one : data.runs) change(data, one);
   };
-  static const std::vector<Corruption> list = {
-      {"late 3", "r02", {"late"}, [](Data& d) { late(run(d, 2), 3); }},
-      {"late 1", "r03", {"late"}, [](Data& d) { late(run(d, 3), 1); }},
-      {"early 2", "r05", {"early"}, [](Data& d) { late(run(d, 5), -2); }},
-      {"late 5 twice", "r04", {"late"}, [](Data& d) { late(run(d, 1), 5), late(run(d, 4), 5); }},
-      {"late 2 everywhere", "", {"late"}, each([](Data&, domain::Run& r) { late(r, 2); })},
-      {"another rig",
-       "r04",
-       {"another rig"},
-       [](Data& d) {
-         const auto other = six_runs("bladder_elasticity large", 77);
-         run(d, 4) = other.data.runs[3];
-       }},
-      {"another muscle",
-       "r01",
-       {"another rig"},
-       [](Data& d) {
-         plant::Rig truth;
-         truth.muscle.rest_radius_m *= 1.04;
-         truth.muscle.end_correction *= 1.02;
-         make_again(d, run(d, 1), run(d, 1).current_mA, run(d, 1).load_kg, truth);
-       }},
-      {"current x 1.05",
-       "r05",
-       {"current"},
-       [](Data& d) {
-         for (double& i : run(d, 5).current_mA) i *= 1.05;
-       }},
-      {"current x 0.97",
-       "r03",
-       {"current"},
-       [](Data& d) {
-         for (double& i : run(d, 3).current_mA) i *= 0.97;
-       }},
-      {"current + 0.3 mA",
-       "r02",
-       {"current"},
-       [](Data& d) {
-         for (double& i : run(d, 2).current_mA) i += 0.3;
-       }},
-      {"drift 1 mm", "r06", {"drift"}, [](Data& d) { drift(d, run(d, 6), 1.0); }},
-      {"drift -0.6 mm", "r01", {"drift"}, [](Data& d) { drift(d, run(d, 1), -0.6); }},
-      {"drift 1 mm everywhere", "", {"drift"}, each([](Data& d, domain::Run& r) { drift(d, r, 1.0); })},
-      {"zero 4 counts", "r03", {"zero"}, [](Data& d) { slip(d, run(d, 3), 0, 4); }},
-      {"zero 1 to 3 counts",
-       "",
-       {"zero"},
-       [](Data& d) {
-         const int counts[] = {2, -1, 3, 1, -3, 2};
-         for (std::size_t r = 0; r < d.runs.size(); ++r) slip(d, d.runs[r], 0, counts[r % 6]);
-       }},
-      {"zero 5 counts everywhere", "", {"zero"}, each([](Data& d, domain::Run& r) { slip(d, r, 0, 5); })},
-      {"slip 8 counts", "r04", {"slip", "lost"}, [](Data& d) { slip(d, run(d, 4), 300, 8); }},
-      {"slip -4 counts", "r02", {"slip", "lost"}, [](Data& d) { slip(d, run(d, 2), 400, -4); }},
-      {"valve stuck in half",
-       "r05",
-       {"stuck"},
-       [](Data& d) {
-         Series stuck = run(d, 5).current_mA;
-         for (std::size_t k = stuck.size() / 2; k < stuck.size(); ++k) stuck[k] = stuck[stuck.size() / 2];
-         make_again(d, run(d, 5), stuck, run(d, 5).load_kg, plant::Rig{});
-       }},
-      {"valve stuck for 2 s",
-       "r01",
-       {"stuck"},
-       [](Data& d) {
-         Series stuck = run(d, 1).current_mA;
-         for (std::size_t k = 250; k < 417; ++k) stuck[k] = stuck[250];
-         make_again(d, run(d, 1), stuck, run(d, 1).load_kg, plant::Rig{});
-       }},
-      {"saturated",
-       "r01",
-       {"saturated", "frozen"},
-       [](Data& d) {
-         auto& e = run(d, 1).contraction_ratio;
-         const double most = counted(d, 0.8 * *std::max_element(e.begin(), e.end()));
-         for (double& ratio : e) ratio = std::min(ratio, most);
-       }},
-      {"frozen for 1 s",
-       "r04",
-       {"frozen"},
-       [](Data& d) {
-         auto& e = run(d, 4).contraction_ratio;
-         std::fill(e.begin() + 200, e.begin() + 283, e[200]);
-       }},
-      {"reading x 1.03",
-       "r06",
-       {"scale"},
-       [](Data& d) {
-         for (double& ratio : run(d, 6).contraction_ratio) ratio = counted(d, 1.03 * ratio);
-       }},
-      {"5 rows lost", "r03", {"rows", "lost"}, [](Data& d) { lose_rows(run(d, 3), 320, 5); }},
+}
+
+using Data = domain::Dataset;
+
+/// Readings that come at other times.
+std::vector<Corruption> in_time() {
+  return {{"late 3", "r02", {"late"}, [](Data& d) { late(run(d, 2), 3); }},
+          {"late 1", "r03", {"late"}, [](Data& d) { late(run(d, 3), 1); }},
+          {"early 2", "r05", {"early"}, [](Data& d) { late(run(d, 5), -2); }},
+          {"late 5 twice", "r04", {"late"}, [](Data& d) { late(run(d, 1), 5), late(run(d, 4), 5); }},
+          {"late 2 everywhere", "", {"late"}, each([](Data&, domain::Run& r) { late(r, 2); })}};
+}
+
+/// Another rig, or another current than is written.
+std::vector<Corruption> of_the_rig() {
+  return {{"another rig",
+           "r04",
+           {"another rig"},
+           [](Data& d) {
+             const auto other = six_runs("bladder_elasticity large", 77);
+             run(d, 4) = other.data.runs[3];
+           }},
+          {"another muscle",
+           "r01",
+           {"another rig"},
+           [](Data& d) {
+             plant::Rig truth;
+             truth.muscle.rest_radius_m *= 1.04;
+             truth.muscle.end_correction *= 1.02;
+             make_again(d, run(d, 1), run(d, 1).current_mA, run(d, 1).load_kg, truth);
+           }},
+          {"current x 1.05",
+           "r05",
+           {"current"},
+           [](Data& d) {
+             for (double& i : run(d, 5).current_mA) i *= 1.05;
+           }},
+          {"current x 0.97",
+           "r03",
+           {"current"},
+           [](Data& d) {
+             for (double& i : run(d, 3).current_mA) i *= 0.97;
+           }},
+          {"current + 0.3 mA", "r02", {"current"}, [](Data& d) {
+             for (double& i : run(d, 2).current_mA) i += 0.3;
+           }}};
+}
+
+/// Readings whose zero moves.
+std::vector<Corruption> of_the_zero() {
+  return {{"drift 1 mm", "r06", {"drift"}, [](Data& d) { drift(d, run(d, 6), 1.0); }},
+          {"drift -0.6 mm", "r01", {"drift"}, [](Data& d) { drift(d, run(d, 1), -0.6); }},
+          {"drift 1 mm everywhere", "", {"drift"}, each([](Data& d, domain::Run& r) { drift(d, r, 1.0); })},
+          {"zero 4 counts", "r03", {"zero"}, [](Data& d) { slip(d, run(d, 3), 0, 4); }},
+          {"zero 1 to 3 counts",
+           "",
+           {"zero"},
+           [](Data& d) {
+             const int counts[] = {2, -1, 3, 1, -3, 2};
+             for (std::size_t r = 0; r < d.runs.size(); ++r) slip(d, d.runs[r], 0, counts[r % 6]);
+           }},
+          {"zero 5 counts everywhere", "", {"zero"}, each([](Data& d, domain::Run& r) { slip(d, r, 0, 5); })},
+          {"slip 8 counts", "r04", {"slip", "lost"}, [](Data& d) { slip(d, run(d, 4), 300, 8); }},
+          {"slip -4 counts", "r02", {"slip", "lost"}, [](Data& d) { slip(d, run(d, 2), 400, -4); }}};
+}
+
+/// What fails while it runs.
+std::vector<Corruption> while_it_ran() {
+  return {{"valve stuck in half",
+           "r05",
+           {"stuck"},
+           [](Data& d) {
+             Series stuck = run(d, 5).current_mA;
+             for (std::size_t k = stuck.size() / 2; k < stuck.size(); ++k) stuck[k] = stuck[stuck.size() / 2];
+             make_again(d, run(d, 5), stuck, run(d, 5).load_kg, plant::Rig{});
+           }},
+          {"valve stuck for 2 s",
+           "r01",
+           {"stuck"},
+           [](Data& d) {
+             Series stuck = run(d, 1).current_mA;
+             for (std::size_t k = 250; k < 417; ++k) stuck[k] = stuck[250];
+             make_again(d, run(d, 1), stuck, run(d, 1).load_kg, plant::Rig{});
+           }},
+          {"saturated",
+           "r01",
+           {"saturated", "frozen"},
+           [](Data& d) {
+             auto& e = run(d, 1).contraction_ratio;
+             const double most = counted(d, 0.8 * *std::max_element(e.begin(), e.end()));
+             for (double& ratio : e) ratio = std::min(ratio, most);
+           }},
+          {"frozen for 1 s",
+           "r04",
+           {"frozen"},
+           [](Data& d) {
+             auto& e = run(d, 4).contraction_ratio;
+             std::fill(e.begin() + 200, e.begin() + 283, e[200]);
+           }},
+          {"reading x 1.03",
+           "r06",
+           {"scale"},
+           [](Data& d) {
+             for (double& ratio : run(d, 6).contraction_ratio) ratio = counted(d, 1.03 * ratio);
+           }},
+          {"5 rows lost", "r03", {"rows", "lost"}, [](Data& d) { lose_rows(run(d, 3), 320, 5); }}};
+}
+
+/// Tables that say something else than was.
+std::vector<Corruption> of_the_table() {
+  return {
       {"loads in g", "", {"g, not kg", "grams", "in g"}, each([](Data&, domain::Run& r) {
          r.load_kg *= 0.001;
        })},
@@ -214,6 +230,17 @@ const std::vector<Corruption>& corruptions() {
          run(d, 6) = run(d, 1);
          run(d, 6).id = "r06";
        }}};
+}
+
+}  // namespace
+
+const std::vector<Corruption>& corruptions() {
+  static const std::vector<Corruption> list = [] {
+    std::vector<Corruption> all;
+    for (const auto& group : {in_time(), of_the_rig(), of_the_zero(), while_it_ran(), of_the_table()})
+      all.insert(all.end(), group.begin(), group.end());
+    return all;
+  }();
   return list;
 }
 

@@ -1,9 +1,9 @@
-// What a simulated second costs, in right-hand-side times measured in the same run, and which SUNDIALS it ran
-// on.
+// What a simulated second costs, in right-hand-side times measured in the same run,
+// and which SUNDIALS it ran on.
 //
 // Rides (those of the thesis's campaign): A = 11.138 kg, full sine at 16.7 mA/s; B = 23.406 kg at 8.3 mA/s,
-// which rests on the braid stop in every period. Each line prints its largest error in e against the tightest
-// tolerance.
+// which rests on the braid stop in every period.
+// Each line prints its largest error in e against the tightest tolerance.
 #include <algorithm>
 #include <array>
 #include <chrono>

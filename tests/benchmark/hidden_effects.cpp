@@ -6,6 +6,7 @@
 #include <functional>
 #include <numbers>
 #include <random>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -44,19 +45,14 @@ struct Kind {
   bool gauge = false;
 };
 
-const std::vector<Kind>& all_kinds() {
-  static const std::vector<Kind> list = [] {
-    const auto e = [](const char* effect, const char* key) {
-      return fmt::format("effects.{}.{}", effect, key);
-    };
-    std::vector<Kind> kinds;
-    struct Size {
-      const char *effect, *key;
-      double absent, small, large;
-      const char* shape;
-      double form;
-    };
-    const Size sizes[] = {{"viscous_damping", "damping", 0, 25, 120, nullptr, 0},
+/// Of each effect a size that is hard to see and one that is plain.
+struct Size {
+  const char *effect, *key;
+  double absent, small, large;
+  const char* shape;
+  double form;
+};
+constexpr Size sizes[] = {{"viscous_damping", "damping", 0, 25, 120, nullptr, 0},
                           {"guide_friction", "coefficient", 0, 0.01, 0.04, nullptr, 0},
                           {"speed_dependent_friction", "ratio", 1, 0.85, 0.6, "speed", 0.02},
                           {"bladder_elasticity", "stiffness", 0, 60, 300, nullptr, 0},
@@ -71,69 +67,100 @@ const std::vector<Kind>& all_kinds() {
                           {"friction_warm_up", "change", 0, -0.12, -0.35, "time", 5.0},
                           {"encoder_backlash", "width", 0, 3e-4, 1.2e-3, nullptr, 0},
                           {"encoder_scale", "error", 0, 0.01, 0.03, nullptr, 0}};
-    for (const Size& s : sizes) {
-      for (const bool large : {false, true}) {
-        Kind kind{fmt::format("{} {}", s.effect, large ? "large" : "small"),
-                  Verdict::missing_effect,
-                  {s.effect},
-                  {{e(s.effect, s.key), large ? s.large : s.small}}};
-        if (s.shape != nullptr) kind.plan.push_back({e(s.effect, s.shape), s.form});
-        kinds.push_back(std::move(kind));
-      }
-    }
-    const auto pair = [&](std::size_t a, std::size_t b) {
-      Kind kind{fmt::format("{} + {}", sizes[a].effect, sizes[b].effect),
+
+std::string path_of(const char* effect, const char* key) {
+  return fmt::format("effects.{}.{}", effect, key);
+}
+
+std::vector<Kind> single_effects() {
+  std::vector<Kind> kinds;
+  for (const Size& s : sizes)
+    for (const bool large : {false, true}) {
+      Kind kind{fmt::format("{} {}", s.effect, large ? "large" : "small"),
                 Verdict::missing_effect,
-                {sizes[a].effect, sizes[b].effect},
-                {{e(sizes[a].effect, sizes[a].key), sizes[a].large},
-                 {e(sizes[b].effect, sizes[b].key), sizes[b].large}}};
-      for (const Size& s : {sizes[a], sizes[b]})
-        if (s.shape != nullptr) kind.plan.push_back({e(s.effect, s.shape), s.form});
+                {s.effect},
+                {{path_of(s.effect, s.key), large ? s.large : s.small}}};
+      if (s.shape != nullptr) kind.plan.push_back({path_of(s.effect, s.shape), s.form});
       kinds.push_back(std::move(kind));
+    }
+  return kinds;
+}
+
+Kind pair_of(const char* one, const char* other) {
+  Kind kind{fmt::format("{} + {}", one, other), Verdict::missing_effect, {one, other}, {}};
+  std::vector<Planted> shapes;
+  for (const std::string_view name : {one, other}) {
+    const Size& s = *std::find_if(std::begin(sizes), std::end(sizes),
+                                  [&](const Size& size) { return size.effect == name; });
+    kind.plan.push_back({path_of(s.effect, s.key), s.large});
+    if (s.shape != nullptr) shapes.push_back({path_of(s.effect, s.shape), s.form});
+  }
+  kind.plan.insert(kind.plan.end(), shapes.begin(), shapes.end());
+  return kind;
+}
+
+std::vector<Kind> pairs_of_effects() {
+  return {pair_of("polytropic_gas", "guide_friction"), pair_of("muscle_leak", "speed_dependent_friction"),
+          pair_of("bladder_elasticity", "encoder_backlash"), pair_of("valve_dead_band", "viscous_damping")};
+}
+
+/// Nothing that has a name: other numbers, only noise, laws of no catalogue.
+std::vector<Kind> without_effects() {
+  std::vector<Kind> kinds;
+  const auto moved = [&](const char* path, double value) {
+    kinds.push_back({fmt::format("recalibrate {}", path), Verdict::recalibrate, {}, {{path, value}}});
+  };
+  moved("muscle.rest_radius", 7.5e-3 * 1.017);
+  moved("muscle.end_correction", 1.30 * 0.984);
+  moved("friction.scale", 1.2);
+  moved("hose.conductance", 1.5e-8 * 0.8);
+  const auto null = [&](const char* title, plant::Noise noise) {
+    kinds.push_back({title, Verdict::nothing_missing, {}, {}, noise});
+  };
+  null("nothing, white", {});
+  null("nothing, much jitter", {.encoder_jitter = 2e-4});
+  null("nothing, ripple", {.ripple_Pa = 400.0, .ripple_period_s = 7.0});
+  null("nothing, strong ripple", {.ripple_Pa = 900.0, .ripple_period_s = 4.0});
+  null("nothing, wander", {.wander_Pa = 400.0, .wander_time_s = 5.0});
+  const auto law = [&](const char* title, std::vector<plant::ForceTerm> terms) {
+    kinds.push_back({title, Verdict::unknown_effect, {}, {}, {}, std::move(terms)});
+  };
+  using plant::Basis;
+  law("unknown, force along the stroke",
+      {{.of = Basis::sine, .coefficient_N = 6.0, .wavelength_m = 0.011, .phase_rad = 1.0}});
+  law("unknown, longer wave",
+      {{.of = Basis::sine, .coefficient_N = 5.0, .wavelength_m = 0.025, .phase_rad = 0.4}});
+  law("unknown, two waves", {{.of = Basis::sine, .coefficient_N = 5.0, .wavelength_m = 0.017},
+                             {.of = Basis::sine, .coefficient_N = 3.0, .wavelength_m = 0.0075}});
+  law("unknown, friction along the stroke", {{.of = Basis::direction_ratio, .coefficient_N = -60.0}});
+  return kinds;
+}
+
+/// Some of them again, with a gauge.
+std::vector<Kind> gauged(const std::vector<Kind>& all) {
+  std::vector<Kind> kinds;
+  for (const char* title :
+       {"muscle_leak small", "valve_hysteresis small", "polytropic_gas + guide_friction",
+        "muscle_leak + speed_dependent_friction", "nothing, ripple", "unknown, longer wave"}) {
+    Kind kind = *std::find_if(all.begin(), all.end(), [&](const Kind& k) { return k.title == title; });
+    kind.title = "gauge: " + kind.title;
+    kind.gauge = true;
+    kinds.push_back(std::move(kind));
+  }
+  return kinds;
+}
+
+const std::vector<Kind>& all_kinds() {
+  static const std::vector<Kind> list = [] {
+    std::vector<Kind> all;
+    const auto add = [&all](const std::vector<Kind>& kinds) {
+      all.insert(all.end(), kinds.begin(), kinds.end());
     };
-    pair(7, 1);
-    pair(6, 2);
-    pair(3, 13);
-    pair(9, 0);
-    const auto moved = [&](const char* path, double value) {
-      kinds.push_back({fmt::format("recalibrate {}", path), Verdict::recalibrate, {}, {{path, value}}});
-    };
-    moved("muscle.rest_radius", 7.5e-3 * 1.017);
-    moved("muscle.end_correction", 1.30 * 0.984);
-    moved("friction.scale", 1.2);
-    moved("hose.conductance", 1.5e-8 * 0.8);
-    const auto null = [&](const char* title, plant::Noise noise) {
-      kinds.push_back({title, Verdict::nothing_missing, {}, {}, noise});
-    };
-    null("nothing, white", {});
-    null("nothing, much jitter", {.encoder_jitter = 2e-4});
-    null("nothing, ripple", {.ripple_Pa = 400.0, .ripple_period_s = 7.0});
-    null("nothing, strong ripple", {.ripple_Pa = 900.0, .ripple_period_s = 4.0});
-    null("nothing, wander", {.wander_Pa = 400.0, .wander_time_s = 5.0});
-    const auto law = [&](const char* title, std::vector<plant::ForceTerm> terms) {
-      kinds.push_back({title, Verdict::unknown_effect, {}, {}, {}, std::move(terms)});
-    };
-    using plant::Basis;
-    law("unknown, force along the stroke",
-        {{.of = Basis::sine, .coefficient_N = 6.0, .wavelength_m = 0.011, .phase_rad = 1.0}});
-    law("unknown, longer wave",
-        {{.of = Basis::sine, .coefficient_N = 5.0, .wavelength_m = 0.025, .phase_rad = 0.4}});
-    law("unknown, two waves", {{.of = Basis::sine, .coefficient_N = 5.0, .wavelength_m = 0.017},
-                               {.of = Basis::sine, .coefficient_N = 3.0, .wavelength_m = 0.0075}});
-    law("unknown, friction along the stroke", {{.of = Basis::direction_ratio, .coefficient_N = -60.0}});
-    const auto with_gauge = [&](const char* title) {
-      Kind kind = *std::find_if(kinds.begin(), kinds.end(), [&](const Kind& k) { return k.title == title; });
-      kind.title = "gauge: " + kind.title;
-      kind.gauge = true;
-      kinds.push_back(std::move(kind));
-    };
-    with_gauge("muscle_leak small");
-    with_gauge("valve_hysteresis small");
-    with_gauge("polytropic_gas + guide_friction");
-    with_gauge("muscle_leak + speed_dependent_friction");
-    with_gauge("nothing, ripple");
-    with_gauge("unknown, longer wave");
-    return kinds;
+    add(single_effects());
+    add(pairs_of_effects());
+    add(without_effects());
+    add(gauged(all));
+    return all;
   }();
   return list;
 }
@@ -175,20 +202,8 @@ std::vector<double> current_mA(std::size_t run, std::size_t rows, Dice& dice) {
   return list;
 }
 
-}  // namespace
-
-std::size_t kinds() {
-  return all_kinds().size();
-}
-
-const std::string& title(std::size_t kind) {
-  return all_kinds()[kind].title;
-}
-
-Hidden hide(std::size_t index, std::uint64_t seed) {
-  const Kind& kind = all_kinds()[index];
-  Dice dice(1000 * seed + index);
-  Hidden hidden{.title = kind.title, .verdict = kind.verdict, .effects = kind.effects};
+/// A rig that has it; notes in `hidden` what was planted.
+plant::Rig rig_with(const Kind& kind, std::uint64_t seed, Dice& dice, Hidden& hidden) {
   plant::Rig truth;
   // Every rig is a little off its data sheet; where nothing is to be found, less than one would notice.
   for (const Parameter& p : nominal_parameters(plant::Rig{})) {
@@ -219,39 +234,63 @@ Hidden hide(std::size_t index, std::uint64_t seed) {
   }
   truth.effects.get<plant::GuideFriction>().slip_speed_m_per_s = 1e-3 * dice.between(0.6, 1.5);
   truth.effects.get<plant::ResidualForce>().terms = kind.law;
+  truth.gauge.fitted = kind.gauge;
+  return truth;
+}
+
+/// What is measured of it: load and kind of current differ from run to run.
+domain::Run measured_run(const plant::Rig& truth, const Kind& kind, std::size_t run, std::uint64_t seed,
+                         std::uint64_t stream, Dice& dice) {
+  constexpr double loads_kg[] = {11.138, 11.138, 16.138, 16.138, 23.406, 23.406, 13.870, 18.870, 18.870};
+  constexpr std::size_t currents[] = {0, 1, 2, 3, 0, 1, 4, 3, 1};
   plant::Noise noise = kind.noise;
   if (noise.encoder_jitter == 0.0) noise.encoder_jitter = 5e-5;
   if (kind.gauge) noise.gauge_Pa = 400.0;
-  truth.gauge.fitted = hidden.data.rig.gauge.fitted = kind.gauge;
-  const double loads_kg[] = {11.138, 11.138, 16.138, 16.138, 23.406, 23.406, 13.870, 18.870, 18.870};
-  const std::size_t currents[] = {0, 1, 2, 3, 0, 1, 4, 3, 1};
-  for (std::size_t run = 0; run < 9; ++run) {
-    const auto rows = static_cast<std::size_t>(dice.between(600.0, 900.0));
-    controllers::RecordedCurrent recorded;
-    recorded.samples_mA = current_mA(currents[run], rows, dice);
-    for (double& i : recorded.samples_mA) i = plant::dac_output_mA(truth.dac, i);
-    const auto controller = recorded.make(run::knowledge_of(truth, {}));
-    const auto recording = run::simulate({.rig = truth,
-                                          .load_kg = loads_kg[run],
-                                          .ticks = rows,
-                                          .engine = {solver::Method::cvode, 1e-8},
-                                          .noise = noise,
-                                          .seed = seed,
-                                          .stream = 100 * index + run},
-                                         *controller);
-    domain::Run measured;
-    measured.id = fmt::format("r{:02}", run + 1);
-    measured.load_kg = loads_kg[run];
-    measured.current_mA = recorded.samples_mA;
-    for (const auto& sample : recording.samples)
-      measured.contraction_ratio.push_back(static_cast<double>(sample.counts) *
-                                           run::contraction_per_count(truth));
-    if (kind.gauge) {
-      measured.muscle_pressure_Pa.emplace();
-      for (const auto& sample : recording.samples) measured.muscle_pressure_Pa->push_back(sample.gauge_Pa);
-    }
-    hidden.data.runs.push_back(std::move(measured));
+  const auto rows = static_cast<std::size_t>(dice.between(600.0, 900.0));
+  controllers::RecordedCurrent recorded;
+  recorded.samples_mA = current_mA(currents[run], rows, dice);
+  for (double& i : recorded.samples_mA) i = plant::dac_output_mA(truth.dac, i);
+  const auto controller = recorded.make(run::knowledge_of(truth, {}));
+  const auto recording = run::simulate({.rig = truth,
+                                        .load_kg = loads_kg[run],
+                                        .ticks = rows,
+                                        .engine = {solver::Method::cvode, 1e-8},
+                                        .noise = noise,
+                                        .seed = seed,
+                                        .stream = stream},
+                                       *controller);
+  domain::Run measured;
+  measured.id = fmt::format("r{:02}", run + 1);
+  measured.load_kg = loads_kg[run];
+  measured.current_mA = recorded.samples_mA;
+  for (const auto& sample : recording.samples)
+    measured.contraction_ratio.push_back(static_cast<double>(sample.counts) *
+                                         run::contraction_per_count(truth));
+  if (kind.gauge) {
+    measured.muscle_pressure_Pa.emplace();
+    for (const auto& sample : recording.samples) measured.muscle_pressure_Pa->push_back(sample.gauge_Pa);
   }
+  return measured;
+}
+
+}  // namespace
+
+std::size_t kinds() {
+  return all_kinds().size();
+}
+
+const std::string& title(std::size_t kind) {
+  return all_kinds()[kind].title;
+}
+
+Hidden hide(std::size_t index, std::uint64_t seed) {
+  const Kind& kind = all_kinds()[index];
+  Dice dice(1000 * seed + index);
+  Hidden hidden{.title = kind.title, .verdict = kind.verdict, .effects = kind.effects};
+  const plant::Rig truth = rig_with(kind, seed, dice, hidden);
+  hidden.data.rig.gauge.fitted = kind.gauge;
+  for (std::size_t run = 0; run < 9; ++run)
+    hidden.data.runs.push_back(measured_run(truth, kind, run, seed, 100 * index + run, dice));
   return hidden;
 }
 

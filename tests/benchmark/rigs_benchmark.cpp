@@ -1,5 +1,5 @@
-// Random rigs under random currents with each method: how many runs fail and why, and how well the ledger
-// closes.
+// Random rigs under random currents with each method:
+// how many runs fail and why, and how well the ledger closes.
 //
 //   ./mckibben bench rigs [SEED] [COUNT] [full|moderate]   over the documented ranges, or within a factor 2
 //                                                          of the thesis's rig

@@ -143,8 +143,8 @@ constexpr Case cases[] = {
     {70, "replay heavy.yaml --out r11"},
     {70, "diagnose heavy.yaml --out r12"},
     {70,
-     "map cal/calibration.yaml --rig falling_rig.yaml --load '45 kg' --extrapolate-load --ratios 1 --speeds "
-     "1 --out r13"},
+     "map cal/calibration.yaml --rig falling_rig.yaml --load '45 kg' "
+     "--extrapolate-load --ratios 1 --speeds 1 --out r13"},
     {70, "doctor --tolerance 1e-3"},
     {74, "run quick.yaml --out file"},
     {74, "dataset campaign.yaml --out file"},

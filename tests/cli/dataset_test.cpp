@@ -29,8 +29,8 @@ constexpr const char* small_campaign =
     "loads: [11.138 kg, 23.406 kg]\n"
     "currents:\n"
     "  - {duration: 2.4 s, current: {kind: sine_current, low: 0 mA, high: 20 mA, period: 2.4 s}}\n"
-    "  - {name: up, duration: 1.2 s, current: {kind: step_current, start: 4 mA, moves: [{at: 0.3 s, to: 14 "
-    "mA}]}}\n"
+    "  - {name: up, duration: 1.2 s, current: {kind: step_current, start: 4 mA, "
+    "moves: [{at: 0.3 s, to: 14 mA}]}}\n"
     "repeats: 2\n"
     "noise: {encoder_jitter: 1e-4, gauge: 4 mbar}\n";
 

@@ -12,8 +12,8 @@
 namespace mckibben::controllers {
 namespace {
 
-// Contraction ratio at which braid force less friction carries the load (T 4.29 to 4.31 without
-// acceleration).
+// Contraction ratio at which braid force less friction carries the
+// load (T 4.29 to 4.31 without acceleration).
 double rest_ratio(const Knowledge& knowledge, const FrictionModel& friction, double nu, double load_kg,
                   double current_mA) {
   const double pressure_Pa = knowledge.valve.pressure_Pa(current_mA);

@@ -200,8 +200,8 @@ TEST(Checks, WrongUnitsAreErrorsThatNameFileAndColumn) {
   EXPECT_EQ(
       error(per_cent),
       "planted/dataset.yaml: error: run r02: contraction is up to 31.15, 100 times what the rig would do; "
-      "this looks like per cent, not a ratio; write columns: {contraction: {column: contraction_ratio, unit: "
-      "\"%\"}}");
+      "this looks like per cent, not a ratio; write columns: {contraction: "
+      "{column: contraction_ratio, unit: \"%\"}}");
   auto metres = sound();
   for (double& ratio : metres.runs[1].contraction_ratio) ratio *= metres.rig.muscle.rest_length_m;
   EXPECT_NE(error(metres).find("metres"), std::string::npos);

@@ -1,5 +1,5 @@
-// The workflow where nothing is hidden, and what its results may not depend on. Data with something hidden:
-// tests/workflow.
+// The workflow where nothing is hidden, and what its results may not depend on.
+// Data with something hidden: tests/workflow.
 #include <cmath>
 #include <random>
 

@@ -1,5 +1,5 @@
-// Runs whose recording is at fault, each kind alone: found in its run, with its size; and sound runs left
-// alone.
+// Runs whose recording is at fault, each kind alone: found in its run, with its size;
+// and sound runs left alone.
 #include <algorithm>
 #include <cmath>
 #include <functional>

@@ -1,5 +1,5 @@
-// Rigs carried side by side: each goes where it would go alone, and differences between them are
-// sensitivities.
+// Rigs carried side by side: each goes where it would go alone,
+// and differences between them are sensitivities.
 #include <stdexcept>
 #include <vector>
 

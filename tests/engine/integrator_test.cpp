@@ -1,5 +1,5 @@
-// What any method must do: converge, agree with the other, see every jump, fail loudly, leave the ledger
-// aside.
+// What any method must do: converge, agree with the other,
+// see every jump, fail loudly, leave the ledger aside.
 #include <cmath>
 #include <cstring>
 #include <string>
@@ -96,8 +96,8 @@ TEST_P(EitherMethod, FailureNamesTimeStateAndCause) {
   }
 }
 
-// A small controlled volume lets trial stages overshoot below vacuum; a smaller step must do, with either
-// method.
+// A small controlled volume lets trial stages overshoot below vacuum;
+// a smaller step must do, with either method.
 TEST_P(EitherMethod, RecoversFromTrialStatesOutsideTheDomain) {
   plant::Rig rig;
   rig.valve.volume_m3 = 0.65e-6;

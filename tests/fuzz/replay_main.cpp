@@ -1,5 +1,5 @@
-// A fuzz target without clang's fuzzer: replays its corpus, then as many seeded mutations of it as are
-// wanted.
+// A fuzz target without clang's fuzzer: replays its corpus,
+// then as many seeded mutations of it as are wanted.
 //   fuzz_replay TARGET MUTATIONS SEED CORPUS [FOLDER...]      the files of FOLDERs are replayed only
 #include <algorithm>
 #include <exception>

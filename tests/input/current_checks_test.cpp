@@ -52,14 +52,13 @@ TEST(CurrentChecks, LimitsBeyondTheValvesAreWarnedOfWithTheirLine) {
   read("{valve: {zero_current: 1 mA}}", "{kind: pid, lowest_current: 0 mA}", warnings);
   read("{dac: {largest_current: 18 mA}}", "{kind: pid, highest_current: 20 mA}", warnings);
   ASSERT_EQ(warnings.size(), 4u);
-  EXPECT_EQ(
-      warnings[0].message,
-      "highest_current = 20 mA is above the valve's span_current, 10 mA: from there on the pressure does "
-      "not change");
+  EXPECT_EQ(warnings[0].message,
+            "highest_current = 20 mA is above the valve's span_current, 10 mA: "
+            "from there on the pressure does not change");
   EXPECT_EQ(warnings[0].place.line, 7u);
   EXPECT_EQ(warnings[1].message,
-            "lowest_current = 0 mA is below the valve's zero_current, 1 mA: from there on the pressure does "
-            "not change");
+            "lowest_current = 0 mA is below the valve's zero_current, 1 mA: "
+            "from there on the pressure does not change");
   EXPECT_TRUE(says(warnings[2].message, "dac.largest_current = 18 mA is below the valve's span_current"));
   EXPECT_TRUE(says(warnings[3].message, "is above the DAC's largest_current, 18 mA"));
 }

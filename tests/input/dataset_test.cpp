@@ -93,11 +93,11 @@ TEST(Csv, RangeIsCheckedRowByRow) {
 }
 
 constexpr const char* good_lvm =
-    "LabVIEW "
-    "Measurement\t\nSeparator\tTab\nDecimal_Separator\t,\nX_Columns\tMulti\n***End_of_Header***\t\n\t\n"
+    "LabVIEW Measurement\t\nSeparator\tTab\nDecimal_Separator\t,\nX_Columns\tMulti\n"
+    "***End_of_Header***\t\n\t\n"
     "Channels\t2\nX_Dimension\tTime\tTime\nX0\t0,0\t0,0\n***Start_Special***\nx\n***End_Special***\n"
-    "***End_of_Header***\t\t\nX_Value\tI\tX_Value\tratio\tComment\n0,0\t4\t0,0\t0,1\n0,012\t4,5\t0,012\t0,"
-    "1\tso\n\n"
+    "***End_of_Header***\t\t\nX_Value\tI\tX_Value\tratio\tComment\n"
+    "0,0\t4\t0,0\t0,1\n0,012\t4,5\t0,012\t0,1\tso\n\n"
     "Channels\t2\nX0\t0,0\t0,0\n***End_of_Header***\nX_Value\tI\tX_Value\tratio\n0,024\t4\t0,024\t0,1\n";
 constexpr const char* good_ascii = "# made by hand\n0 4 0.1\n 0.012 ; 4.5\t0.2\n0.024 4 0.1 \n\n";
 

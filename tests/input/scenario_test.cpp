@@ -1,5 +1,5 @@
-// Scenarios: what is read, what is left at its default, and that reading, writing and reading again changes
-// no bit.
+// Scenarios: what is read, what is left at its default, and that reading,
+// writing and reading again changes no bit.
 #include <numbers>
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
-// The JSON Schema and the documentation's tables know every key that the reader knows, because all come from
-// one list.
+// The JSON Schema and the documentation's tables know every key that the reader knows,
+// because all come from one list.
 #include <set>
 
 #include <gtest/gtest.h>

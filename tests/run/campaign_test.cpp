@@ -1,5 +1,5 @@
-// The runs of a campaign: their names, noise of their own, no dependence on order or threads, and an end in
-// the middle.
+// The runs of a campaign: their names, noise of their own,
+// no dependence on order or threads, and an end in the middle.
 #include <csignal>
 #include <cstdlib>
 #include <map>

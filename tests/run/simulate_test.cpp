@@ -1,5 +1,5 @@
-// The tick loop: order of things in a tick, the static hysteresis loop, instruments, chance, and no heap on
-// the way.
+// The tick loop: order of things in a tick, the static hysteresis loop,
+// instruments, chance, and no heap on the way.
 #include <cmath>
 #include <cstring>
 
@@ -51,8 +51,8 @@ TEST(Simulate, TheCurrentOfARowIsFeltInTheNext) {
             recording.samples[3].state.side.valve_pressure_Pa + 1e4);
 }
 
-// T 2.8, 4.1, 4.2 at rest: going up P (A [..] - f S) = m g + floor, coming down P (A [..] + f S) = m g -
-// floor.
+// T 2.8, 4.1, 4.2 at rest: going up P (A [..] - f S) = m g + floor,
+// coming down P (A [..] + f S) = m g - floor.
 TEST(Simulate, ASlowRideRunsRoundTheStaticHysteresisLoop) {
   const double load_kg = 16.138;
   const plant::Rig rig;

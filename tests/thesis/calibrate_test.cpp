@@ -53,8 +53,8 @@ TEST(Calibrate, WithTheTruePressureFindsTheTrueFriction) {
   const plant::Friction truth;  // per cent
   EXPECT_NEAR(fit.f0.value, 0.01 * truth.f0, 0.1 * 0.01 * truth.f0);
   EXPECT_NEAR(fit.f2.value, 0.01 * truth.f2, 0.1 * std::abs(0.01 * truth.f2));
-  // From the current alone, the lag of valve and hose looks like friction that grows with the current's
-  // speed.
+  // From the current alone, the lag of valve and hose looks like
+  // friction that grows with the current's speed.
   const FrictionFit& from_current = calibrated().friction_of(Direction::contraction);
   EXPECT_GT(from_current.mean, 1.2 * fit.mean);
   EXPECT_GT(from_current.f1.value, 10.0 * std::abs(fit.f1.value));

@@ -1,5 +1,5 @@
-// Processing of one run: half periods, speeds, directions, and friction coefficients that were put in by the
-// thesis's formulas.
+// Processing of one run: half periods, speeds, directions,
+// and friction coefficients that were put in by the thesis's formulas.
 #include <cmath>
 #include <numbers>
 
@@ -48,8 +48,8 @@ TEST(HalfPeriods, AConstantCurrentHasNone) {
   EXPECT_TRUE(half_periods({}).empty());
 }
 
-/// Up and down in steps of two counts, the pressure always as T 4.1 to 4.3 ask for these friction
-/// coefficients.
+/// Up and down in steps of two counts, the pressure always as T 4.1
+/// to 4.3 ask for these friction coefficients.
 domain::Run planted_run(const plant::Rig& rig, double load_kg, double contraction, double relaxation) {
   const plant::Braid braid(rig.muscle);
   const double per_count = plant::count_height_m(rig.encoder, rig.joint) / rig.muscle.rest_length_m;
