@@ -1,36 +1,31 @@
-// The verbs and their options, as CLI11 reads them: the one list from which help and completion come.
+// The command line as CLI11 reads it: the one list of verbs and options from which help and completion come.
 #pragma once
 
 #include <functional>
-#include <optional>
-#include <string>
-#include <vector>
+#include <memory>
 
 #include <CLI/CLI.hpp>
-
-#include <sim/cli/verbs.hpp>
 
 namespace mckibben::cli {
 
 /// What the command line asks for.
 struct Asked {
-  Options options;
-  std::string path, kind = "scenario", format = "json", study, plan, other, shell;
-  std::vector<std::string> names;
-  CalibrateOptions calibration;
-  MapOptions targets;
-  double tolerance = 0.0;
-  std::optional<double> allowed;
   std::function<int()> chosen;  ///< does what the verb is for
+
+  /// Once `verb` is read, what is asked for is `work` with its options. Returns these, at their defaults, to
+  /// be filled by the command line; they live as long as the verb.
+  template <class Own>
+  Own& when(CLI::App& verb, int (*work)(const Own&)) {
+    const auto options = std::make_shared<Own>();
+    verb.callback([this, options, work] { chosen = [options, work] { return work(*options); }; });
+    return *options;
+  }
 };
 
 /// Adds all verbs; parsing then fills `asked`.
 void build(CLI::App& app, Asked& asked);
 
-// Parts of it.
-void add_simulating_verbs(CLI::App& app, Asked& asked);
-void add_model_verbs(CLI::App& app, Asked& asked);
-void add_comparing_verbs(CLI::App& app, Asked& asked);
-void add_helping_verbs(CLI::App& app, Asked& asked);
+/// Adds one of them; `group`: the heading of the help under which it stands.
+CLI::App& add_verb(CLI::App& app, const char* name, const char* group, const char* what_it_does);
 
 }  // namespace mckibben::cli

@@ -11,6 +11,7 @@
 #include <sim/cli/exit_status.hpp>
 #include <sim/cli/options.hpp>
 #include <sim/cli/results.hpp>
+#include <sim/cli/verbs.hpp>
 #include <sim/input/fields_json.hpp>
 
 namespace mckibben::cli {
@@ -202,18 +203,37 @@ std::string zsh_script(const CLI::App& app) {
          "fi\n";
 }
 
-}  // namespace
+struct CompletionOptions : Options {
+  std::string shell;  ///< bash or zsh
+};
 
-int print_completion(const std::string& shell, const Options& options) {
+int print_completion(const CompletionOptions& options) {
   CLI::App app("", "mckibben");
   Asked asked;
   build(app, asked);
-  const std::string script = shell == "zsh" ? zsh_script(app) : bash_script(app);
-  print(options.json
-            ? input::Json{{"schema", "mckibben-completion/1"}, {"shell", shell}, {"script", script}}.dump(2) +
-                  "\n"
-            : script);
+  const std::string script = options.shell == "zsh" ? zsh_script(app) : bash_script(app);
+  const input::Json document{
+      {"schema", "mckibben-completion/1"}, {"shell", options.shell}, {"script", script}};
+  print(options, {document.dump(2) + "\n", script});
   return done;
+}
+
+}  // namespace
+
+void add_completion(CLI::App& app, Asked& asked) {
+  CLI::App& verb = add_verb(app, "completion", to_find_out,
+                            "Print a script by which the shell completes verbs, options and values");
+  CompletionOptions& options = asked.when(verb, print_completion);
+  verb.add_option("shell", options.shell, "For which shell")
+      ->required()
+      ->check(one_of("shell", {"bash", "zsh"}))
+      ->type_name("");
+  add_json(verb, options);
+  verb.footer(
+      "Examples:\n"
+      "  mckibben completion bash > ~/.local/share/bash-completion/completions/mckibben\n"
+      "  mckibben completion zsh > ~/.zfunc/_mckibben     where ~/.zfunc is in fpath, before compinit\n"
+      "Or for this session only: source <(mckibben completion bash)\n");
 }
 
 }  // namespace mckibben::cli

@@ -8,6 +8,7 @@
 #include <fmt/ranges.h>
 
 #include <sim/cli/exit_status.hpp>
+#include <sim/cli/options.hpp>
 #include <sim/cli/results.hpp>
 #include <sim/cli/verbs.hpp>
 #include <sim/diagnose/diagnose.hpp>
@@ -17,7 +18,6 @@
 #include <sim/output/diagnosis_rig.hpp>
 #include <sim/output/diagnosis_table.hpp>
 #include <sim/output/diagnosis_words.hpp>
-#include <sim/output/progress.hpp>
 #include <sim/report/report.hpp>
 #include <sim/run/batch.hpp>
 #include <sim/run/replay.hpp>
@@ -49,48 +49,83 @@ void write_plan(const std::string& plan, const input::Dataset& data, const diagn
   fmt::print(stderr, "plan in {}\n", plan);
 }
 
-}  // namespace
+struct DiagnoseOptions : Options {
+  std::string dataset;
+  std::string rig;   ///< replaces the data set's; empty for none
+  std::string plan;  ///< where to write the next experiment as a campaign; empty for nowhere
+};
 
-int diagnose_dataset(const std::string& path, const Options& options, const std::string& plan) {
-  input::Dataset data = input::read_dataset(path);
-  if (!options.rig.empty()) data.rig = input::read_rig(options.rig, data.inputs);
-  const std::string name = output::name_of(data);
-  const auto where = destination(options, "diagnose-" + name);
-  keep_apart(where, data.inputs);
-  check_plan(plan);
-  output::ResultFolder folder(where, "diagnose " + path, say);
+/// What is found, and the runs replayed on the data set's rig and on the corrected one, for pressures and
+/// forces.
+struct Found {
+  diagnose::Diagnosis diagnosis;
+  std::vector<run::ReplayedRun> nominal, corrected;
+};
 
-  diagnose::Diagnosis found;
-  std::vector<std::string> known;                    // so far
-  std::vector<run::ReplayedRun> nominal, corrected;  // for pressures and forces
+/// Says what is known so far where it is interrupted.
+template <class Hook>
+Found find(const input::Dataset& data, const DiagnoseOptions& options, const Hook& hook) {
+  std::vector<std::string> known;
+  const diagnose::Settings settings{options.threads, options.seed.value_or(1),
+                                    [&](const std::string& what) { known.push_back(what); }};
   try {
-    output::Progress progress(name);
-    const diagnose::Settings settings{options.threads, options.seed.value_or(1),
-                                      [&](const std::string& what) { known.push_back(what); }};
-    found = diagnose::diagnose(data, settings, progress.hook());
-    nominal = run::replay(data, options.threads, progress.hook());
+    Found found{diagnose::diagnose(data, settings, hook), {}, {}};
+    found.nominal = run::replay(data, options.threads, hook);
     input::Dataset mended = data;
-    mended.rig = found.corrected;
-    corrected = run::replay(mended, options.threads, progress.hook());
+    mended.rig = found.diagnosis.corrected;
+    found.corrected = run::replay(mended, options.threads, hook);
+    return found;
   } catch (const run::Interrupted&) {
     if (!known.empty()) fmt::print(stderr, "known so far:\n  {}\n", fmt::join(known, "\n  "));
     throw;
+  }
+}
+
+int diagnose_dataset(const DiagnoseOptions& options) {
+  input::Dataset data = input::read_dataset(options.dataset);
+  if (!options.rig.empty()) data.rig = input::read_rig(options.rig, data.inputs);
+  const std::string name = output::name_of(data);
+  check_plan(options.plan);
+  Job job(options, "diagnose " + options.dataset, "diagnose-" + name, data.inputs);
+  Found found;
+  try {
+    found = with_progress(name, [&](const auto& hook) { return find(data, options, hook); });
   } catch (const engine::NumericalFailure& error) {
-    fmt::print(stderr, "mckibben: the data cannot be simulated on this rig: {}\n", error.what());
+    say(fmt::format("the data cannot be simulated on this rig: {}", error.what()));
     return failure;
   }
-  const std::string document = output::json_of(data, found).dump(2) + "\n";
-  folder.write("diagnosis.json", document);
-  folder.write("rig.yaml", output::rig_yaml(data, found));
-  folder.write("report.html", report::report_html(data, found, nominal, corrected));
-  publish(folder, where);
-  write_plan(plan, data, found);
-  const auto file = [&](const char* leaf) { return (where / leaf).string(); };
-  print(options.json ? document
-                     : output::table_of(data, found) + fmt::format("\nreport {}\nrig    {}\nall    {}\n",
-                                                                   file("report.html"), file("rig.yaml"),
-                                                                   file("diagnosis.json")));
-  return done;
+  const diagnose::Diagnosis& diagnosis = found.diagnosis;
+  const std::string document = output::json_of(data, diagnosis).dump(2) + "\n";
+  job.write("diagnosis.json", document);
+  job.write("rig.yaml", output::rig_yaml(data, diagnosis));
+  job.write("report.html", report::report_html(data, diagnosis, found.nominal, found.corrected));
+  const auto file = [&](const char* leaf) { return (job.where() / leaf).string(); };
+  const std::string files = fmt::format("\nreport {}\nrig    {}\nall    {}\n", file("report.html"),
+                                        file("rig.yaml"), file("diagnosis.json"));
+  const int status = job.finish({document, output::table_of(data, diagnosis) + files}, done);
+  write_plan(options.plan, data, diagnosis);
+  return status;
+}
+
+}  // namespace
+
+void add_diagnose(CLI::App& app, Asked& asked) {
+  CLI::App& verb =
+      add_verb(app, "diagnose", to_compare,
+               "Find where model and data disagree; name the missing effect, add it, show the gap shrink");
+  DiagnoseOptions& options = asked.when(verb, diagnose_dataset);
+  add_measured(verb, options.dataset);
+  add_common(verb, options);
+  add_rig(verb, options.rig, "instead of the data set's");
+  add_seed(verb, options, "the resampling (default: 1)");
+  verb.add_option("--plan", options.plan,
+                  "Write the measurement that would tell more, if one would, as a campaign")
+      ->type_name("FILE");
+  verb.footer(
+      "Examples:\n"
+      "  mckibben diagnose measured/\n"
+      "  mckibben diagnose measured/ --out diagnosis --plan next.yaml\n"
+      "Writes report.html (to read), rig.yaml (the corrected rig, for run and replay) and diagnosis.json.\n");
 }
 
 }  // namespace mckibben::cli

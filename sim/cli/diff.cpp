@@ -1,14 +1,15 @@
 // The verb `diff`: two run folders side by side.
-#include <filesystem>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include <sim/cli/exit_status.hpp>
+#include <sim/cli/options.hpp>
 #include <sim/cli/results.hpp>
 #include <sim/cli/run_folders.hpp>
 #include <sim/cli/verbs.hpp>
-#include <sim/output/folder.hpp>
 #include <sim/output/grid.hpp>
 
 namespace mckibben::cli {
@@ -119,10 +120,13 @@ std::string text_of(const FolderDifference& found) {
   return text;
 }
 
-}  // namespace
+struct DiffOptions : Options {
+  std::string left, right;
+  std::optional<double> tolerance;  ///< largest difference of the contraction ratio that is allowed
+};
 
-int compare_folders(const std::string& left, const std::string& right, std::optional<double> tolerance,
-                    const Options& options) {
+int compare_folders(const DiffOptions& options) {
+  const std::string &left = options.left, &right = options.right;
   const FolderDifference found = compare_run_folders(left, right);
   Json document{{"schema", "mckibben-diff/1"},
                 {"left", left},
@@ -130,25 +134,42 @@ int compare_folders(const std::string& left, const std::string& right, std::opti
                 {"same_inputs", found.inputs.empty()},
                 {"same_runs", found.same_runs()}};
   std::string text = fmt::format("left {}, right {}\n\n", left, right) + text_of(found);
-  const bool met = !tolerance || found.within(*tolerance);
-  if (tolerance) {
-    document["tolerance"] = *tolerance;
+  const bool met = !options.tolerance || found.within(*options.tolerance);
+  if (options.tolerance) {
+    document["tolerance"] = *options.tolerance;
     document["within_tolerance"] = met;
     text += fmt::format("{} the tolerance: contraction ratios {} {:g} at every tick of every run.\n",
                         met ? "Within" : "Not within", met ? "differ by at most" : "do not all stay within",
-                        *tolerance);
+                        *options.tolerance);
   }
   document.update(json_of(found));
   const std::string json = document.dump(2) + "\n";
-  if (!options.out.empty()) {
-    keep_apart(options.out, {{left + "/run.json", ""}, {right + "/run.json", ""}});
-    output::ResultFolder folder(options.out, "diff " + left + " " + right, say);
-    folder.write("diff.json", json);
-    folder.write("table.txt", text);
-    publish(folder, options.out);
-  }
-  print(options.json ? json : text);
-  return met ? done : criterion_not_met;
+  Job job(options, "diff " + left + " " + right, std::nullopt,
+          {{left + "/run.json", ""}, {right + "/run.json", ""}});
+  job.write("diff.json", json);
+  job.write("table.txt", text);
+  return job.finish({json, text}, met ? done : criterion_not_met);
+}
+
+}  // namespace
+
+void add_diff(CLI::App& app, Asked& asked) {
+  CLI::App& verb = add_verb(app, "diff", to_find_out,
+                            "Compare two folders that run or replay wrote: inputs, metrics, trajectories");
+  DiffOptions& options = asked.when(verb, compare_folders);
+  add_input(verb, options.left, "left", "Folder that run or replay wrote", "FOLDER");
+  add_input(verb, options.right, "right", "Another one, written by the same verb", "FOLDER");
+  add_out(verb, options, "nothing is written");
+  add_json(verb, options);
+  verb.add_option("--tolerance", options.tolerance,
+                  "Difference of the contraction ratio that is allowed at any tick; more is exit status 1 "
+                  "(default: any)")
+      ->check(from_to(0.0, 1.0))
+      ->type_name("RATIO");
+  verb.footer(
+      "Examples:\n"
+      "  mckibben diff out/five_loads out/mine            what differs?\n"
+      "  mckibben diff before/ after/ --tolerance 1e-6    has anything changed? for a script\n");
 }
 
 }  // namespace mckibben::cli

@@ -13,8 +13,10 @@
 
 #include <sim/cli/exit_status.hpp>
 #include <sim/cli/known_cases.hpp>
+#include <sim/cli/options.hpp>
 #include <sim/cli/results.hpp>
 #include <sim/cli/verbs.hpp>
+#include <sim/engine/settings.hpp>
 #include <sim/engine/versions.hpp>
 #include <sim/input/field_kinds.hpp>
 #include <sim/input/fields_json.hpp>
@@ -122,17 +124,36 @@ std::string text_of(const Findings& found) {
                                : "\nResults of this program cannot be trusted here.\n");
 }
 
-}  // namespace
+struct DoctorOptions : Options {
+  double tolerance = engine::Settings{}.tolerance;  ///< of the integration
+};
 
-int examine(double tolerance, const Options& options) {
+int examine(const DoctorOptions& options) {
   Findings found;
-  found.cases = known_cases(tolerance);
+  found.cases = known_cases(options.tolerance);
   found.sundials = engine::sundials_build();
   found.versions_agree = found.sundials.version == found.sundials.headers_version;
   found.out_is_writable = can_write("out");
   found.threads = std::max(1U, std::thread::hardware_concurrency());
-  print(options.json ? json_of(found).dump(2) + "\n" : text_of(found));
+  print(options, {json_of(found).dump(2) + "\n", text_of(found)});
   return !found.sound() ? failure : found.out_is_writable ? done : cannot_write;
+}
+
+}  // namespace
+
+void add_doctor(CLI::App& app, Asked& asked) {
+  CLI::App& verb = add_verb(app, "doctor", to_find_out,
+                            "Is the program sound here? Integrates known cases; prints versions and builds");
+  DoctorOptions& options = asked.when(verb, examine);
+  add_json(verb, options);
+  verb.add_option("--tolerance", options.tolerance, "Of the integration (default: 1e-6, as in a rig)")
+      ->check(from_to(engine::tightest_tolerance, 1e-3))
+      ->type_name("RATIO");
+  verb.footer(
+      "Examples:\n"
+      "  mckibben doctor\n"
+      "  mckibben doctor --json > doctor.json             to go with a report of something odd\n"
+      "Exit status: 70 if a case is not found, 74 if out/ cannot be written.\n");
 }
 
 }  // namespace mckibben::cli

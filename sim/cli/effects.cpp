@@ -1,20 +1,22 @@
 // The verb effects: the catalogue of what a rig may have besides the nominal, from the table that the plant
 // computes with (plant/effects.hpp) and the lists that the reader checks with.
 #include <algorithm>
-#include <cstdio>
+#include <optional>
+#include <string>
 #include <tuple>
 #include <type_traits>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include <plant/effects.hpp>
 #include <sim/cli/exit_status.hpp>
+#include <sim/cli/options.hpp>
 #include <sim/cli/results.hpp>
 #include <sim/cli/verbs.hpp>
 #include <sim/input/field_list.hpp>
 #include <sim/input/yaml_writer.hpp>
 #include <sim/output/effect_pictures.hpp>
-#include <sim/output/folder.hpp>
 #include <sim/output/grid.hpp>
 
 namespace mckibben::cli {
@@ -167,42 +169,58 @@ std::string overview(const std::vector<Entry>& all) {
   return text + "How to switch one on: mckibben effects NAME\n";
 }
 
-}  // namespace
-
 std::vector<std::string> names_of_effects() {
   std::vector<std::string> names;
   for (const Entry& entry : catalogue()) names.emplace_back(entry.name);
   return names;
 }
 
-int list_effects(const std::vector<std::string>& names, const Options& options) {
+struct EffectsOptions : Options {
+  std::vector<std::string> names;  ///< of effects that are known; none for all
+};
+
+int list_effects(const EffectsOptions& options) {
   const std::vector<Entry> all = catalogue();
-  std::vector<Entry> chosen;
-  chosen.reserve(names.size());
-  for (const auto& name : names)
-    chosen.push_back(
+  std::vector<Entry> named;
+  named.reserve(options.names.size());
+  for (const auto& name : options.names)
+    named.push_back(
         *std::find_if(all.begin(), all.end(), [&name](const Entry& entry) { return entry.name == name; }));
-  Json list = Json::array(), apart = nullptr;
-  for (const Entry& entry : names.empty() ? all : chosen) {
+  const std::vector<Entry>& chosen = named.empty() ? all : named;
+
+  Json document{{"schema", "mckibben-effects/1"}, {"effects", Json::array()}};
+  for (const Entry& entry : chosen) {
     if (is_residual(entry))
-      apart = json_of(entry);
+      document["residual_law"] = json_of(entry);
     else
-      list.push_back(json_of(entry));
+      document["effects"].push_back(json_of(entry));
   }
-  Json document{{"schema", "mckibben-effects/1"}, {"effects", std::move(list)}};
-  if (!apart.is_null()) document["residual_law"] = std::move(apart);
   const std::string json = document.dump(2) + "\n";
-  std::string text = names.empty() ? overview(all) : "";
-  for (const Entry& entry : chosen) text += (text.empty() ? "" : "\n") + details(entry) + how_to(entry);
-  if (!options.out.empty()) {
-    output::ResultFolder folder(options.out, "effects", say);
-    folder.write("effects.json", json);
-    for (const Entry& entry : names.empty() ? all : chosen)
-      if (!is_residual(entry)) folder.write(std::string(entry.name) + ".svg", output::effect_svg(entry.name));
-    publish(folder, options.out);
-  }
-  print(options.json ? json : text);
-  return done;
+  std::string text = named.empty() ? overview(all) : "";
+  for (const Entry& entry : named) text += (text.empty() ? "" : "\n") + details(entry) + how_to(entry);
+  Job job(options, "effects", std::nullopt, {});
+  job.write("effects.json", json);
+  if (job.has_folder())
+    for (const Entry& entry : chosen)
+      if (!is_residual(entry)) job.write(std::string(entry.name) + ".svg", output::effect_svg(entry.name));
+  return job.finish({json, text}, done);
+}
+
+}  // namespace
+
+void add_effects(CLI::App& app, Asked& asked) {
+  CLI::App& verb = add_verb(app, "effects", to_find_out,
+                            "The catalogue of effects that a rig may have: laws, parameters, sources");
+  EffectsOptions& options = asked.when(verb, list_effects);
+  verb.add_option("names", options.names, "Only these, with how to switch them on")
+      ->check(one_of("effect", names_of_effects()))
+      ->type_name("");
+  add_common(verb, options, "nothing is written");
+  verb.footer(
+      "Examples:\n"
+      "  mckibben effects                                 all of them\n"
+      "  mckibben effects muscle_leak                     its law, and what to write into a rig file\n"
+      "  mckibben effects --out pictures                  effects.json, and a picture of what each does\n");
 }
 
 }  // namespace mckibben::cli

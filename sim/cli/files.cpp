@@ -2,10 +2,14 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include <sim/cli/exit_status.hpp>
+#include <sim/cli/options.hpp>
 #include <sim/cli/results.hpp>
 #include <sim/cli/verbs.hpp>
 #include <sim/input/calibration_file.hpp>
@@ -19,7 +23,6 @@
 #include <sim/input/utf8.hpp>
 #include <sim/input/yaml_file.hpp>
 #include <sim/input/yaml_writer.hpp>
-#include <sim/output/folder.hpp>
 #include <sim/run/sanity.hpp>
 
 namespace mckibben::cli {
@@ -95,12 +98,14 @@ int print_kind(std::string_view schema, const char* title, const Schema& fields,
   return done;
 }
 
-}  // namespace
+struct CheckOptions : Options {
+  std::vector<std::string> files;
+};
 
-int check_files(const std::vector<std::string>& paths, const Options& options) {
+int check_files(const CheckOptions& options) {
   int status = done;
   Json findings = Json::array();
-  for (const auto& path : paths) {
+  for (const auto& path : options.files) {
     std::vector<Problem> found;
     int file_status = done;
     std::string missing, looked;
@@ -129,20 +134,21 @@ int check_files(const std::vector<std::string>& paths, const Options& options) {
       print(fmt::format("{}: ok{}\n", path, looked.empty() ? "" : fmt::format(" ({})", looked)));
   }
   const std::string document = Json{{"schema", "mckibben-check/1"}, {"files", findings}}.dump(2) + "\n";
-  if (!options.out.empty()) {
-    std::vector<input::InputFile> read;
-    read.reserve(paths.size());
-    for (const auto& path : paths) read.push_back({path, ""});
-    keep_apart(options.out, read);
-    output::ResultFolder folder(options.out, "check", say);
-    folder.write("check.json", document);
-    folder.publish();
-  }
-  if (options.json) print(document);
-  return status;
+  std::vector<input::InputFile> read;
+  read.reserve(options.files.size());
+  for (const auto& path : options.files) read.push_back({path, ""});
+  Job job(options, "check", std::nullopt, read);
+  job.write("check.json", document);
+  return job.finish({document, ""}, status);
 }
 
-int print_schema(const std::string& kind, const std::string& format) {
+struct SchemaOptions : Options {
+  std::string kind = "scenario";  ///< scenario, campaign, rig or dataset
+  std::string format = "json";  ///< JSON Schema; markdown: a table; yaml: the rig `thesis`, whatever the kind
+};
+
+int print_schema(const SchemaOptions& options) {
+  const std::string &kind = options.kind, &format = options.format;
   if (format == "yaml") {
     print(input::to_yaml(input::rig_json(input::RigFile{})));
     return done;
@@ -154,6 +160,41 @@ int print_schema(const std::string& kind, const std::string& format) {
   if (kind == "dataset")
     return print_kind(input::dataset_schema, "Data set", input::list_fields<input::Dataset>(), format);
   return print_kind(input::scenario_schema, "Scenario", input::list_fields<input::Scenario>(), format);
+}
+
+}  // namespace
+
+void add_check(CLI::App& app, Asked& asked) {
+  CLI::App& verb = add_verb(app, "check", to_find_out,
+                            "Validate scenario, campaign, rig and data set files; nothing is run");
+  CheckOptions& options = asked.when(verb, check_files);
+  verb.add_option("files", options.files, "Files to check")->required()->type_name("FILE");
+  add_common(verb, options, "nothing is written");
+  verb.footer(
+      "Examples:\n"
+      "  mckibben check scenarios/*.yaml\n"
+      "  mckibben check measured/ --json                  a data set and all of its files\n"
+      "Every error of a file at once, each with file, line, column, value and rule.\n");
+}
+
+void add_schema(CLI::App& app, Asked& asked) {
+  CLI::App& verb =
+      add_verb(app, "schema", to_find_out, "Print the keys of a kind of file, as JSON Schema or as a table");
+  SchemaOptions& options = asked.when(verb, print_schema);
+  verb.add_option("kind", options.kind, "Kind of file (default: scenario)")
+      ->check(one_of("kind", {"scenario", "campaign", "rig", "dataset"}))
+      ->type_name("");
+  CLI::Option* format =
+      verb.add_option("--format", options.format,
+                      "How to print it (default: json); yaml prints the rig `thesis` with every value, to "
+                      "start from")
+          ->check(one_of("format", {"json", "markdown", "yaml"}))
+          ->type_name("");
+  verb.add_flag("--json", options.json, "The same as --format json")->excludes(format);
+  verb.footer(
+      "Examples:\n"
+      "  mckibben schema scenario --format markdown       every key with unit, default and range\n"
+      "  mckibben schema rig --format yaml > my_rig.yaml  a rig to change\n");
 }
 
 }  // namespace mckibben::cli

@@ -9,6 +9,7 @@
 #include <fmt/ranges.h>
 
 #include <sim/cli/exit_status.hpp>
+#include <sim/cli/options.hpp>
 #include <sim/cli/results.hpp>
 #include <sim/cli/verbs.hpp>
 #include <sim/input/field_list.hpp>
@@ -86,9 +87,12 @@ std::string scenario_to_start_from(const std::string& file) {
   return text;
 }
 
-}  // namespace
+struct InitOptions : Options {
+  std::string file = "scenario.yaml";  ///< where to
+};
 
-int write_scenario(const std::string& path, const Options& options) {
+int write_scenario(const InitOptions& options) {
+  const std::string& path = options.file;
   const std::filesystem::path file = path;
   if (path.empty()) throw output::CannotWrite("cannot write a file without a name");
   std::error_code error;
@@ -99,9 +103,25 @@ int write_scenario(const std::string& path, const Options& options) {
     throw output::CannotWrite(fmt::format("cannot write {}: it is there already; give another name", path));
   const std::string text = scenario_to_start_from(path);
   output::write_whole(std::filesystem::absolute(file), text, output::Earlier::is_refused);
-  print(options.json ? input::Json{{"schema", "mckibben-init/1"}, {"file", path}}.dump(2) + "\n"
-                     : fmt::format("{0} is written; read and change it, then: mckibben run {0}\n", path));
+  print(options, {input::Json{{"schema", "mckibben-init/1"}, {"file", path}}.dump(2) + "\n",
+                  fmt::format("{0} is written; read and change it, then: mckibben run {0}\n", path)});
   return done;
+}
+
+}  // namespace
+
+void add_init(CLI::App& app, Asked& asked) {
+  CLI::App& verb = add_verb(app, "init", to_simulate, "Write a scenario with comments, to start from");
+  InitOptions& options = asked.when(verb, write_scenario);
+  verb.add_option("file", options.file,
+                  "Where to (default: scenario.yaml); a file that is there is left alone")
+      ->type_name("FILE");
+  add_json(verb, options);
+  verb.footer(
+      "Examples:\n"
+      "  mckibben init my.yaml\n"
+      "  mckibben init scenarios/mine.yaml --json\n"
+      "The file says how to go on. It is a scenario as it stands: mckibben run my.yaml\n");
 }
 
 }  // namespace mckibben::cli

@@ -1,27 +1,37 @@
 // The verb `map`: error maps of the thesis's controller, one picture a load.
 #include <algorithm>
-#include <cstdio>
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include <plant/geometry.hpp>
 #include <sim/cli/exit_status.hpp>
+#include <sim/cli/options.hpp>
 #include <sim/cli/results.hpp>
 #include <sim/cli/verbs.hpp>
 #include <sim/input/calibration_file.hpp>
 #include <sim/input/number.hpp>
 #include <sim/input/rig_file.hpp>
 #include <sim/output/error_map.hpp>
-#include <sim/output/folder.hpp>
 #include <sim/output/heat_map.hpp>
-#include <sim/output/progress.hpp>
 #include <sim/report/report.hpp>
 #include <sim/run/batch.hpp>
 #include <sim/run/error_map.hpp>
 
 namespace mckibben::cli {
 namespace {
+
+struct MapOptions : Options {
+  std::string calibration;
+  std::string rig;                ///< empty for the thesis's
+  std::vector<double> loads_kg;   ///< empty for the thesis's
+  bool up = false, down = false;  ///< neither for both
+  int ratios = 30, speeds = 5;    ///< how many targets
+  double fastest_per_s = 0.5;     ///< the largest target speed
+  bool extrapolate_load = false, extrapolate_target = false;
+};
 
 // The thesis's: five that it calibrates with, one that its controller had not seen (T 4.3).
 constexpr double thesis_loads_kg[] = {8.87, 11.138, 13.870, 16.138, 18.870, 23.406};
@@ -52,13 +62,12 @@ std::vector<double> usual_loads(const controllers::CalibratedRange& range) {
 }
 
 /// Loads asked for, or the usual ones that the calibration covers. Throws BadInput.
-std::vector<double> loads_of(const std::string& path, const controllers::CalibratedRange& range,
-                             const MapOptions& how) {
-  std::vector<double> wanted = how.loads_kg, covered;
+std::vector<double> loads_of(const controllers::CalibratedRange& range, const MapOptions& options) {
+  std::vector<double> wanted = options.loads_kg, covered;
   if (wanted.empty()) wanted = usual_loads(range);
   std::sort(wanted.begin(), wanted.end());
   wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
-  if (how.extrapolate_load) return wanted;
+  if (options.extrapolate_load) return wanted;
 
   std::string outside;
   for (const double load_kg : wanted)
@@ -69,77 +78,124 @@ std::vector<double> loads_of(const std::string& path, const controllers::Calibra
   if (outside.empty()) return covered;
   const std::string text = fmt::format(
       "made with loads from {:g} to {:g} kg, which {} {} outside; calibrate with loads on both sides, or "
-      "allow it "
-      "with --extrapolate-load",
+      "allow it with "
+      "--extrapolate-load",
       range.lowest_load_kg, range.highest_load_kg, outside,
       outside.find(',') == std::string::npos ? "lies" : "lie");
-  if (!how.loads_kg.empty() || covered.empty())
-    throw input::BadInput({{input::Severity::error, path, {}, text, ""}});
-  fmt::print(stderr, "mckibben: not mapped: {} was {}\n", path, text);
+  if (!options.loads_kg.empty() || covered.empty())
+    throw input::BadInput({{input::Severity::error, options.calibration, {}, text, ""}});
+  say(fmt::format("not mapped: {} was {}", options.calibration, text));
   return covered;
 }
 
-}  // namespace
-
-int map_errors(const std::string& path, const Options& options, const MapOptions& how) {
-  std::vector<input::InputFile> files;
+/// What is asked for; adds the files that are read. Throws BadInput.
+run::MapPlan plan_of(const MapOptions& options, std::vector<input::InputFile>& files) {
   run::MapPlan plan;
-  plan.calibration = input::read_calibration(path, files);
+  plan.calibration = input::read_calibration(options.calibration, files);
   const input::RigFile rig = input::read_rig(options.rig.empty() ? "thesis" : options.rig, files);
   plan.rig = rig;
   plan.engine = rig.integrator;
-  plan.loads_kg = loads_of(path, plan.calibration.range, how);
-  if (how.up || !how.down) plan.branches.push_back(controllers::Branch::contraction);
-  if (how.down || !how.up) plan.branches.push_back(controllers::Branch::relaxation);
-  plan.ratios = middles(how.ratios, plant::Braid(rig.muscle).largest_contraction_ratio());
-  plan.speeds_per_s = parts(how.speeds, how.fastest_per_s);
-  plan.extrapolate_load = how.extrapolate_load;
-  plan.extrapolate_target = how.extrapolate_target;
+  plan.loads_kg = loads_of(plan.calibration.range, options);
+  if (options.up || !options.down) plan.branches.push_back(controllers::Branch::contraction);
+  if (options.down || !options.up) plan.branches.push_back(controllers::Branch::relaxation);
+  plan.ratios = middles(options.ratios, plant::Braid(rig.muscle).largest_contraction_ratio());
+  plan.speeds_per_s = parts(options.speeds, options.fastest_per_s);
+  plan.extrapolate_load = options.extrapolate_load;
+  plan.extrapolate_target = options.extrapolate_target;
+  return plan;
+}
 
-  const auto file = std::filesystem::absolute(path).lexically_normal();
+/// map-, the calibration or its folder, and the rig if one is given.
+std::string name_of(const MapOptions& options) {
+  const auto file = std::filesystem::absolute(options.calibration).lexically_normal();
   const std::string stem = file.stem().string(), home = file.parent_path().filename().string();
-  std::string name = fmt::format("map-{}", stem == "calibration" && !home.empty() ? home : stem);
-  if (!options.rig.empty())
-    name = fmt::format("{}-{}", name, std::filesystem::path(options.rig).stem().string());
-  const auto where = destination(options, name);
-  keep_apart(where, files);
-  output::ResultFolder folder(where, "map " + path, say);
+  const std::string name = fmt::format("map-{}", stem == "calibration" && !home.empty() ? home : stem);
+  if (options.rig.empty()) return name;
+  return fmt::format("{}-{}", name, std::filesystem::path(options.rig).stem().string());
+}
 
-  run::ErrorMaps maps;
-  {
-    output::Progress progress(name);
-    maps = run::error_maps(plan, options.threads, progress.hook());
-  }
-  const auto place = maps.interrupted ? beside(where) : where;
-  if (maps.interrupted) folder.go_to(place);
+/// Tells the job how many targets are finished.
+void tell_interrupted(Job& job, const run::ErrorMaps& maps) {
+  std::size_t all = 0, finished = 0;
+  for (const auto& load : maps.loads)
+    for (const auto& branch : load.branches) {
+      all += branch.cells.size();
+      finished += static_cast<std::size_t>(
+          std::count_if(branch.cells.begin(), branch.cells.end(),
+                        [](const auto& cell) { return cell.failure != run::not_begun; }));
+    }
+  job.interrupted(finished, all, "targets");
+}
+
+int map_errors(const MapOptions& options) {
+  std::vector<input::InputFile> files;
+  const run::MapPlan plan = plan_of(options, files);
+  const std::string name = name_of(options);
+  Job job(options, "map " + options.calibration, name, files);
+  const run::ErrorMaps maps =
+      with_progress(name, [&](const auto& hook) { return run::error_maps(plan, options.threads, hook); });
+  if (maps.interrupted) tell_interrupted(job, maps);
+
   for (const auto& load : maps.loads)
     if (load.failure.empty())
-      folder.write(fmt::format("map_{}kg.svg", input::write_number(load.load_kg)),
-                   output::heat_map_svg(plan, maps, load));
+      job.write(fmt::format("map_{}kg.svg", input::write_number(load.load_kg)),
+                output::heat_map_svg(plan, maps, load));
   input::Json json = output::json_of(plan, maps, files);
   if (maps.interrupted) json["interrupted"] = true;
   const std::string document = json.dump(2) + "\n";
   const std::string table = output::table_of(plan, maps);
-  folder.write("map.csv", output::csv_of(maps));
-  folder.write("map.json", document);
-  folder.write("table.txt", table);
-  folder.write("report.html", report::report_html(plan, maps));
-  publish(folder, place);
-  print(options.json ? document : table);
-  if (maps.interrupted) {
-    std::size_t all = 0, finished = 0;
-    for (const auto& load : maps.loads)
-      for (const auto& branch : load.branches)
-        for (const auto& cell : branch.cells) {
-          ++all;
-          if (cell.failure != run::not_begun) ++finished;
-        }
-    say_interrupted(finished, all, "targets", where);
-    return interrupted;
-  }
-  const bool failed = std::any_of(maps.loads.begin(), maps.loads.end(),
-                                  [](const auto& load) { return !load.failure.empty(); });
-  return failed ? failure : done;
+  job.write("map.csv", output::csv_of(maps));
+  job.write("map.json", document);
+  job.write("table.txt", table);
+  job.write("report.html", report::report_html(plan, maps));
+  return job.finish({document, table}, any_failed(maps.loads) ? failure : done);
+}
+
+}  // namespace
+
+void add_map(CLI::App& app, Asked& asked) {
+  CLI::App& verb =
+      add_verb(app, "map", models_of_thesis,
+               "Map the errors of the thesis's open-loop controller over its targets (figures 4.50, 4.51)");
+  MapOptions& options = asked.when(verb, map_errors);
+  add_input(verb, options.calibration, "calibration", "Calibration file that `calibrate` wrote",
+            "CALIBRATION");
+  add_common(verb, options);
+  verb.add_option_function<std::vector<std::string>>(
+          "--load",
+          [&options](const std::vector<std::string>& texts) {
+            for (const auto& text : texts) options.loads_kg.push_back(positive_quantity(text, "kg", 500.0));
+          },
+          "Load such as \"8.87 kg\"; may be repeated (default: the thesis's five and its unseen 8.87 kg, "
+          "those that the calibration covers; of a calibration for other loads its ends and middle)")
+      ->allow_extra_args(false)
+      ->type_name("LOAD");
+  add_rig(verb, options.rig, "(default: thesis)");
+  verb.add_flag("--up", options.up, "Going up only");
+  verb.add_flag("--down", options.down, "Going down only");
+  verb.add_option("--ratios", options.ratios, "How many target contraction ratios, up to e_max (default: 30)")
+      ->check(from_to(1, 1000))
+      ->type_name("N");
+  verb.add_option("--speeds", options.speeds, "How many target speeds (default: 5)")
+      ->check(from_to(1, 1000))
+      ->type_name("N");
+  verb.add_option_function<std::string>(
+          "--fastest",
+          [&options](const std::string& text) {
+            options.fastest_per_s = positive_quantity(text, "1/s", 100.0);
+          },
+          "The largest target speed (default: \"0.5 1/s\")")
+      ->type_name("SPEED");
+  verb.add_flag("--extrapolate-load", options.extrapolate_load, "Allow loads outside the calibrated range");
+  verb.add_flag("--extrapolate-target", options.extrapolate_target,
+                "Let contraction ratios and current speeds leave the calibrated range; otherwise they are "
+                "brought to its end");
+  verb.footer(
+      "Examples:\n"
+      "  mckibben map scenarios/thesis_calibration.yaml --load \"16.138 kg\" --up\n"
+      "  mckibben map out/thesis_campaign-calibration/calibration.yaml --load \"8.87 kg\" "
+      "--extrapolate-load\n"
+      "Writes map.csv, table.txt, map.json and a picture for each load.\n");
 }
 
 }  // namespace mckibben::cli

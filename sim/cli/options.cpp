@@ -74,25 +74,27 @@ void add_seed(CLI::App& verb, Options& options, const std::string& what) {
   verb.add_option_function<std::string>("--seed", read, "Seed of " + what)->check(is_seed)->type_name("N");
 }
 
-void add_formats(CLI::App& verb, Options& options) {
+void add_formats(CLI::App& verb, std::vector<std::string>& formats) {
   verb.add_option(
-          "--format", options.formats,
-          "Formats of the runs, with commas between: csv, mat (MATLAB, Octave), netcdf (NetCDF-4); CSV is "
-          "always written")
+          "--format", formats,
+          "Formats of the runs, with commas between: csv, mat (MATLAB, Octave), netcdf (NetCDF-4); CSV "
+          "is always written")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->check(one_of("format", {output::run_formats.begin(), output::run_formats.end()}))
       ->type_name("");
 }
 
-void add_rig(CLI::App& verb, Options& options, const std::string& what) {
-  verb.add_option("--rig", options.rig, "Rig file or shipped rig " + what)->type_name("RIG");
+void add_rig(CLI::App& verb, std::string& rig, const std::string& what) {
+  verb.add_option("--rig", rig, "Rig file or shipped rig " + what)->type_name("RIG");
 }
 
-void add_dataset(CLI::App& verb, std::string& path) {
-  verb.add_option("dataset", path, "Data set: its dataset.yaml or the folder")
-      ->required()
-      ->type_name("DATASET");
+void add_input(CLI::App& verb, std::string& path, const char* name, const char* what, const char* type) {
+  verb.add_option(name, path, what)->required()->type_name(type);
+}
+
+void add_measured(CLI::App& verb, std::string& path) {
+  add_input(verb, path, "dataset", "Data set: its dataset.yaml or the folder", "DATASET");
 }
 
 CLI::Validator one_of(const std::string& kind, const std::vector<std::string>& words) {

@@ -2,15 +2,23 @@
 // CLI11 reads the command line; the words come from its own lists, so that none is forgotten.
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include <CLI/CLI.hpp>
 
-#include <sim/cli/verbs.hpp>
-
 namespace mckibben::cli {
+
+/// What many verbs can be told. The options of a verb are these and its own.
+struct Options {
+  std::string out;  ///< results folder; empty for out/<name>, or nowhere
+  bool json = false;
+  unsigned threads = 0;  ///< 0: all the machine has
+  std::optional<std::uint64_t> seed;
+};
 
 /// `otherwise`: where results go without it.
 void add_out(CLI::App& verb, Options& options, const std::string& otherwise = "out/<name>");
@@ -20,10 +28,13 @@ void add_threads(CLI::App& verb, Options& options);
 void add_common(CLI::App& verb, Options& options, const std::string& otherwise = "out/<name>");
 /// `what`: what the seed is of, and its default.
 void add_seed(CLI::App& verb, Options& options, const std::string& what);
-/// In which formats runs are written.
-void add_formats(CLI::App& verb, Options& options);
-void add_rig(CLI::App& verb, Options& options, const std::string& what);
-void add_dataset(CLI::App& verb, std::string& path);
+/// In which formats runs are written besides CSV: of output::run_formats.
+void add_formats(CLI::App& verb, std::vector<std::string>& formats);
+/// `rig`: a file or the name of a shipped rig.
+void add_rig(CLI::App& verb, std::string& rig, const std::string& what);
+/// The file that a verb takes. `what` it is, and how help calls it.
+void add_input(CLI::App& verb, std::string& path, const char* name, const char* what, const char* type);
+void add_measured(CLI::App& verb, std::string& path);
 
 /// A value that must be one of these words, each a `kind`; help and completion show them as {a,b}.
 CLI::Validator one_of(const std::string& kind, const std::vector<std::string>& words);

@@ -1,9 +1,11 @@
-// Destination, printing and publishing of results; see the header.
+// Destination, publication and printing of results; see the header.
 #include <cstdio>
 #include <system_error>
+#include <utility>
 
 #include <fmt/format.h>
 
+#include <sim/cli/exit_status.hpp>
 #include <sim/cli/results.hpp>
 
 namespace mckibben::cli {
@@ -31,29 +33,46 @@ void say(const std::string& text) {
   fmt::print(stderr, "mckibben: {}\n", text);
 }
 
-void publish(output::ResultFolder& folder, const std::filesystem::path& where) {
-  folder.publish();
-  fmt::print(stderr, "results in {}\n", where.string());
-}
-
-std::filesystem::path beside(const std::filesystem::path& where) {
-  std::filesystem::path other = where;
-  if (!other.has_filename()) other = other.parent_path();
-  other += ".interrupted";
-  return other;
-}
-
-void say_interrupted(std::size_t finished, std::size_t all, const char* what,
-                     const std::filesystem::path& whole) {
-  fmt::print(
-      stderr,
-      "mckibben: interrupted; {} of {} {} are finished and in {}\n"
-      "The same command makes all of them again. Earlier results in {} are as they were, if there are any.\n",
-      finished, all, what, beside(whole).string(), whole.string());
-}
-
 void warn(const std::vector<std::string>& warnings) {
-  for (const auto& text : warnings) fmt::print(stderr, "mckibben: warning: {}\n", text);
+  for (const auto& text : warnings) say("warning: " + text);
+}
+
+void print(const Options& options, const Printable& result) {
+  print(options.json ? result.document : result.text);
+}
+
+Job::Job(const Options& options, std::string words, const std::optional<std::string>& name,
+         const std::vector<input::InputFile>& read)
+    : options_(options), where_(destination(options, name.value_or(""))) {
+  if (!name && options.out.empty()) return;
+  keep_apart(where_, read);
+  folder_.emplace(where_, std::move(words), say);
+}
+
+void Job::interrupted(std::size_t finished, std::size_t all, const char* what) {
+  const std::filesystem::path whole = where_;
+  if (!where_.has_filename()) where_ = where_.parent_path();
+  where_ += ".interrupted";
+  folder_->go_to(where_);
+  interruption_ = fmt::format(
+      "interrupted; {} of {} {} are finished and in {}\n"
+      "The same command makes all of them again. Earlier results in {} are as they were, if there are any.",
+      finished, all, what, where_.string(), whole.string());
+}
+
+void Job::write(const std::string& name, const std::string& content) {
+  if (folder_) folder_->write(name, content);
+}
+
+int Job::finish(const Printable& result, int status) {
+  if (folder_) {
+    folder_->publish();
+    fmt::print(stderr, "results in {}\n", where_.string());
+  }
+  print(options_, result);
+  if (interruption_.empty()) return status;
+  say(interruption_);
+  return ExitStatus::interrupted;
 }
 
 }  // namespace mckibben::cli

@@ -1,14 +1,17 @@
-// Where results of a verb go, and how they get there; shared by the verbs that write folders.
+// What the verbs do alike with their results: where they go, how they get there, what is said of them.
 #pragma once
 
+#include <algorithm>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include <sim/cli/options.hpp>
 #include <sim/cli/streams.hpp>
-#include <sim/cli/verbs.hpp>
 #include <sim/input/diagnostics.hpp>
 #include <sim/output/folder.hpp>
+#include <sim/output/progress.hpp>
 
 namespace mckibben::cli {
 
@@ -22,18 +25,59 @@ void keep_apart(const std::filesystem::path& where, const std::vector<input::Inp
 /// Tells the user on stderr, in a line.
 void say(const std::string& text);
 
-/// Lets a results folder take its place, and says so.
-void publish(output::ResultFolder& folder, const std::filesystem::path& where);
-
-/// Where the finished part of an interrupted result goes: beside any whole one.
-std::filesystem::path beside(const std::filesystem::path& where);
-
-/// Says what an interruption left of the result that would stand in `whole`, and how to go on. `what`: runs,
-/// targets.
-void say_interrupted(std::size_t finished, std::size_t all, const char* what,
-                     const std::filesystem::path& whole);
-
 /// Says on stderr what the user should know of a result.
 void warn(const std::vector<std::string>& warnings);
+
+/// Does `work(hook)` while what the hook hears is shown on stderr.
+template <class Work>
+auto with_progress(const std::string& title, const Work& work) {
+  output::Progress progress(title);
+  return work(progress.hook());
+}
+
+/// Whether any of the runs, or of what else may fail on its own, did.
+template <class Runs>
+bool any_failed(const Runs& runs) {
+  return std::any_of(runs.begin(), runs.end(), [](const auto& run) { return !run.failure.empty(); });
+}
+
+/// A result as one JSON document, and as text to read.
+struct Printable {
+  std::string document, text;
+};
+
+/// Prints what was asked for of it.
+void print(const Options& options, const Printable& result);
+
+/// A verb's way from its input to its exit status:
+///   Job job(options, "run my.yaml", name, inputs);    nothing is begun that could not be written
+///   result = with_progress(name, ...);  warn(...);  job.interrupted(...) if it is not whole
+///   job.write(...) each file
+///   return job.finish({document, text}, status);      publishes, prints, says how to go on
+class Job {
+ public:
+  /// Prepares the results folder: the one asked for, or out/<name>; of a job without a name, none that is not
+  /// asked for. `words`: verb and input; `read`: the input files. Throws output::CannotWrite.
+  Job(const Options& options, std::string words, const std::optional<std::string>& name,
+      const std::vector<input::InputFile>& read);
+
+  /// The user interrupted: what is finished goes beside any whole result. `what`: runs, targets.
+  void interrupted(std::size_t finished, std::size_t all, const char* what);
+
+  /// Writes a file of the result, if there is a folder. Throws output::CannotWrite.
+  void write(const std::string& name, const std::string& content);
+  bool has_folder() const { return folder_.has_value(); }
+  const std::filesystem::path& where() const { return where_; }
+
+  /// Lets the folder take its place, says so, prints, and returns the exit status: `status`, or that of an
+  /// interruption. Throws output::CannotWrite.
+  int finish(const Printable& result, int status);
+
+ private:
+  const Options& options_;
+  std::filesystem::path where_;
+  std::optional<output::ResultFolder> folder_;
+  std::string interruption_;
+};
 
 }  // namespace mckibben::cli

@@ -2,18 +2,20 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include <sim/cli/exit_status.hpp>
+#include <sim/cli/options.hpp>
 #include <sim/cli/results.hpp>
 #include <sim/cli/verbs.hpp>
 #include <sim/input/number.hpp>
 #include <sim/input/rig_file.hpp>
 #include <sim/output/csv.hpp>
-#include <sim/output/folder.hpp>
+#include <sim/output/diagnosis_words.hpp>
 #include <sim/output/plot.hpp>
-#include <sim/output/progress.hpp>
 #include <sim/output/run_files.hpp>
 #include <sim/output/run_json.hpp>
 #include <sim/output/table.hpp>
@@ -28,17 +30,66 @@
 namespace mckibben::cli {
 namespace {
 
+struct RunOptions : Options {
+  std::string scenario;
+  std::vector<std::string> formats;  ///< of runs, besides CSV
+};
+
+struct ReplayOptions : Options {
+  std::string dataset;
+  std::string rig;                   ///< replaces the data set's; empty for none
+  std::vector<std::string> formats;  ///< of runs, besides CSV
+};
+
 template <class Run>
 std::size_t begun(const std::vector<Run>& runs) {
   return static_cast<std::size_t>(
       std::count_if(runs.begin(), runs.end(), [](const auto& run) { return run.failure != run::not_begun; }));
 }
 
-void write_run(output::ResultFolder& folder, output::Package& package, const std::string& stem,
-               const std::string& title, const formats::Table& table, const Options& options) {
-  for (const auto& file : output::run_files(stem, table, options.formats))
-    folder.write(file.name, file.content);
+/// Tables of runs as files in the formats asked for, listed in the package.
+void write_table(Job& job, output::Package& package, const std::string& stem, const std::string& title,
+                 const formats::Table& table, const std::vector<std::string>& formats) {
+  for (const auto& file : output::run_files(stem, table, formats)) job.write(file.name, file.content);
   package.runs.push_back({stem, title});
+}
+
+void write_tables(Job& job, const input::Scenario& scenario, const run::Comparison& comparison,
+                  const std::vector<std::string>& formats) {
+  const double per_count = run::contraction_per_count(scenario.rig);
+  const bool gauge = scenario.rig.gauge.fitted;
+  output::Package package{scenario.name, output::recorded_columns(true, gauge), {}};
+  for (const auto& run : comparison.runs) {
+    if (run.recording.samples.empty()) continue;
+    const std::string title = fmt::format("{} kg, {}", input::write_number(run.load_kg), run.controller);
+    write_table(job, package, output::file_stem(run), title,
+                {scenario.name + ": " + title,
+                 output::columns_of(run.recording, per_count, comparison.target, gauge),
+                 {{"source", output::program_name()},
+                  {"load_kg", run.load_kg},
+                  {"controller", run.controller},
+                  {"seed", std::to_string(scenario.seed)}}},
+                formats);
+  }
+  job.write(output::package_file, output::datapackage(package));
+}
+
+void write_tables(Job& job, const std::string& name, const input::Dataset& dataset,
+                  const std::vector<run::ReplayedRun>& runs, const std::vector<std::string>& formats) {
+  const double per_count = run::contraction_per_count(dataset.rig);
+  const bool gauge = dataset.rig.gauge.fitted;
+  output::Package package{"Replay of " + name, output::recorded_columns(false, gauge), {}};
+  for (const auto& run : runs) {
+    if (run.recording.samples.empty()) continue;
+    const std::string title = fmt::format("{}, {} kg", run.id, input::write_number(run.load_kg));
+    write_table(
+        job, package, run.id, title,
+        {package.title + ": " + title,
+         output::columns_of(run.recording, per_count, {}, gauge),
+         {{"source", output::program_name()}, {"load_kg", run.load_kg}, {"controller", "recorded current"}}},
+        formats);
+  }
+  job.write(output::package_file, output::datapackage(package));
 }
 
 /// What looks wrong in the data, and what is doubtful in their simulation. Throws input::BadInput where a
@@ -55,109 +106,86 @@ std::vector<std::string> sane(const input::Dataset& dataset, const std::vector<r
   return warnings;
 }
 
-}  // namespace
-
-int run_scenario(const std::string& path, const Options& options) {
-  std::vector<input::Problem> warnings;
-  input::Scenario scenario = input::read_scenario(std::filesystem::path(path), warnings);
-  for (const auto& warning : warnings) fmt::print(stderr, "{}\n", to_text(warning));
+int run_scenario(const RunOptions& options) {
+  std::vector<input::Problem> problems;
+  input::Scenario scenario = input::read_scenario(std::filesystem::path(options.scenario), problems);
+  for (const auto& problem : problems) fmt::print(stderr, "{}\n", to_text(problem));
   if (options.seed) scenario.seed = *options.seed;
-  const auto where = destination(options, scenario.name);
-  keep_apart(where, scenario.inputs);
-  output::ResultFolder folder(where, "run " + path, say);
-
-  run::Comparison comparison;
-  {
-    output::Progress progress(scenario.name);
-    comparison = run::compare(scenario, options.threads, progress.hook());
-  }
+  Job job(options, "run " + options.scenario, scenario.name, scenario.inputs);
+  const run::Comparison comparison = with_progress(
+      scenario.name, [&](const auto& hook) { return run::compare(scenario, options.threads, hook); });
   warn(comparison.warnings);
-  const auto place = comparison.interrupted ? beside(where) : where;
-  if (comparison.interrupted) folder.go_to(place);
-  const double per_count = run::contraction_per_count(scenario.rig);
-  const bool gauge = scenario.rig.gauge.fitted;
-  output::Package package{scenario.name, output::recorded_columns(true, gauge), {}};
-  for (const auto& run : comparison.runs) {
-    if (run.recording.samples.empty()) continue;
-    const std::string title = fmt::format("{} kg, {}", input::write_number(run.load_kg), run.controller);
-    write_run(folder, package, output::file_stem(run), title,
-              {scenario.name + ": " + title,
-               output::columns_of(run.recording, per_count, comparison.target, gauge),
-               {{"source", output::program_name()},
-                {"load_kg", run.load_kg},
-                {"controller", run.controller},
-                {"seed", std::to_string(scenario.seed)}}},
-              options);
-  }
-  folder.write(output::package_file, output::datapackage(package));
+  if (comparison.interrupted) job.interrupted(begun(comparison.runs), comparison.runs.size(), "runs");
+
   const std::string document = output::json_of(scenario, comparison).dump(2) + "\n";
   const std::string table = output::table_of(scenario, comparison);
-  folder.write("run.json", document);
-  folder.write("table.txt", table);
-  folder.write("tracking.svg", output::tracking_svg(scenario, comparison));
-  folder.write("report.html", report::report_html(scenario, comparison));
-  publish(folder, place);
-  print(options.json ? document : table);
-  if (comparison.interrupted) {
-    say_interrupted(begun(comparison.runs), comparison.runs.size(), "runs", where);
-    return interrupted;
-  }
-  if (std::any_of(comparison.runs.begin(), comparison.runs.end(),
-                  [](const auto& run) { return !run.failure.empty(); }))
-    return failure;
-  return comparison.unmet.empty() ? done : criterion_not_met;
+  write_tables(job, scenario, comparison, options.formats);
+  job.write("run.json", document);
+  job.write("table.txt", table);
+  job.write("tracking.svg", output::tracking_svg(scenario, comparison));
+  job.write("report.html", report::report_html(scenario, comparison));
+  return job.finish({document, table}, any_failed(comparison.runs) ? failure
+                                       : !comparison.unmet.empty() ? criterion_not_met
+                                                                   : done);
 }
 
-int replay_dataset(const std::string& path, const Options& options) {
-  input::Dataset dataset = input::read_dataset(path);
+int replay_dataset(const ReplayOptions& options) {
+  input::Dataset dataset = input::read_dataset(options.dataset);
   if (!options.rig.empty()) dataset.rig = input::read_rig(options.rig, dataset.inputs);
-  const auto home = std::filesystem::absolute(dataset.path).lexically_normal().parent_path();
-  const std::string name = home.has_filename() ? home.filename().string() : "dataset";
-  const auto where = destination(options, name + "-replay");
-  keep_apart(where, dataset.inputs);
-  output::ResultFolder folder(where, "replay " + path, say);
-
-  std::vector<run::ReplayedRun> runs;
-  {
-    output::Progress progress(name);
-    runs = run::replay(dataset, options.threads, progress.hook());
-  }
-  const bool stopped = begun(runs) < runs.size();
+  const std::string name = output::name_of(dataset);
+  Job job(options, "replay " + options.dataset, name + "-replay", dataset.inputs);
+  const std::vector<run::ReplayedRun> runs =
+      with_progress(name, [&](const auto& hook) { return run::replay(dataset, options.threads, hook); });
   const auto warnings = sane(dataset, runs);
   warn(warnings);
-  const auto place = stopped ? beside(where) : where;
-  if (stopped) folder.go_to(place);
-  const double per_count = run::contraction_per_count(dataset.rig);
-  const bool gauge = dataset.rig.gauge.fitted;
-  output::Package package{"Replay of " + name, output::recorded_columns(false, gauge), {}};
-  for (const auto& run : runs) {
-    if (run.recording.samples.empty()) continue;
-    const std::string title = fmt::format("{}, {} kg", run.id, input::write_number(run.load_kg));
-    write_run(
-        folder, package, run.id, title,
-        {package.title + ": " + title,
-         output::columns_of(run.recording, per_count, {}, gauge),
-         {{"source", output::program_name()}, {"load_kg", run.load_kg}, {"controller", "recorded current"}}},
-        options);
-  }
-  folder.write(output::package_file, output::datapackage(package));
+  const bool interrupted = begun(runs) < runs.size();
+  if (interrupted) job.interrupted(begun(runs), runs.size(), "runs");
+
   input::Json json = output::json_of(dataset, runs);
   json["warnings"] = warnings;
-  if (stopped) json["interrupted"] = true;
+  if (interrupted) json["interrupted"] = true;
   const std::string document = json.dump(2) + "\n";
   const std::string table = output::table_of(dataset, runs);
-  folder.write("run.json", document);
-  folder.write("table.txt", table);
-  folder.write("report.html", report::report_html(dataset, runs, warnings));
-  publish(folder, place);
-  print(options.json ? document : table);
-  if (stopped) {
-    say_interrupted(begun(runs), runs.size(), "runs", where);
-    return interrupted;
-  }
-  const bool failed =
-      std::any_of(runs.begin(), runs.end(), [](const auto& run) { return !run.failure.empty(); });
-  return failed ? failure : done;
+  write_tables(job, name, dataset, runs, options.formats);
+  job.write("run.json", document);
+  job.write("table.txt", table);
+  job.write("report.html", report::report_html(dataset, runs, warnings));
+  return job.finish({document, table}, any_failed(runs) ? failure : done);
+}
+
+}  // namespace
+
+void add_run(CLI::App& app, Asked& asked) {
+  CLI::App& verb = add_verb(app, "run", to_simulate,
+                            "Simulate each load x controller of a scenario; print tracking errors");
+  RunOptions& options = asked.when(verb, run_scenario);
+  add_input(verb, options.scenario, "scenario", "Scenario file", "SCENARIO.yaml");
+  add_common(verb, options);
+  add_seed(verb, options, "the noise (default: the scenario's)");
+  add_formats(verb, options.formats);
+  verb.footer(
+      "Examples:\n"
+      "  mckibben run scenarios/five_loads.yaml\n"
+      "  mckibben run my.yaml --out results --seed 2      somewhere else, with other noise\n"
+      "  mckibben run my.yaml --json > result.json        for a script\n"
+      "  mckibben run my.yaml --format mat,netcdf         for MATLAB, Octave, Python besides\n"
+      "Writes table.txt, run.json, report.html, tracking.svg and a CSV for each run.\n");
+}
+
+void add_replay(CLI::App& app, Asked& asked) {
+  CLI::App& verb =
+      add_verb(app, "replay", to_compare, "Simulate a data set's runs with their recorded currents; compare");
+  ReplayOptions& options = asked.when(verb, replay_dataset);
+  add_measured(verb, options.dataset);
+  add_common(verb, options);
+  add_rig(verb, options.rig, "instead of the data set's");
+  add_formats(verb, options.formats);
+  verb.footer(
+      "Examples:\n"
+      "  mckibben replay measured/\n"
+      "  mckibben replay labview.yaml --format mat        .lvm and .mat in, .mat out: docs/formats.md\n"
+      "  mckibben replay measured/ --rig my_rig.yaml --out compared\n"
+      "Writes table.txt, run.json and the simulation of each run as CSV.\n");
 }
 
 }  // namespace mckibben::cli
