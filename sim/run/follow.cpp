@@ -19,8 +19,8 @@ ride::Ride ride_of(const domain::RigFile& rig, double load_kg) {
 }
 
 /// Whether something is not left to the equations.
-bool is_given(const Drive& drive) {
-  return drive.contraction_ratio || drive.muscle_pressure_Pa || drive.opposite.muscle_pressure_Pa;
+bool is_given(const Driven& driven) {
+  return driven.length || driven.pressure[0] || driven.pressure[1];
 }
 
 class Following {
@@ -33,6 +33,11 @@ class Following {
 
   Recording operator()() {
     recording_.samples.reserve(rows());
+    const Drive first = course_.at(0);
+    recording_.driven = {.pair = rig_.pair() != nullptr,
+                         .length = first.contraction_ratio.has_value(),
+                         .pressure = {first.muscle_pressure_Pa.has_value(),
+                                      first.opposite.muscle_pressure_Pa.has_value()}};
     try {
       settle();
       for (std::size_t k = 0; k < rows(); ++k) {
@@ -114,15 +119,14 @@ class Following {
     if (recording_.samples.empty()) return;
     // Where values are given, only `erk` keeps an exact ledger (docs/architecture.md, An instant).
     const bool exact = rig_.integrator.method != solver::Method::cvode && recording_.solver.stiff_from_tick < 0;
-    const Drive first = course_.at(0);
-    if (exact || !is_given(first))
+    if (exact || !is_given(recording_.driven))
       recording_.imbalance =
           ride_.plant().imbalance(recording_.samples.front().state, end.state, end.ledger);
     if (recording_.solver.stiff_from_tick >= 0)
       recording_.solver.stiff_from_tick -= std::lround(rig_.settling_time_s / rig_.tick_s);
-    const bool pair = ride_.plant().opposite().has_value();
-    if (pair || first.contraction_ratio) note_slack(1, [](const Sample& row) { return row.cord_force_N; });
-    if (pair) note_slack(2, [](const Sample& row) { return row.opposite.cord_force_N; });
+    const Driven& driven = recording_.driven;
+    if (driven.pair || driven.length) note_slack(1, [](const Sample& row) { return row.cord_force_N; });
+    if (driven.pair) note_slack(2, [](const Sample& row) { return row.opposite.cord_force_N; });
   }
 
   template <class Force>

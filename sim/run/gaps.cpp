@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include <plant/instruments.hpp>
+#include <sim/run/batch.hpp>
 #include <sim/run/gaps.hpp>
 #include <sim/run/simulate.hpp>
 
@@ -90,6 +91,27 @@ std::vector<Gap> gaps_of(const Measurement& measured, const domain::RigFile& rig
     gaps.push_back(gap);
   }
   return gaps;
+}
+
+std::vector<StampedRun> replay_stamped(const domain::Dataset& dataset, unsigned threads,
+                                       const ProgressHook& progress) {
+  std::vector<StampedRun> runs;
+  for (const auto& run : dataset.runs)
+    runs.push_back({.id = run.id, .load_kg = run.load_kg, .failure = not_begun});
+  const auto replay_one = [&](std::size_t i) {
+    const Measurement& measured = *dataset.runs[i].measured;
+    runs[i].recording = follow(dataset.rig, runs[i].load_kg, course_of(measured));
+    runs[i].failure = runs[i].recording.failure;
+    if (runs[i].failure.empty()) runs[i].gaps = gaps_of(measured, dataset.rig, runs[i].recording);
+  };
+  progress("replaying", 0, runs.size());
+  try {
+    for_each_job(runs.size(), threads, replay_one,
+                 [&](std::size_t done) { progress("replaying", done, runs.size()); });
+  } catch (const Interrupted&) {
+    // said by the runs that were not begun
+  }
+  return runs;
 }
 
 }  // namespace mckibben::run

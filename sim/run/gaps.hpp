@@ -6,7 +6,8 @@
 #include <string>
 #include <vector>
 
-#include <sim/domain/measurement.hpp>
+#include <sim/domain/dataset.hpp>
+#include <sim/run/compare.hpp>
 #include <sim/run/follow.hpp>
 
 namespace mckibben::run {
@@ -34,6 +35,19 @@ struct Compared {
 /// Refers to `measured` and `recording`.
 std::vector<Compared> compared(const domain::Measurement& measured, const domain::RigFile& rig,
                                const Recording& recording);
+
+/// A measured run and its simulation.
+struct StampedRun {
+  std::string id;
+  double load_kg = 0.0;  ///< where one hangs
+  Recording recording{};
+  std::vector<Gap> gaps{};
+  std::string failure{};  ///< why the integrator gave up; empty if it did not
+};
+
+/// Simulates every run of a data set with a clock of its own. Of runs that were not begun when the user stopped,
+/// `failure` says so (`not_begun`).
+std::vector<StampedRun> replay_stamped(const domain::Dataset& dataset, unsigned threads, const ProgressHook& progress);
 
 /// Joint angle [rad] of a pair in a row, true and as the encoder counts it.
 double angle_rad(const domain::RigFile& rig, const Sample& row);

@@ -1,6 +1,7 @@
 // What one run leaves behind: a row for each tick, and sums.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -39,6 +40,12 @@ struct Slack {
   double lowest_N = 0.0, lowest_at_s = 0.0;
 };
 
+/// What drove a rig, where it was not a current to the valve of one muscle that lifts a load.
+struct Driven {
+  bool pair = false, length = false;     ///< two muscles; the length of one is given
+  std::array<bool, 2> pressure{};        ///< of each muscle: its pressure is given, and it has no valve
+};
+
 struct Recording {
   std::vector<Sample> samples;
   plant::Ledger<double> ledger{};  ///< from the first tick to the last, if it was kept
@@ -48,7 +55,8 @@ struct Recording {
   std::string
       failure{};  ///< why it ends early: the integrator or the controller gave up; empty if it did not
   std::vector<controllers::Finding> findings{};  ///< what the controller found out
-  std::vector<Slack> slack{};                    ///< of a pair, or of a muscle whose length is given
+  Driven driven{};
+  std::vector<Slack> slack{};  ///< of a pair, or of a muscle whose length is given
 };
 
 /// What should not be believed of a run that came to its end, in words: a ledger that does not close, laws
