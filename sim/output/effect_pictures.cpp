@@ -1,4 +1,4 @@
-// Rides, axes and lines; see the header. One scale for all pictures, so that they can be laid side by side.
+// Rides and lines; see the header. One scale for all pictures, so that they can be laid side by side.
 #include <array>
 #include <cmath>
 #include <stdexcept>
@@ -10,6 +10,7 @@
 #include <controllers/waveform.hpp>
 #include <plant/plant.hpp>
 #include <sim/diagnose/parameter.hpp>
+#include <sim/output/axes.hpp>
 #include <sim/output/diagnosis_words.hpp>
 #include <sim/output/effect_pictures.hpp>
 #include <sim/output/svg.hpp>
@@ -20,29 +21,28 @@ namespace {
 
 constexpr double load_kg = 16.138, low_mA = 4.0, high_mA = 14.0;
 
+constexpr double picture_width = 600.0, picture_height = 380.0, loop_width = 250.0, loop_top = 92.0,
+                 loop_bottom = 330.0;
+
 /// A triangle of current, and where its panel lies.
 struct Ride {
   const char* title;
   double period_s, duration_s;
-  double left;  // edge of the panel [px]
+  double left_px;
 };
 constexpr std::array rides{Ride{"slow: up and down in 20 s", 20.0, 40.0, 56.0},
                            Ride{"fast: up and down in 2.5 s", 2.5, 10.0, 336.0}};
-constexpr double picture_width = 600.0, picture_height = 380.0, loop_width = 250.0, loop_top = 92.0,
-                 loop_bottom = 330.0;
-constexpr double lowest_bar = 0.4, highest_bar = 3.5, lowest_ratio = -0.01, highest_ratio = 0.25;
 
-double x_px(const Ride& ride, double bar) {
-  return ride.left + loop_width * (bar - lowest_bar) / (highest_bar - lowest_bar);
-}
-double y_px(double ratio) {
-  return loop_bottom - (loop_bottom - loop_top) * (ratio - lowest_ratio) / (highest_ratio - lowest_ratio);
+/// Contraction ratios over pressures in bar.
+Panel panel_of(const Ride& ride) {
+  return {.x = {.from_px = ride.left_px, .to_px = ride.left_px + loop_width, .low = 0.4, .high = 3.5},
+          .y = {.from_px = loop_bottom, .to_px = loop_top, .low = -0.01, .high = 0.24}};
 }
 
 /// Inks for a light and for a dark page: the picture follows what the reader's system asks for.
 constexpr const char* style =
     "<style>\n"
-    ".ground { fill: #ffffff } text { fill: #222222 } .grid { stroke: #e2e2e2 } .frame { stroke: #888888 }\n"
+    ".ground { fill: #ffffff } text { fill: #222222 } .grid { stroke: #e2e2e2 }\n"
     ".nominal { stroke: #a6a6a6 } .first { stroke: #0072B2 } .second { stroke: #D55E00 }\n"
     "@media (prefers-color-scheme: dark) {\n"
     "  .ground { fill: #1e2129 } text { fill: #e6e6e6 } .grid { stroke: #3a3f4b }\n"
@@ -59,6 +59,7 @@ std::string line(const char* ink, double wide, const std::string& d) {
 /// The loop that one sees from outside: pressure that the current asks for, contraction as the encoder has
 /// it.
 std::string loop(const plant::Rig& rig, const Ride& ride, const char* ink, double wide) {
+  const Panel panel = panel_of(ride);
   controllers::TriangleCurrent current;
   current.low_mA = low_mA;
   current.high_mA = high_mA;
@@ -73,8 +74,8 @@ std::string loop(const plant::Rig& rig, const Ride& ride, const char* ink, doubl
   std::string d;
   double last_x = 0.0, last_y = 0.0;
   for (const run::Sample& sample : recording.samples) {
-    const double x = x_px(ride, plant.reference_pressure_Pa(sample.current_mA) / 1e5);
-    const double y = y_px((static_cast<double>(sample.counts) + 0.5) * count);
+    const double x = panel.x.px(plant.reference_pressure_Pa(sample.current_mA) / 1e5);
+    const double y = panel.y.px((static_cast<double>(sample.counts) + 0.5) * count);
     if (!d.empty() && std::hypot(x - last_x, y - last_y) < 2.5) continue;
     d += fmt::format("{}{:.1f} {:.1f}", d.empty() ? 'M' : 'L', x, y);
     last_x = x, last_y = y;
@@ -82,20 +83,16 @@ std::string loop(const plant::Rig& rig, const Ride& ride, const char* ink, doubl
   return line(ink, wide, d);
 }
 
+/// The ratios are written beside the first panel, and hold for all.
 std::string axes(const Ride& ride) {
-  std::string svg = fmt::format("<text x='{}' y='{}'>{}</text>\n", ride.left, loop_top - 8, ride.title);
-  for (const double bar : {1.0, 2.0, 3.0})
-    svg += fmt::format(
-        "<path class='grid' d='M{0:.1f} {1}V{2}'/><text x='{0:.1f}' y='{3}' "
-        "text-anchor='middle'>{4}</text>\n",
-        x_px(ride, bar), loop_top, loop_bottom, loop_bottom + 17, bar);
-  for (const double ratio : {0.0, 0.05, 0.1, 0.15, 0.2})
-    svg += fmt::format(
-        "<path class='grid' d='M{0} {1:.1f}h{2}'/><text x='{3}' y='{4:.1f}' text-anchor='end'>{5}</text>\n",
-        ride.left, y_px(ratio), loop_width, ride.left - 6, y_px(ratio) + 4.5,
-        &ride == &rides.front() ? fmt::format("{}", ratio) : "");
-  return svg + fmt::format("<rect class='frame' fill='none' x='{}' y='{}' width='{}' height='{}'/>\n",
-                           ride.left, loop_top, loop_width, loop_bottom - loop_top);
+  const Panel panel = panel_of(ride);
+  const bool first = &ride == &rides.front();
+  std::vector<Tick> ratios = round_numbers(panel.y, 6);
+  if (!first)
+    for (Tick& tick : ratios) tick.text.clear();
+  return fmt::format("<text x='{}' y='{}'>{}</text>\n", ride.left_px, loop_top - 8, ride.title) +
+         panel.across(round_numbers(panel.x, 4), "pressure the current asks for [bar]") +
+         panel.upwards(ratios, first ? "contraction ratio" : "") + panel.frame();
 }
 
 /// A size at which the effect is plain to see, in sizes that matter to a diagnosis. Where none is in reach,
@@ -135,11 +132,8 @@ std::string effect_svg(std::string_view effect) {
   if (laws.empty()) throw std::invalid_argument("no picture of " + std::string(effect));
 
   constexpr std::array inks{"first", "second"};
-  std::string svg = fmt::format(
-      "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 {0} {1}' width='{0}' height='{1}' "
-      "font-family='sans-serif' font-size='14'>\n{2}<rect class='ground' width='100%' height='100%'/>\n"
-      "<text x='12' y='22' font-weight='bold'>{3}</text>\n",
-      picture_width, picture_height, style, effect);
+  std::string svg = svg_begin(picture_width, picture_height, 14, style) +
+                    fmt::format("<text x='12' y='22' font-weight='bold'>{}</text>\n", effect);
   const auto legend = [&](double x, double y, const char* ink, double wide, const std::string& words) {
     svg += line(ink, wide, fmt::format("M{} {}h22", x, y - 5)) +
            fmt::format("<text x='{}' y='{}'>{}</text>\n", x + 30, y, words);
@@ -151,11 +145,6 @@ std::string effect_svg(std::string_view effect) {
     svg += axes(ride) + loop(nominal, ride, "nominal", 4.0);
     for (std::size_t i = 0; i < laws.size(); ++i) svg += loop(laws[i].second, ride, inks[i], 2.2);
   }
-  svg += fmt::format(
-      "<text x='{}' y='{}' text-anchor='middle'>pressure that the current asks for [bar]</text>\n"
-      "<text x='14' y='{}' text-anchor='middle' transform='rotate(-90 14 {})'>contraction ratio</text>\n",
-      0.5 * (rides[0].left + rides[1].left + loop_width), picture_height - 10, 0.5 * (loop_top + loop_bottom),
-      0.5 * (loop_top + loop_bottom));
   return svg + "</svg>\n";
 }
 

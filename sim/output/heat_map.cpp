@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include <sim/output/axes.hpp>
 #include <sim/output/heat_map.hpp>
 #include <sim/output/svg.hpp>
 
@@ -79,8 +80,13 @@ class MapPanel {
         words_(words),
         ratios_(edges(plan.ratios)),
         speeds_(edges(plan.speeds_per_s)),
-        x_px_(x_px),
-        y_px_(y_px) {}
+        panel_{
+            .x = {.from_px = x_px, .to_px = x_px + map_width, .low = ratios_.front(), .high = ratios_.back()},
+            .y = {.from_px = y_px + map_height,
+                  .to_px = y_px,
+                  .low = speeds_.front(),
+                  .high = speeds_.back()},
+            .with_grid = false} {}
 
   std::string cells(const run::BranchMap& map, const Measure& measure) const {
     std::string svg, marks;
@@ -125,39 +131,24 @@ class MapPanel {
   }
 
   std::string axes(const std::string& title) const {
-    std::string svg = fmt::format(
-        "<rect x='{0:.1f}' y='{1:.1f}' width='{2}' height='{3}' fill='none' stroke='#555'/>\n"
-        "<text x='{0:.1f}' y='{4:.1f}' font-weight='bold'>{5}</text>\n",
-        x_px_, y_px_, map_width, map_height, y_px_ - 8.0, title);
-    const double step = tick_step(words_.factor * (ratios_.back() - ratios_.front()), 7) / words_.factor;
-    for (double i = std::ceil(ratios_.front() / step); i * step <= ratios_.back(); i += 1.0)
-      svg += fmt::format("<text x='{:.1f}' y='{:.1f}' text-anchor='middle'>{:.3g}</text>\n", x(i * step),
-                         y_px_ + map_height + 16.0, words_.factor * i * step + 0.0);  // + 0.0 makes 0 of -0
-    // Few speeds are named each, many by every n-th.
+    std::vector<Tick> speeds;  // few are named each, many by every n-th
     const std::size_t every = 1 + (plan_.speeds_per_s.size() - 1) / 10;
     for (std::size_t i = 0; i < plan_.speeds_per_s.size(); i += every)
-      svg += fmt::format("<text x='{:.1f}' y='{:.1f}' text-anchor='end'>{:.3g}</text>\n", x_px_ - 6.0,
-                         y(plan_.speeds_per_s[i]) + 4.0, words_.factor * plan_.speeds_per_s[i]);
-    return svg + fmt::format(
-                     "<text x='{0:.1f}' y='{1:.1f}' text-anchor='middle'>{4}</text>\n"
-                     "<text x='{2:.1f}' y='{3:.1f}' text-anchor='middle' transform='rotate(-90 {2:.1f} "
-                     "{3:.1f})'>{5}</text>\n",
-                     x_px_ + 0.5 * map_width, y_px_ + map_height + 34.0, x_px_ - 40.0,
-                     y_px_ + 0.5 * map_height, words_.ratio, words_.speed);
+      speeds.push_back(
+          {y(plan_.speeds_per_s[i]), fmt::format("{:.3g}", words_.factor * plan_.speeds_per_s[i])});
+    return panel_.frame() + panel_.heading(title) +
+           panel_.across(round_numbers(panel_.x, 7, words_.factor), words_.ratio) +
+           panel_.upwards(speeds, words_.speed);
   }
 
  private:
-  double x(double ratio) const {
-    return x_px_ + map_width * (ratio - ratios_.front()) / (ratios_.back() - ratios_.front());
-  }
-  double y(double speed) const {
-    return y_px_ + map_height * (speeds_.back() - speed) / (speeds_.back() - speeds_.front());
-  }
+  double x(double ratio) const { return panel_.x.px(ratio); }
+  double y(double speed) const { return panel_.y.px(speed); }
 
   const run::MapPlan& plan_;
   const Words& words_;
   std::vector<double> ratios_, speeds_;
-  double x_px_, y_px_;
+  Panel panel_;
 };
 
 std::string scale_svg(const Measure& measure, double factor, double x_px, double y_px) {
@@ -174,7 +165,7 @@ std::string scale_svg(const Measure& measure, double factor, double x_px, double
                        : share == -1.0 ? "≤ "
                                        : "",
                        share == 0.0 ? "0" : fmt::format("{:+.3g}", share * measure.limit * factor));
-  return svg + fmt::format("<rect x='{}' y='{}' width='{}' height='{}' fill='none' stroke='#555'/>\n", x_px,
+  return svg + fmt::format("<rect x='{}' y='{}' width='{}' height='{}' fill='none' stroke='#888'/>\n", x_px,
                            y_px, scale_width, map_height);
 }
 

@@ -1,11 +1,12 @@
-// Panels, axes and lines of the tracking picture.
+// Panels and lines of the tracking picture.
 #include <algorithm>
-#include <cmath>
+#include <array>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include <sim/input/number.hpp>
+#include <sim/output/axes.hpp>
 #include <sim/output/plot.hpp>
 #include <sim/output/svg.hpp>
 
@@ -15,55 +16,42 @@ namespace {
 constexpr double plot_width = 900.0, plot_height = 190.0, plot_left = 60.0, plot_right = 20.0,
                  plot_gap = 46.0;
 
-struct PlotPanel {
-  double y0_px;      // upper edge
-  double low, high;  // contraction ratios at lower and upper edge
-  double duration_s;
+/// Contraction ratios over time, below an upper edge.
+Panel panel_at(double top_px, double low, double high, double duration_s) {
+  return {.x = {.from_px = plot_left, .to_px = plot_left + plot_width, .low = 0.0, .high = duration_s},
+          .y = {.from_px = top_px + plot_height, .to_px = top_px, .low = low, .high = high}};
+}
 
-  double x_px(double time_s) const { return plot_left + plot_width * time_s / duration_s; }
-  double y_px(double ratio) const { return y0_px + plot_height * (high - ratio) / (high - low); }
+std::string axes(const Panel& panel, const std::string& title) {
+  std::vector<Tick> times = round_numbers(panel.x, 10);
+  for (Tick& tick : times) tick.text += " s";
+  return panel.heading(title) + panel.across(times, "") + panel.upwards(round_numbers(panel.y, 6), "") +
+         panel.frame();
+}
 
-  std::string axes(const std::string& title) const {
-    std::string svg = fmt::format("<rect x='{}' y='{}' width='{}' height='{}' fill='none' stroke='#888'/>\n",
-                                  plot_left, y0_px, plot_width, plot_height);
-    svg += fmt::format("<text x='{}' y='{}' font-weight='bold'>{}</text>\n", plot_left, y0_px - 8, title);
-    const double step = tick_step(high - low, 6);
-    for (double r = std::ceil(low / step) * step; r <= high; r += step)
-      svg += fmt::format(
-          "<line x1='{0}' x2='{1}' y1='{2:.1f}' y2='{2:.1f}' stroke='#ddd'/><text x='{3}' y='{4:.1f}' "
-          "text-anchor='end'>{5:.3g}</text>\n",
-          plot_left, plot_left + plot_width, y_px(r), plot_left - 6, y_px(r) + 4,
-          std::abs(r) < 1e-9 ? 0.0 : r);
-    const double step_s = tick_step(duration_s, 10);
-    for (double t = 0.0; t <= duration_s * (1 + 1e-9); t += step_s)
-      svg += fmt::format("<text x='{:.1f}' y='{}' text-anchor='middle'>{:g} s</text>\n", x_px(t),
-                         y0_px + plot_height + 16, t);
-    return svg;
-  }
-
-  /// A line through one value each tick; at most a point for each pixel, the extreme ones of each.
-  template <class Value>
-  std::string line(std::size_t ticks, double tick_s, const char* colour, const char* dash, double width,
-                   const Value& value) const {
-    const auto per_pixel = std::max<std::size_t>(1, ticks / static_cast<std::size_t>(plot_width));
-    std::string points;
-    for (std::size_t k = 0; k < ticks; k += per_pixel) {
-      const auto put = [&](std::size_t i) {
-        points += fmt::format("{:.1f},{:.1f} ", x_px(static_cast<double>(i) * tick_s), y_px(value(i)));
-      };
-      std::size_t least = k, most = k;
-      for (std::size_t i = k; i < std::min(k + per_pixel, ticks); ++i) {
-        if (value(i) < value(least)) least = i;
-        if (value(i) > value(most)) most = i;
-      }
-      put(std::min(least, most));
-      if (least != most) put(std::max(least, most));
+/// A line through one value each tick; at most a point for each pixel, the extreme ones of each.
+template <class Value>
+std::string line(const Panel& panel, std::size_t ticks, double tick_s, const char* colour, const char* dash,
+                 double width, const Value& value) {
+  const auto per_pixel = std::max<std::size_t>(1, ticks / static_cast<std::size_t>(plot_width));
+  std::string points;
+  for (std::size_t k = 0; k < ticks; k += per_pixel) {
+    const auto put = [&](std::size_t i) {
+      points +=
+          fmt::format("{:.1f},{:.1f} ", panel.x.px(static_cast<double>(i) * tick_s), panel.y.px(value(i)));
+    };
+    std::size_t least = k, most = k;
+    for (std::size_t i = k; i < std::min(k + per_pixel, ticks); ++i) {
+      if (value(i) < value(least)) least = i;
+      if (value(i) > value(most)) most = i;
     }
-    return fmt::format(
-        "<polyline fill='none' stroke='{}' stroke-dasharray='{}' stroke-width='{}' points='{}'/>\n", colour,
-        dash, width, points);
+    put(std::min(least, most));
+    if (least != most) put(std::max(least, most));
   }
-};
+  return fmt::format(
+      "<polyline fill='none' stroke='{}' stroke-dasharray='{}' stroke-width='{}' points='{}'/>\n", colour,
+      dash, width, points);
+}
 
 /// Colours first, then the same ones dashed.
 const char* colour_of(std::size_t controller) {
@@ -109,27 +97,24 @@ std::string tracking_svg(const input::Scenario& scenario, const run::Comparison&
   const double first_px = legend.bottom_px + 30.0;
   const double height = first_px + static_cast<double>(rows) * (plot_height + plot_gap) + 10.0;
   const double width = plot_left + plot_width + plot_right;
-  double low = *std::min_element(comparison.target.begin(), comparison.target.end());
-  double high = *std::max_element(comparison.target.begin(), comparison.target.end());
+  Scale ratios{0.0, 0.0};
+  for (const double ratio : comparison.target) ratios.hold(ratio);
   for (const auto& run : comparison.runs)
-    for (const auto& sample : run.recording.samples) {
-      low = std::min(low, sample.state.joint.contraction_ratio);
-      high = std::max(high, sample.state.joint.contraction_ratio);
-    }
-  const double margin = std::max(0.05 * (high - low), 1e-4);
+    for (const auto& sample : run.recording.samples) ratios.hold(sample.state.joint.contraction_ratio);
+  ratios.widen(1e-4);
   const double tick_s = scenario.rig.tick_s;
 
   std::string svg = svg_begin(width, height) + legend.svg;
   for (std::size_t r = 0; r < rows; ++r) {
-    const PlotPanel panel{first_px + static_cast<double>(r) * (plot_height + plot_gap), low - margin,
-                          high + margin, static_cast<double>(comparison.target.size()) * tick_s};
-    svg += panel.axes(fmt::format("{} kg: contraction ratio", input::write_number(scenario.loads_kg[r])));
-    svg += panel.line(comparison.target.size(), tick_s, "#000000", "none", 2.2,
-                      [&](std::size_t k) { return comparison.target[k]; });
+    const Panel panel = panel_at(first_px + static_cast<double>(r) * (plot_height + plot_gap), ratios.low,
+                                 ratios.high, static_cast<double>(comparison.target.size()) * tick_s);
+    svg += axes(panel, fmt::format("{} kg: contraction ratio", input::write_number(scenario.loads_kg[r])));
+    svg += line(panel, comparison.target.size(), tick_s, "#000000", "none", 2.2,
+                [&](std::size_t k) { return comparison.target[k]; });
     for (std::size_t c = 0; c < columns; ++c) {
       const auto& samples = comparison.runs[r * columns + c].recording.samples;
-      svg += panel.line(samples.size(), tick_s, colour_of(c), dash_of(c), 1.4,
-                        [&](std::size_t k) { return samples[k].state.joint.contraction_ratio; });
+      svg += line(panel, samples.size(), tick_s, colour_of(c), dash_of(c), 1.4,
+                  [&](std::size_t k) { return samples[k].state.joint.contraction_ratio; });
     }
   }
   return svg + "</svg>\n";

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <cmath>
 #include <string>
 #include <string_view>
 
@@ -12,14 +11,6 @@ namespace mckibben::output {
 
 inline constexpr std::array<const char*, 7> colours{"#0072B2", "#D55E00", "#009E73", "#CC79A7",
                                                     "#E69F00", "#56B4E9", "#F0E442"};
-
-/// A step of 1, 2 or 5 times a power of ten that divides a span into about `parts`.
-inline double tick_step(double span, int parts) {
-  const double raw = span / parts, power = std::pow(10.0, std::floor(std::log10(raw)));
-  for (const double factor : {1.0, 2.0, 5.0})
-    if (factor * power >= raw) return factor * power;
-  return 10.0 * power;
-}
 
 /// `text` as it may stand in a picture or a page, between tags or in an attribute.
 inline std::string escaped(std::string_view text) {
@@ -48,13 +39,13 @@ inline std::string escaped(std::string_view text) {
   return safe;
 }
 
-/// The first lines of a picture: its size in pixels, a white ground.
-inline std::string svg_begin(double width, double height) {
+/// The first lines of a picture: its size in pixels, what overrules its inks, a white ground.
+inline std::string svg_begin(double width, double height, int font_px = 12, std::string_view style = "") {
   return fmt::format(
       "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 {0} {1}' width='{0}' height='{1}' "
-      "font-family='sans-serif' "
-      "font-size='12'>\n<rect width='100%' height='100%' fill='white'/>\n",
-      width, height);
+      "font-family='sans-serif' font-size='{2}'>\n{3}"
+      "<rect class='ground' width='100%' height='100%' fill='white'/>\n",
+      width, height, font_px, style);
 }
 
 }  // namespace mckibben::output

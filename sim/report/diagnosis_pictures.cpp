@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include <sim/diagnose/trial.hpp>
+#include <sim/output/axes.hpp>
 #include <sim/output/diagnosis_words.hpp>
 #include <sim/output/svg.hpp>
 #include <sim/report/diagnosis_pictures.hpp>

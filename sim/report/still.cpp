@@ -1,12 +1,12 @@
-// Axes and lines; see the header.
+// Panels and lines; see the header.
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include <sim/output/axes.hpp>
 #include <sim/output/svg.hpp>
 #include <sim/report/length.hpp>
 #include <sim/report/still.hpp>
@@ -25,43 +25,11 @@ struct Curve {
   std::vector<std::pair<double, double>> points{};
 };
 
-/// Linear; or, with a floor, linear within it and logarithmic beyond.
-struct Axis {
-  double from_px, to_px, floor = 0.0, low = 1e300, high = -1e300;
+std::string attribute(char name, const output::Scale& scale) {
+  return fmt::format(" data-{}='{} {} {} {}'", name, scale.low, scale.high, scale.from_px, scale.to_px);
+}
 
-  void hold(double value) { low = std::min(low, value), high = std::max(high, value); }
-  void close() {
-    if (low > high) low = 0.0, high = 1.0;
-    const double margin = std::max(0.04 * (high - low), 1e-6 + 2e-3 * std::abs(high));
-    low -= margin, high += margin;
-  }
-  double bent(double value) const { return floor > 0.0 ? std::asinh(value / floor) : value; }
-  double px(double value) const {
-    return from_px + (to_px - from_px) * (bent(value) - bent(low)) / (bent(high) - bent(low));
-  }
-
-  /// Numbers of a unit of which one value is `factor`.
-  template <class Draw>
-  void ticks(int parts, double factor, const Draw& draw) const {
-    if (floor > 0.0) {  // 0 and powers of ten
-      draw(px(0.0), "0");
-      const double first = std::pow(10.0, std::ceil(std::log10(floor * factor) + 0.2));
-      for (double power = first; power <= factor * std::max(-low, high); power *= 10.0)
-        for (const double value : {-power, power})
-          if (factor * low <= value && value <= factor * high)
-            draw(px(value / factor), fmt::format("{:g}", value));
-      return;
-    }
-    const double step = output::tick_step(factor * (high - low), parts);
-    for (double i = std::ceil(factor * low / step); i <= std::floor(factor * high / step); i += 1.0)
-      draw(px(i * step / factor), fmt::format("{:.4g}", i * step + 0.0));  // + 0.0 makes 0 of -0
-  }
-  std::string attribute(char name) const {
-    return fmt::format(" data-{}='{} {} {} {}'", name, low, high, from_px, to_px);
-  }
-};
-
-std::string path(const Curve& curve, const Axis& x, const Axis& y) {
+std::string path(const Curve& curve, const output::Panel& panel) {
   std::string d;
   double last_x = 0.0, last_y = 0.0;
   bool down = false;
@@ -70,7 +38,7 @@ std::string path(const Curve& curve, const Axis& x, const Axis& y) {
       down = false;
       continue;
     }
-    const double to_x = x.px(at_x), to_y = y.px(at_y);
+    const double to_x = panel.x.px(at_x), to_y = panel.y.px(at_y);
     if (down && std::hypot(to_x - last_x, to_y - last_y) < 0.8) continue;
     d +=
         fmt::format("{}{:.1f} {:.1f}{}", down && !curve.dots ? 'L' : 'M', to_x, to_y, curve.dots ? "h0" : "");
@@ -80,64 +48,49 @@ std::string path(const Curve& curve, const Axis& x, const Axis& y) {
   return d.empty() ? "" : fmt::format("<path {} d='{}'/>\n", curve.kind, d);
 }
 
-/// Grid, numbers and label of an axis, drawn in a unit.
-using InUnit = std::function<std::string(double factor, const std::string& label)>;
-
-/// In mm and as ratios where that is what it shows.
-std::string axis_svg(const std::string& label, const plant::Rig& rig, const InUnit& drawn) {
+/// An axis drawn in a unit; in mm and as ratios where that is what it shows.
+template <class Drawn>
+std::string in_units(const std::string& label, const plant::Rig& rig, const Drawn& drawn) {
   if (label != ratio_unit) return drawn(1.0, label);
   return either(drawn(length_mm(rig), "height in mm"), drawn(1.0, label), "g");
 }
 
-std::string across(const Axis& x, double factor, const std::string& label) {
-  std::string svg = fmt::format("<text x='{}' y='{}' text-anchor='middle'>{}</text>\n",
-                                0.5 * (left + picture_width - right), picture_height - 8, escaped(label));
-  x.ticks(6, factor, [&](double px, const std::string& text) {
-    svg += fmt::format(
-        "<path class='grid' d='M{0:.1f} {1}V{2}'/><text x='{0:.1f}' y='{3}' "
-        "text-anchor='middle'>{4}</text>\n",
-        px, top, picture_height - bottom, picture_height - bottom + 15, text);
-  });
-  return svg;
+std::string axes(const output::Panel& panel, const std::string& x_label, const std::string& y_label,
+                 const plant::Rig& rig) {
+  return in_units(x_label, rig,
+                  [&](double factor, const std::string& label) {
+                    return panel.across(round_numbers(panel.x, 6, factor), label);
+                  }) +
+         in_units(y_label, rig, [&](double factor, const std::string& label) {
+           return panel.upwards(round_numbers(panel.y, 5, factor), label);
+         });
 }
 
-std::string upwards(const Axis& y, double factor, const std::string& label) {
-  std::string svg =
-      fmt::format("<text x='11' y='{0}' text-anchor='middle' transform='rotate(-90 11 {0})'>{1}</text>\n",
-                  0.5 * (top + picture_height - bottom), escaped(label));
-  y.ticks(5, factor, [&](double px, const std::string& text) {
-    svg += fmt::format(
-        "<path class='grid' d='M{0} {1:.1f}H{2}'/><text x='{3}' y='{4:.1f}' text-anchor='end'>{5}</text>\n",
-        left, px, picture_width - right, left - 5, px + 4, text);
-  });
-  return svg;
+std::string floor_svg(const output::Panel& panel) {
+  const output::Scale &x = panel.x, &y = panel.y;
+  return fmt::format(
+      "<path class='floor' d='M{0} {1:.1f}H{2}M{0} {3:.1f}H{2}'/><text x='{4}' y='{5:.1f}' "
+      "class='halo' text-anchor='end'>noise floor</text>\n",
+      x.from_px, y.px(y.floor), x.to_px, y.px(-y.floor), x.to_px - 3.0, y.px(y.floor) - 4.0);
 }
 
 std::string chart(const std::string& head, const std::string& x_label, const std::string& y_label,
                   const std::vector<Curve>& curves, const plant::Rig& rig, double floor = 0.0) {
-  Axis x{left, picture_width - right}, y{picture_height - bottom, top, floor};
-  bool any = false;
+  output::Panel panel{.x = {left, picture_width - right},
+                      .y = {picture_height - bottom, top, floor},
+                      .words_px = left - 11.0};
+  output::Scale &x = panel.x, &y = panel.y;
   for (const auto& curve : curves)
     for (const auto& [at_x, at_y] : curve.points)
-      if (std::isfinite(at_x + at_y)) {
-        x.hold(at_x);
-        y.hold(at_y);
-        any = true;
-      }
-  if (!any) return "";
+      if (std::isfinite(at_x + at_y)) x.hold(at_x), y.hold(at_y);
+  if (x.low > x.high) return "";
   if (floor > 0.0) y.hold(-1.5 * floor), y.hold(1.5 * floor);
-  x.close();
-  y.close();
+  for (output::Scale* scale : {&x, &y}) scale->widen(1e-6 + 2e-3 * std::abs(scale->high));
   std::string svg = fmt::format("<svg role='img' viewBox='0 0 {} {}' {}{}{}>\n", picture_width,
-                                picture_height, head, x.attribute('x'), y.attribute('y'));
-  svg += axis_svg(x_label, rig, [&x](double factor, const auto& label) { return across(x, factor, label); });
-  svg += axis_svg(y_label, rig, [&y](double factor, const auto& label) { return upwards(y, factor, label); });
-  for (const auto& curve : curves) svg += path(curve, x, y);
-  if (floor > 0.0)
-    svg += fmt::format(
-        "<path class='floor' d='M{0} {1:.1f}H{2}M{0} {3:.1f}H{2}'/><text x='{4}' y='{5:.1f}' "
-        "class='halo' text-anchor='end'>noise floor</text>\n",
-        left, y.px(floor), picture_width - right, y.px(-floor), picture_width - right - 3, y.px(floor) - 4);
+                                picture_height, head, attribute('x', x), attribute('y', y));
+  svg += axes(panel, x_label, y_label, rig);
+  for (const auto& curve : curves) svg += path(curve, panel);
+  if (floor > 0.0) svg += floor_svg(panel);
   return svg + "</svg>\n";
 }
 

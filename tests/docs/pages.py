@@ -23,6 +23,7 @@ from pathlib import Path
 SHOWN_AS = "/home/me/mckibben"  # where the reader's checkout is thought to be
 PART = re.compile(r'^```(?P<kind>console|\w+ title="(?P<name>[^"]+)")\n(?P<body>.*?)^```$'
                   r'|^<!-- picture: (?P<picture>\S+) is "(?P<label>[^"]+)" of (?P<report>\S+)(?: at (?P<time>\S+) s)? -->$', re.S | re.M)
+PROGRESS = re.compile(r"^.*, step \d+, .* so far\n", re.M)  # a line for each minute: how many is a matter of the machine
 NUMBER = re.compile(r"[0-9]+(?:\.[0-9]+)?(?:e[+-]?[0-9]+)?")
 
 
@@ -38,9 +39,10 @@ def play(session, folder):
     """The session as it is: each command of a console with what it prints here."""
     text = ""
     for command in re.findall(r"^\$ (.*(?:\\\n.*)*)$", session, re.M):
-        done = subprocess.run(["bash", "-c", command], cwd=folder, text=True, timeout=300,
+        done = subprocess.run(["bash", "-c", command], cwd=folder, text=True, timeout=1500,
                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
-        text += f"$ {command}\n" + re.sub(r"([^\n])\Z", "\\1\n", done.stdout.replace(str(folder), SHOWN_AS))
+        said = PROGRESS.sub("", done.stdout.replace(str(folder), SHOWN_AS))
+        text += f"$ {command}\n" + re.sub(r"([^\n])\Z", "\\1\n", said)
     return text
 
 
