@@ -240,12 +240,12 @@ TEST(Run, SaysHowLongControllersStoodAtALimitOfTheirCurrent) {
 
 TEST(RigWords, TellWhatTheRigHasAndWhatItHasNot) {
   plant::Rig rig;
-  EXPECT_NE(rig_html(rig, false).find("<dt>gauge</dt><dd>none"), std::string::npos);
-  EXPECT_NE(rig_html(rig, false).find("none: nominal laws only"), std::string::npos);
+  EXPECT_NE(rig_html({.rig = rig}).find("<dt>gauge</dt><dd>none"), std::string::npos);
+  EXPECT_NE(rig_html({.rig = rig}).find("none: nominal laws only"), std::string::npos);
   rig.valve.zero_current_mA = 0.0;
   rig.joint.wheel_radius_m = 0.2;
   rig.effects.get<plant::MuscleLeak>().conductance_m3_per_s_Pa = 1e-10;
-  const std::string html = rig_html(rig, true);
+  const std::string html = rig_html({.rig = rig, .gauge = true});
   for (const char* part : {"200 mm in radius", "0 to 20 mA", "on the muscle", "<dd>muscle_leak"})
     EXPECT_NE(html.find(part), std::string::npos) << part << html;
 }
