@@ -7,17 +7,17 @@
 
 #include <plant/effects.hpp>
 #include <sim/diagnose/diagnosis.hpp>
-#include <sim/input/dataset.hpp>
+#include <sim/domain/dataset.hpp>
 
 namespace mckibben::output {
 
-inline input::Dataset measured() {
-  input::Dataset data;
+inline domain::Dataset measured() {
+  domain::Dataset data;
   data.path = "measured/dataset.yaml";
   data.inputs = {{"measured/dataset.yaml", std::string(64, 'a')}};
   const double loads_kg[] = {11.138, 11.138, 23.406, 23.406, 13.87, 18.87};
   for (std::size_t i = 0; i < std::size(loads_kg); ++i) {
-    input::Run run;
+    domain::Run run;
     run.id = "r0" + std::to_string(i + 1);
     run.load_kg = loads_kg[i];
     data.runs.push_back(run);
@@ -25,7 +25,7 @@ inline input::Dataset measured() {
   return data;
 }
 
-inline diagnose::RunGap ride(const input::Run& run, bool held_out) {
+inline diagnose::RunGap ride(const domain::Run& run, bool held_out) {
   diagnose::RunGap gap{.id = run.id, .load_kg = run.load_kg, .held_out = held_out};
   for (int k = 0; k < 833; ++k) {
     const double time_s = 0.012 * k, motion = 0.1 - 0.09 * std::cos(2.5 * time_s) * (10.0 / run.load_kg);
@@ -86,7 +86,7 @@ inline diagnose::Diagnosis diagnosed() {
   d.confusion_names = {"muscle_leak", "valve_lag", "bladder_elasticity"};
   d.confusion = {{1.0, 0.74, -0.31}, {0.74, 1.0, 0.93}, {-0.31, 0.93, 1.0}};
   d.gap = {1.3e-4, 0.0093, 0.0022, 1.6e-4, 0.9876};
-  const input::Dataset data = measured();
+  const domain::Dataset data = measured();
   for (std::size_t i = 0; i < data.runs.size(); ++i) d.runs.push_back(ride(data.runs[i], i >= 4));
   d.runs[3].left_out = true;
   d.next_experiment = NextExperiment{.separates = {"valve_dead_band", "valve_hysteresis"},

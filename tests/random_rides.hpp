@@ -26,7 +26,7 @@ struct RandomRide {
   }
 };
 
-inline Recording random_ride(unsigned seed, bool whole_range, engine::Method method) {
+inline Recording random_ride(unsigned seed, bool whole_range, solver::Method method) {
   RandomRide ride(seed, whole_range);
   ride.plan.engine.method = method;
   return simulate(ride.plan, *ride.current.make(knowledge_of(ride.plan.rig, {})));

@@ -8,7 +8,7 @@
 #include <sim/cli/results.hpp>
 #include <sim/cli/verbs.hpp>
 #include <sim/input/calibration_file.hpp>
-#include <sim/input/dataset.hpp>
+#include <sim/input/dataset_file.hpp>
 #include <sim/output/calibration_report.hpp>
 #include <sim/output/chart.hpp>
 #include <sim/output/diagnosis_words.hpp>
@@ -37,7 +37,7 @@ void add_choice(CLI::App& verb, const char* name, T& value, const std::map<std::
 }
 
 int calibrate_dataset(const CalibrateOptions& options) {
-  const input::Dataset dataset = input::read_dataset(options.dataset);
+  const domain::Dataset dataset = input::read_dataset(options.dataset);
   Job job(options, "calibrate " + options.dataset, output::name_of(dataset) + "-calibration", dataset.inputs);
   const thesis::CalibrationResult result = thesis::calibrate(dataset, options.fits);
   if (run::interrupted()) throw run::Interrupted();

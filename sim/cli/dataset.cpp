@@ -13,8 +13,8 @@
 #include <sim/cli/options.hpp>
 #include <sim/cli/results.hpp>
 #include <sim/cli/verbs.hpp>
-#include <sim/input/campaign.hpp>
-#include <sim/input/dataset.hpp>
+#include <sim/input/campaign_file.hpp>
+#include <sim/input/dataset_file.hpp>
 #include <sim/output/campaign_folder.hpp>
 #include <sim/output/table.hpp>
 #include <sim/report/report.hpp>
@@ -29,7 +29,7 @@ struct DatasetOptions : Options {
 };
 
 int make_dataset(const DatasetOptions& options) {
-  input::Campaign campaign = input::read_campaign(std::filesystem::path(options.campaign));
+  domain::Campaign campaign = input::read_campaign(std::filesystem::path(options.campaign));
   if (options.seed) campaign.seed = *options.seed;
   const auto where = destination(options, campaign.name);
   for (const char* suffix : {"", "-truth", ".unfinished"})

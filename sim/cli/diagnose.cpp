@@ -13,7 +13,8 @@
 #include <sim/cli/verbs.hpp>
 #include <sim/diagnose/diagnose.hpp>
 #include <sim/engine/failure.hpp>
-#include <sim/input/rig_file.hpp>
+#include <sim/input/dataset_file.hpp>
+#include <sim/input/rigs.hpp>
 #include <sim/output/diagnosis_json.hpp>
 #include <sim/output/diagnosis_rig.hpp>
 #include <sim/output/diagnosis_table.hpp>
@@ -37,7 +38,7 @@ void check_plan(const std::string& plan) {
         fmt::format("cannot write {}: what is there is not an earlier plan; give another --plan", plan));
 }
 
-void write_plan(const std::string& plan, const input::Dataset& data, const diagnose::Diagnosis& found) {
+void write_plan(const std::string& plan, const domain::Dataset& data, const diagnose::Diagnosis& found) {
   if (plan.empty()) return;
   if (!found.next_experiment) {
     const std::string instead = output::what_next(found);
@@ -64,14 +65,14 @@ struct Found {
 
 /// Says what is known so far where it is interrupted.
 template <class Hook>
-Found find(const input::Dataset& data, const DiagnoseOptions& options, const Hook& hook) {
+Found find(const domain::Dataset& data, const DiagnoseOptions& options, const Hook& hook) {
   std::vector<std::string> known;
   const diagnose::Settings settings{options.threads, options.seed.value_or(1),
                                     [&](const std::string& what) { known.push_back(what); }};
   try {
     Found found{diagnose::diagnose(data, settings, hook), {}, {}};
     found.nominal = run::replay(data, options.threads, hook);
-    input::Dataset mended = data;
+    domain::Dataset mended = data;
     mended.rig = found.diagnosis.corrected;
     found.corrected = run::replay(mended, options.threads, hook);
     return found;
@@ -82,7 +83,7 @@ Found find(const input::Dataset& data, const DiagnoseOptions& options, const Hoo
 }
 
 int diagnose_dataset(const DiagnoseOptions& options) {
-  input::Dataset data = input::read_dataset(options.dataset);
+  domain::Dataset data = input::read_dataset(options.dataset);
   if (!options.rig.empty()) data.rig = input::read_rig(options.rig, data.inputs);
   const std::string name = output::name_of(data);
   check_plan(options.plan);

@@ -16,10 +16,10 @@
 #include <sim/cli/options.hpp>
 #include <sim/cli/results.hpp>
 #include <sim/cli/verbs.hpp>
-#include <sim/engine/settings.hpp>
 #include <sim/engine/versions.hpp>
 #include <sim/input/field_kinds.hpp>
 #include <sim/input/fields_json.hpp>
+#include <sim/solver/settings.hpp>
 
 namespace mckibben::cli {
 namespace {
@@ -125,7 +125,7 @@ std::string text_of(const Findings& found) {
 }
 
 struct DoctorOptions : Options {
-  double tolerance = engine::Settings{}.tolerance;  ///< of the integration
+  double tolerance = solver::Settings{}.tolerance;  ///< of the integration
 };
 
 int examine(const DoctorOptions& options) {
@@ -147,7 +147,7 @@ void add_doctor(CLI::App& app, Asked& asked) {
   DoctorOptions& options = asked.when(verb, examine);
   add_json(verb, options);
   verb.add_option("--tolerance", options.tolerance, "Of the integration (default: 1e-6, as in a rig)")
-      ->check(from_to(engine::tightest_tolerance, 1e-3))
+      ->check(from_to(solver::tightest_tolerance, 1e-3))
       ->type_name("RATIO");
   verb.footer(
       "Examples:\n"

@@ -13,12 +13,12 @@
 #include <sim/cli/results.hpp>
 #include <sim/cli/verbs.hpp>
 #include <sim/input/calibration_file.hpp>
-#include <sim/input/campaign.hpp>
-#include <sim/input/dataset.hpp>
+#include <sim/input/campaign_file.hpp>
+#include <sim/input/dataset_file.hpp>
 #include <sim/input/field_table.hpp>
 #include <sim/input/json_schema.hpp>
-#include <sim/input/rig_file.hpp>
-#include <sim/input/scenario.hpp>
+#include <sim/input/rigs.hpp>
+#include <sim/input/scenario_file.hpp>
 #include <sim/input/suggest.hpp>
 #include <sim/input/utf8.hpp>
 #include <sim/input/yaml_file.hpp>
@@ -34,7 +34,7 @@ using input::Problem;
 /// Reads a data set and looks at what it says; adds warnings. Throws what is wrong with it. Returns what was
 /// looked at.
 std::string read_measured(const std::filesystem::path& path, std::vector<Problem>& warnings) {
-  const input::Dataset data = input::read_dataset(path);
+  const domain::Dataset data = input::read_dataset(path);
   const run::Look look = run::look(data);
   run::raise(data, look.findings);
   warnings = run::problems_of(data, look.findings);
@@ -51,14 +51,14 @@ std::string read_any(const std::filesystem::path& path, std::vector<Problem>& wa
   const input::Node* schema = file.root.find("schema");
   const std::string kind = schema == nullptr ? "" : schema->text.substr(0, schema->text.find('/'));
   if (kind == "mckibben-rig") {
-    std::vector<input::InputFile> inputs;
+    std::vector<domain::InputFile> inputs;
     input::read_rig(path.string(), inputs);
   } else if (kind == "mckibben-dataset") {
     return read_measured(path, warnings);
   } else if (kind == "mckibben-campaign") {
     input::read_campaign(path);
   } else if (kind == "mckibben-calibration") {
-    std::vector<input::InputFile> inputs;
+    std::vector<domain::InputFile> inputs;
     input::read_calibration(path, inputs);
   } else if (kind == "mckibben-scenario") {
     input::read_scenario(path, warnings);
@@ -134,7 +134,7 @@ int check_files(const CheckOptions& options) {
       print(fmt::format("{}: ok{}\n", path, looked.empty() ? "" : fmt::format(" ({})", looked)));
   }
   const std::string document = Json{{"schema", "mckibben-check/1"}, {"files", findings}}.dump(2) + "\n";
-  std::vector<input::InputFile> read;
+  std::vector<domain::InputFile> read;
   read.reserve(options.files.size());
   for (const auto& path : options.files) read.push_back({path, ""});
   Job job(options, "check", std::nullopt, read);
@@ -150,16 +150,16 @@ struct SchemaOptions : Options {
 int print_schema(const SchemaOptions& options) {
   const std::string &kind = options.kind, &format = options.format;
   if (format == "yaml") {
-    print(input::to_yaml(input::rig_json(input::RigFile{})));
+    print(input::to_yaml(input::rig_json(domain::RigFile{})));
     return done;
   }
   if (kind == "rig")
-    return print_kind(input::rig_schema, "Rig", input::list_fields<input::RigFile>(), format);
+    return print_kind(input::rig_schema, "Rig", input::list_fields<domain::RigFile>(), format);
   if (kind == "campaign")
-    return print_kind(input::campaign_schema, "Campaign", input::list_fields<input::Campaign>(), format);
+    return print_kind(input::campaign_schema, "Campaign", input::list_fields<domain::Campaign>(), format);
   if (kind == "dataset")
-    return print_kind(input::dataset_schema, "Data set", input::list_fields<input::Dataset>(), format);
-  return print_kind(input::scenario_schema, "Scenario", input::list_fields<input::Scenario>(), format);
+    return print_kind(input::dataset_schema, "Data set", input::list_fields<domain::Dataset>(), format);
+  return print_kind(input::scenario_schema, "Scenario", input::list_fields<domain::Scenario>(), format);
 }
 
 }  // namespace

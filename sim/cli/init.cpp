@@ -13,7 +13,7 @@
 #include <sim/cli/results.hpp>
 #include <sim/cli/verbs.hpp>
 #include <sim/input/field_list.hpp>
-#include <sim/input/scenario.hpp>
+#include <sim/input/scenario_file.hpp>
 #include <sim/output/folder.hpp>
 
 namespace mckibben::cli {
@@ -78,7 +78,7 @@ std::string scenario_to_start_from(const std::string& file) {
       "# switch them on. Every key: mckibben schema scenario --format markdown\n"
       "schema: {2}\n",
       file, std::filesystem::path(file).stem().string(), input::scenario_schema);
-  const auto fields = input::list_fields<input::Scenario>();
+  const auto fields = input::list_fields<domain::Scenario>();
   for (const Part& part : scenario_parts) {
     const auto info =
         std::find_if(fields.begin(), fields.end(), [&](const FieldInfo& one) { return one.key == part.key; });

@@ -21,7 +21,7 @@ void hold(ride::Ride& ride, double current_mA, int ticks) {
 
 /// Through a choked valve air flows at a constant rate: the pressure rises along a straight line, R T / V
 /// times the flow (ISO 6358). Returns the relative error after a tick.
-double choked_filling(const engine::Settings& settings) {
+double choked_filling(const solver::Settings& settings) {
   plant::Rig rig;
   rig.hose.conductance_m3_per_s_Pa = 1e-12;  // as good as shut
   rig.valve.supply_pressure_Pa = 20e5;       // choked up to 5.3 bar of gauge pressure
@@ -34,7 +34,7 @@ double choked_filling(const engine::Settings& settings) {
 }
 
 /// Without pull and friction the load falls freely: e - g t^2 / (2 l0). Returns the error of e.
-double free_fall(const engine::Settings& settings) {
+double free_fall(const solver::Settings& settings) {
   plant::Rig rig;
   rig.muscle.rest_radius_m = 5e-4;  // a thread: its pull is a few millionths of the weight
   rig.valve.zero_pressure_Pa = 0.0;
@@ -57,7 +57,7 @@ double free_fall(const engine::Settings& settings) {
 
 /// The thesis's rig under steps of current. Returns the largest error of e at the stored rows; those of the
 /// pressure count as much if they are fifty times as large in bar.
-double stored_steps(const engine::Settings& settings) {
+double stored_steps(const solver::Settings& settings) {
   ride::Ride ride(ride::Hanging{plant::Rig{}, stored_load_kg}, settings);
   ride.start({{.current_mA = stored_rows[0].current_mA}}, 0.0);
   hold(ride, stored_rows[0].current_mA, 167);  // settling
@@ -77,14 +77,14 @@ std::vector<KnownCase> known_cases(double tolerance) {
   struct Case {
     const char *name, *unit;
     double allowed;
-    std::function<double(const engine::Settings&)> error;
+    std::function<double(const solver::Settings&)> error;
   };
   const Case cases[] = {{"choked filling, closed form", "of the rise in pressure", 1e-4, choked_filling},
                         {"free fall, closed form", "contraction ratio", 2e-5, free_fall},
                         {"steps of current, stored", "contraction ratio", 2e-6, stored_steps}};
   std::vector<KnownCase> results;
   for (const Case& one : cases)
-    for (const engine::Method method : {engine::Method::erk, engine::Method::cvode}) {
+    for (const solver::Method method : {solver::Method::erk, solver::Method::cvode}) {
       KnownCase result{
           .name = one.name, .method = method, .allowed = one.allowed, .unit = one.unit, .failure = {}};
       try {

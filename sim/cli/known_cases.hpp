@@ -5,14 +5,14 @@
 #include <string>
 #include <vector>
 
-#include <sim/engine/settings.hpp>
+#include <sim/solver/settings.hpp>
 
 namespace mckibben::cli {
 
 /// One case with one method.
 struct KnownCase {
   std::string name;
-  engine::Method method{};
+  solver::Method method{};
   double error = 0.0, allowed = 0.0;
   std::string unit;
   std::string failure;  ///< why the integrator gave up; empty if it did not

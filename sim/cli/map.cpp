@@ -11,9 +11,9 @@
 #include <sim/cli/options.hpp>
 #include <sim/cli/results.hpp>
 #include <sim/cli/verbs.hpp>
+#include <sim/domain/number.hpp>
 #include <sim/input/calibration_file.hpp>
-#include <sim/input/number.hpp>
-#include <sim/input/rig_file.hpp>
+#include <sim/input/rigs.hpp>
 #include <sim/output/error_map.hpp>
 #include <sim/output/heat_map.hpp>
 #include <sim/report/report.hpp>
@@ -89,10 +89,10 @@ std::vector<double> loads_of(const controllers::CalibratedRange& range, const Ma
 }
 
 /// What is asked for; adds the files that are read. Throws BadInput.
-run::MapPlan plan_of(const MapOptions& options, std::vector<input::InputFile>& files) {
+run::MapPlan plan_of(const MapOptions& options, std::vector<domain::InputFile>& files) {
   run::MapPlan plan;
   plan.calibration = input::read_calibration(options.calibration, files);
-  const input::RigFile rig = input::read_rig(options.rig.empty() ? "thesis" : options.rig, files);
+  const domain::RigFile rig = input::read_rig(options.rig.empty() ? "thesis" : options.rig, files);
   plan.rig = rig;
   plan.engine = rig.integrator;
   plan.loads_kg = loads_of(plan.calibration.range, options);
@@ -128,7 +128,7 @@ void tell_interrupted(Job& job, const run::ErrorMaps& maps) {
 }
 
 int map_errors(const MapOptions& options) {
-  std::vector<input::InputFile> files;
+  std::vector<domain::InputFile> files;
   const run::MapPlan plan = plan_of(options, files);
   const std::string name = name_of(options);
   Job job(options, "map " + options.calibration, name, files);
@@ -138,7 +138,7 @@ int map_errors(const MapOptions& options) {
 
   for (const auto& load : maps.loads)
     if (load.failure.empty())
-      job.write(fmt::format("map_{}kg.svg", input::write_number(load.load_kg)),
+      job.write(fmt::format("map_{}kg.svg", domain::write_number(load.load_kg)),
                 output::heat_map_svg(plan, maps, load));
   input::Json json = output::json_of(plan, maps, files);
   if (maps.interrupted) json["interrupted"] = true;

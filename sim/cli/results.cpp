@@ -14,7 +14,7 @@ std::filesystem::path destination(const Options& options, const std::string& nam
   return options.out.empty() ? std::filesystem::path("out") / name : std::filesystem::path(options.out);
 }
 
-void keep_apart(const std::filesystem::path& where, const std::vector<input::InputFile>& read) {
+void keep_apart(const std::filesystem::path& where, const std::vector<domain::InputFile>& read) {
   namespace fs = std::filesystem;
   std::error_code ignored;
   const auto refuse_within = [&](const fs::path& file, const std::string& name) {
@@ -42,7 +42,7 @@ void print(const Options& options, const Printable& result) {
 }
 
 Job::Job(const Options& options, std::string words, const std::optional<std::string>& name,
-         const std::vector<input::InputFile>& read)
+         const std::vector<domain::InputFile>& read)
     : options_(options), where_(destination(options, name.value_or(""))) {
   if (!name && options.out.empty()) return;
   keep_apart(where_, read);

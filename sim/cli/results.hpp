@@ -20,7 +20,7 @@ std::filesystem::path destination(const Options& options, const std::string& nam
 
 /// Throws output::CannotWrite if one of the files that are read is in the folder `where`: a results folder
 /// replaces what stood there, or sets it aside.
-void keep_apart(const std::filesystem::path& where, const std::vector<input::InputFile>& read);
+void keep_apart(const std::filesystem::path& where, const std::vector<domain::InputFile>& read);
 
 /// Tells the user on stderr, in a line.
 void say(const std::string& text);
@@ -59,7 +59,7 @@ class Job {
   /// Prepares the results folder: the one asked for, or out/<name>; of a job without a name, none that is not
   /// asked for. `words`: verb and input; `read`: the input files. Throws output::CannotWrite.
   Job(const Options& options, std::string words, const std::optional<std::string>& name,
-      const std::vector<input::InputFile>& read);
+      const std::vector<domain::InputFile>& read);
 
   /// The user interrupted: what is finished goes beside any whole result. `what`: runs, targets.
   void interrupted(std::size_t finished, std::size_t all, const char* what);

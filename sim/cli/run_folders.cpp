@@ -11,10 +11,10 @@
 #include <fmt/format.h>
 
 #include <sim/cli/run_folders.hpp>
+#include <sim/domain/number.hpp>
 #include <sim/input/csv.hpp>
 #include <sim/input/json_file.hpp>
 #include <sim/input/limits.hpp>
-#include <sim/input/number.hpp>
 #include <sim/input/source.hpp>
 #include <sim/input/utf8.hpp>
 
@@ -109,7 +109,7 @@ Json part(const Json& document, const char* key) {
 
 std::string run_name(const Json& run) {
   if (run.contains("id")) return run.at("id").get<std::string>();
-  return fmt::format("{} kg {}", input::write_number(run.at("load_kg").get<double>()),
+  return fmt::format("{} kg {}", domain::write_number(run.at("load_kg").get<double>()),
                      run.at("controller").get<std::string>());
 }
 

@@ -11,8 +11,10 @@
 #include <sim/cli/options.hpp>
 #include <sim/cli/results.hpp>
 #include <sim/cli/verbs.hpp>
-#include <sim/input/number.hpp>
-#include <sim/input/rig_file.hpp>
+#include <sim/domain/number.hpp>
+#include <sim/input/dataset_file.hpp>
+#include <sim/input/rigs.hpp>
+#include <sim/input/scenario_file.hpp>
 #include <sim/output/csv.hpp>
 #include <sim/output/diagnosis_words.hpp>
 #include <sim/output/plot.hpp>
@@ -54,14 +56,14 @@ void write_table(Job& job, output::Package& package, const std::string& stem, co
   package.runs.push_back({stem, title});
 }
 
-void write_tables(Job& job, const input::Scenario& scenario, const run::Comparison& comparison,
+void write_tables(Job& job, const domain::Scenario& scenario, const run::Comparison& comparison,
                   const std::vector<std::string>& formats) {
   const double per_count = run::contraction_per_count(scenario.rig);
   const bool gauge = scenario.rig.gauge.fitted;
   output::Package package{scenario.name, output::recorded_columns(true, gauge), {}};
   for (const auto& run : comparison.runs) {
     if (run.recording.samples.empty()) continue;
-    const std::string title = fmt::format("{} kg, {}", input::write_number(run.load_kg), run.controller);
+    const std::string title = fmt::format("{} kg, {}", domain::write_number(run.load_kg), run.controller);
     write_table(job, package, output::file_stem(run), title,
                 {scenario.name + ": " + title,
                  output::columns_of(run.recording, per_count, comparison.target, gauge),
@@ -74,14 +76,14 @@ void write_tables(Job& job, const input::Scenario& scenario, const run::Comparis
   job.write(output::package_file, output::datapackage(package));
 }
 
-void write_tables(Job& job, const std::string& name, const input::Dataset& dataset,
+void write_tables(Job& job, const std::string& name, const domain::Dataset& dataset,
                   const std::vector<run::ReplayedRun>& runs, const std::vector<std::string>& formats) {
   const double per_count = run::contraction_per_count(dataset.rig);
   const bool gauge = dataset.rig.gauge.fitted;
   output::Package package{"Replay of " + name, output::recorded_columns(false, gauge), {}};
   for (const auto& run : runs) {
     if (run.recording.samples.empty()) continue;
-    const std::string title = fmt::format("{}, {} kg", run.id, input::write_number(run.load_kg));
+    const std::string title = fmt::format("{}, {} kg", run.id, domain::write_number(run.load_kg));
     write_table(
         job, package, run.id, title,
         {package.title + ": " + title,
@@ -94,7 +96,7 @@ void write_tables(Job& job, const std::string& name, const input::Dataset& datas
 
 /// What looks wrong in the data, and what is doubtful in their simulation. Throws input::BadInput where a
 /// comparison with them would mean nothing.
-std::vector<std::string> sane(const input::Dataset& dataset, const std::vector<run::ReplayedRun>& runs) {
+std::vector<std::string> sane(const domain::Dataset& dataset, const std::vector<run::ReplayedRun>& runs) {
   const auto findings = run::sanity(dataset, run::expected_of(runs));
   run::raise(dataset, findings);
   std::vector<std::string> warnings;
@@ -108,7 +110,7 @@ std::vector<std::string> sane(const input::Dataset& dataset, const std::vector<r
 
 int run_scenario(const RunOptions& options) {
   std::vector<input::Problem> problems;
-  input::Scenario scenario = input::read_scenario(std::filesystem::path(options.scenario), problems);
+  domain::Scenario scenario = input::read_scenario(std::filesystem::path(options.scenario), problems);
   for (const auto& problem : problems) fmt::print(stderr, "{}\n", to_text(problem));
   if (options.seed) scenario.seed = *options.seed;
   Job job(options, "run " + options.scenario, scenario.name, scenario.inputs);
@@ -130,7 +132,7 @@ int run_scenario(const RunOptions& options) {
 }
 
 int replay_dataset(const ReplayOptions& options) {
-  input::Dataset dataset = input::read_dataset(options.dataset);
+  domain::Dataset dataset = input::read_dataset(options.dataset);
   if (!options.rig.empty()) dataset.rig = input::read_rig(options.rig, dataset.inputs);
   const std::string name = output::name_of(dataset);
   Job job(options, "replay " + options.dataset, name + "-replay", dataset.inputs);

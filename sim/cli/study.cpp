@@ -7,7 +7,7 @@
 #include <sim/cli/options.hpp>
 #include <sim/cli/results.hpp>
 #include <sim/cli/verbs.hpp>
-#include <sim/input/campaign.hpp>
+#include <sim/input/campaign_file.hpp>
 #include <sim/output/calibration_report.hpp>
 #include <sim/output/chart.hpp>
 #include <sim/output/run_json.hpp>
@@ -22,7 +22,7 @@ struct StudyOptions : Options {
 };
 
 int make_study(const StudyOptions& options) {
-  input::Campaign campaign = input::read_campaign(std::filesystem::path(options.campaign));
+  domain::Campaign campaign = input::read_campaign(std::filesystem::path(options.campaign));
   Job job(options, "study " + options.study + " " + options.campaign,
           "study-" + options.study + "-" + campaign.name, campaign.inputs);
   const study::Evidence evidence = with_progress(campaign.name, [&](const auto& hook) {

@@ -136,12 +136,12 @@ std::vector<Still> stills(const Series& values, const Series& model, double coun
 
 class Checker {
  public:
-  Checker(const input::Dataset& data, unsigned threads)
+  Checker(const domain::Dataset& data, unsigned threads)
       : data_(data),
         threads_(threads),
         count_(run::contraction_per_count(data.rig)),
         model_(data.runs.size()) {
-    for (const input::Run& run : data.runs) doubts_.masked.emplace_back(run.current_mA.size(), false);
+    for (const domain::Run& run : data.runs) doubts_.masked.emplace_back(run.current_mA.size(), false);
     left_out_.assign(data.runs.size(), false);
     run::for_each_job(
         data.runs.size(), threads,
@@ -254,7 +254,7 @@ class Checker {
   }
 
   bool moves(std::size_t i) {
-    const input::Run& run = data_.runs[i];
+    const domain::Run& run = data_.runs[i];
     const double largest_mA = *std::max_element(run.current_mA.begin(), run.current_mA.end());
     const double dead_mA = data_.rig.valve.zero_current_mA +
                            1e-3 * (data_.rig.valve.span_current_mA - data_.rig.valve.zero_current_mA);
@@ -309,7 +309,7 @@ class Checker {
   // The same file twice says nothing new, and would stand on both sides of the split.
   void copies() {
     for (std::size_t i = 0; i < data_.runs.size(); ++i) {
-      const auto same = [&](const input::Run& run) {
+      const auto same = [&](const domain::Run& run) {
         return run.contraction_ratio == data_.runs[i].contraction_ratio &&
                run.current_mA == data_.runs[i].current_mA;
       };
@@ -371,7 +371,7 @@ class Checker {
                       first_kg));
   }
 
-  const input::Dataset& data_;
+  const domain::Dataset& data_;
   unsigned threads_;
   double count_;
   std::vector<Readings> model_;
@@ -381,7 +381,7 @@ class Checker {
 
 }  // namespace
 
-Doubts check(const input::Dataset& data, unsigned threads) {
+Doubts check(const domain::Dataset& data, unsigned threads) {
   return Checker(data, threads)();
 }
 

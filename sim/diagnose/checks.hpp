@@ -8,7 +8,7 @@
 
 #include <sim/diagnose/diagnosis.hpp>
 #include <sim/diagnose/experiment.hpp>
-#include <sim/input/dataset.hpp>
+#include <sim/domain/dataset.hpp>
 
 namespace mckibben::diagnose {
 
@@ -30,6 +30,6 @@ struct Doubts {
 ///
 /// Throws input::BadInput where a column is in another unit than it says; engine::NumericalFailure;
 /// run::Interrupted.
-Doubts check(const input::Dataset& data, unsigned threads);
+Doubts check(const domain::Dataset& data, unsigned threads);
 
 }  // namespace mckibben::diagnose

@@ -40,7 +40,7 @@ constexpr double contradicted = 1.0;
 /// How often data are mended and looked at again.
 constexpr int most_repairs = 2;
 
-input::Dataset without_gauges(input::Dataset data, const Runs& dead) {
+domain::Dataset without_gauges(domain::Dataset data, const Runs& dead) {
   for (const std::size_t run : dead) data.runs[run].muscle_pressure_Pa.reset();
   return data;
 }
@@ -59,7 +59,7 @@ double motion_left(const Gap& gap) {
 
 class Workflow {
  public:
-  Workflow(const input::Dataset& data, const Doubts& doubts, const Settings& settings, const Step& step)
+  Workflow(const domain::Dataset& data, const Doubts& doubts, const Settings& settings, const Step& step)
       : settings_(settings),
         step_(step),
         doubts_(doubts),
@@ -331,7 +331,7 @@ class Workflow {
   Settings settings_;
   const Step& step_;
   Doubts doubts_;
-  input::Dataset data_;
+  domain::Dataset data_;
   Runs usable_;
   Experiment experiment_;
   plant::Rig nominal_;
@@ -347,7 +347,7 @@ class Workflow {
 };
 
 /// The workflow, again each time that faults of the recording have been mended.
-std::pair<Diagnosis, bool> mended(input::Dataset data, const Settings& settings, const Step& step) {
+std::pair<Diagnosis, bool> mended(domain::Dataset data, const Settings& settings, const Step& step) {
   step("checking");
   Doubts doubts = check(data, settings.threads);
   for (int repairs = 0;; ++repairs) {
@@ -360,7 +360,7 @@ std::pair<Diagnosis, bool> mended(input::Dataset data, const Settings& settings,
 
 }  // namespace
 
-Diagnosis diagnose(const input::Dataset& data, const Settings& settings, const run::ProgressHook& progress) {
+Diagnosis diagnose(const domain::Dataset& data, const Settings& settings, const run::ProgressHook& progress) {
   std::size_t steps = 0;
   std::string without;
   const Step step = [&](const std::string& what) { progress(without + what, ++steps, 0); };

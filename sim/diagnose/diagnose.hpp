@@ -18,6 +18,6 @@ struct Settings {
 
 /// Progress counts steps and has no total: how much there is to try depends on what is found. Throws
 /// run::Interrupted; input::BadInput where the data cannot be used at all.
-Diagnosis diagnose(const input::Dataset& data, const Settings& settings, const run::ProgressHook& progress);
+Diagnosis diagnose(const domain::Dataset& data, const Settings& settings, const run::ProgressHook& progress);
 
 }  // namespace mckibben::diagnose

@@ -11,8 +11,8 @@
 #include <utility>
 #include <vector>
 
-#include <sim/input/campaign.hpp>
-#include <sim/input/dataset.hpp>
+#include <sim/domain/campaign.hpp>
+#include <sim/domain/dataset.hpp>
 
 namespace mckibben::diagnose {
 
@@ -145,8 +145,8 @@ struct NextExperiment {
   std::string current;     ///< in words
   std::string waveform{};  ///< kind in a scenario file
   double load_kg = 0.0;
-  double expected_power = 0.0;           ///< probability to tell them apart at 5 %
-  input::CampaignCurrent measurement{};  ///< the same current as a campaign or a scenario plays it
+  double expected_power = 0.0;            ///< probability to tell them apart at 5 %
+  domain::CampaignCurrent measurement{};  ///< the same current as a campaign or a scenario plays it
 };
 
 // NOLINTNEXTLINE(bugprone-exception-escape): moving a rig does not throw
@@ -169,7 +169,7 @@ struct Diagnosis {
   std::vector<std::string> warnings{};
   std::vector<Finding> faults{};  ///< of the recording; the verdict is on what is left
   std::string unexplained{};      ///< runs that no model comes near, in words
-  input::RigFile corrected{};
+  domain::RigFile corrected{};
   double false_alarm_rate = 0.0;  ///< that the thresholds were set for
   std::uint64_t seed = 1;
 };

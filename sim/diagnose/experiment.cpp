@@ -10,7 +10,7 @@
 
 namespace mckibben::diagnose {
 
-Experiment::Experiment(const input::Dataset& data, std::vector<std::vector<bool>> masked, unsigned threads,
+Experiment::Experiment(const domain::Dataset& data, std::vector<std::vector<bool>> masked, unsigned threads,
                        Runs trusted)
     : data_(data),
       masked_(std::move(masked)),
@@ -18,7 +18,7 @@ Experiment::Experiment(const input::Dataset& data, std::vector<std::vector<bool>
       floor_(noise_floor(data, masked_, std::move(trusted))) {}
 
 std::size_t Experiment::rows(std::size_t run) const {
-  const input::Run& measured = data_.runs[run];
+  const domain::Run& measured = data_.runs[run];
   return measured.current_mA.size() * (measured.muscle_pressure_Pa ? 2 : 1);
 }
 
@@ -33,7 +33,7 @@ std::vector<Experiment::Part> Experiment::parts(const Runs& runs) const {
 }
 
 void Experiment::compare(const Readings& readings, std::size_t run, double* residuals) const {
-  const input::Run& measured = data_.runs[run];
+  const domain::Run& measured = data_.runs[run];
   const std::size_t ticks = measured.current_mA.size();
   for (std::size_t k = 0; k < ticks; ++k) {
     const bool counts = !masked_[run][k];
@@ -75,7 +75,7 @@ Experiment::Slopes Experiment::slopes(const plant::Rig& rig, std::span<const Cha
   Slopes result{Eigen::VectorXd(total), Eigen::MatrixXd(total, static_cast<Eigen::Index>(changes.size()))};
   // Flies changes [first, last) of a run beside the rig itself.
   const auto fly = [&](const Part& part, std::size_t first, std::size_t last) {
-    const input::Run& measured = data_.runs[part.run];
+    const domain::Run& measured = data_.runs[part.run];
     std::vector<Hanging> rigs{{rig, measured.load_kg}};
     for (std::size_t c = first; c < last; ++c) {
       rigs.push_back(rigs.front());

@@ -12,7 +12,7 @@
 #include <sim/diagnose/noise.hpp>
 #include <sim/diagnose/parameter.hpp>
 #include <sim/diagnose/predict.hpp>
-#include <sim/input/dataset.hpp>
+#include <sim/domain/dataset.hpp>
 
 namespace mckibben::diagnose {
 
@@ -23,10 +23,10 @@ class Experiment {
  public:
   /// `masked[run][row]` rows do not count. `trusted` runs say what the noise floor is; none: all do,
   /// but none is compared with another. The data set outlives this.
-  Experiment(const input::Dataset& data, std::vector<std::vector<bool>> masked, unsigned threads,
+  Experiment(const domain::Dataset& data, std::vector<std::vector<bool>> masked, unsigned threads,
              Runs trusted = {});
 
-  const input::Dataset& data() const { return data_; }
+  const domain::Dataset& data() const { return data_; }
   const NoiseFloor& floor() const { return floor_; }
   std::size_t rows(std::size_t run) const;
 
@@ -70,7 +70,7 @@ class Experiment {
  private:
   void compare(const Readings& readings, std::size_t run, double* residuals) const;
 
-  const input::Dataset& data_;
+  const domain::Dataset& data_;
   std::vector<std::vector<bool>> masked_;
   unsigned threads_;
   NoiseFloor floor_;

@@ -37,7 +37,7 @@ std::vector<Fault> beside_an_effect(const Case& c, const Doubts& doubts, const M
   for (const Suspicion& suspicion : suspicions) {
     const bool common = !suspicion.common.empty();
     step("trying " + title(suspicion.effect.candidate) + " beside faults of runs");
-    input::Dataset data = c.experiment.data();
+    domain::Dataset data = c.experiment.data();
     Doubts mended = doubts;
     mend(data, mended, suspicion.common);
     const Experiment experiment(data, mended.masked, c.experiment.threads(), usable);

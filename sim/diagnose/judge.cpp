@@ -18,7 +18,7 @@ Eigen::Index segment_rows(const Experiment& experiment) {
 
 }  // namespace
 
-Split split(const input::Dataset& data, const Runs& usable) {
+Split split(const domain::Dataset& data, const Runs& usable) {
   std::map<double, Runs> by_load;
   for (const std::size_t run : usable) by_load[data.runs[run].load_kg].push_back(run);
   Split result;

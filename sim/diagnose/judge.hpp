@@ -13,7 +13,7 @@ struct Split {
 /// Holds out whole loads from inside the range, with the kinds of current that come with them: about a third
 /// of the runs, never the outermost loads. With too few loads, the last third of the runs. `usable`: not left
 /// out.
-Split split(const input::Dataset& data, const Runs& usable);
+Split split(const domain::Dataset& data, const Runs& usable);
 
 /// Variance of the residuals over long times (Bartlett's window, 1.5 s), at least 1: by this factor the data
 /// say less than as much white noise would.

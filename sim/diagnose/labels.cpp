@@ -32,7 +32,7 @@ double median(Series values) {
 
 class Scales {
  public:
-  Scales(const input::Dataset& data, const std::vector<std::vector<bool>>& masked, const Runs& runs,
+  Scales(const domain::Dataset& data, const std::vector<std::vector<bool>>& masked, const Runs& runs,
          unsigned threads)
       : data_(data), masked_(masked), threads_(threads), loads_kg_(data.runs.size()) {
     weigh(runs);
@@ -50,7 +50,7 @@ class Scales {
  private:
   /// Residuals and slope for the load, at other loads than the labels.
   Experiment::Slopes at(const Series& loads_kg, const Runs& runs) const {
-    input::Dataset moved = data_;
+    domain::Dataset moved = data_;
     for (const std::size_t run : runs) moved.runs[run].load_kg = std::max(loads_kg[run], 0.1);
     constexpr double step_kg = 0.01;
     const Experiment::Change heavier{[](Hanging& h) { h.load_kg += step_kg; }, step_kg};
@@ -69,7 +69,7 @@ class Scales {
   }
   /// What explains the run better than any load does: another zero, or another current. None if nothing does.
   std::optional<Fault> other_fault(std::size_t run, const Series& usual_kg) const {
-    input::Dataset usual = data_;
+    domain::Dataset usual = data_;
     usual.runs[run].load_kg = usual_kg[run];
     const Experiment experiment(usual, masked_, threads_);
     const auto slopes = experiment.slopes(usual.rig, currents_in_error(), {run});
@@ -91,7 +91,7 @@ class Scales {
   }
   void weigh(const Runs& runs);
 
-  const input::Dataset& data_;
+  const domain::Dataset& data_;
   const std::vector<std::vector<bool>>& masked_;
   unsigned threads_;
   Series loads_kg_;  // that fit best
@@ -167,7 +167,7 @@ std::optional<WrongLabel> Scales::worst(const Runs& runs) const {
 
 }  // namespace
 
-Labels check_labels(const input::Dataset& data, const std::vector<std::vector<bool>>& masked, Runs runs,
+Labels check_labels(const domain::Dataset& data, const std::vector<std::vector<bool>>& masked, Runs runs,
                     unsigned threads) {
   Labels labels;
   if (runs.size() < least_labels) return labels;

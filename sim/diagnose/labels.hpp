@@ -28,7 +28,7 @@ inline constexpr std::size_t least_labels = 4;
 /// effects scatter it. The run must then fit much better, and the others much worse with the same offset.
 /// None below four runs; errors below about 0.8 kg at 11 kg, 1.2 kg at 23 kg are not found. Throws
 /// engine::NumericalFailure, run::Interrupted.
-Labels check_labels(const input::Dataset& data, const std::vector<std::vector<bool>>& masked, Runs runs,
+Labels check_labels(const domain::Dataset& data, const std::vector<std::vector<bool>>& masked, Runs runs,
                     unsigned threads);
 
 }  // namespace mckibben::diagnose

@@ -19,7 +19,7 @@ using Runs = std::vector<std::size_t>;
 constexpr double least_floor = 5e-5;
 
 /// The last decimal that any reading has, for files rounded to a few: 0 if there are more than seven.
-double last_decimal(const input::Dataset& data, const Runs& runs) {
+double last_decimal(const domain::Dataset& data, const Runs& runs) {
   double unit = 1e-3;
   for (const std::size_t run : runs) {
     for (const double ratio : data.runs[run].contraction_ratio) {
@@ -33,7 +33,7 @@ double last_decimal(const input::Dataset& data, const Runs& runs) {
 }
 
 /// Whether the readings are whole counts to the last decimal, but for a few that something else has spoilt.
-bool counted(const input::Dataset& data, const std::vector<std::vector<bool>>& masked, const Runs& runs,
+bool counted(const domain::Dataset& data, const std::vector<std::vector<bool>>& masked, const Runs& runs,
              double count, double decimal) {
   const double tolerance = 0.01 + 0.5 * decimal / count;
   if (tolerance > 0.2) return false;  // everything would be whole
@@ -50,11 +50,11 @@ bool counted(const input::Dataset& data, const std::vector<std::vector<bool>>& m
 }
 
 /// Noise of the gauges from the second differences of what they show: what changes so fast is not the gas.
-double gauge_noise_Pa(const input::Dataset& data, const Runs& runs) {
+double gauge_noise_Pa(const domain::Dataset& data, const Runs& runs) {
   double squares = 0.0;
   std::size_t count = 0;
   for (const std::size_t index : runs) {
-    const input::Run& run = data.runs[index];
+    const domain::Run& run = data.runs[index];
     if (!run.muscle_pressure_Pa) continue;
     const auto& p = *run.muscle_pressure_Pa;
     std::vector<double> second;
@@ -72,7 +72,7 @@ double gauge_noise_Pa(const input::Dataset& data, const Runs& runs) {
 
 /// White noise of the contraction ratio, from its fourth differences: no load moves so fast, and the median
 /// is blind to single jumps.
-double scatter(const input::Dataset& data, const std::vector<std::vector<bool>>& masked, const Runs& runs) {
+double scatter(const domain::Dataset& data, const std::vector<std::vector<bool>>& masked, const Runs& runs) {
   std::vector<double> fourth;
   for (const std::size_t i : runs) {
     const auto& e = data.runs[i].contraction_ratio;
@@ -88,12 +88,12 @@ double scatter(const input::Dataset& data, const std::vector<std::vector<bool>>&
 }
 
 /// Scatter of the contraction ratio between runs of the same current and load; 0 if there are none.
-double repeatability(const input::Dataset& data, const std::vector<std::vector<bool>>& masked,
+double repeatability(const domain::Dataset& data, const std::vector<std::vector<bool>>& masked,
                      const Runs& trusted) {
   double squares = 0.0, count = 0.0;
   for (auto a = trusted.begin(); a != trusted.end(); ++a) {
     for (auto b = std::next(a); b != trusted.end(); ++b) {
-      const input::Run &one = data.runs[*a], &other = data.runs[*b];
+      const domain::Run &one = data.runs[*a], &other = data.runs[*b];
       if (one.load_kg != other.load_kg || one.current_mA != other.current_mA) continue;
       for (std::size_t k = 0; k < one.contraction_ratio.size(); ++k) {
         if (masked[*a][k] || masked[*b][k]) continue;
@@ -123,7 +123,7 @@ bool straight(const std::vector<double>& e, std::size_t k, std::size_t reach, do
 }
 
 /// Jitter before counting, in counts.
-double dither(const input::Dataset& data, const std::vector<std::vector<bool>>& masked, const Runs& runs,
+double dither(const domain::Dataset& data, const std::vector<std::vector<bool>>& masked, const Runs& runs,
               double count) {
   constexpr std::size_t reach = 6;  // ticks each way, over which the load's speed is taken as steady
   constexpr double fastest = 1.0;   // counts a tick: faster, the speed matters more than the jitter
@@ -164,7 +164,7 @@ double dither(const input::Dataset& data, const std::vector<std::vector<bool>>& 
 
 }  // namespace
 
-NoiseFloor noise_floor(const input::Dataset& data, const std::vector<std::vector<bool>>& masked,
+NoiseFloor noise_floor(const domain::Dataset& data, const std::vector<std::vector<bool>>& masked,
                        std::vector<std::size_t> trusted) {
   NoiseFloor floor;
   const double count = run::contraction_per_count(data.rig);

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include <sim/input/dataset.hpp>
+#include <sim/domain/dataset.hpp>
 
 namespace mckibben::diagnose {
 
@@ -26,7 +26,7 @@ struct NoiseFloor {
 /// a speed s, for all phases within a count alike, follows from E[n(k) - n(j)]^2 = E[y^2 + {y}(1 - {y})], y
 /// normal round s (k - j) with twice the jitter's variance, {y} its fraction (a quantiser's second moment;
 /// Widrow & Kollar, Quantization Noise, Cambridge 2008). Of other readings: fourth differences.
-NoiseFloor noise_floor(const input::Dataset& data, const std::vector<std::vector<bool>>& masked,
+NoiseFloor noise_floor(const domain::Dataset& data, const std::vector<std::vector<bool>>& masked,
                        std::vector<std::size_t> trusted);
 
 }  // namespace mckibben::diagnose

@@ -22,7 +22,7 @@ constexpr double least_power = 0.1;
 /// A current of the menu.
 struct Item {
   std::string words;
-  input::CampaignCurrent current;
+  domain::CampaignCurrent current;
 };
 
 template <class Waveform>
@@ -84,10 +84,10 @@ std::vector<Item> menu(const plant::Rig& rig) {
 
 /// The data set's loads, their halves and 1.3 times them, none within 8 % of another, none that the rig would
 /// not lift by 5 % of its length.
-std::vector<double> loads_kg(const input::Dataset& data, const plant::Rig& rig) {
+std::vector<double> loads_kg(const domain::Dataset& data, const plant::Rig& rig) {
   std::vector<double> wanted;
   for (const double factor : {1.0, 0.5, 1.3})
-    for (const input::Run& run : data.runs) wanted.push_back(std::round(1e3 * factor * run.load_kg) / 1e3);
+    for (const domain::Run& run : data.runs) wanted.push_back(std::round(1e3 * factor * run.load_kg) / 1e3);
   const auto force = run::knowledge_of(rig, {}).model;
   const double most_kg = force.force_N(0.05, rig.valve.span_pressure_Pa) / plant::gravity_m_per_s2;
   std::vector<double> kept;
@@ -100,8 +100,8 @@ std::vector<double> loads_kg(const input::Dataset& data, const plant::Rig& rig) 
 }
 
 /// The current as the DAC gives it, at each tick.
-input::Run played(const Item& item, const plant::Rig& rig, double load_kg) {
-  input::Run run;
+domain::Run played(const Item& item, const plant::Rig& rig, double load_kg) {
+  domain::Run run;
   run.load_kg = load_kg;
   for (int k = 0; k * rig.tick_s < lasting_s; ++k)
     run.current_mA.push_back(std::visit(

@@ -5,11 +5,11 @@
 
 namespace mckibben::diagnose {
 
-engine::Settings settings_for(std::span<const Hanging> rigs, engine::Method method) {
+solver::Settings settings_for(std::span<const Hanging> rigs, solver::Method method) {
   return {method, ride::can_share_steps(rigs, method) ? tolerance : tolerance_alone};
 }
 
-std::vector<Readings> predict(const input::Run& run, std::span<const Hanging> rigs, engine::Method method) {
+std::vector<Readings> predict(const domain::Run& run, std::span<const Hanging> rigs, solver::Method method) {
   const plant::Rig& first = rigs.front().rig;
   const std::size_t rows = run.current_mA.size();
   const auto time_s = [&](long k) { return static_cast<double>(k) * first.tick_s; };

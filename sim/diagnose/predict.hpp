@@ -7,7 +7,7 @@
 
 #include <plant/state.hpp>
 #include <sim/diagnose/parameter.hpp>
-#include <sim/input/dataset.hpp>
+#include <sim/domain/dataset.hpp>
 #include <sim/ride/ride.hpp>
 
 namespace mckibben::diagnose {
@@ -23,8 +23,8 @@ struct Readings {
 
 /// Readings of up to engine::Flock::most rigs, in common steps where these can be had (ride::Ride). The ticks
 /// are those of the first rig. Throws engine::NumericalFailure.
-std::vector<Readings> predict(const input::Run& run, std::span<const Hanging> rigs,
-                              engine::Method method = engine::Method::automatic);
+std::vector<Readings> predict(const domain::Run& run, std::span<const Hanging> rigs,
+                              solver::Method method = solver::Method::automatic);
 
 /// Tolerance of these simulations: their error in e, some 5e-6, is far below a count.
 inline constexpr double tolerance = 1e-5;
@@ -33,6 +33,6 @@ inline constexpr double tolerance = 1e-5;
 inline constexpr double tolerance_alone = 1e-7;
 
 /// How `predict` integrates these rigs.
-engine::Settings settings_for(std::span<const Hanging> rigs, engine::Method method);
+solver::Settings settings_for(std::span<const Hanging> rigs, solver::Method method);
 
 }  // namespace mckibben::diagnose

@@ -15,7 +15,7 @@ std::string ticks(double number) {
   return fmt::format("{:.0f} tick{}", whole, whole == 1.0 ? "" : "s");
 }
 
-void shift(input::Run& run, std::vector<bool>& masked, int late) {
+void shift(domain::Run& run, std::vector<bool>& masked, int late) {
   const auto rows = static_cast<int>(run.contraction_ratio.size());
   const auto move = [&](std::vector<double>& values) {
     const std::vector<double> was = values;
@@ -34,7 +34,7 @@ void shift(input::Run& run, std::vector<bool>& masked, int late) {
 }
 
 /// By whole counts: readings that are counted stay so.
-void take_out(input::Run& run, double count, double at_begin, double at_end) {
+void take_out(domain::Run& run, double count, double at_begin, double at_end) {
   const auto rows = run.contraction_ratio.size();
   for (std::size_t k = 0; k < rows; ++k) {
     const double share = static_cast<double>(k) / static_cast<double>(std::max<std::size_t>(rows, 2) - 1);
@@ -44,8 +44,8 @@ void take_out(input::Run& run, double count, double at_begin, double at_end) {
 
 }  // namespace
 
-Finding told(const input::Dataset& data, const Fault& fault) {
-  const input::Run& run = data.runs[fault.run];
+Finding told(const domain::Dataset& data, const Fault& fault) {
+  const domain::Run& run = data.runs[fault.run];
   const double count = run::contraction_per_count(data.rig);
   const double length_mm = 1e3 * data.rig.muscle.rest_length_m;
   const double at_s = static_cast<double>(fault.row) * data.rig.tick_s;
@@ -103,11 +103,11 @@ Finding told(const input::Dataset& data, const Fault& fault) {
   return finding;
 }
 
-void mend(input::Dataset& data, Doubts& doubts, const std::vector<Fault>& faults) {
+void mend(domain::Dataset& data, Doubts& doubts, const std::vector<Fault>& faults) {
   const double count = run::contraction_per_count(data.rig);
   for (const Fault& fault : faults) {
     Finding finding = told(data, fault);
-    input::Run& run = data.runs[fault.run];
+    domain::Run& run = data.runs[fault.run];
     const bool late = fault.kind == FaultKind::late, zero = fault.kind == FaultKind::zero;
     const bool common_drift = fault.kind == FaultKind::drift && fault.common;
     if (late) shift(run, doubts.masked[fault.run], static_cast<int>(std::round(fault.size)));

@@ -32,7 +32,7 @@ std::vector<RunGap> gaps_of_runs(const Experiment& experiment, const Runs& held_
   return gaps;
 }
 
-std::string visited(const input::Dataset& data, const Runs& runs) {
+std::string visited(const domain::Dataset& data, const Runs& runs) {
   struct Range {
     double low = std::numeric_limits<double>::infinity(), high = -low;
     void see(double value) {

@@ -20,6 +20,6 @@ std::vector<RunGap> gaps_of_runs(const Experiment& experiment, const Runs& held_
                                  const ThreeRigs& rigs);
 
 /// The ranges that the runs cover, in words.
-std::string visited(const input::Dataset& data, const Runs& runs);
+std::string visited(const domain::Dataset& data, const Runs& runs);
 
 }  // namespace mckibben::diagnose

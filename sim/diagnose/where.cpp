@@ -125,7 +125,7 @@ std::vector<Factor> factors_of(const Experiment& experiment, const plant::Rig& r
   std::vector<double> loads_kg;
   double longest_s = 0.0;
   for (const std::size_t run : runs) {
-    const input::Run& measured = experiment.data().runs[run];
+    const domain::Run& measured = experiment.data().runs[run];
     loads_kg.push_back(measured.load_kg);
     longest_s = std::max(longest_s, static_cast<double>(measured.current_mA.size()) * rig.tick_s);
   }

@@ -4,9 +4,11 @@
 #include <memory>
 
 #include <sim/engine/problem.hpp>
-#include <sim/engine/settings.hpp>
+#include <sim/solver/settings.hpp>
 
 namespace mckibben::engine {
+
+using solver::Method, solver::Settings;
 
 /// What the solver did since it was made.
 struct Counters {

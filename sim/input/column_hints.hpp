@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include <sim/input/columns.hpp>
+#include <sim/input/column_units.hpp>
 
 namespace mckibben::input {
 

@@ -10,9 +10,12 @@
 #include <utility>
 #include <vector>
 
+#include <sim/domain/input_file.hpp>
 #include <sim/input/source.hpp>
 
 namespace mckibben::input {
+
+using domain::InputFile;
 
 enum class Severity { error, missing_file, warning };
 
@@ -41,12 +44,6 @@ class BadInput : public std::runtime_error {
 
  private:
   std::vector<Problem> problems_;
-};
-
-/// A file that went into a result.
-struct InputFile {
-  std::string name;
-  std::string sha256;
 };
 
 /// Collects the findings of one reading, over all files it touches, and which files those are.

@@ -37,6 +37,12 @@ concept Switchable = requires(const T& value) {
   { value.absent() } -> std::same_as<bool>;
 };
 
+/// A struct that may also be given by a name or a path (a rig).
+template <class T>
+concept NamedStruct = requires {
+  requires T::by_name;
+};
+
 template <class T>
 inline constexpr bool is_variant = false;
 template <class... Ts>

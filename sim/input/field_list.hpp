@@ -109,7 +109,7 @@ class FieldLister {
       add_alternatives(info, static_cast<T*>(nullptr));
     } else {
       info.type = FieldInfo::Type::structure;
-      info.by_name = Spelling<T>::by_name;
+      info.by_name = NamedStruct<T>;
       info.groups.push_back({"", list_fields<T>()});
     }
   }

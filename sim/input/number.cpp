@@ -1,7 +1,5 @@
-// Strict numbers on top of std::from_chars and std::to_chars; see the header.
-#include <array>
+// Strict numbers on top of std::from_chars; see the header.
 #include <charconv>
-#include <cmath>
 #include <system_error>
 
 #include <fmt/format.h>
@@ -62,17 +60,6 @@ std::string why_no_number(std::string_view text) {
   if (rest.front() == '.') return fmt::format("{} is not a number: digits must follow the point", text);
   if (is_digit(rest.front())) return fmt::format("{} is not a number: it must not begin with 0", text);
   return fmt::format("{} is not a number: {} follows it", text, trimmed(rest));
-}
-
-std::string write_number(double value) {
-  // Without exponent where that stays readable.
-  const double size = std::abs(value);
-  const bool plain = size == 0.0 || (size >= 1e-4 && size < 1e9);
-  std::array<char, 48> digits{};
-  char* const last = digits.data() + digits.size();
-  const auto [end, error] = plain ? std::to_chars(digits.data(), last, value, std::chars_format::fixed)
-                                  : std::to_chars(digits.data(), last, value);
-  return {digits.data(), end};
 }
 
 std::string_view trimmed(std::string_view text) {

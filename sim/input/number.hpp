@@ -7,7 +7,11 @@
 #include <string>
 #include <string_view>
 
+#include <sim/domain/number.hpp>
+
 namespace mckibben::input {
+
+using domain::write_number;
 
 /// Length of the longest number at the start of `text`; 0 if there is none.
 std::size_t number_length(std::string_view text);
@@ -17,9 +21,6 @@ std::optional<double> parse_number(std::string_view text);
 
 /// What is wrong with a text that parse_number refuses, in words.
 std::string why_no_number(std::string_view text);
-
-/// Shortest digits that read back exactly.
-std::string write_number(double value);
 
 /// `text` without blanks at both ends.
 std::string_view trimmed(std::string_view text);

@@ -1,7 +1,7 @@
 // The file of one measured run, in any of the formats that are read: its ending tells which.
 #pragma once
 
-#include <sim/input/dataset.hpp>
+#include <sim/input/dataset_file.hpp>
 #include <sim/input/yaml_file.hpp>
 
 namespace mckibben::input {

@@ -29,16 +29,6 @@ template <Listed T>
 void read_struct(const Source& source, const Node& node, T& into, Problems& problems,
                  std::span<const std::string_view> also_allowed = {});
 
-/// How a struct is written where it stands inside another. Specialised for structs with other spellings than
-/// a map of keys (a rig may be given by its name).
-template <class T>
-struct Spelling {
-  static constexpr bool by_name = false;
-  static void read(const Source& source, const Node& node, T& into, Problems& problems) {
-    read_struct(source, node, into, problems);
-  }
-};
-
 /// Checks the line `schema: NAME/VERSION` of a file. False if it is another kind of file, not worth reading
 /// on.
 bool check_schema(const YamlFile& file, std::string_view schema, Problems& problems);
@@ -165,8 +155,10 @@ class StructReader : public ValueReader {
       for (std::size_t i = 0; i < value.size(); ++i) read(key, node.children[i], value[i]);
     } else if constexpr (is_variant<T>) {
       if (const auto index = kind(key, node, kinds<T>)) read_alternative(node, value, *index);
+    } else if constexpr (NamedStruct<T>) {
+      read_named(source_, node, value, problems_);  // stands beside the reader of T
     } else {
-      Spelling<T>::read(source_, node, value, problems_);
+      read_struct(source_, node, value, problems_);
     }
   }
 

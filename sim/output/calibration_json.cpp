@@ -105,7 +105,7 @@ Json pressure_json(const thesis::PressureFit& fit, const std::vector<double>& lo
 
 }  // namespace
 
-Json json_of(const input::Dataset& dataset, const thesis::CalibrationResult& result,
+Json json_of(const domain::Dataset& dataset, const thesis::CalibrationResult& result,
              const thesis::Options& options) {
   const auto& grid = result.grid;
   Json document = heading_json("mckibben-calibration-report/1", dataset.inputs);

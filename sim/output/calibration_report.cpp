@@ -25,7 +25,7 @@ bool usable(double spread) {
   return spread >= 0.0 && spread <= thesis::largest_usable_spread;
 }
 
-std::string heading(const input::Dataset& dataset, const thesis::CalibrationResult& result,
+std::string heading(const domain::Dataset& dataset, const thesis::CalibrationResult& result,
                     const thesis::Options& options) {
   const auto& grid = result.grid;
   std::string text = fmt::format(
@@ -152,7 +152,7 @@ std::vector<std::string> warnings_of(const thesis::CalibrationResult& result,
   return warnings;
 }
 
-std::string report_of(const input::Dataset& dataset, const thesis::CalibrationResult& result,
+std::string report_of(const domain::Dataset& dataset, const thesis::CalibrationResult& result,
                       const thesis::Options& options, bool kgf) {
   std::string text = heading(dataset, result, options) + spreads(result) + "\nwhat the spreads mean\n";
   for (const auto& line : meanings_of(result, options)) text += "  " + line + "\n";

@@ -5,14 +5,14 @@
 #include <string>
 #include <vector>
 
-#include <sim/input/dataset.hpp>
+#include <sim/domain/dataset.hpp>
 #include <sim/input/fields_json.hpp>
 #include <sim/thesis/calibrate.hpp>
 
 namespace mckibben::output {
 
 /// Spreads, coefficients, what was dropped and why. Pressures in Pa, or in kgf/m2 as the thesis prints them.
-std::string report_of(const input::Dataset& dataset, const thesis::CalibrationResult& result,
+std::string report_of(const domain::Dataset& dataset, const thesis::CalibrationResult& result,
                       const thesis::Options& options, bool kgf);
 
 /// A spread (standard deviation over mean, 1 for 100 %) with that many decimals and `unit` behind it. Above
@@ -27,7 +27,7 @@ std::vector<std::string> meanings_of(const thesis::CalibrationResult& result, co
 std::vector<std::string> warnings_of(const thesis::CalibrationResult& result, const thesis::Options& options);
 
 /// Every number of every fit with standard error and condition number; SI throughout.
-input::Json json_of(const input::Dataset& dataset, const thesis::CalibrationResult& result,
+input::Json json_of(const domain::Dataset& dataset, const thesis::CalibrationResult& result,
                     const thesis::Options& options);
 
 }  // namespace mckibben::output

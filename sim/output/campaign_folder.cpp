@@ -13,9 +13,12 @@
 
 #include <fmt/format.h>
 
+#include <sim/domain/number.hpp>
 #include <sim/engine/versions.hpp>
+#include <sim/input/campaign_file.hpp>
+#include <sim/input/dataset_file.hpp>
 #include <sim/input/hash.hpp>
-#include <sim/input/number.hpp>
+#include <sim/input/rigs.hpp>
 #include <sim/input/yaml_writer.hpp>
 #include <sim/output/campaign_folder.hpp>
 #include <sim/output/csv.hpp>
@@ -34,7 +37,7 @@ constexpr const char* plan_file = "plan.json";
 constexpr const char* plan_schema = "mckibben-campaign-plan/1";
 
 // Everything that a run's bytes depend on.
-std::string digest(const input::Campaign& campaign) {
+std::string digest(const domain::Campaign& campaign) {
   std::string text = input::campaign_json(campaign).dump();
   for (const auto& current : campaign.currents)
     if (const auto* recorded = std::get_if<controllers::RecordedCurrent>(&current.current))
@@ -42,7 +45,7 @@ std::string digest(const input::Campaign& campaign) {
   return input::sha256_hex(text);
 }
 
-Json plan_of(const input::Campaign& campaign, const std::vector<run::CampaignJob>& jobs,
+Json plan_of(const domain::Campaign& campaign, const std::vector<run::CampaignJob>& jobs,
              const std::vector<std::string>& formats) {
   Json plan{{"schema", plan_schema},
             {"program", {{"mckibben", MCKIBBEN_VERSION}, {"sundials", engine::sundials_version()}}},
@@ -131,7 +134,7 @@ Digests below(const std::string& folder, const Digests& files) {
   return found;
 }
 
-Json entry_of(const input::Campaign& campaign, const run::CampaignRun& run) {
+Json entry_of(const domain::Campaign& campaign, const run::CampaignRun& run) {
   const auto& current = campaign.currents[run.job.current];
   Json entry{{"id", run.job.id},
              {"load_kg", run.job.load_kg},
@@ -157,9 +160,9 @@ bool failed(const Json& entry) {
 }
 
 /// The shipped rig's name, if this is one; otherwise empty.
-std::string shipped_name(const input::RigFile& rig) {
+std::string shipped_name(const domain::RigFile& rig) {
   const Json wanted = input::rig_json(rig);
-  std::vector<input::InputFile> none;
+  std::vector<domain::InputFile> none;
   for (const auto name : input::shipped_rigs())
     if (input::rig_json(input::read_rig(std::string(name), none)) == wanted) return std::string(name);
   return "";
@@ -175,7 +178,7 @@ Json dataset_json(const std::string& rig, const Json& entries) {
   return file;
 }
 
-Json truth_json(const input::Campaign& campaign, const Json& entries) {
+Json truth_json(const domain::Campaign& campaign, const Json& entries) {
   Json file{{"schema", "mckibben-truth/1"}, {"seed", campaign.seed}};
   file["noise"] = input::to_json(campaign.noise);
   file["rig"] = input::to_json(campaign.rig);
@@ -185,7 +188,7 @@ Json truth_json(const input::Campaign& campaign, const Json& entries) {
 
 }  // namespace
 
-CampaignFolder::CampaignFolder(const fs::path& destination, const input::Campaign& campaign,
+CampaignFolder::CampaignFolder(const fs::path& destination, const domain::Campaign& campaign,
                                std::vector<std::string> formats, Say say)
     : campaign_(campaign),
       formats_(std::move(formats)),
@@ -239,7 +242,7 @@ void CampaignFolder::find_missing() {
 
 void CampaignFolder::put(const run::CampaignRun& run) const {
   const RunFiles files(run.job.id);
-  const input::RigFile& rig = campaign_.rig;
+  const domain::RigFile& rig = campaign_.rig;
   Json written = Json::array();
   const auto write = [&](const std::string& name, const std::string& text) {
     write_staged(unfinished_ / name, text);
@@ -272,9 +275,10 @@ std::string CampaignFolder::package(const char* what, std::vector<formats::Colum
   Package package{fmt::format("{}: {}", campaign_.name, what), std::move(columns), {}};
   for (const auto& entry : entries)
     if (!failed(entry))
-      package.runs.push_back({entry.at("id").get<std::string>(),
-                              fmt::format("{} kg, {}", input::write_number(entry.at("load_kg").get<double>()),
-                                          entry.at("current").get<std::string>())});
+      package.runs.push_back(
+          {entry.at("id").get<std::string>(),
+           fmt::format("{} kg, {}", domain::write_number(entry.at("load_kg").get<double>()),
+                       entry.at("current").get<std::string>())});
   return datapackage(package);
 }
 
@@ -283,7 +287,7 @@ Json CampaignFolder::document() const {
   document["seed"] = campaign_.seed;
   document["tolerance"] = campaign_.rig.integrator.tolerance;
   // As its owner knows it; what is hidden stands in truth.yaml.
-  input::Campaign known = campaign_;
+  domain::Campaign known = campaign_;
   known.rig = plant::nominal(known.rig);
   document["campaign"] = input::campaign_json(known);
   document["campaign"].erase("noise");
@@ -301,7 +305,7 @@ Digests CampaignFolder::write_rest(const Json& document, const Report& report) c
     files[name] = input::sha256_hex(text);
   };
   const Json& entries = document.at("runs");
-  const input::RigFile known = plant::nominal(campaign_.rig);
+  const domain::RigFile known = plant::nominal(campaign_.rig);
   std::string rig = shipped_name(known);
   if (rig.empty()) {
     rig = "rig.yaml";

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
+#include <sim/domain/campaign.hpp>
 #include <sim/formats/table.hpp>
-#include <sim/input/campaign.hpp>
 #include <sim/input/fields_json.hpp>
 #include <sim/output/folder.hpp>
 #include <sim/run/campaign.hpp>
@@ -22,7 +22,7 @@ class CampaignFolder {
   /// and program and is as it was written; an earlier campaign's is removed; anything else is moved aside.
   /// `formats`: of the runs, besides CSV (run_formats). `say`: hears what became of what was there before.
   /// Throws CannotWrite, at once if another program is writing there.
-  CampaignFolder(const std::filesystem::path& destination, const input::Campaign& campaign,
+  CampaignFolder(const std::filesystem::path& destination, const domain::Campaign& campaign,
                  std::vector<std::string> formats, Say say);
 
   /// All runs of the campaign, and those that were not on disk, as they were written, when it was opened.
@@ -57,7 +57,7 @@ class CampaignFolder {
   std::string package(const char* what, std::vector<formats::Column> columns,
                       const input::Json& entries) const;
 
-  const input::Campaign& campaign_;
+  const domain::Campaign& campaign_;
   std::vector<std::string> formats_;
   std::vector<run::CampaignJob> jobs_, missing_;
   std::filesystem::path destination_, truth_, unfinished_;

@@ -73,7 +73,7 @@ std::vector<formats::Column> measured_columns(bool gauge) {
   return columns;
 }
 
-std::vector<formats::Column> columns_of(const input::Run& measured, double tick_s) {
+std::vector<formats::Column> columns_of(const domain::Run& measured, double tick_s) {
   std::vector<formats::Column> columns = measured_columns(measured.muscle_pressure_Pa.has_value());
   for (std::size_t k = 0; k < measured.current_mA.size(); ++k)
     columns[0].values.push_back(tidy_s(static_cast<double>(k) * tick_s));

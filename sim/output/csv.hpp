@@ -6,8 +6,8 @@
 #include <vector>
 
 #include <plant/rig.hpp>
+#include <sim/domain/dataset.hpp>
 #include <sim/formats/table.hpp>
-#include <sim/input/dataset.hpp>
 #include <sim/run/recording.hpp>
 
 namespace mckibben::output {
@@ -22,7 +22,7 @@ std::vector<formats::Column> columns_of(const run::Recording& recording, double 
 
 /// Columns of a data set's table: what was measured.
 std::vector<formats::Column> measured_columns(bool gauge);
-std::vector<formats::Column> columns_of(const input::Run& measured, double tick_s);
+std::vector<formats::Column> columns_of(const domain::Run& measured, double tick_s);
 
 /// Columns of one length as CSV.
 std::string csv_of(const std::vector<formats::Column>& columns);

@@ -6,7 +6,7 @@
 
 #include <sim/diagnose/parameter.hpp>
 #include <sim/input/field_kinds.hpp>
-#include <sim/input/rig_file.hpp>
+#include <sim/input/rigs.hpp>
 #include <sim/output/diagnosis_json.hpp>
 #include <sim/output/diagnosis_words.hpp>
 #include <sim/output/run_json.hpp>
@@ -169,7 +169,7 @@ Json faults_json(const diagnose::Diagnosis& diagnosis) {
 
 }  // namespace
 
-Json json_of(const input::Dataset& data, const diagnose::Diagnosis& diagnosis) {
+Json json_of(const domain::Dataset& data, const diagnose::Diagnosis& diagnosis) {
   Json document{{"schema", "mckibben-diagnosis/1"},
                 {"verdict", std::string(input::spelling(diagnosis.verdict))},
                 {"because", diagnosis.because},

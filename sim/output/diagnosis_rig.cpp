@@ -2,7 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <sim/input/campaign.hpp>
+#include <sim/input/campaign_file.hpp>
+#include <sim/input/rigs.hpp>
 #include <sim/input/yaml_writer.hpp>
 #include <sim/output/diagnosis_rig.hpp>
 #include <sim/output/diagnosis_words.hpp>
@@ -24,8 +25,8 @@ Json changes(const Json& from, const Json& to) {
 }
 
 /// The corrected rig as it stands in a file, without schema.
-Json corrected_rig(const input::Dataset& data, const diagnose::Diagnosis& diagnosis) {
-  const Json shipped = input::to_json(input::RigFile{});
+Json corrected_rig(const domain::Dataset& data, const diagnose::Diagnosis& diagnosis) {
+  const Json shipped = input::to_json(domain::RigFile{});
   Json rig = input::to_json(diagnosis.corrected);
   if (input::to_json(data.rig) == shipped) {
     Json file{{"base", "thesis"}};
@@ -48,7 +49,7 @@ std::string estimate_line(const std::string& name, const diagnose::Estimate& est
   return comment(fmt::format("  {} {}{}, 95 % interval {}", name, shown.value, note, shown.interval));
 }
 
-std::string origin(const input::Dataset& data, const diagnose::Diagnosis& diagnosis) {
+std::string origin(const domain::Dataset& data, const diagnose::Diagnosis& diagnosis) {
   std::string text =
       comment(fmt::format("The rig as a diagnosis of {} found it. {}.", name_of(data), title_of(diagnosis)));
   if (!diagnosis.because.empty()) text += comment(diagnosis.because);
@@ -72,13 +73,13 @@ std::string origin(const input::Dataset& data, const diagnose::Diagnosis& diagno
 
 }  // namespace
 
-std::string rig_yaml(const input::Dataset& data, const diagnose::Diagnosis& diagnosis) {
+std::string rig_yaml(const domain::Dataset& data, const diagnose::Diagnosis& diagnosis) {
   Json file{{"schema", input::rig_schema}};
   file.update(corrected_rig(data, diagnosis));
   return origin(data, diagnosis) + input::to_yaml(file);
 }
 
-std::string plan_yaml(const input::Dataset& data, const diagnose::Diagnosis& diagnosis) {
+std::string plan_yaml(const domain::Dataset& data, const diagnose::Diagnosis& diagnosis) {
   const auto& next = diagnosis.next_experiment.value();
   const Json file{{"schema", input::campaign_schema},
                   {"rig", corrected_rig(data, diagnosis)},

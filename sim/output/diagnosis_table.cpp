@@ -75,7 +75,7 @@ std::string next(const Diagnosis& diagnosis) {
 
 }  // namespace
 
-std::string table_of(const input::Dataset& data, const Diagnosis& diagnosis) {
+std::string table_of(const domain::Dataset& data, const Diagnosis& diagnosis) {
   const auto unseen = held_out(diagnosis);
   std::string text =
       fmt::format("{}: {} run{}, {} held out; errors are contraction ratios (0.001 = {:g} mm)\n",

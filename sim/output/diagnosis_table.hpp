@@ -4,12 +4,12 @@
 #include <string>
 
 #include <sim/diagnose/diagnosis.hpp>
-#include <sim/input/dataset.hpp>
+#include <sim/domain/dataset.hpp>
 
 namespace mckibben::output {
 
 /// Warnings, verdict, effects with parameters and intervals, what was recalibrated by more than a prior
 /// deviation, the gap, names that cannot be told apart, and what to measure next.
-std::string table_of(const input::Dataset& data, const diagnose::Diagnosis& diagnosis);
+std::string table_of(const domain::Dataset& data, const diagnose::Diagnosis& diagnosis);
 
 }  // namespace mckibben::output

@@ -48,7 +48,7 @@ std::string digits(double value, int decimals) {
 
 }  // namespace
 
-std::string name_of(const input::Dataset& data) {
+std::string name_of(const domain::Dataset& data) {
   const auto home = std::filesystem::absolute(data.path).lexically_normal().parent_path();
   return home.has_filename() ? home.filename().string() : "dataset";
 }

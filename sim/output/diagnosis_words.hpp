@@ -7,12 +7,12 @@
 #include <vector>
 
 #include <sim/diagnose/diagnosis.hpp>
-#include <sim/input/dataset.hpp>
+#include <sim/domain/dataset.hpp>
 
 namespace mckibben::output {
 
 /// Name of the folder that a data set is in.
-std::string name_of(const input::Dataset& data);
+std::string name_of(const domain::Dataset& data);
 
 /// A number given in SI, in a usual unit: "0.5 bar" for 5e4 Pa.
 std::string readable(double value, std::string_view si_unit);

@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include <sim/input/rig_file.hpp>
+#include <sim/input/rigs.hpp>
 #include <sim/output/error_map.hpp>
 #include <sim/output/grid.hpp>
 #include <sim/output/run_json.hpp>
@@ -135,11 +135,11 @@ std::string table_of(const run::MapPlan& plan, const run::ErrorMaps& maps) {
 }
 
 input::Json json_of(const run::MapPlan& plan, const run::ErrorMaps& maps,
-                    const std::vector<input::InputFile>& files) {
+                    const std::vector<domain::InputFile>& files) {
   Json document = heading_json("mckibben-map/1", files);
   document["report"] = "report.html";
   document["tolerance"] = plan.engine.tolerance;
-  input::RigFile rig;
+  domain::RigFile rig;
   static_cast<plant::Rig&>(rig) = plan.rig;
   rig.integrator = plan.engine;
   document["rig"] = input::rig_json(rig);

@@ -18,6 +18,6 @@ std::string table_of(const run::MapPlan& plan, const run::ErrorMaps& maps);
 
 /// The same numbers, targets, limits of each load, resolved rig, hashes of the files read.
 input::Json json_of(const run::MapPlan& plan, const run::ErrorMaps& maps,
-                    const std::vector<input::InputFile>& files);
+                    const std::vector<domain::InputFile>& files);
 
 }  // namespace mckibben::output

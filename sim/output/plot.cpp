@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include <sim/input/number.hpp>
+#include <sim/domain/number.hpp>
 #include <sim/output/axes.hpp>
 #include <sim/output/plot.hpp>
 #include <sim/output/svg.hpp>
@@ -68,7 +68,7 @@ struct Legend {
 };
 
 /// Names beside their lines, in as many rows as they need.
-Legend make_legend(const input::Scenario& scenario) {
+Legend make_legend(const domain::Scenario& scenario) {
   Legend legend;
   double x = plot_left;
   const auto add = [&](const std::string& name, const char* colour, const char* dash) {
@@ -91,7 +91,7 @@ Legend make_legend(const input::Scenario& scenario) {
 
 }  // namespace
 
-std::string tracking_svg(const input::Scenario& scenario, const run::Comparison& comparison) {
+std::string tracking_svg(const domain::Scenario& scenario, const run::Comparison& comparison) {
   const std::size_t columns = scenario.controllers.size(), rows = scenario.loads_kg.size();
   const Legend legend = make_legend(scenario);
   const double first_px = legend.bottom_px + 30.0;
@@ -108,7 +108,7 @@ std::string tracking_svg(const input::Scenario& scenario, const run::Comparison&
   for (std::size_t r = 0; r < rows; ++r) {
     const Panel panel = panel_at(first_px + static_cast<double>(r) * (plot_height + plot_gap), ratios.low,
                                  ratios.high, static_cast<double>(comparison.target.size()) * tick_s);
-    svg += axes(panel, fmt::format("{} kg: contraction ratio", input::write_number(scenario.loads_kg[r])));
+    svg += axes(panel, fmt::format("{} kg: contraction ratio", domain::write_number(scenario.loads_kg[r])));
     svg += line(panel, comparison.target.size(), tick_s, "#000000", "none", 2.2,
                 [&](std::size_t k) { return comparison.target[k]; });
     for (std::size_t c = 0; c < columns; ++c) {

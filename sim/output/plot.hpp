@@ -4,11 +4,11 @@
 
 #include <string>
 
-#include <sim/input/scenario.hpp>
+#include <sim/domain/scenario.hpp>
 #include <sim/run/compare.hpp>
 
 namespace mckibben::output {
 
-std::string tracking_svg(const input::Scenario& scenario, const run::Comparison& comparison);
+std::string tracking_svg(const domain::Scenario& scenario, const run::Comparison& comparison);
 
 }  // namespace mckibben::output

@@ -4,10 +4,11 @@
 #include <fmt/format.h>
 
 #include <plant/geometry.hpp>
+#include <sim/domain/number.hpp>
 #include <sim/engine/versions.hpp>
 #include <sim/input/fields_json.hpp>
-#include <sim/input/number.hpp>
-#include <sim/input/rig_file.hpp>
+#include <sim/input/rigs.hpp>
+#include <sim/input/scenario_file.hpp>
 #include <sim/output/run_json.hpp>
 #include <sim/run/remarks.hpp>
 
@@ -40,7 +41,7 @@ Json ledger_json(const plant::Rig& rig, const run::Recording& recording) {
   return ledger;
 }
 
-Json inputs_json(const std::vector<input::InputFile>& files) {
+Json inputs_json(const std::vector<domain::InputFile>& files) {
   Json list = Json::array();
   for (const auto& file : files) list.push_back({{"file", file.name}, {"sha256", file.sha256}});
   return list;
@@ -105,7 +106,7 @@ Json run_json(const plant::Rig& rig, const run::TrackedRun& run) {
 
 }  // namespace
 
-Json heading_json(const char* schema, const std::vector<input::InputFile>& files) {
+Json heading_json(const char* schema, const std::vector<domain::InputFile>& files) {
   return {{"schema", schema},
           {"program", {{"mckibben", MCKIBBEN_VERSION}, {"sundials", engine::sundials_version()}}},
           {"input_files", inputs_json(files)}};
@@ -121,10 +122,10 @@ Json solver_json(const engine::Counters& counters) {
 }
 
 std::string file_stem(const run::TrackedRun& run) {
-  return fmt::format("{}kg_{}", input::write_number(run.load_kg), run.controller);
+  return fmt::format("{}kg_{}", domain::write_number(run.load_kg), run.controller);
 }
 
-Json json_of(const input::Scenario& scenario, const run::Comparison& comparison) {
+Json json_of(const domain::Scenario& scenario, const run::Comparison& comparison) {
   Json document = heading_json("mckibben-run/1", scenario.inputs);
   document["report"] = "report.html";
   document["seed"] = scenario.seed;
@@ -163,7 +164,7 @@ Json json_of(const input::Scenario& scenario, const run::Comparison& comparison)
   return document;
 }
 
-Json json_of(const input::Dataset& dataset, const std::vector<run::ReplayedRun>& runs) {
+Json json_of(const domain::Dataset& dataset, const std::vector<run::ReplayedRun>& runs) {
   Json document = heading_json("mckibben-replay/1", dataset.inputs);
   document["report"] = "report.html";
   document["tolerance"] = dataset.rig.integrator.tolerance;

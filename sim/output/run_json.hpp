@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include <sim/input/dataset.hpp>
-#include <sim/input/scenario.hpp>
+#include <sim/domain/dataset.hpp>
+#include <sim/domain/scenario.hpp>
 #include <sim/run/compare.hpp>
 #include <sim/run/replay.hpp>
 
@@ -13,11 +13,11 @@ namespace mckibben::output {
 
 /// Resolved input, versions, seed, tolerance, hashes of the input files, results and solver counts. Holds
 /// nothing that differs between two runs of the same input.
-input::Json json_of(const input::Scenario& scenario, const run::Comparison& comparison);
-input::Json json_of(const input::Dataset& dataset, const std::vector<run::ReplayedRun>& runs);
+input::Json json_of(const domain::Scenario& scenario, const run::Comparison& comparison);
+input::Json json_of(const domain::Dataset& dataset, const std::vector<run::ReplayedRun>& runs);
 
 /// How every such document begins: its schema, versions, hashes of the input files.
-input::Json heading_json(const char* schema, const std::vector<input::InputFile>& files);
+input::Json heading_json(const char* schema, const std::vector<domain::InputFile>& files);
 input::Json solver_json(const engine::Counters& counters);
 
 /// Name of one run's files in the results folder, without ending.

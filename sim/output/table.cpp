@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include <plant/geometry.hpp>
-#include <sim/input/number.hpp>
+#include <sim/domain/number.hpp>
 #include <sim/output/grid.hpp>
 #include <sim/output/table.hpp>
 #include <sim/run/remarks.hpp>
@@ -71,11 +71,11 @@ std::string tuned_line(const run::TunedController& row) {
       cost(row.idle_cost), run::gained_nothing(row) ? ": the tuning gained nothing" : "");
 }
 
-std::string contraction_notes(const input::Scenario& scenario, const run::Comparison& comparison) {
+std::string contraction_notes(const domain::Scenario& scenario, const run::Comparison& comparison) {
   std::string text;
   for (const auto& run : comparison.runs)
     text += contraction_note(scenario.rig, run.recording.largest_contraction_ratio,
-                             fmt::format("{} at {} kg", run.controller, input::write_number(run.load_kg)));
+                             fmt::format("{} at {} kg", run.controller, domain::write_number(run.load_kg)));
   return text;
 }
 
@@ -104,7 +104,7 @@ std::string extrapolation_mark(const run::TrackedRun& run) {
                                                                : "";
 }
 
-std::string table_of(const input::Scenario& scenario, const run::Comparison& comparison) {
+std::string table_of(const domain::Scenario& scenario, const run::Comparison& comparison) {
   std::string text = fmt::format(
       "{}: {} load{} x {} controller{}, {:g} s each; errors are contraction ratios (0.001 = {:g} mm)\n\n",
       scenario.name, scenario.loads_kg.size(), scenario.loads_kg.size() == 1 ? "" : "s",
@@ -117,7 +117,7 @@ std::string table_of(const input::Scenario& scenario, const run::Comparison& com
   std::string failures;
   for (const auto& run : comparison.runs) {
     const auto& m = run.metrics;
-    const auto load = input::write_number(run.load_kg);
+    const auto load = domain::write_number(run.load_kg);
     if (!run.failure.empty()) {
       runs.add({load, run.controller + extrapolation_mark(run), "no result", "-", "-", "-", "-", "-", "-",
                 "-", "-", "-"});
@@ -158,7 +158,7 @@ std::string table_of(const input::Scenario& scenario, const run::Comparison& com
   return text;
 }
 
-std::string table_of(const input::Dataset& dataset, const std::vector<run::ReplayedRun>& runs) {
+std::string table_of(const domain::Dataset& dataset, const std::vector<run::ReplayedRun>& runs) {
   std::string text = fmt::format(
       "{}: {} run{} replayed; simulated less measured, as contraction ratio (0.001 = {:g} mm)\n\n",
       dataset.path.string(), runs.size(), runs.size() == 1 ? "" : "s", dataset.rig.muscle.rest_length_m);
@@ -166,7 +166,7 @@ std::string table_of(const input::Dataset& dataset, const std::vector<run::Repla
   Grid grid({"run", "load_kg", "rmse", "rmse_mm", "largest", "mean", "pressure_rmse_bar"}, 1);
   std::string failures, notes;
   for (const auto& run : runs) {
-    const auto load = input::write_number(run.load_kg);
+    const auto load = domain::write_number(run.load_kg);
     if (!run.failure.empty()) {
       grid.add({run.id, load, "no result", "-", "-", "-", "-"});
       failures += fmt::format("  {}: {}\n", run.id, run.failure);
@@ -179,7 +179,7 @@ std::string table_of(const input::Dataset& dataset, const std::vector<run::Repla
   return text + grid.text() + section("contraction", notes) + section("no result", failures);
 }
 
-std::string table_of(const input::Campaign& campaign, const input::Json& document) {
+std::string table_of(const domain::Campaign& campaign, const input::Json& document) {
   Grid grid({"load_kg", "runs", "rows", "simulated_s", "largest_contraction", "steps", "right_hand_sides"},
             0);
   std::string failures, notes;

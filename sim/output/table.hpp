@@ -4,25 +4,25 @@
 #include <string>
 #include <vector>
 
-#include <sim/input/campaign.hpp>
-#include <sim/input/dataset.hpp>
-#include <sim/input/scenario.hpp>
+#include <sim/domain/campaign.hpp>
+#include <sim/domain/dataset.hpp>
+#include <sim/domain/scenario.hpp>
 #include <sim/run/compare.hpp>
 #include <sim/run/replay.hpp>
 
 namespace mckibben::output {
 
 /// Loads x controllers, each controller's spread over loads, gains that were tuned, and what to be warned of.
-std::string table_of(const input::Scenario& scenario, const run::Comparison& comparison);
+std::string table_of(const domain::Scenario& scenario, const run::Comparison& comparison);
 
 /// How a run stands to its controller's calibration: "*" extrapolated, "+" load taken as the range's end, or
 /// empty.
 std::string extrapolation_mark(const run::TrackedRun& run);
 
 /// Measured against simulated, run by run.
-std::string table_of(const input::Dataset& dataset, const std::vector<run::ReplayedRun>& runs);
+std::string table_of(const domain::Dataset& dataset, const std::vector<run::ReplayedRun>& runs);
 
 /// What a campaign gave, load by load. `document` is its campaign.json.
-std::string table_of(const input::Campaign& campaign, const input::Json& document);
+std::string table_of(const domain::Campaign& campaign, const input::Json& document);
 
 }  // namespace mckibben::output

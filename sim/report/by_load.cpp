@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include <sim/input/number.hpp>
+#include <sim/domain/number.hpp>
 #include <sim/output/svg.hpp>
 #include <sim/report/by_load.hpp>
 #include <sim/report/length.hpp>
@@ -37,7 +37,7 @@ std::string by_load_html(const std::vector<Judged>& runs, const plant::Rig& rig)
                      [](const Judged* a, const Judged* b) { return a->rmse < b->rmse; });
     const Judged& worst = *of_load.back();
     html += fmt::format("<tr><th scope='row'>{}</th><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
-                        input::write_number(load_kg), of_load.size(), length_html(median(of_load), rig),
+                        domain::write_number(load_kg), of_load.size(), length_html(median(of_load), rig),
                         length_html(worst.rmse, rig), link_html(worst.group, worst.id));
   }
   return html + "</tbody></table>\n";

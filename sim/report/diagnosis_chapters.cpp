@@ -202,7 +202,7 @@ std::string gap_html(const Diagnosis& diagnosis, const std::vector<const diagnos
               : picture);
 }
 
-std::string twins_html(const input::Dataset& data, const Diagnosis& diagnosis) {
+std::string twins_html(const domain::Dataset& data, const Diagnosis& diagnosis) {
   std::string html;
   for (const auto& effect : diagnosis.effects)
     html += paragraph(
@@ -238,7 +238,7 @@ std::string next_html(const Diagnosis& diagnosis) {
 
 }  // namespace
 
-bool gauged(const input::Dataset& data) {
+bool gauged(const domain::Dataset& data) {
   return std::any_of(data.runs.begin(), data.runs.end(),
                      [](const auto& run) { return run.muscle_pressure_Pa.has_value(); });
 }
@@ -247,7 +247,7 @@ double left_of(const diagnose::RunGap& run, bool changed) {
   return changed ? run.corrected_rmse : run.recalibrated_rmse;
 }
 
-std::string result_table(const input::Dataset& data, const Diagnosis& diagnosis) {
+std::string result_table(const domain::Dataset& data, const Diagnosis& diagnosis) {
   const auto& gap = diagnosis.gap;
   const auto unseen = output::held_out(diagnosis);
   std::string html = "<div class='tables'>\n" + found(diagnosis);
@@ -269,7 +269,7 @@ std::string result_table(const input::Dataset& data, const Diagnosis& diagnosis)
   return html + "</div></div>\n";
 }
 
-std::vector<Chapter> story(const input::Dataset& data, const Diagnosis& diagnosis,
+std::vector<Chapter> story(const domain::Dataset& data, const Diagnosis& diagnosis,
                            const std::vector<const diagnose::RunGap*>& runs) {
   const plant::Rig& rig = data.rig;
   return {
@@ -281,7 +281,7 @@ std::vector<Chapter> story(const input::Dataset& data, const Diagnosis& diagnosi
        gap_html(diagnosis, runs, rig)}};
 }
 
-std::vector<Chapter> doubts_and_plan(const input::Dataset& data, const Diagnosis& diagnosis) {
+std::vector<Chapter> doubts_and_plan(const domain::Dataset& data, const Diagnosis& diagnosis) {
   return {{diagnosis.effects.empty() && diagnosis.residual_law.empty() ? "Which candidates look alike"
                                                                        : "What else it could be",
            twins_html(data, diagnosis)},

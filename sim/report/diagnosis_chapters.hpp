@@ -5,7 +5,7 @@
 #include <vector>
 
 #include <sim/diagnose/diagnosis.hpp>
-#include <sim/input/dataset.hpp>
+#include <sim/domain/dataset.hpp>
 #include <sim/report/contents.hpp>
 
 namespace mckibben::report {
@@ -14,15 +14,15 @@ namespace mckibben::report {
 double left_of(const diagnose::RunGap& run, bool changed);
 
 /// The result as two tables: what was found, and the errors on the runs held out.
-std::string result_table(const input::Dataset& data, const diagnose::Diagnosis& diagnosis);
+std::string result_table(const domain::Dataset& data, const diagnose::Diagnosis& diagnosis);
 
 /// Up to the gap. `runs`: those of the page, in its order.
-std::vector<Chapter> story(const input::Dataset& data, const diagnose::Diagnosis& diagnosis,
+std::vector<Chapter> story(const domain::Dataset& data, const diagnose::Diagnosis& diagnosis,
                            const std::vector<const diagnose::RunGap*>& runs);
 
-std::vector<Chapter> doubts_and_plan(const input::Dataset& data, const diagnose::Diagnosis& diagnosis);
+std::vector<Chapter> doubts_and_plan(const domain::Dataset& data, const diagnose::Diagnosis& diagnosis);
 
 /// Whether some run has a muscle pressure.
-bool gauged(const input::Dataset& data);
+bool gauged(const domain::Dataset& data);
 
 }  // namespace mckibben::report

@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include <sim/input/number.hpp>
+#include <sim/domain/number.hpp>
 #include <sim/output/svg.hpp>
 #include <sim/report/files.hpp>
 #include <sim/report/html.hpp>

@@ -104,7 +104,7 @@ std::string table(const Models& models) {
 
 }  // namespace
 
-std::string report_html(const input::Dataset& dataset, const thesis::CalibrationResult& result,
+std::string report_html(const domain::Dataset& dataset, const thesis::CalibrationResult& result,
                         const thesis::Options& options, bool kgf,
                         const std::vector<thesis::Figure>& figures) {
   const auto& grid = result.grid;

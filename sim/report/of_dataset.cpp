@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include <sim/input/number.hpp>
+#include <sim/domain/number.hpp>
 #include <sim/output/table.hpp>
 #include <sim/report/by_load.hpp>
 #include <sim/report/html.hpp>
@@ -19,7 +19,7 @@ struct Counted {
   double largest = 0.0;
 };
 
-Run shown(const input::Run& measured, std::size_t style, const plant::Plant& plant) {
+Run shown(const domain::Run& measured, std::size_t style, const plant::Plant& plant) {
   Run run{.name = measured.id, .style = style, .ticks = measured.current_mA.size()};
   run.quantities = {{"contraction", [&measured](std::size_t k) { return measured.contraction_ratio[k]; }},
                     {"current", [&measured](std::size_t k) { return measured.current_mA[k]; }},
@@ -34,8 +34,8 @@ Run shown(const input::Run& measured, std::size_t style, const plant::Plant& pla
 
 }  // namespace
 
-std::string report_html(const input::Campaign& campaign, const input::Json& document,
-                        const input::Dataset& dataset) {
+std::string report_html(const domain::Campaign& campaign, const input::Json& document,
+                        const domain::Dataset& dataset) {
   Contents contents{
       .title = campaign.name,
       .about = "Synthetic measurements: what encoder, current output and gauge say",
@@ -51,9 +51,9 @@ std::string report_html(const input::Campaign& campaign, const input::Json& docu
   Counted all;
   for (const double load_kg : campaign.loads_kg) {
     const plant::Plant plant(dataset.rig, load_kg);
-    Group group{.name = input::write_number(load_kg) + " kg", .load_kg = load_kg};
+    Group group{.name = domain::write_number(load_kg) + " kg", .load_kg = load_kg};
     Counted load;
-    for (const input::Run& measured : dataset.runs) {
+    for (const domain::Run& measured : dataset.runs) {
       if (measured.load_kg != load_kg) continue;
       group.ticks = std::max(group.ticks, measured.current_mA.size());
       group.runs.push_back(shown(measured, load.runs, plant));

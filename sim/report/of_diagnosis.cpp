@@ -26,7 +26,7 @@ using diagnose::RunGap;
 using run::ReplayedRun;
 
 /// What is known where the diagnosis ended before its runs: measured, and the rig as described.
-std::vector<RunGap> as_described(const input::Dataset& data, const std::vector<ReplayedRun>& nominal) {
+std::vector<RunGap> as_described(const domain::Dataset& data, const std::vector<ReplayedRun>& nominal) {
   std::vector<RunGap> runs;
   for (std::size_t i = 0; i < std::min(data.runs.size(), nominal.size()); ++i) {
     runs.push_back({.id = data.runs[i].id, .load_kg = data.runs[i].load_kg});
@@ -61,7 +61,7 @@ auto by_id(const Runs& runs, const std::string& id) {
 
 /// One model's readings, and its pressures and forces where it was replayed.
 Run shown(const char* name, std::size_t style, const RunGap& gap, const std::vector<double>& readings,
-          const ReplayedRun* replayed, const input::Run* recorded, const plant::Plant& plant) {
+          const ReplayedRun* replayed, const domain::Run* recorded, const plant::Plant& plant) {
   Run run{.name = name, .style = style, .ticks = std::min(readings.size(), gap.measured.size())};
   const auto *model = &readings, *measured = &gap.measured;
   run.quantities = {{"contraction", [model](std::size_t k) { return (*model)[k]; }},
@@ -81,7 +81,7 @@ Run shown(const char* name, std::size_t style, const RunGap& gap, const std::vec
   return run;
 }
 
-Group group_of(const input::Dataset& data, const Diagnosis& diagnosis, const RunGap& gap,
+Group group_of(const domain::Dataset& data, const Diagnosis& diagnosis, const RunGap& gap,
                const ReplayedRun* nominal, const ReplayedRun* corrected) {
   const plant::Plant nominal_plant(data.rig, gap.load_kg), mended(diagnosis.corrected, gap.load_kg);
   Group group{.name = fmt::format("{}, {}{}", gap.id, output::mass(gap.load_kg),
@@ -92,7 +92,7 @@ Group group_of(const input::Dataset& data, const Diagnosis& diagnosis, const Run
               .ticks = gap.measured.size()};
   group.given = {{"given_contraction", [&gap](std::size_t k) { return gap.measured[k]; }},
                  {"weight", [weight_N = mended.weight_N()](std::size_t) { return weight_N; }}};
-  const input::Run* recorded = by_id(data.runs, gap.id);
+  const domain::Run* recorded = by_id(data.runs, gap.id);
   if (recorded != nullptr && recorded->current_mA.size() < group.ticks) recorded = nullptr;
   if (const auto* run = recorded) {
     group.given.push_back({"current", [run](std::size_t k) { return run->current_mA[k]; }});
@@ -114,7 +114,7 @@ Group group_of(const input::Dataset& data, const Diagnosis& diagnosis, const Run
   return group;
 }
 
-std::vector<Plot> plots(const input::Dataset& data, const Diagnosis& diagnosis) {
+std::vector<Plot> plots(const domain::Dataset& data, const Diagnosis& diagnosis) {
   const double floor = diagnosis.gap.noise_floor;
   auto all = plots_for(diagnosis.corrected, "Contraction, measured and by each rig", "Measured",
                        fmt::format("Error: measured less model, as height of the load{}",
@@ -138,7 +138,7 @@ std::vector<Loop> loops_of_runs() {
 
 }  // namespace
 
-std::string report_html(const input::Dataset& data, const Diagnosis& diagnosis,
+std::string report_html(const domain::Dataset& data, const Diagnosis& diagnosis,
                         const std::vector<ReplayedRun>& nominal, const std::vector<ReplayedRun>& corrected) {
   const auto measured_only = diagnosis.runs.empty() ? as_described(data, nominal) : std::vector<RunGap>{};
   const auto runs =

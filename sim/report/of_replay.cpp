@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include <sim/input/number.hpp>
+#include <sim/domain/number.hpp>
 #include <sim/output/svg.hpp>
 #include <sim/output/table.hpp>
 #include <sim/report/by_load.hpp>
@@ -21,7 +21,7 @@ namespace {
 
 using output::escaped;
 
-std::string sentence(const input::Dataset& dataset, const std::vector<run::ReplayedRun>& runs) {
+std::string sentence(const domain::Dataset& dataset, const std::vector<run::ReplayedRun>& runs) {
   const run::ReplayedRun* worst = nullptr;
   double squares = 0.0;
   std::size_t rows = 0, ended = 0;
@@ -68,7 +68,7 @@ std::string row(const run::ReplayedRun& run, std::size_t group, const plant::Rig
   std::string html =
       drawn(run) ? fmt::format("<tr data-group='{}'><th scope='row'>{}</th>", group, link_html(group, run.id))
                  : "<tr><th scope='row'>" + escaped(run.id) + "</th>";
-  html += "<td>" + input::write_number(run.load_kg) + "</td>";
+  html += "<td>" + domain::write_number(run.load_kg) + "</td>";
   if (!run.failure.empty())
     return html + fmt::format("<td colspan='{}'>no result</td></tr>\n", gauge ? 4 : 3);
   html += fmt::format("<td>{}</td><td>{}</td><td>{}</td>", length_html(run.rmse, rig),
@@ -79,7 +79,7 @@ std::string row(const run::ReplayedRun& run, std::size_t group, const plant::Rig
 }
 
 /// Every run; of many the loads first.
-std::string table(const input::Dataset& dataset, const std::vector<run::ReplayedRun>& runs) {
+std::string table(const domain::Dataset& dataset, const std::vector<run::ReplayedRun>& runs) {
   const bool gauge =
       std::any_of(runs.begin(), runs.end(), [](const auto& run) { return run.pressure_rmse_Pa; });
   std::string html = fmt::format(
@@ -101,10 +101,10 @@ std::string table(const input::Dataset& dataset, const std::vector<run::Replayed
                      html);
 }
 
-Group group_of(const input::Dataset& dataset, const input::Run& measured, const run::ReplayedRun& run) {
+Group group_of(const domain::Dataset& dataset, const domain::Run& measured, const run::ReplayedRun& run) {
   const plant::Plant plant(dataset.rig, run.load_kg);
   const auto* rows = &run.recording.samples;
-  Group group{.name = fmt::format("{}, {} kg", run.id, input::write_number(run.load_kg)),
+  Group group{.name = fmt::format("{}, {} kg", run.id, domain::write_number(run.load_kg)),
               .load_kg = run.load_kg,
               .ticks = measured.contraction_ratio.size()};
   group.given = {{"given_contraction", [&measured](std::size_t k) { return measured.contraction_ratio[k]; }},
@@ -130,7 +130,7 @@ Group group_of(const input::Dataset& dataset, const input::Run& measured, const 
 
 }  // namespace
 
-std::string report_html(const input::Dataset& dataset, const std::vector<run::ReplayedRun>& runs,
+std::string report_html(const domain::Dataset& dataset, const std::vector<run::ReplayedRun>& runs,
                         const std::vector<std::string>& warnings) {
   const std::string name =
       std::filesystem::absolute(dataset.path).lexically_normal().parent_path().filename().string();

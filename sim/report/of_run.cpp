@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include <sim/input/number.hpp>
+#include <sim/domain/number.hpp>
 #include <sim/output/svg.hpp>
 #include <sim/output/table.hpp>
 #include <sim/report/by_load.hpp>
@@ -22,7 +22,7 @@ std::string loads_text(std::size_t count) {
   return count == 1 ? "one load" : fmt::format("{} loads", count);
 }
 
-std::string sentence(const input::Scenario& scenario, const run::Comparison& comparison) {
+std::string sentence(const domain::Scenario& scenario, const run::Comparison& comparison) {
   const run::ControllerSpread *best = nullptr, *worst = nullptr;
   for (const auto& one : comparison.spreads) {
     if (!one.rmse) continue;
@@ -57,7 +57,7 @@ std::string sentence(const input::Scenario& scenario, const run::Comparison& com
 }
 
 /// rmse in mm, a row for each load; the smallest of a row is marked.
-std::string table(const input::Scenario& scenario, const run::Comparison& comparison) {
+std::string table(const domain::Scenario& scenario, const run::Comparison& comparison) {
   const std::size_t columns = scenario.controllers.size();
   std::string html = "<table><caption>Root mean square error, " + length_unit_html() +
                      (columns > 1 ? "; the smallest of each row is bold" : "") +
@@ -88,7 +88,7 @@ std::string table(const input::Scenario& scenario, const run::Comparison& compar
     };
     bool shown = false;
     for (std::size_t c = 0; c < columns; ++c) shown = shown || !run(c).recording.samples.empty();
-    const std::string load = input::write_number(scenario.loads_kg[r]) + " kg";
+    const std::string load = domain::write_number(scenario.loads_kg[r]) + " kg";
     row(
         shown ? fmt::format("<tr data-group='{}'><th scope='row'>{}</th>", group, link_html(group, load))
               : fmt::format("<tr><th scope='row'>{}</th>", load),
@@ -115,14 +115,14 @@ std::string table(const input::Scenario& scenario, const run::Comparison& compar
 }
 
 /// How long each run was at a limit of its current; empty where none was for 1 % of its time.
-std::string limits_table(const input::Scenario& scenario, const run::Comparison& comparison) {
+std::string limits_table(const domain::Scenario& scenario, const run::Comparison& comparison) {
   const std::size_t columns = scenario.controllers.size();
   std::string head, rows;
   for (const auto& one : scenario.controllers)
     head += "<th scope='col'>" + escaped(controllers::name_of(one)) + "</th>";
   double most = 0.0;
   for (std::size_t r = 0; r < scenario.loads_kg.size(); ++r) {
-    rows += "<tr><th scope='row'>" + input::write_number(scenario.loads_kg[r]) + " kg</th>";
+    rows += "<tr><th scope='row'>" + domain::write_number(scenario.loads_kg[r]) + " kg</th>";
     for (std::size_t c = 0; c < columns; ++c) {
       const run::TrackedRun& run = comparison.runs[r * columns + c];
       const bool told = run.limits && run.failure.empty();
@@ -141,12 +141,12 @@ std::string limits_table(const input::Scenario& scenario, const run::Comparison&
       100.0 * most, head, rows);
 }
 
-Group group_of(const input::Scenario& scenario, const run::Comparison& comparison, std::size_t r) {
+Group group_of(const domain::Scenario& scenario, const run::Comparison& comparison, std::size_t r) {
   const std::size_t columns = scenario.controllers.size();
   const double load_kg = scenario.loads_kg[r];
   const plant::Plant plant(scenario.rig, load_kg);
   const auto* target = &comparison.target;
-  Group group{.name = input::write_number(load_kg) + " kg", .load_kg = load_kg, .ticks = target->size()};
+  Group group{.name = domain::write_number(load_kg) + " kg", .load_kg = load_kg, .ticks = target->size()};
   group.given = {{"given_contraction", [target](std::size_t k) { return (*target)[k]; }},
                  {"weight", [weight_N = plant.weight_N()](std::size_t) { return weight_N; }}};
   for (std::size_t c = 0; c < columns; ++c) {
@@ -165,7 +165,7 @@ Group group_of(const input::Scenario& scenario, const run::Comparison& compariso
 
 }  // namespace
 
-std::string report_html(const input::Scenario& scenario, const run::Comparison& comparison) {
+std::string report_html(const domain::Scenario& scenario, const run::Comparison& comparison) {
   Contents contents{.title = scenario.name,
                     .about = fmt::format("Simulated: {}, {:g} s each", loads_text(scenario.loads_kg.size()),
                                          scenario.duration_s),

@@ -6,10 +6,10 @@
 #include <vector>
 
 #include <sim/diagnose/diagnosis.hpp>
-#include <sim/input/campaign.hpp>
-#include <sim/input/dataset.hpp>
+#include <sim/domain/campaign.hpp>
+#include <sim/domain/dataset.hpp>
+#include <sim/domain/scenario.hpp>
 #include <sim/input/fields_json.hpp>
-#include <sim/input/scenario.hpp>
 #include <sim/run/compare.hpp>
 #include <sim/run/error_map.hpp>
 #include <sim/run/gaps.hpp>
@@ -21,10 +21,10 @@
 namespace mckibben::report {
 
 /// Every load under every controller.
-std::string report_html(const input::Scenario& scenario, const run::Comparison& comparison);
+std::string report_html(const domain::Scenario& scenario, const run::Comparison& comparison);
 
 /// Measured runs and their simulation.
-std::string report_html(const input::Dataset& dataset, const std::vector<run::ReplayedRun>& runs,
+std::string report_html(const domain::Dataset& dataset, const std::vector<run::ReplayedRun>& runs,
                         const std::vector<std::string>& warnings = {});
 
 /// Two muscles under given currents.
@@ -36,16 +36,16 @@ std::string report_html(const domain::Dataset& dataset, const std::vector<run::S
                         const std::vector<std::string>& warnings);
 
 /// A campaign's measurements. `document` is its campaign.json.
-std::string report_html(const input::Campaign& campaign, const input::Json& document,
-                        const input::Dataset& dataset);
+std::string report_html(const domain::Campaign& campaign, const input::Json& document,
+                        const domain::Dataset& dataset);
 
 /// The models of a data set, and their figures.
-std::string report_html(const input::Dataset& dataset, const thesis::CalibrationResult& result,
+std::string report_html(const domain::Dataset& dataset, const thesis::CalibrationResult& result,
                         const thesis::Options& options, bool kgf, const std::vector<thesis::Figure>& figures);
 
 /// What a diagnosis found. `nominal` and `corrected`: the same runs replayed on the rig as described and as
 /// corrected; may be empty.
-std::string report_html(const input::Dataset& data, const diagnose::Diagnosis& diagnosis,
+std::string report_html(const domain::Dataset& data, const diagnose::Diagnosis& diagnosis,
                         const std::vector<run::ReplayedRun>& nominal,
                         const std::vector<run::ReplayedRun>& corrected);
 

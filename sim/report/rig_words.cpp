@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include <plant/instruments.hpp>
-#include <sim/input/number.hpp>
+#include <sim/domain/number.hpp>
 #include <sim/output/diagnosis_words.hpp>
 #include <sim/output/svg.hpp>
 #include <sim/report/rig_words.hpp>

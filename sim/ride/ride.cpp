@@ -6,14 +6,14 @@
 
 namespace mckibben::ride {
 
-bool can_share_steps(std::span<const Hanging> rigs, engine::Method method) {
-  return method != engine::Method::cvode &&
+bool can_share_steps(std::span<const Hanging> rigs, solver::Method method) {
+  return method != solver::Method::cvode &&
          std::none_of(rigs.begin(), rigs.end(), [](const Hanging& hanging) {
            return hanging.rig.friction.memory == plant::FrictionMemory::coulomb;
          });
 }
 
-Ride::Ride(std::span<const Hanging> rigs, const engine::Settings& settings, bool keep_ledger)
+Ride::Ride(std::span<const Hanging> rigs, const solver::Settings& settings, bool keep_ledger)
     : settings_(settings),
       together_(rigs.size() > 1 && can_share_steps(rigs, settings.method)),
       keep_ledger_(keep_ledger) {
@@ -23,7 +23,7 @@ Ride::Ride(std::span<const Hanging> rigs, const engine::Settings& settings, bool
   make_integrators();
 }
 
-Ride::Ride(const Paired& pair, const engine::Settings& settings, bool keep_ledger)
+Ride::Ride(const Paired& pair, const solver::Settings& settings, bool keep_ledger)
     : settings_(settings), together_(false), keep_ledger_(keep_ledger) {
   add({pair.rig, pair.opposite, pair.link});
   make_integrators();

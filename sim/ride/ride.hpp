@@ -58,7 +58,7 @@ struct Reading {
 };
 
 /// Whether rigs can ride in common steps: none with exact stick and slip, and not with CVODE.
-bool can_share_steps(std::span<const Hanging> rigs, engine::Method method);
+bool can_share_steps(std::span<const Hanging> rigs, solver::Method method);
 
 class Ride {
  public:
@@ -74,10 +74,10 @@ class Ride {
   };
 
   /// 1 to engine::Flock::most rigs. In common steps they have no ledger. Throws std::invalid_argument.
-  Ride(std::span<const Hanging> rigs, const engine::Settings& settings, bool keep_ledger = false);
-  Ride(const Hanging& rig, const engine::Settings& settings, bool keep_ledger = false)
+  Ride(std::span<const Hanging> rigs, const solver::Settings& settings, bool keep_ledger = false);
+  Ride(const Hanging& rig, const solver::Settings& settings, bool keep_ledger = false)
       : Ride(std::span(&rig, 1), settings, keep_ledger) {}
-  Ride(const Paired& pair, const engine::Settings& settings, bool keep_ledger = false);
+  Ride(const Paired& pair, const solver::Settings& settings, bool keep_ledger = false);
   Ride(const Ride& other);
   Ride(Ride&&) = default;
   Ride& operator=(Ride&&) = default;
@@ -131,7 +131,7 @@ class Ride {
   void read();
 
   std::vector<plant::Plant> plants_;
-  engine::Settings settings_;
+  solver::Settings settings_;
   bool together_, keep_ledger_;
   std::unique_ptr<engine::Flock> flock_;                          // either this
   std::vector<std::unique_ptr<engine::Integrator>> integrators_;  // or one for each rig

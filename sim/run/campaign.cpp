@@ -10,7 +10,7 @@
 
 namespace mckibben::run {
 
-std::vector<CampaignJob> jobs_of(const input::Campaign& campaign) {
+std::vector<CampaignJob> jobs_of(const domain::Campaign& campaign) {
   const auto digits = [](std::size_t count) { return std::to_string(count).size(); };
   const std::size_t load_digits = digits(campaign.loads_kg.size());
   const std::size_t repeat_digits = digits(static_cast<std::size_t>(campaign.repeats));
@@ -25,8 +25,8 @@ std::vector<CampaignJob> jobs_of(const input::Campaign& campaign) {
   return jobs;
 }
 
-CampaignRun run_job(const input::Campaign& campaign, const CampaignJob& job) {
-  const input::CampaignCurrent& current = campaign.currents[job.current];
+CampaignRun run_job(const domain::Campaign& campaign, const CampaignJob& job) {
+  const domain::CampaignCurrent& current = campaign.currents[job.current];
   CampaignRun run{.job = job};
   const auto controller = std::visit(
       [&](const auto& waveform) { return waveform.make(knowledge_of(campaign.rig, {})); }, current.current);
@@ -43,15 +43,15 @@ CampaignRun run_job(const input::Campaign& campaign, const CampaignJob& job) {
   return run;
 }
 
-void run_jobs(const input::Campaign& campaign, std::span<const CampaignJob> jobs, unsigned threads,
+void run_jobs(const domain::Campaign& campaign, std::span<const CampaignJob> jobs, unsigned threads,
               const std::function<void(const CampaignRun&)>& finished, const ProgressHook& progress) {
   for_each_job(
       jobs.size(), threads, [&](std::size_t i) { finished(run_job(campaign, jobs[i])); },
       [&](std::size_t done) { progress("simulating", done, jobs.size()); });
 }
 
-input::Run measured(const input::Campaign& campaign, const CampaignRun& run) {
-  input::Run table;
+domain::Run measured(const domain::Campaign& campaign, const CampaignRun& run) {
+  domain::Run table;
   table.id = run.job.id;
   table.file = run.job.id + ".csv";
   table.load_kg = run.job.load_kg;

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include <sim/input/campaign.hpp>
-#include <sim/input/dataset.hpp>
+#include <sim/domain/campaign.hpp>
+#include <sim/domain/dataset.hpp>
 #include <sim/run/compare.hpp>
 #include <sim/run/recording.hpp>
 
@@ -33,17 +33,17 @@ struct CampaignRun {
 };
 
 /// All runs of a campaign: loads in order, for each all currents, for each all repeats. Ids are unique.
-std::vector<CampaignJob> jobs_of(const input::Campaign& campaign);
+std::vector<CampaignJob> jobs_of(const domain::Campaign& campaign);
 
 /// Simulates one of them. The result depends on nothing but campaign and job. Touches no files.
-CampaignRun run_job(const input::Campaign& campaign, const CampaignJob& job);
+CampaignRun run_job(const domain::Campaign& campaign, const CampaignJob& job);
 
 /// Simulates `jobs` on `threads` threads (0: all the machine has). `finished` is given each run as it ends,
 /// from any thread, in any order. Throws Interrupted; what `finished` throws.
-void run_jobs(const input::Campaign& campaign, std::span<const CampaignJob> jobs, unsigned threads,
+void run_jobs(const domain::Campaign& campaign, std::span<const CampaignJob> jobs, unsigned threads,
               const std::function<void(const CampaignRun&)>& finished, const ProgressHook& progress);
 
 /// What was measured in a run: currents, counted contraction ratios, pressures if the rig has a gauge.
-input::Run measured(const input::Campaign& campaign, const CampaignRun& run);
+domain::Run measured(const domain::Campaign& campaign, const CampaignRun& run);
 
 }  // namespace mckibben::run

@@ -15,7 +15,7 @@
 namespace mckibben::run {
 namespace {
 
-using input::ColumnPlace;
+using domain::ColumnPlace;
 using input::line_of;
 using Series = std::vector<double>;
 
@@ -40,7 +40,7 @@ ColumnPlace with_unit(ColumnPlace place, std::string unit) {
 double ratio_of(const std::string& unit, const plant::Rig& rig) {
   input::Table one;
   one.columns.push_back({"contraction_ratio", "", 0, {1.0}});
-  input::ColumnMap map;
+  domain::ColumnMap map;
   map.contraction = {"one", unit};
   input::convert_columns(one, map, rig);
   return one.columns.front().values.front();
@@ -58,14 +58,14 @@ bool only_scaled(const Series& measured, const Series& model, double factor) {
 
 class Columns {
  public:
-  Columns(const input::Dataset& data, std::vector<Finding>& findings)
+  Columns(const domain::Dataset& data, std::vector<Finding>& findings)
       : data_(data),
         findings_(findings),
         longest_(plant::Braid(data.rig.muscle).largest_contraction_ratio()) {}
 
   void look(std::size_t i, const Expected& expected) {
-    const input::Run& run = data_.runs[i];
-    map_ = with_names(input::merged(data_.columns, run.columns));
+    const domain::Run& run = data_.runs[i];
+    map_ = with_names(domain::merged(data_.columns, run.columns));
     run_ = i;
     if (exchanged(run)) return;
     current(run);
@@ -75,7 +75,7 @@ class Columns {
   }
 
  private:
-  static input::ColumnMap with_names(input::ColumnMap map) {
+  static domain::ColumnMap with_names(domain::ColumnMap map) {
     if (map.current.absent()) map.current = {"current_mA", "mA"};
     if (map.contraction.absent()) map.contraction = {"contraction_ratio", "1"};
     if (map.muscle_pressure.absent()) map.muscle_pressure = {"muscle_pressure_bar", "bar"};
@@ -95,7 +95,7 @@ class Columns {
     return fmt::format("{}; write columns: {{{}}}", what, line);
   }
 
-  bool exchanged(const input::Run& run) {
+  bool exchanged(const domain::Run& run) {
     if (!run.muscle_pressure_Pa) return false;
     const double most_bar = largest(*run.muscle_pressure_Pa) / plant::Pa_per_bar;
     if (most_bar < 1.2 * data_.rig.valve.supply_pressure_Pa / plant::Pa_per_bar ||
@@ -113,7 +113,7 @@ class Columns {
     return true;
   }
 
-  void current(const input::Run& run) {
+  void current(const domain::Run& run) {
     const double dead_mA = data_.rig.valve.zero_current_mA;
     const double amperes_mA = data_.rig.valve.span_current_mA / 400.0;
     const double most_mA = largest(run.current_mA);
@@ -209,16 +209,16 @@ class Columns {
               line_of("muscle_pressure", meant)));
   }
 
-  const input::Dataset& data_;
+  const domain::Dataset& data_;
   std::vector<Finding>& findings_;
   double longest_;  ///< contraction ratio that a muscle reaches without a load
-  input::ColumnMap map_;
+  domain::ColumnMap map_;
   std::size_t run_ = 0;
 };
 
 }  // namespace
 
-void check_columns(const input::Dataset& data, const std::vector<Expected>& expected,
+void check_columns(const domain::Dataset& data, const std::vector<Expected>& expected,
                    std::vector<Finding>& findings) {
   Columns columns(data, findings);
   for (std::size_t i = 0; i < data.runs.size(); ++i)

@@ -8,7 +8,7 @@
 namespace mckibben::run {
 
 /// Adds to `findings`: one for each kind, with all runs that it concerns.
-void check_columns(const input::Dataset& data, const std::vector<Expected>& expected,
+void check_columns(const domain::Dataset& data, const std::vector<Expected>& expected,
                    std::vector<Finding>& findings);
 
 }  // namespace mckibben::run

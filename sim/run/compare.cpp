@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include <plant/geometry.hpp>
-#include <sim/input/number.hpp>
+#include <sim/domain/number.hpp>
 #include <sim/run/batch.hpp>
 #include <sim/run/compare.hpp>
 #include <sim/run/reachable.hpp>
@@ -21,10 +21,10 @@
 namespace mckibben::run {
 namespace {
 
-using input::Scenario;
+using domain::Scenario;
 
 std::string id_of(const std::string& controller, double load_kg) {
-  return fmt::format("{} at {} kg", controller, input::write_number(load_kg));
+  return fmt::format("{} at {} kg", controller, domain::write_number(load_kg));
 }
 
 class Comparing {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include <sim/input/scenario.hpp>
+#include <sim/domain/scenario.hpp>
 #include <sim/run/metrics.hpp>
 #include <sim/run/recording.hpp>
 #include <sim/run/tune_controller.hpp>
@@ -47,6 +47,6 @@ using ProgressHook = std::function<void(const std::string& what, std::size_t don
 
 /// Tunes what is to be tuned, runs everything on `threads` threads (0: all the machine has) and measures. The
 /// result does not depend on the number of threads. Throws Interrupted if stopped while tuning.
-Comparison compare(const input::Scenario& scenario, unsigned threads, const ProgressHook& progress);
+Comparison compare(const domain::Scenario& scenario, unsigned threads, const ProgressHook& progress);
 
 }  // namespace mckibben::run

@@ -13,14 +13,14 @@
 #include <controllers/inverse.hpp>
 #include <controllers/reach.hpp>
 #include <plant/rig.hpp>
-#include <sim/engine/settings.hpp>
 #include <sim/run/compare.hpp>
+#include <sim/solver/settings.hpp>
 
 namespace mckibben::run {
 
 struct MapPlan {
   plant::Rig rig;
-  engine::Settings engine{};
+  solver::Settings engine{};
   controllers::Calibration calibration;
   std::vector<double> loads_kg;
   std::vector<controllers::Branch> branches;

@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include <plant/geometry.hpp>
-#include <sim/input/number.hpp>
+#include <sim/domain/number.hpp>
 #include <sim/run/load_sanity.hpp>
 #include <sim/run/series.hpp>
 
@@ -49,7 +49,7 @@ bool stands_still(const Series& measured, const Series& simulated, std::size_t k
 /// What the braid carries at what was measured, in the middle of what friction makes of it. Where the
 /// simulated load hangs as well, by how much more it carries than that one: what the simulation is off by in
 /// friction and inertia, the measurement is too.
-std::optional<Weighed> weigh(const plant::Braid& braid, std::size_t index, const input::Run& run,
+std::optional<Weighed> weigh(const plant::Braid& braid, std::size_t index, const domain::Run& run,
                              const Expected& expected) {
   const auto carried_kg = [&](double contraction_ratio, std::size_t k) {
     return braid.force_N(contraction_ratio, expected.pressure_Pa[k]) / plant::gravity_m_per_s2;
@@ -67,7 +67,7 @@ std::optional<Weighed> weigh(const plant::Braid& braid, std::size_t index, const
   return Weighed{index, run.load_kg, median(std::move(both ? compared_kg : plain_kg))};
 }
 
-std::vector<Weighed> weigh(const input::Dataset& data, const std::vector<Expected>& expected) {
+std::vector<Weighed> weigh(const domain::Dataset& data, const std::vector<Expected>& expected) {
   const plant::Braid braid(data.rig.muscle);
   std::vector<Weighed> list;
   for (std::size_t i = 0; i < data.runs.size(); ++i)
@@ -109,7 +109,7 @@ std::optional<Finding> other_unit(const std::vector<Weighed>& list) {
         "load", runs_of(list),
         fmt::format("load = {} kg, but it moves like {:.3g} kg, and all loads are off by about that "
                     "factor; these look like {}",
-                    input::write_number(list.front().label_kg), list.front().seems_kg, unit.says),
+                    domain::write_number(list.front().label_kg), list.front().seems_kg, unit.says),
         off < std::log(unit.sure)};
   }
   return std::nullopt;
@@ -143,7 +143,7 @@ std::vector<Weighed> in_order(std::vector<Weighed> list) {
   return list;
 }
 
-std::optional<Finding> exchanged_labels(const input::Dataset& data, const std::vector<Weighed>& list) {
+std::optional<Finding> exchanged_labels(const domain::Dataset& data, const std::vector<Weighed>& list) {
   const std::vector<Weighed> ordered = in_order(list);
   const double scale = common_ratio(ordered);
   Finding finding{"load", {}, "", false};
@@ -158,8 +158,8 @@ std::optional<Finding> exchanged_labels(const input::Dataset& data, const std::v
                                  agrees * std::abs(label_kg - other_kg) * scale;
     const std::string& id = data.runs[list[i].run].id;
     const char* const comma = written.empty() ? "" : ", ";
-    written += fmt::format("{}load: {} kg for {}", comma, input::write_number(other_kg), id);
-    seems += fmt::format("{}{} ({} kg) like {:.1f} kg", comma, id, input::write_number(label_kg),
+    written += fmt::format("{}load: {} kg for {}", comma, domain::write_number(other_kg), id);
+    seems += fmt::format("{}{} ({} kg) like {:.1f} kg", comma, id, domain::write_number(label_kg),
                          list[i].seems_kg);
   }
   if (finding.runs.empty()) return std::nullopt;
@@ -173,7 +173,7 @@ std::optional<Finding> exchanged_labels(const input::Dataset& data, const std::v
 
 }  // namespace
 
-void check_loads(const input::Dataset& data, const std::vector<Expected>& expected,
+void check_loads(const domain::Dataset& data, const std::vector<Expected>& expected,
                  std::vector<Finding>& findings) {
   const std::vector<Weighed> list = weigh(data, expected);
   if (list.empty()) return;

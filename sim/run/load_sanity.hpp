@@ -9,7 +9,7 @@
 namespace mckibben::run {
 
 /// All loads in another unit; labels that two or more runs have of each other. Adds to `findings`.
-void check_loads(const input::Dataset& data, const std::vector<Expected>& expected,
+void check_loads(const domain::Dataset& data, const std::vector<Expected>& expected,
                  std::vector<Finding>& findings);
 
 }  // namespace mckibben::run

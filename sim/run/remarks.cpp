@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include <sim/input/number.hpp>
+#include <sim/domain/number.hpp>
 #include <sim/run/remarks.hpp>
 #include <sim/run/simulate.hpp>
 
@@ -16,7 +16,7 @@ constexpr double no_gain = 0.95;  // of the cost without feedback
 
 /// Without the DAC's rounding, which would fill the text with digits.
 std::string current(double value_mA) {
-  return input::write_number(std::round(100.0 * value_mA) / 100.0) + " mA";
+  return domain::write_number(std::round(100.0 * value_mA) / 100.0) + " mA";
 }
 
 std::string place_and_share(bool low, const controllers::CurrentRange& limits, double share) {
@@ -70,7 +70,7 @@ std::string limit_words(const Comparison& comparison, std::string_view controlle
   if (highest > 0.0)
     words += (words.empty() ? "" : " and ") + place_and_share(false, *most->limits, highest / runs);
   if (runs > 1.0)
-    words += fmt::format(" (with {} kg for {:.0f} %)", input::write_number(most->load_kg),
+    words += fmt::format(" (with {} kg for {:.0f} %)", domain::write_number(most->load_kg),
                          100.0 * share_at_limit(*most));
   return "stood " + words;
 }

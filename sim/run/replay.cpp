@@ -10,7 +10,7 @@
 namespace mckibben::run {
 namespace {
 
-ReplayedRun replay_one(const input::Run& measured, const input::RigFile& rig) {
+ReplayedRun replay_one(const domain::Run& measured, const domain::RigFile& rig) {
   ReplayedRun run{.id = measured.id, .load_kg = measured.load_kg};
   controllers::RecordedCurrent recorded;
   recorded.samples_mA = measured.current_mA;
@@ -45,7 +45,7 @@ ReplayedRun replay_one(const input::Run& measured, const input::RigFile& rig) {
 
 }  // namespace
 
-std::vector<ReplayedRun> replay(const input::Dataset& dataset, unsigned threads,
+std::vector<ReplayedRun> replay(const domain::Dataset& dataset, unsigned threads,
                                 const ProgressHook& progress) {
   std::vector<ReplayedRun> runs;
   runs.reserve(dataset.runs.size());

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include <sim/input/dataset.hpp>
+#include <sim/domain/dataset.hpp>
 #include <sim/run/compare.hpp>
 #include <sim/run/recording.hpp>
 
@@ -26,7 +26,7 @@ struct ReplayedRun {
 
 /// Simulates every run of a data set. Of runs that were not begun when the user stopped, `failure` says so
 /// (`not_begun`).
-std::vector<ReplayedRun> replay(const input::Dataset& dataset, unsigned threads,
+std::vector<ReplayedRun> replay(const domain::Dataset& dataset, unsigned threads,
                                 const ProgressHook& progress);
 
 }  // namespace mckibben::run

@@ -31,7 +31,7 @@ input::Place place_of(const input::YamlFile& file, const Finding& finding) {
   return run.place;
 }
 
-input::Run beginning_of(input::Run run, std::size_t rows) {
+domain::Run beginning_of(domain::Run run, std::size_t rows) {
   rows = std::min(rows, run.current_mA.size());
   run.current_mA.resize(rows);
   run.contraction_ratio.resize(rows);
@@ -41,7 +41,7 @@ input::Run beginning_of(input::Run run, std::size_t rows) {
 
 }  // namespace
 
-std::vector<Finding> sanity(const input::Dataset& data, const std::vector<Expected>& expected) {
+std::vector<Finding> sanity(const domain::Dataset& data, const std::vector<Expected>& expected) {
   std::vector<Finding> findings;
   check_columns(data, expected, findings);
   // The wrong numbers would weigh wrong.
@@ -60,11 +60,11 @@ std::vector<Expected> expected_of(const std::vector<ReplayedRun>& replayed) {
   return list;
 }
 
-Look look(const input::Dataset& data) {
+Look look(const domain::Dataset& data) {
   std::size_t rows = 0;
-  for (const input::Run& run : data.runs) rows += std::min(run.current_mA.size(), most_rows_of_a_run);
+  for (const domain::Run& run : data.runs) rows += std::min(run.current_mA.size(), most_rows_of_a_run);
   const std::size_t step = rows / most_rows + 1;
-  input::Dataset some;
+  domain::Dataset some;
   some.rig = data.rig;
   some.columns = data.columns;
   for (std::size_t i = 0; i < data.runs.size(); i += step)
@@ -77,7 +77,7 @@ Look look(const input::Dataset& data) {
   return result;
 }
 
-std::string text_of(const input::Dataset& data, const Finding& finding) {
+std::string text_of(const domain::Dataset& data, const Finding& finding) {
   const std::size_t count = finding.runs.size();
   if (count == data.runs.size() && count > 1) return "all runs: " + finding.message;
   constexpr std::size_t most_shown = 9;
@@ -88,7 +88,7 @@ std::string text_of(const input::Dataset& data, const Finding& finding) {
   return fmt::format("run{} {}: {}", count > 1 ? "s" : "", ids, finding.message);
 }
 
-std::vector<input::Problem> problems_of(const input::Dataset& data, const std::vector<Finding>& findings) {
+std::vector<input::Problem> problems_of(const domain::Dataset& data, const std::vector<Finding>& findings) {
   if (findings.empty()) return {};
   input::Problems problems;
   const auto tell = [&](const input::Source& source, input::Place place, const Finding& finding) {
@@ -107,7 +107,7 @@ std::vector<input::Problem> problems_of(const input::Dataset& data, const std::v
   return problems.sorted();
 }
 
-void raise(const input::Dataset& data, const std::vector<Finding>& findings) {
+void raise(const domain::Dataset& data, const std::vector<Finding>& findings) {
   if (std::any_of(findings.begin(), findings.end(), [](const Finding& one) { return one.certain; }))
     throw input::BadInput(problems_of(data, findings));
 }

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include <sim/input/dataset.hpp>
+#include <sim/domain/dataset.hpp>
 #include <sim/input/diagnostics.hpp>
 
 namespace mckibben::run {
@@ -36,22 +36,22 @@ struct Finding {
 };
 
 /// `expected`: one for each run of the data set.
-std::vector<Finding> sanity(const input::Dataset& data, const std::vector<Expected>& expected);
+std::vector<Finding> sanity(const domain::Dataset& data, const std::vector<Expected>& expected);
 
 struct Look {
   std::vector<Finding> findings;
   std::size_t runs = 0;  ///< that were looked at
 };
 /// Simulates as many of the runs as take a few seconds at most, and looks at them. Throws Interrupted.
-Look look(const input::Dataset& data);
+Look look(const domain::Dataset& data);
 
 /// As "run r02: MESSAGE", "runs r01, r02: MESSAGE" or "all runs: MESSAGE".
-std::string text_of(const input::Dataset& data, const Finding& finding);
+std::string text_of(const domain::Dataset& data, const Finding& finding);
 
 /// The findings at their places in the data set's file: errors if certain, otherwise warnings.
-std::vector<input::Problem> problems_of(const input::Dataset& data, const std::vector<Finding>& findings);
+std::vector<input::Problem> problems_of(const domain::Dataset& data, const std::vector<Finding>& findings);
 
 /// Throws input::BadInput with all findings if one of them is certain.
-void raise(const input::Dataset& data, const std::vector<Finding>& findings);
+void raise(const domain::Dataset& data, const std::vector<Finding>& findings);
 
 }  // namespace mckibben::run

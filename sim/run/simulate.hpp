@@ -11,8 +11,8 @@
 #include <controllers/controller.hpp>
 #include <plant/instruments.hpp>
 #include <plant/rig.hpp>
-#include <sim/engine/settings.hpp>
 #include <sim/run/recording.hpp>
+#include <sim/solver/settings.hpp>
 
 namespace mckibben::run {
 
@@ -20,7 +20,7 @@ struct RunPlan {
   plant::Rig rig;
   double load_kg = 0.0;
   std::size_t ticks = 0;  ///< rows of the recording
-  engine::Settings engine{};
+  solver::Settings engine{};
   plant::Noise noise{};
   std::uint64_t seed = 1, stream = 0;  ///< runs of one seed differ by their stream
   bool keep_ledger = false;

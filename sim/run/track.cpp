@@ -6,7 +6,7 @@
 
 namespace mckibben::run {
 
-RunPlan plan_of(const input::Scenario& scenario, double load_kg, std::uint64_t stream) {
+RunPlan plan_of(const domain::Scenario& scenario, double load_kg, std::uint64_t stream) {
   return {.rig = scenario.rig,
           .load_kg = load_kg,
           .ticks = static_cast<std::size_t>(std::llround(scenario.duration_s / scenario.rig.tick_s)),
@@ -27,7 +27,7 @@ std::optional<controllers::CurrentRange> limits_of(const controllers::Settings& 
   return limits;
 }
 
-Metrics metrics_of(const input::Scenario& scenario, const std::vector<double>& target,
+Metrics metrics_of(const domain::Scenario& scenario, const std::vector<double>& target,
                    const Recording& recording, const std::optional<controllers::CurrentRange>& limits) {
   std::vector<double> contraction, current_mA;
   for (const auto& sample : recording.samples) {

@@ -37,7 +37,7 @@ double effort_mA(const Recording& recording) {
 
 class Tuning {
  public:
-  Tuning(const input::Scenario& scenario, const controllers::Knowledge& knowledge,
+  Tuning(const domain::Scenario& scenario, const controllers::Knowledge& knowledge,
          const controllers::Settings& settings, double load_kg)
       : scenario_(scenario),
         knowledge_(knowledge),
@@ -81,7 +81,7 @@ class Tuning {
     return {metrics_of(scenario_, knowledge_.target, recording, limits_), effort_mA(recording)};
   }
 
-  const input::Scenario& scenario_;
+  const domain::Scenario& scenario_;
   const controllers::Knowledge& knowledge_;
   const controllers::Settings& settings_;
   RunPlan plan_;
@@ -100,7 +100,7 @@ std::optional<double> idle_cost(const Tuning& tuning, Gains gains) {
 
 }  // namespace
 
-TunedController tune_controller(const input::Scenario& scenario, const controllers::Knowledge& knowledge,
+TunedController tune_controller(const domain::Scenario& scenario, const controllers::Knowledge& knowledge,
                                 controllers::Settings& settings, const std::function<void()>& tried) {
   const controllers::PidTerms& pid = *controllers::pid_terms(settings);
   TunedController result{.controller = controllers::name_of(settings),

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include <sim/input/scenario.hpp>
+#include <sim/domain/scenario.hpp>
 #include <sim/run/metrics.hpp>
 #include <sim/run/tune_pid.hpp>
 
@@ -24,7 +24,7 @@ struct TunedController {
 
 /// Tunes `settings` and fills the gains in. `knowledge` holds the target; `tried` hears of each trial.
 /// Throws Interrupted.
-TunedController tune_controller(const input::Scenario& scenario, const controllers::Knowledge& knowledge,
+TunedController tune_controller(const domain::Scenario& scenario, const controllers::Knowledge& knowledge,
                                 controllers::Settings& settings, const std::function<void()>& tried);
 
 }  // namespace mckibben::run

@@ -92,7 +92,7 @@ void look_up(Evidence& evidence) {
 
 }  // namespace
 
-Evidence gather(input::Campaign campaign, unsigned threads, const run::ProgressHook& progress) {
+Evidence gather(domain::Campaign campaign, unsigned threads, const run::ProgressHook& progress) {
   Evidence evidence;
   campaign.rig.gauge = {.fitted = true, .resolution_Pa = 0.0};
   campaign.noise.gauge_Pa = 0.0;

@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <vector>
 
-#include <sim/input/campaign.hpp>
+#include <sim/domain/campaign.hpp>
 #include <sim/run/campaign.hpp>
 #include <sim/thesis/calibrate.hpp>
 
@@ -36,8 +36,8 @@ struct Row {
 };
 
 struct Evidence {
-  input::Campaign campaign;  ///< its rig has a gauge without noise
-  input::Dataset dataset;
+  domain::Campaign campaign;  ///< its rig has a gauge without noise
+  domain::Dataset dataset;
   std::vector<run::Recording> recordings;  ///< in the order of the data set's runs
   std::vector<std::string> failed;         ///< runs that the integrator gave up
   thesis::CalibrationResult from_current, from_gauge;
@@ -46,7 +46,7 @@ struct Evidence {
 
 /// Simulates the campaign on `threads` threads (0: all the machine has) and calibrates. Throws
 /// run::Interrupted; input::BadInput if the data cannot be calibrated.
-Evidence gather(input::Campaign campaign, unsigned threads, const run::ProgressHook& progress);
+Evidence gather(domain::Campaign campaign, unsigned threads, const run::ProgressHook& progress);
 
 /// Mean, spread and root mean square of what is added.
 class Tally {

@@ -273,7 +273,7 @@ Weighing weigh(const Evidence& evidence, const thesis::CalibrationResult& calibr
   controllers::OpenLoopSettings settings;
   settings.model = calibration.calibration;
   settings.extrapolate_load = true;  // the thesis's 8.87 kg is lighter than all it calibrated with
-  const input::Campaign& campaign = evidence.campaign;
+  const domain::Campaign& campaign = evidence.campaign;
   const auto controller = settings.make(run::knowledge_of(campaign.rig, {}));
   const run::Recording recording = run::simulate({.rig = campaign.rig,
                                                   .load_kg = load_kg,

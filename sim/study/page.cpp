@@ -8,7 +8,7 @@ namespace mckibben::study {
 namespace {
 
 /// Whether it is the campaign whose pages are checked in: `docs/studies`, which a test keeps up to date.
-bool is_shipped(const input::Campaign& campaign) {
+bool is_shipped(const domain::Campaign& campaign) {
   return campaign.inputs.size() == 1 && campaign.inputs.front().sha256 == MCKIBBEN_THESIS_CAMPAIGN_SHA256;
 }
 

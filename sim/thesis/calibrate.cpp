@@ -25,7 +25,7 @@ std::string runs_left_out(const Grid& grid) {
 }
 
 /// Too few for an order. If that is because nothing moved, more of the same would not help: the cause leads.
-[[noreturn]] void refuse_few(const input::Dataset& dataset, const Grid& grid, const Options& options,
+[[noreturn]] void refuse_few(const domain::Dataset& dataset, const Grid& grid, const Options& options,
                              const std::string& short_of, const char* more, const char* option,
                              std::size_t order) {
   const std::string still = grid.still_runs(dataset.rig.valve);
@@ -36,7 +36,7 @@ std::string runs_left_out(const Grid& grid) {
 }
 
 /// Enough loads and speeds for the orders that are asked for.
-void check_grid(const input::Dataset& dataset, const Grid& grid, const Options& options) {
+void check_grid(const domain::Dataset& dataset, const Grid& grid, const Options& options) {
   constexpr int highest_speed_order = 2, highest_load_order = 3;  // T 4.13, T 4.15
   const auto loads = static_cast<std::size_t>(std::min(options.orders.load, highest_load_order)) + 1;
   const auto speeds = static_cast<std::size_t>(std::min(options.orders.speed, highest_speed_order)) + 1;
@@ -64,7 +64,7 @@ void check_grid(const input::Dataset& dataset, const Grid& grid, const Options& 
 }
 
 /// Friction that drives the motion on the whole is no friction.
-void check_friction(const input::Dataset& dataset, const Grid& grid) {
+void check_friction(const domain::Dataset& dataset, const Grid& grid) {
   for (const Direction direction : directions) {
     double sum = 0.0;
     for (const Cell& cell : grid.of(direction)) sum += vector(cell.samples.coefficient).sum();
@@ -123,7 +123,7 @@ class Details {
 
 }  // namespace
 
-CalibrationResult calibrate(const input::Dataset& dataset, const Options& options) {
+CalibrationResult calibrate(const domain::Dataset& dataset, const Options& options) {
   CalibrationResult result;
   result.grid = make_grid(dataset, options.processing);
   check_grid(dataset, result.grid, options);

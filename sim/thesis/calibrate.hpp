@@ -5,7 +5,7 @@
 #include <array>
 
 #include <controllers/calibration.hpp>
-#include <sim/input/dataset.hpp>
+#include <sim/domain/dataset.hpp>
 #include <sim/thesis/cells.hpp>
 #include <sim/thesis/friction.hpp>
 #include <sim/thesis/pressure.hpp>
@@ -38,6 +38,6 @@ struct CalibrationResult {
 };
 
 /// Throws input::BadInput if the data set cannot bear the fits; the message says what would help.
-CalibrationResult calibrate(const input::Dataset& dataset, const Options& options);
+CalibrationResult calibrate(const domain::Dataset& dataset, const Options& options);
 
 }  // namespace mckibben::thesis

@@ -55,11 +55,11 @@ std::string Grid::still_runs(const plant::Valve& valve) const {
                          : "lighter loads or slower currents, if loads, rig and encoder are right");
 }
 
-Grid make_grid(const input::Dataset& dataset, const ProcessingOptions& options) {
+Grid make_grid(const domain::Dataset& dataset, const ProcessingOptions& options) {
   constexpr double same_speed = 0.02, same_load = 1e-3;
   Grid grid;
   std::vector<ProcessedRun> used;
-  for (const input::Run& run : dataset.runs) {
+  for (const domain::Run& run : dataset.runs) {
     ProcessedRun processed = process(run, dataset, options);
     if (processed.unusable.empty())
       used.push_back(std::move(processed));

@@ -7,7 +7,7 @@
 
 #include <Eigen/Core>
 
-#include <sim/input/dataset.hpp>
+#include <sim/domain/dataset.hpp>
 #include <sim/thesis/processing.hpp>
 
 namespace mckibben::thesis {
@@ -41,7 +41,7 @@ struct Grid {
 };
 
 /// Processes every run and sorts it in. Throws input::BadInput.
-Grid make_grid(const input::Dataset& dataset, const ProcessingOptions& options);
+Grid make_grid(const domain::Dataset& dataset, const ProcessingOptions& options);
 
 /// A column of samples as Eigen sees it.
 inline Eigen::Map<const Eigen::VectorXd> vector(const std::vector<double>& values) {

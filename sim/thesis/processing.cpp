@@ -6,6 +6,7 @@
 
 #include <plant/geometry.hpp>
 #include <plant/instruments.hpp>
+#include <sim/input/diagnostics.hpp>
 #include <sim/thesis/processing.hpp>
 
 namespace mckibben::thesis {
@@ -51,7 +52,7 @@ double mean_speed_mA_per_s(const std::vector<HalfPeriod>& halves, double tick_s,
 
 class Processor {
  public:
-  Processor(const input::Run& run, const input::Dataset& dataset, const ProcessingOptions& options)
+  Processor(const domain::Run& run, const domain::Dataset& dataset, const ProcessingOptions& options)
       : run_(run),
         dataset_(dataset),
         rig_(dataset.rig),
@@ -167,8 +168,8 @@ class Processor {
     samples.coefficient.push_back(up * friction_N / (braid_.contact_surface_m2(e) * pressure));
   }
 
-  const input::Run& run_;
-  const input::Dataset& dataset_;
+  const domain::Run& run_;
+  const domain::Dataset& dataset_;
   const plant::Rig& rig_;
   const ProcessingOptions& options_;
   plant::Braid braid_;
@@ -235,11 +236,12 @@ std::vector<HalfPeriod> half_periods(const std::vector<double>& current_mA) {
   return halves;
 }
 
-ProcessedRun process(const input::Run& run, const input::Dataset& dataset, const ProcessingOptions& options) {
+ProcessedRun process(const domain::Run& run, const domain::Dataset& dataset,
+                     const ProcessingOptions& options) {
   return Processor(run, dataset, options)();
 }
 
-void refuse(const input::Dataset& dataset, std::string message) {
+void refuse(const domain::Dataset& dataset, std::string message) {
   throw input::BadInput({{input::Severity::error, dataset.path.string(), {}, std::move(message), ""}});
 }
 

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include <plant/rig.hpp>
-#include <sim/input/dataset.hpp>
+#include <sim/domain/dataset.hpp>
 
 namespace mckibben::thesis {
 
@@ -79,9 +79,10 @@ struct HalfPeriod {
 std::vector<HalfPeriod> half_periods(const std::vector<double>& current_mA);
 
 /// Throws input::BadInput if the run cannot be of this rig or the gauge is missing.
-ProcessedRun process(const input::Run& run, const input::Dataset& dataset, const ProcessingOptions& options);
+ProcessedRun process(const domain::Run& run, const domain::Dataset& dataset,
+                     const ProcessingOptions& options);
 
 /// A problem with the whole data set, to be thrown as input::BadInput.
-[[noreturn]] void refuse(const input::Dataset& dataset, std::string message);
+[[noreturn]] void refuse(const domain::Dataset& dataset, std::string message);
 
 }  // namespace mckibben::thesis

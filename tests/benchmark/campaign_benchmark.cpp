@@ -7,6 +7,7 @@
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
+#include <sim/input/campaign_file.hpp>
 #include <sim/run/campaign.hpp>
 
 namespace mckibben::run {

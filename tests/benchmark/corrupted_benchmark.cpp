@@ -20,7 +20,7 @@ struct Said {
   std::vector<std::string> effects{};
 };
 
-Said said_of(const input::Dataset& data, std::uint64_t seed) {
+Said said_of(const domain::Dataset& data, std::uint64_t seed) {
   try {
     const auto found = diagnose(data, {.threads = 0, .seed = seed}, [](auto, auto, auto) {});
     Said said{.verdict = {}, .sentence = found.because};
@@ -49,7 +49,7 @@ void score_corrupted(std::uint64_t seed, const std::string& only) {
     for (const Corruption& corruption : corruptions()) {
       const std::string label = base.title + ": " + corruption.name;
       if (label.find(only) == std::string::npos) continue;
-      input::Dataset data = base.data;
+      domain::Dataset data = base.data;
       corruption.spoil(data);
       const auto start = std::chrono::steady_clock::now();
       const Said said = said_of(data, seed);

@@ -23,7 +23,7 @@ std::size_t kind_of(const std::string& name) {
 /// The same six of the nine runs, cut to one length: every load, all kinds of current but one.
 Hidden six_runs(const std::string& name, std::uint64_t seed) {
   Hidden hidden = hide(kind_of(name), seed);
-  std::vector<input::Run> kept;
+  std::vector<domain::Run> kept;
   for (const std::size_t run : {0u, 1u, 3u, 4u, 6u, 7u}) {
     kept.push_back(std::move(hidden.data.runs[run]));
     kept.back().current_mA.resize(std::min(rows, kept.back().current_mA.size()));
@@ -38,12 +38,12 @@ Hidden six_runs(const std::string& name, std::uint64_t seed) {
 
 using Series = std::vector<double>;
 
-input::Run& run(input::Dataset& data, std::size_t number) {
+domain::Run& run(domain::Dataset& data, std::size_t number) {
   return data.runs[number - 1];
 }
 
 /// Readings that come some ticks late; early if negative.
-void late(input::Run& run, int ticks) {
+void late(domain::Run& run, int ticks) {
   const Series was = run.contraction_ratio;
   const auto last = static_cast<int>(was.size()) - 1;
   for (int k = 0; k <= last; ++k)
@@ -51,13 +51,13 @@ void late(input::Run& run, int ticks) {
         was[static_cast<std::size_t>(std::clamp(k - ticks, 0, last))];
 }
 
-double counted(const input::Dataset& data, double ratio) {
+double counted(const domain::Dataset& data, double ratio) {
   const double count = run::contraction_per_count(data.rig);
   return count * std::floor(ratio / count + 0.5);
 }
 
 /// A straight line added to the readings, from 0 to so much at the end.
-void drift(const input::Dataset& data, input::Run& run, double end_mm) {
+void drift(const domain::Dataset& data, domain::Run& run, double end_mm) {
   const auto all = static_cast<double>(run.contraction_ratio.size());
   for (std::size_t k = 0; k < run.contraction_ratio.size(); ++k)
     run.contraction_ratio[k] =
@@ -65,15 +65,15 @@ void drift(const input::Dataset& data, input::Run& run, double end_mm) {
 }
 
 /// So many counts more from a row on.
-void slip(const input::Dataset& data, input::Run& run, std::size_t row, int counts) {
+void slip(const domain::Dataset& data, domain::Run& run, std::size_t row, int counts) {
   for (std::size_t k = row; k < run.contraction_ratio.size(); ++k)
     run.contraction_ratio[k] += counts * run::contraction_per_count(data.rig);
 }
 
 /// The run made again on the nominal rig with something wrong in it that the table does not tell.
-void make_again(input::Dataset& data, input::Run& run, const Series& true_current_mA, double load_kg,
+void make_again(domain::Dataset& data, domain::Run& run, const Series& true_current_mA, double load_kg,
                 const plant::Rig& truth) {
-  input::Run moved = run;
+  domain::Run moved = run;
   moved.current_mA = true_current_mA;
   const Hanging hanging{truth, load_kg};
   const auto readings = predict(moved, {&hanging, 1}).front().contraction_ratio;
@@ -82,7 +82,7 @@ void make_again(input::Dataset& data, input::Run& run, const Series& true_curren
     run.contraction_ratio[k] = count * std::floor(readings[k] / count);
 }
 
-void lose_rows(input::Run& run, std::size_t row, std::size_t count) {
+void lose_rows(domain::Run& run, std::size_t row, std::size_t count) {
   const auto cut = [&](Series& values) {
     const auto begin = values.begin() + static_cast<std::ptrdiff_t>(row);
     values.erase(begin, begin + static_cast<std::ptrdiff_t>(count));
@@ -94,10 +94,10 @@ void lose_rows(input::Run& run, std::size_t row, std::size_t count) {
 }  // namespace
 
 const std::vector<Corruption>& corruptions() {
-  using Data = input::Dataset;
+  using Data = domain::Dataset;
   const auto each = [](auto change) {
     return [change](Data& data) {
-      for (input::Run& one : data.runs) change(data, one);
+      for (domain::Run& one : data.runs) change(data, one);
     };
   };
   static const std::vector<Corruption> list = {
@@ -105,7 +105,7 @@ const std::vector<Corruption>& corruptions() {
       {"late 1", "r03", {"late"}, [](Data& d) { late(run(d, 3), 1); }},
       {"early 2", "r05", {"early"}, [](Data& d) { late(run(d, 5), -2); }},
       {"late 5 twice", "r04", {"late"}, [](Data& d) { late(run(d, 1), 5), late(run(d, 4), 5); }},
-      {"late 2 everywhere", "", {"late"}, each([](Data&, input::Run& r) { late(r, 2); })},
+      {"late 2 everywhere", "", {"late"}, each([](Data&, domain::Run& r) { late(r, 2); })},
       {"another rig",
        "r04",
        {"another rig"},
@@ -142,7 +142,7 @@ const std::vector<Corruption>& corruptions() {
        }},
       {"drift 1 mm", "r06", {"drift"}, [](Data& d) { drift(d, run(d, 6), 1.0); }},
       {"drift -0.6 mm", "r01", {"drift"}, [](Data& d) { drift(d, run(d, 1), -0.6); }},
-      {"drift 1 mm everywhere", "", {"drift"}, each([](Data& d, input::Run& r) { drift(d, r, 1.0); })},
+      {"drift 1 mm everywhere", "", {"drift"}, each([](Data& d, domain::Run& r) { drift(d, r, 1.0); })},
       {"zero 4 counts", "r03", {"zero"}, [](Data& d) { slip(d, run(d, 3), 0, 4); }},
       {"zero 1 to 3 counts",
        "",
@@ -151,7 +151,7 @@ const std::vector<Corruption>& corruptions() {
          const int counts[] = {2, -1, 3, 1, -3, 2};
          for (std::size_t r = 0; r < d.runs.size(); ++r) slip(d, d.runs[r], 0, counts[r % 6]);
        }},
-      {"zero 5 counts everywhere", "", {"zero"}, each([](Data& d, input::Run& r) { slip(d, r, 0, 5); })},
+      {"zero 5 counts everywhere", "", {"zero"}, each([](Data& d, domain::Run& r) { slip(d, r, 0, 5); })},
       {"slip 8 counts", "r04", {"slip", "lost"}, [](Data& d) { slip(d, run(d, 4), 300, 8); }},
       {"slip -4 counts", "r02", {"slip", "lost"}, [](Data& d) { slip(d, run(d, 2), 400, -4); }},
       {"valve stuck in half",
@@ -192,16 +192,16 @@ const std::vector<Corruption>& corruptions() {
          for (double& ratio : run(d, 6).contraction_ratio) ratio = counted(d, 1.03 * ratio);
        }},
       {"5 rows lost", "r03", {"rows", "lost"}, [](Data& d) { lose_rows(run(d, 3), 320, 5); }},
-      {"loads in g", "", {"g, not kg", "grams", "in g"}, each([](Data&, input::Run& r) {
+      {"loads in g", "", {"g, not kg", "grams", "in g"}, each([](Data&, domain::Run& r) {
          r.load_kg *= 0.001;
        })},
-      {"loads in lb", "", {"pounds", "lb"}, each([](Data&, input::Run& r) { r.load_kg /= 0.45359237; })},
+      {"loads in lb", "", {"pounds", "lb"}, each([](Data&, domain::Run& r) { r.load_kg /= 0.45359237; })},
       {"loads exchanged", "r04", {"load"}, [](Data& d) { std::swap(run(d, 1).load_kg, run(d, 4).load_kg); }},
       {"load + 20 %", "r03", {"load"}, [](Data& d) { run(d, 3).load_kg *= 1.2; }},
-      {"mm for a ratio", "", {"mm", "millimetres"}, each([](Data&, input::Run& r) {
+      {"mm for a ratio", "", {"mm", "millimetres"}, each([](Data&, domain::Run& r) {
          for (double& ratio : r.contraction_ratio) ratio *= 1e3 * length_m;
        })},
-      {"ratio / 300", "", {"mm", "millimetres", "metres", "stroke"}, each([](Data&, input::Run& r) {
+      {"ratio / 300", "", {"mm", "millimetres", "metres", "stroke"}, each([](Data&, domain::Run& r) {
          for (double& ratio : r.contraction_ratio) ratio /= 1e3 * length_m;
        })},
       {"wrong sign",

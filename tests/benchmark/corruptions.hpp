@@ -15,7 +15,7 @@ struct Corruption {
   std::string name;
   std::string run;                   ///< the culprit's; empty if it is all of them
   std::vector<std::string> culprit;  ///< any of these words says what is wrong
-  std::function<void(input::Dataset&)> spoil;
+  std::function<void(domain::Dataset&)> spoil;
 };
 
 const std::vector<Corruption>& corruptions();

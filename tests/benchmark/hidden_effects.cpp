@@ -234,12 +234,12 @@ Hidden hide(std::size_t index, std::uint64_t seed) {
     const auto recording = run::simulate({.rig = truth,
                                           .load_kg = loads_kg[run],
                                           .ticks = rows,
-                                          .engine = {engine::Method::cvode, 1e-8},
+                                          .engine = {solver::Method::cvode, 1e-8},
                                           .noise = noise,
                                           .seed = seed,
                                           .stream = 100 * index + run},
                                          *controller);
-    input::Run measured;
+    domain::Run measured;
     measured.id = fmt::format("r{:02}", run + 1);
     measured.load_kg = loads_kg[run];
     measured.current_mA = recorded.samples_mA;

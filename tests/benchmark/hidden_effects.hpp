@@ -8,7 +8,7 @@
 #include <vector>
 
 #include <sim/diagnose/diagnosis.hpp>
-#include <sim/input/dataset.hpp>
+#include <sim/domain/dataset.hpp>
 
 namespace mckibben::diagnose {
 
@@ -22,7 +22,7 @@ struct Hidden {
   Verdict verdict = Verdict::missing_effect;
   std::vector<std::string> effects{};
   std::vector<Planted> truth{};
-  input::Dataset data{};
+  domain::Dataset data{};
 };
 
 /// What may be hidden. `kind` counts from 0 to kinds() - 1: each effect at two sizes, pairs, changed nominal

@@ -15,7 +15,7 @@
 #include <fmt/format.h>
 
 #include <controllers/waveform.hpp>
-#include <sim/input/rig_file.hpp>
+#include <sim/input/rigs.hpp>
 #include <sim/run/simulate.hpp>
 
 #include "random_rides.hpp"
@@ -34,7 +34,7 @@ void print_shares(const char* of, std::vector<double> values) {
 }
 
 void survey(unsigned first_seed, unsigned count, bool whole_range) {
-  for (const auto& [method, name] : engine::names(engine::Method{})) {
+  for (const auto& [method, name] : solver::names(solver::Method{})) {
     int failed = 0, doubtful = 0;
     std::vector<double> gas, energy;
     const std::clock_t start = std::clock();
@@ -58,7 +58,7 @@ void survey(unsigned first_seed, unsigned count, bool whole_range) {
 
 void show(unsigned seed, bool whole_range) {
   const RandomRide ride(seed, whole_range);
-  input::RigFile file;
+  domain::RigFile file;
   static_cast<plant::Rig&>(file) = ride.plan.rig;
   fmt::print("{}\n", input::rig_json(file).dump(2));
   fmt::print(stderr, "load {} kg, {} ticks\n", ride.plan.load_kg, ride.plan.ticks);

@@ -9,8 +9,10 @@
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
-#include <sim/input/dataset.hpp>
+#include <sim/input/campaign_file.hpp>
+#include <sim/input/dataset_file.hpp>
 #include <sim/input/fields_json.hpp>
+#include <sim/input/yaml_file.hpp>
 #include <sim/output/campaign_folder.hpp>
 
 #include "program.hpp"
@@ -156,7 +158,7 @@ TEST_F(Dataset, ThreadsDoNotMatter) {
 }
 
 /// Leaves OUT.unfinished as a campaign does that was stopped after `runs` runs.
-void begin(const fs::path& out, const input::Campaign& campaign, std::size_t runs,
+void begin(const fs::path& out, const domain::Campaign& campaign, std::size_t runs,
            const std::vector<std::string>& formats = {}) {
   const output::CampaignFolder folder(out, campaign, formats, [](const std::string&) {});
   for (std::size_t i = 0; i < runs; ++i) folder.put(run::run_job(campaign, folder.jobs()[i]));

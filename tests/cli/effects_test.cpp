@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <plant/effects.hpp>
-#include <sim/input/dataset.hpp>
+#include <sim/input/dataset_file.hpp>
 #include <sim/input/fields_json.hpp>
 
 #include "program.hpp"

@@ -4,9 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <sim/domain/scenario.hpp>
 #include <sim/input/field_list.hpp>
 #include <sim/input/fields_json.hpp>
-#include <sim/input/scenario.hpp>
 
 #include "program.hpp"
 
@@ -52,7 +52,7 @@ TEST(Init, TellsOfEveryKey) {
   const Scratch scratch;
   ASSERT_EQ(mckibben("init", scratch).status, 0);
   const std::string text = read_text(scratch / "scenario.yaml");
-  for (const auto& info : input::list_fields<input::Scenario>())
+  for (const auto& info : input::list_fields<domain::Scenario>())
     EXPECT_NE(text.find("# " + info.key + ": " + info.meaning), std::string::npos) << info.key;
 }
 

@@ -174,7 +174,7 @@ TEST(ShippedCalibration, IsWhatTheProgramMakesOfTheCampaign) {
       mckibben("dataset '" MCKIBBEN_SOURCE_DIR "/scenarios/thesis_campaign.yaml' --out data", scratch).status,
       0);
   ASSERT_EQ(mckibben("calibrate data --out calibrated", scratch).status, 0);
-  std::vector<input::InputFile> inputs;
+  std::vector<domain::InputFile> inputs;
   const auto shipped =
       input::read_calibration(MCKIBBEN_SOURCE_DIR "/scenarios/thesis_calibration.yaml", inputs);
   const auto made = input::read_calibration(scratch / "calibrated/calibration.yaml", inputs);

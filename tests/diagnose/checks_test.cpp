@@ -6,6 +6,7 @@
 
 #include <sim/diagnose/checks.hpp>
 #include <sim/diagnose/predict.hpp>
+#include <sim/input/diagnostics.hpp>
 #include <sim/run/simulate.hpp>
 
 #include "planted.hpp"
@@ -14,12 +15,12 @@ namespace mckibben::diagnose {
 namespace {
 
 /// Two loads under three currents.
-input::Dataset sound() {
-  static const input::Dataset data = planted({}, {11.138, 16.138}, three_kinds(), 1);
+domain::Dataset sound() {
+  static const domain::Dataset data = planted({}, {11.138, 16.138}, three_kinds(), 1);
   return data;
 }
-input::Dataset with_gauge() {
-  static const input::Dataset data = [] {
+domain::Dataset with_gauge() {
+  static const domain::Dataset data = [] {
     plant::Rig truth;
     truth.gauge.fitted = true;
     return planted(truth, {11.138, 16.138}, three_kinds(), 2);
@@ -41,7 +42,7 @@ std::vector<std::size_t> masked(const Doubts& doubts, std::size_t run) {
 }
 
 /// The message of the error that the data end in; empty if they do not.
-std::string error(const input::Dataset& data) {
+std::string error(const domain::Dataset& data) {
   try {
     check(data, 2);
   } catch (const input::BadInput& bad) {
@@ -132,7 +133,7 @@ TEST(Checks, ReadingsCutOffByTheEndOfTheirRangeAreSaidAndNotTakenForAnotherLoad)
 
 TEST(Checks, AValveThatStuckCostsItsRun) {
   auto data = sound();
-  input::Run stuck = data.runs[0];
+  domain::Run stuck = data.runs[0];
   std::fill(stuck.current_mA.begin() + 150, stuck.current_mA.end(), stuck.current_mA[150]);
   const Hanging hanging{data.rig, stuck.load_kg};
   data.runs[0].contraction_ratio = predict(stuck, {&hanging, 1}).front().contraction_ratio;
@@ -171,7 +172,7 @@ TEST(Checks, TooFewRunsCannotTell) {
   const Doubts two = check(data, 2);
   ASSERT_TRUE(two.cannot_tell);
   EXPECT_NE(two.cannot_tell->find("at least four runs"), std::string::npos);
-  for (input::Run& run : data.runs)
+  for (domain::Run& run : data.runs)
     std::fill(run.contraction_ratio.begin(), run.contraction_ratio.end(), 0.0);
   const Doubts none = check(data, 2);
   EXPECT_EQ(none.left_out, (Runs{0, 1}));
@@ -266,7 +267,7 @@ TEST(Checks, ExchangedLabelsOfThreeRunsAreNamedAndNothingElseIs) {
 
 TEST(Checks, LoadsInGramsAreAnError) {
   auto data = sound();
-  for (input::Run& run : data.runs) run.load_kg *= 1e-3;
+  for (domain::Run& run : data.runs) run.load_kg *= 1e-3;
   EXPECT_NE(error(data).find("kg that are written in g"), std::string::npos);
 }
 
@@ -288,7 +289,7 @@ TEST(Checks, ARunWithAnotherCurrentIsNotTakenForAnotherLoad) {
 
 TEST(Checks, LoadsInPoundsAreAnError) {
   auto data = sound();
-  for (input::Run& run : data.runs) run.load_kg /= 0.45359237;
+  for (domain::Run& run : data.runs) run.load_kg /= 0.45359237;
   EXPECT_NE(error(data).find("these look like pounds, not kg"), std::string::npos);
 }
 
@@ -322,7 +323,7 @@ TEST(Checks, AGaugeThatRunsBackwardsIsIgnoredAndItsSpikesAreMasked) {
 
 TEST(Checks, AnOffsetOfAllLoadsIsNoWrongLabel) {
   auto data = sound();
-  for (input::Run& run : data.runs) run.load_kg += 1.5;
+  for (domain::Run& run : data.runs) run.load_kg += 1.5;
   expect_no_doubts(check(data, 2));
 }
 

@@ -55,12 +55,12 @@ TEST(Diagnose, KnowsCountsAlsoWhenTheyAreRoundedToAFewDecimals) {
     return Experiment(data, masked, 1).floor();
   };
   const NoiseFloor exact = floor();
-  for (input::Run& run : data.runs)
+  for (domain::Run& run : data.runs)
     for (double& ratio : run.contraction_ratio) ratio = std::round(ratio * 1e4) / 1e4;
   EXPECT_EQ(floor().count, exact.count);
   EXPECT_GT(floor().ratio, exact.ratio);
   EXPECT_LT(floor().ratio, 1.1 * exact.ratio);
-  for (input::Run& run : data.runs)
+  for (domain::Run& run : data.runs)
     for (double& ratio : run.contraction_ratio) ratio += 1e-4;  // no counts any more
   EXPECT_EQ(floor().count, 0.0);
 }

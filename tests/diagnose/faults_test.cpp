@@ -15,26 +15,26 @@
 namespace mckibben::diagnose {
 namespace {
 
-const input::Dataset& undisturbed() {
-  static const input::Dataset data = small(plant::Rig{});
+const domain::Dataset& undisturbed() {
+  static const domain::Dataset data = small(plant::Rig{});
   return data;
 }
 
-Doubts no_doubts(const input::Dataset& data) {
+Doubts no_doubts(const domain::Dataset& data) {
   Doubts doubts;
-  for (const input::Run& run : data.runs) doubts.masked.emplace_back(run.current_mA.size(), false);
+  for (const domain::Run& run : data.runs) doubts.masked.emplace_back(run.current_mA.size(), false);
   return doubts;
 }
 
-std::vector<Fault> faults_of(const input::Dataset& data, const std::vector<Candidate>& effects = {}) {
+std::vector<Fault> faults_of(const domain::Dataset& data, const std::vector<Candidate>& effects = {}) {
   const Experiment experiment(data, no_doubts(data).masked, 2);
   return examine(experiment, {data.rig, nominal_parameters(data.rig)}, {0, 1, 2, 3, 4, 5}, effects).faults;
 }
 
 using Spoil = std::function<void(double& ratio, double k)>;
 
-input::Dataset spoilt(std::size_t run, const Spoil& spoil) {
-  input::Dataset data = undisturbed();
+domain::Dataset spoilt(std::size_t run, const Spoil& spoil) {
+  domain::Dataset data = undisturbed();
   auto& ratios = data.runs[run].contraction_ratio;
   for (std::size_t k = 0; k < ratios.size(); ++k) spoil(ratios[k], static_cast<double>(k));
   return data;
@@ -44,12 +44,12 @@ double count() {
   return run::contraction_per_count(plant::Rig{});
 }
 
-void delay(input::Run& run, std::size_t ticks, std::size_t from = 0) {
+void delay(domain::Run& run, std::size_t ticks, std::size_t from = 0) {
   auto& ratios = run.contraction_ratio;
   for (std::size_t k = ratios.size(); k-- > from + ticks;) ratios[k] = ratios[k - ticks];
 }
 
-void expect_one(const input::Dataset& data, FaultKind kind, std::size_t run, double size, double tolerance) {
+void expect_one(const domain::Dataset& data, FaultKind kind, std::size_t run, double size, double tolerance) {
   const auto faults = faults_of(data);
   ASSERT_EQ(faults.size(), 1u);
   EXPECT_EQ(faults[0].kind, kind);
@@ -117,8 +117,8 @@ TEST(Faults, ARunFromAnotherRig) {
 
 TEST(Faults, WhatAllRunsHaveInCommonIsTheRecorders) {
   auto late = undisturbed(), drifting = undisturbed();
-  for (input::Run& run : late.runs) delay(run, 2);
-  for (input::Run& run : drifting.runs)
+  for (domain::Run& run : late.runs) delay(run, 2);
+  for (domain::Run& run : drifting.runs)
     for (std::size_t k = 0; k < run.contraction_ratio.size(); ++k)
       run.contraction_ratio[k] += count() * std::floor(static_cast<double>(k) / 40.0);
   for (const auto& [data, kind] : {std::pair{late, FaultKind::late}, std::pair{drifting, FaultKind::drift}}) {
@@ -136,7 +136,7 @@ TEST(Faults, OfAllRunsAreSuspectedBesideAnEffect) {
   plant::Rig truth;
   truth.effects.get<plant::SpeedDependentFriction>().ratio = 0.8;
   auto data = small(truth);
-  for (input::Run& run : data.runs) delay(run, 3);
+  for (domain::Run& run : data.runs) delay(run, 3);
   const Experiment experiment(data, no_doubts(data).masked, 2);
   const auto found =
       examine(experiment, {data.rig, nominal_parameters(data.rig)}, {0, 1, 2, 3, 4, 5}, catalogue());

@@ -12,7 +12,7 @@
 namespace mckibben::diagnose {
 namespace {
 
-std::vector<std::vector<bool>> nothing_masked(const input::Dataset& data) {
+std::vector<std::vector<bool>> nothing_masked(const domain::Dataset& data) {
   std::vector<std::vector<bool>> masked;
   for (const auto& run : data.runs) masked.emplace_back(run.current_mA.size(), false);
   return masked;
@@ -20,13 +20,13 @@ std::vector<std::vector<bool>> nothing_masked(const input::Dataset& data) {
 
 /// Runs that stand on one count throughout, and a parameter that would move them by ten counts for each unit.
 struct Standing {
-  input::Dataset data{};
+  domain::Dataset data{};
   Fitted fitted{};
 
   explicit Standing(std::size_t rows) {
     const double count = run::contraction_per_count(data.rig);
     for (int i = 0; i < 3; ++i) {
-      input::Run run;
+      domain::Run run;
       run.current_mA.assign(rows, 8.0);
       run.contraction_ratio.assign(rows, 100.0 * count);
       data.runs.push_back(run);

@@ -18,12 +18,12 @@ class Jitter : public testing::TestWithParam<Sensed> {};
 
 TEST_P(Jitter, IsToldFromTheReadingsAndCountsInTheFloor) {
   const auto [jitter, tolerance] = GetParam();
-  input::Campaign campaign;
+  domain::Campaign campaign;
   campaign.loads_kg = {11.138, 16.138, 23.406};
   campaign.currents = three_kinds();
   campaign.noise = {.encoder_jitter = jitter};
   campaign.seed = 6;
-  input::Dataset data;
+  domain::Dataset data;
   std::vector<std::vector<bool>> masked;
   for (const run::CampaignJob& job : run::jobs_of(campaign)) {
     data.runs.push_back(run::measured(campaign, run::run_job(campaign, job)));

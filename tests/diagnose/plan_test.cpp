@@ -21,7 +21,7 @@ class Plan : public testing::Test {
     return plan(experiment, named, rival, {"a", "b"}, noise, share);
   }
 
-  input::Dataset data_ = planted({}, {85.0}, {three_kinds()[0]}, 1);
+  domain::Dataset data_ = planted({}, {85.0}, {three_kinds()[0]}, 1);
 };
 
 TEST_F(Plan, FindsWhatSeparatesDeadBandFromHysteresis) {

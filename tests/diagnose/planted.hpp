@@ -9,14 +9,14 @@
 #include <fmt/format.h>
 
 #include <sim/diagnose/diagnose.hpp>
-#include <sim/input/campaign.hpp>
-#include <sim/input/dataset.hpp>
+#include <sim/domain/campaign.hpp>
+#include <sim/domain/dataset.hpp>
 #include <sim/run/campaign.hpp>
 
 namespace mckibben::diagnose {
 
 /// A slow sine over the whole range; a staircase; fast triangles. Five seconds each.
-inline std::vector<input::CampaignCurrent> three_kinds() {
+inline std::vector<domain::CampaignCurrent> three_kinds() {
   controllers::SineCurrent sine;
   sine.period_s = 2.5;
   controllers::StairCurrent stair;
@@ -31,16 +31,16 @@ inline std::vector<input::CampaignCurrent> three_kinds() {
 
 /// Each load under each current, runs r01, r02 and so on (loads in order, for each all currents). With a
 /// gauge if `truth` has one. The data set's rig is `nominal`.
-inline input::Dataset planted(const plant::Rig& truth, std::vector<double> loads_kg,
-                              std::vector<input::CampaignCurrent> currents, std::uint64_t seed,
-                              const plant::Rig& nominal = {}) {
-  input::Campaign campaign;
+inline domain::Dataset planted(const plant::Rig& truth, std::vector<double> loads_kg,
+                               std::vector<domain::CampaignCurrent> currents, std::uint64_t seed,
+                               const plant::Rig& nominal = {}) {
+  domain::Campaign campaign;
   static_cast<plant::Rig&>(campaign.rig) = truth;
   campaign.loads_kg = std::move(loads_kg);
   campaign.currents = std::move(currents);
   campaign.noise = {.encoder_jitter = 5e-5, .gauge_Pa = 400.0};
   campaign.seed = seed;
-  input::Dataset data;
+  domain::Dataset data;
   static_cast<plant::Rig&>(data.rig) = nominal;
   data.rig.gauge = truth.gauge;
   data.path = "planted/dataset.yaml";
@@ -53,14 +53,14 @@ inline input::Dataset planted(const plant::Rig& truth, std::vector<double> loads
 }
 
 /// Six runs of four seconds, enough for a whole diagnosis: three loads, the middle one held out.
-inline input::Dataset small(const plant::Rig& truth, double duration_s = 4.0) {
+inline domain::Dataset small(const plant::Rig& truth, double duration_s = 4.0) {
   auto currents = three_kinds();
   currents.pop_back();
   for (auto& current : currents) current.duration_s = duration_s;
   return planted(truth, {11.138, 16.138, 23.406}, currents, 7);
 }
 
-inline Diagnosis diagnosis_of(const input::Dataset& data, unsigned threads) {
+inline Diagnosis diagnosis_of(const domain::Dataset& data, unsigned threads) {
   return diagnose(data, {.threads = threads, .seed = 3}, [](const auto&, auto, auto) {});
 }
 

@@ -6,6 +6,7 @@
 
 #include <controllers/settings.hpp>
 #include <sim/diagnose/predict.hpp>
+#include <sim/input/field_kinds.hpp>
 #include <sim/run/simulate.hpp>
 
 #include "switched_on.hpp"
@@ -15,8 +16,8 @@ namespace {
 
 constexpr double load_kg = 13.87;
 
-input::Run up_and_down(std::size_t rows) {
-  input::Run run;
+domain::Run up_and_down(std::size_t rows) {
+  domain::Run run;
   run.load_kg = load_kg;
   for (std::size_t k = 0; k < rows; ++k)
     run.current_mA.push_back(11.0 - 6.0 * std::cos(0.12 * static_cast<double>(k)));
@@ -27,10 +28,10 @@ TEST(Predict, MakesOfACurrentTheSameBitsAsSimulate) {
   auto rigs = plant::rigs_with_one_effect();
   rigs.push_back({"none", {}});
   rigs.push_back({"all", plant::rig_with_all_effects()});
-  const input::Run run = up_and_down(70);
+  const domain::Run run = up_and_down(70);
   for (auto& [name, rig] : rigs)
     for (const auto memory : {plant::FrictionMemory::lugre, plant::FrictionMemory::coulomb})
-      for (const auto method : {engine::Method::erk, engine::Method::cvode}) {
+      for (const auto method : {solver::Method::erk, solver::Method::cvode}) {
         rig.friction.memory = memory;
         rig.friction.f1_s2_per_mA2 = 1e-5;
         rig.settling_time_s = 0.24;
@@ -62,7 +63,7 @@ TEST(Predict, MakesOfACurrentTheSameBitsAsSimulate) {
 
 // What a parameter does to a rig that has no common steps must not drown in the noise of steps.
 TEST(Predict, DifferencesOfCoulombRigsAreSensitivities) {
-  const input::Run run = up_and_down(150);
+  const domain::Run run = up_and_down(150);
   const auto slope = [&](double h) {
     plant::Rig rig;
     rig.friction.memory = plant::FrictionMemory::coulomb;

@@ -8,7 +8,7 @@
 namespace mckibben::diagnose {
 namespace {
 
-Start look(const input::Dataset& data) {
+Start look(const domain::Dataset& data) {
   std::vector<std::vector<bool>> masked;
   Runs runs;
   for (const auto& run : data.runs) {

@@ -15,13 +15,13 @@ namespace {
 
 /// A map of planted data against the nominal rig.
 struct Mapped {
-  input::Dataset data;
+  domain::Dataset data;
   std::vector<std::vector<bool>> masked{};
   unsigned threads = 2;
 
   std::vector<Cell> operator()() {
     Runs runs;
-    for (const input::Run& run : data.runs) {
+    for (const domain::Run& run : data.runs) {
       if (masked.size() <= runs.size()) masked.emplace_back(run.current_mA.size(), false);
       runs.push_back(runs.size());
     }
@@ -68,7 +68,7 @@ TEST(Where, NothingStandsOutWhereNothingIsMissing) {
 
 TEST(Where, WhatIsCommonToAllCellsIsNoMatterOfTheFactor) {
   auto data = planted({}, {16.138}, three_kinds(), 3);
-  for (input::Run& run : data.runs)
+  for (domain::Run& run : data.runs)
     for (double& ratio : run.contraction_ratio) ratio += 10.0 * run::contraction_per_count(data.rig);
   const auto cells = Mapped{std::move(data)}();
   EXPECT_EQ(significant(cells), 1u);

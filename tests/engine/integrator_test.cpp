@@ -29,7 +29,7 @@ INSTANTIATE_TEST_SUITE_P(BothMethods, EitherMethod, testing::Values(Method::erk,
                          [](const auto& p) { return p.param == Method::erk ? "erk" : "cvode"; });
 
 TEST_P(EitherMethod, ConvergesWithItsTolerance) {
-  const double exact = end_of_ride(GetParam(), tightest_tolerance).joint.contraction_ratio;
+  const double exact = end_of_ride(GetParam(), solver::tightest_tolerance).joint.contraction_ratio;
   const auto error = [&](double tolerance) {
     return std::abs(end_of_ride(GetParam(), tolerance).joint.contraction_ratio - exact);
   };

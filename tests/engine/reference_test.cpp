@@ -71,7 +71,7 @@ TEST_P(Reference, AgreesAtTheDefaultTolerance) {
 }
 
 TEST_P(Reference, AgreesCloselyAtTheTightestTolerance) {
-  EXPECT_LT(errors_at(tightest_tolerance).e, 1e-8);
+  EXPECT_LT(errors_at(solver::tightest_tolerance).e, 1e-8);
 }
 
 INSTANTIATE_TEST_SUITE_P(Trajectories, Reference,

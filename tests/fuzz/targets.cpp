@@ -13,14 +13,14 @@
 #include <sim/cli/run_folders.hpp>
 #include <sim/input/ascii.hpp>
 #include <sim/input/calibration_file.hpp>
-#include <sim/input/campaign.hpp>
+#include <sim/input/campaign_file.hpp>
 #include <sim/input/csv.hpp>
-#include <sim/input/dataset.hpp>
+#include <sim/input/dataset_file.hpp>
 #include <sim/input/lvm.hpp>
 #include <sim/input/mat.hpp>
 #include <sim/input/quantity.hpp>
-#include <sim/input/rig_file.hpp>
-#include <sim/input/scenario.hpp>
+#include <sim/input/rigs.hpp>
+#include <sim/input/scenario_file.hpp>
 
 namespace mckibben::fuzz {
 namespace {
@@ -79,7 +79,8 @@ const Folder& folder() {
 void scenario(const std::string& bytes) {
   const auto written = [](const std::string& text) {
     std::vector<input::Problem> warnings;
-    return scenario_json(input::read_scenario(input::Source("fuzz.yaml", text, "/nonexistent"), warnings))
+    return input::scenario_json(
+               input::read_scenario(input::Source("fuzz.yaml", text, "/nonexistent"), warnings))
         .dump();
   };
   std::string once;
@@ -94,8 +95,8 @@ void campaign(const std::string& bytes) {
 
 void rig(const std::string& bytes) {
   const auto written = [](const std::string& text) {
-    std::vector<input::InputFile> inputs;
-    return rig_json(input::read_rig(folder().write("rig.yaml", text), inputs)).dump();
+    std::vector<domain::InputFile> inputs;
+    return input::rig_json(input::read_rig(folder().write("rig.yaml", text), inputs)).dump();
   };
   std::string once;
   if (was_read([&] { once = written(bytes); }))
@@ -104,7 +105,7 @@ void rig(const std::string& bytes) {
 
 void calibration(const std::string& bytes) {
   const auto written = [](const std::string& text) {
-    std::vector<input::InputFile> inputs;
+    std::vector<domain::InputFile> inputs;
     return input::calibration_yaml(input::read_calibration(folder().write("calibration.yaml", text), inputs));
   };
   std::string once;

@@ -11,10 +11,10 @@
 #include <gtest/gtest.h>
 
 #include <sim/input/calibration_file.hpp>
-#include <sim/input/campaign.hpp>
-#include <sim/input/dataset.hpp>
-#include <sim/input/rig_file.hpp>
-#include <sim/input/scenario.hpp>
+#include <sim/input/campaign_file.hpp>
+#include <sim/input/dataset_file.hpp>
+#include <sim/input/rigs.hpp>
+#include <sim/input/scenario_file.hpp>
 
 namespace mckibben::input {
 namespace {

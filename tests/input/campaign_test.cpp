@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include <sim/input/campaign.hpp>
+#include <sim/input/campaign_file.hpp>
 #include <sim/input/json_schema.hpp>
 #include <sim/input/yaml_writer.hpp>
 

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include <sim/input/scenario.hpp>
+#include <sim/input/scenario_file.hpp>
 
 namespace mckibben::input {
 namespace {

@@ -11,7 +11,7 @@
 
 #include <sim/input/ascii.hpp>
 #include <sim/input/csv.hpp>
-#include <sim/input/dataset.hpp>
+#include <sim/input/dataset_file.hpp>
 #include <sim/input/lvm.hpp>
 
 namespace mckibben::input {

@@ -30,7 +30,7 @@ TEST(Scenario, ReadsEveryKindOfField) {
   EXPECT_EQ(std::get<controllers::StepCurrent>(scenario.controllers.at(3)).moves.at(1).to_mA, 4.0);
   EXPECT_DOUBLE_EQ(scenario.noise.gauge_Pa, 400.0);
   EXPECT_EQ(scenario.seed, 18446744073709551615U);
-  EXPECT_EQ(scenario.rig.integrator.method, engine::Method::cvode);
+  EXPECT_EQ(scenario.rig.integrator.method, solver::Method::cvode);
   EXPECT_DOUBLE_EQ(scenario.criteria.at(1).spread_below.value(), 0.05);
 }
 
@@ -104,7 +104,7 @@ TEST(Rig, ResolvedReadsBackBitForBit) {
   const YamlFile file = parse_yaml(Source("rig.yaml", to_json(rig).dump(), ""));
   RigFile read;
   Problems problems;
-  Spelling<RigFile>::read(file.source, file.root, read, problems);
+  read_named(file.source, file.root, read, problems);
   EXPECT_EQ(problems.errors(), 0u);
   EXPECT_EQ(rig_json(read).dump(), rig_json(rig).dump());
   EXPECT_EQ(read.muscle.rest_radius_m, rig.muscle.rest_radius_m);

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include <sim/input/dataset.hpp>
+#include <sim/input/dataset_file.hpp>
 #include <sim/input/field_table.hpp>
 #include <sim/input/json_schema.hpp>
 

@@ -9,8 +9,8 @@
 
 #include <gtest/gtest.h>
 
-#include <sim/input/campaign.hpp>
-#include <sim/input/rig_file.hpp>
+#include <sim/input/campaign_file.hpp>
+#include <sim/input/rigs.hpp>
 #include <sim/output/diagnosis_json.hpp>
 #include <sim/output/diagnosis_rig.hpp>
 #include <sim/output/diagnosis_table.hpp>
@@ -95,12 +95,12 @@ TEST(DiagnosisJson, IsNullWhereThereIsNothing) {
 }
 
 /// `text` read as a rig file.
-input::RigFile read_back(const std::string& text) {
+domain::RigFile read_back(const std::string& text) {
   const auto path = std::filesystem::temp_directory_path() /
                     ("mckibben-rig-" + std::to_string(std::hash<std::string>{}(text)) + ".yaml");
   std::ofstream(path) << text;
-  std::vector<input::InputFile> inputs;
-  const input::RigFile rig = input::read_rig(path.string(), inputs);
+  std::vector<domain::InputFile> inputs;
+  const domain::RigFile rig = input::read_rig(path.string(), inputs);
   std::filesystem::remove(path);
   return rig;
 }
@@ -116,7 +116,7 @@ TEST(DiagnosisRig, ReadsBackToTheSameNumbers) {
 }
 
 TEST(DiagnosisRig, HoldsEveryFieldOfARigThatIsNotShipped) {
-  input::Dataset data = measured();
+  domain::Dataset data = measured();
   data.rig.muscle.rest_length_m = 0.4;
   diagnose::Diagnosis found = diagnosed();
   found.corrected.muscle.rest_length_m = 0.4;
@@ -129,15 +129,15 @@ TEST(DiagnosisRig, HoldsEveryFieldOfARigThatIsNotShipped) {
 TEST(DiagnosisRig, IsTheNominalOneWhereNothingWasFound) {
   diagnose::Diagnosis nothing;
   nothing.because = "the gap is within noise,\nschema: mckibben-scenario/1";  // stays a comment
-  const input::RigFile rig = read_back(rig_yaml(measured(), nothing));
-  EXPECT_EQ(input::rig_json(rig), input::rig_json(input::RigFile{}));
+  const domain::RigFile rig = read_back(rig_yaml(measured(), nothing));
+  EXPECT_EQ(input::rig_json(rig), input::rig_json(domain::RigFile{}));
 }
 
 TEST(DiagnosisPlan, IsACampaignWithThatCurrentAndLoadOnTheCorrectedRig) {
   const diagnose::Diagnosis found = diagnosed();
   const std::string text = plan_yaml(measured(), found);
   EXPECT_EQ(text.rfind(plan_heading, 0), 0u);
-  const input::Campaign campaign = input::read_campaign(input::Source("plan.yaml", text, "."));
+  const domain::Campaign campaign = input::read_campaign(input::Source("plan.yaml", text, "."));
   EXPECT_EQ(campaign.loads_kg, std::vector<double>{16.138});
   ASSERT_EQ(campaign.currents.size(), 1u);
   EXPECT_TRUE(std::holds_alternative<controllers::StairCurrent>(campaign.currents[0].current));

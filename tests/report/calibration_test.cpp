@@ -23,7 +23,7 @@ TEST(CalibrationPage, SaysWhichModelsAreGoodAndKeepsTheFiguresBehindTheirMeaning
   result.pressure[0].deviation.joint = 3e4;
   result.pressure[1].deviation.joint = 1e3;
   const std::string html =
-      report_html(input::Dataset{}, result, {}, false, {figure("4.2"), figure("4.18"), figure("4.49")});
+      report_html(domain::Dataset{}, result, {}, false, {figure("4.2"), figure("4.18"), figure("4.49")});
   std::size_t at = 0;
   for (const char* part :
        {"Good: friction in contraction (5.0 %), pressure in relaxation (1.0 %).",

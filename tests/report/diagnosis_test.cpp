@@ -19,8 +19,8 @@ namespace {
 using output::diagnosed;
 
 /// With currents, so that runs can be drawn.
-input::Dataset measured() {
-  input::Dataset data = output::measured();
+domain::Dataset measured() {
+  domain::Dataset data = output::measured();
   const auto found = diagnosed();
   for (std::size_t i = 0; i < data.runs.size(); ++i) {
     data.runs[i].contraction_ratio = found.runs[i].measured;
@@ -168,7 +168,7 @@ TEST(DiagnosisPage, OfManyRunsNamesTheWorstOfEachLoadAndFoldsTheNamesOfThoseHeld
 
 TEST(DiagnosisPage, OfAHundredRunsStaysBelowTenMegabytes) {
   diagnose::Diagnosis found = diagnosed();
-  input::Dataset data = measured();
+  domain::Dataset data = measured();
   const auto run = found.runs.front();
   const auto recorded = data.runs.front();
   found.runs.clear();

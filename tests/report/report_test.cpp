@@ -191,11 +191,11 @@ TEST(ByLoad, NamesTheWorstRunOfEachLoadAndLeadsToIt) {
 
 /// A replay of so many runs, each worse than the one before.
 std::string replayed(std::size_t runs) {
-  input::Dataset data;
+  domain::Dataset data;
   data.path = "measured/dataset.yaml";
   std::vector<run::ReplayedRun> all;
   for (std::size_t i = 0; i < runs; ++i) {
-    input::Run measured;
+    domain::Run measured;
     measured.id = fmt::format("r{}", i);
     measured.load_kg = 5.0;
     measured.contraction_ratio = measured.current_mA = {0.1, 0.1};
@@ -225,7 +225,7 @@ TEST(Replay, WithAGaugeDrawsTheErrorOfThePressure) {
 }
 
 TEST(Run, SaysHowLongControllersStoodAtALimitOfTheirCurrent) {
-  input::Scenario scenario;
+  domain::Scenario scenario;
   scenario.loads_kg = {5.0};
   scenario.controllers = {controllers::PidSettings{}};
   run::Comparison comparison;

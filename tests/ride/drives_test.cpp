@@ -12,7 +12,7 @@
 namespace mckibben::ride {
 namespace {
 
-using engine::Method;
+using solver::Method;
 
 plant::Rig rubbing(plant::Rig rig, plant::FrictionMemory memory) {
   rig.friction.memory = memory;
@@ -41,7 +41,7 @@ struct Journey {
 };
 
 Ride ride_of(const Journey& journey, const plant::Rig& rig, Method method) {
-  const engine::Settings settings{method, 1e-7};
+  const solver::Settings settings{method, 1e-7};
   Ride ride = journey.pair ? Ride(Paired{rig, rig}, settings, true) : Ride(Hanging{rig, 5.0}, settings, true);
   ride.start(journey.drive(0.0), 0.0);
   return ride;
@@ -135,7 +135,7 @@ TEST(Drives, CoulombThreadsKeepTheirForceWhereABenchStops) {
 
 TEST(Drives, APairOfDifferentFrictionOrGasIsRefused) {
   Paired pair;
-  const engine::Settings settings;
+  const solver::Settings settings;
   pair.opposite.friction.memory = plant::FrictionMemory::coulomb;
   EXPECT_THROW(Ride(pair, settings), std::invalid_argument);
   pair.opposite = pair.rig;

@@ -15,7 +15,7 @@
 namespace mckibben::ride {
 namespace {
 
-using engine::Method;
+using solver::Method;
 
 constexpr double stamp_s = 0.012, bar = plant::Pa_per_bar;
 constexpr int settling = 167;  // ticks, 2.004 s
@@ -55,10 +55,10 @@ void note(double& worst, double difference) {
 
 class Driven : public testing::TestWithParam<Method> {
  protected:
-  engine::Settings loose() const { return {GetParam(), engine::Settings{}.tolerance}; }
-  engine::Settings tight() const { return {GetParam(), engine::tightest_tolerance}; }
+  solver::Settings loose() const { return {GetParam(), solver::Settings{}.tolerance}; }
+  solver::Settings tight() const { return {GetParam(), solver::tightest_tolerance}; }
 
-  static Errors at_given_pressure(const char* name, double load_kg, const engine::Settings& settings) {
+  static Errors at_given_pressure(const char* name, double load_kg, const solver::Settings& settings) {
     const Columns reference = read_reference(name);
     const auto& given = reference.at("muscle_pressure_bar");
     Ride ride(Hanging{plant::Rig{}, load_kg}, settings);
@@ -78,7 +78,7 @@ class Driven : public testing::TestWithParam<Method> {
     return worst;
   }
 
-  static Errors at_given_length(const char* name, const engine::Settings& settings) {
+  static Errors at_given_length(const char* name, const solver::Settings& settings) {
     const Columns reference = read_reference(name);
     const auto& pressure = reference.at("muscle_pressure_bar");
     const auto& length = reference.at("contraction_ratio");
@@ -99,7 +99,7 @@ class Driven : public testing::TestWithParam<Method> {
     return worst;
   }
 
-  static Errors of_pair(const char* name, const engine::Settings& settings) {
+  static Errors of_pair(const char* name, const solver::Settings& settings) {
     const Columns reference = read_reference(name);
     const auto& one = reference.at("current_1_mA");
     const auto& two = reference.at("current_2_mA");

@@ -37,7 +37,7 @@ bool same_bits(const Ride& a, const Ride& b, std::size_t rig = 0) {
 }
 
 TEST(Ride, GoesOnToTheSameBitsFromWhatWasSavedAndAsACopy) {
-  for (const auto method : {engine::Method::erk, engine::Method::cvode, engine::Method::automatic})
+  for (const auto method : {solver::Method::erk, solver::Method::cvode, solver::Method::automatic})
     for (const auto memory : {plant::FrictionMemory::lugre, plant::FrictionMemory::coulomb})
       for (const plant::Rig& rig : {plant::Rig{}, plant::rig_with_all_effects()}) {
         Ride ride(Hanging{with_friction(rig, memory), load_kg}, {method, 1e-6}, true);
@@ -58,7 +58,7 @@ TEST(Ride, GoesOnToTheSameBitsFromWhatWasSavedAndAsACopy) {
 }
 
 TEST(Ride, ADriveIsFeltFromItsInstantOn) {
-  Ride ride(Hanging{plant::Rig{}, load_kg}, {engine::Method::erk, 1e-6});
+  Ride ride(Hanging{plant::Rig{}, load_kg}, {solver::Method::erk, 1e-6});
   ride.start({{.current_mA = 8.0}}, 0.0);
   const double before_Pa = ride.flow().state.side.valve_pressure_Pa;
   EXPECT_EQ(before_Pa, ride.plant().reference_pressure_Pa(8.0));
@@ -74,7 +74,7 @@ TEST(Ride, ADriveIsFeltFromItsInstantOn) {
 TEST(Ride, TheCurrentsSpeedIsItsChangeOverTheStep) {
   plant::Rig rig;
   rig.friction.f1_s2_per_mA2 = 1e-4;
-  Ride ride(Hanging{rig, load_kg}, {engine::Method::erk, 1e-6});
+  Ride ride(Hanging{rig, load_kg}, {solver::Method::erk, 1e-6});
   ride.start({{.current_mA = 8.0}}, 0.0);
   for (const double step_s : {0.012, 0.05}) {
     ride.hold({{.current_mA = 8.0}}, ride.time_s() + step_s);
@@ -92,7 +92,7 @@ TEST(Ride, TheCurrentsSpeedIsItsChangeOverTheStep) {
 
 TEST(Ride, TimesAreTheCallers) {
   const auto arrive = [](double step_s) {
-    Ride ride(Hanging{plant::Rig{}, load_kg}, {engine::Method::erk, 1e-9});
+    Ride ride(Hanging{plant::Rig{}, load_kg}, {solver::Method::erk, 1e-9});
     ride.start({{.current_mA = 4.0}}, 0.0);
     for (int k = 1; k * step_s < 1.0 + 1e-9; ++k) ride.step({{.current_mA = 12.0}}, k * step_s);
     return ride.flow().state.joint.contraction_ratio;
@@ -108,12 +108,12 @@ TEST(Ride, CarriesSeveralRigsEachWhereItGoesAlone) {
   lagging.effects.get<plant::ValveLag>().time_s = 0.03;
   for (const auto memory : {plant::FrictionMemory::lugre, plant::FrictionMemory::coulomb}) {
     const Hanging rigs[] = {{with_friction({}, memory), 11.0}, {with_friction(lagging, memory), load_kg}};
-    EXPECT_EQ(can_share_steps(rigs, engine::Method::automatic), memory == plant::FrictionMemory::lugre);
-    Ride together(rigs, {engine::Method::erk, 1e-9});
+    EXPECT_EQ(can_share_steps(rigs, solver::Method::automatic), memory == plant::FrictionMemory::lugre);
+    Ride together(rigs, {solver::Method::erk, 1e-9});
     together.start(drive_at(0), 0.0);
     go(together, 0, 84);
     for (std::size_t i = 0; i < 2; ++i) {
-      Ride alone(rigs[i], {engine::Method::erk, 1e-9});
+      Ride alone(rigs[i], {solver::Method::erk, 1e-9});
       alone.start(drive_at(0), 0.0);
       go(alone, 0, 84);
       EXPECT_NEAR(together.reading(i).wheel_m, alone.reading().wheel_m, 3e-8) << i;

@@ -9,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+#include <sim/input/campaign_file.hpp>
 #include <sim/run/batch.hpp>
 #include <sim/run/campaign.hpp>
 #include <sim/run/simulate.hpp>
@@ -16,8 +17,8 @@
 namespace mckibben::run {
 namespace {
 
-input::Campaign small_campaign() {
-  input::Campaign campaign;
+domain::Campaign small_campaign() {
+  domain::Campaign campaign;
   campaign.loads_kg = {11.138, 23.406};
   controllers::SineCurrent sine;
   sine.low_mA = 0.0;
@@ -30,7 +31,7 @@ input::Campaign small_campaign() {
 
 const ProgressHook no_progress = [](const std::string&, std::size_t, std::size_t) {};
 
-std::vector<double> ratios(const input::Campaign& campaign, const CampaignJob& job) {
+std::vector<double> ratios(const domain::Campaign& campaign, const CampaignJob& job) {
   return measured(campaign, run_job(campaign, job)).contraction_ratio;
 }
 

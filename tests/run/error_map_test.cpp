@@ -15,7 +15,7 @@ namespace {
 using controllers::Branch;
 
 MapPlan small_plan() {
-  std::vector<input::InputFile> files;
+  std::vector<domain::InputFile> files;
   MapPlan plan;
   plan.calibration =
       input::read_calibration(std::filesystem::path(MCKIBBEN_TEST_DATA) / "calibration.yaml", files);

@@ -92,13 +92,13 @@ TEST_P(AnyRig, StaysWithinWhatIsPossible) {
   EXPECT_GE(recording.ledger.guide_work_J, 0.0);
 }
 
-constexpr auto methods = {engine::Method::automatic, engine::Method::erk, engine::Method::cvode};
+constexpr auto methods = {solver::Method::automatic, solver::Method::erk, solver::Method::cvode};
 
 // The first two seeds: Coulomb friction that, with CVODE, once pushed the load over the top.
 TEST(ModerateRigs, CloseTheirBooksWithEveryMethodAndAgree) {
   for (const unsigned seed : {100228u, 100161u, 100004u, 100059u, 100065u, 100069u}) {
     SCOPED_TRACE(seed);
-    const Recording first = random_ride(seed, false, engine::Method::erk);
+    const Recording first = random_ride(seed, false, solver::Method::erk);
     const auto& end = first.samples.back().state;
     for (const auto method : methods) {
       SCOPED_TRACE(static_cast<int>(method));
@@ -116,7 +116,7 @@ TEST(ModerateRigs, CloseTheirBooksWithEveryMethodAndAgree) {
 TEST(WholeRange, RunsOrSaysWhatToDoAndClosesItsBooksOrSaysSo) {
   for (unsigned seed = 1; seed <= 12; ++seed) {
     SCOPED_TRACE(seed);
-    const Recording run = random_ride(seed, true, engine::Method::automatic);
+    const Recording run = random_ride(seed, true, solver::Method::automatic);
     EXPECT_EQ(run.failure, "");
     EXPECT_TRUE((run.imbalance.gas <= 1e-4 && run.imbalance.energy <= 1e-4) || !doubts(run).empty());
   }

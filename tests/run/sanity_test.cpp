@@ -15,20 +15,20 @@ namespace mckibben::run {
 namespace {
 
 /// Three loads under a sine and a staircase, counted; the data set's rig is the nominal one.
-input::Dataset measured_on(const plant::Rig& truth, std::vector<double> loads_kg = {11.138, 16.138, 23.406},
-                           const plant::Rig& nominal = {}) {
+domain::Dataset measured_on(const plant::Rig& truth, std::vector<double> loads_kg = {11.138, 16.138, 23.406},
+                            const plant::Rig& nominal = {}) {
   controllers::SineCurrent sine;
   sine.low_mA = 0.0;
   sine.period_s = 2.5;
   controllers::StairCurrent stair;
   stair.steps = 3;
   stair.dwell_s = 0.5;
-  input::Campaign campaign;
+  domain::Campaign campaign;
   static_cast<plant::Rig&>(campaign.rig) = truth;
   campaign.loads_kg = std::move(loads_kg);
   campaign.currents = {{"sine", 3.0, sine}, {"stair", 3.0, stair}};
   campaign.noise = {.encoder_jitter = 5e-5, .gauge_Pa = 400.0};
-  input::Dataset data;
+  domain::Dataset data;
   data.path = "measured/dataset.yaml";
   static_cast<plant::Rig&>(data.rig) = nominal;
   data.rig.gauge = truth.gauge;
@@ -39,8 +39,8 @@ input::Dataset measured_on(const plant::Rig& truth, std::vector<double> loads_kg
   return data;
 }
 
-const input::Dataset& sound() {
-  static const input::Dataset data = [] {
+const domain::Dataset& sound() {
+  static const domain::Dataset data = [] {
     plant::Rig rig;
     rig.gauge.fitted = true;
     return measured_on(rig);
@@ -48,20 +48,20 @@ const input::Dataset& sound() {
   return data;
 }
 
-std::vector<std::string> said(const input::Dataset& data) {
+std::vector<std::string> said(const domain::Dataset& data) {
   std::vector<std::string> list;
   for (const auto& problem : problems_of(data, look(data).findings)) list.push_back(to_text(problem));
   return list;
 }
 
 /// The only thing that is said.
-std::string says(const input::Dataset& data) {
+std::string says(const domain::Dataset& data) {
   const auto list = said(data);
   EXPECT_EQ(list.size(), 1u);
   return list.empty() ? "" : list.front();
 }
 
-input::Dataset scaled(double factor, std::vector<std::size_t> runs = {0, 1, 2, 3, 4, 5}) {
+domain::Dataset scaled(double factor, std::vector<std::size_t> runs = {0, 1, 2, 3, 4, 5}) {
   auto data = sound();
   for (const std::size_t run : runs)
     for (double& ratio : data.runs[run].contraction_ratio) ratio *= factor;
@@ -131,7 +131,7 @@ TEST(Sanity, TheOtherSignIsSaidOnceWithItsFactor) {
 
 TEST(Sanity, ExchangedColumnsAreSaid) {
   auto data = sound();
-  for (input::Run& run : data.runs) {
+  for (domain::Run& run : data.runs) {
     auto bar = *run.muscle_pressure_Pa;
     for (std::size_t k = 0; k < bar.size(); ++k) {
       bar[k] /= 1e5;
@@ -146,8 +146,8 @@ TEST(Sanity, ExchangedColumnsAreSaid) {
 }
 
 TEST(Sanity, AllLoadsInAnotherUnitAreSaid) {
-  const auto expect = [](input::Dataset data, double factor, const char* words) {
-    for (input::Run& run : data.runs) run.load_kg *= factor;
+  const auto expect = [](domain::Dataset data, double factor, const char* words) {
+    for (domain::Run& run : data.runs) run.load_kg *= factor;
     const std::string text = says(data);
     EXPECT_NE(text.find(": all runs: load = "), std::string::npos) << words << text;
     EXPECT_TRUE(text.ends_with(words)) << words << text;
@@ -159,9 +159,9 @@ TEST(Sanity, AllLoadsInAnotherUnitAreSaid) {
 }
 
 /// Runs 0 and 1 have the first load, 2 and 3 the second, 4 and 5 the third.
-input::Dataset labelled(const input::Dataset& sound_data, std::vector<std::size_t> runs,
-                        const std::vector<double>& labels_kg) {
-  input::Dataset data = sound_data;
+domain::Dataset labelled(const domain::Dataset& sound_data, std::vector<std::size_t> runs,
+                         const std::vector<double>& labels_kg) {
+  domain::Dataset data = sound_data;
   data.runs.clear();
   for (std::size_t i = 0; i < runs.size(); ++i) {
     data.runs.push_back(sound_data.runs[runs[i]]);

@@ -99,7 +99,7 @@ std::vector<controllers::Settings> one_of_each() {
                                          controllers::StairCurrent{},
                                          controllers::ChirpCurrent{},
                                          recorded};
-  std::vector<input::InputFile> inputs;
+  std::vector<domain::InputFile> inputs;
   const auto model = input::read_calibration(MCKIBBEN_TEST_DATA "/calibration.yaml", inputs);
   for (auto& settings : all) {
     if (auto* terms = controllers::pid_terms(settings)) {
@@ -124,7 +124,7 @@ TEST(Simulate, TouchesNoHeapBetweenFirstAndLastTick) {
     EXPECT_EQ(simulate(plan, controller).failure, "");
     return controller.allocations;
   };
-  for (const auto method : {engine::Method::erk, engine::Method::cvode, engine::Method::automatic})
+  for (const auto method : {solver::Method::erk, solver::Method::cvode, solver::Method::automatic})
     for (const bool ledger : {false, true})
       for (const auto memory : {plant::FrictionMemory::lugre, plant::FrictionMemory::coulomb}) {
         RunPlan p = plan(13.87, ticks);

@@ -13,6 +13,7 @@
 #include <gtest/gtest.h>
 
 #include <plant/geometry.hpp>
+#include <sim/input/campaign_file.hpp>
 #include <sim/output/chart.hpp>
 #include <sim/run/simulate.hpp>
 #include <sim/study/counting.hpp>
@@ -71,8 +72,8 @@ std::string difference(const std::string& made, const std::string& kept) {
 }
 
 /// As few loads and speeds as the orders of the thesis allow.
-input::Campaign small_campaign() {
-  input::Campaign campaign;
+domain::Campaign small_campaign() {
+  domain::Campaign campaign;
   campaign.name = "small";
   campaign.loads_kg = {11.138, 14.0, 18.87, 23.406};
   for (const double period_s : {2.4, 3.6, 6.0}) {

@@ -22,8 +22,8 @@
 namespace mckibben::thesis {
 namespace {
 
-const input::Dataset& campaign() {
-  static const input::Dataset dataset = small_campaign();
+const domain::Dataset& campaign() {
+  static const domain::Dataset dataset = small_campaign();
   return dataset;
 }
 
@@ -61,7 +61,7 @@ TEST(Calibrate, WithTheTruePressureFindsTheTrueFriction) {
 TEST(Calibrate, TheFileReadsBackToTheSameModels) {
   const auto path = std::filesystem::temp_directory_path() / fmt::format("calibration_{}.yaml", getpid());
   std::ofstream(path) << input::calibration_yaml(calibrated().calibration);
-  std::vector<input::InputFile> inputs;
+  std::vector<domain::InputFile> inputs;
   const controllers::Calibration read = input::read_calibration(path, inputs);
   std::filesystem::remove(path);
   EXPECT_EQ(input::to_json(read), input::to_json(calibrated().calibration));
@@ -138,7 +138,7 @@ TEST(Figures, InKgfAreTheSamePressures) {
 }
 
 /// What is said about data that cannot be calibrated.
-std::string refusal(const input::Dataset& dataset, const Options& options = {}) {
+std::string refusal(const domain::Dataset& dataset, const Options& options = {}) {
   try {
     calibrate(dataset, options);
   } catch (const input::BadInput& bad) {
@@ -153,7 +153,7 @@ testing::AssertionResult says(const std::string& text, const std::string& part) 
 }
 
 TEST(BadData, TooFewLoadsForTheOrdersSayHowMany) {
-  input::Dataset dataset = campaign();
+  domain::Dataset dataset = campaign();
   std::erase_if(dataset.runs, [](const auto& run) { return run.load_kg > 17.0; });
   const std::string text = refusal(dataset);
   EXPECT_TRUE(says(text, "small/dataset.yaml"));
@@ -167,7 +167,7 @@ TEST(BadData, TooFewLoadsForTheOrdersSayHowMany) {
 }
 
 TEST(BadData, TooFewSpeedsForTheOrdersSayHowMany) {
-  input::Dataset dataset = campaign();
+  domain::Dataset dataset = campaign();
   std::erase_if(dataset.runs,
                 [](const auto& run) { return run.load_kg > 20.0 && run.current_mA.size() < 1200; });
   const std::string text = refusal(dataset);
@@ -176,14 +176,14 @@ TEST(BadData, TooFewSpeedsForTheOrdersSayHowMany) {
 }
 
 TEST(BadData, NoMotionIsSaid) {
-  input::Dataset dataset = small_campaign({11.138}, {3.6});
+  domain::Dataset dataset = small_campaign({11.138}, {3.6});
   for (double& ratio : dataset.runs[0].contraction_ratio) ratio = 0.0;
   EXPECT_TRUE(says(refusal(dataset), "the muscle hardly moves"));
 }
 
 // Were the heavier loads counted as too few, the advice would be to measure more of what does not move.
 TEST(BadData, WhereNothingMovesThatLeads) {
-  input::Dataset dataset = campaign();
+  domain::Dataset dataset = campaign();
   for (auto& run : dataset.runs) {
     if (run.load_kg < 15.0) continue;
     for (double& ratio : run.contraction_ratio) ratio = 0.0;
@@ -200,7 +200,7 @@ TEST(BadData, WhereNothingMovesThatLeads) {
 }
 
 TEST(BadData, WithTheWholeCurrentALighterLoadHelps) {
-  input::Dataset dataset = small_campaign({11.138}, {3.6});
+  domain::Dataset dataset = small_campaign({11.138}, {3.6});
   for (double& ratio : dataset.runs[0].contraction_ratio) ratio = 0.0;
   const std::string text = refusal(dataset);
   EXPECT_TRUE(says(text, "no run can be used for calibration: nothing moves enough in 1 run"));
@@ -208,7 +208,7 @@ TEST(BadData, WithTheWholeCurrentALighterLoadHelps) {
 }
 
 TEST(BadData, NearlyEqualLoadsAreOne) {
-  input::Dataset dataset = campaign();
+  domain::Dataset dataset = campaign();
   for (auto& run : dataset.runs)
     if (run.load_kg == 13.870) run.load_kg = 11.138 * (1.0 + 1e-6);
   EXPECT_EQ(make_grid(dataset, {}).loads_kg.size(), 4u);
@@ -220,7 +220,7 @@ TEST(BadData, NearlyEqualLoadsAreOne) {
 }
 
 TEST(BadData, WhoHasNoOptionsForOrdersIsNotToldOfThem) {
-  input::Dataset dataset = campaign();
+  domain::Dataset dataset = campaign();
   std::erase_if(dataset.runs, [](const auto& run) { return run.load_kg > 17.0; });
   Options options;
   options.orders_can_be_asked = false;
@@ -230,7 +230,7 @@ TEST(BadData, WhoHasNoOptionsForOrdersIsNotToldOfThem) {
 
 // A swing may carry the muscle a little beyond e_max, where the braid pulls no more.
 TEST(BadData, RowsALittleAboveTheLimitAreDroppedAndCounted) {
-  input::Dataset dataset = campaign();
+  domain::Dataset dataset = campaign();
   const auto before = calibrate(dataset, {}).grid.dropped;
   EXPECT_EQ(before.beyond_limit, 0u);
   const double limit = plant::Braid(dataset.rig.muscle).largest_contraction_ratio();
@@ -283,15 +283,15 @@ TEST(Report, SpreadsAboveTheMeanAreNotPrintedAsNumbersButWarnedOf) {
 }
 
 TEST(BadData, AConstantCurrentIsSaid) {
-  input::Dataset dataset = small_campaign({11.138}, {3.6});
+  domain::Dataset dataset = small_campaign({11.138}, {3.6});
   for (double& current : dataset.runs[0].current_mA) current = 12.0;
   EXPECT_TRUE(says(refusal(dataset), "its current hardly changes"));
 }
 
 TEST(BadData, ACurrentWithoutASingleSpeedIsSaid) {
-  input::Dataset dataset = small_campaign({11.138}, {3.6});
-  input::Run& run = dataset.runs[0];
-  const input::Run faster = ride(11.138, 2.4);
+  domain::Dataset dataset = small_campaign({11.138}, {3.6});
+  domain::Run& run = dataset.runs[0];
+  const domain::Run faster = ride(11.138, 2.4);
   run.current_mA.insert(run.current_mA.end(), faster.current_mA.begin(), faster.current_mA.end());
   run.contraction_ratio.insert(run.contraction_ratio.end(), faster.contraction_ratio.begin(),
                                faster.contraction_ratio.end());
@@ -299,7 +299,7 @@ TEST(BadData, ACurrentWithoutASingleSpeedIsSaid) {
 }
 
 TEST(BadData, RunsThatCannotBeUsedAreLeftOutAndNamed) {
-  input::Dataset dataset = campaign();
+  domain::Dataset dataset = campaign();
   for (double& ratio : dataset.runs[3].contraction_ratio) ratio = 0.0;
   const CalibrationResult result = calibrate(dataset, {});
   ASSERT_EQ(result.grid.left_out.size(), 1u);
@@ -308,7 +308,7 @@ TEST(BadData, RunsThatCannotBeUsedAreLeftOutAndNamed) {
 }
 
 TEST(BadData, AWrongRigIsNoticed) {
-  input::Dataset dataset = campaign();
+  domain::Dataset dataset = campaign();
   dataset.rig.encoder.pulses_per_turn = 500;
   EXPECT_TRUE(says(refusal(dataset), "no multiples of this rig's encoder count"));
   dataset = campaign();
@@ -320,7 +320,7 @@ TEST(BadData, AWrongRigIsNoticed) {
 }
 
 TEST(BadData, TheGaugeMustBeThereIfItIsAskedFor) {
-  input::Dataset dataset = campaign();
+  domain::Dataset dataset = campaign();
   dataset.runs[1].muscle_pressure_Pa.reset();
   Options options;
   options.processing.pressure = PressureSource::gauge;

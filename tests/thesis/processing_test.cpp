@@ -50,10 +50,10 @@ TEST(HalfPeriods, AConstantCurrentHasNone) {
 
 /// Up and down in steps of two counts, the pressure always as T 4.1 to 4.3 ask for these friction
 /// coefficients.
-input::Run planted_run(const plant::Rig& rig, double load_kg, double contraction, double relaxation) {
+domain::Run planted_run(const plant::Rig& rig, double load_kg, double contraction, double relaxation) {
   const plant::Braid braid(rig.muscle);
   const double per_count = plant::count_height_m(rig.encoder, rig.joint) / rig.muscle.rest_length_m;
-  input::Run run;
+  domain::Run run;
   run.id = "planted";
   run.load_kg = load_kg;
   const auto add = [&](int counts, double signed_coefficient) {
@@ -69,7 +69,7 @@ input::Run planted_run(const plant::Rig& rig, double load_kg, double contraction
 }
 
 TEST(Processing, RecoversPlantedCoefficientsInBothDirections) {
-  input::Dataset dataset;
+  domain::Dataset dataset;
   for (const auto surface : {plant::ContactSurface::squared, plant::ContactSurface::printed}) {
     dataset.rig.muscle.contact_surface = surface;
     ProcessingOptions options;
@@ -84,8 +84,8 @@ TEST(Processing, RecoversPlantedCoefficientsInBothDirections) {
 }
 
 TEST(Processing, InertiaIsTakenOffByDifferencesOfCounts) {
-  input::Dataset dataset;
-  input::Run run = planted_run(dataset.rig, 16.0, 0.012, 0.012);
+  domain::Dataset dataset;
+  domain::Run run = planted_run(dataset.rig, 16.0, 0.012, 0.012);
   const double rise_m = plant::count_height_m(dataset.rig.encoder, dataset.rig.joint);
   run.contraction_ratio[100] += rise_m / dataset.rig.muscle.rest_length_m;  // one count early
   ProcessingOptions options;
@@ -103,8 +103,8 @@ TEST(Processing, InertiaIsTakenOffByDifferencesOfCounts) {
 }
 
 TEST(Processing, DirectionsOfASineAreApartAndEveryRowIsAccountedFor) {
-  input::Dataset dataset;
-  const input::Run run = ride(16.138, 3.6);
+  domain::Dataset dataset;
+  const domain::Run run = ride(16.138, 3.6);
   const ProcessedRun processed = process(run, dataset, {});
   ASSERT_EQ(processed.unusable, "");
   EXPECT_NEAR(processed.current_speed_mA_per_s, 40.0 / 3.6, 1e-9);
@@ -119,8 +119,8 @@ TEST(Processing, DirectionsOfASineAreApartAndEveryRowIsAccountedFor) {
 }
 
 TEST(Processing, TheGaugeIsUsedWhenAskedFor) {
-  input::Dataset dataset;
-  const input::Run run = ride(16.138, 3.6);
+  domain::Dataset dataset;
+  const domain::Run run = ride(16.138, 3.6);
   ProcessingOptions options;
   options.pressure = PressureSource::gauge;
   const auto gauge = process(run, dataset, options), line = process(run, dataset, {});

@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include <controllers/settings.hpp>
-#include <sim/input/dataset.hpp>
+#include <sim/domain/dataset.hpp>
 #include <sim/run/simulate.hpp>
 #include <sim/thesis/cells.hpp>
 
@@ -38,7 +38,7 @@ Grid planted_grid(const std::vector<double>& loads_kg, const std::vector<double>
 }
 
 /// A ride of the thesis's rig under a sine of 0 to 20 mA, as a data set would hold it.
-inline input::Run ride(double load_kg, double period_s, double cycles = 3.0) {
+inline domain::Run ride(double load_kg, double period_s, double cycles = 3.0) {
   run::RunPlan plan;
   plan.load_kg = load_kg;
   plan.rig.gauge.fitted = true;
@@ -49,7 +49,7 @@ inline input::Run ride(double load_kg, double period_s, double cycles = 3.0) {
   sine.period_s = period_s;
   const auto controller = sine.make(run::knowledge_of(plan.rig, {}));
   const auto recording = run::simulate(plan, *controller);
-  input::Run result;
+  domain::Run result;
   result.id = fmt::format("m{:.0f}_{:.0f}", 1e3 * load_kg, 1e3 * period_s);
   result.load_kg = load_kg;
   result.muscle_pressure_Pa.emplace();
@@ -62,10 +62,10 @@ inline input::Run ride(double load_kg, double period_s, double cycles = 3.0) {
   return result;
 }
 
-inline input::Dataset small_campaign(const std::vector<double>& loads_kg = {11.138, 13.870, 16.138, 18.870,
-                                                                            23.406},
-                                     const std::vector<double>& periods_s = {2.4, 3.6, 4.8, 6.0}) {
-  input::Dataset dataset;
+inline domain::Dataset small_campaign(const std::vector<double>& loads_kg = {11.138, 13.870, 16.138, 18.870,
+                                                                             23.406},
+                                      const std::vector<double>& periods_s = {2.4, 3.6, 4.8, 6.0}) {
+  domain::Dataset dataset;
   dataset.path = "small/dataset.yaml";
   for (const double load : loads_kg)
     for (const double period : periods_s) dataset.runs.push_back(ride(load, period));

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <sim/diagnose/first_look.hpp>
+#include <sim/input/dataset_file.hpp>
 #include <sim/run/simulate.hpp>
 
 #include "diagnose/planted.hpp"
@@ -93,7 +94,7 @@ TEST(Diagnose, IgnoresAGaugeThatContradictsTheMotion) {
   plant::Rig truth;
   truth.gauge.fitted = true;
   auto data = small(truth);
-  for (input::Run& run : data.runs)
+  for (domain::Run& run : data.runs)
     for (double& pressure : *run.muscle_pressure_Pa) pressure += 0.3e5;
   const auto found = diagnosis_of(data, 0);
   EXPECT_EQ(found.verdict, Verdict::nothing_missing);
@@ -137,7 +138,7 @@ TEST(Diagnose, AccusesNoRunThatAnEffectExplainsWithTheOthers) {
   Runs runs(data.runs.size());
   std::iota(runs.begin(), runs.end(), 0);
   Doubts doubts;
-  for (const input::Run& run : data.runs) doubts.masked.emplace_back(run.contraction_ratio.size());
+  for (const domain::Run& run : data.runs) doubts.masked.emplace_back(run.contraction_ratio.size());
   const Experiment experiment(data, doubts.masked, 0, runs);
   const plant::Rig& rig = data.rig;
   const Case c{experiment, rig, split(data, runs), first_temperature, [](const std::string&) {}};
@@ -148,7 +149,7 @@ TEST(Diagnose, FindsThatAllRunsAreLateBesideAnEffectThatIsMissing) {
   plant::Rig truth;
   truth.effects.get<plant::SpeedDependentFriction>().ratio = 0.8;
   auto data = small(truth);
-  for (input::Run& run : data.runs) {
+  for (domain::Run& run : data.runs) {
     run.contraction_ratio.insert(run.contraction_ratio.begin(), 3, run.contraction_ratio.front());
     run.contraction_ratio.resize(run.current_mA.size());
   }
@@ -161,7 +162,7 @@ TEST(Diagnose, FindsThatAllRunsAreLateBesideAnEffectThatIsMissing) {
 TEST(Diagnose, NamesNoEffectForADriftThatAllRunsHave) {
   auto data = small(plant::Rig{});
   const double count = run::contraction_per_count(data.rig);
-  for (input::Run& run : data.runs)
+  for (domain::Run& run : data.runs)
     for (std::size_t k = 0; k < run.contraction_ratio.size(); ++k)
       run.contraction_ratio[k] += count * std::floor(static_cast<double>(k) / 40.0);
   const auto found = diagnosis_of(data, 0);

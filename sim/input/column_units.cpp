@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include <plant/instruments.hpp>
-#include <sim/input/columns.hpp>
+#include <sim/input/column_units.hpp>
 #include <sim/input/quantity.hpp>
 
 namespace mckibben::input {
@@ -57,19 +57,6 @@ void check_units(const Source& source, const Node& map, Problems& problems) {
                                     : unit_problem(unit->text, unit_of(quantity.key));
     if (!problem.empty()) problems.error(source, unit->place, "unit = " + problem);
   }
-}
-
-ColumnMap merged(const ColumnMap& shared, const ColumnMap& own) {
-  ColumnMap map = own;
-  const auto fill = [](ColumnPlace& place, const ColumnPlace& otherwise) {
-    if (place.absent()) place = otherwise;
-  };
-  if (!own.rows_are_ticks) fill(map.time, shared.time);
-  fill(map.current, shared.current);
-  fill(map.contraction, shared.contraction);
-  fill(map.muscle_pressure, shared.muscle_pressure);
-  map.rows_are_ticks = own.rows_are_ticks || (shared.rows_are_ticks && own.time.absent());
-  return map;
 }
 
 void convert_columns(Table& table, const ColumnMap& map, const plant::Rig& rig) {

@@ -14,7 +14,7 @@
 #include <sim/input/file_names.hpp>
 #include <sim/input/number.hpp>
 #include <sim/input/quantity.hpp>
-#include <sim/input/scenario.hpp>
+#include <sim/input/scenario_file.hpp>
 #include <sim/input/suggest.hpp>
 
 namespace mckibben::input {

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include <sim/input/campaign.hpp>
+#include <sim/input/campaign_file.hpp>
 #include <sim/input/common_checks.hpp>
 #include <sim/input/current_checks.hpp>
 #include <sim/input/file_names.hpp>

@@ -1,24 +1,21 @@
 // A scenario: which rig lifts which loads along which target, under which controllers, and what counts as
-// good enough. `read_scenario` gives it complete, every default in place, or says all that is wrong.
+// good enough.
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <limits>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include <controllers/settings.hpp>
 #include <controllers/target.hpp>
 #include <plant/instruments.hpp>
 #include <plant/rig.hpp>
-#include <sim/input/rig_file.hpp>
+#include <sim/domain/input_file.hpp>
+#include <sim/domain/rig_file.hpp>
 
-namespace mckibben::input {
-
-inline constexpr std::string_view scenario_schema = "mckibben-scenario/1";
+namespace mckibben::domain {
 
 /// Limits on the tracking error; a run that exceeds one ends with exit status 1.
 struct Criterion {
@@ -70,13 +67,4 @@ struct Scenario {
   }
 };
 
-/// Reads a scenario and the rig files and recorded currents that it names; `warnings` are added to.
-/// Throws MissingInput; BadInput with the problems of all files.
-Scenario read_scenario(const std::filesystem::path& path, std::vector<Problem>& warnings);
-/// The same from text at hand; relative paths start at the source's folder.
-Scenario read_scenario(Source source, std::vector<Problem>& warnings);
-
-/// The contents of a scenario file that holds every field.
-Json scenario_json(const Scenario& scenario);
-
-}  // namespace mckibben::input
+}  // namespace mckibben::domain

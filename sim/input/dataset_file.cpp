@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include <sim/input/common_checks.hpp>
-#include <sim/input/dataset.hpp>
+#include <sim/input/dataset_file.hpp>
 #include <sim/input/file_names.hpp>
 #include <sim/input/run_file.hpp>
 #include <sim/input/utf8.hpp>

@@ -7,25 +7,15 @@
 #include <string_view>
 #include <vector>
 
-#include <plant/rig.hpp>
-#include <sim/engine/settings.hpp>
+#include <sim/domain/rig_file.hpp>
 #include <sim/input/fields_json.hpp>
 #include <sim/input/yaml_reader.hpp>
 
 namespace mckibben::input {
 
+using domain::RigFile;
+
 inline constexpr std::string_view rig_schema = "mckibben-rig/1";
-
-/// A rig and how its equations are solved: a stiff rig may ask for the method that suits it.
-struct RigFile : plant::Rig {
-  engine::Settings integrator;
-
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
-    plant::Rig::fields(self, visit);
-    visit("integrator", self.integrator, "how the equations are solved");
-  }
-};
 
 /// Names of the rigs that come with the program.
 std::span<const std::string_view> shipped_rigs();
@@ -37,11 +27,8 @@ RigFile read_rig(const std::string& name_or_path, std::vector<InputFile>& inputs
 /// The contents of a rig file that holds every field.
 Json rig_json(const RigFile& rig);
 
-template <>
-struct Spelling<RigFile> {
-  static constexpr bool by_name = true;
-  /// A name, a path relative to the folder of `source`, or a map of changes.
-  static void read(const Source& source, const Node& node, RigFile& into, Problems& problems);
-};
+/// Reads what stands under `rig` in another file: a name, a path relative to the folder of `source`, or a map
+/// of changes.
+void read_named(const Source& source, const Node& node, RigFile& into, Problems& problems);
 
 }  // namespace mckibben::input

@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include <sim/input/rig_file.hpp>
+#include <sim/input/rigs.hpp>
 #include <sim/input/suggest.hpp>
 #include <sim/input/utf8.hpp>
 
@@ -93,7 +93,7 @@ std::span<const std::string_view> shipped_rigs() {
   return shipped;
 }
 
-void Spelling<RigFile>::read(const Source& source, const Node& node, RigFile& into, Problems& problems) {
+void read_named(const Source& source, const Node& node, RigFile& into, Problems& problems) {
   Chain chain;
   constexpr std::string_view also_allowed[] = {"base"};
   if (node.kind == Node::Kind::scalar)

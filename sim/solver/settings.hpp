@@ -5,7 +5,7 @@
 #include <string_view>
 #include <utility>
 
-namespace mckibben::engine {
+namespace mckibben::solver {
 
 /// `erk`: ARKODE ERKStep, explicit, order 5. `cvode`: CVODE BDF, for stiff rigs. `automatic`: the first, and
 /// the second once the steps of a run show that it is stiff.
@@ -30,4 +30,4 @@ struct Settings {
   }
 };
 
-}  // namespace mckibben::engine
+}  // namespace mckibben::solver

@@ -1,22 +1,19 @@
 // A campaign: which currents are to drive which loads on a rig, and how often, to get calibration data
-// (T 3.3). `read_campaign` gives it complete, every default in place, or says all that is wrong.
+// (T 3.3).
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <limits>
 #include <string>
-#include <string_view>
 #include <variant>
 #include <vector>
 
 #include <controllers/waveform.hpp>
 #include <plant/instruments.hpp>
-#include <sim/input/rig_file.hpp>
+#include <sim/domain/input_file.hpp>
+#include <sim/domain/rig_file.hpp>
 
-namespace mckibben::input {
-
-inline constexpr std::string_view campaign_schema = "mckibben-campaign/1";
+namespace mckibben::domain {
 
 using CampaignWaveform =
     std::variant<controllers::SineCurrent, controllers::TriangleCurrent, controllers::StepCurrent,
@@ -60,13 +57,4 @@ struct Campaign {
   }
 };
 
-/// Reads a campaign and the rig files and recorded currents that it names. Throws MissingInput; BadInput with
-/// the problems of all files.
-Campaign read_campaign(const std::filesystem::path& path);
-/// The same from text at hand; relative paths start at the source's folder.
-Campaign read_campaign(Source source);
-
-/// The contents of a campaign file that holds every field.
-Json campaign_json(const Campaign& campaign);
-
-}  // namespace mckibben::input
+}  // namespace mckibben::domain

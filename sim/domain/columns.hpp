@@ -6,11 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include <plant/rig.hpp>
-#include <sim/input/table.hpp>
-#include <sim/input/yaml_file.hpp>
-
-namespace mckibben::input {
+namespace mckibben::domain {
 
 /// One quantity: where it stands and how its numbers are to be read.
 struct ColumnPlace {
@@ -66,14 +62,7 @@ struct ColumnMap {
   }
 };
 
-/// Checks the units of a map; `map` is the value of `columns`.
-void check_units(const Source& source, const Node& map, Problems& problems);
-
 /// `own` where it says something, otherwise `shared`.
 ColumnMap merged(const ColumnMap& shared, const ColumnMap& own);
 
-/// Brings a table that was read with a map to our units: time_s, current_mA, contraction_ratio,
-/// muscle_pressure_bar. Lengths and angles become ratios by the rig's wheel and the muscle's rest length.
-void convert_columns(Table& table, const ColumnMap& map, const plant::Rig& rig);
-
-}  // namespace mckibben::input
+}  // namespace mckibben::domain

@@ -1,21 +1,16 @@
 // Measured data sets: which runs there are, their loads and tables, and the rig they were measured on.
-// A data set is a folder with `dataset.yaml` (schema mckibben-dataset/1) and a table for each run, as CSV
-// or in another format.
 #pragma once
 
 #include <filesystem>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
-#include <plant/rig.hpp>
-#include <sim/input/columns.hpp>
-#include <sim/input/rig_file.hpp>
+#include <sim/domain/columns.hpp>
+#include <sim/domain/input_file.hpp>
+#include <sim/domain/rig_file.hpp>
 
-namespace mckibben::input {
-
-inline constexpr std::string_view dataset_schema = "mckibben-dataset/1";
+namespace mckibben::domain {
 
 /// One measured run: a row each tick, the first at time 0.
 struct Run {
@@ -62,8 +57,4 @@ struct Dataset {
   }
 };
 
-/// Reads a data set and all its tables. `path` is its file or its folder. Throws MissingInput; BadInput with
-/// the problems of all files.
-Dataset read_dataset(const std::filesystem::path& path);
-
-}  // namespace mckibben::input
+}  // namespace mckibben::domain

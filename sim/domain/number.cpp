@@ -1,0 +1,21 @@
+// std::to_chars; see the header.
+#include <array>
+#include <charconv>
+#include <cmath>
+
+#include <sim/domain/number.hpp>
+
+namespace mckibben::domain {
+
+std::string write_number(double value) {
+  // Without exponent where that stays readable.
+  const double size = std::abs(value);
+  const bool plain = size == 0.0 || (size >= 1e-4 && size < 1e9);
+  std::array<char, 48> digits{};
+  char* const last = digits.data() + digits.size();
+  const auto [end, error] = plain ? std::to_chars(digits.data(), last, value, std::chars_format::fixed)
+                                  : std::to_chars(digits.data(), last, value);
+  return {digits.data(), end};
+}
+
+}  // namespace mckibben::domain

@@ -1,0 +1,21 @@
+// Units of the map `columns` of a data set: whether they can be what they stand for, and tables brought to
+// ours.
+#pragma once
+
+#include <plant/rig.hpp>
+#include <sim/domain/columns.hpp>
+#include <sim/input/table.hpp>
+#include <sim/input/yaml_file.hpp>
+
+namespace mckibben::input {
+
+using domain::ColumnMap, domain::ColumnPlace;
+
+/// Checks the units of a map; `map` is the value of `columns`.
+void check_units(const Source& source, const Node& map, Problems& problems);
+
+/// Brings a table that was read with a map to our units: time_s, current_mA, contraction_ratio,
+/// muscle_pressure_bar. Lengths and angles become ratios by the rig's wheel and the muscle's rest length.
+void convert_columns(Table& table, const ColumnMap& map, const plant::Rig& rig);
+
+}  // namespace mckibben::input

@@ -1,0 +1,21 @@
+// Data sets in files. A data set is a folder with `dataset.yaml` (schema mckibben-dataset/1) and a table for
+// each run, as CSV or in another format.
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+
+#include <sim/domain/dataset.hpp>
+#include <sim/input/rigs.hpp>
+
+namespace mckibben::input {
+
+using domain::Dataset, domain::Run;
+
+inline constexpr std::string_view dataset_schema = "mckibben-dataset/1";
+
+/// Reads a data set and all its tables. `path` is its file or its folder. Throws MissingInput; BadInput with
+/// the problems of all files.
+Dataset read_dataset(const std::filesystem::path& path);
+
+}  // namespace mckibben::input
