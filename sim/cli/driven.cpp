@@ -1,8 +1,4 @@
 // Each reads, computes, prints and writes; see the header.
-#include <algorithm>
-#include <optional>
-#include <set>
-
 #include <fmt/format.h>
 
 #include <sim/cli/driven.hpp>
@@ -15,17 +11,10 @@
 #include <sim/output/driven_results.hpp>
 #include <sim/output/run_files.hpp>
 #include <sim/report/report.hpp>
-#include <sim/run/batch.hpp>
 #include <sim/run/warnings.hpp>
 
 namespace mckibben::cli {
 namespace {
-
-template <class Runs>
-std::size_t begun_of(const Runs& runs) {
-  return static_cast<std::size_t>(
-      std::count_if(runs.begin(), runs.end(), [](const auto& run) { return run.failure != run::not_begun; }));
-}
 
 /// The tables of runs, and what their columns are.
 class TablesOf {
@@ -55,8 +44,8 @@ class TablesOf {
 template <class What, class Runs>
 int finish(Job& job, const What& what, const Runs& runs, const std::vector<std::string>& warnings) {
   warn(warnings);
-  const bool interrupted = begun_of(runs) < runs.size();
-  if (interrupted) job.interrupted(begun_of(runs), runs.size(), "runs");
+  const bool interrupted = begun(runs) < runs.size();
+  if (interrupted) job.interrupted(begun(runs), runs.size(), "runs");
   input::Json json = output::json_of(what, runs, warnings);
   if (interrupted) json["interrupted"] = true;
   const std::string document = json.dump(2) + "\n", table = output::table_of(what, runs, warnings);
@@ -85,19 +74,21 @@ int replay_stamped(const Options& options, const std::string& path, const domain
                    const std::vector<std::string>& formats) {
   const std::string name = output::name_of(dataset);
   Job job(options, "replay " + path, name + "-replay", dataset.inputs);
-  const std::vector<run::StampedRun> runs =
-      with_progress(name, [&](const auto& hook) { return run::replay_stamped(dataset, options.threads, hook); });
+  const std::vector<run::StampedRun> runs = with_progress(
+      name, [&](const auto& hook) { return run::replay_stamped(dataset, options.threads, hook); });
   std::vector<std::string> warnings;
   TablesOf tables(job, "Replay of " + name, formats);
   for (std::size_t i = 0; i < runs.size(); ++i) {
     const run::StampedRun& run = runs[i];
-    for (const auto& doubt : run::doubts(run.recording)) warnings.push_back(run::warning_of_run(run.id, doubt));
+    for (const auto& doubt : run::doubts(run.recording))
+      warnings.push_back(run::warning_of_run(run.id, doubt));
     if (run.recording.samples.empty()) continue;
     std::vector<formats::Attribute> attributes;
     if (run.load_kg > 0.0) attributes.emplace_back("load_kg", run.load_kg);
-    tables.write(run.id, run.id,
-                 output::driven_columns(run.recording, dataset.rig, !dataset.runs[i].measured->force_N.empty()),
-                 std::move(attributes));
+    tables.write(
+        run.id, run.id,
+        output::driven_columns(run.recording, dataset.rig, !dataset.runs[i].measured->force_N.empty()),
+        std::move(attributes));
   }
   tables.close();
   return finish(job, dataset, runs, run::grouped(warnings));

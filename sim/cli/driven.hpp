@@ -1,5 +1,5 @@
-// What `run` and `replay` do where no controller drives one muscle under a load: pairs under given currents, and
-// data with a clock of their own.
+// What `run` and `replay` do where no controller drives one muscle under a load: pairs under given currents,
+// and data with a clock of their own.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
-// What was measured of a rig with a clock of its own: at each stamp what drove it and what was read, in columns
-// of one length. A reading that is missing is NaN; a column that is not there is empty.
+// What was measured of a rig with a clock of its own: at each stamp what drove it and what was read, in
+// columns of one length. A reading that is missing is NaN; a column that is not there is empty.
 #pragma once
 
 #include <array>
@@ -8,7 +8,8 @@
 namespace mckibben::domain {
 
 struct Measurement {
-  /// Of one muscle: a command to its valve, or its pressure, which then is given and the valve does not exist.
+  /// Of one muscle: a command to its valve, or its pressure, which then is given and the valve does not
+  /// exist.
   struct Side {
     std::vector<double> current_mA;          ///< held from its stamp to the next
     std::vector<double> muscle_pressure_Pa;  ///< read; or given, and straight from stamp to stamp

@@ -1,12 +1,12 @@
 // See the header.
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <cmath>
 
 #include <fmt/format.h>
 
 #include <sim/input/column_hints.hpp>
+#include <sim/input/field_kinds.hpp>
 #include <sim/input/number.hpp>
 #include <sim/input/quantity.hpp>
 #include <sim/input/suggest.hpp>
@@ -15,17 +15,10 @@ namespace mckibben::input {
 namespace {
 
 using Values = std::vector<double>;
+using domain::quantities, domain::Quantity;
 
 /// Numbers out of range up to which each is told by itself.
 constexpr std::ptrdiff_t few = 3;
-
-struct Quantity {
-  std::string_view name, column, unit;
-};
-constexpr std::array<Quantity, 4> quantities{{{"time", "time_s", "s"},
-                                              {"current", "current_mA", "mA"},
-                                              {"contraction", "contraction_ratio", "1"},
-                                              {"muscle_pressure", "muscle_pressure_bar", "bar"}}};
 
 /// As YAML takes it.
 std::string scalar(std::string_view text) {
@@ -65,13 +58,9 @@ double even_step_s(const Values& time_s) {
 }
 
 ColumnMap with_our_names(ColumnMap map) {
-  const auto name = [](ColumnPlace& place, const Quantity& ours) {
-    if (place.absent()) place = {std::string(ours.column), std::string(ours.unit)};
-  };
-  name(map.time, quantities[0]);
-  name(map.current, quantities[1]);
-  name(map.contraction, quantities[2]);
-  name(map.muscle_pressure, quantities[3]);
+  for (const Quantity& quantity : quantities)
+    if (ColumnPlace& place = map.*quantity.place; place.absent())
+      place = {std::string(quantity.column), std::string(quantity.unit)};
   return map;
 }
 
@@ -82,6 +71,7 @@ std::string line_of(std::string_view quantity, const ColumnPlace& place) {
       fmt::format("{}: {{column: {}, unit: {}", quantity, scalar(place.column), scalar(place.unit));
   if (place.zero != 0.0) line += fmt::format(", zero: {}", write_number(place.zero));
   if (place.factor != 1.0) line += fmt::format(", factor: {}", write_number(place.factor));
+  if (place.as != domain::Role::reading) line += fmt::format(", as: {}", spelling(place.as));
   line += '}';
   return line;
 }
@@ -94,7 +84,7 @@ std::string hint_of_missing(const WantedColumn& column, std::span<const std::str
   const ColumnPlace place{std::string(meant.value_or("NAME")),
                           meant ? unit_in(*meant, *quantity) : std::string(quantity->unit)};
   return fmt::format("; where it stands under another name, write columns: {{{}}}",
-                     line_of(quantity->name, place));
+                     line_of(quantity->key, place));
 }
 
 ColumnChecks::ColumnChecks(const Table& table, const ColumnMap& map, TableProblems& problems)

@@ -21,8 +21,9 @@ class PairChecker {
     const Node* rig = file_.root.find("rig");
     const Place place = rig != nullptr ? rig->place : file_.root.place;
     if (scenario_.rig.pair() == nullptr) {
-      problems_.error(file_.source, place,
-                      "this rig has one muscle; two currents need two: rig: thesis_pair, or mechanics: {kind: pair}");
+      problems_.error(
+          file_.source, place,
+          "this rig has one muscle; two currents need two: rig: thesis_pair, or mechanics: {kind: pair}");
       return;
     }
     check_dac(scenario_.rig, file_.source, place, problems_);
@@ -50,8 +51,8 @@ class PairChecker {
         problems_.error(file_.source, place, fmt::format("name = {}: {}", run.name, file_safe_rule));
       else if (!is_new)
         problems_.error(file_.source, place,
-                        fmt::format("the name {} is already that of the run in line {}; give each a name", run.name,
-                                    earlier->second));
+                        fmt::format("the name {} is already that of the run in line {}; give each a name",
+                                    run.name, earlier->second));
       complete(run.current_1, *node.find("current_1"), scenario_.rig);
       complete(run.current_2, *node.find("current_2"), opposite());
     }

@@ -47,7 +47,8 @@ const ColumnPlace& pressure_of(const ColumnMap& map, bool pair, std::size_t side
 bool drives(const Quantity& quantity, const ColumnMap& map, bool pair) {
   const auto commands = [&](std::size_t side) { return !is_input(pressure_of(map, pair, side)); };
   if (quantity.key == "time") return true;
-  if (quantity.key == "current" || quantity.key == "command" || quantity.key == "command_1") return commands(0);
+  if (quantity.key == "current" || quantity.key == "command" || quantity.key == "command_1")
+    return commands(0);
   if (quantity.key == "command_2") return commands(1);
   return is_input(map.*quantity.place);
 }
@@ -59,27 +60,23 @@ bool has_own_clock(const ColumnMap& map, const domain::RigFile& rig) {
   return std::any_of(domain::quantities.begin(), domain::quantities.end(), [&](const Quantity& quantity) {
     const ColumnPlace& place = map.*quantity.place;
     constexpr std::array ticked{"time", "current", "contraction", "muscle_pressure"};
-    return !place.absent() && (place.as != Role::reading || std::find(ticked.begin(), ticked.end(), quantity.key) ==
-                                                                ticked.end());
+    return !place.absent() && (place.as != Role::reading ||
+                               std::find(ticked.begin(), ticked.end(), quantity.key) == ticked.end());
   });
 }
 
-std::vector<WantedColumn> stamped_columns(const ColumnMap& map, const domain::RigFile& rig, bool headings) {
+std::vector<Wish> stamped_quantities(const ColumnMap& map, const domain::RigFile& rig) {
   const bool pair = rig.pair() != nullptr;
-  std::vector<WantedColumn> wanted;
+  std::vector<Wish> wishes;
   for (const Quantity& quantity : domain::quantities) {
     const ColumnPlace& place = map.*quantity.place;
     if (!belongs(quantity, pair) || (!place.absent() && place.as == Role::ignored)) continue;
-    if (quantity.key == "time" && map.rows_are_ticks) continue;
-    const bool needed = drives(quantity, map, pair), is_command = quantity.key.find("command") == 0;
-    if (!place.absent())
-      wanted.push_back({std::string(quantity.column), place.column, true, !needed});
-    else if (quantity.key == "current" ? !map.command.absent() : quantity.key == "command")
-      continue;  // one under the name of the other
-    else if ((headings || needed) && (needed || !is_command))
-      wanted.push_back({std::string(quantity.column), std::string(quantity.column), needed, !needed});
+    const bool is_command = quantity.unit == "mA", needed = drives(quantity, map, pair);
+    const bool under_the_other_name =
+        quantity.key == "command" ? place.absent() : quantity.key == "current" && !map.command.absent();
+    if (!under_the_other_name && (needed || !is_command)) wishes.push_back({&quantity, needed});
   }
-  return wanted;
+  return wishes;
 }
 
 void check_roles(const YamlFile& file, const Node& run, const ColumnMap& map, const domain::RigFile& rig,
@@ -89,17 +86,20 @@ void check_roles(const YamlFile& file, const Node& run, const ColumnMap& map, co
     const Node *own = run.find("columns"), *shared = file.root.find("columns");
     const Node* said = own != nullptr ? own->find(key) : nullptr;
     if (said == nullptr && shared != nullptr) said = shared->find(key);
-    problems.error(file.source, said != nullptr ? said->place : run.place, fmt::format("{}: {}", key, message));
+    problems.error(file.source, said != nullptr ? said->place : run.place,
+                   fmt::format("{}: {}", key, message));
   };
   for (const Quantity& quantity : domain::quantities) {
     const ColumnPlace& place = map.*quantity.place;
     if (place.absent()) continue;
     constexpr std::array readings{"time", "angle", "force"};
     if (!belongs(quantity, pair))
-      complain(quantity.key, pair ? "the rig has two muscles: command_1, command_2, angle, muscle_pressure_1, "
-                                    "muscle_pressure_2"
-                                  : "the rig has one muscle: command, contraction, force, muscle_pressure");
-    else if (place.as == Role::input && std::find(readings.begin(), readings.end(), quantity.key) != readings.end())
+      complain(quantity.key, pair
+                                 ? "the rig has two muscles: command_1, command_2, angle, muscle_pressure_1, "
+                                   "muscle_pressure_2"
+                                 : "the rig has one muscle: command, contraction, force, muscle_pressure");
+    else if (place.as == Role::input &&
+             std::find(readings.begin(), readings.end(), quantity.key) != readings.end())
       complain(quantity.key, "it can only be a reading");
   }
   if (!pair && !map.current.absent() && !map.command.absent())
@@ -107,18 +107,20 @@ void check_roles(const YamlFile& file, const Node& run, const ColumnMap& map, co
   for (std::size_t side = 0; side < (pair ? 2 : 1); ++side) {
     const ColumnPlace& command = command_of(map, pair, side);
     if (is_input(pressure_of(map, pair, side)) && !command.absent() && command.as != Role::ignored)
-      complain(pair                     ? side == 0 ? "command_1" : "command_2"
-               : map.command.absent() ? "current"
-                                        : "command",
-               "the muscle's pressure is the input, so that there is no valve to be commanded; say as: ignored");
+      complain(
+          pair                   ? side == 0 ? "command_1" : "command_2"
+          : map.command.absent() ? "current"
+                                 : "command",
+          "the muscle's pressure is the input, so that there is no valve to be commanded; say as: ignored");
     else if (!is_input(pressure_of(map, pair, side)) && !command.absent() && command.as == Role::ignored)
-      complain(pair                     ? side == 0 ? "command_1" : "command_2"
+      complain(pair                   ? side == 0 ? "command_1" : "command_2"
                : map.command.absent() ? "current"
-                                        : "command",
+                                      : "command",
                "nothing else drives the muscle");
   }
   if (rig.holds_a_length() && !is_input(map.contraction))
-    complain("contraction", "the rig's muscle is held (mechanics: {kind: held_length}): say which length, as: input");
+    complain("contraction",
+             "the rig's muscle is held (mechanics: {kind: held_length}): say which length, as: input");
 }
 
 namespace {
@@ -135,9 +137,12 @@ class Assembling {
     measured_.length_is_given = is_input(map_.contraction);
     if (measured_.length_is_given) {
       const plant::Braid braid(rig_.muscle);
-      range("contraction_ratio", [&](double e) { return braid.in_domain(e); }, "what this muscle can be held at");
+      range(
+          "contraction_ratio", [&](double e) { return braid.in_domain(e); },
+          "what this muscle can be held at");
     }
-    measured_.contraction_ratio = take("contraction_ratio", lowest_ratio, highest_ratio, "what a muscle can do");
+    measured_.contraction_ratio =
+        take("contraction_ratio", lowest_ratio, highest_ratio, "what a muscle can do");
     measured_.angle_rad = take("angle_rad", -largest_angle_rad, largest_angle_rad, "what a joint can turn");
     measured_.force_N = take("force_N", -largest_force_N, largest_force_N, "what a cord can bear");
     measured_.angle_in_degrees = map_.angle.unit == "deg";
@@ -189,8 +194,9 @@ class Assembling {
     const Table::Column& column = *table_.find(name);
     for (std::size_t row = 0; row < column.values.size(); ++row)
       if (const double value = column.values[row]; !std::isnan(value) && !within(value))
-        problems_.add(table_, column, row,
-                      fmt::format("{} = {} is out of range ({})", name, domain::write_number(value), meaning));
+        problems_.add(
+            table_, column, row,
+            fmt::format("{} = {} is out of range ({})", name, domain::write_number(value), meaning));
   }
 
   Table& table_;

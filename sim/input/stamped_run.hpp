@@ -13,9 +13,12 @@ namespace mckibben::input {
 /// Whether runs read with this map on this rig have a clock of their own, in place of a row each tick.
 bool has_own_clock(const domain::ColumnMap& map, const domain::RigFile& rig);
 
-/// The columns such a run is made of, in a file that has headings or not; what the map says is one of them for
-/// sure.
-std::vector<WantedColumn> stamped_columns(const domain::ColumnMap& map, const domain::RigFile& rig, bool headings);
+/// What such a run is made of, and whether it drives the rig: then it must be there, in every row.
+struct Wish {
+  const domain::Quantity* quantity;
+  bool drives;
+};
+std::vector<Wish> stamped_quantities(const domain::ColumnMap& map, const domain::RigFile& rig);
 
 /// What contradicts the rig, or itself, in the map of a run; shown where it is said.
 void check_roles(const YamlFile& file, const Node& run, const domain::ColumnMap& map,

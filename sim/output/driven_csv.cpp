@@ -12,8 +12,10 @@ using run::Sample;
 
 class DrivenColumns {
  public:
-  DrivenColumns(const run::Recording& recording, const domain::RigFile& rig) : recording_(recording), rig_(rig) {
-    add("time_s", "s", "time, as the stamps of what drove the rig", [](const Sample& row) { return row.time_s; });
+  DrivenColumns(const run::Recording& recording, const domain::RigFile& rig)
+      : recording_(recording), rig_(rig) {
+    add("time_s", "s", "time, as the stamps of what drove the rig",
+        [](const Sample& row) { return row.time_s; });
   }
 
   std::vector<formats::Column> of_one(bool force) {
@@ -31,7 +33,8 @@ class DrivenColumns {
     add("muscle_pressure_bar", "bar", "gauge pressure in the muscle, true",
         [](const Sample& row) { return row.state.side.muscle_pressure_Pa / plant::Pa_per_bar; });
     if (force)
-      add("force_N", "N", "force of the muscle's cord, true", [](const Sample& row) { return row.cord_force_N; });
+      add("force_N", "N", "force of the muscle's cord, true",
+          [](const Sample& row) { return row.cord_force_N; });
     add("encoder_contraction_ratio", "1", "contraction ratio as the encoder counts it",
         [per_count = run::contraction_per_count(rig_)](const Sample& row) {
           return static_cast<double>(row.counts) * per_count;
@@ -77,12 +80,13 @@ class DrivenColumns {
   }
   template <class Value>
   void current(const std::string& muscle, const Value& value) {
-    add("current_" + muscle + "_mA", "mA", "current to the valve of muscle " + muscle + ", from this row to the next",
-        value);
+    add("current_" + muscle + "_mA", "mA",
+        "current to the valve of muscle " + muscle + ", from this row to the next", value);
   }
   template <class Value>
   void valve(const std::string& muscle, const Value& value_Pa) {
-    add("valve_pressure_" + muscle + "_bar", "bar", "gauge pressure at the valve of muscle " + muscle + ", true",
+    add("valve_pressure_" + muscle + "_bar", "bar",
+        "gauge pressure at the valve of muscle " + muscle + ", true",
         [&](const Sample& row) { return value_Pa(row) / plant::Pa_per_bar; });
   }
   template <class Value>
@@ -106,7 +110,8 @@ class DrivenColumns {
 
 }  // namespace
 
-std::vector<formats::Column> driven_columns(const run::Recording& recording, const domain::RigFile& rig, bool force) {
+std::vector<formats::Column> driven_columns(const run::Recording& recording, const domain::RigFile& rig,
+                                            bool force) {
   DrivenColumns columns(recording, rig);
   return recording.driven.pair ? columns.of_pair() : columns.of_one(force || recording.driven.length);
 }

@@ -1,4 +1,5 @@
-// Tables of rides that followed stamps: a row each, only columns of what there is. A pair's are named by muscle.
+// Tables of rides that followed stamps: a row each, only columns of what there is. A pair's are named by
+// muscle.
 #pragma once
 
 #include <vector>
@@ -10,6 +11,7 @@
 namespace mckibben::output {
 
 /// `force`: a column for the cord's force, though nothing holds the muscle.
-std::vector<formats::Column> driven_columns(const run::Recording& recording, const domain::RigFile& rig, bool force);
+std::vector<formats::Column> driven_columns(const run::Recording& recording, const domain::RigFile& rig,
+                                            bool force);
 
 }  // namespace mckibben::output

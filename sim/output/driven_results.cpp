@@ -28,6 +28,7 @@ void put_ride(Json& entry, const plant::Rig& rig, const run::Recording& recordin
   entry["slack"] = slack_json(recording);
   entry["largest_contraction_ratio"] = recording.largest_contraction_ratio;
   entry["ledger"] = ledger_json(rig, recording);
+  if (recording.driven.length) entry["ledger"]["bench_work_J"] = recording.ledger.bench_work_J;
   entry["solver"] = solver_json(recording.solver);
 }
 
@@ -83,7 +84,7 @@ Json json_of(const domain::PairScenario& scenario, const std::vector<run::PairRu
 
 Json json_of(const domain::Dataset& dataset, const std::vector<run::StampedRun>& runs,
              const std::vector<std::string>& warnings) {
-  Json document = heading_json("mckibben-replay/1", dataset.inputs);
+  Json document = heading_json("mckibben-stamped-replay/1", dataset.inputs);
   document["report"] = "report.html";
   document["tolerance"] = dataset.rig.integrator.tolerance;
   document["rig"] = input::rig_json(dataset.rig);
@@ -117,8 +118,8 @@ std::string gap_number(double value, bool sign) {
 
 std::string table_of(const domain::PairScenario& scenario, const std::vector<run::PairRun>& runs,
                      const std::vector<std::string>& warnings) {
-  Grid grid({"run", "angle_deg lowest", "highest", "final", "tension_1_N lowest", "highest", "tension_2_N lowest",
-             "highest", "air_g"},
+  Grid grid({"run", "angle_deg lowest", "highest", "final", "tension_1_N lowest", "highest",
+             "tension_2_N lowest", "highest", "air_g"},
             1);
   for (const auto& run : runs) {
     if (!run.failure.empty()) {
@@ -127,9 +128,10 @@ std::string table_of(const domain::PairScenario& scenario, const std::vector<run
     }
     const auto newton = [](double value) { return fmt::format("{:.1f}", value); };
     grid.add({run.name, degrees(run.angle_rad.low), degrees(run.angle_rad.high),
-              degrees(run::angle_rad(scenario.rig, run.recording.samples.back())), newton(run.cord_force_N.low),
-              newton(run.cord_force_N.high), newton(run.opposite_cord_force_N.low),
-              newton(run.opposite_cord_force_N.high), fmt::format("{:.3f}", 1e3 * run.recording.ledger.air_drawn_kg)});
+              degrees(run::angle_rad(scenario.rig, run.recording.samples.back())),
+              newton(run.cord_force_N.low), newton(run.cord_force_N.high),
+              newton(run.opposite_cord_force_N.low), newton(run.opposite_cord_force_N.high),
+              fmt::format("{:.3f}", 1e3 * run.recording.ledger.air_drawn_kg)});
   }
   return fmt::format("{}: two muscles, {} run{}, {:g} s each; joint angle positive as muscle 1 contracts\n\n",
                      scenario.name, runs.size(), runs.size() == 1 ? "" : "s", scenario.duration_s) +
@@ -148,8 +150,8 @@ std::string table_of(const domain::Dataset& dataset, const std::vector<run::Stam
       grid.add({run.id, gap.reading, gap.unit, gap_number(gap.rmse), gap_number(gap.largest),
                 gap_number(gap.mean, true), std::to_string(gap.rows)});
   }
-  return fmt::format("{}: {} run{} replayed; simulated less measured, of each reading\n\n", dataset.path.string(),
-                     runs.size(), runs.size() == 1 ? "" : "s") +
+  return fmt::format("{}: {} run{} replayed; simulated less measured, of each reading\n\n",
+                     dataset.path.string(), runs.size(), runs.size() == 1 ? "" : "s") +
          grid.text() + without_result(runs, warnings);
 }
 

@@ -1,5 +1,5 @@
-// Results of rides that followed stamps, as JSON and as text: pairs under given currents, and replays of data with
-// a clock of their own.
+// Results of rides that followed stamps, as JSON and as text: pairs under given currents, and replays of data
+// with a clock of their own.
 #pragma once
 
 #include <string>
@@ -12,8 +12,8 @@
 
 namespace mckibben::output {
 
-/// The run.json of a results folder, and what --json prints. Holds nothing that differs between two runs of the
-/// same input.
+/// The run.json of a results folder, and what --json prints. Holds nothing that differs between two runs of
+/// the same input.
 input::Json json_of(const domain::PairScenario& scenario, const std::vector<run::PairRun>& runs,
                     const std::vector<std::string>& warnings);
 input::Json json_of(const domain::Dataset& dataset, const std::vector<run::StampedRun>& runs,

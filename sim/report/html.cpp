@@ -82,9 +82,7 @@ std::size_t runs_of(const Contents& contents) {
 
 /// As JSON that can stand inside <script>: no "</script>", no "<!--".
 std::string data_of(const Contents& contents) {
-  Json data{{"tick_s", contents.rig.tick_s},
-            {"rig", rig_json(contents)},
-            {"drawn", contents.drawn}};
+  Json data{{"tick_s", contents.rig.tick_s}, {"rig", rig_json(contents)}, {"drawn", contents.drawn}};
   for (const auto& plot : contents.plots) data["plots"].push_back(plot_json(plot));
   for (const auto& group : contents.groups) data["groups"].push_back(group_json(group, runs_of(contents)));
   std::string text;
@@ -157,8 +155,7 @@ std::string rig_and_plots(const Contents& contents) {
          "Move "
          "over a plot to set the time, drag to zoom, double-click to see the whole run. Keys: space plays, "
          "left and right step.</p>\n" +
-         rig_html(contents) +
-         "</div>\n</div>\n<div id='plots' class='live-only'></div>\n";
+         rig_html(contents) + "</div>\n</div>\n<div id='plots' class='live-only'></div>\n";
 }
 
 /// One box: of several the first, the others when asked for.

@@ -40,16 +40,18 @@ std::string effects(const plant::Effects& effects) {
 }
 
 std::string link(const plant::Pair& pair) {
-  return fmt::format("{} whose centre of mass is {} from the axis; inertia {}; the muscles are mounted at {:.3g} and "
-                     "{:.3g} of contraction",
-                     readable(pair.mass_kg, "kg"), mm(pair.length_m), readable(pair.inertia_kg_m2, "kg.m2"),
-                     pair.contraction_ratio, pair.opposite_contraction_ratio);
+  return fmt::format(
+      "{} whose centre of mass is {} from the axis; inertia {}; the muscles are mounted at {:.3g} and "
+      "{:.3g} of contraction",
+      readable(pair.mass_kg, "kg"), mm(pair.length_m), readable(pair.inertia_kg_m2, "kg.m2"),
+      pair.contraction_ratio, pair.opposite_contraction_ratio);
 }
 
 std::string encoder(const plant::Rig& rig, bool pair) {
   const double height_m = plant::count_height_m(rig.encoder, rig.joint);
-  return "on the wheel: a count is " + (pair ? readable(height_m / rig.joint.wheel_radius_m, "rad") + " of angle"
-                                             : readable(height_m, "m") + " of height");
+  return "on the wheel: a count is " +
+         (pair ? readable(height_m / rig.joint.wheel_radius_m, "rad") + " of angle"
+               : readable(height_m, "m") + " of height");
 }
 
 }  // namespace

@@ -34,10 +34,10 @@ class Following {
   Recording operator()() {
     recording_.samples.reserve(rows());
     const Drive first = course_.at(0);
-    recording_.driven = {.pair = rig_.pair() != nullptr,
-                         .length = first.contraction_ratio.has_value(),
-                         .pressure = {first.muscle_pressure_Pa.has_value(),
-                                      first.opposite.muscle_pressure_Pa.has_value()}};
+    recording_.driven = {
+        .pair = rig_.pair() != nullptr,
+        .length = first.contraction_ratio.has_value(),
+        .pressure = {first.muscle_pressure_Pa.has_value(), first.opposite.muscle_pressure_Pa.has_value()}};
     try {
       settle();
       for (std::size_t k = 0; k < rows(); ++k) {
@@ -118,10 +118,10 @@ class Following {
     recording_.solver = ride_.counters();
     if (recording_.samples.empty()) return;
     // Where values are given, only `erk` keeps an exact ledger (docs/architecture.md, An instant).
-    const bool exact = rig_.integrator.method != solver::Method::cvode && recording_.solver.stiff_from_tick < 0;
+    const bool exact =
+        rig_.integrator.method != solver::Method::cvode && recording_.solver.stiff_from_tick < 0;
     if (exact || !is_given(recording_.driven))
-      recording_.imbalance =
-          ride_.plant().imbalance(recording_.samples.front().state, end.state, end.ledger);
+      recording_.imbalance = ride_.plant().imbalance(recording_.samples.front().state, end.state, end.ledger);
     if (recording_.solver.stiff_from_tick >= 0)
       recording_.solver.stiff_from_tick -= std::lround(rig_.settling_time_s / rig_.tick_s);
     const Driven& driven = recording_.driven;

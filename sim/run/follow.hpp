@@ -1,8 +1,9 @@
-// A rig that follows what drives it from stamp to stamp, whatever it is and however unequal the stamps: commands,
-// given muscle pressures, a given length; one muscle or two.
+// A rig that follows what drives it from stamp to stamp, whatever it is and however unequal the stamps:
+// commands, given muscle pressures, a given length; one muscle or two.
 //
 //   settle: the first drive is held for the settling time, in steps of a tick
-//   row k = (t_k, x-); then a command is held until t_(k+1), a given pressure or length runs straight to its next
+//   row k = (t_k, x-); then a command is held until t_(k+1), a given pressure or length runs straight to its
+//   next
 #pragma once
 
 #include <functional>

@@ -41,8 +41,8 @@ double counted_angle_rad(const domain::RigFile& rig, const Sample& row) {
 std::vector<Compared> compared(const Measurement& measured, const domain::RigFile& rig,
                                const Recording& recording) {
   std::vector<Compared> all;
-  const auto add = [&](const char* reading, const char* unit, double factor, const std::vector<double>& values,
-                       auto simulated) {
+  const auto add = [&](const char* reading, const char* unit, double factor,
+                       const std::vector<double>& values, auto simulated) {
     if (values.empty()) return;
     all.push_back({reading, unit, [factor, &values](std::size_t k) { return factor * values[k]; },
                    [factor, &recording, simulated](std::size_t k) {
@@ -63,15 +63,16 @@ std::vector<Compared> compared(const Measurement& measured, const domain::RigFil
   add("force", "N", 1.0, measured.force_N, [](const Sample& row) { return row.cord_force_N; });
   const auto& [one, two] = measured.sides;
   if (!one.pressure_is_given)
-    add(pair ? "muscle_pressure_1" : "muscle_pressure", "bar", 1.0 / plant::Pa_per_bar, one.muscle_pressure_Pa,
-        [](const Sample& row) { return row.state.side.muscle_pressure_Pa; });
+    add(pair ? "muscle_pressure_1" : "muscle_pressure", "bar", 1.0 / plant::Pa_per_bar,
+        one.muscle_pressure_Pa, [](const Sample& row) { return row.state.side.muscle_pressure_Pa; });
   if (!two.pressure_is_given)
     add("muscle_pressure_2", "bar", 1.0 / plant::Pa_per_bar, two.muscle_pressure_Pa,
         [](const Sample& row) { return row.state.opposite.muscle_pressure_Pa; });
   return all;
 }
 
-std::vector<Gap> gaps_of(const Measurement& measured, const domain::RigFile& rig, const Recording& recording) {
+std::vector<Gap> gaps_of(const Measurement& measured, const domain::RigFile& rig,
+                         const Recording& recording) {
   std::vector<Gap> gaps;
   for (const Compared& one : compared(measured, rig, recording)) {
     Gap gap{.reading = one.reading, .unit = one.unit};

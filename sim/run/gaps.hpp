@@ -45,9 +45,10 @@ struct StampedRun {
   std::string failure{};  ///< why the integrator gave up; empty if it did not
 };
 
-/// Simulates every run of a data set with a clock of its own. Of runs that were not begun when the user stopped,
-/// `failure` says so (`not_begun`).
-std::vector<StampedRun> replay_stamped(const domain::Dataset& dataset, unsigned threads, const ProgressHook& progress);
+/// Simulates every run of a data set with a clock of its own. Of runs that were not begun when the user
+/// stopped, `failure` says so (`not_begun`).
+std::vector<StampedRun> replay_stamped(const domain::Dataset& dataset, unsigned threads,
+                                       const ProgressHook& progress);
 
 /// Joint angle [rad] of a pair in a row, true and as the encoder counts it.
 double angle_rad(const domain::RigFile& rig, const Sample& row);

@@ -26,8 +26,8 @@ double current_mA(const domain::CampaignWaveform& waveform, std::size_t tick, co
 
 template <class Value>
 Span span_of(const std::vector<Sample>& rows, const Value& value) {
-  const auto [low, high] = std::minmax_element(rows.begin(), rows.end(),
-                                               [&](const auto& a, const auto& b) { return value(a) < value(b); });
+  const auto [low, high] = std::minmax_element(
+      rows.begin(), rows.end(), [&](const auto& a, const auto& b) { return value(a) < value(b); });
   return {value(*low), value(*high)};
 }
 
@@ -53,9 +53,11 @@ void run_pair(PairRun& run, const domain::TwoCurrents& currents, const domain::P
 
 }  // namespace
 
-std::vector<PairRun> run_pairs(const domain::PairScenario& scenario, unsigned threads, const ProgressHook& progress) {
+std::vector<PairRun> run_pairs(const domain::PairScenario& scenario, unsigned threads,
+                               const ProgressHook& progress) {
   std::vector<PairRun> runs;
-  for (const auto& currents : scenario.currents) runs.push_back({.name = currents.name, .failure = not_begun});
+  for (const auto& currents : scenario.currents)
+    runs.push_back({.name = currents.name, .failure = not_begun});
   progress("simulating", 0, runs.size());
   try {
     for_each_job(

@@ -23,7 +23,8 @@ struct PairRun {
 };
 
 /// Simulates every run. Of runs that were not begun when the user stopped, `failure` says so (`not_begun`).
-std::vector<PairRun> run_pairs(const domain::PairScenario& scenario, unsigned threads, const ProgressHook& progress);
+std::vector<PairRun> run_pairs(const domain::PairScenario& scenario, unsigned threads,
+                               const ProgressHook& progress);
 
 /// What should not be believed of the runs, and which contract too far (T 2.3), in words.
 std::vector<std::string> warnings_of(const std::vector<PairRun>& runs);
