@@ -215,7 +215,9 @@ std::string sentence(const std::vector<run::StampedRun>& runs) {
 }
 
 Contents contents_of(const domain::RigFile& rig, const run::Driven& driven) {
-  Contents contents{.rig = rig, .mechanics = rig.mechanics};
+  Contents contents;
+  contents.rig = rig;
+  contents.mechanics = rig.mechanics;
   if (driven.length) contents.mechanics = plant::HeldLength{};
   contents.lengths = !driven.pair;
   contents.beside = std::string(beside_runs);
