@@ -113,9 +113,13 @@ int run_scenario(const RunOptions& options) {
   for (const auto& problem : problems) fmt::print(stderr, "{}\n", to_text(problem));
   if (options.seed) scenario.seed = *options.seed;
   Job job(options, "run " + options.scenario, scenario.name, scenario.inputs);
-  const run::Comparison comparison = with_progress(
+  run::Comparison comparison = with_progress(
       scenario.name, [&](const auto& hook) { return run::compare(scenario, options.threads, hook); });
   warn(comparison.warnings);
+  std::vector<std::string> of_reader;  // said already
+  of_reader.reserve(problems.size());
+  for (const auto& problem : problems) of_reader.push_back(where(problem) + ": " + problem.message);
+  comparison.warnings.insert(comparison.warnings.begin(), of_reader.begin(), of_reader.end());
   if (comparison.interrupted) job.interrupted(begun(comparison.runs), comparison.runs.size(), "runs");
 
   const std::string document = output::json_of(scenario, comparison).dump(2) + "\n";

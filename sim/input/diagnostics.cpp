@@ -29,12 +29,15 @@ std::string padding(const std::string& line, std::size_t column) {
 
 }  // namespace
 
+std::string where(const Problem& problem) {
+  if (problem.place.line == 0) return problem.file;
+  return fmt::format("{}:{}:{}", problem.file, problem.place.line, problem.place.column);
+}
+
 std::string to_text(const Problem& problem) {
   const char* kind = problem.severity == Severity::warning ? "warning" : "error";
-  if (problem.place.line == 0) return fmt::format("{}: {}: {}", problem.file, kind, problem.message);
-  std::string text = fmt::format("{}:{}:{}: {}: {}", problem.file, problem.place.line, problem.place.column,
-                                 kind, problem.message);
-  if (problem.source_line.empty()) return text;
+  const std::string text = fmt::format("{}: {}: {}", where(problem), kind, problem.message);
+  if (problem.place.line == 0 || problem.source_line.empty()) return text;
   return text + '\n' + problem.source_line + '\n' + padding(problem.source_line, problem.place.column) + '^';
 }
 

@@ -28,8 +28,11 @@ struct Problem {
   std::string source_line;  ///< empty if too long to show
 };
 
-/// `FILE:LINE:COL: error: MESSAGE`, the source line if there is one, and a caret under the column; without
-/// line and column where there are none. No newline at the end.
+/// `FILE:LINE:COL`, or `FILE` where there is no place.
+std::string where(const Problem& problem);
+
+/// `FILE:LINE:COL: error: MESSAGE`, the source line if there is one, and a caret under the column. No
+/// newline at the end.
 std::string to_text(const Problem& problem);
 
 /// All problems joined, one after the other.

@@ -146,9 +146,10 @@ class ScenarioChecker {
     else if (highest > plant::risky_contraction_ratio)
       problems_.warning(
           source_, place,
-          fmt::format("the target rises to a contraction ratio of {:.4g}; above {:.2f} there is "
-                      "a risk to the muscle (T 2.3)",
-                      highest, plant::risky_contraction_ratio));
+          fmt::format(
+              "the target rises to a contraction ratio of {:.4g}; above a contraction ratio of {:.2f} "
+              "there is a risk to the muscle (T 2.3)",
+              highest, plant::risky_contraction_ratio));
     if (lowest < 0.0)
       problems_.warning(source_, place,
                         fmt::format("the target falls to a contraction ratio of {:.4g}; "

@@ -79,7 +79,7 @@ std::string gap_row(const char* name, double rmse, const diagnose::Gap& gap, con
 }
 
 /// Where much of the gap sits in little of the data, in a sentence; empty if it is spread evenly.
-std::string concentration(const Diagnosis& diagnosis) {
+std::string concentration(const Diagnosis& diagnosis, const plant::Rig& rig) {
   const diagnose::Cell* densest = nullptr;
   double most = 1.5, in = 0.0;  // share of the gap over share of the rows
   for (const auto& cell : diagnosis.where) {
@@ -93,8 +93,9 @@ std::string concentration(const Diagnosis& diagnosis) {
   if (diagnosis.gap.recalibrated_rmse < 1.1 * diagnosis.gap.noise_floor)
     return paragraph("Nothing is left here: the recalibrated model is as near as the noise floor.");
   if (densest == nullptr) return "";
-  return paragraph(fmt::format("It is concentrated at {} {}: {:.0f} % of the gap in {:.0f} % of the time.",
-                               densest->factor, densest->cell, 100.0 * densest->share_of_gap, 100.0 * in));
+  return fmt::format("<p>It is concentrated at {} {}: {:.0f} % of the gap in {:.0f} % of the time.</p>\n",
+                     escaped(densest->factor), cell_html(*densest, rig), 100.0 * densest->share_of_gap,
+                     100.0 * in);
 }
 
 std::string where_html(const Diagnosis& diagnosis, const plant::Rig& rig) {
@@ -105,7 +106,7 @@ std::string where_html(const Diagnosis& diagnosis, const plant::Rig& rig) {
              "and marked with *: the mean of this part differs from the mean over all parts of its picture "
              "(where there is only one, from 0) by more than chance; of all marks 5 % may be false. Dashed: "
              "the data never went there, so nothing is known of it.") +
-         concentration(diagnosis) + figures_html(where_pictures(diagnosis, rig));
+         concentration(diagnosis, rig) + figures_html(where_pictures(diagnosis, rig));
 }
 
 std::string ranking_html(const Diagnosis& diagnosis, const plant::Rig& rig) {
@@ -121,7 +122,7 @@ std::string ranking_html(const Diagnosis& diagnosis, const plant::Rig& rig) {
          figures_html(ranking_pictures(diagnosis, rig));
 }
 
-std::string law_html(const Diagnosis& diagnosis) {
+std::string law_html(const Diagnosis& diagnosis, const plant::Rig& rig) {
   if (diagnosis.residual_law.empty()) return "";
   std::string html =
       "<h3>residual_law</h3>\n" +
@@ -129,7 +130,8 @@ std::string law_html(const Diagnosis& diagnosis) {
           "A force outside the catalogue, positive upwards: the sum of the terms above, each a coefficient "
           "times what it stands for (x rise of the load, v its speed in 0.1 m/s, P in bar, m g in 98.0665 "
           "N).");
-  if (!diagnosis.law_valid_for.empty()) html += paragraph("Valid for " + diagnosis.law_valid_for + ".");
+  if (!diagnosis.law_valid_for.empty())
+    html += "<p>" + text_html("Valid for " + diagnosis.law_valid_for + ".", rig) + "</p>\n";
   return html;
 }
 
@@ -162,7 +164,7 @@ std::string absorbed_html(const Diagnosis& diagnosis) {
          figures_html({{"How far each was moved, in deviations as above.", absorbed_svg(diagnosis)}});
 }
 
-std::string added_html(const Diagnosis& diagnosis) {
+std::string added_html(const Diagnosis& diagnosis, const plant::Rig& rig) {
   std::string html;
   for (const auto& effect : diagnosis.effects) {
     const auto words = output::words_of(effect.name);
@@ -172,7 +174,7 @@ std::string added_html(const Diagnosis& diagnosis) {
                         escaped(full_name(effect.name, effect.variant)), escaped(says), escaped(words.law),
                         escaped(words.source));
   }
-  return html + law_html(diagnosis) + recalibrated_html(diagnosis) + absorbed_html(diagnosis);
+  return html + law_html(diagnosis, rig) + recalibrated_html(diagnosis) + absorbed_html(diagnosis);
 }
 
 /// Errors that are left, by load.
@@ -276,7 +278,7 @@ std::vector<Chapter> story(const domain::Dataset& data, const Diagnosis& diagnos
       {"Where they disagree", where_html(diagnosis, rig)},
       {diagnosis.effects.empty() ? "What was tried" : "What explains it", ranking_html(diagnosis, rig)},
       {diagnosis.effects.empty() && diagnosis.residual_law.empty() ? "What was changed" : "What was added",
-       added_html(diagnosis)},
+       added_html(diagnosis, rig)},
       {output::changed(diagnosis) ? "How far the gap shrank" : "The gap, run by run",
        gap_html(diagnosis, runs, rig)}};
 }

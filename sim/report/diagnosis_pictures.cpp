@@ -94,6 +94,10 @@ std::string mark(double x, double y, const Model& model) {
 
 }  // namespace
 
+std::string cell_html(const diagnose::Cell& cell, const plant::Rig& rig, std::string_view tag) {
+  return cell.factor == "contraction" ? ratios_html(cell.cell, rig, tag) : text_html(cell.cell, rig, tag);
+}
+
 std::vector<Picture> where_pictures(const Diagnosis& diagnosis, const plant::Rig& rig) {
   constexpr double x0 = 140.0, wide = 132.0, x1 = 288.0, span = 124.0, pitch = 25.0;
   double most = std::max(diagnosis.gap.noise_floor, 1e-12);  // less than that is pale
@@ -101,12 +105,12 @@ std::vector<Picture> where_pictures(const Diagnosis& diagnosis, const plant::Rig
     if (cell.rows > 0) most = std::max(most, std::abs(cell.mean));
   std::vector<Picture> pictures;
   for (const auto& [factor, cells] : grouped(diagnosis.where, [](const auto& cell) { return cell.factor; })) {
-    std::string svg = label(0, 14, "start", factor == "contraction" ? ratio_unit : factor, "strong") +
+    std::string svg = label(0, 14, "start", factor, "strong") +
                       label(x0 + 0.5 * wide, 14, "middle", "mean", "soft") +
                       label(x1, 14, "start", "share of the gap", "soft");
     double y = 22.0;
     for (const auto* cell : cells) {
-      svg += label(x0 - 8, y + 15, "end", cell->cell);
+      svg += marked_label(x0 - 8, y + 15, "end", cell_html(*cell, rig, "tspan"));
       if (cell->rows == 0) {
         svg += bar(x0, y, wide, 21.0, "empty") + label(x0 + 0.5 * wide, y + 15, "middle", "never visited");
       } else {

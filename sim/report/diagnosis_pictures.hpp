@@ -4,6 +4,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <plant/rig.hpp>
@@ -11,6 +12,9 @@
 #include <sim/report/contents.hpp>
 
 namespace mckibben::report {
+
+/// What is in a cell of the map, its lengths in the unit that the reader wants.
+std::string cell_html(const diagnose::Cell& cell, const plant::Rig& rig, std::string_view tag = "span");
 
 /// The map of disagreement: a picture for each factor.
 std::vector<Picture> where_pictures(const diagnose::Diagnosis& diagnosis, const plant::Rig& rig);

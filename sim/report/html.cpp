@@ -159,14 +159,16 @@ std::string rig_and_plots(const Contents& contents) {
 }
 
 /// One box: of several the first, the others when asked for.
-std::string warnings_html(const std::vector<std::string>& warnings) {
+std::string warnings_html(const Contents& contents) {
+  const auto& warnings = contents.warnings;
   if (warnings.empty()) return "";
-  const std::string first = "<b>Warning:</b> " + escaped(warnings.front());
+  const auto shown = [&](const std::string& text) { return text_html(text, contents.rig); };
+  const std::string first = "<b>Warning:</b> " + shown(warnings.front());
   if (warnings.size() == 1) return "<p class='warning'>" + first + "</p>\n";
   std::string html =
       fmt::format("<div class='warning'><p>{}</p>\n<details><summary>{} more warning{}</summary><ul>\n",
                   first, warnings.size() - 1, warnings.size() == 2 ? "" : "s");
-  for (std::size_t i = 1; i < warnings.size(); ++i) html += "<li>" + escaped(warnings[i]) + "</li>\n";
+  for (std::size_t i = 1; i < warnings.size(); ++i) html += "<li>" + shown(warnings[i]) + "</li>\n";
   return html + "</ul></details></div>\n";
 }
 
@@ -194,7 +196,7 @@ std::string html_of(const Contents& contents) {
   html += fmt::format("<p class='small'>{}</p>\n<h1>{}</h1>\n<p class='lead'>{}</p>\n",
                       escaped(contents.about), escaped(contents.title), contents.sentence);
   html += "<div class='wide result'>\n" + contents.table + "</div>\n";
-  html += warnings_html(contents.warnings);
+  html += warnings_html(contents);
   html += "<details><summary>All numbers, as printed</summary><pre>" + escaped(contents.details) +
           "</pre></details>\n";
   html += chapters_html(contents.chapters);
@@ -202,7 +204,8 @@ std::string html_of(const Contents& contents) {
     html += "<h2 id='runs'>The rig and its runs</h2>\n" + std::string(controls) + rig_and_plots(contents) +
             ("<h2>Loops<span class='still'> and plots over time</span></h2>\n" + stills(contents));
   html += chapters_html(contents.later_chapters);
-  html += fmt::format("<p class='small'>mckibben {}. {}</p>\n", MCKIBBEN_VERSION, escaped(contents.beside));
+  html += fmt::format("<p class='small'>mckibben {}. {}</p>\n", MCKIBBEN_VERSION,
+                      text_html(contents.beside, contents.rig));
   if (runs) {
     html += fmt::format(
         "<details class='small'><summary>Licence of uPlot, which draws the plots over "

@@ -1,13 +1,61 @@
 // Both units, side by side.
 #include <algorithm>
 #include <cmath>
+#include <regex>
+#include <string>
 
 #include <fmt/format.h>
 
 #include <sim/output/diagnosis_words.hpp>
+#include <sim/output/svg.hpp>
 #include <sim/report/length.hpp>
 
 namespace mckibben::report {
+
+namespace {
+
+using output::escaped;
+
+constexpr const char* number_like = "[-+]?[0-9][0-9.]*(?:e[-+]?[0-9]+)?";
+
+/// Its groups: 1 in mm, 2 whether in mm/s; ratios 3 after these words, 5 after those in 4, 7 before these
+/// words; 6 in 1/s.
+const std::regex& any_length() {
+  static const std::regex pattern(
+      fmt::format("((?:{0} to )?{0}) mm\\b(/s)?|"
+                  "contraction ratio(s? of {0}(?: to {0})?)|"
+                  "(reachable one[^.;]*? is )({0})|"
+                  "({0}) /s|"
+                  "({0}) in contraction ratio",
+                  number_like));
+  return pattern;
+}
+
+/// Every number of the text times `factor`.
+std::string scaled(const std::string& text, double factor) {
+  static const std::regex any_number(number_like);
+  std::string result;
+  auto from = text.begin();
+  for (std::sregex_iterator at(text.begin(), text.end(), any_number), end; at != end; ++at) {
+    result.append(from, (*at)[0].first);
+    result += fmt::format("{:.3g}", factor * std::stod(at->str()));
+    from = (*at)[0].second;
+  }
+  return result.append(from, text.end());
+}
+
+std::string length_found(const std::smatch& found, double mm, std::string_view tag) {
+  const std::string all = found.str();
+  if (found[1].matched)
+    return either(all, scaled(found.str(1), 1.0 / mm) + (found[2].matched ? " /s" : ""), tag);
+  if (found[3].matched) return either("height" + scaled(found.str(3), mm) + " mm", all, tag);
+  if (found[5].matched)
+    return escaped(found.str(4)) + either(scaled(found.str(5), mm) + " mm", found.str(5), tag);
+  if (found[6].matched) return either(scaled(found.str(6), mm) + " mm/s", all, tag);
+  return either(scaled(found.str(7), mm) + " mm of height", all, tag);
+}
+
+}  // namespace
 
 std::string either(std::string_view mm, std::string_view ratio, std::string_view tag) {
   return fmt::format("<{0} class='mm'>{1}</{0}><{0} class='ratio'>{2}</{0}>", tag, mm, ratio);
@@ -32,6 +80,20 @@ std::string height_html(double ratio, const plant::Rig& rig, std::string_view ta
   const double size = std::abs(ratio);
   const int decimals = size > 0.0 ? std::clamp(2 - static_cast<int>(std::floor(std::log10(size))), 0, 6) : 6;
   return either(plus + mm, plus + output::rounded(ratio, decimals), tag);
+}
+
+std::string text_html(const std::string& text, const plant::Rig& rig, std::string_view tag) {
+  std::string html;
+  auto from = text.begin();
+  for (std::sregex_iterator at(text.begin(), text.end(), any_length()), end; at != end; ++at) {
+    html += escaped({from, (*at)[0].first}) + length_found(*at, length_mm(rig), tag);
+    from = (*at)[0].second;
+  }
+  return html + escaped({from, text.end()});
+}
+
+std::string ratios_html(const std::string& text, const plant::Rig& rig, std::string_view tag) {
+  return either(escaped(scaled(text, length_mm(rig)) + " mm"), escaped(text), tag);
 }
 
 std::string length_unit_html() {

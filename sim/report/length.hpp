@@ -31,6 +31,14 @@ std::string full_length_html(double ratio, const plant::Rig& rig, int mm_decimal
 std::string height_html(double ratio, const plant::Rig& rig, std::string_view tag = "span",
                         bool sign = false);
 
+/// Plain text as HTML in which heights and speeds of the load are in the unit that the reader wants. What
+/// counts as one: "1.2 mm", "5 to 25 mm/s"; "a contraction ratio of 0.1", "reachable one is 0.1", "0.02 in
+/// contraction ratio", "0.3 /s". The other unit has three digits. `tag` as above.
+std::string text_html(const std::string& text, const plant::Rig& rig, std::string_view tag = "span");
+
+/// The same of text in which every number is a contraction ratio: "0.05 to 0.1".
+std::string ratios_html(const std::string& text, const plant::Rig& rig, std::string_view tag = "span");
+
 /// The unit alone: "mm" or "ratio".
 std::string length_unit_html();
 

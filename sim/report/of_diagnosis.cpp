@@ -148,19 +148,18 @@ std::string report_html(const domain::Dataset& data, const Diagnosis& diagnosis,
       .about = fmt::format("{} run{}, {} held out", data.runs.size(), data.runs.size() == 1 ? "" : "s",
                            output::held_out(diagnosis).size()),
       .warnings = diagnosis.warnings,
-      .sentence =
-          output::escaped(diagnosis.because.empty() ? output::title_of(diagnosis) + "." : diagnosis.because),
+      .sentence = text_html(diagnosis.because.empty() ? output::title_of(diagnosis) + "." : diagnosis.because,
+                            data.rig),
       .table = result_table(data, diagnosis),
       .details = output::table_of(data, diagnosis),
       .beside = fmt::format(
-          "Heights are heights of the load: 0.001 of contraction ratio is {:g} mm. The noise floor is what "
-          "counting and jitter of the encoder (here {}) let nobody see, or what equal runs differ by. The "
-          "thresholds were set to name an effect where none is missing in {:.0f} % of data sets: a rate "
-          "aimed at, not "
-          "one measured on these data. Seed {}. Every number is in diagnosis.json, the corrected rig in "
-          "rig.yaml.",
-          data.rig.muscle.rest_length_m, output::height(diagnosis.gap.jitter, data.rig),
-          100.0 * diagnosis.false_alarm_rate, diagnosis.seed),
+          "Heights are heights of the load. The noise floor is what counting and jitter of the encoder (here "
+          "{}) "
+          "let nobody see, or what equal runs differ by. The thresholds were set to name an effect where "
+          "none is "
+          "missing in {:.0f} % of data sets: a rate aimed at, not one measured on these data. Seed {}. Every "
+          "number is in diagnosis.json, the corrected rig in rig.yaml.",
+          output::height(diagnosis.gap.jitter, data.rig), 100.0 * diagnosis.false_alarm_rate, diagnosis.seed),
       .chapters = story(data, diagnosis, ordered(diagnosis.runs, output::changed(diagnosis))),
       .later_chapters = doubts_and_plan(data, diagnosis),
       .rig = diagnosis.corrected,

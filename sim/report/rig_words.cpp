@@ -8,6 +8,7 @@
 #include <sim/domain/number.hpp>
 #include <sim/output/diagnosis_words.hpp>
 #include <sim/output/svg.hpp>
+#include <sim/report/length.hpp>
 #include <sim/report/rig_words.hpp>
 
 namespace mckibben::report {
@@ -70,7 +71,7 @@ std::string rig_html(const Contents& contents) {
                     (rig.joint.load_offset_kg == 0.0
                          ? ""
                          : "; " + readable(rig.joint.load_offset_kg, "kg") + " hang on it besides the load"));
-  part("encoder", encoder(rig, pair != nullptr));
+  html += fmt::format("<dt>encoder</dt><dd>{}</dd>\n", text_html(encoder(rig, pair != nullptr), rig));
   part("valve", valve(rig.valve));
   part("hose", "sonic conductance " + readable(rig.hose.conductance_m3_per_s_Pa, "m3/(s.Pa)"));
   part("gauge", !contents.gauge ? "none"

@@ -92,6 +92,33 @@ test('one switch sets the unit of everything, and the zoom stays', async () => {
   await done();
 });
 
+/** All words that can be seen, but those as printed and the rig's own measures. */
+const words = (page) => page.evaluate(() => {
+  for (const folded of document.querySelectorAll('details')) folded.open = true;
+  const seen = (element) => {
+    const box = element.getBoundingClientRect();
+    return box.width && box.height && !element.closest('pre, dl, #rig, .unit-choice');
+  };
+  const leaves = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT);
+  const texts = [];
+  while (leaves.nextNode())
+    if (seen(leaves.currentNode.parentElement)) texts.push(leaves.currentNode.textContent);
+  return texts.join('');
+});
+
+for (const page_of of ['short', 'diagnosis'])
+  test(`sentences, warnings and pictures of ${page_of} follow the switch`, async () => {
+    const {page, close: done} = await open(page_of);
+    const inMm = await words(page);
+    assert.match(inMm, /\d mm/);
+    assert.deepEqual(inMm.match(/.*(contraction ratios? of|\d \/s|in contraction ratio).*/g), null);
+    await page.locator('#in-ratio').check();
+    const inRatios = await words(page);
+    assert.deepEqual(inRatios.match(/^(?!muscle\.|joint\.).*(\d mm|in mm).*/gm), null);
+    assert.match(inRatios, page_of === 'short' ? /0\.\d+ \(contraction ratio\)/ : /falls from 0\.\d+ to 0\.\d+;/);
+    await done();
+  });
+
 test('a run that is unticked leaves all plots and loops', async () => {
   const {page, close: done} = await open('short');
   const box = page.locator('#readout tr[data-run=\'pid\'] input[type=checkbox]');

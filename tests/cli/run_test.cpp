@@ -66,6 +66,21 @@ TEST_P(ShippedScenario, RunsFromEndToEnd) {
 INSTANTIATE_TEST_SUITE_P(All, ShippedScenario, testing::ValuesIn(shipped_scenarios()),
                          [](const auto& p) { return p.param; });
 
+TEST(RunWarnings, OfTheReaderAreInTheResultsToo) {
+  const Scratch scratch;
+  write_text(scratch / "w.yaml",
+             "schema: mckibben-scenario/1\nloads: [10 kg]\nduration: 0.1 s\nnoise: {gauge: 1 mbar}\n"
+             "target: {kind: minimum_jerk, start: 0.05, moves: []}\n"
+             "controllers: [{kind: triangle_current, low: 5 mA, high: 6 mA, period: 1 s}]\n");
+  const Said said = mckibben("run w.yaml --json", scratch);
+  ASSERT_EQ(said.status, 0) << said.err;
+  EXPECT_NE(said.err.find("w.yaml:4:8: warning: noise.gauge has no effect"), std::string::npos) << said.err;
+  EXPECT_EQ(Json::parse(said.out).at("warnings").at(0),
+            "w.yaml:4:8: noise.gauge has no effect: the rig has no gauge (gauge: {fitted: true})");
+  EXPECT_NE(read_text(scratch / "out/w/report.html").find("w.yaml:4:8: noise.gauge has no"),
+            std::string::npos);
+}
+
 TEST(FiveLoads, AnswersTheThesissQuestion) {
   const Json document = run_shipped("five_loads");
   const auto mean_rmse = [&](const std::string& controller) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <regex>
 #include <string>
 #include <vector>
 
@@ -158,6 +159,48 @@ TEST(Length, IsThereInBothUnitsWithTheSameDigits) {
   EXPECT_EQ(full_length_html(-0.01, {}, 1),
             "<span class='mm'>-3.0 mm</span><span class='ratio'>-0.010 (contraction ratio)</span>");
   EXPECT_NE(length_html(0.01, {}, 3, true).find("+3.000"), std::string::npos);
+}
+
+/// What a reader sees who chose this unit, "mm" or "ratio".
+std::string seen(std::string html, const std::string& unit) {
+  const std::string other = unit == "mm" ? "ratio" : "mm";
+  html = std::regex_replace(html, std::regex("<span class='" + other + "'>.*?</span>"), "");
+  return std::regex_replace(html, std::regex("<span class='" + unit + "'>(.*?)</span>"), "$1");
+}
+
+TEST(Length, InTextIsInTheUnitThatTheReaderWants) {
+  struct Case {
+    const char *text, *mm, *ratio;
+  };
+  for (const auto& [text, mm, ratio] : {
+           Case{"it falls from 3.4 mm to 0.038 mm.", "it falls from 3.4 mm to 0.038 mm.",
+                "it falls from 0.0113 to 0.000127."},
+           {"5 to 25 mm/s", "5 to 25 mm/s", "0.0167 to 0.0833 /s"},
+           {"at a contraction ratio of 0.101 it asks 0.0303 /s", "at a height of 30.3 mm it asks 9.09 mm/s",
+            "at a contraction ratio of 0.101 it asks 0.0303 /s"},
+           {"contraction ratios of -0.001 to 0.21", "heights of -0.3 to 63 mm",
+            "contraction ratios of -0.001 to 0.21"},
+           {"the smallest reachable one from above, held, is 0.1; 7 others",
+            "the smallest reachable one from above, held, is 30 mm; 7 others",
+            "the smallest reachable one from above, held, is 0.1; 7 others"},
+           {"differ by 0.0003 in contraction ratio", "differ by 0.09 mm of height",
+            "differ by 0.0003 in contraction ratio"},
+           {"<r01> is 3 ticks late: 2 mA, 1e-6 m3/s", "&lt;r01&gt; is 3 ticks late: 2 mA, 1e-6 m3/s",
+            "&lt;r01&gt; is 3 ticks late: 2 mA, 1e-6 m3/s"},
+       }) {
+    EXPECT_EQ(seen(text_html(text, {}), "mm"), mm);
+    EXPECT_EQ(seen(text_html(text, {}), "ratio"), ratio);
+  }
+  EXPECT_EQ(seen(ratios_html("below 0.05", {}), "mm"), "below 15 mm");
+  EXPECT_EQ(seen(ratios_html("below 0.05", {}), "ratio"), "below 0.05");
+}
+
+TEST(Page, WarningsAndSentencesFollowTheUnit) {
+  Contents contents;
+  contents.warnings = {"it asks a contraction ratio of 0.07"};
+  const std::string html = html_of(contents);
+  EXPECT_NE(seen(html, "mm").find("it asks a height of 21 mm</p>"), std::string::npos);
+  EXPECT_NE(seen(html, "ratio").find("it asks a contraction ratio of 0.07</p>"), std::string::npos);
 }
 
 TEST(Still, AnAxisOfLengthsHasRoundNumbersInBothUnits) {
