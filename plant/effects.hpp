@@ -105,7 +105,8 @@ concept IsEffect = !E::hooks.empty() && [] {
   };
 }();
 
-template <IsEffect... Effect>
+/// Effects with parameters of type P.
+template <class P, class... Effect>
 class EffectSet {
  public:
   using Table = std::tuple<Effect...>;
@@ -128,15 +129,15 @@ class EffectSet {
   }
 
   bool absent() const {
-    return std::apply([](const auto&... effect) { return (effect.absent() && ...); }, all);
+    return std::apply([](const auto&... effect) { return !(any(!effect.absent()) || ...); }, all);
   }
 
   /// How many effects of the table have a memory, and whether one of them is switched on.
   static constexpr std::size_t memories = (std::size_t{Remembers<Effect>} + ...);
   bool remember() const {
-    bool any = false;
-    each([&]<class E>(const E&, auto) { any = any || Remembers<E>; });
-    return any;
+    bool one = false;
+    each([&]<class E>(const E&, auto, auto) { one = one || Remembers<E>; });
+    return one;
   }
   /// Working sizes of the memories, in their own units.
   static constexpr std::array<double, memories> memory_sizes = [] {
@@ -152,65 +153,69 @@ class EffectSet {
   template <class S>
   S pull_N(const Instant<S>& now, const std::array<S, memories>& memory) const {
     S sum = S(0.0);
-    each([&]<class E>(const E& effect, auto slot) {
-      if constexpr (declares<E>(Hook::pull)) sum = sum + effect.pull_N(now, recall(memory, slot));
+    each([&]<class E>(const E& effect, auto on, auto slot) {
+      if constexpr (declares<E>(Hook::pull))
+        sum = select(on, S(sum + effect.pull_N(now, recall(memory, slot))), sum);
     });
     return sum;
   }
   template <class S>
   S friction_factor(const Instant<S>& now, const std::array<S, memories>& memory) const {
     S product = S(1.0);
-    each([&]<class E>(const E& effect, auto slot) {
+    each([&]<class E>(const E& effect, auto on, auto slot) {
       if constexpr (declares<E>(Hook::friction_factor))
-        product = product * effect.friction_factor(now, recall(memory, slot));
+        product = select(on, S(product * effect.friction_factor(now, recall(memory, slot))), product);
     });
     return product;
   }
   template <class S>
   S end_correction_shift(const Instant<S>& now) const {
     S sum = S(0.0);
-    each([&]<class E>(const E& effect, auto) {
-      if constexpr (declares<E>(Hook::end_correction_shift)) sum = sum + effect.end_correction_shift(now);
+    each([&]<class E>(const E& effect, auto on, auto) {
+      if constexpr (declares<E>(Hook::end_correction_shift))
+        sum = select(on, S(sum + effect.end_correction_shift(now)), sum);
     });
     return sum;
   }
   template <class S>
   S outflow_kg_per_s(const Instant<S>& now) const {
     S sum = S(0.0);
-    each([&]<class E>(const E& effect, auto) {
-      if constexpr (declares<E>(Hook::outflow)) sum = sum + effect.outflow_kg_per_s(now);
+    each([&]<class E>(const E& effect, auto on, auto) {
+      if constexpr (declares<E>(Hook::outflow)) sum = select(on, S(sum + effect.outflow_kg_per_s(now)), sum);
     });
     return sum;
   }
-  double gas_exponent() const {
-    double product = 1.0;
-    each([&]<class E>(const E& effect, auto) {
-      if constexpr (declares<E>(Hook::gas_exponent)) product *= effect.gas_exponent();
+  P gas_exponent() const {
+    P product = 1.0;
+    each([&]<class E>(const E& effect, auto, auto) {  // of one that is absent it is 1
+      if constexpr (declares<E>(Hook::gas_exponent)) product = product * effect.gas_exponent();
     });
     return product;
   }
   template <class S>
   S valve_error_shift_Pa(const S& error_Pa) const {
     S sum = S(0.0);
-    each([&]<class E>(const E& effect, auto) {
-      if constexpr (declares<E>(Hook::valve_error_shift)) sum = sum + effect.valve_error_shift_Pa(error_Pa);
+    each([&]<class E>(const E& effect, auto on, auto) {
+      if constexpr (declares<E>(Hook::valve_error_shift))
+        sum = select(on, S(sum + effect.valve_error_shift_Pa(error_Pa)), sum);
     });
     return sum;
   }
   template <class S>
   S valve_opening(const S& wanted, const std::array<S, memories>& memory) const {
     S opening = wanted;
-    each([&]<class E>(const E& effect, auto slot) {
+    each([&]<class E>(const E& effect, auto on, auto slot) {
       if constexpr (declares<E>(Hook::valve_opening))
-        opening = effect.valve_opening(opening, recall(memory, slot));
+        opening = select(on, S(effect.valve_opening(opening, recall(memory, slot))), opening);
     });
     return opening;
   }
   template <class S>
   S supply_drop_Pa(const std::array<S, memories>& memory) const {
     S sum = S(0.0);
-    each([&]<class E>(const E& effect, auto slot) {
-      if constexpr (declares<E>(Hook::supply_drop)) sum = sum + effect.supply_drop_Pa(recall(memory, slot));
+    each([&]<class E>(const E& effect, auto on, auto slot) {
+      if constexpr (declares<E>(Hook::supply_drop))
+        sum = select(on, S(sum + effect.supply_drop_Pa(recall(memory, slot))), sum);
     });
     return sum;
   }
@@ -219,8 +224,9 @@ class EffectSet {
                                        const std::array<S, memories>& memory) const {
     std::array<S, memories> rates;
     rates.fill(S(0.0));
-    each([&]<class E>(const E& effect, auto slot) {
-      if constexpr (Remembers<E>) rates[slot] = effect.memory_rate(now, inflow, memory[slot]);
+    each([&]<class E>(const E& effect, auto on, auto slot) {
+      if constexpr (Remembers<E>)
+        rates[slot] = select(on, S(effect.memory_rate(now, inflow, memory[slot])), rates[slot]);
     });
     return rates;
   }
@@ -249,7 +255,7 @@ class EffectSet {
         return value;
     });
     double factor = 1.0;
-    each([&]<class E>(const E& effect, auto) {
+    each([&]<class E>(const E& effect, auto, auto) {
       if constexpr (declares<E>(Hook::reading_factor)) factor *= effect.reading_factor();
     });
     return factor * wheel_m;
@@ -263,13 +269,14 @@ class EffectSet {
   }
   (std::make_index_sequence<index>());
 
-  // Calls f(effect, slot) for each effect that is switched on.
+  // Calls f(effect, on, slot) for each effect that is switched on; `on`: for which of several rigs it is.
   template <class F>
   void each(const F& f) const {
     [&]<std::size_t... i>(std::index_sequence<i...>) {
       const auto call = [&]<std::size_t at>(std::integral_constant<std::size_t, at>) {
         const auto& effect = std::get<at>(all);
-        if (!effect.absent()) f(effect, std::integral_constant<std::size_t, slot_of<at>>{});
+        const auto on = !effect.absent();
+        if (any(on)) f(effect, on, std::integral_constant<std::size_t, slot_of<at>>{});
       };
       (call(std::integral_constant<std::size_t, i>{}), ...);
     }
@@ -290,9 +297,15 @@ class EffectSet {
 };
 
 /// The catalogue, and last the sum of terms for what it has no name for.
-using Effects =
-    EffectSet<ViscousDamping, GuideFriction, SpeedDependentFriction, BladderElasticity, BladderCreep,
-              EndCapCorrection, MuscleLeak, PolytropicGas, ValveLag, ValveDeadBand, ValveHysteresis,
-              SupplyDroop, FrictionWarmUp, EncoderBacklash, EncoderScale, ResidualForce>;
+template <class P>
+using EffectsOf =
+    EffectSet<P, ViscousDampingOf<P>, GuideFrictionOf<P>, SpeedDependentFrictionOf<P>, BladderElasticityOf<P>,
+              BladderCreepOf<P>, EndCapCorrectionOf<P>, MuscleLeakOf<P>, PolytropicGasOf<P>, ValveLagOf<P>,
+              ValveDeadBandOf<P>, ValveHysteresisOf<P>, SupplyDroopOf<P>, FrictionWarmUpOf<P>,
+              EncoderBacklashOf<P>, EncoderScaleOf<P>, ResidualForceOf<P>>;
+using Effects = EffectsOf<double>;
+static_assert([]<class... E>(const std::tuple<E...>*) {
+  return (IsEffect<E> && ...);
+}(static_cast<const Effects::Table*>(nullptr)));
 
 }  // namespace mckibben::plant

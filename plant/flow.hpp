@@ -4,36 +4,42 @@
 
 #include <cmath>
 
+#include <plant/choose.hpp>
+
 namespace mckibben::plant {
 
 /// A restriction with a sonic conductance.
-struct Restriction {
-  double conductance_kg_per_s_Pa;  ///< C rho0
-  double critical_ratio;           ///< b_c
-  double linear_zone_Pa;
+template <class P>
+struct RestrictionOf {
+  P conductance_kg_per_s_Pa;  ///< C rho0
+  P critical_ratio;           ///< b_c
+  P linear_zone_Pa;
 
   /// Mass flow [kg/s] from `from_Pa` to `to_Pa`, both absolute; negative when it runs back.
   template <class S>
   S flow_kg_per_s(const S& from_Pa, const S& to_Pa) const {
-    if (from_Pa < to_Pa) return -downhill(to_Pa, from_Pa);
-    return downhill(from_Pa, to_Pa);
+    return choose(
+        from_Pa < to_Pa, [&] { return S(-downhill(to_Pa, from_Pa)); },
+        [&] { return downhill(from_Pa, to_Pa); });
   }
 
  private:
   template <class S>
   S downhill(const S& high_Pa, const S& low_Pa) const {
     const S drop = high_Pa - low_Pa;
-    if (drop >= linear_zone_Pa) return turbulent(high_Pa, low_Pa);
-    return turbulent(high_Pa, S(high_Pa - linear_zone_Pa)) * (drop / linear_zone_Pa);
+    return choose(
+        drop >= linear_zone_Pa, [&] { return turbulent(high_Pa, low_Pa); },
+        [&] { return S(turbulent(high_Pa, S(high_Pa - linear_zone_Pa)) * (drop / linear_zone_Pa)); });
   }
   template <class S>
   S turbulent(const S& high_Pa, const S& low_Pa) const {
     using std::sqrt;
-    S choked = conductance_kg_per_s_Pa * high_Pa;
+    const S choked = conductance_kg_per_s_Pa * high_Pa;
     const S excess = (low_Pa / high_Pa - critical_ratio) / (1.0 - critical_ratio);
-    if (excess <= 0.0) return choked;
-    return choked * sqrt(1.0 - excess * excess);
+    return choose(
+        excess <= 0.0, [&] { return choked; }, [&] { return S(choked * sqrt(1.0 - excess * excess)); });
   }
 };
+using Restriction = RestrictionOf<double>;
 
 }  // namespace mckibben::plant

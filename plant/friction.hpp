@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include <plant/choose.hpp>
 #include <plant/rig.hpp>
 
 namespace mckibben::plant {
@@ -13,26 +14,26 @@ namespace mckibben::plant {
 inline constexpr double lowest_friction_ratio = 0.005, highest_friction_ratio = 0.28;
 
 /// The friction coefficient of T 4.6. The thesis prints 0.5 to 2.4; read as per cent (docs/equations.md).
-template <class S>
-S friction_coefficient(const Friction& p, const S& contraction_ratio, double current_speed_mA_per_s) {
+template <class P, class S>
+S friction_coefficient(const FrictionOf<P>& p, const S& contraction_ratio, const P& current_speed_mA_per_s) {
   using std::log;
   S e = contraction_ratio;
-  if (e < lowest_friction_ratio) e = S(lowest_friction_ratio);
-  if (e > highest_friction_ratio) e = S(highest_friction_ratio);
-  const double nu = current_speed_mA_per_s;
+  e = select(e < lowest_friction_ratio, S(lowest_friction_ratio), e);
+  e = select(e > highest_friction_ratio, S(highest_friction_ratio), e);
+  const P& nu = current_speed_mA_per_s;
   return 0.01 * (p.f0 + p.f1_s2_per_mA2 * nu * nu + p.f2 * e + p.f3 * log(e));
 }
 
 /// Friction level G [N], never below the floor. Contact surface in m2, gauge pressure in Pa.
-template <class S>
-S friction_level_N(const Friction& p, const S& contraction_ratio, const S& surface_m2, const S& pressure_Pa,
-                   double current_speed_mA_per_s) {
+template <class P, class S>
+S friction_level_N(const FrictionOf<P>& p, const S& contraction_ratio, const S& surface_m2,
+                   const S& pressure_Pa, const P& current_speed_mA_per_s) {
   using std::log;
   using std::pow;
-  S normal_N = S(0.0);  // T 4.2
-  if (pressure_Pa > 0.0) normal_N = surface_m2 * pressure_Pa;
-  const bool pressed = normal_N > 1e-12;  // below it log and pow have no slope worth having
-  S level = S(0.0);
+  const S none = S(0.0);
+  const S normal_N = select(pressure_Pa > 0.0, S(surface_m2 * pressure_Pa), none);  // T 4.2
+  const auto pressed = normal_N > 1e-12;  // below it log and pow have no slope worth having
+  S level = none;
   switch (p.law) {
     case FrictionLaw::superposition:
       level = friction_coefficient(p, contraction_ratio, current_speed_mA_per_s) * normal_N;
@@ -41,13 +42,16 @@ S friction_level_N(const Friction& p, const S& contraction_ratio, const S& surfa
       level = p.mu0 * normal_N + p.adhesion_Pa * surface_m2;
       break;
     case FrictionLaw::logarithmic:
-      if (pressed) level = normal_N * (p.log_A - p.log_B * log(normal_N));
+      level = choose(
+          pressed, [&] { return S(normal_N * (p.log_A - p.log_B * log(normal_N))); }, [&] { return none; });
       break;
     case FrictionLaw::power:
-      if (pressed) level = p.power_alpha * normal_N + p.power_b * pow(normal_N, p.power_c);
+      level = choose(
+          pressed, [&] { return S(p.power_alpha * normal_N + p.power_b * pow(normal_N, p.power_c)); },
+          [&] { return none; });
       break;
   }
-  if (level < 0.0) level = S(0.0);
+  level = select(level < 0.0, none, level);
   return p.scale * level + p.floor_N;
 }
 

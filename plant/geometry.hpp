@@ -1,14 +1,16 @@
 // Braid geometry: what follows from the threads' constant length alone. Thesis 2.4 to 2.10 and 4.3.
 #pragma once
 
+#include <plant/choose.hpp>
 #include <plant/rig.hpp>
 
 namespace mckibben::plant {
 
 /// Constants of a braid, computed once. All lengths in m, areas in m2, volumes in m3.
-class Braid {
+template <class P>
+class BraidOf {
  public:
-  explicit Braid(const Muscle& muscle);
+  explicit BraidOf(const MuscleOf<P>& muscle);
 
   /// a (1 - k e)^2 - b, the bracket of T 2.8: braid force per area and pressure. Dimensionless; zero at
   /// e_max.
@@ -55,7 +57,7 @@ class Braid {
   }
 
   /// Whether the laws above are defined at this contraction ratio, and the volume is positive.
-  bool in_domain(double contraction_ratio) const {
+  auto in_domain(const P& contraction_ratio) const {
     return contraction_ratio > lowest_ratio_ && contraction_ratio < highest_ratio_;
   }
 
@@ -66,12 +68,43 @@ class Braid {
   double largest_load_kg() const {
     return -0.25 * lowest_ratio_ * length_m_ * stop_N_per_m_ / gravity_m_per_s2;
   }
-  double rest_length_m() const { return length_m_; }
+  const P& rest_length_m() const { return length_m_; }
 
  private:
-  double a_, b_, k_, area_m2_, length_m_, volume_at_rest_m3_, stop_N_per_m_;
-  double surface_factor_m2_, surface_cosine_, lowest_ratio_, highest_ratio_;
+  P a_, b_, k_, area_m2_, length_m_, volume_at_rest_m3_, stop_N_per_m_;
+  P surface_factor_m2_, surface_cosine_, lowest_ratio_, highest_ratio_;
 };
+using Braid = BraidOf<double>;
+
+template <class P>
+BraidOf<P>::BraidOf(const MuscleOf<P>& muscle) {
+  using std::cos;
+  using std::sin;
+  using std::sqrt;
+  const P sine = sin(muscle.braid_angle_rad);
+  const P cosine = cos(muscle.braid_angle_rad);
+  a_ = 3.0 * cosine * cosine / (sine * sine);  // T 2.6
+  b_ = 1.0 / (sine * sine);                    // T 2.7
+  k_ = muscle.end_correction;
+  area_m2_ = std::numbers::pi * muscle.rest_radius_m * muscle.rest_radius_m;
+  length_m_ = muscle.rest_length_m;
+  stop_N_per_m_ = muscle.stop_stiffness_N_per_m;
+  volume_at_rest_m3_ = muscle.dead_volume_m3 + area_m2_ * length_m_;
+  surface_factor_m2_ = 2.0 * std::numbers::pi * muscle.rest_radius_m * length_m_ * sine;
+  surface_cosine_ = muscle.contact_surface == ContactSurface::squared ? P(cosine * cosine) : cosine;
+  lowest_ratio_ = 1.0 - 1.0 / sqrt(surface_cosine_);
+  highest_ratio_ = 1.0 / k_;  // beyond it the braid law turns back; the volume is positive up to here
+  // Where the volume would end before, by bisection.
+  const auto empty_there = volume_m3(lowest_ratio_) <= 0.0;
+  P empty = lowest_ratio_, filled = P(0.0);
+  while (any(empty_there && filled - empty >= 1e-9)) {
+    const P middle = 0.5 * (empty + filled);
+    const auto positive = volume_m3(middle) > 0.0;
+    filled = select(positive, middle, filled);
+    empty = select(positive, empty, middle);
+  }
+  lowest_ratio_ = select(empty_there, filled, lowest_ratio_);
+}
 
 /// Above this contraction the muscle may be damaged (T 2.3).
 inline constexpr double risky_contraction_ratio = 0.20;

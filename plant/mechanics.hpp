@@ -4,6 +4,7 @@
 // Everything else of a Rig is one side and the wheel's joint; of a pair, the second side departs from it.
 #pragma once
 
+#include <string>
 #include <string_view>
 #include <variant>
 

@@ -6,16 +6,8 @@
 
 namespace mckibben::plant {
 
-Plant::Plant(const Rig& rig, double load_kg)
-    : side_(rig, (load_kg + rig.joint.load_offset_kg) * gravity_m_per_s2),
-      remembers_(rig.effects.remember()),
-      polytropic_(rig.effects.gas_exponent() != 1.0),
-      radius_m_(rig.joint.wheel_radius_m),
-      mass_kg_(load_kg + rig.joint.load_offset_kg +
-               rig.joint.wheel_inertia_kg_m2 / (rig.joint.wheel_radius_m * rig.joint.wheel_radius_m)),
-      damping_N_s_per_m_(rig.joint.guide_damping_N_s_per_m) {}
-
-Plant::Plant(const Rig& rig, const Rig& opposite, const Link& link)
+template <class P>
+PlantOf<P>::PlantOf(const RigOf<P>& rig, const RigOf<P>& opposite, const Link& link)
     : side_(rig, 0.0),
       opposite_(std::in_place, opposite, 0.0),
       link_(link),
@@ -32,14 +24,17 @@ Plant::Plant(const Rig& rig, const Rig& opposite, const Link& link)
     throw std::invalid_argument("both sides of a pair have the same gas");
 }
 
-State<double> Plant::at_rest(const Held& held) const {
+template <class P>
+State<double> PlantOf<P>::at_rest(const HeldOf<P>& held) const {
   const auto full = [](const HeldSide& side) {
     return SideState<double>{side.reference_pressure_Pa, side.reference_pressure_Pa, 0.0};
   };
   return {{opposite_ ? link_.contraction_ratio : 0.0, 0.0}, full(held), full(held.opposite)};
 }
 
-double Plant::event_margin(const State<double>& state, const Memory<double>& memory, const Held& held) const {
+template <class P>
+double PlantOf<P>::event_margin(const State<double>& state, const Memory<double>& memory,
+                                const HeldOf<P>& held) const {
   // Break-away margin while sticking (a guard on the speed would rest at zero). While slipping the speed,
   // with a little to spare: a load that starts from rest the wrong way would begin at zero and never cross
   // it.
@@ -51,7 +46,9 @@ double Plant::event_margin(const State<double>& state, const Memory<double>& mem
   return friction_level_N(now) - std::abs(friction_force_N(now));
 }
 
-Slip Plant::slip_from_rest(State<double>& state, const Memory<double>& memory, const Held& held) const {
+template <class P>
+Slip PlantOf<P>::slip_from_rest(State<double>& state, const Memory<double>& memory,
+                                const HeldOf<P>& held) const {
   state.joint.contraction_speed_per_s = 0.0;
   Held stuck = held;
   stuck.slip = Slip::sticking;
@@ -63,19 +60,22 @@ Slip Plant::slip_from_rest(State<double>& state, const Memory<double>& memory, c
   return pulled_N > 0.0 ? Slip::rising : Slip::falling;
 }
 
-void Plant::take_speed(double speed_per_s, State<double>& state, Ledger<double>& books) const {
+template <class P>
+void PlantOf<P>::take_speed(double speed_per_s, State<double>& state, Ledger<double>& books) const {
   const double before_J = mechanical_energy_J(state);
   state.joint.contraction_speed_per_s = speed_per_s;
   books.bench_work_J += mechanical_energy_J(state) - before_J;
 }
 
-double Plant::gas_mass_kg(const State<double>& state) const {
+template <class P>
+double PlantOf<P>::gas_mass_kg(const State<double>& state) const {
   const double one_kg = side_.air_kg(state.joint.contraction_ratio, state.side);
   return opposite_ ? one_kg + opposite_->air_kg(opposite_stroke(state).contraction_ratio, state.opposite)
                    : one_kg;
 }
 
-double Plant::mechanical_energy_J(const State<double>& state) const {
+template <class P>
+double PlantOf<P>::mechanical_energy_J(const State<double>& state) const {
   const double length = side_.braid().rest_length_m();
   const double speed = length * state.joint.contraction_speed_per_s;
   const double moving_J = 0.5 * mass_kg_ * speed * speed;
@@ -84,7 +84,8 @@ double Plant::mechanical_energy_J(const State<double>& state) const {
   return moving_J + link_.mass_kg * gravity_m_per_s2 * link_.length_m * (1.0 - std::cos(lean_rad));
 }
 
-Ledger<double> Plant::opened(const State<double>& state) const {
+template <class P>
+Ledger<double> PlantOf<P>::opened(const State<double>& state) const {
   Ledger<double> books{};
   books.valve_air_kg = side_.valve_air_kg(state.side);
   books.muscle_air_kg = side_.air_kg(state.joint.contraction_ratio, state.side) - books.valve_air_kg;
@@ -97,8 +98,9 @@ Ledger<double> Plant::opened(const State<double>& state) const {
   return books;
 }
 
-Imbalance Plant::imbalance(const State<double>& from, const State<double>& to,
-                           const Ledger<double>& books) const {
+template <class P>
+Imbalance PlantOf<P>::imbalance(const State<double>& from, const State<double>& to,
+                                const Ledger<double>& books) const {
   const double first_kg = gas_mass_kg(from), all_kg = first_kg + books.air_drawn_kg;
   const double net_kg = books.air_drawn_kg - books.air_vented_kg - books.air_leaked_kg;
   double lost_kg = net_kg - (gas_mass_kg(to) - first_kg);
@@ -124,5 +126,7 @@ Imbalance Plant::imbalance(const State<double>& from, const State<double>& to,
                         std::abs(books.guide_work_J) + std::abs(books.bench_work_J);
   return {std::abs(lost_kg) / all_kg, std::abs(lost_J) / std::max(work_J, least_J)};
 }
+
+template class PlantOf<double>;
 
 }  // namespace mckibben::plant

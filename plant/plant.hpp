@@ -5,7 +5,8 @@
 //
 // The joint moves as the first muscle contracts; a second one, `opposite`, is stretched by as much:
 //   e2 = e20 - (e - e10) l0/l02    theta = (e - e10) l0/R
-// S is double, or a dual number where the Jacobian is wanted.
+// S is double, a dual number where the Jacobian is wanted, or lanes that hold several rigs; P is what their
+// parameters are made of: double, but for lanes.
 #pragma once
 
 #include <optional>
@@ -24,35 +25,36 @@ struct Moment : SideMoment<S> {
   SideMoment<S> opposite;
 };
 
-class Plant {
+template <class P>
+class PlantOf {
  public:
   /// The rig with a load [kg] hung on it. The rig's values are taken as checked.
-  Plant(const Rig& rig, double load_kg);
+  PlantOf(const RigOf<P>& rig, const P& load_kg);
   /// Two rigs' sides on the wheel of the first. Throws std::invalid_argument unless both have the same kind
   /// of friction memory and breathe the same gas.
-  Plant(const Rig& rig, const Rig& opposite, const Link& link);
+  PlantOf(const RigOf<P>& rig, const RigOf<P>& opposite, const Link& link);
 
   /// Gauge pressure [Pa] the valve is asked for at a current [mA] (T 3.2), clamped to its trimmed range.
   double reference_pressure_Pa(double current_mA) const { return side_.reference_pressure_Pa(current_mA); }
-  const Side& side() const { return side_; }
-  const std::optional<Side>& opposite() const { return opposite_; }
+  const SideOf<P>& side() const { return side_; }
+  const std::optional<SideOf<P>>& opposite() const { return opposite_; }
   const Link& link() const { return link_; }
 
   /// State at the start of a run: at rest, pressures at the references of the first currents.
-  State<double> at_rest(const Held& held) const;
+  State<double> at_rest(const HeldOf<P>& held) const;
 
   // What is called at each stage of a step is compiled for one side and for two; without a number it asks.
 
   /// The balances of the rig. Only for states inside `in_domain`.
   template <int sides, class S>
-  Moment<S> moment(const State<S>& state, const Memory<S>& memory, const Held& held) const;
+  Moment<S> moment(const State<S>& state, const Memory<S>& memory, const HeldOf<P>& held) const;
   template <class S>
-  Moment<S> moment(const State<S>& state, const Memory<S>& memory, const Held& held) const {
+  Moment<S> moment(const State<S>& state, const Memory<S>& memory, const HeldOf<P>& held) const {
     return opposite_ ? moment<2>(state, memory, held) : moment<1>(state, memory, held);
   }
   /// The same with effects as they are at rest.
   template <class S>
-  Moment<S> moment(const State<S>& state, const Held& held) const {
+  Moment<S> moment(const State<S>& state, const HeldOf<P>& held) const {
     Memory<S> none;
     none.side.fill(S(0.0));
     none.opposite.fill(S(0.0));
@@ -67,9 +69,9 @@ class Plant {
   }
 
   template <int sides, class S>
-  Ledger<S> ledger_rates(const State<S>& state, const Moment<S>& now, const Ledger<double>& books) const;
+  Ledger<S> ledger_rates(const State<S>& state, const Moment<S>& now, const Ledger<P>& books) const;
   template <class S>
-  Ledger<S> ledger_rates(const State<S>& state, const Moment<S>& now, const Ledger<double>& books) const {
+  Ledger<S> ledger_rates(const State<S>& state, const Moment<S>& now, const Ledger<P>& books) const {
     return opposite_ ? ledger_rates<2>(state, now, books) : ledger_rates<1>(state, now, books);
   }
   /// A ledger as it is opened: nothing has come or gone, and all gas has the walls' temperature.
@@ -77,13 +79,16 @@ class Plant {
 
   /// Whether every law is defined here: finite, braid neither folded nor torn, pressures above vacuum.
   template <int sides>
-  bool in_domain(const State<double>& state) const {
-    const bool one = std::isfinite(state.joint.contraction_speed_per_s) &&
+  auto in_domain(const State<P>& state) const {
+    using std::isfinite;
+    const auto one = isfinite(state.joint.contraction_speed_per_s) &&
                      side_.in_domain(state.joint.contraction_ratio, state.side);
-    if constexpr (sides == 1) return one;
-    return one && opposite_->in_domain(opposite_stroke(state).contraction_ratio, state.opposite);
+    if constexpr (sides == 1)
+      return one;
+    else
+      return one && opposite_->in_domain(opposite_stroke(state).contraction_ratio, state.opposite);
   }
-  bool in_domain(const State<double>& state) const {
+  auto in_domain(const State<P>& state) const {
     return opposite_ ? in_domain<2>(state) : in_domain<1>(state);
   }
 
@@ -95,17 +100,19 @@ class Plant {
 
   /// Exact stick and slip: falls through zero when the slip mode must change. Only with Coulomb friction.
   bool has_events() const { return rig().friction.memory == FrictionMemory::coulomb; }
-  double event_margin(const State<double>& state, const Memory<double>& memory, const Held& held) const;
+  double event_margin(const State<double>& state, const Memory<double>& memory, const HeldOf<P>& held) const;
   /// Mode after such an event (or at the start). Sets the speed to exactly zero.
-  Slip slip_from_rest(State<double>& state, const Memory<double>& memory, const Held& held) const;
+  Slip slip_from_rest(State<double>& state, const Memory<double>& memory, const HeldOf<P>& held) const;
 
   /// The joint goes on at another speed [1/s], as a bench that gives the muscle's length makes it; the work
   /// that this takes is the bench's.
   void take_speed(double speed_per_s, State<double>& state, Ledger<double>& books) const;
 
-  const Rig& rig() const { return side_.rig(); }
+  const RigOf<P>& rig() const { return side_.rig(); }
   /// Weight [N] of what hangs on the wheel; 0 of a pair.
-  double weight_N() const { return side_.weight_N(); }
+  const P& weight_N() const { return side_.weight_N(); }
+  /// Mass [kg] hung on the wheel, without what hangs there besides; 0 of a pair.
+  const P& load_kg() const { return load_kg_; }
   /// Joint angle [rad] of a pair.
   double angle_rad(double contraction_ratio) const {
     return (contraction_ratio - link_.contraction_ratio) * side_.braid().rest_length_m() / radius_m_;
@@ -126,8 +133,8 @@ class Plant {
 
  private:
   template <class S>
-  void books_of_gas(const Stroke<S>& stroke, const Side& side, const SideState<S>& state,
-                    const SideMoment<S>& now, double valve_air_kg, double muscle_air_kg, Ledger<S>& rates,
+  void books_of_gas(const Stroke<S>& stroke, const SideOf<P>& side, const SideState<S>& state,
+                    const SideMoment<S>& now, const P& valve_air_kg, const P& muscle_air_kg, Ledger<S>& rates,
                     S& valve_rate, S& muscle_rate) const;
   /// Of the threads of both sides, as the joint feels them.
   template <int sides, class S>
@@ -147,17 +154,30 @@ class Plant {
     return opposite_ ? friction_level_N<2>(now) : friction_level_N<1>(now);
   }
   template <int sides, class S>
-  void joint_balance(const State<S>& state, const Held& held, Moment<S>& now) const;
+  void joint_balance(const State<S>& state, const HeldOf<P>& held, Moment<S>& now) const;
 
-  Side side_;
-  std::optional<Side> opposite_;
+  SideOf<P> side_;
+  std::optional<SideOf<P>> opposite_;
   Link link_{};
   bool remembers_, polytropic_;  // any effect with a memory; the gas is not isothermal
-  double radius_m_, opposite_share_ = 0.0, mass_kg_, damping_N_s_per_m_;
+  P load_kg_ = 0.0, radius_m_, opposite_share_ = 0.0, mass_kg_, damping_N_s_per_m_;
 };
+using Plant = PlantOf<double>;
 
+template <class P>
+PlantOf<P>::PlantOf(const RigOf<P>& rig, const P& load_kg)
+    : side_(rig, (load_kg + rig.joint.load_offset_kg) * gravity_m_per_s2),
+      remembers_(rig.effects.remember()),
+      polytropic_(any(rig.effects.gas_exponent() != 1.0)),
+      load_kg_(load_kg),
+      radius_m_(rig.joint.wheel_radius_m),
+      mass_kg_(load_kg + rig.joint.load_offset_kg +
+               rig.joint.wheel_inertia_kg_m2 / (rig.joint.wheel_radius_m * rig.joint.wheel_radius_m)),
+      damping_N_s_per_m_(rig.joint.guide_damping_N_s_per_m) {}
+
+template <class P>
 template <int sides, class S>
-Moment<S> Plant::moment(const State<S>& state, const Memory<S>& memory, const Held& held) const {
+Moment<S> PlantOf<P>::moment(const State<S>& state, const Memory<S>& memory, const HeldOf<P>& held) const {
   Moment<S> now;
   const Stroke<S> stroke{state.joint.contraction_ratio, state.joint.contraction_speed_per_s};
   side_.gas_balance(stroke, state.side, memory.side, held, now);
@@ -178,8 +198,9 @@ Moment<S> Plant::moment(const State<S>& state, const Memory<S>& memory, const He
 }
 
 // Hanging load, or the link that two muscles turn.
+template <class P>
 template <int sides, class S>
-void Plant::joint_balance(const State<S>& state, const Held& held, Moment<S>& now) const {
+void PlantOf<P>::joint_balance(const State<S>& state, const HeldOf<P>& held, Moment<S>& now) const {
   using std::sin;
   now.guide_force_N = -damping_N_s_per_m_ * now.speed_m_per_s;
   S others = now.braid_force_N + now.stop_force_N + now.guide_force_N - weight_N() + now.effects_pull_N;
@@ -192,7 +213,7 @@ void Plant::joint_balance(const State<S>& state, const Held& held, Moment<S>& no
   }
   if (has_events()) {  // the joint sticks or slips as a whole, the opposite threads the other way
     const S level = friction_level_N<sides>(now);
-    S whole = S(held.slip == Slip::rising ? -level : level);
+    S whole = held.slip == Slip::rising ? S(-level) : level;
     if (held.slip == Slip::sticking) whole = held.length_is_given ? S(0.0) : S(-others);
     now.friction_force_N = whole;
     if constexpr (sides == 2) {
@@ -205,8 +226,9 @@ void Plant::joint_balance(const State<S>& state, const Held& held, Moment<S>& no
   now.acceleration_m_per_s2 = held.length_is_given ? S(0.0) : S(all / mass_kg_);
 }
 
+template <class P>
 template <int sides, class S>
-State<S> Plant::rates(const State<S>& state, const Moment<S>& now) const {
+State<S> PlantOf<P>::rates(const State<S>& state, const Moment<S>& now) const {
   const S& w = state.joint.contraction_speed_per_s;
   State<S> dt;
   dt.joint.contraction_ratio = w;
@@ -217,9 +239,10 @@ State<S> Plant::rates(const State<S>& state, const Moment<S>& now) const {
   return dt;
 }
 
+template <class P>
 template <int sides, class S>
-Ledger<S> Plant::ledger_rates(const State<S>& state, const Moment<S>& now,
-                              const Ledger<double>& books) const {
+Ledger<S> PlantOf<P>::ledger_rates(const State<S>& state, const Moment<S>& now,
+                                   const Ledger<P>& books) const {
   const S& v = now.speed_m_per_s;
   const S none = S(0.0);
   Ledger<S> rates{now.supply_flow,
@@ -262,17 +285,18 @@ Ledger<S> Plant::ledger_rates(const State<S>& state, const Moment<S>& now,
 
 // The pressure rates count each flow q as the enthalpy of q at the walls' temperature T. Gas of another
 // temperature carries it with another mass: q T/T_gas of the volume it leaves, where p V = m R T_gas.
+template <class P>
 template <class S>
-void Plant::books_of_gas(const Stroke<S>& stroke, const Side& side, const SideState<S>& state,
-                         const SideMoment<S>& now, double valve_air_kg, double muscle_air_kg,
-                         Ledger<S>& rates, S& valve_rate, S& muscle_rate) const {
-  const double atmosphere = side.rig().gas.atmosphere_Pa, RT = side.gas_energy_J_per_kg();
+void PlantOf<P>::books_of_gas(const Stroke<S>& stroke, const SideOf<P>& side, const SideState<S>& state,
+                              const SideMoment<S>& now, const P& valve_air_kg, const P& muscle_air_kg,
+                              Ledger<S>& rates, S& valve_rate, S& muscle_rate) const {
+  const P &atmosphere = side.rig().gas.atmosphere_Pa, &RT = side.gas_energy_J_per_kg();
   const S muscle_Pa = state.muscle_pressure_Pa + atmosphere;
   const S in_valve =
       valve_air_kg * RT / ((state.valve_pressure_Pa + atmosphere) * side.rig().valve.volume_m3);  // T/T_gas
   const S in_muscle = muscle_air_kg * RT / (muscle_Pa * now.volume_m3);
   const auto carried = [](const S& flow, const S& from, const S& back) {
-    return S(flow * (flow < 0.0 ? back : from));
+    return S(flow * select(flow < 0.0, back, from));
   };
   const S outside = S(1.0);
   const S drawn = carried(now.supply_flow, outside, in_valve);

@@ -57,14 +57,15 @@ constexpr auto names(EncoderWiring) {
 }
 
 /// Braid and tube of one muscle (T 2.4 to 2.10).
-struct Muscle {
-  double rest_length_m = 0.300;
-  double rest_radius_m = 7.5e-3;
-  double braid_angle_rad = 20.0 * degree_rad;
-  double end_correction = 1.30;
-  double dead_volume_m3 = 5.0e-6;
-  double stop_stiffness_N_per_m = 3.0e5;
-  double stop_damping_s_per_m = 19.0;
+template <class P>
+struct MuscleOf {
+  P rest_length_m = 0.300;
+  P rest_radius_m = 7.5e-3;
+  P braid_angle_rad = 20.0 * degree_rad;
+  P end_correction = 1.30;
+  P dead_volume_m3 = 5.0e-6;
+  P stop_stiffness_N_per_m = 3.0e5;
+  P stop_damping_s_per_m = 19.0;
   ContactSurface contact_surface = ContactSurface::squared;
 
   template <class Self, class Visitor>
@@ -87,19 +88,21 @@ struct Muscle {
       report("braid_angle", "must be below 54.7 deg, where the braid no longer pulls");
   }
 };
+using Muscle = MuscleOf<double>;
 
 /// Thread friction: level law and memory (T 2.11, 4.2, 4.6; Canudas de Wit et al. 1995 for the bristle).
-struct Friction {
+template <class P>
+struct FrictionOf {
   FrictionLaw law = FrictionLaw::superposition;
   FrictionMemory memory = FrictionMemory::lugre;
-  double scale = 1.0;
-  double f0 = 4.6937, f1_s2_per_mA2 = 0.0, f2 = -13.9715, f3 = 0.5306;
-  double mu0 = 0.015, adhesion_Pa = 0.0;
-  double log_A = 0.05, log_B = 0.004;
-  double power_alpha = 0.005, power_b = 0.05, power_c = 0.8;
-  double bristle_stiffness_N_per_m = 4.0e5;
-  double bristle_damping_N_s_per_m = 400.0;
-  double floor_N = 1.0;
+  P scale = 1.0;
+  P f0 = 4.6937, f1_s2_per_mA2 = 0.0, f2 = -13.9715, f3 = 0.5306;
+  P mu0 = 0.015, adhesion_Pa = 0.0;
+  P log_A = 0.05, log_B = 0.004;
+  P power_alpha = 0.005, power_b = 0.05, power_c = 0.8;
+  P bristle_stiffness_N_per_m = 4.0e5;
+  P bristle_damping_N_s_per_m = 400.0;
+  P floor_N = 1.0;
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
@@ -127,17 +130,19 @@ struct Friction {
           "added to the level: keeps the bristle finite at zero pressure");
   }
 };
+using Friction = FrictionOf<double>;
 
 /// Servo valve: current to pressure reference, two proportional valves round a controlled volume
 /// (T 3.1, 3.2).
-struct Valve {
-  double zero_current_mA = 4.0, span_current_mA = 20.0;
-  double zero_pressure_Pa = 0.5e5, span_pressure_Pa = 5.0e5;
-  double supply_pressure_Pa = 6.0e5;
-  double conductance_m3_per_s_Pa = 4.0e-9;
-  double critical_ratio = 0.30;
-  double proportional_band_Pa = 0.3e5;
-  double volume_m3 = 5.0e-5;
+template <class P>
+struct ValveOf {
+  P zero_current_mA = 4.0, span_current_mA = 20.0;
+  P zero_pressure_Pa = 0.5e5, span_pressure_Pa = 5.0e5;
+  P supply_pressure_Pa = 6.0e5;
+  P conductance_m3_per_s_Pa = 4.0e-9;
+  P critical_ratio = 0.30;
+  P proportional_band_Pa = 0.3e5;
+  P volume_m3 = 5.0e-5;
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
@@ -160,11 +165,13 @@ struct Valve {
     if (supply_pressure_Pa < span_pressure_Pa) report("supply_pressure", "must not be below span_pressure");
   }
 };
+using Valve = ValveOf<double>;
 
 /// Hose between valve and muscle (ISO 6358).
-struct Hose {
-  double conductance_m3_per_s_Pa = 1.5e-8;
-  double linear_zone_Pa = 1.0e3;
+template <class P>
+struct HoseOf {
+  P conductance_m3_per_s_Pa = 1.5e-8;
+  P linear_zone_Pa = 1.0e3;
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
@@ -173,13 +180,15 @@ struct Hose {
           "pressure difference below which flow is linear (valve and hose)");
   }
 };
+using Hose = HoseOf<double>;
 
 /// The gas and what surrounds it: isothermal ideal air.
-struct Gas {
-  double gas_constant_J_per_kg_K = 287.05;
-  double temperature_K = 293.15;
-  double reference_density_kg_per_m3 = 1.185;
-  double atmosphere_Pa = 101325.0;
+template <class P>
+struct GasOf {
+  P gas_constant_J_per_kg_K = 287.05;
+  P temperature_K = 293.15;
+  P reference_density_kg_per_m3 = 1.185;
+  P atmosphere_Pa = 101325.0;
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
@@ -190,13 +199,15 @@ struct Gas {
     visit("atmosphere", self.atmosphere_Pa, "Pa", 1e4, 2e5, "absolute pressure of the surroundings");
   }
 };
+using Gas = GasOf<double>;
 
 /// What the muscle moves: hanging load on a wheel, and the guide it runs in.
-struct Joint {
-  double wheel_radius_m = 0.030;
-  double wheel_inertia_kg_m2 = 1.0e-4;
-  double guide_damping_N_s_per_m = 20.0;
-  double load_offset_kg = 0.0;
+template <class P>
+struct JointOf {
+  P wheel_radius_m = 0.030;
+  P wheel_inertia_kg_m2 = 1.0e-4;
+  P guide_damping_N_s_per_m = 20.0;
+  P load_offset_kg = 0.0;
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
@@ -208,6 +219,7 @@ struct Joint {
           "what hangs on the wheel beside the load: hook, cord, error of the scales");
   }
 };
+using Joint = JointOf<double>;
 
 /// Digital-to-analogue converter that drives the valve (T 3.1; the 12 bits are an assumption).
 struct Dac {
@@ -249,20 +261,21 @@ struct Gauge {
 };
 
 /// The whole rig, all parts of one muscle side and the joint it moves.
-struct Rig {
+template <class P>
+struct RigOf {
   /// No valve or hose is quicker than this, and no step of a solver should have to be.
   static constexpr double quickest_s = 1e-6;
 
-  Muscle muscle;
-  Friction friction;
-  Valve valve;
-  Hose hose;
-  Gas gas;
-  Joint joint;
+  MuscleOf<P> muscle;
+  FrictionOf<P> friction;
+  ValveOf<P> valve;
+  HoseOf<P> hose;
+  GasOf<P> gas;
+  JointOf<P> joint;
   Dac dac;
   Encoder encoder;
   Gauge gauge;
-  Effects effects;
+  EffectsOf<P> effects;
   double tick_s = 0.012;
   double settling_time_s = 2.004;
 
@@ -301,6 +314,7 @@ struct Rig {
              "conductance, a larger linear_zone or a larger volume of the valve");
   }
 };
+using Rig = RigOf<double>;
 
 /// A rig as its owner believes it to be: without effects, and with nothing beside the load on the wheel.
 template <class R>

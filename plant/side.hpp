@@ -4,7 +4,8 @@
 //   where the cord's end is and how fast, SideState, memory, HeldSide --> SideMoment --> d(SideState)/dt
 //
 // Effects that the rig has switched on come in where `effects_` stands; without any, no line of theirs runs.
-// S is double, or a dual number where the Jacobian is wanted.
+// S is double, a dual number where the Jacobian is wanted, or lanes that hold several rigs; P is what their
+// parameters are made of.
 #pragma once
 
 #include <plant/flow.hpp>
@@ -39,20 +40,21 @@ struct SideMoment {
   S cord_force_N() const { return braid_force_N + stop_force_N + effects_pull_N + friction_force_N; }
 };
 
-class Side {
+template <class P>
+class SideOf {
  public:
   /// `weight_N`: of what hangs on the cord; 0 in a pair.
-  Side(const Rig& rig, double weight_N);
+  SideOf(const RigOf<P>& rig, const P& weight_N);
 
   /// Pressure error opens one of two proportional valves (T 3.1); ISO 6358 flow through valve and hose.
   template <class S>
   void gas_balance(const Stroke<S>& stroke, const SideState<S>& state, const SideMemory<S>& memory,
-                   const HeldSide& held, SideMoment<S>& now) const;
+                   const HeldSideOf<P>& held, SideMoment<S>& now) const;
   /// Braid force (T 2.8), braid stop (Hunt-Crossley), friction level (T 2.11, 4.2, 4.6) and what LuGre's
   /// bristle makes of it. After the gas.
   template <class S>
   void forces(const Stroke<S>& stroke, const SideState<S>& state, const SideMemory<S>& memory,
-              const HeldSide& held, SideMoment<S>& now) const;
+              const HeldSideOf<P>& held, SideMoment<S>& now) const;
   /// What effects remember, where `supply_flow` [kg/s] is drawn from the supply by all sides. After the gas.
   template <class S>
   void remember(const Stroke<S>& stroke, const SideState<S>& state, const SideMemory<S>& memory,
@@ -60,12 +62,13 @@ class Side {
   template <class S>
   SideState<S> rates(const Stroke<S>& stroke, const SideState<S>& state, const SideMoment<S>& now) const;
 
-  bool in_domain(double contraction_ratio, const SideState<double>& state) const {
-    const double atmosphere = rig_.gas.atmosphere_Pa;
+  auto in_domain(const P& contraction_ratio, const SideState<P>& state) const {
+    using std::isfinite;
+    const P& atmosphere = rig_.gas.atmosphere_Pa;
     // A sum that is finite has only finite terms; comparisons with NaN are false.
     return braid_.in_domain(contraction_ratio) && state.valve_pressure_Pa > -atmosphere &&
            state.muscle_pressure_Pa > -atmosphere &&
-           std::isfinite(state.valve_pressure_Pa + state.muscle_pressure_Pa + state.bristle_m);
+           isfinite(state.valve_pressure_Pa + state.muscle_pressure_Pa + state.bristle_m);
   }
 
   double reference_pressure_Pa(double current_mA) const;
@@ -73,12 +76,12 @@ class Side {
   double air_kg(double contraction_ratio, const SideState<double>& state) const;
   double valve_air_kg(const SideState<double>& state) const;
 
-  const Rig& rig() const { return rig_; }
-  const Braid& braid() const { return braid_; }
-  double weight_N() const { return weight_N_; }
+  const RigOf<P>& rig() const { return rig_; }
+  const BraidOf<P>& braid() const { return braid_; }
+  const P& weight_N() const { return weight_N_; }
   bool has_effects() const { return effects_; }
   /// R T [J/kg].
-  double gas_energy_J_per_kg() const { return gas_energy_J_per_kg_; }
+  const P& gas_energy_J_per_kg() const { return gas_energy_J_per_kg_; }
 
  private:
   template <class S>
@@ -88,20 +91,44 @@ class Side {
             weight_N_, rig_.gas.atmosphere_Pa,     gas_energy_J_per_kg_, unit_flow_};
   }
   template <class S>
-  void valve_flows(const SideState<S>& state, const SideMemory<S>& memory, const HeldSide& held,
+  void valve_flows(const SideState<S>& state, const SideMemory<S>& memory, const HeldSideOf<P>& held,
                    SideMoment<S>& now) const;
 
-  Rig rig_;
-  Braid braid_;
-  Restriction valve_, hose_, unit_flow_;
+  RigOf<P> rig_;
+  BraidOf<P> braid_;
+  RestrictionOf<P> valve_, hose_, unit_flow_;
   bool effects_;
-  double weight_N_, gas_energy_J_per_kg_, supply_Pa_;
+  P weight_N_, gas_energy_J_per_kg_, supply_Pa_;
 };
+using Side = SideOf<double>;
 
+/// ISO 6358: a conductance holds at the reference temperature; warmer gas is thinner.
+template <class P>
+RestrictionOf<P> restriction(const RigOf<P>& rig, const P& conductance_m3_per_s_Pa) {
+  using std::sqrt;
+  constexpr double reference_temperature_K = 293.15;
+  const P warmth = sqrt(reference_temperature_K / rig.gas.temperature_K);
+  return {conductance_m3_per_s_Pa * rig.gas.reference_density_kg_per_m3 * warmth, rig.valve.critical_ratio,
+          rig.hose.linear_zone_Pa};
+}
+
+template <class P>
+SideOf<P>::SideOf(const RigOf<P>& rig, const P& weight_N)
+    : rig_(rig),
+      braid_(rig.muscle),
+      valve_(restriction(rig, rig.valve.conductance_m3_per_s_Pa)),
+      hose_(restriction(rig, rig.hose.conductance_m3_per_s_Pa)),
+      unit_flow_(restriction(rig, P(1.0))),
+      effects_(!rig.effects.absent()),
+      weight_N_(weight_N),
+      gas_energy_J_per_kg_(rig.gas.gas_constant_J_per_kg_K * rig.gas.temperature_K),
+      supply_Pa_(rig.valve.supply_pressure_Pa + rig.gas.atmosphere_Pa) {}
+
+template <class P>
 template <class S>
-void Side::valve_flows(const SideState<S>& state, const SideMemory<S>& memory, const HeldSide& held,
-                       SideMoment<S>& now) const {
-  const double atmosphere = rig_.gas.atmosphere_Pa;
+void SideOf<P>::valve_flows(const SideState<S>& state, const SideMemory<S>& memory, const HeldSideOf<P>& held,
+                            SideMoment<S>& now) const {
+  const P& atmosphere = rig_.gas.atmosphere_Pa;
   const S valve_Pa = state.valve_pressure_Pa + atmosphere;  // absolute from here
   const S muscle_Pa = state.muscle_pressure_Pa + atmosphere;
 
@@ -112,22 +139,23 @@ void Side::valve_flows(const SideState<S>& state, const SideMemory<S>& memory, c
     supply_Pa = supply_Pa - rig_.effects.supply_drop_Pa(memory);
   }
   S u = error_Pa / rig_.valve.proportional_band_Pa;
-  if (u > 1.0) u = S(1.0);
-  if (u < -1.0) u = S(-1.0);
+  u = select(u > 1.0, S(1.0), u);
+  u = select(u < -1.0, S(-1.0), u);
   now.wanted_opening = u;
   if (effects_) u = rig_.effects.valve_opening(now.wanted_opening, memory);
   now.valve_opening = u;
-  now.supply_flow = now.vent_flow = S(0.0);
-  if (u >= 0.0)
-    now.supply_flow = u * valve_.flow_kg_per_s(supply_Pa, valve_Pa);
-  else
-    now.vent_flow = -u * valve_.flow_kg_per_s(valve_Pa, S(atmosphere));
+  const auto none = [] { return S(0.0); };
+  now.supply_flow = choose(
+      u >= 0.0, [&] { return S(u * valve_.flow_kg_per_s(supply_Pa, valve_Pa)); }, none);
+  now.vent_flow =
+      choose(u >= 0.0, none, [&] { return S(-u * valve_.flow_kg_per_s(valve_Pa, S(atmosphere))); });
   now.hose_flow = hose_.flow_kg_per_s(valve_Pa, muscle_Pa);
 }
 
+template <class P>
 template <class S>
-void Side::gas_balance(const Stroke<S>& stroke, const SideState<S>& state, const SideMemory<S>& memory,
-                       const HeldSide& held, SideMoment<S>& now) const {
+void SideOf<P>::gas_balance(const Stroke<S>& stroke, const SideState<S>& state, const SideMemory<S>& memory,
+                            const HeldSideOf<P>& held, SideMoment<S>& now) const {
   const S& e = stroke.contraction_ratio;
   now.speed_m_per_s = braid_.rest_length_m() * stroke.speed_per_s;
   if (!held.pressure_rate_Pa_per_s) valve_flows(state, memory, held, now);
@@ -139,7 +167,7 @@ void Side::gas_balance(const Stroke<S>& stroke, const SideState<S>& state, const
   if (effects_) now.leak_flow = rig_.effects.outflow_kg_per_s(instant(stroke, state, now));
   if (held.pressure_rate_Pa_per_s) {  // whatever keeps the pressure brings the gas that this takes
     const S muscle_Pa = state.muscle_pressure_Pa + rig_.gas.atmosphere_Pa;
-    const double n = effects_ ? rig_.effects.gas_exponent() : 1.0;
+    const P n = effects_ ? rig_.effects.gas_exponent() : P(1.0);
     now.wanted_opening = now.valve_opening = now.vent_flow = S(0.0);
     now.hose_flow = (now.volume_m3 * (*held.pressure_rate_Pa_per_s / n) +
                      muscle_Pa * now.volume_slope_m3 * stroke.speed_per_s) /
@@ -149,30 +177,34 @@ void Side::gas_balance(const Stroke<S>& stroke, const SideState<S>& state, const
   }
 }
 
+template <class P>
 template <class S>
-void Side::remember(const Stroke<S>& stroke, const SideState<S>& state, const SideMemory<S>& memory,
-                    const S& supply_flow, SideMoment<S>& now) const {
+void SideOf<P>::remember(const Stroke<S>& stroke, const SideState<S>& state, const SideMemory<S>& memory,
+                         const S& supply_flow, SideMoment<S>& now) const {
   now.memory_rates = rig_.effects.memory_rates(instant(stroke, state, now),
                                                Inflow<S>{now.wanted_opening, supply_flow}, memory);
 }
 
+template <class P>
 template <class S>
-void Side::forces(const Stroke<S>& stroke, const SideState<S>& state, const SideMemory<S>& memory,
-                  const HeldSide& held, SideMoment<S>& now) const {
+void SideOf<P>::forces(const Stroke<S>& stroke, const SideState<S>& state, const SideMemory<S>& memory,
+                       const HeldSideOf<P>& held, SideMoment<S>& now) const {
   using std::abs;
-  const Friction& friction = rig_.friction;
+  const FrictionOf<P>& friction = rig_.friction;
   const S& e = stroke.contraction_ratio;
   const S& z = state.bristle_m;
   const S& v = now.speed_m_per_s;
   const S& pressure_Pa = state.muscle_pressure_Pa;
 
   now.braid_force_N = braid_.force_N(e, pressure_Pa);
-  now.stop_force_N = S(0.0);
-  if (e < 0.0) {
-    const S damping = 1.0 - rig_.muscle.stop_damping_s_per_m * v;
-    if (damping > 0.0)
-      now.stop_force_N = -rig_.muscle.stop_stiffness_N_per_m * braid_.rest_length_m() * e * damping;
-  }
+  now.stop_force_N = choose(
+      e < 0.0,
+      [&] {
+        const S damping = 1.0 - rig_.muscle.stop_damping_s_per_m * v;
+        const S force_N = -rig_.muscle.stop_stiffness_N_per_m * braid_.rest_length_m() * e * damping;
+        return select(damping > 0.0, force_N, S(0.0));
+      },
+      [] { return S(0.0); });
   const S surface = braid_.contact_surface_m2(e);
   now.friction_level_N = friction_level_N(friction, e, surface, pressure_Pa, held.current_speed_mA_per_s);
   now.effects_pull_N = S(0.0);
@@ -185,23 +217,25 @@ void Side::forces(const Stroke<S>& stroke, const SideState<S>& state, const Side
   }
   now.bristle_rate_m_per_s = S(0.0);
   if (friction.memory == FrictionMemory::lugre) {
-    const double sigma0 = friction.bristle_stiffness_N_per_m;
+    const P& sigma0 = friction.bristle_stiffness_N_per_m;
     now.bristle_rate_m_per_s = v - sigma0 * abs(v) * z / now.friction_level_N;
     now.friction_force_N = -(sigma0 * z + friction.bristle_damping_N_s_per_m * now.bristle_rate_m_per_s);
   }
 }
 
+template <class P>
 template <class S>
-SideState<S> Side::rates(const Stroke<S>& stroke, const SideState<S>& state, const SideMoment<S>& now) const {
+SideState<S> SideOf<P>::rates(const Stroke<S>& stroke, const SideState<S>& state,
+                              const SideMoment<S>& now) const {
   const S muscle_Pa = state.muscle_pressure_Pa + rig_.gas.atmosphere_Pa;
-  const double RT = gas_energy_J_per_kg_;
+  const P& RT = gas_energy_J_per_kg_;
   SideState<S> dt;
   dt.valve_pressure_Pa = RT / rig_.valve.volume_m3 * (now.supply_flow - now.vent_flow - now.hose_flow);
   dt.muscle_pressure_Pa =
       (RT * now.hose_flow - muscle_Pa * now.volume_slope_m3 * stroke.speed_per_s) / now.volume_m3;
   dt.bristle_m = now.bristle_rate_m_per_s;
   if (effects_) {
-    const double n = rig_.effects.gas_exponent();
+    const P n = rig_.effects.gas_exponent();
     dt.valve_pressure_Pa = n * dt.valve_pressure_Pa;
     dt.muscle_pressure_Pa = n * (dt.muscle_pressure_Pa - RT * now.leak_flow / now.volume_m3);
   }

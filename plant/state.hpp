@@ -72,18 +72,22 @@ struct Imbalance {
 enum class Slip { sticking, rising, falling };
 
 /// What is constant on one side between two ticks or events.
-struct HeldSide {
-  double reference_pressure_Pa = 0.0;   ///< P_ref, gauge
-  double current_speed_mA_per_s = 0.0;  ///< nu of T 4.6: change of the held current over the last tick
+template <class P>
+struct HeldSideOf {
+  P reference_pressure_Pa = 0.0;   ///< P_ref, gauge
+  P current_speed_mA_per_s = 0.0;  ///< nu of T 4.6: change of the held current over the last tick
   /// Where the muscle's pressure is given, valve and hose do not exist: how fast it runs to its next value.
-  std::optional<double> pressure_rate_Pa_per_s{};
+  std::optional<P> pressure_rate_Pa_per_s{};
 };
+using HeldSide = HeldSideOf<double>;
 
-struct Held : HeldSide {
+template <class P>
+struct HeldOf : HeldSideOf<P> {
   Slip slip = Slip::sticking;
   /// The muscle's length is given: w stays what it is, whatever force that takes.
   bool length_is_given = false;
-  HeldSide opposite{};
+  HeldSideOf<P> opposite{};
 };
+using Held = HeldOf<double>;
 
 }  // namespace mckibben::plant

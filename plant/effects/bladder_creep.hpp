@@ -7,7 +7,8 @@
 
 namespace mckibben::plant {
 
-struct BladderCreep {
+template <class P>
+struct BladderCreepOf {
   static constexpr std::string_view name = "bladder_creep", law = "-k_c (x - x_c), tau dx_c/dt = x - x_c",
                                     sentence = "the rubber pulls back after a move and then gives way",
                                     source =
@@ -18,14 +19,14 @@ struct BladderCreep {
       Variant{"", "stiffness", 0.0, 100.0, Sign::positive, 0.1, "time", 0.3, 1.5, 8.0}};
   static constexpr double memory_size = 0.1;  // m
 
-  double stiffness_N_per_m = 0.0, time_s = 1.0;
+  P stiffness_N_per_m = 0.0, time_s = 1.0;
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
     visit("stiffness", self.stiffness_N_per_m, "N/m", 0.0, 1e4, "k_c; 0: absent");
     visit("time", self.time_s, "s", 0.02, 1000.0, "tau");
   }
-  bool absent() const { return stiffness_N_per_m == 0.0; }
+  auto absent() const { return stiffness_N_per_m == 0.0; }
 
   template <class S>
   S pull_N(const Instant<S>& now, const S& crept_m) const {
@@ -36,5 +37,6 @@ struct BladderCreep {
     return (now.rise_m - crept_m) / time_s;
   }
 };
+using BladderCreep = BladderCreepOf<double>;
 
 }  // namespace mckibben::plant

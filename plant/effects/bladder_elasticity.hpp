@@ -17,7 +17,8 @@ constexpr auto names(BladderLaw) {
                     std::pair{saturating, std::string_view{"saturating"}}};
 }
 
-struct BladderElasticity {
+template <class P>
+struct BladderElasticityOf {
   static constexpr std::string_view name = "bladder_elasticity",
                                     law = "linear: -k_b x; saturating: -F_b (1 - exp(-e / e_b))",
                                     sentence = "the rubber tube pulls back as the muscle shortens",
@@ -30,7 +31,7 @@ struct BladderElasticity {
       Variant{"saturating", "force", 0.0, 10.0, Sign::positive, 0.01, "ratio", 0.02, 0.06, 0.15}};
 
   BladderLaw variant = BladderLaw::linear;
-  double stiffness_N_per_m = 0.0, force_N = 0.0, ratio = 0.05;
+  P stiffness_N_per_m = 0.0, force_N = 0.0, ratio = 0.05;
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
@@ -39,16 +40,18 @@ struct BladderElasticity {
     visit("force", self.force_N, "N", 0.0, 1e3, "saturating: F_b; 0: absent");
     visit("ratio", self.ratio, "1", 1e-3, 1.0, "saturating: e_b, contraction ratio over which it grows");
   }
-  bool absent() const { return (variant == BladderLaw::linear ? stiffness_N_per_m : force_N) == 0.0; }
+  auto absent() const { return (variant == BladderLaw::linear ? stiffness_N_per_m : force_N) == 0.0; }
 
   template <class S>
   S pull_N(const Instant<S>& now, const S&) const {
     using std::exp;
     if (variant == BladderLaw::linear) return -stiffness_N_per_m * now.rise_m;
     // Below e = 0 the exponential would run away; there it goes on straight.
-    if (now.contraction_ratio < 0.0) return -force_N / ratio * now.contraction_ratio;
-    return -force_N * (1.0 - exp(-now.contraction_ratio / ratio));
+    return choose(
+        now.contraction_ratio < 0.0, [&] { return S(-force_N / ratio * now.contraction_ratio); },
+        [&] { return S(-force_N * (1.0 - exp(-now.contraction_ratio / ratio))); });
   }
 };
+using BladderElasticity = BladderElasticityOf<double>;
 
 }  // namespace mckibben::plant

@@ -1,24 +1,25 @@
 // What every effect can see and say. An effect is a departure from the nominal rig: a plain struct in a
-// header of its own with
+// header of its own, over the type P of its parameters (double, or lanes with a value for each of several
+// rigs), with
 //   name, law, sentence, source            what `mckibben effects` prints
 //   hooks                                  which of the functions below it has: one that is declared and not
 //                                          there, or there and not declared, does not compile
 //   its parameters and `fields`            as every settings struct
 //   absent()                               true where the rig is the nominal one, bit for bit
 //   variants                               how a diagnosis looks for it, one entry for each law variant
-// and those of these functions that it needs (S is double, or a dual number):
+// and those of these functions that it needs (S is double, a dual number, or lanes):
 //   S pull_N(now, memory)                  force on the load, positive upwards
 //   S friction_factor(now, memory)         multiplies the friction level G
 //   S end_correction_shift(now)            added to k, in the braid force only
 //   S outflow_kg_per_s(now)                gas that leaves the muscle
-//   double gas_exponent()                  multiplies both pressure rates
+//   P gas_exponent()                       multiplies both pressure rates
 //   S valve_error_shift_Pa(error)          added to P_ref - P_v
 //   S valve_opening(wanted, memory)        by how much the valve opens
 //   S supply_drop_Pa(memory)               taken from the supply pressure
 //   S memory_rate(now, inflow, memory)     d(memory)/dt; a memory starts at zero; `memory_size` is its scale
 //   double reference_Pa(wanted, play)      at each tick: the reference that the valve follows
 //   double wheel_m(rise, play)             at each tick: where the encoder's wheel stands
-//   double reading_factor()                multiplies what the encoder reads of it
+//   P reading_factor()                     multiplies what the encoder reads of it
 // Effects never see each other: shifts add up, factors multiply, plays in series are one play as wide as all
 // of them. So their order cannot matter.
 #pragma once
@@ -36,14 +37,15 @@ namespace mckibben::plant {
 /// What is known at an instant, before any effect. Pressures gauge.
 template <class S>
 struct Instant {
-  S contraction_ratio;    ///< e
-  S rise_m;               ///< x = l0 e
-  S speed_m_per_s;        ///< v = l0 w
-  S muscle_pressure_Pa;   ///< P_m
-  double weight_N;        ///< m g
-  double atmosphere_Pa;   ///< absolute
-  double gas_J_per_kg;    ///< R T
-  Restriction unit_flow;  ///< of a conductance of 1 m3/(s Pa)
+  using P = AsParameter<S>;
+  S contraction_ratio;         ///< e
+  S rise_m;                    ///< x = l0 e
+  S speed_m_per_s;             ///< v = l0 w
+  S muscle_pressure_Pa;        ///< P_m
+  P weight_N;                  ///< m g
+  P atmosphere_Pa;             ///< absolute
+  P gas_J_per_kg;              ///< R T
+  RestrictionOf<P> unit_flow;  ///< of a conductance of 1 m3/(s Pa)
 };
 
 /// What flows into the plant at that instant, after all effects on it.

@@ -7,7 +7,8 @@
 
 namespace mckibben::plant {
 
-struct EncoderBacklash {
+template <class P>
+struct EncoderBacklashOf {
   static constexpr std::string_view name = "encoder_backlash",
                                     law = "the wheel is a play of full width w behind the load",
                                     sentence =
@@ -16,14 +17,15 @@ struct EncoderBacklash {
   static constexpr std::array hooks{Hook::wheel};
   static constexpr std::array variants{Variant{"", "width", 0.0, 5e-4, Sign::positive, 1e-4}};
 
-  double width_m = 0.0;
+  P width_m = 0.0;
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
     visit("width", self.width_m, "m", 0.0, 0.02, "w, full width; 0: absent");
   }
-  bool absent() const { return width_m == 0.0; }
+  auto absent() const { return width_m == 0.0; }
   double wheel_m(double rise_m, Play& play) const { return play.follow(rise_m, 0.5 * width_m); }
 };
+using EncoderBacklash = EncoderBacklashOf<double>;
 
 }  // namespace mckibben::plant

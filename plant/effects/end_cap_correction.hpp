@@ -7,7 +7,8 @@
 
 namespace mckibben::plant {
 
-struct EndCapCorrection {
+template <class P>
+struct EndCapCorrectionOf {
   static constexpr std::string_view name = "end_cap_correction",
                                     law = "k = k_0 + k_1 P_m / (1 bar), in the force only",
                                     sentence = "the correction for the conical ends depends on pressure",
@@ -17,18 +18,19 @@ struct EndCapCorrection {
   static constexpr std::array hooks{Hook::end_correction_shift};
   static constexpr std::array variants{Variant{"", "slope", 0.0, 0.01, Sign::either, 1e-5}};
 
-  double slope = 0.0;
+  P slope = 0.0;
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
     visit("slope", self.slope, "1", -0.2, 0.2, "k_1, for each bar of gauge pressure; 0: absent");
   }
-  bool absent() const { return slope == 0.0; }
+  auto absent() const { return slope == 0.0; }
 
   template <class S>
   S end_correction_shift(const Instant<S>& now) const {
     return slope * now.muscle_pressure_Pa / 1e5;
   }
 };
+using EndCapCorrection = EndCapCorrectionOf<double>;
 
 }  // namespace mckibben::plant

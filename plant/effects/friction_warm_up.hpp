@@ -7,7 +7,8 @@
 
 namespace mckibben::plant {
 
-struct FrictionWarmUp {
+template <class P>
+struct FrictionWarmUpOf {
   static constexpr std::string_view name = "friction_warm_up",
                                     law = "G x [1 + d (1 - exp(-t / tau))], t from the start of the run",
                                     sentence = "thread friction changes while the muscle warms up",
@@ -19,14 +20,14 @@ struct FrictionWarmUp {
       Variant{"", "change", 0.0, -0.2, Sign::either, -2e-4, "time", 1.5, 5.0, 20.0}};
   static constexpr double memory_size = 1.0;
 
-  double change = 0.0, time_s = 5.0;
+  P change = 0.0, time_s = 5.0;
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
     visit("change", self.change, "1", -0.95, 5.0, "d, in the end; 0: absent");
     visit("time", self.time_s, "s", 0.1, 1e5, "tau");
   }
-  bool absent() const { return change == 0.0; }
+  auto absent() const { return change == 0.0; }
 
   template <class S>
   S friction_factor(const Instant<S>&, const S& warmth) const {
@@ -37,5 +38,6 @@ struct FrictionWarmUp {
     return (1.0 - warmth) / time_s;
   }
 };
+using FrictionWarmUp = FrictionWarmUpOf<double>;
 
 }  // namespace mckibben::plant

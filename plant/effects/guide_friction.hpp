@@ -8,7 +8,8 @@
 
 namespace mckibben::plant {
 
-struct GuideFriction {
+template <class P>
+struct GuideFrictionOf {
   static constexpr std::string_view name = "guide_friction", law = "-mu m g tanh(v / v_0)",
                                     sentence = "dry friction that grows with the load, not with the pressure",
                                     source =
@@ -18,7 +19,7 @@ struct GuideFriction {
   static constexpr std::array variants{
       Variant{"", "coefficient", 0.0, 0.02, Sign::positive, 2e-5, "slip_speed", 5e-4, 1e-3, 2e-3}};
 
-  double coefficient = 0.0, slip_speed_m_per_s = 1e-3;
+  P coefficient = 0.0, slip_speed_m_per_s = 1e-3;
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
@@ -26,7 +27,7 @@ struct GuideFriction {
     visit("slip_speed", self.slip_speed_m_per_s, "m/s", 1e-4, 0.1,
           "v_0: speed over which the jump at zero is smoothed");
   }
-  bool absent() const { return coefficient == 0.0; }
+  auto absent() const { return coefficient == 0.0; }
 
   template <class S>
   S pull_N(const Instant<S>& now, const S&) const {
@@ -34,5 +35,6 @@ struct GuideFriction {
     return -coefficient * now.weight_N * tanh(now.speed_m_per_s / slip_speed_m_per_s);
   }
 };
+using GuideFriction = GuideFrictionOf<double>;
 
 }  // namespace mckibben::plant

@@ -7,7 +7,8 @@
 
 namespace mckibben::plant {
 
-struct MuscleLeak {
+template <class P>
+struct MuscleLeakOf {
   static constexpr std::string_view name = "muscle_leak",
                                     law = "ISO 6358 flow through C_l from the muscle to the atmosphere",
                                     sentence = "gas leaks from the muscle to the atmosphere",
@@ -15,13 +16,13 @@ struct MuscleLeak {
   static constexpr std::array hooks{Hook::outflow};
   static constexpr std::array variants{Variant{"", "conductance", 0.0, 1e-10, Sign::positive, 1e-13}};
 
-  double conductance_m3_per_s_Pa = 0.0;
+  P conductance_m3_per_s_Pa = 0.0;
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
     visit("conductance", self.conductance_m3_per_s_Pa, "m3/(s.Pa)", 0.0, 1e-8, "C_l; 0: absent");
   }
-  bool absent() const { return conductance_m3_per_s_Pa == 0.0; }
+  auto absent() const { return conductance_m3_per_s_Pa == 0.0; }
 
   template <class S>
   S outflow_kg_per_s(const Instant<S>& now) const {
@@ -29,5 +30,6 @@ struct MuscleLeak {
     return conductance_m3_per_s_Pa * now.unit_flow.flow_kg_per_s(inside_Pa, S(now.atmosphere_Pa));
   }
 };
+using MuscleLeak = MuscleLeakOf<double>;
 
 }  // namespace mckibben::plant

@@ -7,7 +7,8 @@
 
 namespace mckibben::plant {
 
-struct PolytropicGas {
+template <class P>
+struct PolytropicGasOf {
   static constexpr std::string_view
       name = "polytropic_gas",
       law = "dP_v/dt = n R T (q_v - q_h)/V_v; dP_m/dt = n (R T q_h - P_abs dV/dt)/V",
@@ -18,14 +19,15 @@ struct PolytropicGas {
   static constexpr std::array hooks{Hook::gas_exponent};
   static constexpr std::array variants{Variant{"", "exponent", 1.0, 0.2, Sign::positive, 2e-4}};
 
-  double exponent = 1.0;
+  P exponent = 1.0;
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
     visit("exponent", self.exponent, "1", 1.0, 1.67, "n; 1: absent (isothermal)");
   }
-  bool absent() const { return exponent == 1.0; }
-  double gas_exponent() const { return exponent; }
+  auto absent() const { return exponent == 1.0; }
+  P gas_exponent() const { return exponent; }
 };
+using PolytropicGas = PolytropicGasOf<double>;
 
 }  // namespace mckibben::plant

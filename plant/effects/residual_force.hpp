@@ -44,10 +44,11 @@ constexpr auto names(Basis) {
                     std::pair{sine, std::string_view{"sin(2 pi x / wavelength + phase)"}}};
 }
 
-struct ForceTerm {
+template <class P>
+struct ForceTermOf {
   Basis of = Basis::constant;
-  double coefficient_N = 0.0;
-  double wavelength_m = 0.01, phase_rad = 0.0;
+  P coefficient_N = 0.0;
+  P wavelength_m = 0.01, phase_rad = 0.0;
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
@@ -65,7 +66,7 @@ struct ForceTerm {
     using std::tanh;
     const S& e = now.contraction_ratio;
     const S v = now.speed_m_per_s / 0.1;
-    const S P = now.muscle_pressure_Pa / 1e5;
+    const S pressure_bar = now.muscle_pressure_Pa / 1e5;
     const auto direction = [&] { return S(tanh(now.speed_m_per_s / 1e-3)); };
     S value = S(0.0);
     switch (of) {
@@ -79,10 +80,10 @@ struct ForceTerm {
         value = e * e;
         break;
       case Basis::pressure:
-        value = P;
+        value = pressure_bar;
         break;
       case Basis::pressure_ratio:
-        value = P * e;
+        value = pressure_bar * e;
         break;
       case Basis::load:
         value = S(now.weight_N / 98.0665);
@@ -100,7 +101,7 @@ struct ForceTerm {
         value = direction() * e;
         break;
       case Basis::direction_pressure:
-        value = direction() * P;
+        value = direction() * pressure_bar;
         break;
       case Basis::sine:
         value = sin(S(2.0 * std::numbers::pi / wavelength_m * now.rise_m + phase_rad));
@@ -109,15 +110,17 @@ struct ForceTerm {
     return coefficient_N * value;
   }
 };
+using ForceTerm = ForceTermOf<double>;
 
-struct ResidualForce {
+template <class P>
+struct ResidualForceOf {
   static constexpr std::string_view name = "residual_law", law = "sum of coefficient x term",
                                     sentence = "a force outside the catalogue, as a diagnosis found it",
                                     source = "sparse regression on the disagreement with measured data";
   static constexpr std::array hooks{Hook::pull};
   static constexpr std::array<Variant, 0> variants{};
 
-  std::vector<ForceTerm> terms{};
+  std::vector<ForceTermOf<P>> terms{};
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
@@ -128,9 +131,10 @@ struct ResidualForce {
   template <class S>
   S pull_N(const Instant<S>& now, const S&) const {
     S sum = S(0.0);
-    for (const ForceTerm& term : terms) sum = sum + term.pull_N(now);
+    for (const ForceTermOf<P>& term : terms) sum = sum + term.pull_N(now);
     return sum;
   }
 };
+using ResidualForce = ResidualForceOf<double>;
 
 }  // namespace mckibben::plant

@@ -7,7 +7,8 @@
 
 namespace mckibben::plant {
 
-struct SpeedDependentFriction {
+template <class P>
+struct SpeedDependentFrictionOf {
   static constexpr std::string_view
       name = "speed_dependent_friction",
       law = "G x [rho + (1 - rho) exp(-|v| / v_s)]",
@@ -19,7 +20,7 @@ struct SpeedDependentFriction {
   static constexpr std::array variants{
       Variant{"", "ratio", 1.0, -0.3, Sign::either, -3e-4, "speed", 0.005, 0.02, 0.08}};
 
-  double ratio = 1.0, speed_m_per_s = 0.02;
+  P ratio = 1.0, speed_m_per_s = 0.02;
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
@@ -27,7 +28,7 @@ struct SpeedDependentFriction {
           "rho: friction at high speed over friction at rest; 1: absent");
     visit("speed", self.speed_m_per_s, "m/s", 5e-4, 1.0, "v_s: speed over which it changes");
   }
-  bool absent() const { return ratio == 1.0; }
+  auto absent() const { return ratio == 1.0; }
 
   template <class S>
   S friction_factor(const Instant<S>& now, const S&) const {
@@ -36,5 +37,6 @@ struct SpeedDependentFriction {
     return ratio + (1.0 - ratio) * exp(-abs(now.speed_m_per_s) / speed_m_per_s);
   }
 };
+using SpeedDependentFriction = SpeedDependentFrictionOf<double>;
 
 }  // namespace mckibben::plant

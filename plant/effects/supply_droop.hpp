@@ -8,7 +8,8 @@
 
 namespace mckibben::plant {
 
-struct SupplyDroop {
+template <class P>
+struct SupplyDroopOf {
   static constexpr std::string_view
       name = "supply_droop",
       law = "V_s/(R T) dP_s/dt = g_s (P_supply - P_s) - q_in, q_in = what the supply valve draws",
@@ -19,14 +20,14 @@ struct SupplyDroop {
       Variant{"", "line_resistance", 0.0, 1e8, Sign::positive, 1e6, "volume", 5e-5, 3e-4, 2e-3}};
   static constexpr double memory_size = 1e5;  // Pa
 
-  double volume_m3 = 5e-4, line_resistance_s_Pa_per_kg = 0.0;
+  P volume_m3 = 5e-4, line_resistance_s_Pa_per_kg = 0.0;
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
     visit("volume", self.volume_m3, "m3", 1e-6, 1.0, "V_s");
     visit("line_resistance", self.line_resistance_s_Pa_per_kg, "s.Pa/kg", 0.0, 1e10, "1/g_s; 0: absent");
   }
-  bool absent() const { return line_resistance_s_Pa_per_kg == 0.0; }
+  auto absent() const { return line_resistance_s_Pa_per_kg == 0.0; }
 
   template <class S>
   S supply_drop_Pa(const S& drop_Pa) const {
@@ -34,10 +35,12 @@ struct SupplyDroop {
   }
   template <class S>
   S memory_rate(const Instant<S>& now, const Inflow<S>& inflow, const S& drop_Pa) const {
-    const double stiffness_Pa_per_kg = now.gas_J_per_kg / volume_m3;
-    const double resistance = std::max(line_resistance_s_Pa_per_kg, fastest_s * stiffness_Pa_per_kg);
+    using std::max;
+    const P stiffness_Pa_per_kg = now.gas_J_per_kg / volume_m3;
+    const P resistance = max(line_resistance_s_Pa_per_kg, P(fastest_s * stiffness_Pa_per_kg));
     return stiffness_Pa_per_kg * (inflow.supply_kg_per_s - drop_Pa / resistance);
   }
 };
+using SupplyDroop = SupplyDroopOf<double>;
 
 }  // namespace mckibben::plant

@@ -7,7 +7,8 @@
 
 namespace mckibben::plant {
 
-struct ValveDeadBand {
+template <class P>
+struct ValveDeadBandOf {
   static constexpr std::string_view
       name = "valve_dead_band",
       law = "the error P_ref - P_v acts only beyond +-delta, less delta",
@@ -18,20 +19,20 @@ struct ValveDeadBand {
   static constexpr std::array hooks{Hook::valve_error_shift};
   static constexpr std::array variants{Variant{"", "half_width", 0.0, 5e3, Sign::positive, 100.0}};
 
-  double half_width_Pa = 0.0;
+  P half_width_Pa = 0.0;
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
     visit("half_width", self.half_width_Pa, "Pa", 0.0, 2e5, "delta; 0: absent");
   }
-  bool absent() const { return half_width_Pa == 0.0; }
+  auto absent() const { return half_width_Pa == 0.0; }
 
   template <class S>
   S valve_error_shift_Pa(const S& error_Pa) const {
-    if (error_Pa > half_width_Pa) return S(-half_width_Pa);
-    if (error_Pa < -half_width_Pa) return S(half_width_Pa);
-    return -error_Pa;
+    const S below = select(error_Pa < -half_width_Pa, S(half_width_Pa), S(-error_Pa));
+    return select(error_Pa > half_width_Pa, S(-half_width_Pa), below);
   }
 };
+using ValveDeadBand = ValveDeadBandOf<double>;
 
 }  // namespace mckibben::plant

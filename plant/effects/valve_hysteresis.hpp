@@ -7,7 +7,8 @@
 
 namespace mckibben::plant {
 
-struct ValveHysteresis {
+template <class P>
+struct ValveHysteresisOf {
   static constexpr std::string_view
       name = "valve_hysteresis",
       law = "the clamped P_ref passes a play of half width h, updated at each tick",
@@ -16,14 +17,15 @@ struct ValveHysteresis {
   static constexpr std::array hooks{Hook::reference};
   static constexpr std::array variants{Variant{"", "half_width", 0.0, 5e3, Sign::positive, 1e3}};
 
-  double half_width_Pa = 0.0;
+  P half_width_Pa = 0.0;
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
     visit("half_width", self.half_width_Pa, "Pa", 0.0, 2e5, "h; 0: absent");
   }
-  bool absent() const { return half_width_Pa == 0.0; }
+  auto absent() const { return half_width_Pa == 0.0; }
   double reference_Pa(double wanted_Pa, Play& play) const { return play.follow(wanted_Pa, half_width_Pa); }
 };
+using ValveHysteresis = ValveHysteresisOf<double>;
 
 }  // namespace mckibben::plant

@@ -8,7 +8,8 @@
 
 namespace mckibben::plant {
 
-struct ValveLag {
+template <class P>
+struct ValveLagOf {
   static constexpr std::string_view name = "valve_lag", law = "tau du_a/dt = u - u_a, the valve opens by u_a",
                                     sentence = "the valve opens and closes with a delay of first order",
                                     source =
@@ -18,13 +19,13 @@ struct ValveLag {
   static constexpr std::array variants{Variant{"", "time", 0.0, 0.02, Sign::positive, 2e-3}};
   static constexpr double memory_size = 1.0;
 
-  double time_s = 0.0;
+  P time_s = 0.0;
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
     visit("time", self.time_s, "s", 0.0, 2.0, "tau; 0: absent");
   }
-  bool absent() const { return time_s == 0.0; }
+  auto absent() const { return time_s == 0.0; }
 
   template <class S>
   S valve_opening(const S&, const S& opened) const {
@@ -32,8 +33,10 @@ struct ValveLag {
   }
   template <class S>
   S memory_rate(const Instant<S>&, const Inflow<S>& inflow, const S& opened) const {
-    return (inflow.wanted_opening - opened) / std::max(time_s, fastest_s);
+    using std::max;
+    return (inflow.wanted_opening - opened) / max(time_s, P(fastest_s));
   }
 };
+using ValveLag = ValveLagOf<double>;
 
 }  // namespace mckibben::plant

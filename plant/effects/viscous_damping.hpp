@@ -7,7 +7,8 @@
 
 namespace mckibben::plant {
 
-struct ViscousDamping {
+template <class P>
+struct ViscousDampingOf {
   static constexpr std::string_view name = "viscous_damping", law = "-c v",
                                     sentence = "a force against the speed, in proportion to it",
                                     source =
@@ -16,18 +17,19 @@ struct ViscousDamping {
   static constexpr std::array hooks{Hook::pull};
   static constexpr std::array variants{Variant{"", "damping", 0.0, 50.0, Sign::positive, 0.1}};
 
-  double damping_N_s_per_m = 0.0;
+  P damping_N_s_per_m = 0.0;
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
     visit("damping", self.damping_N_s_per_m, "N.s/m", 0.0, 5e3, "c; 0: absent");
   }
-  bool absent() const { return damping_N_s_per_m == 0.0; }
+  auto absent() const { return damping_N_s_per_m == 0.0; }
 
   template <class S>
   S pull_N(const Instant<S>& now, const S&) const {
     return -damping_N_s_per_m * now.speed_m_per_s;
   }
 };
+using ViscousDamping = ViscousDampingOf<double>;
 
 }  // namespace mckibben::plant

@@ -19,6 +19,7 @@
 #include <sim/cli/results.hpp>
 #include <sim/formats/table.hpp>
 #include <sim/input/diagnostics.hpp>
+#include <sim/input/objection_places.hpp>
 #include <sim/input/utf8.hpp>
 #include <sim/output/folder.hpp>
 #include <sim/run/batch.hpp>
@@ -35,6 +36,9 @@ int guarded(const std::function<int()>& work) {
     return status;
   } catch (const input::BadInput& error) {
     say(error.what());
+    return bad_input;
+  } catch (const domain::UnfitData& error) {
+    say(to_text(input::problems_of(error.path(), error.objections())).c_str());
     return bad_input;
   } catch (const input::MissingInput& error) {
     fmt::print(stderr, "mckibben: {}\n", error.what());

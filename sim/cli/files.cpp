@@ -17,6 +17,7 @@
 #include <sim/input/dataset_file.hpp>
 #include <sim/input/field_table.hpp>
 #include <sim/input/json_schema.hpp>
+#include <sim/input/objection_places.hpp>
 #include <sim/input/pair_scenario_file.hpp>
 #include <sim/input/rigs.hpp>
 #include <sim/input/scenario_file.hpp>
@@ -38,8 +39,10 @@ std::string read_measured(const std::filesystem::path& path, std::vector<Problem
   const domain::Dataset data = input::read_dataset(path);
   if (data.own_clock) return fmt::format("{} runs read; none simulated", data.runs.size());
   const run::Look look = run::look(data);
-  run::raise(data, look.findings);
-  warnings = run::problems_of(data, look.findings);
+  warnings = input::problems_of(data.path, with_runs_named(data, look.objections));
+  if (std::any_of(look.objections.begin(), look.objections.end(),
+                  [](const auto& one) { return one.certain; }))
+    throw input::BadInput(warnings);
   return fmt::format("{} of {} runs simulated: stroke, sign, units, order of loads", look.runs,
                      data.runs.size());
 }

@@ -91,14 +91,14 @@ void write_tables(Job& job, const std::string& name, const domain::Dataset& data
   job.write(output::package_file, output::datapackage(package));
 }
 
-/// What looks wrong in the data, and what is doubtful in their simulation. Throws input::BadInput where a
+/// What looks wrong in the data, and what is doubtful in their simulation. Throws domain::UnfitData where a
 /// comparison with them would mean nothing.
 std::vector<std::string> sane(const domain::Dataset& dataset, const std::vector<run::ReplayedRun>& runs) {
-  const auto findings = run::sanity(dataset, run::expected_of(runs));
-  run::raise(dataset, findings);
+  const auto objections = run::sanity(dataset, run::expected_of(runs));
+  run::raise(dataset, objections);
   std::vector<std::string> warnings;
-  warnings.reserve(findings.size());
-  for (const auto& finding : findings) warnings.push_back(run::text_of(dataset, finding));
+  warnings.reserve(objections.size());
+  for (const auto& objection : objections) warnings.push_back(domain::text_of(dataset, objection));
   for (const auto& run : runs)
     for (const auto& doubt : run::doubts(run.recording))
       warnings.push_back(run::warning_of_run(run.id, doubt));

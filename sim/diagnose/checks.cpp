@@ -203,12 +203,12 @@ class Checker {
       expected.push_back({readings.contraction_ratio, readings.pressure_Pa});
     const auto findings = run::sanity(data_, expected);
     run::raise(data_, findings);
-    for (const run::Finding& finding : findings) {
-      const std::string text = run::text_of(data_, finding);
+    for (const domain::Objection& finding : findings) {
+      const std::string text = domain::text_of(data_, finding);
       // More runs are weighed one against the others later, exactly.
       if (finding.exchanged.empty() && data_.runs.size() >= least_labels) continue;
       for (const std::size_t i : finding.runs) left_out_[i] = true;
-      for (const run::SeemingLoad& one : finding.exchanged)
+      for (const domain::SeemingLoad& one : finding.exchanged)
         find(one.run, "load", "left out",
              fmt::format("was left out: it has the label of another load and moves like {:.6g} kg",
                          one.load_kg));
@@ -330,12 +330,10 @@ class Checker {
     const auto [wrong, common_ratio] = check_labels(data_, doubts_.masked, runs, threads_);
     constexpr double pound_kg = 0.45359237;
     if (std::abs(common_ratio / pound_kg - 1.0) < 0.06) {
-      input::Problem problem;
-      problem.file = data_.path.string();
-      problem.message =
+      throw domain::UnfitData(
+          data_,
           fmt::format("load: all runs fit best at {:.2f} times their loads; these look like pounds, not kg",
-                      common_ratio);
-      throw input::BadInput({problem});
+                      common_ratio));
     }
     for (const WrongLabel& label : wrong) {
       if (label.other)

@@ -28,7 +28,7 @@ struct Doubts {
 ///
 /// Labels of loads that contradict the other runs: see labels.hpp.
 ///
-/// Throws input::BadInput where a column is in another unit than it says; engine::NumericalFailure;
+/// Throws domain::UnfitData where a column is in another unit than it says; engine::NumericalFailure;
 /// run::Interrupted.
 Doubts check(const domain::Dataset& data, unsigned threads);
 

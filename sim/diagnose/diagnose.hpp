@@ -17,7 +17,7 @@ struct Settings {
 };
 
 /// Progress counts steps and has no total: how much there is to try depends on what is found. Throws
-/// run::Interrupted; input::BadInput where the data cannot be used at all.
+/// run::Interrupted; domain::UnfitData where the data cannot be used at all.
 Diagnosis diagnose(const domain::Dataset& data, const Settings& settings, const run::ProgressHook& progress);
 
 }  // namespace mckibben::diagnose

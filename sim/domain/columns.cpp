@@ -1,7 +1,30 @@
 // Maps of a data set and of its runs; see the header.
+#include <algorithm>
+#include <cctype>
+
 #include <sim/domain/columns.hpp>
+#include <sim/domain/number.hpp>
 
 namespace mckibben::domain {
+namespace {
+
+/// As YAML takes it.
+std::string scalar(const std::string& text) {
+  const bool plain = !text.empty() && std::all_of(text.begin(), text.end(), [](unsigned char c) {
+    return std::isalnum(c) != 0 || c == '_';
+  });
+  return plain ? text : std::string(1, '"').append(text).append(1, '"');
+}
+
+}  // namespace
+
+std::string line_of(std::string_view quantity, const ColumnPlace& place) {
+  std::string line(quantity);
+  line += ": {column: " + scalar(place.column) + ", unit: " + scalar(place.unit);
+  if (place.zero != 0.0) line += ", zero: " + write_number(place.zero);
+  if (place.factor != 1.0) line += ", factor: " + write_number(place.factor);
+  return line + '}';
+}
 
 ColumnMap merged(const ColumnMap& shared, const ColumnMap& own) {
   ColumnMap map = own;

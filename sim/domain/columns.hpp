@@ -104,6 +104,9 @@ void ColumnMap::rules(Report& report) const {
         report(quantity.key, std::string("it stands in the same column as ").append(other->key));
 }
 
+/// `QUANTITY: {column: C, unit: U, ...}`, as a data set's file says it.
+std::string line_of(std::string_view quantity, const ColumnPlace& place);
+
 /// `own` where it says something, otherwise `shared`.
 ColumnMap merged(const ColumnMap& shared, const ColumnMap& own);
 

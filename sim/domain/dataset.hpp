@@ -25,6 +25,7 @@ struct Run {
   std::vector<double> current_mA;  ///< held from its row to the next
   std::vector<double> contraction_ratio;
   std::optional<std::vector<double>> muscle_pressure_Pa;
+  double ratio_per_unit = 1.0;  ///< of contraction: what one of its file's unit is
 
   std::optional<Measurement> measured;  ///< in place of these three
 

@@ -76,9 +76,8 @@ Vector absolute_tolerances(SUNContext context, double tolerance) {
   using L = typename V::layout;
   Vector v(V::make(context));
   std::fill_n(V::data(v.get()), V::size, 1.0);
-  for (double* lane = V::data(v.get()); lane < V::data(v.get()) + V::size; lane += L::size) {
-    for (int i = 0; i < L::steering; ++i) lane[i] = tolerance * size_of<L>(i);
-  }
+  for (int i = 0; i < L::steering; ++i)
+    std::fill_n(V::data(v.get()) + V::lanes * i, V::lanes, tolerance * size_of<L>(i));
   return v;
 }
 

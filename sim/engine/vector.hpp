@@ -11,12 +11,11 @@
 
 namespace mckibben::engine {
 
-/// The vector operations for N components in equal `Lanes`. Of each lane the first `Norm` count in the error
-/// norm, which is that of the worst lane; the others are passengers. One component of padding makes an odd N
-/// even, so that all loads and stores are of pairs.
-template <int N, int Norm, int Lanes = 1>
+/// The vector operations for N components, of which the first `Norm` count in the error norm; the others are
+/// passengers. One component of padding makes an odd N even, so that all loads and stores are of pairs.
+template <int N, int Norm>
 struct FixedVector {
-  static constexpr int size = N;
+  static constexpr int size = N, lanes = 1;
   using Values = Eigen::Array<double, N + N % 2, 1>;
 
   static Values& values(N_Vector v) { return *static_cast<Values*>(v->content); }
@@ -61,13 +60,9 @@ struct FixedVector {
   static double wrms_norm(N_Vector x, N_Vector w) {
     const double* a = data(x);
     const double* b = data(w);
-    double largest = 0.0;
-    for (int lane = 0; lane < Lanes; ++lane, a += N / Lanes, b += N / Lanes) {
-      double sum = 0.0;
-      for (int i = 0; i < Norm; ++i) sum += (a[i] * b[i]) * (a[i] * b[i]);
-      if (!(sum <= largest)) largest = sum;  // also where it is not a number
-    }
-    return std::sqrt(largest / Norm);
+    double sum = 0.0;
+    for (int i = 0; i < Norm; ++i) sum += (a[i] * b[i]) * (a[i] * b[i]);
+    return std::sqrt(sum / Norm);
   }
 
   static int linear_combination(int count, double* c, N_Vector* x, N_Vector z) {

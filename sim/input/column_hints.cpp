@@ -1,12 +1,10 @@
 // See the header.
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 
 #include <fmt/format.h>
 
 #include <sim/input/column_hints.hpp>
-#include <sim/input/field_kinds.hpp>
 #include <sim/input/number.hpp>
 #include <sim/input/quantity.hpp>
 #include <sim/input/suggest.hpp>
@@ -19,14 +17,6 @@ using domain::quantities, domain::Quantity;
 
 /// Numbers out of range up to which each is told by itself.
 constexpr std::ptrdiff_t few = 3;
-
-/// As YAML takes it.
-std::string scalar(std::string_view text) {
-  const bool plain = !text.empty() && std::all_of(text.begin(), text.end(), [](unsigned char c) {
-    return std::isalnum(c) != 0 || c == '_';
-  });
-  return plain ? std::string(text) : fmt::format("\"{}\"", text);
-}
 
 /// The unit at the end of a heading, as in U_mA, `I [A]` or t(ms); ours if there is none that fits.
 std::string unit_in(std::string_view heading, const Quantity& quantity) {
@@ -65,16 +55,6 @@ ColumnMap with_our_names(ColumnMap map) {
 }
 
 }  // namespace
-
-std::string line_of(std::string_view quantity, const ColumnPlace& place) {
-  std::string line =
-      fmt::format("{}: {{column: {}, unit: {}", quantity, scalar(place.column), scalar(place.unit));
-  if (place.zero != 0.0) line += fmt::format(", zero: {}", write_number(place.zero));
-  if (place.factor != 1.0) line += fmt::format(", factor: {}", write_number(place.factor));
-  if (place.as != domain::Role::reading) line += fmt::format(", as: {}", spelling(place.as));
-  line += '}';
-  return line;
-}
 
 std::string hint_of_missing(const WantedColumn& column, std::span<const std::string_view> found) {
   const auto quantity = std::find_if(quantities.begin(), quantities.end(),

@@ -10,9 +10,6 @@
 
 namespace mckibben::input {
 
-/// `QUANTITY: {column: C, unit: U, ...}`, as a data set's file says it.
-std::string line_of(std::string_view quantity, const ColumnPlace& place);
-
 /// To hang on the message that a column is not among the headings `found`: which line says where it stands.
 std::string hint_of_missing(const WantedColumn& column, std::span<const std::string_view> found);
 

@@ -19,7 +19,7 @@ std::string contraction_problem(const std::string& unit) {
       "{} is not a unit of contraction; wanted is 1, %, count, an angle (deg) or a length (mm)", unit);
 }
 
-/// What one of `unit` is in contraction; units that are none have been refused.
+/// Brings numbers in `unit` to ratios; units that are none have been refused.
 void to_ratio(std::vector<double>& values, const std::string& unit, const plant::Rig& rig) {
   double ratio = 1.0;
   if (unit == "1") return;
@@ -60,6 +60,12 @@ void check_units(const Source& source, const Node& map, Problems& problems) {
     const std::string problem = problem_of(*quantity, unit->text);
     if (!problem.empty()) problems.error(source, unit->place, "unit = " + problem);
   }
+}
+
+double ratio_per_unit(const ColumnPlace& contraction, const plant::Rig& rig) {
+  std::vector<double> one{1.0};
+  if (!contraction.absent()) to_ratio(one, contraction.unit, rig);
+  return one.front();
 }
 
 void convert_columns(Table& table, const ColumnMap& map, const plant::Rig& rig) {

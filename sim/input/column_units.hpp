@@ -14,6 +14,9 @@ using domain::ColumnMap, domain::ColumnPlace;
 /// Checks the units of a map; `map` is the value of `columns`.
 void check_units(const Source& source, const Node& map, Problems& problems);
 
+/// What one of a column's unit is as a contraction ratio; 1 where none is said.
+double ratio_per_unit(const ColumnPlace& contraction, const plant::Rig& rig);
+
 /// Brings a table that was read with a map to our units: time_s, current_mA, contraction_ratio,
 /// muscle_pressure_bar. Lengths and angles become ratios by the rig's wheel and the muscle's rest length.
 void convert_columns(Table& table, const ColumnMap& map, const plant::Rig& rig);

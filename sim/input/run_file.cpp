@@ -150,6 +150,7 @@ void read_table_of(Source source, Format format, const Wanted& wanted, const Col
   checks.pressure(lowest_gauge_bar, highest_gauge_bar);
   run.current_mA = std::move(current->values);
   run.contraction_ratio = std::move(contraction->values);
+  run.ratio_per_unit = ratio_per_unit(map.contraction, dataset.rig);
   if (Table::Column* pressure = table.find("muscle_pressure_bar")) {
     run.muscle_pressure_Pa = std::move(pressure->values);
     for (double& value : *run.muscle_pressure_Pa) value *= plant::Pa_per_bar;

@@ -2,12 +2,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <optional>
+#include <string>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include <plant/geometry.hpp>
-#include <sim/input/column_hints.hpp>
 #include <sim/run/column_sanity.hpp>
 #include <sim/run/series.hpp>
 #include <sim/run/simulate.hpp>
@@ -15,8 +17,7 @@
 namespace mckibben::run {
 namespace {
 
-using domain::ColumnPlace;
-using input::line_of;
+using domain::ColumnPlace, domain::line_of;
 using Series = std::vector<double>;
 
 constexpr double same = 1.25;                // factors as near as that are one
@@ -36,14 +37,18 @@ ColumnPlace with_unit(ColumnPlace place, std::string unit) {
   return place;
 }
 
-/// What one of a unit is as a contraction ratio.
-double ratio_of(const std::string& unit, const plant::Rig& rig) {
-  input::Table one;
-  one.columns.push_back({"contraction_ratio", "", 0, {1.0}});
-  domain::ColumnMap map;
-  map.contraction = {"one", unit};
-  input::convert_columns(one, map, rig);
-  return one.columns.front().values.front();
+/// What one of each unit is as a contraction ratio.
+std::array<std::pair<const char*, double>, 9> ratios_per_unit(const plant::Rig& rig) {
+  const double metre = 1.0 / rig.muscle.rest_length_m, radian = rig.joint.wheel_radius_m * metre;
+  return {{{"1", 1.0},
+           {"%", 0.01},
+           {"mm", 1e-3 * metre},
+           {"cm", 1e-2 * metre},
+           {"m", metre},
+           {"in", 0.0254 * metre},
+           {"count", plant::count_height_m(rig.encoder, rig.joint) * metre},
+           {"deg", std::numbers::pi / 180.0 * radian},
+           {"rad", radian}}};
 }
 
 /// Rows in which nothing but the scale differs.
@@ -58,9 +63,9 @@ bool only_scaled(const Series& measured, const Series& model, double factor) {
 
 class Columns {
  public:
-  Columns(const domain::Dataset& data, std::vector<Finding>& findings)
+  Columns(const domain::Dataset& data, std::vector<domain::Objection>& objections)
       : data_(data),
-        findings_(findings),
+        objections_(objections),
         longest_(plant::Braid(data.rig.muscle).largest_contraction_ratio()) {}
 
   void look(std::size_t i, const Expected& expected) {
@@ -82,12 +87,12 @@ class Columns {
     return map;
   }
 
-  /// One finding for all runs of which the same is to be said; `seen` is of the first.
+  /// One objection for all runs of which the same is to be said; `seen` is of the first.
   void find(const char* quantity, const std::string& seen, const std::string& so) {
-    const auto same_as = [&](const Finding& finding) { return finding.message.ends_with(so); };
-    const auto found = std::find_if(findings_.begin(), findings_.end(), same_as);
-    if (found == findings_.end())
-      findings_.push_back({quantity, {run_}, fmt::format("{}{}", seen, so)});
+    const auto same_as = [&](const domain::Objection& objection) { return objection.message.ends_with(so); };
+    const auto found = std::find_if(objections_.begin(), objections_.end(), same_as);
+    if (found == objections_.end())
+      objections_.push_back({quantity, {run_}, fmt::format("{}{}", seen, so)});
     else
       found->runs.push_back(run_);
   }
@@ -159,7 +164,7 @@ class Columns {
   /// The unit that explains the slope; empty for a ratio that was taken for mm before.
   std::optional<std::string> contraction_unit(const Series& measured, const Series& model,
                                               double slope) const {
-    const double as_read = ratio_of(map_.contraction.unit, data_.rig);
+    const double as_read = data_.runs[run_].ratio_per_unit;
     std::optional<std::string> found;
     double nearest = std::log(same);
     const auto consider = [&](const std::string& unit, double factor) {
@@ -171,9 +176,8 @@ class Columns {
       nearest = off;
       found = unit;
     };
-    for (const char* unit : {"1", "%", "mm", "cm", "m", "in", "count", "deg", "rad"})
-      consider(unit, as_read / ratio_of(unit, data_.rig));
-    if (map_.contraction.unit == "1") consider("", ratio_of("mm", data_.rig));
+    for (const auto& [unit, ratio] : ratios_per_unit(data_.rig)) consider(unit, as_read / ratio);
+    if (map_.contraction.unit == "1") consider("", 1e-3 / data_.rig.muscle.rest_length_m);
     return found;
   }
 
@@ -210,7 +214,7 @@ class Columns {
   }
 
   const domain::Dataset& data_;
-  std::vector<Finding>& findings_;
+  std::vector<domain::Objection>& objections_;
   double longest_;  ///< contraction ratio that a muscle reaches without a load
   domain::ColumnMap map_;
   std::size_t run_ = 0;
@@ -219,8 +223,8 @@ class Columns {
 }  // namespace
 
 void check_columns(const domain::Dataset& data, const std::vector<Expected>& expected,
-                   std::vector<Finding>& findings) {
-  Columns columns(data, findings);
+                   std::vector<domain::Objection>& objections) {
+  Columns columns(data, objections);
   for (std::size_t i = 0; i < data.runs.size(); ++i)
     if (!data.runs[i].current_mA.empty()) columns.look(i, expected[i]);
 }

@@ -7,8 +7,8 @@
 
 namespace mckibben::run {
 
-/// Adds to `findings`: one for each kind, with all runs that it concerns.
+/// Adds to `objections`: one for each kind, with all runs that it concerns.
 void check_columns(const domain::Dataset& data, const std::vector<Expected>& expected,
-                   std::vector<Finding>& findings);
+                   std::vector<domain::Objection>& objections);
 
 }  // namespace mckibben::run

@@ -95,7 +95,7 @@ struct LoadUnit {
   const char* says;
 };
 
-std::optional<Finding> other_unit(const std::vector<Weighed>& list) {
+std::optional<domain::Objection> other_unit(const std::vector<Weighed>& list) {
   constexpr LoadUnit units[] = {
       {1e3, 2.0, 2.0, "kg that are written in g: write kg"},
       {1.0 / plant::gravity_m_per_s2, 1.25, 1.25, "N, not kg: write the mass, N / 9.81"},
@@ -105,7 +105,7 @@ std::optional<Finding> other_unit(const std::vector<Weighed>& list) {
   for (const LoadUnit& unit : units) {
     const double off = std::abs(std::log(ratio / unit.ratio));
     if (off > std::log(unit.near)) continue;
-    return Finding{
+    return domain::Objection{
         "load", runs_of(list),
         fmt::format("load = {} kg, but it moves like {:.3g} kg, and all loads are off by about that "
                     "factor; these look like {}",
@@ -143,17 +143,18 @@ std::vector<Weighed> in_order(std::vector<Weighed> list) {
   return list;
 }
 
-std::optional<Finding> exchanged_labels(const domain::Dataset& data, const std::vector<Weighed>& list) {
+std::optional<domain::Objection> exchanged_labels(const domain::Dataset& data,
+                                                  const std::vector<Weighed>& list) {
   const std::vector<Weighed> ordered = in_order(list);
   const double scale = common_ratio(ordered);
-  Finding finding{"load", {}, "", false};
+  domain::Objection objection{"load", {}, "", false};
   std::string written, seems;
   bool all_agree = true;
   for (std::size_t i = 0; i < list.size(); ++i) {
     const double label_kg = list[i].label_kg, other_kg = ordered[i].label_kg;
     if (label_kg == other_kg) continue;
-    finding.runs.push_back(list[i].run);
-    finding.exchanged.push_back({list[i].run, other_kg});
+    objection.runs.push_back(list[i].run);
+    objection.exchanged.push_back({list[i].run, other_kg});
     all_agree = all_agree && std::abs(list[i].seems_kg - scale * other_kg) <
                                  agrees * std::abs(label_kg - other_kg) * scale;
     const std::string& id = data.runs[list[i].run].id;
@@ -162,24 +163,24 @@ std::optional<Finding> exchanged_labels(const domain::Dataset& data, const std::
     seems += fmt::format("{}{} ({} kg) like {:.1f} kg", comma, id, domain::write_number(label_kg),
                          list[i].seems_kg);
   }
-  if (finding.runs.empty()) return std::nullopt;
-  if (!all_agree) finding.exchanged.clear();
-  finding.message =
+  if (objection.runs.empty()) return std::nullopt;
+  if (!all_agree) objection.exchanged.clear();
+  objection.message =
       fmt::format("at equal pressure a heavier load contracts less, but {}: {}", seems,
                   all_agree ? "these labels look exchanged; write " + written
                             : "are the labels right, and were the encoders set to zero at the same place?");
-  return finding;
+  return objection;
 }
 
 }  // namespace
 
 void check_loads(const domain::Dataset& data, const std::vector<Expected>& expected,
-                 std::vector<Finding>& findings) {
+                 std::vector<domain::Objection>& objections) {
   const std::vector<Weighed> list = weigh(data, expected);
   if (list.empty()) return;
   auto found = other_unit(list);
   if (!found) found = exchanged_labels(data, list);
-  if (found) findings.push_back(std::move(*found));
+  if (found) objections.push_back(std::move(*found));
 }
 
 }  // namespace mckibben::run

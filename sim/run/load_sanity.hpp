@@ -8,8 +8,8 @@
 
 namespace mckibben::run {
 
-/// All loads in another unit; labels that two or more runs have of each other. Adds to `findings`.
+/// All loads in another unit; labels that two or more runs have of each other. Adds to `objections`.
 void check_loads(const domain::Dataset& data, const std::vector<Expected>& expected,
-                 std::vector<Finding>& findings);
+                 std::vector<domain::Objection>& objections);
 
 }  // namespace mckibben::run

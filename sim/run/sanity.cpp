@@ -1,9 +1,6 @@
 // See the header.
 #include <algorithm>
 
-#include <fmt/format.h>
-
-#include <sim/input/yaml_file.hpp>
 #include <sim/run/batch.hpp>
 #include <sim/run/column_sanity.hpp>
 #include <sim/run/load_sanity.hpp>
@@ -16,21 +13,6 @@ namespace {
 /// So much is simulated in a few seconds: the thesis's campaign.
 constexpr std::size_t most_rows = 200'000, most_rows_of_a_run = 20'000;
 
-using input::Node;
-
-/// What is to be changed: the quantity where its map or load is said, otherwise the run, or the first line.
-input::Place place_of(const input::YamlFile& file, const Finding& finding) {
-  const Node& run = file.root.find("runs")->children.at(finding.runs.front());
-  for (const Node* from : {&run, static_cast<const Node*>(&file.root)}) {
-    const Node* columns = from->find("columns");
-    const Node* node = finding.quantity == "load" ? from->find("load")
-                       : columns != nullptr       ? columns->find(finding.quantity)
-                                                  : nullptr;
-    if (node != nullptr) return node->place;
-  }
-  return run.place;
-}
-
 domain::Run beginning_of(domain::Run run, std::size_t rows) {
   rows = std::min(rows, run.current_mA.size());
   run.current_mA.resize(rows);
@@ -41,12 +23,12 @@ domain::Run beginning_of(domain::Run run, std::size_t rows) {
 
 }  // namespace
 
-std::vector<Finding> sanity(const domain::Dataset& data, const std::vector<Expected>& expected) {
-  std::vector<Finding> findings;
-  check_columns(data, expected, findings);
+std::vector<domain::Objection> sanity(const domain::Dataset& data, const std::vector<Expected>& expected) {
+  std::vector<domain::Objection> objections;
+  check_columns(data, expected, objections);
   // The wrong numbers would weigh wrong.
-  if (findings.empty()) check_loads(data, expected, findings);
-  return findings;
+  if (objections.empty()) check_loads(data, expected, objections);
+  return objections;
 }
 
 std::vector<Expected> expected_of(const std::vector<ReplayedRun>& replayed) {
@@ -72,44 +54,15 @@ Look look(const domain::Dataset& data) {
   const auto replayed = replay(some, 0, [](const auto&, auto, auto) {});
   if (interrupted()) throw Interrupted();
   Look result{sanity(some, expected_of(replayed)), some.runs.size()};
-  for (Finding& finding : result.findings)
-    for (std::size_t& run : finding.runs) run *= step;
+  for (domain::Objection& objection : result.objections)
+    for (std::size_t& run : objection.runs) run *= step;
   return result;
 }
 
-std::string text_of(const domain::Dataset& data, const Finding& finding) {
-  const std::size_t count = finding.runs.size();
-  if (count == data.runs.size() && count > 1) return "all runs: " + finding.message;
-  constexpr std::size_t most_shown = 9;
-  std::string ids;
-  for (std::size_t i = 0; i < std::min(count, most_shown); ++i)
-    ids += (i > 0 ? ", " : "") + data.runs[finding.runs[i]].id;
-  if (count > most_shown) ids += fmt::format(" and {} more", count - most_shown);
-  return fmt::format("run{} {}: {}", count > 1 ? "s" : "", ids, finding.message);
-}
-
-std::vector<input::Problem> problems_of(const domain::Dataset& data, const std::vector<Finding>& findings) {
-  if (findings.empty()) return {};
-  input::Problems problems;
-  const auto tell = [&](const input::Source& source, input::Place place, const Finding& finding) {
-    const std::string text = text_of(data, finding);
-    if (finding.certain)
-      problems.error(source, place, text);
-    else
-      problems.warning(source, place, text);
-  };
-  try {
-    const input::YamlFile file = input::load_yaml(data.path);
-    for (const Finding& finding : findings) tell(file.source, place_of(file, finding), finding);
-  } catch (const input::MissingInput&) {  // a data set that was made and not read
-    for (const Finding& finding : findings) tell({data.path.string(), "", {}}, input::nowhere, finding);
-  }
-  return problems.sorted();
-}
-
-void raise(const domain::Dataset& data, const std::vector<Finding>& findings) {
-  if (std::any_of(findings.begin(), findings.end(), [](const Finding& one) { return one.certain; }))
-    throw input::BadInput(problems_of(data, findings));
+void raise(const domain::Dataset& data, const std::vector<domain::Objection>& objections) {
+  if (std::any_of(objections.begin(), objections.end(),
+                  [](const domain::Objection& one) { return one.certain; }))
+    throw domain::UnfitData(data, objections);
 }
 
 }  // namespace mckibben::run

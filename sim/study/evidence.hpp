@@ -45,7 +45,7 @@ struct Evidence {
 };
 
 /// Simulates the campaign on `threads` threads (0: all the machine has) and calibrates. Throws
-/// run::Interrupted; input::BadInput if the data cannot be calibrated.
+/// run::Interrupted; domain::UnfitData if the data cannot be calibrated.
 Evidence gather(domain::Campaign campaign, unsigned threads, const run::ProgressHook& progress);
 
 /// Mean, spread and root mean square of what is added.

@@ -6,7 +6,7 @@
 
 #include <plant/geometry.hpp>
 #include <plant/instruments.hpp>
-#include <sim/input/diagnostics.hpp>
+#include <sim/domain/objection.hpp>
 #include <sim/thesis/processing.hpp>
 
 namespace mckibben::thesis {
@@ -242,7 +242,7 @@ ProcessedRun process(const domain::Run& run, const domain::Dataset& dataset,
 }
 
 void refuse(const domain::Dataset& dataset, std::string message) {
-  throw input::BadInput({{input::Severity::error, dataset.path.string(), {}, std::move(message), ""}});
+  throw domain::UnfitData(dataset, std::move(message));
 }
 
 }  // namespace mckibben::thesis

@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 
 #include <sim/diagnose/diagnose.hpp>
+#include <sim/domain/objection.hpp>
 #include <sim/engine/failure.hpp>
-#include <sim/input/diagnostics.hpp>
 
 #include "corruptions.hpp"
 
@@ -28,8 +28,8 @@ Said said_of(const domain::Dataset& data, std::uint64_t seed) {
       if (value == found.verdict) said.verdict = name;
     for (const auto& effect : found.effects) said.effects.push_back(effect.name);
     return said;
-  } catch (const input::BadInput& bad) {
-    return {.verdict = "refused", .sentence = bad.what()};
+  } catch (const domain::UnfitData& unfit) {
+    return {.verdict = "refused", .sentence = unfit.what()};
   } catch (const engine::NumericalFailure& failure) {
     return {.verdict = "failed", .sentence = failure.what()};
   }

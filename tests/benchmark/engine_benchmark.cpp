@@ -17,6 +17,7 @@
 #include <nvector/nvector_serial.h>
 
 #include <sim/engine/erk_method.hpp>
+#include <sim/engine/flock.hpp>
 #include <sim/engine/versions.hpp>
 
 #include "switched_on.hpp"
@@ -27,7 +28,7 @@ namespace {
 /// The library's own vector, for comparison.
 struct StockVector {
   using layout = Layout<1, false, Books::none>;
-  static constexpr int size = layout::size;
+  static constexpr int size = layout::size, lanes = 1;
   static double* data(N_Vector v) { return NV_DATA_S(v); }
   static N_Vector make(SUNContext context) { return N_VNew_Serial(size, context); }
 };
@@ -63,7 +64,7 @@ double right_hand_side_s() {
   static const double cost_s = [] {
     const Ride& ride = rides[0];
     const plant::Plant plant(plant::Rig{}, ride.load_kg);
-    const auto integrator = make_integrator(plant, Settings{}, false);
+    const auto integrator = make_integrator(plant, solver::Settings{}, false);
     std::vector<std::array<double, plant::single_size>> states;
     std::vector<plant::Held> held;
     Flow flow;
@@ -130,7 +131,7 @@ void Erk_(benchmark::State& state) {
 }
 void Engine_(benchmark::State& state, Method method, bool ledger) {
   ride_benchmark(state, [&](const plant::Plant& plant) {
-    return make_integrator(plant, {method, Settings{}.tolerance}, ledger);
+    return make_integrator(plant, {method, solver::Settings{}.tolerance}, ledger);
   });
 }
 
@@ -147,7 +148,38 @@ plant::Rig creeping() {
 }
 void Effects_(benchmark::State& state, const plant::Rig& rig) {
   ride_benchmark(
-      state, [](const plant::Plant& plant) { return make_integrator(plant, Settings{}, false); }, rig);
+      state, [](const plant::Plant& plant) { return make_integrator(plant, solver::Settings{}, false); },
+      rig);
+}
+
+/// Eight rigs in common steps, their loads `spread_kg` apart: what one of them costs.
+void Abreast_(benchmark::State& state, double spread_kg) {
+  const Ride& ride = rides[state.range(0)];
+  std::vector<plant::Plant> plants;
+  for (std::size_t i = 0; i < Flock::most; ++i)
+    plants.emplace_back(plant::Rig{}, ride.load_kg + spread_kg * static_cast<double>(i));
+  const double simulated_s = ride_ticks * 0.012 * static_cast<double>(Flock::most);
+  double best_s = 1e9;
+  for (auto _ : state) {
+    const auto flock = make_flock(plants, loose);
+    std::vector<Flow> flows(plants.size());
+    std::vector<plant::Held> held(plants.size());
+    for (std::size_t i = 0; i < plants.size(); ++i) {
+      held[i].reference_pressure_Pa = plants[i].reference_pressure_Pa(0.0);
+      flows[i].state = plants[i].at_rest(held[i]);
+    }
+    const auto start = std::chrono::steady_clock::now();
+    for (int k = 0; k < ride_ticks; ++k) {
+      for (std::size_t i = 0; i < plants.size(); ++i)
+        held[i].reference_pressure_Pa = plants[i].reference_pressure_Pa(current_mA(ride, k));
+      flock->advance(flows, held, 0.012 * k, 0.012 * (k + 1));
+    }
+    const double cost_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    best_s = std::min(best_s, cost_s);
+    state.SetIterationTime(cost_s);
+  }
+  state.counters["rhs_times_per_s"] = best_s / right_hand_side_s() / simulated_s;
+  state.counters["times_real_time"] = simulated_s / best_s;
 }
 
 BENCHMARK(Erk_<PlantVector<1, false, Books::none>>)
@@ -157,6 +189,11 @@ BENCHMARK(Erk_<PlantVector<1, false, Books::none>>)
     ->Unit(benchmark::kMillisecond);
 BENCHMARK(Erk_<StockVector>)
     ->Name("erk/error_1e-6/stock_vector")
+    ->DenseRange(0, 1)
+    ->UseManualTime()
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(Abreast_, alike, 1e-6)->DenseRange(0, 1)->UseManualTime()->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(Abreast_, other_loads, 1.0)
     ->DenseRange(0, 1)
     ->UseManualTime()
     ->Unit(benchmark::kMillisecond);

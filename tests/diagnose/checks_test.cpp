@@ -6,7 +6,7 @@
 
 #include <sim/diagnose/checks.hpp>
 #include <sim/diagnose/predict.hpp>
-#include <sim/input/diagnostics.hpp>
+#include <sim/domain/objection.hpp>
 #include <sim/run/simulate.hpp>
 
 #include "planted.hpp"
@@ -45,8 +45,8 @@ std::vector<std::size_t> masked(const Doubts& doubts, std::size_t run) {
 std::string error(const domain::Dataset& data) {
   try {
     check(data, 2);
-  } catch (const input::BadInput& bad) {
-    return bad.what();
+  } catch (const domain::UnfitData& unfit) {
+    return unfit.what();
   }
   return "";
 }

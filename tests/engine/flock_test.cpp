@@ -51,6 +51,17 @@ TEST(Flock, CarriesEachRigWhereItGoesAlone) {
   }
 }
 
+TEST(Flock, RigsThatDifferInMoreThanNumbersGoToo) {
+  plant::Rig area, log;
+  area.friction.law = plant::FrictionLaw::area;
+  log.friction.law = plant::FrictionLaw::logarithmic;
+  const std::vector<plant::Plant> plants{{plant::Rig{}, 16.138}, {area, 16.138}, {log, 16.138}};
+  const auto together = fly(plants, 1e-9);
+  for (std::size_t i = 0; i < plants.size(); ++i)
+    EXPECT_NEAR(together[i], fly({plants[i]}, 1e-9)[0], 1e-7) << i;
+  EXPECT_NE(together[0], together[1]);
+}
+
 TEST(Flock, DifferencesOverATinyChangeAreSensitivities) {
   constexpr double radius_m = 7.5e-3;
   const double h = 1e-9;

@@ -49,9 +49,10 @@ std::vector<double> all_of(const Plant& plant, const State<double>& state, const
   const auto now = plant.moment(state, memory, held);
   const auto dt = plant.rates(state, now);
   const auto books = plant.ledger_rates(state, now, plant.opened(state));
-  std::vector<double> values(sizeof dt / sizeof(double) + sizeof books / sizeof(double));
-  std::memcpy(values.data(), &dt, sizeof dt);
-  std::memcpy(values.data() + sizeof dt / sizeof(double), &books, sizeof books);
+  constexpr std::size_t rates = single_size;  // nobody is on the other side
+  std::vector<double> values(rates + sizeof books / sizeof(double));
+  std::memcpy(values.data(), &dt, rates * sizeof(double));
+  std::memcpy(values.data() + rates, &books, sizeof books);
   values.insert(values.end(), {now.valve_opening, now.supply_flow, now.friction_level_N});
   if (plant.remembers()) values.insert(values.end(), now.memory_rates.begin(), now.memory_rates.end());
   return values;
@@ -333,7 +334,7 @@ template <class... E>
 struct Turned<std::tuple<E...>> {
   template <std::size_t... i>
   static auto turn(std::index_sequence<i...>)
-      -> EffectSet<std::tuple_element_t<sizeof...(E) - 1 - i, std::tuple<E...>>...>;
+      -> EffectSet<double, std::tuple_element_t<sizeof...(E) - 1 - i, std::tuple<E...>>...>;
   using type = decltype(turn(std::index_sequence_for<E...>{}));
 };
 

@@ -50,7 +50,7 @@ const domain::Dataset& sound() {
 
 std::vector<std::string> said(const domain::Dataset& data) {
   std::vector<std::string> list;
-  for (const auto& problem : problems_of(data, look(data).findings)) list.push_back(to_text(problem));
+  for (const auto& one : look(data).objections) list.emplace_back(domain::UnfitData(data, {one}).what());
   return list;
 }
 
@@ -66,6 +66,12 @@ domain::Dataset scaled(double factor, std::vector<std::size_t> runs = {0, 1, 2, 
   for (const std::size_t run : runs)
     for (double& ratio : data.runs[run].contraction_ratio) ratio *= factor;
   return data;
+}
+
+/// As if the contraction had been read from a column in mm.
+void read_from(domain::Dataset& data, domain::ColumnPlace millimetres) {
+  data.columns.contraction = std::move(millimetres);
+  for (domain::Run& run : data.runs) run.ratio_per_unit = 1e-3 / data.rig.muscle.rest_length_m;
 }
 
 TEST(Sanity, SoundDataOfOtherRigsAreLeftAlone) {
@@ -91,7 +97,7 @@ TEST(Sanity, OneLoadThatAWeakMuscleHardlyLiftsIsNoOtherUnit) {
 
 TEST(Sanity, ARatioThatIsCalledMillimetresIsSaidWithTheLineToWrite) {
   auto data = scaled(1.0 / 300.0);
-  data.columns.contraction = {"contraction_ratio", "mm"};
+  read_from(data, {"contraction_ratio", "mm"});
   const std::string text = says(data);
   EXPECT_TRUE(text.starts_with("measured/dataset.yaml: error: all runs: contraction is up to ")) << text;
   EXPECT_TRUE(
@@ -112,7 +118,7 @@ TEST(Sanity, OtherUnitsAreNamed) {
   expect(0.3, "metres, not a ratio");
   expect(1.0 / 300.0, "a ratio that was divided by the rest length in millimetres");
   auto inches = scaled(1.0 / 25.4);
-  inches.columns.contraction = {"rope", "mm"};
+  read_from(inches, {"rope", "mm"});
   EXPECT_NE(says(inches).find("{contraction: {column: rope, unit: in}}"), std::string::npos);
 }
 
@@ -125,7 +131,7 @@ TEST(Sanity, TheOtherSignIsSaidOnceWithItsFactor) {
   EXPECT_NE(text.find("error: runs r02, r05: "), std::string::npos) << text;
   EXPECT_NE(text.find("{column: contraction_ratio, unit: 1, factor: -1}"), std::string::npos) << text;
   auto data = scaled(-1.0);
-  data.columns.contraction = {"rope", "mm", 412.5, 2.0};
+  read_from(data, {"rope", "mm", 412.5, 2.0});
   EXPECT_NE(says(data).find("{column: rope, unit: mm, zero: 412.5, factor: -2}"), std::string::npos);
 }
 
@@ -189,10 +195,10 @@ TEST(Sanity, ExchangedLabelsAreFoundWhateverTheRigHas) {
   rigs.back().rig.muscle.rest_radius_m *= std::sqrt(2.0 / 3.0);
   for (const auto& [name, rig] : rigs) {
     const auto data = measured_on(rig);
-    const auto findings = look(labelled(data, {0, 2, 4}, {11.138, 23.406, 16.138})).findings;
-    ASSERT_EQ(findings.size(), 1u) << name;
-    EXPECT_EQ(findings.front().runs, (std::vector<std::size_t>{1, 2})) << name;
-    EXPECT_FALSE(findings.front().exchanged.empty()) << name;
+    const auto objections = look(labelled(data, {0, 2, 4}, {11.138, 23.406, 16.138})).objections;
+    ASSERT_EQ(objections.size(), 1u) << name;
+    EXPECT_EQ(objections.front().runs, (std::vector<std::size_t>{1, 2})) << name;
+    EXPECT_FALSE(objections.front().exchanged.empty()) << name;
   }
 }
 

@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include <plant/geometry.hpp>
+#include <sim/domain/objection.hpp>
 #include <sim/input/calibration_file.hpp>
 #include <sim/output/calibration_report.hpp>
 #include <sim/output/chart.hpp>
@@ -141,8 +142,8 @@ TEST(Figures, InKgfAreTheSamePressures) {
 std::string refusal(const domain::Dataset& dataset, const Options& options = {}) {
   try {
     calibrate(dataset, options);
-  } catch (const input::BadInput& bad) {
-    return bad.what();
+  } catch (const domain::UnfitData& unfit) {
+    return unfit.what();
   }
   return "accepted";
 }
@@ -190,8 +191,7 @@ TEST(BadData, WhereNothingMovesThatLeads) {
     for (double& current : run.current_mA) current *= 0.4;
   }
   const std::string text = refusal(dataset);
-  EXPECT_TRUE(
-      says(text, "dataset.yaml:1:1: error: nothing moves enough in 12 runs, the first is m16138_2400"));
+  EXPECT_TRUE(says(text, "dataset.yaml: error: nothing moves enough in 12 runs, the first is m16138_2400"));
   EXPECT_TRUE(says(text, "by 0 counts in all, with currents from 0 to 8 mA"));
   EXPECT_TRUE(says(text, "What helps: a larger current, up to the valve's 20 mA"));
   EXPECT_TRUE(

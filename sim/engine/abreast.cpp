@@ -1,0 +1,201 @@
+// Walks the field lists of a rig; see the header.
+#include <concepts>
+#include <optional>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include <sim/engine/abreast.hpp>
+
+namespace mckibben::engine {
+namespace {
+
+template <class T, class Visitor>
+concept Listed = requires(T& value, Visitor& visitor) {
+  T::fields(value, visitor);
+};
+
+/// Visits whatever a field list leads to, depth first: leaf(value); enters each struct on the way and leaves
+/// it, and asks for the size of each list.
+template <class Leaf>
+class Walk {
+ public:
+  explicit Walk(Leaf& leaf) : leaf_(leaf) {}
+
+  template <class T, class... About>
+  void operator()(std::string_view, T& value, const About&...) {
+    go(value);
+  }
+  template <class T, class... About>
+  void required(std::string_view, T& value, const About&...) {
+    go(value);
+  }
+
+ private:
+  template <class T>
+  void go(T& value) {
+    if constexpr (Listed<T, Walk>) {
+      const auto before = leaf_.enter(value);
+      T::fields(value, *this);
+      leaf_.leave(before);
+    } else {
+      leaf_(value);
+    }
+  }
+  template <class T>
+  void go(std::vector<T>& list) {
+    leaf_.size(list);
+    for (T& value : list) go(value);
+  }
+
+  Leaf& leaf_;
+};
+
+template <class Rig, class Leaf>
+void walk(Rig& rig, Leaf& leaf) {
+  Walk<Leaf> visitor(leaf);
+  Rig::fields(rig, visitor);
+}
+
+/// Numbers of a rig in the order of its field lists, and all choices that are no numbers; but for those of an
+/// effect that is absent: they make no difference.
+struct Leaves {
+  std::vector<double> numbers;
+  std::vector<std::optional<long>> choices;
+  bool makes_no_difference = false;
+
+  template <class T>
+  bool enter(const T& value) {
+    const bool before = makes_no_difference;
+    if constexpr (std::same_as<T, plant::Effects>) return before;
+    if constexpr (requires { value.absent(); }) makes_no_difference = makes_no_difference || value.absent();
+    return before;
+  }
+  void leave(bool before) { makes_no_difference = before; }
+
+  void operator()(double& number) { numbers.push_back(number); }
+  template <class T>
+  requires(std::integral<T> || std::is_enum_v<T>) void operator()(T& choice) {
+    choices.push_back(makes_no_difference ? std::nullopt : std::optional(static_cast<long>(choice)));
+  }
+  template <class T>
+  void size(const std::vector<T>& list) {
+    choices.emplace_back(static_cast<long>(list.size()));
+  }
+};
+
+Leaves leaves_of(plant::Rig rig) {
+  Leaves leaves;
+  walk(rig, leaves);
+  return leaves;
+}
+
+/// Puts the rigs' leaves where they belong: numbers into lanes; the choices are those of all.
+struct Fill {
+  const std::vector<Leaves>& rigs;
+  const std::vector<long>& choices;
+  std::size_t number = 0, choice = 0;
+
+  template <class T>
+  bool enter(const T&) {
+    return false;
+  }
+  void leave(bool) {}
+
+  void operator()(Lanes& lanes) {
+    for (std::size_t lane = 0; lane < Lanes::count; ++lane)
+      lanes.set(lane, rigs[lane < rigs.size() ? lane : 0].numbers[number]);
+    ++number;
+  }
+  void operator()(double& value) { value = rigs.front().numbers[number++]; }  // of instruments
+  template <class T>
+  requires(std::integral<T> || std::is_enum_v<T>) void operator()(T& value) {
+    value = static_cast<T>(choices[choice++]);
+  }
+  template <class T>
+  void size(std::vector<T>& list) {
+    list.resize(static_cast<std::size_t>(choices[choice++]));
+  }
+};
+
+/// The choices that suit all rigs; none if two of them differ.
+std::optional<std::vector<long>> common_choices(const std::vector<Leaves>& rigs) {
+  std::vector<long> common;
+  for (std::size_t i = 0; i < rigs.front().choices.size(); ++i) {
+    std::optional<long> one;
+    for (const Leaves& rig : rigs) {
+      if (!rig.choices[i]) continue;
+      if (one && *one != *rig.choices[i]) return std::nullopt;
+      one = rig.choices[i];
+    }
+    common.push_back(one.value_or(0));
+  }
+  return common;
+}
+
+/// Gives each rig every kind of term that one of them has, of no size where it had none: terms are no choices
+/// then.
+void level_terms(std::vector<plant::Rig>& rigs) {
+  using Terms = std::vector<plant::ForceTerm>;
+  Terms all;
+  std::vector<std::vector<std::size_t>> places;  // of each rig's terms among all
+  for (const plant::Rig& rig : rigs) {
+    std::vector<bool> taken(all.size(), false);
+    auto& mine = places.emplace_back();
+    for (const plant::ForceTerm& term : rig.effects.get<plant::ResidualForce>().terms) {
+      std::size_t at = 0;
+      while (at < all.size() && (taken[at] || all[at].of != term.of)) ++at;
+      if (at == all.size()) {
+        all.push_back({.of = term.of});
+        taken.push_back(false);
+      }
+      taken[at] = true;
+      mine.push_back(at);
+    }
+  }
+  for (std::size_t i = 0; i < rigs.size(); ++i) {
+    Terms& terms = rigs[i].effects.get<plant::ResidualForce>().terms;
+    Terms level = all;
+    for (std::size_t k = 0; k < terms.size(); ++k) level[places[i][k]] = terms[k];
+    terms = std::move(level);
+  }
+}
+
+}  // namespace
+
+std::optional<plant::PlantOf<Lanes>> abreast(std::span<const plant::Plant> plants) {
+  std::vector<plant::Rig> rigs;
+  for (const plant::Plant& plant : plants) rigs.push_back(plant.rig());
+  level_terms(rigs);
+  std::vector<Leaves> leaves;
+  for (const plant::Rig& rig : rigs) leaves.push_back(leaves_of(rig));
+  const auto choices = common_choices(leaves);
+  if (!choices) return std::nullopt;
+  plant::RigOf<Lanes> rig;
+  Fill fill{leaves, *choices};
+  walk(rig, fill);
+  Lanes load_kg;
+  for (std::size_t lane = 0; lane < Lanes::count; ++lane)
+    load_kg.set(lane, plants[lane < plants.size() ? lane : 0].load_kg());
+  return plant::PlantOf<Lanes>(rig, load_kg);
+}
+
+plant::HeldOf<Lanes> abreast(std::span<const plant::Held> held) {
+  const auto gathered = [&](const auto& of) {
+    Lanes lanes;
+    for (std::size_t lane = 0; lane < Lanes::count; ++lane)
+      lanes.set(lane, of(held[lane < held.size() ? lane : 0]));
+    return lanes;
+  };
+  plant::HeldOf<Lanes> all;
+  all.reference_pressure_Pa = gathered([](const plant::Held& one) { return one.reference_pressure_Pa; });
+  all.current_speed_mA_per_s = gathered([](const plant::Held& one) { return one.current_speed_mA_per_s; });
+  if (held.front().pressure_rate_Pa_per_s)
+    all.pressure_rate_Pa_per_s =
+        gathered([](const plant::Held& one) { return one.pressure_rate_Pa_per_s.value(); });
+  all.length_is_given = held.front().length_is_given;
+  return all;
+}
+
+}  // namespace mckibben::engine

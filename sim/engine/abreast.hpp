@@ -1,0 +1,20 @@
+// Rigs of one kind as one rig whose numbers are lanes: parameters gathered by their field lists, so that no
+// parameter can be forgotten.
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include <plant/plant.hpp>
+#include <sim/engine/lanes.hpp>
+
+namespace mckibben::engine {
+
+/// The plants, and the first again where there are fewer than lanes; nothing if they differ in more than
+/// numbers (friction law, variant of an effect that two of them have). One muscle each.
+std::optional<plant::PlantOf<Lanes>> abreast(std::span<const plant::Plant> plants);
+
+/// What they hold, in the same way. All of them are driven alike.
+plant::HeldOf<Lanes> abreast(std::span<const plant::Held> held);
+
+}  // namespace mckibben::engine
