@@ -41,6 +41,26 @@ engine::Counters counters_of(const Json& solver) {
           .stiff_from_tick = from.is_null() ? -1 : from.get<long>()};
 }
 
+Json ledger_json(const plant::Rig& rig, const run::Recording& recording) {
+  const auto& books = recording.ledger;
+  Json ledger{
+      {"air_drawn_kg", books.air_drawn_kg},
+      {"air_vented_kg", books.air_vented_kg},
+      {"air_leaked_kg", books.air_leaked_kg},
+      {"braid_work_J", books.braid_work_J},
+      {"thread_friction_work_J", books.thread_friction_work_J},
+      {"guide_work_J", books.guide_work_J},
+      {"stop_work_J", books.stop_work_J},
+      {"effects_work_J", books.effects_work_J},
+      {"unexplained_share", {{"gas", recording.imbalance.gas}, {"energy", recording.imbalance.energy}}}};
+  if (rig.effects.gas_exponent() != 1.0)
+    ledger.update({{"valve_air_kg", books.valve_air_kg},
+                   {"muscle_air_kg", books.muscle_air_kg},
+                   {"air_inflow_J", books.air_inflow_J},
+                   {"gas_work_J", books.gas_work_J}});
+  return ledger;
+}
+
 std::string text_of(const Json& document) {
   return document.dump(2) + "\n";
 }

@@ -7,6 +7,7 @@
 #include <sim/domain/input_file.hpp>
 #include <sim/engine/integrator.hpp>
 #include <sim/input/fields_json.hpp>
+#include <sim/run/recording.hpp>
 
 namespace mckibben::output {
 
@@ -16,6 +17,9 @@ input::Json heading_json(const char* schema, const std::vector<domain::InputFile
 input::Json solver_json(const engine::Counters& counters);
 /// What solver_json wrote.
 engine::Counters counters_of(const input::Json& solver);
+
+/// Where air and work went in a run.
+input::Json ledger_json(const plant::Rig& rig, const run::Recording& recording);
 
 /// The text of a file that holds the document.
 std::string text_of(const input::Json& document);
