@@ -11,19 +11,10 @@
 
 #include <optional>
 
+#include <plant/mechanics.hpp>
 #include <plant/side.hpp>
 
 namespace mckibben::plant {
-
-/// What two muscles turn (T 2.7): a link on the wheel's axis. Both cords run on the same wheel.
-struct Link {
-  double contraction_ratio = 0.10, opposite_contraction_ratio = 0.10;  ///< e10, e20: mounted so, at theta = 0
-  double mass_kg = 2.0;
-  double length_m = 0.25;               ///< from the axis to the centre of mass
-  double inertia_kg_m2 = 0.14;          ///< about the axis
-  double hangs_at_rad = 0.0;            ///< theta at which it hangs straight down
-  double damping_N_m_s_per_rad = 0.05;  ///< of the bearings
-};
 
 /// Everything known at one instant: of the muscle, of the joint, of the opposite muscle if there is one.
 template <class S>

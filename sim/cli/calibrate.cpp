@@ -38,6 +38,7 @@ void add_choice(CLI::App& verb, const char* name, T& value, const std::map<std::
 
 int calibrate_dataset(const CalibrateOptions& options) {
   const domain::Dataset dataset = input::read_dataset(options.dataset);
+  input::require_ticks(dataset, "calibrate");
   Job job(options, "calibrate " + options.dataset, output::name_of(dataset) + "-calibration", dataset.inputs);
   const thesis::CalibrationResult result = thesis::calibrate(dataset, options.fits);
   if (run::interrupted()) throw run::Interrupted();

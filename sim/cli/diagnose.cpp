@@ -85,6 +85,7 @@ Found find(const domain::Dataset& data, const DiagnoseOptions& options, const Ho
 int diagnose_dataset(const DiagnoseOptions& options) {
   domain::Dataset data = input::read_dataset(options.dataset);
   if (!options.rig.empty()) data.rig = input::read_rig(options.rig, data.inputs);
+  input::require_ticks(data, "diagnose");
   const std::string name = output::name_of(data);
   check_plan(options.plan);
   Job job(options, "diagnose " + options.dataset, "diagnose-" + name, data.inputs);

@@ -18,6 +18,7 @@
 #include <sim/input/field_table.hpp>
 #include <sim/input/json_schema.hpp>
 #include <sim/input/objection_places.hpp>
+#include <sim/input/pair_scenario_file.hpp>
 #include <sim/input/rigs.hpp>
 #include <sim/input/scenario_file.hpp>
 #include <sim/input/suggest.hpp>
@@ -36,6 +37,7 @@ using input::Problem;
 /// looked at.
 std::string read_measured(const std::filesystem::path& path, std::vector<Problem>& warnings) {
   const domain::Dataset data = input::read_dataset(path);
+  if (data.own_clock) return fmt::format("{} runs read; none simulated", data.runs.size());
   const run::Look look = run::look(data);
   warnings = input::problems_of(data.path, with_runs_named(data, look.objections));
   if (std::any_of(look.objections.begin(), look.objections.end(),
@@ -65,9 +67,12 @@ std::string read_any(const std::filesystem::path& path, std::vector<Problem>& wa
     input::read_calibration(path, inputs);
   } else if (kind == "mckibben-scenario") {
     input::read_scenario(path, warnings);
+  } else if (kind == "mckibben-pair") {
+    input::read_pair_scenario(path);
   } else {
-    constexpr std::string_view known[] = {input::scenario_schema, input::campaign_schema, input::rig_schema,
-                                          input::dataset_schema, input::calibration_schema};
+    constexpr std::string_view known[] = {input::scenario_schema, input::campaign_schema,
+                                          input::rig_schema,      input::dataset_schema,
+                                          input::pair_schema,     input::calibration_schema};
     input::Problems problems;
     if (schema == nullptr)
       problems.error(file.source, file.root.place,
@@ -146,7 +151,7 @@ int check_files(const CheckOptions& options) {
 }
 
 struct SchemaOptions : Options {
-  std::string kind = "scenario";  ///< scenario, campaign, rig or dataset
+  std::string kind = "scenario";  ///< scenario, campaign, rig, dataset or pair
   std::string format = "json";  ///< JSON Schema; markdown: a table; yaml: the rig `thesis`, whatever the kind
 };
 
@@ -162,6 +167,8 @@ int print_schema(const SchemaOptions& options) {
     return print_kind(input::campaign_schema, "Campaign", input::list_fields<domain::Campaign>(), format);
   if (kind == "dataset")
     return print_kind(input::dataset_schema, "Data set", input::list_fields<domain::Dataset>(), format);
+  if (kind == "pair")
+    return print_kind(input::pair_schema, "Pair", input::list_fields<domain::PairScenario>(), format);
   return print_kind(input::scenario_schema, "Scenario", input::list_fields<domain::Scenario>(), format);
 }
 
@@ -185,7 +192,7 @@ void add_schema(CLI::App& app, Asked& asked) {
       add_verb(app, "schema", to_find_out, "Print the keys of a kind of file, as JSON Schema or as a table");
   SchemaOptions& options = asked.when(verb, print_schema);
   verb.add_option("kind", options.kind, "Kind of file (default: scenario)")
-      ->check(one_of("kind", {"scenario", "campaign", "rig", "dataset"}))
+      ->check(one_of("kind", {"scenario", "campaign", "rig", "dataset", "pair"}))
       ->type_name("");
   CLI::Option* format =
       verb.add_option("--format", options.format,

@@ -13,6 +13,7 @@
 #include <sim/cli/verbs.hpp>
 #include <sim/domain/number.hpp>
 #include <sim/input/calibration_file.hpp>
+#include <sim/input/common_checks.hpp>
 #include <sim/input/rigs.hpp>
 #include <sim/output/error_map.hpp>
 #include <sim/output/heat_map.hpp>
@@ -93,6 +94,7 @@ run::MapPlan plan_of(const MapOptions& options, std::vector<domain::InputFile>& 
   run::MapPlan plan;
   plan.calibration = input::read_calibration(options.calibration, files);
   const domain::RigFile rig = input::read_rig(options.rig.empty() ? "thesis" : options.rig, files);
+  input::require_load(rig, options.rig, "map");
   plan.rig = rig;
   plan.engine = rig.integrator;
   plan.loads_kg = loads_of(plan.calibration.range, options);

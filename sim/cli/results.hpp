@@ -12,6 +12,7 @@
 #include <sim/input/diagnostics.hpp>
 #include <sim/output/folder.hpp>
 #include <sim/output/progress.hpp>
+#include <sim/run/batch.hpp>
 
 namespace mckibben::cli {
 
@@ -39,6 +40,13 @@ auto with_progress(const std::string& title, const Work& work) {
 template <class Runs>
 bool any_failed(const Runs& runs) {
   return std::any_of(runs.begin(), runs.end(), [](const auto& run) { return !run.failure.empty(); });
+}
+
+/// How many of the runs were begun before the user stopped.
+template <class Runs>
+std::size_t begun(const Runs& runs) {
+  return static_cast<std::size_t>(
+      std::count_if(runs.begin(), runs.end(), [](const auto& run) { return run.failure != run::not_begun; }));
 }
 
 /// A result as one JSON document, and as text to read.

@@ -7,12 +7,15 @@
 
 #include <fmt/format.h>
 
+#include <sim/cli/driven.hpp>
 #include <sim/cli/exit_status.hpp>
 #include <sim/cli/options.hpp>
 #include <sim/cli/results.hpp>
 #include <sim/cli/verbs.hpp>
 #include <sim/domain/number.hpp>
+#include <sim/input/common_checks.hpp>
 #include <sim/input/dataset_file.hpp>
+#include <sim/input/pair_scenario_file.hpp>
 #include <sim/input/rigs.hpp>
 #include <sim/input/scenario_file.hpp>
 #include <sim/output/csv.hpp>
@@ -42,12 +45,6 @@ struct ReplayOptions : Options {
   std::string rig;                   ///< replaces the data set's; empty for none
   std::vector<std::string> formats;  ///< of runs, besides CSV
 };
-
-template <class Run>
-std::size_t begun(const std::vector<Run>& runs) {
-  return static_cast<std::size_t>(
-      std::count_if(runs.begin(), runs.end(), [](const auto& run) { return run.failure != run::not_begun; }));
-}
 
 /// Tables of runs as files in the formats asked for, listed in the package.
 void write_table(Job& job, output::Package& package, const std::string& stem, const std::string& title,
@@ -109,6 +106,8 @@ std::vector<std::string> sane(const domain::Dataset& dataset, const std::vector<
 }
 
 int run_scenario(const RunOptions& options) {
+  if (input::schema_of(options.scenario) == input::pair_schema)
+    return run_pair(options, options.scenario, options.formats);
   std::vector<input::Problem> problems;
   domain::Scenario scenario = input::read_scenario(std::filesystem::path(options.scenario), problems);
   for (const auto& problem : problems) fmt::print(stderr, "{}\n", to_text(problem));
@@ -135,9 +134,22 @@ int run_scenario(const RunOptions& options) {
                                                                    : done);
 }
 
+/// Throws input::BadInput where the data are not of such a rig.
+void replace_rig(domain::Dataset& dataset, const std::string& name) {
+  const bool pair = dataset.rig.pair() != nullptr;
+  dataset.rig = input::read_rig(name, dataset.inputs);
+  if (!dataset.own_clock) input::require_load(dataset.rig, name, "a replay of data with a load");
+  if ((dataset.rig.pair() != nullptr) != pair)
+    throw input::BadInput({{input::Severity::error, name, input::nowhere,
+                            pair ? "the data are of two muscles, this rig has one"
+                                 : "the data are of one muscle, this rig has two",
+                            ""}});
+}
+
 int replay_dataset(const ReplayOptions& options) {
   domain::Dataset dataset = input::read_dataset(options.dataset);
-  if (!options.rig.empty()) dataset.rig = input::read_rig(options.rig, dataset.inputs);
+  if (!options.rig.empty()) replace_rig(dataset, options.rig);
+  if (dataset.own_clock) return replay_stamped(options, options.dataset, dataset, options.formats);
   const std::string name = output::name_of(dataset);
   Job job(options, "replay " + options.dataset, name + "-replay", dataset.inputs);
   const std::vector<run::ReplayedRun> runs =

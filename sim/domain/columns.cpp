@@ -28,13 +28,9 @@ std::string line_of(std::string_view quantity, const ColumnPlace& place) {
 
 ColumnMap merged(const ColumnMap& shared, const ColumnMap& own) {
   ColumnMap map = own;
-  const auto fill = [](ColumnPlace& place, const ColumnPlace& otherwise) {
-    if (place.absent()) place = otherwise;
-  };
-  if (!own.rows_are_ticks) fill(map.time, shared.time);
-  fill(map.current, shared.current);
-  fill(map.contraction, shared.contraction);
-  fill(map.muscle_pressure, shared.muscle_pressure);
+  for (const Quantity& quantity : quantities)
+    if (ColumnPlace& place = map.*quantity.place; place.absent()) place = shared.*quantity.place;
+  if (own.rows_are_ticks) map.time = own.time;
   map.rows_are_ticks = own.rows_are_ticks || (shared.rows_are_ticks && own.time.absent());
   return map;
 }

@@ -2,18 +2,28 @@
 // quantities to the file's columns.
 #pragma once
 
+#include <array>
 #include <string>
 #include <string_view>
 #include <utility>
-#include <vector>
 
 namespace mckibben::domain {
+
+/// What a column is to a simulation.
+enum class Role { reading, input, ignored };
+constexpr auto names(Role) {
+  using enum Role;
+  return std::array{std::pair{reading, std::string_view{"reading"}},
+                    std::pair{input, std::string_view{"input"}},
+                    std::pair{ignored, std::string_view{"ignored"}}};
+}
 
 /// One quantity: where it stands and how its numbers are to be read.
 struct ColumnPlace {
   std::string column;  ///< empty: not said
   std::string unit;
   double zero = 0.0, factor = 1.0;
+  Role as = Role::reading;
 
   bool absent() const { return column.empty(); }
 
@@ -26,6 +36,10 @@ struct ColumnPlace {
     visit.required("unit", self.unit, "unit of its numbers; 1 for a ratio, count for encoder counts");
     visit("zero", self.zero, "1", -1e12, 1e12, "taken from each number, in that unit, first of all");
     visit("factor", self.factor, "1", -1e12, 1e12, "each is multiplied by it then: a gear, a sensor, a sign");
+    visit("as", self.as,
+          "a reading to be compared with, an input that drives the simulation (a given pressure or length; a "
+          "command "
+          "always is), or ignored");
   }
 
   template <class Report>
@@ -36,7 +50,8 @@ struct ColumnPlace {
 };
 
 struct ColumnMap {
-  ColumnPlace time, current, contraction, muscle_pressure;
+  ColumnPlace time, current, command, contraction, muscle_pressure, force;
+  ColumnPlace command_1, command_2, angle, muscle_pressure_1, muscle_pressure_2;
   bool rows_are_ticks = false;
 
   template <class Self, class Visitor>
@@ -47,21 +62,47 @@ struct ColumnMap {
           "height of the load: ratio, angle of the wheel, travel of the rope, or encoder counts");
     visit("muscle_pressure", self.muscle_pressure, "gauge pressure in the muscle, where it was measured");
     visit("rows_are_ticks", self.rows_are_ticks, "the file holds no time: its rows are one tick apart");
+    visit("command", self.command, "command to the valve; current, in data with a clock of their own");
+    visit("force", self.force, "force of the muscle's cord");
+    visit("command_1", self.command_1, "of two muscles: command to the valve of muscle 1");
+    visit("command_2", self.command_2, "of two muscles: command to the valve of muscle 2");
+    visit("angle", self.angle, "of two muscles: joint angle, positive as muscle 1 contracts");
+    visit("muscle_pressure_1", self.muscle_pressure_1, "of two muscles: gauge pressure in muscle 1");
+    visit("muscle_pressure_2", self.muscle_pressure_2, "of two muscles: gauge pressure in muscle 2");
   }
 
   template <class Report>
-  void rules(Report& report) const {
-    if (rows_are_ticks && !time.absent()) report("rows_are_ticks", "and yet a column of time is named");
-    const std::pair<const char*, const ColumnPlace*> places[] = {{"time", &time},
-                                                                 {"current", &current},
-                                                                 {"contraction", &contraction},
-                                                                 {"muscle_pressure", &muscle_pressure}};
-    for (const auto& [key, place] : places)
-      for (const auto* other = places; other->second != place; ++other)
-        if (!place->absent() && place->column == other->second->column)
-          report(key, std::string("it stands in the same column as ") + other->first);
-  }
+  void rules(Report& report) const;
 };
+
+/// A quantity of the map: its key, the name that its column has where the map does not say another, with our
+/// unit at its end.
+struct Quantity {
+  std::string_view key, column, unit;
+  ColumnPlace ColumnMap::*place;
+};
+inline constexpr std::array<Quantity, 11> quantities{
+    {{"time", "time_s", "s", &ColumnMap::time},
+     {"current", "current_mA", "mA", &ColumnMap::current},
+     {"contraction", "contraction_ratio", "1", &ColumnMap::contraction},
+     {"muscle_pressure", "muscle_pressure_bar", "bar", &ColumnMap::muscle_pressure},
+     {"command", "current_mA", "mA", &ColumnMap::command},
+     {"force", "force_N", "N", &ColumnMap::force},
+     {"command_1", "current_1_mA", "mA", &ColumnMap::command_1},
+     {"command_2", "current_2_mA", "mA", &ColumnMap::command_2},
+     {"angle", "angle_rad", "rad", &ColumnMap::angle},
+     {"muscle_pressure_1", "muscle_pressure_1_bar", "bar", &ColumnMap::muscle_pressure_1},
+     {"muscle_pressure_2", "muscle_pressure_2_bar", "bar", &ColumnMap::muscle_pressure_2}}};
+
+template <class Report>
+void ColumnMap::rules(Report& report) const {
+  if (rows_are_ticks && !time.absent()) report("rows_are_ticks", "and yet a column of time is named");
+  for (const Quantity& quantity : quantities)
+    for (const Quantity* other = quantities.data(); other->key != quantity.key; ++other)
+      if (const ColumnPlace& place = this->*quantity.place;
+          !place.absent() && place.column == (this->*other->place).column)
+        report(quantity.key, std::string("it stands in the same column as ").append(other->key));
+}
 
 /// `QUANTITY: {column: C, unit: U, ...}`, as a data set's file says it.
 std::string line_of(std::string_view quantity, const ColumnPlace& place);

@@ -8,15 +8,17 @@
 
 #include <sim/domain/columns.hpp>
 #include <sim/domain/input_file.hpp>
+#include <sim/domain/measurement.hpp>
 #include <sim/domain/rig_file.hpp>
 
 namespace mckibben::domain {
 
-/// One measured run: a row each tick, the first at time 0.
+/// One measured run: a row each tick, the first at time 0; or `measured` with a clock of its own.
 struct Run {
   std::string id;
   std::string file;
-  double load_kg = 0.0;
+  std::optional<double> given_load_kg;
+  double load_kg = 0.0;  ///< 0 where none hangs
   ColumnMap columns;
   int segment = 0;
 
@@ -25,6 +27,8 @@ struct Run {
   std::optional<std::vector<double>> muscle_pressure_Pa;
   double ratio_per_unit = 1.0;  ///< of contraction: what one of its file's unit is
 
+  std::optional<Measurement> measured;  ///< in place of these three
+
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
     visit.required("id", self.id, "name of the run; results are written under it");
@@ -32,7 +36,7 @@ struct Run {
         "file", self.file,
         "its table, relative to this file; the ending tells the format: .csv, .lvm, .mat, or .txt, .dat, "
         ".asc for numbers without headings");
-    visit.required("load", self.load_kg, "kg", 0.01, 500.0, "mass of the load");
+    visit("load", self.given_load_kg, "kg", 0.01, 500.0, "mass of the load; required where one hangs");
     visit("columns", self.columns, "where this run's file differs from the data set's columns");
     visit("segment", self.segment, 0, 100000,
           "which segment of an .lvm; 0: all of them, one after the other");
@@ -43,6 +47,7 @@ struct Dataset {
   RigFile rig;
   ColumnMap columns;
   std::vector<Run> runs;
+  bool own_clock = false;  ///< runs are `measured`, stamp by stamp
 
   std::filesystem::path path;     ///< of the file `dataset.yaml`
   std::vector<InputFile> inputs;  ///< the files it was read from

@@ -35,7 +35,7 @@ Table read_ascii(const Source& source, std::span<const WantedColumn> wanted, Tab
   table.separator = any_blanks;
   for (const WantedColumn& column : wanted)
     table.columns.push_back(
-        {column.name, fmt::format("column {}", column.in_file), number_of(column) - 1, {}});
+        {column.name, fmt::format("column {}", column.in_file), number_of(column) - 1, {}, column.may_miss});
   std::size_t last = source.lines();
   while (last > 0 && trimmed(source.line(last)).empty()) --last;
 
@@ -61,7 +61,7 @@ Table read_ascii(const Source& source, std::span<const WantedColumn> wanted, Tab
     for (Table::Column& column : table.columns) {
       const Cell cell = column.index < cells.size() ? cells[column.index] : Cell{};
       const auto value = numbers.read(column.in_file, cell, problem);
-      if (!value && cells.size() == width)
+      if (!value && cells.size() == width && !(column.may_miss && is_missing(cell)))
         problems.add(source.place(line, cell.offset), line == first ? problem + no_heading : problem);
       column.values.push_back(value.value_or(std::nan("")));  // keeps rows in step; never used
     }

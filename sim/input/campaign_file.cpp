@@ -74,6 +74,7 @@ Campaign read_campaign(Source source) {
     read_struct(file.source, file.root, campaign, problems, also_allowed);
   if (problems.errors() == 0) {
     check_name(file, campaign.name, problems);
+    check_lifts_a_load(file, campaign.rig, problems);
     check_loads(file, campaign.loads_kg, campaign.rig, problems);
     check_currents(file, campaign, problems);
   }

@@ -46,6 +46,11 @@ std::vector<Cell> split_cells(std::string_view line, char separator) {
   return cells;
 }
 
+bool is_missing(const Cell& cell) {
+  return !cell.quoted &&
+         (cell.text.empty() || cell.text == "nan" || cell.text == "NaN" || cell.text == "NAN");
+}
+
 std::optional<double> NumberReader::read(std::string_view name, const Cell& cell, std::string& problem) {
   const std::string_view shown = cell.text.substr(0, longest_shown);
   problem.clear();

@@ -19,6 +19,9 @@ struct Cell {
 /// stands for blanks, tabs and semicolons, in numbers without quotes. Empty if a quote is not closed.
 std::vector<Cell> split_cells(std::string_view line, char separator);
 
+/// Whether a cell says that there is no number: it is empty, or NaN.
+bool is_missing(const Cell& cell);
+
 /// Reads the numbers of one table, all with the same decimal sign.
 class NumberReader {
  public:

@@ -1,6 +1,5 @@
 // See the header.
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -14,17 +13,10 @@ namespace mckibben::input {
 namespace {
 
 using Values = std::vector<double>;
+using domain::quantities, domain::Quantity;
 
 /// Numbers out of range up to which each is told by itself.
 constexpr std::ptrdiff_t few = 3;
-
-struct Quantity {
-  std::string_view name, column, unit;
-};
-constexpr std::array<Quantity, 4> quantities{{{"time", "time_s", "s"},
-                                              {"current", "current_mA", "mA"},
-                                              {"contraction", "contraction_ratio", "1"},
-                                              {"muscle_pressure", "muscle_pressure_bar", "bar"}}};
 
 /// The unit at the end of a heading, as in U_mA, `I [A]` or t(ms); ours if there is none that fits.
 std::string unit_in(std::string_view heading, const Quantity& quantity) {
@@ -56,13 +48,9 @@ double even_step_s(const Values& time_s) {
 }
 
 ColumnMap with_our_names(ColumnMap map) {
-  const auto name = [](ColumnPlace& place, const Quantity& ours) {
-    if (place.absent()) place = {std::string(ours.column), std::string(ours.unit)};
-  };
-  name(map.time, quantities[0]);
-  name(map.current, quantities[1]);
-  name(map.contraction, quantities[2]);
-  name(map.muscle_pressure, quantities[3]);
+  for (const Quantity& quantity : quantities)
+    if (ColumnPlace& place = map.*quantity.place; place.absent())
+      place = {std::string(quantity.column), std::string(quantity.unit)};
   return map;
 }
 
@@ -76,7 +64,7 @@ std::string hint_of_missing(const WantedColumn& column, std::span<const std::str
   const ColumnPlace place{std::string(meant.value_or("NAME")),
                           meant ? unit_in(*meant, *quantity) : std::string(quantity->unit)};
   return fmt::format("; where it stands under another name, write columns: {{{}}}",
-                     line_of(quantity->name, place));
+                     line_of(quantity->key, place));
 }
 
 ColumnChecks::ColumnChecks(const Table& table, const ColumnMap& map, TableProblems& problems)

@@ -1,7 +1,5 @@
 // Units of a column map; see the header.
 #include <algorithm>
-#include <array>
-#include <utility>
 
 #include <fmt/format.h>
 
@@ -13,12 +11,6 @@ namespace mckibben::input {
 namespace {
 
 constexpr std::string_view count = "count";
-
-/// Our unit of a quantity, as the name of its column ends.
-std::string_view unit_of(std::string_view quantity) {
-  if (quantity == "time") return "s";
-  return quantity == "current" ? "mA" : "bar";
-}
 
 std::string contraction_problem(const std::string& unit) {
   if (unit == "1" || unit == "%" || unit == count) return "";
@@ -46,15 +38,26 @@ void to_ratio(std::vector<double>& values, const std::string& unit, const plant:
   for (double& value : values) value *= ratio;
 }
 
+std::string problem_of(const domain::Quantity& quantity, const std::string& unit) {
+  if (quantity.key == "contraction") return contraction_problem(unit);
+  if (quantity.key == "angle" && unit == count) return "";
+  return unit_problem(unit, quantity.unit);
+}
+
+const domain::Quantity* quantity_of(std::string_view key) {
+  const auto found = std::find_if(domain::quantities.begin(), domain::quantities.end(),
+                                  [&](const domain::Quantity& each) { return each.key == key; });
+  return found == domain::quantities.end() ? nullptr : &*found;
+}
+
 }  // namespace
 
 void check_units(const Source& source, const Node& map, Problems& problems) {
-  for (const Node& quantity : map.children) {
-    const Node* unit = quantity.find("unit");
-    if (unit == nullptr || unit->kind != Node::Kind::scalar) continue;
-    const std::string problem = quantity.key == "contraction"
-                                    ? contraction_problem(unit->text)
-                                    : unit_problem(unit->text, unit_of(quantity.key));
+  for (const Node& entry : map.children) {
+    const Node* unit = entry.find("unit");
+    const domain::Quantity* quantity = quantity_of(entry.key);
+    if (quantity == nullptr || unit == nullptr || unit->kind != Node::Kind::scalar) continue;
+    const std::string problem = problem_of(*quantity, unit->text);
     if (!problem.empty()) problems.error(source, unit->place, "unit = " + problem);
   }
 }
@@ -66,25 +69,23 @@ double ratio_per_unit(const ColumnPlace& contraction, const plant::Rig& rig) {
 }
 
 void convert_columns(Table& table, const ColumnMap& map, const plant::Rig& rig) {
-  const std::array<std::pair<std::string_view, const ColumnPlace*>, 4> places{
-      {{"time_s", &map.time},
-       {"current_mA", &map.current},
-       {"contraction_ratio", &map.contraction},
-       {"muscle_pressure_bar", &map.muscle_pressure}}};
   for (Table::Column& column : table.columns) {
-    const auto found = std::find_if(places.begin(), places.end(),
-                                    [&](const auto& each) { return each.first == column.name; });
-    if (found == places.end() || found->second->absent()) continue;
-    const ColumnPlace& place = *found->second;
+    const auto found =
+        std::find_if(domain::quantities.begin(), domain::quantities.end(), [&](const domain::Quantity& each) {
+          return each.column == column.name && !(map.*each.place).absent();
+        });
+    if (found == domain::quantities.end()) continue;
+    const ColumnPlace& place = map.*found->place;
     if (place.zero != 0.0 || place.factor != 1.0)
       for (double& value : column.values) value = (value - place.zero) * place.factor;
-    if (&place == &map.contraction)
+    if (found->key == "contraction") {
       to_ratio(column.values, place.unit, rig);
-    else
-      convert_units(column.values, place.unit,
-                    &place == &map.time      ? "s"
-                    : &place == &map.current ? "mA"
-                                             : "bar");
+    } else if (place.unit == count) {  // of the joint's angle
+      const double count_rad = plant::count_height_m(rig.encoder, rig.joint) / rig.joint.wheel_radius_m;
+      for (double& value : column.values) value *= count_rad;
+    } else {
+      convert_units(column.values, place.unit, found->unit);
+    }
   }
 }
 

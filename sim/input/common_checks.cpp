@@ -13,6 +13,38 @@
 
 namespace mckibben::input {
 
+void check_duration(const YamlFile& file, double duration_s, const plant::Rig& rig, Problems& problems) {
+  constexpr double most_ticks = 1e6;
+  const double ticks = duration_s / rig.tick_s;
+  const Node& node = *file.root.find("duration");
+  if (ticks < 1.0 - 1e-9 || ticks > most_ticks)
+    problems.error(
+        file.source, node.place,
+        fmt::format("duration = {}: with the rig's tick of {} that is {:.4g} ticks; a run has 1 to {:g}",
+                    node.text, write_quantity(rig.tick_s, "s"), ticks, most_ticks));
+}
+
+std::string no_load(const domain::RigFile& rig) {
+  if (rig.lifts_a_load()) return "";
+  return rig.pair() != nullptr ? "the rig's two muscles turn a link, no load hangs there; see "
+                                 "docs/two_muscles.md for what a pair can do"
+                               : "the rig's muscle is held at a length, no load hangs there; see "
+                                 "docs/two_muscles.md for what can be "
+                                 "done with it";
+}
+
+void check_lifts_a_load(const YamlFile& file, const domain::RigFile& rig, Problems& problems) {
+  const Node* given = file.root.find("rig");
+  if (const std::string why = no_load(rig); !why.empty())
+    problems.error(file.source, given != nullptr ? given->place : file.root.place, "rig: " + why);
+}
+
+void require_load(const domain::RigFile& rig, const std::string& file, std::string_view verb) {
+  if (const std::string why = no_load(rig); !why.empty())
+    throw BadInput(
+        {{Severity::error, file, nowhere, fmt::format("{} cannot take it yet: {}", verb, why), ""}});
+}
+
 std::string too_heavy(double load_kg, const plant::Rig& rig) {
   const double most_kg = plant::Braid(rig.muscle).largest_load_kg();
   if (load_kg + rig.joint.load_offset_kg <= most_kg) return "";

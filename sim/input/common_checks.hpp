@@ -6,6 +6,7 @@
 
 #include <controllers/waveform.hpp>
 #include <plant/rig.hpp>
+#include <sim/domain/rig_file.hpp>
 #include <sim/input/diagnostics.hpp>
 #include <sim/input/yaml_file.hpp>
 
@@ -13,6 +14,17 @@ namespace mckibben::input {
 
 /// The key `name` of a file, if it is there, must be file-safe.
 void check_name(const YamlFile& file, const std::string& name, Problems& problems);
+
+/// The key `duration` of a file must be 1 to 1e6 ticks of the rig: more would not fit into memory.
+void check_duration(const YamlFile& file, double duration_s, const plant::Rig& rig, Problems& problems);
+
+/// Why a load cannot hang on the rig's muscle; empty if it can.
+std::string no_load(const domain::RigFile& rig);
+/// The same said where a file names its rig.
+void check_lifts_a_load(const YamlFile& file, const domain::RigFile& rig, Problems& problems);
+
+/// Throws BadInput, said of `file`, if a load cannot hang on the rig's muscle, as `verb` needs it.
+void require_load(const domain::RigFile& rig, const std::string& file, std::string_view verb);
 
 /// Why the rig's taut threads cannot bear a load; empty if they can.
 std::string too_heavy(double load_kg, const plant::Rig& rig);

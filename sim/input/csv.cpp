@@ -50,7 +50,7 @@ Table find_columns(const Source& source, const std::vector<Cell>& header,
     if (again != names.end())
       problems.add(source.place(1, header[static_cast<std::size_t>(again - names.begin())].offset),
                    fmt::format("repeated column {}", column.in_file));
-    table.columns.push_back({column.name, column.in_file, index, {}});
+    table.columns.push_back({column.name, column.in_file, index, {}, column.may_miss});
   }
   return table;
 }
@@ -90,7 +90,8 @@ Table read_csv(const Source& source, std::span<const WantedColumn> wanted, Table
     for (Table::Column& column : table.columns) {
       const Cell cell = column.index < cells.size() ? cells[column.index] : Cell{};
       const auto value = numbers.read(column.in_file, cell, problem);
-      if (!value && cells.size() == header.size()) problems.add(source.place(line, cell.offset), problem);
+      if (!value && cells.size() == header.size() && !(column.may_miss && is_missing(cell)))
+        problems.add(source.place(line, cell.offset), problem);
       column.values.push_back(value.value_or(std::nan("")));  // keeps rows in step; never used
     }
   }

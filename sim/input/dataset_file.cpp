@@ -7,12 +7,19 @@
 #include <sim/input/dataset_file.hpp>
 #include <sim/input/file_names.hpp>
 #include <sim/input/run_file.hpp>
+#include <sim/input/stamped_run.hpp>
 #include <sim/input/utf8.hpp>
 
 namespace mckibben::input {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// Whether a load hangs on the muscle of a run.
+bool hangs(const Dataset& dataset, const Run& run) {
+  return dataset.rig.lifts_a_load() &&
+         merged(dataset.columns, run.columns).contraction.as != domain::Role::input;
+}
 
 void check_runs(const YamlFile& file, const Dataset& dataset, Problems& problems) {
   const Node& list = *file.root.find("runs");
@@ -27,9 +34,32 @@ void check_runs(const YamlFile& file, const Dataset& dataset, Problems& problems
     else if (!is_new)
       problems.error(file.source, place,
                      fmt::format("id = {} is already that of the run in line {}", id, earlier->second));
-    const Node& load = *list.children[i].find("load");
-    if (const auto why = too_heavy(dataset.runs[i].load_kg, dataset.rig); !why.empty())
-      problems.error(file.source, load.place, fmt::format("load = {}: {}", load.text, why));
+    const Node* load = list.children[i].find("load");
+    if (load == nullptr) continue;
+    if (!hangs(dataset, dataset.runs[i]))
+      problems.error(
+          file.source, load->place,
+          fmt::format("load = {}: {}", load->text,
+                      dataset.rig.pair() != nullptr ? "the rig's two muscles turn a link; nothing hangs there"
+                                                    : "the muscle's length is given; nothing hangs there"));
+    else if (const auto why = too_heavy(dataset.runs[i].load_kg, dataset.rig); !why.empty())
+      problems.error(file.source, load->place, fmt::format("load = {}: {}", load->text, why));
+    else if (dataset.runs[i].load_kg + dataset.rig.joint.load_offset_kg <= 0.0 && dataset.own_clock)
+      problems.error(file.source, load->place,
+                     fmt::format("load = {}: it and the rig's joint.load_offset leave no load", load->text));
+  }
+}
+
+/// Loads as they were given, and a clock. A run without a load is a problem, if one must hang there.
+void check_kind(const YamlFile& file, Dataset& dataset, Problems& problems) {
+  const Node* list = file.root.find("runs");
+  for (std::size_t i = 0; i < dataset.runs.size(); ++i) {
+    Run& run = dataset.runs[i];
+    run.load_kg = run.given_load_kg.value_or(0.0);
+    dataset.own_clock = dataset.own_clock || has_own_clock(merged(dataset.columns, run.columns), dataset.rig);
+    const Node& node = list->children[i];
+    if (node.kind == Node::Kind::map && node.find("load") == nullptr && hangs(dataset, run))
+      problems.error(file.source, node.place, "the key load is missing");
   }
 }
 
@@ -55,6 +85,7 @@ Dataset read_dataset(const fs::path& path) {
   constexpr std::string_view also_allowed[] = {"schema"};
   if (check_schema(file, dataset_schema, problems))
     read_struct(file.source, file.root, dataset, problems, also_allowed);
+  check_kind(file, dataset, problems);
   if (problems.errors() == 0) {
     check_runs(file, dataset, problems);
     if (check_columns(file, problems))
@@ -64,6 +95,17 @@ Dataset read_dataset(const fs::path& path) {
   problems.raise();
   dataset.inputs = problems.inputs();
   return dataset;
+}
+
+void require_ticks(const Dataset& dataset, std::string_view verb) {
+  require_load(dataset.rig, dataset.path.string(), verb);
+  if (dataset.own_clock)
+    throw BadInput(
+        {{Severity::error, dataset.path.string(), nowhere,
+          fmt::format("{} cannot take it yet: its runs have a clock of their own, not a row each tick; "
+                      "replay does",
+                      verb),
+          ""}});
 }
 
 }  // namespace mckibben::input

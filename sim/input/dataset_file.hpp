@@ -18,4 +18,7 @@ inline constexpr std::string_view dataset_schema = "mckibben-dataset/1";
 /// the problems of all files.
 Dataset read_dataset(const std::filesystem::path& path);
 
+/// Throws BadInput unless a load hangs on the muscle and each run has a row each tick, as `verb` needs it.
+void require_ticks(const Dataset& dataset, std::string_view verb);
+
 }  // namespace mckibben::input

@@ -53,6 +53,17 @@ inline constexpr bool is_vector = false;
 template <class T>
 inline constexpr bool is_vector<std::vector<T>> = true;
 
+/// Whether a value is not written: it is switched off, or a variant that holds what is.
+template <class T>
+bool is_absent(const T& value) {
+  if constexpr (is_variant<T>)
+    return std::visit([](const auto& one) { return is_absent(one); }, value);
+  else if constexpr (Switchable<T>)
+    return value.absent();
+  else
+    return false;
+}
+
 /// The spellings of an enum, in order.
 template <Named T>
 auto spellings() {

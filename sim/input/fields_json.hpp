@@ -58,8 +58,7 @@ class JsonWriter {
   }
   template <class T>
   void operator()(std::string_view key, const T& value, std::string_view) {
-    if constexpr (Switchable<T>)
-      if (value.absent()) return;
+    if (is_absent(value)) return;
     put(key, to_json(value));
   }
 

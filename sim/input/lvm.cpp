@@ -174,7 +174,7 @@ class LvmReader {
       if (wanted.in_file.empty())
         has_own_time = false;
       else if (const auto index = find_label(wanted))
-        columns.push_back({wanted.name, wanted.in_file, *index, {}});
+        columns.push_back({wanted.name, wanted.in_file, *index, {}, wanted.may_miss});
     }
     if (problems_.count() > 0) return;
     steps_.clear();
@@ -248,6 +248,10 @@ class LvmReader {
     auto step = steps_.begin();
     for (Table::Column& column : table_.columns) {
       const bool is_counted = column.name == time_name && !steps_.empty();
+      if (column.may_miss && column.index < row.size() && is_missing(row[column.index])) {
+        column.values.push_back(std::nan(""));
+        continue;
+      }
       column.values.push_back(is_counted ? step->begin + static_cast<double>(row_of_segment) * step->delta
                                          : number(column.in_file, line_, row, column.index));
       if (is_counted) ++step;

@@ -30,7 +30,7 @@ void check_numbers(Table& table, TableProblems& problems) {
                                         table.columns.front().in_file, first.size(), column.in_file,
                                         column.values.size()));
     for (std::size_t row = 0; row < column.values.size(); ++row) {
-      if (std::isfinite(column.values[row])) continue;
+      if (std::isfinite(column.values[row]) || (column.may_miss && std::isnan(column.values[row]))) continue;
       problems.add(table, column, row, fmt::format("{} is not a finite number", column.values[row]));
       column.values[row] = std::nan("");  // is in no range, so nothing more is said of it
     }
@@ -53,7 +53,8 @@ Table read_mat_table(const Source& source, std::span<const WantedColumn> wanted,
     for (std::size_t i = 0; i < wanted.size(); ++i) {
       formats::Found& found = contents.found[i];
       if (found.problem.empty())
-        table.columns.push_back({wanted[i].name, wanted[i].in_file, i, std::move(found.values)});
+        table.columns.push_back(
+            {wanted[i].name, wanted[i].in_file, i, std::move(found.values), wanted[i].may_miss});
       else if (wanted[i].needed)
         problems.add(nowhere, found.problem + found_names(contents.names, names[i]));
     }

@@ -16,7 +16,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<std::string_view, 1> shipped{"thesis"};
+constexpr std::array<std::string_view, 2> shipped{"thesis", "thesis_pair"};
+
+RigFile shipped_rig(std::string_view name) {
+  return name == "thesis_pair" ? domain::thesis_pair() : RigFile{};
+}
 
 bool is_shipped(std::string_view name) {
   return std::find(shipped.begin(), shipped.end(), name) != shipped.end();
@@ -63,7 +67,7 @@ void read_file(const Source& source, const Node& node, const fs::path& path, Rig
 
 void read_reference(const Source& source, const Node& node, RigFile& into, Problems& problems, Chain& chain) {
   if (is_shipped(node.text)) {
-    into = {};
+    into = shipped_rig(node.text);
   } else if (looks_like_path(node.text)) {
     read_file(source, node, (source.folder() / node.text).lexically_normal(), into, problems, chain);
   } else {
@@ -72,6 +76,22 @@ void read_reference(const Source& source, const Node& node, RigFile& into, Probl
         fmt::format("unknown rig {}{} (shipped: {}; or the path of a rig file, such as rigs/mine.yaml)",
                     shortened(node.text), did_you_mean(node.text, shipped), join(shipped)));
   }
+}
+
+/// The mechanics that a map goes on from: what it says of the side of muscle 1 holds for muscle 2 as well,
+/// until `opposite` says otherwise.
+plant::Mechanics with_both_sides(const Source& source, const Node& map, const RigFile& base) {
+  const Node *said = map.find("mechanics"), *kind = said != nullptr ? said->find("kind") : nullptr;
+  const bool pair = kind != nullptr ? kind->text == plant::Pair::kind : base.pair() != nullptr;
+  if (!pair) return base.mechanics;
+  plant::Pair both;
+  if (base.pair() != nullptr)
+    both = *base.pair();
+  else
+    both.opposite = plant::side_of(base);
+  Problems of_muscle_1;  // is told of them when its own are read
+  read_struct(source, map, both.opposite, of_muscle_1);
+  return both;
 }
 
 void read_changes(const Source& source, const Node& map, RigFile& into, Problems& problems, Chain& chain,
@@ -84,6 +104,7 @@ void read_changes(const Source& source, const Node& map, RigFile& into, Problems
       problems.error(source, base->place,
                      fmt::format("base must be the name or the path of a rig, not {}", base->kind_name()));
   }
+  into.mechanics = with_both_sides(source, map, into);
   read_struct(source, map, into, problems, also_allowed);
 }
 
@@ -106,8 +127,8 @@ void read_named(const Source& source, const Node& node, RigFile& into, Problems&
 }
 
 RigFile read_rig(const std::string& name_or_path, std::vector<InputFile>& inputs) {
+  if (is_shipped(name_or_path)) return shipped_rig(name_or_path);
   RigFile rig;
-  if (is_shipped(name_or_path)) return rig;
   std::error_code ignored;
   if (!looks_like_path(name_or_path) && !fs::exists(name_or_path, ignored))
     throw MissingInput(fmt::format("unknown rig {}{} (shipped: {}; or the path of a rig file)", name_or_path,

@@ -17,6 +17,7 @@
 #include <sim/input/lvm.hpp>
 #include <sim/input/mat.hpp>
 #include <sim/input/run_file.hpp>
+#include <sim/input/stamped_run.hpp>
 #include <sim/input/suggest.hpp>
 
 namespace mckibben::input {
@@ -41,12 +42,18 @@ std::optional<Format> format_of(const std::string& file) {
 /// What is looked for; problems are those of the map, shown in the data set's file.
 class Wanted {
  public:
-  Wanted(const YamlFile& file, const Node& run, Format format, const ColumnMap& map, Problems& problems)
+  Wanted(const YamlFile& file, const Node& run, Format format, const ColumnMap& map, const Dataset& dataset,
+         Problems& problems)
       : file_(file), run_(run), format_(format), problems_(problems) {
     add_time(map);
-    add("current", "current_mA", map.current, true);
-    add("contraction", "contraction_ratio", map.contraction, true);
-    add("muscle_pressure", "muscle_pressure_bar", map.muscle_pressure, false);
+    if (dataset.own_clock) {
+      for (const Wish& wish : stamped_quantities(map, dataset.rig))
+        if (wish.quantity->key != "time") add(*wish.quantity, map, wish.drives, !wish.drives);
+      return;
+    }
+    for (const domain::Quantity& quantity : domain::quantities)
+      if (quantity.key == "current" || quantity.key == "contraction" || quantity.key == "muscle_pressure")
+        add(quantity, map, quantity.key != "muscle_pressure", false);
   }
   const std::vector<WantedColumn>& columns() const { return columns_; }
 
@@ -57,37 +64,35 @@ class Wanted {
       return;
     }
     if (!map.time.absent() || format_ == Format::csv || format_ == Format::mat)
-      add("time", "time_s", map.time, true);
+      add(domain::quantities.front(), map, true, false);
     else if (format_ == Format::lvm)
       columns_.push_back({"time_s", "", true});
     else
-      missing("time", " (or rows_are_ticks: true, if it holds no time)");
+      missing(domain::quantities.front(), " (or rows_are_ticks: true, if it holds no time)");
   }
 
-  void add(const char* quantity, const char* name, const ColumnPlace& place, bool needed) {
+  void add(const domain::Quantity& quantity, const ColumnMap& map, bool needed, bool may_miss) {
+    const ColumnPlace& place = map.*quantity.place;
+    const std::string name(quantity.column);
     if (!place.absent()) {
-      columns_.push_back({name, place.column, true});
-      if (format_ == Format::ascii) check_number(quantity, place.column);
+      columns_.push_back({name, place.column, true, may_miss});
+      if (format_ == Format::ascii) check_number(quantity.key, place.column);
     } else if (format_ != Format::ascii) {
-      columns_.push_back({name, name, needed});
+      columns_.push_back({name, name, needed, may_miss});
     } else if (needed) {
       missing(quantity, "");
     }
   }
 
-  void missing(const char* quantity, const char* otherwise) {
+  void missing(const domain::Quantity& quantity, const char* otherwise) {
     problems_.error(
         file_.source, run_.find("file")->place,
         fmt::format("{} has no headings: columns must say where {} stands, for example {}: {{column: 1, "
                     "unit: {}}}{}",
-                    run_.find("file")->text, quantity, quantity,
-                    quantity == std::string_view("time")      ? "s"
-                    : quantity == std::string_view("current") ? "mA"
-                                                              : "1",
-                    otherwise));
+                    run_.find("file")->text, quantity.key, quantity.key, quantity.unit, otherwise));
   }
 
-  void check_number(const char* quantity, const std::string& column) {
+  void check_number(std::string_view quantity, const std::string& column) {
     std::size_t number = 0;
     const char* const last = column.data() + column.size();
     const auto [end, error] = std::from_chars(column.data(), last, number);
@@ -128,10 +133,15 @@ void read_table_of(Source source, Format format, const Wanted& wanted, const Col
   TableProblems found(source, problems);
   Table table = read_as(format, source, wanted.columns(), static_cast<std::size_t>(run.segment), found);
   Table::Column *current = table.find("current_mA"), *contraction = table.find("contraction_ratio");
-  if (current == nullptr || contraction == nullptr) return;
+  if (!dataset.own_clock && (current == nullptr || contraction == nullptr)) return;
   if (const Table::Column* time = table.find("time_s"); time != nullptr && map.rows_are_ticks)
     found.add(table, *time, 0, "rows_are_ticks is said, and yet the file holds time_s");
+  if (dataset.own_clock && (found.count() > 0 || table.columns.empty())) return;
   convert_columns(table, map, dataset.rig);
+  if (dataset.own_clock) {
+    run.measured = measurement_of(table, map, dataset.rig, found);
+    return;
+  }
   const double largest_mA = dataset.rig.dac.largest_current_mA;
   ColumnChecks checks(table, map, found);
   checks.time(dataset.rig.tick_s);
@@ -165,7 +175,8 @@ void read_run_file(const YamlFile& file, const Node& node, const Dataset& datase
     problems.error(file.source, node.find("segment")->place, "segment: only .lvm files have segments");
   const ColumnMap map = merged(dataset.columns, run.columns);
   const std::size_t errors = problems.errors();
-  const Wanted wanted(file, node, *format, map, problems);
+  if (dataset.own_clock) check_roles(file, node, map, dataset.rig, problems);
+  const Wanted wanted(file, node, *format, map, dataset, problems);
   if (problems.errors() > errors) return;
   try {
     read_table_of(Source::load((file.source.folder() / run.file).lexically_normal(), most_text_bytes),

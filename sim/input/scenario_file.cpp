@@ -22,8 +22,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double most_ticks = 1e6;  // more would not fit into memory
-
 /// The checks that look at a whole scenario and at the places in its file.
 class ScenarioChecker {
  public:
@@ -32,8 +30,9 @@ class ScenarioChecker {
 
   void check() {
     check_name(file_, scenario_.name, problems_);
-    check_duration();
+    check_duration(file_, scenario_.duration_s, scenario_.rig, problems_);
     check_noise();
+    check_lifts_a_load(file_, scenario_.rig, problems_);
     check_loads(file_, scenario_.loads_kg, scenario_.rig, problems_);
     check_rig();
     check_controllers();
@@ -43,15 +42,6 @@ class ScenarioChecker {
 
  private:
   const Node& list(std::string_view key) const { return *root_.find(key); }
-
-  void check_duration() {
-    const double ticks = scenario_.duration_s / scenario_.rig.tick_s;
-    if (ticks < 1.0 - 1e-9 || ticks > most_ticks)
-      problems_.error(
-          source_, list("duration").place,
-          fmt::format("duration = {}: with the rig's tick of {} that is {:.4g} ticks; a run has 1 to {:g}",
-                      list("duration").text, write_quantity(scenario_.rig.tick_s, "s"), ticks, most_ticks));
-  }
 
   void check_noise() {
     if (scenario_.noise.gauge_Pa > 0.0 && !scenario_.rig.gauge.fitted)

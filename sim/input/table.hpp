@@ -17,6 +17,7 @@ struct WantedColumn {
   std::string name;     ///< as we call it, with its unit: current_mA
   std::string in_file;  ///< as the file calls it: a heading, a channel, a number, a variable
   bool needed = true;
+  bool may_miss = false;  ///< a row may lack it: empty, NaN
 };
 
 /// The wanted columns of a table.
@@ -25,6 +26,7 @@ struct Table {
     std::string name, in_file;
     std::size_t index = 0;  ///< in the file
     std::vector<double> values;
+    bool may_miss = false;
   };
   std::vector<Column> columns;
   std::vector<std::size_t> lines;  ///< of each row; empty in files that are no text

@@ -33,6 +33,9 @@ void read_struct(const Source& source, const Node& node, T& into, Problems& prob
 /// on.
 bool check_schema(const YamlFile& file, std::string_view schema, Problems& problems);
 
+/// What the file at `path` says it is, or nothing. Throws MissingInput, BadInput.
+std::string schema_of(const std::string& path);
+
 /// Reads single values; says what is wrong with them. The same for all structs.
 class ValueReader {
  public:

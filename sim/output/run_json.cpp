@@ -21,26 +21,6 @@ Json or_null(const std::optional<double>& value) {
   return value ? Json(*value) : Json(nullptr);
 }
 
-Json ledger_json(const plant::Rig& rig, const run::Recording& recording) {
-  const auto& books = recording.ledger;
-  Json ledger{
-      {"air_drawn_kg", books.air_drawn_kg},
-      {"air_vented_kg", books.air_vented_kg},
-      {"air_leaked_kg", books.air_leaked_kg},
-      {"braid_work_J", books.braid_work_J},
-      {"thread_friction_work_J", books.thread_friction_work_J},
-      {"guide_work_J", books.guide_work_J},
-      {"stop_work_J", books.stop_work_J},
-      {"effects_work_J", books.effects_work_J},
-      {"unexplained_share", {{"gas", recording.imbalance.gas}, {"energy", recording.imbalance.energy}}}};
-  if (rig.effects.gas_exponent() != 1.0)
-    ledger.update({{"valve_air_kg", books.valve_air_kg},
-                   {"muscle_air_kg", books.muscle_air_kg},
-                   {"air_inflow_J", books.air_inflow_J},
-                   {"gas_work_J", books.gas_work_J}});
-  return ledger;
-}
-
 Json inputs_json(const std::vector<domain::InputFile>& files) {
   Json list = Json::array();
   for (const auto& file : files) list.push_back({{"file", file.name}, {"sha256", file.sha256}});
@@ -105,6 +85,26 @@ Json run_json(const plant::Rig& rig, const run::TrackedRun& run) {
 }
 
 }  // namespace
+
+Json ledger_json(const plant::Rig& rig, const run::Recording& recording) {
+  const auto& books = recording.ledger;
+  Json ledger{
+      {"air_drawn_kg", books.air_drawn_kg},
+      {"air_vented_kg", books.air_vented_kg},
+      {"air_leaked_kg", books.air_leaked_kg},
+      {"braid_work_J", books.braid_work_J},
+      {"thread_friction_work_J", books.thread_friction_work_J},
+      {"guide_work_J", books.guide_work_J},
+      {"stop_work_J", books.stop_work_J},
+      {"effects_work_J", books.effects_work_J},
+      {"unexplained_share", {{"gas", recording.imbalance.gas}, {"energy", recording.imbalance.energy}}}};
+  if (rig.effects.gas_exponent() != 1.0)
+    ledger.update({{"valve_air_kg", books.valve_air_kg},
+                   {"muscle_air_kg", books.muscle_air_kg},
+                   {"air_inflow_J", books.air_inflow_J},
+                   {"gas_work_J", books.gas_work_J}});
+  return ledger;
+}
 
 Json heading_json(const char* schema, const std::vector<domain::InputFile>& files) {
   return {{"schema", schema},

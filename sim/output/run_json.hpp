@@ -18,6 +18,8 @@ input::Json json_of(const domain::Dataset& dataset, const std::vector<run::Repla
 
 /// How every such document begins: its schema, versions, hashes of the input files.
 input::Json heading_json(const char* schema, const std::vector<domain::InputFile>& files);
+/// Where air and work went in a run.
+input::Json ledger_json(const plant::Rig& rig, const run::Recording& recording);
 input::Json solver_json(const engine::Counters& counters);
 
 /// Name of one run's files in the results folder, without ending.

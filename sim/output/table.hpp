@@ -7,6 +7,7 @@
 #include <sim/domain/campaign.hpp>
 #include <sim/domain/dataset.hpp>
 #include <sim/domain/scenario.hpp>
+#include <sim/input/fields_json.hpp>
 #include <sim/run/compare.hpp>
 #include <sim/run/replay.hpp>
 

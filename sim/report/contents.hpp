@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include <plant/rig.hpp>
+#include <plant/mechanics.hpp>
 
 namespace mckibben::report {
 
@@ -34,6 +34,7 @@ struct Group {
   std::string name;
   double load_kg = 0.0;
   std::size_t ticks = 0;
+  std::vector<double> time_s{};   ///< of each row, if it is not a tick
   std::vector<Quantity> given{};  ///< target, or what was measured
   std::vector<Run> runs{};
   std::optional<double> rmse{};  ///< what runs are chosen by, contraction ratio
@@ -83,6 +84,7 @@ struct Contents {
   std::vector<Chapter> later_chapters{};  ///< after them
   bool lengths = true;                    ///< it has some, and the reader may choose their unit
   plant::Rig rig{};
+  plant::Mechanics mechanics{};
   bool gauge = false;  ///< muscle pressure was measured
   std::vector<Plot> plots{};
   std::vector<Loop> loops{};

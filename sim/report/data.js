@@ -14,7 +14,7 @@ function make(name, attributes = {}, ...children) {
 
 /** What a value of this unit is shown as: ratios are heights in mm, unless the reader wants ratios. */
 function shownAs(unit) {
-  if (unit !== 'contraction ratio' || byId('in-ratio').checked) return {unit, factor: 1};
+  if (unit !== 'contraction ratio' || (byId('in-ratio')?.checked ?? true)) return {unit, factor: 1};
   return {unit: 'mm', factor: 1e3 * report.rig.rest_length_m};
 }
 
@@ -29,8 +29,9 @@ function unpack(packed, count) {
   });
 }
 
-/** Times [s]: each tick's, or two for each column of ticks. */
+/** Times [s]: each tick's (or row's, where rows have times of their own), or two for each column of them. */
 function timesOf(group) {
+  if (group.times) return group.times;
   const {ticks, ticks_per_column: wide} = group;
   if (wide === 1) return Array.from({length: ticks}, (_, k) => k * report.tick_s);
   return Array.from({length: 2 * Math.ceil(ticks / wide)}, (_, i) => (i * wide * report.tick_s) / 2);

@@ -1,4 +1,6 @@
 // Order of the page, and what the script is told.
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include <sim/domain/number.hpp>
@@ -24,12 +26,23 @@ Json plot_json(const Plot& plot) {
       {"id", plot.id}, {"title", plot.title}, {"unit", plot.unit}, {"lines", lines}, {"floor", plot.floor}};
 }
 
+/// Times of the points that `pack` makes.
+Json times_json(const std::vector<double>& time_s, std::size_t per_column) {
+  Json times = Json::array();
+  for (std::size_t k = 0; k < time_s.size(); k += per_column) {
+    times.push_back(time_s[k]);
+    if (per_column > 1) times.push_back(time_s[std::min(k + per_column / 2, time_s.size() - 1)]);
+  }
+  return times;
+}
+
 Json group_json(const Group& group, std::size_t all_runs) {
   const std::size_t per_column = ticks_per_column(group.ticks, all_runs);
   Json entry{{"name", group.name},      {"load_kg", group.load_kg},
              {"ticks", group.ticks},    {"ticks_per_column", per_column},
              {"given", Json::object()}, {"runs", Json::array()}};
   if (group.rmse) entry["rmse"] = *group.rmse;
+  if (!group.time_s.empty()) entry["times"] = times_json(group.time_s, per_column);
   for (const auto& quantity : group.given)
     entry["given"][quantity.key] = pack(quantity.at, group.ticks, group.ticks, per_column);
   for (const auto& run : group.runs) {
@@ -41,15 +54,24 @@ Json group_json(const Group& group, std::size_t all_runs) {
   return entry;
 }
 
-Json rig_json(const plant::Rig& rig, bool gauge) {
-  return {{"rest_length_m", rig.muscle.rest_length_m},
-          {"rest_radius_m", rig.muscle.rest_radius_m},
-          {"braid_angle_rad", rig.muscle.braid_angle_rad},
-          {"wheel_radius_m", rig.joint.wheel_radius_m},
-          {"supply_bar", rig.valve.supply_pressure_Pa / 1e5},
-          {"zero_mA", rig.valve.zero_current_mA},
-          {"span_mA", rig.valve.span_current_mA},
-          {"gauge", gauge}};
+Json muscle_json(const plant::Muscle& muscle) {
+  return {{"rest_length_m", muscle.rest_length_m},
+          {"rest_radius_m", muscle.rest_radius_m},
+          {"braid_angle_rad", muscle.braid_angle_rad}};
+}
+
+Json rig_json(const Contents& contents) {
+  const plant::Rig& rig = contents.rig;
+  Json json = muscle_json(rig.muscle);
+  json.update({{"wheel_radius_m", rig.joint.wheel_radius_m},
+               {"supply_bar", rig.valve.supply_pressure_Pa / 1e5},
+               {"zero_mA", rig.valve.zero_current_mA},
+               {"span_mA", rig.valve.span_current_mA},
+               {"gauge", contents.gauge}});
+  if (const auto* pair = std::get_if<plant::Pair>(&contents.mechanics))
+    json["pair"] = {{"hangs_at_rad", pair->hangs_at_rad}, {"opposite", muscle_json(pair->opposite.muscle)}};
+  if (std::holds_alternative<plant::HeldLength>(contents.mechanics)) json["bench"] = true;
+  return json;
 }
 
 std::size_t runs_of(const Contents& contents) {
@@ -60,9 +82,7 @@ std::size_t runs_of(const Contents& contents) {
 
 /// As JSON that can stand inside <script>: no "</script>", no "<!--".
 std::string data_of(const Contents& contents) {
-  Json data{{"tick_s", contents.rig.tick_s},
-            {"rig", rig_json(contents.rig, contents.gauge)},
-            {"drawn", contents.drawn}};
+  Json data{{"tick_s", contents.rig.tick_s}, {"rig", rig_json(contents)}, {"drawn", contents.drawn}};
   for (const auto& plot : contents.plots) data["plots"].push_back(plot_json(plot));
   for (const auto& group : contents.groups) data["groups"].push_back(group_json(group, runs_of(contents)));
   std::string text;
@@ -135,8 +155,7 @@ std::string rig_and_plots(const Contents& contents) {
          "Move "
          "over a plot to set the time, drag to zoom, double-click to see the whole run. Keys: space plays, "
          "left and right step.</p>\n" +
-         rig_html(contents.rig, contents.gauge) +
-         "</div>\n</div>\n<div id='plots' class='live-only'></div>\n";
+         rig_html(contents) + "</div>\n</div>\n<div id='plots' class='live-only'></div>\n";
 }
 
 /// One box: of several the first, the others when asked for.
@@ -194,7 +213,7 @@ std::string html_of(const Contents& contents) {
         escaped(uplot_licence));
     html += "<script type='application/json' id='data'>" + data_of(contents) + "</script>\n";
     html += fmt::format("<script>\n{}\n</script>\n<script>\n'use strict';\n", uplot_js);
-    for (const auto& part : {data_js, plots_js, loops_js, rig_js, page_js}) html += part;
+    for (const auto& part : {data_js, plots_js, loops_js, rig_js, pair_js, page_js}) html += part;
     html += "</script>\n";
   }
   return html + "</body>\n</html>\n";

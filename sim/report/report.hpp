@@ -12,6 +12,8 @@
 #include <sim/input/fields_json.hpp>
 #include <sim/run/compare.hpp>
 #include <sim/run/error_map.hpp>
+#include <sim/run/gaps.hpp>
+#include <sim/run/pair_runs.hpp>
 #include <sim/run/replay.hpp>
 #include <sim/thesis/calibrate.hpp>
 #include <sim/thesis/figures.hpp>
@@ -24,6 +26,14 @@ std::string report_html(const domain::Scenario& scenario, const run::Comparison&
 /// Measured runs and their simulation.
 std::string report_html(const domain::Dataset& dataset, const std::vector<run::ReplayedRun>& runs,
                         const std::vector<std::string>& warnings = {});
+
+/// Two muscles under given currents.
+std::string report_html(const domain::PairScenario& scenario, const std::vector<run::PairRun>& runs,
+                        const std::vector<std::string>& warnings);
+
+/// Measured runs with a clock of their own, and their simulation.
+std::string report_html(const domain::Dataset& dataset, const std::vector<run::StampedRun>& runs,
+                        const std::vector<std::string>& warnings);
 
 /// A campaign's measurements. `document` is its campaign.json.
 std::string report_html(const domain::Campaign& campaign, const input::Json& document,

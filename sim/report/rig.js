@@ -4,9 +4,9 @@
 //   l = l0 (1 - e) = b cos(alpha),  2 pi r n = b sin(alpha).
 const threads = 8;
 
-/** Length, radius [m], angle [rad] and turns of the braid at a contraction ratio. */
-function braidAt(contraction) {
-  const {rest_length_m: l0, rest_radius_m: r0, braid_angle_rad: alpha0} = report.rig;
+/** Length, radius [m], angle [rad] and turns of a muscle's braid at a contraction ratio. */
+function braidAt(contraction, muscle = report.rig) {
+  const {rest_length_m: l0, rest_radius_m: r0, braid_angle_rad: alpha0} = muscle;
   const angle = Math.acos(Math.min(1, (1 - contraction) * Math.cos(alpha0)));
   const turns = (l0 * Math.tan(alpha0)) / (2 * Math.PI * r0);
   return {length: l0 * (1 - contraction), radius: (r0 * Math.sin(angle)) / Math.sin(alpha0), angle, turns};
@@ -36,6 +36,56 @@ function threadPaths(shape, phase, hand, left, axis, fitting) {
 }
 
 const short = (value) => String(+value.toPrecision(4));
+const share = (bar) => `${Math.round(10 + (70 * bar) / report.rig.supply_bar)}%`;
+
+/** A muscle that lies along `axis`, its fixed end at `left`; `mm` units for a metre. */
+class MusclePicture {
+  constructor(part, muscle, left, axis, mm) {
+    Object.assign(this, {muscle, left, axis, mm, fitting: 0.8 * muscle.rest_radius_m * mm});
+    this.behind = part('path', {class: 'thread behind'});
+    this.tube = part('path', {class: 'tube'});
+    this.front = part('path', {class: 'thread'});
+    this.back = part('path', {class: 'thread behind'});
+    this.ends = [part('rect', {class: 'metal'}), part('rect', {class: 'metal'})];
+  }
+
+  /** Its shape, and `end`, where its cord begins. */
+  draw(contraction) {
+    const {mm, left, axis, fitting} = this;
+    const shape = braidAt(contraction, this.muscle);
+    const scaled = {...shape, length: shape.length * mm, radius: shape.radius * mm};
+    const right = left + scaled.length;
+    const edge = [];
+    for (let i = 0; i <= 60; ++i) {
+      const along = (scaled.length * (1 - Math.cos((Math.PI * i) / 60))) / 2;  // close where it bends
+      edge.push([left + along, profile(along, scaled.length, scaled.radius, fitting)]);
+    }
+    const upper = edge.map(([x, r]) => `${x.toFixed(2)} ${(axis - r).toFixed(2)}`);
+    const lower = edge.reverse().map(([x, r]) => `${x.toFixed(2)} ${(axis + r).toFixed(2)}`);
+    this.tube.setAttribute('d', `M${upper.join('L')}L${lower.join('L')}Z`);
+    this.tube.dataset.radius = shape.radius;
+    this.tube.dataset.length = shape.length;
+    this.tube.dataset.angle = shape.angle;
+    let front = '', back = '';
+    for (const hand of [1, -1])
+      for (let i = 0; i < threads; ++i) {
+        const paths = threadPaths(scaled, (2 * Math.PI * (i + 0.25)) / threads, hand, left, axis, fitting);
+        front += paths[0];
+        back += paths[1];
+      }
+    this.front.setAttribute('d', front);
+    this.back.setAttribute('d', back);
+    this.ends.forEach((end, i) => {
+      const at =
+          {x: i === 0 ? left - 10 : right - 2, y: axis - fitting - 2, width: 12, height: 2 * fitting + 4};
+      for (const [key, value] of Object.entries(at)) end.setAttribute(key, value);
+    });
+    return {...shape, end: right + 10};
+  }
+
+  /** How full of air it looks. */
+  fill(bar) { this.tube.style.setProperty('--full', share(bar)); }
+}
 
 class RigPicture {
   constructor(svg) {
@@ -48,7 +98,6 @@ class RigPicture {
     const outOfProportion = Math.abs(drawn - wheel * this.mm) > 0.5;
     this.scale = outOfProportion ? 'to scale but for the wheel' : 'to scale';
     this.wheel = {x: this.left + 300 + Math.max(70, drawn + 14), y: this.axis + drawn, r: drawn};
-    this.fitting = 0.8 * r0 * this.mm;
     const floor = this.axis + 130;
     svg.setAttribute('viewBox', `0 0 560 ${Math.max(this.wheel.y + 205, floor + 80)}`);
     const part = (name, attributes) => svg.appendChild(make(name, attributes));
@@ -66,11 +115,7 @@ class RigPicture {
       class: 'hose',
       d: `M62 ${floor}C62 ${floor - 60} 36 ${floor - 60} 36 ${this.axis + 10}V${this.axis}`
     });
-    this.behind = part('path', {class: 'thread behind'});
-    this.tube = part('path', {class: 'tube'});
-    this.front = part('path', {class: 'thread'});
-    this.back = part('path', {class: 'thread behind'});
-    this.ends = [part('rect', {class: 'metal'}), part('rect', {class: 'metal'})];
+    this.muscle = new MusclePicture(part, report.rig, this.left, this.axis, this.mm);
     this.cord = part('path', {class: 'cord'});
     this.target = part('path', {class: 'target'});
     this.load = part('rect', {class: 'load', width: 88, height: 50, rx: 4});
@@ -103,8 +148,8 @@ class RigPicture {
 
   /** A dial on the fixed end of the muscle. */
   drawGauge(part) {
-    const x = this.left + 34, y = this.axis + this.fitting + 46;
-    part('path', {class: 'frame gauge', d: `M${x} ${y - 14}V${this.axis + this.fitting}`});
+    const {fitting} = this.muscle, x = this.left + 34, y = this.axis + fitting + 46;
+    part('path', {class: 'frame gauge', d: `M${x} ${y - 14}V${this.axis + fitting}`});
     part('circle', {class: 'frame gauge', cx: x, cy: y, r: 14});
     part('path', {class: 'frame gauge', d: `M${x} ${y}l6 -7`});
     part('text', {class: 'soft', x: x + 20, y: y + 5}).append('gauge');
@@ -113,39 +158,12 @@ class RigPicture {
   /** `values` of one run and what was given, at one tick. */
   draw(values, given, loadKg) {
     if (values.contraction === null) return;
-    const {mm, left, axis, wheel, fitting} = this;
-    const shape = braidAt(values.contraction);
-    const scaled = {...shape, length: shape.length * mm, radius: shape.radius * mm};
-    const right = left + scaled.length;
-    const edge = [];
-    for (let i = 0; i <= 60; ++i) {
-      const along = (scaled.length * (1 - Math.cos((Math.PI * i) / 60))) / 2;  // close where it bends
-      edge.push([left + along, profile(along, scaled.length, scaled.radius, fitting)]);
-    }
-    const upper = edge.map(([x, r]) => `${x.toFixed(2)} ${(axis - r).toFixed(2)}`);
-    const lower = edge.reverse().map(([x, r]) => `${x.toFixed(2)} ${(axis + r).toFixed(2)}`);
-    this.tube.setAttribute('d', `M${upper.join('L')}L${lower.join('L')}Z`);
-    this.tube.dataset.radius = shape.radius;
-    this.tube.dataset.length = shape.length;
-    this.tube.dataset.angle = shape.angle;
-    let front = '', back = '';
-    for (const hand of [1, -1])
-      for (let i = 0; i < threads; ++i) {
-        const paths = threadPaths(scaled, (2 * Math.PI * (i + 0.25)) / threads, hand, left, axis, fitting);
-        front += paths[0];
-        back += paths[1];
-      }
-    this.front.setAttribute('d', front);
-    this.back.setAttribute('d', back);
-    this.ends.forEach((end, i) => {
-      const at =
-          {x: i === 0 ? left - 10 : right - 2, y: axis - fitting - 2, width: 12, height: 2 * fitting + 4};
-      for (const [key, value] of Object.entries(at)) end.setAttribute(key, value);
-    });
+    const {mm, axis, wheel} = this;
+    const shape = this.muscle.draw(values.contraction);
     const rise = values.contraction * report.rig.rest_length_m * mm;
     const top = wheel.y + 140 - rise, x = wheel.x + wheel.r;
     this.cord.setAttribute(
-        'd', `M${right + 10} ${axis}H${wheel.x}A${wheel.r} ${wheel.r} 0 0 1 ${x} ${wheel.y}V${top}`);
+        'd', `M${shape.end} ${axis}H${wheel.x}A${wheel.r} ${wheel.r} 0 0 1 ${x} ${wheel.y}V${top}`);
     const turned = -(values.contraction * report.rig.rest_length_m) / report.rig.wheel_radius_m;
     this.spoke.setAttribute(
         'd',
@@ -154,14 +172,15 @@ class RigPicture {
     this.load.setAttribute('y', top);
     this.loadText.setAttribute('x', x);
     this.loadText.setAttribute('y', top + 31);
-    this.loadText.textContent = `${+ loadKg.toPrecision(4)} kg`;
+    this.loadText.textContent =
+        report.rig.bench ? `${values.cord_force.toFixed(1)} N` : `${+ loadKg.toPrecision(4)} kg`;
     const wanted = given.given_contraction;
     this.target.setAttribute(
         'd',
         wanted === undefined || wanted === null ?
             '' :
             `M${x - 62} ${wheel.y + 140 - wanted * report.rig.rest_length_m * mm}h124`);
-    this.current.textContent = `${values.current.toFixed(2)} mA`;
+    this.current.textContent = 'current' in values ? `${values.current.toFixed(2)} mA` : 'not used';
     for (const {key, name, frame, bar, text} of this.bars) {
       const absent = values[key] === undefined || values[key] === null;  // no gauge
       for (const part of [name, frame, bar, text]) part.style.display = absent ? 'none' : '';
@@ -169,12 +188,7 @@ class RigPicture {
       bar.setAttribute('width', Math.max(0, (100 * values[key]) / report.rig.supply_bar));
       text.textContent = `${values[key].toFixed(2)} bar`;
     }
-    this.svg.style.setProperty(
-        '--full',
-        `${
-            Math.round(
-                10 +
-                (70 * (values.muscle_pressure ?? values.reference_pressure)) / report.rig.supply_bar)}%`);
+    this.muscle.fill(values.muscle_pressure ?? values.reference_pressure);
     this.numbers.textContent =
         `length ${(1e3 * shape.length).toFixed(1)} mm, radius ${(1e3 * shape.radius).toFixed(2)} mm, ` +
         `braid angle ${((180 * shape.angle) / Math.PI).toFixed(1)}°`;

@@ -40,26 +40,41 @@ std::string effects(const plant::Effects& effects) {
   return names.empty() ? "none: nominal laws only" : output::listed(names);
 }
 
+std::string link(const plant::Pair& pair) {
+  return fmt::format(
+      "{} whose centre of mass is {} from the axis; inertia {}; the muscles are mounted at {:.3g} and "
+      "{:.3g} of contraction",
+      readable(pair.mass_kg, "kg"), mm(pair.length_m), readable(pair.inertia_kg_m2, "kg.m2"),
+      pair.contraction_ratio, pair.opposite_contraction_ratio);
+}
+
+std::string encoder(const plant::Rig& rig, bool pair) {
+  const double height_m = plant::count_height_m(rig.encoder, rig.joint);
+  return "on the wheel: a count is " +
+         (pair ? readable(height_m / rig.joint.wheel_radius_m, "rad") + " of angle"
+               : readable(height_m, "m") + " of height");
+}
+
 }  // namespace
 
-std::string rig_html(const plant::Rig& rig, bool gauge) {
+std::string rig_html(const Contents& contents) {
+  const plant::Rig& rig = contents.rig;
+  const auto* pair = std::get_if<plant::Pair>(&contents.mechanics);
   std::string html = "<dl class='small'>";
   const auto part = [&](const char* name, const std::string& says) {
     html += fmt::format("<dt>{}</dt><dd>{}</dd>\n", name, output::escaped(says));
   };
-  part("muscle", muscle(rig.muscle));
+  part(pair != nullptr ? "muscle 1" : "muscle", muscle(rig.muscle));
+  if (pair != nullptr) part("muscle 2", muscle(pair->opposite.muscle));
+  if (pair != nullptr) part("link", link(*pair));
   part("wheel", mm(rig.joint.wheel_radius_m) + " in radius" +
                     (rig.joint.load_offset_kg == 0.0
                          ? ""
                          : "; " + readable(rig.joint.load_offset_kg, "kg") + " hang on it besides the load"));
-  html +=
-      fmt::format("<dt>encoder</dt><dd>{}</dd>\n",
-                  text_html("on the wheel: a count is " +
-                                readable(plant::count_height_m(rig.encoder, rig.joint), "m") + " of height",
-                            rig));
+  html += fmt::format("<dt>encoder</dt><dd>{}</dd>\n", text_html(encoder(rig, pair != nullptr), rig));
   part("valve", valve(rig.valve));
   part("hose", "sonic conductance " + readable(rig.hose.conductance_m3_per_s_Pa, "m3/(s.Pa)"));
-  part("gauge", !gauge ? "none"
+  part("gauge", !contents.gauge ? "none"
                 : rig.gauge.resolution_Pa > 0
                     ? "on the muscle, in steps of " + readable(rig.gauge.resolution_Pa, "Pa")
                     : "on the muscle");

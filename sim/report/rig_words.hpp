@@ -7,7 +7,7 @@
 
 namespace mckibben::report {
 
-/// HTML: a list. `gauge`: muscle pressure was measured.
-std::string rig_html(const plant::Rig& rig, bool gauge);
+/// HTML: a list.
+std::string rig_html(const Contents& contents);
 
 }  // namespace mckibben::report

@@ -127,7 +127,8 @@ std::string still_svg(const Group& group, const Plot& plot, const plant::Rig& ri
     if (at == nullptr) return;
     Curve curve{.kind = kind};
     for (std::size_t k = 0; k < ticks; k += stride(ticks, most))
-      curve.points.emplace_back(static_cast<double>(k) * rig.tick_s, (*at)(k));
+      curve.points.emplace_back(group.time_s.empty() ? static_cast<double>(k) * rig.tick_s : group.time_s[k],
+                                (*at)(k));
     curves.push_back(std::move(curve));
   };
   for (const auto& line : plot.lines) {

@@ -1,6 +1,7 @@
 // What one run leaves behind: a row for each tick, and sums.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -21,6 +22,28 @@ struct Sample {
   double braid_force_N;         ///< F
   double friction_force_N;      ///< force of the threads on the load, positive upwards
   double effects_pull_N = 0.0;  ///< force of effects on the load, positive upwards
+  double cord_force_N = 0.0;    ///< T, what the muscle's cord carries
+  /// The same of muscle 2, where there is one; forces positive where they shorten it.
+  struct Opposite {
+    double current_mA = 0.0;
+    double contraction_ratio = 0.0;
+    double braid_force_N = 0.0, friction_force_N = 0.0, effects_pull_N = 0.0, cord_force_N = 0.0;
+  };
+  Opposite opposite{};
+};
+
+/// A cord that would have to push: a real one goes slack, the equations take it as taut.
+struct Slack {
+  int muscle = 1;
+  double from_s = 0.0;  ///< first
+  std::size_t rows = 0;
+  double lowest_N = 0.0, lowest_at_s = 0.0;
+};
+
+/// What drove a rig, where it was not a current to the valve of one muscle that lifts a load.
+struct Driven {
+  bool pair = false, length = false;  ///< two muscles; the length of one is given
+  std::array<bool, 2> pressure{};     ///< of each muscle: its pressure is given, and it has no valve
 };
 
 struct Recording {
@@ -32,6 +55,8 @@ struct Recording {
   std::string
       failure{};  ///< why it ends early: the integrator or the controller gave up; empty if it did not
   std::vector<controllers::Finding> findings{};  ///< what the controller found out
+  Driven driven{};
+  std::vector<Slack> slack{};  ///< of a pair, or of a muscle whose length is given
 };
 
 /// What should not be believed of a run that came to its end, in words: a ledger that does not close, laws

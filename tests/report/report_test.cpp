@@ -282,14 +282,24 @@ TEST(Run, SaysHowLongControllersStoodAtALimitOfTheirCurrent) {
 }
 
 TEST(RigWords, TellWhatTheRigHasAndWhatItHasNot) {
-  plant::Rig rig;
-  EXPECT_NE(rig_html(rig, false).find("<dt>gauge</dt><dd>none"), std::string::npos);
-  EXPECT_NE(rig_html(rig, false).find("none: nominal laws only"), std::string::npos);
+  Contents contents;
+  plant::Rig& rig = contents.rig;
+  EXPECT_NE(rig_html(contents).find("<dt>gauge</dt><dd>none"), std::string::npos);
+  EXPECT_NE(rig_html(contents).find("none: nominal laws only"), std::string::npos);
   rig.valve.zero_current_mA = 0.0;
   rig.joint.wheel_radius_m = 0.2;
   rig.effects.get<plant::MuscleLeak>().conductance_m3_per_s_Pa = 1e-10;
-  const std::string html = rig_html(rig, true);
+  contents.gauge = true;
+  const std::string html = rig_html(contents);
   for (const char* part : {"200 mm in radius", "0 to 20 mA", "on the muscle", "<dd>muscle_leak"})
+    EXPECT_NE(html.find(part), std::string::npos) << part << html;
+}
+
+TEST(RigWords, TellOfTwoMusclesAndTheirLink) {
+  Contents contents;
+  contents.mechanics = plant::Pair{};
+  const std::string html = rig_html(contents);
+  for (const char* part : {"<dt>muscle 2", "2 kg whose centre of mass is 250 mm from the axis", "of angle"})
     EXPECT_NE(html.find(part), std::string::npos) << part << html;
 }
 

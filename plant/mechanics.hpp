@@ -1,0 +1,135 @@
+// What a rig's muscle pulls on: a hanging load, a test bench that gives it its length, or a link that it
+// turns against a second muscle (T 2.7). Values of the pair: the shipped rig `thesis_pair`.
+//
+// Everything else of a Rig is one side and the wheel's joint; of a pair, the second side departs from it.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <variant>
+
+#include <plant/geometry.hpp>
+#include <plant/rig.hpp>
+
+namespace mckibben::plant {
+
+/// A load on a cord over the wheel; its mass is said with each run.
+struct HangingLoad {
+  static constexpr std::string_view kind = "hanging_load";
+
+  bool absent() const { return true; }  ///< every rig has this unless it says otherwise
+  template <class Self, class Visitor>
+  static void fields(Self&, Visitor&) {}
+};
+
+/// A bench that holds or drives the muscle's end, and measures the cord's force.
+struct HeldLength {
+  static constexpr std::string_view kind = "held_length";
+
+  bool absent() const { return false; }
+  template <class Self, class Visitor>
+  static void fields(Self&, Visitor&) {}
+};
+
+/// What two muscles turn (T 2.7): a link on the wheel's axis. Both cords run on the same wheel.
+struct Link {
+  double contraction_ratio = 0.10, opposite_contraction_ratio = 0.10;  ///< e10, e20: mounted so, at theta = 0
+  double mass_kg = 2.0;
+  double length_m = 0.25;               ///< from the axis to the centre of mass
+  double inertia_kg_m2 = 0.14;          ///< about the axis
+  double hangs_at_rad = 0.0;            ///< theta at which it hangs straight down
+  double damping_N_m_s_per_rad = 0.05;  ///< of the bearings
+
+  template <class Self, class Visitor>
+  static void fields(Self& self, Visitor& visit) {
+    visit("contraction_1", self.contraction_ratio, "1", 0.0, 0.5,
+          "contraction ratio of muscle 1 as it is mounted, at joint angle 0, e10");
+    visit("contraction_2", self.opposite_contraction_ratio, "1", 0.0, 0.5, "the same of muscle 2, e20");
+    visit("link_mass", self.mass_kg, "kg", 0.0, 500.0, "mass of the link that the wheel turns");
+    visit("link_length", self.length_m, "m", 0.0, 5.0, "from the axis to the link's centre of mass, L");
+    visit("link_inertia", self.inertia_kg_m2, "kg.m2", 1e-5, 1e3,
+          "the link's moment of inertia about the axis; the wheel's is added");
+    visit("link_hangs_at", self.hangs_at_rad, "rad", -180.0 * degree_rad, 180.0 * degree_rad,
+          "joint angle at which the link hangs straight down");
+    visit("joint_damping", self.damping_N_m_s_per_rad, "N.m.s/rad", 0.0, 1e3,
+          "viscous friction of the joint, c_j");
+  }
+  template <class Report>
+  void rules(Report& report) const {
+    if (inertia_kg_m2 < mass_kg * length_m * length_m)
+      report("link_inertia", "about the axis it is at least link_mass link_length^2 (parallel axes)");
+  }
+};
+
+/// What the second muscle's side of a pair has of its own.
+struct OppositeSide {
+  Muscle muscle;
+  Friction friction;
+  Valve valve;
+  Hose hose;
+  Effects effects;
+
+  template <class Self, class Visitor>
+  static void fields(Self& self, Visitor& visit) {
+    visit("muscle", self.muscle, "braid and tube");
+    visit("friction", self.friction, "thread friction");
+    visit("valve", self.valve, "servo valve; both hang on one supply");
+    visit("hose", self.hose, "hose from valve to muscle");
+    visit("effects", self.effects, "what the nominal rig leaves out; of the encoder, the first side's count");
+  }
+};
+
+inline OppositeSide side_of(const Rig& rig) {
+  return {rig.muscle, rig.friction, rig.valve, rig.hose, rig.effects};
+}
+
+/// A second muscle against the first.
+struct Pair : Link {
+  static constexpr std::string_view kind = "pair";
+  OppositeSide opposite;
+
+  bool absent() const { return false; }
+  template <class Self, class Visitor>
+  static void fields(Self& self, Visitor& visit) {
+    Link::fields(self, visit);
+    visit("opposite", self.opposite, "where the side of muscle 2 differs from that of muscle 1");
+  }
+};
+
+using Mechanics = std::variant<HangingLoad, HeldLength, Pair>;
+
+/// The second side with all that both share, as a rig of its own.
+inline Rig opposite_rig(const Rig& rig, const Pair& pair) {
+  Rig other = rig;
+  other.muscle = pair.opposite.muscle;
+  other.friction = pair.opposite.friction;
+  other.valve = pair.opposite.valve;
+  other.hose = pair.opposite.hose;
+  other.effects = pair.opposite.effects;
+  return other;
+}
+
+/// What must be true between the sides of a pair.
+template <class Report>
+void pair_rules(const Rig& rig, const Pair& pair, Report& report) {
+  const OppositeSide& two = pair.opposite;
+  if (rig.friction.memory != two.friction.memory)
+    report("mechanics", "friction.memory must be the same on both sides of a pair");
+  if (rig.effects.gas_exponent() != two.effects.gas_exponent())
+    report("mechanics", "effects.polytropic_gas must be the same on both sides of a pair");
+  if (rig.valve.supply_pressure_Pa != two.valve.supply_pressure_Pa)
+    report("mechanics",
+           "valve.supply_pressure must be the same on both sides of a pair: there is one supply");
+  if (!rig.effects.get<GuideFriction>().absent() || !two.effects.get<GuideFriction>().absent())
+    report("mechanics", "effects.guide_friction is of a hanging load's guide, which a pair has not");
+  if (pair.contraction_ratio >= Braid(rig.muscle).largest_contraction_ratio())
+    report("mechanics", "contraction_1 is more than muscle 1 can contract (T 2.10)");
+  if (pair.opposite_contraction_ratio >= Braid(two.muscle).largest_contraction_ratio())
+    report("mechanics", "contraction_2 is more than muscle 2 can contract (T 2.10)");
+  const auto of_two = [&](std::string_view, std::string_view message) {
+    report("mechanics", std::string("the side of muscle 2: ").append(message));
+  };
+  opposite_rig(rig, pair).rules(of_two);
+}
+
+}  // namespace mckibben::plant

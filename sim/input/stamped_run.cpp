@@ -1,0 +1,217 @@
+// Columns of runs with a clock of their own; see the header.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include <plant/geometry.hpp>
+#include <sim/domain/number.hpp>
+#include <sim/input/stamped_run.hpp>
+
+namespace mckibben::input {
+namespace {
+
+using domain::ColumnMap, domain::ColumnPlace, domain::Measurement, domain::Quantity, domain::Role;
+
+constexpr double lowest_ratio = -0.2, highest_ratio = 1.0;
+constexpr double lowest_read_bar = -2.0, lowest_given_bar = -1.0, highest_bar = 100.0;  // noise; a vacuum
+constexpr double largest_angle_rad = 10.0, largest_force_N = 1e6;
+
+bool is_input(const ColumnPlace& place) {
+  return !place.absent() && place.as == Role::input;
+}
+
+/// What runs on a rig with so many muscles can be made of.
+bool belongs(const Quantity& quantity, bool pair) {
+  constexpr std::array of_one{"current", "command", "contraction", "force", "muscle_pressure"};
+  constexpr std::array of_two{"command_1", "command_2", "angle", "muscle_pressure_1", "muscle_pressure_2"};
+  const auto is = [&](const char* key) { return quantity.key == key; };
+  return quantity.key == "time" || (pair ? std::any_of(of_two.begin(), of_two.end(), is)
+                                         : std::any_of(of_one.begin(), of_one.end(), is));
+}
+
+/// The side of a muscle, from 0: what commands it, and its pressure.
+const ColumnPlace& command_of(const ColumnMap& map, bool pair, std::size_t side) {
+  if (pair) return side == 0 ? map.command_1 : map.command_2;
+  return map.command.absent() ? map.current : map.command;
+}
+const ColumnPlace& pressure_of(const ColumnMap& map, bool pair, std::size_t side) {
+  if (pair) return side == 0 ? map.muscle_pressure_1 : map.muscle_pressure_2;
+  return map.muscle_pressure;
+}
+
+/// Whether the column must be there: what drives the rig must.
+bool drives(const Quantity& quantity, const ColumnMap& map, bool pair) {
+  const auto commands = [&](std::size_t side) { return !is_input(pressure_of(map, pair, side)); };
+  if (quantity.key == "time") return true;
+  if (quantity.key == "current" || quantity.key == "command" || quantity.key == "command_1")
+    return commands(0);
+  if (quantity.key == "command_2") return commands(1);
+  return is_input(map.*quantity.place);
+}
+
+}  // namespace
+
+bool has_own_clock(const ColumnMap& map, const domain::RigFile& rig) {
+  if (!rig.lifts_a_load()) return true;
+  return std::any_of(domain::quantities.begin(), domain::quantities.end(), [&](const Quantity& quantity) {
+    const ColumnPlace& place = map.*quantity.place;
+    constexpr std::array ticked{"time", "current", "contraction", "muscle_pressure"};
+    return !place.absent() && (place.as != Role::reading ||
+                               std::find(ticked.begin(), ticked.end(), quantity.key) == ticked.end());
+  });
+}
+
+std::vector<Wish> stamped_quantities(const ColumnMap& map, const domain::RigFile& rig) {
+  const bool pair = rig.pair() != nullptr;
+  std::vector<Wish> wishes;
+  for (const Quantity& quantity : domain::quantities) {
+    const ColumnPlace& place = map.*quantity.place;
+    if (!belongs(quantity, pair) || (!place.absent() && place.as == Role::ignored)) continue;
+    const bool is_command = quantity.unit == "mA", needed = drives(quantity, map, pair);
+    const bool under_the_other_name =
+        quantity.key == "command" ? place.absent() : quantity.key == "current" && !map.command.absent();
+    if (!under_the_other_name && (needed || !is_command)) wishes.push_back({&quantity, needed});
+  }
+  return wishes;
+}
+
+void check_roles(const YamlFile& file, const Node& run, const ColumnMap& map, const domain::RigFile& rig,
+                 Problems& problems) {
+  const bool pair = rig.pair() != nullptr;
+  const auto complain = [&](std::string_view key, const std::string& message) {
+    const Node *own = run.find("columns"), *shared = file.root.find("columns");
+    const Node* said = own != nullptr ? own->find(key) : nullptr;
+    if (said == nullptr && shared != nullptr) said = shared->find(key);
+    problems.error(file.source, said != nullptr ? said->place : run.place,
+                   fmt::format("{}: {}", key, message));
+  };
+  for (const Quantity& quantity : domain::quantities) {
+    const ColumnPlace& place = map.*quantity.place;
+    if (place.absent()) continue;
+    constexpr std::array readings{"time", "angle", "force"};
+    if (!belongs(quantity, pair))
+      complain(quantity.key, pair
+                                 ? "the rig has two muscles: command_1, command_2, angle, muscle_pressure_1, "
+                                   "muscle_pressure_2"
+                                 : "the rig has one muscle: command, contraction, force, muscle_pressure");
+    else if (place.as == Role::input &&
+             std::find(readings.begin(), readings.end(), quantity.key) != readings.end())
+      complain(quantity.key, "it can only be a reading");
+  }
+  if (!pair && !map.current.absent() && !map.command.absent())
+    complain("command", "current is a command in mA; give one of the two");
+  for (std::size_t side = 0; side < (pair ? 2 : 1); ++side) {
+    const ColumnPlace& command = command_of(map, pair, side);
+    if (is_input(pressure_of(map, pair, side)) && !command.absent() && command.as != Role::ignored)
+      complain(
+          pair                   ? side == 0 ? "command_1" : "command_2"
+          : map.command.absent() ? "current"
+                                 : "command",
+          "the muscle's pressure is the input, so that there is no valve to be commanded; say as: ignored");
+    else if (!is_input(pressure_of(map, pair, side)) && !command.absent() && command.as == Role::ignored)
+      complain(pair                   ? side == 0 ? "command_1" : "command_2"
+               : map.command.absent() ? "current"
+                                      : "command",
+               "nothing else drives the muscle");
+  }
+  if (rig.holds_a_length() && !is_input(map.contraction))
+    complain("contraction",
+             "the rig's muscle is held (mechanics: {kind: held_length}): say which length, as: input");
+}
+
+namespace {
+
+/// The columns of a table as a measurement, checked one by one.
+class Assembling {
+ public:
+  Assembling(Table& table, const ColumnMap& map, const domain::RigFile& rig, TableProblems& problems)
+      : table_(table), map_(map), rig_(rig), problems_(problems), pair_(rig.pair() != nullptr) {}
+
+  Measurement operator()() {
+    time();
+    for (std::size_t side = 0; side < (pair_ ? 2 : 1); ++side) drive(side);
+    measured_.length_is_given = is_input(map_.contraction);
+    if (measured_.length_is_given) {
+      const plant::Braid braid(rig_.muscle);
+      range(
+          "contraction_ratio", [&](double e) { return braid.in_domain(e); },
+          "what this muscle can be held at");
+    }
+    measured_.contraction_ratio =
+        take("contraction_ratio", lowest_ratio, highest_ratio, "what a muscle can do");
+    measured_.angle_rad = take("angle_rad", -largest_angle_rad, largest_angle_rad, "what a joint can turn");
+    measured_.force_N = take("force_N", -largest_force_N, largest_force_N, "what a cord can bear");
+    measured_.angle_in_degrees = map_.angle.unit == "deg";
+    measured_.counted = (pair_ ? map_.angle : map_.contraction).unit == "count";
+    return std::move(measured_);
+  }
+
+ private:
+  void time() {
+    const Table::Column* column = table_.find("time_s");
+    if (column == nullptr) {
+      for (std::size_t k = 0; k < table_.columns.front().values.size(); ++k)
+        measured_.time_s.push_back(static_cast<double>(k) * rig_.tick_s);
+      return;
+    }
+    measured_.time_s = column->values;
+    for (std::size_t k = 1; k < measured_.time_s.size(); ++k) {
+      const double now_s = measured_.time_s[k], before_s = measured_.time_s[k - 1];
+      if (now_s > before_s || std::isnan(now_s) || std::isnan(before_s)) continue;
+      problems_.add(table_, *column, k,
+                    fmt::format("time_s = {} {}: stamps must ascend", domain::write_number(now_s),
+                                now_s == before_s ? "is repeated" : "runs backwards"));
+      return;  // all later rows would repeat it
+    }
+  }
+
+  void drive(std::size_t side) {
+    Measurement::Side& into = measured_.sides[side];
+    const std::string number = pair_ ? (side == 0 ? "_1" : "_2") : "";
+    into.pressure_is_given = is_input(pressure_of(map_, pair_, side));
+    into.muscle_pressure_Pa =
+        take("muscle_pressure" + number + "_bar", into.pressure_is_given ? lowest_given_bar : lowest_read_bar,
+             highest_bar, into.pressure_is_given ? "what a muscle can be given" : "what a gauge can show");
+    for (double& value : into.muscle_pressure_Pa) value *= plant::Pa_per_bar;
+    constexpr double slack_mA = 1e-9;  // shortest digits of a sum of DAC steps
+    into.current_mA = take("current" + number + "_mA", 0.0, rig_.dac.largest_current_mA + slack_mA,
+                           "range of the rig's DAC");
+  }
+
+  std::vector<double> take(const std::string& name, double lowest, double highest, const char* meaning) {
+    Table::Column* column = table_.find(name);
+    if (column == nullptr) return {};
+    check_range(table_, *column, lowest, highest, meaning, problems_);
+    return column->values;
+  }
+
+  template <class Within>
+  void range(const char* name, const Within& within, const char* meaning) {
+    const Table::Column& column = *table_.find(name);
+    for (std::size_t row = 0; row < column.values.size(); ++row)
+      if (const double value = column.values[row]; !std::isnan(value) && !within(value))
+        problems_.add(
+            table_, column, row,
+            fmt::format("{} = {} is out of range ({})", name, domain::write_number(value), meaning));
+  }
+
+  Table& table_;
+  const ColumnMap& map_;
+  const domain::RigFile& rig_;
+  TableProblems& problems_;
+  bool pair_;
+  Measurement measured_;
+};
+
+}  // namespace
+
+Measurement measurement_of(Table& table, const ColumnMap& map, const domain::RigFile& rig,
+                           TableProblems& problems) {
+  return Assembling(table, map, rig, problems)();
+}
+
+}  // namespace mckibben::input

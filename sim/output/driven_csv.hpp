@@ -1,0 +1,17 @@
+// Tables of rides that followed stamps: a row each, only columns of what there is. A pair's are named by
+// muscle.
+#pragma once
+
+#include <vector>
+
+#include <sim/domain/rig_file.hpp>
+#include <sim/formats/table.hpp>
+#include <sim/run/recording.hpp>
+
+namespace mckibben::output {
+
+/// `force`: a column for the cord's force, though nothing holds the muscle.
+std::vector<formats::Column> driven_columns(const run::Recording& recording, const domain::RigFile& rig,
+                                            bool force);
+
+}  // namespace mckibben::output

@@ -1,0 +1,293 @@
+// Reports of rides that followed stamps: pairs under given currents, and replays of data with a clock of
+// their own. A group for each run; a pair has lines for either muscle.
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include <sim/domain/number.hpp>
+#include <sim/output/diagnosis_words.hpp>
+#include <sim/output/driven_results.hpp>
+#include <sim/output/svg.hpp>
+#include <sim/report/html.hpp>
+#include <sim/report/length.hpp>
+#include <sim/report/quantities.hpp>
+#include <sim/report/report.hpp>
+
+namespace mckibben::report {
+namespace {
+
+using output::escaped;
+using run::Sample;
+
+constexpr double in_degrees = 1.0 / plant::degree_rad, in_bar = 1.0 / plant::Pa_per_bar;
+
+/// Quantities of a recording, one by one.
+class RowQuantities {
+ public:
+  explicit RowQuantities(const run::Recording& recording) : rows_(&recording.samples) {}
+  template <class Value>
+  void add(const char* key, const Value& value) {
+    all.push_back({key, [rows = rows_, value](std::size_t k) { return value((*rows)[k]); }});
+  }
+  std::vector<Quantity> all;
+
+ private:
+  const std::vector<Sample>* rows_;
+};
+
+std::vector<Quantity> pair_quantities(const domain::RigFile& rig, const run::Recording& recording) {
+  RowQuantities of(recording);
+  const auto& given = recording.driven.pressure;
+  of.add("angle", [&rig](const Sample& s) { return in_degrees * run::angle_rad(rig, s); });
+  of.add("contraction_1", [](const Sample& s) { return s.state.joint.contraction_ratio; });
+  of.add("contraction_2", [](const Sample& s) { return s.opposite.contraction_ratio; });
+  if (!given[0]) of.add("current_1", [](const Sample& s) { return s.current_mA; });
+  if (!given[1]) of.add("current_2", [](const Sample& s) { return s.opposite.current_mA; });
+  if (!given[0])
+    of.add("valve_pressure_1", [](const Sample& s) { return in_bar * s.state.side.valve_pressure_Pa; });
+  if (!given[1])
+    of.add("valve_pressure_2", [](const Sample& s) { return in_bar * s.state.opposite.valve_pressure_Pa; });
+  of.add("muscle_pressure_1", [](const Sample& s) { return in_bar * s.state.side.muscle_pressure_Pa; });
+  of.add("muscle_pressure_2", [](const Sample& s) { return in_bar * s.state.opposite.muscle_pressure_Pa; });
+  of.add("tension_1", [](const Sample& s) { return s.cord_force_N; });
+  of.add("tension_2", [](const Sample& s) { return s.opposite.cord_force_N; });
+  return std::move(of.all);
+}
+
+std::vector<Quantity> single_quantities(const run::Recording& recording) {
+  RowQuantities of(recording);
+  of.add("contraction", [](const Sample& s) { return s.state.joint.contraction_ratio; });
+  if (!recording.driven.pressure[0]) {
+    of.add("current", [](const Sample& s) { return s.current_mA; });
+    of.add("valve_pressure", [](const Sample& s) { return in_bar * s.state.side.valve_pressure_Pa; });
+  }
+  of.add("muscle_pressure", [](const Sample& s) { return in_bar * s.state.side.muscle_pressure_Pa; });
+  of.add("braid_force", [](const Sample& s) { return s.braid_force_N; });
+  of.add("friction_force", [](const Sample& s) { return s.friction_force_N; });
+  of.add("cord_force", [](const Sample& s) { return s.cord_force_N; });
+  return std::move(of.all);
+}
+
+/// A plot of one reading, and of its error, if it was measured: keys given_X, X, X_error.
+void add_reading(std::vector<Plot>& plots, const std::string& key, const std::string& title,
+                 const std::string& unit, const std::string& label, bool measured) {
+  Plot plot{.id = key, .title = title, .unit = unit, .lines = {}, .still = true};
+  if (measured) plot.lines.push_back({.key = "given_" + key, .label = "measured", .given = true});
+  plot.lines.push_back({.key = key, .label = label, .main = true});
+  plots.push_back(std::move(plot));
+  if (measured)
+    plots.push_back({key + "_error",
+                     title + ": simulated less measured",
+                     unit,
+                     {{.key = key + "_error", .label = "error", .main = true}}});
+}
+
+std::vector<Plot> pair_plots(bool angle_is_measured, bool commands) {
+  std::vector<Plot> plots;
+  add_reading(plots, "angle", "Joint angle", "deg", "angle", angle_is_measured);
+  if (commands)
+    plots.push_back({"current",
+                     "Currents",
+                     "mA",
+                     {{.key = "current_1", .label = "muscle 1", .main = true},
+                      {.key = "current_2", .label = "muscle 2", .main = true}}});
+  plots.push_back({"pressures",
+                   "Pressures",
+                   "bar",
+                   {{.key = "muscle_pressure_1", .label = "muscle 1", .main = true},
+                    {.key = "muscle_pressure_2", .label = "muscle 2", .main = true},
+                    {.key = "given_muscle_pressure_1", .label = "measured, muscle 1", .given = true},
+                    {.key = "given_muscle_pressure_2", .label = "measured, muscle 2", .given = true}}});
+  plots.push_back({"tensions",
+                   "Forces of the cords",
+                   "N",
+                   {{.key = "tension_1", .label = "muscle 1", .main = true},
+                    {.key = "tension_2", .label = "muscle 2", .main = true}}});
+  plots.push_back({"ratios",
+                   "Contraction ratios of the muscles",
+                   "ratio",
+                   {{.key = "contraction_1", .label = "muscle 1", .main = true},
+                    {.key = "contraction_2", .label = "muscle 2", .main = true}}});
+  return plots;
+}
+
+std::vector<Plot> single_plots(bool contraction_is_measured, bool force, bool commands) {
+  std::vector<Plot> plots;
+  add_reading(plots, "contraction", "Contraction", std::string(ratio_unit), "contraction",
+              contraction_is_measured);
+  if (force) add_reading(plots, "cord_force", "Force of the cord", "N", "cord", true);
+  if (commands)
+    plots.push_back({"current", "Current", "mA", {{.key = "current", .label = "current", .main = true}}});
+  plots.push_back({"pressures",
+                   "Pressures",
+                   "bar",
+                   {{.key = "muscle_pressure", .label = "muscle", .main = true},
+                    {.key = "valve_pressure", .label = "valve"},
+                    {.key = "given_muscle_pressure", .label = "measured", .given = true}}});
+  plots.push_back({"forces",
+                   "Forces that shorten the muscle",
+                   "N",
+                   {{.key = "braid_force", .label = "braid", .main = true},
+                    {.key = "friction_force", .label = "friction of the threads"},
+                    {.key = "cord_force", .label = "all: the cord"}}});
+  return plots;
+}
+
+std::vector<Loop> pair_loops() {
+  return {{"tension_1", "Joint angle and force of cord 1", "angle", "tension_1", "joint angle in deg",
+           "force in N"},
+          {"tension_2", "Joint angle and force of cord 2", "angle", "tension_2", "joint angle in deg",
+           "force in N"}};
+}
+
+std::vector<Loop> single_loops() {
+  return {{"force", "Force of the cord and contraction", "contraction", "cord_force", std::string(ratio_unit),
+           "force in N"},
+          {"pressure", "Pressure and contraction", "contraction", "muscle_pressure", std::string(ratio_unit),
+           "muscle pressure in bar"}};
+}
+
+/// The readings of a run beside their simulation, under the keys of its plots.
+void add_readings(Group& group, Run& shown, const domain::Measurement& measured, const domain::RigFile& rig,
+                  const run::Recording& recording) {
+  for (const run::Compared& one : run::compared(measured, rig, recording)) {
+    const double factor = one.unit == "rad" ? in_degrees : 1.0;
+    const std::string key = one.reading == "force" ? "cord_force" : one.reading;
+    group.given.push_back(
+        {"given_" + key, [factor, at = one.measured](std::size_t k) { return factor * at(k); }});
+    shown.quantities.push_back({key + "_error", [factor, is = one.simulated, at = one.measured](
+                                                    std::size_t k) { return factor * (is(k) - at(k)); }});
+  }
+}
+
+std::string tension_sentence(const run::PairRun& run) {
+  return fmt::format("the cords carry {:.0f} to {:.0f} N and {:.0f} to {:.0f} N", run.cord_force_N.low,
+                     run.cord_force_N.high, run.opposite_cord_force_N.low, run.opposite_cord_force_N.high);
+}
+
+std::string sentence(const std::vector<run::PairRun>& runs) {
+  std::string text;
+  for (const auto& run : runs)
+    text += run.failure.empty() ? fmt::format("{}: the joint turns between {:.1f}° and {:.1f}°, {}. ",
+                                              escaped(run.name), in_degrees * run.angle_rad.low,
+                                              in_degrees * run.angle_rad.high, tension_sentence(run))
+                                : fmt::format("{}: no result. ", escaped(run.name));
+  return text;
+}
+
+std::string gaps_table(const std::vector<run::StampedRun>& runs) {
+  std::string html =
+      "<table><caption>Simulated less measured</caption>\n<thead><tr><th scope='col'>run</th><th "
+      "scope='col'>reading</th><th scope='col'>rmse</th><th scope='col'>largest</th><th "
+      "scope='col'>mean</th><th scope='col'>rows</th></tr></thead>\n<tbody>\n";
+  std::size_t group = 0;
+  for (const auto& run : runs) {
+    const bool drawn = !run.recording.samples.empty();
+    const auto head = [&] {
+      return drawn ? fmt::format("<tr data-group='{}'><th scope='row'>{}</th>", group, escaped(run.id))
+                   : fmt::format("<tr><th scope='row'>{}</th>", escaped(run.id));
+    };
+    if (run.gaps.empty())
+      html += head() +
+              fmt::format("<td colspan='5'>{}</td></tr>\n", run.failure.empty() ? "no reading" : "no result");
+    for (const run::Gap& gap : run.gaps)
+      html += head() + fmt::format("<td>{}{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
+                                   gap.reading, gap.unit == "1" ? "" : ", " + gap.unit,
+                                   output::gap_number(gap.rmse), output::gap_number(gap.largest),
+                                   output::gap_number(gap.mean, true), gap.rows);
+    if (drawn) ++group;
+  }
+  return html + "</tbody></table>\n";
+}
+
+std::string sentence(const std::vector<run::StampedRun>& runs) {
+  const run::Gap* worst = nullptr;
+  const run::StampedRun* of = nullptr;
+  for (const auto& run : runs)
+    if (!run.gaps.empty() && (worst == nullptr || run.gaps.front().rmse > worst->rmse))
+      worst = &run.gaps.front(), of = &run;
+  if (worst == nullptr) return "Nothing was read that a simulation could be compared with.";
+  return fmt::format(
+      "Simulated and measured {} differ by {}{}, root mean square, where they differ most: in {}.",
+      worst->reading == "muscle_pressure" ? "pressure" : worst->reading, output::gap_number(worst->rmse),
+      worst->unit == "1" ? "" : " " + worst->unit, escaped(of->id));
+}
+
+Contents contents_of(const domain::RigFile& rig, const run::Driven& driven) {
+  Contents contents;
+  contents.rig = rig;
+  contents.mechanics = rig.mechanics;
+  if (driven.length) contents.mechanics = plant::HeldLength{};
+  contents.lengths = !driven.pair;
+  contents.beside = std::string(beside_runs);
+  contents.loops = driven.pair ? pair_loops() : single_loops();
+  return contents;
+}
+
+}  // namespace
+
+std::string report_html(const domain::PairScenario& scenario, const std::vector<run::PairRun>& runs,
+                        const std::vector<std::string>& warnings) {
+  Contents contents = contents_of(scenario.rig, {.pair = true});
+  contents.title = scenario.name;
+  contents.about = fmt::format("Simulated: two muscles on one wheel, {:g} s each", scenario.duration_s);
+  contents.warnings = warnings;
+  contents.sentence = sentence(runs);
+  contents.details = output::table_of(scenario, runs, warnings);
+  contents.plots = pair_plots(false, true);
+  for (const auto& run : runs) {
+    const std::size_t rows = run.recording.samples.size();
+    if (rows == 0) continue;
+    Group group{.name = run.name, .ticks = rows};
+    group.runs.push_back(
+        {.name = "simulated", .ticks = rows, .quantities = pair_quantities(scenario.rig, run.recording)});
+    contents.groups.push_back(std::move(group));
+  }
+  return html_of(contents);
+}
+
+std::string report_html(const domain::Dataset& dataset, const std::vector<run::StampedRun>& runs,
+                        const std::vector<std::string>& warnings) {
+  const auto measured = [&](const char* reading) {
+    return std::any_of(runs.begin(), runs.end(), [&](const auto& run) {
+      return std::any_of(run.gaps.begin(), run.gaps.end(),
+                         [&](const auto& gap) { return gap.reading == reading; });
+    });
+  };
+  const auto drawn =
+      std::find_if(runs.begin(), runs.end(), [](const auto& run) { return !run.recording.samples.empty(); });
+  const run::Driven driven = drawn == runs.end() ? run::Driven{} : drawn->recording.driven;
+  Contents contents = contents_of(dataset.rig, driven);
+  contents.title = "Replay of " + output::name_of(dataset);
+  contents.about = fmt::format("{} measured run{}, simulated with what drove them", runs.size(),
+                               runs.size() == 1 ? "" : "s");
+  contents.warnings = warnings;
+  contents.sentence = sentence(runs);
+  contents.table = gaps_table(runs);
+  contents.details = output::table_of(dataset, runs, warnings);
+  contents.plots = driven.pair
+                       ? pair_plots(measured("angle"), !driven.pressure[0] || !driven.pressure[1])
+                       : single_plots(measured("contraction"), measured("force"), !driven.pressure[0]);
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    const run::StampedRun& run = runs[i];
+    if (run.recording.samples.empty()) continue;
+    const domain::Measurement& given = *dataset.runs[i].measured;
+    Group group{.name = run.load_kg > 0.0
+                            ? fmt::format("{}, {} kg", run.id, domain::write_number(run.load_kg))
+                            : run.id,
+                .load_kg = run.load_kg,
+                .ticks = run.recording.samples.size(),
+                .time_s = given.time_s};
+    group.time_s.resize(group.ticks);
+    Run shown{.name = "simulated", .ticks = group.ticks};
+    shown.quantities =
+        driven.pair ? pair_quantities(dataset.rig, run.recording) : single_quantities(run.recording);
+    add_readings(group, shown, given, dataset.rig, run.recording);
+    group.runs.push_back(std::move(shown));
+    contents.groups.push_back(std::move(group));
+  }
+  return html_of(contents);
+}
+
+}  // namespace mckibben::report

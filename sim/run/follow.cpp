@@ -1,0 +1,162 @@
+// Stamp after stamp; see the header.
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <plant/instruments.hpp>
+#include <sim/engine/failure.hpp>
+#include <sim/run/follow.hpp>
+
+namespace mckibben::run {
+namespace {
+
+using ride::Command, ride::Drive;
+
+ride::Ride ride_of(const domain::RigFile& rig, double load_kg) {
+  if (const plant::Pair* pair = rig.pair())
+    return {ride::Paired{rig, plant::opposite_rig(rig, *pair), *pair}, rig.integrator, true};
+  return {ride::Hanging{rig, load_kg}, rig.integrator, true};
+}
+
+/// Whether something is not left to the equations.
+bool is_given(const Driven& driven) {
+  return driven.length || driven.pressure[0] || driven.pressure[1];
+}
+
+class Following {
+ public:
+  Following(const domain::RigFile& rig, double load_kg, const Course& course)
+      : rig_(rig),
+        course_(course),
+        ride_(ride_of(rig, load_kg)),
+        counter_(rig.encoder.wiring, plant::count_height_m(rig.encoder, rig.joint)) {}
+
+  Recording operator()() {
+    recording_.samples.reserve(rows());
+    const Drive first = course_.at(0);
+    recording_.driven = {
+        .pair = rig_.pair() != nullptr,
+        .length = first.contraction_ratio.has_value(),
+        .pressure = {first.muscle_pressure_Pa.has_value(), first.opposite.muscle_pressure_Pa.has_value()}};
+    try {
+      settle();
+      for (std::size_t k = 0; k < rows(); ++k) {
+        const bool last = k + 1 == rows();
+        ride_.hold(toward(k), last ? time(k) + last_step_s() : time(k + 1));
+        recording_.samples.push_back(sample(k));
+        if (!last) ride_.advance();
+      }
+    } catch (const engine::NumericalFailure& failure) {
+      recording_.failure = failure.what();
+    }
+    close();
+    return std::move(recording_);
+  }
+
+ private:
+  std::size_t rows() const { return course_.time_s.size(); }
+  double time(std::size_t k) const { return course_.time_s[k]; }
+  double last_step_s() const { return rows() > 1 ? time(rows() - 1) - time(rows() - 2) : rig_.tick_s; }
+
+  void settle() {
+    const Drive first = course_.at(0);
+    const long ticks = std::lround(rig_.settling_time_s / rig_.tick_s);
+    const auto before_s = [&](long k) { return time(0) - static_cast<double>(k) * rig_.tick_s; };
+    ride_.start(first, before_s(ticks));
+    for (long k = ticks; k > 0; --k) {
+      ride_.step(first, before_s(k - 1));
+      counter_.count(ride_.reading().wheel_m);
+    }
+    ride_.open_ledger();
+  }
+
+  /// From stamp k to the next; from the last one on as it came there.
+  Drive toward(std::size_t k) const {
+    Drive drive = course_.at(k);
+    const bool last = k + 1 == rows();
+    if (last && k == 0) return drive;
+    const Drive next = course_.at(last ? k - 1 : k + 1);
+    const auto go = [last](std::optional<double>& value, const std::optional<double>& other) {
+      if (value) value = last ? 2.0 * *value - *other : *other;
+    };
+    go(drive.muscle_pressure_Pa, next.muscle_pressure_Pa);
+    go(drive.opposite.muscle_pressure_Pa, next.opposite.muscle_pressure_Pa);
+    go(drive.contraction_ratio, next.contraction_ratio);
+    return drive;
+  }
+
+  Sample sample(std::size_t k) {
+    const auto now = ride_.moment();
+    const plant::State<double>& state = ride_.flow().state;
+    const Drive drive = course_.at(k);
+    Sample row{.time_s = time(k),
+               .current_mA = drive.current_mA,
+               .state = state,
+               .counts = counter_.count(ride_.reading().wheel_m),
+               .gauge_Pa = plant::gauge_reading_Pa(rig_.gauge, ride_.reading().muscle_pressure_Pa),
+               .braid_force_N = now.braid_force_N,
+               .friction_force_N = now.friction_force_N,
+               .effects_pull_N = now.effects_pull_N,
+               .cord_force_N = now.cord_force_N()};
+    double most = state.joint.contraction_ratio;
+    if (ride_.plant().opposite()) {
+      row.opposite = {.current_mA = drive.opposite.current_mA,
+                      .contraction_ratio = ride_.plant().opposite_stroke(state).contraction_ratio,
+                      .braid_force_N = now.opposite.braid_force_N,
+                      .friction_force_N = now.opposite.friction_force_N,
+                      .effects_pull_N = now.opposite.effects_pull_N,
+                      .cord_force_N = now.opposite.cord_force_N()};
+      most = std::max(most, row.opposite.contraction_ratio);
+    }
+    recording_.largest_contraction_ratio = std::max(recording_.largest_contraction_ratio, most);
+    return row;
+  }
+
+  void close() {
+    const engine::Flow& end = ride_.flow();
+    recording_.ledger = end.ledger;
+    recording_.solver = ride_.counters();
+    if (recording_.samples.empty()) return;
+    // Where values are given, only `erk` keeps an exact ledger (docs/architecture.md, An instant).
+    const bool exact =
+        rig_.integrator.method != solver::Method::cvode && recording_.solver.stiff_from_tick < 0;
+    if (exact || !is_given(recording_.driven))
+      recording_.imbalance = ride_.plant().imbalance(recording_.samples.front().state, end.state, end.ledger);
+    if (recording_.solver.stiff_from_tick >= 0)
+      recording_.solver.stiff_from_tick -= std::lround(rig_.settling_time_s / rig_.tick_s);
+    const Driven& driven = recording_.driven;
+    if (driven.pair || driven.length) note_slack(1, [](const Sample& row) { return row.cord_force_N; });
+    if (driven.pair) note_slack(2, [](const Sample& row) { return row.opposite.cord_force_N; });
+  }
+
+  template <class Force>
+  void note_slack(int muscle, const Force& force_N) {
+    Slack slack{.muscle = muscle};
+    for (const Sample& row : recording_.samples) {
+      const double now_N = force_N(row);
+      if (now_N >= 0.0) continue;
+      if (slack.rows++ == 0) slack.from_s = row.time_s;
+      if (now_N < slack.lowest_N) slack.lowest_N = now_N, slack.lowest_at_s = row.time_s;
+    }
+    if (slack.rows > 0) recording_.slack.push_back(slack);
+  }
+
+  const domain::RigFile& rig_;
+  const Course& course_;
+  ride::Ride ride_;
+  plant::PulseCounter counter_;
+  Recording recording_;
+};
+
+}  // namespace
+
+Recording follow(const domain::RigFile& rig, double load_kg, const Course& course) {
+  return Following(rig, load_kg, course)();
+}
+
+plant::Plant plant_of(const domain::RigFile& rig, double load_kg) {
+  if (const plant::Pair* pair = rig.pair()) return {rig, plant::opposite_rig(rig, *pair), *pair};
+  return {rig, load_kg};
+}
+
+}  // namespace mckibben::run

@@ -1,0 +1,231 @@
+// Two muscles, given pressure and held length through the whole program: the trajectories of an independent
+// program (tests/data/reference: fixed steps of 20 us, fourth order, same equations) replayed as
+// measurements; a pair run; what is refused.
+#include <cmath>
+#include <map>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <sim/input/fields_json.hpp>
+
+#include "program.hpp"
+
+namespace mckibben::cli {
+namespace {
+
+using input::Json;
+using Table = std::map<std::string, std::vector<double>>;
+
+const std::string reference = MCKIBBEN_TEST_DATA "/reference/";
+
+std::vector<std::string> cells_of(const std::string& line) {
+  std::vector<std::string> cells;
+  std::istringstream stream(line);
+  for (std::string cell; std::getline(stream, cell, ',');) cells.push_back(cell);
+  return cells;
+}
+
+Table table_of(const std::filesystem::path& path) {
+  std::istringstream stream(read_text(path));
+  std::string line;
+  std::getline(stream, line);
+  const std::vector<std::string> head = cells_of(line);
+  Table table;
+  while (std::getline(stream, line)) {
+    const auto cells = cells_of(line);
+    for (std::size_t i = 0; i < head.size(); ++i) table[head[i]].push_back(std::stod(cells.at(i)));
+  }
+  return table;
+}
+
+std::string first_line(const std::filesystem::path& path) {
+  const std::string text = read_text(path);
+  return text.substr(0, text.find('\n'));
+}
+
+struct Columns {
+  std::string names;  ///< separated by commas
+  double most;
+};
+
+class Replayed : public testing::Test {
+ protected:
+  /// Replays runs that lie beside each other with a rig; returns the status.
+  Said replay(const std::string& rig, const std::string& columns, const std::string& runs) {
+    write_text(scratch / "dataset.yaml",
+               "schema: mckibben-dataset/1\nrig: " + rig + "\n" + columns + "runs:\n" + runs);
+    return mckibben("replay dataset.yaml --out out --threads 2", scratch);
+  }
+  void expect_near(const std::string& id, const std::string& name, const std::vector<Columns>& within) {
+    const Table is = table_of(scratch / ("out/" + id + ".csv")), wanted = table_of(reference + name + ".csv");
+    for (const auto& [names, most] : within)
+      for (const std::string& column : cells_of(names)) {
+        ASSERT_TRUE(is.contains(column)) << column;
+        ASSERT_EQ(is.at(column).size(), wanted.at(column).size()) << column;
+        double worst = 0.0;
+        for (std::size_t k = 0; k < is.at(column).size(); ++k)
+          worst = std::max(worst, std::abs(is.at(column)[k] - wanted.at(column)[k]));
+        EXPECT_LT(worst, most) << id << " " << column;
+      }
+  }
+  Json document() { return Json::parse(read_text(scratch / "out/run.json")); }
+
+  Scratch scratch;
+};
+
+const std::string tightest = "integrator: {tolerance: 1e-12}}";
+constexpr const char* bars =
+    "valve_pressure_1_bar,muscle_pressure_1_bar,valve_pressure_2_bar,muscle_pressure_2_bar";
+
+TEST_F(Replayed, PairsGoAsTheReferenceDoes) {
+  std::string runs;
+  const std::vector<std::string> names{"pair_opposed", "pair_steps", "pair_triangle"};
+  for (const auto& name : names) runs += "  - {id: " + name + ", file: " + reference + name + ".csv}\n";
+  const Said said = replay("thesis_pair", "", runs);
+  ASSERT_EQ(said.status, 0) << said.err;
+  for (const auto& name : names)
+    expect_near(name, name,
+                {{"time_s", 1e-12}, {"angle_rad", 2e-5}, {bars, 1e-4}, {"tension_1_N,tension_2_N", 0.05}});
+  EXPECT_EQ(
+      first_line(scratch / "out/pair_steps.csv")
+          .find("time_s,current_1_mA,current_2_mA,angle_rad,angle_speed_rad_per_s,valve_pressure_1_bar,"
+                "muscle_pressure_1_bar,valve_pressure_2_bar,muscle_pressure_2_bar,tension_1_N,tension_2_N,"
+                "encoder_angle_rad"),
+      0u);
+  const Json gap = document().at("runs").at(0).at("gaps").at(0);
+  EXPECT_EQ(gap.at("reading"), "angle");
+  EXPECT_EQ(gap.at("unit"), "rad");
+  EXPECT_LT(gap.at("largest_error").get<double>(), 2e-5);
+  EXPECT_NE(said.out.find("pair_opposed  angle"), std::string::npos) << said.out;
+
+  ASSERT_EQ(replay("{base: thesis_pair, " + tightest, "", runs).status, 0);
+  for (const auto& name : names) expect_near(name, name, {{"angle_rad", 1e-7}});
+}
+
+TEST_F(Replayed, TheEncoderCountsQuarterDegrees) {
+  ASSERT_EQ(replay("thesis_pair", "", "  - {id: a, file: " + reference + "pair_opposed.csv}\n").status, 0);
+  const Table is = table_of(scratch / "out/a.csv");
+  const double quarter_rad = 0.25 * std::acos(-1.0) / 180.0;
+  for (std::size_t k = 0; k < is.at("time_s").size(); ++k)
+    EXPECT_NEAR(is.at("encoder_angle_rad")[k], quarter_rad * std::floor(is.at("angle_rad")[k] / quarter_rad),
+                1e-9);
+}
+
+TEST_F(Replayed, AGivenPressureLiftsTheLoadAsTheReferenceDoes) {
+  const std::string columns =
+      "columns: {muscle_pressure: {column: muscle_pressure_bar, unit: bar, as: input}}\n";
+  const std::string runs = "  - {id: sine, file: " + reference +
+                           "pressure_12.5kg_sine.csv, load: 12.5 kg}\n"
+                           "  - {id: steps, file: " +
+                           reference + "pressure_18.87kg_steps.csv, load: 18.87 kg}\n";
+  ASSERT_EQ(replay("thesis", columns, runs).status, 0);
+  const std::string head = first_line(scratch / "out/sine.csv");
+  for (const char* none : {"valve", "current", "force_N,enc"})
+    EXPECT_EQ(head.find(none), std::string::npos) << head;
+  expect_near("sine", "pressure_12.5kg_sine", {{"contraction_ratio", 2e-6}, {"muscle_pressure_bar", 1e-12}});
+  expect_near("steps", "pressure_18.87kg_steps", {{"contraction_ratio", 2e-6}});
+  ASSERT_EQ(replay("{base: thesis, " + tightest, columns, runs).status, 0);
+  expect_near("sine", "pressure_12.5kg_sine", {{"contraction_ratio", 1e-8}});
+  expect_near("steps", "pressure_18.87kg_steps", {{"contraction_ratio", 1e-8}});
+}
+
+TEST_F(Replayed, AHeldMuscleOnABenchPullsAsTheReferenceDoes) {
+  const std::string columns =
+      "columns:\n  muscle_pressure: {column: muscle_pressure_bar, unit: bar, as: input}\n"
+      "  contraction: {column: contraction_ratio, unit: 1, as: input}\n  force: {column: force_N, unit: N}\n";
+  const std::string runs = "  - {id: length, file: " + reference +
+                           "held_length.csv}\n  - {id: moving, file: " + reference + "held_moving.csv}\n";
+  for (const char* rig : {"thesis", "{base: thesis, mechanics: {kind: held_length}}"}) {
+    ASSERT_EQ(replay(rig, columns, runs).status, 0);
+    expect_near("length", "held_length", {{"force_N", 0.05}, {"contraction_ratio", 1e-12}});
+    expect_near("moving", "held_moving", {{"force_N", 0.05}, {"contraction_ratio", 1e-12}});
+  }
+  const Json run = document().at("runs").at(1);
+  EXPECT_EQ(run.at("gaps").size(), 1u);
+  EXPECT_EQ(run.at("gaps").at(0).at("reading"), "force");
+  EXPECT_GT(run.at("ledger").at("bench_work_J").get<double>(), 0.0);
+  EXPECT_LT(run.at("ledger").at("unexplained_share").at("energy").get<double>(), 1e-5);
+}
+
+TEST_F(Replayed, StampsMayBeUnequalAndReadingsMissing) {
+  write_text(scratch / "r.csv",
+             "t,U,x,P\n0,6,0,\n12,6,,0.5\n30,9,0.1,nan\n31,9,0.2,1\n500,9,20,1.9\n2000,4,30,1.9\n");
+  const std::string columns =
+      "columns:\n  time: {column: t, unit: ms}\n  command: {column: U, unit: mA}\n"
+      "  contraction: {column: x, unit: mm}\n  muscle_pressure: {column: P, unit: bar}\n";
+  const Said said = replay("thesis", columns, "  - {id: r, file: r.csv, load: 11 kg}\n");
+  ASSERT_EQ(said.status, 0) << said.err;
+  EXPECT_EQ(table_of(scratch / "out/r.csv").at("time_s"),
+            (std::vector<double>{0, 0.012, 0.03, 0.031, 0.5, 2}));
+  const Json gaps = document().at("runs").at(0).at("gaps");
+  ASSERT_EQ(gaps.size(), 2u);
+  EXPECT_EQ(gaps.at(0).at("rows"), 5);
+  EXPECT_EQ(gaps.at(1).at("rows"), 4);
+}
+
+TEST_F(Replayed, ASlackCordIsSaid) {
+  write_text(scratch / "r.csv", "time_s,p,e\n0,3,0.1\n0.1,3,0.1\n0.2,1,0.35\n0.3,1,0.35\n");
+  const std::string columns =
+      "columns:\n  muscle_pressure: {column: p, unit: bar, as: input}\n"
+      "  contraction: {column: e, unit: 1, as: input}\n";
+  const Said said = replay("thesis", columns, "  - {id: r, file: r.csv}\n");
+  ASSERT_EQ(said.status, 0) << said.err;
+  const std::string words = "the cord of muscle 1 would have to push, from 0.200 s on in 2 of 4 rows";
+  EXPECT_NE(said.err.find(words), std::string::npos) << said.err;
+  for (const char* file : {"table.txt", "run.json", "report.html"})
+    EXPECT_NE(read_text(scratch / "out" / file).find(words), std::string::npos) << file;
+  const Json slack = document().at("runs").at(0).at("slack").at(0);
+  EXPECT_EQ(slack.at("muscle"), 1);
+  EXPECT_LT(slack.at("lowest_N").get<double>(), 0.0);
+}
+
+TEST_F(Replayed, VerbsThatNeedTicksAndALoadRefuseTheRest) {
+  ASSERT_EQ(replay("thesis_pair", "", "  - {id: a, file: " + reference + "pair_steps.csv}\n").status, 0);
+  for (const char* verb : {"diagnose", "calibrate"}) {
+    const Said said = mckibben(std::string(verb) + " dataset.yaml --out other", scratch);
+    EXPECT_EQ(said.status, 65);
+    EXPECT_NE(said.err.find(std::string("dataset.yaml: error: ") + verb +
+                            " cannot take it yet: the rig's two muscles"),
+              std::string::npos)
+        << said.err;
+    EXPECT_FALSE(std::filesystem::exists(scratch / "other"));
+  }
+  EXPECT_EQ(mckibben("replay dataset.yaml --rig thesis", scratch).status, 65);
+  EXPECT_EQ(mckibben("map '" MCKIBBEN_TEST_DATA "/calibration.yaml' --rig thesis_pair", scratch).status, 65);
+  EXPECT_EQ(mckibben("check dataset.yaml", scratch).status, 0);
+  EXPECT_EQ(mckibben("diff out out", scratch).status, 65);
+}
+
+TEST(Pair, RunsUnderTwoCurrents) {
+  const Scratch scratch;
+  const Said said = mckibben("run '" MCKIBBEN_SOURCE_DIR "/scenarios/pair.yaml' --format mat", scratch);
+  ASSERT_EQ(said.status, 0) << said.err;
+  EXPECT_EQ(read_text(scratch / "out/pair/table.txt"), said.out);
+  const Json document = Json::parse(read_text(scratch / "out/pair/run.json"));
+  EXPECT_EQ(document.at("schema"), "mckibben-pair-run/1");
+  ASSERT_EQ(document.at("runs").size(), 2u);
+  const Table is = table_of(scratch / "out/pair/steps.csv");
+  EXPECT_EQ(is.at("time_s").size(), 500u);
+  EXPECT_EQ(is.at("time_s")[1], 0.012);
+  EXPECT_NEAR(is.at("angle_rad").front(), 0.0, 1e-6);  // the same current on both sides
+  EXPECT_GT(is.at("angle_rad")[280], 0.2);             // muscle 1 is the stronger
+  EXPECT_LT(is.at("angle_rad").back(), -0.2);
+  EXPECT_LT(document.at("runs").at(0).at("ledger").at("unexplained_share").at("energy").get<double>(), 1e-5);
+  const std::string html = read_text(scratch / "out/pair/report.html");
+  EXPECT_NE(html.find("PairPicture"), std::string::npos);
+  EXPECT_NE(html.find("Joint angle"), std::string::npos);
+  EXPECT_TRUE(std::filesystem::exists(scratch / "out/pair/triangle.mat"));
+
+  // What was simulated is found again by a replay.
+  write_text(scratch / "dataset.yaml",
+             "schema: mckibben-dataset/1\nrig: thesis_pair\nruns:\n  - {id: r, file: out/pair/steps.csv}\n");
+  ASSERT_EQ(mckibben("replay dataset.yaml --out again", scratch).status, 0);
+  const Json gaps = Json::parse(read_text(scratch / "again/run.json")).at("runs").at(0).at("gaps");
+  for (const Json& gap : gaps) EXPECT_LT(gap.at("largest_error").get<double>(), 1e-9) << gap.dump();
+}
+
+}  // namespace
+}  // namespace mckibben::cli

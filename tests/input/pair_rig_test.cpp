@@ -1,0 +1,67 @@
+// Rigs of two muscles in files: what the second side takes from the first, along bases too; files of old are
+// written as they were.
+#include <gtest/gtest.h>
+
+#include <sim/input/pair_scenario_file.hpp>
+#include <sim/input/rigs.hpp>
+
+namespace mckibben::input {
+namespace {
+
+RigFile rig_of(const std::string& text) {
+  const YamlFile file = parse_yaml(Source("rig.yaml", text, ""));
+  RigFile rig;
+  Problems problems;
+  read_named(file.source, file.root, rig, problems);
+  problems.raise();
+  return rig;
+}
+
+TEST(PairRig, OneMuscleIsWrittenAsEver) {
+  EXPECT_FALSE(rig_json(RigFile{}).contains("mechanics"));
+  EXPECT_EQ(rig_json(rig_of("mechanics: {kind: hanging_load}")), rig_json(RigFile{}));
+}
+
+TEST(PairRig, ShippedByNameAndAsAFile) {
+  std::vector<InputFile> inputs;
+  const Json shipped = rig_json(read_rig("thesis_pair", inputs));
+  EXPECT_EQ(shipped.at("mechanics").at("kind"), "pair");
+  EXPECT_EQ(rig_json(read_rig(MCKIBBEN_SOURCE_DIR "/scenarios/rigs/thesis_pair.yaml", inputs)), shipped);
+  EXPECT_EQ(rig_json(rig_of("base: thesis\nmechanics: {kind: pair}")), shipped);
+}
+
+TEST(PairRig, WhatIsSaidOfMuscleOneHoldsForBothUntilTheOppositeDiffers) {
+  const RigFile rig = rig_of(
+      "base: thesis_pair\nmuscle: {rest_radius: 8 mm}\nhose: {conductance: 1e-8 m3/(s.Pa)}\n"
+      "mechanics: {kind: pair, contraction_1: 0.08, opposite: {muscle: {rest_length: 280 mm}}}");
+  const plant::OppositeSide& two = rig.pair()->opposite;
+  EXPECT_EQ(rig.pair()->contraction_ratio, 0.08);
+  EXPECT_EQ(rig.pair()->mass_kg, 2.0);  // as the base has it
+  EXPECT_EQ(two.muscle.rest_radius_m, 0.008);
+  EXPECT_EQ(two.muscle.rest_length_m, 0.28);
+  EXPECT_EQ(rig.muscle.rest_length_m, 0.3);
+  EXPECT_EQ(two.hose.conductance_m3_per_s_Pa, 1e-8);
+  EXPECT_EQ(to_json(rig_of(to_json(rig).dump())), to_json(rig));
+}
+
+TEST(PairRig, AMistakeOfMuscleOneIsToldOnce) {
+  try {
+    rig_of("base: thesis_pair\nmuscle: {rest_radius: 8 kg}");
+    FAIL();
+  } catch (const BadInput& bad) {
+    EXPECT_EQ(bad.problems().size(), 1u) << bad.what();
+  }
+}
+
+TEST(PairScenario, IsCompleteAndReadsBack) {
+  const PairScenario scenario = read_pair_scenario(MCKIBBEN_SOURCE_DIR "/scenarios/pair.yaml");
+  EXPECT_EQ(scenario.name, "pair");
+  ASSERT_EQ(scenario.currents.size(), 2u);
+  EXPECT_NE(scenario.rig.pair(), nullptr);
+  const Json written = pair_scenario_json(scenario);
+  EXPECT_EQ(pair_scenario_json(read_pair_scenario(Source("again.yaml", written.dump(), ""))).dump(),
+            written.dump());
+}
+
+}  // namespace
+}  // namespace mckibben::input
