@@ -26,10 +26,11 @@ std::vector<std::string> doubts(const Recording& recording) {
         "is no more exact than that; a tighter integrator.tolerance helps",
         100.0 * gas, 100.0 * energy));
   for (const Slack& slack : recording.slack)
-    found.push_back(fmt::format(
-        "the cord of muscle {} would have to push, from {:.3f} s on in {} of {} rows, by up to {:.3g} N at {:.3f} s: "
-        "a real one goes slack there, here it is taken as taut",
-        slack.muscle, slack.from_s, slack.rows, recording.samples.size(), -slack.lowest_N, slack.lowest_at_s));
+    found.push_back(
+        fmt::format("the cord of muscle {} would have to push, from {:.3f} s on in {} of {} rows, by up to "
+                    "{:.3g} N at {:.3f} s: a real one goes slack there, here it is taken as taut",
+                    slack.muscle, slack.from_s, slack.rows, recording.samples.size(), -slack.lowest_N,
+                    slack.lowest_at_s));
   if (recording.samples.empty()) return found;
   const auto lowest = std::min_element(
       recording.samples.begin(), recording.samples.end(), [](const Sample& a, const Sample& b) {

@@ -42,8 +42,8 @@ struct Slack {
 
 /// What drove a rig, where it was not a current to the valve of one muscle that lifts a load.
 struct Driven {
-  bool pair = false, length = false;     ///< two muscles; the length of one is given
-  std::array<bool, 2> pressure{};        ///< of each muscle: its pressure is given, and it has no valve
+  bool pair = false, length = false;  ///< two muscles; the length of one is given
+  std::array<bool, 2> pressure{};     ///< of each muscle: its pressure is given, and it has no valve
 };
 
 struct Recording {
