@@ -5,8 +5,10 @@
 
 #include <sim/input/common_checks.hpp>
 #include <sim/input/current_checks.hpp>
+#include <sim/input/fields_json.hpp>
 #include <sim/input/file_names.hpp>
 #include <sim/input/pair_scenario_file.hpp>
+#include <sim/input/yaml_reader.hpp>
 
 namespace mckibben::input {
 namespace {

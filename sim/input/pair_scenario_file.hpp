@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include <sim/domain/pair_scenario.hpp>
-#include <sim/input/fields_json.hpp>
+#include <sim/input/json.hpp>
 #include <sim/input/source.hpp>
 
 namespace mckibben::input {

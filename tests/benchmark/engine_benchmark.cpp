@@ -103,7 +103,8 @@ template <class Make>
 void ride_benchmark(benchmark::State& state, const Make& make, const plant::Rig& rig = {}) {
   const Ride& ride = rides[state.range(0)];
   const plant::Plant plant(rig, ride.load_kg);
-  const auto exact = drive(ride, plant, *make_integrator(plant, {Method::erk, tightest_tolerance}, false));
+  const auto exact =
+      drive(ride, plant, *make_integrator(plant, {Method::erk, solver::tightest_tolerance}, false));
   std::vector<double> e;
   double best_s = 1e9;
   for (auto _ : state) {

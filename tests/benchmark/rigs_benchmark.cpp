@@ -15,6 +15,7 @@
 #include <fmt/format.h>
 
 #include <controllers/waveform.hpp>
+#include <sim/input/fields_json.hpp>
 #include <sim/input/rigs.hpp>
 #include <sim/run/simulate.hpp>
 

@@ -2,6 +2,7 @@
 // written as they were.
 #include <gtest/gtest.h>
 
+#include <sim/input/fields_json.hpp>
 #include <sim/input/pair_scenario_file.hpp>
 #include <sim/input/rigs.hpp>
 
