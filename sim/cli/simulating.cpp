@@ -18,6 +18,7 @@
 #include <sim/input/pair_scenario_file.hpp>
 #include <sim/input/rigs.hpp>
 #include <sim/input/scenario_file.hpp>
+#include <sim/input/yaml_reader.hpp>
 #include <sim/output/csv.hpp>
 #include <sim/output/diagnosis_words.hpp>
 #include <sim/output/plot.hpp>
