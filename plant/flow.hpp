@@ -37,7 +37,7 @@ struct RestrictionOf {
     const S choked = conductance_kg_per_s_Pa * high_Pa;
     const S excess = (low_Pa / high_Pa - critical_ratio) / (1.0 - critical_ratio);
     return choose(
-        excess <= 0.0, [&] { return choked; }, [&] { return S(choked * sqrt(1.0 - excess * excess)); });
+        excess <= 0.0, [&] { return S(choked); }, [&] { return S(choked * sqrt(1.0 - excess * excess)); });
   }
 };
 using Restriction = RestrictionOf<double>;

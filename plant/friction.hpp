@@ -43,12 +43,12 @@ S friction_level_N(const FrictionOf<P>& p, const S& contraction_ratio, const S& 
       break;
     case FrictionLaw::logarithmic:
       level = choose(
-          pressed, [&] { return S(normal_N * (p.log_A - p.log_B * log(normal_N))); }, [&] { return none; });
+          pressed, [&] { return S(normal_N * (p.log_A - p.log_B * log(normal_N))); }, [] { return S(0.0); });
       break;
     case FrictionLaw::power:
       level = choose(
           pressed, [&] { return S(p.power_alpha * normal_N + p.power_b * pow(normal_N, p.power_c)); },
-          [&] { return none; });
+          [] { return S(0.0); });
       break;
   }
   level = select(level < 0.0, none, level);

@@ -110,7 +110,7 @@ run::MapPlan plan_of(const MapOptions& options, std::vector<domain::InputFile>& 
 std::string name_of(const MapOptions& options) {
   const auto file = std::filesystem::absolute(options.calibration).lexically_normal();
   const std::string stem = file.stem().string(), home = file.parent_path().filename().string();
-  const std::string name = fmt::format("map-{}", stem == "calibration" && !home.empty() ? home : stem);
+  std::string name = fmt::format("map-{}", stem == "calibration" && !home.empty() ? home : stem);
   if (options.rig.empty()) return name;
   return fmt::format("{}-{}", name, std::filesystem::path(options.rig).stem().string());
 }

@@ -107,6 +107,7 @@ std::string remark_in_words(Remark remark, const Naming& naming, double left) {
 
 std::string far_runs_in_words(const std::vector<FarRun>& runs) {
   std::vector<std::string> list;
+  list.reserve(runs.size());
   for (const FarRun& run : runs) list.push_back(fmt::format("{} by {:.0f}", run.id, std::sqrt(run.left)));
   std::sort(list.begin(), list.end());
   return fmt::format("{}", fmt::join(list, ", "));

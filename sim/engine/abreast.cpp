@@ -166,9 +166,11 @@ void level_terms(std::vector<plant::Rig>& rigs) {
 
 std::optional<plant::PlantOf<Lanes>> abreast(std::span<const plant::Plant> plants) {
   std::vector<plant::Rig> rigs;
+  rigs.reserve(plants.size());
   for (const plant::Plant& plant : plants) rigs.push_back(plant.rig());
   level_terms(rigs);
   std::vector<Leaves> leaves;
+  leaves.reserve(rigs.size());
   for (const plant::Rig& rig : rigs) leaves.push_back(leaves_of(rig));
   const auto choices = common_choices(leaves);
   if (!choices) return std::nullopt;

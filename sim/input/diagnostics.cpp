@@ -36,7 +36,7 @@ std::string where(const Problem& problem) {
 
 std::string to_text(const Problem& problem) {
   const char* kind = problem.severity == Severity::warning ? "warning" : "error";
-  const std::string text = fmt::format("{}: {}: {}", where(problem), kind, problem.message);
+  std::string text = fmt::format("{}: {}: {}", where(problem), kind, problem.message);
   if (problem.place.line == 0 || problem.source_line.empty()) return text;
   return text + '\n' + problem.source_line + '\n' + padding(problem.source_line, problem.place.column) + '^';
 }

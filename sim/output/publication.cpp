@@ -23,7 +23,7 @@ fs::path earlier(const fs::path& folder) {
   return folder.string() + ".old";
 }
 
-void swap(const fs::path& folder, const fs::path& place) {
+void swap_in(const fs::path& folder, const fs::path& place) {
   if (!is_there(place)) return rename_new(folder, place);
   if (exchange(folder, place)) return;
   rename_new(place, earlier(folder));
@@ -49,7 +49,7 @@ void swap_all(const fs::path& container, const std::vector<Move>& moves) {
   std::size_t swapped = 0;
   try {
     for (const Move& move : moves) {
-      swap(container / move.folder, move.place);
+      swap_in(container / move.folder, move.place);
       ++swapped;
       bring_to_disk(move.place.parent_path());
     }
