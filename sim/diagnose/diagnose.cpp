@@ -198,8 +198,8 @@ class Workflow {
     std::vector<FarRun> list;
     const auto look_at = [&](const Eigen::VectorXd& residuals, const Runs& runs) {
       for (const auto& part : experiment_.parts(runs)) {
-        const auto of_run = residuals.segment(part.begin, part.rows);
-        if (!near_floor(of_run)) list.push_back({data_.runs[part.run].id, excess(of_run)});
+        const double left = excess(residuals.segment(part.begin, part.rows));  // above the floor
+        if (left > thresholds.near.mean_square()) list.push_back({data_.runs[part.run].id, left});
       }
     };
     look_at(contender.fitted.residuals, case_.split.training);
