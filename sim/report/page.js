@@ -15,8 +15,10 @@ const allColumns = [
   ['contraction', 'contraction', ratio, 5], ['error', 'error', ratio, 5], ['current', 'current', 'mA', 2],
   ['muscle_pressure', 'muscle', 'bar', 3], ['pressure_error', 'error', 'bar', 3],
   ['braid_force', 'braid', 'N', 1], ['friction_force', 'friction', 'N', 1], ['cord_force', 'cord', 'N', 1],
-  ['contraction_error', 'error', ratio, 5], ['cord_force_error', 'error', 'N', 1], ['angle', 'angle', 'deg', 2], ['angle_error', 'error', 'deg', 3], ['muscle_pressure_1', 'muscle 1', 'bar', 3],
-  ['muscle_pressure_2', 'muscle 2', 'bar', 3], ['tension_1', 'cord 1', 'N', 1], ['tension_2', 'cord 2', 'N', 1]
+  ['contraction_error', 'error', ratio, 5], ['cord_force_error', 'error', 'N', 1],
+  ['angle', 'angle', 'deg', 2], ['angle_error', 'error', 'deg', 3],
+  ['muscle_pressure_1', 'muscle 1', 'bar', 3], ['muscle_pressure_2', 'muscle 2', 'bar', 3],
+  ['tension_1', 'cord 1', 'N', 1], ['tension_2', 'cord 2', 'N', 1]
 ];
 let columns = [];  // those that this group has
 
@@ -134,7 +136,9 @@ function setTime(time) {
   const run = group.runs[view.drawn];
   drawing.draw(valuesAt(run.values, tick), valuesAt(group.given, tick), group.load_kg);
   byId('rig-caption').textContent = `${run.name}, ${group.name}, ${drawing.scale}.${
-      group.given.given_contraction || group.given.given_angle ? ` Dashed: ${report.plots[0].lines[0].label.toLowerCase()}.` : ''}`;
+      group.given.given_contraction || group.given.given_angle ?
+          ` Dashed: ${report.plots[0].lines[0].label.toLowerCase()}.` :
+          ''}`;
 }
 
 function stop() {

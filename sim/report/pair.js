@@ -1,5 +1,6 @@
-// Two muscles that turn a wheel against each other (plant/mechanics.hpp), at one instant, to scale but for the wheel
-// and the link. Muscle 1 lies above: as it contracts, the wheel turns anticlockwise and the joint angle grows.
+// Two muscles that turn a wheel against each other (plant/mechanics.hpp), at one instant, to scale but for
+// the wheel and the link. Muscle 1 lies above: as it contracts, the wheel turns anticlockwise and the joint
+// angle grows.
 class PairPicture {
   constructor(svg) {
     this.svg = svg;
@@ -8,8 +9,8 @@ class PairPicture {
     const muscles = [report.rig, pair.opposite];
     this.mm = 300 / Math.max(...muscles.map(({rest_length_m: l0}) => l0));
     this.left = 40;
-    const half = Math.max(...muscles.map(
-        ({rest_radius_m: r0, braid_angle_rad: alpha0}) => (r0 * this.mm) / Math.sin(alpha0)));
+    const half = Math.max(
+        ...muscles.map(({rest_radius_m: r0, braid_angle_rad: alpha0}) => (r0 * this.mm) / Math.sin(alpha0)));
     const r = Math.max(44, half + 10), y = 40 + half + r;
     this.wheel = {x: this.left + 380, y, r};
     this.link = 110;

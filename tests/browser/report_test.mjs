@@ -115,7 +115,8 @@ for (const page_of of ['short', 'diagnosis'])
     await page.locator('#in-ratio').check();
     const inRatios = await words(page);
     assert.deepEqual(inRatios.match(/^(?!muscle\.|joint\.).*(\d mm|in mm).*/gm), null);
-    assert.match(inRatios, page_of === 'short' ? /0\.\d+ \(contraction ratio\)/ : /falls from 0\.\d+ to 0\.\d+;/);
+    assert.match(
+        inRatios, page_of === 'short' ? /0\.\d+ \(contraction ratio\)/ : /falls from 0\.\d+ to 0\.\d+;/);
     await done();
   });
 
