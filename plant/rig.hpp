@@ -12,6 +12,7 @@
 #include <string_view>
 #include <utility>
 
+#include <plant/command.hpp>
 #include <plant/effects.hpp>
 
 namespace mckibben::plant {
@@ -143,11 +144,23 @@ struct ValveOf {
   P critical_ratio = 0.30;
   P proportional_band_Pa = 0.3e5;
   P volume_m3 = 5.0e-5;
+  RatedCommand zero_command, span_command;  ///< absent: currents are what it is commanded with
+
+  /// Whether it is commanded with volts or with a pressure; results hold the currents that would do the same.
+  bool has_own_command() const { return !zero_command.absent(); }
+  /// The current that does the same as `command`, a number in the unit of its own commands.
+  double current_for_mA(double command) const {
+    const double share = (command - zero_command.value) / (span_command.value - zero_command.value);
+    return zero_current_mA + share * (span_current_mA - zero_current_mA);
+  }
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
     visit("zero_current", self.zero_current_mA, "mA", 0.0, 100.0, "current at zero pressure");
     visit("span_current", self.span_current_mA, "mA", 0.1, 100.0, "current at span pressure");
+    visit("zero_command", self.zero_command,
+          "command at zero pressure, of a valve that takes volts or a pressure");
+    visit("span_command", self.span_command, "command at span pressure, of such a valve");
     visit("zero_pressure", self.zero_pressure_Pa, "Pa", 0.0, 2e6, "gauge pressure at zero current (T 3.2)");
     visit("span_pressure", self.span_pressure_Pa, "Pa", 1e3, 2e6, "gauge pressure at span current (T 3.2)");
     visit("supply_pressure", self.supply_pressure_Pa, "Pa", 1e3, 2e6, "gauge pressure of the supply (T 3.1)");
@@ -158,8 +171,23 @@ struct ValveOf {
     visit("proportional_band", self.proportional_band_Pa, "Pa", 10.0, 2e6, "pressure error that opens fully");
     visit("volume", self.volume_m3, "m3", 1e-7, 1e-2, "controlled volume, V_v");
   }
+  /// A command in mA is a current.
+  void resolve() {
+    const auto to_current = [](RatedCommand& command, P& current_mA) {
+      if (command.unit != RatedCommand::Unit::mA) return;
+      current_mA = command.value;
+      command = {};
+    };
+    to_current(zero_command, zero_current_mA);
+    to_current(span_command, span_current_mA);
+  }
   template <class Report>
   void rules(Report& report) const {
+    if (zero_command.unit != span_command.unit)
+      report(zero_command.absent() ? "span_command" : "zero_command",
+             "zero_command and span_command are both in V, both in bar, or both in mA");
+    else if (has_own_command() && span_command.value <= zero_command.value)
+      report("span_command", "must be above zero_command");
     if (span_current_mA <= zero_current_mA) report("span_current", "must be above zero_current");
     if (span_pressure_Pa <= zero_pressure_Pa) report("span_pressure", "must be above zero_pressure");
     if (supply_pressure_Pa < span_pressure_Pa) report("supply_pressure", "must not be below span_pressure");

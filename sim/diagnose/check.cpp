@@ -60,10 +60,10 @@ class DatasetChecker {
     checked_.warnings.push_back(fmt::format("run {}: {}", data_.runs[run].id, what));
   }
   void find(std::size_t run, std::string kind, std::string action, std::string words) {
-    checked_.findings.push_back({.run = data_.runs[run].id,
-                                 .kind = std::move(kind),
-                                 .action = std::move(action),
-                                 .words = std::move(words)});
+    checked_.faulty.push_back({.run = data_.runs[run].id,
+                               .kind = std::move(kind),
+                               .action = std::move(action),
+                               .words = std::move(words)});
   }
   void leave_out(std::size_t run, std::string_view why) {
     warn(run, fmt::format("{}; left out", why));
@@ -71,10 +71,10 @@ class DatasetChecker {
     left_out_[run] = true;
   }
   void leave_out_for(const Fault& fault) {
-    Finding finding = told(data_, fault);
-    warn(fault.run, finding.words + "; left out");
-    finding.words += " (left out)";
-    checked_.findings.push_back(std::move(finding));
+    FaultyRun faulty = told(data_, fault);
+    warn(fault.run, faulty.words + "; left out");
+    faulty.words += " (left out)";
+    checked_.faulty.push_back(std::move(faulty));
     left_out_[fault.run] = true;
   }
   double time_s(std::size_t row) const { return static_cast<double>(row) * data_.rig.tick_s; }
@@ -94,18 +94,18 @@ class DatasetChecker {
     std::vector<run::Expected> expected;
     for (const Readings& readings : model_)
       expected.push_back({readings.contraction_ratio, readings.pressure_Pa});
-    const auto findings = run::sanity(data_, expected);
-    run::raise(data_, findings);
-    for (const domain::Objection& finding : findings) {
-      const std::string text = domain::text_of(data_, finding);
+    const auto objections = run::sanity(data_, expected);
+    run::raise(data_, objections);
+    for (const domain::Objection& objection : objections) {
+      const std::string text = domain::text_of(data_, objection);
       // More runs are weighed one against the others later, exactly.
-      if (finding.exchanged.empty() && data_.runs.size() >= thresholds.label.least_runs) continue;
-      for (const std::size_t i : finding.runs) left_out_[i] = true;
-      for (const domain::SeemingLoad& one : finding.exchanged)
+      if (objection.exchanged.empty() && data_.runs.size() >= thresholds.label.least_runs) continue;
+      for (const std::size_t i : objection.runs) left_out_[i] = true;
+      for (const domain::SeemingLoad& one : objection.exchanged)
         find(one.run, "load", "left out",
              fmt::format("was left out: it has the label of another load and moves like {:.6g} kg",
                          one.load_kg));
-      if (too_many(finding.runs.size(), data_.runs.size()) || usable().size() < of_check.least_runs)
+      if (too_many(objection.runs.size(), data_.runs.size()) || usable().size() < of_check.least_runs)
         checked_.cannot_tell = text + ".";
       else
         checked_.warnings.push_back(text + "; left out");

@@ -17,7 +17,7 @@ struct Checked {
   Runs left_out;                             ///< ascending
   Runs dead_gauges;                          ///< runs whose muscle pressure says nothing: ignore it
   std::vector<std::string> warnings;         ///< each names its run
-  std::vector<Finding> findings{};           ///< of runs left out or mended, for the verdict's sentence
+  std::vector<FaultyRun> faulty{};           ///< of runs left out or mended, for the verdict's sentence
   std::optional<std::string> cannot_tell{};  ///< why no answer is possible, and what would help
 };
 

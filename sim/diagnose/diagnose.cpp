@@ -100,12 +100,12 @@ class Workflow {
   void tell_check() {
     result_.seed = settings_.seed;
     result_.warnings = run::grouped(checked_.warnings);
-    result_.faults = checked_.findings;
+    result_.faults = checked_.faulty;
     result_.false_alarm_rate = thresholds.decide.false_alarm_rate;
     result_.corrected = data_.rig;
     evidence_.usable = !checked_.cannot_tell;
-    evidence_.common_fault = std::any_of(checked_.findings.begin(), checked_.findings.end(),
-                                         [](const Finding& finding) { return finding.common; });
+    evidence_.common_fault = std::any_of(checked_.faulty.begin(), checked_.faulty.end(),
+                                         [](const FaultyRun& faulty) { return faulty.common; });
     const NoiseFloor& floor = experiment_.floor();
     if (floor.repeats >= floor.ratio)
       warn(

@@ -107,7 +107,7 @@ struct RunGap {
 };
 
 /// What is wrong with the recording of a run.
-struct Finding {
+struct FaultyRun {
   std::string run;   ///< its id
   std::string kind;  ///< late, drift, another_rig and so on
   double size = 0.0;
@@ -169,8 +169,8 @@ struct Diagnosis {
   std::vector<RunGap> runs{};
   std::optional<NextExperiment> next_experiment{};
   std::vector<std::string> warnings{};
-  std::vector<Finding> faults{};  ///< of the recording; the verdict is on what is left
-  std::string unexplained{};      ///< runs that no model comes near, in words
+  std::vector<FaultyRun> faults{};  ///< of the recording; the verdict is on what is left
+  std::string unexplained{};        ///< runs that no model comes near, in words
   domain::RigFile corrected{};
   double false_alarm_rate = 0.0;  ///< that the thresholds were set for
   std::uint64_t seed = 1;

@@ -44,25 +44,25 @@ void take_out(domain::Run& run, double count, double at_begin, double at_end) {
 
 }  // namespace
 
-Finding told(const domain::Dataset& data, const Fault& fault) {
+FaultyRun told(const domain::Dataset& data, const Fault& fault) {
   const domain::Run& run = data.runs[fault.run];
   const double count = run::contraction_per_count(data.rig);
   const double length_mm = 1e3 * data.rig.muscle.rest_length_m;
   const double at_s = static_cast<double>(fault.row) * data.rig.tick_s;
-  Finding finding{.run = run.id,
-                  .kind = "",
-                  .size = fault.size,
-                  .action = "left out",
-                  .words = "",
-                  .common = fault.common};
+  FaultyRun faulty{.run = run.id,
+                   .kind = "",
+                   .size = fault.size,
+                   .action = "left out",
+                   .words = "",
+                   .common = fault.common};
   const auto tell = [&](std::string kind, std::string unit, std::string words) {
-    finding.kind = std::move(kind);
-    finding.unit = std::move(unit);
-    finding.words = std::move(words);
+    faulty.kind = std::move(kind);
+    faulty.unit = std::move(unit);
+    faulty.words = std::move(words);
   };
   switch (fault.kind) {
     case FaultKind::late:
-      finding.size = std::round(fault.size);
+      faulty.size = std::round(fault.size);
       tell("late", "tick", fmt::format("is {} {}", ticks(fault.size), fault.size > 0.0 ? "late" : "early"));
       break;
     case FaultKind::current_scale:
@@ -75,7 +75,7 @@ Finding told(const domain::Dataset& data, const Fault& fault) {
                        fault.size > 0.0 ? "more" : "less"));
       break;
     case FaultKind::drift:
-      finding.size *= 1e-3 * length_mm;
+      faulty.size *= 1e-3 * length_mm;
       tell("drift", "m",
            fmt::format("drifts by {:.2g} mm from its beginning to its end", length_mm * fault.size));
       break;
@@ -100,13 +100,13 @@ Finding told(const domain::Dataset& data, const Fault& fault) {
            "fits no model that the other runs fit (another rig, another load, something held it?)");
       break;
   }
-  return finding;
+  return faulty;
 }
 
 void mend(domain::Dataset& data, Checked& checked, const std::vector<Fault>& faults) {
   const double count = run::contraction_per_count(data.rig);
   for (const Fault& fault : faults) {
-    Finding finding = told(data, fault);
+    FaultyRun faulty = told(data, fault);
     domain::Run& run = data.runs[fault.run];
     const bool late = fault.kind == FaultKind::late, zero = fault.kind == FaultKind::zero;
     const bool common_drift = fault.kind == FaultKind::drift && fault.common;
@@ -114,13 +114,13 @@ void mend(domain::Dataset& data, Checked& checked, const std::vector<Fault>& fau
     if (zero) take_out(run, count, fault.size, fault.size);
     if (common_drift) take_out(run, count, 0.0, fault.size);
     if (late || zero || common_drift) {
-      finding.action = "corrected";
-      finding.words += late ? " and was shifted" : " (corrected)";
+      faulty.action = "corrected";
+      faulty.words += late ? " and was shifted" : " (corrected)";
     } else {
-      finding.words += " (left out)";
+      faulty.words += " (left out)";
       checked.left_out.push_back(fault.run);
     }
-    checked.findings.push_back(std::move(finding));
+    checked.faulty.push_back(std::move(faulty));
   }
   std::sort(checked.left_out.begin(), checked.left_out.end());
 }

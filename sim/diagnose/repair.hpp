@@ -8,10 +8,10 @@
 namespace mckibben::diagnose {
 
 /// The fault as it is told; without what is done about it.
-Finding told(const domain::Dataset& data, const Fault& fault);
+FaultyRun told(const domain::Dataset& data, const Fault& fault);
 
 /// Readings that come late are shifted by whole ticks, a moved zero is taken out, and so is a drift that all
-/// runs have; other runs are left out. All is told in `checked.findings`.
+/// runs have; other runs are left out. All is told in `checked.faulty`.
 void mend(domain::Dataset& data, Checked& checked, const std::vector<Fault>& faults);
 
 }  // namespace mckibben::diagnose

@@ -73,10 +73,10 @@ void tell_parameters(Diagnosis& diagnosis, const Model& model, const std::vector
 
 std::string faults_in_words(const Diagnosis& d) {
   std::string text;
-  for (const Finding& finding : d.faults) {
-    if (finding.common && &finding != &d.faults.front() && finding.kind == d.faults.front().kind) continue;
+  for (const FaultyRun& faulty : d.faults) {
+    if (faulty.common && &faulty != &d.faults.front() && faulty.kind == d.faults.front().kind) continue;
     text += fmt::format("{}{} {}", text.empty() ? "" : "; ",
-                        finding.common ? "every run" : "run " + finding.run, finding.words);
+                        faulty.common ? "every run" : "run " + faulty.run, faulty.words);
   }
   if (text.empty()) return text;
   text.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(text.front())));
@@ -167,7 +167,7 @@ std::string cannot_tell_in_words(const Diagnosis& d) {
         "{}), and no effect "
         "convinces on the runs held out.",
         d.unexplained);
-  if (std::any_of(d.faults.begin(), d.faults.end(), [](const Finding& f) { return f.common; }))
+  if (std::any_of(d.faults.begin(), d.faults.end(), [](const FaultyRun& f) { return f.common; }))
     return "Apart from that model and data agree, but whether the recorder does it or the rig, these data "
            "cannot tell.";
   return "Nothing was found, but these data would not show more than half of the effects of the catalogue at "

@@ -79,6 +79,7 @@ struct Leaves {
   requires(std::integral<T> || std::is_enum_v<T>) void operator()(T& choice) {
     choices.push_back(makes_no_difference ? std::nullopt : std::optional(static_cast<long>(choice)));
   }
+  void operator()(const plant::RatedCommand&) {}  // whatever a command is called, the valve gets a current
   template <class T>
   void size(const std::vector<T>& list) {
     choices.emplace_back(static_cast<long>(list.size()));
@@ -109,6 +110,7 @@ struct Fill {
     ++number;
   }
   void operator()(double& value) { value = rigs.front().numbers[number++]; }  // of instruments
+  void operator()(const plant::RatedCommand&) {}
   template <class T>
   requires(std::integral<T> || std::is_enum_v<T>) void operator()(T& value) {
     value = static_cast<T>(choices[choice++]);

@@ -38,7 +38,19 @@ void to_ratio(std::vector<double>& values, const std::string& unit, const plant:
   for (double& value : values) value *= ratio;
 }
 
+/// Commands other than a current may be in any unit that a valve takes.
+std::string command_problem(const std::string& unit) {
+  for (const plant::CommandUnit& each : plant::command_units)
+    if (unit_problem(unit, each.name).empty()) return "";
+  return fmt::format("{} is not a unit of commands; wanted is mA, V or bar", unit);
+}
+
+bool is_command(const domain::Quantity& quantity) {
+  return quantity.key.starts_with("command");
+}
+
 std::string problem_of(const domain::Quantity& quantity, const std::string& unit) {
+  if (is_command(quantity)) return command_problem(unit);
   if (quantity.key == "contraction") return contraction_problem(unit);
   if (quantity.key == "angle" && unit == count) return "";
   return unit_problem(unit, quantity.unit);
@@ -62,13 +74,17 @@ void check_units(const Source& source, const Node& map, Problems& problems) {
   }
 }
 
+bool is_current(std::string_view unit) {
+  return unit_problem(unit, "mA").empty();
+}
+
 double ratio_per_unit(const ColumnPlace& contraction, const plant::Rig& rig) {
   std::vector<double> one{1.0};
   if (!contraction.absent()) to_ratio(one, contraction.unit, rig);
   return one.front();
 }
 
-void convert_columns(Table& table, const ColumnMap& map, const plant::Rig& rig) {
+void convert_columns(Table& table, const ColumnMap& map, const domain::RigFile& rig) {
   for (Table::Column& column : table.columns) {
     const auto found =
         std::find_if(domain::quantities.begin(), domain::quantities.end(), [&](const domain::Quantity& each) {
@@ -83,6 +99,10 @@ void convert_columns(Table& table, const ColumnMap& map, const plant::Rig& rig) 
     } else if (place.unit == count) {  // of the joint's angle
       const double count_rad = plant::count_height_m(rig.encoder, rig.joint) / rig.joint.wheel_radius_m;
       for (double& value : column.values) value *= count_rad;
+    } else if (is_command(*found) && !is_current(place.unit)) {
+      const plant::Valve& valve = found->key == "command_2" ? rig.pair()->opposite.valve : rig.valve;
+      convert_units(column.values, place.unit, plant::name_of(valve.zero_command.unit));
+      for (double& value : column.values) value = valve.current_for_mA(value);
     } else {
       convert_units(column.values, place.unit, found->unit);
     }

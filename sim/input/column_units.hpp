@@ -2,8 +2,8 @@
 // whether they can be what they stand for, and tables brought to ours.
 #pragma once
 
-#include <plant/rig.hpp>
 #include <sim/domain/columns.hpp>
+#include <sim/domain/rig_file.hpp>
 #include <sim/input/table.hpp>
 #include <sim/input/yaml_file.hpp>
 
@@ -14,11 +14,15 @@ using domain::ColumnMap, domain::ColumnPlace;
 /// Checks the units of a map; `map` is the value of `columns`.
 void check_units(const Source& source, const Node& map, Problems& problems);
 
+/// Whether a command in this unit is a current.
+bool is_current(std::string_view unit);
+
 /// What one of a column's unit is as a contraction ratio; 1 where none is said.
 double ratio_per_unit(const ColumnPlace& contraction, const plant::Rig& rig);
 
 /// Brings a table that was read with a map to our units: time_s, current_mA, contraction_ratio,
-/// muscle_pressure_bar. Lengths and angles become ratios by the rig's wheel and the muscle's rest length.
-void convert_columns(Table& table, const ColumnMap& map, const plant::Rig& rig);
+/// muscle_pressure_bar. Lengths and angles become ratios by the rig's wheel and the muscle's rest length,
+/// commands of a valve that takes volts or a pressure the currents that would do the same.
+void convert_columns(Table& table, const ColumnMap& map, const domain::RigFile& rig);
 
 }  // namespace mckibben::input

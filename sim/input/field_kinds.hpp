@@ -25,6 +25,12 @@ concept Named = std::is_enum_v<T> && requires(T value) {
   names(value);
 };
 
+/// A struct that can be told the same in more than one way; `resolve` leaves one of them.
+template <class T>
+concept Resolved = requires(T& value) {
+  value.resolve();
+};
+
 /// A struct with rules between its fields.
 template <class T>
 concept Ruled = requires(const T& value, int& report) {

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include <controllers/target.hpp>
+#include <plant/command.hpp>
 #include <sim/input/field_kinds.hpp>
 #include <sim/input/fields_json.hpp>
 #include <sim/input/yaml_reader.hpp>
@@ -21,7 +22,7 @@ namespace mckibben::input {
 
 // NOLINTNEXTLINE(bugprone-exception-escape): moving Json does not throw
 struct FieldInfo {
-  enum class Type { quantity, integer, boolean, choice, text, height, structure, variant };
+  enum class Type { quantity, integer, boolean, choice, text, height, command, structure, variant };
   /// The fields of a struct, or of one alternative of a variant.
   struct Group {
     std::string kind;  ///< empty for a plain struct
@@ -81,7 +82,8 @@ class FieldLister {
       info.is_list = true;
     } else {
       describe<T>(info);
-      if constexpr (!is_variant<T> && !Listed<T>) info.default_value = to_json(value);
+      if constexpr (!is_variant<T> && !Listed<T>)
+        if (!is_absent(value)) info.default_value = to_json(value);
     }
   }
 
@@ -101,6 +103,8 @@ class FieldLister {
       info.type = FieldInfo::Type::text;
     } else if constexpr (std::same_as<T, controllers::Height>) {
       info.type = FieldInfo::Type::height;
+    } else if constexpr (std::same_as<T, plant::RatedCommand>) {
+      info.type = FieldInfo::Type::command;
     } else if constexpr (Named<T>) {
       info.type = FieldInfo::Type::choice;
       for (const std::string_view text : spellings<T>()) info.choices.emplace_back(text);

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include <sim/input/field_list.hpp>
@@ -11,7 +10,7 @@
 namespace mckibben::input {
 
 /// A section titled `title` with the table of `fields`, then the sections of the structs inside, each titled
-/// by its path of keys. `level` is the number of # of the title.
-std::string field_table(std::string_view title, const std::vector<FieldInfo>& fields, int level = 2);
+/// by its path of keys. A table that has been there before is referred to, and so is that of a rig.
+std::string field_table(const std::string& title, const std::vector<FieldInfo>& fields);
 
 }  // namespace mckibben::input

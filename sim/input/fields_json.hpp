@@ -14,6 +14,7 @@
 #include <nlohmann/json.hpp>
 
 #include <controllers/target.hpp>
+#include <plant/command.hpp>
 #include <sim/input/field_kinds.hpp>
 #include <sim/input/json.hpp>
 #include <sim/input/quantity.hpp>
@@ -73,6 +74,8 @@ Json to_json(const T& value) {
     return value;
   } else if constexpr (std::same_as<T, controllers::Height>) {
     return quantity_json(value.value, value.in_metres ? "m" : "1");
+  } else if constexpr (std::same_as<T, plant::RatedCommand>) {
+    return quantity_json(value.value, plant::name_of(value.unit));
   } else if constexpr (Named<T>) {
     return std::string(spelling(value));
   } else if constexpr (is_vector<T>) {

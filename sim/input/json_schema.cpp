@@ -43,6 +43,8 @@ Json value_schema(const FieldInfo& info) {
       return {{"type", {"string", "number"}}};  // the reader takes 3 for a text as well
     case FieldInfo::Type::height:
       return {{"anyOf", {Json{{"type", "number"}}, with_unit("[^0-9 .,].*")}}};
+    case FieldInfo::Type::command:
+      return with_unit("[^0-9 .,].*");
     case FieldInfo::Type::structure:
     case FieldInfo::Type::variant:
       break;

@@ -9,6 +9,8 @@
 
 #include <plant/geometry.hpp>
 #include <sim/domain/number.hpp>
+#include <sim/input/column_units.hpp>
+#include <sim/input/quantity.hpp>
 #include <sim/input/stamped_run.hpp>
 
 namespace mckibben::input {
@@ -41,6 +43,24 @@ const ColumnPlace& command_of(const ColumnMap& map, bool pair, std::size_t side)
 const ColumnPlace& pressure_of(const ColumnMap& map, bool pair, std::size_t side) {
   if (pair) return side == 0 ? map.muscle_pressure_1 : map.muscle_pressure_2;
   return map.muscle_pressure;
+}
+
+const plant::Valve& valve_of(const domain::RigFile& rig, std::size_t side) {
+  return side == 0 ? rig.valve : rig.pair()->opposite.valve;
+}
+
+/// What is wrong with the unit of a command to this valve, or nothing.
+std::string unit_of_command_problem(const ColumnPlace& command, const plant::Valve& valve) {
+  if (is_current(command.unit)) return "";
+  if (!valve.has_own_command())
+    return fmt::format(
+        "unit = {}: the rig's valve is commanded with a current; if it is not, its "
+        "zero_command and span_command must be said",
+        command.unit);
+  const std::string_view wanted = plant::name_of(valve.zero_command.unit);
+  return unit_problem(command.unit, wanted).empty()
+             ? ""
+             : fmt::format("unit = {}: the rig's valve is commanded in {}", command.unit, wanted);
 }
 
 /// Whether the column must be there: what drives the rig must.
@@ -106,17 +126,17 @@ void check_roles(const YamlFile& file, const Node& run, const ColumnMap& map, co
     complain("command", "current is a command in mA; give one of the two");
   for (std::size_t side = 0; side < (pair ? 2 : 1); ++side) {
     const ColumnPlace& command = command_of(map, pair, side);
+    const char* single = map.command.absent() ? "current" : "command";
+    const char* key = !pair ? single : side == 0 ? "command_1" : "command_2";
     if (is_input(pressure_of(map, pair, side)) && !command.absent() && command.as != Role::ignored)
       complain(
-          pair                   ? side == 0 ? "command_1" : "command_2"
-          : map.command.absent() ? "current"
-                                 : "command",
+          key,
           "the muscle's pressure is the input, so that there is no valve to be commanded; say as: ignored");
     else if (!is_input(pressure_of(map, pair, side)) && !command.absent() && command.as == Role::ignored)
-      complain(pair                   ? side == 0 ? "command_1" : "command_2"
-               : map.command.absent() ? "current"
-                                      : "command",
-               "nothing else drives the muscle");
+      complain(key, "nothing else drives the muscle");
+    else if (!command.absent() && command.as != Role::ignored)
+      if (const std::string why = unit_of_command_problem(command, valve_of(rig, side)); !why.empty())
+        complain(key, why);
   }
   if (rig.holds_a_length() && !is_input(map.contraction))
     complain("contraction",
@@ -177,12 +197,26 @@ class Assembling {
         take("muscle_pressure" + number + "_bar", into.pressure_is_given ? lowest_given_bar : lowest_read_bar,
              highest_bar, into.pressure_is_given ? "what a muscle can be given" : "what a gauge can show");
     for (double& value : into.muscle_pressure_Pa) value *= plant::Pa_per_bar;
-    constexpr double slack_mA = 1e-9;  // shortest digits of a sum of DAC steps
-    into.current_mA = take("current" + number + "_mA", 0.0, rig_.dac.largest_current_mA + slack_mA,
-                           "range of the rig's DAC");
+    into.current_mA =
+        command(command_of(map_, pair_, side), valve_of(rig_, side), "current" + number + "_mA");
   }
 
-  std::vector<double> take(const std::string& name, double lowest, double highest, const char* meaning) {
+  std::vector<double> command(const ColumnPlace& place, const plant::Valve& valve, const std::string& name) {
+    if (place.absent() || is_current(place.unit)) {
+      constexpr double slack_mA = 1e-9;  // shortest digits of a sum of DAC steps
+      return take(name, 0.0, rig_.dac.largest_current_mA + slack_mA, "range of the rig's DAC");
+    }
+    // No DAC of ours made it; what lies a whole range outside is of another valve, or in another unit.
+    const plant::RatedCommand &zero = valve.zero_command, &span = valve.span_command;
+    return take(
+        name, valve.current_for_mA(2.0 * zero.value - span.value),
+        valve.current_for_mA(2.0 * span.value - zero.value),
+        fmt::format("the rig's valve takes {:g} to {:g} {}, here as {:g} to {:g} mA", zero.value, span.value,
+                    plant::name_of(zero.unit), valve.zero_current_mA, valve.span_current_mA));
+  }
+
+  std::vector<double> take(const std::string& name, double lowest, double highest,
+                           const std::string& meaning) {
     Table::Column* column = table_.find(name);
     if (column == nullptr) return {};
     check_range(table_, *column, lowest, highest, meaning, problems_);

@@ -155,6 +155,28 @@ void ValueReader::height(std::string_view key, const Node& node, controllers::He
   }
 }
 
+void ValueReader::command(std::string_view key, const Node& node, plant::RatedCommand& value,
+                          std::string_view meaning) {
+  if (!is_scalar(key, node, "one value, for example 10 V")) return;
+  for (const auto& [unit, name, lowest, highest] : plant::command_units) {
+    double read = 0.0;
+    try {
+      read = read_quantity(node.text, name);
+    } catch (const BadQuantity&) {
+      continue;
+    }
+    if (read >= lowest && read <= highest)
+      value = {read, unit};
+    else
+      bad(node,
+          fmt::format("{} = {} is out of range: {} to {} ({})", key, shortened(node.text),
+                      show_limit(lowest, name, node.text), show_limit(highest, name, node.text), meaning));
+    return;
+  }
+  bad(node, fmt::format("{} = {} must be a number of mA, V or bar, for example 10 V ({})", key,
+                        shortened(node.text), meaning));
+}
+
 std::optional<std::size_t> ValueReader::choice(std::string_view key, const Node& node,
                                                std::span<const std::string_view> choices) {
   if (!is_scalar(key, node, "one of: " + join(choices))) return std::nullopt;

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include <controllers/target.hpp>
+#include <plant/command.hpp>
 #include <sim/input/diagnostics.hpp>
 #include <sim/input/field_kinds.hpp>
 #include <sim/input/yaml_file.hpp>
@@ -66,6 +67,7 @@ class ValueReader {
   void boolean(std::string_view key, const Node& node, bool& value);
   void text(std::string_view key, const Node& node, std::string& value);
   void height(std::string_view key, const Node& node, controllers::Height& value);
+  void command(std::string_view key, const Node& node, plant::RatedCommand& value, std::string_view meaning);
   /// Index of the spelling among `choices`.
   std::optional<std::size_t> choice(std::string_view key, const Node& node,
                                     std::span<const std::string_view> choices);
@@ -135,6 +137,10 @@ class StructReader : public ValueReader {
     }
   }
 
+  void operator()(std::string_view key, plant::RatedCommand& value, std::string_view meaning) {
+    if (const Node* node = take(key)) command(key, *node, value, meaning);
+  }
+
   /// Everything without unit and range.
   template <class T>
   void operator()(std::string_view key, T& value, std::string_view) {
@@ -184,6 +190,7 @@ void read_struct(const Source& source, const Node& node, T& into, Problems& prob
   if (!reader.is_map()) return;
   T::fields(into, reader);
   reader.check_unknown(also_allowed);
+  if constexpr (Resolved<T>) into.resolve();
   if constexpr (Ruled<T>) {
     const auto report = [&](std::string_view key, std::string_view message) {
       reader.broken_rule(key, message);

@@ -26,9 +26,12 @@ std::string muscle(const plant::Muscle& muscle) {
 }
 
 std::string valve(const plant::Valve& valve) {
-  return fmt::format("{:g} to {:g} mA for {} to {}; supply {}", valve.zero_current_mA, valve.span_current_mA,
-                     readable(valve.zero_pressure_Pa, "Pa"), readable(valve.span_pressure_Pa, "Pa"),
-                     readable(valve.supply_pressure_Pa, "Pa"));
+  std::string range = fmt::format("{:g} to {:g} mA", valve.zero_current_mA, valve.span_current_mA);
+  if (valve.has_own_command())
+    range = fmt::format("{:g} to {:g} {} (here as {})", valve.zero_command.value, valve.span_command.value,
+                        plant::name_of(valve.zero_command.unit), range);
+  return fmt::format("{} for {} to {}; supply {}", range, readable(valve.zero_pressure_Pa, "Pa"),
+                     readable(valve.span_pressure_Pa, "Pa"), readable(valve.supply_pressure_Pa, "Pa"));
 }
 
 std::string effects(const plant::Effects& effects) {

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <exception>
 #include <functional>
+#include <string>
 
 namespace mckibben::run {
 
@@ -26,5 +27,13 @@ inline constexpr const char* not_begun = "interrupted before it began";
 /// ended; Interrupted if the user asked to stop before all were begun.
 void for_each_job(std::size_t count, unsigned threads, const std::function<void(std::size_t)>& job,
                   const std::function<void(std::size_t done)>& done);
+
+/// Hears of progress, from any thread: what is being done, how much of it is done.
+using ProgressHook = std::function<void(const std::string& what, std::size_t done, std::size_t total)>;
+
+/// The same for jobs whose results say themselves that they were not begun (`not_begun`) when the user
+/// stopped: then it returns false. The hook hears `what` is being done.
+bool for_each_result(std::size_t count, unsigned threads, const std::string& what,
+                     const ProgressHook& progress, const std::function<void(std::size_t)>& job);
 
 }  // namespace mckibben::run

@@ -79,14 +79,9 @@ class Comparing {
       result_.runs.push_back({.load_kg = scenario_.loads_kg[i / columns],
                               .controller = controllers::name_of(settings_[i % columns]),
                               .failure = not_begun});
-    progress_("simulating", 0, total);
-    try {
-      for_each_job(
-          total, threads_, [&](std::size_t i) { run_one(result_.runs[i], settings_[i % columns], i); },
-          [&](std::size_t done) { progress_("simulating", done, total); });
-    } catch (const Interrupted&) {
-      result_.interrupted = true;
-    }
+    result_.interrupted = !for_each_result(total, threads_, "simulating", progress_, [&](std::size_t i) {
+      run_one(result_.runs[i], settings_[i % columns], i);
+    });
   }
 
   void run_one(TrackedRun& run, const controllers::Settings& settings, std::size_t index) const {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <sim/domain/scenario.hpp>
+#include <sim/run/batch.hpp>
 #include <sim/run/metrics.hpp>
 #include <sim/run/recording.hpp>
 #include <sim/run/tune_controller.hpp>
@@ -41,9 +42,6 @@ struct Comparison {
   std::vector<std::string>
       warnings;  ///< targets out of reach and doubtful runs: scenario, load, controllers, why
 };
-
-/// Hears of progress, from any thread: what is being done, how much of it is done.
-using ProgressHook = std::function<void(const std::string& what, std::size_t done, std::size_t total)>;
 
 /// Tunes what is to be tuned, runs everything on `threads` threads (0: all the machine has) and measures. The
 /// result does not depend on the number of threads. Throws Interrupted if stopped while tuning.

@@ -154,9 +154,4 @@ Recording follow(const domain::RigFile& rig, double load_kg, const Course& cours
   return Following(rig, load_kg, course)();
 }
 
-plant::Plant plant_of(const domain::RigFile& rig, double load_kg) {
-  if (const plant::Pair* pair = rig.pair()) return {rig, plant::opposite_rig(rig, *pair), *pair};
-  return {rig, load_kg};
-}
-
 }  // namespace mckibben::run

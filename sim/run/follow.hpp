@@ -24,7 +24,4 @@ struct Course {
 /// A row for each stamp. If the integrator gives up, the recording ends there and says why.
 Recording follow(const domain::RigFile& rig, double load_kg, const Course& course);
 
-/// The rig as it is before it moves; `load_kg` counts only where a load hangs on it.
-plant::Plant plant_of(const domain::RigFile& rig, double load_kg);
-
 }  // namespace mckibben::run

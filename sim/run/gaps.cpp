@@ -105,13 +105,7 @@ std::vector<StampedRun> replay_stamped(const domain::Dataset& dataset, unsigned 
     runs[i].failure = runs[i].recording.failure;
     if (runs[i].failure.empty()) runs[i].gaps = gaps_of(measured, dataset.rig, runs[i].recording);
   };
-  progress("replaying", 0, runs.size());
-  try {
-    for_each_job(runs.size(), threads, replay_one,
-                 [&](std::size_t done) { progress("replaying", done, runs.size()); });
-  } catch (const Interrupted&) {
-    // said by the runs that were not begun
-  }
+  for_each_result(runs.size(), threads, "replaying", progress, replay_one);
   return runs;
 }
 

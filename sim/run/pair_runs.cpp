@@ -58,14 +58,8 @@ std::vector<PairRun> run_pairs(const domain::PairScenario& scenario, unsigned th
   std::vector<PairRun> runs;
   for (const auto& currents : scenario.currents)
     runs.push_back({.name = currents.name, .failure = not_begun});
-  progress("simulating", 0, runs.size());
-  try {
-    for_each_job(
-        runs.size(), threads, [&](std::size_t i) { run_pair(runs[i], scenario.currents[i], scenario); },
-        [&](std::size_t done) { progress("simulating", done, runs.size()); });
-  } catch (const Interrupted&) {
-    // said by the runs that were not begun
-  }
+  for_each_result(runs.size(), threads, "simulating", progress,
+                  [&](std::size_t i) { run_pair(runs[i], scenario.currents[i], scenario); });
   return runs;
 }
 

@@ -51,14 +51,8 @@ std::vector<ReplayedRun> replay(const domain::Dataset& dataset, unsigned threads
   runs.reserve(dataset.runs.size());
   for (const auto& run : dataset.runs)
     runs.push_back({.id = run.id, .load_kg = run.load_kg, .failure = not_begun});
-  progress("replaying", 0, runs.size());
-  try {
-    for_each_job(
-        runs.size(), threads, [&](std::size_t i) { runs[i] = replay_one(dataset.runs[i], dataset.rig); },
-        [&](std::size_t done) { progress("replaying", done, runs.size()); });
-  } catch (const Interrupted&) {
-    // said by the runs that were not begun
-  }
+  for_each_result(runs.size(), threads, "replaying", progress,
+                  [&](std::size_t i) { runs[i] = replay_one(dataset.runs[i], dataset.rig); });
   return runs;
 }
 

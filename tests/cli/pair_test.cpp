@@ -166,6 +166,39 @@ TEST_F(Replayed, StampsMayBeUnequalAndReadingsMissing) {
   EXPECT_EQ(gaps.at(1).at("rows"), 4);
 }
 
+TEST_F(Replayed, VoltsAndBarDoWhatTheirCurrentDoes) {
+  write_text(scratch / "r.csv",
+             "t,mA,V,kPa,x\n0,6,1.25,62.5,0\n0.1,6,1.25,62.5,0\n0.2,9,3.125,156.25,0.1\n0.9,20,10,500,5\n"
+             "1.9,4,0,0,9\n");
+  const auto replayed = [&](const std::string& valve, const std::string& command) {
+    const std::string columns =
+        "columns: {time: {column: t, unit: s}, command: " + command + ", contraction: {column: x, unit: mm}}\n";
+    const Said said = replay("{valve: " + valve + "}", columns, "  - {id: r, file: r.csv, load: 11 kg}\n");
+    EXPECT_EQ(said.status, 0) << said.err;
+    return read_text(scratch / "out/r.csv");
+  };
+  const std::string currents = replayed("{}", "{column: mA, unit: mA}");
+  const std::string volts = "{zero_command: 0 V, span_command: 10 V}";
+  EXPECT_EQ(replayed(volts, "{column: V, unit: V}"), currents);
+  EXPECT_NE(read_text(scratch / "out/report.html").find("0 to 10 V (here as 4 to 20 mA)"), std::string::npos);
+  EXPECT_EQ(document().at("rig").at("valve").at("span_command"), "10 V");
+  EXPECT_EQ(replayed(volts, "{column: mA, unit: mA}"), currents);
+  EXPECT_EQ(replayed("{zero_command: 0 bar, span_command: 5 bar}", "{column: kPa, unit: kPa}"), currents);
+}
+
+TEST_F(Replayed, TheOppositeValveMayTakeOtherCommands) {
+  write_text(scratch / "r.csv", "time_s,I,V,mA\n0,12,5,12\n0.2,16,2.5,8\n0.7,16,2.5,8\n");
+  const std::string columns = "columns:\n  command_1: {column: I, unit: mA}\n  command_2: ";
+  const std::string runs = "  - {id: r, file: r.csv}\n";
+  ASSERT_EQ(replay("thesis_pair", columns + "{column: mA, unit: mA}\n", runs).status, 0);
+  const std::string currents = read_text(scratch / "out/r.csv");
+  const std::string volts = "{valve: {zero_command: 0 V, span_command: 10 V}}";
+  const Said said = replay("{base: thesis_pair, mechanics: {kind: pair, opposite: " + volts + "}}",
+                           columns + "{column: V, unit: V}\n", runs);
+  ASSERT_EQ(said.status, 0) << said.err;
+  EXPECT_EQ(read_text(scratch / "out/r.csv"), currents);
+}
+
 TEST_F(Replayed, ASlackCordIsSaid) {
   write_text(scratch / "r.csv", "time_s,p,e\n0,3,0.1\n0.1,3,0.1\n0.2,1,0.35\n0.3,1,0.35\n");
   const std::string columns =

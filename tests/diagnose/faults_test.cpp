@@ -6,11 +6,10 @@
 
 #include <gtest/gtest.h>
 
-#include <sim/diagnose/first_look.hpp>
 #include <sim/diagnose/repair.hpp>
 #include <sim/run/simulate.hpp>
 
-#include "planted.hpp"
+#include "examined.hpp"
 
 namespace mckibben::diagnose {
 namespace {
@@ -18,17 +17,6 @@ namespace {
 const domain::Dataset& undisturbed() {
   static const domain::Dataset data = small(plant::Rig{});
   return data;
-}
-
-Checked no_doubts(const domain::Dataset& data) {
-  Checked checked;
-  for (const domain::Run& run : data.runs) checked.masked.emplace_back(run.current_mA.size(), false);
-  return checked;
-}
-
-std::vector<Fault> faults_of(const domain::Dataset& data, const std::vector<Candidate>& effects = {}) {
-  const Experiment experiment(data, no_doubts(data).masked, 2);
-  return examine(experiment, {data.rig, nominal_parameters(data.rig)}, {0, 1, 2, 3, 4, 5}, effects).faults;
 }
 
 using Spoil = std::function<void(double& ratio, double k)>;
@@ -44,11 +32,6 @@ double count() {
   return run::contraction_per_count(plant::Rig{});
 }
 
-void delay(domain::Run& run, std::size_t ticks, std::size_t from = 0) {
-  auto& ratios = run.contraction_ratio;
-  for (std::size_t k = ratios.size(); k-- > from + ticks;) ratios[k] = ratios[k - ticks];
-}
-
 void expect_one(const domain::Dataset& data, FaultKind kind, std::size_t run, double size, double tolerance) {
   const auto faults = faults_of(data);
   ASSERT_EQ(faults.size(), 1u);
@@ -60,14 +43,6 @@ void expect_one(const domain::Dataset& data, FaultKind kind, std::size_t run, do
 
 TEST(Faults, SoundRunsHaveNone) {
   EXPECT_TRUE(faults_of(undisturbed()).empty());
-}
-
-TEST(Faults, AnEffectThatIsMissingIsNone) {
-  plant::Rig lag, creep;
-  lag.effects.get<plant::ValveLag>().time_s = 0.03;
-  creep.effects.get<plant::BladderCreep>().stiffness_N_per_m = 200.0;
-  creep.effects.get<plant::BladderCreep>().time_s = 1.5;
-  for (const plant::Rig& truth : {lag, creep}) EXPECT_TRUE(faults_of(small(truth), catalogue()).empty());
 }
 
 TEST(Faults, ARunThatIsLate) {
@@ -115,44 +90,6 @@ TEST(Faults, ARunFromAnotherRig) {
   expect_one(data, FaultKind::another_rig, 2, 0.0, 0.0);
 }
 
-TEST(Faults, WhatAllRunsHaveInCommonIsTheRecorders) {
-  auto late = undisturbed(), drifting = undisturbed();
-  for (domain::Run& run : late.runs) delay(run, 2);
-  for (domain::Run& run : drifting.runs)
-    for (std::size_t k = 0; k < run.contraction_ratio.size(); ++k)
-      run.contraction_ratio[k] += count() * std::floor(static_cast<double>(k) / 40.0);
-  for (const auto& [data, kind] : {std::pair{late, FaultKind::late}, std::pair{drifting, FaultKind::drift}}) {
-    const auto faults = faults_of(data, catalogue());
-    ASSERT_EQ(faults.size(), 6u);
-    for (const Fault& fault : faults) {
-      EXPECT_EQ(fault.kind, kind);
-      EXPECT_TRUE(fault.common);
-    }
-  }
-}
-
-// No effect alone, and no lateness alone, comes near: with both there is something to fit.
-TEST(Faults, OfAllRunsAreSuspectedBesideAnEffect) {
-  plant::Rig truth;
-  truth.effects.get<plant::SpeedDependentFriction>().ratio = 0.8;
-  auto data = small(truth);
-  for (domain::Run& run : data.runs) delay(run, 3);
-  const Experiment experiment(data, no_doubts(data).masked, 2);
-  const auto found =
-      examine(experiment, {data.rig, nominal_parameters(data.rig)}, {0, 1, 2, 3, 4, 5}, catalogue());
-  EXPECT_TRUE(found.faults.empty());
-  ASSERT_FALSE(found.suspicions.empty());
-  const Suspicion& first = found.suspicions.front();
-  EXPECT_EQ(first.effect.candidate.effect, "speed_dependent_friction");
-  EXPECT_LT(first.effect.amplitude, 1.0);
-  EXPECT_EQ(first.sound.size(), 6u);
-  ASSERT_EQ(first.common.size(), 6u);
-  for (const Fault& fault : first.common) {
-    EXPECT_EQ(fault.kind, FaultKind::late);
-    EXPECT_EQ(fault.size, 3.0);
-  }
-}
-
 TEST(Faults, ThatSayWhatItIsAreBetterThanAnotherRig) {
   const std::vector<Fault> slipped{{1, FaultKind::slipped}}, other{{1, FaultKind::another_rig}},
       two{{1, FaultKind::late}, {4, FaultKind::drift}};
@@ -182,10 +119,10 @@ TEST(Faults, AreMendedWhereThatIsSafeAndElseLeftOut) {
   EXPECT_TRUE(checked.masked[0][rows - 1]);
   EXPECT_NEAR(data.runs[1].contraction_ratio[100], before[1].contraction_ratio[100], 1e-12);
   EXPECT_EQ(checked.left_out, Runs{4});
-  ASSERT_EQ(checked.findings.size(), 3u);
-  EXPECT_EQ(checked.findings[0].words, "is 2 ticks late and was shifted");
-  EXPECT_EQ(checked.findings[1].words, "has its zero moved by 3.2 counts (corrected)");
-  EXPECT_EQ(checked.findings[2].words, "drifts by 0.6 mm from its beginning to its end (left out)");
+  ASSERT_EQ(checked.faulty.size(), 3u);
+  EXPECT_EQ(checked.faulty[0].words, "is 2 ticks late and was shifted");
+  EXPECT_EQ(checked.faulty[1].words, "has its zero moved by 3.2 counts (corrected)");
+  EXPECT_EQ(checked.faulty[2].words, "drifts by 0.6 mm from its beginning to its end (left out)");
 }
 
 }  // namespace
