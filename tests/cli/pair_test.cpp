@@ -171,8 +171,8 @@ TEST_F(Replayed, VoltsAndBarDoWhatTheirCurrentDoes) {
              "t,mA,V,kPa,x\n0,6,1.25,62.5,0\n0.1,6,1.25,62.5,0\n0.2,9,3.125,156.25,0.1\n0.9,20,10,500,5\n"
              "1.9,4,0,0,9\n");
   const auto replayed = [&](const std::string& valve, const std::string& command) {
-    const std::string columns =
-        "columns: {time: {column: t, unit: s}, command: " + command + ", contraction: {column: x, unit: mm}}\n";
+    const std::string columns = "columns: {time: {column: t, unit: s}, command: " + command +
+                                ", contraction: {column: x, unit: mm}}\n";
     const Said said = replay("{valve: " + valve + "}", columns, "  - {id: r, file: r.csv, load: 11 kg}\n");
     EXPECT_EQ(said.status, 0) << said.err;
     return read_text(scratch / "out/r.csv");
