@@ -2,7 +2,8 @@
 // for all of them. GCC's vector extension, not intrinsics: the compiler makes of it what a machine has, in
 // functions compiled for that machine (`on_this_machine`), so that one program runs on any x86-64 and on
 // arm64. Each lane does what a double does, operation by operation (no fused multiply-add), so that results
-// are the same on all of them.
+// are the same on all of them. Aligned as those functions take for granted, whatever the rest is compiled
+// for.
 #pragma once
 
 #include <array>
@@ -16,7 +17,7 @@
 namespace mckibben::engine {
 
 /// Which of eight rigs something is true for.
-struct Mask {
+struct alignas(32) Mask {
   using Half = std::int64_t __attribute__((vector_size(32)));  // 0 or -1
   std::array<Half, 2> half;
 
@@ -34,7 +35,7 @@ struct Mask {
   }
 };
 
-struct Lanes {
+struct alignas(32) Lanes {
   static constexpr std::size_t count = 8;
   using Half = double __attribute__((vector_size(32)));
   std::array<Half, 2> half;
