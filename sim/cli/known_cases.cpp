@@ -46,8 +46,8 @@ double free_fall(const solver::Settings& settings) {
   ride::Ride ride(ride::Hanging{rig, 400.0}, settings);
   ride.start({{.current_mA = 4.0}}, 0.0);
   auto lifted = ride.save();
-  lifted.flows[0].state.joint.contraction_ratio = 0.28;
-  lifted.held[0].slip = plant::Slip::falling;
+  lifted.riders[0].flow.state.joint.contraction_ratio = 0.28;
+  lifted.riders[0].held.slip = plant::Slip::falling;
   ride.restore(lifted);
   hold(ride, 4.0, 10);
   const double t_s = 10 * tick_s;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <sim/engine/abreast.hpp>
+#include <sim/engine/convoy.hpp>
 
 namespace mckibben::engine {
 namespace {
@@ -185,21 +186,20 @@ std::optional<plant::PlantOf<Lanes>> abreast(std::span<const plant::Plant> plant
   return plant::PlantOf<Lanes>(rig, load_kg);
 }
 
-plant::HeldOf<Lanes> abreast(std::span<const plant::Held> held) {
-  const auto gathered = [&](const auto& of) {
-    Lanes lanes;
-    for (std::size_t lane = 0; lane < Lanes::count; ++lane)
-      lanes.set(lane, of(held[lane < held.size() ? lane : 0]));
-    return lanes;
-  };
-  plant::HeldOf<Lanes> all;
-  all.reference_pressure_Pa = gathered([](const plant::Held& one) { return one.reference_pressure_Pa; });
-  all.current_speed_mA_per_s = gathered([](const plant::Held& one) { return one.current_speed_mA_per_s; });
-  if (held.front().pressure_rate_Pa_per_s)
-    all.pressure_rate_Pa_per_s =
-        gathered([](const plant::Held& one) { return one.pressure_rate_Pa_per_s.value(); });
-  all.length_is_given = held.front().length_is_given;
-  return all;
+void put(const plant::Held& held, std::size_t lane, plant::HeldOf<Lanes>& all) {
+  all.reference_pressure_Pa.set(lane, held.reference_pressure_Pa);
+  all.current_speed_mA_per_s.set(lane, held.current_speed_mA_per_s);
+  if (held.pressure_rate_Pa_per_s) {
+    if (!all.pressure_rate_Pa_per_s) all.pressure_rate_Pa_per_s = Lanes(0.0);
+    all.pressure_rate_Pa_per_s->set(lane, *held.pressure_rate_Pa_per_s);
+  } else {
+    all.pressure_rate_Pa_per_s.reset();
+  }
+  all.length_is_given = held.length_is_given;
+}
+
+Kind kind_of(const plant::Rig& rig) {
+  return leaves_of(rig).choices;
 }
 
 }  // namespace mckibben::engine

@@ -14,7 +14,8 @@ namespace mckibben::engine {
 /// numbers (friction law, variant of an effect that two of them have). One muscle each.
 std::optional<plant::PlantOf<Lanes>> abreast(std::span<const plant::Plant> plants);
 
-/// What they hold, in the same way. All of them are driven alike.
-plant::HeldOf<Lanes> abreast(std::span<const plant::Held> held);
+/// What one of them holds, in its lane. All of them are driven alike: a pressure, a length is given to all or
+/// to none.
+void put(const plant::Held& held, std::size_t lane, plant::HeldOf<Lanes>& all);
 
 }  // namespace mckibben::engine

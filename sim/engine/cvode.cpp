@@ -56,7 +56,7 @@ class Cvode final : public Integrator {
     CVodeInit(m, right_hand_side<V>, 0.0, y_.get());
     CVodeSetErrHandlerFn(m, keep_message, &message_);
     CVodeSetUserData(m, &problem_);
-    CVodeSVtolerances(m, tolerance, absolute_tolerances<V>(context_, tolerance).get());
+    CVodeSVtolerances(m, tolerance, absolute_tolerances<V>(y_.get(), tolerance).get());
     CVodeSetLinearSolver(m, solver_.get(), matrix_.get());
     CVodeSetJacFn(m, exact_jacobian);
     CVodeSetMaxErrTestFails(m, 50);

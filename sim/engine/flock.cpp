@@ -6,7 +6,7 @@
 #include <sim/engine/abreast.hpp>
 #include <sim/engine/erk_method.hpp>
 #include <sim/engine/flock.hpp>
-#include <sim/engine/lane_vector.hpp>
+#include <sim/engine/lane_problem.hpp>
 
 namespace mckibben::engine {
 namespace {
@@ -15,31 +15,29 @@ namespace {
 // laws at once unless they differ in more than numbers.
 template <bool remembers>
 class ErkFlock final : public Flock {
-  using L = Layout<1, remembers, Books::none>;
-  struct V : LaneVector<L::size> {
-    using layout = L;
-  };
-  using Values = typename V::Values;
+  using Lane = LaneProblem<remembers>;
+  using L = typename Lane::L;
+  using V = typename Lane::V;
+  using One = typename Lane::One;
 
  public:
   ErkFlock(std::span<const plant::Plant> plants, double tolerance)
-      : count_(plants.size()), together_(abreast(plants)), y_(V::make(context_)) {
-    for (const plant::Plant& plant : plants) problems_.emplace_back(plant);
+      : plants_(plants.begin(), plants.end()), together_(abreast(plants)), y_(V::make(context_, 1)) {
+    for (const plant::Plant& plant : plants_) problems_.emplace_back(plant);
     memory_.reset(ERKStepCreate(right_hand_sides, 0.0, y_.get(), context_));
     if (!memory_) throw std::bad_alloc();
-    set_up_erk<V>(memory_.get(), context_, tolerance, this, steps_, message_);
+    set_up_erk<V>(memory_.get(), y_.get(), tolerance, this, steps_, message_);
   }
 
-  void advance(std::span<Flow> flows, std::span<const plant::Held> held, double from_s,
-               double to_s) override {
-    held_ = abreast(held);
+  void advance(std::span<const Bound> bound, double from_s, double to_s) override {
     refused_.fill(0);
     for (std::size_t lane = 0; lane < Lanes::count; ++lane) {
-      const std::size_t from = lane < count_ ? lane : 0;
-      problems_[from].held = held[from];
-      std::array<double, L::size> y;
-      problems_[from].store(flows[from], y.data());
-      put(y, lane, V::values(y_.get()));
+      const std::size_t from = carried(lane);
+      problems_[from].held = *bound[from].held;
+      put(*bound[from].held, lane, held_);
+      One y;
+      problems_[from].store(*bound[from].flow, y.data());
+      Lane::put(y, lane, y_.get());
     }
     steps_.begin(from_s, to_s);
     void* m = memory_.get();
@@ -49,10 +47,10 @@ class ErkFlock final : public Flock {
     ERKStepSetStopTime(m, to_s);
     double t = from_s;
     const int flag = ERKStepEvolve(m, to_s, y_.get(), &t, ARK_NORMAL);
-    for (std::size_t lane = 0; lane < count_; ++lane)
-      problems_[lane].load(of(lane, V::values(y_.get())).data(), flows[lane]);
+    for (std::size_t lane = 0; lane < plants_.size(); ++lane)
+      problems_[lane].load(Lane::of(lane, y_.get()).data(), *bound[lane].flow);
     if (flag >= 0) return;
-    const auto& state = flows[0].state;
+    const auto& state = bound[0].flow->state;
     throw NumericalFailure(steps_.reached_s, state,
                            cause_of(erk_trouble(flag), "ERKStep", message_, problems_[0].plant(), state));
   }
@@ -65,67 +63,35 @@ class ErkFlock final : public Flock {
     void operator()(void* memory) const { ERKStepFree(&memory); }
   };
 
-  static void put(const std::array<double, L::size>& one, std::size_t lane, Values& all) {
-    for (std::size_t i = 0; i < one.size(); ++i) all[i].set(lane, one[i]);
-  }
-  static std::array<double, L::size> of(std::size_t lane, const Values& all) {
-    std::array<double, L::size> one;
-    for (std::size_t i = 0; i < one.size(); ++i) one[i] = all[i][lane];
-    return one;
-  }
+  /// The rig that a lane carries: where there are fewer than lanes, the first one fills them.
+  std::size_t carried(std::size_t lane) const { return lane < plants_.size() ? lane : 0; }
 
   static int right_hand_sides(double, N_Vector y, N_Vector dydt, void* self) {
     auto& flock = *static_cast<ErkFlock*>(self);
-    const Values& from = V::values(y);
-    Values& to = V::values(dydt);
-    const auto inside = flock.together_ ? flock.rates(from, to) : flock.rates_one_by_one(from, to);
+    const Mask inside = flock.together_ ? Lane::rates(*flock.together_, flock.held_, y, dydt)
+                                        : flock.rates_one_by_one(y, dydt);
     for (std::size_t lane = 0; lane < Lanes::count; ++lane) {
       if (inside[lane]) continue;
       if (flock.refused_[lane] > most_refused_in_a_tick) return -1;
-      std::array<double, L::size> forbidding{};
+      One forbidding{};
       forbid(forbidding.data(), flock.refused_[lane]++);
-      put(forbidding, lane, to);
+      Lane::put(forbidding, lane, dydt);
     }
     return 0;
   }
 
-  /// Of all lanes; false for those outside the domain of the laws.
-  Mask rates(const Values& y, Values& dydt) const {
-    Mask inside;
-    on_this_machine([&, &plant = *together_] {
-      // Each by itself: for a block this long the compiler would take a slow instruction.
-      plant::State<Lanes> state;
-      state.joint = {y[0], y[1]};
-      state.side = {y[2], y[3], y[4]};
-      plant::Memory<Lanes> memory;
-      for (std::size_t i = 0; i < memory.side.size(); ++i)
-        memory.side[i] = remembers ? y[(L::states + i) % L::size] : Lanes(0.0);
-      inside = plant.template in_domain<1>(state);
-      const auto now = plant.template moment<1>(state, memory, held_);
-      const auto slopes = plant.template rates<1>(state, now);
-      dydt[0] = slopes.joint.contraction_ratio;
-      dydt[1] = slopes.joint.contraction_speed_per_s;
-      dydt[2] = slopes.side.valve_pressure_Pa;
-      dydt[3] = slopes.side.muscle_pressure_Pa;
-      dydt[4] = slopes.side.bristle_m;
-      if constexpr (remembers)
-        for (std::size_t i = 0; i < memory.side.size(); ++i) dydt[L::states + i] = now.memory_rates[i];
-    });
-    return inside;
-  }
-
-  Mask rates_one_by_one(const Values& y, Values& dydt) const {
+  Mask rates_one_by_one(N_Vector y, N_Vector dydt) const {
     Mask inside{};
     for (std::size_t lane = 0; lane < Lanes::count; ++lane) {
-      std::array<double, L::size> rates{};
-      if (!problems_[lane < count_ ? lane : 0].rates(of(lane, y).data(), rates.data())) continue;
+      One rates{};
+      if (!problems_[carried(lane)].rates(Lane::of(lane, y).data(), rates.data())) continue;
       inside.set(lane);
-      put(rates, lane, dydt);
+      Lane::put(rates, lane, dydt);
     }
     return inside;
   }
 
-  std::size_t count_;
+  std::vector<plant::Plant> plants_;
   std::optional<plant::PlantOf<Lanes>> together_;
   plant::HeldOf<Lanes> held_;
   std::array<long, Lanes::count> refused_{};

@@ -12,6 +12,12 @@
 
 namespace mckibben::engine {
 
+/// A rig on its way, and what it holds.
+struct Bound {
+  Flow* flow;
+  const plant::Held* held;
+};
+
 class Flock {
  public:
   Flock() = default;
@@ -24,14 +30,13 @@ class Flock {
 
   /// Carries each rig's flow from one instant to the next [s] with what it holds frozen. Throws
   /// NumericalFailure (of the first rig).
-  virtual void advance(std::span<Flow> flows, std::span<const plant::Held> held, double from_s,
-                       double to_s) = 0;
+  virtual void advance(std::span<const Bound> bound, double from_s, double to_s) = 0;
 
   virtual Pace pace() const = 0;
   virtual void resume(const Pace& pace) = 0;
 };
 
-/// A flock of 1 to `most` plants, which outlive it. LuGre friction only: exact stick and slip switches each
+/// A flock of 1 to `most` plants. LuGre friction only: exact stick and slip switches each
 /// rig at a time of its own. Throws std::invalid_argument.
 std::unique_ptr<Flock> make_flock(std::span<const plant::Plant> plants, double tolerance);
 

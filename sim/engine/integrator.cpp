@@ -39,13 +39,7 @@ class Automatic final : public Integrator {
   }
 
   Counters counters() const override {
-    Counters sum = erk_->counters();
-    const Counters stiff = cvode_->counters();
-    sum.steps += stiff.steps;
-    sum.rejected_steps += stiff.rejected_steps;
-    sum.right_hand_sides += stiff.right_hand_sides;
-    sum.jacobians += stiff.jacobians;
-    sum.events += stiff.events;
+    Counters sum = erk_->counters() + cvode_->counters();
     sum.stiff_from_tick = stiff_from_tick_;
     return sum;
   }
@@ -65,8 +59,6 @@ class Automatic final : public Integrator {
   }
 
  private:
-  static constexpr long window_ticks = 20, stiff_cost_per_tick = 600;
-
   std::unique_ptr<Integrator> erk_, cvode_;
   long ticks_ = 0, cost_before_ = 0, stiff_from_tick_ = -1;
 };
@@ -81,6 +73,16 @@ Counters operator-(const Counters& later, const Counters& earlier) {
   difference.jacobians -= earlier.jacobians;
   difference.events -= earlier.events;
   return difference;
+}
+
+Counters operator+(const Counters& earlier, const Counters& later) {
+  Counters sum = later;
+  sum.steps += earlier.steps;
+  sum.rejected_steps += earlier.rejected_steps;
+  sum.right_hand_sides += earlier.right_hand_sides;
+  sum.jacobians += earlier.jacobians;
+  sum.events += earlier.events;
+  return sum;
 }
 
 std::unique_ptr<Integrator> make_integrator(const plant::Plant& rig, const Settings& settings,

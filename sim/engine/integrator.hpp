@@ -16,8 +16,14 @@ struct Counters {
   long stiff_from_tick = -1;  ///< ticks carried before `automatic` went over to CVODE; -1: never
 };
 
+/// A rig counts as stiff once its ticks, over this many of them, take more evaluations than that, each: BDF
+/// is cheaper then.
+inline constexpr long window_ticks = 20, stiff_cost_per_tick = 600;
+
 /// What was done between two readings of one integrator.
 Counters operator-(const Counters& later, const Counters& earlier);
+/// What two integrators did, one after the other.
+Counters operator+(const Counters& earlier, const Counters& later);
 
 /// What an integrator keeps from one instant to the next beside the flow: another one of the same plant and
 /// settings that resumes at it takes the same steps.

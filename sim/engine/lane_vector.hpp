@@ -1,10 +1,12 @@
-// A SUNDIALS vector of the states of eight rigs, component by component: its operations work on all of them
-// at once, with what vector registers the machine has.
+// A SUNDIALS vector of the states of many rigs, component by component, each in blocks of eight rigs: its
+// operations work on all of them at once, with what vector registers the machine has.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <new>
+#include <vector>
 
 #include <sundials/sundials_nvector.h>
 
@@ -12,29 +14,29 @@
 
 namespace mckibben::engine {
 
-/// N components. The error norm is that of the rig that is worst off.
+/// N components. The error norm is that of the rig that is worst off; or it is told of each rig, and the
+/// library sees one that always passes.
 template <int N>
 struct LaneVector {
-  static constexpr int lanes = static_cast<int>(Lanes::count), size = N * lanes;
-  using Values = std::array<Lanes, N>;
+  /// Component i of block b stands at i * blocks + b.
+  using Values = std::vector<Lanes>;
 
-  static Values& values(N_Vector v) { return *static_cast<Values*>(v->content); }
+  static Values& values(N_Vector v) { return content(v).values; }
   static double* data(N_Vector v) { return reinterpret_cast<double*>(values(v).data()); }
 
-  static N_Vector make(SUNContext context) {
+  /// `norms`: where those of each rig go, block by block; or null.
+  static N_Vector make(SUNContext context, std::size_t blocks, Values* norms = nullptr) {
     N_Vector v = N_VNewEmpty(context);
     if (v == nullptr) throw std::bad_alloc();
-    auto* content = new Values;
-    content->fill(Lanes(0.0));
-    v->content = content;
+    v->content = new Content{Values(blocks * N, Lanes(0.0)), norms};
     v->ops->nvgetvectorid = [](N_Vector) { return SUNDIALS_NVEC_CUSTOM; };
-    v->ops->nvclone = [](N_Vector x) { return make(x->sunctx); };
+    v->ops->nvclone = [](N_Vector x) { return make(x->sunctx, values(x).size() / N, content(x).norms); };
     v->ops->nvdestroy = destroy;
-    v->ops->nvgetlength = [](N_Vector) -> sunindextype { return size; };
+    v->ops->nvgetlength = [](N_Vector x) { return static_cast<sunindextype>(length(x)); };
     v->ops->nvlinearsum = [](double a, N_Vector x, double b, N_Vector y, N_Vector z) {
       each(z, [&, &p = values(x), &q = values(y)](std::size_t i) { return a * p[i] + b * q[i]; });
     };
-    v->ops->nvconst = [](double c, N_Vector z) { values(z).fill(Lanes(c)); };
+    v->ops->nvconst = [](double c, N_Vector z) { std::fill(values(z).begin(), values(z).end(), Lanes(c)); };
     v->ops->nvprod = [](N_Vector x, N_Vector y, N_Vector z) {
       each(z, [&p = values(x), &q = values(y)](std::size_t i) { return p[i] * q[i]; });
     };
@@ -55,15 +57,19 @@ struct LaneVector {
     };
     v->ops->nvmaxnorm = [](N_Vector x) {
       double most = 0.0;
-      for (int i = 0; i < size; ++i) most = std::max(most, std::abs(data(x)[i]));
+      for (std::size_t i = 0; i < length(x); ++i) most = std::max(most, std::abs(data(x)[i]));
       return most;
     };
-    v->ops->nvmin = [](N_Vector x) { return *std::min_element(data(x), data(x) + size); };
+    v->ops->nvmin = [](N_Vector x) { return *std::min_element(data(x), data(x) + length(x)); };
     v->ops->nvwrmsnorm = wrms_norm;
     v->ops->nvlinearcombination = [](int count, double* c, N_Vector* x, N_Vector z) {
+      constexpr int most = 16;  // ERKStep has as many as stages
+      if (count > most) return -1;
+      std::array<const Lanes*, most> from;
+      for (int k = 0; k < count; ++k) from[static_cast<std::size_t>(k)] = values(x[k]).data();
       each(z, [&](std::size_t i) {
-        Lanes sum = c[0] * values(x[0])[i];
-        for (int k = 1; k < count; ++k) sum = sum + c[k] * values(x[k])[i];
+        Lanes sum = c[0] * from[0][i];
+        for (int k = 1; k < count; ++k) sum = sum + c[k] * from[static_cast<std::size_t>(k)][i];
         return sum;
       });
       return 0;
@@ -77,9 +83,16 @@ struct LaneVector {
   }
 
  private:
+  struct Content {
+    Values values;
+    Values* norms;
+  };
+  static Content& content(N_Vector v) { return *static_cast<Content*>(v->content); }
+  static std::size_t length(N_Vector v) { return values(v).size() * Lanes::count; }
+
   static void destroy(N_Vector v) {
     if (v == nullptr) return;
-    delete static_cast<Values*>(v->content);
+    delete static_cast<Content*>(v->content);
     v->content = nullptr;
     N_VFreeEmpty(v);
   }
@@ -87,22 +100,30 @@ struct LaneVector {
   template <class F>
   static void each(N_Vector z, const F& f) {
     on_this_machine([&, &to = values(z)] {
-      for (std::size_t i = 0; i < N; ++i) to[i] = f(i);
+      for (std::size_t i = 0; i < to.size(); ++i) to[i] = f(i);
     });
   }
 
   static double wrms_norm(N_Vector x, N_Vector w) {
-    Lanes sum = 0.0;
-    on_this_machine([&, &p = values(x), &q = values(w)] {
-      for (std::size_t i = 0; i < N; ++i) {
-        const Lanes term = p[i] * q[i];
-        sum = sum + term * term;
+    constexpr double passes = 0.5;
+    const std::size_t blocks = values(x).size() / N;
+    double largest = 0.0;
+    on_this_machine([&, &p = values(x), &q = values(w), norms = content(x).norms] {
+      for (std::size_t b = 0; b < blocks; ++b) {
+        Lanes sum = 0.0;
+        for (std::size_t i = b; i < p.size(); i += blocks) {
+          const Lanes term = p[i] * q[i];
+          sum = sum + term * term;
+        }
+        if (norms != nullptr) {
+          (*norms)[b] = sqrt(sum / Lanes(N));
+          continue;
+        }
+        for (std::size_t lane = 0; lane < Lanes::count; ++lane)
+          if (!(sum[lane] <= largest)) largest = sum[lane];  // also where it is not a number
       }
     });
-    double largest = 0.0;
-    for (std::size_t lane = 0; lane < Lanes::count; ++lane)
-      if (!(sum[lane] <= largest)) largest = sum[lane];  // also where it is not a number
-    return std::sqrt(largest / N);
+    return content(x).norms != nullptr ? passes : std::sqrt(largest / N);
   }
 };
 

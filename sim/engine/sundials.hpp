@@ -70,14 +70,16 @@ int event_margin(double, N_Vector y, double* margin, void* problem) {
   return 0;
 }
 
-/// Absolute tolerances: the working sizes times the tolerance; passengers get a weight of no consequence.
+/// Absolute tolerances for a vector like `y`: the working sizes times the tolerance; passengers get a weight
+/// of no consequence.
 template <class V>
-Vector absolute_tolerances(SUNContext context, double tolerance) {
+Vector absolute_tolerances(N_Vector y, double tolerance) {
   using L = typename V::layout;
-  Vector v(V::make(context));
-  std::fill_n(V::data(v.get()), V::size, 1.0);
+  Vector v(N_VClone(y));
+  const sunindextype length = N_VGetLength(y), rigs = length / L::size;
+  std::fill_n(V::data(v.get()), length, 1.0);
   for (int i = 0; i < L::steering; ++i)
-    std::fill_n(V::data(v.get()) + V::lanes * i, V::lanes, tolerance * size_of<L>(i));
+    std::fill_n(V::data(v.get()) + rigs * i, rigs, tolerance * size_of<L>(i));
   return v;
 }
 

@@ -15,7 +15,7 @@ namespace mckibben::engine {
 /// passengers. One component of padding makes an odd N even, so that all loads and stores are of pairs.
 template <int N, int Norm>
 struct FixedVector {
-  static constexpr int size = N, lanes = 1;
+  static constexpr int size = N;
   using Values = Eigen::Array<double, N + N % 2, 1>;
 
   static Values& values(N_Vector v) { return *static_cast<Values*>(v->content); }

@@ -1,6 +1,8 @@
 // Jobs of a campaign; see the header.
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -25,29 +27,44 @@ std::vector<CampaignJob> jobs_of(const domain::Campaign& campaign) {
   return jobs;
 }
 
-CampaignRun run_job(const domain::Campaign& campaign, const CampaignJob& job) {
+namespace {
+
+Order order_of(const domain::Campaign& campaign, const CampaignJob& job) {
   const domain::CampaignCurrent& current = campaign.currents[job.current];
-  CampaignRun run{.job = job};
-  const auto controller = std::visit(
-      [&](const auto& waveform) { return waveform.make(knowledge_of(campaign.rig, {})); }, current.current);
-  run.recording =
-      simulate({.rig = campaign.rig,
-                .load_kg = job.load_kg,
-                .ticks = static_cast<std::size_t>(std::llround(current.duration_s / campaign.rig.tick_s)),
-                .engine = campaign.rig.integrator,
-                .noise = campaign.noise,
-                .seed = campaign.seed,
-                .stream = job.stream},
-               *controller);
+  return {{.rig = campaign.rig,
+           .load_kg = job.load_kg,
+           .ticks = static_cast<std::size_t>(std::llround(current.duration_s / campaign.rig.tick_s)),
+           .engine = campaign.rig.integrator,
+           .noise = campaign.noise,
+           .seed = campaign.seed,
+           .stream = job.stream},
+          std::visit([&](const auto& waveform) { return waveform.make(knowledge_of(campaign.rig, {})); },
+                     current.current)};
+}
+
+CampaignRun made(const CampaignJob& job, Recording recording) {
+  CampaignRun run{.job = job, .recording = std::move(recording)};
   run.failure = run.recording.failure;
   return run;
 }
 
+}  // namespace
+
+CampaignRun run_job(const domain::Campaign& campaign, const CampaignJob& job) {
+  const Order order = order_of(campaign, job);
+  return made(job, simulate(order.plan, *order.controller));
+}
+
 void run_jobs(const domain::Campaign& campaign, std::span<const CampaignJob> jobs, unsigned threads,
               const std::function<void(const CampaignRun&)>& finished, const ProgressHook& progress) {
-  for_each_job(
-      jobs.size(), threads, [&](std::size_t i) { finished(run_job(campaign, jobs[i])); },
-      [&](std::size_t done) { progress("simulating", done, jobs.size()); });
+  std::atomic<std::size_t> done{0};
+  progress("simulating", 0, jobs.size());
+  simulate_all(
+      jobs.size(), threads, [&](std::size_t i) { return order_of(campaign, jobs[i]); },
+      [&](std::size_t i, Recording recording) {
+        finished(made(jobs[i], std::move(recording)));
+        progress("simulating", ++done, jobs.size());
+      });
 }
 
 EndedRun ended(const domain::Campaign& campaign, const CampaignRun& run) {

@@ -44,11 +44,12 @@ struct EndedRun {
 /// All runs of a campaign: loads in order, for each all currents, for each all repeats. Ids are unique.
 std::vector<CampaignJob> jobs_of(const domain::Campaign& campaign);
 
-/// Simulates one of them. The result depends on nothing but campaign and job. Touches no files.
+/// Simulates one of them by itself. Touches no files.
 CampaignRun run_job(const domain::Campaign& campaign, const CampaignJob& job);
 
-/// Simulates `jobs` on `threads` threads (0: all the machine has). `finished` is given each run as it ends,
-/// from any thread, in any order. Throws Interrupted; what `finished` throws.
+/// Simulates `jobs` on `threads` threads (0: all the machine has), side by side. What comes of a job depends
+/// on nothing but campaign and job. `finished` is given each run as it ends, from any thread, in any order.
+/// Throws Interrupted; what `finished` throws.
 void run_jobs(const domain::Campaign& campaign, std::span<const CampaignJob> jobs, unsigned threads,
               const std::function<void(const CampaignRun&)>& finished, const ProgressHook& progress);
 

@@ -1,12 +1,22 @@
 // What drives a ride tick by tick: a controller, through the instruments, with noise.
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <deque>
+#include <iterator>
+#include <list>
+#include <map>
 #include <numbers>
+#include <optional>
 #include <random>
+#include <thread>
+#include <tuple>
 #include <utility>
 
 #include <sim/engine/failure.hpp>
+#include <sim/ride/convoy.hpp>
 #include <sim/ride/ride.hpp>
+#include <sim/run/batch.hpp>
 #include <sim/run/simulate.hpp>
 
 namespace mckibben::run {
@@ -47,87 +57,90 @@ class Disturbance {
   std::normal_distribution<double> normal_;
 };
 
+/// What a run does at each instant, and what it leaves behind.
 class Run {
  public:
   Run(const RunPlan& plan, controllers::Controller& controller)
       : plan_(plan),
         controller_(controller),
-        ride_(ride::Hanging{plan.rig, plan.load_kg}, plan.engine, plan.keep_ledger),
+        first_(-controller.preparation_ticks()),
+        begin_(first_ - std::lround(plan.rig.settling_time_s / plan.rig.tick_s)),
+        k_(begin_),
         counter_(plan.rig.encoder.wiring, plant::count_height_m(plan.rig.encoder, plan.rig.joint)),
-        disturbance_(plan.noise, plan.rig.tick_s, plan.seed, plan.stream) {}
-
-  Recording operator()() {
-    if (plan_.load_kg + plan_.rig.joint.load_offset_kg <= 0.0) {
-      recording_.failure = "load and load_offset of the rig leave no load";
-      return std::move(recording_);
-    }
+        disturbance_(plan.noise, plan.rig.tick_s, plan.seed, plan.stream) {
     recording_.samples.reserve(plan_.ticks);
-    try {
-      settle();
-      prepare();
-      for (std::size_t k = 0; k < plan_.ticks; ++k) {
-        recording_.samples.push_back(tick(static_cast<std::int64_t>(k)));
-        recording_.largest_contraction_ratio =
-            std::max(recording_.largest_contraction_ratio, ride_.flow().state.joint.contraction_ratio);
-        if (k + 1 < plan_.ticks) ride_.advance();
-      }
-    } catch (const engine::NumericalFailure& failure) {
-      recording_.failure = failure.what();
-    } catch (const controllers::ControllerFailure& failure) {
-      recording_.failure = failure.what();
+  }
+
+  void begin(ride::Rider& rider) {
+    ask(controller_.rest().current_mA);
+    rider.start(drive_, time_s(begin_));
+  }
+
+  /// At an instant: holds what acts until the next one; false if this was the last.
+  bool go_on(ride::Rider& rider) {
+    if (k_ > begin_ && k_ <= first_) look(rider);  // at the end of each tick of settling
+    if (k_ < first_) {
+      hold(rider);
+    } else {
+      if (k_ == 0) rider.open_ledger();
+      if (!tick(rider) || k_ + 1 >= static_cast<std::int64_t>(plan_.ticks)) return false;
     }
-    const engine::Flow& end = ride_.flow();
+    ++k_;
+    return true;
+  }
+
+  void give_up(std::string why) { recording_.failure = std::move(why); }
+
+  /// Carries it on by itself to its end.
+  void ride_on(ride::Ride& ride, bool held) {
+    try {
+      if (!held) held = go_on(ride.rider());
+      for (; held; held = go_on(ride.rider())) ride.advance();
+    } catch (const engine::NumericalFailure& failure) {
+      give_up(failure.what());
+    }
+  }
+
+  Recording close(const ride::Rider& rider, const engine::Counters& solver) {
+    const engine::Flow& end = rider.now.flow;
     recording_.ledger = end.ledger;
     if (plan_.keep_ledger && !recording_.samples.empty())
-      recording_.imbalance = ride_.plant().imbalance(recording_.samples.front().state, end.state, end.ledger);
-    recording_.solver = ride_.counters();
-    if (recording_.solver.stiff_from_tick >= 0)
-      recording_.solver.stiff_from_tick -= settling_ticks() + controller_.preparation_ticks();
+      recording_.imbalance = rider.plant().imbalance(recording_.samples.front().state, end.state, end.ledger);
+    recording_.solver = solver;
+    if (recording_.solver.stiff_from_tick >= 0) recording_.solver.stiff_from_tick += begin_;
     recording_.findings = controller_.findings();
     return std::move(recording_);
   }
 
  private:
-  void settle() {
-    const std::int64_t end = -controller_.preparation_ticks(), begin = end - settling_ticks();
-    ask(controller_.rest().current_mA);
-    ride_.start(drive_, time_s(begin));
-    for (std::int64_t k = begin; k < end; ++k) {
-      drive_.stray_pressure_Pa = disturbance_.reference_Pa(time_s(k));
-      ride_.step(drive_, time_s(k + 1));
-      counts();
+  /// The ticks that a controller needs to find out about its load leave no row. False if it gives up.
+  bool tick(ride::Rider& rider) {
+    look(rider);
+    try {
+      ask(controller_.step({k_, time_s(k_), counts_}).current_mA);
+    } catch (const controllers::ControllerFailure& failure) {
+      give_up(failure.what());
+      return false;
     }
+    hold(rider);
+    const double gauge_Pa = rider.now.reading.muscle_pressure_Pa + disturbance_.gauge_Pa();
+    if (k_ >= 0) write(rider, gauge_Pa);
+    return true;
   }
 
-  // The ticks that a controller needs to find out about its load.
-  void prepare() {
-    for (std::int64_t k = -controller_.preparation_ticks(); k < 0; ++k) {
-      tick(k);
-      ride_.advance();
-    }
-    ride_.open_ledger();
+  void write(const ride::Rider& rider, double gauge_Pa) {
+    const auto now = rider.moment();
+    const plant::State<double>& state = rider.now.flow.state;
+    recording_.samples.push_back({time_s(k_), drive_.current_mA, state, counts_,
+                                  plant::gauge_reading_Pa(plan_.rig.gauge, gauge_Pa), now.braid_force_N,
+                                  now.friction_force_N, now.effects_pull_N});
+    recording_.largest_contraction_ratio =
+        std::max(recording_.largest_contraction_ratio, state.joint.contraction_ratio);
   }
 
-  Sample tick(std::int64_t k) {
-    const std::int64_t read = counts();
-    ask(controller_.step({k, time_s(k), read}).current_mA);
-    drive_.stray_pressure_Pa = disturbance_.reference_Pa(time_s(k));
-    ride_.hold(drive_, time_s(k + 1));
-    const auto now = ride_.moment();
-    const double gauge_Pa = ride_.reading().muscle_pressure_Pa + disturbance_.gauge_Pa();
-    return {time_s(k),
-            drive_.current_mA,
-            ride_.flow().state,
-            read,
-            plant::gauge_reading_Pa(plan_.rig.gauge, gauge_Pa),
-            now.braid_force_N,
-            now.friction_force_N,
-            now.effects_pull_N};
-  }
-
-  std::int64_t counts() {
+  void look(const ride::Rider& rider) {
     const double jitter_m = disturbance_.jitter() * plan_.rig.muscle.rest_length_m;
-    return counter_.count(ride_.reading().wheel_m + jitter_m);
+    counts_ = counter_.count(rider.now.reading.wheel_m + jitter_m);
   }
 
   void ask(double wanted_mA) {
@@ -136,22 +149,176 @@ class Run {
     drive_.stray_current_mA = disturbance_.current_mA();
   }
 
+  void hold(ride::Rider& rider) {
+    drive_.stray_pressure_Pa = disturbance_.reference_Pa(time_s(k_));
+    rider.hold(drive_, time_s(k_ + 1));
+  }
+
   double time_s(std::int64_t k) const { return static_cast<double>(k) * plan_.rig.tick_s; }
-  long settling_ticks() const { return std::lround(plan_.rig.settling_time_s / plan_.rig.tick_s); }
 
   const RunPlan& plan_;
   controllers::Controller& controller_;
-  ride::Ride ride_;
+  std::int64_t first_, begin_, k_;  // ticks: of the controller, of the settling, now
   ride::Drive drive_;
   plant::PulseCounter counter_;
   Disturbance disturbance_;
+  std::int64_t counts_ = 0;
   Recording recording_;
+};
+
+/// No load, no motion.
+bool hangs(const RunPlan& plan) {
+  return plan.load_kg + plan.rig.joint.load_offset_kg > 0.0;
+}
+
+/// A run that rides beside others.
+class Seated final : public ride::Passenger {
+ public:
+  Seated(std::size_t index, Order order, const Finished& finished)
+      : index_(index),
+        finished_(finished),
+        order_(std::move(order)),
+        run_(order_.plan, *order_.controller),
+        rider_(ride::Hanging{order_.plan.rig, order_.plan.load_kg}) {
+    run_.begin(rider_);
+  }
+
+  ride::Rider& rider() override { return rider_; }
+  bool go_on() override { return run_.go_on(rider_); }
+  void end(const engine::Counters& solver) override { finish(rider_, solver); }
+  void alone(const engine::Pace& pace, const engine::Counters& solver) override {
+    ride::Ride ride(rider_, pace, order_.plan.engine);
+    run_.ride_on(ride, true);
+    engine::Counters counters = solver + ride.counters();
+    counters.stiff_from_tick = ride.counters().stiff_from_tick;
+    finish(ride.rider(), counters);
+  }
+
+  bool is_done() const { return done_; }
+
+ private:
+  void finish(const ride::Rider& rider, const engine::Counters& solver) {
+    done_ = true;
+    finished_(index_, run_.close(rider, solver));
+  }
+
+  std::size_t index_;
+  const Finished& finished_;
+  bool done_ = false;
+  Order order_;
+  Run run_;
+  ride::Rider rider_;
+};
+
+/// What runs must have in common to ride together.
+struct Class {
+  bool remembers;
+  double tolerance;
+  solver::Method method;
+  engine::Kind kind;
+
+  bool operator<(const Class& other) const {
+    return std::tie(remembers, tolerance, method, kind) <
+           std::tie(other.remembers, other.tolerance, other.method, other.kind);
+  }
+};
+
+Class class_of(const RunPlan& plan) {
+  return {plant::Plant(plan.rig, plan.load_kg).remembers(), plan.engine.tolerance, plan.engine.method,
+          engine::kind_of(plan.rig)};
+}
+
+/// What one thread does: takes runs, and carries those of one class side by side.
+class Carrier {
+ public:
+  using Take = std::function<std::optional<std::size_t>()>;
+
+  Carrier(const Take& take, const Ordering& ordering, const Finished& finished, std::size_t places)
+      : take_(take), ordering_(ordering), finished_(finished), places_(places) {}
+
+  void operator()() {
+    while (fetch()) {
+      const Class now = waiting_.begin()->first;
+      ride::ride_in_convoy([&] { return next(now); }, {now.method, now.tolerance}, places_);
+      on_board_.clear();
+    }
+  }
+
+ private:
+  /// Takes a run; those that cannot ride beside others are carried at once. False if there is none left.
+  bool fetch() {
+    while (waiting_.empty()) {
+      const auto index = take_();
+      if (!index) return false;
+      Order order = ordering_(*index);
+      const RunPlan& plan = order.plan;
+      if (plan.keep_ledger || !hangs(plan) || !ride::can_join_a_convoy(plan.rig, plan.engine.method))
+        finished_(*index, simulate(plan, *order.controller));
+      else
+        waiting_[class_of(plan)].emplace_back(*index, std::move(order));
+    }
+    return true;
+  }
+
+  ride::Passenger* next(const Class& now) {
+    std::erase_if(on_board_, [](const auto& seated) { return seated->is_done(); });
+    for (;;) {
+      if (const auto mine = waiting_.find(now); mine != waiting_.end()) {
+        auto& [index, order] = mine->second.front();
+        on_board_.push_back(std::make_unique<Seated>(index, std::move(order), finished_));
+        mine->second.pop_front();
+        if (mine->second.empty()) waiting_.erase(mine);
+        return on_board_.back().get();
+      }
+      auto others = std::exchange(waiting_, {});  // they come when these are through
+      const bool more = fetch();
+      for (auto& [other, runs] : others)
+        std::move(runs.begin(), runs.end(), std::back_inserter(waiting_[other]));
+      if (!more) return nullptr;
+    }
+  }
+
+  const Take& take_;
+  const Ordering& ordering_;
+  const Finished& finished_;
+  std::size_t places_;
+  std::map<Class, std::deque<std::pair<std::size_t, Order>>> waiting_;
+  std::list<std::unique_ptr<Seated>> on_board_;
 };
 
 }  // namespace
 
 Recording simulate(const RunPlan& plan, controllers::Controller& controller) {
-  return Run(plan, controller)();
+  if (!hangs(plan)) {
+    Recording none;
+    none.failure = "load and load_offset of the rig leave no load";
+    return none;
+  }
+  Run run(plan, controller);
+  ride::Ride ride(ride::Hanging{plan.rig, plan.load_kg}, plan.engine, plan.keep_ledger);
+  run.begin(ride.rider());
+  run.ride_on(ride, false);
+  return run.close(ride.rider(), ride.counters());
+}
+
+void simulate_all(std::size_t count, unsigned threads, const Ordering& ordering, const Finished& finished) {
+  std::atomic<std::size_t> next{0}, done{0};
+  const Finished counting = [&](std::size_t index, Recording recording) {
+    finished(index, std::move(recording));
+    ++done;
+  };
+  const Carrier::Take take = [&]() -> std::optional<std::size_t> {
+    const std::size_t index = interrupted() ? count : next++;
+    return index < count ? std::optional(index) : std::nullopt;
+  };
+  const std::size_t carriers = std::min<std::size_t>(
+      count, threads == 0 ? std::max(1u, std::thread::hardware_concurrency()) : threads);
+  const std::size_t places =
+      count > carriers * engine::Convoy::wing ? engine::Convoy::places : engine::Convoy::wing;
+  for_each_job(
+      carriers, threads, [&](std::size_t) { Carrier(take, ordering, counting, places)(); },
+      [](std::size_t) {});
+  if (done < count) throw Interrupted();
 }
 
 double contraction_per_count(const plant::Rig& rig) {

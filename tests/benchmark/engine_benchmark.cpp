@@ -28,7 +28,7 @@ namespace {
 /// The library's own vector, for comparison.
 struct StockVector {
   using layout = Layout<1, false, Books::none>;
-  static constexpr int size = layout::size, lanes = 1;
+  static constexpr int size = layout::size;
   static double* data(N_Vector v) { return NV_DATA_S(v); }
   static N_Vector make(SUNContext context) { return N_VNew_Serial(size, context); }
 };
@@ -165,15 +165,17 @@ void Abreast_(benchmark::State& state, double spread_kg) {
     const auto flock = make_flock(plants, loose);
     std::vector<Flow> flows(plants.size());
     std::vector<plant::Held> held(plants.size());
+    std::vector<Bound> bound;
     for (std::size_t i = 0; i < plants.size(); ++i) {
       held[i].reference_pressure_Pa = plants[i].reference_pressure_Pa(0.0);
       flows[i].state = plants[i].at_rest(held[i]);
+      bound.push_back({&flows[i], &held[i]});
     }
     const auto start = std::chrono::steady_clock::now();
     for (int k = 0; k < ride_ticks; ++k) {
       for (std::size_t i = 0; i < plants.size(); ++i)
         held[i].reference_pressure_Pa = plants[i].reference_pressure_Pa(current_mA(ride, k));
-      flock->advance(flows, held, 0.012 * k, 0.012 * (k + 1));
+      flock->advance(bound, 0.012 * k, 0.012 * (k + 1));
     }
     const double cost_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     best_s = std::min(best_s, cost_s);

@@ -17,14 +17,16 @@ std::vector<double> fly(const std::vector<plant::Plant>& plants, double toleranc
   const auto flock = make_flock(plants, tolerance);
   std::vector<Flow> flows(plants.size());
   std::vector<plant::Held> held(plants.size());
+  std::vector<Bound> bound;
   for (std::size_t i = 0; i < plants.size(); ++i) {
     held[i].reference_pressure_Pa = plants[i].reference_pressure_Pa(4.0);
     flows[i].state = plants[i].at_rest(held[i]);
+    bound.push_back({&flows[i], &held[i]});
   }
   for (int k = 0; k < 84; ++k) {
     for (std::size_t i = 0; i < plants.size(); ++i)
       held[i].reference_pressure_Pa = plants[i].reference_pressure_Pa(4.0 + 0.15 * k);
-    flock->advance(flows, held, 0.012 * k, 0.012 * (k + 1));
+    flock->advance(bound, 0.012 * k, 0.012 * (k + 1));
   }
   std::vector<double> ratios;
   for (const Flow& flow : flows) ratios.push_back(flow.state.joint.contraction_ratio);

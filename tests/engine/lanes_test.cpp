@@ -109,7 +109,9 @@ struct Eight {
 
   std::vector<Lanes> rates() const {
     const auto all = abreast(plants).value();
-    const auto now = all.moment<1>(state, memory, abreast(held));
+    plant::HeldOf<Lanes> holds;
+    for (std::size_t lane = 0; lane < held.size(); ++lane) put(held[lane], lane, holds);
+    const auto now = all.moment<1>(state, memory, holds);
     const auto dt = all.rates<1>(state, now);
     std::vector<Lanes> list{dt.joint.contraction_ratio, dt.joint.contraction_speed_per_s,
                             dt.side.valve_pressure_Pa, dt.side.muscle_pressure_Pa, dt.side.bristle_m};

@@ -1,0 +1,92 @@
+// One rig on its way, and the order of an instant, which stands in rider.cpp and nowhere else:
+//
+//   x-         state that was reached; what the instruments see of it
+//   hold       held = { play(P_ref(i)) + stray, nu = change of i / length of the step } of each side, or the
+//              slope of a pressure that is given; w of a length that is given
+//              Coulomb friction: a load that sticks is judged anew
+//   moment     forces and flows at (x-, held)
+//   (an integrator carries x- to x+)
+//   arrive     what the instruments see of x+
+//
+// Times are the caller's. What carries riders: ride.hpp, convoy.hpp.
+#pragma once
+
+#include <optional>
+
+#include <plant/plant.hpp>
+#include <sim/engine/problem.hpp>
+
+namespace mckibben::ride {
+
+/// A rig with a load [kg] on it.
+struct Hanging {
+  plant::Rig rig;
+  double load_kg;
+};
+
+/// Two muscles on one wheel (T 2.7); the joint and its encoder are those of the first rig.
+struct Paired {
+  plant::Rig rig, opposite;
+  plant::Link link{};
+};
+
+/// What acts on a muscle from outside, from one instant to the next: a command, or in its place the pressure
+/// that the muscle has at the end, and runs straight to.
+struct Command {
+  double current_mA = 0.0;         ///< as a DAC gives it
+  double stray_current_mA = 0.0;   ///< reaches the valve besides, and is in no table
+  double stray_pressure_Pa = 0.0;  ///< on the reference that the valve follows, in the end
+  std::optional<double> muscle_pressure_Pa{};
+};
+
+/// What acts on a rig: on its muscle, on the opposite one of a pair, on the joint a bench that gives the
+/// (first) muscle the length that it has at the end, straight.
+struct Drive : Command {
+  std::optional<double> contraction_ratio{};
+  Command opposite{};
+};
+
+/// What instruments see at an instant, before they count or round.
+struct Reading {
+  double wheel_m = 0.0;  ///< rise that the encoder's wheel shows; of a pair, from theta = 0
+  double muscle_pressure_Pa = 0.0, opposite_pressure_Pa = 0.0;
+};
+
+class Rider {
+ public:
+  /// All that changes on the way. `time_s`: of the instant it is at; `until_s`: of the next one.
+  struct State {
+    engine::Flow flow{};
+    plant::Held held{};
+    plant::Effects::Plays plays{}, opposite_plays{};
+    Reading reading{};
+    double time_s = 0.0, until_s = 0.0;
+    Drive drive{};  ///< that was held last
+  };
+
+  explicit Rider(const Hanging& hanging) : plant_(hanging.rig, hanging.load_kg) {}
+  explicit Rider(const Paired& pair) : plant_(pair.rig, pair.opposite, pair.link) {}
+
+  /// At rest, pressures as the drive asks for, the encoder at zero. A load may still sink onto the braid
+  /// stop, a link swing to where the muscles hold it: the steps of the rig's settling time follow.
+  void start(const Drive& drive, double at_s);
+  /// Throws std::invalid_argument where `until_s` is not later than the present instant.
+  void hold(const Drive& drive, double until_s);
+  /// The flow has been carried to the next instant.
+  void arrive();
+
+  /// Nothing has come or gone from here on.
+  void open_ledger() { now.flow.ledger = plant_.opened(now.flow.state); }
+
+  const plant::Plant& plant() const { return plant_; }
+  plant::Moment<double> moment() const { return plant_.moment(now.flow.state, now.flow.memory, now.held); }
+
+  State now;
+
+ private:
+  void read();
+
+  plant::Plant plant_;
+};
+
+}  // namespace mckibben::ride
