@@ -33,7 +33,7 @@ class ErkConvoy final : public Convoy {
     memory_.reset(ERKStepCreate(right_hand_sides, 0.0, y_.get(), context_));
     if (!memory_) throw std::bad_alloc();
     void* m = memory_.get();
-    set_up_erk<V>(m, y_.get(), tolerance, this, unused_, message_);
+    set_up_erk<V>(m, y_.get(), tolerance, this, message_);
     ERKStepSetSafetyFactor(m, safety);
     ERKStepSetAdaptivityFn(
         m,
@@ -108,10 +108,6 @@ class ErkConvoy final : public Convoy {
     Counters counters{};
     long refused = 0, steps = 0;  ///< on this way
     bool under_way = false;
-  };
-
-  struct Free {
-    void operator()(void* memory) const { ERKStepFree(&memory); }
   };
 
   static constexpr double safety = 0.5;       // so much the library takes of what it is told; it refuses 1
@@ -230,10 +226,9 @@ class ErkConvoy final : public Convoy {
   std::exception_ptr thrown_;
   Context context_;
   std::string message_;
-  EvenSteps unused_;
   Vector y_, reached_;           // where all are, and where they were before the step
   N_Vector current_ = y_.get();  // what the library works on
-  std::unique_ptr<void, Free> memory_;
+  ErkMemory memory_;
 
   static std::array<Lanes, blocks> all_zero() {
     std::array<Lanes, blocks> zero;

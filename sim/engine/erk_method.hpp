@@ -3,6 +3,8 @@
 #pragma once
 
 #include <algorithm>
+#include <memory>
+#include <string>
 
 #include <arkode/arkode_erkstep.h>
 
@@ -12,9 +14,14 @@
 
 namespace mckibben::engine {
 
-/// What every ERKStep of ours is set to: Cash-Karp in steps that divide a tick evenly. V: kind of its vector.
+struct FreeErk {
+  void operator()(void* memory) const { ERKStepFree(&memory); }
+};
+using ErkMemory = std::unique_ptr<void, FreeErk>;
+
+/// What every ERKStep of ours is set to, but for the choice of its steps: Cash-Karp. V: kind of its vector.
 template <class V>
-void set_up_erk(void* m, N_Vector y, double tolerance, void* user, EvenSteps& steps, std::string& message) {
+void set_up_erk(void* m, N_Vector y, double tolerance, void* user, std::string& message) {
   ERKStepSetErrHandlerFn(m, keep_message, &message);
   ERKStepSetUserData(m, user);
   ERKStepSVtolerances(m, tolerance, absolute_tolerances<V>(y, tolerance).get());
@@ -22,7 +29,6 @@ void set_up_erk(void* m, N_Vector y, double tolerance, void* user, EvenSteps& st
   ERKStepSetInterpolantDegree(m, 1);  // only asked for at the ends of steps, unless events are looked for
   ERKStepSetMaxErrTestFails(m, 50);   // the braid stop may need more than the library's 7
   ERKStepSetMaxNumSteps(m, most_steps_in_a_tick);
-  ERKStepSetAdaptivityFn(m, EvenSteps::choose, &steps);
   // The library takes 0.99 of each step that it is told: a tick ends in a few tiny ones. Without them errors
   // in e are up to three times as large, and the fits of `diagnose` notice.
   ERKStepSetErrorBias(m, 1.0);
@@ -57,7 +63,8 @@ class Erk final : public Integrator {
     memory_.reset(ERKStepCreate(forbidding_right_hand_side, 0.0, y_.get(), context_));
     if (!memory_) throw std::bad_alloc();
     void* m = memory_.get();
-    set_up_erk<V>(m, y_.get(), tolerance, &problem_, steps_, message_);
+    set_up_erk<V>(m, y_.get(), tolerance, &problem_, message_);
+    ERKStepSetAdaptivityFn(m, EvenSteps::choose, &steps_);
     if (rig.has_events()) {
       int falling = -1;
       ERKStepSetInterpolantDegree(m, 5);  // the state at an event as exact as at the end of a step
@@ -98,10 +105,6 @@ class Erk final : public Integrator {
     return c;
   }
 
-  struct Free {
-    void operator()(void* memory) const { ERKStepFree(&memory); }
-  };
-
   // ERKStep gives up at the first stage that a right-hand side refuses. Outside the domain of the laws it
   // gets rates that no step can pass its error test with, so that it tries a smaller one.
   static int forbidding_right_hand_side(double t, N_Vector y, N_Vector dydt, void* problem) {
@@ -117,7 +120,7 @@ class Erk final : public Integrator {
   Problem<typename V::layout> problem_;
   std::string message_;
   Vector y_;
-  std::unique_ptr<void, Free> memory_;
+  ErkMemory memory_;
   EvenSteps steps_;
   long events_ = 0;
   Counters before_;

@@ -26,7 +26,8 @@ class ErkFlock final : public Flock {
     for (const plant::Plant& plant : plants_) problems_.emplace_back(plant);
     memory_.reset(ERKStepCreate(right_hand_sides, 0.0, y_.get(), context_));
     if (!memory_) throw std::bad_alloc();
-    set_up_erk<V>(memory_.get(), y_.get(), tolerance, this, steps_, message_);
+    set_up_erk<V>(memory_.get(), y_.get(), tolerance, this, message_);
+    ERKStepSetAdaptivityFn(memory_.get(), EvenSteps::choose, &steps_);
   }
 
   void advance(std::span<const Bound> bound, double from_s, double to_s) override {
@@ -59,10 +60,6 @@ class ErkFlock final : public Flock {
   void resume(const Pace& pace) override { resume_at(pace, memory_.get(), steps_); }
 
  private:
-  struct Free {
-    void operator()(void* memory) const { ERKStepFree(&memory); }
-  };
-
   /// The rig that a lane carries: where there are fewer than lanes, the first one fills them.
   std::size_t carried(std::size_t lane) const { return lane < plants_.size() ? lane : 0; }
 
@@ -99,7 +96,7 @@ class ErkFlock final : public Flock {
   Context context_;
   std::string message_;
   Vector y_;
-  std::unique_ptr<void, Free> memory_;
+  ErkMemory memory_;
   EvenSteps steps_;
 };
 

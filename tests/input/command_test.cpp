@@ -2,18 +2,14 @@
 #include <gtest/gtest.h>
 
 #include <sim/input/fields_json.hpp>
-#include <sim/input/rigs.hpp>
+
+#include "rig_text.hpp"
 
 namespace mckibben::input {
 namespace {
 
 RigFile rig_with(const std::string& valve) {
-  const YamlFile file = parse_yaml(Source("rig.yaml", "valve: " + valve, ""));
-  RigFile rig;
-  Problems problems;
-  read_named(file.source, file.root, rig, problems);
-  problems.raise();
-  return rig;
+  return rig_of("valve: " + valve);
 }
 
 TEST(Commands, InMilliampereAreCurrents) {

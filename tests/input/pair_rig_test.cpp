@@ -6,17 +6,10 @@
 #include <sim/input/pair_scenario_file.hpp>
 #include <sim/input/rigs.hpp>
 
+#include "rig_text.hpp"
+
 namespace mckibben::input {
 namespace {
-
-RigFile rig_of(const std::string& text) {
-  const YamlFile file = parse_yaml(Source("rig.yaml", text, ""));
-  RigFile rig;
-  Problems problems;
-  read_named(file.source, file.root, rig, problems);
-  problems.raise();
-  return rig;
-}
 
 TEST(PairRig, OneMuscleIsWrittenAsEver) {
   EXPECT_FALSE(rig_json(RigFile{}).contains("mechanics"));
