@@ -21,6 +21,7 @@
 #include <sim/output/diagnosis_words.hpp>
 #include <sim/report/report.hpp>
 #include <sim/run/batch.hpp>
+#include <sim/run/judged.hpp>
 #include <sim/run/replay.hpp>
 
 namespace mckibben::cli {
@@ -85,7 +86,8 @@ Found find(const domain::Dataset& data, const DiagnoseOptions& options, const Ho
 int diagnose_dataset(const DiagnoseOptions& options) {
   domain::Dataset data = input::read_dataset(options.dataset);
   if (!options.rig.empty()) data.rig = input::read_rig(options.rig, data.inputs);
-  input::require_ticks(data, "diagnose");
+  input::require_one_load(data, "diagnose");
+  data = run::with_rows(std::move(data));
   const std::string name = output::name_of(data);
   check_plan(options.plan);
   Job job(options, "diagnose " + options.dataset, "diagnose-" + name, data.inputs);

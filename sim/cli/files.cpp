@@ -25,6 +25,7 @@
 #include <sim/input/utf8.hpp>
 #include <sim/input/yaml_file.hpp>
 #include <sim/input/yaml_writer.hpp>
+#include <sim/run/judged.hpp>
 #include <sim/run/sanity.hpp>
 
 namespace mckibben::cli {
@@ -36,8 +37,10 @@ using input::Problem;
 /// Reads a data set and looks at what it says; adds warnings.
 /// Throws what is wrong with it. Returns what was looked at.
 std::string read_measured(const std::filesystem::path& path, std::vector<Problem>& warnings) {
-  const domain::Dataset data = input::read_dataset(path);
-  if (data.own_clock) return fmt::format("{} runs read; none simulated", data.runs.size());
+  domain::Dataset data = input::read_dataset(path);
+  if (data.own_clock && !input::has_one_load(data))
+    return fmt::format("{} runs read; none simulated", data.runs.size());
+  data = run::with_rows(std::move(data));
   const run::Look look = run::look(data);
   warnings = input::problems_of(data.path, with_runs_named(data, look.objections));
   if (std::any_of(look.objections.begin(), look.objections.end(),

@@ -27,6 +27,7 @@ Contender replay(const Case& c) {
   nominal.held_out = c.experiment.residuals(c.nominal, c.split.held_out);
   Fitted& fitted = nominal.fitted;
   fitted.model = {c.nominal, nominal_parameters(c.nominal, c.experiment.data().rig.spreads)};
+  if (c.experiment.data().pressure_is_given()) std::erase_if(fitted.model.free, out_of_sight);
   auto slopes = c.experiment.slopes(c.nominal, fitted.model.free, c.split.training);
   fitted.residuals = std::move(slopes.residuals);
   fitted.columns = std::move(slopes.columns);

@@ -1,6 +1,7 @@
 // Checks of measured data; see the header.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -30,7 +31,10 @@ class DatasetChecker {
         threads_(threads),
         count_(run::contraction_per_count(data.rig)),
         model_(data.runs.size()) {
-    for (const domain::Run& run : data.runs) checked_.masked.emplace_back(run.current_mA.size(), false);
+    for (const domain::Run& run : data.runs) {
+      checked_.masked.emplace_back(run.contraction_ratio.size(), false);
+      if (!run.missing.empty()) checked_.masked.back() = run.missing;
+    }
     left_out_.assign(data.runs.size(), false);
     run::for_each_job(
         data.runs.size(), threads,
@@ -77,7 +81,9 @@ class DatasetChecker {
     checked_.faulty.push_back(std::move(faulty));
     left_out_[fault.run] = true;
   }
-  double time_s(std::size_t row) const { return static_cast<double>(row) * data_.rig.tick_s; }
+  double time_s(std::size_t row) const {
+    return data_.rows_begin_s() + static_cast<double>(row) * data_.row_s();
+  }
   Runs usable() const {
     Runs runs;
     for (std::size_t i = 0; i < left_out_.size(); ++i)
@@ -134,7 +140,7 @@ class DatasetChecker {
 
   void mask_spikes(std::size_t i, std::string_view column, const Series& values, const Series& model,
                    double step) {
-    const auto outliers = spikes(values, sharpest_nearby(model, data_.rig.tick_s), step);
+    const auto outliers = spikes(values, sharpest_nearby(model, data_.row_s()), step);
     if (outliers.empty()) return;
     std::string times;
     for (std::size_t n = 0; n < outliers.size(); ++n) {
@@ -148,7 +154,8 @@ class DatasetChecker {
 
   bool moves(std::size_t i) {
     const domain::Run& run = data_.runs[i];
-    const double largest_mA = *std::max_element(run.current_mA.begin(), run.current_mA.end());
+    const double largest_mA = run.current_mA.empty() ? std::numeric_limits<double>::infinity()
+                                                     : *std::ranges::max_element(run.current_mA);
     const double dead_mA =
         data_.rig.valve.zero_current_mA +
         of_check.dead_current * (data_.rig.valve.span_current_mA - data_.rig.valve.zero_current_mA);
@@ -170,9 +177,9 @@ class DatasetChecker {
     const Series& values = data_.runs[i].contraction_ratio;
     const Series& model = model_[i].contraction_ratio;
     std::vector<bool>& masked = checked_.masked[i];
-    const Series sharpest = sharpest_nearby(model, data_.rig.tick_s);
+    const Series sharpest = sharpest_nearby(model, data_.row_s());
     mask_spikes(i, "contraction_ratio", values, model, count_);
-    for (const Still& still : stills(values, model, count_, data_.rig.tick_s)) stands_still(i, still);
+    for (const Still& still : stills(values, model, count_, data_.row_s())) stands_still(i, still);
     if (left_out_[i]) return;
     const auto lost = std::count(masked.begin(), masked.end(), true);
     if (const auto row = lost_counts(values, sharpest, masked, count_))

@@ -68,6 +68,8 @@ class Workflow {
     case_.split = split(data_, usable_);
     replay_as_described();
     if (look) faults_ = first_look(case_, checked_, nominal_fit_.fitted.model, usable_, step_);
+    if (data_.recorded.start == domain::Start::moving)  // what effects remember of before may be another, too
+      std::erase_if(faults_, [](const Fault& fault) { return fault.kind == FaultKind::another_rig; });
     if (!faults_.empty()) return std::move(result_);
     fit_numbers();
     map_where();
@@ -117,6 +119,7 @@ class Workflow {
           fmt::format("contraction_ratio scatters by {:.2g} from tick to tick (rms), far more than counts "
                       "do: this is taken for the noise floor",
                       floor.jitter));
+    for (const std::string& what : rows_in_words(data_, floor)) warn(what);
     if (carries(nominal_, plant::ResidualForce::name))
       warn("the rig's residual_law is kept as it is: if it is wrong, take it out");
   }
@@ -160,7 +163,7 @@ class Workflow {
   void name() {
     naming_ = name_effects(case_, nominal_fit_, recalibrated_, reference(), step_);
     evidence_.invisible = naming_.invisible.size();
-    evidence_.catalogue = catalogue().size();
+    evidence_.catalogue = catalogue(data_.pressure_is_given()).size();
     evidence_.names = naming_.effects.size();
     if (naming_.effects.empty()) return;
     const Eigen::VectorXd& named = naming_.best.held_out;
@@ -280,7 +283,7 @@ class Workflow {
 
   // What would separate the effect named first from those it may be, or the next one.
   void plan_next() {
-    if (result_.effects.empty()) return;
+    if (result_.effects.empty() || data_.pressure_is_given()) return;  // plans are of currents
     for (const Doubt& doubt : naming_.doubts) {
       step_("planning");
       result_.next_experiment =

@@ -4,6 +4,7 @@
 #include <mutex>
 
 #include <sim/diagnose/experiment.hpp>
+#include <sim/diagnose/thresholds.hpp>
 #include <sim/engine/failure.hpp>
 #include <sim/engine/flock.hpp>
 #include <sim/run/batch.hpp>
@@ -19,14 +20,14 @@ Experiment::Experiment(const domain::Dataset& data, std::vector<std::vector<bool
 
 std::size_t Experiment::rows(std::size_t run) const {
   const domain::Run& measured = data_.runs[run];
-  return measured.current_mA.size() * (measured.muscle_pressure_Pa ? 2 : 1);
+  return measured.contraction_ratio.size() * (measured.muscle_pressure_Pa ? 2 : 1);
 }
 
 std::vector<Experiment::Part> Experiment::parts(const Runs& runs) const {
   std::vector<Part> list;
   Eigen::Index begin = 0;
   for (const std::size_t run : runs) {
-    list.push_back({run, begin, static_cast<Eigen::Index>(data_.runs[run].current_mA.size())});
+    list.push_back({run, begin, static_cast<Eigen::Index>(data_.runs[run].contraction_ratio.size())});
     begin += static_cast<Eigen::Index>(rows(run));
   }
   return list;
@@ -34,7 +35,7 @@ std::vector<Experiment::Part> Experiment::parts(const Runs& runs) const {
 
 void Experiment::compare(const Readings& readings, std::size_t run, double* residuals) const {
   const domain::Run& measured = data_.runs[run];
-  const std::size_t ticks = measured.current_mA.size();
+  const std::size_t ticks = measured.contraction_ratio.size();
   for (std::size_t k = 0; k < ticks; ++k) {
     const bool counts = !masked_[run][k];
     // A counter rounds down: the middle of its count is the best guess.
@@ -65,6 +66,64 @@ Experiment::Slopes Experiment::slopes(const plant::Rig& rig, std::span<const Par
   return slopes(rig, changes, runs);
 }
 
+namespace {
+
+/// One reading after the other, in floors, as residuals are.
+Eigen::VectorXd in_floors(const Readings& readings, const NoiseFloor& floor, bool gauge) {
+  const auto rows = static_cast<Eigen::Index>(readings.contraction_ratio.size());
+  Eigen::VectorXd list(gauge ? 2 * rows : rows);
+  list.head(rows) = Eigen::Map<const Eigen::VectorXd>(readings.contraction_ratio.data(), rows) / floor.ratio;
+  if (gauge)
+    list.tail(rows) =
+        Eigen::Map<const Eigen::VectorXd>(readings.pressure_Pa.data(), rows) / floor.pressure_Pa;
+  return list;
+}
+
+/// As many times of the way from one to another.
+void go(Readings& readings, const Readings& from, const Readings& to, double times) {
+  for (std::size_t k = 0; k < readings.contraction_ratio.size(); ++k) {
+    readings.contraction_ratio[k] += times * (to.contraction_ratio[k] - from.contraction_ratio[k]);
+    readings.pressure_Pa[k] += times * (to.pressure_Pa[k] - from.pressure_Pa[k]);
+  }
+}
+
+}  // namespace
+
+// A further rig of the flock, with its memories a little off, tells what they change; a straight line then
+// takes all readings to where the run's own say. Where that is far, all fly again from near there.
+std::vector<Readings> Experiment::begun(std::size_t run, std::vector<Hanging> rigs) const {
+  const domain::Run& measured = data_.runs[run];
+  const solver::Method method = data_.rig.integrator.method;
+  if (data_.recorded.start == domain::Start::settled || !rigs.front().rig.effects.remember())
+    return predict(measured, rigs, method);
+  const StartThresholds& by = thresholds.start;
+  const bool gauge = measured.muscle_pressure_Pa.has_value();
+  rigs.push_back(rigs.front());
+  double off = 0.0;
+  for (int flight = 1;; ++flight) {
+    std::vector<double> memories(rigs.size(), off);
+    memories.back() += by.memory_step;
+    auto readings = predict(measured, rigs, method, memories);
+    const Readings here = readings.front(), aside = std::move(readings.back());
+    readings.pop_back();
+    Eigen::VectorXd along =
+        (in_floors(aside, floor_, gauge) - in_floors(here, floor_, gauge)) / by.memory_step;
+    const auto& masked = masked_[run];
+    for (Eigen::Index k = 0; k < along.size(); ++k)
+      if (masked[static_cast<std::size_t>(k) % masked.size()]) along[k] = 0.0;
+    const double square = along.squaredNorm() + 1.0 / (by.memory * by.memory);
+    const auto further = [&](const Readings& from) {
+      return std::clamp(off + along.dot(residuals(from, run)) / square, -by.memory, by.memory) - off;
+    };
+    if (const double wanted = further(here); std::abs(wanted) > by.memory_near && flight < by.flights) {
+      off += wanted;
+      continue;
+    }
+    for (Readings& each : readings) go(each, here, aside, further(each) / by.memory_step);
+    return readings;
+  }
+}
+
 void Experiment::fly(const plant::Rig& rig, std::span<const Change> changes, std::size_t before,
                      const Part& part, Slopes& result) const {
   const domain::Run& measured = data_.runs[part.run];
@@ -73,7 +132,7 @@ void Experiment::fly(const plant::Rig& rig, std::span<const Change> changes, std
     rigs.push_back(rigs.front());
     change.apply(rigs.back());
   }
-  const auto readings = predict(measured, rigs, data_.rig.integrator.method);
+  const auto readings = begun(part.run, rigs);
   if (before == 0) compare(readings[0], part.run, result.residuals.data() + part.begin);
   const auto ticks = static_cast<std::size_t>(part.rows);
   for (std::size_t c = 0; c < changes.size(); ++c) {
@@ -93,7 +152,8 @@ void Experiment::fly(const plant::Rig& rig, std::span<const Change> changes, std
 
 Experiment::Slopes Experiment::slopes(const plant::Rig& rig, std::span<const Change> changes,
                                       const Runs& runs) const {
-  constexpr std::size_t wing = engine::Flock::most - 1;
+  // Of runs on their way one place more is taken: see `begun`.
+  const std::size_t wing = engine::Flock::most - (data_.recorded.start == domain::Start::moving ? 2 : 1);
   const std::size_t flocks = std::max<std::size_t>(1, (changes.size() + wing - 1) / wing);
   const auto list = parts(runs);
   Eigen::Index total = 0;
@@ -136,8 +196,7 @@ Eigen::VectorXd Experiment::residuals(const Readings& readings, std::size_t run)
 }
 
 Readings Experiment::readings(const plant::Rig& rig, std::size_t run) const {
-  const Hanging hanging{rig, data_.runs[run].load_kg};
-  return predict(data_.runs[run], {&hanging, 1}, data_.rig.integrator.method).front();
+  return begun(run, {{rig, data_.runs[run].load_kg}}).front();
 }
 
 double Experiment::rmse(const Eigen::VectorXd& residuals, const Runs& runs) const {

@@ -68,6 +68,8 @@ class Experiment {
   unsigned threads() const { return threads_; }
 
  private:
+  /// Readings of a run by several rigs, the memories of each of a run that began on its way fitted to it.
+  std::vector<Readings> begun(std::size_t run, std::vector<Hanging> rigs) const;
   void compare(const Readings& readings, std::size_t run, double* residuals) const;
   /// Flies `changes` of one run beside the rig itself; their columns follow on the first `before`.
   void fly(const plant::Rig& rig, std::span<const Change> changes, std::size_t before, const Part& part,

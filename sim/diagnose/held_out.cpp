@@ -10,7 +10,7 @@ namespace mckibben::diagnose {
 namespace {
 
 Eigen::Index segment_rows(const Experiment& experiment) {
-  return std::max<Eigen::Index>(1, std::lround(thresholds.scatter.segment_s / experiment.data().rig.tick_s));
+  return std::max<Eigen::Index>(1, std::lround(thresholds.scatter.segment_s / experiment.data().row_s()));
 }
 
 }  // namespace

@@ -65,7 +65,7 @@ std::vector<Bounds> intervals(const Experiment& experiment, const Fitted& fitted
   const auto& free = fitted.model.free;
   const auto count = static_cast<Eigen::Index>(free.size());
   const Eigen::Index segment =
-      std::max<Eigen::Index>(1, std::lround(thresholds.scatter.segment_s / experiment.data().rig.tick_s));
+      std::max<Eigen::Index>(1, std::lround(thresholds.scatter.segment_s / experiment.data().row_s()));
   Eigen::MatrixXd priors = Eigen::MatrixXd::Zero(count, count);
   for (Eigen::Index j = 0; j < count; ++j)
     if (free[static_cast<std::size_t>(j)].has_prior) priors(j, j) = 1.0;

@@ -92,7 +92,7 @@ double repeatability(const domain::Dataset& data, const std::vector<std::vector<
   for (auto a = trusted.begin(); a != trusted.end(); ++a) {
     for (auto b = std::next(a); b != trusted.end(); ++b) {
       const domain::Run &one = data.runs[*a], &other = data.runs[*b];
-      if (one.load_kg != other.load_kg || one.current_mA != other.current_mA) continue;
+      if (one.load_kg != other.load_kg || one.current_mA != other.current_mA || one.shaken) continue;
       for (std::size_t k = 0; k < one.contraction_ratio.size(); ++k) {
         if (masked[*a][k] || masked[*b][k]) continue;
         const double difference = one.contraction_ratio[k] - other.contraction_ratio[k];
@@ -159,6 +159,39 @@ double dither(const domain::Dataset& data, const std::vector<std::vector<bool>>&
   return 0.5 * (low + high);
 }
 
+/// What the noise of a given pressure does to the motion: of a second helping, by simulation.
+double of_given_pressure(const domain::Dataset& data, const Runs& runs) {
+  double squares = 0.0, count = 0.0;
+  for (const std::size_t i : runs) {
+    domain::Run run = data.runs[i];
+    if (!run.shaken) continue;
+    const Hanging hanging{data.rig, run.load_kg};
+    const auto readings = [&] {
+      return predict(run, {&hanging, 1}, data.rig.integrator.method).front().contraction_ratio;
+    };
+    const auto calm = readings();
+    run.measured = run.shaken;
+    const auto shaken = readings();
+    for (std::size_t k = 0; k < calm.size(); ++k) squares += (shaken[k] - calm[k]) * (shaken[k] - calm[k]);
+    count += static_cast<double>(calm.size());
+  }
+  return count > 0.0 ? std::sqrt(squares / count) : 0.0;
+}
+
+/// Of rows that were made of stamps: what their readings scattered by is known.
+void floor_of_rows(const domain::Dataset& data, const Runs& trusted, NoiseFloor& floor) {
+  const domain::Rows& rows = *data.rows_of_stamps;
+  floor.jitter = rows.ratio_noise;
+  floor.given = of_given_pressure(data, trusted);
+  const double instruments = std::hypot(rows.ratio_step / std::sqrt(12.0), floor.jitter, floor.given);
+  floor.ratio =
+      std::max({floor.repeats, std::hypot(instruments, thresholds.predict.tolerance), assumed.least_ratio});
+  const bool gauged = std::any_of(trusted.begin(), trusted.end(), [&](std::size_t run) {
+    return data.runs[run].muscle_pressure_Pa.has_value();
+  });
+  if (gauged) floor.pressure_Pa = std::max(rows.pressure_noise_Pa, assumed.least_pressure_Pa);
+}
+
 }  // namespace
 
 NoiseFloor noise_floor(const domain::Dataset& data, const std::vector<std::vector<bool>>& masked,
@@ -169,6 +202,13 @@ NoiseFloor noise_floor(const domain::Dataset& data, const std::vector<std::vecto
   if (trusted.empty()) {
     trusted.resize(data.runs.size());
     std::iota(trusted.begin(), trusted.end(), std::size_t{0});
+  }
+  const bool encoder = std::any_of(data.runs.begin(), data.runs.end(), [](const domain::Run& run) {
+    return run.measured && run.measured->counted;
+  });
+  if (data.rows_of_stamps && !encoder) {
+    floor_of_rows(data, trusted, floor);
+    return floor;
   }
   const double decimal = last_decimal(data, trusted);
   if (counted(data, masked, trusted, count, decimal)) floor.count = count;

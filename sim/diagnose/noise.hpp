@@ -15,6 +15,7 @@ struct NoiseFloor {
   double ratio = 0.0;        ///< of the contraction ratio: the largest of instruments and repeats
   double repeats = 0.0;      ///< of the contraction ratio, between equal runs; 0: none are equal
   double pressure_Pa = 0.0;  ///< of the gauge; 0: none fitted
+  double given = 0.0;        ///< of the contraction ratio, by the noise of a pressure that is given
   bool noisy = false;        ///< the jitter is more than a count of the rig's encoder
 };
 

@@ -219,9 +219,38 @@ std::vector<Parameter> Candidate::parameters(const plant::Rig& rig) const {
   return list;
 }
 
-std::vector<Candidate> catalogue() {
+namespace {
+
+/// Whether an effect acts on what makes the muscle's pressure, and on nothing else.
+template <class E>
+constexpr bool makes_pressure() {
+  using enum plant::Hook;
+  constexpr std::array of_pressure{outflow,       gas_exponent, valve_error_shift,
+                                   valve_opening, supply_drop,  reference};
+  return std::ranges::all_of(
+      E::hooks, [&](plant::Hook hook) { return std::ranges::find(of_pressure, hook) != of_pressure.end(); });
+}
+
+}  // namespace
+
+std::vector<std::string> effects_out_of_sight() {
+  std::vector<std::string> names;
+  const auto add = [&]<class E>(const E& effect) {
+    if (makes_pressure<E>() && !E::variants.empty()) names.emplace_back(effect.name);
+  };
+  std::apply([&](const auto&... effect) { (add(effect), ...); }, plant::Effects::Table{});
+  return names;
+}
+
+bool out_of_sight(const Parameter& p) {
+  const auto begins = [&](std::string_view part) { return p.path.starts_with(part); };
+  return begins("valve.") || begins("hose.") || begins("gas.") || p.path == "muscle.dead_volume";
+}
+
+std::vector<Candidate> catalogue(bool pressure_is_given) {
   std::vector<Candidate> list;
   const auto add = [&]<class E>(const E& effect) {
+    if (pressure_is_given && makes_pressure<E>()) return;
     for (const plant::Variant& law : E::variants) {
       const std::string prefix = "effects." + std::string(effect.name) + ".";
       Candidate c{.effect = std::string(effect.name),

@@ -64,7 +64,12 @@ struct Candidate {
   std::vector<Parameter> parameters(const plant::Rig& rig) const;
 };
 
-/// The whole catalogue, in the order of its table.
-std::vector<Candidate> catalogue();
+/// The whole catalogue, in the order of its table; where the muscle's pressure is given, without what acts on
+/// valve, supply, hose and gas alone: out of sight.
+std::vector<Candidate> catalogue(bool pressure_is_given = false);
+
+/// Effects of the catalogue, and parameters, that a given pressure leaves nothing to see of.
+std::vector<std::string> effects_out_of_sight();
+bool out_of_sight(const Parameter& parameter);
 
 }  // namespace mckibben::diagnose

@@ -10,7 +10,8 @@ solver::Settings settings_for(std::span<const Hanging> rigs, solver::Method meth
                                                       : thresholds.predict.tolerance_alone};
 }
 
-std::vector<Readings> predict(const domain::Run& run, std::span<const Hanging> rigs, solver::Method method) {
+std::vector<Readings> predict(const domain::Run& run, std::span<const Hanging> rigs, solver::Method method,
+                              std::span<const double> memories) {
   const plant::Rig& first = rigs.front().rig;
   const run::Course course = run::course_of(run, first);
   std::vector<Readings> readings(rigs.size());
@@ -23,7 +24,7 @@ std::vector<Readings> predict(const domain::Run& run, std::span<const Hanging> r
   };
 
   ride::Ride ride(rigs, settings_for(rigs, method));
-  run::for_first_stamp(ride, course, first);
+  run::for_first_stamp(ride, course, first, memories);
   for (std::size_t k = 0, row = 0; row < course.rows.size(); ++k) {
     if (course.rows[row] == k) {
       for (std::size_t i = 0; i < rigs.size(); ++i) {

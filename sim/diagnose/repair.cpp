@@ -48,7 +48,7 @@ FaultyRun told(const domain::Dataset& data, const Fault& fault) {
   const domain::Run& run = data.runs[fault.run];
   const double count = run::contraction_per_count(data.rig);
   const double length_mm = 1e3 * data.rig.muscle.rest_length_m;
-  const double at_s = static_cast<double>(fault.row) * data.rig.tick_s;
+  const double at_s = static_cast<double>(fault.row) * data.row_s();
   FaultyRun faulty{.run = run.id,
                    .kind = "",
                    .size = fault.size,

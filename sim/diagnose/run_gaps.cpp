@@ -45,6 +45,10 @@ std::string visited(const domain::Dataset& data, const Runs& runs) {
     for (const double value : data.runs[run].contraction_ratio) ratio.see(value);
     load_kg.see(data.runs[run].load_kg);
   }
+  if (data.pressure_is_given())
+    return fmt::format(
+        "loads of {:.4g} to {:.4g} kg and contraction ratios of {:.3f} to {:.3f}, as in these runs",
+        load_kg.low, load_kg.high, ratio.low, ratio.high);
   return fmt::format(
       "currents of {:.3g} to {:.3g} mA, loads of {:.4g} to {:.4g} kg and contraction ratios of {:.3f} to "
       "{:.3f}, as in these runs",

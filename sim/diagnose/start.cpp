@@ -25,7 +25,7 @@ double moved(const std::vector<double>& ratio) {
 
 Start look_at_start(const Experiment& experiment, const plant::Rig& corrected, const Runs& runs) {
   Start start;
-  const double tick_s = corrected.tick_s;
+  const double tick_s = experiment.data().row_s();
   std::size_t longest = 0;
   for (const std::size_t run : runs)
     longest = std::max(longest, experiment.data().runs[run].contraction_ratio.size());
@@ -45,7 +45,8 @@ Start look_at_start(const Experiment& experiment, const plant::Rig& corrected, c
     early_rows += static_cast<double>(rows);
     all_rows += static_cast<double>(residuals.size());
     const auto& measured = experiment.data().runs[run];
-    if (moved(measured.contraction_ratio) > limit + of_start.beyond_model * moved(readings.contraction_ratio))
+    if (experiment.data().recorded.start == domain::Start::settled &&
+        moved(measured.contraction_ratio) > limit + of_start.beyond_model * moved(readings.contraction_ratio))
       start.unsettled.push_back(measured.id);
   }
   if (all > 0.0) start.share_of_gap = std::clamp(early / all, 0.0, 1.0);

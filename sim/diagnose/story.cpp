@@ -71,6 +71,28 @@ void tell_parameters(Diagnosis& diagnosis, const Model& model, const std::vector
   }
 }
 
+std::vector<std::string> rows_in_words(const domain::Dataset& data, const NoiseFloor& floor) {
+  std::vector<std::string> words;
+  if (!data.rows_of_stamps) return words;
+  const domain::Rows& rows = *data.rows_of_stamps;
+  if (rows.rows < rows.stamps)
+    words.push_back(
+        fmt::format("of {} stamps {} rows were judged, {:.3g} ms apart, each of {:.0f} readings on average; "
+                    "the inputs were "
+                    "followed at {} stamps, with all at which they jump or bend",
+                    rows.stamps, rows.rows, 1e3 * rows.row_s, rows.readings, rows.inputs));
+  if (rows.given_noise_Pa > 0.0)
+    words.push_back(fmt::format(
+        "the noise of the given pressure, {:.2g} mbar, {}; what it does to the motion, {:.2g} in contraction "
+        "ratio, counts in the noise floor",
+        1e-2 * rows.given_noise_Pa, rows.smoothed ? "was smoothed" : "was left as it is", floor.given));
+  if (data.pressure_is_given())
+    words.push_back(fmt::format(
+        "the muscle's pressure is the input: valve, supply, hose and gas are out of sight, and with them {}",
+        fmt::join(effects_out_of_sight(), ", ")));
+  return words;
+}
+
 std::string faults_in_words(const Diagnosis& d) {
   std::string text;
   for (const FaultyRun& faulty : d.faults) {

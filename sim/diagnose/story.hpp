@@ -18,6 +18,9 @@ namespace mckibben::diagnose {
 void tell_parameters(Diagnosis& diagnosis, const Model& model, const std::vector<Bounds>& bounds,
                      const plant::Rig& recalibrated);
 
+/// What was made of stamps, and what data with a clock of their own cannot show.
+std::vector<std::string> rows_in_words(const domain::Dataset& data, const NoiseFloor& floor);
+
 /// What is wrong with the recording, each run by name, and what all have in common once; empty, or sentences
 /// and a space.
 std::string faults_in_words(const Diagnosis& diagnosis);

@@ -313,6 +313,11 @@ struct DecideThresholds {
 
 /// What is told of the start of runs, and of the end of the search.
 struct StartThresholds {
+  /// Memories of effects in runs that began on their way, in their working sizes, from where they would rest.
+  double memory = 0.5;            ///< so far off they may be
+  double memory_step = 0.01;      ///< for a slope
+  double memory_near = 0.01;      ///< a straight line from so near is good enough,
+  int flights = 3;                ///< or after so many
   double explained_floors = 2.0;  ///< rms: more is something to explain
   double longest_s = 4.0;         ///< of a start,
   double share_of_run = 0.25;     ///< and of the longest run

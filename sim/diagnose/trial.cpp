@@ -83,7 +83,8 @@ Screening screen_at(const Case& c, const Contender& base) {
   // from its data sheet for the sake of details.
   const double scatter =
       std::max(c.inflation, variance_inflation(c.experiment, base.fitted.residuals, c.split.training));
-  return {&base, screen(c.experiment, base.fitted, catalogue(), c.split.training, scatter)};
+  return {&base, screen(c.experiment, base.fitted, catalogue(c.experiment.data().pressure_is_given()),
+                        c.split.training, scatter)};
 }
 
 Trial rough(const Case& c, const Contender& base, const Score& score, std::size_t place) {

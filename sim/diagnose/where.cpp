@@ -68,23 +68,24 @@ std::vector<Row> rows_of(const Experiment& experiment, const plant::Rig& rig, co
       [&](std::size_t i) { readings[i] = experiment.readings(rig, runs[i]); }, [](std::size_t) {});
   std::vector<Row> rows;
   const auto parts = experiment.parts(runs);
-  const auto per_segment =
-      static_cast<std::size_t>(std::lround(std::ceil(thresholds.scatter.segment_s / rig.tick_s)));
+  const auto per_segment = static_cast<std::size_t>(
+      std::lround(std::ceil(thresholds.scatter.segment_s / experiment.data().row_s())));
   for (std::size_t i = 0; i < runs.size(); ++i) {
     const auto& states = readings[i].states;
-    const auto since_s = since_turn_s(states, run::contraction_per_count(rig), rig.tick_s);
+    const auto since_s = since_turn_s(states, run::contraction_per_count(rig), experiment.data().row_s());
     for (std::size_t k = 0; k < states.size(); ++k) {
       const double residual = residuals[parts[i].begin + static_cast<Eigen::Index>(k)];
       if (residual == 0.0) continue;  // masked
       const auto& joint = states[k].joint;
-      rows.push_back({.residual = experiment.floor().ratio * residual,
-                      .segment = segments + k / per_segment,
-                      .load_kg = experiment.data().runs[runs[i]].load_kg,
-                      .speed_mm_per_s = 1e3 * rig.muscle.rest_length_m * joint.contraction_speed_per_s,
-                      .pressure_Pa = states[k].side.muscle_pressure_Pa,
-                      .contraction_ratio = joint.contraction_ratio,
-                      .time_s = static_cast<double>(k) * rig.tick_s,
-                      .since_turn_s = since_s[k]});
+      rows.push_back(
+          {.residual = experiment.floor().ratio * residual,
+           .segment = segments + k / per_segment,
+           .load_kg = experiment.data().runs[runs[i]].load_kg,
+           .speed_mm_per_s = 1e3 * rig.muscle.rest_length_m * joint.contraction_speed_per_s,
+           .pressure_Pa = states[k].side.muscle_pressure_Pa,
+           .contraction_ratio = joint.contraction_ratio,
+           .time_s = experiment.data().rows_begin_s() + static_cast<double>(k) * experiment.data().row_s(),
+           .since_turn_s = since_s[k]});
     }
     segments += (states.size() + per_segment - 1) / per_segment;
   }
@@ -129,7 +130,8 @@ std::vector<Factor> factors_of(const Experiment& experiment, const plant::Rig& r
   for (const std::size_t run : runs) {
     const domain::Run& measured = experiment.data().runs[run];
     loads_kg.push_back(measured.load_kg);
-    longest_s = std::max(longest_s, static_cast<double>(measured.current_mA.size()) * rig.tick_s);
+    longest_s = std::max(longest_s,
+                         static_cast<double>(measured.contraction_ratio.size()) * experiment.data().row_s());
   }
   std::sort(loads_kg.begin(), loads_kg.end());
   loads_kg.erase(std::unique(loads_kg.begin(), loads_kg.end()), loads_kg.end());

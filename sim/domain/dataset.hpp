@@ -1,6 +1,7 @@
 // Measured data sets: which runs there are, their loads and tables, and the rig they were measured on.
 #pragma once
 
+#include <algorithm>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -28,7 +29,10 @@ struct Run {
   double ratio_per_unit = 1.0;  ///< of contraction: what one of its file's unit is
   double rest_length_m = 0.0;   ///< that its rise was divided by; 0: that of the rig it is compared with
 
-  std::optional<Measurement> measured;  ///< in place of these three
+  std::optional<Measurement> measured;  ///< in place of these three; or what stands behind their rows (Rows)
+  std::optional<Measurement> shaken;    ///< the same, with as much noise again on a pressure that is given
+  std::vector<double> time_s;           ///< of rows made of stamps, since the first stamp; else empty
+  std::vector<bool> missing;            ///< rows of theirs without a reading; empty: none is
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
@@ -44,12 +48,35 @@ struct Run {
   }
 };
 
+/// How rows were made of stamps, over all runs.
+struct Rows {
+  double row_s = 0.0;                                 ///< from row to row
+  std::size_t stamps = 0, rows = 0, inputs = 0;       ///< in the files; judged; that drive the simulation
+  double readings = 1.0;                              ///< in a row, on average
+  double ratio_noise = 0.0, pressure_noise_Pa = 0.0;  ///< of a row's values, by what the readings scatter
+  double ratio_step = 0.0;                            ///< that the readings are rounded to
+  double given_noise_Pa = 0.0;                        ///< of a reading of a pressure that is given
+  bool smoothed = false;                              ///< that pressure was
+
+  friend bool operator==(const Rows&, const Rows&) = default;
+};
+
 struct Dataset {
   RigFile rig;
   ColumnMap columns;
   Recorded recorded{};
   std::vector<Run> runs;
   bool own_clock = false;  ///< runs are `measured`, stamp by stamp
+  std::optional<Rows> rows_of_stamps;
+
+  double row_s() const { return rows_of_stamps ? rows_of_stamps->row_s : rig.tick_s; }
+  double rows_begin_s() const { return rows_of_stamps ? recorded.skip_s : 0.0; }
+  /// No run has a valve: the pressure is given.
+  bool pressure_is_given() const {
+    return std::all_of(runs.begin(), runs.end(), [](const Run& run) {
+      return run.measured && run.measured->sides[0].pressure_is_given;
+    });
+  }
 
   std::filesystem::path path;     ///< of the file `dataset.yaml`
   std::vector<InputFile> inputs;  ///< the files it was read from

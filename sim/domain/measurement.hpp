@@ -59,6 +59,7 @@ struct Measurement {
   bool angle_in_degrees = false;  ///< as the file has it, and as its gap is told
   bool counted = false;           ///< contraction or angle are counts of the encoder
   Recorded recorded{};
+  std::vector<std::size_t> rows{};    ///< stamps that are judged, ascending; none: all
   std::optional<FirstState> first{};  ///< of a run that began on its way; none: its readings have it
 };
 

@@ -1,4 +1,5 @@
 // Reading of data sets; see the header.
+#include <algorithm>
 #include <unordered_map>
 
 #include <fmt/format.h>
@@ -120,6 +121,31 @@ void require_ticks(const Dataset& dataset, std::string_view verb) {
                       "replay does",
                       verb),
           ""}});
+}
+
+namespace {
+
+/// Why a run is none of a hanging load whose contraction was read; empty if it is one.
+std::string_view why_not_one_load(const Run& run) {
+  if (!run.measured) return "";
+  if (run.measured->length_is_given) return "the muscle's length is given";
+  return run.measured->contraction_ratio.empty() ? "contraction is not read" : "";
+}
+
+}  // namespace
+
+bool has_one_load(const Dataset& dataset) {
+  return dataset.rig.lifts_a_load() &&
+         std::ranges::all_of(dataset.runs, [](const Run& run) { return why_not_one_load(run).empty(); });
+}
+
+void require_one_load(const Dataset& dataset, std::string_view verb) {
+  require_load(dataset.rig, dataset.path.string(), verb);
+  for (const Run& run : dataset.runs)
+    if (const auto why = why_not_one_load(run); !why.empty())
+      throw BadInput(
+          {{Severity::error, dataset.path.string(), nowhere,
+            fmt::format("{} cannot take it yet: in run {} {}", verb, shortened(run.id), why), ""}});
 }
 
 }  // namespace mckibben::input

@@ -21,4 +21,9 @@ Dataset read_dataset(const std::filesystem::path& path);
 /// Throws BadInput unless a load hangs on the muscle and each run has a row each tick, as `verb` needs it.
 void require_ticks(const Dataset& dataset, std::string_view verb);
 
+/// Whether a load hangs on the muscle of each run, and contraction was read.
+bool has_one_load(const Dataset& dataset);
+/// Throws BadInput unless a load hangs on the muscle and contraction was read, as `verb` needs it.
+void require_one_load(const Dataset& dataset, std::string_view verb);
+
 }  // namespace mckibben::input

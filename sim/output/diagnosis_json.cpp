@@ -167,6 +167,16 @@ Json faults_json(const diagnose::Diagnosis& diagnosis) {
   return list;
 }
 
+Json rows_json(const domain::Rows& rows) {
+  return {{"stamps", rows.stamps},
+          {"rows", rows.rows},
+          {"row_s", rows.row_s},
+          {"readings_of_a_row", rows.readings},
+          {"input_stamps", rows.inputs},
+          {"given_pressure_noise_bar", rows.given_noise_Pa / plant::Pa_per_bar},
+          {"given_pressure", rows.smoothed ? "smoothed" : "as recorded"}};
+}
+
 }  // namespace
 
 std::string json_of(const domain::Dataset& data, const diagnose::Diagnosis& diagnosis) {
@@ -188,6 +198,7 @@ std::string json_of(const domain::Dataset& data, const diagnose::Diagnosis& diag
                 {"ranking", ranking_json(diagnosis)},
                 {"confusion", {{"names", diagnosis.confusion_names}, {"likeness", diagnosis.confusion}}},
                 {"absorbed", absorbed_json(diagnosis)}};
+  if (data.rows_of_stamps) document["rows"] = rows_json(*data.rows_of_stamps);
   Json heading = heading_json("mckibben-diagnosis/1", data.inputs);
   heading["program"]["ceres"] = CERES_VERSION_STRING;
   document["program"] = heading["program"];

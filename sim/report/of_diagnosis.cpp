@@ -93,12 +93,15 @@ Group group_of(const domain::Dataset& data, const Diagnosis& diagnosis, const Ru
   group.given = {{"given_contraction", [&gap](std::size_t k) { return gap.measured[k]; }},
                  {"weight", [weight_N = mended.weight_N()](std::size_t) { return weight_N; }}};
   const domain::Run* recorded = by_id(data.runs, gap.id);
-  if (recorded != nullptr && recorded->current_mA.size() < group.ticks) recorded = nullptr;
+  if (recorded != nullptr && recorded->contraction_ratio.size() < group.ticks) recorded = nullptr;
   if (const auto* run = recorded) {
-    group.given.push_back({"current", [run](std::size_t k) { return run->current_mA[k]; }});
-    group.given.push_back({"reference_pressure", [run, nominal_plant](std::size_t k) {
-                             return nominal_plant.reference_pressure_Pa(run->current_mA[k]) / 1e5;
-                           }});
+    group.time_s = run->time_s;
+    if (!run->current_mA.empty()) {
+      group.given.push_back({"current", [run](std::size_t k) { return run->current_mA[k]; }});
+      group.given.push_back({"reference_pressure", [run, nominal_plant](std::size_t k) {
+                               return nominal_plant.reference_pressure_Pa(run->current_mA[k]) / 1e5;
+                             }});
+    }
     if (run->muscle_pressure_Pa)
       group.given.push_back(
           {"given_pressure", [run](std::size_t k) { return (*run->muscle_pressure_Pa)[k] / 1e5; }});
@@ -153,7 +156,8 @@ std::string report_html(const domain::Dataset& data, const Diagnosis& diagnosis,
       .table = result_table(data, diagnosis),
       .details = output::table_of(data, diagnosis),
       .beside = fmt::format(
-          "Heights are heights of the load. The noise floor is what counting and jitter of the encoder (here "
+          "Heights are heights of the load. The noise floor is what counting and jitter of the readings "
+          "(here "
           "{}) let nobody see, or what equal runs differ by. The thresholds were set to name an effect where "
           "none is missing in {:.0f} % of data sets: a rate aimed at, not one measured on these data. Seed "
           "{}. Every number is in diagnosis.json, the corrected rig in rig.yaml.",

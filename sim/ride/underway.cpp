@@ -7,7 +7,7 @@ namespace mckibben::ride {
 namespace {
 
 /// Each memory follows a straight law of its own: its rate at two values tells where it would be at rest.
-void rest_memories(Rider& rider, const plant::State<double>& before) {
+void rest_memories(Rider& rider, const plant::State<double>& before, double off) {
   const plant::Plant& plant = rider.plant();
   if (!plant.remembers()) return;
   engine::Flow& flow = rider.now.flow;
@@ -19,11 +19,13 @@ void rest_memories(Rider& rider, const plant::State<double>& before) {
   };
   const auto at_rest = rates(before, none), now = rates(flow.state, none);
   for (std::size_t slot = 0; slot < none.size(); ++slot) {
-    if (now[slot] == at_rest[slot]) continue;  // whatever the rig does: a clock
+    const double size = plant::Effects::memory_sizes[slot];
     plant::SideMemory<double> further = none;
-    further[slot] += plant::Effects::memory_sizes[slot];
-    const double slope = (rates(flow.state, further)[slot] - now[slot]) / plant::Effects::memory_sizes[slot];
-    if (slope < 0.0) flow.memory.side[slot] = none[slot] - now[slot] / slope;
+    further[slot] += size;
+    const double slope = (rates(flow.state, further)[slot] - now[slot]) / size;
+    if (slope >= 0.0) continue;                     // of an effect that is switched off
+    const bool clock = now[slot] == at_rest[slot];  // it runs whatever the rig does
+    flow.memory.side[slot] = none[slot] + off * size - (clock ? 0.0 : now[slot] / slope);
   }
 }
 
@@ -43,7 +45,7 @@ void bend_bristles(Rider& rider, double acceleration_m_per_s2) {
 
 }  // namespace
 
-void set_off(Rider& rider, const Underway& seen) {
+void set_off(Rider& rider, const Underway& seen, double memories) {
   const plant::Plant& plant = rider.plant();
   Rider::State& now = rider.now;
   plant::State<double>& state = now.flow.state;
@@ -54,7 +56,7 @@ void set_off(Rider& rider, const Underway& seen) {
     now.held.pressure_rate_Pa_per_s = 0.0;
   else if (seen.muscle_pressure_Pa)
     state.side.valve_pressure_Pa = state.side.muscle_pressure_Pa = *seen.muscle_pressure_Pa;
-  rest_memories(rider, at_rest);
+  rest_memories(rider, at_rest, memories);
   if (plant.has_events())
     now.held.slip = state.joint.contraction_speed_per_s < 0.0 ? plant::Slip::falling : plant::Slip::rising;
   else

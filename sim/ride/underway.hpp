@@ -15,7 +15,8 @@ struct Underway {
   std::optional<double> muscle_pressure_Pa{};  ///< none: what the valve is asked for
 };
 
-/// Of a hanging load that has been started; its drive holds.
-void set_off(Rider& rider, const Underway& seen);
+/// Of a hanging load that has been started; its drive holds. `memories`: how far those of effects are from
+/// there, in their working sizes; nobody has seen what went before.
+void set_off(Rider& rider, const Underway& seen, double memories = 0.0);
 
 }  // namespace mckibben::ride

@@ -32,11 +32,15 @@ class Drives {
     const std::size_t stamps = measured_.time_s.size();
     const bool jumps = measured_.recorded.hold == Hold::previous && any_given(measured_);
     const bool ramps = measured_.recorded.hold == Hold::linear && any_command(measured_);
+    auto row = measured_.rows.begin();
     for (std::size_t k = 0; k < stamps; ++k) {
       const double now_s = measured_.time_s[k];
       if (jumps && k > 0)
         add(now_s - std::min(jump_s, 0.5 * (now_s - measured_.time_s[k - 1])), at(k - 1, k - 1, 0.0));
-      course_.rows.push_back(course_.time_s.size());
+      if (measured_.rows.empty() || (row != measured_.rows.end() && *row == k)) {
+        course_.rows.push_back(course_.time_s.size());
+        if (!measured_.rows.empty()) ++row;
+      }
       const std::size_t next = std::min(k + 1, stamps - 1);
       const double gap_s = measured_.time_s[next] - now_s;
       const double parts = ramps ? std::max(1.0, std::ceil(gap_s / rig_.tick_s)) : 1.0;

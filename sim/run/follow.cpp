@@ -48,7 +48,8 @@ class Following {
           recording_.samples.push_back(sample(k));
           ++row;
         }
-        if (!last) ride_.advance();
+        if (row == course_.rows.end()) break;
+        ride_.advance();
       }
     } catch (const engine::NumericalFailure& failure) {
       recording_.failure = failure.what();
@@ -64,7 +65,7 @@ class Following {
 
   /// Settled, or on its way; the counter goes along.
   void begin() {
-    for_first_stamp(ride_, course_, rig_, [&] { counter_.count(ride_.reading().wheel_m); });
+    for_first_stamp(ride_, course_, rig_, {}, [&] { counter_.count(ride_.reading().wheel_m); });
     ride_.open_ledger();
   }
 
@@ -134,13 +135,14 @@ class Following {
 }  // namespace
 
 void for_first_stamp(ride::Ride& ride, const Course& course, const plant::Rig& rig,
-                     const std::function<void()>& each_tick) {
+                     std::span<const double> memories, const std::function<void()>& each_tick) {
   const Drive& first = course.drives.front();
   const long ticks = course.begins ? 0 : std::lround(rig.settling_time_s / rig.tick_s);
   const auto before_s = [&](long k) { return course.time_s.front() - static_cast<double>(k) * rig.tick_s; };
   ride.start(first, before_s(ticks));
   if (course.begins)
-    for (std::size_t i = 0; i < ride.rigs(); ++i) ride::set_off(ride.rider(i), *course.begins);
+    for (std::size_t i = 0; i < ride.rigs(); ++i)
+      ride::set_off(ride.rider(i), *course.begins, memories.empty() ? 0.0 : memories[i]);
   for (long k = ticks; k > 0; --k) {
     ride.step(first, before_s(k - 1));
     each_tick();

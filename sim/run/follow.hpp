@@ -7,6 +7,7 @@
 #pragma once
 
 #include <functional>
+#include <span>
 
 #include <sim/domain/rig_file.hpp>
 #include <sim/run/course.hpp>
@@ -15,9 +16,9 @@
 namespace mckibben::run {
 
 /// Brings a ride to the first stamp: settled, in steps of a tick, or on its way. `each_tick` is called after
-/// each of these.
+/// each of these; `memories`: of each rig that is on its way, as ride::set_off has it.
 void for_first_stamp(
-    ride::Ride& ride, const Course& course, const plant::Rig& rig,
+    ride::Ride& ride, const Course& course, const plant::Rig& rig, std::span<const double> memories = {},
     const std::function<void()>& each_tick = [] {});
 
 /// A row for each stamp that has one. If the integrator gives up, the recording ends there and says why.

@@ -4,31 +4,42 @@
 
 #include <controllers/waveform.hpp>
 #include <sim/run/batch.hpp>
+#include <sim/run/follow.hpp>
 #include <sim/run/replay.hpp>
 #include <sim/run/simulate.hpp>
 
 namespace mckibben::run {
 namespace {
 
-ReplayedRun replay_one(const domain::Run& measured, const domain::RigFile& rig) {
-  ReplayedRun run{.id = measured.id, .load_kg = measured.load_kg};
+Recording recording_of(const domain::Run& measured, const domain::RigFile& rig) {
+  if (measured.measured) return follow(rig, measured.load_kg, course_of(*measured.measured, rig));
   controllers::RecordedCurrent recorded;
   recorded.samples_mA = measured.current_mA;
   const auto controller = recorded.make(knowledge_of(rig, {}));
-  run.recording = simulate({.rig = rig,
-                            .load_kg = measured.load_kg,
-                            .ticks = measured.current_mA.size(),
-                            .engine = rig.integrator,
-                            .keep_ledger = true},
-                           *controller);
+  return simulate({.rig = rig,
+                   .load_kg = measured.load_kg,
+                   .ticks = measured.current_mA.size(),
+                   .engine = rig.integrator,
+                   .keep_ledger = true},
+                  *controller);
+}
+
+/// What a row of the measurement would read: counts, or where its rows were made of stamps the load's place.
+double ratio_of(const Sample& sample, const domain::Run& measured, const domain::RigFile& rig) {
+  if (!measured.measured) return static_cast<double>(sample.counts) * contraction_per_count(rig);
+  return sample.state.joint.contraction_ratio * rig.muscle.rest_length_m / measured.rest_length_m;
+}
+
+ReplayedRun replay_one(const domain::Run& measured, const domain::RigFile& rig) {
+  ReplayedRun run{.id = measured.id, .load_kg = measured.load_kg};
+  run.recording = recording_of(measured, rig);
   run.failure = run.recording.failure;
   if (!run.failure.empty()) return run;
-  const double per_count = contraction_per_count(rig);
-  const auto rows = static_cast<double>(measured.current_mA.size());
+  const auto rows = static_cast<double>(measured.contraction_ratio.size());
   double squares = 0.0, sum = 0.0, pressure_squares = 0.0;
-  for (std::size_t k = 0; k < measured.current_mA.size(); ++k) {
+  for (std::size_t k = 0; k < measured.contraction_ratio.size(); ++k) {
     const auto& sample = run.recording.samples[k];
-    const double error = static_cast<double>(sample.counts) * per_count - measured.contraction_ratio[k];
+    const double error = ratio_of(sample, measured, rig) - measured.contraction_ratio[k];
     squares += error * error;
     sum += error;
     run.largest_error = std::max(run.largest_error, std::abs(error));

@@ -12,10 +12,11 @@ namespace mckibben::run {
 namespace {
 
 domain::Run beginning_of(domain::Run run, std::size_t rows) {
-  rows = std::min(rows, run.current_mA.size());
-  run.current_mA.resize(rows);
+  rows = std::min(rows, run.contraction_ratio.size());
+  if (!run.current_mA.empty()) run.current_mA.resize(rows);
   run.contraction_ratio.resize(rows);
   if (run.muscle_pressure_Pa) run.muscle_pressure_Pa->resize(rows);
+  if (run.measured) run.measured->rows.resize(rows);
   return run;
 }
 
@@ -43,11 +44,12 @@ std::vector<Expected> expected_of(const std::vector<ReplayedRun>& replayed) {
 Look look(const domain::Dataset& data) {
   const auto& [most_rows, most_rows_of_a_run] = sanity_thresholds.look;
   std::size_t rows = 0;
-  for (const domain::Run& run : data.runs) rows += std::min(run.current_mA.size(), most_rows_of_a_run);
+  for (const domain::Run& run : data.runs) rows += std::min(run.contraction_ratio.size(), most_rows_of_a_run);
   const std::size_t step = rows / most_rows + 1;
   domain::Dataset some;
   some.rig = data.rig;
   some.columns = data.columns;
+  some.own_clock = data.own_clock;
   for (std::size_t i = 0; i < data.runs.size(); i += step)
     some.runs.push_back(beginning_of(data.runs[i], most_rows_of_a_run));
   const auto replayed = replay(some, 0, [](const auto&, auto, auto) {});

@@ -1,8 +1,12 @@
-// The verb diagnose: what it refuses, and that it then leaves nothing behind.
+// The verb diagnose: what it refuses, and that it then leaves nothing behind; data with a clock of their own.
+#include <cmath>
 #include <filesystem>
+#include <sstream>
 #include <string>
 
 #include <gtest/gtest.h>
+
+#include <sim/input/json.hpp>
 
 #include "program.hpp"
 
@@ -50,6 +54,59 @@ TEST(Diagnose, WritesOverNothingThatItDidNotMake) {
   EXPECT_TRUE(std::filesystem::is_fifo(scratch / "p"));
   EXPECT_EQ(mckibben("diagnose data --rig nothing_like_it", scratch).status, 66);
   EXPECT_FALSE(std::filesystem::exists(scratch / "out"));
+}
+
+/// Stamps of its own, jittered, in ms; a pressure up and down.
+std::string given_pressure(int run) {
+  std::string table = "t,p,x\n";
+  for (int k = 0; k < 400; ++k)
+    table += std::to_string(5.0 * k + (k * 37 % 11) * 0.1) + ',' +
+             std::to_string(2.0 - (1.0 + 0.2 * run) * std::cos(0.03 * k)) + ",0\n";
+  return table;
+}
+
+TEST(Diagnose, TakesAGivenPressureAndALaser) {
+  const Scratch scratch;
+  std::string runs;
+  for (int run = 0; run < 3; ++run) {
+    const std::string id = "r" + std::to_string(run);
+    write_text(scratch / (id + ".csv"), given_pressure(run));
+    runs += "  - {id: " + id + ", file: " + id + ".csv, load: " + std::to_string(9 + 3 * run) + " kg}\n";
+  }
+  const std::string columns =
+      "columns:\n  time: {column: t, unit: ms}\n  muscle_pressure: {column: p, unit: bar, as: input}\n"
+      "  contraction: {column: x, unit: mm";
+  const std::string heading = "schema: mckibben-dataset/1\nrig: thesis\n" + columns;
+  write_text(scratch / "dataset.yaml", heading + "}\nruns:\n" + runs);
+  const Said simulated = mckibben("replay dataset.yaml --out truth", scratch);
+  ASSERT_EQ(simulated.status, 0) << simulated.err;
+  for (int run = 0; run < 3; ++run) {  // what it did is what the laser saw
+    const std::string file = "r" + std::to_string(run) + ".csv";
+    std::istringstream is(read_text(scratch / ("truth/" + file))), was(read_text(scratch / file));
+    std::string row, table, line;
+    std::getline(is, row);
+    std::getline(was, line);
+    table = line + '\n';
+    for (int k = 0; std::getline(is, row) && std::getline(was, line); ++k) {
+      const double ratio =
+          std::stod(row.substr(row.find(',') + 1)) + 1e-4 * ((k * 61 % 17) / 8.0 - 1.0);
+      table += line.substr(0, line.rfind(',')) + ',' + std::to_string(412.5 - 300.0 * ratio) + '\n';
+    }
+    write_text(scratch / file, table);
+  }
+  write_text(scratch / "dataset.yaml",
+             heading + ", zero: 412.5, factor: -1}\nstart: moving\nskip: 0.1 s\nruns:\n" + runs);
+  const Said checked = mckibben("check dataset.yaml", scratch);
+  EXPECT_EQ(checked.status, 0) << checked.err;
+  const Said said = mckibben("diagnose dataset.yaml --out found", scratch);
+  ASSERT_EQ(said.status, 0) << said.err;
+  const auto document = input::Json::parse(read_text(scratch / "found/diagnosis.json"));
+  EXPECT_EQ(document.at("verdict"), "nothing_missing") << document.at("because");
+  EXPECT_EQ(document.at("rows").at("stamps"), 1200);
+  EXPECT_FALSE(document.at("recalibrated").contains("valve_conductance"));
+  EXPECT_NE(document.at("warnings").dump().find("out of sight"), std::string::npos);
+  for (const auto& one : document.at("ranking")) EXPECT_NE(one.at("name"), "muscle_leak");
+  EXPECT_NE(read_text(scratch / "found/report.html").find("out of sight"), std::string::npos);
 }
 
 }  // namespace

@@ -1,0 +1,373 @@
+// Averages over neighbours, run by run; see the header.
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <random>
+#include <span>
+#include <utility>
+
+#include <Eigen/LU>
+
+#include <sim/run/course.hpp>
+#include <sim/run/judged.hpp>
+#include <sim/run/series.hpp>
+
+namespace mckibben::run {
+namespace {
+
+using domain::Measurement, domain::Rows;
+
+constexpr double even_row_s = 0.012;      // no load bends within half of it by what a sensor could show
+constexpr double enough_readings = 6.0;   // in a row, to be averaged
+constexpr std::size_t quarters = 4;       // of a row, in which inputs are followed
+constexpr double straight = 5e-3;         // of an input's range: it neither jumps nor bends by less
+constexpr double outlying = 6.0;          // deviations
+constexpr double normal_median = 0.6745;  // of the size of a normal variable. Derived
+constexpr double steps_that_are_whole = 0.95, whole = 0.05;
+
+double median_gap_s(const std::vector<double>& time_s) {
+  std::vector<double> gaps;
+  for (std::size_t k = 1; k < time_s.size(); ++k) gaps.push_back(time_s[k] - time_s[k - 1]);
+  return gaps.empty() ? even_row_s : upper_median(std::move(gaps));
+}
+
+/// What the readings near an instant say together.
+struct Together {
+  double value = std::nan("");
+  double gain = 0.0;     ///< of their noise's variance
+  double squares = 0.0;  ///< left of the parabola, for each reading beyond three
+  double worst = 0.0;    ///< that is left of one
+  std::size_t readings = 0;
+};
+
+class Column {
+ public:
+  Column(const std::vector<double>& time_s, const std::vector<double>& values)
+      : time_s_(time_s), values_(values) {}
+
+  Together near(double at_s, double half_s) const {
+    Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
+    Eigen::Vector3d right = Eigen::Vector3d::Zero();
+    Together result;
+    const auto first = static_cast<std::size_t>(
+        std::lower_bound(time_s_.begin(), time_s_.end(), at_s - half_s) - time_s_.begin());
+    const auto each = [&](const auto& visit) {
+      for (std::size_t k = first; k < time_s_.size() && time_s_[k] <= at_s + half_s; ++k) {
+        const double x = (time_s_[k] - at_s) / half_s;
+        if (!std::isnan(values_[k])) visit(Eigen::Vector3d(1.0, x, x * x), values_[k]);
+      }
+    };
+    each([&](const Eigen::Vector3d& powers, double value) {
+      normal += powers * powers.transpose();
+      right += powers * value;
+      ++result.readings;
+    });
+    if (result.readings < 4) return result;
+    const Eigen::Matrix3d inverse = normal.inverse();
+    const Eigen::Vector3d fitted = inverse * right;
+    result.value = fitted[0];
+    result.gain = inverse(0, 0);
+    each([&](const Eigen::Vector3d& powers, double value) {
+      const double left = value - powers.dot(fitted);
+      result.squares += left * left / static_cast<double>(result.readings - 3);
+      result.worst = std::max(result.worst, std::abs(left));
+    });
+    return result;
+  }
+
+  /// The last value at an instant, and what it is on average until another: held or straight from stamp to
+  /// stamp.
+  double mean(double from_s, double to_s, bool linear) const {
+    auto k =
+        static_cast<std::size_t>(std::upper_bound(time_s_.begin(), time_s_.end(), from_s) - time_s_.begin());
+    k = k > 0 ? k - 1 : 0;
+    double sum = 0.0;
+    for (double at_s = from_s; at_s < to_s; ++k) {
+      const double until_s = k + 1 < time_s_.size() ? std::min(time_s_[k + 1], to_s) : to_s;
+      sum += (linear ? between(k, 0.5 * (at_s + until_s)) : values_[k]) * (until_s - at_s);
+      at_s = until_s;
+    }
+    return sum / (to_s - from_s);
+  }
+
+  /// Straight between stamps.
+  double between(std::size_t k, double at_s) const {
+    if (k + 1 >= values_.size()) return values_[k];
+    const double share = (at_s - time_s_[k]) / (time_s_[k + 1] - time_s_[k]);
+    return std::lerp(values_[k], values_[k + 1], std::clamp(share, 0.0, 1.0));
+  }
+
+  /// Stamps strictly between two instants.
+  std::span<const double> stamps(double from_s, double to_s) const {
+    const auto first = std::upper_bound(time_s_.begin(), time_s_.end(), from_s);
+    const auto last = std::lower_bound(first, time_s_.end(), to_s);
+    return {first, last};
+  }
+  double operator[](std::size_t k) const { return values_[k]; }
+  std::size_t size() const { return values_.size(); }
+  std::size_t last_before(double at_s) const {
+    const auto after = std::upper_bound(time_s_.begin(), time_s_.end(), at_s);
+    return after == time_s_.begin() ? 0 : static_cast<std::size_t>(after - time_s_.begin()) - 1;
+  }
+
+ private:
+  const std::vector<double>&time_s_, &values_;
+};
+
+double range_of(const std::vector<double>& values) {
+  const auto [low, high] = std::minmax_element(values.begin(), values.end());
+  return values.empty() ? 0.0 : *high - *low;
+}
+
+/// Noise of single readings from what is left of parabolas; the median is blind to jumps.
+double noise_of(const std::vector<double>& squares) {
+  return squares.empty() ? 0.0 : std::sqrt(upper_median(squares));
+}
+
+/// White noise of readings that come slowly, from their fourth differences.
+double slow_noise(const std::vector<double>& v) {
+  std::vector<double> fourth;
+  for (std::size_t k = 4; k < v.size(); ++k)
+    if (const double d = v[k] - 4.0 * v[k - 1] + 6.0 * v[k - 2] - 4.0 * v[k - 3] + v[k - 4]; !std::isnan(d))
+      fourth.push_back(std::abs(d));
+  return fourth.empty() ? 0.0 : upper_median(std::move(fourth)) / normal_median / std::sqrt(70.0);
+}
+
+/// The step that readings are rounded to; 0 if they are to none.
+double step_of(const std::vector<double>& values) {
+  std::vector<double> moves;
+  double least = 0.0;
+  for (std::size_t k = 1; k < values.size(); ++k) {
+    const double move = std::abs(values[k] - values[k - 1]);
+    if (std::isnan(move) || move < 1e-12) continue;
+    moves.push_back(move);
+    least = least == 0.0 ? move : std::min(least, move);
+  }
+  const auto is_whole = [least](double move) {
+    return std::abs(move / least - std::round(move / least)) < whole * std::max(1.0, move / least * 1e-3);
+  };
+  const auto many = static_cast<double>(std::count_if(moves.begin(), moves.end(), is_whole));
+  return least > 0.0 && many >= steps_that_are_whole * static_cast<double>(moves.size()) ? least : 0.0;
+}
+
+/// One run: its rows, and the stamps that drive it.
+class Judging {
+ public:
+  Judging(domain::Run& run, double row_s, std::size_t seed)
+      : run_(run), raw_(*run.measured), row_s_(row_s), random_(seed) {}
+
+  void operator()() {
+    if (raw_.recorded.start == domain::Start::moving) raw_.first = first_state(raw_);
+    fast_ = row_s_ / median_gap_s(raw_.time_s) >= enough_readings && !raw_.counted;
+    Measurement driving = fast_ ? thinned() : as_recorded();
+    judge(driving);
+    shake(driving);
+    run_.measured = std::move(driving);
+  }
+
+  std::vector<double> ratio_squares{}, pressure_squares{};  ///< of single readings, a value for each row
+  double gain_sum = 0.0, readings_sum = 0.0, given_noise_Pa = 0.0, ratio_step = 0.0;
+  bool fast() const { return fast_; }
+
+ private:
+  double end_s() const { return raw_.time_s.back(); }
+  double begin_s() const { return raw_.time_s.front(); }
+
+  /// Without what is only read.
+  Measurement bare() const {
+    Measurement bare;
+    bare.recorded = raw_.recorded;
+    bare.first = raw_.first;
+    bare.counted = raw_.counted;
+    bare.sides[0].pressure_is_given = raw_.sides[0].pressure_is_given;
+    return bare;
+  }
+
+  Measurement as_recorded() const {
+    Measurement same = bare();
+    same.time_s = raw_.time_s;
+    same.sides[0].current_mA = raw_.sides[0].current_mA;
+    if (same.sides[0].pressure_is_given) same.sides[0].muscle_pressure_Pa = raw_.sides[0].muscle_pressure_Pa;
+    double last_s = begin_s() + raw_.recorded.skip_s - row_s_;
+    for (std::size_t k = 0; k < raw_.time_s.size(); ++k) {
+      const bool counts_each = !raw_.counted || raw_.time_s[k] - last_s >= 0.999 * row_s_;
+      if (raw_.time_s[k] - begin_s() < raw_.recorded.skip_s || !counts_each) continue;
+      last_s = raw_.time_s[k];
+      same.rows.push_back(k);
+    }
+    return same;
+  }
+
+  Measurement thinned() {
+    Measurement thin = bare();
+    if (!thin.sides[0].pressure_is_given) thin.recorded.hold = domain::Hold::usual;  // means are held
+    const double quarter_s = row_s_ / static_cast<double>(quarters);
+    const auto skipped = static_cast<std::size_t>(std::ceil(raw_.recorded.skip_s / row_s_ - 1e-9));
+    const auto rows = static_cast<std::size_t>(std::floor((end_s() - begin_s()) / row_s_));
+    for (std::size_t j = 0; j <= rows * quarters; ++j) {
+      const double now_s = begin_s() + static_cast<double>(j) * quarter_s;
+      if (j % quarters == quarters / 2 && j / quarters >= skipped) thin.rows.push_back(thin.time_s.size());
+      if (thin.sides[0].pressure_is_given)
+        give(thin, now_s, now_s + quarter_s);
+      else
+        command(thin, now_s, now_s + quarter_s);
+    }
+    return thin;
+  }
+
+  void command(Measurement& thin, double from_s, double to_s) const {
+    const auto& values = raw_.sides[0].current_mA;
+    const Column column(raw_.time_s, values);
+    const bool linear = raw_.recorded.hold == domain::Hold::linear;
+    const auto put = [&](double a_s, double b_s) {
+      thin.time_s.push_back(a_s);
+      thin.sides[0].current_mA.push_back(column.mean(a_s, b_s, linear));
+    };
+    const std::size_t first = column.last_before(from_s), last = column.last_before(to_s);
+    double bend = 0.0;
+    for (std::size_t k = first; k <= last; ++k) {
+      const double share =
+          last > first ? static_cast<double>(k - first) / static_cast<double>(last - first) : 0.0;
+      bend = std::max(bend, std::abs(column[k] - std::lerp(column[first], column[last], share)));
+      if (k > first) bend = std::max(bend, 0.5 * std::abs(column[k] - column[k - 1]));
+    }
+    double at_s = from_s;
+    if (bend > straight * range_of(values))
+      for (const double stamp_s : column.stamps(from_s, to_s)) put(std::exchange(at_s, stamp_s), stamp_s);
+    put(at_s, to_s);
+  }
+
+  void give(Measurement& thin, double from_s, double to_s) {
+    const auto& values = raw_.sides[0].muscle_pressure_Pa;
+    const Column column(raw_.time_s, values);
+    const Together here = column.near(from_s, 0.5 * row_s_);
+    auto& given = thin.sides[0].muscle_pressure_Pa;
+    const bool jumps =
+        here.worst > std::max(straight * range_of(values), outlying * std::sqrt(here.squares)) ||
+        std::isnan(here.value);
+    thin.time_s.push_back(from_s);
+    given.push_back(jumps ? column.between(column.last_before(from_s), from_s) : here.value);
+    if (!jumps) return;
+    for (const double stamp_s : column.stamps(from_s, to_s)) {
+      thin.time_s.push_back(stamp_s);
+      given.push_back(column[column.last_before(stamp_s)]);
+    }
+  }
+
+  /// What the readings say at each row.
+  void judge(const Measurement& driving) {
+    const auto& pressures = raw_.sides[0].muscle_pressure_Pa;
+    const bool gauge = !pressures.empty() && !raw_.sides[0].pressure_is_given;
+    const Column ratio(raw_.time_s, raw_.contraction_ratio), pressure(raw_.time_s, pressures);
+    if (gauge) run_.muscle_pressure_Pa.emplace();
+    for (const std::size_t stamp : driving.rows) {
+      const double at_s = driving.time_s[stamp];
+      const auto read = [&](const Column& column, std::vector<double>& squares) {
+        if (!fast_) return Together{.value = column[stamp], .gain = 1.0, .readings = 1};
+        const Together all = column.near(at_s, 0.5 * row_s_);
+        if (!std::isnan(all.value)) squares.push_back(all.squares);
+        return all;
+      };
+      const Together e = read(ratio, ratio_squares);
+      Together p{.value = 0.0};
+      if (gauge) p = read(pressure, pressure_squares);
+      run_.missing.push_back(std::isnan(e.value) || std::isnan(p.value));
+      run_.time_s.push_back(at_s - begin_s());
+      run_.contraction_ratio.push_back(e.value);
+      if (gauge) run_.muscle_pressure_Pa->push_back(p.value);
+      if (!driving.sides[0].current_mA.empty()) run_.current_mA.push_back(driving.sides[0].current_mA[stamp]);
+      gain_sum += e.gain;
+      readings_sum += static_cast<double>(e.readings);
+    }
+    fill(run_.contraction_ratio);
+    if (gauge) fill(*run_.muscle_pressure_Pa);
+    ratio_step = step_of(raw_.contraction_ratio);
+    if (!fast_) {
+      ratio_squares = {std::pow(slow_noise(raw_.contraction_ratio), 2)};
+      pressure_squares = {std::pow(slow_noise(pressures), 2)};
+    }
+  }
+
+  /// Straight over readings that are missing: nothing goes by them.
+  static void fill(std::vector<double>& values) {
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      if (!std::isnan(values[k])) continue;
+      std::size_t next = k;
+      while (next < values.size() && std::isnan(values[next])) ++next;
+      const double before = k > 0 ? values[k - 1] : next < values.size() ? values[next] : 0.0;
+      const double after = next < values.size() ? values[next] : before;
+      for (std::size_t at = k; at < next; ++at)
+        values[at] =
+            std::lerp(before, after, static_cast<double>(at - k + 1) / static_cast<double>(next - k + 1));
+    }
+  }
+
+  /// As much noise as a given pressure has, once more on it.
+  void shake(const Measurement& driving) {
+    if (!driving.sides[0].pressure_is_given) return;
+    auto& readings = raw_.sides[0].muscle_pressure_Pa;
+    const Column column(raw_.time_s, readings);
+    std::vector<double> squares;
+    if (fast_)
+      for (const std::size_t stamp : driving.rows)
+        squares.push_back(column.near(driving.time_s[stamp], 0.5 * row_s_).squares);
+    given_noise_Pa = fast_ ? noise_of(squares) : slow_noise(readings);
+    std::normal_distribution<double> noise(0.0, given_noise_Pa);
+    for (double& reading : readings) reading += noise(random_);
+    run_.shaken = driving;
+    auto& shaken = run_.shaken->sides[0].muscle_pressure_Pa;
+    for (std::size_t k = 0; k < driving.time_s.size(); ++k) {
+      const double at_s = driving.time_s[k];
+      const Together here = column.near(at_s, 0.5 * row_s_);
+      shaken[k] =
+          fast_ && !std::isnan(here.value) ? here.value : column.between(column.last_before(at_s), at_s);
+    }
+  }
+
+  domain::Run& run_;
+  Measurement raw_;
+  double row_s_;
+  std::mt19937_64 random_;
+  bool fast_ = false;
+};
+
+/// Between the rows of the whole data set.
+double row_s_of(const domain::Dataset& data) {
+  double slowest_s = 0.0;
+  for (const domain::Run& run : data.runs)
+    slowest_s = std::max(slowest_s, median_gap_s(run.measured->time_s));
+  return slowest_s * enough_readings > even_row_s ? slowest_s : even_row_s;
+}
+
+}  // namespace
+
+domain::Dataset with_rows(domain::Dataset data) {
+  if (!data.own_clock || data.rows_of_stamps) return data;
+  Rows rows{.row_s = row_s_of(data), .readings = 0.0};
+  std::vector<double> ratio_squares, pressure_squares;
+  double gain = 0.0;
+  for (std::size_t i = 0; i < data.runs.size(); ++i) {
+    domain::Run& run = data.runs[i];
+    rows.stamps += run.measured->time_s.size();
+    Judging judging(run, rows.row_s, i + 1);
+    judging();
+    rows.rows += run.contraction_ratio.size();
+    rows.inputs += run.measured->time_s.size();
+    rows.readings += judging.readings_sum;
+    gain += judging.gain_sum;
+    ratio_squares.insert(ratio_squares.end(), judging.ratio_squares.begin(), judging.ratio_squares.end());
+    pressure_squares.insert(pressure_squares.end(), judging.pressure_squares.begin(),
+                            judging.pressure_squares.end());
+    rows.given_noise_Pa = std::max(rows.given_noise_Pa, judging.given_noise_Pa);
+    rows.ratio_step = std::max(rows.ratio_step, judging.ratio_step);
+    rows.smoothed = rows.smoothed || (judging.fast() && run.shaken);
+  }
+  const double all = static_cast<double>(std::max<std::size_t>(rows.rows, 1));
+  rows.readings /= all;
+  rows.ratio_noise = noise_of(ratio_squares) * std::sqrt(gain / all);
+  rows.pressure_noise_Pa = noise_of(pressure_squares) * std::sqrt(gain / all);
+  data.rows_of_stamps = rows;
+  return data;
+}
+
+}  // namespace mckibben::run

@@ -1,0 +1,18 @@
+// Rows to be judged, of runs with a clock of their own: a recorder at 1 kHz says more often what is no news.
+//
+// Where readings come fast, there is a row each 12 ms: a parabola through the readings within half a row
+// (least squares; Savitzky & Golay, Analytical Chemistry 36 (1964) 1627-1639) tells what they say together at
+// its instant, and what they scatter by. The simulation follows the inputs in quarters of that: a command at
+// its mean, a given pressure smoothed alike. Where an input jumps or bends in between, every stamp is kept.
+// Where readings come slowly, rows are the stamps, and nothing is smoothed.
+#pragma once
+
+#include <sim/domain/dataset.hpp>
+
+namespace mckibben::run {
+
+/// The runs with their rows, what is skipped left out. Of one muscle with a hanging load; data with a row
+/// each tick are what they are.
+domain::Dataset with_rows(domain::Dataset data);
+
+}  // namespace mckibben::run

@@ -1,0 +1,80 @@
+// Runs that began on their way: what effects remember of before is fitted, and not charged to the rig; and
+// what a given pressure leaves to be seen.
+#include <algorithm>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include <sim/diagnose/experiment.hpp>
+#include <sim/diagnose/held_out.hpp>
+
+namespace mckibben::diagnose {
+namespace {
+
+/// A muscle under a given pressure, whose creep was 12 mm from rest when the recording began.
+domain::Dataset begun_on_its_way(plant::Rig& creeping) {
+  auto& creep = creeping.effects.get<plant::BladderCreep>();
+  creep.stiffness_N_per_m = 300.0;
+  creep.time_s = 2.0;
+  domain::Dataset data;
+  data.own_clock = true;
+  data.recorded.start = domain::Start::moving;
+  data.rows_of_stamps = domain::Rows{.row_s = 0.02};
+  domain::Run& run = data.runs.emplace_back();
+  run.load_kg = 12.0;
+  run.rest_length_m = data.rig.muscle.rest_length_m;
+  domain::Measurement& measured = run.measured.emplace();
+  measured.recorded = data.recorded;
+  measured.sides[0].pressure_is_given = true;
+  measured.first = {0.19, 0.0, 0.0, {}};
+  for (int k = 0; k < 150; ++k) {
+    measured.time_s.push_back(0.02 * k);
+    measured.sides[0].muscle_pressure_Pa.push_back(2e5 - 5e4 * std::cos(0.1 * k));
+  }
+  for (std::size_t k = 15; k < 150; ++k) measured.rows.push_back(k);
+  const Hanging hanging{creeping, run.load_kg};
+  const double memory = 0.12;
+  run.contraction_ratio =
+      predict(run, {&hanging, 1}, solver::Method::automatic, {&memory, 1}).front().contraction_ratio;
+  return data;
+}
+
+TEST(Underway, WhatAnEffectRemembersIsFittedAndNotCharged) {
+  plant::Rig creeping;
+  const domain::Dataset data = begun_on_its_way(creeping);
+  const Experiment experiment(data, {std::vector<bool>(data.runs[0].contraction_ratio.size())}, 1);
+  EXPECT_LT(excess(experiment.residuals(creeping, {0})), 0.0);  // within the floor
+  const Hanging hanging{creeping, 12.0};
+  EXPECT_GT(excess(experiment.residuals(predict(data.runs[0], {&hanging, 1}).front(), 0)), 100.0);
+
+  // A wrong rig stays wrong, and is told by its slope.
+  plant::Rig stiffer = creeping;
+  stiffer.effects.get<plant::BladderCreep>().stiffness_N_per_m = 320.0;
+  EXPECT_GT(excess(experiment.residuals(stiffer, {0})), 0.5);
+  const Candidate creep = [] {
+    const auto all = catalogue();
+    return *std::find_if(all.begin(), all.end(),
+                         [](const Candidate& c) { return c.effect == plant::BladderCreep::name; });
+  }();
+  const auto size = creep.parameters(stiffer).front();
+  const auto lines = experiment.slopes(stiffer, std::span(&size, 1), {0});
+  const Eigen::VectorXd column = lines.columns.col(0);
+  const double step = column.dot(lines.residuals) / column.squaredNorm() * size.scale;
+  EXPECT_NEAR(step, -20.0, 4.0);
+}
+
+TEST(Underway, AGivenPressureLeavesValveHoseAndGasOutOfSight) {
+  const auto all = catalogue(), seen = catalogue(true);
+  const auto names = effects_out_of_sight();
+  EXPECT_EQ(names.size(), 6u);
+  EXPECT_EQ(seen.size() + names.size(), all.size());  // each of them has one law
+  for (const Candidate& c : seen) EXPECT_EQ(std::count(names.begin(), names.end(), c.effect), 0) << c.effect;
+  EXPECT_EQ(std::count(names.begin(), names.end(), plant::MuscleLeak::name), 1);
+  for (const Parameter& p : nominal_parameters({}))
+    EXPECT_EQ(out_of_sight(p),
+              p.path.starts_with("valve") || p.path.starts_with("hose") || p.path == "muscle.dead_volume")
+        << p.path;
+}
+
+}  // namespace
+}  // namespace mckibben::diagnose

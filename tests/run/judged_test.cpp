@@ -1,0 +1,136 @@
+// Rows of runs with a clock of their own: what fast readings say together, which inputs are kept, and that
+// slow ones stay as they are.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include <sim/run/follow.hpp>
+#include <sim/run/judged.hpp>
+
+namespace mckibben::run {
+namespace {
+
+constexpr double noise_ratio = 1e-4, noise_Pa = 400.0;
+
+double truth(double time_s) {
+  return 0.1 + 0.05 * std::sin(2.0 * std::numbers::pi * time_s);
+}
+double pressure_Pa(double time_s) {
+  return 2e5 + 1e5 * std::sin(2.0 * std::numbers::pi * time_s);
+}
+
+/// Two seconds at about so many stamps a second.
+domain::Dataset recorded(double per_s, bool given) {
+  std::mt19937_64 random(3);
+  std::normal_distribution<double> normal;
+  std::uniform_real_distribution<double> jitter(-0.2, 0.2);
+  domain::Dataset data;
+  data.own_clock = true;
+  domain::Run& run = data.runs.emplace_back();
+  run.load_kg = 12.0;
+  run.rest_length_m = data.rig.muscle.rest_length_m;
+  domain::Measurement& measured = run.measured.emplace();
+  domain::Measurement::Side& side = measured.sides[0];
+  side.pressure_is_given = given;
+  for (double k = 0.0; k < 2.0 * per_s; k += 1.0) {
+    const double at_s = 7.0 + (k + jitter(random)) / per_s;
+    measured.time_s.push_back(at_s);
+    measured.contraction_ratio.push_back(truth(at_s) + noise_ratio * normal(random));
+    if (given)
+      side.muscle_pressure_Pa.push_back(pressure_Pa(at_s) + noise_Pa * normal(random));
+    else
+      side.current_mA.push_back(at_s < 8.0007 ? 6.0 + at_s : 18.0);
+  }
+  return data;
+}
+
+TEST(Judged, RowsSayWhatReadingsSayTogether) {
+  domain::Dataset data = recorded(1000.0, false);
+  auto& ratio = data.runs[0].measured->contraction_ratio;
+  std::fill(ratio.begin() + 500, ratio.begin() + 540, std::nan(""));
+  data.recorded.skip_s = data.runs[0].measured->recorded.skip_s = 0.3;
+  data = with_rows(std::move(data));
+  const domain::Run& run = data.runs[0];
+  const domain::Rows& rows = *data.rows_of_stamps;
+  EXPECT_EQ(rows.row_s, 0.012);
+  EXPECT_EQ(rows.stamps, 2000u);
+  ASSERT_EQ(run.contraction_ratio.size(), run.time_s.size());
+  ASSERT_EQ(run.current_mA.size(), run.time_s.size());
+  EXPECT_NEAR(static_cast<double>(rows.rows), 1.7 / 0.012, 2.0);
+  EXPECT_GE(run.time_s.front(), 0.3);
+  EXPECT_NEAR(rows.ratio_noise, noise_ratio * std::sqrt(9.0 / 4.0 / 12.0), 0.2 * rows.ratio_noise);
+  EXPECT_GE(std::count(run.missing.begin(), run.missing.end(), true), 2);
+  EXPECT_LE(std::count(run.missing.begin(), run.missing.end(), true), 4);
+  for (std::size_t k = 0; k < run.time_s.size(); ++k) {
+    ASSERT_TRUE(std::isfinite(run.contraction_ratio[k]));
+    if (run.missing[k]) continue;
+    EXPECT_NEAR(run.contraction_ratio[k], truth(run.measured->time_s.front() + run.time_s[k]),
+                5.0 * rows.ratio_noise);
+  }
+}
+
+TEST(Judged, AJumpOfTheCommandKeepsItsStamp) {
+  domain::Dataset data = recorded(1000.0, false);
+  const domain::Measurement raw = *data.runs[0].measured;
+  const auto jump = std::find(raw.sides[0].current_mA.begin(), raw.sides[0].current_mA.end(), 18.0);
+  const double jump_s = raw.time_s[static_cast<std::size_t>(jump - raw.sides[0].current_mA.begin())];
+  data = with_rows(std::move(data));
+  const domain::Measurement& driving = *data.runs[0].measured;
+  EXPECT_LT(driving.time_s.size(), 700u);
+  const auto kept = std::find(driving.time_s.begin(), driving.time_s.end(), jump_s);
+  ASSERT_NE(kept, driving.time_s.end());
+  const auto at = static_cast<std::size_t>(kept - driving.time_s.begin());
+  EXPECT_EQ(driving.sides[0].current_mA[at], 18.0);
+  EXPECT_LT(driving.sides[0].current_mA[at - 1], 14.1);
+
+  // What the load does is what it does from stamp to stamp.
+  const auto end_of = [&](const domain::Measurement& measured) {
+    return follow(data.rig, 12.0, course_of(measured, data.rig)).samples.back();
+  };
+  domain::Measurement whole = raw;
+  whole.rows = {static_cast<std::size_t>(
+      std::lower_bound(raw.time_s.begin(), raw.time_s.end(), driving.time_s[driving.rows.back()]) -
+      raw.time_s.begin())};
+  const Sample rough = end_of(driving), exact = end_of(whole);
+  EXPECT_NEAR(rough.state.joint.contraction_ratio, exact.state.joint.contraction_ratio, 2e-5);
+  EXPECT_GT(exact.state.joint.contraction_ratio, 0.1);
+}
+
+TEST(Judged, AGivenPressureIsSmoothedWhereItIsReadFast) {
+  const domain::Dataset data = with_rows(recorded(1000.0, true));
+  const domain::Measurement& driving = *data.runs[0].measured;
+  EXPECT_TRUE(data.rows_of_stamps->smoothed);
+  EXPECT_TRUE(data.pressure_is_given());
+  EXPECT_NEAR(data.rows_of_stamps->given_noise_Pa, noise_Pa, 0.1 * noise_Pa);
+  double squares = 0.0, shaken = 0.0;
+  for (std::size_t k = 0; k < driving.time_s.size(); ++k) {
+    const double given_Pa = driving.sides[0].muscle_pressure_Pa[k];
+    squares += std::pow(given_Pa - pressure_Pa(driving.time_s[k]), 2);
+    shaken += std::pow(given_Pa - data.runs[0].shaken->sides[0].muscle_pressure_Pa[k], 2);
+  }
+  const auto rms = [&](double sum) { return std::sqrt(sum / static_cast<double>(driving.time_s.size())); };
+  EXPECT_LT(rms(squares), 0.6 * noise_Pa);
+  EXPECT_NEAR(rms(shaken), rms(squares), 0.2 * rms(squares));  // as much again
+}
+
+TEST(Judged, SlowReadingsStayAsTheyAre) {
+  const domain::Dataset raw = recorded(50.0, true), data = with_rows(raw);
+  EXPECT_FALSE(data.rows_of_stamps->smoothed);
+  EXPECT_EQ(data.runs[0].contraction_ratio, raw.runs[0].measured->contraction_ratio);
+  EXPECT_EQ(data.runs[0].measured->time_s, raw.runs[0].measured->time_s);
+  EXPECT_NEAR(data.row_s(), 0.02, 0.002);
+  EXPECT_EQ(with_rows(data).runs[0].contraction_ratio, data.runs[0].contraction_ratio);  // once is enough
+}
+
+TEST(Judged, ARowEachTickIsWhatItIs) {
+  domain::Dataset data;
+  data.runs.emplace_back().contraction_ratio = {0.1, 0.2};
+  EXPECT_FALSE(with_rows(data).rows_of_stamps);
+  EXPECT_EQ(data.row_s(), data.rig.tick_s);
+}
+
+}  // namespace
+}  // namespace mckibben::run
