@@ -158,13 +158,11 @@ void SideOf<P>::gas_balance(const Stroke<S>& stroke, const SideState<S>& state, 
                             const HeldSideOf<P>& held, SideMoment<S>& now) const {
   const S& e = stroke.contraction_ratio;
   now.speed_m_per_s = braid_.rest_length_m() * stroke.speed_per_s;
-  if (!held.pressure_rate_Pa_per_s) valve_flows(state, memory, held, now);
-
   now.volume_m3 = braid_.volume_m3(e);
   now.volume_slope_m3 = braid_.volume_slope_m3(e);
-
   now.leak_flow = S(0.0);
   if (effects_) now.leak_flow = rig_.effects.outflow_kg_per_s(instant(stroke, state, now));
+
   if (held.pressure_rate_Pa_per_s) {  // whatever keeps the pressure brings the gas that this takes
     const S muscle_Pa = state.muscle_pressure_Pa + rig_.gas.atmosphere_Pa;
     const P n = effects_ ? rig_.effects.gas_exponent() : P(1.0);
@@ -174,6 +172,8 @@ void SideOf<P>::gas_balance(const Stroke<S>& stroke, const SideState<S>& state, 
                         gas_energy_J_per_kg_ +
                     now.leak_flow;
     now.supply_flow = now.hose_flow;
+  } else {
+    valve_flows(state, memory, held, now);
   }
 }
 

@@ -26,7 +26,7 @@ Contender replay(const Case& c) {
   Contender nominal;
   nominal.held_out = c.experiment.residuals(c.nominal, c.split.held_out);
   Fitted& fitted = nominal.fitted;
-  fitted.model = {c.nominal, nominal_parameters(c.nominal)};
+  fitted.model = {c.nominal, nominal_parameters(c.nominal, c.experiment.data().rig.spreads)};
   auto slopes = c.experiment.slopes(c.nominal, fitted.model.free, c.split.training);
   fitted.residuals = std::move(slopes.residuals);
   fitted.columns = std::move(slopes.columns);

@@ -243,6 +243,10 @@ class Workflow {
         intervals(experiment_, whole, failed ? case_.split.training : usable_, chosen_inflation_);
     tell_parameters(result_, whole.model, bounds, recalibrated_.fitted.model.rig);
     static_cast<plant::Rig&>(result_.corrected) = whole.model.rig;
+    for (std::size_t j = 0; j < bounds.size(); ++j)  // as well as these runs tell it, where the file told it
+      if (const auto stated = result_.corrected.spreads.find(whole.model.free[j].path);
+          stated != result_.corrected.spreads.end())
+        stated->second = 0.5 * (bounds[j].high - bounds[j].low) / thresholds.interval.normal;
     for (const Moved& moved : result_.recalibrated)
       if (std::abs(moved.deviations) >
               thresholds.parameter.at_the_edge * thresholds.parameter.most_deviations &&

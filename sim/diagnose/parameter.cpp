@@ -1,7 +1,9 @@
 // Parameters by path; see the header. The field lists of the plant are walked with the path as a guide.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <concepts>
+#include <optional>
 #include <stdexcept>
 #include <tuple>
 #include <type_traits>
@@ -88,38 +90,84 @@ double value_of(const plant::Rig& rig, std::string_view path) {
   return *find(copy, path).value;
 }
 
-std::vector<Parameter> nominal_parameters(const plant::Rig& nominal) {
-  const double most_deviations = thresholds.parameter.most_deviations;
+namespace {
+
+using Stated = domain::Spreads;
+
+/// The deviation that a rig's file states, of a value; none if it says nothing.
+std::optional<double> deviation_of(const Stated& stated, std::string_view path, double value, double usual) {
+  const auto said = stated.find(std::string(path));
+  if (said == stated.end()) return std::nullopt;
+  if (std::isfinite(said->second)) return said->second;
+  return std::max(thresholds.parameter.unknown * std::abs(value), thresholds.parameter.unknown_usual * usual);
+}
+
+/// A number of the rig, normal round its value.
+Parameter normal(const std::string& path, const Found& found, double deviation) {
+  const double most = thresholds.parameter.most_deviations * deviation;
+  return {.path = path,
+          .origin = *found.value,
+          .scale = deviation,
+          .step = thresholds.parameter.step * deviation,
+          .lowest = std::max(found.lowest, *found.value - most),
+          .highest = std::min(found.highest, *found.value + most),
+          .has_prior = true};
+}
+
+/// What somebody has put there: its size is a guess, good within a factor of a few, if nothing is stated.
+Parameter size_of(const Candidate& candidate, Parameter p, const plant::Rig& nominal, const Stated& stated) {
+  p.origin = value_of(nominal, p.path);
+  const double size = p.origin - (p.path == candidate.amplitude ? candidate.absent : 0.0);
+  p.scale = std::abs(size);
+  if (p.logarithmic)
+    p.step *= p.scale;
+  else
+    p.scale = std::max(p.scale, std::abs(candidate.typical));
+  p.scale = deviation_of(stated, p.path, p.origin, p.scale).value_or(p.scale);
+  p.logarithmic = false;
+  p.has_prior = true;
+  const double most = thresholds.parameter.most_deviations * p.scale;
+  p.lowest = std::max(std::min(p.lowest, p.origin), p.origin - most);
+  p.highest = std::min(std::max(p.highest, p.origin), p.origin + most);
+  return p;
+}
+
+/// Numbers of the rig's parts that a file may say how well it knows. What is not in a part is not of the
+/// plant: the tick, the settling time.
+bool of_a_part(const plant::Rig& nominal, std::string_view path) {
+  constexpr std::array<std::string_view, 6> parts{"muscle.", "friction.", "valve.",
+                                                  "hose.",   "gas.",      "joint."};
+  plant::Rig rig = nominal;
+  Guide guide(path);
+  plant::Rig::fields(rig, guide);
+  return guide.found.value != nullptr &&
+         std::any_of(parts.begin(), parts.end(), [&](auto part) { return path.starts_with(part); });
+}
+
+}  // namespace
+
+std::vector<Parameter> nominal_parameters(const plant::Rig& nominal, const domain::Spreads& stated) {
   std::vector<Parameter> list;
   plant::Rig rig = nominal;
+  const auto add = [&](const std::string& path, double usual) {
+    const Found found = find(rig, path);
+    const double deviation = deviation_of(stated, path, *found.value, usual).value_or(usual);
+    if (deviation > 0.0) list.push_back(normal(path, found, deviation));
+  };
   for (const Prior& prior : thresholds.parameter.priors) {
-    const Found found = find(rig, prior.path);
-    const double deviation = prior.relative * std::abs(*found.value) + prior.absolute;
-    if (deviation <= 0.0) continue;
-    list.push_back({.path = std::string(prior.path),
-                    .origin = *found.value,
-                    .scale = deviation,
-                    .step = thresholds.parameter.step * deviation,
-                    .lowest = std::max(found.lowest, *found.value - most_deviations * deviation),
-                    .highest = std::min(found.highest, *found.value + most_deviations * deviation),
-                    .has_prior = true});
+    const double value = *find(rig, prior.path).value;
+    add(std::string(prior.path), prior.relative * std::abs(value) + prior.absolute);
+  }
+  for (const auto& [path, deviation] : stated) {
+    const auto usual = [&path = path](const Prior& prior) { return prior.path == path; };
+    const auto& priors = thresholds.parameter.priors;
+    if (std::none_of(priors.begin(), priors.end(), usual) && of_a_part(nominal, path)) add(path, 0.0);
   }
   for (const Candidate& candidate : catalogue()) {
     if (!candidate.carried(nominal)) continue;
-    for (Parameter p : candidate.parameters(nominal)) {
-      // Somebody has put it there: its size is a guess, good within a factor of a few.
-      p.origin = value_of(nominal, p.path);
-      const double size = p.origin - (p.path == candidate.amplitude ? candidate.absent : 0.0);
-      p.scale = std::abs(size);
-      if (p.logarithmic)
-        p.step *= p.scale;
-      else
-        p.scale = std::max(p.scale, std::abs(candidate.typical));
-      p.logarithmic = false;
-      p.has_prior = true;
-      p.lowest = std::max(std::min(p.lowest, p.origin), p.origin - most_deviations * p.scale);
-      p.highest = std::min(std::max(p.highest, p.origin), p.origin + most_deviations * p.scale);
-      list.push_back(std::move(p));
+    for (Parameter& p : candidate.parameters(nominal)) {
+      p = size_of(candidate, std::move(p), nominal, stated);
+      if (p.scale > 0.0) list.push_back(std::move(p));
     }
   }
   return list;

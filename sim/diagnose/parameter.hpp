@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <plant/rig.hpp>
+#include <sim/domain/spread.hpp>
 
 namespace mckibben::diagnose {
 
@@ -40,10 +41,11 @@ struct Parameter {
   double scaled(double value) const;
 };
 
-/// The nominal parameters, with priors as tight as a data sheet or a ruler. Those of effects that the rig has
-/// already count with them; their size is believed to a factor of a
+/// The nominal parameters, with priors as tight as a data sheet or a ruler; those that the rig's file says
+/// how well it knows, with that (also of parameters that would not move else; one that is known exactly does
+/// not). Those of effects that the rig has already count with them; their size is believed to a factor of a
 /// few, or to what is typical, whichever is more.
-std::vector<Parameter> nominal_parameters(const plant::Rig& nominal);
+std::vector<Parameter> nominal_parameters(const plant::Rig& nominal, const domain::Spreads& stated = {});
 
 /// One law variant of an effect of the catalogue.
 struct Candidate {

@@ -1,8 +1,7 @@
-// A recorded current drives a ride; see the header.
-#include <cmath>
-
+// What drove a run drives a ride; see the header.
 #include <sim/diagnose/predict.hpp>
 #include <sim/diagnose/thresholds.hpp>
+#include <sim/run/follow.hpp>
 
 namespace mckibben::diagnose {
 
@@ -13,29 +12,29 @@ solver::Settings settings_for(std::span<const Hanging> rigs, solver::Method meth
 
 std::vector<Readings> predict(const domain::Run& run, std::span<const Hanging> rigs, solver::Method method) {
   const plant::Rig& first = rigs.front().rig;
-  const std::size_t rows = run.current_mA.size();
-  const auto time_s = [&](long k) { return static_cast<double>(k) * first.tick_s; };
+  const run::Course course = run::course_of(run, first);
   std::vector<Readings> readings(rigs.size());
   for (Readings& list : readings) {
-    list.contraction_ratio.reserve(rows);
-    list.pressure_Pa.reserve(rows);
+    list.contraction_ratio.reserve(course.rows.size());
+    list.pressure_Pa.reserve(course.rows.size());
   }
+  const auto length_m = [&](std::size_t i) {
+    return run.rest_length_m > 0.0 ? run.rest_length_m : rigs[i].rig.muscle.rest_length_m;
+  };
 
   ride::Ride ride(rigs, settings_for(rigs, method));
-  ride::Drive drive;
-  drive.current_mA = run.current_mA.front();
-  const long settling = std::lround(first.settling_time_s / first.tick_s);
-  ride.start(drive, time_s(-settling));
-  for (long k = -settling; k < 0; ++k) ride.step(drive, time_s(k + 1));
-  for (std::size_t row = 0; row < rows; ++row) {
-    for (std::size_t i = 0; i < rigs.size(); ++i) {
-      const ride::Reading& seen = ride.reading(i);
-      readings[i].contraction_ratio.push_back(seen.wheel_m / rigs[i].rig.muscle.rest_length_m);
-      readings[i].pressure_Pa.push_back(seen.muscle_pressure_Pa);
+  run::for_first_stamp(ride, course, first);
+  for (std::size_t k = 0, row = 0; row < course.rows.size(); ++k) {
+    if (course.rows[row] == k) {
+      for (std::size_t i = 0; i < rigs.size(); ++i) {
+        const ride::Reading& seen = ride.reading(i);
+        readings[i].contraction_ratio.push_back(seen.wheel_m / length_m(i));
+        readings[i].pressure_Pa.push_back(seen.muscle_pressure_Pa);
+      }
+      readings[0].states.push_back(ride.flow().state);
+      ++row;
     }
-    readings[0].states.push_back(ride.flow().state);
-    drive.current_mA = run.current_mA[row];
-    if (row + 1 < rows) ride.step(drive, time_s(static_cast<long>(row) + 1));
+    if (row < course.rows.size()) ride.step(course.toward(k), course.time_s[k + 1]);
   }
   return readings;
 }

@@ -1,5 +1,5 @@
-// What instruments would read in a measured run, if the rig were this one: the run's recorded current sent
-// through several rigs side by side, and how the readings change with parameters.
+// What instruments would read in a measured run, if the rig were this one: what drove the run sent through
+// several rigs side by side, and how the readings change with parameters.
 #pragma once
 
 #include <span>
@@ -14,15 +14,15 @@ namespace mckibben::diagnose {
 
 using ride::Hanging;
 
-/// At each tick, before counting.
+/// At each row, before counting.
 struct Readings {
   std::vector<double> contraction_ratio;
   std::vector<double> pressure_Pa;
   std::vector<plant::State<double>> states;  ///< of the first rig only
 };
 
-/// Readings of up to engine::Flock::most rigs, in common steps where these can be had (ride::Ride). The ticks
-/// are those of the first rig. Throws engine::NumericalFailure.
+/// Readings of up to engine::Flock::most rigs, in common steps where these can be had (ride::Ride). Ticks are
+/// those of the first rig. Throws engine::NumericalFailure.
 std::vector<Readings> predict(const domain::Run& run, std::span<const Hanging> rigs,
                               solver::Method method = solver::Method::automatic);
 

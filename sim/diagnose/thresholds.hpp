@@ -55,6 +55,8 @@ struct ParameterThresholds {
                                 {"hose.conductance", 0.1, 0.0},
                                 {"joint.guide_damping", 0.2, 0.0},
                                 {"joint.load_offset", 0.0, 0.05}}};
+  double unknown = 0.5;          ///< of its value: the deviation of one that is stated to be unknown,
+  double unknown_usual = 3.0;    ///< or so many of those above, if that is more
   double most_deviations = 3.0;  ///< of its prior: further it is not the rig that was described
   double at_the_edge = 0.999;    ///< of those: a warning
   double notable = 1.0;          ///< deviations that are worth telling

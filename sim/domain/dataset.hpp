@@ -26,6 +26,7 @@ struct Run {
   std::vector<double> contraction_ratio;
   std::optional<std::vector<double>> muscle_pressure_Pa;
   double ratio_per_unit = 1.0;  ///< of contraction: what one of its file's unit is
+  double rest_length_m = 0.0;   ///< that its rise was divided by; 0: that of the rig it is compared with
 
   std::optional<Measurement> measured;  ///< in place of these three
 
@@ -46,6 +47,7 @@ struct Run {
 struct Dataset {
   RigFile rig;
   ColumnMap columns;
+  Recorded recorded{};
   std::vector<Run> runs;
   bool own_clock = false;  ///< runs are `measured`, stamp by stamp
 
@@ -59,6 +61,13 @@ struct Dataset {
         "columns", self.columns,
         "where the runs' files hold what is wanted, and in which units; without it under our names, time_s, "
         "current_mA, contraction_ratio, muscle_pressure_bar");
+    visit("start", self.recorded.start,
+          "settled: at rest with the first input; moving: recorded from some instant on, the first state is "
+          "estimated from the first readings");
+    visit("skip", self.recorded.skip_s, "s", 0.0, 1e4, "so much of each run is simulated but not judged");
+    visit("hold", self.recorded.hold,
+          "what inputs do between stamps: previous (usual for commands) or linear (usual for pressures and "
+          "lengths)");
     visit.required("runs", self.runs, "the runs");
   }
 };

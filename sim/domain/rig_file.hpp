@@ -4,6 +4,7 @@
 #include <variant>
 
 #include <plant/mechanics.hpp>
+#include <sim/domain/spread.hpp>
 #include <sim/solver/settings.hpp>
 
 namespace mckibben::domain {
@@ -13,6 +14,7 @@ struct RigFile : plant::Rig {
   static constexpr bool by_name = true;  ///< other files may name it, or its path
   plant::Mechanics mechanics;
   solver::Settings integrator;
+  Spreads spreads;  ///< `6 mm ± 0.1 mm`
 
   /// The second muscle and the link, or null.
   const plant::Pair* pair() const { return std::get_if<plant::Pair>(&mechanics); }

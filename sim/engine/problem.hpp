@@ -61,8 +61,18 @@ class Problem {
 
   static plant::State<double> state_of(const double* y) {
     plant::State<double> state;
-    std::memcpy(&state, y, L::state_bytes);
+    state.joint = {y[0], y[1]};
+    state.side = {y[2], y[3], y[4]};
+    if constexpr (L::sides == 2) state.opposite = {y[5], y[6], y[7]};
     return state;
+  }
+
+  // One by one: bytes copied at once wait until all that was written there is in memory.
+  static void put(const plant::State<double>& state, double* y) {
+    y[0] = state.joint.contraction_ratio;
+    y[1] = state.joint.contraction_speed_per_s;
+    put(state.side, y + 2);
+    if constexpr (L::sides == 2) put(state.opposite, y + 5);
   }
 
   static plant::Memory<double> memory_of(const double* y) {
@@ -78,7 +88,7 @@ class Problem {
   }
 
   static void store(const Flow& flow, double* y) {
-    std::memcpy(y, &flow.state, L::state_bytes);
+    put(flow.state, y);
     if constexpr (L::remembers) std::memcpy(y + L::states, &flow.memory, L::memory_bytes);
     if constexpr (L::audits) std::memcpy(y + L::steering, &flow.ledger, L::ledger_bytes);
   }
@@ -95,7 +105,7 @@ class Problem {
     if (!plant_.template in_domain<L::sides>(state)) return false;
     const auto now = plant_.template moment<L::sides>(state, memory_of(y), held);
     const auto rates = plant_.template rates<L::sides>(state, now);
-    std::memcpy(dydt, &rates, L::state_bytes);
+    put(rates, dydt);
     if constexpr (L::remembers) {  // a plant beside others may have no effects at all
       plant::Memory<double> memories{};
       if (plant_.remembers()) memories.side = now.memory_rates;
@@ -110,6 +120,12 @@ class Problem {
   }
 
  private:
+  static void put(const plant::SideState<double>& side, double* y) {
+    y[0] = side.valve_pressure_Pa;
+    y[1] = side.muscle_pressure_Pa;
+    y[2] = side.bristle_m;
+  }
+
   const plant::Plant& plant_;
 };
 

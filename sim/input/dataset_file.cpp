@@ -54,13 +54,26 @@ void check_runs(const YamlFile& file, const Dataset& dataset, Problems& problems
 /// Loads as they were given, and a clock. A run without a load is a problem, if one must hang there.
 void check_kind(const YamlFile& file, Dataset& dataset, Problems& problems) {
   const Node* list = file.root.find("runs");
+  for (const char* key : {"start", "skip", "hold"})
+    dataset.own_clock = dataset.own_clock || file.root.find(key) != nullptr;
   for (std::size_t i = 0; i < dataset.runs.size(); ++i) {
     Run& run = dataset.runs[i];
     run.load_kg = run.given_load_kg.value_or(0.0);
     dataset.own_clock = dataset.own_clock || has_own_clock(merged(dataset.columns, run.columns), dataset.rig);
     const Node& node = list->children[i];
-    if (node.kind == Node::Kind::map && node.find("load") == nullptr && hangs(dataset, run))
+    const bool has_load = hangs(dataset, run);
+    if (dataset.recorded.hold == domain::Hold::previous &&
+        merged(dataset.columns, run.columns).contraction.as == domain::Role::input)
+      problems.error(
+          file.source, file.root.find("hold")->place,
+          fmt::format("hold = previous: the length of run {} is given, and cannot jump", shortened(run.id)));
+    if (node.kind == Node::Kind::map && node.find("load") == nullptr && has_load)
       problems.error(file.source, node.place, "the key load is missing");
+    if (dataset.recorded.start == domain::Start::moving && !has_load)
+      problems.error(file.source, file.root.find("start")->place,
+                     fmt::format("start = moving: run {} has no load that hangs; only of such a run can the "
+                                 "first state be told",
+                                 shortened(run.id)));
   }
 }
 

@@ -15,25 +15,42 @@
 
 #include <controllers/target.hpp>
 #include <plant/command.hpp>
+#include <sim/domain/spread.hpp>
 #include <sim/input/field_kinds.hpp>
 #include <sim/input/json.hpp>
 #include <sim/input/quantity.hpp>
 
 namespace mckibben::input {
 
+/// How well values are known that stand inside the key `inside`.
+struct SpreadsOf {
+  const domain::Spreads* list = nullptr;
+  std::string inside{};
+
+  SpreadsOf below(std::string_view key) const {
+    return list == nullptr ? SpreadsOf{} : SpreadsOf{list, inside + std::string(key) + '.'};
+  }
+  std::optional<double> of(std::string_view key) const {
+    if (list == nullptr) return std::nullopt;
+    const auto found = list->find(inside + std::string(key));
+    return found == list->end() ? std::nullopt : std::optional(found->second);
+  }
+};
+
 /// Any value that a field list can hold.
 template <class T>
-Json to_json(const T& value);
+Json to_json(const T& value, const SpreadsOf& spreads = {});
 
-/// A quantity: a number for the unit "1", else a text.
-inline Json quantity_json(double value, std::string_view unit) {
+/// A quantity: a number for the unit "1", else a text; a text as well with how well it is known.
+inline Json quantity_json(double value, std::string_view unit, std::optional<double> spread = {}) {
+  if (spread) return write_with_spread(value, *spread, unit);
   return unit == "1" ? Json(value) : Json(write_quantity(value, unit));
 }
 
 /// The visitor of a field list.
 class JsonWriter {
  public:
-  explicit JsonWriter(Json& object) : object_(object) {}
+  explicit JsonWriter(Json& object, const SpreadsOf& spreads = {}) : object_(object), spreads_(spreads) {}
 
   void required(std::string_view key, const auto& value, const auto&... rest) {
     (*this)(key, value, rest...);
@@ -43,9 +60,9 @@ class JsonWriter {
   void operator()(std::string_view key, const T& value, std::string_view unit, double, double,
                   std::string_view) {
     if constexpr (std::same_as<T, double>) {
-      put(key, quantity_json(value, unit));
+      put(key, quantity_json(value, unit, spreads_.of(key)));
     } else if constexpr (std::same_as<T, std::optional<double>>) {
-      if (value) put(key, quantity_json(*value, unit));
+      if (value) put(key, quantity_json(*value, unit, spreads_.of(key)));
     } else {
       Json list = Json::array();
       for (const double each : value) list.push_back(quantity_json(each, unit));
@@ -59,17 +76,21 @@ class JsonWriter {
   template <class T>
   void operator()(std::string_view key, const T& value, std::string_view) {
     if (is_absent(value)) return;
-    put(key, to_json(value));
+    if constexpr (std::same_as<T, plant::RatedCommand>)
+      put(key, quantity_json(value.value, plant::name_of(value.unit), spreads_.of(key)));
+    else
+      put(key, to_json(value, spreads_.below(key)));
   }
 
  private:
   void put(std::string_view key, Json value) { object_[std::string(key)] = std::move(value); }
 
   Json& object_;
+  SpreadsOf spreads_;
 };
 
 template <class T>
-Json to_json(const T& value) {
+Json to_json(const T& value, const SpreadsOf& spreads) {
   if constexpr (std::same_as<T, bool> || std::same_as<T, std::string>) {
     return value;
   } else if constexpr (std::same_as<T, controllers::Height>) {
@@ -80,19 +101,21 @@ Json to_json(const T& value) {
     return std::string(spelling(value));
   } else if constexpr (is_vector<T>) {
     Json list = Json::array();
-    for (const auto& each : value) list.push_back(to_json(each));
+    for (const auto& each : value) list.push_back(to_json(each, spreads.below(std::to_string(list.size()))));
     return list;
   } else if constexpr (is_variant<T>) {
     return std::visit(
-        [](const auto& alternative) {
+        [&](const auto& alternative) {
           Json object{{"kind", std::string(alternative.kind)}};
-          object.update(to_json(alternative));
+          object.update(to_json(alternative, spreads));
           return object;
         },
         value);
   } else {
     Json object = Json::object();
-    JsonWriter writer(object);
+    SpreadsOf of = spreads;
+    if constexpr (requires { value.spreads; }) of = {&value.spreads, {}};
+    JsonWriter writer(object, of);
     T::fields(value, writer);
     return object;
   }

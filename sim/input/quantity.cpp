@@ -5,6 +5,7 @@
 #include <cctype>
 #include <cerrno>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <mutex>
 #include <numbers>
@@ -31,6 +32,7 @@ using Unit = std::unique_ptr<ut_unit, FreeUnit>;
 using Converter = std::unique_ptr<cv_converter, FreeConverter>;
 
 constexpr std::size_t longest_quantity = 200;
+constexpr std::string_view unknown_spread = "unknown";
 
 std::mutex udunits_mutex;
 
@@ -152,6 +154,33 @@ double read_quantity(std::string_view text, std::string_view si_unit) {
     throw BadQuantity(fmt::format("{}: {} is the wrong kind of unit; wanted is {}: for example {}", whole,
                                   unit, si_unit, example_quantity(si_unit, number)));
   return converted;
+}
+
+WithSpread split_spread(std::string_view text) {
+  for (const std::string_view sign : {std::string_view("±"), std::string_view("+-")})
+    if (const auto at = text.find(sign); at != std::string_view::npos)
+      return {trimmed(text.substr(0, at)), trimmed(text.substr(at + sign.size()))};
+  return {text, std::nullopt};
+}
+
+double read_spread(std::string_view spread, double value, std::string_view si_unit) {
+  if (spread.empty())
+    throw BadQuantity(fmt::format("what follows ± is missing: for example ± {}, ± 10 % or ± unknown",
+                                  example_quantity(si_unit, "0.1")));
+  if (spread == unknown_spread) return std::numeric_limits<double>::infinity();
+  const bool relative = spread.ends_with('%');
+  const double read = read_quantity(spread, relative ? "1" : si_unit) * (relative ? std::abs(value) : 1.0);
+  if (!std::isfinite(read)) throw BadQuantity(fmt::format("± {} is too large", shortened(spread)));
+  if (read < 0.0) throw BadQuantity(fmt::format("± {}: a deviation is not negative", shortened(spread)));
+  if (relative && value == 0.0)
+    throw BadQuantity(fmt::format("± {}: a share of nothing is nothing; give it in {}", shortened(spread),
+                                  si_unit == "1" ? "absolute numbers" : si_unit));
+  return read;
+}
+
+std::string write_with_spread(double value, double spread, std::string_view si_unit) {
+  return write_quantity(value, si_unit) + " ± " +
+         (std::isinf(spread) ? std::string(unknown_spread) : write_quantity(spread, si_unit));
 }
 
 std::string unit_problem(std::string_view unit, std::string_view wanted) {

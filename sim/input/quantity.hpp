@@ -2,6 +2,7 @@
 // Units are those of UDUNITS-2 (Unidata); it also checks that a unit measures the right thing.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -19,6 +20,20 @@ class BadQuantity : public std::runtime_error {
 /// (or per cent, "5 %"). Angles are not taken for ratios, nor ratios for angles. Safe to call from several
 /// threads. Throws BadQuantity; std::runtime_error if the unit database is not installed.
 double read_quantity(std::string_view text, std::string_view si_unit);
+
+/// "6 mm ± 0.1 mm", taken apart at the sign, which may also be "+-". `spread` is empty where there is none.
+struct WithSpread {
+  std::string_view value;
+  std::optional<std::string_view> spread;
+};
+WithSpread split_spread(std::string_view text);
+
+/// The standard deviation that such a spread says of `value`: "0.1 mm"; "10 %", of the value; "unknown",
+/// infinite. Throws BadQuantity.
+double read_spread(std::string_view spread, double value, std::string_view si_unit);
+
+/// A quantity and how well it is known: "0.006 m ± 0.0001 m".
+std::string write_with_spread(double value, double spread, std::string_view si_unit);
 
 /// What is wrong with `unit` for what is measured in `wanted`:
 /// "V is the wrong kind of unit"; empty if nothing.

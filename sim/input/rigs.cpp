@@ -107,7 +107,7 @@ void read_changes(const Source& source, const Node& map, RigFile& into, Problems
                      fmt::format("base must be the name or the path of a rig, not {}", base->kind_name()));
   }
   into.mechanics = with_both_sides(source, map, into);
-  read_struct(source, map, into, problems, also_allowed);
+  read_struct(source, map, into, problems, also_allowed, {&into.spreads});
 }
 
 }  // namespace

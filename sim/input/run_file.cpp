@@ -139,7 +139,8 @@ void read_table_of(Source source, Format format, const Wanted& wanted, const Col
   if (dataset.own_clock && (found.count() > 0 || table.columns.empty())) return;
   convert_columns(table, map, dataset.rig);
   if (dataset.own_clock) {
-    run.measured = measurement_of(table, map, dataset.rig, found);
+    run.measured = measurement_of(table, map, dataset.rig, dataset.recorded, found);
+    run.rest_length_m = dataset.rig.muscle.rest_length_m;
     return;
   }
   const double largest_mA = dataset.rig.dac.largest_current_mA;

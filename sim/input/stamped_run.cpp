@@ -21,6 +21,7 @@ using domain::ColumnMap, domain::ColumnPlace, domain::Measurement, domain::Quant
 constexpr double lowest_ratio = -0.2, highest_ratio = 1.0;
 constexpr double lowest_read_bar = -2.0, lowest_given_bar = -1.0, highest_bar = 100.0;  // noise; a vacuum
 constexpr double largest_angle_rad = 10.0, largest_force_N = 1e6;
+constexpr long least_to_begin = 10;  // readings, for place, speed and acceleration of the first instant
 
 bool is_input(const ColumnPlace& place) {
   return !place.absent() && place.as == Role::input;
@@ -151,7 +152,8 @@ class Assembling {
   Assembling(Table& table, const ColumnMap& map, const domain::RigFile& rig, TableProblems& problems)
       : table_(table), map_(map), rig_(rig), problems_(problems), pair_(rig.pair() != nullptr) {}
 
-  Measurement operator()() {
+  Measurement operator()(const domain::Recorded& recorded) {
+    measured_.recorded = recorded;
     time();
     for (std::size_t side = 0; side < (pair_ ? 2 : 1); ++side) drive(side);
     measured_.length_is_given = is_input(map_.contraction);
@@ -167,6 +169,7 @@ class Assembling {
     measured_.force_N = take("force_N", -largest_force_N, largest_force_N, "what a cord can bear");
     measured_.angle_in_degrees = map_.angle.unit == "deg";
     measured_.counted = (pair_ ? map_.angle : map_.contraction).unit == "count";
+    beginning();
     return std::move(measured_);
   }
 
@@ -187,6 +190,19 @@ class Assembling {
                                 now_s == before_s ? "is repeated" : "runs backwards"));
       return;  // all later rows would repeat it
     }
+  }
+
+  /// What is judged, and what a first state is told from.
+  void beginning() {
+    const double lasting_s = measured_.time_s.back() - measured_.time_s.front();
+    if (measured_.recorded.skip_s > 0.0 && measured_.recorded.skip_s >= lasting_s)
+      problems_.add({}, fmt::format("skip = {} s leaves nothing of this run, which lasts {:.3f} s",
+                                    domain::write_number(measured_.recorded.skip_s), lasting_s));
+    const auto& read = measured_.contraction_ratio;
+    const auto known = std::count_if(read.begin(), read.end(), [](double e) { return !std::isnan(e); });
+    if (measured_.recorded.start == domain::Start::moving && known < least_to_begin)
+      problems_.add({}, fmt::format("start = moving needs at least {} readings of contraction; there are {}",
+                                    least_to_begin, known));
   }
 
   void drive(std::size_t side) {
@@ -244,8 +260,8 @@ class Assembling {
 }  // namespace
 
 Measurement measurement_of(Table& table, const ColumnMap& map, const domain::RigFile& rig,
-                           TableProblems& problems) {
-  return Assembling(table, map, rig, problems)();
+                           const domain::Recorded& recorded, TableProblems& problems) {
+  return Assembling(table, map, rig, problems)(recorded);
 }
 
 }  // namespace mckibben::input

@@ -26,6 +26,6 @@ void check_roles(const YamlFile& file, const Node& run, const domain::ColumnMap&
 
 /// Checks a converted table and makes of it what drove the rig and what was read.
 domain::Measurement measurement_of(Table& table, const domain::ColumnMap& map, const domain::RigFile& rig,
-                                   TableProblems& problems);
+                                   const domain::Recorded& recorded, TableProblems& problems);
 
 }  // namespace mckibben::input

@@ -93,17 +93,30 @@ bool ValueReader::is_list(std::string_view key, const Node& node) {
   return false;
 }
 
+void ValueReader::spread(std::string_view key, std::optional<std::string_view> said, double value,
+                         std::string_view unit) {
+  if (spreads_.list == nullptr) {
+    if (!said) return;
+    throw BadQuantity(
+        fmt::format("± {}: only values of a rig may say how well they are known", shortened(*said)));
+  }
+  const std::string path = spreads_.inside + std::string(key);
+  spreads_.list->erase(path);  // what a base says is of the base's value
+  if (said) spreads_.list->emplace(path, read_spread(*said, value, unit));
+}
+
 void ValueReader::quantity(std::string_view key, const Node& node, double& value, const Limits& limits) {
   if (!is_scalar(key, node, fmt::format("one value, for example {}", example_quantity(limits.unit)))) return;
   try {
-    const double read = read_quantity(node.text, limits.unit);
+    const WithSpread said = split_spread(node.text);
+    const double read = read_quantity(said.value, limits.unit);
     if (read >= limits.lowest && read <= limits.highest) {
       value = read;
-      return;
+      return spread(key, said.spread, read, limits.unit);
     }
     bad(node, fmt::format("{} = {} is out of range: {} to {} ({})", key, shortened(node.text),
-                          show_limit(limits.lowest, limits.unit, node.text),
-                          show_limit(limits.highest, limits.unit, node.text), limits.meaning));
+                          show_limit(limits.lowest, limits.unit, said.value),
+                          show_limit(limits.highest, limits.unit, said.value), limits.meaning));
   } catch (const BadQuantity& error) {
     bad(node, fmt::format("{} = {} ({})", key, error.what(), limits.meaning));
   }
@@ -158,20 +171,24 @@ void ValueReader::height(std::string_view key, const Node& node, controllers::He
 void ValueReader::command(std::string_view key, const Node& node, plant::RatedCommand& value,
                           std::string_view meaning) {
   if (!is_scalar(key, node, "one value, for example 10 V")) return;
+  const WithSpread said = split_spread(node.text);
   for (const auto& [unit, name, lowest, highest] : plant::command_units) {
     double read = 0.0;
     try {
-      read = read_quantity(node.text, name);
+      read = read_quantity(said.value, name);
     } catch (const BadQuantity&) {
       continue;
     }
-    if (read >= lowest && read <= highest)
-      value = {read, unit};
-    else
-      bad(node,
-          fmt::format("{} = {} is out of range: {} to {} ({})", key, shortened(node.text),
-                      show_limit(lowest, name, node.text), show_limit(highest, name, node.text), meaning));
-    return;
+    if (!(read >= lowest && read <= highest))
+      return bad(node, fmt::format("{} = {} is out of range: {} to {} ({})", key, shortened(node.text),
+                                   show_limit(lowest, name, said.value),
+                                   show_limit(highest, name, said.value), meaning));
+    value = {read, unit};
+    try {
+      return spread(key, said.spread, read, name);
+    } catch (const BadQuantity& error) {
+      return bad(node, fmt::format("{} = {} ({})", key, error.what(), meaning));
+    }
   }
   bad(node, fmt::format("{} = {} must be a number of mA, V or bar, for example 10 V ({})", key,
                         shortened(node.text), meaning));

@@ -18,17 +18,29 @@
 
 #include <controllers/target.hpp>
 #include <plant/command.hpp>
+#include <sim/domain/spread.hpp>
 #include <sim/input/diagnostics.hpp>
 #include <sim/input/field_kinds.hpp>
 #include <sim/input/yaml_file.hpp>
 
 namespace mckibben::input {
 
+/// Where values may say how well they are known (`6 mm ± 0.1 mm`): into which list that goes, under the path
+/// `inside` and their key. Without a list it is a problem.
+struct SpreadsInto {
+  domain::Spreads* list = nullptr;
+  std::string inside{};
+
+  SpreadsInto below(std::string_view key) const {
+    return list == nullptr ? SpreadsInto{} : SpreadsInto{list, inside + std::string(key) + '.'};
+  }
+};
+
 /// Reads `node` into `into` by the field list of T, on top of what is there. `also_allowed` are keys that the
 /// caller reads itself.
 template <Listed T>
 void read_struct(const Source& source, const Node& node, T& into, Problems& problems,
-                 std::span<const std::string_view> also_allowed = {});
+                 std::span<const std::string_view> also_allowed = {}, const SpreadsInto& spreads = {});
 
 /// Checks the line `schema: NAME/VERSION` of a file.
 /// False if it is another kind of file, not worth reading on.
@@ -46,8 +58,12 @@ class ValueReader {
     std::string_view meaning;
   };
 
-  ValueReader(const Source& source, const Node& map, Problems& problems)
-      : source_(source), map_(map), problems_(problems), errors_before_(problems.errors()) {}
+  ValueReader(const Source& source, const Node& map, Problems& problems, const SpreadsInto& spreads = {})
+      : source_(source),
+        map_(map),
+        problems_(problems),
+        spreads_(spreads),
+        errors_before_(problems.errors()) {}
 
   bool is_map();
   /// The value under `key`, noted as known. Null if absent, or left empty, which is a problem.
@@ -79,8 +95,12 @@ class ValueReader {
   const Source& source_;
   const Node& map_;
   Problems& problems_;
+  SpreadsInto spreads_;
 
  private:
+  /// Notes how well a value is known, or that nothing is said of it. Throws BadQuantity.
+  void spread(std::string_view key, std::optional<std::string_view> said, double value,
+              std::string_view unit);
   bool is_scalar(std::string_view key, const Node& node, std::string_view wanted);
   void bad(const Node& node, std::string message) {
     problems_.error(source_, node.place, std::move(message));
@@ -144,12 +164,13 @@ class StructReader : public ValueReader {
   /// Everything without unit and range.
   template <class T>
   void operator()(std::string_view key, T& value, std::string_view) {
-    if (const Node* node = take(key)) read(key, *node, value);
+    if (const Node* node = take(key)) read(key, *node, value, std::string(key));
   }
 
  private:
+  /// `path`: the key, in a list with the element's number.
   template <class T>
-  void read(std::string_view key, const Node& node, T& value) {
+  void read(std::string_view key, const Node& node, T& value, const std::string& path) {
     if constexpr (std::same_as<T, bool>) {
       boolean(key, node, value);
     } else if constexpr (std::same_as<T, std::string>) {
@@ -161,32 +182,34 @@ class StructReader : public ValueReader {
     } else if constexpr (is_vector<T>) {
       if (!is_list(key, node)) return;
       value.assign(node.children.size(), {});
-      for (std::size_t i = 0; i < value.size(); ++i) read(key, node.children[i], value[i]);
+      for (std::size_t i = 0; i < value.size(); ++i)
+        read(key, node.children[i], value[i], std::string(key) + '.' + std::to_string(i));
     } else if constexpr (is_variant<T>) {
-      if (const auto index = kind(key, node, kinds<T>)) read_alternative(node, value, *index);
+      if (const auto index = kind(key, node, kinds<T>)) read_alternative(node, value, *index, path);
     } else if constexpr (NamedStruct<T>) {
       read_named(source_, node, value, problems_);  // stands beside the reader of T
     } else {
-      read_struct(source_, node, value, problems_);
+      read_struct(source_, node, value, problems_, {}, spreads_.below(path));
     }
   }
 
   /// Makes `value` hold the alternative of that index and reads it.
   template <std::size_t I = 0, class... Ts>
-  void read_alternative(const Node& node, std::variant<Ts...>& value, std::size_t index) {
+  void read_alternative(const Node& node, std::variant<Ts...>& value, std::size_t index,
+                        const std::string& path) {
     if constexpr (I < sizeof...(Ts)) {
-      if (index != I) return read_alternative<I + 1>(node, value, index);
+      if (index != I) return read_alternative<I + 1>(node, value, index, path);
       if (value.index() != I) value.template emplace<I>();
       constexpr std::string_view also_allowed[] = {"kind"};
-      read_struct(source_, node, std::get<I>(value), problems_, also_allowed);
+      read_struct(source_, node, std::get<I>(value), problems_, also_allowed, spreads_.below(path));
     }
   }
 };
 
 template <Listed T>
 void read_struct(const Source& source, const Node& node, T& into, Problems& problems,
-                 std::span<const std::string_view> also_allowed) {
-  StructReader reader(source, node, problems);
+                 std::span<const std::string_view> also_allowed, const SpreadsInto& spreads) {
+  StructReader reader(source, node, problems, spreads);
   if (!reader.is_map()) return;
   T::fields(into, reader);
   reader.check_unknown(also_allowed);

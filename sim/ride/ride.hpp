@@ -49,6 +49,7 @@ class Ride {
   void hold(const Drive& drive, double until_s);
   void advance();
 
+  std::size_t rigs() const { return riders_.size(); }
   Rider& rider(std::size_t rig = 0) { return riders_[rig]; }
   const plant::Plant& plant(std::size_t rig = 0) const { return riders_[rig].plant(); }
   const engine::Flow& flow(std::size_t rig = 0) const { return riders_[rig].now.flow; }

@@ -40,7 +40,7 @@ void Rider::start(const Drive& drive, double at_s) {
   flow.ledger = plant_.opened(flow.state);
   if (plant_.has_events() && !held.length_is_given)
     held.slip = plant_.slip_from_rest(flow.state, flow.memory, held);
-  read();
+  look();
 }
 
 void Rider::hold(const Drive& drive, double until_s) {
@@ -74,10 +74,10 @@ void Rider::arrive() {
   if (now.drive.muscle_pressure_Pa) state.side.muscle_pressure_Pa = *now.drive.muscle_pressure_Pa;
   if (now.drive.opposite.muscle_pressure_Pa)
     state.opposite.muscle_pressure_Pa = *now.drive.opposite.muscle_pressure_Pa;
-  read();
+  look();
 }
 
-void Rider::read() {
+void Rider::look() {
   const plant::State<double>& state = now.flow.state;
   const double turned =
       state.joint.contraction_ratio - (plant_.opposite() ? plant_.link().contraction_ratio : 0.0);

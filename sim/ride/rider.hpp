@@ -74,6 +74,8 @@ class Rider {
   void hold(const Drive& drive, double until_s);
   /// The flow has been carried to the next instant.
   void arrive();
+  /// What the instruments see of the state as it is.
+  void look();
 
   /// Nothing has come or gone from here on.
   void open_ledger() { now.flow.ledger = plant_.opened(now.flow.state); }
@@ -84,8 +86,6 @@ class Rider {
   State now;
 
  private:
-  void read();
-
   plant::Plant plant_;
 };
 

@@ -32,18 +32,22 @@ class Following {
         counter_(rig.encoder.wiring, plant::count_height_m(rig.encoder, rig.joint)) {}
 
   Recording operator()() {
-    recording_.samples.reserve(rows());
-    const Drive first = course_.at(0);
+    recording_.samples.reserve(course_.rows.size());
+    const Drive& first = course_.drives.front();
     recording_.driven = {
         .pair = rig_.pair() != nullptr,
         .length = first.contraction_ratio.has_value(),
         .pressure = {first.muscle_pressure_Pa.has_value(), first.opposite.muscle_pressure_Pa.has_value()}};
     try {
-      settle();
-      for (std::size_t k = 0; k < rows(); ++k) {
-        const bool last = k + 1 == rows();
-        ride_.hold(toward(k), last ? time(k) + last_step_s() : time(k + 1));
-        recording_.samples.push_back(sample(k));
+      begin();
+      auto row = course_.rows.begin();
+      for (std::size_t k = 0; k < stamps(); ++k) {
+        const bool last = k + 1 == stamps();
+        ride_.hold(course_.toward(k), last ? time(k) + last_step_s() : time(k + 1));
+        if (row != course_.rows.end() && *row == k) {
+          recording_.samples.push_back(sample(k));
+          ++row;
+        }
         if (!last) ride_.advance();
       }
     } catch (const engine::NumericalFailure& failure) {
@@ -54,41 +58,20 @@ class Following {
   }
 
  private:
-  std::size_t rows() const { return course_.time_s.size(); }
+  std::size_t stamps() const { return course_.time_s.size(); }
   double time(std::size_t k) const { return course_.time_s[k]; }
-  double last_step_s() const { return rows() > 1 ? time(rows() - 1) - time(rows() - 2) : rig_.tick_s; }
+  double last_step_s() const { return stamps() > 1 ? time(stamps() - 1) - time(stamps() - 2) : rig_.tick_s; }
 
-  void settle() {
-    const Drive first = course_.at(0);
-    const long ticks = std::lround(rig_.settling_time_s / rig_.tick_s);
-    const auto before_s = [&](long k) { return time(0) - static_cast<double>(k) * rig_.tick_s; };
-    ride_.start(first, before_s(ticks));
-    for (long k = ticks; k > 0; --k) {
-      ride_.step(first, before_s(k - 1));
-      counter_.count(ride_.reading().wheel_m);
-    }
+  /// Settled, or on its way; the counter goes along.
+  void begin() {
+    for_first_stamp(ride_, course_, rig_, [&] { counter_.count(ride_.reading().wheel_m); });
     ride_.open_ledger();
-  }
-
-  /// From stamp k to the next; from the last one on as it came there.
-  Drive toward(std::size_t k) const {
-    Drive drive = course_.at(k);
-    const bool last = k + 1 == rows();
-    if (last && k == 0) return drive;
-    const Drive next = course_.at(last ? k - 1 : k + 1);
-    const auto go = [last](std::optional<double>& value, const std::optional<double>& other) {
-      if (value) value = last ? 2.0 * *value - *other : *other;
-    };
-    go(drive.muscle_pressure_Pa, next.muscle_pressure_Pa);
-    go(drive.opposite.muscle_pressure_Pa, next.opposite.muscle_pressure_Pa);
-    go(drive.contraction_ratio, next.contraction_ratio);
-    return drive;
   }
 
   Sample sample(std::size_t k) {
     const auto now = ride_.moment();
     const plant::State<double>& state = ride_.flow().state;
-    const Drive drive = course_.at(k);
+    const Drive& drive = course_.drives[k];
     Sample row{.time_s = time(k),
                .current_mA = drive.current_mA,
                .state = state,
@@ -149,6 +132,20 @@ class Following {
 };
 
 }  // namespace
+
+void for_first_stamp(ride::Ride& ride, const Course& course, const plant::Rig& rig,
+                     const std::function<void()>& each_tick) {
+  const Drive& first = course.drives.front();
+  const long ticks = course.begins ? 0 : std::lround(rig.settling_time_s / rig.tick_s);
+  const auto before_s = [&](long k) { return course.time_s.front() - static_cast<double>(k) * rig.tick_s; };
+  ride.start(first, before_s(ticks));
+  if (course.begins)
+    for (std::size_t i = 0; i < ride.rigs(); ++i) ride::set_off(ride.rider(i), *course.begins);
+  for (long k = ticks; k > 0; --k) {
+    ride.step(first, before_s(k - 1));
+    each_tick();
+  }
+}
 
 Recording follow(const domain::RigFile& rig, double load_kg, const Course& course) {
   return Following(rig, load_kg, course)();

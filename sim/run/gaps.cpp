@@ -11,23 +11,6 @@ namespace mckibben::run {
 
 using domain::Measurement;
 
-Course course_of(const Measurement& measured) {
-  const auto at = [&measured](std::size_t k) {
-    ride::Drive drive;
-    const auto act = [k](const Measurement::Side& side, ride::Command& command) {
-      if (side.pressure_is_given)
-        command.muscle_pressure_Pa = side.muscle_pressure_Pa[k];
-      else if (!side.current_mA.empty())
-        command.current_mA = side.current_mA[k];
-    };
-    act(measured.sides[0], drive);
-    act(measured.sides[1], drive.opposite);
-    if (measured.length_is_given) drive.contraction_ratio = measured.contraction_ratio[k];
-    return drive;
-  };
-  return {measured.time_s, at};
-}
-
 double angle_rad(const domain::RigFile& rig, const Sample& row) {
   const double turned = row.state.joint.contraction_ratio - rig.pair()->contraction_ratio;
   return turned * rig.muscle.rest_length_m / rig.joint.wheel_radius_m;
@@ -78,6 +61,7 @@ std::vector<Gap> gaps_of(const Measurement& measured, const domain::RigFile& rig
     Gap gap{.reading = one.reading, .unit = one.unit};
     double squares = 0.0, sum = 0.0;
     for (std::size_t k = 0; k < recording.samples.size(); ++k) {
+      if (measured.time_s[k] - measured.time_s.front() < measured.recorded.skip_s) continue;
       const double error = one.simulated(k) - one.measured(k);
       if (std::isnan(error)) continue;
       ++gap.rows;
@@ -101,7 +85,7 @@ std::vector<StampedRun> replay_stamped(const domain::Dataset& dataset, unsigned 
     runs.push_back({.id = run.id, .load_kg = run.load_kg, .failure = not_begun});
   const auto replay_one = [&](std::size_t i) {
     const Measurement& measured = *dataset.runs[i].measured;
-    runs[i].recording = follow(dataset.rig, runs[i].load_kg, course_of(measured));
+    runs[i].recording = follow(dataset.rig, runs[i].load_kg, course_of(measured, dataset.rig));
     runs[i].failure = runs[i].recording.failure;
     if (runs[i].failure.empty()) runs[i].gaps = gaps_of(measured, dataset.rig, runs[i].recording);
   };

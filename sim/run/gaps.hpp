@@ -12,10 +12,7 @@
 
 namespace mckibben::run {
 
-/// Refers to `measured`.
-Course course_of(const domain::Measurement& measured);
-
-/// Simulated less measured, over the rows in which there is a reading.
+/// Simulated less measured, over the rows that are judged and in which there is a reading.
 struct Gap {
   std::string reading;  ///< contraction, angle, force, muscle_pressure; of a pair muscle_pressure_1, ..._2
   std::string unit;     ///< 1, rad or deg, N, bar

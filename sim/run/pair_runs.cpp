@@ -35,13 +35,13 @@ void run_pair(PairRun& run, const domain::TwoCurrents& currents, const domain::P
   const domain::RigFile& rig = scenario.rig;
   Course course;
   const auto ticks = static_cast<std::size_t>(std::llround(scenario.duration_s / rig.tick_s));
-  for (std::size_t k = 0; k < ticks; ++k) course.time_s.push_back(static_cast<double>(k) * rig.tick_s);
-  course.at = [&](std::size_t k) {
-    ride::Drive drive;
+  for (std::size_t k = 0; k < ticks; ++k) {
+    course.time_s.push_back(static_cast<double>(k) * rig.tick_s);
+    ride::Drive& drive = course.drives.emplace_back();
     drive.current_mA = current_mA(currents.current_1, k, rig);
     drive.opposite.current_mA = current_mA(currents.current_2, k, rig);
-    return drive;
-  };
+    course.rows.push_back(k);
+  }
   run.recording = follow(rig, 0.0, course);
   run.failure = run.recording.failure;
   const auto& rows = run.recording.samples;

@@ -166,6 +166,49 @@ TEST_F(Replayed, StampsMayBeUnequalAndReadingsMissing) {
   EXPECT_EQ(gaps.at(1).at("rows"), 4);
 }
 
+TEST_F(Replayed, ARunThatBeganOnItsWayIsFoundThere) {
+  std::istringstream whole(read_text(reference + "pressure_12.5kg_sine.csv"));
+  std::string line, cut;
+  for (int row = -1; std::getline(whole, line); ++row)
+    if (row < 0 || row >= 200) cut += line + '\n';  // from 2.4 s on: falling by 16 % a second
+  write_text(scratch / "r.csv", cut);
+  const auto largest_gap = [&](const std::string& start) {
+    const std::string columns =
+        start + "columns: {muscle_pressure: {column: muscle_pressure_bar, unit: bar, as: input}}\n";
+    const Said said = replay("thesis", columns, "  - {id: r, file: r.csv, load: 12.5 kg}\n");
+    EXPECT_EQ(said.status, 0) << said.err;
+    EXPECT_EQ(table_of(scratch / "out/r.csv").at("time_s").size(), 550u);
+    return document().at("runs").at(0).at("gaps").at(0).at("largest_error").get<double>();
+  };
+  EXPECT_LT(largest_gap("start: moving\nskip: 0.3 s\n"), 2e-5);
+  EXPECT_GT(largest_gap("skip: 0.3 s\n"), 1e-3);
+  EXPECT_GT(largest_gap("start: moving\n"), 2e-5);  // its threads settle first
+  EXPECT_EQ(document().at("runs").at(0).at("gaps").at(0).at("rows"), 550);
+}
+
+TEST_F(Replayed, InputsHoldOrRunStraightOn) {
+  write_text(scratch / "r.csv", "t,p,mA,x\n0,1,6,0\n0.5,1,6,0\n0.9,3,14,0\n1.3,3,14,0\n");
+  const auto rises = [&](const std::string& hold, const std::string& input) {
+    const std::string columns =
+        hold + "columns: {time: {column: t, unit: s}, contraction: {column: x, unit: mm}, " + input + "}\n";
+    const Said said = replay("thesis", columns, "  - {id: r, file: r.csv, load: 12 kg}\n");
+    EXPECT_EQ(said.status, 0) << said.err;
+    return table_of(scratch / "out/r.csv").at("contraction_ratio");
+  };
+  const std::string pressure = "muscle_pressure: {column: p, unit: bar, as: input}";
+  const std::string current = "command: {column: mA, unit: mA}";
+  const auto straight = rises("", pressure), held = rises("hold: previous\n", pressure);
+  ASSERT_EQ(held.size(), 4u);
+  EXPECT_EQ(rises("hold: linear\n", pressure), straight);
+  EXPECT_GT(straight[2], 0.1);
+  EXPECT_NEAR(held[2], held[1], 1e-4);  // until now
+  EXPECT_GT(held[3], 0.1);
+  const auto ramp = rises("hold: linear\n", current);
+  EXPECT_EQ(rises("hold: previous\n", current), rises("", current));
+  EXPECT_NEAR(rises("", current)[2], held[1], 0.1);
+  EXPECT_GT(ramp[2], rises("", current)[2] + 0.02);
+}
+
 TEST_F(Replayed, VoltsAndBarDoWhatTheirCurrentDoes) {
   write_text(scratch / "r.csv",
              "t,mA,V,kPa,x\n0,6,1.25,62.5,0\n0.1,6,1.25,62.5,0\n0.2,9,3.125,156.25,0.1\n0.9,20,10,500,5\n"

@@ -1,5 +1,6 @@
 // Parameters by path, and what the catalogue says of each effect.
 #include <algorithm>
+#include <limits>
 #include <set>
 #include <stdexcept>
 
@@ -47,6 +48,27 @@ TEST(NominalParameters, StayWithinThreeDeviationsOfTheirDataSheet) {
     EXPECT_LE(p.scaled(p.highest), thresholds.parameter.most_deviations + 1e-9) << p.path;
     EXPECT_TRUE(p.has_prior);
   }
+}
+
+TEST(NominalParameters, AreKnownAsWellAsTheRigSays) {
+  const plant::Rig rig;
+  const domain::Spreads stated{{"muscle.rest_radius", 4e-4},
+                               {"muscle.end_correction", 0.0},
+                               {"muscle.rest_length", 1e-3},
+                               {"hose.conductance", std::numeric_limits<double>::infinity()},
+                               {"tick", 1e-3},
+                               {"valve.zero_command", 0.1}};
+  const auto usual = nominal_parameters(rig), list = nominal_parameters(rig, stated);
+  const auto named = [](const auto& all, std::string_view path) {
+    return std::find_if(all.begin(), all.end(), [&](const Parameter& p) { return p.path == path; });
+  };
+  EXPECT_DOUBLE_EQ(named(list, "muscle.rest_radius")->scale, 4e-4);
+  EXPECT_EQ(named(list, "muscle.end_correction"), list.end());  // exactly known
+  ASSERT_NE(named(list, "muscle.rest_length"), list.end());
+  EXPECT_DOUBLE_EQ(named(list, "muscle.rest_length")->scale, 1e-3);
+  EXPECT_GT(named(list, "hose.conductance")->scale, 2.9 * named(usual, "hose.conductance")->scale);
+  EXPECT_EQ(named(list, "friction.scale")->scale, named(usual, "friction.scale")->scale);
+  EXPECT_EQ(list.size(), usual.size());  // one more, one less
 }
 
 TEST(NominalParameters, IncludeTheSizesOfEffectsThatTheRigHas) {

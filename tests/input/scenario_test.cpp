@@ -1,10 +1,12 @@
 // Scenarios: what is read, what is left at its default, and that reading,
 // writing and reading again changes no bit.
+#include <cmath>
 #include <numbers>
 
 #include <gtest/gtest.h>
 
 #include <sim/input/fields_json.hpp>
+#include <sim/input/yaml_reader.hpp>
 #include <sim/input/yaml_writer.hpp>
 
 #include "good_scenario.hpp"
@@ -109,6 +111,46 @@ TEST(Rig, ResolvedReadsBackBitForBit) {
   EXPECT_EQ(problems.errors(), 0u);
   EXPECT_EQ(rig_json(read).dump(), rig_json(rig).dump());
   EXPECT_EQ(read.muscle.rest_radius_m, rig.muscle.rest_radius_m);
+}
+
+TEST(Rig, SaysHowWellItsNumbersAreKnown) {
+  const YamlFile file = parse_yaml(Source("rig.yaml", R"(
+base: thesis
+muscle: {rest_length: 300 mm, rest_radius: 6 mm ± 0.1 mm, braid_angle: 23 deg +- 0.5 deg}
+friction: {scale: 1 ± 0.3}
+valve: {zero_command: 0 V, span_command: 10 V ± 50 mV, conductance: 2.5e-9 m3/(s.Pa) ± 10 %}
+hose: {conductance: 1e-8 m3/(s.Pa) ± unknown}
+effects: {residual_law: {terms: [{of: v, coefficient: 3 N ± 1 N}]}}
+)",
+                                          ""));
+  RigFile rig, again;
+  Problems problems;
+  read_named(file.source, file.root, rig, problems);
+  ASSERT_EQ(problems.errors(), 0u);
+  ASSERT_EQ(rig.spreads.size(), 7u);
+  EXPECT_DOUBLE_EQ(rig.spreads.at("muscle.rest_radius"), 1e-4);
+  EXPECT_DOUBLE_EQ(rig.spreads.at("muscle.braid_angle"), 0.5 * std::numbers::pi / 180.0);
+  EXPECT_DOUBLE_EQ(rig.spreads.at("friction.scale"), 0.3);
+  EXPECT_DOUBLE_EQ(rig.spreads.at("valve.span_command"), 0.05);
+  EXPECT_DOUBLE_EQ(rig.spreads.at("valve.conductance"), 2.5e-10);
+  EXPECT_TRUE(std::isinf(rig.spreads.at("hose.conductance")));
+  EXPECT_DOUBLE_EQ(rig.spreads.at("effects.residual_law.terms.0.coefficient"), 1.0);
+
+  const YamlFile written = parse_yaml(Source("rig.yaml", to_yaml(to_json(rig)), ""));
+  read_named(written.source, written.root, again, problems);
+  ASSERT_EQ(problems.errors(), 0u);
+  EXPECT_EQ(again.spreads, rig.spreads);
+  EXPECT_EQ(again.muscle.rest_radius_m, rig.muscle.rest_radius_m);
+}
+
+TEST(Rig, AValueSaidAnewIsKnownAsWellAsIsSaidAnew) {
+  RigFile rig;
+  rig.spreads = {{"muscle.rest_radius", 1e-4}, {"muscle.rest_length", 1e-3}};
+  const YamlFile file = parse_yaml(Source("rig.yaml", "muscle: {rest_radius: 7 mm}", ""));
+  Problems problems;
+  read_struct(file.source, file.root, rig, problems, {}, {&rig.spreads});
+  EXPECT_EQ(problems.errors(), 0u);
+  EXPECT_EQ(rig.spreads, (domain::Spreads{{"muscle.rest_length", 1e-3}}));
 }
 
 TEST(Rig, ShippedByName) {

@@ -1,0 +1,66 @@
+// Bristles and memories from a balance; see the header.
+#include <algorithm>
+
+#include <sim/ride/underway.hpp>
+
+namespace mckibben::ride {
+namespace {
+
+/// Each memory follows a straight law of its own: its rate at two values tells where it would be at rest.
+void rest_memories(Rider& rider, const plant::State<double>& before) {
+  const plant::Plant& plant = rider.plant();
+  if (!plant.remembers()) return;
+  engine::Flow& flow = rider.now.flow;
+  const plant::SideMemory<double> none = flow.memory.side;
+  const auto rates = [&](const plant::State<double>& state, const plant::SideMemory<double>& memory) {
+    plant::Memory<double> whole = flow.memory;
+    whole.side = memory;
+    return plant.moment(state, whole, rider.now.held).memory_rates;
+  };
+  const auto at_rest = rates(before, none), now = rates(flow.state, none);
+  for (std::size_t slot = 0; slot < none.size(); ++slot) {
+    if (now[slot] == at_rest[slot]) continue;  // whatever the rig does: a clock
+    plant::SideMemory<double> further = none;
+    further[slot] += plant::Effects::memory_sizes[slot];
+    const double slope = (rates(flow.state, further)[slot] - now[slot]) / plant::Effects::memory_sizes[slot];
+    if (slope < 0.0) flow.memory.side[slot] = none[slot] - now[slot] / slope;
+  }
+}
+
+/// The threads' bristles bend as far as the acceleration asks for, and friction allows.
+void bend_bristles(Rider& rider, double acceleration_m_per_s2) {
+  const plant::Plant& plant = rider.plant();
+  engine::Flow& flow = rider.now.flow;
+  const auto& friction = plant.rig().friction;
+  double& bristle_m = flow.state.side.bristle_m;
+  bristle_m = 0.0;
+  const plant::Moment<double> straight = rider.moment();
+  const double most_m = straight.friction_level_N / friction.bristle_stiffness_N_per_m;
+  bristle_m = most_m;
+  const double slope = (rider.moment().acceleration_m_per_s2 - straight.acceleration_m_per_s2) / most_m;
+  bristle_m = std::clamp((acceleration_m_per_s2 - straight.acceleration_m_per_s2) / slope, -most_m, most_m);
+}
+
+}  // namespace
+
+void set_off(Rider& rider, const Underway& seen) {
+  const plant::Plant& plant = rider.plant();
+  Rider::State& now = rider.now;
+  plant::State<double>& state = now.flow.state;
+  const plant::State<double> at_rest = state;
+  const double length_m = plant.rig().muscle.rest_length_m;
+  state.joint = {seen.rise_m / length_m, seen.speed_m_per_s / length_m};
+  if (now.drive.muscle_pressure_Pa)
+    now.held.pressure_rate_Pa_per_s = 0.0;
+  else if (seen.muscle_pressure_Pa)
+    state.side.valve_pressure_Pa = state.side.muscle_pressure_Pa = *seen.muscle_pressure_Pa;
+  rest_memories(rider, at_rest);
+  if (plant.has_events())
+    now.held.slip = state.joint.contraction_speed_per_s < 0.0 ? plant::Slip::falling : plant::Slip::rising;
+  else
+    bend_bristles(rider, seen.acceleration_m_per_s2);
+  rider.open_ledger();
+  rider.look();
+}
+
+}  // namespace mckibben::ride

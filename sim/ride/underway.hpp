@@ -1,0 +1,21 @@
+// A rig that is already on its way when it is first seen: from where its load is, how fast and with which
+// acceleration, to a whole state. What cannot be seen follows from the equations: the threads carry what the
+// balance of forces asks of them, within their friction; memories of effects are where they would come to
+// rest, but for clocks, which begin with the record.
+#pragma once
+
+#include <optional>
+
+#include <sim/ride/rider.hpp>
+
+namespace mckibben::ride {
+
+struct Underway {
+  double rise_m = 0.0, speed_m_per_s = 0.0, acceleration_m_per_s2 = 0.0;
+  std::optional<double> muscle_pressure_Pa{};  ///< none: what the valve is asked for
+};
+
+/// Of a hanging load that has been started; its drive holds.
+void set_off(Rider& rider, const Underway& seen);
+
+}  // namespace mckibben::ride

@@ -1,0 +1,148 @@
+// Stamps to drives; see the header.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include <Eigen/QR>
+
+#include <sim/run/course.hpp>
+
+namespace mckibben::run {
+namespace {
+
+using domain::FirstState, domain::Hold, domain::Measurement;
+
+constexpr double jump_s = 1e-6;           // of a pressure that is held until its next stamp
+constexpr double first_moments_s = 0.04;  // what a load does in them is a parabola
+constexpr std::size_t least_readings = 4;
+
+bool any_given(const Measurement& measured) {
+  return measured.sides[0].pressure_is_given || measured.sides[1].pressure_is_given;
+}
+bool any_command(const Measurement& measured) {
+  return !measured.sides[0].current_mA.empty() || !measured.sides[1].current_mA.empty();
+}
+
+class Drives {
+ public:
+  Drives(const Measurement& measured, const plant::Rig& rig) : measured_(measured), rig_(rig) {}
+
+  Course operator()() {
+    const std::size_t stamps = measured_.time_s.size();
+    const bool jumps = measured_.recorded.hold == Hold::previous && any_given(measured_);
+    const bool ramps = measured_.recorded.hold == Hold::linear && any_command(measured_);
+    for (std::size_t k = 0; k < stamps; ++k) {
+      const double now_s = measured_.time_s[k];
+      if (jumps && k > 0)
+        add(now_s - std::min(jump_s, 0.5 * (now_s - measured_.time_s[k - 1])), at(k - 1, k - 1, 0.0));
+      course_.rows.push_back(course_.time_s.size());
+      const std::size_t next = std::min(k + 1, stamps - 1);
+      const double gap_s = measured_.time_s[next] - now_s;
+      const double parts = ramps ? std::max(1.0, std::ceil(gap_s / rig_.tick_s)) : 1.0;
+      for (double part = 0.0; part < parts; part += 1.0)
+        add(now_s + part / parts * gap_s, at(k, next, ramps ? (part + 0.5) / parts : 0.0, part / parts));
+    }
+    return std::move(course_);
+  }
+
+ private:
+  void add(double time_s, const ride::Drive& drive) {
+    course_.time_s.push_back(time_s);
+    course_.drives.push_back(drive);
+  }
+
+  /// At stamp k, and as far on to another: commands by `held`, pressures and lengths by `on`.
+  ride::Drive at(std::size_t k, std::size_t next, double held, double on = 0.0) const {
+    const auto between = [&](const std::vector<double>& values, double share) {
+      return share == 0.0 ? values[k] : std::lerp(values[k], values[next], share);
+    };
+    ride::Drive drive;
+    const auto act = [&](const Measurement::Side& side, ride::Command& command) {
+      if (side.pressure_is_given)
+        command.muscle_pressure_Pa = between(side.muscle_pressure_Pa, on);
+      else if (!side.current_mA.empty())
+        command.current_mA = between(side.current_mA, held);
+    };
+    act(measured_.sides[0], drive);
+    act(measured_.sides[1], drive.opposite);
+    if (measured_.length_is_given) drive.contraction_ratio = between(measured_.contraction_ratio, on);
+    return drive;
+  }
+
+  const Measurement& measured_;
+  const plant::Rig& rig_;
+  Course course_;
+};
+
+/// Value, slope and curvature at the first stamp, of what is read in the first moments.
+std::array<double, 3> parabola(const std::vector<double>& time_s, const std::vector<double>& values) {
+  std::vector<double> at, read;
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    const double since_s = time_s[k] - time_s.front();
+    if (since_s > first_moments_s && at.size() >= least_readings) break;
+    if (std::isnan(values[k])) continue;
+    at.push_back(since_s);
+    read.push_back(values[k]);
+  }
+  const auto rows = static_cast<Eigen::Index>(at.size());
+  Eigen::MatrixXd powers(rows, 3);
+  for (Eigen::Index row = 0; row < rows; ++row) {
+    const double since_s = at[static_cast<std::size_t>(row)];
+    powers.row(row) << 1.0, since_s, 0.5 * since_s * since_s;
+  }
+  const Eigen::Vector3d fitted =
+      powers.colPivHouseholderQr().solve(Eigen::Map<const Eigen::VectorXd>(read.data(), rows));
+  return {fitted[0], fitted[1], fitted[2]};
+}
+
+}  // namespace
+
+ride::Drive Course::toward(std::size_t k) const {
+  ride::Drive drive = drives[k];
+  const bool last = k + 1 == drives.size();
+  if (last && k == 0) return drive;
+  const ride::Drive& next = drives[last ? k - 1 : k + 1];
+  const auto go = [last](std::optional<double>& value, const std::optional<double>& other) {
+    if (value) value = last ? 2.0 * *value - *other : *other;
+  };
+  go(drive.muscle_pressure_Pa, next.muscle_pressure_Pa);
+  go(drive.opposite.muscle_pressure_Pa, next.opposite.muscle_pressure_Pa);
+  go(drive.contraction_ratio, next.contraction_ratio);
+  return drive;
+}
+
+FirstState first_state(const Measurement& measured) {
+  const auto [ratio, speed, acceleration] = parabola(measured.time_s, measured.contraction_ratio);
+  FirstState first{ratio, speed, acceleration};
+  const Measurement::Side& side = measured.sides[0];
+  const auto& read = side.muscle_pressure_Pa;
+  const auto known = std::count_if(read.begin(), read.end(), [](double value) { return !std::isnan(value); });
+  if (!side.pressure_is_given && static_cast<std::size_t>(known) >= least_readings)
+    first.muscle_pressure_Pa = parabola(measured.time_s, read)[0];
+  return first;
+}
+
+Course course_of(const Measurement& measured, const plant::Rig& rig) {
+  Course course = Drives(measured, rig)();
+  if (measured.recorded.start == domain::Start::moving) {
+    const FirstState first = measured.first ? *measured.first : first_state(measured);
+    const double length_m = rig.muscle.rest_length_m;
+    course.begins = {length_m * first.contraction_ratio, length_m * first.speed_per_s,
+                     length_m * first.acceleration_per_s2, first.muscle_pressure_Pa};
+  }
+  return course;
+}
+
+Course course_of(const domain::Run& run, const plant::Rig& rig) {
+  if (run.measured) return course_of(*run.measured, rig);
+  Course course;
+  for (std::size_t k = 0; k < run.current_mA.size(); ++k) {
+    course.time_s.push_back(static_cast<double>(k) * rig.tick_s);
+    course.drives.emplace_back().current_mA = run.current_mA[k];
+    course.rows.push_back(k);
+  }
+  return course;
+}
+
+}  // namespace mckibben::run

@@ -1,0 +1,37 @@
+// A run as a ride follows it: stamps, and what acts on the rig from each to the next. From a table of
+// measured stamps, from a row each tick, or made up.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include <sim/domain/dataset.hpp>
+#include <sim/ride/ride.hpp>
+#include <sim/ride/underway.hpp>
+
+namespace mckibben::run {
+
+struct Course {
+  std::vector<double> time_s;            ///< stamps, ascending
+  std::vector<ride::Drive> drives;       ///< at each: commands are held from it on; pressures and lengths are
+                                         ///< what they are there, and run straight to the next
+  std::vector<std::size_t> rows;         ///< stamps that have a row, ascending
+  std::optional<ride::Underway> begins;  ///< on its way, at the first stamp; none: settled
+
+  /// What acts from stamp `k` until the next. From the last one pressures and lengths go on as they came.
+  ride::Drive toward(std::size_t k) const;
+};
+
+/// A row for each stamp. Where inputs do otherwise between stamps than a drive does, there are further
+/// stamps: commands that run straight on are held at their mean for a tick at most, pressures that stay jump
+/// within a microsecond.
+Course course_of(const domain::Measurement& measured, const plant::Rig& rig);
+
+/// Of a run with a clock of its own, or with a row each tick of `rig`.
+Course course_of(const domain::Run& run, const plant::Rig& rig);
+
+/// From the readings of the first moments, by a parabola. A run that begins on its way has enough of them.
+domain::FirstState first_state(const domain::Measurement& measured);
+
+}  // namespace mckibben::run
