@@ -17,6 +17,7 @@
 #include <sim/cli/exit_status.hpp>
 #include <sim/cli/options.hpp>
 #include <sim/cli/results.hpp>
+#include <sim/cluster/crew.hpp>
 #include <sim/formats/table.hpp>
 #include <sim/input/diagnostics.hpp>
 #include <sim/input/objection_places.hpp>
@@ -26,6 +27,13 @@
 
 namespace mckibben::cli {
 namespace {
+
+/// Says on stderr what went wrong with the machine. What is wrong with the input or the command line is wrong
+/// in all processes of a crew, and rank 0 says it.
+void complain(const std::string& text) {
+  const int rank = cluster::crew().rank;
+  tell_anyway(fmt::format("mckibben{}: {}\n", rank == 0 ? "" : fmt::format(" (rank {})", rank), text));
+}
 
 /// Does it and says on stderr what went wrong.
 int guarded(const std::function<int()>& work) {
@@ -41,29 +49,29 @@ int guarded(const std::function<int()>& work) {
     say(to_text(input::problems_of(error.path(), error.objections())).c_str());
     return bad_input;
   } catch (const input::MissingInput& error) {
-    fmt::print(stderr, "mckibben: {}\n", error.what());
+    complain(error.what());
     return missing_input;
   } catch (const output::CannotWrite& error) {
-    fmt::print(stderr, "mckibben: {}\n", error.what());
+    complain(error.what());
     return cannot_write;
   } catch (const formats::BadFile& error) {
-    fmt::print(stderr, "mckibben: {}\n", error.what());
+    complain(error.what());
     return cannot_write;
   } catch (const run::Interrupted&) {
     say("mckibben: interrupted before there was a result; nothing was written, earlier results are as they "
         "were.\nThe same command begins again.");
     return interrupted;
   } catch (const std::filesystem::filesystem_error& error) {
-    fmt::print(stderr, "mckibben: cannot use {}: {}\n", error.path1().string(), error.code().message());
+    complain(fmt::format("cannot use {}: {}", error.path1().string(), error.code().message()));
     return cannot_write;
   } catch (const std::system_error& error) {
-    fmt::print(stderr, "mckibben: this machine does not give what is needed: {}\n", error.what());
+    complain(fmt::format("this machine does not give what is needed: {}", error.what()));
     return failure;
   } catch (const std::bad_alloc&) {
-    say("mckibben: there is not enough memory for this");
+    complain("there is not enough memory for this");
     return failure;
   } catch (const std::exception& error) {
-    fmt::print(stderr, "mckibben: {}\nThis is a defect of the program; please report it.\n", error.what());
+    complain(fmt::format("{}\nThis is a defect of the program; please report it.", error.what()));
     return failure;
   }
 }
@@ -114,12 +122,18 @@ int parse_and_do(int argc, char** argv) {
     return wrong_usage(verbs.empty() ? "" : verbs.front()->get_name(), error.what());
   }
   run::catch_interrupts();
+  if (asked.ranks == Ranks::only_first && !cluster::crew().alone()) {
+    if (!cluster::crew().leads()) return done;
+    fmt::print(stderr, "mckibben: {} is not shared out; one of {} processes does all of it\n",
+               app.get_subcommands().front()->get_name(), cluster::crew().size);
+  }
   return asked.chosen();
 }
 
 }  // namespace
 
 int run(int argc, char** argv) {
+  if (!cluster::crew().leads()) keep_quiet();
   return guarded([&] { return parse_and_do(argc, argv); });
 }
 

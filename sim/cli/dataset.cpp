@@ -1,7 +1,6 @@
 // The verb `dataset`: a campaign's runs, written one by one, so that an interrupted campaign goes on. Its two
 // folders are no Job.
 #include <algorithm>
-#include <atomic>
 #include <cstdio>
 #include <filesystem>
 #include <string>
@@ -13,6 +12,7 @@
 #include <sim/cli/options.hpp>
 #include <sim/cli/results.hpp>
 #include <sim/cli/verbs.hpp>
+#include <sim/cluster/handout.hpp>
 #include <sim/input/campaign_file.hpp>
 #include <sim/input/dataset_file.hpp>
 #include <sim/output/campaign_folder.hpp>
@@ -28,28 +28,53 @@ struct DatasetOptions : Options {
   std::vector<std::string> formats;  ///< of runs, besides CSV
 };
 
+/// Makes the runs that are not there yet, with the rest of the crew; rank 0 waits until all are there.
+void make_runs(const domain::Campaign& campaign, const output::CampaignFolder& folder, unsigned threads,
+               cluster::Workplace& place, const run::ProgressHook& progress) {
+  const auto& jobs = folder.jobs();
+  cluster::Handout handout(place, jobs.size(), [&](std::size_t i) { return folder.has(jobs[i]); });
+  const auto take = [&] { return handout.take(); };
+  const auto finished = [&](std::size_t i, const run::CampaignRun& run) {
+    folder.put(run);
+    handout.done(i);
+    progress("simulating", handout.there(), jobs.size());
+  };
+  progress("simulating", 0, jobs.size());
+  do {
+    run::run_jobs(campaign, jobs, take, handout.fair_share(), threads, finished);
+  } while (place.crew().leads() && handout.again());
+  if (run::interrupted()) throw run::Interrupted();
+}
+
+int stopped(const output::CampaignFolder& folder) {
+  const auto& jobs = folder.jobs();
+  fmt::print(stderr,
+             "mckibben: interrupted; {} of {} runs are in {}\n"
+             "The same command goes on from there. Earlier results are as they were.\n",
+             std::count_if(jobs.begin(), jobs.end(), [&](const auto& job) { return folder.has(job); }),
+             jobs.size(), folder.unfinished().string());
+  return interrupted;
+}
+
 int make_dataset(const DatasetOptions& options) {
   domain::Campaign campaign = input::read_campaign(std::filesystem::path(options.campaign));
   if (options.seed) campaign.seed = *options.seed;
   const auto where = destination(options, campaign.name);
-  for (const char* suffix : {"", "-truth", ".unfinished"})
+  for (const char* suffix : {"", "-truth", ".unfinished", ".ranks"})
     keep_apart(where.string() + suffix, campaign.inputs);
-  output::CampaignFolder folder(where, campaign, options.formats, say);
-  std::atomic<std::size_t> there = folder.jobs().size() - folder.missing().size();
+  cluster::Workplace place(where.string() + ".ranks", cluster::crew());
+  const output::CampaignFolder folder = place.crew().leads()
+                                            ? output::CampaignFolder(where, campaign, options.formats, say)
+                                            : output::CampaignFolder(where, campaign, options.formats);
+  place.begin(folder.key());
   try {
-    const auto put = [&](const run::CampaignRun& run) {
-      folder.put(run);
-      ++there;
-    };
     with_progress(campaign.name, [&](const auto& hook) {
-      run::run_jobs(campaign, folder.missing(), options.threads, put, hook);
+      make_runs(campaign, folder, cluster::threads_of(options.threads), place, hook);
     });
+    if (!place.crew().leads()) return done;
+    place.close();
   } catch (const run::Interrupted&) {
-    fmt::print(stderr,
-               "mckibben: interrupted; {} of {} runs are in {}\n"
-               "The same command goes on from there. Earlier results are as they were.\n",
-               there.load(), folder.jobs().size(), folder.unfinished().string());
-    return interrupted;
+    return stopped(folder);
   }
   const std::vector<run::EndedRun> runs = folder.runs();
   folder.publish(runs, [&](const std::filesystem::path& data) {
@@ -57,6 +82,7 @@ int make_dataset(const DatasetOptions& options) {
   });
   print(options, {output::json_of(campaign, runs), output::table_of(campaign, runs)});
   fmt::print(stderr, "data set in {}, truth in {}\n", folder.data().string(), folder.truth().string());
+  place.leave();
   const bool failed =
       std::any_of(runs.begin(), runs.end(), [](const auto& run) { return !run.failure.empty(); });
   return failed ? failure : done;
@@ -67,7 +93,7 @@ int make_dataset(const DatasetOptions& options) {
 void add_dataset(CLI::App& app, Asked& asked) {
   CLI::App& verb = add_verb(app, "dataset", to_simulate,
                             "Simulate a campaign; write a calibration data set and, apart, the truth");
-  DatasetOptions& options = asked.when(verb, make_dataset);
+  DatasetOptions& options = asked.when(verb, make_dataset, Ranks::share);
   add_input(verb, options.campaign, "campaign", "Campaign file", "CAMPAIGN.yaml");
   add_common(verb, options);
   add_seed(verb, options, "the noise (default: the campaign's)");
@@ -76,6 +102,7 @@ void add_dataset(CLI::App& app, Asked& asked) {
       "Examples:\n"
       "  mckibben dataset scenarios/thesis_campaign.yaml --out data\n"
       "  mckibben dataset my_campaign.yaml --seed 2       the same measured again, with other noise\n"
+      "  mpirun -n 4 mckibben dataset my_campaign.yaml    or srun: spread over processes (docs/cluster.md)\n"
       "Writes data/ and data-truth/. If interrupted, the same command goes on where it stopped.\n");
 }
 

@@ -12,7 +12,9 @@
 #include <sim/cli/options.hpp>
 #include <sim/cli/results.hpp>
 #include <sim/cli/verbs.hpp>
+#include <sim/cluster/share.hpp>
 #include <sim/domain/number.hpp>
+#include <sim/engine/versions.hpp>
 #include <sim/input/common_checks.hpp>
 #include <sim/input/dataset_file.hpp>
 #include <sim/input/pair_scenario_file.hpp>
@@ -106,16 +108,48 @@ std::vector<std::string> sane(const domain::Dataset& dataset, const std::vector<
   return warnings;
 }
 
+/// What the bytes of a scenario's results depend on.
+std::string key_of(const domain::Scenario& scenario) {
+  std::string key = fmt::format("run, {}, SUNDIALS {}, seed {}", output::program_name(),
+                                engine::sundials_version(), scenario.seed);
+  for (const auto& file : scenario.inputs) key += ", " + file.sha256;
+  return key;
+}
+
+/// With whoever else is at work there.
+run::Comparison compare(const domain::Scenario& scenario, const RunOptions& options,
+                        cluster::Workplace& place, const run::ProgressHook& progress) {
+  const unsigned threads = cluster::threads_of(options.threads);
+  if (!place.used()) return run::compare(scenario, threads, progress);
+  return run::compare(
+      scenario, threads, progress,
+      [&](const std::string& stage, std::size_t count, bool for_all, const auto& job, const auto& take) {
+        const auto needed = for_all ? cluster::Needed::by_all : cluster::Needed::by_rank_0;
+        cluster::share(place, stage, count, threads, needed, job, take);
+      });
+}
+
 int run_scenario(const RunOptions& options) {
+  const cluster::Crew& crew = cluster::crew();
   if (input::schema_of(options.scenario) == input::pair_schema)
-    return run_pair(options, options.scenario, options.formats);
+    return crew.leads() ? run_pair(options, options.scenario, options.formats) : done;
   std::vector<input::Problem> problems;
   domain::Scenario scenario = input::read_scenario(std::filesystem::path(options.scenario), problems);
   for (const auto& problem : problems) fmt::print(stderr, "{}\n", to_text(problem));
   if (options.seed) scenario.seed = *options.seed;
+  const auto ranks = destination(options, scenario.name).string() + ".ranks";
+  keep_apart(ranks, scenario.inputs);
+  cluster::Workplace place(ranks, crew);
+  if (!crew.leads()) {
+    place.begin(key_of(scenario));
+    compare(scenario, options, place, [](const auto&, auto, auto) {});
+    return done;
+  }
   Job job(options, "run " + options.scenario, scenario.name, scenario.inputs);
-  run::Comparison comparison = with_progress(
-      scenario.name, [&](const auto& hook) { return run::compare(scenario, options.threads, hook); });
+  place.begin(key_of(scenario));
+  run::Comparison comparison =
+      with_progress(scenario.name, [&](const auto& hook) { return compare(scenario, options, place, hook); });
+  if (!comparison.interrupted) place.close();
   warn(comparison.warnings);
   std::vector<std::string> of_reader;  // said already
   of_reader.reserve(problems.size());
@@ -130,9 +164,11 @@ int run_scenario(const RunOptions& options) {
   job.write("table.txt", table);
   job.write("tracking.svg", output::tracking_svg(scenario, comparison));
   job.write("report.html", report::report_html(scenario, comparison));
-  return job.finish({document, table}, any_failed(comparison.runs) ? failure
-                                       : !comparison.unmet.empty() ? criterion_not_met
-                                                                   : done);
+  const int status = job.finish({document, table}, any_failed(comparison.runs) ? failure
+                                                   : !comparison.unmet.empty() ? criterion_not_met
+                                                                               : done);
+  if (!comparison.interrupted) place.leave();
+  return status;
 }
 
 /// Throws input::BadInput where the data are not of such a rig.
@@ -173,7 +209,7 @@ int replay_dataset(const ReplayOptions& options) {
 void add_run(CLI::App& app, Asked& asked) {
   CLI::App& verb = add_verb(app, "run", to_simulate,
                             "Simulate each load x controller of a scenario; print tracking errors");
-  RunOptions& options = asked.when(verb, run_scenario);
+  RunOptions& options = asked.when(verb, run_scenario, Ranks::share);
   add_input(verb, options.scenario, "scenario", "Scenario file", "SCENARIO.yaml");
   add_common(verb, options);
   add_seed(verb, options, "the noise (default: the scenario's)");

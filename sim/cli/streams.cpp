@@ -18,10 +18,11 @@ namespace mckibben::cli {
 namespace {
 
 int print_error = 0;  // errno of the first failure
+bool quiet = false;
 
 /// As far as it goes.
 ssize_t write_to_stderr(void*, const char* text, std::size_t size) {
-  std::ignore = output::write_all(STDERR_FILENO, {text, size});
+  if (!quiet) std::ignore = output::write_all(STDERR_FILENO, {text, size});
   return static_cast<ssize_t>(size);
 }
 
@@ -40,13 +41,22 @@ void prepare_streams() {
   std::signal(SIGXFSZ, SIG_IGN);
   cookie_io_functions_t functions{};
   functions.write = write_to_stderr;
-  if (std::FILE* quiet = fopencookie(nullptr, "w", functions)) {
-    std::setvbuf(quiet, nullptr, _IONBF, 0);
-    stderr = quiet;
+  if (std::FILE* patient = fopencookie(nullptr, "w", functions)) {
+    std::setvbuf(patient, nullptr, _IONBF, 0);
+    stderr = patient;
   }
 }
 
+void keep_quiet() {
+  quiet = true;
+}
+
+void tell_anyway(const std::string& text) {
+  std::ignore = output::write_all(STDERR_FILENO, text);
+}
+
 void print(const std::string& text) {
+  if (quiet) return;
   const bool whole = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
   if ((!whole || std::fflush(stdout) != 0) && print_error == 0) print_error = errno;
 }

@@ -10,6 +10,10 @@ namespace mckibben::cli {
 /// on the size of files (SIGXFSZ) are failed writes and end nothing.
 void prepare_streams();
 
+/// From here on this process says nothing, on neither of them, but what `tell_anyway` is given, on stderr.
+void keep_quiet();
+void tell_anyway(const std::string& text);
+
 /// Prints on stdout, to the byte. A failure is kept for check_printed.
 void print(const std::string& text);
 

@@ -144,23 +144,28 @@ std::string shipped_name(const domain::RigFile& rig) {
 }  // namespace
 
 CampaignFolder::CampaignFolder(const fs::path& destination, const domain::Campaign& campaign,
-                               std::vector<std::string> formats, Say say)
+                               std::vector<std::string> formats)
     : campaign_(campaign),
       formats_(std::move(formats)),
       jobs_(run::jobs_of(campaign)),
       destination_(result_path(destination)),
       truth_(result_path(destination_.string() + "-truth")),
-      unfinished_(result_path(destination_.string() + ".unfinished")),
-      say_(std::move(say)) {
+      unfinished_(result_path(destination_.string() + ".unfinished")) {
+  std::erase(formats_, "csv");
+  std::sort(formats_.begin(), formats_.end());
+  formats_.erase(std::unique(formats_.begin(), formats_.end()), formats_.end());
+}
+
+CampaignFolder::CampaignFolder(const fs::path& destination, const domain::Campaign& campaign,
+                               std::vector<std::string> formats, Say say)
+    : CampaignFolder(destination, campaign, std::move(formats)) {
+  say_ = std::move(say);
   for (const auto* place : {&destination_, &truth_, &unfinished_})
     locks_.emplace_back(*place, "dataset " + campaign.name);
   writing(unfinished_, [&] { open(); });
 }
 
 void CampaignFolder::open() {
-  std::erase(formats_, "csv");
-  std::sort(formats_.begin(), formats_.end());
-  formats_.erase(std::unique(formats_.begin(), formats_.end()), formats_.end());
   const Json plan = plan_of(campaign_, jobs_, formats_);
   const bool finished = finish(unfinished_, say_);
   if (fs::exists(unfinished_) && !fs::is_empty(unfinished_)) {
@@ -176,16 +181,25 @@ void CampaignFolder::open() {
   missing_ = jobs_;
 }
 
+bool CampaignFolder::has(const run::CampaignJob& job) const {
+  return fs::exists(unfinished_ / RunFiles(job.id).entry);
+}
+
+std::string CampaignFolder::key() const {
+  return input::sha256_hex(plan_of(campaign_, jobs_, formats_).dump());
+}
+
 // A run that is not as it was written is made again: nothing else in the folder tells whether it was its rows
 // or its entry that somebody changed.
 void CampaignFolder::find_missing() {
   std::string damaged;
   std::size_t count = 0;
   for (const auto& job : jobs_) {
-    const auto record = read_json(unfinished_ / RunFiles(job.id).entry);
-    const bool there = fs::exists(unfinished_ / RunFiles(job.id).entry);
+    const fs::path entry = unfinished_ / RunFiles(job.id).entry;
+    const auto record = read_json(entry);
     if (record && is_whole(unfinished_, *record)) continue;
     missing_.push_back(job);
+    const bool there = fs::remove(entry);
     if (there && ++count <= 3) damaged += (count > 1 ? ", " : "") + job.id;
   }
   say_(fmt::format("{}: {} of {} runs are there already; going on", unfinished_.string(),

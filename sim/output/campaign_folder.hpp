@@ -24,10 +24,19 @@ class CampaignFolder {
   CampaignFolder(const std::filesystem::path& destination, const domain::Campaign& campaign,
                  std::vector<std::string> formats, Say say);
 
+  /// The same for a process that helps the one which has opened it: nothing is locked, looked at or said.
+  CampaignFolder(const std::filesystem::path& destination, const domain::Campaign& campaign,
+                 std::vector<std::string> formats);
+
   /// All runs of the campaign, and those that were not on disk, as they were written, when it was opened.
   const std::vector<run::CampaignJob>& jobs() const { return jobs_; }
   const std::vector<run::CampaignJob>& missing() const { return missing_; }
   std::filesystem::path unfinished() const { return unfinished_; }
+
+  /// Whether a run is on disk, as it was written or since it was opened.
+  bool has(const run::CampaignJob& job) const;
+  /// What the bytes of all runs depend on.
+  std::string key() const;
 
   /// Writes the files of one run; from any thread, one call for each run. Throws CannotWrite.
   void put(const run::CampaignRun& run) const;

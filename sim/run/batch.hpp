@@ -36,4 +36,11 @@ using ProgressHook = std::function<void(const std::string& what, std::size_t don
 bool for_each_result(std::size_t count, unsigned threads, const std::string& what,
                      const ProgressHook& progress, const std::function<void(std::size_t)>& job);
 
+/// Lets other processes do some of the jobs of a stage (sim/cluster): `job` gives its result as bytes, and
+/// `take` is given all results, in order; of a stage that is not `for_all`, in one of the processes only.
+/// Throws Interrupted.
+using Sharing = std::function<void(const std::string& stage, std::size_t count, bool for_all,
+                                   const std::function<std::string(std::size_t)>& job,
+                                   const std::function<void(std::size_t, const std::string&)>& take)>;
+
 }  // namespace mckibben::run

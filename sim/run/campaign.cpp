@@ -67,6 +67,14 @@ void run_jobs(const domain::Campaign& campaign, std::span<const CampaignJob> job
       });
 }
 
+void run_jobs(const domain::Campaign& campaign, std::span<const CampaignJob> jobs, const Take& take,
+              std::size_t about, unsigned threads,
+              const std::function<void(std::size_t, const CampaignRun&)>& finished) {
+  simulate_all(
+      take, about, threads, [&](std::size_t i) { return order_of(campaign, jobs[i]); },
+      [&](std::size_t i, Recording recording) { finished(i, made(jobs[i], std::move(recording))); });
+}
+
 EndedRun ended(const domain::Campaign& campaign, const CampaignRun& run) {
   if (!run.failure.empty()) return {run.job, run.failure};
   const auto& samples = run.recording.samples;

@@ -13,6 +13,7 @@
 #include <sim/domain/dataset.hpp>
 #include <sim/run/compare.hpp>
 #include <sim/run/recording.hpp>
+#include <sim/run/simulate.hpp>
 
 namespace mckibben::run {
 
@@ -52,6 +53,12 @@ CampaignRun run_job(const domain::Campaign& campaign, const CampaignJob& job);
 /// Throws Interrupted; what `finished` throws.
 void run_jobs(const domain::Campaign& campaign, std::span<const CampaignJob> jobs, unsigned threads,
               const std::function<void(const CampaignRun&)>& finished, const ProgressHook& progress);
+
+/// The same of those of `jobs` that `take` hands out by their place, from any thread, until there is none.
+/// `about`: how many that may be.
+void run_jobs(const domain::Campaign& campaign, std::span<const CampaignJob> jobs, const Take& take,
+              std::size_t about, unsigned threads,
+              const std::function<void(std::size_t, const CampaignRun&)>& finished);
 
 EndedRun ended(const domain::Campaign& campaign, const CampaignRun& run);
 

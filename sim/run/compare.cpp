@@ -12,6 +12,7 @@
 #include <sim/domain/number.hpp>
 #include <sim/run/batch.hpp>
 #include <sim/run/compare.hpp>
+#include <sim/run/packed.hpp>
 #include <sim/run/reachable.hpp>
 #include <sim/run/remarks.hpp>
 #include <sim/run/simulate.hpp>
@@ -29,8 +30,12 @@ std::string id_of(const std::string& controller, double load_kg) {
 
 class Comparing {
  public:
-  Comparing(const Scenario& scenario, unsigned threads, const ProgressHook& progress)
-      : scenario_(scenario), threads_(threads), progress_(progress), settings_(scenario.controllers) {
+  Comparing(const Scenario& scenario, unsigned threads, const ProgressHook& progress, const Sharing& sharing)
+      : scenario_(scenario),
+        threads_(threads),
+        progress_(progress),
+        sharing_(sharing),
+        settings_(scenario.controllers) {
     const auto ticks = plan_of(scenario, 0.0, 0).ticks;
     result_.target =
         controllers::sample(scenario.target, ticks, scenario.rig.tick_s, scenario.rig.muscle.rest_length_m);
@@ -64,13 +69,19 @@ class Comparing {
     const std::size_t most = open.size() * static_cast<std::size_t>(TuningOptions{}.evaluations);
     std::atomic<std::size_t> evaluations{0};
     progress_("tuning PID", 0, most);
-    for_each_job(
-        open.size(), threads_,
-        [&](std::size_t i) {
-          result_.tuned[i] = tune_controller(scenario_, knowledge_, *open[i],
-                                             [&] { progress_("tuning PID", ++evaluations, most); });
-        },
-        [](std::size_t) {});
+    const auto tune = [&](std::size_t i) {
+      result_.tuned[i] = tune_controller(scenario_, knowledge_, *open[i],
+                                         [&] { progress_("tuning PID", ++evaluations, most); });
+    };
+    if (!sharing_) return for_each_job(open.size(), threads_, tune, [](std::size_t) {});
+    const auto job = [&](std::size_t i) {
+      tune(i);
+      return packed(result_.tuned[i]);
+    };
+    sharing_("tuned", open.size(), true, job, [&](std::size_t i, const std::string& bytes) {
+      result_.tuned[i] = unpacked_tuning(bytes);
+      if (result_.tuned[i].failure.empty()) set_gains(*open[i], result_.tuned[i].tuned.gains);
+    });
   }
 
   void run_all() {
@@ -79,9 +90,27 @@ class Comparing {
       result_.runs.push_back({.load_kg = scenario_.loads_kg[i / columns],
                               .controller = controllers::name_of(settings_[i % columns]),
                               .failure = not_begun});
-    result_.interrupted = !for_each_result(total, threads_, "simulating", progress_, [&](std::size_t i) {
-      run_one(result_.runs[i], settings_[i % columns], i);
-    });
+    const auto run = [&](std::size_t i) { run_one(result_.runs[i], settings_[i % columns], i); };
+    if (sharing_)
+      share_runs(total, run);
+    else
+      result_.interrupted = !for_each_result(total, threads_, "simulating", progress_, run);
+  }
+
+  void share_runs(std::size_t total, const std::function<void(std::size_t)>& run) {
+    progress_("simulating", 0, total);
+    const auto job = [&](std::size_t i) {
+      run(i);
+      return packed(result_.runs[i]);
+    };
+    try {
+      sharing_("run", total, false, job, [&](std::size_t i, const std::string& bytes) {
+        result_.runs[i] = unpacked_run(bytes);
+        progress_("simulating", i + 1, total);
+      });
+    } catch (const Interrupted&) {
+      result_.interrupted = true;
+    }
   }
 
   void run_one(TrackedRun& run, const controllers::Settings& settings, std::size_t index) const {
@@ -165,6 +194,7 @@ class Comparing {
   const Scenario& scenario_;
   unsigned threads_;
   const ProgressHook& progress_;
+  const Sharing& sharing_;
   std::vector<controllers::Settings> settings_;
   controllers::Knowledge knowledge_;
   Comparison result_;
@@ -172,8 +202,9 @@ class Comparing {
 
 }  // namespace
 
-Comparison compare(const Scenario& scenario, unsigned threads, const ProgressHook& progress) {
-  return Comparing(scenario, threads, progress)();
+Comparison compare(const Scenario& scenario, unsigned threads, const ProgressHook& progress,
+                   const Sharing& sharing) {
+  return Comparing(scenario, threads, progress, sharing)();
 }
 
 }  // namespace mckibben::run

@@ -44,7 +44,9 @@ struct Comparison {
 };
 
 /// Tunes what is to be tuned, runs everything on `threads` threads (0: all the machine has) and measures. The
-/// result does not depend on the number of threads. Throws Interrupted if stopped while tuning.
-Comparison compare(const domain::Scenario& scenario, unsigned threads, const ProgressHook& progress);
+/// result does not depend on the number of threads. With `sharing`, other processes help, and the result is
+/// whole in that one only which is given all runs. Throws Interrupted if stopped while tuning.
+Comparison compare(const domain::Scenario& scenario, unsigned threads, const ProgressHook& progress,
+                   const Sharing& sharing = {});
 
 }  // namespace mckibben::run

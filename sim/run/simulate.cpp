@@ -231,8 +231,6 @@ Class class_of(const RunPlan& plan) {
 /// What one thread does: takes runs, and carries those of one class side by side.
 class Carrier {
  public:
-  using Take = std::function<std::optional<std::size_t>()>;
-
   Carrier(const Take& take, const Ordering& ordering, const Finished& finished, std::size_t places)
       : take_(take), ordering_(ordering), finished_(finished), places_(places) {}
 
@@ -307,18 +305,23 @@ void simulate_all(std::size_t count, unsigned threads, const Ordering& ordering,
     finished(index, std::move(recording));
     ++done;
   };
-  const Carrier::Take take = [&]() -> std::optional<std::size_t> {
+  const Take take = [&]() -> std::optional<std::size_t> {
     const std::size_t index = interrupted() ? count : next++;
     return index < count ? std::optional(index) : std::nullopt;
   };
-  const std::size_t carriers = std::min<std::size_t>(
-      count, threads == 0 ? std::max(1u, std::thread::hardware_concurrency()) : threads);
-  const std::size_t places =
-      count > carriers * engine::Convoy::wing ? engine::Convoy::places : engine::Convoy::wing;
-  for_each_job(
-      carriers, threads, [&](std::size_t) { Carrier(take, ordering, counting, places)(); },
-      [](std::size_t) {});
+  simulate_all(take, count, threads, ordering, counting);
   if (done < count) throw Interrupted();
+}
+
+void simulate_all(const Take& take, std::size_t about, unsigned threads, const Ordering& ordering,
+                  const Finished& finished) {
+  const std::size_t carriers = std::min<std::size_t>(
+      about, threads == 0 ? std::max(1u, std::thread::hardware_concurrency()) : threads);
+  const std::size_t places =
+      about > carriers * engine::Convoy::wing ? engine::Convoy::places : engine::Convoy::wing;
+  for_each_job(
+      carriers, threads, [&](std::size_t) { Carrier(take, ordering, finished, places)(); },
+      [](std::size_t) {});
 }
 
 double contraction_per_count(const plant::Rig& rig) {

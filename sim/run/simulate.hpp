@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 
 #include <controllers/controller.hpp>
 #include <plant/instruments.hpp>
@@ -46,6 +47,13 @@ using Finished = std::function<void(std::size_t index, Recording recording)>;
 /// alone (`simulate`) it is the same within the rounding of its laws. `ordering` and `finished` are called
 /// from any thread, in any order. Throws Interrupted; what they throw.
 void simulate_all(std::size_t count, unsigned threads, const Ordering& ordering, const Finished& finished);
+
+/// The number of the next run; none if there is none.
+using Take = std::function<std::optional<std::size_t>()>;
+/// The same of runs that `take` hands out, from any thread; `about`: how many at most. Ends when
+/// there are none.
+void simulate_all(const Take& take, std::size_t about, unsigned threads, const Ordering& ordering,
+                  const Finished& finished);
 
 /// What the data sheets of a rig tell a controller, and the target [contraction ratio] at each tick. Nothing
 /// of its effects.

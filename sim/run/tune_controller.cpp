@@ -50,10 +50,7 @@ class Tuning {
 
   controllers::Settings with(const Gains& gains) const {
     controllers::Settings complete = settings_;
-    controllers::PidTerms& terms = *controllers::pid_terms(complete);
-    terms.proportional_mA = gains.proportional_mA;
-    terms.integral_time_s = gains.integral_time_s;
-    terms.derivative_time_s = gains.derivative_time_s;
+    set_gains(complete, gains);
     return complete;
   }
 
@@ -99,6 +96,13 @@ std::optional<double> idle_cost(const Tuning& tuning, Gains gains) {
 }
 
 }  // namespace
+
+void set_gains(controllers::Settings& settings, const Gains& gains) {
+  controllers::PidTerms& terms = *controllers::pid_terms(settings);
+  terms.proportional_mA = gains.proportional_mA;
+  terms.integral_time_s = gains.integral_time_s;
+  terms.derivative_time_s = gains.derivative_time_s;
+}
 
 TunedController tune_controller(const domain::Scenario& scenario, const controllers::Knowledge& knowledge,
                                 controllers::Settings& settings, const std::function<void()>& tried) {

@@ -22,6 +22,9 @@ struct TunedController {
   std::optional<controllers::CurrentRange> limits{};  ///< of its current, as the DAC gives them
 };
 
+/// Gives a PID these gains.
+void set_gains(controllers::Settings& settings, const Gains& gains);
+
 /// Tunes `settings` and fills the gains in. `knowledge` holds the target;
 /// `tried` hears of each trial. Throws Interrupted.
 TunedController tune_controller(const domain::Scenario& scenario, const controllers::Knowledge& knowledge,

@@ -4,10 +4,13 @@
 //                                                what has a title that begins so (default: all)
 //   benchmark_diagnosis --corrupted [SEED [only=NAME]]   the same for data that were spoilt on purpose
 //
+// Started by mpirun or srun, its processes share the data sets out and meet in out/bench-diagnosis.ranks.
 // Thresholds of the workflow were set on seeds below 100.
 #include <algorithm>
 #include <chrono>
 #include <cstdlib>
+#include <cstring>
+#include <filesystem>
 #include <set>
 #include <string>
 #include <string_view>
@@ -15,7 +18,9 @@
 
 #include <fmt/format.h>
 
+#include <sim/cluster/share.hpp>
 #include <sim/diagnose/diagnose.hpp>
+#include <sim/input/hash.hpp>
 
 #include "corrupted_benchmark.hpp"
 #include "hidden_effects.hpp"
@@ -69,20 +74,50 @@ struct Answer {
   }
 };
 
+/// What counts of a diagnosis.
+struct Outcome {
+  Verdict hidden{}, found{};
+  bool right = false, within = false, wrong_name = false, closed = false;
+  int covered = 0, parameters = 0;  ///< true ones in their intervals, of
+  double took_s = 0.0;
+
+  Outcome(const diagnose::Hidden& truth, const diagnose::Diagnosis& diagnosis, const Answer& answer)
+      : hidden(truth.verdict),
+        found(diagnosis.verdict),
+        right(answer.right),
+        within(answer.within),
+        wrong_name(!answer.named.empty() &&
+                   !holds({truth.effects.begin(), truth.effects.end()}, answer.named)),
+        closed(diagnosis.gap.closed >= 0.9) {
+    for (const auto& planted : truth.truth)
+      for (const auto& effect : diagnosis.effects)
+        for (const auto& p : effect.parameters)
+          if (planted.path == "effects." + effect.name + "." + p.name) {
+            covered += planted.value >= p.low && planted.value <= p.high ? 1 : 0;
+            ++parameters;
+          }
+  }
+  Outcome() = default;
+};
+
 class Score {
  public:
-  void count(const diagnose::Hidden& hidden, const diagnose::Diagnosis& found, const Answer& answer) {
-    if (hidden.verdict == Verdict::missing_effect) {
-      first_name_.count(answer.right && found.verdict == Verdict::missing_effect);
-      in_set_.count(answer.within);
-      if (answer.right) count_sizes(hidden, found);
+  void count(const Outcome& outcome) {
+    slowest_s_ = std::max(slowest_s_, outcome.took_s);
+    if (outcome.hidden == Verdict::missing_effect) {
+      first_name_.count(outcome.right && outcome.found == Verdict::missing_effect);
+      in_set_.count(outcome.within);
+      if (outcome.right) {
+        closed_.count(outcome.closed);
+        covered_.yes += outcome.covered;
+        covered_.of += outcome.parameters;
+      }
     }
-    if (hidden.verdict == Verdict::nothing_missing)
-      false_alarms_.count(found.verdict != Verdict::nothing_missing && found.verdict != Verdict::cannot_tell);
-    if (hidden.verdict == Verdict::recalibrate) recalibrated_.count(found.verdict == Verdict::recalibrate);
-    if (hidden.verdict == Verdict::unknown_effect) unknown_.count(found.verdict == Verdict::unknown_effect);
-    wrong_names_.count(!answer.named.empty() &&
-                       !holds({hidden.effects.begin(), hidden.effects.end()}, answer.named));
+    if (outcome.hidden == Verdict::nothing_missing)
+      false_alarms_.count(outcome.found != Verdict::nothing_missing && outcome.found != Verdict::cannot_tell);
+    if (outcome.hidden == Verdict::recalibrate) recalibrated_.count(outcome.found == Verdict::recalibrate);
+    if (outcome.hidden == Verdict::unknown_effect) unknown_.count(outcome.found == Verdict::unknown_effect);
+    wrong_names_.count(outcome.wrong_name);
   }
 
   void print() const {
@@ -94,37 +129,67 @@ class Score {
     unknown_.print("unknown laws recognised");
     false_alarms_.print("nothing hidden: false alarms");
     wrong_names_.print("wrong names (all data sets)");
+    fmt::print("slowest diagnosis {:.1f} s\n", slowest_s_);
   }
 
  private:
-  void count_sizes(const diagnose::Hidden& hidden, const diagnose::Diagnosis& found) {
-    closed_.count(found.gap.closed >= 0.9);
-    for (const auto& planted : hidden.truth)
-      for (const auto& effect : found.effects)
-        for (const auto& p : effect.parameters)
-          if (planted.path == "effects." + effect.name + "." + p.name)
-            covered_.count(planted.value >= p.low && planted.value <= p.high);
-  }
-
   Tally first_name_, in_set_, false_alarms_, unknown_, wrong_names_, covered_, closed_, recalibrated_;
+  double slowest_s_ = 0.0;
 };
 
-/// Diagnoses one data set, counts and prints what came out. Returns how long it took.
-double diagnose_one(std::size_t kind, std::uint64_t seed, Score& score) {
+/// A diagnosis for another process: its outcome and its line, as bytes.
+std::string bytes_of(const Outcome& outcome, const std::string& line) {
+  return std::string(reinterpret_cast<const char*>(&outcome), sizeof outcome) + line;
+}
+
+/// Diagnoses one data set.
+std::string diagnose_one(std::size_t kind, std::uint64_t seed) {
   const auto hidden = diagnose::hide(kind, seed);
   const auto start = std::chrono::steady_clock::now();
-  const auto found = diagnose::diagnose(hidden.data, {.threads = 0, .seed = seed}, [](auto, auto, auto) {});
-  const double took_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const auto found = diagnose::diagnose(hidden.data, {.threads = cluster::crew().threads, .seed = seed},
+                                        [](auto, auto, auto) {});
   const Answer answer(hidden, found);
-  score.count(hidden, found, answer);
-  fmt::print("{:<48} {:>4} {:<16} {:<40} {:.2e} > {:.2e} > {:.2e} {:5.1f} s{}\n", hidden.title, seed,
-             name_of(found.verdict), answer.said, found.gap.nominal_rmse, found.gap.recalibrated_rmse,
-             found.gap.corrected_rmse, took_s,
-             found.verdict == hidden.verdict && answer.right ? ""
-             : answer.within && !hidden.effects.empty()      ? "  in the set"
-                                                             : "  MISSED");
+  Outcome outcome(hidden, found, answer);
+  outcome.took_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return bytes_of(
+      outcome, fmt::format("{:<48} {:>4} {:<16} {:<40} {:.2e} > {:.2e} > {:.2e} {:5.1f} s{}\n", hidden.title,
+                           seed, name_of(found.verdict), answer.said, found.gap.nominal_rmse,
+                           found.gap.recalibrated_rmse, found.gap.corrected_rmse, outcome.took_s,
+                           found.verdict == hidden.verdict && answer.right ? ""
+                           : answer.within && !hidden.effects.empty()      ? "  in the set"
+                                                                           : "  MISSED"));
+}
+
+void count_and_print(const std::string& bytes, Score& score) {
+  Outcome outcome;
+  std::memcpy(static_cast<void*>(&outcome), bytes.data(), sizeof outcome);
+  score.count(outcome);
+  fmt::print("{}", bytes.substr(sizeof outcome));
   std::fflush(stdout);
-  return took_s;
+}
+
+struct DataSet {
+  std::size_t kind = 0;
+  std::uint64_t seed = 0;
+};
+
+/// Diagnoses all of them, with the rest of the crew if there is one; rank 0 prints.
+void score_all(const std::vector<DataSet>& sets, const std::string& words) {
+  Score score;
+  const auto job = [&](std::size_t i) { return diagnose_one(sets[i].kind, sets[i].seed); };
+  const auto take = [&](std::size_t, const std::string& bytes) { count_and_print(bytes, score); };
+  if (cluster::crew().alone()) {
+    for (std::size_t i = 0; i < sets.size(); ++i) take(i, job(i));
+    return score.print();
+  }
+  cluster::Workplace place("out/bench-diagnosis.ranks", cluster::crew());
+  const auto program = output::read_regular(std::filesystem::read_symlink("/proc/self/exe"));
+  place.begin(input::sha256_hex(program.value_or("")) + " " + words);
+  cluster::share(place, "diagnosis", sets.size(), 1, cluster::Needed::by_rank_0, job, take);
+  if (!cluster::crew().leads()) return;
+  place.close();
+  place.leave();
+  score.print();
 }
 
 void score_corrupted(const std::vector<std::string>& words) {
@@ -144,7 +209,7 @@ void score_corrupted(const std::vector<std::string>& words) {
 int main(int argc, char** argv) {
   const std::vector<std::string> words(argv + 1, argv + argc);
   if (!words.empty() && words.front() == "--corrupted") {
-    score_corrupted({words.begin() + 1, words.end()});
+    if (cluster::crew().leads()) score_corrupted({words.begin() + 1, words.end()});
     return 0;
   }
   const auto number = [&](std::size_t at, std::uint64_t otherwise) {
@@ -152,13 +217,15 @@ int main(int argc, char** argv) {
   };
   const std::uint64_t first = number(0, 101), seeds = number(1, 3);
   const std::string wanted = words.size() > 2 ? words[2] : "";
-  Score score;
-  double slowest_s = 0.0;
+  std::vector<DataSet> sets;
   for (std::size_t kind = 0; kind < diagnose::kinds(); ++kind)
     if (diagnose::title(kind).starts_with(wanted))
-      for (std::uint64_t seed = first; seed < first + seeds; ++seed)
-        slowest_s = std::max(slowest_s, diagnose_one(kind, seed, score));
-  score.print();
-  fmt::print("slowest diagnosis {:.1f} s\n", slowest_s);
+      for (std::uint64_t seed = first; seed < first + seeds; ++seed) sets.push_back({kind, seed});
+  try {
+    score_all(sets, fmt::format("{} {} {}", first, seeds, wanted));
+  } catch (const output::CannotWrite& error) {
+    fmt::print(stderr, "mckibben: {}\n", error.what());
+    return 74;
+  }
   return 0;
 }
