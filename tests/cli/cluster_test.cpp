@@ -29,7 +29,8 @@ constexpr const char* ranks =
     "rank() { SLURM_PROCID=$1 \"$M\" $words > out-$1 2> err-$1 & eval pid_$1=$!; }\n"
     "start() { export SLURM_STEP_NUM_TASKS=$1; n=0; while [ $n -lt $1 ]; do rank $n; n=$((n+1)); done; }\n"
     "ended() { eval wait \\$pid_$1; echo $1: $?; }\n"
-    "at_work() { until [ -e $1.ranks/rank-1 ] && ls $1.unfinished/runs/*.json; do sleep 0.01; done > /dev/null 2>&1; }\n";
+    "at_work() { until [ -e $1.ranks/rank-1 ] && ls $1.unfinished/runs/*.json; do sleep 0.01; done > "
+    "/dev/null 2>&1; }\n";
 
 /// Every file below a folder with its content.
 std::map<std::string, std::string> files_in(const fs::path& folder) {
