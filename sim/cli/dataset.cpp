@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include <sim/cli/ensemble.hpp>
 #include <sim/cli/exit_status.hpp>
 #include <sim/cli/options.hpp>
 #include <sim/cli/results.hpp>
@@ -26,6 +27,7 @@ namespace {
 struct DatasetOptions : Options {
   std::string campaign;
   std::vector<std::string> formats;  ///< of runs, besides CSV
+  std::string keep;                  ///< of the runs of an ensemble; empty if not said
 };
 
 /// Makes the runs that are not there yet, with the rest of the crew; rank 0 waits until all are there.
@@ -59,6 +61,12 @@ int stopped(const output::CampaignFolder& folder) {
 int make_dataset(const DatasetOptions& options) {
   domain::Campaign campaign = input::read_campaign(std::filesystem::path(options.campaign));
   if (options.seed) campaign.seed = *options.seed;
+  if (!campaign.vary.absent()) {
+    if (!options.formats.empty())
+      say("warning: --format is not for campaigns that vary: they write one NetCDF file");
+    return make_ensemble(options, campaign, options.keep == "summary" ? run::Keep::summary : run::Keep::rows);
+  }
+  if (!options.keep.empty()) say("warning: --keep is for campaigns that vary; this one does not");
   const auto where = destination(options, campaign.name);
   for (const char* suffix : {"", "-truth", ".unfinished", ".ranks"})
     keep_apart(where.string() + suffix, campaign.inputs);
@@ -98,10 +106,13 @@ void add_dataset(CLI::App& app, Asked& asked) {
   add_common(verb, options);
   add_seed(verb, options, "the noise (default: the campaign's)");
   add_formats(verb, options.formats);
+  verb.add_option("--keep", options.keep, "Of campaigns that vary: every row of each run, or metrics only")
+      ->check(one_of("part", {"rows", "summary"}));
   verb.footer(
       "Examples:\n"
       "  mckibben dataset scenarios/thesis_campaign.yaml --out data\n"
       "  mckibben dataset my_campaign.yaml --seed 2       the same measured again, with other noise\n"
+      "  mckibben dataset ensemble.yaml --keep summary    10^5 drawn rigs (vary: ...), metrics in one file\n"
       "  mpirun -n 4 mckibben dataset my_campaign.yaml    or srun: spread over processes (docs/cluster.md)\n"
       "Writes data/ and data-truth/. If interrupted, the same command goes on where it stopped.\n");
 }

@@ -1,8 +1,7 @@
-// Parameters by path; see the header. The field lists of the plant are walked with the path as a guide.
+// Parameters by path; see the header.
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <concepts>
 #include <optional>
 #include <stdexcept>
 #include <tuple>
@@ -13,45 +12,6 @@
 
 namespace mckibben::diagnose {
 namespace {
-
-/// The visitor of a field list that follows a path.
-class Guide {
- public:
-  explicit Guide(std::string_view path) : rest_(path) {}
-
-  void operator()(std::string_view key, double& value, std::string_view unit, double lowest, double highest,
-                  std::string_view) {
-    if (key == rest_) found = {&value, std::string(unit), lowest, highest};
-  }
-  template <class T, class... Rest>
-  requires(!std::same_as<T, double>) void operator()(std::string_view key, T& value, const Rest&...) {
-    if constexpr (requires { T::fields(value, *this); }) {
-      enter(key, [&] { T::fields(value, *this); });
-    } else if constexpr (requires { T::value_type::fields(value.front(), *this); }) {
-      enter(key, [&] {
-        for (std::size_t i = 0; i < value.size(); ++i)
-          enter(std::to_string(i), [&] { T::value_type::fields(value[i], *this); });
-      });
-    }
-  }
-
-  void required(std::string_view key, auto& value, const auto&... rest) { (*this)(key, value, rest...); }
-
-  Found found;
-
- private:
-  // Goes on inside `key` if the path leads there.
-  template <class Inside>
-  void enter(std::string_view key, const Inside& inside) {
-    if (rest_.size() <= key.size() || !rest_.starts_with(key) || rest_[key.size()] != '.') return;
-    const std::string_view whole = rest_;
-    rest_.remove_prefix(key.size() + 1);
-    inside();
-    rest_ = whole;
-  }
-
-  std::string_view rest_;
-};
 
 /// Calls `tell` with the effect of this name in the rig.
 template <class Tell>
@@ -72,10 +32,9 @@ bool carries(plant::Rig rig, std::string_view effect) {
 }
 
 Found find(plant::Rig& rig, std::string_view path) {
-  Guide guide(path);
-  plant::Rig::fields(rig, guide);
-  if (guide.found.value == nullptr) throw std::invalid_argument("no parameter " + std::string(path));
-  return guide.found;
+  Found found = domain::find_number(rig, path);
+  if (found.value == nullptr) throw std::invalid_argument("no parameter " + std::string(path));
+  return found;
 }
 
 double Parameter::unscaled(double number) const {
@@ -138,9 +97,7 @@ bool of_a_part(const plant::Rig& nominal, std::string_view path) {
   constexpr std::array<std::string_view, 6> parts{"muscle.", "friction.", "valve.",
                                                   "hose.",   "gas.",      "joint."};
   plant::Rig rig = nominal;
-  Guide guide(path);
-  plant::Rig::fields(rig, guide);
-  return guide.found.value != nullptr &&
+  return domain::find_number(rig, path).value != nullptr &&
          std::any_of(parts.begin(), parts.end(), [&](auto part) { return path.starts_with(part); });
 }
 

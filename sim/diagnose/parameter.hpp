@@ -7,16 +7,12 @@
 #include <vector>
 
 #include <plant/rig.hpp>
+#include <sim/domain/rig_number.hpp>
 #include <sim/domain/spread.hpp>
 
 namespace mckibben::diagnose {
 
-/// A number in a rig, found by its path. `value` points into the rig it was found in.
-struct Found {
-  double* value = nullptr;
-  std::string unit;
-  double lowest = 0.0, highest = 0.0;
-};
+using Found = domain::RigNumber;
 
 /// Throws std::invalid_argument for a path that leads to no number.
 Found find(plant::Rig& rig, std::string_view path);

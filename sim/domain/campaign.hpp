@@ -12,6 +12,7 @@
 #include <plant/instruments.hpp>
 #include <sim/domain/input_file.hpp>
 #include <sim/domain/rig_file.hpp>
+#include <sim/domain/variation.hpp>
 
 namespace mckibben::domain {
 
@@ -42,6 +43,7 @@ struct Campaign {
   int repeats = 1;
   plant::Noise noise;
   std::uint64_t seed = 1;
+  Variation vary;
 
   std::vector<InputFile> inputs;  ///< the files it was read from
 
@@ -51,9 +53,14 @@ struct Campaign {
     visit("rig", self.rig, "a shipped name, the path of a rig file, or changes in place");
     visit.required("loads", self.loads_kg, "kg", 0.01, 500.0, "masses of the loads");
     visit.required("currents", self.currents, "currents that drive each load");
-    visit("repeats", self.repeats, 1, 10000, "how often each load is driven by each current");
+    visit("repeats", self.repeats, 1, 1000000,
+          "how often each load is driven by each current; without vary at most 10000 times");
     visit("noise", self.noise, "what disturbs the instruments");
     visit("seed", self.seed, 0, std::numeric_limits<std::uint64_t>::max(), "where chance begins");
+    visit("vary", self.vary,
+          "numbers of the rig that each repeat draws anew, by their keys: muscle.rest_radius: normal 7.5 mm "
+          "± 1 %, "
+          "friction.scale: uniform 0.8 .. 1.2; and sampling: random or latin_hypercube (docs/datasets.md)");
   }
 };
 

@@ -1,22 +1,18 @@
-// NetCDF-4 through the C API; see the header. The library is not safe in threads (nor is HDF5 below it), so
-// calls are serialised. The file is made in memory.
+// NetCDF-4 through the C API; see the header. The file is made in memory.
 #include <cstdlib>
 #include <memory>
 #include <mutex>
 
-#include <fmt/format.h>
 #include <netcdf.h>
 #include <netcdf_mem.h>
 
+#include <sim/formats/netcdf_calls.hpp>
 #include <sim/formats/netcdf_file.hpp>
 
 namespace mckibben::formats {
 namespace {
 
-void check(int status) {
-  if (status != NC_NOERR)
-    throw BadFile(fmt::format("libnetcdf could not make the file: {}", nc_strerror(status)));
-}
+using netcdf::check;
 
 /// A file that is being made; given up unless it is finished.
 class Making {
@@ -30,7 +26,7 @@ class Making {
   int id() const { return id_; }
 
   void put(int variable, const char* name, const std::string& text) const {
-    check(nc_put_att_text(id_, variable, name, text.size(), text.data()));
+    netcdf::put(id_, variable, name, text);
   }
 
   std::string finish() {
@@ -49,17 +45,11 @@ class Making {
 }  // namespace
 
 std::string netcdf_of(const Table& table) {
-  static std::mutex library;
-  const std::lock_guard lock(library);
+  const std::lock_guard lock(netcdf::library());
   Making file;
   file.put(NC_GLOBAL, "Conventions", "CF-1.8");
   file.put(NC_GLOBAL, "title", table.title);
-  for (const auto& [name, value] : table.attributes) {
-    if (const auto* number = std::get_if<double>(&value))
-      check(nc_put_att_double(file.id(), NC_GLOBAL, name.c_str(), NC_DOUBLE, 1, number));
-    else
-      file.put(NC_GLOBAL, name.c_str(), std::get<std::string>(value));
-  }
+  netcdf::put(file.id(), table.attributes);
   int dimension = 0;
   const std::string& along = table.columns.front().name;
   check(nc_def_dim(file.id(), along.c_str(), table.columns.front().values.size(), &dimension));

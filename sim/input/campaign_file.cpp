@@ -9,6 +9,7 @@
 #include <sim/input/current_checks.hpp>
 #include <sim/input/fields_json.hpp>
 #include <sim/input/file_names.hpp>
+#include <sim/input/variation_file.hpp>
 #include <sim/input/yaml_reader.hpp>
 
 namespace mckibben::input {
@@ -62,6 +63,15 @@ void check_currents(const YamlFile& file, Campaign& campaign, Problems& problems
   }
 }
 
+/// Each repeat of an ordinary campaign is files of its own.
+void check_repeats(const YamlFile& file, const Campaign& campaign, Problems& problems) {
+  constexpr int most_repeats = 10000;
+  const Node* given = file.root.find("repeats");
+  if (given != nullptr && campaign.vary.absent() && campaign.repeats > most_repeats)
+    problems.error(file.source, given->place,
+                   fmt::format("repeats = {}: without vary at most {}", given->text, most_repeats));
+}
+
 }  // namespace
 
 Campaign read_campaign(Source source) {
@@ -72,13 +82,16 @@ Campaign read_campaign(Source source) {
   Campaign campaign;
   campaign.name = made_file_safe(std::filesystem::path(file.source.name()).stem().string());
   constexpr std::string_view also_allowed[] = {"schema"};
-  if (check_schema(file, campaign_schema, problems))
+  if (check_schema(file, campaign_schema, problems)) {
     read_struct(file.source, file.root, campaign, problems, also_allowed);
+    read_variation(file, campaign, problems);
+  }
   if (problems.errors() == 0) {
     check_name(file, campaign.name, problems);
     check_lifts_a_load(file, campaign.rig, problems);
     check_loads(file, campaign.loads_kg, campaign.rig, problems);
     check_currents(file, campaign, problems);
+    check_repeats(file, campaign, problems);
   }
   problems.raise();
   campaign.inputs = problems.inputs();

@@ -22,7 +22,7 @@ namespace mckibben::input {
 
 // NOLINTNEXTLINE(bugprone-exception-escape): moving Json does not throw
 struct FieldInfo {
-  enum class Type { quantity, integer, boolean, choice, text, height, command, structure, variant };
+  enum class Type { quantity, integer, boolean, choice, text, height, command, draws, structure, variant };
   /// The fields of a struct, or of one alternative of a variant.
   struct Group {
     std::string kind;  ///< empty for a plain struct
@@ -105,6 +105,9 @@ class FieldLister {
       info.type = FieldInfo::Type::height;
     } else if constexpr (std::same_as<T, plant::RatedCommand>) {
       info.type = FieldInfo::Type::command;
+    } else if constexpr (std::same_as<T, domain::Variation>) {
+      info.type = FieldInfo::Type::draws;
+      for (const std::string_view text : spellings<domain::Sampling>()) info.choices.emplace_back(text);
     } else if constexpr (Named<T>) {
       info.type = FieldInfo::Type::choice;
       for (const std::string_view text : spellings<T>()) info.choices.emplace_back(text);

@@ -31,6 +31,8 @@ std::string range_text(const FieldInfo& info) {
       return "ratio or length";
     case FieldInfo::Type::command:
       return "in mA, V or bar";
+    case FieldInfo::Type::draws:
+      return "normal M ± D or uniform L .. H";
     case FieldInfo::Type::text:
       return "text";
     case FieldInfo::Type::structure:

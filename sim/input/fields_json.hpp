@@ -16,6 +16,7 @@
 #include <controllers/target.hpp>
 #include <plant/command.hpp>
 #include <sim/domain/spread.hpp>
+#include <sim/domain/variation.hpp>
 #include <sim/input/field_kinds.hpp>
 #include <sim/input/json.hpp>
 #include <sim/input/quantity.hpp>
@@ -97,6 +98,15 @@ Json to_json(const T& value, const SpreadsOf& spreads) {
     return quantity_json(value.value, value.in_metres ? "m" : "1");
   } else if constexpr (std::same_as<T, plant::RatedCommand>) {
     return quantity_json(value.value, plant::name_of(value.unit));
+  } else if constexpr (std::same_as<T, domain::Variation>) {
+    Json object{{"sampling", std::string(spelling(value.sampling))}};
+    for (const auto& each : value.numbers)
+      object[each.path] = each.law == domain::DrawLaw::normal
+                              ? "normal " + write_quantity(each.middle, each.unit) + " ± " +
+                                    write_quantity(each.deviation, each.unit)
+                              : "uniform " + write_quantity(each.low, each.unit) + " .. " +
+                                    write_quantity(each.high, each.unit);
+    return object;
   } else if constexpr (Named<T>) {
     return std::string(spelling(value));
   } else if constexpr (is_vector<T>) {

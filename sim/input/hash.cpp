@@ -1,4 +1,4 @@
-// SHA-256 through OpenSSL's one-call interface; see the header.
+// SHA-256 through OpenSSL; see the header.
 #include <array>
 #include <stdexcept>
 
@@ -9,14 +9,39 @@
 
 namespace mckibben::input {
 
-std::string sha256_hex(std::string_view bytes) {
+namespace {
+
+void must(int status) {
+  if (status != 1) throw std::runtime_error("SHA-256 is not available in OpenSSL's libcrypto");
+}
+
+EVP_MD_CTX* context_of(void* context) {
+  return static_cast<EVP_MD_CTX*>(context);
+}
+
+}  // namespace
+
+Sha256::Sha256() : context_(EVP_MD_CTX_new(), [](void* context) { EVP_MD_CTX_free(context_of(context)); }) {
+  must(context_ ? EVP_DigestInit_ex(context_of(context_.get()), EVP_sha256(), nullptr) : 0);
+}
+
+void Sha256::add(std::string_view bytes) {
+  must(EVP_DigestUpdate(context_of(context_.get()), bytes.data(), bytes.size()));
+}
+
+std::string Sha256::hex() {
   std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
   unsigned length = 0;
-  if (EVP_Digest(bytes.data(), bytes.size(), digest.data(), &length, EVP_sha256(), nullptr) != 1)
-    throw std::runtime_error("SHA-256 is not available in OpenSSL's libcrypto");
+  must(EVP_DigestFinal_ex(context_of(context_.get()), digest.data(), &length));
   std::string text;
   for (unsigned i = 0; i < length; ++i) text += fmt::format("{:02x}", digest[i]);
   return text;
+}
+
+std::string sha256_hex(std::string_view bytes) {
+  Sha256 digest;
+  digest.add(bytes);
+  return digest.hex();
 }
 
 }  // namespace mckibben::input

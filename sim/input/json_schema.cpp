@@ -45,6 +45,10 @@ Json value_schema(const FieldInfo& info) {
       return {{"anyOf", {Json{{"type", "number"}}, with_unit("[^0-9 .,].*")}}};
     case FieldInfo::Type::command:
       return with_unit("[^0-9 .,].*");
+    case FieldInfo::Type::draws:
+      return {{"type", "object"},
+              {"properties", {{"sampling", {{"enum", info.choices}}}}},
+              {"additionalProperties", {{"type", "string"}, {"pattern", "^(normal|uniform) "}}}};
     case FieldInfo::Type::structure:
     case FieldInfo::Type::variant:
       break;

@@ -19,6 +19,7 @@
 #include <controllers/target.hpp>
 #include <plant/command.hpp>
 #include <sim/domain/spread.hpp>
+#include <sim/domain/variation.hpp>
 #include <sim/input/diagnostics.hpp>
 #include <sim/input/field_kinds.hpp>
 #include <sim/input/yaml_file.hpp>
@@ -186,6 +187,8 @@ class StructReader : public ValueReader {
         read(key, node.children[i], value[i], std::string(key) + '.' + std::to_string(i));
     } else if constexpr (is_variant<T>) {
       if (const auto index = kind(key, node, kinds<T>)) read_alternative(node, value, *index, path);
+    } else if constexpr (std::same_as<T, domain::Variation>) {
+      // Read once the rig is known whose numbers it names (variation_file.hpp).
     } else if constexpr (NamedStruct<T>) {
       read_named(source_, node, value, problems_);  // stands beside the reader of T
     } else {

@@ -113,16 +113,21 @@ Taken take(const Descriptor& file, const fs::path& path) {
   return same ? Taken::yes : Taken::is_gone;
 }
 
-std::optional<std::string> read_regular(const Descriptor& file) {
+bool read_pieces(const Descriptor& file, const std::function<void(std::string_view)>& take) {
   struct stat found {};
-  if (!file || fstat(file.number(), &found) != 0 || !S_ISREG(found.st_mode)) return std::nullopt;
-  std::string content;
+  if (!file || fstat(file.number(), &found) != 0 || !S_ISREG(found.st_mode)) return false;
   for (std::string part(1 << 16, '\0');;) {
     const ssize_t count = read(file.number(), part.data(), part.size());
-    if (count == 0) return content;
-    if (count < 0 && errno != EINTR) return std::nullopt;
-    if (count > 0) content.append(part, 0, static_cast<std::size_t>(count));
+    if (count == 0) return true;
+    if (count < 0 && errno != EINTR) return false;
+    if (count > 0) take({part.data(), static_cast<std::size_t>(count)});
   }
+}
+
+std::optional<std::string> read_regular(const Descriptor& file) {
+  std::string content;
+  if (!read_pieces(file, [&](std::string_view part) { content += part; })) return std::nullopt;
+  return content;
 }
 
 std::optional<std::string> read_regular(const fs::path& path) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -49,6 +50,9 @@ Taken take(const Descriptor& file, const std::filesystem::path& path);
 /// What a regular file holds; nothing if there is none, or something else.
 std::optional<std::string> read_regular(const Descriptor& file);
 std::optional<std::string> read_regular(const std::filesystem::path& path);
+
+/// The same piece by piece; false if there is no regular file, or it cannot be read to its end.
+bool read_pieces(const Descriptor& file, const std::function<void(std::string_view)>& take);
 
 /// Writes all of it. 0 or an errno.
 int write_all(int descriptor, std::string_view content);

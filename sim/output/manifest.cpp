@@ -5,6 +5,7 @@
 #include <sstream>
 #include <system_error>
 
+#include <fcntl.h>
 #include <fmt/format.h>
 
 #include <sim/input/hash.hpp>
@@ -14,11 +15,6 @@
 namespace mckibben::output {
 namespace fs = std::filesystem;
 namespace {
-
-std::string digest_of(const fs::path& path) {
-  const auto content = read_regular(path);
-  return content ? input::sha256_hex(*content) : "";
-}
 
 struct Manifest {
   std::string job;
@@ -49,6 +45,12 @@ FileNames names_in(const fs::path& folder) {
 }
 
 }  // namespace
+
+std::string digest_of(const fs::path& path) {
+  input::Sha256 digest;
+  const bool whole = read_pieces(open_file(path, O_RDONLY), [&](std::string_view part) { digest.add(part); });
+  return whole ? digest.hex() : "";
+}
 
 bool holds_only(const fs::path& folder, const FileNames& names) {
   std::set<fs::path> folders;

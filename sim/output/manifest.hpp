@@ -17,6 +17,9 @@ using Digests = std::map<std::string, std::string>;
 
 inline constexpr const char* manifest_name = ".mckibben-files";
 
+/// The digest of a file, however large; empty if it is none that can be read.
+std::string digest_of(const std::filesystem::path& path);
+
 /// Whether a folder holds nothing but these files, the folders they are in, and temporary files.
 bool holds_only(const std::filesystem::path& folder, const FileNames& names);
 

@@ -62,17 +62,16 @@ void Progress::show(const std::string& what, std::size_t done, std::size_t total
     began_ = now;
   }
   const bool open_ended = total == 0 && done > 0;
-  const double so_far_s = std::chrono::duration<double>(now - made_).count();
-  if (!terminal_ && open_ended && now - drawn_ >= every_) {
+  const double elapsed_s = std::chrono::duration<double>(now - (open_ended ? made_ : began_)).count();
+  if (!terminal_ && done > 0 && now - drawn_ >= every_) {
     drawn_ = now;
-    fmt::print(stderr, "{}\n", progress_line(title_, what, done, total, so_far_s, 200));
+    fmt::print(stderr, "{}\n", progress_line(title_, what, done, total, elapsed_s, 200));
   }
   if (!terminal_ || done < shown_) return;  // a slower thread may report late
   shown_ = done;
   if (!begins && done < total && now - drawn_ < std::chrono::milliseconds(50))
     return;  // faster than one sees
   drawn_ = now;
-  const double elapsed_s = open_ended ? so_far_s : std::chrono::duration<double>(now - began_).count();
   // One character less than the terminal is wide: some go on to the next line after the last.
   const auto line =
       fmt::format("\r{}\033[K", progress_line(title_, what, done, total, elapsed_s, terminal_width() - 1));

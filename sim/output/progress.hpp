@@ -1,4 +1,4 @@
-// A progress line on a terminal; in a pipe nothing, but for a line now and then of work without a known end.
+// A progress line on a terminal; in a pipe a line now and then.
 #pragma once
 
 #include <chrono>
@@ -17,7 +17,7 @@ std::string progress_line(const std::string& title, const std::string& what, std
 
 class Progress {
  public:
-  /// Shows that line on stderr while it is a terminal; else, of work without a known end, once in `every`.
+  /// Shows that line on stderr while it is a terminal; else once in `every`.
   explicit Progress(std::string title, std::chrono::milliseconds every = std::chrono::minutes(1));
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;

@@ -8,30 +8,36 @@
 
 #include <sim/run/batch.hpp>
 #include <sim/run/campaign.hpp>
+#include <sim/run/draws.hpp>
 #include <sim/run/simulate.hpp>
 
 namespace mckibben::run {
 
-std::vector<CampaignJob> jobs_of(const domain::Campaign& campaign) {
+std::size_t count_of_jobs(const domain::Campaign& campaign) {
+  return campaign.loads_kg.size() * campaign.currents.size() * static_cast<std::size_t>(campaign.repeats);
+}
+
+CampaignJob job_of(const domain::Campaign& campaign, std::size_t place) {
   const auto digits = [](std::size_t count) { return std::to_string(count).size(); };
-  const std::size_t load_digits = digits(campaign.loads_kg.size());
-  const std::size_t repeat_digits = digits(static_cast<std::size_t>(campaign.repeats));
-  std::vector<CampaignJob> jobs;
-  for (std::size_t load = 0; load < campaign.loads_kg.size(); ++load)
-    for (std::size_t current = 0; current < campaign.currents.size(); ++current)
-      for (int repeat = 1; repeat <= campaign.repeats; ++repeat) {
-        std::string id = fmt::format("m{:0{}}_{}", load + 1, load_digits, campaign.currents[current].name);
-        if (campaign.repeats > 1) id += fmt::format("_r{:0{}}", repeat, repeat_digits);
-        jobs.push_back({std::move(id), campaign.loads_kg[load], current, repeat, jobs.size() + 1});
-      }
+  const auto repeats = static_cast<std::size_t>(campaign.repeats);
+  const std::size_t load = place / repeats / campaign.currents.size();
+  const std::size_t current = place / repeats % campaign.currents.size();
+  const auto repeat = static_cast<int>(place % repeats) + 1;
+  std::string id =
+      fmt::format("m{:0{}}_{}", load + 1, digits(campaign.loads_kg.size()), campaign.currents[current].name);
+  if (repeats > 1) id += fmt::format("_r{:0{}}", repeat, digits(repeats));
+  return {std::move(id), campaign.loads_kg[load], current, repeat, place + 1};
+}
+
+std::vector<CampaignJob> jobs_of(const domain::Campaign& campaign) {
+  std::vector<CampaignJob> jobs(count_of_jobs(campaign));
+  for (std::size_t i = 0; i < jobs.size(); ++i) jobs[i] = job_of(campaign, i);
   return jobs;
 }
 
-namespace {
-
 Order order_of(const domain::Campaign& campaign, const CampaignJob& job) {
   const domain::CampaignCurrent& current = campaign.currents[job.current];
-  return {{.rig = campaign.rig,
+  return {{.rig = drawn_rig(campaign, job.repeat),
            .load_kg = job.load_kg,
            .ticks = static_cast<std::size_t>(std::llround(current.duration_s / campaign.rig.tick_s)),
            .engine = campaign.rig.integrator,
@@ -41,6 +47,8 @@ Order order_of(const domain::Campaign& campaign, const CampaignJob& job) {
           std::visit([&](const auto& waveform) { return waveform.make(knowledge_of(campaign.rig, {})); },
                      current.current)};
 }
+
+namespace {
 
 CampaignRun made(const CampaignJob& job, Recording recording) {
   CampaignRun run{.job = job, .recording = std::move(recording)};

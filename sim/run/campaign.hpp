@@ -45,6 +45,13 @@ struct EndedRun {
 /// All runs of a campaign: loads in order, for each all currents, for each all repeats. Ids are unique.
 std::vector<CampaignJob> jobs_of(const domain::Campaign& campaign);
 
+/// How many there are, and one of them by its place: 0, 1, ...
+std::size_t count_of_jobs(const domain::Campaign& campaign);
+CampaignJob job_of(const domain::Campaign& campaign, std::size_t place);
+
+/// What is to be simulated for a job, and what drives it.
+Order order_of(const domain::Campaign& campaign, const CampaignJob& job);
+
 /// Simulates one of them by itself. Touches no files.
 CampaignRun run_job(const domain::Campaign& campaign, const CampaignJob& job);
 

@@ -29,7 +29,8 @@ constexpr const char* ranks =
     "rank() { SLURM_PROCID=$1 \"$M\" $words > out-$1 2> err-$1 & eval pid_$1=$!; }\n"
     "start() { export SLURM_STEP_NUM_TASKS=$1; n=0; while [ $n -lt $1 ]; do rank $n; n=$((n+1)); done; }\n"
     "ended() { eval wait \\$pid_$1; echo $1: $?; }\n"
-    "runs_there() { until ls $1.unfinished/runs/*.json; do sleep 0.01; done > /dev/null 2>&1; }\n";
+    "at_work() { until [ -e $1.ranks/rank-1 ] && ls $1.unfinished/runs/*.json; do sleep 0.01; done > "
+    "/dev/null 2>&1; }\n";
 
 /// Every file below a folder with its content.
 std::map<std::string, std::string> files_in(const fs::path& folder) {
@@ -84,7 +85,7 @@ TEST_F(Cluster, ARankThatDiesLosesNothingButWhatItWasAt) {
   write_text(scratch / "c.yaml", campaign_with(60));
   ASSERT_EQ(mckibben("dataset c.yaml --out alone", scratch).status, 0);
   const auto said = script("dataset c.yaml --out three",
-                           "start 3; runs_there three; kill -9 $pid_1; ended 0; ended 1; ended 2");
+                           "start 3; at_work three; kill -9 $pid_1; ended 0; ended 1; ended 2");
   EXPECT_EQ(said.out, "0: 0\n1: 137\n2: 0\n") << read_text(scratch / "err-0");
   expect_same("alone", "three");
   expect_same("alone-truth", "three-truth");
@@ -94,7 +95,7 @@ TEST_F(Cluster, WithoutRank0TheOthersGoOnAndTheSameCommandCompletesIt) {
   write_text(scratch / "c.yaml", campaign_with(60));
   ASSERT_EQ(mckibben("dataset c.yaml --out alone", scratch).status, 0);
   const auto said = script("dataset c.yaml --out three",
-                           "start 2; runs_there three; kill -9 $pid_0; ended 0; ended 1\n"
+                           "start 2; at_work three; kill -9 $pid_0; ended 0; ended 1\n"
                            "ls three.unfinished/runs | wc -l\n"
                            "unset SLURM_STEP_ID; \"$M\" $words > said 2>&1; echo $?");
   EXPECT_EQ(said.out.find("0: 137\n1: 0\n"), 0u) << said.out << read_text(scratch / "err-1");
@@ -106,7 +107,7 @@ TEST_F(Cluster, WithoutRank0TheOthersGoOnAndTheSameCommandCompletesIt) {
 TEST_F(Cluster, AnEarlierCallStillAtWorkIsNotDisturbed) {
   write_text(scratch / "c.yaml", campaign_with(120));
   const auto said = script("dataset c.yaml --out three",
-                           "start 2; runs_there three; kill -9 $pid_0; ended 0\n"
+                           "start 2; at_work three; kill -STOP $pid_1; kill -9 $pid_0; ended 0\n"
                            "unset SLURM_STEP_ID; \"$M\" $words > said 2>&1; echo $?; kill -9 $pid_1");
   EXPECT_EQ(said.out, "0: 137\n74\n") << read_text(scratch / "said");
   EXPECT_NE(read_text(scratch / "said").find("an earlier call are still at work"), std::string::npos);

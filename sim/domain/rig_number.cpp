@@ -1,0 +1,116 @@
+// The field lists of the plant, walked with the path as a guide; see the header.
+#include <concepts>
+#include <string>
+
+#include <sim/domain/rig_number.hpp>
+
+namespace mckibben::domain {
+namespace {
+
+/// The visitor of a field list that goes into structs and lists of structs.
+template <class Own>
+class Walker {
+ public:
+  template <class T, class... Rest>
+  void operator()(std::string_view key, T& value, const Rest&... rest) {
+    if constexpr (std::same_as<std::remove_const_t<T>, double>) {
+      own().number(key, value, rest...);
+    } else if constexpr (requires { T::fields(value, own()); }) {
+      own().enter(key, value, [&] { T::fields(value, own()); });
+    } else if constexpr (requires { T::value_type::fields(value.front(), own()); }) {
+      own().enter(key, value, [&] {
+        for (std::size_t i = 0; i < value.size(); ++i)
+          own().enter(std::to_string(i), value[i], [&] { T::value_type::fields(value[i], own()); });
+      });
+    }
+  }
+  void required(std::string_view key, auto& value, const auto&... rest) { (*this)(key, value, rest...); }
+
+ private:
+  Own& own() { return static_cast<Own&>(*this); }
+};
+
+class Guide : public Walker<Guide> {
+ public:
+  explicit Guide(std::string_view path) : rest_(path) {}
+
+  void number(std::string_view key, double& value, std::string_view unit, double lowest, double highest,
+              std::string_view) {
+    if (key == rest_) found = {&value, std::string(unit), lowest, highest};
+  }
+  // Goes on inside `key` if the path leads there.
+  void enter(std::string_view key, const auto&, const auto& inside) {
+    if (rest_.size() <= key.size() || !rest_.starts_with(key) || rest_[key.size()] != '.') return;
+    const std::string_view whole = rest_;
+    rest_.remove_prefix(key.size() + 1);
+    inside();
+    rest_ = whole;
+  }
+
+  RigNumber found;
+
+ private:
+  std::string_view rest_;
+};
+
+class PathLister : public Walker<PathLister> {
+ public:
+  void number(std::string_view key, const auto&...) { list.push_back(prefix_ + std::string(key)); }
+  void enter(std::string_view key, const auto&, const auto& inside) {
+    const std::string before = prefix_;
+    prefix_ += std::string(key) + ".";
+    inside();
+    prefix_ = before;
+  }
+
+  std::vector<std::string> list;
+
+ private:
+  std::string prefix_;
+};
+
+class Judge : public Walker<Judge> {
+ public:
+  void number(const auto&...) {}
+  void enter(std::string_view key, const auto& value, const auto& inside) {
+    const std::string before = prefix_;
+    prefix_ += std::string(key) + ".";
+    inside();
+    judge(value);
+    prefix_ = before;
+  }
+  void judge(const auto& value) {
+    const auto report = [&](std::string_view key, std::string_view message) {
+      if (broken.empty()) broken = prefix_ + std::string(key) + ": " + std::string(message);
+    };
+    if constexpr (requires { value.rules(report); }) value.rules(report);
+  }
+
+  std::string broken;
+
+ private:
+  std::string prefix_;
+};
+
+}  // namespace
+
+RigNumber find_number(plant::Rig& rig, std::string_view path) {
+  Guide guide(path);
+  plant::Rig::fields(rig, guide);
+  return guide.found;
+}
+
+std::vector<std::string> paths_of_numbers(const plant::Rig& rig) {
+  PathLister lister;
+  plant::Rig::fields(rig, lister);
+  return lister.list;
+}
+
+std::string broken_rule(const plant::Rig& rig) {
+  Judge judge;
+  plant::Rig::fields(rig, judge);
+  judge.judge(rig);
+  return judge.broken;
+}
+
+}  // namespace mckibben::domain

@@ -1,0 +1,27 @@
+// Numbers of a rig by the path of their keys in a rig file, `muscle.rest_radius`, and the rules between them.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <plant/rig.hpp>
+
+namespace mckibben::domain {
+
+/// A number in a rig. `value` points into the rig it was found in; null if the path leads to none.
+struct RigNumber {
+  double* value = nullptr;
+  std::string unit;
+  double lowest = 0.0, highest = 0.0;  ///< its documented range
+};
+
+RigNumber find_number(plant::Rig& rig, std::string_view path);
+
+/// The paths of all numbers of a rig, in the order of its file.
+std::vector<std::string> paths_of_numbers(const plant::Rig& rig);
+
+/// The first rule between fields that the rig breaks, in words; empty if none.
+std::string broken_rule(const plant::Rig& rig);
+
+}  // namespace mckibben::domain

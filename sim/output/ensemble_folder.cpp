@@ -1,0 +1,260 @@
+// Plan, blocks, file and end of an ensemble; see the header.
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include <sim/engine/versions.hpp>
+#include <sim/input/campaign_file.hpp>
+#include <sim/input/hash.hpp>
+#include <sim/output/ensemble_folder.hpp>
+#include <sim/output/grid.hpp>
+#include <sim/output/json_parts.hpp>
+#include <sim/output/manifest.hpp>
+#include <sim/output/publication.hpp>
+#include <sim/output/run_files.hpp>
+
+namespace mckibben::output {
+namespace fs = std::filesystem;
+namespace {
+
+using input::Json;
+
+constexpr const char *ensemble_plan_file = "plan.json", *ensemble_file = "ensemble.nc",
+                     *document_file = "ensemble.json";
+constexpr std::size_t most_failures_told = 20, digest_length = 64;
+
+/// Everything that the bytes depend on.
+Json plan_of(const domain::Campaign& campaign, const run::EnsembleShape& shape, run::Keep keep) {
+  std::string text = input::campaign_json(campaign).dump();
+  for (const auto& current : campaign.currents)
+    if (const auto* recorded = std::get_if<controllers::RecordedCurrent>(&current.current))
+      text += Json(recorded->samples_mA).dump();
+  return {{"schema", "mckibben-ensemble-plan/1"},
+          {"program", {{"mckibben", program_name()}, {"sundials", engine::sundials_version()}}},
+          {"campaign_sha256", input::sha256_hex(text)},
+          {"keep", keep == run::Keep::rows ? "rows" : "summary"},
+          {"runs", shape.runs},
+          {"runs_in_block", shape.in_block}};
+}
+
+std::vector<formats::Column> columns_of(const std::vector<run::Kept>& kept) {
+  std::vector<formats::Column> columns;
+  for (const auto& each : kept) columns.push_back({each.name, each.unit, each.meaning, {}});
+  return columns;
+}
+
+formats::RunsLayout layout_of(const domain::Campaign& campaign, const run::EnsembleShape& shape) {
+  std::string currents;
+  for (const auto& current : campaign.currents) currents += (currents.empty() ? "" : ", ") + current.name;
+  formats::RunsLayout layout{
+      campaign.name,
+      {{"source", program_name()}, {"seed", std::to_string(campaign.seed)}, {"currents", currents}},
+      shape.runs,
+      shape.in_block,
+      {},
+      columns_of(shape.of_run),
+      columns_of(shape.of_row)};
+  for (std::size_t row = 0; row < shape.rows; ++row)
+    layout.time_s.push_back(static_cast<double>(row) * campaign.rig.tick_s);
+  return layout;
+}
+
+/// Whether everything in OUT.unfinished is an ensemble's.
+bool is_an_ensembles(const fs::path& folder) {
+  const auto plan = read_regular(folder / ensemble_plan_file);
+  if (!plan || plan->find("mckibben-ensemble-plan/") == std::string::npos) return false;
+  FileNames names{ensemble_plan_file, record_name};
+  for (const char* name : {ensemble_file, document_file, manifest_name})
+    names.insert(std::string("data/") + name);
+  for (const auto& entry : fs::directory_iterator(folder / "blocks"))
+    if (const auto name = entry.path().filename();
+        name.string().find_first_not_of("0123456789.part") == std::string::npos)
+      names.insert("blocks/" + name.string());
+  return holds_only(folder, names);
+}
+
+}  // namespace
+
+void Moments::count(double value) {
+  if (std::isnan(value)) return;
+  lowest = runs == 0 ? value : std::min(lowest, value);
+  highest = runs == 0 ? value : std::max(highest, value);
+  const double before = value - mean;
+  mean += before / static_cast<double>(++runs);
+  squares += before * (value - mean);
+}
+
+double Moments::deviation() const {
+  return runs < 2 ? 0.0 : std::sqrt(squares / static_cast<double>(runs - 1));
+}
+
+EnsembleFolder::EnsembleFolder(const fs::path& destination, const domain::Campaign& campaign, run::Keep keep)
+    : campaign_(campaign),
+      keep_(keep),
+      shape_(campaign, keep),
+      destination_(result_path(destination)),
+      unfinished_(result_path(destination_.string() + ".unfinished")),
+      moments_(shape_.of_run.size()) {}
+
+EnsembleFolder::EnsembleFolder(const fs::path& destination, const domain::Campaign& campaign, run::Keep keep,
+                               Say say)
+    : EnsembleFolder(destination, campaign, keep) {
+  say_ = std::move(say);
+  for (const auto* place : {&destination_, &unfinished_})
+    locks_.emplace_back(*place, "ensemble " + campaign.name);
+  writing(unfinished_, [&] { open(); });
+}
+
+void EnsembleFolder::open() {
+  const std::string plan = plan_of(campaign_, shape_, keep_).dump(2) + "\n";
+  const bool finished = finish(unfinished_, say_);
+  if (fs::exists(unfinished_) && !fs::is_empty(unfinished_)) {
+    const bool ours = is_an_ensembles(unfinished_);
+    if (ours && !finished && read_regular(unfinished_ / ensemble_plan_file) == plan) {
+      say_(fmt::format("{}: {} of {} runs are there already; going on", unfinished_.string(), runs_there(),
+                       shape_.runs));
+    } else if (ours) {
+      remove_folder(unfinished_, {ensemble_plan_file});
+      if (!finished)
+        say_(fmt::format("{} was of another campaign or version; starting anew", unfinished_.string()));
+    } else {
+      clear(unfinished_, {}, {}, unfinished_, say_);
+    }
+  }
+  write_whole(unfinished_ / ensemble_plan_file, plan);
+  fs::create_directories(unfinished_ / "blocks");
+  fs::create_directories(unfinished_ / "data");
+  file_.emplace(unfinished_ / "data" / ensemble_file, layout_of(campaign_, shape_));
+}
+
+std::string EnsembleFolder::key() const {
+  return input::sha256_hex(plan_of(campaign_, shape_, keep_).dump());
+}
+
+fs::path EnsembleFolder::file_of(std::size_t block) const {
+  return unfinished_ / "blocks" / std::to_string(block);
+}
+
+bool EnsembleFolder::has(std::size_t block) const {
+  return fs::exists(file_of(block));
+}
+
+std::optional<run::EnsembleBlock> EnsembleFolder::read(const fs::path& path, std::size_t block) const {
+  const auto text = read_regular(path);
+  if (!text || text->size() < digest_length) return std::nullopt;
+  const auto bytes = std::string_view(*text).substr(digest_length);
+  if (input::sha256_hex(bytes) != text->substr(0, digest_length)) return std::nullopt;
+  return run::EnsembleBlock(shape_, block, bytes);
+}
+
+run::EnsembleBlock EnsembleFolder::begin(std::size_t block) const {
+  auto left = read(file_of(block).string() + ".part", block);
+  return left ? std::move(*left) : run::EnsembleBlock(shape_, block);
+}
+
+void EnsembleFolder::put(std::size_t block, const run::EnsembleBlock& runs) const {
+  const std::string bytes = runs.bytes();
+  const fs::path file = file_of(block), part = file.string() + ".part";
+  write_staged(runs.whole() ? file : part, input::sha256_hex(bytes) + bytes);
+  std::error_code ignored;
+  if (runs.whole()) fs::remove(part, ignored);
+}
+
+// A block that is not as it was written is removed, so that it is made again.
+void EnsembleFolder::gather() {
+  for (; gathered_ < shape_.blocks() && has(gathered_); ++gathered_) {
+    const auto block = read(file_of(gathered_), gathered_);
+    if (!block || !block->whole()) {
+      fs::remove(file_of(gathered_));
+      say_(fmt::format("block {} is not as written, and made again", gathered_));
+      return;
+    }
+    for (std::size_t k = 0; k < shape_.of_run.size(); ++k) file_->put_of_run(k, block->of_run(k));
+    for (std::size_t k = 0; k < shape_.of_row.size(); ++k) file_->put_of_row(k, block->of_row(k));
+    file_->next(block->size());
+    count(*block);
+  }
+}
+
+void EnsembleFolder::count(const run::EnsembleBlock& block) {
+  for (std::size_t k = 0; k < moments_.size(); ++k)
+    for (const double value : block.of_run(k)) moments_[k].count(value);
+  for (std::size_t i = 0; i < block.size(); ++i) {
+    const std::string& failure = block.failures()[i];
+    if (failure.empty()) continue;
+    if (++failed_ <= most_failures_told)
+      failures_.push_back(run::job_of(campaign_, block.first() + i).id + ": " + failure);
+  }
+}
+
+std::size_t EnsembleFolder::runs_there() const {
+  std::size_t runs = 0;
+  for (const auto& entry : fs::directory_iterator(unfinished_ / "blocks")) {
+    const std::string name = entry.path().filename().string();
+    const std::size_t block = std::strtoull(name.c_str(), nullptr, 10);
+    if (is_temporary(entry.path()) || block >= shape_.blocks()) continue;
+    if (name.ends_with(".part")) {
+      const run::EnsembleBlock part = begin(block);
+      for (std::size_t i = 0; i < part.size(); ++i) runs += part.has(part.first() + i) ? 1 : 0;
+    } else {
+      runs += shape_.size_of(block);
+    }
+  }
+  return runs;
+}
+
+std::string EnsembleFolder::document() const {
+  Json document = heading_json("mckibben-ensemble/1", campaign_.inputs);
+  document["seed"] = campaign_.seed;
+  document["tolerance"] = campaign_.rig.integrator.tolerance;
+  document["campaign"] = input::campaign_json(campaign_);
+  document["keep"] = keep_ == run::Keep::rows ? "rows" : "summary";
+  document["runs"] = shape_.runs;
+  document["failed"] = failed_;
+  document["failures"] = failures_;
+  document["numbers"] = Json::array();
+  for (std::size_t k = 0; k < moments_.size(); ++k) {
+    const Moments& all = moments_[k];
+    document["numbers"].push_back({{"name", shape_.of_run[k].name},
+                                   {"unit", shape_.of_run[k].unit},
+                                   {"runs", all.runs},
+                                   {"mean", all.mean},
+                                   {"deviation", all.deviation()},
+                                   {"lowest", all.lowest},
+                                   {"highest", all.highest}});
+  }
+  return text_of(document);
+}
+
+std::string EnsembleFolder::table() const {
+  Grid grid({"number", "unit", "mean", "deviation", "lowest", "highest"}, 1);
+  const auto shown = [](double value) { return fmt::format("{:.6g}", value); };
+  for (std::size_t k = 3; k < moments_.size(); ++k)  // after load, current, repeat
+    grid.add({shape_.of_run[k].name, shape_.of_run[k].unit, shown(moments_[k].mean),
+              shown(moments_[k].deviation()), shown(moments_[k].lowest), shown(moments_[k].highest)});
+  std::string text = fmt::format(
+      "{}: {} load{} x {} current{} x {} draws, {} runs, {} failed\n\n{}", campaign_.name,
+      campaign_.loads_kg.size(), campaign_.loads_kg.size() == 1 ? "" : "s", campaign_.currents.size(),
+      campaign_.currents.size() == 1 ? "" : "s", campaign_.repeats, shape_.runs, failed_, grid.text());
+  if (!failures_.empty()) text += "\nfailed\n";
+  for (const auto& failure : failures_) text += "  " + failure + "\n";
+  if (failed_ > failures_.size()) text += fmt::format("  and {} more\n", failed_ - failures_.size());
+  return text;
+}
+
+void EnsembleFolder::publish() {
+  file_->close();
+  writing(unfinished_, [&] {
+    const fs::path data = unfinished_ / "data";
+    const std::string text = document();
+    write_staged(data / document_file, text);
+    const std::string job = "ensemble " + campaign_.name;
+    seal(data, job,
+         {{document_file, input::sha256_hex(text)}, {ensemble_file, digest_of(data / ensemble_file)}});
+    for (const Aside& aside : put_in_place(unfinished_, {{"data", destination_, job}})) say_(to_text(aside));
+    if (!is_on_its_way(unfinished_)) remove_folder(unfinished_, {ensemble_plan_file});
+  });
+}
+
+}  // namespace mckibben::output

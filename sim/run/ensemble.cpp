@@ -1,0 +1,184 @@
+// What is kept of an ensemble's runs; see the header.
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <stdexcept>
+
+#include <sim/run/draws.hpp>
+#include <sim/run/ensemble.hpp>
+#include <sim/run/simulate.hpp>
+
+namespace mckibben::run {
+namespace {
+
+constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+
+// A block is read and written at once, and what it was at is lost with a process that dies.
+constexpr std::size_t most_in_block = 64, most_block_bytes = 4U << 20U;
+
+struct Metric {
+  const char *name, *unit, *meaning;
+  double (*of)(const Recording&);
+};
+
+double ratio(const Sample& sample) {
+  return sample.state.joint.contraction_ratio;
+}
+
+template <class Of>
+double mean(const Recording& recording, const Of& of) {
+  double sum = 0.0;
+  for (const Sample& sample : recording.samples) sum += of(sample);
+  return sum / static_cast<double>(recording.samples.size());
+}
+
+template <class Of>
+double largest(const Recording& recording, const Of& of) {
+  double most = -std::numeric_limits<double>::infinity();
+  for (const Sample& sample : recording.samples) most = std::max(most, of(sample));
+  return most;
+}
+
+constexpr Metric metrics[] = {
+    {"rows", "1", "ticks recorded", [](const Recording& r) { return static_cast<double>(r.samples.size()); }},
+    {"smallest_contraction_ratio", "1", "true, at any tick",
+     [](const Recording& r) { return -largest(r, [](const Sample& s) { return -ratio(s); }); }},
+    {"largest_contraction_ratio", "1", "true, at any tick",
+     [](const Recording& r) { return largest(r, ratio); }},
+    {"mean_contraction_ratio", "1", "true, over all ticks",
+     [](const Recording& r) { return mean(r, ratio); }},
+    {"final_contraction_ratio", "1", "true, at the last tick",
+     [](const Recording& r) { return ratio(r.samples.back()); }},
+    {"largest_contraction_speed", "1/s", "magnitude, at any tick",
+     [](const Recording& r) {
+       return largest(r, [](const Sample& s) { return std::abs(s.state.joint.contraction_speed_per_s); });
+     }},
+    {"mean_muscle_pressure", "bar", "true gauge pressure, over all ticks",
+     [](const Recording& r) {
+       return 1e-5 * mean(r, [](const Sample& s) { return s.state.side.muscle_pressure_Pa; });
+     }},
+    {"right_hand_sides", "1", "evaluations of the equations that the run took",
+     [](const Recording& r) { return static_cast<double>(r.solver.right_hand_sides); }}};
+
+/// As a variable of NetCDF is called: muscle_rest_radius.
+std::string variable_of(std::string path) {
+  std::replace(path.begin(), path.end(), '.', '_');
+  return path;
+}
+
+std::vector<Kept> kept_of_runs(const domain::Campaign& campaign) {
+  std::vector<Kept> list{{"load", "kg", "mass of the load"},
+                         {"current", "1", "place of the current in the campaign, from 0"},
+                         {"repeat", "1", "which rig: runs of the same repeat have the same draws"}};
+  for (const auto& number : campaign.vary.numbers)
+    list.push_back({variable_of(number.path), number.unit, "drawn: " + number.path});
+  for (const Metric& metric : metrics) list.push_back({metric.name, metric.unit, metric.meaning});
+  return list;
+}
+
+std::vector<Kept> kept_of_rows(bool gauge) {
+  std::vector<Kept> list{
+      {"current_mA", "mA", "current to the valve, from this row to the next"},
+      {"contraction_ratio", "1", "contraction ratio of the muscle as the encoder counts it"}};
+  if (gauge) list.push_back({"muscle_pressure", "bar", "gauge pressure in the muscle as measured"});
+  return list;
+}
+
+class Bytes {
+ public:
+  explicit Bytes(std::string_view bytes) : rest_(bytes) {}
+  template <class T>
+  void read(T* into, std::size_t count) {
+    if (rest_.size() < count * sizeof(T)) throw std::invalid_argument("a block of an ensemble is too short");
+    std::memcpy(into, rest_.data(), count * sizeof(T));
+    rest_.remove_prefix(count * sizeof(T));
+  }
+  bool end() const { return rest_.empty(); }
+
+ private:
+  std::string_view rest_;
+};
+
+template <class T>
+void append(std::string& bytes, const T* from, std::size_t count) {
+  bytes.append(reinterpret_cast<const char*>(from), count * sizeof(T));
+}
+
+}  // namespace
+
+EnsembleShape::EnsembleShape(const domain::Campaign& campaign, Keep keep)
+    : runs(count_of_jobs(campaign)), in_block(most_in_block), of_run(kept_of_runs(campaign)) {
+  if (keep == Keep::summary) return;
+  for (const auto& current : campaign.currents)
+    rows = std::max(rows, static_cast<std::size_t>(std::llround(current.duration_s / campaign.rig.tick_s)));
+  of_row = kept_of_rows(campaign.rig.gauge.fitted);
+  in_block =
+      std::clamp<std::size_t>(most_block_bytes / (rows * of_row.size() * sizeof(float)), 1, most_in_block);
+}
+
+EnsembleBlock::EnsembleBlock(const EnsembleShape& shape, std::size_t block)
+    : first_(shape.first_of(block)),
+      rows_(shape.rows),
+      done_(shape.size_of(block), 0),
+      of_run_(shape.of_run.size(), std::vector<double>(done_.size(), nothing)),
+      of_row_(shape.of_row.size(), std::vector<float>(done_.size() * rows_, static_cast<float>(nothing))),
+      failures_(done_.size()) {}
+
+EnsembleBlock::EnsembleBlock(const EnsembleShape& shape, std::size_t block, std::string_view bytes)
+    : EnsembleBlock(shape, block) {
+  Bytes from(bytes);
+  from.read(done_.data(), done_.size());
+  for (auto& values : of_run_) from.read(values.data(), values.size());
+  for (auto& values : of_row_) from.read(values.data(), values.size());
+  for (auto& failure : failures_) {
+    std::uint32_t length = 0;
+    from.read(&length, 1);
+    if (length > bytes.size()) throw std::invalid_argument("a block of an ensemble is too short");
+    failure.resize(length);
+    from.read(failure.data(), length);
+  }
+  if (!from.end()) throw std::invalid_argument("a block of an ensemble is too long");
+}
+
+std::string EnsembleBlock::bytes() const {
+  std::string bytes;
+  append(bytes, done_.data(), done_.size());
+  for (const auto& values : of_run_) append(bytes, values.data(), values.size());
+  for (const auto& values : of_row_) append(bytes, values.data(), values.size());
+  for (const auto& failure : failures_) {
+    const auto length = static_cast<std::uint32_t>(failure.size());
+    append(bytes, &length, 1);
+    bytes += failure;
+  }
+  return bytes;
+}
+
+bool EnsembleBlock::whole() const {
+  return std::find(done_.begin(), done_.end(), 0) == done_.end();
+}
+
+void EnsembleBlock::put(const domain::Campaign& campaign, std::size_t place, const Recording& recording) {
+  const CampaignJob job = job_of(campaign, place);
+  const std::size_t at = place - first_;
+  std::size_t k = 0;
+  const auto enter = [&](double value) { of_run_[k++][at] = value; };
+  enter(job.load_kg);
+  enter(static_cast<double>(job.current));
+  enter(job.repeat);
+  for (const double value : draws(campaign, job.repeat)) enter(value);
+  failures_[at] = recording.failure;
+  done_[at] = 1;
+  if (!recording.failure.empty()) return;
+  for (const Metric& metric : metrics) enter(metric.of(recording));
+  const double per_count = contraction_per_count(campaign.rig);  // as its owner believes it
+  for (std::size_t row = 0; row < std::min(rows_, recording.samples.size()); ++row) {
+    const Sample& sample = recording.samples[row];
+    const double values[] = {sample.current_mA, static_cast<double>(sample.counts) * per_count,
+                             1e-5 * sample.gauge_Pa};
+    for (std::size_t column = 0; column < of_row_.size(); ++column)
+      of_row_[column][at * rows_ + row] = static_cast<float>(values[column]);
+  }
+}
+
+}  // namespace mckibben::run
