@@ -88,8 +88,7 @@ TEST(Diagnose, TakesAGivenPressureAndALaser) {
     std::getline(was, line);
     table = line + '\n';
     for (int k = 0; std::getline(is, row) && std::getline(was, line); ++k) {
-      const double ratio =
-          std::stod(row.substr(row.find(',') + 1)) + 1e-4 * ((k * 61 % 17) / 8.0 - 1.0);
+      const double ratio = std::stod(row.substr(row.find(',') + 1)) + 1e-4 * ((k * 61 % 17) / 8.0 - 1.0);
       table += line.substr(0, line.rfind(',')) + ',' + std::to_string(412.5 - 300.0 * ratio) + '\n';
     }
     write_text(scratch / file, table);
