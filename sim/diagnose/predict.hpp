@@ -23,7 +23,7 @@ struct Readings {
 
 /// Readings of up to engine::Flock::most rigs, in common steps where these can be had (ride::Ride). Ticks are
 /// those of the first rig. `memories`: of runs that began on their way, how far those of each rig's effects
-/// are from rest (ride::set_off). Throws engine::NumericalFailure.
+/// are from rest (ride::Underway). Throws engine::NumericalFailure.
 std::vector<Readings> predict(const domain::Run& run, std::span<const Hanging> rigs,
                               solver::Method method = solver::Method::automatic,
                               std::span<const double> memories = {});

@@ -45,7 +45,7 @@ void bend_bristles(Rider& rider, double acceleration_m_per_s2) {
 
 }  // namespace
 
-void set_off(Rider& rider, const Underway& seen, double memories) {
+void set_off(Rider& rider, const Underway& seen) {
   const plant::Plant& plant = rider.plant();
   Rider::State& now = rider.now;
   plant::State<double>& state = now.flow.state;
@@ -56,7 +56,7 @@ void set_off(Rider& rider, const Underway& seen, double memories) {
     now.held.pressure_rate_Pa_per_s = 0.0;
   else if (seen.muscle_pressure_Pa)
     state.side.valve_pressure_Pa = state.side.muscle_pressure_Pa = *seen.muscle_pressure_Pa;
-  rest_memories(rider, at_rest, memories);
+  rest_memories(rider, at_rest, seen.memories);
   if (plant.has_events())
     now.held.slip = state.joint.contraction_speed_per_s < 0.0 ? plant::Slip::falling : plant::Slip::rising;
   else

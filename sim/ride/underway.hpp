@@ -13,10 +13,11 @@ namespace mckibben::ride {
 struct Underway {
   double rise_m = 0.0, speed_m_per_s = 0.0, acceleration_m_per_s2 = 0.0;
   std::optional<double> muscle_pressure_Pa{};  ///< none: what the valve is asked for
+  /// How far memories of effects are from rest, in their working sizes: nobody has seen what went before.
+  double memories = 0.0;
 };
 
-/// Of a hanging load that has been started; its drive holds. `memories`: how far those of effects are from
-/// there, in their working sizes; nobody has seen what went before.
-void set_off(Rider& rider, const Underway& seen, double memories = 0.0);
+/// Of a hanging load that has been started; its drive holds.
+void set_off(Rider& rider, const Underway& seen);
 
 }  // namespace mckibben::ride

@@ -141,8 +141,11 @@ void for_first_stamp(ride::Ride& ride, const Course& course, const plant::Rig& r
   const auto before_s = [&](long k) { return course.time_s.front() - static_cast<double>(k) * rig.tick_s; };
   ride.start(first, before_s(ticks));
   if (course.begins)
-    for (std::size_t i = 0; i < ride.rigs(); ++i)
-      ride::set_off(ride.rider(i), *course.begins, memories.empty() ? 0.0 : memories[i]);
+    for (std::size_t i = 0; i < ride.rigs(); ++i) {
+      ride::Underway begins = *course.begins;
+      if (!memories.empty()) begins.memories = memories[i];
+      ride::set_off(ride.rider(i), begins);
+    }
   for (long k = ticks; k > 0; --k) {
     ride.step(first, before_s(k - 1));
     each_tick();

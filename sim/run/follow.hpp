@@ -16,7 +16,8 @@
 namespace mckibben::run {
 
 /// Brings a ride to the first stamp: settled, in steps of a tick, or on its way. `each_tick` is called after
-/// each of these; `memories`: of each rig that is on its way, as ride::set_off has it.
+/// each of these; `memories`: of each rig that is on its way (ride::Underway), in place of
+/// the course's.
 void for_first_stamp(
     ride::Ride& ride, const Course& course, const plant::Rig& rig, std::span<const double> memories = {},
     const std::function<void()>& each_tick = [] {});

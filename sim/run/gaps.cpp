@@ -5,6 +5,7 @@
 #include <plant/instruments.hpp>
 #include <sim/run/batch.hpp>
 #include <sim/run/gaps.hpp>
+#include <sim/run/remembered.hpp>
 #include <sim/run/simulate.hpp>
 
 namespace mckibben::run {
@@ -85,7 +86,9 @@ std::vector<StampedRun> replay_stamped(const domain::Dataset& dataset, unsigned 
     runs.push_back({.id = run.id, .load_kg = run.load_kg, .failure = not_begun});
   const auto replay_one = [&](std::size_t i) {
     const Measurement& measured = *dataset.runs[i].measured;
-    runs[i].recording = follow(dataset.rig, runs[i].load_kg, course_of(measured, dataset.rig));
+    runs[i].recording = follow_as_seen(dataset.rig, runs[i].load_kg, course_of(measured, dataset.rig),
+                                       {measured.contraction_ratio, dataset.runs[i].rest_length_m,
+                                        measured.time_s.front() + measured.recorded.skip_s});
     runs[i].failure = runs[i].recording.failure;
     if (runs[i].failure.empty()) runs[i].gaps = gaps_of(measured, dataset.rig, runs[i].recording);
   };

@@ -4,7 +4,7 @@
 
 #include <controllers/waveform.hpp>
 #include <sim/run/batch.hpp>
-#include <sim/run/follow.hpp>
+#include <sim/run/remembered.hpp>
 #include <sim/run/replay.hpp>
 #include <sim/run/simulate.hpp>
 
@@ -12,7 +12,10 @@ namespace mckibben::run {
 namespace {
 
 Recording recording_of(const domain::Run& measured, const domain::RigFile& rig) {
-  if (measured.measured) return follow(rig, measured.load_kg, course_of(*measured.measured, rig));
+  if (measured.measured)
+    return follow_as_seen(
+        rig, measured.load_kg, course_of(*measured.measured, rig),
+        {measured.contraction_ratio, measured.rest_length_m, measured.measured->time_s.front()});
   controllers::RecordedCurrent recorded;
   recorded.samples_mA = measured.current_mA;
   const auto controller = recorded.make(knowledge_of(rig, {}));

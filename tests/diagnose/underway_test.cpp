@@ -7,6 +7,7 @@
 
 #include <sim/diagnose/experiment.hpp>
 #include <sim/diagnose/held_out.hpp>
+#include <sim/run/replay.hpp>
 
 namespace mckibben::diagnose {
 namespace {
@@ -46,6 +47,10 @@ TEST(Underway, WhatAnEffectRemembersIsFittedAndNotCharged) {
   EXPECT_LT(excess(experiment.residuals(creeping, {0})), 0.0);  // within the floor
   const Hanging hanging{creeping, 12.0};
   EXPECT_GT(excess(experiment.residuals(predict(data.runs[0], {&hanging, 1}).front(), 0)), 100.0);
+
+  domain::Dataset known = data;  // a replay finds the memory as well
+  static_cast<plant::Rig&>(known.rig) = creeping;
+  EXPECT_LT(run::replay(known, 1, [](const auto&, auto, auto) {}).front().rmse, 1e-5);
 
   // A wrong rig stays wrong, and is told by its slope.
   plant::Rig stiffer = creeping;
