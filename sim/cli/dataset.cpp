@@ -48,14 +48,10 @@ void make_runs(const domain::Campaign& campaign, const output::CampaignFolder& f
   if (run::interrupted()) throw run::Interrupted();
 }
 
-int stopped(const output::CampaignFolder& folder) {
+std::size_t runs_in(const output::CampaignFolder& folder) {
   const auto& jobs = folder.jobs();
-  fmt::print(stderr,
-             "mckibben: interrupted; {} of {} runs are in {}\n"
-             "The same command goes on from there. Earlier results are as they were.\n",
-             std::count_if(jobs.begin(), jobs.end(), [&](const auto& job) { return folder.has(job); }),
-             jobs.size(), folder.unfinished().string());
-  return interrupted;
+  return static_cast<std::size_t>(
+      std::count_if(jobs.begin(), jobs.end(), [&](const auto& job) { return folder.has(job); }));
 }
 
 int make_dataset(const DatasetOptions& options) {
@@ -82,7 +78,7 @@ int make_dataset(const DatasetOptions& options) {
     if (!place.crew().leads()) return done;
     place.close();
   } catch (const run::Interrupted&) {
-    return stopped(folder);
+    return stopped(runs_in(folder), folder.jobs().size(), folder.unfinished());
   }
   const std::vector<run::EndedRun> runs = folder.runs();
   folder.publish(runs, [&](const std::filesystem::path& data) {

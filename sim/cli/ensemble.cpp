@@ -103,14 +103,6 @@ class Blocks {
   std::mutex mutex_;
 };
 
-int interrupted_at(const output::EnsembleFolder& folder) {
-  fmt::print(stderr,
-             "mckibben: interrupted; {} of {} runs are in {}\n"
-             "The same command goes on from there. Earlier results are as they were.\n",
-             folder.runs_there(), folder.shape().runs, folder.unfinished().string());
-  return interrupted;
-}
-
 }  // namespace
 
 int make_ensemble(const Options& options, const domain::Campaign& campaign, run::Keep keep) {
@@ -135,7 +127,7 @@ int make_ensemble(const Options& options, const domain::Campaign& campaign, run:
     if (!leads) return done;
     place.close();
   } catch (const run::Interrupted&) {
-    return interrupted_at(*folder);
+    return stopped(folder->runs_there(), folder->shape().runs, folder->unfinished());
   }
   folder->publish();
   print(options, {folder->document(), folder->table()});

@@ -37,6 +37,14 @@ void warn(const std::vector<std::string>& warnings) {
   for (const auto& text : warnings) say("warning: " + text);
 }
 
+int stopped(std::size_t there, std::size_t all, const std::filesystem::path& where) {
+  fmt::print(stderr,
+             "mckibben: interrupted; {} of {} runs are in {}\n"
+             "The same command goes on from there. Earlier results are as they were.\n",
+             there, all, where.string());
+  return interrupted;
+}
+
 void print(const Options& options, const Printable& result) {
   print(options.json ? result.document : result.text);
 }

@@ -49,6 +49,9 @@ std::size_t begun(const Runs& runs) {
       std::count_if(runs.begin(), runs.end(), [](const auto& run) { return run.failure != run::not_begun; }));
 }
 
+/// Says that the user interrupted, what is kept for the same command to go on from, and returns that status.
+int stopped(std::size_t there, std::size_t all, const std::filesystem::path& where);
+
 /// A result as one JSON document, and as text to read.
 struct Printable {
   std::string document, text;

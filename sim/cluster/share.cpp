@@ -2,6 +2,7 @@
 // is not whole, as after a failure of power, is none.
 #include <mutex>
 #include <optional>
+#include <thread>
 
 #include <fmt/format.h>
 
@@ -12,16 +13,6 @@
 
 namespace mckibben::cluster {
 namespace {
-
-constexpr std::size_t digest_size = 64;
-
-std::optional<std::string> unsealed(const std::filesystem::path& path) {
-  auto text = output::read_regular(path);
-  if (!text || text->size() < digest_size) return std::nullopt;
-  std::string bytes = text->substr(digest_size);
-  if (input::sha256_hex(bytes) != text->substr(0, digest_size)) return std::nullopt;
-  return bytes;
-}
 
 /// Hands on results in order.
 class Gathering {
@@ -54,14 +45,16 @@ void share(Workplace& place, const std::string& stage, std::size_t count, unsign
            const std::function<std::string(std::size_t)>& job,
            const std::function<void(std::size_t, const std::string&)>& take) {
   const auto file = [&](std::size_t i) { return place.folder() / fmt::format("{}-{}", stage, i); };
-  const auto read = [&](std::size_t i) { return unsealed(file(i)); };
+  const auto read = [&](std::size_t i) {
+    return input::unsealed_bytes(output::read_regular(file(i)).value_or(""));
+  };
   Handout handout(place, count, [&](std::size_t i) { return read(i).has_value(); });
   Gathering gather(count, read, take);
   const bool waits = needed == Needed::by_all || place.crew().leads();
   const auto work = [&](std::size_t) {
     while (const auto i = handout.take()) {
       const std::string bytes = job(*i);
-      output::write_staged(file(*i), input::sha256_hex(bytes) + bytes);
+      output::write_staged(file(*i), input::sealed_bytes(bytes));
       handout.done(*i);
       if (waits) gather();
     }

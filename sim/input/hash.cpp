@@ -38,6 +38,18 @@ std::string Sha256::hex() {
   return text;
 }
 
+std::string sealed_bytes(std::string_view bytes) {
+  return sha256_hex(bytes).append(bytes);
+}
+
+std::optional<std::string> unsealed_bytes(std::string_view sealed) {
+  constexpr std::size_t digest_size = 64;
+  if (sealed.size() < digest_size) return std::nullopt;
+  const std::string_view bytes = sealed.substr(digest_size);
+  return sha256_hex(bytes) == sealed.substr(0, digest_size) ? std::optional(std::string(bytes))
+                                                            : std::nullopt;
+}
+
 std::string sha256_hex(std::string_view bytes) {
   Sha256 digest;
   digest.add(bytes);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -18,6 +19,10 @@ class Sha256 {
  private:
   std::unique_ptr<void, void (*)(void*)> context_;
 };
+
+/// Bytes behind their digest, and what is in them if they are as they were written.
+std::string sealed_bytes(std::string_view bytes);
+std::optional<std::string> unsealed_bytes(std::string_view sealed);
 
 /// The digest in 64 lower-case hexadecimal digits.
 std::string sha256_hex(std::string_view bytes);

@@ -67,7 +67,7 @@ Varied drawn(std::string_view text, const RigNumber& number) {
   const std::string_view law = whole.substr(0, gap);
   const std::string_view rest = gap == std::string_view::npos ? "" : trimmed(whole.substr(gap));
   if (law != "normal" && law != "uniform") throw BadQuantity(how_to(number));
-  const Varied found = law == "normal" ? drawn_normal(rest, number) : drawn_uniform(rest, number);
+  Varied found = law == "normal" ? drawn_normal(rest, number) : drawn_uniform(rest, number);
   if (!(found.low >= number.lowest && found.high <= number.highest))
     throw BadQuantity(fmt::format(
         "draws from {} to {}{} leave the range of this number: {} to {}", show_limit(found.low, number.unit),

@@ -34,20 +34,11 @@ using input::Json;
 constexpr const char* plan_file = "plan.json";
 constexpr const char* plan_schema = "mckibben-campaign-plan/1";
 
-// Everything that a run's bytes depend on.
-std::string digest(const domain::Campaign& campaign) {
-  std::string text = input::campaign_json(campaign).dump();
-  for (const auto& current : campaign.currents)
-    if (const auto* recorded = std::get_if<controllers::RecordedCurrent>(&current.current))
-      text += Json(recorded->samples_mA).dump();
-  return input::sha256_hex(text);
-}
-
 Json plan_of(const domain::Campaign& campaign, const std::vector<run::CampaignJob>& jobs,
              const std::vector<std::string>& formats) {
   Json plan{{"schema", plan_schema},
             {"program", {{"mckibben", MCKIBBEN_VERSION}, {"sundials", engine::sundials_version()}}},
-            {"campaign_sha256", digest(campaign)},
+            {"campaign_sha256", digest_of(campaign)},
             {"formats", formats},
             {"ids", Json::array()}};
   for (const auto& job : jobs) plan["ids"].push_back(job.id);

@@ -1,6 +1,7 @@
 // Layout of a campaign's documents; see the header.
 #include <sim/input/campaign_file.hpp>
 #include <sim/input/dataset_file.hpp>
+#include <sim/input/hash.hpp>
 #include <sim/output/campaign_folder.hpp>
 #include <sim/output/campaign_json.hpp>
 #include <sim/output/json_parts.hpp>
@@ -22,6 +23,14 @@ Json runs_json(const std::vector<run::EndedRun>& runs) {
 }
 
 }  // namespace
+
+std::string digest_of(const domain::Campaign& campaign) {
+  std::string text = input::campaign_json(campaign).dump();
+  for (const auto& current : campaign.currents)
+    if (const auto* recorded = std::get_if<controllers::RecordedCurrent>(&current.current))
+      text += Json(recorded->samples_mA).dump();
+  return input::sha256_hex(text);
+}
 
 Json entry_json(const domain::Campaign& campaign, const run::EndedRun& run) {
   Json entry{{"id", run.job.id},

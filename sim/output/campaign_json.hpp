@@ -10,6 +10,9 @@
 
 namespace mckibben::output {
 
+/// Of everything that the bytes of its runs depend on, but for the program.
+std::string digest_of(const domain::Campaign& campaign);
+
 /// A run's entry in campaign.json, and the run of a job whose entry was written.
 input::Json entry_json(const domain::Campaign& campaign, const run::EndedRun& run);
 run::EndedRun ended_run(const run::CampaignJob& job, const input::Json& entry);

@@ -7,6 +7,7 @@
 #include <sim/engine/versions.hpp>
 #include <sim/input/campaign_file.hpp>
 #include <sim/input/hash.hpp>
+#include <sim/output/campaign_json.hpp>
 #include <sim/output/ensemble_folder.hpp>
 #include <sim/output/grid.hpp>
 #include <sim/output/json_parts.hpp>
@@ -22,17 +23,13 @@ using input::Json;
 
 constexpr const char *ensemble_plan_file = "plan.json", *ensemble_file = "ensemble.nc",
                      *document_file = "ensemble.json";
-constexpr std::size_t most_failures_told = 20, digest_length = 64;
+constexpr std::size_t most_failures_told = 20;
 
 /// Everything that the bytes depend on.
 Json plan_of(const domain::Campaign& campaign, const run::EnsembleShape& shape, run::Keep keep) {
-  std::string text = input::campaign_json(campaign).dump();
-  for (const auto& current : campaign.currents)
-    if (const auto* recorded = std::get_if<controllers::RecordedCurrent>(&current.current))
-      text += Json(recorded->samples_mA).dump();
   return {{"schema", "mckibben-ensemble-plan/1"},
           {"program", {{"mckibben", program_name()}, {"sundials", engine::sundials_version()}}},
-          {"campaign_sha256", input::sha256_hex(text)},
+          {"campaign_sha256", digest_of(campaign)},
           {"keep", keep == run::Keep::rows ? "rows" : "summary"},
           {"runs", shape.runs},
           {"runs_in_block", shape.in_block}};
@@ -40,6 +37,7 @@ Json plan_of(const domain::Campaign& campaign, const run::EnsembleShape& shape, 
 
 std::vector<formats::Column> columns_of(const std::vector<run::Kept>& kept) {
   std::vector<formats::Column> columns;
+  columns.reserve(kept.size());
   for (const auto& each : kept) columns.push_back({each.name, each.unit, each.meaning, {}});
   return columns;
 }
@@ -141,11 +139,8 @@ bool EnsembleFolder::has(std::size_t block) const {
 }
 
 std::optional<run::EnsembleBlock> EnsembleFolder::read(const fs::path& path, std::size_t block) const {
-  const auto text = read_regular(path);
-  if (!text || text->size() < digest_length) return std::nullopt;
-  const auto bytes = std::string_view(*text).substr(digest_length);
-  if (input::sha256_hex(bytes) != text->substr(0, digest_length)) return std::nullopt;
-  return run::EnsembleBlock(shape_, block, bytes);
+  const auto bytes = input::unsealed_bytes(read_regular(path).value_or(""));
+  return bytes ? std::optional<run::EnsembleBlock>(std::in_place, shape_, block, *bytes) : std::nullopt;
 }
 
 run::EnsembleBlock EnsembleFolder::begin(std::size_t block) const {
@@ -154,9 +149,8 @@ run::EnsembleBlock EnsembleFolder::begin(std::size_t block) const {
 }
 
 void EnsembleFolder::put(std::size_t block, const run::EnsembleBlock& runs) const {
-  const std::string bytes = runs.bytes();
   const fs::path file = file_of(block), part = file.string() + ".part";
-  write_staged(runs.whole() ? file : part, input::sha256_hex(bytes) + bytes);
+  write_staged(runs.whole() ? file : part, input::sealed_bytes(runs.bytes()));
   std::error_code ignored;
   if (runs.whole()) fs::remove(part, ignored);
 }

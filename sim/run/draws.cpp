@@ -92,7 +92,7 @@ plant::Rig drawn_rig(const domain::Campaign& campaign, int repeat) {
 }
 
 std::string unfit(const plant::Rig& rig, double load_kg) {
-  if (const std::string broken = domain::broken_rule(rig); !broken.empty()) return broken;
+  if (std::string broken = domain::broken_rule(rig); !broken.empty()) return broken;
   const double hangs_kg = load_kg + rig.joint.load_offset_kg,
                most_kg = plant::Braid(rig.muscle).largest_load_kg();
   if (hangs_kg <= most_kg) return "";
