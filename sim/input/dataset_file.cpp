@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <sim/input/column_units.hpp>
 #include <sim/input/common_checks.hpp>
 #include <sim/input/dataset_file.hpp>
 #include <sim/input/file_names.hpp>
