@@ -123,9 +123,13 @@ Json to_json(const T& value, const SpreadsOf& spreads) {
         value);
   } else {
     Json object = Json::object();
-    SpreadsOf of = spreads;
-    if constexpr (requires { value.spreads; }) of = {&value.spreads, {}};
-    JsonWriter writer(object, of);
+    const auto own = [&] {
+      if constexpr (requires { value.spreads; })
+        return SpreadsOf{&value.spreads, {}};
+      else
+        return spreads;
+    };
+    JsonWriter writer(object, own());
     T::fields(value, writer);
     return object;
   }
