@@ -50,7 +50,8 @@ class Unpacker {
   void operator()(std::vector<T>& list) {
     const std::size_t count = size_of_list(sizeof(T));
     list.resize(count);
-    std::memcpy(static_cast<void*>(list.data()), next(count * sizeof(T)), count * sizeof(T));
+    const char* from = next(count * sizeof(T));
+    if (count > 0) std::memcpy(static_cast<void*>(list.data()), from, count * sizeof(T));
   }
   void operator()(std::string& text) {
     const std::size_t count = size_of_list(1);

@@ -74,7 +74,7 @@ TEST_F(EnsembleOf, IsTheSameOnAnyThreadsAndRanks) {
 }
 
 TEST_F(EnsembleOf, InterruptedItGoesOnToTheSameFile) {
-  write(3000);
+  write(800);
   ASSERT_EQ(run("dataset e.yaml --out whole --keep summary").status, 0);
   const auto stopped = shell(
       "\"$M\" dataset e.yaml --out parts --keep summary --threads 1 & pid=$!\n"
@@ -83,18 +83,18 @@ TEST_F(EnsembleOf, InterruptedItGoesOnToTheSameFile) {
       scratch);
   ASSERT_EQ(stopped.status, 130) << stopped.err;
   std::smatch found;
-  ASSERT_TRUE(std::regex_search(stopped.err, found, std::regex("interrupted; (\\d+) of 3000 runs are in")))
+  ASSERT_TRUE(std::regex_search(stopped.err, found, std::regex("interrupted; (\\d+) of 800 runs are in")))
       << stopped.err;
   const auto said = run("dataset e.yaml --out parts --keep summary");
   ASSERT_EQ(said.status, 0) << said.err;
-  EXPECT_NE(said.err.find(found[1].str() + " of 3000 runs are there already; going on"), std::string::npos)
+  EXPECT_NE(said.err.find(found[1].str() + " of 800 runs are there already; going on"), std::string::npos)
       << said.err;
   EXPECT_EQ(netcdf("whole"), netcdf("parts"));
   EXPECT_EQ(read_text(scratch / "whole/ensemble.json"), read_text(scratch / "parts/ensemble.json"));
 }
 
 TEST_F(EnsembleOf, BlocksThatSomebodyChangedAreMadeAgain) {
-  write(3000);
+  write(800);
   ASSERT_EQ(run("dataset e.yaml --out whole --keep summary").status, 0);
   shell(
       "\"$M\" dataset e.yaml --out parts --keep summary --threads 1 & pid=$!\n"

@@ -1,5 +1,4 @@
-// The workflow where nothing is hidden, and what its results may not depend on.
-// Data with something hidden: tests/workflow.
+// What the workflow's parts may not depend on. Whole diagnoses: tests/workflow.
 #include <cmath>
 #include <random>
 
@@ -94,13 +93,6 @@ TEST(Fit, RefusesParametersThatNoReadingDependsOn) {
   EXPECT_EQ(fitted.model.refused, std::vector<std::string>{"effects.friction_warm_up.time"});
   EXPECT_EQ(fitted.model.free.size() + 1, model.free.size());
   EXPECT_EQ(fitted.columns.cols(), static_cast<Eigen::Index>(fitted.model.free.size()));
-}
-
-TEST(Diagnose, SaysThatNothingIsMissingWhereNothingIs) {
-  const auto found = diagnosis_of(small(plant::Rig{}), 0);
-  EXPECT_EQ(found.verdict, Verdict::nothing_missing);
-  EXPECT_TRUE(found.effects.empty());
-  EXPECT_LT(found.gap.nominal_rmse, 1.3 * found.gap.noise_floor);
 }
 
 }  // namespace

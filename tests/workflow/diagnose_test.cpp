@@ -35,6 +35,13 @@ TEST(Diagnose, NamesTheLeakThatIsHidden) {
   for (const auto& run : found.runs) EXPECT_EQ(run.held_out, run.load_kg == 16.138) << run.id;
 }
 
+TEST(Diagnose, SaysThatNothingIsMissingWhereNothingIs) {
+  const auto found = diagnosis_of(small(plant::Rig{}), 0);
+  EXPECT_EQ(found.verdict, Verdict::nothing_missing);
+  EXPECT_TRUE(found.effects.empty());
+  EXPECT_LT(found.gap.nominal_rmse, 1.3 * found.gap.noise_floor);
+}
+
 // Exact stick and slip has no common steps: each rig rides alone.
 TEST(Diagnose, NamesTheLeakOfARigWithCoulombFrictionAndNothingWhereNothingIs) {
   plant::Rig nominal;
