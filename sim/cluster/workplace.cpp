@@ -27,7 +27,7 @@ constexpr const char* call_file = "call";
 constexpr const char* claims_file = "claims";
 
 constexpr auto longest_wait = 60s;      // for rank 0 to appear
-constexpr auto longest_farewell = 20s;  // for others that are late
+constexpr auto longest_farewell = 20s;  // for others that are late, or slow to go
 constexpr auto pause = 20ms;
 
 std::string rank_file(int rank) {
@@ -162,8 +162,10 @@ void Workplace::close() {
 void Workplace::leave() {
   if (!used_) return;
   const auto began = Clock::now();
+  const auto late = [&] { return Clock::now() - began < longest_farewell; };
   for (int rank = 1; rank < crew_.size; ++rank)
-    while (!fs::exists(folder_ / rank_file(rank)) && Clock::now() - began < longest_farewell) rest();
+    while (!fs::exists(folder_ / rank_file(rank)) && late()) rest();
+  while (!is_free(others_byte) && late()) rest();  // who is here may still read what was made
   remove();
 }
 

@@ -46,7 +46,7 @@ class Workplace {
 
   /// Rank 0, once everything is done: nobody can claim anything more.
   void close();
-  /// Rank 0: the others have been here, or will not come; the folder goes.
+  /// Rank 0: the others have been here and have gone, or will not come; the folder goes.
   void leave();
 
   /// Whether anybody else is, or was, at work here.
