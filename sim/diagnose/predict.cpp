@@ -16,7 +16,7 @@ std::vector<Readings> predict(const domain::Run& run, std::span<const Hanging> r
   const run::Course course = run::course_of(run, first);
   std::vector<Readings> readings(rigs.size());
   for (Readings& list : readings) {
-    list.contraction_ratio.reserve(course.rows.size());
+    list.judged.reserve(course.rows.size());
     list.pressure_Pa.reserve(course.rows.size());
   }
   const auto length_m = [&](std::size_t i) {
@@ -24,18 +24,20 @@ std::vector<Readings> predict(const domain::Run& run, std::span<const Hanging> r
   };
 
   ride::Ride ride(rigs, settings_for(rigs, method));
+  const auto force_N = [&](std::size_t i) { return ride.moment(i).cord_force_N(); };
   run::for_first_stamp(ride, course, first, memories);
   for (std::size_t k = 0, row = 0; row < course.rows.size(); ++k) {
+    ride.hold(course.toward(k), course.until_s(k, first.tick_s));  // forces are those of the way ahead
     if (course.rows[row] == k) {
       for (std::size_t i = 0; i < rigs.size(); ++i) {
         const ride::Reading& seen = ride.reading(i);
-        readings[i].contraction_ratio.push_back(seen.wheel_m / length_m(i));
+        readings[i].judged.push_back(run.length_is_given() ? force_N(i) : seen.wheel_m / length_m(i));
         readings[i].pressure_Pa.push_back(seen.muscle_pressure_Pa);
       }
       readings[0].states.push_back(ride.flow().state);
       ++row;
     }
-    if (row < course.rows.size()) ride.step(course.toward(k), course.time_s[k + 1]);
+    if (row < course.rows.size()) ride.advance();
   }
   return readings;
 }

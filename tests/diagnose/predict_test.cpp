@@ -55,9 +55,9 @@ TEST(Predict, MakesOfACurrentTheSameBitsAsSimulate) {
           ASSERT_EQ(std::memcmp(&sample.state, &predicted.states[k], sizeof sample.state), 0)
               << name << ", " << input::spelling(method) << ", row " << k;
           ASSERT_EQ(sample.gauge_Pa, plant::gauge_reading_Pa(rig.gauge, predicted.pressure_Pa[k]));
-          ASSERT_EQ(sample.counts, counter.count(predicted.contraction_ratio[k] * length_m)) << name;
+          ASSERT_EQ(sample.counts, counter.count(predicted.judged[k] * length_m)) << name;
         }
-        EXPECT_GT(predicted.contraction_ratio.back(), 0.01) << name;
+        EXPECT_GT(predicted.judged.back(), 0.01) << name;
       }
 }
 
@@ -72,7 +72,7 @@ TEST(Predict, DifferencesOfCoulombRigsAreSensitivities) {
     far.rig.muscle.rest_radius_m += h;
     const Hanging both[] = {near, far};
     const auto readings = predict(run, both);
-    return (readings[1].contraction_ratio[130] - readings[0].contraction_ratio[130]) / h;
+    return (readings[1].judged[130] - readings[0].judged[130]) / h;
   };
   const double steep = slope(3e-5);  // some 20 times the step that diagnose takes
   EXPECT_GT(std::abs(steep), 1.0);
