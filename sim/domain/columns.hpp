@@ -33,7 +33,9 @@ struct ColumnPlace {
         "column", self.column,
         "heading in a .csv, channel (or number) in an .lvm, variable, run.field or data(:,2) in a .mat, "
         "number from 1 in a .txt");
-    visit.required("unit", self.unit, "unit of its numbers; 1 for a ratio, count for encoder counts");
+    visit.required(
+        "unit", self.unit,
+        "unit of its numbers; 1 for a ratio, count for encoder counts, date for times of the day in a .csv");
     visit("zero", self.zero, "1", -1e12, 1e12, "taken from each number, in that unit, first of all");
     visit("factor", self.factor, "1", -1e12, 1e12, "each is multiplied by it then: a gear, a sensor, a sign");
     visit("as", self.as,

@@ -36,10 +36,8 @@ std::vector<Cell> split_cells(std::string_view line, char separator) {
     if (in_quotes) return {};
     Cell cell{trimmed(line.substr(start, end - start)), start};
     if (!cell.text.empty()) cell.offset = static_cast<std::size_t>(cell.text.data() - line.data());
-    if (cell.text.size() >= 2 && cell.text.front() == '"' && cell.text.back() == '"') {
-      cell.text = cell.text.substr(1, cell.text.size() - 2);
-      cell.quoted = true;
-    }
+    if (cell.text.size() >= 2 && cell.text.front() == '"' && cell.text.back() == '"')
+      cell.text = trimmed(cell.text.substr(1, cell.text.size() - 2));
     cells.push_back(cell);
     start = end + 1;
   }
@@ -47,18 +45,16 @@ std::vector<Cell> split_cells(std::string_view line, char separator) {
 }
 
 bool is_missing(const Cell& cell) {
-  return !cell.quoted &&
-         (cell.text.empty() || cell.text == "nan" || cell.text == "NaN" || cell.text == "NAN");
+  return cell.text.empty() || cell.text == "nan" || cell.text == "NaN" || cell.text == "NAN";
 }
 
 std::optional<double> NumberReader::read(std::string_view name, const Cell& cell, std::string& problem) {
   const std::string_view shown = cell.text.substr(0, longest_shown);
   problem.clear();
-  if (cell.quoted)
-    problem = fmt::format("{}: a number must stand without quotes", name);
-  else if (cell.text.empty())
+  if (cell.text.empty()) {
     problem = fmt::format("{} is missing here", name);
-  if (!problem.empty()) return std::nullopt;
+    return std::nullopt;
+  }
   const std::size_t at = cell.text.find_first_of(".,");
   const char sign = at == std::string_view::npos ? '\0' : cell.text[at];
   if (sign_ == '\0') sign_ = sign;

@@ -12,7 +12,6 @@ namespace mckibben::input {
 struct Cell {
   std::string_view text;  ///< trimmed, without quotes
   std::size_t offset = 0;
-  bool quoted = false;
 };
 
 /// Splits a line at its separators, a comma or a tab (RFC 4180, without line breaks inside cells); a blank

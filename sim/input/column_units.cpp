@@ -1,10 +1,12 @@
 // Units of a column map; see the header.
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
 #include <plant/instruments.hpp>
 #include <sim/input/column_units.hpp>
+#include <sim/input/dates.hpp>
 #include <sim/input/quantity.hpp>
 
 namespace mckibben::input {
@@ -53,6 +55,7 @@ std::string problem_of(const domain::Quantity& quantity, const std::string& unit
   if (is_command(quantity)) return command_problem(unit);
   if (quantity.key == "contraction") return contraction_problem(unit);
   if (quantity.key == "angle" && unit == count) return "";
+  if (quantity.key == "time" && unit == date_unit) return "";
   return unit_problem(unit, quantity.unit);
 }
 
@@ -71,6 +74,26 @@ void check_units(const Source& source, const Node& map, Problems& problems) {
     if (quantity == nullptr || unit == nullptr || unit->kind != Node::Kind::scalar) continue;
     const std::string problem = problem_of(*quantity, unit->text);
     if (!problem.empty()) problems.error(source, unit->place, "unit = " + problem);
+  }
+}
+
+void check_said_units(const Table& table, const ColumnMap& map, TableProblems& problems) {
+  for (const domain::Quantity& quantity : domain::quantities) {
+    const Table::Column* column = table.find(quantity.column);
+    const ColumnPlace& place = map.*quantity.place;
+    if (column == nullptr || column->unit.empty() || column->is_date) continue;
+    if (std::abs(place.factor) != 1.0 || (!place.absent() && place.column != column->in_file)) continue;
+    const std::string taken = place.absent() ? std::string(quantity.unit) : place.unit;
+    std::vector<double> one{1.0};
+    const bool fits = taken == column->unit || unit_problem(column->unit, taken).empty();
+    if (taken == column->unit || (fits && (convert_units(one, column->unit, taken), one.front() == 1.0)))
+      continue;
+    problems.add(
+        table, *column, 0,
+        fmt::format("the line above says {}, and it is read in {}; write columns: {{{}}}, if the line "
+                    "is right",
+                    column->unit, taken,
+                    line_of(quantity.key, {column->in_file, column->unit, place.zero, place.factor})));
   }
 }
 
@@ -94,6 +117,7 @@ void convert_columns(Table& table, const ColumnMap& map, const domain::RigFile& 
     const ColumnPlace& place = map.*found->place;
     if (place.zero != 0.0 || place.factor != 1.0)
       for (double& value : column.values) value = (value - place.zero) * place.factor;
+    if (column.is_date) continue;  // was read in seconds
     if (found->key == "contraction") {
       to_ratio(column.values, place.unit, rig);
     } else if (place.unit == count) {  // of the joint's angle

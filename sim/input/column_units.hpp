@@ -9,10 +9,14 @@
 
 namespace mckibben::input {
 
-using domain::ColumnMap, domain::ColumnPlace;
+using domain::ColumnMap, domain::ColumnPlace, domain::line_of;
 
 /// Checks the units of a map; `map` is the value of `columns`.
 void check_units(const Source& source, const Node& map, Problems& problems);
+
+/// Checks that a file whose lines below the heading name units is read in these, where it is not a sensor's
+/// factor that makes another quantity of them. Before the table is converted.
+void check_said_units(const Table& table, const ColumnMap& map, TableProblems& problems);
 
 /// Whether a command in this unit is a current.
 bool is_current(std::string_view unit);

@@ -1,6 +1,7 @@
-// Strict reader of CSV tables: header on line 1, one row each tick, plain finite numbers. Cells stand between
-// commas; where the header has more semicolons or tabs, between those, and numbers may then have a decimal
-// comma throughout. Columns may come in any order and extra ones are ignored (and may hold quoted text).
+// Strict reader of CSV tables: a heading (csv_layout.hpp), one row each tick, plain finite numbers, in quotes
+// or not. Cells stand between commas, semicolons or tabs; numbers may have a decimal comma throughout.
+// Columns may come in any order and extra ones are ignored (and may hold text). Empty columns and rows at the
+// end are none.
 #pragma once
 
 #include <span>

@@ -8,6 +8,7 @@
 #include <sim/input/fields_json.hpp>
 #include <sim/input/file_names.hpp>
 #include <sim/input/pair_scenario_file.hpp>
+#include <sim/input/rigs.hpp>
 #include <sim/input/yaml_reader.hpp>
 
 namespace mckibben::input {

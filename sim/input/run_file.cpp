@@ -13,6 +13,7 @@
 #include <sim/input/ascii.hpp>
 #include <sim/input/column_hints.hpp>
 #include <sim/input/csv.hpp>
+#include <sim/input/dates.hpp>
 #include <sim/input/limits.hpp>
 #include <sim/input/lvm.hpp>
 #include <sim/input/mat.hpp>
@@ -32,7 +33,7 @@ std::optional<Format> format_of(const std::string& file) {
   std::string ending = std::filesystem::path(file).extension().string();
   std::transform(ending.begin(), ending.end(), ending.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  if (ending == ".csv") return Format::csv;
+  if (ending == ".csv" || ending == ".tsv") return Format::csv;
   if (ending == ".lvm") return Format::lvm;
   if (ending == ".mat") return Format::mat;
   if (ending == ".txt" || ending == ".dat" || ending == ".asc") return Format::ascii;
@@ -76,7 +77,9 @@ class Wanted {
     const ColumnPlace& place = map.*quantity.place;
     const std::string name(quantity.column);
     if (!place.absent()) {
-      columns_.push_back({name, place.column, true, may_miss});
+      const bool is_date = quantity.key == "time" && place.unit == date_unit;
+      columns_.push_back({name, place.column, true, may_miss, is_date});
+      if (is_date && format_ != Format::csv) no_dates(quantity.key);
       if (format_ == Format::ascii) check_number(quantity.key, place.column);
     } else if (format_ != Format::ascii) {
       columns_.push_back({name, name, needed, may_miss});
@@ -93,14 +96,25 @@ class Wanted {
                     run_.find("file")->text, quantity.key, quantity.key, quantity.unit, otherwise));
   }
 
+  /// Where the map names the column of a quantity.
+  const Node& said(std::string_view quantity) const {
+    const Node* own = run_.find("columns");
+    if (own == nullptr || own->find(quantity) == nullptr) own = file_.root.find("columns");
+    return *own->find(quantity);
+  }
+
+  void no_dates(std::string_view quantity) {
+    problems_.error(
+        file_.source, said(quantity).find("unit")->place,
+        fmt::format("unit = {}: only a .csv holds dates, not {}", date_unit, run_.find("file")->text));
+  }
+
   void check_number(std::string_view quantity, const std::string& column) {
     std::size_t number = 0;
     const char* const last = column.data() + column.size();
     const auto [end, error] = std::from_chars(column.data(), last, number);
     if (error == std::errc{} && end == last && number >= 1 && number <= 100000) return;
-    const Node* own = run_.find("columns");
-    if (own == nullptr || own->find(quantity) == nullptr) own = file_.root.find("columns");
-    problems_.error(file_.source, own->find(quantity)->find("column")->place,
+    problems_.error(file_.source, said(quantity).find("column")->place,
                     fmt::format("column = {}: {} has no headings; give the column's number, from 1", column,
                                 run_.find("file")->text));
   }
@@ -130,13 +144,16 @@ Table read_as(Format format, const Source& source, const std::vector<WantedColum
 void read_table_of(Source source, Format format, const Wanted& wanted, const ColumnMap& map,
                    const Dataset& dataset, Run& run, Problems& problems) {
   problems.opened(source);
-  if (format == Format::lvm && source.first_bad_byte()) source.reread_as_latin1();
+  const bool from_windows =
+      format == Format::lvm || (format == Format::csv && source.text().find('\0') == std::string::npos);
+  if (from_windows && source.first_bad_byte()) source.reread_as_latin1();
   TableProblems found(source, problems);
   Table table = read_as(format, source, wanted.columns(), static_cast<std::size_t>(run.segment), found);
   Table::Column *current = table.find("current_mA"), *contraction = table.find("contraction_ratio");
   if (!dataset.own_clock && (current == nullptr || contraction == nullptr)) return;
   if (const Table::Column* time = table.find("time_s"); time != nullptr && map.rows_are_ticks)
     found.add(table, *time, 0, "rows_are_ticks is said, and yet the file holds time_s");
+  check_said_units(table, map, found);
   if (dataset.own_clock && (found.count() > 0 || table.columns.empty())) return;
   convert_columns(table, map, dataset.rig);
   if (dataset.own_clock) {

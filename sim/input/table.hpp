@@ -18,6 +18,7 @@ struct WantedColumn {
   std::string in_file;  ///< as the file calls it: a heading, a channel, a number, a variable
   bool needed = true;
   bool may_miss = false;  ///< a row may lack it: empty, NaN
+  bool is_date = false;   ///< wall-clock time, read as seconds since the first row
 };
 
 /// The wanted columns of a table.
@@ -27,6 +28,8 @@ struct Table {
     std::size_t index = 0;  ///< in the file
     std::vector<double> values;
     bool may_miss = false;
+    bool is_date = false;
+    std::string unit{};  ///< that the file says in a line below the heading; empty: none
   };
   std::vector<Column> columns;
   std::vector<std::size_t> lines;  ///< of each row; empty in files that are no text
