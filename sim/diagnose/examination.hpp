@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <map>
 #include <optional>
 #include <vector>
 
@@ -65,7 +64,8 @@ class Examination {
   void fly();
   void draw_effects();
   double most_gained(const Regression& alone) const;
-  Suspected trimmed(const Drawn& effect, std::map<Kept, Regression>& fits) const;
+  std::vector<Eigen::MatrixXd> products(const Eigen::VectorXd& column) const;
+  Suspected trimmed(const Drawn& effect) const;
   std::vector<Suspected> beside_lateness(const Regression& alone) const;
   std::vector<Suspected> most_promising(std::vector<Suspected> list, double at_best) const;
   Suspicion told(const Suspected& one) const;

@@ -2,12 +2,17 @@
 // must be fitted before anything of it is believed.
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <set>
+#include <utility>
+
+#include <Eigen/Cholesky>
 
 #include <sim/diagnose/examination.hpp>
 #include <sim/diagnose/thresholds.hpp>
 
 namespace mckibben::diagnose {
+
 void Examination::draw_effects() {
   std::vector<Experiment::Change> changes;
   for (const Candidate& c : effects_) {
@@ -44,26 +49,59 @@ double Examination::most_gained(const Regression& alone) const {
   return most;
 }
 
-/// As many runs as may be at fault are left out, each time the one without which least is left. `fits`: those
-/// without an effect, which are the same for all.
-Examination::Suspected Examination::trimmed(const Drawn& effect, std::map<Kept, Regression>& fits) const {
-  const auto left_of = [&](const Kept& kept) {
-    auto fit = fits.find(kept);
-    if (fit == fits.end()) fit = fits.emplace(kept, regression(kept)).first;
-    const auto [drop, amplitude] = fit->second.gain(only(kept, effect.column), 0);
-    return Suspected{&effect, kept, fit->second.cost() - (effect.possible(amplitude) ? drop : 0.0),
-                     amplitude};
+namespace {
+
+/// What a fit leaves, from products of its columns, then the residuals, then one more column with one
+/// another: the sum of squares, and what the last column would explain of it.
+std::pair<double, Regression::Gain> left_of(const Eigen::MatrixXd& products) {
+  const Eigen::Index free = products.cols() - 2;
+  const auto square = products.topLeftCorner(free, free);
+  const auto across = products.topRightCorner(free, 2);
+  const Eigen::Matrix2d left =
+      products.bottomRightCorner(2, 2) - across.transpose() * square.ldlt().solve(across);
+  if (left(1, 1) <= thresholds.fault.rounding * products(free + 1, free + 1)) return {left(0, 0), {}};
+  return {left(0, 0), {left(0, 1) * left(0, 1) / left(1, 1), left(0, 1) / left(1, 1)}};
+}
+
+}  // namespace
+
+/// Of the rig's columns, the residuals and one more column with one another; for each run, then the priors.
+std::vector<Eigen::MatrixXd> Examination::products(const Eigen::VectorXd& column) const {
+  Eigen::MatrixXd all(residuals_.size(), columns_.cols() + 2);
+  all << columns_, residuals_, column;
+  std::vector<Eigen::MatrixXd> list;
+  for (std::size_t i = 0; i < runs_.size(); ++i) {
+    const auto own = all.middleRows(begin(i), rows(i));
+    list.emplace_back(own.transpose() * own);
+  }
+  const auto priors = all.bottomRows(all.rows() - begins_.back());
+  list.emplace_back(priors.transpose() * priors);
+  return list;
+}
+
+/// As many runs as may be at fault are left out, each time the one without which least is left.
+Examination::Suspected Examination::trimmed(const Drawn& effect) const {
+  const auto of_runs = products(effect.column);
+  Eigen::MatrixXd kept = std::accumulate(of_runs.begin() + 1, of_runs.end(), of_runs.front());
+  const auto left = [&](const Eigen::MatrixXd& products) {
+    const auto [cost, gain] = left_of(products);
+    return std::pair{cost - (effect.possible(gain.amplitude) ? gain.drop : 0.0), gain.amplitude};
   };
-  Suspected best = left_of(Kept(runs_.size(), true));
+  const auto [cost, amplitude] = left(kept);
+  Suspected best{&effect, Kept(runs_.size(), true), cost, amplitude};
   for (std::size_t odd = 0; odd < runs_.size() / (thresholds.fault.sound_for_one + 1); ++odd) {
-    Suspected least{.effect = &effect, .kept = {}, .cost = infinite, .amplitude = 0.0};
+    std::size_t oddest = 0;
+    best.cost = infinite;
     for (std::size_t i = 0; i < runs_.size(); ++i) {
       if (!best.kept[i]) continue;
-      Kept fewer = best.kept;
-      fewer[i] = false;
-      if (Suspected left = left_of(fewer); left.cost < least.cost) least = std::move(left);
+      const auto [fewer_cost, fewer_amplitude] = left(kept - of_runs[i]);
+      if (fewer_cost >= best.cost) continue;
+      best.cost = fewer_cost;
+      best.amplitude = fewer_amplitude;
+      oddest = i;
     }
-    best = std::move(least);
+    best.kept[oddest] = false;
+    kept -= of_runs[oddest];
   }
   return best;
 }
@@ -117,9 +155,8 @@ Suspicion Examination::told(const Suspected& one) const {
 
 /// First what leaves least of a run.
 std::vector<Suspicion> Examination::suspicions(const Regression& alone, double at_best) const {
-  std::map<Kept, Regression> fits;
   std::vector<Suspected> without_a_few;
-  for (const Drawn& effect : drawn_) without_a_few.push_back(trimmed(effect, fits));
+  for (const Drawn& effect : drawn_) without_a_few.push_back(trimmed(effect));
   auto list = most_promising(std::move(without_a_few), at_best);
   for (auto& late : most_promising(beside_lateness(alone), at_best)) list.push_back(std::move(late));
   std::stable_sort(list.begin(), list.end(), [](const Suspected& a, const Suspected& b) {
