@@ -67,7 +67,8 @@ class Examination {
   double most_gained(const Regression& alone) const;
   Suspected trimmed(const Drawn& effect, std::map<Kept, Regression>& fits) const;
   std::vector<Suspected> beside_lateness(const Regression& alone) const;
-  std::vector<Suspicion> most_promising(std::vector<Suspected> list, double at_best) const;
+  std::vector<Suspected> most_promising(std::vector<Suspected> list, double at_best) const;
+  Suspicion told(const Suspected& one) const;
   std::vector<Suspicion> suspicions(const Regression& alone, double at_best) const;
   Hypothesis few(double near) const;
   /// The line of all runs being so many ticks late, for a size of 1 tick.

@@ -1,7 +1,8 @@
 // Residuals and slopes; see the header. Parameters fly in flocks of seven beside the rig they are changes of.
 #include <algorithm>
 #include <cmath>
-#include <mutex>
+#include <exception>
+#include <utility>
 
 #include <sim/diagnose/experiment.hpp>
 #include <sim/diagnose/thresholds.hpp>
@@ -89,13 +90,16 @@ void go(Readings& readings, const Readings& from, const Readings& to, double tim
 
 }  // namespace
 
+bool Experiment::seeks_memories(const plant::Rig& rig) const {
+  return data_.recorded.start != domain::Start::settled && rig.effects.remember();
+}
+
 // A further rig of the flock, with its memories a little off, tells what they change; a straight line then
 // takes all readings to where the run's own say. Where that is far, all fly again from near there.
 std::vector<Readings> Experiment::begun(std::size_t run, std::vector<Hanging> rigs) const {
   const domain::Run& measured = data_.runs[run];
   const solver::Method method = data_.rig.integrator.method;
-  if (data_.recorded.start == domain::Start::settled || !rigs.front().rig.effects.remember())
-    return predict(measured, rigs, method);
+  if (!seeks_memories(rigs.front().rig)) return predict(measured, rigs, method);
   const StartThresholds& by = thresholds.start;
   const bool gauge = measured.muscle_pressure_Pa.has_value();
   rigs.push_back(rigs.front());
@@ -124,16 +128,19 @@ std::vector<Readings> Experiment::begun(std::size_t run, std::vector<Hanging> ri
   }
 }
 
-void Experiment::fly(const plant::Rig& rig, std::span<const Change> changes, std::size_t before,
-                     const Part& part, Slopes& result) const {
-  const domain::Run& measured = data_.runs[part.run];
-  std::vector<Hanging> rigs{{rig, measured.load_kg}};
+Wanted Experiment::wanted(const plant::Rig& rig, std::span<const Change> changes, std::size_t run) const {
+  Wanted one{&data_.runs[run], {{rig, data_.runs[run].load_kg}}};
   for (const Change& change : changes) {
-    rigs.push_back(rigs.front());
-    change.apply(rigs.back());
+    one.rigs.push_back(one.rigs.front());
+    change.apply(one.rigs.back());
   }
-  const auto readings = begun(part.run, rigs);
-  if (before == 0) compare(readings[0], part.run, result.residuals.data() + part.begin);
+  return one;
+}
+
+void Experiment::note(const std::vector<Readings>& readings, std::span<const Change> changes,
+                      std::size_t before, bool base, const Part& part, Slopes& result) const {
+  const domain::Run& measured = data_.runs[part.run];
+  if (before == 0 && base) compare(readings[0], part.run, result.residuals.data() + part.begin);
   const auto ticks = static_cast<std::size_t>(part.rows);
   for (std::size_t c = 0; c < changes.size(); ++c) {
     const Readings& changed = readings[1 + c];
@@ -152,41 +159,65 @@ void Experiment::fly(const plant::Rig& rig, std::span<const Change> changes, std
 
 Experiment::Slopes Experiment::slopes(const plant::Rig& rig, std::span<const Change> changes,
                                       const Runs& runs) const {
-  // Of runs on their way one place more is taken: see `begun`.
-  const std::size_t wing = engine::Flock::most - (data_.recorded.start == domain::Start::moving ? 2 : 1);
-  const std::size_t flocks = std::max<std::size_t>(1, (changes.size() + wing - 1) / wing);
   const auto list = parts(runs);
   Eigen::Index total = 0;
   for (const std::size_t run : runs) total += static_cast<Eigen::Index>(rows(run));
   Slopes result{Eigen::VectorXd(total), Eigen::MatrixXd(total, static_cast<Eigen::Index>(changes.size()))};
-  std::mutex guard;
-  std::vector<bool> failed(changes.size());
-  const auto job = [&](std::size_t index) {
-    const Part& part = list[index / flocks];
-    const std::size_t first = index % flocks * wing, last = std::min(changes.size(), first + wing);
-    const auto flock = changes.subspan(first, last - first);
+  // Of runs on their way one place more is taken: see `begun`.
+  const std::size_t wing = engine::Flock::most - (data_.recorded.start == domain::Start::moving ? 2 : 1);
+  std::vector<Group> groups;
+  for (const Part& part : list)
+    for (std::size_t first = 0; first == 0 || first < changes.size(); first += wing)
+      groups.push_back({part, first, std::min(changes.size(), first + wing)});
+  std::vector<Group> failed = fly(rig, changes, groups, result, false);
+  // Those that some change keeps from flying fly change by change.
+  std::vector<Group> single;
+  for (const Group& group : failed) {
+    if (group.first == 0) single.push_back({group.part, 0, 0});
+    for (std::size_t c = group.first; c < group.last; ++c) single.push_back({group.part, c, c + 1});
+  }
+  for (const Group& group : fly(rig, changes, single, result, true))
+    result.columns.col(static_cast<Eigen::Index>(group.first)).setZero();
+  return result;
+}
+
+// Groups that cannot fly, all of whose failures may be forgiven: because of a change that may fail, if it is
+// alone, or one of some that fly together.
+std::vector<Experiment::Group> Experiment::fly(const plant::Rig& rig, std::span<const Change> changes,
+                                               const std::vector<Group>& groups, Slopes& result,
+                                               bool alone) const {
+  std::size_t rigs = 0;
+  for (const Group& group : groups) rigs += 1 + group.last - group.first;
+  std::vector<std::exception_ptr> failures(groups.size());
+  const auto of = [&](const Group& group) { return changes.subspan(group.first, group.last - group.first); };
+  const auto asked = [&](std::size_t i) { return wanted(rig, of(groups[i]), groups[i].part.run); };
+  const auto told = [&](std::size_t i, const std::vector<Readings>& readings,
+                        const std::exception_ptr& failure) {
+    failures[i] = failure;
+    // Of those alone only a group without changes tells what the rig itself does.
+    const bool base = !alone || groups[i].last == groups[i].first;
+    if (!failure) note(readings, of(groups[i]), groups[i].first, base, groups[i].part, result);
+  };
+  const auto begin = [&](std::size_t i) {
     try {
-      fly(rig, flock, first, part, result);
-      return;
+      told(i, begun(groups[i].part.run, asked(i).rigs), nullptr);
     } catch (const engine::NumericalFailure&) {
-      if (std::none_of(flock.begin(), flock.end(), [](const Change& change) { return change.may_fail; }))
-        throw;
-    }
-    if (first == 0) fly(rig, {}, 0, part, result);
-    for (std::size_t c = first; c < last; ++c) {
-      try {
-        fly(rig, changes.subspan(c, 1), c, part, result);
-      } catch (const engine::NumericalFailure&) {
-        if (!changes[c].may_fail) throw;
-        const std::lock_guard lock(guard);
-        failed[c] = true;
-      }
+      told(i, {}, std::current_exception());
     }
   };
-  run::for_each_job(list.size() * flocks, threads_, job, [](std::size_t) {});
-  for (std::size_t c = 0; c < changes.size(); ++c)
-    if (failed[c]) result.columns.col(static_cast<Eigen::Index>(c)).setZero();
-  return result;
+  if (seeks_memories(rig))
+    run::for_each_job(groups.size(), threads_, begin, [](std::size_t) {});
+  else
+    predict_all(groups.size(), rigs, threads_, data_.rig.integrator.method, asked, told);
+  std::vector<Group> failed;
+  for (std::size_t i = 0; i < groups.size(); ++i) {
+    if (!failures[i]) continue;
+    const auto flock = of(groups[i]);
+    if (std::none_of(flock.begin(), flock.end(), [](const Change& change) { return change.may_fail; }))
+      std::rethrow_exception(failures[i]);
+    failed.push_back(groups[i]);
+  }
+  return failed;
 }
 
 Eigen::VectorXd Experiment::residuals(const Readings& readings, std::size_t run) const {

@@ -71,9 +71,21 @@ class Experiment {
   /// Readings of a run by several rigs, the memories of each of a run that began on its way fitted to it.
   std::vector<Readings> begun(std::size_t run, std::vector<Hanging> rigs) const;
   void compare(const Readings& readings, std::size_t run, double* residuals) const;
-  /// Flies `changes` of one run beside the rig itself; their columns follow on the first `before`.
-  void fly(const plant::Rig& rig, std::span<const Change> changes, std::size_t before, const Part& part,
-           Slopes& result) const;
+  /// Whether what the rig's effects remember when a run begins is to be found out.
+  bool seeks_memories(const plant::Rig& rig) const;
+  /// Changes [first, last) of one run, which fly beside the rig itself.
+  struct Group {
+    Part part;
+    std::size_t first, last;
+  };
+  /// Those that could not fly, though they might have.
+  std::vector<Group> fly(const plant::Rig& rig, std::span<const Change> changes,
+                         const std::vector<Group>& groups, Slopes& result, bool alone) const;
+  Wanted wanted(const plant::Rig& rig, std::span<const Change> changes, std::size_t run) const;
+  /// Writes their columns after the first `before`, and with `base` the rig's own residuals if there are
+  /// none.
+  void note(const std::vector<Readings>& readings, std::span<const Change> changes, std::size_t before,
+            bool base, const Part& part, Slopes& result) const;
 
   const domain::Dataset& data_;
   std::vector<std::vector<bool>> masked_;

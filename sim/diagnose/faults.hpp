@@ -44,7 +44,7 @@ struct Suspicion {
 
 struct Examined {
   std::vector<Fault> faults{};
-  std::vector<Suspicion> suspicions{};  ///< where there are no such faults; first those beside a few runs
+  std::vector<Suspicion> suspicions{};  ///< where there are no such faults; first what leaves least of a run
 };
 
 /// The faults that take every run near the floor where the rig of `at`, with its free parameters fitted to

@@ -18,13 +18,22 @@ std::pair<std::ptrdiff_t, std::size_t> shortfall(const std::vector<Fault>& fault
 }
 
 /// Whether a model that is fitted to all runs as they are takes each of them near the floor.
-bool explains_all(const Case& c, const Model& model, const Runs& usable) {
+bool reaches_all(const Case& c, const Model& model, const Runs& usable) {
   const auto fitted = fit(c.experiment, model, usable, {.inflation = thresholds.scatter.first_inflation});
   if (!fitted.failure.empty()) return false;
   const auto parts = c.experiment.parts(usable);
   return std::all_of(parts.begin(), parts.end(), [&](const auto& part) {
     return near_floor(fitted.residuals.segment(part.begin, part.rows));
   });
+}
+
+/// The same of a suspected effect: from where it went without the runs at fault, or as it would have begun
+/// without a suspicion. A fit to few runs may end where no way leads on.
+bool explains_all(const Case& c, const Model& described, const Suspicion& suspicion, const Model& from,
+                  const Runs& usable) {
+  if (reaches_all(c, from, usable)) return true;
+  const Case of_all{c.experiment, c.nominal, {usable, c.split.held_out}, c.inflation, c.learned};
+  return reaches_all(c, with(of_all, described, suspicion.effect), usable);
 }
 
 /// The suspected effect fitted to the runs that may be sound, the fault that all have taken out.
@@ -58,7 +67,8 @@ std::vector<Fault> beside_an_effect(const Case& c, const Checked& checked, const
         examine(c.experiment, contender.fitted.model, usable,
                 common ? catalogue(c.experiment.data().pressure_is_given()) : std::vector<Candidate>{})
             .faults;
-    if (!faults.empty() && !common && explains_all(c, contender.fitted.model, usable)) return {};
+    if (!faults.empty() && !common && explains_all(c, described, suspicion, contender.fitted.model, usable))
+      return {};
     if (!faults.empty() && (best.empty() || explains_more(faults, best))) best = std::move(faults);
     if (!best.empty() && shortfall(best) == one_fault) break;
   }

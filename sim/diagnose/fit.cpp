@@ -49,30 +49,27 @@ class Misfit final : public ceres::CostFunction {
     return {std::move(fresh.residuals), std::move(columns)};
   }
 
+  /// Slopes always come along, at little cost beside the rig itself: Ceres asks for those of a step that it
+  /// takes, right after.
   bool Evaluate(double const* const* values, double* residuals, double** jacobians) const override {
     if (thrown_) return false;
     const double weight = 1.0 / std::sqrt(inflation_);
-    const bool wanted = jacobians != nullptr && jacobians[0] != nullptr;
     try {
-      const plant::Rig rig = rig_at(values[0]);
+      const auto& at = slopes_at(values[0]);
       const auto columns = static_cast<Eigen::Index>(model_.free.size());
       Eigen::Map<Eigen::VectorXd> r(residuals, rows_ + priors_);
-      if (wanted) {
-        Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> j(
-            jacobians[0], rows_ + priors_, columns);
-        const auto at = slopes(rig);
-        r.head(rows_) = weight * at.residuals;
-        j.setZero();
-        j.topRows(rows_) = -weight * at.columns;
-        Eigen::Index row = rows_;
-        for (Eigen::Index c = 0; c < columns; ++c)
-          if (model_.free[static_cast<std::size_t>(c)].has_prior) j(row++, c) = 1.0;
-      } else {
-        r.head(rows_) = weight * experiment_.residuals(rig, runs_);
-      }
+      r.head(rows_) = weight * at.residuals;
       Eigen::Index row = rows_;
       for (Eigen::Index c = 0; c < columns; ++c)
         if (model_.free[static_cast<std::size_t>(c)].has_prior) r[row++] = values[0][c];
+      if (jacobians == nullptr || jacobians[0] == nullptr) return r.allFinite();
+      Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> j(
+          jacobians[0], rows_ + priors_, columns);
+      j.setZero();
+      j.topRows(rows_) = -weight * at.columns;
+      row = rows_;
+      for (Eigen::Index c = 0; c < columns; ++c)
+        if (model_.free[static_cast<std::size_t>(c)].has_prior) j(row++, c) = 1.0;
       return r.allFinite();
     } catch (const engine::NumericalFailure&) {
       return false;  // a step too far: Ceres tries a shorter one
@@ -87,6 +84,16 @@ class Misfit final : public ceres::CostFunction {
   }
 
  private:
+  const Experiment::Slopes& slopes_at(const double* values) const {
+    const std::vector<double> wanted(values, values + model_.free.size());
+    if (wanted != last_values_) {
+      last_values_.clear();
+      last_ = slopes(rig_at(values));
+      last_values_ = wanted;
+    }
+    return last_;
+  }
+
   const Eigen::VectorXd* known_slope(const Parameter& p) const {
     for (const auto& [path, column] : known_)
       if (path == p.path) return &column;
@@ -100,6 +107,8 @@ class Misfit final : public ceres::CostFunction {
   const KnownSlopes& known_;
   Eigen::Index rows_ = 0, priors_ = 0;
   std::vector<Parameter> fresh_;
+  mutable std::vector<double> last_values_;
+  mutable Experiment::Slopes last_;  // at these
   mutable std::exception_ptr thrown_;
 };
 

@@ -2,6 +2,9 @@
 // several rigs side by side, and how the readings change with parameters.
 #pragma once
 
+#include <cstddef>
+#include <exception>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -27,6 +30,22 @@ struct Readings {
 std::vector<Readings> predict(const domain::Run& run, std::span<const Hanging> rigs,
                               solver::Method method = solver::Method::automatic,
                               std::span<const double> memories = {});
+
+/// A prediction that is wanted: of a run, for rigs of which the first is the one whose slopes others tell.
+struct Wanted {
+  const domain::Run* run;
+  std::vector<Hanging> rigs;
+};
+/// Hears of one: its readings, or why there are none (an engine::NumericalFailure).
+using Predicted =
+    std::function<void(std::size_t index, std::vector<Readings> readings, std::exception_ptr failure)>;
+
+/// Many predictions, side by side in convoys on `threads` threads: those whose rigs can, in common steps; the
+/// others as `predict` does. What comes of one depends neither on threads nor on what goes beside it. Both
+/// functions are called from any thread, in any order. `rigs`: of all together, about. Throws
+/// run::Interrupted.
+void predict_all(std::size_t count, std::size_t rigs, unsigned threads, solver::Method method,
+                 const std::function<Wanted(std::size_t index)>& wanted, const Predicted& predicted);
 
 /// How `predict` integrates these rigs.
 solver::Settings settings_for(std::span<const Hanging> rigs, solver::Method method);

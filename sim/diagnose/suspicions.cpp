@@ -87,37 +87,47 @@ std::vector<Examination::Suspected> Examination::beside_lateness(const Regressio
 }
 
 /// Those that leave far less of a run than `at_best` any effect leaves; each effect in its best shape.
-std::vector<Suspicion> Examination::most_promising(std::vector<Suspected> list, double at_best) const {
+std::vector<Examination::Suspected> Examination::most_promising(std::vector<Suspected> list,
+                                                                double at_best) const {
   const double limit = thresholds.fault.worth_suspecting * at_best / static_cast<double>(runs_.size());
   std::erase_if(list, [&](const Suspected& one) {
     return one.cost_of_a_run() > limit || !one.effect->possible(one.amplitude);
   });
   std::stable_sort(list.begin(), list.end(),
                    [](const Suspected& a, const Suspected& b) { return a.cost < b.cost; });
-  std::set<const Candidate*> told;
-  std::vector<Suspicion> best;
-  for (const Suspected& one : list) {
-    const Candidate& c = *one.effect->candidate;
-    if (best.size() == thresholds.fault.most_suspected) break;
-    if (!told.insert(&c).second) continue;
-    Suspicion& suspicion = best.emplace_back();
-    suspicion.effect = {.candidate = c, .amplitude = c.absent + one.amplitude, .shape = one.effect->shape};
-    for (std::size_t i = 0; i < runs_.size(); ++i) {
-      if (one.kept[i]) suspicion.sound.push_back(runs_[i]);
-      if (one.late != 0)
-        suspicion.common.push_back({runs_[i], FaultKind::late, static_cast<double>(one.late), 0, true});
-    }
-  }
-  return best;
+  std::set<const Candidate*> listed;
+  std::erase_if(list, [&](const Suspected& one) { return !listed.insert(one.effect->candidate).second; });
+  if (list.size() > thresholds.fault.most_suspected) list.resize(thresholds.fault.most_suspected);
+  return list;
 }
 
+Suspicion Examination::told(const Suspected& one) const {
+  const Candidate& c = *one.effect->candidate;
+  Suspicion suspicion{
+      .effect = {.candidate = c, .amplitude = c.absent + one.amplitude, .shape = one.effect->shape},
+      .sound = {},
+      .common = {}};
+  for (std::size_t i = 0; i < runs_.size(); ++i) {
+    if (one.kept[i]) suspicion.sound.push_back(runs_[i]);
+    if (one.late != 0)
+      suspicion.common.push_back({runs_[i], FaultKind::late, static_cast<double>(one.late), 0, true});
+  }
+  return suspicion;
+}
+
+/// First what leaves least of a run.
 std::vector<Suspicion> Examination::suspicions(const Regression& alone, double at_best) const {
   std::map<Kept, Regression> fits;
   std::vector<Suspected> without_a_few;
   for (const Drawn& effect : drawn_) without_a_few.push_back(trimmed(effect, fits));
   auto list = most_promising(std::move(without_a_few), at_best);
   for (auto& late : most_promising(beside_lateness(alone), at_best)) list.push_back(std::move(late));
-  return list;
+  std::stable_sort(list.begin(), list.end(), [](const Suspected& a, const Suspected& b) {
+    return a.cost_of_a_run() < b.cost_of_a_run();
+  });
+  std::vector<Suspicion> best;
+  for (const Suspected& one : list) best.push_back(told(one));
+  return best;
 }
 
 }  // namespace mckibben::diagnose

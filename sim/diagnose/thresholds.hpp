@@ -31,7 +31,7 @@ struct ScatterThresholds {
 
 /// What a simulation is asked for.
 struct PredictThresholds {
-  double tolerance = 1e-5;  ///< relative. Errors in e of 5e-6, measured: far below a count
+  double tolerance = 3e-6;  ///< relative. Errors in e of 5e-6, measured: far below a count
   double tolerance_alone =
       1e-7;  ///< of rigs without common steps: differences must be theirs, not their steps'
 };

@@ -122,9 +122,9 @@ struct Fill {
   }
 };
 
-/// The choices that suit all rigs; none if two of them differ.
-std::optional<std::vector<long>> common_choices(const std::vector<Leaves>& rigs) {
-  std::vector<long> common;
+/// The choices that suit all rigs, where one of them has made any; nothing if two of them differ.
+std::optional<Kind> common_choices(const std::vector<Leaves>& rigs) {
+  Kind common;
   for (std::size_t i = 0; i < rigs.front().choices.size(); ++i) {
     std::optional<long> one;
     for (const Leaves& rig : rigs) {
@@ -132,7 +132,7 @@ std::optional<std::vector<long>> common_choices(const std::vector<Leaves>& rigs)
       if (one && *one != *rig.choices[i]) return std::nullopt;
       one = rig.choices[i];
     }
-    common.push_back(one.value_or(0));
+    common.push_back(one);
   }
   return common;
 }
@@ -165,20 +165,27 @@ void level_terms(std::vector<plant::Rig>& rigs) {
   }
 }
 
+std::vector<Leaves> levelled_leaves(std::vector<plant::Rig>& rigs) {
+  level_terms(rigs);
+  std::vector<Leaves> leaves;
+  leaves.reserve(rigs.size());
+  for (const plant::Rig& rig : rigs) leaves.push_back(leaves_of(rig));
+  return leaves;
+}
+
 }  // namespace
 
 std::optional<plant::PlantOf<Lanes>> abreast(std::span<const plant::Plant> plants) {
   std::vector<plant::Rig> rigs;
   rigs.reserve(plants.size());
   for (const plant::Plant& plant : plants) rigs.push_back(plant.rig());
-  level_terms(rigs);
-  std::vector<Leaves> leaves;
-  leaves.reserve(rigs.size());
-  for (const plant::Rig& rig : rigs) leaves.push_back(leaves_of(rig));
+  const auto leaves = levelled_leaves(rigs);
   const auto choices = common_choices(leaves);
   if (!choices) return std::nullopt;
+  std::vector<long> chosen;  // what nobody chooses makes no difference
+  for (const auto& choice : *choices) chosen.push_back(choice.value_or(0));
   plant::RigOf<Lanes> rig;
-  Fill fill{leaves, *choices};
+  Fill fill{leaves, chosen};
   walk(rig, fill);
   Lanes load_kg;
   for (std::size_t lane = 0; lane < Lanes::count; ++lane)
@@ -198,8 +205,11 @@ void put(const plant::Held& held, std::size_t lane, plant::HeldOf<Lanes>& all) {
   all.length_is_given = held.length_is_given;
 }
 
-Kind kind_of(const plant::Rig& rig) {
-  return leaves_of(rig).choices;
+std::optional<Kind> kind_of(std::span<const plant::Rig* const> party) {
+  std::vector<plant::Rig> rigs;
+  rigs.reserve(party.size());
+  for (const plant::Rig* rig : party) rigs.push_back(*rig);
+  return common_choices(levelled_leaves(rigs));
 }
 
 }  // namespace mckibben::engine

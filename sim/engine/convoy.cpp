@@ -45,24 +45,22 @@ class ErkConvoy final : public Convoy {
     ERKStepSetPostprocessStepFn(m, after_step);
   }
 
-  void board(std::size_t place, const plant::Plant& plant) override {
-    if (plants_.empty()) {  // places that stay empty need a rig too
-      plants_.assign(places, plant);
-      One y;
-      Problem<L>::store({.state = plant.at_rest({})}, y.data());
-      for (std::size_t i = 0; i < places; ++i) {
-        Lane::put(y, i, y_.get());
-        Lane::put(y, i, reached_.get());
-      }
+  void board(std::span<const std::size_t> seats, std::span<const plant::Plant* const> party) override {
+    if (plants_.empty()) furnish(*party.front());
+    for (const std::size_t place : seats) vacate(lead_[place]);
+    Way& way = ways_[seats.front()];
+    way = {};
+    way.rigs = seats.size();
+    for (std::size_t i = 0; i < seats.size(); ++i) {
+      const std::size_t place = way.places[i] = seats[i];
+      lead_[place] = seats.front();
+      plants_[place] = *party[i];
+      together_[place / Lanes::count].reset();
     }
-    plants_[place] = plant;
-    together_[place / Lanes::count].reset();
-    ways_[place] = {};
   }
 
-  void set_off(std::size_t place, Bound bound, double from_s, double to_s) override {
-    Way& way = ways_[place];
-    way.bound = bound;
+  void set_off(std::size_t lead, std::span<const Bound> party, double from_s, double to_s) override {
+    Way& way = ways_[lead];
     way.at_s = from_s;
     way.from_s = from_s;
     way.to_s = to_s;
@@ -71,12 +69,16 @@ class ErkConvoy final : public Convoy {
     // The rule has divided the tick that was; this one may be longer or shorter.
     const double parts = std::ceil((to_s - from_s) / way.pace.step_s * (1.0 - PiRule::nothing));
     way.pace.step_s = (to_s - from_s) / std::max(1.0, parts);
-    put(*bound.held, place % Lanes::count, held_[place / Lanes::count]);
-    One y;
-    Problem<L>::store(*bound.flow, y.data());
-    Lane::put(y, place, current_);
-    Lane::put(y, place, reached_.get());
-    h_[place / Lanes::count].set(place % Lanes::count, way.pace.step_s);
+    for (std::size_t i = 0; i < way.rigs; ++i) {
+      const std::size_t place = way.places[i];
+      way.bound[i] = party[i];
+      put(*party[i].held, place % Lanes::count, held_[place / Lanes::count]);
+      One y;
+      Problem<L>::store(*party[i].flow, y.data());
+      Lane::put(y, place, current_);
+      Lane::put(y, place, reached_.get());
+    }
+    set_step(way, way.pace.step_s);
     if (!way.under_way) ++under_way_;
     way.under_way = true;
   }
@@ -100,19 +102,50 @@ class ErkConvoy final : public Convoy {
   Pace pace(std::size_t place) const override { return ways_[place].pace; }
 
  private:
-  /// What a rig is about.
+  /// What a party is about.
   struct Way {
-    Bound bound{};
+    std::size_t rigs = 0;
+    std::array<std::size_t, wing> places{};
+    std::array<Bound, wing> bound{};
     double at_s = 0.0, from_s = 0.0, to_s = 0.0;
     Pace pace{};
     Counters counters{};
     long refused = 0, steps = 0;  ///< on this way
     bool under_way = false;
+
+    bool is_over() const { return to_s - at_s <= PiRule::nothing * (to_s - from_s); }
   };
 
   static constexpr double safety = 0.5;       // so much the library takes of what it is told; it refuses 1
   static constexpr double first_step = 0.05;  // of a tick; the error decides soon
   static constexpr long stages = 6;
+  static constexpr std::size_t nobody = places;
+
+  /// Places that stay empty need a rig too.
+  void furnish(const plant::Plant& plant) {
+    plants_.assign(places, plant);
+    lead_.fill(nobody);
+    One y;
+    Problem<L>::store({.state = plant.at_rest({})}, y.data());
+    for (std::size_t i = 0; i < places; ++i) {
+      Lane::put(y, i, y_.get());
+      Lane::put(y, i, reached_.get());
+    }
+  }
+
+  /// The party of this lead has got off.
+  void vacate(std::size_t lead) {
+    if (lead == nobody) return;
+    for (std::size_t& of : lead_)
+      if (of == lead) of = nobody;
+  }
+
+  bool goes(std::size_t place) const { return lead_[place] != nobody && ways_[lead_[place]].under_way; }
+
+  void set_step(const Way& way, double step_s) {
+    for (std::size_t i = 0; i < way.rigs; ++i)
+      h_[way.places[i] / Lanes::count].set(way.places[i] % Lanes::count, step_s);
+  }
 
   static int right_hand_sides(double, N_Vector y, N_Vector dyds, void* self) {
     static_cast<ErkConvoy*>(self)->rates(y, dyds);
@@ -122,8 +155,9 @@ class ErkConvoy final : public Convoy {
   void rates(N_Vector y, N_Vector dyds) {
     for (std::size_t block = 0; block < blocks; ++block) {
       const std::size_t first = block * Lanes::count;
-      if (std::none_of(&ways_[first], &ways_[first] + Lanes::count,
-                       [](const Way& w) { return w.under_way; })) {
+      bool empty = true;
+      for (std::size_t lane = 0; lane < Lanes::count; ++lane) empty = empty && !goes(first + lane);
+      if (empty) {
         for (std::size_t i = 0; i < L::size; ++i) Lane::at(dyds, i, block) = Lanes(0.0);
         continue;
       }
@@ -134,9 +168,8 @@ class ErkConvoy final : public Convoy {
       });
       for (std::size_t lane = 0; lane < Lanes::count; ++lane) {
         if (inside[lane]) continue;
-        Way& way = ways_[first + lane];
         One forbidding{};
-        if (way.under_way) forbid(forbidding.data(), way.refused++);
+        if (goes(first + lane)) forbid(forbidding.data(), ways_[lead_[first + lane]].refused++);
         Lane::put(forbidding, first + lane, dyds);
       }
     }
@@ -155,6 +188,8 @@ class ErkConvoy final : public Convoy {
 
   /// Takes back what is not good enough; then tells who arrived.
   void judge(N_Vector y) {
+    for (const Way& way : ways_)
+      if (way.under_way && way.rigs > 1) share_error(way);
     on_this_machine([&] {
       for (std::size_t block = 0; block < blocks; ++block) {
         const Mask good = errors_[block] <= Lanes(1.0);
@@ -165,9 +200,28 @@ class ErkConvoy final : public Convoy {
       }
     });
     current_ = y;
-    for (std::size_t place = 0; place < places; ++place)
-      if (ways_[place].under_way) judge(place, y);
+    std::array<std::size_t, places> through{};
+    std::size_t count = 0;
+    for (std::size_t lead = 0; lead < places; ++lead)
+      if (ways_[lead].under_way && judge(lead, y)) through[count++] = lead;
+    // Only now: who boards has not been under way.
+    for (std::size_t i = 0; i < count; ++i) {
+      const Way& way = ways_[through[i]];
+      (*arrived_)(through[i], way.is_over());
+    }
     gather();
+  }
+
+  /// The error of the worst is that of all.
+  void share_error(const Way& way) {
+    double worst = 0.0;
+    for (std::size_t i = 0; i < way.rigs; ++i) {
+      const double error = errors_[way.places[i] / Lanes::count][way.places[i] % Lanes::count];
+      worst = error <= worst ? worst : error;  // nor is it lost where it is no number
+      if (!std::isfinite(error)) break;
+    }
+    for (std::size_t i = 0; i < way.rigs; ++i)
+      errors_[way.places[i] / Lanes::count].set(way.places[i] % Lanes::count, worst);
   }
 
   /// The rigs of blocks in which one has boarded, as one.
@@ -179,9 +233,10 @@ class ErkConvoy final : public Convoy {
     }
   }
 
-  void judge(std::size_t place, N_Vector y) {
-    Way& way = ways_[place];
-    double error = errors_[place / Lanes::count][place % Lanes::count];
+  /// Whether a party need not be under way any more.
+  bool judge(std::size_t lead, N_Vector y) {
+    Way& way = ways_[lead];
+    double error = errors_[lead / Lanes::count][lead % Lanes::count];
     if (!std::isfinite(error)) error = hopeless;
     const double tick_s = way.to_s - way.from_s, h = way.pace.step_s;
     way.counters.right_hand_sides += stages;
@@ -196,26 +251,28 @@ class ErkConvoy final : public Convoy {
     const double left_s = way.to_s - way.at_s;
     way.pace.step_s = rule.next(h, error, left_s, tick_s);
     way.pace.log_of_last_error = rule.log_of_last_error;
-    const bool over = left_s <= PiRule::nothing * tick_s;
+    const bool over = way.is_over();
     const bool stuck = way.steps > most_steps_in_a_tick || way.refused > most_refused_in_a_tick ||
                        way.at_s + way.pace.step_s == way.at_s;
     if (!over && !stuck) {
-      h_[place / Lanes::count].set(place % Lanes::count, way.pace.step_s);
-      return;
+      set_step(way, way.pace.step_s);
+      return false;
     }
     if (over) {
-      Problem<L>::load(Lane::of(place, y).data(), *way.bound.flow);
+      for (std::size_t i = 0; i < way.rigs; ++i)
+        Problem<L>::load(Lane::of(way.places[i], y).data(), *way.bound[i].flow);
       ++way.pace.ticks;
     }
     way.under_way = false;
     --under_way_;
-    h_[place / Lanes::count].set(place % Lanes::count, 0.0);
-    (*arrived_)(place, over);
+    set_step(way, 0.0);
+    return true;
   }
 
   static constexpr double hopeless = 1e10;  // error of a step into what is no number
 
-  std::array<Way, places> ways_{};
+  std::array<Way, places> ways_{};          // of the party whose first place it is
+  std::array<std::size_t, places> lead_{};  // first place of the party that each belongs to
   std::vector<plant::Plant> plants_;
   std::array<std::optional<plant::PlantOf<Lanes>>, blocks> together_;  // of the plants
   std::array<plant::HeldOf<Lanes>, blocks> held_;

@@ -1,6 +1,8 @@
-// Places are taken by the next passenger as they become free; see the header.
+// Places are taken by the next party as they become free; see the header.
+#include <algorithm>
 #include <array>
 #include <memory>
+#include <utility>
 
 #include <sim/ride/convoy.hpp>
 
@@ -9,90 +11,136 @@ namespace {
 
 class Carrying {
  public:
-  Carrying(const std::function<Passenger*()>& next, const solver::Settings& settings, std::size_t places)
+  Carrying(const std::function<Party*()>& next, const ConvoyClass& all, std::size_t places)
       : next_(next),
-        may_turn_stiff_(settings.method == solver::Method::automatic),
-        settings_(settings),
-        places_(places) {}
+        may_turn_stiff_(all.method == solver::Method::automatic),
+        places_(places),
+        convoy_(engine::make_convoy(all.remembers, all.tolerance)) {}
 
   void operator()() {
-    Passenger* first = next_();
-    if (first == nullptr) return;
-    convoy_ = engine::make_convoy(first->rider().plant().remembers(), settings_.tolerance);
-    board(0, first);
-    for (std::size_t place = 1; place < places_; ++place) board(place, next_());
+    fill();
     convoy_->go([this](std::size_t place, bool arrived) { come(place, arrived); });
   }
 
  private:
-  /// The passenger takes the place and sets off; or the next one who does.
-  void board(std::size_t place, Passenger* passenger) {
-    for (; passenger != nullptr; passenger = next_()) {
-      convoy_->board(place, passenger->rider().plant());
-      cost_before_[place] = 0;
-      if (set_off(place, *passenger)) break;
+  struct Seats {
+    Party* party = nullptr;  ///< that has its first place here
+    std::array<std::size_t, engine::Convoy::wing> places{};
+    std::size_t count = 0;
+    long cost_before = 0;
+  };
+
+  /// Seats parties as long as there is room for the next one.
+  void fill() {
+    for (;;) {
+      if (waiting_ == nullptr) waiting_ = next_();
+      if (waiting_ == nullptr || !seat(*waiting_)) return;
+      waiting_ = nullptr;
     }
-    at_[place] = passenger;
   }
 
-  bool set_off(std::size_t place, Passenger& passenger) {
-    if (!passenger.go_on()) {
-      passenger.end(convoy_->counters(place));
+  /// False if there is no room. The party sets off, unless it has come to its end.
+  bool seat(Party& party) {
+    const auto riders = party.riders();
+    Seats seats{.party = &party};
+    for (std::size_t place = 0; place < places_ && seats.count < riders.size(); ++place)
+      if (!taken_[place]) seats.places[seats.count++] = place;
+    if (seats.count < riders.size()) return false;
+    std::array<const plant::Plant*, engine::Convoy::wing> plants{};
+    for (std::size_t i = 0; i < seats.count; ++i) {
+      plants[i] = &riders[i].plant();
+      taken_[seats.places[i]] = true;
+    }
+    convoy_->board(std::span(seats.places).first(seats.count), std::span(plants).first(seats.count));
+    const std::size_t place = seats.places.front();
+    at_[place] = seats;
+    if (!set_off(place)) leave(place);
+    return true;
+  }
+
+  void leave(std::size_t place) {
+    for (std::size_t i = 0; i < at_[place].count; ++i) taken_[at_[place].places[i]] = false;
+  }
+
+  /// False if the party has come to its end.
+  bool set_off(std::size_t place) {
+    Party& party = *at_[place].party;
+    if (!party.go_on()) {
+      party.end(convoy_->counters(place));
       return false;
     }
-    Rider::State& now = passenger.rider().now;
-    convoy_->set_off(place, {&now.flow, &now.held}, now.time_s, now.until_s);
+    const auto riders = party.riders();
+    std::array<engine::Bound, engine::Convoy::wing> bound{};
+    for (std::size_t i = 0; i < riders.size(); ++i) bound[i] = {&riders[i].now.flow, &riders[i].now.held};
+    const Rider::State& now = riders.front().now;
+    convoy_->set_off(place, std::span(bound).first(riders.size()), now.time_s, now.until_s);
     return true;
   }
 
   void come(std::size_t place, bool arrived) {
-    Passenger& passenger = *at_[place];
+    Party& party = *at_[place].party;
     if (!arrived) {
-      passenger.alone(convoy_->pace(place), convoy_->counters(place));
+      party.alone(convoy_->pace(place), convoy_->counters(place));
     } else {
-      passenger.rider().arrive();
+      for (Rider& rider : party.riders()) rider.arrive();
       if (turned_stiff(place))
-        go_on_alone(place, passenger);
-      else if (set_off(place, passenger))
+        go_on_alone(place, party);
+      else if (set_off(place))
         return;
     }
-    board(place, next_());
+    leave(place);
+    fill();
   }
 
   /// With the method for stiff rigs, as the automatic one does.
-  void go_on_alone(std::size_t place, Passenger& passenger) {
-    if (!passenger.go_on()) return passenger.end(convoy_->counters(place));
+  void go_on_alone(std::size_t place, Party& party) {
+    if (!party.go_on()) return party.end(convoy_->counters(place));
     engine::Pace pace = convoy_->pace(place);
     pace.stiff_from_tick = pace.ticks;
-    passenger.alone(pace, convoy_->counters(place));
+    party.alone(pace, convoy_->counters(place));
   }
 
   bool turned_stiff(std::size_t place) {
-    if (!may_turn_stiff_ || convoy_->pace(place).ticks % engine::window_ticks != 0) return false;
+    Seats& seats = at_[place];
+    if (!may_turn_stiff_ || seats.count > 1 || convoy_->pace(place).ticks % engine::window_ticks != 0)
+      return false;
     const long cost = convoy_->counters(place).right_hand_sides;
-    const bool stiff = cost - cost_before_[place] > engine::stiff_cost_per_tick * engine::window_ticks;
-    cost_before_[place] = cost;
+    const bool stiff = cost - seats.cost_before > engine::stiff_cost_per_tick * engine::window_ticks;
+    seats.cost_before = cost;
     return stiff;
   }
 
-  const std::function<Passenger*()>& next_;
+  const std::function<Party*()>& next_;
   bool may_turn_stiff_;
-  solver::Settings settings_;
   std::size_t places_;
   std::unique_ptr<engine::Convoy> convoy_;
-  std::array<Passenger*, engine::Convoy::places> at_{};
-  std::array<long, engine::Convoy::places> cost_before_{};
+  Party* waiting_ = nullptr;  ///< for places to become free
+  std::array<Seats, engine::Convoy::places> at_{};
+  std::array<bool, engine::Convoy::places> taken_{};
 };
 
 }  // namespace
 
-bool can_join_a_convoy(const plant::Rig& rig, solver::Method method) {
-  return method != solver::Method::cvode && engine::can_join_a_convoy(rig);
+std::optional<ConvoyClass> convoy_class(std::span<const plant::Rig* const> rigs, const Drive& drive,
+                                        const solver::Settings& settings) {
+  const bool possible = rigs.size() <= engine::Convoy::wing && settings.method != solver::Method::cvode &&
+                        std::all_of(rigs.begin(), rigs.end(),
+                                    [](const plant::Rig* rig) { return engine::can_join_a_convoy(*rig); });
+  if (!possible) return std::nullopt;
+  auto kind = engine::kind_of(rigs);
+  if (!kind) return std::nullopt;
+  const bool remembers =
+      std::any_of(rigs.begin(), rigs.end(), [](const plant::Rig* rig) { return rig->effects.remember(); });
+  return ConvoyClass{remembers,
+                     settings.method,
+                     settings.tolerance,
+                     drive.muscle_pressure_Pa.has_value(),
+                     drive.contraction_ratio.has_value(),
+                     *std::move(kind)};
 }
 
-void ride_in_convoy(const std::function<Passenger*()>& next, const solver::Settings& settings,
-                    std::size_t places) {
-  Carrying(next, settings, places)();
+void ride_in_convoy(const std::function<Party*()>& next, const ConvoyClass& all, std::size_t places) {
+  Carrying(next, all, places)();
 }
 
 }  // namespace mckibben::ride

@@ -1,8 +1,12 @@
-// Many riders that have nothing to do with each other, side by side in an engine's convoy: each in steps of
-// its own and at instants of its own. What becomes of one does not depend on the others, to the bit.
+// Many riders side by side in an engine's convoy, in parties: one alone, or several under the same drive
+// whose differences are wanted, in common steps. Each party goes in steps of its own and at instants of its
+// own. What becomes of one does not depend on the others, to the bit.
 #pragma once
 
 #include <functional>
+#include <optional>
+#include <span>
+#include <tuple>
 
 #include <sim/engine/convoy.hpp>
 #include <sim/ride/rider.hpp>
@@ -10,30 +14,48 @@
 
 namespace mckibben::ride {
 
-/// Who rides, and is asked at each instant what comes next.
-class Passenger {
+/// A party that rides, and is asked at each instant what comes next.
+class Party {
  public:
-  Passenger() = default;
-  Passenger(const Passenger&) = delete;
-  Passenger& operator=(const Passenger&) = delete;
-  virtual ~Passenger() = default;
+  Party() = default;
+  Party(const Party&) = delete;
+  Party& operator=(const Party&) = delete;
+  virtual ~Party() = default;
 
-  /// Has been started.
-  virtual Rider& rider() = 0;
-  /// At an instant: has held what acts until the next one; false if this was the last. May throw.
+  /// 1 to engine::Convoy::wing, which have been started and stay where they are.
+  virtual std::span<Rider> riders() = 0;
+  /// At an instant: all have held what acts until the next one; false if this was the last. May throw.
   virtual bool go_on() = 0;
   /// It got off where it is.
   virtual void end(const engine::Counters& solver) = 0;
-  /// It has to go on by itself with what it holds: no step is small enough, or too many are needed.
+  /// It has to go on by itself with what it holds: no step is small enough, or too many are needed; or its
+  /// one rig is stiff.
   virtual void alone(const engine::Pace& pace, const engine::Counters& solver) = 0;
 };
 
-/// Whether a rig can ride so: LuGre friction, a method that may be explicit.
-bool can_join_a_convoy(const plant::Rig& rig, solver::Method method);
+/// What parties must have in common to ride together.
+struct ConvoyClass {
+  bool remembers = false;
+  solver::Method method{};
+  double tolerance = 0.0;
+  bool pressure_is_given = false, length_is_given = false;
+  engine::Kind kind{};
 
-/// Carries passengers, up to `places` (at most engine::Convoy::places) at a time, until `next` gives none any
-/// more (null). All their rigs are of one kind (engine::kind_of). Throws what passengers throw.
-void ride_in_convoy(const std::function<Passenger*()>& next, const solver::Settings& settings,
-                    std::size_t places);
+  bool operator<(const ConvoyClass& other) const {
+    const auto all = [](const ConvoyClass& c) {
+      return std::tie(c.remembers, c.method, c.tolerance, c.pressure_is_given, c.length_is_given, c.kind);
+    };
+    return all(*this) < all(other);
+  }
+};
+
+/// Of rigs under one drive; none if they cannot ride so: more than the engine's wing, exact stick and slip,
+/// CVODE, or different laws among them.
+std::optional<ConvoyClass> convoy_class(std::span<const plant::Rig* const> rigs, const Drive& drive,
+                                        const solver::Settings& settings);
+
+/// Carries parties of one class, on up to `places` (at most engine::Convoy::places) at a time, until `next`
+/// gives none any more (null). Throws what parties throw.
+void ride_in_convoy(const std::function<Party*()>& next, const ConvoyClass& all, std::size_t places);
 
 }  // namespace mckibben::ride

@@ -51,6 +51,7 @@ class Ride {
 
   std::size_t rigs() const { return riders_.size(); }
   Rider& rider(std::size_t rig = 0) { return riders_[rig]; }
+  std::span<Rider> riders() { return riders_; }
   const plant::Plant& plant(std::size_t rig = 0) const { return riders_[rig].plant(); }
   const engine::Flow& flow(std::size_t rig = 0) const { return riders_[rig].now.flow; }
   const Reading& reading(std::size_t rig = 0) const { return riders_[rig].now.reading; }

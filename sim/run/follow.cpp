@@ -65,7 +65,10 @@ class Following {
 
   /// Settled, or on its way; the counter goes along.
   void begin() {
-    for_first_stamp(ride_, course_, rig_, {}, [&] { counter_.count(ride_.reading().wheel_m); });
+    for (long k = start(ride_.riders(), course_, rig_); k > 0; --k) {
+      ride_.step(course_.drives.front(), before_s(course_, rig_, k - 1));
+      counter_.count(ride_.reading().wheel_m);
+    }
     ride_.open_ledger();
   }
 
@@ -134,22 +137,21 @@ class Following {
 
 }  // namespace
 
-void for_first_stamp(ride::Ride& ride, const Course& course, const plant::Rig& rig,
-                     std::span<const double> memories, const std::function<void()>& each_tick) {
-  const Drive& first = course.drives.front();
+double before_s(const Course& course, const plant::Rig& rig, long ticks) {
+  return course.time_s.front() - static_cast<double>(ticks) * rig.tick_s;
+}
+
+long start(std::span<ride::Rider> riders, const Course& course, const plant::Rig& rig,
+           std::span<const double> memories) {
   const long ticks = course.begins ? 0 : std::lround(rig.settling_time_s / rig.tick_s);
-  const auto before_s = [&](long k) { return course.time_s.front() - static_cast<double>(k) * rig.tick_s; };
-  ride.start(first, before_s(ticks));
-  if (course.begins)
-    for (std::size_t i = 0; i < ride.rigs(); ++i) {
-      ride::Underway begins = *course.begins;
-      if (!memories.empty()) begins.memories = memories[i];
-      ride::set_off(ride.rider(i), begins);
-    }
-  for (long k = ticks; k > 0; --k) {
-    ride.step(first, before_s(k - 1));
-    each_tick();
+  for (std::size_t i = 0; i < riders.size(); ++i) {
+    riders[i].start(course.drives.front(), before_s(course, rig, ticks));
+    if (!course.begins) continue;
+    ride::Underway begins = *course.begins;
+    if (!memories.empty()) begins.memories = memories[i];
+    ride::set_off(riders[i], begins);
   }
+  return ticks;
 }
 
 Recording follow(const domain::RigFile& rig, double load_kg, const Course& course) {

@@ -6,7 +6,6 @@
 //   next
 #pragma once
 
-#include <functional>
 #include <span>
 
 #include <sim/domain/rig_file.hpp>
@@ -15,12 +14,12 @@
 
 namespace mckibben::run {
 
-/// Brings a ride to the first stamp: settled, in steps of a tick, or on its way. `each_tick` is called after
-/// each of these; `memories`: of each rig that is on its way (ride::Underway), in place of
-/// the course's.
-void for_first_stamp(
-    ride::Ride& ride, const Course& course, const plant::Rig& rig, std::span<const double> memories = {},
-    const std::function<void()>& each_tick = [] {});
+/// Starts riders where a course begins: at rest, or on their way, with `memories` of each (ride::Underway) in
+/// place of the course's. The ticks of settling that come first, under the first drive.
+long start(std::span<ride::Rider> riders, const Course& course, const plant::Rig& rig,
+           std::span<const double> memories = {});
+/// The instant so many of these ticks before the first stamp [s].
+double before_s(const Course& course, const plant::Rig& rig, long ticks);
 
 /// A row for each stamp that has one. If the integrator gives up, the recording ends there and says why.
 Recording follow(const domain::RigFile& rig, double load_kg, const Course& course);

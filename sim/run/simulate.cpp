@@ -2,21 +2,15 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <deque>
-#include <iterator>
-#include <list>
-#include <map>
 #include <numbers>
 #include <optional>
 #include <random>
-#include <thread>
-#include <tuple>
 #include <utility>
 
 #include <sim/engine/failure.hpp>
-#include <sim/ride/convoy.hpp>
 #include <sim/ride/ride.hpp>
 #include <sim/run/batch.hpp>
+#include <sim/run/side_by_side.hpp>
 #include <sim/run/simulate.hpp>
 
 namespace mckibben::run {
@@ -172,29 +166,29 @@ bool hangs(const RunPlan& plan) {
 }
 
 /// A run that rides beside others.
-class Seated final : public ride::Passenger {
+class Seated final : public Errand {
  public:
-  Seated(std::size_t index, Order order, const Finished& finished)
+  Seated(std::size_t index, std::shared_ptr<Order> order, const Finished& finished)
       : index_(index),
         finished_(finished),
         order_(std::move(order)),
-        run_(order_.plan, *order_.controller),
-        rider_(ride::Hanging{order_.plan.rig, order_.plan.load_kg}) {
+        run_(order_->plan, *order_->controller),
+        rider_(ride::Hanging{order_->plan.rig, order_->plan.load_kg}) {
     run_.begin(rider_);
   }
 
-  ride::Rider& rider() override { return rider_; }
+  std::span<ride::Rider> riders() override { return {&rider_, 1}; }
   bool go_on() override { return run_.go_on(rider_); }
   void end(const engine::Counters& solver) override { finish(rider_, solver); }
   void alone(const engine::Pace& pace, const engine::Counters& solver) override {
-    ride::Ride ride(rider_, pace, order_.plan.engine);
+    ride::Ride ride(rider_, pace, order_->plan.engine);
     run_.ride_on(ride, true);
     engine::Counters counters = solver + ride.counters();
     counters.stiff_from_tick = ride.counters().stiff_from_tick;
     finish(ride.rider(), counters);
   }
 
-  bool is_done() const { return done_; }
+  bool is_done() const override { return done_; }
 
  private:
   void finish(const ride::Rider& rider, const engine::Counters& solver) {
@@ -205,84 +199,16 @@ class Seated final : public ride::Passenger {
   std::size_t index_;
   const Finished& finished_;
   bool done_ = false;
-  Order order_;
+  std::shared_ptr<Order> order_;
   Run run_;
   ride::Rider rider_;
 };
 
-/// What runs must have in common to ride together.
-struct Class {
-  bool remembers;
-  double tolerance;
-  solver::Method method;
-  engine::Kind kind;
-
-  bool operator<(const Class& other) const {
-    return std::tie(remembers, tolerance, method, kind) <
-           std::tie(other.remembers, other.tolerance, other.method, other.kind);
-  }
-};
-
-Class class_of(const RunPlan& plan) {
-  return {plant::Plant(plan.rig, plan.load_kg).remembers(), plan.engine.tolerance, plan.engine.method,
-          engine::kind_of(plan.rig)};
+std::optional<ride::ConvoyClass> class_of(const RunPlan& plan) {
+  if (plan.keep_ledger || !hangs(plan)) return std::nullopt;
+  const plant::Rig* rig = &plan.rig;
+  return ride::convoy_class({&rig, 1}, {}, plan.engine);
 }
-
-/// What one thread does: takes runs, and carries those of one class side by side.
-class Carrier {
- public:
-  Carrier(const Take& take, const Ordering& ordering, const Finished& finished, std::size_t places)
-      : take_(take), ordering_(ordering), finished_(finished), places_(places) {}
-
-  void operator()() {
-    while (fetch()) {
-      const Class now = waiting_.begin()->first;
-      ride::ride_in_convoy([&] { return next(now); }, {now.method, now.tolerance}, places_);
-      on_board_.clear();
-    }
-  }
-
- private:
-  /// Takes a run; those that cannot ride beside others are carried at once. False if there is none left.
-  bool fetch() {
-    while (waiting_.empty()) {
-      const auto index = take_();
-      if (!index) return false;
-      Order order = ordering_(*index);
-      const RunPlan& plan = order.plan;
-      if (plan.keep_ledger || !hangs(plan) || !ride::can_join_a_convoy(plan.rig, plan.engine.method))
-        finished_(*index, simulate(plan, *order.controller));
-      else
-        waiting_[class_of(plan)].emplace_back(*index, std::move(order));
-    }
-    return true;
-  }
-
-  ride::Passenger* next(const Class& now) {
-    std::erase_if(on_board_, [](const auto& seated) { return seated->is_done(); });
-    for (;;) {
-      if (const auto mine = waiting_.find(now); mine != waiting_.end()) {
-        auto& [index, order] = mine->second.front();
-        on_board_.push_back(std::make_unique<Seated>(index, std::move(order), finished_));
-        mine->second.pop_front();
-        if (mine->second.empty()) waiting_.erase(mine);
-        return on_board_.back().get();
-      }
-      auto others = std::exchange(waiting_, {});  // they come when these are through
-      const bool more = fetch();
-      for (auto& [other, runs] : others)
-        std::move(runs.begin(), runs.end(), std::back_inserter(waiting_[other]));
-      if (!more) return nullptr;
-    }
-  }
-
-  const Take& take_;
-  const Ordering& ordering_;
-  const Finished& finished_;
-  std::size_t places_;
-  std::map<Class, std::deque<std::pair<std::size_t, Order>>> waiting_;
-  std::list<std::unique_ptr<Seated>> on_board_;
-};
 
 }  // namespace
 
@@ -315,13 +241,16 @@ void simulate_all(std::size_t count, unsigned threads, const Ordering& ordering,
 
 void simulate_all(const Take& take, std::size_t about, unsigned threads, const Ordering& ordering,
                   const Finished& finished) {
-  const std::size_t carriers = std::min<std::size_t>(
-      about, threads == 0 ? std::max(1u, std::thread::hardware_concurrency()) : threads);
-  const std::size_t places =
-      about > carriers * engine::Convoy::wing ? engine::Convoy::places : engine::Convoy::wing;
-  for_each_job(
-      carriers, threads, [&](std::size_t) { Carrier(take, ordering, finished, places)(); },
-      [](std::size_t) {});
+  do_all(take, about, threads, [&](std::size_t index) -> std::optional<Prepared> {
+    const auto order = std::make_shared<Order>(ordering(index));
+    auto in = class_of(order->plan);
+    if (!in) {
+      finished(index, simulate(order->plan, *order->controller));
+      return std::nullopt;
+    }
+    return Prepared{*std::move(in),
+                    [index, order, &finished] { return std::make_unique<Seated>(index, order, finished); }};
+  });
 }
 
 double contraction_per_count(const plant::Rig& rig) {

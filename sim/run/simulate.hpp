@@ -15,6 +15,7 @@
 #include <plant/instruments.hpp>
 #include <plant/rig.hpp>
 #include <sim/run/recording.hpp>
+#include <sim/run/side_by_side.hpp>
 #include <sim/solver/settings.hpp>
 
 namespace mckibben::run {
@@ -48,8 +49,6 @@ using Finished = std::function<void(std::size_t index, Recording recording)>;
 /// from any thread, in any order. Throws Interrupted; what they throw.
 void simulate_all(std::size_t count, unsigned threads, const Ordering& ordering, const Finished& finished);
 
-/// The number of the next run; none if there is none.
-using Take = std::function<std::optional<std::size_t>()>;
 /// The same of runs that `take` hands out, from any thread; `about`: how many at most. Ends when
 /// there are none.
 void simulate_all(const Take& take, std::size_t about, unsigned threads, const Ordering& ordering,

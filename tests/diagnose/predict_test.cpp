@@ -79,5 +79,68 @@ TEST(Predict, DifferencesOfCoulombRigsAreSensitivities) {
   EXPECT_NEAR(slope(1.5e-6), steep, 0.05 * std::abs(steep));
 }
 
+/// Runs under other loads, each for a rig with an effect, one a little different, and one that differs in
+/// law.
+std::vector<Wanted> several(const std::vector<domain::Run>& runs) {
+  std::vector<Wanted> list;
+  for (const auto& run : runs)
+    for (auto& [name, rig] : plant::rigs_with_one_effect()) {
+      Hanging aside{rig, run.load_kg};
+      aside.rig.muscle.rest_radius_m *= 1.001;
+      list.push_back({&run, {{rig, run.load_kg}, aside}});
+    }
+  list.back().rigs.back().rig.friction.memory = plant::FrictionMemory::coulomb;
+  return list;
+}
+
+std::vector<std::vector<Readings>> all_of(const std::vector<Wanted>& list, unsigned threads, bool reversed) {
+  std::vector<std::vector<Readings>> all(list.size());
+  const auto number = [&](std::size_t i) { return reversed ? list.size() - 1 - i : i; };
+  predict_all(
+      list.size(), 2 * list.size(), threads, solver::Method::automatic,
+      [&](std::size_t i) { return list[number(i)]; },
+      [&](std::size_t i, std::vector<Readings> readings, const std::exception_ptr& failure) {
+        EXPECT_EQ(failure, nullptr);
+        all[number(i)] = std::move(readings);
+      });
+  return all;
+}
+
+TEST(Predict, SideBySideEachIsWhatItIsAlone) {
+  std::vector<domain::Run> runs{up_and_down(50), up_and_down(30)};
+  runs.back().load_kg = 7.0;
+  const auto list = several(runs);
+  const auto all = all_of(list, 1, false), otherwise = all_of(list, 3, true);
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    const auto alone = predict(*list[i].run, list[i].rigs);
+    ASSERT_EQ(all[i].size(), 2u);
+    for (std::size_t r = 0; r < 2; ++r) {
+      EXPECT_EQ(all[i][r].contraction_ratio, otherwise[i][r].contraction_ratio) << i;
+      EXPECT_EQ(all[i][r].pressure_Pa, otherwise[i][r].pressure_Pa) << i;
+      for (std::size_t k = 0; k < alone[r].contraction_ratio.size(); ++k)
+        ASSERT_NEAR(all[i][r].contraction_ratio[k], alone[r].contraction_ratio[k], 2e-6) << i << ", " << k;
+    }
+    EXPECT_NE(all[i][0].contraction_ratio, all[i][1].contraction_ratio);
+  }
+}
+
+TEST(Predict, SideBySideOneThatFailsFailsAlone) {
+  const std::vector<domain::Run> runs{up_and_down(30)};
+  auto list = several(runs);
+  const auto all = all_of(list, 2, false);
+  Hanging& soft = list[3].rigs.back();  // its load falls past the range of the laws
+  soft.rig.muscle.stop_stiffness_N_per_m = 1e3;
+  soft.rig.muscle.stop_damping_s_per_m = 0.0;
+  soft.load_kg = 400.0;
+  std::vector<std::size_t> failed;
+  predict_all(
+      list.size(), 2 * list.size(), 1, solver::Method::automatic, [&](std::size_t i) { return list[i]; },
+      [&](std::size_t i, const std::vector<Readings>& readings, const std::exception_ptr& failure) {
+        if (failure) return failed.push_back(i);
+        EXPECT_EQ(readings[1].contraction_ratio, all[i][1].contraction_ratio) << i;
+      });
+  EXPECT_EQ(failed, std::vector<std::size_t>{3});
+}
+
 }  // namespace
 }  // namespace mckibben::diagnose
