@@ -29,10 +29,11 @@ class DatasetChecker {
   DatasetChecker(const domain::Dataset& data, unsigned threads)
       : data_(data),
         threads_(threads),
+        bench_(data.force_is_judged()),
         count_(run::contraction_per_count(data.rig)),
         model_(data.runs.size()) {
     for (const domain::Run& run : data.runs) {
-      checked_.masked.emplace_back(run.contraction_ratio.size(), false);
+      checked_.masked.emplace_back(run.judged().size(), false);
       if (!run.missing.empty()) checked_.masked.back() = run.missing;
     }
     left_out_.assign(data.runs.size(), false);
@@ -46,13 +47,17 @@ class DatasetChecker {
   }
 
   Checked operator()() {
-    insane();
+    if (!bench_) insane();
     for (std::size_t i = 0; i < data_.runs.size(); ++i) {
       gauge(i);
-      if (moves(i)) readings(i);
+      if (bench_)
+        pulls(i);
+      else if (moves(i))
+        readings(i);
     }
+    if (bench_) forces();
     copies();
-    labels();
+    if (!bench_) labels();
     enough();
     for (std::size_t i = 0; i < left_out_.size(); ++i)
       if (left_out_[i]) checked_.left_out.push_back(i);
@@ -98,8 +103,7 @@ class DatasetChecker {
   // Columns and loads that are not what they are called end it; labels that were exchanged cost their runs.
   void insane() {
     std::vector<run::Expected> expected;
-    for (const Readings& readings : model_)
-      expected.push_back({readings.contraction_ratio, readings.pressure_Pa});
+    for (const Readings& readings : model_) expected.push_back({readings.judged, readings.pressure_Pa});
     const auto objections = run::sanity(data_, expected);
     run::raise(data_, objections);
     for (const domain::Objection& objection : objections) {
@@ -152,6 +156,32 @@ class DatasetChecker {
                      column, times, outliers.size() > 3 ? " and later" : ""));
   }
 
+  void pulls(std::size_t i) {
+    const std::vector<bool>& masked = checked_.masked[i];
+    if (std::find(masked.begin(), masked.end(), false) == masked.end())
+      leave_out(i, "the cord hangs through all the time: no force was read");
+  }
+
+  // Forces of another sign, or in kN, are of no muscle like this one.
+  void forces() {
+    Series measured, model;
+    for (std::size_t i = 0; i < data_.runs.size(); ++i)
+      for (std::size_t k = 0; k < checked_.masked[i].size(); ++k) {
+        if (checked_.masked[i][k]) continue;
+        measured.push_back(data_.runs[i].force_N[k]);
+        model.push_back(model_[i].judged[k]);
+      }
+    if (measured.size() < 2 || range(model) == 0.0) return;
+    const double slope = Line(measured, model).slope;
+    const auto refuse = [&](const char* what) {
+      throw domain::UnfitData(
+          data_,
+          fmt::format("force: the readings go {:.2g} times as far as this rig's forces: {}", slope, what));
+    };
+    if (slope < 0.0) refuse("where it pulls more they show less; is it their sign (factor: -1)?");
+    if (std::abs(std::log(slope * 1e3)) < of_check.like_kilo) refuse("are they in kN?");
+  }
+
   bool moves(std::size_t i) {
     const domain::Run& run = data_.runs[i];
     const double largest_mA = run.current_mA.empty() ? std::numeric_limits<double>::infinity()
@@ -159,12 +189,12 @@ class DatasetChecker {
     const double dead_mA =
         data_.rig.valve.zero_current_mA +
         of_check.dead_current * (data_.rig.valve.span_current_mA - data_.rig.valve.zero_current_mA);
-    const double should_m = range(model_[i].contraction_ratio) * data_.rig.muscle.rest_length_m;
+    const double should_m = range(model_[i].judged) * data_.rig.muscle.rest_length_m;
     if (largest_mA <= dead_mA)
       leave_out(i, fmt::format("the current stays at or below {:.4g} mA and moves nothing", largest_mA));
     else if (range(run.contraction_ratio) > of_check.moving_counts * count_)
       return true;
-    else if (range(model_[i].contraction_ratio) > of_check.should_move_counts * count_)
+    else if (range(model_[i].judged) > of_check.should_move_counts * count_)
       leave_out(i, fmt::format("the reading never changes, though the load should move by {:.3g} mm (is the "
                                "encoder connected, the load held?)",
                                1e3 * should_m));
@@ -175,7 +205,7 @@ class DatasetChecker {
 
   void readings(std::size_t i) {
     const Series& values = data_.runs[i].contraction_ratio;
-    const Series& model = model_[i].contraction_ratio;
+    const Series& model = model_[i].judged;
     std::vector<bool>& masked = checked_.masked[i];
     const Series sharpest = sharpest_nearby(model, data_.row_s());
     mask_spikes(i, "contraction_ratio", values, model, count_);
@@ -211,8 +241,8 @@ class DatasetChecker {
   void copies() {
     for (std::size_t i = 0; i < data_.runs.size(); ++i) {
       const auto same = [&](const domain::Run& run) {
-        return run.contraction_ratio == data_.runs[i].contraction_ratio &&
-               run.current_mA == data_.runs[i].current_mA;
+        return run.judged() == data_.runs[i].judged() && run.current_mA == data_.runs[i].current_mA &&
+               (!bench_ || run.measured->contraction_ratio == data_.runs[i].measured->contraction_ratio);
       };
       const auto last = data_.runs.begin() + static_cast<std::ptrdiff_t>(i);
       const auto first = std::find_if(data_.runs.begin(), last, same);
@@ -255,12 +285,13 @@ class DatasetChecker {
     if (runs.size() < of_check.least_runs) {
       checked_.cannot_tell = fmt::format(
           "{} usable run{}: too few to choose on some and judge on others; at least four runs would help, "
-          "with two loads and two kinds of current.",
-          runs.size(), runs.size() == 1 ? "" : "s");
+          "with {}.",
+          runs.size(), runs.size() == 1 ? "" : "s",
+          bench_ ? "each its own length" : "two loads and two kinds of current");
       return;
     }
     const double first_kg = data_.runs[runs.front()].load_kg;
-    if (std::all_of(runs.begin(), runs.end(), [&](std::size_t i) {
+    if (!bench_ && std::all_of(runs.begin(), runs.end(), [&](std::size_t i) {
           return std::abs(data_.runs[i].load_kg - first_kg) < of_check.same_load * first_kg;
         }))
       checked_.warnings.push_back(
@@ -271,6 +302,7 @@ class DatasetChecker {
 
   const domain::Dataset& data_;
   unsigned threads_;
+  bool bench_;  ///< lengths are given, and forces judged
   double count_;
   std::vector<Readings> model_;
   std::vector<bool> left_out_;

@@ -57,6 +57,7 @@ class Workflow {
                 learn(what);
               }} {}
 
+  Judged judged() const { return data_.force_is_judged() ? Judged::force : Judged::contraction; }
   bool gauged() const { return experiment_.floor().pressure_Pa > 0.0; }
 
   /// Faults of the recording that stand in the way; none if `operator()` has a result. `look`: for such.
@@ -67,6 +68,8 @@ class Workflow {
     if (checked_.cannot_tell) return unusable();
     case_.split = split(data_, usable_);
     replay_as_described();
+    look = look &&
+           judged() == Judged::contraction;  // at another length a run may fit no model for other reasons
     if (look) faults_ = first_look(case_, checked_, nominal_fit_.fitted.model, usable_, step_);
     if (data_.recorded.start == domain::Start::moving)  // what effects remember of before may be another, too
       std::erase_if(faults_, [](const Fault& fault) { return fault.kind == FaultKind::another_rig; });
@@ -90,9 +93,9 @@ class Workflow {
     if (settings_.learned) settings_.learned(what);
   }
   void learn_gap(const std::string& of, const Eigen::VectorXd& held_out) {
-    learn(fmt::format("{}: {:.2f} mm (rms) on the runs held out, the noise floor is {:.3f} mm", of,
-                      1e3 * nominal_.muscle.rest_length_m * rmse(held_out),
-                      1e3 * nominal_.muscle.rest_length_m * experiment_.floor().ratio));
+    learn(fmt::format("{}: {} (rms) on the runs held out, the noise floor is {}", of,
+                      amount_of(judged(), rmse(held_out), nominal_),
+                      amount_of(judged(), experiment_.floor().judged, nominal_)));
   }
   double rmse(const Eigen::VectorXd& held_out) const {
     return experiment_.rmse(held_out, case_.split.held_out);
@@ -109,11 +112,11 @@ class Workflow {
     evidence_.common_fault = std::any_of(checked_.faulty.begin(), checked_.faulty.end(),
                                          [](const FaultyRun& faulty) { return faulty.common; });
     const NoiseFloor& floor = experiment_.floor();
-    if (floor.repeats >= floor.ratio)
+    if (floor.repeats >= floor.judged)
       warn(
-          fmt::format("equal runs differ by {:.2g} in contraction ratio (rms over sqrt 2), more than a count "
+          fmt::format("equal runs differ by {:.2g} {} (rms over sqrt 2), more than a count "
                       "and its jitter explain: this is taken for the noise floor",
-                      floor.repeats));
+                      floor.repeats, judged() == Judged::force ? "N" : "in contraction ratio"));
     else if (floor.noisy)
       warn(
           fmt::format("contraction_ratio scatters by {:.2g} from tick to tick (rms), far more than counts "
@@ -266,11 +269,12 @@ class Workflow {
   void show_gap() {
     const Eigen::VectorXd corrected = experiment_.residuals(chosen_rig_, case_.split.held_out);
     Gap& gap = result_.gap;
-    gap = {.noise_floor = experiment_.floor().ratio,
+    gap = {.noise_floor = experiment_.floor().judged,
            .nominal_rmse = rmse(nominal_fit_.held_out),
            .recalibrated_rmse = rmse(recalibrated_.held_out),
            .corrected_rmse = rmse(corrected),
-           .jitter = experiment_.floor().jitter};
+           .jitter = experiment_.floor().jitter,
+           .judged = judged()};
     const auto above = [&](double error) {
       return std::max(0.0, error * error - gap.noise_floor * gap.noise_floor);
     };
@@ -283,7 +287,8 @@ class Workflow {
 
   // What would separate the effect named first from those it may be, or the next one.
   void plan_next() {
-    if (result_.effects.empty() || data_.pressure_is_given()) return;  // plans are of currents
+    // Plans are of currents, under loads.
+    if (result_.effects.empty() || data_.pressure_is_given() || data_.force_is_judged()) return;
     for (const Doubt& doubt : naming_.doubts) {
       step_("planning");
       result_.next_experiment =

@@ -30,6 +30,14 @@ constexpr auto names(Verdict) {
                     std::pair{cannot_tell, std::string_view{"cannot_tell"}}};
 }
 
+/// The reading that models are judged by: contraction ratio; or force [N] at lengths that a bench gives.
+enum class Judged { contraction, force };
+constexpr auto names(Judged) {
+  using enum Judged;
+  return std::array{std::pair{contraction, std::string_view{"contraction"}},
+                    std::pair{force, std::string_view{"force"}}};
+}
+
 /// A fitted number with its 95 % interval.
 struct FittedNumber {
   std::string name;  ///< key in the effect's part of a rig file, or path in the rig
@@ -71,7 +79,7 @@ struct LawTerm {
 struct Cell {
   std::string factor, cell;
   std::size_t rows = 0;       ///< of all runs; 0: never visited
-  double mean = 0.0;          ///< measured minus recalibrated model, contraction ratio
+  double mean = 0.0;          ///< measured minus recalibrated model, of the judged reading
   double rms = 0.0;           ///< of the same
   double share_of_gap = 0.0;  ///< of the sum of squares above the floor, within its factor
   double p_value = 1.0;       ///< of the mean, by sign flips of segments
@@ -103,7 +111,7 @@ struct RunGap {
   double load_kg = 0.0;
   bool held_out = false, left_out = false;  ///< left out: its data or label are in doubt
   double nominal_rmse = 0.0, recalibrated_rmse = 0.0, corrected_rmse = 0.0;
-  std::vector<double> measured{}, nominal{}, recalibrated{}, corrected{};  ///< contraction ratio, each tick
+  std::vector<double> measured{}, nominal{}, recalibrated{}, corrected{};  ///< judged reading, each row
 };
 
 /// What is wrong with the recording of a run.
@@ -120,7 +128,8 @@ struct FaultyRun {
 struct Gap {
   double noise_floor = 0.0, nominal_rmse = 0.0, recalibrated_rmse = 0.0, corrected_rmse = 0.0;  ///< held out
   double closed = 0.0;  ///< share of the mean square above the floor that is gone
-  double jitter = 0.0;  ///< of the encoder, as the readings show it; counts in the floor
+  double jitter = 0.0;  ///< of the instrument, as the readings show it; counts in the floor
+  Judged judged = Judged::contraction;
 
   /// How many noise floors the corrected rig leaves; 0 if nothing was compared.
   double floors_left() const { return noise_floor > 0.0 ? corrected_rmse / noise_floor : 0.0; }

@@ -108,7 +108,7 @@ class Examination {
     column.segment(begin(i), rows(i)) = part;
     return column;
   }
-  double count() const { return std::max(experiment_.floor().count, experiment_.floor().ratio); }
+  double count() const { return std::max(experiment_.floor().count, experiment_.floor().judged); }
   bool worth_telling(FaultKind kind, double size) const;
 
   const Experiment& experiment_;

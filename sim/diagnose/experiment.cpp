@@ -21,14 +21,14 @@ Experiment::Experiment(const domain::Dataset& data, std::vector<std::vector<bool
 
 std::size_t Experiment::rows(std::size_t run) const {
   const domain::Run& measured = data_.runs[run];
-  return measured.contraction_ratio.size() * (measured.muscle_pressure_Pa ? 2 : 1);
+  return measured.judged().size() * (measured.muscle_pressure_Pa ? 2 : 1);
 }
 
 std::vector<Experiment::Part> Experiment::parts(const Runs& runs) const {
   std::vector<Part> list;
   Eigen::Index begin = 0;
   for (const std::size_t run : runs) {
-    list.push_back({run, begin, static_cast<Eigen::Index>(data_.runs[run].contraction_ratio.size())});
+    list.push_back({run, begin, static_cast<Eigen::Index>(data_.runs[run].judged().size())});
     begin += static_cast<Eigen::Index>(rows(run));
   }
   return list;
@@ -36,12 +36,12 @@ std::vector<Experiment::Part> Experiment::parts(const Runs& runs) const {
 
 void Experiment::compare(const Readings& readings, std::size_t run, double* residuals) const {
   const domain::Run& measured = data_.runs[run];
-  const std::size_t ticks = measured.contraction_ratio.size();
+  const std::size_t ticks = measured.judged().size();
   for (std::size_t k = 0; k < ticks; ++k) {
     const bool counts = !masked_[run][k];
     // A counter rounds down: the middle of its count is the best guess.
-    const double ratio = measured.contraction_ratio[k] + 0.5 * floor_.count;
-    residuals[k] = counts ? (ratio - readings.contraction_ratio[k]) / floor_.ratio : 0.0;
+    const double read = measured.judged()[k] + 0.5 * floor_.count;
+    residuals[k] = counts ? (read - readings.judged[k]) / floor_.judged : 0.0;
     if (measured.muscle_pressure_Pa)
       residuals[ticks + k] =
           counts ? ((*measured.muscle_pressure_Pa)[k] - readings.pressure_Pa[k]) / floor_.pressure_Pa : 0.0;
@@ -71,9 +71,9 @@ namespace {
 
 /// One reading after the other, in floors, as residuals are.
 Eigen::VectorXd in_floors(const Readings& readings, const NoiseFloor& floor, bool gauge) {
-  const auto rows = static_cast<Eigen::Index>(readings.contraction_ratio.size());
+  const auto rows = static_cast<Eigen::Index>(readings.judged.size());
   Eigen::VectorXd list(gauge ? 2 * rows : rows);
-  list.head(rows) = Eigen::Map<const Eigen::VectorXd>(readings.contraction_ratio.data(), rows) / floor.ratio;
+  list.head(rows) = Eigen::Map<const Eigen::VectorXd>(readings.judged.data(), rows) / floor.judged;
   if (gauge)
     list.tail(rows) =
         Eigen::Map<const Eigen::VectorXd>(readings.pressure_Pa.data(), rows) / floor.pressure_Pa;
@@ -82,8 +82,8 @@ Eigen::VectorXd in_floors(const Readings& readings, const NoiseFloor& floor, boo
 
 /// As many times of the way from one to another.
 void go(Readings& readings, const Readings& from, const Readings& to, double times) {
-  for (std::size_t k = 0; k < readings.contraction_ratio.size(); ++k) {
-    readings.contraction_ratio[k] += times * (to.contraction_ratio[k] - from.contraction_ratio[k]);
+  for (std::size_t k = 0; k < readings.judged.size(); ++k) {
+    readings.judged[k] += times * (to.judged[k] - from.judged[k]);
     readings.pressure_Pa[k] += times * (to.pressure_Pa[k] - from.pressure_Pa[k]);
   }
 }
@@ -147,8 +147,8 @@ void Experiment::note(const std::vector<Readings>& readings, std::span<const Cha
     double* column = result.columns.col(static_cast<Eigen::Index>(before + c)).data() + part.begin;
     for (std::size_t k = 0; k < ticks; ++k) {
       const bool counts = !masked_[part.run][k];
-      const double ratio = changed.contraction_ratio[k] - readings[0].contraction_ratio[k];
-      column[k] = counts ? ratio / (floor_.ratio * changes[c].size) : 0.0;
+      const double change = changed.judged[k] - readings[0].judged[k];
+      column[k] = counts ? change / (floor_.judged * changes[c].size) : 0.0;
       if (measured.muscle_pressure_Pa) {
         const double pressure_Pa = changed.pressure_Pa[k] - readings[0].pressure_Pa[k];
         column[ticks + k] = counts ? pressure_Pa / (floor_.pressure_Pa * changes[c].size) : 0.0;
@@ -237,7 +237,7 @@ double Experiment::rmse(const Eigen::VectorXd& residuals, const Runs& runs) cons
     squares += residuals.segment(part.begin, part.rows).squaredNorm();
     count += static_cast<std::size_t>(std::count(masked_[part.run].begin(), masked_[part.run].end(), false));
   }
-  return floor_.ratio * std::sqrt(squares / static_cast<double>(std::max<std::size_t>(count, 1)));
+  return floor_.judged * std::sqrt(squares / static_cast<double>(std::max<std::size_t>(count, 1)));
 }
 
 }  // namespace mckibben::diagnose

@@ -30,8 +30,8 @@ class Experiment {
   const NoiseFloor& floor() const { return floor_; }
   std::size_t rows(std::size_t run) const;
 
-  /// Measured minus predicted, over the floor, for each tick of each run: contraction ratio, then pressure
-  /// where there is a gauge. Masked rows are 0.
+  /// Measured minus predicted, over the floor, for each row of each run: the reading that is judged, then
+  /// pressure where there is a gauge. Masked rows are 0.
   Eigen::VectorXd residuals(const plant::Rig& rig, const Runs& runs) const;
 
   /// The same, and the derivative of the prediction with respect to each parameter's scaled value (rows: as
@@ -56,9 +56,9 @@ class Experiment {
   /// Readings of one run.
   Readings readings(const plant::Rig& rig, std::size_t run) const;
 
-  /// Root mean square of measured minus predicted contraction ratio.
+  /// Root mean square of measured minus predicted, of the reading that is judged.
   double rmse(const Eigen::VectorXd& residuals, const Runs& runs) const;
-  /// The part of a residual vector that is one run's contraction ratio: offset and length.
+  /// The part of a residual vector that is one run's judged reading: offset and length.
   struct Part {
     std::size_t run;
     Eigen::Index begin, rows;

@@ -50,7 +50,7 @@ bool Examination::worth_telling(FaultKind kind, double size) const {
 }
 
 void Examination::fly() {
-  weight_ = 1.0 / (experiment_.floor().ratio * std::sqrt(thresholds.scatter.first_inflation));
+  weight_ = 1.0 / (experiment_.floor().judged * std::sqrt(thresholds.scatter.first_inflation));
   const auto fitted = experiment_.slopes(at_.rig, at_.free, runs_);
   const auto driven = experiment_.slopes(at_.rig, currents_in_error(), runs_);
   const auto parts = experiment_.parts(runs_);
@@ -59,13 +59,13 @@ void Examination::fly() {
   const auto free = static_cast<Eigen::Index>(at_.free.size());
   residuals_.setZero(begins_.back() + free);
   columns_.setZero(begins_.back() + free, free);
-  const double scale = experiment_.floor().ratio, to_weighted = scale * weight_;
+  const double scale = experiment_.floor().judged, to_weighted = scale * weight_;
   for (std::size_t i = 0; i < parts.size(); ++i) {
     const auto& part = parts[i];
     const auto of_run = [&](const auto& rows) { return rows.middleRows(part.begin, part.rows); };
     residuals_.segment(begin(i), rows(i)) = to_weighted * of_run(fitted.residuals);
     columns_.middleRows(begin(i), rows(i)) = to_weighted * of_run(fitted.columns);
-    const auto& measured = experiment_.data().runs[part.run].contraction_ratio;
+    const auto& measured = experiment_.data().runs[part.run].judged();
     const Eigen::Map<const Eigen::VectorXd> shown(measured.data(), part.rows);
     undisturbed_.push_back({shown - scale * of_run(fitted.residuals), scale * of_run(driven.columns).col(0),
                             scale * of_run(driven.columns).col(1)});

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 
 #include <sim/diagnose/held_out.hpp>
 #include <sim/diagnose/thresholds.hpp>
@@ -15,9 +16,28 @@ Eigen::Index segment_rows(const Experiment& experiment) {
 
 }  // namespace
 
+namespace {
+
+/// What runs are told apart by: their load, or on a bench the length that they were held at.
+double level_of(const domain::Run& run) {
+  if (!run.length_is_given()) return run.load_kg;
+  const auto& lengths = run.measured->contraction_ratio;
+  return std::accumulate(lengths.begin(), lengths.end(), 0.0) / static_cast<double>(lengths.size());
+}
+
+/// Lengths have no runs of their own number each: those nearest the middle of the range first.
+void nearest_the_middle(const std::map<double, Runs>& by_length, std::vector<Runs>& inner,
+                        const domain::Dataset& data) {
+  const double middle = 0.5 * (by_length.begin()->first + by_length.rbegin()->first);
+  std::ranges::stable_sort(
+      inner, {}, [&](const Runs& runs) { return std::abs(level_of(data.runs[runs.front()]) - middle); });
+}
+
+}  // namespace
+
 Split split(const domain::Dataset& data, const Runs& usable) {
   std::map<double, Runs> by_load;
-  for (const std::size_t run : usable) by_load[data.runs[run].load_kg].push_back(run);
+  for (const std::size_t run : usable) by_load[level_of(data.runs[run])].push_back(run);
   const HeldOutThresholds& by = thresholds.held_out;
   Split result;
   const auto share = [&](std::size_t runs) {
@@ -28,6 +48,7 @@ Split split(const domain::Dataset& data, const Runs& usable) {
     std::vector<Runs> inner;
     for (auto it = std::next(by_load.begin()); it != std::prev(by_load.end()); ++it)
       inner.push_back(it->second);
+    if (data.force_is_judged()) nearest_the_middle(by_load, inner, data);
     std::stable_sort(inner.begin(), inner.end(),
                      [](const Runs& a, const Runs& b) { return a.size() < b.size(); });
     for (const Runs& runs : inner) {

@@ -24,7 +24,7 @@ Eigen::MatrixXd counting_errors(const Experiment& experiment, const Fitted& fitt
   Eigen::MatrixXd errors = Eigen::MatrixXd::Zero(size, size);
   const NoiseFloor& floor = experiment.floor();
   if (floor.count <= 0.0) return errors;
-  const double counts = floor.ratio / floor.count;  // to a residual of one
+  const double counts = floor.judged / floor.count;  // to a residual of one
   const auto parts = experiment.parts(runs);
   double moved = 0.0, rows = 0.0;
   for (const auto& part : parts) {
@@ -43,7 +43,7 @@ Eigen::MatrixXd counting_errors(const Experiment& experiment, const Fitted& fitt
     const Eigen::VectorXd motion = counts * (fitted.columns * (root * change));
     for (const auto& part : parts) {
       plant::PulseCounter counter(experiment.data().rig.encoder.wiring, 1.0);
-      const auto& measured = experiment.data().runs[part.run].contraction_ratio;
+      const auto& measured = experiment.data().runs[part.run].judged();
       for (Eigen::Index k = 0; k < part.rows; ++k) {
         const Eigen::Index row = part.begin + k;
         const double at = measured[static_cast<std::size_t>(k)] / floor.count + 0.5 -

@@ -74,7 +74,7 @@ class Scales {
       least = left;
       best = Fault{run, kind, size};
     };
-    consider(FaultKind::zero, Eigen::VectorXd::Constant(part.rows, 1.0 / experiment.floor().ratio));
+    consider(FaultKind::zero, Eigen::VectorXd::Constant(part.rows, 1.0 / experiment.floor().judged));
     consider(FaultKind::current_scale, slopes.columns.col(0).segment(part.begin, part.rows));
     consider(FaultKind::current_offset, slopes.columns.col(1).segment(part.begin, part.rows));
     return best;

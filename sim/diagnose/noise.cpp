@@ -85,17 +85,30 @@ double scatter(const domain::Dataset& data, const std::vector<std::vector<bool>>
   return run::upper_median(std::move(fourth)) / assumed.normal_median / std::sqrt(70.0);
 }
 
-/// Scatter of the contraction ratio between runs of the same current and load; 0 if there are none.
+/// Whether the same drove both, over as many rows.
+bool driven_alike(const domain::Run& one, const domain::Run& other) {
+  if (one.load_kg != other.load_kg || one.current_mA != other.current_mA || one.shaken) return false;
+  if (one.judged().size() != other.judged().size()) return false;
+  if (!one.measured || !other.measured) return one.measured.has_value() == other.measured.has_value();
+  const auto pressure = [](const domain::Run& run) {
+    const auto& side = run.measured->sides[0];
+    return side.pressure_is_given ? side.muscle_pressure_Pa : std::vector<double>{};
+  };
+  return pressure(one) == pressure(other) &&
+         (!one.length_is_given() || one.measured->contraction_ratio == other.measured->contraction_ratio);
+}
+
+/// Scatter of what is judged between runs that the same drove; 0 if there are none.
 double repeatability(const domain::Dataset& data, const std::vector<std::vector<bool>>& masked,
                      const Runs& trusted) {
   double squares = 0.0, count = 0.0;
   for (auto a = trusted.begin(); a != trusted.end(); ++a) {
     for (auto b = std::next(a); b != trusted.end(); ++b) {
       const domain::Run &one = data.runs[*a], &other = data.runs[*b];
-      if (one.load_kg != other.load_kg || one.current_mA != other.current_mA || one.shaken) continue;
-      for (std::size_t k = 0; k < one.contraction_ratio.size(); ++k) {
+      if (!driven_alike(one, other)) continue;
+      for (std::size_t k = 0; k < one.judged().size(); ++k) {
         if (masked[*a][k] || masked[*b][k]) continue;
-        const double difference = one.contraction_ratio[k] - other.contraction_ratio[k];
+        const double difference = one.judged()[k] - other.judged()[k];
         squares += 0.5 * difference * difference;
         count += 1.0;
       }
@@ -167,7 +180,7 @@ double of_given_pressure(const domain::Dataset& data, const Runs& runs) {
     if (!run.shaken) continue;
     const Hanging hanging{data.rig, run.load_kg};
     const auto readings = [&] {
-      return predict(run, {&hanging, 1}, data.rig.integrator.method).front().contraction_ratio;
+      return predict(run, {&hanging, 1}, data.rig.integrator.method).front().judged;
     };
     const auto calm = readings();
     run.measured = run.shaken;
@@ -178,14 +191,24 @@ double of_given_pressure(const domain::Dataset& data, const Runs& runs) {
   return count > 0.0 ? std::sqrt(squares / count) : 0.0;
 }
 
+double largest_force_N(const domain::Dataset& data) {
+  double most_N = 0.0;
+  for (const domain::Run& run : data.runs)
+    for (const double force_N : run.force_N) most_N = std::max(most_N, std::abs(force_N));
+  return most_N;
+}
+
 /// Of rows that were made of stamps: what their readings scattered by is known.
 void floor_of_rows(const domain::Dataset& data, const Runs& trusted, NoiseFloor& floor) {
   const domain::Rows& rows = *data.rows_of_stamps;
-  floor.jitter = rows.ratio_noise;
+  floor.jitter = rows.noise;
   floor.given = of_given_pressure(data, trusted);
-  const double instruments = std::hypot(rows.ratio_step / std::sqrt(12.0), floor.jitter, floor.given);
-  floor.ratio =
-      std::max({floor.repeats, std::hypot(instruments, thresholds.predict.tolerance), assumed.least_ratio});
+  const double instruments = std::hypot(rows.step / std::sqrt(12.0), floor.jitter, floor.given);
+  const bool forces = data.force_is_judged();
+  const double simulated =
+      forces ? thresholds.predict.tolerance * largest_force_N(data) : thresholds.predict.tolerance;
+  floor.judged = std::max({floor.repeats, std::hypot(instruments, simulated),
+                           forces ? assumed.least_force_N : assumed.least_ratio});
   const bool gauged = std::any_of(trusted.begin(), trusted.end(), [&](std::size_t run) {
     return data.runs[run].muscle_pressure_Pa.has_value();
   });
@@ -204,7 +227,7 @@ NoiseFloor noise_floor(const domain::Dataset& data, const std::vector<std::vecto
     std::iota(trusted.begin(), trusted.end(), std::size_t{0});
   }
   const bool encoder = std::any_of(data.runs.begin(), data.runs.end(), [](const domain::Run& run) {
-    return run.measured && run.measured->counted;
+    return run.measured && run.measured->counted && !run.length_is_given();
   });
   if (data.rows_of_stamps && !encoder) {
     floor_of_rows(data, trusted, floor);
@@ -217,7 +240,7 @@ NoiseFloor noise_floor(const domain::Dataset& data, const std::vector<std::vecto
   floor.jitter = std::sqrt(std::max(0.0, noise * noise - rounding * rounding));
   floor.noisy = floor.jitter > count;
   if (floor.count > 0.0 && !floor.noisy) floor.jitter = count * dither(data, masked, trusted, count);
-  floor.ratio = std::max(
+  floor.judged = std::max(
       {floor.repeats, std::hypot(rounding, floor.jitter, thresholds.predict.tolerance), assumed.least_ratio});
   floor.pressure_Pa = gauge_noise_Pa(data, trusted);
   return floor;

@@ -11,11 +11,11 @@ namespace mckibben::diagnose {
 /// Root mean squares.
 struct NoiseFloor {
   double count = 0.0;        ///< contraction ratio of one count; 0: the readings are not counted
-  double jitter = 0.0;       ///< of the contraction ratio before it is counted
-  double ratio = 0.0;        ///< of the contraction ratio: the largest of instruments and repeats
-  double repeats = 0.0;      ///< of the contraction ratio, between equal runs; 0: none are equal
+  double jitter = 0.0;       ///< of the reading that is judged, before it is counted
+  double judged = 0.0;       ///< of the reading that is judged: the largest of instruments and repeats
+  double repeats = 0.0;      ///< of the same, between equal runs; 0: none are equal
   double pressure_Pa = 0.0;  ///< of the gauge; 0: none fitted
-  double given = 0.0;        ///< of the contraction ratio, by the noise of a pressure that is given
+  double given = 0.0;        ///< of the reading that is judged, by the noise of a pressure that is given
   bool noisy = false;        ///< the jitter is more than a count of the rig's encoder
 };
 

@@ -145,7 +145,7 @@ std::optional<NextExperiment> plan(const Experiment& experiment, const plant::Ri
     throw std::invalid_argument("effective_share must be above 0 and at most 1");
   const std::vector<Item> items = menu(named);
   const std::vector<double> loads = loads_kg(experiment.data(), named);
-  const double noise = std::max(noise_ratio, experiment.floor().ratio);
+  const double noise = std::max(noise_ratio, experiment.floor().judged);
   std::vector<double> noncentrality(items.size() * loads.size(), 0.0);
   run::for_each_job(
       noncentrality.size(), experiment.threads(),
@@ -155,8 +155,8 @@ std::optional<NextExperiment> plan(const Experiment& experiment, const plant::Ri
         try {
           const auto readings = predict(played(items[job % items.size()], named, load_kg), both,
                                         experiment.data().rig.integrator.method);
-          noncentrality[job] = unexplained(readings[0].contraction_ratio, readings[1].contraction_ratio) /
-                               (noise * noise) * effective_share;
+          noncentrality[job] =
+              unexplained(readings[0].judged, readings[1].judged) / (noise * noise) * effective_share;
         } catch (const engine::NumericalFailure&) {
           // Not an experiment to propose.
         }

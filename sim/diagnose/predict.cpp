@@ -17,10 +17,13 @@ namespace {
 class Flight {
  public:
   Flight(const domain::Run& run, std::span<const Hanging> rigs)
-      : rest_length_m_(run.rest_length_m), rig_(rigs.front().rig), course_(run::course_of(run, rig_)) {
+      : forces_(run.length_is_given()),
+        rest_length_m_(run.rest_length_m),
+        rig_(rigs.front().rig),
+        course_(run::course_of(run, rig_)) {
     readings_.resize(rigs.size());
     for (Readings& list : readings_) {
-      list.contraction_ratio.reserve(course_.rows.size());
+      list.judged.reserve(course_.rows.size());
       list.pressure_Pa.reserve(course_.rows.size());
     }
   }
@@ -38,11 +41,11 @@ class Flight {
       hold(riders, course_.drives.front(), run::before_s(course_, rig_, settling_));
       return true;
     }
+    hold(riders, course_.toward(k_), course_.until_s(k_, rig_.tick_s));  // forces are those of the way ahead
     if (course_.rows[row_] == k_) {
       look(riders);
       if (++row_ == course_.rows.size()) return false;
     }
-    hold(riders, course_.toward(k_), course_.time_s[k_ + 1]);
     ++k_;
     return true;
   }
@@ -59,12 +62,13 @@ class Flight {
       const ride::Reading& seen = riders[i].now.reading;
       const double length_m =
           rest_length_m_ > 0.0 ? rest_length_m_ : riders[i].plant().rig().muscle.rest_length_m;
-      readings_[i].contraction_ratio.push_back(seen.wheel_m / length_m);
+      readings_[i].judged.push_back(forces_ ? riders[i].moment().cord_force_N() : seen.wheel_m / length_m);
       readings_[i].pressure_Pa.push_back(seen.muscle_pressure_Pa);
     }
     readings_[0].states.push_back(riders[0].now.flow.state);
   }
 
+  bool forces_;           // are read, at lengths that are given
   double rest_length_m_;  // that readings go by; 0: each rig's own
   plant::Rig rig_;        // whose ticks count
   run::Course course_;

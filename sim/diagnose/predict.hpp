@@ -19,7 +19,7 @@ using ride::Hanging;
 
 /// At each row, before counting.
 struct Readings {
-  std::vector<double> contraction_ratio;
+  std::vector<double> judged;  ///< contraction ratio, or the cord's force [N] at a given length
   std::vector<double> pressure_Pa;
   std::vector<plant::State<double>> states;  ///< of the first rig only
 };

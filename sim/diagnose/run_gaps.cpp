@@ -18,12 +18,12 @@ std::vector<RunGap> gaps_of_runs(const Experiment& experiment, const Runs& held_
     gap.load_kg = runs[run].load_kg;
     gap.held_out = std::binary_search(held_out.begin(), held_out.end(), run);
     gap.left_out = !std::binary_search(usable.begin(), usable.end(), run);
-    gap.measured = runs[run].contraction_ratio;
-    for (double& ratio : gap.measured) ratio += 0.5 * experiment.floor().count;
+    gap.measured = runs[run].judged();
+    for (double& read : gap.measured) read += 0.5 * experiment.floor().count;
     const auto tell = [&](const plant::Rig& rig, double& rmse, std::vector<double>& readings) {
       auto simulated = experiment.readings(rig, run);
       rmse = experiment.rmse(experiment.residuals(simulated, run), {run});
-      readings = std::move(simulated.contraction_ratio);
+      readings = std::move(simulated.judged);
     };
     tell(rigs.nominal, gap.nominal_rmse, gap.nominal);
     tell(rigs.recalibrated, gap.recalibrated_rmse, gap.recalibrated);
@@ -39,12 +39,25 @@ std::string visited(const domain::Dataset& data, const Runs& runs) {
       low = std::min(low, value);
       high = std::max(high, value);
     }
-  } current_mA, load_kg, ratio;
+  } current_mA, load_kg, ratio, pressure_bar;
   for (const std::size_t run : runs) {
     for (const double value : data.runs[run].current_mA) current_mA.see(value);
-    for (const double value : data.runs[run].contraction_ratio) ratio.see(value);
-    load_kg.see(data.runs[run].load_kg);
+    const domain::Run& measured = data.runs[run];
+    for (const double value :
+         measured.length_is_given() ? measured.measured->contraction_ratio : measured.contraction_ratio)
+      ratio.see(value);
+    if (data.pressure_is_given())
+      for (const double value : measured.measured->sides[0].muscle_pressure_Pa)
+        pressure_bar.see(value / plant::Pa_per_bar);
+    load_kg.see(measured.load_kg);
   }
+  if (data.force_is_judged())
+    return fmt::format(
+        "{} and contraction ratios of {:.3f} to {:.3f}, as in these runs",
+        data.pressure_is_given()
+            ? fmt::format("pressures of {:.3g} to {:.3g} bar", pressure_bar.low, pressure_bar.high)
+            : fmt::format("currents of {:.3g} to {:.3g} mA", current_mA.low, current_mA.high),
+        ratio.low, ratio.high);
   if (data.pressure_is_given())
     return fmt::format(
         "loads of {:.4g} to {:.4g} kg and contraction ratios of {:.3f} to {:.3f}, as in these runs",

@@ -27,8 +27,7 @@ Start look_at_start(const Experiment& experiment, const plant::Rig& corrected, c
   Start start;
   const double tick_s = experiment.data().row_s();
   std::size_t longest = 0;
-  for (const std::size_t run : runs)
-    longest = std::max(longest, experiment.data().runs[run].contraction_ratio.size());
+  for (const std::size_t run : runs) longest = std::max(longest, experiment.data().runs[run].judged().size());
   start.lasting_s =
       std::min(of_start.longest_s, of_start.share_of_run * static_cast<double>(longest) * tick_s);
   const auto first = static_cast<Eigen::Index>(std::lround(start.lasting_s / tick_s));
@@ -37,16 +36,16 @@ Start look_at_start(const Experiment& experiment, const plant::Rig& corrected, c
   double early = 0.0, all = 0.0, early_rows = 0.0, all_rows = 0.0;
   for (const std::size_t run : runs) {
     const Readings readings = experiment.readings(corrected, run);
-    const Eigen::VectorXd residuals = experiment.residuals(readings, run)
-                                          .head(static_cast<Eigen::Index>(readings.contraction_ratio.size()));
+    const Eigen::VectorXd residuals =
+        experiment.residuals(readings, run).head(static_cast<Eigen::Index>(readings.judged.size()));
     const Eigen::Index rows = std::min(first, residuals.size());
     early += residuals.head(rows).squaredNorm() - static_cast<double>(rows);
     all += residuals.squaredNorm() - static_cast<double>(residuals.size());
     early_rows += static_cast<double>(rows);
     all_rows += static_cast<double>(residuals.size());
     const auto& measured = experiment.data().runs[run];
-    if (experiment.data().recorded.start == domain::Start::settled &&
-        moved(measured.contraction_ratio) > limit + of_start.beyond_model * moved(readings.contraction_ratio))
+    if (experiment.data().recorded.start == domain::Start::settled && !measured.length_is_given() &&
+        moved(measured.contraction_ratio) > limit + of_start.beyond_model * moved(readings.judged))
       start.unsettled.push_back(measured.id);
   }
   if (all > 0.0) start.share_of_gap = std::clamp(early / all, 0.0, 1.0);

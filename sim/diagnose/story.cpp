@@ -71,6 +71,11 @@ void tell_parameters(Diagnosis& diagnosis, const Model& model, const std::vector
   }
 }
 
+std::string amount_of(Judged judged, double value, const plant::Rig& rig) {
+  return judged == Judged::force ? fmt::format("{:.2g} N", value)
+                                 : fmt::format("{:.2g} mm", 1e3 * value * rig.muscle.rest_length_m);
+}
+
 std::vector<std::string> rows_in_words(const domain::Dataset& data, const NoiseFloor& floor) {
   std::vector<std::string> words;
   if (!data.rows_of_stamps) return words;
@@ -83,9 +88,20 @@ std::vector<std::string> rows_in_words(const domain::Dataset& data, const NoiseF
                     rows.stamps, rows.rows, 1e3 * rows.row_s, rows.readings, rows.inputs));
   if (rows.given_noise_Pa > 0.0)
     words.push_back(fmt::format(
-        "the noise of the given pressure, {:.2g} mbar, {}; what it does to the motion, {:.2g} in contraction "
-        "ratio, counts in the noise floor",
-        1e-2 * rows.given_noise_Pa, rows.smoothed ? "was smoothed" : "was left as it is", floor.given));
+        "the noise of the given pressure, {:.2g} mbar, {}; what it does to the {}, counts in the noise floor",
+        1e-2 * rows.given_noise_Pa, rows.smoothed ? "was smoothed" : "was left as it is",
+        data.force_is_judged() ? fmt::format("force, {:.2g} N", floor.given)
+                               : fmt::format("motion, {:.2g} in contraction ratio", floor.given)));
+  if (rows.slack > 0)
+    words.push_back(
+        fmt::format("{} readings of force are 0, a cord that hangs through: how far the muscle is from "
+                    "pulling they do not say, and nothing goes by them",
+                    rows.slack));
+  if (data.force_is_judged())
+    words.push_back(
+        "the muscle's length is the input: what acts on the load, on its guide or on the encoder is out of "
+        "sight, "
+        "and runs are not looked through for faults of a recorder");
   if (data.pressure_is_given())
     words.push_back(fmt::format(
         "the muscle's pressure is the input: valve, supply, hose and gas are out of sight, and with them {}",
@@ -137,16 +153,20 @@ std::string far_runs_in_words(const std::vector<FarRun>& runs) {
 
 namespace {
 
-std::string height_in_words(const Diagnosis& d, double ratio) {
-  return fmt::format("{:.2g} mm", 1e3 * ratio * d.corrected.muscle.rest_length_m);
+std::string amount_in_words(const Diagnosis& d, double value) {
+  return amount_of(d.gap.judged, value, d.corrected);
+}
+std::string what_is_judged(const Diagnosis& d) {
+  return d.gap.judged == Judged::force ? "the cord's force" : "the load's height";
 }
 
 std::string gap_in_words(const Diagnosis& d) {
   return fmt::format(
-      "On runs that the fit has not seen the error of the load's height falls from {} to {}; the instruments "
-      "cannot see below {}.",
-      height_in_words(d, d.gap.nominal_rmse), height_in_words(d, d.gap.corrected_rmse),
-      height_in_words(d, d.gap.noise_floor));
+      "On runs that the fit has not seen the error of {} falls from {} to {}; the instruments cannot see "
+      "below "
+      "{}.",
+      what_is_judged(d), amount_in_words(d, d.gap.nominal_rmse), amount_in_words(d, d.gap.corrected_rmse),
+      amount_in_words(d, d.gap.noise_floor));
 }
 
 std::string numbers_in_words(const Diagnosis& d) {
@@ -200,10 +220,10 @@ std::string verdict_in_words(const Diagnosis& d) {
   switch (d.verdict) {
     case Verdict::nothing_missing:
       return fmt::format(
-          "{} to within noise: on runs held out the load's height differs by {}, and neither other values of "
+          "{} to within noise: on runs held out {} differs by {}, and neither other values of "
           "the nominal parameters nor any effect of the catalogue makes that convincingly less.",
           d.faults.empty() ? "Model and data agree" : "Apart from that model and data agree",
-          height_in_words(d, d.gap.nominal_rmse));
+          what_is_judged(d), amount_in_words(d, d.gap.nominal_rmse));
     case Verdict::recalibrate:
       return numbers_in_words(d);
     case Verdict::missing_effect:

@@ -18,6 +18,9 @@ namespace mckibben::diagnose {
 void tell_parameters(Diagnosis& diagnosis, const Model& model, const std::vector<Bounds>& bounds,
                      const plant::Rig& recalibrated);
 
+/// An amount of the judged reading, two digits: "1.2 mm" of the load's height, "3.4 N".
+std::string amount_of(Judged judged, double value, const plant::Rig& rig);
+
 /// What was made of stamps, and what data with a clock of their own cannot show.
 std::vector<std::string> rows_in_words(const domain::Dataset& data, const NoiseFloor& floor);
 

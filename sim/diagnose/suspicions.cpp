@@ -29,7 +29,7 @@ void Examination::draw_effects() {
   for (std::size_t c = 0; c < changes.size(); ++c)
     for (std::size_t i = 0; i < parts.size(); ++i)
       drawn_[c].column.segment(begin(i), rows(i)) =
-          experiment_.floor().ratio * weight_ *
+          experiment_.floor().judged * weight_ *
           slopes.columns.col(static_cast<Eigen::Index>(c)).segment(parts[i].begin, parts[i].rows);
 }
 

@@ -100,6 +100,7 @@ struct CheckThresholds {
   double should_move_counts = 20.0;  ///< of the model: the load should have moved
   double gauge_bar = 0.3;            ///< the model's pressure moves so far: a gauge must follow
   double gauge_slope = 0.1;          ///< of the gauge over the model, at least
+  double like_kilo = 1.0;            ///< logarithm, round a thousandth of the model's forces: they are in kN
   double most_masked = 0.3;          ///< of a run: more, and too little of it is left
   double most_contradicted =
       1.0 / 3.0;            ///< of the runs, whose labels contradict the others: more cannot tell
@@ -161,7 +162,8 @@ struct FaultThresholds {
 
 /// What nobody can see.
 struct NoiseThresholds {
-  double least_ratio = 5e-5;  ///< contraction ratio: no sensor of a lab does better, no simulation needs to
+  double least_ratio = 5e-5;    ///< contraction ratio: no sensor of a lab does better, no simulation needs to
+  double least_force_N = 0.02;  ///< no load cell of a bench does better
   double least_pressure_Pa = 50.0;  ///< no gauge does better
   double first_decimal = 1e-3;      ///< the coarsest that readings are rounded to,
   double last_decimal = 1e-7;       ///< and the finest that is told from none

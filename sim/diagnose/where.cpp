@@ -22,7 +22,7 @@ constexpr const WhereThresholds& cells_by = thresholds.where;
 
 /// One reading and the state the model was in.
 struct Row {
-  double residual;  // contraction ratio
+  double residual;  // of the judged reading
   std::size_t segment;
   double load_kg;
   double speed_mm_per_s;
@@ -78,7 +78,7 @@ std::vector<Row> rows_of(const Experiment& experiment, const plant::Rig& rig, co
       if (residual == 0.0) continue;  // masked
       const auto& joint = states[k].joint;
       rows.push_back(
-          {.residual = experiment.floor().ratio * residual,
+          {.residual = experiment.floor().judged * residual,
            .segment = segments + k / per_segment,
            .load_kg = experiment.data().runs[runs[i]].load_kg,
            .speed_mm_per_s = 1e3 * rig.muscle.rest_length_m * joint.contraction_speed_per_s,
@@ -130,8 +130,8 @@ std::vector<Factor> factors_of(const Experiment& experiment, const plant::Rig& r
   for (const std::size_t run : runs) {
     const domain::Run& measured = experiment.data().runs[run];
     loads_kg.push_back(measured.load_kg);
-    longest_s = std::max(longest_s,
-                         static_cast<double>(measured.contraction_ratio.size()) * experiment.data().row_s());
+    longest_s =
+        std::max(longest_s, static_cast<double>(measured.judged().size()) * experiment.data().row_s());
   }
   std::sort(loads_kg.begin(), loads_kg.end());
   loads_kg.erase(std::unique(loads_kg.begin(), loads_kg.end()), loads_kg.end());
@@ -149,7 +149,7 @@ std::vector<Factor> factors_of(const Experiment& experiment, const plant::Rig& r
        }});
   factors.push_back(binned("speed", cells_by.speeds_mm_per_s, 1.0, "mm/s",
                            [](const Row& row) { return std::abs(row.speed_mm_per_s); }));
-  factors.push_back(std::move(load));
+  if (!experiment.data().force_is_judged()) factors.push_back(std::move(load));
   factors.push_back(binned("pressure",
                            equal(rig.valve.zero_pressure_Pa, rig.valve.span_pressure_Pa, cells_by.pressures),
                            plant::Pa_per_bar, "bar", [](const Row& row) { return row.pressure_Pa; }));
@@ -265,7 +265,7 @@ std::vector<Cell> where(const Experiment& experiment, const plant::Rig& recalibr
   std::mt19937_64 random(seed);
   std::vector<Cell> cells;
   for (const Factor& factor : factors_of(experiment, recalibrated, runs))
-    for (Cell& cell : map(factor, rows, segments, experiment.floor().ratio, random))
+    for (Cell& cell : map(factor, rows, segments, experiment.floor().judged, random))
       cells.push_back(std::move(cell));
   mark_significant(cells);
   return cells;

@@ -32,7 +32,10 @@ ColumnMap merged(const ColumnMap& shared, const ColumnMap& own) {
   for (const Quantity& quantity : quantities)
     if (ColumnPlace& place = map.*quantity.place; place.absent()) place = shared.*quantity.place;
   if (own.rows_are_ticks) map.time = own.time;
-  map.rows_are_ticks = own.rows_are_ticks || (shared.rows_are_ticks && own.time.absent());
+  if (map.settled.absent() && !own.rows_are_ticks && own.time.absent()) map.settled = shared.settled;
+  if (!map.settled.absent()) map.time = own.time;
+  map.rows_are_ticks =
+      own.rows_are_ticks || (shared.rows_are_ticks && own.time.absent() && own.settled.absent());
   return map;
 }
 

@@ -51,10 +51,24 @@ struct ColumnPlace {
   }
 };
 
+/// A table of settled points: a row each, in the order in which they were measured.
+struct SettledPoints {
+  double each_s = 0.0;  ///< that each took; 0: rows are not settled points
+
+  bool absent() const { return each_s == 0.0; }
+
+  template <class Self, class Visitor>
+  static void fields(Self& self, Visitor& visit) {
+    visit.required("each", self.each_s, "s", 0.1, 1e5,
+                   "time that each point took: on the way there for half of it at most, read at its end");
+  }
+};
+
 struct ColumnMap {
   ColumnPlace time, current, command, contraction, muscle_pressure, force;
   ColumnPlace command_1, command_2, angle, muscle_pressure_1, muscle_pressure_2;
   bool rows_are_ticks = false;
+  SettledPoints settled;
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
@@ -64,6 +78,7 @@ struct ColumnMap {
           "height of the load: ratio, angle of the wheel, travel of the rope, or encoder counts");
     visit("muscle_pressure", self.muscle_pressure, "gauge pressure in the muscle, where it was measured");
     visit("rows_are_ticks", self.rows_are_ticks, "the file holds no time: its rows are one tick apart");
+    visit("settled", self.settled, "the rows are settled points, in the order in which they were measured");
     visit("command", self.command, "command to the valve; current, in data with a clock of their own");
     visit("force", self.force, "force of the muscle's cord");
     visit("command_1", self.command_1, "of two muscles: command to the valve of muscle 1");
@@ -72,6 +87,9 @@ struct ColumnMap {
     visit("muscle_pressure_1", self.muscle_pressure_1, "of two muscles: gauge pressure in muscle 1");
     visit("muscle_pressure_2", self.muscle_pressure_2, "of two muscles: gauge pressure in muscle 2");
   }
+
+  /// The file's times, if it has any, do not count.
+  bool has_no_time() const { return rows_are_ticks || !settled.absent(); }
 
   template <class Report>
   void rules(Report& report) const;
@@ -99,6 +117,8 @@ inline constexpr std::array<Quantity, 11> quantities{
 template <class Report>
 void ColumnMap::rules(Report& report) const {
   if (rows_are_ticks && !time.absent()) report("rows_are_ticks", "and yet a column of time is named");
+  if (!settled.absent() && (rows_are_ticks || !time.absent()))
+    report("settled", "and yet the file's rows are said to be ticks, or to have times");
   for (const Quantity& quantity : quantities)
     for (const Quantity* other = quantities.data(); other->key != quantity.key; ++other)
       if (const ColumnPlace& place = this->*quantity.place;

@@ -25,6 +25,7 @@ struct Run {
 
   std::vector<double> current_mA;  ///< held from its row to the next
   std::vector<double> contraction_ratio;
+  std::vector<double> force_N;  ///< of the cord, where the length is given and it is judged in place of that
   std::optional<std::vector<double>> muscle_pressure_Pa;
   double ratio_per_unit = 1.0;  ///< of contraction: what one of its file's unit is
   double rest_length_m = 0.0;   ///< that its rise was divided by; 0: that of the rig it is compared with
@@ -33,6 +34,10 @@ struct Run {
   std::optional<Measurement> shaken;    ///< the same, with as much noise again on a pressure that is given
   std::vector<double> time_s;           ///< of rows made of stamps, since the first stamp; else empty
   std::vector<bool> missing;            ///< rows of theirs without a reading; empty: none is
+
+  /// The reading that a model is judged by: contraction ratio, or force [N] at a length that is given.
+  const std::vector<double>& judged() const { return force_N.empty() ? contraction_ratio : force_N; }
+  bool length_is_given() const { return measured && measured->length_is_given; }
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
@@ -50,13 +55,14 @@ struct Run {
 
 /// How rows were made of stamps, over all runs.
 struct Rows {
-  double row_s = 0.0;                                 ///< from row to row
-  std::size_t stamps = 0, rows = 0, inputs = 0;       ///< in the files; judged; that drive the simulation
-  double readings = 1.0;                              ///< in a row, on average
-  double ratio_noise = 0.0, pressure_noise_Pa = 0.0;  ///< of a row's values, by what the readings scatter
-  double ratio_step = 0.0;                            ///< that the readings are rounded to
-  double given_noise_Pa = 0.0;                        ///< of a reading of a pressure that is given
-  bool smoothed = false;                              ///< that pressure was
+  double row_s = 0.0;                            ///< from row to row
+  std::size_t stamps = 0, rows = 0, inputs = 0;  ///< in the files; judged; that drive the simulation
+  double readings = 1.0;                         ///< in a row, on average
+  double noise = 0.0, pressure_noise_Pa = 0.0;   ///< of a row's values, by what the readings scatter
+  double step = 0.0;                             ///< that the readings are rounded to
+  double given_noise_Pa = 0.0;                   ///< of a reading of a pressure that is given
+  bool smoothed = false;                         ///< that pressure was
+  std::size_t slack = 0;                         ///< readings of force that are none: the cord hung through
 
   friend bool operator==(const Rows&, const Rows&) = default;
 };
@@ -71,6 +77,8 @@ struct Dataset {
 
   double row_s() const { return rows_of_stamps ? rows_of_stamps->row_s : rig.tick_s; }
   double rows_begin_s() const { return rows_of_stamps ? recorded.skip_s : 0.0; }
+  /// A bench gives every run its length, and what is judged is the force.
+  bool force_is_judged() const { return !runs.empty() && std::ranges::all_of(runs, &Run::length_is_given); }
   /// No run has a valve: the pressure is given.
   bool pressure_is_given() const {
     return std::all_of(runs.begin(), runs.end(), [](const Run& run) {

@@ -51,6 +51,7 @@ struct Measurement {
     bool pressure_is_given = false;
   };
   std::vector<double> time_s;  ///< ascending
+  double point_s = 0.0;        ///< rows are settled points, each read at the end of so long; 0: they are not
   std::array<Side, 2> sides;   ///< the second of a pair only
   std::vector<double> contraction_ratio;
   bool length_is_given = false;  ///< the contraction is, straight from stamp to stamp

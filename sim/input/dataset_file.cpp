@@ -1,5 +1,6 @@
 // Reading of data sets; see the header.
 #include <algorithm>
+#include <cmath>
 #include <unordered_map>
 
 #include <fmt/format.h>
@@ -53,6 +54,19 @@ void check_runs(const YamlFile& file, const Dataset& dataset, Problems& problems
   }
 }
 
+/// Settled points say themselves what went before, and what inputs do.
+void check_points(const YamlFile& file, const Dataset& dataset, const Run& run, Problems& problems) {
+  if (merged(dataset.columns, run.columns).settled.absent()) return;
+  if (dataset.recorded.start == domain::Start::moving)
+    problems.error(file.source, file.root.find("start")->place,
+                   fmt::format("start = moving: the rows of run {} are settled points", shortened(run.id)));
+  if (dataset.recorded.hold != domain::Hold::usual)
+    problems.error(file.source, file.root.find("hold")->place,
+                   fmt::format("hold: the rows of run {} are settled points: commands hold while a point is "
+                               "measured, pressures and lengths are there after half of it at most",
+                               shortened(run.id)));
+}
+
 /// Loads as they were given, and a clock. A run without a load is a problem, if one must hang there.
 void check_kind(const YamlFile& file, Dataset& dataset, Problems& problems) {
   const Node* list = file.root.find("runs");
@@ -64,6 +78,7 @@ void check_kind(const YamlFile& file, Dataset& dataset, Problems& problems) {
     dataset.own_clock = dataset.own_clock || has_own_clock(merged(dataset.columns, run.columns), dataset.rig);
     const Node& node = list->children[i];
     const bool has_load = hangs(dataset, run);
+    check_points(file, dataset, run, problems);
     if (dataset.recorded.hold == domain::Hold::previous &&
         merged(dataset.columns, run.columns).contraction.as == domain::Role::input)
       problems.error(
@@ -129,8 +144,15 @@ namespace {
 /// Why a run is none of a hanging load whose contraction was read; empty if it is one.
 std::string_view why_not_one_load(const Run& run) {
   if (!run.measured) return "";
-  if (run.measured->length_is_given) return "the muscle's length is given";
+  if (run.measured->length_is_given) return "the muscle's length is given, and in others it is not";
   return run.measured->contraction_ratio.empty() ? "contraction is not read" : "";
+}
+
+/// Why a run at a given length has nothing to be judged by; empty if it has.
+std::string_view why_no_bench(const Run& run) {
+  const auto& read = run.measured->force_N;
+  const bool none = std::ranges::all_of(read, [](double force_N) { return std::isnan(force_N); });
+  return none ? "the muscle's length is given, and force is not read" : "";
 }
 
 }  // namespace
@@ -140,10 +162,11 @@ bool has_one_load(const Dataset& dataset) {
          std::ranges::all_of(dataset.runs, [](const Run& run) { return why_not_one_load(run).empty(); });
 }
 
-void require_one_load(const Dataset& dataset, std::string_view verb) {
-  require_load(dataset.rig, dataset.path.string(), verb);
+void require_one_muscle(const Dataset& dataset, std::string_view verb) {
+  const bool bench = dataset.force_is_judged();
+  if (!bench) require_load(dataset.rig, dataset.path.string(), verb);
   for (const Run& run : dataset.runs)
-    if (const auto why = why_not_one_load(run); !why.empty())
+    if (const auto why = bench ? why_no_bench(run) : why_not_one_load(run); !why.empty())
       throw BadInput(
           {{Severity::error, dataset.path.string(), nowhere,
             fmt::format("{} cannot take it yet: in run {} {}", verb, shortened(run.id), why), ""}});

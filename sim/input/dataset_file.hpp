@@ -23,7 +23,8 @@ void require_ticks(const Dataset& dataset, std::string_view verb);
 
 /// Whether a load hangs on the muscle of each run, and contraction was read.
 bool has_one_load(const Dataset& dataset);
-/// Throws BadInput unless a load hangs on the muscle and contraction was read, as `verb` needs it.
-void require_one_load(const Dataset& dataset, std::string_view verb);
+/// Throws BadInput unless `verb` has what it needs of each run: a load that hangs on one muscle and whose
+/// contraction was read, or of all runs a given length and the muscle's force.
+void require_one_muscle(const Dataset& dataset, std::string_view verb);
 
 }  // namespace mckibben::input

@@ -46,6 +46,7 @@ class Wanted {
 
  private:
   void add_time(const ColumnMap& map) {
+    if (!map.settled.absent()) return;
     if (map.rows_are_ticks) {
       if (format_ == Format::csv || format_ == Format::mat) columns_.push_back({"time_s", "time_s", false});
       return;

@@ -77,7 +77,7 @@ bool drives(const Quantity& quantity, const ColumnMap& map, bool pair) {
 }  // namespace
 
 bool has_own_clock(const ColumnMap& map, const domain::RigFile& rig) {
-  if (!rig.lifts_a_load()) return true;
+  if (!rig.lifts_a_load() || !map.settled.absent()) return true;
   return std::any_of(domain::quantities.begin(), domain::quantities.end(), [&](const Quantity& quantity) {
     const ColumnPlace& place = map.*quantity.place;
     constexpr std::array ticked{"time", "current", "contraction", "muscle_pressure"};
@@ -176,9 +176,11 @@ class Assembling {
  private:
   void time() {
     const Table::Column* column = table_.find("time_s");
-    if (column == nullptr) {
+    measured_.point_s = map_.settled.each_s;
+    if (column == nullptr || measured_.point_s > 0.0) {
+      const double row_s = measured_.point_s > 0.0 ? measured_.point_s : rig_.tick_s;
       for (std::size_t k = 0; k < table_.columns.front().values.size(); ++k)
-        measured_.time_s.push_back(static_cast<double>(k) * rig_.tick_s);
+        measured_.time_s.push_back(static_cast<double>(k) * row_s);
       return;
     }
     measured_.time_s = column->values;

@@ -95,10 +95,15 @@ Json where_json(const diagnose::Diagnosis& diagnosis) {
 
 Json gap_json(const diagnose::Diagnosis& diagnosis) {
   const auto& gap = diagnosis.gap;
-  return {{"held_out_runs", held_out(diagnosis)}, {"noise_floor", gap.noise_floor},
-          {"nominal_rmse", gap.nominal_rmse},     {"recalibrated_rmse", gap.recalibrated_rmse},
-          {"corrected_rmse", gap.corrected_rmse}, {"closed", gap.closed},
-          {"encoder_jitter", gap.jitter}};
+  return {{"held_out_runs", held_out(diagnosis)},
+          {"noise_floor", gap.noise_floor},
+          {"nominal_rmse", gap.nominal_rmse},
+          {"recalibrated_rmse", gap.recalibrated_rmse},
+          {"corrected_rmse", gap.corrected_rmse},
+          {"closed", gap.closed},
+          {"encoder_jitter", gap.jitter},
+          {"reading", std::string(input::spelling(gap.judged))},
+          {"unit", gap.judged == diagnose::Judged::force ? "N" : "1"}};
 }
 
 Json start_json(const diagnose::Start& start) {
@@ -169,6 +174,7 @@ Json faults_json(const diagnose::Diagnosis& diagnosis) {
 
 Json rows_json(const domain::Rows& rows) {
   return {{"stamps", rows.stamps},
+          {"slack", rows.slack},
           {"rows", rows.rows},
           {"row_s", rows.row_s},
           {"readings_of_a_row", rows.readings},

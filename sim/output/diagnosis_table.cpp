@@ -51,7 +51,10 @@ std::string moved(const Diagnosis& diagnosis) {
 std::string gap(const Diagnosis& diagnosis) {
   const auto& gap = diagnosis.gap;
   Grid grid({"nominal", "recalibrated", "corrected", "noise floor", "closed"}, 0);
-  const auto ratio = [](double value) { return fmt::format("{:.6f}", value); };
+  const bool force = gap.judged == diagnose::Judged::force;
+  const auto ratio = [&](double value) {
+    return force ? fmt::format("{:.3f}", value) : fmt::format("{:.6f}", value);
+  };
   grid.add({ratio(gap.nominal_rmse), ratio(gap.recalibrated_rmse), ratio(gap.corrected_rmse),
             ratio(gap.noise_floor), fmt::format("{:.1f} %", 100.0 * gap.closed)});
   return grid.text();
@@ -75,14 +78,18 @@ std::string next(const Diagnosis& diagnosis) {
                      mass(next.load_kg), listed(next.separates), 100.0 * next.expected_power);
 }
 
+std::string unit_of(const domain::Dataset& data) {
+  if (data.force_is_judged()) return "forces in N";
+  return fmt::format("contraction ratios (0.001 = {:g} mm)", data.rig.muscle.rest_length_m);
+}
+
 }  // namespace
 
 std::string table_of(const domain::Dataset& data, const Diagnosis& diagnosis) {
   const auto unseen = held_out(diagnosis);
   std::string text =
-      fmt::format("{}: {} run{}, {} held out; errors are contraction ratios (0.001 = {:g} mm)\n",
-                  data.path.string(), data.runs.size(), data.runs.size() == 1 ? "" : "s",
-                  unseen.empty() ? "none" : listed(unseen), data.rig.muscle.rest_length_m);
+      fmt::format("{}: {} run{}, {} held out; errors are {}\n", data.path.string(), data.runs.size(),
+                  data.runs.size() == 1 ? "" : "s", unseen.empty() ? "none" : listed(unseen), unit_of(data));
   text += warnings(diagnosis);
   text += fmt::format("\n{}: {}\n", input::spelling(diagnosis.verdict), title_of(diagnosis));
   if (!diagnosis.because.empty()) text += diagnosis.because + "\n";

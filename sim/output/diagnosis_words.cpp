@@ -70,10 +70,22 @@ Readable readable(const diagnose::FittedNumber& number) {
           with_unit(digits(low, decimals) + " to " + digits(high, decimals), unit)};
 }
 
-std::string height(double ratio, const plant::Rig& rig) {
-  const double mm = ratio * rig.muscle.rest_length_m * 1e3, size = std::abs(mm);
+namespace {
+
+std::string three_digits(double value) {
+  const double size = std::abs(value);
   const int decimals = size > 0.0 ? std::clamp(2 - static_cast<int>(std::floor(std::log10(size))), 0, 3) : 3;
-  return rounded(mm, decimals) + " mm";
+  return rounded(value, decimals);
+}
+
+}  // namespace
+
+std::string height(double ratio, const plant::Rig& rig) {
+  return three_digits(ratio * rig.muscle.rest_length_m * 1e3) + " mm";
+}
+
+std::string amount(double value, diagnose::Judged judged, const plant::Rig& rig) {
+  return judged == diagnose::Judged::force ? three_digits(value) + " N" : output::height(value, rig);
 }
 
 std::string mass(double kg) {

@@ -75,8 +75,8 @@ std::string gap_row(const char* name, double rmse, const diagnose::Gap& gap, con
   const std::string floors = gap.noise_floor > 0.0 ? fmt::format("{:.{}f} \u00d7", rmse / gap.noise_floor,
                                                                  rmse < 10.0 * gap.noise_floor ? 1 : 0)
                                                    : "-";
-  return fmt::format("<tr><th scope='row'>{}</th><td>{}</td><td>{}</td></tr>\n", name, height_html(rmse, rig),
-                     floors);
+  return fmt::format("<tr><th scope='row'>{}</th><td>{}</td><td>{}</td></tr>\n", name,
+                     amount_html(rmse, gap.judged, rig), floors);
 }
 
 /// Where much of the gap sits in little of the data, in a sentence; empty if it is spread evenly.
@@ -101,12 +101,15 @@ std::string concentration(const Diagnosis& diagnosis, const plant::Rig& rig) {
 
 std::string where_html(const Diagnosis& diagnosis, const plant::Rig& rig) {
   if (diagnosis.where.empty()) return "";
+  const bool force = diagnosis.gap.judged == diagnose::Judged::force;
   return paragraph(fmt::format(
-             "Measured less recalibrated model, before anything was added, as height of the load, averaged "
-             "over parts of the data. Orange: the load was higher than the model says; blue: lower. Framed "
+             "Measured less recalibrated model, before anything was added, as {}, averaged "
+             "over parts of the data. Orange: {} than the model says; blue: {}. Framed "
              "and marked with *: the mean of this part differs from the mean over all parts of its picture "
              "(where there is only one, from 0) by more than chance; of all marks {:g} % may be false. "
              "Dashed: the data never went there, so nothing is known of it.",
+             force ? "force of the cord" : "height of the load",
+             force ? "the muscle pulled more" : "the load was higher", force ? "less" : "lower",
              100.0 * diagnose::thresholds.where.false_discoveries)) +
          concentration(diagnosis, rig) + figures_html(where_pictures(diagnosis, rig));
 }
@@ -192,8 +195,8 @@ std::string gap_html(const Diagnosis& diagnosis, const std::vector<const diagnos
                      const plant::Rig& rig) {
   if (runs.empty()) return "";
   const bool changed = output::changed(diagnosis);
-  const std::string picture = figures_html({{"Root mean square error of height, run by run.",
-                                             errors_svg(runs, diagnosis.gap.noise_floor, changed, rig)}});
+  const std::string picture = figures_html(
+      {{"Root mean square error of height, run by run.", errors_svg(runs, diagnosis.gap, changed, rig)}});
   return fmt::format(
              "<p>Nominal is the rig as it was described, recalibrated has its numbers fitted and nothing "
              "added{}. No fit has seen the runs held out: they decide. The axis is logarithmic.<span "
@@ -255,7 +258,8 @@ std::string result_table(const domain::Dataset& data, const Diagnosis& diagnosis
   std::string html = "<div class='tables'>\n" + found(diagnosis);
   if (unseen.empty()) return html + "</div>\n";
   const bool few = unseen.size() <= 6;
-  std::string caption = fmt::format("Error of height on the {}, root mean square.",
+  std::string caption = fmt::format("Error of {} on the {}, root mean square.",
+                                    gap.judged == diagnose::Judged::force ? "force" : "height",
                                     few ? "runs held out (" + output::listed(unseen) + ")"
                                         : fmt::format("{} runs held out", unseen.size()));
   std::string rows = gap_row("nominal", gap.nominal_rmse, gap, data.rig) +
@@ -265,7 +269,7 @@ std::string result_table(const domain::Dataset& data, const Diagnosis& diagnosis
     rows += gap_row("corrected", gap.corrected_rmse, gap, data.rig);
   }
   rows += fmt::format("<tr><th scope='row'>noise floor</th><td>{}</td><td></td></tr>\n",
-                      height_html(gap.noise_floor, data.rig));
+                      amount_html(gap.noise_floor, gap.judged, data.rig));
   html += "<div>" + table(caption, {"rig", "error", "over floor"}, rows);
   if (!few) html += folded("Which runs are held out", paragraph(output::listed(unseen)));
   return html + "</div></div>\n";

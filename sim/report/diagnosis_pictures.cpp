@@ -42,9 +42,9 @@ std::string label(double x, double y, std::string_view anchor, std::string_view 
   return marked_label(x, y, anchor, escaped(text), kind);
 }
 
-/// A height in the unit that the reader wants, as part of a label.
-std::string height(double ratio, const plant::Rig& rig, bool sign = false) {
-  return height_html(ratio, rig, "tspan", sign);
+/// An amount of what was judged, heights in the unit that the reader wants, as part of a label.
+std::string amount(double value, const diagnose::Gap& gap, const plant::Rig& rig, bool sign = false) {
+  return amount_html(value, gap.judged, rig, "tspan", sign);
 }
 
 std::string bar(double x, double y, double wide, double high, std::string_view kind) {
@@ -117,7 +117,7 @@ std::vector<Picture> where_pictures(const Diagnosis& diagnosis, const plant::Rig
         svg += heat(x0, y, wide, 21.0, cell->mean / most);
         if (cell->significant) svg += bar(x0 + 1, y + 1, wide - 2, 19.0, "frame");
         svg += marked_label(x0 + 0.5 * wide, y + 15, "middle",
-                            height(cell->mean, rig, true) + (cell->significant ? " *" : ""));
+                            amount(cell->mean, diagnosis.gap, rig, true) + (cell->significant ? " *" : ""));
         svg += bar(x1, y + 4, cell->share_of_gap * span, 13.0, "bar");
         svg += label(x1 + cell->share_of_gap * span + 6, y + 15, "start",
                      fmt::format("{:.0f} %", 100.0 * cell->share_of_gap), "soft");
@@ -162,7 +162,8 @@ std::vector<Picture> ranking_pictures(const Diagnosis& diagnosis, const plant::R
       y += 21.0;
       if (!one->refitted) continue;
       bars += marked_label(width - 4, y + 7, "end",
-                           escaped(one->outcome) + ": " + height(one->held_out_rmse, rig), "soft halo");
+                           escaped(one->outcome) + ": " + amount(one->held_out_rmse, diagnosis.gap, rig),
+                           "soft halo");
       y += 17.0;
     }
     svg += stroke(limit, begin, limit, y, "floor") + bars;
@@ -223,8 +224,9 @@ std::string absorbed_svg(const Diagnosis& diagnosis) {
   return picture(bottom + 4, "Prior deviations by which nominal parameters are moved", svg);
 }
 
-std::string errors_svg(const std::vector<const diagnose::RunGap*>& runs, double noise_floor, bool changed,
-                       const plant::Rig& rig) {
+std::string errors_svg(const std::vector<const diagnose::RunGap*>& runs, const diagnose::Gap& gap,
+                       bool changed, const plant::Rig& rig) {
+  const double noise_floor = gap.noise_floor;
   const auto shown = std::span(compared_models).first(changed ? 3 : 2);
   constexpr double x1 = 330.0, pitch = 24.0;
   const auto name_of = [](const diagnose::RunGap& run) {
@@ -262,10 +264,12 @@ std::string errors_svg(const std::vector<const diagnose::RunGap*>& runs, double 
       }
     return lines;
   };
-  svg += either(grid(length_mm(rig), " mm"), grid(1.0, ""), "g");
+  svg += gap.judged == diagnose::Judged::force ? grid(1.0, " N")
+                                               : either(grid(length_mm(rig), " mm"), grid(1.0, ""), "g");
   if (noise_floor > 0.0) {
     svg += stroke(x(noise_floor), 36, x(noise_floor), bottom, "floor");
-    svg += marked_label(x(noise_floor) - 4, 33, "start", "noise floor " + height(noise_floor, rig), "soft");
+    svg +=
+        marked_label(x(noise_floor) - 4, 33, "start", "noise floor " + amount(noise_floor, gap, rig), "soft");
   }
   for (std::size_t i = 0; i < runs.size(); ++i, y += pitch) {
     const auto& run = *runs[i];
@@ -278,8 +282,9 @@ std::string errors_svg(const std::vector<const diagnose::RunGap*>& runs, double 
     if (least < most) svg += stroke(least, y + 12, most, y + 12, "axis");
     for (const auto& model : shown)
       if (const double rmse = run.*model.rmse; std::isfinite(rmse)) svg += mark(x(rmse), y + 12, model);
-    const std::string corrected = changed ? " \u2192 " + height(run.corrected_rmse, rig) : "";
-    svg += marked_label(width, y + 16, "end", height(run.nominal_rmse, rig) + corrected, "soft") + "</a>\n";
+    const std::string corrected = changed ? " \u2192 " + amount(run.corrected_rmse, gap, rig) : "";
+    svg +=
+        marked_label(width, y + 16, "end", amount(run.nominal_rmse, gap, rig) + corrected, "soft") + "</a>\n";
   }
   return picture(bottom + 4, "Errors of each run", svg);
 }

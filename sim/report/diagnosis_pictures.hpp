@@ -30,7 +30,7 @@ std::string absorbed_svg(const diagnose::Diagnosis& diagnosis);
 
 /// Errors of the models, run by run in this order, on a logarithmic axis. A row leads to its run's plots
 /// (data-group). `changed`: whether there is a corrected rig.
-std::string errors_svg(const std::vector<const diagnose::RunGap*>& runs, double noise_floor, bool changed,
-                       const plant::Rig& rig);
+std::string errors_svg(const std::vector<const diagnose::RunGap*>& runs, const diagnose::Gap& gap,
+                       bool changed, const plant::Rig& rig);
 
 }  // namespace mckibben::report

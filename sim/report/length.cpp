@@ -82,6 +82,12 @@ std::string height_html(double ratio, const plant::Rig& rig, std::string_view ta
   return either(plus + mm, plus + output::rounded(ratio, decimals), tag);
 }
 
+std::string amount_html(double value, diagnose::Judged judged, const plant::Rig& rig, std::string_view tag,
+                        bool sign) {
+  if (judged == diagnose::Judged::contraction) return height_html(value, rig, tag, sign);
+  return (sign && value > 0.0 ? "+" : "") + output::amount(value, judged, rig);
+}
+
 std::string text_html(const std::string& text, const plant::Rig& rig, std::string_view tag) {
   std::string html;
   auto from = text.begin();

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include <plant/rig.hpp>
+#include <sim/diagnose/diagnosis.hpp>
 
 namespace mckibben::report {
 
@@ -30,6 +31,10 @@ std::string full_length_html(double ratio, const plant::Rig& rig, int mm_decimal
 /// "1.96 mm" or "0.00653". `tag` may be "tspan".
 std::string height_html(double ratio, const plant::Rig& rig, std::string_view tag = "span",
                         bool sign = false);
+
+/// The same of the reading that was judged: a height, or a force "13.3 N".
+std::string amount_html(double value, diagnose::Judged judged, const plant::Rig& rig,
+                        std::string_view tag = "span", bool sign = false);
 
 /// Plain text as HTML in which heights and speeds of the load are in the unit that the reader wants. What
 /// counts as one: "1.2 mm", "5 to 25 mm/s"; "a contraction ratio of 0.1", "reachable one is 0.1", "0.02 in

@@ -30,9 +30,10 @@ std::vector<RunGap> as_described(const domain::Dataset& data, const std::vector<
   std::vector<RunGap> runs;
   for (std::size_t i = 0; i < std::min(data.runs.size(), nominal.size()); ++i) {
     runs.push_back({.id = data.runs[i].id, .load_kg = data.runs[i].load_kg});
-    runs.back().measured = data.runs[i].contraction_ratio;
+    runs.back().measured = data.runs[i].judged();
     for (const auto& sample : nominal[i].recording.samples)
-      runs.back().nominal.push_back(sample.state.joint.contraction_ratio);
+      runs.back().nominal.push_back(data.force_is_judged() ? sample.cord_force_N
+                                                           : sample.state.joint.contraction_ratio);
   }
   return runs;
 }
@@ -62,15 +63,17 @@ auto by_id(const Runs& runs, const std::string& id) {
 /// One model's readings, and its pressures and forces where it was replayed.
 Run shown(const char* name, std::size_t style, const RunGap& gap, const std::vector<double>& readings,
           const ReplayedRun* replayed, const domain::Run* recorded, const plant::Plant& plant) {
+  const bool bench = recorded != nullptr && recorded->length_is_given();
   Run run{.name = name, .style = style, .ticks = std::min(readings.size(), gap.measured.size())};
   const auto *model = &readings, *measured = &gap.measured;
-  run.quantities = {{"contraction", [model](std::size_t k) { return (*model)[k]; }},
+  run.quantities = {{bench ? "force" : "contraction", [model](std::size_t k) { return (*model)[k]; }},
                     {"error", [=](std::size_t k) { return (*measured)[k] - (*model)[k]; }}};
   if (replayed == nullptr || replayed->recording.samples.size() < run.ticks) return run;
   constexpr std::array<std::string_view, 5> wanted{"valve_pressure", "muscle_pressure", "braid_force",
                                                    "friction_force", "effects_pull"};
   for (auto& quantity : quantities_of(replayed->recording, plant))
-    if (std::find(wanted.begin(), wanted.end(), quantity.key) != wanted.end())
+    if ((bench && quantity.key == "contraction") ||
+        std::find(wanted.begin(), wanted.end(), quantity.key) != wanted.end())
       run.quantities.push_back(std::move(quantity));
   if (recorded != nullptr && recorded->muscle_pressure_Pa)
     run.quantities.push_back(
@@ -84,16 +87,19 @@ Run shown(const char* name, std::size_t style, const RunGap& gap, const std::vec
 Group group_of(const domain::Dataset& data, const Diagnosis& diagnosis, const RunGap& gap,
                const ReplayedRun* nominal, const ReplayedRun* corrected) {
   const plant::Plant nominal_plant(data.rig, gap.load_kg), mended(diagnosis.corrected, gap.load_kg);
-  Group group{.name = fmt::format("{}, {}{}", gap.id, output::mass(gap.load_kg),
+  const bool bench = diagnosis.gap.judged == diagnose::Judged::force;
+  Group group{.name = fmt::format("{}{}{}", gap.id, bench ? "" : ", " + output::mass(gap.load_kg),
                                   gap.left_out   ? ", left out"
                                   : gap.held_out ? ", held out"
                                                  : ""),
               .load_kg = gap.load_kg,
               .ticks = gap.measured.size()};
-  group.given = {{"given_contraction", [&gap](std::size_t k) { return gap.measured[k]; }},
-                 {"weight", [weight_N = mended.weight_N()](std::size_t) { return weight_N; }}};
+  group.given = {
+      {bench ? "given_force" : "given_contraction", [&gap](std::size_t k) { return gap.measured[k]; }}};
+  if (!bench)
+    group.given.push_back({"weight", [weight_N = mended.weight_N()](std::size_t) { return weight_N; }});
   const domain::Run* recorded = by_id(data.runs, gap.id);
-  if (recorded != nullptr && recorded->contraction_ratio.size() < group.ticks) recorded = nullptr;
+  if (recorded != nullptr && recorded->judged().size() < group.ticks) recorded = nullptr;
   if (const auto* run = recorded) {
     group.time_s = run->time_s;
     if (!run->current_mA.empty()) {
@@ -117,8 +123,27 @@ Group group_of(const domain::Dataset& data, const Diagnosis& diagnosis, const Ru
   return group;
 }
 
+/// On a bench: force and its error, then what made it.
+std::vector<Plot> bench_plots(const domain::Dataset& data, const Diagnosis& diagnosis) {
+  auto all = plots_for(diagnosis.corrected, "Contraction, as given", "", "", gauged(data));
+  std::vector<Plot> plots{
+      {"force",
+       "Force, measured and by each rig",
+       "N",
+       {{.key = "given_force", .label = "Measured", .given = true},
+        {.key = "force", .label = "force", .main = true}}},
+      {"error", "Error: measured less model", "N", {{.key = "error", .label = "error", .main = true}}}};
+  for (Plot& plot : all) {
+    const bool of_a_load = plot.id == "error" || plot.id == "current";
+    if (plot.id == "forces") plot.title = "Forces that shorten the muscle";
+    if (!of_a_load) plots.push_back(std::move(plot));
+  }
+  return plots;
+}
+
 std::vector<Plot> plots(const domain::Dataset& data, const Diagnosis& diagnosis) {
   const double floor = diagnosis.gap.noise_floor;
+  if (data.force_is_judged()) return bench_plots(data, diagnosis);
   auto all = plots_for(diagnosis.corrected, "Contraction, measured and by each rig", "Measured",
                        fmt::format("Error: measured less model, as height of the load{}",
                                    floor > 0.0 ? "; logarithmic beyond the noise floor" : ""),
@@ -132,7 +157,10 @@ std::vector<Plot> plots(const domain::Dataset& data, const Diagnosis& diagnosis)
   return all;
 }
 
-std::vector<Loop> loops_of_runs() {
+std::vector<Loop> loops_of_runs(const domain::Dataset& data) {
+  if (data.force_is_judged())
+    return {{"force", "Force and pressure", "muscle_pressure", "force", "muscle pressure in bar",
+             "force in N", false, "muscle_pressure", "given_force"}};
   return {{"asked", "Contraction and pressure asked of the valve", "reference_pressure", "contraction",
            "pressure asked of the valve in bar", std::string(ratio_unit), false, "reference_pressure",
            "given_contraction"},
@@ -156,18 +184,20 @@ std::string report_html(const domain::Dataset& data, const Diagnosis& diagnosis,
       .table = result_table(data, diagnosis),
       .details = output::table_of(data, diagnosis),
       .beside = fmt::format(
-          "Heights are heights of the load. The noise floor is what counting and jitter of the readings "
+          "{}The noise floor is what counting and jitter of the readings "
           "(here "
           "{}) let nobody see, or what equal runs differ by. The thresholds were set to name an effect where "
           "none is missing in {:.0f} % of data sets: a rate aimed at, not one measured on these data. Seed "
           "{}. Every number is in diagnosis.json, the corrected rig in rig.yaml.",
-          output::height(diagnosis.gap.jitter, data.rig), 100.0 * diagnosis.false_alarm_rate, diagnosis.seed),
+          data.force_is_judged() ? "Forces are those of the cord. " : "Heights are heights of the load. ",
+          output::amount(diagnosis.gap.jitter, diagnosis.gap.judged, data.rig),
+          100.0 * diagnosis.false_alarm_rate, diagnosis.seed),
       .chapters = story(data, diagnosis, ordered(diagnosis.runs, output::changed(diagnosis))),
       .later_chapters = doubts_and_plan(data, diagnosis),
       .rig = diagnosis.corrected,
       .gauge = gauged(data),
       .plots = plots(data, diagnosis),
-      .loops = loops_of_runs(),
+      .loops = loops_of_runs(data),
       .drawn = output::changed(diagnosis) ? 2u : 0u};  // the corrected
   for (const RunGap* run : runs) {
     auto group = group_of(data, diagnosis, *run, by_id(nominal, run->id), by_id(corrected, run->id));

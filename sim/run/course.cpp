@@ -28,7 +28,10 @@ class Drives {
  public:
   Drives(const Measurement& measured, const plant::Rig& rig) : measured_(measured), rig_(rig) {}
 
-  Course operator()() {
+  Course operator()() { return measured_.point_s > 0.0 ? points() : stamped(); }
+
+ private:
+  Course stamped() {
     const std::size_t stamps = measured_.time_s.size();
     const bool jumps = measured_.recorded.hold == Hold::previous && any_given(measured_);
     const bool ramps = measured_.recorded.hold == Hold::linear && any_command(measured_);
@@ -50,7 +53,22 @@ class Drives {
     return std::move(course_);
   }
 
- private:
+  Course points() {
+    const auto& read_s = measured_.time_s;
+    const auto is_judged = [&](std::size_t k) {
+      return measured_.rows.empty() || std::ranges::binary_search(measured_.rows, k);
+    };
+    for (std::size_t k = 0; k < read_s.size(); ++k) {
+      if (k > 0) {
+        add(read_s[k - 1] + jump_s, at(k - 1, k, 1.0));
+        add(read_s[k - 1] + 0.5 * measured_.point_s, at(k, k, 0.0));
+      }
+      if (is_judged(k)) course_.rows.push_back(course_.time_s.size());
+      add(read_s[k], at(k, k, 0.0));
+    }
+    return std::move(course_);
+  }
+
   void add(double time_s, const ride::Drive& drive) {
     course_.time_s.push_back(time_s);
     course_.drives.push_back(drive);
@@ -114,6 +132,11 @@ ride::Drive Course::toward(std::size_t k) const {
   go(drive.opposite.muscle_pressure_Pa, next.opposite.muscle_pressure_Pa);
   go(drive.contraction_ratio, next.contraction_ratio);
   return drive;
+}
+
+double Course::until_s(std::size_t k, double alone_s) const {
+  if (k + 1 < time_s.size()) return time_s[k + 1];
+  return time_s[k] + (k > 0 ? time_s[k] - time_s[k - 1] : alone_s);
 }
 
 FirstState first_state(const Measurement& measured) {

@@ -21,11 +21,14 @@ struct Course {
 
   /// What acts from stamp `k` until the next. From the last one pressures and lengths go on as they came.
   ride::Drive toward(std::size_t k) const;
+  /// When that ends; of the last, as long as the one before it lasted, or `alone_s` where there is none.
+  double until_s(std::size_t k, double alone_s) const;
 };
 
 /// A row for each stamp. Where inputs do otherwise between stamps than a drive does, there are further
 /// stamps: commands that run straight on are held at their mean for a tick at most, pressures that stay jump
-/// within a microsecond.
+/// within a microsecond. Of settled points the stamp is when a point is read, at the end of its time: its
+/// command holds all of that time, a pressure or length that is given runs straight to it in the first half.
 Course course_of(const domain::Measurement& measured, const plant::Rig& rig);
 
 /// Of a run with a clock of its own, or with a row each tick of `rig`.

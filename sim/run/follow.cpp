@@ -42,8 +42,7 @@ class Following {
       begin();
       auto row = course_.rows.begin();
       for (std::size_t k = 0; k < stamps(); ++k) {
-        const bool last = k + 1 == stamps();
-        ride_.hold(course_.toward(k), last ? time(k) + last_step_s() : time(k + 1));
+        ride_.hold(course_.toward(k), course_.until_s(k, rig_.tick_s));
         if (row != course_.rows.end() && *row == k) {
           recording_.samples.push_back(sample(k));
           ++row;
@@ -61,7 +60,6 @@ class Following {
  private:
   std::size_t stamps() const { return course_.time_s.size(); }
   double time(std::size_t k) const { return course_.time_s[k]; }
-  double last_step_s() const { return stamps() > 1 ? time(stamps() - 1) - time(stamps() - 2) : rig_.tick_s; }
 
   /// Settled, or on its way; the counter goes along.
   void begin() {

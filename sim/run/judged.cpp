@@ -1,6 +1,7 @@
 // Averages over neighbours, run by run; see the header.
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numeric>
 #include <random>
 #include <span>
@@ -18,6 +19,7 @@ namespace {
 using domain::Measurement, domain::Rows;
 
 constexpr double even_row_s = 0.012;      // no load bends within half of it by what a sensor could show
+constexpr double slack_share = 0.002;     // of a run's largest force: less is a cord that hangs through
 constexpr double enough_readings = 6.0;   // in a row, to be averaged
 constexpr std::size_t quarters = 4;       // of a row, in which inputs are followed
 constexpr double straight = 5e-3;         // of an input's range: it neither jumps nor bends by less
@@ -133,6 +135,32 @@ double slow_noise(const std::vector<double>& v) {
   return fourth.empty() ? 0.0 : upper_median(std::move(fourth)) / normal_median / std::sqrt(70.0);
 }
 
+/// Noise of settled points: what the last of four that go one way is off the parabola through the others,
+/// over the input that moves most. The median is blind to where they turn.
+double points_noise(const std::vector<double>& read, const std::vector<std::vector<double>>& inputs) {
+  std::vector<double> off;
+  for (std::size_t k = 3; k < read.size(); ++k) {
+    const auto way = [&](const std::vector<double>& input) {
+      const std::span<const double> at(&input[k - 3], 4);
+      const bool one_way = std::ranges::is_sorted(at, std::less_equal<>{}) ||
+                           std::ranges::is_sorted(at, std::greater_equal<>{});
+      return one_way ? std::abs(at[3] - at[0]) / range_of(input) : 0.0;
+    };
+    const auto moving = std::ranges::max_element(inputs, {}, way);
+    if (moving == inputs.end() || !(way(*moving) > 0.0)) continue;
+    double difference = 0.0, squares = 0.0;
+    for (std::size_t i = k - 3; i <= k; ++i) {
+      double weight = 1.0;  // of a divided difference
+      for (std::size_t j = k - 3; j <= k; ++j)
+        if (j != i) weight *= range_of(*moving) / ((*moving)[i] - (*moving)[j]);
+      difference += weight * read[i];
+      squares += weight * weight;
+    }
+    if (!std::isnan(difference)) off.push_back(std::abs(difference) / std::sqrt(squares));
+  }
+  return off.empty() ? 0.0 : upper_median(std::move(off)) / normal_median;
+}
+
 /// The step that readings are rounded to; 0 if they are to none.
 double step_of(const std::vector<double>& values) {
   std::vector<double> moves;
@@ -157,16 +185,19 @@ class Judging {
       : run_(run), raw_(*run.measured), row_s_(row_s), random_(seed) {}
 
   void operator()() {
+    leave_out_slack();
     if (raw_.recorded.start == domain::Start::moving) raw_.first = first_state(raw_);
     fast_ = row_s_ / median_gap_s(raw_.time_s) >= enough_readings && !raw_.counted;
     Measurement driving = fast_ ? thinned() : as_recorded();
+    if (raw_.length_is_given) hold_length(driving);
     judge(driving);
     shake(driving);
     run_.measured = std::move(driving);
   }
 
-  std::vector<double> ratio_squares{}, pressure_squares{};  ///< of single readings, a value for each row
-  double gain_sum = 0.0, readings_sum = 0.0, given_noise_Pa = 0.0, ratio_step = 0.0;
+  std::size_t slack = 0;                              ///< rows without a force
+  std::vector<double> squares{}, pressure_squares{};  ///< of single readings, a value for each row
+  double gain_sum = 0.0, readings_sum = 0.0, given_noise_Pa = 0.0, step = 0.0;
   bool fast() const { return fast_; }
 
  private:
@@ -179,8 +210,29 @@ class Judging {
     bare.recorded = raw_.recorded;
     bare.first = raw_.first;
     bare.counted = raw_.counted;
+    bare.point_s = raw_.point_s;
+    bare.length_is_given = raw_.length_is_given;
     bare.sides[0].pressure_is_given = raw_.sides[0].pressure_is_given;
     return bare;
+  }
+
+  /// A cord without force is slack: how far the muscle is from pulling, no load cell reads.
+  void leave_out_slack() {
+    double most_N = 0.0;
+    for (const double force_N : raw_.force_N)
+      if (force_N > most_N) most_N = force_N;
+    for (double& force_N : raw_.force_N) {
+      if (!(force_N <= slack_share * most_N)) continue;
+      force_N = std::nan("");
+      ++slack;
+    }
+  }
+
+  /// The length that a bench gives, at the stamps that drive.
+  void hold_length(Measurement& driving) const {
+    const Column length(raw_.time_s, raw_.contraction_ratio);
+    for (const double at_s : driving.time_s)
+      driving.contraction_ratio.push_back(length.between(length.last_before(at_s), at_s));
   }
 
   Measurement as_recorded() const {
@@ -190,7 +242,8 @@ class Judging {
     if (same.sides[0].pressure_is_given) same.sides[0].muscle_pressure_Pa = raw_.sides[0].muscle_pressure_Pa;
     double last_s = begin_s() + raw_.recorded.skip_s - row_s_;
     for (std::size_t k = 0; k < raw_.time_s.size(); ++k) {
-      const bool counts_each = !raw_.counted || raw_.time_s[k] - last_s >= 0.999 * row_s_;
+      const bool counts_each =
+          !raw_.counted || raw_.length_is_given || raw_.time_s[k] - last_s >= 0.999 * row_s_;
       if (raw_.time_s[k] - begin_s() < raw_.recorded.skip_s || !counts_each) continue;
       last_s = raw_.time_s[k];
       same.rows.push_back(k);
@@ -258,34 +311,45 @@ class Judging {
   void judge(const Measurement& driving) {
     const auto& pressures = raw_.sides[0].muscle_pressure_Pa;
     const bool gauge = !pressures.empty() && !raw_.sides[0].pressure_is_given;
-    const Column ratio(raw_.time_s, raw_.contraction_ratio), pressure(raw_.time_s, pressures);
+    const auto& readings = raw_.length_is_given ? raw_.force_N : raw_.contraction_ratio;
+    auto& judged = raw_.length_is_given ? run_.force_N : run_.contraction_ratio;
+    const Column column_read(raw_.time_s, readings), pressure(raw_.time_s, pressures);
     if (gauge) run_.muscle_pressure_Pa.emplace();
     for (const std::size_t stamp : driving.rows) {
       const double at_s = driving.time_s[stamp];
-      const auto read = [&](const Column& column, std::vector<double>& squares) {
+      const auto read = [&](const Column& column, std::vector<double>& left) {
         if (!fast_) return Together{.value = column[stamp], .gain = 1.0, .readings = 1};
-        const Together all = column.near(at_s, 0.5 * row_s_);
-        if (!std::isnan(all.value)) squares.push_back(all.squares);
-        return all;
+        const Together near = column.near(at_s, 0.5 * row_s_);
+        if (!std::isnan(near.value)) left.push_back(near.squares);
+        return near;
       };
-      const Together e = read(ratio, ratio_squares);
+      const Together all = read(column_read, squares);
       Together p{.value = 0.0};
       if (gauge) p = read(pressure, pressure_squares);
-      run_.missing.push_back(std::isnan(e.value) || std::isnan(p.value));
+      run_.missing.push_back(std::isnan(all.value) || std::isnan(p.value));
       run_.time_s.push_back(at_s - begin_s());
-      run_.contraction_ratio.push_back(e.value);
+      judged.push_back(all.value);
       if (gauge) run_.muscle_pressure_Pa->push_back(p.value);
       if (!driving.sides[0].current_mA.empty()) run_.current_mA.push_back(driving.sides[0].current_mA[stamp]);
-      gain_sum += e.gain;
-      readings_sum += static_cast<double>(e.readings);
+      gain_sum += all.gain;
+      readings_sum += static_cast<double>(all.readings);
     }
-    fill(run_.contraction_ratio);
+    fill(judged);
     if (gauge) fill(*run_.muscle_pressure_Pa);
-    ratio_step = step_of(raw_.contraction_ratio);
+    step = step_of(readings);
     if (!fast_) {
-      ratio_squares = {std::pow(slow_noise(raw_.contraction_ratio), 2)};
-      pressure_squares = {std::pow(slow_noise(pressures), 2)};
+      if (const double noise = noise_of_slow(readings); noise > 0.0) squares = {noise * noise};
+      pressure_squares = {std::pow(noise_of_slow(pressures), 2)};
     }
+  }
+
+  double noise_of_slow(const std::vector<double>& readings) const {
+    if (raw_.point_s == 0.0) return slow_noise(readings);
+    std::vector<std::vector<double>> inputs{raw_.sides[0].current_mA};
+    if (raw_.sides[0].pressure_is_given) inputs.push_back(raw_.sides[0].muscle_pressure_Pa);
+    if (raw_.length_is_given) inputs.push_back(raw_.contraction_ratio);
+    std::erase_if(inputs, [](const auto& input) { return input.empty(); });
+    return readings.empty() ? 0.0 : points_noise(readings, inputs);
   }
 
   /// Straight over readings that are missing: nothing goes by them.
@@ -304,14 +368,14 @@ class Judging {
 
   /// As much noise as a given pressure has, once more on it.
   void shake(const Measurement& driving) {
-    if (!driving.sides[0].pressure_is_given) return;
+    if (!driving.sides[0].pressure_is_given || driving.point_s > 0.0) return;  // a point's has come to rest
     auto& readings = raw_.sides[0].muscle_pressure_Pa;
     const Column column(raw_.time_s, readings);
-    std::vector<double> squares;
+    std::vector<double> left;
     if (fast_)
       for (const std::size_t stamp : driving.rows)
-        squares.push_back(column.near(driving.time_s[stamp], 0.5 * row_s_).squares);
-    given_noise_Pa = fast_ ? noise_of(squares) : slow_noise(readings);
+        left.push_back(column.near(driving.time_s[stamp], 0.5 * row_s_).squares);
+    given_noise_Pa = fast_ ? noise_of(left) : slow_noise(readings);
     std::normal_distribution<double> noise(0.0, given_noise_Pa);
     for (double& reading : readings) reading += noise(random_);
     run_.shaken = driving;
@@ -344,27 +408,28 @@ double row_s_of(const domain::Dataset& data) {
 domain::Dataset with_rows(domain::Dataset data) {
   if (!data.own_clock || data.rows_of_stamps) return data;
   Rows rows{.row_s = row_s_of(data), .readings = 0.0};
-  std::vector<double> ratio_squares, pressure_squares;
+  std::vector<double> squares, pressure_squares;
   double gain = 0.0;
   for (std::size_t i = 0; i < data.runs.size(); ++i) {
     domain::Run& run = data.runs[i];
     rows.stamps += run.measured->time_s.size();
     Judging judging(run, rows.row_s, i + 1);
     judging();
-    rows.rows += run.contraction_ratio.size();
+    rows.rows += run.judged().size();
     rows.inputs += run.measured->time_s.size();
     rows.readings += judging.readings_sum;
+    rows.slack += judging.slack;
     gain += judging.gain_sum;
-    ratio_squares.insert(ratio_squares.end(), judging.ratio_squares.begin(), judging.ratio_squares.end());
+    squares.insert(squares.end(), judging.squares.begin(), judging.squares.end());
     pressure_squares.insert(pressure_squares.end(), judging.pressure_squares.begin(),
                             judging.pressure_squares.end());
     rows.given_noise_Pa = std::max(rows.given_noise_Pa, judging.given_noise_Pa);
-    rows.ratio_step = std::max(rows.ratio_step, judging.ratio_step);
+    rows.step = std::max(rows.step, judging.step);
     rows.smoothed = rows.smoothed || (judging.fast() && run.shaken);
   }
   const double all = static_cast<double>(std::max<std::size_t>(rows.rows, 1));
   rows.readings /= all;
-  rows.ratio_noise = noise_of(ratio_squares) * std::sqrt(gain / all);
+  rows.noise = noise_of(squares) * std::sqrt(gain / all);
   rows.pressure_noise_Pa = noise_of(pressure_squares) * std::sqrt(gain / all);
   data.rows_of_stamps = rows;
   return data;

@@ -4,15 +4,15 @@
 // (least squares; Savitzky & Golay, Analytical Chemistry 36 (1964) 1627-1639) tells what they say together at
 // its instant, and what they scatter by. The simulation follows the inputs in quarters of that: a command at
 // its mean, a given pressure smoothed alike. Where an input jumps or bends in between, every stamp is kept.
-// Where readings come slowly, rows are the stamps, and nothing is smoothed.
+// Where readings come slowly, rows are the stamps, and nothing is smoothed; of settled points each is a row.
 #pragma once
 
 #include <sim/domain/dataset.hpp>
 
 namespace mckibben::run {
 
-/// The runs with their rows, what is skipped left out. Of one muscle with a hanging load; data with a row
-/// each tick are what they are.
+/// The runs with their rows, what is skipped left out. Of one muscle, with a hanging load whose contraction
+/// was read or at a given length and with its force; data with a row each tick are what they are.
 domain::Dataset with_rows(domain::Dataset data);
 
 }  // namespace mckibben::run

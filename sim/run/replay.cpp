@@ -27,8 +27,10 @@ Recording recording_of(const domain::Run& measured, const domain::RigFile& rig) 
                   *controller);
 }
 
-/// What a row of the measurement would read: counts, or where its rows were made of stamps the load's place.
-double ratio_of(const Sample& sample, const domain::Run& measured, const domain::RigFile& rig) {
+/// What a row of the measurement would read: counts, or where its rows were made of stamps the load's place,
+/// or the cord's force.
+double read_of(const Sample& sample, const domain::Run& measured, const domain::RigFile& rig) {
+  if (!measured.force_N.empty()) return sample.cord_force_N;
   if (!measured.measured) return static_cast<double>(sample.counts) * contraction_per_count(rig);
   return sample.state.joint.contraction_ratio * rig.muscle.rest_length_m / measured.rest_length_m;
 }
@@ -38,11 +40,11 @@ ReplayedRun replay_one(const domain::Run& measured, const domain::RigFile& rig) 
   run.recording = recording_of(measured, rig);
   run.failure = run.recording.failure;
   if (!run.failure.empty()) return run;
-  const auto rows = static_cast<double>(measured.contraction_ratio.size());
+  const auto rows = static_cast<double>(measured.judged().size());
   double squares = 0.0, sum = 0.0, pressure_squares = 0.0;
-  for (std::size_t k = 0; k < measured.contraction_ratio.size(); ++k) {
+  for (std::size_t k = 0; k < measured.judged().size(); ++k) {
     const auto& sample = run.recording.samples[k];
-    const double error = ratio_of(sample, measured, rig) - measured.contraction_ratio[k];
+    const double error = read_of(sample, measured, rig) - measured.judged()[k];
     squares += error * error;
     sum += error;
     run.largest_error = std::max(run.largest_error, std::abs(error));

@@ -34,12 +34,12 @@ TEST(Diagnose, TakesForNoiseWhatRepeatedRunsDoNotRepeat) {
   };
   const NoiseFloor single = Experiment(data, masked(), 1).floor();
   EXPECT_EQ(single.repeats, 0.0);
-  EXPECT_NEAR(single.ratio, std::hypot(single.count / std::sqrt(12.0), 5e-5), 1e-5);
+  EXPECT_NEAR(single.judged, std::hypot(single.count / std::sqrt(12.0), 5e-5), 1e-5);
 
   data.runs.push_back(data.runs.front());
   for (double& ratio : data.runs.back().contraction_ratio) ratio += 6.0 * single.count;
   const std::size_t last = data.runs.size() - 1;
-  EXPECT_NEAR(Experiment(data, masked(), 1, {0, 1, last}).floor().ratio, 6.0 * single.count / std::sqrt(2.0),
+  EXPECT_NEAR(Experiment(data, masked(), 1, {0, 1, last}).floor().judged, 6.0 * single.count / std::sqrt(2.0),
               1e-9);
   EXPECT_EQ(Experiment(data, masked(), 1, {0, 1}).floor().repeats, 0.0);
   data.runs.back().load_kg += 1.0;
@@ -57,8 +57,8 @@ TEST(Diagnose, KnowsCountsAlsoWhenTheyAreRoundedToAFewDecimals) {
   for (domain::Run& run : data.runs)
     for (double& ratio : run.contraction_ratio) ratio = std::round(ratio * 1e4) / 1e4;
   EXPECT_EQ(floor().count, exact.count);
-  EXPECT_GT(floor().ratio, exact.ratio);
-  EXPECT_LT(floor().ratio, 1.1 * exact.ratio);
+  EXPECT_GT(floor().judged, exact.judged);
+  EXPECT_LT(floor().judged, 1.1 * exact.judged);
   for (domain::Run& run : data.runs)
     for (double& ratio : run.contraction_ratio) ratio += 1e-4;  // no counts any more
   EXPECT_EQ(floor().count, 0.0);
@@ -73,7 +73,7 @@ TEST(Diagnose, TakesForNoiseWhatScattersFromTickToTick) {
     masked.emplace_back(run.current_mA.size(), false);
     for (double& ratio : run.contraction_ratio) ratio += noise(dice);
   }
-  EXPECT_NEAR(Experiment(data, masked, 1).floor().ratio, 2e-3, 2e-4);
+  EXPECT_NEAR(Experiment(data, masked, 1).floor().judged, 2e-3, 2e-4);
 }
 
 TEST(Fit, RefusesParametersThatNoReadingDependsOn) {

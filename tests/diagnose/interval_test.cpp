@@ -39,7 +39,7 @@ struct Standing {
                           .lowest = 0.5 * value,
                           .highest = 2.0 * value}};
     const auto all = static_cast<Eigen::Index>(3 * rows);
-    const double ratio = Experiment(data, nothing_masked(data), 1).floor().ratio;
+    const double ratio = Experiment(data, nothing_masked(data), 1).floor().judged;
     fitted.residuals = Eigen::VectorXd::Zero(all);
     fitted.columns = Eigen::MatrixXd::Constant(all, 1, 10.0 * count / ratio);
   }

@@ -32,7 +32,7 @@ TEST_P(Jitter, IsToldFromTheReadingsAndCountsInTheFloor) {
   const NoiseFloor floor = noise_floor(data, masked, {});
   EXPECT_NEAR(floor.jitter, jitter, tolerance * jitter + 1e-5);
   const double truth = std::hypot(floor.count / std::sqrt(12.0), jitter);
-  EXPECT_NEAR(floor.ratio, truth, 0.15 * truth);
+  EXPECT_NEAR(floor.judged, truth, 0.15 * truth);
   EXPECT_FALSE(floor.noisy && jitter < floor.count);
 }
 

@@ -55,9 +55,9 @@ TEST(Predict, MakesOfACurrentTheSameBitsAsSimulate) {
           ASSERT_EQ(std::memcmp(&sample.state, &predicted.states[k], sizeof sample.state), 0)
               << name << ", " << input::spelling(method) << ", row " << k;
           ASSERT_EQ(sample.gauge_Pa, plant::gauge_reading_Pa(rig.gauge, predicted.pressure_Pa[k]));
-          ASSERT_EQ(sample.counts, counter.count(predicted.contraction_ratio[k] * length_m)) << name;
+          ASSERT_EQ(sample.counts, counter.count(predicted.judged[k] * length_m)) << name;
         }
-        EXPECT_GT(predicted.contraction_ratio.back(), 0.01) << name;
+        EXPECT_GT(predicted.judged.back(), 0.01) << name;
       }
 }
 
@@ -72,7 +72,7 @@ TEST(Predict, DifferencesOfCoulombRigsAreSensitivities) {
     far.rig.muscle.rest_radius_m += h;
     const Hanging both[] = {near, far};
     const auto readings = predict(run, both);
-    return (readings[1].contraction_ratio[130] - readings[0].contraction_ratio[130]) / h;
+    return (readings[1].judged[130] - readings[0].judged[130]) / h;
   };
   const double steep = slope(3e-5);  // some 20 times the step that diagnose takes
   EXPECT_GT(std::abs(steep), 1.0);
@@ -115,12 +115,12 @@ TEST(Predict, SideBySideEachIsWhatItIsAlone) {
     const auto alone = predict(*list[i].run, list[i].rigs);
     ASSERT_EQ(all[i].size(), 2u);
     for (std::size_t r = 0; r < 2; ++r) {
-      EXPECT_EQ(all[i][r].contraction_ratio, otherwise[i][r].contraction_ratio) << i;
+      EXPECT_EQ(all[i][r].judged, otherwise[i][r].judged) << i;
       EXPECT_EQ(all[i][r].pressure_Pa, otherwise[i][r].pressure_Pa) << i;
-      for (std::size_t k = 0; k < alone[r].contraction_ratio.size(); ++k)
-        ASSERT_NEAR(all[i][r].contraction_ratio[k], alone[r].contraction_ratio[k], 2e-6) << i << ", " << k;
+      for (std::size_t k = 0; k < alone[r].judged.size(); ++k)
+        ASSERT_NEAR(all[i][r].judged[k], alone[r].judged[k], 2e-6) << i << ", " << k;
     }
-    EXPECT_NE(all[i][0].contraction_ratio, all[i][1].contraction_ratio);
+    EXPECT_NE(all[i][0].judged, all[i][1].judged);
   }
 }
 
@@ -137,7 +137,7 @@ TEST(Predict, SideBySideOneThatFailsFailsAlone) {
       list.size(), 2 * list.size(), 1, solver::Method::automatic, [&](std::size_t i) { return list[i]; },
       [&](std::size_t i, const std::vector<Readings>& readings, const std::exception_ptr& failure) {
         if (failure) return failed.push_back(i);
-        EXPECT_EQ(readings[1].contraction_ratio, all[i][1].contraction_ratio) << i;
+        EXPECT_EQ(readings[1].judged, all[i][1].judged) << i;
       });
   EXPECT_EQ(failed, std::vector<std::size_t>{3});
 }

@@ -35,8 +35,7 @@ domain::Dataset begun_on_its_way(plant::Rig& creeping) {
   for (std::size_t k = 15; k < 150; ++k) measured.rows.push_back(k);
   const Hanging hanging{creeping, run.load_kg};
   const double memory = 0.12;
-  run.contraction_ratio =
-      predict(run, {&hanging, 1}, solver::Method::automatic, {&memory, 1}).front().contraction_ratio;
+  run.contraction_ratio = predict(run, {&hanging, 1}, solver::Method::automatic, {&memory, 1}).front().judged;
   return data;
 }
 

@@ -53,7 +53,9 @@ TEST(DiagnosisJson, HoldsWhatIsPromised) {
                  {"recalibrated_rmse", 0.0022},
                  {"corrected_rmse", 1.6e-4},
                  {"closed", 0.9876},
-                 {"encoder_jitter", 0.0}};
+                 {"encoder_jitter", 0.0},
+                 {"reading", "contraction"},
+                 {"unit", "1"}};
   EXPECT_EQ(document.at("gap"), gap);
   const Json& next = document.at("next_experiment");
   EXPECT_EQ(next.at("separates").size(), 2u);

@@ -61,14 +61,14 @@ TEST(Judged, RowsSayWhatReadingsSayTogether) {
   ASSERT_EQ(run.current_mA.size(), run.time_s.size());
   EXPECT_NEAR(static_cast<double>(rows.rows), 1.7 / 0.012, 2.0);
   EXPECT_GE(run.time_s.front(), 0.3);
-  EXPECT_NEAR(rows.ratio_noise, noise_ratio * std::sqrt(9.0 / 4.0 / 12.0), 0.2 * rows.ratio_noise);
+  EXPECT_NEAR(rows.noise, noise_ratio * std::sqrt(9.0 / 4.0 / 12.0), 0.2 * rows.noise);
   EXPECT_GE(std::count(run.missing.begin(), run.missing.end(), true), 2);
   EXPECT_LE(std::count(run.missing.begin(), run.missing.end(), true), 4);
   for (std::size_t k = 0; k < run.time_s.size(); ++k) {
     ASSERT_TRUE(std::isfinite(run.contraction_ratio[k]));
     if (run.missing[k]) continue;
     EXPECT_NEAR(run.contraction_ratio[k], truth(run.measured->time_s.front() + run.time_s[k]),
-                5.0 * rows.ratio_noise);
+                5.0 * rows.noise);
   }
 }
 

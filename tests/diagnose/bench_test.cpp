@@ -1,0 +1,48 @@
+// Forces at given lengths: what a rig would show, what is held out, and forces that are none.
+#include "bench.hpp"
+
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+#include <plant/geometry.hpp>
+#include <sim/diagnose/check.hpp>
+#include <sim/diagnose/experiment.hpp>
+#include <sim/diagnose/held_out.hpp>
+#include <sim/domain/objection.hpp>
+
+namespace mckibben::diagnose {
+namespace {
+
+TEST(Bench, ForcesAreThoseOfTheCord) {
+  const plant::Rig rig;
+  const domain::Dataset data = on_a_bench(rig, 0.0);
+  const Hanging held{rig, 0.0};
+  const auto readings = predict(data.runs[2], {&held, 1}).front();
+  for (std::size_t k = 0; k < 9; ++k)  // no length moves: threads do not rub
+    EXPECT_NEAR(readings.judged[k], plant::Braid(rig.muscle).force_N(0.11, readings.pressure_Pa[k]), 1e-6);
+  const Checked checked = check(data, 1);
+  const Experiment experiment(data, checked.masked, 1, {0, 1, 2, 3, 4});
+  EXPECT_LT(experiment.rmse(experiment.residuals(rig, {0, 1, 2, 3, 4}), {0, 1, 2, 3, 4}), 1e-6);
+}
+
+TEST(Bench, LengthsInsideAreHeldOut) {
+  const domain::Dataset data = on_a_bench({}, 0.5);
+  const Runs held_out = split(data, {0, 1, 2, 3, 4}).held_out;
+  ASSERT_EQ(held_out.size(), 2u);
+  EXPECT_EQ(std::count(held_out.begin(), held_out.end(), 2), 1);  // in the middle
+  EXPECT_EQ(split(data, {0, 1, 3}).held_out, Runs{1});            // not the ends
+}
+
+TEST(Bench, ForcesInAnotherUnitAreRefused) {
+  domain::Dataset data = on_a_bench({}, 0.0);
+  for (domain::Run& run : data.runs)
+    for (double& force_N : run.force_N) force_N *= 1e-3;
+  EXPECT_THROW(check(data, 1), domain::UnfitData);
+  for (domain::Run& run : data.runs)
+    for (double& force_N : run.force_N) force_N *= -1e3;
+  EXPECT_THROW(check(data, 1), domain::UnfitData);
+}
+
+}  // namespace
+}  // namespace mckibben::diagnose

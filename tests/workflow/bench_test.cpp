@@ -1,0 +1,39 @@
+// A whole diagnosis of forces that were read on a bench.
+#include "diagnose/bench.hpp"
+
+#include <gtest/gtest.h>
+
+#include "diagnose/planted.hpp"
+
+namespace mckibben::diagnose {
+namespace {
+
+TEST(BenchDiagnosis, NamesTheTubeThatPullsBack) {
+  plant::Rig truth;
+  auto& tube = truth.effects.get<plant::BladderElasticity>();
+  tube.variant = plant::BladderLaw::saturating;
+  tube.force_N = 60.0;
+  tube.ratio = 0.05;
+  const Diagnosis found = diagnosis_of(on_a_bench(truth, 0.5), 2);
+  EXPECT_EQ(found.verdict, Verdict::missing_effect) << found.because;
+  ASSERT_EQ(found.effects.size(), 1u) << found.because;
+  EXPECT_EQ(found.effects[0].name, "bladder_elasticity");
+  EXPECT_EQ(found.effects[0].variant, "saturating");
+  const FittedNumber& force = found.effects[0].parameters.at(0);
+  EXPECT_LT(force.low, 60.0);
+  EXPECT_GT(force.high, 60.0);
+  EXPECT_EQ(found.gap.judged, Judged::force);
+  EXPECT_GT(found.gap.nominal_rmse, 30.0);  // N
+  EXPECT_LT(found.gap.corrected_rmse, 2.0 * found.gap.noise_floor);
+  EXPECT_NE(found.because.find("the cord's force falls from"), std::string::npos) << found.because;
+}
+
+TEST(BenchDiagnosis, NamesNothingWhereNothingIsMissing) {
+  const Diagnosis found = diagnosis_of(on_a_bench({}, 0.5), 2);
+  EXPECT_TRUE(found.effects.empty()) << found.because;
+  EXPECT_TRUE(found.residual_law.empty()) << found.because;
+  EXPECT_NE(found.verdict, Verdict::recalibrate) << found.because;
+}
+
+}  // namespace
+}  // namespace mckibben::diagnose
