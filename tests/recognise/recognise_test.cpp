@@ -53,8 +53,7 @@ TEST(Loads, StandInNames) {
   EXPECT_EQ(load_in("run2_11p138_kg"), "11.138 kg");
   EXPECT_EQ(load_in("lift 500g"), "500 g");
   EXPECT_EQ(load_in("Last: 20 LB"), "20 lb");
-  for (const char* none : {"run5", "5kgf", "p10bar", "kg"})
-    EXPECT_EQ(load_in(none), std::nullopt) << none;
+  for (const char* none : {"run5", "5kgf", "p10bar", "kg"}) EXPECT_EQ(load_in(none), std::nullopt) << none;
 }
 
 class Recognise : public ::testing::Test {
