@@ -144,6 +144,7 @@ class Recogniser {
     for (std::size_t i = 0; i < all_.runs.size(); ++i)
       for (const char* key : {"muscle_pressure", "contraction"}) {
         const ColumnGuess* guess = map_of_run(i).find(key);
+        if (guess != nullptr && guess->quantity->key == "muscle_pressure" && !guess->input) continue;
         const Values* values = guess == nullptr ? nullptr : column_of(all_.tables[i], guess->column.value);
         if (values == nullptr || begins_still(*values, range_of(*values))) continue;
         moving.push_back(all_.runs[i].id);
