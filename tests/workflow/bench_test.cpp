@@ -28,17 +28,6 @@ TEST(BenchDiagnosis, NamesTheTubeThatPullsBack) {
   EXPECT_NE(found.because.find("the cord's force falls from"), std::string::npos) << found.because;
 }
 
-TEST(BenchDiagnosis, ZeroOfTheLengthIsFittedWhereItIsSaidToBeUncertain) {
-  plant::Rig truth;
-  truth.joint.length_offset_m = 2e-3;
-  domain::Dataset data = on_a_bench(truth, 0.5);
-  data.rig.spreads["joint.length_offset"] = 1e-3;
-  const Diagnosis found = diagnosis_of(data, 2);
-  EXPECT_TRUE(found.effects.empty()) << found.because;
-  EXPECT_EQ(found.verdict, Verdict::recalibrate) << found.because;
-  EXPECT_NEAR(found.corrected.joint.length_offset_m, 2e-3, 3e-4);
-}
-
 TEST(BenchDiagnosis, NamesNothingWhereNothingIsMissing) {
   const Diagnosis found = diagnosis_of(on_a_bench({}, 0.5), 2);
   EXPECT_TRUE(found.effects.empty()) << found.because;
