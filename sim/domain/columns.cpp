@@ -6,21 +6,22 @@
 #include <sim/domain/number.hpp>
 
 namespace mckibben::domain {
-namespace {
-
-/// As YAML takes it.
-std::string scalar(const std::string& text) {
+std::string yaml_scalar(const std::string& text) {
   const bool plain = !text.empty() && std::all_of(text.begin(), text.end(), [](unsigned char c) {
     return std::isalnum(c) != 0 || c == '_';
   });
-  return plain ? text : std::string(1, '"').append(text).append(1, '"');
+  if (plain) return text;
+  std::string quoted = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') quoted += '\\';
+    quoted += c;
+  }
+  return quoted + '"';
 }
-
-}  // namespace
 
 std::string line_of(std::string_view quantity, const ColumnPlace& place) {
   std::string line(quantity);
-  line += ": {column: " + scalar(place.column) + ", unit: " + scalar(place.unit);
+  line += ": {column: " + yaml_scalar(place.column) + ", unit: " + yaml_scalar(place.unit);
   if (place.zero != 0.0) line += ", zero: " + write_number(place.zero);
   if (place.factor != 1.0) line += ", factor: " + write_number(place.factor);
   return line + '}';

@@ -126,6 +126,9 @@ void ColumnMap::rules(Report& report) const {
         report(quantity.key, std::string("it stands in the same column as ").append(other->key));
 }
 
+/// A text as YAML takes it: in quotes, unless it is letters, digits and _.
+std::string yaml_scalar(const std::string& text);
+
 /// `QUANTITY: {column: C, unit: U, ...}`, as a data set's file says it.
 std::string line_of(std::string_view quantity, const ColumnPlace& place);
 

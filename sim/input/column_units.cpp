@@ -82,7 +82,11 @@ void check_said_units(const Table& table, const ColumnMap& map, TableProblems& p
     const Table::Column* column = table.find(quantity.column);
     const ColumnPlace& place = map.*quantity.place;
     if (column == nullptr || column->unit.empty() || column->is_date) continue;
-    if (std::abs(place.factor) != 1.0 || (!place.absent() && place.column != column->in_file)) continue;
+    const bool is_command_of_another_name =
+        place.absent() && quantity.key == "current" && !map.command.absent();
+    if (is_command_of_another_name || std::abs(place.factor) != 1.0 ||
+        (!place.absent() && place.column != column->in_file))
+      continue;
     const std::string taken = place.absent() ? std::string(quantity.unit) : place.unit;
     std::vector<double> one{1.0};
     const bool fits = taken == column->unit || unit_problem(column->unit, taken).empty();

@@ -47,13 +47,19 @@ bool is_row(const std::vector<Cell>& cells) {
   return numbers > 0 && 2 * (numbers + empty) >= static_cast<std::ptrdiff_t>(cells.size());
 }
 
+/// The same of a line between whose cells may stand anything: decimal commas look like separators.
+bool is_row(std::string_view line) {
+  return std::any_of(separators.begin(), separators.end(),
+                     [&](char separator) { return is_row(split_cells(line, separator)); });
+}
+
 void drop_empty_ends(std::vector<Cell>& cells, std::size_t least) {
   while (cells.size() > least && cells.back().text.empty()) cells.pop_back();
 }
 
 /// A line that may be the heading.
 struct Candidate {
-  std::size_t line = 0, cells = 0;
+  std::size_t line = 0, cells = 0;  ///< no cells: it is a row of numbers
   char separator = ',';
   std::ptrdiff_t missing = 0;  ///< names that are needed, and not there
 };
@@ -67,23 +73,25 @@ Candidate candidate_in(const Source& source, std::size_t line, std::optional<cha
     return column.needed && std::none_of(cells.begin(), cells.end(),
                                          [&](const Cell& cell) { return cell.text == column.in_file; });
   });
-  return {line, is_row(cells) ? 0 : cells.size(), separator, missing};
+  return {line, is_row(source.line(line)) ? 0 : cells.size(), separator, missing};
 }
 
 Candidate heading_of(const Source& source, std::span<const WantedColumn> wanted) {
   const std::optional<char> said = said_separator(source.line(1));
   const std::size_t first = said ? 2 : 1;
   std::vector<Candidate> seen;
-  std::size_t width = 0;  // of the first row of numbers
-  for (std::size_t line = first; line <= std::min(source.lines(), longest_head) && width == 0; ++line) {
+  std::string_view row;
+  for (std::size_t line = first; line <= std::min(source.lines(), longest_head) && row.empty(); ++line) {
     seen.push_back(candidate_in(source, line, said, wanted));
     if (!wanted.empty() && seen.back().missing == 0) return seen.back();
-    if (seen.back().cells == 0) width = split_cells(source.line(line), seen.back().separator).size();
+    if (seen.back().cells == 0) row = source.line(line);
   }
   if (seen.empty()) return {first, 0, said.value_or(','), 0};
+  const auto as_many = [&](const Candidate& one) {
+    return one.cells > 0 && split_cells(row, one.separator).size() == one.cells;
+  };
   const auto best = std::min_element(seen.begin(), seen.end(), [&](const Candidate& a, const Candidate& b) {
-    if (a.missing != b.missing) return a.missing < b.missing;
-    return a.cells == width && b.cells != width;
+    return a.missing != b.missing ? a.missing < b.missing : as_many(a) && !as_many(b);
   });
   return *best;
 }

@@ -51,6 +51,8 @@ class LvmReader {
       problems_.add({}, "there are no rows below the headers");
     return std::move(table_);
   }
+  /// Of the segment that was read.
+  const std::vector<Cell>& labels() const { return labels_; }
 
  private:
   /// What a header says: a key, and cells after it.
@@ -291,6 +293,18 @@ Table read_lvm(const Source& source, std::span<const WantedColumn> wanted, std::
                TableProblems& problems) {
   if (!check_text(source, problems)) return {};
   return LvmReader(source, wanted, segment, problems).read();
+}
+
+std::vector<std::string> lvm_channels(const Source& source) {
+  Problems problems;
+  TableProblems found(source, problems);
+  LvmReader reader(source, {}, 1, found);
+  reader.read();
+  std::vector<std::string> names;
+  for (const Cell& label : reader.labels())
+    if (!label.text.empty() && label.text != "X_Value" && label.text != "Comment")
+      names.emplace_back(label.text);
+  return names;
 }
 
 }  // namespace mckibben::input

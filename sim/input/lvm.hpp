@@ -5,6 +5,8 @@
 
 #include <cstddef>
 #include <span>
+#include <string>
+#include <vector>
 
 #include <sim/input/table.hpp>
 
@@ -15,5 +17,8 @@ namespace mckibben::input {
 /// one, from 1; 0 for all of them, one after the other.
 Table read_lvm(const Source& source, std::span<const WantedColumn> wanted, std::size_t segment,
                TableProblems& problems);
+
+/// The channels of the first segment, without those of time and of remarks; none if it cannot be read.
+std::vector<std::string> lvm_channels(const Source& source);
 
 }  // namespace mckibben::input

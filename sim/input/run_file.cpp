@@ -1,8 +1,6 @@
 // Formats of runs; see the header.
 #include <algorithm>
-#include <cctype>
 #include <charconv>
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <utility>
@@ -14,6 +12,7 @@
 #include <sim/input/column_hints.hpp>
 #include <sim/input/csv.hpp>
 #include <sim/input/dates.hpp>
+#include <sim/input/format.hpp>
 #include <sim/input/limits.hpp>
 #include <sim/input/lvm.hpp>
 #include <sim/input/mat.hpp>
@@ -26,19 +25,6 @@ namespace {
 
 constexpr double lowest_contraction = -0.2, highest_contraction = 1.0;
 constexpr double lowest_gauge_bar = -2.0, highest_gauge_bar = 100.0;  // a vacuum, and noise
-
-enum class Format { csv, lvm, mat, ascii };
-
-std::optional<Format> format_of(const std::string& file) {
-  std::string ending = std::filesystem::path(file).extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  if (ending == ".csv" || ending == ".tsv") return Format::csv;
-  if (ending == ".lvm") return Format::lvm;
-  if (ending == ".mat") return Format::mat;
-  if (ending == ".txt" || ending == ".dat" || ending == ".asc") return Format::ascii;
-  return std::nullopt;
-}
 
 /// What is looked for; problems are those of the map, shown in the data set's file.
 class Wanted {
@@ -183,11 +169,7 @@ void read_run_file(const YamlFile& file, const Node& node, const Dataset& datase
   const Place place = node.find("file")->place;
   const std::optional<Format> format = format_of(run.file);
   if (!format) {
-    problems.error(
-        file.source, place,
-        fmt::format("file = {}: its ending must tell its format: .csv, .lvm, .mat, or .txt, .dat, .asc "
-                    "for numbers without headings",
-                    run.file));
+    problems.error(file.source, place, fmt::format("file = {}: {}", run.file, format_rule));
     return;
   }
   if (run.segment != 0 && *format != Format::lvm)

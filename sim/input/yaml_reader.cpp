@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include <sim/domain/fill_in.hpp>
 #include <sim/input/number.hpp>
 #include <sim/input/quantity.hpp>
 #include <sim/input/suggest.hpp>
@@ -51,8 +52,13 @@ bool ValueReader::is_map() {
 const Node* ValueReader::take(std::string_view key) {
   known_.push_back(key);
   const Node* node = map_.find(key);
-  if (node == nullptr || node->kind != Node::Kind::null) return node;
-  bad(*node, fmt::format("{} has no value", key));
+  if (node == nullptr) return nullptr;
+  if (node->text == domain::fill_in)
+    bad(*node, fmt::format("{} = {}: nothing that was recorded tells it; write what it is", key, node->text));
+  else if (node->kind == Node::Kind::null)
+    bad(*node, fmt::format("{} has no value", key));
+  else
+    return node;
   return nullptr;
 }
 

@@ -106,7 +106,10 @@ class Processor {
                         run_.id, ratio, braid_.largest_contraction_ratio()));
     }
     constexpr double clearly_off = 0.15;  // a wrong count would give 0.25, a rounded table less than 0.1
-    if (off > clearly_off * static_cast<double>(counts_.size()))
+    counted_ = off <= clearly_off * static_cast<double>(counts_.size());
+    if (!counted_ && has_other_sensor())
+      take_as_read();
+    else if (!counted_)
       refuse(dataset_, fmt::format("run {}: contraction ratios are no multiples of this rig's encoder count "
                                    "({:.4e}): wrong rig? Its encoder, wheel_radius and rest_length decide",
                                    run_.id, per_count_));
@@ -114,6 +117,19 @@ class Processor {
       refuse(dataset_,
              fmt::format("run {} has no column muscle_pressure_bar, which pressure from the gauge needs",
                          run_.id));
+  }
+
+  /// Whether the data set names a unit of contraction that no encoder of ours has.
+  bool has_other_sensor() const {
+    const domain::ColumnPlace place = domain::merged(dataset_.columns, run_.columns).contraction;
+    return !place.absent() && place.unit != "count" && place.unit != "1";
+  }
+
+  /// What another sensor reads is not rounded; in place of counts stand steps as large as the thesis's.
+  void take_as_read() {
+    constexpr double thesis_count = 4.363e-4;
+    per_count_ = thesis_count;
+    for (std::size_t k = 0; k < counts_.size(); ++k) counts_[k] = run_.contraction_ratio[k] / per_count_;
   }
 
   void take(const HalfPeriod& half, ProcessedRun& result) {
@@ -139,7 +155,10 @@ class Processor {
     }
   }
 
-  double ratio(std::size_t k) const { return (counts_[k] + 0.5) * per_count_; }  // counts are rounded down
+  double ratio(std::size_t k) const {
+    const double rounded_off = counted_ ? 0.5 : 0.0;  // counts are rounded down
+    return (counts_[k] + rounded_off) * per_count_;
+  }
 
   double pressure_Pa(std::size_t k) const {
     if (options_.pressure == PressureSource::gauge) return (*run_.muscle_pressure_Pa)[k];
@@ -174,6 +193,7 @@ class Processor {
   const ProcessingOptions& options_;
   plant::Braid braid_;
   double per_count_;
+  bool counted_ = true;
   std::vector<double> counts_;
   std::size_t taken_ = 0;
 };

@@ -84,6 +84,7 @@ constexpr Case cases[] = {
     {0, "map cal/calibration.yaml --load '14 kg' --ratios 2 --speeds 1 --out r5"},
     {0, "replay still --out r6"},
     {0, "diagnose still --out r7"},
+    {0, "import still/r1.csv --out r14"},
     {0, "diff a b"},
     {0, "check quick.yaml campaign.yaml still"},
     {0, "effects"},

@@ -83,6 +83,23 @@ TEST(Processing, RecoversPlantedCoefficientsInBothDirections) {
   }
 }
 
+TEST(Processing, WhatALaserReadsIsNotTakenForCounts) {
+  domain::Dataset dataset;
+  domain::Run run = planted_run(dataset.rig, 16.0, 0.012, 0.013);
+  const double rise_m = plant::count_height_m(dataset.rig.encoder, dataset.rig.joint);
+  for (double& e : run.contraction_ratio) e += 0.5 * rise_m / dataset.rig.muscle.rest_length_m;
+  dataset.rig.encoder.pulses_per_turn = 137;
+  ProcessingOptions options;
+  options.acceleration = Acceleration::neglected;
+  EXPECT_THROW(process(run, dataset, options), domain::UnfitData) << "they should be counts of this encoder";
+  dataset.columns.contraction = {"laser", "mm"};
+  const ProcessedRun processed = process(run, dataset, options);
+  ASSERT_EQ(processed.unusable, "");
+  EXPECT_GT(processed.of(Direction::contraction).size(), 200u);
+  for (const double f : processed.of(Direction::contraction).coefficient) EXPECT_NEAR(f, 0.012, 1e-12);
+  for (const double f : processed.of(Direction::relaxation).coefficient) EXPECT_NEAR(f, 0.013, 1e-12);
+}
+
 TEST(Processing, InertiaIsTakenOffByDifferencesOfCounts) {
   domain::Dataset dataset;
   domain::Run run = planted_run(dataset.rig, 16.0, 0.012, 0.012);

@@ -1,0 +1,116 @@
+// A panel for each quantity; see recognised.hpp.
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include <sim/output/axes.hpp>
+#include <sim/output/recognised.hpp>
+#include <sim/output/svg.hpp>
+
+namespace mckibben::output {
+namespace {
+
+using recognise::ColumnGuess, recognise::Recognised;
+
+constexpr double drawn_width = 800.0, drawn_height = 150.0, drawn_left = 70.0, drawn_right = 20.0,
+                 drawn_gap = 56.0, drawn_top = 70.0;
+constexpr std::size_t most_points = 1600;  // two for each pixel
+
+/// A column of one run, over time or over rows.
+struct Line {
+  std::size_t run = 0;
+  std::vector<double> x, y;
+};
+
+std::vector<double> times_of(const Recognised& found, std::size_t run) {
+  const ColumnGuess* time = found.maps.front().find("time");
+  if (time != nullptr && !time->column.open()) return recognise::shown(found.tables[run], *time);
+  std::vector<double> rows(found.tables[run].columns.front().values.size());
+  for (std::size_t k = 0; k < rows.size(); ++k) rows[k] = static_cast<double>(k);
+  return rows;
+}
+
+std::vector<Line> lines_of(const Recognised& found, const ColumnGuess& guess) {
+  std::vector<Line> lines;
+  for (std::size_t i = 0; i < found.runs.size(); ++i)
+    if (found.runs[i].map == 0)
+      lines.push_back({i, times_of(found, i), recognise::shown(found.tables[i], guess)});
+  return lines;
+}
+
+std::string drawn(const Line& line, const Panel& panel) {
+  const std::size_t rows = std::min(line.x.size(), line.y.size()), step = 1 + rows / most_points;
+  std::string path;
+  bool down = false;
+  for (std::size_t k = 0; k < rows; k += step) {
+    const bool is_number = std::isfinite(line.x[k]) && std::isfinite(line.y[k]);
+    if (is_number)
+      path += fmt::format("{}{:.1f} {:.1f}", down ? "L" : "M", panel.x.px(line.x[k]), panel.y.px(line.y[k]));
+    down = is_number;
+  }
+  return fmt::format("<path fill='none' stroke='{}' stroke-width='1.3' d='{}'/>\n",
+                     colours[line.run % colours.size()], path);
+}
+
+std::string words_of(const ColumnGuess& guess) {
+  std::string words = fmt::format("{}: {} [{}]", guess.quantity->key, guess.column.value, guess.unit.value);
+  if (guess.zero) words += " - " + guess.zero->value;
+  if (guess.factor) words += " x " + guess.factor->value;
+  return escaped(words + (guess.input ? ", drives the simulation" : ""));
+}
+
+std::string panel_svg(const Recognised& found, const ColumnGuess& guess, double top_px) {
+  Panel panel{.x = {drawn_left, drawn_left + drawn_width},
+              .y = {top_px + drawn_height, top_px},
+              .words_px = drawn_left - 10.0};
+  const std::vector<Line> lines = lines_of(found, guess);
+  for (const Line& line : lines) {
+    for (const double x : line.x) panel.x.hold(x);
+    for (const double y : line.y) panel.y.hold(y);
+  }
+  panel.x.widen();
+  panel.y.widen();
+  std::string svg = panel.heading(words_of(guess)) + panel.across(round_numbers(panel.x, 8), "") +
+                    panel.upwards(round_numbers(panel.y, 5), "") + panel.frame();
+  for (const Line& line : lines) svg += drawn(line, panel);
+  return svg;
+}
+
+std::string legend(const Recognised& found) {
+  constexpr std::size_t most_names = 7;
+  std::string svg;
+  double x_px = drawn_left;
+  for (std::size_t i = 0; i < std::min(found.runs.size(), most_names); ++i) {
+    const std::string name = found.runs[i].id + (found.runs[i].load ? ", " + found.runs[i].load->value : "");
+    svg += fmt::format("<text x='{:.0f}' y='38' fill='{}'>{}</text>\n", x_px, colours[i % colours.size()],
+                       escaped(name));
+    x_px += 16.0 + 6.8 * static_cast<double>(name.size());
+  }
+  return svg;
+}
+
+}  // namespace
+
+std::string picture_of(const Recognised& found) {
+  const ColumnGuess* time = found.maps.front().find("time");
+  std::vector<const ColumnGuess*> drawn_ones;
+  for (const ColumnGuess& guess : found.maps.front().columns)
+    if (guess.quantity->key != "time" && !guess.column.open()) drawn_ones.push_back(&guess);
+  const double height = drawn_top + static_cast<double>(drawn_ones.size()) * (drawn_height + drawn_gap);
+  std::string svg = svg_begin(drawn_left + drawn_width + drawn_right, height);
+  const std::string over = time == nullptr || time->column.open()
+                               ? "rows"
+                               : fmt::format("{} [{}]", time->column.value, time->unit.value);
+  svg += fmt::format("<text x='{}' y='20' font-weight='bold'>What was understood, over {}</text>\n",
+                     drawn_left, escaped(over)) +
+         legend(found);
+  double top_px = drawn_top;
+  for (const ColumnGuess* guess : drawn_ones) {
+    svg += panel_svg(found, *guess, top_px);
+    top_px += drawn_height + drawn_gap;
+  }
+  return svg + "</svg>\n";
+}
+
+}  // namespace mckibben::output

@@ -1,0 +1,161 @@
+// See the header.
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <sim/input/column_units.hpp>
+#include <sim/input/quantity.hpp>
+#include <sim/recognise/columns.hpp>
+#include <sim/recognise/headings.hpp>
+
+namespace mckibben::recognise {
+namespace {
+
+constexpr double least_correlation = 0.5, least_zero_share = 0.01, digits_of_range = 1e-4;
+
+/// A column, and what its heading says.
+struct Named {
+  const UnknownColumn* column;
+  Heading heading;
+};
+
+Told unit_told(const Heading& heading) {
+  if (heading.unit_fits) return {heading.unit, fmt::format("the table says {}", heading.unit)};
+  if (heading.unit.empty()) return left_open("the table says no unit");
+  return left_open(
+      fmt::format("the table says {}, which is none of {}: write unit, zero and factor of the sensor",
+                  heading.unit, heading.quantity->key));
+}
+
+/// The key under which a data set names it.
+const domain::Quantity* quantity_for(const domain::Quantity& quantity, const Told& unit) {
+  const bool is_current = quantity.key == "command" && !unit.open() && input::is_current(unit.value);
+  return is_current ? &quantity_of("current") : &quantity;
+}
+
+ColumnGuess guess_of(const domain::Quantity& quantity, const std::vector<const Named*>& candidates) {
+  std::vector<std::string> names;
+  for (const Named* each : candidates) {
+    if (each->column->name == quantity.column || candidates.size() == 1) {
+      const Told unit = unit_told(each->heading);
+      return {quantity_for(quantity, unit), {each->column->name, each->heading.reason}, unit, {}, {}, {}};
+    }
+    names.push_back(each->column->name);
+  }
+  const std::string why = names.empty() ? "no column seems to hold it"
+                                        : fmt::format("it may be any of: {}", fmt::join(names, "; "));
+  return {&quantity, left_open(why), left_open("it goes with the column"), {}, {}, {}};
+}
+
+/// Sign and zero of a contraction, by how it goes along with what drives the muscle.
+void sign_and_zero(ColumnGuess& contraction, const ColumnGuess& drive,
+                   const std::vector<const UnknownTable*>& tables) {
+  std::vector<const Values*> drives, readings;
+  Range range{1e300, -1e300}, driven = range;
+  for (const UnknownTable* table : tables) {
+    drives.push_back(column_of(*table, drive.column.value));
+    readings.push_back(column_of(*table, contraction.column.value));
+    if (drives.back() == nullptr || readings.back() == nullptr) return;
+    const Range own = range_of(*readings.back()), of_drive = range_of(*drives.back());
+    range = {std::min(range.low, own.low), std::max(range.high, own.high)};
+    driven.low = std::min(driven.low, of_drive.low);
+  }
+  const Together found = together(drives, readings);
+  const std::string along = fmt::format("correlation with {} {:.2f}", drive.column.value, found.correlation);
+  if (std::abs(found.correlation) < least_correlation) {
+    contraction.factor =
+        left_open(along + ": too little to tell its sign; 1 if it grows as the muscle contracts, else -1");
+    contraction.zero = left_open("what it reads with the muscle at its rest length");
+    return;
+  }
+  if (found.correlation < 0.0) contraction.factor = Told{"-1", "it falls as the muscle contracts, " + along};
+  const bool from_rest =
+      contraction.unit.value == "1" || contraction.unit.value == "%" || contraction.unit.value == "count";
+  const double span = range.high - range.low;
+  if ((from_rest && found.correlation > 0.0) || std::abs(found.at_least_drive) < least_zero_share * span)
+    return;
+  const double step = std::pow(10.0, std::floor(std::log10(digits_of_range * span)));
+  contraction.zero =
+      Told{fmt::format("{:.12g}", std::round(found.at_least_drive / step) * step),
+           fmt::format("its median where {} is lowest, {:.4g}: is the muscle at rest length there?",
+                       drive.column.value, driven.low)};
+}
+
+/// Numbers without headings: a column that ascends by itself is the time.
+std::vector<Named> with_time_by_numbers(const UnknownTable& table, std::vector<Named> named) {
+  if (table.has_headings) return named;
+  for (Named& each : named) {
+    const Clock clock = clock_of(each.column->values);
+    if (!clock.ascends || clock.step_s <= 0.0) continue;
+    each.heading = {&quantity_of("time"), "", false, "it ascends from row to row"};
+    break;
+  }
+  return named;
+}
+
+std::string range_in_words(const UnknownColumn& column) {
+  const Range range = range_of(column.values);
+  return fmt::format("{:.4g} to {:.4g}", range.low, range.high);
+}
+
+}  // namespace
+
+const Values* column_of(const UnknownTable& table, const std::string& name) {
+  const auto found = std::find_if(table.columns.begin(), table.columns.end(),
+                                  [&](const UnknownColumn& each) { return each.name == name; });
+  return found == table.columns.end() ? nullptr : &found->values;
+}
+
+const ColumnGuess* drive_of(const MapGuess& map) {
+  for (const char* key : {"current", "command", "muscle_pressure"})
+    if (const ColumnGuess* guess = map.find(key); guess != nullptr && !guess->column.open()) return guess;
+  return nullptr;
+}
+
+MapGuess map_of(const std::vector<const UnknownTable*>& tables) {
+  const UnknownTable& table = *tables.front();
+  std::vector<Named> named;
+  for (const UnknownColumn& column : table.columns) named.push_back({&column, heading_of(column)});
+  named = with_time_by_numbers(table, std::move(named));
+  const auto candidates = [&](std::string_view key) {
+    std::vector<const Named*> list;
+    for (const Named& each : named)
+      if (each.heading.quantity != nullptr && (each.heading.quantity->key == key ||
+                                               (key == "command" && each.heading.quantity->key == "current")))
+        list.push_back(&each);
+    return list;
+  };
+  MapGuess map;
+  const bool has_pressure = !candidates("muscle_pressure").empty(), has_force = !candidates("force").empty();
+  for (const char* key : {"time", "command", "contraction", "muscle_pressure", "force"}) {
+    const std::string_view quantity = key;
+    const auto found = candidates(quantity);
+    const bool may_lack = (quantity == "time" && (table.time_is_inside || table.has_headings)) ||
+                          (quantity == "command" && has_pressure) ||
+                          (quantity == "contraction" && has_force) || quantity == "muscle_pressure" ||
+                          quantity == "force";
+    if (!found.empty() || !may_lack) map.columns.push_back(guess_of(quantity_of(quantity), found));
+  }
+  if (candidates("time").empty() && !table.time_is_inside) {
+    if (table.has_headings) map.rows_are_ticks = Told{"true", "no column seems to hold time"};
+  }
+  for (const Named& each : named)
+    if (each.heading.quantity == nullptr)
+      map.ignored.push_back(
+          {each.column->name, fmt::format("{}; {}", each.heading.reason, range_in_words(*each.column))});
+  for (const std::string& words : table.words) map.ignored.push_back({words, "it holds no numbers"});
+  if (candidates("command").empty())
+    for (ColumnGuess& guess : map.columns)
+      if (guess.quantity->key == "muscle_pressure" && has_pressure)
+        guess.input = Told{"input", "no command was recorded, so that the pressure drives the simulation"};
+  const ColumnGuess* drive = drive_of(map);
+  for (ColumnGuess& guess : map.columns)
+    if (guess.quantity->key == "contraction" && drive != nullptr && !guess.column.open())
+      sign_and_zero(guess, *drive, tables);
+  return map;
+}
+
+}  // namespace mckibben::recognise

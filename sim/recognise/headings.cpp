@@ -1,0 +1,140 @@
+// Words of headings; see the header.
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <sim/input/csv_layout.hpp>
+#include <sim/input/dates.hpp>
+#include <sim/input/quantity.hpp>
+#include <sim/recognise/headings.hpp>
+
+namespace mckibben::recognise {
+namespace {
+
+using Words = std::vector<std::string>;
+
+struct Vocabulary {
+  std::string_view key;
+  Words words;
+};
+
+/// What is asked first wins: a set pressure is a command, whatever its unit.
+const std::vector<Vocabulary>& vocabularies() {
+  static const std::vector<Vocabulary> all{
+      {"",
+       {"supply", "tank", "versorgung", "speise", "ambient", "temperature", "temperatur", "temp", "index"}},
+      {"command",
+       {"set", "setpoint", "soll", "sollwert", "ref", "reference", "command", "cmd", "demand", "desired",
+        "target", "stellgröße", "stellgroesse", "consigne", "ao0", "ao1", "dac"}},
+      {"time",
+       {"t", "time", "zeit", "temps", "timestamp", "stamp", "date", "datetime", "datum", "uhrzeit", "clock",
+        "elapsed", "zeitstempel"}},
+      {"force", {"f", "force", "kraft", "loadcell", "kraftsensor"}},
+      {"muscle_pressure",
+       {"p", "pressure", "druck", "pm", "gauge", "manometer", "manometre", "pression", "pmuscle"}},
+      {"contraction",
+       {"contraction", "kontraktion", "strain", "eps",     "epsilon", "laser",       "distance", "abstand",
+        "position",    "pos",         "weg",    "hub",     "travel",  "length",      "länge",    "laenge",
+        "x",           "y",           "stroke", "encoder", "counts",  "wheel",       "angle",    "winkel",
+        "rope",        "height",      "höhe",   "lvdt",    "poti",    "displacement"}},
+      {"command", {"u", "i", "current", "strom", "voltage", "spannung", "valve", "ventil"}}};
+  return all;
+}
+
+/// Letters of a word, in lower case; bytes of UTF-8 stay as they are, but for umlauts.
+Words words_of(std::string_view text) {
+  Words words{""};
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte >= 0x80 || std::isalnum(byte) != 0)
+      words.back() += byte >= 0x80 ? c : static_cast<char>(std::tolower(byte));
+    else if (!words.back().empty())
+      words.emplace_back();
+  }
+  if (words.back().empty()) words.pop_back();
+  return words;
+}
+
+/// What stands in brackets, or behind the last _, blank or slash; and what stands before.
+struct Split {
+  std::string_view before, behind;
+  bool in_brackets = false;
+};
+Split split_unit(std::string_view name) {
+  if (name.ends_with(']') || name.ends_with(')')) {
+    const std::size_t open = name.find_last_of("[(");
+    if (open != std::string_view::npos && open > 0)
+      return {name.substr(0, open), name.substr(open + 1, name.size() - open - 2), true};
+  }
+  const std::size_t at = name.find_last_of("_ /");
+  if (at == std::string_view::npos || at == 0) return {name, {}, false};
+  return {name.substr(0, at), name.substr(at + 1), false};
+}
+
+bool is_unit_of(std::string_view key, std::string_view unit) {
+  const auto fits = [&](std::string_view wanted) { return input::unit_problem(unit, wanted).empty(); };
+  if (unit.empty()) return false;
+  if (key == "time") return unit == input::date_unit || fits("s");
+  if (key == "command") return fits("mA") || fits("V") || fits("bar");
+  if (key == "contraction") return unit == "1" || unit == "%" || unit == "count" || fits("m") || fits("rad");
+  return fits(quantity_of(key).unit);
+}
+
+/// What a unit alone tells; a voltage may be anything.
+std::string_view key_of_unit(std::string_view unit) {
+  const auto fits = [&](std::string_view wanted) { return input::unit_problem(unit, wanted).empty(); };
+  if (unit.empty()) return "";
+  if (unit == input::date_unit || fits("s")) return "time";
+  if (fits("mA")) return "command";
+  if (fits("bar")) return "muscle_pressure";
+  if (fits("N")) return "force";
+  return fits("m") || fits("rad") || unit == "count" ? "contraction" : "";
+}
+
+}  // namespace
+
+const domain::Quantity& quantity_of(std::string_view key) {
+  return *std::find_if(domain::quantities.begin(), domain::quantities.end(),
+                       [&](const domain::Quantity& each) { return each.key == key; });
+}
+
+Heading heading_of(const UnknownColumn& column) {
+  for (const domain::Quantity& each : domain::quantities)
+    if (column.name == each.column) return {&each, std::string(each.unit), true, "it has our own name"};
+  const Split split = split_unit(column.name);
+  Heading heading;
+  heading.unit = !column.unit.empty() ? column.unit : input::unit_word(split.behind);
+  if (column.is_date) heading.unit = input::date_unit;
+  const bool is_suffix = column.unit.empty() && !split.in_brackets && !column.is_date;
+  const Words words = words_of(split.in_brackets ? split.before : std::string_view(column.name));
+  std::string_view key;
+  std::string told;
+  for (const Vocabulary& each : vocabularies()) {
+    const auto word = std::find_if(words.begin(), words.end(), [&](const std::string& one) {
+      return std::find(each.words.begin(), each.words.end(), one) != each.words.end();
+    });
+    if (word == words.end()) continue;
+    if (each.key.empty()) return {nullptr, heading.unit, false, fmt::format("its word `{}`", *word)};
+    key = each.key;
+    told = fmt::format("its word `{}`", *word);
+    break;
+  }
+  if (column.is_date) key = "time";
+  if (key.empty() && !(is_suffix && heading.unit.size() < 2)) {
+    key = key_of_unit(heading.unit);
+    if (!key.empty()) told = fmt::format("its unit {}", heading.unit);
+  }
+  if (column.is_date) told = "it holds dates";
+  if (key.empty()) return {nullptr, heading.unit, false, "neither its words nor its unit tell"};
+  heading.quantity = &quantity_of(key);
+  heading.unit_fits = is_unit_of(key, heading.unit);
+  if (is_suffix && !heading.unit_fits) heading.unit.clear();
+  heading.reason = std::move(told);
+  return heading;
+}
+
+}  // namespace mckibben::recognise

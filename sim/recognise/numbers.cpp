@@ -1,0 +1,84 @@
+// See the header.
+#include <algorithm>
+#include <cmath>
+
+#include <sim/recognise/numbers.hpp>
+
+namespace mckibben::recognise {
+namespace {
+
+constexpr double lowest_share = 0.02, still_share = 0.01;
+constexpr std::size_t rows_of_a_beginning = 5;
+
+double median(Values values) {
+  if (values.empty()) return 0.0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+}  // namespace
+
+Clock clock_of(const Values& time_s) {
+  Clock clock;
+  if (time_s.size() < 2) return clock;
+  Values steps;
+  for (std::size_t k = 1; k < time_s.size(); ++k) steps.push_back(time_s[k] - time_s[k - 1]);
+  clock.begin_s = time_s.front();
+  clock.ascends = std::all_of(steps.begin(), steps.end(), [](double step) { return step > 0.0; });
+  // The middle of all steps is not spoilt by a gap; the mean of the even ones has more digits.
+  const double middle = median(steps);
+  double sum = 0.0, number = 0.0;
+  for (const double step : steps)
+    if (std::abs(step - middle) < 0.01 * std::abs(middle)) {
+      sum += step;
+      ++number;
+    }
+  clock.step_s = number > 0.0 ? sum / number : middle;
+  for (std::size_t k = 0; k < time_s.size(); ++k)
+    clock.jitter_s =
+        std::max(clock.jitter_s, std::abs(time_s[k] - clock.begin_s - static_cast<double>(k) * clock.step_s));
+  return clock;
+}
+
+Range range_of(const Values& values) {
+  Range range{1e300, -1e300};
+  for (const double value : values)
+    if (!std::isnan(value)) range = {std::min(range.low, value), std::max(range.high, value)};
+  return range.low > range.high ? Range{} : range;
+}
+
+Together together(const std::vector<const Values*>& drive, const std::vector<const Values*>& reading) {
+  Range range{1e300, -1e300};
+  double n = 0.0, sx = 0.0, sy = 0.0, sxx = 0.0, syy = 0.0, sxy = 0.0;
+  const auto each = [&](const auto& use) {
+    for (std::size_t i = 0; i < drive.size(); ++i)
+      for (std::size_t k = 0; k < std::min(drive[i]->size(), reading[i]->size()); ++k)
+        if (const double x = (*drive[i])[k], y = (*reading[i])[k]; !std::isnan(x) && !std::isnan(y))
+          use(x, y);
+  };
+  each([&](double x, double y) {
+    range = {std::min(range.low, x), std::max(range.high, x)};
+    ++n;
+    sx += x;
+    sy += y;
+  });
+  if (n < 2.0) return {};
+  Values lowest;
+  each([&](double x, double y) {  // from the means, so that large zeros do not eat the digits
+    sxx += (x - sx / n) * (x - sx / n);
+    syy += (y - sy / n) * (y - sy / n);
+    sxy += (x - sx / n) * (y - sy / n);
+    if (x <= range.low + lowest_share * (range.high - range.low)) lowest.push_back(y);
+  });
+  const double spread = std::sqrt(sxx * syy);
+  return {spread > 0.0 ? sxy / spread : 0.0, median(std::move(lowest))};
+}
+
+bool begins_still(const Values& values, const Range& range) {
+  const std::size_t rows = std::min(values.size(), std::max(rows_of_a_beginning, values.size() / 200));
+  const Range first = range_of({values.begin(), values.begin() + static_cast<std::ptrdiff_t>(rows)});
+  return first.high - first.low <= still_share * (range.high - range.low);
+}
+
+}  // namespace mckibben::recognise

@@ -1,0 +1,272 @@
+// Tables alike share a map; clock, loads and rig follow; see the header.
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include <fmt/format.h>
+
+#include <sim/domain/number.hpp>
+#include <sim/input/column_units.hpp>
+#include <sim/input/dates.hpp>
+#include <sim/input/file_names.hpp>
+#include <sim/input/number.hpp>
+#include <sim/input/quantity.hpp>
+#include <sim/recognise/columns.hpp>
+#include <sim/recognise/names.hpp>
+
+namespace mckibben::recognise {
+
+const ColumnGuess* MapGuess::find(std::string_view key) const {
+  const auto found = std::find_if(columns.begin(), columns.end(),
+                                  [&](const ColumnGuess& each) { return each.quantity->key == key; });
+  return found == columns.end() ? nullptr : &*found;
+}
+
+std::size_t Recognised::open() const {
+  std::size_t count = 0;
+  const auto add = [&](const Told& told) { count += told.open() ? 1 : 0; };
+  for (const MapGuess& map : maps)
+    for (const ColumnGuess& guess : map.columns) {
+      add(guess.column);
+      add(guess.unit);
+      if (guess.zero) add(*guess.zero);
+      if (guess.factor) add(*guess.factor);
+    }
+  for (const RunGuess& run : runs)
+    if (run.load) add(*run.load);
+  for (const Setting& each : dataset) add(each.told);
+  for (const Setting& each : rig) add(each.told);
+  return count;
+}
+
+std::vector<double> shown(const UnknownTable& table, const ColumnGuess& guess) {
+  const Values* values = column_of(table, guess.column.value);
+  if (values == nullptr) return {};
+  Values brought = *values;
+  const auto number = [](const std::optional<Told>& told, double otherwise) {
+    return told ? input::parse_number(told->value).value_or(otherwise) : otherwise;
+  };
+  for (double& value : brought) value = (value - number(guess.zero, 0.0)) * number(guess.factor, 1.0);
+  return brought;
+}
+
+namespace {
+
+constexpr double even_s = 1e-6, even_ratio = 2e-7;  // as readers have it of ticks
+constexpr double shortest_tick_s = 1e-4, longest_tick_s = 1.0;
+constexpr double atmosphere_bar = 1.0133;
+
+/// Understands tables that have been read.
+class Recogniser {
+ public:
+  explicit Recogniser(Recognised& all) : all_(all) {}
+
+  void operator()(bool rig_is_known) {
+    maps();
+    runs();
+    clocks();
+    start();
+    if (!rig_is_known) rig();
+  }
+
+ private:
+  const MapGuess& map_of_run(std::size_t run) const { return all_.maps[all_.runs[run].map]; }
+  const MapGuess& first_map() const { return all_.maps.front(); }
+
+  void maps() {
+    std::map<std::string, std::size_t> known;
+    std::vector<std::vector<const UnknownTable*>> groups;
+    for (const UnknownTable& table : all_.tables) {
+      std::string names;
+      for (const UnknownColumn& column : table.columns)
+        names += fmt::format("{}\n{}\n{}\n", column.name, column.unit, column.is_date);
+      const auto [place, is_new] = known.try_emplace(names, groups.size());
+      if (is_new) groups.emplace_back();
+      groups[place->second].push_back(&table);
+      all_.runs.push_back({"", place->second, {}});
+    }
+    for (const auto& group : groups) all_.maps.push_back(map_of(group));
+  }
+
+  void runs() {
+    std::map<std::string, int> used;
+    bool any = false;
+    for (std::size_t i = 0; i < all_.runs.size(); ++i) {
+      const std::string name = input::made_file_safe(all_.tables[i].path.stem().string());
+      const int earlier = used[name]++;
+      all_.runs[i].id = earlier == 0 ? name : fmt::format("{}_{}", name, earlier + 1);
+      if (const auto load = load_of(all_.tables[i])) all_.runs[i].load = Told{load->quantity, load->reason};
+      any = any || all_.runs[i].load.has_value();
+    }
+    held_ = !any && first_map().find("force") != nullptr;
+    if (held_) return;
+    for (RunGuess& run : all_.runs)
+      if (!run.load)
+        run.load = left_open("neither file, folder nor the lines above its headings name a mass");
+  }
+
+  /// Stamps of a run in seconds; empty where they are not known.
+  Values time_s(std::size_t run) const {
+    const ColumnGuess* time = map_of_run(run).find("time");
+    if (time == nullptr || time->unit.open()) return {};
+    const Values* stamps = column_of(all_.tables[run], time->column.value);
+    if (stamps == nullptr) return {};
+    Values seconds = *stamps;
+    if (time->unit.value != input::date_unit) input::convert_units(seconds, time->unit.value, "s");
+    return seconds;
+  }
+
+  void clocks() {
+    bool even = true;
+    double jitter_s = 0.0, first_s = 0.0;
+    for (std::size_t i = 0; i < all_.runs.size(); ++i) {
+      const Values seconds = time_s(i);
+      if (seconds.size() < 2) continue;
+      const Clock clock = clock_of(seconds);
+      if (step_s_ == 0.0) step_s_ = clock.step_s;
+      const double allowed_s = even_s + even_ratio * (seconds.back() - clock.begin_s);
+      even = even && clock.begin_s == 0.0 && clock.jitter_s <= allowed_s &&
+             std::abs(clock.step_s - step_s_) <= even_ratio * step_s_;
+      jitter_s = std::max(jitter_s, clock.jitter_s);
+      first_s = clock.begin_s != 0.0 ? clock.begin_s : first_s;
+    }
+    even_ = even && step_s_ >= shortest_tick_s && step_s_ <= longest_tick_s;
+    clock_ = even_ ? fmt::format("all stamps are {:.6g} ms apart", 1e3 * step_s_)
+             : first_s != 0.0
+                 ? fmt::format("stamps {:.6g} ms apart begin at {:.6g} s, not at 0", 1e3 * step_s_, first_s)
+                 : fmt::format("stamps about {:.6g} ms apart are uneven, by up to {:.3g} ms", 1e3 * step_s_,
+                               1e3 * jitter_s);
+  }
+
+  void start() {
+    if (held_) return;
+    std::vector<std::string> moving;
+    for (std::size_t i = 0; i < all_.runs.size(); ++i)
+      for (const char* key : {"muscle_pressure", "contraction"}) {
+        const ColumnGuess* guess = map_of_run(i).find(key);
+        if (guess != nullptr && guess->quantity->key == "muscle_pressure" && !guess->input) continue;
+        const Values* values = guess == nullptr ? nullptr : column_of(all_.tables[i], guess->column.value);
+        if (values == nullptr || begins_still(*values, range_of(*values))) continue;
+        moving.push_back(all_.runs[i].id);
+        break;
+      }
+    const bool commanded = first_map().find("current") != nullptr;
+    if (moving.empty() && even_ && commanded) return;  // a row each tick, from rest
+    if (moving.empty() && first_map().find("time") == nullptr) return;
+    all_.dataset.push_back(
+        {"start", moving.empty()
+                      ? Told{"settled", "each run begins with nothing moving; " + clock_}
+                      : Told{"moving", fmt::format("{} run{} on the way, such as {}; {}", moving.size(),
+                                                   moving.size() == 1 ? " begins" : "s begin", moving.front(),
+                                                   clock_)}});
+  }
+
+  void set(const char* key, Told told) { all_.rig.push_back({key, std::move(told)}); }
+
+  void rig() {
+    set("muscle.rest_length",
+        left_open("from end to end of the braid, without pressure and load: 180 mm ± 1 mm"));
+    set("muscle.rest_radius", left_open("of the braid, without pressure: 6 mm ± 0.2 mm"));
+    set("muscle.braid_angle", left_open("between threads and axis, without pressure: 23 deg ± 1 deg"));
+    valve();
+    const ColumnGuess* contraction = first_map().find("contraction");
+    const std::string unit = contraction == nullptr ? "" : contraction->unit.value;
+    if (unit == "count" || (!unit.empty() && input::unit_problem(unit, "rad").empty()))
+      set("joint.wheel_radius", left_open("of the wheel on which the cord lies"));
+    if (unit == "count") {
+      set("encoder.pulses_per_turn", left_open("of the encoder's disk"));
+      set("encoder.wheel_ratio", left_open("turns of the disk for one of the wheel"));
+    }
+    if (const ColumnGuess* pressure = first_map().find("muscle_pressure");
+        pressure != nullptr && !pressure->input)
+      set("gauge.fitted", {"true", "a muscle pressure was recorded" + absolute(*pressure)});
+    if (held_)
+      set("mechanics",
+          left_open(
+              "no load is named, and a force was read: {kind: held_length}, and contraction with as: input; "
+              "or leave this out, and give each run its load"));
+    if (first_map().rows_are_ticks)
+      set("tick", left_open("time between two rows"));
+    else if (step_s_ > 0.0)
+      set("tick",
+          {fmt::format("{:.6g} ms", 1e3 * std::clamp(step_s_, shortest_tick_s, longest_tick_s)), clock_});
+  }
+
+  /// What speaks for absolute pressures.
+  std::string absolute(const ColumnGuess& pressure) const {
+    const Values* values = column_of(all_.tables.front(), pressure.column.value);
+    if (values == nullptr || pressure.unit.open()) return "";
+    Values low{range_of(*values).low};
+    input::convert_units(low, pressure.unit.value, "bar");
+    if (low.front() < 0.95 * atmosphere_bar || low.front() > 1.05 * atmosphere_bar) return "";
+    return fmt::format(
+        "; its lowest is {:.4g} bar: if it is absolute, give the column zero: 1.013 bar in its unit",
+        low.front());
+  }
+
+  void valve() {
+    const ColumnGuess* command = drive_of(first_map());
+    if (command == nullptr || command->quantity->key == "muscle_pressure") return;
+    Range range{1e300, -1e300};
+    for (std::size_t i = 0; i < all_.runs.size(); ++i)
+      if (const Values* values = column_of(all_.tables[i], command->column.value)) {
+        const Range own = range_of(*values);
+        range = {std::min(range.low, own.low), std::max(range.high, own.high)};
+      }
+    std::string unit = command->unit.open() ? "" : command->unit.value;
+    for (const char* ours : {"mA", "V", "bar"})
+      if (!unit.empty() && input::unit_problem(unit, ours).empty()) {
+        Values ends{range.low, range.high};
+        input::convert_units(ends, unit, ours);
+        range = {ends[0], ends[1]};
+        unit = ours;
+        break;
+      }
+    const std::string recorded =
+        unit.empty() ? "" : fmt::format("{:.4g} to {:.4g} {} were recorded", range.low, range.high, unit);
+    constexpr double slack = 1.01;
+    if (unit == "bar") {
+      const std::string span = fmt::format("{} bar", std::ceil(range.high));
+      command_range("0 bar", span, "a command in bar is the pressure itself; " + recorded);
+      pressure_range({"0 bar", "as the command"}, {span, "as the command"});
+      return;
+    }
+    if (unit == "mA" && range.high <= 20.0 * slack) {
+      set("valve.zero_current", {"4 mA", "4 to 20 mA is usual; " + recorded});
+      set("valve.span_current", {"20 mA", "4 to 20 mA is usual; " + recorded});
+    } else if (unit == "V" && range.high > 5.0 * slack && range.high <= 10.0 * slack) {
+      command_range("0 V", "10 V", "0 to 10 V is usual; " + recorded);
+    } else {
+      set("valve.zero_command", left_open("command at zero_pressure; " + recorded));
+      set("valve.span_command", left_open("command at span_pressure; " + recorded));
+    }
+    pressure_range(left_open("gauge pressure at the lower end of the commands"),
+                   left_open("gauge pressure at their upper end"));
+  }
+
+  void command_range(const char* zero, const std::string& span, const std::string& reason) {
+    set("valve.zero_command", {zero, reason});
+    set("valve.span_command", {span, reason});
+  }
+  void pressure_range(Told zero, Told span) {
+    set("valve.zero_pressure", std::move(zero));
+    set("valve.span_pressure", std::move(span));
+    set("valve.supply_pressure", left_open("gauge pressure of the supply"));
+  }
+
+  Recognised& all_;
+  double step_s_ = 0.0;
+  bool even_ = false, held_ = false;
+  std::string clock_;
+};
+
+}  // namespace
+
+Recognised recognise(const std::vector<std::filesystem::path>& files, bool rig_is_known) {
+  Recognised all;
+  for (const auto& file : files) all.tables.push_back(read_unknown(file));
+  Recogniser{all}(rig_is_known);
+  return all;
+}
+
+}  // namespace mckibben::recognise

@@ -1,0 +1,71 @@
+// What tables that nobody described seem to hold: which column is what, in which unit, with which sign and
+// zero, which loads hung there, and what follows for the rig. Every guess has its reason; where nothing
+// tells, it is left open and stands as FILL_IN in the files, which no reader takes.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <sim/domain/columns.hpp>
+#include <sim/domain/fill_in.hpp>
+#include <sim/recognise/unknown_table.hpp>
+
+namespace mckibben::recognise {
+
+/// A value as a file says it, and what told it.
+struct Told {
+  std::string value, reason;
+  bool open() const { return value == domain::fill_in; }
+};
+inline Told left_open(std::string reason) {
+  return {std::string(domain::fill_in), std::move(reason)};
+}
+
+struct ColumnGuess {
+  const domain::Quantity* quantity = nullptr;
+  Told column, unit;
+  std::optional<Told> zero, factor;  ///< none: 0 and 1
+  std::optional<Told> input;         ///< it drives the simulation
+};
+
+/// A map from quantities to columns, for tables whose columns have the same names.
+struct MapGuess {
+  std::vector<ColumnGuess> columns;
+  std::vector<Told> ignored;  ///< names of columns, and why
+  std::optional<Told> rows_are_ticks;
+
+  const ColumnGuess* find(std::string_view key) const;
+};
+
+struct RunGuess {
+  std::string id;
+  std::size_t map = 0;  ///< of `Recognised::maps`
+  std::optional<Told> load;
+};
+
+/// A key of a file: `valve.span_command`.
+struct Setting {
+  std::string key;
+  Told told;
+};
+
+struct Recognised {
+  std::vector<UnknownTable> tables;
+  std::vector<RunGuess> runs;    ///< one for each table
+  std::vector<MapGuess> maps;    ///< the first is that of the data set
+  std::vector<Setting> dataset;  ///< its keys besides rig, columns and runs
+  std::vector<Setting> rig;
+
+  /// How many values are left to be filled in.
+  std::size_t open() const;
+};
+
+/// Reads and understands. `rig_is_known`: nothing is to be said of it. Throws MissingInput, BadInput.
+Recognised recognise(const std::vector<std::filesystem::path>& files, bool rig_is_known);
+
+/// The numbers of a table's column as the map brings them to the unit that is said; empty if none is named.
+std::vector<double> shown(const UnknownTable& table, const ColumnGuess& guess);
+
+}  // namespace mckibben::recognise

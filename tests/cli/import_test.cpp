@@ -1,0 +1,92 @@
+// The verb import from end to end: what it leaves open is refused until it is filled in, and then it replays;
+// nothing that was edited is lost.
+#include <regex>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include <sim/input/json.hpp>
+
+#include "program.hpp"
+
+namespace mckibben::cli {
+namespace {
+
+constexpr const char* another_rig =
+    "schema: mckibben-rig/1\nmuscle: {rest_length: 180 mm, rest_radius: 6 mm, braid_angle: 23 deg}\n"
+    "valve: {zero_pressure: 0 bar, span_pressure: 6 bar, supply_pressure: 7 bar}\n"
+    "encoder: {pulses_per_turn: 100000}\n";
+
+/// A laser's table of that rig, as Excel has it: bench/load_5kg.csv.
+constexpr const char* record =
+    "$M dataset campaign.yaml --out d > log 2>&1 && mkdir bench && awk -F, 'NR == 1 {print "
+    "\"sep=;\\nZeit;Soll;Laser;\\n"
+    "ms;V;mm;\"} NR > 1 {s = sprintf(\"%.1f;%.4f;%.4f;\", $1 * 1000, ($2 - 4) / 1.6, 412.5 - $3 * 180); "
+    "gsub(/\\./, \",\", s); print s}' d/m1_s.csv > bench/load_5kg.csv";
+
+class Import : public ::testing::Test {
+ protected:
+  Import() {
+    write_text(scratch_ / "rig.yaml", another_rig);
+    write_text(
+        scratch_ / "campaign.yaml",
+        "schema: mckibben-campaign/1\nrig: rig.yaml\nloads: [5 kg]\ncurrents: [{name: s, duration: 2.4 s, "
+        "current: {kind: sine_current, low: 4 mA, high: 14 mA, period: 2.4 s}}]\n");
+    EXPECT_EQ(shell(record, scratch_).status, 0);
+  }
+  Scratch scratch_;
+};
+
+TEST_F(Import, WhatIsOpenIsRefusedAndThenReplays) {
+  const Said said = mckibben("import bench/load_5kg.csv --out mine", scratch_);
+  ASSERT_EQ(said.status, 0) << said.err;
+  EXPECT_NE(said.out.find("6 values are to be filled in (FILL_IN) in mine; then: mckibben check mine"),
+            std::string::npos)
+      << said.out;
+  EXPECT_NE(read_text(scratch_ / "mine/understood.svg").find("contraction: Laser [mm] - 412"),
+            std::string::npos);
+  const Said refused = mckibben("check mine", scratch_);
+  EXPECT_EQ(refused.status, 65);
+  EXPECT_NE(refused.err.find("rest_length = FILL_IN: nothing that was recorded tells it"), std::string::npos)
+      << refused.err;
+
+  std::string rig = read_text(scratch_ / "mine/rig.yaml");
+  for (const auto& [key, value] : {std::pair{"rest_length", "180 mm"},
+                                   {"rest_radius", "6 mm"},
+                                   {"braid_angle", "23 deg"},
+                                   {"zero_pressure", "0 bar"},
+                                   {"span_pressure", "6 bar"},
+                                   {"supply_pressure", "7 bar"}})
+    rig =
+        std::regex_replace(rig, std::regex(std::string(key) + ": FILL_IN"), std::string(key) + ": " + value);
+  write_text(scratch_ / "mine/rig.yaml", rig);
+  EXPECT_EQ(mckibben("check mine", scratch_).err, "");
+  const Said replayed = mckibben("replay mine --json", scratch_);
+  ASSERT_EQ(replayed.status, 0) << replayed.err;
+  const auto gap = input::Json::parse(replayed.out).at("runs").at(0).at("gaps").at(0);
+  EXPECT_LT(gap.at("rmse").get<double>(), 1e-3) << gap.dump() << " the zero is guessed, the rest is right";
+
+  const Said again = mckibben("import bench/load_5kg.csv --out mine", scratch_);
+  EXPECT_EQ(again.status, 0);
+  EXPECT_NE(again.err.find("mine.old-1"), std::string::npos) << "it was edited: " << again.err;
+  EXPECT_EQ(read_text(scratch_ / "mine.old-1/rig.yaml"), rig);
+}
+
+TEST_F(Import, TakesARigThatIsKnownAndLeavesTablesAlone) {
+  const Said said = mckibben("import bench/load_5kg.csv --rig rig.yaml --out sub/mine --json", scratch_);
+  ASSERT_EQ(said.status, 0) << said.err;
+  const auto document = input::Json::parse(said.out);
+  EXPECT_EQ(document.at("schema"), "mckibben-import/1");
+  EXPECT_EQ(document.at("open"), 0);
+  EXPECT_FALSE(std::filesystem::exists(scratch_ / "sub/mine/rig.yaml"));
+  const Said checked = mckibben("check sub/mine", scratch_);
+  EXPECT_NE(checked.err.find("the rig's valve is commanded with a current"), std::string::npos)
+      << checked.err;
+
+  EXPECT_EQ(mckibben("import bench/load_5kg.csv --out bench", scratch_).status, 74) << "tables are there";
+  EXPECT_EQ(mckibben("import bench/none.csv", scratch_).status, 66);
+  EXPECT_EQ(mckibben("import rig.yaml", scratch_).status, 65);
+}
+
+}  // namespace
+}  // namespace mckibben::cli

@@ -1,0 +1,185 @@
+// Tables that nobody described: what is told of them, with the reason, and what is left open.
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <sim/formats/mat_file.hpp>
+#include <sim/input/diagnostics.hpp>
+#include <sim/recognise/headings.hpp>
+#include <sim/recognise/names.hpp>
+#include <sim/recognise/recognise.hpp>
+
+namespace mckibben::recognise {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Case {
+  const char *name, *line_below, *key, *unit;
+};
+
+TEST(Headings, WordsAndUnitsTell) {
+  for (const Case& one : {Case{"t [ms]", "", "time", "ms"},
+                          {"Zeit", "s", "time", "s"},
+                          {"time_s", "", "time", "s"},
+                          {"Strom (A)", "", "command", "A"},
+                          {"U_soll_V", "", "command", "V"},
+                          {"p_set [bar]", "", "command", "bar"},
+                          {"Druck", "mbar", "muscle_pressure", "mbar"},
+                          {"p_muscle_kPa", "", "muscle_pressure", "kPa"},
+                          {"Laser", "mm", "contraction", "mm"},
+                          {"angle [°]", "", "contraction", "deg"},
+                          {"Kraft/N", "", "force", "N"},
+                          {"AI3 [N]", "", "force", "N"},
+                          {"p_m", "", "muscle_pressure", ""},
+                          {"supply pressure [bar]", "", "", "bar"},
+                          {"Temperatur", "K", "", "K"},
+                          {"AI3", "", "", ""},
+                          {"laser", "V", "contraction", "V"}}) {
+    const Heading heading = heading_of({one.name, one.line_below, false, {}});
+    EXPECT_EQ(heading.quantity == nullptr ? "" : heading.quantity->key, one.key) << one.name;
+    EXPECT_EQ(heading.unit, one.unit) << one.name;
+  }
+  EXPECT_FALSE(heading_of({"laser", "V", false, {}}).unit_fits) << "a sensor's voltage is no length";
+}
+
+TEST(Loads, StandInNames) {
+  EXPECT_EQ(load_in("load_5kg_run2"), "5 kg");
+  EXPECT_EQ(load_in("m5,5kg"), "5.5 kg");
+  EXPECT_EQ(load_in("run2_11p138_kg"), "11.138 kg");
+  EXPECT_EQ(load_in("lift 500g"), "500 g");
+  EXPECT_EQ(load_in("Last: 20 LB"), "20 lb");
+  for (const char* none : {"run5", "5kgf", "p10bar", "kg"}) EXPECT_EQ(load_in(none), std::nullopt) << none;
+}
+
+class Recognise : public ::testing::Test {
+ protected:
+  Recognise() { fs::create_directories(folder_); }
+  ~Recognise() override { fs::remove_all(folder_); }
+
+  fs::path write(const std::string& name, const std::string& text) const {
+    std::ofstream(folder_ / name) << text;
+    return folder_ / name;
+  }
+  /// A run of 200 rows: `row(k)` is a line, k rows from the beginning.
+  template <class Row>
+  fs::path run(const std::string& name, const std::string& head, const Row& row) const {
+    std::string text = head;
+    for (int k = 0; k < 200; ++k) text += row(k) + "\n";
+    return write(name, text);
+  }
+  static double drive(int k) { return 0.5 - 0.5 * std::cos(0.03 * k); }
+
+  fs::path folder_ = fs::path(::testing::TempDir()) / "recognise_test";
+};
+
+const Setting* setting(const std::vector<Setting>& list, const std::string& key) {
+  for (const Setting& each : list)
+    if (each.key == key) return &each;
+  return nullptr;
+}
+
+TEST_F(Recognise, ALaserThatFallsAndARegulatorInVolts) {
+  const auto row = [](int k) {
+    return fmt::format("{};{:.3f};{:.3f};{:.3f}", 10 * k, 9 * drive(k), 412.5 - 30 * drive(k), 5 * drive(k));
+  };
+  const Recognised found = recognise({run("load_5kg_run1.csv", "Zeit;Soll;Laser;Druck\nms;V;mm;bar\n", row),
+                                      run("b_7,5kg.csv", "Zeit;Soll;Laser;Druck\nms;V;mm;bar\n", row)},
+                                     false);
+  ASSERT_EQ(found.maps.size(), 1u);
+  const MapGuess& map = found.maps[0];
+  EXPECT_EQ(map.find("time")->unit.value, "ms");
+  EXPECT_EQ(map.find("command")->column.value, "Soll");
+  EXPECT_EQ(map.find("contraction")->factor->value, "-1");
+  EXPECT_NEAR(std::stod(map.find("contraction")->zero->value), 412.5, 0.6) << "where the command is lowest";
+  EXPECT_FALSE(map.find("muscle_pressure")->input);
+  EXPECT_EQ(found.runs[0].load->value, "5 kg");
+  EXPECT_EQ(found.runs[1].load->value, "7.5 kg");
+  EXPECT_EQ(setting(found.dataset, "start")->told.value, "settled");
+  EXPECT_EQ(setting(found.rig, "valve.span_command")->told.value, "10 V");
+  EXPECT_TRUE(setting(found.rig, "valve.span_pressure")->told.open());
+  EXPECT_EQ(setting(found.rig, "tick")->told.value, "10 ms");
+  EXPECT_EQ(found.open(), 6u) << "muscle's three, valve's three";
+  EXPECT_EQ(recognise({folder_ / "b_7,5kg.csv"}, true).open(), 0u) << "the rig is known";
+  const auto shown_mm = shown(found.tables[0], *map.find("contraction"));
+  EXPECT_NEAR(shown_mm[105], 30.0, 0.7) << "up as the muscle contracts";
+}
+
+TEST_F(Recognise, WhatNothingTellsIsLeftOpen) {
+  const auto row = [](int k) {
+    return fmt::format("{},{},{},{},7", k * 0.012, 16 * drive(k), drive(k), drive(k));
+  };
+  const Recognised found = recognise({run("a.csv", "time,current [mA],x,y,AI7\n", row)}, false);
+  const MapGuess& map = found.maps[0];
+  EXPECT_TRUE(map.find("time")->unit.open()) << "no unit is said";
+  EXPECT_TRUE(map.find("contraction")->column.open()) << "x or y";
+  EXPECT_NE(map.find("contraction")->column.reason.find("x; y"), std::string::npos);
+  EXPECT_EQ(map.find("current")->unit.value, "mA");
+  EXPECT_EQ(map.ignored.at(0).value, "AI7");
+  EXPECT_TRUE(found.runs[0].load->open());
+}
+
+TEST_F(Recognise, OurOwnRowsEachTickNeedNothing) {
+  const auto row = [](int k) {
+    return fmt::format("{},{},{}", k * 0.012, k < 5 ? 0.0 : 16 * drive(k), k < 5 ? 0.0 : 0.2 * drive(k));
+  };
+  const Recognised found = recognise({run("5kg.csv", "time_s,current_mA,contraction_ratio\n", row)}, true);
+  EXPECT_TRUE(found.dataset.empty()) << "no clock of their own";
+  EXPECT_EQ(found.open(), 0u);
+  EXPECT_FALSE(found.maps[0].find("contraction")->zero);
+}
+
+TEST_F(Recognise, APressureWithoutACommandDrives) {
+  const auto row = [](int k) {
+    return fmt::format("{},{},{}", 7 + k * 0.01 + (k % 3) * 1e-4, 1.0 + 4 * drive(k), 100 * drive(k));
+  };
+  const Recognised found = recognise({run("a.csv", "t [s],p [bar],F [N]\n", row)}, false);
+  EXPECT_EQ(found.maps[0].find("muscle_pressure")->input->value, "input");
+  EXPECT_TRUE(setting(found.rig, "mechanics")->told.open()) << "held, or a load that nobody named";
+  EXPECT_FALSE(found.runs[0].load);
+  EXPECT_EQ(setting(found.rig, "valve.zero_pressure"), nullptr) << "no valve is there";
+}
+
+TEST_F(Recognise, RunsThatBeginOnTheirWay) {
+  const auto row = [](int k) {
+    return fmt::format("{},{},{}", k * 0.012, 16 * drive(k + 50), 0.2 * drive(k + 50));
+  };
+  const Recognised found = recognise({run("5kg.csv", "time_s,current_mA,contraction_ratio\n", row)}, true);
+  EXPECT_EQ(setting(found.dataset, "start")->told.value, "moving");
+}
+
+TEST_F(Recognise, OtherFormats) {
+  const auto row = [](int k) { return fmt::format("{} {} {}", k * 0.012, 16 * drive(k), 0.2 * drive(k)); };
+  const Recognised numbers = recognise({run("5kg.txt", "# by hand\n", row)}, true);
+  EXPECT_EQ(numbers.maps[0].find("time")->column.value, "1");
+  EXPECT_TRUE(numbers.maps[0].find("contraction")->column.open());
+
+  const std::string header = "LabVIEW Measurement\t\nSeparator\tTab\nX_Columns\tOne\n***End_of_Header***\t\n";
+  const Recognised labview = recognise(
+      {write("5kg.lvm",
+             header + "Channels\t2\nX0\t0\t0\n***End_of_Header***\t\t\nX_Value\tI [mA]\tx [mm]\tComment\n"
+                      "0\t4\t0\n0.012\t8\t1\n0.024\t12\t2\n")},
+      true);
+  EXPECT_EQ(labview.maps[0].find("time"), nullptr) << "it has its own";
+  EXPECT_EQ(labview.maps[0].find("current")->column.value, "I [mA]");
+
+  const formats::Table table{"",
+                             {{"time_s", "s", "", {0, 0.012, 0.024}},
+                              {"current_mA", "mA", "", {4, 8, 12}},
+                              {"contraction_ratio", "1", "", {0, 0.01, 0.02}}},
+                             {}};
+  const Recognised matlab = recognise({write("5kg.mat", formats::mat_of(table))}, true);
+  EXPECT_EQ(matlab.maps[0].find("current")->column.value, "current_mA");
+  EXPECT_EQ(matlab.open(), 0u);
+
+  EXPECT_THROW(recognise({write("a.xlsx", "x")}, true), input::BadInput);
+  EXPECT_THROW(recognise({write("a.csv", "a,b\nx,y\n")}, true), input::BadInput);
+  EXPECT_THROW(recognise({folder_ / "none.csv"}, true), input::MissingInput);
+}
+
+}  // namespace
+}  // namespace mckibben::recognise
