@@ -15,6 +15,9 @@ namespace {
 using Values = std::vector<double>;
 using domain::quantities, domain::Quantity;
 
+constexpr const char* own_clock =
+    "if the recorder had a clock of its own, the data set says start: settled, or start: moving";
+
 /// Numbers out of range up to which each is told by itself.
 constexpr std::ptrdiff_t few = 3;
 
@@ -89,12 +92,13 @@ void ColumnChecks::time(double tick_s) {
                               "write columns: {{{}}}",
                               write_number(column->values.front()), line_of("time", meant)));
   } else if (step_s > 0.0 && !right) {
-    problems_.add(table_, *column, 1,
-                  fmt::format("time_s = {} is not a tick of {} ms: all rows are {:.6g} ms apart; if that is "
-                              "the rig's tick, its file must say so: tick: {:.6g} ms",
-                              write_number(column->values[1]), 1e3 * tick_s, 1e3 * step_s, 1e3 * step_s));
+    problems_.add(
+        table_, *column, 1,
+        fmt::format("time_s = {} is not a tick of {} ms: all rows are {:.6g} ms apart; if that is "
+                    "the rig's tick, its file must say so: tick: {:.6g} ms; {}",
+                    write_number(column->values[1]), 1e3 * tick_s, 1e3 * step_s, 1e3 * step_s, own_clock));
   } else {
-    check_ticks(table_, tick_s, problems_);
+    check_ticks(table_, tick_s, problems_, std::string("; ") + own_clock);
   }
 }
 

@@ -72,13 +72,15 @@ bool check_text(const Source& source, TableProblems& problems) {
 
 namespace {
 
-void check_ticks_of(const Table& table, const Table::Column& column, double tick_s, TableProblems& problems) {
+void check_ticks_of(const Table& table, const Table::Column& column, double tick_s, TableProblems& problems,
+                    std::string_view way_out) {
   const std::vector<double>& time_s = column.values;
   for (std::size_t k = 0; k < time_s.size(); ++k) {
     const double expected_s = static_cast<double>(k) * tick_s;
     if (std::abs(time_s[k] - expected_s) <= tick_tolerance_s + tick_tolerance_ratio * expected_s) continue;
     const double step_s = k > 0 ? time_s[k] - time_s[k - 1] : 0.0;
-    std::string what = fmt::format("is not a tick of {} ms", 1e3 * tick_s);
+    const std::string unlike = fmt::format("is not a tick of {} ms", 1e3 * tick_s);
+    std::string what = unlike;
     if (k == 0)
       what = "is not the beginning";
     else if (step_s == 0.0)
@@ -87,19 +89,20 @@ void check_ticks_of(const Table& table, const Table::Column& column, double tick
       what = "runs backwards";
     else if (step_s > 1.5 * tick_s)
       what = "comes after a gap";
-    problems.add(
-        table, column, k,
-        fmt::format("time_s = {} {}: expected is {:.6g}", write_number(time_s[k]), what, expected_s));
+    problems.add(table, column, k,
+                 fmt::format("time_s = {} {}: expected is {:.6g}{}", write_number(time_s[k]), what,
+                             expected_s, what == unlike ? way_out : ""));
     return;
   }
 }
 
 }  // namespace
 
-void check_ticks(const Table& table, double tick_s, TableProblems& problems) {
+void check_ticks(const Table& table, double tick_s, TableProblems& problems, std::string_view way_out) {
   if (problems.count() > 0) return;
   for (const Table::Column& column : table.columns)
-    if (column.name == "time_s" && problems.count() == 0) check_ticks_of(table, column, tick_s, problems);
+    if (column.name == "time_s" && problems.count() == 0)
+      check_ticks_of(table, column, tick_s, problems, way_out);
 }
 
 void check_range(const Table& table, const Table::Column& column, double lowest, double highest,

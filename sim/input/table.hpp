@@ -67,8 +67,9 @@ class TableProblems {
 bool check_text(const Source& source, TableProblems& problems);
 
 /// Checks that each column `time_s` is k * tick_s for k = 0, 1, ... within a microsecond, if all rows were
-/// sound. Only the first departure is reported: all later rows would repeat it.
-void check_ticks(const Table& table, double tick_s, TableProblems& problems);
+/// sound. Only the first departure is reported: all later rows would repeat it; `way_out`: what to say of
+/// stamps that are uneven.
+void check_ticks(const Table& table, double tick_s, TableProblems& problems, std::string_view way_out = {});
 
 /// Checks that lowest <= value <= highest in every row of a column.
 void check_range(const Table& table, const Table::Column& column, double lowest, double highest,

@@ -140,7 +140,11 @@ UnknownTable read_unknown(const std::filesystem::path& path) {
   const auto refuse = [&](std::string why) {
     throw input::BadInput({{input::Severity::error, path.string(), input::nowhere, std::move(why), ""}});
   };
-  if (!format) refuse(input::format_rule);
+  if (!format) {
+    const std::string ending = path.extension().string();
+    const bool is_sheet = ending == ".xlsx" || ending == ".xls" || ending == ".ods";
+    refuse(std::string(input::format_rule) + (is_sheet ? "; save the sheet as CSV" : ""));
+  }
   Source source = Source::load(path, input::most_text_bytes);
   table.input = {source.name(), source.sha256()};
   if (*format != input::Format::mat) {
