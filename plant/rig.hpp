@@ -236,6 +236,7 @@ struct JointOf {
   P wheel_inertia_kg_m2 = 1.0e-4;
   P guide_damping_N_s_per_m = 20.0;
   P load_offset_kg = 0.0;
+  P length_offset_m = 0.0;
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
@@ -245,6 +246,8 @@ struct JointOf {
           "viscous friction of the load guide, c");
     visit("load_offset", self.load_offset_kg, "kg", -5.0, 5.0,
           "what hangs on the wheel beside the load: hook, cord, error of the scales");
+    visit("length_offset", self.length_offset_m, "m", -0.1, 0.1,
+          "by how much a muscle whose length is given is shorter than is said: zero of the bench, clamps");
   }
 };
 using Joint = JointOf<double>;

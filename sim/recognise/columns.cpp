@@ -146,7 +146,8 @@ MapGuess map_of(const std::vector<const UnknownTable*>& tables) {
     if (each.heading.quantity == nullptr)
       map.ignored.push_back(
           {each.column->name, fmt::format("{}; {}", each.heading.reason, range_in_words(*each.column))});
-  for (const std::string& words : table.words) map.ignored.push_back({words, "it holds no numbers"});
+  for (const std::string& words : table.words)
+    map.ignored.push_back({words, "it holds no numbers, or not one for each row"});
   if (candidates("command").empty())
     for (ColumnGuess& guess : map.columns)
       if (guess.quantity->key == "muscle_pressure" && has_pressure)

@@ -12,7 +12,6 @@
 #include <sim/input/format.hpp>
 #include <sim/input/limits.hpp>
 #include <sim/input/lvm.hpp>
-#include <sim/input/mat.hpp>
 #include <sim/input/number.hpp>
 #include <sim/recognise/unknown_table.hpp>
 
@@ -95,40 +94,39 @@ void read_numbers(const Source& source, UnknownTable& table) {
   keep(all, table);
 }
 
-/// What a reader of wanted columns finds under these names.
-template <class Reader>
-void read_named_columns(const Source& source, const std::vector<std::string>& names, UnknownTable& table,
-                        const Reader& reader) {
+void read_labview(const Source& source, UnknownTable& table) {
+  table.time_is_inside = true;
   std::vector<input::WantedColumn> wanted;
-  for (const auto& name : names) wanted.push_back({name, name, false, true});
+  for (auto& name : input::lvm_channels(source)) wanted.push_back({name, name, false, true});
   input::Problems problems;
   input::Table found;
   {
     input::TableProblems said(source, problems);
-    found = reader(wanted, said);
+    found = input::read_lvm(source, wanted, 0, said);
   }
   problems.raise();
   for (input::Table::Column& column : found.columns)
     table.columns.push_back({column.name, "", false, std::move(column.values)});
 }
 
-void read_labview(const Source& source, UnknownTable& table) {
-  table.time_is_inside = true;
-  read_named_columns(source, input::lvm_channels(source), table, [&](const auto& wanted, auto& said) {
-    return input::read_lvm(source, wanted, 0, said);
-  });
-}
-
+/// Vectors of the greatest length; shorter ones are settings.
 void read_matlab(const Source& source, UnknownTable& table) {
   std::vector<std::string> names;
+  std::vector<formats::Found> found;
   try {
     names = formats::read_mat(source.text(), {}).names;
-  } catch (const formats::BadFile&) {
-    names = {""};  // the reader says what is wrong
+    found = formats::read_mat(source.text(), names).found;
+  } catch (const formats::BadFile& bad) {
+    throw input::BadInput({{input::Severity::error, source.name(), input::nowhere, bad.what(), ""}});
   }
-  read_named_columns(source, names, table, [&](const auto& wanted, auto& said) {
-    return input::read_mat_table(source, wanted, said);
-  });
+  std::size_t rows = 0;
+  for (const formats::Found& each : found) rows = std::max(rows, each.values.size());
+  for (std::size_t i = 0; i < found.size() && rows > 1; ++i) {
+    if (found[i].values.size() == rows)
+      table.columns.push_back({names[i], "", false, std::move(found[i].values)});
+    else
+      table.words.push_back(names[i]);
+  }
 }
 
 }  // namespace

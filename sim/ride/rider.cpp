@@ -22,6 +22,11 @@ void hold_side(const plant::Side& side, const Command& before, const Command& no
     held.pressure_rate_Pa_per_s = (*now.muscle_pressure_Pa - pressure_Pa) / length_s;
 }
 
+/// Of a muscle whose length is given: what the bench says, by its zero.
+double given_ratio(const plant::Rig& rig, double said) {
+  return said + rig.joint.length_offset_m / rig.muscle.rest_length_m;
+}
+
 }  // namespace
 
 void Rider::start(const Drive& drive, double at_s) {
@@ -36,7 +41,8 @@ void Rider::start(const Drive& drive, double at_s) {
     held.opposite.reference_pressure_Pa = full(*plant_.opposite(), drive.opposite, now.opposite_plays);
   held.length_is_given = drive.contraction_ratio.has_value();
   engine::Flow& flow = now.flow = {.state = plant_.at_rest(held)};
-  if (drive.contraction_ratio) flow.state.joint.contraction_ratio = *drive.contraction_ratio;
+  if (drive.contraction_ratio)
+    flow.state.joint.contraction_ratio = given_ratio(plant_.rig(), *drive.contraction_ratio);
   flow.ledger = plant_.opened(flow.state);
   if (plant_.has_events() && !held.length_is_given)
     held.slip = plant_.slip_from_rest(flow.state, flow.memory, held);
@@ -54,7 +60,8 @@ void Rider::hold(const Drive& drive, double until_s) {
               length_s, now.opposite_plays, held.opposite);
   held.length_is_given = drive.contraction_ratio.has_value();
   if (drive.contraction_ratio) {
-    const double speed_per_s = (*drive.contraction_ratio - flow.state.joint.contraction_ratio) / length_s;
+    const double wanted = given_ratio(plant_.rig(), *drive.contraction_ratio);
+    const double speed_per_s = (wanted - flow.state.joint.contraction_ratio) / length_s;
     plant_.take_speed(speed_per_s, flow.state, flow.ledger);
     // Threads that are pulled no further keep the force that they had.
     if (speed_per_s != 0.0) held.slip = speed_per_s > 0.0 ? plant::Slip::rising : plant::Slip::falling;
@@ -70,7 +77,8 @@ void Rider::arrive() {
   now.time_s = now.until_s;
   // The joint at the length and the muscles at the pressures that were given, to the last bit.
   plant::State<double>& state = now.flow.state;
-  if (now.drive.contraction_ratio) state.joint.contraction_ratio = *now.drive.contraction_ratio;
+  if (now.drive.contraction_ratio)
+    state.joint.contraction_ratio = given_ratio(plant_.rig(), *now.drive.contraction_ratio);
   if (now.drive.muscle_pressure_Pa) state.side.muscle_pressure_Pa = *now.drive.muscle_pressure_Pa;
   if (now.drive.opposite.muscle_pressure_Pa)
     state.opposite.muscle_pressure_Pa = *now.drive.opposite.muscle_pressure_Pa;

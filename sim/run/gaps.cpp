@@ -44,7 +44,8 @@ std::vector<Compared> compared(const Measurement& measured, const domain::RigFil
       [counted, &rig](const Sample& row) {
         return counted ? counted_angle_rad(rig, row) : angle_rad(rig, row);
       });
-  add("force", "N", 1.0, measured.force_N, [](const Sample& row) { return row.cord_force_N; });
+  // A cord cannot push: a load cell on one that hangs through reads nothing.
+  add("force", "N", 1.0, measured.force_N, [](const Sample& row) { return std::max(row.cord_force_N, 0.0); });
   const auto& [one, two] = measured.sides;
   if (!one.pressure_is_given)
     add(pair ? "muscle_pressure_1" : "muscle_pressure", "bar", 1.0 / plant::Pa_per_bar,

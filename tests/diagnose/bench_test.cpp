@@ -26,6 +26,15 @@ TEST(Bench, ForcesAreThoseOfTheCord) {
   EXPECT_LT(experiment.rmse(experiment.residuals(rig, {0, 1, 2, 3, 4}), {0, 1, 2, 3, 4}), 1e-6);
 }
 
+TEST(Bench, TheZeroOfTheLengthShiftsWhatIsGiven) {
+  plant::Rig rig;
+  rig.joint.length_offset_m = 3e-3;
+  const domain::Dataset data = on_a_bench({}, 0.0);
+  const Hanging held{rig, 0.0};
+  const auto readings = predict(data.runs[2], {&held, 1}).front();
+  EXPECT_NEAR(readings.judged[4], plant::Braid(rig.muscle).force_N(0.12, readings.pressure_Pa[4]), 1e-6);
+}
+
 TEST(Bench, LengthsInsideAreHeldOut) {
   const domain::Dataset data = on_a_bench({}, 0.5);
   const Runs held_out = split(data, {0, 1, 2, 3, 4}).held_out;

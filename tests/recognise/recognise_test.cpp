@@ -171,10 +171,11 @@ TEST_F(Recognise, OtherFormats) {
                              {{"time_s", "s", "", {0, 0.012, 0.024}},
                               {"current_mA", "mA", "", {4, 8, 12}},
                               {"contraction_ratio", "1", "", {0, 0.01, 0.02}}},
-                             {}};
+                             {{"load_kg", 5.0}}};
   const Recognised matlab = recognise({write("5kg.mat", formats::mat_of(table))}, true);
   EXPECT_EQ(matlab.maps[0].find("current")->column.value, "current_mA");
-  EXPECT_EQ(matlab.open(), 0u);
+  EXPECT_EQ(matlab.maps[0].ignored.at(0).value, "load_kg") << "one number, not one for each row";
+  EXPECT_TRUE(matlab.runs[0].load) << "5 kg, by the file's name";
 
   EXPECT_THROW(recognise({write("a.xlsx", "x")}, true), input::BadInput);
   EXPECT_THROW(recognise({write("a.csv", "a,b\nx,y\n")}, true), input::BadInput);
