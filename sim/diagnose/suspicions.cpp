@@ -156,6 +156,7 @@ Suspicion Examination::told(const Suspected& one) const {
 /// First what leaves least of a run.
 std::vector<Suspicion> Examination::suspicions(const Regression& alone, double at_best) const {
   std::vector<Suspected> without_a_few;
+  without_a_few.reserve(drawn_.size());
   for (const Drawn& effect : drawn_) without_a_few.push_back(trimmed(effect));
   auto list = most_promising(std::move(without_a_few), at_best);
   for (auto& late : most_promising(beside_lateness(alone), at_best)) list.push_back(std::move(late));
@@ -163,6 +164,7 @@ std::vector<Suspicion> Examination::suspicions(const Regression& alone, double a
     return a.cost_of_a_run() < b.cost_of_a_run();
   });
   std::vector<Suspicion> best;
+  best.reserve(list.size());
   for (const Suspected& one : list) best.push_back(told(one));
   return best;
 }

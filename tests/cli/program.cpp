@@ -1,27 +1,13 @@
 // See the header.
 #include "program.hpp"
 
-#include <cstdlib>
 #include <fstream>
 #include <sstream>
-#include <stdexcept>
 
 #include <sys/wait.h>
-#include <unistd.h>
 
 namespace mckibben::cli {
 namespace fs = std::filesystem;
-
-Scratch::Scratch() {
-  std::string name = (fs::temp_directory_path() / "mckibben-test.XXXXXX").string();
-  if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no scratch folder");
-  path_ = name;
-}
-
-Scratch::~Scratch() {
-  std::error_code ignored;
-  fs::remove_all(path_, ignored);
-}
 
 std::string read_text(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);

@@ -4,6 +4,8 @@
 #include <filesystem>
 #include <string>
 
+#include "scratch.hpp"
+
 namespace mckibben::cli {
 
 struct Said {
@@ -16,20 +18,6 @@ Said mckibben(const std::string& arguments, const std::filesystem::path& folder)
 
 /// Runs a script of sh in `folder`, in which "$M" is the program; the status is the script's.
 Said shell(const std::string& script, const std::filesystem::path& folder);
-
-/// A folder of its own for each test, gone when the test is over.
-class Scratch {
- public:
-  Scratch();
-  Scratch(const Scratch&) = delete;
-  Scratch& operator=(const Scratch&) = delete;
-  ~Scratch();
-  operator const std::filesystem::path&() const { return path_; }
-  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
-
- private:
-  std::filesystem::path path_;
-};
 
 std::string read_text(const std::filesystem::path& path);
 void write_text(const std::filesystem::path& path, const std::string& text);

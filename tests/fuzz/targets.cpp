@@ -3,9 +3,7 @@
 
 #include <array>
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -21,6 +19,8 @@
 #include <sim/input/quantity.hpp>
 #include <sim/input/rigs.hpp>
 #include <sim/input/scenario_file.hpp>
+
+#include "scratch.hpp"
 
 namespace mckibben::fuzz {
 namespace {
@@ -48,31 +48,9 @@ bool was_read(Read read) {
   return false;
 }
 
-/// A folder for readers that take a path; gone at the end.
-class Folder {
- public:
-  Folder() : path_((fs::temp_directory_path() / "mckibben-fuzz.XXXXXX").string()) {
-    require(mkdtemp(path_.data()) != nullptr, "no scratch folder");
-  }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-  ~Folder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  fs::path write(const std::string& name, const std::string& bytes) const {
-    const fs::path file = fs::path(path_) / name;
-    fs::create_directories(file.parent_path());
-    std::ofstream(file, std::ios::binary) << bytes;
-    return file;
-  }
-
- private:
-  std::string path_;
-};
-
-const Folder& folder() {
-  static const Folder one;
+/// For readers that take a path.
+const Scratch& folder() {
+  static const Scratch one;
   return one;
 }
 

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <random>
 #include <utility>
 #include <vector>
@@ -13,6 +12,8 @@
 #include <sim/input/csv.hpp>
 #include <sim/input/dataset_file.hpp>
 #include <sim/input/lvm.hpp>
+
+#include "scratch.hpp"
 
 namespace mckibben::input {
 namespace {
@@ -151,20 +152,11 @@ TEST(Tables, MutilatedOnesAreReadWholeOrRefused) {
   }
 }
 
-/// A folder of its own, removed at the end.
 class DatasetFolder : public testing::Test {
  protected:
-  DatasetFolder()
-      : folder_(fs::path(testing::TempDir()) /
-                (std::string("mckibben_") + testing::UnitTest::GetInstance()->current_test_info()->name())) {
-    fs::create_directories(folder_);
-  }
-  ~DatasetFolder() override { fs::remove_all(folder_); }
-  void write(const std::string& name, const std::string& text) const {
-    std::ofstream(folder_ / name) << text;
-  }
+  void write(const std::string& name, const std::string& text) const { folder_.write(name, text); }
 
-  fs::path folder_;
+  Scratch folder_;
 };
 
 TEST_F(DatasetFolder, RunsWithAndWithoutGauge) {
@@ -174,7 +166,7 @@ TEST_F(DatasetFolder, RunsWithAndWithoutGauge) {
   write("my_rig.yaml", "schema: mckibben-rig/1\ndac: {largest_current: 25 mA}\n");
   write("one.csv", "contraction_ratio,time_s,current_mA\n0.001,0,4\n0.002,0.012,24\n");
   write("two.csv", "time_s,current_mA,contraction_ratio,muscle_pressure_bar\n0,4,0,0.5\n");
-  for (const fs::path& path : {folder_, folder_ / "dataset.yaml"}) {
+  for (const fs::path& path : {fs::path(folder_), folder_ / "dataset.yaml"}) {
     const Dataset dataset = read_dataset(path);
     EXPECT_EQ(dataset.rig.dac.largest_current_mA, 25.0);
     ASSERT_EQ(dataset.runs.size(), 2u);

@@ -1,6 +1,4 @@
 // Tables as people have them: each kind reads to the same numbers as the plain one.
-#include <filesystem>
-#include <fstream>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -9,6 +7,8 @@
 #include <sim/input/csv_layout.hpp>
 #include <sim/input/dataset_file.hpp>
 #include <sim/input/dates.hpp>
+
+#include "scratch.hpp"
 
 namespace mckibben::input {
 namespace {
@@ -55,12 +55,10 @@ const Kind kinds[] = {
 class PeopleTables : public ::testing::TestWithParam<Kind> {};
 
 TEST_P(PeopleTables, ReadToTheSameNumbers) {
-  const fs::path place = fs::path(::testing::TempDir()) / "people_tables" / GetParam().name;
-  fs::create_directories(place);
-  std::ofstream(place / "r.csv") << GetParam().table;
-  std::ofstream(place / "dataset.yaml")
-      << "schema: mckibben-dataset/1\nrig: thesis\ncolumns: " << GetParam().columns
-      << "\nruns: [{id: r, file: r.csv, load: 5 kg}]\n";
+  const Scratch place;
+  place.write("r.csv", GetParam().table);
+  place.write("dataset.yaml", std::string("schema: mckibben-dataset/1\nrig: thesis\ncolumns: ") +
+                                  GetParam().columns + "\nruns: [{id: r, file: r.csv, load: 5 kg}]\n");
   const Dataset data = read_dataset(place);
   EXPECT_EQ(data.runs[0].current_mA, (std::vector<double>{4.0, 4.5}));
   ASSERT_EQ(data.runs[0].contraction_ratio.size(), 2u);

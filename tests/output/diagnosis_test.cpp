@@ -1,7 +1,5 @@
 // What a diagnosis writes and prints: the contract's keys, a rig that reads back to the same bits, a plan
 // that is a campaign.
-#include <filesystem>
-#include <fstream>
 #include <limits>
 #include <string>
 #include <variant>
@@ -18,6 +16,7 @@
 #include <sim/output/diagnosis_words.hpp>
 
 #include "diagnosed.hpp"
+#include "scratch.hpp"
 
 namespace mckibben::output {
 namespace {
@@ -99,13 +98,9 @@ TEST(DiagnosisJson, IsNullWhereThereIsNothing) {
 
 /// `text` read as a rig file.
 domain::RigFile read_back(const std::string& text) {
-  const auto path = std::filesystem::temp_directory_path() /
-                    ("mckibben-rig-" + std::to_string(std::hash<std::string>{}(text)) + ".yaml");
-  std::ofstream(path) << text;
+  const Scratch folder;
   std::vector<domain::InputFile> inputs;
-  const domain::RigFile rig = input::read_rig(path.string(), inputs);
-  std::filesystem::remove(path);
-  return rig;
+  return input::read_rig(folder.write("rig.yaml", text).string(), inputs);
 }
 
 TEST(DiagnosisRig, ReadsBackToTheSameNumbers) {

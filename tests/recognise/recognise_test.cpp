@@ -1,7 +1,6 @@
 // Tables that nobody described: what is told of them, with the reason, and what is left open.
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <string>
 
 #include <fmt/format.h>
@@ -12,6 +11,8 @@
 #include <sim/recognise/headings.hpp>
 #include <sim/recognise/names.hpp>
 #include <sim/recognise/recognise.hpp>
+
+#include "scratch.hpp"
 
 namespace mckibben::recognise {
 namespace {
@@ -58,13 +59,7 @@ TEST(Loads, StandInNames) {
 
 class Recognise : public ::testing::Test {
  protected:
-  Recognise() { fs::create_directories(folder_); }
-  ~Recognise() override { fs::remove_all(folder_); }
-
-  fs::path write(const std::string& name, const std::string& text) const {
-    std::ofstream(folder_ / name) << text;
-    return folder_ / name;
-  }
+  fs::path write(const std::string& name, const std::string& text) const { return folder_.write(name, text); }
   /// A run of 200 rows: `row(k)` is a line, k rows from the beginning.
   template <class Row>
   fs::path run(const std::string& name, const std::string& head, const Row& row) const {
@@ -74,7 +69,7 @@ class Recognise : public ::testing::Test {
   }
   static double drive(int k) { return 0.5 - 0.5 * std::cos(0.03 * k); }
 
-  fs::path folder_ = fs::path(::testing::TempDir()) / "recognise_test";
+  Scratch folder_;
 };
 
 const Setting* setting(const std::vector<Setting>& list, const std::string& key) {

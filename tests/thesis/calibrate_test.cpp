@@ -2,12 +2,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <filesystem>
-#include <fstream>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <plant/geometry.hpp>
 #include <sim/domain/objection.hpp>
@@ -19,6 +16,7 @@
 #include <sim/thesis/figures.hpp>
 #include <sim/thesis/quality.hpp>
 
+#include "scratch.hpp"
 #include "small_campaign.hpp"
 
 namespace mckibben::thesis {
@@ -61,11 +59,10 @@ TEST(Calibrate, WithTheTruePressureFindsTheTrueFriction) {
 }
 
 TEST(Calibrate, TheFileReadsBackToTheSameModels) {
-  const auto path = std::filesystem::temp_directory_path() / fmt::format("calibration_{}.yaml", getpid());
-  std::ofstream(path) << input::calibration_yaml(calibrated().calibration);
+  const Scratch folder;
+  const auto path = folder.write("calibration.yaml", input::calibration_yaml(calibrated().calibration));
   std::vector<domain::InputFile> inputs;
   const controllers::Calibration read = input::read_calibration(path, inputs);
-  std::filesystem::remove(path);
   EXPECT_EQ(input::to_json(read), input::to_json(calibrated().calibration));
   EXPECT_EQ(inputs.size(), 1u);
   EXPECT_EQ(read.contraction.a1_0.size(), 4u);
