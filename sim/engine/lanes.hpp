@@ -161,14 +161,20 @@ inline Lanes log(const Lanes& x) {
 }
 
 // Where `f` is called it is compiled once for any machine of the kind and, on x86-64, once for those with
-// AVX2; what runs is chosen when the program runs. Without fused multiply-add: see above.
+// AVX2; what runs is chosen when the program runs. Without fused multiply-add: see above. With sanitizers in
+// it, what is flattened takes the compiler twenty times as long.
+#if defined(__SANITIZE_ADDRESS__)
+#define MCKIBBEN_FLATTEN
+#else
+#define MCKIBBEN_FLATTEN gnu::flatten
+#endif
 template <class F>
-[[gnu::flatten]] void on_any_machine(const F& f) {
+[[MCKIBBEN_FLATTEN]] void on_any_machine(const F& f) {
   f();
 }
 #if defined(__x86_64__)
 template <class F>
-[[gnu::flatten, gnu::target("avx2")]] void with_avx2(const F& f) {
+[[MCKIBBEN_FLATTEN]] [[gnu::target("avx2")]] void with_avx2(const F& f) {
   f();
 }
 inline bool has_avx2() {
@@ -183,6 +189,7 @@ void on_this_machine(const F& f) {
 #endif
   on_any_machine(f);
 }
+#undef MCKIBBEN_FLATTEN
 
 }  // namespace mckibben::engine
 
