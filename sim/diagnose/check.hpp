@@ -16,6 +16,7 @@ struct Checked {
   std::vector<std::vector<bool>> masked;     ///< [run][row]: readings that are not the load's
   Runs left_out;                             ///< ascending
   Runs dead_gauges;                          ///< runs whose muscle pressure says nothing: ignore it
+  Runs dead_opposite_gauges{};               ///< the same of muscle 2's
   std::vector<std::string> warnings;         ///< each names its run
   std::vector<FaultyRun> faulty{};           ///< of runs left out or mended, for the verdict's sentence
   std::optional<std::string> cannot_tell{};  ///< why no answer is possible, and what would help

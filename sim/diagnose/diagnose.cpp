@@ -26,8 +26,9 @@
 namespace mckibben::diagnose {
 namespace {
 
-domain::Dataset without_gauges(domain::Dataset data, const Runs& dead) {
+domain::Dataset without_gauges(domain::Dataset data, const Runs& dead, const Runs& dead_opposite) {
   for (const std::size_t run : dead) data.runs[run].muscle_pressure_Pa.reset();
+  for (const std::size_t run : dead_opposite) data.runs[run].opposite_pressure_Pa.reset();
   return data;
 }
 
@@ -49,7 +50,7 @@ class Workflow {
       : settings_(settings),
         step_(step),
         checked_(checked),
-        data_(without_gauges(data, checked_.dead_gauges)),
+        data_(without_gauges(data, checked_.dead_gauges, checked_.dead_opposite_gauges)),
         usable_(all_but(checked_.left_out, data.runs.size())),
         experiment_(data_, checked_.masked, settings.threads, usable_),
         nominal_(data.rig),
@@ -57,7 +58,7 @@ class Workflow {
                 learn(what);
               }} {}
 
-  Judged judged() const { return data_.force_is_judged() ? Judged::force : Judged::contraction; }
+  Judged judged() const { return data_.judged(); }
   bool gauged() const { return experiment_.floor().pressure_Pa > 0.0; }
 
   /// Faults of the recording that stand in the way; none if `operator()` has a result. `look`: for such.
@@ -116,12 +117,12 @@ class Workflow {
       warn(
           fmt::format("equal runs differ by {:.2g} {} (rms over sqrt 2), more than a count "
                       "and its jitter explain: this is taken for the noise floor",
-                      floor.repeats, judged() == Judged::force ? "N" : "in contraction ratio"));
+                      floor.repeats, unit_in_words(judged())));
     else if (floor.noisy)
       warn(
-          fmt::format("contraction_ratio scatters by {:.2g} from tick to tick (rms), far more than counts "
+          fmt::format("{} scatters by {:.2g} from tick to tick (rms), far more than counts "
                       "do: this is taken for the noise floor",
-                      floor.jitter));
+                      judged() == Judged::angle ? "angle_rad" : "contraction_ratio", floor.jitter));
     for (const std::string& what : rows_in_words(data_, floor)) warn(what);
     if (carries(nominal_, plant::ResidualForce::name))
       warn("the rig's residual_law is kept as it is: if it is wrong, take it out");
@@ -166,7 +167,7 @@ class Workflow {
   void name() {
     naming_ = name_effects(case_, nominal_fit_, recalibrated_, reference(), step_);
     evidence_.invisible = naming_.invisible.size();
-    evidence_.catalogue = catalogue(data_.pressure_is_given()).size();
+    evidence_.catalogue = catalogue(data_).size();
     evidence_.names = naming_.effects.size();
     if (naming_.effects.empty()) return;
     const Eigen::VectorXd& named = naming_.best.held_out;
@@ -248,7 +249,7 @@ class Workflow {
     const auto bounds =
         intervals(experiment_, whole, failed ? case_.split.training : usable_, chosen_inflation_);
     tell_parameters(result_, whole.model, bounds, recalibrated_.fitted.model.rig);
-    static_cast<plant::Rig&>(result_.corrected) = whole.model.rig;
+    result_.corrected = whole.model.rig;
     for (std::size_t j = 0; j < bounds.size(); ++j)  // as well as these runs tell it, where the file told it
       if (const auto stated = result_.corrected.spreads.find(whole.model.free[j].path);
           stated != result_.corrected.spreads.end())
@@ -256,7 +257,7 @@ class Workflow {
     for (const Moved& moved : result_.recalibrated)
       if (std::abs(moved.deviations) >
               thresholds.parameter.at_the_edge * thresholds.parameter.most_deviations &&
-          !moved.fitted.name.starts_with("effects."))
+          !moved.of_effect())
         warn(
             fmt::format("{} stands at the edge of what its data sheet allows, {:+.0f} deviations: measure "
                         "it, or something that acts like it is missing",
@@ -288,7 +289,7 @@ class Workflow {
   // What would separate the effect named first from those it may be, or the next one.
   void plan_next() {
     // Plans are of currents, under loads.
-    if (result_.effects.empty() || data_.pressure_is_given() || data_.force_is_judged()) return;
+    if (result_.effects.empty() || data_.pressure_is_given() || judged() != Judged::contraction) return;
     for (const Doubt& doubt : naming_.doubts) {
       step_("planning");
       result_.next_experiment =
@@ -310,14 +311,14 @@ class Workflow {
   domain::Dataset data_;
   Runs usable_;
   Experiment experiment_;
-  plant::Rig nominal_;
+  RigFile nominal_;
   Case case_;
   Contender nominal_fit_;  ///< the rig as described, nothing moved
   Contender recalibrated_;
   Naming naming_;
   Law law_;
   Evidence evidence_;
-  plant::Rig chosen_rig_;          ///< fitted to the training runs
+  RigFile chosen_rig_;             ///< fitted to the training runs
   double chosen_inflation_ = 1.0;  ///< of its residuals over long times
   std::vector<Fault> faults_;
   Diagnosis result_;
@@ -346,12 +347,14 @@ Diagnosis diagnose(const domain::Dataset& data, const Settings& settings, const 
   if (!gauged || !gauge_is_suspect(left, thresholds)) return result;
   // No model meets the gauge and the motion: perhaps one meets the motion alone.
   without = "without the gauge: ";
-  Diagnosis ungauged = mended(without_gauges(data, all_but({}, data.runs.size())), settings, step).first;
+  const Runs all = all_but({}, data.runs.size());
+  Diagnosis ungauged = mended(without_gauges(data, all, all), settings, step).first;
   if (!better_without_gauge(left, motion_left(ungauged.gap), ungauged.verdict, thresholds)) return result;
   ungauged.warnings.insert(
       ungauged.warnings.begin(),
-      "muscle_pressure_bar is ignored: no model meets both it and the motion, but one meets the motion alone "
-      "(has the gauge an offset, another scale, a limit; was it on another muscle?)");
+      std::string(data.judged() == Judged::angle ? "the muscles' pressures are" : "muscle_pressure_bar is") +
+          " ignored: no model meets both it and the motion, but one meets the motion alone "
+          "(has the gauge an offset, another scale, a limit; was it on another muscle?)");
   return ungauged;
 }
 

@@ -30,13 +30,7 @@ constexpr auto names(Verdict) {
                     std::pair{cannot_tell, std::string_view{"cannot_tell"}}};
 }
 
-/// The reading that models are judged by: contraction ratio; or force [N] at lengths that a bench gives.
-enum class Judged { contraction, force };
-constexpr auto names(Judged) {
-  using enum Judged;
-  return std::array{std::pair{contraction, std::string_view{"contraction"}},
-                    std::pair{force, std::string_view{"force"}}};
-}
+using domain::Judged;
 
 /// A fitted number with its 95 % interval.
 struct FittedNumber {
@@ -64,9 +58,8 @@ struct Moved {
   double deviations = 0.0;  ///< of its prior
 
   /// Worth telling: further than a data sheet promises, or the size of an effect.
-  bool notable() const {
-    return std::abs(deviations) > thresholds.parameter.notable || fitted.name.starts_with("effects.");
-  }
+  bool notable() const { return std::abs(deviations) > thresholds.parameter.notable || of_effect(); }
+  bool of_effect() const { return fitted.name.find("effects.") != std::string::npos; }
 };
 
 struct LawTerm {

@@ -63,10 +63,9 @@ std::vector<Fault> beside_an_effect(const Case& c, const Checked& checked, const
     step("trying " + title(suspicion.effect.candidate) + " beside faults of runs");
     const auto contender = with_suspect(c, checked, described, usable, suspicion);
     if (!contender.fitted.failure.empty()) continue;
-    auto faults =
-        examine(c.experiment, contender.fitted.model, usable,
-                common ? catalogue(c.experiment.data().pressure_is_given()) : std::vector<Candidate>{})
-            .faults;
+    auto faults = examine(c.experiment, contender.fitted.model, usable,
+                          common ? catalogue(c.experiment.data()) : std::vector<Candidate>{})
+                      .faults;
     if (!faults.empty() && !common && explains_all(c, described, suspicion, contender.fitted.model, usable))
       return {};
     if (!faults.empty() && (best.empty() || explains_more(faults, best))) best = std::move(faults);
@@ -83,8 +82,7 @@ bool explains_more(const std::vector<Fault>& faults, const std::vector<Fault>& o
 
 std::vector<Fault> first_look(const Case& c, const Checked& checked, const Model& described,
                               const Runs& usable, const Step& step) {
-  const auto [faults, suspicions] =
-      examine(c.experiment, described, usable, catalogue(c.experiment.data().pressure_is_given()));
+  const auto [faults, suspicions] = examine(c.experiment, described, usable, catalogue(c.experiment.data()));
   if (faults.empty()) return beside_an_effect(c, checked, described, usable, suspicions, step);
   Runs others;
   for (const std::size_t run : usable)
@@ -93,8 +91,7 @@ std::vector<Fault> first_look(const Case& c, const Checked& checked, const Model
   if (others.empty()) return faults;
   const auto fitted = fit(c.experiment, described, others, {.inflation = thresholds.scatter.first_inflation});
   if (!fitted.failure.empty()) return faults;
-  const auto again =
-      examine(c.experiment, fitted.model, usable, catalogue(c.experiment.data().pressure_is_given())).faults;
+  const auto again = examine(c.experiment, fitted.model, usable, catalogue(c.experiment.data())).faults;
   return !again.empty() && explains_more(faults, again) ? faults : again;
 }
 

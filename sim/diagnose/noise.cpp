@@ -9,8 +9,8 @@
 #include <sim/diagnose/noise.hpp>
 #include <sim/diagnose/predict.hpp>
 #include <sim/diagnose/thresholds.hpp>
+#include <sim/run/judged.hpp>
 #include <sim/run/series.hpp>
-#include <sim/run/simulate.hpp>
 
 namespace mckibben::diagnose {
 namespace {
@@ -23,7 +23,7 @@ constexpr const NoiseThresholds& assumed = thresholds.noise;
 double last_decimal(const domain::Dataset& data, const Runs& runs) {
   double unit = assumed.first_decimal;
   for (const std::size_t run : runs) {
-    for (const double ratio : data.runs[run].contraction_ratio) {
+    for (const double ratio : data.runs[run].judged()) {
       while (std::abs(ratio / unit - std::round(ratio / unit)) > assumed.decimal_error) {
         unit /= 10.0;
         if (unit < assumed.last_decimal) return 0.0;
@@ -40,9 +40,9 @@ bool counted(const domain::Dataset& data, const std::vector<std::vector<bool>>& 
   if (tolerance > assumed.telling_count) return false;  // everything would be whole
   std::size_t whole = 0, all = 0;
   for (const std::size_t i : runs) {
-    for (std::size_t k = 0; k < data.runs[i].contraction_ratio.size(); ++k) {
+    for (std::size_t k = 0; k < data.runs[i].judged().size(); ++k) {
       if (masked[i][k]) continue;
-      const double counts = data.runs[i].contraction_ratio[k] / count;
+      const double counts = data.runs[i].judged()[k] / count;
       ++all;
       whole += std::abs(counts - std::round(counts)) <= tolerance ? 1 : 0;
     }
@@ -55,16 +55,18 @@ double gauge_noise_Pa(const domain::Dataset& data, const Runs& runs) {
   double squares = 0.0;
   std::size_t count = 0;
   for (const std::size_t index : runs) {
-    const domain::Run& run = data.runs[index];
-    if (!run.muscle_pressure_Pa) continue;
-    const auto& p = *run.muscle_pressure_Pa;
-    std::vector<double> second;
-    for (std::size_t k = 2; k < p.size(); ++k) second.push_back(std::abs(p[k] - 2.0 * p[k - 1] + p[k - 2]));
-    if (second.empty()) continue;
-    // The median is blind to the few ticks at which the gas itself turns.
-    const double deviation = run::upper_median(std::move(second)) / assumed.normal_median / std::sqrt(6.0);
-    squares += deviation * deviation;
-    ++count;
+    for (const domain::Beside which : domain::besides) {
+      const auto* read = data.runs[index].beside(which);
+      if (read == nullptr) continue;
+      const auto& p = *read;
+      std::vector<double> second;
+      for (std::size_t k = 2; k < p.size(); ++k) second.push_back(std::abs(p[k] - 2.0 * p[k - 1] + p[k - 2]));
+      if (second.empty()) continue;
+      // The median is blind to the few ticks at which the gas itself turns.
+      const double deviation = run::upper_median(std::move(second)) / assumed.normal_median / std::sqrt(6.0);
+      squares += deviation * deviation;
+      ++count;
+    }
   }
   return count == 0 ? 0.0
                     : std::max(std::sqrt(squares / static_cast<double>(count)), assumed.least_pressure_Pa);
@@ -75,7 +77,7 @@ double gauge_noise_Pa(const domain::Dataset& data, const Runs& runs) {
 double scatter(const domain::Dataset& data, const std::vector<std::vector<bool>>& masked, const Runs& runs) {
   std::vector<double> fourth;
   for (const std::size_t i : runs) {
-    const auto& e = data.runs[i].contraction_ratio;
+    const auto& e = data.runs[i].judged();
     for (std::size_t k = 4; k < e.size(); ++k)
       if (std::none_of(masked[i].begin() + static_cast<std::ptrdiff_t>(k - 4),
                        masked[i].begin() + static_cast<std::ptrdiff_t>(k + 1), std::identity{}))
@@ -90,11 +92,13 @@ bool driven_alike(const domain::Run& one, const domain::Run& other) {
   if (one.load_kg != other.load_kg || one.current_mA != other.current_mA || one.shaken) return false;
   if (one.judged().size() != other.judged().size()) return false;
   if (!one.measured || !other.measured) return one.measured.has_value() == other.measured.has_value();
-  const auto pressure = [](const domain::Run& run) {
-    const auto& side = run.measured->sides[0];
-    return side.pressure_is_given ? side.muscle_pressure_Pa : std::vector<double>{};
+  const auto same_side = [&](std::size_t side) {
+    const auto &a = one.measured->sides[side], &b = other.measured->sides[side];
+    return a.pressure_is_given == b.pressure_is_given &&
+           (!a.pressure_is_given || a.muscle_pressure_Pa == b.muscle_pressure_Pa);
   };
-  return pressure(one) == pressure(other) &&
+  const bool same_opposite = one.measured->sides[1].current_mA == other.measured->sides[1].current_mA;
+  return same_side(0) && same_side(1) && same_opposite &&
          (!one.length_is_given() || one.measured->contraction_ratio == other.measured->contraction_ratio);
 }
 
@@ -143,7 +147,7 @@ double dither(const domain::Dataset& data, const std::vector<std::vector<bool>>&
   std::array<double, bins> rows{};
   double sum = 0.0;
   for (const std::size_t i : runs) {
-    const auto& e = data.runs[i].contraction_ratio;
+    const auto& e = data.runs[i].judged();
     for (std::size_t k = reach; k + reach < e.size(); ++k) {
       const auto first = masked[i].begin() + static_cast<std::ptrdiff_t>(k - reach);
       if (std::any_of(first, first + 2 * reach + 1, std::identity{}) || !straight(e, k, reach, count))
@@ -198,19 +202,37 @@ double largest_force_N(const domain::Dataset& data) {
   return most_N;
 }
 
+/// What the reading that is judged cannot be known better than: what the simulation does wrong, and the least
+/// that is believed of any instrument.
+struct Least {
+  double simulated, believed;
+};
+Least least_of(const domain::Dataset& data) {
+  const double tolerance = thresholds.predict.tolerance;
+  switch (data.judged()) {
+    case domain::Judged::force:
+      return {tolerance * largest_force_N(data), assumed.least_force_N};
+    case domain::Judged::angle: {
+      const double turn_rad = data.rig.muscle.rest_length_m / data.rig.joint.wheel_radius_m;
+      return {tolerance * turn_rad, assumed.least_ratio * turn_rad};
+    }
+    case domain::Judged::contraction:
+      break;
+  }
+  return {tolerance, assumed.least_ratio};
+}
+
 /// Of rows that were made of stamps: what their readings scattered by is known.
 void floor_of_rows(const domain::Dataset& data, const Runs& trusted, NoiseFloor& floor) {
   const domain::Rows& rows = *data.rows_of_stamps;
   floor.jitter = rows.noise;
   floor.given = of_given_pressure(data, trusted);
   const double instruments = std::hypot(rows.step / std::sqrt(12.0), floor.jitter, floor.given);
-  const bool forces = data.force_is_judged();
-  const double simulated =
-      forces ? thresholds.predict.tolerance * largest_force_N(data) : thresholds.predict.tolerance;
-  floor.judged = std::max({floor.repeats, std::hypot(instruments, simulated),
-                           forces ? assumed.least_force_N : assumed.least_ratio});
+  const auto [simulated, believed] = least_of(data);
+  floor.judged = std::max({floor.repeats, std::hypot(instruments, simulated), believed});
   const bool gauged = std::any_of(trusted.begin(), trusted.end(), [&](std::size_t run) {
-    return data.runs[run].muscle_pressure_Pa.has_value();
+    return std::ranges::any_of(domain::besides,
+                               [&](auto which) { return data.runs[run].beside(which) != nullptr; });
   });
   if (gauged) floor.pressure_Pa = std::max(rows.pressure_noise_Pa, assumed.least_pressure_Pa);
 }
@@ -220,7 +242,7 @@ void floor_of_rows(const domain::Dataset& data, const Runs& trusted, NoiseFloor&
 NoiseFloor noise_floor(const domain::Dataset& data, const std::vector<std::vector<bool>>& masked,
                        std::vector<std::size_t> trusted) {
   NoiseFloor floor;
-  const double count = run::contraction_per_count(data.rig);
+  const double count = run::reading_per_count(data.rig);
   floor.repeats = repeatability(data, masked, trusted);
   if (trusted.empty()) {
     trusted.resize(data.runs.size());
@@ -240,8 +262,8 @@ NoiseFloor noise_floor(const domain::Dataset& data, const std::vector<std::vecto
   floor.jitter = std::sqrt(std::max(0.0, noise * noise - rounding * rounding));
   floor.noisy = floor.jitter > count;
   if (floor.count > 0.0 && !floor.noisy) floor.jitter = count * dither(data, masked, trusted, count);
-  floor.judged = std::max(
-      {floor.repeats, std::hypot(rounding, floor.jitter, thresholds.predict.tolerance), assumed.least_ratio});
+  const auto [simulated, believed] = least_of(data);
+  floor.judged = std::max({floor.repeats, std::hypot(rounding, floor.jitter, simulated), believed});
   floor.pressure_Pa = gauge_noise_Pa(data, trusted);
   return floor;
 }

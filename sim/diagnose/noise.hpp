@@ -14,9 +14,11 @@ struct NoiseFloor {
   double jitter = 0.0;       ///< of the reading that is judged, before it is counted
   double judged = 0.0;       ///< of the reading that is judged: the largest of instruments and repeats
   double repeats = 0.0;      ///< of the same, between equal runs; 0: none are equal
-  double pressure_Pa = 0.0;  ///< of the gauge; 0: none fitted
+  double pressure_Pa = 0.0;  ///< of the gauges; 0: none fitted
   double given = 0.0;        ///< of the reading that is judged, by the noise of a pressure that is given
   bool noisy = false;        ///< the jitter is more than a count of the rig's encoder
+
+  double beside(domain::Beside) const { return pressure_Pa; }
 };
 
 /// `masked[run][row]` rows do not count. `trusted` runs are looked at, and compared where they are equal;

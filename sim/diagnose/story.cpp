@@ -38,9 +38,9 @@ std::string sentence_of(const std::string& effect) {
 }  // namespace
 
 void tell_parameters(Diagnosis& diagnosis, const Model& model, const std::vector<Bounds>& bounds,
-                     const plant::Rig& recalibrated) {
+                     const RigFile& recalibrated) {
   const auto& terms = model.rig.effects.get<plant::ResidualForce>().terms;
-  plant::Rig rig = model.rig;
+  RigFile rig = model.rig;
   for (std::size_t j = 0; j < model.free.size(); ++j) {
     const Parameter& p = model.free[j];
     FittedNumber number{p.path,        find(rig, p.path).unit, bounds[j].value,
@@ -71,10 +71,45 @@ void tell_parameters(Diagnosis& diagnosis, const Model& model, const std::vector
   }
 }
 
-std::string amount_of(Judged judged, double value, const plant::Rig& rig) {
-  return judged == Judged::force ? fmt::format("{:.2g} N", value)
-                                 : fmt::format("{:.2g} mm", 1e3 * value * rig.muscle.rest_length_m);
+std::string amount_of(Judged judged, double value, const RigFile& rig, int digits) {
+  switch (judged) {
+    case Judged::force:
+      return fmt::format("{:.{}g} N", value, digits);
+    case Judged::angle:
+      return fmt::format("{:.{}g} deg", value / plant::degree_rad, digits);
+    case Judged::contraction:
+      break;
+  }
+  return fmt::format("{:.{}g} mm", 1e3 * value * rig.muscle.rest_length_m, digits);
 }
+
+std::string_view unit_in_words(Judged judged) {
+  switch (judged) {
+    case Judged::force:
+      return "N";
+    case Judged::angle:
+      return "rad";
+    case Judged::contraction:
+      break;
+  }
+  return "in contraction ratio";
+}
+
+namespace {
+
+std::string noise_of_given_pressure(const domain::Dataset& data, const NoiseFloor& floor) {
+  switch (data.judged()) {
+    case Judged::force:
+      return fmt::format("force, {:.2g} N", floor.given);
+    case Judged::angle:
+      return fmt::format("joint, {}", amount_of(Judged::angle, floor.given, data.rig));
+    case Judged::contraction:
+      break;
+  }
+  return fmt::format("motion, {:.2g} in contraction ratio", floor.given);
+}
+
+}  // namespace
 
 std::vector<std::string> rows_in_words(const domain::Dataset& data, const NoiseFloor& floor) {
   std::vector<std::string> words;
@@ -90,8 +125,7 @@ std::vector<std::string> rows_in_words(const domain::Dataset& data, const NoiseF
     words.push_back(fmt::format(
         "the noise of the given pressure, {:.2g} mbar, {}; what it does to the {}, counts in the noise floor",
         1e-2 * rows.given_noise_Pa, rows.smoothed ? "was smoothed" : "was left as it is",
-        data.force_is_judged() ? fmt::format("force, {:.2g} N", floor.given)
-                               : fmt::format("motion, {:.2g} in contraction ratio", floor.given)));
+        noise_of_given_pressure(data, floor)));
   if (rows.slack > 0)
     words.push_back(
         fmt::format("{} readings of force are 0, a cord that hangs through: how far the muscle is from "
@@ -102,10 +136,15 @@ std::vector<std::string> rows_in_words(const domain::Dataset& data, const NoiseF
         "the muscle's length is the input: what acts on the load, on its guide or on the encoder is out of "
         "sight, "
         "and runs are not looked through for faults of a recorder");
+  const bool pair = data.judged() == Judged::angle;
+  if (pair)
+    words.push_back(
+        "two muscles turn the joint: effects are looked for on both alike; runs are not looked through for "
+        "faults of a recorder, no further measurement is planned, and a load's guide there is none");
   if (data.pressure_is_given())
-    words.push_back(fmt::format(
-        "the muscle's pressure is the input: valve, supply, hose and gas are out of sight, and with them {}",
-        fmt::join(effects_out_of_sight(), ", ")));
+    words.push_back(
+        fmt::format("the muscle{} the input: valve, supply, hose and gas are out of sight, and with them {}",
+                    pair ? "s' pressures are" : "'s pressure is", fmt::join(effects_out_of_sight(), ", ")));
   return words;
 }
 
@@ -157,7 +196,15 @@ std::string amount_in_words(const Diagnosis& d, double value) {
   return amount_of(d.gap.judged, value, d.corrected);
 }
 std::string what_is_judged(const Diagnosis& d) {
-  return d.gap.judged == Judged::force ? "the cord's force" : "the load's height";
+  switch (d.gap.judged) {
+    case Judged::force:
+      return "the cord's force";
+    case Judged::angle:
+      return "the joint's angle";
+    case Judged::contraction:
+      break;
+  }
+  return "the load's height";
 }
 
 std::string gap_in_words(const Diagnosis& d) {
@@ -198,8 +245,8 @@ std::string law_in_words(const Diagnosis& d) {
     return "Something real is missing, but no effect of the catalogue explains it, and no simple law of "
            "force was found either.";
   return fmt::format(
-      "Something is missing that no effect of the catalogue explains; as a force on the load it is {}. {}",
-      law, gap_in_words(d));
+      "Something is missing that no effect of the catalogue explains; as a force {} it is {}. {}",
+      d.gap.judged == Judged::angle ? "that shortens each muscle" : "on the load", law, gap_in_words(d));
 }
 
 std::string cannot_tell_in_words(const Diagnosis& d) {

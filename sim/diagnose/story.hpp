@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <sim/diagnose/decide.hpp>
@@ -16,10 +17,12 @@ namespace mckibben::diagnose {
 /// Files the free parameters of the final fit under effects, law and nominal parameters. `bounds`: one for
 /// each free parameter; `recalibrated`: the rig fitted without effects.
 void tell_parameters(Diagnosis& diagnosis, const Model& model, const std::vector<Bounds>& bounds,
-                     const plant::Rig& recalibrated);
+                     const RigFile& recalibrated);
 
-/// An amount of the judged reading, two digits: "1.2 mm" of the load's height, "3.4 N".
-std::string amount_of(Judged judged, double value, const plant::Rig& rig);
+/// An amount of the judged reading: "1.2 mm" of the load's height, "3.4 N", "0.25 deg".
+std::string amount_of(Judged judged, double value, const RigFile& rig, int digits = 2);
+/// What such numbers are in: "in contraction ratio", "N", "rad".
+std::string_view unit_in_words(Judged judged);
 
 /// What was made of stamps, and what data with a clock of their own cannot show.
 std::vector<std::string> rows_in_words(const domain::Dataset& data, const NoiseFloor& floor);

@@ -40,6 +40,8 @@ struct PredictThresholds {
 struct Prior {
   std::string_view path;
   double relative, absolute;  ///< standard deviation; absolute in the parameter's unit
+
+  bool of_hanging_load() const { return path.starts_with("joint."); }
 };
 struct ParameterThresholds {
   /// Machined lengths are known to a per cent, catalogue conductances and friction to ten, trimmed pressures
@@ -55,6 +57,14 @@ struct ParameterThresholds {
                                 {"hose.conductance", 0.1, 0.0},
                                 {"joint.guide_damping", 0.2, 0.0},
                                 {"joint.load_offset", 0.0, 0.05}}};
+  /// Of a pair besides: how its muscles are mounted to a millimetre of 0.3 m, angles to a degree, a link's
+  /// length and inertia to what a ruler and a drawing say.
+  std::array<Prior, 6> pair_priors{{{"mechanics.contraction_1", 0.0, 0.003},
+                                    {"mechanics.contraction_2", 0.0, 0.003},
+                                    {"mechanics.link_length", 0.01, 0.0},
+                                    {"mechanics.link_inertia", 0.05, 0.0},
+                                    {"mechanics.link_hangs_at", 0.0, 0.0175},
+                                    {"mechanics.joint_damping", 0.2, 0.0}}};
   double unknown = 0.5;          ///< of its value: the deviation of one that is stated to be unknown,
   double unknown_usual = 3.0;    ///< or so many of those above, if that is more
   double most_deviations = 3.0;  ///< of its prior: further it is not the rig that was described
@@ -217,10 +227,12 @@ struct WhereThresholds {
   double same_sum = 1e-12;          ///< relative: as large
   double false_discoveries = 0.05;  ///< share of those called significant. Convention
   double rest_mm_per_s = 0.5;       ///< slower is standing
-  std::array<double, 3> speeds_mm_per_s{5.0, 25.0, 100.0};  ///< between cells
-  int pressures = 5, contractions = 6, times = 4;           ///< cells of equal width
-  std::array<double, 2> start_s{1.0, 4.0};                  ///< between cells
-  std::array<double, 3> since_reversal_s{0.1, 0.5, 2.0};    ///< between cells
+  std::array<double, 3> speeds_mm_per_s{5.0, 25.0, 100.0};    ///< between cells
+  double rest_deg_per_s = 1.0;                                ///< slower a joint stands
+  std::array<double, 3> speeds_deg_per_s{10.0, 50.0, 200.0};  ///< of a joint, between cells
+  int pressures = 5, contractions = 6, times = 4;             ///< cells of equal width
+  std::array<double, 2> start_s{1.0, 4.0};                    ///< between cells
+  std::array<double, 3> since_reversal_s{0.1, 0.5, 2.0};      ///< between cells
 };
 
 // ---- 4. Name

@@ -2,9 +2,12 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include <sim/domain/columns.hpp>
@@ -13,6 +16,19 @@
 #include <sim/domain/rig_file.hpp>
 
 namespace mckibben::domain {
+
+/// The reading that models are judged by: contraction ratio; force [N] at lengths that a bench gives; joint
+/// angle [rad] of a pair.
+enum class Judged { contraction, force, angle };
+constexpr auto names(Judged) {
+  using enum Judged;
+  return std::array{std::pair{contraction, std::string_view{"contraction"}},
+                    std::pair{force, std::string_view{"force"}}, std::pair{angle, std::string_view{"angle"}}};
+}
+
+/// What may have been read beside it, in the order in which it is told.
+enum class Beside { muscle_pressure, opposite_pressure };
+inline constexpr std::array besides{Beside::muscle_pressure, Beside::opposite_pressure};
 
 /// One measured run: a row each tick, the first at time 0; or `measured` with a clock of its own.
 struct Run {
@@ -26,7 +42,9 @@ struct Run {
   std::vector<double> current_mA;  ///< held from its row to the next
   std::vector<double> contraction_ratio;
   std::vector<double> force_N;  ///< of the cord, where the length is given and it is judged in place of that
+  std::vector<double> angle_rad;  ///< of a pair
   std::optional<std::vector<double>> muscle_pressure_Pa;
+  std::optional<std::vector<double>> opposite_pressure_Pa;  ///< of muscle 2
   double ratio_per_unit = 1.0;  ///< of contraction: what one of its file's unit is
   double rest_length_m = 0.0;   ///< that its rise was divided by; 0: that of the rig it is compared with
 
@@ -35,8 +53,20 @@ struct Run {
   std::vector<double> time_s;           ///< of rows made of stamps, since the first stamp; else empty
   std::vector<bool> missing;            ///< rows of theirs without a reading; empty: none is
 
-  /// The reading that a model is judged by: contraction ratio, or force [N] at a length that is given.
-  const std::vector<double>& judged() const { return force_N.empty() ? contraction_ratio : force_N; }
+  /// The reading that a model is judged by.
+  Judged kind_of_judged() const {
+    if (!angle_rad.empty()) return Judged::angle;
+    return force_N.empty() ? Judged::contraction : Judged::force;
+  }
+  const std::vector<double>& judged() const {
+    const Judged kind = kind_of_judged();
+    return kind == Judged::angle ? angle_rad : kind == Judged::force ? force_N : contraction_ratio;
+  }
+  /// What was read beside it; null if it was not.
+  const std::vector<double>* beside(Beside which) const {
+    const auto& read = which == Beside::muscle_pressure ? muscle_pressure_Pa : opposite_pressure_Pa;
+    return read ? &*read : nullptr;
+  }
   bool length_is_given() const { return measured && measured->length_is_given; }
 
   template <class Self, class Visitor>
@@ -79,10 +109,16 @@ struct Dataset {
   double rows_begin_s() const { return rows_of_stamps ? recorded.skip_s : 0.0; }
   /// A bench gives every run its length, and what is judged is the force.
   bool force_is_judged() const { return !runs.empty() && std::ranges::all_of(runs, &Run::length_is_given); }
-  /// No run has a valve: the pressure is given.
+  Judged judged() const {
+    if (rig.pair() != nullptr) return Judged::angle;
+    return force_is_judged() ? Judged::force : Judged::contraction;
+  }
+  /// No run has a valve: the pressure is given, of a pair both are.
   bool pressure_is_given() const {
-    return std::all_of(runs.begin(), runs.end(), [](const Run& run) {
-      return run.measured && run.measured->sides[0].pressure_is_given;
+    const bool pair = rig.pair() != nullptr;
+    return std::all_of(runs.begin(), runs.end(), [&](const Run& run) {
+      return run.measured && run.measured->sides[0].pressure_is_given &&
+             (!pair || run.measured->sides[1].pressure_is_given);
     });
   }
 

@@ -16,6 +16,9 @@ struct RigFile : plant::Rig {
   solver::Settings integrator;
   Spreads spreads;  ///< `6 mm ± 0.1 mm`
 
+  RigFile() = default;
+  RigFile(const plant::Rig& rig) : plant::Rig(rig) {}  ///< with a load that hangs
+
   /// The second muscle and the link, or null.
   const plant::Pair* pair() const { return std::get_if<plant::Pair>(&mechanics); }
   bool lifts_a_load() const { return std::holds_alternative<plant::HangingLoad>(mechanics); }

@@ -9,9 +9,9 @@
 
 namespace mckibben::engine {
 
-template <bool remembers>
+template <bool remembers, int sides = 1>
 struct LaneProblem {
-  using L = Layout<1, remembers, Books::none>;
+  using L = Layout<sides, remembers, Books::none>;
   struct V : LaneVector<L::size> {
     using layout = L;
   };
@@ -41,20 +41,32 @@ struct LaneProblem {
       plant::State<Lanes> state;
       state.joint = {at(y, 0, block), at(y, 1, block)};
       state.side = {at(y, 2, block), at(y, 3, block), at(y, 4, block)};
+      if constexpr (sides == 2) state.opposite = {at(y, 5, block), at(y, 6, block), at(y, 7, block)};
       plant::Memory<Lanes> memory;
-      for (std::size_t i = 0; i < memory.side.size(); ++i)
+      const std::size_t each = memory.side.size();
+      for (std::size_t i = 0; i < each; ++i) {
         memory.side[i] = remembers ? at(y, (L::states + i) % L::size, block) : Lanes(0.0);
-      inside = plant.template in_domain<1>(state);
-      const auto now = plant.template moment<1>(state, memory, held);
-      const auto slopes = plant.template rates<1>(state, now);
+        if constexpr (sides == 2)
+          memory.opposite[i] = remembers ? at(y, (L::states + each + i) % L::size, block) : Lanes(0.0);
+      }
+      inside = plant.template in_domain<sides>(state);
+      const auto now = plant.template moment<sides>(state, memory, held);
+      const auto slopes = plant.template rates<sides>(state, now);
       at(dydt, 0, block) = slopes.joint.contraction_ratio;
       at(dydt, 1, block) = slopes.joint.contraction_speed_per_s;
       at(dydt, 2, block) = slopes.side.valve_pressure_Pa;
       at(dydt, 3, block) = slopes.side.muscle_pressure_Pa;
       at(dydt, 4, block) = slopes.side.bristle_m;
+      if constexpr (sides == 2) {
+        at(dydt, 5, block) = slopes.opposite.valve_pressure_Pa;
+        at(dydt, 6, block) = slopes.opposite.muscle_pressure_Pa;
+        at(dydt, 7, block) = slopes.opposite.bristle_m;
+      }
       if constexpr (remembers)
-        for (std::size_t i = 0; i < memory.side.size(); ++i)
+        for (std::size_t i = 0; i < each; ++i) {
           at(dydt, L::states + i, block) = now.memory_rates[i];
+          if constexpr (sides == 2) at(dydt, L::states + each + i, block) = now.opposite.memory_rates[i];
+        }
     });
     return inside;
   }

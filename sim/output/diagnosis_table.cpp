@@ -51,12 +51,19 @@ std::string moved(const Diagnosis& diagnosis) {
 std::string gap(const Diagnosis& diagnosis) {
   const auto& gap = diagnosis.gap;
   Grid grid({"nominal", "recalibrated", "corrected", "noise floor", "closed"}, 0);
-  const bool force = gap.judged == diagnose::Judged::force;
-  const auto ratio = [&](double value) {
-    return force ? fmt::format("{:.3f}", value) : fmt::format("{:.6f}", value);
+  const auto error = [&](double value) {
+    switch (gap.judged) {
+      case diagnose::Judged::force:
+        return fmt::format("{:.3f}", value);
+      case diagnose::Judged::angle:
+        return fmt::format("{:.4f}", value / plant::degree_rad);
+      case diagnose::Judged::contraction:
+        break;
+    }
+    return fmt::format("{:.6f}", value);
   };
-  grid.add({ratio(gap.nominal_rmse), ratio(gap.recalibrated_rmse), ratio(gap.corrected_rmse),
-            ratio(gap.noise_floor), fmt::format("{:.1f} %", 100.0 * gap.closed)});
+  grid.add({error(gap.nominal_rmse), error(gap.recalibrated_rmse), error(gap.corrected_rmse),
+            error(gap.noise_floor), fmt::format("{:.1f} %", 100.0 * gap.closed)});
   return grid.text();
 }
 
@@ -79,7 +86,8 @@ std::string next(const Diagnosis& diagnosis) {
 }
 
 std::string unit_of(const domain::Dataset& data) {
-  if (data.force_is_judged()) return "forces in N";
+  if (data.judged() == diagnose::Judged::force) return "forces in N";
+  if (data.judged() == diagnose::Judged::angle) return "joint angles in deg";
   return fmt::format("contraction ratios (0.001 = {:g} mm)", data.rig.muscle.rest_length_m);
 }
 

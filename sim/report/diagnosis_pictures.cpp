@@ -264,8 +264,12 @@ std::string errors_svg(const std::vector<const diagnose::RunGap*>& runs, const d
       }
     return lines;
   };
-  svg += gap.judged == diagnose::Judged::force ? grid(1.0, " N")
-                                               : either(grid(length_mm(rig), " mm"), grid(1.0, ""), "g");
+  if (gap.judged == diagnose::Judged::contraction)
+    svg += either(grid(length_mm(rig), " mm"), grid(1.0, ""), "g");
+  else if (gap.judged == diagnose::Judged::force)
+    svg += grid(1.0, " N");
+  else
+    svg += grid(1.0 / plant::degree_rad, " deg");
   if (noise_floor > 0.0) {
     svg += stroke(x(noise_floor), 36, x(noise_floor), bottom, "floor");
     svg +=

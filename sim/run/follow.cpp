@@ -13,8 +13,7 @@ namespace {
 using ride::Command, ride::Drive;
 
 ride::Ride ride_of(const domain::RigFile& rig, double load_kg) {
-  if (const plant::Pair* pair = rig.pair())
-    return {ride::Paired{rig, plant::opposite_rig(rig, *pair), *pair}, rig.integrator, true};
+  if (const plant::Pair* pair = rig.pair()) return {paired(rig, *pair), rig.integrator, true};
   return {ride::Hanging{rig, load_kg}, rig.integrator, true};
 }
 
@@ -150,6 +149,10 @@ long start(std::span<ride::Rider> riders, const Course& course, const plant::Rig
     ride::set_off(riders[i], begins);
   }
   return ticks;
+}
+
+ride::Paired paired(const domain::RigFile& rig, const plant::Pair& pair) {
+  return {rig, plant::opposite_rig(rig, pair), pair};
 }
 
 Recording follow(const domain::RigFile& rig, double load_kg, const Course& course) {

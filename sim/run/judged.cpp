@@ -1,5 +1,6 @@
 // Averages over neighbours, run by run; see the header.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <numeric>
@@ -9,9 +10,11 @@
 
 #include <Eigen/LU>
 
+#include <plant/instruments.hpp>
 #include <sim/run/course.hpp>
 #include <sim/run/judged.hpp>
 #include <sim/run/series.hpp>
+#include <sim/run/simulate.hpp>
 
 namespace mckibben::run {
 namespace {
@@ -181,8 +184,8 @@ double step_of(const std::vector<double>& values) {
 /// One run: its rows, and the stamps that drive it.
 class Judging {
  public:
-  Judging(domain::Run& run, double row_s, std::size_t seed)
-      : run_(run), raw_(*run.measured), row_s_(row_s), random_(seed) {}
+  Judging(domain::Run& run, bool pair, double row_s, std::size_t seed)
+      : run_(run), raw_(*run.measured), pair_(pair), row_s_(row_s), random_(seed) {}
 
   void operator()() {
     leave_out_slack();
@@ -203,6 +206,7 @@ class Judging {
  private:
   double end_s() const { return raw_.time_s.back(); }
   double begin_s() const { return raw_.time_s.front(); }
+  std::size_t sides() const { return pair_ ? 2 : 1; }
 
   /// Without what is only read.
   Measurement bare() const {
@@ -212,7 +216,8 @@ class Judging {
     bare.counted = raw_.counted;
     bare.point_s = raw_.point_s;
     bare.length_is_given = raw_.length_is_given;
-    bare.sides[0].pressure_is_given = raw_.sides[0].pressure_is_given;
+    for (std::size_t side = 0; side < sides(); ++side)
+      bare.sides[side].pressure_is_given = raw_.sides[side].pressure_is_given;
     return bare;
   }
 
@@ -238,8 +243,11 @@ class Judging {
   Measurement as_recorded() const {
     Measurement same = bare();
     same.time_s = raw_.time_s;
-    same.sides[0].current_mA = raw_.sides[0].current_mA;
-    if (same.sides[0].pressure_is_given) same.sides[0].muscle_pressure_Pa = raw_.sides[0].muscle_pressure_Pa;
+    for (std::size_t side = 0; side < sides(); ++side) {
+      same.sides[side].current_mA = raw_.sides[side].current_mA;
+      if (same.sides[side].pressure_is_given)
+        same.sides[side].muscle_pressure_Pa = raw_.sides[side].muscle_pressure_Pa;
+    }
     double last_s = begin_s() + raw_.recorded.skip_s - row_s_;
     for (std::size_t k = 0; k < raw_.time_s.size(); ++k) {
       const bool counts_each =
@@ -260,22 +268,50 @@ class Judging {
     for (std::size_t j = 0; j <= rows * quarters; ++j) {
       const double now_s = begin_s() + static_cast<double>(j) * quarter_s;
       if (j % quarters == quarters / 2 && j / quarters >= skipped) thin.rows.push_back(thin.time_s.size());
-      if (thin.sides[0].pressure_is_given)
-        give(thin, now_s, now_s + quarter_s);
-      else
-        command(thin, now_s, now_s + quarter_s);
+      follow(thin, now_s, now_s + quarter_s);
     }
     return thin;
   }
 
-  void command(Measurement& thin, double from_s, double to_s) const {
-    const auto& values = raw_.sides[0].current_mA;
-    const Column column(raw_.time_s, values);
-    const bool linear = raw_.recorded.hold == domain::Hold::linear;
+  /// What drives a side, as it was recorded.
+  struct Input {
+    const std::vector<double>& values;
+    bool given;  ///< a pressure; else a command
+    Column column;
+  };
+  Input input(std::size_t side) const {
+    const bool given = raw_.sides[side].pressure_is_given;
+    const auto& values = given ? raw_.sides[side].muscle_pressure_Pa : raw_.sides[side].current_mA;
+    return {values, given, Column(raw_.time_s, values)};
+  }
+
+  /// Adds the inputs of a quarter, at every stamp where one of them jumps or bends.
+  void follow(Measurement& thin, double from_s, double to_s) const {
+    std::array<bool, 2> uneven{};
+    for (std::size_t side = 0; side < sides(); ++side) {
+      const Input of = input(side);
+      uneven[side] = of.given ? jumps(of, from_s) : bends(of, from_s, to_s);
+    }
     const auto put = [&](double a_s, double b_s) {
       thin.time_s.push_back(a_s);
-      thin.sides[0].current_mA.push_back(column.mean(a_s, b_s, linear));
+      for (std::size_t side = 0; side < sides(); ++side) {
+        const Input of = input(side);
+        if (of.given)
+          thin.sides[side].muscle_pressure_Pa.push_back(pressure(of, a_s, uneven[side]));
+        else
+          thin.sides[side].current_mA.push_back(
+              of.column.mean(a_s, b_s, raw_.recorded.hold == domain::Hold::linear));
+      }
     };
+    double at_s = from_s;
+    if (uneven[0] || uneven[1])
+      for (const double stamp_s : input(0).column.stamps(from_s, to_s))
+        put(std::exchange(at_s, stamp_s), stamp_s);
+    put(at_s, to_s);
+  }
+
+  static bool bends(const Input& of, double from_s, double to_s) {
+    const Column& column = of.column;
     const std::size_t first = column.last_before(from_s), last = column.last_before(to_s);
     double bend = 0.0;
     for (std::size_t k = first; k <= last; ++k) {
@@ -284,69 +320,88 @@ class Judging {
       bend = std::max(bend, std::abs(column[k] - std::lerp(column[first], column[last], share)));
       if (k > first) bend = std::max(bend, 0.5 * std::abs(column[k] - column[k - 1]));
     }
-    double at_s = from_s;
-    if (bend > straight * range_of(values))
-      for (const double stamp_s : column.stamps(from_s, to_s)) put(std::exchange(at_s, stamp_s), stamp_s);
-    put(at_s, to_s);
+    return bend > straight * range_of(of.values);
   }
 
-  void give(Measurement& thin, double from_s, double to_s) {
-    const auto& values = raw_.sides[0].muscle_pressure_Pa;
-    const Column column(raw_.time_s, values);
-    const Together here = column.near(from_s, 0.5 * row_s_);
-    auto& given = thin.sides[0].muscle_pressure_Pa;
-    const bool jumps =
-        here.worst > std::max(straight * range_of(values), outlying * std::sqrt(here.squares)) ||
-        std::isnan(here.value);
-    thin.time_s.push_back(from_s);
-    given.push_back(jumps ? column.between(column.last_before(from_s), from_s) : here.value);
-    if (!jumps) return;
-    for (const double stamp_s : column.stamps(from_s, to_s)) {
-      thin.time_s.push_back(stamp_s);
-      given.push_back(column[column.last_before(stamp_s)]);
-    }
+  bool jumps(const Input& of, double at_s) const {
+    const Together here = of.column.near(at_s, 0.5 * row_s_);
+    return here.worst > std::max(straight * range_of(of.values), outlying * std::sqrt(here.squares)) ||
+           std::isnan(here.value);
+  }
+
+  /// Of a given pressure: smoothed, unless it jumps.
+  double pressure(const Input& of, double at_s, bool jumps) const {
+    const double raw = of.column.between(of.column.last_before(at_s), at_s);
+    if (jumps) return raw;
+    const double smooth = of.column.near(at_s, 0.5 * row_s_).value;
+    return std::isnan(smooth) ? raw : smooth;
+  }
+
+  /// A gauge of a side whose pressure is not given, or nothing.
+  const std::vector<double>* gauge(std::size_t side) const {
+    const Measurement::Side& of = raw_.sides[side];
+    return side < sides() && !of.pressure_is_given && !of.muscle_pressure_Pa.empty() ? &of.muscle_pressure_Pa
+                                                                                     : nullptr;
+  }
+
+  /// The reading that is judged, as it was recorded, and where its rows go.
+  std::pair<const std::vector<double>&, std::vector<double>&> judged() {
+    if (pair_) return {raw_.angle_rad, run_.angle_rad};
+    if (raw_.length_is_given) return {raw_.force_N, run_.force_N};
+    return {raw_.contraction_ratio, run_.contraction_ratio};
   }
 
   /// What the readings say at each row.
   void judge(const Measurement& driving) {
-    const auto& pressures = raw_.sides[0].muscle_pressure_Pa;
-    const bool gauge = !pressures.empty() && !raw_.sides[0].pressure_is_given;
-    const auto& readings = raw_.length_is_given ? raw_.force_N : raw_.contraction_ratio;
-    auto& judged = raw_.length_is_given ? run_.force_N : run_.contraction_ratio;
-    const Column column_read(raw_.time_s, readings), pressure(raw_.time_s, pressures);
-    if (gauge) run_.muscle_pressure_Pa.emplace();
+    const auto [readings, rows] = judged();
+    const std::array<std::optional<std::vector<double>>*, 2> gauges{&run_.muscle_pressure_Pa,
+                                                                    &run_.opposite_pressure_Pa};
+    for (std::size_t side = 0; side < 2; ++side)
+      if (gauge(side) != nullptr) gauges[side]->emplace();
     for (const std::size_t stamp : driving.rows) {
       const double at_s = driving.time_s[stamp];
-      const auto read = [&](const Column& column, std::vector<double>& left) {
+      const auto read = [&](const std::vector<double>& values, std::vector<double>& left) {
+        const Column column(raw_.time_s, values);
         if (!fast_) return Together{.value = column[stamp], .gain = 1.0, .readings = 1};
         const Together near = column.near(at_s, 0.5 * row_s_);
         if (!std::isnan(near.value)) left.push_back(near.squares);
         return near;
       };
-      const Together all = read(column_read, squares);
-      Together p{.value = 0.0};
-      if (gauge) p = read(pressure, pressure_squares);
-      run_.missing.push_back(std::isnan(all.value) || std::isnan(p.value));
+      const Together all = read(readings, squares);
+      bool missing = std::isnan(all.value);
+      for (std::size_t side = 0; side < 2; ++side) {
+        if (gauge(side) == nullptr) continue;
+        (*gauges[side])->push_back(read(*gauge(side), pressure_squares).value);
+        missing = missing || std::isnan((*gauges[side])->back());
+      }
+      run_.missing.push_back(missing);
       run_.time_s.push_back(at_s - begin_s());
-      judged.push_back(all.value);
-      if (gauge) run_.muscle_pressure_Pa->push_back(p.value);
+      rows.push_back(all.value);
       if (!driving.sides[0].current_mA.empty()) run_.current_mA.push_back(driving.sides[0].current_mA[stamp]);
       gain_sum += all.gain;
       readings_sum += static_cast<double>(all.readings);
     }
-    fill(judged);
-    if (gauge) fill(*run_.muscle_pressure_Pa);
+    fill(rows);
+    for (auto* const one : gauges)
+      if (*one) fill(**one);
     step = step_of(readings);
-    if (!fast_) {
-      if (const double noise = noise_of_slow(readings); noise > 0.0) squares = {noise * noise};
-      pressure_squares = {std::pow(noise_of_slow(pressures), 2)};
-    }
+    if (!fast_) note_slow_noise(readings);
+  }
+
+  void note_slow_noise(const std::vector<double>& readings) {
+    if (const double noise = noise_of_slow(readings); noise > 0.0) squares = {noise * noise};
+    pressure_squares.clear();
+    for (std::size_t side = 0; side < sides(); ++side)
+      pressure_squares.push_back(std::pow(noise_of_slow(raw_.sides[side].muscle_pressure_Pa), 2));
   }
 
   double noise_of_slow(const std::vector<double>& readings) const {
     if (raw_.point_s == 0.0) return slow_noise(readings);
-    std::vector<std::vector<double>> inputs{raw_.sides[0].current_mA};
-    if (raw_.sides[0].pressure_is_given) inputs.push_back(raw_.sides[0].muscle_pressure_Pa);
+    std::vector<std::vector<double>> inputs;
+    for (std::size_t side = 0; side < sides(); ++side) {
+      inputs.push_back(raw_.sides[side].current_mA);
+      if (raw_.sides[side].pressure_is_given) inputs.push_back(raw_.sides[side].muscle_pressure_Pa);
+    }
     if (raw_.length_is_given) inputs.push_back(raw_.contraction_ratio);
     std::erase_if(inputs, [](const auto& input) { return input.empty(); });
     return readings.empty() ? 0.0 : points_noise(readings, inputs);
@@ -368,18 +423,23 @@ class Judging {
 
   /// As much noise as a given pressure has, once more on it.
   void shake(const Measurement& driving) {
-    if (!driving.sides[0].pressure_is_given || driving.point_s > 0.0) return;  // a point's has come to rest
-    auto& readings = raw_.sides[0].muscle_pressure_Pa;
+    if (driving.point_s > 0.0) return;  // a point's has come to rest
+    for (std::size_t side = 0; side < sides(); ++side)
+      if (driving.sides[side].pressure_is_given) shake(driving, side);
+  }
+  void shake(const Measurement& driving, std::size_t side) {
+    auto& readings = raw_.sides[side].muscle_pressure_Pa;
     const Column column(raw_.time_s, readings);
     std::vector<double> left;
     if (fast_)
       for (const std::size_t stamp : driving.rows)
         left.push_back(column.near(driving.time_s[stamp], 0.5 * row_s_).squares);
-    given_noise_Pa = fast_ ? noise_of(left) : slow_noise(readings);
-    std::normal_distribution<double> noise(0.0, given_noise_Pa);
+    const double noise_Pa = fast_ ? noise_of(left) : slow_noise(readings);
+    given_noise_Pa = std::max(given_noise_Pa, noise_Pa);
+    std::normal_distribution<double> noise(0.0, noise_Pa);
     for (double& reading : readings) reading += noise(random_);
-    run_.shaken = driving;
-    auto& shaken = run_.shaken->sides[0].muscle_pressure_Pa;
+    if (!run_.shaken) run_.shaken = driving;
+    auto& shaken = run_.shaken->sides[side].muscle_pressure_Pa;
     for (std::size_t k = 0; k < driving.time_s.size(); ++k) {
       const double at_s = driving.time_s[k];
       const Together here = column.near(at_s, 0.5 * row_s_);
@@ -390,6 +450,7 @@ class Judging {
 
   domain::Run& run_;
   Measurement raw_;
+  bool pair_;
   double row_s_;
   std::mt19937_64 random_;
   bool fast_ = false;
@@ -405,6 +466,11 @@ double row_s_of(const domain::Dataset& data) {
 
 }  // namespace
 
+double reading_per_count(const domain::RigFile& rig) {
+  if (rig.pair() == nullptr) return contraction_per_count(rig);
+  return plant::count_height_m(rig.encoder, rig.joint) / rig.joint.wheel_radius_m;
+}
+
 domain::Dataset with_rows(domain::Dataset data) {
   if (!data.own_clock || data.rows_of_stamps) return data;
   Rows rows{.row_s = row_s_of(data), .readings = 0.0};
@@ -413,7 +479,7 @@ domain::Dataset with_rows(domain::Dataset data) {
   for (std::size_t i = 0; i < data.runs.size(); ++i) {
     domain::Run& run = data.runs[i];
     rows.stamps += run.measured->time_s.size();
-    Judging judging(run, rows.row_s, i + 1);
+    Judging judging(run, data.rig.pair() != nullptr, rows.row_s, i + 1);
     judging();
     rows.rows += run.judged().size();
     rows.inputs += run.measured->time_s.size();
