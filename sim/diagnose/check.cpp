@@ -51,6 +51,7 @@ class DatasetChecker {
 
   Checked operator()() {
     if (hangs()) insane();
+    if (pair_) joint();
     for (std::size_t i = 0; i < data_.runs.size(); ++i) {
       for (const domain::Beside which : domain::besides) gauge(i, which);
       if (bench_)
@@ -249,6 +250,41 @@ class DatasetChecker {
                     still.why == Still::Why::frozen ? "frozen" : "saturated", from_s, to_s, moving());
     warn(i, what);
     find(i, still.why == Still::Why::frozen ? "frozen" : "saturated", "masked", what);
+  }
+
+  // A joint that goes the other way than the rig's, or far too far, is not read as its columns say.
+  void joint() {
+    Series measured, model;
+    for (std::size_t i = 0; i < data_.runs.size(); ++i)
+      for (std::size_t k = 0; k < checked_.masked[i].size(); ++k) {
+        if (checked_.masked[i][k]) continue;
+        measured.push_back(data_.runs[i].angle_rad[k]);
+        model.push_back(model_[i].judged[k]);
+      }
+    if (measured.size() < 2 || range(model) == 0.0) return;
+    const Line line(measured, model);
+    domain::ColumnPlace place = domain::merged(data_.columns, data_.runs.front().columns).angle;
+    if (place.absent()) place = {.column = "angle_rad", .unit = "rad"};
+    const auto refuse = [&](std::string_view what, std::string_view or_else) {
+      throw domain::UnfitData(
+          data_, fmt::format("angle: the readings go {:.2g} times as far as this rig's joint: {}; write "
+                             "columns: {{{}}}{}",
+                             line.slope, what, domain::line_of("angle", place), or_else));
+    };
+    if (line.correlation < -of_check.like_turn && line.slope < -of_check.turns_at_all) {
+      place.factor = -place.factor;
+      refuse("it turns the other way", ", or exchange muscle 1 and muscle 2");
+    }
+    if (line.correlation < of_check.like_turn) return;
+    const double turns = std::log(line.slope), degrees = std::log(plant::degree_rad);
+    if (std::abs(turns + degrees) < of_check.like_degrees) {
+      place.unit = "deg";
+      refuse("they look like degrees", "");
+    }
+    if (std::abs(turns - degrees) < of_check.like_degrees) {
+      place.unit = "rad";
+      refuse("they look like radians", "");
+    }
   }
 
   static bool same_inputs(const domain::Measurement& one, const domain::Measurement& other) {

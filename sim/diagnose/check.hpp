@@ -29,8 +29,8 @@ struct Checked {
 ///
 /// Labels of loads that contradict the other runs: see labels.hpp.
 ///
-/// Throws domain::UnfitData where a column is in another unit than it says; engine::NumericalFailure;
-/// run::Interrupted.
+/// Throws domain::UnfitData where a column is in another unit, or has another sign, than it says;
+/// engine::NumericalFailure; run::Interrupted.
 Checked check(const domain::Dataset& data, unsigned threads);
 
 }  // namespace mckibben::diagnose

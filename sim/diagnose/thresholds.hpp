@@ -111,6 +111,9 @@ struct CheckThresholds {
   double gauge_bar = 0.3;            ///< the model's pressure moves so far: a gauge must follow
   double gauge_slope = 0.1;          ///< of the gauge over the model, at least
   double like_kilo = 1.0;            ///< logarithm, round a thousandth of the model's forces: they are in kN
+  double like_turn = 0.5;            ///< correlation of a joint's angle with the model's: it turns alike,
+  double turns_at_all = 0.2;         ///< and so far, over the model's
+  double like_degrees = 0.7;         ///< logarithm, round 180/pi: degrees for radians, or the other way
   double most_masked = 0.3;          ///< of a run: more, and too little of it is left
   double most_contradicted =
       1.0 / 3.0;            ///< of the runs, whose labels contradict the others: more cannot tell

@@ -2,12 +2,15 @@
 #include "joint.hpp"
 
 #include <algorithm>
+#include <functional>
+#include <utility>
 
 #include <gtest/gtest.h>
 
 #include <sim/diagnose/check.hpp>
 #include <sim/diagnose/experiment.hpp>
 #include <sim/diagnose/held_out.hpp>
+#include <sim/domain/objection.hpp>
 #include <sim/run/gaps.hpp>
 
 namespace mckibben::diagnose {
@@ -86,6 +89,41 @@ TEST(Joint, ALinkStaysOneThatCanBe) {
   const plant::Link& link = *rig.pair();
   EXPECT_GT(link.length_m, 0.25);
   EXPECT_GE(link.inertia_kg_m2, link.mass_kg * link.length_m * link.length_m * (1.0 - 1e-12));
+}
+
+std::string refused(domain::Dataset data, const std::function<void(domain::Run& run)>& spoil) {
+  for (domain::Run& run : data.runs) spoil(run);
+  try {
+    check(data, 2);
+  } catch (const domain::UnfitData& unfit) {
+    return unfit.what();
+  }
+  return "";
+}
+
+TEST(Joint, ReadingsThatAreNotWhatTheirColumnsSayAreRefusedWithTheLineToWrite) {
+  domain::Dataset data = of_a_joint(domain::thesis_pair());
+  const auto times = [](double factor) {
+    return [factor](domain::Run& run) {
+      for (double& angle_rad : run.angle_rad) angle_rad *= factor;
+    };
+  };
+  EXPECT_EQ(refused(data, times(1.0)), "");
+  EXPECT_EQ(refused(data, times(0.7)), "");
+  EXPECT_NE(refused(data, times(-1.0))
+                .find("write columns: {angle: {column: angle_rad, unit: rad, factor: -1}}, "
+                      "or exchange muscle 1 and muscle 2"),
+            std::string::npos)
+      << refused(data, times(-1.0));
+  EXPECT_NE(refused(data, times(1.0 / plant::degree_rad)).find("{angle: {column: angle_rad, unit: deg}}"),
+            std::string::npos);
+  data.columns.angle = {.column = "elbow", .unit = "deg"};
+  EXPECT_NE(refused(data, times(plant::degree_rad)).find("{angle: {column: elbow, unit: rad}}"),
+            std::string::npos);
+  const auto exchange = [](domain::Run& run) {
+    std::swap(run.measured->sides[0].muscle_pressure_Pa, run.measured->sides[1].muscle_pressure_Pa);
+  };
+  EXPECT_NE(refused(data, exchange).find("exchange muscle 1 and muscle 2"), std::string::npos);
 }
 
 TEST(Joint, AGuideOfALoadIsNoCandidate) {
