@@ -27,7 +27,7 @@ class Chance {
   Memory<double> memory() {
     Memory<double> memory{};
     for (std::size_t i = 0; i < memory.side.size(); ++i)
-      memory.side[i] = between(-1.0, 2.0) * Effects::memory_sizes[i];
+      memory.side[i] = between(-1.0, 2.0) * memory_sizes[i];
     return memory;
   }
   /// At an instant in the range of use.
