@@ -236,6 +236,7 @@ struct ScreenThresholds {
   double visible =
       10.5;  ///< expected fall that a test at 5 % finds with a power of 90 %: noncentral chi-square. Derived
   double least_norm = 1e-300;  ///< no division by nothing
+  std::size_t most_runs = 24;  ///< of more, so many are screened: what they propose is fitted to all
 };
 
 /// Whether one model is better than another on runs held out. Set on seeds that the benchmark does not score.
