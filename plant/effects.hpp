@@ -150,8 +150,10 @@ class EffectSet {
     return sizes;
   }();
 
-  template <class S>
-  S pull_N(const Instant<S>& now, const std::array<S, memories>& memory) const {
+  // Of memories, the first ones are theirs; what follows is not.
+
+  template <class S, std::size_t slots>
+  S pull_N(const Instant<S>& now, const std::array<S, slots>& memory) const {
     S sum = S(0.0);
     each([&]<class E>(const E& effect, auto on, auto slot) {
       if constexpr (declares<E>(Hook::pull))
@@ -159,8 +161,8 @@ class EffectSet {
     });
     return sum;
   }
-  template <class S>
-  S friction_factor(const Instant<S>& now, const std::array<S, memories>& memory) const {
+  template <class S, std::size_t slots>
+  S friction_factor(const Instant<S>& now, const std::array<S, slots>& memory) const {
     S product = S(1.0);
     each([&]<class E>(const E& effect, auto on, auto slot) {
       if constexpr (declares<E>(Hook::friction_factor))
@@ -201,8 +203,8 @@ class EffectSet {
     });
     return sum;
   }
-  template <class S>
-  S valve_opening(const S& wanted, const std::array<S, memories>& memory) const {
+  template <class S, std::size_t slots>
+  S valve_opening(const S& wanted, const std::array<S, slots>& memory) const {
     S opening = wanted;
     each([&]<class E>(const E& effect, auto on, auto slot) {
       if constexpr (declares<E>(Hook::valve_opening))
@@ -210,8 +212,8 @@ class EffectSet {
     });
     return opening;
   }
-  template <class S>
-  S supply_drop_Pa(const std::array<S, memories>& memory) const {
+  template <class S, std::size_t slots>
+  S supply_drop_Pa(const std::array<S, slots>& memory) const {
     S sum = S(0.0);
     each([&]<class E>(const E& effect, auto on, auto slot) {
       if constexpr (declares<E>(Hook::supply_drop))
@@ -219,9 +221,9 @@ class EffectSet {
     });
     return sum;
   }
-  template <class S>
+  template <class S, std::size_t slots>
   std::array<S, memories> memory_rates(const Instant<S>& now, const Inflow<S>& inflow,
-                                       const std::array<S, memories>& memory) const {
+                                       const std::array<S, slots>& memory) const {
     std::array<S, memories> rates;
     rates.fill(S(0.0));
     each([&]<class E>(const E& effect, auto on, auto slot) {
@@ -284,8 +286,8 @@ class EffectSet {
   }
 
   // An effect without a memory of its own is handed another's, or nothing, and does not look.
-  template <class S, std::size_t slot>
-  static const S& recall(const std::array<S, memories>& memory, std::integral_constant<std::size_t, slot>) {
+  template <class S, std::size_t slots, std::size_t slot>
+  static const S& recall(const std::array<S, slots>& memory, std::integral_constant<std::size_t, slot>) {
     return memory[slot < memories ? slot : 0];
   }
 

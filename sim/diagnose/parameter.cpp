@@ -100,10 +100,14 @@ std::string_view part_of_side(std::string_view path) {
 bool is_one_part(const RigFile& rig, std::string_view part, const Stated& stated) {
   const std::string other(of_muscle_2);
   const auto numbers = domain::paths_of_numbers(rig);
+  RigFile copy = rig;
+  const auto same = [&](const std::string& path) {
+    const double *one = domain::find_number(copy, path).value,
+                 *two = domain::find_number(copy, other + path).value;
+    return one != nullptr && two != nullptr && *one == *two;
+  };
   return std::all_of(numbers.begin(), numbers.end(),
-                     [&](const std::string& path) {
-                       return !path.starts_with(part) || value_of(rig, path) == value_of(rig, other + path);
-                     }) &&
+                     [&](const std::string& path) { return !path.starts_with(part) || same(path); }) &&
          std::none_of(stated.begin(), stated.end(),
                       [&](const auto& one) { return one.first.starts_with(other + std::string(part)); });
 }
@@ -188,7 +192,8 @@ class Gathering {
     for (const Prior& prior : priors) {
       if (rig_.pair() != nullptr && prior.of_hanging_load()) continue;
       for (const Standing& one : standings(rig_, std::string(prior.path), stated_))
-        add(one, prior.relative * std::abs(value_of(rig_, one.path)) + prior.absolute);
+        if (const double* value = domain::find_number(rig_, one.path).value)  // not every rig has a regulator
+          add(one, prior.relative * std::abs(*value) + prior.absolute);
     }
   }
   void stated() {
