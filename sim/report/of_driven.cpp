@@ -11,6 +11,7 @@
 #include <sim/output/svg.hpp>
 #include <sim/report/driven_quantities.hpp>
 #include <sim/report/html.hpp>
+#include <sim/report/quantities.hpp>
 #include <sim/report/report.hpp>
 
 namespace mckibben::report {
