@@ -53,13 +53,14 @@ class DatasetChecker {
     if (hangs()) insane();
     if (pair_) joint();
     for (std::size_t i = 0; i < data_.runs.size(); ++i) {
-      for (const domain::Beside which : domain::besides) gauge(i, which);
+      for (const domain::Beside which : domain::gauges) gauge(i, which);
       if (bench_)
         pulls(i);
       else if (moves(i))
         readings(i);
     }
     if (bench_) forces();
+    if (hangs()) force_beside();
     copies();
     if (hangs()) labels();
     enough();
@@ -195,6 +196,32 @@ class DatasetChecker {
     };
     if (slope < 0.0) refuse("where it pulls more they show less; is it their sign (factor: -1)?");
     if (std::abs(std::log(slope * 1e3)) < of_check.like_kilo) refuse("are they in kN?");
+  }
+
+  // What hangs on the cord says how large its force is, whatever moves it.
+  void force_beside() {
+    double read_N = 0.0, model_N = 0.0;
+    for (std::size_t i = 0; i < data_.runs.size(); ++i) {
+      const auto* const force_N = data_.runs[i].beside(domain::Beside::force);
+      for (std::size_t k = 0; force_N != nullptr && k < force_N->size(); ++k) {
+        if (checked_.masked[i][k]) continue;
+        read_N += (*force_N)[k];
+        model_N += model_[i].force_N[k];
+      }
+    }
+    if (read_N == 0.0 || !(model_N > 0.0)) return;
+    const auto refuse = [&](const char* what) {
+      throw domain::UnfitData(
+          data_,
+          fmt::format("force: on average the readings are {:.2g} times the force of this rig's cord: {}",
+                      read_N / model_N, what));
+    };
+    if (read_N < -of_check.opposite_force * model_N) refuse("is it their sign (factor: -1)?");
+    if (read_N < 0.0) return;  // set to 0 with the load on it
+    const double logarithm = std::log(read_N / model_N);
+    if (std::abs(logarithm + std::log(1e3)) < of_check.like_kilo) refuse("are they in kN?");
+    if (std::abs(logarithm + std::log(plant::gravity_m_per_s2)) < of_check.like_kilogram)
+      refuse("are they in kg?");
   }
 
   bool moves(std::size_t i) {

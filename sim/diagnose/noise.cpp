@@ -55,7 +55,7 @@ double gauge_noise_Pa(const domain::Dataset& data, const Runs& runs) {
   double squares = 0.0;
   std::size_t count = 0;
   for (const std::size_t index : runs) {
-    for (const domain::Beside which : domain::besides) {
+    for (const domain::Beside which : domain::gauges) {
       const auto* read = data.runs[index].beside(which);
       if (read == nullptr) continue;
       const auto& p = *read;
@@ -222,6 +222,10 @@ Least least_of(const domain::Dataset& data) {
   return {tolerance, assumed.least_ratio};
 }
 
+bool is_read(const domain::Dataset& data, const Runs& runs, domain::Beside which) {
+  return std::ranges::any_of(runs, [&](std::size_t run) { return data.runs[run].beside(which) != nullptr; });
+}
+
 /// Of rows that were made of stamps: what their readings scattered by is known.
 void floor_of_rows(const domain::Dataset& data, const Runs& trusted, NoiseFloor& floor) {
   const domain::Rows& rows = *data.rows_of_stamps;
@@ -230,11 +234,15 @@ void floor_of_rows(const domain::Dataset& data, const Runs& trusted, NoiseFloor&
   const double instruments = std::hypot(rows.step / std::sqrt(12.0), floor.jitter, floor.given);
   const auto [simulated, believed] = least_of(data);
   floor.judged = std::max({floor.repeats, std::hypot(instruments, simulated), believed});
-  const bool gauged = std::any_of(trusted.begin(), trusted.end(), [&](std::size_t run) {
-    return std::ranges::any_of(domain::besides,
-                               [&](auto which) { return data.runs[run].beside(which) != nullptr; });
-  });
-  if (gauged) floor.pressure_Pa = std::max(rows.pressure_noise_Pa, assumed.least_pressure_Pa);
+  if (std::ranges::any_of(domain::gauges, [&](auto which) { return is_read(data, trusted, which); }))
+    floor.pressure_Pa = std::max(rows.pressure_noise_Pa, assumed.least_pressure_Pa);
+}
+
+/// Of a load cell beside what is judged, by what its readings scatter.
+double force_floor_N(const domain::Dataset& data, const Runs& trusted) {
+  if (!is_read(data, trusted, domain::Beside::force)) return 0.0;
+  return std::max({data.rows_of_stamps->force_noise_N, thresholds.predict.tolerance * largest_force_N(data),
+                   assumed.least_force_N});
 }
 
 }  // namespace
@@ -248,6 +256,7 @@ NoiseFloor noise_floor(const domain::Dataset& data, const std::vector<std::vecto
     trusted.resize(data.runs.size());
     std::iota(trusted.begin(), trusted.end(), std::size_t{0});
   }
+  floor.force_N = force_floor_N(data, trusted);
   const bool encoder = std::any_of(data.runs.begin(), data.runs.end(), [](const domain::Run& run) {
     return run.measured && run.measured->counted && !run.length_is_given();
   });

@@ -129,12 +129,15 @@ double noise_of(const std::vector<double>& squares) {
   return squares.empty() ? 0.0 : std::sqrt(upper_median(squares));
 }
 
-/// White noise of readings that come slowly, from their fourth differences.
-double slow_noise(const std::vector<double>& v) {
+/// White noise of readings that come slowly, from their fourth differences; of those that are there, where
+/// never five are together.
+double slow_noise(std::vector<double> v) {
   std::vector<double> fourth;
   for (std::size_t k = 4; k < v.size(); ++k)
     if (const double d = v[k] - 4.0 * v[k - 1] + 6.0 * v[k - 2] - 4.0 * v[k - 3] + v[k - 4]; !std::isnan(d))
       fourth.push_back(std::abs(d));
+  if (fourth.empty() && std::erase_if(v, [](double value) { return std::isnan(value); }) > 0)
+    return slow_noise(std::move(v));
   return fourth.empty() ? 0.0 : upper_median(std::move(fourth)) / normal_median / std::sqrt(70.0);
 }
 
@@ -188,7 +191,7 @@ class Judging {
       : run_(run), raw_(*run.measured), pair_(pair), row_s_(row_s), random_(seed) {}
 
   void operator()() {
-    leave_out_slack();
+    if (raw_.length_is_given) leave_out_slack();
     if (raw_.recorded.start == domain::Start::moving) raw_.first = first_state(raw_);
     fast_ = row_s_ / median_gap_s(raw_.time_s) >= enough_readings && !raw_.counted;
     Measurement driving = fast_ ? thinned() : as_recorded();
@@ -198,8 +201,9 @@ class Judging {
     run_.measured = std::move(driving);
   }
 
-  std::size_t slack = 0;                              ///< rows without a force
-  std::vector<double> squares{}, pressure_squares{};  ///< of single readings, a value for each row
+  std::size_t slack = 0;  ///< rows without a force
+  /// Of single readings, a value for each row: of what is judged, of gauges, of a force beside it.
+  std::vector<double> squares{}, pressure_squares{}, force_squares{};
   double gain_sum = 0.0, readings_sum = 0.0, given_noise_Pa = 0.0, step = 0.0;
   bool fast() const { return fast_; }
 
@@ -337,11 +341,31 @@ class Judging {
     return std::isnan(smooth) ? raw : smooth;
   }
 
-  /// A gauge of a side whose pressure is not given, or nothing.
-  const std::vector<double>* gauge(std::size_t side) const {
-    const Measurement::Side& of = raw_.sides[side];
-    return side < sides() && !of.pressure_is_given && !of.muscle_pressure_Pa.empty() ? &of.muscle_pressure_Pa
-                                                                                     : nullptr;
+  /// A reading beside the one that is judged: as it was recorded, where its rows go and what it scatters.
+  struct Beside {
+    const std::vector<double>& recorded;
+    std::vector<double>& rows;
+    std::vector<bool>& missing;
+    std::vector<double>& squares;
+  };
+  std::vector<Beside> besides() {
+    std::vector<Beside> list;
+    const auto add = [&](domain::Beside which, const auto& recorded, auto& rows, auto& left) {
+      list.push_back({recorded, rows, run_.missing_beside[static_cast<std::size_t>(which)], left});
+    };
+    const auto gauge = [&](domain::Beside which, std::size_t side, auto& rows) {
+      const Measurement::Side& of = raw_.sides[side];
+      if (side < sides() && !of.pressure_is_given && is_read(of.muscle_pressure_Pa))
+        add(which, of.muscle_pressure_Pa, rows.emplace(), pressure_squares);
+    };
+    gauge(domain::Beside::muscle_pressure, 0, run_.muscle_pressure_Pa);
+    gauge(domain::Beside::opposite_pressure, 1, run_.opposite_pressure_Pa);
+    if (!raw_.length_is_given && is_read(raw_.force_N))
+      add(domain::Beside::force, raw_.force_N, run_.force_N, force_squares);
+    return list;
+  }
+  static bool is_read(const std::vector<double>& values) {
+    return std::ranges::any_of(values, [](double value) { return !std::isnan(value); });
   }
 
   /// The reading that is judged, as it was recorded, and where its rows go.
@@ -354,10 +378,7 @@ class Judging {
   /// What the readings say at each row.
   void judge(const Measurement& driving) {
     const auto [readings, rows] = judged();
-    const std::array<std::optional<std::vector<double>>*, 2> gauges{&run_.muscle_pressure_Pa,
-                                                                    &run_.opposite_pressure_Pa};
-    for (std::size_t side = 0; side < 2; ++side)
-      if (gauge(side) != nullptr) gauges[side]->emplace();
+    const std::vector<Beside> others = besides();
     for (const std::size_t stamp : driving.rows) {
       const double at_s = driving.time_s[stamp];
       const auto read = [&](const std::vector<double>& values, std::vector<double>& left) {
@@ -368,13 +389,11 @@ class Judging {
         return near;
       };
       const Together all = read(readings, squares);
-      bool missing = std::isnan(all.value);
-      for (std::size_t side = 0; side < 2; ++side) {
-        if (gauge(side) == nullptr) continue;
-        (*gauges[side])->push_back(read(*gauge(side), pressure_squares).value);
-        missing = missing || std::isnan((*gauges[side])->back());
+      run_.missing.push_back(std::isnan(all.value));
+      for (const Beside& other : others) {
+        other.rows.push_back(read(other.recorded, other.squares).value);
+        other.missing.push_back(std::isnan(other.rows.back()));
       }
-      run_.missing.push_back(missing);
       run_.time_s.push_back(at_s - begin_s());
       rows.push_back(all.value);
       if (!driving.sides[0].current_mA.empty()) run_.current_mA.push_back(driving.sides[0].current_mA[stamp]);
@@ -382,8 +401,7 @@ class Judging {
       readings_sum += static_cast<double>(all.readings);
     }
     fill(rows);
-    for (auto* const one : gauges)
-      if (*one) fill(**one);
+    for (const Beside& other : others) fill(other.rows);
     step = step_of(readings);
     if (!fast_) note_slow_noise(readings);
   }
@@ -392,7 +410,9 @@ class Judging {
     if (const double noise = noise_of_slow(readings); noise > 0.0) squares = {noise * noise};
     pressure_squares.clear();
     for (std::size_t side = 0; side < sides(); ++side)
-      pressure_squares.push_back(std::pow(noise_of_slow(raw_.sides[side].muscle_pressure_Pa), 2));
+      if (const auto& read = raw_.sides[side].muscle_pressure_Pa; is_read(read))
+        pressure_squares.push_back(std::pow(noise_of_slow(read), 2));
+    if (is_read(raw_.force_N)) force_squares = {std::pow(noise_of_slow(raw_.force_N), 2)};
   }
 
   double noise_of_slow(const std::vector<double>& readings) const {
@@ -474,7 +494,7 @@ double reading_per_count(const domain::RigFile& rig) {
 domain::Dataset with_rows(domain::Dataset data) {
   if (!data.own_clock || data.rows_of_stamps) return data;
   Rows rows{.row_s = row_s_of(data), .readings = 0.0};
-  std::vector<double> squares, pressure_squares;
+  std::vector<double> squares, pressure_squares, force_squares;
   double gain = 0.0;
   for (std::size_t i = 0; i < data.runs.size(); ++i) {
     domain::Run& run = data.runs[i];
@@ -489,6 +509,7 @@ domain::Dataset with_rows(domain::Dataset data) {
     squares.insert(squares.end(), judging.squares.begin(), judging.squares.end());
     pressure_squares.insert(pressure_squares.end(), judging.pressure_squares.begin(),
                             judging.pressure_squares.end());
+    force_squares.insert(force_squares.end(), judging.force_squares.begin(), judging.force_squares.end());
     rows.given_noise_Pa = std::max(rows.given_noise_Pa, judging.given_noise_Pa);
     rows.step = std::max(rows.step, judging.step);
     rows.smoothed = rows.smoothed || (judging.fast() && run.shaken);
@@ -497,6 +518,7 @@ domain::Dataset with_rows(domain::Dataset data) {
   rows.readings /= all;
   rows.noise = noise_of(squares) * std::sqrt(gain / all);
   rows.pressure_noise_Pa = noise_of(pressure_squares) * std::sqrt(gain / all);
+  rows.force_noise_N = noise_of(force_squares) * std::sqrt(gain / all);
   data.rows_of_stamps = rows;
   return data;
 }
