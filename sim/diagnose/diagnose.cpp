@@ -137,6 +137,7 @@ class Workflow {
           fmt::format("{} scatters by {:.2g} from tick to tick (rms), far more than counts "
                       "do: this is taken for the noise floor",
                       judged() == Judged::angle ? "angle_rad" : "contraction_ratio", floor.jitter));
+    for (const std::string& what : sheets_in_words(data_, floor)) warn(what);
     for (const std::string& what : rows_in_words(data_, floor)) warn(what);
     if (carries(nominal_, plant::ResidualForce::name))
       warn("the rig's residual_law is kept as it is: if it is wrong, take it out");

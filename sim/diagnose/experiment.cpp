@@ -52,8 +52,8 @@ void Experiment::compare(const Readings& readings, std::size_t run, double* resi
   const std::size_t ticks = measured.judged().size();
   const auto& masked = masked_[run];
   for (std::size_t k = 0; k < ticks; ++k) {
-    // A counter rounds down: the middle of its count is the best guess.
-    const double read = measured.judged()[k] + 0.5 * floor_.count;
+    // A counter rounds down: the middle of its count is the best guess. Other sensors do not.
+    const double read = measured.judged()[k] + floor_.middle;
     residuals[k] = masked[k] ? 0.0 : (read - readings.judged[k]) / floor_.judged;
   }
   each_beside(measured, [&](domain::Beside which, const std::vector<double>& read) {

@@ -111,6 +111,20 @@ std::string noise_of_given_pressure(const domain::Dataset& data, const NoiseFloo
 
 }  // namespace
 
+std::vector<std::string> sheets_in_words(const domain::Dataset& data, const NoiseFloor& floor) {
+  std::vector<std::string> words;
+  if (floor.command > 0.0)
+    words.push_back(fmt::format(
+        "the regulator repeats a pressure within {:.2g} mbar; what that does to what was read, {} (rms), "
+        "counts "
+        "in the noise floor",
+        1e-2 * data.rig.valve.repeatability_Pa, amount_of(data.judged(), floor.command, data.rig)));
+  if (floor.accuracy > 0.0)
+    words.push_back(fmt::format("the sensor's accuracy, {}, counts in the noise floor",
+                                amount_of(data.judged(), floor.accuracy, data.rig)));
+  return words;
+}
+
 std::vector<std::string> rows_in_words(const domain::Dataset& data, const NoiseFloor& floor) {
   std::vector<std::string> words;
   if (!data.rows_of_stamps) return words;
@@ -131,6 +145,10 @@ std::vector<std::string> rows_in_words(const domain::Dataset& data, const NoiseF
         fmt::format("{} readings of force are 0, a cord that hangs through: how far the muscle is from "
                     "pulling they do not say, and nothing goes by them",
                     rows.slack));
+  if (rows.at_the_end > 0)
+    words.push_back(
+        fmt::format("{} readings of force are at the end of the load cell's range; nothing goes by them",
+                    rows.at_the_end));
   if (data.force_is_judged())
     words.push_back(
         "the muscle's length is the input: what acts on the load, on its guide or on the encoder is out of "

@@ -25,6 +25,9 @@ std::string amount_of(Judged judged, double value, const RigFile& rig, int digit
 /// What such numbers are in: "in contraction ratio", "N", "rad".
 std::string_view unit_in_words(Judged judged);
 
+/// What data sheets add to the noise floor.
+std::vector<std::string> sheets_in_words(const domain::Dataset& data, const NoiseFloor& floor);
+
 /// What was made of stamps, and what data with a clock of their own cannot show.
 std::vector<std::string> rows_in_words(const domain::Dataset& data, const NoiseFloor& floor);
 

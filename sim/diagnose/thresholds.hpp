@@ -182,6 +182,7 @@ struct FaultThresholds {
 /// What nobody can see.
 struct NoiseThresholds {
   double least_ratio = 5e-5;    ///< contraction ratio: no sensor of a lab does better, no simulation needs to
+  double sheet_noise = 2.0;     ///< times its data sheet's: a sensor that scatters more is said to
   double least_force_N = 0.02;  ///< no load cell of a bench does better
   double least_pressure_Pa = 50.0;  ///< no gauge does better
   double first_decimal = 1e-3;      ///< the coarsest that readings are rounded to,

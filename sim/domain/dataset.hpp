@@ -101,6 +101,7 @@ struct Rows {
   double given_noise_Pa = 0.0;                   ///< of a reading of a pressure that is given
   bool smoothed = false;                         ///< that pressure was
   std::size_t slack = 0;                         ///< readings of force that are none: the cord hung through
+  std::size_t at_the_end = 0;                    ///< and those at the end of the load cell's range
 
   friend bool operator==(const Rows&, const Rows&) = default;
 };

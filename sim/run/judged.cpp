@@ -2,17 +2,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
-#include <numeric>
 #include <random>
-#include <span>
 #include <utility>
-
-#include <Eigen/LU>
 
 #include <plant/instruments.hpp>
 #include <sim/run/course.hpp>
 #include <sim/run/judged.hpp>
+#include <sim/run/scatter.hpp>
 #include <sim/run/series.hpp>
 #include <sim/run/simulate.hpp>
 
@@ -21,167 +17,18 @@ namespace {
 
 using domain::Measurement, domain::Rows;
 
-constexpr double even_row_s = 0.012;      // no load bends within half of it by what a sensor could show
-constexpr double slack_share = 0.002;     // of a run's largest force: less is a cord that hangs through
-constexpr double enough_readings = 6.0;   // in a row, to be averaged
-constexpr std::size_t quarters = 4;       // of a row, in which inputs are followed
-constexpr double straight = 5e-3;         // of an input's range: it neither jumps nor bends by less
-constexpr double outlying = 6.0;          // deviations
-constexpr double normal_median = 0.6745;  // of the size of a normal variable. Derived
-constexpr double steps_that_are_whole = 0.95, whole = 0.05;
+constexpr double even_row_s = 0.012;     // no load bends within half of it by what a sensor could show
+constexpr double slack_share = 0.002;    // of a run's largest force: less is a cord that hangs through
+constexpr double enough_readings = 6.0;  // in a row, to be averaged
+constexpr double noises_in_a_grain = 4.0;
+constexpr std::size_t quarters = 4;  // of a row, in which inputs are followed
+constexpr double straight = 5e-3;    // of an input's range: it neither jumps nor bends by less
+constexpr double outlying = 6.0;     // deviations
 
 double median_gap_s(const std::vector<double>& time_s) {
   std::vector<double> gaps;
   for (std::size_t k = 1; k < time_s.size(); ++k) gaps.push_back(time_s[k] - time_s[k - 1]);
   return gaps.empty() ? even_row_s : upper_median(std::move(gaps));
-}
-
-/// What the readings near an instant say together.
-struct Together {
-  double value = std::nan("");
-  double gain = 0.0;     ///< of their noise's variance
-  double squares = 0.0;  ///< left of the parabola, for each reading beyond three
-  double worst = 0.0;    ///< that is left of one
-  std::size_t readings = 0;
-};
-
-class Column {
- public:
-  Column(const std::vector<double>& time_s, const std::vector<double>& values)
-      : time_s_(time_s), values_(values) {}
-
-  Together near(double at_s, double half_s) const {
-    Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
-    Eigen::Vector3d right = Eigen::Vector3d::Zero();
-    Together result;
-    const auto first = static_cast<std::size_t>(
-        std::lower_bound(time_s_.begin(), time_s_.end(), at_s - half_s) - time_s_.begin());
-    const auto each = [&](const auto& visit) {
-      for (std::size_t k = first; k < time_s_.size() && time_s_[k] <= at_s + half_s; ++k) {
-        const double x = (time_s_[k] - at_s) / half_s;
-        if (!std::isnan(values_[k])) visit(Eigen::Vector3d(1.0, x, x * x), values_[k]);
-      }
-    };
-    each([&](const Eigen::Vector3d& powers, double value) {
-      normal += powers * powers.transpose();
-      right += powers * value;
-      ++result.readings;
-    });
-    if (result.readings < 4) return result;
-    const Eigen::Matrix3d inverse = normal.inverse();
-    const Eigen::Vector3d fitted = inverse * right;
-    result.value = fitted[0];
-    result.gain = inverse(0, 0);
-    each([&](const Eigen::Vector3d& powers, double value) {
-      const double left = value - powers.dot(fitted);
-      result.squares += left * left / static_cast<double>(result.readings - 3);
-      result.worst = std::max(result.worst, std::abs(left));
-    });
-    return result;
-  }
-
-  /// The last value at an instant, and what it is on average until another: held or straight from stamp to
-  /// stamp.
-  double mean(double from_s, double to_s, bool linear) const {
-    auto k =
-        static_cast<std::size_t>(std::upper_bound(time_s_.begin(), time_s_.end(), from_s) - time_s_.begin());
-    k = k > 0 ? k - 1 : 0;
-    double sum = 0.0;
-    for (double at_s = from_s; at_s < to_s; ++k) {
-      const double until_s = k + 1 < time_s_.size() ? std::min(time_s_[k + 1], to_s) : to_s;
-      sum += (linear ? between(k, 0.5 * (at_s + until_s)) : values_[k]) * (until_s - at_s);
-      at_s = until_s;
-    }
-    return sum / (to_s - from_s);
-  }
-
-  /// Straight between stamps.
-  double between(std::size_t k, double at_s) const {
-    if (k + 1 >= values_.size()) return values_[k];
-    const double share = (at_s - time_s_[k]) / (time_s_[k + 1] - time_s_[k]);
-    return std::lerp(values_[k], values_[k + 1], std::clamp(share, 0.0, 1.0));
-  }
-
-  /// Stamps strictly between two instants.
-  std::span<const double> stamps(double from_s, double to_s) const {
-    const auto first = std::upper_bound(time_s_.begin(), time_s_.end(), from_s);
-    const auto last = std::lower_bound(first, time_s_.end(), to_s);
-    return {first, last};
-  }
-  double operator[](std::size_t k) const { return values_[k]; }
-  std::size_t size() const { return values_.size(); }
-  std::size_t last_before(double at_s) const {
-    const auto after = std::upper_bound(time_s_.begin(), time_s_.end(), at_s);
-    return after == time_s_.begin() ? 0 : static_cast<std::size_t>(after - time_s_.begin()) - 1;
-  }
-
- private:
-  const std::vector<double>&time_s_, &values_;
-};
-
-double range_of(const std::vector<double>& values) {
-  const auto [low, high] = std::minmax_element(values.begin(), values.end());
-  return values.empty() ? 0.0 : *high - *low;
-}
-
-/// Noise of single readings from what is left of parabolas; the median is blind to jumps.
-double noise_of(const std::vector<double>& squares) {
-  return squares.empty() ? 0.0 : std::sqrt(upper_median(squares));
-}
-
-/// White noise of readings that come slowly, from their fourth differences; of those that are there, where
-/// never five are together.
-double slow_noise(std::vector<double> v) {
-  std::vector<double> fourth;
-  for (std::size_t k = 4; k < v.size(); ++k)
-    if (const double d = v[k] - 4.0 * v[k - 1] + 6.0 * v[k - 2] - 4.0 * v[k - 3] + v[k - 4]; !std::isnan(d))
-      fourth.push_back(std::abs(d));
-  if (fourth.empty() && std::erase_if(v, [](double value) { return std::isnan(value); }) > 0)
-    return slow_noise(std::move(v));
-  return fourth.empty() ? 0.0 : upper_median(std::move(fourth)) / normal_median / std::sqrt(70.0);
-}
-
-/// Noise of settled points: what the last of four that go one way is off the parabola through the others,
-/// over the input that moves most. The median is blind to where they turn.
-double points_noise(const std::vector<double>& read, const std::vector<std::vector<double>>& inputs) {
-  std::vector<double> off;
-  for (std::size_t k = 3; k < read.size(); ++k) {
-    const auto way = [&](const std::vector<double>& input) {
-      const std::span<const double> at(&input[k - 3], 4);
-      const bool one_way = std::ranges::is_sorted(at, std::less_equal<>{}) ||
-                           std::ranges::is_sorted(at, std::greater_equal<>{});
-      return one_way ? std::abs(at[3] - at[0]) / range_of(input) : 0.0;
-    };
-    const auto moving = std::ranges::max_element(inputs, {}, way);
-    if (moving == inputs.end() || !(way(*moving) > 0.0)) continue;
-    double difference = 0.0, squares = 0.0;
-    for (std::size_t i = k - 3; i <= k; ++i) {
-      double weight = 1.0;  // of a divided difference
-      for (std::size_t j = k - 3; j <= k; ++j)
-        if (j != i) weight *= range_of(*moving) / ((*moving)[i] - (*moving)[j]);
-      difference += weight * read[i];
-      squares += weight * weight;
-    }
-    if (!std::isnan(difference)) off.push_back(std::abs(difference) / std::sqrt(squares));
-  }
-  return off.empty() ? 0.0 : upper_median(std::move(off)) / normal_median;
-}
-
-/// The step that readings are rounded to; 0 if they are to none.
-double step_of(const std::vector<double>& values) {
-  std::vector<double> moves;
-  double least = 0.0;
-  for (std::size_t k = 1; k < values.size(); ++k) {
-    const double move = std::abs(values[k] - values[k - 1]);
-    if (std::isnan(move) || move < 1e-12) continue;
-    moves.push_back(move);
-    least = least == 0.0 ? move : std::min(least, move);
-  }
-  const auto is_whole = [least](double move) {
-    return std::abs(move / least - std::round(move / least)) < whole * std::max(1.0, move / least * 1e-3);
-  };
-  const auto many = static_cast<double>(std::count_if(moves.begin(), moves.end(), is_whole));
-  return least > 0.0 && many >= steps_that_are_whole * static_cast<double>(moves.size()) ? least : 0.0;
 }
 
 /// One run: its rows, and the stamps that drive it.
@@ -484,11 +331,32 @@ double row_s_of(const domain::Dataset& data) {
   return slowest_s * enough_readings > even_row_s ? slowest_s : even_row_s;
 }
 
+/// Readings at the end of a load cell's range say no more than that. How many there are.
+std::size_t leave_out_the_end(const plant::LoadCell& cell, std::vector<double>& force_N) {
+  if (!cell.fitted || !cell.highest_N) return 0;
+  std::size_t count = 0;
+  for (double& read_N : force_N) {
+    if (!(read_N >= *cell.highest_N - 0.5 * cell.resolution_N)) continue;
+    read_N = std::nan("");
+    ++count;
+  }
+  return count;
+}
+
 }  // namespace
 
 double reading_per_count(const domain::RigFile& rig) {
   if (rig.pair() == nullptr) return contraction_per_count(rig);
-  return plant::count_height_m(rig.encoder, rig.joint) / rig.joint.wheel_radius_m;
+  return plant::count_height_m(rig) / rig.joint.wheel_radius_m;
+}
+
+double reading_grain(const domain::RigFile& rig) {
+  const double count = reading_per_count(rig);
+  if (rig.sensor.absent()) return count;
+  const double usual_m = plant::count_height_m(plant::Encoder{}, rig.joint);
+  return count / plant::count_height_m(rig) *
+         std::max({plant::count_height_m(rig), usual_m,
+                   noises_in_a_grain * rig.sensor.noise * rig.sensor.rise_m(rig.joint.wheel_radius_m)});
 }
 
 domain::Dataset with_rows(domain::Dataset data) {
@@ -499,6 +367,7 @@ domain::Dataset with_rows(domain::Dataset data) {
   for (std::size_t i = 0; i < data.runs.size(); ++i) {
     domain::Run& run = data.runs[i];
     rows.stamps += run.measured->time_s.size();
+    rows.at_the_end += leave_out_the_end(data.rig.load_cell, run.measured->force_N);
     Judging judging(run, data.rig.pair() != nullptr, rows.row_s, i + 1);
     judging();
     rows.rows += run.judged().size();

@@ -16,7 +16,7 @@ namespace {
 
 using domain::Beside;
 
-const Runs all{0, 1, 2, 3, 4, 5};
+const Runs every_run{0, 1, 2, 3, 4, 5};
 
 /// The words that the data are refused with; empty if they are not.
 std::string refusal(domain::Dataset data) {
@@ -40,13 +40,13 @@ TEST(LoadCell, EachReadingWeighsByItsOwnFloor) {
   EXPECT_EQ(data.judged(), domain::Judged::contraction);
   const Checked checked = check(data, 2);
   EXPECT_TRUE(checked.warnings.empty()) << checked.warnings.front();
-  const Experiment experiment(data, checked.masked, 2, all);
+  const Experiment experiment(data, checked.masked, 2, every_run);
   EXPECT_NEAR(experiment.floor().force_N, 0.5, 0.1);
   EXPECT_EQ(experiment.rows(0), 400u);
-  const auto residuals = experiment.residuals(data.rig, all);
-  EXPECT_NEAR(*experiment.rmse(Beside::force, residuals, all), 0.5, 0.05);
-  EXPECT_FALSE(experiment.rmse(Beside::muscle_pressure, residuals, all));
-  EXPECT_NEAR(experiment.rmse(residuals, all), experiment.floor().judged, 1e-5);
+  const auto residuals = experiment.residuals(data.rig, every_run);
+  EXPECT_NEAR(*experiment.rmse(Beside::force, residuals, every_run), 0.5, 0.05);
+  EXPECT_FALSE(experiment.rmse(Beside::muscle_pressure, residuals, every_run));
+  EXPECT_NEAR(experiment.rmse(residuals, every_run), experiment.floor().judged, 1e-5);
   EXPECT_NEAR(residuals.squaredNorm() / 2400.0, 1.0, 0.1);  // of either as of the other
 }
 
@@ -76,10 +76,10 @@ TEST(LoadCell, AReadingThatIsMissingCostsNoOther) {
   const Checked checked = check(data, 2);
   EXPECT_TRUE(checked.left_out.empty());
   EXPECT_EQ(std::ranges::count(checked.masked[0], true), 0);
-  const Experiment experiment(data, checked.masked, 2, all);
-  const auto residuals = experiment.residuals(data.rig, all);
+  const Experiment experiment(data, checked.masked, 2, every_run);
+  const auto residuals = experiment.residuals(data.rig, every_run);
   EXPECT_EQ((residuals.segment(200, 200).array() != 0.0).count(), 20);
-  EXPECT_NEAR(*experiment.rmse(Beside::force, residuals, all), 0.5, 0.15);
+  EXPECT_NEAR(*experiment.rmse(Beside::force, residuals, every_run), 0.5, 0.15);
 }
 
 TEST(LoadCell, BesideCountsOfAnEncoderHasAFloorToo) {
@@ -90,7 +90,7 @@ TEST(LoadCell, BesideCountsOfAnEncoderHasAFloorToo) {
     for (double& ratio : run.measured->contraction_ratio) ratio = count * std::floor(ratio / count);
   }
   data = run::with_rows(std::move(data));
-  const Experiment experiment(data, check(data, 2).masked, 2, all);
+  const Experiment experiment(data, check(data, 2).masked, 2, every_run);
   EXPECT_GT(experiment.floor().count, 0.0);
   EXPECT_NEAR(experiment.floor().force_N, 0.5, 0.1);
 }
