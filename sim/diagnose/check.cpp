@@ -8,6 +8,7 @@
 #include <sim/diagnose/check.hpp>
 #include <sim/diagnose/labels.hpp>
 #include <sim/diagnose/odd_readings.hpp>
+#include <sim/diagnose/other_units.hpp>
 #include <sim/diagnose/repair.hpp>
 #include <sim/diagnose/story.hpp>
 #include <sim/diagnose/thresholds.hpp>
@@ -33,7 +34,7 @@ class DatasetChecker {
         threads_(threads),
         bench_(data.force_is_judged()),
         pair_(data.rig.pair() != nullptr),
-        count_(run::reading_per_count(data.rig)),
+        count_(run::reading_grain(data.rig)),
         model_(data.runs.size()) {
     for (const domain::Run& run : data.runs) {
       checked_.masked.emplace_back(run.judged().size(), false);
@@ -51,15 +52,14 @@ class DatasetChecker {
 
   Checked operator()() {
     if (hangs()) insane();
-    if (pair_) joint();
+    refuse_other_units(data_, model_, checked_.masked);
     for (std::size_t i = 0; i < data_.runs.size(); ++i) {
-      for (const domain::Beside which : domain::besides) gauge(i, which);
+      for (const domain::Beside which : domain::gauges) gauge(i, which);
       if (bench_)
         pulls(i);
       else if (moves(i))
         readings(i);
     }
-    if (bench_) forces();
     copies();
     if (hangs()) labels();
     enough();
@@ -177,26 +177,6 @@ class DatasetChecker {
       leave_out(i, "the cord hangs through all the time: no force was read");
   }
 
-  // Forces of another sign, or in kN, are of no muscle like this one.
-  void forces() {
-    Series measured, model;
-    for (std::size_t i = 0; i < data_.runs.size(); ++i)
-      for (std::size_t k = 0; k < checked_.masked[i].size(); ++k) {
-        if (checked_.masked[i][k]) continue;
-        measured.push_back(data_.runs[i].force_N[k]);
-        model.push_back(model_[i].judged[k]);
-      }
-    if (measured.size() < 2 || range(model) == 0.0) return;
-    const double slope = Line(measured, model).slope;
-    const auto refuse = [&](const char* what) {
-      throw domain::UnfitData(
-          data_,
-          fmt::format("force: the readings go {:.2g} times as far as this rig's forces: {}", slope, what));
-    };
-    if (slope < 0.0) refuse("where it pulls more they show less; is it their sign (factor: -1)?");
-    if (std::abs(std::log(slope * 1e3)) < of_check.like_kilo) refuse("are they in kN?");
-  }
-
   bool moves(std::size_t i) {
     const domain::Run& run = data_.runs[i];
     const double largest_mA = run.current_mA.empty() || pair_ ? std::numeric_limits<double>::infinity()
@@ -223,6 +203,7 @@ class DatasetChecker {
     const Series& model = model_[i].judged;
     std::vector<bool>& masked = checked_.masked[i];
     const Series sharpest = sharpest_nearby(model, data_.row_s());
+    range_ends(i);
     mask_spikes(i, reading(), values, model, count_);
     for (const Still& still : stills(values, model, count_, data_.row_s())) stands_still(i, still);
     if (left_out_[i]) return;
@@ -232,6 +213,27 @@ class DatasetChecker {
                                values[*row] - values[*row - 1], time_s(*row)));
     else if (static_cast<double>(lost) > of_check.most_masked * static_cast<double>(masked.size()))
       leave_out(i, "too little of it is left");
+  }
+
+  // What a sensor reads at the end of its range is no position.
+  void range_ends(std::size_t i) {
+    const plant::Sensor& sensor = data_.rig.sensor;
+    const Series& values = data_.runs[i].judged();
+    const double step = run::reading_per_count(data_.rig);
+    std::size_t ended = 0;
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      const double own = values[k] / step * sensor.resolution, half = 0.5 * sensor.resolution;
+      if (!(sensor.lowest && own <= *sensor.lowest + half) &&
+          !(sensor.highest && own >= *sensor.highest - half))
+        continue;
+      checked_.masked[i][k] = true;
+      ++ended;
+    }
+    if (ended == 0) return;
+    const auto what = fmt::format("{} is at the end of the sensor's range in {} row{}; not used", reading(),
+                                  ended, ended == 1 ? "" : "s");
+    warn(i, what);
+    find(i, "saturated", "masked", what);
   }
 
   void stands_still(std::size_t i, const Still& still) {
@@ -250,41 +252,6 @@ class DatasetChecker {
                     still.why == Still::Why::frozen ? "frozen" : "saturated", from_s, to_s, moving());
     warn(i, what);
     find(i, still.why == Still::Why::frozen ? "frozen" : "saturated", "masked", what);
-  }
-
-  // A joint that goes the other way than the rig's, or far too far, is not read as its columns say.
-  void joint() {
-    Series measured, model;
-    for (std::size_t i = 0; i < data_.runs.size(); ++i)
-      for (std::size_t k = 0; k < checked_.masked[i].size(); ++k) {
-        if (checked_.masked[i][k]) continue;
-        measured.push_back(data_.runs[i].angle_rad[k]);
-        model.push_back(model_[i].judged[k]);
-      }
-    if (measured.size() < 2 || range(model) == 0.0) return;
-    const Line line(measured, model);
-    domain::ColumnPlace place = domain::merged(data_.columns, data_.runs.front().columns).angle;
-    if (place.absent()) place = {.column = "angle_rad", .unit = "rad"};
-    const auto refuse = [&](std::string_view what, std::string_view or_else) {
-      throw domain::UnfitData(
-          data_, fmt::format("angle: the readings go {:.2g} times as far as this rig's joint: {}; write "
-                             "columns: {{{}}}{}",
-                             line.slope, what, domain::line_of("angle", place), or_else));
-    };
-    if (line.correlation < -of_check.like_turn && line.slope < -of_check.turns_at_all) {
-      place.factor = -place.factor;
-      refuse("it turns the other way", ", or exchange muscle 1 and muscle 2");
-    }
-    if (line.correlation < of_check.like_turn) return;
-    const double turns = std::log(line.slope), degrees = std::log(plant::degree_rad);
-    if (std::abs(turns + degrees) < of_check.like_degrees) {
-      place.unit = "deg";
-      refuse("they look like degrees", "");
-    }
-    if (std::abs(turns - degrees) < of_check.like_degrees) {
-      place.unit = "rad";
-      refuse("they look like radians", "");
-    }
   }
 
   static bool same_inputs(const domain::Measurement& one, const domain::Measurement& other) {

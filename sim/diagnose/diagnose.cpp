@@ -33,6 +33,16 @@ domain::Dataset without_gauges(domain::Dataset data, const Runs& dead, const Run
   return data;
 }
 
+/// With what is judged alone.
+domain::Dataset without_besides(domain::Dataset data) {
+  for (domain::Run& run : data.runs) {
+    run.muscle_pressure_Pa.reset();
+    run.opposite_pressure_Pa.reset();
+    if (run.kind_of_judged() != Judged::force) run.force_N.clear();
+  }
+  return data;
+}
+
 Runs all_but(const Runs& left_out, std::size_t count) {
   Runs list;
   for (std::size_t run = 0; run < count; ++run)
@@ -62,7 +72,7 @@ class Workflow {
               }} {}
 
   Judged judged() const { return data_.judged(); }
-  bool gauged() const { return experiment_.floor().pressure_Pa > 0.0; }
+  bool reads_more() const { return experiment_.floor().any_beside(); }
 
   /// Faults of the recording that stand in the way; none if `operator()` has a result. `look`: for such.
   const std::vector<Fault>& faults() const { return faults_; }
@@ -127,6 +137,7 @@ class Workflow {
           fmt::format("{} scatters by {:.2g} from tick to tick (rms), far more than counts "
                       "do: this is taken for the noise floor",
                       judged() == Judged::angle ? "angle_rad" : "contraction_ratio", floor.jitter));
+    for (const std::string& what : sheets_in_words(data_, floor)) warn(what);
     for (const std::string& what : rows_in_words(data_, floor)) warn(what);
     if (carries(nominal_, plant::ResidualForce::name))
       warn("the rig's residual_law is kept as it is: if it is wrong, take it out");
@@ -183,7 +194,7 @@ class Workflow {
     evidence_.named_left = excess(named);
     evidence_.named_share = compare(experiment_, reference(), named, case_.split.held_out).share;
     // A gauge that misleads may be met by an effect that takes the motion further away.
-    evidence_.gauge_misleads = gauged() && rmse(named) >= rmse(reference());
+    evidence_.gauge_misleads = reads_more() && rmse(named) >= rmse(reference());
     if (evidence_.named()) learn_gap("with what was taken", named);
   }
 
@@ -233,7 +244,8 @@ class Workflow {
   void hand_over(const Decision& decision) {
     result_.verdict = decision.verdict;
     if (decision.verdict == Verdict::missing_effect) result_.effects = naming_.effects;
-    for (const Remark remark : decision.remarks) warn(remark_in_words(remark, naming_, evidence_.left()));
+    for (const Remark remark : decision.remarks)
+      warn(remark_in_words(remark, naming_, evidence_.left(), besides_in_words(data_)));
     result_.unexplained = far_runs_in_words(decision.unexplained);
     if (result_.effects.empty()) disown(naming_.ranking);
     result_.ranking = naming_.ranking;
@@ -290,6 +302,15 @@ class Workflow {
     };
     if (above(gap.nominal_rmse) > 0.0)
       gap.closed = std::clamp(1.0 - above(gap.corrected_rmse) / above(gap.nominal_rmse), 0.0, 1.0);
+    for (const domain::Beside which : domain::besides)
+      if (const auto error = experiment_.rmse(which, corrected, case_.split.held_out)) {
+        const auto of = [&](const Contender& contender) {
+          return *experiment_.rmse(which, contender.held_out, case_.split.held_out);
+        };
+        const auto [reading, unit] = told(which, data_.rig.pair() != nullptr);
+        gap.beside.push_back({std::string(reading), std::string(unit), experiment_.floor().beside(which),
+                              of(nominal_fit_), of(recalibrated_), *error});
+      }
     result_.start = look_at_start(experiment_, chosen_rig_, usable_);
     result_.runs = gaps_of_runs(experiment_, case_.split.held_out, usable_,
                                 {nominal_, recalibrated_.fitted.model.rig, chosen_rig_});
@@ -347,7 +368,7 @@ std::pair<Diagnosis, bool> mended(domain::Dataset data, const Settings& settings
   for (int repairs = 0;; ++repairs) {
     Workflow workflow(data, checked, settings, step, search);
     Diagnosis result = workflow(repairs < thresholds.fault.most_repairs);
-    if (workflow.faults().empty()) return {std::move(result), workflow.gauged()};
+    if (workflow.faults().empty()) return {std::move(result), workflow.reads_more()};
     mend(data, checked, workflow.faults());
   }
 }
@@ -368,14 +389,9 @@ Diagnosis diagnose(const domain::Dataset& data, const Settings& settings, const 
   }
   // No model meets the gauge and the motion: perhaps one meets the motion alone.
   without = "without the gauge: ";
-  const Runs all = all_but({}, data.runs.size());
-  Diagnosis ungauged = mended(without_gauges(data, all, all), settings, step, search).first;
+  Diagnosis ungauged = mended(without_besides(data), settings, step, search).first;
   if (!better_without_gauge(left, motion_left(ungauged.gap), ungauged.verdict, thresholds)) return result;
-  ungauged.warnings.insert(
-      ungauged.warnings.begin(),
-      std::string(data.judged() == Judged::angle ? "the muscles' pressures are" : "muscle_pressure_bar is") +
-          " ignored: no model meets both it and the motion, but one meets the motion alone "
-          "(has the gauge an offset, another scale, a limit; was it on another muscle?)");
+  ungauged.warnings.insert(ungauged.warnings.begin(), ignored_in_words(data));
   return ungauged;
 }
 

@@ -119,11 +119,19 @@ struct FaultyRun {
   bool common = false;  ///< all runs have it
 };
 
+/// The error of a reading beside the one that is judged, on the runs held out; in its SI unit.
+struct BesideGap {
+  std::string reading;  ///< muscle_pressure, of a pair muscle_pressure_1 and _2; force
+  std::string unit;
+  double noise_floor = 0.0, nominal_rmse = 0.0, recalibrated_rmse = 0.0, corrected_rmse = 0.0;
+};
+
 struct Gap {
   double noise_floor = 0.0, nominal_rmse = 0.0, recalibrated_rmse = 0.0, corrected_rmse = 0.0;  ///< held out
   double closed = 0.0;  ///< share of the mean square above the floor that is gone
   double jitter = 0.0;  ///< of the instrument, as the readings show it; counts in the floor
   Judged judged = Judged::contraction;
+  std::vector<BesideGap> beside{};
 
   /// How many noise floors the corrected rig leaves; 0 if nothing was compared.
   double floors_left() const { return noise_floor > 0.0 ? corrected_rmse / noise_floor : 0.0; }

@@ -52,15 +52,16 @@ void Experiment::compare(const Readings& readings, std::size_t run, double* resi
   const std::size_t ticks = measured.judged().size();
   const auto& masked = masked_[run];
   for (std::size_t k = 0; k < ticks; ++k) {
-    // A counter rounds down: the middle of its count is the best guess.
-    const double read = measured.judged()[k] + 0.5 * floor_.count;
+    // A counter rounds down: the middle of its count is the best guess. Other sensors do not.
+    const double read = measured.judged()[k] + floor_.middle;
     residuals[k] = masked[k] ? 0.0 : (read - readings.judged[k]) / floor_.judged;
   }
   each_beside(measured, [&](domain::Beside which, const std::vector<double>& read) {
     residuals += ticks;
     const auto& predicted = readings.beside(which);
     for (std::size_t k = 0; k < ticks; ++k)
-      residuals[k] = masked[k] ? 0.0 : (read[k] - predicted[k]) / floor_.beside(which);
+      residuals[k] =
+          masked[k] || measured.is_missing(which, k) ? 0.0 : (read[k] - predicted[k]) / floor_.beside(which);
   });
 }
 
@@ -133,6 +134,12 @@ std::vector<Readings> Experiment::begun(std::size_t run, std::vector<Hanging> ri
     const auto& masked = masked_[run];
     for (Eigen::Index k = 0; k < along.size(); ++k)
       if (masked[static_cast<std::size_t>(k) % masked.size()]) along[k] = 0.0;
+    double* part = along.data();
+    each_beside(measured, [&](domain::Beside which, const auto&) {
+      part += masked.size();
+      for (std::size_t k = 0; k < masked.size(); ++k)
+        if (measured.is_missing(which, k)) part[k] = 0.0;
+    });
     const double square = along.squaredNorm() + 1.0 / (by.memory * by.memory);
     const auto further = [&](const Readings& from) {
       return std::clamp(off + along.dot(residuals(from, run)) / square, -by.memory, by.memory) - off;
@@ -166,11 +173,13 @@ void Experiment::note(const std::vector<Readings>& readings, std::span<const Cha
     const auto tell = [&](const std::vector<double>& to, const std::vector<double>& from, double floor) {
       for (std::size_t k = 0; k < ticks; ++k)
         column[k] = masked_[part.run][k] ? 0.0 : (to[k] - from[k]) / (floor * changes[c].size);
-      column += ticks;
     };
     tell(changed.judged, readings[0].judged, floor_.judged);
     each_beside(measured, [&](domain::Beside which, const auto&) {
+      column += ticks;
       tell(changed.beside(which), readings[0].beside(which), floor_.beside(which));
+      for (std::size_t k = 0; k < ticks; ++k)
+        if (measured.is_missing(which, k)) column[k] = 0.0;
     });
   }
 }
@@ -256,6 +265,24 @@ double Experiment::rmse(const Eigen::VectorXd& residuals, const Runs& runs) cons
     count += static_cast<std::size_t>(std::count(masked_[part.run].begin(), masked_[part.run].end(), false));
   }
   return floor_.judged * std::sqrt(squares / static_cast<double>(std::max<std::size_t>(count, 1)));
+}
+
+std::optional<double> Experiment::rmse(domain::Beside which, const Eigen::VectorXd& residuals,
+                                       const Runs& runs) const {
+  double squares = 0.0, count = 0.0;
+  for (const Part& part : parts(runs)) {
+    Eigen::Index begin = part.begin;
+    const domain::Run& run = data_.runs[part.run];
+    each_beside(run, [&](domain::Beside other, const auto& read) {
+      begin += part.rows;
+      if (other != which) return;
+      squares += residuals.segment(begin, part.rows).squaredNorm();
+      for (std::size_t k = 0; k < read.size(); ++k)
+        count += masked_[part.run][k] || run.is_missing(which, k) ? 0.0 : 1.0;
+    });
+  }
+  if (count == 0.0) return std::nullopt;
+  return floor_.beside(which) * std::sqrt(squares / count);
 }
 
 }  // namespace mckibben::diagnose

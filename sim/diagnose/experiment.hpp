@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -58,6 +59,8 @@ class Experiment {
 
   /// Root mean square of measured minus predicted, of the reading that is judged.
   double rmse(const Eigen::VectorXd& residuals, const Runs& runs) const;
+  /// The same of a reading beside it; none if no run has it.
+  std::optional<double> rmse(domain::Beside which, const Eigen::VectorXd& residuals, const Runs& runs) const;
   /// The part of a residual vector that is one run's judged reading: offset and length.
   struct Part {
     std::size_t run;

@@ -5,7 +5,10 @@
 #include <functional>
 #include <numbers>
 #include <numeric>
+#include <span>
+#include <variant>
 
+#include <plant/instruments.hpp>
 #include <sim/diagnose/noise.hpp>
 #include <sim/diagnose/predict.hpp>
 #include <sim/diagnose/thresholds.hpp>
@@ -50,12 +53,13 @@ bool counted(const domain::Dataset& data, const std::vector<std::vector<bool>>& 
   return static_cast<double>(whole) >= assumed.counted_share * static_cast<double>(all);
 }
 
-/// Noise of the gauges from the second differences of what they show: what changes so fast is not the gas.
-double gauge_noise_Pa(const domain::Dataset& data, const Runs& runs) {
+/// Noise of what was read beside from the second differences: what changes so fast is not the gas. 0 if
+/// nothing was.
+double noise_beside(const domain::Dataset& data, const Runs& runs, std::span<const domain::Beside> which_of) {
   double squares = 0.0;
   std::size_t count = 0;
   for (const std::size_t index : runs) {
-    for (const domain::Beside which : domain::besides) {
+    for (const domain::Beside which : which_of) {
       const auto* read = data.runs[index].beside(which);
       if (read == nullptr) continue;
       const auto& p = *read;
@@ -68,8 +72,7 @@ double gauge_noise_Pa(const domain::Dataset& data, const Runs& runs) {
       ++count;
     }
   }
-  return count == 0 ? 0.0
-                    : std::max(std::sqrt(squares / static_cast<double>(count)), assumed.least_pressure_Pa);
+  return count == 0 ? 0.0 : std::sqrt(squares / static_cast<double>(count));
 }
 
 /// White noise of the contraction ratio, from its fourth differences: no load moves so fast, and the median
@@ -195,6 +198,52 @@ double of_given_pressure(const domain::Dataset& data, const Runs& runs) {
   return count > 0.0 ? std::sqrt(squares / count) : 0.0;
 }
 
+/// What the reading does where a regulator answers the same command with another pressure, within what its
+/// data sheet says it repeats; of a pair, each side's apart.
+double of_command(const domain::Dataset& data, const Runs& runs) {
+  double squares = 0.0, count = 0.0;
+  for (const std::size_t i : runs) {
+    const domain::Run& run = data.runs[i];
+    std::vector<Hanging> rigs{{data.rig, run.load_kg}};
+    const auto off_by = [&](std::size_t side, auto valve_of) {
+      const plant::Valve& valve = valve_of(rigs.front().rig);
+      if (valve.repeatability_Pa == 0.0 || (run.measured && run.measured->sides[side].pressure_is_given))
+        return;
+      rigs.push_back(rigs.front());
+      plant::Valve& off = valve_of(rigs.back().rig);
+      off.zero_pressure_Pa += valve.repeatability_Pa;
+      off.span_pressure_Pa += valve.repeatability_Pa;
+    };
+    off_by(
+        0, [](auto& rig) -> auto& { return rig.valve; });
+    if (data.rig.pair() != nullptr)
+      off_by(
+          1, [](auto& rig) -> auto& { return std::get<plant::Pair>(rig.mechanics).opposite.valve; });
+    if (rigs.size() == 1) continue;
+    const auto readings = predict(run, rigs, data.rig.integrator.method);
+    for (std::size_t rig = 1; rig < readings.size(); ++rig)
+      for (std::size_t k = 0; k < readings[rig].judged.size(); ++k)
+        squares += std::pow(readings[rig].judged[k] - readings[0].judged[k], 2);
+    count += static_cast<double>(readings[0].judged.size());
+  }
+  return count > 0.0 ? std::sqrt(squares / count) : 0.0;
+}
+
+/// What a data sheet says of the reading that is judged, in its unit; 0 where there is none.
+struct Sheet {
+  double step = 0.0, noise = 0.0, accuracy = 0.0;
+};
+Sheet sheet_of(const domain::Dataset& data) {
+  const plant::LoadCell& cell = data.rig.load_cell;
+  if (data.judged() == domain::Judged::force)
+    return cell.fitted ? Sheet{cell.resolution_N, cell.noise_N, cell.accuracy_N} : Sheet{};
+  const plant::Sensor& sensor = data.rig.sensor;
+  const double radius_m = data.rig.joint.wheel_radius_m;
+  const double reading = sensor.rise_m(radius_m) /
+                         (data.judged() == domain::Judged::angle ? radius_m : data.rig.muscle.rest_length_m);
+  return {sensor.resolution * reading, sensor.noise * reading, sensor.accuracy * reading};
+}
+
 double largest_force_N(const domain::Dataset& data) {
   double most_N = 0.0;
   for (const domain::Run& run : data.runs)
@@ -222,19 +271,33 @@ Least least_of(const domain::Dataset& data) {
   return {tolerance, assumed.least_ratio};
 }
 
+bool is_read(const domain::Dataset& data, const Runs& runs, domain::Beside which) {
+  return std::ranges::any_of(runs, [&](std::size_t run) { return data.runs[run].beside(which) != nullptr; });
+}
+
 /// Of rows that were made of stamps: what their readings scattered by is known.
 void floor_of_rows(const domain::Dataset& data, const Runs& trusted, NoiseFloor& floor) {
   const domain::Rows& rows = *data.rows_of_stamps;
-  floor.jitter = rows.noise;
+  const Sheet sheet = sheet_of(data);
+  floor.jitter = rows.noise > 0.0 ? rows.noise : sheet.noise;
   floor.given = of_given_pressure(data, trusted);
-  const double instruments = std::hypot(rows.step / std::sqrt(12.0), floor.jitter, floor.given);
+  const double step = std::max(rows.step, sheet.step);
+  const double instruments = std::hypot(step / std::sqrt(12.0), floor.jitter, floor.given);
   const auto [simulated, believed] = least_of(data);
-  floor.judged = std::max({floor.repeats, std::hypot(instruments, simulated), believed});
-  const bool gauged = std::any_of(trusted.begin(), trusted.end(), [&](std::size_t run) {
-    return std::ranges::any_of(domain::besides,
-                               [&](auto which) { return data.runs[run].beside(which) != nullptr; });
-  });
-  if (gauged) floor.pressure_Pa = std::max(rows.pressure_noise_Pa, assumed.least_pressure_Pa);
+  floor.judged = std::max({floor.repeats, floor.with_sheets(std::hypot(instruments, simulated)), believed});
+  if (std::ranges::any_of(domain::gauges, [&](auto which) { return is_read(data, trusted, which); }))
+    floor.pressure_Pa = std::max(rows.pressure_noise_Pa, assumed.least_pressure_Pa);
+}
+
+/// Of a load cell beside what is judged, by what its readings scatter.
+double force_floor_N(const domain::Dataset& data, const Runs& trusted) {
+  if (!is_read(data, trusted, domain::Beside::force)) return 0.0;
+  constexpr std::array of_cell{domain::Beside::force};
+  const double noise_N =
+      data.rows_of_stamps ? data.rows_of_stamps->force_noise_N : noise_beside(data, trusted, of_cell);
+  const plant::LoadCell& cell = data.rig.load_cell;
+  return std::max({std::hypot(noise_N, cell.fitted ? cell.accuracy_N : 0.0),
+                   thresholds.predict.tolerance * largest_force_N(data), assumed.least_force_N});
 }
 
 }  // namespace
@@ -248,6 +311,9 @@ NoiseFloor noise_floor(const domain::Dataset& data, const std::vector<std::vecto
     trusted.resize(data.runs.size());
     std::iota(trusted.begin(), trusted.end(), std::size_t{0});
   }
+  floor.force_N = force_floor_N(data, trusted);
+  floor.command = of_command(data, trusted);
+  floor.accuracy = sheet_of(data).accuracy;
   const bool encoder = std::any_of(data.runs.begin(), data.runs.end(), [](const domain::Run& run) {
     return run.measured && run.measured->counted && !run.length_is_given();
   });
@@ -260,11 +326,14 @@ NoiseFloor noise_floor(const domain::Dataset& data, const std::vector<std::vecto
   const double rounding = std::hypot(floor.count, decimal) / std::sqrt(12.0);
   const double noise = scatter(data, masked, trusted);
   floor.jitter = std::sqrt(std::max(0.0, noise * noise - rounding * rounding));
-  floor.noisy = floor.jitter > count;
+  floor.noisy = floor.jitter > std::max(count, assumed.sheet_noise * sheet_of(data).noise);
   if (floor.count > 0.0 && !floor.noisy) floor.jitter = count * dither(data, masked, trusted, count);
   const auto [simulated, believed] = least_of(data);
-  floor.judged = std::max({floor.repeats, std::hypot(rounding, floor.jitter, simulated), believed});
-  floor.pressure_Pa = gauge_noise_Pa(data, trusted);
+  floor.middle = floor.count * plant::middle_of_count(data.rig.sensor);
+  floor.judged =
+      std::max({floor.repeats, floor.with_sheets(std::hypot(rounding, floor.jitter, simulated)), believed});
+  if (std::ranges::any_of(domain::gauges, [&](auto which) { return is_read(data, trusted, which); }))
+    floor.pressure_Pa = std::max(noise_beside(data, trusted, domain::gauges), assumed.least_pressure_Pa);
   return floor;
 }
 

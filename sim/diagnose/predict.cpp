@@ -1,4 +1,5 @@
 // What drove a run drives riders; see the header.
+#include <algorithm>
 #include <atomic>
 #include <memory>
 #include <utility>
@@ -20,6 +21,7 @@ class Flight {
   Flight(const domain::Run& run, std::span<const Hanging> rigs)
       : pair_(rigs.front().rig.pair() != nullptr),
         forces_(run.length_is_given()),
+        force_beside_(run.beside(domain::Beside::force) != nullptr),
         rest_length_m_(run.rest_length_m),
         rig_(rigs.front().rig),
         course_(run::course_of(run, rig_)) {
@@ -65,6 +67,7 @@ class Flight {
       readings_[i].judged.push_back(forces_ ? riders[i].moment().cord_force_N()
                                             : seen.wheel_m / travel_m(riders[i].plant().rig()));
       readings_[i].pressure_Pa.push_back(seen.muscle_pressure_Pa);
+      if (force_beside_) readings_[i].force_N.push_back(std::max(riders[i].moment().cord_force_N(), 0.0));
       if (pair_) readings_[i].opposite_pressure_Pa.push_back(seen.opposite_pressure_Pa);
     }
     readings_[0].states.push_back(riders[0].now.flow.state);
@@ -78,6 +81,7 @@ class Flight {
 
   bool pair_;             // angles are read
   bool forces_;           // are read, at lengths that are given
+  bool force_beside_;     // of the cord is read besides
   double rest_length_m_;  // that readings go by; 0: each rig's own
   plant::Rig rig_;        // whose ticks count
   run::Course course_;

@@ -19,7 +19,7 @@ std::vector<RunGap> gaps_of_runs(const Experiment& experiment, const Runs& held_
     gap.held_out = std::binary_search(held_out.begin(), held_out.end(), run);
     gap.left_out = !std::binary_search(usable.begin(), usable.end(), run);
     gap.measured = runs[run].judged();
-    for (double& read : gap.measured) read += 0.5 * experiment.floor().count;
+    for (double& read : gap.measured) read += experiment.floor().middle;
     const auto tell = [&](const RigFile& rig, double& rmse, std::vector<double>& readings) {
       auto simulated = experiment.readings(rig, run);
       rmse = experiment.rmse(experiment.residuals(simulated, run), {run});

@@ -32,7 +32,7 @@ Start look_at_start(const Experiment& experiment, const RigFile& corrected, cons
       std::min(of_start.longest_s, of_start.share_of_run * static_cast<double>(longest) * tick_s);
   const auto first = static_cast<Eigen::Index>(std::lround(start.lasting_s / tick_s));
   const double limit =
-      of_start.counts * run::reading_per_count(corrected) + of_start.jitters * experiment.floor().jitter;
+      of_start.counts * run::reading_grain(corrected) + of_start.jitters * experiment.floor().jitter;
   double early = 0.0, all = 0.0, early_rows = 0.0, all_rows = 0.0;
   for (const std::size_t run : runs) {
     const Readings readings = experiment.readings(corrected, run);

@@ -111,6 +111,20 @@ std::string noise_of_given_pressure(const domain::Dataset& data, const NoiseFloo
 
 }  // namespace
 
+std::vector<std::string> sheets_in_words(const domain::Dataset& data, const NoiseFloor& floor) {
+  std::vector<std::string> words;
+  if (floor.command > 0.0)
+    words.push_back(fmt::format(
+        "the regulator repeats a pressure within {:.2g} mbar; what that does to what was read, {} (rms), "
+        "counts "
+        "in the noise floor",
+        1e-2 * data.rig.valve.repeatability_Pa, amount_of(data.judged(), floor.command, data.rig)));
+  if (floor.accuracy > 0.0)
+    words.push_back(fmt::format("the sensor's accuracy, {}, counts in the noise floor",
+                                amount_of(data.judged(), floor.accuracy, data.rig)));
+  return words;
+}
+
 std::vector<std::string> rows_in_words(const domain::Dataset& data, const NoiseFloor& floor) {
   std::vector<std::string> words;
   if (!data.rows_of_stamps) return words;
@@ -131,6 +145,10 @@ std::vector<std::string> rows_in_words(const domain::Dataset& data, const NoiseF
         fmt::format("{} readings of force are 0, a cord that hangs through: how far the muscle is from "
                     "pulling they do not say, and nothing goes by them",
                     rows.slack));
+  if (rows.at_the_end > 0)
+    words.push_back(
+        fmt::format("{} readings of force are at the end of the load cell's range; nothing goes by them",
+                    rows.at_the_end));
   if (data.force_is_judged())
     words.push_back(
         "the muscle's length is the input: what acts on the load, on its guide or on the encoder is out of "
@@ -160,13 +178,51 @@ std::string faults_in_words(const Diagnosis& d) {
   return text + ". ";
 }
 
-std::string remark_in_words(Remark remark, const Naming& naming, double left) {
+std::pair<std::string_view, std::string_view> told(domain::Beside which, bool pair) {
+  switch (which) {
+    case domain::Beside::force:
+      return {"force", "N"};
+    case domain::Beside::opposite_pressure:
+      return {"muscle_pressure_2", "Pa"};
+    case domain::Beside::muscle_pressure:
+      break;
+  }
+  return {pair ? "muscle_pressure_1" : "muscle_pressure", "Pa"};
+}
+
+std::string besides_in_words(const domain::Dataset& data) {
+  std::vector<std::string> list;
+  for (const domain::Beside which : domain::besides) {
+    const auto read = [&](const domain::Run& run) { return run.beside(which) != nullptr; };
+    if (std::ranges::none_of(data.runs, read)) continue;
+    const auto [reading, unit] = told(which, data.rig.pair() != nullptr);
+    list.push_back(fmt::format("{}_{}", reading, unit == "Pa" ? "bar" : unit));
+  }
+  return fmt::format("{}", fmt::join(list, " and "));
+}
+
+std::string ignored_in_words(const domain::Dataset& data) {
+  const auto has = [&](domain::Beside which) {
+    return std::ranges::any_of(data.runs, [&](const auto& run) { return run.beside(which) != nullptr; });
+  };
+  const bool gauge = std::ranges::any_of(domain::gauges, has), cell = has(domain::Beside::force);
+  const bool several = std::ranges::count_if(domain::besides, has) > 1;
+  return fmt::format(
+      "{} {} ignored: no model meets both {} and the motion, but one meets the motion alone "
+      "(has the {} an offset, another scale, a limit; was it on another muscle?)",
+      besides_in_words(data), several ? "are" : "is", several ? "them" : "it",
+      gauge && cell ? "gauge or the load cell"
+      : gauge       ? "gauge"
+                    : "load cell");
+}
+
+std::string remark_in_words(Remark remark, const Naming& naming, double left, const std::string& besides) {
   std::vector<std::string> names;
   for (const NamedEffect& effect : naming.effects) names.push_back(full_name(effect.name, effect.variant));
   const double floors = std::sqrt(left + 1.0);
   switch (remark) {
     case Remark::gauge_misleads:
-      return "effects that would explain the gauge's pressures make the motion worse: is the gauge right?";
+      return fmt::format("effects that would explain {} make the motion worse: is it right?", besides);
     case Remark::more_is_missing:
       return fmt::format(
           "{:.1f} noise floors are left with the effects named: more is missing, or their laws are "

@@ -118,6 +118,8 @@ struct CheckThresholds {
   double like_turn = 0.5;            ///< correlation of a joint's angle with the model's: it turns alike,
   double turns_at_all = 0.2;         ///< and so far, over the model's
   double like_degrees = 0.7;         ///< logarithm, round 180/pi: degrees for radians, or the other way
+  double opposite_force = 0.5;       ///< of the model's mean force, below 0: a force of the other sign
+  double like_kilogram = 0.2;        ///< logarithm, round 1/g of the model's forces: they are in kg
   double most_masked = 0.3;          ///< of a run: more, and too little of it is left
   double most_contradicted =
       1.0 / 3.0;            ///< of the runs, whose labels contradict the others: more cannot tell
@@ -180,6 +182,7 @@ struct FaultThresholds {
 /// What nobody can see.
 struct NoiseThresholds {
   double least_ratio = 5e-5;    ///< contraction ratio: no sensor of a lab does better, no simulation needs to
+  double sheet_noise = 2.0;     ///< times its data sheet's: a sensor that scatters more is said to
   double least_force_N = 0.02;  ///< no load cell of a bench does better
   double least_pressure_Pa = 50.0;  ///< no gauge does better
   double first_decimal = 1e-3;      ///< the coarsest that readings are rounded to,

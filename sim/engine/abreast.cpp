@@ -80,7 +80,8 @@ struct Leaves {
   requires(std::integral<T> || std::is_enum_v<T>) void operator()(T& choice) {
     choices.push_back(makes_no_difference ? std::nullopt : std::optional(static_cast<long>(choice)));
   }
-  void operator()(const plant::RatedCommand&) {}  // whatever a command is called, the valve gets a current
+  void operator()(const plant::RatedCommand&) {}    // whatever a command is called, the valve gets a current
+  void operator()(const std::optional<double>&) {}  // ends of a sensor's range: laws know none
   template <class T>
   void size(const std::vector<T>& list) {
     choices.emplace_back(static_cast<long>(list.size()));
@@ -112,6 +113,7 @@ struct Fill {
   }
   void operator()(double& value) { value = rigs.front().numbers[number++]; }  // of instruments
   void operator()(const plant::RatedCommand&) {}
+  void operator()(const std::optional<double>&) {}
   template <class T>
   requires(std::integral<T> || std::is_enum_v<T>) void operator()(T& value) {
     value = static_cast<T>(choices[choice++]);

@@ -106,13 +106,25 @@ std::string unit_of(diagnose::Judged judged) {
   return "1";
 }
 
+Json beside_json(const diagnose::Gap& gap) {
+  Json list = Json::array();
+  for (const auto& one : gap.beside)
+    list.push_back({{"reading", one.reading},
+                    {"unit", one.unit},
+                    {"noise_floor", one.noise_floor},
+                    {"nominal_rmse", one.nominal_rmse},
+                    {"recalibrated_rmse", one.recalibrated_rmse},
+                    {"corrected_rmse", one.corrected_rmse}});
+  return list;
+}
+
 Json gap_json(const diagnose::Diagnosis& diagnosis) {
   const auto& gap = diagnosis.gap;
   return {{"held_out_runs", held_out(diagnosis)}, {"noise_floor", gap.noise_floor},
           {"nominal_rmse", gap.nominal_rmse},     {"recalibrated_rmse", gap.recalibrated_rmse},
           {"corrected_rmse", gap.corrected_rmse}, {"closed", gap.closed},
           {"encoder_jitter", gap.jitter},         {"reading", std::string(input::spelling(gap.judged))},
-          {"unit", unit_of(gap.judged)}};
+          {"unit", unit_of(gap.judged)},          {"beside", beside_json(gap)}};
 }
 
 Json start_json(const diagnose::Start& start) {

@@ -67,6 +67,16 @@ std::string gap(const Diagnosis& diagnosis) {
   return grid.text();
 }
 
+std::string beside(const Diagnosis& diagnosis) {
+  Grid grid({"reading", "nominal", "recalibrated", "corrected", "noise floor"}, 1);
+  for (const auto& one : diagnosis.gap.beside) {
+    const auto error = [&](double value) { return readable(value, one.unit); };
+    grid.add({one.reading, error(one.nominal_rmse), error(one.recalibrated_rmse), error(one.corrected_rmse),
+              error(one.noise_floor)});
+  }
+  return grid.empty() ? "" : grid.text();
+}
+
 std::string twins(const Diagnosis& diagnosis) {
   std::string text;
   for (const auto& effect : diagnosis.effects)
@@ -106,6 +116,7 @@ std::string table_of(const domain::Dataset& data, const Diagnosis& diagnosis) {
     text += "  residual_law is valid for " + diagnosis.law_valid_for + "\n";
   text += section("recalibrated by more than a deviation of what a data sheet promises", moved(diagnosis));
   if (!unseen.empty()) text += section("rmse of the runs held out", gap(diagnosis));
+  text += section("rmse of what was read beside it, each weighed by its own floor", beside(diagnosis));
   text += section("explain these data as well", twins(diagnosis));
   return text + section("to measure next", next(diagnosis));
 }

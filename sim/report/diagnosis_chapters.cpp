@@ -266,6 +266,17 @@ std::string next_html(const Diagnosis& diagnosis) {
       100.0 * next.expected_power);
 }
 
+/// Errors of what was read beside.
+std::string beside_html(const diagnose::Gap& gap) {
+  std::string rows;
+  for (const auto& one : gap.beside)
+    rows += row(one.reading, {readable(one.nominal_rmse, one.unit), readable(one.recalibrated_rmse, one.unit),
+                              readable(one.corrected_rmse, one.unit), readable(one.noise_floor, one.unit)});
+  if (rows.empty()) return "";
+  return table("The same of what was read beside it; each counts by its own floor.",
+               {"reading", "nominal", "recalibrated", "corrected", "noise floor"}, rows);
+}
+
 }  // namespace
 
 bool gauged(const domain::Dataset& data) {
@@ -294,7 +305,7 @@ std::string result_table(const domain::Dataset& data, const Diagnosis& diagnosis
   }
   rows += fmt::format("<tr><th scope='row'>noise floor</th><td>{}</td><td></td></tr>\n",
                       amount_html(gap.noise_floor, gap.judged, data.rig));
-  html += "<div>" + table(caption, {"rig", "error", "over floor"}, rows);
+  html += "<div>" + table(caption, {"rig", "error", "over floor"}, rows) + beside_html(gap);
   if (!few) html += folded("Which runs are held out", paragraph(output::listed(unseen)));
   return html + "</div></div>\n";
 }

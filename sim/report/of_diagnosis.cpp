@@ -88,6 +88,10 @@ Run shown(const char* name, std::size_t style, const RunGap& gap, const std::vec
     if ((bench && quantity.key == "contraction") ||
         std::find(wanted.begin(), wanted.end(), quantity.key) != wanted.end())
       run.quantities.push_back(std::move(quantity));
+  if (recorded != nullptr && recorded->beside(domain::Beside::force) != nullptr)
+    run.quantities.push_back({"cord_force", [replayed](std::size_t k) {
+                                return std::max(replayed->recording.samples[k].cord_force_N, 0.0);
+                              }});
   if (recorded != nullptr && recorded->muscle_pressure_Pa)
     run.quantities.push_back(
         {"pressure_error", [replayed, recorded](std::size_t k) {
@@ -122,7 +126,7 @@ Group pair_group(const domain::Dataset& data, const Diagnosis& diagnosis, const 
   const domain::Run* recorded = by_id(data.runs, gap.id);
   if (recorded != nullptr && recorded->judged().size() >= group.ticks) {
     group.time_s = recorded->time_s;
-    for (const domain::Beside which : domain::besides)
+    for (const domain::Beside which : domain::gauges)
       if (const auto* read = recorded->beside(which))
         group.given.push_back(
             {which == domain::Beside::muscle_pressure ? "given_muscle_pressure_1" : "given_muscle_pressure_2",
@@ -159,6 +163,8 @@ Group group_of(const domain::Dataset& data, const Diagnosis& diagnosis, const Ru
                                return nominal_plant.reference_pressure_Pa(run->current_mA[k]) / 1e5;
                              }});
     }
+    if (const auto* force_N = run->beside(domain::Beside::force))
+      group.given.push_back({"given_cord_force", [force_N](std::size_t k) { return (*force_N)[k]; }});
     if (run->muscle_pressure_Pa)
       group.given.push_back(
           {"given_pressure", [run](std::size_t k) { return (*run->muscle_pressure_Pa)[k] / 1e5; }});
@@ -225,6 +231,13 @@ std::vector<Plot> plots(const domain::Dataset& data, const Diagnosis& diagnosis)
     for (Line& line : plot.lines)  // one for all rigs
       if (line.key == "current" || line.key == "reference_pressure") line.given = true;
   }
+  const auto cell = [](const domain::Run& run) { return run.beside(domain::Beside::force) != nullptr; };
+  if (std::ranges::any_of(data.runs, cell))
+    all.insert(all.begin() + 2, {"cord_force",
+                                 "Force of the cord, measured and by each rig",
+                                 "N",
+                                 {{.key = "given_cord_force", .label = "Measured", .given = true},
+                                  {.key = "cord_force", .label = "cord", .main = true}}});
   return all;
 }
 

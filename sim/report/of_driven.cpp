@@ -40,10 +40,11 @@ std::string tension_sentence(const run::PairRun& run) {
 std::string sentence(const std::vector<run::PairRun>& runs) {
   std::string text;
   for (const auto& run : runs)
-    text += run.failure.empty() ? fmt::format("{}: the joint turns between {:.1f}° and {:.1f}°, {}. ",
-                                              escaped(run.name), in_degrees * run.angle_rad.low,
-                                              in_degrees * run.angle_rad.high, tension_sentence(run))
-                                : fmt::format("{}: no result. ", escaped(run.name));
+    text += run.failure.empty()
+                ? fmt::format("{}: the joint turns between {}° and {}°, {}. ", escaped(run.name),
+                              output::rounded(in_degrees * run.angle_rad.low, 1),
+                              output::rounded(in_degrees * run.angle_rad.high, 1), tension_sentence(run))
+                : fmt::format("{}: no result. ", escaped(run.name));
   return text;
 }
 

@@ -25,10 +25,7 @@ bool is_given(const Driven& driven) {
 class Following {
  public:
   Following(const domain::RigFile& rig, double load_kg, const Course& course)
-      : rig_(rig),
-        course_(course),
-        ride_(ride_of(rig, load_kg)),
-        counter_(rig.encoder.wiring, plant::count_height_m(rig.encoder, rig.joint)) {}
+      : rig_(rig), course_(course), ride_(ride_of(rig, load_kg)), counter_(rig) {}
 
   Recording operator()() {
     recording_.samples.reserve(course_.rows.size());
@@ -81,7 +78,8 @@ class Following {
                .braid_force_N = now.braid_force_N,
                .friction_force_N = now.friction_force_N,
                .effects_pull_N = now.effects_pull_N,
-               .cord_force_N = now.cord_force_N()};
+               .cord_force_N = now.cord_force_N(),
+               .cell_N = plant::cell_reading_N(rig_.load_cell, now.cord_force_N(), 0.0)};
     double most = state.joint.contraction_ratio;
     if (ride_.plant().opposite()) {
       row.opposite = {.current_mA = drive.opposite.current_mA,
@@ -128,7 +126,7 @@ class Following {
   const domain::RigFile& rig_;
   const Course& course_;
   ride::Ride ride_;
-  plant::PulseCounter counter_;
+  plant::PositionReader counter_;
   Recording recording_;
 };
 

@@ -2,17 +2,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
-#include <numeric>
 #include <random>
-#include <span>
 #include <utility>
-
-#include <Eigen/LU>
 
 #include <plant/instruments.hpp>
 #include <sim/run/course.hpp>
 #include <sim/run/judged.hpp>
+#include <sim/run/scatter.hpp>
 #include <sim/run/series.hpp>
 #include <sim/run/simulate.hpp>
 
@@ -21,164 +17,18 @@ namespace {
 
 using domain::Measurement, domain::Rows;
 
-constexpr double even_row_s = 0.012;      // no load bends within half of it by what a sensor could show
-constexpr double slack_share = 0.002;     // of a run's largest force: less is a cord that hangs through
-constexpr double enough_readings = 6.0;   // in a row, to be averaged
-constexpr std::size_t quarters = 4;       // of a row, in which inputs are followed
-constexpr double straight = 5e-3;         // of an input's range: it neither jumps nor bends by less
-constexpr double outlying = 6.0;          // deviations
-constexpr double normal_median = 0.6745;  // of the size of a normal variable. Derived
-constexpr double steps_that_are_whole = 0.95, whole = 0.05;
+constexpr double even_row_s = 0.012;     // no load bends within half of it by what a sensor could show
+constexpr double slack_share = 0.002;    // of a run's largest force: less is a cord that hangs through
+constexpr double enough_readings = 6.0;  // in a row, to be averaged
+constexpr double noises_in_a_grain = 4.0;
+constexpr std::size_t quarters = 4;  // of a row, in which inputs are followed
+constexpr double straight = 5e-3;    // of an input's range: it neither jumps nor bends by less
+constexpr double outlying = 6.0;     // deviations
 
 double median_gap_s(const std::vector<double>& time_s) {
   std::vector<double> gaps;
   for (std::size_t k = 1; k < time_s.size(); ++k) gaps.push_back(time_s[k] - time_s[k - 1]);
   return gaps.empty() ? even_row_s : upper_median(std::move(gaps));
-}
-
-/// What the readings near an instant say together.
-struct Together {
-  double value = std::nan("");
-  double gain = 0.0;     ///< of their noise's variance
-  double squares = 0.0;  ///< left of the parabola, for each reading beyond three
-  double worst = 0.0;    ///< that is left of one
-  std::size_t readings = 0;
-};
-
-class Column {
- public:
-  Column(const std::vector<double>& time_s, const std::vector<double>& values)
-      : time_s_(time_s), values_(values) {}
-
-  Together near(double at_s, double half_s) const {
-    Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
-    Eigen::Vector3d right = Eigen::Vector3d::Zero();
-    Together result;
-    const auto first = static_cast<std::size_t>(
-        std::lower_bound(time_s_.begin(), time_s_.end(), at_s - half_s) - time_s_.begin());
-    const auto each = [&](const auto& visit) {
-      for (std::size_t k = first; k < time_s_.size() && time_s_[k] <= at_s + half_s; ++k) {
-        const double x = (time_s_[k] - at_s) / half_s;
-        if (!std::isnan(values_[k])) visit(Eigen::Vector3d(1.0, x, x * x), values_[k]);
-      }
-    };
-    each([&](const Eigen::Vector3d& powers, double value) {
-      normal += powers * powers.transpose();
-      right += powers * value;
-      ++result.readings;
-    });
-    if (result.readings < 4) return result;
-    const Eigen::Matrix3d inverse = normal.inverse();
-    const Eigen::Vector3d fitted = inverse * right;
-    result.value = fitted[0];
-    result.gain = inverse(0, 0);
-    each([&](const Eigen::Vector3d& powers, double value) {
-      const double left = value - powers.dot(fitted);
-      result.squares += left * left / static_cast<double>(result.readings - 3);
-      result.worst = std::max(result.worst, std::abs(left));
-    });
-    return result;
-  }
-
-  /// The last value at an instant, and what it is on average until another: held or straight from stamp to
-  /// stamp.
-  double mean(double from_s, double to_s, bool linear) const {
-    auto k =
-        static_cast<std::size_t>(std::upper_bound(time_s_.begin(), time_s_.end(), from_s) - time_s_.begin());
-    k = k > 0 ? k - 1 : 0;
-    double sum = 0.0;
-    for (double at_s = from_s; at_s < to_s; ++k) {
-      const double until_s = k + 1 < time_s_.size() ? std::min(time_s_[k + 1], to_s) : to_s;
-      sum += (linear ? between(k, 0.5 * (at_s + until_s)) : values_[k]) * (until_s - at_s);
-      at_s = until_s;
-    }
-    return sum / (to_s - from_s);
-  }
-
-  /// Straight between stamps.
-  double between(std::size_t k, double at_s) const {
-    if (k + 1 >= values_.size()) return values_[k];
-    const double share = (at_s - time_s_[k]) / (time_s_[k + 1] - time_s_[k]);
-    return std::lerp(values_[k], values_[k + 1], std::clamp(share, 0.0, 1.0));
-  }
-
-  /// Stamps strictly between two instants.
-  std::span<const double> stamps(double from_s, double to_s) const {
-    const auto first = std::upper_bound(time_s_.begin(), time_s_.end(), from_s);
-    const auto last = std::lower_bound(first, time_s_.end(), to_s);
-    return {first, last};
-  }
-  double operator[](std::size_t k) const { return values_[k]; }
-  std::size_t size() const { return values_.size(); }
-  std::size_t last_before(double at_s) const {
-    const auto after = std::upper_bound(time_s_.begin(), time_s_.end(), at_s);
-    return after == time_s_.begin() ? 0 : static_cast<std::size_t>(after - time_s_.begin()) - 1;
-  }
-
- private:
-  const std::vector<double>&time_s_, &values_;
-};
-
-double range_of(const std::vector<double>& values) {
-  const auto [low, high] = std::minmax_element(values.begin(), values.end());
-  return values.empty() ? 0.0 : *high - *low;
-}
-
-/// Noise of single readings from what is left of parabolas; the median is blind to jumps.
-double noise_of(const std::vector<double>& squares) {
-  return squares.empty() ? 0.0 : std::sqrt(upper_median(squares));
-}
-
-/// White noise of readings that come slowly, from their fourth differences.
-double slow_noise(const std::vector<double>& v) {
-  std::vector<double> fourth;
-  for (std::size_t k = 4; k < v.size(); ++k)
-    if (const double d = v[k] - 4.0 * v[k - 1] + 6.0 * v[k - 2] - 4.0 * v[k - 3] + v[k - 4]; !std::isnan(d))
-      fourth.push_back(std::abs(d));
-  return fourth.empty() ? 0.0 : upper_median(std::move(fourth)) / normal_median / std::sqrt(70.0);
-}
-
-/// Noise of settled points: what the last of four that go one way is off the parabola through the others,
-/// over the input that moves most. The median is blind to where they turn.
-double points_noise(const std::vector<double>& read, const std::vector<std::vector<double>>& inputs) {
-  std::vector<double> off;
-  for (std::size_t k = 3; k < read.size(); ++k) {
-    const auto way = [&](const std::vector<double>& input) {
-      const std::span<const double> at(&input[k - 3], 4);
-      const bool one_way = std::ranges::is_sorted(at, std::less_equal<>{}) ||
-                           std::ranges::is_sorted(at, std::greater_equal<>{});
-      return one_way ? std::abs(at[3] - at[0]) / range_of(input) : 0.0;
-    };
-    const auto moving = std::ranges::max_element(inputs, {}, way);
-    if (moving == inputs.end() || !(way(*moving) > 0.0)) continue;
-    double difference = 0.0, squares = 0.0;
-    for (std::size_t i = k - 3; i <= k; ++i) {
-      double weight = 1.0;  // of a divided difference
-      for (std::size_t j = k - 3; j <= k; ++j)
-        if (j != i) weight *= range_of(*moving) / ((*moving)[i] - (*moving)[j]);
-      difference += weight * read[i];
-      squares += weight * weight;
-    }
-    if (!std::isnan(difference)) off.push_back(std::abs(difference) / std::sqrt(squares));
-  }
-  return off.empty() ? 0.0 : upper_median(std::move(off)) / normal_median;
-}
-
-/// The step that readings are rounded to; 0 if they are to none.
-double step_of(const std::vector<double>& values) {
-  std::vector<double> moves;
-  double least = 0.0;
-  for (std::size_t k = 1; k < values.size(); ++k) {
-    const double move = std::abs(values[k] - values[k - 1]);
-    if (std::isnan(move) || move < 1e-12) continue;
-    moves.push_back(move);
-    least = least == 0.0 ? move : std::min(least, move);
-  }
-  const auto is_whole = [least](double move) {
-    return std::abs(move / least - std::round(move / least)) < whole * std::max(1.0, move / least * 1e-3);
-  };
-  const auto many = static_cast<double>(std::count_if(moves.begin(), moves.end(), is_whole));
-  return least > 0.0 && many >= steps_that_are_whole * static_cast<double>(moves.size()) ? least : 0.0;
 }
 
 /// One run: its rows, and the stamps that drive it.
@@ -188,7 +38,7 @@ class Judging {
       : run_(run), raw_(*run.measured), pair_(pair), row_s_(row_s), random_(seed) {}
 
   void operator()() {
-    leave_out_slack();
+    if (raw_.length_is_given) leave_out_slack();
     if (raw_.recorded.start == domain::Start::moving) raw_.first = first_state(raw_);
     fast_ = row_s_ / median_gap_s(raw_.time_s) >= enough_readings && !raw_.counted;
     Measurement driving = fast_ ? thinned() : as_recorded();
@@ -198,8 +48,9 @@ class Judging {
     run_.measured = std::move(driving);
   }
 
-  std::size_t slack = 0;                              ///< rows without a force
-  std::vector<double> squares{}, pressure_squares{};  ///< of single readings, a value for each row
+  std::size_t slack = 0;  ///< rows without a force
+  /// Of single readings, a value for each row: of what is judged, of gauges, of a force beside it.
+  std::vector<double> squares{}, pressure_squares{}, force_squares{};
   double gain_sum = 0.0, readings_sum = 0.0, given_noise_Pa = 0.0, step = 0.0;
   bool fast() const { return fast_; }
 
@@ -337,11 +188,31 @@ class Judging {
     return std::isnan(smooth) ? raw : smooth;
   }
 
-  /// A gauge of a side whose pressure is not given, or nothing.
-  const std::vector<double>* gauge(std::size_t side) const {
-    const Measurement::Side& of = raw_.sides[side];
-    return side < sides() && !of.pressure_is_given && !of.muscle_pressure_Pa.empty() ? &of.muscle_pressure_Pa
-                                                                                     : nullptr;
+  /// A reading beside the one that is judged: as it was recorded, where its rows go and what it scatters.
+  struct Beside {
+    const std::vector<double>& recorded;
+    std::vector<double>& rows;
+    std::vector<bool>& missing;
+    std::vector<double>& squares;
+  };
+  std::vector<Beside> besides() {
+    std::vector<Beside> list;
+    const auto add = [&](domain::Beside which, const auto& recorded, auto& rows, auto& left) {
+      list.push_back({recorded, rows, run_.missing_beside[static_cast<std::size_t>(which)], left});
+    };
+    const auto gauge = [&](domain::Beside which, std::size_t side, auto& rows) {
+      const Measurement::Side& of = raw_.sides[side];
+      if (side < sides() && !of.pressure_is_given && is_read(of.muscle_pressure_Pa))
+        add(which, of.muscle_pressure_Pa, rows.emplace(), pressure_squares);
+    };
+    gauge(domain::Beside::muscle_pressure, 0, run_.muscle_pressure_Pa);
+    gauge(domain::Beside::opposite_pressure, 1, run_.opposite_pressure_Pa);
+    if (!raw_.length_is_given && is_read(raw_.force_N))
+      add(domain::Beside::force, raw_.force_N, run_.force_N, force_squares);
+    return list;
+  }
+  static bool is_read(const std::vector<double>& values) {
+    return std::ranges::any_of(values, [](double value) { return !std::isnan(value); });
   }
 
   /// The reading that is judged, as it was recorded, and where its rows go.
@@ -354,10 +225,7 @@ class Judging {
   /// What the readings say at each row.
   void judge(const Measurement& driving) {
     const auto [readings, rows] = judged();
-    const std::array<std::optional<std::vector<double>>*, 2> gauges{&run_.muscle_pressure_Pa,
-                                                                    &run_.opposite_pressure_Pa};
-    for (std::size_t side = 0; side < 2; ++side)
-      if (gauge(side) != nullptr) gauges[side]->emplace();
+    const std::vector<Beside> others = besides();
     for (const std::size_t stamp : driving.rows) {
       const double at_s = driving.time_s[stamp];
       const auto read = [&](const std::vector<double>& values, std::vector<double>& left) {
@@ -368,13 +236,11 @@ class Judging {
         return near;
       };
       const Together all = read(readings, squares);
-      bool missing = std::isnan(all.value);
-      for (std::size_t side = 0; side < 2; ++side) {
-        if (gauge(side) == nullptr) continue;
-        (*gauges[side])->push_back(read(*gauge(side), pressure_squares).value);
-        missing = missing || std::isnan((*gauges[side])->back());
+      run_.missing.push_back(std::isnan(all.value));
+      for (const Beside& other : others) {
+        other.rows.push_back(read(other.recorded, other.squares).value);
+        other.missing.push_back(std::isnan(other.rows.back()));
       }
-      run_.missing.push_back(missing);
       run_.time_s.push_back(at_s - begin_s());
       rows.push_back(all.value);
       if (!driving.sides[0].current_mA.empty()) run_.current_mA.push_back(driving.sides[0].current_mA[stamp]);
@@ -382,8 +248,7 @@ class Judging {
       readings_sum += static_cast<double>(all.readings);
     }
     fill(rows);
-    for (auto* const one : gauges)
-      if (*one) fill(**one);
+    for (const Beside& other : others) fill(other.rows);
     step = step_of(readings);
     if (!fast_) note_slow_noise(readings);
   }
@@ -392,7 +257,9 @@ class Judging {
     if (const double noise = noise_of_slow(readings); noise > 0.0) squares = {noise * noise};
     pressure_squares.clear();
     for (std::size_t side = 0; side < sides(); ++side)
-      pressure_squares.push_back(std::pow(noise_of_slow(raw_.sides[side].muscle_pressure_Pa), 2));
+      if (const auto& read = raw_.sides[side].muscle_pressure_Pa; is_read(read))
+        pressure_squares.push_back(std::pow(noise_of_slow(read), 2));
+    if (is_read(raw_.force_N)) force_squares = {std::pow(noise_of_slow(raw_.force_N), 2)};
   }
 
   double noise_of_slow(const std::vector<double>& readings) const {
@@ -464,21 +331,43 @@ double row_s_of(const domain::Dataset& data) {
   return slowest_s * enough_readings > even_row_s ? slowest_s : even_row_s;
 }
 
+/// Readings at the end of a load cell's range say no more than that. How many there are.
+std::size_t leave_out_the_end(const plant::LoadCell& cell, std::vector<double>& force_N) {
+  if (!cell.fitted || !cell.highest_N) return 0;
+  std::size_t count = 0;
+  for (double& read_N : force_N) {
+    if (!(read_N >= *cell.highest_N - 0.5 * cell.resolution_N)) continue;
+    read_N = std::nan("");
+    ++count;
+  }
+  return count;
+}
+
 }  // namespace
 
 double reading_per_count(const domain::RigFile& rig) {
   if (rig.pair() == nullptr) return contraction_per_count(rig);
-  return plant::count_height_m(rig.encoder, rig.joint) / rig.joint.wheel_radius_m;
+  return plant::count_height_m(rig) / rig.joint.wheel_radius_m;
+}
+
+double reading_grain(const domain::RigFile& rig) {
+  const double count = reading_per_count(rig);
+  if (rig.sensor.absent()) return count;
+  const double usual_m = plant::count_height_m(plant::Encoder{}, rig.joint);
+  return count / plant::count_height_m(rig) *
+         std::max({plant::count_height_m(rig), usual_m,
+                   noises_in_a_grain * rig.sensor.noise * rig.sensor.rise_m(rig.joint.wheel_radius_m)});
 }
 
 domain::Dataset with_rows(domain::Dataset data) {
   if (!data.own_clock || data.rows_of_stamps) return data;
   Rows rows{.row_s = row_s_of(data), .readings = 0.0};
-  std::vector<double> squares, pressure_squares;
+  std::vector<double> squares, pressure_squares, force_squares;
   double gain = 0.0;
   for (std::size_t i = 0; i < data.runs.size(); ++i) {
     domain::Run& run = data.runs[i];
     rows.stamps += run.measured->time_s.size();
+    rows.at_the_end += leave_out_the_end(data.rig.load_cell, run.measured->force_N);
     Judging judging(run, data.rig.pair() != nullptr, rows.row_s, i + 1);
     judging();
     rows.rows += run.judged().size();
@@ -489,6 +378,7 @@ domain::Dataset with_rows(domain::Dataset data) {
     squares.insert(squares.end(), judging.squares.begin(), judging.squares.end());
     pressure_squares.insert(pressure_squares.end(), judging.pressure_squares.begin(),
                             judging.pressure_squares.end());
+    force_squares.insert(force_squares.end(), judging.force_squares.begin(), judging.force_squares.end());
     rows.given_noise_Pa = std::max(rows.given_noise_Pa, judging.given_noise_Pa);
     rows.step = std::max(rows.step, judging.step);
     rows.smoothed = rows.smoothed || (judging.fast() && run.shaken);
@@ -497,6 +387,7 @@ domain::Dataset with_rows(domain::Dataset data) {
   rows.readings /= all;
   rows.noise = noise_of(squares) * std::sqrt(gain / all);
   rows.pressure_noise_Pa = noise_of(pressure_squares) * std::sqrt(gain / all);
+  rows.force_noise_N = noise_of(force_squares) * std::sqrt(gain / all);
   data.rows_of_stamps = rows;
   return data;
 }

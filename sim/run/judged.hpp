@@ -19,4 +19,9 @@ domain::Dataset with_rows(domain::Dataset data);
 /// One count of the encoder in the reading that is judged: contraction ratio, or joint angle [rad] of a pair.
 double reading_per_count(const domain::RigFile& rig);
 
+/// What checks of readings may take for a move, in the same: a count. A sensor that is finer than the
+/// thesis's encoder is looked at as coarsely, since that is what they were tried with, and one that scatters
+/// more, more coarsely.
+double reading_grain(const domain::RigFile& rig);
+
 }  // namespace mckibben::run

@@ -58,7 +58,7 @@ class Processor {
         rig_(dataset.rig),
         options_(options),
         braid_(rig_.muscle),
-        per_count_(plant::count_height_m(rig_.encoder, rig_.joint) / rig_.muscle.rest_length_m) {}
+        per_count_(plant::count_height_m(rig_) / rig_.muscle.rest_length_m) {}
 
   ProcessedRun operator()() {
     ProcessedRun result;

@@ -144,3 +144,30 @@ test('a map is a page of pictures without scripts, and fits a narrow screen', as
   assert.deepEqual(requests, [url]);
   await done();
 });
+
+test('two muscles turn their joint as their CSV has it, and never to -0.0 degrees', async () => {
+  const {page, close: done, complaints, requests, url} = await open('pair');
+  const csv = table('pair/steps.csv');
+  for (const [plot, label, values] of [
+           ['angle', 'angle', csv.angle_rad.map((angle) => (180 * angle) / Math.PI)],
+           ['pressures', 'muscle 1', csv.muscle_pressure_1_bar],
+           ['pressures', 'muscle 2', csv.muscle_pressure_2_bar],
+           ['tensions', 'muscle 2', csv.tension_2_N],
+           ['current', 'muscle 1', csv.current_1_mA],
+  ]) {
+    const all = await seriesOf(page, plot);
+    const found = Object.keys(all).find((name) => name.startsWith(label) && name.includes('steps')) ??
+        Object.keys(all).find((name) => name.startsWith(label));
+    assert.ok(found, `${label} among ${Object.keys(all)}`);
+    near(all[found].values, values, rangeOf(values), `${plot}: ${found}`);
+  }
+  const angle = page.locator('#rig text.angle');
+  assert.equal(await angle.textContent(), 'joint angle 0.0°');
+  const drawn = await page.locator('#rig').innerHTML();
+  await page.evaluate(() => view.plots[0].chart.setCursor({left: 100, top: 10}));
+  await page.waitForFunction((before) => document.querySelector('#rig').innerHTML !== before, drawn);
+  assert.doesNotMatch(await page.textContent('body'), /-0\.0+(°| deg)/);
+  assert.deepEqual(complaints, []);
+  assert.deepEqual(requests, [url]);
+  await done();
+});
