@@ -38,7 +38,7 @@ struct Sensor {
   static void fields(Self& self, Visitor& visit) {
     visit.required("kind", self.kind, "another sensor than the encoder, by its data sheet");
     const std::string_view unit = self.turns() ? "rad" : "m";
-    visit("resolution", self.resolution, unit, 1e-9, 0.1,
+    visit("resolution", self.resolution, unit, 0.0, 0.1,
           "smallest step of its readings, of the converter's as well; of a potentiometer this and the "
           "following are angles");
     visit("noise", self.noise, unit, 0.0, 0.1, "rms of its readings from one to the next");

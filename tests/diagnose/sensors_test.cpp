@@ -23,7 +23,10 @@ domain::Dataset read_by(const plant::Rig& truth, const plant::Rig& sheet) {
 
 plant::Rig with_laser(double accuracy_m = 0.0) {
   plant::Rig rig;
-  rig.sensor = {.kind = plant::SensorKind::laser, .resolution = 2e-4, .noise = 1e-4, .accuracy = accuracy_m};
+  rig.sensor.kind = plant::SensorKind::laser;
+  rig.sensor.resolution = 2e-4;
+  rig.sensor.noise = 1e-4;
+  rig.sensor.accuracy = accuracy_m;
   return rig;
 }
 

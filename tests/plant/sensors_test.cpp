@@ -25,7 +25,9 @@ TEST(Sensors, ReadTheNearestStepWithinTheirRange) {
 
 TEST(Sensors, APotentiometerSeesAngles) {
   Rig rig;
-  rig.sensor = {.kind = SensorKind::potentiometer, .resolution = 1e-3, .highest = 1.5};
+  rig.sensor.kind = SensorKind::potentiometer;
+  rig.sensor.resolution = 1e-3;
+  rig.sensor.highest = 1.5;
   EXPECT_DOUBLE_EQ(count_height_m(rig), 1e-3 * rig.joint.wheel_radius_m);
   PositionReader potentiometer(rig);
   EXPECT_EQ(potentiometer.count(0.25 * rig.joint.wheel_radius_m), 250);
