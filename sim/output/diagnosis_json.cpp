@@ -120,11 +120,13 @@ Json beside_json(const diagnose::Gap& gap) {
 
 Json gap_json(const diagnose::Diagnosis& diagnosis) {
   const auto& gap = diagnosis.gap;
-  return {{"held_out_runs", held_out(diagnosis)}, {"noise_floor", gap.noise_floor},
-          {"nominal_rmse", gap.nominal_rmse},     {"recalibrated_rmse", gap.recalibrated_rmse},
-          {"corrected_rmse", gap.corrected_rmse}, {"closed", gap.closed},
-          {"encoder_jitter", gap.jitter},         {"reading", std::string(input::spelling(gap.judged))},
-          {"unit", unit_of(gap.judged)},          {"beside", beside_json(gap)}};
+  Json all{{"held_out_runs", held_out(diagnosis)}, {"noise_floor", gap.noise_floor},
+           {"nominal_rmse", gap.nominal_rmse},     {"recalibrated_rmse", gap.recalibrated_rmse},
+           {"corrected_rmse", gap.corrected_rmse}, {"closed", gap.closed},
+           {"encoder_jitter", gap.jitter},         {"reading", std::string(input::spelling(gap.judged))},
+           {"unit", unit_of(gap.judged)}};
+  if (!gap.beside.empty()) all["beside"] = beside_json(gap);
+  return all;
 }
 
 Json start_json(const diagnose::Start& start) {
