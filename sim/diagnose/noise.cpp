@@ -206,19 +206,18 @@ double of_command(const domain::Dataset& data, const Runs& runs) {
     const domain::Run& run = data.runs[i];
     std::vector<Hanging> rigs{{data.rig, run.load_kg}};
     const auto off_by = [&](std::size_t side, auto valve_of) {
-      const plant::Valve& valve = valve_of(rigs.front().rig);
-      if (valve.repeatability_Pa == 0.0 || (run.measured && run.measured->sides[side].pressure_is_given))
-        return;
-      rigs.push_back(rigs.front());
-      plant::Valve& off = valve_of(rigs.back().rig);
-      off.zero_pressure_Pa += valve.repeatability_Pa;
-      off.span_pressure_Pa += valve.repeatability_Pa;
+      const double off_Pa = valve_of(rigs.front().rig).repeatability_Pa;
+      if (off_Pa == 0.0 || (run.measured && run.measured->sides[side].pressure_is_given)) return;
+      rigs.push_back({data.rig, run.load_kg});
+      plant::Valve& valve = valve_of(rigs.back().rig);
+      valve.zero_pressure_Pa += off_Pa;
+      valve.span_pressure_Pa += off_Pa;
     };
-    off_by(
-        0, [](auto& rig) -> auto& { return rig.valve; });
+    off_by(0, [](RigFile& rig) -> plant::Valve& { return rig.valve; });
     if (data.rig.pair() != nullptr)
-      off_by(
-          1, [](auto& rig) -> auto& { return std::get<plant::Pair>(rig.mechanics).opposite.valve; });
+      off_by(1, [](RigFile& rig) -> plant::Valve& {
+        return std::get<plant::Pair>(rig.mechanics).opposite.valve;
+      });
     if (rigs.size() == 1) continue;
     const auto readings = predict(run, rigs, data.rig.integrator.method);
     for (std::size_t rig = 1; rig < readings.size(); ++rig)
