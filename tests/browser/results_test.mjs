@@ -156,17 +156,27 @@ test('two muscles turn their joint as their CSV has it, and never to -0.0 degree
            ['current', 'muscle 1', csv.current_1_mA],
   ]) {
     const all = await seriesOf(page, plot);
-    const found = Object.keys(all).find((name) => name.startsWith(label) && name.includes('steps')) ??
-        Object.keys(all).find((name) => name.startsWith(label));
+    const found = Object.keys(all).find((name) => name.startsWith(label));
     assert.ok(found, `${label} among ${Object.keys(all)}`);
     near(all[found].values, values, rangeOf(values), `${plot}: ${found}`);
   }
-  const angle = page.locator('#rig text.angle');
-  assert.equal(await angle.textContent(), 'joint angle 0.0°');
-  const drawn = await page.locator('#rig').innerHTML();
-  await page.evaluate(() => view.plots[0].chart.setCursor({left: 100, top: 10}));
-  await page.waitForFunction((before) => document.querySelector('#rig').innerHTML !== before, drawn);
-  assert.doesNotMatch(await page.textContent('body'), /-0\.0+(°| deg)/);
+  const degrees = csv.angle_rad.map((angle) => (180 * angle) / Math.PI);
+  const link = [];
+  for (const k of [0, 150]) {
+    const text = await page.evaluate((t) => {
+      setTime(t);
+      return document.querySelector('#rig text.angle').textContent;
+    }, csv.time_s[k]);
+    assert.equal(text, `joint angle ${degrees[k].toFixed(1)}°`);
+    link.push(await page.locator('#rig path.link').getAttribute('d'));
+  }
+  assert.notEqual(link[0], link[1]);
+  const below = await page.evaluate(() => {
+    const {values} = view.group.runs[0];
+    drawing.draw({...valuesAt(values, 0), angle: -0.01}, {});
+    return [document.querySelector('#rig text.angle').textContent, written(-0.001, 'deg', 2)];
+  });
+  assert.deepEqual(below, ['joint angle 0.0°', '0.00']);
   assert.deepEqual(complaints, []);
   assert.deepEqual(requests, [url]);
   await done();

@@ -29,8 +29,9 @@ struct JointNoise {
   double angle_rad = 1e-3, pressure_Pa = 100.0;
 };
 
-/// Five runs of 1.9 s, a row each 12 ms; readings of `truth` with noise, handed over with the shipped
-/// pair. `commands`: currents drive it, and nothing else is known of the pressures.
+/// Five runs of 1.9 s, under commands, which tell less, of 2.6 s; a row each 12 ms; readings of `truth` with
+/// noise, handed over with the shipped pair. `commands`: currents drive it, and nothing else is known of the
+/// pressures.
 inline domain::Dataset of_a_joint(const RigFile& truth, bool commands = false, JointNoise noise = {}) {
   std::mt19937_64 random(11);
   std::normal_distribution<double> normal;
@@ -42,7 +43,7 @@ inline domain::Dataset of_a_joint(const RigFile& truth, bool commands = false, J
     domain::Run& run = data.runs.emplace_back();
     run.id = fmt::format("r{}", i + 1);
     domain::Measurement& measured = run.measured.emplace();
-    for (std::size_t k = 0; k < 160; ++k) {
+    for (std::size_t k = 0; k < (commands ? 220u : 160u); ++k) {
       measured.time_s.push_back(0.012 * static_cast<double>(k));
       const auto shares = shares_at(i, measured.time_s.back());
       for (std::size_t side = 0; side < 2; ++side) {

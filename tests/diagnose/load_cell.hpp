@@ -13,10 +13,12 @@
 namespace mckibben::diagnose {
 
 struct CellNoise {
-  double ratio = 5e-5, force_N = 0.5;
+  double ratio = 5e-5, force_N = 2.0;
 };
 
-/// Six runs of 2.4 s, three loads, a row each 12 ms; readings of `truth` with noise, handed over with the
+inline constexpr std::size_t rows_with_a_cell = 160;
+
+/// Six runs of 1.9 s, three loads, a row each 12 ms; readings of `truth` with noise, handed over with the
 /// nominal rig.
 inline domain::Dataset with_a_cell(const plant::Rig& truth, CellNoise noise = {}) {
   std::mt19937_64 random(13);
@@ -31,13 +33,13 @@ inline domain::Dataset with_a_cell(const plant::Rig& truth, CellNoise noise = {}
     run.rest_length_m = truth.muscle.rest_length_m;
     domain::Measurement& measured = run.measured.emplace();
     measured.sides[0].pressure_is_given = true;
-    for (std::size_t k = 0; k < 200; ++k) {
+    for (std::size_t k = 0; k < rows_with_a_cell; ++k) {
       measured.time_s.push_back(0.012 * static_cast<double>(k));
       const double turn = 2.0 * std::numbers::pi * measured.time_s.back() / (i % 2 == 0 ? 1.2 : 0.7);
       measured.sides[0].muscle_pressure_Pa.push_back(2.8e5 - (i % 2 == 0 ? 1.6e5 : 1e5) * std::cos(turn));
     }
     // What is not given is not predicted: the column says that a cell is there.
-    run.force_N.assign(200, 0.0);
+    run.force_N.assign(rows_with_a_cell, 0.0);
     const Hanging hanging{truth, run.load_kg};
     auto readings = predict(run, {&hanging, 1}).front();
     run.force_N.clear();

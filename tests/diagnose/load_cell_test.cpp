@@ -8,6 +8,7 @@
 
 #include <sim/diagnose/check.hpp>
 #include <sim/diagnose/experiment.hpp>
+#include <sim/diagnose/story.hpp>
 #include <sim/domain/objection.hpp>
 #include <sim/run/replay.hpp>
 
@@ -41,21 +42,23 @@ TEST(LoadCell, EachReadingWeighsByItsOwnFloor) {
   const Checked checked = check(data, 2);
   EXPECT_TRUE(checked.warnings.empty()) << checked.warnings.front();
   const Experiment experiment(data, checked.masked, 2, every_run);
-  EXPECT_NEAR(experiment.floor().force_N, 0.5, 0.1);
-  EXPECT_EQ(experiment.rows(0), 400u);
+  EXPECT_NEAR(experiment.floor().force_N, 2.0, 0.3);
+  EXPECT_EQ(experiment.rows(0), 2 * rows_with_a_cell);
   const auto residuals = experiment.residuals(data.rig, every_run);
-  EXPECT_NEAR(*experiment.rmse(Beside::force, residuals, every_run), 0.5, 0.05);
+  EXPECT_NEAR(*experiment.rmse(Beside::force, residuals, every_run), 2.0, 0.2);
   EXPECT_FALSE(experiment.rmse(Beside::muscle_pressure, residuals, every_run));
   EXPECT_NEAR(experiment.rmse(residuals, every_run), experiment.floor().judged, 1e-5);
-  EXPECT_NEAR(residuals.squaredNorm() / 2400.0, 1.0, 0.1);  // of either as of the other
+  const double all = residuals.squaredNorm() / static_cast<double>(6 * rows_with_a_cell);
+  EXPECT_GT(all, 1.4);  // one of each reading, or a little less
+  EXPECT_LT(all, 2.1);
 }
 
-TEST(LoadCell, IsWithoutWhatHoldsTheLoadBeyondTheCord) {
+/// How much more the cord carries on the way up than on the way down, on average, over the weight.
+double more_on_the_way_up(double guide_friction) {
   plant::Rig rubbing;
-  rubbing.effects.get<plant::GuideFriction>().coefficient = 0.05;
+  rubbing.effects.get<plant::GuideFriction>().coefficient = guide_friction;
   const domain::Dataset data = run::with_rows(with_a_cell(rubbing, {0.0, 0.0}));
   const domain::Run& run = data.runs[0];
-  const double weight_N = plant::gravity_m_per_s2 * run.load_kg;
   double up_N = 0.0, down_N = 0.0, up = 0.0, down = 0.0;
   for (std::size_t k = 1; k + 1 < run.force_N.size(); ++k) {
     const double rise = run.contraction_ratio[k + 1] - run.contraction_ratio[k - 1];
@@ -63,14 +66,29 @@ TEST(LoadCell, IsWithoutWhatHoldsTheLoadBeyondTheCord) {
     (rise > 0.0 ? up_N : down_N) += run.force_N[k];
     (rise > 0.0 ? up : down) += 1.0;
   }
+  return (up_N / up - down_N / down) / (plant::gravity_m_per_s2 * run.load_kg);
+}
+
+TEST(LoadCell, FeelsThatTheGuideHoldsTheLoad) {
   // The guide takes 0.05 m g either way, and the muscle pulls that much more or less.
-  EXPECT_NEAR((up_N / up - down_N / down) / weight_N, 0.1, 0.03);
+  EXPECT_NEAR(more_on_the_way_up(0.05) - more_on_the_way_up(0.0), 0.1, 0.02);
+}
+
+TEST(LoadCell, ThatIsIgnoredIsNamed) {
+  domain::Dataset data = run::with_rows(with_a_cell({}));
+  EXPECT_TRUE(
+      ignored_in_words(data).starts_with("force_N is ignored: no model meets both it and the motion"));
+  data.runs[2].muscle_pressure_Pa.emplace();
+  const std::string words = ignored_in_words(data);
+  EXPECT_TRUE(words.starts_with("muscle_pressure_bar and force_N are ignored: no model meets both them"))
+      << words;
+  EXPECT_NE(words.find("has the gauge or the load cell an offset"), std::string::npos) << words;
 }
 
 TEST(LoadCell, AReadingThatIsMissingCostsNoOther) {
   domain::Dataset data = with_a_cell({});
   for (domain::Run& run : data.runs)
-    for (std::size_t k = 0; k < 200; ++k)
+    for (std::size_t k = 0; k < rows_with_a_cell; ++k)
       if (k % 10 != 0) run.measured->force_N[k] = std::nan("");
   data = run::with_rows(std::move(data));
   const Checked checked = check(data, 2);
@@ -78,8 +96,8 @@ TEST(LoadCell, AReadingThatIsMissingCostsNoOther) {
   EXPECT_EQ(std::ranges::count(checked.masked[0], true), 0);
   const Experiment experiment(data, checked.masked, 2, every_run);
   const auto residuals = experiment.residuals(data.rig, every_run);
-  EXPECT_EQ((residuals.segment(200, 200).array() != 0.0).count(), 20);
-  EXPECT_NEAR(*experiment.rmse(Beside::force, residuals, every_run), 0.5, 0.15);
+  EXPECT_EQ((residuals.segment(rows_with_a_cell, rows_with_a_cell).array() != 0.0).count(), 16);
+  EXPECT_NEAR(*experiment.rmse(Beside::force, residuals, every_run), 2.0, 0.4);
 }
 
 TEST(LoadCell, BesideCountsOfAnEncoderHasAFloorToo) {
@@ -92,7 +110,7 @@ TEST(LoadCell, BesideCountsOfAnEncoderHasAFloorToo) {
   data = run::with_rows(std::move(data));
   const Experiment experiment(data, check(data, 2).masked, 2, every_run);
   EXPECT_GT(experiment.floor().count, 0.0);
-  EXPECT_NEAR(experiment.floor().force_N, 0.5, 0.1);
+  EXPECT_NEAR(experiment.floor().force_N, 2.0, 0.3);
 }
 
 TEST(LoadCell, ForcesInAnotherUnitOrOfAnotherSignAreRefused) {
