@@ -114,7 +114,7 @@ class SideOf {
   BraidOf<P> braid_;
   RestrictionOf<P> valve_, vent_, hose_, unit_flow_;
   bool effects_, regulates_, swings_;
-  P weight_N_, gas_energy_J_per_kg_, supply_Pa_;
+  P weight_N_, gas_energy_J_per_kg_, valve_stiffness_Pa_per_kg_, supply_Pa_;
   P quickness_per_s_, catching_up_per_s_;  // of a regulator: dP_v/dt for an error, the memory's for its own
 };
 using Side = SideOf<double>;
@@ -149,6 +149,7 @@ SideOf<P>::SideOf(const RigOf<P>& rig, const P& weight_N)
       swings_(rig.valve.swings()),
       weight_N_(weight_N),
       gas_energy_J_per_kg_(rig.gas.gas_constant_J_per_kg_K * rig.gas.temperature_K),
+      valve_stiffness_Pa_per_kg_(gas_energy_J_per_kg_ / rig.valve.volume_m3),
       supply_Pa_(rig.valve.supply_pressure_Pa + rig.gas.atmosphere_Pa),
       quickness_per_s_(1.0),
       catching_up_per_s_(1.0) {
@@ -186,12 +187,16 @@ void SideOf<P>::valve_flows(const SideState<S>& state, const SideMemory<S>& memo
   }
   now.pressure_error_Pa = error_Pa;
   now.hose_flow = hose_.flow_kg_per_s(valve_Pa, muscle_Pa);
-  const auto filling = [&] { return valve_.flow_kg_per_s(supply_Pa, valve_Pa); };
-  const auto venting = [&] { return vent_.flow_kg_per_s(valve_Pa, S(atmosphere)); };
+  // What the valve passes where it is wide open to the supply, or to the atmosphere.
+  const auto wide_open = [&](const auto& fills) {
+    return RestrictionOf<P>{select(fills, valve_.conductance_kg_per_s_Pa, vent_.conductance_kg_per_s_Pa),
+                            valve_.critical_ratio, valve_.linear_zone_Pa}
+        .flow_kg_per_s(S(select(fills, supply_Pa, valve_Pa)), S(select(fills, valve_Pa, S(atmosphere))));
+  };
   S u;
   if (regulates_) {
     const S flow = flow_to_follow(memory, error_Pa, now.hose_flow);
-    const S most = choose(flow >= 0.0, filling, venting);
+    const S most = wide_open(flow >= 0.0);
     u = flow / select(most > least_flow_kg_per_s, most, S(least_flow_kg_per_s));
   } else {
     u = error_Pa / rig_.valve.proportional_band_Pa;
@@ -201,10 +206,10 @@ void SideOf<P>::valve_flows(const SideState<S>& state, const SideMemory<S>& memo
   now.wanted_opening = u;
   if (effects_) u = rig_.effects.valve_opening(now.wanted_opening, memory);
   now.valve_opening = u;
-  const auto none = [] { return S(0.0); };
-  now.supply_flow = choose(
-      u >= 0.0, [&] { return S(u * filling()); }, none);
-  now.vent_flow = choose(u >= 0.0, none, [&] { return S(-u * venting()); });
+  const auto fills = u >= 0.0;
+  const S flow = u * wide_open(fills);
+  now.supply_flow = select(fills, flow, S(0.0));
+  now.vent_flow = select(fills, S(0.0), S(-flow));
 }
 
 template <class P>
@@ -290,7 +295,7 @@ SideState<S> SideOf<P>::rates(const Stroke<S>& stroke, const SideState<S>& state
   const S muscle_Pa = state.muscle_pressure_Pa + rig_.gas.atmosphere_Pa;
   const P& RT = gas_energy_J_per_kg_;
   SideState<S> dt;
-  dt.valve_pressure_Pa = RT / rig_.valve.volume_m3 * (now.supply_flow - now.vent_flow - now.hose_flow);
+  dt.valve_pressure_Pa = valve_stiffness_Pa_per_kg_ * (now.supply_flow - now.vent_flow - now.hose_flow);
   dt.muscle_pressure_Pa =
       (RT * now.hose_flow - muscle_Pa * now.volume_slope_m3 * stroke.speed_per_s) / now.volume_m3;
   dt.bristle_m = now.bristle_rate_m_per_s;

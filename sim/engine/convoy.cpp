@@ -155,17 +155,12 @@ class ErkConvoy final : public Convoy {
   void rates(N_Vector y, N_Vector dyds) {
     for (std::size_t block = 0; block < blocks; ++block) {
       const std::size_t first = block * Lanes::count;
-      bool empty = true;
-      for (std::size_t lane = 0; lane < Lanes::count; ++lane) empty = empty && !goes(first + lane);
-      if (empty) {
+      if (!any(h_[block] > 0.0)) {  // nobody is under way
         for (std::size_t i = 0; i < L::size; ++i) Lane::at(dyds, i, block) = Lanes(0.0);
         continue;
       }
-      const Mask inside = Lane::rates(*together_[block], held_[block], y, dyds, block);
-      on_this_machine([&] {
-        for (std::size_t i = 0; i < L::size; ++i)
-          Lane::at(dyds, i, block) = Lane::at(dyds, i, block) * h_[block];
-      });
+      const Mask inside = Lane::rates(*together_[block], held_[block], h_[block], y, dyds, block);
+      if (!any(!inside)) continue;
       for (std::size_t lane = 0; lane < Lanes::count; ++lane) {
         if (inside[lane]) continue;
         One forbidding{};
