@@ -14,9 +14,9 @@
 
 namespace mckibben::engine {
 
-/// N components. The error norm is that of the rig that is worst off; or it is told of each rig, and the
-/// library sees one that always passes.
-template <int N>
+/// N components, of which the first `Norm` count in the error norm; the others are passengers. The norm is
+/// that of the rig that is worst off; or it is told of each rig, and the library sees one that always passes.
+template <int N, int Norm>
 struct LaneVector {
   /// Component i of block b stands at i * blocks + b.
   using Values = std::vector<Lanes>;
@@ -111,19 +111,19 @@ struct LaneVector {
     on_this_machine([&, &p = values(x), &q = values(w), norms = content(x).norms] {
       for (std::size_t b = 0; b < blocks; ++b) {
         Lanes sum = 0.0;
-        for (std::size_t i = b; i < p.size(); i += blocks) {
+        for (std::size_t i = b; i < Norm * blocks; i += blocks) {
           const Lanes term = p[i] * q[i];
           sum = sum + term * term;
         }
         if (norms != nullptr) {
-          (*norms)[b] = sqrt(sum / Lanes(N));
+          (*norms)[b] = sqrt(sum / Lanes(Norm));
           continue;
         }
         for (std::size_t lane = 0; lane < Lanes::count; ++lane)
           if (!(sum[lane] <= largest)) largest = sum[lane];  // also where it is not a number
       }
     });
-    return content(x).norms != nullptr ? passes : std::sqrt(largest / N);
+    return content(x).norms != nullptr ? passes : std::sqrt(largest / Norm);
   }
 };
 
