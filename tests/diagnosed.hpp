@@ -90,6 +90,7 @@ inline diagnose::Diagnosis diagnosed() {
                     {"sgn v", {"coefficient", "N", -0.51, -0.7, -0.32}}};
   d.law_valid_for = "rises up to 60 mm, speeds up to 0.2 m/s";
   locate_and_rank(d);
+  d.remaining = {3.0, 0.25, {{{"speed", "above 100 mm/s", 500, 1e-4, 2e-4, 0.5, 0.001, true}, 0.125}}};
   d.gap = {1.3e-4, 0.0093, 0.0022, 1.6e-4, 0.9876};
   const domain::Dataset data = measured();
   for (std::size_t i = 0; i < data.runs.size(); ++i) d.runs.push_back(ride(data.runs[i], i >= 4));

@@ -15,6 +15,7 @@
 #include <sim/diagnose/name.hpp>
 #include <sim/diagnose/plan.hpp>
 #include <sim/diagnose/ranking.hpp>
+#include <sim/diagnose/remaining.hpp>
 #include <sim/diagnose/repair.hpp>
 #include <sim/diagnose/run_gaps.hpp>
 #include <sim/diagnose/search.hpp>
@@ -312,6 +313,7 @@ class Workflow {
                               of(nominal_fit_), of(recalibrated_), *error});
       }
     result_.start = look_at_start(experiment_, chosen_rig_, usable_);
+    result_.remaining = remaining(experiment_, chosen_rig_, usable_, gap, settings_.seed);
     result_.runs = gaps_of_runs(experiment_, case_.split.held_out, usable_,
                                 {nominal_, recalibrated_.fitted.model.rig, chosen_rig_});
   }
@@ -337,7 +339,7 @@ class Workflow {
     result_.not_done = search_.not_done();
     result_.because = because(result_);
     if (result_.verdict != Verdict::nothing_missing)
-      result_.because += sentence_of(result_.start, result_.gap);
+      result_.because += sentence_of(result_.remaining) + sentence_of(result_.start, result_.gap);
   }
 
   Settings settings_;

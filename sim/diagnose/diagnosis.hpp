@@ -80,6 +80,23 @@ struct Cell {
   bool significant = false;   ///< under the false-discovery rate
 };
 
+/// A cell that holds more of the gap than of the data.
+struct Dense {
+  Cell cell;
+  double share_of_time = 0.0;  ///< of the rows of its factor
+
+  double density() const { return cell.share_of_gap / share_of_time; }
+};
+
+/// What is left with the corrected rig.
+struct Remaining {
+  double floors = 0.0;           ///< rms on the runs held out, over the noise floor
+  double share = 0.0;            ///< of the mean square above the floor
+  std::vector<Dense> pattern{};  ///< where, densest first; empty where no more is left than noise
+
+  bool is_more_than_noise() const { return floors > thresholds.start.explained_floors; }
+};
+
 /// One candidate as it was judged in a round. The misfit is the sum of squares over their long-term variance,
 /// and the squares of the nominal parameters' deviations.
 struct Ranked {
@@ -173,6 +190,7 @@ struct Diagnosis {
   std::string law_valid_for{};
   std::vector<Cell> where{};
   Start start{};
+  Remaining remaining{};
   std::vector<Ranked> ranking{};
   std::vector<std::string> confusion_names{};    ///< best candidates of the first round
   std::vector<std::vector<double>> confusion{};  ///< likeness among them

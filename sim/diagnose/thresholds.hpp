@@ -243,6 +243,8 @@ struct WhereThresholds {
   int pressures = 5, contractions = 6, times = 4;             ///< cells of equal width
   std::array<double, 2> start_s{1.0, 4.0};                    ///< between cells
   std::array<double, 3> since_reversal_s{0.1, 0.5, 2.0};      ///< between cells
+  double dense_share = 0.25;  ///< of the gap, that a cell must hold where a gap is said to lie,
+  double density = 1.5;       ///< and so many times its share of the time
 };
 
 // ---- 4. Name

@@ -129,6 +129,17 @@ Json gap_json(const diagnose::Diagnosis& diagnosis) {
   return all;
 }
 
+Json remaining_json(const diagnose::Remaining& remaining) {
+  Json pattern = Json::array();
+  for (const auto& dense : remaining.pattern)
+    pattern.push_back({{"factor", dense.cell.factor},
+                       {"cell", dense.cell.cell},
+                       {"mean", dense.cell.mean},
+                       {"share_of_gap", dense.cell.share_of_gap},
+                       {"share_of_time", dense.share_of_time}});
+  return {{"floors", remaining.floors}, {"share", remaining.share}, {"pattern", std::move(pattern)}};
+}
+
 Json start_json(const diagnose::Start& start) {
   return {{"lasting_s", start.lasting_s},
           {"share_of_gap", start.share_of_gap},
@@ -228,6 +239,7 @@ std::string json_of(const domain::Dataset& data, const diagnose::Diagnosis& diag
                 {"where", where_json(diagnosis)},
                 {"start_of_run", start_json(diagnosis.start)},
                 {"gap", gap_json(diagnosis)},
+                {"remaining", remaining_json(diagnosis.remaining)},
                 {"next_experiment", next_json(diagnosis)},
                 {"search", search_json(diagnosis)},
                 {"false_alarm_rate", diagnosis.false_alarm_rate},

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <sim/diagnose/remaining.hpp>
 #include <sim/diagnose/thresholds.hpp>
 #include <sim/input/field_kinds.hpp>
 #include <sim/output/diagnosis_words.hpp>
@@ -81,22 +82,14 @@ std::string gap_row(const char* name, double rmse, const diagnose::Gap& gap, con
 
 /// Where much of the gap sits in little of the data, in a sentence; empty if it is spread evenly.
 std::string concentration(const Diagnosis& diagnosis, const plant::Rig& rig) {
-  const diagnose::Cell* densest = nullptr;
-  double most = 1.5, in = 0.0;  // share of the gap over share of the rows
-  for (const auto& cell : diagnosis.where) {
-    std::size_t rows = 0;
-    for (const auto& other : diagnosis.where)
-      if (other.factor == cell.factor) rows += other.rows;
-    if (!cell.significant || cell.share_of_gap < 0.25 || rows == 0) continue;
-    const double share = static_cast<double>(cell.rows) / static_cast<double>(rows);
-    if (cell.share_of_gap / share > most) densest = &cell, most = cell.share_of_gap / share, in = share;
-  }
   if (diagnosis.gap.recalibrated_rmse < 1.1 * diagnosis.gap.noise_floor)
     return paragraph("Nothing is left here: the recalibrated model is as near as the noise floor.");
-  if (densest == nullptr) return "";
+  const auto dense = diagnose::densest(diagnosis.where);
+  if (dense.empty()) return "";
+  const diagnose::Cell& most = dense.front().cell;
   return fmt::format("<p>It is concentrated at {} {}: {:.0f} % of the gap in {:.0f} % of the time.</p>\n",
-                     escaped(densest->factor), cell_html(*densest, rig), 100.0 * densest->share_of_gap,
-                     100.0 * in);
+                     escaped(most.factor), cell_html(most, rig), 100.0 * most.share_of_gap,
+                     100.0 * dense.front().share_of_time);
 }
 
 /// The judged reading, what it is more of and what less.

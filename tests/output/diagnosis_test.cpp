@@ -56,6 +56,13 @@ TEST(DiagnosisJson, HoldsWhatIsPromised) {
                  {"reading", "contraction"},
                  {"unit", "1"}};
   EXPECT_EQ(document.at("gap"), gap);
+  const Json fast{{"factor", "speed"},
+                  {"cell", "above 100 mm/s"},
+                  {"mean", 1e-4},
+                  {"share_of_gap", 0.5},
+                  {"share_of_time", 0.125}};
+  const Json remaining{{"floors", 3.0}, {"share", 0.25}, {"pattern", Json::array({fast})}};
+  EXPECT_EQ(document.at("remaining"), remaining);
   const Json& next = document.at("next_experiment");
   EXPECT_EQ(next.at("separates").size(), 2u);
   EXPECT_EQ(next.at("current"), "stairs from 4 to 20 mA, 2 s each");
