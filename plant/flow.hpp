@@ -25,7 +25,7 @@ struct RestrictionOf {
     const auto small = drop < linear_zone_Pa;
     const S turbulent = turbulent_kg_per_s(high_Pa, select(small, S(high_Pa - linear_zone_Pa), low_Pa));
     const S flow = choose(
-        small, [&] { return S(turbulent * (drop / linear_zone_Pa)); }, [&] { return turbulent; });
+        small, [&] { return S(turbulent * (drop / linear_zone_Pa)); }, [&] { return S(turbulent); });
     return select(back, S(-flow), flow);
   }
 

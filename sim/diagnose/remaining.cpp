@@ -22,6 +22,7 @@ std::vector<Dense> densest(std::span<const Cell> map) {
     if (!first && found.density() > place->second.density()) place->second = found;
   }
   std::vector<Dense> all;
+  all.reserve(best.size());
   for (auto& [factor, found] : best) all.push_back(std::move(found));
   std::stable_sort(all.begin(), all.end(),
                    [](const Dense& a, const Dense& b) { return a.density() > b.density(); });

@@ -17,7 +17,7 @@ std::string Telling::operator()(const Doing& doing, Clock::time_point now) {
     return stage_;
   }
   const std::size_t over = begun_++;
-  const std::string what = stage_.empty() ? doing.what : fmt::format("{}: {}", stage_, doing.what);
+  std::string what = stage_.empty() ? doing.what : fmt::format("{}: {}", stage_, doing.what);
   if (begun_ > most_tries_) return what;
   std::string left;
   if (over > 0) {
