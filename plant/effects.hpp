@@ -12,13 +12,17 @@
 
 #include <plant/effects/bladder_creep.hpp>
 #include <plant/effects/bladder_elasticity.hpp>
+#include <plant/effects/bladder_hysteresis.hpp>
 #include <plant/effects/encoder_backlash.hpp>
 #include <plant/effects/encoder_scale.hpp>
 #include <plant/effects/end_cap_correction.hpp>
+#include <plant/effects/exhaust_restriction.hpp>
 #include <plant/effects/friction_warm_up.hpp>
+#include <plant/effects/gas_temperature.hpp>
 #include <plant/effects/guide_friction.hpp>
 #include <plant/effects/muscle_leak.hpp>
 #include <plant/effects/polytropic_gas.hpp>
+#include <plant/effects/pressure_threshold.hpp>
 #include <plant/effects/residual_force.hpp>
 #include <plant/effects/speed_dependent_friction.hpp>
 #include <plant/effects/supply_droop.hpp>
@@ -57,6 +61,10 @@ constexpr bool has(Hook hook) {
       return requires(const E& e, Now now) {
         { e.end_correction_shift(now) } -> std::same_as<double>;
       };
+    case pressing_shift:
+      return requires(const E& e, Now now) {
+        { e.pressing_shift_Pa(now) } -> std::same_as<double>;
+      };
     case outflow:
       return requires(const E& e, Now now) {
         { e.outflow_kg_per_s(now) } -> std::same_as<double>;
@@ -64,6 +72,14 @@ constexpr bool has(Hook hook) {
     case gas_exponent:
       return requires(const E& e) {
         { e.gas_exponent() } -> std::same_as<double>;
+      };
+    case muscle_exponent:
+      return requires(const E& e) {
+        { e.muscle_exponent_shift() } -> std::same_as<double>;
+      };
+    case heat_loss:
+      return requires(const E& e, double m) {
+        { e.heat_loss_per_s(m) } -> std::same_as<double>;
       };
     case valve_error_shift:
       return requires(const E& e, double p) {
@@ -76,6 +92,10 @@ constexpr bool has(Hook hook) {
     case supply_drop:
       return requires(const E& e, double m) {
         { e.supply_drop_Pa(m) } -> std::same_as<double>;
+      };
+    case vent_factor:
+      return requires(const E& e) {
+        { e.vent_factor() } -> std::same_as<double>;
       };
     case reference:
       return requires(const E& e, double p, Play& play) {
@@ -178,6 +198,15 @@ class EffectSet {
     return sum;
   }
   template <class S>
+  S pressing_shift_Pa(const Instant<S>& now) const {
+    S sum = S(0.0);
+    each([&]<class E>(const E& effect, auto on, auto) {
+      if constexpr (declares<E>(Hook::pressing_shift))
+        sum = select(on, S(sum + effect.pressing_shift_Pa(now)), sum);
+    });
+    return sum;
+  }
+  template <class S>
   S outflow_kg_per_s(const Instant<S>& now) const {
     S sum = S(0.0);
     each([&]<class E>(const E& effect, auto on, auto) {
@@ -192,6 +221,25 @@ class EffectSet {
     });
     return product;
   }
+  P muscle_exponent_shift() const {
+    P sum = 0.0;
+    each([&]<class E>(const E& effect, auto on, auto) {
+      if constexpr (declares<E>(Hook::muscle_exponent))
+        sum = select(on, P(sum + effect.muscle_exponent_shift()), sum);
+    });
+    return sum;
+  }
+  template <class S>
+  S heat_loss_per_s(const std::array<S, memories>& memory) const {
+    S sum = S(0.0);
+    each([&]<class E>(const E& effect, auto on, auto slot) {
+      if constexpr (declares<E>(Hook::heat_loss))
+        sum = select(on, S(sum + effect.heat_loss_per_s(recall(memory, slot))), sum);
+    });
+    return sum;
+  }
+  /// Whether gas gets another temperature than the walls'.
+  bool warm() const { return any(gas_exponent() != 1.0) || any(muscle_exponent_shift() != 0.0); }
   template <class S>
   S valve_error_shift_Pa(const S& error_Pa) const {
     S sum = S(0.0);
@@ -218,6 +266,13 @@ class EffectSet {
         sum = select(on, S(sum + effect.supply_drop_Pa(recall(memory, slot))), sum);
     });
     return sum;
+  }
+  P vent_factor() const {
+    P product = 1.0;
+    each([&]<class E>(const E& effect, auto, auto) {  // of one that is absent it is 1
+      if constexpr (declares<E>(Hook::vent_factor)) product = product * effect.vent_factor();
+    });
+    return product;
   }
   template <class S>
   std::array<S, memories> memory_rates(const Instant<S>& now, const Inflow<S>& inflow,
@@ -300,8 +355,9 @@ class EffectSet {
 template <class P>
 using EffectsOf =
     EffectSet<P, ViscousDampingOf<P>, GuideFrictionOf<P>, SpeedDependentFrictionOf<P>, BladderElasticityOf<P>,
-              BladderCreepOf<P>, EndCapCorrectionOf<P>, MuscleLeakOf<P>, PolytropicGasOf<P>, ValveLagOf<P>,
-              ValveDeadBandOf<P>, ValveHysteresisOf<P>, SupplyDroopOf<P>, FrictionWarmUpOf<P>,
+              BladderCreepOf<P>, BladderHysteresisOf<P>, EndCapCorrectionOf<P>, PressureThresholdOf<P>,
+              MuscleLeakOf<P>, PolytropicGasOf<P>, GasTemperatureOf<P>, ValveLagOf<P>, ValveDeadBandOf<P>,
+              ValveHysteresisOf<P>, SupplyDroopOf<P>, ExhaustRestrictionOf<P>, FrictionWarmUpOf<P>,
               EncoderBacklashOf<P>, EncoderScaleOf<P>, ResidualForceOf<P>>;
 using Effects = EffectsOf<double>;
 static_assert([]<class... E>(const std::tuple<E...>*) {

@@ -12,7 +12,7 @@ PlantOf<P>::PlantOf(const RigOf<P>& rig, const RigOf<P>& opposite, const Link& l
       opposite_(std::in_place, opposite, 0.0),
       link_(link),
       remembers_(rig.effects.remember() || opposite.effects.remember()),
-      polytropic_(rig.effects.gas_exponent() != 1.0),
+      polytropic_(rig.effects.warm() || opposite.effects.warm()),
       radius_m_(rig.joint.wheel_radius_m),
       opposite_share_(rig.muscle.rest_length_m / opposite.muscle.rest_length_m),
       mass_kg_((rig.joint.wheel_inertia_kg_m2 + link.inertia_kg_m2) / (radius_m_ * radius_m_)),
@@ -105,9 +105,11 @@ Imbalance PlantOf<P>::imbalance(const State<double>& from, const State<double>& 
   const double net_kg = books.air_drawn_kg - books.air_vented_kg - books.air_leaked_kg;
   double lost_kg = net_kg - (gas_mass_kg(to) - first_kg);
   if (polytropic_) {
-    // p V changes by n R T of what flows in and by (1 - n) of the work done; what flows is mass as well.
+    // p V changes by n R T of what flows in, by (1 - n) of the work done and by what the muscle's temperature
+    // adds; what flows is mass as well.
     const double n = rig().effects.gas_exponent();
-    lost_kg = (n * books.air_inflow_J - (n - 1.0) * books.gas_work_J) / side_.gas_energy_J_per_kg() -
+    lost_kg = (n * books.air_inflow_J - (n - 1.0) * books.gas_work_J + books.gas_heat_J) /
+                  side_.gas_energy_J_per_kg() -
               (gas_mass_kg(to) - first_kg);
     const double missing_kg =
         net_kg - (books.valve_air_kg + books.muscle_air_kg + books.opposite_valve_air_kg +

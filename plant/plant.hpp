@@ -168,7 +168,7 @@ template <class P>
 PlantOf<P>::PlantOf(const RigOf<P>& rig, const P& load_kg)
     : side_(rig, (load_kg + rig.joint.load_offset_kg) * gravity_m_per_s2),
       remembers_(rig.effects.remember()),
-      polytropic_(any(rig.effects.gas_exponent() != 1.0)),
+      polytropic_(rig.effects.warm()),
       load_kg_(load_kg),
       radius_m_(rig.joint.wheel_radius_m),
       mass_kg_(load_kg + rig.joint.load_offset_kg +
@@ -259,6 +259,7 @@ Ledger<S> PlantOf<P>::ledger_rates(const State<S>& state, const Moment<S>& now,
                   none,
                   none,
                   none,
+                  none,
                   none};
   if constexpr (sides == 2) {
     const SideMoment<S>& other = now.opposite;
@@ -310,6 +311,7 @@ void PlantOf<P>::books_of_gas(const Stroke<S>& stroke, const SideOf<P>& side, co
   muscle_rate = through_hose - leaked;
   rates.air_inflow_J = rates.air_inflow_J + RT * (now.supply_flow - now.vent_flow - now.leak_flow);
   rates.gas_work_J = rates.gas_work_J + muscle_Pa * now.volume_slope_m3 * stroke.speed_per_s;
+  rates.gas_heat_J = rates.gas_heat_J + now.volume_m3 * now.heating_Pa_per_s;
 }
 
 }  // namespace mckibben::plant

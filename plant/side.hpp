@@ -34,6 +34,7 @@ struct SideMoment {
   S friction_level_N, friction_force_N;  // G, F_f
   S bristle_rate_m_per_s;                // dz/dt
   S leak_flow, effects_pull_N;           // what effects take and add
+  S heating_Pa_per_s;                    // what the temperature of the muscle's gas adds to dP_m/dt
   SideMemory<S> memory_rates;            // of effects
 
   /// T, what the cord carries.
@@ -93,6 +94,9 @@ class SideOf {
   template <class S>
   void valve_flows(const SideState<S>& state, const SideMemory<S>& memory, const HeldSideOf<P>& held,
                    SideMoment<S>& now) const;
+  template <class S>
+  void heat(const Stroke<S>& stroke, const SideState<S>& state, const SideMemory<S>& memory,
+            SideMoment<S>& now) const;
 
   RigOf<P> rig_;
   BraidOf<P> braid_;
@@ -149,6 +153,7 @@ void SideOf<P>::valve_flows(const SideState<S>& state, const SideMemory<S>& memo
       u >= 0.0, [&] { return S(u * valve_.flow_kg_per_s(supply_Pa, valve_Pa)); }, none);
   now.vent_flow =
       choose(u >= 0.0, none, [&] { return S(-u * valve_.flow_kg_per_s(valve_Pa, S(atmosphere))); });
+  if (effects_) now.vent_flow = now.vent_flow * rig_.effects.vent_factor();
   now.hose_flow = hose_.flow_kg_per_s(valve_Pa, muscle_Pa);
 }
 
@@ -165,24 +170,45 @@ void SideOf<P>::gas_balance(const Stroke<S>& stroke, const SideState<S>& state, 
 
   if (held.pressure_rate_Pa_per_s) {  // whatever keeps the pressure brings the gas that this takes
     const S muscle_Pa = state.muscle_pressure_Pa + rig_.gas.atmosphere_Pa;
-    const P n = effects_ ? rig_.effects.gas_exponent() : P(1.0);
+    P n = 1.0;
+    S rate_Pa_per_s = S(*held.pressure_rate_Pa_per_s);
+    if (effects_) {
+      n = rig_.effects.gas_exponent() + rig_.effects.muscle_exponent_shift();
+      rate_Pa_per_s = rate_Pa_per_s + muscle_Pa * rig_.effects.heat_loss_per_s(memory);
+    }
     now.wanted_opening = now.valve_opening = now.vent_flow = S(0.0);
-    now.hose_flow = (now.volume_m3 * (*held.pressure_rate_Pa_per_s / n) +
-                     muscle_Pa * now.volume_slope_m3 * stroke.speed_per_s) /
-                        gas_energy_J_per_kg_ +
-                    now.leak_flow;
+    now.hose_flow =
+        (now.volume_m3 * (rate_Pa_per_s / n) + muscle_Pa * now.volume_slope_m3 * stroke.speed_per_s) /
+            gas_energy_J_per_kg_ +
+        now.leak_flow;
     now.supply_flow = now.hose_flow;
   } else {
     valve_flows(state, memory, held, now);
   }
+  now.heating_Pa_per_s = S(0.0);
+  if (effects_) heat(stroke, state, memory, now);
+}
+
+template <class P>
+template <class S>
+void SideOf<P>::heat(const Stroke<S>& stroke, const SideState<S>& state, const SideMemory<S>& memory,
+                     SideMoment<S>& now) const {
+  const P shift = rig_.effects.muscle_exponent_shift();
+  if (!any(shift != 0.0)) return;
+  const S muscle_Pa = state.muscle_pressure_Pa + rig_.gas.atmosphere_Pa;
+  const S isothermal_Pa_per_s = (gas_energy_J_per_kg_ * (now.hose_flow - now.leak_flow) -
+                                 muscle_Pa * now.volume_slope_m3 * stroke.speed_per_s) /
+                                now.volume_m3;
+  now.heating_Pa_per_s = shift * isothermal_Pa_per_s - muscle_Pa * rig_.effects.heat_loss_per_s(memory);
 }
 
 template <class P>
 template <class S>
 void SideOf<P>::remember(const Stroke<S>& stroke, const SideState<S>& state, const SideMemory<S>& memory,
                          const S& supply_flow, SideMoment<S>& now) const {
-  now.memory_rates = rig_.effects.memory_rates(instant(stroke, state, now),
-                                               Inflow<S>{now.wanted_opening, supply_flow}, memory);
+  const Inflow<S> inflow{now.wanted_opening, supply_flow,   now.hose_flow,
+                         now.leak_flow,      now.volume_m3, S(now.volume_slope_m3 * stroke.speed_per_s)};
+  now.memory_rates = rig_.effects.memory_rates(instant(stroke, state, now), inflow, memory);
 }
 
 template <class P>
@@ -194,7 +220,8 @@ void SideOf<P>::forces(const Stroke<S>& stroke, const SideState<S>& state, const
   const S& e = stroke.contraction_ratio;
   const S& z = state.bristle_m;
   const S& v = now.speed_m_per_s;
-  const S& pressure_Pa = state.muscle_pressure_Pa;
+  S pressure_Pa = state.muscle_pressure_Pa;
+  if (effects_) pressure_Pa = pressure_Pa + rig_.effects.pressing_shift_Pa(instant(stroke, state, now));
 
   now.braid_force_N = braid_.force_N(e, pressure_Pa);
   now.stop_force_N = choose(
@@ -237,7 +264,8 @@ SideState<S> SideOf<P>::rates(const Stroke<S>& stroke, const SideState<S>& state
   if (effects_) {
     const P n = rig_.effects.gas_exponent();
     dt.valve_pressure_Pa = n * dt.valve_pressure_Pa;
-    dt.muscle_pressure_Pa = n * (dt.muscle_pressure_Pa - RT * now.leak_flow / now.volume_m3);
+    dt.muscle_pressure_Pa =
+        n * (dt.muscle_pressure_Pa - RT * now.leak_flow / now.volume_m3) + now.heating_Pa_per_s;
   }
   return dt;
 }

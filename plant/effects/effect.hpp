@@ -11,11 +11,15 @@
 //   S pull_N(now, memory)                  force on the load, positive upwards
 //   S friction_factor(now, memory)         multiplies the friction level G
 //   S end_correction_shift(now)            added to k, in the braid force only
+//   S pressing_shift_Pa(now)               added to P_m, in what presses on braid and threads
 //   S outflow_kg_per_s(now)                gas that leaves the muscle
 //   P gas_exponent()                       multiplies both pressure rates
+//   P muscle_exponent_shift()              so many times the isothermal rate is added to that of P_m
+//   S heat_loss_per_s(memory)              so much of P_m, absolute, is taken from its rate
 //   S valve_error_shift_Pa(error)          added to P_ref - P_v
 //   S valve_opening(wanted, memory)        by how much the valve opens
 //   S supply_drop_Pa(memory)               taken from the supply pressure
+//   P vent_factor()                        multiplies what the valve vents
 //   S memory_rate(now, inflow, memory)     d(memory)/dt; a memory starts at zero; `memory_size` is its scale
 //   double reference_Pa(wanted, play)      at each tick: the reference that the valve follows
 //   double wheel_m(rise, play)             at each tick: where the encoder's wheel stands
@@ -51,8 +55,10 @@ struct Instant {
 /// What flows into the plant at that instant, after all effects on it.
 template <class S>
 struct Inflow {
-  S wanted_opening;   ///< u, what the proportional band asks for
-  S supply_kg_per_s;  ///< drawn from the supply
+  S wanted_opening;                   ///< u, what the proportional band asks for
+  S supply_kg_per_s;                  ///< drawn from the supply
+  S hose_kg_per_s, leak_kg_per_s;     ///< into the muscle, and out of it besides
+  S volume_m3, volume_rate_m3_per_s;  ///< V, dV/dt
 };
 
 /// What moves only when pushed: stays where it is until its input is more than half a width away.
@@ -73,11 +79,15 @@ enum class Hook {
   pull,
   friction_factor,
   end_correction_shift,
+  pressing_shift,
   outflow,
   gas_exponent,
+  muscle_exponent,
+  heat_loss,
   valve_error_shift,
   valve_opening,
   supply_drop,
+  vent_factor,
   reference,
   wheel,
   reading_factor
@@ -87,8 +97,8 @@ inline constexpr std::size_t hook_count = static_cast<std::size_t>(Hook::reading
 /// What the hook acts on, for people.
 constexpr std::string_view words(Hook hook) {
   constexpr std::array<std::string_view, hook_count> list{
-      "pull",   "friction level",  "braid force",       "gas",    "gas", "valve", "valve",
-      "supply", "valve, at ticks", "reading, at ticks", "reading"};
+      "pull",  "friction level", "braid force", "braid force and friction level", "gas", "gas", "gas", "gas",
+      "valve", "valve", "supply", "exhaust", "valve, at ticks", "reading, at ticks", "reading"};
   return list[static_cast<std::size_t>(hook)];
 }
 

@@ -12,7 +12,7 @@ namespace mckibben::engine {
 template <bool remembers>
 struct LaneProblem {
   using L = Layout<1, remembers, Books::none>;
-  struct V : LaneVector<L::size> {
+  struct V : LaneVector<L::size, L::counted> {
     using layout = L;
   };
   using One = std::array<double, L::size>;  ///< what is carried of one rig

@@ -14,9 +14,9 @@
 
 namespace mckibben::engine {
 
-/// N components. The error norm is that of the rig that is worst off; or it is told of each rig, and the
-/// library sees one that always passes.
-template <int N>
+/// N components, of which the error norm counts `Counted`. It is that of the rig that is worst off; or it is
+/// told of each rig, and the library sees one that always passes.
+template <int N, int Counted = N>
 struct LaneVector {
   /// Component i of block b stands at i * blocks + b.
   using Values = std::vector<Lanes>;
@@ -116,14 +116,14 @@ struct LaneVector {
           sum = sum + term * term;
         }
         if (norms != nullptr) {
-          (*norms)[b] = sqrt(sum / Lanes(N));
+          (*norms)[b] = sqrt(sum / Lanes(Counted));
           continue;
         }
         for (std::size_t lane = 0; lane < Lanes::count; ++lane)
           if (!(sum[lane] <= largest)) largest = sum[lane];  // also where it is not a number
       }
     });
-    return content(x).norms != nullptr ? passes : std::sqrt(largest / N);
+    return content(x).norms != nullptr ? passes : std::sqrt(largest / Counted);
   }
 };
 
