@@ -73,13 +73,9 @@ constexpr bool has(Hook hook) {
       return requires(const E& e) {
         { e.gas_exponent() } -> std::same_as<double>;
       };
-    case muscle_exponent:
-      return requires(const E& e) {
-        { e.muscle_exponent_shift() } -> std::same_as<double>;
-      };
-    case heat_loss:
-      return requires(const E& e, double m) {
-        { e.heat_loss_per_s(m) } -> std::same_as<double>;
+    case muscle_heating:
+      return requires(const E& e, Now now, const Inflow<double>& in, double m) {
+        { e.heating_Pa_per_s(now, in, m) } -> std::same_as<double>;
       };
     case valve_error_shift:
       return requires(const E& e, double p) {
@@ -221,25 +217,22 @@ class EffectSet {
     });
     return product;
   }
-  P muscle_exponent_shift() const {
-    P sum = 0.0;
-    each([&]<class E>(const E& effect, auto on, auto) {
-      if constexpr (declares<E>(Hook::muscle_exponent))
-        sum = select(on, P(sum + effect.muscle_exponent_shift()), sum);
-    });
-    return sum;
-  }
   template <class S>
-  S heat_loss_per_s(const std::array<S, memories>& memory) const {
+  S heating_Pa_per_s(const Instant<S>& now, const Inflow<S>& inflow,
+                     const std::array<S, memories>& memory) const {
     S sum = S(0.0);
     each([&]<class E>(const E& effect, auto on, auto slot) {
-      if constexpr (declares<E>(Hook::heat_loss))
-        sum = select(on, S(sum + effect.heat_loss_per_s(recall(memory, slot))), sum);
+      if constexpr (declares<E>(Hook::muscle_heating))
+        sum = select(on, S(sum + effect.heating_Pa_per_s(now, inflow, recall(memory, slot))), sum);
     });
     return sum;
   }
   /// Whether gas gets another temperature than the walls'.
-  bool warm() const { return any(gas_exponent() != 1.0) || any(muscle_exponent_shift() != 0.0); }
+  bool warm() const {
+    bool one = any(gas_exponent() != 1.0);
+    each([&]<class E>(const E&, auto, auto) { one = one || declares<E>(Hook::muscle_heating); });
+    return one;
+  }
   template <class S>
   S valve_error_shift_Pa(const S& error_Pa) const {
     S sum = S(0.0);

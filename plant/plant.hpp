@@ -284,8 +284,9 @@ Ledger<S> PlantOf<P>::ledger_rates(const State<S>& state, const Moment<S>& now,
   return rates;
 }
 
-// The pressure rates count each flow q as the enthalpy of q at the walls' temperature T. Gas of another
-// temperature carries it with another mass: q T/T_gas of the volume it leaves, where p V = m R T_gas.
+// With polytropic gas the pressure rates count each flow q as the enthalpy of q at the walls' temperature T.
+// Gas of another temperature carries it with another mass: q T/T_gas of the volume it leaves, where
+// p V = m R T_gas. Else q is the mass.
 template <class P>
 template <class S>
 void PlantOf<P>::books_of_gas(const Stroke<S>& stroke, const SideOf<P>& side, const SideState<S>& state,
@@ -293,9 +294,11 @@ void PlantOf<P>::books_of_gas(const Stroke<S>& stroke, const SideOf<P>& side, co
                               Ledger<S>& rates, S& valve_rate, S& muscle_rate) const {
   const P &atmosphere = side.rig().gas.atmosphere_Pa, &RT = side.gas_energy_J_per_kg();
   const S muscle_Pa = state.muscle_pressure_Pa + atmosphere;
-  const S in_valve =
-      valve_air_kg * RT / ((state.valve_pressure_Pa + atmosphere) * side.rig().valve.volume_m3);  // T/T_gas
-  const S in_muscle = muscle_air_kg * RT / (muscle_Pa * now.volume_m3);
+  S in_valve = S(1.0), in_muscle = S(1.0);  // T/T_gas
+  if (any(side.rig().effects.gas_exponent() != 1.0)) {
+    in_valve = valve_air_kg * RT / ((state.valve_pressure_Pa + atmosphere) * side.rig().valve.volume_m3);
+    in_muscle = muscle_air_kg * RT / (muscle_Pa * now.volume_m3);
+  }
   const auto carried = [](const S& flow, const S& from, const S& back) {
     return S(flow * select(flow < 0.0, back, from));
   };

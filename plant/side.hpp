@@ -95,8 +95,10 @@ class SideOf {
   void valve_flows(const SideState<S>& state, const SideMemory<S>& memory, const HeldSideOf<P>& held,
                    SideMoment<S>& now) const;
   template <class S>
-  void heat(const Stroke<S>& stroke, const SideState<S>& state, const SideMemory<S>& memory,
-            SideMoment<S>& now) const;
+  static Inflow<S> inflow(const Stroke<S>& stroke, const SideMoment<S>& now, const S& supply_flow) {
+    return {now.wanted_opening, supply_flow,   now.hose_flow,
+            now.leak_flow,      now.volume_m3, S(now.volume_slope_m3 * stroke.speed_per_s)};
+  }
 
   RigOf<P> rig_;
   BraidOf<P> braid_;
@@ -170,45 +172,28 @@ void SideOf<P>::gas_balance(const Stroke<S>& stroke, const SideState<S>& state, 
 
   if (held.pressure_rate_Pa_per_s) {  // whatever keeps the pressure brings the gas that this takes
     const S muscle_Pa = state.muscle_pressure_Pa + rig_.gas.atmosphere_Pa;
-    P n = 1.0;
-    S rate_Pa_per_s = S(*held.pressure_rate_Pa_per_s);
-    if (effects_) {
-      n = rig_.effects.gas_exponent() + rig_.effects.muscle_exponent_shift();
-      rate_Pa_per_s = rate_Pa_per_s + muscle_Pa * rig_.effects.heat_loss_per_s(memory);
-    }
+    const P n = effects_ ? rig_.effects.gas_exponent() : P(1.0);
     now.wanted_opening = now.valve_opening = now.vent_flow = S(0.0);
-    now.hose_flow =
-        (now.volume_m3 * (rate_Pa_per_s / n) + muscle_Pa * now.volume_slope_m3 * stroke.speed_per_s) /
-            gas_energy_J_per_kg_ +
-        now.leak_flow;
+    now.hose_flow = (now.volume_m3 * (*held.pressure_rate_Pa_per_s / n) +
+                     muscle_Pa * now.volume_slope_m3 * stroke.speed_per_s) /
+                        gas_energy_J_per_kg_ +
+                    now.leak_flow;
     now.supply_flow = now.hose_flow;
   } else {
     valve_flows(state, memory, held, now);
   }
   now.heating_Pa_per_s = S(0.0);
-  if (effects_) heat(stroke, state, memory, now);
-}
-
-template <class P>
-template <class S>
-void SideOf<P>::heat(const Stroke<S>& stroke, const SideState<S>& state, const SideMemory<S>& memory,
-                     SideMoment<S>& now) const {
-  const P shift = rig_.effects.muscle_exponent_shift();
-  if (!any(shift != 0.0)) return;
-  const S muscle_Pa = state.muscle_pressure_Pa + rig_.gas.atmosphere_Pa;
-  const S isothermal_Pa_per_s = (gas_energy_J_per_kg_ * (now.hose_flow - now.leak_flow) -
-                                 muscle_Pa * now.volume_slope_m3 * stroke.speed_per_s) /
-                                now.volume_m3;
-  now.heating_Pa_per_s = shift * isothermal_Pa_per_s - muscle_Pa * rig_.effects.heat_loss_per_s(memory);
+  if (effects_ && !held.pressure_rate_Pa_per_s)
+    now.heating_Pa_per_s = rig_.effects.heating_Pa_per_s(instant(stroke, state, now),
+                                                         inflow(stroke, now, now.supply_flow), memory);
 }
 
 template <class P>
 template <class S>
 void SideOf<P>::remember(const Stroke<S>& stroke, const SideState<S>& state, const SideMemory<S>& memory,
                          const S& supply_flow, SideMoment<S>& now) const {
-  const Inflow<S> inflow{now.wanted_opening, supply_flow,   now.hose_flow,
-                         now.leak_flow,      now.volume_m3, S(now.volume_slope_m3 * stroke.speed_per_s)};
-  now.memory_rates = rig_.effects.memory_rates(instant(stroke, state, now), inflow, memory);
+  now.memory_rates =
+      rig_.effects.memory_rates(instant(stroke, state, now), inflow(stroke, now, supply_flow), memory);
 }
 
 template <class P>

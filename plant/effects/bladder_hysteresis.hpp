@@ -11,7 +11,8 @@ namespace mckibben::plant {
 template <class P>
 struct BladderHysteresisOf {
   static constexpr std::string_view
-      name = "bladder_hysteresis", law = "-F_h z, dz/dt = (v - |v| z) / x_h",
+      name = "bladder_hysteresis",
+      law = "-F_h z, dz/dt = (v - |v| z) / x_h",
       sentence = "the rubber pulls against the way since the last reversal, at any pressure and speed",
       source =
           "Bouc-Wen law of a muscle's force, doi 10.1155/2014/172782, with exponent 1 and without its linear "

@@ -14,8 +14,7 @@
 //   S pressing_shift_Pa(now)               added to P_m, in what presses on braid and threads
 //   S outflow_kg_per_s(now)                gas that leaves the muscle
 //   P gas_exponent()                       multiplies both pressure rates
-//   P muscle_exponent_shift()              so many times the isothermal rate is added to that of P_m
-//   S heat_loss_per_s(memory)              so much of P_m, absolute, is taken from its rate
+//   S heating_Pa_per_s(now, inflow, memory)   added to dP_m/dt
 //   S valve_error_shift_Pa(error)          added to P_ref - P_v
 //   S valve_opening(wanted, memory)        by how much the valve opens
 //   S supply_drop_Pa(memory)               taken from the supply pressure
@@ -82,8 +81,7 @@ enum class Hook {
   pressing_shift,
   outflow,
   gas_exponent,
-  muscle_exponent,
-  heat_loss,
+  muscle_heating,
   valve_error_shift,
   valve_opening,
   supply_drop,
@@ -96,9 +94,20 @@ inline constexpr std::size_t hook_count = static_cast<std::size_t>(Hook::reading
 
 /// What the hook acts on, for people.
 constexpr std::string_view words(Hook hook) {
-  constexpr std::array<std::string_view, hook_count> list{
-      "pull",  "friction level", "braid force", "braid force and friction level", "gas", "gas", "gas", "gas",
-      "valve", "valve", "supply", "exhaust", "valve, at ticks", "reading, at ticks", "reading"};
+  constexpr std::array<std::string_view, hook_count> list{"pull",
+                                                          "friction level",
+                                                          "braid force",
+                                                          "braid force and friction level",
+                                                          "gas",
+                                                          "gas",
+                                                          "gas",
+                                                          "valve",
+                                                          "valve",
+                                                          "supply",
+                                                          "exhaust",
+                                                          "valve, at ticks",
+                                                          "reading, at ticks",
+                                                          "reading"};
   return list[static_cast<std::size_t>(hook)];
 }
 

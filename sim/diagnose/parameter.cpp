@@ -182,9 +182,8 @@ namespace {
 template <class E>
 constexpr bool makes_pressure() {
   using enum plant::Hook;
-  constexpr std::array of_pressure{outflow,           gas_exponent,  muscle_exponent, heat_loss,
-                                   valve_error_shift, valve_opening, supply_drop,     vent_factor,
-                                   reference};
+  constexpr std::array of_pressure{outflow,       gas_exponent, muscle_heating, valve_error_shift,
+                                   valve_opening, supply_drop,  vent_factor,    reference};
   return std::ranges::all_of(
       E::hooks, [&](plant::Hook hook) { return std::ranges::find(of_pressure, hook) != of_pressure.end(); });
 }

@@ -58,7 +58,7 @@ Json ledger_json(const plant::Rig& rig, const run::Recording& recording) {
                    {"muscle_air_kg", books.muscle_air_kg},
                    {"air_inflow_J", books.air_inflow_J},
                    {"gas_work_J", books.gas_work_J}});
-  if (rig.effects.muscle_exponent_shift() != 0.0) ledger["gas_heat_J"] = books.gas_heat_J;
+  if (!rig.effects.get<plant::GasTemperature>().absent()) ledger["gas_heat_J"] = books.gas_heat_J;
   return ledger;
 }
 

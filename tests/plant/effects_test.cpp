@@ -174,12 +174,13 @@ TEST(Catalogue, HasTheNamesThatResultsAreComparedBy) {
   std::set<std::string_view> names;
   std::apply([&](const auto&... effect) { (names.insert(effect.name), ...); }, Effects::Table{});
   EXPECT_EQ(names.size(), Effects::count);
-  for (const char* name :
-       {"viscous_damping", "guide_friction", "speed_dependent_friction", "bladder_elasticity",
-        "bladder_creep", "bladder_hysteresis", "end_cap_correction", "pressure_threshold", "muscle_leak",
-        "polytropic_gas", "gas_temperature", "valve_lag", "valve_dead_band", "valve_hysteresis",
-        "supply_droop", "exhaust_restriction", "friction_warm_up", "encoder_backlash", "encoder_scale",
-        "residual_law"})
+  for (const char* name : {"viscous_damping",     "guide_friction",     "speed_dependent_friction",
+                           "bladder_elasticity",  "bladder_creep",      "bladder_hysteresis",
+                           "end_cap_correction",  "pressure_threshold", "muscle_leak",
+                           "polytropic_gas",      "gas_temperature",    "valve_lag",
+                           "valve_dead_band",     "valve_hysteresis",   "supply_droop",
+                           "exhaust_restriction", "friction_warm_up",   "encoder_backlash",
+                           "encoder_scale",       "residual_law"})
     EXPECT_TRUE(names.contains(name)) << name;
   EXPECT_EQ(ResidualForce::variants.size(), 0u);
 }
@@ -329,7 +330,8 @@ TEST(Catalogue, ARestrictedExhaustHindersTheWayOutOnly) {
   for (const double reference_Pa : {1e5, 5e5}) {
     Held held;
     held.reference_pressure_Pa = reference_Pa;
-    const auto with = Plant(narrow, 12.0).moment(state, held), without = Plant(Rig{}, 12.0).moment(state, held);
+    const auto with = Plant(narrow, 12.0).moment(state, held),
+               without = Plant(Rig{}, 12.0).moment(state, held);
     EXPECT_NEAR(with.vent_flow, 0.7 * without.vent_flow, 1e-15);
     EXPECT_EQ(with.supply_flow, without.supply_flow);
   }
@@ -414,8 +416,7 @@ TEST(Catalogue, TheOrderOfTheTableDoesNotMatter) {
     for (std::size_t m = 0; m < rates.size(); ++m) same(rates[m], turned_rates[m]);
     same(forth.end_correction_shift(now), back.end_correction_shift(now));
     same(forth.pressing_shift_Pa(now), back.pressing_shift_Pa(now));
-    same(forth.muscle_exponent_shift(), back.muscle_exponent_shift());
-    same(forth.heat_loss_per_s(memory), back.heat_loss_per_s(turned));
+    same(forth.heating_Pa_per_s(now, inflow, memory), back.heating_Pa_per_s(now, inflow, turned));
     same(forth.vent_factor(), back.vent_factor());
     same(forth.valve_error_shift_Pa(1e4), back.valve_error_shift_Pa(1e4));
     same(forth.outflow_kg_per_s(now), back.outflow_kg_per_s(now));
