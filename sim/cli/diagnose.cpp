@@ -55,6 +55,7 @@ struct DiagnoseOptions : Options {
   std::string dataset;
   std::string rig;   ///< replaces the data set's; empty for none
   std::string plan;  ///< where to write the next experiment as a campaign; empty for nowhere
+  double time_limit_s = 300.0;
 };
 
 /// What is found, and the runs replayed on the data set's rig and on
@@ -68,7 +69,7 @@ struct Found {
 template <class Hook>
 Found find(const domain::Dataset& data, const DiagnoseOptions& options, const Hook& hook) {
   std::vector<std::string> known;
-  const diagnose::Settings settings{options.threads, options.seed.value_or(1),
+  const diagnose::Settings settings{options.threads, options.seed.value_or(1), options.time_limit_s,
                                     [&](const std::string& what) { known.push_back(what); }};
   try {
     Found found{diagnose::diagnose(data, settings, hook), {}, {}};
@@ -99,6 +100,7 @@ int diagnose_dataset(const DiagnoseOptions& options) {
     return failure;
   }
   const diagnose::Diagnosis& diagnosis = found.diagnosis;
+  if (diagnosis.ended == diagnose::Ended::by_user) job.interrupted("what was found by then");
   const std::string document = output::json_of(data, diagnosis);
   job.write("diagnosis.json", document);
   job.write("rig.yaml", output::rig_yaml(data, diagnosis));
@@ -125,9 +127,15 @@ void add_diagnose(CLI::App& app, Asked& asked) {
   verb.add_option("--plan", options.plan,
                   "Write the measurement that would tell more, if one would, as a campaign")
       ->type_name("FILE");
+  verb.add_option_function<std::string>(
+          "--time-limit",
+          [&options](const std::string& text) { options.time_limit_s = positive_quantity(text, "s", 1e6); },
+          "When the search ends with what it has found (default: 5 min); Ctrl-C ends it as well")
+      ->type_name("TIME");
   verb.footer(
       "Examples:\n"
       "  mckibben diagnose measured/\n"
+      "  mckibben diagnose measured/ --time-limit '20 min'\n"
       "  mckibben diagnose measured/ --out diagnosis --plan next.yaml\n"
       "Writes report.html (to read), rig.yaml (the corrected rig, for run and replay) and diagnosis.json.\n");
 }

@@ -58,14 +58,21 @@ Job::Job(const Options& options, std::string words, const std::optional<std::str
 }
 
 void Job::interrupted(std::size_t finished, std::size_t all, const char* what) {
+  set_aside(fmt::format("{} of {} {} are finished and", finished, all, what), "makes all of them again");
+}
+
+void Job::interrupted(const char* what) {
+  set_aside(fmt::format("{} is", what), "begins again");
+}
+
+void Job::set_aside(const std::string& what, const char* again) {
   const std::filesystem::path whole = where_;
   if (!where_.has_filename()) where_ = where_.parent_path();
   where_ += ".interrupted";
   folder_->go_to(where_);
   interruption_ = fmt::format(
-      "interrupted; {} of {} {} are finished and in {}\n"
-      "The same command makes all of them again. Earlier results in {} are as they were, if there are any.",
-      finished, all, what, where_.string(), whole.string());
+      "interrupted; {} in {}\nThe same command {}. Earlier results in {} are as they were, if there are any.",
+      what, where_.string(), again, whole.string());
 }
 
 void Job::write(const std::string& name, const std::string& content) {

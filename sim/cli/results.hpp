@@ -74,6 +74,8 @@ class Job {
 
   /// The user interrupted: what is finished goes beside any whole result. `what`: runs, targets.
   void interrupted(std::size_t finished, std::size_t all, const char* what);
+  /// The same of a result that is one whole: `what` was found by then.
+  void interrupted(const char* what);
 
   /// Writes a file of the result, if there is a folder. Throws output::CannotWrite.
   void write(const std::string& name, const std::string& content);
@@ -88,6 +90,7 @@ class Job {
   const Options& options_;
   std::filesystem::path where_;
   std::optional<output::ResultFolder> folder_;
+  void set_aside(const std::string& what, const char* again);
   std::string interruption_;
 };
 

@@ -26,7 +26,7 @@ void decide_nothing_added(const Evidence& e, const Thresholds& t, Decision& deci
   if (!recalibrate && static_cast<double>(e.invisible) > most_invisible) return;
   recalibrate = recalibrate || (e.recalibration_helps() && !e.far_from_nominal.empty());
   decision.unexplained = recalibrate ? e.far_from_recalibrated : e.far_from_nominal;
-  if (e.common_fault || !decision.unexplained.empty()) return;
+  if (e.common_fault || e.search_ended || !decision.unexplained.empty()) return;
   decision.verdict = recalibrate ? Verdict::recalibrate : Verdict::nothing_missing;
   decision.chosen = recalibrate ? Chosen::recalibrated : Chosen::nominal;
 }
@@ -48,8 +48,8 @@ Decision decide(const Evidence& e, const Thresholds& t) {
     decision.verdict = Verdict::missing_effect;
     decision.chosen = Chosen::named;
     if (e.named_left + 1.0 > t.near.mean_square()) decision.remarks.push_back(Remark::more_is_missing);
-  } else if (e.left() > t.decide.beyond_disturbance) {
-    decision.verdict = Verdict::unknown_effect;
+  } else if (e.left() > t.decide.beyond_disturbance) {  // what was not tried might have explained it
+    decision.verdict = e.search_ended ? Verdict::cannot_tell : Verdict::unknown_effect;
     decision.chosen = e.recalibration_helps() ? Chosen::recalibrated : Chosen::nominal;
     if (e.named()) decision.remarks.push_back(Remark::not_named);
   } else {

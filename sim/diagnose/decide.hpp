@@ -34,6 +34,7 @@ struct Evidence {
   bool gauge_misleads = false;  ///< there is a gauge, and with the names the motion is further away
   std::size_t invisible = 0;    ///< effects that these data would not show
   std::size_t catalogue = 0;    ///< effects, with their variants, that there are
+  bool search_ended = false;    ///< by time or user, before it was through
   // law
   std::size_t law_terms = 0;
   double law_left = 0.0, law_share = 0.0;  ///< as of the names

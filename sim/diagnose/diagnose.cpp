@@ -17,6 +17,7 @@
 #include <sim/diagnose/ranking.hpp>
 #include <sim/diagnose/repair.hpp>
 #include <sim/diagnose/run_gaps.hpp>
+#include <sim/diagnose/search.hpp>
 #include <sim/diagnose/start.hpp>
 #include <sim/diagnose/story.hpp>
 #include <sim/diagnose/thresholds.hpp>
@@ -45,9 +46,11 @@ double motion_left(const Gap& gap) {
 
 class Workflow {
  public:
-  Workflow(const domain::Dataset& data, const Checked& checked, const Settings& settings, const Step& step)
+  Workflow(const domain::Dataset& data, const Checked& checked, const Settings& settings, const Step& step,
+           Search& search)
       : settings_(settings),
         step_(step),
+        search_(search),
         checked_(checked),
         data_(without_gauges(data, checked_.dead_gauges)),
         usable_(all_but(checked_.left_out, data.runs.size())),
@@ -70,7 +73,7 @@ class Workflow {
     replay_as_described();
     look = look &&
            judged() == Judged::contraction;  // at another length a run may fit no model for other reasons
-    if (look) faults_ = first_look(case_, checked_, nominal_fit_.fitted.model, usable_, step_);
+    if (look) look_for_faults();
     if (data_.recorded.start == domain::Start::moving)  // what effects remember of before may be another, too
       std::erase_if(faults_, [](const Fault& fault) { return fault.kind == FaultKind::another_rig; });
     if (!faults_.empty()) return std::move(result_);
@@ -78,6 +81,7 @@ class Workflow {
     map_where();
     name();
     look_for_law();
+    evidence_.search_ended = search_.ended() != Ended::no;
     const Decision decision = decide(evidence_, thresholds);
     if (look) faults_ = faults_beside(decision.chosen);
     if (!faults_.empty()) return std::move(result_);
@@ -139,6 +143,11 @@ class Workflow {
     learn_gap("the rig as described", nominal_fit_.held_out);
   }
 
+  void look_for_faults() {
+    search_.part("faults of runs",
+                 [&] { faults_ = first_look(case_, checked_, nominal_fit_.fitted.model, usable_, step_); });
+  }
+
   void fit_numbers() {
     step_("recalibrating");
     auto [contender, failure] = recalibrate(case_, nominal_fit_);
@@ -164,7 +173,7 @@ class Workflow {
   }
 
   void name() {
-    naming_ = name_effects(case_, nominal_fit_, recalibrated_, reference(), step_);
+    naming_ = name_effects(case_, nominal_fit_, recalibrated_, reference(), step_, search_);
     evidence_.invisible = naming_.invisible.size();
     evidence_.catalogue = catalogue(data_.pressure_is_given()).size();
     evidence_.names = naming_.effects.size();
@@ -179,7 +188,7 @@ class Workflow {
 
   void look_for_law() {
     if (!asks_for_law(evidence_, thresholds)) return;
-    law_ = find_law(case_, {&recalibrated_, &nominal_fit_}, reference(), step_);
+    law_ = find_law(case_, {&recalibrated_, &nominal_fit_}, reference(), step_, search_);
     evidence_.law_terms = law_.terms;
     evidence_.law_left = excess(law_.contender.held_out);
     evidence_.law_share = law_.gain.share;
@@ -291,14 +300,19 @@ class Workflow {
     if (result_.effects.empty() || data_.pressure_is_given() || data_.force_is_judged()) return;
     for (const Doubt& doubt : naming_.doubts) {
       step_("planning");
-      result_.next_experiment =
-          plan(experiment_, doubt.with_effect, doubt.with_rival, {doubt.effect, doubt.rival},
-               result_.gap.corrected_rmse, 1.0 / chosen_inflation_);
+      search_.part("the measurement that would tell more", [&] {
+        result_.next_experiment =
+            plan(experiment_, doubt.with_effect, doubt.with_rival, {doubt.effect, doubt.rival},
+                 result_.gap.corrected_rmse, 1.0 / chosen_inflation_);
+      });
       if (result_.next_experiment) return;
     }
   }
 
   void tell_verdict() {
+    result_.ended = search_.ended();
+    result_.time_limit_s = search_.limit_s();
+    result_.not_done = search_.not_done();
     result_.because = because(result_);
     if (result_.verdict != Verdict::nothing_missing)
       result_.because += sentence_of(result_.start, result_.gap);
@@ -306,6 +320,7 @@ class Workflow {
 
   Settings settings_;
   const Step& step_;
+  Search& search_;
   Checked checked_;
   domain::Dataset data_;
   Runs usable_;
@@ -324,11 +339,12 @@ class Workflow {
 };
 
 /// The workflow, again each time that faults of the recording have been mended.
-std::pair<Diagnosis, bool> mended(domain::Dataset data, const Settings& settings, const Step& step) {
+std::pair<Diagnosis, bool> mended(domain::Dataset data, const Settings& settings, const Step& step,
+                                  Search& search) {
   step("checking");
   Checked checked = check(data, settings.threads);
   for (int repairs = 0;; ++repairs) {
-    Workflow workflow(data, checked, settings, step);
+    Workflow workflow(data, checked, settings, step, search);
     Diagnosis result = workflow(repairs < thresholds.fault.most_repairs);
     if (workflow.faults().empty()) return {std::move(result), workflow.gauged()};
     mend(data, checked, workflow.faults());
@@ -341,12 +357,18 @@ Diagnosis diagnose(const domain::Dataset& data, const Settings& settings, const 
   std::size_t steps = 0;
   std::string without;
   const Step step = [&](const std::string& what) { progress(without + what, ++steps, 0); };
-  auto [result, gauged] = mended(data, settings, step);
+  Search search(settings.time_limit_s);
+  auto [result, gauged] = mended(data, settings, step, search);
   const double left = motion_left(result.gap);
   if (!gauged || !gauge_is_suspect(left, thresholds)) return result;
+  if (search.ended() != Ended::no) {
+    result.not_done.emplace_back("the same without the gauge, which no model meets together with the motion");
+    return result;
+  }
   // No model meets the gauge and the motion: perhaps one meets the motion alone.
   without = "without the gauge: ";
-  Diagnosis ungauged = mended(without_gauges(data, all_but({}, data.runs.size())), settings, step).first;
+  Diagnosis ungauged =
+      mended(without_gauges(data, all_but({}, data.runs.size())), settings, step, search).first;
   if (!better_without_gauge(left, motion_left(ungauged.gap), ungauged.verdict, thresholds)) return result;
   ungauged.warnings.insert(
       ungauged.warnings.begin(),

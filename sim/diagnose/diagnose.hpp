@@ -16,6 +16,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <string>
 
 #include <sim/diagnose/diagnosis.hpp>
@@ -26,11 +27,14 @@ namespace mckibben::diagnose {
 struct Settings {
   unsigned threads = 0;  ///< 0: as many as the machine has
   std::uint64_t seed = 1;
+  double time_limit_s =
+      std::numeric_limits<double>::infinity();        ///< for the search; the numbers come after it
   std::function<void(const std::string&)> learned{};  ///< hears what is known so far, a sentence at a time
 };
 
-/// Progress counts steps and has no total: how much there is to try depends on what is found. Throws
-/// run::Interrupted; domain::UnfitData where the data cannot be used at all.
+/// Progress counts steps and has no total: how much there is to try depends on what is found. A time limit,
+/// or the user, ends the search with what is known. Throws run::Interrupted if the user asks to stop before
+/// or after the search; domain::UnfitData where the data cannot be used at all.
 Diagnosis diagnose(const domain::Dataset& data, const Settings& settings, const run::ProgressHook& progress);
 
 }  // namespace mckibben::diagnose

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include <sim/diagnose/search.hpp>
 #include <sim/diagnose/thresholds.hpp>
 #include <sim/domain/campaign.hpp>
 #include <sim/domain/dataset.hpp>
@@ -179,7 +180,10 @@ struct Diagnosis {
   std::optional<NextExperiment> next_experiment{};
   std::vector<std::string> warnings{};
   std::vector<FaultyRun> faults{};  ///< of the recording; the verdict is on what is left
-  std::string unexplained{};        ///< runs that no model comes near, in words
+  Ended ended = Ended::no;          ///< the search, before it was through
+  double time_limit_s = 0.0;
+  std::vector<std::string> not_done{};  ///< of it
+  std::string unexplained{};            ///< runs that no model comes near, in words
   domain::RigFile corrected{};
   double false_alarm_rate = 0.0;  ///< that the thresholds were set for
   std::uint64_t seed = 1;

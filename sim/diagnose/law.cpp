@@ -199,11 +199,9 @@ void drop_uncertain(const Case& c, Law& law, const Step& step) {
   }
 }
 
-}  // namespace
-
-Law find_law(const Case& c, const std::vector<const Contender*>& bases, const Eigen::VectorXd& reference,
-             const Step& step) {
-  Law law{.contender = *bases.front()};
+/// Term by term, as long as each helps.
+void extend_law(const Case& c, const std::vector<const Contender*>& bases, const Eigen::VectorXd& reference,
+                const Step& step, Law& law) {
   Eigen::VectorXd before = reference;
   for (std::size_t round = 0; round < of_law.most_terms; ++round) {
     step(fmt::format("looking for a law, term {}", round + 1));
@@ -231,6 +229,14 @@ Law find_law(const Case& c, const std::vector<const Contender*>& bases, const Ei
     if (excess(before) < thresholds.decide.worth_a_law) break;  // a term more would describe noise
   }
   drop_needless(c, law, step);
+}
+
+}  // namespace
+
+Law find_law(const Case& c, const std::vector<const Contender*>& bases, const Eigen::VectorXd& reference,
+             const Step& step, Search& search) {
+  Law law{.contender = *bases.front()};
+  search.part("a law of force", [&] { extend_law(c, bases, reference, step, law); });
   drop_uncertain(c, law, step);
   law.gain = compare(c.experiment, reference, law.contender.held_out, c.split.held_out);
   return law;

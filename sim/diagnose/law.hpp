@@ -15,8 +15,8 @@ struct Law {
 };
 
 /// Begins at whichever of `bases` leads to the better fit: one that is recalibrated may have bent far to
-/// imitate what is missing.
+/// imitate what is missing. Where the search is ended, the law has the terms found by then.
 Law find_law(const Case& c, const std::vector<const Contender*>& bases, const Eigen::VectorXd& reference,
-             const Step& step);
+             const Step& step, Search& search);
 
 }  // namespace mckibben::diagnose

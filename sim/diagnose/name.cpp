@@ -4,6 +4,7 @@
 #include <optional>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <sim/diagnose/name.hpp>
 #include <sim/diagnose/ranking.hpp>
@@ -15,11 +16,14 @@ namespace {
 
 constexpr const NameThresholds& to_name = thresholds.name;
 
+bool cheaper(const Trial& a, const Trial& b) {
+  return a.contender.fitted.cost < b.contender.fitted.cost;
+}
+
 /// Refits of a round: the best of each screening and those like them, roughly first, then in full those that
 /// promise. Once one meets the data, only those like it are tried.
-std::vector<Trial> refit(const Case& c, const std::vector<Screening>& screenings,
-                         const Eigen::VectorXd& reference, const Step& step) {
-  std::vector<Trial> trials;
+void refit(const Case& c, const std::vector<Screening>& screenings, const Eigen::VectorXd& reference,
+           const Step& step, std::vector<Trial>& trials) {
   const Score* solved = nullptr;
   const auto wanted = [&](const Score& score, const Score& front) {
     const bool known = std::any_of(trials.begin(), trials.end(), [&](const Trial& t) {
@@ -43,10 +47,7 @@ std::vector<Trial> refit(const Case& c, const std::vector<Screening>& screenings
       if (meets(trials.back().contender)) solved = &score;
     }
   }
-  const auto by_cost = [](const Trial& a, const Trial& b) {
-    return a.contender.fitted.cost < b.contender.fitted.cost;
-  };
-  std::stable_sort(trials.begin(), trials.end(), by_cost);
+  std::stable_sort(trials.begin(), trials.end(), cheaper);
   for (std::size_t i = 0; i < std::min<std::size_t>(trials.size(), to_name.most_polished); ++i) {
     // A rival that the rough fit leaves far behind, or that does not help at all, is not polished.
     const auto rough = compare(c.experiment, reference, trials[i].contender.held_out, c.split.held_out);
@@ -55,10 +56,13 @@ std::vector<Trial> refit(const Case& c, const std::vector<Screening>& screenings
     const bool helps = rough.share > to_name.helps || excess(reference) < thresholds.near.nothing_left;
     if (trials[i].place > 0 && close && helps) polish(c, trials[i], step);
   }
-  std::stable_sort(trials.begin(), trials.end(), by_cost);
+}
+
+/// First what fits best, with what it gains.
+void judge(const Case& c, const Eigen::VectorXd& reference, std::vector<Trial>& trials) {
+  std::stable_sort(trials.begin(), trials.end(), cheaper);
   for (Trial& trial : trials)
     trial.gain = compare(c.experiment, reference, trial.contender.held_out, c.split.held_out);
-  return trials;
 }
 
 /// Two effects that help only together: next to one that fits best but does not convince, another one with
@@ -125,6 +129,14 @@ std::vector<Screening> screenings_of(const Case& c, int round, const Contender& 
   return screenings;
 }
 
+/// What a round looks for.
+std::string round_in_words(const Naming& result) {
+  std::vector<std::string> names;
+  for (const NamedEffect& effect : result.effects) names.push_back(full_name(effect.name, effect.variant));
+  return names.empty() ? "effects of the catalogue"
+                       : fmt::format("effects beside {}", fmt::join(names, " and "));
+}
+
 /// What the first look at the catalogue says: what would not show, and what looks alike.
 void tell_first(const Case& c, const std::vector<Screening>& screenings, Naming& result) {
   const auto& scores = screenings.front().scores;
@@ -184,19 +196,24 @@ void take_both(const Case& c, Naming& result, std::array<Trial, 2> both) {
 }  // namespace
 
 Naming name_effects(const Case& c, const Contender& nominal, const Contender& recalibrated,
-                    const Eigen::VectorXd& reference, const Step& step) {
+                    const Eigen::VectorXd& reference, const Step& step, Search& search) {
   Naming result;
   result.best = recalibrated;
   Eigen::VectorXd before = reference;
   for (int round = 1; round <= static_cast<int>(to_name.most_effects); ++round) {
     step("screening");
-    const auto screenings = screenings_of(c, round, nominal, result.best);
-    if (round == 1) tell_first(c, screenings, result);
     const double left = excess(before);
-    // Priors may be strained although the data are met.
-    const bool strained = screenings.back().scores.front().drop > to_name.strained;
+    std::vector<Screening> screenings;
     std::vector<Trial> trials;
-    if (left > thresholds.near.nothing_left || strained) trials = refit(c, screenings, before, step);
+    const bool whole = search.part(round_in_words(result), [&] {
+      screenings = screenings_of(c, round, nominal, result.best);
+      if (round == 1) tell_first(c, screenings, result);
+      // Priors may be strained although the data are met.
+      const bool strained = screenings.back().scores.front().drop > to_name.strained;
+      if (left > thresholds.near.nothing_left || strained) refit(c, screenings, before, step, trials);
+    });
+    if (screenings.empty()) break;
+    judge(c, before, trials);
     const Trial* const chosen = choose(trials, result.best, left, excess(reference));
     const auto judged = ranked(c, round, screenings, trials, chosen, result.best);
     result.ranking.insert(result.ranking.end(), judged.begin(), judged.end());
@@ -205,11 +222,14 @@ Naming name_effects(const Case& c, const Contender& nominal, const Contender& re
       take_one(c, result, trials, *chosen);
     } else {
       if (!result.effects.empty() || !(left > to_name.worth_a_pair)) break;
-      auto both = pair_of(c, trials, before, step);
+      std::optional<std::array<Trial, 2>> both;
+      search.part("effects that help only together", [&] { both = pair_of(c, trials, before, step); });
       if (!both) break;
       take_both(c, result, std::move(*both));
     }
-    revise(c, result, reference, step);
+    const bool revised =
+        search.part("whether each effect is needed", [&] { revise(c, result, reference, step); });
+    if (!whole || !revised) break;
     before = result.best.held_out;
   }
   drop_uncertain(c, result, step);

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include <sim/diagnose/diagnosis.hpp>
+#include <sim/diagnose/search.hpp>
 #include <sim/diagnose/trial.hpp>
 
 namespace mckibben::diagnose {
@@ -25,8 +26,8 @@ struct Naming {
 };
 
 /// Starts from the nominal and from the recalibrated rig. `reference`: residuals held out that an improvement
-/// is measured against.
+/// is measured against. Where the search is ended, the best of what was tried by then is chosen.
 Naming name_effects(const Case& c, const Contender& nominal, const Contender& recalibrated,
-                    const Eigen::VectorXd& reference, const Step& step);
+                    const Eigen::VectorXd& reference, const Step& step, Search& search);
 
 }  // namespace mckibben::diagnose

@@ -203,6 +203,8 @@ std::string law_in_words(const Diagnosis& d) {
 }
 
 std::string cannot_tell_in_words(const Diagnosis& d) {
+  if (d.ended != Ended::no)
+    return "Nothing that was found until then tells what is missing, or that nothing is.";
   if (!d.unexplained.empty())
     return fmt::format(
         "Something is wrong that these data do not settle: no model comes near every run (in noise floors: "
@@ -214,6 +216,15 @@ std::string cannot_tell_in_words(const Diagnosis& d) {
            "cannot tell.";
   return "Nothing was found, but these data would not show more than half of the effects of the catalogue at "
          "their usual size: whether one is missing they cannot tell.";
+}
+
+/// Empty if it was through.
+std::string search_in_words(const Diagnosis& d) {
+  if (d.ended == Ended::no) return {};
+  return fmt::format(
+      "The search was ended {} before it was through; not done to the end: {}. ",
+      d.ended == Ended::by_user ? "by you" : fmt::format("by its time limit of {:g} s", d.time_limit_s),
+      fmt::join(d.not_done, "; "));
 }
 
 std::string verdict_in_words(const Diagnosis& d) {
@@ -239,7 +250,7 @@ std::string verdict_in_words(const Diagnosis& d) {
 }  // namespace
 
 std::string because(const Diagnosis& diagnosis) {
-  return faults_in_words(diagnosis) + verdict_in_words(diagnosis);
+  return search_in_words(diagnosis) + faults_in_words(diagnosis) + verdict_in_words(diagnosis);
 }
 
 }  // namespace mckibben::diagnose

@@ -183,6 +183,16 @@ Json rows_json(const domain::Rows& rows) {
           {"given_pressure", rows.smoothed ? "smoothed" : "as recorded"}};
 }
 
+Json search_json(const diagnose::Diagnosis& diagnosis) {
+  using diagnose::Ended;
+  const double limit_s = diagnosis.time_limit_s;
+  return {{"ended", diagnosis.ended == Ended::no        ? Json()
+                    : diagnosis.ended == Ended::by_time ? Json("by_time")
+                                                        : Json("by_user")},
+          {"time_limit_s", std::isfinite(limit_s) ? Json(limit_s) : Json()},
+          {"not_done", diagnosis.not_done}};
+}
+
 }  // namespace
 
 std::string json_of(const domain::Dataset& data, const diagnose::Diagnosis& diagnosis) {
@@ -196,6 +206,7 @@ std::string json_of(const domain::Dataset& data, const diagnose::Diagnosis& diag
                 {"start_of_run", start_json(diagnosis.start)},
                 {"gap", gap_json(diagnosis)},
                 {"next_experiment", next_json(diagnosis)},
+                {"search", search_json(diagnosis)},
                 {"false_alarm_rate", diagnosis.false_alarm_rate},
                 {"seed", diagnosis.seed},
                 {"warnings", diagnosis.warnings},

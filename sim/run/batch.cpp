@@ -17,6 +17,7 @@ namespace mckibben::run {
 namespace {
 
 std::atomic<bool> asked_to_stop{false};
+std::atomic<Deadline::Clock::time_point> deadline{Deadline::Clock::time_point::max()};
 static_assert(std::atomic<bool>::is_always_lock_free);
 
 }  // namespace
@@ -33,7 +34,19 @@ void catch_interrupts() {
 }
 
 bool interrupted() {
-  return asked_to_stop;
+  return asked_to_stop || Deadline::Clock::now() >= deadline.load();
+}
+
+bool take_interrupt() {
+  return asked_to_stop.exchange(false);
+}
+
+Deadline::Deadline(Clock::time_point end) {
+  deadline = end;
+}
+
+Deadline::~Deadline() {
+  deadline = Clock::time_point::max();
 }
 
 void for_each_job(std::size_t count, unsigned threads, const std::function<void(std::size_t)>& job,

@@ -2,6 +2,7 @@
 // so results do not depend on their number.
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <exception>
 #include <functional>
@@ -17,7 +18,21 @@ class Interrupted : public std::exception {
 
 /// Makes Ctrl-C (and SIGTERM, SIGHUP) stop long work between two jobs instead of ending the program.
 void catch_interrupts();
+/// Whether long work is to stop: the user asked to, or a deadline has passed.
 bool interrupted();
+/// Whether the user asked to stop. If so, that is forgotten, and what follows goes on; asked again the
+/// program ends at once.
+bool take_interrupt();
+
+/// While one lives, work is to stop from `end` on, as if the user asked to.
+class Deadline {
+ public:
+  using Clock = std::chrono::steady_clock;
+  explicit Deadline(Clock::time_point end);
+  Deadline(const Deadline&) = delete;
+  Deadline& operator=(const Deadline&) = delete;
+  ~Deadline();
+};
 
 /// Why a run has no result that was not begun when the user stopped.
 inline constexpr const char* not_begun = "interrupted before it began";

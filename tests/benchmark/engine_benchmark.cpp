@@ -15,11 +15,13 @@
 
 #include <benchmark/benchmark.h>
 #include <nvector/nvector_serial.h>
+#include <sys/resource.h>
 
 #include <sim/engine/erk_method.hpp>
 #include <sim/engine/flock.hpp>
 #include <sim/engine/versions.hpp>
 
+#include "boost_cash_karp.hpp"
 #include "switched_on.hpp"
 
 namespace mckibben::engine {
@@ -130,6 +132,10 @@ template <class V>
 void Erk_(benchmark::State& state) {
   ride_benchmark(state, [](const plant::Plant& plant) { return std::make_unique<Erk<V>>(plant, loose); });
 }
+void Boost_(benchmark::State& state) {
+  ride_benchmark(state,
+                 [](const plant::Plant& plant) { return std::make_unique<BoostCashKarp>(plant, loose); });
+}
 void Engine_(benchmark::State& state, Method method, bool ledger) {
   ride_benchmark(state, [&](const plant::Plant& plant) {
     return make_integrator(plant, {method, solver::Settings{}.tolerance}, ledger);
@@ -195,6 +201,11 @@ BENCHMARK(Erk_<StockVector>)
     ->DenseRange(0, 1)
     ->UseManualTime()
     ->Unit(benchmark::kMillisecond);
+BENCHMARK(Boost_)
+    ->Name("erk/error_1e-6/boost_cash_karp")
+    ->DenseRange(0, 1)
+    ->UseManualTime()
+    ->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(Abreast_, alike, 1e-6)->DenseRange(0, 1)->UseManualTime()->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(Abreast_, other_loads, 1.0)
     ->DenseRange(0, 1)
@@ -241,5 +252,8 @@ int main(int argc, char** argv) {
   benchmark::Initialize(&argc, argv);
   mckibben::engine::print_library();
   benchmark::RunSpecifiedBenchmarks();
+  rusage used{};
+  getrusage(RUSAGE_SELF, &used);
+  std::printf("peak memory %.0f MB\n", static_cast<double>(used.ru_maxrss) / 1024.0);
   return 0;
 }

@@ -143,6 +143,41 @@ TEST_F(Interrupt, OfStudyAndDiagnoseLeavesEarlierResultsAlone) {
   }
 }
 
+/// A leak that is hidden.
+void write_leaking(const fs::path& folder) {
+  write_text(
+      folder / "leak.yaml",
+      "schema: mckibben-campaign/1\nrig: {base: thesis, effects: {muscle_leak: {conductance: 2e-10 "
+      "m3/(s.Pa)}}}\nloads: [11.138 kg, 14 kg, 18.87 kg, 23.406 kg]\nnoise: {encoder_jitter: 1e-4}\n"
+      "currents: [{duration: 2 s, current: {kind: sine_current, low: 0 mA, high: 20 mA, period: 2 s}}]\n");
+}
+
+TEST_F(Interrupt, OfASearchKeepsWhatWasFound) {
+  write_leaking(scratch);
+  ASSERT_EQ(mckibben("dataset leak.yaml --out data", scratch).status, 0);
+  const Said said = stop("diagnose data --threads 1", "screening, step");
+  EXPECT_EQ(said.status, 130) << said.err;
+  EXPECT_NE(said.err.find("what was found by then is in out/diagnose-data.interrupted"), std::string::npos)
+      << said.err;
+  const Json document = Json::parse(read_text(scratch / "out/diagnose-data.interrupted/diagnosis.json"));
+  EXPECT_EQ(document.at("search").at("ended"), "by_user");
+  EXPECT_NE(document.at("because").get<std::string>().find("The search was ended by you"), std::string::npos);
+  EXPECT_FALSE(exists("out/diagnose-data"));
+}
+
+TEST_F(Interrupt, ATimeLimitEndsASearchWithWhatIsKnown) {
+  write_leaking(scratch);
+  ASSERT_EQ(mckibben("dataset leak.yaml --out data", scratch).status, 0);
+  const Said said = mckibben("diagnose data --time-limit '1 us' --json", scratch);
+  EXPECT_EQ(said.status, 0) << said.err;
+  const Json document = Json::parse(said.out);
+  EXPECT_EQ(document.at("verdict"), "cannot_tell");
+  EXPECT_EQ(document.at("search").at("ended"), "by_time");
+  EXPECT_EQ(document.at("search").at("not_done"), Json({"faults of runs", "effects of the catalogue"}));
+  EXPECT_EQ(mckibben("diagnose data --time-limit 0", scratch).status, 64);
+  EXPECT_EQ(mckibben("diagnose data --time-limit '5 kg'", scratch).status, 64);
+}
+
 TEST_F(Interrupt, ProgressIsForTerminalsOnly) {
   write_text(scratch / "quick.yaml", quick_scenario);
   EXPECT_EQ(mckibben("run quick.yaml", scratch).err, "results in out/quick\n");

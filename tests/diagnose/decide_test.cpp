@@ -242,6 +242,10 @@ Ways to_cannot_tell() {
   using enum Chosen;
   using enum Remark;
   return {
+      {"a gap, and a search that was ended", gap(), [](Evidence& e) { e.search_ended = true; }, cannot_tell,
+       recalibrated},
+      {"agreement, and a search that was ended", agreeing(), [](Evidence& e) { e.search_ended = true; },
+       cannot_tell, nominal},
       {"data that cannot be used", one_name(), [](Evidence& e) { e.usable = false; }, cannot_tell, nominal},
       {"more than half of the catalogue would not show",
        agreeing(),
