@@ -18,10 +18,8 @@ struct GasTemperatureOf {
       sentence = "the muscle's gas warms up and cools down, and takes the walls' temperature in its own time",
       source =
           "heat of the gas in a muscle: Doumit & Pardoel, Mech. Syst. Signal Process. 91 (2017) 93-110; "
-          "thermal "
-          "time constant: Pourmovahed & Otis, An experimental thermal time-constant correlation for "
-          "hydraulic "
-          "accumulators";
+          "thermal time constant: Pourmovahed & Otis, An experimental thermal time-constant correlation for "
+          "hydraulic accumulators";
   static constexpr std::array hooks{Hook::muscle_heating};
   static constexpr std::array variants{Variant{"", "time", 0.0, 0.1, Sign::positive, 0.01}};
   static constexpr double memory_size = 0.1;                    // T_m/T - 1

@@ -70,10 +70,12 @@ TEST(Underway, WhatAnEffectRemembersIsFittedAndNotCharged) {
 TEST(Underway, AGivenPressureLeavesValveHoseAndGasOutOfSight) {
   const auto all = catalogue(), seen = catalogue(true);
   const auto names = effects_out_of_sight();
-  EXPECT_EQ(names.size(), 6u);
+  EXPECT_EQ(names.size(), 8u);
   EXPECT_EQ(seen.size() + names.size(), all.size());  // each of them has one law
   for (const Candidate& c : seen) EXPECT_EQ(std::count(names.begin(), names.end(), c.effect), 0) << c.effect;
-  EXPECT_EQ(std::count(names.begin(), names.end(), plant::MuscleLeak::name), 1);
+  for (const auto name :
+       {plant::MuscleLeak::name, plant::GasTemperature::name, plant::ExhaustRestriction::name})
+    EXPECT_EQ(std::count(names.begin(), names.end(), name), 1) << name;
   for (const Parameter& p : nominal_parameters({}))
     EXPECT_EQ(out_of_sight(p),
               p.path.starts_with("valve") || p.path.starts_with("hose") || p.path == "muscle.dead_volume")
