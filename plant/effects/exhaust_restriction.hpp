@@ -15,8 +15,7 @@ struct ExhaustRestrictionOf {
       sentence = "the valve vents slower than it fills",
       source =
           "ISO 6358-1: each path through a valve has a sonic conductance of its own; ISO 20145 measures "
-          "those "
-          "of exhaust silencers by it";
+          "those of exhaust silencers by it";
   static constexpr std::array hooks{Hook::vent_factor};
   static constexpr std::array variants{Variant{"", "share", 0.0, 0.1, Sign::positive, 1e-4}};
 
