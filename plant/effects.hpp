@@ -166,8 +166,10 @@ class EffectSet {
     return sizes;
   }();
 
-  template <class S>
-  S pull_N(const Instant<S>& now, const std::array<S, memories>& memory) const {
+  // Of memories, the first ones are theirs; what follows is not.
+
+  template <class S, std::size_t slots>
+  S pull_N(const Instant<S>& now, const std::array<S, slots>& memory) const {
     S sum = S(0.0);
     each([&]<class E>(const E& effect, auto on, auto slot) {
       if constexpr (declares<E>(Hook::pull))
@@ -175,8 +177,8 @@ class EffectSet {
     });
     return sum;
   }
-  template <class S>
-  S friction_factor(const Instant<S>& now, const std::array<S, memories>& memory) const {
+  template <class S, std::size_t slots>
+  S friction_factor(const Instant<S>& now, const std::array<S, slots>& memory) const {
     S product = S(1.0);
     each([&]<class E>(const E& effect, auto on, auto slot) {
       if constexpr (declares<E>(Hook::friction_factor))
@@ -217,9 +219,9 @@ class EffectSet {
     });
     return product;
   }
-  template <class S>
+  template <class S, std::size_t slots>
   S heating_Pa_per_s(const Instant<S>& now, const Inflow<S>& inflow,
-                     const std::array<S, memories>& memory) const {
+                     const std::array<S, slots>& memory) const {
     S sum = S(0.0);
     each([&]<class E>(const E& effect, auto on, auto slot) {
       if constexpr (declares<E>(Hook::muscle_heating))
@@ -242,8 +244,8 @@ class EffectSet {
     });
     return sum;
   }
-  template <class S>
-  S valve_opening(const S& wanted, const std::array<S, memories>& memory) const {
+  template <class S, std::size_t slots>
+  S valve_opening(const S& wanted, const std::array<S, slots>& memory) const {
     S opening = wanted;
     each([&]<class E>(const E& effect, auto on, auto slot) {
       if constexpr (declares<E>(Hook::valve_opening))
@@ -251,8 +253,8 @@ class EffectSet {
     });
     return opening;
   }
-  template <class S>
-  S supply_drop_Pa(const std::array<S, memories>& memory) const {
+  template <class S, std::size_t slots>
+  S supply_drop_Pa(const std::array<S, slots>& memory) const {
     S sum = S(0.0);
     each([&]<class E>(const E& effect, auto on, auto slot) {
       if constexpr (declares<E>(Hook::supply_drop))
@@ -267,9 +269,9 @@ class EffectSet {
     });
     return product;
   }
-  template <class S>
+  template <class S, std::size_t slots>
   std::array<S, memories> memory_rates(const Instant<S>& now, const Inflow<S>& inflow,
-                                       const std::array<S, memories>& memory) const {
+                                       const std::array<S, slots>& memory) const {
     std::array<S, memories> rates;
     rates.fill(S(0.0));
     each([&]<class E>(const E& effect, auto on, auto slot) {
@@ -332,8 +334,8 @@ class EffectSet {
   }
 
   // An effect without a memory of its own is handed another's, or nothing, and does not look.
-  template <class S, std::size_t slot>
-  static const S& recall(const std::array<S, memories>& memory, std::integral_constant<std::size_t, slot>) {
+  template <class S, std::size_t slots, std::size_t slot>
+  static const S& recall(const std::array<S, slots>& memory, std::integral_constant<std::size_t, slot>) {
     return memory[slot < memories ? slot : 0];
   }
 

@@ -73,7 +73,7 @@ struct OppositeSide {
   static void fields(Self& self, Visitor& visit) {
     visit("muscle", self.muscle, "braid and tube");
     visit("friction", self.friction, "thread friction");
-    visit("valve", self.valve, "servo valve; both hang on one supply");
+    visit("valve", self.valve, "servo valve or regulator; both hang on one supply");
     visit("hose", self.hose, "hose from valve to muscle");
     visit("effects", self.effects, "what the nominal rig leaves out; of the encoder, the first side's count");
   }

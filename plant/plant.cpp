@@ -11,7 +11,7 @@ PlantOf<P>::PlantOf(const RigOf<P>& rig, const RigOf<P>& opposite, const Link& l
     : side_(rig, 0.0),
       opposite_(std::in_place, opposite, 0.0),
       link_(link),
-      remembers_(rig.effects.remember() || opposite.effects.remember()),
+      remembers_(rig.remembers() || opposite.remembers()),
       polytropic_(rig.effects.warm() || opposite.effects.warm()),
       radius_m_(rig.joint.wheel_radius_m),
       opposite_share_(rig.muscle.rest_length_m / opposite.muscle.rest_length_m),

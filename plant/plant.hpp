@@ -92,7 +92,7 @@ class PlantOf {
     return opposite_ ? in_domain<2>(state) : in_domain<1>(state);
   }
 
-  /// Whether an effect with a memory is switched on.
+  /// Whether something has a memory: an effect that is on, or a regulator.
   bool remembers() const { return remembers_; }
 
   /// Whether gas has a temperature of its own, which its ledger follows.
@@ -167,7 +167,7 @@ using Plant = PlantOf<double>;
 template <class P>
 PlantOf<P>::PlantOf(const RigOf<P>& rig, const P& load_kg)
     : side_(rig, (load_kg + rig.joint.load_offset_kg) * gravity_m_per_s2),
-      remembers_(rig.effects.remember()),
+      remembers_(rig.remembers()),
       polytropic_(rig.effects.warm()),
       load_kg_(load_kg),
       radius_m_(rig.joint.wheel_radius_m),
@@ -182,7 +182,7 @@ Moment<S> PlantOf<P>::moment(const State<S>& state, const Memory<S>& memory, con
   const Stroke<S> stroke{state.joint.contraction_ratio, state.joint.contraction_speed_per_s};
   side_.gas_balance(stroke, state.side, memory.side, held, now);
   if constexpr (sides == 1) {
-    if (side_.has_effects()) side_.remember(stroke, state.side, memory.side, now.supply_flow, now);
+    if (side_.may_remember()) side_.remember(stroke, state.side, memory.side, now.supply_flow, now);
     side_.forces(stroke, state.side, memory.side, held, now);
   } else {
     const Stroke<S> other = opposite_stroke(state);

@@ -6,6 +6,7 @@
 // called so; `rules` holds what must be true between fields. SI inside; the unit is in the member's name.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -56,6 +57,33 @@ constexpr auto names(EncoderWiring) {
   return std::array{std::pair{ideal, std::string_view{"ideal"}},
                     std::pair{crosswise, std::string_view{"crosswise"}}};
 }
+
+/// What keeps the pressure: the thesis's servo valve, whose proportional band makes its dynamics, or a
+/// regulator of which a data sheet tells the lag.
+enum class ValveKind { servo, regulator };
+constexpr auto names(ValveKind) {
+  using enum ValveKind;
+  return std::array{std::pair{servo, std::string_view{"servo"}},
+                    std::pair{regulator, std::string_view{"regulator"}}};
+}
+/// Every valve is a servo valve unless it says otherwise.
+constexpr bool absent(ValveKind kind) {
+  return kind == ValveKind::servo;
+}
+
+/// How a regulator's pressure follows its command.
+enum class RegulatorLag { first_order, second_order };
+constexpr auto names(RegulatorLag) {
+  using enum RegulatorLag;
+  return std::array{std::pair{first_order, std::string_view{"first_order"}},
+                    std::pair{second_order, std::string_view{"second_order"}}};
+}
+
+/// Whether a visitor of a field list wants fields as well that the struct's own choices rule out.
+template <class Visitor>
+concept ListsAll = requires {
+  requires Visitor::lists_all;
+};
 
 /// Braid and tube of one muscle (T 2.4 to 2.10).
 template <class P>
@@ -133,10 +161,12 @@ struct FrictionOf {
 };
 using Friction = FrictionOf<double>;
 
-/// Servo valve: current to pressure reference, two proportional valves round a controlled volume
-/// (T 3.1, 3.2).
+/// Current to pressure reference, two proportional valves round a controlled volume (T 3.1, 3.2). They open
+/// in proportion to the error (servo), or as far as it takes that the pressure follows with a lag (regulator;
+/// docs/equations.md).
 template <class P>
 struct ValveOf {
+  ValveKind kind = ValveKind::servo;
   P zero_current_mA = 4.0, span_current_mA = 20.0;
   P zero_pressure_Pa = 0.5e5, span_pressure_Pa = 5.0e5;
   P supply_pressure_Pa = 6.0e5;
@@ -145,6 +175,20 @@ struct ValveOf {
   P proportional_band_Pa = 0.3e5;
   P volume_m3 = 5.0e-5;
   RatedCommand zero_command, span_command;  ///< absent: currents are what it is commanded with
+  // Of a regulator. Its lag is not said as long as it is 0.
+  RegulatorLag lag = RegulatorLag::first_order;
+  P time_constant_s = 0.0;
+  P natural_frequency_Hz = 0.0, damping = 0.0;
+  P venting_conductance_m3_per_s_Pa = 0.0;
+  P dead_band_Pa = 0.0;
+
+  bool is_regulator() const { return kind == ValveKind::regulator; }
+  /// Whether its pressure swings: then it remembers how fast it was changing.
+  bool swings() const { return is_regulator() && lag == RegulatorLag::second_order; }
+  /// By what time a regulator's pressure stays behind a slow ramp.
+  P slow_lag_s() const {
+    return swings() ? damping / (std::numbers::pi * natural_frequency_Hz) : time_constant_s;
+  }
 
   /// Whether it is commanded with volts or with a pressure; results hold the currents that would do the same.
   bool has_own_command() const { return !zero_command.absent(); }
@@ -156,6 +200,7 @@ struct ValveOf {
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
+    visit("kind", self.kind, "servo (if left out), or a regulator by its data sheet");
     visit("zero_current", self.zero_current_mA, "mA", 0.0, 100.0, "current at zero pressure");
     visit("span_current", self.span_current_mA, "mA", 0.1, 100.0, "current at span pressure");
     visit("zero_command", self.zero_command,
@@ -168,8 +213,25 @@ struct ValveOf {
           "sonic conductance of each proportional valve, fully open, C_v");
     visit("critical_ratio", self.critical_ratio, "1", 0.01, 0.9,
           "critical pressure ratio of valve and hose, b_c");
-    visit("proportional_band", self.proportional_band_Pa, "Pa", 10.0, 2e6, "pressure error that opens fully");
+    if (ListsAll<Visitor> || !self.is_regulator())
+      visit("proportional_band", self.proportional_band_Pa, "Pa", 10.0, 2e6,
+            "pressure error that opens fully");
     visit("volume", self.volume_m3, "m3", 1e-7, 1e-2, "controlled volume, V_v");
+    if (ListsAll<Visitor> || self.is_regulator()) fields_of_regulator(self, visit);
+  }
+  template <class Self, class Visitor>
+  static void fields_of_regulator(Self& self, Visitor& visit) {
+    visit("lag", self.lag, "of a regulator: how its pressure follows the command");
+    if (ListsAll<Visitor> || !self.swings())
+      visit("time_constant", self.time_constant_s, "s", 1e-4, 100.0, "of a lag of first order, T");
+    if (ListsAll<Visitor> || self.swings()) {
+      visit("natural_frequency", self.natural_frequency_Hz, "Hz", 1e-3, 1e3, "of a lag of second order, f");
+      visit("damping", self.damping, "1", 0.01, 100.0, "of a lag of second order, D; 1: no overshoot");
+    }
+    visit("venting_conductance", self.venting_conductance_m3_per_s_Pa, "m3/(s.Pa)", 0.0, 1e-5,
+          "of a regulator: sonic conductance where it vents; 0: that of filling, C_v");
+    visit("dead_band", self.dead_band_Pa, "Pa", 0.0, 2e5,
+          "of a regulator: pressure errors, either way, about which it does nothing");
   }
   /// A command in mA is a current.
   void resolve() {
@@ -191,6 +253,16 @@ struct ValveOf {
     if (span_current_mA <= zero_current_mA) report("span_current", "must be above zero_current");
     if (span_pressure_Pa <= zero_pressure_Pa) report("span_pressure", "must be above zero_pressure");
     if (supply_pressure_Pa < span_pressure_Pa) report("supply_pressure", "must not be below span_pressure");
+    const auto say = [&](const P& value, std::string_view key, std::string_view message) {
+      if (value == 0.0) report(key, message);
+    };
+    if (is_regulator() && !swings())
+      say(time_constant_s, "time_constant",
+          "a regulator's lag must be said, if only as a guess: 0.1 s ± unknown; or lag: second_order");
+    if (swings()) {
+      say(natural_frequency_Hz, "natural_frequency", "a lag of second order has one: say it, as 5 Hz");
+      say(damping, "damping", "a lag of second order has one: say it, as 0.7");
+    }
   }
 };
 using Valve = ValveOf<double>;
@@ -314,7 +386,7 @@ struct RigOf {
   static void fields(Self& self, Visitor& visit) {
     visit("muscle", self.muscle, "braid and tube");
     visit("friction", self.friction, "thread friction");
-    visit("valve", self.valve, "servo valve and supply");
+    visit("valve", self.valve, "servo valve or regulator, and supply");
     visit("hose", self.hose, "hose from valve to muscle");
     visit("gas", self.gas, "air and atmosphere");
     visit("joint", self.joint, "wheel, inertia and load guide");
@@ -326,6 +398,9 @@ struct RigOf {
     visit("settling_time", self.settling_time_s, "s", 0.0, 1000.0,
           "how long the first current is held before the first reading (rounded to ticks)");
   }
+  /// Whether something in it has a memory: an effect, or a regulator that swings.
+  bool remembers() const { return effects.remember() || valve.swings(); }
+
   /// Volumes must not fill in no time.
   template <class Report>
   void rules(Report& report) const {
@@ -335,10 +410,17 @@ struct RigOf {
     const auto filling_s = [&](double conductance_m3_per_s_Pa, double volume_m3, double difference_Pa) {
       return volume_m3 * difference_Pa / (volume_rate_m3_per_s_Pa * conductance_m3_per_s_Pa * supply_Pa);
     };
-    if (filling_s(valve.conductance_m3_per_s_Pa, valve.volume_m3, valve.proportional_band_Pa) < quickest_s)
-      report("valve",
-             "the open valve would move its volume by a whole proportional_band in less than 1 us: take a "
-             "smaller conductance, a larger volume or a wider proportional_band");
+    const double conductance = std::max(valve.conductance_m3_per_s_Pa,
+                                        valve.is_regulator() ? valve.venting_conductance_m3_per_s_Pa : 0.0);
+    const double band_Pa = valve.is_regulator() ? hose.linear_zone_Pa : valve.proportional_band_Pa;
+    if (filling_s(conductance, valve.volume_m3, band_Pa) < quickest_s)
+      report(
+          "valve",
+          valve.is_regulator()
+              ? "open, it would move its volume by a whole linear_zone of the hose in less than 1 us: take a "
+                "smaller conductance, a larger volume or a wider linear_zone"
+              : "the open valve would move its volume by a whole proportional_band in less than 1 us: take a "
+                "smaller conductance, a larger volume or a wider proportional_band");
     if (filling_s(hose.conductance_m3_per_s_Pa, valve.volume_m3, hose.linear_zone_Pa) < quickest_s)
       report("hose",
              "it would move the valve's volume by a whole linear_zone in less than 1 us: take a smaller "

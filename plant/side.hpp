@@ -1,4 +1,4 @@
-// One side of a joint: servo valve, hose, gas, Tondu-Lopez braid, thread friction, braid stop. T = thesis,
+// One side of a joint: valve, hose, gas, Tondu-Lopez braid, thread friction, braid stop. T = thesis,
 // TL = Tondu & Lopez, IEEE Control Systems Magazine 20 (2000) 15-38. docs/equations.md has them all.
 //
 //   where the cord's end is and how fast, SideState, memory, HeldSide --> SideMoment --> d(SideState)/dt
@@ -7,6 +7,9 @@
 // S is double, a dual number where the Jacobian is wanted, or lanes that hold several rigs; P is what their
 // parameters are made of.
 #pragma once
+
+#include <algorithm>
+#include <numbers>
 
 #include <plant/flow.hpp>
 #include <plant/friction.hpp>
@@ -27,6 +30,7 @@ struct Stroke {
 template <class S>
 struct SideMoment {
   S speed_m_per_s;                       // v = l0 w
+  S pressure_error_Pa;                   // what the valve acts on: P_ref - P_v, less its dead band
   S wanted_opening, valve_opening;       // u, -1 (venting) to 1 (filling): before and after effects
   S supply_flow, vent_flow, hose_flow;   // q_v = supply_flow - vent_flow, q_h
   S volume_m3, volume_slope_m3;          // V, dV/de
@@ -35,7 +39,7 @@ struct SideMoment {
   S bristle_rate_m_per_s;                // dz/dt
   S leak_flow, effects_pull_N;           // what effects take and add
   S heating_Pa_per_s;                    // what the temperature of the muscle's gas adds to dP_m/dt
-  SideMemory<S> memory_rates;            // of effects
+  SideMemory<S> memory_rates;
 
   /// T, what the cord carries.
   S cord_force_N() const { return braid_force_N + stop_force_N + effects_pull_N + friction_force_N; }
@@ -47,7 +51,8 @@ class SideOf {
   /// `weight_N`: of what hangs on the cord; 0 in a pair.
   SideOf(const RigOf<P>& rig, const P& weight_N);
 
-  /// Pressure error opens one of two proportional valves (T 3.1); ISO 6358 flow through valve and hose.
+  /// Pressure error opens one of two proportional valves (T 3.1), in proportion to it, or so far that the
+  /// pressure follows with a regulator's lag; ISO 6358 flow through valve and hose.
   template <class S>
   void gas_balance(const Stroke<S>& stroke, const SideState<S>& state, const SideMemory<S>& memory,
                    const HeldSideOf<P>& held, SideMoment<S>& now) const;
@@ -56,7 +61,8 @@ class SideOf {
   template <class S>
   void forces(const Stroke<S>& stroke, const SideState<S>& state, const SideMemory<S>& memory,
               const HeldSideOf<P>& held, SideMoment<S>& now) const;
-  /// What effects remember, where `supply_flow` [kg/s] is drawn from the supply by all sides. After the gas.
+  /// What effects and a regulator remember, where `supply_flow` [kg/s] is drawn from the supply by all sides.
+  /// After the gas.
   template <class S>
   void remember(const Stroke<S>& stroke, const SideState<S>& state, const SideMemory<S>& memory,
                 const S& supply_flow, SideMoment<S>& now) const;
@@ -81,6 +87,8 @@ class SideOf {
   const BraidOf<P>& braid() const { return braid_; }
   const P& weight_N() const { return weight_N_; }
   bool has_effects() const { return effects_; }
+  /// Whether there is something to `remember`.
+  bool may_remember() const { return effects_ || swings_; }
   /// R T [J/kg].
   const P& gas_energy_J_per_kg() const { return gas_energy_J_per_kg_; }
 
@@ -92,6 +100,8 @@ class SideOf {
             weight_N_, rig_.gas.atmosphere_Pa,     gas_energy_J_per_kg_, unit_flow_};
   }
   template <class S>
+  S flow_to_follow(const SideMemory<S>& memory, const S& error_Pa, const S& hose_flow) const;
+  template <class S>
   void valve_flows(const SideState<S>& state, const SideMemory<S>& memory, const HeldSideOf<P>& held,
                    SideMoment<S>& now) const;
   template <class S>
@@ -100,11 +110,15 @@ class SideOf {
             now.leak_flow,      now.volume_m3, S(now.volume_slope_m3 * stroke.speed_per_s)};
   }
 
+  /// A valve between equal pressures can pass nothing: what is wanted is not divided by less.
+  static constexpr double least_flow_kg_per_s = 1e-9;
+
   RigOf<P> rig_;
   BraidOf<P> braid_;
-  RestrictionOf<P> valve_, hose_, unit_flow_;
-  bool effects_;
+  RestrictionOf<P> valve_, vent_, hose_, unit_flow_;
+  bool effects_, regulates_, swings_;
   P weight_N_, gas_energy_J_per_kg_, supply_Pa_;
+  P quickness_per_s_, catching_up_per_s_;  // of a regulator: dP_v/dt for an error, the memory's for its own
 };
 using Side = SideOf<double>;
 
@@ -118,17 +132,44 @@ RestrictionOf<P> restriction(const RigOf<P>& rig, const P& conductance_m3_per_s_
           rig.hose.linear_zone_Pa};
 }
 
+/// Of a valve that vents; 0 is said where it is no other than that of filling.
+template <class P>
+P venting_conductance(const ValveOf<P>& valve) {
+  const P& own = valve.venting_conductance_m3_per_s_Pa;
+  return select(own > 0.0, own, valve.conductance_m3_per_s_Pa);
+}
+
 template <class P>
 SideOf<P>::SideOf(const RigOf<P>& rig, const P& weight_N)
     : rig_(rig),
       braid_(rig.muscle),
       valve_(restriction(rig, rig.valve.conductance_m3_per_s_Pa)),
+      vent_(restriction(rig, venting_conductance(rig.valve))),
       hose_(restriction(rig, rig.hose.conductance_m3_per_s_Pa)),
       unit_flow_(restriction(rig, P(1.0))),
       effects_(!rig.effects.absent()),
+      regulates_(rig.valve.is_regulator()),
+      swings_(rig.valve.swings()),
       weight_N_(weight_N),
       gas_energy_J_per_kg_(rig.gas.gas_constant_J_per_kg_K * rig.gas.temperature_K),
-      supply_Pa_(rig.valve.supply_pressure_Pa + rig.gas.atmosphere_Pa) {}
+      supply_Pa_(rig.valve.supply_pressure_Pa + rig.gas.atmosphere_Pa),
+      quickness_per_s_(1.0),
+      catching_up_per_s_(1.0) {
+  const P swing_per_s = 2.0 * std::numbers::pi * rig.valve.natural_frequency_Hz;
+  if (swings_) catching_up_per_s_ = 2.0 * rig.valve.damping * swing_per_s;
+  if (regulates_)
+    quickness_per_s_ =
+        swings_ ? P(swing_per_s * swing_per_s / catching_up_per_s_) : P(1.0 / rig.valve.time_constant_s);
+}
+
+// Air for the volume, whose pressure is to change by the error over the lag's time, and for the hose.
+template <class P>
+template <class S>
+S SideOf<P>::flow_to_follow(const SideMemory<S>& memory, const S& error_Pa, const S& hose_flow) const {
+  const P n = effects_ ? rig_.effects.gas_exponent() : P(1.0);
+  const S followed_Pa = swings_ ? memory.back() : error_Pa;
+  return followed_Pa * (quickness_per_s_ * rig_.valve.volume_m3 / (n * gas_energy_J_per_kg_)) + hose_flow;
+}
 
 template <class P>
 template <class S>
@@ -140,11 +181,25 @@ void SideOf<P>::valve_flows(const SideState<S>& state, const SideMemory<S>& memo
 
   S error_Pa = held.reference_pressure_Pa - state.valve_pressure_Pa;
   S supply_Pa = S(supply_Pa_);
+  if (regulates_)
+    error_Pa = error_Pa + ValveDeadBandOf<P>{rig_.valve.dead_band_Pa}.valve_error_shift_Pa(error_Pa);
   if (effects_) {
     error_Pa = error_Pa + rig_.effects.valve_error_shift_Pa(error_Pa);
     supply_Pa = supply_Pa - rig_.effects.supply_drop_Pa(memory);
   }
-  S u = error_Pa / rig_.valve.proportional_band_Pa;
+  now.pressure_error_Pa = error_Pa;
+  now.hose_flow = hose_.flow_kg_per_s(valve_Pa, muscle_Pa);
+  const auto filling = [&] { return valve_.flow_kg_per_s(supply_Pa, valve_Pa); };
+  const P vents = effects_ ? rig_.effects.vent_factor() : P(1.0);
+  const auto venting = [&] { return S(vents * vent_.flow_kg_per_s(valve_Pa, S(atmosphere))); };
+  S u;
+  if (regulates_) {
+    const S flow = flow_to_follow(memory, error_Pa, now.hose_flow);
+    const S most = choose(flow >= 0.0, filling, venting);
+    u = flow / select(most > least_flow_kg_per_s, most, S(least_flow_kg_per_s));
+  } else {
+    u = error_Pa / rig_.valve.proportional_band_Pa;
+  }
   u = select(u > 1.0, S(1.0), u);
   u = select(u < -1.0, S(-1.0), u);
   now.wanted_opening = u;
@@ -152,11 +207,8 @@ void SideOf<P>::valve_flows(const SideState<S>& state, const SideMemory<S>& memo
   now.valve_opening = u;
   const auto none = [] { return S(0.0); };
   now.supply_flow = choose(
-      u >= 0.0, [&] { return S(u * valve_.flow_kg_per_s(supply_Pa, valve_Pa)); }, none);
-  now.vent_flow =
-      choose(u >= 0.0, none, [&] { return S(-u * valve_.flow_kg_per_s(valve_Pa, S(atmosphere))); });
-  if (effects_) now.vent_flow = now.vent_flow * rig_.effects.vent_factor();
-  now.hose_flow = hose_.flow_kg_per_s(valve_Pa, muscle_Pa);
+      u >= 0.0, [&] { return S(u * filling()); }, none);
+  now.vent_flow = choose(u >= 0.0, none, [&] { return S(-u * venting()); });
 }
 
 template <class P>
@@ -173,7 +225,7 @@ void SideOf<P>::gas_balance(const Stroke<S>& stroke, const SideState<S>& state, 
   if (held.pressure_rate_Pa_per_s) {  // whatever keeps the pressure brings the gas that this takes
     const S muscle_Pa = state.muscle_pressure_Pa + rig_.gas.atmosphere_Pa;
     const P n = effects_ ? rig_.effects.gas_exponent() : P(1.0);
-    now.wanted_opening = now.valve_opening = now.vent_flow = S(0.0);
+    now.pressure_error_Pa = now.wanted_opening = now.valve_opening = now.vent_flow = S(0.0);
     now.hose_flow = (now.volume_m3 * (*held.pressure_rate_Pa_per_s / n) +
                      muscle_Pa * now.volume_slope_m3 * stroke.speed_per_s) /
                         gas_energy_J_per_kg_ +
@@ -192,8 +244,11 @@ template <class P>
 template <class S>
 void SideOf<P>::remember(const Stroke<S>& stroke, const SideState<S>& state, const SideMemory<S>& memory,
                          const S& supply_flow, SideMoment<S>& now) const {
-  now.memory_rates =
+  const auto of_effects =
       rig_.effects.memory_rates(instant(stroke, state, now), inflow(stroke, now, supply_flow), memory);
+  std::copy(of_effects.begin(), of_effects.end(), now.memory_rates.begin());
+  now.memory_rates.back() =
+      swings_ ? S(catching_up_per_s_ * (now.pressure_error_Pa - memory.back())) : S(0.0);
 }
 
 template <class P>

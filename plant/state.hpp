@@ -3,6 +3,7 @@
 // wheel is the `opposite` of each; where there is none, nobody looks at it.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <optional>
 
@@ -29,9 +30,10 @@ struct State {
   SideState<S> side, opposite;
 };
 
-/// What effects with a memory remember on one side, in the order of their table; all zero at the start.
+/// What effects with a memory remember on one side, in the order of their table, and last the pressure error
+/// [Pa] that a regulator of second order has come to follow; all zero at the start.
 template <class S>
-using SideMemory = std::array<S, Effects::memories>;
+using SideMemory = std::array<S, Effects::memories + 1>;
 template <class S>
 struct Memory {
   SideMemory<S> side, opposite;
@@ -58,7 +60,14 @@ struct Ledger {
 };
 
 /// Components of a state with one muscle, with two, and of what else an integrator may carry.
-inline constexpr int single_size = 5, pair_size = 8, memory_size = Effects::memories;
+inline constexpr int single_size = 5, pair_size = 8, memory_size = Effects::memories + 1;
+/// Working sizes of memories, in their own units.
+inline constexpr auto memory_sizes = [] {
+  std::array<double, memory_size> sizes{};
+  std::copy(Effects::memory_sizes.begin(), Effects::memory_sizes.end(), sizes.begin());
+  sizes.back() = 1e5;
+  return sizes;
+}();
 inline constexpr int ledger_size = 16, isothermal_ledger_size = 9;
 static_assert(sizeof(State<double>) == pair_size * sizeof(double));
 static_assert(sizeof(Memory<double>) == 2 * sizeof(SideMemory<double>));

@@ -89,6 +89,7 @@ struct Shuffle {
       value = chance.pick(2) == 0;
     } else if constexpr (AnEffect<T>) {
       if (chance.pick(one_in) == 0) shuffle_effect(value);
+    } else if constexpr (std::is_same_v<T, ValveKind>) {  // of a regulator more must be said
     } else if constexpr (std::is_enum_v<T>) {
       const auto all = names(T{});
       value = all[static_cast<std::size_t>(chance.pick(static_cast<int>(all.size())))].first;

@@ -91,7 +91,7 @@ void go(Readings& readings, const Readings& from, const Readings& to, double tim
 }  // namespace
 
 bool Experiment::seeks_memories(const plant::Rig& rig) const {
-  return data_.recorded.start != domain::Start::settled && rig.effects.remember();
+  return data_.recorded.start != domain::Start::settled && rig.remembers();
 }
 
 // A further rig of the flock, with its memories a little off, tells what they change; a straight line then

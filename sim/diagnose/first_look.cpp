@@ -17,14 +17,17 @@ std::pair<std::ptrdiff_t, std::size_t> shortfall(const std::vector<Fault>& fault
           faults.front().common ? 1 : faults.size()};
 }
 
-/// Whether a model that is fitted to all runs as they are takes each of them near the floor.
+/// Whether each run is near the floor.
+bool all_near_floor(const Case& c, const Eigen::VectorXd& residuals, const Runs& usable) {
+  const auto parts = c.experiment.parts(usable);
+  return std::all_of(parts.begin(), parts.end(),
+                     [&](const auto& part) { return near_floor(residuals.segment(part.begin, part.rows)); });
+}
+
+/// Whether a model that is fitted to all runs as they are takes each of them there.
 bool reaches_all(const Case& c, const Model& model, const Runs& usable) {
   const auto fitted = fit(c.experiment, model, usable, {.inflation = thresholds.scatter.first_inflation});
-  if (!fitted.failure.empty()) return false;
-  const auto parts = c.experiment.parts(usable);
-  return std::all_of(parts.begin(), parts.end(), [&](const auto& part) {
-    return near_floor(fitted.residuals.segment(part.begin, part.rows));
-  });
+  return fitted.failure.empty() && all_near_floor(c, fitted.residuals, usable);
 }
 
 /// The same of a suspected effect: from where it went without the runs at fault, or as it would have begun
@@ -40,7 +43,8 @@ bool explains_all(const Case& c, const Model& described, const Suspicion& suspic
 Contender with_suspect(const Case& c, const Checked& checked, const Model& described, const Runs& usable,
                        const Suspicion& suspicion) {
   const auto fitted = [&](const Experiment& experiment) {
-    const Case of_sound{experiment, c.nominal, {suspicion.sound, c.split.held_out}, c.inflation, c.learned};
+    const Runs few = a_few(experiment.data(), suspicion.sound, thresholds.screen.most_runs);
+    const Case of_sound{experiment, c.nominal, {few, c.split.held_out}, c.inflation, c.learned};
     return contend(of_sound, with(of_sound, described, suspicion.effect));
   };
   if (suspicion.common.empty()) return fitted(c.experiment);
@@ -67,6 +71,9 @@ std::vector<Fault> beside_an_effect(const Case& c, const Checked& checked, const
         examine(c.experiment, contender.fitted.model, usable,
                 common ? catalogue(c.experiment.data().pressure_is_given()) : std::vector<Candidate>{})
             .faults;
+    if (faults.empty() && !common &&
+        all_near_floor(c, c.experiment.residuals(contender.fitted.model.rig, usable), usable))
+      return {};  // no fault is needed
     if (!faults.empty() && !common && explains_all(c, described, suspicion, contender.fitted.model, usable))
       return {};
     if (!faults.empty() && (best.empty() || explains_more(faults, best))) best = std::move(faults);

@@ -35,6 +35,18 @@ void nearest_the_middle(const std::map<double, Runs>& by_length, std::vector<Run
 
 }  // namespace
 
+Runs a_few(const domain::Dataset& data, const Runs& runs, std::size_t most) {
+  if (runs.size() <= most) return runs;
+  Runs by_load = runs;
+  std::stable_sort(by_load.begin(), by_load.end(), [&](std::size_t a, std::size_t b) {
+    return level_of(data.runs[a]) < level_of(data.runs[b]);
+  });
+  Runs few;
+  for (std::size_t i = 0; i < most; ++i) few.push_back(by_load[i * runs.size() / most]);
+  std::sort(few.begin(), few.end());
+  return few;
+}
+
 Split split(const domain::Dataset& data, const Runs& usable) {
   std::map<double, Runs> by_load;
   for (const std::size_t run : usable) by_load[level_of(data.runs[run])].push_back(run);

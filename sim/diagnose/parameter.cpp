@@ -112,8 +112,9 @@ std::vector<Parameter> nominal_parameters(const plant::Rig& nominal, const domai
     if (deviation > 0.0) list.push_back(normal(path, found, deviation));
   };
   for (const Prior& prior : thresholds.parameter.priors) {
-    const double value = *find(rig, prior.path).value;
-    add(std::string(prior.path), prior.relative * std::abs(value) + prior.absolute);
+    const double* value = domain::find_number(rig, prior.path).value;
+    if (value == nullptr) continue;  // of a regulator, which not every rig has
+    add(std::string(prior.path), prior.relative * std::abs(*value) + prior.absolute);
   }
   for (const auto& [path, deviation] : stated) {
     const auto usual = [&path = path](const Prior& prior) { return prior.path == path; };

@@ -43,8 +43,9 @@ struct Prior {
 };
 struct ParameterThresholds {
   /// Machined lengths are known to a per cent, catalogue conductances and friction to ten, trimmed pressures
-  /// [Pa] to a reading of the gauge, the load [kg] to a scale's.
-  std::array<Prior, 11> priors{{{"muscle.rest_radius", 0.01, 0.0},
+  /// [Pa] to a reading of the gauge, the load [kg] to a scale's. A regulator's lag, measured with another
+  /// volume behind it, to a third.
+  std::array<Prior, 14> priors{{{"muscle.rest_radius", 0.01, 0.0},
                                 {"muscle.end_correction", 0.01, 0.0},
                                 {"muscle.braid_angle", 0.01, 0.0},
                                 {"muscle.dead_volume", 0.3, 0.0},
@@ -52,6 +53,9 @@ struct ParameterThresholds {
                                 {"valve.conductance", 0.1, 0.0},
                                 {"valve.zero_pressure", 0.0, 1e3},
                                 {"valve.span_pressure", 0.0, 2e3},
+                                {"valve.time_constant", 0.3, 0.0},
+                                {"valve.natural_frequency", 0.3, 0.0},
+                                {"valve.damping", 0.3, 0.0},
                                 {"hose.conductance", 0.1, 0.0},
                                 {"joint.guide_damping", 0.2, 0.0},
                                 {"joint.load_offset", 0.0, 0.05}}};
@@ -232,6 +236,7 @@ struct ScreenThresholds {
   double visible =
       10.5;  ///< expected fall that a test at 5 % finds with a power of 90 %: noncentral chi-square. Derived
   double least_norm = 1e-300;  ///< no division by nothing
+  std::size_t most_runs = 24;  ///< of more, so many are screened: what they propose is fitted to all
 };
 
 /// Whether one model is better than another on runs held out. Set on seeds that the benchmark does not score.

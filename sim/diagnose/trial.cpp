@@ -83,8 +83,15 @@ Screening screen_at(const Case& c, const Contender& base) {
   // from its data sheet for the sake of details.
   const double scatter =
       std::max(c.inflation, variance_inflation(c.experiment, base.fitted.residuals, c.split.training));
-  return {&base, screen(c.experiment, base.fitted, catalogue(c.experiment.data().pressure_is_given()),
-                        c.split.training, scatter)};
+  const auto candidates = catalogue(c.experiment.data().pressure_is_given());
+  const Runs few = a_few(c.experiment.data(), c.split.training, thresholds.screen.most_runs);
+  if (few.size() == c.split.training.size())
+    return {&base, screen(c.experiment, base.fitted, candidates, few, scatter)};
+  // Each of their rows stands for several.
+  const Fitted part = part_of(base.fitted, c.experiment, c.split.training, few);
+  const double share =
+      static_cast<double>(part.residuals.size()) / static_cast<double>(base.fitted.residuals.size());
+  return {&base, screen(c.experiment, part, candidates, few, share * scatter)};
 }
 
 Trial rough(const Case& c, const Contender& base, const Score& score, std::size_t place) {

@@ -51,7 +51,7 @@ struct Layout {
 template <class L>
 constexpr double size_of(int component) {
   if (component < L::states) return working_size[static_cast<std::size_t>(component)];
-  return plant::Effects::memory_sizes[static_cast<std::size_t>((component - L::states) % plant::memory_size)];
+  return plant::memory_sizes[static_cast<std::size_t>((component - L::states) % plant::memory_size)];
 }
 
 template <class L>

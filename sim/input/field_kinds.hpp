@@ -59,11 +59,19 @@ inline constexpr bool is_vector = false;
 template <class T>
 inline constexpr bool is_vector<std::vector<T>> = true;
 
+/// An enum of which one value is what is there if nothing is said.
+template <class T>
+concept HasDefault = std::is_enum_v<T> && requires(T value) {
+  { absent(value) } -> std::same_as<bool>;
+};
+
 /// Whether a value is not written: it is switched off, or a variant that holds what is.
 template <class T>
 bool is_absent(const T& value) {
   if constexpr (is_variant<T>)
     return std::visit([](const auto& one) { return is_absent(one); }, value);
+  else if constexpr (HasDefault<T>)
+    return absent(value);
   else if constexpr (Switchable<T>)
     return value.absent();
   else

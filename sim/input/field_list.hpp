@@ -48,6 +48,8 @@ std::vector<FieldInfo> list_fields();
 /// The visitor of a field list.
 class FieldLister {
  public:
+  static constexpr bool lists_all = true;
+
   explicit FieldLister(std::vector<FieldInfo>& list) : list_(list) {}
 
   void required(std::string_view key, const auto& value, const auto&... rest) {

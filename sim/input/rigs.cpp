@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <sim/input/fields_json.hpp>
+#include <sim/input/muscles.hpp>
 #include <sim/input/rigs.hpp>
 #include <sim/input/suggest.hpp>
 #include <sim/input/utf8.hpp>
@@ -18,11 +19,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<std::string_view, 2> shipped{"thesis", "thesis_pair"};
-
-RigFile shipped_rig(std::string_view name) {
-  return name == "thesis_pair" ? domain::thesis_pair() : RigFile{};
-}
+constexpr std::array<std::string_view, 5> shipped{"thesis", "thesis_pair", "festo_dmsp_10", "festo_dmsp_20",
+                                                  "home_made"};
 
 bool is_shipped(std::string_view name) {
   return std::find(shipped.begin(), shipped.end(), name) != shipped.end();
@@ -42,6 +40,25 @@ void read_rig_map(const YamlFile& file, RigFile& into, Problems& problems, Chain
   constexpr std::string_view also_allowed[] = {"schema", "base"};
   if (check_schema(file, rig_schema, problems))
     read_changes(file.source, file.root, into, problems, chain, also_allowed);
+}
+
+/// The text of a muscle by catalogue; empty of the thesis's rigs, which are built in as they are.
+std::string_view catalogue_text(std::string_view name) {
+  if (name == "festo_dmsp_10") return festo_dmsp_10;
+  if (name == "festo_dmsp_20") return festo_dmsp_20;
+  if (name == "home_made") return home_made;
+  return {};
+}
+
+RigFile shipped_rig(std::string_view name) {
+  RigFile rig = name == "thesis_pair" ? domain::thesis_pair() : RigFile{};
+  if (const std::string_view text = catalogue_text(name); !text.empty()) {
+    Problems problems;
+    Chain chain;
+    read_rig_map(parse_yaml(Source(std::string(name), std::string(text), "")), rig, problems, chain);
+    problems.raise();
+  }
+  return rig;
 }
 
 void read_file(const Source& source, const Node& node, const fs::path& path, RigFile& into,

@@ -30,8 +30,15 @@ std::string valve(const plant::Valve& valve) {
   if (valve.has_own_command())
     range = fmt::format("{:g} to {:g} {} (here as {})", valve.zero_command.value, valve.span_command.value,
                         plant::name_of(valve.zero_command.unit), range);
-  return fmt::format("{} for {} to {}; supply {}", range, readable(valve.zero_pressure_Pa, "Pa"),
-                     readable(valve.span_pressure_Pa, "Pa"), readable(valve.supply_pressure_Pa, "Pa"));
+  std::string says =
+      fmt::format("{} for {} to {}; supply {}", range, readable(valve.zero_pressure_Pa, "Pa"),
+                  readable(valve.span_pressure_Pa, "Pa"), readable(valve.supply_pressure_Pa, "Pa"));
+  if (valve.swings())
+    says += fmt::format("; a regulator of {} and damping {:.3g}", readable(valve.natural_frequency_Hz, "Hz"),
+                        valve.damping);
+  else if (valve.is_regulator())
+    says += fmt::format("; a regulator with a lag of {}", readable(valve.time_constant_s, "s"));
+  return says;
 }
 
 std::string effects(const plant::Effects& effects) {

@@ -130,7 +130,7 @@ std::optional<ConvoyClass> convoy_class(std::span<const plant::Rig* const> rigs,
   auto kind = engine::kind_of(rigs);
   if (!kind) return std::nullopt;
   const bool remembers =
-      std::any_of(rigs.begin(), rigs.end(), [](const plant::Rig* rig) { return rig->effects.remember(); });
+      std::any_of(rigs.begin(), rigs.end(), [](const plant::Rig* rig) { return rig->remembers(); });
   return ConvoyClass{remembers,
                      settings.method,
                      settings.tolerance,

@@ -19,7 +19,7 @@ void rest_memories(Rider& rider, const plant::State<double>& before, double off)
   };
   const auto at_rest = rates(before, none), now = rates(flow.state, none);
   for (std::size_t slot = 0; slot < none.size(); ++slot) {
-    const double size = plant::Effects::memory_sizes[slot];
+    const double size = plant::memory_sizes[slot];
     plant::SideMemory<double> further = none;
     further[slot] += size;
     const double slope = (rates(flow.state, further)[slot] - now[slot]) / size;

@@ -75,7 +75,9 @@ class Moving {
     Held held;
     State<double> state = state_at(e, need.muscle_Pa);
     state.side.valve_pressure_Pa = need.valve_Pa;
-    const double most_Pa = rig_.valve.proportional_band_Pa;
+    const plant::Valve& valve = rig_.valve;
+    const double most_Pa =
+        valve.is_regulator() ? valve.span_pressure_Pa - valve.zero_pressure_Pa : valve.proportional_band_Pa;
     const double opened_Pa = root(
         [&](double ahead_Pa) {
           held.reference_pressure_Pa = need.valve_Pa + direction_ * ahead_Pa;
@@ -166,10 +168,18 @@ controllers::ReachOfLoad reach_of(const plant::Rig& rig, double load_kg, const s
   return reach;
 }
 
+/// The same to slow ramps, without a memory.
+plant::Rig in_slow_ramps(plant::Rig rig) {
+  plant::Valve& valve = rig.valve;
+  valve.time_constant_s = valve.slow_lag_s();
+  valve.lag = plant::RegulatorLag::first_order;
+  return rig;
+}
+
 }  // namespace
 
 controllers::Reach reachable(const plant::Rig& true_rig) {
-  const plant::Rig rig = plant::nominal(true_rig);
+  const plant::Rig rig = in_slow_ramps(plant::nominal(true_rig));
   const plant::Braid braid(rig.muscle);
   controllers::Reach reach;
   // Just short of e_max, where the braid pulls no more and every pressure is infinite.

@@ -29,7 +29,7 @@ double further(const Recording& here, const Recording& aside, double length_m, c
 
 Recording follow_as_seen(const domain::RigFile& rig, double load_kg, Course course, const Seen& seen) {
   Recording here = follow(rig, load_kg, course);
-  if (!course.begins || !rig.effects.remember()) return here;
+  if (!course.begins || !rig.remembers()) return here;
   double& memories = course.begins->memories;
   for (int count = 0; count < most_steps && here.failure.empty(); ++count) {
     const double at = memories;

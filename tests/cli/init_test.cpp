@@ -7,6 +7,7 @@
 #include <sim/domain/scenario.hpp>
 #include <sim/input/field_list.hpp>
 #include <sim/input/fields_json.hpp>
+#include <sim/input/rigs.hpp>
 
 #include "program.hpp"
 
@@ -54,6 +55,14 @@ TEST(Init, TellsOfEveryKey) {
   const std::string text = read_text(scratch / "scenario.yaml");
   for (const auto& info : input::list_fields<domain::Scenario>())
     EXPECT_NE(text.find("# " + info.key + ": " + info.meaning), std::string::npos) << info.key;
+}
+
+TEST(Init, TellsOfEveryMuscleByCatalogue) {
+  const Scratch scratch;
+  ASSERT_EQ(mckibben("init", scratch).status, 0);
+  const std::string text = read_text(scratch / "scenario.yaml");
+  for (const auto name : input::shipped_rigs())
+    EXPECT_TRUE(name == "thesis_pair" || text.find(name) != std::string::npos) << name;
 }
 
 TEST(Init, NeverOverwrites) {

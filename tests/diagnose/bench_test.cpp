@@ -43,6 +43,22 @@ TEST(Bench, LengthsInsideAreHeldOut) {
   EXPECT_EQ(split(data, {0, 1, 3}).held_out, Runs{1});            // not the ends
 }
 
+TEST(HeldOut, AFewOfManyRunsAreOfAllLoads) {
+  domain::Dataset data;
+  Runs all;
+  for (std::size_t i = 0; i < 100; ++i) {
+    data.runs.emplace_back().load_kg = static_cast<double>(10 + i % 5);
+    all.push_back(i);
+  }
+  EXPECT_EQ(a_few(data, all, 100), all);
+  const Runs few = a_few(data, all, 24);
+  ASSERT_EQ(few.size(), 24u);
+  EXPECT_TRUE(std::is_sorted(few.begin(), few.end()));
+  for (std::size_t load = 0; load < 5; ++load)
+    EXPECT_GE(std::count_if(few.begin(), few.end(), [&](std::size_t run) { return run % 5 == load; }), 4)
+        << load;
+}
+
 TEST(Bench, ForcesInAnotherUnitAreRefused) {
   domain::Dataset data = on_a_bench({}, 0.0);
   for (domain::Run& run : data.runs)

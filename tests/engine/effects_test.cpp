@@ -34,7 +34,7 @@ TEST(Effects, BothMethodsGiveOneAnswerWithEachOfThem) {
     EXPECT_NEAR(erk.state.joint.contraction_ratio, cvode.state.joint.contraction_ratio, 2e-8);
     EXPECT_NEAR(erk.state.side.muscle_pressure_Pa, cvode.state.side.muscle_pressure_Pa, 0.2);
     for (std::size_t i = 0; i < erk.memory.side.size(); ++i)
-      EXPECT_NEAR(erk.memory.side[i], cvode.memory.side[i], 1e-6 * plant::Effects::memory_sizes[i]);
+      EXPECT_NEAR(erk.memory.side[i], cvode.memory.side[i], 1e-6 * plant::memory_sizes[i]);
   }
 }
 

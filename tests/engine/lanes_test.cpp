@@ -9,6 +9,7 @@
 #include <sim/engine/abreast.hpp>
 
 #include "random_rigs.hpp"
+#include "regulators.hpp"
 
 namespace mckibben::engine {
 namespace {
@@ -91,6 +92,9 @@ struct Eight {
       vary(one.muscle.braid_angle_rad);
       vary(one.friction.scale);
       vary(one.valve.volume_m3);
+      vary(one.valve.time_constant_s);
+      vary(one.valve.natural_frequency_Hz);
+      vary(one.valve.dead_band_Pa);
       vary(one.hose.conductance_m3_per_s_Pa);
       vary(one.joint.guide_damping_N_s_per_m);
       plants.emplace_back(one, chance.between(8.0, 25.0));
@@ -100,7 +104,7 @@ struct Eight {
       state.side.muscle_pressure_Pa.set(lane, chance.between(-0.5e5, 6e5));
       state.side.bristle_m.set(lane, chance.between(-1e-3, 1e-3));
       for (std::size_t i = 0; i < memory.side.size(); ++i)
-        memory.side[i].set(lane, chance.between(-1.0, 2.0) * plant::Effects::memory_sizes[i]);
+        memory.side[i].set(lane, chance.between(-1.0, 2.0) * plant::memory_sizes[i]);
       held.emplace_back();
       held.back().reference_pressure_Pa = chance.between(0.5e5, 5e5);
       held.back().current_speed_mA_per_s = chance.between(-50.0, 50.0);
@@ -156,6 +160,10 @@ TEST(Abreast, RigsKeepToTheirOwnLaws) {
     }
   for (const auto& [name, rig] : plant::rigs_with_one_effect())
     for (int i = 0; i < 100; ++i) expect_alike(Eight(chance, rig), name);
+  for (plant::Rig rig : {plant::quick_regulator(0.1), plant::swinging_regulator(5.0, 0.7)}) {
+    rig.valve.dead_band_Pa = 5e3;
+    for (int i = 0; i < 100; ++i) expect_alike(Eight(chance, rig), "regulator");
+  }
   for (int i = 0; i < 100; ++i) expect_alike(Eight(chance, plant::rig_with_all_effects()), "all effects");
 }
 
@@ -201,6 +209,9 @@ TEST(Abreast, RigsOfAnotherKindAreNot) {
   plant::Rig area;
   area.friction.law = plant::FrictionLaw::area;
   EXPECT_FALSE(abreast(std::vector<plant::Plant>{{plant::Rig{}, 12.0}, {area, 12.0}}).has_value());
+  for (const plant::Rig& other : {plant::Rig{}, plant::swinging_regulator(5.0, 0.7)})
+    EXPECT_FALSE(
+        abreast(std::vector<plant::Plant>{{plant::quick_regulator(0.1), 12.0}, {other, 12.0}}).has_value());
   plant::Rig linear, saturating;
   linear.effects.get<plant::BladderElasticity>().stiffness_N_per_m = 50.0;
   auto& bladder = saturating.effects.get<plant::BladderElasticity>();

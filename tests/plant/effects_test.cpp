@@ -27,7 +27,7 @@ class Chance {
   Memory<double> memory() {
     Memory<double> memory{};
     for (std::size_t i = 0; i < memory.side.size(); ++i)
-      memory.side[i] = between(-1.0, 2.0) * Effects::memory_sizes[i];
+      memory.side[i] = between(-1.0, 2.0) * memory_sizes[i];
     return memory;
   }
   /// At an instant in the range of use.
@@ -402,7 +402,7 @@ TEST(Catalogue, TheOrderOfTheTableDoesNotMatter) {
     const auto now = chance.instant();
     const auto memory = chance.memory().side;
     auto turned = memory;
-    std::reverse(turned.begin(), turned.end());
+    std::reverse(turned.begin(), turned.begin() + Effects::memories);  // what follows is the valve's
     const Inflow<double> inflow{chance.between(-1.0, 1.0),   chance.between(0.0, 1e-3),
                                 chance.between(-1e-3, 1e-3), chance.between(0.0, 1e-4),
                                 chance.between(1e-5, 1e-4),  chance.between(-1e-4, 1e-4)};

@@ -1,0 +1,46 @@
+// Regulators in rig files: what their kind and their lag have no use for is neither read nor written.
+#include <gtest/gtest.h>
+
+#include <sim/input/fields_json.hpp>
+
+#include "rig_text.hpp"
+
+namespace mckibben::input {
+namespace {
+
+TEST(RegulatorFile, IsReadWithHowWellItIsKnownAndWrittenBack) {
+  const RigFile rig = rig_of(
+      "valve: {kind: regulator, zero_command: 0 V, span_command: 10 V, time_constant: 80 ms ± 30 %, "
+      "conductance: 18 l/(min bar), venting_conductance: 9 l/(min bar), dead_band: 5 mbar}");
+  EXPECT_TRUE(rig.valve.is_regulator());
+  EXPECT_DOUBLE_EQ(rig.valve.time_constant_s, 0.08);
+  EXPECT_DOUBLE_EQ(rig.spreads.at("valve.time_constant"), 0.024);
+  EXPECT_DOUBLE_EQ(rig.valve.venting_conductance_m3_per_s_Pa, 9e-3 / 60.0 / 1e5);
+  EXPECT_DOUBLE_EQ(rig.valve.dead_band_Pa, 500.0);
+  const Json written = to_json(rig).at("valve");
+  EXPECT_EQ(written.at("kind"), "regulator");
+  EXPECT_EQ(written.at("lag"), "first_order");
+  for (const char* other : {"proportional_band", "natural_frequency", "damping"})
+    EXPECT_FALSE(written.contains(other)) << other;
+  EXPECT_EQ(to_json(rig_of("valve: " + written.dump())), to_json(rig));
+}
+
+TEST(RegulatorFile, OfSecondOrderHasAFrequencyAndADamping) {
+  const RigFile rig =
+      rig_of("valve: {kind: regulator, lag: second_order, natural_frequency: 4 Hz, damping: 0.7}");
+  EXPECT_TRUE(rig.valve.swings());
+  EXPECT_DOUBLE_EQ(rig.valve.slow_lag_s(), 2.0 * 0.7 / (2.0 * std::numbers::pi * 4.0));
+  const Json written = to_json(rig).at("valve");
+  EXPECT_FALSE(written.contains("time_constant"));
+  EXPECT_EQ(to_json(rig_of("valve: " + written.dump())), to_json(rig));
+}
+
+TEST(RegulatorFile, AServoValveIsWrittenAsEver) {
+  const Json written = to_json(RigFile{}).at("valve");
+  EXPECT_TRUE(written.contains("proportional_band"));
+  for (const char* other : {"kind", "lag", "time_constant", "dead_band"})
+    EXPECT_FALSE(written.contains(other)) << other;
+}
+
+}  // namespace
+}  // namespace mckibben::input
