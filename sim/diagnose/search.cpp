@@ -9,9 +9,9 @@ namespace {
 using Clock = run::Deadline::Clock;
 
 Clock::time_point after(double seconds) {
-  constexpr double longest = 1e8;  // beyond any clock's end it would turn round
-  if (!(seconds < longest)) return Clock::time_point::max();
-  return Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
+  const std::chrono::duration<double> limit(seconds), left = Clock::time_point::max() - Clock::now();
+  if (!(limit < left)) return Clock::time_point::max();  // beyond its end a clock would turn round
+  return Clock::now() + std::chrono::duration_cast<Clock::duration>(limit);
 }
 
 }  // namespace
