@@ -25,7 +25,7 @@ inline constexpr std::array<double, plant::pair_size> working_size{0.3, 1.0, 5e5
 enum class Books { none, isothermal, polytropic };
 
 /// Memories that the error norm counts, of each side, however many the table of effects has.
-inline constexpr int counted_memories = 4;
+inline constexpr int counted_memories = 5;
 
 /// Which components there are.
 template <int sides_, bool remembers_, Books books_>
