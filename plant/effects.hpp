@@ -13,6 +13,7 @@
 #include <plant/effects/bladder_creep.hpp>
 #include <plant/effects/bladder_elasticity.hpp>
 #include <plant/effects/bladder_hysteresis.hpp>
+#include <plant/effects/command_delay.hpp>
 #include <plant/effects/encoder_backlash.hpp>
 #include <plant/effects/encoder_scale.hpp>
 #include <plant/effects/end_cap_correction.hpp>
@@ -23,6 +24,7 @@
 #include <plant/effects/muscle_leak.hpp>
 #include <plant/effects/polytropic_gas.hpp>
 #include <plant/effects/pressure_threshold.hpp>
+#include <plant/effects/reading_delay.hpp>
 #include <plant/effects/residual_force.hpp>
 #include <plant/effects/speed_dependent_friction.hpp>
 #include <plant/effects/supply_droop.hpp>
@@ -92,6 +94,14 @@ constexpr bool has(Hook hook) {
     case vent_factor:
       return requires(const E& e) {
         { e.vent_factor() } -> std::same_as<double>;
+      };
+    case command_delay:
+      return requires(const E& e) {
+        { e.command_delay_s() } -> std::same_as<double>;
+      };
+    case reading_delay:
+      return requires(const E& e) {
+        { e.reading_delay_s() } -> std::same_as<double>;
       };
     case reference:
       return requires(const E& e, double p, Play& play) {
@@ -269,6 +279,20 @@ class EffectSet {
     });
     return product;
   }
+  P command_delay_s() const {
+    P sum = 0.0;
+    each([&]<class E>(const E& effect, auto, auto) {  // of one that is absent it is 0
+      if constexpr (declares<E>(Hook::command_delay)) sum = sum + effect.command_delay_s();
+    });
+    return sum;
+  }
+  P reading_delay_s() const {
+    P sum = 0.0;
+    each([&]<class E>(const E& effect, auto, auto) {
+      if constexpr (declares<E>(Hook::reading_delay)) sum = sum + effect.reading_delay_s();
+    });
+    return sum;
+  }
   template <class S, std::size_t slots>
   std::array<S, memories> memory_rates(const Instant<S>& now, const Inflow<S>& inflow,
                                        const std::array<S, slots>& memory) const {
@@ -352,8 +376,9 @@ using EffectsOf =
     EffectSet<P, ViscousDampingOf<P>, GuideFrictionOf<P>, SpeedDependentFrictionOf<P>, BladderElasticityOf<P>,
               BladderCreepOf<P>, BladderHysteresisOf<P>, EndCapCorrectionOf<P>, PressureThresholdOf<P>,
               MuscleLeakOf<P>, PolytropicGasOf<P>, GasTemperatureOf<P>, ValveLagOf<P>, ValveDeadBandOf<P>,
-              ValveHysteresisOf<P>, SupplyDroopOf<P>, ExhaustRestrictionOf<P>, FrictionWarmUpOf<P>,
-              EncoderBacklashOf<P>, EncoderScaleOf<P>, ResidualForceOf<P>>;
+              ValveHysteresisOf<P>, SupplyDroopOf<P>, ExhaustRestrictionOf<P>, CommandDelayOf<P>,
+              FrictionWarmUpOf<P>, EncoderBacklashOf<P>, EncoderScaleOf<P>, ReadingDelayOf<P>,
+              ResidualForceOf<P>>;
 using Effects = EffectsOf<double>;
 static_assert([]<class... E>(const std::tuple<E...>*) {
   return (IsEffect<E> && ...);

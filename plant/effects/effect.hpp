@@ -20,6 +20,8 @@
 //   S supply_drop_Pa(memory)               taken from the supply pressure
 //   P vent_factor()                        multiplies what the valve vents
 //   S memory_rate(now, inflow, memory)     d(memory)/dt; a memory starts at zero; `memory_size` is its scale
+//   P command_delay_s()                    by how much commands come late
+//   P reading_delay_s()                    by how much the load's position is read late
 //   double reference_Pa(wanted, play)      at each tick: the reference that the valve follows
 //   double wheel_m(rise, play)             at each tick: where the encoder's wheel stands
 //   P reading_factor()                     multiplies what the encoder reads of it
@@ -86,6 +88,8 @@ enum class Hook {
   valve_opening,
   supply_drop,
   vent_factor,
+  command_delay,
+  reading_delay,
   reference,
   wheel,
   reading_factor
@@ -105,6 +109,8 @@ constexpr std::string_view words(Hook hook) {
                                                           "valve",
                                                           "supply",
                                                           "exhaust",
+                                                          "command",
+                                                          "reading, at ticks",
                                                           "valve, at ticks",
                                                           "reading, at ticks",
                                                           "reading"};

@@ -183,8 +183,9 @@ namespace {
 template <class E>
 constexpr bool makes_pressure() {
   using enum plant::Hook;
-  constexpr std::array of_pressure{outflow,       gas_exponent, muscle_heating, valve_error_shift,
-                                   valve_opening, supply_drop,  vent_factor,    reference};
+  constexpr std::array of_pressure{outflow,           gas_exponent,  muscle_heating,
+                                   valve_error_shift, valve_opening, supply_drop,
+                                   vent_factor,       command_delay, reference};
   return std::ranges::all_of(
       E::hooks, [&](plant::Hook hook) { return std::ranges::find(of_pressure, hook) != of_pressure.end(); });
 }

@@ -70,6 +70,7 @@ class Ride {
 
  private:
   void make_integrators();
+  void carry(double to_s);
 
   std::vector<Rider> riders_;  // stay where they are: integrators refer to their plants
   solver::Settings settings_;

@@ -82,7 +82,8 @@ class Following {
                .braid_force_N = now.braid_force_N,
                .friction_force_N = now.friction_force_N,
                .effects_pull_N = now.effects_pull_N,
-               .cord_force_N = now.cord_force_N()};
+               .cord_force_N = now.cord_force_N(),
+               .misread_ratio = ride_.reading().misread_m / rig_.muscle.rest_length_m};
     double most = state.joint.contraction_ratio;
     if (ride_.plant().opposite()) {
       row.opposite = {.current_mA = drive.opposite.current_mA,

@@ -32,7 +32,7 @@ Recording recording_of(const domain::Run& measured, const domain::RigFile& rig) 
 double read_of(const Sample& sample, const domain::Run& measured, const domain::RigFile& rig) {
   if (!measured.force_N.empty()) return sample.cord_force_N;
   if (!measured.measured) return static_cast<double>(sample.counts) * contraction_per_count(rig);
-  return sample.state.joint.contraction_ratio * rig.muscle.rest_length_m / measured.rest_length_m;
+  return sample.shown_ratio() * rig.muscle.rest_length_m / measured.rest_length_m;
 }
 
 ReplayedRun replay_one(const domain::Run& measured, const domain::RigFile& rig) {

@@ -128,6 +128,7 @@ class Run {
     recording_.samples.push_back({time_s(k_), drive_.current_mA, state, counts_,
                                   plant::gauge_reading_Pa(plan_.rig.gauge, gauge_Pa), now.braid_force_N,
                                   now.friction_force_N, now.effects_pull_N});
+    recording_.samples.back().misread_ratio = rider.now.reading.misread_m / plan_.rig.muscle.rest_length_m;
     recording_.largest_contraction_ratio =
         std::max(recording_.largest_contraction_ratio, state.joint.contraction_ratio);
   }

@@ -68,9 +68,11 @@ constexpr Size sizes[] = {{"viscous_damping", "damping", 0, 25, 120, nullptr, 0}
                           {"valve_hysteresis", "half_width", 0, 2e3, 8e3, nullptr, 0},
                           {"supply_droop", "line_resistance", 0, 3e7, 1e8, "volume", 3e-4},
                           {"exhaust_restriction", "share", 0, 0.15, 0.5, nullptr, 0},
+                          {"command_delay", "time", 0, 0.012, 0.05, nullptr, 0},
                           {"friction_warm_up", "change", 0, -0.12, -0.35, "time", 5.0},
                           {"encoder_backlash", "width", 0, 3e-4, 1.2e-3, nullptr, 0},
-                          {"encoder_scale", "error", 0, 0.01, 0.03, nullptr, 0}};
+                          {"encoder_scale", "error", 0, 0.01, 0.03, nullptr, 0},
+                          {"reading_delay", "time", 0, 0.012, 0.05, nullptr, 0}};
 
 std::string path_of(const char* effect, const char* key) {
   return fmt::format("effects.{}.{}", effect, key);

@@ -67,10 +67,24 @@ TEST(Underway, WhatAnEffectRemembersIsFittedAndNotCharged) {
   EXPECT_NEAR(step, -20.0, 4.0);
 }
 
+// What an encoder shows late, or on another scale, a replay compares as a diagnosis does.
+TEST(Underway, AReplayReadsWhatADiagnosisReads) {
+  plant::Rig rig;
+  rig.effects.get<plant::EncoderScale>().error = 0.02;
+  rig.effects.get<plant::ReadingDelay>().time_s = 0.05;
+  domain::Dataset data = begun_on_its_way(rig);
+  EXPECT_GT(run::replay(data, 1, [](const auto&, auto, auto) {}).front().rmse, 1e-3);
+  rig.effects.get<plant::BladderCreep>() = {};
+  static_cast<plant::Rig&>(data.rig) = rig;
+  const Hanging hanging{rig, data.runs[0].load_kg};
+  data.runs[0].contraction_ratio = predict(data.runs[0], {&hanging, 1}).front().judged;
+  EXPECT_LT(run::replay(data, 1, [](const auto&, auto, auto) {}).front().rmse, 1e-5);
+}
+
 TEST(Underway, AGivenPressureLeavesValveHoseAndGasOutOfSight) {
   const auto all = catalogue(), seen = catalogue(true);
   const auto names = effects_out_of_sight();
-  EXPECT_EQ(names.size(), 8u);
+  EXPECT_EQ(names.size(), 9u);
   EXPECT_EQ(seen.size() + names.size(), all.size());  // each of them has one law
   for (const Candidate& c : seen) EXPECT_EQ(std::count(names.begin(), names.end(), c.effect), 0) << c.effect;
   for (const auto name :

@@ -427,5 +427,20 @@ TEST(Catalogue, TheOrderOfTheTableDoesNotMatter) {
   }
 }
 
+TEST(Catalogue, DelaysAddUpAndLeaveThePlantAlone) {
+  Rig rig;
+  EXPECT_EQ(rig.effects.command_delay_s(), 0.0);
+  rig.effects.get<CommandDelay>().time_s = 0.02;
+  rig.effects.get<ReadingDelay>().time_s = 0.05;
+  EXPECT_EQ(rig.effects.command_delay_s(), 0.02);
+  EXPECT_EQ(rig.effects.reading_delay_s(), 0.05);
+  const Plant late(rig, 12.0), prompt(Rig{}, 12.0);
+  Chance chance;
+  const auto state = chance.state();
+  const auto memory = chance.memory();
+  EXPECT_EQ(all_of(late, state, memory), all_of(prompt, state, memory));
+  EXPECT_FALSE(late.remembers());
+}
+
 }  // namespace
 }  // namespace mckibben::plant

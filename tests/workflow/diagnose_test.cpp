@@ -1,6 +1,8 @@
 // The workflow on data whose answer is known. The benchmark scores many more; these must hold whenever.
+#include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <string>
 
 #include <gtest/gtest.h>
 
@@ -8,7 +10,7 @@
 #include <sim/input/dataset_file.hpp>
 #include <sim/run/simulate.hpp>
 
-#include "diagnose/planted.hpp"
+#include "diagnose/examined.hpp"
 
 namespace mckibben::diagnose {
 namespace {
@@ -153,7 +155,23 @@ TEST(Diagnose, AccusesNoRunThatAnEffectExplainsWithTheOthers) {
   EXPECT_TRUE(first_look(c, checked, {rig, nominal_parameters(rig)}, runs, c.learned).empty());
 }
 
-TEST(Diagnose, FindsThatAllRunsAreLateBesideAnEffectThatIsMissing) {
+TEST(Diagnose, FindsThatAllRunsAreEarlyBesideAnEffectThatIsMissing) {
+  plant::Rig truth;
+  truth.effects.get<plant::SpeedDependentFriction>().ratio = 0.8;
+  auto data = small(truth);
+  for (domain::Run& run : data.runs) hasten(run, 3);
+  const auto found = diagnosis_of(data, 0);
+  EXPECT_TRUE(found.because.starts_with("Every run is 3 ticks early and was shifted.")) << found.because;
+  ASSERT_EQ(found.effects.size(), 1u) << found.because;
+  EXPECT_EQ(found.effects[0].name, "speed_dependent_friction");
+}
+
+bool is_a_delay(const std::string& name) {
+  return name == plant::CommandDelay::name || name == plant::ReadingDelay::name;
+}
+
+// What all runs have is the rig's, or of a recorder that a rig file can carry: whole ticks or not.
+TEST(Diagnose, NamesADelayOfAllRunsBesideAnEffectThatIsMissing) {
   plant::Rig truth;
   truth.effects.get<plant::SpeedDependentFriction>().ratio = 0.8;
   auto data = small(truth);
@@ -162,9 +180,35 @@ TEST(Diagnose, FindsThatAllRunsAreLateBesideAnEffectThatIsMissing) {
     run.contraction_ratio.resize(run.current_mA.size());
   }
   const auto found = diagnosis_of(data, 0);
-  EXPECT_TRUE(found.because.starts_with("Every run is 3 ticks late and was shifted.")) << found.because;
-  ASSERT_EQ(found.effects.size(), 1u) << found.because;
-  EXPECT_EQ(found.effects[0].name, "speed_dependent_friction");
+  EXPECT_TRUE(found.faults.empty()) << found.because;
+  ASSERT_EQ(found.effects.size(), 2u) << found.because;
+  for (const NamedEffect& effect : found.effects)
+    EXPECT_TRUE(is_a_delay(effect.name) || effect.name == "speed_dependent_friction") << effect.name;
+}
+
+// Command and position alone cannot say which of them is late; a gauge can.
+TEST(Diagnose, SaysThatALateCommandMayBeALateReadingUnlessAGaugeTells) {
+  struct Late {
+    double command_s, reading_s;
+    bool gauge;
+  };
+  for (const Late& late : {Late{0.028, 0.0, false}, Late{0.028, 0.0, true}, Late{0.0, 0.028, true}}) {
+    plant::Rig truth;
+    truth.effects.get<plant::CommandDelay>().time_s = late.command_s;
+    truth.effects.get<plant::ReadingDelay>().time_s = late.reading_s;
+    truth.gauge.fitted = late.gauge;
+    const auto found = diagnosis_of(small(truth), 0);
+    EXPECT_EQ(found.verdict, Verdict::missing_effect) << found.because;
+    ASSERT_EQ(found.effects.size(), 1u) << found.because;
+    const NamedEffect& effect = found.effects[0];
+    EXPECT_TRUE(is_a_delay(effect.name)) << found.because;
+    EXPECT_TRUE(std::ranges::all_of(effect.confusable_with, is_a_delay)) << found.because;
+    EXPECT_EQ(effect.confusable_with.size(), late.gauge ? 0u : 1u) << found.because;
+    if (late.gauge) {
+      EXPECT_EQ(effect.name == plant::CommandDelay::name, late.command_s > 0.0);
+    }
+    EXPECT_NEAR(effect.parameters[0].value, 0.028, 0.002);
+  }
 }
 
 TEST(Diagnose, NamesNoEffectForADriftThatAllRunsHave) {
