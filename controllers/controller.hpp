@@ -58,6 +58,7 @@ struct ValveLine {
 /// What a controller is told on paper before the run.
 struct Knowledge {
   double contraction_per_count = 0.0;
+  double middle_of_count = 0.5;  ///< counts by which a position is more than its reading, on average
   double tick_s = 0.0;
   double largest_current_mA = 0.0;  ///< top of the DAC's range
   std::vector<double> target;       ///< contraction ratio wanted at each tick; its last value holds after it

@@ -79,7 +79,8 @@ std::int64_t PidLoop::delayed(const Reading& reading) {
 }
 
 double PidLoop::sample(std::int64_t counts, std::int64_t tick, double base_mA) {
-  const double y = (static_cast<double>(counts) + 0.5) * knowledge_.contraction_per_count;
+  const double y =
+      (static_cast<double>(counts) + knowledge_.middle_of_count) * knowledge_.contraction_per_count;
   const double r = knowledge_.target_at(tick);
   const double P_mA = K_mA_ * (terms_.setpoint_weight * r - y);
   if (first_) {

@@ -29,6 +29,7 @@ Weighing::Weighing(WeighingSettings settings, const FrictionModel& friction, con
       braid_(knowledge.model),
       valve_(knowledge.valve),
       contraction_per_count_(knowledge.contraction_per_count),
+      middle_of_count_(knowledge.middle_of_count),
       tick_s_(knowledge.tick_s),
       contractions_(settings.contractions),
       seen_(static_cast<std::size_t>(settings.contractions)) {
@@ -56,7 +57,7 @@ void Weighing::see(std::int64_t tick, std::int64_t counts) {
   one.lowest_counts = std::min(one.lowest_counts, counts);
   one.highest_counts = std::max(one.highest_counts, counts);
   const bool rising_current = 2 * (into + 1) <= ticks_each_;
-  const double e = (static_cast<double>(counts) + 0.5) * contraction_per_count_;
+  const double e = (static_cast<double>(counts) + middle_of_count_) * contraction_per_count_;
   if (!rising_current || counts < one.lowest_counts + counts_to_let_go || e < range_.lowest_ratio ||
       e > range_.highest_ratio)
     return;

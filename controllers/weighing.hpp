@@ -71,7 +71,7 @@ class Weighing {
   CalibratedRange range_;
   ForceModel braid_;
   ValveLine valve_;
-  double contraction_per_count_, tick_s_;
+  double contraction_per_count_, middle_of_count_, tick_s_;
   std::int64_t contractions_, ticks_each_ = 0;
   double speed_mA_per_s_ = 0.0, low_mA_ = 0.0, high_mA_ = 0.0;
   std::vector<Contraction> seen_;

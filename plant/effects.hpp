@@ -179,11 +179,14 @@ class EffectSet {
   // Of memories, the first ones are theirs; what follows is not.
 
   template <class S, std::size_t slots>
-  S pull_N(const Instant<S>& now, const std::array<S, slots>& memory) const {
-    S sum = S(0.0);
+  Pull<S> pull(const Instant<S>& now, const std::array<S, slots>& memory) const {
+    Pull<S> sum{S(0.0), S(0.0)};
     each([&]<class E>(const E& effect, auto on, auto slot) {
-      if constexpr (declares<E>(Hook::pull))
-        sum = select(on, S(sum + effect.pull_N(now, recall(memory, slot))), sum);
+      if constexpr (declares<E>(Hook::pull)) {
+        const S pull_N = effect.pull_N(now, recall(memory, slot));
+        sum.all_N = select(on, S(sum.all_N + pull_N), sum.all_N);
+        if constexpr (ActsOnLoad<E>) sum.on_load_N = select(on, S(sum.on_load_N + pull_N), sum.on_load_N);
+      }
     });
     return sum;
   }

@@ -28,6 +28,24 @@ std::int64_t PulseCounter::count(double x_m) {
   return counts_;
 }
 
+std::int64_t PositionReader::count(double x_m) {
+  if (sensor_.absent()) return counter_.count(x_m);
+  double steps = x_m / step_m_;
+  if (sensor_.lowest) steps = std::max(steps, *sensor_.lowest / sensor_.resolution);
+  if (sensor_.highest) steps = std::min(steps, *sensor_.highest / sensor_.resolution);
+  return std::llround(steps);
+}
+
+double middle_of_count(const Sensor& sensor) {
+  return sensor.absent() ? 0.5 : 0.0;
+}
+
+double cell_reading_N(const LoadCell& cell, double force_N, double noise_N) {
+  double read_N = std::max(force_N, 0.0) + noise_N;
+  if (cell.highest_N) read_N = std::min(read_N, *cell.highest_N);
+  return cell.resolution_N > 0.0 ? std::round(read_N / cell.resolution_N) * cell.resolution_N : read_N;
+}
+
 double gauge_reading_Pa(const Gauge& gauge, double pressure_Pa) {
   if (gauge.resolution_Pa <= 0.0) return pressure_Pa;
   return std::round(pressure_Pa / gauge.resolution_Pa) * gauge.resolution_Pa;

@@ -39,6 +39,13 @@ double dac_output_mA(const Dac& dac, double wanted_mA);
 /// Rise of the load for one encoder count [m].
 double count_height_m(const Encoder& encoder, const Joint& joint);
 
+/// Rise of the load for one count of what reads the position [m]: of the encoder, or a step of the sensor.
+template <class P>
+double count_height_m(const RigOf<P>& rig) {
+  return rig.sensor.absent() ? count_height_m(rig.encoder, rig.joint)
+                             : rig.sensor.resolution * rig.sensor.rise_m(rig.joint.wheel_radius_m);
+}
+
 /// A pulse counter on the encoder.
 ///
 /// `ideal` counts floor(x / q). `crosswise` is the thesis's wiring: channel A drives the first counter and
@@ -60,6 +67,28 @@ class PulseCounter {
   double last_m_ = 0.0;
   std::int64_t counts_ = 0;
 };
+
+/// What reads the joint's position, in counts from rest: the encoder's pulses, or whole steps of a sensor.
+class PositionReader {
+ public:
+  explicit PositionReader(const Rig& rig)
+      : sensor_(rig.sensor), step_m_(count_height_m(rig)), counter_(rig.encoder.wiring, step_m_) {}
+
+  /// At a rise x [m], reached from the last one without turning on the way.
+  std::int64_t count(double x_m);
+
+ private:
+  Sensor sensor_;
+  double step_m_;
+  PulseCounter counter_;
+};
+
+/// By how much more than its count a reading stands for, in counts: a counter rounds down, a sensor to the
+/// nearest.
+double middle_of_count(const Sensor& sensor);
+
+/// What the load cell shows of a force [N] with its noise in it. A cord that would push is slack.
+double cell_reading_N(const LoadCell& cell, double force_N, double noise_N);
 
 /// What the gauge shows at a gauge pressure [Pa].
 double gauge_reading_Pa(const Gauge& gauge, double pressure_Pa);

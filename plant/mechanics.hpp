@@ -32,13 +32,14 @@ struct HeldLength {
 };
 
 /// What two muscles turn (T 2.7): a link on the wheel's axis. Both cords run on the same wheel.
-struct Link {
-  double contraction_ratio = 0.10, opposite_contraction_ratio = 0.10;  ///< e10, e20: mounted so, at theta = 0
-  double mass_kg = 2.0;
-  double length_m = 0.25;               ///< from the axis to the centre of mass
-  double inertia_kg_m2 = 0.14;          ///< about the axis
-  double hangs_at_rad = 0.0;            ///< theta at which it hangs straight down
-  double damping_N_m_s_per_rad = 0.05;  ///< of the bearings
+template <class P>
+struct LinkOf {
+  P contraction_ratio = 0.10, opposite_contraction_ratio = 0.10;  ///< e10, e20: mounted so, at theta = 0
+  P mass_kg = 2.0;
+  P length_m = 0.25;               ///< from the axis to the centre of mass
+  P inertia_kg_m2 = 0.14;          ///< about the axis
+  P hangs_at_rad = 0.0;            ///< theta at which it hangs straight down
+  P damping_N_m_s_per_rad = 0.05;  ///< of the bearings
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
@@ -60,6 +61,7 @@ struct Link {
       report("link_inertia", "about the axis it is at least link_mass link_length^2 (parallel axes)");
   }
 };
+using Link = LinkOf<double>;
 
 /// What the second muscle's side of a pair has of its own.
 struct OppositeSide {

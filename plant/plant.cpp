@@ -1,28 +1,9 @@
 // What of the plant needs no dual numbers: constants, start, domain, stick and slip, balances for audits.
 #include <algorithm>
-#include <stdexcept>
 
 #include <plant/plant.hpp>
 
 namespace mckibben::plant {
-
-template <class P>
-PlantOf<P>::PlantOf(const RigOf<P>& rig, const RigOf<P>& opposite, const Link& link)
-    : side_(rig, 0.0),
-      opposite_(std::in_place, opposite, 0.0),
-      link_(link),
-      remembers_(rig.remembers() || opposite.remembers()),
-      polytropic_(rig.effects.warm() || opposite.effects.warm()),
-      radius_m_(rig.joint.wheel_radius_m),
-      opposite_share_(rig.muscle.rest_length_m / opposite.muscle.rest_length_m),
-      mass_kg_((rig.joint.wheel_inertia_kg_m2 + link.inertia_kg_m2) / (radius_m_ * radius_m_)),
-      damping_N_s_per_m_(link.damping_N_m_s_per_rad / (radius_m_ * radius_m_)) {
-  if (rig.friction.memory != opposite.friction.memory)
-    throw std::invalid_argument("both sides of a pair have the same friction memory");
-  if (side_.gas_energy_J_per_kg() != opposite_->gas_energy_J_per_kg() ||
-      rig.effects.gas_exponent() != opposite.effects.gas_exponent())
-    throw std::invalid_argument("both sides of a pair have the same gas");
-}
 
 template <class P>
 State<double> PlantOf<P>::at_rest(const HeldOf<P>& held) const {

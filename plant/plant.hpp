@@ -10,6 +10,7 @@
 #pragma once
 
 #include <optional>
+#include <stdexcept>
 
 #include <plant/mechanics.hpp>
 #include <plant/side.hpp>
@@ -32,13 +33,13 @@ class PlantOf {
   PlantOf(const RigOf<P>& rig, const P& load_kg);
   /// Two rigs' sides on the wheel of the first. Throws std::invalid_argument unless both have the same kind
   /// of friction memory and breathe the same gas.
-  PlantOf(const RigOf<P>& rig, const RigOf<P>& opposite, const Link& link);
+  PlantOf(const RigOf<P>& rig, const RigOf<P>& opposite, const LinkOf<P>& link);
 
   /// Gauge pressure [Pa] the valve is asked for at a current [mA] (T 3.2), clamped to its trimmed range.
   double reference_pressure_Pa(double current_mA) const { return side_.reference_pressure_Pa(current_mA); }
   const SideOf<P>& side() const { return side_; }
   const std::optional<SideOf<P>>& opposite() const { return opposite_; }
-  const Link& link() const { return link_; }
+  const LinkOf<P>& link() const { return link_; }
 
   /// State at the start of a run: at rest, pressures at the references of the first currents.
   State<double> at_rest(const HeldOf<P>& held) const;
@@ -158,7 +159,7 @@ class PlantOf {
 
   SideOf<P> side_;
   std::optional<SideOf<P>> opposite_;
-  Link link_{};
+  LinkOf<P> link_{};
   bool remembers_, polytropic_;  // any effect with a memory; the gas is not isothermal
   P load_kg_ = 0.0, radius_m_, opposite_share_ = 0.0, mass_kg_, damping_N_s_per_m_;
 };
@@ -174,6 +175,24 @@ PlantOf<P>::PlantOf(const RigOf<P>& rig, const P& load_kg)
       mass_kg_(load_kg + rig.joint.load_offset_kg +
                rig.joint.wheel_inertia_kg_m2 / (rig.joint.wheel_radius_m * rig.joint.wheel_radius_m)),
       damping_N_s_per_m_(rig.joint.guide_damping_N_s_per_m) {}
+
+template <class P>
+PlantOf<P>::PlantOf(const RigOf<P>& rig, const RigOf<P>& opposite, const LinkOf<P>& link)
+    : side_(rig, P(0.0)),
+      opposite_(std::in_place, opposite, P(0.0)),
+      link_(link),
+      remembers_(rig.remembers() || opposite.remembers()),
+      polytropic_(rig.effects.warm() || opposite.effects.warm()),
+      radius_m_(rig.joint.wheel_radius_m),
+      opposite_share_(rig.muscle.rest_length_m / opposite.muscle.rest_length_m),
+      mass_kg_((rig.joint.wheel_inertia_kg_m2 + link.inertia_kg_m2) / (radius_m_ * radius_m_)),
+      damping_N_s_per_m_(link.damping_N_m_s_per_rad / (radius_m_ * radius_m_)) {
+  if (rig.friction.memory != opposite.friction.memory)
+    throw std::invalid_argument("both sides of a pair have the same friction memory");
+  if (any(side_.gas_energy_J_per_kg() != opposite_->gas_energy_J_per_kg()) ||
+      any(rig.effects.gas_exponent() != opposite.effects.gas_exponent()))
+    throw std::invalid_argument("both sides of a pair have the same gas");
+}
 
 template <class P>
 template <int sides, class S>

@@ -15,6 +15,7 @@
 
 #include <plant/command.hpp>
 #include <plant/effects.hpp>
+#include <plant/sensors.hpp>
 
 namespace mckibben::plant {
 
@@ -181,6 +182,7 @@ struct ValveOf {
   P natural_frequency_Hz = 0.0, damping = 0.0;
   P venting_conductance_m3_per_s_Pa = 0.0;
   P dead_band_Pa = 0.0;
+  P repeatability_Pa = 0.0;
 
   bool is_regulator() const { return kind == ValveKind::regulator; }
   /// Whether its pressure swings: then it remembers how fast it was changing.
@@ -232,6 +234,9 @@ struct ValveOf {
           "of a regulator: sonic conductance where it vents; 0: that of filling, C_v");
     visit("dead_band", self.dead_band_Pa, "Pa", 0.0, 2e5,
           "of a regulator: pressure errors, either way, about which it does nothing");
+    visit("repeatability", self.repeatability_Pa, "Pa", 0.0, 1e5,
+          "of a regulator: the ± (one deviation) within which the same command gives the same pressure; "
+          "counted in a diagnosis's noise floor, not simulated");
   }
   /// A command in mA is a current.
   void resolve() {
@@ -378,6 +383,8 @@ struct RigOf {
   Dac dac;
   Encoder encoder;
   Gauge gauge;
+  Sensor sensor;
+  LoadCell load_cell;
   EffectsOf<P> effects;
   double tick_s = 0.012;
   double settling_time_s = 2.004;
@@ -393,6 +400,8 @@ struct RigOf {
     visit("dac", self.dac, "current output");
     visit("encoder", self.encoder, "position input");
     visit("gauge", self.gauge, "optional pressure gauge");
+    visit("sensor", self.sensor, "what reads the position, if not the encoder");
+    visit("load_cell", self.load_cell, "optional load cell on the cord");
     visit("effects", self.effects, "what the nominal rig leaves out; each absent unless given a size");
     visit("tick", self.tick_s, "s", 1e-4, 1.0, "time between two readings; the current is held in between");
     visit("settling_time", self.settling_time_s, "s", 0.0, 1000.0,

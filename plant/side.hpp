@@ -38,11 +38,14 @@ struct SideMoment {
   S friction_level_N, friction_force_N;  // G, F_f
   S bristle_rate_m_per_s;                // dz/dt
   S leak_flow, effects_pull_N;           // what effects take and add
+  S pull_on_load_N;                      // of that, beyond the cord
   S heating_Pa_per_s;                    // what the temperature of the muscle's gas adds to dP_m/dt
   SideMemory<S> memory_rates;
 
   /// T, what the cord carries.
-  S cord_force_N() const { return braid_force_N + stop_force_N + effects_pull_N + friction_force_N; }
+  S cord_force_N() const {
+    return braid_force_N + stop_force_N + effects_pull_N + friction_force_N - pull_on_load_N;
+  }
 };
 
 template <class P>
@@ -274,11 +277,13 @@ void SideOf<P>::forces(const Stroke<S>& stroke, const SideState<S>& state, const
       [] { return S(0.0); });
   const S surface = braid_.contact_surface_m2(e);
   now.friction_level_N = friction_level_N(friction, e, surface, pressure_Pa, held.current_speed_mA_per_s);
-  now.effects_pull_N = S(0.0);
+  now.effects_pull_N = now.pull_on_load_N = S(0.0);
   if (effects_) {
     const auto known = instant(stroke, state, now);
     now.braid_force_N = braid_.force_N(e, pressure_Pa, rig_.effects.end_correction_shift(known));
-    now.effects_pull_N = rig_.effects.pull_N(known, memory);
+    const Pull<S> pull = rig_.effects.pull(known, memory);
+    now.effects_pull_N = pull.all_N;
+    now.pull_on_load_N = pull.on_load_N;
     const S threads_N = now.friction_level_N - friction.floor_N;  // the floor is not friction of threads
     now.friction_level_N = threads_N * rig_.effects.friction_factor(known, memory) + friction.floor_N;
   }

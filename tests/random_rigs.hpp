@@ -42,6 +42,10 @@ struct RulesKept {
     if constexpr (requires { T::fields(value, *this); }) T::fields(value, *this);
     check(value);
   }
+  template <class T, class... Rest>
+  void required(std::string_view key, T& value, Rest&&... rest) {
+    (*this)(key, value, rest...);
+  }
 };
 inline bool rules_kept(const Rig& rig) {
   RulesKept rules;
@@ -90,6 +94,7 @@ struct Shuffle {
     } else if constexpr (AnEffect<T>) {
       if (chance.pick(one_in) == 0) shuffle_effect(value);
     } else if constexpr (std::is_same_v<T, ValveKind>) {  // of a regulator more must be said
+    } else if constexpr (std::is_same_v<T, Sensor> || std::is_same_v<T, LoadCell>) {  // no law knows them
     } else if constexpr (std::is_enum_v<T>) {
       const auto all = names(T{});
       value = all[static_cast<std::size_t>(chance.pick(static_cast<int>(all.size())))].first;

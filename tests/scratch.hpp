@@ -15,13 +15,14 @@ class Scratch {
   Scratch() {
     std::string name = (std::filesystem::temp_directory_path() / "mckibben-test.XXXXXX").string();
     if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no scratch folder");
-    path_ = name;
+    path_ = std::filesystem::path(name) / "here";  // chance's own name may look like a load: 3g
+    std::filesystem::create_directory(path_);
   }
   Scratch(const Scratch&) = delete;
   Scratch& operator=(const Scratch&) = delete;
   ~Scratch() {
     std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
+    std::filesystem::remove_all(path_.parent_path(), ignored);
   }
   operator const std::filesystem::path&() const { return path_; }
   std::filesystem::path operator/(const std::string& name) const { return path_ / name; }

@@ -8,7 +8,9 @@
 //   absent()                               true where the rig is the nominal one, bit for bit
 //   variants                               how a diagnosis looks for it, one entry for each law variant
 // and those of these functions that it needs (S is double, a dual number, or lanes):
-//   S pull_N(now, memory)                  force on the load, positive upwards
+//   S pull_N(now, memory)                  force on the load, positive upwards; `acts_on_load = true` where
+//   it
+//                                          acts there and not on the muscle
 //   S friction_factor(now, memory)         multiplies the friction level G
 //   S end_correction_shift(now)            added to k, in the braid force only
 //   S pressing_shift_Pa(now)               added to P_m, in what presses on braid and threads
@@ -60,6 +62,18 @@ struct Inflow {
   S supply_kg_per_s;                  ///< drawn from the supply
   S hose_kg_per_s, leak_kg_per_s;     ///< into the muscle, and out of it besides
   S volume_m3, volume_rate_m3_per_s;  ///< V, dV/dt
+};
+
+/// What effects pull with [N].
+template <class S>
+struct Pull {
+  S all_N, on_load_N;  ///< together; of that at the load itself, beyond the cord
+};
+
+/// Pulls at the load or its guide, not at the muscle: the cord carries none of it.
+template <class E>
+concept ActsOnLoad = requires {
+  requires E::acts_on_load;
 };
 
 /// What moves only when pushed: stays where it is until its input is more than half a width away.

@@ -16,6 +16,7 @@ struct GuideFrictionOf {
                                         "Coulomb's law, smoothed by tanh (Andersson, Soderberg, "
                                         "Bjorklund, Tribology Int. 40 (2007) 580-587)";
   static constexpr std::array hooks{Hook::pull};
+  static constexpr bool acts_on_load = true;
   static constexpr std::array variants{
       Variant{"", "coefficient", 0.0, 0.02, Sign::positive, 2e-5, "slip_speed", 5e-4, 1e-3, 2e-3}};
 

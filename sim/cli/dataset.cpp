@@ -20,6 +20,7 @@
 #include <sim/output/table.hpp>
 #include <sim/report/report.hpp>
 #include <sim/run/batch.hpp>
+#include <sim/run/judged.hpp>
 
 namespace mckibben::cli {
 namespace {
@@ -82,7 +83,7 @@ int make_dataset(const DatasetOptions& options) {
   }
   const std::vector<run::EndedRun> runs = folder.runs();
   folder.publish(runs, [&](const std::filesystem::path& data) {
-    return report::report_html(campaign, runs, input::read_dataset(data));
+    return report::report_html(campaign, runs, run::with_rows(input::read_dataset(data)));
   });
   print(options, {output::json_of(campaign, runs), output::table_of(campaign, runs)});
   fmt::print(stderr, "data set in {}, truth in {}\n", folder.data().string(), folder.truth().string());

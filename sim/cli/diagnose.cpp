@@ -87,7 +87,7 @@ Found find(const domain::Dataset& data, const DiagnoseOptions& options, const Ho
 int diagnose_dataset(const DiagnoseOptions& options) {
   domain::Dataset data = input::read_dataset(options.dataset);
   if (!options.rig.empty()) data.rig = input::read_rig(options.rig, data.inputs);
-  input::require_one_muscle(data, "diagnose");
+  input::require_judged(data, "diagnose");
   data = run::with_rows(std::move(data));
   const std::string name = output::name_of(data);
   check_plan(options.plan);

@@ -59,14 +59,14 @@ void write_table(Job& job, output::Package& package, const std::string& stem, co
 void write_tables(Job& job, const domain::Scenario& scenario, const run::Comparison& comparison,
                   const std::vector<std::string>& formats) {
   const double per_count = run::contraction_per_count(scenario.rig);
-  const bool gauge = scenario.rig.gauge.fitted;
-  output::Package package{scenario.name, output::recorded_columns(true, gauge), {}};
+  const output::Besides besides = output::besides_of(scenario.rig);
+  output::Package package{scenario.name, output::recorded_columns(true, besides), {}};
   for (const auto& run : comparison.runs) {
     if (run.recording.samples.empty()) continue;
     const std::string title = fmt::format("{} kg, {}", domain::write_number(run.load_kg), run.controller);
     write_table(job, package, output::file_stem(run), title,
                 {scenario.name + ": " + title,
-                 output::columns_of(run.recording, per_count, comparison.target, gauge),
+                 output::columns_of(run.recording, per_count, comparison.target, besides),
                  {{"source", output::program_name()},
                   {"load_kg", run.load_kg},
                   {"controller", run.controller},
@@ -79,15 +79,15 @@ void write_tables(Job& job, const domain::Scenario& scenario, const run::Compari
 void write_tables(Job& job, const std::string& name, const domain::Dataset& dataset,
                   const std::vector<run::ReplayedRun>& runs, const std::vector<std::string>& formats) {
   const double per_count = run::contraction_per_count(dataset.rig);
-  const bool gauge = dataset.rig.gauge.fitted;
-  output::Package package{"Replay of " + name, output::recorded_columns(false, gauge), {}};
+  const output::Besides besides = output::besides_of(dataset.rig);
+  output::Package package{"Replay of " + name, output::recorded_columns(false, besides), {}};
   for (const auto& run : runs) {
     if (run.recording.samples.empty()) continue;
     const std::string title = fmt::format("{}, {} kg", run.id, domain::write_number(run.load_kg));
     write_table(
         job, package, run.id, title,
         {package.title + ": " + title,
-         output::columns_of(run.recording, per_count, {}, gauge),
+         output::columns_of(run.recording, per_count, {}, besides),
          {{"source", output::program_name()}, {"load_kg", run.load_kg}, {"controller", "recorded current"}}},
         formats);
   }

@@ -12,8 +12,7 @@ std::optional<Model> with_slight_effects(const Case& c, Model model) {
   bool has_effects = false;
   for (const Candidate& effect : catalogue()) {
     if (!effect.carried(c.nominal)) continue;
-    *find(model.rig, effect.amplitude).value =
-        effect.absent + thresholds.parameter.slight_size * effect.typical;
+    effect.put(model.rig, effect.absent + thresholds.parameter.slight_size * effect.typical);
     has_effects = true;
   }
   if (!has_effects) return std::nullopt;

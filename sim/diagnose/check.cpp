@@ -8,9 +8,12 @@
 #include <sim/diagnose/check.hpp>
 #include <sim/diagnose/labels.hpp>
 #include <sim/diagnose/odd_readings.hpp>
+#include <sim/diagnose/other_units.hpp>
 #include <sim/diagnose/repair.hpp>
+#include <sim/diagnose/story.hpp>
 #include <sim/diagnose/thresholds.hpp>
 #include <sim/run/batch.hpp>
+#include <sim/run/judged.hpp>
 #include <sim/run/sanity.hpp>
 #include <sim/run/sanity_thresholds.hpp>
 #include <sim/run/series.hpp>
@@ -30,7 +33,8 @@ class DatasetChecker {
       : data_(data),
         threads_(threads),
         bench_(data.force_is_judged()),
-        count_(run::contraction_per_count(data.rig)),
+        pair_(data.rig.pair() != nullptr),
+        count_(run::reading_grain(data.rig)),
         model_(data.runs.size()) {
     for (const domain::Run& run : data.runs) {
       checked_.masked.emplace_back(run.judged().size(), false);
@@ -47,17 +51,17 @@ class DatasetChecker {
   }
 
   Checked operator()() {
-    if (!bench_) insane();
+    if (hangs()) insane();
+    refuse_other_units(data_, model_, checked_.masked);
     for (std::size_t i = 0; i < data_.runs.size(); ++i) {
-      gauge(i);
+      for (const domain::Beside which : domain::gauges) gauge(i, which);
       if (bench_)
         pulls(i);
       else if (moves(i))
         readings(i);
     }
-    if (bench_) forces();
     copies();
-    if (!bench_) labels();
+    if (hangs()) labels();
     enough();
     for (std::size_t i = 0; i < left_out_.size(); ++i)
       if (left_out_[i]) checked_.left_out.push_back(i);
@@ -65,6 +69,11 @@ class DatasetChecker {
   }
 
  private:
+  /// A load, so that its label and its height can be looked at.
+  bool hangs() const { return !bench_ && !pair_; }
+  /// The judged reading's column, and what shows it.
+  const char* reading() const { return pair_ ? "angle_rad" : "contraction_ratio"; }
+  const char* moving() const { return pair_ ? "joint" : "load"; }
   void warn(std::size_t run, std::string_view what) {
     checked_.warnings.push_back(fmt::format("run {}: {}", data_.runs[run].id, what));
   }
@@ -86,6 +95,7 @@ class DatasetChecker {
     checked_.faulty.push_back(std::move(faulty));
     left_out_[fault.run] = true;
   }
+  std::string amount(double value) const { return amount_of(data_.judged(), value, data_.rig, 3); }
   double time_s(std::size_t row) const {
     return data_.rows_begin_s() + static_cast<double>(row) * data_.row_s();
   }
@@ -122,17 +132,22 @@ class DatasetChecker {
     }
   }
 
-  void gauge(std::size_t i) {
-    const auto& shown = data_.runs[i].muscle_pressure_Pa;
-    if (!shown) return;
+  void gauge(std::size_t i, domain::Beside which) {
+    const auto* const shown = data_.runs[i].beside(which);
+    if (shown == nullptr) return;
+    const auto& model = model_[i].beside(which);
+    const char* const name = !pair_                                     ? "muscle_pressure_bar"
+                             : which == domain::Beside::muscle_pressure ? "muscle_pressure_1_bar"
+                                                                        : "muscle_pressure_2_bar";
     const bool constant = range(*shown) == 0.0;
-    const bool should_move = range(model_[i].pressure_Pa) > of_check.gauge_bar * plant::Pa_per_bar;
-    if (!constant && (!should_move || Line(*shown, model_[i].pressure_Pa).slope > of_check.gauge_slope)) {
-      mask_spikes(i, "muscle_pressure_bar", *shown, model_[i].pressure_Pa, of_check.gauge_step_Pa);
+    const bool should_move = range(model) > of_check.gauge_bar * plant::Pa_per_bar;
+    if (!constant && (!should_move || Line(*shown, model).slope > of_check.gauge_slope)) {
+      mask_spikes(i, name, *shown, model, of_check.gauge_step_Pa);
       return;
     }
-    checked_.dead_gauges.push_back(i);
-    warn(i, fmt::format("muscle_pressure_bar {}: the gauge is ignored",
+    (which == domain::Beside::muscle_pressure ? checked_.dead_gauges : checked_.dead_opposite_gauges)
+        .push_back(i);
+    warn(i, fmt::format("{} {}: the gauge is ignored", name,
                         constant ? fmt::format("is {:.4g} throughout", shown->front() / plant::Pa_per_bar)
                                  : "does not follow the current"));
   }
@@ -162,79 +177,87 @@ class DatasetChecker {
       leave_out(i, "the cord hangs through all the time: no force was read");
   }
 
-  // Forces of another sign, or in kN, are of no muscle like this one.
-  void forces() {
-    Series measured, model;
-    for (std::size_t i = 0; i < data_.runs.size(); ++i)
-      for (std::size_t k = 0; k < checked_.masked[i].size(); ++k) {
-        if (checked_.masked[i][k]) continue;
-        measured.push_back(data_.runs[i].force_N[k]);
-        model.push_back(model_[i].judged[k]);
-      }
-    if (measured.size() < 2 || range(model) == 0.0) return;
-    const double slope = Line(measured, model).slope;
-    const auto refuse = [&](const char* what) {
-      throw domain::UnfitData(
-          data_,
-          fmt::format("force: the readings go {:.2g} times as far as this rig's forces: {}", slope, what));
-    };
-    if (slope < 0.0) refuse("where it pulls more they show less; is it their sign (factor: -1)?");
-    if (std::abs(std::log(slope * 1e3)) < of_check.like_kilo) refuse("are they in kN?");
-  }
-
   bool moves(std::size_t i) {
     const domain::Run& run = data_.runs[i];
-    const double largest_mA = run.current_mA.empty() ? std::numeric_limits<double>::infinity()
-                                                     : *std::ranges::max_element(run.current_mA);
+    const double largest_mA = run.current_mA.empty() || pair_ ? std::numeric_limits<double>::infinity()
+                                                              : *std::ranges::max_element(run.current_mA);
     const double dead_mA =
         data_.rig.valve.zero_current_mA +
         of_check.dead_current * (data_.rig.valve.span_current_mA - data_.rig.valve.zero_current_mA);
-    const double should_m = range(model_[i].judged) * data_.rig.muscle.rest_length_m;
+    const double should = range(model_[i].judged);
     if (largest_mA <= dead_mA)
       leave_out(i, fmt::format("the current stays at or below {:.4g} mA and moves nothing", largest_mA));
-    else if (range(run.contraction_ratio) > of_check.moving_counts * count_)
+    else if (range(run.judged()) > of_check.moving_counts * count_)
       return true;
-    else if (range(model_[i].judged) > of_check.should_move_counts * count_)
-      leave_out(i, fmt::format("the reading never changes, though the load should move by {:.3g} mm (is the "
-                               "encoder connected, the load held?)",
-                               1e3 * should_m));
+    else if (should > of_check.should_move_counts * count_)
+      leave_out(i, fmt::format("the reading never changes, though the {0} should move by {1} (is the "
+                               "{2} connected, the {0} held?)",
+                               moving(), amount(should), pair_ ? "sensor" : "encoder"));
     else
       leave_out(i, "nothing moves");
     return false;
   }
 
   void readings(std::size_t i) {
-    const Series& values = data_.runs[i].contraction_ratio;
+    const Series& values = data_.runs[i].judged();
     const Series& model = model_[i].judged;
     std::vector<bool>& masked = checked_.masked[i];
     const Series sharpest = sharpest_nearby(model, data_.row_s());
-    mask_spikes(i, "contraction_ratio", values, model, count_);
+    range_ends(i);
+    mask_spikes(i, reading(), values, model, count_);
     for (const Still& still : stills(values, model, count_, data_.row_s())) stands_still(i, still);
     if (left_out_[i]) return;
     const auto lost = std::count(masked.begin(), masked.end(), true);
     if (const auto row = lost_counts(values, sharpest, masked, count_))
-      leave_out(i,
-                fmt::format("contraction_ratio jumps by {:.3g} at {:.3f} s and stays there: counts were lost",
-                            values[*row] - values[*row - 1], time_s(*row)));
+      leave_out(i, fmt::format("{} jumps by {:.3g} at {:.3f} s and stays there: counts were lost", reading(),
+                               values[*row] - values[*row - 1], time_s(*row)));
     else if (static_cast<double>(lost) > of_check.most_masked * static_cast<double>(masked.size()))
       leave_out(i, "too little of it is left");
+  }
+
+  // What a sensor reads at the end of its range is no position.
+  void range_ends(std::size_t i) {
+    const plant::Sensor& sensor = data_.rig.sensor;
+    const Series& values = data_.runs[i].judged();
+    const double step = run::reading_per_count(data_.rig);
+    std::size_t ended = 0;
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      const double own = values[k] / step * sensor.resolution, half = 0.5 * sensor.resolution;
+      if (!(sensor.lowest && own <= *sensor.lowest + half) &&
+          !(sensor.highest && own >= *sensor.highest - half))
+        continue;
+      checked_.masked[i][k] = true;
+      ++ended;
+    }
+    if (ended == 0) return;
+    const auto what = fmt::format("{} is at the end of the sensor's range in {} row{}; not used", reading(),
+                                  ended, ended == 1 ? "" : "s");
+    warn(i, what);
+    find(i, "saturated", "masked", what);
   }
 
   void stands_still(std::size_t i, const Still& still) {
     const double from_s = time_s(still.begin - 1), to_s = time_s(still.end - 1);
     if (still.why == Still::Why::stuck) {
       if (!left_out_[i])
-        leave_out(i, fmt::format("the load stands still from {:.3f} s to {:.3f} s though the current should "
-                                 "move it: the valve was stuck, or something held the load",
-                                 from_s, to_s));
+        leave_out(i, fmt::format("the {0} stands still from {1:.3f} s to {2:.3f} s though the {3} should "
+                                 "move it: {4}something held the {0}",
+                                 moving(), from_s, to_s, data_.pressure_is_given() ? "pressure" : "current",
+                                 data_.pressure_is_given() ? "" : "the valve was stuck, or "));
       return;
     }
     mask(i, still);
     const auto what =
-        fmt::format("contraction_ratio is {} from {:.3f} s to {:.3f} s though the load should move; not used",
-                    still.why == Still::Why::frozen ? "frozen" : "saturated", from_s, to_s);
+        fmt::format("{} is {} from {:.3f} s to {:.3f} s though the {} should move; not used", reading(),
+                    still.why == Still::Why::frozen ? "frozen" : "saturated", from_s, to_s, moving());
     warn(i, what);
     find(i, still.why == Still::Why::frozen ? "frozen" : "saturated", "masked", what);
+  }
+
+  static bool same_inputs(const domain::Measurement& one, const domain::Measurement& other) {
+    return std::ranges::equal(one.sides, other.sides, [](const auto& a, const auto& b) {
+      return a.current_mA == b.current_mA && a.muscle_pressure_Pa == b.muscle_pressure_Pa;
+    });
   }
 
   // The same file twice says nothing new, and would stand on both sides of the split.
@@ -242,7 +265,8 @@ class DatasetChecker {
     for (std::size_t i = 0; i < data_.runs.size(); ++i) {
       const auto same = [&](const domain::Run& run) {
         return run.judged() == data_.runs[i].judged() && run.current_mA == data_.runs[i].current_mA &&
-               (!bench_ || run.measured->contraction_ratio == data_.runs[i].measured->contraction_ratio);
+               (!bench_ || run.measured->contraction_ratio == data_.runs[i].measured->contraction_ratio) &&
+               (!pair_ || same_inputs(*run.measured, *data_.runs[i].measured));
       };
       const auto last = data_.runs.begin() + static_cast<std::ptrdiff_t>(i);
       const auto first = std::find_if(data_.runs.begin(), last, same);
@@ -287,11 +311,13 @@ class DatasetChecker {
           "{} usable run{}: too few to choose on some and judge on others; at least four runs would help, "
           "with {}.",
           runs.size(), runs.size() == 1 ? "" : "s",
-          bench_ ? "each its own length" : "two loads and two kinds of current");
+          bench_  ? "each its own length"
+          : pair_ ? "each another course of the two pressures"
+                  : "two loads and two kinds of current");
       return;
     }
     const double first_kg = data_.runs[runs.front()].load_kg;
-    if (!bench_ && std::all_of(runs.begin(), runs.end(), [&](std::size_t i) {
+    if (hangs() && std::all_of(runs.begin(), runs.end(), [&](std::size_t i) {
           return std::abs(data_.runs[i].load_kg - first_kg) < of_check.same_load * first_kg;
         }))
       checked_.warnings.push_back(
@@ -303,6 +329,7 @@ class DatasetChecker {
   const domain::Dataset& data_;
   unsigned threads_;
   bool bench_;  ///< lengths are given, and forces judged
+  bool pair_;   ///< two muscles turn a joint, and its angle is judged
   double count_;
   std::vector<Readings> model_;
   std::vector<bool> left_out_;

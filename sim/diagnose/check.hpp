@@ -16,6 +16,7 @@ struct Checked {
   std::vector<std::vector<bool>> masked;     ///< [run][row]: readings that are not the load's
   Runs left_out;                             ///< ascending
   Runs dead_gauges;                          ///< runs whose muscle pressure says nothing: ignore it
+  Runs dead_opposite_gauges{};               ///< the same of muscle 2's
   std::vector<std::string> warnings;         ///< each names its run
   std::vector<FaultyRun> faulty{};           ///< of runs left out or mended, for the verdict's sentence
   std::optional<std::string> cannot_tell{};  ///< why no answer is possible, and what would help
@@ -28,8 +29,8 @@ struct Checked {
 ///
 /// Labels of loads that contradict the other runs: see labels.hpp.
 ///
-/// Throws domain::UnfitData where a column is in another unit than it says; engine::NumericalFailure;
-/// run::Interrupted.
+/// Throws domain::UnfitData where a column is in another unit, or has another sign, than it says;
+/// engine::NumericalFailure; run::Interrupted.
 Checked check(const domain::Dataset& data, unsigned threads);
 
 }  // namespace mckibben::diagnose

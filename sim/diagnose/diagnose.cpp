@@ -27,8 +27,19 @@
 namespace mckibben::diagnose {
 namespace {
 
-domain::Dataset without_gauges(domain::Dataset data, const Runs& dead) {
+domain::Dataset without_gauges(domain::Dataset data, const Runs& dead, const Runs& dead_opposite) {
   for (const std::size_t run : dead) data.runs[run].muscle_pressure_Pa.reset();
+  for (const std::size_t run : dead_opposite) data.runs[run].opposite_pressure_Pa.reset();
+  return data;
+}
+
+/// With what is judged alone.
+domain::Dataset without_besides(domain::Dataset data) {
+  for (domain::Run& run : data.runs) {
+    run.muscle_pressure_Pa.reset();
+    run.opposite_pressure_Pa.reset();
+    if (run.kind_of_judged() != Judged::force) run.force_N.clear();
+  }
   return data;
 }
 
@@ -52,7 +63,7 @@ class Workflow {
         step_(step),
         search_(search),
         checked_(checked),
-        data_(without_gauges(data, checked_.dead_gauges)),
+        data_(without_gauges(data, checked_.dead_gauges, checked_.dead_opposite_gauges)),
         usable_(all_but(checked_.left_out, data.runs.size())),
         experiment_(data_, checked_.masked, settings.threads, usable_),
         nominal_(data.rig),
@@ -60,8 +71,8 @@ class Workflow {
                 learn(what);
               }} {}
 
-  Judged judged() const { return data_.force_is_judged() ? Judged::force : Judged::contraction; }
-  bool gauged() const { return experiment_.floor().pressure_Pa > 0.0; }
+  Judged judged() const { return data_.judged(); }
+  bool reads_more() const { return experiment_.floor().any_beside(); }
 
   /// Faults of the recording that stand in the way; none if `operator()` has a result. `look`: for such.
   const std::vector<Fault>& faults() const { return faults_; }
@@ -120,12 +131,13 @@ class Workflow {
       warn(
           fmt::format("equal runs differ by {:.2g} {} (rms over sqrt 2), more than a count "
                       "and its jitter explain: this is taken for the noise floor",
-                      floor.repeats, judged() == Judged::force ? "N" : "in contraction ratio"));
+                      floor.repeats, unit_in_words(judged())));
     else if (floor.noisy)
       warn(
-          fmt::format("contraction_ratio scatters by {:.2g} from tick to tick (rms), far more than counts "
+          fmt::format("{} scatters by {:.2g} from tick to tick (rms), far more than counts "
                       "do: this is taken for the noise floor",
-                      floor.jitter));
+                      judged() == Judged::angle ? "angle_rad" : "contraction_ratio", floor.jitter));
+    for (const std::string& what : sheets_in_words(data_, floor)) warn(what);
     for (const std::string& what : rows_in_words(data_, floor)) warn(what);
     if (carries(nominal_, plant::ResidualForce::name))
       warn("the rig's residual_law is kept as it is: if it is wrong, take it out");
@@ -175,14 +187,14 @@ class Workflow {
   void name() {
     naming_ = name_effects(case_, nominal_fit_, recalibrated_, reference(), step_, search_);
     evidence_.invisible = naming_.invisible.size();
-    evidence_.catalogue = catalogue(data_.pressure_is_given()).size();
+    evidence_.catalogue = catalogue(data_).size();
     evidence_.names = naming_.effects.size();
     if (naming_.effects.empty()) return;
     const Eigen::VectorXd& named = naming_.best.held_out;
     evidence_.named_left = excess(named);
     evidence_.named_share = compare(experiment_, reference(), named, case_.split.held_out).share;
     // A gauge that misleads may be met by an effect that takes the motion further away.
-    evidence_.gauge_misleads = gauged() && rmse(named) >= rmse(reference());
+    evidence_.gauge_misleads = reads_more() && rmse(named) >= rmse(reference());
     if (evidence_.named()) learn_gap("with what was taken", named);
   }
 
@@ -232,7 +244,8 @@ class Workflow {
   void hand_over(const Decision& decision) {
     result_.verdict = decision.verdict;
     if (decision.verdict == Verdict::missing_effect) result_.effects = naming_.effects;
-    for (const Remark remark : decision.remarks) warn(remark_in_words(remark, naming_, evidence_.left()));
+    for (const Remark remark : decision.remarks)
+      warn(remark_in_words(remark, naming_, evidence_.left(), besides_in_words(data_)));
     result_.unexplained = far_runs_in_words(decision.unexplained);
     if (result_.effects.empty()) disown(naming_.ranking);
     result_.ranking = naming_.ranking;
@@ -257,7 +270,7 @@ class Workflow {
     const auto bounds =
         intervals(experiment_, whole, failed ? case_.split.training : usable_, chosen_inflation_);
     tell_parameters(result_, whole.model, bounds, recalibrated_.fitted.model.rig);
-    static_cast<plant::Rig&>(result_.corrected) = whole.model.rig;
+    result_.corrected = whole.model.rig;
     for (std::size_t j = 0; j < bounds.size(); ++j)  // as well as these runs tell it, where the file told it
       if (const auto stated = result_.corrected.spreads.find(whole.model.free[j].path);
           stated != result_.corrected.spreads.end())
@@ -265,7 +278,7 @@ class Workflow {
     for (const Moved& moved : result_.recalibrated)
       if (std::abs(moved.deviations) >
               thresholds.parameter.at_the_edge * thresholds.parameter.most_deviations &&
-          !moved.fitted.name.starts_with("effects."))
+          !moved.of_effect())
         warn(
             fmt::format("{} stands at the edge of what its data sheet allows, {:+.0f} deviations: measure "
                         "it, or something that acts like it is missing",
@@ -289,6 +302,15 @@ class Workflow {
     };
     if (above(gap.nominal_rmse) > 0.0)
       gap.closed = std::clamp(1.0 - above(gap.corrected_rmse) / above(gap.nominal_rmse), 0.0, 1.0);
+    for (const domain::Beside which : domain::besides)
+      if (const auto error = experiment_.rmse(which, corrected, case_.split.held_out)) {
+        const auto of = [&](const Contender& contender) {
+          return *experiment_.rmse(which, contender.held_out, case_.split.held_out);
+        };
+        const auto [reading, unit] = told(which, data_.rig.pair() != nullptr);
+        gap.beside.push_back({std::string(reading), std::string(unit), experiment_.floor().beside(which),
+                              of(nominal_fit_), of(recalibrated_), *error});
+      }
     result_.start = look_at_start(experiment_, chosen_rig_, usable_);
     result_.runs = gaps_of_runs(experiment_, case_.split.held_out, usable_,
                                 {nominal_, recalibrated_.fitted.model.rig, chosen_rig_});
@@ -297,7 +319,7 @@ class Workflow {
   // What would separate the effect named first from those it may be, or the next one.
   void plan_next() {
     // Plans are of currents, under loads.
-    if (result_.effects.empty() || data_.pressure_is_given() || data_.force_is_judged()) return;
+    if (result_.effects.empty() || data_.pressure_is_given() || judged() != Judged::contraction) return;
     for (const Doubt& doubt : naming_.doubts) {
       step_("planning");
       search_.part("the measurement that would tell more", [&] {
@@ -325,14 +347,14 @@ class Workflow {
   domain::Dataset data_;
   Runs usable_;
   Experiment experiment_;
-  plant::Rig nominal_;
+  RigFile nominal_;
   Case case_;
   Contender nominal_fit_;  ///< the rig as described, nothing moved
   Contender recalibrated_;
   Naming naming_;
   Law law_;
   Evidence evidence_;
-  plant::Rig chosen_rig_;          ///< fitted to the training runs
+  RigFile chosen_rig_;             ///< fitted to the training runs
   double chosen_inflation_ = 1.0;  ///< of its residuals over long times
   std::vector<Fault> faults_;
   Diagnosis result_;
@@ -346,7 +368,7 @@ std::pair<Diagnosis, bool> mended(domain::Dataset data, const Settings& settings
   for (int repairs = 0;; ++repairs) {
     Workflow workflow(data, checked, settings, step, search);
     Diagnosis result = workflow(repairs < thresholds.fault.most_repairs);
-    if (workflow.faults().empty()) return {std::move(result), workflow.gauged()};
+    if (workflow.faults().empty()) return {std::move(result), workflow.reads_more()};
     mend(data, checked, workflow.faults());
   }
 }
@@ -367,13 +389,9 @@ Diagnosis diagnose(const domain::Dataset& data, const Settings& settings, const 
   }
   // No model meets the gauge and the motion: perhaps one meets the motion alone.
   without = "without the gauge: ";
-  Diagnosis ungauged =
-      mended(without_gauges(data, all_but({}, data.runs.size())), settings, step, search).first;
+  Diagnosis ungauged = mended(without_besides(data), settings, step, search).first;
   if (!better_without_gauge(left, motion_left(ungauged.gap), ungauged.verdict, thresholds)) return result;
-  ungauged.warnings.insert(
-      ungauged.warnings.begin(),
-      "muscle_pressure_bar is ignored: no model meets both it and the motion, but one meets the motion alone "
-      "(has the gauge an offset, another scale, a limit; was it on another muscle?)");
+  ungauged.warnings.insert(ungauged.warnings.begin(), ignored_in_words(data));
   return ungauged;
 }
 

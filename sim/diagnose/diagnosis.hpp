@@ -31,13 +31,7 @@ constexpr auto names(Verdict) {
                     std::pair{cannot_tell, std::string_view{"cannot_tell"}}};
 }
 
-/// The reading that models are judged by: contraction ratio; or force [N] at lengths that a bench gives.
-enum class Judged { contraction, force };
-constexpr auto names(Judged) {
-  using enum Judged;
-  return std::array{std::pair{contraction, std::string_view{"contraction"}},
-                    std::pair{force, std::string_view{"force"}}};
-}
+using domain::Judged;
 
 /// A fitted number with its 95 % interval.
 struct FittedNumber {
@@ -65,9 +59,8 @@ struct Moved {
   double deviations = 0.0;  ///< of its prior
 
   /// Worth telling: further than a data sheet promises, or the size of an effect.
-  bool notable() const {
-    return std::abs(deviations) > thresholds.parameter.notable || fitted.name.starts_with("effects.");
-  }
+  bool notable() const { return std::abs(deviations) > thresholds.parameter.notable || of_effect(); }
+  bool of_effect() const { return fitted.name.find("effects.") != std::string::npos; }
 };
 
 struct LawTerm {
@@ -126,11 +119,19 @@ struct FaultyRun {
   bool common = false;  ///< all runs have it
 };
 
+/// The error of a reading beside the one that is judged, on the runs held out; in its SI unit.
+struct BesideGap {
+  std::string reading;  ///< muscle_pressure, of a pair muscle_pressure_1 and _2; force
+  std::string unit;
+  double noise_floor = 0.0, nominal_rmse = 0.0, recalibrated_rmse = 0.0, corrected_rmse = 0.0;
+};
+
 struct Gap {
   double noise_floor = 0.0, nominal_rmse = 0.0, recalibrated_rmse = 0.0, corrected_rmse = 0.0;  ///< held out
   double closed = 0.0;  ///< share of the mean square above the floor that is gone
   double jitter = 0.0;  ///< of the instrument, as the readings show it; counts in the floor
   Judged judged = Judged::contraction;
+  std::vector<BesideGap> beside{};
 
   /// How many noise floors the corrected rig leaves; 0 if nothing was compared.
   double floors_left() const { return noise_floor > 0.0 ? corrected_rmse / noise_floor : 0.0; }

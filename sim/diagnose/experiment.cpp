@@ -19,9 +19,22 @@ Experiment::Experiment(const domain::Dataset& data, std::vector<std::vector<bool
       threads_(threads),
       floor_(noise_floor(data, masked_, std::move(trusted))) {}
 
+namespace {
+
+/// Calls `visit(kind, values)` for each reading of a run beside the one that is judged.
+template <class Visit>
+void each_beside(const domain::Run& run, const Visit& visit) {
+  for (const domain::Beside which : domain::besides)
+    if (const auto* values = run.beside(which)) visit(which, *values);
+}
+
+}  // namespace
+
 std::size_t Experiment::rows(std::size_t run) const {
   const domain::Run& measured = data_.runs[run];
-  return measured.judged().size() * (measured.muscle_pressure_Pa ? 2 : 1);
+  std::size_t readings = 1;
+  each_beside(measured, [&](auto, const auto&) { ++readings; });
+  return measured.judged().size() * readings;
 }
 
 std::vector<Experiment::Part> Experiment::parts(const Runs& runs) const {
@@ -37,22 +50,26 @@ std::vector<Experiment::Part> Experiment::parts(const Runs& runs) const {
 void Experiment::compare(const Readings& readings, std::size_t run, double* residuals) const {
   const domain::Run& measured = data_.runs[run];
   const std::size_t ticks = measured.judged().size();
+  const auto& masked = masked_[run];
   for (std::size_t k = 0; k < ticks; ++k) {
-    const bool counts = !masked_[run][k];
-    // A counter rounds down: the middle of its count is the best guess.
-    const double read = measured.judged()[k] + 0.5 * floor_.count;
-    residuals[k] = counts ? (read - readings.judged[k]) / floor_.judged : 0.0;
-    if (measured.muscle_pressure_Pa)
-      residuals[ticks + k] =
-          counts ? ((*measured.muscle_pressure_Pa)[k] - readings.pressure_Pa[k]) / floor_.pressure_Pa : 0.0;
+    // A counter rounds down: the middle of its count is the best guess. Other sensors do not.
+    const double read = measured.judged()[k] + floor_.middle;
+    residuals[k] = masked[k] ? 0.0 : (read - readings.judged[k]) / floor_.judged;
   }
+  each_beside(measured, [&](domain::Beside which, const std::vector<double>& read) {
+    residuals += ticks;
+    const auto& predicted = readings.beside(which);
+    for (std::size_t k = 0; k < ticks; ++k)
+      residuals[k] =
+          masked[k] || measured.is_missing(which, k) ? 0.0 : (read[k] - predicted[k]) / floor_.beside(which);
+  });
 }
 
-Eigen::VectorXd Experiment::residuals(const plant::Rig& rig, const Runs& runs) const {
+Eigen::VectorXd Experiment::residuals(const RigFile& rig, const Runs& runs) const {
   return slopes(rig, std::span<const Change>{}, runs).residuals;
 }
 
-Experiment::Slopes Experiment::slopes(const plant::Rig& rig, std::span<const Parameter> parameters,
+Experiment::Slopes Experiment::slopes(const RigFile& rig, std::span<const Parameter> parameters,
                                       const Runs& runs) const {
   std::vector<Change> changes;
   for (const Parameter& p : parameters) {
@@ -60,9 +77,8 @@ Experiment::Slopes Experiment::slopes(const plant::Rig& rig, std::span<const Par
     double change = p.logarithmic ? value * p.step : p.step;
     // Not over the edge of its range, and not over the kink that an effect has where it is absent.
     if (value + change > p.highest || value + change < p.lowest) change = -change;
-    changes.push_back(
-        {[path = p.path, value, change](Hanging& h) { *find(h.rig, path).value = value + change; },
-         p.logarithmic ? change / value : change / p.scale});
+    changes.push_back({[p, value, change](Hanging& h) { p.put(h.rig, value + change); },
+                       p.logarithmic ? change / value : change / p.scale});
   }
   return slopes(rig, changes, runs);
 }
@@ -70,27 +86,31 @@ Experiment::Slopes Experiment::slopes(const plant::Rig& rig, std::span<const Par
 namespace {
 
 /// One reading after the other, in floors, as residuals are.
-Eigen::VectorXd in_floors(const Readings& readings, const NoiseFloor& floor, bool gauge) {
+Eigen::VectorXd in_floors(const Readings& readings, const NoiseFloor& floor, const domain::Run& run) {
   const auto rows = static_cast<Eigen::Index>(readings.judged.size());
-  Eigen::VectorXd list(gauge ? 2 * rows : rows);
-  list.head(rows) = Eigen::Map<const Eigen::VectorXd>(readings.judged.data(), rows) / floor.judged;
-  if (gauge)
+  Eigen::VectorXd list = Eigen::Map<const Eigen::VectorXd>(readings.judged.data(), rows) / floor.judged;
+  each_beside(run, [&](domain::Beside which, const auto&) {
+    list.conservativeResize(list.size() + rows);
     list.tail(rows) =
-        Eigen::Map<const Eigen::VectorXd>(readings.pressure_Pa.data(), rows) / floor.pressure_Pa;
+        Eigen::Map<const Eigen::VectorXd>(readings.beside(which).data(), rows) / floor.beside(which);
+  });
   return list;
 }
 
 /// As many times of the way from one to another.
+void go(std::vector<double>& values, const std::vector<double>& from, const std::vector<double>& to,
+        double times) {
+  for (std::size_t k = 0; k < values.size(); ++k) values[k] += times * (to[k] - from[k]);
+}
 void go(Readings& readings, const Readings& from, const Readings& to, double times) {
-  for (std::size_t k = 0; k < readings.judged.size(); ++k) {
-    readings.judged[k] += times * (to.judged[k] - from.judged[k]);
-    readings.pressure_Pa[k] += times * (to.pressure_Pa[k] - from.pressure_Pa[k]);
-  }
+  go(readings.judged, from.judged, to.judged, times);
+  for (const domain::Beside which : domain::besides)
+    go(readings.beside(which), from.beside(which), to.beside(which), times);
 }
 
 }  // namespace
 
-bool Experiment::seeks_memories(const plant::Rig& rig) const {
+bool Experiment::seeks_memories(const RigFile& rig) const {
   return data_.recorded.start != domain::Start::settled && rig.remembers();
 }
 
@@ -101,7 +121,6 @@ std::vector<Readings> Experiment::begun(std::size_t run, std::vector<Hanging> ri
   const solver::Method method = data_.rig.integrator.method;
   if (!seeks_memories(rigs.front().rig)) return predict(measured, rigs, method);
   const StartThresholds& by = thresholds.start;
-  const bool gauge = measured.muscle_pressure_Pa.has_value();
   rigs.push_back(rigs.front());
   double off = 0.0;
   for (int flight = 1;; ++flight) {
@@ -111,10 +130,16 @@ std::vector<Readings> Experiment::begun(std::size_t run, std::vector<Hanging> ri
     const Readings here = readings.front(), aside = std::move(readings.back());
     readings.pop_back();
     Eigen::VectorXd along =
-        (in_floors(aside, floor_, gauge) - in_floors(here, floor_, gauge)) / by.memory_step;
+        (in_floors(aside, floor_, measured) - in_floors(here, floor_, measured)) / by.memory_step;
     const auto& masked = masked_[run];
     for (Eigen::Index k = 0; k < along.size(); ++k)
       if (masked[static_cast<std::size_t>(k) % masked.size()]) along[k] = 0.0;
+    double* part = along.data();
+    each_beside(measured, [&](domain::Beside which, const auto&) {
+      part += masked.size();
+      for (std::size_t k = 0; k < masked.size(); ++k)
+        if (measured.is_missing(which, k)) part[k] = 0.0;
+    });
     const double square = along.squaredNorm() + 1.0 / (by.memory * by.memory);
     const auto further = [&](const Readings& from) {
       return std::clamp(off + along.dot(residuals(from, run)) / square, -by.memory, by.memory) - off;
@@ -128,7 +153,7 @@ std::vector<Readings> Experiment::begun(std::size_t run, std::vector<Hanging> ri
   }
 }
 
-Wanted Experiment::wanted(const plant::Rig& rig, std::span<const Change> changes, std::size_t run) const {
+Wanted Experiment::wanted(const RigFile& rig, std::span<const Change> changes, std::size_t run) const {
   Wanted one{&data_.runs[run], {{rig, data_.runs[run].load_kg}}};
   for (const Change& change : changes) {
     one.rigs.push_back(one.rigs.front());
@@ -145,19 +170,21 @@ void Experiment::note(const std::vector<Readings>& readings, std::span<const Cha
   for (std::size_t c = 0; c < changes.size(); ++c) {
     const Readings& changed = readings[1 + c];
     double* column = result.columns.col(static_cast<Eigen::Index>(before + c)).data() + part.begin;
-    for (std::size_t k = 0; k < ticks; ++k) {
-      const bool counts = !masked_[part.run][k];
-      const double change = changed.judged[k] - readings[0].judged[k];
-      column[k] = counts ? change / (floor_.judged * changes[c].size) : 0.0;
-      if (measured.muscle_pressure_Pa) {
-        const double pressure_Pa = changed.pressure_Pa[k] - readings[0].pressure_Pa[k];
-        column[ticks + k] = counts ? pressure_Pa / (floor_.pressure_Pa * changes[c].size) : 0.0;
-      }
-    }
+    const auto tell = [&](const std::vector<double>& to, const std::vector<double>& from, double floor) {
+      for (std::size_t k = 0; k < ticks; ++k)
+        column[k] = masked_[part.run][k] ? 0.0 : (to[k] - from[k]) / (floor * changes[c].size);
+    };
+    tell(changed.judged, readings[0].judged, floor_.judged);
+    each_beside(measured, [&](domain::Beside which, const auto&) {
+      column += ticks;
+      tell(changed.beside(which), readings[0].beside(which), floor_.beside(which));
+      for (std::size_t k = 0; k < ticks; ++k)
+        if (measured.is_missing(which, k)) column[k] = 0.0;
+    });
   }
 }
 
-Experiment::Slopes Experiment::slopes(const plant::Rig& rig, std::span<const Change> changes,
+Experiment::Slopes Experiment::slopes(const RigFile& rig, std::span<const Change> changes,
                                       const Runs& runs) const {
   const auto list = parts(runs);
   Eigen::Index total = 0;
@@ -183,7 +210,7 @@ Experiment::Slopes Experiment::slopes(const plant::Rig& rig, std::span<const Cha
 
 // Groups that cannot fly, all of whose failures may be forgiven: because of a change that may fail, if it is
 // alone, or one of some that fly together.
-std::vector<Experiment::Group> Experiment::fly(const plant::Rig& rig, std::span<const Change> changes,
+std::vector<Experiment::Group> Experiment::fly(const RigFile& rig, std::span<const Change> changes,
                                                const std::vector<Group>& groups, Slopes& result,
                                                bool alone) const {
   std::size_t rigs = 0;
@@ -226,7 +253,7 @@ Eigen::VectorXd Experiment::residuals(const Readings& readings, std::size_t run)
   return list;
 }
 
-Readings Experiment::readings(const plant::Rig& rig, std::size_t run) const {
+Readings Experiment::readings(const RigFile& rig, std::size_t run) const {
   return begun(run, {{rig, data_.runs[run].load_kg}}).front();
 }
 
@@ -238,6 +265,24 @@ double Experiment::rmse(const Eigen::VectorXd& residuals, const Runs& runs) cons
     count += static_cast<std::size_t>(std::count(masked_[part.run].begin(), masked_[part.run].end(), false));
   }
   return floor_.judged * std::sqrt(squares / static_cast<double>(std::max<std::size_t>(count, 1)));
+}
+
+std::optional<double> Experiment::rmse(domain::Beside which, const Eigen::VectorXd& residuals,
+                                       const Runs& runs) const {
+  double squares = 0.0, count = 0.0;
+  for (const Part& part : parts(runs)) {
+    Eigen::Index begin = part.begin;
+    const domain::Run& run = data_.runs[part.run];
+    each_beside(run, [&](domain::Beside other, const auto& read) {
+      begin += part.rows;
+      if (other != which) return;
+      squares += residuals.segment(begin, part.rows).squaredNorm();
+      for (std::size_t k = 0; k < read.size(); ++k)
+        count += masked_[part.run][k] || run.is_missing(which, k) ? 0.0 : 1.0;
+    });
+  }
+  if (count == 0.0) return std::nullopt;
+  return floor_.beside(which) * std::sqrt(squares / count);
 }
 
 }  // namespace mckibben::diagnose

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -30,9 +31,9 @@ class Experiment {
   const NoiseFloor& floor() const { return floor_; }
   std::size_t rows(std::size_t run) const;
 
-  /// Measured minus predicted, over the floor, for each row of each run: the reading that is judged, then
-  /// pressure where there is a gauge. Masked rows are 0.
-  Eigen::VectorXd residuals(const plant::Rig& rig, const Runs& runs) const;
+  /// Measured minus predicted, each over its floor, for each row of each run: the reading that is judged,
+  /// then those beside it. Masked rows are 0.
+  Eigen::VectorXd residuals(const RigFile& rig, const Runs& runs) const;
 
   /// The same, and the derivative of the prediction with respect to each parameter's scaled value (rows: as
   /// the residuals; columns: as the parameters).
@@ -40,7 +41,7 @@ class Experiment {
     Eigen::VectorXd residuals;
     Eigen::MatrixXd columns;
   };
-  Slopes slopes(const plant::Rig& rig, std::span<const Parameter> parameters, const Runs& runs) const;
+  Slopes slopes(const RigFile& rig, std::span<const Parameter> parameters, const Runs& runs) const;
   /// The derivative with respect to other changes: each makes a changed rig and load from the given ones, for
   /// a change of `size` in the units of its choice.
   struct Change {
@@ -48,16 +49,18 @@ class Experiment {
     double size = 1.0;
     bool may_fail = false;  ///< a rig that cannot be simulated with it gets a column of zeros
   };
-  Slopes slopes(const plant::Rig& rig, std::span<const Change> changes, const Runs& runs) const;
+  Slopes slopes(const RigFile& rig, std::span<const Change> changes, const Runs& runs) const;
 
   /// The same of one run whose readings are known.
   Eigen::VectorXd residuals(const Readings& readings, std::size_t run) const;
 
   /// Readings of one run.
-  Readings readings(const plant::Rig& rig, std::size_t run) const;
+  Readings readings(const RigFile& rig, std::size_t run) const;
 
   /// Root mean square of measured minus predicted, of the reading that is judged.
   double rmse(const Eigen::VectorXd& residuals, const Runs& runs) const;
+  /// The same of a reading beside it; none if no run has it.
+  std::optional<double> rmse(domain::Beside which, const Eigen::VectorXd& residuals, const Runs& runs) const;
   /// The part of a residual vector that is one run's judged reading: offset and length.
   struct Part {
     std::size_t run;
@@ -72,16 +75,16 @@ class Experiment {
   std::vector<Readings> begun(std::size_t run, std::vector<Hanging> rigs) const;
   void compare(const Readings& readings, std::size_t run, double* residuals) const;
   /// Whether what the rig's effects remember when a run begins is to be found out.
-  bool seeks_memories(const plant::Rig& rig) const;
+  bool seeks_memories(const RigFile& rig) const;
   /// Changes [first, last) of one run, which fly beside the rig itself.
   struct Group {
     Part part;
     std::size_t first, last;
   };
   /// Those that could not fly, though they might have.
-  std::vector<Group> fly(const plant::Rig& rig, std::span<const Change> changes,
+  std::vector<Group> fly(const RigFile& rig, std::span<const Change> changes,
                          const std::vector<Group>& groups, Slopes& result, bool alone) const;
-  Wanted wanted(const plant::Rig& rig, std::span<const Change> changes, std::size_t run) const;
+  Wanted wanted(const RigFile& rig, std::span<const Change> changes, std::size_t run) const;
   /// Writes their columns after the first `before`, and with `base` the rig's own residuals if there are
   /// none.
   void note(const std::vector<Readings>& readings, std::span<const Change> changes, std::size_t before,

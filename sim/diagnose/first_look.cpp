@@ -67,10 +67,9 @@ std::vector<Fault> beside_an_effect(const Case& c, const Checked& checked, const
     step("trying " + title(suspicion.effect.candidate) + " beside faults of runs");
     const auto contender = with_suspect(c, checked, described, usable, suspicion);
     if (!contender.fitted.failure.empty()) continue;
-    auto faults =
-        examine(c.experiment, contender.fitted.model, usable,
-                common ? catalogue(c.experiment.data().pressure_is_given()) : std::vector<Candidate>{})
-            .faults;
+    auto faults = examine(c.experiment, contender.fitted.model, usable,
+                          common ? catalogue(c.experiment.data()) : std::vector<Candidate>{})
+                      .faults;
     if (faults.empty() && !common &&
         all_near_floor(c, c.experiment.residuals(contender.fitted.model.rig, usable), usable))
       return {};  // no fault is needed
@@ -90,8 +89,7 @@ bool explains_more(const std::vector<Fault>& faults, const std::vector<Fault>& o
 
 std::vector<Fault> first_look(const Case& c, const Checked& checked, const Model& described,
                               const Runs& usable, const Step& step) {
-  const auto [faults, suspicions] =
-      examine(c.experiment, described, usable, catalogue(c.experiment.data().pressure_is_given()));
+  const auto [faults, suspicions] = examine(c.experiment, described, usable, catalogue(c.experiment.data()));
   if (faults.empty()) return beside_an_effect(c, checked, described, usable, suspicions, step);
   Runs others;
   for (const std::size_t run : usable)
@@ -100,8 +98,7 @@ std::vector<Fault> first_look(const Case& c, const Checked& checked, const Model
   if (others.empty()) return faults;
   const auto fitted = fit(c.experiment, described, others, {.inflation = thresholds.scatter.first_inflation});
   if (!fitted.failure.empty()) return faults;
-  const auto again =
-      examine(c.experiment, fitted.model, usable, catalogue(c.experiment.data().pressure_is_given())).faults;
+  const auto again = examine(c.experiment, fitted.model, usable, catalogue(c.experiment.data())).faults;
   return !again.empty() && explains_more(faults, again) ? faults : again;
 }
 

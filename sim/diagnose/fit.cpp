@@ -26,16 +26,16 @@ class Misfit final : public ceres::CostFunction {
       if (known_slope(model.free[j]) == nullptr) fresh_.push_back(model.free[j]);
   }
 
-  plant::Rig rig_at(const double* values) const {
-    plant::Rig rig = model_.rig;
+  RigFile rig_at(const double* values) const {
+    RigFile rig = model_.rig;
     for (std::size_t j = 0; j < model_.free.size(); ++j) {
       const Parameter& p = model_.free[j];
-      *find(rig, p.path).value = std::clamp(p.unscaled(values[j]), p.lowest, p.highest);
+      p.put(rig, std::clamp(p.unscaled(values[j]), p.lowest, p.highest));
     }
     return rig;
   }
 
-  Experiment::Slopes slopes(const plant::Rig& rig) const {
+  Experiment::Slopes slopes(const RigFile& rig) const {
     auto fresh = experiment_.slopes(rig, fresh_, runs_);
     Eigen::MatrixXd columns(rows_, static_cast<Eigen::Index>(model_.free.size()));
     Eigen::Index next = 0;
@@ -171,8 +171,7 @@ std::string descend(Misfit& misfit, Model& model, bool thorough) {
   if (!summary.IsSolutionUsable()) return summary.message;
   model.rig = misfit.rig_at(values.data());
   for (const Parameter& p : model.free)
-    if (p.period > 0.0)
-      *find(model.rig, p.path).value = std::remainder(value_of(model.rig, p.path), p.period);
+    if (p.period > 0.0) p.put(model.rig, std::remainder(value_of(model.rig, p.path), p.period));
   return {};
 }
 

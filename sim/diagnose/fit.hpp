@@ -13,7 +13,7 @@ namespace mckibben::diagnose {
 
 /// A rig and what is free in it.
 struct Model {
-  plant::Rig rig;  ///< with the values as they stand
+  RigFile rig;  ///< with the values as they stand
   std::vector<Parameter> free{};
   std::vector<Candidate> effects{};    ///< that have been added, in this order
   std::vector<std::string> refused{};  ///< not free, although asked for: no reading depends on them

@@ -18,12 +18,21 @@ using plant::Basis;
 
 constexpr const LawThresholds& of_law = thresholds.law;
 
+std::vector<plant::ForceTerm>& terms_of(plant::Effects& effects) {
+  return effects.get<plant::ResidualForce>().terms;
+}
+
+/// Of a pair, each muscle gets the force.
+void add(RigFile& rig, const plant::ForceTerm& term) {
+  each_side(rig, [&](plant::Effects& effects) { terms_of(effects).push_back(term); });
+}
+
 plant::ForceTerm wave(double probe_N, double wavelength_m, double phase_rad) {
   return {.of = Basis::sine, .coefficient_N = probe_N, .wavelength_m = wavelength_m, .phase_rad = phase_rad};
 }
 
 /// Wavelengths that the data can tell apart: whole and half periods over the largest rise.
-std::vector<double> wavelengths_m(const plant::Rig& rig) {
+std::vector<double> wavelengths_m(const RigFile& rig) {
   const double rise_m = plant::Braid(rig.muscle).largest_contraction_ratio() * rig.muscle.rest_length_m;
   std::vector<double> list;
   for (double periods = of_law.first_periods; periods <= of_law.last_periods; periods += of_law.step_periods)
@@ -42,7 +51,7 @@ struct Probes {
   std::size_t plain = 0;
 };
 
-Probes probes_of(const plant::Rig& rig) {
+Probes probes_of(const RigFile& rig) {
   Probes probes;
   for (const auto& [basis, name] : names(Basis{})) {
     if (basis == Basis::sine || basis == Basis::constant) continue;
@@ -64,9 +73,7 @@ std::vector<Proposal> score(const Case& c, const Fitted& fitted, const Probes& p
   std::vector<Experiment::Change> changes;
   changes.reserve(probes.terms.size());
   for (const auto& term : probes.terms)
-    changes.push_back(
-        {[term](Hanging& h) { h.rig.effects.get<plant::ResidualForce>().terms.push_back(term); },
-         term.coefficient_N, true});
+    changes.push_back({[term](Hanging& h) { add(h.rig, term); }, term.coefficient_N, true});
   const auto slopes = c.experiment.slopes(fitted.model.rig, changes, c.split.training);
   // As long as nothing fits, the misfit itself is the scatter.
   const Projector project(
@@ -117,26 +124,29 @@ std::vector<Proposal> propose(const Case& c, const Fitted& fitted) {
 /// The model with a term more, and what is free in it.
 Model with_term(const Model& model, const plant::ForceTerm& term) {
   Model bigger = model;
-  auto& terms = bigger.rig.effects.get<plant::ResidualForce>().terms;
-  const std::string path = fmt::format("effects.residual_law.terms.{}.", terms.size());
-  terms.push_back(term);
+  const bool both_sides = model.rig.pair() != nullptr;
+  const std::string path = fmt::format("effects.residual_law.terms.{}.", terms_of(bigger.rig.effects).size());
+  add(bigger.rig, term);
   bigger.free.push_back({.path = path + "coefficient",
                          .scale = 1.0,
                          .step = of_law.step_N,
                          .lowest = -of_law.most_N,
-                         .highest = of_law.most_N});
+                         .highest = of_law.most_N,
+                         .both_sides = both_sides});
   if (term.of == Basis::sine) {
     bigger.free.push_back({.path = path + "wavelength",
                            .step = of_law.wave_step,
                            .lowest = of_law.shorter * term.wavelength_m,
                            .highest = of_law.longer * term.wavelength_m,
-                           .logarithmic = true});
+                           .logarithmic = true,
+                           .both_sides = both_sides});
     bigger.free.push_back({.path = path + "phase",
                            .scale = 1.0,
                            .step = of_law.wave_step,
                            .lowest = -of_law.most_phase,
                            .highest = of_law.most_phase,
-                           .period = 2.0 * std::numbers::pi});
+                           .period = 2.0 * std::numbers::pi,
+                           .both_sides = both_sides});
   }
   return bigger;
 }
@@ -144,13 +154,14 @@ Model with_term(const Model& model, const plant::ForceTerm& term) {
 /// The model without one of its terms.
 Model without_term(const Model& model, std::size_t term) {
   Model smaller = model;
-  auto& terms = smaller.rig.effects.get<plant::ResidualForce>().terms;
   const auto prefix = [](std::size_t index) { return fmt::format("effects.residual_law.terms.{}.", index); };
   std::erase_if(smaller.free, [&](const Parameter& p) { return p.path.starts_with(prefix(term)); });
-  for (std::size_t next = term + 1; next < terms.size(); ++next)
+  for (std::size_t next = term + 1; next < terms_of(smaller.rig.effects).size(); ++next)
     for (Parameter& p : smaller.free)
       if (p.path.starts_with(prefix(next))) p.path = prefix(next - 1) + p.path.substr(prefix(next).size());
-  terms.erase(terms.begin() + static_cast<std::ptrdiff_t>(term));
+  each_side(smaller.rig, [&](plant::Effects& effects) {
+    terms_of(effects).erase(terms_of(effects).begin() + static_cast<std::ptrdiff_t>(term));
+  });
   return smaller;
 }
 
@@ -199,6 +210,14 @@ void drop_uncertain(const Case& c, Law& law, const Step& step) {
   }
 }
 
+/// Terms are counted through on both sides of a pair alike.
+bool sides_have_as_many_terms(RigFile rig) {
+  const std::size_t count = terms_of(rig.effects).size();
+  bool alike = true;
+  each_side(rig, [&](plant::Effects& effects) { alike = alike && terms_of(effects).size() == count; });
+  return alike;
+}
+
 /// Term by term, as long as each helps.
 void extend_law(const Case& c, const std::vector<const Contender*>& bases, const Eigen::VectorXd& reference,
                 const Step& step, Law& law) {
@@ -236,7 +255,8 @@ void extend_law(const Case& c, const std::vector<const Contender*>& bases, const
 Law find_law(const Case& c, const std::vector<const Contender*>& bases, const Eigen::VectorXd& reference,
              const Step& step, Search& search) {
   Law law{.contender = *bases.front()};
-  search.part("a law of force", [&] { extend_law(c, bases, reference, step, law); });
+  if (sides_have_as_many_terms(c.nominal))
+    search.part("a law of force", [&] { extend_law(c, bases, reference, step, law); });
   drop_uncertain(c, law, step);
   law.gain = compare(c.experiment, reference, law.contender.held_out, c.split.held_out);
   return law;

@@ -12,7 +12,7 @@ namespace mckibben::diagnose {
 /// An effect that was taken, and one that explains the data as well.
 struct Doubt {
   std::string effect, rival;
-  plant::Rig with_effect, with_rival;
+  RigFile with_effect, with_rival;
 };
 
 struct Naming {

@@ -5,12 +5,15 @@
 #include <functional>
 #include <numbers>
 #include <numeric>
+#include <span>
+#include <variant>
 
+#include <plant/instruments.hpp>
 #include <sim/diagnose/noise.hpp>
 #include <sim/diagnose/predict.hpp>
 #include <sim/diagnose/thresholds.hpp>
+#include <sim/run/judged.hpp>
 #include <sim/run/series.hpp>
-#include <sim/run/simulate.hpp>
 
 namespace mckibben::diagnose {
 namespace {
@@ -23,7 +26,7 @@ constexpr const NoiseThresholds& assumed = thresholds.noise;
 double last_decimal(const domain::Dataset& data, const Runs& runs) {
   double unit = assumed.first_decimal;
   for (const std::size_t run : runs) {
-    for (const double ratio : data.runs[run].contraction_ratio) {
+    for (const double ratio : data.runs[run].judged()) {
       while (std::abs(ratio / unit - std::round(ratio / unit)) > assumed.decimal_error) {
         unit /= 10.0;
         if (unit < assumed.last_decimal) return 0.0;
@@ -40,9 +43,9 @@ bool counted(const domain::Dataset& data, const std::vector<std::vector<bool>>& 
   if (tolerance > assumed.telling_count) return false;  // everything would be whole
   std::size_t whole = 0, all = 0;
   for (const std::size_t i : runs) {
-    for (std::size_t k = 0; k < data.runs[i].contraction_ratio.size(); ++k) {
+    for (std::size_t k = 0; k < data.runs[i].judged().size(); ++k) {
       if (masked[i][k]) continue;
-      const double counts = data.runs[i].contraction_ratio[k] / count;
+      const double counts = data.runs[i].judged()[k] / count;
       ++all;
       whole += std::abs(counts - std::round(counts)) <= tolerance ? 1 : 0;
     }
@@ -50,24 +53,26 @@ bool counted(const domain::Dataset& data, const std::vector<std::vector<bool>>& 
   return static_cast<double>(whole) >= assumed.counted_share * static_cast<double>(all);
 }
 
-/// Noise of the gauges from the second differences of what they show: what changes so fast is not the gas.
-double gauge_noise_Pa(const domain::Dataset& data, const Runs& runs) {
+/// Noise of what was read beside from the second differences: what changes so fast is not the gas. 0 if
+/// nothing was.
+double noise_beside(const domain::Dataset& data, const Runs& runs, std::span<const domain::Beside> which_of) {
   double squares = 0.0;
   std::size_t count = 0;
   for (const std::size_t index : runs) {
-    const domain::Run& run = data.runs[index];
-    if (!run.muscle_pressure_Pa) continue;
-    const auto& p = *run.muscle_pressure_Pa;
-    std::vector<double> second;
-    for (std::size_t k = 2; k < p.size(); ++k) second.push_back(std::abs(p[k] - 2.0 * p[k - 1] + p[k - 2]));
-    if (second.empty()) continue;
-    // The median is blind to the few ticks at which the gas itself turns.
-    const double deviation = run::upper_median(std::move(second)) / assumed.normal_median / std::sqrt(6.0);
-    squares += deviation * deviation;
-    ++count;
+    for (const domain::Beside which : which_of) {
+      const auto* read = data.runs[index].beside(which);
+      if (read == nullptr) continue;
+      const auto& p = *read;
+      std::vector<double> second;
+      for (std::size_t k = 2; k < p.size(); ++k) second.push_back(std::abs(p[k] - 2.0 * p[k - 1] + p[k - 2]));
+      if (second.empty()) continue;
+      // The median is blind to the few ticks at which the gas itself turns.
+      const double deviation = run::upper_median(std::move(second)) / assumed.normal_median / std::sqrt(6.0);
+      squares += deviation * deviation;
+      ++count;
+    }
   }
-  return count == 0 ? 0.0
-                    : std::max(std::sqrt(squares / static_cast<double>(count)), assumed.least_pressure_Pa);
+  return count == 0 ? 0.0 : std::sqrt(squares / static_cast<double>(count));
 }
 
 /// White noise of the contraction ratio, from its fourth differences: no load moves so fast, and the median
@@ -75,7 +80,7 @@ double gauge_noise_Pa(const domain::Dataset& data, const Runs& runs) {
 double scatter(const domain::Dataset& data, const std::vector<std::vector<bool>>& masked, const Runs& runs) {
   std::vector<double> fourth;
   for (const std::size_t i : runs) {
-    const auto& e = data.runs[i].contraction_ratio;
+    const auto& e = data.runs[i].judged();
     for (std::size_t k = 4; k < e.size(); ++k)
       if (std::none_of(masked[i].begin() + static_cast<std::ptrdiff_t>(k - 4),
                        masked[i].begin() + static_cast<std::ptrdiff_t>(k + 1), std::identity{}))
@@ -90,11 +95,13 @@ bool driven_alike(const domain::Run& one, const domain::Run& other) {
   if (one.load_kg != other.load_kg || one.current_mA != other.current_mA || one.shaken) return false;
   if (one.judged().size() != other.judged().size()) return false;
   if (!one.measured || !other.measured) return one.measured.has_value() == other.measured.has_value();
-  const auto pressure = [](const domain::Run& run) {
-    const auto& side = run.measured->sides[0];
-    return side.pressure_is_given ? side.muscle_pressure_Pa : std::vector<double>{};
+  const auto same_side = [&](std::size_t side) {
+    const auto &a = one.measured->sides[side], &b = other.measured->sides[side];
+    return a.pressure_is_given == b.pressure_is_given &&
+           (!a.pressure_is_given || a.muscle_pressure_Pa == b.muscle_pressure_Pa);
   };
-  return pressure(one) == pressure(other) &&
+  const bool same_opposite = one.measured->sides[1].current_mA == other.measured->sides[1].current_mA;
+  return same_side(0) && same_side(1) && same_opposite &&
          (!one.length_is_given() || one.measured->contraction_ratio == other.measured->contraction_ratio);
 }
 
@@ -143,7 +150,7 @@ double dither(const domain::Dataset& data, const std::vector<std::vector<bool>>&
   std::array<double, bins> rows{};
   double sum = 0.0;
   for (const std::size_t i : runs) {
-    const auto& e = data.runs[i].contraction_ratio;
+    const auto& e = data.runs[i].judged();
     for (std::size_t k = reach; k + reach < e.size(); ++k) {
       const auto first = masked[i].begin() + static_cast<std::ptrdiff_t>(k - reach);
       if (std::any_of(first, first + 2 * reach + 1, std::identity{}) || !straight(e, k, reach, count))
@@ -191,6 +198,51 @@ double of_given_pressure(const domain::Dataset& data, const Runs& runs) {
   return count > 0.0 ? std::sqrt(squares / count) : 0.0;
 }
 
+/// What the reading does where a regulator answers the same command with another pressure, within what its
+/// data sheet says it repeats; of a pair, each side's apart.
+double of_command(const domain::Dataset& data, const Runs& runs) {
+  double squares = 0.0, count = 0.0;
+  for (const std::size_t i : runs) {
+    const domain::Run& run = data.runs[i];
+    std::vector<Hanging> rigs{{data.rig, run.load_kg}};
+    const auto off_by = [&](std::size_t side, auto valve_of) {
+      const double off_Pa = valve_of(rigs.front().rig).repeatability_Pa;
+      if (off_Pa == 0.0 || (run.measured && run.measured->sides[side].pressure_is_given)) return;
+      rigs.push_back({data.rig, run.load_kg});
+      plant::Valve& valve = valve_of(rigs.back().rig);
+      valve.zero_pressure_Pa += off_Pa;
+      valve.span_pressure_Pa += off_Pa;
+    };
+    off_by(0, [](RigFile& rig) -> plant::Valve& { return rig.valve; });
+    if (data.rig.pair() != nullptr)
+      off_by(1, [](RigFile& rig) -> plant::Valve& {
+        return std::get<plant::Pair>(rig.mechanics).opposite.valve;
+      });
+    if (rigs.size() == 1) continue;
+    const auto readings = predict(run, rigs, data.rig.integrator.method);
+    for (std::size_t rig = 1; rig < readings.size(); ++rig)
+      for (std::size_t k = 0; k < readings[rig].judged.size(); ++k)
+        squares += std::pow(readings[rig].judged[k] - readings[0].judged[k], 2);
+    count += static_cast<double>(readings[0].judged.size());
+  }
+  return count > 0.0 ? std::sqrt(squares / count) : 0.0;
+}
+
+/// What a data sheet says of the reading that is judged, in its unit; 0 where there is none.
+struct Sheet {
+  double step = 0.0, noise = 0.0, accuracy = 0.0;
+};
+Sheet sheet_of(const domain::Dataset& data) {
+  const plant::LoadCell& cell = data.rig.load_cell;
+  if (data.judged() == domain::Judged::force)
+    return cell.fitted ? Sheet{cell.resolution_N, cell.noise_N, cell.accuracy_N} : Sheet{};
+  const plant::Sensor& sensor = data.rig.sensor;
+  const double radius_m = data.rig.joint.wheel_radius_m;
+  const double reading = sensor.rise_m(radius_m) /
+                         (data.judged() == domain::Judged::angle ? radius_m : data.rig.muscle.rest_length_m);
+  return {sensor.resolution * reading, sensor.noise * reading, sensor.accuracy * reading};
+}
+
 double largest_force_N(const domain::Dataset& data) {
   double most_N = 0.0;
   for (const domain::Run& run : data.runs)
@@ -198,21 +250,53 @@ double largest_force_N(const domain::Dataset& data) {
   return most_N;
 }
 
+/// What the reading that is judged cannot be known better than: what the simulation does wrong, and the least
+/// that is believed of any instrument.
+struct Least {
+  double simulated, believed;
+};
+Least least_of(const domain::Dataset& data) {
+  const double tolerance = thresholds.predict.tolerance;
+  switch (data.judged()) {
+    case domain::Judged::force:
+      return {tolerance * largest_force_N(data), assumed.least_force_N};
+    case domain::Judged::angle: {
+      const double turn_rad = data.rig.muscle.rest_length_m / data.rig.joint.wheel_radius_m;
+      return {tolerance * turn_rad, assumed.least_ratio * turn_rad};
+    }
+    case domain::Judged::contraction:
+      break;
+  }
+  return {tolerance, assumed.least_ratio};
+}
+
+bool is_read(const domain::Dataset& data, const Runs& runs, domain::Beside which) {
+  return std::ranges::any_of(runs, [&](std::size_t run) { return data.runs[run].beside(which) != nullptr; });
+}
+
 /// Of rows that were made of stamps: what their readings scattered by is known.
 void floor_of_rows(const domain::Dataset& data, const Runs& trusted, NoiseFloor& floor) {
   const domain::Rows& rows = *data.rows_of_stamps;
-  floor.jitter = rows.noise;
+  const Sheet sheet = sheet_of(data);
+  floor.jitter = rows.noise > 0.0 ? rows.noise : sheet.noise;
   floor.given = of_given_pressure(data, trusted);
-  const double instruments = std::hypot(rows.step / std::sqrt(12.0), floor.jitter, floor.given);
-  const bool forces = data.force_is_judged();
-  const double simulated =
-      forces ? thresholds.predict.tolerance * largest_force_N(data) : thresholds.predict.tolerance;
-  floor.judged = std::max({floor.repeats, std::hypot(instruments, simulated),
-                           forces ? assumed.least_force_N : assumed.least_ratio});
-  const bool gauged = std::any_of(trusted.begin(), trusted.end(), [&](std::size_t run) {
-    return data.runs[run].muscle_pressure_Pa.has_value();
-  });
-  if (gauged) floor.pressure_Pa = std::max(rows.pressure_noise_Pa, assumed.least_pressure_Pa);
+  const double step = std::max(rows.step, sheet.step);
+  const double instruments = std::hypot(step / std::sqrt(12.0), floor.jitter, floor.given);
+  const auto [simulated, believed] = least_of(data);
+  floor.judged = std::max({floor.repeats, floor.with_sheets(std::hypot(instruments, simulated)), believed});
+  if (std::ranges::any_of(domain::gauges, [&](auto which) { return is_read(data, trusted, which); }))
+    floor.pressure_Pa = std::max(rows.pressure_noise_Pa, assumed.least_pressure_Pa);
+}
+
+/// Of a load cell beside what is judged, by what its readings scatter.
+double force_floor_N(const domain::Dataset& data, const Runs& trusted) {
+  if (!is_read(data, trusted, domain::Beside::force)) return 0.0;
+  constexpr std::array of_cell{domain::Beside::force};
+  const double noise_N =
+      data.rows_of_stamps ? data.rows_of_stamps->force_noise_N : noise_beside(data, trusted, of_cell);
+  const plant::LoadCell& cell = data.rig.load_cell;
+  return std::max({std::hypot(noise_N, cell.fitted ? cell.accuracy_N : 0.0),
+                   thresholds.predict.tolerance * largest_force_N(data), assumed.least_force_N});
 }
 
 }  // namespace
@@ -220,12 +304,15 @@ void floor_of_rows(const domain::Dataset& data, const Runs& trusted, NoiseFloor&
 NoiseFloor noise_floor(const domain::Dataset& data, const std::vector<std::vector<bool>>& masked,
                        std::vector<std::size_t> trusted) {
   NoiseFloor floor;
-  const double count = run::contraction_per_count(data.rig);
+  const double count = run::reading_per_count(data.rig);
   floor.repeats = repeatability(data, masked, trusted);
   if (trusted.empty()) {
     trusted.resize(data.runs.size());
     std::iota(trusted.begin(), trusted.end(), std::size_t{0});
   }
+  floor.force_N = force_floor_N(data, trusted);
+  floor.command = of_command(data, trusted);
+  floor.accuracy = sheet_of(data).accuracy;
   const bool encoder = std::any_of(data.runs.begin(), data.runs.end(), [](const domain::Run& run) {
     return run.measured && run.measured->counted && !run.length_is_given();
   });
@@ -238,11 +325,14 @@ NoiseFloor noise_floor(const domain::Dataset& data, const std::vector<std::vecto
   const double rounding = std::hypot(floor.count, decimal) / std::sqrt(12.0);
   const double noise = scatter(data, masked, trusted);
   floor.jitter = std::sqrt(std::max(0.0, noise * noise - rounding * rounding));
-  floor.noisy = floor.jitter > count;
+  floor.noisy = floor.jitter > std::max(count, assumed.sheet_noise * sheet_of(data).noise);
   if (floor.count > 0.0 && !floor.noisy) floor.jitter = count * dither(data, masked, trusted, count);
-  floor.judged = std::max(
-      {floor.repeats, std::hypot(rounding, floor.jitter, thresholds.predict.tolerance), assumed.least_ratio});
-  floor.pressure_Pa = gauge_noise_Pa(data, trusted);
+  const auto [simulated, believed] = least_of(data);
+  floor.middle = floor.count * plant::middle_of_count(data.rig.sensor);
+  floor.judged =
+      std::max({floor.repeats, floor.with_sheets(std::hypot(rounding, floor.jitter, simulated)), believed});
+  if (std::ranges::any_of(domain::gauges, [&](auto which) { return is_read(data, trusted, which); }))
+    floor.pressure_Pa = std::max(noise_beside(data, trusted, domain::gauges), assumed.least_pressure_Pa);
   return floor;
 }
 

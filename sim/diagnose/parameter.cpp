@@ -13,30 +13,43 @@
 namespace mckibben::diagnose {
 namespace {
 
-/// Calls `tell` with the effect of this name in the rig.
+constexpr std::string_view of_muscle_2 = "mechanics.opposite.";
+
+/// Calls `tell` with the effect of this name in the rig, on each of its sides.
 template <class Tell>
-void with_effect(plant::Rig& rig, std::string_view effect, const Tell& tell) {
-  const auto look = [&]<class E>(E& mine) {
-    if (effect == E::name) tell(mine);
-  };
-  std::apply([&](const auto&... e) { (look(rig.effects.get<std::remove_cvref_t<decltype(e)>>()), ...); },
-             plant::Effects::Table{});
+void with_effect(RigFile& rig, std::string_view effect, const Tell& tell) {
+  each_side(rig, [&](plant::Effects& effects) {
+    const auto look = [&]<class E>(E& mine) {
+      if (effect == E::name) tell(mine);
+    };
+    std::apply([&](const auto&... e) { (look(effects.get<std::remove_cvref_t<decltype(e)>>()), ...); },
+               plant::Effects::Table{});
+  });
 }
 
 }  // namespace
 
-bool carries(plant::Rig rig, std::string_view effect) {
+void each_side(RigFile& rig, const std::function<void(plant::Effects& effects)>& visit) {
+  visit(rig.effects);
+  if (auto* pair = std::get_if<plant::Pair>(&rig.mechanics)) visit(pair->opposite.effects);
+}
+
+bool carries(RigFile rig, std::string_view effect) {
   bool present = false;
-  with_effect(rig, effect, [&](const auto& mine) { present = !mine.absent(); });
+  with_effect(rig, effect, [&](const auto& mine) { present = present || !mine.absent(); });
   return present;
 }
 
-Found find(plant::Rig& rig, std::string_view path) {
+Found find(RigFile& rig, std::string_view path) {
   Found found = domain::find_number(rig, path);
   if (found.value == nullptr) throw std::invalid_argument("no parameter " + std::string(path));
   return found;
 }
 
+void Parameter::put(RigFile& rig, double value) const {
+  *find(rig, path).value = value;
+  if (both_sides) *find(rig, std::string(of_muscle_2) + path).value = value;
+}
 double Parameter::unscaled(double number) const {
   return logarithmic ? std::exp(number) : origin + number * scale;
 }
@@ -44,8 +57,8 @@ double Parameter::scaled(double value) const {
   return logarithmic ? std::log(value) : (value - origin) / scale;
 }
 
-double value_of(const plant::Rig& rig, std::string_view path) {
-  plant::Rig copy = rig;
+double value_of(const RigFile& rig, std::string_view path) {
+  RigFile copy = rig;
   return *find(copy, path).value;
 }
 
@@ -53,12 +66,59 @@ namespace {
 
 using Stated = domain::Spreads;
 
-/// The deviation that a rig's file states, of a value; none if it says nothing.
+/// The path of a number on the side of muscle 1 that stands for the same.
+std::string_view of_muscle_1(std::string_view path) {
+  return path.starts_with(of_muscle_2) ? path.substr(of_muscle_2.size()) : path;
+}
+
+/// The deviation that a rig's file states, of a value; none if it says nothing. What it says of the side of
+/// muscle 1 holds for muscle 2 as well, until it says otherwise.
 std::optional<double> deviation_of(const Stated& stated, std::string_view path, double value, double usual) {
-  const auto said = stated.find(std::string(path));
+  auto said = stated.find(std::string(path));
+  if (said == stated.end()) said = stated.find(std::string(of_muscle_1(path)));
   if (said == stated.end()) return std::nullopt;
   if (std::isfinite(said->second)) return said->second;
   return std::max(thresholds.parameter.unknown * std::abs(value), thresholds.parameter.unknown_usual * usual);
+}
+
+/// Where a number stands; of a pair, whether it is that of both sides.
+struct Standing {
+  std::string path;
+  bool both_sides = false;
+};
+
+/// The part of a side that a path leads into: `muscle.`, `effects.muscle_leak.`; empty if it is none.
+std::string_view part_of_side(std::string_view path) {
+  constexpr std::string_view of_effects = "effects.";
+  constexpr std::array<std::string_view, 5> parts{"muscle.", "friction.", "valve.", "hose.", of_effects};
+  if (std::none_of(parts.begin(), parts.end(), [&](auto part) { return path.starts_with(part); })) return {};
+  const std::size_t from = path.starts_with(of_effects) ? of_effects.size() : 0;
+  return path.substr(0, path.find('.', from) + 1);
+}
+
+/// Whether both sides of a pair have the same part, and are known alike.
+bool is_one_part(const RigFile& rig, std::string_view part, const Stated& stated) {
+  const std::string other(of_muscle_2);
+  const auto numbers = domain::paths_of_numbers(rig);
+  RigFile copy = rig;
+  const auto same = [&](const std::string& path) {
+    const double *one = domain::find_number(copy, path).value,
+                 *two = domain::find_number(copy, other + path).value;
+    return one != nullptr && two != nullptr && *one == *two;
+  };
+  return std::all_of(numbers.begin(), numbers.end(),
+                     [&](const std::string& path) { return !path.starts_with(part) || same(path); }) &&
+         std::none_of(stated.begin(), stated.end(),
+                      [&](const auto& one) { return one.first.starts_with(other + std::string(part)); });
+}
+
+/// What a number of the side of muscle 1, or of what both share, stands for.
+std::vector<Standing> standings(const RigFile& rig, const std::string& path, const Stated& stated) {
+  constexpr std::string_view one_for_both = "valve.supply_pressure";
+  const std::string_view part = part_of_side(path);
+  if (rig.pair() == nullptr || part.empty()) return {{path}};
+  if (path == one_for_both || is_one_part(rig, part, stated)) return {{path, true}};
+  return {{path}, {std::string(of_muscle_2) + path}};
 }
 
 /// A number of the rig, normal round its value.
@@ -74,9 +134,10 @@ Parameter normal(const std::string& path, const Found& found, double deviation) 
 }
 
 /// What somebody has put there: its size is a guess, good within a factor of a few, if nothing is stated.
-Parameter size_of(const Candidate& candidate, Parameter p, const plant::Rig& nominal, const Stated& stated) {
+Parameter size_of(const Candidate& candidate, bool is_size, Parameter p, const RigFile& nominal,
+                  const Stated& stated) {
   p.origin = value_of(nominal, p.path);
-  const double size = p.origin - (p.path == candidate.amplitude ? candidate.absent : 0.0);
+  const double size = p.origin - (is_size ? candidate.absent : 0.0);
   p.scale = std::abs(size);
   if (p.logarithmic)
     p.step *= p.scale;
@@ -93,45 +154,104 @@ Parameter size_of(const Candidate& candidate, Parameter p, const plant::Rig& nom
 
 /// Numbers of the rig's parts that a file may say how well it knows. What is not in a part is not of the
 /// plant: the tick, the settling time.
-bool of_a_part(const plant::Rig& nominal, std::string_view path) {
-  constexpr std::array<std::string_view, 6> parts{"muscle.", "friction.", "valve.",
-                                                  "hose.",   "gas.",      "joint."};
-  plant::Rig rig = nominal;
-  return domain::find_number(rig, path).value != nullptr &&
+bool of_a_part(const RigFile& nominal, std::string_view path) {
+  constexpr std::array<std::string_view, 7> parts{"muscle.", "friction.", "valve.",    "hose.",
+                                                  "gas.",    "joint.",    "mechanics."};
+  RigFile rig = nominal;
+  return path.find("effects.") == std::string_view::npos && domain::find_number(rig, path).value != nullptr &&
          std::any_of(parts.begin(), parts.end(), [&](auto part) { return path.starts_with(part); });
 }
 
-}  // namespace
-
-std::vector<Parameter> nominal_parameters(const plant::Rig& nominal, const domain::Spreads& stated) {
-  std::vector<Parameter> list;
-  plant::Rig rig = nominal;
-  const auto add = [&](const std::string& path, double usual) {
-    const Found found = find(rig, path);
-    const double deviation = deviation_of(stated, path, *found.value, usual).value_or(usual);
-    if (deviation > 0.0) list.push_back(normal(path, found, deviation));
-  };
-  for (const Prior& prior : thresholds.parameter.priors) {
-    const double* value = domain::find_number(rig, prior.path).value;
-    if (value == nullptr) continue;  // of a regulator, which not every rig has
-    add(std::string(prior.path), prior.relative * std::abs(*value) + prior.absolute);
-  }
-  for (const auto& [path, deviation] : stated) {
-    const auto usual = [&path = path](const Prior& prior) { return prior.path == path; };
-    const auto& priors = thresholds.parameter.priors;
-    if (std::none_of(priors.begin(), priors.end(), usual) && of_a_part(nominal, path)) add(path, 0.0);
-  }
-  for (const Candidate& candidate : catalogue()) {
-    if (!candidate.carried(nominal)) continue;
-    for (Parameter& p : candidate.parameters(nominal)) {
-      p = size_of(candidate, std::move(p), nominal, stated);
-      if (p.scale > 0.0) list.push_back(std::move(p));
-    }
-  }
-  return list;
+/// A link's moment of inertia is at least that of its mass where its centre is (parallel axes): each of the
+/// three numbers may take a third of what is to spare.
+void keep_link_possible(const plant::Link& link, Parameter& p) {
+  const double least = link.mass_kg * link.length_m * link.length_m;
+  if (!(least > 0.0)) return;
+  const double share = std::cbrt(link.inertia_kg_m2 / least);
+  if (p.path == "mechanics.link_inertia") p.lowest = std::max(p.lowest, link.inertia_kg_m2 / share);
+  if (p.path == "mechanics.link_mass") p.highest = std::min(p.highest, link.mass_kg * share);
+  if (p.path == "mechanics.link_length") p.highest = std::min(p.highest, link.length_m * std::sqrt(share));
 }
 
-plant::Rig Candidate::chosen(plant::Rig rig) const {
+/// Gathers what a fit may move.
+class Gathering {
+ public:
+  Gathering(const RigFile& nominal, const Stated& stated) : rig_(nominal), stated_(stated) {}
+
+  std::vector<Parameter> operator()() {
+    usual(thresholds.parameter.priors);
+    if (rig_.pair() != nullptr) usual(thresholds.parameter.pair_priors);
+    stated();
+    of_effects();
+    return std::move(list_);
+  }
+
+ private:
+  template <class Priors>
+  void usual(const Priors& priors) {
+    for (const Prior& prior : priors) {
+      if (rig_.pair() != nullptr && prior.of_hanging_load()) continue;
+      for (const Standing& one : standings(rig_, std::string(prior.path), stated_))
+        if (const double* value = domain::find_number(rig_, one.path).value)  // not every rig has a regulator
+          add(one, prior.relative * std::abs(*value) + prior.absolute);
+    }
+  }
+  void stated() {
+    for (const auto& [path, deviation] : stated_) {
+      if (!of_a_part(rig_, path)) continue;
+      for (const Standing& one : standings(rig_, path, stated_)) add(one, 0.0);
+    }
+  }
+  void of_effects() {
+    for (const Candidate& candidate : catalogue()) {
+      if (!candidate.carried(rig_)) continue;
+      for (const Parameter& p : candidate.parameters(rig_))
+        for (const Standing& one : standings(rig_, p.path, stated_)) add_size(candidate, p, one);
+    }
+  }
+  void add_size(const Candidate& candidate, Parameter p, const Standing& at) {
+    p.both_sides = at.both_sides;
+    const std::string side = at.path.substr(0, at.path.size() - p.path.size());
+    if (value_of(rig_, side + candidate.amplitude) == candidate.absent) return;  // this side has none
+    const bool is_size = p.path == candidate.amplitude;
+    p.path = at.path;
+    p = size_of(candidate, is_size, std::move(p), rig_, stated_);
+    if (p.scale > 0.0) list_.push_back(std::move(p));
+  }
+  void add(const Standing& at, double usual_deviation) {
+    const bool known = std::any_of(list_.begin(), list_.end(), [&](const Parameter& p) {
+      return p.path == at.path || (p.both_sides && p.path == of_muscle_1(at.path));
+    });
+    if (known) return;
+    const Found found = find(rig_, at.path);
+    const double deviation =
+        deviation_of(stated_, at.path, *found.value, usual_deviation).value_or(usual_deviation);
+    if (!(deviation > 0.0)) return;  // known exactly
+    list_.push_back(normal(at.path, found, deviation));
+    list_.back().both_sides = at.both_sides;
+    if (rig_.pair() != nullptr) keep_link_possible(*rig_.pair(), list_.back());
+  }
+
+  RigFile rig_;
+  const Stated& stated_;
+  std::vector<Parameter> list_;
+};
+
+}  // namespace
+
+std::vector<Parameter> nominal_parameters(const RigFile& nominal, const domain::Spreads& stated) {
+  return Gathering(nominal, stated)();
+}
+
+void Candidate::put(RigFile& rig, double size) const {
+  Parameter{.path = amplitude, .both_sides = rig.pair() != nullptr}.put(rig, size);
+}
+void Candidate::put(RigFile& rig, double size, double with_shape) const {
+  if (!shape.empty()) Parameter{.path = shape, .both_sides = rig.pair() != nullptr}.put(rig, with_shape);
+  put(rig, size);
+}
+
+RigFile Candidate::chosen(RigFile rig) const {
   with_effect(rig, effect, [&](auto& mine) {
     if constexpr (requires { mine.variant; }) {
       for (const auto& [law, name] : names(mine.variant))
@@ -141,20 +261,21 @@ plant::Rig Candidate::chosen(plant::Rig rig) const {
   return rig;
 }
 
-bool Candidate::carried(plant::Rig rig) const {
-  bool present = false, same_law = true;
+bool Candidate::carried(RigFile rig) const {
+  bool present = false;
   with_effect(rig, effect, [&](const auto& mine) {
-    present = !mine.absent();
+    bool same_law = true;
     if constexpr (requires { mine.variant; }) {
       for (const auto& [law, name] : names(mine.variant))
         if (law == mine.variant) same_law = name == variant;
     }
+    present = present || (!mine.absent() && same_law);
   });
-  return present && same_law;
+  return present;
 }
 
-std::vector<Parameter> Candidate::parameters(const plant::Rig& rig) const {
-  plant::Rig copy = rig;
+std::vector<Parameter> Candidate::parameters(const RigFile& rig) const {
+  RigFile copy = rig;
   const Found size = find(copy, amplitude);
   // Next to nothing is as good as nothing, and can be stiff: a supply line of no resistance, a lag of no
   // time.
@@ -164,7 +285,8 @@ std::vector<Parameter> Candidate::parameters(const plant::Rig& rig) const {
                                .scale = std::abs(typical),
                                .step = step,
                                .lowest = either_sign || typical < 0.0 ? size.lowest : least,
-                               .highest = either_sign || typical > 0.0 ? size.highest : least}};
+                               .highest = either_sign || typical > 0.0 ? size.highest : least,
+                               .both_sides = rig.pair() != nullptr}};
   if (!shape.empty()) {
     const Found form = find(copy, shape);
     list.push_back({.path = shape,
@@ -172,7 +294,8 @@ std::vector<Parameter> Candidate::parameters(const plant::Rig& rig) const {
                     .step = thresholds.parameter.shape_step,
                     .lowest = std::max(form.lowest, shapes.front() / thresholds.parameter.shape_range),
                     .highest = std::min(form.highest, shapes.back() * thresholds.parameter.shape_range),
-                    .logarithmic = true});
+                    .logarithmic = true,
+                    .both_sides = rig.pair() != nullptr});
   }
   return list;
 }
@@ -202,14 +325,23 @@ std::vector<std::string> effects_out_of_sight() {
 }
 
 bool out_of_sight(const Parameter& p) {
-  const auto begins = [&](std::string_view part) { return p.path.starts_with(part); };
-  return begins("valve.") || begins("hose.") || begins("gas.") || p.path == "muscle.dead_volume";
+  const std::string_view path = of_muscle_1(p.path);
+  const auto begins = [&](std::string_view part) { return path.starts_with(part); };
+  return begins("valve.") || begins("hose.") || begins("gas.") || path == "muscle.dead_volume";
 }
 
-std::vector<Candidate> catalogue(bool pressure_is_given) {
+namespace {
+
+/// What data can show of the catalogue.
+struct Sight {
+  bool makes_pressure = true, load_guide = true;
+};
+
+std::vector<Candidate> in_sight(const Sight& sight) {
   std::vector<Candidate> list;
   const auto add = [&]<class E>(const E& effect) {
-    if (pressure_is_given && makes_pressure<E>()) return;
+    if (!sight.makes_pressure && makes_pressure<E>()) return;
+    if (!sight.load_guide && std::is_same_v<E, plant::GuideFriction>) return;
     for (const plant::Variant& law : E::variants) {
       const std::string prefix = "effects." + std::string(effect.name) + ".";
       Candidate c{.effect = std::string(effect.name),
@@ -227,6 +359,15 @@ std::vector<Candidate> catalogue(bool pressure_is_given) {
   };
   std::apply([&](const auto&... effect) { (add(effect), ...); }, plant::Effects::Table{});
   return list;
+}
+
+}  // namespace
+
+std::vector<Candidate> catalogue() {
+  return in_sight({});
+}
+std::vector<Candidate> catalogue(const domain::Dataset& data) {
+  return in_sight({.makes_pressure = !data.pressure_is_given(), .load_guide = data.rig.pair() == nullptr});
 }
 
 }  // namespace mckibben::diagnose

@@ -1,25 +1,35 @@
 // Parameters of a rig by name: those that a calibration may move, with what a data sheet says of them, and
 // those that switch effects on. A name is the path of keys in a rig file, `muscle.rest_radius`.
+//
+// Of a pair, effects act on both sides alike. A part that is the same on both sides (muscle, friction, valve,
+// hose) is one to a fit, too; of one that is not, each side's numbers are free by themselves, those of muscle
+// 2 as `mechanics.opposite.muscle.rest_radius`.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include <plant/rig.hpp>
+#include <sim/domain/dataset.hpp>
+#include <sim/domain/rig_file.hpp>
 #include <sim/domain/rig_number.hpp>
 #include <sim/domain/spread.hpp>
 
 namespace mckibben::diagnose {
 
+using domain::RigFile;
 using Found = domain::RigNumber;
 
 /// Throws std::invalid_argument for a path that leads to no number.
-Found find(plant::Rig& rig, std::string_view path);
-double value_of(const plant::Rig& rig, std::string_view path);
+Found find(RigFile& rig, std::string_view path);
+double value_of(const RigFile& rig, std::string_view path);
+
+/// Calls `visit` with the effects of each side of the rig.
+void each_side(RigFile& rig, const std::function<void(plant::Effects& effects)>& visit);
 
 /// Whether this effect of the catalogue is in the rig.
-bool carries(plant::Rig rig, std::string_view effect);
+bool carries(RigFile rig, std::string_view effect);
 
 /// A parameter that a fit may move.
 struct Parameter {
@@ -31,8 +41,10 @@ struct Parameter {
   bool has_prior = false;    ///< normal round `origin`, with `scale` as deviation
   bool logarithmic = false;  ///< counts in logarithms, from 1 in its unit
   double period = 0.0;       ///< values so far apart are the same, an angle; 0: none are
+  bool both_sides = false;   ///< of a pair: the number of muscle 2's side is the same one
 
-  bool of_effect() const { return path.starts_with("effects."); }
+  bool of_effect() const { return path.find("effects.") != std::string::npos; }
+  void put(RigFile& rig, double value) const;
   double unscaled(double number) const;
   double scaled(double value) const;
 };
@@ -41,7 +53,7 @@ struct Parameter {
 /// how well it knows, with that (also of parameters that would not move else; one that is known exactly does
 /// not). Those of effects that the rig has already count with them; their size is believed to a factor of a
 /// few, or to what is typical, whichever is more.
-std::vector<Parameter> nominal_parameters(const plant::Rig& nominal, const domain::Spreads& stated = {});
+std::vector<Parameter> nominal_parameters(const RigFile& nominal, const domain::Spreads& stated = {});
 
 /// One law variant of an effect of the catalogue.
 struct Candidate {
@@ -52,17 +64,22 @@ struct Candidate {
   bool either_sign = false;
   std::vector<double> shapes;  ///< to begin from
 
+  /// Gives it this size in a rig; and a shape, if it has one.
+  void put(RigFile& rig, double size) const;
+  void put(RigFile& rig, double size, double with_shape) const;
   /// The rig with this law chosen, still without size.
-  plant::Rig chosen(plant::Rig rig) const;
+  RigFile chosen(RigFile rig) const;
   /// Whether the rig has this effect, with this law.
-  bool carried(plant::Rig rig) const;
+  bool carried(RigFile rig) const;
   /// What a fit moves: amplitude and, if any, shape.
-  std::vector<Parameter> parameters(const plant::Rig& rig) const;
+  std::vector<Parameter> parameters(const RigFile& rig) const;
 };
 
-/// The whole catalogue, in the order of its table; where the muscle's pressure is given, without what acts on
-/// valve, supply, hose and gas alone: out of sight.
-std::vector<Candidate> catalogue(bool pressure_is_given = false);
+/// The whole catalogue, in the order of its table.
+std::vector<Candidate> catalogue();
+/// What these data can show of it: where the muscle's pressure is given, without what acts on valve, supply,
+/// hose and gas alone, of a pair without the guide of a load.
+std::vector<Candidate> catalogue(const domain::Dataset& data);
 
 /// Effects of the catalogue, and parameters, that a given pressure leaves nothing to see of.
 std::vector<std::string> effects_out_of_sight();

@@ -46,7 +46,7 @@ controllers::StepCurrent triangles_on_a_ramp(double low_mA, double high_mA, doub
   return steps;
 }
 
-std::vector<Item> menu(const plant::Rig& rig) {
+std::vector<Item> menu(const RigFile& rig) {
   const double low = rig.valve.zero_current_mA;
   const double high = std::min(rig.valve.span_current_mA, rig.dac.largest_current_mA);
   const double span = high - low;
@@ -84,7 +84,7 @@ std::vector<Item> menu(const plant::Rig& rig) {
 
 /// The data set's loads, their halves and 1.3 times them, none within 8 % of another, none that the rig would
 /// not lift by 5 % of its length.
-std::vector<double> loads_kg(const domain::Dataset& data, const plant::Rig& rig) {
+std::vector<double> loads_kg(const domain::Dataset& data, const RigFile& rig) {
   std::vector<double> wanted;
   for (const double factor : thresholds.plan.loads)
     for (const domain::Run& run : data.runs) wanted.push_back(std::round(1e3 * factor * run.load_kg) / 1e3);
@@ -102,7 +102,7 @@ std::vector<double> loads_kg(const domain::Dataset& data, const plant::Rig& rig)
 }
 
 /// The current as the DAC gives it, at each tick.
-domain::Run played(const Item& item, const plant::Rig& rig, double load_kg) {
+domain::Run played(const Item& item, const RigFile& rig, double load_kg) {
   domain::Run run;
   run.load_kg = load_kg;
   for (int k = 0; k * rig.tick_s < lasting_s; ++k)
@@ -138,9 +138,9 @@ double power(double noncentrality) {
 
 }  // namespace
 
-std::optional<NextExperiment> plan(const Experiment& experiment, const plant::Rig& named,
-                                   const plant::Rig& rival, std::vector<std::string> names,
-                                   double noise_ratio, double effective_share) {
+std::optional<NextExperiment> plan(const Experiment& experiment, const RigFile& named, const RigFile& rival,
+                                   std::vector<std::string> names, double noise_ratio,
+                                   double effective_share) {
   if (!(effective_share > 0.0 && effective_share <= 1.0))
     throw std::invalid_argument("effective_share must be above 0 and at most 1");
   const std::vector<Item> items = menu(named);

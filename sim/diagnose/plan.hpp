@@ -24,8 +24,8 @@ namespace mckibben::diagnose {
 ///
 /// Experiments that cannot be simulated are passed over. None if not even the best has a power of 10 %.
 /// Throws std::invalid_argument for a share outside (0, 1]; run::Interrupted.
-std::optional<NextExperiment> plan(const Experiment& experiment, const plant::Rig& named,
-                                   const plant::Rig& rival, std::vector<std::string> names,
-                                   double noise_ratio, double effective_share);
+std::optional<NextExperiment> plan(const Experiment& experiment, const RigFile& named, const RigFile& rival,
+                                   std::vector<std::string> names, double noise_ratio,
+                                   double effective_share);
 
 }  // namespace mckibben::diagnose

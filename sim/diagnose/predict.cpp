@@ -1,7 +1,9 @@
 // What drove a run drives riders; see the header.
+#include <algorithm>
 #include <atomic>
 #include <memory>
 #include <utility>
+#include <variant>
 
 #include <sim/diagnose/predict.hpp>
 #include <sim/diagnose/thresholds.hpp>
@@ -17,7 +19,9 @@ namespace {
 class Flight {
  public:
   Flight(const domain::Run& run, std::span<const Hanging> rigs)
-      : forces_(run.length_is_given()),
+      : pair_(rigs.front().rig.pair() != nullptr),
+        forces_(run.length_is_given()),
+        force_beside_(run.beside(domain::Beside::force) != nullptr),
         rest_length_m_(run.rest_length_m),
         rig_(rigs.front().rig),
         course_(run::course_of(run, rig_)) {
@@ -60,15 +64,24 @@ class Flight {
   void look(std::span<const ride::Rider> riders) {
     for (std::size_t i = 0; i < riders.size(); ++i) {
       const ride::Reading& seen = riders[i].now.reading;
-      const double length_m =
-          rest_length_m_ > 0.0 ? rest_length_m_ : riders[i].plant().rig().muscle.rest_length_m;
-      readings_[i].judged.push_back(forces_ ? riders[i].moment().cord_force_N() : seen.wheel_m / length_m);
+      readings_[i].judged.push_back(forces_ ? riders[i].moment().cord_force_N()
+                                            : seen.wheel_m / travel_m(riders[i].plant().rig()));
       readings_[i].pressure_Pa.push_back(seen.muscle_pressure_Pa);
+      if (force_beside_) readings_[i].force_N.push_back(std::max(riders[i].moment().cord_force_N(), 0.0));
+      if (pair_) readings_[i].opposite_pressure_Pa.push_back(seen.opposite_pressure_Pa);
     }
     readings_[0].states.push_back(riders[0].now.flow.state);
   }
 
+  /// Of the wheel's rim, for a reading of 1.
+  double travel_m(const plant::Rig& rig) const {
+    if (pair_) return rig.joint.wheel_radius_m;
+    return rest_length_m_ > 0.0 ? rest_length_m_ : rig.muscle.rest_length_m;
+  }
+
+  bool pair_;             // angles are read
   bool forces_;           // are read, at lengths that are given
+  bool force_beside_;     // of the cord is read besides
   double rest_length_m_;  // that readings go by; 0: each rig's own
   plant::Rig rig_;        // whose ticks count
   run::Course course_;
@@ -84,7 +97,8 @@ class Flying final : public run::Errand {
 
   Flying(Flight flight, const Wanted& wanted, solver::Method method, Done done)
       : flight_(std::move(flight)), wanted_(wanted), method_(method), done_(std::move(done)) {
-    for (const Hanging& hanging : wanted_.rigs) riders_.emplace_back(hanging);
+    for (const Hanging& hanging : wanted_.rigs)
+      riders_.emplace_back(ride::Hanging{hanging.rig, hanging.load_kg});
     flight_.begin(riders_);
   }
 
@@ -117,20 +131,38 @@ class Flying final : public run::Errand {
 std::optional<ride::ConvoyClass> class_of(const Wanted& wanted, const Flight& flight, solver::Method method) {
   std::vector<const plant::Rig*> rigs;
   for (const Hanging& hanging : wanted.rigs) rigs.push_back(&hanging.rig);
+  if (wanted.rigs.front().rig.pair() != nullptr) return std::nullopt;  // convoys are of single muscles
   return ride::convoy_class(rigs, flight.course().drives.front(), settings_for(wanted.rigs, method));
+}
+
+/// As a ride takes them: all have one muscle, or all have two.
+std::variant<std::vector<ride::Hanging>, std::vector<ride::Paired>> riding(std::span<const Hanging> rigs) {
+  std::vector<ride::Hanging> hanging;
+  std::vector<ride::Paired> pairs;
+  for (const Hanging& one : rigs) {
+    if (const plant::Pair* pair = one.rig.pair())
+      pairs.push_back(run::paired(one.rig, *pair));
+    else
+      hanging.push_back({one.rig, one.load_kg});
+  }
+  if (pairs.empty()) return hanging;
+  return pairs;
 }
 
 }  // namespace
 
 solver::Settings settings_for(std::span<const Hanging> rigs, solver::Method method) {
-  return {method, ride::can_share_steps(rigs, method) ? thresholds.predict.tolerance
-                                                      : thresholds.predict.tolerance_alone};
+  const bool shared = std::visit(
+      [&](const auto& list) { return ride::can_share_steps(std::span(list), method); }, riding(rigs));
+  return {method, shared ? thresholds.predict.tolerance : thresholds.predict.tolerance_alone};
 }
 
 std::vector<Readings> predict(const domain::Run& run, std::span<const Hanging> rigs, solver::Method method,
                               std::span<const double> memories) {
   Flight flight(run, rigs);
-  ride::Ride ride(rigs, settings_for(rigs, method));
+  const solver::Settings settings = settings_for(rigs, method);
+  ride::Ride ride =
+      std::visit([&](const auto& list) { return ride::Ride(std::span(list), settings); }, riding(rigs));
   flight.begin(ride.riders(), memories);
   while (flight.go_on(ride.riders())) ride.advance();
   return flight.close();

@@ -11,17 +11,31 @@
 #include <plant/state.hpp>
 #include <sim/diagnose/parameter.hpp>
 #include <sim/domain/dataset.hpp>
-#include <sim/ride/ride.hpp>
+#include <sim/solver/settings.hpp>
 
 namespace mckibben::diagnose {
 
-using ride::Hanging;
+/// A rig with its load [kg], where one hangs on it.
+struct Hanging {
+  RigFile rig;
+  double load_kg = 0.0;
+};
 
 /// At each row, before counting.
 struct Readings {
-  std::vector<double> judged;  ///< contraction ratio, or the cord's force [N] at a given length
-  std::vector<double> pressure_Pa;
-  std::vector<plant::State<double>> states;  ///< of the first rig only
+  std::vector<double> judged;  ///< contraction ratio; the cord's force [N] at a given length; angle [rad]
+  std::vector<double> pressure_Pa, opposite_pressure_Pa;  ///< the latter of a pair only
+  std::vector<double> force_N;                            ///< of the cord, where it was read beside
+  std::vector<plant::State<double>> states;               ///< of the first rig only
+
+  std::vector<double>& beside(domain::Beside which) {
+    if (which == domain::Beside::force) return force_N;
+    return which == domain::Beside::muscle_pressure ? pressure_Pa : opposite_pressure_Pa;
+  }
+  const std::vector<double>& beside(domain::Beside which) const {
+    if (which == domain::Beside::force) return force_N;
+    return which == domain::Beside::muscle_pressure ? pressure_Pa : opposite_pressure_Pa;
+  }
 };
 
 /// Readings of up to engine::Flock::most rigs, in common steps where these can be had (ride::Ride). Ticks are

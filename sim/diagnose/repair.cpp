@@ -26,6 +26,7 @@ void shift(domain::Run& run, std::vector<bool>& masked, int late) {
   };
   move(run.contraction_ratio);
   if (run.muscle_pressure_Pa) move(*run.muscle_pressure_Pa);
+  if (!run.force_N.empty()) move(run.force_N);
   const std::vector<bool> was = masked;
   for (int k = 0; k < rows; ++k) {
     const int from = k + late;

@@ -19,8 +19,8 @@ std::vector<RunGap> gaps_of_runs(const Experiment& experiment, const Runs& held_
     gap.held_out = std::binary_search(held_out.begin(), held_out.end(), run);
     gap.left_out = !std::binary_search(usable.begin(), usable.end(), run);
     gap.measured = runs[run].judged();
-    for (double& read : gap.measured) read += 0.5 * experiment.floor().count;
-    const auto tell = [&](const plant::Rig& rig, double& rmse, std::vector<double>& readings) {
+    for (double& read : gap.measured) read += experiment.floor().middle;
+    const auto tell = [&](const RigFile& rig, double& rmse, std::vector<double>& readings) {
       auto simulated = experiment.readings(rig, run);
       rmse = experiment.rmse(experiment.residuals(simulated, run), {run});
       readings = std::move(simulated.judged);
@@ -32,14 +32,40 @@ std::vector<RunGap> gaps_of_runs(const Experiment& experiment, const Runs& held_
   return gaps;
 }
 
-std::string visited(const domain::Dataset& data, const Runs& runs) {
-  struct Range {
-    double low = std::numeric_limits<double>::infinity(), high = -low;
-    void see(double value) {
-      low = std::min(low, value);
-      high = std::max(high, value);
+namespace {
+
+/// Values that were seen.
+struct Range {
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  void see(double value) {
+    low = std::min(low, value);
+    high = std::max(high, value);
+  }
+};
+
+/// What the runs of a pair were driven with, and where that took them.
+std::string visited_by_pair(const domain::Dataset& data, const Runs& runs) {
+  Range current_mA, pressure_bar, angle_deg;
+  for (const std::size_t run : runs) {
+    for (const auto& side : data.runs[run].measured->sides) {
+      for (const double value : side.current_mA) current_mA.see(value);
+      if (side.pressure_is_given)
+        for (const double value : side.muscle_pressure_Pa) pressure_bar.see(value / plant::Pa_per_bar);
     }
-  } current_mA, load_kg, ratio, pressure_bar;
+    for (const double value : data.runs[run].angle_rad) angle_deg.see(value / plant::degree_rad);
+  }
+  const bool given = data.pressure_is_given();
+  const Range& driven = given ? pressure_bar : current_mA;
+  return fmt::format("{} of {:.3g} to {:.3g} {} and joint angles of {:.3g} to {:.3g} deg, as in these runs",
+                     given ? "pressures" : "currents", driven.low, driven.high, given ? "bar" : "mA",
+                     angle_deg.low, angle_deg.high);
+}
+
+}  // namespace
+
+std::string visited(const domain::Dataset& data, const Runs& runs) {
+  if (data.judged() == Judged::angle) return visited_by_pair(data, runs);
+  Range current_mA, load_kg, ratio, pressure_bar;
   for (const std::size_t run : runs) {
     for (const double value : data.runs[run].current_mA) current_mA.see(value);
     const domain::Run& measured = data.runs[run];

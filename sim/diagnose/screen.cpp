@@ -52,8 +52,7 @@ std::vector<Score> screen(const Experiment& experiment, const Fitted& fitted,
         probes.push_back({i, shape});
         changes.push_back({[&c, shape, size](Hanging& h) {
                              h.rig = c.chosen(h.rig);
-                             if (!c.shape.empty()) *find(h.rig, c.shape).value = shape;
-                             *find(h.rig, c.amplitude).value = c.absent + size;
+                             c.put(h.rig, c.absent + size, shape);
                            },
                            size, true});
       }

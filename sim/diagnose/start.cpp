@@ -7,7 +7,7 @@
 
 #include <sim/diagnose/start.hpp>
 #include <sim/diagnose/thresholds.hpp>
-#include <sim/run/simulate.hpp>
+#include <sim/run/judged.hpp>
 
 namespace mckibben::diagnose {
 namespace {
@@ -23,7 +23,7 @@ double moved(const std::vector<double>& ratio) {
 
 }  // namespace
 
-Start look_at_start(const Experiment& experiment, const plant::Rig& corrected, const Runs& runs) {
+Start look_at_start(const Experiment& experiment, const RigFile& corrected, const Runs& runs) {
   Start start;
   const double tick_s = experiment.data().row_s();
   std::size_t longest = 0;
@@ -32,7 +32,7 @@ Start look_at_start(const Experiment& experiment, const plant::Rig& corrected, c
       std::min(of_start.longest_s, of_start.share_of_run * static_cast<double>(longest) * tick_s);
   const auto first = static_cast<Eigen::Index>(std::lround(start.lasting_s / tick_s));
   const double limit =
-      of_start.counts * run::contraction_per_count(corrected) + of_start.jitters * experiment.floor().jitter;
+      of_start.counts * run::reading_grain(corrected) + of_start.jitters * experiment.floor().jitter;
   double early = 0.0, all = 0.0, early_rows = 0.0, all_rows = 0.0;
   for (const std::size_t run : runs) {
     const Readings readings = experiment.readings(corrected, run);
@@ -45,7 +45,7 @@ Start look_at_start(const Experiment& experiment, const plant::Rig& corrected, c
     all_rows += static_cast<double>(residuals.size());
     const auto& measured = experiment.data().runs[run];
     if (experiment.data().recorded.start == domain::Start::settled && !measured.length_is_given() &&
-        moved(measured.contraction_ratio) > limit + of_start.beyond_model * moved(readings.judged))
+        moved(measured.judged()) > limit + of_start.beyond_model * moved(readings.judged))
       start.unsettled.push_back(measured.id);
   }
   if (all > 0.0) start.share_of_gap = std::clamp(early / all, 0.0, 1.0);
@@ -61,8 +61,8 @@ std::string sentence_of(const Start& start, const Gap& gap) {
         fmt::format(" {:.0f} % of what is left lies in the first {:.2g} s of the runs, {:.0f} % of the time.",
                     100.0 * start.share_of_gap, start.lasting_s, 100.0 * start.share_of_time);
   if (start.unsettled.empty()) return text + " Did they begin settled, at rest under their first current?";
-  return text + fmt::format(" Not settled at the start, since the load moves from the first reading on: {}.",
-                            fmt::join(start.unsettled, ", "));
+  return text + fmt::format(" Not settled at the start, since the {} moves from the first reading on: {}.",
+                            gap.judged == Judged::angle ? "joint" : "load", fmt::join(start.unsettled, ", "));
 }
 
 }  // namespace mckibben::diagnose

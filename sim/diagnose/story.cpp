@@ -38,9 +38,9 @@ std::string sentence_of(const std::string& effect) {
 }  // namespace
 
 void tell_parameters(Diagnosis& diagnosis, const Model& model, const std::vector<Bounds>& bounds,
-                     const plant::Rig& recalibrated) {
+                     const RigFile& recalibrated) {
   const auto& terms = model.rig.effects.get<plant::ResidualForce>().terms;
-  plant::Rig rig = model.rig;
+  RigFile rig = model.rig;
   for (std::size_t j = 0; j < model.free.size(); ++j) {
     const Parameter& p = model.free[j];
     FittedNumber number{p.path,        find(rig, p.path).unit, bounds[j].value,
@@ -71,9 +71,58 @@ void tell_parameters(Diagnosis& diagnosis, const Model& model, const std::vector
   }
 }
 
-std::string amount_of(Judged judged, double value, const plant::Rig& rig) {
-  return judged == Judged::force ? fmt::format("{:.2g} N", value)
-                                 : fmt::format("{:.2g} mm", 1e3 * value * rig.muscle.rest_length_m);
+std::string amount_of(Judged judged, double value, const RigFile& rig, int digits) {
+  switch (judged) {
+    case Judged::force:
+      return fmt::format("{:.{}g} N", value, digits);
+    case Judged::angle:
+      return fmt::format("{:.{}g} deg", value / plant::degree_rad, digits);
+    case Judged::contraction:
+      break;
+  }
+  return fmt::format("{:.{}g} mm", 1e3 * value * rig.muscle.rest_length_m, digits);
+}
+
+std::string_view unit_in_words(Judged judged) {
+  switch (judged) {
+    case Judged::force:
+      return "N";
+    case Judged::angle:
+      return "rad";
+    case Judged::contraction:
+      break;
+  }
+  return "in contraction ratio";
+}
+
+namespace {
+
+std::string noise_of_given_pressure(const domain::Dataset& data, const NoiseFloor& floor) {
+  switch (data.judged()) {
+    case Judged::force:
+      return fmt::format("force, {:.2g} N", floor.given);
+    case Judged::angle:
+      return fmt::format("joint, {}", amount_of(Judged::angle, floor.given, data.rig));
+    case Judged::contraction:
+      break;
+  }
+  return fmt::format("motion, {:.2g} in contraction ratio", floor.given);
+}
+
+}  // namespace
+
+std::vector<std::string> sheets_in_words(const domain::Dataset& data, const NoiseFloor& floor) {
+  std::vector<std::string> words;
+  if (floor.command > 0.0)
+    words.push_back(fmt::format(
+        "the regulator repeats a pressure within {:.2g} mbar; what that does to what was read, {} (rms), "
+        "counts "
+        "in the noise floor",
+        1e-2 * data.rig.valve.repeatability_Pa, amount_of(data.judged(), floor.command, data.rig)));
+  if (floor.accuracy > 0.0)
+    words.push_back(fmt::format("the sensor's accuracy, {}, counts in the noise floor",
+                                amount_of(data.judged(), floor.accuracy, data.rig)));
+  return words;
 }
 
 std::vector<std::string> rows_in_words(const domain::Dataset& data, const NoiseFloor& floor) {
@@ -90,22 +139,30 @@ std::vector<std::string> rows_in_words(const domain::Dataset& data, const NoiseF
     words.push_back(fmt::format(
         "the noise of the given pressure, {:.2g} mbar, {}; what it does to the {}, counts in the noise floor",
         1e-2 * rows.given_noise_Pa, rows.smoothed ? "was smoothed" : "was left as it is",
-        data.force_is_judged() ? fmt::format("force, {:.2g} N", floor.given)
-                               : fmt::format("motion, {:.2g} in contraction ratio", floor.given)));
+        noise_of_given_pressure(data, floor)));
   if (rows.slack > 0)
     words.push_back(
         fmt::format("{} readings of force are 0, a cord that hangs through: how far the muscle is from "
                     "pulling they do not say, and nothing goes by them",
                     rows.slack));
+  if (rows.at_the_end > 0)
+    words.push_back(
+        fmt::format("{} readings of force are at the end of the load cell's range; nothing goes by them",
+                    rows.at_the_end));
   if (data.force_is_judged())
     words.push_back(
         "the muscle's length is the input: what acts on the load, on its guide or on the encoder is out of "
         "sight, "
         "and runs are not looked through for faults of a recorder");
+  const bool pair = data.judged() == Judged::angle;
+  if (pair)
+    words.push_back(
+        "two muscles turn the joint: effects are looked for on both alike; runs are not looked through for "
+        "faults of a recorder, no further measurement is planned, and a load's guide there is none");
   if (data.pressure_is_given())
-    words.push_back(fmt::format(
-        "the muscle's pressure is the input: valve, supply, hose and gas are out of sight, and with them {}",
-        fmt::join(effects_out_of_sight(), ", ")));
+    words.push_back(
+        fmt::format("the muscle{} the input: valve, supply, hose and gas are out of sight, and with them {}",
+                    pair ? "s' pressures are" : "'s pressure is", fmt::join(effects_out_of_sight(), ", ")));
   return words;
 }
 
@@ -121,13 +178,51 @@ std::string faults_in_words(const Diagnosis& d) {
   return text + ". ";
 }
 
-std::string remark_in_words(Remark remark, const Naming& naming, double left) {
+std::pair<std::string_view, std::string_view> told(domain::Beside which, bool pair) {
+  switch (which) {
+    case domain::Beside::force:
+      return {"force", "N"};
+    case domain::Beside::opposite_pressure:
+      return {"muscle_pressure_2", "Pa"};
+    case domain::Beside::muscle_pressure:
+      break;
+  }
+  return {pair ? "muscle_pressure_1" : "muscle_pressure", "Pa"};
+}
+
+std::string besides_in_words(const domain::Dataset& data) {
+  std::vector<std::string> list;
+  for (const domain::Beside which : domain::besides) {
+    const auto read = [&](const domain::Run& run) { return run.beside(which) != nullptr; };
+    if (std::ranges::none_of(data.runs, read)) continue;
+    const auto [reading, unit] = told(which, data.rig.pair() != nullptr);
+    list.push_back(fmt::format("{}_{}", reading, unit == "Pa" ? "bar" : unit));
+  }
+  return fmt::format("{}", fmt::join(list, " and "));
+}
+
+std::string ignored_in_words(const domain::Dataset& data) {
+  const auto has = [&](domain::Beside which) {
+    return std::ranges::any_of(data.runs, [&](const auto& run) { return run.beside(which) != nullptr; });
+  };
+  const bool gauge = std::ranges::any_of(domain::gauges, has), cell = has(domain::Beside::force);
+  const bool several = std::ranges::count_if(domain::besides, has) > 1;
+  return fmt::format(
+      "{} {} ignored: no model meets both {} and the motion, but one meets the motion alone "
+      "(has the {} an offset, another scale, a limit; was it on another muscle?)",
+      besides_in_words(data), several ? "are" : "is", several ? "them" : "it",
+      gauge && cell ? "gauge or the load cell"
+      : gauge       ? "gauge"
+                    : "load cell");
+}
+
+std::string remark_in_words(Remark remark, const Naming& naming, double left, const std::string& besides) {
   std::vector<std::string> names;
   for (const NamedEffect& effect : naming.effects) names.push_back(full_name(effect.name, effect.variant));
   const double floors = std::sqrt(left + 1.0);
   switch (remark) {
     case Remark::gauge_misleads:
-      return "effects that would explain the gauge's pressures make the motion worse: is the gauge right?";
+      return fmt::format("effects that would explain {} make the motion worse: is it right?", besides);
     case Remark::more_is_missing:
       return fmt::format(
           "{:.1f} noise floors are left with the effects named: more is missing, or their laws are "
@@ -157,7 +252,15 @@ std::string amount_in_words(const Diagnosis& d, double value) {
   return amount_of(d.gap.judged, value, d.corrected);
 }
 std::string what_is_judged(const Diagnosis& d) {
-  return d.gap.judged == Judged::force ? "the cord's force" : "the load's height";
+  switch (d.gap.judged) {
+    case Judged::force:
+      return "the cord's force";
+    case Judged::angle:
+      return "the joint's angle";
+    case Judged::contraction:
+      break;
+  }
+  return "the load's height";
 }
 
 std::string gap_in_words(const Diagnosis& d) {
@@ -198,8 +301,8 @@ std::string law_in_words(const Diagnosis& d) {
     return "Something real is missing, but no effect of the catalogue explains it, and no simple law of "
            "force was found either.";
   return fmt::format(
-      "Something is missing that no effect of the catalogue explains; as a force on the load it is {}. {}",
-      law, gap_in_words(d));
+      "Something is missing that no effect of the catalogue explains; as a force {} it is {}. {}",
+      d.gap.judged == Judged::angle ? "that shortens each muscle" : "on the load", law, gap_in_words(d));
 }
 
 std::string cannot_tell_in_words(const Diagnosis& d) {

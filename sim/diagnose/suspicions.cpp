@@ -20,9 +20,7 @@ void Examination::draw_effects() {
     for (const double shape : c.shapes.empty() ? std::vector{0.0} : c.shapes) {
       changes.push_back({[&c, shape](Hanging& h) {
                            h.rig = c.chosen(h.rig);
-                           if (!c.shape.empty()) *find(h.rig, c.shape).value = shape;
-                           *find(h.rig, c.amplitude).value =
-                               c.absent + thresholds.parameter.probe * c.typical;
+                           c.put(h.rig, c.absent + thresholds.parameter.probe * c.typical, shape);
                          },
                          thresholds.parameter.probe * c.typical, true});
       drawn_.push_back({&c, shape, Eigen::VectorXd::Zero(residuals_.size())});

@@ -40,6 +40,8 @@ struct PredictThresholds {
 struct Prior {
   std::string_view path;
   double relative, absolute;  ///< standard deviation; absolute in the parameter's unit
+
+  bool of_hanging_load() const { return path.starts_with("joint."); }
 };
 struct ParameterThresholds {
   /// Machined lengths are known to a per cent, catalogue conductances and friction to ten, trimmed pressures
@@ -59,6 +61,14 @@ struct ParameterThresholds {
                                 {"hose.conductance", 0.1, 0.0},
                                 {"joint.guide_damping", 0.2, 0.0},
                                 {"joint.load_offset", 0.0, 0.05}}};
+  /// Of a pair besides: how its muscles are mounted to a millimetre of 0.3 m, angles to a degree, a link's
+  /// length and inertia to what a ruler and a drawing say.
+  std::array<Prior, 6> pair_priors{{{"mechanics.contraction_1", 0.0, 0.003},
+                                    {"mechanics.contraction_2", 0.0, 0.003},
+                                    {"mechanics.link_length", 0.01, 0.0},
+                                    {"mechanics.link_inertia", 0.05, 0.0},
+                                    {"mechanics.link_hangs_at", 0.0, 0.0175},
+                                    {"mechanics.joint_damping", 0.2, 0.0}}};
   double unknown = 0.5;          ///< of its value: the deviation of one that is stated to be unknown,
   double unknown_usual = 3.0;    ///< or so many of those above, if that is more
   double most_deviations = 3.0;  ///< of its prior: further it is not the rig that was described
@@ -105,6 +115,11 @@ struct CheckThresholds {
   double gauge_bar = 0.3;            ///< the model's pressure moves so far: a gauge must follow
   double gauge_slope = 0.1;          ///< of the gauge over the model, at least
   double like_kilo = 1.0;            ///< logarithm, round a thousandth of the model's forces: they are in kN
+  double like_turn = 0.5;            ///< correlation of a joint's angle with the model's: it turns alike,
+  double turns_at_all = 0.2;         ///< and so far, over the model's
+  double like_degrees = 0.7;         ///< logarithm, round 180/pi: degrees for radians, or the other way
+  double opposite_force = 0.5;       ///< of the model's mean force, below 0: a force of the other sign
+  double like_kilogram = 0.2;        ///< logarithm, round 1/g of the model's forces: they are in kg
   double most_masked = 0.3;          ///< of a run: more, and too little of it is left
   double most_contradicted =
       1.0 / 3.0;            ///< of the runs, whose labels contradict the others: more cannot tell
@@ -167,6 +182,7 @@ struct FaultThresholds {
 /// What nobody can see.
 struct NoiseThresholds {
   double least_ratio = 5e-5;    ///< contraction ratio: no sensor of a lab does better, no simulation needs to
+  double sheet_noise = 2.0;     ///< times its data sheet's: a sensor that scatters more is said to
   double least_force_N = 0.02;  ///< no load cell of a bench does better
   double least_pressure_Pa = 50.0;  ///< no gauge does better
   double first_decimal = 1e-3;      ///< the coarsest that readings are rounded to,
@@ -221,10 +237,12 @@ struct WhereThresholds {
   double same_sum = 1e-12;          ///< relative: as large
   double false_discoveries = 0.05;  ///< share of those called significant. Convention
   double rest_mm_per_s = 0.5;       ///< slower is standing
-  std::array<double, 3> speeds_mm_per_s{5.0, 25.0, 100.0};  ///< between cells
-  int pressures = 5, contractions = 6, times = 4;           ///< cells of equal width
-  std::array<double, 2> start_s{1.0, 4.0};                  ///< between cells
-  std::array<double, 3> since_reversal_s{0.1, 0.5, 2.0};    ///< between cells
+  std::array<double, 3> speeds_mm_per_s{5.0, 25.0, 100.0};    ///< between cells
+  double rest_deg_per_s = 1.0;                                ///< slower a joint stands
+  std::array<double, 3> speeds_deg_per_s{10.0, 50.0, 200.0};  ///< of a joint, between cells
+  int pressures = 5, contractions = 6, times = 4;             ///< cells of equal width
+  std::array<double, 2> start_s{1.0, 4.0};                    ///< between cells
+  std::array<double, 3> since_reversal_s{0.1, 0.5, 2.0};      ///< between cells
 };
 
 // ---- 4. Name

@@ -29,7 +29,7 @@ bool has_size(const Model& model, const Candidate& c) {
 Model without(const Model& model, std::size_t effect) {
   Model smaller = model;
   const Candidate& gone = model.effects[effect];
-  *find(smaller.rig, gone.amplitude).value = gone.absent;
+  gone.put(smaller.rig, gone.absent);
   std::erase_if(smaller.free,
                 [&](const Parameter& p) { return p.path == gone.amplitude || p.path == gone.shape; });
   smaller.effects.erase(smaller.effects.begin() + static_cast<std::ptrdiff_t>(effect));
@@ -54,13 +54,12 @@ Model with(const Case& c, const Model& model, const Score& score) {
   Model bigger = model;
   bigger.rig = candidate.chosen(bigger.rig);
   const auto parameters = candidate.parameters(bigger.rig);
-  if (!candidate.shape.empty()) *find(bigger.rig, candidate.shape).value = score.shape;
   // The score is a straight line drawn at nothing; the law may bend.
   double least = 0.0, best = candidate.absent;
   for (const double share : thresholds.name.first_sizes) {
     const double size = std::clamp(candidate.absent + share * (score.amplitude - candidate.absent),
                                    parameters[0].lowest, parameters[0].highest);
-    *find(bigger.rig, candidate.amplitude).value = size;
+    candidate.put(bigger.rig, size, score.shape);
     double squares = 0.0;
     try {
       squares = c.experiment.residuals(bigger.rig, c.split.training).squaredNorm();
@@ -72,7 +71,7 @@ Model with(const Case& c, const Model& model, const Score& score) {
       best = size;
     }
   }
-  *find(bigger.rig, candidate.amplitude).value = best;
+  candidate.put(bigger.rig, best, score.shape);
   bigger.free.insert(bigger.free.end(), parameters.begin(), parameters.end());
   bigger.effects.push_back(candidate);
   return bigger;
@@ -83,7 +82,7 @@ Screening screen_at(const Case& c, const Contender& base) {
   // from its data sheet for the sake of details.
   const double scatter =
       std::max(c.inflation, variance_inflation(c.experiment, base.fitted.residuals, c.split.training));
-  const auto candidates = catalogue(c.experiment.data().pressure_is_given());
+  const auto candidates = catalogue(c.experiment.data());
   const Runs few = a_few(c.experiment.data(), c.split.training, thresholds.screen.most_runs);
   if (few.size() == c.split.training.size())
     return {&base, screen(c.experiment, base.fitted, candidates, few, scatter)};

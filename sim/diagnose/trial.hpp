@@ -17,7 +17,7 @@ using Step = std::function<void(const std::string&)>;
 /// What stays the same throughout a diagnosis.
 struct Case {
   const Experiment& experiment;
-  const plant::Rig& nominal;
+  const RigFile& nominal;
   Split split;
   double inflation;
   Step learned;  ///< hears what is known so far

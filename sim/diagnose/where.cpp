@@ -22,14 +22,15 @@ constexpr const WhereThresholds& cells_by = thresholds.where;
 
 /// One reading and the state the model was in.
 struct Row {
-  double residual;  // of the judged reading
-  std::size_t segment;
-  double load_kg;
-  double speed_mm_per_s;
-  double pressure_Pa;
-  double contraction_ratio;
-  double time_s;
-  double since_turn_s;  // below 0: none yet
+  double residual = 0.0;  // of the judged reading
+  std::size_t segment = 0;
+  double load_kg = 0.0;
+  double speed = 0.0;  // mm/s; of a joint deg/s
+  double pressure_Pa = 0.0, opposite_pressure_Pa = 0.0;
+  double contraction_ratio = 0.0, opposite_contraction_ratio = 0.0;
+  double angle_rad = 0.0;  // of a joint
+  double time_s = 0.0;
+  double since_turn_s = 0.0;  // below 0: none yet
 };
 
 /// Time since the last turn at each row; -1 before the first. A turn is where the direction changed, known
@@ -58,8 +59,25 @@ std::vector<double> since_turn_s(const std::vector<plant::State<double>>& states
   return since_s;
 }
 
+/// What a row says of the state that the model was in.
+Row in_state(const RigFile& rig, const plant::State<double>& state) {
+  const auto& joint = state.joint;
+  Row row{.speed = 1e3 * rig.muscle.rest_length_m * joint.contraction_speed_per_s,
+          .pressure_Pa = state.side.muscle_pressure_Pa,
+          .contraction_ratio = joint.contraction_ratio};
+  const plant::Pair* pair = rig.pair();
+  if (pair == nullptr) return row;
+  const double length_m = rig.muscle.rest_length_m, radius_m = rig.joint.wheel_radius_m;
+  row.angle_rad = (joint.contraction_ratio - pair->contraction_ratio) * length_m / radius_m;
+  row.speed = joint.contraction_speed_per_s * length_m / radius_m / plant::degree_rad;
+  row.opposite_pressure_Pa = state.opposite.muscle_pressure_Pa;
+  row.opposite_contraction_ratio =
+      pair->opposite_contraction_ratio - row.angle_rad * radius_m / pair->opposite.muscle.rest_length_m;
+  return row;
+}
+
 /// The rows of all runs that count, and the number of segments.
-std::vector<Row> rows_of(const Experiment& experiment, const plant::Rig& rig, const Runs& runs,
+std::vector<Row> rows_of(const Experiment& experiment, const RigFile& rig, const Runs& runs,
                          std::size_t& segments) {
   const Eigen::VectorXd residuals = experiment.residuals(rig, runs);
   std::vector<Readings> readings(runs.size());
@@ -76,16 +94,13 @@ std::vector<Row> rows_of(const Experiment& experiment, const plant::Rig& rig, co
     for (std::size_t k = 0; k < states.size(); ++k) {
       const double residual = residuals[parts[i].begin + static_cast<Eigen::Index>(k)];
       if (residual == 0.0) continue;  // masked
-      const auto& joint = states[k].joint;
-      rows.push_back(
-          {.residual = experiment.floor().judged * residual,
-           .segment = segments + k / per_segment,
-           .load_kg = experiment.data().runs[runs[i]].load_kg,
-           .speed_mm_per_s = 1e3 * rig.muscle.rest_length_m * joint.contraction_speed_per_s,
-           .pressure_Pa = states[k].side.muscle_pressure_Pa,
-           .contraction_ratio = joint.contraction_ratio,
-           .time_s = experiment.data().rows_begin_s() + static_cast<double>(k) * experiment.data().row_s(),
-           .since_turn_s = since_s[k]});
+      Row row = in_state(rig, states[k]);
+      row.residual = experiment.floor().judged * residual;
+      row.segment = segments + k / per_segment;
+      row.load_kg = experiment.data().runs[runs[i]].load_kg;
+      row.time_s = experiment.data().rows_begin_s() + static_cast<double>(k) * experiment.data().row_s();
+      row.since_turn_s = since_s[k];
+      rows.push_back(row);
     }
     segments += (states.size() + per_segment - 1) / per_segment;
   }
@@ -124,15 +139,10 @@ std::vector<double> equal(double lowest, double highest, int bins) {
   return edges;
 }
 
-std::vector<Factor> factors_of(const Experiment& experiment, const plant::Rig& rig, const Runs& runs) {
+/// Loads, each a cell.
+Factor by_load(const Experiment& experiment, const Runs& runs) {
   std::vector<double> loads_kg;
-  double longest_s = 0.0;
-  for (const std::size_t run : runs) {
-    const domain::Run& measured = experiment.data().runs[run];
-    loads_kg.push_back(measured.load_kg);
-    longest_s =
-        std::max(longest_s, static_cast<double>(measured.judged().size()) * experiment.data().row_s());
-  }
+  for (const std::size_t run : runs) loads_kg.push_back(experiment.data().runs[run].load_kg);
   std::sort(loads_kg.begin(), loads_kg.end());
   loads_kg.erase(std::unique(loads_kg.begin(), loads_kg.end()), loads_kg.end());
   Factor load{"load", {}, [loads_kg](const Row& row) {
@@ -140,23 +150,64 @@ std::vector<Factor> factors_of(const Experiment& experiment, const plant::Rig& r
                                      std::lower_bound(loads_kg.begin(), loads_kg.end(), row.load_kg));
               }};
   for (const double load_kg : loads_kg) load.cells.push_back(fmt::format("{:.6g} kg", load_kg));
+  return load;
+}
 
+Factor by_direction(std::string forward, std::string back, double rest) {
+  return {"direction",
+          {std::move(forward), std::move(back), "at rest"},
+          [rest](const Row& row) -> std::ptrdiff_t {
+            if (std::abs(row.speed) < rest) return 2;
+            return row.speed > 0.0 ? 0 : 1;
+          }};
+}
+
+Factor by_speed(std::span<const double> between, const std::string& unit) {
+  return binned("speed", between, 1.0, unit, [](const Row& row) { return std::abs(row.speed); });
+}
+
+Factor by_pressure(std::string name, const plant::Valve& valve, double Row::*pressure_Pa) {
+  return binned(std::move(name), equal(valve.zero_pressure_Pa, valve.span_pressure_Pa, cells_by.pressures),
+                plant::Pa_per_bar, "bar", [pressure_Pa](const Row& row) { return row.*pressure_Pa; });
+}
+
+/// By how one muscle moves, under its load.
+std::vector<Factor> by_muscle(const Experiment& experiment, const RigFile& rig, const Runs& runs) {
   std::vector<Factor> factors;
-  factors.push_back(
-      {"direction", {"contracting", "relaxing", "at rest"}, [](const Row& row) -> std::ptrdiff_t {
-         if (std::abs(row.speed_mm_per_s) < cells_by.rest_mm_per_s) return 2;
-         return row.speed_mm_per_s > 0.0 ? 0 : 1;
-       }});
-  factors.push_back(binned("speed", cells_by.speeds_mm_per_s, 1.0, "mm/s",
-                           [](const Row& row) { return std::abs(row.speed_mm_per_s); }));
-  if (!experiment.data().force_is_judged()) factors.push_back(std::move(load));
-  factors.push_back(binned("pressure",
-                           equal(rig.valve.zero_pressure_Pa, rig.valve.span_pressure_Pa, cells_by.pressures),
-                           plant::Pa_per_bar, "bar", [](const Row& row) { return row.pressure_Pa; }));
+  factors.push_back(by_direction("contracting", "relaxing", cells_by.rest_mm_per_s));
+  factors.push_back(by_speed(cells_by.speeds_mm_per_s, "mm/s"));
+  if (!experiment.data().force_is_judged()) factors.push_back(by_load(experiment, runs));
+  factors.push_back(by_pressure("pressure", rig.valve, &Row::pressure_Pa));
   factors.push_back(
       binned("contraction",
              equal(0.0, run::knowledge_of(rig, {}).model.largest_contraction_ratio(), cells_by.contractions),
              1.0, "", [](const Row& row) { return row.contraction_ratio; }));
+  return factors;
+}
+
+/// By how two muscles turn their joint.
+std::vector<Factor> by_joint(const RigFile& rig, const std::vector<Row>& rows) {
+  std::vector<Factor> factors;
+  factors.push_back(by_direction("towards muscle 1", "towards muscle 2", cells_by.rest_deg_per_s));
+  factors.push_back(by_speed(cells_by.speeds_deg_per_s, "deg/s"));
+  factors.push_back(by_pressure("pressure of muscle 1", rig.valve, &Row::pressure_Pa));
+  factors.push_back(
+      by_pressure("pressure of muscle 2", rig.pair()->opposite.valve, &Row::opposite_pressure_Pa));
+  if (rows.empty()) return factors;
+  const auto [low, high] = std::ranges::minmax(rows, {}, &Row::angle_rad);
+  factors.push_back(binned("angle", equal(low.angle_rad, high.angle_rad, cells_by.contractions),
+                           plant::degree_rad, "deg", [](const Row& row) { return row.angle_rad; }));
+  return factors;
+}
+
+std::vector<Factor> factors_of(const Experiment& experiment, const RigFile& rig, const Runs& runs,
+                               const std::vector<Row>& rows) {
+  double longest_s = 0.0;
+  for (const std::size_t run : runs)
+    longest_s = std::max(longest_s, static_cast<double>(experiment.data().runs[run].judged().size()) *
+                                        experiment.data().row_s());
+  const bool pair = rig.pair() != nullptr;
+  auto factors = pair ? by_joint(rig, rows) : by_muscle(experiment, rig, runs);
   factors.push_back(binned("time in run", equal(0.0, longest_s, cells_by.times), 1.0, "s",
                            [](const Row& row) { return row.time_s; }));
   factors.push_back(
@@ -167,7 +218,7 @@ std::vector<Factor> factors_of(const Experiment& experiment, const plant::Rig& r
     return row.since_turn_s < 0.0 ? -1 : bin(row);
   };
   factors.push_back({"braid stop", {"touched", "free"}, [](const Row& row) -> std::ptrdiff_t {
-                       return row.contraction_ratio < 0.0 ? 0 : 1;
+                       return std::min(row.contraction_ratio, row.opposite_contraction_ratio) < 0.0 ? 0 : 1;
                      }});
   return factors;
 }
@@ -258,13 +309,13 @@ void mark_significant(std::vector<Cell>& cells) {
 
 }  // namespace
 
-std::vector<Cell> where(const Experiment& experiment, const plant::Rig& recalibrated, const Runs& runs,
+std::vector<Cell> where(const Experiment& experiment, const RigFile& recalibrated, const Runs& runs,
                         std::uint64_t seed) {
   std::size_t segments = 0;
   const auto rows = rows_of(experiment, recalibrated, runs, segments);
   std::mt19937_64 random(seed);
   std::vector<Cell> cells;
-  for (const Factor& factor : factors_of(experiment, recalibrated, runs))
+  for (const Factor& factor : factors_of(experiment, recalibrated, runs, rows))
     for (Cell& cell : map(factor, rows, segments, experiment.floor().judged, random))
       cells.push_back(std::move(cell));
   mark_significant(cells);

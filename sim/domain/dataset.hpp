@@ -2,9 +2,12 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include <sim/domain/columns.hpp>
@@ -13,6 +16,20 @@
 #include <sim/domain/rig_file.hpp>
 
 namespace mckibben::domain {
+
+/// The reading that models are judged by: contraction ratio; force [N] at lengths that a bench gives; joint
+/// angle [rad] of a pair.
+enum class Judged { contraction, force, angle };
+constexpr auto names(Judged) {
+  using enum Judged;
+  return std::array{std::pair{contraction, std::string_view{"contraction"}},
+                    std::pair{force, std::string_view{"force"}}, std::pair{angle, std::string_view{"angle"}}};
+}
+
+/// What may have been read beside it, in the order in which it is told.
+enum class Beside { muscle_pressure, opposite_pressure, force };
+inline constexpr std::array gauges{Beside::muscle_pressure, Beside::opposite_pressure};
+inline constexpr std::array besides{Beside::muscle_pressure, Beside::opposite_pressure, Beside::force};
 
 /// One measured run: a row each tick, the first at time 0; or `measured` with a clock of its own.
 struct Run {
@@ -25,18 +42,38 @@ struct Run {
 
   std::vector<double> current_mA;  ///< held from its row to the next
   std::vector<double> contraction_ratio;
-  std::vector<double> force_N;  ///< of the cord, where the length is given and it is judged in place of that
+  std::vector<double> force_N;    ///< of the cord: judged where the length is given, else beside
+  std::vector<double> angle_rad;  ///< of a pair
   std::optional<std::vector<double>> muscle_pressure_Pa;
+  std::optional<std::vector<double>> opposite_pressure_Pa;  ///< of muscle 2
   double ratio_per_unit = 1.0;  ///< of contraction: what one of its file's unit is
   double rest_length_m = 0.0;   ///< that its rise was divided by; 0: that of the rig it is compared with
 
   std::optional<Measurement> measured;  ///< in place of these three; or what stands behind their rows (Rows)
   std::optional<Measurement> shaken;    ///< the same, with as much noise again on a pressure that is given
   std::vector<double> time_s;           ///< of rows made of stamps, since the first stamp; else empty
-  std::vector<bool> missing;            ///< rows of theirs without a reading; empty: none is
+  std::vector<bool> missing;  ///< rows of theirs without a reading of what is judged; empty: none is
+  std::array<std::vector<bool>, besides.size()> missing_beside;  ///< the same of what was read beside it
 
-  /// The reading that a model is judged by: contraction ratio, or force [N] at a length that is given.
-  const std::vector<double>& judged() const { return force_N.empty() ? contraction_ratio : force_N; }
+  /// The reading that a model is judged by.
+  Judged kind_of_judged() const {
+    if (!angle_rad.empty()) return Judged::angle;
+    return length_is_given() ? Judged::force : Judged::contraction;
+  }
+  const std::vector<double>& judged() const {
+    const Judged kind = kind_of_judged();
+    return kind == Judged::angle ? angle_rad : kind == Judged::force ? force_N : contraction_ratio;
+  }
+  /// What was read beside it; null if it was not.
+  const std::vector<double>* beside(Beside which) const {
+    if (which == Beside::force) return force_N.empty() || length_is_given() ? nullptr : &force_N;
+    const auto& read = which == Beside::muscle_pressure ? muscle_pressure_Pa : opposite_pressure_Pa;
+    return read ? &*read : nullptr;
+  }
+  bool is_missing(Beside which, std::size_t row) const {
+    const auto& rows = missing_beside[static_cast<std::size_t>(which)];
+    return !rows.empty() && rows[row];
+  }
   bool length_is_given() const { return measured && measured->length_is_given; }
 
   template <class Self, class Visitor>
@@ -59,10 +96,12 @@ struct Rows {
   std::size_t stamps = 0, rows = 0, inputs = 0;  ///< in the files; judged; that drive the simulation
   double readings = 1.0;                         ///< in a row, on average
   double noise = 0.0, pressure_noise_Pa = 0.0;   ///< of a row's values, by what the readings scatter
+  double force_noise_N = 0.0;                    ///< of a force that was read beside
   double step = 0.0;                             ///< that the readings are rounded to
   double given_noise_Pa = 0.0;                   ///< of a reading of a pressure that is given
   bool smoothed = false;                         ///< that pressure was
   std::size_t slack = 0;                         ///< readings of force that are none: the cord hung through
+  std::size_t at_the_end = 0;                    ///< and those at the end of the load cell's range
 
   friend bool operator==(const Rows&, const Rows&) = default;
 };
@@ -79,10 +118,16 @@ struct Dataset {
   double rows_begin_s() const { return rows_of_stamps ? recorded.skip_s : 0.0; }
   /// A bench gives every run its length, and what is judged is the force.
   bool force_is_judged() const { return !runs.empty() && std::ranges::all_of(runs, &Run::length_is_given); }
-  /// No run has a valve: the pressure is given.
+  Judged judged() const {
+    if (rig.pair() != nullptr) return Judged::angle;
+    return force_is_judged() ? Judged::force : Judged::contraction;
+  }
+  /// No run has a valve: the pressure is given, of a pair both are.
   bool pressure_is_given() const {
-    return std::all_of(runs.begin(), runs.end(), [](const Run& run) {
-      return run.measured && run.measured->sides[0].pressure_is_given;
+    const bool pair = rig.pair() != nullptr;
+    return std::all_of(runs.begin(), runs.end(), [&](const Run& run) {
+      return run.measured && run.measured->sides[0].pressure_is_given &&
+             (!pair || run.measured->sides[1].pressure_is_given);
     });
   }
 

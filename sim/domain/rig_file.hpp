@@ -16,6 +16,9 @@ struct RigFile : plant::Rig {
   solver::Settings integrator;
   Spreads spreads;  ///< `6 mm ± 0.1 mm`
 
+  RigFile() = default;
+  RigFile(const plant::Rig& rig) : plant::Rig(rig) {}  ///< with a load that hangs
+
   /// The second muscle and the link, or null.
   const plant::Pair* pair() const { return std::get_if<plant::Pair>(&mechanics); }
   bool lifts_a_load() const { return std::holds_alternative<plant::HangingLoad>(mechanics); }
@@ -32,6 +35,8 @@ struct RigFile : plant::Rig {
   void rules(Report& report) const {
     plant::Rig::rules(report);
     if (pair() != nullptr) plant::pair_rules(*this, *pair(), report);
+    if (pair() != nullptr && load_cell.fitted)
+      report("load_cell", "is of rigs with one muscle: of two, angle and pressures are read");
   }
 };
 

@@ -100,6 +100,16 @@ RigNumber find_number(plant::Rig& rig, std::string_view path) {
   return guide.found;
 }
 
+RigNumber find_number(RigFile& rig, std::string_view path) {
+  constexpr std::string_view of_mechanics = "mechanics.";
+  if (!path.starts_with(of_mechanics)) return find_number(static_cast<plant::Rig&>(rig), path);
+  auto* const pair = std::get_if<plant::Pair>(&rig.mechanics);
+  if (pair == nullptr) return {};
+  Guide guide(path.substr(of_mechanics.size()));
+  plant::Pair::fields(*pair, guide);
+  return guide.found;
+}
+
 std::vector<std::string> paths_of_numbers(const plant::Rig& rig) {
   PathLister lister;
   plant::Rig::fields(rig, lister);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <plant/rig.hpp>
+#include <sim/domain/rig_file.hpp>
 
 namespace mckibben::domain {
 
@@ -17,6 +18,8 @@ struct RigNumber {
 };
 
 RigNumber find_number(plant::Rig& rig, std::string_view path);
+/// Of a pair also `mechanics.link_length`, `mechanics.opposite.muscle.rest_radius`.
+RigNumber find_number(RigFile& rig, std::string_view path);
 
 /// The paths of all numbers of a rig, in the order of its file.
 std::vector<std::string> paths_of_numbers(const plant::Rig& rig);

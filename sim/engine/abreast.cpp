@@ -80,7 +80,8 @@ struct Leaves {
   requires(std::integral<T> || std::is_enum_v<T>) void operator()(T& choice) {
     choices.push_back(makes_no_difference ? std::nullopt : std::optional(static_cast<long>(choice)));
   }
-  void operator()(const plant::RatedCommand&) {}  // whatever a command is called, the valve gets a current
+  void operator()(const plant::RatedCommand&) {}    // whatever a command is called, the valve gets a current
+  void operator()(const std::optional<double>&) {}  // ends of a sensor's range: laws know none
   template <class T>
   void size(const std::vector<T>& list) {
     choices.emplace_back(static_cast<long>(list.size()));
@@ -112,6 +113,7 @@ struct Fill {
   }
   void operator()(double& value) { value = rigs.front().numbers[number++]; }  // of instruments
   void operator()(const plant::RatedCommand&) {}
+  void operator()(const std::optional<double>&) {}
   template <class T>
   requires(std::integral<T> || std::is_enum_v<T>) void operator()(T& value) {
     value = static_cast<T>(choices[choice++]);
@@ -175,10 +177,10 @@ std::vector<Leaves> levelled_leaves(std::vector<plant::Rig>& rigs) {
 
 }  // namespace
 
-std::optional<plant::PlantOf<Lanes>> abreast(std::span<const plant::Plant> plants) {
-  std::vector<plant::Rig> rigs;
-  rigs.reserve(plants.size());
-  for (const plant::Plant& plant : plants) rigs.push_back(plant.rig());
+namespace {
+
+/// Rigs as one; nothing if they differ in more than numbers.
+std::optional<plant::RigOf<Lanes>> as_one(std::vector<plant::Rig> rigs) {
   const auto leaves = levelled_leaves(rigs);
   const auto choices = common_choices(leaves);
   if (!choices) return std::nullopt;
@@ -187,13 +189,48 @@ std::optional<plant::PlantOf<Lanes>> abreast(std::span<const plant::Plant> plant
   plant::RigOf<Lanes> rig;
   Fill fill{leaves, chosen};
   walk(rig, fill);
+  return rig;
+}
+
+/// What turns with the rigs, as one.
+plant::LinkOf<Lanes> as_one(std::span<const plant::Plant> pairs) {
+  std::vector<Leaves> leaves;
+  for (const plant::Plant& pair : pairs) {
+    plant::Link link = pair.link();
+    walk(link, leaves.emplace_back());
+  }
+  const std::vector<long> none;
+  plant::LinkOf<Lanes> link;
+  Fill fill{leaves, none};
+  walk(link, fill);
+  return link;
+}
+
+}  // namespace
+
+std::optional<plant::PlantOf<Lanes>> abreast(std::span<const plant::Plant> plants) {
+  std::vector<plant::Rig> rigs, opposite;
+  rigs.reserve(plants.size());
+  for (const plant::Plant& plant : plants) {
+    rigs.push_back(plant.rig());
+    if (plant.opposite()) opposite.push_back(plant.opposite()->rig());
+  }
+  const auto rig = as_one(std::move(rigs));
+  if (!rig) return std::nullopt;
+  if (!opposite.empty()) {
+    const auto other = as_one(std::move(opposite));
+    if (!other) return std::nullopt;
+    return plant::PlantOf<Lanes>(*rig, *other, as_one(plants));
+  }
   Lanes load_kg;
   for (std::size_t lane = 0; lane < Lanes::count; ++lane)
     load_kg.set(lane, plants[lane < plants.size() ? lane : 0].load_kg());
-  return plant::PlantOf<Lanes>(rig, load_kg);
+  return plant::PlantOf<Lanes>(*rig, load_kg);
 }
 
-void put(const plant::Held& held, std::size_t lane, plant::HeldOf<Lanes>& all) {
+namespace {
+
+void put_side(const plant::HeldSide& held, std::size_t lane, plant::HeldSideOf<Lanes>& all) {
   all.reference_pressure_Pa.set(lane, held.reference_pressure_Pa);
   all.current_speed_mA_per_s.set(lane, held.current_speed_mA_per_s);
   if (held.pressure_rate_Pa_per_s) {
@@ -202,6 +239,13 @@ void put(const plant::Held& held, std::size_t lane, plant::HeldOf<Lanes>& all) {
   } else {
     all.pressure_rate_Pa_per_s.reset();
   }
+}
+
+}  // namespace
+
+void put(const plant::Held& held, std::size_t lane, plant::HeldOf<Lanes>& all) {
+  put_side(held, lane, all);
+  put_side(held.opposite, lane, all.opposite);
   all.length_is_given = held.length_is_given;
 }
 

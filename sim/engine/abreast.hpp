@@ -11,7 +11,7 @@
 namespace mckibben::engine {
 
 /// The plants, and the first again where there are fewer than lanes; nothing if they differ in more than
-/// numbers (friction law, variant of an effect that two of them have). One muscle each.
+/// numbers (friction law, variant of an effect that two of them have). All of one muscle each, or of two.
 std::optional<plant::PlantOf<Lanes>> abreast(std::span<const plant::Plant> plants);
 
 /// What one of them holds, in its lane. All of them are driven alike: a pressure, a length is given to all or

@@ -13,9 +13,9 @@ namespace {
 
 // Eight rigs in the lanes of each number; where there are fewer, the first one fills them. All go through the
 // laws at once unless they differ in more than numbers.
-template <bool remembers>
+template <bool remembers, int sides>
 class ErkFlock final : public Flock {
-  using Lane = LaneProblem<remembers>;
+  using Lane = LaneProblem<remembers, sides>;
   using L = typename Lane::L;
   using V = typename Lane::V;
   using One = typename Lane::One;
@@ -106,12 +106,16 @@ std::unique_ptr<Flock> make_flock(std::span<const plant::Plant> plants, double t
   if (plants.empty() || plants.size() > Flock::most) throw std::invalid_argument("a flock has 1 to 8 rigs");
   if (std::any_of(plants.begin(), plants.end(), [](const auto& rig) { return rig.has_events(); }))
     throw std::invalid_argument("exact stick and slip (memory: coulomb) has no common steps");
-  if (std::any_of(plants.begin(), plants.end(), [](const auto& rig) { return rig.opposite().has_value(); }))
-    throw std::invalid_argument("pairs of muscles have no common steps");
   const bool remembers =
       std::any_of(plants.begin(), plants.end(), [](const auto& rig) { return rig.remembers(); });
-  if (remembers) return std::make_unique<ErkFlock<true>>(plants, tolerance);
-  return std::make_unique<ErkFlock<false>>(plants, tolerance);
+  const bool pairs = plants.front().opposite().has_value();
+  if (std::any_of(plants.begin(), plants.end(),
+                  [&](const auto& rig) { return rig.opposite().has_value() != pairs; }))
+    throw std::invalid_argument("a flock is of pairs, or of single muscles");
+  if (pairs && remembers) return std::make_unique<ErkFlock<true, 2>>(plants, tolerance);
+  if (pairs) return std::make_unique<ErkFlock<false, 2>>(plants, tolerance);
+  if (remembers) return std::make_unique<ErkFlock<true, 1>>(plants, tolerance);
+  return std::make_unique<ErkFlock<false, 1>>(plants, tolerance);
 }
 
 }  // namespace mckibben::engine

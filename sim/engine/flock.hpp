@@ -36,8 +36,8 @@ class Flock {
   virtual void resume(const Pace& pace) = 0;
 };
 
-/// A flock of 1 to `most` plants. LuGre friction only: exact stick and slip switches each
-/// rig at a time of its own. Throws std::invalid_argument.
+/// A flock of 1 to `most` plants, of one muscle each or of two each. LuGre friction only: exact stick and
+/// slip switches each rig at a time of its own. Throws std::invalid_argument.
 std::unique_ptr<Flock> make_flock(std::span<const plant::Plant> plants, double tolerance);
 
 }  // namespace mckibben::engine

@@ -3,34 +3,49 @@
 
 namespace mckibben::engine {
 
-template <bool remembers>
-Mask LaneProblem<remembers>::rates(const plant::PlantOf<Lanes>& plant, const plant::HeldOf<Lanes>& held,
-                                   N_Vector y, N_Vector dydt, std::size_t block) {
+template <bool remembers, int sides>
+Mask LaneProblem<remembers, sides>::rates(const plant::PlantOf<Lanes>& plant,
+                                          const plant::HeldOf<Lanes>& held, N_Vector y, N_Vector dydt,
+                                          std::size_t block) {
   Mask inside;
   on_this_machine([&] {
     // Each by itself: for a block this long the compiler would take a slow instruction.
     plant::State<Lanes> state;
     state.joint = {at(y, 0, block), at(y, 1, block)};
     state.side = {at(y, 2, block), at(y, 3, block), at(y, 4, block)};
+    if constexpr (sides == 2) state.opposite = {at(y, 5, block), at(y, 6, block), at(y, 7, block)};
     plant::Memory<Lanes> memory;
-    for (std::size_t i = 0; i < memory.side.size(); ++i)
+    const std::size_t each = memory.side.size();
+    for (std::size_t i = 0; i < each; ++i) {
       memory.side[i] = remembers ? at(y, (L::states + i) % L::size, block) : Lanes(0.0);
-    inside = plant.template in_domain<1>(state);
-    const auto now = plant.template moment<1>(state, memory, held);
-    const auto slopes = plant.template rates<1>(state, now);
+      if constexpr (sides == 2)
+        memory.opposite[i] = remembers ? at(y, (L::states + each + i) % L::size, block) : Lanes(0.0);
+    }
+    inside = plant.template in_domain<sides>(state);
+    const auto now = plant.template moment<sides>(state, memory, held);
+    const auto slopes = plant.template rates<sides>(state, now);
     at(dydt, 0, block) = slopes.joint.contraction_ratio;
     at(dydt, 1, block) = slopes.joint.contraction_speed_per_s;
     at(dydt, 2, block) = slopes.side.valve_pressure_Pa;
     at(dydt, 3, block) = slopes.side.muscle_pressure_Pa;
     at(dydt, 4, block) = slopes.side.bristle_m;
+    if constexpr (sides == 2) {
+      at(dydt, 5, block) = slopes.opposite.valve_pressure_Pa;
+      at(dydt, 6, block) = slopes.opposite.muscle_pressure_Pa;
+      at(dydt, 7, block) = slopes.opposite.bristle_m;
+    }
     if constexpr (remembers)
-      for (std::size_t i = 0; i < memory.side.size(); ++i)
+      for (std::size_t i = 0; i < each; ++i) {
         at(dydt, L::states + i, block) = now.memory_rates[i];
+        if constexpr (sides == 2) at(dydt, L::states + each + i, block) = now.opposite.memory_rates[i];
+      }
   });
   return inside;
 }
 
 template struct LaneProblem<false>;
 template struct LaneProblem<true>;
+template struct LaneProblem<false, 2>;
+template struct LaneProblem<true, 2>;
 
 }  // namespace mckibben::engine

@@ -9,9 +9,9 @@
 
 namespace mckibben::engine {
 
-template <bool remembers>
+template <bool remembers, int sides = 1>
 struct LaneProblem {
-  using L = Layout<1, remembers, Books::none>;
+  using L = Layout<sides, remembers, Books::none>;
   struct V : LaneVector<L::size, L::counted> {
     using layout = L;
   };
@@ -40,5 +40,7 @@ struct LaneProblem {
 // The laws in lanes are what takes longest to compile: once, in lane_problem.cpp.
 extern template struct LaneProblem<false>;
 extern template struct LaneProblem<true>;
+extern template struct LaneProblem<false, 2>;
+extern template struct LaneProblem<true, 2>;
 
 }  // namespace mckibben::engine

@@ -26,7 +26,7 @@ void to_ratio(std::vector<double>& values, const std::string& unit, const plant:
   double ratio = 1.0;
   if (unit == "1") return;
   if (unit == count) {
-    ratio = plant::count_height_m(rig.encoder, rig.joint) / rig.muscle.rest_length_m;
+    ratio = plant::count_height_m(rig) / rig.muscle.rest_length_m;
   } else if (unit == "%") {
     for (double& value : values) value /= 100.0;
     return;
@@ -125,7 +125,7 @@ void convert_columns(Table& table, const ColumnMap& map, const domain::RigFile& 
     if (found->key == "contraction") {
       to_ratio(column.values, place.unit, rig);
     } else if (place.unit == count) {  // of the joint's angle
-      const double count_rad = plant::count_height_m(rig.encoder, rig.joint) / rig.joint.wheel_radius_m;
+      const double count_rad = plant::count_height_m(rig) / rig.joint.wheel_radius_m;
       for (double& value : column.values) value *= count_rad;
     } else if (is_command(*found) && !is_current(place.unit)) {
       const plant::Valve& valve = found->key == "command_2" ? rig.pair()->opposite.valve : rig.valve;

@@ -155,6 +155,31 @@ std::string_view why_no_bench(const Run& run) {
   return none ? "the muscle's length is given, and force is not read" : "";
 }
 
+/// Why a run of a pair has nothing to be judged by, or is driven in two ways; empty if neither.
+std::string_view why_no_pair(const Run& run) {
+  if (!run.measured) return "angle is not read";
+  const auto& read = run.measured->angle_rad;
+  if (std::ranges::all_of(read, [](double angle_rad) { return std::isnan(angle_rad); }))
+    return "angle is not read";
+  const auto& [one, two] = run.measured->sides;
+  return one.pressure_is_given == two.pressure_is_given
+             ? ""
+             : "the pressure of one muscle is given, and that of the other is not";
+}
+
+/// The same of any run.
+std::string_view why_not(const Dataset& dataset, const Run& run) {
+  switch (dataset.judged()) {
+    case domain::Judged::angle:
+      return why_no_pair(run);
+    case domain::Judged::force:
+      return why_no_bench(run);
+    case domain::Judged::contraction:
+      break;
+  }
+  return why_not_one_load(run);
+}
+
 }  // namespace
 
 bool has_one_load(const Dataset& dataset) {
@@ -162,11 +187,10 @@ bool has_one_load(const Dataset& dataset) {
          std::ranges::all_of(dataset.runs, [](const Run& run) { return why_not_one_load(run).empty(); });
 }
 
-void require_one_muscle(const Dataset& dataset, std::string_view verb) {
-  const bool bench = dataset.force_is_judged();
-  if (!bench) require_load(dataset.rig, dataset.path.string(), verb);
+void require_judged(const Dataset& dataset, std::string_view verb) {
+  if (dataset.judged() == domain::Judged::contraction) require_load(dataset.rig, dataset.path.string(), verb);
   for (const Run& run : dataset.runs)
-    if (const auto why = bench ? why_no_bench(run) : why_not_one_load(run); !why.empty())
+    if (const auto why = why_not(dataset, run); !why.empty())
       throw BadInput(
           {{Severity::error, dataset.path.string(), nowhere,
             fmt::format("{} cannot take it yet: in run {} {}", verb, shortened(run.id), why), ""}});

@@ -64,6 +64,14 @@ std::vector<Tick> round_numbers(const Scale& scale, int parts, double factor) {
   return ticks;
 }
 
+std::vector<Decade> decades(double low, double high) {
+  std::vector<Decade> lines;
+  for (double power = std::pow(10.0, std::ceil(std::log10(low))); power <= high; power *= 10.0)
+    for (const double value : {power, 2.0 * power, 5.0 * power})
+      if (value <= high) lines.push_back({value, value == power});
+  return lines;
+}
+
 std::string Panel::across(const std::vector<Tick>& ticks, const std::string& words) const {
   std::string lines, texts;
   for (const Tick& tick : ticks) {

@@ -34,6 +34,15 @@ struct Tick {
 /// With a floor: 0 and powers of ten.
 std::vector<Tick> round_numbers(const Scale& scale, int parts, double factor = 1.0);
 
+/// A line of a logarithmic axis; only at powers of ten stands a number.
+struct Decade {
+  double value;
+  bool is_power;
+};
+
+/// 1, 2 and 5 times each power of ten, from the first power that is not below `low` up to `high`.
+std::vector<Decade> decades(double low, double high);
+
 /// An area with two axes; `y` has its lowest value at the lower edge.
 struct Panel {
   Scale x, y;

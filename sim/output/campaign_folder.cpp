@@ -212,7 +212,7 @@ void CampaignFolder::put(const run::CampaignRun& run) const {
     write(files.ascii, thesis_ascii(run.recording, rig, run.job.load_kg));
     const auto measured = table_of(run, "measured", columns_of(run::measured(campaign_, run), rig.tick_s));
     const auto truth = table_of(
-        run, "truth", columns_of(run.recording, run::contraction_per_count(rig), {}, rig.gauge.fitted));
+        run, "truth", columns_of(run.recording, run::contraction_per_count(rig), {}, besides_of(rig)));
     for (const auto& [stem, table] : {std::pair{&files.data, &measured}, std::pair{&files.truth, &truth}})
       for (const auto& file : run_files(*stem, *table, formats_)) write(file.name, file.content);
   }
@@ -261,11 +261,11 @@ Digests CampaignFolder::write_rest(const std::vector<run::EndedRun>& runs, const
     rig = "rig.yaml";
     write("data/" + rig, input::to_yaml(input::rig_json(known)));
   }
-  write("data/dataset.yaml", input::to_yaml(dataset_json(rig, runs)));
+  write("data/dataset.yaml", input::to_yaml(dataset_json(campaign_.rig, rig, runs)));
   write("data/campaign.json", json_of(campaign_, runs));
-  const bool gauge = campaign_.rig.gauge.fitted;
-  write(std::string("data/") + package_file, package("measured", measured_columns(gauge), runs));
-  write(std::string("truth/") + package_file, package("truth", recorded_columns(false, gauge), runs));
+  const Besides besides = besides_of(campaign_.rig);
+  write(std::string("data/") + package_file, package("measured", measured_columns(besides), runs));
+  write(std::string("truth/") + package_file, package("truth", recorded_columns(false, besides), runs));
   if (std::any_of(runs.begin(), runs.end(), [](const auto& run) { return run.failure.empty(); }))
     write("data/report.html", report(unfinished_ / "data"));
   write("truth/truth.yaml", input::to_yaml(truth_json(campaign_, runs)));

@@ -5,6 +5,7 @@
 #include <sim/output/campaign_folder.hpp>
 #include <sim/output/campaign_json.hpp>
 #include <sim/output/json_parts.hpp>
+#include <sim/run/simulate.hpp>
 
 namespace mckibben::output {
 
@@ -54,8 +55,17 @@ run::EndedRun ended_run(const run::CampaignJob& job, const Json& entry) {
           counters_of(entry.at("solver"))};
 }
 
-Json dataset_json(const std::string& rig, const std::vector<run::EndedRun>& runs) {
-  return {{"schema", input::dataset_schema}, {"rig", rig}, {"runs", runs_json(runs)}};
+// A load cell makes it one with a clock of its own, whose contraction says that it is counted.
+Json dataset_json(const plant::Rig& rig, const std::string& name, const std::vector<run::EndedRun>& runs) {
+  Json data{{"schema", input::dataset_schema}, {"rig", name}};
+  if (rig.load_cell.fitted)
+    data["columns"] = {{"contraction",
+                        {{"column", "contraction_ratio"},
+                         {"unit", "count"},
+                         {"factor", 1.0 / run::contraction_per_count(rig)}}},
+                       {"force", {{"column", "force_N"}, {"unit", "N"}}}};
+  data["runs"] = runs_json(runs);
+  return data;
 }
 
 Json truth_json(const domain::Campaign& campaign, const std::vector<run::EndedRun>& runs) {

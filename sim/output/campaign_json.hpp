@@ -18,7 +18,8 @@ input::Json entry_json(const domain::Campaign& campaign, const run::EndedRun& ru
 run::EndedRun ended_run(const run::CampaignJob& job, const input::Json& entry);
 
 /// dataset.yaml, on a rig that is given by its name or path.
-input::Json dataset_json(const std::string& rig, const std::vector<run::EndedRun>& runs);
+input::Json dataset_json(const plant::Rig& rig, const std::string& name,
+                         const std::vector<run::EndedRun>& runs);
 
 /// truth.yaml: what the data set's owner does not know.
 input::Json truth_json(const domain::Campaign& campaign, const std::vector<run::EndedRun>& runs);

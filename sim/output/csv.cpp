@@ -22,7 +22,11 @@ double tidy_s(double time_s) {
 
 }  // namespace
 
-std::vector<formats::Column> recorded_columns(bool target, bool gauge) {
+Besides besides_of(const plant::Rig& rig) {
+  return {rig.gauge.fitted, rig.load_cell.fitted};
+}
+
+std::vector<formats::Column> recorded_columns(bool target, Besides besides) {
   std::vector<formats::Column> columns{
       {"time_s", "s", "time since the run began", {}},
       {"current_mA", "mA", "current to the valve, from this row to the next", {}},
@@ -35,13 +39,16 @@ std::vector<formats::Column> recorded_columns(bool target, bool gauge) {
       {"braid_force_N", "N", "force of the braid on the load, upwards", {}},
       {"friction_force_N", "N", "force of thread friction on the load, upwards", {}}};
   if (target) columns.push_back({"target_contraction_ratio", "1", "contraction ratio that is asked for", {}});
-  if (gauge) columns.push_back({"gauge_pressure_bar", "bar", "gauge pressure in the muscle as measured", {}});
+  if (besides.gauge)
+    columns.push_back({"gauge_pressure_bar", "bar", "gauge pressure in the muscle as measured", {}});
+  if (besides.load_cell)
+    columns.push_back({"cell_force_N", "N", "force of the muscle's cord as measured", {}});
   return columns;
 }
 
 std::vector<formats::Column> columns_of(const run::Recording& recording, double per_count,
-                                        const std::vector<double>& target, bool gauge) {
-  std::vector<formats::Column> columns = recorded_columns(!target.empty(), gauge);
+                                        const std::vector<double>& target, Besides besides) {
+  std::vector<formats::Column> columns = recorded_columns(!target.empty(), besides);
   for (auto& column : columns) column.values.reserve(recording.samples.size());
   for (std::size_t k = 0; k < recording.samples.size(); ++k) {
     const auto& row = recording.samples[k];
@@ -58,29 +65,33 @@ std::vector<formats::Column> columns_of(const run::Recording& recording, double 
     put(row.braid_force_N);
     put(row.friction_force_N);
     if (!target.empty()) put(target[k]);
-    if (gauge) put(row.gauge_Pa / 1e5);
+    if (besides.gauge) put(row.gauge_Pa / 1e5);
+    if (besides.load_cell) put(row.cell_N);
   }
   return columns;
 }
 
-std::vector<formats::Column> measured_columns(bool gauge) {
+std::vector<formats::Column> measured_columns(Besides besides) {
   std::vector<formats::Column> columns{
       {"time_s", "s", "time since the run began", {}},
       {"current_mA", "mA", "current to the valve, from this row to the next", {}},
       {"contraction_ratio", "1", "contraction ratio of the muscle as the encoder counts it", {}}};
-  if (gauge)
+  if (besides.gauge)
     columns.push_back({"muscle_pressure_bar", "bar", "gauge pressure in the muscle as measured", {}});
+  if (besides.load_cell) columns.push_back({"force_N", "N", "force of the muscle's cord as measured", {}});
   return columns;
 }
 
 std::vector<formats::Column> columns_of(const domain::Run& measured, double tick_s) {
-  std::vector<formats::Column> columns = measured_columns(measured.muscle_pressure_Pa.has_value());
+  std::vector<formats::Column> columns =
+      measured_columns({measured.muscle_pressure_Pa.has_value(), !measured.force_N.empty()});
   for (std::size_t k = 0; k < measured.current_mA.size(); ++k)
     columns[0].values.push_back(tidy_s(static_cast<double>(k) * tick_s));
   columns[1].values = measured.current_mA;
   columns[2].values = measured.contraction_ratio;
   if (measured.muscle_pressure_Pa)
     for (const double value : *measured.muscle_pressure_Pa) columns[3].values.push_back(value / 1e5);
+  if (!measured.force_N.empty()) columns.back().values = measured.force_N;
   return columns;
 }
 

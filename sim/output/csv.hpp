@@ -12,16 +12,22 @@
 
 namespace mckibben::output {
 
-/// Columns of a recording: true values, and what the encoder counted. A target and a gauge are columns where
-/// there are any.
-std::vector<formats::Column> recorded_columns(bool target, bool gauge);
+/// What is recorded of a muscle beside its position.
+struct Besides {
+  bool gauge = false, load_cell = false;
+};
+Besides besides_of(const plant::Rig& rig);
+
+/// Columns of a recording: true values, and what the encoder counted. A target, a gauge and a load cell are
+/// columns where there are any.
+std::vector<formats::Column> recorded_columns(bool target, Besides besides);
 /// The same with their values. `target` [contraction ratio] may be empty. `per_count` is the contraction
 /// ratio of one encoder count.
 std::vector<formats::Column> columns_of(const run::Recording& recording, double per_count,
-                                        const std::vector<double>& target, bool gauge);
+                                        const std::vector<double>& target, Besides besides);
 
 /// Columns of a data set's table: what was measured.
-std::vector<formats::Column> measured_columns(bool gauge);
+std::vector<formats::Column> measured_columns(Besides besides);
 std::vector<formats::Column> columns_of(const domain::Run& measured, double tick_s);
 
 /// Columns of one length as CSV.

@@ -38,7 +38,8 @@ std::string short_key(const std::string& path, const domain::RigFile& nominal) {
     return other.path != path && last_part(other.path) == last_part(path);
   };
   if (std::none_of(movable.begin(), movable.end(), alike)) return last_part(path);
-  std::string key = path;
+  constexpr std::string_view mechanics = "mechanics.";
+  std::string key = path.starts_with(mechanics) ? path.substr(mechanics.size()) : path;
   std::replace(key.begin(), key.end(), '.', '_');
   return key;
 }
@@ -93,17 +94,39 @@ Json where_json(const diagnose::Diagnosis& diagnosis) {
   return list;
 }
 
+std::string unit_of(diagnose::Judged judged) {
+  switch (judged) {
+    case diagnose::Judged::force:
+      return "N";
+    case diagnose::Judged::angle:
+      return "rad";
+    case diagnose::Judged::contraction:
+      break;
+  }
+  return "1";
+}
+
+Json beside_json(const diagnose::Gap& gap) {
+  Json list = Json::array();
+  for (const auto& one : gap.beside)
+    list.push_back({{"reading", one.reading},
+                    {"unit", one.unit},
+                    {"noise_floor", one.noise_floor},
+                    {"nominal_rmse", one.nominal_rmse},
+                    {"recalibrated_rmse", one.recalibrated_rmse},
+                    {"corrected_rmse", one.corrected_rmse}});
+  return list;
+}
+
 Json gap_json(const diagnose::Diagnosis& diagnosis) {
   const auto& gap = diagnosis.gap;
-  return {{"held_out_runs", held_out(diagnosis)},
-          {"noise_floor", gap.noise_floor},
-          {"nominal_rmse", gap.nominal_rmse},
-          {"recalibrated_rmse", gap.recalibrated_rmse},
-          {"corrected_rmse", gap.corrected_rmse},
-          {"closed", gap.closed},
-          {"encoder_jitter", gap.jitter},
-          {"reading", std::string(input::spelling(gap.judged))},
-          {"unit", gap.judged == diagnose::Judged::force ? "N" : "1"}};
+  Json all{{"held_out_runs", held_out(diagnosis)}, {"noise_floor", gap.noise_floor},
+           {"nominal_rmse", gap.nominal_rmse},     {"recalibrated_rmse", gap.recalibrated_rmse},
+           {"corrected_rmse", gap.corrected_rmse}, {"closed", gap.closed},
+           {"encoder_jitter", gap.jitter},         {"reading", std::string(input::spelling(gap.judged))},
+           {"unit", unit_of(gap.judged)}};
+  if (!gap.beside.empty()) all["beside"] = beside_json(gap);
+  return all;
 }
 
 Json start_json(const diagnose::Start& start) {

@@ -51,13 +51,30 @@ std::string moved(const Diagnosis& diagnosis) {
 std::string gap(const Diagnosis& diagnosis) {
   const auto& gap = diagnosis.gap;
   Grid grid({"nominal", "recalibrated", "corrected", "noise floor", "closed"}, 0);
-  const bool force = gap.judged == diagnose::Judged::force;
-  const auto ratio = [&](double value) {
-    return force ? fmt::format("{:.3f}", value) : fmt::format("{:.6f}", value);
+  const auto error = [&](double value) {
+    switch (gap.judged) {
+      case diagnose::Judged::force:
+        return fmt::format("{:.3f}", value);
+      case diagnose::Judged::angle:
+        return fmt::format("{:.4f}", value / plant::degree_rad);
+      case diagnose::Judged::contraction:
+        break;
+    }
+    return fmt::format("{:.6f}", value);
   };
-  grid.add({ratio(gap.nominal_rmse), ratio(gap.recalibrated_rmse), ratio(gap.corrected_rmse),
-            ratio(gap.noise_floor), fmt::format("{:.1f} %", 100.0 * gap.closed)});
+  grid.add({error(gap.nominal_rmse), error(gap.recalibrated_rmse), error(gap.corrected_rmse),
+            error(gap.noise_floor), fmt::format("{:.1f} %", 100.0 * gap.closed)});
   return grid.text();
+}
+
+std::string beside(const Diagnosis& diagnosis) {
+  Grid grid({"reading", "nominal", "recalibrated", "corrected", "noise floor"}, 1);
+  for (const auto& one : diagnosis.gap.beside) {
+    const auto error = [&](double value) { return readable(value, one.unit); };
+    grid.add({one.reading, error(one.nominal_rmse), error(one.recalibrated_rmse), error(one.corrected_rmse),
+              error(one.noise_floor)});
+  }
+  return grid.empty() ? "" : grid.text();
 }
 
 std::string twins(const Diagnosis& diagnosis) {
@@ -79,7 +96,8 @@ std::string next(const Diagnosis& diagnosis) {
 }
 
 std::string unit_of(const domain::Dataset& data) {
-  if (data.force_is_judged()) return "forces in N";
+  if (data.judged() == diagnose::Judged::force) return "forces in N";
+  if (data.judged() == diagnose::Judged::angle) return "joint angles in deg";
   return fmt::format("contraction ratios (0.001 = {:g} mm)", data.rig.muscle.rest_length_m);
 }
 
@@ -98,6 +116,7 @@ std::string table_of(const domain::Dataset& data, const Diagnosis& diagnosis) {
     text += "  residual_law is valid for " + diagnosis.law_valid_for + "\n";
   text += section("recalibrated by more than a deviation of what a data sheet promises", moved(diagnosis));
   if (!unseen.empty()) text += section("rmse of the runs held out", gap(diagnosis));
+  text += section("rmse of what was read beside it, each weighed by its own floor", beside(diagnosis));
   text += section("explain these data as well", twins(diagnosis));
   return text + section("to measure next", next(diagnosis));
 }

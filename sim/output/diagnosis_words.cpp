@@ -85,7 +85,15 @@ std::string height(double ratio, const plant::Rig& rig) {
 }
 
 std::string amount(double value, diagnose::Judged judged, const plant::Rig& rig) {
-  return judged == diagnose::Judged::force ? three_digits(value) + " N" : output::height(value, rig);
+  switch (judged) {
+    case diagnose::Judged::force:
+      return three_digits(value) + " N";
+    case diagnose::Judged::angle:
+      return three_digits(value / plant::degree_rad) + " deg";
+    case diagnose::Judged::contraction:
+      break;
+  }
+  return output::height(value, rig);
 }
 
 std::string mass(double kg) {
@@ -133,6 +141,8 @@ std::string what_next(const diagnose::Diagnosis& diagnosis) {
         floors);
   const bool twins = std::any_of(diagnosis.effects.begin(), diagnosis.effects.end(),
                                  [](const auto& effect) { return !effect.confusable_with.empty(); });
+  if (diagnosis.verdict == missing_effect && twins && diagnosis.gap.judged == diagnose::Judged::angle)
+    return "No measurement of a pair is planned that would tell these names apart.";
   if (diagnosis.verdict == missing_effect)
     return twins ? "No current that was tried would tell these names apart."
                  : "No further measurement is needed to choose between names.";

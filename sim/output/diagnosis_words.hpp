@@ -27,7 +27,7 @@ Readable readable(const diagnose::FittedNumber& number);
 /// A difference of contraction ratios as height of the load: "1.96 mm", never finer than a micrometre.
 std::string height(double ratio, const plant::Rig& rig);
 
-/// A difference of the reading that was judged: such a height, or "13.3 N".
+/// A difference of the reading that was judged: such a height, "13.3 N", or "0.250 deg".
 std::string amount(double value, diagnose::Judged judged, const plant::Rig& rig);
 
 /// A mass as a label tells it: six digits, "11.138 kg".

@@ -3,6 +3,7 @@
 
 #include <sim/input/pair_scenario_file.hpp>
 #include <sim/input/rigs.hpp>
+#include <sim/output/diagnosis_words.hpp>
 #include <sim/output/driven_results.hpp>
 #include <sim/output/grid.hpp>
 #include <sim/output/json_parts.hpp>
@@ -37,7 +38,7 @@ Json span_json(const run::Span& span) {
 }
 
 std::string degrees(double angle_rad) {
-  return fmt::format("{:+.2f}", angle_rad / plant::degree_rad + 0.0);
+  return rounded(angle_rad / plant::degree_rad, 2, true);
 }
 
 const std::string& name_of(const run::PairRun& run) {

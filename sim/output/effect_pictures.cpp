@@ -114,8 +114,8 @@ double telling_size(const diagnose::Candidate& law) {
 }  // namespace
 
 std::string effect_svg(std::string_view effect) {
-  const plant::Rig nominal;
-  std::vector<std::pair<std::string, plant::Rig>> laws;
+  const domain::RigFile nominal;
+  std::vector<std::pair<std::string, domain::RigFile>> laws;
   for (const auto& law : diagnose::catalogue()) {
     if (law.effect != effect) continue;
     auto& [words, rig] =

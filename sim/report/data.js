@@ -1,6 +1,8 @@
 // The numbers of this page: groups of runs, each quantity packed into 16 bits a value (sim/report/pack.cpp).
 const report = JSON.parse(document.getElementById('data').textContent);
 const byId = (id) => document.getElementById(id);
+/** With so many decimals; what is rounded to nothing has no sign. */
+const fixed = (value, digits) => value.toFixed(digits).replace(/^-(0(\.0*)?)$/, '$1');
 
 /** An element with attributes and children; of SVG if it is one of these. */
 function make(name, attributes = {}, ...children) {

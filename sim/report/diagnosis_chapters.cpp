@@ -99,18 +99,37 @@ std::string concentration(const Diagnosis& diagnosis, const plant::Rig& rig) {
                      100.0 * in);
 }
 
+/// The judged reading, what it is more of and what less.
+struct JudgedWords {
+  const char *what, *more, *less;
+};
+JudgedWords words_of(diagnose::Judged judged) {
+  switch (judged) {
+    case diagnose::Judged::force:
+      return {"force of the cord", "the muscle pulled more", "less"};
+    case diagnose::Judged::angle:
+      return {"angle of the joint", "it stood further towards muscle 1", "towards muscle 2"};
+    case diagnose::Judged::contraction:
+      break;
+  }
+  return {"height of the load", "the load was higher", "lower"};
+}
+
+/// "height", "force", "angle".
+std::string name_of(diagnose::Judged judged) {
+  return judged == diagnose::Judged::contraction ? "height" : std::string(input::spelling(judged));
+}
+
 std::string where_html(const Diagnosis& diagnosis, const plant::Rig& rig) {
   if (diagnosis.where.empty()) return "";
-  const bool force = diagnosis.gap.judged == diagnose::Judged::force;
+  const auto [what, more, less] = words_of(diagnosis.gap.judged);
   return paragraph(fmt::format(
              "Measured less recalibrated model, before anything was added, as {}, averaged "
              "over parts of the data. Orange: {} than the model says; blue: {}. Framed "
              "and marked with *: the mean of this part differs from the mean over all parts of its picture "
              "(where there is only one, from 0) by more than chance; of all marks {:g} % may be false. "
              "Dashed: the data never went there, so nothing is known of it.",
-             force ? "force of the cord" : "height of the load",
-             force ? "the muscle pulled more" : "the load was higher", force ? "less" : "lower",
-             100.0 * diagnose::thresholds.where.false_discoveries)) +
+             what, more, less, 100.0 * diagnose::thresholds.where.false_discoveries)) +
          concentration(diagnosis, rig) + figures_html(where_pictures(diagnosis, rig));
 }
 
@@ -129,12 +148,14 @@ std::string ranking_html(const Diagnosis& diagnosis, const plant::Rig& rig) {
 
 std::string law_html(const Diagnosis& diagnosis, const plant::Rig& rig) {
   if (diagnosis.residual_law.empty()) return "";
-  std::string html =
-      "<h3>residual_law</h3>\n" +
-      paragraph(
-          "A force outside the catalogue, positive upwards: the sum of the terms above, each a coefficient "
-          "times what it stands for (x rise of the load, v its speed in 0.1 m/s, "
-          "P in bar, m g in 98.0665 N).");
+  const bool pair = diagnosis.gap.judged == diagnose::Judged::angle;
+  std::string html = "<h3>residual_law</h3>\n" +
+                     paragraph(fmt::format(
+                         "A force outside the catalogue, {}: the sum of the terms above, each a coefficient "
+                         "times what it stands for (x {}, v its speed in 0.1 m/s, "
+                         "P in bar, m g in 98.0665 N).",
+                         pair ? "that shortens each muscle" : "positive upwards",
+                         pair ? "by how much the muscle is shorter" : "rise of the load"));
   if (!diagnosis.law_valid_for.empty())
     html += "<p>" + text_html("Valid for " + diagnosis.law_valid_for + ".", rig) + "</p>\n";
   return html;
@@ -195,15 +216,18 @@ std::string gap_html(const Diagnosis& diagnosis, const std::vector<const diagnos
                      const plant::Rig& rig) {
   if (runs.empty()) return "";
   const bool changed = output::changed(diagnosis);
-  const std::string picture = figures_html(
-      {{"Root mean square error of height, run by run.", errors_svg(runs, diagnosis.gap, changed, rig)}});
+  const std::string picture =
+      figures_html({{fmt::format("Root mean square error of {}, run by run.", name_of(diagnosis.gap.judged)),
+                     errors_svg(runs, diagnosis.gap, changed, rig)}});
   return fmt::format(
              "<p>Nominal is the rig as it was described, recalibrated has its numbers fitted and nothing "
              "added{}. No fit has seen the runs held out: they decide. The axis is logarithmic.<span "
              "class='live-only'> A click on a run leads to its plots.</span></p>\n",
              changed ? ", corrected has what was found" : "") +
          (runs.size() > many_runs
-              ? loads_html(runs, changed, rig) + folded(fmt::format("All {} runs", runs.size()), picture)
+              ? (diagnosis.gap.judged == diagnose::Judged::contraction ? loads_html(runs, changed, rig)
+                                                                       : "") +
+                    folded(fmt::format("All {} runs", runs.size()), picture)
               : picture);
 }
 
@@ -215,7 +239,8 @@ std::string twins_html(const domain::Dataset& data, const Diagnosis& diagnosis) 
             ? fmt::format("{}: no other effect of the catalogue explains these data as well.", effect.name)
             : fmt::format("{} could as well be {}: these data cannot tell them apart.", effect.name,
                           output::listed(effect.confusable_with)));
-  if (!gauged(data) && (!diagnosis.effects.empty() || !diagnosis.residual_law.empty()))
+  if (!gauged(data) && !data.pressure_is_given() &&
+      (!diagnosis.effects.empty() || !diagnosis.residual_law.empty()))
     html += paragraph(
         "The data hold no muscle pressure. One measured quantity can show one unknown only: what looks like "
         "a missing force could be a missing flow of gas that has the same consequences for the load. A "
@@ -241,6 +266,17 @@ std::string next_html(const Diagnosis& diagnosis) {
       100.0 * next.expected_power);
 }
 
+/// Errors of what was read beside.
+std::string beside_html(const diagnose::Gap& gap) {
+  std::string rows;
+  for (const auto& one : gap.beside)
+    rows += row(one.reading, {readable(one.nominal_rmse, one.unit), readable(one.recalibrated_rmse, one.unit),
+                              readable(one.corrected_rmse, one.unit), readable(one.noise_floor, one.unit)});
+  if (rows.empty()) return "";
+  return table("The same of what was read beside it; each counts by its own floor.",
+               {"reading", "nominal", "recalibrated", "corrected", "noise floor"}, rows);
+}
+
 }  // namespace
 
 bool gauged(const domain::Dataset& data) {
@@ -258,8 +294,7 @@ std::string result_table(const domain::Dataset& data, const Diagnosis& diagnosis
   std::string html = "<div class='tables'>\n" + found(diagnosis);
   if (unseen.empty()) return html + "</div>\n";
   const bool few = unseen.size() <= 6;
-  std::string caption = fmt::format("Error of {} on the {}, root mean square.",
-                                    gap.judged == diagnose::Judged::force ? "force" : "height",
+  std::string caption = fmt::format("Error of {} on the {}, root mean square.", name_of(gap.judged),
                                     few ? "runs held out (" + output::listed(unseen) + ")"
                                         : fmt::format("{} runs held out", unseen.size()));
   std::string rows = gap_row("nominal", gap.nominal_rmse, gap, data.rig) +
@@ -270,7 +305,7 @@ std::string result_table(const domain::Dataset& data, const Diagnosis& diagnosis
   }
   rows += fmt::format("<tr><th scope='row'>noise floor</th><td>{}</td><td></td></tr>\n",
                       amount_html(gap.noise_floor, gap.judged, data.rig));
-  html += "<div>" + table(caption, {"rig", "error", "over floor"}, rows);
+  html += "<div>" + table(caption, {"rig", "error", "over floor"}, rows) + beside_html(gap);
   if (!few) html += folded("Which runs are held out", paragraph(output::listed(unseen)));
   return html + "</div></div>\n";
 }

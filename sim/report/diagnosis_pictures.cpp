@@ -205,16 +205,16 @@ std::string absorbed_svg(const Diagnosis& diagnosis) {
     most = std::max({most, std::abs(one.without), std::abs(one.with)});
   const double bottom = y + 26.0 * static_cast<double>(diagnosis.absorbed.size());
   std::string svg;
-  const double step = output::tick_step(2.0 * most, 6);
-  for (double i = -std::floor(most / step); i * step <= most * (1 + 1e-9); i += 1.0) {
-    const double x = middle + i * step * span / most;
-    svg += stroke(x, 18, x, bottom, i == 0.0 ? "axis" : "grid");
-    svg += label(x, 12, "middle", i == 0.0 ? "0" : rounded(i * step, step < 1.0 ? 1 : 0, true), "soft");
+  const output::Scale scale{.from_px = middle - span, .to_px = middle + span, .low = -most, .high = most};
+  for (const auto& [x, text] : output::round_numbers(scale, 6)) {
+    const bool nothing = text == "0", below = text.front() == '-';
+    svg += stroke(x, 18, x, bottom, nothing ? "axis" : "grid");
+    svg += label(x, 12, "middle", nothing || below ? text : "+" + text, "soft");
   }
   for (const auto& one : diagnosis.absorbed) {
     svg += label(middle - span - 14, y + 15, "end", one.path);
     const auto from_middle = [&](double value, double at, std::string_view kind) {
-      const double end = middle + value * span / most;
+      const double end = scale.px(value);
       svg += bar(std::min(middle, end), at, std::abs(end - middle), 8.0, kind);
     };
     from_middle(one.without, y + 3, "bar c3");
@@ -254,18 +254,19 @@ std::string errors_svg(const std::vector<const diagnose::RunGap*>& runs, const d
   svg += label(width, 48, "end", changed ? "nominal \u2192 corrected" : "nominal", "soft");
   const auto grid = [&](double factor, const char* unit) {  // of which a ratio of 1 has `factor`
     std::string lines;
-    const double most = high * factor;
-    for (double power = std::pow(10.0, std::ceil(std::log10(low * factor))); power <= most; power *= 10.0)
-      for (const double value : {power, 2.0 * power, 5.0 * power}) {
-        if (value > most) continue;
-        const double at = x(value / factor);
-        lines += stroke(at, 52, at, bottom, "grid");
-        if (value == power) lines += label(at, 48, "middle", fmt::format("{:g}{}", value, unit), "soft");
-      }
+    for (const auto& [value, is_power] : output::decades(low * factor, high * factor)) {
+      const double at = x(value / factor);
+      lines += stroke(at, 52, at, bottom, "grid");
+      if (is_power) lines += label(at, 48, "middle", fmt::format("{:g}{}", value, unit), "soft");
+    }
     return lines;
   };
-  svg += gap.judged == diagnose::Judged::force ? grid(1.0, " N")
-                                               : either(grid(length_mm(rig), " mm"), grid(1.0, ""), "g");
+  if (gap.judged == diagnose::Judged::contraction)
+    svg += either(grid(length_mm(rig), " mm"), grid(1.0, ""), "g");
+  else if (gap.judged == diagnose::Judged::force)
+    svg += grid(1.0, " N");
+  else
+    svg += grid(1.0 / plant::degree_rad, " deg");
   if (noise_floor > 0.0) {
     svg += stroke(x(noise_floor), 36, x(noise_floor), bottom, "floor");
     svg +=

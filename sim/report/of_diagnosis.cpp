@@ -13,10 +13,12 @@
 #include <sim/output/svg.hpp>
 #include <sim/report/by_load.hpp>
 #include <sim/report/diagnosis_chapters.hpp>
+#include <sim/report/driven_quantities.hpp>
 #include <sim/report/html.hpp>
 #include <sim/report/length.hpp>
 #include <sim/report/quantities.hpp>
 #include <sim/report/report.hpp>
+#include <sim/run/gaps.hpp>
 
 namespace mckibben::report {
 namespace {
@@ -25,6 +27,18 @@ using diagnose::Diagnosis;
 using diagnose::RunGap;
 using run::ReplayedRun;
 
+double read_of(const domain::Dataset& data, const run::Sample& sample) {
+  switch (data.judged()) {
+    case diagnose::Judged::force:
+      return sample.cord_force_N;
+    case diagnose::Judged::angle:
+      return run::angle_rad(data.rig, sample);
+    case diagnose::Judged::contraction:
+      break;
+  }
+  return sample.state.joint.contraction_ratio;
+}
+
 /// What is known where the diagnosis ended before its runs: measured, and the rig as described.
 std::vector<RunGap> as_described(const domain::Dataset& data, const std::vector<ReplayedRun>& nominal) {
   std::vector<RunGap> runs;
@@ -32,8 +46,7 @@ std::vector<RunGap> as_described(const domain::Dataset& data, const std::vector<
     runs.push_back({.id = data.runs[i].id, .load_kg = data.runs[i].load_kg});
     runs.back().measured = data.runs[i].judged();
     for (const auto& sample : nominal[i].recording.samples)
-      runs.back().nominal.push_back(data.force_is_judged() ? sample.cord_force_N
-                                                           : sample.state.joint.contraction_ratio);
+      runs.back().nominal.push_back(read_of(data, sample));
   }
   return runs;
 }
@@ -75,6 +88,10 @@ Run shown(const char* name, std::size_t style, const RunGap& gap, const std::vec
     if ((bench && quantity.key == "contraction") ||
         std::find(wanted.begin(), wanted.end(), quantity.key) != wanted.end())
       run.quantities.push_back(std::move(quantity));
+  if (recorded != nullptr && recorded->beside(domain::Beside::force) != nullptr)
+    run.quantities.push_back({"cord_force", [replayed](std::size_t k) {
+                                return std::max(replayed->recording.samples[k].cord_force_N, 0.0);
+                              }});
   if (recorded != nullptr && recorded->muscle_pressure_Pa)
     run.quantities.push_back(
         {"pressure_error", [replayed, recorded](std::size_t k) {
@@ -84,14 +101,52 @@ Run shown(const char* name, std::size_t style, const RunGap& gap, const std::vec
   return run;
 }
 
+std::string name_of(const RunGap& gap, const std::string& load) {
+  return fmt::format("{}{}{}", gap.id, load, gap.left_out ? ", left out" : gap.held_out ? ", held out" : "");
+}
+
+/// One model's angles, and what else two muscles did where they were replayed.
+Run shown_pair(const char* name, std::size_t style, const RunGap& gap, const std::vector<double>& angles,
+               const ReplayedRun* replayed, const domain::RigFile& rig) {
+  Run run{.name = name, .style = style, .ticks = std::min(angles.size(), gap.measured.size())};
+  const auto *model = &angles, *measured = &gap.measured;
+  run.quantities = {
+      {"angle", [model](std::size_t k) { return (*model)[k] / plant::degree_rad; }},
+      {"error", [=](std::size_t k) { return ((*measured)[k] - (*model)[k]) / plant::degree_rad; }}};
+  if (replayed == nullptr || replayed->recording.samples.size() < run.ticks) return run;
+  for (auto& quantity : pair_quantities(rig, replayed->recording))
+    if (quantity.key != "angle") run.quantities.push_back(std::move(quantity));
+  return run;
+}
+
+Group pair_group(const domain::Dataset& data, const Diagnosis& diagnosis, const RunGap& gap,
+                 const ReplayedRun* nominal, const ReplayedRun* corrected) {
+  Group group{.name = name_of(gap, ""), .ticks = gap.measured.size()};
+  group.given = {{"given_angle", [&gap](std::size_t k) { return gap.measured[k] / plant::degree_rad; }}};
+  const domain::Run* recorded = by_id(data.runs, gap.id);
+  if (recorded != nullptr && recorded->judged().size() >= group.ticks) {
+    group.time_s = recorded->time_s;
+    for (const domain::Beside which : domain::gauges)
+      if (const auto* read = recorded->beside(which))
+        group.given.push_back(
+            {which == domain::Beside::muscle_pressure ? "given_muscle_pressure_1" : "given_muscle_pressure_2",
+             [read](std::size_t k) { return (*read)[k] / plant::Pa_per_bar; }});
+  }
+  const auto add = [&](Run run) {
+    if (run.ticks > 0) group.runs.push_back(std::move(run));
+  };
+  add(shown_pair("nominal", 1, gap, gap.nominal, nominal, data.rig));
+  add(shown_pair("recalibrated", 3, gap, gap.recalibrated, nullptr, data.rig));
+  if (output::changed(diagnosis))
+    add(shown_pair("corrected", 0, gap, gap.corrected, corrected, diagnosis.corrected));
+  return group;
+}
+
 Group group_of(const domain::Dataset& data, const Diagnosis& diagnosis, const RunGap& gap,
                const ReplayedRun* nominal, const ReplayedRun* corrected) {
   const plant::Plant nominal_plant(data.rig, gap.load_kg), mended(diagnosis.corrected, gap.load_kg);
   const bool bench = diagnosis.gap.judged == diagnose::Judged::force;
-  Group group{.name = fmt::format("{}{}{}", gap.id, bench ? "" : ", " + output::mass(gap.load_kg),
-                                  gap.left_out   ? ", left out"
-                                  : gap.held_out ? ", held out"
-                                                 : ""),
+  Group group{.name = name_of(gap, bench ? "" : ", " + output::mass(gap.load_kg)),
               .load_kg = gap.load_kg,
               .ticks = gap.measured.size()};
   group.given = {
@@ -108,6 +163,8 @@ Group group_of(const domain::Dataset& data, const Diagnosis& diagnosis, const Ru
                                return nominal_plant.reference_pressure_Pa(run->current_mA[k]) / 1e5;
                              }});
     }
+    if (const auto* force_N = run->beside(domain::Beside::force))
+      group.given.push_back({"given_cord_force", [force_N](std::size_t k) { return (*force_N)[k]; }});
     if (run->muscle_pressure_Pa)
       group.given.push_back(
           {"given_pressure", [run](std::size_t k) { return (*run->muscle_pressure_Pa)[k] / 1e5; }});
@@ -141,9 +198,29 @@ std::vector<Plot> bench_plots(const domain::Dataset& data, const Diagnosis& diag
   return plots;
 }
 
+/// Of a pair: angle and its error, then what made it.
+std::vector<Plot> joint_plots(const domain::Dataset& data, const Diagnosis& diagnosis) {
+  std::vector<Plot> plots{{"angle",
+                           "Joint angle, measured and by each rig",
+                           "deg",
+                           {{.key = "given_angle", .label = "Measured", .given = true},
+                            {.key = "angle", .label = "angle", .main = true}},
+                           true},
+                          {"error",
+                           "Error: measured less model",
+                           "deg",
+                           {{.key = "error", .label = "error", .main = true}},
+                           true,
+                           diagnosis.gap.noise_floor / plant::degree_rad}};
+  for (Plot& plot : pair_plots(true, !data.pressure_is_given()))
+    if (!plot.id.starts_with("angle")) plots.push_back(std::move(plot));
+  return plots;
+}
+
 std::vector<Plot> plots(const domain::Dataset& data, const Diagnosis& diagnosis) {
   const double floor = diagnosis.gap.noise_floor;
-  if (data.force_is_judged()) return bench_plots(data, diagnosis);
+  if (data.judged() == diagnose::Judged::force) return bench_plots(data, diagnosis);
+  if (data.judged() == diagnose::Judged::angle) return joint_plots(data, diagnosis);
   auto all = plots_for(diagnosis.corrected, "Contraction, measured and by each rig", "Measured",
                        fmt::format("Error: measured less model, as height of the load{}",
                                    floor > 0.0 ? "; logarithmic beyond the noise floor" : ""),
@@ -154,10 +231,18 @@ std::vector<Plot> plots(const domain::Dataset& data, const Diagnosis& diagnosis)
     for (Line& line : plot.lines)  // one for all rigs
       if (line.key == "current" || line.key == "reference_pressure") line.given = true;
   }
+  const auto cell = [](const domain::Run& run) { return run.beside(domain::Beside::force) != nullptr; };
+  if (std::ranges::any_of(data.runs, cell))
+    all.insert(all.begin() + 2, {"cord_force",
+                                 "Force of the cord, measured and by each rig",
+                                 "N",
+                                 {{.key = "given_cord_force", .label = "Measured", .given = true},
+                                  {.key = "cord_force", .label = "cord", .main = true}}});
   return all;
 }
 
 std::vector<Loop> loops_of_runs(const domain::Dataset& data) {
+  if (data.judged() == diagnose::Judged::angle) return pair_loops();
   if (data.force_is_judged())
     return {{"force", "Force and pressure", "muscle_pressure", "force", "muscle pressure in bar",
              "force in N", false, "muscle_pressure", "given_force"}};
@@ -167,6 +252,18 @@ std::vector<Loop> loops_of_runs(const domain::Dataset& data) {
           loops().front()};
 }
 
+const char* of_what_is_judged(diagnose::Judged judged) {
+  switch (judged) {
+    case diagnose::Judged::force:
+      return "Forces are those of the cord. ";
+    case diagnose::Judged::angle:
+      return "Angles are those of the joint, positive as muscle 1 contracts. ";
+    case diagnose::Judged::contraction:
+      break;
+  }
+  return "Heights are heights of the load. ";
+}
+
 }  // namespace
 
 std::string report_html(const domain::Dataset& data, const Diagnosis& diagnosis,
@@ -174,6 +271,7 @@ std::string report_html(const domain::Dataset& data, const Diagnosis& diagnosis,
   const auto measured_only = diagnosis.runs.empty() ? as_described(data, nominal) : std::vector<RunGap>{};
   const auto runs =
       ordered(diagnosis.runs.empty() ? measured_only : diagnosis.runs, output::changed(diagnosis));
+  const bool pair = data.judged() == diagnose::Judged::angle;
   Contents contents{
       .title = "Diagnosis of " + output::name_of(data),
       .about = fmt::format("{} run{}, {} held out", data.runs.size(), data.runs.size() == 1 ? "" : "s",
@@ -189,18 +287,21 @@ std::string report_html(const domain::Dataset& data, const Diagnosis& diagnosis,
           "{}) let nobody see, or what equal runs differ by. The thresholds were set to name an effect where "
           "none is missing in {:.0f} % of data sets: a rate aimed at, not one measured on these data. Seed "
           "{}. Every number is in diagnosis.json, the corrected rig in rig.yaml.",
-          data.force_is_judged() ? "Forces are those of the cord. " : "Heights are heights of the load. ",
+          of_what_is_judged(data.judged()),
           output::amount(diagnosis.gap.jitter, diagnosis.gap.judged, data.rig),
           100.0 * diagnosis.false_alarm_rate, diagnosis.seed),
       .chapters = story(data, diagnosis, ordered(diagnosis.runs, output::changed(diagnosis))),
       .later_chapters = doubts_and_plan(data, diagnosis),
+      .lengths = !pair,
       .rig = diagnosis.corrected,
-      .gauge = gauged(data),
+      .mechanics = pair ? diagnosis.corrected.mechanics : plant::Mechanics{},
+      .gauge = gauged(data) && !pair,
       .plots = plots(data, diagnosis),
       .loops = loops_of_runs(data),
       .drawn = output::changed(diagnosis) ? 2u : 0u};  // the corrected
   for (const RunGap* run : runs) {
-    auto group = group_of(data, diagnosis, *run, by_id(nominal, run->id), by_id(corrected, run->id));
+    const auto of = pair ? pair_group : group_of;
+    auto group = of(data, diagnosis, *run, by_id(nominal, run->id), by_id(corrected, run->id));
     if (!group.runs.empty()) contents.groups.push_back(std::move(group));
   }
   return html_of(contents);

@@ -26,7 +26,7 @@ let columns = [];  // those that this group has
 function written(value, unit, digits) {
   if (value === null || value === undefined) return '-';
   const {unit: as, factor} = shownAs(unit);
-  return (value * factor).toFixed(as === unit ? digits : digits - 2);
+  return fixed(value * factor, as === unit ? digits : digits - 2);
 }
 
 /** Name of a unit over a column. */

@@ -64,6 +64,6 @@ class PairPicture {
     const measured = given.given_angle;
     const at = measured === undefined || measured === null ? null : this.hangs(measured);
     this.target.setAttribute('d', at ? `M${wheel.x} ${wheel.y}L${at.x.toFixed(1)} ${at.y.toFixed(1)}` : '');
-    this.numbers.textContent = `joint angle ${values.angle.toFixed(1)}°`;
+    this.numbers.textContent = `joint angle ${fixed(values.angle, 1)}°`;
   }
 }

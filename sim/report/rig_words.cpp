@@ -59,10 +59,24 @@ std::string link(const plant::Pair& pair) {
 }
 
 std::string encoder(const plant::Rig& rig, bool pair) {
-  const double height_m = plant::count_height_m(rig.encoder, rig.joint);
-  return "on the wheel: a count is " +
-         (pair ? readable(height_m / rig.joint.wheel_radius_m, "rad") + " of angle"
-               : readable(height_m, "m") + " of height");
+  const double height_m = plant::count_height_m(rig);
+  const std::string step = pair ? readable(height_m / rig.joint.wheel_radius_m, "rad") + " of angle"
+                                : readable(height_m, "m") + " of height";
+  return rig.sensor.absent() ? "on the wheel: a count is " + step : "in steps of " + step;
+}
+
+std::string position(plant::SensorKind kind) {
+  switch (kind) {
+    case plant::SensorKind::laser:
+      return "laser";
+    case plant::SensorKind::linear_encoder:
+      return "linear encoder";
+    case plant::SensorKind::potentiometer:
+      return "potentiometer";
+    case plant::SensorKind::encoder:
+      break;
+  }
+  return "encoder";
 }
 
 }  // namespace
@@ -81,13 +95,18 @@ std::string rig_html(const Contents& contents) {
                     (rig.joint.load_offset_kg == 0.0
                          ? ""
                          : "; " + readable(rig.joint.load_offset_kg, "kg") + " hang on it besides the load"));
-  html += fmt::format("<dt>encoder</dt><dd>{}</dd>\n", text_html(encoder(rig, pair != nullptr), rig));
+  html += fmt::format("<dt>{}</dt><dd>{}</dd>\n", position(rig.sensor.kind),
+                      text_html(encoder(rig, pair != nullptr), rig));
   part("valve", valve(rig.valve));
   part("hose", "sonic conductance " + readable(rig.hose.conductance_m3_per_s_Pa, "m3/(s.Pa)"));
   part("gauge", !contents.gauge ? "none"
                 : rig.gauge.resolution_Pa > 0
                     ? "on the muscle, in steps of " + readable(rig.gauge.resolution_Pa, "Pa")
                     : "on the muscle");
+  if (rig.load_cell.fitted)
+    part("load cell", "on the cord" + (rig.load_cell.resolution_N > 0.0
+                                           ? ", in steps of " + readable(rig.load_cell.resolution_N, "N")
+                                           : std::string()));
   part("effects", effects(rig.effects));
   return html + "</dl>\n";
 }

@@ -7,26 +7,41 @@
 
 namespace mckibben::ride {
 
-bool can_share_steps(std::span<const Hanging> rigs, solver::Method method) {
-  return method != solver::Method::cvode &&
-         std::none_of(rigs.begin(), rigs.end(), [](const Hanging& hanging) {
-           return hanging.rig.friction.memory == plant::FrictionMemory::coulomb;
+namespace {
+
+template <class Of>
+bool share_steps(std::span<const Of> rigs, solver::Method method) {
+  return method != solver::Method::cvode && std::none_of(rigs.begin(), rigs.end(), [](const Of& one) {
+           return one.rig.friction.memory == plant::FrictionMemory::coulomb;
          });
 }
 
-Ride::Ride(std::span<const Hanging> rigs, const solver::Settings& settings, bool keep_ledger)
-    : settings_(settings),
-      together_(rigs.size() > 1 && can_share_steps(rigs, settings.method)),
-      keep_ledger_(keep_ledger) {
+}  // namespace
+
+bool can_share_steps(std::span<const Hanging> rigs, solver::Method method) {
+  return share_steps(rigs, method);
+}
+bool can_share_steps(std::span<const Paired> pairs, solver::Method method) {
+  return share_steps(pairs, method);
+}
+
+template <class Of>
+void Ride::seat(std::span<const Of> rigs) {
   if (rigs.empty() || rigs.size() > engine::Flock::most)
     throw std::invalid_argument("a ride carries 1 to 8 rigs");
-  for (const Hanging& hanging : rigs) riders_.emplace_back(hanging);
+  together_ = rigs.size() > 1 && can_share_steps(rigs, settings_.method);
+  for (const Of& one : rigs) riders_.emplace_back(one);
   make_integrators();
 }
 
-Ride::Ride(const Paired& pair, const solver::Settings& settings, bool keep_ledger)
-    : riders_{Rider(pair)}, settings_(settings), together_(false), keep_ledger_(keep_ledger) {
-  make_integrators();
+Ride::Ride(std::span<const Hanging> rigs, const solver::Settings& settings, bool keep_ledger)
+    : settings_(settings), keep_ledger_(keep_ledger) {
+  seat(rigs);
+}
+
+Ride::Ride(std::span<const Paired> pairs, const solver::Settings& settings, bool keep_ledger)
+    : settings_(settings), keep_ledger_(keep_ledger) {
+  seat(pairs);
 }
 
 Ride::Ride(const Rider& rider, const engine::Pace& pace, const solver::Settings& settings)

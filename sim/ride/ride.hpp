@@ -15,6 +15,7 @@ namespace mckibben::ride {
 
 /// Whether rigs can ride in common steps: none with exact stick and slip, and not with CVODE.
 bool can_share_steps(std::span<const Hanging> rigs, solver::Method method);
+bool can_share_steps(std::span<const Paired> pairs, solver::Method method);
 
 class Ride {
  public:
@@ -28,7 +29,9 @@ class Ride {
   Ride(std::span<const Hanging> rigs, const solver::Settings& settings, bool keep_ledger = false);
   Ride(const Hanging& rig, const solver::Settings& settings, bool keep_ledger = false)
       : Ride(std::span(&rig, 1), settings, keep_ledger) {}
-  Ride(const Paired& pair, const solver::Settings& settings, bool keep_ledger = false);
+  Ride(std::span<const Paired> pairs, const solver::Settings& settings, bool keep_ledger = false);
+  Ride(const Paired& pair, const solver::Settings& settings, bool keep_ledger = false)
+      : Ride(std::span(&pair, 1), settings, keep_ledger) {}
   /// Goes on from where the rider is.
   Ride(const Rider& rider, const engine::Pace& pace, const solver::Settings& settings);
   Ride(const Ride& other);
@@ -69,12 +72,14 @@ class Ride {
   void restore(const Saved& saved);
 
  private:
+  template <class Of>
+  void seat(std::span<const Of> rigs);
   void make_integrators();
   void carry(double to_s);
 
   std::vector<Rider> riders_;  // stay where they are: integrators refer to their plants
   solver::Settings settings_;
-  bool together_, keep_ledger_;
+  bool together_ = false, keep_ledger_;
   std::unique_ptr<engine::Flock> flock_;                          // either this
   std::vector<std::unique_ptr<engine::Integrator>> integrators_;  // or one for each rig
 };

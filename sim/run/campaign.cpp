@@ -103,6 +103,7 @@ domain::Run measured(const domain::Campaign& campaign, const CampaignRun& run) {
     table.current_mA.push_back(sample.current_mA);
     table.contraction_ratio.push_back(static_cast<double>(sample.counts) * per_count);
     if (table.muscle_pressure_Pa) table.muscle_pressure_Pa->push_back(sample.gauge_Pa);
+    if (campaign.rig.load_cell.fitted) table.force_N.push_back(sample.cell_N);
   }
   return table;
 }

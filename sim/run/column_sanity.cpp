@@ -44,7 +44,7 @@ std::array<std::pair<const char*, double>, 9> ratios_per_unit(const plant::Rig& 
            {"cm", 1e-2 * metre},
            {"m", metre},
            {"in", 0.0254 * metre},
-           {"count", plant::count_height_m(rig.encoder, rig.joint) * metre},
+           {"count", plant::count_height_m(rig) * metre},
            {"deg", std::numbers::pi / 180.0 * radian},
            {"rad", radian}}};
 }

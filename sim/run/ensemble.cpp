@@ -77,11 +77,13 @@ std::vector<Kept> kept_of_runs(const domain::Campaign& campaign) {
   return list;
 }
 
-std::vector<Kept> kept_of_rows(bool gauge) {
+std::vector<Kept> kept_of_rows(const plant::Rig& rig) {
   std::vector<Kept> list{
       {"current_mA", "mA", "current to the valve, from this row to the next"},
       {"contraction_ratio", "1", "contraction ratio of the muscle as the encoder counts it"}};
-  if (gauge) list.push_back({"muscle_pressure", "bar", "gauge pressure in the muscle as measured"});
+  if (rig.gauge.fitted)
+    list.push_back({"muscle_pressure", "bar", "gauge pressure in the muscle as measured"});
+  if (rig.load_cell.fitted) list.push_back({"force_N", "N", "force of the muscle's cord as measured"});
   return list;
 }
 
@@ -112,7 +114,7 @@ EnsembleShape::EnsembleShape(const domain::Campaign& campaign, Keep keep)
   if (keep == Keep::summary) return;
   for (const auto& current : campaign.currents)
     rows = std::max(rows, static_cast<std::size_t>(std::llround(current.duration_s / campaign.rig.tick_s)));
-  of_row = kept_of_rows(campaign.rig.gauge.fitted);
+  of_row = kept_of_rows(campaign.rig);
   in_block =
       std::clamp<std::size_t>(most_block_bytes / (rows * of_row.size() * sizeof(float)), 1, most_in_block);
 }
@@ -174,10 +176,12 @@ void EnsembleBlock::put(const domain::Campaign& campaign, std::size_t place, con
   const double per_count = contraction_per_count(campaign.rig);  // as its owner believes it
   for (std::size_t row = 0; row < std::min(rows_, recording.samples.size()); ++row) {
     const Sample& sample = recording.samples[row];
-    const double values[] = {sample.current_mA, static_cast<double>(sample.counts) * per_count,
-                             1e-5 * sample.gauge_Pa};
-    for (std::size_t column = 0; column < of_row_.size(); ++column)
-      of_row_[column][at * rows_ + row] = static_cast<float>(values[column]);
+    auto column = of_row_.begin();
+    const auto put = [&](double value) { (*column++)[at * rows_ + row] = static_cast<float>(value); };
+    put(sample.current_mA);
+    put(static_cast<double>(sample.counts) * per_count);
+    if (campaign.rig.gauge.fitted) put(1e-5 * sample.gauge_Pa);
+    if (campaign.rig.load_cell.fitted) put(sample.cell_N);
   }
 }
 

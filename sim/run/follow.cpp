@@ -13,8 +13,7 @@ namespace {
 using ride::Command, ride::Drive;
 
 ride::Ride ride_of(const domain::RigFile& rig, double load_kg) {
-  if (const plant::Pair* pair = rig.pair())
-    return {ride::Paired{rig, plant::opposite_rig(rig, *pair), *pair}, rig.integrator, true};
+  if (const plant::Pair* pair = rig.pair()) return {paired(rig, *pair), rig.integrator, true};
   return {ride::Hanging{rig, load_kg}, rig.integrator, true};
 }
 
@@ -26,10 +25,7 @@ bool is_given(const Driven& driven) {
 class Following {
  public:
   Following(const domain::RigFile& rig, double load_kg, const Course& course)
-      : rig_(rig),
-        course_(course),
-        ride_(ride_of(rig, load_kg)),
-        counter_(rig.encoder.wiring, plant::count_height_m(rig.encoder, rig.joint)) {}
+      : rig_(rig), course_(course), ride_(ride_of(rig, load_kg)), counter_(rig) {}
 
   Recording operator()() {
     recording_.samples.reserve(course_.rows.size());
@@ -83,6 +79,7 @@ class Following {
                .friction_force_N = now.friction_force_N,
                .effects_pull_N = now.effects_pull_N,
                .cord_force_N = now.cord_force_N(),
+               .cell_N = plant::cell_reading_N(rig_.load_cell, now.cord_force_N(), 0.0),
                .misread_ratio = ride_.reading().misread_m / rig_.muscle.rest_length_m};
     double most = state.joint.contraction_ratio;
     if (ride_.plant().opposite()) {
@@ -130,7 +127,7 @@ class Following {
   const domain::RigFile& rig_;
   const Course& course_;
   ride::Ride ride_;
-  plant::PulseCounter counter_;
+  plant::PositionReader counter_;
   Recording recording_;
 };
 
@@ -151,6 +148,10 @@ long start(std::span<ride::Rider> riders, const Course& course, const plant::Rig
     ride::set_off(riders[i], begins);
   }
   return ticks;
+}
+
+ride::Paired paired(const domain::RigFile& rig, const plant::Pair& pair) {
+  return {rig, plant::opposite_rig(rig, pair), pair};
 }
 
 Recording follow(const domain::RigFile& rig, double load_kg, const Course& course) {

@@ -21,6 +21,9 @@ long start(std::span<ride::Rider> riders, const Course& course, const plant::Rig
 /// The instant so many of these ticks before the first stamp [s].
 double before_s(const Course& course, const plant::Rig& rig, long ticks);
 
+/// Its two muscles on their wheel.
+ride::Paired paired(const domain::RigFile& rig, const plant::Pair& pair);
+
 /// A row for each stamp that has one. If the integrator gives up, the recording ends there and says why.
 Recording follow(const domain::RigFile& rig, double load_kg, const Course& course);
 

@@ -26,8 +26,7 @@ double angle_rad(const domain::RigFile& rig, const Sample& row) {
 }
 
 double counted_angle_rad(const domain::RigFile& rig, const Sample& row) {
-  return static_cast<double>(row.counts) * plant::count_height_m(rig.encoder, rig.joint) /
-         rig.joint.wheel_radius_m;
+  return static_cast<double>(row.counts) * plant::count_height_m(rig) / rig.joint.wheel_radius_m;
 }
 
 std::vector<Compared> compared(const Measurement& measured, const domain::RigFile& rig,

@@ -1,31 +1,29 @@
 // Averages over neighbours, run by run; see the header.
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <functional>
-#include <numeric>
 #include <random>
-#include <span>
 #include <utility>
 
-#include <Eigen/LU>
-
+#include <plant/instruments.hpp>
 #include <sim/run/course.hpp>
 #include <sim/run/judged.hpp>
+#include <sim/run/scatter.hpp>
 #include <sim/run/series.hpp>
+#include <sim/run/simulate.hpp>
 
 namespace mckibben::run {
 namespace {
 
 using domain::Measurement, domain::Rows;
 
-constexpr double even_row_s = 0.012;      // no load bends within half of it by what a sensor could show
-constexpr double slack_share = 0.002;     // of a run's largest force: less is a cord that hangs through
-constexpr double enough_readings = 6.0;   // in a row, to be averaged
-constexpr std::size_t quarters = 4;       // of a row, in which inputs are followed
-constexpr double straight = 5e-3;         // of an input's range: it neither jumps nor bends by less
-constexpr double outlying = 6.0;          // deviations
-constexpr double normal_median = 0.6745;  // of the size of a normal variable. Derived
-constexpr double steps_that_are_whole = 0.95, whole = 0.05;
+constexpr double even_row_s = 0.012;     // no load bends within half of it by what a sensor could show
+constexpr double slack_share = 0.002;    // of a run's largest force: less is a cord that hangs through
+constexpr double enough_readings = 6.0;  // in a row, to be averaged
+constexpr double noises_in_a_grain = 4.0;
+constexpr std::size_t quarters = 4;  // of a row, in which inputs are followed
+constexpr double straight = 5e-3;    // of an input's range: it neither jumps nor bends by less
+constexpr double outlying = 6.0;     // deviations
 
 double median_gap_s(const std::vector<double>& time_s) {
   std::vector<double> gaps;
@@ -33,159 +31,14 @@ double median_gap_s(const std::vector<double>& time_s) {
   return gaps.empty() ? even_row_s : upper_median(std::move(gaps));
 }
 
-/// What the readings near an instant say together.
-struct Together {
-  double value = std::nan("");
-  double gain = 0.0;     ///< of their noise's variance
-  double squares = 0.0;  ///< left of the parabola, for each reading beyond three
-  double worst = 0.0;    ///< that is left of one
-  std::size_t readings = 0;
-};
-
-class Column {
- public:
-  Column(const std::vector<double>& time_s, const std::vector<double>& values)
-      : time_s_(time_s), values_(values) {}
-
-  Together near(double at_s, double half_s) const {
-    Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
-    Eigen::Vector3d right = Eigen::Vector3d::Zero();
-    Together result;
-    const auto first = static_cast<std::size_t>(
-        std::lower_bound(time_s_.begin(), time_s_.end(), at_s - half_s) - time_s_.begin());
-    const auto each = [&](const auto& visit) {
-      for (std::size_t k = first; k < time_s_.size() && time_s_[k] <= at_s + half_s; ++k) {
-        const double x = (time_s_[k] - at_s) / half_s;
-        if (!std::isnan(values_[k])) visit(Eigen::Vector3d(1.0, x, x * x), values_[k]);
-      }
-    };
-    each([&](const Eigen::Vector3d& powers, double value) {
-      normal += powers * powers.transpose();
-      right += powers * value;
-      ++result.readings;
-    });
-    if (result.readings < 4) return result;
-    const Eigen::Matrix3d inverse = normal.inverse();
-    const Eigen::Vector3d fitted = inverse * right;
-    result.value = fitted[0];
-    result.gain = inverse(0, 0);
-    each([&](const Eigen::Vector3d& powers, double value) {
-      const double left = value - powers.dot(fitted);
-      result.squares += left * left / static_cast<double>(result.readings - 3);
-      result.worst = std::max(result.worst, std::abs(left));
-    });
-    return result;
-  }
-
-  /// The last value at an instant, and what it is on average until another: held or straight from stamp to
-  /// stamp.
-  double mean(double from_s, double to_s, bool linear) const {
-    auto k =
-        static_cast<std::size_t>(std::upper_bound(time_s_.begin(), time_s_.end(), from_s) - time_s_.begin());
-    k = k > 0 ? k - 1 : 0;
-    double sum = 0.0;
-    for (double at_s = from_s; at_s < to_s; ++k) {
-      const double until_s = k + 1 < time_s_.size() ? std::min(time_s_[k + 1], to_s) : to_s;
-      sum += (linear ? between(k, 0.5 * (at_s + until_s)) : values_[k]) * (until_s - at_s);
-      at_s = until_s;
-    }
-    return sum / (to_s - from_s);
-  }
-
-  /// Straight between stamps.
-  double between(std::size_t k, double at_s) const {
-    if (k + 1 >= values_.size()) return values_[k];
-    const double share = (at_s - time_s_[k]) / (time_s_[k + 1] - time_s_[k]);
-    return std::lerp(values_[k], values_[k + 1], std::clamp(share, 0.0, 1.0));
-  }
-
-  /// Stamps strictly between two instants.
-  std::span<const double> stamps(double from_s, double to_s) const {
-    const auto first = std::upper_bound(time_s_.begin(), time_s_.end(), from_s);
-    const auto last = std::lower_bound(first, time_s_.end(), to_s);
-    return {first, last};
-  }
-  double operator[](std::size_t k) const { return values_[k]; }
-  std::size_t size() const { return values_.size(); }
-  std::size_t last_before(double at_s) const {
-    const auto after = std::upper_bound(time_s_.begin(), time_s_.end(), at_s);
-    return after == time_s_.begin() ? 0 : static_cast<std::size_t>(after - time_s_.begin()) - 1;
-  }
-
- private:
-  const std::vector<double>&time_s_, &values_;
-};
-
-double range_of(const std::vector<double>& values) {
-  const auto [low, high] = std::minmax_element(values.begin(), values.end());
-  return values.empty() ? 0.0 : *high - *low;
-}
-
-/// Noise of single readings from what is left of parabolas; the median is blind to jumps.
-double noise_of(const std::vector<double>& squares) {
-  return squares.empty() ? 0.0 : std::sqrt(upper_median(squares));
-}
-
-/// White noise of readings that come slowly, from their fourth differences.
-double slow_noise(const std::vector<double>& v) {
-  std::vector<double> fourth;
-  for (std::size_t k = 4; k < v.size(); ++k)
-    if (const double d = v[k] - 4.0 * v[k - 1] + 6.0 * v[k - 2] - 4.0 * v[k - 3] + v[k - 4]; !std::isnan(d))
-      fourth.push_back(std::abs(d));
-  return fourth.empty() ? 0.0 : upper_median(std::move(fourth)) / normal_median / std::sqrt(70.0);
-}
-
-/// Noise of settled points: what the last of four that go one way is off the parabola through the others,
-/// over the input that moves most. The median is blind to where they turn.
-double points_noise(const std::vector<double>& read, const std::vector<std::vector<double>>& inputs) {
-  std::vector<double> off;
-  for (std::size_t k = 3; k < read.size(); ++k) {
-    const auto way = [&](const std::vector<double>& input) {
-      const std::span<const double> at(&input[k - 3], 4);
-      const bool one_way = std::ranges::is_sorted(at, std::less_equal<>{}) ||
-                           std::ranges::is_sorted(at, std::greater_equal<>{});
-      return one_way ? std::abs(at[3] - at[0]) / range_of(input) : 0.0;
-    };
-    const auto moving = std::ranges::max_element(inputs, {}, way);
-    if (moving == inputs.end() || !(way(*moving) > 0.0)) continue;
-    double difference = 0.0, squares = 0.0;
-    for (std::size_t i = k - 3; i <= k; ++i) {
-      double weight = 1.0;  // of a divided difference
-      for (std::size_t j = k - 3; j <= k; ++j)
-        if (j != i) weight *= range_of(*moving) / ((*moving)[i] - (*moving)[j]);
-      difference += weight * read[i];
-      squares += weight * weight;
-    }
-    if (!std::isnan(difference)) off.push_back(std::abs(difference) / std::sqrt(squares));
-  }
-  return off.empty() ? 0.0 : upper_median(std::move(off)) / normal_median;
-}
-
-/// The step that readings are rounded to; 0 if they are to none.
-double step_of(const std::vector<double>& values) {
-  std::vector<double> moves;
-  double least = 0.0;
-  for (std::size_t k = 1; k < values.size(); ++k) {
-    const double move = std::abs(values[k] - values[k - 1]);
-    if (std::isnan(move) || move < 1e-12) continue;
-    moves.push_back(move);
-    least = least == 0.0 ? move : std::min(least, move);
-  }
-  const auto is_whole = [least](double move) {
-    return std::abs(move / least - std::round(move / least)) < whole * std::max(1.0, move / least * 1e-3);
-  };
-  const auto many = static_cast<double>(std::count_if(moves.begin(), moves.end(), is_whole));
-  return least > 0.0 && many >= steps_that_are_whole * static_cast<double>(moves.size()) ? least : 0.0;
-}
-
 /// One run: its rows, and the stamps that drive it.
 class Judging {
  public:
-  Judging(domain::Run& run, double row_s, std::size_t seed)
-      : run_(run), raw_(*run.measured), row_s_(row_s), random_(seed) {}
+  Judging(domain::Run& run, bool pair, double row_s, std::size_t seed)
+      : run_(run), raw_(*run.measured), pair_(pair), row_s_(row_s), random_(seed) {}
 
   void operator()() {
-    leave_out_slack();
+    if (raw_.length_is_given) leave_out_slack();
     if (raw_.recorded.start == domain::Start::moving) raw_.first = first_state(raw_);
     fast_ = row_s_ / median_gap_s(raw_.time_s) >= enough_readings && !raw_.counted;
     Measurement driving = fast_ ? thinned() : as_recorded();
@@ -195,14 +48,16 @@ class Judging {
     run_.measured = std::move(driving);
   }
 
-  std::size_t slack = 0;                              ///< rows without a force
-  std::vector<double> squares{}, pressure_squares{};  ///< of single readings, a value for each row
+  std::size_t slack = 0;  ///< rows without a force
+  /// Of single readings, a value for each row: of what is judged, of gauges, of a force beside it.
+  std::vector<double> squares{}, pressure_squares{}, force_squares{};
   double gain_sum = 0.0, readings_sum = 0.0, given_noise_Pa = 0.0, step = 0.0;
   bool fast() const { return fast_; }
 
  private:
   double end_s() const { return raw_.time_s.back(); }
   double begin_s() const { return raw_.time_s.front(); }
+  std::size_t sides() const { return pair_ ? 2 : 1; }
 
   /// Without what is only read.
   Measurement bare() const {
@@ -212,7 +67,8 @@ class Judging {
     bare.counted = raw_.counted;
     bare.point_s = raw_.point_s;
     bare.length_is_given = raw_.length_is_given;
-    bare.sides[0].pressure_is_given = raw_.sides[0].pressure_is_given;
+    for (std::size_t side = 0; side < sides(); ++side)
+      bare.sides[side].pressure_is_given = raw_.sides[side].pressure_is_given;
     return bare;
   }
 
@@ -238,8 +94,11 @@ class Judging {
   Measurement as_recorded() const {
     Measurement same = bare();
     same.time_s = raw_.time_s;
-    same.sides[0].current_mA = raw_.sides[0].current_mA;
-    if (same.sides[0].pressure_is_given) same.sides[0].muscle_pressure_Pa = raw_.sides[0].muscle_pressure_Pa;
+    for (std::size_t side = 0; side < sides(); ++side) {
+      same.sides[side].current_mA = raw_.sides[side].current_mA;
+      if (same.sides[side].pressure_is_given)
+        same.sides[side].muscle_pressure_Pa = raw_.sides[side].muscle_pressure_Pa;
+    }
     double last_s = begin_s() + raw_.recorded.skip_s - row_s_;
     for (std::size_t k = 0; k < raw_.time_s.size(); ++k) {
       const bool counts_each =
@@ -260,22 +119,50 @@ class Judging {
     for (std::size_t j = 0; j <= rows * quarters; ++j) {
       const double now_s = begin_s() + static_cast<double>(j) * quarter_s;
       if (j % quarters == quarters / 2 && j / quarters >= skipped) thin.rows.push_back(thin.time_s.size());
-      if (thin.sides[0].pressure_is_given)
-        give(thin, now_s, now_s + quarter_s);
-      else
-        command(thin, now_s, now_s + quarter_s);
+      follow(thin, now_s, now_s + quarter_s);
     }
     return thin;
   }
 
-  void command(Measurement& thin, double from_s, double to_s) const {
-    const auto& values = raw_.sides[0].current_mA;
-    const Column column(raw_.time_s, values);
-    const bool linear = raw_.recorded.hold == domain::Hold::linear;
+  /// What drives a side, as it was recorded.
+  struct Input {
+    const std::vector<double>& values;
+    bool given;  ///< a pressure; else a command
+    Column column;
+  };
+  Input input(std::size_t side) const {
+    const bool given = raw_.sides[side].pressure_is_given;
+    const auto& values = given ? raw_.sides[side].muscle_pressure_Pa : raw_.sides[side].current_mA;
+    return {values, given, Column(raw_.time_s, values)};
+  }
+
+  /// Adds the inputs of a quarter, at every stamp where one of them jumps or bends.
+  void follow(Measurement& thin, double from_s, double to_s) const {
+    std::array<bool, 2> uneven{};
+    for (std::size_t side = 0; side < sides(); ++side) {
+      const Input of = input(side);
+      uneven[side] = of.given ? jumps(of, from_s) : bends(of, from_s, to_s);
+    }
     const auto put = [&](double a_s, double b_s) {
       thin.time_s.push_back(a_s);
-      thin.sides[0].current_mA.push_back(column.mean(a_s, b_s, linear));
+      for (std::size_t side = 0; side < sides(); ++side) {
+        const Input of = input(side);
+        if (of.given)
+          thin.sides[side].muscle_pressure_Pa.push_back(pressure(of, a_s, uneven[side]));
+        else
+          thin.sides[side].current_mA.push_back(
+              of.column.mean(a_s, b_s, raw_.recorded.hold == domain::Hold::linear));
+      }
     };
+    double at_s = from_s;
+    if (uneven[0] || uneven[1])
+      for (const double stamp_s : input(0).column.stamps(from_s, to_s))
+        put(std::exchange(at_s, stamp_s), stamp_s);
+    put(at_s, to_s);
+  }
+
+  static bool bends(const Input& of, double from_s, double to_s) {
+    const Column& column = of.column;
     const std::size_t first = column.last_before(from_s), last = column.last_before(to_s);
     double bend = 0.0;
     for (std::size_t k = first; k <= last; ++k) {
@@ -284,69 +171,104 @@ class Judging {
       bend = std::max(bend, std::abs(column[k] - std::lerp(column[first], column[last], share)));
       if (k > first) bend = std::max(bend, 0.5 * std::abs(column[k] - column[k - 1]));
     }
-    double at_s = from_s;
-    if (bend > straight * range_of(values))
-      for (const double stamp_s : column.stamps(from_s, to_s)) put(std::exchange(at_s, stamp_s), stamp_s);
-    put(at_s, to_s);
+    return bend > straight * range_of(of.values);
   }
 
-  void give(Measurement& thin, double from_s, double to_s) {
-    const auto& values = raw_.sides[0].muscle_pressure_Pa;
-    const Column column(raw_.time_s, values);
-    const Together here = column.near(from_s, 0.5 * row_s_);
-    auto& given = thin.sides[0].muscle_pressure_Pa;
-    const bool jumps =
-        here.worst > std::max(straight * range_of(values), outlying * std::sqrt(here.squares)) ||
-        std::isnan(here.value);
-    thin.time_s.push_back(from_s);
-    given.push_back(jumps ? column.between(column.last_before(from_s), from_s) : here.value);
-    if (!jumps) return;
-    for (const double stamp_s : column.stamps(from_s, to_s)) {
-      thin.time_s.push_back(stamp_s);
-      given.push_back(column[column.last_before(stamp_s)]);
-    }
+  bool jumps(const Input& of, double at_s) const {
+    const Together here = of.column.near(at_s, 0.5 * row_s_);
+    return here.worst > std::max(straight * range_of(of.values), outlying * std::sqrt(here.squares)) ||
+           std::isnan(here.value);
+  }
+
+  /// Of a given pressure: smoothed, unless it jumps.
+  double pressure(const Input& of, double at_s, bool jumps) const {
+    const double raw = of.column.between(of.column.last_before(at_s), at_s);
+    if (jumps) return raw;
+    const double smooth = of.column.near(at_s, 0.5 * row_s_).value;
+    return std::isnan(smooth) ? raw : smooth;
+  }
+
+  /// A reading beside the one that is judged: as it was recorded, where its rows go and what it scatters.
+  struct Beside {
+    const std::vector<double>& recorded;
+    std::vector<double>& rows;
+    std::vector<bool>& missing;
+    std::vector<double>& squares;
+  };
+  std::vector<Beside> besides() {
+    std::vector<Beside> list;
+    const auto add = [&](domain::Beside which, const auto& recorded, auto& rows, auto& left) {
+      list.push_back({recorded, rows, run_.missing_beside[static_cast<std::size_t>(which)], left});
+    };
+    const auto gauge = [&](domain::Beside which, std::size_t side, auto& rows) {
+      const Measurement::Side& of = raw_.sides[side];
+      if (side < sides() && !of.pressure_is_given && is_read(of.muscle_pressure_Pa))
+        add(which, of.muscle_pressure_Pa, rows.emplace(), pressure_squares);
+    };
+    gauge(domain::Beside::muscle_pressure, 0, run_.muscle_pressure_Pa);
+    gauge(domain::Beside::opposite_pressure, 1, run_.opposite_pressure_Pa);
+    if (!raw_.length_is_given && is_read(raw_.force_N))
+      add(domain::Beside::force, raw_.force_N, run_.force_N, force_squares);
+    return list;
+  }
+  static bool is_read(const std::vector<double>& values) {
+    return std::ranges::any_of(values, [](double value) { return !std::isnan(value); });
+  }
+
+  /// The reading that is judged, as it was recorded, and where its rows go.
+  std::pair<const std::vector<double>&, std::vector<double>&> judged() {
+    if (pair_) return {raw_.angle_rad, run_.angle_rad};
+    if (raw_.length_is_given) return {raw_.force_N, run_.force_N};
+    return {raw_.contraction_ratio, run_.contraction_ratio};
   }
 
   /// What the readings say at each row.
   void judge(const Measurement& driving) {
-    const auto& pressures = raw_.sides[0].muscle_pressure_Pa;
-    const bool gauge = !pressures.empty() && !raw_.sides[0].pressure_is_given;
-    const auto& readings = raw_.length_is_given ? raw_.force_N : raw_.contraction_ratio;
-    auto& judged = raw_.length_is_given ? run_.force_N : run_.contraction_ratio;
-    const Column column_read(raw_.time_s, readings), pressure(raw_.time_s, pressures);
-    if (gauge) run_.muscle_pressure_Pa.emplace();
+    const auto [readings, rows] = judged();
+    const std::vector<Beside> others = besides();
     for (const std::size_t stamp : driving.rows) {
       const double at_s = driving.time_s[stamp];
-      const auto read = [&](const Column& column, std::vector<double>& left) {
+      const auto read = [&](const std::vector<double>& values, std::vector<double>& left) {
+        const Column column(raw_.time_s, values);
         if (!fast_) return Together{.value = column[stamp], .gain = 1.0, .readings = 1};
         const Together near = column.near(at_s, 0.5 * row_s_);
         if (!std::isnan(near.value)) left.push_back(near.squares);
         return near;
       };
-      const Together all = read(column_read, squares);
-      Together p{.value = 0.0};
-      if (gauge) p = read(pressure, pressure_squares);
-      run_.missing.push_back(std::isnan(all.value) || std::isnan(p.value));
+      const Together all = read(readings, squares);
+      run_.missing.push_back(std::isnan(all.value));
+      for (const Beside& other : others) {
+        other.rows.push_back(read(other.recorded, other.squares).value);
+        other.missing.push_back(std::isnan(other.rows.back()));
+      }
       run_.time_s.push_back(at_s - begin_s());
-      judged.push_back(all.value);
-      if (gauge) run_.muscle_pressure_Pa->push_back(p.value);
+      rows.push_back(all.value);
       if (!driving.sides[0].current_mA.empty()) run_.current_mA.push_back(driving.sides[0].current_mA[stamp]);
       gain_sum += all.gain;
       readings_sum += static_cast<double>(all.readings);
     }
-    fill(judged);
-    if (gauge) fill(*run_.muscle_pressure_Pa);
+    fill(rows);
+    for (const Beside& other : others) fill(other.rows);
     step = step_of(readings);
-    if (!fast_) {
-      if (const double noise = noise_of_slow(readings); noise > 0.0) squares = {noise * noise};
-      pressure_squares = {std::pow(noise_of_slow(pressures), 2)};
-    }
+    if (!fast_) note_slow_noise(readings);
+  }
+
+  void note_slow_noise(const std::vector<double>& readings) {
+    if (const double noise = noise_of_slow(readings); noise > 0.0) squares = {noise * noise};
+    pressure_squares.clear();
+    for (std::size_t side = 0; side < sides(); ++side)
+      if (const auto& read = raw_.sides[side].muscle_pressure_Pa; is_read(read))
+        pressure_squares.push_back(std::pow(noise_of_slow(read), 2));
+    if (is_read(raw_.force_N)) force_squares = {std::pow(noise_of_slow(raw_.force_N), 2)};
   }
 
   double noise_of_slow(const std::vector<double>& readings) const {
     if (raw_.point_s == 0.0) return slow_noise(readings);
-    std::vector<std::vector<double>> inputs{raw_.sides[0].current_mA};
-    if (raw_.sides[0].pressure_is_given) inputs.push_back(raw_.sides[0].muscle_pressure_Pa);
+    std::vector<std::vector<double>> inputs;
+    for (std::size_t side = 0; side < sides(); ++side) {
+      inputs.push_back(raw_.sides[side].current_mA);
+      if (raw_.sides[side].pressure_is_given) inputs.push_back(raw_.sides[side].muscle_pressure_Pa);
+    }
     if (raw_.length_is_given) inputs.push_back(raw_.contraction_ratio);
     std::erase_if(inputs, [](const auto& input) { return input.empty(); });
     return readings.empty() ? 0.0 : points_noise(readings, inputs);
@@ -368,18 +290,23 @@ class Judging {
 
   /// As much noise as a given pressure has, once more on it.
   void shake(const Measurement& driving) {
-    if (!driving.sides[0].pressure_is_given || driving.point_s > 0.0) return;  // a point's has come to rest
-    auto& readings = raw_.sides[0].muscle_pressure_Pa;
+    if (driving.point_s > 0.0) return;  // a point's has come to rest
+    for (std::size_t side = 0; side < sides(); ++side)
+      if (driving.sides[side].pressure_is_given) shake(driving, side);
+  }
+  void shake(const Measurement& driving, std::size_t side) {
+    auto& readings = raw_.sides[side].muscle_pressure_Pa;
     const Column column(raw_.time_s, readings);
     std::vector<double> left;
     if (fast_)
       for (const std::size_t stamp : driving.rows)
         left.push_back(column.near(driving.time_s[stamp], 0.5 * row_s_).squares);
-    given_noise_Pa = fast_ ? noise_of(left) : slow_noise(readings);
-    std::normal_distribution<double> noise(0.0, given_noise_Pa);
+    const double noise_Pa = fast_ ? noise_of(left) : slow_noise(readings);
+    given_noise_Pa = std::max(given_noise_Pa, noise_Pa);
+    std::normal_distribution<double> noise(0.0, noise_Pa);
     for (double& reading : readings) reading += noise(random_);
-    run_.shaken = driving;
-    auto& shaken = run_.shaken->sides[0].muscle_pressure_Pa;
+    if (!run_.shaken) run_.shaken = driving;
+    auto& shaken = run_.shaken->sides[side].muscle_pressure_Pa;
     for (std::size_t k = 0; k < driving.time_s.size(); ++k) {
       const double at_s = driving.time_s[k];
       const Together here = column.near(at_s, 0.5 * row_s_);
@@ -390,6 +317,7 @@ class Judging {
 
   domain::Run& run_;
   Measurement raw_;
+  bool pair_;
   double row_s_;
   std::mt19937_64 random_;
   bool fast_ = false;
@@ -403,17 +331,44 @@ double row_s_of(const domain::Dataset& data) {
   return slowest_s * enough_readings > even_row_s ? slowest_s : even_row_s;
 }
 
+/// Readings at the end of a load cell's range say no more than that. How many there are.
+std::size_t leave_out_the_end(const plant::LoadCell& cell, std::vector<double>& force_N) {
+  if (!cell.fitted || !cell.highest_N) return 0;
+  std::size_t count = 0;
+  for (double& read_N : force_N) {
+    if (!(read_N >= *cell.highest_N - 0.5 * cell.resolution_N)) continue;
+    read_N = std::nan("");
+    ++count;
+  }
+  return count;
+}
+
 }  // namespace
+
+double reading_per_count(const domain::RigFile& rig) {
+  if (rig.pair() == nullptr) return contraction_per_count(rig);
+  return plant::count_height_m(rig) / rig.joint.wheel_radius_m;
+}
+
+double reading_grain(const domain::RigFile& rig) {
+  const double count = reading_per_count(rig);
+  if (rig.sensor.absent()) return count;
+  const double usual_m = plant::count_height_m(plant::Encoder{}, rig.joint);
+  return count / plant::count_height_m(rig) *
+         std::max({plant::count_height_m(rig), usual_m,
+                   noises_in_a_grain * rig.sensor.noise * rig.sensor.rise_m(rig.joint.wheel_radius_m)});
+}
 
 domain::Dataset with_rows(domain::Dataset data) {
   if (!data.own_clock || data.rows_of_stamps) return data;
   Rows rows{.row_s = row_s_of(data), .readings = 0.0};
-  std::vector<double> squares, pressure_squares;
+  std::vector<double> squares, pressure_squares, force_squares;
   double gain = 0.0;
   for (std::size_t i = 0; i < data.runs.size(); ++i) {
     domain::Run& run = data.runs[i];
     rows.stamps += run.measured->time_s.size();
-    Judging judging(run, rows.row_s, i + 1);
+    rows.at_the_end += leave_out_the_end(data.rig.load_cell, run.measured->force_N);
+    Judging judging(run, data.rig.pair() != nullptr, rows.row_s, i + 1);
     judging();
     rows.rows += run.judged().size();
     rows.inputs += run.measured->time_s.size();
@@ -423,6 +378,7 @@ domain::Dataset with_rows(domain::Dataset data) {
     squares.insert(squares.end(), judging.squares.begin(), judging.squares.end());
     pressure_squares.insert(pressure_squares.end(), judging.pressure_squares.begin(),
                             judging.pressure_squares.end());
+    force_squares.insert(force_squares.end(), judging.force_squares.begin(), judging.force_squares.end());
     rows.given_noise_Pa = std::max(rows.given_noise_Pa, judging.given_noise_Pa);
     rows.step = std::max(rows.step, judging.step);
     rows.smoothed = rows.smoothed || (judging.fast() && run.shaken);
@@ -431,6 +387,7 @@ domain::Dataset with_rows(domain::Dataset data) {
   rows.readings /= all;
   rows.noise = noise_of(squares) * std::sqrt(gain / all);
   rows.pressure_noise_Pa = noise_of(pressure_squares) * std::sqrt(gain / all);
+  rows.force_noise_N = noise_of(force_squares) * std::sqrt(gain / all);
   data.rows_of_stamps = rows;
   return data;
 }

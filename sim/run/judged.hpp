@@ -12,7 +12,16 @@
 namespace mckibben::run {
 
 /// The runs with their rows, what is skipped left out. Of one muscle, with a hanging load whose contraction
-/// was read or at a given length and with its force; data with a row each tick are what they are.
+/// was read or at a given length and with its force, or of a pair whose angle was read; data with a row each
+/// tick are what they are.
 domain::Dataset with_rows(domain::Dataset data);
+
+/// One count of the encoder in the reading that is judged: contraction ratio, or joint angle [rad] of a pair.
+double reading_per_count(const domain::RigFile& rig);
+
+/// What checks of readings may take for a move, in the same: a count. A sensor that is finer than the
+/// thesis's encoder is looked at as coarsely, since that is what they were tried with, and one that scatters
+/// more, more coarsely.
+double reading_grain(const domain::RigFile& rig);
 
 }  // namespace mckibben::run

@@ -23,6 +23,7 @@ struct Sample {
   double friction_force_N;      ///< force of the threads on the load, positive upwards
   double effects_pull_N = 0.0;  ///< force of effects on the load, positive upwards
   double cord_force_N = 0.0;    ///< T, what the muscle's cord carries
+  double cell_N = 0.0;          ///< as the load cell shows it, if one is fitted
   double misread_ratio = 0.0;   ///< what an encoder shows besides e, before it counts
   /// The same of muscle 2, where there is one; forces positive where they shorten it.
   struct Opposite {

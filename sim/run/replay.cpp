@@ -4,6 +4,7 @@
 
 #include <controllers/waveform.hpp>
 #include <sim/run/batch.hpp>
+#include <sim/run/gaps.hpp>
 #include <sim/run/remembered.hpp>
 #include <sim/run/replay.hpp>
 #include <sim/run/simulate.hpp>
@@ -28,9 +29,10 @@ Recording recording_of(const domain::Run& measured, const domain::RigFile& rig) 
 }
 
 /// What a row of the measurement would read: counts, or where its rows were made of stamps the load's place,
-/// or the cord's force.
+/// the joint's angle, or the cord's force.
 double read_of(const Sample& sample, const domain::Run& measured, const domain::RigFile& rig) {
-  if (!measured.force_N.empty()) return sample.cord_force_N;
+  if (measured.kind_of_judged() == domain::Judged::angle) return angle_rad(rig, sample);
+  if (measured.kind_of_judged() == domain::Judged::force) return sample.cord_force_N;
   if (!measured.measured) return static_cast<double>(sample.counts) * contraction_per_count(rig);
   return sample.shown_ratio() * rig.muscle.rest_length_m / measured.rest_length_m;
 }

@@ -29,6 +29,7 @@ class Disturbance {
   double jitter() { return noise_.encoder_jitter * draw(); }
   double gauge_Pa() { return noise_.gauge_Pa * draw(); }
   double current_mA() { return noise_.current_mA * draw(); }
+  double cell_N(const plant::LoadCell& cell) { return cell.fitted ? cell.noise_N * draw() : 0.0; }
   /// Of the reference pressure; to be asked once a tick.
   double reference_Pa(double time_s) {
     double sum_Pa = 0.0;
@@ -51,6 +52,13 @@ class Disturbance {
   std::normal_distribution<double> normal_;
 };
 
+/// With the noise that the sensor of position has by its data sheet.
+plant::Noise with_sensor(plant::Noise noise, const plant::Rig& rig) {
+  const double rise_m = rig.sensor.noise * rig.sensor.rise_m(rig.joint.wheel_radius_m);
+  noise.encoder_jitter = std::hypot(noise.encoder_jitter, rise_m / rig.muscle.rest_length_m);
+  return noise;
+}
+
 /// What a run does at each instant, and what it leaves behind.
 class Run {
  public:
@@ -60,8 +68,8 @@ class Run {
         first_(-controller.preparation_ticks()),
         begin_(first_ - std::lround(plan.rig.settling_time_s / plan.rig.tick_s)),
         k_(begin_),
-        counter_(plan.rig.encoder.wiring, plant::count_height_m(plan.rig.encoder, plan.rig.joint)),
-        disturbance_(plan.noise, plan.rig.tick_s, plan.seed, plan.stream) {
+        counter_(plan.rig),
+        disturbance_(with_sensor(plan.noise, plan.rig), plan.rig.tick_s, plan.seed, plan.stream) {
     recording_.samples.reserve(plan_.ticks);
   }
 
@@ -127,7 +135,10 @@ class Run {
     const plant::State<double>& state = rider.now.flow.state;
     recording_.samples.push_back({time_s(k_), drive_.current_mA, state, counts_,
                                   plant::gauge_reading_Pa(plan_.rig.gauge, gauge_Pa), now.braid_force_N,
-                                  now.friction_force_N, now.effects_pull_N});
+                                  now.friction_force_N, now.effects_pull_N, now.cord_force_N()});
+    const plant::LoadCell& cell = plan_.rig.load_cell;
+    recording_.samples.back().cell_N =
+        plant::cell_reading_N(cell, now.cord_force_N(), disturbance_.cell_N(cell));
     recording_.samples.back().misread_ratio = rider.now.reading.misread_m / plan_.rig.muscle.rest_length_m;
     recording_.largest_contraction_ratio =
         std::max(recording_.largest_contraction_ratio, state.joint.contraction_ratio);
@@ -155,7 +166,7 @@ class Run {
   controllers::Controller& controller_;
   std::int64_t first_, begin_, k_;  // ticks: of the controller, of the settling, now
   ride::Drive drive_;
-  plant::PulseCounter counter_;
+  plant::PositionReader counter_;
   Disturbance disturbance_;
   std::int64_t counts_ = 0;
   Recording recording_;
@@ -255,11 +266,12 @@ void simulate_all(const Take& take, std::size_t about, unsigned threads, const O
 }
 
 double contraction_per_count(const plant::Rig& rig) {
-  return plant::count_height_m(rig.encoder, rig.joint) / rig.muscle.rest_length_m;
+  return plant::count_height_m(rig) / rig.muscle.rest_length_m;
 }
 
 controllers::Knowledge knowledge_of(const plant::Rig& rig, std::vector<double> target) {
   return {.contraction_per_count = contraction_per_count(rig),
+          .middle_of_count = plant::middle_of_count(rig.sensor),
           .tick_s = rig.tick_s,
           .largest_current_mA = rig.dac.largest_current_mA,
           .target = std::move(target),

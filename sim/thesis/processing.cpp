@@ -58,7 +58,7 @@ class Processor {
         rig_(dataset.rig),
         options_(options),
         braid_(rig_.muscle),
-        per_count_(plant::count_height_m(rig_.encoder, rig_.joint) / rig_.muscle.rest_length_m) {}
+        per_count_(plant::count_height_m(rig_) / rig_.muscle.rest_length_m) {}
 
   ProcessedRun operator()() {
     ProcessedRun result;
@@ -106,7 +106,7 @@ class Processor {
                         run_.id, ratio, braid_.largest_contraction_ratio()));
     }
     constexpr double clearly_off = 0.15;  // a wrong count would give 0.25, a rounded table less than 0.1
-    counted_ = off <= clearly_off * static_cast<double>(counts_.size());
+    counted_ = rig_.sensor.absent() && off <= clearly_off * static_cast<double>(counts_.size());
     if (!counted_ && has_other_sensor())
       take_as_read();
     else if (!counted_)
@@ -119,8 +119,9 @@ class Processor {
                          run_.id));
   }
 
-  /// Whether the data set names a unit of contraction that no encoder of ours has.
+  /// Whether the rig has another sensor, or the data set names a unit of contraction that no encoder has.
   bool has_other_sensor() const {
+    if (!rig_.sensor.absent()) return true;
     const domain::ColumnPlace place = domain::merged(dataset_.columns, run_.columns).contraction;
     return !place.absent() && place.unit != "count" && place.unit != "1";
   }

@@ -210,7 +210,7 @@ std::vector<double> current_mA(std::size_t run, std::size_t rows, Dice& dice) {
 
 /// A rig that has it; notes in `hidden` what was planted.
 plant::Rig rig_with(const Kind& kind, std::uint64_t seed, Dice& dice, Hidden& hidden) {
-  plant::Rig truth;
+  domain::RigFile truth;
   // Every rig is a little off its data sheet; where nothing is to be found, less than one would notice.
   for (const Parameter& p : nominal_parameters(plant::Rig{})) {
     const double share = kind.verdict == Verdict::nothing_missing ? 0.0 : 0.1;

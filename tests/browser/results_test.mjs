@@ -144,3 +144,40 @@ test('a map is a page of pictures without scripts, and fits a narrow screen', as
   assert.deepEqual(requests, [url]);
   await done();
 });
+
+test('two muscles turn their joint as their CSV has it, and never to -0.0 degrees', async () => {
+  const {page, close: done, complaints, requests, url} = await open('pair');
+  const csv = table('pair/steps.csv');
+  for (const [plot, label, values] of [
+           ['angle', 'angle', csv.angle_rad.map((angle) => (180 * angle) / Math.PI)],
+           ['pressures', 'muscle 1', csv.muscle_pressure_1_bar],
+           ['pressures', 'muscle 2', csv.muscle_pressure_2_bar],
+           ['tensions', 'muscle 2', csv.tension_2_N],
+           ['current', 'muscle 1', csv.current_1_mA],
+  ]) {
+    const all = await seriesOf(page, plot);
+    const found = Object.keys(all).find((name) => name.startsWith(label));
+    assert.ok(found, `${label} among ${Object.keys(all)}`);
+    near(all[found].values, values, rangeOf(values), `${plot}: ${found}`);
+  }
+  const degrees = csv.angle_rad.map((angle) => (180 * angle) / Math.PI);
+  const link = [];
+  for (const k of [0, 150]) {
+    const text = await page.evaluate((t) => {
+      setTime(t);
+      return document.querySelector('#rig text.angle').textContent;
+    }, csv.time_s[k]);
+    assert.equal(text, `joint angle ${degrees[k].toFixed(1)}°`);
+    link.push(await page.locator('#rig path.link').getAttribute('d'));
+  }
+  assert.notEqual(link[0], link[1]);
+  const below = await page.evaluate(() => {
+    const {values} = view.group.runs[0];
+    drawing.draw({...valuesAt(values, 0), angle: -0.01}, {});
+    return [document.querySelector('#rig text.angle').textContent, written(-0.001, 'deg', 2)];
+  });
+  assert.deepEqual(below, ['joint angle 0.0°', '0.00']);
+  assert.deepEqual(complaints, []);
+  assert.deepEqual(requests, [url]);
+  await done();
+});

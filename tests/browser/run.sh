@@ -28,5 +28,6 @@ END
 "$program" map "$here/../data/calibration.yaml" --ratios 6 --speeds 2 --out "$folder/map" > /dev/null
 "$program" dataset "$here/leaky.yaml" --out "$folder/leaky" > /dev/null
 "$program" diagnose leaky --out "$folder/diagnosis" > /dev/null
+"$program" run "$here/../../scenarios/pair.yaml" --out "$folder/pair" > /dev/null
 "$program" replay leaky --rig diagnosis/rig.yaml --out "$folder/mended" > /dev/null
 node --test --test-reporter=spec report_test.mjs results_test.mjs

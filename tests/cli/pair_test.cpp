@@ -260,19 +260,56 @@ TEST_F(Replayed, ASlackCordIsSaid) {
 
 TEST_F(Replayed, VerbsThatNeedTicksAndALoadRefuseTheRest) {
   ASSERT_EQ(replay("thesis_pair", "", "  - {id: a, file: " + reference + "pair_steps.csv}\n").status, 0);
-  for (const char* verb : {"diagnose", "calibrate"}) {
-    const Said said = mckibben(std::string(verb) + " dataset.yaml --out other", scratch);
-    EXPECT_EQ(said.status, 65);
-    EXPECT_NE(said.err.find(std::string("dataset.yaml: error: ") + verb +
-                            " cannot take it yet: the rig's two muscles"),
-              std::string::npos)
-        << said.err;
-    EXPECT_FALSE(std::filesystem::exists(scratch / "other"));
-  }
+  const Said said = mckibben("calibrate dataset.yaml --out other", scratch);
+  EXPECT_EQ(said.status, 65);
+  EXPECT_NE(said.err.find("dataset.yaml: error: calibrate cannot take it yet: the rig's two muscles"),
+            std::string::npos)
+      << said.err;
+  EXPECT_FALSE(std::filesystem::exists(scratch / "other"));
   EXPECT_EQ(mckibben("replay dataset.yaml --rig thesis", scratch).status, 65);
   EXPECT_EQ(mckibben("map '" MCKIBBEN_TEST_DATA "/calibration.yaml' --rig thesis_pair", scratch).status, 65);
   EXPECT_EQ(mckibben("check dataset.yaml", scratch).status, 0);
   EXPECT_EQ(mckibben("diff out out", scratch).status, 65);
+}
+
+TEST_F(Replayed, BothMusclesAreDrivenAlikeToBeDiagnosed) {
+  const std::string columns =
+      "columns:\n  muscle_pressure_1: {column: muscle_pressure_1_bar, unit: bar, as: input}\n";
+  ASSERT_EQ(replay("thesis_pair", columns, "  - {id: a, file: " + reference + "pair_steps.csv}\n").status, 0);
+  const Said said = mckibben("diagnose dataset.yaml --out other", scratch);
+  EXPECT_EQ(said.status, 65);
+  EXPECT_NE(said.err.find("in run a the pressure of one muscle is given, and that of the other is not"),
+            std::string::npos)
+      << said.err;
+}
+
+TEST(Pair, IsDiagnosedByItsAngleAndItsGauges) {
+  const Scratch scratch;
+  const auto current = [](const std::string& name, const char* one, const char* two) {
+    return "  - name: " + name +
+           "\n    current_1: {kind: sine_current, low: 6 mA, high: 18 mA, period: " + one +
+           " s}\n    current_2: {kind: sine_current, low: 8 mA, high: 16 mA, period: " + two + " s}\n";
+  };
+  write_text(scratch / "truth.yaml", "schema: mckibben-pair/1\nduration: 1.2 s\ncurrents:\n" +
+                                         current("a", "0.7", "1.1") + current("b", "1.3", "0.8") +
+                                         current("c", "0.9", "1.2"));
+  ASSERT_EQ(mckibben("run truth.yaml --out truth", scratch).status, 0);
+  std::string data = "schema: mckibben-dataset/1\nrig: thesis_pair\nruns:\n";
+  for (const std::string id : {"a", "b", "c"}) data += "  - {id: " + id + ", file: truth/" + id + ".csv}\n";
+  write_text(scratch / "dataset.yaml", data);
+  const Said said = mckibben("diagnose dataset.yaml --out found --threads 2", scratch);
+  ASSERT_EQ(said.status, 0) << said.err;
+  EXPECT_NE(said.out.find("errors are joint angles in deg"), std::string::npos) << said.out;
+  const Json found = Json::parse(read_text(scratch / "found/diagnosis.json"));
+  EXPECT_EQ(found.at("verdict"), "nothing_missing") << found.at("because");
+  EXPECT_EQ(found.at("gap").at("reading"), "angle");
+  EXPECT_EQ(found.at("gap").at("unit"), "rad");
+  const std::string page = read_text(scratch / "found/report.html");
+  for (const char* words : {"Joint angle, measured and by each rig", "given_muscle_pressure_2",
+                            "pressure of muscle 2", "two muscles turn the joint", "towards muscle 1"})
+    EXPECT_NE(page.find(words), std::string::npos) << words;
+  EXPECT_EQ(page.find("contraction ratio</label>"), std::string::npos);  // no lengths to choose the unit of
+  EXPECT_EQ(mckibben("replay dataset.yaml --rig found/rig.yaml --out again", scratch).status, 0);
 }
 
 TEST(Pair, RunsUnderTwoCurrents) {

@@ -12,7 +12,7 @@ namespace mckibben::diagnose {
 namespace {
 
 TEST(Parameters, AreFoundByTheirPathThroughPartsEffectsAndLists) {
-  plant::Rig rig;
+  RigFile rig;
   rig.effects.get<plant::ResidualForce>().terms.resize(2);
   *find(rig, "muscle.rest_radius").value = 8e-3;
   *find(rig, "effects.muscle_leak.conductance").value = 1e-10;
@@ -30,7 +30,7 @@ TEST(Catalogue, HoldsAllEffectsWithANameAndEveryLawMovesSomething) {
   std::set<std::string> effects;
   for (const Candidate& c : catalogue()) {
     effects.insert(c.effect);
-    const plant::Rig rig = c.chosen(plant::Rig{});
+    const RigFile rig = c.chosen(RigFile{});
     EXPECT_EQ(value_of(rig, c.amplitude), c.absent) << c.effect;
     for (const Parameter& p : c.parameters(rig)) {
       EXPECT_LT(p.lowest, p.highest) << p.path;
@@ -72,7 +72,7 @@ TEST(NominalParameters, AreKnownAsWellAsTheRigSays) {
 }
 
 TEST(NominalParameters, IncludeTheSizesOfEffectsThatTheRigHas) {
-  plant::Rig rig;
+  RigFile rig;
   rig.effects.get<plant::ValveDeadBand>().half_width_Pa = 4e3;
   auto& bladder = rig.effects.get<plant::BladderElasticity>();
   bladder.variant = plant::BladderLaw::saturating;

@@ -82,7 +82,9 @@ TEST(Underway, AReplayReadsWhatADiagnosisReads) {
 }
 
 TEST(Underway, AGivenPressureLeavesValveHoseAndGasOutOfSight) {
-  const auto all = catalogue(), seen = catalogue(true);
+  domain::Dataset given;
+  given.runs.emplace_back().measured.emplace().sides[0].pressure_is_given = true;
+  const auto all = catalogue(), seen = catalogue(given);
   const auto names = effects_out_of_sight();
   EXPECT_EQ(names.size(), 9u);
   EXPECT_EQ(seen.size() + names.size(), all.size());  // each of them has one law

@@ -62,6 +62,19 @@ TEST(Axes, WithAFloorNumbersArePowersOfTen) {
   EXPECT_NEAR(errors.px(1e-2) - errors.px(5e-3), errors.px(2e-2) - errors.px(1e-2), 0.1) << "logarithmic";
 }
 
+TEST(Axes, DecadesHaveNumbersAtTheirPowers) {
+  std::vector<double> values, powers;
+  for (const auto& [value, is_power] : decades(0.03, 2.5)) {
+    values.push_back(value);
+    if (is_power) powers.push_back(value);
+  }
+  ASSERT_EQ(values.size(), 5u);
+  EXPECT_NEAR(values[0], 0.1, 1e-12);
+  EXPECT_NEAR(values[2], 0.5, 1e-12);
+  EXPECT_NEAR(values[4], 2.0, 1e-12);
+  EXPECT_EQ(powers.size(), 2u);
+}
+
 TEST(Axes, PanelsAreDrawnWithGridNumbersAndWords) {
   Panel panel{.x = {.from_px = 50.0, .to_px = 250.0, .low = 0.0, .high = 2.0},
               .y = {.from_px = 120.0, .to_px = 20.0, .low = 0.0, .high = 1.0}};

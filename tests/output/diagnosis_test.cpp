@@ -70,6 +70,18 @@ TEST(DiagnosisJson, HoldsWhatIsPromised) {
   EXPECT_TRUE(document.at("program").contains("ceres"));
 }
 
+TEST(DiagnosisJson, TellsWhatWasReadBesideOnlyWhereSomethingWas) {
+  auto diagnosis = diagnosed();
+  EXPECT_FALSE(Json::parse(json_of(measured(), diagnosis)).at("gap").contains("beside"));
+  diagnosis.gap.beside = {{"force", "N", 0.5, 9.0, 4.0, 0.6}};
+  const Json force{{"reading", "force"},       {"unit", "N"},
+                   {"noise_floor", 0.5},       {"nominal_rmse", 9.0},
+                   {"recalibrated_rmse", 4.0}, {"corrected_rmse", 0.6}};
+  EXPECT_EQ(Json::parse(json_of(measured(), diagnosis)).at("gap").at("beside").at(0), force);
+  const std::string table = table_of(measured(), diagnosis);
+  EXPECT_NE(table.find("each weighed by its own floor"), std::string::npos) << table;
+}
+
 TEST(DiagnosisJson, NamesAParameterByItsPartOnlyWhereTheLastWordIsNotEnough) {
   const Json moved = Json::parse(json_of(measured(), diagnosed())).at("recalibrated");
   EXPECT_EQ(moved.at("rest_radius").at("nominal"), 0.0075);

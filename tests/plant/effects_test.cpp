@@ -406,7 +406,8 @@ TEST(Catalogue, TheOrderOfTheTableDoesNotMatter) {
     const Inflow<double> inflow{chance.between(-1.0, 1.0),   chance.between(0.0, 1e-3),
                                 chance.between(-1e-3, 1e-3), chance.between(0.0, 1e-4),
                                 chance.between(1e-5, 1e-4),  chance.between(-1e-4, 1e-4)};
-    same(forth.pull_N(now, memory), back.pull_N(now, turned));
+    same(forth.pull(now, memory).all_N, back.pull(now, turned).all_N);
+    same(forth.pull(now, memory).on_load_N, forth.get<GuideFriction>().pull_N(now, 0.0));
     same(forth.friction_factor(now, memory), back.friction_factor(now, turned));
     same(forth.valve_opening(0.3, memory), back.valve_opening(0.3, turned));
     same(forth.supply_drop_Pa(memory), back.supply_drop_Pa(turned));

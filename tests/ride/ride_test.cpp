@@ -210,6 +210,35 @@ TEST(Ride, CarriesSeveralRigsEachWhereItGoesAlone) {
   }
 }
 
+TEST(Ride, CarriesSeveralPairsEachWhereItGoesAlone) {
+  Paired nominal, other;
+  other.rig.effects.get<plant::ValveLag>().time_s = other.opposite.effects.get<plant::ValveLag>().time_s =
+      0.03;
+  other.opposite.effects.get<plant::BladderCreep>().stiffness_N_per_m = 300.0;
+  other.opposite.muscle.rest_radius_m *= 1.02;
+  other.link = {.contraction_ratio = 0.12, .inertia_kg_m2 = 0.2, .hangs_at_rad = 0.1};
+  const Paired pairs[] = {nominal, other};
+  EXPECT_TRUE(can_share_steps(pairs, solver::Method::automatic));
+  Ride together(pairs, {solver::Method::erk, 1e-9});
+  const auto go_pair = [](Ride& ride) {
+    const auto both = [](int k) {
+      Drive drive = drive_at(k);
+      drive.opposite.current_mA = 12.0 + 4.0 * std::sin(0.03 * k);
+      return drive;
+    };
+    ride.start(both(0), 0.0);
+    for (int k = 0; k < 84; ++k) ride.step(both(k), tick_s * (k + 1));
+  };
+  go_pair(together);
+  for (std::size_t i = 0; i < 2; ++i) {
+    Ride alone(pairs[i], {solver::Method::erk, 1e-9});
+    go_pair(alone);
+    EXPECT_NEAR(together.reading(i).wheel_m, alone.reading().wheel_m, 3e-8) << i;
+    EXPECT_NEAR(together.reading(i).opposite_pressure_Pa, alone.reading().opposite_pressure_Pa, 1.0) << i;
+  }
+  EXPECT_GT(std::abs(together.reading(0).wheel_m - together.reading(1).wheel_m), 1e-4);
+}
+
 TEST(Ride, RefusesWhatItCannotDo) {
   EXPECT_THROW(Ride(std::span<const Hanging>{}, {}), std::invalid_argument);
   Ride ride(Hanging{plant::Rig{}, load_kg}, {});

@@ -1,0 +1,143 @@
+// Keys, units and labels; see the header.
+#include <utility>
+
+#include <sim/report/driven_quantities.hpp>
+#include <sim/report/length.hpp>
+#include <sim/run/gaps.hpp>
+
+namespace mckibben::report {
+namespace {
+
+using run::Sample;
+
+constexpr double in_bar = 1.0 / plant::Pa_per_bar;
+
+/// Quantities of a recording, one by one.
+class RowQuantities {
+ public:
+  explicit RowQuantities(const run::Recording& recording) : rows_(&recording.samples) {}
+  template <class Value>
+  void add(const char* key, const Value& value) {
+    all.push_back({key, [rows = rows_, value](std::size_t k) { return value((*rows)[k]); }});
+  }
+  std::vector<Quantity> all;
+
+ private:
+  const std::vector<Sample>* rows_;
+};
+
+/// A plot of one reading, and of its error, if it was measured: keys given_X, X, X_error.
+void add_reading(std::vector<Plot>& plots, const std::string& key, const std::string& title,
+                 const std::string& unit, const std::string& label, bool measured) {
+  Plot plot{.id = key, .title = title, .unit = unit, .lines = {}, .still = true};
+  if (measured) plot.lines.push_back({.key = "given_" + key, .label = "measured", .given = true});
+  plot.lines.push_back({.key = key, .label = label, .main = true});
+  plots.push_back(std::move(plot));
+  if (measured)
+    plots.push_back({key + "_error",
+                     title + ": simulated less measured",
+                     unit,
+                     {{.key = key + "_error", .label = "error", .main = true}}});
+}
+
+}  // namespace
+
+std::vector<Quantity> pair_quantities(const domain::RigFile& rig, const run::Recording& recording) {
+  RowQuantities of(recording);
+  const auto& given = recording.driven.pressure;
+  of.add("angle", [&rig](const Sample& s) { return in_degrees * run::angle_rad(rig, s); });
+  of.add("contraction_1", [](const Sample& s) { return s.state.joint.contraction_ratio; });
+  of.add("contraction_2", [](const Sample& s) { return s.opposite.contraction_ratio; });
+  if (!given[0]) of.add("current_1", [](const Sample& s) { return s.current_mA; });
+  if (!given[1]) of.add("current_2", [](const Sample& s) { return s.opposite.current_mA; });
+  if (!given[0])
+    of.add("valve_pressure_1", [](const Sample& s) { return in_bar * s.state.side.valve_pressure_Pa; });
+  if (!given[1])
+    of.add("valve_pressure_2", [](const Sample& s) { return in_bar * s.state.opposite.valve_pressure_Pa; });
+  of.add("muscle_pressure_1", [](const Sample& s) { return in_bar * s.state.side.muscle_pressure_Pa; });
+  of.add("muscle_pressure_2", [](const Sample& s) { return in_bar * s.state.opposite.muscle_pressure_Pa; });
+  of.add("tension_1", [](const Sample& s) { return s.cord_force_N; });
+  of.add("tension_2", [](const Sample& s) { return s.opposite.cord_force_N; });
+  return std::move(of.all);
+}
+
+std::vector<Quantity> single_quantities(const run::Recording& recording) {
+  RowQuantities of(recording);
+  of.add("contraction", [](const Sample& s) { return s.state.joint.contraction_ratio; });
+  if (!recording.driven.pressure[0]) {
+    of.add("current", [](const Sample& s) { return s.current_mA; });
+    of.add("valve_pressure", [](const Sample& s) { return in_bar * s.state.side.valve_pressure_Pa; });
+  }
+  of.add("muscle_pressure", [](const Sample& s) { return in_bar * s.state.side.muscle_pressure_Pa; });
+  of.add("braid_force", [](const Sample& s) { return s.braid_force_N; });
+  of.add("friction_force", [](const Sample& s) { return s.friction_force_N; });
+  of.add("cord_force", [](const Sample& s) { return s.cord_force_N; });
+  return std::move(of.all);
+}
+
+std::vector<Plot> pair_plots(bool angle_is_measured, bool commands) {
+  std::vector<Plot> plots;
+  add_reading(plots, "angle", "Joint angle", "deg", "angle", angle_is_measured);
+  if (commands)
+    plots.push_back({"current",
+                     "Currents",
+                     "mA",
+                     {{.key = "current_1", .label = "muscle 1", .main = true},
+                      {.key = "current_2", .label = "muscle 2", .main = true}}});
+  plots.push_back({"pressures",
+                   "Pressures",
+                   "bar",
+                   {{.key = "muscle_pressure_1", .label = "muscle 1", .main = true},
+                    {.key = "muscle_pressure_2", .label = "muscle 2", .main = true},
+                    {.key = "given_muscle_pressure_1", .label = "measured, muscle 1", .given = true},
+                    {.key = "given_muscle_pressure_2", .label = "measured, muscle 2", .given = true}}});
+  plots.push_back({"tensions",
+                   "Forces of the cords",
+                   "N",
+                   {{.key = "tension_1", .label = "muscle 1", .main = true},
+                    {.key = "tension_2", .label = "muscle 2", .main = true}}});
+  plots.push_back({"ratios",
+                   "Contraction ratios of the muscles",
+                   "ratio",
+                   {{.key = "contraction_1", .label = "muscle 1", .main = true},
+                    {.key = "contraction_2", .label = "muscle 2", .main = true}}});
+  return plots;
+}
+
+std::vector<Plot> single_plots(bool contraction_is_measured, bool force, bool commands) {
+  std::vector<Plot> plots;
+  add_reading(plots, "contraction", "Contraction", std::string(ratio_unit), "contraction",
+              contraction_is_measured);
+  if (force) add_reading(plots, "cord_force", "Force of the cord", "N", "cord", true);
+  if (commands)
+    plots.push_back({"current", "Current", "mA", {{.key = "current", .label = "current", .main = true}}});
+  plots.push_back({"pressures",
+                   "Pressures",
+                   "bar",
+                   {{.key = "muscle_pressure", .label = "muscle", .main = true},
+                    {.key = "valve_pressure", .label = "valve"},
+                    {.key = "given_muscle_pressure", .label = "measured", .given = true}}});
+  plots.push_back({"forces",
+                   "Forces that shorten the muscle",
+                   "N",
+                   {{.key = "braid_force", .label = "braid", .main = true},
+                    {.key = "friction_force", .label = "friction of the threads"},
+                    {.key = "cord_force", .label = "all: the cord"}}});
+  return plots;
+}
+
+std::vector<Loop> pair_loops() {
+  return {{"tension_1", "Joint angle and force of cord 1", "angle", "tension_1", "joint angle in deg",
+           "force in N"},
+          {"tension_2", "Joint angle and force of cord 2", "angle", "tension_2", "joint angle in deg",
+           "force in N"}};
+}
+
+std::vector<Loop> single_loops() {
+  return {{"force", "Force of the cord and contraction", "contraction", "cord_force", std::string(ratio_unit),
+           "force in N"},
+          {"pressure", "Pressure and contraction", "contraction", "muscle_pressure", std::string(ratio_unit),
+           "muscle pressure in bar"}};
+}
+
+}  // namespace mckibben::report

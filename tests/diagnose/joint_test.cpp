@@ -1,0 +1,156 @@
+// Joints with two muscles: what a rig would show, what a parameter stands for, what is checked and held out.
+#include "joint.hpp"
+
+#include <algorithm>
+#include <functional>
+#include <utility>
+
+#include <gtest/gtest.h>
+
+#include <sim/diagnose/check.hpp>
+#include <sim/diagnose/experiment.hpp>
+#include <sim/diagnose/held_out.hpp>
+#include <sim/domain/objection.hpp>
+#include <sim/run/gaps.hpp>
+
+namespace mckibben::diagnose {
+namespace {
+
+TEST(Joint, AnglesAreThoseOfAReplay) {
+  const RigFile rig = domain::thesis_pair();
+  for (const bool commands : {false, true}) {
+    const domain::Dataset data = of_a_joint(rig, commands, {0.0, 0.0});
+    const domain::Run& run = data.runs[1];
+    const auto replayed = run::follow(rig, 0.0, run::course_of(run, rig));
+    ASSERT_EQ(replayed.samples.size(), run.angle_rad.size());
+    for (std::size_t k = 0; k < run.angle_rad.size(); k += 10)
+      EXPECT_NEAR(run::angle_rad(rig, replayed.samples[k]), run.angle_rad[k], 1e-4) << k;
+    EXPECT_GT(run::angle_rad(rig, replayed.samples[40]), 0.1);
+  }
+}
+
+TEST(Joint, ItsOwnDataLeaveTheFloor) {
+  const domain::Dataset data = of_a_joint(domain::thesis_pair());
+  const Checked checked = check(data, 2);
+  EXPECT_TRUE(checked.warnings.empty()) << checked.warnings.front();
+  const Runs all{0, 1, 2, 3, 4};
+  const Experiment experiment(data, checked.masked, 2, all);
+  EXPECT_NEAR(experiment.floor().jitter, 1e-3, 1e-4);
+  EXPECT_GT(experiment.floor().given, 1e-5);
+  EXPECT_LT(experiment.floor().judged, 1.2e-3);
+  EXPECT_NEAR(experiment.rmse(experiment.residuals(data.rig, all), all), experiment.floor().judged, 1e-4);
+  EXPECT_EQ(split(data, all).held_out, Runs{4});
+}
+
+TEST(Joint, SlopesAreThoseOfBothSides) {
+  const domain::Dataset data = of_a_joint(domain::thesis_pair(), false, {0.0, 0.0});
+  const Checked checked = check(data, 2);
+  const Experiment experiment(data, checked.masked, 2);
+  const auto parameters = nominal_parameters(data.rig);
+  const auto radius = std::ranges::find(parameters, "muscle.rest_radius", &Parameter::path);
+  ASSERT_NE(radius, parameters.end());
+  EXPECT_TRUE(radius->both_sides);
+  const Eigen::VectorXd slope = experiment.slopes(data.rig, std::span(&*radius, 1), {0}).columns.col(0);
+  RigFile wide = data.rig;
+  radius->put(wide, radius->origin + 0.2 * radius->scale);
+  EXPECT_EQ(wide.pair()->opposite.muscle.rest_radius_m, wide.muscle.rest_radius_m);
+  const Eigen::VectorXd change =
+      (experiment.residuals(data.rig, {0}) - experiment.residuals(wide, {0})) / 0.2;
+  EXPECT_NEAR((slope - change).norm(), 0.0, 0.05 * slope.norm());
+}
+
+TEST(Joint, APartOfBothSidesIsOneToAFitUnlessTheRigFileHasTwo) {
+  const auto named = [](const RigFile& rig, const domain::Spreads& stated, const std::string& path) {
+    const auto all = nominal_parameters(rig, stated);
+    const auto found = std::ranges::find(all, path, &Parameter::path);
+    return found == all.end() ? std::optional<Parameter>() : *found;
+  };
+  RigFile rig = domain::thesis_pair();
+  EXPECT_TRUE(named(rig, {}, "muscle.rest_radius")->both_sides);
+  EXPECT_FALSE(named(rig, {}, "mechanics.opposite.muscle.rest_radius"));
+  EXPECT_TRUE(named(rig, {}, "mechanics.link_hangs_at"));
+  EXPECT_FALSE(named(rig, {}, "joint.guide_damping"));  // of a load's guide
+  auto& two = std::get<plant::Pair>(rig.mechanics).opposite;
+  two.muscle.rest_length_m = 0.28;
+  EXPECT_FALSE(named(rig, {}, "muscle.rest_radius")->both_sides);
+  EXPECT_TRUE(named(rig, {}, "mechanics.opposite.muscle.rest_radius"));
+  EXPECT_TRUE(named(rig, {}, "friction.scale")->both_sides);  // another part
+  const std::string other = "mechanics.opposite.friction.scale";
+  EXPECT_EQ(named(rig, {{other, 0.05}}, other)->scale, 0.05);
+  EXPECT_EQ(named(rig, {{"muscle.rest_length", 2e-3}}, "mechanics.opposite.muscle.rest_length")->scale, 2e-3);
+}
+
+TEST(Joint, ALinkStaysOneThatCanBe) {
+  RigFile rig = domain::thesis_pair();
+  const domain::Spreads stated{
+      {"mechanics.link_mass", 1.0}, {"mechanics.link_length", 0.1}, {"mechanics.link_inertia", 0.1}};
+  for (const Parameter& p : nominal_parameters(rig, stated))
+    if (stated.contains(p.path)) p.put(rig, p.path.ends_with("inertia") ? p.lowest : p.highest);
+  const plant::Link& link = *rig.pair();
+  EXPECT_GT(link.length_m, 0.25);
+  EXPECT_GE(link.inertia_kg_m2, link.mass_kg * link.length_m * link.length_m * (1.0 - 1e-12));
+}
+
+std::string refused(domain::Dataset data, const std::function<void(domain::Run& run)>& spoil) {
+  for (domain::Run& run : data.runs) spoil(run);
+  try {
+    check(data, 2);
+  } catch (const domain::UnfitData& unfit) {
+    return unfit.what();
+  }
+  return "";
+}
+
+TEST(Joint, ReadingsThatAreNotWhatTheirColumnsSayAreRefusedWithTheLineToWrite) {
+  domain::Dataset data = of_a_joint(domain::thesis_pair());
+  const auto times = [](double factor) {
+    return [factor](domain::Run& run) {
+      for (double& angle_rad : run.angle_rad) angle_rad *= factor;
+    };
+  };
+  EXPECT_EQ(refused(data, times(1.0)), "");
+  EXPECT_EQ(refused(data, times(0.7)), "");
+  EXPECT_NE(refused(data, times(-1.0))
+                .find("write columns: {angle: {column: angle_rad, unit: rad, factor: -1}}, "
+                      "or exchange muscle 1 and muscle 2"),
+            std::string::npos)
+      << refused(data, times(-1.0));
+  EXPECT_NE(refused(data, times(1.0 / plant::degree_rad)).find("{angle: {column: angle_rad, unit: deg}}"),
+            std::string::npos);
+  data.columns.angle = {.column = "elbow", .unit = "deg"};
+  EXPECT_NE(refused(data, times(plant::degree_rad)).find("{angle: {column: elbow, unit: rad}}"),
+            std::string::npos);
+  const auto exchange = [](domain::Run& run) {
+    std::swap(run.measured->sides[0].muscle_pressure_Pa, run.measured->sides[1].muscle_pressure_Pa);
+  };
+  EXPECT_NE(refused(data, exchange).find("exchange muscle 1 and muscle 2"), std::string::npos);
+}
+
+TEST(Joint, AGuideOfALoadIsNoCandidate) {
+  const domain::Dataset data = of_a_joint(domain::thesis_pair(), true);
+  const auto offered = catalogue(data);
+  EXPECT_EQ(std::ranges::find(offered, "guide_friction", &Candidate::effect), offered.end());
+  EXPECT_NE(std::ranges::find(offered, "muscle_leak", &Candidate::effect), offered.end());
+}
+
+TEST(Joint, GaugesOfBothMusclesAreCompared) {
+  RigFile leaking = domain::thesis_pair();
+  std::get<plant::Pair>(leaking.mechanics).opposite.effects.get<plant::MuscleLeak>().conductance_m3_per_s_Pa =
+      3e-10;
+  domain::Dataset data = of_a_joint(leaking, true);
+  const Hanging pair{leaking};
+  for (domain::Run& run : data.runs) {
+    Readings readings = predict(run, {&pair, 1}).front();
+    run.muscle_pressure_Pa = std::move(readings.pressure_Pa);
+    run.opposite_pressure_Pa = std::move(readings.opposite_pressure_Pa);
+  }
+  const Checked checked = check(data, 2);
+  const Experiment experiment(data, checked.masked, 2);
+  const auto left = experiment.residuals(data.rig, {0});
+  const auto rows = static_cast<Eigen::Index>(data.runs[0].angle_rad.size());
+  ASSERT_EQ(left.size(), 3 * rows);
+  EXPECT_LT(left.segment(rows, rows).norm(), 0.3 * left.tail(rows).norm());  // muscle 2 is the one that leaks
+}
+
+}  // namespace
+}  // namespace mckibben::diagnose

@@ -1,0 +1,61 @@
+// Whole diagnoses of a joint with two muscles.
+#include "diagnose/joint.hpp"
+
+#include <gtest/gtest.h>
+
+#include "diagnose/planted.hpp"
+
+namespace mckibben::diagnose {
+namespace {
+
+const Moved* moved(const Diagnosis& found, const std::string& path) {
+  for (const Moved& one : found.recalibrated)
+    if (one.fitted.name == path) return &one;
+  return nullptr;
+}
+
+TEST(JointDiagnosis, NamesWhatDampsBothMusclesFromPressuresAndAnAngle) {
+  const Diagnosis found =
+      diagnosis_of(of_a_joint(pair_with(plant::ViscousDamping{.damping_N_s_per_m = 400.0})), 2);
+  EXPECT_EQ(found.verdict, Verdict::missing_effect) << found.because;
+  ASSERT_EQ(found.effects.size(), 1u) << found.because;
+  EXPECT_EQ(found.effects[0].name, "viscous_damping");
+  const FittedNumber& damping = found.effects[0].parameters.at(0);
+  EXPECT_LT(damping.low, 400.0);
+  EXPECT_GT(damping.high, 400.0);
+  EXPECT_EQ(found.gap.judged, Judged::angle);
+  EXPECT_LT(found.gap.corrected_rmse, 1.2 * found.gap.noise_floor);
+  EXPECT_NE(found.because.find("the joint's angle falls from"), std::string::npos) << found.because;
+  EXPECT_NE(found.because.find(" deg"), std::string::npos) << found.because;
+  EXPECT_EQ(found.corrected.pair()->opposite.effects.get<plant::ViscousDamping>().damping_N_s_per_m,
+            damping.value);
+}
+
+TEST(JointDiagnosis, NamesTheLeakOfBothMusclesUnderCommands) {
+  const Diagnosis found =
+      diagnosis_of(of_a_joint(pair_with(plant::MuscleLeak{.conductance_m3_per_s_Pa = 3e-10}), true), 2);
+  EXPECT_EQ(found.verdict, Verdict::missing_effect) << found.because;
+  ASSERT_EQ(found.effects.size(), 1u) << found.because;
+  EXPECT_EQ(found.effects[0].name, "muscle_leak");
+  EXPECT_LT(found.effects[0].parameters.at(0).low, 3e-10);
+  EXPECT_GT(found.effects[0].parameters.at(0).high, 3e-10);
+}
+
+TEST(JointDiagnosis, RecalibratesFrictionOfBothMusclesAsOne) {
+  RigFile truth = domain::thesis_pair();
+  truth.friction.scale = std::get<plant::Pair>(truth.mechanics).opposite.friction.scale = 1.25;
+  const Diagnosis found = diagnosis_of(of_a_joint(truth), 2);
+  EXPECT_EQ(found.verdict, Verdict::recalibrate) << found.because;
+  ASSERT_NE(moved(found, "friction.scale"), nullptr);
+  EXPECT_NEAR(moved(found, "friction.scale")->fitted.value, 1.25, 0.05);
+  EXPECT_EQ(found.corrected.pair()->opposite.friction.scale, found.corrected.friction.scale);
+}
+
+TEST(JointDiagnosis, NamesNothingWhereNothingIsMissing) {
+  const Diagnosis found = diagnosis_of(of_a_joint(domain::thesis_pair()), 2);
+  EXPECT_EQ(found.verdict, Verdict::nothing_missing) << found.because;
+  EXPECT_FALSE(found.next_experiment);
+}
+
+}  // namespace
+}  // namespace mckibben::diagnose
