@@ -27,6 +27,7 @@
 //   double reference_Pa(wanted, play)      at each tick: the reference that the valve follows
 //   double wheel_m(rise, play)             at each tick: where the encoder's wheel stands
 //   P reading_factor()                     multiplies what the encoder reads of it
+//   P gauge_offset_Pa(), P gauge_factor()  added to what the gauge shows of P_m times this
 // Effects never see each other: shifts add up, factors multiply, plays in series are one play as wide as all
 // of them. So their order cannot matter.
 #pragma once
@@ -106,9 +107,10 @@ enum class Hook {
   reading_delay,
   reference,
   wheel,
-  reading_factor
+  reading_factor,
+  gauge
 };
-inline constexpr std::size_t hook_count = static_cast<std::size_t>(Hook::reading_factor) + 1;
+inline constexpr std::size_t hook_count = static_cast<std::size_t>(Hook::gauge) + 1;
 
 /// What the hook acts on, for people.
 constexpr std::string_view words(Hook hook) {
@@ -127,7 +129,8 @@ constexpr std::string_view words(Hook hook) {
                                                           "reading, at ticks",
                                                           "valve, at ticks",
                                                           "reading, at ticks",
-                                                          "reading"};
+                                                          "reading",
+                                                          "gauge"};
   return list[static_cast<std::size_t>(hook)];
 }
 

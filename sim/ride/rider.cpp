@@ -13,6 +13,17 @@ double reference_Pa(const plant::Side& side, const Command& command, plant::Effe
   return side.rig().effects.reference_Pa(wanted_Pa, plays) + command.stray_pressure_Pa;
 }
 
+/// A given pressure is what a gauge showed.
+void correct_gauge(const plant::Side& side, Command& command) {
+  if (command.muscle_pressure_Pa)
+    command.muscle_pressure_Pa = side.rig().effects.true_Pa(*command.muscle_pressure_Pa);
+}
+Drive corrected(const plant::Plant& plant, Drive drive) {
+  correct_gauge(plant.side(), drive);
+  if (plant.opposite()) correct_gauge(*plant.opposite(), drive.opposite);
+  return drive;
+}
+
 /// What a side's valve has from this instant on: the command, or where commands are late one from before.
 void feel(const plant::Side& side, Command command, double now_s, PastCommands& past,
           plant::Effects::Plays& plays, plant::HeldSide& held) {
@@ -44,7 +55,8 @@ double given_ratio(const plant::Rig& rig, double said) {
 
 }  // namespace
 
-void Rider::start(const Drive& drive, double at_s) {
+void Rider::start(const Drive& given, double at_s) {
+  const Drive drive = corrected(plant_, given);
   now = {.time_s = at_s, .until_s = at_s, .drive = drive};
   now.commands.begin(drive.current_mA);
   now.opposite_commands.begin(drive.opposite.current_mA);
@@ -66,8 +78,9 @@ void Rider::start(const Drive& drive, double at_s) {
   look();
 }
 
-void Rider::hold(const Drive& drive, double until_s) {
+void Rider::hold(const Drive& given, double until_s) {
   if (!(until_s > now.time_s)) throw std::invalid_argument("a ride goes forward in time");
+  const Drive drive = corrected(plant_, given);
   const double length_s = until_s - now.time_s;
   plant::Held& held = now.held;
   engine::Flow& flow = now.flow;
@@ -153,8 +166,9 @@ void Rider::look() {
     rise_m = now.rises.rise_m(then_s);
   }
   const double wheel_m = plant_.rig().effects.wheel_m(rise_m, now.plays);
-  now.reading = {wheel_m, wheel_m - true_rise_m, state.side.muscle_pressure_Pa,
-                 state.opposite.muscle_pressure_Pa};
+  const plant::Rig& other = plant_.opposite() ? plant_.opposite()->rig() : plant_.rig();
+  now.reading = {wheel_m, wheel_m - true_rise_m, plant_.rig().effects.shown_Pa(state.side.muscle_pressure_Pa),
+                 other.effects.shown_Pa(state.opposite.muscle_pressure_Pa)};
 }
 
 }  // namespace mckibben::ride

@@ -52,7 +52,7 @@ struct Drive : Command {
 struct Reading {
   double wheel_m = 0.0;    ///< rise that the encoder's wheel shows; of a pair, from theta = 0
   double misread_m = 0.0;  ///< what of it is not the joint's
-  double muscle_pressure_Pa = 0.0, opposite_pressure_Pa = 0.0;
+  double muscle_pressure_Pa = 0.0, opposite_pressure_Pa = 0.0;  ///< as gauges show them
 };
 
 class Rider {
@@ -64,7 +64,7 @@ class Rider {
     plant::Effects::Plays plays{}, opposite_plays{};
     Reading reading{};
     double time_s = 0.0, until_s = 0.0;
-    Drive drive{};                                 ///< that was held last
+    Drive drive{};                                 ///< that was held last, pressures as they are
     PastCommands commands{}, opposite_commands{};  ///< where something makes them late
     PastRises rises{};
   };
@@ -74,9 +74,9 @@ class Rider {
 
   /// At rest, pressures as the drive asks for, the encoder at zero. A load may still sink onto the braid
   /// stop, a link swing to where the muscles hold it: the steps of the rig's settling time follow.
-  void start(const Drive& drive, double at_s);
+  void start(const Drive& given, double at_s);
   /// Throws std::invalid_argument where `until_s` is not later than the present instant.
-  void hold(const Drive& drive, double until_s);
+  void hold(const Drive& given, double until_s);
   /// How far what is held goes: to the next instant, or before it a command that comes late is felt.
   double next_s() const;
   /// The flow has been carried so far; whether that is the next instant.

@@ -60,7 +60,8 @@ void set_off(Rider& rider, const Underway& seen) {
   if (now.drive.muscle_pressure_Pa)
     now.held.pressure_rate_Pa_per_s = 0.0;
   else if (seen.muscle_pressure_Pa)
-    state.side.valve_pressure_Pa = state.side.muscle_pressure_Pa = *seen.muscle_pressure_Pa;
+    state.side.valve_pressure_Pa = state.side.muscle_pressure_Pa =
+        plant.rig().effects.true_Pa(*seen.muscle_pressure_Pa);
   rest_memories(rider, at_rest, seen.memories);
   if (plant.has_events())
     now.held.slip = state.joint.contraction_speed_per_s < 0.0 ? plant::Slip::falling : plant::Slip::rising;

@@ -56,10 +56,12 @@ std::vector<Compared> compared(const Measurement& measured, const domain::RigFil
   const auto& [one, two] = measured.sides;
   if (!one.pressure_is_given)
     add(pair ? "muscle_pressure_1" : "muscle_pressure", "bar", 1.0 / plant::Pa_per_bar,
-        one.muscle_pressure_Pa, [](const Sample& row) { return row.state.side.muscle_pressure_Pa; });
+        one.muscle_pressure_Pa,
+        [&rig](const Sample& row) { return rig.effects.shown_Pa(row.state.side.muscle_pressure_Pa); });
   if (!two.pressure_is_given)
     add("muscle_pressure_2", "bar", 1.0 / plant::Pa_per_bar, two.muscle_pressure_Pa,
-        [](const Sample& row) { return row.state.opposite.muscle_pressure_Pa; });
+        [effects = pair ? plant::opposite_rig(rig, *rig.pair()).effects : plant::Effects{}](
+            const Sample& row) { return effects.shown_Pa(row.state.opposite.muscle_pressure_Pa); });
   return all;
 }
 

@@ -51,7 +51,8 @@ ReplayedRun replay_one(const domain::Run& measured, const domain::RigFile& rig) 
     sum += error;
     run.largest_error = std::max(run.largest_error, std::abs(error));
     if (measured.muscle_pressure_Pa) {
-      const double off_Pa = sample.state.side.muscle_pressure_Pa - (*measured.muscle_pressure_Pa)[k];
+      const double off_Pa =
+          rig.effects.shown_Pa(sample.state.side.muscle_pressure_Pa) - (*measured.muscle_pressure_Pa)[k];
       pressure_squares += off_Pa * off_Pa;
     }
   }

@@ -72,7 +72,8 @@ constexpr Size sizes[] = {{"viscous_damping", "damping", 0, 25, 120, nullptr, 0}
                           {"friction_warm_up", "change", 0, -0.12, -0.35, "time", 5.0},
                           {"encoder_backlash", "width", 0, 3e-4, 1.2e-3, nullptr, 0},
                           {"encoder_scale", "error", 0, 0.01, 0.03, nullptr, 0},
-                          {"reading_delay", "time", 0, 0.012, 0.05, nullptr, 0}};
+                          {"reading_delay", "time", 0, 0.012, 0.05, nullptr, 0},
+                          {"gauge_error", "offset", 0, 3e3, 1.5e4, nullptr, 0}};
 
 std::string path_of(const char* effect, const char* key) {
   return fmt::format("effects.{}.{}", effect, key);
@@ -87,6 +88,7 @@ std::vector<Kind> single_effects() {
                 {s.effect},
                 {{path_of(s.effect, s.key), large ? s.large : s.small}}};
       if (s.shape != nullptr) kind.plan.push_back({path_of(s.effect, s.shape), s.form});
+      kind.gauge = s.effect == plant::GaugeError::name;
       kinds.push_back(std::move(kind));
     }
   return kinds;
@@ -237,6 +239,11 @@ plant::Rig rig_with(const Kind& kind, std::uint64_t seed, Dice& dice, Hidden& hi
     std::erase_if(hidden.truth, [](const Planted& p) { return p.path.ends_with("stiffness"); });
     hidden.truth.push_back({"effects.bladder_elasticity.force", bladder.force_N});
     hidden.truth.push_back({"effects.bladder_elasticity.ratio", bladder.ratio});
+  }
+  auto& gauge = truth.effects.get<plant::GaugeError>();
+  if (!gauge.absent() && seed % 3 == 0) {
+    gauge = {.variant = plant::GaugeLaw::gain, .gain = gauge.offset_Pa / 3e5};
+    hidden.truth = {{"effects.gauge_error.gain", gauge.gain}};
   }
   truth.effects.get<plant::GuideFriction>().slip_speed_m_per_s = 1e-3 * dice.between(0.6, 1.5);
   truth.effects.get<plant::ResidualForce>().terms = kind.law;

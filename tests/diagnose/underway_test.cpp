@@ -92,6 +92,10 @@ TEST(Underway, AGivenPressureLeavesValveHoseAndGasOutOfSight) {
   for (const auto name :
        {plant::MuscleLeak::name, plant::GasTemperature::name, plant::ExhaustRestriction::name})
     EXPECT_EQ(std::count(names.begin(), names.end(), name), 1) << name;
+  EXPECT_TRUE(std::ranges::any_of(seen, [](const Candidate& c) { return c.effect == "gauge_error"; }));
+  domain::Dataset blind;
+  blind.runs.emplace_back();
+  for (const Candidate& c : catalogue(blind)) EXPECT_NE(c.effect, "gauge_error");
   for (const Parameter& p : nominal_parameters({}))
     EXPECT_EQ(out_of_sight(p),
               p.path.starts_with("valve") || p.path.starts_with("hose") || p.path == "muscle.dead_volume")

@@ -174,6 +174,32 @@ TEST(Ride, EachMuscleOfAPairHasItsOwnDelay) {
   EXPECT_EQ(references(prompt, late), std::pair(after_Pa, before_Pa));
 }
 
+// What a gauge shows is off, and what it showed where a pressure is given.
+TEST(Ride, AGaugeInErrorIsReadAndGivenAsItShows) {
+  plant::Rig offset, gain;
+  offset.effects.get<plant::GaugeError>().offset_Pa = 2e4;
+  gain.effects.get<plant::GaugeError>() = {.variant = plant::GaugeLaw::gain, .gain = 0.1};
+  for (const auto& [rig, true_Pa] : {std::pair{offset, 1.8e5}, std::pair{gain, 2e5 / 1.1}}) {
+    Ride driven(Hanging{rig, load_kg}, {solver::Method::erk, 1e-6});
+    driven.start({{.muscle_pressure_Pa = 1e5}}, 0.0);
+    EXPECT_NEAR(driven.reading().muscle_pressure_Pa, 1e5, 1e-6);
+    driven.step({{.muscle_pressure_Pa = 2e5}}, tick_s);
+    EXPECT_NEAR(driven.flow().state.side.muscle_pressure_Pa, true_Pa, 1e-6);
+    EXPECT_NEAR(driven.reading().muscle_pressure_Pa, 2e5, 1e-6);
+    Ride commanded(Hanging{rig, load_kg}, {solver::Method::erk, 1e-6});
+    Ride nominal(Hanging{plant::Rig{}, load_kg}, {solver::Method::erk, 1e-6});
+    for (Ride* ride : {&commanded, &nominal}) {
+      ride->start({{.current_mA = 8.0}}, 0.0);
+      ride->step({{.current_mA = 12.0}}, tick_s);
+    }
+    const double there_Pa = commanded.flow().state.side.muscle_pressure_Pa;
+    EXPECT_EQ(there_Pa, nominal.flow().state.side.muscle_pressure_Pa);
+    EXPECT_EQ(commanded.reading().wheel_m, nominal.reading().wheel_m);
+    EXPECT_NEAR(commanded.reading().muscle_pressure_Pa, rig.effects.shown_Pa(there_Pa), 1e-6);
+    EXPECT_NEAR(rig.effects.shown_Pa(true_Pa), 2e5, 1e-6);
+  }
+}
+
 TEST(Ride, TimesAreTheCallers) {
   const auto arrive = [](double step_s) {
     Ride ride(Hanging{plant::Rig{}, load_kg}, {solver::Method::erk, 1e-9});
