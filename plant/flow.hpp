@@ -15,24 +15,23 @@ struct RestrictionOf {
   P critical_ratio;           ///< b_c
   P linear_zone_Pa;
 
-  /// Mass flow [kg/s] from `from_Pa` to `to_Pa`, both absolute; negative when it runs back.
+  /// Mass flow [kg/s] from `from_Pa` to `to_Pa`, both absolute; negative when it runs back. What differs from
+  /// case to case is chosen before the law, which then runs once for all lanes.
   template <class S>
   S flow_kg_per_s(const S& from_Pa, const S& to_Pa) const {
-    return choose(
-        from_Pa < to_Pa, [&] { return S(-downhill(to_Pa, from_Pa)); },
-        [&] { return downhill(from_Pa, to_Pa); });
+    const auto back = from_Pa < to_Pa;
+    const S high_Pa = select(back, to_Pa, from_Pa), low_Pa = select(back, from_Pa, to_Pa);
+    const S drop = high_Pa - low_Pa;
+    const auto small = drop < linear_zone_Pa;
+    const S turbulent = turbulent_kg_per_s(high_Pa, select(small, S(high_Pa - linear_zone_Pa), low_Pa));
+    const S flow = choose(
+        small, [&] { return S(turbulent * (drop / linear_zone_Pa)); }, [&] { return turbulent; });
+    return select(back, S(-flow), flow);
   }
 
  private:
   template <class S>
-  S downhill(const S& high_Pa, const S& low_Pa) const {
-    const S drop = high_Pa - low_Pa;
-    return choose(
-        drop >= linear_zone_Pa, [&] { return turbulent(high_Pa, low_Pa); },
-        [&] { return S(turbulent(high_Pa, S(high_Pa - linear_zone_Pa)) * (drop / linear_zone_Pa)); });
-  }
-  template <class S>
-  S turbulent(const S& high_Pa, const S& low_Pa) const {
+  S turbulent_kg_per_s(const S& high_Pa, const S& low_Pa) const {
     using std::sqrt;
     const S choked = conductance_kg_per_s_Pa * high_Pa;
     const S excess = (low_Pa / high_Pa - critical_ratio) / (1.0 - critical_ratio);

@@ -120,7 +120,7 @@ class SideOf {
   BraidOf<P> braid_;
   RestrictionOf<P> valve_, vent_, hose_, unit_flow_;
   bool effects_, regulates_, swings_;
-  P weight_N_, gas_energy_J_per_kg_, supply_Pa_;
+  P weight_N_, gas_energy_J_per_kg_, valve_stiffness_Pa_per_kg_, supply_Pa_;
   P quickness_per_s_, catching_up_per_s_;  // of a regulator: dP_v/dt for an error, the memory's for its own
 };
 using Side = SideOf<double>;
@@ -137,9 +137,9 @@ RestrictionOf<P> restriction(const RigOf<P>& rig, const P& conductance_m3_per_s_
 
 /// Of a valve that vents; 0 is said where it is no other than that of filling.
 template <class P>
-P venting_conductance(const ValveOf<P>& valve) {
-  const P& own = valve.venting_conductance_m3_per_s_Pa;
-  return select(own > 0.0, own, valve.conductance_m3_per_s_Pa);
+P venting_conductance(const RigOf<P>& rig) {
+  const P& own = rig.valve.venting_conductance_m3_per_s_Pa;
+  return rig.effects.vent_factor() * select(own > 0.0, own, rig.valve.conductance_m3_per_s_Pa);
 }
 
 template <class P>
@@ -147,7 +147,7 @@ SideOf<P>::SideOf(const RigOf<P>& rig, const P& weight_N)
     : rig_(rig),
       braid_(rig.muscle),
       valve_(restriction(rig, rig.valve.conductance_m3_per_s_Pa)),
-      vent_(restriction(rig, venting_conductance(rig.valve))),
+      vent_(restriction(rig, venting_conductance(rig))),
       hose_(restriction(rig, rig.hose.conductance_m3_per_s_Pa)),
       unit_flow_(restriction(rig, P(1.0))),
       effects_(!rig.effects.absent()),
@@ -155,6 +155,7 @@ SideOf<P>::SideOf(const RigOf<P>& rig, const P& weight_N)
       swings_(rig.valve.swings()),
       weight_N_(weight_N),
       gas_energy_J_per_kg_(rig.gas.gas_constant_J_per_kg_K * rig.gas.temperature_K),
+      valve_stiffness_Pa_per_kg_(gas_energy_J_per_kg_ / rig.valve.volume_m3),
       supply_Pa_(rig.valve.supply_pressure_Pa + rig.gas.atmosphere_Pa),
       quickness_per_s_(1.0),
       catching_up_per_s_(1.0) {
@@ -192,13 +193,16 @@ void SideOf<P>::valve_flows(const SideState<S>& state, const SideMemory<S>& memo
   }
   now.pressure_error_Pa = error_Pa;
   now.hose_flow = hose_.flow_kg_per_s(valve_Pa, muscle_Pa);
-  const auto filling = [&] { return valve_.flow_kg_per_s(supply_Pa, valve_Pa); };
-  const P vents = effects_ ? rig_.effects.vent_factor() : P(1.0);
-  const auto venting = [&] { return S(vents * vent_.flow_kg_per_s(valve_Pa, S(atmosphere))); };
+  // What the valve passes where it is wide open to the supply, or to the atmosphere.
+  const auto wide_open = [&](const auto& fills) {
+    return RestrictionOf<P>{select(fills, valve_.conductance_kg_per_s_Pa, vent_.conductance_kg_per_s_Pa),
+                            valve_.critical_ratio, valve_.linear_zone_Pa}
+        .flow_kg_per_s(S(select(fills, supply_Pa, valve_Pa)), S(select(fills, valve_Pa, S(atmosphere))));
+  };
   S u;
   if (regulates_) {
     const S flow = flow_to_follow(memory, error_Pa, now.hose_flow);
-    const S most = choose(flow >= 0.0, filling, venting);
+    const S most = wide_open(flow >= 0.0);
     u = flow / select(most > least_flow_kg_per_s, most, S(least_flow_kg_per_s));
   } else {
     u = error_Pa / rig_.valve.proportional_band_Pa;
@@ -208,10 +212,10 @@ void SideOf<P>::valve_flows(const SideState<S>& state, const SideMemory<S>& memo
   now.wanted_opening = u;
   if (effects_) u = rig_.effects.valve_opening(now.wanted_opening, memory);
   now.valve_opening = u;
-  const auto none = [] { return S(0.0); };
-  now.supply_flow = choose(
-      u >= 0.0, [&] { return S(u * filling()); }, none);
-  now.vent_flow = choose(u >= 0.0, none, [&] { return S(-u * venting()); });
+  const auto fills = u >= 0.0;
+  const S flow = u * wide_open(fills);
+  now.supply_flow = select(fills, flow, S(0.0));
+  now.vent_flow = select(fills, S(0.0), S(-flow));
 }
 
 template <class P>
@@ -302,7 +306,7 @@ SideState<S> SideOf<P>::rates(const Stroke<S>& stroke, const SideState<S>& state
   const S muscle_Pa = state.muscle_pressure_Pa + rig_.gas.atmosphere_Pa;
   const P& RT = gas_energy_J_per_kg_;
   SideState<S> dt;
-  dt.valve_pressure_Pa = RT / rig_.valve.volume_m3 * (now.supply_flow - now.vent_flow - now.hose_flow);
+  dt.valve_pressure_Pa = valve_stiffness_Pa_per_kg_ * (now.supply_flow - now.vent_flow - now.hose_flow);
   dt.muscle_pressure_Pa =
       (RT * now.hose_flow - muscle_Pa * now.volume_slope_m3 * stroke.speed_per_s) / now.volume_m3;
   dt.bristle_m = now.bristle_rate_m_per_s;

@@ -150,7 +150,7 @@ class Workflow {
   }
 
   void replay_as_described() {
-    step_("replaying");
+    step_(stage("replaying"));
     nominal_fit_ = replay(case_);
     learn_gap("the rig as described", nominal_fit_.held_out);
   }
@@ -161,7 +161,7 @@ class Workflow {
   }
 
   void fit_numbers() {
-    step_("recalibrating");
+    step_(stage("recalibrating"));
     auto [contender, failure] = recalibrate(case_, nominal_fit_);
     recalibrated_ = std::move(contender);
     if (!failure.empty()) warn("the nominal parameters could not be fitted: " + failure);
@@ -175,7 +175,7 @@ class Workflow {
   }
 
   void map_where() {
-    step_("mapping");
+    step_(stage("mapping"));
     result_.where = where(experiment_, recalibrated_.fitted.model.rig, usable_, settings_.seed);
   }
 
@@ -260,7 +260,7 @@ class Workflow {
 
   /// The numbers that are told, of the model that was chosen on the training runs.
   void fit_all_runs(const Fitted& chosen) {
-    step_("fitting all runs");
+    step_(stage("fitting all runs"));
     chosen_rig_ = chosen.model.rig;
     chosen_inflation_ = variance_inflation(experiment_, chosen.residuals, case_.split.training);
     auto whole = fit(experiment_, chosen.model, usable_, {.inflation = chosen_inflation_, .thorough = true});
@@ -323,7 +323,7 @@ class Workflow {
     // Plans are of currents, under loads.
     if (result_.effects.empty() || data_.pressure_is_given() || judged() != Judged::contraction) return;
     for (const Doubt& doubt : naming_.doubts) {
-      step_("planning");
+      step_(stage("planning"));
       search_.part("the measurement that would tell more", [&] {
         result_.next_experiment =
             plan(experiment_, doubt.with_effect, doubt.with_rival, {doubt.effect, doubt.rival},
@@ -365,7 +365,7 @@ class Workflow {
 /// The workflow, again each time that faults of the recording have been mended.
 std::pair<Diagnosis, bool> mended(domain::Dataset data, const Settings& settings, const Step& step,
                                   Search& search) {
-  step("checking");
+  step(stage("checking"));
   Checked checked = check(data, settings.threads);
   for (int repairs = 0;; ++repairs) {
     Workflow workflow(data, checked, settings, step, search);
@@ -380,7 +380,8 @@ std::pair<Diagnosis, bool> mended(domain::Dataset data, const Settings& settings
 Diagnosis diagnose(const domain::Dataset& data, const Settings& settings, const run::ProgressHook& progress) {
   std::size_t steps = 0;
   std::string without;
-  const Step step = [&](const std::string& what) { progress(without + what, ++steps, 0); };
+  Telling telling;
+  const Step step = [&](const Doing& doing) { progress(without + telling(doing), ++steps, 0); };
   Search search(settings.time_limit_s);
   auto [result, gauged] = mended(data, settings, step, search);
   const double left = motion_left(result.gap);

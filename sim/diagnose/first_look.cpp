@@ -62,9 +62,10 @@ std::vector<Fault> beside_an_effect(const Case& c, const Checked& checked, const
                                     const Step& step) {
   const std::pair<std::ptrdiff_t, std::size_t> one_fault{0, 1};
   std::vector<Fault> best;
+  step(stage("looking for faults of runs", suspicions.size()));
   for (const Suspicion& suspicion : suspicions) {
     const bool common = !suspicion.common.empty();
-    step("trying " + title(suspicion.effect.candidate) + " beside faults of runs");
+    step("trying " + title(suspicion.effect.candidate) + " beside them");
     const auto contender = with_suspect(c, checked, described, usable, suspicion);
     if (!contender.fitted.failure.empty()) continue;
     auto faults = examine(c.experiment, contender.fitted.model, usable,

@@ -168,7 +168,7 @@ Model without_term(const Model& model, std::size_t term) {
 /// What was taken first may have stood in for what came after it.
 void drop_needless(const Case& c, Law& law, const Step& step) {
   for (std::size_t i = 0; law.terms > 1 && i < law.terms;) {
-    step("looking for a law, without one term");
+    step("without one term");
     const auto& terms = law.contender.fitted.model.rig.effects.get<plant::ResidualForce>().terms;
     auto shorter = contend(c, without_term(law.contender.fitted.model, terms.size() - law.terms + i));
     if (!shorter.fitted.failure.empty() ||
@@ -201,7 +201,7 @@ void drop_uncertain(const Case& c, Law& law, const Step& step) {
       ++i;
       continue;
     }
-    step("looking for a law, without one term");
+    step("without one term");
     auto shorter = contend(c, without_term(fitted.model, term));
     if (!shorter.fitted.failure.empty()) return;
     law.contender = std::move(shorter);
@@ -222,8 +222,9 @@ bool sides_have_as_many_terms(RigFile rig) {
 void extend_law(const Case& c, const std::vector<const Contender*>& bases, const Eigen::VectorXd& reference,
                 const Step& step, Law& law) {
   Eigen::VectorXd before = reference;
+  step(stage("looking for a law", of_law.most_terms));
   for (std::size_t round = 0; round < of_law.most_terms; ++round) {
-    step(fmt::format("looking for a law, term {}", round + 1));
+    step(fmt::format("term {}", round + 1));
     std::optional<Contender> next;
     const auto extend = [&](const Contender& base) {
       const auto known = slopes_of_nominal(base.fitted);

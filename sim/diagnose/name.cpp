@@ -20,10 +20,19 @@ bool cheaper(const Trial& a, const Trial& b) {
   return a.contender.fitted.cost < b.contender.fitted.cost;
 }
 
+/// As many as promise at first sight, and those that are polished.
+std::size_t most_tries(const std::vector<Screening>& screenings) {
+  std::size_t promising = 0;
+  for (const Screening& screening : screenings)
+    for (const Score& score : screening.scores)
+      if (score.drop > to_name.least_score * screening.scores.front().drop) ++promising;
+  return std::min(promising, to_name.most_refits) + 1 + to_name.most_polished;
+}
+
 /// Refits of a round: the best of each screening and those like them, roughly first, then in full those that
 /// promise. Once one meets the data, only those like it are tried.
-void refit(const Case& c, const std::vector<Screening>& screenings, const Eigen::VectorXd& reference,
-           const Step& step, std::vector<Trial>& trials) {
+void refit(const Case& c, const std::string& name, const std::vector<Screening>& screenings,
+           const Eigen::VectorXd& reference, const Step& step, std::vector<Trial>& trials) {
   const Score* solved = nullptr;
   const auto wanted = [&](const Score& score, const Score& front) {
     const bool known = std::any_of(trials.begin(), trials.end(), [&](const Trial& t) {
@@ -34,6 +43,7 @@ void refit(const Case& c, const std::vector<Screening>& screenings, const Eigen:
     return score.drop > to_name.least_score * front.drop ||
            likeness(score, front) > to_name.likeness_refitted;
   };
+  step(stage(name, most_tries(screenings)));
   for (std::size_t place = 0; place < screenings.front().scores.size(); ++place) {
     for (const auto& [base, scores] : screenings) {
       const Score& score = scores[place];
@@ -201,6 +211,8 @@ Naming name_effects(const Case& c, const Contender& nominal, const Contender& re
   result.best = recalibrated;
   Eigen::VectorXd before = reference;
   for (int round = 1; round <= static_cast<int>(to_name.most_effects); ++round) {
+    const std::string name = fmt::format("naming, round {}", round);
+    step(stage(name));
     step("screening");
     const double left = excess(before);
     std::vector<Screening> screenings;
@@ -210,7 +222,7 @@ Naming name_effects(const Case& c, const Contender& nominal, const Contender& re
       if (round == 1) tell_first(c, screenings, result);
       // Priors may be strained although the data are met.
       const bool strained = screenings.back().scores.front().drop > to_name.strained;
-      if (left > thresholds.near.nothing_left || strained) refit(c, screenings, before, step, trials);
+      if (left > thresholds.near.nothing_left || strained) refit(c, name, screenings, before, step, trials);
     });
     if (screenings.empty()) break;
     judge(c, before, trials);

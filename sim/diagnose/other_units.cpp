@@ -58,10 +58,11 @@ class Units {
                                                domain::line_of(quantity, place), or_else));
   }
 
-  domain::ColumnPlace place_of(domain::ColumnPlace domain::ColumnMap::*quantity,
-                               domain::ColumnPlace usual) const {
+  domain::ColumnPlace place_of(domain::ColumnPlace domain::ColumnMap::*quantity, const char* usual_column,
+                               const char* usual_unit) const {
     domain::ColumnPlace place = domain::merged(data_.columns, data_.runs.front().columns).*quantity;
-    return place.absent() ? usual : place;
+    if (place.absent()) place = {.column = usual_column, .unit = usual_unit};
+    return place;
   }
 
   // Forces at given lengths go up and down with the model's.
@@ -70,7 +71,7 @@ class Units {
     if (all.measured.size() < 2 || run::range(all.model) == 0.0) return;
     const double slope = run::Line(all.measured, all.model).slope;
     const std::string seen = fmt::format("the readings go {:.2g} times as far as this rig's forces", slope);
-    auto place = place_of(&domain::ColumnMap::force, {.column = "force_N", .unit = "N"});
+    auto place = place_of(&domain::ColumnMap::force, "force_N", "N");
     if (slope < 0.0) {
       place.factor = -place.factor;
       refuse(seen + ": where it pulls more they show less", "force", place);
@@ -90,7 +91,7 @@ class Units {
     if (read_N == 0.0 || !(model_N > 0.0)) return;
     const std::string seen = fmt::format(
         "on average the readings are {:.2g} times the force of this rig's cord", read_N / model_N);
-    auto place = place_of(&domain::ColumnMap::force, {.column = "force_N", .unit = "N"});
+    auto place = place_of(&domain::ColumnMap::force, "force_N", "N");
     if (read_N < -like.opposite_force * model_N) {
       place.factor = -place.factor;
       refuse(seen + ": a cord pulls", "force", place);
@@ -112,7 +113,7 @@ class Units {
     const run::Line line(all.measured, all.model);
     const std::string seen =
         fmt::format("the readings go {:.2g} times as far as this rig's joint", line.slope);
-    auto place = place_of(&domain::ColumnMap::angle, {.column = "angle_rad", .unit = "rad"});
+    auto place = place_of(&domain::ColumnMap::angle, "angle_rad", "rad");
     if (line.correlation < -like.like_turn && line.slope < -like.turns_at_all) {
       place.factor = -place.factor;
       refuse(seen + ": it turns the other way", "angle", place, ", or exchange muscle 1 and muscle 2");

@@ -8,11 +8,9 @@
 #include <sim/diagnose/fit.hpp>
 #include <sim/diagnose/held_out.hpp>
 #include <sim/diagnose/screen.hpp>
+#include <sim/diagnose/telling.hpp>
 
 namespace mckibben::diagnose {
-
-/// Told what is being done, or what is known so far.
-using Step = std::function<void(const std::string&)>;
 
 /// What stays the same throughout a diagnosis.
 struct Case {
@@ -20,7 +18,7 @@ struct Case {
   const RigFile& nominal;
   Split split;
   double inflation;
-  Step learned;  ///< hears what is known so far
+  std::function<void(const std::string&)> learned;  ///< hears what is known so far
 };
 
 /// A fitted model and what it makes of the runs held out.

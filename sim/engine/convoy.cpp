@@ -25,11 +25,13 @@ class ErkConvoy final : public Convoy {
   using L = typename Lane::L;
   using V = typename Lane::V;
   using One = typename Lane::One;
-  static constexpr std::size_t blocks = places / Lanes::count;
+  static constexpr std::size_t most_blocks = places / Lanes::count;
 
  public:
-  explicit ErkConvoy(double tolerance)
-      : y_(V::make(context_, blocks, &errors_)), reached_(N_VClone(y_.get())) {
+  ErkConvoy(double tolerance, std::size_t most)
+      : blocks_((std::min(most, places) + Lanes::count - 1) / Lanes::count),
+        y_(V::make(context_, blocks_, &errors_)),
+        reached_(N_VClone(y_.get())) {
     memory_.reset(ERKStepCreate(right_hand_sides, 0.0, y_.get(), context_));
     if (!memory_) throw std::bad_alloc();
     void* m = memory_.get();
@@ -123,11 +125,11 @@ class ErkConvoy final : public Convoy {
 
   /// Places that stay empty need a rig too.
   void furnish(const plant::Plant& plant) {
-    plants_.assign(places, plant);
+    plants_.assign(blocks_ * Lanes::count, plant);
     lead_.fill(nobody);
     One y;
     Problem<L>::store({.state = plant.at_rest({})}, y.data());
-    for (std::size_t i = 0; i < places; ++i) {
+    for (std::size_t i = 0; i < plants_.size(); ++i) {
       Lane::put(y, i, y_.get());
       Lane::put(y, i, reached_.get());
     }
@@ -153,19 +155,14 @@ class ErkConvoy final : public Convoy {
   }
 
   void rates(N_Vector y, N_Vector dyds) {
-    for (std::size_t block = 0; block < blocks; ++block) {
+    for (std::size_t block = 0; block < blocks_; ++block) {
       const std::size_t first = block * Lanes::count;
-      bool empty = true;
-      for (std::size_t lane = 0; lane < Lanes::count; ++lane) empty = empty && !goes(first + lane);
-      if (empty) {
+      if (!any(h_[block] > 0.0)) {  // nobody is under way
         for (std::size_t i = 0; i < L::size; ++i) Lane::at(dyds, i, block) = Lanes(0.0);
         continue;
       }
-      const Mask inside = Lane::rates(*together_[block], held_[block], y, dyds, block);
-      on_this_machine([&] {
-        for (std::size_t i = 0; i < L::size; ++i)
-          Lane::at(dyds, i, block) = Lane::at(dyds, i, block) * h_[block];
-      });
+      const Mask inside = Lane::rates(*together_[block], held_[block], h_[block], y, dyds, block);
+      if (!any(!inside)) continue;
       for (std::size_t lane = 0; lane < Lanes::count; ++lane) {
         if (inside[lane]) continue;
         One forbidding{};
@@ -191,7 +188,7 @@ class ErkConvoy final : public Convoy {
     for (const Way& way : ways_)
       if (way.under_way && way.rigs > 1) share_error(way);
     on_this_machine([&] {
-      for (std::size_t block = 0; block < blocks; ++block) {
+      for (std::size_t block = 0; block < blocks_; ++block) {
         const Mask good = errors_[block] <= Lanes(1.0);
         for (std::size_t i = 0; i < L::size; ++i) {
           Lanes& reached = Lane::at(reached_.get(), i, block);
@@ -202,7 +199,7 @@ class ErkConvoy final : public Convoy {
     current_ = y;
     std::array<std::size_t, places> through{};
     std::size_t count = 0;
-    for (std::size_t lead = 0; lead < places; ++lead)
+    for (std::size_t lead = 0; lead < blocks_ * Lanes::count; ++lead)
       if (ways_[lead].under_way && judge(lead, y)) through[count++] = lead;
     // Only now: who boards has not been under way.
     for (std::size_t i = 0; i < count; ++i) {
@@ -226,7 +223,7 @@ class ErkConvoy final : public Convoy {
 
   /// The rigs of blocks in which one has boarded, as one.
   void gather() {
-    for (std::size_t block = 0; block < blocks && !plants_.empty(); ++block) {
+    for (std::size_t block = 0; block < blocks_ && !plants_.empty(); ++block) {
       if (together_[block]) continue;
       together_[block] = abreast(std::span(plants_).subspan(block * Lanes::count, Lanes::count));
       if (!together_[block]) throw std::logic_error("rigs of a convoy must be of one kind");
@@ -271,13 +268,15 @@ class ErkConvoy final : public Convoy {
 
   static constexpr double hopeless = 1e10;  // error of a step into what is no number
 
+  std::size_t blocks_;
   std::array<Way, places> ways_{};          // of the party whose first place it is
   std::array<std::size_t, places> lead_{};  // first place of the party that each belongs to
   std::vector<plant::Plant> plants_;
-  std::array<std::optional<plant::PlantOf<Lanes>>, blocks> together_;  // of the plants
-  std::array<plant::HeldOf<Lanes>, blocks> held_;
-  std::vector<Lanes> errors_ = std::vector<Lanes>(blocks, Lanes(0.0));  // of the last step, 1 = tolerance
-  std::array<Lanes, blocks> h_ = all_zero();
+  std::array<std::optional<plant::PlantOf<Lanes>>, most_blocks> together_;  // of the plants
+  std::array<plant::HeldOf<Lanes>, most_blocks> held_;
+  std::vector<Lanes> errors_ =
+      std::vector<Lanes>(most_blocks, Lanes(0.0));  // of the last step, 1 = tolerance
+  std::array<Lanes, most_blocks> h_ = all_zero();
   std::size_t under_way_ = 0;
   const Arrived* arrived_ = nullptr;
   std::exception_ptr thrown_;
@@ -287,8 +286,8 @@ class ErkConvoy final : public Convoy {
   N_Vector current_ = y_.get();  // what the library works on
   ErkMemory memory_;
 
-  static std::array<Lanes, blocks> all_zero() {
-    std::array<Lanes, blocks> zero;
+  static std::array<Lanes, most_blocks> all_zero() {
+    std::array<Lanes, most_blocks> zero;
     zero.fill(Lanes(0.0));
     return zero;
   }
@@ -296,9 +295,9 @@ class ErkConvoy final : public Convoy {
 
 }  // namespace
 
-std::unique_ptr<Convoy> make_convoy(bool remembers, double tolerance) {
-  if (remembers) return std::make_unique<ErkConvoy<true>>(tolerance);
-  return std::make_unique<ErkConvoy<false>>(tolerance);
+std::unique_ptr<Convoy> make_convoy(bool remembers, double tolerance, std::size_t most) {
+  if (remembers) return std::make_unique<ErkConvoy<true>>(tolerance, most);
+  return std::make_unique<ErkConvoy<false>>(tolerance, most);
 }
 
 bool can_join_a_convoy(const plant::Rig& rig) {

@@ -50,8 +50,9 @@ class Convoy {
   virtual Pace pace(std::size_t place) const = 0;
 };
 
-/// For rigs with LuGre friction and one muscle, whose effects remember something or not.
-std::unique_ptr<Convoy> make_convoy(bool remembers, double tolerance);
+/// For up to `most` rigs at a time (of places), with LuGre friction and one muscle, whose effects remember
+/// something or not.
+std::unique_ptr<Convoy> make_convoy(bool remembers, double tolerance, std::size_t most);
 
 /// Whether such a rig can go in a convoy.
 bool can_join_a_convoy(const plant::Rig& rig);

@@ -65,7 +65,7 @@ class ErkFlock final : public Flock {
 
   static int right_hand_sides(double, N_Vector y, N_Vector dydt, void* self) {
     auto& flock = *static_cast<ErkFlock*>(self);
-    const Mask inside = flock.together_ ? Lane::rates(*flock.together_, flock.held_, y, dydt)
+    const Mask inside = flock.together_ ? Lane::rates(*flock.together_, flock.held_, 1.0, y, dydt)
                                         : flock.rates_one_by_one(y, dydt);
     for (std::size_t lane = 0; lane < Lanes::count; ++lane) {
       if (inside[lane]) continue;

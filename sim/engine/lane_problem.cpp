@@ -5,8 +5,8 @@ namespace mckibben::engine {
 
 template <bool remembers, int sides>
 Mask LaneProblem<remembers, sides>::rates(const plant::PlantOf<Lanes>& plant,
-                                          const plant::HeldOf<Lanes>& held, N_Vector y, N_Vector dydt,
-                                          std::size_t block) {
+                                          const plant::HeldOf<Lanes>& held, const Lanes& by, N_Vector y,
+                                          N_Vector dydt, std::size_t block) {
   Mask inside;
   on_this_machine([&] {
     // Each by itself: for a block this long the compiler would take a slow instruction.
@@ -24,20 +24,20 @@ Mask LaneProblem<remembers, sides>::rates(const plant::PlantOf<Lanes>& plant,
     inside = plant.template in_domain<sides>(state);
     const auto now = plant.template moment<sides>(state, memory, held);
     const auto slopes = plant.template rates<sides>(state, now);
-    at(dydt, 0, block) = slopes.joint.contraction_ratio;
-    at(dydt, 1, block) = slopes.joint.contraction_speed_per_s;
-    at(dydt, 2, block) = slopes.side.valve_pressure_Pa;
-    at(dydt, 3, block) = slopes.side.muscle_pressure_Pa;
-    at(dydt, 4, block) = slopes.side.bristle_m;
+    at(dydt, 0, block) = by * slopes.joint.contraction_ratio;
+    at(dydt, 1, block) = by * slopes.joint.contraction_speed_per_s;
+    at(dydt, 2, block) = by * slopes.side.valve_pressure_Pa;
+    at(dydt, 3, block) = by * slopes.side.muscle_pressure_Pa;
+    at(dydt, 4, block) = by * slopes.side.bristle_m;
     if constexpr (sides == 2) {
-      at(dydt, 5, block) = slopes.opposite.valve_pressure_Pa;
-      at(dydt, 6, block) = slopes.opposite.muscle_pressure_Pa;
-      at(dydt, 7, block) = slopes.opposite.bristle_m;
+      at(dydt, 5, block) = by * slopes.opposite.valve_pressure_Pa;
+      at(dydt, 6, block) = by * slopes.opposite.muscle_pressure_Pa;
+      at(dydt, 7, block) = by * slopes.opposite.bristle_m;
     }
     if constexpr (remembers)
       for (std::size_t i = 0; i < each; ++i) {
-        at(dydt, L::states + i, block) = now.memory_rates[i];
-        if constexpr (sides == 2) at(dydt, L::states + each + i, block) = now.opposite.memory_rates[i];
+        at(dydt, L::states + i, block) = by * now.memory_rates[i];
+        if constexpr (sides == 2) at(dydt, L::states + each + i, block) = by * now.opposite.memory_rates[i];
       }
   });
   return inside;

@@ -32,9 +32,9 @@ struct LaneProblem {
     return one;
   }
 
-  /// Of all lanes of a block; false for those outside the domain of the laws.
-  static Mask rates(const plant::PlantOf<Lanes>& plant, const plant::HeldOf<Lanes>& held, N_Vector y,
-                    N_Vector dydt, std::size_t block = 0);
+  /// Of all lanes of a block, for each of them times `by`; false for those outside the domain of the laws.
+  static Mask rates(const plant::PlantOf<Lanes>& plant, const plant::HeldOf<Lanes>& held, const Lanes& by,
+                    N_Vector y, N_Vector dydt, std::size_t block = 0);
 };
 
 // The laws in lanes are what takes longest to compile: once, in lane_problem.cpp.

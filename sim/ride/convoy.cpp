@@ -15,7 +15,7 @@ class Carrying {
       : next_(next),
         may_turn_stiff_(all.method == solver::Method::automatic),
         places_(places),
-        convoy_(engine::make_convoy(all.remembers, all.tolerance)) {}
+        convoy_(engine::make_convoy(all.remembers, all.tolerance, places)) {}
 
   void operator()() {
     fill();

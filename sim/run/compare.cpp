@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <span>
 #include <stdexcept>
 #include <utility>
 #include <variant>
@@ -65,19 +66,18 @@ class Comparing {
       if (const auto* terms = controllers::pid_terms(settings); terms && terms->needs_tuning())
         open.push_back(&settings);
     if (open.empty()) return;
-    result_.tuned.resize(open.size());
     const std::size_t most = open.size() * static_cast<std::size_t>(TuningOptions{}.evaluations);
     std::atomic<std::size_t> evaluations{0};
     progress_("tuning PID", 0, most);
-    const auto tune = [&](std::size_t i) {
-      result_.tuned[i] = tune_controller(scenario_, knowledge_, *open[i],
-                                         [&] { progress_("tuning PID", ++evaluations, most); });
-    };
-    if (!sharing_) return for_each_job(open.size(), threads_, tune, [](std::size_t) {});
+    const auto tried = [&] { progress_("tuning PID", ++evaluations, most); };
+    if (!sharing_) {
+      result_.tuned = tune_controllers(scenario_, knowledge_, open, threads_, tried);
+      return;
+    }
     const auto job = [&](std::size_t i) {
-      tune(i);
-      return packed(result_.tuned[i]);
+      return packed(tune_controllers(scenario_, knowledge_, std::span(&open[i], 1), 1, tried).front());
     };
+    result_.tuned.resize(open.size());
     sharing_("tuned", open.size(), true, job, [&](std::size_t i, const std::string& bytes) {
       result_.tuned[i] = unpacked_tuning(bytes);
       if (result_.tuned[i].failure.empty()) set_gains(*open[i], result_.tuned[i].tuned.gains);

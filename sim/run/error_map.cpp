@@ -1,7 +1,8 @@
 // Weighing first, then one run a target; see the header.
 #include <algorithm>
+#include <atomic>
 #include <cmath>
-#include <memory>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -28,23 +29,20 @@ class Mapping {
     maps_.reach = reachable(plan_.rig);
     for (const double load_kg : plan_.loads_kg)
       maps_.loads.push_back({.load_kg = load_kg, .limits = maps_.reach.at_load(load_kg)});
-    each("weighing", maps_.loads.size(), [&](std::size_t i) { weigh(maps_.loads[i]); });
-
-    struct Job {
-      const LoadMap* load;
-      Branch branch;
-      MapCell* cell;
-    };
+    weigh_all();
     std::vector<Job> jobs;
     for (auto& load : maps_.loads) {
       if (!load.failure.empty()) continue;
       for (const Branch branch : plan_.branches) load.branches.push_back(targets(load, branch));
       for (auto& map : load.branches)
-        for (auto& cell : map.cells) jobs.push_back({&load, map.branch, &cell});
+        for (auto& cell : map.cells)
+          if (auto job = job_of(load, map.branch, cell)) jobs.push_back(*std::move(job));
     }
     try {
-      each("simulating", jobs.size(),
-           [&](std::size_t i) { run(*jobs[i].load, jobs[i].branch, *jobs[i].cell); });
+      each(
+          "simulating", jobs.size(),
+          [&](std::size_t i) { return order(jobs[i].load_kg, jobs[i].ticks_before + 2, jobs[i].how); },
+          [&](std::size_t i, const Recording& recording) { judge(jobs[i], recording); });
     } catch (const Interrupted&) {
       maps_.interrupted = true;
     }
@@ -52,9 +50,24 @@ class Mapping {
   }
 
  private:
-  void each(const std::string& what, std::size_t count, const std::function<void(std::size_t)>& job) {
+  /// A target's run.
+  struct Job {
+    double load_kg;
+    Branch branch;
+    MapCell* cell;
+    controllers::OpenLoopSettings how;
+    std::size_t ticks_before;  ///< whole ones, before it should be there
+    double share;              ///< of the tick in which it should
+  };
+
+  void each(const std::string& what, std::size_t count, const Ordering& ordering,
+            const std::function<void(std::size_t, const Recording&)>& finished) {
+    std::atomic<std::size_t> done{0};
     progress_(what, 0, count);
-    for_each_job(count, threads_, job, [&](std::size_t done) { progress_(what, done, count); });
+    simulate_all(count, threads_, ordering, [&](std::size_t i, const Recording& recording) {
+      finished(i, recording);
+      progress_(what, ++done, count);
+    });
   }
 
   controllers::OpenLoopSettings settings() const {
@@ -65,19 +78,23 @@ class Mapping {
     return settings;
   }
 
-  Recording simulated(double load_kg, std::size_t ticks, const controllers::OpenLoopSettings& how) const {
-    const auto controller = how.make(knowledge_);
-    return simulate({.rig = plan_.rig, .load_kg = load_kg, .ticks = ticks, .engine = plan_.engine},
-                    *controller);
+  Order order(double load_kg, std::size_t ticks, const controllers::OpenLoopSettings& how) const {
+    return {{.rig = plan_.rig, .load_kg = load_kg, .ticks = ticks, .engine = plan_.engine},
+            how.make(knowledge_)};
   }
 
-  void weigh(LoadMap& load) const {
-    const Recording recording = simulated(load.load_kg, 1, settings());
-    load.failure = recording.failure;
-    load.weighed_kg = value_of(recording.findings, "weighed_load");
-    load.spread_kg = value_of(recording.findings, "weighed_load_spread");
-    load.believed_kg = value_of(recording.findings, "believed_load");
-    load.extrapolated = value_of(recording.findings, "load_extrapolated") != 0.0;
+  void weigh_all() {
+    each(
+        "weighing", maps_.loads.size(),
+        [&](std::size_t i) { return order(maps_.loads[i].load_kg, 1, settings()); },
+        [&](std::size_t i, const Recording& recording) {
+          LoadMap& load = maps_.loads[i];
+          load.failure = recording.failure;
+          load.weighed_kg = value_of(recording.findings, "weighed_load");
+          load.spread_kg = value_of(recording.findings, "weighed_load_spread");
+          load.believed_kg = value_of(recording.findings, "believed_load");
+          load.extrapolated = value_of(recording.findings, "load_extrapolated") != 0.0;
+        });
   }
 
   BranchMap targets(const LoadMap& load, Branch branch) const {
@@ -91,14 +108,13 @@ class Mapping {
     return map;
   }
 
-  void run(const LoadMap& load, Branch branch, MapCell& cell) const {
-    cell.failure.clear();
-    const double sign = branch == Branch::contraction ? 1.0 : -1.0;
+  /// None for a cell whose current would take too long; it says so.
+  std::optional<Job> job_of(const LoadMap& load, Branch branch, MapCell& cell) const {
     controllers::OpenLoopSettings how = settings();
     how.assumed_load_kg = load.believed_kg;
     how.mode = controllers::OpenLoopMode::triangle;
     how.to = {cell.ratio, false};
-    how.speed_per_s = sign * cell.speed_per_s;
+    how.speed_per_s = sign(branch) * cell.speed_per_s;
 
     const controllers::Inverse inverse(plan_.calibration, *how.assumed_load_kg, knowledge_.valve,
                                        plan_.extrapolate_target);
@@ -111,18 +127,25 @@ class Mapping {
     const double at_s = value_of(plans->findings(), "arrival");
     if (!(at_s <= longest_s)) {
       cell.failure = fmt::format("its current takes {:.3g} s, more than {:g} s", at_s, longest_s);
-      return;
+      return std::nullopt;
     }
     const double at_ticks = at_s / plan_.rig.tick_s;
     const auto before = static_cast<std::size_t>(at_ticks);
-    const Recording recording = simulated(load.load_kg, before + 2, how);
+    return Job{load.load_kg, branch, &cell, how, before, at_ticks - static_cast<double>(before)};
+  }
+
+  static void judge(const Job& job, const Recording& recording) {
+    MapCell& cell = *job.cell;
     cell.failure = recording.failure;
     if (!cell.failure.empty()) return;
-    const auto &a = recording.samples[before].state.joint, &b = recording.samples[before + 1].state.joint;
-    const double share = at_ticks - static_cast<double>(before);
-    cell.arrival = {std::lerp(a.contraction_ratio, b.contraction_ratio, share),
-                    sign * std::lerp(a.contraction_speed_per_s, b.contraction_speed_per_s, share)};
+    const auto &a = recording.samples[job.ticks_before].state.joint,
+               &b = recording.samples[job.ticks_before + 1].state.joint;
+    cell.arrival = {
+        std::lerp(a.contraction_ratio, b.contraction_ratio, job.share),
+        sign(job.branch) * std::lerp(a.contraction_speed_per_s, b.contraction_speed_per_s, job.share)};
   }
+
+  static double sign(Branch branch) { return branch == Branch::contraction ? 1.0 : -1.0; }
 
   const MapPlan& plan_;
   unsigned threads_;

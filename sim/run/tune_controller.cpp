@@ -1,11 +1,12 @@
-// The cost of gains, and the search with it; see the header.
+// The cost of gains, and the searches with it; see the header.
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <stdexcept>
 #include <utility>
 #include <vector>
 
-#include <sim/run/batch.hpp>
+#include <sim/run/rounds.hpp>
 #include <sim/run/track.hpp>
 #include <sim/run/tune_controller.hpp>
 
@@ -38,13 +39,14 @@ double effort_mA(const Recording& recording) {
 class Tuning {
  public:
   Tuning(const domain::Scenario& scenario, const controllers::Knowledge& knowledge,
-         const controllers::Settings& settings, double load_kg)
+         const controllers::Settings& settings, double load_kg, Rounds& rounds)
       : scenario_(scenario),
         knowledge_(knowledge),
         settings_(settings),
         plan_(plan_of(scenario, load_kg, 0)),
         span_mA_(controllers::working_range(knowledge).width_mA()),
-        limits_(limits_of(settings, knowledge, scenario.rig)) {
+        limits_(limits_of(settings, knowledge, scenario.rig)),
+        rounds_(rounds) {
     plan_.keep_ledger = false;  // nothing here asks where the air went
   }
 
@@ -57,43 +59,38 @@ class Tuning {
   double span_mA() const { return span_mA_; }
   const std::optional<controllers::CurrentRange>& limits() const { return limits_; }
 
-  Metrics metrics(const Gains& gains) const { return tried(gains).first; }
+  /// What came of each of these gains; those that could not be simulated say so.
+  std::vector<Recording> tried(std::initializer_list<Gains> all) const {
+    std::vector<Order> orders;
+    for (const Gains& gains : all) orders.push_back({plan_, controllers::make(with(gains), knowledge_)});
+    return rounds_.simulated(std::move(orders));
+  }
 
-  double cost(const Gains& gains) const {
-    const auto [metrics, effort] = tried(gains);
-    return metrics.rmse + effort_weight * (thesis_span_mA / span_mA_) * effort;
+  Metrics metrics(const Recording& recording) const {
+    if (!recording.failure.empty()) throw std::runtime_error(recording.failure);
+    return metrics_of(scenario_, knowledge_.target, recording, limits_);
+  }
+
+  double cost(const Recording& recording) const {
+    return metrics(recording).rmse + effort_weight * (thesis_span_mA / span_mA_) * effort_mA(recording);
   }
 
   double cost_with_margin(const Gains& gains) const {
     Gains higher = gains;
     higher.proportional_mA *= gain_margin;
-    return 0.5 * (cost(gains) + cost(higher));
+    const auto both = tried({gains, higher});
+    return 0.5 * (cost(both.front()) + cost(both.back()));
   }
 
  private:
-  std::pair<Metrics, double> tried(const Gains& gains) const {
-    const auto controller = controllers::make(with(gains), knowledge_);
-    const Recording recording = simulate(plan_, *controller);
-    if (!recording.failure.empty()) throw std::runtime_error(recording.failure);
-    return {metrics_of(scenario_, knowledge_.target, recording, limits_), effort_mA(recording)};
-  }
-
   const domain::Scenario& scenario_;
   const controllers::Knowledge& knowledge_;
   const controllers::Settings& settings_;
   RunPlan plan_;
   double span_mA_;
   std::optional<controllers::CurrentRange> limits_;
+  Rounds& rounds_;
 };
-
-std::optional<double> idle_cost(const Tuning& tuning, Gains gains) {
-  gains.proportional_mA = 0.0;
-  try {
-    return tuning.cost(gains);
-  } catch (const std::runtime_error&) {
-    return std::nullopt;  // only feedback keeps it going
-  }
-}
 
 }  // namespace
 
@@ -104,28 +101,46 @@ void set_gains(controllers::Settings& settings, const Gains& gains) {
   terms.derivative_time_s = gains.derivative_time_s;
 }
 
-TunedController tune_controller(const domain::Scenario& scenario, const controllers::Knowledge& knowledge,
-                                controllers::Settings& settings, const std::function<void()>& tried) {
+namespace {
+
+TunedController tune_one(const domain::Scenario& scenario, const controllers::Knowledge& knowledge,
+                         controllers::Settings& settings, Rounds& rounds,
+                         const std::function<void()>& heard) {
   const controllers::PidTerms& pid = *controllers::pid_terms(settings);
   TunedController result{.controller = controllers::name_of(settings),
                          .load_kg = pid.tuning_load_kg.value_or(lower_median(scenario.loads_kg))};
-  const Tuning tuning(scenario, knowledge, settings, result.load_kg);
+  const Tuning tuning(scenario, knowledge, settings, result.load_kg, rounds);
   const auto cost = [&](const Gains& gains) {
-    if (interrupted()) throw Interrupted();
-    tried();
+    heard();
     return tuning.cost_with_margin(gains);
   };
   try {
     result.tuned = tune(cost, {pid.proportional_mA, pid.integral_time_s, pid.derivative_time_s},
                         TuningOptions::for_span(tuning.span_mA()));
-    result.idle_cost = idle_cost(tuning, result.tuned.gains);
-    result.metrics = tuning.metrics(result.tuned.gains);
+    Gains idle = result.tuned.gains;
+    idle.proportional_mA = 0.0;
+    const auto ended = tuning.tried({result.tuned.gains, idle});
+    if (ended.back().failure.empty()) result.idle_cost = tuning.cost(ended.back());
+    result.metrics = tuning.metrics(ended.front());
     result.limits = tuning.limits();
     settings = tuning.with(result.tuned.gains);
   } catch (const std::runtime_error& failure) {
     result.failure = failure.what();
   }
   return result;
+}
+
+}  // namespace
+
+std::vector<TunedController> tune_controllers(const domain::Scenario& scenario,
+                                              const controllers::Knowledge& knowledge,
+                                              std::span<controllers::Settings* const> open, unsigned threads,
+                                              const std::function<void()>& tried) {
+  std::vector<TunedController> tuned(open.size());
+  search_in_rounds(open.size(), threads, [&](std::size_t i, Rounds& rounds) {
+    tuned[i] = tune_one(scenario, knowledge, *open[i], rounds, tried);
+  });
+  return tuned;
 }
 
 }  // namespace mckibben::run

@@ -3,7 +3,9 @@
 
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
+#include <vector>
 
 #include <sim/domain/scenario.hpp>
 #include <sim/run/metrics.hpp>
@@ -25,9 +27,12 @@ struct TunedController {
 /// Gives a PID these gains.
 void set_gains(controllers::Settings& settings, const Gains& gains);
 
-/// Tunes `settings` and fills the gains in. `knowledge` holds the target;
-/// `tried` hears of each trial. Throws Interrupted.
-TunedController tune_controller(const domain::Scenario& scenario, const controllers::Knowledge& knowledge,
-                                controllers::Settings& settings, const std::function<void()>& tried);
+/// Tunes each of `open` and fills the gains in, on `threads` threads (0: all the machine has); what comes of
+/// one depends neither on them nor on the others. `knowledge` holds the target; `tried` hears of each trial,
+/// from any thread. Throws Interrupted.
+std::vector<TunedController> tune_controllers(const domain::Scenario& scenario,
+                                              const controllers::Knowledge& knowledge,
+                                              std::span<controllers::Settings* const> open, unsigned threads,
+                                              const std::function<void()>& tried);
 
 }  // namespace mckibben::run

@@ -1,4 +1,4 @@
-// Under AddressSanitizer its own hooks are used; otherwise malloc and its relatives are replaced by ones that
+// Under sanitizers their own hooks are used; otherwise malloc and its relatives are replaced by ones that
 // count and hand on to glibc's.
 #include "heap_watch.hpp"
 
@@ -28,7 +28,7 @@ long stop_heap_watch() {
 
 }  // namespace mckibben::run
 
-#if defined(__SANITIZE_ADDRESS__)
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 
 extern "C" int __sanitizer_install_malloc_and_free_hooks(void (*)(const volatile void*, std::size_t),
                                                          void (*)(const volatile void*));

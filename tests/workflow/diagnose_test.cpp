@@ -175,7 +175,7 @@ TEST(Diagnose, AccusesNoRunThatAnEffectExplainsWithTheOthers) {
   const plant::Rig& rig = data.rig;
   const Case c{experiment, rig, split(data, runs), thresholds.scatter.first_inflation,
                [](const std::string&) {}};
-  EXPECT_TRUE(first_look(c, checked, {rig, nominal_parameters(rig)}, runs, c.learned).empty());
+  EXPECT_TRUE(first_look(c, checked, {rig, nominal_parameters(rig)}, runs, [](const Doing&) {}).empty());
 }
 
 TEST(Diagnose, FindsThatAllRunsAreEarlyBesideAnEffectThatIsMissing) {
