@@ -19,9 +19,9 @@
 namespace mckibben::engine {
 namespace {
 
-template <bool remembers>
+template <bool remembers, Books books>
 class ErkConvoy final : public Convoy {
-  using Lane = LaneProblem<remembers>;
+  using Lane = LaneProblem<remembers, 1, books>;
   using L = typename Lane::L;
   using V = typename Lane::V;
   using One = typename Lane::One;
@@ -295,13 +295,20 @@ class ErkConvoy final : public Convoy {
 
 }  // namespace
 
-std::unique_ptr<Convoy> make_convoy(bool remembers, double tolerance, std::size_t most) {
-  if (remembers) return std::make_unique<ErkConvoy<true>>(tolerance, most);
-  return std::make_unique<ErkConvoy<false>>(tolerance, most);
+std::unique_ptr<Convoy> make_convoy(bool remembers, bool keep_ledger, double tolerance, std::size_t most) {
+  const auto make = [&]<bool memory, Books books>() -> std::unique_ptr<Convoy> {
+    return std::make_unique<ErkConvoy<memory, books>>(tolerance, most);
+  };
+  if (keep_ledger)
+    return remembers ? make.template operator()<true, Books::isothermal>()
+                     : make.template operator()<false, Books::isothermal>();
+  return remembers ? make.template operator()<true, Books::none>()
+                   : make.template operator()<false, Books::none>();
 }
 
-bool can_join_a_convoy(const plant::Rig& rig) {
-  return rig.friction.memory == plant::FrictionMemory::lugre;
+bool can_join_a_convoy(const plant::Rig& rig, bool keep_ledger) {
+  const bool isothermal = !rig.effects.warm();
+  return rig.friction.memory == plant::FrictionMemory::lugre && (isothermal || !keep_ledger);
 }
 
 }  // namespace mckibben::engine

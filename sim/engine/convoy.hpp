@@ -50,11 +50,12 @@ class Convoy {
   virtual Pace pace(std::size_t place) const = 0;
 };
 
-/// For up to `most` rigs at a time (of places), with LuGre friction and one muscle, whose effects remember
-/// something or not.
-std::unique_ptr<Convoy> make_convoy(bool remembers, double tolerance, std::size_t most);
+/// For up to `most` rigs at a time (of places) that can join, with one muscle each, whose effects remember
+/// something or not. `keep_ledger`: carry ledgers along, at some cost.
+std::unique_ptr<Convoy> make_convoy(bool remembers, bool keep_ledger, double tolerance, std::size_t most);
 
-/// Whether such a rig can go in a convoy.
-bool can_join_a_convoy(const plant::Rig& rig);
+/// Whether such a rig can go in a convoy: with LuGre friction, and no ledger to keep of a gas with a
+/// temperature.
+bool can_join_a_convoy(const plant::Rig& rig, bool keep_ledger);
 
 }  // namespace mckibben::engine

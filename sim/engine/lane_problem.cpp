@@ -3,10 +3,10 @@
 
 namespace mckibben::engine {
 
-template <bool remembers, int sides>
-Mask LaneProblem<remembers, sides>::rates(const plant::PlantOf<Lanes>& plant,
-                                          const plant::HeldOf<Lanes>& held, const Lanes& by, N_Vector y,
-                                          N_Vector dydt, std::size_t block) {
+template <bool remembers, int sides, Books books>
+Mask LaneProblem<remembers, sides, books>::rates(const plant::PlantOf<Lanes>& plant,
+                                                 const plant::HeldOf<Lanes>& held, const Lanes& by,
+                                                 N_Vector y, N_Vector dydt, std::size_t block) {
   Mask inside;
   on_this_machine([&] {
     // Each by itself: for a block this long the compiler would take a slow instruction.
@@ -39,6 +39,14 @@ Mask LaneProblem<remembers, sides>::rates(const plant::PlantOf<Lanes>& plant,
         at(dydt, L::states + i, block) = by * now.memory_rates[i];
         if constexpr (sides == 2) at(dydt, L::states + each + i, block) = by * now.opposite.memory_rates[i];
       }
+    if constexpr (L::audits) {
+      const auto ledger = plant.template ledger_rates<sides>(state, now, plant::Ledger<Lanes>{});
+      const std::array entries{ledger.air_drawn_kg, ledger.air_vented_kg,          ledger.air_leaked_kg,
+                               ledger.braid_work_J, ledger.thread_friction_work_J, ledger.guide_work_J,
+                               ledger.stop_work_J,  ledger.effects_work_J,         ledger.bench_work_J};
+      static_assert(entries.size() == L::entries);
+      for (std::size_t i = 0; i < entries.size(); ++i) at(dydt, L::steering + i, block) = by * entries[i];
+    }
   });
   return inside;
 }
@@ -47,5 +55,7 @@ template struct LaneProblem<false>;
 template struct LaneProblem<true>;
 template struct LaneProblem<false, 2>;
 template struct LaneProblem<true, 2>;
+template struct LaneProblem<false, 1, Books::isothermal>;
+template struct LaneProblem<true, 1, Books::isothermal>;
 
 }  // namespace mckibben::engine

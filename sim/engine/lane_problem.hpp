@@ -9,10 +9,11 @@
 
 namespace mckibben::engine {
 
-template <bool remembers, int sides = 1>
+template <bool remembers, int sides = 1, Books books = Books::none>
 struct LaneProblem {
-  using L = Layout<sides, remembers, Books::none>;
-  struct V : LaneVector<L::size, L::counted> {
+  static_assert(books != Books::polytropic, "rigs whose gas has a temperature keep their ledger alone");
+  using L = Layout<sides, remembers, books>;
+  struct V : LaneVector<L::size, L::steering, L::counted> {
     using layout = L;
   };
   using One = std::array<double, L::size>;  ///< what is carried of one rig
@@ -42,5 +43,7 @@ extern template struct LaneProblem<false>;
 extern template struct LaneProblem<true>;
 extern template struct LaneProblem<false, 2>;
 extern template struct LaneProblem<true, 2>;
+extern template struct LaneProblem<false, 1, Books::isothermal>;
+extern template struct LaneProblem<true, 1, Books::isothermal>;
 
 }  // namespace mckibben::engine

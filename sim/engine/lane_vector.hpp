@@ -14,9 +14,10 @@
 
 namespace mckibben::engine {
 
-/// N components, of which the error norm counts `Counted`. It is that of the rig that is worst off; or it is
-/// told of each rig, and the library sees one that always passes.
-template <int N, int Counted = N>
+/// N components, of which the first `Norm` make the error norm, their sum of squares over `Counted`; the
+/// others are passengers. The norm is that of the rig that is worst off; or it is told of each rig, and the
+/// library sees one that always passes.
+template <int N, int Norm, int Counted = Norm>
 struct LaneVector {
   /// Component i of block b stands at i * blocks + b.
   using Values = std::vector<Lanes>;
@@ -111,7 +112,7 @@ struct LaneVector {
     on_this_machine([&, &p = values(x), &q = values(w), norms = content(x).norms] {
       for (std::size_t b = 0; b < blocks; ++b) {
         Lanes sum = 0.0;
-        for (std::size_t i = b; i < p.size(); i += blocks) {
+        for (std::size_t i = b; i < Norm * blocks; i += blocks) {
           const Lanes term = p[i] * q[i];
           sum = sum + term * term;
         }

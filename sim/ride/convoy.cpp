@@ -15,7 +15,7 @@ class Carrying {
       : next_(next),
         may_turn_stiff_(all.method == solver::Method::automatic),
         places_(places),
-        convoy_(engine::make_convoy(all.remembers, all.tolerance, places)) {}
+        convoy_(engine::make_convoy(all.remembers, all.keep_ledger, all.tolerance, places)) {}
 
   void operator()() {
     fill();
@@ -127,16 +127,18 @@ class Carrying {
 }  // namespace
 
 std::optional<ConvoyClass> convoy_class(std::span<const plant::Rig* const> rigs, const Drive& drive,
-                                        const solver::Settings& settings) {
+                                        const solver::Settings& settings, bool keep_ledger) {
   const bool possible = rigs.size() <= engine::Convoy::wing && settings.method != solver::Method::cvode &&
-                        std::all_of(rigs.begin(), rigs.end(),
-                                    [](const plant::Rig* rig) { return engine::can_join_a_convoy(*rig); });
+                        std::all_of(rigs.begin(), rigs.end(), [&](const plant::Rig* rig) {
+                          return engine::can_join_a_convoy(*rig, keep_ledger);
+                        });
   if (!possible) return std::nullopt;
   auto kind = engine::kind_of(rigs);
   if (!kind) return std::nullopt;
   const bool remembers =
       std::any_of(rigs.begin(), rigs.end(), [](const plant::Rig* rig) { return rig->remembers(); });
   return ConvoyClass{remembers,
+                     keep_ledger,
                      settings.method,
                      settings.tolerance,
                      drive.muscle_pressure_Pa.has_value(),

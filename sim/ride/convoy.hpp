@@ -35,7 +35,7 @@ class Party {
 
 /// What parties must have in common to ride together.
 struct ConvoyClass {
-  bool remembers = false;
+  bool remembers = false, keep_ledger = false;
   solver::Method method{};
   double tolerance = 0.0;
   bool pressure_is_given = false, length_is_given = false;
@@ -43,7 +43,8 @@ struct ConvoyClass {
 
   bool operator<(const ConvoyClass& other) const {
     const auto all = [](const ConvoyClass& c) {
-      return std::tie(c.remembers, c.method, c.tolerance, c.pressure_is_given, c.length_is_given, c.kind);
+      return std::tie(c.remembers, c.keep_ledger, c.method, c.tolerance, c.pressure_is_given,
+                      c.length_is_given, c.kind);
     };
     return all(*this) < all(other);
   }
@@ -52,7 +53,7 @@ struct ConvoyClass {
 /// Of rigs under one drive; none if they cannot ride so: more than the engine's wing, exact stick and slip,
 /// CVODE, or different laws among them.
 std::optional<ConvoyClass> convoy_class(std::span<const plant::Rig* const> rigs, const Drive& drive,
-                                        const solver::Settings& settings);
+                                        const solver::Settings& settings, bool keep_ledger = false);
 
 /// Carries parties of one class, on up to `places` (at most engine::Convoy::places) at a time, until `next`
 /// gives none any more (null). Throws what parties throw.

@@ -44,8 +44,8 @@ Ride::Ride(std::span<const Paired> pairs, const solver::Settings& settings, bool
   seat(pairs);
 }
 
-Ride::Ride(const Rider& rider, const engine::Pace& pace, const solver::Settings& settings)
-    : riders_{rider}, settings_(settings), together_(false), keep_ledger_(false) {
+Ride::Ride(const Rider& rider, const engine::Pace& pace, const solver::Settings& settings, bool keep_ledger)
+    : riders_{rider}, settings_(settings), together_(false), keep_ledger_(keep_ledger) {
   make_integrators();
   integrators_.front()->resume(pace);
 }

@@ -33,7 +33,8 @@ class Ride {
   Ride(const Paired& pair, const solver::Settings& settings, bool keep_ledger = false)
       : Ride(std::span(&pair, 1), settings, keep_ledger) {}
   /// Goes on from where the rider is.
-  Ride(const Rider& rider, const engine::Pace& pace, const solver::Settings& settings);
+  Ride(const Rider& rider, const engine::Pace& pace, const solver::Settings& settings,
+       bool keep_ledger = false);
   Ride(const Ride& other);
   Ride(Ride&&) = default;
   Ride& operator=(Ride&&) = default;

@@ -90,37 +90,60 @@ class Comparing {
       result_.runs.push_back({.load_kg = scenario_.loads_kg[i / columns],
                               .controller = controllers::name_of(settings_[i % columns]),
                               .failure = not_begun});
-    const auto run = [&](std::size_t i) { run_one(result_.runs[i], settings_[i % columns], i); };
-    if (sharing_)
-      share_runs(total, run);
-    else
-      result_.interrupted = !for_each_result(total, threads_, "simulating", progress_, run);
-  }
-
-  void share_runs(std::size_t total, const std::function<void(std::size_t)>& run) {
     progress_("simulating", 0, total);
-    const auto job = [&](std::size_t i) {
-      run(i);
-      return packed(result_.runs[i]);
-    };
     try {
-      sharing_("run", total, false, job, [&](std::size_t i, const std::string& bytes) {
-        result_.runs[i] = unpacked_run(bytes);
-        progress_("simulating", i + 1, total);
-      });
+      if (sharing_)
+        share_runs(total);
+      else
+        simulate_runs(0, total, threads_, progress_);
     } catch (const Interrupted&) {
       result_.interrupted = true;
     }
   }
 
-  void run_one(TrackedRun& run, const controllers::Settings& settings, std::size_t index) const {
+  void share_runs(std::size_t total) {
+    const auto job = [&](std::size_t i) {
+      simulate_runs(i, 1, 1, [](const std::string&, std::size_t, std::size_t) {});
+      return packed(result_.runs[i]);
+    };
+    sharing_("run", total, false, job, [&](std::size_t i, const std::string& bytes) {
+      result_.runs[i] = unpacked_run(bytes);
+      progress_("simulating", i + 1, total);
+    });
+  }
+
+  const controllers::Settings& settings_of(std::size_t run) const {
+    return settings_[run % settings_.size()];
+  }
+
+  void simulate_runs(std::size_t first, std::size_t count, unsigned threads, const ProgressHook& progress) {
+    std::vector<std::size_t> wanted;
+    for (std::size_t i = first; i < first + count; ++i)
+      if (!lacks_gains(result_.runs[i])) wanted.push_back(i);
+    std::atomic<std::size_t> done{count - wanted.size()};
+    simulate_all(
+        wanted.size(), threads,
+        [&](std::size_t i) {
+          const std::size_t run = wanted[i];
+          return Order{plan_of(scenario_, result_.runs[run].load_kg, run + 1), make(settings_of(run))};
+        },
+        [&](std::size_t i, Recording recording) {
+          result_.runs[wanted[i]].recording = std::move(recording);
+          measure(result_.runs[wanted[i]], settings_of(wanted[i]));
+          progress("simulating", ++done, count);
+        });
+  }
+
+  bool lacks_gains(TrackedRun& run) const {
     for (const auto& tuning : result_.tuned)
       if (tuning.controller == run.controller && !tuning.failure.empty()) {
         run.failure = tuning.failure;
-        return;
+        return true;
       }
-    const auto controller = make(settings);
-    run.recording = simulate(plan_of(scenario_, run.load_kg, index + 1), *controller);
+    return false;
+  }
+
+  void measure(TrackedRun& run, const controllers::Settings& settings) const {
     run.failure = run.recording.failure;
     if (controllers::calibrated(settings)) run.unreachable = unreachable_of(run, settings);
     if (!run.failure.empty()) return;

@@ -1,6 +1,8 @@
 // Replay; see the header.
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <utility>
 
 #include <controllers/waveform.hpp>
 #include <sim/run/batch.hpp>
@@ -12,20 +14,23 @@
 namespace mckibben::run {
 namespace {
 
-Recording recording_of(const domain::Run& measured, const domain::RigFile& rig) {
-  if (measured.measured)
-    return follow_as_seen(
-        rig, measured.load_kg, course_of(*measured.measured, rig),
-        {measured.contraction_ratio, measured.rest_length_m, measured.measured->time_s.front()});
+/// Of a run with the tick's own rows: its current, as a controller.
+Order order_of(const domain::Run& measured, const domain::RigFile& rig) {
   controllers::RecordedCurrent recorded;
   recorded.samples_mA = measured.current_mA;
-  const auto controller = recorded.make(knowledge_of(rig, {}));
-  return simulate({.rig = rig,
-                   .load_kg = measured.load_kg,
-                   .ticks = measured.current_mA.size(),
-                   .engine = rig.integrator,
-                   .keep_ledger = true},
-                  *controller);
+  return {{.rig = rig,
+           .load_kg = measured.load_kg,
+           .ticks = measured.current_mA.size(),
+           .engine = rig.integrator,
+           .keep_ledger = true},
+          recorded.make(knowledge_of(rig, {}))};
+}
+
+/// Of a run with stamps of its own.
+Recording followed(const domain::Run& measured, const domain::RigFile& rig) {
+  return follow_as_seen(
+      rig, measured.load_kg, course_of(*measured.measured, rig),
+      {measured.contraction_ratio, measured.rest_length_m, measured.measured->time_s.front()});
 }
 
 /// What a row of the measurement would read: counts, or where its rows were made of stamps the load's place,
@@ -37,9 +42,8 @@ double read_of(const Sample& sample, const domain::Run& measured, const domain::
   return sample.shown_ratio() * rig.muscle.rest_length_m / measured.rest_length_m;
 }
 
-ReplayedRun replay_one(const domain::Run& measured, const domain::RigFile& rig) {
-  ReplayedRun run{.id = measured.id, .load_kg = measured.load_kg};
-  run.recording = recording_of(measured, rig);
+ReplayedRun compared(const domain::Run& measured, const domain::RigFile& rig, Recording recording) {
+  ReplayedRun run{.id = measured.id, .load_kg = measured.load_kg, .recording = std::move(recording)};
   run.failure = run.recording.failure;
   if (!run.failure.empty()) return run;
   const auto rows = static_cast<double>(measured.judged().size());
@@ -70,8 +74,26 @@ std::vector<ReplayedRun> replay(const domain::Dataset& dataset, unsigned threads
   runs.reserve(dataset.runs.size());
   for (const auto& run : dataset.runs)
     runs.push_back({.id = run.id, .load_kg = run.load_kg, .failure = not_begun});
-  for_each_result(runs.size(), threads, "replaying", progress,
-                  [&](std::size_t i) { runs[i] = replay_one(dataset.runs[i], dataset.rig); });
+  std::vector<std::size_t> by_stamps, by_ticks;
+  for (std::size_t i = 0; i < runs.size(); ++i)
+    (dataset.runs[i].measured ? by_stamps : by_ticks).push_back(i);
+  std::atomic<std::size_t> done{0};
+  const auto take = [&](std::size_t i, Recording recording) {
+    runs[i] = compared(dataset.runs[i], dataset.rig, std::move(recording));
+    progress("replaying", ++done, runs.size());
+  };
+  progress("replaying", 0, runs.size());
+  try {
+    simulate_all(
+        by_ticks.size(), threads,
+        [&](std::size_t i) { return order_of(dataset.runs[by_ticks[i]], dataset.rig); },
+        [&](std::size_t i, Recording recording) { take(by_ticks[i], std::move(recording)); });
+    for_each_job(
+        by_stamps.size(), threads,
+        [&](std::size_t i) { take(by_stamps[i], followed(dataset.runs[by_stamps[i]], dataset.rig)); },
+        [](std::size_t) {});
+  } catch (const Interrupted&) {  // what was not begun says so
+  }
   return runs;
 }
 

@@ -193,7 +193,7 @@ class Seated final : public Errand {
   bool go_on() override { return run_.go_on(rider_); }
   void end(const engine::Counters& solver) override { finish(rider_, solver); }
   void alone(const engine::Pace& pace, const engine::Counters& solver) override {
-    ride::Ride ride(rider_, pace, order_->plan.engine);
+    ride::Ride ride(rider_, pace, order_->plan.engine, order_->plan.keep_ledger);
     run_.ride_on(ride, true);
     engine::Counters counters = solver + ride.counters();
     counters.stiff_from_tick = ride.counters().stiff_from_tick;
@@ -217,9 +217,9 @@ class Seated final : public Errand {
 };
 
 std::optional<ride::ConvoyClass> class_of(const RunPlan& plan) {
-  if (plan.keep_ledger || !hangs(plan)) return std::nullopt;
+  if (!hangs(plan)) return std::nullopt;
   const plant::Rig* rig = &plan.rig;
-  return ride::convoy_class({&rig, 1}, {}, plan.engine);
+  return ride::convoy_class({&rig, 1}, {}, plan.engine, plan.keep_ledger);
 }
 
 }  // namespace

@@ -43,7 +43,8 @@ using Ordering = std::function<Order(std::size_t index)>;
 using Finished = std::function<void(std::size_t index, Recording recording)>;
 
 /// Simulates many runs on `threads` threads (0: all the machine has), several times quicker than one by one:
-/// side by side in a convoy, but for those with exact stick and slip, with CVODE or with a ledger. A run's
+/// side by side in a convoy, but for those with exact stick and slip, with CVODE, or with a ledger of a gas
+/// that has a temperature. A run's
 /// recording depends neither on threads nor on what rides beside it, and a run that fails, fails alone;
 /// alone (`simulate`) it is the same within the rounding of its laws. `ordering` and `finished` are called
 /// from any thread, in any order. Throws Interrupted; what they throw.

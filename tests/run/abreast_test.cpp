@@ -28,6 +28,9 @@ class Runs {
                       .noise = noise,
                       .stream = plans_.size()});
   }
+  void keep_ledgers() {
+    for (RunPlan& plan : plans_) plan.keep_ledger = true;
+  }
   Recording alone(std::size_t i) const {
     const Order order = order_of(i);
     return simulate(order.plan, *order.controller);
@@ -88,6 +91,30 @@ TEST(Abreast, EachRunIsWhatItIsAlone) {
       EXPECT_LT(furthest(together[i], alone), most) << "run " << i << " at " << tolerance;
       EXPECT_GT(together[i].solver.steps, 200);
     }
+  }
+}
+
+TEST(Abreast, LedgersComeAlongAndChangeNothing) {
+  const Runs without = ten_of_all_kinds({});
+  Runs with = ten_of_all_kinds({});
+  plant::Rig polytropic;  // its ledger is kept alone, as is that of any gas with a temperature
+  plant::switch_on(polytropic.effects.get<plant::PolytropicGas>(), plant::PolytropicGas::variants.front());
+  with.add(polytropic, 14.0);
+  plant::Rig warming;
+  plant::switch_on(warming.effects.get<plant::GasTemperature>(), plant::GasTemperature::variants.front());
+  with.add(warming, 14.0);
+  with.keep_ledgers();
+  const std::vector<Recording> plain = without.abreast(), kept = with.abreast();
+  for (std::size_t i = 0; i < plain.size(); ++i) EXPECT_EQ(furthest(kept[i], plain[i]), 0.0) << i;
+  for (std::size_t i = 0; i < kept.size(); ++i) {
+    EXPECT_GT(kept[i].ledger.air_drawn_kg, 0.0) << i;
+    EXPECT_LT(kept[i].imbalance.gas, 1e-6) << i;
+    EXPECT_LT(kept[i].imbalance.energy, 1e-6) << i;
+    const plant::Ledger<double> alone = with.alone(i).ledger;
+    EXPECT_NEAR(kept[i].ledger.air_drawn_kg, alone.air_drawn_kg, 1e-5 * alone.air_drawn_kg) << i;
+    EXPECT_NEAR(kept[i].ledger.thread_friction_work_J, alone.thread_friction_work_J,
+                1e-4 * alone.thread_friction_work_J)
+        << i;
   }
 }
 
