@@ -105,7 +105,7 @@ TEST(Diagnose, NamesTheErrorOfAGaugeAndLeavesTheMotionAlone) {
   offset.effects.get<plant::GaugeError>().offset_Pa = 0.3e5;
   gain.effects.get<plant::GaugeError>() = {.variant = plant::GaugeLaw::gain, .gain = -0.04};
   for (const plant::Rig& truth : {offset, gain}) {
-    const auto found = diagnosis_of(small(truth), 0);
+    const auto found = diagnosis_of(small(truth, 2.4), 0);
     EXPECT_EQ(found.verdict, Verdict::missing_effect) << found.because;
     ASSERT_EQ(found.effects.size(), 1u) << found.because;
     EXPECT_EQ(found.effects[0].name, "gauge_error");
@@ -197,7 +197,7 @@ bool is_a_delay(const std::string& name) {
 TEST(Diagnose, NamesADelayOfAllRunsBesideAnEffectThatIsMissing) {
   plant::Rig truth;
   truth.effects.get<plant::SpeedDependentFriction>().ratio = 0.8;
-  auto data = small(truth);
+  auto data = small(truth, 2.4);
   for (domain::Run& run : data.runs) {
     run.contraction_ratio.insert(run.contraction_ratio.begin(), 3, run.contraction_ratio.front());
     run.contraction_ratio.resize(run.current_mA.size());
@@ -220,7 +220,7 @@ TEST(Diagnose, SaysThatALateCommandMayBeALateReadingUnlessAGaugeTells) {
     truth.effects.get<plant::CommandDelay>().time_s = late.command_s;
     truth.effects.get<plant::ReadingDelay>().time_s = late.reading_s;
     truth.gauge.fitted = late.gauge;
-    const auto found = diagnosis_of(small(truth), 0);
+    const auto found = diagnosis_of(small(truth, 2.4), 0);
     EXPECT_EQ(found.verdict, Verdict::missing_effect) << found.because;
     ASSERT_EQ(found.effects.size(), 1u) << found.because;
     const NamedEffect& effect = found.effects[0];
