@@ -12,13 +12,21 @@
 
 #include <plant/effects/bladder_creep.hpp>
 #include <plant/effects/bladder_elasticity.hpp>
+#include <plant/effects/bladder_hysteresis.hpp>
+#include <plant/effects/command_delay.hpp>
 #include <plant/effects/encoder_backlash.hpp>
 #include <plant/effects/encoder_scale.hpp>
 #include <plant/effects/end_cap_correction.hpp>
+#include <plant/effects/exhaust_restriction.hpp>
 #include <plant/effects/friction_warm_up.hpp>
+#include <plant/effects/gas_temperature.hpp>
+#include <plant/effects/gauge_error.hpp>
 #include <plant/effects/guide_friction.hpp>
+#include <plant/effects/is_effect.hpp>
 #include <plant/effects/muscle_leak.hpp>
 #include <plant/effects/polytropic_gas.hpp>
+#include <plant/effects/pressure_threshold.hpp>
+#include <plant/effects/reading_delay.hpp>
 #include <plant/effects/residual_force.hpp>
 #include <plant/effects/speed_dependent_friction.hpp>
 #include <plant/effects/supply_droop.hpp>
@@ -28,82 +36,6 @@
 #include <plant/effects/viscous_damping.hpp>
 
 namespace mckibben::plant {
-
-template <class E>
-concept Remembers = requires {
-  E::memory_size;
-};
-
-template <class E>
-constexpr bool declares(Hook hook) {
-  return std::find(E::hooks.begin(), E::hooks.end(), hook) != E::hooks.end();
-}
-
-/// Whether an effect has the function of a hook, as it is called.
-template <class E>
-constexpr bool has(Hook hook) {
-  using Now = const Instant<double>&;
-  using enum Hook;
-  switch (hook) {
-    case pull:
-      return requires(const E& e, Now now, double m) {
-        { e.pull_N(now, m) } -> std::same_as<double>;
-      };
-    case friction_factor:
-      return requires(const E& e, Now now, double m) {
-        { e.friction_factor(now, m) } -> std::same_as<double>;
-      };
-    case end_correction_shift:
-      return requires(const E& e, Now now) {
-        { e.end_correction_shift(now) } -> std::same_as<double>;
-      };
-    case outflow:
-      return requires(const E& e, Now now) {
-        { e.outflow_kg_per_s(now) } -> std::same_as<double>;
-      };
-    case gas_exponent:
-      return requires(const E& e) {
-        { e.gas_exponent() } -> std::same_as<double>;
-      };
-    case valve_error_shift:
-      return requires(const E& e, double p) {
-        { e.valve_error_shift_Pa(p) } -> std::same_as<double>;
-      };
-    case valve_opening:
-      return requires(const E& e, double u, double m) {
-        { e.valve_opening(u, m) } -> std::same_as<double>;
-      };
-    case supply_drop:
-      return requires(const E& e, double m) {
-        { e.supply_drop_Pa(m) } -> std::same_as<double>;
-      };
-    case reference:
-      return requires(const E& e, double p, Play& play) {
-        { e.reference_Pa(p, play) } -> std::same_as<double>;
-      };
-    case wheel:
-      return requires(const E& e, double x, Play& play) {
-        { e.wheel_m(x, play) } -> std::same_as<double>;
-      };
-    case reading_factor:
-      return requires(const E& e) {
-        { e.reading_factor() } -> std::same_as<double>;
-      };
-  }
-  return false;
-}
-
-/// Exactly the hooks that are declared, at least one, and a rate for a memory: a misspelled function would
-/// otherwise never be called.
-template <class E>
-concept IsEffect = !E::hooks.empty() && [] {
-  for (std::size_t i = 0; i < hook_count; ++i)
-    if (has<E>(static_cast<Hook>(i)) != declares<E>(static_cast<Hook>(i))) return false;
-  return Remembers<E> ==
-         requires(const E& e, const Instant<double>& now, const Inflow<double>& in, double m) {
-    { e.memory_rate(now, in, m) } -> std::same_as<double>;
-  };
-}();
 
 /// Effects with parameters of type P.
 template <class P, class... Effect>
@@ -183,6 +115,15 @@ class EffectSet {
     return sum;
   }
   template <class S>
+  S pressing_shift_Pa(const Instant<S>& now) const {
+    S sum = S(0.0);
+    each([&]<class E>(const E& effect, auto on, auto) {
+      if constexpr (declares<E>(Hook::pressing_shift))
+        sum = select(on, S(sum + effect.pressing_shift_Pa(now)), sum);
+    });
+    return sum;
+  }
+  template <class S>
   S outflow_kg_per_s(const Instant<S>& now) const {
     S sum = S(0.0);
     each([&]<class E>(const E& effect, auto on, auto) {
@@ -191,11 +132,25 @@ class EffectSet {
     return sum;
   }
   P gas_exponent() const {
-    P product = 1.0;
-    each([&]<class E>(const E& effect, auto, auto) {  // of one that is absent it is 1
-      if constexpr (declares<E>(Hook::gas_exponent)) product = product * effect.gas_exponent();
-    });
+    P product = 1.0;  // of one that is absent it is 1
+    each_of<Hook::gas_exponent>([&](const auto& effect) { product = product * effect.gas_exponent(); });
     return product;
+  }
+  template <class S, std::size_t slots>
+  S heating_Pa_per_s(const Instant<S>& now, const Inflow<S>& inflow,
+                     const std::array<S, slots>& memory) const {
+    S sum = S(0.0);
+    each([&]<class E>(const E& effect, auto on, auto slot) {
+      if constexpr (declares<E>(Hook::muscle_heating))
+        sum = select(on, S(sum + effect.heating_Pa_per_s(now, inflow, recall(memory, slot))), sum);
+    });
+    return sum;
+  }
+  /// Whether gas gets another temperature than the walls'.
+  bool warm() const {
+    bool one = any(gas_exponent() != 1.0);
+    each([&]<class E>(const E&, auto, auto) { one = one || declares<E>(Hook::muscle_heating); });
+    return one;
   }
   template <class S>
   S valve_error_shift_Pa(const S& error_Pa) const {
@@ -222,6 +177,21 @@ class EffectSet {
       if constexpr (declares<E>(Hook::supply_drop))
         sum = select(on, S(sum + effect.supply_drop_Pa(recall(memory, slot))), sum);
     });
+    return sum;
+  }
+  P vent_factor() const {
+    P product = 1.0;
+    each_of<Hook::vent_factor>([&](const auto& effect) { product = product * effect.vent_factor(); });
+    return product;
+  }
+  P command_delay_s() const {
+    P sum = 0.0;
+    each_of<Hook::command_delay>([&](const auto& effect) { sum = sum + effect.command_delay_s(); });
+    return sum;
+  }
+  P reading_delay_s() const {
+    P sum = 0.0;
+    each_of<Hook::reading_delay>([&](const auto& effect) { sum = sum + effect.reading_delay_s(); });
     return sum;
   }
   template <class S, std::size_t slots>
@@ -260,13 +230,29 @@ class EffectSet {
         return value;
     });
     double factor = 1.0;
-    each([&]<class E>(const E& effect, auto, auto) {
-      if constexpr (declares<E>(Hook::reading_factor)) factor *= effect.reading_factor();
-    });
+    each_of<Hook::reading_factor>([&](const auto& effect) { factor *= effect.reading_factor(); });
     return factor * wheel_m;
+  }
+  /// What a gauge shows [Pa] of a muscle's pressure, and the pressure at which it shows that.
+  double shown_Pa(double pressure_Pa) const {
+    const auto [offset_Pa, factor] = gauge();
+    return factor * pressure_Pa + offset_Pa;
+  }
+  double true_Pa(double shown_Pa) const {
+    const auto [offset_Pa, factor] = gauge();
+    return (shown_Pa - offset_Pa) / factor;
   }
 
  private:
+  std::pair<double, double> gauge() const {
+    double offset_Pa = 0.0, factor = 1.0;
+    each_of<Hook::gauge>([&](const auto& effect) {
+      offset_Pa += effect.gauge_offset_Pa();
+      factor *= effect.gauge_factor();
+    });
+    return {offset_Pa, factor};
+  }
+
   // Slot of the memory of the effect at an index of the table.
   template <std::size_t index>
   static constexpr std::size_t slot_of = []<std::size_t... before>(std::index_sequence<before...>) {
@@ -288,6 +274,14 @@ class EffectSet {
     (std::make_index_sequence<count>());
   }
 
+  // Calls f(effect) for each of these that has the hook.
+  template <Hook hook, class F>
+  void each_of(const F& f) const {
+    each([&]<class E>(const E& effect, auto, auto) {
+      if constexpr (declares<E>(hook)) f(effect);
+    });
+  }
+
   // An effect without a memory of its own is handed another's, or nothing, and does not look.
   template <class S, std::size_t slots, std::size_t slot>
   static const S& recall(const std::array<S, slots>& memory, std::integral_constant<std::size_t, slot>) {
@@ -305,9 +299,11 @@ class EffectSet {
 template <class P>
 using EffectsOf =
     EffectSet<P, ViscousDampingOf<P>, GuideFrictionOf<P>, SpeedDependentFrictionOf<P>, BladderElasticityOf<P>,
-              BladderCreepOf<P>, EndCapCorrectionOf<P>, MuscleLeakOf<P>, PolytropicGasOf<P>, ValveLagOf<P>,
-              ValveDeadBandOf<P>, ValveHysteresisOf<P>, SupplyDroopOf<P>, FrictionWarmUpOf<P>,
-              EncoderBacklashOf<P>, EncoderScaleOf<P>, ResidualForceOf<P>>;
+              BladderCreepOf<P>, BladderHysteresisOf<P>, EndCapCorrectionOf<P>, PressureThresholdOf<P>,
+              MuscleLeakOf<P>, PolytropicGasOf<P>, GasTemperatureOf<P>, ValveLagOf<P>, ValveDeadBandOf<P>,
+              ValveHysteresisOf<P>, SupplyDroopOf<P>, ExhaustRestrictionOf<P>, CommandDelayOf<P>,
+              FrictionWarmUpOf<P>, EncoderBacklashOf<P>, EncoderScaleOf<P>, ReadingDelayOf<P>,
+              GaugeErrorOf<P>, ResidualForceOf<P>>;
 using Effects = EffectsOf<double>;
 static_assert([]<class... E>(const std::tuple<E...>*) {
   return (IsEffect<E> && ...);

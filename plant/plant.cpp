@@ -86,9 +86,11 @@ Imbalance PlantOf<P>::imbalance(const State<double>& from, const State<double>& 
   const double net_kg = books.air_drawn_kg - books.air_vented_kg - books.air_leaked_kg;
   double lost_kg = net_kg - (gas_mass_kg(to) - first_kg);
   if (polytropic_) {
-    // p V changes by n R T of what flows in and by (1 - n) of the work done; what flows is mass as well.
+    // p V changes by n R T of what flows in, by (1 - n) of the work done and by what the muscle's temperature
+    // adds; what flows is mass as well.
     const double n = rig().effects.gas_exponent();
-    lost_kg = (n * books.air_inflow_J - (n - 1.0) * books.gas_work_J) / side_.gas_energy_J_per_kg() -
+    lost_kg = (n * books.air_inflow_J - (n - 1.0) * books.gas_work_J + books.gas_heat_J) /
+                  side_.gas_energy_J_per_kg() -
               (gas_mass_kg(to) - first_kg);
     const double missing_kg =
         net_kg - (books.valve_air_kg + books.muscle_air_kg + books.opposite_valve_air_kg +

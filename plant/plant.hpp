@@ -169,7 +169,7 @@ template <class P>
 PlantOf<P>::PlantOf(const RigOf<P>& rig, const P& load_kg)
     : side_(rig, (load_kg + rig.joint.load_offset_kg) * gravity_m_per_s2),
       remembers_(rig.remembers()),
-      polytropic_(any(rig.effects.gas_exponent() != 1.0)),
+      polytropic_(rig.effects.warm()),
       load_kg_(load_kg),
       radius_m_(rig.joint.wheel_radius_m),
       mass_kg_(load_kg + rig.joint.load_offset_kg +
@@ -182,7 +182,7 @@ PlantOf<P>::PlantOf(const RigOf<P>& rig, const RigOf<P>& opposite, const LinkOf<
       opposite_(std::in_place, opposite, P(0.0)),
       link_(link),
       remembers_(rig.remembers() || opposite.remembers()),
-      polytropic_(any(rig.effects.gas_exponent() != 1.0)),
+      polytropic_(rig.effects.warm() || opposite.effects.warm()),
       radius_m_(rig.joint.wheel_radius_m),
       opposite_share_(rig.muscle.rest_length_m / opposite.muscle.rest_length_m),
       mass_kg_((rig.joint.wheel_inertia_kg_m2 + link.inertia_kg_m2) / (radius_m_ * radius_m_)),
@@ -278,6 +278,7 @@ Ledger<S> PlantOf<P>::ledger_rates(const State<S>& state, const Moment<S>& now,
                   none,
                   none,
                   none,
+                  none,
                   none};
   if constexpr (sides == 2) {
     const SideMoment<S>& other = now.opposite;
@@ -302,8 +303,9 @@ Ledger<S> PlantOf<P>::ledger_rates(const State<S>& state, const Moment<S>& now,
   return rates;
 }
 
-// The pressure rates count each flow q as the enthalpy of q at the walls' temperature T. Gas of another
-// temperature carries it with another mass: q T/T_gas of the volume it leaves, where p V = m R T_gas.
+// With polytropic gas the pressure rates count each flow q as the enthalpy of q at the walls' temperature T.
+// Gas of another temperature carries it with another mass: q T/T_gas of the volume it leaves, where
+// p V = m R T_gas. Else q is the mass.
 template <class P>
 template <class S>
 void PlantOf<P>::books_of_gas(const Stroke<S>& stroke, const SideOf<P>& side, const SideState<S>& state,
@@ -311,9 +313,11 @@ void PlantOf<P>::books_of_gas(const Stroke<S>& stroke, const SideOf<P>& side, co
                               Ledger<S>& rates, S& valve_rate, S& muscle_rate) const {
   const P &atmosphere = side.rig().gas.atmosphere_Pa, &RT = side.gas_energy_J_per_kg();
   const S muscle_Pa = state.muscle_pressure_Pa + atmosphere;
-  const S in_valve =
-      valve_air_kg * RT / ((state.valve_pressure_Pa + atmosphere) * side.rig().valve.volume_m3);  // T/T_gas
-  const S in_muscle = muscle_air_kg * RT / (muscle_Pa * now.volume_m3);
+  S in_valve = S(1.0), in_muscle = S(1.0);  // T/T_gas
+  if (any(side.rig().effects.gas_exponent() != 1.0)) {
+    in_valve = valve_air_kg * RT / ((state.valve_pressure_Pa + atmosphere) * side.rig().valve.volume_m3);
+    in_muscle = muscle_air_kg * RT / (muscle_Pa * now.volume_m3);
+  }
   const auto carried = [](const S& flow, const S& from, const S& back) {
     return S(flow * select(flow < 0.0, back, from));
   };
@@ -329,6 +333,7 @@ void PlantOf<P>::books_of_gas(const Stroke<S>& stroke, const SideOf<P>& side, co
   muscle_rate = through_hose - leaked;
   rates.air_inflow_J = rates.air_inflow_J + RT * (now.supply_flow - now.vent_flow - now.leak_flow);
   rates.gas_work_J = rates.gas_work_J + muscle_Pa * now.volume_slope_m3 * stroke.speed_per_s;
+  rates.gas_heat_J = rates.gas_heat_J + now.volume_m3 * now.heating_Pa_per_s;
 }
 
 }  // namespace mckibben::plant

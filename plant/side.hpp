@@ -39,6 +39,7 @@ struct SideMoment {
   S bristle_rate_m_per_s;                // dz/dt
   S leak_flow, effects_pull_N;           // what effects take and add
   S pull_on_load_N;                      // of that, beyond the cord
+  S heating_Pa_per_s;                    // what the temperature of the muscle's gas adds to dP_m/dt
   SideMemory<S> memory_rates;
 
   /// T, what the cord carries.
@@ -106,6 +107,11 @@ class SideOf {
   template <class S>
   void valve_flows(const SideState<S>& state, const SideMemory<S>& memory, const HeldSideOf<P>& held,
                    SideMoment<S>& now) const;
+  template <class S>
+  static Inflow<S> inflow(const Stroke<S>& stroke, const SideMoment<S>& now, const S& supply_flow) {
+    return {now.wanted_opening, supply_flow,   now.hose_flow,
+            now.leak_flow,      now.volume_m3, S(now.volume_slope_m3 * stroke.speed_per_s)};
+  }
 
   /// A valve between equal pressures can pass nothing: what is wanted is not divided by less.
   static constexpr double least_flow_kg_per_s = 1e-9;
@@ -131,9 +137,9 @@ RestrictionOf<P> restriction(const RigOf<P>& rig, const P& conductance_m3_per_s_
 
 /// Of a valve that vents; 0 is said where it is no other than that of filling.
 template <class P>
-P venting_conductance(const ValveOf<P>& valve) {
-  const P& own = valve.venting_conductance_m3_per_s_Pa;
-  return select(own > 0.0, own, valve.conductance_m3_per_s_Pa);
+P venting_conductance(const RigOf<P>& rig) {
+  const P& own = rig.valve.venting_conductance_m3_per_s_Pa;
+  return rig.effects.vent_factor() * select(own > 0.0, own, rig.valve.conductance_m3_per_s_Pa);
 }
 
 template <class P>
@@ -141,7 +147,7 @@ SideOf<P>::SideOf(const RigOf<P>& rig, const P& weight_N)
     : rig_(rig),
       braid_(rig.muscle),
       valve_(restriction(rig, rig.valve.conductance_m3_per_s_Pa)),
-      vent_(restriction(rig, venting_conductance(rig.valve))),
+      vent_(restriction(rig, venting_conductance(rig))),
       hose_(restriction(rig, rig.hose.conductance_m3_per_s_Pa)),
       unit_flow_(restriction(rig, P(1.0))),
       effects_(!rig.effects.absent()),
@@ -235,14 +241,18 @@ void SideOf<P>::gas_balance(const Stroke<S>& stroke, const SideState<S>& state, 
   } else {
     valve_flows(state, memory, held, now);
   }
+  now.heating_Pa_per_s = S(0.0);
+  if (effects_ && !held.pressure_rate_Pa_per_s)
+    now.heating_Pa_per_s = rig_.effects.heating_Pa_per_s(instant(stroke, state, now),
+                                                         inflow(stroke, now, now.supply_flow), memory);
 }
 
 template <class P>
 template <class S>
 void SideOf<P>::remember(const Stroke<S>& stroke, const SideState<S>& state, const SideMemory<S>& memory,
                          const S& supply_flow, SideMoment<S>& now) const {
-  const auto of_effects = rig_.effects.memory_rates(instant(stroke, state, now),
-                                                    Inflow<S>{now.wanted_opening, supply_flow}, memory);
+  const auto of_effects =
+      rig_.effects.memory_rates(instant(stroke, state, now), inflow(stroke, now, supply_flow), memory);
   std::copy(of_effects.begin(), of_effects.end(), now.memory_rates.begin());
   now.memory_rates.back() =
       swings_ ? S(catching_up_per_s_ * (now.pressure_error_Pa - memory.back())) : S(0.0);
@@ -257,7 +267,8 @@ void SideOf<P>::forces(const Stroke<S>& stroke, const SideState<S>& state, const
   const S& e = stroke.contraction_ratio;
   const S& z = state.bristle_m;
   const S& v = now.speed_m_per_s;
-  const S& pressure_Pa = state.muscle_pressure_Pa;
+  S pressure_Pa = state.muscle_pressure_Pa;
+  if (effects_) pressure_Pa = pressure_Pa + rig_.effects.pressing_shift_Pa(instant(stroke, state, now));
 
   now.braid_force_N = braid_.force_N(e, pressure_Pa);
   now.stop_force_N = choose(
@@ -302,7 +313,8 @@ SideState<S> SideOf<P>::rates(const Stroke<S>& stroke, const SideState<S>& state
   if (effects_) {
     const P n = rig_.effects.gas_exponent();
     dt.valve_pressure_Pa = n * dt.valve_pressure_Pa;
-    dt.muscle_pressure_Pa = n * (dt.muscle_pressure_Pa - RT * now.leak_flow / now.volume_m3);
+    dt.muscle_pressure_Pa =
+        n * (dt.muscle_pressure_Pa - RT * now.leak_flow / now.volume_m3) + now.heating_Pa_per_s;
   }
   return dt;
 }

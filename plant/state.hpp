@@ -55,6 +55,7 @@ struct Ledger {
   S valve_air_kg, muscle_air_kg;  ///< what is there, not a sum
   S air_inflow_J;                 ///< R T of all that came less what went, as the gas law counts it
   S gas_work_J;                   ///< done by the muscles' gas on their walls, atmosphere included
+  S gas_heat_J;                   ///< what the temperature of the muscles' gas adds to p V
   S opposite_valve_air_kg, opposite_muscle_air_kg;
 };
 
@@ -67,7 +68,7 @@ inline constexpr auto memory_sizes = [] {
   sizes.back() = 1e5;
   return sizes;
 }();
-inline constexpr int ledger_size = 15, isothermal_ledger_size = 9;
+inline constexpr int ledger_size = 16, isothermal_ledger_size = 9;
 static_assert(sizeof(State<double>) == pair_size * sizeof(double));
 static_assert(sizeof(Memory<double>) == 2 * sizeof(SideMemory<double>));
 static_assert(sizeof(Ledger<double>) == ledger_size * sizeof(double));

@@ -13,15 +13,21 @@
 //                                          acts there and not on the muscle
 //   S friction_factor(now, memory)         multiplies the friction level G
 //   S end_correction_shift(now)            added to k, in the braid force only
+//   S pressing_shift_Pa(now)               added to P_m, in what presses on braid and threads
 //   S outflow_kg_per_s(now)                gas that leaves the muscle
 //   P gas_exponent()                       multiplies both pressure rates
+//   S heating_Pa_per_s(now, inflow, memory)   added to dP_m/dt
 //   S valve_error_shift_Pa(error)          added to P_ref - P_v
 //   S valve_opening(wanted, memory)        by how much the valve opens
 //   S supply_drop_Pa(memory)               taken from the supply pressure
+//   P vent_factor()                        multiplies what the valve vents
 //   S memory_rate(now, inflow, memory)     d(memory)/dt; a memory starts at zero; `memory_size` is its scale
+//   P command_delay_s()                    by how much commands come late
+//   P reading_delay_s()                    by how much the load's position is read late
 //   double reference_Pa(wanted, play)      at each tick: the reference that the valve follows
 //   double wheel_m(rise, play)             at each tick: where the encoder's wheel stands
 //   P reading_factor()                     multiplies what the encoder reads of it
+//   P gauge_offset_Pa(), P gauge_factor()  added to what the gauge shows of P_m times this
 // Effects never see each other: shifts add up, factors multiply, plays in series are one play as wide as all
 // of them. So their order cannot matter.
 #pragma once
@@ -53,8 +59,10 @@ struct Instant {
 /// What flows into the plant at that instant, after all effects on it.
 template <class S>
 struct Inflow {
-  S wanted_opening;   ///< u, what the proportional band asks for
-  S supply_kg_per_s;  ///< drawn from the supply
+  S wanted_opening;                   ///< u, what the proportional band asks for
+  S supply_kg_per_s;                  ///< drawn from the supply
+  S hose_kg_per_s, leak_kg_per_s;     ///< into the muscle, and out of it besides
+  S volume_m3, volume_rate_m3_per_s;  ///< V, dV/dt
 };
 
 /// What effects pull with [N].
@@ -87,22 +95,42 @@ enum class Hook {
   pull,
   friction_factor,
   end_correction_shift,
+  pressing_shift,
   outflow,
   gas_exponent,
+  muscle_heating,
   valve_error_shift,
   valve_opening,
   supply_drop,
+  vent_factor,
+  command_delay,
+  reading_delay,
   reference,
   wheel,
-  reading_factor
+  reading_factor,
+  gauge
 };
-inline constexpr std::size_t hook_count = static_cast<std::size_t>(Hook::reading_factor) + 1;
+inline constexpr std::size_t hook_count = static_cast<std::size_t>(Hook::gauge) + 1;
 
 /// What the hook acts on, for people.
 constexpr std::string_view words(Hook hook) {
-  constexpr std::array<std::string_view, hook_count> list{
-      "pull",   "friction level",  "braid force",       "gas",    "gas", "valve", "valve",
-      "supply", "valve, at ticks", "reading, at ticks", "reading"};
+  constexpr std::array<std::string_view, hook_count> list{"pull",
+                                                          "friction level",
+                                                          "braid force",
+                                                          "braid force and friction level",
+                                                          "gas",
+                                                          "gas",
+                                                          "gas",
+                                                          "valve",
+                                                          "valve",
+                                                          "supply",
+                                                          "exhaust",
+                                                          "command",
+                                                          "reading, at ticks",
+                                                          "valve, at ticks",
+                                                          "reading, at ticks",
+                                                          "reading",
+                                                          "gauge"};
   return list[static_cast<std::size_t>(hook)];
 }
 

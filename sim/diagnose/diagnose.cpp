@@ -194,8 +194,10 @@ class Workflow {
     const Eigen::VectorXd& named = naming_.best.held_out;
     evidence_.named_left = excess(named);
     evidence_.named_share = compare(experiment_, reference(), named, case_.split.held_out).share;
-    // A gauge that misleads may be met by an effect that takes the motion further away.
-    evidence_.gauge_misleads = reads_more() && rmse(named) >= rmse(reference());
+    // A gauge that misleads may be met by an effect that takes the motion further away; an error of its own
+    // leaves the motion alone.
+    const bool explained = carries(naming_.best.fitted.model.rig, plant::GaugeError::name);
+    evidence_.gauge_misleads = reads_more() && !explained && rmse(named) >= rmse(reference());
     if (evidence_.named()) learn_gap("with what was taken", named);
   }
 

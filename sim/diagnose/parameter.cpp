@@ -306,8 +306,9 @@ namespace {
 template <class E>
 constexpr bool makes_pressure() {
   using enum plant::Hook;
-  constexpr std::array of_pressure{outflow,       gas_exponent, valve_error_shift,
-                                   valve_opening, supply_drop,  reference};
+  constexpr std::array of_pressure{outflow,           gas_exponent,  muscle_heating,
+                                   valve_error_shift, valve_opening, supply_drop,
+                                   vent_factor,       command_delay, reference};
   return std::ranges::all_of(
       E::hooks, [&](plant::Hook hook) { return std::ranges::find(of_pressure, hook) != of_pressure.end(); });
 }
@@ -333,7 +334,7 @@ namespace {
 
 /// What data can show of the catalogue.
 struct Sight {
-  bool makes_pressure = true, load_guide = true;
+  bool makes_pressure = true, load_guide = true, gauge = true;
 };
 
 std::vector<Candidate> in_sight(const Sight& sight) {
@@ -341,6 +342,7 @@ std::vector<Candidate> in_sight(const Sight& sight) {
   const auto add = [&]<class E>(const E& effect) {
     if (!sight.makes_pressure && makes_pressure<E>()) return;
     if (!sight.load_guide && std::is_same_v<E, plant::GuideFriction>) return;
+    if (!sight.gauge && plant::declares<E>(plant::Hook::gauge)) return;
     for (const plant::Variant& law : E::variants) {
       const std::string prefix = "effects." + std::string(effect.name) + ".";
       Candidate c{.effect = std::string(effect.name),
@@ -366,7 +368,11 @@ std::vector<Candidate> catalogue() {
   return in_sight({});
 }
 std::vector<Candidate> catalogue(const domain::Dataset& data) {
-  return in_sight({.makes_pressure = !data.pressure_is_given(), .load_guide = data.rig.pair() == nullptr});
+  const bool given = data.pressure_is_given();
+  const bool read = std::ranges::any_of(
+      data.runs, [](const domain::Run& run) { return run.muscle_pressure_Pa.has_value(); });
+  return in_sight(
+      {.makes_pressure = !given, .load_guide = data.rig.pair() == nullptr, .gauge = given || read});
 }
 
 }  // namespace mckibben::diagnose

@@ -78,7 +78,7 @@ struct Candidate {
 /// The whole catalogue, in the order of its table.
 std::vector<Candidate> catalogue();
 /// What these data can show of it: where the muscle's pressure is given, without what acts on valve, supply,
-/// hose and gas alone, of a pair without the guide of a load.
+/// hose and gas alone, of a pair without the guide of a load, without a gauge no errors of one.
 std::vector<Candidate> catalogue(const domain::Dataset& data);
 
 /// Effects of the catalogue, and parameters, that a given pressure leaves nothing to see of.

@@ -104,7 +104,16 @@ Examination::Suspected Examination::trimmed(const Drawn& effect) const {
   return best;
 }
 
-/// Each effect with all runs late by the same whole number of ticks.
+namespace {
+
+/// What all runs being early is told from by nothing: it would only be larger.
+bool is_a_delay(const Candidate& candidate) {
+  return candidate.effect == plant::CommandDelay::name || candidate.effect == plant::ReadingDelay::name;
+}
+
+}  // namespace
+
+/// Each effect with all runs early by the same whole number of ticks.
 std::vector<Examination::Suspected> Examination::beside_lateness(const Regression& alone) const {
   std::vector<Suspected> list;
   for (const int ticks : thresholds.fault.common_ticks) {
@@ -112,6 +121,7 @@ std::vector<Examination::Suspected> Examination::beside_lateness(const Regressio
     Regression all = alone;
     all.add(late);
     for (const Drawn& effect : drawn_) {
+      if (is_a_delay(*effect.candidate)) continue;
       Regression with = alone;
       with.add(effect.column);
       if (std::abs(with.gain(late, 0).amplitude - ticks) > thresholds.fault.whole_tick) continue;

@@ -166,10 +166,10 @@ struct FaultThresholds {
   double whole_tick = 0.5;        ///< ticks: a line drawn at a lateness holds so near to it, if all are late
   double drawn_ticks = 0.25;      ///< the same of one run: this,
   double drawn_share = 0.3;       ///< and of the size that it was drawn at
-  std::array<int, 12> common_ticks{1,  2,  3,  4,  5,  6,
-                                   -1, -2, -3, -4, -5, -6};  ///< that all runs may be late by
-  int most_ticks = 12;                                       ///< that one run may be late by, or early
-  std::array<int, 6> lost_ticks{2, 5, 10, -2, -5, -10};      ///< rows that may be lost, or double
+  std::array<int, 6> common_ticks{-1, -2, -3,
+                                  -4, -5, -6};  ///< that all runs may be late by: early. Late is an effect
+  int most_ticks = 12;                          ///< that one run may be late by, or early
+  std::array<int, 6> lost_ticks{2, 5, 10, -2, -5, -10};  ///< rows that may be lost, or double
   long beginnings = 60;            ///< rows at which something may have begun, evenly spread
   double current_share = 0.02;     ///< of the current, for a slope
   double current_mA = 0.1;         ///< for a slope

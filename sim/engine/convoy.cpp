@@ -307,7 +307,7 @@ std::unique_ptr<Convoy> make_convoy(bool remembers, bool keep_ledger, double tol
 }
 
 bool can_join_a_convoy(const plant::Rig& rig, bool keep_ledger) {
-  const bool isothermal = rig.effects.gas_exponent() == 1.0;
+  const bool isothermal = !rig.effects.warm();
   return rig.friction.memory == plant::FrictionMemory::lugre && (isothermal || !keep_ledger);
 }
 

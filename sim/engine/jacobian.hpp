@@ -76,6 +76,7 @@ void for_each_entry(const Ledger& ledger, const Row& row) {
     row(ledger.muscle_air_kg);
     row(ledger.air_inflow_J);
     row(ledger.gas_work_J);
+    row(ledger.gas_heat_J);
     row(ledger.opposite_valve_air_kg);
     row(ledger.opposite_muscle_air_kg);
   }

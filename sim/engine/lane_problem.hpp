@@ -13,7 +13,7 @@ template <bool remembers, int sides = 1, Books books = Books::none>
 struct LaneProblem {
   static_assert(books != Books::polytropic, "rigs whose gas has a temperature keep their ledger alone");
   using L = Layout<sides, remembers, books>;
-  struct V : LaneVector<L::size, L::steering> {
+  struct V : LaneVector<L::size, L::steering, L::counted> {
     using layout = L;
   };
   using One = std::array<double, L::size>;  ///< what is carried of one rig

@@ -14,9 +14,10 @@
 
 namespace mckibben::engine {
 
-/// N components, of which the first `Norm` count in the error norm; the others are passengers. The norm is
-/// that of the rig that is worst off; or it is told of each rig, and the library sees one that always passes.
-template <int N, int Norm>
+/// N components, of which the first `Norm` make the error norm, their sum of squares over `Counted`; the
+/// others are passengers. The norm is that of the rig that is worst off; or it is told of each rig, and the
+/// library sees one that always passes.
+template <int N, int Norm, int Counted = Norm>
 struct LaneVector {
   /// Component i of block b stands at i * blocks + b.
   using Values = std::vector<Lanes>;
@@ -116,14 +117,14 @@ struct LaneVector {
           sum = sum + term * term;
         }
         if (norms != nullptr) {
-          (*norms)[b] = sqrt(sum / Lanes(Norm));
+          (*norms)[b] = sqrt(sum / Lanes(Counted));
           continue;
         }
         for (std::size_t lane = 0; lane < Lanes::count; ++lane)
           if (!(sum[lane] <= largest)) largest = sum[lane];  // also where it is not a number
       }
     });
-    return content(x).norms != nullptr ? passes : std::sqrt(largest / Norm);
+    return content(x).norms != nullptr ? passes : std::sqrt(largest / Counted);
   }
 };
 

@@ -24,6 +24,9 @@ inline constexpr std::array<double, plant::pair_size> working_size{0.3, 1.0, 5e5
 /// How much of the ledger is kept: nothing, what isothermal gas needs, or all.
 enum class Books { none, isothermal, polytropic };
 
+/// Memories that the error norm counts, of each side, however many the table of effects has.
+inline constexpr int counted_memories = 5;
+
 /// Which components there are.
 template <int sides_, bool remembers_, Books books_>
 struct Layout {
@@ -32,6 +35,9 @@ struct Layout {
   static constexpr int states = sides == 1 ? plant::single_size : plant::pair_size;
   static constexpr int memories = remembers ? sides * plant::memory_size : 0;
   static constexpr int steering = states + memories;
+  /// What the error norm is a mean over: a number that a further effect does not change, so that rigs without
+  /// it are integrated in the same steps.
+  static constexpr int counted = states + (remembers ? sides * counted_memories : 0);
   static constexpr int entries = books_ == Books::none         ? 0
                                  : books_ == Books::isothermal ? plant::isothermal_ledger_size
                                                                : plant::ledger_size;

@@ -19,7 +19,8 @@ namespace mckibben::engine {
 /// The vectors that the methods work on. A kind of vector V offers layout, size, make(context), data(vector).
 template <int sides, bool remembers, Books books>
 struct PlantVector
-    : FixedVector<Layout<sides, remembers, books>::size, Layout<sides, remembers, books>::steering> {
+    : FixedVector<Layout<sides, remembers, books>::size, Layout<sides, remembers, books>::steering,
+                  Layout<sides, remembers, books>::counted> {
   using layout = Layout<sides, remembers, books>;
 };
 

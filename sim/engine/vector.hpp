@@ -11,9 +11,10 @@
 
 namespace mckibben::engine {
 
-/// The vector operations for N components, of which the first `Norm` count in the error norm; the others are
-/// passengers. One component of padding makes an odd N even, so that all loads and stores are of pairs.
-template <int N, int Norm>
+/// The vector operations for N components, of which the first `Norm` make the error norm, their sum of
+/// squares over `Counted`; the others are passengers. One component of padding makes an odd N even, so that
+/// all loads and stores are of pairs.
+template <int N, int Norm, int Counted = Norm>
 struct FixedVector {
   static constexpr int size = N;
   using Values = Eigen::Array<double, N + N % 2, 1>;
@@ -62,7 +63,7 @@ struct FixedVector {
     const double* b = data(w);
     double sum = 0.0;
     for (int i = 0; i < Norm; ++i) sum += (a[i] * b[i]) * (a[i] * b[i]);
-    return std::sqrt(sum / Norm);
+    return std::sqrt(sum / Counted);
   }
 
   static int linear_combination(int count, double* c, N_Vector* x, N_Vector z) {

@@ -56,9 +56,12 @@ std::string line(const char* ink, double wide, const std::string& d) {
       ink, wide, d);
 }
 
-/// The loop that one sees from outside: pressure that the current asks for,
+/// Whose pressure it is.
+enum class Across { current, gauge };
+
+/// The loop that one sees from outside: pressure that the current asks for, or that a gauge shows;
 /// contraction as the encoder has it.
-std::string loop(const plant::Rig& rig, const Ride& ride, const char* ink, double wide) {
+std::string loop(const plant::Rig& rig, const Ride& ride, Across across, const char* ink, double wide) {
   const Panel panel = panel_of(ride);
   controllers::TriangleCurrent current;
   current.low_mA = low_mA;
@@ -74,7 +77,9 @@ std::string loop(const plant::Rig& rig, const Ride& ride, const char* ink, doubl
   std::string d;
   double last_x = 0.0, last_y = 0.0;
   for (const run::Sample& sample : recording.samples) {
-    const double x = panel.x.px(plant.reference_pressure_Pa(sample.current_mA) / 1e5);
+    const double pressure_Pa =
+        across == Across::gauge ? sample.gauge_Pa : plant.reference_pressure_Pa(sample.current_mA);
+    const double x = panel.x.px(pressure_Pa / 1e5);
     const double y = panel.y.px((static_cast<double>(sample.counts) + 0.5) * count);
     if (!d.empty() && std::hypot(x - last_x, y - last_y) < 2.5) continue;
     d += fmt::format("{}{:.1f} {:.1f}", d.empty() ? 'M' : 'L', x, y);
@@ -84,14 +89,16 @@ std::string loop(const plant::Rig& rig, const Ride& ride, const char* ink, doubl
 }
 
 /// The ratios are written beside the first panel, and hold for all.
-std::string axes(const Ride& ride) {
+std::string axes(const Ride& ride, Across across) {
   const Panel panel = panel_of(ride);
   const bool first = &ride == &rides.front();
   std::vector<Tick> ratios = round_numbers(panel.y, 6);
   if (!first)
     for (Tick& tick : ratios) tick.text.clear();
   return fmt::format("<text x='{}' y='{}'>{}</text>\n", ride.left_px, loop_top - 8, ride.title) +
-         panel.across(round_numbers(panel.x, 4), "pressure the current asks for [bar]") +
+         panel.across(round_numbers(panel.x, 4), across == Across::gauge
+                                                     ? "pressure the gauge shows [bar]"
+                                                     : "pressure the current asks for [bar]") +
          panel.upwards(ratios, first ? "contraction ratio" : "") + panel.frame();
 }
 
@@ -141,9 +148,10 @@ std::string effect_svg(std::string_view effect) {
   legend(460, 22, "nominal", 4.0, "nominal rig");
   for (std::size_t i = 0; i < laws.size(); ++i)
     legend(12, 44.0 + 20.0 * static_cast<double>(i), inks[i], 2.2, laws[i].first);
+  const Across across = effect == plant::GaugeError::name ? Across::gauge : Across::current;
   for (const Ride& ride : rides) {
-    svg += axes(ride) + loop(nominal, ride, "nominal", 4.0);
-    for (std::size_t i = 0; i < laws.size(); ++i) svg += loop(laws[i].second, ride, inks[i], 2.2);
+    svg += axes(ride, across) + loop(nominal, ride, across, "nominal", 4.0);
+    for (std::size_t i = 0; i < laws.size(); ++i) svg += loop(laws[i].second, ride, across, inks[i], 2.2);
   }
   return svg + "</svg>\n";
 }

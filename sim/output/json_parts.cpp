@@ -53,11 +53,12 @@ Json ledger_json(const plant::Rig& rig, const run::Recording& recording) {
       {"stop_work_J", books.stop_work_J},
       {"effects_work_J", books.effects_work_J},
       {"unexplained_share", {{"gas", recording.imbalance.gas}, {"energy", recording.imbalance.energy}}}};
-  if (rig.effects.gas_exponent() != 1.0)
+  if (rig.effects.warm())
     ledger.update({{"valve_air_kg", books.valve_air_kg},
                    {"muscle_air_kg", books.muscle_air_kg},
                    {"air_inflow_J", books.air_inflow_J},
                    {"gas_work_J", books.gas_work_J}});
+  if (!rig.effects.get<plant::GasTemperature>().absent()) ledger["gas_heat_J"] = books.gas_heat_J;
   return ledger;
 }
 

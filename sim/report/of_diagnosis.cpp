@@ -94,9 +94,9 @@ Run shown(const char* name, std::size_t style, const RunGap& gap, const std::vec
                               }});
   if (recorded != nullptr && recorded->muscle_pressure_Pa)
     run.quantities.push_back(
-        {"pressure_error", [replayed, recorded](std::size_t k) {
-           const auto& sample = replayed->recording.samples[k];
-           return ((*recorded->muscle_pressure_Pa)[k] - sample.state.side.muscle_pressure_Pa) / 1e5;
+        {"pressure_error", [replayed, recorded, effects = plant.rig().effects](std::size_t k) {
+           const double true_Pa = replayed->recording.samples[k].state.side.muscle_pressure_Pa;
+           return ((*recorded->muscle_pressure_Pa)[k] - effects.shown_Pa(true_Pa)) / 1e5;
          }});
   return run;
 }

@@ -121,8 +121,9 @@ Group group_of(const domain::Dataset& dataset, const domain::Run& measured, cons
        }});
   if (measured.muscle_pressure_Pa)
     shown.quantities.push_back(
-        {"pressure_error", [rows, &measured](std::size_t k) {
-           return ((*rows)[k].state.side.muscle_pressure_Pa - (*measured.muscle_pressure_Pa)[k]) / 1e5;
+        {"pressure_error", [rows, &measured, effects = dataset.rig.effects](std::size_t k) {
+           const double shown_Pa = effects.shown_Pa((*rows)[k].state.side.muscle_pressure_Pa);
+           return (shown_Pa - (*measured.muscle_pressure_Pa)[k]) / 1e5;
          }});
   group.runs.push_back(std::move(shown));
   return group;

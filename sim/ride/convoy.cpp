@@ -69,12 +69,16 @@ class Carrying {
       party.end(convoy_->counters(place));
       return false;
     }
-    const auto riders = party.riders();
+    go(place);
+    return true;
+  }
+
+  /// As far as what is held goes.
+  void go(std::size_t place) {
+    const auto riders = at_[place].party->riders();
     std::array<engine::Bound, engine::Convoy::wing> bound{};
     for (std::size_t i = 0; i < riders.size(); ++i) bound[i] = {&riders[i].now.flow, &riders[i].now.held};
-    const Rider::State& now = riders.front().now;
-    convoy_->set_off(place, std::span(bound).first(riders.size()), now.time_s, now.until_s);
-    return true;
+    convoy_->set_off(place, std::span(bound).first(riders.size()), riders.front().now.time_s, next_s(riders));
   }
 
   void come(std::size_t place, bool arrived) {
@@ -82,7 +86,8 @@ class Carrying {
     if (!arrived) {
       party.alone(convoy_->pace(place), convoy_->counters(place));
     } else {
-      for (Rider& rider : party.riders()) rider.arrive();
+      const auto riders = party.riders();
+      if (!arrive(riders, next_s(riders))) return go(place);
       if (turned_stiff(place))
         go_on_alone(place, party);
       else if (set_off(place))

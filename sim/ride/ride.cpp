@@ -79,7 +79,15 @@ void Ride::hold(const Drive& drive, double until_s) {
 }
 
 void Ride::advance() {
-  const double from_s = time_s(), to_s = riders_.front().now.until_s;
+  double to_s = 0.0;
+  do {
+    to_s = next_s(riders_);
+    carry(to_s);
+  } while (!arrive(riders_, to_s));
+}
+
+void Ride::carry(double to_s) {
+  const double from_s = time_s();
   if (flock_) {
     std::array<engine::Bound, engine::Flock::most> bound;
     for (std::size_t i = 0; i < riders_.size(); ++i) bound[i] = {&riders_[i].now.flow, &riders_[i].now.held};
@@ -88,7 +96,6 @@ void Ride::advance() {
     for (std::size_t i = 0; i < riders_.size(); ++i)
       integrators_[i]->advance(riders_[i].now.flow, riders_[i].now.held, from_s, to_s);
   }
-  for (Rider& rider : riders_) rider.arrive();
 }
 
 engine::Counters Ride::counters() const {

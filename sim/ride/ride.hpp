@@ -76,6 +76,7 @@ class Ride {
   template <class Of>
   void seat(std::span<const Of> rigs);
   void make_integrators();
+  void carry(double to_s);
 
   std::vector<Rider> riders_;  // stay where they are: integrators refer to their plants
   solver::Settings settings_;

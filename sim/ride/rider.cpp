@@ -1,4 +1,5 @@
 // The order of an instant; see the header.
+#include <algorithm>
 #include <stdexcept>
 
 #include <sim/ride/rider.hpp>
@@ -12,11 +13,36 @@ double reference_Pa(const plant::Side& side, const Command& command, plant::Effe
   return side.rig().effects.reference_Pa(wanted_Pa, plays) + command.stray_pressure_Pa;
 }
 
+/// A given pressure is what a gauge showed.
+void correct_gauge(const plant::Side& side, Command& command) {
+  if (command.muscle_pressure_Pa)
+    command.muscle_pressure_Pa = side.rig().effects.true_Pa(*command.muscle_pressure_Pa);
+}
+Drive corrected(const plant::Plant& plant, Drive drive) {
+  correct_gauge(plant.side(), drive);
+  if (plant.opposite()) correct_gauge(*plant.opposite(), drive.opposite);
+  return drive;
+}
+
+/// What a side's valve has from this instant on: the command, or where commands are late one from before.
+void feel(const plant::Side& side, Command command, double now_s, PastCommands& past,
+          plant::Effects::Plays& plays, plant::HeldSide& held) {
+  if (const double late_s = side.rig().effects.command_delay_s(); late_s > 0.0) {
+    const Given& felt = past.felt(now_s, late_s);
+    command.current_mA = felt.current_mA;
+    held.current_speed_mA_per_s = felt.speed_mA_per_s;
+  }
+  held.reference_pressure_Pa = reference_Pa(side, command, plays);
+}
+
 /// What is held of a side until the next instant, `length_s` away.
-void hold_side(const plant::Side& side, const Command& before, const Command& now, double pressure_Pa,
-               double length_s, plant::Effects::Plays& plays, plant::HeldSide& held) {
-  held.reference_pressure_Pa = reference_Pa(side, now, plays);
+void hold_side(const plant::Side& side, const Command& before, const Command& now, double now_s,
+               double pressure_Pa, double length_s, PastCommands& past, plant::Effects::Plays& plays,
+               plant::HeldSide& held) {
   held.current_speed_mA_per_s = (now.current_mA - before.current_mA) / length_s;
+  if (side.rig().effects.command_delay_s() > 0.0)
+    past.give({now_s, now.current_mA, held.current_speed_mA_per_s});
+  feel(side, now, now_s, past, plays, held);
   held.pressure_rate_Pa_per_s.reset();
   if (now.muscle_pressure_Pa)
     held.pressure_rate_Pa_per_s = (*now.muscle_pressure_Pa - pressure_Pa) / length_s;
@@ -29,8 +55,11 @@ double given_ratio(const plant::Rig& rig, double said) {
 
 }  // namespace
 
-void Rider::start(const Drive& drive, double at_s) {
+void Rider::start(const Drive& given, double at_s) {
+  const Drive drive = corrected(plant_, given);
   now = {.time_s = at_s, .until_s = at_s, .drive = drive};
+  now.commands.begin(drive.current_mA);
+  now.opposite_commands.begin(drive.opposite.current_mA);
   plant_.rig().effects.wheel_m(0.0, now.plays);
   const auto full = [](const plant::Side& side, const Command& command, plant::Effects::Plays& plays) {
     return command.muscle_pressure_Pa.value_or(reference_Pa(side, command, plays));
@@ -49,15 +78,18 @@ void Rider::start(const Drive& drive, double at_s) {
   look();
 }
 
-void Rider::hold(const Drive& drive, double until_s) {
+void Rider::hold(const Drive& given, double until_s) {
   if (!(until_s > now.time_s)) throw std::invalid_argument("a ride goes forward in time");
+  const Drive drive = corrected(plant_, given);
   const double length_s = until_s - now.time_s;
   plant::Held& held = now.held;
   engine::Flow& flow = now.flow;
-  hold_side(plant_.side(), now.drive, drive, flow.state.side.muscle_pressure_Pa, length_s, now.plays, held);
+  hold_side(plant_.side(), now.drive, drive, now.time_s, flow.state.side.muscle_pressure_Pa, length_s,
+            now.commands, now.plays, held);
   if (plant_.opposite())
-    hold_side(*plant_.opposite(), now.drive.opposite, drive.opposite, flow.state.opposite.muscle_pressure_Pa,
-              length_s, now.opposite_plays, held.opposite);
+    hold_side(*plant_.opposite(), now.drive.opposite, drive.opposite, now.time_s,
+              flow.state.opposite.muscle_pressure_Pa, length_s, now.opposite_commands, now.opposite_plays,
+              held.opposite);
   held.length_is_given = drive.contraction_ratio.has_value();
   if (drive.contraction_ratio) {
     const double wanted = given_ratio(plant_.rig(), *drive.contraction_ratio);
@@ -65,16 +97,39 @@ void Rider::hold(const Drive& drive, double until_s) {
     plant_.take_speed(speed_per_s, flow.state, flow.ledger);
     // Threads that are pulled no further keep the force that they had.
     if (speed_per_s != 0.0) held.slip = speed_per_s > 0.0 ? plant::Slip::rising : plant::Slip::falling;
-  } else if (plant_.has_events() && held.slip == plant::Slip::sticking) {
-    // The level may have jumped with the current's speed (T 4.6): a load that stuck may be free now.
-    held.slip = plant_.slip_from_rest(flow.state, flow.memory, held);
+  } else {
+    judge_slip();
   }
   now.drive = drive;
   now.until_s = until_s;
 }
 
-void Rider::arrive() {
-  now.time_s = now.until_s;
+/// The level may have jumped with the current's speed (T 4.6): a load that stuck may be free now.
+void Rider::judge_slip() {
+  if (plant_.has_events() && now.held.slip == plant::Slip::sticking && !now.held.length_is_given)
+    now.held.slip = plant_.slip_from_rest(now.flow.state, now.flow.memory, now.held);
+}
+
+double Rider::next_s() const {
+  const auto next_s = [&](const plant::Side& side, const PastCommands& past) {
+    const double late_s = side.rig().effects.command_delay_s();
+    return late_s > 0.0 ? past.next_s(now.time_s, late_s) : now.until_s;
+  };
+  double soonest_s = next_s(plant_.side(), now.commands);
+  if (plant_.opposite()) soonest_s = std::min(soonest_s, next_s(*plant_.opposite(), now.opposite_commands));
+  return soonest_s < now.until_s - same_instant_s ? soonest_s : now.until_s;
+}
+
+bool Rider::arrive(double at_s) {
+  now.time_s = at_s;
+  if (at_s < now.until_s) {
+    feel(plant_.side(), now.drive, at_s, now.commands, now.plays, now.held);
+    if (plant_.opposite())
+      feel(*plant_.opposite(), now.drive.opposite, at_s, now.opposite_commands, now.opposite_plays,
+           now.held.opposite);
+    judge_slip();
+    return false;
+  }
   // The joint at the length and the muscles at the pressures that were given, to the last bit.
   plant::State<double>& state = now.flow.state;
   if (now.drive.contraction_ratio)
@@ -83,15 +138,37 @@ void Rider::arrive() {
   if (now.drive.opposite.muscle_pressure_Pa)
     state.opposite.muscle_pressure_Pa = *now.drive.opposite.muscle_pressure_Pa;
   look();
+  return true;
+}
+
+double next_s(std::span<const Rider> riders) {
+  double soonest_s = riders.front().next_s();
+  for (const Rider& rider : riders) soonest_s = std::min(soonest_s, rider.next_s());
+  return soonest_s;
+}
+
+bool arrive(std::span<Rider> riders, double at_s) {
+  bool there = true;
+  for (Rider& rider : riders) there = rider.arrive(at_s) && there;
+  return there;
 }
 
 void Rider::look() {
   const plant::State<double>& state = now.flow.state;
   const double turned =
       state.joint.contraction_ratio - (plant_.opposite() ? plant_.link().contraction_ratio : 0.0);
-  const double rise_m = turned * plant_.rig().muscle.rest_length_m;
-  now.reading = {plant_.rig().effects.wheel_m(rise_m, now.plays), state.side.muscle_pressure_Pa,
-                 state.opposite.muscle_pressure_Pa};
+  const double length_m = plant_.rig().muscle.rest_length_m;
+  const double true_rise_m = turned * length_m;
+  double rise_m = true_rise_m;
+  if (const double late_s = plant_.rig().effects.reading_delay_s(); late_s > 0.0) {
+    const double then_s = now.time_s - late_s;
+    now.rises.note(now.time_s, rise_m, state.joint.contraction_speed_per_s * length_m, then_s);
+    rise_m = now.rises.rise_m(then_s);
+  }
+  const double wheel_m = plant_.rig().effects.wheel_m(rise_m, now.plays);
+  const plant::Rig& other = plant_.opposite() ? plant_.opposite()->rig() : plant_.rig();
+  now.reading = {wheel_m, wheel_m - true_rise_m, plant_.rig().effects.shown_Pa(state.side.muscle_pressure_Pa),
+                 other.effects.shown_Pa(state.opposite.muscle_pressure_Pa)};
 }
 
 }  // namespace mckibben::ride

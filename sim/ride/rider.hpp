@@ -5,16 +5,18 @@
 //              slope of a pressure that is given; w of a length that is given
 //              Coulomb friction: a load that sticks is judged anew
 //   moment     forces and flows at (x-, held)
-//   (an integrator carries x- to x+)
+//   (an integrator carries x- to x+; where commands come late, from one that is felt to the next)
 //   arrive     what the instruments see of x+
 //
 // Times are the caller's. What carries riders: ride.hpp, convoy.hpp.
 #pragma once
 
 #include <optional>
+#include <span>
 
 #include <plant/plant.hpp>
 #include <sim/engine/problem.hpp>
+#include <sim/ride/past.hpp>
 
 namespace mckibben::ride {
 
@@ -48,8 +50,9 @@ struct Drive : Command {
 
 /// What instruments see at an instant, before they count or round.
 struct Reading {
-  double wheel_m = 0.0;  ///< rise that the encoder's wheel shows; of a pair, from theta = 0
-  double muscle_pressure_Pa = 0.0, opposite_pressure_Pa = 0.0;
+  double wheel_m = 0.0;    ///< rise that the encoder's wheel shows; of a pair, from theta = 0
+  double misread_m = 0.0;  ///< what of it is not the joint's
+  double muscle_pressure_Pa = 0.0, opposite_pressure_Pa = 0.0;  ///< as gauges show them
 };
 
 class Rider {
@@ -61,7 +64,9 @@ class Rider {
     plant::Effects::Plays plays{}, opposite_plays{};
     Reading reading{};
     double time_s = 0.0, until_s = 0.0;
-    Drive drive{};  ///< that was held last
+    Drive drive{};                                 ///< that was held last, pressures as they are
+    PastCommands commands{}, opposite_commands{};  ///< where something makes them late
+    PastRises rises{};
   };
 
   explicit Rider(const Hanging& hanging) : plant_(hanging.rig, hanging.load_kg) {}
@@ -69,11 +74,13 @@ class Rider {
 
   /// At rest, pressures as the drive asks for, the encoder at zero. A load may still sink onto the braid
   /// stop, a link swing to where the muscles hold it: the steps of the rig's settling time follow.
-  void start(const Drive& drive, double at_s);
+  void start(const Drive& given, double at_s);
   /// Throws std::invalid_argument where `until_s` is not later than the present instant.
-  void hold(const Drive& drive, double until_s);
-  /// The flow has been carried to the next instant.
-  void arrive();
+  void hold(const Drive& given, double until_s);
+  /// How far what is held goes: to the next instant, or before it a command that comes late is felt.
+  double next_s() const;
+  /// The flow has been carried so far; whether that is the next instant.
+  bool arrive(double at_s);
   /// What the instruments see of the state as it is.
   void look();
 
@@ -86,7 +93,14 @@ class Rider {
   State now;
 
  private:
+  void judge_slip();
+
   plant::Plant plant_;
 };
+
+/// Of riders in common steps: how far what they hold goes, and that they have been carried there; whether all
+/// are at the next instant.
+double next_s(std::span<const Rider> riders);
+bool arrive(std::span<Rider> riders, double at_s);
 
 }  // namespace mckibben::ride

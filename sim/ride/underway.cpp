@@ -51,11 +51,17 @@ void set_off(Rider& rider, const Underway& seen) {
   plant::State<double>& state = now.flow.state;
   const plant::State<double> at_rest = state;
   const double length_m = plant.rig().muscle.rest_length_m;
-  state.joint = {seen.rise_m / length_m, seen.speed_m_per_s / length_m};
+  const double late_s = plant.rig().effects.reading_delay_s();  // what is seen was so long ago
+  now.rises = {};
+  now.rises.note(now.time_s - late_s, seen.rise_m, seen.speed_m_per_s, now.time_s - late_s);
+  const double speed_m_per_s = seen.speed_m_per_s + late_s * seen.acceleration_m_per_s2;
+  const double rise_m = seen.rise_m + 0.5 * late_s * (seen.speed_m_per_s + speed_m_per_s);
+  state.joint = {rise_m / length_m, speed_m_per_s / length_m};
   if (now.drive.muscle_pressure_Pa)
     now.held.pressure_rate_Pa_per_s = 0.0;
   else if (seen.muscle_pressure_Pa)
-    state.side.valve_pressure_Pa = state.side.muscle_pressure_Pa = *seen.muscle_pressure_Pa;
+    state.side.valve_pressure_Pa = state.side.muscle_pressure_Pa =
+        plant.rig().effects.true_Pa(*seen.muscle_pressure_Pa);
   rest_memories(rider, at_rest, seen.memories);
   if (plant.has_events())
     now.held.slip = state.joint.contraction_speed_per_s < 0.0 ? plant::Slip::falling : plant::Slip::rising;

@@ -12,7 +12,7 @@ namespace mckibben::ride {
 
 struct Underway {
   double rise_m = 0.0, speed_m_per_s = 0.0, acceleration_m_per_s2 = 0.0;
-  std::optional<double> muscle_pressure_Pa{};  ///< none: what the valve is asked for
+  std::optional<double> muscle_pressure_Pa{};  ///< by a gauge; none: what the valve is asked for
   /// How far memories of effects are from rest, in their working sizes: nobody has seen what went before.
   double memories = 0.0;
 };

@@ -79,7 +79,8 @@ class Following {
                .friction_force_N = now.friction_force_N,
                .effects_pull_N = now.effects_pull_N,
                .cord_force_N = now.cord_force_N(),
-               .cell_N = plant::cell_reading_N(rig_.load_cell, now.cord_force_N(), 0.0)};
+               .cell_N = plant::cell_reading_N(rig_.load_cell, now.cord_force_N(), 0.0),
+               .misread_ratio = ride_.reading().misread_m / rig_.muscle.rest_length_m};
     double most = state.joint.contraction_ratio;
     if (ride_.plant().opposite()) {
       row.opposite = {.current_mA = drive.opposite.current_mA,

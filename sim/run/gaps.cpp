@@ -12,9 +12,17 @@ namespace mckibben::run {
 
 using domain::Measurement;
 
-double angle_rad(const domain::RigFile& rig, const Sample& row) {
-  const double turned = row.state.joint.contraction_ratio - rig.pair()->contraction_ratio;
+namespace {
+
+double angle_at_rad(const domain::RigFile& rig, double contraction_ratio) {
+  const double turned = contraction_ratio - rig.pair()->contraction_ratio;
   return turned * rig.muscle.rest_length_m / rig.joint.wheel_radius_m;
+}
+
+}  // namespace
+
+double angle_rad(const domain::RigFile& rig, const Sample& row) {
+  return angle_at_rad(rig, row.state.joint.contraction_ratio);
 }
 
 double counted_angle_rad(const domain::RigFile& rig, const Sample& row) {
@@ -36,22 +44,24 @@ std::vector<Compared> compared(const Measurement& measured, const domain::RigFil
   if (!measured.length_is_given)
     add("contraction", "1", 1.0, measured.contraction_ratio,
         [counted, per_count = contraction_per_count(rig)](const Sample& row) {
-          return counted ? static_cast<double>(row.counts) * per_count : row.state.joint.contraction_ratio;
+          return counted ? static_cast<double>(row.counts) * per_count : row.shown_ratio();
         });
   const double of_angle = measured.angle_in_degrees ? 1.0 / plant::degree_rad : 1.0;
   add("angle", measured.angle_in_degrees ? "deg" : "rad", of_angle, measured.angle_rad,
       [counted, &rig](const Sample& row) {
-        return counted ? counted_angle_rad(rig, row) : angle_rad(rig, row);
+        return counted ? counted_angle_rad(rig, row) : angle_at_rad(rig, row.shown_ratio());
       });
   // A cord cannot push: a load cell on one that hangs through reads nothing.
   add("force", "N", 1.0, measured.force_N, [](const Sample& row) { return std::max(row.cord_force_N, 0.0); });
   const auto& [one, two] = measured.sides;
   if (!one.pressure_is_given)
     add(pair ? "muscle_pressure_1" : "muscle_pressure", "bar", 1.0 / plant::Pa_per_bar,
-        one.muscle_pressure_Pa, [](const Sample& row) { return row.state.side.muscle_pressure_Pa; });
+        one.muscle_pressure_Pa,
+        [&rig](const Sample& row) { return rig.effects.shown_Pa(row.state.side.muscle_pressure_Pa); });
   if (!two.pressure_is_given)
     add("muscle_pressure_2", "bar", 1.0 / plant::Pa_per_bar, two.muscle_pressure_Pa,
-        [](const Sample& row) { return row.state.opposite.muscle_pressure_Pa; });
+        [effects = pair ? plant::opposite_rig(rig, *rig.pair()).effects : plant::Effects{}](
+            const Sample& row) { return effects.shown_Pa(row.state.opposite.muscle_pressure_Pa); });
   return all;
 }
 

@@ -24,6 +24,7 @@ struct Sample {
   double effects_pull_N = 0.0;  ///< force of effects on the load, positive upwards
   double cord_force_N = 0.0;    ///< T, what the muscle's cord carries
   double cell_N = 0.0;          ///< as the load cell shows it, if one is fitted
+  double misread_ratio = 0.0;   ///< what an encoder shows besides e, before it counts
   /// The same of muscle 2, where there is one; forces positive where they shorten it.
   struct Opposite {
     double current_mA = 0.0;
@@ -31,6 +32,8 @@ struct Sample {
     double braid_force_N = 0.0, friction_force_N = 0.0, effects_pull_N = 0.0, cord_force_N = 0.0;
   };
   Opposite opposite{};
+
+  double shown_ratio() const { return state.joint.contraction_ratio + misread_ratio; }
 };
 
 /// A cord that would have to push: a real one goes slack, the equations take it as taut.

@@ -39,7 +39,7 @@ double read_of(const Sample& sample, const domain::Run& measured, const domain::
   if (measured.kind_of_judged() == domain::Judged::angle) return angle_rad(rig, sample);
   if (measured.kind_of_judged() == domain::Judged::force) return sample.cord_force_N;
   if (!measured.measured) return static_cast<double>(sample.counts) * contraction_per_count(rig);
-  return sample.state.joint.contraction_ratio * rig.muscle.rest_length_m / measured.rest_length_m;
+  return sample.shown_ratio() * rig.muscle.rest_length_m / measured.rest_length_m;
 }
 
 ReplayedRun compared(const domain::Run& measured, const domain::RigFile& rig, Recording recording) {
@@ -55,7 +55,8 @@ ReplayedRun compared(const domain::Run& measured, const domain::RigFile& rig, Re
     sum += error;
     run.largest_error = std::max(run.largest_error, std::abs(error));
     if (measured.muscle_pressure_Pa) {
-      const double off_Pa = sample.state.side.muscle_pressure_Pa - (*measured.muscle_pressure_Pa)[k];
+      const double off_Pa =
+          rig.effects.shown_Pa(sample.state.side.muscle_pressure_Pa) - (*measured.muscle_pressure_Pa)[k];
       pressure_squares += off_Pa * off_Pa;
     }
   }

@@ -139,6 +139,7 @@ class Run {
     const plant::LoadCell& cell = plan_.rig.load_cell;
     recording_.samples.back().cell_N =
         plant::cell_reading_N(cell, now.cord_force_N(), disturbance_.cell_N(cell));
+    recording_.samples.back().misread_ratio = rider.now.reading.misread_m / plan_.rig.muscle.rest_length_m;
     recording_.largest_contraction_ratio =
         std::max(recording_.largest_contraction_ratio, state.joint.contraction_ratio);
   }

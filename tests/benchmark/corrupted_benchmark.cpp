@@ -56,7 +56,8 @@ void score_corrupted(std::uint64_t seed, const std::string& only) {
       const double took_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
       const bool right = names_it(corruption, said.sentence);
       const bool wrongly = std::any_of(said.effects.begin(), said.effects.end(), [&](const auto& effect) {
-        return std::find(base.effects.begin(), base.effects.end(), effect) == base.effects.end();
+        return std::ranges::find(base.effects, effect) == base.effects.end() &&
+               std::ranges::find(corruption.effects, effect) == corruption.effects.end();
       });
       const bool silent = said.verdict == "nothing_missing" && !right;
       ++all;

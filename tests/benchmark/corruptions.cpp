@@ -107,7 +107,11 @@ std::vector<Corruption> in_time() {
           {"late 1", "r03", {"late"}, [](Data& d) { late(run(d, 3), 1); }},
           {"early 2", "r05", {"early"}, [](Data& d) { late(run(d, 5), -2); }},
           {"late 5 twice", "r04", {"late"}, [](Data& d) { late(run(d, 1), 5), late(run(d, 4), 5); }},
-          {"late 2 everywhere", "", {"late"}, each([](Data&, domain::Run& r) { late(r, 2); })}};
+          {"late 2 everywhere",
+           "",
+           {"late"},
+           each([](Data&, domain::Run& r) { late(r, 2); }),
+           {"command_delay", "reading_delay"}}};
 }
 
 /// Another rig, or another current than is written.

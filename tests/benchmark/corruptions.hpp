@@ -16,6 +16,7 @@ struct Corruption {
   std::string run;                   ///< the culprit's; empty if it is all of them
   std::vector<std::string> culprit;  ///< any of these words says what is wrong
   std::function<void(domain::Dataset&)> spoil;
+  std::vector<std::string> effects{};  ///< any of which it is as well
 };
 
 const std::vector<Corruption>& corruptions();

@@ -57,16 +57,23 @@ constexpr Size sizes[] = {{"viscous_damping", "damping", 0, 25, 120, nullptr, 0}
                           {"speed_dependent_friction", "ratio", 1, 0.85, 0.6, "speed", 0.02},
                           {"bladder_elasticity", "stiffness", 0, 60, 300, nullptr, 0},
                           {"bladder_creep", "stiffness", 0, 60, 250, "time", 1.5},
+                          {"bladder_hysteresis", "force", 0, 3, 12, "stroke", 0.008},
                           {"end_cap_correction", "slope", 0, 0.004, 0.015, nullptr, 0},
+                          {"pressure_threshold", "pressure", 0, 1e4, 4e4, nullptr, 0},
                           {"muscle_leak", "conductance", 0, 5e-11, 2e-10, nullptr, 0},
                           {"polytropic_gas", "exponent", 1, 1.08, 1.3, nullptr, 0},
+                          {"gas_temperature", "time", 0, 0.05, 0.3, nullptr, 0},
                           {"valve_lag", "time", 0, 0.01, 0.04, nullptr, 0},
                           {"valve_dead_band", "half_width", 0, 2e3, 8e3, nullptr, 0},
                           {"valve_hysteresis", "half_width", 0, 2e3, 8e3, nullptr, 0},
                           {"supply_droop", "line_resistance", 0, 3e7, 1e8, "volume", 3e-4},
+                          {"exhaust_restriction", "share", 0, 0.15, 0.5, nullptr, 0},
+                          {"command_delay", "time", 0, 0.012, 0.05, nullptr, 0},
                           {"friction_warm_up", "change", 0, -0.12, -0.35, "time", 5.0},
                           {"encoder_backlash", "width", 0, 3e-4, 1.2e-3, nullptr, 0},
-                          {"encoder_scale", "error", 0, 0.01, 0.03, nullptr, 0}};
+                          {"encoder_scale", "error", 0, 0.01, 0.03, nullptr, 0},
+                          {"reading_delay", "time", 0, 0.012, 0.05, nullptr, 0},
+                          {"gauge_error", "offset", 0, 3e3, 1.5e4, nullptr, 0}};
 
 std::string path_of(const char* effect, const char* key) {
   return fmt::format("effects.{}.{}", effect, key);
@@ -81,6 +88,7 @@ std::vector<Kind> single_effects() {
                 {s.effect},
                 {{path_of(s.effect, s.key), large ? s.large : s.small}}};
       if (s.shape != nullptr) kind.plan.push_back({path_of(s.effect, s.shape), s.form});
+      kind.gauge = s.effect == plant::GaugeError::name;
       kinds.push_back(std::move(kind));
     }
   return kinds;
@@ -231,6 +239,11 @@ plant::Rig rig_with(const Kind& kind, std::uint64_t seed, Dice& dice, Hidden& hi
     std::erase_if(hidden.truth, [](const Planted& p) { return p.path.ends_with("stiffness"); });
     hidden.truth.push_back({"effects.bladder_elasticity.force", bladder.force_N});
     hidden.truth.push_back({"effects.bladder_elasticity.ratio", bladder.ratio});
+  }
+  auto& gauge = truth.effects.get<plant::GaugeError>();
+  if (!gauge.absent() && seed % 3 == 0) {
+    gauge = {.variant = plant::GaugeLaw::gain, .gain = gauge.offset_Pa / 3e5};
+    hidden.truth = {{"effects.gauge_error.gain", gauge.gain}};
   }
   truth.effects.get<plant::GuideFriction>().slip_speed_m_per_s = 1e-3 * dice.between(0.6, 1.5);
   truth.effects.get<plant::ResidualForce>().terms = kind.law;

@@ -1,6 +1,7 @@
 // Six planted runs, examined for faults of their recording.
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include <sim/diagnose/first_look.hpp>
@@ -24,6 +25,11 @@ inline std::vector<Fault> faults_of(const domain::Dataset& data, const std::vect
 inline void delay(domain::Run& run, std::size_t ticks, std::size_t from = 0) {
   auto& ratios = run.contraction_ratio;
   for (std::size_t k = ratios.size(); k-- > from + ticks;) ratios[k] = ratios[k - ticks];
+}
+/// Its readings come so many rows earlier.
+inline void hasten(domain::Run& run, std::size_t ticks) {
+  auto& ratios = run.contraction_ratio;
+  for (std::size_t k = 0; k < ratios.size(); ++k) ratios[k] = ratios[std::min(k + ticks, ratios.size() - 1)];
 }
 
 }  // namespace mckibben::diagnose

@@ -67,15 +67,35 @@ TEST(Underway, WhatAnEffectRemembersIsFittedAndNotCharged) {
   EXPECT_NEAR(step, -20.0, 4.0);
 }
 
+// What an encoder shows late, or on another scale, a replay compares as a diagnosis does.
+TEST(Underway, AReplayReadsWhatADiagnosisReads) {
+  plant::Rig rig;
+  rig.effects.get<plant::EncoderScale>().error = 0.02;
+  rig.effects.get<plant::ReadingDelay>().time_s = 0.05;
+  domain::Dataset data = begun_on_its_way(rig);
+  EXPECT_GT(run::replay(data, 1, [](const auto&, auto, auto) {}).front().rmse, 1e-3);
+  rig.effects.get<plant::BladderCreep>() = {};
+  static_cast<plant::Rig&>(data.rig) = rig;
+  const Hanging hanging{rig, data.runs[0].load_kg};
+  data.runs[0].contraction_ratio = predict(data.runs[0], {&hanging, 1}).front().judged;
+  EXPECT_LT(run::replay(data, 1, [](const auto&, auto, auto) {}).front().rmse, 1e-5);
+}
+
 TEST(Underway, AGivenPressureLeavesValveHoseAndGasOutOfSight) {
   domain::Dataset given;
   given.runs.emplace_back().measured.emplace().sides[0].pressure_is_given = true;
   const auto all = catalogue(), seen = catalogue(given);
   const auto names = effects_out_of_sight();
-  EXPECT_EQ(names.size(), 6u);
+  EXPECT_EQ(names.size(), 9u);
   EXPECT_EQ(seen.size() + names.size(), all.size());  // each of them has one law
   for (const Candidate& c : seen) EXPECT_EQ(std::count(names.begin(), names.end(), c.effect), 0) << c.effect;
-  EXPECT_EQ(std::count(names.begin(), names.end(), plant::MuscleLeak::name), 1);
+  for (const auto name :
+       {plant::MuscleLeak::name, plant::GasTemperature::name, plant::ExhaustRestriction::name})
+    EXPECT_EQ(std::count(names.begin(), names.end(), name), 1) << name;
+  EXPECT_TRUE(std::ranges::any_of(seen, [](const Candidate& c) { return c.effect == "gauge_error"; }));
+  domain::Dataset blind;
+  blind.runs.emplace_back();
+  for (const Candidate& c : catalogue(blind)) EXPECT_NE(c.effect, "gauge_error");
   for (const Parameter& p : nominal_parameters({}))
     EXPECT_EQ(out_of_sight(p),
               p.path.starts_with("valve") || p.path.starts_with("hose") || p.path == "muscle.dead_volume")

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -50,7 +51,9 @@ TEST(Effects, NextToNothingIsNoTrouble) {
   plant::Rig lag, line;
   lag.effects.get<plant::ValveLag>().time_s = 1e-9;
   line.effects.get<plant::SupplyDroop>().line_resistance_s_Pa_per_kg = 1e-3;
-  for (const auto& rig : {lag, line})
+  plant::Rig gas;
+  gas.effects.get<plant::GasTemperature>().time_s = 1e-9;
+  for (const auto& rig : {lag, line, gas})
     EXPECT_NEAR(end_of_ride(rig, {}, 50).state.joint.contraction_ratio, nominal, 3e-5);
 }
 
@@ -126,14 +129,46 @@ TEST(Effects, EnclosedPolytropicGasGrowsColdAsItExpands) {
   EXPECT_NEAR(temperature_K() / 293.15, std::pow(first_m3 / volume_m3(), 0.4), 5e-4);
 }
 
+// What is remembered of the temperature is that of the mass in the books, and mass and energy add up.
+TEST(Effects, GasThatWarmsUpKeepsItsBooks) {
+  plant::Rig rig;
+  rig.effects.get<plant::GasTemperature>().time_s = 0.2;
+  rig.effects.get<plant::MuscleLeak>().conductance_m3_per_s_Pa = 1e-10;
+  for (const auto method : {Method::erk, Method::cvode}) {
+    RigOnBench bench(rig, 13.87, {method, 1e-9}, true);
+    bench.start(4.0);
+    const auto before = bench.flow.state;
+    double warmest = 0.0, coldest = 0.0;
+    for (int k = 0; k < 300; ++k) {
+      bench.hold(12.0 - 8.0 * std::cos(0.1 * k));
+      const auto& side = bench.flow.state.side;
+      const double per_kg = (side.muscle_pressure_Pa + 101325.0) *
+                            plant::Braid(rig.muscle).volume_m3(bench.flow.state.joint.contraction_ratio) /
+                            bench.plant.side().gas_energy_J_per_kg();
+      const double excess = per_kg / bench.flow.ledger.muscle_air_kg - 1.0;
+      double remembered = 0.0;
+      for (const double one : bench.flow.memory.side) remembered += one;  // nothing else has a memory here
+      EXPECT_NEAR(remembered, excess, 1e-5);
+      warmest = std::max(warmest, excess);
+      coldest = std::min(coldest, excess);
+    }
+    EXPECT_GT(warmest, 0.02);
+    EXPECT_LT(coldest, -0.02);
+    const auto imbalance = bench.plant.imbalance(before, bench.flow.state, bench.flow.ledger);
+    EXPECT_LT(imbalance.gas, 1e-7);
+    EXPECT_LT(imbalance.energy, 1e-7);
+  }
+}
+
 TEST(Effects, AnEnclosedMuscleThatMovesKeepsPVn) {
-  for (const double n : {1.0, 1.4}) {
-    plant::Rig rig;
-    rig.hose.conductance_m3_per_s_Pa = 1e-12;  // as good as shut
-    rig.effects.get<plant::PolytropicGas>().exponent = n;
-    RigOnBench bench(rig, 11.138, {Method::erk, 1e-10});
+  plant::Rig isothermal, polytropic, hot;
+  polytropic.effects.get<plant::PolytropicGas>().exponent = 1.4;
+  hot.effects.get<plant::GasTemperature>().time_s = 100.0;  // no time for heat to go
+  for (const auto& [n, rig] : {std::pair{1.0, &isothermal}, {1.4, &polytropic}, {1.4, &hot}}) {
+    rig->hose.conductance_m3_per_s_Pa = 1e-12;  // as good as shut
+    RigOnBench bench(*rig, 11.138, {Method::erk, 1e-10});
     bench.start(14.0);  // and nothing holds the load
-    const plant::Braid braid(rig.muscle);
+    const plant::Braid braid(rig->muscle);
     const auto invariant = [&] {
       return (bench.flow.state.side.muscle_pressure_Pa + 101325.0) *
              std::pow(braid.volume_m3(bench.flow.state.joint.contraction_ratio), n);

@@ -174,11 +174,13 @@ TEST(Catalogue, HasTheNamesThatResultsAreComparedBy) {
   std::set<std::string_view> names;
   std::apply([&](const auto&... effect) { (names.insert(effect.name), ...); }, Effects::Table{});
   EXPECT_EQ(names.size(), Effects::count);
-  for (const char* name :
-       {"viscous_damping", "guide_friction", "speed_dependent_friction", "bladder_elasticity",
-        "bladder_creep", "end_cap_correction", "muscle_leak", "polytropic_gas", "valve_lag",
-        "valve_dead_band", "valve_hysteresis", "supply_droop", "friction_warm_up", "encoder_backlash",
-        "encoder_scale", "residual_law"})
+  for (const char* name : {"viscous_damping",     "guide_friction",     "speed_dependent_friction",
+                           "bladder_elasticity",  "bladder_creep",      "bladder_hysteresis",
+                           "end_cap_correction",  "pressure_threshold", "muscle_leak",
+                           "polytropic_gas",      "gas_temperature",    "valve_lag",
+                           "valve_dead_band",     "valve_hysteresis",   "supply_droop",
+                           "exhaust_restriction", "friction_warm_up",   "encoder_backlash",
+                           "encoder_scale",       "residual_law"})
     EXPECT_TRUE(names.contains(name)) << name;
   EXPECT_EQ(ResidualForce::variants.size(), 0u);
 }
@@ -305,6 +307,56 @@ TEST(Catalogue, EndCapsChangeTheForceOnly) {
   EXPECT_EQ(with.volume_slope_m3, Plant(Rig{}, 12.0).moment(state, Held{}).volume_slope_m3);
 }
 
+// Braid and threads feel the pressure less the threshold; the gas does not.
+TEST(Catalogue, AThresholdIsTakenOffThePressureThatPresses) {
+  Rig tight;
+  tight.effects.get<PressureThreshold>().pressure_Pa = 4e4;
+  const auto at = [](const Rig& rig, double pressure_Pa) {
+    return Plant(rig, 12.0).moment(State<double>{{0.1, 0.0}, {pressure_Pa, pressure_Pa, 0.0}, {}}, Held{});
+  };
+  const auto with = at(tight, 3e5), less = at({}, 2.6e5), below = at(tight, 3e4), vacuum = at(tight, -1e4);
+  EXPECT_NEAR(with.braid_force_N, less.braid_force_N, 1e-9);
+  EXPECT_NEAR(with.friction_level_N, less.friction_level_N, 1e-9);
+  EXPECT_EQ(below.braid_force_N, 0.0);
+  EXPECT_EQ(below.friction_level_N, tight.friction.floor_N);
+  EXPECT_EQ(vacuum.braid_force_N, at({}, -1e4).braid_force_N);
+  EXPECT_EQ(with.vent_flow, at({}, 3e5).vent_flow);
+}
+
+TEST(Catalogue, ARestrictedExhaustHindersTheWayOutOnly) {
+  Rig narrow;
+  narrow.effects.get<ExhaustRestriction>().share = 0.3;
+  const State<double> state{{0.1, 0.0}, {3e5, 3e5, 0.0}, {}};
+  for (const double reference_Pa : {1e5, 5e5}) {
+    Held held;
+    held.reference_pressure_Pa = reference_Pa;
+    const auto with = Plant(narrow, 12.0).moment(state, held),
+               without = Plant(Rig{}, 12.0).moment(state, held);
+    EXPECT_NEAR(with.vent_flow, 0.7 * without.vent_flow, 1e-15);
+    EXPECT_EQ(with.supply_flow, without.supply_flow);
+  }
+}
+
+// After a long way the force stands at F_h against it; a reversal over x_h ln 2 brings it to nothing.
+TEST(Catalogue, HysteresisOfTheBladderGoesByTheWayAlone) {
+  const BladderHysteresis rubber{.force_N = 8.0, .stroke_m = 0.01};
+  for (const double speed_m_per_s : {0.05, -0.4}) {
+    Instant<double> now = Chance().instant();
+    const double way = speed_m_per_s > 0.0 ? 1.0 : -1.0;
+    const auto go = [&](double wound, double way_m) {
+      constexpr int steps = 10000;
+      for (int i = 0; i < steps; ++i)
+        wound += way_m / std::abs(speed_m_per_s) / steps * rubber.memory_rate(now, Inflow<double>{}, wound);
+      return wound;
+    };
+    now.speed_m_per_s = speed_m_per_s;
+    const double far = go(0.0, 0.2);
+    EXPECT_NEAR(rubber.pull_N(now, far), -8.0 * way, 1e-6);
+    now.speed_m_per_s = -speed_m_per_s;
+    EXPECT_NEAR(rubber.pull_N(now, go(far, 0.01 * std::log(2.0))), 0.0, 1e-3);
+  }
+}
+
 // dP/P = -n dV/V where no gas flows.
 TEST(Catalogue, PolytropicGasKeepsPVn) {
   Rig rig;
@@ -351,7 +403,9 @@ TEST(Catalogue, TheOrderOfTheTableDoesNotMatter) {
     const auto memory = chance.memory().side;
     auto turned = memory;
     std::reverse(turned.begin(), turned.begin() + Effects::memories);  // what follows is the valve's
-    const Inflow<double> inflow{chance.between(-1.0, 1.0), chance.between(0.0, 1e-3)};
+    const Inflow<double> inflow{chance.between(-1.0, 1.0),   chance.between(0.0, 1e-3),
+                                chance.between(-1e-3, 1e-3), chance.between(0.0, 1e-4),
+                                chance.between(1e-5, 1e-4),  chance.between(-1e-4, 1e-4)};
     same(forth.pull(now, memory).all_N, back.pull(now, turned).all_N);
     same(forth.pull(now, memory).on_load_N, forth.get<GuideFriction>().pull_N(now, 0.0));
     same(forth.friction_factor(now, memory), back.friction_factor(now, turned));
@@ -362,6 +416,9 @@ TEST(Catalogue, TheOrderOfTheTableDoesNotMatter) {
     std::reverse(turned_rates.begin(), turned_rates.end());
     for (std::size_t m = 0; m < rates.size(); ++m) same(rates[m], turned_rates[m]);
     same(forth.end_correction_shift(now), back.end_correction_shift(now));
+    same(forth.pressing_shift_Pa(now), back.pressing_shift_Pa(now));
+    same(forth.heating_Pa_per_s(now, inflow, memory), back.heating_Pa_per_s(now, inflow, turned));
+    same(forth.vent_factor(), back.vent_factor());
     same(forth.valve_error_shift_Pa(1e4), back.valve_error_shift_Pa(1e4));
     same(forth.outflow_kg_per_s(now), back.outflow_kg_per_s(now));
     same(forth.gas_exponent(), back.gas_exponent());
@@ -369,6 +426,21 @@ TEST(Catalogue, TheOrderOfTheTableDoesNotMatter) {
     same(forth.wheel_m(rise_m, plays), back.wheel_m(rise_m, others));
     same(forth.reference_Pa(wanted_Pa, plays), back.reference_Pa(wanted_Pa, others));
   }
+}
+
+TEST(Catalogue, DelaysAddUpAndLeaveThePlantAlone) {
+  Rig rig;
+  EXPECT_EQ(rig.effects.command_delay_s(), 0.0);
+  rig.effects.get<CommandDelay>().time_s = 0.02;
+  rig.effects.get<ReadingDelay>().time_s = 0.05;
+  EXPECT_EQ(rig.effects.command_delay_s(), 0.02);
+  EXPECT_EQ(rig.effects.reading_delay_s(), 0.05);
+  const Plant late(rig, 12.0), prompt(Rig{}, 12.0);
+  Chance chance;
+  const auto state = chance.state();
+  const auto memory = chance.memory();
+  EXPECT_EQ(all_of(late, state, memory), all_of(prompt, state, memory));
+  EXPECT_FALSE(late.remembers());
 }
 
 }  // namespace

@@ -1,8 +1,10 @@
 // The step-able rig: what is saved, restored or copied goes on to the same bits; when a drive is felt;
 // several rigs on one ride.
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <stdexcept>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -87,6 +89,114 @@ TEST(Ride, TheCurrentsSpeedIsItsChangeOverTheStep) {
             plant::friction_coefficient(rig.friction, ride.flow().state.joint.contraction_ratio, 0.0),
         1e-12);
     ride.hold({{.current_mA = 8.0}}, ride.time_s() + step_s);
+  }
+}
+
+plant::Rig late_by(double command_s, double reading_s) {
+  plant::Rig rig;
+  rig.effects.get<plant::CommandDelay>().time_s = command_s;
+  rig.effects.get<plant::ReadingDelay>().time_s = reading_s;
+  return rig;
+}
+
+// Two ticks late, all that happens has happened two ticks before in a ride that has its commands at once.
+TEST(Ride, ALateCommandIsFeltAsItWasGivenBefore) {
+  Ride late(Hanging{late_by(2 * tick_s, 0.0), load_kg}, {solver::Method::erk, 1e-9});
+  Ride prompt(Hanging{plant::Rig{}, load_kg}, {solver::Method::erk, 1e-9});
+  late.start(drive_at(0), 0.0);
+  prompt.start(drive_at(0), 0.0);
+  for (int k = 0; k < 80; ++k) {
+    late.step({{.current_mA = drive_at(k).current_mA}}, tick_s * (k + 1));
+    prompt.step({{.current_mA = drive_at(std::max(0, k - 2)).current_mA}}, tick_s * (k + 1));
+    ASSERT_NEAR(late.reading().wheel_m, prompt.reading().wheel_m, 1e-9) << k;
+  }
+  EXPECT_GT(late.reading().wheel_m, 0.01);
+}
+
+// A tick and a half late: the same as in a ride whose commands change there, whatever rides beside it.
+TEST(Ride, ALateCommandIsFeltBetweenInstantsToo) {
+  const double half_s = 0.5 * tick_s;
+  for (const auto memory : {plant::FrictionMemory::lugre, plant::FrictionMemory::coulomb}) {
+    const Hanging late{with_friction(late_by(3 * half_s, 0.0), memory), load_kg};
+    const Hanging later{with_friction(late_by(4.4 * half_s, 0.0), memory), load_kg};
+    const Hanging both[] = {late, later};
+    Ride alone(late, {solver::Method::erk, 1e-9}), together(both, {solver::Method::erk, 1e-9});
+    Ride prompt(Hanging{with_friction({}, memory), load_kg}, {solver::Method::erk, 1e-9});
+    for (Ride* ride : {&alone, &together, &prompt}) ride->start(drive_at(0), 0.0);
+    for (int k = 0; k < 120; ++k) {
+      const Drive given{{.current_mA = drive_at(k / 2).current_mA}};
+      if (k % 2 == 0) {
+        alone.step(given, tick_s * (k / 2 + 1));
+        together.step(given, tick_s * (k / 2 + 1));
+      }
+      prompt.step({{.current_mA = drive_at(std::max(0, k - 3) / 2).current_mA}}, half_s * (k + 1));
+      if (k % 2 == 0) continue;
+      ASSERT_NEAR(alone.reading().wheel_m, prompt.reading().wheel_m, 1e-8) << k;
+      ASSERT_NEAR(together.reading().wheel_m, prompt.reading().wheel_m, 1e-7) << k;
+    }
+    EXPECT_GT(alone.reading().wheel_m, 0.01);
+    EXPECT_LT(together.reading(1).wheel_m, together.reading(0).wheel_m - 1e-4);
+  }
+}
+
+TEST(Ride, ALateReadingShowsWhereTheLoadWas) {
+  for (const double late_s : {3 * tick_s, 2.4 * tick_s, 0.3 * tick_s}) {
+    Ride late(Hanging{late_by(0.0, late_s), load_kg}, {solver::Method::erk, 1e-9});
+    Ride prompt(Hanging{plant::Rig{}, load_kg}, {solver::Method::erk, 1e-9});
+    late.start(drive_at(0), 0.0);
+    prompt.start(drive_at(0), 0.0);
+    for (int k = 0; k < 60; ++k) {
+      const double then_s = tick_s * (k + 1) - late_s;
+      while (prompt.time_s() < then_s - 1e-9) {
+        const int at = static_cast<int>(prompt.time_s() / tick_s + 1e-6);
+        prompt.step(drive_at(at), std::min(then_s, tick_s * (at + 1)));
+      }
+      late.step(drive_at(k), tick_s * (k + 1));
+      EXPECT_NEAR(late.reading().wheel_m, prompt.reading().wheel_m, 3e-6) << k;  // a cubic's error
+      EXPECT_EQ(late.reading().muscle_pressure_Pa, late.flow().state.side.muscle_pressure_Pa);
+    }
+    EXPECT_GT(late.reading().wheel_m, 0.01);
+  }
+}
+
+TEST(Ride, EachMuscleOfAPairHasItsOwnDelay) {
+  const plant::Rig prompt, late = late_by(2 * tick_s, 0.0);
+  const auto references = [&](const plant::Rig& rig, const plant::Rig& opposite) {
+    Ride ride(Paired{rig, opposite}, {solver::Method::erk, 1e-6});
+    ride.start({{.current_mA = 8.0}, {}, {.current_mA = 8.0}}, 0.0);
+    ride.hold({{.current_mA = 12.0}, {}, {.current_mA = 12.0}}, tick_s);
+    const plant::Held& held = ride.rider().now.held;
+    return std::pair(held.reference_pressure_Pa, held.opposite.reference_pressure_Pa);
+  };
+  const plant::Plant plant(prompt, load_kg);
+  const double before_Pa = plant.reference_pressure_Pa(8.0), after_Pa = plant.reference_pressure_Pa(12.0);
+  EXPECT_EQ(references(late, prompt), std::pair(before_Pa, after_Pa));
+  EXPECT_EQ(references(prompt, late), std::pair(after_Pa, before_Pa));
+}
+
+// What a gauge shows is off, and what it showed where a pressure is given.
+TEST(Ride, AGaugeInErrorIsReadAndGivenAsItShows) {
+  plant::Rig offset, gain;
+  offset.effects.get<plant::GaugeError>().offset_Pa = 2e4;
+  gain.effects.get<plant::GaugeError>() = {.variant = plant::GaugeLaw::gain, .gain = 0.1};
+  for (const auto& [rig, true_Pa] : {std::pair{offset, 1.8e5}, std::pair{gain, 2e5 / 1.1}}) {
+    Ride driven(Hanging{rig, load_kg}, {solver::Method::erk, 1e-6});
+    driven.start({{.muscle_pressure_Pa = 1e5}}, 0.0);
+    EXPECT_NEAR(driven.reading().muscle_pressure_Pa, 1e5, 1e-6);
+    driven.step({{.muscle_pressure_Pa = 2e5}}, tick_s);
+    EXPECT_NEAR(driven.flow().state.side.muscle_pressure_Pa, true_Pa, 1e-6);
+    EXPECT_NEAR(driven.reading().muscle_pressure_Pa, 2e5, 1e-6);
+    Ride commanded(Hanging{rig, load_kg}, {solver::Method::erk, 1e-6});
+    Ride nominal(Hanging{plant::Rig{}, load_kg}, {solver::Method::erk, 1e-6});
+    for (Ride* ride : {&commanded, &nominal}) {
+      ride->start({{.current_mA = 8.0}}, 0.0);
+      ride->step({{.current_mA = 12.0}}, tick_s);
+    }
+    const double there_Pa = commanded.flow().state.side.muscle_pressure_Pa;
+    EXPECT_EQ(there_Pa, nominal.flow().state.side.muscle_pressure_Pa);
+    EXPECT_EQ(commanded.reading().wheel_m, nominal.reading().wheel_m);
+    EXPECT_NEAR(commanded.reading().muscle_pressure_Pa, rig.effects.shown_Pa(there_Pa), 1e-6);
+    EXPECT_NEAR(rig.effects.shown_Pa(true_Pa), 2e5, 1e-6);
   }
 }
 

@@ -97,9 +97,12 @@ TEST(Abreast, EachRunIsWhatItIsAlone) {
 TEST(Abreast, LedgersComeAlongAndChangeNothing) {
   const Runs without = ten_of_all_kinds({});
   Runs with = ten_of_all_kinds({});
-  plant::Rig polytropic;  // its ledger is kept alone
+  plant::Rig polytropic;  // its ledger is kept alone, as is that of any gas with a temperature
   plant::switch_on(polytropic.effects.get<plant::PolytropicGas>(), plant::PolytropicGas::variants.front());
   with.add(polytropic, 14.0);
+  plant::Rig warming;
+  plant::switch_on(warming.effects.get<plant::GasTemperature>(), plant::GasTemperature::variants.front());
+  with.add(warming, 14.0);
   with.keep_ledgers();
   const std::vector<Recording> plain = without.abreast(), kept = with.abreast();
   for (std::size_t i = 0; i < plain.size(); ++i) EXPECT_EQ(furthest(kept[i], plain[i]), 0.0) << i;

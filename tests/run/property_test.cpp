@@ -114,11 +114,17 @@ TEST(ModerateRigs, CloseTheirBooksWithEveryMethodAndAgree) {
 }
 
 TEST(ModerateRigs, SayWhereTheirBooksDoNotClose) {
-  const Recording run = random_ride(93, false, solver::Method::automatic);
+  // Which one it is depends on how many effects there are to draw.
+  const auto is_open = [](unsigned seed) {
+    return random_ride(seed, false, solver::Method::automatic).imbalance.energy > 1e-6;
+  };
+  unsigned seed = 50;
+  while (seed < 400 && !is_open(seed)) ++seed;
+  const Recording run = random_ride(seed, false, solver::Method::automatic);
   ASSERT_GT(run.imbalance.energy, 1e-6);
   ASSERT_EQ(doubts(run).size(), 1u);
   EXPECT_NE(doubts(run)[0].find("a tighter integrator.tolerance helps"), std::string::npos);
-  RandomRide tighter(93, false);
+  RandomRide tighter(seed, false);
   tighter.plan.engine.tolerance *= 0.1;
   const auto controller = tighter.current.make(knowledge_of(tighter.plan.rig, {}));
   EXPECT_TRUE(doubts(simulate(tighter.plan, *controller)).empty());

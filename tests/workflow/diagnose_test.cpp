@@ -1,6 +1,8 @@
 // The workflow on data whose answer is known. The benchmark scores many more; these must hold whenever.
+#include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <string>
 
 #include <gtest/gtest.h>
 
@@ -8,7 +10,7 @@
 #include <sim/input/dataset_file.hpp>
 #include <sim/run/simulate.hpp>
 
-#include "diagnose/planted.hpp"
+#include "diagnose/examined.hpp"
 
 namespace mckibben::diagnose {
 namespace {
@@ -97,16 +99,39 @@ TEST(Diagnose, TakesOutAnEffectThatTheRigHasInVain) {
   EXPECT_NE(found.because.find("effects.guide_friction.coefficient from 0.1 to"), std::string::npos);
 }
 
+TEST(Diagnose, NamesTheErrorOfAGaugeAndLeavesTheMotionAlone) {
+  plant::Rig offset, gain;
+  offset.gauge.fitted = gain.gauge.fitted = true;
+  offset.effects.get<plant::GaugeError>().offset_Pa = 0.3e5;
+  gain.effects.get<plant::GaugeError>() = {.variant = plant::GaugeLaw::gain, .gain = -0.04};
+  for (const plant::Rig& truth : {offset, gain}) {
+    const auto found = diagnosis_of(small(truth, 2.4), 0);
+    EXPECT_EQ(found.verdict, Verdict::missing_effect) << found.because;
+    ASSERT_EQ(found.effects.size(), 1u) << found.because;
+    EXPECT_EQ(found.effects[0].name, "gauge_error");
+    const auto& wanted = truth.effects.get<plant::GaugeError>();
+    EXPECT_EQ(found.corrected.effects.get<plant::GaugeError>().variant, wanted.variant);
+    const auto& size = found.effects[0].parameters[0];
+    EXPECT_NEAR(size.value, wanted.variant == plant::GaugeLaw::gain ? wanted.gain : wanted.offset_Pa,
+                0.02 * std::abs(size.value));
+  }
+}
+
+// A gauge that hangs on another muscle, after a narrow hose: no error of its own explains that.
 TEST(Diagnose, IgnoresAGaugeThatContradictsTheMotion) {
   plant::Rig truth;
   truth.gauge.fitted = true;
   auto data = small(truth);
-  for (domain::Run& run : data.runs)
-    for (double& pressure : *run.muscle_pressure_Pa) pressure += 0.3e5;
+  for (domain::Run& run : data.runs) {
+    double shown_Pa = run.muscle_pressure_Pa->front();
+    for (double& pressure_Pa : *run.muscle_pressure_Pa)
+      pressure_Pa = shown_Pa += 0.03 * (pressure_Pa - shown_Pa);
+  }
   const auto found = diagnosis_of(data, 0);
-  EXPECT_EQ(found.verdict, Verdict::nothing_missing);
+  EXPECT_EQ(found.verdict, Verdict::nothing_missing) << found.because;
   ASSERT_FALSE(found.warnings.empty());
-  EXPECT_NE(found.warnings.front().find("muscle_pressure_bar is ignored"), std::string::npos);
+  EXPECT_NE(found.warnings.front().find("muscle_pressure_bar is ignored"), std::string::npos)
+      << found.warnings.front();
 }
 
 TEST(Diagnose, SaysARunThatIsLateInTheVerdictAndShiftsIt) {
@@ -153,18 +178,60 @@ TEST(Diagnose, AccusesNoRunThatAnEffectExplainsWithTheOthers) {
   EXPECT_TRUE(first_look(c, checked, {rig, nominal_parameters(rig)}, runs, [](const Doing&) {}).empty());
 }
 
-TEST(Diagnose, FindsThatAllRunsAreLateBesideAnEffectThatIsMissing) {
+TEST(Diagnose, FindsThatAllRunsAreEarlyBesideAnEffectThatIsMissing) {
   plant::Rig truth;
   truth.effects.get<plant::SpeedDependentFriction>().ratio = 0.8;
   auto data = small(truth);
+  for (domain::Run& run : data.runs) hasten(run, 3);
+  const auto found = diagnosis_of(data, 0);
+  EXPECT_TRUE(found.because.starts_with("Every run is 3 ticks early and was shifted.")) << found.because;
+  ASSERT_EQ(found.effects.size(), 1u) << found.because;
+  EXPECT_EQ(found.effects[0].name, "speed_dependent_friction");
+}
+
+bool is_a_delay(const std::string& name) {
+  return name == plant::CommandDelay::name || name == plant::ReadingDelay::name;
+}
+
+// What all runs have is the rig's, or of a recorder that a rig file can carry: whole ticks or not.
+TEST(Diagnose, NamesADelayOfAllRunsBesideAnEffectThatIsMissing) {
+  plant::Rig truth;
+  truth.effects.get<plant::SpeedDependentFriction>().ratio = 0.8;
+  auto data = small(truth, 2.4);
   for (domain::Run& run : data.runs) {
     run.contraction_ratio.insert(run.contraction_ratio.begin(), 3, run.contraction_ratio.front());
     run.contraction_ratio.resize(run.current_mA.size());
   }
   const auto found = diagnosis_of(data, 0);
-  EXPECT_TRUE(found.because.starts_with("Every run is 3 ticks late and was shifted.")) << found.because;
-  ASSERT_EQ(found.effects.size(), 1u) << found.because;
-  EXPECT_EQ(found.effects[0].name, "speed_dependent_friction");
+  EXPECT_TRUE(found.faults.empty()) << found.because;
+  ASSERT_EQ(found.effects.size(), 2u) << found.because;
+  for (const NamedEffect& effect : found.effects)
+    EXPECT_TRUE(is_a_delay(effect.name) || effect.name == "speed_dependent_friction") << effect.name;
+}
+
+// Command and position alone cannot say which of them is late; a gauge can.
+TEST(Diagnose, SaysThatALateCommandMayBeALateReadingUnlessAGaugeTells) {
+  struct Late {
+    double command_s, reading_s;
+    bool gauge;
+  };
+  for (const Late& late : {Late{0.028, 0.0, false}, Late{0.028, 0.0, true}, Late{0.0, 0.028, true}}) {
+    plant::Rig truth;
+    truth.effects.get<plant::CommandDelay>().time_s = late.command_s;
+    truth.effects.get<plant::ReadingDelay>().time_s = late.reading_s;
+    truth.gauge.fitted = late.gauge;
+    const auto found = diagnosis_of(small(truth, 2.4), 0);
+    EXPECT_EQ(found.verdict, Verdict::missing_effect) << found.because;
+    ASSERT_EQ(found.effects.size(), 1u) << found.because;
+    const NamedEffect& effect = found.effects[0];
+    EXPECT_TRUE(is_a_delay(effect.name)) << found.because;
+    EXPECT_TRUE(std::ranges::all_of(effect.confusable_with, is_a_delay)) << found.because;
+    EXPECT_EQ(effect.confusable_with.size(), late.gauge ? 0u : 1u) << found.because;
+    if (late.gauge) {
+      EXPECT_EQ(effect.name == plant::CommandDelay::name, late.command_s > 0.0);
+    }
+    EXPECT_NEAR(effect.parameters[0].value, 0.028, 0.002);
+  }
 }
 
 TEST(Diagnose, NamesNoEffectForADriftThatAllRunsHave) {

@@ -1,0 +1,46 @@
+// What effects that make something late look back to: which commands were given, and where the load was.
+// Only what may still be asked for is kept.
+#pragma once
+
+#include <vector>
+
+namespace mckibben::ride {
+
+/// Instants nearer than this are one: a delay of whole ticks is not whole to the last bit.
+inline constexpr double same_instant_s = 1e-9;
+
+/// A command, and how fast it came: its change over the length of its step.
+struct Given {
+  double at_s, current_mA, speed_mA_per_s;
+};
+
+/// Commands that are felt late, each held from its instant on; the first one holds from ever.
+class PastCommands {
+ public:
+  void begin(double current_mA);
+  void give(const Given& command);
+  /// What is felt at an instant, so much late. Forgets what was felt before.
+  const Given& felt(double now_s, double late_s);
+  /// When something else will be felt; infinite if all that was given is felt.
+  double next_s(double now_s, double late_s) const;
+
+ private:
+  std::vector<Given> given_;
+};
+
+/// Rises of the load [m] at instants, between them by the cubic that has their heights and speeds (Hermite);
+/// before the first one it was where that found it.
+class PastRises {
+ public:
+  /// Throws away what no rise from `oldest_s` on asks for.
+  void note(double at_s, double rise_m, double speed_m_per_s, double oldest_s);
+  double rise_m(double at_s) const;
+
+ private:
+  struct Seen {
+    double at_s, rise_m, speed_m_per_s;
+  };
+  std::vector<Seen> seen_;
+};
+
+}  // namespace mckibben::ride
