@@ -196,8 +196,8 @@ bool is_a_delay(const std::string& name) {
 // What all runs have is the rig's, or of a recorder that a rig file can carry: whole ticks or not.
 TEST(Diagnose, NamesADelayOfAllRunsBesideAnEffectThatIsMissing) {
   plant::Rig truth;
-  truth.effects.get<plant::SpeedDependentFriction>().ratio = 0.8;
-  auto data = small(truth, 2.4);
+  truth.effects.get<plant::SpeedDependentFriction>().ratio = 0.6;
+  auto data = small(truth, 3.0);
   for (domain::Run& run : data.runs) {
     run.contraction_ratio.insert(run.contraction_ratio.begin(), 3, run.contraction_ratio.front());
     run.contraction_ratio.resize(run.current_mA.size());
