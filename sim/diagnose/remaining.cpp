@@ -41,7 +41,7 @@ std::string sentence_of(const Remaining& remaining) {
   std::string text = fmt::format(" {:.2g} noise floors are left", remaining.floors);
   if (remaining.pattern.empty()) return text + ", in no part of the data more than in others.";
   const Dense& most = remaining.pattern.front();
-  return text + fmt::format(", {:.0f} % of it in {:.0f} % of the time: {} {}.",
+  return text + fmt::format(", {:.0f} % of it in {:.0f} % of the readings: {} {}.",
                             100.0 * most.cell.share_of_gap, 100.0 * most.share_of_time, most.cell.factor,
                             most.cell.cell);
 }

@@ -32,7 +32,7 @@ TEST(Remaining, IsSaidWhereItIsMoreThanNoise) {
             " 5 noise floors are left, in no part of the data more than in others.");
   EXPECT_EQ(sentence_of(Remaining{
                 .floors = 5.0, .share = 0.5, .pattern = {{cell("speed", "above 100 mm/s", 20, 0.62), 0.2}}}),
-            " 5 noise floors are left, 62 % of it in 20 % of the time: speed above 100 mm/s.");
+            " 5 noise floors are left, 62 % of it in 20 % of the readings: speed above 100 mm/s.");
 }
 
 }  // namespace
