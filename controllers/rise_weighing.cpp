@@ -11,9 +11,9 @@ namespace {
 constexpr std::int64_t fewest_counts = 20;  // that the load must have risen since the counter was reset
 constexpr double short_of_start = 0.2;      // share of the way that the muscle, still filling, goes by itself
 constexpr double after_s = 0.5;             // held at the top: the muscle is still filling
-constexpr int most_fits = 12;
+constexpr int most_fits = 20;
 constexpr double fits_well = 1e-6;  // mean of counts less model [contraction ratio]
-constexpr double lightest_kg = 0.05, heaviest_kg = 500.0;
+constexpr double lightest_kg = 0.01, heaviest_kg = 500.0;
 
 }  // namespace
 
@@ -62,10 +62,10 @@ RiseWeighing::Fit RiseWeighing::fit(const ModelMaker& maker, double load_kg) con
   return result;
 }
 
-/// What the braid alone would hold where the rise ended.
+/// What the braid would hold where the rise ended, less a tenth for friction.
 double RiseWeighing::guess_kg() const {
   const double pressure_Pa = knowledge_.valve.pressure_Pa(current_mA_);
-  return std::clamp(knowledge_.model.force_N(ratio(counts_.back()), pressure_Pa) / gravity_m_per_s2,
+  return std::clamp(0.9 * knowledge_.model.force_N(ratio(counts_.back()), pressure_Pa) / gravity_m_per_s2,
                     lightest_kg, heaviest_kg);
 }
 
@@ -77,21 +77,40 @@ std::unique_ptr<RigModel> RiseWeighing::weighed(const ModelMaker& maker) {
          << " counts are needed. It is too heavy for this rig, or something holds it";
     throw ControllerFailure(text.str());
   }
-  double a_kg = 0.9 * guess_kg();
-  Fit a = fit(maker, a_kg);
-  double b_kg = a_kg * 0.97;
-  Fit b = fit(maker, b_kg);
-  for (int trial = 2; trial < most_fits && std::abs(b.mean) > fits_well && b.mean != a.mean; ++trial) {
-    const double step_kg = -b.mean * (b_kg - a_kg) / (b.mean - a.mean);
-    const double next_kg = b_kg + std::clamp(step_kg, -0.3 * b_kg, 0.3 * b_kg);
-    a_kg = b_kg;
-    a = std::move(b);
-    b_kg = next_kg;
-    b = fit(maker, b_kg);
+  // The heavier, the less the model rises, down to none at all: between two loads that bracket the counts, by
+  // regula falsi (Illinois).
+  double light_kg = guess_kg(), heavy_kg = light_kg;
+  Fit light = fit(maker, light_kg);
+  double at_light = light.mean, at_heavy = light.mean;
+  for (; at_light > 0.0 && light_kg > lightest_kg; at_light = (light = fit(maker, light_kg)).mean) {
+    heavy_kg = light_kg;
+    at_heavy = at_light;
+    light_kg *= 0.8;
   }
-  load_kg_ = b_kg;
-  misfit_ = b.rms;
-  return std::move(b.model);
+  while (at_heavy < 0.0 && heavy_kg < heaviest_kg) at_heavy = fit(maker, heavy_kg *= 1.2).mean;
+  if (at_light > 0.0 || at_heavy < 0.0)
+    throw ControllerFailure(
+        "weighing: with no load does the model rise as the counts did; its rig is another");
+  double at_kg = light_kg;
+  Fit best = std::move(light);
+  for (int trial = 0, side = 0; trial < most_fits && std::abs(best.mean) > fits_well; ++trial) {
+    at_kg = (light_kg * at_heavy - heavy_kg * at_light) / (at_heavy - at_light);
+    best = fit(maker, at_kg);
+    if (best.mean < 0.0) {
+      light_kg = at_kg;
+      at_light = best.mean;
+      if (side == -1) at_heavy *= 0.5;
+      side = -1;
+    } else {
+      heavy_kg = at_kg;
+      at_heavy = best.mean;
+      if (side == 1) at_light *= 0.5;
+      side = 1;
+    }
+  }
+  load_kg_ = at_kg;
+  misfit_ = best.rms;
+  return std::move(best.model);
 }
 
 }  // namespace mckibben::controllers
