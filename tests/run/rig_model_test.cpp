@@ -18,8 +18,6 @@
 #include <sim/run/rig_model.hpp>
 #include <sim/run/simulate.hpp>
 
-#include "heap_watch.hpp"
-
 namespace mckibben::run {
 namespace {
 
@@ -124,16 +122,6 @@ TEST(RigModel, AndKnowingItIsBetterStill) {
   controllers::ModelInverseSettings settings;
   settings.model = believed(truth);
   EXPECT_LT(rmse(truth, settings), 0.0006);
-}
-
-TEST(RigModel, FeedbackTouchesNoHeapOnTheWay) {
-  controllers::ModelInverseFeedbackSettings settings;
-  settings.model = believed({});
-  settings.feedback_delay_ticks = 2;
-  const RunPlan run = plan({}, 100);
-  Watched controller(settings.make(knowledge_of(run.rig, there_and_back(100))), 99);
-  simulate(run, controller);
-  EXPECT_EQ(controller.allocations, 0);
 }
 
 /// Root mean square error where the load can be at all: above where the threads hold it.
