@@ -298,6 +298,15 @@ struct NameThresholds {
   std::size_t shown_alike = 8;   ///< candidates of which the likeness is told
 };
 
+/// Whether an effect has one size everywhere. Set on seed 21 of the benchmark: right names differ by 0.02 of
+/// their size, those that stand in for an effect taken out of the catalogue by 0.1 to 0.9.
+struct ConstancyThresholds {
+  double same_motion = 1.25;  ///< ratio of the rates of pressure: currents of one kind
+  double known = 0.5;         ///< of the size: a part of the data with a smaller error knows it
+  double deviations = 4.0;    ///< two sizes so far apart differ for certain,
+  double share = 0.25;        ///< and if by so much of the size, the effect is not constant
+};
+
 // ---- 5. Law
 
 struct LawThresholds {
@@ -382,6 +391,7 @@ struct Thresholds {
   ScreenThresholds screen{};
   ImprovementThresholds improvement{};
   NameThresholds name{};
+  ConstancyThresholds constancy{};
   LawThresholds law{};
   DecideThresholds decide{};
   StartThresholds start{};

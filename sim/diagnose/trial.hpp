@@ -61,6 +61,9 @@ void polish(const Case& c, Trial& trial, const Step& step);
 /// A size that a fit has not driven against a bound, nor to nothing.
 bool has_size(const Model& model, const Candidate& candidate);
 
+/// Whether a nominal number stands at the edge of what is allowed of it.
+bool at_bounds(const Model& model);
+
 /// Nothing left to find, in the runs held out and in those fitted.
 bool meets(const Contender& contender);
 
