@@ -53,8 +53,7 @@ Parting by_level(const Experiment& experiment, const Runs& runs) {
   for (const std::size_t run : runs) levels.push_back(level_of(data.runs[run]));
   const auto parts = apart(levels, 1.0);
   Parting parting{lengths ? "length" : "load", {}, {}};
-  for (const auto& part : parts)
-    parting.parts.push_back(level_in_words(data.runs[runs.front()], part.first));
+  for (const auto& part : parts) parting.parts.push_back(level_in_words(data.runs[runs.front()], part.first));
   for (std::size_t i = 0; i < runs.size(); ++i)
     parting.of_row.insert(parting.of_row.end(), experiment.rows(runs[i]), place_of(levels[i], parts));
   return parting;
@@ -93,8 +92,7 @@ Parting by_speed(const Experiment& experiment, const RigFile& rig, const Runs& r
   std::vector<double> speeds;
   for (std::size_t i = 0; i < runs.size(); ++i)
     for (std::size_t row = 0; row < experiment.rows(runs[i]); ++row)
-      speeds.push_back(per_ratio *
-                       std::abs(states[i][row % states[i].size()].joint.contraction_speed_per_s));
+      speeds.push_back(per_ratio * std::abs(states[i][row % states[i].size()].joint.contraction_speed_per_s));
   std::vector<double> moving;
   std::copy_if(speeds.begin(), speeds.end(), std::back_inserter(moving),
                [](double speed) { return speed > thresholds.where.rest_mm_per_s; });
@@ -102,8 +100,10 @@ Parting by_speed(const Experiment& experiment, const RigFile& rig, const Runs& r
   const auto middle = moving.begin() + static_cast<std::ptrdiff_t>(moving.size() / 2);
   std::nth_element(moving.begin(), middle, moving.end());
   const std::string unit = pair ? "deg/s" : "mm/s";
-  Parting parting{"speed", {fmt::format("below {:.2g} {}", *middle, unit),
-                            fmt::format("above {:.2g} {}", *middle, unit)}, {}};
+  Parting parting{
+      "speed",
+      {fmt::format("below {:.2g} {}", *middle, unit), fmt::format("above {:.2g} {}", *middle, unit)},
+      {}};
   for (const double speed : speeds) parting.of_row.push_back(speed < *middle ? 0 : 1);
   return parting;
 }
@@ -173,8 +173,8 @@ Drift drift_in(const Experiment& experiment, const Model& model, const Candidate
   const Eigen::VectorXd change = solver.solve(columns.transpose() * at.residuals / inflation - from_origin);
   const Eigen::MatrixXd inverse = solver.solve(Eigen::MatrixXd::Identity(free + parts, free + parts));
   const Eigen::MatrixXd scatter =
-      priors + scatter_of(experiment, runs, columns, at.residuals - columns * change) /
-                   (inflation * inflation);
+      priors +
+      scatter_of(experiment, runs, columns, at.residuals - columns * change) / (inflation * inflation);
   const Eigen::MatrixXd robust = inverse * scatter * inverse;
   const Parameter& p = model.free[amplitude];
   const double value = value_of(model.rig, p.path), scaled = p.scaled(value);
@@ -223,7 +223,8 @@ std::vector<Constancy> constancies(const Experiment& experiment, const Model& fi
   std::vector<Constancy> list;
   for (const Candidate& effect : fitted.effects) {
     Constancy& constancy = list.emplace_back();
-    const bool is_free = std::ranges::find(fitted.free, effect.amplitude, &Parameter::path) != fitted.free.end();
+    const bool is_free =
+        std::ranges::find(fitted.free, effect.amplitude, &Parameter::path) != fitted.free.end();
     if (!is_free) continue;  // no reading depends on it
     for (const Parting& parting : ways)
       constancy.push_back(drift_in(experiment, fitted, effect, at, parting, runs, inflation));

@@ -1,6 +1,6 @@
-// A name is earned by being constant: a real effect has the same size wherever it is measured, one that stands
-// in for another has not. So the size of each effect of a fitted model is found from parts of the data alone,
-// each load, each kind of current, each speed, with all that is free beside it in common.
+// A name is earned by being constant: a real effect has the same size wherever it is measured, one that
+// stands in for another has not. So the size of each effect of a fitted model is found from parts of the data
+// alone, each load, each kind of current, each speed, with all that is free beside it in common.
 #pragma once
 
 #include <vector>

@@ -206,15 +206,13 @@ class Workflow {
   /// Names that are not the same everywhere, or are not shown to be where much is left.
   void look_for_stand_ins() {
     const Fitted& fitted = naming_.best.fitted;
-    const auto found = constancies(
-        experiment_, fitted.model, usable_,
-        variance_inflation(experiment_, fitted.residuals, case_.split.training));
+    const auto found = constancies(experiment_, fitted.model, usable_,
+                                   variance_inflation(experiment_, fitted.residuals, case_.split.training));
     const bool much_left = evidence_.named_left + 1.0 > thresholds.near.mean_square();
     for (NamedEffect& effect : naming_.effects) {
       const auto place = std::ranges::find(fitted.model.effects, effect.name, &Candidate::effect);
       effect.constancy = found[static_cast<std::size_t>(place - fitted.model.effects.begin())];
-      effect.stands_in =
-          effect.constancy.drift() != nullptr || (much_left && !effect.constancy.is_shown());
+      effect.stands_in = effect.constancy.drift() != nullptr || (much_left && !effect.constancy.is_shown());
       ++(effect.stands_in ? evidence_.stand_ins : evidence_.names);
     }
   }
@@ -346,7 +344,8 @@ class Workflow {
     // Plans are of currents, under loads.
     if (result_.effects.empty() || data_.pressure_is_given() || judged() != Judged::contraction) return;
     for (const Doubt& doubt : naming_.doubts) {
-      if (std::ranges::find(result_.effects, doubt.effect, &NamedEffect::name) == result_.effects.end()) continue;
+      if (std::ranges::find(result_.effects, doubt.effect, &NamedEffect::name) == result_.effects.end())
+        continue;
       step_(stage("planning"));
       search_.part("the measurement that would tell more", [&] {
         result_.next_experiment =

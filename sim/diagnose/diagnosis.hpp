@@ -222,7 +222,7 @@ struct Diagnosis {
   std::string because;  ///< the verdict in a sentence
   std::vector<NamedEffect> effects{};
   std::vector<NamedEffect> stand_ins{};  ///< in the corrected rig, but no names
-  std::vector<Moved> recalibrated{};  ///< as in the corrected rig
+  std::vector<Moved> recalibrated{};     ///< as in the corrected rig
   std::vector<Absorbed> absorbed{};
   std::vector<LawTerm> residual_law{};
   std::string law_valid_for{};

@@ -237,13 +237,15 @@ std::string remark_in_words(Remark remark, const Naming& naming, double left, co
       for (const NamedEffect& effect : naming.effects)
         if (effect.stands_in) stand_ins.push_back(full_name(effect.name, effect.variant));
       return fmt::format(
-          "{}: added to the corrected rig, but no name for what is missing; how it drifts is a hint at the true "
+          "{}: added to the corrected rig, but no name for what is missing; how it drifts is a hint at the "
+          "true "
           "law",
           fmt::join(stand_ins, " and "));
     }
     case Remark::bent_numbers:
       return fmt::format(
-          "other numbers come nearest, but at the edge of what is allowed of them or with {:.1f} noise floors "
+          "other numbers come nearest, but at the edge of what is allowed of them or with {:.1f} noise "
+          "floors "
           "left: that is no explanation",
           floors);
     case Remark::invisible:
@@ -331,8 +333,8 @@ std::string effects_in_words(const Diagnosis& d) {
       said += fmt::format(" - these data cannot tell it from {}", fmt::join(effect.confusable_with, ", "));
   }
   const std::string more = stand_ins_in_words(d);
-  return fmt::format("Missing: {}.{} {}", said, more.empty() ? "" : " Something else is missing besides." + more,
-                     gap_in_words(d));
+  return fmt::format("Missing: {}.{} {}", said,
+                     more.empty() ? "" : " Something else is missing besides." + more, gap_in_words(d));
 }
 
 std::string law_in_words(const Diagnosis& d) {

@@ -107,7 +107,8 @@ void polish(const Case& c, Trial& trial, const Step& step) {
 
 bool at_bounds(const Model& model) {
   return std::ranges::any_of(model.free, [&](const Parameter& p) {
-    const double value = value_of(model.rig, p.path), edge = thresholds.name.at_bound * (p.highest - p.lowest);
+    const double value = value_of(model.rig, p.path),
+                 edge = thresholds.name.at_bound * (p.highest - p.lowest);
     return p.has_prior && !p.of_effect() && (value < p.lowest + edge || value > p.highest - edge);
   });
 }

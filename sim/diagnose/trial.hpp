@@ -28,10 +28,10 @@ struct Contender {
 };
 
 struct Trial {
-  Score score;
-  std::size_t place;  ///< among the scores
-  Contender contender;
-  Improvement gain;
+  Score score{};
+  std::size_t place = 0;  ///< among the scores
+  Contender contender{};
+  Improvement gain{};
 };
 
 /// What a screening was made at, and what it found.

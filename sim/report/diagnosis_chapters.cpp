@@ -198,10 +198,9 @@ std::string constancy_html(const Diagnosis& diagnosis) {
       for (const auto& drift : effect.constancy) {
         std::string sizes;
         for (const auto& size : drift.sizes)
-          sizes += fmt::format("{}{}: {}", sizes.empty() ? "" : "; ", size.part,
-                               size_in_words(size, effect.parameters.empty()
-                                                       ? "1"
-                                                       : effect.parameters.front().unit));
+          sizes += fmt::format(
+              "{}{}: {}", sizes.empty() ? "" : "; ", size.part,
+              size_in_words(size, effect.parameters.empty() ? "1" : effect.parameters.front().unit));
         rows += row(full_name(effect.name, effect.variant),
                     {drift.along, sizes,
                      drift.deviations == 0.0 ? "no"
@@ -209,13 +208,13 @@ std::string constancy_html(const Diagnosis& diagnosis) {
                                                            drift.drifts() ? "" : ", which is little")});
       }
   if (rows.empty()) return "";
-  return folded("Is it the same everywhere?",
-                paragraph("The size of each effect from parts of the data alone, each with its standard error. "
-                          "A real effect has one size; one that stands in for something else has not.") +
-                    "<div class='wide'>" +
-                    table("Sizes in parts of the data", {"effect", "along", "size", "differs for certain"},
-                          rows) +
-                    "</div>\n");
+  return folded(
+      "Is it the same everywhere?",
+      paragraph("The size of each effect from parts of the data alone, each with its standard error. "
+                "A real effect has one size; one that stands in for something else has not.") +
+          "<div class='wide'>" +
+          table("Sizes in parts of the data", {"effect", "along", "size", "differs for certain"}, rows) +
+          "</div>\n");
 }
 
 std::string added_html(const Diagnosis& diagnosis, const plant::Rig& rig) {
@@ -233,7 +232,8 @@ std::string added_html(const Diagnosis& diagnosis, const plant::Rig& rig) {
   };
   for (const auto& effect : diagnosis.effects) add(effect);
   for (const auto& effect : diagnosis.stand_ins) add(effect);
-  return html + constancy_html(diagnosis) + law_html(diagnosis, rig) + recalibrated_html(diagnosis) + absorbed_html(diagnosis);
+  return html + constancy_html(diagnosis) + law_html(diagnosis, rig) + recalibrated_html(diagnosis) +
+         absorbed_html(diagnosis);
 }
 
 /// Errors that are left, by load.
@@ -348,13 +348,14 @@ std::string result_table(const domain::Dataset& data, const Diagnosis& diagnosis
 std::vector<Chapter> story(const domain::Dataset& data, const Diagnosis& diagnosis,
                            const std::vector<const diagnose::RunGap*>& runs) {
   const plant::Rig& rig = data.rig;
-  return {
-      {"Where they disagree", where_html(diagnosis, rig)},
-      {diagnosis.effects.empty() ? "What was tried" : "What explains it", ranking_html(diagnosis, rig)},
-      {diagnosis.effects.empty() && diagnosis.stand_ins.empty() && diagnosis.residual_law.empty() ? "What was changed" : "What was added",
-       added_html(diagnosis, rig)},
-      {output::changed(diagnosis) ? "How far the gap shrank" : "The gap, run by run",
-       gap_html(diagnosis, runs, rig)}};
+  return {{"Where they disagree", where_html(diagnosis, rig)},
+          {diagnosis.effects.empty() ? "What was tried" : "What explains it", ranking_html(diagnosis, rig)},
+          {diagnosis.effects.empty() && diagnosis.stand_ins.empty() && diagnosis.residual_law.empty()
+               ? "What was changed"
+               : "What was added",
+           added_html(diagnosis, rig)},
+          {output::changed(diagnosis) ? "How far the gap shrank" : "The gap, run by run",
+           gap_html(diagnosis, runs, rig)}};
 }
 
 std::vector<Chapter> doubts_and_plan(const domain::Dataset& data, const Diagnosis& diagnosis) {

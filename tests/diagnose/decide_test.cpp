@@ -251,16 +251,14 @@ Ways to_unknown_effect() {
        unknown_effect,
        named,
        {stands_in}},
-      {"a law that is better than an effect that stands in",
-       one_name(),
+      {"a law that is better than an effect that stands in", one_name(),
        [](Evidence& e) {
          e.names = 0;
          e.stand_ins = e.law_terms = 1;
          e.law_share = 0.99;
          e.law_left = below(e.named_left);
        },
-       unknown_effect,
-       law},
+       unknown_effect, law},
       {"an effect that stands in, and a law that is no better",
        one_name(),
        [](Evidence& e) {
