@@ -214,6 +214,13 @@ Json absorbed_json(const diagnose::Diagnosis& diagnosis) {
   return list;
 }
 
+Json left_open_json(const diagnose::Diagnosis& diagnosis) {
+  Json list = Json::array();
+  for (const auto& one : diagnosis.left_open)
+    list.push_back({{"parameters", one.parameters}, {"known", one.known}, {"words", one.words}});
+  return list;
+}
+
 Json faults_json(const diagnose::Diagnosis& diagnosis) {
   Json list = Json::array();
   for (const auto& one : diagnosis.faults)
@@ -257,6 +264,8 @@ std::string json_of(const domain::Dataset& data, const diagnose::Diagnosis& diag
                 {"effects", effects_json(diagnosis.effects)},
                 {"stand_ins", effects_json(diagnosis.stand_ins)},
                 {"recalibrated", recalibrated_json(diagnosis, data.rig)},
+                {"left_open", left_open_json(diagnosis)},
+                {"begun", {{"places", diagnosis.begun.places}, {"agree", diagnosis.begun.agree}}},
                 {"residual_law", law_json(diagnosis)},
                 {"where", where_json(diagnosis)},
                 {"start_of_run", start_json(diagnosis.start)},
