@@ -332,7 +332,7 @@ struct ConstancyThresholds {
   double same_motion = 1.25;  ///< ratio of the rates of pressure: currents of one kind
   double known = 0.25;        ///< of the size: a part of the data with a smaller error knows it
   double deviations = 4.0;    ///< two sizes so far apart differ for certain,
-  double share = 0.25;        ///< and if by so much of the size, the effect is not constant
+  double share = 0.3;         ///< and if by so much of the size, the effect is not constant
 };
 
 // ---- 5. Law
