@@ -34,10 +34,11 @@ std::optional<Trial> substitute(const Case& c, const Contender& smaller, const C
   return std::nullopt;
 }
 
-void forget(Naming& result, std::size_t effect) {
-  const auto place = result.effects.begin() + static_cast<std::ptrdiff_t>(effect);
-  std::erase_if(result.doubts, [&](const Doubt& doubt) { return doubt.effect == place->name; });
-  result.effects.erase(place);
+void forget(Naming& result, const Candidate& gone) {
+  std::erase_if(result.effects,
+                [&](const NamedEffect& effect) { return goes_with(effect.name, effect.variant, gone); });
+  if (gone.adds_to.empty())
+    std::erase_if(result.doubts, [&](const Doubt& doubt) { return doubt.effect == gone.effect; });
 }
 
 }  // namespace
@@ -55,7 +56,7 @@ void revise(const Case& c, Naming& result, const Eigen::VectorXd& reference, con
     if (!needed) {
       give_up(result.ranking, old, "not needed beside what came later");
       result.best = std::move(smaller);
-      forget(result, i);
+      forget(result, old);
       continue;
     }
     if (!meets(result.best)) {
@@ -65,7 +66,7 @@ void revise(const Case& c, Naming& result, const Eigen::VectorXd& reference, con
         take(c, result.ranking, candidate, *better, smaller.fitted.cost - better->contender.fitted.cost,
              "serves better than " + title(old));
         result.best = std::move(better->contender);
-        forget(result, i);  // the new one stands last in the model, too
+        forget(result, old);  // the new one stands last in the model, too
         result.effects.push_back({.name = candidate.effect, .variant = candidate.variant});
         continue;
       }
@@ -79,7 +80,7 @@ void drop_uncertain(const Case& c, Naming& result, const Step& step) {
     const Fitted& fitted = result.best.fitted;
     const double inflation = variance_inflation(c.experiment, fitted.residuals, c.split.training);
     const auto bounds = intervals(c.experiment, fitted, c.split.training, inflation);
-    const Candidate& candidate = fitted.model.effects[i];
+    const Candidate candidate = fitted.model.effects[i];
     bool certain = false;
     for (std::size_t j = 0; j < bounds.size(); ++j) {
       const Parameter& p = fitted.model.free[j];
@@ -98,7 +99,7 @@ void drop_uncertain(const Case& c, Naming& result, const Step& step) {
     if (!smaller.fitted.failure.empty()) return;
     give_up(result.ranking, candidate, "its 95 % interval reaches nothing");
     result.best = std::move(smaller);
-    forget(result, i);
+    forget(result, candidate);
   }
 }
 

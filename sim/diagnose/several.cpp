@@ -43,17 +43,6 @@ std::optional<Contender> fitted(const Case& c, const Contender& base, const Subs
   }
 }
 
-/// Every shape inside its range: one at its edge belongs to another law.
-bool shapes_stand(const Model& model) {
-  return std::ranges::all_of(model.free, [&](const Parameter& p) {
-    const bool shape =
-        std::ranges::any_of(model.effects, [&](const Candidate& e) { return e.shape == p.path; });
-    const double value = value_of(model.rig, p.path),
-                 edge = thresholds.name.at_bound * (p.highest - p.lowest);
-    return !shape || (value > p.lowest + edge && value < p.highest - edge);
-  });
-}
-
 }  // namespace
 
 bool try_several(const Case& c, Naming& result, std::span<const Screening> screenings, const Step& step) {
@@ -66,7 +55,10 @@ bool try_several(const Case& c, Naming& result, std::span<const Screening> scree
   for (const auto& [base, subset] : sets) {
     step("trying " + words_of(subset));
     auto contender = fitted(c, *base, subset);
-    if (!contender || contender->fitted.model.effects.size() < 2 || !shapes_stand(contender->fitted.model))
+    if (!contender || contender->fitted.model.effects.size() < 2) continue;
+    const Model& model = contender->fitted.model;
+    // A shape at its edge belongs to another law.
+    if (!std::ranges::all_of(model.effects, [&](const Candidate& e) { return has_shape(model, e); }))
       continue;
     if (!best || contender->fitted.cost < best->fitted.cost) best = std::move(contender);
     if (meets(*best)) break;

@@ -302,7 +302,7 @@ struct NameThresholds {
   double relief_loss = 0.01;  ///< mean square on runs held out, that relief may cost
   std::array<double, 5> first_sizes{0.1, 0.3, 0.6, 1.0,
                                     1.6};  ///< of the size that the score expects: tried first
-  double at_bound = 1e-3;                  ///< of a size's range: a fit has driven it to its bound
+  double at_bound = 1e-3;            ///< of a size's range, or a shape's: a fit has driven it to its bound
   double to_nothing = 1.1;           ///< of the size that is as good as absent: it has driven it to nothing
   double as_good_gained = 0.05;      ///< mean square that a twin may be worse by on runs held out,
   double as_good_cost = 0.1;         ///< and of the cost
