@@ -153,10 +153,10 @@ Drift drift_in(const Experiment& experiment, const Model& model, const Candidate
   // The effect's column gives way to one for each part.
   Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(at.columns.rows(), free + parts);
   columns.leftCols(free) = at.columns;
-  columns.col(a).setZero();
-  // Its shape stays: it would take up differences between the parts.
-  const auto shape = std::ranges::find(model.free, effect.shape, &Parameter::path);
-  if (shape != model.free.end()) columns.col(shape - model.free.begin()).setZero();
+  // What else is free of it stays: it would take up differences between the parts.
+  const std::string own = fmt::format("effects.{}.", effect.effect);
+  for (Eigen::Index j = 0; j < free; ++j)
+    if (model.free[static_cast<std::size_t>(j)].path.starts_with(own)) columns.col(j).setZero();
   for (Eigen::Index row = 0; row < columns.rows(); ++row)
     columns(row, free + static_cast<Eigen::Index>(parting.of_row[static_cast<std::size_t>(row)])) =
         at.columns(row, a);

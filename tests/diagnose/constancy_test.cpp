@@ -78,7 +78,7 @@ TEST(Drift, CountsOnlyWhatIsCertain) {
 
 TEST(Drift, CountsErrorsThatPartsHaveInCommonOnce) {
   const Eigen::Matrix2d together{{1.0, 0.99}, {0.99, 1.0}};
-  EXPECT_TRUE(drift_of("load", {{"a", 10.0, 1.0}, {"b", 13.0, 1.0}}, together, 10.0).drifts());
+  EXPECT_TRUE(drift_of("load", {{"a", 10.0, 1.0}, {"b", 14.0, 1.0}}, together, 10.0).drifts());
 }
 
 TEST(Drift, IsNoneWhereItIsASmallShare) {
