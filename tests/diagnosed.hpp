@@ -83,6 +83,9 @@ inline diagnose::Diagnosis diagnosed() {
                     {{"muscle.braid_angle", "rad", 0.4123456789, 0.41, 0.415}, 0.4101523742186674, 0.5},
                     {{"valve.conductance", "m3/(s.Pa)", 1.1e-8, 1.05e-8, 1.15e-8}, 1e-8, 1.0},
                     {{"hose.conductance", "m3/(s.Pa)", 0.9e-8, 0.8e-8, 1.0e-8}, 1e-8, -1.0}};
+  d.left_open = {{{"hose.conductance", "valve.conductance"},
+                  "product",
+                  "only the product of hose.conductance and valve.conductance is known"}};
   d.absorbed = {{"muscle.rest_radius", 2.8, 0.4},
                 {"muscle.end_correction", -1.6, 0.1},
                 {"valve.conductance", -2.9, -0.2}};

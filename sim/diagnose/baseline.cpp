@@ -1,7 +1,9 @@
 // See the header.
+#include <algorithm>
 #include <optional>
 
 #include <sim/diagnose/baseline.hpp>
+#include <sim/diagnose/starts.hpp>
 #include <sim/diagnose/thresholds.hpp>
 
 namespace mckibben::diagnose {
@@ -17,6 +19,28 @@ std::optional<Model> with_slight_effects(const Case& c, Model model) {
   }
   if (!has_effects) return std::nullopt;
   return model;
+}
+
+/// Begins from other places too; where ends differ, the deepest is kept.
+void begin_elsewhere(const Case& c, const Model& described, Recalibrated& result) {
+  std::vector<Contender> ends;
+  for (Model& place : places_to_begin(c, described)) {
+    ends.push_back(contend(c, std::move(place)));
+    ++result.begun;
+  }
+  std::erase_if(ends, [](const Contender& end) { return !end.fitted.failure.empty(); });
+  if (ends.empty()) return;
+  const bool ended = result.contender.fitted.failure.empty();
+  if (ended) ends.push_back(result.contender);
+  std::vector<double> costs;
+  for (const Contender& end : ends) costs.push_back(end.fitted.cost);
+  const bool alike = !disagree(costs);
+  if (alike && ended) return;
+  const auto best = std::min_element(costs.begin(), costs.end()) - costs.begin();
+  result.contender = std::move(ends[static_cast<std::size_t>(best)]);
+  if (alike) return;
+  ends.erase(ends.begin() + best);
+  for (const Contender& end : ends) result.other_ends.push_back(end.fitted.model.rig);
 }
 
 }  // namespace
@@ -36,7 +60,7 @@ Contender replay(const Case& c) {
 
 Recalibrated recalibrate(Case& c, const Contender& nominal) {
   const auto slight = with_slight_effects(c, nominal.fitted.model);
-  Recalibrated result{contend(c, nominal.fitted.model, nullptr, slight.has_value()), {}};
+  Recalibrated result{.contender = contend(c, nominal.fitted.model, nullptr, slight.has_value())};
   Contender& best = result.contender;
   if (slight) {
     // They may be there in vain: from next to nothing the way down can be another.
@@ -45,7 +69,8 @@ Recalibrated recalibrate(Case& c, const Contender& nominal) {
         (!best.fitted.failure.empty() || other.fitted.cost < best.fitted.cost))
       best = std::move(other);
   }
-  if (!best.fitted.failure.empty()) result = {nominal, best.fitted.failure};
+  begin_elsewhere(c, nominal.fitted.model, result);
+  if (!best.fitted.failure.empty()) result = {.contender = nominal, .failure = best.fitted.failure};
   const auto& residuals = best.fitted.residuals;
   if (!near_floor(residuals)) return result;
   c.inflation = variance_inflation(c.experiment, residuals, c.split.training);

@@ -12,6 +12,7 @@
 #include <sim/diagnose/first_look.hpp>
 #include <sim/diagnose/interval.hpp>
 #include <sim/diagnose/law.hpp>
+#include <sim/diagnose/left_open.hpp>
 #include <sim/diagnose/name.hpp>
 #include <sim/diagnose/plan.hpp>
 #include <sim/diagnose/ranking.hpp>
@@ -20,6 +21,7 @@
 #include <sim/diagnose/run_gaps.hpp>
 #include <sim/diagnose/search.hpp>
 #include <sim/diagnose/start.hpp>
+#include <sim/diagnose/starts.hpp>
 #include <sim/diagnose/story.hpp>
 #include <sim/diagnose/thresholds.hpp>
 #include <sim/diagnose/where.hpp>
@@ -164,9 +166,10 @@ class Workflow {
 
   void fit_numbers() {
     step_(stage("recalibrating"));
-    auto [contender, failure] = recalibrate(case_, nominal_fit_);
-    recalibrated_ = std::move(contender);
-    if (!failure.empty()) warn("the nominal parameters could not be fitted: " + failure);
+    Recalibrated result = recalibrate(case_, nominal_fit_);
+    recalibrated_ = std::move(result.contender);
+    if (!result.failure.empty()) warn("the nominal parameters could not be fitted: " + result.failure);
+    tell_starts(result);
     learn_gap("recalibrated", recalibrated_.held_out);
     evidence_.nominal_left = excess(nominal_fit_.held_out);
     evidence_.recalibrated_left = excess(recalibrated_.held_out);
@@ -174,6 +177,16 @@ class Workflow {
         compare(experiment_, nominal_fit_.held_out, recalibrated_.held_out, case_.split.held_out);
     evidence_.far_from_nominal = far_from(nominal_fit_);
     evidence_.far_from_recalibrated = far_from(recalibrated_);
+  }
+
+  void tell_starts(Recalibrated& result) {
+    other_ends_ = std::move(result.other_ends);
+    result_.begun = {result.begun, other_ends_.empty()};
+    if (!other_ends_.empty())
+      warn(
+          fmt::format("the recalibration was begun from {} places of the numbers that are hardly known, and "
+                      "did not end alike: the best end is taken, another one may be better",
+                      result.begun));
   }
 
   void map_where() {
@@ -260,12 +273,34 @@ class Workflow {
     if (decision.chosen != Chosen::nominal) fit_all_runs(contender(decision.chosen).fitted);
   }
 
+  /// From where the training runs have led, and where starts did not agree from where others led.
+  Fitted best_fit_of_all_runs(const Model& chosen) const {
+    const FitSettings settings{.inflation = chosen_inflation_, .thorough = true};
+    Fitted best = fit(experiment_, chosen, usable_, settings);
+    for (const RigFile& end : other_ends_) {
+      Fitted other = fit(experiment_, begun_at(chosen, end), usable_, settings);
+      if (other.failure.empty() && (!best.failure.empty() || other.cost < best.cost)) best = std::move(other);
+    }
+    return best;
+  }
+
+  void tell_left_open(const Fitted& whole) {
+    result_.left_open = left_open(whole, chosen_inflation_);
+    const auto unknown = [&](const std::string& path) {
+      const auto stated = nominal_.spreads.find(path);
+      return stated != nominal_.spreads.end() && !std::isfinite(stated->second);
+    };
+    for (const LeftOpen& open : result_.left_open)
+      if (std::any_of(open.parameters.begin(), open.parameters.end(), unknown))
+        warn("left open by these data: " + open.words);
+  }
+
   /// The numbers that are told, of the model that was chosen on the training runs.
   void fit_all_runs(const Fitted& chosen) {
     step_(stage("fitting all runs"));
     chosen_rig_ = chosen.model.rig;
     chosen_inflation_ = variance_inflation(experiment_, chosen.residuals, case_.split.training);
-    auto whole = fit(experiment_, chosen.model, usable_, {.inflation = chosen_inflation_, .thorough = true});
+    auto whole = best_fit_of_all_runs(chosen.model);
     const bool failed = !whole.failure.empty();
     if (failed) {
       warn("the fit to all runs failed, the numbers are those of the training runs: " + whole.failure);
@@ -274,6 +309,7 @@ class Workflow {
     const auto bounds =
         intervals(experiment_, whole, failed ? case_.split.training : usable_, chosen_inflation_);
     tell_parameters(result_, whole.model, bounds, recalibrated_.fitted.model.rig);
+    tell_left_open(whole);
     result_.corrected = whole.model.rig;
     for (std::size_t j = 0; j < bounds.size(); ++j)  // as well as these runs tell it, where the file told it
       if (const auto stated = result_.corrected.spreads.find(whole.model.free[j].path);
@@ -356,6 +392,7 @@ class Workflow {
   Case case_;
   Contender nominal_fit_;  ///< the rig as described, nothing moved
   Contender recalibrated_;
+  std::vector<RigFile> other_ends_;  ///< of recalibrations that did not end alike
   Naming naming_;
   Law law_;
   Evidence evidence_;

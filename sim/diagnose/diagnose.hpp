@@ -2,16 +2,16 @@
 //
 //   check      which data can be trusted                check, odd_readings, labels
 //              faults of recordings, found and mended   first_look, faults, suspicions, shapes, repair
-//   baseline   the rig as described, then recalibrated  baseline
+//   baseline   the rig as described, then recalibrated  baseline, starts
 //   where      the map of what remains                  where
 //   name       effects that runs held out ask for       name, trial, revise, ranking
 //   law        a law of force for what they leave       law
 //   decide     the verdict                              decide
 //   plan       the measurement that would tell more     plan
 //
-// and then tells what was found (story, start, run_gaps). All of it stands on a few tools: runs against a rig
-// (experiment, predict, noise, parameter), fits (fit, interval), slopes (screen, regression), runs held out
-// (held_out). Every number that decides is in thresholds.hpp.
+// and then tells what was found (story, left_open, start, run_gaps). All of it stands on a few tools: runs
+// against a rig (experiment, predict, noise, parameter), fits (fit, interval), slopes (screen, regression),
+// runs held out (held_out). Every number that decides is in thresholds.hpp.
 #pragma once
 
 #include <cstdint>

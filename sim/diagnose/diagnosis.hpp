@@ -63,6 +63,13 @@ struct Moved {
   bool of_effect() const { return fitted.name.find("effects.") != std::string::npos; }
 };
 
+/// Numbers that the data do not tell, or only together.
+struct LeftOpen {
+  std::vector<std::string> parameters{};  ///< by path
+  std::string known{};                    ///< of them: nothing, product, ratio, sum, difference, combination
+  std::string words{};                    ///< "only the product of A and B is known"
+};
+
 struct LawTerm {
   std::string term;
   FittedNumber coefficient;
@@ -108,6 +115,12 @@ struct Ranked {
   double training_rmse = 0.0, held_out_rmse = 0.0;  ///< after the refit
   std::string outcome{};                            ///< why it was taken or not
   double fall = 0.0;                                ///< of the misfit, by the refit
+};
+
+/// From how many places the recalibration was begun: several if numbers are hardly known.
+struct Begun {
+  std::size_t places = 1;
+  bool agree = true;  ///< all ended alike
 };
 
 /// A nominal parameter that imitates the effect found: moved by so many prior deviations without it, by so
@@ -185,6 +198,8 @@ struct Diagnosis {
   std::string because;  ///< the verdict in a sentence
   std::vector<NamedEffect> effects{};
   std::vector<Moved> recalibrated{};  ///< as in the corrected rig
+  std::vector<LeftOpen> left_open{};
+  Begun begun{};
   std::vector<Absorbed> absorbed{};
   std::vector<LawTerm> residual_law{};
   std::string law_valid_for{};

@@ -124,6 +124,7 @@ void merge_laws(const Model& model, Naming& result) {
     const auto of_it = [&](const NamedEffect& effect) { return effect.name == added.effect; };
     const auto first = std::ranges::find_if(result.effects, of_it);
     const auto again = std::find_if(std::next(first), result.effects.end(), of_it);
+    if (again == result.effects.end()) continue;  // the rig had the shorter law already
     for (const std::string& rival : again->confusable_with)
       if (std::ranges::find(first->confusable_with, rival) == first->confusable_with.end())
         first->confusable_with.push_back(rival);

@@ -225,11 +225,29 @@ struct FitThresholds {
   double parameter_tolerance = 1e-5, thorough_parameter_tolerance = 1e-7;  ///< relative
 };
 
+/// Where a fit begins, besides the rig as described.
+struct StartsThresholds {
+  double wide = 0.4;        ///< relative deviation of a number from which its range is looked over
+  double reach = 2.0;       ///< deviations, each way
+  std::size_t places = 14;  ///< that are looked at: two flocks beside the rig itself,
+  std::size_t runs = 3;     ///< in so many runs,
+  std::size_t begun = 2;    ///< and so many begun from
+  double same_cost = 0.1;   ///< of the cost: ends that differ by no more agree
+};
+
 /// Intervals.
 struct IntervalThresholds {
   double normal = 1.96;  ///< deviations of a normal variable: 95 %. Convention
   int draws = 100;       ///< of what counting does
   double still = 1e-12;  ///< counts^2: what is moved less is at rest
+};
+
+/// What the data leave open. Information is in units of a prior's: of 1 they say as much as was known.
+struct LeftOpenThresholds {
+  double says_nothing = 0.25;  ///< less: what was known is narrowed by a tenth at most
+  std::size_t few = 3;         ///< numbers that are looked at together before all are
+  double takes_part = 0.1;     ///< of the largest part: a number of less has none in a direction
+  double equal = 0.1;          ///< relative: weights are the same
 };
 
 // ---- 3. Where
@@ -379,7 +397,9 @@ struct Thresholds {
   NoiseThresholds noise{};
   HeldOutThresholds held_out{};
   FitThresholds fit{};
+  StartsThresholds starts{};
   IntervalThresholds interval{};
+  LeftOpenThresholds left_open{};
   WhereThresholds where{};
   ScreenThresholds screen{};
   ImprovementThresholds improvement{};

@@ -193,6 +193,13 @@ Json absorbed_json(const diagnose::Diagnosis& diagnosis) {
   return list;
 }
 
+Json left_open_json(const diagnose::Diagnosis& diagnosis) {
+  Json list = Json::array();
+  for (const auto& one : diagnosis.left_open)
+    list.push_back({{"parameters", one.parameters}, {"known", one.known}, {"words", one.words}});
+  return list;
+}
+
 Json faults_json(const diagnose::Diagnosis& diagnosis) {
   Json list = Json::array();
   for (const auto& one : diagnosis.faults)
@@ -235,6 +242,8 @@ std::string json_of(const domain::Dataset& data, const diagnose::Diagnosis& diag
                 {"because", diagnosis.because},
                 {"effects", effects_json(diagnosis)},
                 {"recalibrated", recalibrated_json(diagnosis, data.rig)},
+                {"left_open", left_open_json(diagnosis)},
+                {"begun", {{"places", diagnosis.begun.places}, {"agree", diagnosis.begun.agree}}},
                 {"residual_law", law_json(diagnosis)},
                 {"where", where_json(diagnosis)},
                 {"start_of_run", start_json(diagnosis.start)},

@@ -168,6 +168,18 @@ std::string recalibrated_html(const Diagnosis& diagnosis) {
          "</div>\n";
 }
 
+std::string left_open_html(const Diagnosis& diagnosis) {
+  if (diagnosis.left_open.empty()) return "";
+  std::string items;
+  for (const auto& open : diagnosis.left_open) items += "<li>" + escaped(open.words) + "</li>\n";
+  return "<h3>What these data leave open</h3>\n" +
+         paragraph(
+             "The readings say little more of these than was known before. There the corrected rig stands "
+             "nearest "
+             "to the values that it was described with; others on the same line explain the data as well.") +
+         "<ul>\n" + items + "</ul>\n";
+}
+
 std::string absorbed_html(const Diagnosis& diagnosis) {
   if (diagnosis.effects.empty() && diagnosis.residual_law.empty()) return "";
   if (diagnosis.absorbed.empty()) return "";
@@ -191,7 +203,8 @@ std::string added_html(const Diagnosis& diagnosis, const plant::Rig& rig) {
                         escaped(full_name(effect.name, effect.variant)), escaped(says), escaped(words.law),
                         escaped(words.source));
   }
-  return html + law_html(diagnosis, rig) + recalibrated_html(diagnosis) + absorbed_html(diagnosis);
+  return html + law_html(diagnosis, rig) + recalibrated_html(diagnosis) + left_open_html(diagnosis) +
+         absorbed_html(diagnosis);
 }
 
 /// Errors that are left, by load.

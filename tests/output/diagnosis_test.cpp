@@ -63,6 +63,12 @@ TEST(DiagnosisJson, HoldsWhatIsPromised) {
                   {"share_of_time", 0.125}};
   const Json remaining{{"floors", 3.0}, {"share", 0.25}, {"pattern", Json::array({fast})}};
   EXPECT_EQ(document.at("remaining"), remaining);
+  const Json open{{"parameters", Json::array({"hose.conductance", "valve.conductance"})},
+                  {"known", "product"},
+                  {"words", "only the product of hose.conductance and valve.conductance is known"}};
+  EXPECT_EQ(document.at("left_open"), Json::array({open}));
+  const Json begun{{"places", 1}, {"agree", true}};
+  EXPECT_EQ(document.at("begun"), begun);
   const Json& next = document.at("next_experiment");
   EXPECT_EQ(next.at("separates").size(), 2u);
   EXPECT_EQ(next.at("current"), "stairs from 4 to 20 mA, 2 s each");

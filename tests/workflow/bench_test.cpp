@@ -28,24 +28,6 @@ TEST(BenchDiagnosis, NamesTheTubeThatPullsBack) {
   EXPECT_NE(found.because.find("the cord's force falls from"), std::string::npos) << found.because;
 }
 
-TEST(BenchDiagnosis, ATubeThatPullsOnLikeASpringIsOneEffect) {
-  plant::Rig truth;
-  truth.effects.get<plant::BladderElasticity>() = {.variant = plant::BladderLaw::saturating_linear,
-                                                   .stiffness_N_per_m = 400.0,
-                                                   .force_N = 60.0,
-                                                   .ratio = 0.03};
-  const Diagnosis found = diagnosis_of(on_a_bench(truth, 0.5), 2);
-  ASSERT_EQ(found.effects.size(), 1u) << found.because;
-  EXPECT_EQ(found.effects[0].name, "bladder_elasticity");
-  EXPECT_EQ(found.effects[0].variant, "saturating_linear");
-  ASSERT_EQ(found.effects[0].parameters.size(), 3u);
-  for (const FittedNumber& number : found.effects[0].parameters) {
-    const double true_value = number.name == "force" ? 60.0 : number.name == "ratio" ? 0.03 : 400.0;
-    EXPECT_LT(number.low, true_value) << number.name;
-    EXPECT_GT(number.high, true_value) << number.name;
-  }
-}
-
 TEST(BenchDiagnosis, NamesNothingWhereNothingIsMissing) {
   const Diagnosis found = diagnosis_of(on_a_bench({}, 0.5), 2);
   EXPECT_TRUE(found.effects.empty()) << found.because;

@@ -1,0 +1,22 @@
+// Where a fit of wide numbers begins: one whose value is hardly known may lie beyond a ridge that no descent
+// from what is written crosses. So the range is looked over at a few places first (Halton, Numer. Math. 2
+// (1960) 84-90), and the best of them are begun from as well.
+#pragma once
+
+#include <vector>
+
+#include <sim/diagnose/trial.hpp>
+
+namespace mckibben::diagnose {
+
+/// The model at the best places of its wide numbers, best first; none if it has no wide ones. Scored on a few
+/// of the training runs. Throws run::Interrupted.
+std::vector<Model> places_to_begin(const Case& c, const Model& described);
+
+/// The model with its nominal numbers as they are in another rig.
+Model begun_at(Model model, const RigFile& other);
+
+/// Whether fits from several places ended in valleys of different depth. `costs`: where each ended.
+bool disagree(const std::vector<double>& costs);
+
+}  // namespace mckibben::diagnose

@@ -1,0 +1,75 @@
+// Where a recalibration begins if numbers are hardly known.
+#include <cmath>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include <sim/diagnose/baseline.hpp>
+#include <sim/diagnose/starts.hpp>
+
+#include "planted.hpp"
+
+namespace mckibben::diagnose {
+namespace {
+
+/// Runs of a rig whose valve passes so many times what is written.
+struct Written {
+  domain::Dataset data;
+  std::vector<std::vector<bool>> masked;
+
+  explicit Written(double times, double deviation) {
+    plant::Rig truth;
+    truth.valve.conductance_m3_per_s_Pa *= times;
+    data = small(truth, 2.4);
+    data.rig.spreads["valve.conductance"] = deviation;
+    for (const auto& run : data.runs) masked.emplace_back(run.current_mA.size(), false);
+  }
+};
+
+constexpr double unknown = std::numeric_limits<double>::infinity();
+
+TEST(Starts, AreOneWhereNumbersAreKnown) {
+  const Written written(1.0, 1e-10);
+  const Experiment experiment(written.data, written.masked, 2);
+  Case c{experiment, written.data.rig, split(written.data, {0, 1, 2, 3, 4, 5}), 20.0, {}};
+  const Contender described = replay(c);
+  EXPECT_TRUE(places_to_begin(c, described.fitted.model).empty());
+}
+
+TEST(Starts, AreSeveralWhereANumberIsUnknownAndTheBestIsNearTheTruth) {
+  const Written written(1.8, unknown);
+  const Experiment experiment(written.data, written.masked, 2);
+  Case c{experiment, written.data.rig, split(written.data, {0, 1, 2, 3, 4, 5}), 20.0, {}};
+  const Contender described = replay(c);
+  const auto places = places_to_begin(c, described.fitted.model);
+  ASSERT_EQ(places.size(), thresholds.starts.begun);
+  const double told = written.data.rig.valve.conductance_m3_per_s_Pa;
+  EXPECT_NEAR(places.front().rig.valve.conductance_m3_per_s_Pa, 1.8 * told, 0.15 * told);
+  for (const Model& place : places) EXPECT_EQ(place.rig.friction.scale, written.data.rig.friction.scale);
+
+  const Recalibrated found = recalibrate(c, described);
+  EXPECT_EQ(found.begun, 3u);
+  EXPECT_TRUE(found.other_ends.empty());  // one valley
+  EXPECT_NEAR(found.contender.fitted.model.rig.valve.conductance_m3_per_s_Pa, 1.8 * told, 0.05 * told);
+}
+
+TEST(Starts, TakeOverNumbersButNotEffects) {
+  Model model;
+  model.free = {{.path = "muscle.rest_radius", .has_prior = true},
+                {.path = "effects.muscle_leak.conductance", .has_prior = true}};
+  RigFile other;
+  other.muscle.rest_radius_m = 0.009;
+  other.effects.get<plant::MuscleLeak>().conductance_m3_per_s_Pa = 1e-10;
+  const Model begun = begun_at(model, other);
+  EXPECT_EQ(begun.rig.muscle.rest_radius_m, 0.009);
+  EXPECT_EQ(begun.rig.effects.get<plant::MuscleLeak>().conductance_m3_per_s_Pa, 0.0);
+}
+
+TEST(Starts, DisagreeWhereOneEndsClearlyHigher) {
+  EXPECT_FALSE(disagree({}));
+  EXPECT_FALSE(disagree({100.0, 121.9, 105.0}));  // within a tenth and a clear difference
+  EXPECT_TRUE(disagree({100.0, 122.1}));
+}
+
+}  // namespace
+}  // namespace mckibben::diagnose
