@@ -4,7 +4,9 @@
 
 #include <fmt/format.h>
 
+#include <sim/diagnose/predict.hpp>
 #include <sim/diagnose/repair.hpp>
+#include <sim/run/series.hpp>
 #include <sim/run/simulate.hpp>
 
 namespace mckibben::diagnose {
@@ -38,23 +40,35 @@ Input input_of(const domain::Dataset& data) {
               (valve.span_current_mA - valve.zero_current_mA)};
 }
 
-void shift(domain::Run& run, std::vector<bool>& masked, int late) {
-  const auto rows = static_cast<int>(run.contraction_ratio.size());
-  const auto move = [&](std::vector<double>& values) {
-    const std::vector<double> was = values;
-    for (int k = 0; k < rows; ++k) {
-      const int from = std::clamp(k + late, 0, rows - 1);
-      values[static_cast<std::size_t>(k)] = was[static_cast<std::size_t>(from)];
-    }
-  };
-  move(run.contraction_ratio);
-  if (run.muscle_pressure_Pa) move(*run.muscle_pressure_Pa);
-  if (!run.force_N.empty()) move(run.force_N);
+std::vector<double> shifted(const std::vector<double>& values, int late) {
+  const auto last = static_cast<int>(values.size()) - 1;
+  std::vector<double> moved(values.size());
+  for (int k = 0; k <= last; ++k)
+    moved[static_cast<std::size_t>(k)] = values[static_cast<std::size_t>(std::clamp(k + late, 0, last))];
+  return moved;
+}
+
+/// What was read beside is shifted with the readings where it then goes with the model: a recorder may be
+/// late, or the one sensor.
+void shift(const RigFile& rig, domain::Run& run, std::vector<bool>& masked, int late) {
+  const bool beside = run.muscle_pressure_Pa || !run.force_N.empty();
+  run.contraction_ratio = shifted(run.contraction_ratio, late);
   const std::vector<bool> was = masked;
+  const auto rows = static_cast<int>(was.size());
   for (int k = 0; k < rows; ++k) {
     const int from = k + late;
     masked[static_cast<std::size_t>(k)] = from < 0 || from >= rows || was[static_cast<std::size_t>(from)];
   }
+  if (!beside) return;
+  const Hanging hanging{rig, run.load_kg};
+  const Readings model = predict(run, {&hanging, 1}, rig.integrator.method).front();
+  const auto move = [&](std::vector<double>& read, const std::vector<double>& expected) {
+    std::vector<double> moved = shifted(read, late);
+    if (run::Line(moved, expected).correlation > run::Line(read, expected).correlation)
+      read = std::move(moved);
+  };
+  if (run.muscle_pressure_Pa) move(*run.muscle_pressure_Pa, model.pressure_Pa);
+  if (!run.force_N.empty()) move(run.force_N, model.force_N);
 }
 
 /// Readings that are counted stay so: by whole counts.
@@ -141,7 +155,7 @@ void mend(domain::Dataset& data, Checked& checked, const std::vector<Fault>& fau
     domain::Run& run = data.runs[fault.run];
     const bool late = fault.kind == FaultKind::late, zero = fault.kind == FaultKind::zero;
     const bool common_drift = fault.kind == FaultKind::drift && fault.common;
-    if (late) shift(run, checked.masked[fault.run], static_cast<int>(std::round(fault.size)));
+    if (late) shift(data.rig, run, checked.masked[fault.run], static_cast<int>(std::round(fault.size)));
     if (zero) take_out(run, counts(data, run), count, fault.size, fault.size);
     if (common_drift) take_out(run, counts(data, run), count, 0.0, fault.size);
     if (late || zero || common_drift) {

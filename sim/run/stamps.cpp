@@ -25,6 +25,7 @@ constexpr double in_a_period = 3.0;       // readings, at least
 constexpr double stands_out = 4.0;        // over the median of what is beside
 constexpr double share_of_scatter = 0.1;  // of what the windows scatter by, that a tone is worth telling
 constexpr std::size_t least_windows = 5, least_in_window = 12;
+constexpr std::size_t around = 2;          // windows before and after
 constexpr std::size_t least_cut_off = 20;  // readings in a row
 constexpr double scatters = 0.2;           // of neighbours are equal, at most, in a column that scatters
 constexpr std::size_t beside_cut_off = 5;  // readings: their noise is cut off on one side
@@ -91,18 +92,28 @@ Level level(const std::vector<double>& time_s, const std::vector<double>& values
   return {median(std::move(amplitudes)), median(std::move(squares))};
 }
 
-/// Window by window; where something else is in the way, as it was in the window before.
+/// Window by window; in each as the middle one of those around it has it, so that a jump does not matter.
 void take_out(const Tone& tone, const std::vector<double>& time_s, std::vector<double>& values) {
-  Wave last_known;
+  std::vector<Wave> waves;
+  std::vector<std::size_t> begins;
   each_window(time_s, [&](std::size_t first, std::size_t last) {
-    const Wave wave = wave_in(time_s, values, first, last, tone.hz);
-    if (std::abs(wave.amplitude() - tone.amplitude) < 0.5 * tone.amplitude) last_known = wave;
-    const std::size_t end = time_s[last] + window_s <= time_s.back() ? last : time_s.size();
-    for (std::size_t k = first; k < end; ++k) {
-      const double turn = 2.0 * std::numbers::pi * tone.hz * time_s[k];
-      values[k] -= last_known.cosine * std::cos(turn) + last_known.sine * std::sin(turn);
-    }
+    waves.push_back(wave_in(time_s, values, first, last, tone.hz));
+    begins.push_back(first);
   });
+  begins.push_back(time_s.size());  // the last window goes on to the end
+  for (std::size_t i = 0; i < waves.size(); ++i) {
+    std::vector<double> cosines, sines;
+    for (std::size_t near = i > around ? i - around : 0; near < std::min(waves.size(), i + around + 1);
+         ++near) {
+      cosines.push_back(waves[near].cosine);
+      sines.push_back(waves[near].sine);
+    }
+    const double cosine = median(std::move(cosines)), sine = median(std::move(sines));
+    for (std::size_t k = begins[i]; k < begins[i + 1]; ++k) {
+      const double turn = 2.0 * std::numbers::pi * tone.hz * time_s[k];
+      values[k] -= cosine * std::cos(turn) + sine * std::sin(turn);
+    }
+  }
 }
 
 /// A column of what was read or given, and how it is called and told.

@@ -106,8 +106,8 @@ TEST(Faults, APressureThatTheMuscleDidNotHave) {
   expect_one(scaled, FaultKind::current_scale, 4, 0.05, 0.01);
   EXPECT_EQ(told(scaled, {4, FaultKind::current_scale, 0.05}).words,
             "has a pressure that is 1.050 times what the muscle had");
-  const domain::Dataset moved = driven_by_pressure(1, 1.0, 1e4);
-  expect_one(moved, FaultKind::current_offset, 1, 0.1, 0.02);
+  const domain::Dataset moved = driven_by_pressure(1, 1.0, 5e3);
+  expect_one(moved, FaultKind::current_offset, 1, 0.05, 0.01);
   EXPECT_EQ(told(moved, {1, FaultKind::zero, 0.01}).words, "has its zero moved by 3 mm");
   EXPECT_EQ(told(moved, {1, FaultKind::late, 3.0}).words, "is 36 ms late");
 }
@@ -154,6 +154,24 @@ TEST(Faults, ThatSayWhatItIsAreBetterThanAnotherRig) {
   EXPECT_TRUE(explains_more(all, two));
   EXPECT_FALSE(explains_more(all, slipped));
   EXPECT_FALSE(explains_more(slipped, all));
+}
+
+TEST(Faults, AGaugeIsShiftedOnlyIfItIsLateToo) {
+  plant::Rig gauged;
+  gauged.gauge.fitted = true;
+  auto data = small(gauged);
+  const auto before = *data.runs[1].muscle_pressure_Pa;
+  const std::vector<Fault> late{{1, FaultKind::late, 4.0}};
+  auto both = data;
+  delay(data.runs[1], 4);
+  Checked checked = no_doubts(data);
+  mend(data, checked, late);
+  EXPECT_EQ(*data.runs[1].muscle_pressure_Pa, before);
+  auto& gauge = *both.runs[1].muscle_pressure_Pa;
+  for (std::size_t k = gauge.size(); k-- > 4;) gauge[k] = gauge[k - 4];
+  checked = no_doubts(both);
+  mend(both, checked, late);
+  for (std::size_t k = 0; k + 4 < gauge.size(); ++k) ASSERT_EQ(gauge[k], before[k]);
 }
 
 TEST(Faults, AreMendedWhereThatIsSafeAndElseLeftOut) {
