@@ -32,8 +32,8 @@ void begin_elsewhere(const Case& c, const Model& described, Recalibrated& result
   if (ends.empty()) return;
   const bool ended = result.contender.fitted.failure.empty();
   if (ended) ends.push_back(result.contender);
-  std::vector<double> costs;
-  for (const Contender& end : ends) costs.push_back(end.fitted.cost);
+  std::vector<double> costs(ends.size());
+  std::ranges::transform(ends, costs.begin(), [](const Contender& end) { return end.fitted.cost; });
   const bool alike = !disagree(costs);
   if (alike && ended) return;
   const auto best = std::min_element(costs.begin(), costs.end()) - costs.begin();
