@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <limits>
 #include <optional>
+#include <string>
 
 #include <fmt/format.h>
 
@@ -34,13 +35,12 @@ std::optional<Trial> substitute(const Case& c, const Contender& smaller, const C
   return std::nullopt;
 }
 
-void forget(Naming& result, std::size_t effect) {
-  const auto place = result.effects.begin() + static_cast<std::ptrdiff_t>(effect);
-  std::erase_if(result.doubts, [&](const Doubt& doubt) { return doubt.effect == place->name; });
-  result.effects.erase(place);
-}
-
 }  // namespace
+
+void forget(Naming& result, const std::string& effect) {
+  std::erase_if(result.doubts, [&](const Doubt& doubt) { return doubt.effect == effect; });
+  std::erase_if(result.effects, [&](const NamedEffect& named) { return named.name == effect; });
+}
 
 void revise(const Case& c, Naming& result, const Eigen::VectorXd& reference, const Step& step) {
   for (std::size_t i = 0; i + 1 < result.best.fitted.model.effects.size();) {
@@ -55,7 +55,7 @@ void revise(const Case& c, Naming& result, const Eigen::VectorXd& reference, con
     if (!needed) {
       give_up(result.ranking, old, "not needed beside what came later");
       result.best = std::move(smaller);
-      forget(result, i);
+      forget(result, old.effect);
       continue;
     }
     if (!meets(result.best)) {
@@ -65,7 +65,7 @@ void revise(const Case& c, Naming& result, const Eigen::VectorXd& reference, con
         take(c, result.ranking, candidate, *better, smaller.fitted.cost - better->contender.fitted.cost,
              "serves better than " + title(old));
         result.best = std::move(better->contender);
-        forget(result, i);  // the new one stands last in the model, too
+        forget(result, old.effect);  // the new one stands last in the model, too
         result.effects.push_back({.name = candidate.effect, .variant = candidate.variant});
         continue;
       }
@@ -97,8 +97,8 @@ void drop_uncertain(const Case& c, Naming& result, const Step& step) {
     auto smaller = contend(c, without(fitted.model, i));
     if (!smaller.fitted.failure.empty()) return;
     give_up(result.ranking, candidate, "its 95 % interval reaches nothing");
+    forget(result, candidate.effect);
     result.best = std::move(smaller);
-    forget(result, i);
   }
 }
 
