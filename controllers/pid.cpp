@@ -55,7 +55,7 @@ PidLoop::PidLoop(const PidTerms& terms, const Knowledge& knowledge)
       h_s_(terms.sample_ticks * knowledge.tick_s),
       highest_mA_(std::min(*terms_.highest_current_mA, knowledge.largest_current_mA)),
       lowest_mA_(std::min(*terms_.lowest_current_mA, highest_mA_)),
-      past_counts_(static_cast<std::size_t>(terms.feedback_delay_ticks) + 1) {
+      delayed_(terms.feedback_delay_ticks) {
   const double usual_s = Td_s_ > 0.0 ? std::sqrt(Ti_s_ * Td_s_) : Ti_s_;
   Tt_s_ = std::max(terms.tracking_time_s.value_or(usual_s), h_s_);  // faster than a sample would swing
 }
@@ -65,17 +65,9 @@ double PidLoop::clamped(double current_mA) const {
 }
 
 double PidLoop::step(const Reading& reading, double base_mA) {
-  const std::int64_t counts = delayed(reading);
+  const std::int64_t counts = delayed_(reading.counts);
   if (first_ || reading.tick % terms_.sample_ticks == 0) output_mA_ = sample(counts, reading.tick, base_mA);
   return output_mA_;
-}
-
-// Counts of feedback_delay_ticks ago; before the first reading the rig stood still.
-std::int64_t PidLoop::delayed(const Reading& reading) {
-  if (first_) std::fill(past_counts_.begin(), past_counts_.end(), reading.counts);
-  past_counts_[oldest_] = reading.counts;
-  oldest_ = (oldest_ + 1) % past_counts_.size();
-  return past_counts_[oldest_];
 }
 
 double PidLoop::sample(std::int64_t counts, std::int64_t tick, double base_mA) {

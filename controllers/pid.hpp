@@ -2,15 +2,14 @@
 // filter, back-calculation against windup (Astrom & Hagglund 1995, section 3). Encoder counts in, mA out.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include <controllers/current_range.hpp>
+#include <controllers/delayed.hpp>
 
 namespace mckibben::controllers {
 
@@ -75,7 +74,6 @@ class PidLoop {
   double clamped(double current_mA) const;
 
  private:
-  std::int64_t delayed(const Reading& reading);
   double sample(std::int64_t counts, std::int64_t tick, double base_mA);
 
   PidTerms terms_;
@@ -83,8 +81,7 @@ class PidLoop {
   double K_mA_, Ti_s_, Td_s_, h_s_;
   double highest_mA_, lowest_mA_;
   double Tt_s_ = 0.0;
-  std::vector<std::int64_t> past_counts_;
-  std::size_t oldest_ = 0;
+  Delayed<std::int64_t> delayed_;
   bool first_ = true;
   double y_before_ = 0.0, I_mA_ = 0.0, D_mA_ = 0.0, output_mA_ = 0.0;
 };

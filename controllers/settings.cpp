@@ -45,13 +45,22 @@ std::optional<CurrentRange> limits_of(const Settings& settings, const Knowledge&
   if (const PidTerms* terms = pid_terms(complete))
     return CurrentRange{*terms->lowest_current_mA,
                         std::min(*terms->highest_current_mA, knowledge.largest_current_mA)};
-  if (calibrated(complete) != nullptr || std::holds_alternative<StaticInverseSettings>(complete))
+  if (calibrated(complete) != nullptr || model_terms(complete) != nullptr ||
+      std::holds_alternative<StaticInverseSettings>(complete))
     return working_range(knowledge);
   return std::nullopt;
 }
 
 PidTerms* pid_terms(Settings& settings) {
   return part_of<PidTerms>(settings);
+}
+
+ModelTerms* model_terms(Settings& settings) {
+  return part_of<ModelTerms>(settings);
+}
+
+const ModelTerms* model_terms(const Settings& settings) {
+  return part_of<const ModelTerms>(settings);
 }
 
 CalibratedSettings* calibrated(Settings& settings) {

@@ -8,6 +8,8 @@
 
 #include <controllers/controller.hpp>
 #include <controllers/feedforward_pid.hpp>
+#include <controllers/model_inverse.hpp>
+#include <controllers/model_inverse_feedback.hpp>
 #include <controllers/open_loop.hpp>
 #include <controllers/open_loop_limited.hpp>
 #include <controllers/pid.hpp>
@@ -16,9 +18,10 @@
 
 namespace mckibben::controllers {
 
-using Settings = std::variant<PidSettings, FeedforwardPidSettings, OpenLoopSettings, OpenLoopLimitedSettings,
-                              StaticInverseSettings, SineCurrent, TriangleCurrent, StepCurrent, StairCurrent,
-                              ChirpCurrent, RecordedCurrent>;
+using Settings =
+    std::variant<PidSettings, FeedforwardPidSettings, OpenLoopSettings, OpenLoopLimitedSettings,
+                 StaticInverseSettings, ModelInverseSettings, ModelInverseFeedbackSettings, SineCurrent,
+                 TriangleCurrent, StepCurrent, StairCurrent, ChirpCurrent, RecordedCurrent>;
 
 /// A controller at its beginning. Throws std::invalid_argument if the settings are incomplete: a PID whose
 /// gains are still to be tuned, a recording that was not read.
@@ -39,5 +42,9 @@ PidTerms* pid_terms(Settings& settings);
 /// What a controller that needs a calibration says about it, else null.
 CalibratedSettings* calibrated(Settings& settings);
 const CalibratedSettings* calibrated(const Settings& settings);
+
+/// What a controller that plans with a model says about it, else null.
+ModelTerms* model_terms(Settings& settings);
+const ModelTerms* model_terms(const Settings& settings);
 
 }  // namespace mckibben::controllers

@@ -50,6 +50,15 @@ inline Parameter* find(std::vector<Parameter>& parameters, std::string_view key)
   return nullptr;
 }
 
+/// The law of this effect that a key is the amplitude of: the variant's own, or that it adds to; null if it
+/// is of neither.
+template <class E>
+const Variant* sized_by(const Variant& variant, std::string_view key) {
+  for (const Variant& law : E::variants)
+    if ((law.name == variant.name || law.name == variant.adds_to) && law.amplitude == key) return &law;
+  return nullptr;
+}
+
 /// Makes an effect as large as `share` of its variant's typical size.
 template <class E>
 void switch_on(E& effect, const Variant& variant, double share = 1.0) {

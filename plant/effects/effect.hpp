@@ -146,6 +146,7 @@ struct Variant {
   double step;                 ///< deviation for differences: small where the law is smooth at `absent`
   std::string_view shape{};    ///< key of the parameter that shapes it; empty if there is none
   double low = 0.0, middle = 0.0, high = 0.0;  ///< shapes to begin from
+  std::string_view adds_to{};  ///< the law that this one is with a term more; it is looked for beside that
 };
 
 }  // namespace mckibben::plant

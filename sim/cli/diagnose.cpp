@@ -23,6 +23,7 @@
 #include <sim/run/batch.hpp>
 #include <sim/run/judged.hpp>
 #include <sim/run/replay.hpp>
+#include <sim/run/stamps.hpp>
 
 namespace mckibben::cli {
 namespace {
@@ -67,9 +68,10 @@ struct Found {
 
 /// Says what is known so far where it is interrupted.
 template <class Hook>
-Found find(const domain::Dataset& data, const DiagnoseOptions& options, const Hook& hook) {
+Found find(const domain::Dataset& data, const DiagnoseOptions& options,
+           const std::vector<std::string>& warnings, const Hook& hook) {
   std::vector<std::string> known;
-  const diagnose::Settings settings{options.threads, options.seed.value_or(1), options.time_limit_s,
+  const diagnose::Settings settings{options.threads, options.seed.value_or(1), options.time_limit_s, warnings,
                                     [&](const std::string& what) { known.push_back(what); }};
   try {
     Found found{diagnose::diagnose(data, settings, hook), {}, {}};
@@ -88,13 +90,14 @@ int diagnose_dataset(const DiagnoseOptions& options) {
   domain::Dataset data = input::read_dataset(options.dataset);
   if (!options.rig.empty()) data.rig = input::read_rig(options.rig, data.inputs);
   input::require_judged(data, "diagnose");
+  const std::vector<std::string> warnings = run::mend_at_stamps(data);
   data = run::with_rows(std::move(data));
   const std::string name = output::name_of(data);
   check_plan(options.plan);
   Job job(options, "diagnose " + options.dataset, "diagnose-" + name, data.inputs);
   Found found;
   try {
-    found = with_progress(name, [&](const auto& hook) { return find(data, options, hook); });
+    found = with_progress(name, [&](const auto& hook) { return find(data, options, warnings, hook); });
   } catch (const engine::NumericalFailure& error) {
     say(fmt::format("the data cannot be simulated on this rig: {}", error.what()));
     return failure;

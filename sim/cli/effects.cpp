@@ -80,10 +80,11 @@ std::vector<Json> examples(const Entry& entry) {
   for (const plant::Variant& variant : entry.variants) {
     Json keys = Json::object();
     if (!variant.name.empty()) keys["variant"] = variant.name;
-    keys[std::string(variant.amplitude)] =
-        quantity(entry, variant.amplitude, variant.absent + variant.typical);
-    if (!variant.shape.empty())
-      keys[std::string(variant.shape)] = quantity(entry, variant.shape, variant.middle);
+    for (const plant::Variant& law : entry.variants) {
+      if (law.name != variant.name && law.name != variant.adds_to) continue;
+      keys[std::string(law.amplitude)] = quantity(entry, law.amplitude, law.absent + law.typical);
+      if (!law.shape.empty()) keys[std::string(law.shape)] = quantity(entry, law.shape, law.middle);
+    }
     list.push_back({{"effects", {{std::string(entry.name), keys}}}});
   }
   if (is_residual(entry))
@@ -157,7 +158,7 @@ std::string overview(const std::vector<Entry>& all) {
   for (const Entry& entry : all) {
     std::string size;
     for (const plant::Variant& variant : entry.variants)
-      size += (size.empty() ? "" : " or ") + std::string(variant.amplitude);
+      if (variant.adds_to.empty()) size += (size.empty() ? "" : " or ") + std::string(variant.amplitude);
     if (!is_residual(entry))
       grid.add({std::string(entry.name), entry.acts_on, size, std::string(entry.sentence)});
   }

@@ -209,10 +209,18 @@ class DatasetChecker {
     if (left_out_[i]) return;
     const auto lost = std::count(masked.begin(), masked.end(), true);
     if (const auto row = lost_counts(values, sharpest, masked, count_))
-      leave_out(i, fmt::format("{} jumps by {:.3g} at {:.3f} s and stays there: counts were lost", reading(),
-                               values[*row] - values[*row - 1], time_s(*row)));
+      leave_out(i, lost_in_words(i, values[*row] - values[*row - 1], time_s(*row)));
     else if (static_cast<double>(lost) > of_check.most_masked * static_cast<double>(masked.size()))
       leave_out(i, "too little of it is left");
+  }
+
+  std::string lost_in_words(std::size_t i, double jump, double at_s) const {
+    if (counts(data_, data_.runs[i]))
+      return fmt::format("{} jumps by {:.3g} at {:.3f} s and stays there: counts were lost", reading(), jump,
+                         at_s);
+    return fmt::format(
+        "{} jumps by {} at {:.3f} s and stays there: the sensor was moved, or what it looks at", reading(),
+        amount(jump), at_s);
   }
 
   // What a sensor reads at the end of its range is no position.

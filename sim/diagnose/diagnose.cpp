@@ -123,7 +123,8 @@ class Workflow {
 
   void tell_check() {
     result_.seed = settings_.seed;
-    result_.warnings = run::grouped(checked_.warnings);
+    result_.warnings = settings_.warnings;
+    for (std::string& what : run::grouped(checked_.warnings)) warn(std::move(what));
     result_.faults = checked_.faulty;
     result_.false_alarm_rate = thresholds.decide.false_alarm_rate;
     result_.corrected = data_.rig;

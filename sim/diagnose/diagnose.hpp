@@ -18,6 +18,7 @@
 #include <functional>
 #include <limits>
 #include <string>
+#include <vector>
 
 #include <sim/diagnose/diagnosis.hpp>
 #include <sim/run/compare.hpp>
@@ -29,6 +30,7 @@ struct Settings {
   std::uint64_t seed = 1;
   double time_limit_s =
       std::numeric_limits<double>::infinity();        ///< for the search; the numbers come after it
+  std::vector<std::string> warnings{};                ///< of the recordings, known before; told first
   std::function<void(const std::string&)> learned{};  ///< hears what is known so far, a sentence at a time
 };
 

@@ -152,7 +152,7 @@ namespace {
 void replace(Naming& result, const Candidate& effect, const Contender& numbers) {
   give_up(result.ranking, effect,
           fmt::format("other numbers do as well: {}", fmt::join(exceeding(numbers.fitted.model), ", ")));
-  forget(result, effect.effect);
+  forget(result, effect);
 }
 
 }  // namespace

@@ -117,13 +117,29 @@ void tidy_doubts(Naming& result) {
   std::erase_if(result.doubts, [&](const Doubt& doubt) { return named(doubt.rival); });
 }
 
+/// A law that has got a term more is one effect, under the name of the longer law.
+void merge_laws(const Model& model, Naming& result) {
+  for (const Candidate& added : model.effects) {
+    if (added.adds_to.empty()) continue;
+    const auto of_it = [&](const NamedEffect& effect) { return effect.name == added.effect; };
+    const auto first = std::ranges::find_if(result.effects, of_it);
+    const auto again = std::find_if(std::next(first), result.effects.end(), of_it);
+    if (again == result.effects.end()) continue;  // the rig had the shorter law already
+    for (const std::string& rival : again->confusable_with)
+      if (std::ranges::find(first->confusable_with, rival) == first->confusable_with.end())
+        first->confusable_with.push_back(rival);
+    first->variant = added.variant;
+    result.effects.erase(again);
+  }
+}
+
 /// Effects whose usual size would change these readings, next to what the free parameters can, by less than
 /// a test at 5 % finds as a rule.
 std::vector<std::string> invisible(const Case& c, const std::vector<Score>& scores) {
   std::vector<std::string> names;
   for (const Score& score : scores) {
     const Candidate& candidate = score.candidate;
-    if (carries(c.nominal, candidate.effect)) continue;
+    if (!candidate.fits(c.nominal)) continue;
     const double drop = score.column.squaredNorm() * candidate.typical * candidate.typical;
     if (drop < thresholds.screen.visible) names.push_back(title(candidate));
   }
@@ -160,15 +176,20 @@ void tell_first(const Case& c, const std::vector<Screening>& screenings, Naming&
 }
 
 /// The best fit of those that convince on the runs held out; with nothing left there, one that relieves
-/// strained priors. Null if there is none.
+/// strained priors. Beside another effect, one whose shape a fit has driven to a bound mends that one's law.
+/// Null if there is none.
 const Trial* choose(const std::vector<Trial>& trials, const Contender& best, double left, double whole_gap) {
+  const bool beside = !best.fitted.model.effects.empty();
   for (const Trial& trial : trials) {
-    if (!has_size(trial.contender.fitted.model, trial.score.candidate)) continue;
+    const Model& model = trial.contender.fitted.model;
+    if (!has_size(model, trial.score.candidate)) continue;
+    if (beside && !has_shape(model, trial.score.candidate)) continue;
     const double fall = best.fitted.cost - trial.contender.fitted.cost;
     const bool relieves = left <= thresholds.near.nothing_left && trial.gain.gained > -to_name.relief_loss &&
                           fall > thresholds.near.clear;
-    const bool worthwhile =
-        fall > thresholds.near.chance && trial.gain.gained > to_name.least_of_all * whole_gap;
+    const bool mends_its_own = !trial.score.candidate.adds_to.empty();
+    const bool worthwhile = fall > thresholds.near.chance &&
+                            trial.gain.gained > to_name.least_of_all * (mends_its_own ? left : whole_gap);
     if ((convinces(trial.gain) && worthwhile) || relieves) return &trial;
   }
   return nullptr;
@@ -247,6 +268,7 @@ Naming name_effects(const Case& c, const Contender& nominal, const Contender& re
   drop_uncertain(c, result, step);
   tidy_doubts(result);
   sort_by_importance(c, result);
+  merge_laws(result.best.fitted.model, result);
   return result;
 }
 

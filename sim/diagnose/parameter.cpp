@@ -251,7 +251,9 @@ void Candidate::put(RigFile& rig, double size, double with_shape) const {
   put(rig, size);
 }
 
-RigFile Candidate::chosen(RigFile rig) const {
+namespace {
+
+RigFile with_law(RigFile rig, std::string_view effect, std::string_view variant) {
   with_effect(rig, effect, [&](auto& mine) {
     if constexpr (requires { mine.variant; }) {
       for (const auto& [law, name] : names(mine.variant))
@@ -261,17 +263,43 @@ RigFile Candidate::chosen(RigFile rig) const {
   return rig;
 }
 
+/// Whether an effect is there with a law: the one of this name, or one that adds to it.
+template <class E>
+bool has_law(const E& mine, std::string_view variant) {
+  if constexpr (requires { mine.variant; }) {
+    std::string_view chosen;
+    for (const auto& [law, name] : names(mine.variant))
+      if (law == mine.variant) chosen = name;
+    return std::ranges::any_of(E::variants, [&](const plant::Variant& law) {
+      return law.name == chosen && (law.name == variant || law.adds_to == variant);
+    });
+  }
+  return true;
+}
+
+}  // namespace
+
+RigFile Candidate::chosen(RigFile rig) const {
+  return with_law(std::move(rig), effect, variant);
+}
+
 bool Candidate::carried(RigFile rig) const {
   bool present = false;
-  with_effect(rig, effect, [&](const auto& mine) {
-    bool same_law = true;
-    if constexpr (requires { mine.variant; }) {
-      for (const auto& [law, name] : names(mine.variant))
-        if (law == mine.variant) same_law = name == variant;
-    }
-    present = present || (!mine.absent() && same_law);
-  });
+  with_effect(rig, effect,
+              [&](const auto& mine) { present = present || (!mine.absent() && has_law(mine, variant)); });
   return present;
+}
+
+bool Candidate::fits(const RigFile& rig) const {
+  if (adds_to.empty()) return !carries(rig, effect);
+  Candidate base = *this;
+  base.variant = adds_to;
+  return base.carried(rig) && !carried(rig);
+}
+
+RigFile Candidate::removed(RigFile rig) const {
+  put(rig, absent);
+  return adds_to.empty() ? rig : with_law(std::move(rig), effect, adds_to);
 }
 
 std::vector<Parameter> Candidate::parameters(const RigFile& rig) const {
@@ -353,7 +381,8 @@ std::vector<Candidate> in_sight(const Sight& sight) {
                   .typical = law.typical,
                   .step = law.step,
                   .either_sign = law.sign == plant::Sign::either,
-                  .shapes = {}};
+                  .shapes = {},
+                  .adds_to = std::string(law.adds_to)};
       if (!law.shape.empty()) c.shapes = {law.low, law.middle, law.high};
       list.push_back(std::move(c));
     }

@@ -66,14 +66,19 @@ struct Candidate {
   double absent = 0.0, typical = 0.0, step = 0.0;
   bool either_sign = false;
   std::vector<double> shapes;  ///< to begin from
+  std::string adds_to{};       ///< the law that this one is with a term more; empty if it stands alone
 
   /// Gives it this size in a rig; and a shape, if it has one.
   void put(RigFile& rig, double size) const;
   void put(RigFile& rig, double size, double with_shape) const;
   /// The rig with this law chosen, still without size.
   RigFile chosen(RigFile rig) const;
-  /// Whether the rig has this effect, with this law.
+  /// Whether the rig has this effect, with this law or one that adds to it.
   bool carried(RigFile rig) const;
+  /// Whether a rig may get it: one without this effect, or with the law that it adds to.
+  bool fits(const RigFile& rig) const;
+  /// The rig without it; with what it adds to.
+  RigFile removed(RigFile rig) const;
   /// What a fit moves: amplitude and, if any, shape.
   std::vector<Parameter> parameters(const RigFile& rig) const;
 };

@@ -24,6 +24,9 @@ std::string outcome_of(const Case& c, const Trial& trial, const Trial* chosen) {
   if (&trial == chosen) return std::string(taken) + "the best fit, and better on runs held out";
   if (!has_size(trial.contender.fitted.model, trial.score.candidate))
     return "its size went to nothing or to a bound";
+  if (trial.contender.fitted.model.effects.size() > 1 &&
+      !has_shape(trial.contender.fitted.model, trial.score.candidate))
+    return "its shape went to a bound: it mends the law of what is named";
   if (chosen != nullptr)
     return as_good(c, chosen->contender, trial.contender) ? "explains the data as well" : "fits less well";
   if (trial.gain.gained > 0.0) return "helps too little on runs held out";

@@ -4,52 +4,94 @@
 
 #include <fmt/format.h>
 
+#include <sim/diagnose/predict.hpp>
 #include <sim/diagnose/repair.hpp>
+#include <sim/run/series.hpp>
 #include <sim/run/simulate.hpp>
 
 namespace mckibben::diagnose {
 namespace {
 
-std::string ticks(double number) {
+/// Ticks of a rig that has any; else a time.
+std::string ticks(const domain::Dataset& data, double number) {
   const double whole = std::abs(std::round(number));
+  if (data.own_clock) return fmt::format("{:.0f} ms", 1e3 * whole * data.row_s());
   return fmt::format("{:.0f} tick{}", whole, whole == 1.0 ? "" : "s");
 }
 
-void shift(domain::Run& run, std::vector<bool>& masked, int late) {
-  const auto rows = static_cast<int>(run.contraction_ratio.size());
-  const auto move = [&](std::vector<double>& values) {
-    const std::vector<double> was = values;
-    for (int k = 0; k < rows; ++k) {
-      const int from = std::clamp(k + late, 0, rows - 1);
-      values[static_cast<std::size_t>(k)] = was[static_cast<std::size_t>(from)];
-    }
-  };
-  move(run.contraction_ratio);
-  if (run.muscle_pressure_Pa) move(*run.muscle_pressure_Pa);
-  if (!run.force_N.empty()) move(run.force_N);
+/// Counts of an encoder; of another sensor the load's way.
+std::string moved(const domain::Dataset& data, const domain::Run& run, double ratio) {
+  if (counts(data, run)) return fmt::format("{:.1f} counts", ratio / run::contraction_per_count(data.rig));
+  return fmt::format("{:.2g} mm", 1e3 * data.rig.muscle.rest_length_m * ratio);
+}
+
+/// What drives the muscle, as the data set has it.
+struct Input {
+  std::string kind, words, of;
+  std::string unit;
+  double per_size;  ///< of its unit
+};
+Input input_of(const domain::Dataset& data) {
+  if (data.pressure_is_given()) return {"pressure", "pressure", "the muscle", "bar", 1.0};
+  const plant::Valve& valve = data.rig.valve;
+  if (!valve.has_own_command()) return {"current", "current", "the valve", "mA", 1.0};
+  return {"command", "command", "the valve", std::string(plant::name_of(valve.zero_command.unit)),
+          (valve.span_command.value - valve.zero_command.value) /
+              (valve.span_current_mA - valve.zero_current_mA)};
+}
+
+std::vector<double> shifted(const std::vector<double>& values, int late) {
+  const auto last = static_cast<int>(values.size()) - 1;
+  std::vector<double> moved(values.size());
+  for (int k = 0; k <= last; ++k)
+    moved[static_cast<std::size_t>(k)] = values[static_cast<std::size_t>(std::clamp(k + late, 0, last))];
+  return moved;
+}
+
+/// What was read beside is shifted with the readings where it then goes with the model: a recorder may be
+/// late, or the one sensor.
+void shift(const RigFile& rig, domain::Run& run, std::vector<bool>& masked, int late) {
+  const bool beside = run.muscle_pressure_Pa || !run.force_N.empty();
+  run.contraction_ratio = shifted(run.contraction_ratio, late);
   const std::vector<bool> was = masked;
+  const auto rows = static_cast<int>(was.size());
   for (int k = 0; k < rows; ++k) {
     const int from = k + late;
     masked[static_cast<std::size_t>(k)] = from < 0 || from >= rows || was[static_cast<std::size_t>(from)];
   }
+  if (!beside) return;
+  const Hanging hanging{rig, run.load_kg};
+  const Readings model = predict(run, {&hanging, 1}, rig.integrator.method).front();
+  const auto move = [&](std::vector<double>& read, const std::vector<double>& expected) {
+    std::vector<double> moved = shifted(read, late);
+    if (run::Line(moved, expected).correlation > run::Line(read, expected).correlation)
+      read = std::move(moved);
+  };
+  if (run.muscle_pressure_Pa) move(*run.muscle_pressure_Pa, model.pressure_Pa);
+  if (!run.force_N.empty()) move(run.force_N, model.force_N);
 }
 
-/// By whole counts: readings that are counted stay so.
-void take_out(domain::Run& run, double count, double at_begin, double at_end) {
+/// Readings that are counted stay so: by whole counts.
+void take_out(domain::Run& run, bool counted, double count, double at_begin, double at_end) {
   const auto rows = run.contraction_ratio.size();
   for (std::size_t k = 0; k < rows; ++k) {
     const double share = static_cast<double>(k) / static_cast<double>(std::max<std::size_t>(rows, 2) - 1);
-    run.contraction_ratio[k] -= count * std::round(std::lerp(at_begin, at_end, share) / count);
+    const double off = std::lerp(at_begin, at_end, share);
+    run.contraction_ratio[k] -= counted ? count * std::round(off / count) : off;
   }
 }
 
 }  // namespace
 
+bool counts(const domain::Dataset& data, const domain::Run& run) {
+  return run.measured ? run.measured->counted : data.rig.sensor.absent();
+}
+
 FaultyRun told(const domain::Dataset& data, const Fault& fault) {
   const domain::Run& run = data.runs[fault.run];
-  const double count = run::contraction_per_count(data.rig);
+  const Input input = input_of(data);
   const double length_mm = 1e3 * data.rig.muscle.rest_length_m;
-  const double at_s = static_cast<double>(fault.row) * data.row_s();
+  const double at_s = data.rows_begin_s() + static_cast<double>(fault.row) * data.row_s();
   FaultyRun faulty{.run = run.id,
                    .kind = "",
                    .size = fault.size,
@@ -64,16 +106,18 @@ FaultyRun told(const domain::Dataset& data, const Fault& fault) {
   switch (fault.kind) {
     case FaultKind::late:
       faulty.size = std::round(fault.size);
-      tell("late", "tick", fmt::format("is {} {}", ticks(fault.size), fault.size > 0.0 ? "late" : "early"));
+      tell("late", "tick",
+           fmt::format("is {} {}", ticks(data, fault.size), fault.size > 0.0 ? "late" : "early"));
       break;
     case FaultKind::current_scale:
-      tell("current_scale", "1",
-           fmt::format("has a current that is {:.3f} times what the valve had", 1.0 + fault.size));
+      tell(input.kind + "_scale", "1",
+           fmt::format("has a {} that is {:.3f} times what {} had", input.words, 1.0 + fault.size, input.of));
       break;
     case FaultKind::current_offset:
-      tell("current_offset", "mA",
-           fmt::format("has a current that is {:.2f} mA {} than what the valve had", std::abs(fault.size),
-                       fault.size > 0.0 ? "more" : "less"));
+      faulty.size *= input.per_size;
+      tell(input.kind + "_offset", input.unit,
+           fmt::format("has a {} that is {:.2f} {} {} than what {} had", input.words, std::abs(faulty.size),
+                       input.unit, faulty.size > 0.0 ? "more" : "less", input.of));
       break;
     case FaultKind::drift:
       faulty.size *= 1e-3 * length_mm;
@@ -81,11 +125,11 @@ FaultyRun told(const domain::Dataset& data, const Fault& fault) {
            fmt::format("drifts by {:.2g} mm from its beginning to its end", length_mm * fault.size));
       break;
     case FaultKind::zero:
-      tell("zero", "1", fmt::format("has its zero moved by {:.1f} counts", fault.size / count));
+      tell("zero", "1", fmt::format("has its zero moved by {}", moved(data, run, fault.size)));
       break;
     case FaultKind::slipped:
       tell("slipped", "1",
-           fmt::format("slipped by {:.1f} counts at about {:.1f} s", fault.size / count, at_s));
+           fmt::format("slipped by {} at about {:.1f} s", moved(data, run, fault.size), at_s));
       break;
     case FaultKind::reading_scale:
       tell("reading_scale", "1",
@@ -94,7 +138,7 @@ FaultyRun told(const domain::Dataset& data, const Fault& fault) {
     case FaultKind::rows_lost:
       tell("rows_lost", "tick",
            fmt::format("{} about {} of readings at about {:.1f} s (rows are missing or double)",
-                       fault.size > 0.0 ? "lost" : "repeats", ticks(fault.size), at_s));
+                       fault.size > 0.0 ? "lost" : "repeats", ticks(data, fault.size), at_s));
       break;
     case FaultKind::another_rig:
       tell("another_rig", "",
@@ -111,9 +155,9 @@ void mend(domain::Dataset& data, Checked& checked, const std::vector<Fault>& fau
     domain::Run& run = data.runs[fault.run];
     const bool late = fault.kind == FaultKind::late, zero = fault.kind == FaultKind::zero;
     const bool common_drift = fault.kind == FaultKind::drift && fault.common;
-    if (late) shift(run, checked.masked[fault.run], static_cast<int>(std::round(fault.size)));
-    if (zero) take_out(run, count, fault.size, fault.size);
-    if (common_drift) take_out(run, count, 0.0, fault.size);
+    if (late) shift(data.rig, run, checked.masked[fault.run], static_cast<int>(std::round(fault.size)));
+    if (zero) take_out(run, counts(data, run), count, fault.size, fault.size);
+    if (common_drift) take_out(run, counts(data, run), count, 0.0, fault.size);
     if (late || zero || common_drift) {
       faulty.action = "corrected";
       faulty.words += late ? " and was shifted" : " (corrected)";

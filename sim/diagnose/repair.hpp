@@ -7,11 +7,15 @@
 
 namespace mckibben::diagnose {
 
+/// Whether a run's readings are counts of an encoder.
+bool counts(const domain::Dataset& data, const domain::Run& run);
+
 /// The fault as it is told; without what is done about it.
 FaultyRun told(const domain::Dataset& data, const Fault& fault);
 
-/// Readings that come late are shifted by whole ticks, a moved zero is taken out, and so is a drift that all
-/// runs have; other runs are left out. All is told in `checked.faulty`.
+/// Readings that come late are shifted by whole ticks, with what was read beside if that is late too; a moved
+/// zero is taken out, and so is a drift that all runs have; other runs are left out. All is told in
+/// `checked.faulty`.
 void mend(domain::Dataset& data, Checked& checked, const std::vector<Fault>& faults);
 
 }  // namespace mckibben::diagnose

@@ -37,9 +37,11 @@ std::optional<Trial> substitute(const Case& c, const Contender& smaller, const C
 
 }  // namespace
 
-void forget(Naming& result, const std::string& effect) {
-  std::erase_if(result.doubts, [&](const Doubt& doubt) { return doubt.effect == effect; });
-  std::erase_if(result.effects, [&](const NamedEffect& named) { return named.name == effect; });
+void forget(Naming& result, const Candidate& gone) {
+  std::erase_if(result.effects,
+                [&](const NamedEffect& effect) { return goes_with(effect.name, effect.variant, gone); });
+  if (gone.adds_to.empty())
+    std::erase_if(result.doubts, [&](const Doubt& doubt) { return doubt.effect == gone.effect; });
 }
 
 void revise(const Case& c, Naming& result, const Eigen::VectorXd& reference, const Step& step) {
@@ -55,7 +57,7 @@ void revise(const Case& c, Naming& result, const Eigen::VectorXd& reference, con
     if (!needed) {
       give_up(result.ranking, old, "not needed beside what came later");
       result.best = std::move(smaller);
-      forget(result, old.effect);
+      forget(result, old);
       continue;
     }
     if (!meets(result.best)) {
@@ -65,7 +67,7 @@ void revise(const Case& c, Naming& result, const Eigen::VectorXd& reference, con
         take(c, result.ranking, candidate, *better, smaller.fitted.cost - better->contender.fitted.cost,
              "serves better than " + title(old));
         result.best = std::move(better->contender);
-        forget(result, old.effect);  // the new one stands last in the model, too
+        forget(result, old);  // the new one stands last in the model, too
         result.effects.push_back({.name = candidate.effect, .variant = candidate.variant});
         continue;
       }
@@ -79,7 +81,7 @@ void drop_uncertain(const Case& c, Naming& result, const Step& step) {
     const Fitted& fitted = result.best.fitted;
     const double inflation = variance_inflation(c.experiment, fitted.residuals, c.split.training);
     const auto bounds = intervals(c.experiment, fitted, c.split.training, inflation);
-    const Candidate& candidate = fitted.model.effects[i];
+    const Candidate candidate = fitted.model.effects[i];
     bool certain = false;
     for (std::size_t j = 0; j < bounds.size(); ++j) {
       const Parameter& p = fitted.model.free[j];
@@ -97,8 +99,8 @@ void drop_uncertain(const Case& c, Naming& result, const Step& step) {
     auto smaller = contend(c, without(fitted.model, i));
     if (!smaller.fitted.failure.empty()) return;
     give_up(result.ranking, candidate, "its 95 % interval reaches nothing");
-    forget(result, candidate.effect);
     result.best = std::move(smaller);
+    forget(result, candidate);
   }
 }
 

@@ -2,8 +2,6 @@
 // have no certain size, and which matters most.
 #pragma once
 
-#include <string>
-
 #include <sim/diagnose/name.hpp>
 
 namespace mckibben::diagnose {
@@ -16,7 +14,7 @@ void revise(const Case& c, Naming& result, const Eigen::VectorXd& reference, con
 void drop_uncertain(const Case& c, Naming& result, const Step& step);
 
 /// Takes an effect and what was said of it out of the names.
-void forget(Naming& result, const std::string& effect);
+void forget(Naming& result, const Candidate& gone);
 
 /// Sorts by how much worse the runs held out are without each effect, everything else as it is.
 void sort_by_importance(const Case& c, Naming& result);

@@ -45,7 +45,7 @@ std::vector<Score> screen(const Experiment& experiment, const Fitted& fitted,
   std::vector<Experiment::Change> changes;
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     const Candidate& c = candidates[i];
-    if (carries(fitted.model.rig, c.effect)) continue;
+    if (!c.fits(fitted.model.rig)) continue;
     const auto shapes = c.shapes.empty() ? std::vector{0.0} : c.shapes;
     for (const double shape : shapes) {
       for (const double size : {c.step, thresholds.parameter.probe * c.typical}) {

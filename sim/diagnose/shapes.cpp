@@ -26,11 +26,30 @@ Eigen::VectorXd ramp(Eigen::Index rows) {
   return Eigen::VectorXd::LinSpaced(rows, 0.0, 1.0);
 }
 
-std::vector<Experiment::Change> currents_in_error() {
+std::vector<Experiment::Change> inputs_in_error(bool pressure_is_given) {
   constexpr double share = thresholds.fault.current_share, offset_mA = thresholds.fault.current_mA;
+  if (pressure_is_given) {
+    constexpr double offset_bar = thresholds.fault.pressure_bar;
+    const auto gauge = [](plant::GaugeLaw law, const auto& change) {
+      return [=](Hanging& h) {
+        auto& error = h.rig.effects.get<plant::GaugeError>();
+        if (error.absent()) error.variant = law;
+        change(error);
+      };
+    };
+    return {{gauge(plant::GaugeLaw::gain, [](plant::GaugeError& error) { error.gain += share; }), share},
+            {gauge(plant::GaugeLaw::offset,
+                   [](plant::GaugeError& error) { error.offset_Pa += offset_bar * plant::Pa_per_bar; }),
+             offset_bar}};
+  }
   return {{[](Hanging& h) {
-             h.rig.valve.zero_current_mA *= 1.0 + share;
-             h.rig.valve.span_current_mA *= 1.0 + share;
+             plant::Valve& valve = h.rig.valve;
+             const bool own = valve.has_own_command();  // whose nothing is another current than none
+             const double zero_mA = own ? valve.current_for_mA((1.0 + share) * valve.zero_command.value)
+                                        : (1.0 + share) * valve.zero_current_mA;
+             valve.span_current_mA = own ? valve.current_for_mA((1.0 + share) * valve.span_command.value)
+                                         : (1.0 + share) * valve.span_current_mA;
+             valve.zero_current_mA = zero_mA;
            },
            share},
           {[](Hanging& h) {

@@ -24,8 +24,9 @@ struct Undisturbed {
 };
 
 /// A current that is higher in the table than what the valve had, by a share and by mA: the same as another
-/// zero and span of the valve.
-std::vector<Experiment::Change> currents_in_error();
+/// zero and span of the valve. Where a pressure drives the muscle, that one, by a share and by bar: the same
+/// as an error of its gauge.
+std::vector<Experiment::Change> inputs_in_error(bool pressure_is_given);
 
 /// Tells `visit` of each shape, the simple ones first.
 void each_shape(const Undisturbed& run, const std::function<void(const Shape&)>& visit);

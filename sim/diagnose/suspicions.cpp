@@ -16,7 +16,7 @@ namespace mckibben::diagnose {
 void Examination::draw_effects() {
   std::vector<Experiment::Change> changes;
   for (const Candidate& c : effects_) {
-    if (carries(at_.rig, c.effect)) continue;
+    if (!c.fits(at_.rig)) continue;
     for (const double shape : c.shapes.empty() ? std::vector{0.0} : c.shapes) {
       changes.push_back({[&c, shape](Hanging& h) {
                            h.rig = c.chosen(h.rig);

@@ -161,6 +161,7 @@ struct FaultThresholds {
   double least_ticks = 0.6;       ///< sizes below are nothing to talk of: late, rows lost
   double least_scale = 0.004;     ///< of a current or of readings
   double least_mA = 0.03;         ///< of a current's offset
+  double least_bar = 0.01;        ///< of a given pressure's
   double least_drift = 5e-4;      ///< contraction ratio
   double least_counts = 0.6;      ///< of a zero, of slipped counts
   double whole_tick = 0.5;        ///< ticks: a line drawn at a lateness holds so near to it, if all are late
@@ -173,6 +174,7 @@ struct FaultThresholds {
   long beginnings = 60;            ///< rows at which something may have begun, evenly spread
   double current_share = 0.02;     ///< of the current, for a slope
   double current_mA = 0.1;         ///< for a slope
+  double pressure_bar = 0.03;      ///< for a slope
   double worth_suspecting = 0.75;  ///< of what any effect leaves of a run: one beside a fault must leave less
   std::size_t most_suspected = 3;  ///< effects beside faults of a few runs, and beside one of all
   int most_repairs = 2;            ///< how often data are mended and looked at again
@@ -303,7 +305,7 @@ struct NameThresholds {
   double relief_loss = 0.01;  ///< mean square on runs held out, that relief may cost
   std::array<double, 5> first_sizes{0.1, 0.3, 0.6, 1.0,
                                     1.6};  ///< of the size that the score expects: tried first
-  double at_bound = 1e-3;                  ///< of a size's range: a fit has driven it to its bound
+  double at_bound = 1e-3;            ///< of a size's range, or a shape's: a fit has driven it to its bound
   double to_nothing = 1.1;           ///< of the size that is as good as absent: it has driven it to nothing
   double as_good_gained = 0.05;      ///< mean square that a twin may be worse by on runs held out,
   double as_good_cost = 0.1;         ///< and of the cost

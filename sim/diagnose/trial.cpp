@@ -26,13 +26,29 @@ bool has_size(const Model& model, const Candidate& c) {
   return false;
 }
 
+bool has_shape(const Model& model, const Candidate& c) {
+  return std::ranges::none_of(model.free, [&](const Parameter& p) {
+    if (p.path != c.shape) return false;
+    const double value = p.scaled(value_of(model.rig, p.path)), lowest = p.scaled(p.lowest),
+                 highest = p.scaled(p.highest), edge = thresholds.name.at_bound * (highest - lowest);
+    return value < lowest + edge || value > highest - edge;
+  });
+}
+
+bool goes_with(std::string_view effect, std::string_view variant, const Candidate& gone) {
+  return effect == gone.effect && (gone.adds_to.empty() || variant == gone.variant);
+}
+
 Model without(const Model& model, std::size_t effect) {
   Model smaller = model;
   const Candidate& gone = model.effects[effect];
-  gone.put(smaller.rig, gone.absent);
-  std::erase_if(smaller.free,
-                [&](const Parameter& p) { return p.path == gone.amplitude || p.path == gone.shape; });
-  smaller.effects.erase(smaller.effects.begin() + static_cast<std::ptrdiff_t>(effect));
+  for (const Candidate& c : model.effects) {
+    if (!goes_with(c.effect, c.variant, gone)) continue;
+    smaller.rig = c.removed(smaller.rig);
+    std::erase_if(smaller.free,
+                  [&](const Parameter& p) { return p.path == c.amplitude || p.path == c.shape; });
+  }
+  std::erase_if(smaller.effects, [&](const Candidate& c) { return goes_with(c.effect, c.variant, gone); });
   return smaller;
 }
 

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <sim/diagnose/fit.hpp>
@@ -46,6 +47,9 @@ Contender contend(const Case& c, Model model, const KnownSlopes* known = nullptr
 /// The model with one candidate more, at the size that serves best along the direction of its score.
 Model with(const Case& c, const Model& model, const Score& score);
 
+/// Whether a law of a model goes where `gone` does: itself, and what adds to it.
+bool goes_with(std::string_view effect, std::string_view variant, const Candidate& gone);
+
 /// The model without one of its effects.
 Model without(const Model& model, std::size_t effect);
 
@@ -60,6 +64,9 @@ void polish(const Case& c, Trial& trial, const Step& step);
 
 /// A size that a fit has not driven against a bound, nor to nothing.
 bool has_size(const Model& model, const Candidate& candidate);
+
+/// A shape, if it has one, that a fit has not driven against a bound.
+bool has_shape(const Model& model, const Candidate& candidate);
 
 /// Nothing left to find, in the runs held out and in those fitted.
 bool meets(const Contender& contender);

@@ -200,6 +200,12 @@ std::vector<Factor> by_joint(const RigFile& rig, const std::vector<Row>& rows) {
   return factors;
 }
 
+/// Settled points have no time that anybody measured.
+bool settled(const domain::Dataset& data) {
+  return std::ranges::all_of(
+      data.runs, [](const domain::Run& run) { return run.measured && run.measured->point_s > 0.0; });
+}
+
 std::vector<Factor> factors_of(const Experiment& experiment, const RigFile& rig, const Runs& runs,
                                const std::vector<Row>& rows) {
   double longest_s = 0.0;
@@ -208,10 +214,12 @@ std::vector<Factor> factors_of(const Experiment& experiment, const RigFile& rig,
                                         experiment.data().row_s());
   const bool pair = rig.pair() != nullptr;
   auto factors = pair ? by_joint(rig, rows) : by_muscle(experiment, rig, runs);
-  factors.push_back(binned("time in run", equal(0.0, longest_s, cells_by.times), 1.0, "s",
-                           [](const Row& row) { return row.time_s; }));
-  factors.push_back(
-      binned("start of run", cells_by.start_s, 1.0, "s", [](const Row& row) { return row.time_s; }));
+  if (!settled(experiment.data())) {
+    factors.push_back(binned("time in run", equal(0.0, longest_s, cells_by.times), 1.0, "s",
+                             [](const Row& row) { return row.time_s; }));
+    factors.push_back(
+        binned("start of run", cells_by.start_s, 1.0, "s", [](const Row& row) { return row.time_s; }));
+  }
   factors.push_back(binned("time since reversal", cells_by.since_reversal_s, 1.0, "s",
                            [](const Row& row) { return row.since_turn_s; }));
   factors.back().cell = [bin = factors.back().cell](const Row& row) -> std::ptrdiff_t {

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -51,7 +52,8 @@ struct Scenario {
   std::uint64_t seed = 1;
   std::vector<Criterion> criteria;
 
-  std::vector<InputFile> inputs;  ///< the files it was read from
+  std::map<std::string, RigFile> believed;  ///< rigs of controllers that name one, by controller
+  std::vector<InputFile> inputs;            ///< the files it was read from
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {

@@ -15,6 +15,7 @@
 #include <sim/input/file_names.hpp>
 #include <sim/input/number.hpp>
 #include <sim/input/quantity.hpp>
+#include <sim/input/rigs.hpp>
 #include <sim/input/scenario_file.hpp>
 #include <sim/input/suggest.hpp>
 #include <sim/input/yaml_reader.hpp>
@@ -77,9 +78,19 @@ class ScenarioChecker {
       if (auto* recorded = std::get_if<controllers::RecordedCurrent>(&scenario_.controllers[i]))
         load_recording(*recorded, source_, *node.find("file"), scenario_.rig, problems_);
       follow_valve(scenario_.controllers[i], source_, node, scenario_.rig, problems_);
+      if (const auto* terms = controllers::model_terms(scenario_.controllers[i]);
+          terms && !terms->rig.empty())
+        load_believed_rig(name, *node.find("rig"));
       if (auto* calibrated = controllers::calibrated(scenario_.controllers[i]))
         load_calibration(*calibrated, node);
     }
+  }
+
+  void load_believed_rig(const std::string& controller, const Node& node) {
+    RigFile& rig = scenario_.believed[controller];
+    read_named(source_, node, rig, problems_);
+    if (const std::string why = no_load(rig); !why.empty())
+      problems_.error(source_, node.place, "rig: " + why);
   }
 
   // Several controllers may share a calibration: it is read, and complained about, once.

@@ -43,10 +43,12 @@ Panel panel_of(const Ride& ride) {
 constexpr const char* style =
     "<style>\n"
     ".ground { fill: #ffffff } text { fill: #222222 } .grid { stroke: #e2e2e2 }\n"
-    ".nominal { stroke: #a6a6a6 } .first { stroke: #0072B2 } .second { stroke: #D55E00 }\n"
+    ".nominal { stroke: #a6a6a6 } .first { stroke: #0072B2 } .second { stroke: #D55E00 } .third { stroke: "
+    "#009E73 }\n"
     "@media (prefers-color-scheme: dark) {\n"
     "  .ground { fill: #1e2129 } text { fill: #e6e6e6 } .grid { stroke: #3a3f4b }\n"
-    "  .nominal { stroke: #737a87 } .first { stroke: #56B4E9 } .second { stroke: #E69F00 }\n"
+    "  .nominal { stroke: #737a87 } .first { stroke: #56B4E9 } .second { stroke: #E69F00 } .third { stroke: "
+    "#5FD3B0 }\n"
     "}\n</style>\n";
 
 std::string line(const char* ink, double wide, const std::string& d) {
@@ -133,12 +135,15 @@ std::string effect_svg(std::string_view effect) {
       words += fmt::format("{}{} {}", words.empty() || words.ends_with(": ") ? "" : ", ",
                            path.substr(path.rfind('.') + 1), readable(value, found.unit));
     };
-    set(law.amplitude, telling_size(law));
-    if (!law.shape.empty()) set(law.shape, law.shapes[1]);
+    for (const auto& term : diagnose::catalogue()) {
+      if (term.effect != effect || (term.variant != law.variant && term.variant != law.adds_to)) continue;
+      set(term.amplitude, telling_size(term));
+      if (!term.shape.empty()) set(term.shape, term.shapes[1]);
+    }
   }
   if (laws.empty()) throw std::invalid_argument("no picture of " + std::string(effect));
 
-  constexpr std::array inks{"first", "second"};
+  constexpr std::array inks{"first", "second", "third"};
   std::string svg = svg_begin(picture_width, picture_height, 14, style) +
                     fmt::format("<text x='12' y='22' font-weight='bold'>{}</text>\n", effect);
   const auto legend = [&](double x, double y, const char* ink, double wide, const std::string& words) {

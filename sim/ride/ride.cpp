@@ -108,10 +108,16 @@ void Ride::open_ledger() {
 
 Ride::Saved Ride::save() const {
   Saved saved;
-  for (const Rider& rider : riders_) saved.riders.push_back(rider.now);
-  if (flock_) saved.paces.push_back(flock_->pace());
-  for (const auto& integrator : integrators_) saved.paces.push_back(integrator->pace());
+  save(saved);
   return saved;
+}
+
+void Ride::save(Saved& into) const {
+  into.riders.resize(riders_.size());
+  for (std::size_t i = 0; i < riders_.size(); ++i) into.riders[i] = riders_[i].now;
+  into.paces.clear();
+  if (flock_) into.paces.push_back(flock_->pace());
+  for (const auto& integrator : integrators_) into.paces.push_back(integrator->pace());
 }
 
 void Ride::restore(const Saved& saved) {

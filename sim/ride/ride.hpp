@@ -70,6 +70,7 @@ class Ride {
   /// A ride that goes on from what was saved goes the same way, to the bit. `saved` is of a ride of as many
   /// rigs with the same settings.
   Saved save() const;
+  void save(Saved& into) const;  ///< touches no heap if `into` was saved into before
   void restore(const Saved& saved);
 
  private:

@@ -16,6 +16,7 @@
 #include <sim/run/packed.hpp>
 #include <sim/run/reachable.hpp>
 #include <sim/run/remarks.hpp>
+#include <sim/run/rig_model.hpp>
 #include <sim/run/simulate.hpp>
 #include <sim/run/track.hpp>
 #include <sim/run/warnings.hpp>
@@ -44,6 +45,12 @@ class Comparing {
     if (std::any_of(settings_.begin(), settings_.end(),
                     [](auto& each) { return controllers::calibrated(each); }))
       knowledge_.reach = reachable(scenario.rig);  // only the model-based ones ask for it
+    for (auto& settings : settings_)
+      if (auto* terms = controllers::model_terms(settings)) {
+        const auto named = scenario.believed.find(controllers::name_of(settings));
+        const domain::RigFile& rig = named == scenario.believed.end() ? scenario.rig : named->second;
+        terms->model = model_of(rig, rig.integrator, scenario.rig.tick_s);
+      }
   }
 
   Comparison operator()() {

@@ -12,7 +12,7 @@ namespace mckibben::diagnose {
 
 inline Checked no_doubts(const domain::Dataset& data) {
   Checked checked;
-  for (const domain::Run& run : data.runs) checked.masked.emplace_back(run.current_mA.size(), false);
+  for (const domain::Run& run : data.runs) checked.masked.emplace_back(run.contraction_ratio.size(), false);
   return checked;
 }
 

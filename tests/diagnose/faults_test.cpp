@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <utility>
 
 #include <gtest/gtest.h>
 
 #include <sim/diagnose/repair.hpp>
+#include <sim/run/judged.hpp>
 #include <sim/run/simulate.hpp>
 
 #include "examined.hpp"
@@ -59,6 +61,57 @@ TEST(Faults, CurrentThatTheValveDidNotHave) {
   expect_one(moved, FaultKind::current_offset, 0, 0.4, 0.05);
 }
 
+/// With a valve that takes 0 to 10 V.
+domain::Dataset in_volts(domain::Dataset data) {
+  data.rig.valve.zero_command = {0.0, plant::RatedCommand::Unit::V};
+  data.rig.valve.span_command = {10.0, plant::RatedCommand::Unit::V};
+  return data;
+}
+
+TEST(Faults, VoltsThatTheValveDidNotHave) {
+  auto data = in_volts(undisturbed());
+  const double zero_mA = data.rig.valve.zero_current_mA;
+  for (double& current_mA : data.runs[4].current_mA) current_mA = zero_mA + 1.05 * (current_mA - zero_mA);
+  expect_one(data, FaultKind::current_scale, 4, 0.05, 0.005);
+  EXPECT_EQ(told(data, {4, FaultKind::current_scale, 0.05}).words,
+            "has a command that is 1.050 times what the valve had");
+  EXPECT_EQ(told(data, {4, FaultKind::current_offset, 1.6}).words,
+            "has a command that is 1.00 V more than what the valve had");
+}
+
+/// The pressure that a gauge read drives the muscle, in one run another one than the gauge says.
+domain::Dataset driven_by_pressure(std::size_t run, double factor, double offset_Pa) {
+  plant::Rig gauged;
+  gauged.gauge.fitted = true;
+  domain::Dataset data = small(gauged);
+  data.own_clock = true;
+  for (domain::Run& each : data.runs) {
+    const bool off = &each == &data.runs[run];
+    domain::Measurement& measured = each.measured.emplace();
+    for (std::size_t k = 0; k < each.contraction_ratio.size(); ++k) {
+      measured.time_s.push_back(static_cast<double>(k) * data.rig.tick_s);
+      const double read_Pa = (*each.muscle_pressure_Pa)[k];
+      measured.sides[0].muscle_pressure_Pa.push_back(off ? factor * read_Pa + offset_Pa : read_Pa);
+    }
+    measured.sides[0].pressure_is_given = true;
+    measured.contraction_ratio = std::exchange(each.contraction_ratio, {});
+    each.current_mA.clear();
+    each.muscle_pressure_Pa.reset();
+  }
+  return run::with_rows(std::move(data));
+}
+
+TEST(Faults, APressureThatTheMuscleDidNotHave) {
+  const domain::Dataset scaled = driven_by_pressure(4, 1.05, 0.0);
+  expect_one(scaled, FaultKind::current_scale, 4, 0.05, 0.01);
+  EXPECT_EQ(told(scaled, {4, FaultKind::current_scale, 0.05}).words,
+            "has a pressure that is 1.050 times what the muscle had");
+  const domain::Dataset moved = driven_by_pressure(1, 1.0, 5e3);
+  expect_one(moved, FaultKind::current_offset, 1, 0.05, 0.01);
+  EXPECT_EQ(told(moved, {1, FaultKind::zero, 0.01}).words, "has its zero moved by 3 mm");
+  EXPECT_EQ(told(moved, {1, FaultKind::late, 3.0}).words, "is 36 ms late");
+}
+
 TEST(Faults, ReadingsThatDriftOrHaveAnotherZeroOrScale) {
   const double rows = static_cast<double>(undisturbed().runs[0].contraction_ratio.size());
   const auto drift = [&](double& ratio, double k) { ratio += count() * std::round(8.0 * k / rows); };
@@ -101,6 +154,24 @@ TEST(Faults, ThatSayWhatItIsAreBetterThanAnotherRig) {
   EXPECT_TRUE(explains_more(all, two));
   EXPECT_FALSE(explains_more(all, slipped));
   EXPECT_FALSE(explains_more(slipped, all));
+}
+
+TEST(Faults, AGaugeIsShiftedOnlyIfItIsLateToo) {
+  plant::Rig gauged;
+  gauged.gauge.fitted = true;
+  auto data = small(gauged);
+  const auto before = *data.runs[1].muscle_pressure_Pa;
+  const std::vector<Fault> late{{1, FaultKind::late, 4.0}};
+  auto both = data;
+  delay(data.runs[1], 4);
+  Checked checked = no_doubts(data);
+  mend(data, checked, late);
+  EXPECT_EQ(*data.runs[1].muscle_pressure_Pa, before);
+  auto& gauge = *both.runs[1].muscle_pressure_Pa;
+  for (std::size_t k = gauge.size(); k-- > 4;) gauge[k] = gauge[k - 4];
+  checked = no_doubts(both);
+  mend(both, checked, late);
+  for (std::size_t k = 0; k + 4 < gauge.size(); ++k) ASSERT_EQ(gauge[k], before[k]);
 }
 
 TEST(Faults, AreMendedWhereThatIsSafeAndElseLeftOut) {

@@ -90,9 +90,32 @@ TEST(NominalParameters, IncludeTheSizesOfEffectsThatTheRigHas) {
   EXPECT_GE(band->highest, 16e3);
   ASSERT_NE(named("effects.bladder_elasticity.ratio"), list.end());
   EXPECT_EQ(named("effects.bladder_elasticity.stiffness"), list.end());
+  bladder.variant = plant::BladderLaw::saturating_linear;
+  EXPECT_EQ(nominal_parameters(rig).size(), list.size() + 1);  // with the stiffness
   EXPECT_TRUE(carries(rig, "valve_dead_band"));
   EXPECT_FALSE(carries(rig, "muscle_leak"));
   EXPECT_EQ(nominal_parameters(plant::Rig{}).size() + 3, list.size());
+}
+
+TEST(Catalogue, ALawWithATermMoreIsLookedForWhereTheShorterOneIs) {
+  const auto all = catalogue();
+  const auto longer = std::ranges::find(all, "saturating_linear", &Candidate::variant);
+  const auto shorter = std::ranges::find(all, "saturating", &Candidate::variant);
+  ASSERT_NE(longer, all.end());
+  RigFile rig;
+  EXPECT_FALSE(longer->fits(rig));
+  EXPECT_TRUE(shorter->fits(rig));
+  rig = shorter->chosen(rig);
+  shorter->put(rig, 8.0, 0.05);
+  EXPECT_TRUE(longer->fits(rig));
+  EXPECT_FALSE(shorter->fits(rig));
+  rig = longer->chosen(rig);
+  longer->put(rig, 100.0);
+  EXPECT_TRUE(shorter->carried(rig) && longer->carried(rig));
+  EXPECT_FALSE(longer->fits(rig));
+  rig = longer->removed(rig);
+  EXPECT_TRUE(shorter->carried(rig));
+  EXPECT_FALSE(longer->carried(rig));
 }
 
 }  // namespace

@@ -125,9 +125,10 @@ TYPED_TEST(EachEffect, AbsentItIsNotThereWhateverItsShape) {
     Rig odd;
     auto& effect = odd.effects.template get<TypeParam>();
     for (const auto& parameter : parameters_of(effect, variant.name))
-      *parameter.value = parameter.key == variant.amplitude
-                             ? variant.absent
-                             : chance.between(parameter.lowest, parameter.highest);
+      if (const Variant* const law = sized_by<TypeParam>(variant, parameter.key))
+        *parameter.value = law->absent;
+      else
+        *parameter.value = chance.between(parameter.lowest, parameter.highest);
     ASSERT_TRUE(odd.effects.absent());
     // Another effect beside it, so that the table is walked at all.
     Rig other, both = odd;
@@ -229,6 +230,11 @@ TEST(Catalogue, ElasticityDependsOnTheRiseAlone) {
   const BladderElasticity saturating{.variant = BladderLaw::saturating, .force_N = 10.0, .ratio = 0.05};
   Instant<double> now{0.05, 0.015, 0.0, 0.0, 0.0, 0.0, 0.0, {}};
   EXPECT_NEAR(saturating.pull_N(now, 0.0), -10.0 * (1.0 - std::exp(-1.0)), 1e-12);
+  BladderElasticity both = saturating;
+  both.stiffness_N_per_m = 200.0;
+  EXPECT_EQ(both.pull_N(now, 0.0), saturating.pull_N(now, 0.0));  // not of the law that is chosen
+  both.variant = BladderLaw::saturating_linear;
+  EXPECT_NEAR(both.pull_N(now, 0.0), saturating.pull_N(now, 0.0) - 200.0 * 0.015, 1e-12);
   now.contraction_ratio = -1e-9;  // straight on, without a kink
   EXPECT_NEAR(saturating.pull_N(now, 0.0) / -1e-9, -10.0 / 0.05, 1e-6);
 }

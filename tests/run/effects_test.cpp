@@ -62,8 +62,8 @@ TEST(EffectsInARun, AbsentTheyChangeNoBitWhateverTheirShapes) {
     for (const plant::Variant& variant : E::variants) {
       plant::Rig rig;
       for (const auto& parameter : plant::parameters_of(rig.effects.get<E>(), variant.name))
-        if (parameter.key == variant.amplitude)
-          *parameter.value = variant.absent;
+        if (const auto* const law = plant::sized_by<E>(variant, parameter.key))
+          *parameter.value = law->absent;
         else
           *parameter.value = std::uniform_real_distribution(parameter.lowest, parameter.highest)(random);
       EXPECT_TRUE(same_bits(ride(rig), nominal)) << E::name;

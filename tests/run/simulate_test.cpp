@@ -9,6 +9,7 @@
 #include <plant/plant.hpp>
 #include <sim/input/calibration_file.hpp>
 #include <sim/run/reachable.hpp>
+#include <sim/run/rig_model.hpp>
 #include <sim/run/simulate.hpp>
 
 #include "heap_watch.hpp"
@@ -88,7 +89,14 @@ std::vector<controllers::Settings> one_of_each() {
   steps.moves = {{1.0, 12.0}, {2.0, 6.0}};
   controllers::RecordedCurrent recorded;
   recorded.samples_mA = std::vector<double>(100, 10.0);
+  controllers::ModelInverseSettings planned;
+  planned.model = model_of({}, {}, 0.012);
+  controllers::ModelInverseFeedbackSettings with_feedback;
+  with_feedback.model = planned.model;
+  with_feedback.feedback_delay_ticks = 2;
   std::vector<controllers::Settings> all{pid,
+                                         planned,
+                                         with_feedback,
                                          controllers::FeedforwardPidSettings{},
                                          controllers::OpenLoopSettings{},
                                          controllers::OpenLoopLimitedSettings{},

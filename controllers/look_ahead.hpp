@@ -1,0 +1,31 @@
+// The current that brings a model to its target a few ticks ahead: tried on the model itself, which is kept
+// and taken back, so that whatever the model knows (friction and its memory, valve, hose, effects) is
+// inverted.
+#pragma once
+
+#include <vector>
+
+#include <controllers/current_range.hpp>
+#include <controllers/rig_model.hpp>
+
+namespace mckibben::controllers {
+
+/// At each tick a current that, held for some ticks, ends on the target (predictive functional control,
+/// Richalet & O'Donovan 2009, with one base function and one point of coincidence). One root by secants.
+class LookAhead {
+ public:
+  LookAhead(const CurrentRange& limits, int ticks) : limits_(limits), ticks_(ticks) {}
+
+  /// Current [mA] for the tick at which `model` is; it is the same afterwards. `target`: contraction ratio
+  /// wanted `ticks` further. `before_mA`: current of the tick before.
+  double current_mA(RigModel& model, double target, double before_mA);
+
+ private:
+  double reached(RigModel& model, double current_mA) const;
+
+  CurrentRange limits_;
+  int ticks_;
+  double slope_per_mA_ = 0.0;  // of what is reached over the current; as last found
+};
+
+}  // namespace mckibben::controllers

@@ -1,0 +1,77 @@
+// What controllers share that plan with a model of the whole rig: they weigh the load on it, unless they are
+// told it, and then have a model that stands where the rig stands.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <controllers/controller.hpp>
+#include <controllers/current_range.hpp>
+#include <controllers/delayed.hpp>
+#include <controllers/rig_model.hpp>
+#include <controllers/rise_weighing.hpp>
+
+namespace mckibben::controllers {
+
+struct ModelTerms {
+  std::string rig;
+  ModelMaker model;  ///< filled in by whoever can simulate `rig`, before make()
+  std::optional<double> assumed_load_kg = std::nullopt;
+  std::optional<double> weighing_speed_mA_per_s = std::nullopt;
+  int look_ahead_ticks = 8;
+
+  void follow(const CurrentRange& range) {
+    if (!weighing_speed_mA_per_s) weighing_speed_mA_per_s = range.width_mA() / 32.0;
+  }
+
+  template <class Self, class Visitor>
+  static void fields(Self& self, Visitor& visit) {
+    visit("rig", self.rig,
+          "the rig that it believes in, by its name or the path of a rig file; the scenario's if left out");
+    visit("assumed_load", self.assumed_load_kg, "kg", 0.01, 500.0,
+          "load it believes in; weighed before the run if absent");
+    visit("weighing_speed", self.weighing_speed_mA_per_s, "mA/s", 1e-3, 1e5,
+          "speed of the current while it weighs; 1/32 of the valve's span in a second if absent");
+    visit("look_ahead_ticks", self.look_ahead_ticks, 1, 1000,
+          "ticks after which a current is to have brought the load to the target");
+  }
+};
+
+/// Weighing; what is done with the model afterwards is the derived controller's.
+class ModelledController : public Controller {
+ public:
+  /// `delay_ticks`: age of the counts. Throws std::invalid_argument if there is no model.
+  ModelledController(const ModelTerms& terms, const std::string& name, int delay_ticks,
+                     const Knowledge& knowledge);
+
+  Command rest() final { return {range_.lowest_mA}; }
+  std::int64_t preparation_ticks() const final;
+  Command step(const Reading& reading) final;
+  std::vector<Finding> findings() const override;
+
+ protected:
+  /// The load is known. `model` is at `tick`, as the rig is; `before_mA` was given in the tick before.
+  virtual void begin(std::unique_ptr<RigModel> model, std::int64_t tick, double before_mA) = 0;
+  /// Current at the tick of `begin` and after, as the DAC gives it; `counts` are as old as they are used.
+  virtual double drive_mA(std::int64_t tick, std::int64_t counts) = 0;
+
+  const Knowledge& knowledge() const { return knowledge_; }
+  const CurrentRange& range() const { return range_; }
+  const ModelTerms& terms() const { return terms_; }
+
+ private:
+  double weigh_or_drive_mA(std::int64_t tick, std::int64_t counts);
+
+  ModelTerms terms_;
+  Knowledge knowledge_;
+  CurrentRange range_;
+  std::int64_t approach_ticks_;
+  Delayed<std::int64_t> delayed_;
+  std::optional<RiseWeighing> weighing_;
+  bool begun_ = false;
+};
+
+}  // namespace mckibben::controllers

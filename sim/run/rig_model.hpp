@@ -1,0 +1,13 @@
+// What controllers that plan with a model are given: a ride of the rig that they believe in, on its own.
+#pragma once
+
+#include <controllers/rig_model.hpp>
+#include <plant/rig.hpp>
+#include <sim/solver/settings.hpp>
+
+namespace mckibben::run {
+
+/// Models of `rig` that are stepped in ticks of `tick_s`, which are those of the rig that is controlled.
+controllers::ModelMaker model_of(const plant::Rig& rig, const solver::Settings& engine, double tick_s);
+
+}  // namespace mckibben::run

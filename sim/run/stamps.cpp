@@ -1,0 +1,239 @@
+// See the header.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <utility>
+
+#include <Eigen/Cholesky>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <sim/run/series.hpp>
+#include <sim/run/stamps.hpp>
+
+namespace mckibben::run {
+namespace {
+
+using domain::Measurement;
+
+constexpr std::array mains_hz{50.0, 60.0};
+constexpr std::array<double, 4> beside_hz{-20.0, -15.0, 15.0, 20.0};
+constexpr double window_s = 0.2;          // whole periods of both, and no drift of the mains matters
+constexpr double in_a_period = 3.0;       // readings, at least
+constexpr double stands_out = 4.0;        // over the median of what is beside
+constexpr double share_of_scatter = 0.1;  // of what the windows scatter by, that a tone is worth telling
+constexpr std::size_t least_windows = 5, least_in_window = 12;
+constexpr std::size_t around = 2;          // windows before and after
+constexpr std::size_t least_cut_off = 20;  // readings in a row
+constexpr double scatters = 0.2;           // of neighbours are equal, at most, in a column that scatters
+constexpr std::size_t beside_cut_off = 5;  // readings: their noise is cut off on one side
+
+/// A wave in a window, beside a cubic for what the rig does; and what the two leave.
+struct Wave {
+  double cosine = 0.0, sine = 0.0, mean_square_beside = 0.0;
+  double amplitude() const { return std::hypot(cosine, sine); }
+};
+
+/// Calls visit(first, last) for each window of stamps.
+template <class Visit>
+void each_window(const std::vector<double>& time_s, const Visit& visit) {
+  for (std::size_t first = 0; first < time_s.size();) {
+    const auto end = std::lower_bound(time_s.begin() + static_cast<std::ptrdiff_t>(first), time_s.end(),
+                                      time_s[first] + window_s);
+    const auto last = static_cast<std::size_t>(end - time_s.begin());
+    if (last < time_s.size()) visit(first, last);  // what is over at the end is no whole window
+    first = last;
+  }
+}
+
+Wave wave_in(const std::vector<double>& time_s, const std::vector<double>& values, std::size_t first,
+             std::size_t last, double hz) {
+  using Vector = Eigen::Matrix<double, 6, 1>;
+  Eigen::Matrix<double, 6, 6> normal = Eigen::Matrix<double, 6, 6>::Zero();
+  Vector right = Vector::Zero();
+  std::size_t count = 0;
+  const auto shape = [&](std::size_t k) {
+    const double x = (time_s[k] - time_s[first]) / window_s - 0.5,
+                 turn = 2.0 * std::numbers::pi * hz * time_s[k];
+    return Vector{1.0, x, x * x, x * x * x, std::cos(turn), std::sin(turn)};
+  };
+  for (std::size_t k = first; k < last; ++k) {
+    if (std::isnan(values[k])) continue;
+    const Vector row = shape(k);
+    normal += row * row.transpose();
+    right += row * values[k];
+    ++count;
+  }
+  if (count < least_in_window) return {};
+  Vector fitted = normal.ldlt().solve(right);
+  const Wave wave{fitted[4], fitted[5]};
+  fitted.tail<2>().setZero();
+  double squares = 0.0;
+  for (std::size_t k = first; k < last; ++k)
+    if (!std::isnan(values[k])) squares += std::pow(values[k] - shape(k).dot(fitted), 2);
+  return {wave.cosine, wave.sine, squares / static_cast<double>(count)};
+}
+
+/// In the middle one of all windows, so that jumps of what the rig does count for nothing.
+struct Level {
+  double amplitude = 0.0, mean_square = 0.0;
+};
+Level level(const std::vector<double>& time_s, const std::vector<double>& values, double hz) {
+  std::vector<double> amplitudes, squares;
+  each_window(time_s, [&](std::size_t first, std::size_t last) {
+    const Wave wave = wave_in(time_s, values, first, last, hz);
+    if (!(wave.mean_square_beside > 0.0)) return;
+    amplitudes.push_back(wave.amplitude());
+    squares.push_back(wave.mean_square_beside);
+  });
+  if (amplitudes.size() < least_windows) return {};
+  return {median(std::move(amplitudes)), median(std::move(squares))};
+}
+
+/// Window by window; in each as the middle one of those around it has it, so that a jump does not matter.
+void take_out(const Tone& tone, const std::vector<double>& time_s, std::vector<double>& values) {
+  std::vector<Wave> waves;
+  std::vector<std::size_t> begins;
+  each_window(time_s, [&](std::size_t first, std::size_t last) {
+    waves.push_back(wave_in(time_s, values, first, last, tone.hz));
+    begins.push_back(first);
+  });
+  begins.push_back(time_s.size());  // the last window goes on to the end
+  for (std::size_t i = 0; i < waves.size(); ++i) {
+    std::vector<double> cosines, sines;
+    for (std::size_t near = i > around ? i - around : 0; near < std::min(waves.size(), i + around + 1);
+         ++near) {
+      cosines.push_back(waves[near].cosine);
+      sines.push_back(waves[near].sine);
+    }
+    const double cosine = median(std::move(cosines)), sine = median(std::move(sines));
+    for (std::size_t k = begins[i]; k < begins[i + 1]; ++k) {
+      const double turn = 2.0 * std::numbers::pi * tone.hz * time_s[k];
+      values[k] -= cosine * std::cos(turn) + sine * std::sin(turn);
+    }
+  }
+}
+
+/// A column of what was read or given, and how it is called and told.
+struct Told {
+  std::string name, unit;
+  double per_unit;
+  bool given;
+  std::vector<double>* values;
+};
+
+std::vector<Told> columns_of(Measurement& measured, const domain::RigFile& rig) {
+  const bool pair = rig.pair() != nullptr;
+  std::vector<Told> list;
+  const auto add = [&](std::string name, std::string unit, double per_unit, bool given,
+                       std::vector<double>& values) {
+    if (!values.empty()) list.push_back({std::move(name), std::move(unit), per_unit, given, &values});
+  };
+  add("contraction", "mm", 1e3 * rig.muscle.rest_length_m, measured.length_is_given,
+      measured.contraction_ratio);
+  add("angle", "deg", 1.0 / plant::degree_rad, false, measured.angle_rad);
+  add("force", "N", 1.0, false, measured.force_N);
+  for (std::size_t side = 0; side < measured.sides.size(); ++side)
+    add(pair ? fmt::format("muscle_pressure_{}", side + 1) : "muscle_pressure", "mbar",
+        1e3 / plant::Pa_per_bar, measured.sides[side].pressure_is_given,
+        measured.sides[side].muscle_pressure_Pa);
+  return list;
+}
+
+/// Runs in which the same was found in a column.
+struct Hum {
+  std::vector<std::string> runs{};
+  double largest = 0.0;
+};
+
+}  // namespace
+
+Tone hum_of(const std::vector<double>& time_s, const std::vector<double>& values) {
+  std::vector<double> gaps;
+  for (std::size_t k = 1; k < time_s.size(); ++k) gaps.push_back(time_s[k] - time_s[k - 1]);
+  if (gaps.empty()) return {};
+  const double gap_s = upper_median(std::move(gaps));
+  Tone best;
+  for (const double hz : mains_hz) {
+    if (in_a_period * gap_s * hz > 1.0) continue;
+    const auto [amplitude, mean_square] = level(time_s, values, hz);
+    if (amplitude <= best.amplitude || 0.5 * amplitude * amplitude < share_of_scatter * mean_square) continue;
+    std::vector<double> beside;
+    for (const double off_hz : beside_hz) beside.push_back(level(time_s, values, hz + off_hz).amplitude);
+    if (amplitude > stands_out * median(std::move(beside))) best = {hz, amplitude};
+  }
+  return best;
+}
+
+CutOff leave_out_cut_off(std::vector<double>& values) {
+  std::vector<double> known;
+  for (const double value : values)
+    if (!std::isnan(value)) known.push_back(value);
+  if (known.size() < 2) return {};
+  const auto [lowest, highest] = std::ranges::minmax(known);
+  std::size_t equal = 0, inside = 0;
+  for (std::size_t k = 1; k < known.size(); ++k) {
+    if (known[k] == lowest || known[k] == highest) continue;
+    ++inside;
+    if (known[k] == known[k - 1]) ++equal;
+  }
+  if (inside == 0 || static_cast<double>(equal) > scatters * static_cast<double>(inside)) return {};
+  CutOff cut_off;
+  const std::vector<double> was = values;
+  for (const double end : {lowest, highest}) {
+    std::size_t in_a_row = 0, longest = 0;
+    for (const double value : was) {
+      in_a_row = value == end ? in_a_row + 1 : 0;
+      longest = std::max(longest, in_a_row);
+    }
+    if (longest < least_cut_off) continue;
+    cut_off.at = end;
+    for (std::size_t k = 0; k < was.size(); ++k) {
+      if (was[k] != end) continue;
+      ++cut_off.readings;
+      const std::size_t from = k > beside_cut_off ? k - beside_cut_off : 0,
+                        to = std::min(was.size(), k + beside_cut_off + 1);
+      std::fill(values.begin() + static_cast<std::ptrdiff_t>(from),
+                values.begin() + static_cast<std::ptrdiff_t>(to), std::nan(""));
+    }
+  }
+  return cut_off;
+}
+
+std::vector<std::string> mend_at_stamps(domain::Dataset& data) {
+  std::vector<std::string> words;
+  std::map<std::pair<std::string, double>, Hum> hums;
+  std::map<std::string, std::string> units;
+  for (domain::Run& run : data.runs) {
+    if (!run.measured || run.measured->point_s > 0.0 || run.measured->counted) continue;
+    for (const Told& column : columns_of(*run.measured, data.rig)) {
+      if (const CutOff cut_off = column.given ? CutOff{} : leave_out_cut_off(*column.values);
+          cut_off.readings > 0)
+        words.push_back(fmt::format(
+            "run {}: {} stays at {:.4g} {} to the last digit in {} of {} readings, and scatters elsewhere: "
+            "the end of the sensor's range; not used",
+            run.id, column.name, cut_off.at * column.per_unit, column.unit, cut_off.readings,
+            column.values->size()));
+      const Tone tone = hum_of(run.measured->time_s, *column.values);
+      if (tone.amplitude == 0.0) continue;
+      take_out(tone, run.measured->time_s, *column.values);
+      Hum& hum = hums[{column.name, tone.hz}];
+      hum.runs.push_back(run.id);
+      hum.largest = std::max(hum.largest, tone.amplitude * column.per_unit);
+      units[column.name] = column.unit;
+    }
+  }
+  for (const auto& [of, hum] : hums) {
+    const auto& [name, hz] = of;
+    words.push_back(fmt::format(
+        "{}: a tone of {:g} Hz, {:.2g} {} in amplitude, in {}: hum of the mains; it was taken out", name, hz,
+        hum.largest, units[name],
+        hum.runs.size() == data.runs.size() ? "every run"
+                                            : fmt::format("run {}", fmt::join(hum.runs, ", "))));
+  }
+  return words;
+}
+
+}  // namespace mckibben::run

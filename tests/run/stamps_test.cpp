@@ -1,0 +1,108 @@
+// What a recorder and its sensors did to readings: hum of the mains, the end of a range; and what they did
+// not.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include <sim/run/stamps.hpp>
+
+namespace mckibben::run {
+namespace {
+
+constexpr double noise_Pa = 400.0;
+
+/// Three seconds at so many stamps a second, at uneven instants.
+std::vector<double> stamps(double per_s) {
+  std::mt19937_64 random(5);
+  std::uniform_real_distribution<double> jitter(-0.1, 0.1);
+  std::vector<double> time_s;
+  for (double k = 0.0; k < 3.0 * per_s; k += 1.0) time_s.push_back(7.0 + (k + jitter(random)) / per_s);
+  return time_s;
+}
+
+/// A gauge's readings: a slow swing, a jump, noise, and a tone.
+std::vector<double> pressures(const std::vector<double>& time_s, double hz, double amplitude_Pa) {
+  std::mt19937_64 random(3);
+  std::normal_distribution<double> noise(0.0, noise_Pa);
+  std::vector<double> values;
+  for (const double at_s : time_s) {
+    const double turn = 2.0 * std::numbers::pi * at_s;
+    values.push_back(2e5 + 1e5 * std::sin(turn) + (at_s > 8.5 ? 5e4 : 0.0) + noise(random) +
+                     amplitude_Pa * std::sin(hz * turn + 0.7));
+  }
+  return values;
+}
+
+TEST(Stamps, HumOfTheMainsStandsOut) {
+  const std::vector<double> time_s = stamps(1000.0);
+  for (const double hz : {50.0, 60.0}) {
+    const Tone tone = hum_of(time_s, pressures(time_s, hz, 2e3));
+    EXPECT_EQ(tone.hz, hz);
+    EXPECT_NEAR(tone.amplitude, 2e3, 100.0);
+  }
+  EXPECT_NEAR(hum_of(time_s, pressures(time_s, 50.1, 2e3)).amplitude, 2e3, 100.0);  // mains drift
+  EXPECT_EQ(hum_of(time_s, pressures(time_s, 0.0, 0.0)).amplitude, 0.0);
+  EXPECT_EQ(hum_of(time_s, pressures(time_s, 35.0, 2e3)).amplitude, 0.0);  // no mains
+  const std::vector<double> slow_s = stamps(100.0);
+  EXPECT_EQ(hum_of(slow_s, pressures(slow_s, 50.0, 2e3)).amplitude, 0.0);  // cannot be told
+}
+
+/// At 1 mm steps of 0.001 with noise, cut off at 0.12.
+std::vector<double> contractions(double resolution, double noise_ratio) {
+  std::mt19937_64 random(4);
+  std::normal_distribution<double> noise(0.0, noise_ratio);
+  std::vector<double> values;
+  for (int k = 0; k < 3000; ++k) {
+    const double ratio = 0.1 + 0.05 * std::sin(4e-3 * k) + noise(random);
+    values.push_back(resolution * std::round(std::min(ratio, 0.12) / resolution));
+  }
+  return values;
+}
+
+TEST(Stamps, TheEndOfARangeRepeatsToTheLastDigit) {
+  auto values = contractions(1e-6, 1e-4);
+  const auto at_the_end = std::count(values.begin(), values.end(), 0.12);
+  const CutOff cut_off = leave_out_cut_off(values);
+  EXPECT_EQ(cut_off.readings, static_cast<std::size_t>(at_the_end));
+  EXPECT_EQ(cut_off.at, 0.12);
+  EXPECT_GT(std::count_if(values.begin(), values.end(), [](double v) { return std::isnan(v); }), at_the_end);
+  EXPECT_EQ(leave_out_cut_off(values).readings, 0u);  // once is enough
+}
+
+TEST(Stamps, WhatRestsOnACoarseStepIsNotCutOff) {
+  auto coarse = contractions(1e-3, 1e-4);
+  EXPECT_EQ(leave_out_cut_off(coarse).readings, 0u);
+}
+
+TEST(Stamps, WhatWasDoneIsTold) {
+  domain::Dataset data;
+  data.own_clock = true;
+  for (const char* id : {"r1", "r2"}) {
+    domain::Run& run = data.runs.emplace_back();
+    run.id = id;
+    domain::Measurement& measured = run.measured.emplace();
+    measured.time_s = stamps(1000.0);
+    measured.contraction_ratio = contractions(1e-6, 1e-4);
+    measured.sides[0].pressure_is_given = true;
+    measured.sides[0].muscle_pressure_Pa = pressures(measured.time_s, 50.0, 3e3);
+  }
+  for (double& ratio : data.runs[1].measured->contraction_ratio) ratio *= 0.9 + 1e-9 * ratio;
+  const auto words = mend_at_stamps(data);
+  ASSERT_EQ(words.size(), 3u);
+  EXPECT_TRUE(words[0].starts_with("run r1: contraction stays at 36 mm to the last digit in ")) << words[0];
+  EXPECT_EQ(words[2],
+            "muscle_pressure: a tone of 50 Hz, 30 mbar in amplitude, in every run: hum of the mains; it was "
+            "taken out");
+  const domain::Measurement& mended = *data.runs[0].measured;
+  const std::vector<double> clean = pressures(mended.time_s, 0.0, 0.0);
+  double squares = 0.0;
+  for (std::size_t k = 0; k < clean.size(); ++k)
+    squares += std::pow(mended.sides[0].muscle_pressure_Pa[k] - clean[k], 2);
+  EXPECT_LT(std::sqrt(squares / static_cast<double>(clean.size())), 0.1 * 3e3 / std::sqrt(2.0));
+}
+
+}  // namespace
+}  // namespace mckibben::run
