@@ -4,17 +4,23 @@
 namespace mckibben::diagnose {
 namespace {
 
-/// A law is believed if it closes much of the gap, and far more than the names do.
+/// A law is believed if it closes much of the gap, far more than the names do, and more than what stands in.
 bool lawful(const Evidence& e, const DecideThresholds& t) {
   return e.law_terms > 0 && e.law_share > t.law_share &&
-         (!e.named() || e.law_left < t.law_beyond_names * e.left());
+         (!e.named() || e.law_left < t.law_beyond_names * e.left()) &&
+         (!e.only_stand_ins() || e.law_left < e.named_left);
 }
 
-/// Names stand if they close much of a gap that is worth it, and do not leave far too much.
-bool names_stand(const Evidence& e, const DecideThresholds& t) {
-  if (!e.named()) return false;
+/// What was added stands if it closes much of a gap that is worth it, and does not leave far too much.
+bool stands(const Evidence& e, const DecideThresholds& t) {
   const bool bearable = e.named_left < t.hopeless || e.named_share >= t.nearly_all;
   return bearable && (e.named_share >= t.named_share || e.reference_left() < t.worth_a_law);
+}
+
+/// Numbers that are bent to their bounds, or leave a gap, are no explanation.
+bool numbers_explain(const Evidence& e, const Thresholds& t) {
+  const double explained = t.start.explained_floors * t.start.explained_floors;
+  return !e.at_bounds && e.recalibrated_left + 1.0 <= explained;
 }
 
 /// Where nothing is added. "Nothing is missing" is for data that would have shown it, and agree run by run.
@@ -29,6 +35,9 @@ void decide_nothing_added(const Evidence& e, const Thresholds& t, Decision& deci
   if (e.common_fault || e.search_ended || !decision.unexplained.empty()) return;
   decision.verdict = recalibrate ? Verdict::recalibrate : Verdict::nothing_missing;
   decision.chosen = recalibrate ? Chosen::recalibrated : Chosen::nominal;
+  if (!recalibrate || numbers_explain(e, t)) return;
+  decision.verdict = Verdict::unknown_effect;
+  decision.remarks.push_back(Remark::bent_numbers);
 }
 
 }  // namespace
@@ -44,10 +53,15 @@ Decision decide(const Evidence& e, const Thresholds& t) {
   if (lawful(e, t.decide)) {
     decision.verdict = Verdict::unknown_effect;
     decision.chosen = Chosen::law;
-  } else if (names_stand(e, t.decide)) {
+  } else if (e.named() && stands(e, t.decide)) {
     decision.verdict = Verdict::missing_effect;
     decision.chosen = Chosen::named;
+    if (e.stand_ins > 0) decision.remarks.push_back(Remark::stands_in);
     if (e.named_left + 1.0 > t.near.mean_square()) decision.remarks.push_back(Remark::more_is_missing);
+  } else if (e.only_stand_ins() && stands(e, t.decide)) {
+    decision.verdict = e.search_ended ? Verdict::cannot_tell : Verdict::unknown_effect;
+    decision.chosen = Chosen::named;
+    decision.remarks.push_back(Remark::stands_in);
   } else if (e.left() > t.decide.beyond_disturbance) {  // what was not tried might have explained it
     decision.verdict = e.search_ended ? Verdict::cannot_tell : Verdict::unknown_effect;
     decision.chosen = e.recalibration_helps() ? Chosen::recalibrated : Chosen::nominal;

@@ -26,10 +26,12 @@ struct Evidence {
   // baseline
   double nominal_left = 0.0, recalibrated_left = 0.0;
   Improvement recalibration{};  ///< from the rig as described to the recalibrated one
+  bool at_bounds = false;       ///< a number stands at the edge of what is allowed
   std::vector<FarRun> far_from_nominal{}, far_from_recalibrated{};  ///< of all usable runs
   // name
-  std::size_t names = 0;        ///< effects that were found
-  double named_left = 0.0;      ///< with these
+  std::size_t names = 0;        ///< effects that were found, with one size everywhere
+  std::size_t stand_ins = 0;    ///< and those that stand in for something else
+  double named_left = 0.0;      ///< with all of these
   double named_share = 0.0;     ///< of the reference's gap, that they close
   bool gauge_misleads = false;  ///< there is a gauge, and with the names the motion is further away
   std::size_t invisible = 0;    ///< effects that these data would not show
@@ -43,6 +45,7 @@ struct Evidence {
   bool recalibration_helps() const { return recalibration.gained > 0.0; }
   double reference_left() const { return recalibration_helps() ? recalibrated_left : nominal_left; }
   bool named() const { return names > 0 && !gauge_misleads; }
+  bool only_stand_ins() const { return names == 0 && stand_ins > 0 && !gauge_misleads; }
   /// With the names, where they stand.
   double left() const { return named() ? named_left : reference_left(); }
 };
@@ -56,6 +59,8 @@ enum class Remark {
   gauge_misleads,   ///< effects that explain the gauge's pressures make the motion worse
   more_is_missing,  ///< the names leave more than noise
   not_named,        ///< the names come nearest, but leave too much
+  stands_in,        ///< an effect is not the same everywhere
+  bent_numbers,     ///< numbers explain it only at the edge of what is allowed, or leave too much
   invisible         ///< some effects would not have shown
 };
 

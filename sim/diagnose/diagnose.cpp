@@ -6,6 +6,7 @@
 
 #include <sim/diagnose/baseline.hpp>
 #include <sim/diagnose/check.hpp>
+#include <sim/diagnose/constancy.hpp>
 #include <sim/diagnose/decide.hpp>
 #include <sim/diagnose/diagnose.hpp>
 #include <sim/diagnose/faults.hpp>
@@ -180,6 +181,7 @@ class Workflow {
     evidence_.recalibrated_left = excess(recalibrated_.held_out);
     evidence_.recalibration =
         compare(experiment_, nominal_fit_.held_out, recalibrated_.held_out, case_.split.held_out);
+    evidence_.at_bounds = at_bounds(recalibrated_.fitted.model);
     evidence_.far_from_nominal = far_from(nominal_fit_);
     evidence_.far_from_recalibrated = far_from(recalibrated_);
   }
@@ -209,10 +211,10 @@ class Workflow {
     spare_names();
     evidence_.invisible = naming_.invisible.size();
     evidence_.catalogue = catalogue(data_).size();
-    evidence_.names = naming_.effects.size();
     if (naming_.effects.empty()) return;
     const Eigen::VectorXd& named = naming_.best.held_out;
     evidence_.named_left = excess(named);
+    look_for_stand_ins();
     evidence_.named_share = compare(experiment_, reference(), named, case_.split.held_out).share;
     // A gauge that misleads may be met by an effect that takes the motion further away; an error of its own
     // leaves the motion alone.
@@ -245,6 +247,20 @@ class Workflow {
     recalibrated_ = numbers;
     weigh_numbers();
     map_where();
+  }
+
+  /// Names that are not the same everywhere, or are not shown to be where much is left.
+  void look_for_stand_ins() {
+    const Fitted& fitted = naming_.best.fitted;
+    const auto found = constancies(experiment_, fitted.model, usable_,
+                                   variance_inflation(experiment_, fitted.residuals, case_.split.training));
+    const bool much_left = evidence_.named_left + 1.0 > thresholds.near.mean_square();
+    for (NamedEffect& effect : naming_.effects) {
+      const auto place = std::ranges::find(fitted.model.effects, effect.name, &Candidate::effect);
+      effect.constancy = found[static_cast<std::size_t>(place - fitted.model.effects.begin())];
+      effect.stands_in = effect.constancy.drift() != nullptr || (much_left && !effect.constancy.is_shown());
+      ++(effect.stands_in ? evidence_.stand_ins : evidence_.names);
+    }
   }
 
   void look_for_law() {
@@ -303,10 +319,13 @@ class Workflow {
 
   void hand_over(const Decision& decision) {
     result_.verdict = decision.verdict;
-    if (decision.verdict == Verdict::missing_effect) result_.effects = naming_.effects;
+    if (decision.chosen == Chosen::named)
+      for (const NamedEffect& effect : naming_.effects)
+        (effect.stands_in ? result_.stand_ins : result_.effects).push_back(effect);
     for (const Remark remark : decision.remarks)
       warn(remark_in_words(remark, naming_, evidence_.left(), besides_in_words(data_)));
     result_.unexplained = far_runs_in_words(decision.unexplained);
+    for (const NamedEffect& effect : result_.stand_ins) disown(naming_.ranking, effect);
     if (result_.effects.empty()) disown(naming_.ranking);
     result_.ranking = naming_.ranking;
     result_.confusion_names = naming_.confusion_names;
@@ -403,6 +422,8 @@ class Workflow {
     // Plans are of currents, under loads.
     if (result_.effects.empty() || data_.pressure_is_given() || judged() != Judged::contraction) return;
     for (const Doubt& doubt : naming_.doubts) {
+      if (std::ranges::find(result_.effects, doubt.effect, &NamedEffect::name) == result_.effects.end())
+        continue;
       step_(stage("planning"));
       search_.part("the measurement that would tell more", [&] {
         result_.next_experiment =

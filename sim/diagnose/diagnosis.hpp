@@ -2,6 +2,7 @@
 // the gap has shrunk on runs that the fit has not seen.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -46,10 +47,46 @@ inline std::string full_name(const std::string& name, const std::string& variant
   return variant.empty() ? name : name + " (" + variant + ")";
 }
 
+/// The size of an effect in a part of the data alone, with its standard error, in the unit of its amplitude.
+struct SizeIn {
+  std::string part;
+  double value = 0.0, error = 0.0;  ///< infinite: this part knows nothing of it
+};
+
+/// An effect's sizes in parts of the data, and how far apart those two are that differ most of those that
+/// differ for certain.
+struct Drift {
+  std::string along;  ///< load, length, motion, speed
+  std::vector<SizeIn> sizes{};
+  double share = 0.0;       ///< of the size
+  double deviations = 0.0;  ///< standard errors of the difference; 0: none differ for certain
+  std::size_t known = 0;    ///< parts that know the size
+  bool drifts() const { return share > thresholds.constancy.share; }
+};
+
+/// Of one effect, along all that its data can be parted by.
+struct Constancy : std::vector<Drift> {
+  using std::vector<Drift>::vector;
+
+  /// The worst; null if the effect is the same everywhere.
+  const Drift* drift() const {
+    const Drift* worst = nullptr;
+    for (const Drift& one : *this)
+      if (one.drifts() && (worst == nullptr || one.share > worst->share)) worst = &one;
+    return worst;
+  }
+  /// Two parts of the data know its size, along one way at least.
+  bool is_shown() const {
+    return std::any_of(begin(), end(), [](const Drift& one) { return one.known > 1; });
+  }
+};
+
 struct NamedEffect {
   std::string name, variant;
   std::vector<std::string> confusable_with{};  ///< effects that explain these data as well
   std::vector<FittedNumber> parameters{};
+  Constancy constancy{};
+  bool stands_in = false;  ///< for something else: its size is not the same everywhere, or not shown to be
 };
 
 /// A nominal parameter after calibration.
@@ -200,7 +237,8 @@ struct Diagnosis {
   Verdict verdict = Verdict::cannot_tell;
   std::string because;  ///< the verdict in a sentence
   std::vector<NamedEffect> effects{};
-  std::vector<Moved> recalibrated{};  ///< as in the corrected rig
+  std::vector<NamedEffect> stand_ins{};  ///< in the corrected rig, but no names
+  std::vector<Moved> recalibrated{};     ///< as in the corrected rig
   std::vector<LeftOpen> left_open{};
   Begun begun{};
   std::vector<Absorbed> absorbed{};

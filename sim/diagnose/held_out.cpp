@@ -18,13 +18,6 @@ Eigen::Index segment_rows(const Experiment& experiment) {
 
 namespace {
 
-/// What runs are told apart by: their load, or on a bench the length that they were held at.
-double level_of(const domain::Run& run) {
-  if (!run.length_is_given()) return run.load_kg;
-  const auto& lengths = run.measured->contraction_ratio;
-  return std::accumulate(lengths.begin(), lengths.end(), 0.0) / static_cast<double>(lengths.size());
-}
-
 /// Lengths have no runs of their own number each: those nearest the middle of the range first.
 void nearest_the_middle(const std::map<double, Runs>& by_length, std::vector<Runs>& inner,
                         const domain::Dataset& data) {
@@ -34,6 +27,12 @@ void nearest_the_middle(const std::map<double, Runs>& by_length, std::vector<Run
 }
 
 }  // namespace
+
+double level_of(const domain::Run& run) {
+  if (!run.length_is_given()) return run.load_kg;
+  const auto& lengths = run.measured->contraction_ratio;
+  return std::accumulate(lengths.begin(), lengths.end(), 0.0) / static_cast<double>(lengths.size());
+}
 
 Runs a_few(const domain::Dataset& data, const Runs& runs, std::size_t most) {
   if (runs.size() <= most) return runs;

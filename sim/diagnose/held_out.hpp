@@ -7,6 +7,9 @@
 
 namespace mckibben::diagnose {
 
+/// What runs are told apart by: their load [kg], or on a bench the contraction ratio that they were held at.
+double level_of(const domain::Run& run);
+
 struct Split {
   Runs training, held_out;
 };

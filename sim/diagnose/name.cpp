@@ -9,6 +9,7 @@
 #include <sim/diagnose/name.hpp>
 #include <sim/diagnose/ranking.hpp>
 #include <sim/diagnose/revise.hpp>
+#include <sim/diagnose/several.hpp>
 #include <sim/diagnose/thresholds.hpp>
 
 namespace mckibben::diagnose {
@@ -224,6 +225,12 @@ void take_both(const Case& c, Naming& result, std::array<Trial, 2> both) {
   result.best = std::move(both.back().contender);
 }
 
+/// What was named leaves a gap; where nothing was, slow disturbances are no reason.
+bool asks_for_several(const Naming& result) {
+  return excess(result.best.held_out) >
+         (result.effects.empty() ? to_name.worth_a_pair : thresholds.subset.worth_it);
+}
+
 }  // namespace
 
 Naming name_effects(const Case& c, const Contender& nominal, const Contender& recalibrated,
@@ -264,6 +271,14 @@ Naming name_effects(const Case& c, const Contender& nominal, const Contender& re
         search.part("whether each effect is needed", [&] { revise(c, result, reference, step); });
     if (!whole || !revised) break;
     before = result.best.held_out;
+  }
+  if (asks_for_several(result)) {
+    search.part("several effects at once", [&] {
+      std::vector<Screening> bases{screen_at(c, nominal), screen_at(c, recalibrated)};
+      const Contender named = result.best;  // and what more there may be beside the names
+      if (!result.effects.empty()) bases.push_back(screen_at(c, named));
+      if (try_several(c, result, bases, step)) revise(c, result, reference, step);
+    });
   }
   drop_uncertain(c, result, step);
   tidy_doubts(result);

@@ -87,6 +87,12 @@ void give_up(std::vector<Ranked>& ranking, const Candidate& candidate, const std
     if (is(one, candidate) && one.outcome.starts_with(taken)) one.outcome = "given up: " + why;
 }
 
+void disown(std::vector<Ranked>& ranking, const NamedEffect& stand_in) {
+  for (Ranked& one : ranking)
+    if (one.name == stand_in.name && one.variant == stand_in.variant && one.outcome.starts_with(taken))
+      one.outcome = "stands in for something else: not the same everywhere";
+}
+
 void disown(std::vector<Ranked>& ranking) {
   for (Ranked& one : ranking)
     if (one.outcome.starts_with(taken)) one.outcome = "comes nearest, but leaves too much to be named";

@@ -23,6 +23,9 @@ void take(const Case& c, std::vector<Ranked>& ranking, const Candidate& candidat
 /// What was taken is no more: says why.
 void give_up(std::vector<Ranked>& ranking, const Candidate& candidate, const std::string& why);
 
+/// An effect that was taken stands in for something else.
+void disown(std::vector<Ranked>& ranking, const NamedEffect& stand_in);
+
 /// No effect is named after all: what had been taken came nearest.
 void disown(std::vector<Ranked>& ranking);
 

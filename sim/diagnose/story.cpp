@@ -52,12 +52,13 @@ void tell_parameters(Diagnosis& diagnosis, const Model& model, const std::vector
       diagnosis.absorbed.push_back({p.path, p.deviations(value_of(recalibrated, p.path)), moved});
       continue;
     }
-    for (auto& effect : diagnosis.effects) {
-      const std::string prefix = fmt::format("effects.{}.", effect.name);
-      if (!p.path.starts_with(prefix)) continue;
-      number.name = p.path.substr(prefix.size());
-      effect.parameters.push_back(number);
-    }
+    for (auto* effects : {&diagnosis.effects, &diagnosis.stand_ins})
+      for (auto& effect : *effects) {
+        const std::string prefix = fmt::format("effects.{}.", effect.name);
+        if (!p.path.starts_with(prefix)) continue;
+        number.name = p.path.substr(prefix.size());
+        effect.parameters.push_back(number);
+      }
     if (!p.path.starts_with(law_terms)) continue;
     // terms.INDEX.KEY: the nominal rig may have had terms of its own.
     const std::size_t dot = p.path.find('.', law_terms.size());
@@ -232,6 +233,22 @@ std::string remark_in_words(Remark remark, const Naming& naming, double left, co
     case Remark::not_named:
       return fmt::format("nearest comes {}, but {:.1f} noise floors are left: not named",
                          fmt::join(names, " with "), floors);
+    case Remark::stands_in: {
+      std::vector<std::string> stand_ins;
+      for (const NamedEffect& effect : naming.effects)
+        if (effect.stands_in) stand_ins.push_back(full_name(effect.name, effect.variant));
+      return fmt::format(
+          "{}: added to the corrected rig, but no name for what is missing; how it drifts is a hint at the "
+          "true "
+          "law",
+          fmt::join(stand_ins, " and "));
+    }
+    case Remark::bent_numbers:
+      return fmt::format(
+          "other numbers come nearest, but at the edge of what is allowed of them or with {:.1f} noise "
+          "floors "
+          "left: that is no explanation",
+          floors);
     case Remark::invisible:
       break;
   }
@@ -298,6 +315,31 @@ std::string numbers_in_words(const Diagnosis& d) {
                      moved.empty() ? "" : ": ", moved, exceeded_in_words(d), gap_in_words(d));
 }
 
+/// What is not the same everywhere, and how; empty if nothing is.
+std::string stand_ins_in_words(const Diagnosis& d) {
+  std::string said;
+  for (const NamedEffect& effect : d.stand_ins) {
+    const Drift* drift = effect.constancy.drift();
+    said += fmt::format(" {} stands in for it: ", full_name(effect.name, effect.variant));
+    if (drift == nullptr || effect.parameters.empty()) {
+      said += "much is left, and no two parts of the data show its size.";
+      continue;
+    }
+    said += fmt::format("along the {} its size differs by {:.0f} % for certain (", drift->along,
+                        100.0 * drift->share);
+    bool first = true;
+    for (const SizeIn& size : drift->sizes) {
+      if (!std::isfinite(size.error)) continue;
+      const std::string& unit = effect.parameters.front().unit;
+      said += fmt::format("{}{:.3g}{} at {}", first ? "" : ", ", size.value, unit == "1" ? "" : " " + unit,
+                          size.part);
+      first = false;
+    }
+    said += "), as no real effect's does.";
+  }
+  return said;
+}
+
 std::string effects_in_words(const Diagnosis& d) {
   std::string said;
   for (const NamedEffect& effect : d.effects) {
@@ -305,13 +347,19 @@ std::string effects_in_words(const Diagnosis& d) {
     if (!effect.confusable_with.empty())
       said += fmt::format(" - these data cannot tell it from {}", fmt::join(effect.confusable_with, ", "));
   }
-  return fmt::format("Missing: {}. {}{}", said, exceeded_in_words(d), gap_in_words(d));
+  const std::string more = stand_ins_in_words(d);
+  return fmt::format("Missing: {}.{} {}{}", said,
+                     more.empty() ? "" : " Something else is missing besides." + more, exceeded_in_words(d),
+                     gap_in_words(d));
 }
 
 std::string law_in_words(const Diagnosis& d) {
   std::string law;
   for (const LawTerm& term : d.residual_law)
     law += fmt::format("{}{:.3g} N x {}", law.empty() ? "" : " + ", term.coefficient.value, term.term);
+  if (law.empty() && !d.stand_ins.empty())
+    return fmt::format("Something real is missing that no effect of the catalogue explains.{} {}",
+                       stand_ins_in_words(d), gap_in_words(d));
   if (law.empty())
     return "Something real is missing, but no effect of the catalogue explains it, and no simple law of "
            "force was found either.";

@@ -121,6 +121,14 @@ void polish(const Case& c, Trial& trial, const Step& step) {
     trial.contender = std::move(polished);
 }
 
+bool at_bounds(const Model& model) {
+  return std::ranges::any_of(model.free, [&](const Parameter& p) {
+    const double value = value_of(model.rig, p.path),
+                 edge = thresholds.name.at_bound * (p.highest - p.lowest);
+    return p.has_prior && !p.of_effect() && (value < p.lowest + edge || value > p.highest - edge);
+  });
+}
+
 bool meets(const Contender& contender) {
   const double nothing = thresholds.near.nothing_left;
   return excess(contender.held_out) < nothing && excess(contender.fitted.residuals) < 2.0 * nothing;

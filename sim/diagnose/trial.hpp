@@ -29,10 +29,10 @@ struct Contender {
 };
 
 struct Trial {
-  Score score;
-  std::size_t place;  ///< among the scores
-  Contender contender;
-  Improvement gain;
+  Score score{};
+  std::size_t place = 0;  ///< among the scores
+  Contender contender{};
+  Improvement gain{};
 };
 
 /// What a screening was made at, and what it found.
@@ -64,6 +64,9 @@ void polish(const Case& c, Trial& trial, const Step& step);
 
 /// A size that a fit has not driven against a bound, nor to nothing.
 bool has_size(const Model& model, const Candidate& candidate);
+
+/// Whether a nominal number stands at the edge of what is allowed of it.
+bool at_bounds(const Model& model);
 
 /// A shape, if it has one, that a fit has not driven against a bound.
 bool has_shape(const Model& model, const Candidate& candidate);

@@ -44,15 +44,36 @@ std::string short_key(const std::string& path, const domain::RigFile& nominal) {
   return key;
 }
 
-Json effects_json(const diagnose::Diagnosis& diagnosis) {
+/// Sizes of an effect in parts of the data; null for the error where a part knows nothing of it.
+Json constancy_json(const diagnose::Constancy& constancy) {
   Json list = Json::array();
-  for (const auto& effect : diagnosis.effects) {
+  for (const auto& drift : constancy) {
+    Json sizes = Json::array();
+    for (const auto& size : drift.sizes) {
+      const bool known = std::isfinite(size.error);
+      sizes.push_back({{"part", size.part},
+                       {"value", known ? Json(size.value) : Json()},
+                       {"standard_error", known ? Json(size.error) : Json()}});
+    }
+    list.push_back({{"along", drift.along},
+                    {"differs_by", drift.share},
+                    {"deviations", drift.deviations},
+                    {"sizes", std::move(sizes)}});
+  }
+  return list;
+}
+
+Json effects_json(const std::vector<diagnose::NamedEffect>& effects) {
+  Json list = Json::array();
+  for (const auto& effect : effects) {
     Json parameters = Json::object();
     for (const auto& parameter : effect.parameters) parameters[parameter.name] = value_json(parameter);
     list.push_back({{"name", effect.name},
                     {"variant", effect.variant},
                     {"confusable_with", effect.confusable_with},
-                    {"parameters", parameters}});
+                    {"parameters", parameters},
+                    {"stands_in", effect.stands_in},
+                    {"constancy", constancy_json(effect.constancy)}});
   }
   return list;
 }
@@ -240,7 +261,8 @@ std::string json_of(const domain::Dataset& data, const diagnose::Diagnosis& diag
   Json document{{"schema", "mckibben-diagnosis/1"},
                 {"verdict", std::string(input::spelling(diagnosis.verdict))},
                 {"because", diagnosis.because},
-                {"effects", effects_json(diagnosis)},
+                {"effects", effects_json(diagnosis.effects)},
+                {"stand_ins", effects_json(diagnosis.stand_ins)},
                 {"recalibrated", recalibrated_json(diagnosis, data.rig)},
                 {"left_open", left_open_json(diagnosis)},
                 {"begun", {{"places", diagnosis.begun.places}, {"agree", diagnosis.begun.agree}}},

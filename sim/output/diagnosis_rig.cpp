@@ -54,11 +54,13 @@ std::string origin(const domain::Dataset& data, const diagnose::Diagnosis& diagn
   std::string text =
       comment(fmt::format("The rig as a diagnosis of {} found it. {}.", name_of(data), title_of(diagnosis)));
   if (!diagnosis.because.empty()) text += comment(diagnosis.because);
-  for (const auto& effect : diagnosis.effects) {
-    text += comment(
-        fmt::format("Added: {}: {}", full_name(effect.name, effect.variant), words_of(effect.name).sentence));
+  const auto add = [&](const char* as, const diagnose::NamedEffect& effect) {
+    text += comment(fmt::format("{}: {}: {}", as, full_name(effect.name, effect.variant),
+                                words_of(effect.name).sentence));
     for (const auto& parameter : effect.parameters) text += number_line(parameter.name, parameter, "");
-  }
+  };
+  for (const auto& effect : diagnosis.effects) add("Added", effect);
+  for (const auto& effect : diagnosis.stand_ins) add("Added, standing in for something else", effect);
   if (!diagnosis.residual_law.empty())
     text += comment("Added: a force outside the catalogue, valid for " + diagnosis.law_valid_for);
   for (const auto& term : diagnosis.residual_law) {

@@ -30,6 +30,9 @@ std::string added(const Diagnosis& diagnosis) {
   for (const auto& effect : diagnosis.effects)
     for (const auto& parameter : effect.parameters)
       add(full_name(effect.name, effect.variant), parameter.name, parameter);
+  for (const auto& effect : diagnosis.stand_ins)
+    for (const auto& parameter : effect.parameters)
+      add(full_name(effect.name, effect.variant) + ", stands in", parameter.name, parameter);
   for (const auto& term : diagnosis.residual_law) {
     add("residual_law", term.term, term.coefficient);
     for (const auto& shape : term.shape) add("", shape.name, shape);

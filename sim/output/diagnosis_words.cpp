@@ -161,7 +161,8 @@ std::vector<std::string> held_out(const diagnose::Diagnosis& diagnosis) {
 }
 
 bool changed(const diagnose::Diagnosis& diagnosis) {
-  return !diagnosis.effects.empty() || !diagnosis.residual_law.empty() || !diagnosis.recalibrated.empty();
+  return !diagnosis.effects.empty() || !diagnosis.stand_ins.empty() || !diagnosis.residual_law.empty() ||
+         !diagnosis.recalibrated.empty();
 }
 
 EffectWords words_of(std::string_view effect) {

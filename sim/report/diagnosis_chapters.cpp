@@ -61,6 +61,9 @@ std::string found(const Diagnosis& diagnosis) {
   for (const auto& effect : diagnosis.effects)
     for (const auto& parameter : effect.parameters)
       rows += found_row(full_name(effect.name, effect.variant), parameter.name, parameter);
+  for (const auto& effect : diagnosis.stand_ins)
+    for (const auto& parameter : effect.parameters)
+      rows += found_row(full_name(effect.name, effect.variant) + ", stands in", parameter.name, parameter);
   for (const auto& term : diagnosis.residual_law)
     rows += found_row("residual_law", term.term, term.coefficient);
   if (rows.empty())
@@ -181,7 +184,7 @@ std::string left_open_html(const Diagnosis& diagnosis) {
 }
 
 std::string absorbed_html(const Diagnosis& diagnosis) {
-  if (diagnosis.effects.empty() && diagnosis.residual_law.empty()) return "";
+  if (diagnosis.effects.empty() && diagnosis.stand_ins.empty() && diagnosis.residual_law.empty()) return "";
   if (diagnosis.absorbed.empty()) return "";
   return "<h3>What the numbers had absorbed</h3>\n" +
          paragraph(
@@ -193,18 +196,56 @@ std::string absorbed_html(const Diagnosis& diagnosis) {
          figures_html({{"How far each was moved, in deviations as above.", absorbed_svg(diagnosis)}});
 }
 
+/// "12.3 N, +- 0.4 N".
+std::string size_in_words(const diagnose::SizeIn& size, const std::string& unit) {
+  if (!std::isfinite(size.error)) return "unknown";
+  return readable(size.value, unit) + " \u00b1 " + readable(size.error, unit);
+}
+
+/// The size of each effect in parts of the data: what a name is earned by, or lost.
+std::string constancy_html(const Diagnosis& diagnosis) {
+  std::string rows;
+  for (const auto* effects : {&diagnosis.effects, &diagnosis.stand_ins})
+    for (const auto& effect : *effects)
+      for (const auto& drift : effect.constancy) {
+        std::string sizes;
+        for (const auto& size : drift.sizes)
+          sizes += fmt::format(
+              "{}{}: {}", sizes.empty() ? "" : "; ", size.part,
+              size_in_words(size, effect.parameters.empty() ? "1" : effect.parameters.front().unit));
+        rows += row(full_name(effect.name, effect.variant),
+                    {drift.along, sizes,
+                     drift.deviations == 0.0 ? "no"
+                                             : fmt::format("by {:.0f} %{}", 100.0 * drift.share,
+                                                           drift.drifts() ? "" : ", which is little")});
+      }
+  if (rows.empty()) return "";
+  return folded(
+      "Is it the same everywhere?",
+      paragraph("The size of each effect from parts of the data alone, each with its standard error. "
+                "A real effect has one size; one that stands in for something else has not.") +
+          "<div class='wide'>" +
+          table("Sizes in parts of the data", {"effect", "along", "size", "differs for certain"}, rows) +
+          "</div>\n");
+}
+
 std::string added_html(const Diagnosis& diagnosis, const plant::Rig& rig) {
   std::string html;
-  for (const auto& effect : diagnosis.effects) {
+  const auto add = [&](const diagnose::NamedEffect& effect) {
     const auto words = output::words_of(effect.name);
     std::string says(words.sentence);
     if (!says.empty() && says[0] >= 'a' && says[0] <= 'z') says[0] = static_cast<char>(says[0] - 'a' + 'A');
     html += fmt::format("<h3>{}</h3>\n<p>{}.<br>Law: <code>{}</code><br><span class='small'>{}</span></p>\n",
                         escaped(full_name(effect.name, effect.variant)), escaped(says), escaped(words.law),
                         escaped(words.source));
-  }
-  return html + law_html(diagnosis, rig) + recalibrated_html(diagnosis) + left_open_html(diagnosis) +
-         absorbed_html(diagnosis);
+    if (effect.stands_in)
+      html += paragraph(
+          "It stands in for something else: it makes the gap smaller, but is not the same everywhere.");
+  };
+  for (const auto& effect : diagnosis.effects) add(effect);
+  for (const auto& effect : diagnosis.stand_ins) add(effect);
+  return html + constancy_html(diagnosis) + law_html(diagnosis, rig) + recalibrated_html(diagnosis) +
+         left_open_html(diagnosis) + absorbed_html(diagnosis);
 }
 
 /// Errors that are left, by load.
@@ -319,13 +360,14 @@ std::string result_table(const domain::Dataset& data, const Diagnosis& diagnosis
 std::vector<Chapter> story(const domain::Dataset& data, const Diagnosis& diagnosis,
                            const std::vector<const diagnose::RunGap*>& runs) {
   const plant::Rig& rig = data.rig;
-  return {
-      {"Where they disagree", where_html(diagnosis, rig)},
-      {diagnosis.effects.empty() ? "What was tried" : "What explains it", ranking_html(diagnosis, rig)},
-      {diagnosis.effects.empty() && diagnosis.residual_law.empty() ? "What was changed" : "What was added",
-       added_html(diagnosis, rig)},
-      {output::changed(diagnosis) ? "How far the gap shrank" : "The gap, run by run",
-       gap_html(diagnosis, runs, rig)}};
+  return {{"Where they disagree", where_html(diagnosis, rig)},
+          {diagnosis.effects.empty() ? "What was tried" : "What explains it", ranking_html(diagnosis, rig)},
+          {diagnosis.effects.empty() && diagnosis.stand_ins.empty() && diagnosis.residual_law.empty()
+               ? "What was changed"
+               : "What was added",
+           added_html(diagnosis, rig)},
+          {output::changed(diagnosis) ? "How far the gap shrank" : "The gap, run by run",
+           gap_html(diagnosis, runs, rig)}};
 }
 
 std::vector<Chapter> doubts_and_plan(const domain::Dataset& data, const Diagnosis& diagnosis) {

@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <controllers/waveform.hpp>
 #include <plant/instruments.hpp>
@@ -94,10 +95,11 @@ std::vector<Kind> single_effects() {
   return kinds;
 }
 
-Kind pair_of(const char* one, const char* other) {
-  Kind kind{fmt::format("{} + {}", one, other), Verdict::missing_effect, {one, other}, {}};
+/// Effects together, all large.
+Kind together(const std::vector<std::string>& effects) {
+  Kind kind{fmt::format("{}", fmt::join(effects, " + ")), Verdict::missing_effect, effects, {}};
   std::vector<Planted> shapes;
-  for (const std::string_view name : {one, other}) {
+  for (const std::string& name : effects) {
     const Size& s = *std::find_if(std::begin(sizes), std::end(sizes),
                                   [&](const Size& size) { return size.effect == name; });
     kind.plan.push_back({path_of(s.effect, s.key), s.large});
@@ -108,8 +110,17 @@ Kind pair_of(const char* one, const char* other) {
 }
 
 std::vector<Kind> pairs_of_effects() {
-  return {pair_of("polytropic_gas", "guide_friction"), pair_of("muscle_leak", "speed_dependent_friction"),
-          pair_of("bladder_elasticity", "encoder_backlash"), pair_of("valve_dead_band", "viscous_damping")};
+  return {
+      together({"polytropic_gas", "guide_friction"}), together({"muscle_leak", "speed_dependent_friction"}),
+      together({"bladder_elasticity", "encoder_backlash"}), together({"valve_dead_band", "viscous_damping"})};
+}
+
+std::vector<Kind> triples_of_effects() {
+  return {together({"muscle_leak", "guide_friction", "bladder_elasticity"}),
+          together({"polytropic_gas", "valve_dead_band", "viscous_damping"}),
+          together({"speed_dependent_friction", "bladder_creep", "encoder_backlash"}),
+          together({"valve_lag", "bladder_hysteresis", "supply_droop"}),
+          together({"pressure_threshold", "exhaust_restriction", "friction_warm_up"})};
 }
 
 /// Nothing that has a name: other numbers, only noise, laws of no catalogue.
@@ -168,6 +179,7 @@ const std::vector<Kind>& all_kinds() {
     add(pairs_of_effects());
     add(without_effects());
     add(gauged(all));
+    add(triples_of_effects());
     return all;
   }();
   return list;

@@ -25,9 +25,9 @@ struct Hidden {
   domain::Dataset data{};
 };
 
-/// What may be hidden. `kind` counts from 0 to kinds() - 1: each effect at two sizes, pairs, changed nominal
-/// parameters, nulls with white, wandering and rippling disturbance, laws outside the catalogue. Even seeds
-/// hide the other sign where an effect may have either, every third the saturating bladder.
+/// What may be hidden. `kind` counts from 0 to kinds() - 1: each effect at two sizes, pairs, triples, changed
+/// nominal parameters, nulls with white, wandering and rippling disturbance, laws outside the catalogue. Even
+/// seeds hide the other sign where an effect may have either, every third the saturating bladder.
 std::size_t kinds();
 const std::string& title(std::size_t kind);
 Hidden hide(std::size_t kind, std::uint64_t seed);

@@ -14,6 +14,7 @@ namespace {
 using enum Verdict;
 const DecideThresholds& at = thresholds.decide;
 const NearThresholds& close = thresholds.near;
+constexpr double most_explained = thresholds.start.explained_floors * thresholds.start.explained_floors;
 const ImprovementThresholds& least = thresholds.improvement;
 
 double below(double value) {
@@ -132,6 +133,8 @@ Ways to_recalibrate() {
          e.far_from_nominal = {{"r01", 20.0}};
        },
        recalibrate, recalibrated},
+      {"other numbers that leave as much as is explained", other_numbers(),
+       [](Evidence& e) { e.recalibrated_left = most_explained - 1.0; }, recalibrate, recalibrated},
   };
 }
 
@@ -141,8 +144,6 @@ Ways to_missing_effect() {
       {"an effect", one_name(), [](Evidence&) {}, missing_effect, named},
       {"an effect that closes just enough", one_name(), [](Evidence& e) { e.named_share = at.named_share; },
        missing_effect, named},
-      {"an effect that closes too little", one_name(),
-       [](Evidence& e) { e.named_share = below(at.named_share); }, recalibrate, recalibrated},
       {"an effect that relieves strained numbers", one_name(),
        [](Evidence& e) {
          e.recalibrated_left = below(at.worth_a_law);
@@ -191,6 +192,12 @@ Ways to_missing_effect() {
          e.law_left = at.law_beyond_names * e.named_left;
        },
        missing_effect, named},
+      {"an effect beside one that stands in for something else",
+       one_name(),
+       [](Evidence& e) { e.stand_ins = 1; },
+       missing_effect,
+       named,
+       {Remark::stands_in}},
       {"an effect beside a fault of all runs", one_name(), [](Evidence& e) { e.common_fault = true; },
        missing_effect, named},
   };
@@ -213,6 +220,56 @@ Ways to_unknown_effect() {
          e.law_left = below(at.law_beyond_names * e.named_left);
        },
        unknown_effect, law},
+      {"other numbers that leave more than is explained",
+       other_numbers(),
+       [](Evidence& e) { e.recalibrated_left = above(most_explained) - 1.0; },
+       unknown_effect,
+       recalibrated,
+       {bent_numbers}},
+      {"other numbers at the edge of what is allowed",
+       other_numbers(),
+       [](Evidence& e) { e.at_bounds = true; },
+       unknown_effect,
+       recalibrated,
+       {bent_numbers}},
+      {"an effect that closes too little of a gap that numbers leave",
+       one_name(),
+       [](Evidence& e) {
+         e.recalibrated_left = at.beyond_disturbance;
+         e.named_left = 10.0;
+         e.named_share = below(at.named_share);
+       },
+       unknown_effect,
+       recalibrated,
+       {bent_numbers}},
+      {"an effect that stands in for something else",
+       one_name(),
+       [](Evidence& e) {
+         e.names = 0;
+         e.stand_ins = 1;
+       },
+       unknown_effect,
+       named,
+       {stands_in}},
+      {"a law that is better than an effect that stands in", one_name(),
+       [](Evidence& e) {
+         e.names = 0;
+         e.stand_ins = e.law_terms = 1;
+         e.law_share = 0.99;
+         e.law_left = below(e.named_left);
+       },
+       unknown_effect, law},
+      {"an effect that stands in, and a law that is no better",
+       one_name(),
+       [](Evidence& e) {
+         e.names = 0;
+         e.stand_ins = e.law_terms = 1;
+         e.law_share = 0.99;
+         e.law_left = e.named_left;
+       },
+       unknown_effect,
+       named,
+       {stands_in}},
       {"a gap that nothing closes", gap(), [](Evidence&) {}, unknown_effect, recalibrated},
       {"a gap that other numbers make larger", gap(), [](Evidence& e) { e.recalibration.gained = 0.0; },
        unknown_effect, nominal},

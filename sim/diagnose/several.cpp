@@ -1,0 +1,84 @@
+// See the header.
+#include <algorithm>
+#include <optional>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <sim/diagnose/ranking.hpp>
+#include <sim/diagnose/several.hpp>
+#include <sim/diagnose/subsets.hpp>
+#include <sim/diagnose/thresholds.hpp>
+
+namespace mckibben::diagnose {
+namespace {
+
+std::string words_of(const Subset& subset) {
+  std::vector<std::string> names;
+  for (const Score& score : subset.members) names.push_back(title(score.candidate));
+  return fmt::format("{}", fmt::join(names, " with "));
+}
+
+bool is_named(const Naming& naming, const Subset& subset) {
+  return subset.members.size() == naming.effects.size() &&
+         std::ranges::all_of(subset.members, [&](const Score& score) {
+           return std::ranges::find(naming.effects, score.candidate.effect, &NamedEffect::name) !=
+                  naming.effects.end();
+         });
+}
+
+/// The base with all members, those that the fit drives to nothing or to a bound taken out again.
+std::optional<Contender> fitted(const Case& c, const Contender& base, const Subset& subset) {
+  Model model = base.fitted.model;
+  for (const Score& score : subset.members) model = with(c, model, score);
+  Contender contender = contend(c, std::move(model));
+  for (;;) {
+    if (!contender.fitted.failure.empty()) return std::nullopt;
+    const Model& now = contender.fitted.model;
+    const auto gone = std::ranges::find_if_not(
+        now.effects, [&](const Candidate& candidate) { return has_size(now, candidate); });
+    if (gone == now.effects.end()) return contender;
+    if (now.effects.size() < 2) return std::nullopt;
+    contender = contend(c, without(now, static_cast<std::size_t>(gone - now.effects.begin())));
+  }
+}
+
+}  // namespace
+
+bool try_several(const Case& c, Naming& result, std::span<const Screening> screenings, const Step& step) {
+  std::vector<std::pair<const Contender*, Subset>> sets;
+  for (const Screening& screening : screenings)
+    for (Subset& subset : best_subsets(screening.scores))
+      if (!is_named(result, subset)) sets.emplace_back(screening.base, std::move(subset));
+  step(stage("several effects at once", sets.size()));
+  std::optional<Contender> best;
+  for (const auto& [base, subset] : sets) {
+    step("trying " + words_of(subset));
+    auto contender = fitted(c, *base, subset);
+    if (!contender || contender->fitted.model.effects.size() < 2) continue;
+    const Model& model = contender->fitted.model;
+    // A shape at its edge belongs to another law.
+    if (!std::ranges::all_of(model.effects, [&](const Candidate& e) { return has_shape(model, e); }))
+      continue;
+    if (!best || contender->fitted.cost < best->fitted.cost) best = std::move(contender);
+    if (meets(*best)) break;
+  }
+  if (!best) return false;
+  const auto gain = compare(c.experiment, result.best.held_out, best->held_out, c.split.held_out);
+  const double fall = result.best.fitted.cost - best->fitted.cost;
+  if (!convinces(gain) || gain.share < thresholds.subset.share || fall < thresholds.near.clear) return false;
+  for (const Candidate& old : result.best.fitted.model.effects)
+    give_up(result.ranking, old, "several others together serve better");
+  result.effects.clear();
+  result.doubts.clear();
+  Trial all;
+  all.contender = *best;
+  for (const Candidate& candidate : best->fitted.model.effects) {
+    take(c, result.ranking, candidate, all, fall, "of several that close most of the gap together");
+    result.effects.push_back({.name = candidate.effect, .variant = candidate.variant});
+  }
+  result.best = std::move(*best);
+  return true;
+}
+
+}  // namespace mckibben::diagnose
