@@ -14,17 +14,18 @@ namespace mckibben::controllers {
 /// Richalet & O'Donovan 2009, with one base function and one point of coincidence). One root by secants.
 class LookAhead {
  public:
-  LookAhead(const CurrentRange& limits, int ticks) : limits_(limits), ticks_(ticks) {}
+  /// `width_mA`: of all currents that there are.
+  LookAhead(double width_mA, int ticks);
 
   /// Current [mA] for the tick at which `model` is; it is the same afterwards. `target`: contraction ratio
-  /// wanted `ticks` further. `before_mA`: current of the tick before.
-  double current_mA(RigModel& model, double target, double before_mA);
+  /// wanted `ticks` further. `before_mA`: current of the tick before, within `limits`.
+  double current_mA(RigModel& model, double target, double before_mA, const CurrentRange& limits);
 
  private:
   double reached(RigModel& model, double current_mA) const;
 
-  CurrentRange limits_;
   int ticks_;
+  double largest_step_mA_, least_slope_per_mA_;
   double slope_per_mA_ = 0.0;  // of what is reached over the current; as last found
 };
 

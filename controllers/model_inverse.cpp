@@ -22,12 +22,11 @@ class ModelInverse final : public ModelledController {
 
  private:
   void begin(std::unique_ptr<RigModel> model, std::int64_t tick, double before_mA) override {
-    LookAhead look(range(), terms().look_ahead_ticks);
+    LookAhead look(range().width_mA(), terms().look_ahead_ticks);
     const auto end = static_cast<std::int64_t>(knowledge().target.size());
     double squares = 0.0;
     for (std::int64_t k = begin_ = tick; k < end; ++k) {
-      const double target = knowledge().target_at(k + terms().look_ahead_ticks);
-      before_mA = model->given_mA(look.current_mA(*model, target, before_mA));
+      before_mA = model->given_mA(look.current_mA(*model, aim(k), before_mA, range_after(before_mA)));
       if (k >= 0) squares += std::pow(model->contraction_ratio() - knowledge().target_at(k), 2);
       model->step(before_mA);
       plan_mA_.push_back(before_mA);

@@ -11,13 +11,14 @@ namespace mckibben::controllers {
 namespace {
 
 constexpr double counts_to_turn = 3.0;  // by which the model goes back before the way counts as the other
+constexpr double largest_news = 0.05;   // contraction ratio; more is not what a model lacks
 constexpr double share_of_way = 0.5;    // of what is new: believed to change its sign with the way
 
 class ModelInverseFeedback final : public ModelledController {
  public:
   ModelInverseFeedback(const ModelInverseFeedbackSettings& settings, const Knowledge& known)
       : ModelledController(settings, settings.name, settings.feedback_delay_ticks, known),
-        look_(range(), settings.look_ahead_ticks),
+        look_(range().width_mA(), settings.look_ahead_ticks),
         gain_(-std::expm1(-1.0 / settings.filter_ticks.value_or(5.0 + settings.feedback_delay_ticks))),
         then_(settings.feedback_delay_ticks) {}
 
@@ -25,6 +26,8 @@ class ModelInverseFeedback final : public ModelledController {
     std::vector<Finding> found = ModelledController::findings();
     found.push_back({"unknown_either_way", "1", bias_});
     found.push_back({"unknown_by_way", "1", friction_});
+    if (ticks_without_belief_ > 0)
+      found.push_back({"ticks_counts_contradict", "1", static_cast<double>(ticks_without_belief_)});
     return found;
   }
 
@@ -41,9 +44,10 @@ class ModelInverseFeedback final : public ModelledController {
 
   double drive_mA(std::int64_t tick, std::int64_t counts) override {
     turn();
-    learn(counts, then_({model_->shown_ratio(), way_}));
-    const double target = knowledge().target_at(tick + terms().look_ahead_ticks);
-    before_mA_ = model_->given_mA(look_.current_mA(*model_, target - unknown(way_), before_mA_));
+    const Shown then = then_({model_->shown_ratio(), way_});
+    if (!counts_are_lost()) learn(counts, then);
+    const double target = aim(tick) - unknown(way_);
+    before_mA_ = model_->given_mA(look_.current_mA(*model_, target, before_mA_, range_after(before_mA_)));
     model_->step(before_mA_);
     return before_mA_;
   }
@@ -67,6 +71,10 @@ class ModelInverseFeedback final : public ModelledController {
     const double q = knowledge().contraction_per_count, dead = 0.5 * q;
     const double e = (static_cast<double>(counts) + knowledge().middle_of_count) * q;
     const double news = e - then.ratio - unknown(then.way);
+    if (std::abs(news) > largest_news) {  // the counter stands still, or something holds the load
+      ++ticks_without_belief_;
+      return;
+    }
     const double beyond = news - std::clamp(news, -dead, dead);
     bias_ += (1.0 - share_of_way) * gain_ * beyond;
     friction_ += share_of_way * gain_ * then.way * beyond;
@@ -76,6 +84,7 @@ class ModelInverseFeedback final : public ModelledController {
   double gain_;
   Delayed<Shown> then_;
   std::unique_ptr<RigModel> model_;
+  std::int64_t ticks_without_belief_ = 0;
   double before_mA_ = 0.0, bias_ = 0.0, friction_ = 0.0, way_ = 1.0, turned_at_ = 0.0;
 };
 

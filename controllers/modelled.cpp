@@ -25,6 +25,7 @@ ModelledController::ModelledController(const ModelTerms& terms, const std::strin
       knowledge_(known),
       range_(working_range(known)),
       approach_ticks_(std::llround(approach_s / known.tick_s)),
+      believed_(terms, known),
       delayed_(delay_ticks) {
   if (!terms_.model) throw std::invalid_argument(name + ": there is no model");
   if (!terms_.assumed_load_kg) weighing_.emplace(*terms_.weighing_speed_mA_per_s, delay_ticks, known);
@@ -36,7 +37,7 @@ std::int64_t ModelledController::preparation_ticks() const {
 
 Command ModelledController::step(const Reading& reading) {
   try {
-    return {weigh_or_drive_mA(reading.tick, delayed_(reading.counts))};
+    return {weigh_or_drive_mA(reading.tick, delayed_(believed_(reading.counts)))};
   } catch (const ModelFailure& failure) {
     throw ControllerFailure(std::string("the model cannot be carried on: ") + failure.what());
   }
@@ -54,8 +55,12 @@ double ModelledController::weigh_or_drive_mA(std::int64_t tick, std::int64_t cou
 }
 
 std::vector<Finding> ModelledController::findings() const {
-  if (!weighing_) return {};
-  return {{"weighed_load", "kg", weighing_->load_kg()}, {"weighing_misfit", "1", weighing_->misfit()}};
+  std::vector<Finding> found;
+  if (weighing_)
+    found = {{"weighed_load", "kg", weighing_->load_kg()}, {"weighing_misfit", "1", weighing_->misfit()}};
+  if (believed_.lost_ticks() > 0)
+    found.push_back({"ticks_without_counts", "1", static_cast<double>(believed_.lost_ticks())});
+  return found;
 }
 
 }  // namespace mckibben::controllers

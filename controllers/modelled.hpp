@@ -13,10 +13,11 @@
 #include <controllers/delayed.hpp>
 #include <controllers/rig_model.hpp>
 #include <controllers/rise_weighing.hpp>
+#include <controllers/safety.hpp>
 
 namespace mckibben::controllers {
 
-struct ModelTerms {
+struct ModelTerms : SafetyTerms {
   std::string rig;
   ModelMaker model;  ///< filled in by whoever can simulate `rig`, before make()
   std::optional<double> assumed_load_kg = std::nullopt;
@@ -37,6 +38,7 @@ struct ModelTerms {
           "speed of the current while it weighs; 1/32 of the valve's span in a second if absent");
     visit("look_ahead_ticks", self.look_ahead_ticks, 1, 1000,
           "ticks after which a current is to have brought the load to the target");
+    SafetyTerms::fields(self, visit);
   }
 };
 
@@ -60,6 +62,16 @@ class ModelledController : public Controller {
 
   const Knowledge& knowledge() const { return knowledge_; }
   const CurrentRange& range() const { return range_; }
+  /// Where the load is to be when a current of `tick` has done its work.
+  double aim(std::int64_t tick) const {
+    return terms_.allowed(knowledge_.target_at(tick + terms_.look_ahead_ticks));
+  }
+  /// Currents that may follow on that of the tick before.
+  CurrentRange range_after(double before_mA) const {
+    return terms_.within_reach(range_, before_mA, knowledge_.tick_s);
+  }
+  /// Whether the counts of this tick are not to be believed.
+  bool counts_are_lost() const { return believed_.lost(); }
   const ModelTerms& terms() const { return terms_; }
 
  private:
@@ -69,6 +81,7 @@ class ModelledController : public Controller {
   Knowledge knowledge_;
   CurrentRange range_;
   std::int64_t approach_ticks_;
+  BelievedCounts believed_;
   Delayed<std::int64_t> delayed_;
   std::optional<RiseWeighing> weighing_;
   bool begun_ = false;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <vector>
 
 #include <controllers/pid.hpp>
 
@@ -23,6 +24,10 @@ class Pid final : public Controller {
 
   Command rest() override { return {loop_.clamped(rest_mA_)}; }
   Command step(const Reading& reading) override { return {loop_.step(reading, rest_mA_)}; }
+  std::vector<Finding> findings() const override {
+    if (loop_.lost_ticks() == 0) return {};
+    return {{"ticks_without_counts", "1", static_cast<double>(loop_.lost_ticks())}};
+  }
 
  private:
   PidLoop loop_;
@@ -55,6 +60,7 @@ PidLoop::PidLoop(const PidTerms& terms, const Knowledge& knowledge)
       h_s_(terms.sample_ticks * knowledge.tick_s),
       highest_mA_(std::min(*terms_.highest_current_mA, knowledge.largest_current_mA)),
       lowest_mA_(std::min(*terms_.lowest_current_mA, highest_mA_)),
+      believed_(terms, knowledge),
       delayed_(terms.feedback_delay_ticks) {
   const double usual_s = Td_s_ > 0.0 ? std::sqrt(Ti_s_ * Td_s_) : Ti_s_;
   Tt_s_ = std::max(terms.tracking_time_s.value_or(usual_s), h_s_);  // faster than a sample would swing
@@ -65,7 +71,8 @@ double PidLoop::clamped(double current_mA) const {
 }
 
 double PidLoop::step(const Reading& reading, double base_mA) {
-  const std::int64_t counts = delayed_(reading.counts);
+  const std::int64_t counts = delayed_(believed_(reading.counts));
+  if (believed_.lost()) return output_mA_;
   if (first_ || reading.tick % terms_.sample_ticks == 0) output_mA_ = sample(counts, reading.tick, base_mA);
   return output_mA_;
 }
@@ -73,8 +80,9 @@ double PidLoop::step(const Reading& reading, double base_mA) {
 double PidLoop::sample(std::int64_t counts, std::int64_t tick, double base_mA) {
   const double y =
       (static_cast<double>(counts) + knowledge_.middle_of_count) * knowledge_.contraction_per_count;
-  const double r = knowledge_.target_at(tick);
+  const double r = terms_.allowed(knowledge_.target_at(tick));
   const double P_mA = K_mA_ * (terms_.setpoint_weight * r - y);
+  const bool begins = first_;
   if (first_) {
     y_before_ = y;
     if (Ti_s_ > 0.0) I_mA_ = -P_mA;
@@ -85,7 +93,9 @@ double PidLoop::sample(std::int64_t counts, std::int64_t tick, double base_mA) {
   y_before_ = y;
 
   const double v_mA = base_mA + P_mA + I_mA_ + D_mA_;
-  const double u_mA = clamped(v_mA);
+  const CurrentRange limits{lowest_mA_, highest_mA_};
+  const CurrentRange reach = begins ? limits : terms_.within_reach(limits, output_mA_, h_s_);
+  const double u_mA = std::clamp(v_mA, reach.lowest_mA, reach.highest_mA);
   if (Ti_s_ > 0.0) I_mA_ += K_mA_ * h_s_ / Ti_s_ * (r - y) + h_s_ / Tt_s_ * (u_mA - v_mA);
   return u_mA;
 }

@@ -10,11 +10,12 @@
 
 #include <controllers/current_range.hpp>
 #include <controllers/delayed.hpp>
+#include <controllers/safety.hpp>
 
 namespace mckibben::controllers {
 
 /// Everything about the feedback itself.
-struct PidTerms {
+struct PidTerms : SafetyTerms {
   std::optional<double> proportional_mA = std::nullopt;
   std::optional<double> integral_time_s = std::nullopt;
   std::optional<double> derivative_time_s = std::nullopt;
@@ -53,6 +54,7 @@ struct PidTerms {
     visit("feedback_delay_ticks", self.feedback_delay_ticks, 0, 1000, "age of the counts that are used");
     visit("tuning_load", self.tuning_load_kg, "kg", 0.0, 500.0,
           "load at which missing gains are tuned; the scenario's median load if absent");
+    SafetyTerms::fields(self, visit);
   }
   template <class Report>
   void rules(Report& report) const {
@@ -62,7 +64,7 @@ struct PidTerms {
 };
 
 /// u = base + K (b r - y) + I + D, clamped; dI/dt = K/Ti (r - y) + (u - v)/Tt, with v the unclamped u. The
-/// base is a fixed current or a feedforward.
+/// base is a fixed current or a feedforward. While counts are not to be believed the output is held.
 class PidLoop {
  public:
   /// Throws std::invalid_argument if a gain is missing.
@@ -72,6 +74,7 @@ class PidLoop {
   double step(const Reading& reading, double base_mA);
 
   double clamped(double current_mA) const;
+  std::int64_t lost_ticks() const { return believed_.lost_ticks(); }
 
  private:
   double sample(std::int64_t counts, std::int64_t tick, double base_mA);
@@ -81,6 +84,7 @@ class PidLoop {
   double K_mA_, Ti_s_, Td_s_, h_s_;
   double highest_mA_, lowest_mA_;
   double Tt_s_ = 0.0;
+  BelievedCounts believed_;
   Delayed<std::int64_t> delayed_;
   bool first_ = true;
   double y_before_ = 0.0, I_mA_ = 0.0, D_mA_ = 0.0, output_mA_ = 0.0;

@@ -1,6 +1,7 @@
 // See the header.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -18,6 +19,8 @@ using domain::quantities, domain::Quantity;
 constexpr const char* own_clock =
     "if the recorder had a clock of its own, the data set says start: settled, or start: moving";
 
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
 /// Numbers out of range up to which each is told by itself.
 constexpr std::ptrdiff_t few = 3;
 
@@ -30,8 +33,9 @@ std::string unit_in(std::string_view heading, const Quantity& quantity) {
   return std::string(unit);
 }
 
+/// Readings that are missing lie anywhere.
 bool within(const Values& values, double lowest, double highest) {
-  return std::all_of(values.begin(), values.end(), [&](double v) { return v >= lowest && v <= highest; });
+  return std::none_of(values.begin(), values.end(), [&](double v) { return v < lowest || v > highest; });
 }
 
 /// The unit of a clock whose rows are so many ticks of our seconds apart; empty if it is none.
@@ -71,7 +75,10 @@ std::string hint_of_missing(const WantedColumn& column, std::span<const std::str
 }
 
 ColumnChecks::ColumnChecks(const Table& table, const ColumnMap& map, TableProblems& problems)
-    : table_(table), map_(with_our_names(map)), problems_(problems) {}
+    : table_(table),
+      has_own_command_(!map.command.absent()),
+      map_(with_our_names(map)),
+      problems_(problems) {}
 
 void ColumnChecks::time(double tick_s) {
   const Table::Column* column = table_.find("time_s");
@@ -111,7 +118,7 @@ void ColumnChecks::current(double largest_mA) {
 
 void ColumnChecks::contraction(double lowest, double highest, double largest_mA) {
   const Table::Column& column = *table_.find("contraction_ratio");
-  const Values& current_mA = table_.find("current_mA")->values;
+  const Table::Column* current = has_own_command_ ? nullptr : table_.find("current_mA");
   const Table::Column* pressure = table_.find("muscle_pressure_bar");
   ColumnPlace meant = map_.contraction;
   std::string hint;
@@ -120,11 +127,12 @@ void ColumnChecks::contraction(double lowest, double highest, double largest_mA)
     hint = fmt::format("it looks exchanged with {}; write columns: {{{}, {}}}", quantity,
                        line_of("contraction", meant), line_of(quantity, other));
   };
-  if (within(current_mA, lowest, highest) && within(column.values, 0.0, largest_mA)) {
+  if (current != nullptr && within(current->values, lowest, highest) &&
+      within(column.values, 0.0, largest_mA)) {
     exchanged_with("current", map_.current);
   } else if (pressure != nullptr && within(pressure->values, lowest, highest)) {
     exchanged_with("muscle_pressure", map_.muscle_pressure);
-  } else if (*std::max_element(column.values.begin(), column.values.end()) < 0.02) {
+  } else if (within(column.values, -infinite, 0.02)) {
     meant.factor = -meant.factor;
     hint =
         fmt::format("if it falls as the muscle contracts, its sign is the other one; write columns: {{{}}}",
@@ -159,12 +167,16 @@ void ColumnChecks::range(const Table::Column& column, double lowest, double high
     return;
   }
   const auto first = std::find_if(values.begin(), values.end(), outside);
-  const auto [least, most] = std::minmax_element(values.begin(), values.end());
+  double least = infinite, most = -infinite;
+  for (const double value : values) {
+    if (value < least) least = value;
+    if (value > most) most = value;
+  }
   problems_.add(table_, column, static_cast<std::size_t>(first - values.begin()),
                 fmt::format("{} = {} is out of range: {:.6g} to {:.6g} ({}), as in {} of {} rows, which go "
                             "from {:.6g} to {:.6g}; {}",
                             column.name, write_number(*first), lowest, highest, meaning, count, values.size(),
-                            *least, *most, hint));
+                            least, most, hint));
 }
 
 }  // namespace mckibben::input

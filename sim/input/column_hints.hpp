@@ -31,7 +31,8 @@ class ColumnChecks {
              const std::string& hint);
 
   const Table& table_;
-  ColumnMap map_;  ///< with our own names where it says none
+  bool has_own_command_;  ///< in another unit than a current's, or under another name
+  ColumnMap map_;         ///< with our own names where it says none
   TableProblems& problems_;
 };
 

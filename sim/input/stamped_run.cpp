@@ -9,6 +9,7 @@
 
 #include <plant/geometry.hpp>
 #include <sim/domain/number.hpp>
+#include <sim/input/column_hints.hpp>
 #include <sim/input/column_units.hpp>
 #include <sim/input/quantity.hpp>
 #include <sim/input/stamped_run.hpp>
@@ -163,8 +164,7 @@ class Assembling {
           "contraction_ratio", [&](double e) { return braid.in_domain(e); },
           "what this muscle can be held at");
     }
-    measured_.contraction_ratio =
-        take("contraction_ratio", lowest_ratio, highest_ratio, "what a muscle can do");
+    measured_.contraction_ratio = contraction();
     measured_.angle_rad = take("angle_rad", -largest_angle_rad, largest_angle_rad, "what a joint can turn");
     measured_.force_N = take("force_N", -largest_force_N, largest_force_N, "what a cord can bear");
     measured_.angle_in_degrees = map_.angle.unit == "deg";
@@ -231,6 +231,14 @@ class Assembling {
         valve.current_for_mA(2.0 * span.value - zero.value),
         fmt::format("the rig's valve takes {:g} to {:g} {}, here as {:g} to {:g} mA", zero.value, span.value,
                     plant::name_of(zero.unit), valve.zero_current_mA, valve.span_current_mA));
+  }
+
+  std::vector<double> contraction() {
+    const Table::Column* column = table_.find("contraction_ratio");
+    if (column == nullptr) return {};
+    ColumnChecks(table_, map_, problems_)
+        .contraction(lowest_ratio, highest_ratio, rig_.dac.largest_current_mA);
+    return column->values;
   }
 
   std::vector<double> take(const std::string& name, double lowest, double highest,

@@ -21,7 +21,7 @@ CASES = [
     ("viscous_damping", "damping: 120 N.s/m", "guide_friction", "", "coefficient", "", 0.1),
     ("guide_friction", "coefficient: 0.04", "bladder_hysteresis", "stroke: 8 mm, ", "force", "N", 40),
     ("speed_dependent_friction", "ratio: 0.6, speed: 20 mm/s", "viscous_damping", "", "damping", "N.s/m", 400),
-    ("bladder_elasticity", "stiffness: 300 N/m", "end_cap_correction", "", "slope", "1/bar", 0.05),
+    ("bladder_elasticity", "stiffness: 300 N/m", "end_cap_correction", "", "slope", "", 0.05),
     ("bladder_creep", "stiffness: 250 N/m, time: 1.5 s", "bladder_elasticity", "", "stiffness", "N/m", 800),
     ("bladder_hysteresis", "force: 12 N, stroke: 8 mm", "guide_friction", "", "coefficient", "", 0.2),
     ("pressure_threshold", "pressure: 0.4 bar", "bladder_elasticity", "", "stiffness", "N/m", 1500),

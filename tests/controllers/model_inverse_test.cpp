@@ -52,9 +52,9 @@ double rmse(Controller& controller, RigModel& rig, const Knowledge& known) {
 
 TEST(LookAhead, FindsTheCurrentThatEndsOnTheTargetAndLeavesTheModelAsItWas) {
   Believed rig({}, 10.0, 10.0);
-  LookAhead look({4.0, 20.0}, 6);
+  LookAhead look(16.0, 6);
   const double before = rig.contraction_ratio();
-  const double current_mA = look.current_mA(rig, 0.1, 10.0);
+  const double current_mA = look.current_mA(rig, 0.1, 10.0, {4.0, 20.0});
   EXPECT_EQ(rig.contraction_ratio(), before);
   for (int i = 0; i < 6; ++i) rig.step(current_mA);
   EXPECT_NEAR(rig.contraction_ratio(), 0.1, 2e-5);
@@ -62,15 +62,15 @@ TEST(LookAhead, FindsTheCurrentThatEndsOnTheTargetAndLeavesTheModelAsItWas) {
 
 TEST(LookAhead, StaysWithinItsLimitsAndKeepsTheCurrentOfALoadThatIsThere) {
   Believed rig({}, 10.0, 10.0);
-  LookAhead look({4.0, 11.0}, 2);
+  LookAhead look(16.0, 2);
   double current_mA = 10.0;
   for (int i = 0; i < 30; ++i) {
-    current_mA = look.current_mA(rig, 0.19, current_mA);
+    current_mA = look.current_mA(rig, 0.19, current_mA, {4.0, 11.0});
     EXPECT_LE(current_mA, 11.0);
     rig.step(current_mA);
   }
   EXPECT_EQ(current_mA, 11.0);
-  EXPECT_EQ(look.current_mA(rig, rig.contraction_ratio(), 11.0), 11.0);
+  EXPECT_EQ(look.current_mA(rig, rig.contraction_ratio(), 11.0, {4.0, 11.0}), 11.0);
 }
 
 TEST(RiseWeighing, TakesTheLoadWithWhichTheModelRisesAsTheCountsDid) {

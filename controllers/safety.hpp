@@ -1,0 +1,69 @@
+// What people around a rig rely on, the same in every controller with feedback or a model.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <optional>
+
+#include <controllers/controller.hpp>
+#include <controllers/current_range.hpp>
+
+namespace mckibben::controllers {
+
+/// Limits besides those of the current itself; none unless given.
+struct SafetyTerms {
+  std::optional<double> largest_current_speed_mA_per_s = std::nullopt;
+  std::optional<double> highest_target = std::nullopt;
+  std::optional<double> fastest_load_per_s = std::nullopt;
+
+  /// What of `range` is within reach of the current of the tick before.
+  CurrentRange within_reach(const CurrentRange& range, double before_mA, double tick_s) const {
+    if (!largest_current_speed_mA_per_s) return range;
+    const double step_mA = *largest_current_speed_mA_per_s * tick_s;
+    return {std::clamp(before_mA - step_mA, range.lowest_mA, range.highest_mA),
+            std::clamp(before_mA + step_mA, range.lowest_mA, range.highest_mA)};
+  }
+  double allowed(double target) const { return highest_target ? std::min(target, *highest_target) : target; }
+
+  template <class Self, class Visitor>
+  static void fields(Self& self, Visitor& visit) {
+    visit("largest_current_speed", self.largest_current_speed_mA_per_s, "mA/s", 1e-3, 1e6,
+          "how fast the current may change; at once if absent");
+    visit("highest_target", self.highest_target, "1", 0.0, 1.0,
+          "contraction ratio at which a higher target is cut (T 2.3: above 0.20 the muscle is at risk)");
+    visit(
+        "fastest_load", self.fastest_load_per_s, "1/s", 1e-3, 1e6,
+        "speed of contraction that no load has: counts that jump further from tick to tick are not believed");
+  }
+};
+
+/// Tells counts that a load can have reached since the last tick from those of a broken counter.
+class BelievedCounts {
+ public:
+  BelievedCounts(const SafetyTerms& terms, const Knowledge& known)
+      : largest_step_(terms.fastest_load_per_s
+                          ? std::ceil(*terms.fastest_load_per_s * known.tick_s / known.contraction_per_count)
+                          : std::numeric_limits<double>::infinity()) {}
+
+  /// The counts, or those that were believed last.
+  std::int64_t operator()(std::int64_t counts) {
+    lost_ = !first_ && std::abs(static_cast<double>(counts - last_)) > largest_step_;
+    first_ = false;
+    if (lost_)
+      ++lost_ticks_;
+    else
+      last_ = counts;
+    return last_;
+  }
+  bool lost() const { return lost_; }
+  std::int64_t lost_ticks() const { return lost_ticks_; }
+
+ private:
+  double largest_step_;
+  bool first_ = true, lost_ = false;
+  std::int64_t last_ = 0, lost_ticks_ = 0;
+};
+
+}  // namespace mckibben::controllers
