@@ -11,6 +11,7 @@
 #include <sim/diagnose/diagnose.hpp>
 #include <sim/diagnose/faults.hpp>
 #include <sim/diagnose/first_look.hpp>
+#include <sim/diagnose/further.hpp>
 #include <sim/diagnose/interval.hpp>
 #include <sim/diagnose/law.hpp>
 #include <sim/diagnose/left_open.hpp>
@@ -171,6 +172,10 @@ class Workflow {
     recalibrated_ = std::move(result.contender);
     if (!result.failure.empty()) warn("the nominal parameters could not be fitted: " + result.failure);
     tell_starts(result);
+    weigh_numbers();
+  }
+
+  void weigh_numbers() {
     learn_gap("recalibrated", recalibrated_.held_out);
     evidence_.nominal_left = excess(nominal_fit_.held_out);
     evidence_.recalibrated_left = excess(recalibrated_.held_out);
@@ -203,6 +208,7 @@ class Workflow {
 
   void name() {
     naming_ = name_effects(case_, nominal_fit_, recalibrated_, reference(), step_, search_);
+    spare_names();
     evidence_.invisible = naming_.invisible.size();
     evidence_.catalogue = catalogue(data_).size();
     if (naming_.effects.empty()) return;
@@ -215,6 +221,32 @@ class Workflow {
     const bool explained = carries(naming_.best.fitted.model.rig, plant::GaugeError::name);
     evidence_.gauge_misleads = reads_more() && !explained && rmse(named) >= rmse(reference());
     if (evidence_.named()) learn_gap("with what was taken", named);
+  }
+
+  /// Numbers further off than they are stated to be come before names.
+  void spare_names() {
+    if (naming_.effects.empty()) return spare_search();
+    step_(stage("trying other numbers", naming_.effects.size() + 1));
+    search_.part("whether other numbers do as well as the names",
+                 [&] { prefer_numbers(case_, bases(), naming_, step_); });
+    if (naming_.effects.empty()) believe_numbers(naming_.best);
+  }
+
+  std::vector<const Fitted*> bases() const { return {&nominal_fit_.fitted, &recalibrated_.fitted}; }
+
+  void spare_search() {
+    if (excess(reference()) < thresholds.decide.worth_a_law) return;
+    step_(stage("trying other numbers"));
+    std::optional<Contender> numbers;
+    search_.part("numbers that are further off than they are stated to be",
+                 [&] { numbers = numbers_that_close(case_, bases(), reference()); });
+    if (numbers) believe_numbers(*numbers);
+  }
+
+  void believe_numbers(const Contender& numbers) {
+    recalibrated_ = numbers;
+    weigh_numbers();
+    map_where();
   }
 
   /// Names that are not the same everywhere, or are not shown to be where much is left.
@@ -234,9 +266,20 @@ class Workflow {
   void look_for_law() {
     if (!asks_for_law(evidence_, thresholds)) return;
     law_ = find_law(case_, {&recalibrated_, &nominal_fit_}, reference(), step_, search_);
+    if (law_.terms > 0 && naming_.effects.empty()) spare_law();
     evidence_.law_terms = law_.terms;
     evidence_.law_left = excess(law_.contender.held_out);
     evidence_.law_share = law_.gain.share;
+  }
+
+  /// The same before a law of force.
+  void spare_law() {
+    std::optional<Contender> numbers;
+    search_.part("whether other numbers do as well as a law",
+                 [&] { numbers = numbers_as_good(case_, bases(), law_.contender); });
+    if (!numbers) return;
+    law_.terms = 0;
+    believe_numbers(*numbers);
   }
 
   const Contender& contender(Chosen chosen) const {
@@ -335,9 +378,7 @@ class Workflow {
           stated != result_.corrected.spreads.end())
         stated->second = 0.5 * (bounds[j].high - bounds[j].low) / thresholds.interval.normal;
     for (const Moved& moved : result_.recalibrated)
-      if (std::abs(moved.deviations) >
-              thresholds.parameter.at_the_edge * thresholds.parameter.most_deviations &&
-          !moved.of_effect())
+      if (moved.at_the_edge && !moved.of_effect())
         warn(
             fmt::format("{} stands at the edge of what its data sheet allows, {:+.0f} deviations: measure "
                         "it, or something that acts like it is missing",

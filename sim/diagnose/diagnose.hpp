@@ -4,7 +4,7 @@
 //              faults of recordings, found and mended   first_look, faults, suspicions, shapes, repair
 //   baseline   the rig as described, then recalibrated  baseline, starts
 //   where      the map of what remains                  where
-//   name       effects that runs held out ask for       name, trial, revise, ranking
+//   name       effects that runs held out ask for       name, trial, revise, ranking, further
 //   law        a law of force for what they leave       law
 //   decide     the verdict                              decide
 //   plan       the measurement that would tell more     plan

@@ -93,8 +93,11 @@ struct NamedEffect {
 struct Moved {
   FittedNumber fitted;
   double nominal = 0.0;
-  double deviations = 0.0;  ///< of its prior
+  double deviations = 0.0;   ///< as they are stated
+  bool at_the_edge = false;  ///< of what it may be
 
+  /// Further off than it is stated to be.
+  bool exceeds() const { return std::abs(deviations) > thresholds.parameter.most_deviations && !of_effect(); }
   /// Worth telling: further than a data sheet promises, or the size of an effect.
   bool notable() const { return std::abs(deviations) > thresholds.parameter.notable || of_effect(); }
   bool of_effect() const { return fitted.name.find("effects.") != std::string::npos; }

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include <sim/diagnose/first_look.hpp>
+#include <sim/diagnose/further.hpp>
 #include <sim/diagnose/repair.hpp>
 #include <sim/diagnose/thresholds.hpp>
 
@@ -17,17 +18,10 @@ std::pair<std::ptrdiff_t, std::size_t> shortfall(const std::vector<Fault>& fault
           faults.front().common ? 1 : faults.size()};
 }
 
-/// Whether each run is near the floor.
-bool all_near_floor(const Case& c, const Eigen::VectorXd& residuals, const Runs& usable) {
-  const auto parts = c.experiment.parts(usable);
-  return std::all_of(parts.begin(), parts.end(),
-                     [&](const auto& part) { return near_floor(residuals.segment(part.begin, part.rows)); });
-}
-
 /// Whether a model that is fitted to all runs as they are takes each of them there.
 bool reaches_all(const Case& c, const Model& model, const Runs& usable) {
   const auto fitted = fit(c.experiment, model, usable, {.inflation = thresholds.scatter.first_inflation});
-  return fitted.failure.empty() && all_near_floor(c, fitted.residuals, usable);
+  return fitted.failure.empty() && all_near_floor(c.experiment, fitted.residuals, usable);
 }
 
 /// The same of a suspected effect: from where it went without the runs at fault, or as it would have begun
@@ -72,7 +66,7 @@ std::vector<Fault> beside_an_effect(const Case& c, const Checked& checked, const
                           common ? catalogue(c.experiment.data()) : std::vector<Candidate>{})
                       .faults;
     if (faults.empty() && !common &&
-        all_near_floor(c, c.experiment.residuals(contender.fitted.model.rig, usable), usable))
+        all_near_floor(c.experiment, c.experiment.residuals(contender.fitted.model.rig, usable), usable))
       return {};  // no fault is needed
     if (!faults.empty() && !common && explains_all(c, described, suspicion, contender.fitted.model, usable))
       return {};
@@ -91,6 +85,8 @@ bool explains_more(const std::vector<Fault>& faults, const std::vector<Fault>& o
 std::vector<Fault> first_look(const Case& c, const Checked& checked, const Model& described,
                               const Runs& usable, const Step& step) {
   const auto [faults, suspicions] = examine(c.experiment, described, usable, catalogue(c.experiment.data()));
+  if (faults.empty() && suspicions.empty()) return {};
+  if (numbers_reach_all(c, described, usable)) return {};  // the rig is further off than it is said to be
   if (faults.empty()) return beside_an_effect(c, checked, described, usable, suspicions, step);
   Runs others;
   for (const std::size_t run : usable)

@@ -103,6 +103,12 @@ bool near_floor(const Eigen::VectorXd& residuals) {
   return excess(residuals) + 1.0 <= thresholds.near.mean_square();
 }
 
+bool all_near_floor(const Experiment& experiment, const Eigen::VectorXd& residuals, const Runs& runs) {
+  const auto parts = experiment.parts(runs);
+  return std::all_of(parts.begin(), parts.end(),
+                     [&](const auto& part) { return near_floor(residuals.segment(part.begin, part.rows)); });
+}
+
 Improvement compare(const Experiment& experiment, const Eigen::VectorXd& before, const Eigen::VectorXd& after,
                     const Runs& runs) {
   const Eigen::Index segment = segment_rows(experiment);

@@ -32,6 +32,9 @@ double excess(const Eigen::VectorXd& residuals);
 /// Whether residuals are no more than noise and slow disturbances leave.
 bool near_floor(const Eigen::VectorXd& residuals);
 
+/// Whether those of each run are.
+bool all_near_floor(const Experiment& experiment, const Eigen::VectorXd& residuals, const Runs& runs);
+
 /// How much better `after` is than `before`, on the same runs.
 struct Improvement {
   double gained = 0.0;               ///< mean square, in units of the floor's

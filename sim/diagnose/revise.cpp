@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <limits>
 #include <optional>
+#include <string>
 
 #include <fmt/format.h>
 
@@ -34,14 +35,14 @@ std::optional<Trial> substitute(const Case& c, const Contender& smaller, const C
   return std::nullopt;
 }
 
+}  // namespace
+
 void forget(Naming& result, const Candidate& gone) {
   std::erase_if(result.effects,
                 [&](const NamedEffect& effect) { return goes_with(effect.name, effect.variant, gone); });
   if (gone.adds_to.empty())
     std::erase_if(result.doubts, [&](const Doubt& doubt) { return doubt.effect == gone.effect; });
 }
-
-}  // namespace
 
 void revise(const Case& c, Naming& result, const Eigen::VectorXd& reference, const Step& step) {
   for (std::size_t i = 0; i + 1 < result.best.fitted.model.effects.size();) {

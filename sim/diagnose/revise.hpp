@@ -13,6 +13,9 @@ void revise(const Case& c, Naming& result, const Eigen::VectorXd& reference, con
 /// Drops effects whose 95 % interval reaches "absent".
 void drop_uncertain(const Case& c, Naming& result, const Step& step);
 
+/// Takes an effect and what was said of it out of the names.
+void forget(Naming& result, const Candidate& gone);
+
 /// Sorts by how much worse the runs held out are without each effect, everything else as it is.
 void sort_by_importance(const Case& c, Naming& result);
 

@@ -40,6 +40,30 @@ double at(const Parameter& p, double share) {
   return std::lerp(std::max(p.lowest, p.origin - reach), std::min(p.highest, p.origin + reach), share);
 }
 
+/// So many of the places, by their misfit in a few of the training runs and what the priors say of them.
+std::vector<Model> best_of(const Case& c, const Model& described, std::vector<Model> places,
+                           std::size_t most) {
+  std::vector<Experiment::Change> changes;
+  for (const Model& place : places)
+    changes.push_back({[&place](Hanging& h) { h.rig = place.rig; }, 1.0, true});
+  const auto flown = c.experiment.slopes(described.rig, changes,
+                                         a_few(c.experiment.data(), c.split.training, of_starts.runs));
+  std::vector<std::pair<double, std::size_t>> order;
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    const auto column = flown.columns.col(static_cast<Eigen::Index>(k));
+    if (column.isZero(0.0)) continue;  // no rig can be simulated there, or nothing is moved
+    double cost = (flown.residuals - column).squaredNorm() / c.inflation;
+    for (const Parameter& p : described.free)
+      if (p.has_prior) cost += std::pow(p.scaled(value_of(places[k].rig, p.path)), 2);
+    order.emplace_back(cost, k);
+  }
+  std::sort(order.begin(), order.end());
+  std::vector<Model> best;
+  for (std::size_t i = 0; i < std::min(most, order.size()); ++i)
+    best.push_back(std::move(places[order[i].second]));
+  return best;
+}
+
 }  // namespace
 
 std::vector<Model> places_to_begin(const Case& c, const Model& described) {
@@ -48,31 +72,22 @@ std::vector<Model> places_to_begin(const Case& c, const Model& described) {
   if (numbers.empty()) return {};
   const auto bases = primes(numbers.size());
   std::vector<Model> places(of_starts.places, described);
-  std::vector<double> costs(places.size(), 0.0);
-  std::vector<Experiment::Change> changes;
-  for (std::size_t k = 0; k < places.size(); ++k) {
-    for (std::size_t j = 0; j < numbers.size(); ++j) {
-      const Parameter& p = numbers[j];
-      const double value = at(p, mirrored(k + 1, bases[j]));
-      p.put(places[k].rig, value);
-      costs[k] += p.scaled(value) * p.scaled(value);
+  for (std::size_t k = 0; k < places.size(); ++k)
+    for (std::size_t j = 0; j < numbers.size(); ++j)
+      numbers[j].put(places[k].rig, at(numbers[j], mirrored(k + 1, bases[j])));
+  return best_of(c, described, std::move(places), of_starts.begun);
+}
+
+std::vector<Model> one_number_far_off(const Case& c, const Model& described) {
+  std::vector<Model> places;
+  for (const Parameter& p : described.free) {
+    if (!p.has_prior || p.of_effect()) continue;
+    for (const double way : {-of_starts.far, of_starts.far}) {
+      places.push_back(described);
+      p.put(places.back().rig, std::clamp(p.origin + way * p.scale / p.widened, p.lowest, p.highest));
     }
-    changes.push_back({[rig = places[k].rig](Hanging& h) { h.rig = rig; }, 1.0, true});
   }
-  const Runs few = a_few(c.experiment.data(), c.split.training, of_starts.runs);
-  const auto flown = c.experiment.slopes(described.rig, changes, few);
-  std::vector<std::size_t> order;
-  for (std::size_t k = 0; k < places.size(); ++k) {
-    const auto column = flown.columns.col(static_cast<Eigen::Index>(k));
-    if (column.isZero(0.0)) continue;  // no rig can be simulated there
-    costs[k] += (flown.residuals - column).squaredNorm() / c.inflation;
-    order.push_back(k);
-  }
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return costs[a] < costs[b]; });
-  std::vector<Model> best;
-  for (std::size_t i = 0; i < std::min(of_starts.begun, order.size()); ++i) best.push_back(places[order[i]]);
-  return best;
+  return best_of(c, described, std::move(places), 1);
 }
 
 Model begun_at(Model model, const RigFile& other) {

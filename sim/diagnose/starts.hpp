@@ -13,6 +13,9 @@ namespace mckibben::diagnose {
 /// of the training runs. Throws run::Interrupted.
 std::vector<Model> places_to_begin(const Case& c, const Model& described);
 
+/// The model where one of its numbers is far off and all others are as described: the best such place.
+std::vector<Model> one_number_far_off(const Case& c, const Model& described);
+
 /// The model with its nominal numbers as they are in another rig.
 Model begun_at(Model model, const RigFile& other);
 

@@ -46,9 +46,10 @@ void tell_parameters(Diagnosis& diagnosis, const Model& model, const std::vector
     FittedNumber number{p.path,        find(rig, p.path).unit, bounds[j].value,
                         bounds[j].low, bounds[j].high,         bounds[j].determined};
     if (p.has_prior) {
-      const double moved = p.scaled(number.value);
-      diagnosis.recalibrated.push_back({number, p.origin, moved});
-      diagnosis.absorbed.push_back({p.path, p.scaled(value_of(recalibrated, p.path)), moved});
+      const double moved = p.deviations(number.value);
+      const double most = thresholds.parameter.at_the_edge * thresholds.parameter.most_deviations;
+      diagnosis.recalibrated.push_back({number, p.origin, moved, std::abs(p.scaled(number.value)) > most});
+      diagnosis.absorbed.push_back({p.path, p.deviations(value_of(recalibrated, p.path)), moved});
       continue;
     }
     for (auto* effects : {&diagnosis.effects, &diagnosis.stand_ins})
@@ -289,6 +290,20 @@ std::string gap_in_words(const Diagnosis& d) {
       amount_in_words(d, d.gap.noise_floor));
 }
 
+/// Numbers further off than they are stated to be; empty, or sentences and a space.
+std::string exceeded_in_words(const Diagnosis& d) {
+  std::string text;
+  for (const Moved& m : d.recalibrated) {
+    if (!m.exceeds()) continue;
+    const double deviation = std::abs((m.fitted.value - m.nominal) / m.deviations);
+    text += fmt::format(
+        "The ± of {}, {:.2g}{}, is exceeded: it is off by {:.1f} times that; measure it, or ask "
+        "where the value comes from. ",
+        m.fitted.name, deviation, m.fitted.unit == "1" ? "" : " " + m.fitted.unit, std::abs(m.deviations));
+  }
+  return text;
+}
+
 std::string numbers_in_words(const Diagnosis& d) {
   std::string moved;
   for (const Moved& m : d.recalibrated) {
@@ -296,8 +311,8 @@ std::string numbers_in_words(const Diagnosis& d) {
     moved += fmt::format("{}{} from {:.4g} to {:.4g}{}", moved.empty() ? "" : ", ", m.fitted.name, m.nominal,
                          m.fitted.value, m.fitted.unit == "1" ? "" : " " + m.fitted.unit);
   }
-  return fmt::format("No effect is missing; other values of the rig's parameters explain the gap{}{}. {}",
-                     moved.empty() ? "" : ": ", moved, gap_in_words(d));
+  return fmt::format("No effect is missing; other values of the rig's parameters explain the gap{}{}. {}{}",
+                     moved.empty() ? "" : ": ", moved, exceeded_in_words(d), gap_in_words(d));
 }
 
 /// What is not the same everywhere, and how; empty if nothing is.
@@ -333,8 +348,9 @@ std::string effects_in_words(const Diagnosis& d) {
       said += fmt::format(" - these data cannot tell it from {}", fmt::join(effect.confusable_with, ", "));
   }
   const std::string more = stand_ins_in_words(d);
-  return fmt::format("Missing: {}.{} {}", said,
-                     more.empty() ? "" : " Something else is missing besides." + more, gap_in_words(d));
+  return fmt::format("Missing: {}.{} {}{}", said,
+                     more.empty() ? "" : " Something else is missing besides." + more, exceeded_in_words(d),
+                     gap_in_words(d));
 }
 
 std::string law_in_words(const Diagnosis& d) {

@@ -72,7 +72,7 @@ struct ParameterThresholds {
   double unknown = 0.5;          ///< of its value: the deviation of one that is stated to be unknown,
   double unknown_usual = 3.0;    ///< or so many of those above, if that is more
   double most_deviations = 3.0;  ///< of its prior: further it is not the rig that was described
-  double at_the_edge = 0.999;    ///< of those: a warning
+  double at_the_edge = 0.999;    ///< of what it may be: a warning
   double notable = 1.0;          ///< deviations that are worth telling
   double step = 0.02;            ///< deviations, for a slope
   double least_size = 0.01;      ///< of an effect's typical size: as good as absent, and may be stiff
@@ -232,6 +232,7 @@ struct StartsThresholds {
   std::size_t places = 14;  ///< that are looked at: two flocks beside the rig itself,
   std::size_t runs = 3;     ///< in so many runs,
   std::size_t begun = 2;    ///< and so many begun from
+  double far = 4.0;         ///< deviations, of one number that may be far off
   double same_cost = 0.1;   ///< of the cost: ends that differ by no more agree
 };
 
@@ -316,6 +317,13 @@ struct NameThresholds {
   double least_of_all = 0.01;        ///< of the whole gap: an effect that closes less mends another's law
   double least_whole_gap = 1.0;  ///< left: shares of the whole gap are of no less, where one is tried without
   std::size_t shown_alike = 8;   ///< candidates of which the likeness is told
+};
+
+/// Numbers that depart further than they are stated to, before a name is given.
+struct FurtherThresholds {
+  double wider = 5.0 / 3.0;  ///< priors and bounds: five deviations in place of three
+  double same_bound = 1e-6;  ///< of the most: a bound stands where the deviation puts it
+  double hopeless = 0.85;    ///< of what a name gains: straight lines that miss more of it are not followed
 };
 
 /// Several effects at once.
@@ -423,6 +431,7 @@ struct Thresholds {
   ScreenThresholds screen{};
   ImprovementThresholds improvement{};
   NameThresholds name{};
+  FurtherThresholds further{};
   SubsetThresholds subset{};
   ConstancyThresholds constancy{};
   LawThresholds law{};

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <sim/diagnose/parameter.hpp>
+#include <sim/diagnose/thresholds.hpp>
 
 namespace mckibben::diagnose {
 namespace {

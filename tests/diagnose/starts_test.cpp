@@ -53,6 +53,22 @@ TEST(Starts, AreSeveralWhereANumberIsUnknownAndTheBestIsNearTheTruth) {
   EXPECT_NEAR(found.contender.fitted.model.rig.valve.conductance_m3_per_s_Pa, 1.8 * told, 0.05 * told);
 }
 
+TEST(Starts, AreWhereOneNumberIsFarOffIfThatExplainsMost) {
+  plant::Rig truth;
+  truth.friction.scale = 1.46;
+  const auto data = small(truth, 2.4);
+  std::vector<std::vector<bool>> masked;
+  for (const auto& run : data.runs) masked.emplace_back(run.current_mA.size(), false);
+  const Experiment experiment(data, masked, 2);
+  Case c{experiment, data.rig, split(data, {0, 1, 2, 3, 4, 5}), 20.0, {}};
+  Model described = replay(c).fitted.model;
+  for (Parameter& p : described.free) p.highest = std::max(p.highest, 1.4 * p.origin);
+  const auto places = one_number_far_off(c, described);
+  ASSERT_EQ(places.size(), 1u);
+  EXPECT_NEAR(places.front().rig.friction.scale, 1.4, 1e-9);  // four deviations of a tenth
+  EXPECT_EQ(places.front().rig.muscle.rest_radius_m, data.rig.muscle.rest_radius_m);
+}
+
 TEST(Starts, TakeOverNumbersButNotEffects) {
   Model model;
   model.free = {{.path = "muscle.rest_radius", .has_prior = true},

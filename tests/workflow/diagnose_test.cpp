@@ -77,6 +77,21 @@ TEST(Diagnose, FindsALawForWhatIsInNoCatalogue) {
   EXPECT_GT(found.gap.closed, 0.9);
 }
 
+// Friction that falls with speed imitates friction that is larger than a data sheet says.
+TEST(Diagnose, RecalibratesANumberFarBeyondItsDataSheetBeforeItNamesAnEffect) {
+  plant::Rig truth;
+  truth.friction.scale = 1.46;
+  const auto found = diagnosis_of(small(truth), 0);
+  EXPECT_EQ(found.verdict, Verdict::recalibrate) << found.because;
+  EXPECT_TRUE(found.effects.empty());
+  EXPECT_NEAR(found.corrected.friction.scale, 1.46, 0.04);
+  EXPECT_NE(found.because.find("The ± of friction.scale, 0.1, is exceeded: it is off by 4."),
+            std::string::npos)
+      << found.because;
+  EXPECT_LT(found.gap.corrected_rmse, 1.3 * found.gap.noise_floor);
+  for (const Ranked& one : found.ranking) EXPECT_FALSE(one.outcome.starts_with("taken")) << one.name;
+}
+
 TEST(Diagnose, FitsTheSizeOfAnEffectThatTheRigHasAlready) {
   plant::Rig truth, guess;
   truth.effects.get<plant::ValveDeadBand>().half_width_Pa = 7.9e3;
