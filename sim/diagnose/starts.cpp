@@ -44,6 +44,7 @@ double at(const Parameter& p, double share) {
 std::vector<Model> best_of(const Case& c, const Model& described, std::vector<Model> places,
                            std::size_t most) {
   std::vector<Experiment::Change> changes;
+  changes.reserve(places.size());
   for (const Model& place : places)
     changes.push_back({[&place](Hanging& h) { h.rig = place.rig; }, 1.0, true});
   const auto flown = c.experiment.slopes(described.rig, changes,
