@@ -24,6 +24,7 @@
 #include <plant/effects/guide_friction.hpp>
 #include <plant/effects/is_effect.hpp>
 #include <plant/effects/muscle_leak.hpp>
+#include <plant/effects/own_laws.hpp>
 #include <plant/effects/polytropic_gas.hpp>
 #include <plant/effects/pressure_threshold.hpp>
 #include <plant/effects/reading_delay.hpp>
@@ -45,6 +46,7 @@ class EffectSet {
   static constexpr std::size_t count = sizeof...(Effect);
 
   Table all{};
+  OwnLawsOf<P> laws{};
 
   template <class E>
   E& get() {
@@ -58,16 +60,18 @@ class EffectSet {
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
     std::apply([&](auto&... effect) { (visit(effect.name, effect, effect.sentence), ...); }, self.all);
+    visit("hypotheses", self.laws, "laws of your own: files, or written here (docs/hypotheses.md)");
   }
 
   bool absent() const {
-    return std::apply([](const auto&... effect) { return !(any(!effect.absent()) || ...); }, all);
+    return laws.absent() &&
+           std::apply([](const auto&... effect) { return !(any(!effect.absent()) || ...); }, all);
   }
 
   /// How many effects of the table have a memory, and whether one of them is switched on.
   static constexpr std::size_t memories = (std::size_t{Remembers<Effect>} + ...);
   bool remember() const {
-    bool one = false;
+    bool one = laws.remember();
     each([&]<class E>(const E&, auto, auto) { one = one || Remembers<E>; });
     return one;
   }
@@ -82,7 +86,8 @@ class EffectSet {
     return sizes;
   }();
 
-  // Of memories, the first ones are theirs; what follows is not.
+  // What laws are handed is a copy: an instant whose address is taken stands in memory, laws or not.
+  // Of memories, the first ones are theirs, the next ones those of laws; what follows is not.
 
   template <class S, std::size_t slots>
   Pull<S> pull(const Instant<S>& now, const std::array<S, slots>& memory) const {
@@ -94,6 +99,10 @@ class EffectSet {
         if constexpr (ActsOnLoad<E>) sum.on_load_N = select(on, S(sum.on_load_N + pull_N), sum.on_load_N);
       }
     });
+    if (!laws.list.empty()) {
+      const Pull<S> own = laws.pull(Instant<S>(now), std::array(memory), memories);
+      sum = {sum.all_N + own.all_N, sum.on_load_N + own.on_load_N};
+    }
     return sum;
   }
   template <class S, std::size_t slots>
@@ -103,6 +112,9 @@ class EffectSet {
       if constexpr (declares<E>(Hook::friction_factor))
         product = select(on, S(product * effect.friction_factor(now, recall(memory, slot))), product);
     });
+    if (!laws.list.empty())
+      product = product *
+                (1.0 + laws.sum(LawTarget::friction_factor, Instant<S>(now), std::array(memory), memories));
     return product;
   }
   template <class S>
@@ -123,12 +135,16 @@ class EffectSet {
     });
     return sum;
   }
-  template <class S>
-  S outflow_kg_per_s(const Instant<S>& now) const {
+  template <class S, std::size_t slots>
+  S outflow_kg_per_s(const Instant<S>& now, const std::array<S, slots>& memory) const {
     S sum = S(0.0);
     each([&]<class E>(const E& effect, auto on, auto) {
       if constexpr (declares<E>(Hook::outflow)) sum = select(on, S(sum + effect.outflow_kg_per_s(now)), sum);
     });
+    if (!laws.list.empty()) {
+      const S own = laws.sum(LawTarget::outflow, Instant<S>(now), std::array(memory), memories);
+      sum = sum + own;
+    }
     return sum;
   }
   P gas_exponent() const {
@@ -195,15 +211,28 @@ class EffectSet {
     return sum;
   }
   template <class S, std::size_t slots>
-  std::array<S, memories> memory_rates(const Instant<S>& now, const Inflow<S>& inflow,
-                                       const std::array<S, slots>& memory) const {
-    std::array<S, memories> rates;
+  std::array<S, memories + law_slots> memory_rates(const Instant<S>& now, const Inflow<S>& inflow,
+                                                   const std::array<S, slots>& memory) const {
+    std::array<S, memories + law_slots> rates;
     rates.fill(S(0.0));
     each([&]<class E>(const E& effect, auto on, auto slot) {
       if constexpr (Remembers<E>)
         rates[slot] = select(on, S(effect.memory_rate(now, inflow, memory[slot])), rates[slot]);
     });
+    if (!laws.list.empty()) {
+      const auto own = laws.memory_rates(Instant<S>(now), std::array(memory), memories);
+      std::copy(own.begin(), own.end(), rates.begin() + memories);
+    }
     return rates;
+  }
+
+  /// What laws add to the pressure that the valve follows [Pa], and to the rise that is read [m].
+  template <class S, std::size_t slots>
+  S command_shift_Pa(const Instant<S>& now, const std::array<S, slots>& memory) const {
+    return laws.sum(LawTarget::command, now, memory, memories);
+  }
+  double reading_shift_m(const Instant<double>& now, const auto& memory) const {
+    return laws.sum(LawTarget::reading, now, memory, memories);
   }
 
   /// What effects keep between ticks.

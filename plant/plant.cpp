@@ -49,6 +49,21 @@ void PlantOf<P>::take_speed(double speed_per_s, State<double>& state, Ledger<dou
 }
 
 template <class P>
+std::string_view PlantOf<P>::law_without_number(const State<double>& state) const {
+  const double e = state.joint.contraction_ratio, w = state.joint.contraction_speed_per_s;
+  for (const double off : {0.0, 1e-6, -1e-6, 1e-4, -1e-4}) {
+    const std::string_view here = side_.law_without_number({e + off, w + off}, state.side);
+    if (!here.empty()) return here;
+    if (!opposite_) continue;
+    const Stroke<double> other = opposite_stroke(state);
+    const std::string_view there = opposite_->law_without_number(
+        {other.contraction_ratio + off, other.speed_per_s + off}, state.opposite);
+    if (!there.empty()) return there;
+  }
+  return {};
+}
+
+template <class P>
 double PlantOf<P>::gas_mass_kg(const State<double>& state) const {
   const double one_kg = side_.air_kg(state.joint.contraction_ratio, state.side);
   return opposite_ ? one_kg + opposite_->air_kg(opposite_stroke(state).contraction_ratio, state.opposite)

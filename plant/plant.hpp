@@ -11,6 +11,7 @@
 
 #include <optional>
 #include <stdexcept>
+#include <string_view>
 
 #include <plant/mechanics.hpp>
 #include <plant/side.hpp>
@@ -104,6 +105,9 @@ class PlantOf {
   double event_margin(const State<double>& state, const Memory<double>& memory, const HeldOf<P>& held) const;
   /// Mode after such an event (or at the start). Sets the speed to exactly zero.
   Slip slip_from_rest(State<double>& state, const Memory<double>& memory, const HeldOf<P>& held) const;
+
+  /// A law of the user's own that is no number here or next to here, memories aside; empty if all are.
+  std::string_view law_without_number(const State<double>& state) const;
 
   /// The joint goes on at another speed [1/s], as a bench that gives the muscle's length makes it; the work
   /// that this takes is the bench's.
@@ -201,14 +205,14 @@ Moment<S> PlantOf<P>::moment(const State<S>& state, const Memory<S>& memory, con
   const Stroke<S> stroke{state.joint.contraction_ratio, state.joint.contraction_speed_per_s};
   side_.gas_balance(stroke, state.side, memory.side, held, now);
   if constexpr (sides == 1) {
-    if (side_.may_remember()) side_.remember(stroke, state.side, memory.side, now.supply_flow, now);
+    if (side_.may_remember()) side_.remember(stroke, state.side, memory.side, held, now.supply_flow, now);
     side_.forces(stroke, state.side, memory.side, held, now);
   } else {
     const Stroke<S> other = opposite_stroke(state);
     opposite_->gas_balance(other, state.opposite, memory.opposite, held.opposite, now.opposite);
     const S drawn = now.supply_flow + now.opposite.supply_flow;  // both hang on one supply
-    side_.remember(stroke, state.side, memory.side, drawn, now);
-    opposite_->remember(other, state.opposite, memory.opposite, drawn, now.opposite);
+    side_.remember(stroke, state.side, memory.side, held, drawn, now);
+    opposite_->remember(other, state.opposite, memory.opposite, held.opposite, drawn, now.opposite);
     side_.forces(stroke, state.side, memory.side, held, now);
     opposite_->forces(other, state.opposite, memory.opposite, held.opposite, now.opposite);
   }

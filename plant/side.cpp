@@ -27,6 +27,24 @@ double SideOf<P>::valve_air_kg(const SideState<double>& state) const {
   return (state.valve_pressure_Pa + rig_.gas.atmosphere_Pa) * rig_.valve.volume_m3 / gas_energy_J_per_kg_;
 }
 
+template <class P>
+double SideOf<P>::reading_shift_m(const Stroke<double>& stroke, const SideState<double>& state,
+                                  const SideMemory<double>& memory, const HeldSide& held) const {
+  if (rig_.effects.laws.list.empty()) return 0.0;
+  SideMoment<double> now{};
+  now.speed_m_per_s = braid_.rest_length_m() * stroke.speed_per_s;
+  return rig_.effects.reading_shift_m(instant(stroke, state, held, now), memory);
+}
+
+template <class P>
+std::string_view SideOf<P>::law_without_number(const Stroke<double>& stroke,
+                                               const SideState<double>& state) const {
+  SideMoment<double> now{};
+  now.speed_m_per_s = braid_.rest_length_m() * stroke.speed_per_s;
+  const HeldSide held{state.valve_pressure_Pa, 0.0, {}};
+  return rig_.effects.laws.without_number(instant(stroke, state, held, now));
+}
+
 template class SideOf<double>;
 
 }  // namespace mckibben::plant

@@ -9,6 +9,7 @@
 #pragma once
 
 #include <algorithm>
+#include <concepts>
 #include <numbers>
 
 #include <plant/flow.hpp>
@@ -68,7 +69,7 @@ class SideOf {
   /// After the gas.
   template <class S>
   void remember(const Stroke<S>& stroke, const SideState<S>& state, const SideMemory<S>& memory,
-                const S& supply_flow, SideMoment<S>& now) const;
+                const HeldSideOf<P>& held, const S& supply_flow, SideMoment<S>& now) const;
   template <class S>
   SideState<S> rates(const Stroke<S>& stroke, const SideState<S>& state, const SideMoment<S>& now) const;
 
@@ -92,21 +93,35 @@ class SideOf {
   bool has_effects() const { return effects_; }
   /// Whether there is something to `remember`.
   bool may_remember() const { return effects_ || swings_; }
+  /// What laws add to the rise that is read [m].
+  double reading_shift_m(const Stroke<double>& stroke, const SideState<double>& state,
+                         const SideMemory<double>& memory, const HeldSide& held) const;
+  /// A law that is no number here, as if nothing were remembered; empty if all are.
+  std::string_view law_without_number(const Stroke<double>& stroke, const SideState<double>& state) const;
   /// R T [J/kg].
   const P& gas_energy_J_per_kg() const { return gas_energy_J_per_kg_; }
 
  private:
   template <class S>
-  Instant<S> instant(const Stroke<S>& stroke, const SideState<S>& state, const SideMoment<S>& now) const {
+  Instant<S> instant(const Stroke<S>& stroke, const SideState<S>& state, const HeldSideOf<P>& held,
+                     const SideMoment<S>& now) const {
     const S& e = stroke.contraction_ratio;
-    return {e,         braid_.rest_length_m() * e, now.speed_m_per_s,    state.muscle_pressure_Pa,
-            weight_N_, rig_.gas.atmosphere_Pa,     gas_energy_J_per_kg_, unit_flow_};
+    return {e,
+            braid_.rest_length_m() * e,
+            now.speed_m_per_s,
+            state.muscle_pressure_Pa,
+            weight_N_,
+            rig_.gas.atmosphere_Pa,
+            gas_energy_J_per_kg_,
+            unit_flow_,
+            state.valve_pressure_Pa,
+            held.reference_pressure_Pa};
   }
   template <class S>
   S flow_to_follow(const SideMemory<S>& memory, const S& error_Pa, const S& hose_flow) const;
   template <class S>
-  void valve_flows(const SideState<S>& state, const SideMemory<S>& memory, const HeldSideOf<P>& held,
-                   SideMoment<S>& now) const;
+  void valve_flows(const Stroke<S>& stroke, const SideState<S>& state, const SideMemory<S>& memory,
+                   const HeldSideOf<P>& held, SideMoment<S>& now) const;
   template <class S>
   static Inflow<S> inflow(const Stroke<S>& stroke, const SideMoment<S>& now, const S& supply_flow) {
     return {now.wanted_opening, supply_flow,   now.hose_flow,
@@ -159,6 +174,7 @@ SideOf<P>::SideOf(const RigOf<P>& rig, const P& weight_N)
       supply_Pa_(rig.valve.supply_pressure_Pa + rig.gas.atmosphere_Pa),
       quickness_per_s_(1.0),
       catching_up_per_s_(1.0) {
+  if constexpr (std::same_as<P, double>) rig_.effects.laws.take_places();  // those of lanes have theirs
   const P swing_per_s = 2.0 * std::numbers::pi * rig.valve.natural_frequency_Hz;
   if (swings_) catching_up_per_s_ = 2.0 * rig.valve.damping * swing_per_s;
   if (regulates_)
@@ -177,14 +193,16 @@ S SideOf<P>::flow_to_follow(const SideMemory<S>& memory, const S& error_Pa, cons
 
 template <class P>
 template <class S>
-void SideOf<P>::valve_flows(const SideState<S>& state, const SideMemory<S>& memory, const HeldSideOf<P>& held,
-                            SideMoment<S>& now) const {
+void SideOf<P>::valve_flows(const Stroke<S>& stroke, const SideState<S>& state, const SideMemory<S>& memory,
+                            const HeldSideOf<P>& held, SideMoment<S>& now) const {
   const P& atmosphere = rig_.gas.atmosphere_Pa;
   const S valve_Pa = state.valve_pressure_Pa + atmosphere;  // absolute from here
   const S muscle_Pa = state.muscle_pressure_Pa + atmosphere;
 
   S error_Pa = held.reference_pressure_Pa - state.valve_pressure_Pa;
   S supply_Pa = S(supply_Pa_);
+  if (effects_ && !rig_.effects.laws.list.empty())
+    error_Pa = error_Pa + rig_.effects.command_shift_Pa(instant(stroke, state, held, now), memory);
   if (regulates_)
     error_Pa = error_Pa + ValveDeadBandOf<P>{rig_.valve.dead_band_Pa}.valve_error_shift_Pa(error_Pa);
   if (effects_) {
@@ -227,7 +245,7 @@ void SideOf<P>::gas_balance(const Stroke<S>& stroke, const SideState<S>& state, 
   now.volume_m3 = braid_.volume_m3(e);
   now.volume_slope_m3 = braid_.volume_slope_m3(e);
   now.leak_flow = S(0.0);
-  if (effects_) now.leak_flow = rig_.effects.outflow_kg_per_s(instant(stroke, state, now));
+  if (effects_) now.leak_flow = rig_.effects.outflow_kg_per_s(instant(stroke, state, held, now), memory);
 
   if (held.pressure_rate_Pa_per_s) {  // whatever keeps the pressure brings the gas that this takes
     const S muscle_Pa = state.muscle_pressure_Pa + rig_.gas.atmosphere_Pa;
@@ -239,20 +257,20 @@ void SideOf<P>::gas_balance(const Stroke<S>& stroke, const SideState<S>& state, 
                     now.leak_flow;
     now.supply_flow = now.hose_flow;
   } else {
-    valve_flows(state, memory, held, now);
+    valve_flows(stroke, state, memory, held, now);
   }
   now.heating_Pa_per_s = S(0.0);
   if (effects_ && !held.pressure_rate_Pa_per_s)
-    now.heating_Pa_per_s = rig_.effects.heating_Pa_per_s(instant(stroke, state, now),
+    now.heating_Pa_per_s = rig_.effects.heating_Pa_per_s(instant(stroke, state, held, now),
                                                          inflow(stroke, now, now.supply_flow), memory);
 }
 
 template <class P>
 template <class S>
 void SideOf<P>::remember(const Stroke<S>& stroke, const SideState<S>& state, const SideMemory<S>& memory,
-                         const S& supply_flow, SideMoment<S>& now) const {
+                         const HeldSideOf<P>& held, const S& supply_flow, SideMoment<S>& now) const {
   const auto of_effects =
-      rig_.effects.memory_rates(instant(stroke, state, now), inflow(stroke, now, supply_flow), memory);
+      rig_.effects.memory_rates(instant(stroke, state, held, now), inflow(stroke, now, supply_flow), memory);
   std::copy(of_effects.begin(), of_effects.end(), now.memory_rates.begin());
   now.memory_rates.back() =
       swings_ ? S(catching_up_per_s_ * (now.pressure_error_Pa - memory.back())) : S(0.0);
@@ -268,7 +286,7 @@ void SideOf<P>::forces(const Stroke<S>& stroke, const SideState<S>& state, const
   const S& z = state.bristle_m;
   const S& v = now.speed_m_per_s;
   S pressure_Pa = state.muscle_pressure_Pa;
-  if (effects_) pressure_Pa = pressure_Pa + rig_.effects.pressing_shift_Pa(instant(stroke, state, now));
+  if (effects_) pressure_Pa = pressure_Pa + rig_.effects.pressing_shift_Pa(instant(stroke, state, held, now));
 
   now.braid_force_N = braid_.force_N(e, pressure_Pa);
   now.stop_force_N = choose(
@@ -283,7 +301,7 @@ void SideOf<P>::forces(const Stroke<S>& stroke, const SideState<S>& state, const
   now.friction_level_N = friction_level_N(friction, e, surface, pressure_Pa, held.current_speed_mA_per_s);
   now.effects_pull_N = now.pull_on_load_N = S(0.0);
   if (effects_) {
-    const auto known = instant(stroke, state, now);
+    const auto known = instant(stroke, state, held, now);
     now.braid_force_N = braid_.force_N(e, pressure_Pa, rig_.effects.end_correction_shift(known));
     const Pull<S> pull = rig_.effects.pull(known, memory);
     now.effects_pull_N = pull.all_N;

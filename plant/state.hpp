@@ -30,10 +30,11 @@ struct State {
   SideState<S> side, opposite;
 };
 
-/// What effects with a memory remember on one side, in the order of their table, and last the pressure error
-/// [Pa] that a regulator of second order has come to follow; all zero at the start.
+/// What effects with a memory remember on one side, in the order of their table; what laws of a user's own
+/// do, in sizes of their own, and the time [s]; and last the pressure error [Pa] that a regulator of second
+/// order has come to follow; all zero at the start.
 template <class S>
-using SideMemory = std::array<S, Effects::memories + 1>;
+using SideMemory = std::array<S, Effects::memories + law_slots + 1>;
 template <class S>
 struct Memory {
   SideMemory<S> side, opposite;
@@ -60,10 +61,11 @@ struct Ledger {
 };
 
 /// Components of a state with one muscle, with two, and of what else an integrator may carry.
-inline constexpr int single_size = 5, pair_size = 8, memory_size = Effects::memories + 1;
+inline constexpr int single_size = 5, pair_size = 8, memory_size = Effects::memories + law_slots + 1;
 /// Working sizes of memories, in their own units.
 inline constexpr auto memory_sizes = [] {
   std::array<double, memory_size> sizes{};
+  sizes.fill(1.0);
   std::copy(Effects::memory_sizes.begin(), Effects::memory_sizes.end(), sizes.begin());
   sizes.back() = 1e5;
   return sizes;

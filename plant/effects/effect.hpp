@@ -54,6 +54,8 @@ struct Instant {
   P atmosphere_Pa;             ///< absolute
   P gas_J_per_kg;              ///< R T
   RestrictionOf<P> unit_flow;  ///< of a conductance of 1 m3/(s Pa)
+  S valve_pressure_Pa{};       ///< P_v
+  P reference_Pa{};            ///< P_ref, what the valve follows
 };
 
 /// What flows into the plant at that instant, after all effects on it.

@@ -1,4 +1,5 @@
 // The verb `diagnose`: what a rig lacks, found in measured runs.
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <string>
@@ -12,8 +13,10 @@
 #include <sim/cli/results.hpp>
 #include <sim/cli/verbs.hpp>
 #include <sim/diagnose/diagnose.hpp>
+#include <sim/diagnose/parameter.hpp>
 #include <sim/engine/failure.hpp>
 #include <sim/input/dataset_file.hpp>
+#include <sim/input/hypothesis_file.hpp>
 #include <sim/input/rigs.hpp>
 #include <sim/output/diagnosis_json.hpp>
 #include <sim/output/diagnosis_rig.hpp>
@@ -54,7 +57,8 @@ void write_plan(const std::string& plan, const domain::Dataset& data, const diag
 
 struct DiagnoseOptions : Options {
   std::string dataset;
-  std::string rig;   ///< replaces the data set's; empty for none
+  std::string rig;                      ///< replaces the data set's; empty for none
+  std::vector<std::string> hypotheses;  ///< files of laws that join the catalogue
   std::string plan;  ///< where to write the next experiment as a campaign; empty for nowhere
   double time_limit_s = 300.0;
 };
@@ -86,9 +90,31 @@ Found find(const domain::Dataset& data, const DiagnoseOptions& options,
   }
 }
 
+[[noreturn]] void refuse(const std::string& file, std::string message) {
+  throw input::BadInput({{input::Severity::error, file, input::nowhere, std::move(message), ""}});
+}
+
+/// Laws that join those of the rig, on both sides of a pair.
+void add_hypotheses(const std::vector<std::string>& files, domain::Dataset& data) {
+  for (const std::string& file : files) {
+    auto law = input::read_hypothesis(file, data.inputs);
+    law.values.front() = 0.0;  // whatever the file says: it is to be found
+    diagnose::each_side(data.rig, [&](plant::Effects& effects) {
+      auto& list = effects.laws.list;
+      const auto same = [&](const auto& other) { return other.text->name == law.text->name; };
+      if (std::ranges::any_of(list, same))
+        refuse(file, fmt::format("the rig has a law {} already", law.text->name));
+      if (list.size() == plant::most_written_laws)
+        refuse(file, fmt::format("a rig has at most {} laws", plant::most_written_laws));
+      list.push_back(law);
+    });
+  }
+}
+
 int diagnose_dataset(const DiagnoseOptions& options) {
   domain::Dataset data = input::read_dataset(options.dataset);
   if (!options.rig.empty()) data.rig = input::read_rig(options.rig, data.inputs);
+  add_hypotheses(options.hypotheses, data);
   input::require_judged(data, "diagnose");
   const std::vector<std::string> warnings = run::mend_at_stamps(data);
   data = run::with_rows(std::move(data));
@@ -107,6 +133,7 @@ int diagnose_dataset(const DiagnoseOptions& options) {
   const std::string document = output::json_of(data, diagnosis);
   job.write("diagnosis.json", document);
   job.write("rig.yaml", output::rig_yaml(data, diagnosis));
+  if (!diagnosis.residual_law.empty()) job.write("law.yaml", output::law_yaml(data, diagnosis));
   job.write("report.html", report::report_html(data, diagnosis, found.nominal, found.corrected));
   const auto file = [&](const char* leaf) { return (job.where() / leaf).string(); };
   const std::string files = fmt::format("\nreport {}\nrig    {}\nall    {}\n", file("report.html"),
@@ -126,6 +153,7 @@ void add_diagnose(CLI::App& app, Asked& asked) {
   add_measured(verb, options.dataset);
   add_common(verb, options);
   add_rig(verb, options.rig, "instead of the data set's");
+  add_hypotheses_option(verb, options.hypotheses, "join the catalogue");
   add_seed(verb, options, "the resampling (default: 1)");
   verb.add_option("--plan", options.plan,
                   "Write the measurement that would tell more, if one would, as a campaign")
@@ -140,7 +168,10 @@ void add_diagnose(CLI::App& app, Asked& asked) {
       "  mckibben diagnose measured/\n"
       "  mckibben diagnose measured/ --time-limit '20 min'\n"
       "  mckibben diagnose measured/ --out diagnosis --plan next.yaml\n"
-      "Writes report.html (to read), rig.yaml (the corrected rig, for run and replay) and diagnosis.json.\n");
+      "  mckibben diagnose measured/ --hypothesis my_law.yaml\n"
+      "Writes report.html (to read), rig.yaml (the corrected rig, for run and replay) and diagnosis.json;\n"
+      "law.yaml if it found a law that no effect of the catalogue has, to be put to the test with "
+      "--hypothesis.\n");
 }
 
 }  // namespace mckibben::cli

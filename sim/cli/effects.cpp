@@ -14,7 +14,9 @@
 #include <sim/cli/options.hpp>
 #include <sim/cli/results.hpp>
 #include <sim/cli/verbs.hpp>
+#include <sim/diagnose/parameter.hpp>
 #include <sim/input/field_list.hpp>
+#include <sim/input/hypothesis_file.hpp>
 #include <sim/input/yaml_writer.hpp>
 #include <sim/output/effect_pictures.hpp>
 #include <sim/output/grid.hpp>
@@ -32,6 +34,7 @@ struct Entry {
   std::string_view law, sentence, source;
   std::vector<plant::Variant> variants;
   std::vector<FieldInfo> fields;
+  std::optional<input::OwnLaw> own{};  ///< what it is if it is none of the table
 };
 
 template <class E>
@@ -52,6 +55,35 @@ Entry entry_of() {
           E::source,
           {E::variants.begin(), E::variants.end()},
           input::list_fields<E>()};
+}
+
+/// A law of the user's own; its texts are the law's.
+Entry entry_of(const input::OwnLaw& law) {
+  const plant::LawText& text = *law.text;
+  Entry entry{text.name,
+              std::string(input::spelling(text.adds)),
+              text.law,
+              text.sentence,
+              "a hypothesis of the user's own",
+              {},
+              {},
+              law};
+  if (!text.memories.empty()) entry.acts_on += ", with a memory";
+  const auto& size = text.parameters.front();
+  plant::Variant variant{
+      "", size.name, 0.0, size.typical, size.lowest < 0.0 ? plant::Sign::either : plant::Sign::positive, 0.0};
+  entry.variants.push_back(variant);
+  for (const auto& p : text.parameters) {
+    FieldInfo info;
+    info.key = p.name;
+    info.type = FieldInfo::Type::quantity;
+    info.unit = p.unit;
+    info.lowest = p.lowest;
+    info.highest = p.highest;
+    info.default_value = input::quantity_json(p.typical, p.unit);
+    entry.fields.push_back(std::move(info));
+  }
+  return entry;
 }
 
 std::vector<Entry> catalogue() {
@@ -77,6 +109,13 @@ Json quantity(const Entry& entry, std::string_view key, double value) {
 /// How a rig file switches it on, one way for each law variant.
 std::vector<Json> examples(const Entry& entry) {
   std::vector<Json> list;
+  if (entry.own) {
+    input::OwnLaw law = *entry.own;
+    for (std::size_t i = 0; i < law.text->parameters.size(); ++i)
+      law.values.at(i) = law.text->parameters[i].typical;
+    const std::string key(diagnose::of_laws);
+    return {{{"effects", {{key, Json::array({input::hypothesis_json(law)})}}}}};
+  }
   for (const plant::Variant& variant : entry.variants) {
     Json keys = Json::object();
     if (!variant.name.empty()) keys["variant"] = variant.name;
@@ -178,6 +217,7 @@ std::vector<std::string> names_of_effects() {
 
 struct EffectsOptions : Options {
   std::vector<std::string> names;  ///< of effects that are known; none for all
+  std::vector<std::string> hypotheses;
 };
 
 int list_effects(const EffectsOptions& options) {
@@ -187,6 +227,11 @@ int list_effects(const EffectsOptions& options) {
   for (const auto& name : options.names)
     named.push_back(
         *std::find_if(all.begin(), all.end(), [&name](const Entry& entry) { return entry.name == name; }));
+  domain::RigFile rig;
+  std::vector<domain::InputFile> inputs;
+  for (const std::string& file : options.hypotheses)
+    rig.effects.laws.list.push_back(input::read_hypothesis(file, inputs));
+  for (const auto& law : rig.effects.laws.list) named.push_back(entry_of(law));
   const std::vector<Entry>& chosen = named.empty() ? all : named;
 
   Json document{{"schema", "mckibben-effects/1"}, {"effects", Json::array()}};
@@ -199,11 +244,12 @@ int list_effects(const EffectsOptions& options) {
   const std::string json = document.dump(2) + "\n";
   std::string text = named.empty() ? overview(all) : "";
   for (const Entry& entry : named) text += (text.empty() ? "" : "\n") + details(entry) + how_to(entry);
-  Job job(options, "effects", std::nullopt, {});
+  Job job(options, "effects", std::nullopt, inputs);
   job.write("effects.json", json);
   if (job.has_folder())
     for (const Entry& entry : chosen)
-      if (!is_residual(entry)) job.write(std::string(entry.name) + ".svg", output::effect_svg(entry.name));
+      if (!is_residual(entry))
+        job.write(std::string(entry.name) + ".svg", output::effect_svg(entry.name, rig));
   return job.finish({json, text}, done);
 }
 
@@ -217,11 +263,13 @@ void add_effects(CLI::App& app, Asked& asked) {
       ->check(one_of("effect", names_of_effects()))
       ->type_name("");
   add_common(verb, options, "nothing is written");
+  add_hypotheses_option(verb, options.hypotheses, "are shown likewise");
   verb.footer(
       "Examples:\n"
       "  mckibben effects                                 all of them\n"
       "  mckibben effects muscle_leak                     its law, and what to write into a rig file\n"
-      "  mckibben effects --out pictures                  effects.json, and a picture of what each does\n");
+      "  mckibben effects --out pictures                  effects.json, and a picture of what each does\n"
+      "  mckibben effects --hypothesis my_law.yaml --out pictures\n");
 }
 
 }  // namespace mckibben::cli

@@ -16,6 +16,7 @@
 #include <sim/input/campaign_file.hpp>
 #include <sim/input/dataset_file.hpp>
 #include <sim/input/field_table.hpp>
+#include <sim/input/hypothesis_file.hpp>
 #include <sim/input/json_schema.hpp>
 #include <sim/input/objection_places.hpp>
 #include <sim/input/pair_scenario_file.hpp>
@@ -72,10 +73,13 @@ std::string read_any(const std::filesystem::path& path, std::vector<Problem>& wa
     input::read_scenario(path, warnings);
   } else if (kind == "mckibben-pair") {
     input::read_pair_scenario(path);
+  } else if (kind == "mckibben-hypothesis") {
+    std::vector<domain::InputFile> inputs;
+    input::read_hypothesis(path.string(), inputs);
   } else {
-    constexpr std::string_view known[] = {input::scenario_schema, input::campaign_schema,
-                                          input::rig_schema,      input::dataset_schema,
-                                          input::pair_schema,     input::calibration_schema};
+    constexpr std::string_view known[] = {
+        input::scenario_schema, input::campaign_schema,    input::rig_schema,       input::dataset_schema,
+        input::pair_schema,     input::calibration_schema, input::hypothesis_schema};
     input::Problems problems;
     if (schema == nullptr)
       problems.error(file.source, file.root.place,
@@ -154,7 +158,7 @@ int check_files(const CheckOptions& options) {
 }
 
 struct SchemaOptions : Options {
-  std::string kind = "scenario";  ///< scenario, campaign, rig, dataset or pair
+  std::string kind = "scenario";  ///< scenario, campaign, rig, dataset, pair or hypothesis
   std::string format = "json";  ///< JSON Schema; markdown: a table; yaml: the rig `thesis`, whatever the kind
 };
 
@@ -172,14 +176,17 @@ int print_schema(const SchemaOptions& options) {
     return print_kind(input::dataset_schema, "Data set", input::list_fields<domain::Dataset>(), format);
   if (kind == "pair")
     return print_kind(input::pair_schema, "Pair", input::list_fields<domain::PairScenario>(), format);
+  if (kind == "hypothesis")
+    return print_kind(input::hypothesis_schema, "Hypothesis", input::hypothesis_fields(), format);
   return print_kind(input::scenario_schema, "Scenario", input::list_fields<domain::Scenario>(), format);
 }
 
 }  // namespace
 
 void add_check(CLI::App& app, Asked& asked) {
-  CLI::App& verb = add_verb(app, "check", to_find_out,
-                            "Validate scenario, campaign, rig and data set files; nothing is run");
+  CLI::App& verb =
+      add_verb(app, "check", to_find_out,
+               "Validate scenario, campaign, rig, data set and hypothesis files; nothing is run");
   CheckOptions& options = asked.when(verb, check_files);
   verb.add_option("files", options.files, "Files to check")->required()->type_name("FILE");
   add_common(verb, options, "nothing is written");
@@ -195,7 +202,7 @@ void add_schema(CLI::App& app, Asked& asked) {
       add_verb(app, "schema", to_find_out, "Print the keys of a kind of file, as JSON Schema or as a table");
   SchemaOptions& options = asked.when(verb, print_schema);
   verb.add_option("kind", options.kind, "Kind of file (default: scenario)")
-      ->check(one_of("kind", {"scenario", "campaign", "rig", "dataset", "pair"}))
+      ->check(one_of("kind", {"scenario", "campaign", "rig", "dataset", "pair", "hypothesis"}))
       ->type_name("");
   CLI::Option* format = verb.add_option("--format", options.format,
                                         "How to print it (default: json); yaml prints the rig "

@@ -89,6 +89,11 @@ void add_rig(CLI::App& verb, std::string& rig, const std::string& what) {
   verb.add_option("--rig", rig, "Rig file or shipped rig " + what)->type_name("RIG");
 }
 
+void add_hypotheses_option(CLI::App& verb, std::vector<std::string>& files, const std::string& what) {
+  verb.add_option("--hypothesis", files, "Laws of your own (docs/hypotheses.md) that " + what)
+      ->type_name("FILE");
+}
+
 void add_input(CLI::App& verb, std::string& path, const char* name, const char* what, const char* type) {
   verb.add_option(name, path, what)->required()->type_name(type);
 }

@@ -32,6 +32,8 @@ void add_seed(CLI::App& verb, Options& options, const std::string& what);
 void add_formats(CLI::App& verb, std::vector<std::string>& formats);
 /// `rig`: a file or the name of a shipped rig.
 void add_rig(CLI::App& verb, std::string& rig, const std::string& what);
+/// Files of laws of the user's own, that do `what`.
+void add_hypotheses_option(CLI::App& verb, std::vector<std::string>& files, const std::string& what);
 /// The file that a verb takes. `what` it is, and how help calls it.
 void add_input(CLI::App& verb, std::string& path, const char* name, const char* what, const char* type);
 void add_measured(CLI::App& verb, std::string& path);

@@ -12,7 +12,7 @@ namespace {
 /// The rig with next to nothing of its effects; none if it has none.
 std::optional<Model> with_slight_effects(const Case& c, Model model) {
   bool has_effects = false;
-  for (const Candidate& effect : catalogue()) {
+  for (const Candidate& effect : catalogue(c.nominal)) {
     if (!effect.carried(c.nominal)) continue;
     effect.put(model.rig, effect.absent + thresholds.parameter.slight_size * effect.typical);
     has_effects = true;

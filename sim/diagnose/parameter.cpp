@@ -24,6 +24,8 @@ void with_effect(RigFile& rig, std::string_view effect, const Tell& tell) {
     };
     std::apply([&](const auto&... e) { (look(effects.get<std::remove_cvref_t<decltype(e)>>()), ...); },
                plant::Effects::Table{});
+    for (auto& law : effects.laws.list)
+      if (effect == law.text->name) tell(law);
   });
 }
 
@@ -203,7 +205,7 @@ class Gathering {
     }
   }
   void of_effects() {
-    for (const Candidate& candidate : catalogue()) {
+    for (const Candidate& candidate : catalogue(rig_)) {
       if (!candidate.carried(rig_)) continue;
       for (const Parameter& p : candidate.parameters(rig_))
         for (const Standing& one : standings(rig_, p.path, stated_)) add_size(candidate, p, one);
@@ -247,6 +249,8 @@ void Candidate::put(RigFile& rig, double size) const {
   Parameter{.path = amplitude, .both_sides = rig.pair() != nullptr}.put(rig, size);
 }
 void Candidate::put(RigFile& rig, double size, double with_shape) const {
+  for (const Further& one : further)
+    Parameter{.path = one.path, .both_sides = rig.pair() != nullptr}.put(rig, one.value);
   if (!shape.empty()) Parameter{.path = shape, .both_sides = rig.pair() != nullptr}.put(rig, with_shape);
   put(rig, size);
 }
@@ -302,6 +306,68 @@ RigFile Candidate::removed(RigFile rig) const {
   return adds_to.empty() ? rig : with_law(std::move(rig), effect, adds_to);
 }
 
+namespace {
+
+/// A further parameter as a fit moves it: by its logarithm, if it is never negative.
+Parameter moved(const Further& one, bool both_sides) {
+  if (one.lowest > 0.0)
+    return {.path = one.path,
+            .scale = 1.0,
+            .step = thresholds.parameter.shape_step,
+            .lowest = one.lowest,
+            .highest = one.highest,
+            .logarithmic = true,
+            .both_sides = both_sides};
+  const double reach = one.highest - one.lowest;
+  return {.path = one.path,
+          .origin = one.value,
+          .scale = 0.25 * reach,
+          .step = thresholds.parameter.shape_step * reach,
+          .lowest = one.lowest,
+          .highest = one.highest,
+          .both_sides = both_sides};
+}
+
+/// A law of the user's own, as one of the catalogue. A second parameter that is always positive is its shape.
+Candidate candidate_of(const plant::LawText& law) {
+  const std::string prefix = "effects." + std::string(of_laws) + "." + law.name + ".";
+  const plant::LawText::Parameter& size = law.parameters.front();
+  Candidate c{.effect = law.name,
+              .variant = "",
+              .amplitude = prefix + size.name,
+              .shape = "",
+              .typical = size.typical,
+              .step = 1e-3 * std::abs(size.typical),
+              .either_sign = size.lowest < 0.0 && size.highest > 0.0,
+              .shapes = {},
+              .own = true};
+  for (std::size_t i = 1; i < law.parameters.size(); ++i) {
+    const plant::LawText::Parameter& p = law.parameters[i];
+    std::vector<double> values{std::lerp(p.lowest, p.highest, 0.25), p.typical,
+                               std::lerp(p.lowest, p.highest, 0.75)};
+    if (p.lowest > 0.0) {  // over its whole range: a wavelength is found from close by only
+      constexpr int places = 12;
+      values = {p.lowest, p.typical};
+      for (int k = 1; k <= places; ++k)
+        values.push_back(p.lowest * std::pow(p.highest / p.lowest, static_cast<double>(k) / places));
+    }
+    if (c.shape.empty() && p.lowest > 0.0) {
+      c.shape = prefix + p.name;
+      c.shapes = std::move(values);
+    } else {
+      c.further.push_back({prefix + p.name, p.typical, std::move(values), p.lowest, p.highest});
+    }
+  }
+  return c;
+}
+
+/// What a user's law acts on: whether data of a given pressure show it.
+bool makes_pressure(const plant::LawText& law) {
+  return law.adds == plant::LawTarget::outflow || law.adds == plant::LawTarget::command;
+}
+
+}  // namespace
+
 std::vector<Parameter> Candidate::parameters(const RigFile& rig) const {
   RigFile copy = rig;
   const Found size = find(copy, amplitude);
@@ -320,11 +386,30 @@ std::vector<Parameter> Candidate::parameters(const RigFile& rig) const {
     list.push_back({.path = shape,
                     .scale = 1.0,
                     .step = thresholds.parameter.shape_step,
-                    .lowest = std::max(form.lowest, shapes.front() / thresholds.parameter.shape_range),
-                    .highest = std::min(form.highest, shapes.back() * thresholds.parameter.shape_range),
+                    .lowest = own ? form.lowest
+                                  : std::max(form.lowest, shapes.front() / thresholds.parameter.shape_range),
+                    .highest = own ? form.highest
+                                   : std::min(form.highest, shapes.back() * thresholds.parameter.shape_range),
                     .logarithmic = true,
                     .both_sides = rig.pair() != nullptr});
   }
+  for (const Further& one : further) list.push_back(moved(one, rig.pair() != nullptr));
+  return list;
+}
+
+bool Candidate::moves(std::string_view path) const {
+  return path == amplitude || path == shape ||
+         std::ranges::any_of(further, [&](const Further& one) { return one.path == path; });
+}
+
+std::vector<Candidate> Candidate::variations() const {
+  std::vector<Candidate> list{*this};
+  for (std::size_t i = 0; i < further.size(); ++i)
+    for (const double value : further[i].values) {
+      if (value == further[i].value) continue;
+      list.push_back(*this);
+      list.back().further[i].value = value;
+    }
   return list;
 }
 
@@ -396,12 +481,20 @@ std::vector<Candidate> in_sight(const Sight& sight) {
 std::vector<Candidate> catalogue() {
   return in_sight({});
 }
+std::vector<Candidate> catalogue(const RigFile& rig) {
+  std::vector<Candidate> list = catalogue();
+  for (const auto& law : rig.effects.laws.list) list.push_back(candidate_of(*law.text));
+  return list;
+}
 std::vector<Candidate> catalogue(const domain::Dataset& data) {
   const bool given = data.pressure_is_given();
   const bool read = std::ranges::any_of(
       data.runs, [](const domain::Run& run) { return run.muscle_pressure_Pa.has_value(); });
-  return in_sight(
-      {.makes_pressure = !given, .load_guide = data.rig.pair() == nullptr, .gauge = given || read});
+  std::vector<Candidate> list =
+      in_sight({.makes_pressure = !given, .load_guide = data.rig.pair() == nullptr, .gauge = given || read});
+  for (const auto& law : data.rig.effects.laws.list)
+    if (!given || !makes_pressure(*law.text)) list.push_back(candidate_of(*law.text));
+  return list;
 }
 
 }  // namespace mckibben::diagnose

@@ -21,6 +21,9 @@ namespace mckibben::diagnose {
 using domain::RigFile;
 using Found = domain::RigNumber;
 
+/// Under this key of a rig's effects stand the laws of a user's own.
+inline constexpr std::string_view of_laws = "hypotheses";
+
 /// Throws std::invalid_argument for a path that leads to no number.
 Found find(RigFile& rig, std::string_view path);
 double value_of(const RigFile& rig, std::string_view path);
@@ -58,15 +61,26 @@ struct Parameter {
 /// few, or to what is typical, whichever is more.
 std::vector<Parameter> nominal_parameters(const RigFile& nominal, const domain::Spreads& stated = {});
 
-/// One law variant of an effect of the catalogue.
+/// A parameter of a law, besides its size, and the values to begin a fit from.
+struct Further {
+  std::string path;
+  double value = 0.0;          ///< that the candidate has
+  std::vector<double> values;  ///< all of them
+  double lowest = 0.0, highest = 0.0;
+};
+
+/// One law variant of an effect of the catalogue; or a law of the user's own, whose size is its first
+/// parameter and whose shape the second.
 struct Candidate {
   std::string effect;            ///< its name
   std::string variant;           ///< of the law; empty if there is one only
   std::string amplitude, shape;  ///< paths; `shape` empty if there is none
   double absent = 0.0, typical = 0.0, step = 0.0;
   bool either_sign = false;
-  std::vector<double> shapes;  ///< to begin from
-  std::string adds_to{};       ///< the law that this one is with a term more; empty if it stands alone
+  std::vector<double> shapes;      ///< to begin from
+  std::string adds_to{};           ///< the law that this one is with a term more; empty if it stands alone
+  std::vector<Further> further{};  ///< what a user's law has besides size and shape
+  bool own = false;                ///< of the user's own: its ranges are the file's
 
   /// Gives it this size in a rig; and a shape, if it has one.
   void put(RigFile& rig, double size) const;
@@ -79,14 +93,19 @@ struct Candidate {
   bool fits(const RigFile& rig) const;
   /// The rig without it; with what it adds to.
   RigFile removed(RigFile rig) const;
-  /// What a fit moves: amplitude and, if any, shape.
+  /// What a fit moves: amplitude and, if any, shape and further parameters.
   std::vector<Parameter> parameters(const RigFile& rig) const;
+  bool moves(std::string_view path) const;
+  /// Itself, and with each further parameter at each of its other values: what is scored.
+  std::vector<Candidate> variations() const;
 };
 
 /// The whole catalogue, in the order of its table.
 std::vector<Candidate> catalogue();
-/// What these data can show of it: where the muscle's pressure is given, without what acts on valve, supply,
-/// hose and gas alone, of a pair without the guide of a load, without a gauge no errors of one.
+/// The same, and the rig's laws of the user's own.
+std::vector<Candidate> catalogue(const RigFile& rig);
+/// What these data can show of both: where the muscle's pressure is given, without what acts on valve,
+/// supply, hose and gas alone, of a pair without the guide of a load, without a gauge no errors of one.
 std::vector<Candidate> catalogue(const domain::Dataset& data);
 
 /// Effects of the catalogue, and parameters, that a given pressure leaves nothing to see of.

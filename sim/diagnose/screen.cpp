@@ -39,6 +39,7 @@ std::vector<Score> screen(const Experiment& experiment, const Fitted& fitted,
                           const std::vector<Candidate>& candidates, const Runs& runs, double inflation) {
   struct Probe {
     std::size_t candidate;
+    Candidate variation;
     double shape;
   };
   std::vector<Probe> probes;
@@ -47,16 +48,16 @@ std::vector<Score> screen(const Experiment& experiment, const Fitted& fitted,
     const Candidate& c = candidates[i];
     if (!c.fits(fitted.model.rig)) continue;
     const auto shapes = c.shapes.empty() ? std::vector{0.0} : c.shapes;
-    for (const double shape : shapes) {
-      for (const double size : {c.step, thresholds.parameter.probe * c.typical}) {
-        probes.push_back({i, shape});
-        changes.push_back({[&c, shape, size](Hanging& h) {
-                             h.rig = c.chosen(h.rig);
-                             c.put(h.rig, c.absent + size, shape);
-                           },
-                           size, true});
-      }
-    }
+    for (const Candidate& variation : c.variations())
+      for (const double shape : shapes)
+        for (const double size : {c.step, thresholds.parameter.probe * c.typical}) {
+          probes.push_back({i, variation, shape});
+          changes.push_back({[variation, shape, size](Hanging& h) {
+                               h.rig = variation.chosen(h.rig);
+                               variation.put(h.rig, variation.absent + size, shape);
+                             },
+                             size, true});
+        }
   }
   const auto slopes = experiment.slopes(fitted.model.rig, changes, runs);
   const Projector project(fitted, inflation);
@@ -75,6 +76,7 @@ std::vector<Score> screen(const Experiment& experiment, const Fitted& fitted,
     if (score.column.size() > 0 && drop <= score.drop) continue;
     score.drop = drop;
     score.amplitude = c.absent + amplitude;
+    score.candidate = probes[t].variation;
     score.shape = probes[t].shape;
     score.column = std::move(column);
   }

@@ -28,10 +28,12 @@ std::string words(const plant::ForceTerm& term) {
   return {};
 }
 
-std::string sentence_of(const std::string& effect) {
+std::string sentence_of(const std::string& effect, const plant::Effects& of_rig) {
   std::string text;
   std::apply([&](const auto&... e) { ((effect == e.name ? void(text = e.sentence) : void()), ...); },
              plant::Effects::Table{});
+  for (const auto& law : of_rig.laws.list)
+    if (effect == law.text->name) text = law.text->sentence;
   return text;
 }
 
@@ -54,7 +56,8 @@ void tell_parameters(Diagnosis& diagnosis, const Model& model, const std::vector
     }
     for (auto* effects : {&diagnosis.effects, &diagnosis.stand_ins})
       for (auto& effect : *effects) {
-        const std::string prefix = fmt::format("effects.{}.", effect.name);
+        std::string prefix = fmt::format("effects.{}.", effect.name);
+        if (!p.path.starts_with(prefix)) prefix = fmt::format("effects.{}.{}.", of_laws, effect.name);
         if (!p.path.starts_with(prefix)) continue;
         number.name = p.path.substr(prefix.size());
         effect.parameters.push_back(number);
@@ -343,7 +346,8 @@ std::string stand_ins_in_words(const Diagnosis& d) {
 std::string effects_in_words(const Diagnosis& d) {
   std::string said;
   for (const NamedEffect& effect : d.effects) {
-    said += fmt::format("{}{} ({})", said.empty() ? "" : ", and ", effect.name, sentence_of(effect.name));
+    said += fmt::format("{}{} ({})", said.empty() ? "" : ", and ", effect.name,
+                        sentence_of(effect.name, d.corrected.effects));
     if (!effect.confusable_with.empty())
       said += fmt::format(" - these data cannot tell it from {}", fmt::join(effect.confusable_with, ", "));
   }

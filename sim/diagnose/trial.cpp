@@ -45,8 +45,7 @@ Model without(const Model& model, std::size_t effect) {
   for (const Candidate& c : model.effects) {
     if (!goes_with(c.effect, c.variant, gone)) continue;
     smaller.rig = c.removed(smaller.rig);
-    std::erase_if(smaller.free,
-                  [&](const Parameter& p) { return p.path == c.amplitude || p.path == c.shape; });
+    std::erase_if(smaller.free, [&](const Parameter& p) { return c.moves(p.path); });
   }
   std::erase_if(smaller.effects, [&](const Candidate& c) { return goes_with(c.effect, c.variant, gone); });
   return smaller;

@@ -1,4 +1,5 @@
 // Walks the field lists of a rig; see the header.
+#include <algorithm>
 #include <concepts>
 #include <optional>
 #include <string_view>
@@ -167,8 +168,29 @@ void level_terms(std::vector<plant::Rig>& rigs) {
   }
 }
 
+/// Gives each rig every law that one of them has, absent where it had none. Laws that remember stay in their
+/// places: the same law in two places counts as two.
+void level_laws(std::vector<plant::Rig>& rigs) {
+  std::vector<plant::OwnLawOf<double>> all;
+  const auto same = [](const auto& a, const auto& b) {
+    return a.place == b.place && (a.text == b.text || *a.text == *b.text);
+  };
+  for (const plant::Rig& rig : rigs)
+    for (const auto& law : rig.effects.laws.list)
+      if (!law.absent() && std::ranges::none_of(all, [&](const auto& known) { return same(known, law); }))
+        all.push_back({law.text, {}, law.place});
+  for (plant::Rig& rig : rigs) {
+    auto level = all;
+    for (auto& slot : level)
+      for (const auto& law : rig.effects.laws.list)
+        if (!law.absent() && same(slot, law)) slot = law;
+    rig.effects.laws.list = std::move(level);
+  }
+}
+
 std::vector<Leaves> levelled_leaves(std::vector<plant::Rig>& rigs) {
   level_terms(rigs);
+  level_laws(rigs);
   std::vector<Leaves> leaves;
   leaves.reserve(rigs.size());
   for (const plant::Rig& rig : rigs) leaves.push_back(leaves_of(rig));
@@ -187,6 +209,8 @@ std::optional<plant::RigOf<Lanes>> as_one(std::vector<plant::Rig> rigs) {
   std::vector<long> chosen;  // what nobody chooses makes no difference
   for (const auto& choice : *choices) chosen.push_back(choice.value_or(0));
   plant::RigOf<Lanes> rig;
+  for (const auto& law : rigs.front().effects.laws.list)
+    rig.effects.laws.list.push_back({law.text, {}, law.place});
   Fill fill{leaves, chosen};
   walk(rig, fill);
   return rig;

@@ -19,6 +19,8 @@ std::string edge_of_domain(const plant::Plant& rig, const plant::State<double>& 
     moved.side.muscle_pressure_Pa += pressure_Pa;
     return !rig.in_domain(moved);
   };
+  if (const std::string_view law = rig.law_without_number(state); !law.empty())
+    return fmt::format("the law {} (effects.hypotheses) is not a number here", law);
   // Within a fiftieth of what lays the threads along the axis, or there within a millisecond.
   const double e = state.joint.contraction_ratio, soon = 1e-3 * state.joint.contraction_speed_per_s;
   if ((e < 0.0 && leaves(0.02 * e - 1e-4, 0.0)) || (soon < 0.0 && leaves(soon, 0.0)))

@@ -22,7 +22,20 @@ namespace mckibben::input {
 
 // NOLINTNEXTLINE(bugprone-exception-escape): moving Json does not throw
 struct FieldInfo {
-  enum class Type { quantity, integer, boolean, choice, text, height, command, draws, structure, variant };
+  enum class Type {
+    quantity,
+    integer,
+    boolean,
+    choice,
+    text,
+    height,
+    command,
+    draws,
+    laws,
+    named,  ///< a map of names; what each is stands in a group, or it is a text
+    structure,
+    variant
+  };
   /// The fields of a struct, or of one alternative of a variant.
   struct Group {
     std::string kind;  ///< empty for a plain struct
@@ -110,6 +123,8 @@ class FieldLister {
     } else if constexpr (std::same_as<T, domain::Variation>) {
       info.type = FieldInfo::Type::draws;
       for (const std::string_view text : spellings<domain::Sampling>()) info.choices.emplace_back(text);
+    } else if constexpr (std::same_as<T, plant::OwnLawsOf<double>>) {
+      info.type = FieldInfo::Type::laws;
     } else if constexpr (Named<T>) {
       info.type = FieldInfo::Type::choice;
       for (const std::string_view text : spellings<T>()) info.choices.emplace_back(text);

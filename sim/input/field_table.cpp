@@ -35,6 +35,10 @@ std::string range_text(const FieldInfo& info) {
       return "normal M ± D or uniform L .. H";
     case FieldInfo::Type::text:
       return "text";
+    case FieldInfo::Type::laws:
+      return "list; each a file, or its contents";
+    case FieldInfo::Type::named:
+      return info.groups.empty() ? "for each name a text" : "for each name: see below";
     case FieldInfo::Type::structure:
       return "";
     case FieldInfo::Type::variant:
@@ -83,6 +87,8 @@ class Tables {
         range = place == inside ? "see below" : "see " + link_to(place);
         if (place == inside) below += '\n' + (*this)(inside, info.groups.front().fields);
       }
+      if (info.type == FieldInfo::Type::named && !info.groups.empty())
+        below += '\n' + (*this)(inside, info.groups.front().fields);
       for (const FieldInfo::Group& group : info.groups)
         if (!group.kind.empty())
           below += '\n' + (*this)(fmt::format("{} of kind {}", inside, group.kind), group.fields);

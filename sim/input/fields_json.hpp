@@ -15,6 +15,7 @@
 
 #include <controllers/target.hpp>
 #include <plant/command.hpp>
+#include <plant/effects/own_laws.hpp>
 #include <sim/domain/spread.hpp>
 #include <sim/domain/variation.hpp>
 #include <sim/input/field_kinds.hpp>
@@ -47,6 +48,9 @@ inline Json quantity_json(double value, std::string_view unit, std::optional<dou
   if (spread) return write_with_spread(value, *spread, unit);
   return unit == "1" ? Json(value) : Json(write_quantity(value, unit));
 }
+
+/// The contents of a hypothesis's file (hypothesis_file.hpp), with its parameters as they stand.
+Json hypothesis_json(const plant::OwnLawOf<double>& law);
 
 /// The visitor of a field list.
 class JsonWriter {
@@ -107,6 +111,11 @@ Json to_json(const T& value, const SpreadsOf& spreads) {
                               : "uniform " + write_quantity(each.low, each.unit) + " .. " +
                                     write_quantity(each.high, each.unit);
     return object;
+  } else if constexpr (std::same_as<T, plant::OwnLawsOf<double>>) {
+    Json list = Json::array();
+    for (const auto& law : value.list)
+      if (!law.absent()) list.push_back(hypothesis_json(law));
+    return list;
   } else if constexpr (Named<T>) {
     return std::string(spelling(value));
   } else if constexpr (is_vector<T>) {

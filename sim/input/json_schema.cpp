@@ -49,6 +49,13 @@ Json value_schema(const FieldInfo& info) {
       return {{"type", "object"},
               {"properties", {{"sampling", {{"enum", info.choices}}}}},
               {"additionalProperties", {{"type", "string"}, {"pattern", "^(normal|uniform) "}}}};
+    case FieldInfo::Type::laws:  // each the path of a file, or what would stand in it
+      return {{"type", "array"}, {"items", {{"type", {"string", "object"}}}}};
+    case FieldInfo::Type::named: {
+      const Json each =
+          info.groups.empty() ? Json{{"type", {"string", "number"}}} : group_schema(info.groups.front());
+      return {{"type", "object"}, {"additionalProperties", each}};
+    }
     case FieldInfo::Type::structure:
     case FieldInfo::Type::variant:
       break;

@@ -122,7 +122,52 @@ std::string_view usual_unit(std::string_view si_unit) {
   return si_unit;
 }
 
+/// Walks through a unit's definition down to base units.
+struct Definition {
+  law::UnitSize size;
+  bool from_zero = true;
+
+  static ut_status basic(const ut_unit* unit, void* self) {
+    const ut_unit* const one[] = {unit};
+    const int power[] = {1};
+    return product(nullptr, 1, one, power, self);
+  }
+  static ut_status product(const ut_unit*, int count, const ut_unit* const* units, const int* powers,
+                           void* self) {
+    auto& [size, from_zero] = *static_cast<Definition*>(self);
+    for (int i = 0; i < count; ++i) {
+      const char* const symbol = ut_get_symbol(units[i], UT_ASCII);
+      for (std::size_t k = 0; symbol != nullptr && k < size.dimension.exponents.size(); ++k)
+        if (std::string_view(symbol) == law::Dimension::bases[k]) size.dimension.exponents[k] += powers[i];
+    }
+    return UT_SUCCESS;
+  }
+  static ut_status galilean(const ut_unit*, double scale, const ut_unit* unit, double offset, void* self);
+  static ut_status timestamp(const ut_unit*, const ut_unit*, double, void*) { return UT_BAD_ARG; }
+  static ut_status logarithmic(const ut_unit*, double, const ut_unit*, void*) { return UT_BAD_ARG; }
+};
+constexpr ut_visitor definition{Definition::basic, Definition::product, Definition::galilean,
+                                Definition::timestamp, Definition::logarithmic};
+
+ut_status Definition::galilean(const ut_unit*, double scale, const ut_unit* unit, double offset, void* self) {
+  auto& own = *static_cast<Definition*>(self);
+  own.size.size *= scale;
+  own.from_zero = own.from_zero && offset == 0.0;
+  return ut_accept_visitor(unit, &definition, self);
+}
+
 }  // namespace
+
+std::optional<law::UnitSize> unit_size(std::string_view unit) {
+  if (unit == "1") return law::UnitSize{};
+  if (!spelt_like_a_unit(unit)) return std::nullopt;
+  const std::lock_guard lock(udunits_mutex);
+  const Unit given = parse_unit(unit);
+  Definition found;
+  if (!given || ut_accept_visitor(given.get(), &definition, &found) != UT_SUCCESS || !found.from_zero)
+    return std::nullopt;
+  return found.size;
+}
 
 double read_quantity(std::string_view text, std::string_view si_unit) {
   const std::string_view whole = trimmed(text);

@@ -8,6 +8,8 @@
 #include <string>
 #include <string_view>
 
+#include <sim/law/dimension.hpp>
+
 namespace mckibben::input {
 
 /// A text that is not the wanted quantity; `what()` names the text, what is wrong and an example.
@@ -41,6 +43,9 @@ std::string unit_problem(std::string_view unit, std::string_view wanted);
 
 /// Converts numbers from `unit` to `wanted`, which unit_problem must have found well.
 void convert_units(std::span<double> values, std::string_view unit, std::string_view wanted);
+
+/// What a unit measures and how much of SI's unit it is; nothing if it is none, or does not count from zero.
+std::optional<law::UnitSize> unit_size(std::string_view unit);
 
 /// Shortest digits that read back exactly, and the unit: "0.03 m". For the unit "1" the number alone.
 std::string write_quantity(double value, std::string_view si_unit);

@@ -18,6 +18,7 @@
 
 #include <controllers/target.hpp>
 #include <plant/command.hpp>
+#include <plant/effects/own_laws.hpp>
 #include <sim/domain/spread.hpp>
 #include <sim/domain/variation.hpp>
 #include <sim/input/diagnostics.hpp>
@@ -42,6 +43,9 @@ struct SpreadsInto {
 template <Listed T>
 void read_struct(const Source& source, const Node& node, T& into, Problems& problems,
                  std::span<const std::string_view> also_allowed = {}, const SpreadsInto& spreads = {});
+
+/// Reads a list of a user's own laws (hypothesis_file.hpp).
+void read_named(const Source& source, const Node& node, plant::OwnLawsOf<double>& into, Problems& problems);
 
 /// Checks the line `schema: NAME/VERSION` of a file.
 /// False if it is another kind of file, not worth reading on.

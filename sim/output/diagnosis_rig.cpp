@@ -1,9 +1,14 @@
 // Rig and campaign files of a diagnosis; see the header.
+#include <algorithm>
+#include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include <sim/input/campaign_file.hpp>
 #include <sim/input/fields_json.hpp>
+#include <sim/input/hypothesis_file.hpp>
+#include <sim/input/number.hpp>
 #include <sim/input/rigs.hpp>
 #include <sim/input/yaml_writer.hpp>
 #include <sim/output/diagnosis_rig.hpp>
@@ -56,7 +61,7 @@ std::string origin(const domain::Dataset& data, const diagnose::Diagnosis& diagn
   if (!diagnosis.because.empty()) text += comment(diagnosis.because);
   const auto add = [&](const char* as, const diagnose::NamedEffect& effect) {
     text += comment(fmt::format("{}: {}: {}", as, full_name(effect.name, effect.variant),
-                                words_of(effect.name).sentence));
+                                words_of(effect.name, diagnosis.corrected.effects).sentence));
     for (const auto& parameter : effect.parameters) text += number_line(parameter.name, parameter, "");
   };
   for (const auto& effect : diagnosis.effects) add("Added", effect);
@@ -74,7 +79,85 @@ std::string origin(const domain::Dataset& data, const diagnose::Diagnosis& diagn
   return text;
 }
 
+/// What a term is for a coefficient of 1 N, as an expression; a sine's numbers as parameters or written out.
+std::string expression(const plant::ForceTerm& term, bool with_parameters) {
+  using enum plant::Basis;
+  const auto number = [](double value) { return input::write_number(value); };
+  switch (term.of) {
+    case constant:
+      return "1";
+    case ratio:
+      return "e";
+    case ratio_squared:
+      return "e^2";
+    case pressure:
+      return "P / 1 [bar]";
+    case pressure_ratio:
+      return "P / 1 [bar] * e";
+    case load:
+      return "load / 98.0665 [N]";
+    case speed:
+      return "v / 0.1 [m/s]";
+    case speed_squared:
+      return "v * abs(v) / 0.01 [m2/s2]";
+    case direction:
+      return "tanh(v / 1 [mm/s])";
+    case direction_ratio:
+      return "tanh(v / 1 [mm/s]) * e";
+    case direction_pressure:
+      return "tanh(v / 1 [mm/s]) * P / 1 [bar]";
+    case sine:
+      break;
+  }
+  if (with_parameters) return "sin(2 * pi * x / wavelength + phase)";
+  return fmt::format("sin(2 * pi * x / {} [m] + ({}))", number(term.wavelength_m), number(term.phase_rad));
+}
+
+/// What it is, exactly; where to begin and between which bounds, in few digits.
+Json parameter(const char* unit, double value, double lowest, double highest) {
+  const auto about = [](double number) { return std::stod(fmt::format("{:.2g}", number)); };
+  return {{"unit", unit},
+          {"typical", about(value)},
+          {"range", {about(lowest), about(highest)}},
+          {"value", value}};
+}
+
 }  // namespace
+
+std::string law_yaml(const domain::Dataset& data, const diagnose::Diagnosis& diagnosis) {
+  const auto& all = diagnosis.corrected.effects.get<plant::ResidualForce>().terms;
+  const std::size_t found =
+      std::min(diagnosis.residual_law.size(), all.size());  // the rig may have had terms
+  const std::vector<plant::ForceTerm> terms(all.end() - static_cast<std::ptrdiff_t>(found), all.end());
+  constexpr double around = 5.0;  // a fit may move what was found by so many times
+  Json file{{"schema", input::hypothesis_schema},
+            {"name", "found_law"},
+            {"sentence", "a force outside the catalogue, as a diagnosis found it"},
+            {"adds", "force"}};
+  Json parameters = Json::object();
+  if (terms.size() == 1) {
+    const plant::ForceTerm& term = terms.front();
+    const double most_N = around * std::abs(term.coefficient_N);
+    file["law"] = "F * " + expression(term, true);
+    parameters["F"] = parameter("N", term.coefficient_N, -most_N, most_N);
+    if (term.of == plant::Basis::sine) {
+      parameters["wavelength"] =
+          parameter("m", term.wavelength_m, term.wavelength_m / around, term.wavelength_m * around);
+      parameters["phase"] = parameter("1", term.phase_rad, -7.0, 7.0);
+    }
+  } else {
+    std::string sum;
+    for (const plant::ForceTerm& term : terms)
+      sum += fmt::format("{}{} [N] * {}", sum.empty() ? "" : " + ", input::write_number(term.coefficient_N),
+                         expression(term, false));
+    file["law"] = "size * (" + sum + ")";
+    parameters["size"] = parameter("1", 1.0, -around, around);
+  }
+  file["parameters"] = std::move(parameters);
+  return comment(fmt::format("The law that a diagnosis of {} found, valid for {}.", name_of(data),
+                             diagnosis.law_valid_for)) +
+         comment("Read it, change it, and put it to the test: docs/hypotheses.md.") + input::to_yaml(file);
+}
 
 std::string rig_yaml(const domain::Dataset& data, const diagnose::Diagnosis& diagnosis) {
   Json file{{"schema", input::rig_schema}};

@@ -13,6 +13,10 @@ namespace mckibben::output {
 /// says where it comes from and gives the interval of each fitted number.
 std::string rig_yaml(const domain::Dataset& data, const diagnose::Diagnosis& diagnosis);
 
+/// The law of force that was found outside the catalogue, as a hypothesis (docs/hypotheses.md) that says the
+/// same: to be read, changed and put to the test. There must be one.
+std::string law_yaml(const domain::Dataset& data, const diagnose::Diagnosis& diagnosis);
+
 /// How a file that plan_yaml made begins.
 inline constexpr const char* plan_heading = "# The measurement that a diagnosis asks for";
 

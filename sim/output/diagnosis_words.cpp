@@ -165,12 +165,15 @@ bool changed(const diagnose::Diagnosis& diagnosis) {
          !diagnosis.recalibrated.empty();
 }
 
-EffectWords words_of(std::string_view effect) {
+EffectWords words_of(std::string_view effect, const plant::Effects& of_rig) {
   EffectWords words;
   const auto look = [&]<class E>(const E&) {
     if (effect == E::name) words = {E::law, E::sentence, E::source};
   };
   std::apply([&](const auto&... each) { (look(each), ...); }, plant::Effects::Table{});
+  for (const auto& law : of_rig.laws.list)
+    if (effect == law.text->name)
+      words = {law.text->law, law.text->sentence, "a hypothesis of the user's own"};
   return words;
 }
 

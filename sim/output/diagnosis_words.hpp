@@ -54,10 +54,10 @@ std::vector<std::string> held_out(const diagnose::Diagnosis& diagnosis);
 /// Whether the corrected rig is another than the nominal one.
 bool changed(const diagnose::Diagnosis& diagnosis);
 
-/// What the catalogue says of an effect; empty for a name that is not in it.
+/// What the catalogue, or a law of a rig's own, says of an effect; empty for a name that is in neither.
 struct EffectWords {
   std::string_view law, sentence, source;
 };
-EffectWords words_of(std::string_view effect);
+EffectWords words_of(std::string_view effect, const plant::Effects& of_rig);
 
 }  // namespace mckibben::output

@@ -117,15 +117,14 @@ double telling_size(const diagnose::Candidate& law) {
       {"valve_lag", 10.0},     {"friction_warm_up", 3.0}};
   for (const auto& [effect, times] : others)
     if (law.effect == effect) return law.absent + times * law.typical;
-  return law.absent + 4.0 * law.typical;
+  return law.own ? law.typical : law.absent + 4.0 * law.typical;
 }
 
 }  // namespace
 
-std::string effect_svg(std::string_view effect) {
-  const domain::RigFile nominal;
+std::string effect_svg(std::string_view effect, const domain::RigFile& nominal) {
   std::vector<std::pair<std::string, domain::RigFile>> laws;
-  for (const auto& law : diagnose::catalogue()) {
+  for (const auto& law : diagnose::catalogue(nominal)) {
     if (law.effect != effect) continue;
     auto& [words, rig] =
         laws.emplace_back(law.variant.empty() ? "" : law.variant + ": ", law.chosen(nominal));
@@ -135,10 +134,11 @@ std::string effect_svg(std::string_view effect) {
       words += fmt::format("{}{} {}", words.empty() || words.ends_with(": ") ? "" : ", ",
                            path.substr(path.rfind('.') + 1), readable(value, found.unit));
     };
-    for (const auto& term : diagnose::catalogue()) {
+    for (const auto& term : diagnose::catalogue(nominal)) {
       if (term.effect != effect || (term.variant != law.variant && term.variant != law.adds_to)) continue;
       set(term.amplitude, telling_size(term));
       if (!term.shape.empty()) set(term.shape, term.shapes[1]);
+      for (const auto& further : term.further) set(further.path, further.value);
     }
   }
   if (laws.empty()) throw std::invalid_argument("no picture of " + std::string(effect));

@@ -6,10 +6,12 @@
 #include <string>
 #include <string_view>
 
+#include <sim/domain/rig_file.hpp>
+
 namespace mckibben::output {
 
-/// The picture (SVG) of an effect of the catalogue, all its law variants in it. Throws std::invalid_argument
-/// for a name without a law of its own.
-std::string effect_svg(std::string_view effect);
+/// The picture (SVG) of an effect of the catalogue, all its law variants in it, or of a law of the nominal
+/// rig's own at its typical values. Throws std::invalid_argument for a name without a law of its own.
+std::string effect_svg(std::string_view effect, const domain::RigFile& nominal = {});
 
 }  // namespace mckibben::output

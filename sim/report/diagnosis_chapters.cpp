@@ -232,7 +232,7 @@ std::string constancy_html(const Diagnosis& diagnosis) {
 std::string added_html(const Diagnosis& diagnosis, const plant::Rig& rig) {
   std::string html;
   const auto add = [&](const diagnose::NamedEffect& effect) {
-    const auto words = output::words_of(effect.name);
+    const auto words = output::words_of(effect.name, diagnosis.corrected.effects);
     std::string says(words.sentence);
     if (!says.empty() && says[0] >= 'a' && says[0] <= 'z') says[0] = static_cast<char>(says[0] - 'a' + 'A');
     html += fmt::format("<h3>{}</h3>\n<p>{}.<br>Law: <code>{}</code><br><span class='small'>{}</span></p>\n",

@@ -88,7 +88,9 @@ class Carrying {
     } else {
       const auto riders = party.riders();
       if (!arrive(riders, next_s(riders))) return go(place);
-      if (turned_stiff(place))
+      if (std::ranges::any_of(riders, [](const Rider& rider) { return !rider.now.reads; }))
+        party.alone(convoy_->pace(place), convoy_->counters(place));  // which fails there, with its reason
+      else if (turned_stiff(place))
         go_on_alone(place, party);
       else if (set_off(place))
         return;

@@ -79,11 +79,13 @@ void Ride::hold(const Drive& drive, double until_s) {
 }
 
 void Ride::advance() {
+  for (const Rider& rider : riders_) rider.require_reading();
   double to_s = 0.0;
   do {
     to_s = next_s(riders_);
     carry(to_s);
   } while (!arrive(riders_, to_s));
+  for (const Rider& rider : riders_) rider.require_reading();
 }
 
 void Ride::carry(double to_s) {

@@ -1,7 +1,9 @@
 // The order of an instant; see the header.
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
+#include <sim/engine/failure.hpp>
 #include <sim/ride/rider.hpp>
 
 namespace mckibben::ride {
@@ -165,10 +167,21 @@ void Rider::look() {
     now.rises.note(now.time_s, rise_m, state.joint.contraction_speed_per_s * length_m, then_s);
     rise_m = now.rises.rise_m(then_s);
   }
+  const plant::Stroke<double> stroke{state.joint.contraction_ratio, state.joint.contraction_speed_per_s};
+  const double shift_m = plant_.side().reading_shift_m(stroke, state.side, now.flow.memory.side, now.held);
+  now.reads = std::isfinite(shift_m);
+  if (now.reads) rise_m += shift_m;
   const double wheel_m = plant_.rig().effects.wheel_m(rise_m, now.plays);
   const plant::Rig& other = plant_.opposite() ? plant_.opposite()->rig() : plant_.rig();
   now.reading = {wheel_m, wheel_m - true_rise_m, plant_.rig().effects.shown_Pa(state.side.muscle_pressure_Pa),
                  other.effects.shown_Pa(state.opposite.muscle_pressure_Pa)};
+}
+
+void Rider::require_reading() const {
+  if (now.reads) return;
+  throw engine::NumericalFailure(
+      now.time_s, now.flow.state,
+      "what the encoder reads is not a number here: look at the laws of effects.hypotheses that add to it");
 }
 
 }  // namespace mckibben::ride

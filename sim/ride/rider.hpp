@@ -67,6 +67,7 @@ class Rider {
     Drive drive{};                                 ///< that was held last, pressures as they are
     PastCommands commands{}, opposite_commands{};  ///< where something makes them late
     PastRises rises{};
+    bool reads = true;  ///< a law of the user's own may make no number of a reading
   };
 
   explicit Rider(const Hanging& hanging) : plant_(hanging.rig, hanging.load_kg) {}
@@ -83,6 +84,8 @@ class Rider {
   bool arrive(double at_s);
   /// What the instruments see of the state as it is.
   void look();
+  /// Throws engine::NumericalFailure if that is no number.
+  void require_reading() const;
 
   /// Nothing has come or gone from here on.
   void open_ledger() { now.flow.ledger = plant_.opened(now.flow.state); }

@@ -14,6 +14,7 @@
 #include <sim/input/campaign_file.hpp>
 #include <sim/input/csv.hpp>
 #include <sim/input/dataset_file.hpp>
+#include <sim/input/hypothesis_file.hpp>
 #include <sim/input/lvm.hpp>
 #include <sim/input/mat.hpp>
 #include <sim/input/quantity.hpp>
@@ -85,6 +86,16 @@ void calibration(const std::string& bytes) {
   const auto written = [](const std::string& text) {
     std::vector<domain::InputFile> inputs;
     return input::calibration_yaml(input::read_calibration(folder().write("calibration.yaml", text), inputs));
+  };
+  std::string once;
+  if (was_read([&] { once = written(bytes); }))
+    require(written(once) == once, "not the same when read again");
+}
+
+void hypothesis(const std::string& bytes) {
+  const auto written = [](const std::string& text) {
+    std::vector<domain::InputFile> inputs;
+    return input::hypothesis_yaml(input::read_hypothesis(folder().write("law.yaml", text).string(), inputs));
   };
   std::string once;
   if (was_read([&] { once = written(bytes); }))
@@ -187,7 +198,7 @@ void quantity(const std::string& bytes) {
 constexpr std::pair<std::string_view, Target> targets[] = {
     {"scenario", scenario}, {"campaign", campaign}, {"rig", rig},           {"calibration", calibration},
     {"dataset", dataset},   {"csv", csv},           {"lvm", lvm},           {"ascii", ascii},
-    {"mat", mat},           {"run_json", run_json}, {"quantity", quantity},
+    {"mat", mat},           {"run_json", run_json}, {"quantity", quantity}, {"hypothesis", hypothesis},
 };
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include <sim/input/calibration_file.hpp>
 #include <sim/input/campaign_file.hpp>
 #include <sim/input/dataset_file.hpp>
+#include <sim/input/hypothesis_file.hpp>
 #include <sim/input/pair_scenario_file.hpp>
 #include <sim/input/rigs.hpp>
 #include <sim/input/scenario_file.hpp>
@@ -46,6 +47,8 @@ std::string said_about(const fs::path& file) {
       read_calibration(file, inputs);
     else if (name.starts_with("campaign_"))
       read_campaign(file);
+    else if (name.starts_with("hypothesis_"))
+      read_hypothesis(file.string(), inputs);
     else if (name.starts_with("pair_"))
       read_pair_scenario(file);
     else

@@ -26,7 +26,7 @@ constexpr const char* dated =
     "{time: {column: Zeit, unit: date}, current: {column: Strom, unit: mA}, "
     "contraction: {column: Weg, unit: mm}}";
 
-const Kind kinds[] = {
+const Kind tables[] = {
     {"plain", german, "Zeit,Strom,Weg\n0,4,0\n0.012,4.5,3\n"},
     {"semicolons_and_decimal_commas", german, "Zeit;Strom;Weg\n0;4;0\n0,012;4,5;3\n"},
     {"byte_order_mark_and_crlf", german, "\xEF\xBB\xBFZeit;Strom;Weg\r\n0;4;0\r\n0,012;4,5;3\r\n"},
@@ -64,7 +64,7 @@ TEST_P(PeopleTables, ReadToTheSameNumbers) {
   ASSERT_EQ(data.runs[0].contraction_ratio.size(), 2u);
   EXPECT_NEAR(data.runs[0].contraction_ratio[1], 0.01, 1e-15);
 }
-INSTANTIATE_TEST_SUITE_P(Each, PeopleTables, ::testing::ValuesIn(kinds),
+INSTANTIATE_TEST_SUITE_P(Each, PeopleTables, ::testing::ValuesIn(tables),
                          [](const auto& each) { return std::string(each.param.name); });
 
 TEST(CsvLayout, WhatIsNoUnitIsARow) {

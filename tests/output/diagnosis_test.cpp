@@ -1,5 +1,7 @@
 // What a diagnosis writes and prints: the contract's keys, a rig that reads back to the same bits, a plan
 // that is a campaign.
+#include <array>
+#include <cmath>
 #include <limits>
 #include <string>
 #include <variant>
@@ -7,8 +9,10 @@
 
 #include <gtest/gtest.h>
 
+#include <plant/state.hpp>
 #include <sim/input/campaign_file.hpp>
 #include <sim/input/fields_json.hpp>
+#include <sim/input/hypothesis_file.hpp>
 #include <sim/input/rigs.hpp>
 #include <sim/output/diagnosis_json.hpp>
 #include <sim/output/diagnosis_rig.hpp>
@@ -192,6 +196,40 @@ TEST(DiagnosisWords, GiveAsManyDigitsAsTheIntervalAllows) {
   EXPECT_EQ(rounded(0.06, 1, true), "+0.1");
   EXPECT_EQ(height(1e-8, plant::Rig{}), "0.000 mm");
   EXPECT_EQ(height(6.19e-3, plant::Rig{}), "1.86 mm");
+}
+
+/// What a law's file adds, at these states, beside what the terms that it came from add.
+void expect_same_law(const diagnose::Diagnosis& found) {
+  const Scratch folder;
+  std::vector<input::InputFile> inputs;
+  plant::Effects own;
+  own.laws.list.push_back(
+      input::read_hypothesis(folder.write("law.yaml", law_yaml(measured(), found)).string(), inputs));
+  ASSERT_FALSE(own.absent());
+  const std::array<double, plant::memory_size> memory{};
+  for (int i = 0; i < 50; ++i) {
+    const double e = 0.005 * i, v = 0.01 * (i - 25);
+    const plant::Instant<double> now{e, 0.3 * e, v, 1e4 * i, 3.0 * i, 101325.0, 84150.0, {}, 1e5, 2e5};
+    const double wanted_N = found.corrected.effects.pull(now, memory).all_N;
+    EXPECT_NEAR(own.pull(now, memory).all_N, wanted_N, 1e-12 * (1.0 + std::abs(wanted_N))) << e << " " << v;
+  }
+}
+
+TEST(DiagnosisRig, TheLawThatWasFoundIsAHypothesisThatSaysTheSame) {
+  diagnose::Diagnosis found = diagnosed();
+  found.corrected = {};
+  auto& terms = found.corrected.effects.get<plant::ResidualForce>().terms;
+  for (const auto& [basis, name] : names(plant::Basis{})) {  // three at a time
+    terms.push_back({basis, -1.5, 0.0123456789, -0.7});
+    if (terms.size() > 3) terms.erase(terms.begin());
+    found.residual_law.assign(terms.size(), {});
+    expect_same_law(found);
+  }
+  for (const auto& [basis, name] : names(plant::Basis{})) {
+    terms = {{basis, 2.25, 0.0123456789, 0.3}};
+    found.residual_law.resize(1);
+    expect_same_law(found);
+  }
 }
 
 }  // namespace

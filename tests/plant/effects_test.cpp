@@ -419,14 +419,14 @@ TEST(Catalogue, TheOrderOfTheTableDoesNotMatter) {
     same(forth.supply_drop_Pa(memory), back.supply_drop_Pa(turned));
     const auto rates = forth.memory_rates(now, inflow, memory);
     auto turned_rates = back.memory_rates(now, inflow, turned);
-    std::reverse(turned_rates.begin(), turned_rates.end());
+    std::reverse(turned_rates.begin(), turned_rates.begin() + Effects::memories);
     for (std::size_t m = 0; m < rates.size(); ++m) same(rates[m], turned_rates[m]);
     same(forth.end_correction_shift(now), back.end_correction_shift(now));
     same(forth.pressing_shift_Pa(now), back.pressing_shift_Pa(now));
     same(forth.heating_Pa_per_s(now, inflow, memory), back.heating_Pa_per_s(now, inflow, turned));
     same(forth.vent_factor(), back.vent_factor());
     same(forth.valve_error_shift_Pa(1e4), back.valve_error_shift_Pa(1e4));
-    same(forth.outflow_kg_per_s(now), back.outflow_kg_per_s(now));
+    same(forth.outflow_kg_per_s(now, memory), back.outflow_kg_per_s(now, turned));
     same(forth.gas_exponent(), back.gas_exponent());
     const double rise_m = chance.between(0.0, 0.1), wanted_Pa = chance.between(0.5e5, 5e5);
     same(forth.wheel_m(rise_m, plays), back.wheel_m(rise_m, others));

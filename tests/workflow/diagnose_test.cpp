@@ -11,6 +11,7 @@
 #include <sim/run/simulate.hpp>
 
 #include "diagnose/examined.hpp"
+#include "own_law.hpp"
 
 namespace mckibben::diagnose {
 namespace {
@@ -75,6 +76,33 @@ TEST(Diagnose, FindsALawForWhatIsInNoCatalogue) {
   EXPECT_NEAR(term.wavelength_m, 0.012, 1e-4);
   EXPECT_NEAR(std::abs(term.coefficient_N), 6.0, 0.3);
   EXPECT_GT(found.gap.closed, 0.9);
+}
+
+TEST(Diagnose, NamesALawOfTheUsersOwn) {
+  const auto cogging = [](double force_N) {
+    return own_law(plant::LawTarget::force, "F * sin(2 * pi * x / wavelength + phase)",
+                   {{"F", law::newton, force_N, 4.0, -50.0, 50.0},
+                    {"wavelength", law::metre, 0.012, 0.015, 0.005, 0.03},
+                    {"phase", law::ratio, 0.8, 0.0, -3.2, 3.2}});
+  };
+  plant::Rig truth;
+  truth.effects.laws.list = {cogging(6.0)};
+  auto data = small(truth);
+  static_cast<plant::Rig&>(data.rig) = plant::Rig{};
+  auto suspected = cogging(0.0);
+  suspected.values[1] = 0.015;
+  suspected.values[2] = 0.0;
+  data.rig.effects.laws.list = {suspected};
+  const auto found = diagnosis_of(data, 0);
+  EXPECT_EQ(found.verdict, Verdict::missing_effect) << found.because;
+  ASSERT_EQ(found.effects.size(), 1u) << found.because;
+  EXPECT_EQ(found.effects[0].name, "own");
+  EXPECT_NE(found.because.find("own"), std::string::npos) << found.because;
+  ASSERT_EQ(found.effects[0].parameters.size(), 3u);
+  EXPECT_NEAR(std::abs(found.effects[0].parameters[0].value), 6.0, 0.3);
+  EXPECT_NEAR(found.effects[0].parameters[1].value, 0.012, 1e-4);
+  EXPECT_GT(found.gap.closed, 0.9);
+  EXPECT_FALSE(found.corrected.effects.laws.absent());
 }
 
 // Friction that falls with speed imitates friction that is larger than a data sheet says.
