@@ -55,7 +55,7 @@ struct BladderElasticityOf {
   template <class S>
   S pull_N(const Instant<S>& now, const S&) const {
     using std::exp;
-    const S spring_N = -spring_N_per_m() * now.rise_m;
+    S spring_N = -spring_N_per_m() * now.rise_m;
     if (variant == BladderLaw::linear) return spring_N;
     // Below e = 0 the exponential would run away; there it goes on straight.
     return choose(
