@@ -346,7 +346,7 @@ Candidate candidate_of(const plant::LawText& law) {
     std::vector<double> values{std::lerp(p.lowest, p.highest, 0.25), p.typical,
                                std::lerp(p.lowest, p.highest, 0.75)};
     if (p.lowest > 0.0) {  // over its whole range: a wavelength is found from close by only
-      constexpr int places = 12;
+      const int places = thresholds.parameter.law_places;
       values = {p.lowest, p.typical};
       for (int k = 1; k <= places; ++k)
         values.push_back(p.lowest * std::pow(p.highest / p.lowest, static_cast<double>(k) / places));

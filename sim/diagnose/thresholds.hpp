@@ -79,6 +79,7 @@ struct ParameterThresholds {
   double slight_size = 0.02;     ///< of it: where a fit begins for an effect that may be there in vain
   double probe = 0.5;            ///< of it: the larger of the two sizes of which slopes are taken
   double shape_step = 0.01;      ///< logarithm of a shape, for a slope
+  int law_places = 12;           ///< over the range of a number of one's own law, from which fits begin
   double shape_range = 4.0;      ///< factor: so far outside those tried a shape may go
 };
 

@@ -203,7 +203,7 @@ std::string size_in_words(const diagnose::SizeIn& size, const std::string& unit)
 }
 
 /// The size of each effect in parts of the data: what a name is earned by, or lost.
-std::string constancy_html(const Diagnosis& diagnosis) {
+std::string constancy_html(const Diagnosis& diagnosis, const plant::Rig& rig) {
   std::string rows;
   for (const auto* effects : {&diagnosis.effects, &diagnosis.stand_ins})
     for (const auto& effect : *effects)
@@ -213,11 +213,12 @@ std::string constancy_html(const Diagnosis& diagnosis) {
           sizes += fmt::format(
               "{}{}: {}", sizes.empty() ? "" : "; ", size.part,
               size_in_words(size, effect.parameters.empty() ? "1" : effect.parameters.front().unit));
-        rows += row(full_name(effect.name, effect.variant),
-                    {drift.along, sizes,
-                     drift.deviations == 0.0 ? "no"
-                                             : fmt::format("by {:.0f} %{}", 100.0 * drift.share,
-                                                           drift.drifts() ? "" : ", which is little")});
+        rows +=
+            fmt::format("<tr><th scope='row'>{}</th><td>{}</td><td>{}</td><td>{}</td></tr>\n",
+                        escaped(full_name(effect.name, effect.variant)), drift.along, text_html(sizes, rig),
+                        drift.deviations == 0.0 ? "no"
+                                                : fmt::format("by {:.0f} %{}", 100.0 * drift.share,
+                                                              drift.drifts() ? "" : ", which is little"));
       }
   if (rows.empty()) return "";
   return folded(
@@ -244,7 +245,7 @@ std::string added_html(const Diagnosis& diagnosis, const plant::Rig& rig) {
   };
   for (const auto& effect : diagnosis.effects) add(effect);
   for (const auto& effect : diagnosis.stand_ins) add(effect);
-  return html + constancy_html(diagnosis) + law_html(diagnosis, rig) + recalibrated_html(diagnosis) +
+  return html + constancy_html(diagnosis, rig) + law_html(diagnosis, rig) + recalibrated_html(diagnosis) +
          left_open_html(diagnosis) + absorbed_html(diagnosis);
 }
 

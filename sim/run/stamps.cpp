@@ -160,8 +160,9 @@ Tone hum_of(const std::vector<double>& time_s, const std::vector<double>& values
     if (in_a_period * gap_s * hz > 1.0) continue;
     const auto [amplitude, mean_square] = level(time_s, values, hz);
     if (amplitude <= best.amplitude || 0.5 * amplitude * amplitude < share_of_scatter * mean_square) continue;
-    std::vector<double> beside;
-    for (const double off_hz : beside_hz) beside.push_back(level(time_s, values, hz + off_hz).amplitude);
+    std::vector<double> beside(std::size(beside_hz));
+    std::ranges::transform(beside_hz, beside.begin(),
+                           [&](double off_hz) { return level(time_s, values, hz + off_hz).amplitude; });
     if (amplitude > stands_out * median(std::move(beside))) best = {hz, amplitude};
   }
   return best;
