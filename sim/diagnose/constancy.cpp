@@ -8,6 +8,7 @@
 
 #include <sim/diagnose/constancy.hpp>
 #include <sim/diagnose/held_out.hpp>
+#include <sim/diagnose/interval.hpp>
 #include <sim/run/batch.hpp>
 
 namespace mckibben::diagnose {
@@ -22,23 +23,17 @@ struct Parting {
   std::vector<std::size_t> of_row;
 };
 
-/// Numbers apart by at least this ratio are of different parts; those in one, from the smallest on.
-std::vector<std::pair<double, double>> apart(std::vector<double> values, double ratio) {
+/// Where parts begin if numbers apart by at least this ratio are of different ones.
+std::vector<double> apart(std::vector<double> values, double ratio) {
   std::sort(values.begin(), values.end());
-  std::vector<std::pair<double, double>> parts;
-  for (const double value : values) {
-    if (parts.empty() || value > ratio * parts.back().first)
-      parts.emplace_back(value, value);
-    else
-      parts.back().second = value;
-  }
-  return parts;
+  std::vector<double> begins;
+  for (const double value : values)
+    if (begins.empty() || value > ratio * begins.back()) begins.push_back(value);
+  return begins;
 }
 
-std::size_t place_of(double value, const std::vector<std::pair<double, double>>& parts) {
-  const auto after = std::upper_bound(parts.begin(), parts.end(), value,
-                                      [](double v, const auto& part) { return v < part.first; });
-  return static_cast<std::size_t>(std::distance(parts.begin(), after)) - 1;
+std::size_t place_of(double value, const std::vector<double>& begins) {
+  return static_cast<std::size_t>(std::upper_bound(begins.begin(), begins.end(), value) - begins.begin()) - 1;
 }
 
 /// What a run is told apart by, in words.
@@ -53,7 +48,7 @@ Parting by_level(const Experiment& experiment, const Runs& runs) {
   for (const std::size_t run : runs) levels.push_back(level_of(data.runs[run]));
   const auto parts = apart(levels, 1.0);
   Parting parting{lengths ? "length" : "load", {}, {}};
-  for (const auto& part : parts) parting.parts.push_back(level_in_words(data.runs[runs.front()], part.first));
+  for (const double level : parts) parting.parts.push_back(level_in_words(data.runs[runs.front()], level));
   for (std::size_t i = 0; i < runs.size(); ++i)
     parting.of_row.insert(parting.of_row.end(), experiment.rows(runs[i]), place_of(levels[i], parts));
   return parting;
@@ -77,8 +72,8 @@ Parting by_motion(const Experiment& experiment, const Runs& runs, const States& 
   const auto rate = rates(states, experiment.data().row_s());
   const auto parts = apart(rate, constant_by.same_motion);
   Parting parting{"motion", {}, {}};
-  for (const auto& part : parts)
-    parting.parts.push_back(fmt::format("pressure changing by {:.2g} bar/s", part.first / plant::Pa_per_bar));
+  for (const double slowest : parts)
+    parting.parts.push_back(fmt::format("pressure changing by {:.2g} bar/s", slowest / plant::Pa_per_bar));
   for (std::size_t i = 0; i < runs.size(); ++i)
     parting.of_row.insert(parting.of_row.end(), experiment.rows(runs[i]), place_of(rate[i], parts));
   return parting;
@@ -122,31 +117,10 @@ std::vector<Parting> partings(const Experiment& experiment, const RigFile& rig, 
   return list;
 }
 
-/// Sums over segments, row by row: what a sandwich is made of.
-Eigen::MatrixXd scatter_of(const Experiment& experiment, const Runs& runs, const Eigen::MatrixXd& columns,
-                           const Eigen::VectorXd& residuals) {
-  const Eigen::Index segment =
-      std::max<Eigen::Index>(1, std::lround(thresholds.scatter.segment_s / experiment.data().row_s()));
-  Eigen::MatrixXd scatter = Eigen::MatrixXd::Zero(columns.cols(), columns.cols());
-  Eigen::Index begin = 0;
-  for (const std::size_t run : runs) {
-    const auto rows = static_cast<Eigen::Index>(experiment.rows(run));
-    for (Eigen::Index at = 0; at < rows; at += segment) {
-      const Eigen::Index length = std::min(segment, rows - at);
-      const Eigen::VectorXd score =
-          columns.middleRows(begin + at, length).transpose() * residuals.segment(begin + at, length);
-      scatter += score * score.transpose();
-    }
-    begin += rows;
-  }
-  return scatter;
-}
-
 /// The sizes of one effect in the parts of the data.
 Drift drift_in(const Experiment& experiment, const Model& model, const Candidate& effect,
-               const Experiment::Slopes& at, const Parting& parting, const Runs& runs, double inflation) {
-  const auto amplitude = static_cast<std::size_t>(
-      std::ranges::find(model.free, effect.amplitude, &Parameter::path) - model.free.begin());
+               std::size_t amplitude, const Experiment::Slopes& at, const Parting& parting, const Runs& runs,
+               double inflation) {
   const auto free = static_cast<Eigen::Index>(model.free.size());
   const auto parts = static_cast<Eigen::Index>(parting.parts.size());
   const auto a = static_cast<Eigen::Index>(amplitude);
@@ -176,8 +150,7 @@ Drift drift_in(const Experiment& experiment, const Model& model, const Candidate
   const Eigen::VectorXd change = solver.solve(columns.transpose() * at.residuals / inflation - from_origin);
   const Eigen::MatrixXd inverse = solver.solve(Eigen::MatrixXd::Identity(free + parts, free + parts));
   const Eigen::MatrixXd scatter =
-      priors +
-      scatter_of(experiment, runs, columns, at.residuals - columns * change) / (inflation * inflation);
+      priors + scatter_of(experiment, runs, columns, at.residuals - columns * change, inflation).scores;
   const Eigen::MatrixXd robust = inverse * scatter * inverse;
   const Parameter& p = model.free[amplitude];
   const double value = value_of(model.rig, p.path), scaled = p.scaled(value);
@@ -226,11 +199,11 @@ std::vector<Constancy> constancies(const Experiment& experiment, const Model& fi
   std::vector<Constancy> list;
   for (const Candidate& effect : fitted.effects) {
     Constancy& constancy = list.emplace_back();
-    const bool is_free =
-        std::ranges::find(fitted.free, effect.amplitude, &Parameter::path) != fitted.free.end();
-    if (!is_free) continue;  // no reading depends on it
+    const auto amplitude = std::ranges::find(fitted.free, effect.amplitude, &Parameter::path);
+    if (amplitude == fitted.free.end()) continue;  // no reading depends on it
+    const auto place = static_cast<std::size_t>(amplitude - fitted.free.begin());
     for (const Parting& parting : ways)
-      constancy.push_back(drift_in(experiment, fitted, effect, at, parting, runs, inflation));
+      constancy.push_back(drift_in(experiment, fitted, effect, place, at, parting, runs, inflation));
   }
   return list;
 }

@@ -10,14 +10,6 @@
 namespace mckibben::diagnose {
 namespace {
 
-Eigen::Index segment_rows(const Experiment& experiment) {
-  return std::max<Eigen::Index>(1, std::lround(thresholds.scatter.segment_s / experiment.data().row_s()));
-}
-
-}  // namespace
-
-namespace {
-
 /// Lengths have no runs of their own number each: those nearest the middle of the range first.
 void nearest_the_middle(const std::map<double, Runs>& by_length, std::vector<Runs>& inner,
                         const domain::Dataset& data) {
@@ -27,6 +19,10 @@ void nearest_the_middle(const std::map<double, Runs>& by_length, std::vector<Run
 }
 
 }  // namespace
+
+Eigen::Index segment_rows(const Experiment& experiment) {
+  return std::max<Eigen::Index>(1, std::lround(thresholds.scatter.segment_s / experiment.data().row_s()));
+}
 
 double level_of(const domain::Run& run) {
   if (!run.length_is_given()) return run.load_kg;

@@ -10,6 +10,9 @@ namespace mckibben::diagnose {
 /// What runs are told apart by: their load [kg], or on a bench the contraction ratio that they were held at.
 double level_of(const domain::Run& run);
 
+/// Rows of a run that residuals remember: a segment, which counts as one.
+Eigen::Index segment_rows(const Experiment& experiment);
+
 struct Split {
   Runs training, held_out;
 };

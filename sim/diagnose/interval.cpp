@@ -6,6 +6,7 @@
 #include <Eigen/Cholesky>
 
 #include <plant/instruments.hpp>
+#include <sim/diagnose/held_out.hpp>
 #include <sim/diagnose/interval.hpp>
 #include <sim/diagnose/thresholds.hpp>
 
@@ -60,30 +61,35 @@ Eigen::MatrixXd counting_errors(const Experiment& experiment, const Fitted& fitt
 
 }  // namespace
 
+Scatter scatter_of(const Experiment& experiment, const Runs& runs, const Eigen::MatrixXd& columns,
+                   const Eigen::VectorXd& residuals, double inflation) {
+  const Eigen::Index segment = segment_rows(experiment);
+  Scatter scatter{Eigen::MatrixXd::Zero(columns.cols(), columns.cols()), 0};
+  Eigen::Index begin = 0;
+  for (const std::size_t run : runs) {
+    const auto rows = static_cast<Eigen::Index>(experiment.rows(run));
+    for (Eigen::Index at = 0; at < rows; at += segment, ++scatter.segments) {
+      const Eigen::Index length = std::min(segment, rows - at);
+      const Eigen::VectorXd score = columns.middleRows(begin + at, length).transpose() *
+                                    residuals.segment(begin + at, length) / inflation;
+      scatter.scores += score * score.transpose();
+    }
+    begin += rows;
+  }
+  return scatter;
+}
+
 std::vector<Bounds> intervals(const Experiment& experiment, const Fitted& fitted, const Runs& runs,
                               double inflation) {
   const auto& free = fitted.model.free;
   const auto count = static_cast<Eigen::Index>(free.size());
-  const Eigen::Index segment =
-      std::max<Eigen::Index>(1, std::lround(thresholds.scatter.segment_s / experiment.data().row_s()));
   Eigen::MatrixXd priors = Eigen::MatrixXd::Zero(count, count);
   for (Eigen::Index j = 0; j < count; ++j)
     if (free[static_cast<std::size_t>(j)].has_prior) priors(j, j) = 1.0;
   const Eigen::MatrixXd information = fitted.columns.transpose() * fitted.columns / inflation + priors;
-  Eigen::MatrixXd scatter = priors;
-  Eigen::Index begin = 0, segments = 0;
-  for (const std::size_t run : runs) {
-    const auto rows = static_cast<Eigen::Index>(experiment.rows(run));
-    for (Eigen::Index at = 0; at < rows; at += segment, ++segments) {
-      const Eigen::Index length = std::min(segment, rows - at);
-      const Eigen::VectorXd score = fitted.columns.middleRows(begin + at, length).transpose() *
-                                    fitted.residuals.segment(begin + at, length) / inflation;
-      scatter += score * score.transpose();
-    }
-    begin += rows;
-  }
+  const auto [scatter, segments] = scatter_of(experiment, runs, fitted.columns, fitted.residuals, inflation);
   const Eigen::MatrixXd inverse = information.ldlt().solve(Eigen::MatrixXd::Identity(count, count));
-  const Eigen::MatrixXd robust = inverse * scatter * inverse;
+  const Eigen::MatrixXd robust = inverse * (priors + scatter) * inverse;
   const Eigen::MatrixXd counted =
       inverse * priors * inverse + counting_errors(experiment, fitted, runs,
                                                    inverse * fitted.columns.transpose() / inflation,

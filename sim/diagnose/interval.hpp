@@ -8,6 +8,14 @@
 
 namespace mckibben::diagnose {
 
+/// What a sandwich is made of: the scores of all segments times their transpose, and how many there are.
+struct Scatter {
+  Eigen::MatrixXd scores;
+  Eigen::Index segments;
+};
+Scatter scatter_of(const Experiment& experiment, const Runs& runs, const Eigen::MatrixXd& columns,
+                   const Eigen::VectorXd& residuals, double inflation);
+
 struct Bounds {
   double value, low, high;
   bool determined;  ///< less than all that is allowed, or than a whole turn of an angle

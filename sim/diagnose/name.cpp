@@ -238,6 +238,7 @@ Naming name_effects(const Case& c, const Contender& nominal, const Contender& re
   Naming result;
   result.best = recalibrated;
   Eigen::VectorXd before = reference;
+  std::vector<Screening> first;  // at the rig as described and as recalibrated
   for (int round = 1; round <= static_cast<int>(to_name.most_effects); ++round) {
     const std::string name = fmt::format("naming, round {}", round);
     step(stage(name));
@@ -246,8 +247,11 @@ Naming name_effects(const Case& c, const Contender& nominal, const Contender& re
     std::vector<Screening> screenings;
     std::vector<Trial> trials;
     const bool whole = search.part(round_in_words(result), [&] {
-      screenings = screenings_of(c, round, nominal, result.best);
-      if (round == 1) tell_first(c, screenings, result);
+      screenings = screenings_of(c, round, nominal, round == 1 ? recalibrated : result.best);
+      if (round == 1) {
+        first = screenings;
+        tell_first(c, screenings, result);
+      }
       // Priors may be strained although the data are met.
       const bool strained = screenings.back().scores.front().drop > to_name.strained;
       if (left > thresholds.near.nothing_left || strained) refit(c, name, screenings, before, step, trials);
@@ -274,7 +278,7 @@ Naming name_effects(const Case& c, const Contender& nominal, const Contender& re
   }
   if (asks_for_several(result)) {
     search.part("several effects at once", [&] {
-      std::vector<Screening> bases{screen_at(c, nominal), screen_at(c, recalibrated)};
+      std::vector<Screening> bases = std::move(first);
       const Contender named = result.best;  // and what more there may be beside the names
       if (!result.effects.empty()) bases.push_back(screen_at(c, named));
       if (try_several(c, result, bases, step)) revise(c, result, reference, step);
