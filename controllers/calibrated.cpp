@@ -103,6 +103,13 @@ double CalibratedController::begin_mA(double contraction_ratio, double lag_s) {
   return current_mA_ = current_of(Branch::contraction, answer, lag_s);
 }
 
+double CalibratedController::balanced_mA(double contraction_ratio) const {
+  const auto of = [&](Branch branch) {
+    return current_of(branch, (*inverse_)(branch, contraction_ratio, 0.0), 0.0);
+  };
+  return 0.5 * (of(Branch::contraction) + of(Branch::relaxation));
+}
+
 // The branch is chosen by the target's direction. While it rests the threads hold the load where it is, and
 // neither branch describes that.
 double CalibratedController::follow_mA(double contraction_ratio) {

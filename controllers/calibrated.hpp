@@ -67,7 +67,14 @@ class CalibratedController : public Controller {
   /// Current that follows the target from tick to tick, held while the target rests; after `begin_mA`.
   double follow_mA(double contraction_ratio);
 
+  /// Current between the two branches at the slowest calibrated speed: at which the load would rest if its
+  /// threads pulled neither way. Beyond the calibrated contraction ratios that of the range's end; nothing is
+  /// counted.
+  double balanced_mA(double contraction_ratio) const;
+
   const Knowledge& knowledge() const { return knowledge_; }
+  const CalibratedRange& range() const { return settings_.model.range; }
+  bool load_is_calibrated() const { return !load_extrapolated_; }
   const Inverse& inverse() const { return *inverse_; }
   double load_kg() const { return load_kg_; }
   /// Contraction ratio that was last asked for.

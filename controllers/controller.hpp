@@ -1,8 +1,10 @@
-// What every controller is: encoder counts in, current out, once each tick. A controller knows the hardware
-// only by its data sheet (`Knowledge`); true states and the plant's own code are out of its sight.
+// What every controller is: encoder counts in, current out (two where there are two muscles), once each tick.
+// A controller knows the hardware only by its data sheet (`Knowledge`); true states and the plant's own code
+// are out of its sight.
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -28,6 +30,7 @@ struct Reading {
 /// What the controller asks of the DAC until the next tick.
 struct Command {
   double current_mA = 0.0;
+  double opposite_mA = 0.0;  ///< to the valve of muscle 2 of a pair
 };
 
 /// Nominal braid: force (T 2.8, 4.30) F = pi r0^2 P [a (1 - k e)^2 - b], and contact surface (T 4.3).
@@ -39,6 +42,7 @@ struct ForceModel {
   bool surface_as_printed = false;  ///< T 4.3 as printed, without the square on its cosine
 
   double force_N(double contraction_ratio, double pressure_Pa) const;
+  double force_drop_N(double contraction_ratio, double pressure_Pa) const;  ///< -dF/de
   double contact_surface_m2(double contraction_ratio) const;
   double largest_contraction_ratio() const;  ///< e_max (T 2.10)
 };
@@ -55,7 +59,18 @@ struct ValveLine {
   double current_mA(double pressure_Pa) const;  ///< kept between its ends
 };
 
-/// What a controller is told on paper before the run.
+/// The second muscle of a pair, and how both pull on the joint (T 2.7).
+struct PairKnowledge {
+  ForceModel opposite;
+  ValveLine opposite_valve;
+  double wheel_radius_m = 0.0;
+  double mounted_ratio = 0.0, opposite_mounted_ratio = 0.0;  ///< e10, e20
+  /// Stiffness of the joint wanted at each tick, its last value after it; empty if none is asked for.
+  std::vector<double> stiffness_N_m_per_rad;
+};
+
+/// What a controller is told on paper before the run. Contraction ratios are of muscle 1; of a pair they
+/// count from joint angle 0: R theta/l0.
 struct Knowledge {
   double contraction_per_count = 0.0;
   double middle_of_count = 0.5;  ///< counts by which a position is more than its reading, on average
@@ -64,7 +79,9 @@ struct Knowledge {
   std::vector<double> target;       ///< contraction ratio wanted at each tick; its last value holds after it
   ForceModel model;
   ValveLine valve;
-  Reach reach;  ///< what the hardware can follow; empty where nobody computed it
+  std::optional<double> load_kg{};  ///< that hangs; for controllers that ask to be told
+  Reach reach;                      ///< what the hardware can follow; empty where nobody computed it
+  std::optional<PairKnowledge> pair{};
 
   /// Contraction ratio wanted at `tick`; 0 where there is no target.
   double target_at(std::int64_t tick) const;

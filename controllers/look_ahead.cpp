@@ -19,7 +19,7 @@ LookAhead::LookAhead(double width_mA, int ticks)
 
 double LookAhead::reached(RigModel& model, double current_mA) const {
   model.go_back();
-  for (int i = 0; i < ticks_; ++i) model.step(current_mA);
+  for (int i = 0; i < ticks_; ++i) model.step({current_mA});
   return model.contraction_ratio();
 }
 

@@ -28,7 +28,7 @@ class ModelInverse final : public ModelledController {
     for (std::int64_t k = begin_ = tick; k < end; ++k) {
       before_mA = model->given_mA(look.current_mA(*model, aim(k), before_mA, range_after(before_mA)));
       if (k >= 0) squares += std::pow(model->contraction_ratio() - knowledge().target_at(k), 2);
-      model->step(before_mA);
+      model->step({before_mA});
       plan_mA_.push_back(before_mA);
     }
     planned_rmse_ = std::sqrt(squares / static_cast<double>(std::max<std::int64_t>(end, 1)));

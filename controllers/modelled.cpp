@@ -8,8 +8,6 @@
 namespace mckibben::controllers {
 namespace {
 
-constexpr double approach_s = 1.0;  // to where the target begins, before tick 0
-
 ModelTerms complete(ModelTerms terms, const CurrentRange& range) {
   terms.follow(range);
   return terms;
@@ -25,7 +23,7 @@ ModelledController::ModelledController(const ModelTerms& terms, const std::strin
       knowledge_(known),
       range_(working_range(known)),
       approach_ticks_(std::llround(approach_s / known.tick_s)),
-      believed_(terms, known),
+      believed_(terms.fastest_load_per_s, known),
       delayed_(delay_ticks) {
   if (!terms_.model) throw std::invalid_argument(name + ": there is no model");
   if (!terms_.assumed_load_kg) weighing_.emplace(*terms_.weighing_speed_mA_per_s, delay_ticks, known);
@@ -48,7 +46,7 @@ double ModelledController::weigh_or_drive_mA(std::int64_t tick, std::int64_t cou
   if (!begun_) {
     begun_ = true;
     const double before_mA = weighing_ ? weighing_->current_mA() : range_.lowest_mA;
-    begin(weighing_ ? weighing_->weighed(terms_.model) : terms_.model(*terms_.assumed_load_kg, before_mA),
+    begin(weighing_ ? weighing_->weighed(terms_.model) : terms_.model(*terms_.assumed_load_kg, {before_mA}),
           tick, before_mA);
   }
   return drive_mA(tick, counts);

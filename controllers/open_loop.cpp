@@ -1,4 +1,5 @@
 // The two ways of the thesis's controller.
+#include <controllers/kept_safe.hpp>
 #include <controllers/open_loop.hpp>
 #include <controllers/waveform.hpp>
 
@@ -57,8 +58,10 @@ class ToOnePoint final : public CalibratedController {
 }  // namespace
 
 std::unique_ptr<Controller> OpenLoopSettings::make(const Knowledge& knowledge) const {
-  if (mode == OpenLoopMode::triangle) return std::make_unique<ToOnePoint>(*this, knowledge);
-  return std::make_unique<Trajectory>(*this, knowledge);
+  return kept_safe(*this, knowledge, [&](const Knowledge& known) -> std::unique_ptr<Controller> {
+    if (mode == OpenLoopMode::triangle) return std::make_unique<ToOnePoint>(*this, known);
+    return std::make_unique<Trajectory>(*this, known);
+  });
 }
 
 }  // namespace mckibben::controllers

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include <controllers/calibrated.hpp>
+#include <controllers/safety.hpp>
 #include <controllers/target.hpp>
 
 namespace mckibben::controllers {
@@ -21,7 +22,7 @@ constexpr auto names(OpenLoopMode) {
                     std::pair{triangle, std::string_view{"triangle"}}};
 }
 
-struct OpenLoopSettings : CalibratedSettings {
+struct OpenLoopSettings : CalibratedSettings, SafetyTerms {
   static constexpr std::string_view kind = "open_loop";
   std::string name{kind};
   OpenLoopMode mode = OpenLoopMode::trajectory;
@@ -38,6 +39,7 @@ struct OpenLoopSettings : CalibratedSettings {
     visit("to", self.to, "triangle: height to pass, as contraction ratio or length");
     visit("speed", self.speed_per_s, "1/s", -100.0, 100.0,
           "triangle: contraction speed to pass it at; negative on the way down");
+    SafetyTerms::fields(self, visit);
   }
   template <class Report>
   void rules(Report& report) const {

@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <stdexcept>
 
+#include <controllers/kept_safe.hpp>
 #include <controllers/open_loop_limited.hpp>
 
 namespace mckibben::controllers {
@@ -73,7 +74,8 @@ class Limited final : public CalibratedController {
 
 std::unique_ptr<Controller> OpenLoopLimitedSettings::make(const Knowledge& knowledge) const {
   if (knowledge.reach.empty()) throw std::invalid_argument(name + ": what is reachable was not computed");
-  return std::make_unique<Limited>(*this, knowledge);
+  return kept_safe(*this, knowledge,
+                   [&](const Knowledge& known) { return std::make_unique<Limited>(*this, known); });
 }
 
 }  // namespace mckibben::controllers

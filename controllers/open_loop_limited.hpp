@@ -7,10 +7,11 @@
 #include <string_view>
 
 #include <controllers/calibrated.hpp>
+#include <controllers/safety.hpp>
 
 namespace mckibben::controllers {
 
-struct OpenLoopLimitedSettings : CalibratedSettings {
+struct OpenLoopLimitedSettings : CalibratedSettings, SafetyTerms {
   static constexpr std::string_view kind = "open_loop_limited";
   std::string name{kind};
 
@@ -21,6 +22,7 @@ struct OpenLoopLimitedSettings : CalibratedSettings {
   static void fields(Self& self, Visitor& visit) {
     visit("name", self.name, "name in tables and file names");
     CalibratedSettings::fields(self, visit);
+    SafetyTerms::fields(self, visit);
   }
 };
 

@@ -41,11 +41,6 @@ PidTerms followed(PidTerms terms, const Knowledge& knowledge) {
 
 }  // namespace
 
-void PidTerms::follow(const CurrentRange& range) {
-  if (!lowest_current_mA) lowest_current_mA = range.lowest_mA;
-  if (!highest_current_mA) highest_current_mA = range.highest_mA;
-}
-
 void PidSettings::follow(const CurrentRange& range) {
   PidTerms::follow(range);
   if (!rest_current_mA) rest_current_mA = lowest_current_mA;
@@ -58,26 +53,30 @@ PidLoop::PidLoop(const PidTerms& terms, const Knowledge& knowledge)
       Ti_s_(given(terms.integral_time_s)),
       Td_s_(given(terms.derivative_time_s)),
       h_s_(terms.sample_ticks * knowledge.tick_s),
-      highest_mA_(std::min(*terms_.highest_current_mA, knowledge.largest_current_mA)),
-      lowest_mA_(std::min(*terms_.lowest_current_mA, highest_mA_)),
-      believed_(terms, knowledge),
+      limits_(terms_.within(knowledge)),
+      believed_(terms.fastest_load_per_s, knowledge),
       delayed_(terms.feedback_delay_ticks) {
   const double usual_s = Td_s_ > 0.0 ? std::sqrt(Ti_s_ * Td_s_) : Ti_s_;
   Tt_s_ = std::max(terms.tracking_time_s.value_or(usual_s), h_s_);  // faster than a sample would swing
 }
 
 double PidLoop::clamped(double current_mA) const {
-  return std::clamp(current_mA, lowest_mA_, highest_mA_);
+  return std::clamp(current_mA, limits_.lowest_mA, limits_.highest_mA);
 }
 
 double PidLoop::step(const Reading& reading, double base_mA) {
+  return step(reading, base_mA, limits_);
+}
+
+double PidLoop::step(const Reading& reading, double base_mA, const CurrentRange& limits) {
   const std::int64_t counts = delayed_(believed_(reading.counts));
   if (believed_.lost()) return output_mA_;
-  if (first_ || reading.tick % terms_.sample_ticks == 0) output_mA_ = sample(counts, reading.tick, base_mA);
+  if (first_ || reading.tick % terms_.sample_ticks == 0)
+    output_mA_ = sample(counts, reading.tick, base_mA, limits);
   return output_mA_;
 }
 
-double PidLoop::sample(std::int64_t counts, std::int64_t tick, double base_mA) {
+double PidLoop::sample(std::int64_t counts, std::int64_t tick, double base_mA, const CurrentRange& limits) {
   const double y =
       (static_cast<double>(counts) + knowledge_.middle_of_count) * knowledge_.contraction_per_count;
   const double r = terms_.allowed(knowledge_.target_at(tick));
@@ -93,7 +92,6 @@ double PidLoop::sample(std::int64_t counts, std::int64_t tick, double base_mA) {
   y_before_ = y;
 
   const double v_mA = base_mA + P_mA + I_mA_ + D_mA_;
-  const CurrentRange limits{lowest_mA_, highest_mA_};
   const CurrentRange reach = begins ? limits : terms_.within_reach(limits, output_mA_, h_s_);
   const double u_mA = std::clamp(v_mA, reach.lowest_mA, reach.highest_mA);
   if (Ti_s_ > 0.0) I_mA_ += K_mA_ * h_s_ / Ti_s_ * (r - y) + h_s_ / Tt_s_ * (u_mA - v_mA);

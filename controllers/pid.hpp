@@ -14,28 +14,18 @@
 
 namespace mckibben::controllers {
 
-/// Everything about the feedback itself.
-struct PidTerms : SafetyTerms {
-  std::optional<double> proportional_mA = std::nullopt;
+/// What a feedback is besides its gain and its limits.
+struct PidForm {
   std::optional<double> integral_time_s = std::nullopt;
   std::optional<double> derivative_time_s = std::nullopt;
   int sample_ticks = 1;
   double derivative_filter = 10.0;
   double setpoint_weight = 1.0;
   std::optional<double> tracking_time_s = std::nullopt;
-  std::optional<double> lowest_current_mA = std::nullopt, highest_current_mA = std::nullopt;
   int feedback_delay_ticks = 0;
-  std::optional<double> tuning_load_kg = std::nullopt;
-
-  /// Whether some gain is left to tuning.
-  bool needs_tuning() const { return !proportional_mA || !integral_time_s || !derivative_time_s; }
-  /// Limits that are left open become the ends of `range`.
-  void follow(const CurrentRange& range);
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
-    visit("proportional", self.proportional_mA, "mA", 0.0, 1e6,
-          "gain K, current for a whole contraction ratio; tuned if absent");
     visit("integral_time", self.integral_time_s, "s", 0.0, 1e6,
           "Ti; 0 for no integral action, tuned if absent");
     visit("derivative_time", self.derivative_time_s, "s", 0.0, 1e3,
@@ -46,20 +36,27 @@ struct PidTerms : SafetyTerms {
     visit("setpoint_weight", self.setpoint_weight, "1", 0.0, 1.0, "b: share of the target in the K term");
     visit("tracking_time", self.tracking_time_s, "s", 1e-4, 1e6,
           "Tt: how fast a limit unwinds the integral; sqrt(Ti Td) if absent, Ti without derivative action");
-    visit("lowest_current", self.lowest_current_mA, "mA", 0.0, 100.0,
-          "lower limit of the output; the valve's zero_current if absent");
-    visit("highest_current", self.highest_current_mA, "mA", 0.0, 100.0,
-          "upper limit of the output; the valve's span_current, "
-          "or the DAC's largest_current if that is lower, if absent");
     visit("feedback_delay_ticks", self.feedback_delay_ticks, 0, 1000, "age of the counts that are used");
+  }
+};
+
+/// Everything about the feedback itself.
+struct PidTerms : PidForm, SafetyTerms, OutputLimits {
+  std::optional<double> proportional_mA = std::nullopt;
+  std::optional<double> tuning_load_kg = std::nullopt;
+
+  /// Whether some gain is left to tuning.
+  bool needs_tuning() const { return !proportional_mA || !integral_time_s || !derivative_time_s; }
+
+  template <class Self, class Visitor>
+  static void fields(Self& self, Visitor& visit) {
+    visit("proportional", self.proportional_mA, "mA", 0.0, 1e6,
+          "gain K, current for a whole contraction ratio; tuned if absent");
+    PidForm::fields(self, visit);
+    OutputLimits::fields(self, visit);
     visit("tuning_load", self.tuning_load_kg, "kg", 0.0, 500.0,
           "load at which missing gains are tuned; the scenario's median load if absent");
     SafetyTerms::fields(self, visit);
-  }
-  template <class Report>
-  void rules(Report& report) const {
-    if (lowest_current_mA && highest_current_mA && *highest_current_mA <= *lowest_current_mA)
-      report("highest_current", "must be above lowest_current");
   }
 };
 
@@ -72,17 +69,19 @@ class PidLoop {
 
   /// Output [mA] for the counts of this tick; new at each sample only. Called once each tick.
   double step(const Reading& reading, double base_mA);
+  /// The same between limits of this tick's own.
+  double step(const Reading& reading, double base_mA, const CurrentRange& limits);
 
   double clamped(double current_mA) const;
   std::int64_t lost_ticks() const { return believed_.lost_ticks(); }
 
  private:
-  double sample(std::int64_t counts, std::int64_t tick, double base_mA);
+  double sample(std::int64_t counts, std::int64_t tick, double base_mA, const CurrentRange& limits);
 
   PidTerms terms_;
   Knowledge knowledge_;
   double K_mA_, Ti_s_, Td_s_, h_s_;
-  double highest_mA_, lowest_mA_;
+  CurrentRange limits_;
   double Tt_s_ = 0.0;
   BelievedCounts believed_;
   Delayed<std::int64_t> delayed_;

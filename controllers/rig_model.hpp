@@ -1,13 +1,18 @@
 // A rig as a controller believes it to be, on its way: currents in, expected contraction out. Whoever can
 // simulate implements it, so that controllers plan with a model and still see no plant, let alone the true
-// one.
+// one. Of a pair, contraction ratios are those of muscle 1 from joint angle 0 (Knowledge).
 #pragma once
 
 #include <functional>
 #include <memory>
 #include <stdexcept>
 
+#include <controllers/controller.hpp>
+
 namespace mckibben::controllers {
+
+/// How long controllers with a model take to where the target begins, before tick 0.
+inline constexpr double approach_s = 1.0;
 
 /// The model cannot be carried on: what was tried is outside the domain of its laws.
 class ModelFailure : public std::runtime_error {
@@ -28,17 +33,20 @@ class RigModel {
   /// What the DAC makes of a current.
   virtual double given_mA(double wanted_mA) const = 0;
   /// Carries it through one tick under a current, as the DAC gives it or not. Throws ModelFailure.
-  virtual void step(double current_mA) = 0;
+  virtual void step(const Command& command) = 0;
   /// Where the load is, and what the encoder shows of that before it counts [contraction ratio].
   virtual double contraction_ratio() const = 0;
   virtual double shown_ratio() const = 0;
+  /// Of the joint of a pair [N m/rad], at the pressures that it has; 0 of one muscle.
+  virtual double stiffness_N_m_per_rad() const { return 0.0; }
 
   /// Keeps where it is; goes back to where it was kept, as often as wanted.
   virtual void keep() = 0;
   virtual void go_back() = 0;
 };
 
-/// Makes the model with a load [kg] on it, settled at a current [mA]. Throws ModelFailure.
-using ModelMaker = std::function<std::unique_ptr<RigModel>(double load_kg, double rest_mA)>;
+/// Makes the model with a load [kg] on it, of a pair in the hand, settled under a command. Throws
+/// ModelFailure.
+using ModelMaker = std::function<std::unique_ptr<RigModel>(double load_kg, const Command& rest)>;
 
 }  // namespace mckibben::controllers

@@ -47,14 +47,14 @@ double RiseWeighing::step_mA(std::int64_t counts) {
 }
 
 RiseWeighing::Fit RiseWeighing::fit(const ModelMaker& maker, double load_kg) const {
-  Fit result{maker(load_kg, rest_mA()), 0.0, 0.0};
+  Fit result{maker(load_kg, {rest_mA()}), 0.0, 0.0};
   std::vector<double> shown;
   for (std::size_t k = 0; k < counts_.size(); ++k) {
     shown.push_back(result.model->shown_ratio());
     const double misses = ratio(counts_[k]) - shown[k - std::min(k, delay_)];
     result.mean += misses;
     result.rms += misses * misses;
-    result.model->step(result.model->given_mA(currents_mA_[k]));
+    result.model->step({result.model->given_mA(currents_mA_[k])});
   }
   const auto n = static_cast<double>(counts_.size());
   result.mean /= n;

@@ -1,4 +1,4 @@
-// What people around a rig rely on, the same in every controller with feedback or a model.
+// What people around a rig rely on, the same in every controller.
 #pragma once
 
 #include <algorithm>
@@ -17,6 +17,8 @@ struct SafetyTerms {
   std::optional<double> largest_current_speed_mA_per_s = std::nullopt;
   std::optional<double> highest_target = std::nullopt;
   std::optional<double> fastest_load_per_s = std::nullopt;
+
+  bool any() const { return largest_current_speed_mA_per_s || highest_target || fastest_load_per_s; }
 
   /// What of `range` is within reach of the current of the tick before.
   CurrentRange within_reach(const CurrentRange& range, double before_mA, double tick_s) const {
@@ -39,13 +41,42 @@ struct SafetyTerms {
   }
 };
 
+/// Ends of the output; those of what the rig's valve answers to unless given.
+struct OutputLimits {
+  std::optional<double> lowest_current_mA = std::nullopt, highest_current_mA = std::nullopt;
+
+  /// Limits that are left open become the ends of `range`.
+  void follow(const CurrentRange& range) {
+    if (!lowest_current_mA) lowest_current_mA = range.lowest_mA;
+    if (!highest_current_mA) highest_current_mA = range.highest_mA;
+  }
+  /// What is left of them on a DAC; they have been made to follow a range.
+  CurrentRange within(const Knowledge& known) const {
+    const double highest_mA = std::min(*highest_current_mA, known.largest_current_mA);
+    return {std::min(*lowest_current_mA, highest_mA), highest_mA};
+  }
+
+  template <class Self, class Visitor>
+  static void fields(Self& self, Visitor& visit) {
+    visit("lowest_current", self.lowest_current_mA, "mA", 0.0, 100.0,
+          "lower limit of the output; the valve's zero_current if absent");
+    visit("highest_current", self.highest_current_mA, "mA", 0.0, 100.0,
+          "upper limit of the output; the valve's span_current, "
+          "or the DAC's largest_current if that is lower, if absent");
+  }
+  template <class Report>
+  void rules(Report& report) const {
+    if (lowest_current_mA && highest_current_mA && *highest_current_mA <= *lowest_current_mA)
+      report("highest_current", "must be above lowest_current");
+  }
+};
+
 /// Tells counts that a load can have reached since the last tick from those of a broken counter.
 class BelievedCounts {
  public:
-  BelievedCounts(const SafetyTerms& terms, const Knowledge& known)
-      : largest_step_(terms.fastest_load_per_s
-                          ? std::ceil(*terms.fastest_load_per_s * known.tick_s / known.contraction_per_count)
-                          : std::numeric_limits<double>::infinity()) {}
+  BelievedCounts(const std::optional<double>& fastest_per_s, const Knowledge& known)
+      : largest_step_(fastest_per_s ? std::ceil(*fastest_per_s * known.tick_s / known.contraction_per_count)
+                                    : std::numeric_limits<double>::infinity()) {}
 
   /// The counts, or those that were believed last.
   std::int64_t operator()(std::int64_t counts) {

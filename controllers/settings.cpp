@@ -42,9 +42,7 @@ std::optional<CurrentRange> limits_of(const Settings& settings, const Knowledge&
   if (open_loop != nullptr && open_loop->mode == OpenLoopMode::triangle) return std::nullopt;
   Settings complete = settings;
   follow(complete, working_range(knowledge));
-  if (const PidTerms* terms = pid_terms(complete))
-    return CurrentRange{*terms->lowest_current_mA,
-                        std::min(*terms->highest_current_mA, knowledge.largest_current_mA)};
+  if (const OutputLimits* limits = output_limits(complete)) return limits->within(knowledge);
   if (calibrated(complete) != nullptr || model_terms(complete) != nullptr ||
       std::holds_alternative<StaticInverseSettings>(complete))
     return working_range(knowledge);
@@ -53,6 +51,18 @@ std::optional<CurrentRange> limits_of(const Settings& settings, const Knowledge&
 
 PidTerms* pid_terms(Settings& settings) {
   return part_of<PidTerms>(settings);
+}
+
+const OutputLimits* output_limits(const Settings& settings) {
+  return part_of<const OutputLimits>(settings);
+}
+
+GuestTerms* guest_terms(Settings& settings) {
+  return part_of<GuestTerms>(settings);
+}
+
+const GuestTerms* guest_terms(const Settings& settings) {
+  return part_of<const GuestTerms>(settings);
 }
 
 ModelTerms* model_terms(Settings& settings) {

@@ -7,21 +7,23 @@
 #include <variant>
 
 #include <controllers/controller.hpp>
+#include <controllers/external.hpp>
 #include <controllers/feedforward_pid.hpp>
 #include <controllers/model_inverse.hpp>
 #include <controllers/model_inverse_feedback.hpp>
 #include <controllers/open_loop.hpp>
 #include <controllers/open_loop_limited.hpp>
 #include <controllers/pid.hpp>
+#include <controllers/plugin.hpp>
 #include <controllers/static_inverse.hpp>
 #include <controllers/waveform.hpp>
 
 namespace mckibben::controllers {
 
-using Settings =
-    std::variant<PidSettings, FeedforwardPidSettings, OpenLoopSettings, OpenLoopLimitedSettings,
-                 StaticInverseSettings, ModelInverseSettings, ModelInverseFeedbackSettings, SineCurrent,
-                 TriangleCurrent, StepCurrent, StairCurrent, ChirpCurrent, RecordedCurrent>;
+using Settings = std::variant<PidSettings, FeedforwardPidSettings, OpenLoopSettings, OpenLoopLimitedSettings,
+                              StaticInverseSettings, ModelInverseSettings, ModelInverseFeedbackSettings,
+                              ExternalSettings, PluginSettings, SineCurrent, TriangleCurrent, StepCurrent,
+                              StairCurrent, ChirpCurrent, RecordedCurrent>;
 
 /// A controller at its beginning. Throws std::invalid_argument if the settings are incomplete: a PID whose
 /// gains are still to be tuned, a recording that was not read.
@@ -38,6 +40,13 @@ std::optional<CurrentRange> limits_of(const Settings& settings, const Knowledge&
 
 /// The feedback terms of a controller that has some, else null.
 PidTerms* pid_terms(Settings& settings);
+
+/// The ends of the output of a controller that lets them be given, else null.
+const OutputLimits* output_limits(const Settings& settings);
+
+/// What is said about a controller that is somebody else's program, else null.
+GuestTerms* guest_terms(Settings& settings);
+const GuestTerms* guest_terms(const Settings& settings);
 
 /// What a controller that needs a calibration says about it, else null.
 CalibratedSettings* calibrated(Settings& settings);

@@ -1,6 +1,7 @@
 // The static law, turned round at each tick's target.
 #include <algorithm>
 
+#include <controllers/kept_safe.hpp>
 #include <controllers/static_inverse.hpp>
 
 namespace mckibben::controllers {
@@ -33,7 +34,9 @@ std::unique_ptr<Controller> StaticInverseSettings::make(const Knowledge& knowled
   model.rest_radius_m = rest_radius_m.value_or(model.rest_radius_m);
   model.braid_angle_rad = braid_angle_rad.value_or(model.braid_angle_rad);
   model.end_correction = end_correction.value_or(model.end_correction);
-  return std::make_unique<StaticInverse>(assumed_load_kg * gravity_m_per_s2, model, knowledge);
+  return kept_safe(limits, knowledge, [&](const Knowledge& known) {
+    return std::make_unique<StaticInverse>(assumed_load_kg * gravity_m_per_s2, model, known);
+  });
 }
 
 }  // namespace mckibben::controllers

@@ -9,7 +9,7 @@
 #include <string>
 #include <string_view>
 
-#include <controllers/controller.hpp>
+#include <controllers/safety.hpp>
 
 namespace mckibben::controllers {
 
@@ -21,6 +21,7 @@ struct StaticInverseSettings {
   std::optional<double> rest_radius_m = std::nullopt;
   std::optional<double> braid_angle_rad = std::nullopt;
   std::optional<double> end_correction = std::nullopt;
+  SafetyTerms limits{};
 
   std::unique_ptr<Controller> make(const Knowledge& knowledge) const;
 
@@ -36,6 +37,7 @@ struct StaticInverseSettings {
           "braid angle it believes in, alpha0; the rig's if absent");
     visit("end_correction", self.end_correction, "1", 1.0, 2.5,
           "end correction it believes in, k; the rig's if absent");
+    SafetyTerms::fields(self.limits, visit);
   }
 };
 

@@ -1,9 +1,12 @@
-// Wanted movements of the load: steps, ramps, minimum-jerk moves (Flash & Hogan 1985), sine, triangle, and
-// straight lines through points. Heights may be contraction ratios or lengths; sampled, they are ratios.
-// Every value is right-continuous: at the instant of a step the new height holds.
+// Wanted movements: steps, ramps, minimum-jerk moves (Flash & Hogan 1985), sine, triangle, and straight lines
+// through points, of a load's height, of a joint's angle, of a joint's stiffness. Heights may be contraction
+// ratios or lengths; sampled, they are ratios. Every value is right-continuous: at the instant of a step the
+// new one holds.
 #pragma once
 
+#include <concepts>
 #include <cstddef>
+#include <numbers>
 #include <optional>
 #include <string_view>
 #include <utility>
@@ -19,7 +22,29 @@ struct Height {
   double value = 0.0;
   bool in_metres = false;
 
+  static constexpr const char* meaning = "height, as contraction ratio or length";
   double ratio(double rest_length_m) const { return in_metres ? value / rest_length_m : value; }
+};
+
+/// Where a joint is: the rise of a cord on its wheel, measured in radii.
+struct Angle {
+  double value = 0.0;
+
+  static constexpr const char* meaning = "joint angle, positive as muscle 1 contracts";
+  static constexpr const char* unit = "rad";
+  static constexpr double lowest = -2.0 * std::numbers::pi, highest = 2.0 * std::numbers::pi;
+  /// Contraction ratio of a muscle whose rest length is so many radii; with 1 the angle itself [rad].
+  double ratio(double rest_length_in_radii) const { return value / rest_length_in_radii; }
+};
+
+/// Torque [N m] by which a joint resists to be turned by 1 rad while the pressures are kept.
+struct Stiffness {
+  double value = 0.0;
+
+  static constexpr const char* meaning = "stiffness of the joint";
+  static constexpr const char* unit = "N.m/rad";
+  static constexpr double lowest = 0.0, highest = 1e5;
+  double ratio(double one) const { return value / one; }
 };
 
 /// Catches "30" written for "30 mm".
@@ -28,16 +53,22 @@ void check_height(Report& report, std::string_view key, const Height& height) {
   if (!height.in_metres && (height.value < 0.0 || height.value >= 1.0))
     report(key, "a contraction ratio lies between 0 and 1; a length needs its unit");
 }
+/// Their units and ranges are checked as they are read.
+template <class Report>
+void check_height(Report&, std::string_view, const Angle&) {}
+template <class Report>
+void check_height(Report&, std::string_view, const Stiffness&) {}
 
 /// Go to a height: in one step, or on a straight line from the point before.
-struct Move {
+template <class Value>
+struct MoveOf {
   double at_s = 0.0;
-  Height to;
+  Value to;
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
-    visit.required("at", self.at_s, "s", 0.0, 1e6, "time of arrival at the height");
-    visit.required("to", self.to, "height, as contraction ratio or length");
+    visit.required("at", self.at_s, "s", 0.0, 1e6, "time of arrival");
+    visit.required("to", self.to, Value::meaning);
   }
   template <class Report>
   void rules(Report& report) const {
@@ -46,10 +77,11 @@ struct Move {
 };
 
 /// Leave for a height and be there after `lasting`.
-struct Glide {
+template <class Value>
+struct GlideOf {
   double at_s = 0.0;
   double lasting_s = 1.0;
-  Height to;
+  Value to;
 
   double end_s() const { return at_s + lasting_s; }
 
@@ -57,7 +89,7 @@ struct Glide {
   static void fields(Self& self, Visitor& visit) {
     visit.required("at", self.at_s, "s", 0.0, 1e6, "time of departure");
     visit.required("lasting", self.lasting_s, "s", 1e-3, 1e6, "time from departure to arrival");
-    visit.required("to", self.to, "height at arrival, as contraction ratio or length");
+    visit.required("to", self.to, Value::meaning);
   }
   template <class Report>
   void rules(Report& report) const {
@@ -65,14 +97,14 @@ struct Glide {
   }
 };
 
-template <class Report>
-void check_order(Report& report, std::string_view key, const std::vector<Move>& moves) {
+template <class Report, class Value>
+void check_order(Report& report, std::string_view key, const std::vector<MoveOf<Value>>& moves) {
   for (std::size_t i = 1; i < moves.size(); ++i)
     if (moves[i].at_s <= moves[i - 1].at_s) return report(key, "times must ascend");
 }
 
-template <class Report>
-void check_order(Report& report, std::string_view key, const std::vector<Glide>& moves) {
+template <class Report, class Value>
+void check_order(Report& report, std::string_view key, const std::vector<GlideOf<Value>>& moves) {
   for (std::size_t i = 1; i < moves.size(); ++i)
     if (moves[i].at_s < moves[i - 1].end_s() - instant_s)
       return report(key, "times must ascend, and a move must end before the next begins");
@@ -83,17 +115,18 @@ void check_order(Report& report, std::string_view key, const std::vector<Glide>&
 //   knots_s()                  times at which a largest or smallest value can stand, besides start and end.
 
 /// Heights held one after the other.
-struct Steps {
+template <class Value>
+struct StepsOf {
   static constexpr std::string_view kind = "steps";
-  Height start;
-  std::vector<Move> moves;
+  Value start;
+  std::vector<MoveOf<Value>> moves;
 
   double at(double time_s, double rest_length_m) const;
   std::vector<double> knots_s() const;
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
-    visit("start", self.start, "height before the first move");
+    visit("start", self.start, "before the first move");
     visit.required("moves", self.moves, "steps in order of time; an empty list holds the start");
   }
   template <class Report>
@@ -104,17 +137,18 @@ struct Steps {
 };
 
 /// Straight moves between heights.
-struct Ramps {
+template <class Value>
+struct RampsOf {
   static constexpr std::string_view kind = "ramps";
-  Height start;
-  std::vector<Glide> moves;
+  Value start;
+  std::vector<GlideOf<Value>> moves;
 
   double at(double time_s, double rest_length_m) const;
   std::vector<double> knots_s() const;
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
-    visit("start", self.start, "height before the first move");
+    visit("start", self.start, "before the first move");
     visit.required("moves", self.moves, "straight moves in order of time; an empty list holds the start");
   }
   template <class Report>
@@ -125,17 +159,18 @@ struct Ramps {
 };
 
 /// Smoothest moves between heights: 10 s^3 - 15 s^4 + 6 s^5, speed and acceleration zero at both ends.
-struct MinimumJerk {
+template <class Value>
+struct MinimumJerkOf {
   static constexpr std::string_view kind = "minimum_jerk";
-  Height start;
-  std::vector<Glide> moves;
+  Value start;
+  std::vector<GlideOf<Value>> moves;
 
   double at(double time_s, double rest_length_m) const;
   std::vector<double> knots_s() const;
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
-    visit("start", self.start, "height before the first move");
+    visit("start", self.start, "before the first move");
     visit.required("moves", self.moves, "smooth moves in order of time; an empty list holds the start");
   }
   template <class Report>
@@ -146,10 +181,11 @@ struct MinimumJerk {
 };
 
 /// mean + amplitude sin(2 pi (t - delay)/period); the mean before the delay is over.
-struct Sine {
+template <class Value>
+struct SineOf {
   static constexpr std::string_view kind = "sine";
-  Height mean;
-  Height amplitude;
+  Value mean;
+  Value amplitude;
   double period_s = 1.0;
   double delay_s = 0.0;
 
@@ -158,8 +194,8 @@ struct Sine {
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
-    visit.required("mean", self.mean, "height in the middle of the sine");
-    visit.required("amplitude", self.amplitude, "half the height between lowest and highest");
+    visit.required("mean", self.mean, "middle of the sine");
+    visit.required("amplitude", self.amplitude, "half of what lies between lowest and highest");
     visit.required("period", self.period_s, "s", 1e-3, 1e6, "time of one cycle");
     visit("delay", self.delay_s, "s", 0.0, 1e6, "time at the mean before the sine begins");
   }
@@ -172,10 +208,11 @@ struct Sine {
 };
 
 /// From low to high and back on straight lines, for ever; low before the delay is over.
-struct Triangle {
+template <class Value>
+struct TriangleOf {
   static constexpr std::string_view kind = "triangle";
-  Height low;
-  Height high;
+  Value low;
+  Value high;
   double period_s = 1.0;
   double delay_s = 0.0;
 
@@ -184,8 +221,8 @@ struct Triangle {
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
-    visit.required("low", self.low, "lowest height, where the triangle begins");
-    visit.required("high", self.high, "highest height");
+    visit.required("low", self.low, "lowest, where the triangle begins");
+    visit.required("high", self.high, "highest");
     visit.required("period", self.period_s, "s", 1e-3, 1e6, "time from low to high and back");
     visit("delay", self.delay_s, "s", 0.0, 1e6, "time at low before the triangle begins");
   }
@@ -193,24 +230,25 @@ struct Triangle {
   void rules(Report& report) const {
     check_height(report, "low", low);
     check_height(report, "high", high);
-    if (low.in_metres != high.in_metres)
-      report("high", "must be written as low is: both as ratios or both as lengths");
-    else if (high.value <= low.value)
-      report("high", "must be above low");
+    if constexpr (std::same_as<Value, Height>)
+      if (low.in_metres != high.in_metres)
+        return report("high", "must be written as low is: both as ratios or both as lengths");
+    if (high.value <= low.value) report("high", "must be above low");
   }
 };
 
 /// Straight lines through points; the first height before them, the last one after them.
-struct Points {
+template <class Value>
+struct PointsOf {
   static constexpr std::string_view kind = "points";
-  std::vector<Move> points;
+  std::vector<MoveOf<Value>> points;
 
   double at(double time_s, double rest_length_m) const;
   std::vector<double> knots_s() const;
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
-    visit.required("points", self.points, "times and heights in order of time");
+    visit.required("points", self.points, "times and values in order of time");
   }
   template <class Report>
   void rules(Report& report) const {
@@ -219,15 +257,36 @@ struct Points {
   }
 };
 
-using Target = std::variant<Steps, Ramps, MinimumJerk, Sine, Triangle, Points>;
+template <class Value>
+using TargetOf = std::variant<StepsOf<Value>, RampsOf<Value>, MinimumJerkOf<Value>, SineOf<Value>,
+                              TriangleOf<Value>, PointsOf<Value>>;
 
-/// Contraction ratio wanted at each of the ticks 0 ... ticks - 1.
+using Move = MoveOf<Height>;
+using Glide = GlideOf<Height>;
+using Steps = StepsOf<Height>;
+using Ramps = RampsOf<Height>;
+using MinimumJerk = MinimumJerkOf<Height>;
+using Sine = SineOf<Height>;
+using Triangle = TriangleOf<Height>;
+using Points = PointsOf<Height>;
+using Target = TargetOf<Height>;
+using AngleTarget = TargetOf<Angle>;
+using StiffnessTarget = TargetOf<Stiffness>;
+
+/// Contraction ratio wanted at each of the ticks 0 ... ticks - 1; with a rest length of 1, angles [rad] and
+/// stiffnesses [N m/rad] as they are.
 std::vector<double> sample(const Target& target, std::size_t ticks, double tick_s, double rest_length_m);
+std::vector<double> sample(const AngleTarget& target, std::size_t ticks, double tick_s,
+                           double rest_length_in_radii);
+std::vector<double> sample(const StiffnessTarget& target, std::size_t ticks, double tick_s, double one);
 
 /// Time of the last commanded change, from which settling is counted; none for a periodic target.
 std::optional<double> last_change_s(const Target& target);
+std::optional<double> last_change_s(const AngleTarget& target);
 
 /// Lowest and highest contraction ratio wanted from 0 to duration_s.
 std::pair<double, double> range(const Target& target, double duration_s, double rest_length_m);
+std::pair<double, double> range(const AngleTarget& target, double duration_s, double rest_length_in_radii);
+std::pair<double, double> range(const StiffnessTarget& target, double duration_s, double one);
 
 }  // namespace mckibben::controllers

@@ -14,20 +14,20 @@ namespace mckibben::plant {
 inline constexpr double lowest_friction_ratio = 0.005, highest_friction_ratio = 0.28;
 
 /// The friction coefficient of T 4.6. The thesis prints 0.5 to 2.4; read as per cent (docs/equations.md).
-template <class P, class S>
-S friction_coefficient(const FrictionOf<P>& p, const S& contraction_ratio, const P& current_speed_mA_per_s) {
+template <class P, class S, class H>
+S friction_coefficient(const FrictionOf<P>& p, const S& contraction_ratio, const H& current_speed_mA_per_s) {
   using std::log;
   S e = contraction_ratio;
   e = select(e < lowest_friction_ratio, S(lowest_friction_ratio), e);
   e = select(e > highest_friction_ratio, S(highest_friction_ratio), e);
-  const P& nu = current_speed_mA_per_s;
+  const H& nu = current_speed_mA_per_s;
   return 0.01 * (p.f0 + p.f1_s2_per_mA2 * nu * nu + p.f2 * e + p.f3 * log(e));
 }
 
 /// Friction level G [N], never below the floor. Contact surface in m2, gauge pressure in Pa.
-template <class P, class S>
+template <class P, class S, class H>
 S friction_level_N(const FrictionOf<P>& p, const S& contraction_ratio, const S& surface_m2,
-                   const S& pressure_Pa, const P& current_speed_mA_per_s) {
+                   const S& pressure_Pa, const H& current_speed_mA_per_s) {
   using std::log;
   using std::pow;
   const S none = S(0.0);

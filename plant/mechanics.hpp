@@ -98,6 +98,16 @@ struct Pair : Link {
   }
 };
 
+/// With a load [kg] in a hand on the link, so far from the axis [m]: a point, in line with the link's own
+/// mass.
+inline Pair with_load_in_hand(Pair pair, double load_kg, double hand_m) {
+  const double moment_kg_m = pair.mass_kg * pair.length_m + load_kg * hand_m;
+  pair.mass_kg += load_kg;
+  if (pair.mass_kg > 0.0) pair.length_m = moment_kg_m / pair.mass_kg;
+  pair.inertia_kg_m2 += load_kg * hand_m * hand_m;
+  return pair;
+}
+
 using Mechanics = std::variant<HangingLoad, HeldLength, Pair>;
 
 /// The second side with all that both share, as a rig of its own.

@@ -6,7 +6,7 @@
 // The joint moves as the first muscle contracts; a second one, `opposite`, is stretched by as much:
 //   e2 = e20 - (e - e10) l0/l02    theta = (e - e10) l0/R
 // S is double, a dual number where the Jacobian is wanted, or lanes that hold several rigs; P is what their
-// parameters are made of: double, but for lanes.
+// parameters are made of: double, but for lanes; H what is held: P, or S where slopes by it are wanted.
 #pragma once
 
 #include <optional>
@@ -48,10 +48,10 @@ class PlantOf {
   // What is called at each stage of a step is compiled for one side and for two; without a number it asks.
 
   /// The balances of the rig. Only for states inside `in_domain`.
-  template <int sides, class S>
-  Moment<S> moment(const State<S>& state, const Memory<S>& memory, const HeldOf<P>& held) const;
-  template <class S>
-  Moment<S> moment(const State<S>& state, const Memory<S>& memory, const HeldOf<P>& held) const {
+  template <int sides, class S, class H>
+  Moment<S> moment(const State<S>& state, const Memory<S>& memory, const HeldOf<H>& held) const;
+  template <class S, class H>
+  Moment<S> moment(const State<S>& state, const Memory<S>& memory, const HeldOf<H>& held) const {
     return opposite_ ? moment<2>(state, memory, held) : moment<1>(state, memory, held);
   }
   /// The same with effects as they are at rest.
@@ -116,6 +116,8 @@ class PlantOf {
   const RigOf<P>& rig() const { return side_.rig(); }
   /// Weight [N] of what hangs on the wheel; 0 of a pair.
   const P& weight_N() const { return side_.weight_N(); }
+  /// Mass [kg] that moves with the cord, wheel and link as if they were hung there.
+  const P& moved_kg() const { return mass_kg_; }
   /// Mass [kg] hung on the wheel, without what hangs there besides; 0 of a pair.
   const P& load_kg() const { return load_kg_; }
   /// Joint angle [rad] of a pair.
@@ -158,8 +160,8 @@ class PlantOf {
   double friction_level_N(const Moment<double>& now) const {
     return opposite_ ? friction_level_N<2>(now) : friction_level_N<1>(now);
   }
-  template <int sides, class S>
-  void joint_balance(const State<S>& state, const HeldOf<P>& held, Moment<S>& now) const;
+  template <int sides, class S, class H>
+  void joint_balance(const State<S>& state, const HeldOf<H>& held, Moment<S>& now) const;
 
   SideOf<P> side_;
   std::optional<SideOf<P>> opposite_;
@@ -199,8 +201,8 @@ PlantOf<P>::PlantOf(const RigOf<P>& rig, const RigOf<P>& opposite, const LinkOf<
 }
 
 template <class P>
-template <int sides, class S>
-Moment<S> PlantOf<P>::moment(const State<S>& state, const Memory<S>& memory, const HeldOf<P>& held) const {
+template <int sides, class S, class H>
+Moment<S> PlantOf<P>::moment(const State<S>& state, const Memory<S>& memory, const HeldOf<H>& held) const {
   Moment<S> now;
   const Stroke<S> stroke{state.joint.contraction_ratio, state.joint.contraction_speed_per_s};
   side_.gas_balance(stroke, state.side, memory.side, held, now);
@@ -222,8 +224,8 @@ Moment<S> PlantOf<P>::moment(const State<S>& state, const Memory<S>& memory, con
 
 // Hanging load, or the link that two muscles turn.
 template <class P>
-template <int sides, class S>
-void PlantOf<P>::joint_balance(const State<S>& state, const HeldOf<P>& held, Moment<S>& now) const {
+template <int sides, class S, class H>
+void PlantOf<P>::joint_balance(const State<S>& state, const HeldOf<H>& held, Moment<S>& now) const {
   using std::sin;
   now.guide_force_N = -damping_N_s_per_m_ * now.speed_m_per_s;
   S others = now.braid_force_N + now.stop_force_N + now.guide_force_N - weight_N() + now.effects_pull_N;

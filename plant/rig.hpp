@@ -314,6 +314,7 @@ struct JointOf {
   P guide_damping_N_s_per_m = 20.0;
   P load_offset_kg = 0.0;
   P length_offset_m = 0.0;
+  P reading_offset_m = 0.0;
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
@@ -325,6 +326,8 @@ struct JointOf {
           "what hangs on the wheel beside the load: hook, cord, error of the scales");
     visit("length_offset", self.length_offset_m, "m", -0.1, 0.1,
           "by how much a muscle whose length is given is shorter than is said: zero of the bench, clamps");
+    visit("reading_offset", self.reading_offset_m, "m", -0.1, 0.1,
+          "by how much the load is read higher than it stands: zero of a laser or a potentiometer");
   }
 };
 using Joint = JointOf<double>;

@@ -5,13 +5,26 @@
 
 namespace mckibben::plant {
 
+namespace {
+
+double slope_Pa_per_mA(const Valve& valve) {
+  return (valve.span_pressure_Pa - valve.zero_pressure_Pa) / (valve.span_current_mA - valve.zero_current_mA);
+}
+
+}  // namespace
+
 template <class P>
 double SideOf<P>::reference_pressure_Pa(double current_mA) const {
   const Valve& valve = rig_.valve;
-  const double slope =
-      (valve.span_pressure_Pa - valve.zero_pressure_Pa) / (valve.span_current_mA - valve.zero_current_mA);
-  return std::clamp(valve.zero_pressure_Pa + slope * (current_mA - valve.zero_current_mA),
+  return std::clamp(valve.zero_pressure_Pa + slope_Pa_per_mA(valve) * (current_mA - valve.zero_current_mA),
                     valve.zero_pressure_Pa, valve.span_pressure_Pa);
+}
+
+template <class P>
+double SideOf<P>::reference_slope_Pa_per_mA(double current_mA) const {
+  const Valve& valve = rig_.valve;
+  const bool trimmed = current_mA < valve.zero_current_mA || current_mA > valve.span_current_mA;
+  return trimmed ? 0.0 : slope_Pa_per_mA(valve);
 }
 
 template <class P>

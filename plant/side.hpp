@@ -5,7 +5,7 @@
 //
 // Effects that the rig has switched on come in where `effects_` stands; without any, no line of theirs runs.
 // S is double, a dual number where the Jacobian is wanted, or lanes that hold several rigs; P is what their
-// parameters are made of.
+// parameters are made of; H what is held: P, or S where slopes by it are wanted.
 #pragma once
 
 #include <algorithm>
@@ -57,19 +57,19 @@ class SideOf {
 
   /// Pressure error opens one of two proportional valves (T 3.1), in proportion to it, or so far that the
   /// pressure follows with a regulator's lag; ISO 6358 flow through valve and hose.
-  template <class S>
+  template <class S, class H>
   void gas_balance(const Stroke<S>& stroke, const SideState<S>& state, const SideMemory<S>& memory,
-                   const HeldSideOf<P>& held, SideMoment<S>& now) const;
+                   const HeldSideOf<H>& held, SideMoment<S>& now) const;
   /// Braid force (T 2.8), braid stop (Hunt-Crossley), friction level (T 2.11, 4.2, 4.6) and what LuGre's
   /// bristle makes of it. After the gas.
-  template <class S>
+  template <class S, class H>
   void forces(const Stroke<S>& stroke, const SideState<S>& state, const SideMemory<S>& memory,
-              const HeldSideOf<P>& held, SideMoment<S>& now) const;
+              const HeldSideOf<H>& held, SideMoment<S>& now) const;
   /// What effects and a regulator remember, where `supply_flow` [kg/s] is drawn from the supply by all sides.
   /// After the gas.
-  template <class S>
+  template <class S, class H>
   void remember(const Stroke<S>& stroke, const SideState<S>& state, const SideMemory<S>& memory,
-                const HeldSideOf<P>& held, const S& supply_flow, SideMoment<S>& now) const;
+                const HeldSideOf<H>& held, const S& supply_flow, SideMoment<S>& now) const;
   template <class S>
   SideState<S> rates(const Stroke<S>& stroke, const SideState<S>& state, const SideMoment<S>& now) const;
 
@@ -83,6 +83,8 @@ class SideOf {
   }
 
   double reference_pressure_Pa(double current_mA) const;
+  /// How much more a mA asks for [Pa/mA]; nothing beyond the valve's trimmed range.
+  double reference_slope_Pa_per_mA(double current_mA) const;
   /// Gas [kg] in valve and muscle, and in the valve alone, at the walls' temperature.
   double air_kg(double contraction_ratio, const SideState<double>& state) const;
   double valve_air_kg(const SideState<double>& state) const;
@@ -102,8 +104,8 @@ class SideOf {
   const P& gas_energy_J_per_kg() const { return gas_energy_J_per_kg_; }
 
  private:
-  template <class S>
-  Instant<S> instant(const Stroke<S>& stroke, const SideState<S>& state, const HeldSideOf<P>& held,
+  template <class S, class H>
+  Instant<S> instant(const Stroke<S>& stroke, const SideState<S>& state, const HeldSideOf<H>& held,
                      const SideMoment<S>& now) const {
     const S& e = stroke.contraction_ratio;
     return {e,
@@ -119,9 +121,9 @@ class SideOf {
   }
   template <class S>
   S flow_to_follow(const SideMemory<S>& memory, const S& error_Pa, const S& hose_flow) const;
-  template <class S>
+  template <class S, class H>
   void valve_flows(const Stroke<S>& stroke, const SideState<S>& state, const SideMemory<S>& memory,
-                   const HeldSideOf<P>& held, SideMoment<S>& now) const;
+                   const HeldSideOf<H>& held, SideMoment<S>& now) const;
   template <class S>
   static Inflow<S> inflow(const Stroke<S>& stroke, const SideMoment<S>& now, const S& supply_flow) {
     return {now.wanted_opening, supply_flow,   now.hose_flow,
@@ -192,9 +194,9 @@ S SideOf<P>::flow_to_follow(const SideMemory<S>& memory, const S& error_Pa, cons
 }
 
 template <class P>
-template <class S>
+template <class S, class H>
 void SideOf<P>::valve_flows(const Stroke<S>& stroke, const SideState<S>& state, const SideMemory<S>& memory,
-                            const HeldSideOf<P>& held, SideMoment<S>& now) const {
+                            const HeldSideOf<H>& held, SideMoment<S>& now) const {
   const P& atmosphere = rig_.gas.atmosphere_Pa;
   const S valve_Pa = state.valve_pressure_Pa + atmosphere;  // absolute from here
   const S muscle_Pa = state.muscle_pressure_Pa + atmosphere;
@@ -237,9 +239,9 @@ void SideOf<P>::valve_flows(const Stroke<S>& stroke, const SideState<S>& state, 
 }
 
 template <class P>
-template <class S>
+template <class S, class H>
 void SideOf<P>::gas_balance(const Stroke<S>& stroke, const SideState<S>& state, const SideMemory<S>& memory,
-                            const HeldSideOf<P>& held, SideMoment<S>& now) const {
+                            const HeldSideOf<H>& held, SideMoment<S>& now) const {
   const S& e = stroke.contraction_ratio;
   now.speed_m_per_s = braid_.rest_length_m() * stroke.speed_per_s;
   now.volume_m3 = braid_.volume_m3(e);
@@ -266,9 +268,9 @@ void SideOf<P>::gas_balance(const Stroke<S>& stroke, const SideState<S>& state, 
 }
 
 template <class P>
-template <class S>
+template <class S, class H>
 void SideOf<P>::remember(const Stroke<S>& stroke, const SideState<S>& state, const SideMemory<S>& memory,
-                         const HeldSideOf<P>& held, const S& supply_flow, SideMoment<S>& now) const {
+                         const HeldSideOf<H>& held, const S& supply_flow, SideMoment<S>& now) const {
   const auto of_effects =
       rig_.effects.memory_rates(instant(stroke, state, held, now), inflow(stroke, now, supply_flow), memory);
   std::copy(of_effects.begin(), of_effects.end(), now.memory_rates.begin());
@@ -277,9 +279,9 @@ void SideOf<P>::remember(const Stroke<S>& stroke, const SideState<S>& state, con
 }
 
 template <class P>
-template <class S>
+template <class S, class H>
 void SideOf<P>::forces(const Stroke<S>& stroke, const SideState<S>& state, const SideMemory<S>& memory,
-                       const HeldSideOf<P>& held, SideMoment<S>& now) const {
+                       const HeldSideOf<H>& held, SideMoment<S>& now) const {
   using std::abs;
   const FrictionOf<P>& friction = rig_.friction;
   const S& e = stroke.contraction_ratio;

@@ -17,7 +17,8 @@ struct BladderCreepOf {
   static constexpr std::array hooks{Hook::pull};
   static constexpr std::array variants{
       Variant{"", "stiffness", 0.0, 100.0, Sign::positive, 0.1, "time", 0.3, 1.5, 8.0}};
-  static constexpr double memory_size = 0.1;  // m
+  static constexpr double memory_size = 0.1;
+  static constexpr std::string_view memory_unit = "m";
 
   P stiffness_N_per_m = 0.0, time_s = 1.0;
 

@@ -21,6 +21,7 @@ struct BladderHysteresisOf {
   static constexpr std::array variants{
       Variant{"", "force", 0.0, 5.0, Sign::positive, 0.005, "stroke", 0.002, 0.008, 0.03}};
   static constexpr double memory_size = 1.0;
+  static constexpr std::string_view memory_unit = "1";
 
   P force_N = 0.0, stroke_m = 0.008;
 

@@ -21,7 +21,8 @@
 //   S valve_opening(wanted, memory)        by how much the valve opens
 //   S supply_drop_Pa(memory)               taken from the supply pressure
 //   P vent_factor()                        multiplies what the valve vents
-//   S memory_rate(now, inflow, memory)     d(memory)/dt; a memory starts at zero; `memory_size` is its scale
+//   S memory_rate(now, inflow, memory)     d(memory)/dt; a memory starts at zero; `memory_size` is its scale,
+//                                          in `memory_unit`
 //   P command_delay_s()                    by how much commands come late
 //   P reading_delay_s()                    by how much the load's position is read late
 //   double reference_Pa(wanted, play)      at each tick: the reference that the valve follows
@@ -55,7 +56,7 @@ struct Instant {
   P gas_J_per_kg;              ///< R T
   RestrictionOf<P> unit_flow;  ///< of a conductance of 1 m3/(s Pa)
   S valve_pressure_Pa{};       ///< P_v
-  P reference_Pa{};            ///< P_ref, what the valve follows
+  S reference_Pa{};            ///< P_ref, what the valve follows
 };
 
 /// What flows into the plant at that instant, after all effects on it.

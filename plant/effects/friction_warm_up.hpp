@@ -19,6 +19,7 @@ struct FrictionWarmUpOf {
   static constexpr std::array variants{
       Variant{"", "change", 0.0, -0.2, Sign::either, -2e-4, "time", 1.5, 5.0, 20.0}};
   static constexpr double memory_size = 1.0;
+  static constexpr std::string_view memory_unit = "1";
 
   P change = 0.0, time_s = 5.0;
 

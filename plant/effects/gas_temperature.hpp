@@ -22,7 +22,8 @@ struct GasTemperatureOf {
           "hydraulic accumulators";
   static constexpr std::array hooks{Hook::muscle_heating};
   static constexpr std::array variants{Variant{"", "time", 0.0, 0.1, Sign::positive, 0.01}};
-  static constexpr double memory_size = 0.1;                    // T_m/T - 1
+  static constexpr double memory_size = 0.1;  // T_m/T - 1
+  static constexpr std::string_view memory_unit = "1";
   static constexpr double capacity_ratio = 1.4, coldest = 0.1;  // of air; of T, further no muscle goes
 
   P time_s = 0.0;

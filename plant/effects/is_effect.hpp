@@ -12,6 +12,7 @@ namespace mckibben::plant {
 template <class E>
 concept Remembers = requires {
   E::memory_size;
+  E::memory_unit;
 };
 
 template <class E>

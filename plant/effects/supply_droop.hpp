@@ -18,7 +18,8 @@ struct SupplyDroopOf {
   static constexpr std::array hooks{Hook::supply_drop};
   static constexpr std::array variants{
       Variant{"", "line_resistance", 0.0, 1e8, Sign::positive, 1e6, "volume", 5e-5, 3e-4, 2e-3}};
-  static constexpr double memory_size = 1e5;  // Pa
+  static constexpr double memory_size = 1e5;
+  static constexpr std::string_view memory_unit = "Pa";
 
   P volume_m3 = 5e-4, line_resistance_s_Pa_per_kg = 0.0;
 

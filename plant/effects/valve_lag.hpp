@@ -18,6 +18,7 @@ struct ValveLagOf {
   static constexpr std::array hooks{Hook::valve_opening};
   static constexpr std::array variants{Variant{"", "time", 0.0, 0.02, Sign::positive, 2e-3}};
   static constexpr double memory_size = 1.0;
+  static constexpr std::string_view memory_unit = "1";
 
   P time_s = 0.0;
 

@@ -1,5 +1,4 @@
 // The verb `calibrate`: a data set's friction and pressure models, with all figures of the thesis.
-#include <cmath>
 #include <map>
 #include <string>
 #include <utility>
@@ -18,10 +17,9 @@
 #include <sim/output/diagnosis_words.hpp>
 #include <sim/report/report.hpp>
 #include <sim/run/batch.hpp>
-#include <sim/run/judged.hpp>
+#include <sim/tasks/calibrate.hpp>
 #include <sim/thesis/calibrate.hpp>
 #include <sim/thesis/figures.hpp>
-#include <sim/thesis/processing.hpp>
 
 namespace mckibben::cli {
 namespace {
@@ -42,28 +40,8 @@ void add_choice(CLI::App& verb, const char* name, T& value, const std::map<std::
   verb.add_option_function<std::string>(name, choose, help)->check(one_of("choice", words))->type_name("");
 }
 
-/// A data set with a row each tick: what it is, or rows made of its stamps.
-domain::Dataset ticked(domain::Dataset data) {
-  if (!data.own_clock || !input::has_one_load(data) || data.pressure_is_given()) {
-    input::require_ticks(data, "calibrate");
-    return data;
-  }
-  data = run::with_rows(std::move(data));
-  data.rig.tick_s = data.row_s();
-  constexpr double uneven = 0.1;  // of a row
-  for (const domain::Run& run : data.runs)
-    for (std::size_t k = 1; k < run.time_s.size(); ++k)
-      if (const double step_s = run.time_s[k] - run.time_s[k - 1];
-          std::abs(step_s - data.row_s()) > uneven * data.row_s())
-        thesis::refuse(data, fmt::format("calibrate cannot take it: stamps of run {} are {:.6g} ms apart at "
-                                         "{:.6g} s, others {:.6g} ms, and too few to make even rows of them",
-                                         run.id, 1e3 * step_s, run.time_s[k], 1e3 * data.row_s()));
-  say(fmt::format("rows {:.6g} ms apart are made of the stamps", 1e3 * data.row_s()));
-  return data;
-}
-
 int calibrate_dataset(const CalibrateOptions& options) {
-  const domain::Dataset dataset = ticked(input::read_dataset(options.dataset));
+  const domain::Dataset dataset = tasks::ticked(input::read_dataset(options.dataset), say);
   Job job(options, "calibrate " + options.dataset, output::name_of(dataset) + "-calibration", dataset.inputs);
   const thesis::CalibrationResult result = thesis::calibrate(dataset, options.fits);
   if (run::interrupted()) throw run::Interrupted();

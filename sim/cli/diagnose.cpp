@@ -1,5 +1,4 @@
 // The verb `diagnose`: what a rig lacks, found in measured runs.
-#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <string>
@@ -13,10 +12,8 @@
 #include <sim/cli/results.hpp>
 #include <sim/cli/verbs.hpp>
 #include <sim/diagnose/diagnose.hpp>
-#include <sim/diagnose/parameter.hpp>
 #include <sim/engine/failure.hpp>
 #include <sim/input/dataset_file.hpp>
-#include <sim/input/hypothesis_file.hpp>
 #include <sim/input/rigs.hpp>
 #include <sim/output/diagnosis_json.hpp>
 #include <sim/output/diagnosis_rig.hpp>
@@ -24,9 +21,7 @@
 #include <sim/output/diagnosis_words.hpp>
 #include <sim/report/report.hpp>
 #include <sim/run/batch.hpp>
-#include <sim/run/judged.hpp>
-#include <sim/run/replay.hpp>
-#include <sim/run/stamps.hpp>
+#include <sim/tasks/diagnose.hpp>
 
 namespace mckibben::cli {
 namespace {
@@ -63,65 +58,28 @@ struct DiagnoseOptions : Options {
   double time_limit_s = 300.0;
 };
 
-/// What is found, and the runs replayed on the data set's rig and on
-/// the corrected one, for pressures and forces.
-struct Found {
-  diagnose::Diagnosis diagnosis;
-  std::vector<run::ReplayedRun> nominal, corrected;
-};
-
 /// Says what is known so far where it is interrupted.
-template <class Hook>
-Found find(const domain::Dataset& data, const DiagnoseOptions& options,
-           const std::vector<std::string>& warnings, const Hook& hook) {
+tasks::Found find(const domain::Dataset& data, const DiagnoseOptions& options,
+                  const std::vector<std::string>& warnings, const run::ProgressHook& hook) {
   std::vector<std::string> known;
   const diagnose::Settings settings{options.threads, options.seed.value_or(1), options.time_limit_s, warnings,
                                     [&](const std::string& what) { known.push_back(what); }};
   try {
-    Found found{diagnose::diagnose(data, settings, hook), {}, {}};
-    found.nominal = run::replay(data, options.threads, hook);
-    domain::Dataset mended = data;
-    mended.rig = found.diagnosis.corrected;
-    found.corrected = run::replay(mended, options.threads, hook);
-    return found;
+    return tasks::find(data, settings, hook);
   } catch (const run::Interrupted&) {
     if (!known.empty()) fmt::print(stderr, "known so far:\n  {}\n", fmt::join(known, "\n  "));
     throw;
   }
 }
 
-[[noreturn]] void refuse(const std::string& file, std::string message) {
-  throw input::BadInput({{input::Severity::error, file, input::nowhere, std::move(message), ""}});
-}
-
-/// Laws that join those of the rig, on both sides of a pair.
-void add_hypotheses(const std::vector<std::string>& files, domain::Dataset& data) {
-  for (const std::string& file : files) {
-    auto law = input::read_hypothesis(file, data.inputs);
-    law.values.front() = 0.0;  // whatever the file says: it is to be found
-    diagnose::each_side(data.rig, [&](plant::Effects& effects) {
-      auto& list = effects.laws.list;
-      const auto same = [&](const auto& other) { return other.text->name == law.text->name; };
-      if (std::ranges::any_of(list, same))
-        refuse(file, fmt::format("the rig has a law {} already", law.text->name));
-      if (list.size() == plant::most_written_laws)
-        refuse(file, fmt::format("a rig has at most {} laws", plant::most_written_laws));
-      list.push_back(law);
-    });
-  }
-}
-
 int diagnose_dataset(const DiagnoseOptions& options) {
   domain::Dataset data = input::read_dataset(options.dataset);
   if (!options.rig.empty()) data.rig = input::read_rig(options.rig, data.inputs);
-  add_hypotheses(options.hypotheses, data);
-  input::require_judged(data, "diagnose");
-  const std::vector<std::string> warnings = run::mend_at_stamps(data);
-  data = run::with_rows(std::move(data));
+  const std::vector<std::string> warnings = tasks::prepare(data, options.hypotheses);
   const std::string name = output::name_of(data);
   check_plan(options.plan);
   Job job(options, "diagnose " + options.dataset, "diagnose-" + name, data.inputs);
-  Found found;
+  tasks::Found found;
   try {
     found = with_progress(name, [&](const auto& hook) { return find(data, options, warnings, hook); });
   } catch (const engine::NumericalFailure& error) {

@@ -11,7 +11,7 @@
 #include <sim/output/driven_results.hpp>
 #include <sim/output/run_files.hpp>
 #include <sim/report/report.hpp>
-#include <sim/run/warnings.hpp>
+#include <sim/tasks/replay.hpp>
 
 namespace mckibben::cli {
 namespace {
@@ -25,10 +25,12 @@ class TablesOf {
   void write(const std::string& stem, const std::string& title, std::vector<formats::Column> columns,
              std::vector<formats::Attribute> attributes) {
     attributes.insert(attributes.begin(), {"source", output::program_name()});
-    if (package_.columns.empty()) package_.columns = columns;
+    std::vector<formats::Column> heads;
+    heads.reserve(columns.size());
+    for (const auto& column : columns) heads.push_back({column.name, column.unit, column.meaning, {}});
     const formats::Table table{package_.title + ": " + title, std::move(columns), std::move(attributes)};
     for (const auto& file : output::run_files(stem, table, formats_)) job_.write(file.name, file.content);
-    package_.runs.push_back({stem, title});
+    package_.runs.push_back({stem, title, std::move(heads)});
   }
   void close() {
     if (!package_.runs.empty()) job_.write(output::package_file, output::datapackage(package_));
@@ -41,16 +43,17 @@ class TablesOf {
 };
 
 /// Writes what is the same of both, and ends the job.
-template <class What, class Runs>
-int finish(Job& job, const What& what, const Runs& runs, const std::vector<std::string>& warnings) {
+template <class What, class Result, class Runs>
+int finish(Job& job, const What& what, const Result& result, const Runs& runs,
+           const std::vector<std::string>& warnings) {
   warn(warnings);
   const bool interrupted = begun(runs) < runs.size();
   if (interrupted) job.interrupted(begun(runs), runs.size(), "runs");
-  const std::string document = output::json_of(what, runs, warnings, interrupted),
-                    table = output::table_of(what, runs, warnings);
+  const std::string document = output::json_of(what, result, warnings, interrupted),
+                    table = output::table_of(what, result, warnings);
   job.write("run.json", document);
   job.write("table.txt", table);
-  job.write("report.html", report::report_html(what, runs, warnings));
+  job.write("report.html", report::report_html(what, result, warnings));
   return job.finish({document, table}, any_failed(runs) ? failure : done);
 }
 
@@ -59,14 +62,14 @@ int finish(Job& job, const What& what, const Runs& runs, const std::vector<std::
 int run_pair(const Options& options, const std::string& path, const std::vector<std::string>& formats) {
   const domain::PairScenario scenario = input::read_pair_scenario(std::filesystem::path(path));
   Job job(options, "run " + path, scenario.name, scenario.inputs);
-  const std::vector<run::PairRun> runs = with_progress(
+  const run::PairRuns all = with_progress(
       scenario.name, [&](const auto& hook) { return run::run_pairs(scenario, options.threads, hook); });
   TablesOf tables(job, scenario.name, formats);
-  for (const auto& run : runs)
+  for (const auto& run : all.runs)
     if (!run.recording.samples.empty())
-      tables.write(run.name, run.name, output::driven_columns(run.recording, scenario.rig, false), {});
+      tables.write(run.name, run.name, output::pair_columns(run, scenario.rig), {});
   tables.close();
-  return finish(job, scenario, runs, run::warnings_of(runs));
+  return finish(job, scenario, all, all.runs, run::warnings_of(all.runs));
 }
 
 int replay_stamped(const Options& options, const std::string& path, const domain::Dataset& dataset,
@@ -75,12 +78,9 @@ int replay_stamped(const Options& options, const std::string& path, const domain
   Job job(options, "replay " + path, name + "-replay", dataset.inputs);
   const std::vector<run::StampedRun> runs = with_progress(
       name, [&](const auto& hook) { return run::replay_stamped(dataset, options.threads, hook); });
-  std::vector<std::string> warnings;
   TablesOf tables(job, "Replay of " + name, formats);
   for (std::size_t i = 0; i < runs.size(); ++i) {
     const run::StampedRun& run = runs[i];
-    for (const auto& doubt : run::doubts(run.recording))
-      warnings.push_back(run::warning_of_run(run.id, doubt));
     if (run.recording.samples.empty()) continue;
     std::vector<formats::Attribute> attributes;
     if (run.load_kg > 0.0) attributes.emplace_back("load_kg", run.load_kg);
@@ -90,7 +90,7 @@ int replay_stamped(const Options& options, const std::string& path, const domain
         std::move(attributes));
   }
   tables.close();
-  return finish(job, dataset, runs, run::grouped(warnings));
+  return finish(job, dataset, runs, runs, tasks::warnings_of(runs));
 }
 
 }  // namespace mckibben::cli

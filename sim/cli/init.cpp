@@ -30,7 +30,7 @@ constexpr Part scenario_parts[] = {
     {"rig",
      "rig:\n"
      "  base: thesis                # or a muscle by catalogue: festo_dmsp_10, festo_dmsp_20, home_made\n"
-     "  #muscle: {rest_radius: 8 mm}                          "
+     "  #muscle: {rest_radius: 8 mm ± 1 %}                    "
      "# mckibben schema rig lists all that can change\n"
      "  #effects: {muscle_leak: {conductance: 1e-10 m3/(s.Pa)}}   "
      "# mckibben effects lists what can be added\n"},
@@ -51,6 +51,7 @@ constexpr Part scenario_parts[] = {
     {"noise", "#noise: {encoder_jitter: 1e-4, ripple: 5 mbar}\n"},
     {"seed", "#seed: 7\n"},
     {"criteria", "#criteria: [{controller: pid, rmse_below: 0.05}]    # if not met, the exit status is 1\n"},
+    {"robustness", "#robustness: {rigs: 10}     # within the ± of the rig\n"},
     {"name", "#name: mine\n"},
 };
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <sim/cli/driven.hpp>
 #include <sim/cli/exit_status.hpp>
@@ -15,7 +16,6 @@
 #include <sim/cluster/share.hpp>
 #include <sim/domain/number.hpp>
 #include <sim/engine/versions.hpp>
-#include <sim/input/common_checks.hpp>
 #include <sim/input/dataset_file.hpp>
 #include <sim/input/pair_scenario_file.hpp>
 #include <sim/input/rigs.hpp>
@@ -31,12 +31,13 @@
 #include <sim/run/batch.hpp>
 #include <sim/run/compare.hpp>
 #include <sim/run/replay.hpp>
-#include <sim/run/sanity.hpp>
 #include <sim/run/simulate.hpp>
-#include <sim/run/warnings.hpp>
+#include <sim/tasks/replay.hpp>
 
 namespace mckibben::cli {
 namespace {
+
+constexpr double worth_telling_s = 0.05;  // a PID takes a thousandth of it
 
 struct RunOptions : Options {
   std::string scenario;
@@ -94,20 +95,6 @@ void write_tables(Job& job, const std::string& name, const domain::Dataset& data
   job.write(output::package_file, output::datapackage(package));
 }
 
-/// What looks wrong in the data, and what is doubtful in their simulation. Throws domain::UnfitData where a
-/// comparison with them would mean nothing.
-std::vector<std::string> sane(const domain::Dataset& dataset, const std::vector<run::ReplayedRun>& runs) {
-  const auto objections = run::sanity(dataset, run::expected_of(runs));
-  run::raise(dataset, objections);
-  std::vector<std::string> warnings;
-  warnings.reserve(objections.size());
-  for (const auto& objection : objections) warnings.push_back(domain::text_of(dataset, objection));
-  for (const auto& run : runs)
-    for (const auto& doubt : run::doubts(run.recording))
-      warnings.push_back(run::warning_of_run(run.id, doubt));
-  return warnings;
-}
-
 /// What the bytes of a scenario's results depend on.
 std::string key_of(const domain::Scenario& scenario) {
   std::string key = fmt::format("run, {}, SUNDIALS {}, seed {}", output::program_name(),
@@ -127,6 +114,26 @@ run::Comparison compare(const domain::Scenario& scenario, const RunOptions& opti
         const auto needed = for_all ? cluster::Needed::by_all : cluster::Needed::by_rank_0;
         cluster::share(place, stage, count, threads, needed, job, take);
       });
+}
+
+/// How long tuning and planning took on this machine, on a terminal: results hold no such times, nor do logs.
+void tell_times(const run::Comparison& comparison) {
+  if (isatty(STDERR_FILENO) != 1) return;
+  for (const auto& tuned : comparison.tuned)
+    if (tuned.took_s > 0.0)
+      fmt::print(stderr, "tuned {} in {:.2g} s ({} runs)\n", tuned.controller, tuned.took_s,
+                 tuned.tuned.evaluations);
+  for (const auto& spread : comparison.spreads) {
+    double longest_s = 0.0, simulated_s = 0.0;
+    for (const auto& run : comparison.runs)
+      if (run.controller == spread.controller && run.recording.controller_s > longest_s) {
+        longest_s = run.recording.controller_s;
+        simulated_s = run.recording.samples.empty() ? 0.0 : run.recording.samples.back().time_s;
+      }
+    if (longest_s > worth_telling_s)
+      fmt::print(stderr, "{} planned for {:.2g} s in its longest run of {:.3g} s\n", spread.controller,
+                 longest_s, simulated_s);
+  }
 }
 
 int run_scenario(const RunOptions& options) {
@@ -150,6 +157,7 @@ int run_scenario(const RunOptions& options) {
   run::Comparison comparison =
       with_progress(scenario.name, [&](const auto& hook) { return compare(scenario, options, place, hook); });
   if (!comparison.interrupted) place.close();
+  tell_times(comparison);
   warn(comparison.warnings);
   std::vector<std::string> of_reader;  // said already
   of_reader.reserve(problems.size());
@@ -171,27 +179,16 @@ int run_scenario(const RunOptions& options) {
   return status;
 }
 
-/// Throws input::BadInput where the data are not of such a rig.
-void replace_rig(domain::Dataset& dataset, const std::string& name) {
-  const bool pair = dataset.rig.pair() != nullptr;
-  dataset.rig = input::read_rig(name, dataset.inputs);
-  if (!dataset.own_clock) input::require_load(dataset.rig, name, "a replay of data with a load");
-  if ((dataset.rig.pair() != nullptr) != pair)
-    throw input::BadInput({{input::Severity::error, name, input::nowhere,
-                            pair ? "the data are of two muscles, this rig has one"
-                                 : "the data are of one muscle, this rig has two",
-                            ""}});
-}
-
 int replay_dataset(const ReplayOptions& options) {
   domain::Dataset dataset = input::read_dataset(options.dataset);
-  if (!options.rig.empty()) replace_rig(dataset, options.rig);
+  if (!options.rig.empty())
+    tasks::replace_rig(dataset, options.rig, input::read_rig(options.rig, dataset.inputs));
   if (dataset.own_clock) return replay_stamped(options, options.dataset, dataset, options.formats);
   const std::string name = output::name_of(dataset);
   Job job(options, "replay " + options.dataset, name + "-replay", dataset.inputs);
   const std::vector<run::ReplayedRun> runs =
       with_progress(name, [&](const auto& hook) { return run::replay(dataset, options.threads, hook); });
-  const auto warnings = sane(dataset, runs);
+  const auto warnings = tasks::warnings_of(dataset, runs);
   warn(warnings);
   if (begun(runs) < runs.size()) job.interrupted(begun(runs), runs.size(), "runs");
 

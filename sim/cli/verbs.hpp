@@ -15,6 +15,8 @@ inline constexpr const char* to_find_out = "Find out";
 void add_init(CLI::App& app, Asked& asked);
 void add_run(CLI::App& app, Asked& asked);
 void add_dataset(CLI::App& app, Asked& asked);
+void add_fmu(CLI::App& app, Asked& asked);
+void add_control(CLI::App& app, Asked& asked);
 void add_import(CLI::App& app, Asked& asked);
 void add_replay(CLI::App& app, Asked& asked);
 void add_diagnose(CLI::App& app, Asked& asked);

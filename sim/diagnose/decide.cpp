@@ -17,10 +17,12 @@ bool stands(const Evidence& e, const DecideThresholds& t) {
   return bearable && (e.named_share >= t.named_share || e.reference_left() < t.worth_a_law);
 }
 
-/// Numbers that are bent to their bounds, or leave a gap, are no explanation.
+/// Numbers that are bent to their bounds, or leave a gap, are no explanation. What a slow disturbance leaves
+/// has no place of its own: it does not know where the load is.
 bool numbers_explain(const Evidence& e, const Thresholds& t) {
   const double explained = t.start.explained_floors * t.start.explained_floors;
-  return !e.at_bounds && e.recalibrated_left + 1.0 <= explained;
+  const double most = e.patterned ? explained : t.near.mean_square();
+  return !e.at_bounds && e.recalibrated_left + 1.0 <= most;
 }
 
 /// Where nothing is added. "Nothing is missing" is for data that would have shown it, and agree run by run.
@@ -76,8 +78,10 @@ bool gauge_is_suspect(double motion_left, const Thresholds& t) {
   return motion_left >= t.decide.contradicted;
 }
 
-bool better_without_gauge(double motion_left, double left_without, Verdict without, const Thresholds& t) {
-  return without != Verdict::cannot_tell && !(left_without > t.decide.without_gauge * motion_left);
+bool better_without_gauge(double motion_left, double left_without, Verdict without, bool by_stand_ins,
+                          const Thresholds& t) {
+  return without != Verdict::cannot_tell && !by_stand_ins &&
+         !(left_without > t.decide.without_gauge * motion_left);
 }
 
 }  // namespace mckibben::diagnose

@@ -27,6 +27,7 @@ struct Evidence {
   double nominal_left = 0.0, recalibrated_left = 0.0;
   Improvement recalibration{};  ///< from the rig as described to the recalibrated one
   bool at_bounds = false;       ///< a number stands at the edge of what is allowed
+  bool patterned = false;       ///< what the recalibrated rig leaves is more in parts of the data than chance
   std::vector<FarRun> far_from_nominal{}, far_from_recalibrated{};  ///< of all usable runs
   // name
   std::size_t names = 0;        ///< effects that were found, with one size everywhere
@@ -77,8 +78,9 @@ Decision decide(const Evidence& evidence, const Thresholds& thresholds);
 /// contraction ratio, with the model chosen.
 bool gauge_is_suspect(double motion_left, const Thresholds& thresholds);
 
-/// Whether the diagnosis without the gauge is the one to believe.
-bool better_without_gauge(double motion_left, double left_without, Verdict without,
+/// Whether the diagnosis without the gauge is the one to believe. What only stands in for something is no
+/// explanation: a gauge is not given up for it.
+bool better_without_gauge(double motion_left, double left_without, Verdict without, bool by_stand_ins,
                           const Thresholds& thresholds);
 
 }  // namespace mckibben::diagnose

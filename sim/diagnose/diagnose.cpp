@@ -6,6 +6,7 @@
 
 #include <sim/diagnose/baseline.hpp>
 #include <sim/diagnose/check.hpp>
+#include <sim/diagnose/competition.hpp>
 #include <sim/diagnose/constancy.hpp>
 #include <sim/diagnose/decide.hpp>
 #include <sim/diagnose/diagnose.hpp>
@@ -25,6 +26,7 @@
 #include <sim/diagnose/start.hpp>
 #include <sim/diagnose/starts.hpp>
 #include <sim/diagnose/story.hpp>
+#include <sim/diagnose/support.hpp>
 #include <sim/diagnose/thresholds.hpp>
 #include <sim/diagnose/where.hpp>
 #include <sim/run/warnings.hpp>
@@ -72,9 +74,12 @@ class Workflow {
         usable_(all_but(checked_.left_out, data.runs.size())),
         experiment_(data_, checked_.masked, settings.threads, usable_),
         nominal_(data.rig),
-        case_{experiment_, nominal_, {}, thresholds.scatter.first_inflation, [this](const std::string& what) {
-                learn(what);
-              }} {}
+        case_{experiment_,
+              nominal_,
+              {},
+              thresholds.scatter.first_inflation,
+              [this](const std::string& what) { learn(what); },
+              [this](const Contender& contender) { competition_.enter(case_, contender); }} {}
 
   Judged judged() const { return data_.judged(); }
   bool reads_more() const { return experiment_.floor().any_beside(); }
@@ -158,6 +163,7 @@ class Workflow {
   void replay_as_described() {
     step_(stage("replaying"));
     nominal_fit_ = replay(case_);
+    competition_.enter(case_, nominal_fit_);
     learn_gap("the rig as described", nominal_fit_.held_out);
   }
 
@@ -199,6 +205,7 @@ class Workflow {
   void map_where() {
     step_(stage("mapping"));
     result_.where = where(experiment_, recalibrated_.fitted.model.rig, usable_, settings_.seed);
+    evidence_.patterned = std::ranges::any_of(result_.where, &Cell::significant);
   }
 
   /// Residuals held out that an improvement is measured against.
@@ -215,6 +222,7 @@ class Workflow {
     const Eigen::VectorXd& named = naming_.best.held_out;
     evidence_.named_left = excess(named);
     look_for_stand_ins();
+    tell_support(case_, recalibrated_, naming_, step_);
     evidence_.named_share = compare(experiment_, reference(), named, case_.split.held_out).share;
     // A gauge that misleads may be met by an effect that takes the motion further away; an error of its own
     // leaves the motion alone.
@@ -331,6 +339,7 @@ class Workflow {
     result_.confusion_names = naming_.confusion_names;
     result_.confusion = naming_.confusion;
     if (decision.verdict == Verdict::unknown_effect) result_.law_valid_for = visited(data_, usable_);
+    result_.explanations = competition_.told(case_, contender(decision.chosen));
     chosen_rig_ = nominal_;
     if (decision.chosen != Chosen::nominal) fit_all_runs(contender(decision.chosen).fitted);
   }
@@ -451,6 +460,7 @@ class Workflow {
   Runs usable_;
   Experiment experiment_;
   RigFile nominal_;
+  Competition competition_;
   Case case_;
   Contender nominal_fit_;  ///< the rig as described, nothing moved
   Contender recalibrated_;
@@ -495,7 +505,9 @@ Diagnosis diagnose(const domain::Dataset& data, const Settings& settings, const 
   // No model meets the gauge and the motion: perhaps one meets the motion alone.
   without = "without the gauge: ";
   Diagnosis ungauged = mended(without_besides(data), settings, step, search).first;
-  if (!better_without_gauge(left, motion_left(ungauged.gap), ungauged.verdict, thresholds)) return result;
+  if (!better_without_gauge(left, motion_left(ungauged.gap), ungauged.verdict, !ungauged.stand_ins.empty(),
+                            thresholds))
+    return result;
   ungauged.warnings.insert(ungauged.warnings.begin(), ignored_in_words(data));
   return ungauged;
 }

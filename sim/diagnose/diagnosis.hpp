@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -81,11 +82,21 @@ struct Constancy : std::vector<Drift> {
   }
 };
 
+/// What speaks for a name and what against it. Misfits are sums of squares over their long-term variance.
+struct Support {
+  double fall = 0.0;  ///< of the misfit of the fitted runs, by this effect
+  /// So much more would the best of the others leave that were tried in its place and do not do as well;
+  /// infinite if none was.
+  double before_rivals = std::numeric_limits<double>::infinity();
+  std::vector<std::string> by{}, against{};  ///< runs whose misfit falls, or rises, by more than chance
+};
+
 struct NamedEffect {
   std::string name, variant;
   std::vector<std::string> confusable_with{};  ///< effects that explain these data as well
   std::vector<FittedNumber> parameters{};
   Constancy constancy{};
+  Support support{};
   bool stands_in = false;  ///< for something else: its size is not the same everywhere, or not shown to be
 };
 
@@ -170,6 +181,26 @@ struct Absorbed {
   double without = 0.0, with = 0.0;
 };
 
+/// A way to explain the data that was fitted: the rig as described, its numbers within what is said of them,
+/// its numbers further off, effects, a law.
+struct Explanation {
+  enum class Kind { nothing, numbers, further_numbers, effects, law };
+  Kind kind = Kind::nothing;
+  std::vector<std::string> effects{};  ///< with their variants
+  double misfit = 0.0;                 ///< of the fitted runs, the strain of the priors in it
+  double strain = 0.0;                 ///< squares of the numbers' deviations
+  double held_out_rmse = 0.0;
+  bool as_good = false;  ///< as the one that is handed over, or better
+  bool chosen = false;
+};
+constexpr auto names(Explanation::Kind) {
+  using enum Explanation::Kind;
+  return std::array{std::pair{nothing, std::string_view{"nothing"}},
+                    std::pair{numbers, std::string_view{"numbers"}},
+                    std::pair{further_numbers, std::string_view{"further_numbers"}},
+                    std::pair{effects, std::string_view{"effects"}}, std::pair{law, std::string_view{"law"}}};
+}
+
 struct RunGap {
   std::string id;
   double load_kg = 0.0;
@@ -247,6 +278,7 @@ struct Diagnosis {
   std::vector<Cell> where{};
   Start start{};
   Remaining remaining{};
+  std::vector<Explanation> explanations{};  ///< that competed; least misfit first
   std::vector<Ranked> ranking{};
   std::vector<std::string> confusion_names{};    ///< best candidates of the first round
   std::vector<std::vector<double>> confusion{};  ///< likeness among them

@@ -1,6 +1,7 @@
 // Screen, refit, choose, and again; see the header.
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <optional>
 
 #include <fmt/format.h>
@@ -196,6 +197,18 @@ const Trial* choose(const std::vector<Trial>& trials, const Contender& best, dou
   return nullptr;
 }
 
+/// How much more misfit the best of the other effects leaves that does not do as well.
+double before_rivals(const std::vector<Trial>& trials, const Trial& chosen, const NamedEffect& named) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const Trial& rival : trials) {
+    const auto& other = rival.score.candidate.effect;
+    if (other == named.name || std::ranges::find(named.confusable_with, other) != named.confusable_with.end())
+      continue;
+    least = std::min(least, rival.contender.fitted.cost - chosen.contender.fitted.cost);
+  }
+  return least;
+}
+
 void take_one(const Case& c, Naming& result, const std::vector<Trial>& trials, const Trial& chosen) {
   NamedEffect named{.name = chosen.score.candidate.effect, .variant = chosen.score.candidate.variant};
   for (const Trial& rival : trials) {
@@ -209,6 +222,7 @@ void take_one(const Case& c, Naming& result, const std::vector<Trial>& trials, c
     result.doubts.push_back(
         {named.name, other, chosen.contender.fitted.model.rig, rival.contender.fitted.model.rig});
   }
+  named.support.before_rivals = before_rivals(trials, chosen, named);
   result.effects.push_back(std::move(named));
   result.best = chosen.contender;
 }

@@ -337,6 +337,12 @@ struct SubsetThresholds {
   double share = 0.6;            ///< of what was left, that a set must close
 };
 
+/// Of explanations that do less well than the one chosen, so many of each kind are told: nothing, numbers,
+/// further numbers, effects, a law.
+struct CompetitionThresholds {
+  std::array<std::size_t, 5> shown{1, 1, 1, 4, 1};
+};
+
 /// Whether an effect has one size everywhere. Set on seed 21 of the benchmark: right names differ by 0.02 of
 /// their size, those that stand in for an effect taken out of the catalogue by 0.1 to 0.9.
 struct ConstancyThresholds {
@@ -434,6 +440,7 @@ struct Thresholds {
   NameThresholds name{};
   FurtherThresholds further{};
   SubsetThresholds subset{};
+  CompetitionThresholds competition{};
   ConstancyThresholds constancy{};
   LawThresholds law{};
   DecideThresholds decide{};

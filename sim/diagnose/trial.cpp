@@ -61,6 +61,7 @@ Contender contend(const Case& c, Model model, const KnownSlopes* known, bool tho
   } catch (const engine::NumericalFailure& failure) {
     contender.fitted.failure = failure.what();
   }
+  if (c.fitted) c.fitted(contender);
   return contender;
 }
 

@@ -13,6 +13,8 @@
 
 namespace mckibben::diagnose {
 
+struct Contender;
+
 /// What stays the same throughout a diagnosis.
 struct Case {
   const Experiment& experiment;
@@ -20,6 +22,7 @@ struct Case {
   Split split;
   double inflation;
   std::function<void(const std::string&)> learned;  ///< hears what is known so far
+  std::function<void(const Contender&)> fitted{};   ///< hears of every fit to its training runs
 };
 
 /// A fitted model and what it makes of the runs held out.

@@ -35,8 +35,8 @@ class Guide : public Walker<Guide> {
   explicit Guide(std::string_view path) : rest_(path) {}
 
   void number(std::string_view key, double& value, std::string_view unit, double lowest, double highest,
-              std::string_view) {
-    if (key == rest_) found = {&value, std::string(unit), lowest, highest};
+              std::string_view meaning) {
+    if (key == rest_) found = {&value, std::string(unit), lowest, highest, std::string(meaning)};
   }
   // Goes on inside `key` if the path leads there.
   void enter(std::string_view key, const auto&, const auto& inside) {
@@ -116,9 +116,29 @@ std::vector<std::string> paths_of_numbers(const plant::Rig& rig) {
   return lister.list;
 }
 
+std::vector<std::string> paths_with_mechanics(const RigFile& rig) {
+  std::vector<std::string> list = paths_of_numbers(rig);
+  if (const plant::Pair* pair = rig.pair()) {
+    PathLister lister;
+    plant::Pair::fields(*pair, lister);
+    for (const std::string& path : lister.list) list.push_back("mechanics." + path);
+  }
+  return list;
+}
+
 std::string broken_rule(const plant::Rig& rig) {
   Judge judge;
   plant::Rig::fields(rig, judge);
+  judge.judge(rig);
+  return judge.broken;
+}
+
+std::string broken_rule(const RigFile& rig) {
+  if (std::string broken = broken_rule(static_cast<const plant::Rig&>(rig)); !broken.empty()) return broken;
+  const plant::Pair* pair = rig.pair();
+  if (pair == nullptr) return "";
+  Judge judge;
+  judge.enter("mechanics", *pair, [&] { plant::Pair::fields(*pair, judge); });
   judge.judge(rig);
   return judge.broken;
 }

@@ -15,6 +15,7 @@ struct RigNumber {
   double* value = nullptr;
   std::string unit;
   double lowest = 0.0, highest = 0.0;  ///< its documented range
+  std::string meaning{};
 };
 
 RigNumber find_number(plant::Rig& rig, std::string_view path);
@@ -23,8 +24,12 @@ RigNumber find_number(RigFile& rig, std::string_view path);
 
 /// The paths of all numbers of a rig, in the order of its file.
 std::vector<std::string> paths_of_numbers(const plant::Rig& rig);
+/// The same with those of a pair's mechanics.
+std::vector<std::string> paths_with_mechanics(const RigFile& rig);
 
 /// The first rule between fields that the rig breaks, in words; empty if none.
 std::string broken_rule(const plant::Rig& rig);
+/// Those of a pair with them.
+std::string broken_rule(const RigFile& rig);
 
 }  // namespace mckibben::domain

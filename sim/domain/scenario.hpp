@@ -41,6 +41,17 @@ struct Criterion {
   }
 };
 
+/// Rigs drawn within what the rig's file says of its numbers; none: the described one alone is simulated.
+struct Robustness {
+  int rigs = 0;
+
+  template <class Self, class Visitor>
+  static void fields(Self& self, Visitor& visit) {
+    visit("rigs", self.rigs, 0, 100000,
+          "how many rigs are drawn within the ± of the rig's file, each with its own noise");
+  }
+};
+
 struct Scenario {
   std::string name;
   RigFile rig;
@@ -51,6 +62,7 @@ struct Scenario {
   plant::Noise noise;
   std::uint64_t seed = 1;
   std::vector<Criterion> criteria;
+  Robustness robustness;
 
   std::map<std::string, RigFile> believed;  ///< rigs of controllers that name one, by controller
   std::vector<InputFile> inputs;            ///< the files it was read from
@@ -66,6 +78,7 @@ struct Scenario {
     visit("noise", self.noise, "what disturbs the instruments");
     visit("seed", self.seed, 0, std::numeric_limits<std::uint64_t>::max(), "where chance begins");
     visit("criteria", self.criteria, "what counts as good enough");
+    visit("robustness", self.robustness, "how controllers do on rigs that are not quite as described");
   }
 };
 

@@ -37,11 +37,15 @@ void set_up_erk(void* m, N_Vector y, double tolerance, void* user, std::string& 
 
 inline Pace pace_of(void* m, const EvenSteps& steps) {
   Pace pace{.log_of_last_error = steps.log_of_last_error};
-  ERKStepGetCurrentStep(m, &pace.step_s);
+  if (steps.resumed_step_s)  // of which the library says nothing yet
+    pace.step_s = *steps.resumed_step_s;
+  else
+    ERKStepGetCurrentStep(m, &pace.step_s);
   return pace;
 }
 inline void resume_at(const Pace& pace, void* m, EvenSteps& steps) {
   steps.log_of_last_error = pace.log_of_last_error;
+  steps.resumed_step_s = pace.step_s;
   ERKStepSetInitStep(m, pace.step_s);
 }
 

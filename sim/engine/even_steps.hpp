@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include <sundials/sundials_nvector.h>
 
@@ -33,6 +34,7 @@ class EvenSteps : public PiRule {
   void begin(double from_s, double to_s) {
     tick_s_ = to_s - from_s;
     stop_s_ = to_s;
+    resumed_step_s.reset();
   }
 
   /// The callback: called with the local error of a step of size h that ends, or if rejected begins, at t.
@@ -44,7 +46,8 @@ class EvenSteps : public PiRule {
     return 0;
   }
 
-  double reached_s = 0.0;  ///< end of the last accepted step
+  double reached_s = 0.0;                  ///< end of the last accepted step
+  std::optional<double> resumed_step_s{};  ///< the step that was resumed at, until one is made
 
  private:
   double stop_s_ = 0.0, tick_s_ = 0.0;

@@ -7,10 +7,10 @@
 
 namespace mckibben::engine {
 
-/// State and memory at y as numbers of which each is an unknown, in the order of y.
-template <class L>
+/// State and memory at y as numbers of which each is an unknown, in the order of y; `more` are to follow.
+template <class L, int more = 0>
 struct Unknowns {
-  using Number = Dual<L::steering>;
+  using Number = Dual<L::steering + more>;
 
   plant::State<Number> state;
   plant::Memory<Number> memory;
@@ -29,8 +29,10 @@ struct Unknowns {
     }
   }
 
- private:
+  /// The unknown that comes next.
   Number next(double value) { return Number::unknown(value, count_++); }
+
+ private:
   void side(const plant::SideState<double>& at, plant::SideState<Number>& seeded) {
     seeded.valve_pressure_Pa = next(at.valve_pressure_Pa);
     seeded.muscle_pressure_Pa = next(at.muscle_pressure_Pa);

@@ -1,4 +1,4 @@
-// Limits and currents of PID and weighing; see the header.
+// Limits and currents of controllers and weighing; see the header.
 #include <optional>
 #include <string_view>
 
@@ -79,12 +79,12 @@ controllers::CurrentRange working_range(const plant::Rig& rig) {
 void follow_valve(controllers::Settings& settings, const Source& source, const Node& node,
                   const plant::Rig& rig, Problems& problems) {
   controllers::follow(settings, working_range(rig));
-  if (const auto* terms = controllers::pid_terms(settings)) {
-    CurrentChecker pid(source, node, rig, problems);
-    const bool works =
-        pid.ends("lowest_current", *terms->lowest_current_mA, "highest_current", *terms->highest_current_mA);
+  if (const auto* terms = controllers::output_limits(settings)) {
+    CurrentChecker output(source, node, rig, problems);
+    const bool works = output.ends("lowest_current", *terms->lowest_current_mA, "highest_current",
+                                   *terms->highest_current_mA);
     if (const auto* one = std::get_if<controllers::PidSettings>(&settings); one != nullptr && works)
-      pid.rest(*one->rest_current_mA, *terms->lowest_current_mA, *terms->highest_current_mA);
+      output.rest(*one->rest_current_mA, *terms->lowest_current_mA, *terms->highest_current_mA);
   }
   if (const auto* calibrated = controllers::calibrated(settings))
     if (const Node* weighing = node.find("weighing"))

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <unordered_map>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -106,10 +107,15 @@ bool check_columns(const YamlFile& file, Problems& problems) {
 }  // namespace
 
 Dataset read_dataset(const fs::path& path) {
-  Dataset dataset;
   std::error_code ignored;
-  dataset.path = fs::is_directory(path, ignored) ? path / "dataset.yaml" : path;
-  const YamlFile file = load_yaml(dataset.path);
+  const fs::path file = fs::is_directory(path, ignored) ? path / "dataset.yaml" : path;
+  return read_dataset(Source::load(file, largest_yaml_bytes));
+}
+
+Dataset read_dataset(Source source) {
+  Dataset dataset;
+  const YamlFile file = parse_yaml(std::move(source));
+  dataset.path = file.source.name();
   Problems problems;
   problems.opened(file.source);
   problems.adopt(file.found);

@@ -7,6 +7,7 @@
 
 #include <sim/domain/dataset.hpp>
 #include <sim/input/rigs.hpp>
+#include <sim/input/source.hpp>
 
 namespace mckibben::input {
 
@@ -17,6 +18,8 @@ inline constexpr std::string_view dataset_schema = "mckibben-dataset/1";
 /// Reads a data set and all its tables. `path` is its file or its folder. Throws MissingInput; BadInput with
 /// the problems of all files.
 Dataset read_dataset(const std::filesystem::path& path);
+/// The same from the text of its file at hand; relative paths start at the source's folder.
+Dataset read_dataset(Source source);
 
 /// Throws BadInput unless a load hangs on the muscle and each run has a row each tick, as `verb` needs it.
 void require_ticks(const Dataset& dataset, std::string_view verb);

@@ -5,6 +5,7 @@
 #include <array>
 #include <concepts>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -55,6 +56,18 @@ template <class... Ts>
 inline constexpr bool is_variant<std::variant<Ts...>> = true;
 
 template <class T>
+inline constexpr bool is_optional = false;
+template <class T>
+inline constexpr bool is_optional<std::optional<T>> = true;
+
+/// A number of a unit and range that its type knows.
+template <class T>
+concept Measured = requires(T value) {
+  { value.value } -> std::same_as<double&>;
+  { T::unit } -> std::convertible_to<std::string_view>;
+};
+
+template <class T>
 inline constexpr bool is_vector = false;
 template <class T>
 inline constexpr bool is_vector<std::vector<T>> = true;
@@ -70,6 +83,8 @@ template <class T>
 bool is_absent(const T& value) {
   if constexpr (is_variant<T>)
     return std::visit([](const auto& one) { return is_absent(one); }, value);
+  else if constexpr (is_optional<T>)
+    return !value;
   else if constexpr (HasDefault<T>)
     return absent(value);
   else if constexpr (Switchable<T>)

@@ -97,7 +97,7 @@ class FieldLister {
       info.is_list = true;
     } else {
       describe<T>(info);
-      if constexpr (!is_variant<T> && !Listed<T>)
+      if constexpr (!is_variant<T> && !Listed<T> && !is_optional<T>)
         if (!is_absent(value)) info.default_value = to_json(value);
     }
   }
@@ -118,6 +118,13 @@ class FieldLister {
       info.type = FieldInfo::Type::text;
     } else if constexpr (std::same_as<T, controllers::Height>) {
       info.type = FieldInfo::Type::height;
+    } else if constexpr (Measured<T>) {
+      info.type = FieldInfo::Type::quantity;
+      info.unit = T::unit;
+      info.lowest = T::lowest;
+      info.highest = T::highest;
+    } else if constexpr (is_optional<T>) {
+      describe<typename T::value_type>(info);
     } else if constexpr (std::same_as<T, plant::RatedCommand>) {
       info.type = FieldInfo::Type::command;
     } else if constexpr (std::same_as<T, domain::Variation>) {

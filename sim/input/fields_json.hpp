@@ -100,6 +100,10 @@ Json to_json(const T& value, const SpreadsOf& spreads) {
     return value;
   } else if constexpr (std::same_as<T, controllers::Height>) {
     return quantity_json(value.value, value.in_metres ? "m" : "1");
+  } else if constexpr (Measured<T>) {
+    return quantity_json(value.value, T::unit);
+  } else if constexpr (is_optional<T>) {
+    return to_json(*value, spreads);
   } else if constexpr (std::same_as<T, plant::RatedCommand>) {
     return quantity_json(value.value, plant::name_of(value.unit));
   } else if constexpr (std::same_as<T, domain::Variation>) {

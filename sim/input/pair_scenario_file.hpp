@@ -1,5 +1,5 @@
-// Pairs under given currents in files (schema mckibben-pair/1). `read_pair_scenario` gives one complete,
-// every default in place, or says all that is wrong.
+// Pairs under given currents and under controllers in files (schema mckibben-pair/1). `read_pair_scenario`
+// gives one complete, every default in place, or says all that is wrong.
 #pragma once
 
 #include <filesystem>

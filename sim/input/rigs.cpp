@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -147,15 +148,19 @@ void read_named(const Source& source, const Node& node, RigFile& into, Problems&
 
 RigFile read_rig(const std::string& name_or_path, std::vector<InputFile>& inputs) {
   if (is_shipped(name_or_path)) return shipped_rig(name_or_path);
-  RigFile rig;
   std::error_code ignored;
   if (!looks_like_path(name_or_path) && !fs::exists(name_or_path, ignored))
     throw MissingInput(fmt::format("unknown rig {}{} (shipped: {}; or the path of a rig file)", name_or_path,
                                    did_you_mean(name_or_path, shipped), join(shipped)));
+  return read_rig(Source::load(name_or_path, largest_yaml_bytes), inputs);
+}
+
+RigFile read_rig(Source source, std::vector<InputFile>& inputs) {
+  RigFile rig;
   Problems problems;
-  const fs::path path = name_or_path;
-  const YamlFile file = load_yaml(path);
-  Chain chain{fs::weakly_canonical(path, ignored)};
+  const YamlFile file = parse_yaml(std::move(source));
+  std::error_code ignored;
+  Chain chain{fs::weakly_canonical(file.source.name(), ignored)};
   problems.opened(file.source);
   problems.adopt(file.found);
   read_rig_map(file, rig, problems, chain);

@@ -23,6 +23,8 @@ std::span<const std::string_view> shipped_rigs();
 /// The rig of that name, or of the file at that path; the files read are added to `inputs`.
 /// Throws MissingInput, BadInput.
 RigFile read_rig(const std::string& name_or_path, std::vector<InputFile>& inputs);
+/// The same from the text of a rig file at hand; relative paths start at the source's folder.
+RigFile read_rig(Source source, std::vector<InputFile>& inputs);
 
 /// The contents of a rig file that holds every field.
 Json rig_json(const RigFile& rig);

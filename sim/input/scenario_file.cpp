@@ -40,6 +40,7 @@ class ScenarioChecker {
     check_rig();
     check_controllers();
     check_criteria();
+    check_robustness();
     check_target();
   }
 
@@ -77,12 +78,26 @@ class ScenarioChecker {
                         earlier->second));
       if (auto* recorded = std::get_if<controllers::RecordedCurrent>(&scenario_.controllers[i]))
         load_recording(*recorded, source_, *node.find("file"), scenario_.rig, problems_);
+      if (auto* guest = controllers::guest_terms(scenario_.controllers[i]))
+        guest->folder = source_.folder().string();
+      if (const auto* plugin = std::get_if<controllers::PluginSettings>(&scenario_.controllers[i]))
+        look_for_library(plugin->library, *node.find("library"));
       follow_valve(scenario_.controllers[i], source_, node, scenario_.rig, problems_);
       if (const auto* terms = controllers::model_terms(scenario_.controllers[i]);
           terms && !terms->rig.empty())
         load_believed_rig(name, *node.find("rig"));
       if (auto* calibrated = controllers::calibrated(scenario_.controllers[i]))
         load_calibration(*calibrated, node);
+    }
+  }
+
+  /// Reading a scenario runs nothing of it; what is in the library is seen when it is used.
+  void look_for_library(const std::string& library, const Node& node) {
+    constexpr std::size_t largest_library_bytes = 256U << 20U;
+    try {
+      problems_.opened(Source::load((source_.folder() / library).lexically_normal(), largest_library_bytes));
+    } catch (const MissingInput& missing) {
+      problems_.missing_file(source_, node.place, missing.what());
     }
   }
 
@@ -130,6 +145,17 @@ class ScenarioChecker {
             *settings.weighing.speed_mA_per_s, range.lowest_speed_mA_per_s, range.highest_speed_mA_per_s,
             "mA/s");
     }
+  }
+
+  void check_robustness() {
+    if (scenario_.robustness.rigs == 0) return;
+    const bool stated =
+        std::any_of(scenario_.rig.spreads.begin(), scenario_.rig.spreads.end(),
+                    [](const auto& one) { return std::isfinite(one.second) && one.second > 0.0; });
+    if (!stated)
+      problems_.error(source_, list("robustness").place,
+                      "robustness draws rigs within the ± of the rig's file, and this rig states none: write "
+                      "`rest_radius: 7.5 mm ± 1 %` where you know how well a number is known");
   }
 
   void check_criteria() {

@@ -182,6 +182,10 @@ class StructReader : public ValueReader {
       text(key, node, value);
     } else if constexpr (std::same_as<T, controllers::Height>) {
       height(key, node, value);
+    } else if constexpr (Measured<T>) {
+      quantity(key, node, value.value, {T::unit, T::lowest, T::highest, T::meaning});
+    } else if constexpr (is_optional<T>) {
+      read(key, node, value.emplace(), path);
     } else if constexpr (Named<T>) {
       if (const auto index = choice(key, node, spellings<T>())) value = names(T{})[*index].first;
     } else if constexpr (is_vector<T>) {

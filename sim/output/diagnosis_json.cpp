@@ -63,6 +63,14 @@ Json constancy_json(const diagnose::Constancy& constancy) {
   return list;
 }
 
+Json support_json(const diagnose::Support& support) {
+  const bool rivals = std::isfinite(support.before_rivals);
+  return {{"misfit_fall", support.fall},
+          {"before_rivals", rivals ? Json(support.before_rivals) : Json()},
+          {"runs_for", support.by},
+          {"runs_against", support.against}};
+}
+
 Json effects_json(const std::vector<diagnose::NamedEffect>& effects) {
   Json list = Json::array();
   for (const auto& effect : effects) {
@@ -73,6 +81,7 @@ Json effects_json(const std::vector<diagnose::NamedEffect>& effects) {
                     {"confusable_with", effect.confusable_with},
                     {"parameters", parameters},
                     {"stands_in", effect.stands_in},
+                    {"support", support_json(effect.support)},
                     {"constancy", constancy_json(effect.constancy)}});
   }
   return list;
@@ -207,6 +216,19 @@ Json ranking_json(const diagnose::Diagnosis& diagnosis) {
   return list;
 }
 
+Json explanations_json(const diagnose::Diagnosis& diagnosis) {
+  Json list = Json::array();
+  for (const auto& one : diagnosis.explanations)
+    list.push_back({{"kind", std::string(input::spelling(one.kind))},
+                    {"effects", one.effects},
+                    {"misfit", one.misfit},
+                    {"strain", one.strain},
+                    {"held_out_rmse", one.held_out_rmse},
+                    {"as_good", one.as_good},
+                    {"chosen", one.chosen}});
+  return list;
+}
+
 Json absorbed_json(const diagnose::Diagnosis& diagnosis) {
   Json list = Json::array();
   for (const auto& one : diagnosis.absorbed)
@@ -278,6 +300,7 @@ std::string json_of(const domain::Dataset& data, const diagnose::Diagnosis& diag
                 {"warnings", diagnosis.warnings},
                 {"faults", faults_json(diagnosis)},
                 {"runs", runs_json(diagnosis)},
+                {"explanations", explanations_json(diagnosis)},
                 {"ranking", ranking_json(diagnosis)},
                 {"confusion", {{"names", diagnosis.confusion_names}, {"likeness", diagnosis.confusion}}},
                 {"absorbed", absorbed_json(diagnosis)}};

@@ -14,6 +14,8 @@ namespace {
 
 using diagnose::Diagnosis;
 
+constexpr std::size_t most_others = 3;  // explanations that do as well, in the text
+
 std::string warnings(const Diagnosis& diagnosis) {
   std::string text = diagnosis.warnings.empty() ? "" : "\n";
   for (const auto& warning : diagnosis.warnings) text += fmt::format("warning: {}\n", warning);
@@ -85,6 +87,12 @@ std::string twins(const Diagnosis& diagnosis) {
   for (const auto& effect : diagnosis.effects)
     if (!effect.confusable_with.empty())
       text += fmt::format("  {}: {}\n", effect.name, listed(effect.confusable_with));
+  std::size_t others = 0;
+  for (const auto& one : diagnosis.explanations)
+    if (one.as_good && !one.chosen && ++others <= most_others)
+      text += fmt::format("  {} (misfit {:.0f})\n", explained_by(one), one.misfit);
+  if (others > most_others)
+    text += fmt::format("  and {} more: explanations in diagnosis.json\n", others - most_others);
   return text;
 }
 

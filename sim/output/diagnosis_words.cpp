@@ -130,6 +130,23 @@ std::string title_of(const diagnose::Diagnosis& diagnosis) {
   return "These data cannot tell";
 }
 
+std::string explained_by(const diagnose::Explanation& explanation) {
+  using enum diagnose::Explanation::Kind;
+  switch (explanation.kind) {
+    case nothing:
+      return "nothing: the rig as described";
+    case numbers:
+      return "other numbers, as far off as is stated";
+    case further_numbers:
+      return "numbers further off than is stated";
+    case law:
+      return "a law of force";
+    case effects:
+      break;
+  }
+  return fmt::format("{}", fmt::join(explanation.effects, " with "));
+}
+
 std::string what_next(const diagnose::Diagnosis& diagnosis) {
   using enum diagnose::Verdict;
   const double floors = diagnosis.gap.floors_left();

@@ -44,6 +44,10 @@ std::string title_of(const diagnose::Diagnosis& diagnosis);
 
 using diagnose::full_name;
 
+/// What an explanation that competed explains the data by: "muscle_leak with valve_lag", "numbers further off
+/// than they are stated to be".
+std::string explained_by(const diagnose::Explanation& explanation);
+
 /// What to do where no measurement is proposed; empty if there is nothing to say. Nobody is told that no more
 /// is needed while noise floors are left.
 std::string what_next(const diagnose::Diagnosis& diagnosis);

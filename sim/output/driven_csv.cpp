@@ -67,6 +67,8 @@ class DrivenColumns {
         [this](const Sample& row) { return run::counted_angle_rad(rig_, row); });
     contraction("1", [](const Sample& row) { return row.state.joint.contraction_ratio; });
     contraction("2", [](const Sample& row) { return row.opposite.contraction_ratio; });
+    add("stiffness_Nm_per_rad", "N m rad-1", "stiffness of the joint at the pressures that it has, true",
+        [](const Sample& row) { return row.stiffness_N_m_per_rad; });
     return std::move(columns_);
   }
 
@@ -114,6 +116,20 @@ std::vector<formats::Column> driven_columns(const run::Recording& recording, con
                                             bool force) {
   DrivenColumns columns(recording, rig);
   return recording.driven.pair ? columns.of_pair() : columns.of_one(force || recording.driven.length);
+}
+
+std::vector<formats::Column> pair_columns(const run::PairRun& run, const domain::RigFile& rig) {
+  std::vector<formats::Column> columns = driven_columns(run.recording, rig, false);
+  if (!run.followed) return columns;
+  const auto add = [&](const char* name, const char* unit, const char* meaning, std::vector<double> wanted) {
+    if (wanted.empty()) return;
+    wanted.resize(run.recording.samples.size());
+    columns.push_back({name, unit, meaning, std::move(wanted)});
+  };
+  add("target_angle_rad", "rad", "joint angle that is wanted", run.followed->angle_rad);
+  add("target_stiffness_Nm_per_rad", "N m rad-1", "stiffness of the joint that is wanted",
+      run.followed->stiffness_N_m_per_rad);
+  return columns;
 }
 
 }  // namespace mckibben::output

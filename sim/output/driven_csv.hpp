@@ -6,6 +6,7 @@
 
 #include <sim/domain/rig_file.hpp>
 #include <sim/formats/table.hpp>
+#include <sim/run/pair_runs.hpp>
 #include <sim/run/recording.hpp>
 
 namespace mckibben::output {
@@ -13,5 +14,8 @@ namespace mckibben::output {
 /// `force`: a column for the cord's force, though nothing holds the muscle.
 std::vector<formats::Column> driven_columns(const run::Recording& recording, const domain::RigFile& rig,
                                             bool force);
+
+/// The same of a run of a pair, and what was wanted of it.
+std::vector<formats::Column> pair_columns(const run::PairRun& run, const domain::RigFile& rig);
 
 }  // namespace mckibben::output

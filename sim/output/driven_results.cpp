@@ -6,6 +6,7 @@
 #include <sim/output/diagnosis_words.hpp>
 #include <sim/output/driven_results.hpp>
 #include <sim/output/grid.hpp>
+#include <sim/output/joint_tracking.hpp>
 #include <sim/output/json_parts.hpp>
 
 namespace mckibben::output {
@@ -59,15 +60,18 @@ std::string without_result(const Runs& runs, const std::vector<std::string>& war
 
 }  // namespace
 
-std::string json_of(const domain::PairScenario& scenario, const std::vector<run::PairRun>& runs,
+std::string json_of(const domain::PairScenario& scenario, const run::PairRuns& all,
                     const std::vector<std::string>& warnings, bool interrupted) {
   Json document = heading_json("mckibben-pair-run/1", scenario.inputs);
   document["report"] = "report.html";
   document["tolerance"] = scenario.rig.integrator.tolerance;
   document["scenario"] = input::pair_scenario_json(scenario);
+  document["tuned"] = Json::array();
+  for (const auto& tuned : all.tuned) document["tuned"].push_back(tuned_json(scenario, tuned));
   document["runs"] = Json::array();
-  for (const auto& run : runs) {
+  for (const auto& run : all.runs) {
     Json entry{{"name", run.name}};
+    if (run.followed) entry.update(followed_json(scenario, run));
     if (!run.recording.samples.empty()) entry["file"] = run.name + ".csv";
     if (!run.failure.empty()) {
       entry["failure"] = run.failure;
@@ -119,12 +123,13 @@ std::string gap_number(double value, bool sign) {
   return sign ? fmt::format("{:+.4g}", value) : fmt::format("{:.4g}", value);
 }
 
-std::string table_of(const domain::PairScenario& scenario, const std::vector<run::PairRun>& runs,
+std::string table_of(const domain::PairScenario& scenario, const run::PairRuns& all,
                      const std::vector<std::string>& warnings) {
   Grid grid({"run", "angle_deg lowest", "highest", "final", "tension_1_N lowest", "highest",
              "tension_2_N lowest", "highest", "air_g"},
             1);
-  for (const auto& run : runs) {
+  for (const auto& run : all.runs) {
+    if (run.followed) continue;
     if (!run.failure.empty()) {
       grid.add({run.name, "no result", "-", "-", "-", "-", "-", "-", "-"});
       continue;
@@ -136,9 +141,13 @@ std::string table_of(const domain::PairScenario& scenario, const std::vector<run
               newton(run.opposite_cord_force_N.low), newton(run.opposite_cord_force_N.high),
               fmt::format("{:.3f}", 1e3 * run.recording.ledger.air_drawn_kg)});
   }
-  return fmt::format("{}: two muscles, {} run{}, {:g} s each; joint angle positive as muscle 1 contracts\n\n",
-                     scenario.name, runs.size(), runs.size() == 1 ? "" : "s", scenario.duration_s) +
-         grid.text() + without_result(runs, warnings);
+  const std::string tracking = tracking_text(scenario, all);
+  std::string text =
+      fmt::format("{}: two muscles, {} run{}, {:g} s each; joint angle positive as muscle 1 contracts\n",
+                  scenario.name, all.runs.size(), all.runs.size() == 1 ? "" : "s", scenario.duration_s);
+  if (!grid.empty()) text += (tracking.empty() ? "\n" : "\nunder given currents\n") + grid.text();
+  if (!tracking.empty()) text += (grid.empty() ? "\n" : "\nunder controllers\n") + tracking;
+  return text + without_result(all.runs, warnings);
 }
 
 std::string table_of(const domain::Dataset& dataset, const std::vector<run::StampedRun>& runs,

@@ -57,17 +57,19 @@ std::vector<std::string> run_file_names(const std::string& stem) {
 
 std::string datapackage(const Package& package) {
   Json document{{"profile", "tabular-data-package"}, {"title", package.title}, {"resources", Json::array()}};
-  const Json schema{{"fields", fields_json(package.columns)}, {"missingValues", {""}}};
+  const Json common = fields_json(package.columns);
   std::set<std::string> taken;
   for (const auto& run : package.runs)
-    document["resources"].push_back({{"name", resource_name(run.stem, taken)},
-                                     {"title", run.title},
-                                     {"path", run.stem + ".csv"},
-                                     {"profile", "tabular-data-resource"},
-                                     {"format", "csv"},
-                                     {"mediatype", "text/csv"},
-                                     {"encoding", "utf-8"},
-                                     {"schema", schema}});
+    document["resources"].push_back(
+        {{"name", resource_name(run.stem, taken)},
+         {"title", run.title},
+         {"path", run.stem + ".csv"},
+         {"profile", "tabular-data-resource"},
+         {"format", "csv"},
+         {"mediatype", "text/csv"},
+         {"encoding", "utf-8"},
+         {"schema",
+          {{"fields", run.columns.empty() ? common : fields_json(run.columns)}, {"missingValues", {""}}}}});
   return document.dump(2) + "\n";
 }
 

@@ -25,13 +25,14 @@ std::vector<NamedFile> run_files(const std::string& stem, const formats::Table& 
 /// Every name that run_files can give.
 std::vector<std::string> run_file_names(const std::string& stem);
 
-/// A title, and for each run its stem and what it holds in words.
+/// A title, and for each run its stem and what it holds in words. Values of columns do not matter.
 struct Package {
   struct Run {
     std::string stem, title;
+    std::vector<formats::Column> columns{};  ///< its own; none: those of every run
   };
   std::string title;
-  std::vector<formats::Column> columns;  ///< of every run; values do not matter
+  std::vector<formats::Column> columns;  ///< of every run that has none of its own
   std::vector<Run> runs;
 };
 

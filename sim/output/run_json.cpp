@@ -79,6 +79,24 @@ Json run_json(const plant::Rig& rig, const run::TrackedRun& run) {
   return entry;
 }
 
+Json robustness_json(const run::Comparison& comparison) {
+  Json rows = Json::array();
+  for (const auto& row : comparison.robustness)
+    rows.push_back({{"load_kg", row.load_kg},
+                    {"controller", row.controller},
+                    {"rigs", row.rigs},
+                    {"rmse", row.rmse ? Json{{"at_5_percent", row.rmse->low},
+                                             {"median", row.rmse->median},
+                                             {"at_95_percent", row.rmse->high}}
+                                      : Json()},
+                    {"failures", row.failures},
+                    {"limit_cycles", row.limit_cycles},
+                    {"saturated", row.saturated},
+                    {"over_contracted", row.over_contracted},
+                    {"no_result", row.no_result}});
+  return {{"drawn", comparison.drawn}, {"rows", std::move(rows)}};
+}
+
 }  // namespace
 
 std::string file_stem(const run::TrackedRun& run) {
@@ -105,6 +123,7 @@ std::string json_of(const domain::Scenario& scenario, const run::Comparison& com
                                  {"gained_nothing", run::gained_nothing(row)},
                                  {"evaluations", row.tuned.evaluations}});
   }
+  if (!comparison.robustness.empty()) document["robustness"] = robustness_json(comparison);
   document["runs"] = Json::array();
   for (const auto& run : comparison.runs) document["runs"].push_back(run_json(scenario.rig, run));
   document["spreads"] = Json::array();

@@ -71,6 +71,20 @@ std::string tuned_line(const run::TunedController& row) {
       cost(row.idle_cost), run::gained_nothing(row) ? ": the tuning gained nothing" : "");
 }
 
+std::string robustness(const run::Comparison& comparison) {
+  Grid grid({"load_kg", "controller", "rmse 5 %", "median", "95 %", "failures", "limit cycle", "saturated",
+             "above 0.20", "no result"},
+            2);
+  for (const auto& row : comparison.robustness) {
+    const auto count = [](std::size_t number) { return number == 0 ? "-" : std::to_string(number); };
+    grid.add({domain::write_number(row.load_kg), row.controller, row.rmse ? ratio(row.rmse->low) : "-",
+              row.rmse ? ratio(row.rmse->median) : "-", row.rmse ? ratio(row.rmse->high) : "-",
+              count(row.failures), count(row.limit_cycles), count(row.saturated), count(row.over_contracted),
+              count(row.no_result)});
+  }
+  return grid.empty() ? "" : grid.text();
+}
+
 std::string contraction_notes(const domain::Scenario& scenario, const run::Comparison& comparison) {
   std::string text;
   for (const auto& run : comparison.runs)
@@ -145,6 +159,10 @@ std::string table_of(const domain::Scenario& scenario, const run::Comparison& co
                    ratio(row.rmse->width()), ratio(row.rmse->standard_deviation)});
   if (!spreads.empty()) text += section("rmse over the loads (spread: highest less lowest)", spreads.text());
 
+  if (!comparison.robustness.empty())
+    text += section(fmt::format("on {} rigs drawn within their ± ({} number{})", scenario.robustness.rigs,
+                                comparison.drawn.size(), comparison.drawn.size() == 1 ? "" : "s"),
+                    robustness(comparison));
   std::string tuned;
   for (const auto& row : comparison.tuned)
     if (row.failure.empty()) tuned += tuned_line(row);

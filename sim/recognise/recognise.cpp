@@ -173,6 +173,10 @@ class Recogniser {
     const std::string unit = contraction == nullptr ? "" : contraction->unit.value;
     if (unit == "count" || (!unit.empty() && input::unit_problem(unit, "rad").empty()))
       set("joint.wheel_radius", left_open("of the wheel on which the cord lies"));
+    if (contraction != nullptr && contraction->zero && !contraction->zero->open())
+      set("joint.reading_offset",
+          {"0 mm ± 1 mm", "the zero of " + contraction->column.value +
+                              " is a guess, and diagnose may move it by so much; less, if you know it"});
     if (unit == "count") {
       set("encoder.pulses_per_turn", left_open("of the encoder's disk"));
       set("encoder.wheel_ratio", left_open("turns of the disk for one of the wheel"));

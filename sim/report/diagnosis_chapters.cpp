@@ -1,7 +1,6 @@
 // Words, tables and where the pictures go; see the header.
 #include <algorithm>
 #include <cmath>
-#include <initializer_list>
 
 #include <fmt/format.h>
 
@@ -15,6 +14,7 @@
 #include <sim/report/diagnosis_pictures.hpp>
 #include <sim/report/html.hpp>
 #include <sim/report/length.hpp>
+#include <sim/report/tables.hpp>
 
 namespace mckibben::report {
 namespace {
@@ -25,30 +25,6 @@ using diagnose::full_name;
 using output::escaped;
 using output::readable;
 using output::rounded;
-
-/// `head` may break after its underscores.
-std::string row(const std::string& head, std::initializer_list<std::string> cells) {
-  std::string html = "<tr><th scope='row'>";
-  for (const char c : escaped(head)) html += c == '_' ? "_<wbr>" : std::string(1, c);
-  html += "</th>";
-  for (const auto& cell : cells) html += "<td>" + escaped(cell) + "</td>";
-  return html + "</tr>\n";
-}
-
-std::string folded(const std::string& summary, const std::string& html) {
-  return "<details><summary>" + escaped(summary) + "</summary>\n" + html + "</details>\n";
-}
-
-std::string table(const std::string& caption, std::initializer_list<const char*> head,
-                  const std::string& rows) {
-  std::string html = "<table><caption>" + escaped(caption) + "</caption>\n<thead><tr>";
-  for (const char* name : head) html += fmt::format("<th scope='col'>{}</th>", name);
-  return html + "</tr></thead>\n<tbody>\n" + rows + "</tbody></table>\n";
-}
-
-std::string paragraph(const std::string& text) {
-  return "<p>" + escaped(text) + "</p>\n";
-}
 
 std::string found_row(const std::string& of, const std::string& name, const FittedNumber& fitted) {
   const auto shown = readable(fitted);
@@ -279,41 +255,6 @@ std::string gap_html(const Diagnosis& diagnosis, const std::vector<const diagnos
               : picture);
 }
 
-std::string twins_html(const domain::Dataset& data, const Diagnosis& diagnosis) {
-  std::string html;
-  for (const auto& effect : diagnosis.effects)
-    html += paragraph(
-        effect.confusable_with.empty()
-            ? fmt::format("{}: no other effect of the catalogue explains these data as well.", effect.name)
-            : fmt::format("{} could as well be {}: these data cannot tell them apart.", effect.name,
-                          output::listed(effect.confusable_with)));
-  if (!gauged(data) && !data.pressure_is_given() &&
-      (!diagnosis.effects.empty() || !diagnosis.residual_law.empty()))
-    html += paragraph(
-        "The data hold no muscle pressure. One measured quantity can show one unknown only: what looks like "
-        "a missing force could be a missing flow of gas that has the same consequences for the load. A "
-        "pressure gauge on the muscle decides it.");
-  const std::string likeness = confusion_svg(diagnosis);
-  if (likeness.empty()) return html;
-  return html + figures_html({{"Likeness of what the best candidates change in these data, before anything "
-                               "was added: at 1 they look the same, above 0.9 (framed) a little of the one "
-                               "cannot be told from a little of the other, at 0 they have nothing in common.",
-                               likeness}});
-}
-
-std::string next_html(const Diagnosis& diagnosis) {
-  if (!diagnosis.next_experiment) {
-    const std::string words = output::what_next(diagnosis);
-    return words.empty() ? "" : paragraph(words);
-  }
-  const auto& next = *diagnosis.next_experiment;
-  return fmt::format(
-      "<p><b>{}</b>, with a load of {}. It would tell {} apart with a probability of {:.0f} % (test at 5 %). "
-      "The option <code>--plan FILE</code> writes it as a campaign.</p>\n",
-      escaped(next.current), output::mass(next.load_kg), escaped(output::listed(next.separates)),
-      100.0 * next.expected_power);
-}
-
 /// Errors of what was read beside.
 std::string beside_html(const diagnose::Gap& gap) {
   std::string rows;
@@ -369,13 +310,6 @@ std::vector<Chapter> story(const domain::Dataset& data, const Diagnosis& diagnos
            added_html(diagnosis, rig)},
           {output::changed(diagnosis) ? "How far the gap shrank" : "The gap, run by run",
            gap_html(diagnosis, runs, rig)}};
-}
-
-std::vector<Chapter> doubts_and_plan(const domain::Dataset& data, const Diagnosis& diagnosis) {
-  return {{diagnosis.effects.empty() && diagnosis.residual_law.empty() ? "Which candidates look alike"
-                                                                       : "What else it could be",
-           twins_html(data, diagnosis)},
-          {"What to measure next", next_html(diagnosis)}};
 }
 
 }  // namespace mckibben::report

@@ -26,16 +26,17 @@ class RowQuantities {
   const std::vector<Sample>* rows_;
 };
 
-/// A plot of one reading, and of its error, if it was measured: keys given_X, X, X_error.
-void add_reading(std::vector<Plot>& plots, const std::string& key, const std::string& title,
-                 const std::string& unit, const std::string& label, bool measured) {
+/// A plot of a quantity, and of its error, if something is drawn beside it: keys given_X, X, X_error.
+void add_compared(std::vector<Plot>& plots, const std::string& key, const std::string& title,
+                  const std::string& unit, const std::string& label, const Beside& beside) {
   Plot plot{.id = key, .title = title, .unit = unit, .lines = {}, .still = true};
-  if (measured) plot.lines.push_back({.key = "given_" + key, .label = "measured", .given = true});
+  if (!beside.label.empty())
+    plot.lines.push_back({.key = "given_" + key, .label = beside.label, .given = true});
   plot.lines.push_back({.key = key, .label = label, .main = true});
   plots.push_back(std::move(plot));
-  if (measured)
+  if (!beside.label.empty())
     plots.push_back({key + "_error",
-                     title + ": simulated less measured",
+                     title + ": " + beside.error,
                      unit,
                      {{.key = key + "_error", .label = "error", .main = true}}});
 }
@@ -58,6 +59,10 @@ std::vector<Quantity> pair_quantities(const domain::RigFile& rig, const run::Rec
   of.add("muscle_pressure_2", [](const Sample& s) { return in_bar * s.state.opposite.muscle_pressure_Pa; });
   of.add("tension_1", [](const Sample& s) { return s.cord_force_N; });
   of.add("tension_2", [](const Sample& s) { return s.opposite.cord_force_N; });
+  of.add("torque", [radius_m = rig.joint.wheel_radius_m](const Sample& s) {
+    return radius_m * (s.cord_force_N - s.opposite.cord_force_N);
+  });
+  of.add("stiffness", [](const Sample& s) { return s.stiffness_N_m_per_rad; });
   return std::move(of.all);
 }
 
@@ -75,9 +80,9 @@ std::vector<Quantity> single_quantities(const run::Recording& recording) {
   return std::move(of.all);
 }
 
-std::vector<Plot> pair_plots(bool angle_is_measured, bool commands) {
+std::vector<Plot> pair_plots(const Beside& angle, bool commands) {
   std::vector<Plot> plots;
-  add_reading(plots, "angle", "Joint angle", "deg", "angle", angle_is_measured);
+  add_compared(plots, "angle", "Joint angle", "deg", "angle", angle);
   if (commands)
     plots.push_back({"current",
                      "Currents",
@@ -96,6 +101,11 @@ std::vector<Plot> pair_plots(bool angle_is_measured, bool commands) {
                    "N",
                    {{.key = "tension_1", .label = "muscle 1", .main = true},
                     {.key = "tension_2", .label = "muscle 2", .main = true}}});
+  plots.push_back({"stiffness",
+                   "Stiffness of the joint",
+                   "N m/rad",
+                   {{.key = "given_stiffness", .label = "target", .given = true},
+                    {.key = "stiffness", .label = "stiffness", .main = true}}});
   plots.push_back({"ratios",
                    "Contraction ratios of the muscles",
                    "ratio",
@@ -106,9 +116,9 @@ std::vector<Plot> pair_plots(bool angle_is_measured, bool commands) {
 
 std::vector<Plot> single_plots(bool contraction_is_measured, bool force, bool commands) {
   std::vector<Plot> plots;
-  add_reading(plots, "contraction", "Contraction", std::string(ratio_unit), "contraction",
-              contraction_is_measured);
-  if (force) add_reading(plots, "cord_force", "Force of the cord", "N", "cord", true);
+  add_compared(plots, "contraction", "Contraction", std::string(ratio_unit), "contraction",
+               contraction_is_measured ? measured_beside() : Beside{});
+  if (force) add_compared(plots, "cord_force", "Force of the cord", "N", "cord", measured_beside());
   if (commands)
     plots.push_back({"current", "Current", "mA", {{.key = "current", .label = "current", .main = true}}});
   plots.push_back({"pressures",
@@ -127,10 +137,16 @@ std::vector<Plot> single_plots(bool contraction_is_measured, bool force, bool co
 }
 
 std::vector<Loop> pair_loops() {
-  return {{"tension_1", "Joint angle and force of cord 1", "angle", "tension_1", "joint angle in deg",
+  return {{"torque", "Joint angle and torque of both muscles", "angle", "torque", "joint angle in deg",
+           "torque in N m"},
+          {"tension_1", "Joint angle and force of cord 1", "angle", "tension_1", "joint angle in deg",
            "force in N"},
           {"tension_2", "Joint angle and force of cord 2", "angle", "tension_2", "joint angle in deg",
-           "force in N"}};
+           "force in N"},
+          {"pressure_1", "Pressure and contraction of muscle 1", "contraction_1", "muscle_pressure_1",
+           "contraction ratio of muscle 1", "pressure of muscle 1 in bar"},
+          {"pressure_2", "Pressure and contraction of muscle 2", "contraction_2", "muscle_pressure_2",
+           "contraction ratio of muscle 2", "pressure of muscle 2 in bar"}};
 }
 
 std::vector<Loop> single_loops() {

@@ -1,7 +1,8 @@
-// What is drawn of a ride that followed stamps, by two muscles on one wheel or by one muscle. A reading X
-// that was measured has the keys given_X, X and X_error.
+// What is drawn of two muscles on one wheel, and of one muscle that followed stamps. A quantity X that was
+// measured or wanted has the keys given_X, X and X_error.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include <sim/domain/rig_file.hpp>
@@ -16,7 +17,18 @@ inline constexpr double in_degrees = 1.0 / plant::degree_rad;
 std::vector<Quantity> pair_quantities(const domain::RigFile& rig, const run::Recording& recording);
 std::vector<Quantity> single_quantities(const run::Recording& recording);
 
-std::vector<Plot> pair_plots(bool angle_is_measured, bool commands);
+/// What is drawn beside a quantity, and what its error is called; nothing if empty.
+struct Beside {
+  std::string label{}, error{};
+};
+inline Beside measured_beside() {
+  return {"measured", "simulated less measured"};
+}
+inline Beside target_beside() {
+  return {"target", "angle less target"};
+}
+
+std::vector<Plot> pair_plots(const Beside& angle, bool commands);
 std::vector<Plot> single_plots(bool contraction_is_measured, bool force, bool commands);
 
 std::vector<Loop> pair_loops();

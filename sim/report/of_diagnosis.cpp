@@ -212,7 +212,7 @@ std::vector<Plot> joint_plots(const domain::Dataset& data, const Diagnosis& diag
                            {{.key = "error", .label = "error", .main = true}},
                            true,
                            diagnosis.gap.noise_floor / plant::degree_rad}};
-  for (Plot& plot : pair_plots(true, !data.pressure_is_given()))
+  for (Plot& plot : pair_plots(measured_beside(), !data.pressure_is_given()))
     if (!plot.id.starts_with("angle")) plots.push_back(std::move(plot));
   return plots;
 }

@@ -1,5 +1,5 @@
-// Reports of rides that followed stamps: pairs under given currents, and replays of data with a clock of
-// their own. A group for each run; a pair has lines for either muscle.
+// Reports of replays of data with a clock of their own. A group for each run; a pair has lines for either
+// muscle.
 #include <algorithm>
 #include <utility>
 
@@ -30,22 +30,6 @@ void add_readings(Group& group, Run& shown, const domain::Measurement& measured,
     shown.quantities.push_back({key + "_error", [factor, is = one.simulated, at = one.measured](
                                                     std::size_t k) { return factor * (is(k) - at(k)); }});
   }
-}
-
-std::string tension_sentence(const run::PairRun& run) {
-  return fmt::format("the cords carry {:.0f} to {:.0f} N and {:.0f} to {:.0f} N", run.cord_force_N.low,
-                     run.cord_force_N.high, run.opposite_cord_force_N.low, run.opposite_cord_force_N.high);
-}
-
-std::string sentence(const std::vector<run::PairRun>& runs) {
-  std::string text;
-  for (const auto& run : runs)
-    text += run.failure.empty()
-                ? fmt::format("{}: the joint turns between {}° and {}°, {}. ", escaped(run.name),
-                              output::rounded(in_degrees * run.angle_rad.low, 1),
-                              output::rounded(in_degrees * run.angle_rad.high, 1), tension_sentence(run))
-                : fmt::format("{}: no result. ", escaped(run.name));
-  return text;
 }
 
 std::string gaps_table(const std::vector<run::StampedRun>& runs) {
@@ -99,26 +83,6 @@ Contents contents_of(const domain::RigFile& rig, const run::Driven& driven) {
 
 }  // namespace
 
-std::string report_html(const domain::PairScenario& scenario, const std::vector<run::PairRun>& runs,
-                        const std::vector<std::string>& warnings) {
-  Contents contents = contents_of(scenario.rig, {.pair = true});
-  contents.title = scenario.name;
-  contents.about = fmt::format("Simulated: two muscles on one wheel, {:g} s each", scenario.duration_s);
-  contents.warnings = warnings;
-  contents.sentence = sentence(runs);
-  contents.details = output::table_of(scenario, runs, warnings);
-  contents.plots = pair_plots(false, true);
-  for (const auto& run : runs) {
-    const std::size_t rows = run.recording.samples.size();
-    if (rows == 0) continue;
-    Group group{.name = run.name, .ticks = rows};
-    group.runs.push_back(
-        {.name = "simulated", .ticks = rows, .quantities = pair_quantities(scenario.rig, run.recording)});
-    contents.groups.push_back(std::move(group));
-  }
-  return html_of(contents);
-}
-
 std::string report_html(const domain::Dataset& dataset, const std::vector<run::StampedRun>& runs,
                         const std::vector<std::string>& warnings) {
   const auto measured = [&](const char* reading) {
@@ -139,7 +103,8 @@ std::string report_html(const domain::Dataset& dataset, const std::vector<run::S
   contents.table = gaps_table(runs);
   contents.details = output::table_of(dataset, runs, warnings);
   contents.plots = driven.pair
-                       ? pair_plots(measured("angle"), !driven.pressure[0] || !driven.pressure[1])
+                       ? pair_plots(measured("angle") ? measured_beside() : Beside{},
+                                    !driven.pressure[0] || !driven.pressure[1])
                        : single_plots(measured("contraction"), measured("force"), !driven.pressure[0]);
   for (std::size_t i = 0; i < runs.size(); ++i) {
     const run::StampedRun& run = runs[i];

@@ -6,6 +6,7 @@
 #include <sim/domain/number.hpp>
 #include <sim/output/svg.hpp>
 #include <sim/output/table.hpp>
+#include <sim/report/bands.hpp>
 #include <sim/report/by_load.hpp>
 #include <sim/report/html.hpp>
 #include <sim/report/length.hpp>
@@ -174,6 +175,7 @@ std::string report_html(const domain::Scenario& scenario, const run::Comparison&
                     .table = table(scenario, comparison) + limits_table(scenario, comparison),
                     .details = output::table_of(scenario, comparison),
                     .beside = std::string(beside_runs),
+                    .chapters = {robustness(scenario, comparison)},
                     .rig = scenario.rig,
                     .gauge = scenario.rig.gauge.fitted,
                     .plots = plots_for(scenario.rig, "Target and contraction", "Target",

@@ -18,7 +18,7 @@ const allColumns = [
   ['contraction_error', 'error', ratio, 5], ['cord_force_error', 'error', 'N', 1],
   ['angle', 'angle', 'deg', 2], ['angle_error', 'error', 'deg', 3],
   ['muscle_pressure_1', 'muscle 1', 'bar', 3], ['muscle_pressure_2', 'muscle 2', 'bar', 3],
-  ['tension_1', 'cord 1', 'N', 1], ['tension_2', 'cord 2', 'N', 1]
+  ['tension_1', 'cord 1', 'N', 1], ['tension_2', 'cord 2', 'N', 1], ['stiffness', 'stiffness', 'N m/rad', 2]
 ];
 let columns = [];  // those that this group has
 

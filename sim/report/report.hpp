@@ -27,8 +27,8 @@ std::string report_html(const domain::Scenario& scenario, const run::Comparison&
 std::string report_html(const domain::Dataset& dataset, const std::vector<run::ReplayedRun>& runs,
                         const std::vector<std::string>& warnings = {});
 
-/// Two muscles under given currents.
-std::string report_html(const domain::PairScenario& scenario, const std::vector<run::PairRun>& runs,
+/// Two muscles under given currents and under controllers.
+std::string report_html(const domain::PairScenario& scenario, const run::PairRuns& all,
                         const std::vector<std::string>& warnings);
 
 /// Measured runs with a clock of their own, and their simulation.

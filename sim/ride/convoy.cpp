@@ -27,7 +27,7 @@ class Carrying {
     Party* party = nullptr;  ///< that has its first place here
     std::array<std::size_t, engine::Convoy::wing> places{};
     std::size_t count = 0;
-    long cost_before = 0;
+    StiffWatch watch{};
   };
 
   /// Seats parties as long as there is room for the next one.
@@ -109,12 +109,8 @@ class Carrying {
 
   bool turned_stiff(std::size_t place) {
     Seats& seats = at_[place];
-    if (!may_turn_stiff_ || seats.count > 1 || convoy_->pace(place).ticks % engine::window_ticks != 0)
-      return false;
-    const long cost = convoy_->counters(place).right_hand_sides;
-    const bool stiff = cost - seats.cost_before > engine::stiff_cost_per_tick * engine::window_ticks;
-    seats.cost_before = cost;
-    return stiff;
+    return may_turn_stiff_ && seats.count == 1 &&
+           seats.watch.is_stiff(convoy_->pace(place), convoy_->counters(place));
   }
 
   const std::function<Party*()>& next_;
@@ -127,6 +123,14 @@ class Carrying {
 };
 
 }  // namespace
+
+bool StiffWatch::is_stiff(const engine::Pace& pace, const engine::Counters& solver) {
+  if (pace.ticks % engine::window_ticks != 0) return false;
+  const long cost = solver.right_hand_sides;
+  const bool stiff = cost - cost_before_ > engine::stiff_cost_per_tick * engine::window_ticks;
+  cost_before_ = cost;
+  return stiff;
+}
 
 std::optional<ConvoyClass> convoy_class(std::span<const plant::Rig* const> rigs, const Drive& drive,
                                         const solver::Settings& settings, bool keep_ledger) {

@@ -50,6 +50,15 @@ struct ConvoyClass {
   }
 };
 
+/// Whether a rig in a convoy turns out stiff, as the automatic method judges; to be asked at each instant.
+class StiffWatch {
+ public:
+  bool is_stiff(const engine::Pace& pace, const engine::Counters& solver);
+
+ private:
+  long cost_before_ = 0;
+};
+
 /// Of rigs under one drive; none if they cannot ride so: more than the engine's wing, exact stick and slip,
 /// CVODE, or different laws among them.
 std::optional<ConvoyClass> convoy_class(std::span<const plant::Rig* const> rigs, const Drive& drive,

@@ -55,9 +55,11 @@ class Ride {
 
   std::size_t rigs() const { return riders_.size(); }
   Rider& rider(std::size_t rig = 0) { return riders_[rig]; }
+  const Rider& rider(std::size_t rig = 0) const { return riders_[rig]; }
   std::span<Rider> riders() { return riders_; }
   const plant::Plant& plant(std::size_t rig = 0) const { return riders_[rig].plant(); }
   const engine::Flow& flow(std::size_t rig = 0) const { return riders_[rig].now.flow; }
+  const plant::Held& held(std::size_t rig = 0) const { return riders_[rig].now.held; }
   const Reading& reading(std::size_t rig = 0) const { return riders_[rig].now.reading; }
   plant::Moment<double> moment(std::size_t rig = 0) const { return riders_[rig].moment(); }
   double time_s() const { return riders_.front().now.time_s; }

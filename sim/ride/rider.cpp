@@ -171,7 +171,8 @@ void Rider::look() {
   const double shift_m = plant_.side().reading_shift_m(stroke, state.side, now.flow.memory.side, now.held);
   now.reads = std::isfinite(shift_m);
   if (now.reads) rise_m += shift_m;
-  const double wheel_m = plant_.rig().effects.wheel_m(rise_m, now.plays);
+  const double wheel_m =
+      plant_.rig().effects.wheel_m(rise_m, now.plays) + plant_.rig().joint.reading_offset_m;
   const plant::Rig& other = plant_.opposite() ? plant_.opposite()->rig() : plant_.rig();
   now.reading = {wheel_m, wheel_m - true_rise_m, plant_.rig().effects.shown_Pa(state.side.muscle_pressure_Pa),
                  other.effects.shown_Pa(state.opposite.muscle_pressure_Pa)};

@@ -53,9 +53,10 @@ void set_off(Rider& rider, const Underway& seen) {
   const double length_m = plant.rig().muscle.rest_length_m;
   const double late_s = plant.rig().effects.reading_delay_s();  // what is seen was so long ago
   now.rises = {};
-  now.rises.note(now.time_s - late_s, seen.rise_m, seen.speed_m_per_s, now.time_s - late_s);
+  const double stood_m = seen.rise_m - plant.rig().joint.reading_offset_m;
+  now.rises.note(now.time_s - late_s, stood_m, seen.speed_m_per_s, now.time_s - late_s);
   const double speed_m_per_s = seen.speed_m_per_s + late_s * seen.acceleration_m_per_s2;
-  const double rise_m = seen.rise_m + 0.5 * late_s * (seen.speed_m_per_s + speed_m_per_s);
+  const double rise_m = stood_m + 0.5 * late_s * (seen.speed_m_per_s + speed_m_per_s);
   state.joint = {rise_m / length_m, speed_m_per_s / length_m};
   if (now.drive.muscle_pressure_Pa)
     now.held.pressure_rate_Pa_per_s = 0.0;

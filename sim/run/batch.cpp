@@ -7,6 +7,7 @@
 #include <system_error>
 #include <thread>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include <unistd.h>
@@ -14,10 +15,18 @@
 #include <sim/run/batch.hpp>
 
 namespace mckibben::run {
+
+/// Whether work is to stop.
+struct Stop {
+  std::atomic<bool> asked{false};
+  std::atomic<Deadline::Clock::time_point> deadline{Deadline::Clock::time_point::max()};
+  bool forgets = true;  ///< once it was taken
+};
+
 namespace {
 
-std::atomic<bool> asked_to_stop{false};
-std::atomic<Deadline::Clock::time_point> deadline{Deadline::Clock::time_point::max()};
+Stop of_the_program;
+thread_local Stop* asked_here = &of_the_program;
 static_assert(std::atomic<bool>::is_always_lock_free);
 
 }  // namespace
@@ -25,7 +34,7 @@ static_assert(std::atomic<bool>::is_always_lock_free);
 void catch_interrupts() {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP})
     std::signal(signal, [](int again) {
-      asked_to_stop = true;
+      of_the_program.asked = true;
       // All that a signal handler may do to be seen.
       constexpr std::string_view notice = "\nmckibben: stopping after what is under way; again: at once\n";
       if (again == SIGINT) std::ignore = write(STDERR_FILENO, notice.data(), notice.size());
@@ -34,19 +43,39 @@ void catch_interrupts() {
 }
 
 bool interrupted() {
-  return asked_to_stop || Deadline::Clock::now() >= deadline.load();
+  return asked_here->asked || Deadline::Clock::now() >= asked_here->deadline.load();
 }
 
 bool take_interrupt() {
-  return asked_to_stop.exchange(false);
+  return asked_here->forgets ? asked_here->asked.exchange(false) : asked_here->asked.load();
+}
+
+OwnStop::OwnStop() : own_(std::make_unique<Stop>()), before_(asked_here) {
+  own_->forgets = false;
+  asked_here = own_.get();
+}
+
+OwnStop::~OwnStop() {
+  asked_here = before_;
+}
+
+void OwnStop::ask() {
+  own_->asked = true;
+}
+
+std::function<void()> inheriting(std::function<void()> work) {
+  return [stop = asked_here, work = std::move(work)] {
+    asked_here = stop;
+    work();
+  };
 }
 
 Deadline::Deadline(Clock::time_point end) {
-  deadline = end;
+  asked_here->deadline = end;
 }
 
 Deadline::~Deadline() {
-  deadline = Clock::time_point::max();
+  asked_here->deadline = Clock::time_point::max();
 }
 
 void for_each_job(std::size_t count, unsigned threads, const std::function<void(std::size_t)>& job,
@@ -69,7 +98,7 @@ void for_each_job(std::size_t count, unsigned threads, const std::function<void(
   {
     std::vector<std::jthread> others;
     try {
-      for (std::size_t i = 1; i < std::min(wanted, count); ++i) others.emplace_back(work);
+      for (std::size_t i = 1; i < std::min(wanted, count); ++i) others.emplace_back(inheriting(work));
     } catch (const std::system_error&) {  // no more threads are to be had: these do it
     }
     work();

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <exception>
 #include <functional>
+#include <memory>
 #include <string>
 
 namespace mckibben::run {
@@ -23,6 +24,29 @@ bool interrupted();
 /// Whether the user asked to stop. If so, that is forgotten, and what follows goes on; asked again the
 /// program ends at once.
 bool take_interrupt();
+
+struct Stop;
+
+/// What is asked of this thread's work alone, not of all that the program does: while one lives, that work
+/// and the threads that it begins ask this one whether they are to stop, whatever others are asked. For
+/// programs that do several things at once (sim/python).
+class OwnStop {
+ public:
+  OwnStop();
+  OwnStop(const OwnStop&) = delete;
+  OwnStop& operator=(const OwnStop&) = delete;
+  ~OwnStop();
+
+  /// From any thread. Stays asked.
+  void ask();
+
+ private:
+  std::unique_ptr<Stop> own_;
+  Stop* before_;
+};
+
+/// The same work for another thread: there it asks whom this thread asks.
+std::function<void()> inheriting(std::function<void()> work);
 
 /// While one lives, work is to stop from `end` on, as if the user asked to.
 class Deadline {

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <cstring>
 #include <span>
 #include <stdexcept>
 #include <utility>
@@ -12,11 +13,11 @@
 #include <plant/geometry.hpp>
 #include <sim/domain/number.hpp>
 #include <sim/run/batch.hpp>
+#include <sim/run/briefing.hpp>
 #include <sim/run/compare.hpp>
 #include <sim/run/packed.hpp>
 #include <sim/run/reachable.hpp>
 #include <sim/run/remarks.hpp>
-#include <sim/run/rig_model.hpp>
 #include <sim/run/simulate.hpp>
 #include <sim/run/track.hpp>
 #include <sim/run/warnings.hpp>
@@ -37,25 +38,16 @@ class Comparing {
         threads_(threads),
         progress_(progress),
         sharing_(sharing),
-        settings_(scenario.controllers) {
-    const auto ticks = plan_of(scenario, 0.0, 0).ticks;
-    result_.target =
-        controllers::sample(scenario.target, ticks, scenario.rig.tick_s, scenario.rig.muscle.rest_length_m);
-    knowledge_ = knowledge_of(scenario.rig, result_.target);
-    if (std::any_of(settings_.begin(), settings_.end(),
-                    [](auto& each) { return controllers::calibrated(each); }))
-      knowledge_.reach = reachable(scenario.rig);  // only the model-based ones ask for it
-    for (auto& settings : settings_)
-      if (auto* terms = controllers::model_terms(settings)) {
-        const auto named = scenario.believed.find(controllers::name_of(settings));
-        const domain::RigFile& rig = named == scenario.believed.end() ? scenario.rig : named->second;
-        terms->model = model_of(rig, rig.integrator, scenario.rig.tick_s);
-      }
+        briefing_(briefing_of(scenario)),
+        settings_(briefing_.settings),
+        knowledge_(briefing_.knowledge) {
+    result_.target = knowledge_.target;
   }
 
   Comparison operator()() {
     tune_all();
     run_all();
+    if (scenario_.robustness.rigs > 0 && !result_.interrupted) draw_all();
     spread_all();
     judge();
     warn();
@@ -63,10 +55,6 @@ class Comparing {
   }
 
  private:
-  std::unique_ptr<controllers::Controller> make(const controllers::Settings& settings) const {
-    return controllers::make(settings, knowledge_);
-  }
-
   void tune_all() {
     std::vector<controllers::Settings*> open;
     for (auto& settings : settings_)
@@ -119,6 +107,40 @@ class Comparing {
     });
   }
 
+  /// Every load under every controller once more, on rigs that are drawn.
+  void draw_all() {
+    const domain::Variation variation = within_stated(scenario_.rig);
+    for (const auto& number : variation.numbers) result_.drawn.push_back(number.path);
+    result_.robustness.resize(result_.runs.size());
+    const auto row = [&](std::size_t i, unsigned threads) {
+      const controllers::Settings& settings = settings_of(i);
+      const double load_kg = result_.runs[i].load_kg;
+      const auto runs = lacks_gains(result_.runs[i])
+                            ? std::vector<DrawnRun>(static_cast<std::size_t>(scenario_.robustness.rigs))
+                            : on_drawn_rigs(
+                                  scenario_, result_.target, variation, load_kg,
+                                  limits_of(settings, knowledge_, scenario_.rig),
+                                  [&] { return briefing_.make(settings, load_kg); }, threads);
+      return std::string(reinterpret_cast<const char*>(runs.data()), runs.size() * sizeof(DrawnRun));
+    };
+    const auto take = [&](std::size_t i, const std::string& bytes) {
+      std::vector<DrawnRun> runs(bytes.size() / sizeof(DrawnRun));
+      std::memcpy(static_cast<void*>(runs.data()), bytes.data(), bytes.size());
+      result_.robustness[i] = summed(result_.runs[i].load_kg, result_.runs[i].controller, runs);
+      progress_("drawing rigs", i + 1, result_.runs.size());
+    };
+    progress_("drawing rigs", 0, result_.runs.size());
+    try {
+      if (sharing_)
+        return sharing_(
+            "drawn", result_.runs.size(), false, [&](std::size_t i) { return row(i, 1); }, take);
+      for (std::size_t i = 0; i < result_.runs.size(); ++i) take(i, row(i, threads_));
+    } catch (const Interrupted&) {
+      result_.interrupted = true;
+      result_.robustness.clear();
+    }
+  }
+
   const controllers::Settings& settings_of(std::size_t run) const {
     return settings_[run % settings_.size()];
   }
@@ -132,7 +154,8 @@ class Comparing {
         wanted.size(), threads,
         [&](std::size_t i) {
           const std::size_t run = wanted[i];
-          return Order{plan_of(scenario_, result_.runs[run].load_kg, run + 1), make(settings_of(run))};
+          const double load_kg = result_.runs[run].load_kg;
+          return Order{plan_of(scenario_, load_kg, run + 1), briefing_.make(settings_of(run), load_kg)};
         },
         [&](std::size_t i, Recording recording) {
           result_.runs[wanted[i]].recording = std::move(recording);
@@ -225,8 +248,9 @@ class Comparing {
   unsigned threads_;
   const ProgressHook& progress_;
   const Sharing& sharing_;
-  std::vector<controllers::Settings> settings_;
-  controllers::Knowledge knowledge_;
+  Briefing briefing_;
+  std::vector<controllers::Settings>& settings_;
+  const controllers::Knowledge& knowledge_;
   Comparison result_;
 };
 

@@ -10,6 +10,7 @@
 #include <sim/run/batch.hpp>
 #include <sim/run/metrics.hpp>
 #include <sim/run/recording.hpp>
+#include <sim/run/robustness.hpp>
 #include <sim/run/tune_controller.hpp>
 #include <sim/run/unreachable.hpp>
 
@@ -37,8 +38,10 @@ struct Comparison {
   std::vector<TunedController> tuned;
   std::vector<TrackedRun> runs;  ///< loads in order, for each all controllers in order
   std::vector<ControllerSpread> spreads;
-  bool interrupted = false;        ///< the user stopped it; runs not begun say so in `failure`
-  std::vector<std::string> unmet;  ///< criteria of the scenario that are not met, in words
+  std::vector<RobustRow> robustness{};  ///< as `runs`; empty if no rigs are drawn
+  std::vector<std::string> drawn{};     ///< numbers of the rig that were, by path
+  bool interrupted = false;             ///< the user stopped it; runs not begun say so in `failure`
+  std::vector<std::string> unmet;       ///< criteria of the scenario that are not met, in words
   std::vector<std::string>
       warnings;  ///< targets out of reach and doubtful runs: scenario, load, controllers, why
 };

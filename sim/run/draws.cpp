@@ -68,14 +68,13 @@ double normal_quantile(double probability) {
   return probability < 0.5 ? x : -x;
 }
 
-std::vector<double> draws(const domain::Campaign& campaign, int repeat) {
-  const auto count = static_cast<std::uint64_t>(campaign.repeats),
-             place = static_cast<std::uint64_t>(repeat - 1);
+std::vector<double> draws(const domain::Variation& variation, std::uint64_t seed, int repeats, int repeat) {
+  const auto count = static_cast<std::uint64_t>(repeats), place = static_cast<std::uint64_t>(repeat - 1);
   std::vector<double> values;
-  for (const auto& number : campaign.vary.numbers) {
-    const std::uint64_t key = mixed(campaign.seed, values.size());
+  for (const auto& number : variation.numbers) {
+    const std::uint64_t key = mixed(seed, values.size());
     double probability = uniform(mixed(key, place));
-    if (campaign.vary.sampling == domain::Sampling::latin_hypercube)
+    if (variation.sampling == domain::Sampling::latin_hypercube)
       probability =
           (static_cast<double>(permuted(place, count, key)) + probability) / static_cast<double>(count);
     values.push_back(drawn(number, probability));
@@ -83,12 +82,19 @@ std::vector<double> draws(const domain::Campaign& campaign, int repeat) {
   return values;
 }
 
-plant::Rig drawn_rig(const domain::Campaign& campaign, int repeat) {
-  plant::Rig rig = campaign.rig;
-  const std::vector<double> values = draws(campaign, repeat);
+std::vector<double> draws(const domain::Campaign& campaign, int repeat) {
+  return draws(campaign.vary, campaign.seed, campaign.repeats, repeat);
+}
+
+plant::Rig with_numbers(plant::Rig rig, const domain::Variation& variation,
+                        const std::vector<double>& values) {
   for (std::size_t i = 0; i < values.size(); ++i)
-    *domain::find_number(rig, campaign.vary.numbers[i].path).value = values[i];
+    *domain::find_number(rig, variation.numbers[i].path).value = values[i];
   return rig;
+}
+
+plant::Rig drawn_rig(const domain::Campaign& campaign, int repeat) {
+  return with_numbers(campaign.rig, campaign.vary, draws(campaign, repeat));
 }
 
 std::string unfit(const plant::Rig& rig, double load_kg) {

@@ -10,10 +10,14 @@
 
 namespace mckibben::run {
 
-/// The numbers of repeat 1, 2, ... [SI], in the order of `campaign.vary`.
+/// The numbers of repeat 1, 2, ... of so many [SI], in the order of `variation`.
+std::vector<double> draws(const domain::Variation& variation, std::uint64_t seed, int repeats, int repeat);
 std::vector<double> draws(const domain::Campaign& campaign, int repeat);
 
-/// The campaign's rig with these numbers.
+/// A rig with these numbers.
+plant::Rig with_numbers(plant::Rig rig, const domain::Variation& variation,
+                        const std::vector<double>& values);
+/// The campaign's rig with its own.
 plant::Rig drawn_rig(const domain::Campaign& campaign, int repeat);
 
 /// Why a run on this rig means nothing: a rule between its numbers that they break, or a load that its taut

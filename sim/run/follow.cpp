@@ -6,6 +6,7 @@
 #include <plant/instruments.hpp>
 #include <sim/engine/failure.hpp>
 #include <sim/run/follow.hpp>
+#include <sim/run/pair_rows.hpp>
 
 namespace mckibben::run {
 namespace {
@@ -67,30 +68,9 @@ class Following {
   }
 
   Sample sample(std::size_t k) {
-    const auto now = ride_.moment();
-    const plant::State<double>& state = ride_.flow().state;
-    const Drive& drive = course_.drives[k];
-    Sample row{.time_s = time(k),
-               .current_mA = drive.current_mA,
-               .state = state,
-               .counts = counter_.count(ride_.reading().wheel_m),
-               .gauge_Pa = plant::gauge_reading_Pa(rig_.gauge, ride_.reading().muscle_pressure_Pa),
-               .braid_force_N = now.braid_force_N,
-               .friction_force_N = now.friction_force_N,
-               .effects_pull_N = now.effects_pull_N,
-               .cord_force_N = now.cord_force_N(),
-               .cell_N = plant::cell_reading_N(rig_.load_cell, now.cord_force_N(), 0.0),
-               .misread_ratio = ride_.reading().misread_m / rig_.muscle.rest_length_m};
-    double most = state.joint.contraction_ratio;
-    if (ride_.plant().opposite()) {
-      row.opposite = {.current_mA = drive.opposite.current_mA,
-                      .contraction_ratio = ride_.plant().opposite_stroke(state).contraction_ratio,
-                      .braid_force_N = now.opposite.braid_force_N,
-                      .friction_force_N = now.opposite.friction_force_N,
-                      .effects_pull_N = now.opposite.effects_pull_N,
-                      .cord_force_N = now.opposite.cord_force_N()};
-      most = std::max(most, row.opposite.contraction_ratio);
-    }
+    Sample row = row_of(ride_.rider(), rig_, counter_);
+    row.time_s = time(k);
+    const double most = std::max(row.state.joint.contraction_ratio, row.opposite.contraction_ratio);
     recording_.largest_contraction_ratio = std::max(recording_.largest_contraction_ratio, most);
     return row;
   }
@@ -108,20 +88,7 @@ class Following {
     if (recording_.solver.stiff_from_tick >= 0)
       recording_.solver.stiff_from_tick -= std::lround(rig_.settling_time_s / rig_.tick_s);
     const Driven& driven = recording_.driven;
-    if (driven.pair || driven.length) note_slack(1, [](const Sample& row) { return row.cord_force_N; });
-    if (driven.pair) note_slack(2, [](const Sample& row) { return row.opposite.cord_force_N; });
-  }
-
-  template <class Force>
-  void note_slack(int muscle, const Force& force_N) {
-    Slack slack{.muscle = muscle};
-    for (const Sample& row : recording_.samples) {
-      const double now_N = force_N(row);
-      if (now_N >= 0.0) continue;
-      if (slack.rows++ == 0) slack.from_s = row.time_s;
-      if (now_N < slack.lowest_N) slack.lowest_N = now_N, slack.lowest_at_s = row.time_s;
-    }
-    if (slack.rows > 0) recording_.slack.push_back(slack);
+    if (driven.pair || driven.length) note_slack(recording_, driven.pair);
   }
 
   const domain::RigFile& rig_;
@@ -132,6 +99,26 @@ class Following {
 };
 
 }  // namespace
+
+Sample row_of(const ride::Rider& rider, const plant::Rig& rig, plant::PositionReader& counter) {
+  const auto now = rider.moment();
+  const plant::State<double>& state = rider.now.flow.state;
+  const ride::Reading& reading = rider.now.reading;
+  const Drive& drive = rider.now.drive;
+  Sample row{.time_s = rider.now.time_s,
+             .current_mA = drive.current_mA,
+             .state = state,
+             .counts = counter.count(reading.wheel_m),
+             .gauge_Pa = plant::gauge_reading_Pa(rig.gauge, reading.muscle_pressure_Pa),
+             .braid_force_N = now.braid_force_N,
+             .friction_force_N = now.friction_force_N,
+             .effects_pull_N = now.effects_pull_N,
+             .cord_force_N = now.cord_force_N(),
+             .cell_N = plant::cell_reading_N(rig.load_cell, now.cord_force_N(), 0.0),
+             .misread_ratio = reading.misread_m / rig.muscle.rest_length_m};
+  if (rider.plant().opposite()) write_opposite(rider, now, row);
+  return row;
+}
 
 double before_s(const Course& course, const plant::Rig& rig, long ticks) {
   return course.time_s.front() - static_cast<double>(ticks) * rig.tick_s;

@@ -32,6 +32,7 @@ struct Sample {
     double braid_force_N = 0.0, friction_force_N = 0.0, effects_pull_N = 0.0, cord_force_N = 0.0;
   };
   Opposite opposite{};
+  double stiffness_N_m_per_rad = 0.0;  ///< of the joint of a pair, at the pressures that it has
 
   double shown_ratio() const { return state.joint.contraction_ratio + misread_ratio; }
 };
@@ -59,6 +60,7 @@ struct Recording {
   std::string
       failure{};  ///< why it ends early: the integrator or the controller gave up; empty if it did not
   std::vector<controllers::Finding> findings{};  ///< what the controller found out
+  double controller_s = 0.0;  ///< that the controller itself took, planning included, by the machine's clock
   Driven driven{};
   std::vector<Slack> slack{};  ///< of a pair, or of a muscle whose length is given
 };

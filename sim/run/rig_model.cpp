@@ -3,8 +3,10 @@
 #include <utility>
 
 #include <plant/instruments.hpp>
+#include <plant/joint_stiffness.hpp>
 #include <sim/engine/failure.hpp>
 #include <sim/ride/ride.hpp>
+#include <sim/run/follow.hpp>
 #include <sim/run/rig_model.hpp>
 
 namespace mckibben::run {
@@ -12,33 +14,33 @@ namespace {
 
 class RiddenModel final : public controllers::RigModel {
  public:
-  RiddenModel(const plant::Rig& rig, double load_kg, double rest_mA, const solver::Settings& engine,
-              double tick_s)
-      : rest_length_m_(rig.muscle.rest_length_m),
-        dac_(rig.dac),
-        tick_s_(tick_s),
-        ride_(ride::Hanging{rig, load_kg}, engine) {
-    ride::Drive drive;
-    drive.current_mA = given_mA(rest_mA);
-    ride_.start(drive, 0.0);
-    for (auto ticks = std::lround(rig.settling_time_s / tick_s); ticks > 0; --ticks) step(drive.current_mA);
+  RiddenModel(const plant::Rig& rig, ride::Ride ride, const controllers::Command& rest, double tick_s)
+      : rest_length_m_(rig.muscle.rest_length_m), dac_(rig.dac), tick_s_(tick_s), ride_(std::move(ride)) {
+    if (ride_.plant().opposite()) mounted_ratio_ = ride_.plant().link().contraction_ratio;
+    const controllers::Command given{given_mA(rest.current_mA), given_mA(rest.opposite_mA)};
+    ride_.start(drive_of(given), 0.0);
+    for (auto ticks = std::lround(rig.settling_time_s / tick_s); ticks > 0; --ticks) step(given);
   }
 
   std::unique_ptr<RigModel> copy() const override {
     return std::unique_ptr<RigModel>(new RiddenModel(*this, ride_));
   }
   double given_mA(double wanted_mA) const override { return plant::dac_output_mA(dac_, wanted_mA); }
-  void step(double current_mA) override {
-    ride::Drive drive;
-    drive.current_mA = current_mA;
+  void step(const controllers::Command& command) override {
     try {
-      ride_.step(drive, static_cast<double>(++tick_) * tick_s_);
+      ride_.step(drive_of(command), static_cast<double>(++tick_) * tick_s_);
     } catch (const engine::NumericalFailure& failure) {
       throw controllers::ModelFailure(failure.what());
     }
   }
-  double contraction_ratio() const override { return ride_.flow().state.joint.contraction_ratio; }
+  double contraction_ratio() const override {
+    return ride_.flow().state.joint.contraction_ratio - mounted_ratio_;
+  }
   double shown_ratio() const override { return ride_.reading().wheel_m / rest_length_m_; }
+  double stiffness_N_m_per_rad() const override {
+    const engine::Flow& now = ride_.flow();
+    return plant::joint_stiffness_N_m_per_rad(ride_.plant(), now.state, now.memory, ride_.held());
+  }
 
   void keep() override {
     ride_.save(kept_);
@@ -52,12 +54,20 @@ class RiddenModel final : public controllers::RigModel {
  private:
   RiddenModel(const RiddenModel& other, const ride::Ride& ride)
       : rest_length_m_(other.rest_length_m_),
+        mounted_ratio_(other.mounted_ratio_),
         dac_(other.dac_),
         tick_s_(other.tick_s_),
         tick_(other.tick_),
         ride_(ride) {}
 
-  double rest_length_m_;
+  static ride::Drive drive_of(const controllers::Command& command) {
+    ride::Drive drive;
+    drive.current_mA = command.current_mA;
+    drive.opposite.current_mA = command.opposite_mA;
+    return drive;
+  }
+
+  double rest_length_m_, mounted_ratio_ = 0.0;
   plant::Dac dac_;
   double tick_s_;
   long tick_ = 0, kept_tick_ = 0;
@@ -68,8 +78,15 @@ class RiddenModel final : public controllers::RigModel {
 }  // namespace
 
 controllers::ModelMaker model_of(const plant::Rig& rig, const solver::Settings& engine, double tick_s) {
-  return [=](double load_kg, double rest_mA) -> std::unique_ptr<controllers::RigModel> {
-    return std::make_unique<RiddenModel>(rig, load_kg, rest_mA, engine, tick_s);
+  return [=](double load_kg, const controllers::Command& rest) -> std::unique_ptr<controllers::RigModel> {
+    return std::make_unique<RiddenModel>(rig, ride::Ride(ride::Hanging{rig, load_kg}, engine), rest, tick_s);
+  };
+}
+
+controllers::ModelMaker model_of_pair(const domain::RigFile& rig, double hand_m, double tick_s) {
+  return [=](double load_kg, const controllers::Command& rest) -> std::unique_ptr<controllers::RigModel> {
+    const plant::Pair pair = plant::with_load_in_hand(*rig.pair(), load_kg, hand_m);
+    return std::make_unique<RiddenModel>(rig, ride::Ride(paired(rig, pair), rig.integrator), rest, tick_s);
   };
 }
 

@@ -7,6 +7,7 @@
 #include <thread>
 #include <utility>
 
+#include <sim/run/batch.hpp>
 #include <sim/run/rounds.hpp>
 
 namespace mckibben::run {
@@ -72,7 +73,7 @@ void search_in_rounds(std::size_t count, unsigned threads,
   {
     std::vector<std::jthread> others;
     try {
-      while (others.size() + 1 < std::min(count, most_at_once)) others.emplace_back(work);
+      while (others.size() + 1 < std::min(count, most_at_once)) others.emplace_back(inheriting(work));
     } catch (const std::system_error&) {  // no more threads are to be had: these do it
     }
     rounds.emplace(others.size() + 1, threads);

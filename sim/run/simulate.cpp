@@ -1,6 +1,7 @@
 // What drives a ride tick by tick: a controller, through the instruments, with noise.
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <cmath>
 #include <numbers>
 #include <optional>
@@ -10,6 +11,7 @@
 #include <sim/engine/failure.hpp>
 #include <sim/ride/ride.hpp>
 #include <sim/run/batch.hpp>
+#include <sim/run/pair_rows.hpp>
 #include <sim/run/side_by_side.hpp>
 #include <sim/run/simulate.hpp>
 
@@ -74,7 +76,7 @@ class Run {
   }
 
   void begin(ride::Rider& rider) {
-    ask(controller_.rest().current_mA);
+    ask(controller_.rest());
     rider.start(drive_, time_s(begin_));
   }
 
@@ -111,6 +113,8 @@ class Run {
     recording_.solver = solver;
     if (recording_.solver.stiff_from_tick >= 0) recording_.solver.stiff_from_tick += begin_;
     recording_.findings = controller_.findings();
+    recording_.driven.pair = plan_.pair.has_value();
+    if (plan_.pair) note_slack(recording_, true);
     return std::move(recording_);
   }
 
@@ -119,7 +123,10 @@ class Run {
   bool tick(ride::Rider& rider) {
     look(rider);
     try {
-      ask(controller_.step({k_, time_s(k_), counts_}).current_mA);
+      const auto begin = std::chrono::steady_clock::now();
+      ask(controller_.step({k_, time_s(k_), counts_}));
+      recording_.controller_s +=
+          std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     } catch (const controllers::ControllerFailure& failure) {
       give_up(failure.what());
       return false;
@@ -140,8 +147,9 @@ class Run {
     recording_.samples.back().cell_N =
         plant::cell_reading_N(cell, now.cord_force_N(), disturbance_.cell_N(cell));
     recording_.samples.back().misread_ratio = rider.now.reading.misread_m / plan_.rig.muscle.rest_length_m;
-    recording_.largest_contraction_ratio =
-        std::max(recording_.largest_contraction_ratio, state.joint.contraction_ratio);
+    double most = state.joint.contraction_ratio;
+    if (plan_.pair) most = write_opposite(rider, now, recording_.samples.back());
+    recording_.largest_contraction_ratio = std::max(recording_.largest_contraction_ratio, most);
   }
 
   void look(const ride::Rider& rider) {
@@ -149,10 +157,15 @@ class Run {
     counts_ = counter_.count(rider.now.reading.wheel_m + jitter_m);
   }
 
-  void ask(double wanted_mA) {
-    drive_.current_mA =
-        controller_.already_quantised() ? wanted_mA : plant::dac_output_mA(plan_.rig.dac, wanted_mA);
+  void ask(const controllers::Command& wanted) {
+    const auto given = [&](double wanted_mA) {
+      return controller_.already_quantised() ? wanted_mA : plant::dac_output_mA(plan_.rig.dac, wanted_mA);
+    };
+    drive_.current_mA = given(wanted.current_mA);
     drive_.stray_current_mA = disturbance_.current_mA();
+    if (!plan_.pair) return;
+    drive_.opposite.current_mA = given(wanted.opposite_mA);
+    drive_.opposite.stray_current_mA = disturbance_.current_mA();
   }
 
   void hold(ride::Rider& rider) {
@@ -173,8 +186,15 @@ class Run {
 };
 
 /// No load, no motion.
-bool hangs(const RunPlan& plan) {
-  return plan.load_kg + plan.rig.joint.load_offset_kg > 0.0;
+bool moves(const RunPlan& plan) {
+  return plan.pair || plan.load_kg + plan.rig.joint.load_offset_kg > 0.0;
+}
+
+ride::Ride ride_of(const RunPlan& plan) {
+  if (plan.pair)
+    return {ride::Paired{plan.rig, plant::opposite_rig(plan.rig, *plan.pair), *plan.pair}, plan.engine,
+            plan.keep_ledger};
+  return {ride::Hanging{plan.rig, plan.load_kg}, plan.engine, plan.keep_ledger};
 }
 
 /// A run that rides beside others.
@@ -217,7 +237,7 @@ class Seated final : public Errand {
 };
 
 std::optional<ride::ConvoyClass> class_of(const RunPlan& plan) {
-  if (!hangs(plan)) return std::nullopt;
+  if (plan.pair || !moves(plan)) return std::nullopt;
   const plant::Rig* rig = &plan.rig;
   return ride::convoy_class({&rig, 1}, {}, plan.engine, plan.keep_ledger);
 }
@@ -225,13 +245,13 @@ std::optional<ride::ConvoyClass> class_of(const RunPlan& plan) {
 }  // namespace
 
 Recording simulate(const RunPlan& plan, controllers::Controller& controller) {
-  if (!hangs(plan)) {
+  if (!moves(plan)) {
     Recording none;
     none.failure = "load and load_offset of the rig leave no load";
     return none;
   }
   Run run(plan, controller);
-  ride::Ride ride(ride::Hanging{plan.rig, plan.load_kg}, plan.engine, plan.keep_ledger);
+  ride::Ride ride = ride_of(plan);
   run.begin(ride.rider());
   run.ride_on(ride, false);
   return run.close(ride.rider(), ride.counters());
@@ -269,17 +289,40 @@ double contraction_per_count(const plant::Rig& rig) {
   return plant::count_height_m(rig) / rig.muscle.rest_length_m;
 }
 
+namespace {
+
+controllers::ForceModel force_model(const plant::Muscle& muscle) {
+  return {muscle.rest_radius_m, muscle.rest_length_m, muscle.braid_angle_rad, muscle.end_correction,
+          muscle.contact_surface == plant::ContactSurface::printed};
+}
+
+controllers::ValveLine valve_line(const plant::Valve& valve) {
+  return {valve.zero_current_mA, valve.span_current_mA, valve.zero_pressure_Pa, valve.span_pressure_Pa};
+}
+
+}  // namespace
+
 controllers::Knowledge knowledge_of(const plant::Rig& rig, std::vector<double> target) {
   return {.contraction_per_count = contraction_per_count(rig),
           .middle_of_count = plant::middle_of_count(rig.sensor),
           .tick_s = rig.tick_s,
           .largest_current_mA = rig.dac.largest_current_mA,
           .target = std::move(target),
-          .model = {rig.muscle.rest_radius_m, rig.muscle.rest_length_m, rig.muscle.braid_angle_rad,
-                    rig.muscle.end_correction, rig.muscle.contact_surface == plant::ContactSurface::printed},
-          .valve = {rig.valve.zero_current_mA, rig.valve.span_current_mA, rig.valve.zero_pressure_Pa,
-                    rig.valve.span_pressure_Pa},
+          .model = force_model(rig.muscle),
+          .valve = valve_line(rig.valve),
           .reach = {}};
+}
+
+controllers::Knowledge knowledge_of(const plant::Rig& rig, const plant::Pair& pair,
+                                    std::vector<double> target) {
+  controllers::Knowledge known = knowledge_of(rig, std::move(target));
+  known.pair = {.opposite = force_model(pair.opposite.muscle),
+                .opposite_valve = valve_line(pair.opposite.valve),
+                .wheel_radius_m = rig.joint.wheel_radius_m,
+                .mounted_ratio = pair.contraction_ratio,
+                .opposite_mounted_ratio = pair.opposite_contraction_ratio,
+                .stiffness_N_m_per_rad = {}};
+  return known;
 }
 
 }  // namespace mckibben::run

@@ -13,6 +13,7 @@
 
 #include <controllers/controller.hpp>
 #include <plant/instruments.hpp>
+#include <plant/mechanics.hpp>
 #include <plant/rig.hpp>
 #include <sim/run/recording.hpp>
 #include <sim/run/side_by_side.hpp>
@@ -22,8 +23,9 @@ namespace mckibben::run {
 
 struct RunPlan {
   plant::Rig rig;
-  double load_kg = 0.0;
-  std::size_t ticks = 0;  ///< rows of the recording
+  std::optional<plant::Pair> pair{};  ///< two muscles; what the hand holds is in the link
+  double load_kg = 0.0;               ///< that hangs on the cord of one
+  std::size_t ticks = 0;              ///< rows of the recording
   solver::Settings engine{};
   plant::Noise noise{};
   std::uint64_t seed = 1, stream = 0;  ///< runs of one seed differ by their stream
@@ -59,6 +61,9 @@ void simulate_all(const Take& take, std::size_t about, unsigned threads, const O
 /// of its effects.
 /// Without `reach`, which takes a moment to compute: see `reachable`.
 controllers::Knowledge knowledge_of(const plant::Rig& rig, std::vector<double> target);
+/// The same of a pair; the target is R theta/l0. The stiffness that is wanted is filled in by who knows it.
+controllers::Knowledge knowledge_of(const plant::Rig& rig, const plant::Pair& pair,
+                                    std::vector<double> target);
 
 /// Contraction ratio of one encoder count.
 double contraction_per_count(const plant::Rig& rig);

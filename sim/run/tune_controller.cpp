@@ -1,6 +1,6 @@
 // The cost of gains, and the searches with it; see the header.
 #include <algorithm>
-#include <cmath>
+#include <chrono>
 #include <initializer_list>
 #include <stdexcept>
 #include <utility>
@@ -9,32 +9,16 @@
 #include <sim/run/rounds.hpp>
 #include <sim/run/track.hpp>
 #include <sim/run/tune_controller.hpp>
+#include <sim/run/tuning_cost.hpp>
 
 namespace mckibben::run {
-namespace {
-
-// What a change of current costs in tuning [contraction ratio for each mA rms and tick, at the thesis's
-// span]: enough to keep gains from chasing single encoder counts,
-// too little to matter for how the target is followed.
-constexpr double effort_weight = 2e-4;
-
-// Gains must also do with the proportional gain this much higher, so that they are not tuned to the edge of
-// stability: the loop's own gain changes with load and contraction.
-constexpr double gain_margin = 2.0;
 
 double lower_median(std::vector<double> values) {
   std::sort(values.begin(), values.end());
   return values[(values.size() - 1) / 2];
 }
 
-double effort_mA(const Recording& recording) {
-  double sum_squared_mA = 0.0;
-  for (std::size_t k = 1; k < recording.samples.size(); ++k) {
-    const double change_mA = recording.samples[k].current_mA - recording.samples[k - 1].current_mA;
-    sum_squared_mA += change_mA * change_mA;
-  }
-  return std::sqrt(sum_squared_mA / static_cast<double>(recording.samples.size()));
-}
+namespace {
 
 class Tuning {
  public:
@@ -72,7 +56,7 @@ class Tuning {
   }
 
   double cost(const Recording& recording) const {
-    return metrics(recording).rmse + effort_weight * (thesis_span_mA / span_mA_) * effort_mA(recording);
+    return tuning_cost(metrics(recording).rmse, recording, span_mA_);
   }
 
   double cost_with_margin(const Gains& gains) const {
@@ -114,6 +98,7 @@ TunedController tune_one(const domain::Scenario& scenario, const controllers::Kn
     heard();
     return tuning.cost_with_margin(gains);
   };
+  const auto begin = std::chrono::steady_clock::now();
   try {
     result.tuned = tune(cost, {pid.proportional_mA, pid.integral_time_s, pid.derivative_time_s},
                         TuningOptions::for_span(tuning.span_mA()));
@@ -127,6 +112,7 @@ TunedController tune_one(const domain::Scenario& scenario, const controllers::Kn
   } catch (const std::runtime_error& failure) {
     result.failure = failure.what();
   }
+  result.took_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return result;
 }
 

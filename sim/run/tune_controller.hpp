@@ -18,11 +18,15 @@ struct TunedController {
   std::string controller;
   double load_kg = 0.0;
   Tuned tuned{};
+  double took_s = 0.0;                                ///< by the machine's clock
   std::string failure{};                              ///< why no gains were found; empty if they were
   std::optional<double> idle_cost{};                  ///< without feedback: proportional gain 0
   Metrics metrics{};                                  ///< with the tuned gains
   std::optional<controllers::CurrentRange> limits{};  ///< of its current, as the DAC gives them
 };
+
+/// The load at which gains are tuned if nothing else is said.
+double lower_median(std::vector<double> values);
 
 /// Gives a PID these gains.
 void set_gains(controllers::Settings& settings, const Gains& gains);

@@ -2,21 +2,30 @@
 //
 //   benchmark_diagnosis [SEED [SEEDS [TITLE]]]   seeds SEED to SEED + SEEDS - 1 (default 101, 3 of them), of
 //                                                what has a title that begins so (default: all)
+//   benchmark_diagnosis --nulls [SEED [SEEDS [TITLE]]]   the same where nothing is hidden, on four benches
+//   benchmark_diagnosis --weak [SEED [SEEDS]]    effects of 3 to 100 % of a small size in four to nine runs:
+//   how
+//                                                often a name is right that is given with such evidence
 //   benchmark_diagnosis --corrupted [SEED [only=NAME]]   the same for data that were spoilt on purpose
 //
+// Every third data set is of the thesis's rig, of one of another size, of one that is badly known.
 // Started by mpirun or srun, its processes share the data sets out and meet in out/bench-diagnosis.ranks.
 // Thresholds of the workflow were set on seeds below 100.
 #include <algorithm>
+#include <array>
 #include <chrono>
+#include <cmath>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <random>
 #include <set>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <sim/cluster/share.hpp>
 #include <sim/diagnose/diagnose.hpp>
@@ -36,6 +45,14 @@ std::string_view name_of(Verdict verdict) {
   return {};
 }
 
+/// 95 % interval of a share (Wilson 1927), in per cent.
+std::pair<double, double> wilson(int yes, int of) {
+  constexpr double z = 1.96;
+  const double n = of, p = yes / n, middle = p + z * z / (2.0 * n);
+  const double half = z * std::sqrt(p * (1.0 - p) / n + z * z / (4.0 * n * n)), all = 1.0 + z * z / n;
+  return {100.0 * std::max(0.0, middle - half) / all, 100.0 * (middle + half) / all};
+}
+
 struct Tally {
   int yes = 0, of = 0;
   void count(bool hit) {
@@ -43,7 +60,10 @@ struct Tally {
     ++of;
   }
   void print(const char* what) const {
-    fmt::print("{:<44} {:>4} of {:<4} {:5.1f} %\n", what, yes, of, of == 0 ? 0.0 : 100.0 * yes / of);
+    if (of == 0) return;
+    const auto [low, high] = wilson(yes, of);
+    fmt::print("{:<44} {:>4} of {:<4} {:5.1f} % ({:.1f} to {:.1f} %)\n", what, yes, of, 100.0 * yes / of, low,
+               high);
   }
 };
 
@@ -74,16 +94,35 @@ struct Answer {
   }
 };
 
+/// How often a true value lies in the interval that is told.
+struct Coverage {
+  int inside = 0, of = 0;
+  void count(double truth, const diagnose::FittedNumber& told) {
+    inside += truth >= told.low && truth <= told.high ? 1 : 0;
+    ++of;
+  }
+};
+
+/// A name that was given, and by what evidence.
+struct Given {
+  bool right = false;
+  double fall = 0.0, before_rivals = 0.0, floors = 0.0;
+};
+
 /// What counts of a diagnosis.
 struct Outcome {
   Verdict hidden{}, found{};
+  std::size_t effects = 0;  ///< that were hidden
   bool right = false, within = false, wrong_name = false, closed = false;
-  int covered = 0, parameters = 0;  ///< true ones in their intervals, of
+  Coverage sizes, numbers;
+  std::array<Given, 4> given{};
+  std::size_t names = 0;
   double took_s = 0.0;
 
   Outcome(const diagnose::Hidden& truth, const diagnose::Diagnosis& diagnosis, const Answer& answer)
       : hidden(truth.verdict),
         found(diagnosis.verdict),
+        effects(truth.effects.size()),
         right(answer.right),
         within(answer.within),
         wrong_name(!answer.named.empty() &&
@@ -92,10 +131,14 @@ struct Outcome {
     for (const auto& planted : truth.truth)
       for (const auto& effect : diagnosis.effects)
         for (const auto& p : effect.parameters)
-          if (planted.path == "effects." + effect.name + "." + p.name) {
-            covered += planted.value >= p.low && planted.value <= p.high ? 1 : 0;
-            ++parameters;
-          }
+          if (planted.path == "effects." + effect.name + "." + p.name) sizes.count(planted.value, p);
+    for (const auto& number : truth.numbers)
+      for (const auto& moved : diagnosis.recalibrated)
+        if (moved.fitted.name == number.path) numbers.count(number.value, moved.fitted);
+    for (const auto& effect : diagnosis.effects)
+      if (names < given.size())
+        given[names++] = {std::ranges::count(truth.effects, effect.name) > 0, effect.support.fall,
+                          effect.support.before_rivals, diagnosis.remaining.floors};
   }
   Outcome() = default;
 };
@@ -105,35 +148,59 @@ class Score {
   void count(const Outcome& outcome) {
     slowest_s_ = std::max(slowest_s_, outcome.took_s);
     if (outcome.hidden == Verdict::missing_effect) {
-      first_name_.count(outcome.right && outcome.found == Verdict::missing_effect);
+      const bool right = outcome.right && outcome.found == Verdict::missing_effect;
+      (outcome.effects > 2 ? triples_ : few_).count(right);
       in_set_.count(outcome.within);
-      if (outcome.right) {
-        closed_.count(outcome.closed);
-        covered_.yes += outcome.covered;
-        covered_.of += outcome.parameters;
-      }
+      if (outcome.right) closed_.count(outcome.closed);
+      if (outcome.right) add(sizes_, outcome.sizes);
     }
+    if (outcome.right) add(numbers_, outcome.numbers);
     if (outcome.hidden == Verdict::nothing_missing)
-      false_alarms_.count(outcome.found != Verdict::nothing_missing && outcome.found != Verdict::cannot_tell);
+      false_alarms_.count(outcome.found == Verdict::missing_effect ||
+                          outcome.found == Verdict::unknown_effect);
     if (outcome.hidden == Verdict::recalibrate) recalibrated_.count(outcome.found == Verdict::recalibrate);
     if (outcome.hidden == Verdict::unknown_effect) unknown_.count(outcome.found == Verdict::unknown_effect);
     wrong_names_.count(outcome.wrong_name);
+    for (std::size_t i = 0; i < outcome.names; ++i) given_.push_back(outcome.given.at(i));
   }
 
   void print() const {
-    first_name_.print("effects: right name first");
+    few_.print("one or two effects: right names");
+    triples_.print("three effects: right names");
     in_set_.print("effects: right name in the declared set");
     closed_.print("effects: gap on held-out runs closed by 90 %");
-    covered_.print("effects: true parameter in its interval");
+    sizes_.print("effects: true parameter in its interval");
+    numbers_.print("the rig's numbers: true one in its interval");
     recalibrated_.print("changed nominal parameter: recalibrate");
     unknown_.print("unknown laws recognised");
     false_alarms_.print("nothing hidden: false alarms");
     wrong_names_.print("wrong names (all data sets)");
+    print_reliability();
     fmt::print("slowest diagnosis {:.1f} s\n", slowest_s_);
   }
 
  private:
-  Tally first_name_, in_set_, false_alarms_, unknown_, wrong_names_, covered_, closed_, recalibrated_;
+  static void add(Tally& tally, const Coverage& coverage) {
+    tally.yes += coverage.inside;
+    tally.of += coverage.of;
+  }
+
+  /// How often names were right, by what they gain over the next best.
+  void print_reliability() const {
+    constexpr std::array edges{0.0, 12.0, 30.0, 100.0, 300.0, 1000.0, 1e300};
+    for (std::size_t bin = 0; bin + 1 < edges.size(); ++bin) {
+      Tally right;
+      for (const Given& one : given_) {
+        const double margin = std::min(one.fall, one.before_rivals);
+        if (margin >= edges.at(bin) && margin < edges.at(bin + 1)) right.count(one.right);
+      }
+      if (right.of > 0) right.print(fmt::format("names with a margin from {:g}", edges.at(bin)).c_str());
+    }
+  }
+
+  Tally few_, triples_, in_set_, false_alarms_, unknown_, wrong_names_, sizes_, numbers_, closed_,
+      recalibrated_;
+  std::vector<Given> given_;
   double slowest_s_ = 0.0;
 };
 
@@ -142,22 +209,53 @@ std::string bytes_of(const Outcome& outcome, const std::string& line) {
   return std::string(reinterpret_cast<const char*>(&outcome), sizeof outcome) + line;
 }
 
+struct DataSet {
+  std::size_t kind = 0;
+  std::uint64_t seed = 0;
+  diagnose::Surroundings surroundings{};
+};
+
+std::string_view name_of(diagnose::Bench bench) {
+  return bench == diagnose::Bench::thesis ? "" : bench == diagnose::Bench::other_size ? "size" : "wide";
+}
+
+/// The evidence for each name, as `[fall over rivals]`.
+std::string evidence_in_words(const Outcome& outcome) {
+  std::string words;
+  for (std::size_t i = 0; i < outcome.names; ++i)
+    words += fmt::format(" [{:.0f} over {:.0f}{}]", outcome.given.at(i).fall,
+                         outcome.given.at(i).before_rivals, outcome.given.at(i).right ? "" : " wrong");
+  return words;
+}
+
+/// Parts of the data in which more is left than chance.
+std::string left_in_words(const diagnose::Diagnosis& found) {
+  std::string words;
+  for (const auto& cell : found.where)
+    if (cell.significant) words += fmt::format(" {{{} {}}}", cell.factor, cell.cell);
+  return words;
+}
+
 /// Diagnoses one data set.
-std::string diagnose_one(std::size_t kind, std::uint64_t seed) {
-  const auto hidden = diagnose::hide(kind, seed);
+std::string diagnose_one(const DataSet& set) {
+  const auto hidden = diagnose::hide(set.kind, set.seed, set.surroundings);
   const auto start = std::chrono::steady_clock::now();
-  const auto found = diagnose::diagnose(hidden.data, {.threads = cluster::crew().threads, .seed = seed},
+  const auto found = diagnose::diagnose(hidden.data, {.threads = cluster::crew().threads, .seed = set.seed},
                                         [](auto, auto, auto) {});
   const Answer answer(hidden, found);
   Outcome outcome(hidden, found, answer);
   outcome.took_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const bool right = found.verdict == hidden.verdict && answer.right;
   return bytes_of(
-      outcome, fmt::format("{:<48} {:>4} {:<16} {:<40} {:.2e} > {:.2e} > {:.2e} {:5.1f} s{}\n", hidden.title,
-                           seed, name_of(found.verdict), answer.said, found.gap.nominal_rmse,
-                           found.gap.recalibrated_rmse, found.gap.corrected_rmse, outcome.took_s,
-                           found.verdict == hidden.verdict && answer.right ? ""
-                           : answer.within && !hidden.effects.empty()      ? "  in the set"
-                                                                           : "  MISSED"));
+      outcome,
+      fmt::format(
+          "{:<48} {:>4} {:<4} {:<16} {:<40} {:.2e} > {:.2e} > {:.2e} {:5.1f} s{}{}\n", hidden.title, set.seed,
+          name_of(set.surroundings.bench), name_of(found.verdict), answer.said, found.gap.nominal_rmse,
+          found.gap.recalibrated_rmse, found.gap.corrected_rmse, outcome.took_s,
+          evidence_in_words(outcome) + (found.verdict == Verdict::unknown_effect ? left_in_words(found) : ""),
+          right                                      ? ""
+          : answer.within && !hidden.effects.empty() ? "  in the set"
+                                                     : "  MISSED"));
 }
 
 void count_and_print(const std::string& bytes, Score& score) {
@@ -168,15 +266,10 @@ void count_and_print(const std::string& bytes, Score& score) {
   std::fflush(stdout);
 }
 
-struct DataSet {
-  std::size_t kind = 0;
-  std::uint64_t seed = 0;
-};
-
 /// Diagnoses all of them, with the rest of the crew if there is one; rank 0 prints.
 void score_all(const std::vector<DataSet>& sets, const std::string& words) {
   Score score;
-  const auto job = [&](std::size_t i) { return diagnose_one(sets[i].kind, sets[i].seed); };
+  const auto job = [&](std::size_t i) { return diagnose_one(sets[i]); };
   const auto take = [&](std::size_t, const std::string& bytes) { count_and_print(bytes, score); };
   if (cluster::crew().alone()) {
     for (std::size_t i = 0; i < sets.size(); ++i) take(i, job(i));
@@ -204,25 +297,72 @@ void score_corrupted(const std::vector<std::string>& words) {
   diagnose::score_corrupted(seed, only);
 }
 
+constexpr std::array benches{diagnose::Bench::thesis, diagnose::Bench::other_size,
+                             diagnose::Bench::badly_known};
+
+/// What has a title that begins so, on one bench after another.
+std::vector<DataSet> all_sets(std::uint64_t first, std::uint64_t seeds, const std::string& wanted) {
+  std::vector<DataSet> sets;
+  for (std::size_t kind = 0; kind < diagnose::kinds(); ++kind)
+    if (diagnose::title(kind).starts_with(wanted))
+      for (std::uint64_t seed = first; seed < first + seeds; ++seed)
+        sets.push_back({kind, seed, {.bench = benches.at((kind + seed) % benches.size())}});
+  return sets;
+}
+
+/// Those in which nothing is hidden, on each bench, and on one that is off its data sheet.
+std::vector<DataSet> nulls(std::uint64_t first, std::uint64_t seeds, const std::string& wanted) {
+  std::vector<DataSet> sets;
+  for (std::uint64_t seed = first; seed < first + seeds; ++seed)
+    for (std::size_t kind = 0; kind < diagnose::kinds(); ++kind) {
+      const std::string& title = diagnose::title(kind);
+      if (!title.starts_with("nothing") || !title.starts_with(wanted)) continue;
+      for (const diagnose::Bench bench : benches) sets.push_back({kind, seed, {.bench = bench}});
+      sets.push_back({kind, seed, {.off_its_sheet = true}});
+    }
+  return sets;
+}
+
+/// Small effects made weaker still, in fewer runs.
+std::vector<DataSet> weak_ones(std::uint64_t first, std::uint64_t seeds) {
+  std::vector<DataSet> sets;
+  std::mt19937_64 random(first);
+  std::uniform_real_distribution<double> exponent(-1.5, 0.0);
+  std::uniform_int_distribution<std::size_t> runs(4, 9);
+  for (std::uint64_t seed = first; seed < first + seeds; ++seed)
+    for (std::size_t kind = 0; kind < diagnose::kinds(); ++kind) {
+      const std::string& title = diagnose::title(kind);
+      if (!title.ends_with(" small") || title.starts_with("gauge:")) continue;
+      sets.push_back({kind,
+                      seed,
+                      {.bench = benches.at((kind + seed) % benches.size()),
+                       .share = std::pow(10.0, exponent(random)),
+                       .runs = runs(random)}});
+    }
+  return sets;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
-  const std::vector<std::string> words(argv + 1, argv + argc);
+  std::vector<std::string> words(argv + 1, argv + argc);
   if (!words.empty() && words.front() == "--corrupted") {
     if (cluster::crew().leads()) score_corrupted({words.begin() + 1, words.end()});
     return 0;
   }
+  const std::string all = fmt::format("{}", fmt::join(words, " "));
+  const std::string suite = !words.empty() && words.front().starts_with("--") ? words.front() : "";
+  if (!suite.empty()) words.erase(words.begin());
   const auto number = [&](std::size_t at, std::uint64_t otherwise) {
     return words.size() > at ? std::strtoull(words[at].c_str(), nullptr, 10) : otherwise;
   };
   const std::uint64_t first = number(0, 101), seeds = number(1, 3);
-  const std::string wanted = words.size() > 2 ? words[2] : "";
-  std::vector<DataSet> sets;
-  for (std::size_t kind = 0; kind < diagnose::kinds(); ++kind)
-    if (diagnose::title(kind).starts_with(wanted))
-      for (std::uint64_t seed = first; seed < first + seeds; ++seed) sets.push_back({kind, seed});
   try {
-    score_all(sets, fmt::format("{} {} {}", first, seeds, wanted));
+    const std::string wanted = words.size() > 2 ? words[2] : "";
+    score_all(suite == "--nulls"  ? nulls(first, seeds, wanted)
+              : suite == "--weak" ? weak_ones(first, seeds)
+                                  : all_sets(first, seeds, wanted),
+              all);
   } catch (const output::CannotWrite& error) {
     fmt::print(stderr, "mckibben: {}\n", error.what());
     return 74;

@@ -222,26 +222,52 @@ std::vector<double> current_mA(std::size_t run, std::size_t rows, Dice& dice) {
   return list;
 }
 
-/// A rig that has it; notes in `hidden` what was planted.
-plant::Rig rig_with(const Kind& kind, std::uint64_t seed, Dice& dice, Hidden& hidden) {
-  domain::RigFile truth;
-  // Every rig is a little off its data sheet; where nothing is to be found, less than one would notice.
-  for (const Parameter& p : nominal_parameters(plant::Rig{})) {
-    const double share = kind.verdict == Verdict::nothing_missing ? 0.0 : 0.1;
-    *find(truth, p.path).value = p.origin + share * p.scale * dice.normal();
+/// The rig as its owner describes it.
+domain::RigFile described(const Surroundings& surroundings, Dice& dice) {
+  domain::RigFile rig;
+  if (surroundings.bench == Bench::other_size) {
+    rig.muscle.rest_radius_m *= dice.between(0.85, 1.2);
+    rig.muscle.rest_length_m *= dice.between(0.7, 1.4);
+    rig.valve.conductance_m3_per_s_Pa *= dice.between(0.7, 1.5);
+    rig.hose.conductance_m3_per_s_Pa *= dice.between(0.7, 1.5);
   }
+  if (surroundings.bench == Bench::badly_known)
+    for (const Parameter& p : nominal_parameters(rig))
+      if (p.path != "muscle.dead_volume") rig.spreads[p.path] = 3.0 * p.scale;
+  return rig;
+}
+
+/// By how many of its deviations each number of a rig is off.
+double off_by(const Kind& kind, const Surroundings& surroundings) {
+  if (surroundings.bench == Bench::badly_known) return 1.0;
+  if (surroundings.off_its_sheet) return 0.3;
+  return kind.verdict == Verdict::nothing_missing ? 0.0 : 0.1;
+}
+
+/// A rig that has it; notes in `hidden` what was planted.
+plant::Rig rig_with(const Kind& kind, std::uint64_t seed, const Surroundings& surroundings, Dice& dice,
+                    Hidden& hidden) {
+  const domain::RigFile nominal = described(surroundings, dice);
+  static_cast<domain::RigFile&>(hidden.data.rig) = nominal;
+  domain::RigFile truth = nominal;
+  // Every rig is a little off its data sheet; where nothing is to be found, less than one would notice.
+  for (const Parameter& p : nominal_parameters(nominal, nominal.spreads))
+    *find(truth, p.path).value =
+        std::clamp(p.origin + off_by(kind, surroundings) * p.scale * dice.normal(), p.lowest, p.highest);
   for (const Planted& planted : kind.plan) {
     const Found found = find(truth, planted.path);
-    const bool nominal = !planted.path.starts_with("effects.");
-    const double absent = nominal ? planted.value : value_of(plant::Rig{}, planted.path);
+    const bool number = !planted.path.starts_with("effects.");
+    const double of_thesis = value_of(domain::RigFile{}, planted.path);
     const bool shape = &planted != &kind.plan.front() && kind.effects.size() < 2;
-    const double factor = dice.between(0.8, 1.25);
+    const double factor = dice.between(0.8, 1.25) * (shape ? 1.0 : surroundings.share);
     const double sign = seed % 2 == 0 && either_sign(planted.path) ? -1.0 : 1.0;
-    *found.value = nominal ? planted.value
+    *found.value = number  ? planted.value / of_thesis * value_of(nominal, planted.path)
                    : shape ? planted.value * factor
-                           : absent + sign * factor * (planted.value - absent);
-    hidden.truth.push_back({planted.path, *found.value});
+                           : of_thesis + sign * factor * (planted.value - of_thesis);
+    if (!number) hidden.truth.push_back({planted.path, *found.value});
   }
+  for (const Parameter& p : nominal_parameters(nominal, nominal.spreads))
+    hidden.numbers.push_back({p.path, value_of(truth, p.path)});
   auto& bladder = truth.effects.get<plant::BladderElasticity>();
   if (bladder.stiffness_N_per_m > 0.0 && seed % 3 == 0) {
     bladder.variant = plant::BladderLaw::saturating;
@@ -266,6 +292,7 @@ plant::Rig rig_with(const Kind& kind, std::uint64_t seed, Dice& dice, Hidden& hi
 /// What is measured of it: load and kind of current differ from run to run.
 domain::Run measured_run(const plant::Rig& truth, const Kind& kind, std::size_t run, std::uint64_t seed,
                          std::uint64_t stream, Dice& dice) {
+  const double larger = std::pow(truth.muscle.rest_radius_m / plant::Rig{}.muscle.rest_radius_m, 2);
   constexpr double loads_kg[] = {11.138, 11.138, 16.138, 16.138, 23.406, 23.406, 13.870, 18.870, 18.870};
   constexpr std::size_t currents[] = {0, 1, 2, 3, 0, 1, 4, 3, 1};
   plant::Noise noise = kind.noise;
@@ -277,7 +304,7 @@ domain::Run measured_run(const plant::Rig& truth, const Kind& kind, std::size_t 
   for (double& i : recorded.samples_mA) i = plant::dac_output_mA(truth.dac, i);
   const auto controller = recorded.make(run::knowledge_of(truth, {}));
   const auto recording = run::simulate({.rig = truth,
-                                        .load_kg = loads_kg[run],
+                                        .load_kg = larger * loads_kg[run],
                                         .ticks = rows,
                                         .engine = {solver::Method::cvode, 1e-8},
                                         .noise = noise,
@@ -286,7 +313,7 @@ domain::Run measured_run(const plant::Rig& truth, const Kind& kind, std::size_t 
                                        *controller);
   domain::Run measured;
   measured.id = fmt::format("r{:02}", run + 1);
-  measured.load_kg = loads_kg[run];
+  measured.load_kg = larger * loads_kg[run];
   measured.current_mA = recorded.samples_mA;
   for (const auto& sample : recording.samples)
     measured.contraction_ratio.push_back(static_cast<double>(sample.counts) *
@@ -308,13 +335,13 @@ const std::string& title(std::size_t kind) {
   return all_kinds()[kind].title;
 }
 
-Hidden hide(std::size_t index, std::uint64_t seed) {
+Hidden hide(std::size_t index, std::uint64_t seed, const Surroundings& surroundings) {
   const Kind& kind = all_kinds()[index];
   Dice dice(1000 * seed + index);
   Hidden hidden{.title = kind.title, .verdict = kind.verdict, .effects = kind.effects};
-  const plant::Rig truth = rig_with(kind, seed, dice, hidden);
+  const plant::Rig truth = rig_with(kind, seed, surroundings, dice, hidden);
   hidden.data.rig.gauge.fitted = kind.gauge;
-  for (std::size_t run = 0; run < 9; ++run)
+  for (std::size_t run = 0; run < surroundings.runs; ++run)
     hidden.data.runs.push_back(measured_run(truth, kind, run, seed, 100 * index + run, dice));
   return hidden;
 }

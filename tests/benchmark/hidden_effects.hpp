@@ -21,8 +21,20 @@ struct Hidden {
   std::string title;
   Verdict verdict = Verdict::missing_effect;
   std::vector<std::string> effects{};
-  std::vector<Planted> truth{};
+  std::vector<Planted> truth{};    ///< of the effects
+  std::vector<Planted> numbers{};  ///< of the rig, as it truly is
   domain::Dataset data{};
+};
+
+/// The rig that is measured: the thesis's, one of another size, or one whose numbers are known three times
+/// less well than a data sheet says, and say so.
+enum class Bench { thesis, other_size, badly_known };
+
+struct Surroundings {
+  Bench bench = Bench::thesis;
+  bool off_its_sheet = false;  ///< also where nothing is hidden: by a third of what its numbers are known to
+  double share = 1.0;          ///< of an effect's size
+  std::size_t runs = 9;
 };
 
 /// What may be hidden. `kind` counts from 0 to kinds() - 1: each effect at two sizes, pairs, triples, changed
@@ -30,6 +42,6 @@ struct Hidden {
 /// seeds hide the other sign where an effect may have either, every third the saturating bladder.
 std::size_t kinds();
 const std::string& title(std::size_t kind);
-Hidden hide(std::size_t kind, std::uint64_t seed);
+Hidden hide(std::size_t kind, std::uint64_t seed, const Surroundings& surroundings = {});
 
 }  // namespace mckibben::diagnose

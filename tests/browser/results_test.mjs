@@ -147,7 +147,7 @@ test('a map is a page of pictures without scripts, and fits a narrow screen', as
 
 test('two muscles turn their joint as their CSV has it, and never to -0.0 degrees', async () => {
   const {page, close: done, complaints, requests, url} = await open('pair');
-  const csv = table('pair/steps.csv');
+  const csv = table('pair/steps_0kg_pid.csv');
   for (const [plot, label, values] of [
            ['angle', 'angle', csv.angle_rad.map((angle) => (180 * angle) / Math.PI)],
            ['pressures', 'muscle 1', csv.muscle_pressure_1_bar],

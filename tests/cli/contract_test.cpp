@@ -58,6 +58,11 @@ class Contract : public testing::Test {
     write_text(s / "heavy.yaml",
                "schema: mckibben-dataset/1\nrig: falling_rig.yaml\nruns:\n"
                "  - {id: r1, file: still/r1.csv, load: 45 kg}\n");
+    write_text(s / "bench.yaml",
+               "schema: mckibben-scenario/1\nloads: [11 kg]\nduration: 0.1 s\n"
+               "rig: {base: thesis, settling_time: 0 s}\n"
+               "target: {kind: minimum_jerk, start: 0.05, moves: []}\n"
+               "controllers: [{kind: sine_current, low: 5 mA, high: 9 mA, period: 1 s}]\n");
     write_text(s / "file", "mine");
     ASSERT_EQ(mckibben("run quick.yaml --out a", s).status, 0);
     write_text(s / "other.yaml", quick + "seed: 5\nrig: {muscle: {rest_radius: 8 mm}}\n");
@@ -85,6 +90,8 @@ constexpr Case cases[] = {
     {0, "replay still --out r6"},
     {0, "diagnose still --out r7"},
     {0, "import still/r1.csv --out r14"},
+    {0, "fmu thesis --out r15.fmu"},
+    {0, "control bench.yaml --most-missed 1000 --out r16"},
     {0, "diff a b"},
     {0, "check quick.yaml campaign.yaml still"},
     {0, "effects"},
@@ -116,6 +123,8 @@ constexpr Case cases[] = {
     {64, "doctor --tolerance 0"},
     {64, "completion fish"},
     {64, "init one.yaml two.yaml"},
+    {64, "fmu thesis --fmi 1.0"},
+    {64, "control bench.yaml --device hammer"},
     {65, "run bad.yaml"},
     {65, "dataset bad.yaml"},
     {65, "calibrate quick.yaml"},
@@ -124,6 +133,8 @@ constexpr Case cases[] = {
     {65, "map quick.yaml"},
     {65, "map cal/calibration.yaml --load '45 kg'"},
     {65, "replay quick.yaml"},
+    {65, "fmu quick.yaml"},
+    {65, "control quick.yaml"},
     {65, "replay still --rig quick.yaml"},
     {65, "diagnose quick.yaml"},
     {65, "diff a file_with_wrong_json"},
@@ -131,6 +142,8 @@ constexpr Case cases[] = {
     {65, "check quick.yaml bad.yaml nowhere.yaml"},
     {66, "run nowhere.yaml"},
     {66, "dataset nowhere.yaml"},
+    {66, "fmu nowhere.yaml"},
+    {66, "control nowhere.yaml"},
     {66, "calibrate nowhere"},
     {66, "study lag nowhere.yaml"},
     {66, "map nowhere.yaml"},

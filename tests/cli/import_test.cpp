@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include <sim/input/json.hpp>
+#include <sim/input/fields_json.hpp>
 
 #include "program.hpp"
 

@@ -29,11 +29,12 @@ class Believed final : public RigModel {
     return other;
   }
   double given_mA(double wanted_mA) const override { return std::round(wanted_mA * 256.0) / 256.0; }
-  void step(double current_mA) override {
+  void step(const Command& command) override {
     ++steps;
-    now_.lagging += (height(current_mA) - now_.lagging) * -std::expm1(-1.0 / laws_.lag_ticks);
+    now_.lagging += (height(command.current_mA) - now_.lagging) * -std::expm1(-1.0 / laws_.lag_ticks);
     now_.ratio = std::clamp(now_.ratio, now_.lagging - laws_.play, now_.lagging + laws_.play);
   }
+  void step(double current_mA) { step(Command{current_mA}); }
   double contraction_ratio() const override { return now_.ratio; }
   double shown_ratio() const override { return now_.ratio; }
   void keep() override { kept_ = now_; }
@@ -55,8 +56,9 @@ class Believed final : public RigModel {
 };
 
 inline ModelMaker believed(const Laws& laws) {
-  return
-      [laws](double load_kg, double rest_mA) { return std::make_unique<Believed>(laws, load_kg, rest_mA); };
+  return [laws](double load_kg, const Command& rest) {
+    return std::make_unique<Believed>(laws, load_kg, rest.current_mA);
+  };
 }
 
 }  // namespace mckibben::controllers

@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include <controllers/pair_settings.hpp>
 #include <controllers/settings.hpp>
 #include <controllers/target.hpp>
 
@@ -57,18 +58,27 @@ TEST(Fields, DefaultsLieWithinTheirRangesAndKeysDiffer) {
     EXPECT_GE(walker.keys.size(), 1U);
   };
   for_each_alternative<Settings>(walk);
+  for_each_alternative<PairSettings>(walk);
   for_each_alternative<Target>(walk);
+  for_each_alternative<AngleTarget>(walk);
+  for_each_alternative<StiffnessTarget>(walk);
 }
 
-TEST(Fields, EveryControllerHasAKindOfItsOwnAndAName) {
+template <class Variant>
+void expect_kinds_and_names() {
   std::set<std::string_view> kinds;
-  for_each_alternative<Settings>([&]<class One>(const One& one) {
+  for_each_alternative<Variant>([&]<class One>(const One& one) {
     EXPECT_TRUE(kinds.insert(One::kind).second) << One::kind;
     Walker walker{std::string(One::kind), {}};
     One::fields(one, walker);
     EXPECT_TRUE(walker.keys.contains("name")) << One::kind;
     EXPECT_EQ(one.name, One::kind);
   });
+}
+
+TEST(Fields, EveryControllerHasAKindOfItsOwnAndAName) {
+  expect_kinds_and_names<Settings>();
+  expect_kinds_and_names<PairSettings>();
 }
 
 }  // namespace

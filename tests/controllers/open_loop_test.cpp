@@ -190,25 +190,135 @@ TEST(OpenLoopLimited, OnAReachableTargetWithoutLagIsTheThesissController) {
   for (std::size_t k = 0; k < target.size(); ++k) EXPECT_NEAR(limited[k], plain[k], 1e-6) << "tick " << k;
 }
 
-TEST(FeedforwardPid, WithoutErrorIsTheInverseAndCorrectsWhatIsLeft) {
-  const std::vector<double> target = up_rest_down();
-  const Knowledge knowledge = data_sheets(target);
+FeedforwardPidSettings proportional() {
   auto settings = with_planted_load<FeedforwardPidSettings>();
-  EXPECT_THROW(settings.make(knowledge), std::invalid_argument) << "gains are missing";
   settings.proportional_mA = 50.0;
   settings.integral_time_s = 0.0;
   settings.derivative_time_s = 0.0;
-  const auto plain = play(*with_planted_load<OpenLoopSettings>().make(knowledge), target.size());
-  const auto controller = settings.make(knowledge);
-  EXPECT_EQ(controller->rest().current_mA,
-            with_planted_load<OpenLoopSettings>().make(knowledge)->rest().current_mA);
+  return settings;
+}
+
+/// Counts of a load that lies so many counts below a target.
+std::int64_t counts_at(const Knowledge& knowledge, double target, int below) {
+  return static_cast<std::int64_t>(target / knowledge.contraction_per_count) - below;
+}
+
+TEST(FeedforwardPid, MovesWithTheMeanOfBothBranchesAndCorrectsWhatIsLeft) {
+  const std::vector<double> target = up_rest_down();
+  const Knowledge knowledge = data_sheets(target);
+  EXPECT_THROW(with_planted_load<FeedforwardPidSettings>().make(knowledge), std::invalid_argument)
+      << "gains are missing";
+  const auto controller = proportional().make(knowledge);
+  const double first_mA = controller->rest().current_mA;
+  EXPECT_EQ(first_mA, with_planted_load<OpenLoopSettings>().make(knowledge)->rest().current_mA);
+  const Inverse inverse(planted_calibration(), planted_load_kg, knowledge.valve, false);
+  const auto mean_mA = [&](double e) {
+    return 0.5 * (knowledge.valve.current_mA(inverse(Branch::contraction, e, 0.0).pressure_Pa) +
+                  knowledge.valve.current_mA(inverse(Branch::relaxation, e, 0.0).pressure_Pa));
+  };
   for (std::size_t k = 0; k < target.size(); ++k) {
-    const auto counts =
-        static_cast<std::int64_t>(target[k] / knowledge.contraction_per_count) - (k > 50 ? 10 : 0);
+    const auto counts = counts_at(knowledge, target[k], k > 50 ? 10 : 0);
     const double y = (static_cast<double>(counts) + 0.5) * knowledge.contraction_per_count;
-    const double expected = std::clamp(plain[k] + 50.0 * (target[k] - y), 4.0, 20.0);
+    const double expected =
+        std::clamp(first_mA + mean_mA(target[k]) - mean_mA(target[0]) + 50.0 * (target[k] - y), 4.0, 20.0);
     EXPECT_NEAR(controller->step({static_cast<std::int64_t>(k), 0.0, counts}).current_mA, expected, 1e-9);
   }
+  EXPECT_EQ(finding(*controller, "ticks_feedforward_faded"), 0.0);
+}
+
+TEST(FeedforwardPid, FadesOutWhereTheModelEnds) {
+  std::vector<double> target;
+  for (int k = 0; k < 100; ++k) target.push_back(0.15 + 0.001 * k);  // calibrated to 0.20, believed to 0.182
+  const Knowledge knowledge = data_sheets(target);
+  const auto controller = proportional().make(knowledge);
+  controller->rest();
+  std::vector<double> bases_mA;
+  for (std::size_t k = 0; k < target.size(); ++k) {
+    const auto counts = counts_at(knowledge, target[k], 0);
+    const double y = (static_cast<double>(counts) + 0.5) * knowledge.contraction_per_count;
+    bases_mA.push_back(controller->step({static_cast<std::int64_t>(k), 0.0, counts}).current_mA -
+                       50.0 * (target[k] - y));
+  }
+  const auto step_mA = [&](std::size_t k) { return bases_mA[k] - bases_mA[k - 1]; };
+  EXPECT_GT(step_mA(31), 0.0);
+  EXPECT_LT(step_mA(45), 0.5 * step_mA(31));
+  EXPECT_NEAR(step_mA(60), 0.0, 1e-9);
+  EXPECT_NEAR(finding(*controller, "ticks_feedforward_faded"), 67.0, 1.0);
+}
+
+TEST(FeedforwardPid, IsALoopAloneUnderALoadThatWasNotCalibrated) {
+  const std::vector<double> target = up_rest_down();
+  const Knowledge knowledge = data_sheets(target);
+  auto settings = proportional();
+  settings.assumed_load_kg = 8.87;
+  settings.extrapolate_load = true;
+  const auto controller = settings.make(knowledge);
+  const double first_mA = controller->rest().current_mA;
+  for (std::size_t k = 0; k < target.size(); ++k) {
+    const auto counts = counts_at(knowledge, target[k], 0);
+    const double y = (static_cast<double>(counts) + 0.5) * knowledge.contraction_per_count;
+    EXPECT_NEAR(controller->step({static_cast<std::int64_t>(k), 0.0, counts}).current_mA,
+                std::max(first_mA + 50.0 * (target[k] - y), 4.0), 1e-9);
+  }
+  EXPECT_GT(finding(*controller, "ticks_feedforward_faded"), 190.0);
+}
+
+/// Whether a controller without a loop keeps `terms`, which are part of `settings`.
+template <class Settings>
+void keeps_its_limits(Settings& settings, SafetyTerms& terms) {
+  Knowledge knowledge = data_sheets(up_rest_down());
+  knowledge.reach = even_reach();
+  const auto free = play(*settings.make(knowledge), knowledge.target.size());
+  Knowledge cut = knowledge;
+  for (double& ratio : cut.target) ratio = std::min(ratio, 0.10);
+  const auto to_cut = play(*settings.make(cut), knowledge.target.size());
+  terms.highest_target = 0.10;
+  EXPECT_EQ(play(*settings.make(knowledge), knowledge.target.size()), to_cut) << Settings::kind;
+  EXPECT_NE(free, to_cut);
+  terms.largest_current_speed_mA_per_s = 1.0;
+  const auto slow = play(*settings.make(knowledge), knowledge.target.size());
+  double fastest_mA = 0.0, fastest_free_mA = 0.0;
+  for (std::size_t k = 1; k < slow.size(); ++k) {
+    fastest_mA = std::max(fastest_mA, std::abs(slow[k] - slow[k - 1]));
+    fastest_free_mA = std::max(fastest_free_mA, std::abs(to_cut[k] - to_cut[k - 1]));
+  }
+  EXPECT_LE(fastest_mA, 1.0 * 0.012 + 1e-12) << Settings::kind;
+  EXPECT_GT(fastest_free_mA, 1.0 * 0.012) << Settings::kind << ": there was nothing to limit";
+}
+
+TEST(Safety, OpenLoopsKeepTheSpeedOfTheCurrentAndTheHeightOfTheTarget) {
+  auto unslowed = with_planted_load<OpenLoopSettings>();
+  keeps_its_limits(unslowed, unslowed);
+  auto slowed = with_planted_load<OpenLoopLimitedSettings>();
+  keeps_its_limits(slowed, slowed);
+  StaticInverseSettings blind{.assumed_load_kg = planted_load_kg};
+  keeps_its_limits(blind, blind.limits);
+}
+
+/// Weighs a load that follows the current in a straight line; every so often the counter jumps, or it stands
+/// still from the beginning.
+std::unique_ptr<Controller> weighed(bool jumps, bool stands, const OpenLoopSettings& settings) {
+  auto controller = settings.make(data_sheets({0.1, 0.1}));
+  double current_mA = controller->rest().current_mA;
+  for (std::int64_t k = -controller->preparation_ticks(); k < 0; ++k) {
+    const auto counts = static_cast<std::int64_t>(50.0 + 60.0 * (current_mA - 4.0));
+    const std::int64_t shown = stands ? 50 : jumps && k % 50 == 0 ? counts + 300 : counts;
+    current_mA = controller->step({k, 0.0, shown}).current_mA;
+  }
+  return controller;
+}
+
+TEST(Safety, AWeighingIsNotMisledByCountsThatJumpAndEndsWhereTheyStandStill) {
+  auto settings = with_planted_load<OpenLoopSettings>();
+  settings.assumed_load_kg.reset();
+  settings.extrapolate_load = true;
+  const double sound_kg = finding(*weighed(false, false, settings), "weighed_load");
+  EXPECT_GT(std::abs(finding(*weighed(true, false, settings), "weighed_load") - sound_kg), 0.08);
+  settings.fastest_load_per_s = 5.0;
+  const auto controller = weighed(true, false, settings);
+  EXPECT_NEAR(finding(*controller, "weighed_load"), sound_kg, 0.02);
+  EXPECT_GT(finding(*controller, "ticks_without_counts"), 10.0);
+  EXPECT_THROW(weighed(false, true, settings), ControllerFailure);
 }
 
 TEST(Settings, KnowWhichControllersHaveFeedbackAndWhichACalibration) {

@@ -133,6 +133,9 @@ Ways to_recalibrate() {
          e.far_from_nominal = {{"r01", 20.0}};
        },
        recalibrate, recalibrated},
+      {"other numbers that leave what a slow disturbance does, in no part more than in others",
+       other_numbers(), [](Evidence& e) { e.recalibrated_left = thresholds.near.mean_square() - 1.0; },
+       recalibrate, recalibrated},
       {"other numbers that leave as much as is explained", other_numbers(),
        [](Evidence& e) { e.recalibrated_left = most_explained - 1.0; }, recalibrate, recalibrated},
   };
@@ -222,7 +225,10 @@ Ways to_unknown_effect() {
        unknown_effect, law},
       {"other numbers that leave more than is explained",
        other_numbers(),
-       [](Evidence& e) { e.recalibrated_left = above(most_explained) - 1.0; },
+       [](Evidence& e) {
+         e.recalibrated_left = above(most_explained) - 1.0;
+         e.patterned = true;
+       },
        unknown_effect,
        recalibrated,
        {bent_numbers}},
@@ -236,6 +242,7 @@ Ways to_unknown_effect() {
        one_name(),
        [](Evidence& e) {
          e.recalibrated_left = at.beyond_disturbance;
+         e.patterned = true;
          e.named_left = 10.0;
          e.named_share = below(at.named_share);
        },
@@ -381,10 +388,11 @@ TEST(Decide, SuspectsTheGaugeWhereTheMotionIsNotMet) {
   EXPECT_TRUE(gauge_is_suspect(at.contradicted, thresholds));
   EXPECT_FALSE(gauge_is_suspect(std::nan(""), thresholds));  // nothing was compared
   const double most = 8.0 * at.without_gauge;
-  EXPECT_TRUE(better_without_gauge(8.0, most, nothing_missing, thresholds));
-  EXPECT_TRUE(better_without_gauge(8.0, most, missing_effect, thresholds));
-  EXPECT_FALSE(better_without_gauge(8.0, above(most), missing_effect, thresholds));
-  EXPECT_FALSE(better_without_gauge(8.0, 0.0, cannot_tell, thresholds));
+  EXPECT_TRUE(better_without_gauge(8.0, most, nothing_missing, false, thresholds));
+  EXPECT_TRUE(better_without_gauge(8.0, most, missing_effect, false, thresholds));
+  EXPECT_FALSE(better_without_gauge(8.0, above(most), missing_effect, false, thresholds));
+  EXPECT_FALSE(better_without_gauge(8.0, 0.0, cannot_tell, false, thresholds));
+  EXPECT_FALSE(better_without_gauge(8.0, 0.0, unknown_effect, true, thresholds));
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 
 #include <sim/diagnose/check.hpp>
 #include <sim/diagnose/experiment.hpp>
+#include <sim/diagnose/fit.hpp>
 
 #include "planted.hpp"
 
@@ -44,6 +45,21 @@ TEST(Sensors, ALaserRoundsToTheNearestAndLeavesItsNoise) {
   const auto residuals = experiment.residuals(data.rig, both_loads);
   EXPECT_NEAR(experiment.rmse(residuals, both_loads), floor.judged, 0.1 * floor.judged);
   EXPECT_LT(std::abs(residuals.mean()), 0.15);  // half a step up would make 0.7
+}
+
+TEST(Sensors, AnotherZeroIsFoundWhereTheRigSaysHowWellItIsKnown) {
+  plant::Rig truth = with_laser();
+  truth.joint.reading_offset_m = -4e-4;
+  domain::Dataset data = read_by(truth, with_laser());
+  const auto offset = [&] {
+    const Experiment experiment(data, check(data, 2).masked, 2, both_loads);
+    const Fitted fitted =
+        fit(experiment, {data.rig, nominal_parameters(data.rig, data.rig.spreads)}, both_loads, {});
+    return value_of(fitted.model.rig, "joint.reading_offset");
+  };
+  EXPECT_EQ(offset(), 0.0);
+  data.rig.spreads["joint.reading_offset"] = 1e-3;
+  EXPECT_NEAR(offset(), -4e-4, 6e-5);
 }
 
 TEST(Sensors, AccuracyCountsInTheFloor) {

@@ -4,6 +4,8 @@
 usage: pages.py PROGRAM PAGE... [--write]
 
     ```yaml title="NAME"     a file, written into the folder
+    ```python                a cell, run by Python where the cells before left off; the ```text below is what it prints,
+                             and what its last line is worth, as in a notebook
     ```console               of a line "$ COMMAND", run by bash, the lines below are what it prints, errors too
     <!-- picture: PICTURE is "LABEL" of REPORT -->    a picture of a report that was made, as a file beside the page;
                              with "at 2 s" behind REPORT as a browser shows it with the report's cursor there
@@ -11,7 +13,10 @@ usage: pages.py PROGRAM PAGE... [--write]
 must be as they are on the page and beside it, but for the last digit of numbers, in which machines differ.
 --write puts into page and pictures what they are now: read what has changed, and check it in.
 """
+import ast
+import contextlib
 import difflib
+import io
 import os
 import re
 import shutil
@@ -22,6 +27,7 @@ from pathlib import Path
 
 SHOWN_AS = "/home/me/mckibben"  # where the reader's checkout is thought to be
 PART = re.compile(r'^```(?P<kind>console|\w+ title="(?P<name>[^"]+)")\n(?P<body>.*?)^```$'
+                  r'|^```python\n(?P<cell>.*?)^```$(?:\n\n```text\n.*?^```$)?'
                   r'|^<!-- picture: (?P<picture>\S+) is "(?P<label>[^"]+)" of (?P<report>\S+)(?: at (?P<time>\S+) s)? -->$', re.S | re.M)
 PROGRESS = re.compile(r"^.*, step \d+, .* so far\n", re.M)  # a line for each minute: how many is a matter of the machine
 NUMBER = re.compile(r"[0-9]+(?:\.[0-9]+)?(?:e[+-]?[0-9]+)?")
@@ -44,6 +50,18 @@ def play(session, folder):
         said = PROGRESS.sub("", done.stdout.replace(str(folder), SHOWN_AS))
         text += f"$ {command}\n" + re.sub(r"([^\n])\Z", "\\1\n", said)
     return text
+
+
+def cell(code, names):
+    """What a cell of a notebook prints."""
+    tree = ast.parse(code)
+    last = tree.body.pop() if tree.body and isinstance(tree.body[-1], ast.Expr) else None
+    with contextlib.redirect_stdout(io.StringIO()) as printed:
+        exec(compile(tree, "cell", "exec"), names)
+        value = eval(compile(ast.Expression(last.value), "cell", "eval"), names) if last else None
+        if value is not None:
+            print(repr(value))
+    return printed.getvalue()
 
 
 def rules(style):
@@ -84,9 +102,12 @@ def drawing(page, label):
 
 def as_it_is(page, folder):
     """What the page, and each picture, should be."""
-    pictures = {}
+    pictures, names = {}, {}
 
     def truth(part):
+        if part["cell"]:
+            printed = cell(part["cell"], names)
+            return f"```python\n{part['cell']}```" + (f"\n\n```text\n{printed}```" if printed else "")
         if part["picture"]:
             report, time = folder / part["report"], part["time"]
             shown = as_a_browser_shows(report, time) if time else report.read_text()
@@ -116,10 +137,11 @@ def main():
     write = "--write" in sys.argv
     program, *pages = [a for a in sys.argv[1:] if a != "--write"]
     wrong = False
-    for page in map(Path, pages):
+    for page in map(Path.resolve, map(Path, pages)):
         with tempfile.TemporaryDirectory() as folder:
             checkout(Path(program).resolve(), Path(folder))
-            now = as_it_is(page, Path(folder))
+            with contextlib.chdir(folder):
+                now = as_it_is(page, Path(folder))
         for path, made in now.items():
             kept = path.read_text() if path.exists() else ""
             if agree(kept, made):

@@ -35,6 +35,7 @@ struct DragNotDeclared : Drag {
 };
 struct MemoryWithoutRate : Drag {
   static constexpr double memory_size = 1.0;
+  static constexpr std::string_view memory_unit = "1";
 };
 
 TEST(Hooks, AreThoseThatAreDeclared) {

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include <sim/ride/ride.hpp>
+#include <sim/ride/underway.hpp>
 
 #include "switched_on.hpp"
 
@@ -38,6 +39,29 @@ bool same_bits(const Ride& a, const Ride& b, std::size_t rig = 0) {
          a.time_s() == b.time_s();
 }
 
+TEST(Ride, ReadsALoadFromAnotherZeroWithoutMovingItElsewhere) {
+  plant::Rig off;
+  off.joint.reading_offset_m = -2.3e-4;
+  const solver::Settings settings{solver::Method::erk, 1e-6};
+  Ride ride(Hanging{plant::Rig{}, load_kg}, settings), other(Hanging{off, load_kg}, settings);
+  ride.start(drive_at(0), 0.0);
+  other.start(drive_at(0), 0.0);
+  go(ride, 0, 60);
+  go(other, 0, 60);
+  EXPECT_EQ(other.flow().state.joint.contraction_ratio, ride.flow().state.joint.contraction_ratio);
+  EXPECT_NEAR(other.reading().wheel_m - ride.reading().wheel_m, -2.3e-4, 1e-15);
+}
+
+TEST(Ride, SetsOffWhereALoadStandsAndNotWhereItIsRead) {
+  plant::Rig off;
+  off.joint.reading_offset_m = 1e-3;
+  Ride ride(Hanging{off, load_kg}, {solver::Method::erk, 1e-6});
+  ride.start(drive_at(0), 0.0);
+  set_off(ride.rider(), {.rise_m = 0.021});
+  EXPECT_NEAR(ride.flow().state.joint.contraction_ratio, 0.020 / off.muscle.rest_length_m, 1e-12);
+  EXPECT_NEAR(ride.reading().wheel_m, 0.021, 1e-12);
+}
+
 TEST(Ride, GoesOnToTheSameBitsFromWhatWasSavedAndAsACopy) {
   for (const auto method : {solver::Method::erk, solver::Method::cvode, solver::Method::automatic})
     for (const auto memory : {plant::FrictionMemory::lugre, plant::FrictionMemory::coulomb})
@@ -54,6 +78,10 @@ TEST(Ride, GoesOnToTheSameBitsFromWhatWasSavedAndAsACopy) {
           EXPECT_EQ(copy.time_s(), tick_s * begin);
           go(copy, begin, begin + 7);
           EXPECT_TRUE(same_bits(ride, copy)) << "restored at tick " << begin;
+          copy.restore(saved);
+          Ride of_copy = copy;  // which has made no step since
+          go(of_copy, begin, begin + 7);
+          EXPECT_TRUE(same_bits(ride, of_copy)) << "copied from a copy at tick " << begin;
         }
         EXPECT_GT(ride.flow().state.joint.contraction_ratio, 0.05);
       }

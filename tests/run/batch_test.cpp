@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <stdexcept>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -59,6 +60,32 @@ TEST(Batch, StopsBetweenJobsWhenInterrupted) {
     std::_Exit(100);
   };
   EXPECT_EXIT(work(), testing::ExitedWithCode(3), "");
+}
+
+TEST(Batch, WhatOneThreadsWorkIsAskedStopsNoOther) {
+  const auto jobs_done = [](bool stops) {
+    OwnStop stop;
+    std::atomic<int> begun{0};
+    try {
+      for_each_job(
+          50, 3,
+          [&](std::size_t) {
+            if (++begun == 5 && stops) stop.ask();
+          },
+          [](std::size_t) {});
+    } catch (const Interrupted&) {
+      EXPECT_TRUE(take_interrupt());
+      EXPECT_TRUE(interrupted()) << "it stays asked";
+    }
+    return begun.load();
+  };
+  std::atomic<int> other{0};
+  {
+    std::jthread beside([&] { other = jobs_done(false); });
+    EXPECT_LT(jobs_done(true), 50);
+  }
+  EXPECT_EQ(other, 50);
+  EXPECT_FALSE(interrupted());
 }
 
 }  // namespace

@@ -69,21 +69,21 @@ TEST(RigModel, GoesWhereTheRigGoesUnderTheSameCurrents) {
   const auto target = there_and_back(150);
   const auto controller = controllers::make(wave, knowledge_of(rig, target));
   const Recording recording = simulate(plan(rig, target.size()), *controller);
-  const auto model = believed(rig)(16.138, 4.0);
+  const auto model = believed(rig)(16.138, {4.0});
   for (const auto& sample : recording.samples) {
     ASSERT_NEAR(model->contraction_ratio(), sample.state.joint.contraction_ratio, 1e-9) << sample.time_s;
-    model->step(sample.current_mA);
+    model->step({sample.current_mA});
   }
 }
 
 TEST(RigModel, GoesBackAndTheSameWayAgain) {
   plant::Rig rig;
   rig.effects.get<plant::CommandDelay>().time_s = 0.03;
-  const auto model = believed(rig)(16.138, 4.0);
-  model->step(12.0);
+  const auto model = believed(rig)(16.138, {4.0});
+  model->step({12.0});
   model->keep();
   const auto ten_on = [](controllers::RigModel& one) {
-    for (int i = 0; i < 10; ++i) one.step(15.0);
+    for (int i = 0; i < 10; ++i) one.step({15.0});
     return one.contraction_ratio();
   };
   const auto other = model->copy();

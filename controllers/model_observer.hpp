@@ -1,0 +1,47 @@
+// What counts tell of what a model does not know: a load or a pressure that is wrong moves the rig the same
+// way up and down, friction that is wrong the other way. Counts may be some ticks old: they are compared with
+// what the model showed then, which accounts for a delay as Smith's predictor does (Smith, Chem. Eng. Prog.
+// 53 (1957) 217-219).
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include <controllers/controller.hpp>
+#include <controllers/delayed.hpp>
+
+namespace mckibben::controllers {
+
+/// All in contraction ratios. Once each tick: `look`, `learn` where counts are to be believed, then `unknown`
+/// is what the model's target is to be moved by.
+class ModelObserver {
+ public:
+  /// `shown`: by the model, where it begins. `filter_ticks`: in which 1 - 1/e of what is new is believed; 5
+  /// and the delay's if none is said.
+  ModelObserver(std::optional<double> filter_ticks, int delay_ticks, const Knowledge& known);
+
+  void begin(double shown) { turned_at_ = shown; }
+  /// What the encoder of the model shows at this tick.
+  void look(double shown);
+  /// Counts of this tick, as old as they are used.
+  void learn(std::int64_t counts);
+  double unknown() const { return unknown(way_); }
+
+  std::vector<Finding> findings() const;
+
+ private:
+  struct Shown {
+    double ratio, way;
+  };
+  double unknown(double way) const { return bias_ + way * friction_; }
+  void turn(double shown);
+
+  double per_count_, middle_of_count_, gain_;
+  Delayed<Shown> past_;
+  Shown then_{};
+  std::int64_t ticks_without_belief_ = 0;
+  double bias_ = 0.0, friction_ = 0.0, way_ = 1.0, turned_at_ = 0.0;
+};
+
+}  // namespace mckibben::controllers

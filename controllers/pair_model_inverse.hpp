@@ -1,0 +1,67 @@
+// Control of a pair by a model of the whole rig (ours): both currents are found on the model so that the
+// joint has the wanted angle and, where one is asked for, the wanted stiffness. `model_inverse` plans the
+// whole run and looks at no count; `model_inverse_feedback` looks at each, and moves the target by what the
+// model does not know (ModelObserver): the load in the hand, above all.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include <controllers/co_contraction.hpp>
+#include <controllers/rig_model.hpp>
+
+namespace mckibben::controllers {
+
+struct PairModelTerms : JointTerms {
+  std::string rig;
+  ModelMaker model;  ///< filled in by whoever can simulate `rig`, before make()
+  double assumed_load_kg = 0.0;
+  int look_ahead_ticks = 8;
+
+  template <class Self, class Visitor>
+  static void fields(Self& self, Visitor& visit) {
+    visit("rig", self.rig,
+          "the rig that it believes in, by its name or the path of a rig file; the scenario's if left out");
+    visit("assumed_load", self.assumed_load_kg, "kg", 0.0, 500.0, "load in the hand that it believes in");
+    visit("look_ahead_ticks", self.look_ahead_ticks, 1, 1000,
+          "ticks after which currents are to have brought the joint to the target");
+    JointTerms::fields(self, visit);
+  }
+};
+
+struct PairModelInverseSettings : PairModelTerms {
+  static constexpr std::string_view kind = "model_inverse";
+  std::string name{kind};
+
+  /// Throws std::invalid_argument if there is no model, or the rig has one muscle.
+  std::unique_ptr<Controller> make(const Knowledge& knowledge) const;
+
+  template <class Self, class Visitor>
+  static void fields(Self& self, Visitor& visit) {
+    visit("name", self.name, "name in tables and file names");
+    PairModelTerms::fields(self, visit);
+  }
+};
+
+struct PairModelInverseFeedbackSettings : PairModelTerms {
+  static constexpr std::string_view kind = "model_inverse_feedback";
+  std::string name{kind};
+  int feedback_delay_ticks = 0;
+  std::optional<double> filter_ticks = std::nullopt;
+
+  /// Throws std::invalid_argument if there is no model, or the rig has one muscle.
+  std::unique_ptr<Controller> make(const Knowledge& knowledge) const;
+
+  template <class Self, class Visitor>
+  static void fields(Self& self, Visitor& visit) {
+    visit("name", self.name, "name in tables and file names");
+    PairModelTerms::fields(self, visit);
+    visit("feedback_delay_ticks", self.feedback_delay_ticks, 0, 1000, "age of the counts that are used");
+    visit("filter_ticks", self.filter_ticks, "1", 0.01, 1000.0,
+          "ticks in which 1 - 1/e of what the model does not know is believed; 5 and the delay's if absent");
+  }
+};
+
+}  // namespace mckibben::controllers

@@ -1,0 +1,63 @@
+// What controllers drive on a bench, whatever it is made of: counts in, a current out.
+#pragma once
+
+#include <cstdint>
+#include <stdexcept>
+
+namespace mckibben::bench {
+
+/// The device does not answer, or what it answers cannot be.
+class DeviceFailure : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Times are seconds since the beginning, of the clock by which the loop goes.
+class Device {
+ public:
+  Device() = default;
+  Device(const Device&) = delete;
+  Device& operator=(const Device&) = delete;
+  virtual ~Device() = default;
+
+  /// Encoder counts since it was opened. Throws DeviceFailure.
+  virtual std::int64_t counts(double now_s) = 0;
+  /// The current [mA] of its output from now on. Throws DeviceFailure.
+  virtual void put(double current_mA, double now_s) = 0;
+};
+
+/// Where the loop takes its time from.
+class Clock {
+ public:
+  Clock() = default;
+  Clock(const Clock&) = delete;
+  Clock& operator=(const Clock&) = delete;
+  virtual ~Clock() = default;
+
+  virtual double now_s() = 0;
+  /// Returns at that time or, woken late, after it.
+  virtual void wait_until(double time_s) = 0;
+};
+
+/// The machine's own, from when it is made.
+class RealClock final : public Clock {
+ public:
+  RealClock();
+  double now_s() override;
+  void wait_until(double time_s) override;
+
+ private:
+  double begin_s_;
+};
+
+/// One on which no time passes but what is waited for: for what is to be shown, not done.
+class PatientClock final : public Clock {
+ public:
+  double now_s() override { return now_s_; }
+  void wait_until(double time_s) override { now_s_ = time_s; }
+
+ private:
+  double now_s_ = 0.0;
+};
+
+}  // namespace mckibben::bench

@@ -1,0 +1,104 @@
+// Lines over a serial port (POSIX termios); see the header.
+#include <cerrno>
+#include <charconv>
+#include <chrono>
+#include <cmath>
+#include <cstring>
+#include <string_view>
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <poll.h>
+#include <termios.h>
+#include <unistd.h>
+
+#include <sim/bench/serial.hpp>
+
+namespace mckibben::bench {
+namespace {
+
+/// Boards restart when their port is opened, and take a while.
+constexpr double longest_start_s = 5.0;
+constexpr int most_tries = 5;
+constexpr std::string_view ready = "ready 1";
+
+}  // namespace
+
+Serial::Serial(const std::string& port, double tick_s) : port_(port), tick_s_(tick_s) {
+  line_ = open(port.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
+  termios how{};
+  if (line_ < 0 || tcgetattr(line_, &how) != 0) {
+    const std::string why = std::strerror(errno);
+    if (line_ >= 0) close(line_);
+    throw DeviceFailure(fmt::format("{}: {}", port, why));
+  }
+  cfmakeraw(&how);
+  cfsetspeed(&how, B115200);
+  tcsetattr(line_, TCSANOW, &how);
+  const std::string greeting = fmt::format("mckibben 1 {}", std::lround(1e3 * tick_s));
+  for (int tries = 1;; ++tries) {
+    try {
+      say(greeting);
+      while (heard(longest_start_s / most_tries) != ready) {  // a board may have much to say as it starts
+      }
+      return;
+    } catch (const DeviceFailure&) {
+      if (tries < most_tries) continue;
+      close(line_);
+      throw DeviceFailure(fmt::format("{}: nobody answers \"{}\" with \"{}\"", port, greeting, ready));
+    }
+  }
+}
+
+Serial::~Serial() {
+  tcdrain(line_);  // the last current must arrive
+  close(line_);
+}
+
+void Serial::say(const std::string& line) {
+  const std::string whole = line + "\n";
+  if (write(line_, whole.data(), whole.size()) != static_cast<ssize_t>(whole.size()))
+    throw DeviceFailure(fmt::format("{}: cannot write: {}", port_, std::strerror(errno)));
+}
+
+std::string Serial::heard(double within_s) {
+  using Time = std::chrono::steady_clock;
+  const auto until =
+      Time::now() + std::chrono::duration_cast<Time::duration>(std::chrono::duration<double>(within_s));
+  for (;;) {
+    if (const std::size_t end = received_.find('\n'); end != std::string::npos) {
+      std::string line = received_.substr(0, end);
+      received_.erase(0, end + 1);
+      if (line.ends_with('\r')) line.pop_back();
+      return line;
+    }
+    const auto left = std::chrono::ceil<std::chrono::milliseconds>(until - Time::now()).count();
+    if (left <= 0) throw DeviceFailure(fmt::format("{}: no answer within {:g} s", port_, within_s));
+    pollfd one{line_, POLLIN, 0};
+    poll(&one, 1, static_cast<int>(left));
+    char bytes[256];
+    const ssize_t count = one.revents != 0 ? read(line_, bytes, sizeof bytes) : 0;
+    if (count > 0) received_.append(bytes, static_cast<std::size_t>(count));
+    if (count < 0 && errno != EAGAIN && errno != EINTR)
+      throw DeviceFailure(fmt::format("{}: {}", port_, std::strerror(errno)));
+  }
+}
+
+std::int64_t Serial::counts(double) {
+  say("?");
+  std::string line;
+  do {
+    line = heard(10.0 * tick_s_);
+  } while (line == ready);  // to an earlier greeting, which was not heard in time
+  std::int64_t value = 0;
+  const auto [end, error] = std::from_chars(line.data(), line.data() + line.size(), value);
+  if (error != std::errc() || end != line.data() + line.size())
+    throw DeviceFailure(fmt::format("{}: \"{}\" is no number of counts", port_, line.substr(0, 40)));
+  return value;
+}
+
+void Serial::put(double current_mA, double) {
+  say(fmt::format("={:.4f}", current_mA));
+}
+
+}  // namespace mckibben::bench

@@ -1,0 +1,36 @@
+// A microcontroller on a serial line: text in lines, so that a terminal program can speak it too
+// (docs/control.md; scenarios/bench_serial has a sketch for Arduino).
+//   to it    mckibben 1 12   version of these lines, and the tick [ms]: what is silent for longer than ten
+//   vents
+//            ?               the counts, please
+//            =12.345         the current [mA] from now on
+//   from it  ready 1         to the first
+//            1234            to the second
+#pragma once
+
+#include <string>
+
+#include <sim/bench/device.hpp>
+
+namespace mckibben::bench {
+
+class Serial final : public Device {
+ public:
+  /// Opens the port and greets. Throws DeviceFailure.
+  Serial(const std::string& port, double tick_s);
+  ~Serial() override;
+
+  std::int64_t counts(double now_s) override;
+  void put(double current_mA, double now_s) override;
+
+ private:
+  void say(const std::string& line);
+  std::string heard(double within_s);
+
+  std::string port_;
+  double tick_s_;
+  int line_ = -1;
+  std::string received_;
+};
+
+}  // namespace mckibben::bench

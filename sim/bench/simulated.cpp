@@ -1,0 +1,34 @@
+// A ride in real time; see the header.
+#include <sim/bench/simulated.hpp>
+#include <sim/engine/failure.hpp>
+
+namespace mckibben::bench {
+
+Simulated::Simulated(const plant::Rig& rig, double load_kg, const solver::Settings& integrator,
+                     double current_mA)
+    : ride_(ride::Hanging{rig, load_kg}, integrator), counter_(rig) {
+  drive_.current_mA = current_mA;
+  ride_.start(drive_, 0.0);
+}
+
+void Simulated::move_on(double now_s) {
+  constexpr double nothing_s = 1e-9;
+  if (now_s - ride_.time_s() < nothing_s) return;
+  try {
+    ride_.step(drive_, now_s);
+  } catch (const engine::NumericalFailure& failure) {
+    throw DeviceFailure(failure.what());
+  }
+}
+
+std::int64_t Simulated::counts(double now_s) {
+  move_on(now_s);
+  return counter_.count(ride_.reading().wheel_m);
+}
+
+void Simulated::put(double current_mA, double now_s) {
+  move_on(now_s);
+  drive_.current_mA = current_mA;
+}
+
+}  // namespace mckibben::bench

@@ -1,0 +1,26 @@
+// The bench that is a ride: it moves by as much as the loop's clock does.
+#pragma once
+
+#include <plant/instruments.hpp>
+#include <sim/bench/device.hpp>
+#include <sim/ride/ride.hpp>
+
+namespace mckibben::bench {
+
+class Simulated final : public Device {
+ public:
+  /// At rest under that current.
+  Simulated(const plant::Rig& rig, double load_kg, const solver::Settings& integrator, double current_mA);
+
+  std::int64_t counts(double now_s) override;
+  void put(double current_mA, double now_s) override;
+
+ private:
+  void move_on(double now_s);
+
+  ride::Ride ride_;
+  plant::PositionReader counter_;
+  ride::Drive drive_;
+};
+
+}  // namespace mckibben::bench

@@ -1,0 +1,196 @@
+// The verb `control`: the controller of a scenario drives a bench in real time, and what happens is recorded
+// as a data set.
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include <sim/bench/loop.hpp>
+#include <sim/bench/serial.hpp>
+#include <sim/bench/simulated.hpp>
+#include <sim/cli/exit_status.hpp>
+#include <sim/cli/results.hpp>
+#include <sim/cli/verbs.hpp>
+#include <sim/domain/number.hpp>
+#include <sim/input/fields_json.hpp>
+#include <sim/input/scenario_file.hpp>
+#include <sim/input/yaml_writer.hpp>
+#include <sim/run/briefing.hpp>
+#include <sim/run/track.hpp>
+
+namespace mckibben::cli {
+namespace {
+
+using domain::Scenario;
+using input::Json;
+
+struct ControlOptions : Options {
+  std::string scenario, device = "simulated", port;
+  int most_missed_ticks = bench::LoopPlan{}.most_missed_ticks;
+  bool dry_run = false;
+};
+
+/// Why a scenario is none that one controller can drive under one load; empty if it is.
+std::string unfit(const Scenario& scenario) {
+  if (scenario.loads_kg.size() != 1) return "loads: one load hangs on a bench; name it alone";
+  if (scenario.controllers.size() != 1) return "controllers: one controller drives a bench; name it alone";
+  controllers::Settings only = scenario.controllers.front();
+  if (const auto* terms = controllers::pid_terms(only); terms != nullptr && terms->needs_tuning())
+    return "controllers: its gains are missing; tune them with `run`, and write them down";
+  return "";
+}
+
+bench::LoopPlan loop_of(const Scenario& scenario, const run::Briefing& briefing,
+                        const ControlOptions& options) {
+  bench::LoopPlan plan;
+  plan.rig = scenario.rig;
+  plan.ticks = static_cast<std::int64_t>(run::plan_of(scenario, 0.0, 0).ticks);
+  plan.most_missed_ticks = options.most_missed_ticks;
+  plan.stop = run::interrupted;
+  const auto& settings = briefing.settings.front();
+  plan.limits = controllers::limits_of(settings, briefing.knowledge)
+                    .value_or(controllers::CurrentRange{0.0, scenario.rig.dac.largest_current_mA});
+  return plan;
+}
+
+std::unique_ptr<bench::Device> device_of(const Scenario& scenario, const ControlOptions& options) {
+  if (options.device == "serial" && !options.dry_run)
+    return std::make_unique<bench::Serial>(options.port, scenario.rig.tick_s);
+  return std::make_unique<bench::Simulated>(scenario.rig, scenario.loads_kg.front(), scenario.rig.integrator,
+                                            0.0);
+}
+
+/// How late ticks began, in ms: of as many in a hundred, at most that.
+double late_ms(const bench::Recorded& recorded, double share) {
+  std::vector<double> late_s;
+  for (const auto& row : recorded.rows) late_s.push_back(row.late_s);
+  if (late_s.empty()) return 0.0;
+  std::sort(late_s.begin(), late_s.end());
+  return 1e3 * late_s[static_cast<std::size_t>(share * static_cast<double>(late_s.size() - 1))];
+}
+
+std::string csv_of(const Scenario& scenario, const run::Briefing& briefing, const bench::Recorded& recorded) {
+  const controllers::Knowledge& known = briefing.knowledge;
+  std::string csv = "time_s,current_mA,contraction_ratio,counts,target,late_ms\n";
+  for (const auto& row : recorded.rows)
+    csv += fmt::format("{},{},{},{},{},{:.3f}\n", static_cast<double>(row.tick) * scenario.rig.tick_s,
+                       row.current_mA, static_cast<double>(row.counts) * known.contraction_per_count,
+                       row.counts, known.target_at(row.tick), 1e3 * row.late_s);
+  return csv;
+}
+
+std::string text_of(const Scenario& scenario, const bench::Recorded& recorded) {
+  std::string text = fmt::format(
+      "{}: {} of {} ticks of {:g} ms; each began late by {:.3f} ms (median), {:.3f} ms (99 %), {:.3f} ms (at "
+      "most)\n"
+      "missed ticks: {}; outputs that were limited: {}\n",
+      scenario.name, recorded.rows.size(), run::plan_of(scenario, 0.0, 0).ticks, 1e3 * scenario.rig.tick_s,
+      late_ms(recorded, 0.5), late_ms(recorded, 0.99), late_ms(recorded, 1.0), recorded.missed_ticks,
+      recorded.limited_ticks);
+  for (const auto& finding : recorded.findings)
+    text +=
+        fmt::format("found out by the controller: {} {:g} {}\n", finding.name, finding.value, finding.unit);
+  if (!recorded.stopped.empty()) text += fmt::format("stopped, and vented: {}\n", recorded.stopped);
+  return text;
+}
+
+std::string document_of(const Scenario& scenario, const ControlOptions& options,
+                        const bench::Recorded& recorded) {
+  Json document{{"schema", "mckibben-control/1"},
+                {"device", options.device},
+                {"ticks", recorded.rows.size()},
+                {"late_ms",
+                 {{"median", late_ms(recorded, 0.5)},
+                  {"of_99_in_100", late_ms(recorded, 0.99)},
+                  {"largest", late_ms(recorded, 1.0)}}},
+                {"missed_ticks", recorded.missed_ticks},
+                {"limited_ticks", recorded.limited_ticks}};
+  if (!recorded.stopped.empty()) document["stopped"] = recorded.stopped;
+  for (const auto& finding : recorded.findings) document["findings"][finding.name] = finding.value;
+  document["scenario"] = input::scenario_json(scenario);
+  return document.dump(2) + "\n";
+}
+
+int show(const ControlOptions& options, const Scenario& scenario, const bench::Recorded& recorded) {
+  std::string text = "  tick    counts  current_mA   (the bench is simulated; nothing is sent)\n";
+  for (const auto& row : recorded.rows)
+    text += fmt::format("{:6} {:9} {:11.4f}\n", row.tick, row.counts, row.current_mA);
+  print(options, {document_of(scenario, options, recorded), text + text_of(scenario, recorded)});
+  return recorded.stopped.empty() ? done : failure;
+}
+
+int control(const ControlOptions& options) {
+  std::vector<input::Problem> warnings;
+  const Scenario scenario = input::read_scenario(std::filesystem::path(options.scenario), warnings);
+  for (const auto& warning : warnings) say(input::to_text(warning));
+  std::string why = unfit(scenario);
+  if (why.empty() && options.device == "serial" && options.port.empty())
+    why = "--device serial needs its --port";
+  if (!why.empty()) {
+    say(fmt::format("{}: {}", options.scenario, why));
+    return bad_input;
+  }
+  const run::Briefing briefing = run::briefing_of(scenario);
+  const auto controller = briefing.make(briefing.settings.front(), scenario.loads_kg.front());
+  const bench::LoopPlan plan = loop_of(scenario, briefing, options);
+  if (options.dry_run) {
+    bench::PatientClock clock;
+    return show(options, scenario, bench::drive(*device_of(scenario, options), *controller, plan, clock));
+  }
+  Job job(options, "control " + options.scenario, scenario.name + "-bench", scenario.inputs);
+  bench::Recorded recorded;
+  try {
+    const auto device = device_of(scenario, options);
+    bench::RealClock clock;
+    recorded = bench::drive(*device, *controller, plan, clock);
+  } catch (const bench::DeviceFailure& unreachable) {
+    say(unreachable.what());
+    return failure;
+  }
+  Json dataset{{"schema", "mckibben-dataset/1"}, {"rig", "rig.yaml"}};
+  dataset["runs"] = Json::array({Json{{"id", "bench"},
+                                      {"file", "bench.csv"},
+                                      {"load", domain::write_number(scenario.loads_kg.front()) + " kg"}}});
+  job.write("bench.csv", csv_of(scenario, briefing, recorded));
+  job.write("rig.yaml", input::to_yaml(input::rig_json(plant::nominal(scenario.rig))));
+  job.write("dataset.yaml", input::to_yaml(dataset));
+  const std::string document = document_of(scenario, options, recorded), text = text_of(scenario, recorded);
+  job.write("control.json", document);
+  job.write("table.txt", text);
+  const int status = job.finish({document, text}, recorded.stopped.empty() ? done : failure);
+  return recorded.by_user && status == failure ? static_cast<int>(interrupted) : status;
+}
+
+}  // namespace
+
+void add_control(CLI::App& app, Asked& asked) {
+  CLI::App& verb = add_verb(app, "control", to_compare,
+                            "Let the controller of a scenario drive a bench in real time; record a data set");
+  ControlOptions& options = asked.when(verb, control);
+  add_input(verb, options.scenario, "scenario", "Scenario file with one load and one controller",
+            "SCENARIO.yaml");
+  add_out(verb, options, "out/<name>-bench");
+  add_json(verb, options);
+  verb.add_option("--device", options.device, "What is driven (default: simulated)")
+      ->check(one_of("device", {"simulated", "serial"}))
+      ->type_name("");
+  verb.add_option("--port", options.port, "Serial port, such as /dev/ttyACM0")->type_name("FILE");
+  verb.add_option("--most-missed", options.most_missed_ticks,
+                  "Ticks in a row that may be missed before the watchdog vents (default: 3)")
+      ->check(from_to(0, 1000))
+      ->type_name("N");
+  verb.add_flag("--dry-run", options.dry_run,
+                "Show what would be sent, at a simulated bench; nothing is opened");
+  verb.footer(
+      "Examples:\n"
+      "  mckibben control my.yaml --dry-run\n"
+      "  mckibben control my.yaml --device simulated\n"
+      "  mckibben control my.yaml --device serial --port /dev/ttyACM0\n"
+      "Writes dataset.yaml, rig.yaml and bench.csv, which replay and diagnose read, and control.json.\n"
+      "However it ends, the last current is 0 mA: the valve vents.\n");
+}
+
+}  // namespace mckibben::cli

@@ -1,0 +1,45 @@
+// What both versions of the standard have in common: an instance with its log, made from the folder that was
+// unpacked, and a guard that turns exceptions into a line of the log.
+#pragma once
+
+#include <exception>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include <sim/fmu/model/slave.hpp>
+
+namespace mckibben::fmu {
+
+struct Instance {
+  std::function<void(const char* message)> log;
+  domain::RigFile rig;  ///< as it was unpacked, for a reset
+  Slave slave;
+
+  /// Does it; false if it could not, and the log says why.
+  template <class Work>
+  bool done(const Work& work) {
+    try {
+      work();
+      return true;
+    } catch (const std::exception& failure) {
+      log(failure.what());
+      return false;
+    }
+  }
+};
+
+/// Null if the token is another's or the folder lacks what it must hold, and the log says why.
+Instance* instance_in(const std::filesystem::path& resources, std::string_view token,
+                      std::function<void(const char*)> log);
+
+/// The path in an address such as file:///tmp/a%20b.
+std::filesystem::path path_in(std::string_view address);
+
+/// The file in the folder of resources that holds the rig.
+inline constexpr const char* rig_file = "rig.txt";
+
+}  // namespace mckibben::fmu

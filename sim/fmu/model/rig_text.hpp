@@ -1,0 +1,25 @@
+// A rig as plain lines, `muscle.rest_radius 0.0075`, so that an FMU can carry it and needs no library to read
+// it. Every member of the field lists has a line, those that are not at work too.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include <sim/domain/rig_file.hpp>
+
+namespace mckibben::fmu {
+
+/// What an FMU carries with it besides its program.
+struct Contents {
+  std::string token;  ///< by which an importer tells that description and program belong together
+  domain::RigFile rig;
+};
+
+/// Whether all of a rig fits into lines: none whose laws are its user's own.
+bool can_be_text(const domain::RigFile& rig);
+
+std::string text_of(const Contents& contents);
+/// Throws std::runtime_error naming the line.
+Contents contents_of(std::string_view text);
+
+}  // namespace mckibben::fmu

@@ -1,0 +1,180 @@
+// Steps of an instance; see the header. The order of an instant is the ride's.
+#include <cmath>
+#include <stdexcept>
+
+#include <sim/domain/rig_number.hpp>
+#include <sim/fmu/model/slave.hpp>
+
+namespace mckibben::fmu {
+namespace {
+
+[[noreturn]] void unknown(Reference reference) {
+  throw std::runtime_error("there is no variable with value reference " + std::to_string(reference));
+}
+
+}  // namespace
+
+Slave::Slave(domain::RigFile rig)
+    : rig_(std::move(rig)), paths_(parameter_paths(rig_)), current_mA_(rig_.valve.zero_current_mA) {
+  if (const plant::Pair* pair = rig_.pair()) opposite_current_mA_ = pair->opposite.valve.zero_current_mA;
+}
+
+void Slave::set(Reference reference, double value) {
+  if (!under_way_) ride_.reset();  // what has been shown of it is no longer so
+  if (!std::isfinite(value)) throw std::runtime_error("a value is no finite number");
+  if (reference == current) {
+    current_mA_ = value;
+  } else if (reference == opposite_current && rig_.pair() != nullptr) {
+    opposite_current_mA_ = value;
+  } else if (reference == load && rig_.pair() == nullptr) {
+    if (value + rig_.joint.load_offset_kg <= 0.0) throw std::runtime_error("load: there must be some mass");
+    load_kg_ = value;
+  } else if (reference >= first_parameter && reference - first_parameter < paths_.size()) {
+    const std::string& path = paths_[reference - first_parameter];
+    const domain::RigNumber number = domain::find_number(rig_, path);
+    if (under_way_) throw std::runtime_error(path + ": parameters are set before the start");
+    if (value < number.lowest || value > number.highest)
+      throw std::runtime_error(path + " = " + std::to_string(value) + " is outside its range, " +
+                               std::to_string(number.lowest) + " to " + std::to_string(number.highest));
+    *number.value = value;
+  } else {
+    throw std::runtime_error("value reference " + std::to_string(reference) + " cannot be set");
+  }
+}
+
+ride::Drive Slave::drive() const {
+  ride::Drive now;
+  now.current_mA = plant::dac_output_mA(rig_.dac, current_mA_);
+  now.opposite.current_mA = plant::dac_output_mA(rig_.dac, opposite_current_mA_);
+  return now;
+}
+
+void Slave::initialise(double at_s) {
+  initialised_ = true;
+  time_s_ = at_s;
+}
+
+void Slave::set_off() {
+  if (!initialised_) throw std::runtime_error("it is not being initialised");
+  if (!ride_) settle();
+  under_way_ = true;
+}
+
+void Slave::settle() {
+  if (const std::string broken = domain::broken_rule(rig_); !broken.empty()) throw std::runtime_error(broken);
+  if (const plant::Pair* pair = rig_.pair())
+    ride_.emplace(ride::Paired{rig_, plant::opposite_rig(rig_, *pair), *pair}, rig_.integrator);
+  else
+    ride_.emplace(ride::Hanging{rig_, load_kg_}, rig_.integrator);
+  hanging_kg_ = load_kg_;
+  counter_.emplace(rig_);
+  const auto ticks = std::lround(rig_.settling_time_s / rig_.tick_s);
+  const auto before_s = [&](long k) { return time_s_ - static_cast<double>(k) * rig_.tick_s; };
+  ride_->start(drive(), before_s(ticks));
+  for (long k = ticks; k > 0; --k) {
+    ride_->step(drive(), before_s(k - 1));
+    look();
+  }
+  look();
+}
+
+void Slave::step(double from_s, double length_s) {
+  if (!under_way_) throw std::runtime_error("a step before the initialisation has ended");
+  if (std::abs(from_s - time_s_) > 1e-9 * std::max(1.0, std::abs(time_s_)))
+    throw std::runtime_error("a step from another time than the last one reached");
+  if (!(length_s > 0.0)) throw std::runtime_error("a step must have a length");
+  if (load_kg_ != hanging_kg_) hang(load_kg_);
+  const double until_s = from_s + length_s;
+  ride_->step(drive(), until_s);
+  time_s_ = until_s;
+  look();
+}
+
+/// Another mass from here on, at the speed that the last one had.
+void Slave::hang(double load_kg) {
+  ride::Rider rider(ride::Hanging{rig_, load_kg});
+  rider.now = ride_->rider().now;
+  ride_.emplace(rider, ride_->save().paces.front(), rig_.integrator);
+  hanging_kg_ = load_kg;
+}
+
+void Slave::look() {
+  counts_ = counter_->count(ride_->reading().wheel_m);
+}
+
+double Slave::get(Reference reference) {
+  switch (reference) {
+    case time_of_ride:
+      return time_s_;
+    case current:
+      return current_mA_;
+    case opposite_current:
+      return opposite_current_mA_;
+    case load:
+      return load_kg_;
+    default:
+      break;
+  }
+  if (reference >= first_parameter && reference - first_parameter < paths_.size())
+    return *domain::find_number(rig_, paths_[reference - first_parameter]).value;
+  if (!initialised_) throw std::runtime_error("outputs are there once it is being initialised");
+  if (!ride_) settle();
+  return shown(reference);
+}
+
+double Slave::shown(Reference reference) const {
+  const plant::State<double>& state = ride_->flow().state;
+  switch (reference) {
+    case counts:
+      return static_cast<double>(counts_);
+    case position_read: {
+      const double rise_m = static_cast<double>(counts_) * plant::count_height_m(rig_);
+      return rig_.pair() != nullptr ? rise_m / rig_.joint.wheel_radius_m : rise_m / rig_.muscle.rest_length_m;
+    }
+    case gauge_pressure:
+      return plant::gauge_reading_Pa(rig_.gauge, ride_->reading().muscle_pressure_Pa);
+    case opposite_gauge_pressure:
+      return plant::gauge_reading_Pa(rig_.gauge, ride_->reading().opposite_pressure_Pa);
+    case cell_force:
+      return plant::cell_reading_N(rig_.load_cell, ride_->moment().cord_force_N(), 0.0);
+    case contraction_ratio:
+      return state.joint.contraction_ratio;
+    case contraction_speed:
+      return state.joint.contraction_speed_per_s;
+    case valve_pressure:
+      return state.side.valve_pressure_Pa;
+    case muscle_pressure:
+      return state.side.muscle_pressure_Pa;
+    case braid_force:
+      return ride_->moment().braid_force_N;
+    case friction_force:
+      return ride_->moment().friction_force_N;
+    case cord_force:
+      return ride_->moment().cord_force_N();
+    default:
+      return of_opposite(reference);
+  }
+}
+
+double Slave::of_opposite(Reference reference) const {
+  if (rig_.pair() == nullptr) unknown(reference);
+  const plant::State<double>& state = ride_->flow().state;
+  switch (reference) {
+    case opposite_contraction_ratio:
+      return ride_->plant().opposite_stroke(state).contraction_ratio;
+    case opposite_valve_pressure:
+      return state.opposite.valve_pressure_Pa;
+    case opposite_muscle_pressure:
+      return state.opposite.muscle_pressure_Pa;
+    case opposite_braid_force:
+      return ride_->moment().opposite.braid_force_N;
+    case opposite_friction_force:
+      return ride_->moment().opposite.friction_force_N;
+    case opposite_cord_force:
+      return ride_->moment().opposite.cord_force_N();
+    default:
+      unknown(reference);
+  }
+}
+
+}  // namespace mckibben::fmu

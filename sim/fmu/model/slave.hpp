@@ -1,0 +1,51 @@
+// One instance of an FMU: a rig that an importer steps from one communication point to the next. Nothing here
+// knows which version of the standard asks (fmi2.cpp, fmi3.cpp), and nothing is shared between instances.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <plant/instruments.hpp>
+#include <sim/domain/rig_file.hpp>
+#include <sim/fmu/model/variables.hpp>
+#include <sim/ride/ride.hpp>
+
+namespace mckibben::fmu {
+
+/// Copying one keeps its state, to the bit. Functions throw std::runtime_error; values are in the units of
+/// `variables_of`.
+class Slave {
+ public:
+  explicit Slave(domain::RigFile rig);
+
+  double get(Reference reference);
+  /// Parameters until it is under way, inputs at any time: they act from the next step on.
+  void set(Reference reference, double value);
+
+  /// It will be at rest at that time, after its settling time under the inputs as they are; from here on
+  /// outputs can be asked for.
+  void initialise(double at_s);
+  void set_off();
+  /// An instant and the way to the next. Throws engine::NumericalFailure too.
+  void step(double from_s, double length_s);
+
+ private:
+  void settle();
+  ride::Drive drive() const;
+  void hang(double load_kg);
+  void look();
+  double shown(Reference reference) const;
+  double of_opposite(Reference reference) const;
+
+  domain::RigFile rig_;
+  std::vector<std::string> paths_;
+  double current_mA_, opposite_current_mA_ = 0.0, load_kg_ = usual_load_kg, hanging_kg_ = usual_load_kg;
+  double time_s_ = 0.0;
+  bool initialised_ = false, under_way_ = false;
+  std::int64_t counts_ = 0;
+  std::optional<plant::PositionReader> counter_;
+  std::optional<ride::Ride> ride_;
+};
+
+}  // namespace mckibben::fmu

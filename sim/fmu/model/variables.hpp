@@ -1,0 +1,63 @@
+// What an importer sees of a rig: its variables with their references, from the field lists. One list, from
+// which the description is written and by which the program answers.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <sim/domain/rig_file.hpp>
+
+namespace mckibben::fmu {
+
+using Reference = std::uint32_t;
+
+/// References of what every rig has; parameters follow in the order of the rig's file.
+enum : Reference {
+  time_of_ride = 0,
+  current = 1,
+  load = 2,
+  opposite_current = 3,
+  counts = 100,
+  position_read,
+  gauge_pressure,
+  opposite_gauge_pressure,
+  cell_force,
+  contraction_ratio = 200,
+  contraction_speed,
+  valve_pressure,
+  muscle_pressure,
+  braid_force,
+  friction_force,
+  cord_force,
+  opposite_contraction_ratio = 250,
+  opposite_valve_pressure,
+  opposite_muscle_pressure,
+  opposite_braid_force,
+  opposite_friction_force,
+  opposite_cord_force,
+  first_parameter = 1000
+};
+
+enum class Role { time, input, output, parameter };
+
+struct Variable {
+  Reference reference{};
+  std::string name;
+  Role role{};
+  std::string unit;  ///< SI, but for a current in mA
+  std::string meaning;
+  bool whole = false;                               ///< an integer
+  double start = 0.0, lowest = 0.0, highest = 0.0;  ///< of inputs and parameters
+};
+
+/// `true_states`: whether outputs show what no instrument does, too.
+std::vector<Variable> variables_of(const domain::RigFile& rig, bool true_states);
+
+/// The paths of what are parameters, in the order of their references.
+std::vector<std::string> parameter_paths(const domain::RigFile& rig);
+
+/// Mass that hangs unless the importer says otherwise.
+inline constexpr double usual_load_kg = 10.0;
+
+}  // namespace mckibben::fmu

@@ -1,0 +1,116 @@
+// Values as YAML in its plain part, which JSON is; see the header.
+#include <nlohmann/json.hpp>
+
+#include <sim/input/rigs.hpp>
+#include <sim/python/dicts.hpp>
+
+namespace mckibben::python {
+namespace {
+
+std::string told(const std::vector<input::Problem>& problems, const BadDict::Paths& paths) {
+  std::string text;
+  for (std::size_t i = 0; i < problems.size(); ++i) {
+    if (i > 0) text += '\n';
+    if (!paths[i])
+      text += input::to_text(problems[i]);
+    else
+      text += problems[i].file + ": " + (paths[i]->empty() ? "" : *paths[i] + ": ") + problems[i].message;
+  }
+  return text;
+}
+
+class Writer {
+ public:
+  explicit Writer(DictText& into) : into_(into) {}
+
+  void map(const py::handle& dict, const std::string& path, const std::string& schema = {}) {
+    into_.text += '{';
+    bool first = true;
+    const auto item = [&](const std::string& key, const py::handle& item_value) {
+      const std::string below = path.empty() ? key : path + '.' + key;
+      line(first, below);
+      into_.text += input::Json(key).dump() + ": ";
+      value(item_value, below);
+    };
+    if (!schema.empty()) item("schema", py::str(schema));
+    for (const auto& [key, item_value] : py::reinterpret_borrow<py::dict>(dict)) {
+      if (!py::isinstance<py::str>(key)) throw py::type_error("keys are words, not " + word(key));
+      item(key.cast<std::string>(), item_value);
+    }
+    into_.text += '}';
+  }
+
+ private:
+  void line(bool& first, const std::string& path) {
+    into_.text += first ? "\n" : ",\n";
+    into_.paths.push_back(path);
+    first = false;
+  }
+
+  void list(const py::handle& items, const std::string& path) {
+    into_.text += '[';
+    bool first = true;
+    std::size_t index = 0;
+    for (const auto& item : items) {
+      const std::string below = path + '[' + std::to_string(index++) + ']';
+      line(first, below);
+      value(item, below);
+    }
+    into_.text += ']';
+  }
+
+  void value(const py::handle& value_of, const std::string& path) {
+    if (py::isinstance<Rig>(value_of)) {
+      input::Json rig = input::rig_json(value_of.cast<const Rig&>().file);
+      rig.erase("schema");
+      map(from_json(rig.dump()), path);
+    } else if (py::isinstance<py::dict>(value_of)) {
+      map(value_of, path);
+    } else if (value_of.is_none()) {
+      into_.text += "null";
+    } else if (py::isinstance<py::bool_>(value_of)) {
+      into_.text += value_of.cast<bool>() ? "true" : "false";
+    } else if (py::isinstance<py::str>(value_of)) {
+      into_.text += input::Json(value_of.cast<std::string>()).dump();
+    } else if (py::isinstance<py::int_>(value_of) || py::isinstance<py::float_>(value_of)) {
+      into_.text += word(value_of);
+    } else if (py::isinstance<py::list>(value_of) || py::isinstance<py::tuple>(value_of)) {
+      list(value_of, path);
+    } else if (py::hasattr(value_of, "tolist")) {  // NumPy's arrays and numbers
+      value(value_of.attr("tolist")(), path);
+    } else if (py::hasattr(value_of, "__fspath__")) {
+      value(value_of.attr("__fspath__")(), path);
+    } else {
+      throw py::type_error(path + ": no file can hold a " +
+                           py::str(py::type::of(value_of).attr("__name__")).cast<std::string>());
+    }
+  }
+
+  static std::string word(const py::handle& value) { return py::repr(value).cast<std::string>(); }
+
+  DictText& into_;
+};
+
+}  // namespace
+
+BadDict::BadDict(std::vector<input::Problem> problems, Paths paths)
+    : std::runtime_error(told(problems, paths)), problems_(std::move(problems)), paths_(std::move(paths)) {}
+
+void DictText::refuse(const std::vector<input::Problem>& problems) const {
+  BadDict::Paths at;
+  for (const auto& problem : problems) {
+    const std::size_t line = problem.file == name ? problem.place.line : 0;
+    at.push_back(line > 0 && line <= paths.size() ? std::optional(paths[line - 1]) : std::nullopt);
+  }
+  throw BadDict(problems, at);
+}
+
+DictText text_of(const py::dict& dict, const std::string& name, const std::string& schema) {
+  DictText made{name};
+  made.paths.emplace_back();  // the line with the first bracket
+  Writer(made).map(dict, "", dict.contains("schema") ? "" : schema);
+  made.text += '\n';
+  return made;
+}
+
+}  // namespace mckibben::python

@@ -1,0 +1,228 @@
+// run and replay: what the verbs of the same names calculate, without their files.
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include <sim/output/driven_results.hpp>
+#include <sim/output/run_json.hpp>
+#include <sim/output/table.hpp>
+#include <sim/python/inputs.hpp>
+#include <sim/python/jobs.hpp>
+#include <sim/python/long_work.hpp>
+#include <sim/report/report.hpp>
+#include <sim/run/compare.hpp>
+#include <sim/run/pair_runs.hpp>
+#include <sim/run/replay.hpp>
+#include <sim/run/simulate.hpp>
+#include <sim/tasks/replay.hpp>
+
+namespace mckibben::python {
+namespace {
+
+/// The recording of a run that is a part of something kept as a whole.
+template <class Whole>
+std::shared_ptr<const run::Recording> part_of(const std::shared_ptr<Whole>& whole,
+                                              const run::Recording& recording) {
+  return {whole, &recording};
+}
+
+std::vector<std::pair<std::string, std::optional<double>>> metrics_of(const run::TrackedRun& run) {
+  const run::Metrics& m = run.metrics;
+  if (!run.failure.empty()) return {};
+  return {{"rmse", m.rmse},
+          {"mae", m.mae},
+          {"largest_error", m.largest_error},
+          {"final_error", m.final_error},
+          {"time_lag_s", m.time_lag_s},
+          {"overshoot", m.overshoot},
+          {"settling_time_s", m.settling_time_s},
+          {"current_travel_mA", m.current_travel_mA},
+          {"air_kg", m.air_kg},
+          {"at_lowest_current", m.at_lowest_current},
+          {"at_highest_current", m.at_highest_current}};
+}
+
+Result result_of(domain::Scenario scenario, run::Comparison comparison) {
+  struct Whole {
+    domain::Scenario scenario;
+    run::Comparison comparison;
+  };
+  const auto whole = std::make_shared<Whole>(Whole{std::move(scenario), std::move(comparison)});
+  const std::shared_ptr<const std::vector<double>> target(whole, &whole->comparison.target);
+  const double per_count = run::contraction_per_count(whole->scenario.rig);
+  Result result{{},
+                whole->comparison.warnings,
+                whole->comparison.unmet,
+                [whole] { return output::table_of(whole->scenario, whole->comparison); },
+                [whole] { return output::json_of(whole->scenario, whole->comparison); },
+                [whole] { return report::report_html(whole->scenario, whole->comparison); }};
+  for (const run::TrackedRun& run : whole->comparison.runs)
+    result.runs.push_back(std::make_shared<Simulated>(
+        Simulated{part_of(whole, run.recording), per_count, output::file_stem(run), run.controller,
+                  run.failure, run.load_kg, target, metrics_of(run)}));
+  return result;
+}
+
+const std::vector<run::StampedRun>& list_of(const std::vector<run::StampedRun>& runs) {
+  return runs;
+}
+const std::vector<run::PairRun>& list_of(const run::PairRuns& all) {
+  return all.runs;
+}
+
+/// Of pairs, and of rides that followed stamps. `seen`: a run of theirs as Python sees it, given what keeps
+/// it.
+template <class What, class Runs, class Seen>
+Result driven(What what, Runs runs, std::vector<std::string> warnings, const Seen& seen) {
+  struct Whole {
+    What what;
+    Runs runs;
+    std::vector<std::string> warnings;
+  };
+  const auto whole = std::make_shared<Whole>(Whole{std::move(what), std::move(runs), std::move(warnings)});
+  Result result{{},
+                whole->warnings,
+                {},
+                [whole] { return output::table_of(whole->what, whole->runs, whole->warnings); },
+                [whole] { return output::json_of(whole->what, whole->runs, whole->warnings, false); },
+                [whole] { return report::report_html(whole->what, whole->runs, whole->warnings); }};
+  for (const auto& run : list_of(whole->runs)) {
+    const auto one = std::make_shared<Simulated>(
+        Simulated{part_of(whole, run.recording), run::contraction_per_count(whole->what.rig)});
+    one->failure = run.failure;
+    seen(run, *one);
+    result.runs.push_back(one);
+  }
+  return result;
+}
+
+Result run_pair(const domain::PairScenario& scenario, unsigned threads, const py::object& progress) {
+  auto runs = long_work(progress, [&](const auto& hook) { return run::run_pairs(scenario, threads, hook); });
+  auto warnings = run::warnings_of(runs.runs);
+  return driven(scenario, std::move(runs), std::move(warnings),
+                [](const run::PairRun& run, Simulated& one) { one.name = run.name; });
+}
+
+Result run_scenario(const Scenario& scenario, unsigned threads, std::optional<std::uint64_t> seed,
+                    const py::object& progress) {
+  if (const auto* of_pair = std::get_if<domain::PairScenario>(&scenario.what)) {
+    if (seed) throw py::value_error("the currents of a pair are given: nothing is left to a seed");
+    return run_pair(*of_pair, threads, progress);
+  }
+  domain::Scenario one = std::get<domain::Scenario>(scenario.what);
+  if (seed) one.seed = *seed;
+  auto comparison = long_work(progress, [&](const auto& hook) { return run::compare(one, threads, hook); });
+  return result_of(std::move(one), std::move(comparison));
+}
+
+/// In bar, as of data with a clock of their own.
+std::vector<run::Gap> gaps_of_ticked(const run::ReplayedRun& run) {
+  if (!run.failure.empty()) return {};
+  const std::size_t rows = run.recording.samples.size();
+  std::vector<run::Gap> gaps{{"contraction", "1", run.rmse, run.largest_error, run.mean_error, rows}};
+  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  if (run.pressure_rmse_Pa)
+    gaps.push_back(
+        {"muscle_pressure", "bar", *run.pressure_rmse_Pa / plant::Pa_per_bar, unknown, unknown, rows});
+  return gaps;
+}
+
+Result replay_ticked(domain::Dataset data, unsigned threads, const py::object& progress) {
+  struct Whole {
+    domain::Dataset data;
+    std::vector<run::ReplayedRun> runs{};
+    std::vector<std::string> warnings{};
+  };
+  const auto whole = std::make_shared<Whole>(Whole{std::move(data)});
+  do_long(progress, [&](const auto& hook) {
+    whole->runs = run::replay(whole->data, threads, hook);
+    whole->warnings = tasks::warnings_of(whole->data, whole->runs);
+  });
+  Result result{{},
+                whole->warnings,
+                {},
+                [whole] { return output::table_of(whole->data, whole->runs); },
+                [whole] { return output::json_of(whole->data, whole->runs, whole->warnings); },
+                [whole] { return report::report_html(whole->data, whole->runs, whole->warnings); }};
+  for (const run::ReplayedRun& run : whole->runs) {
+    const auto one = std::make_shared<Simulated>(
+        Simulated{part_of(whole, run.recording), run::contraction_per_count(whole->data.rig), run.id});
+    one->failure = run.failure;
+    one->load_kg = run.load_kg;
+    one->gaps = gaps_of_ticked(run);
+    result.runs.push_back(one);
+  }
+  return result;
+}
+
+Result replay(const domain::Dataset& dataset, const py::object& rig, unsigned threads,
+              const py::object& progress) {
+  domain::Dataset data = dataset;
+  if (!rig.is_none()) tasks::replace_rig(data, "rig", rig_of(rig).file);
+  if (!data.own_clock) return replay_ticked(std::move(data), threads, progress);
+  auto runs = long_work(progress, [&](const auto& hook) { return run::replay_stamped(data, threads, hook); });
+  auto warnings = tasks::warnings_of(runs);
+  return driven(std::move(data), std::move(runs), std::move(warnings),
+                [](const run::StampedRun& run, Simulated& one) {
+                  one.name = run.id;
+                  one.load_kg = run.load_kg;
+                  one.gaps = run.gaps;
+                });
+}
+
+std::shared_ptr<Simulated> run_at(const Result& result, py::ssize_t index) {
+  const auto count = static_cast<py::ssize_t>(result.runs.size());
+  if (index < -count || index >= count) throw py::index_error("there are " + std::to_string(count) + " runs");
+  return result.runs[static_cast<std::size_t>(index < 0 ? index + count : index)];
+}
+
+}  // namespace
+
+void add_jobs(py::module_& module) {
+  py::class_<Result>(module, "Result", "Runs, and what is to be said of them.")
+      .def_property_readonly(
+          "runs", [](const Result& result) { return py::tuple(py::cast(result.runs)); }, "All runs.")
+      .def("__len__", [](const Result& result) { return result.runs.size(); })
+      .def("__getitem__", &run_at, py::arg("index"))
+      .def_readonly("warnings", &Result::warnings, "What should be known of the result, in words.")
+      .def_readonly("unmet", &Result::unmet, "Criteria of the scenario that are not met, in words.")
+      .def(
+          "to_dict", [](const Result& result) { return from_json(result.document()); },
+          "What the command line writes as run.json.")
+      .def(
+          "report_html", [](const Result& result) { return result.report(); },
+          "The text of report.html: all of it as linked plots, to be opened in a browser.")
+      .def("__str__", [](const Result& result) { return result.table(); })
+      .def("__repr__", [](const Result& result) {
+        return "<mckibben.Result: " + std::to_string(result.runs.size()) + " runs>";
+      });
+
+  py::reinterpret_borrow<py::class_<Rig>>(py::object(module.attr("Rig")))
+      .def(
+          "run",
+          [](const py::object& self, unsigned threads, const py::object& progress, const py::kwargs& keys) {
+            py::dict source(**keys);
+            source["rig"] = self;
+            return run_scenario(py::object(py::type::of<Scenario>())(source).cast<const Scenario&>(), threads,
+                                std::nullopt, progress);
+          },
+          py::kw_only(), py::arg("threads") = 0, py::arg("progress") = py::none(),
+          "The Scenario of this rig with these keys of scenario files (loads=, target=, duration=, "
+          "controllers=, ...), run as Scenario.run does.");
+  const py::object scenario = module.attr("Scenario"), dataset = module.attr("Dataset");
+  py::reinterpret_borrow<py::class_<Scenario>>(scenario).def(
+      "run", &run_scenario, py::arg("threads") = 0, py::arg("seed") = py::none(),
+      py::arg("progress") = py::none(),
+      "Simulates every load under every controller, on so many threads (0: all the machine has); the result "
+      "does not depend on their number. `progress(what, done, total)` is told how far it is. Ctrl-C ends it, "
+      "as does an exception of `progress`. A run that fails says so in `failure`; the others go on.");
+  py::reinterpret_borrow<py::class_<domain::Dataset, std::shared_ptr<domain::Dataset>>>(dataset).def(
+      "replay", &replay, py::arg("rig") = py::none(), py::arg("threads") = 0,
+      py::arg("progress") = py::none(),
+      "Simulates every measured run with what drove it, on the data set's rig or another one, and compares. "
+      "Raises UnfitData where a comparison would mean nothing. `threads`, `progress`, Ctrl-C as in "
+      "Scenario.run.");
+}
+
+}  // namespace mckibben::python

@@ -1,0 +1,18 @@
+"""McKibben: a pneumatic muscle that lifts a load, simulated, controlled, compared with measurements.
+
+    >>> import mckibben
+    >>> ride = mckibben.Ride("thesis", load_kg=11.138)
+    >>> reading = ride.step(current_mA=9.0)
+    >>> reading.time_s
+    0.012
+
+Numbers are SI, gauge pressures, currents in mA; names end in their units. docs/python.md is the tutorial.
+"""
+from ._core import (Calibration, Dataset, Diagnosis, Flock, Linear, Reading, Result, Ride, Rig, Run, SavedRide,
+                    Scenario)
+from ._core import version as __version__
+from .env import Env
+from .errors import Error, InputError, InputWarning, MissingInput, NumericalFailure, Problem, UnfitData
+
+__all__ = ["Calibration", "Dataset", "Diagnosis", "Env", "Error", "Flock", "InputError", "InputWarning", "Linear",
+           "MissingInput", "NumericalFailure", "Problem", "Reading", "Result", "Ride", "Rig", "Run", "SavedRide", "Scenario", "UnfitData"]

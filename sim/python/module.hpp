@@ -1,0 +1,48 @@
+// Python's module `mckibben._core`: what each file of this room adds to it, and what they share. People
+// import the package `mckibben` (the folder beside), which is made of it; docs/python.md is its page.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include <sim/domain/rig_file.hpp>
+#include <sim/input/diagnostics.hpp>
+
+namespace mckibben::python {
+
+namespace py = pybind11;
+
+// In this order: signatures name the classes of those before.
+void add_errors(py::module_& module);
+void add_inputs(py::module_& module);
+void add_recordings(py::module_& module);
+void add_jobs(py::module_& module);
+void add_findings(py::module_& module);
+void add_rides(py::module_& module);
+void add_fleets(py::module_& module);
+
+/// A rig as it was read, and the text of a file that holds every field of it.
+struct Rig {
+  domain::RigFile file;
+  std::vector<domain::InputFile> inputs;
+};
+
+/// The document of a result as Python's dicts and lists.
+py::object from_json(const std::string& document);
+
+/// A function of the package's own Python files.
+py::object of_package(const char* file, const char* function);
+
+/// Tells Python's user, as warnings do.
+void warn(const std::vector<std::string>& warnings);
+
+/// Numbers that C++ owns, as a NumPy array without a copy; it keeps `owner` alive and cannot be written.
+py::array_t<double> view(const double* first, std::vector<py::ssize_t> shape,
+                         std::vector<py::ssize_t> strides_in_bytes, const py::handle& owner);
+
+}  // namespace mckibben::python

@@ -1,0 +1,26 @@
+// A simulated run as Python sees it.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <sim/python/module.hpp>
+#include <sim/run/gaps.hpp>
+#include <sim/run/recording.hpp>
+
+namespace mckibben::python {
+
+struct Simulated {
+  std::shared_ptr<const run::Recording> recording;
+  double contraction_per_count = 0.0;
+  std::string name{}, controller{}, failure{};
+  double load_kg = 0.0;                                 ///< 0 where none hangs
+  std::shared_ptr<const std::vector<double>> target{};  ///< contraction ratio at each row; none
+  std::vector<std::pair<std::string, std::optional<double>>> metrics{};
+  std::vector<run::Gap> gaps{};
+};
+
+}  // namespace mckibben::python

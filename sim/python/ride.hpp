@@ -1,0 +1,76 @@
+// The rig that Python steps: a ride with its drive, its ticks and its encoder.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include <plant/instruments.hpp>
+#include <sim/engine/linear.hpp>
+#include <sim/python/module.hpp>
+#include <sim/python/recordings.hpp>
+#include <sim/python/turn.hpp>
+#include <sim/ride/ride.hpp>
+
+namespace mckibben::python {
+
+/// What instruments show at an instant.
+struct Shown {
+  double time_s, contraction_ratio, angle_rad, gauge_pressure_Pa, opposite_gauge_pressure_Pa;
+  std::int64_t counts;
+};
+
+/// What a step changes in the drive.
+struct Given {
+  std::optional<double> current_mA{}, opposite_current_mA{}, muscle_pressure_Pa{},
+      opposite_muscle_pressure_Pa{}, contraction_ratio{};
+};
+
+class Ride {
+ public:
+  using Currents = py::array_t<double, py::array::c_style | py::array::forcecast>;
+
+  /// Settled at 0 s, no pressure asked for. Throws py::value_error without a load, or with one on two
+  /// muscles.
+  Ride(const py::object& rig, std::optional<double> load_kg);
+  Ride(const Ride& other);
+
+  void start(const Given& given, double at_s, bool settle);
+  /// A tick, or so long.
+  Shown step(const Given& given, std::optional<double> dt_s);
+  Simulated follow(const Currents& current_mA, const std::optional<Currents>& opposite_mA);
+
+  struct Saved {
+    ride::Ride::Saved ride;
+    plant::PositionReader counter;
+    ride::Drive drive;
+    double begin_s;
+    long ticks;
+    std::int64_t counts;
+  };
+  Saved save() const;
+  void restore(const Saved& saved);
+
+  engine::Linear linearise() const;
+  Shown shown() const;
+  plant::Moment<double> moment() const { return ride_.moment(); }
+  const double* state() const { return &ride_.flow().state.joint.contraction_ratio; }
+  bool pair() const { return rig_.pair() != nullptr; }
+  Rig rig() const { return {rig_, {}}; }
+
+ private:
+  void take(const Given& given);
+  void advance();
+  void look() { counts_ = counter_.count(ride_.reading().wheel_m); }
+  double time_after(long ticks) const { return begin_s_ + static_cast<double>(ticks_ + ticks) * rig_.tick_s; }
+
+  domain::RigFile rig_;
+  ride::Ride ride_;
+  plant::PositionReader counter_;
+  ride::Drive drive_;
+  double begin_s_ = 0.0;  ///< times are products of ticks, never sums
+  long ticks_ = 0;
+  std::int64_t counts_ = 0;
+  mutable Turn::Busy busy_{false};
+};
+
+}  // namespace mckibben::python

@@ -1,0 +1,160 @@
+// A rig that Python steps, as its module's class: ride.hpp is what it does.
+#include <memory>
+#include <string>
+
+#include <pybind11/eigen.h>
+
+#include <sim/python/ride.hpp>
+
+namespace mckibben::python {
+namespace {
+
+py::dict moment_of(const Ride& ride) {
+  const auto now = ride.moment();
+  py::dict all;
+  const auto add = [&](const plant::SideMoment<double>& side, const std::string& suffix) {
+    const auto put = [&](const std::string& name, const char* unit, double value) {
+      all[(name + suffix + "_" + unit).c_str()] = value;
+    };
+    put("braid_force", "N", side.braid_force_N);
+    put("stop_force", "N", side.stop_force_N);
+    put("friction_force", "N", side.friction_force_N);
+    put("friction_level", "N", side.friction_level_N);
+    put("effects_pull", "N", side.effects_pull_N);
+    put("cord_force", "N", side.cord_force_N());
+    put("supply_flow", "kg_per_s", side.supply_flow);
+    put("vent_flow", "kg_per_s", side.vent_flow);
+    put("hose_flow", "kg_per_s", side.hose_flow);
+    put("leak_flow", "kg_per_s", side.leak_flow);
+    put("volume", "m3", side.volume_m3);
+  };
+  add(now, ride.pair() ? "_1" : "");
+  if (ride.pair()) add(now.opposite, "_2");
+  all["guide_force_N"] = now.guide_force_N;
+  all["acceleration_m_per_s2"] = now.acceleration_m_per_s2;
+  return all;
+}
+
+template <class Signals>
+py::tuple names_of(const Signals& signals) {
+  py::list names;
+  for (const auto& signal : signals) names.append(py::make_tuple(signal.name, signal.unit));
+  return py::tuple(names);
+}
+
+void add_linear(py::module_& module) {
+  using engine::Linear;
+  py::class_<Linear>(module, "Linear",
+                     "A rig near a point: dx/dt = rate + A (x - state) + B (u - input), "
+                     "y = output + C (x - state) + D (u - input).")
+      .def_property_readonly(
+          "states", [](const Linear& l) { return names_of(l.states); }, "(name, unit) of each state.")
+      .def_property_readonly(
+          "inputs", [](const Linear& l) { return names_of(l.inputs); }, "(name, unit) of each input.")
+      .def_property_readonly(
+          "outputs", [](const Linear& l) { return names_of(l.outputs); }, "(name, unit) of each output.")
+      .def_readonly("state", &Linear::state, "x at the point, shape (states,).")
+      .def_readonly("rate", &Linear::rate, "dx/dt at the point, shape (states,).")
+      .def_readonly("input", &Linear::input, "u at the point, shape (inputs,).")
+      .def_readonly("output", &Linear::output, "y at the point, shape (outputs,).")
+      .def_readonly("A", &Linear::A, "d(dx/dt)/dx, shape (states, states).")
+      .def_readonly("B", &Linear::B, "d(dx/dt)/du, shape (states, inputs).")
+      .def_readonly("C", &Linear::C, "dy/dx, shape (outputs, states).")
+      .def_readonly("D", &Linear::D, "dy/du, shape (outputs, inputs).");
+}
+
+}  // namespace
+
+void add_rides(py::module_& module) {
+  add_linear(module);
+  py::class_<Shown>(module, "Reading", "What instruments show at an instant.")
+      .def_readonly("time_s", &Shown::time_s, "The instant [s].")
+      .def_readonly("counts", &Shown::counts, "As the encoder counts.")
+      .def_readonly("contraction_ratio", &Shown::contraction_ratio, "By these counts [1]; NaN of a pair.")
+      .def_readonly("angle_rad", &Shown::angle_rad, "By these counts [rad]; NaN of one muscle.")
+      .def_readonly("gauge_pressure_Pa", &Shown::gauge_pressure_Pa, "As a gauge shows it, or would [Pa].")
+      .def_readonly("opposite_gauge_pressure_Pa", &Shown::opposite_gauge_pressure_Pa,
+                    "The same of muscle 2; NaN of one muscle.")
+      .def("__repr__", [](const Shown& shown) {
+        return "<mckibben.Reading at " + std::to_string(shown.time_s) +
+               " s: " + std::to_string(shown.counts) + " counts>";
+      });
+  const py::class_<Ride::Saved> saved(module, "SavedRide",
+                                      "Where a ride was, whole: Ride.restore goes on from it.");
+
+  const auto given = [](std::optional<double> current_mA, std::optional<double> opposite_current_mA,
+                        std::optional<double> muscle_pressure_Pa,
+                        std::optional<double> opposite_muscle_pressure_Pa,
+                        std::optional<double> contraction_ratio) {
+    return Given{current_mA, opposite_current_mA, muscle_pressure_Pa, opposite_muscle_pressure_Pa,
+                 contraction_ratio};
+  };
+  using Number = std::optional<double>;
+  py::class_<Ride>(module, "Ride", "A rig that is stepped from outside.")
+      .def(py::init<const py::object&, std::optional<double>>(), py::arg("rig") = "thesis",
+           py::arg("load_kg") = py::none(),
+           "A Rig, or what makes one, with a load [kg] on it; none on two muscles. It stands settled at 0 s, "
+           "its valves at the lower ends of their lines.")
+      .def(
+          "start",
+          [given](Ride& ride, Number current_mA, Number opposite_current_mA, Number muscle_pressure_Pa,
+                  Number opposite_muscle_pressure_Pa, Number contraction_ratio, double at_s, bool settle) {
+            ride.start(given(current_mA, opposite_current_mA, muscle_pressure_Pa, opposite_muscle_pressure_Pa,
+                             contraction_ratio),
+                       at_s, settle);
+          },
+          py::arg("current_mA") = py::none(), py::kw_only(), py::arg("opposite_current_mA") = py::none(),
+          py::arg("muscle_pressure_Pa") = py::none(), py::arg("opposite_muscle_pressure_Pa") = py::none(),
+          py::arg("contraction_ratio") = py::none(), py::arg("at_s") = 0.0, py::arg("settle") = true,
+          "At rest, pressures as the drive asks for, the encoder at zero; `settle`: after the rig's settling "
+          "time under this drive, which ends at `at_s` [s].")
+      .def(
+          "step",
+          [given](Ride& ride, Number current_mA, Number dt_s, Number opposite_current_mA,
+                  Number muscle_pressure_Pa, Number opposite_muscle_pressure_Pa, Number contraction_ratio) {
+            return ride.step(given(current_mA, opposite_current_mA, muscle_pressure_Pa,
+                                   opposite_muscle_pressure_Pa, contraction_ratio),
+                             dt_s);
+          },
+          py::arg("current_mA") = py::none(), py::arg("dt_s") = py::none(), py::kw_only(),
+          py::arg("opposite_current_mA") = py::none(), py::arg("muscle_pressure_Pa") = py::none(),
+          py::arg("opposite_muscle_pressure_Pa") = py::none(), py::arg("contraction_ratio") = py::none(),
+          "Holds a current [mA] until dt_s [s] later (a tick if left out), and gives the Reading there. What "
+          "is not given stays. A muscle pressure [Pa, gauge] or a contraction ratio [1] that is given is "
+          "reached, straight, at the end of the step; without a valve then, or on a bench. Raises "
+          "NumericalFailure; the ride is then where it last came to.")
+      .def("follow", &Ride::follow, py::arg("current_mA"), py::arg("opposite_current_mA") = py::none(),
+           "A tick for each current [mA], shape (ticks,), in one call: a Run whose rows are what was there "
+           "before each tick.")
+      .def("save", &Ride::save, "All that changes on the way.")
+      .def("restore", &Ride::restore, py::arg("saved"), "Goes on from what was saved, to the same bits.")
+      .def(
+          "copy", [](const Ride& ride) { return std::make_unique<Ride>(ride); },
+          "A ride of its own that goes on from here.")
+      .def(
+          "linearise", &Ride::linearise,
+          "A, B, C, D at this instant, under what is held: exact, by dual numbers. States: "
+          "contraction_ratio, "
+          "contraction_speed_per_s, then valve_pressure_Pa, muscle_pressure_Pa, bristle_m of each muscle, "
+          "then "
+          "what effects remember. Inputs: current_mA and its speed of each muscle, last a force that lifts "
+          "the load [N], or a torque [N m]. Outputs: contraction_ratio or angle_rad, then muscle_pressure_Pa "
+          "and cord_force_N of each muscle. Raises ValueError where there are no slopes.")
+      .def_property_readonly("reading", &Ride::shown, "What instruments show now.")
+      .def_property_readonly(
+          "time_s", [](const Ride& ride) { return ride.shown().time_s; }, "Now [s].")
+      .def_property_readonly(
+          "state",
+          [](const py::object& self) {
+            const auto& ride = self.cast<const Ride&>();
+            return view(ride.state(), {ride.pair() ? 8 : 5}, {sizeof(double)}, self);
+          },
+          "True state, shape (5,), of a pair (8,): contraction ratio [1] and its speed [1/s], then valve "
+          "pressure [Pa], muscle pressure [Pa] and bristles [m] of each muscle. The simulator's own memory: "
+          "it "
+          "changes with every step, copy what you keep.")
+      .def_property_readonly("moment", &moment_of, "Forces [N], flows [kg/s] and more at this instant.")
+      .def_property_readonly("rig", &Ride::rig, "Its rig.");
+}
+
+}  // namespace mckibben::python

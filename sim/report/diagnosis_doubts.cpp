@@ -1,0 +1,114 @@
+// What else it could be, what speaks for each name, what competed; what to measure next.
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include <sim/output/diagnosis_words.hpp>
+#include <sim/output/svg.hpp>
+#include <sim/report/diagnosis_chapters.hpp>
+#include <sim/report/diagnosis_pictures.hpp>
+#include <sim/report/html.hpp>
+#include <sim/report/length.hpp>
+#include <sim/report/tables.hpp>
+
+namespace mckibben::report {
+namespace {
+
+using diagnose::Diagnosis;
+using diagnose::full_name;
+using output::escaped;
+
+/// Runs for and against each name.
+std::string support_html(const Diagnosis& diagnosis) {
+  std::string rows;
+  for (const auto* effects : {&diagnosis.effects, &diagnosis.stand_ins})
+    for (const auto& effect : *effects) {
+      const auto& support = effect.support;
+      const auto runs = [](const std::vector<std::string>& ids) {
+        return ids.empty() ? std::string("none") : output::listed(ids);
+      };
+      rows += row(full_name(effect.name, effect.variant),
+                  {fmt::format("{:.0f}", support.fall),
+                   std::isfinite(support.before_rivals) ? fmt::format("{:.0f}", support.before_rivals)
+                                                        : std::string("none tried"),
+                   runs(support.by), runs(support.against)});
+    }
+  if (rows.empty()) return "";
+  return "<div class='wide'>" +
+         table(
+             "What speaks for each name: by how much the misfit falls with it, how much more the best of the "
+             "others leaves that does not do as well, and runs whose own misfit falls or rises by more than "
+             "chance",
+             {"name", "fall", "next best leaves", "runs for it", "runs against it"}, rows) +
+         "</div>\n";
+}
+
+/// What competed on the runs held out.
+std::string competition_html(const Diagnosis& diagnosis, const plant::Rig& rig) {
+  std::string rows;
+  for (const auto& one : diagnosis.explanations)
+    rows +=
+        fmt::format("<tr><th scope='row'>{}</th><td>{:.0f}</td><td>{:.0f}</td><td>{}</td><td>{}</td></tr>\n",
+                    escaped(output::explained_by(one)), one.misfit, one.strain,
+                    amount_html(one.held_out_rmse, diagnosis.gap.judged, rig),
+                    one.chosen    ? "chosen"
+                    : one.as_good ? "yes"
+                                  : "no");
+  if (rows.empty()) return "";
+  return folded(
+      "What competed",
+      paragraph("Every explanation that was fitted, or the best of its kind. The misfit is the sum of "
+                "squares of the fitted runs over their long-term variance, and the strain: the squares "
+                "of the deviations by which the rig's numbers had to move. Of those that do as well the "
+                "simplest is chosen.") +
+          "<div class='wide'>" +
+          table("Explanations", {"by", "misfit", "of it strain", "error held out", "does as well"}, rows) +
+          "</div>\n");
+}
+
+std::string twins_html(const domain::Dataset& data, const Diagnosis& diagnosis) {
+  std::string html;
+  for (const auto& effect : diagnosis.effects)
+    html += paragraph(
+        effect.confusable_with.empty()
+            ? fmt::format("{}: no other effect of the catalogue explains these data as well.", effect.name)
+            : fmt::format("{} could as well be {}: these data cannot tell them apart.", effect.name,
+                          output::listed(effect.confusable_with)));
+  if (!gauged(data) && !data.pressure_is_given() &&
+      (!diagnosis.effects.empty() || !diagnosis.residual_law.empty()))
+    html += paragraph(
+        "The data hold no muscle pressure. One measured quantity can show one unknown only: what looks like "
+        "a missing force could be a missing flow of gas that has the same consequences for the load. A "
+        "pressure gauge on the muscle decides it.");
+  html += support_html(diagnosis) + competition_html(diagnosis, data.rig);
+  const std::string likeness = confusion_svg(diagnosis);
+  if (likeness.empty()) return html;
+  return html + figures_html({{"Likeness of what the best candidates change in these data, before anything "
+                               "was added: at 1 they look the same, above 0.9 (framed) a little of the one "
+                               "cannot be told from a little of the other, at 0 they have nothing in common.",
+                               likeness}});
+}
+
+std::string next_html(const Diagnosis& diagnosis) {
+  if (!diagnosis.next_experiment) {
+    const std::string words = output::what_next(diagnosis);
+    return words.empty() ? "" : paragraph(words);
+  }
+  const auto& next = *diagnosis.next_experiment;
+  return fmt::format(
+      "<p><b>{}</b>, with a load of {}. It would tell {} apart with a probability of {:.0f} % (test at 5 %). "
+      "The option <code>--plan FILE</code> writes it as a campaign.</p>\n",
+      escaped(next.current), output::mass(next.load_kg), escaped(output::listed(next.separates)),
+      100.0 * next.expected_power);
+}
+
+}  // namespace
+
+std::vector<Chapter> doubts_and_plan(const domain::Dataset& data, const Diagnosis& diagnosis) {
+  return {{diagnosis.effects.empty() && diagnosis.residual_law.empty() ? "Which candidates look alike"
+                                                                       : "What else it could be",
+           twins_html(data, diagnosis)},
+          {"What to measure next", next_html(diagnosis)}};
+}
+
+}  // namespace mckibben::report

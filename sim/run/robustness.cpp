@@ -1,0 +1,138 @@
+// See the header.
+#include <algorithm>
+#include <cmath>
+
+#include <plant/geometry.hpp>
+#include <sim/domain/rig_number.hpp>
+#include <sim/run/draws.hpp>
+#include <sim/run/robustness.hpp>
+#include <sim/run/simulate.hpp>
+#include <sim/run/track.hpp>
+
+namespace mckibben::run {
+namespace {
+
+/// Turns of the load within some ticks, each after it went at least `cycle_way`.
+int turns(std::span<const double> contraction) {
+  int count = 0, direction = 0;
+  double edge = contraction.empty() ? 0.0 : contraction.front();
+  for (const double e : contraction) {
+    const bool further = direction > 0 ? e > edge : e < edge;
+    if (direction != 0 && further) {
+      edge = e;
+    } else if (std::abs(e - edge) >= cycle_way) {
+      count += direction != 0 ? 1 : 0;
+      direction = e > edge ? 1 : -1;
+      edge = e;
+    }
+  }
+  return count;
+}
+
+/// By linear interpolation between the ordered values (Hyndman & Fan 1996, type 7).
+double quantile(const std::vector<double>& sorted, double share) {
+  const double at = share * static_cast<double>(sorted.size() - 1);
+  const auto before = static_cast<std::size_t>(at);
+  const std::size_t after = std::min(before + 1, sorted.size() - 1);
+  return std::lerp(sorted[before], sorted[after], at - static_cast<double>(before));
+}
+
+}  // namespace
+
+domain::Variation within_stated(domain::RigFile rig) {
+  domain::Variation variation;
+  for (const auto& [path, deviation] : rig.spreads) {
+    const domain::RigNumber number = domain::find_number(rig, path);
+    if (number.value == nullptr || !std::isfinite(deviation) || deviation == 0.0) continue;
+    domain::Varied varied = domain::Varied::normal(*number.value, deviation);
+    varied.path = path;
+    varied.unit = number.unit;
+    varied.low = std::max(varied.low, number.lowest);
+    varied.high = std::min(varied.high, number.highest);
+    variation.numbers.push_back(std::move(varied));
+  }
+  return variation;
+}
+
+bool cycles(const Followed& run) {
+  const auto least = static_cast<std::size_t>(std::ceil(cycle_rest_s / run.tick_s));
+  for (std::size_t begin = 0; begin < run.target.size();) {
+    std::size_t end = begin + 1;
+    while (end < run.target.size() && run.target[end] == run.target[begin]) ++end;
+    const std::size_t half = (end - begin) / 2;
+    if (end - begin >= least &&
+        turns(run.contraction.subspan(begin + half, end - begin - half)) >= cycle_turns)
+      return true;
+    begin = end;
+  }
+  return false;
+}
+
+namespace {
+
+DrawnRun outcome(const domain::Scenario& scenario, const std::vector<double>& target,
+                 const Recording& recording, const std::optional<controllers::CurrentRange>& limits) {
+  if (!recording.failure.empty()) return {};
+  const Metrics metrics = metrics_of(scenario, target, recording, limits);
+  const double at_limit = metrics.at_lowest_current.value_or(0.0) + metrics.at_highest_current.value_or(0.0);
+  std::vector<double> contraction;
+  contraction.reserve(recording.samples.size());
+  for (const Sample& sample : recording.samples) contraction.push_back(sample.state.joint.contraction_ratio);
+  return {
+      .ended = true,
+      .rmse = metrics.rmse,
+      .cycles = cycles(
+          {.target = target, .contraction = contraction, .current_mA = {}, .tick_s = scenario.rig.tick_s}),
+      .saturated = at_limit > saturated_share,
+      .over_contracted = recording.largest_contraction_ratio > plant::risky_contraction_ratio};
+}
+
+}  // namespace
+
+std::vector<DrawnRun> on_drawn_rigs(const domain::Scenario& scenario, const std::vector<double>& target,
+                                    const domain::Variation& variation, double load_kg,
+                                    const std::optional<controllers::CurrentRange>& limits,
+                                    const std::function<std::unique_ptr<controllers::Controller>()>& make,
+                                    unsigned threads) {
+  std::vector<DrawnRun> drawn(static_cast<std::size_t>(scenario.robustness.rigs));
+  std::vector<RunPlan> plans;
+  std::vector<std::size_t> of;  // drawn rigs that can be
+  for (std::size_t k = 0; k < drawn.size(); ++k) {
+    RunPlan plan = plan_of(scenario, load_kg, k + 1);
+    plan.rig =
+        with_numbers(scenario.rig, variation,
+                     draws(variation, scenario.seed, scenario.robustness.rigs, static_cast<int>(k) + 1));
+    plan.keep_ledger = false;
+    if (!unfit(plan.rig, load_kg).empty()) continue;
+    plans.push_back(std::move(plan));
+    of.push_back(k);
+  }
+  simulate_all(
+      plans.size(), threads,
+      [&](std::size_t i) {
+        return Order{plans[i], make()};
+      },
+      [&](std::size_t i, const Recording& recording) {
+        drawn[of[i]] = outcome(scenario, target, recording, limits);
+      });
+  return drawn;
+}
+
+RobustRow summed(double load_kg, const std::string& controller, const std::vector<DrawnRun>& runs) {
+  RobustRow row{.load_kg = load_kg, .controller = controller, .rigs = runs.size()};
+  std::vector<double> rmse;
+  for (const DrawnRun& run : runs) {
+    row.failures += run.failed() ? 1 : 0;
+    row.no_result += run.ended ? 0 : 1;
+    row.limit_cycles += run.cycles ? 1 : 0;
+    row.saturated += run.saturated ? 1 : 0;
+    row.over_contracted += run.over_contracted ? 1 : 0;
+    if (run.ended) rmse.push_back(run.rmse);
+  }
+  if (rmse.empty()) return row;
+  std::ranges::sort(rmse);
+  row.rmse = {quantile(rmse, 0.05), quantile(rmse, 0.5), quantile(rmse, 0.95)};
+  return row;
+}
+
+}  // namespace mckibben::run

@@ -1,0 +1,268 @@
+// The tick loop on a bench: what is put out and when, and that its watchdog vents whatever happens. Its clock
+// is a test's, so no machine is too slow for it.
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <stdlib.h>
+#include <termios.h>
+#include <unistd.h>
+
+#include <controllers/pid.hpp>
+#include <sim/bench/loop.hpp>
+#include <sim/bench/serial.hpp>
+#include <sim/bench/simulated.hpp>
+#include <sim/run/simulate.hpp>
+
+namespace mckibben::bench {
+namespace {
+
+/// Counts as it is told to, and keeps what was put out.
+class Told final : public Device {
+ public:
+  std::int64_t counts(double) override {
+    if (fails_at == static_cast<int>(put_mA.size())) throw DeviceFailure("the plug is out");
+    return jumps_at >= 0 && static_cast<int>(put_mA.size()) >= jumps_at ? 100000 : 5;
+  }
+  void put(double current_mA, double) override { put_mA.push_back(current_mA); }
+
+  std::vector<double> put_mA;
+  int jumps_at = -1, fails_at = -1;
+};
+
+class Asks final : public controllers::Controller {
+ public:
+  explicit Asks(double current_mA) : current_mA_(current_mA) {}
+  controllers::Command rest() override { return {4.0}; }
+  controllers::Command step(const controllers::Reading& reading) override {
+    if (reading.tick == gives_up_at) throw controllers::ControllerFailure("no more");
+    return {current_mA_};
+  }
+  std::int64_t gives_up_at = -1;
+
+ private:
+  double current_mA_;
+};
+
+/// Wakes late once.
+class Sleepy final : public Clock {
+ public:
+  explicit Sleepy(double at_s, double by_s) : at_s_(at_s), by_s_(by_s) {}
+  double now_s() override { return now_s_; }
+  void wait_until(double time_s) override {
+    now_s_ = std::max(now_s_, time_s);
+    if (time_s >= at_s_) now_s_ += std::exchange(by_s_, 0.0);
+  }
+
+ private:
+  double at_s_, by_s_, now_s_ = 0.0;
+};
+
+LoopPlan plan(std::int64_t ticks) {
+  LoopPlan all;
+  all.rig.settling_time_s = 5 * all.rig.tick_s;
+  all.ticks = ticks;
+  all.limits = {4.0, 20.0};
+  return all;
+}
+
+Recorded driven(Told& device, double asked_mA, const LoopPlan& all, Clock&& clock = PatientClock()) {
+  Asks controller(asked_mA);
+  return drive(device, controller, all, clock);
+}
+
+TEST(Loop, SettlesThenAsksEachTickAndVentsAtTheEnd) {
+  Told device;
+  const Recorded recorded = driven(device, 9.0, plan(10));
+  ASSERT_EQ(device.put_mA.size(), 16U);
+  const plant::Rig rig;
+  for (std::size_t i = 0; i < 5; ++i) EXPECT_EQ(device.put_mA[i], plant::dac_output_mA(rig.dac, 4.0));
+  for (std::size_t i = 5; i < 15; ++i) EXPECT_EQ(device.put_mA[i], plant::dac_output_mA(rig.dac, 9.0));
+  EXPECT_EQ(device.put_mA.back(), 0.0);
+  ASSERT_EQ(recorded.rows.size(), 10U);
+  EXPECT_EQ(recorded.rows[9].counts, 5);
+  EXPECT_EQ(recorded.stopped, "");
+}
+
+TEST(Loop, LimitsEveryOutput) {
+  Told device;
+  EXPECT_EQ(driven(device, 1000.0, plan(3)).limited_ticks, 3);
+  EXPECT_EQ(*std::max_element(device.put_mA.begin(), device.put_mA.end()), 20.0);
+  Told other;
+  EXPECT_EQ(driven(other, std::numeric_limits<double>::quiet_NaN(), plan(3)).stopped,
+            "the controller's current is no number");
+  EXPECT_EQ(other.put_mA.back(), 0.0);
+}
+
+TEST(Loop, VentsWhenCountsJumpOrTheDeviceOrTheControllerFails) {
+  Told jumps;
+  jumps.jumps_at = 8;
+  EXPECT_EQ(driven(jumps, 9.0, plan(20)).stopped, "watchdog: counts jump from 5 to 100000 at tick 3");
+  EXPECT_EQ(jumps.put_mA.size(), 9U);
+  EXPECT_EQ(jumps.put_mA.back(), 0.0);
+  Told fails;
+  fails.fails_at = 7;
+  EXPECT_EQ(driven(fails, 9.0, plan(20)).stopped, "the plug is out");
+  EXPECT_EQ(fails.put_mA.back(), 0.0);
+  Told sound;
+  Asks gives_up(9.0);
+  gives_up.gives_up_at = 4;
+  PatientClock clock;
+  const LoopPlan all = plan(20);
+  const Recorded recorded = drive(sound, gives_up, all, clock);
+  EXPECT_EQ(recorded.stopped, "no more");
+  EXPECT_EQ(recorded.rows.size(), 4U);
+  EXPECT_EQ(sound.put_mA.back(), 0.0);
+}
+
+TEST(Loop, VentsOnceMoreTicksInARowAreMissedThanMayBe) {
+  const double tick_s = plant::Rig{}.tick_s;
+  Told few;
+  const Recorded late = driven(few, 9.0, plan(20), Sleepy(10 * tick_s, 3.5 * tick_s));
+  EXPECT_EQ(late.stopped, "");
+  EXPECT_EQ(late.missed_ticks, 3);
+  EXPECT_EQ(late.rows.size(), 20U);
+  EXPECT_NEAR(late.rows[4].late_s, 3.5 * tick_s, 1e-9);
+  Told many;
+  const Recorded stopped = driven(many, 9.0, plan(20), Sleepy(10 * tick_s, 9.5 * tick_s));
+  EXPECT_EQ(stopped.stopped, "watchdog: 4 ticks in a row were missed, up to tick 7");
+  EXPECT_EQ(many.put_mA.back(), 0.0);
+}
+
+TEST(Loop, VentsWhenTheUserStopsIt) {
+  Told device;
+  LoopPlan all = plan(20);
+  int asked = 0;
+  all.stop = [&] { return ++asked > 8; };
+  const Recorded recorded = driven(device, 9.0, all);
+  EXPECT_TRUE(recorded.by_user);
+  EXPECT_EQ(recorded.rows.size(), 3U);
+  EXPECT_EQ(device.put_mA.back(), 0.0);
+}
+
+controllers::PidSettings pid() {
+  controllers::PidSettings settings;
+  settings.proportional_mA = 30.0;
+  settings.integral_time_s = 0.3;
+  settings.derivative_time_s = 0.0;
+  return settings;
+}
+
+TEST(SimulatedBench, IsTheRunThatIsSimulated) {
+  const plant::Rig rig;
+  std::vector<double> target(200, 0.1);
+  const auto known = run::knowledge_of(rig, target);
+  const auto simulated = pid().make(known), driving = pid().make(known);
+  const run::Recording expected = run::simulate({.rig = rig, .load_kg = 16.0, .ticks = 200}, *simulated);
+  Simulated bench(rig, 16.0, {}, plant::dac_output_mA(rig.dac, 4.0));
+  LoopPlan all = plan(200);
+  all.rig = rig;
+  PatientClock clock;
+  const Recorded recorded = drive(bench, *driving, all, clock);
+  ASSERT_EQ(recorded.rows.size(), 200U);
+  for (std::size_t k = 0; k < 200; ++k) {
+    EXPECT_EQ(recorded.rows[k].counts, expected.samples[k].counts) << k;
+    EXPECT_EQ(recorded.rows[k].current_mA, expected.samples[k].current_mA) << k;
+  }
+  EXPECT_GT(recorded.rows.back().counts, 200);
+}
+
+/// The other end of a pseudo-terminal: a microcontroller with a simulated rig on it.
+class Board {
+ public:
+  Board() : master_(posix_openpt(O_RDWR | O_NOCTTY)) {
+    grantpt(master_);
+    unlockpt(master_);
+    port = ptsname(master_);
+    termios raw{};
+    tcgetattr(master_, &raw);
+    cfmakeraw(&raw);
+    tcsetattr(master_, TCSANOW, &raw);
+    works_ = std::jthread([this] { answer(); });
+  }
+  ~Board() {
+    works_.request_stop();
+    works_.join();
+    close(master_);
+  }
+
+  std::vector<std::string> heard() {
+    const std::lock_guard lock(mutex_);
+    return heard_;
+  }
+
+  std::string port;
+  std::atomic<int> silent_after{1000000};
+
+ private:
+  void answer() {
+    std::string line;
+    bool greeted = false;
+    char c = 0;
+    fcntl(master_, F_SETFL, O_NONBLOCK);
+    while (!works_.get_stop_token().stop_requested()) {
+      if (read(master_, &c, 1) != 1) {
+        usleep(200);
+        continue;
+      }
+      if (c != '\n') {
+        line += c;
+        continue;
+      }
+      const std::lock_guard lock(mutex_);
+      heard_.push_back(line);
+      std::string reply;
+      if (line.rfind("mckibben 1 ", 0) == 0)
+        reply = greeted ? "ready 1\r\n" : "what?\r\nready 1\r\n", greeted = true;
+      if (line == "?" && static_cast<int>(heard_.size()) < silent_after) reply = "42\r\n";
+      if (!reply.empty()) std::ignore = write(master_, reply.data(), reply.size());
+      line.clear();
+    }
+  }
+
+  int master_;
+  std::mutex mutex_;
+  std::vector<std::string> heard_;
+  std::jthread works_;
+};
+
+TEST(SerialBench, SpeaksItsLines) {
+  Board board;
+  {
+    Serial serial(board.port, 0.012);
+    EXPECT_EQ(serial.counts(0.0), 42);
+    serial.put(12.34567, 0.0);
+    EXPECT_EQ(serial.counts(0.0), 42);
+    serial.put(0.0, 0.0);
+  }
+  for (int i = 0; i < 500 && board.heard().back() != "=0.0000"; ++i) usleep(2000);
+  const std::vector<std::string> all = board.heard(), last(all.end() - 4, all.end());
+  EXPECT_EQ(last, (std::vector<std::string>{"?", "=12.3457", "?", "=0.0000"}));
+  EXPECT_EQ(all.front(), "mckibben 1 12");
+}
+
+TEST(SerialBench, SaysWhatIsWrong) {
+  EXPECT_THROW(Serial("/nowhere/port", 0.012), DeviceFailure);
+  Board board;
+  board.silent_after = 3;
+  Serial serial(board.port, 0.012);
+  EXPECT_THROW(
+      {
+        for (int i = 0; i < 5; ++i) serial.counts(0.0);
+      },
+      DeviceFailure);
+}
+
+}  // namespace
+}  // namespace mckibben::bench

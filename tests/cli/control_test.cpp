@@ -1,0 +1,66 @@
+// The verb control: a dry run shows the run that is simulated; what a simulated bench leaves is a data set
+// that replays; what cannot drive a bench is refused.
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include <sim/input/fields_json.hpp>
+
+#include "program.hpp"
+
+namespace mckibben::cli {
+namespace {
+
+using input::Json;
+
+constexpr const char* on_bench =
+    "schema: mckibben-scenario/1\nrig: {base: thesis, settling_time: 0.06 s}\nloads: [16.138 kg]\n"
+    "duration: 0.6 s\ntarget: {kind: ramps, start: 0.06, moves: [{at: 0.1 s, lasting: 0.3 s, to: 0.1}]}\n"
+    "controllers: [{kind: pid, proportional: 60 mA, integral_time: 0.15 s, derivative_time: 0.05 s}]\n";
+
+TEST(Control, ADryRunShowsWhatWouldBeSentAndWritesNothing) {
+  const Scratch scratch;
+  write_text(scratch / "b.yaml", on_bench);
+  const Said said = mckibben("control b.yaml --dry-run --device serial --port /nowhere", scratch);
+  EXPECT_EQ(said.status, 0) << said.err;
+  EXPECT_NE(said.out.find("nothing is sent"), std::string::npos);
+  EXPECT_NE(said.out.find("b: 50 of 50 ticks of 12 ms"), std::string::npos) << said.out;
+  EXPECT_FALSE(std::filesystem::exists(scratch / "out"));
+  EXPECT_EQ(said.out, mckibben("control b.yaml --dry-run", scratch).out);
+}
+
+TEST(Control, ASimulatedBenchLeavesADataSetThatReplays) {
+  const Scratch scratch;
+  write_text(scratch / "b.yaml", on_bench);
+  // However busy the machine is.
+  const Said said = mckibben("control b.yaml --most-missed 1000 --json", scratch);
+  ASSERT_EQ(said.status, 0) << said.err;
+  const Json document = Json::parse(said.out);
+  EXPECT_EQ(document.at("ticks"), 50);
+  EXPECT_GE(document.at("late_ms").at("largest").get<double>(),
+            document.at("late_ms").at("median").get<double>());
+  EXPECT_EQ(mckibben("check out/b-bench/dataset.yaml", scratch).status, 0);
+  EXPECT_EQ(mckibben("replay out/b-bench", scratch).status, 0);
+}
+
+TEST(Control, RefusesWhatCannotDriveABench) {
+  const Scratch scratch;
+  const auto refused = [&](std::string text, const std::string& from, const std::string& to, const char* why,
+                           const std::string& options = "") {
+    text.replace(text.find(from), from.size(), to);
+    write_text(scratch / "b.yaml", text);
+    const Said said = mckibben("control b.yaml " + options, scratch);
+    EXPECT_EQ(said.status, 65) << why;
+    EXPECT_NE(said.err.find(why), std::string::npos) << said.err;
+  };
+  refused(on_bench, "[16.138 kg]", "[11 kg, 16 kg]", "one load hangs on a bench");
+  refused(on_bench, "proportional: 60 mA, ", "", "its gains are missing");
+  refused(on_bench, "0.6 s", "0.6 s", "--device serial needs its --port", "--device serial");
+  write_text(scratch / "b.yaml", on_bench);
+  const Said unreachable = mckibben("control b.yaml --device serial --port /nowhere/port", scratch);
+  EXPECT_EQ(unreachable.status, 70);
+  EXPECT_NE(unreachable.err.find("/nowhere/port: "), std::string::npos) << unreachable.err;
+}
+
+}  // namespace
+}  // namespace mckibben::cli

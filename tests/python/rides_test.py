@@ -1,0 +1,181 @@
+"""Ride, flock and slopes: where they go, to the bit, whatever runs beside them."""
+import threading
+import unittest
+
+import numpy
+
+import mckibben
+from common import SCENARIO, main
+
+CURRENTS = 9.0 - 4.0 * numpy.cos(0.03 * numpy.arange(200))
+
+
+def reached(ride, currents):
+    """All states on the way."""
+    return numpy.array([(ride.step(current), ride.state.copy())[1] for current in currents])
+
+
+class Rides(unittest.TestCase):
+    def test_go_where_a_run_goes(self):
+        run, = mckibben.Scenario({**SCENARIO, "loads": ["11.138 kg"], "rig": {"integrator": {"tolerance": 1e-9}}}).run().runs
+        ride = mckibben.Ride(run_rig := mckibben.Rig({"integrator": {"tolerance": 1e-9}}), load_kg=11.138)
+        self.assertEqual(run_rig, ride.rig)
+        ride.start(float(run["current_mA"][0]))
+        for k in range(len(run)):
+            self.assertEqual(ride.reading.counts, run["counts"][k], k)
+            self.assertAlmostEqual(ride.state[0], run["contraction_ratio"][k], delta=1e-7)
+            self.assertAlmostEqual(ride.time_s, run["time_s"][k], delta=1e-12)
+            ride.step(run["current_mA"][k])
+
+    def test_go_on_from_what_was_saved_and_as_a_copy_to_the_same_bits(self):
+        ride = mckibben.Ride(load_kg=14.0)
+        reached(ride, CURRENTS[:50])
+        saved, copy = ride.save(), ride.copy()
+        first = reached(ride, CURRENTS[50:])
+        ride.restore(saved)
+        self.assertEqual(first.tobytes(), reached(ride, CURRENTS[50:]).tobytes())
+        self.assertEqual(first.tobytes(), reached(copy, CURRENTS[50:]).tobytes())
+
+    def test_follow_is_step_after_step(self):
+        one, other = mckibben.Ride(load_kg=14.0), mckibben.Ride(load_kg=14.0)
+        run = one.follow(CURRENTS)
+        states = reached(other, CURRENTS)
+        self.assertEqual(run["contraction_ratio"][1:].tobytes(), states[:-1, 0].tobytes())
+        self.assertEqual(one.state.tobytes(), other.state.tobytes())
+        self.assertEqual(one.reading.counts, other.reading.counts)
+
+    def test_state_is_the_simulators_own(self):
+        ride = mckibben.Ride(load_kg=11.138)
+        state = ride.state
+        before = state.copy()
+        ride.step(9.0)
+        self.assertGreater(state[2], before[2])
+        with self.assertRaises(ValueError):
+            state[0] = 0.1
+        self.assertEqual(mckibben.Ride("thesis_pair").state.shape, (8,))
+
+    def test_two_threads_give_the_same_bytes_as_one(self):
+        def go(into, i):
+            into[i] = reached(mckibben.Ride(load_kg=10.0 + i), numpy.tile(CURRENTS, 5)).tobytes()
+        alone, beside = {}, {}
+        for i in range(4):
+            go(alone, i)
+        threads = [threading.Thread(target=go, args=(beside, i)) for i in range(4)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        self.assertEqual(alone, beside)
+
+    def test_python_goes_on_meanwhile(self):
+        ride, seen = mckibben.Ride(load_kg=11.138), []
+        worker = threading.Thread(target=lambda: ride.follow(numpy.tile(CURRENTS, 500)))
+        worker.start()
+        while worker.is_alive():
+            try:
+                ride.step(9.0)
+            except RuntimeError as error:
+                seen.append(str(error))
+        self.assertIn("it is at work in another thread", seen)
+
+    def test_pressures_and_lengths_may_be_given(self):
+        ride = mckibben.Ride(load_kg=11.138)
+        ride.start(muscle_pressure_Pa=1e5)
+        ride.step(muscle_pressure_Pa=2e5)
+        self.assertEqual(ride.state[3], 2e5)
+        bench = mckibben.Ride(load_kg=11.138)
+        bench.start(8.0, contraction_ratio=0.05)
+        bench.step(contraction_ratio=0.06)
+        self.assertEqual(bench.state[0], 0.06)
+        self.assertGreater(bench.moment["cord_force_N"], 0.0)
+
+    def test_nonsense_is_refused(self):
+        ride = mckibben.Ride(load_kg=11.138)
+        for bad in (lambda: mckibben.Ride("thesis"), lambda: mckibben.Ride("thesis", load_kg=-1.0),
+                    lambda: mckibben.Ride("thesis_pair", load_kg=1.0), lambda: ride.step(float("nan")),
+                    lambda: ride.step(9.0, dt_s=0.0), lambda: ride.step(9.0, opposite_current_mA=9.0),
+                    lambda: ride.follow(numpy.ones((2, 2))), lambda: ride.follow([numpy.inf])):
+            with self.assertRaises(ValueError):
+                bad()
+        with self.assertRaises(TypeError):
+            ride.step("9 mA")
+
+    def test_a_failure_says_why(self):
+        soft = {"muscle": {"stop_stiffness": "1000 N/m", "stop_damping": "0 s/m"}}
+        with self.assertRaises(mckibben.NumericalFailure) as caught:
+            mckibben.Ride(soft, load_kg=400.0)
+        self.assertIsInstance(caught.exception, ArithmeticError)
+
+
+class Flocks(unittest.TestCase):
+    LOADS = numpy.linspace(8.0, 26.0, 40)
+
+    def test_each_goes_where_it_goes_alone_on_any_threads(self):
+        rig = mckibben.Rig({"integrator": {"tolerance": 1e-9}})
+        currents = numpy.tile(CURRENTS[:, None], 40)
+        rows = mckibben.Flock(rig, self.LOADS).follow(currents)
+        on_two = mckibben.Flock(rig, self.LOADS, threads=2).follow(currents)
+        self.assertEqual(rows["state"].tobytes(), on_two["state"].tobytes())
+        for i in (0, 17, 39):
+            alone = mckibben.Ride(rig, load_kg=self.LOADS[i]).follow(CURRENTS)
+            numpy.testing.assert_allclose(rows["state"][:, i, 0], alone["contraction_ratio"], rtol=0, atol=1e-7)
+        self.assertEqual(rows["contraction_ratio"].shape, (200, 40))
+        self.assertFalse(rows["state"].flags.owndata)
+
+    def test_step_is_a_row_of_follow(self):
+        rigs = [mckibben.Rig(), mckibben.Rig({"friction": {"memory": "coulomb"}}), mckibben.Rig()]
+        one, other = mckibben.Flock(rigs, [11.0, 12.0, 13.0]), mckibben.Flock(rigs, [11.0, 12.0, 13.0])
+        rows = one.follow(numpy.tile(CURRENTS[:50, None], 3))
+        for k in range(50):
+            self.assertEqual(other.state.tobytes(), rows["state"][k].tobytes())
+            other.step(CURRENTS[k])
+        self.assertEqual(other.time_s, one.time_s)
+        self.assertEqual(other.contraction_ratio.tolist(), one.contraction_ratio.tolist())
+
+    def test_one_that_fails_fails_alone(self):
+        soft = mckibben.Rig({"muscle": {"stop_stiffness": "1000 N/m", "stop_damping": "0 s/m"}})
+        flock = mckibben.Flock([mckibben.Rig(), soft, mckibben.Rig()], [11.0, 400.0, 11.0])
+        flock.step(9.0)
+        self.assertEqual(list(flock.failures), [1])
+        self.assertEqual(flock.state[0].tolist(), flock.state[2].tolist())
+
+    def test_nonsense_is_refused(self):
+        flock = mckibben.Flock("thesis", [11.0, 12.0])
+        for bad in (lambda: mckibben.Flock([], [11.0]), lambda: mckibben.Flock("thesis", [0.0]),
+                    lambda: mckibben.Flock("thesis_pair", [1.0]), lambda: flock.step([1.0, 2.0, 3.0]),
+                    lambda: flock.step([numpy.nan, 1.0]), lambda: flock.follow(numpy.ones(4)),
+                    lambda: mckibben.Flock(["thesis", {"tick": "10 ms"}], [11.0, 11.0])):
+            with self.assertRaises(ValueError):
+                bad()
+
+
+class Slopes(unittest.TestCase):
+    def test_are_those_of_a_ride_after_a_small_step(self):
+        ride = mckibben.Ride({"integrator": {"tolerance": 1e-12}}, load_kg=11.138)
+        for _ in range(60):
+            ride.step(9.0)
+        linear = ride.linearise()
+        self.assertEqual([name for name, _ in linear.states],
+                         ["contraction_ratio", "contraction_speed_per_s", "valve_pressure_Pa", "muscle_pressure_Pa", "bristle_m"])
+        self.assertEqual([name for name, _ in linear.inputs], ["current_mA", "current_speed_mA_per_s", "load_force_N"])
+        self.assertEqual((linear.A.shape, linear.B.shape, linear.C.shape, linear.D.shape), ((5, 5), (5, 3), (3, 5), (3, 3)))
+        numpy.testing.assert_array_equal(linear.state, ride.state)
+        dt_s, step_mA = 1e-3, 1e-3
+        up, down = ride.copy(), ride.copy()
+        up.step(9.0 + step_mA, dt_s)
+        down.step(9.0 - step_mA, dt_s)
+        term = expected = linear.B[:, 0] * 2.0 * step_mA * dt_s
+        for k in range(2, 20):
+            term = linear.A @ term * dt_s / k
+            expected = expected + term
+        moved = up.state - down.state
+        numpy.testing.assert_allclose(moved[2:4], expected[2:4], rtol=0.02)
+
+    def test_where_there_are_none_it_says_so(self):
+        ride = mckibben.Ride(load_kg=11.138)
+        ride.step(muscle_pressure_Pa=1e5)
+        with self.assertRaisesRegex(ValueError, "linearise"):
+            ride.linearise()
+
+
+main()

@@ -1,0 +1,146 @@
+"""run and replay: what the command line calculates, as arrays that nobody copied."""
+import csv
+import gc
+import io
+import json
+import os
+import pathlib
+import signal
+import subprocess
+import sys
+import tempfile
+import threading
+import unittest
+from unittest import mock
+
+import numpy
+
+import mckibben
+from common import SCENARIO, main
+
+PROGRAM = sys.argv[1]
+
+
+class Runs(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.result = mckibben.Scenario(SCENARIO).run()
+
+    def test_are_those_of_the_command_line_to_the_bit(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "scenario.yaml"
+            path.write_text(json.dumps({"schema": "mckibben-scenario/1", **SCENARIO}))
+            subprocess.run([PROGRAM, "run", path, "--out", f"{folder}/out"], check=True, capture_output=True)
+            for run in self.result.runs:
+                rows = list(csv.DictReader(io.StringIO(pathlib.Path(folder, "out", run.name + ".csv").read_text())))
+                for name, column in (("contraction_ratio", run["contraction_ratio"]), ("target_contraction_ratio", run.target),
+                                     ("muscle_pressure_bar", run["muscle_pressure_Pa"] / 1e5), ("current_mA", run["current_mA"]),
+                                     ("encoder_contraction_ratio", run.encoder_contraction_ratio)):
+                    self.assertEqual([float(row[name]) for row in rows], column.tolist(), name)
+            written = json.loads(pathlib.Path(folder, "out", "run.json").read_text())
+            self.assertEqual(self.result.to_dict()["runs"], written["runs"])
+            self.assertEqual(str(self.result), pathlib.Path(folder, "out", "table.txt").read_text())
+
+    def test_arrays_are_the_simulators_memory_and_outlive_it(self):
+        run = mckibben.Scenario(SCENARIO).run()[0]
+        column, again = run["muscle_pressure_Pa"], run.samples["muscle_pressure_Pa"]
+        self.assertTrue(numpy.shares_memory(column, again))
+        self.assertFalse(column.flags.owndata)
+        with self.assertRaises(ValueError):
+            column[0] = 1.0
+        kept = column.copy()
+        del run, again
+        gc.collect()
+        numpy.testing.assert_array_equal(column, kept)
+        self.assertEqual(len(column), 100)
+
+    def test_tell_what_there_is(self):
+        self.assertEqual(len(self.result), 2)
+        run = self.result[-1]
+        self.assertEqual(run.load_kg, 16.138)
+        self.assertIsNone(run.failure)
+        self.assertGreater(run.metrics["rmse"], 0.0)
+        self.assertEqual(set(run.units), set(run.samples.dtype.names))
+        self.assertIn("<html", self.result.report_html())
+        with self.assertRaises(KeyError):
+            run["no_such"]
+        with self.assertRaises(IndexError):
+            self.result[2]
+
+    def test_frames_have_units(self):
+        frame = self.result[0].frame()
+        self.assertEqual(frame.index.name, "time_s")
+        self.assertEqual(frame.attrs["units"]["muscle_pressure_Pa"], "Pa")
+        self.assertEqual(frame["contraction_ratio"].tolist(), self.result[0]["contraction_ratio"].tolist())
+        with mock.patch.dict(sys.modules, {"pandas": None}), self.assertRaisesRegex(ImportError, "python3-pandas"):
+            self.result[0].frame()
+
+    def test_a_rig_runs_by_itself(self):
+        result = mckibben.Rig("thesis").run(**SCENARIO, seed=1)
+        numpy.testing.assert_array_equal(result[1].samples, self.result[1].samples)
+
+    def test_a_pair(self):
+        current = {"kind": "sine_current", "low": "5 mA", "high": "9 mA", "period": "1 s"}
+        run, = mckibben.Scenario({"duration": "1.2 s", "currents": [{"current_1": current, "current_2": current}]}).run().runs
+        self.assertEqual(run["muscle_pressure_2_Pa"].shape, (100,))
+        self.assertIsNone(run.target)
+
+    def test_threads_make_no_difference(self):
+        def run(into):
+            into.append([one.samples.tobytes() for one in mckibben.Scenario({**SCENARIO, "duration": "12 s"}).run(threads=1).runs])
+        alone, beside = [], []
+        run(alone)
+        threads = [threading.Thread(target=run, args=(beside,)) for _ in range(3)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        self.assertEqual(beside, alone * 3)
+
+
+class Stops(unittest.TestCase):
+    LONG = {**SCENARIO, "duration": "300 s", "loads": [f"{8 + 0.1 * i} kg" for i in range(100)]}
+
+    def test_ctrl_c_ends_it_cleanly(self):
+        threading.Timer(0.3, os.kill, (os.getpid(), signal.SIGINT)).start()
+        with self.assertRaises(KeyboardInterrupt):
+            mckibben.Scenario(self.LONG).run(threads=1)
+        self.test_what_progress_raises_ends_it()  # what follows goes on
+
+    def test_what_progress_raises_ends_it(self):
+        def progress(what, done, total):
+            self.assertEqual((what, total), ("simulating", 100))
+            raise RuntimeError("enough")
+        with self.assertRaisesRegex(RuntimeError, "enough"):
+            mckibben.Scenario(self.LONG).run(threads=1, progress=progress)
+
+    def test_progress_is_told(self):
+        told = []
+        mckibben.Scenario(SCENARIO).run(progress=lambda *news: told.append(news))
+        self.assertEqual(told[-1], ("simulating", 2, 2))
+
+
+class Replays(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.truth = mckibben.Scenario({**SCENARIO, "duration": "6 s"}).run()
+        runs = [{"id": f"r{i}", "load": f"{run.load_kg} kg",
+                 "data": {"time_s": numpy.round(run["time_s"], 9), "current_mA": run["current_mA"],
+                          "contraction_ratio": run.encoder_contraction_ratio}} for i, run in enumerate(cls.truth.runs)]
+        cls.data = mckibben.Dataset({"runs": runs})
+
+    def test_come_back_to_a_count(self):
+        result = self.data.replay()
+        self.assertEqual([run.name for run in result.runs], ["r0", "r1"])
+        for run in result.runs:
+            self.assertLessEqual(run.gaps["contraction"]["largest"], 1.001 * self.data.rig.contraction_per_count)
+
+    def test_on_another_rig_they_do_not(self):
+        leaking = mckibben.Rig({"effects": {"viscous_damping": {"damping": "300 N.s/m"}}})
+        gap = self.data.replay(rig=leaking)[0].gaps["contraction"]
+        self.assertGreater(gap["rmse"], 3.0 * self.data.replay()[0].gaps["contraction"]["rmse"])
+        with self.assertRaisesRegex(mckibben.InputError, "two muscles"):
+            self.data.replay(rig="thesis_pair")
+
+
+main()
