@@ -128,7 +128,7 @@ Drift drift_in(const Experiment& experiment, const Model& model, const Candidate
   Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(at.columns.rows(), free + parts);
   columns.leftCols(free) = at.columns;
   // What else is free of it stays: it would take up differences between the parts.
-  const std::string own = fmt::format("effects.{}.", effect.effect);
+  const std::string own = keys_of(effect.who());
   for (Eigen::Index j = 0; j < free; ++j)
     if (model.free[static_cast<std::size_t>(j)].path.starts_with(own)) columns.col(j).setZero();
   for (Eigen::Index row = 0; row < columns.rows(); ++row)

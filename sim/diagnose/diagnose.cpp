@@ -217,7 +217,8 @@ class Workflow {
     naming_ = name_effects(case_, nominal_fit_, recalibrated_, reference(), step_, search_);
     spare_names();
     evidence_.invisible = naming_.invisible.size();
-    evidence_.catalogue = catalogue(data_).size();
+    evidence_.catalogue =
+        static_cast<std::size_t>(std::ranges::count(catalogue(data_), Side::both, &Candidate::side));
     if (naming_.effects.empty()) return;
     const Eigen::VectorXd& named = naming_.best.held_out;
     evidence_.named_left = excess(named);
@@ -264,7 +265,7 @@ class Workflow {
                                    variance_inflation(experiment_, fitted.residuals, case_.split.training));
     const bool much_left = evidence_.named_left + 1.0 > thresholds.near.mean_square();
     for (NamedEffect& effect : naming_.effects) {
-      const auto place = std::ranges::find(fitted.model.effects, effect.name, &Candidate::effect);
+      const auto place = std::ranges::find(fitted.model.effects, effect.who(), &Candidate::who);
       effect.constancy = found[static_cast<std::size_t>(place - fitted.model.effects.begin())];
       effect.stands_in = effect.constancy.drift() != nullptr || (much_left && !effect.constancy.is_shown());
       ++(effect.stands_in ? evidence_.stand_ins : evidence_.names);
@@ -431,13 +432,13 @@ class Workflow {
     // Plans are of currents, under loads.
     if (result_.effects.empty() || data_.pressure_is_given() || judged() != Judged::contraction) return;
     for (const Doubt& doubt : naming_.doubts) {
-      if (std::ranges::find(result_.effects, doubt.effect, &NamedEffect::name) == result_.effects.end())
+      if (std::ranges::find(result_.effects, doubt.effect, &NamedEffect::who) == result_.effects.end())
         continue;
       step_(stage("planning"));
       search_.part("the measurement that would tell more", [&] {
-        result_.next_experiment =
-            plan(experiment_, doubt.with_effect, doubt.with_rival, {doubt.effect, doubt.rival},
-                 result_.gap.corrected_rmse, 1.0 / chosen_inflation_);
+        result_.next_experiment = plan(experiment_, doubt.with_effect, doubt.with_rival,
+                                       {doubt.effect.words(), doubt.rival.words()},
+                                       result_.gap.corrected_rmse, 1.0 / chosen_inflation_);
       });
       if (result_.next_experiment) return;
     }

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include <sim/diagnose/search.hpp>
+#include <sim/diagnose/side.hpp>
 #include <sim/diagnose/thresholds.hpp>
 #include <sim/domain/campaign.hpp>
 #include <sim/domain/dataset.hpp>
@@ -43,9 +44,15 @@ struct FittedNumber {
   bool determined = true;  ///< false: the interval is all that is allowed, or a whole turn of an angle
 };
 
-/// As it is told: "valve_dead_band", "bladder_elasticity (linear)".
-inline std::string full_name(const std::string& name, const std::string& variant) {
-  return variant.empty() ? name : name + " (" + variant + ")";
+/// As it is told: "valve_dead_band", "bladder_elasticity (linear)", "muscle_leak of muscle 2".
+inline std::string full_name(const std::string& name, const std::string& variant, Side side) {
+  return (variant.empty() ? name : name + " (" + variant + ")") + of_muscle(side);
+}
+
+inline std::vector<std::string> words_of(const std::vector<EffectName>& effects) {
+  std::vector<std::string> list;
+  for (const EffectName& effect : effects) list.push_back(effect.words());
+  return list;
 }
 
 /// The size of an effect in a part of the data alone, with its standard error, in the unit of its amplitude.
@@ -93,12 +100,18 @@ struct Support {
 
 struct NamedEffect {
   std::string name, variant;
-  std::vector<std::string> confusable_with{};  ///< effects that explain these data as well
+  Side side = Side::both;                     ///< of a pair: whose it is
+  std::vector<EffectName> confusable_with{};  ///< effects that explain these data as well
   std::vector<FittedNumber> parameters{};
   Constancy constancy{};
   Support support{};
   bool stands_in = false;  ///< for something else: its size is not the same everywhere, or not shown to be
+
+  EffectName who() const { return {name, side}; }
 };
+inline std::string full_name(const NamedEffect& effect) {
+  return full_name(effect.name, effect.variant, effect.side);
+}
 
 /// A nominal parameter after calibration.
 struct Moved {
@@ -166,7 +179,11 @@ struct Ranked {
   double training_rmse = 0.0, held_out_rmse = 0.0;  ///< after the refit
   std::string outcome{};                            ///< why it was taken or not
   double fall = 0.0;                                ///< of the misfit, by the refit
+  Side side = Side::both;
 };
+inline std::string full_name(const Ranked& one) {
+  return full_name(one.name, one.variant, one.side);
+}
 
 /// From how many places the recalibration was begun: several if numbers are hardly known.
 struct Begun {

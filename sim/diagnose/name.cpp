@@ -31,6 +31,20 @@ std::size_t most_tries(const std::vector<Screening>& screenings) {
   return std::min(promising, to_name.most_refits) + 1 + to_name.most_polished;
 }
 
+bool is_same_law(const Trial& a, const Trial& b) {
+  return a.score.candidate.effect == b.score.candidate.effect &&
+         a.score.candidate.variant == b.score.candidate.variant;
+}
+
+/// How many laws were tried, on whichever side.
+std::size_t laws_in(const std::vector<Trial>& trials) {
+  std::size_t count = 0;
+  for (auto one = trials.begin(); one != trials.end(); ++one)
+    if (std::none_of(trials.begin(), one, [&](const Trial& earlier) { return is_same_law(earlier, *one); }))
+      ++count;
+  return count;
+}
+
 /// Refits of a round: the best of each screening and those like them, roughly first, then in full those that
 /// promise. Once one meets the data, only those like it are tried.
 void refit(const Case& c, const std::string& name, const std::vector<Screening>& screenings,
@@ -38,9 +52,10 @@ void refit(const Case& c, const std::string& name, const std::vector<Screening>&
   const Score* solved = nullptr;
   const auto wanted = [&](const Score& score, const Score& front) {
     const bool known = std::any_of(trials.begin(), trials.end(), [&](const Trial& t) {
-      return t.score.candidate.amplitude == score.candidate.amplitude;
+      return t.score.candidate.amplitude == score.candidate.amplitude &&
+             t.score.candidate.side == score.candidate.side;
     });
-    if (known || trials.size() == to_name.most_refits || score.drop < thresholds.near.chance) return false;
+    if (known || laws_in(trials) == to_name.most_refits || score.drop < thresholds.near.chance) return false;
     if (solved != nullptr) return likeness(score, *solved) > to_name.likeness_solved;
     return score.drop > to_name.least_score * front.drop ||
            likeness(score, front) > to_name.likeness_refitted;
@@ -111,9 +126,8 @@ std::optional<std::array<Trial, 2>> pair_of(const Case& c, const std::vector<Tri
 
 /// What has been named itself is no alternative any more.
 void tidy_doubts(Naming& result) {
-  const auto named = [&](const std::string& effect) {
-    return std::any_of(result.effects.begin(), result.effects.end(),
-                       [&](const NamedEffect& other) { return other.name == effect; });
+  const auto named = [&](const EffectName& effect) {
+    return std::ranges::find(result.effects, effect, &NamedEffect::who) != result.effects.end();
   };
   for (NamedEffect& effect : result.effects) std::erase_if(effect.confusable_with, named);
   std::erase_if(result.doubts, [&](const Doubt& doubt) { return named(doubt.rival); });
@@ -123,11 +137,11 @@ void tidy_doubts(Naming& result) {
 void merge_laws(const Model& model, Naming& result) {
   for (const Candidate& added : model.effects) {
     if (added.adds_to.empty()) continue;
-    const auto of_it = [&](const NamedEffect& effect) { return effect.name == added.effect; };
+    const auto of_it = [&](const NamedEffect& effect) { return effect.who() == added.who(); };
     const auto first = std::ranges::find_if(result.effects, of_it);
     const auto again = std::find_if(std::next(first), result.effects.end(), of_it);
     if (again == result.effects.end()) continue;  // the rig had the shorter law already
-    for (const std::string& rival : again->confusable_with)
+    for (const EffectName& rival : again->confusable_with)
       if (std::ranges::find(first->confusable_with, rival) == first->confusable_with.end())
         first->confusable_with.push_back(rival);
     first->variant = added.variant;
@@ -141,7 +155,7 @@ std::vector<std::string> invisible(const Case& c, const std::vector<Score>& scor
   std::vector<std::string> names;
   for (const Score& score : scores) {
     const Candidate& candidate = score.candidate;
-    if (!candidate.fits(c.nominal)) continue;
+    if (!candidate.fits(c.nominal) || candidate.side != Side::both) continue;
     const double drop = score.column.squaredNorm() * candidate.typical * candidate.typical;
     if (drop < thresholds.screen.visible) names.push_back(title(candidate));
   }
@@ -160,7 +174,7 @@ std::vector<Screening> screenings_of(const Case& c, int round, const Contender& 
 /// What a round looks for.
 std::string round_in_words(const Naming& result) {
   std::vector<std::string> names;
-  for (const NamedEffect& effect : result.effects) names.push_back(full_name(effect.name, effect.variant));
+  for (const NamedEffect& effect : result.effects) names.push_back(full_name(effect));
   return names.empty() ? "effects of the catalogue"
                        : fmt::format("effects beside {}", fmt::join(names, " and "));
 }
@@ -197,12 +211,29 @@ const Trial* choose(const std::vector<Trial>& trials, const Contender& best, dou
   return nullptr;
 }
 
+/// Of a pair: where neither muscle is ruled out, nor both, both.
+const Trial* of_both_if_untold(const Case& c, const std::vector<Trial>& trials, const Trial& best) {
+  const Candidate& candidate = best.score.candidate;
+  const auto does_as_well = [&](Side side) -> const Trial* {
+    for (const Trial& trial : trials)
+      if (is_same_law(trial, best) && trial.score.candidate.side == side &&
+          has_size(trial.contender.fitted.model, trial.score.candidate) &&
+          as_good(c, best.contender, trial.contender))
+        return &trial;
+    return nullptr;
+  };
+  if (candidate.side == Side::both || does_as_well(other(candidate.side)) == nullptr) return &best;
+  const Trial* both = does_as_well(Side::both);
+  return both != nullptr ? both : &best;
+}
+
 /// How much more misfit the best of the other effects leaves that does not do as well.
 double before_rivals(const std::vector<Trial>& trials, const Trial& chosen, const NamedEffect& named) {
   double least = std::numeric_limits<double>::infinity();
   for (const Trial& rival : trials) {
-    const auto& other = rival.score.candidate.effect;
-    if (other == named.name || std::ranges::find(named.confusable_with, other) != named.confusable_with.end())
+    const EffectName other = rival.score.candidate.who();
+    if (other == named.who() ||
+        std::ranges::find(named.confusable_with, other) != named.confusable_with.end())
       continue;
     least = std::min(least, rival.contender.fitted.cost - chosen.contender.fitted.cost);
   }
@@ -210,17 +241,18 @@ double before_rivals(const std::vector<Trial>& trials, const Trial& chosen, cons
 }
 
 void take_one(const Case& c, Naming& result, const std::vector<Trial>& trials, const Trial& chosen) {
-  NamedEffect named{.name = chosen.score.candidate.effect, .variant = chosen.score.candidate.variant};
+  NamedEffect named = diagnose::named(chosen.score.candidate);
+  for (const Side side : chosen.score.same) named.confusable_with.emplace_back(named.name, side);
   for (const Trial& rival : trials) {
-    const auto& other = rival.score.candidate.effect;
-    if (other == named.name || !has_size(rival.contender.fitted.model, rival.score.candidate)) continue;
+    const EffectName other = rival.score.candidate.who();
+    if (other == named.who() || !has_size(rival.contender.fitted.model, rival.score.candidate)) continue;
     if (std::find(named.confusable_with.begin(), named.confusable_with.end(), other) !=
         named.confusable_with.end())
       continue;
     if (!as_good(c, chosen.contender, rival.contender)) continue;
     named.confusable_with.push_back(other);
     result.doubts.push_back(
-        {named.name, other, chosen.contender.fitted.model.rig, rival.contender.fitted.model.rig});
+        {named.who(), other, chosen.contender.fitted.model.rig, rival.contender.fitted.model.rig});
   }
   named.support.before_rivals = before_rivals(trials, chosen, named);
   result.effects.push_back(std::move(named));
@@ -234,7 +266,7 @@ void take_both(const Case& c, Naming& result, std::array<Trial, 2> both) {
     const Trial& other = both.at(&one == &both.front() ? 1 : 0);
     take(c, result.ranking, candidate, both.back(), fall,
          fmt::format("with {} it closes most of the gap", title(other.score.candidate)));
-    result.effects.push_back({.name = candidate.effect, .variant = candidate.variant});
+    result.effects.push_back(named(candidate));
   }
   result.best = std::move(both.back().contender);
 }
@@ -272,7 +304,8 @@ Naming name_effects(const Case& c, const Contender& nominal, const Contender& re
     });
     if (screenings.empty()) break;
     judge(c, before, trials);
-    const Trial* const chosen = choose(trials, result.best, left, excess(reference));
+    const Trial* chosen = choose(trials, result.best, left, excess(reference));
+    if (chosen != nullptr) chosen = of_both_if_untold(c, trials, *chosen);
     const auto judged = ranked(c, round, screenings, trials, chosen, result.best);
     result.ranking.insert(result.ranking.end(), judged.begin(), judged.end());
     if (chosen != nullptr) {

@@ -11,9 +11,14 @@ namespace mckibben::diagnose {
 
 /// An effect that was taken, and one that explains the data as well.
 struct Doubt {
-  std::string effect, rival;
+  EffectName effect, rival;
   RigFile with_effect, with_rival;
 };
+
+/// A candidate as it is named.
+inline NamedEffect named(const Candidate& candidate) {
+  return {.name = candidate.effect, .variant = candidate.variant, .side = candidate.side};
+}
 
 struct Naming {
   Contender best{};

@@ -15,10 +15,10 @@ namespace {
 
 constexpr std::string_view of_muscle_2 = "mechanics.opposite.";
 
-/// Calls `tell` with the effect of this name in the rig, on each of its sides.
+/// Calls `tell` with the effect of this name in the rig, on each of these sides.
 template <class Tell>
-void with_effect(RigFile& rig, std::string_view effect, const Tell& tell) {
-  each_side(rig, [&](plant::Effects& effects) {
+void with_effect(RigFile& rig, std::string_view effect, Side side, const Tell& tell) {
+  const auto visit = [&](plant::Effects& effects) {
     const auto look = [&]<class E>(E& mine) {
       if (effect == E::name) tell(mine);
     };
@@ -26,19 +26,28 @@ void with_effect(RigFile& rig, std::string_view effect, const Tell& tell) {
                plant::Effects::Table{});
     for (auto& law : effects.laws.list)
       if (effect == law.text->name) tell(law);
-  });
+  };
+  each_side(rig, visit, side);
 }
 
 }  // namespace
 
-void each_side(RigFile& rig, const std::function<void(plant::Effects& effects)>& visit) {
-  visit(rig.effects);
-  if (auto* pair = std::get_if<plant::Pair>(&rig.mechanics)) visit(pair->opposite.effects);
+std::string keys_of(const EffectName& who) {
+  return std::string(who.side == Side::two ? of_muscle_2 : "")
+      .append("effects.")
+      .append(who.effect)
+      .append(".");
 }
 
-bool carries(RigFile rig, std::string_view effect) {
+void each_side(RigFile& rig, const std::function<void(plant::Effects& effects)>& visit, Side side) {
+  if (side != Side::two) visit(rig.effects);
+  auto* pair = std::get_if<plant::Pair>(&rig.mechanics);
+  if (pair != nullptr && side != Side::one) visit(pair->opposite.effects);
+}
+
+bool carries(RigFile rig, std::string_view effect, Side side) {
   bool present = false;
-  with_effect(rig, effect, [&](const auto& mine) { present = present || !mine.absent(); });
+  with_effect(rig, effect, side, [&](const auto& mine) { present = present || !mine.absent(); });
   return present;
 }
 
@@ -245,20 +254,39 @@ std::vector<Parameter> nominal_parameters(const RigFile& nominal, const domain::
   return Gathering(nominal, stated)();
 }
 
+Candidate Candidate::of(Side one) const {
+  Candidate c = *this;
+  c.side = one;
+  if (one != Side::two) return c;
+  c.amplitude.insert(0, of_muscle_2);
+  if (!c.shape.empty()) c.shape.insert(0, of_muscle_2);
+  for (Further& more : c.further) more.path.insert(0, of_muscle_2);
+  return c;
+}
+
+namespace {
+
+/// Whether a number of a candidate is one for both sides.
+bool is_of_both(const Candidate& candidate, const RigFile& rig) {
+  return rig.pair() != nullptr && candidate.side == Side::both;
+}
+
+}  // namespace
+
 void Candidate::put(RigFile& rig, double size) const {
-  Parameter{.path = amplitude, .both_sides = rig.pair() != nullptr}.put(rig, size);
+  Parameter{.path = amplitude, .both_sides = is_of_both(*this, rig)}.put(rig, size);
 }
 void Candidate::put(RigFile& rig, double size, double with_shape) const {
-  for (const Further& one : further)
-    Parameter{.path = one.path, .both_sides = rig.pair() != nullptr}.put(rig, one.value);
-  if (!shape.empty()) Parameter{.path = shape, .both_sides = rig.pair() != nullptr}.put(rig, with_shape);
+  const bool both = is_of_both(*this, rig);
+  for (const Further& one : further) Parameter{.path = one.path, .both_sides = both}.put(rig, one.value);
+  if (!shape.empty()) Parameter{.path = shape, .both_sides = both}.put(rig, with_shape);
   put(rig, size);
 }
 
 namespace {
 
-RigFile with_law(RigFile rig, std::string_view effect, std::string_view variant) {
-  with_effect(rig, effect, [&](auto& mine) {
+RigFile with_law(RigFile rig, const EffectName& whose, std::string_view variant) {
+  with_effect(rig, whose.effect, whose.side, [&](auto& mine) {
     if constexpr (requires { mine.variant; }) {
       for (const auto& [law, name] : names(mine.variant))
         if (name == variant) mine.variant = law;
@@ -284,26 +312,29 @@ bool has_law(const E& mine, std::string_view variant) {
 }  // namespace
 
 RigFile Candidate::chosen(RigFile rig) const {
-  return with_law(std::move(rig), effect, variant);
+  return with_law(std::move(rig), who(), variant);
 }
 
 bool Candidate::carried(RigFile rig) const {
   bool present = false;
-  with_effect(rig, effect,
+  with_effect(rig, effect, side,
               [&](const auto& mine) { present = present || (!mine.absent() && has_law(mine, variant)); });
   return present;
 }
 
 bool Candidate::fits(const RigFile& rig) const {
-  if (adds_to.empty()) return !carries(rig, effect);
+  if (adds_to.empty()) return !carries(rig, effect, side);
   Candidate base = *this;
   base.variant = adds_to;
-  return base.carried(rig) && !carried(rig);
+  if (!base.carried(rig) || carried(rig)) return false;
+  if (rig.pair() == nullptr) return true;  // of a pair: where that law stands, and nowhere else
+  const auto on = [&](Side one) { return carries(rig, effect, one); };
+  return side == Side::both ? on(Side::one) && on(Side::two) : !on(other(side));
 }
 
 RigFile Candidate::removed(RigFile rig) const {
   put(rig, absent);
-  return adds_to.empty() ? rig : with_law(std::move(rig), effect, adds_to);
+  return adds_to.empty() ? rig : with_law(std::move(rig), who(), adds_to);
 }
 
 namespace {
@@ -370,6 +401,7 @@ bool makes_pressure(const plant::LawText& law) {
 
 std::vector<Parameter> Candidate::parameters(const RigFile& rig) const {
   RigFile copy = rig;
+  const bool both = is_of_both(*this, rig);
   const Found size = find(copy, amplitude);
   // Next to nothing is as good as nothing, and can be stiff: a supply line of no resistance, a lag of no
   // time.
@@ -380,7 +412,7 @@ std::vector<Parameter> Candidate::parameters(const RigFile& rig) const {
                                .step = step,
                                .lowest = either_sign || typical < 0.0 ? size.lowest : least,
                                .highest = either_sign || typical > 0.0 ? size.highest : least,
-                               .both_sides = rig.pair() != nullptr}};
+                               .both_sides = both}};
   if (!shape.empty()) {
     const Found form = find(copy, shape);
     list.push_back({.path = shape,
@@ -391,9 +423,9 @@ std::vector<Parameter> Candidate::parameters(const RigFile& rig) const {
                     .highest = own ? form.highest
                                    : std::min(form.highest, shapes.back() * thresholds.parameter.shape_range),
                     .logarithmic = true,
-                    .both_sides = rig.pair() != nullptr});
+                    .both_sides = both});
   }
-  for (const Further& one : further) list.push_back(moved(one, rig.pair() != nullptr));
+  for (const Further& one : further) list.push_back(moved(one, both));
   return list;
 }
 
@@ -445,9 +477,19 @@ bool out_of_sight(const Parameter& p) {
 
 namespace {
 
-/// What data can show of the catalogue.
+/// Whether an effect is of a muscle and what drives it, so that one of a pair may have it alone; others are
+/// of what both share, the encoder, the supply and the gas.
+template <class E>
+constexpr bool is_of_a_muscle() {
+  using enum plant::Hook;
+  constexpr std::array shared{gas_exponent, supply_drop, reading_delay, wheel, reading_factor};
+  return std::ranges::none_of(
+      E::hooks, [&](plant::Hook hook) { return std::ranges::find(shared, hook) != shared.end(); });
+}
+
+/// What data can show of the catalogue. Of a pair, `gauge` is that of muscle 1.
 struct Sight {
-  bool makes_pressure = true, load_guide = true, gauge = true;
+  bool makes_pressure = true, load_guide = true, gauge = true, opposite_gauge = false, pair = false;
 };
 
 std::vector<Candidate> in_sight(const Sight& sight) {
@@ -455,7 +497,7 @@ std::vector<Candidate> in_sight(const Sight& sight) {
   const auto add = [&]<class E>(const E& effect) {
     if (!sight.makes_pressure && makes_pressure<E>()) return;
     if (!sight.load_guide && std::is_same_v<E, plant::GuideFriction>) return;
-    if (!sight.gauge && plant::declares<E>(plant::Hook::gauge)) return;
+    const bool of_gauge = plant::declares<E>(plant::Hook::gauge);
     for (const plant::Variant& law : E::variants) {
       const std::string prefix = "effects." + std::string(effect.name) + ".";
       Candidate c{.effect = std::string(effect.name),
@@ -469,7 +511,10 @@ std::vector<Candidate> in_sight(const Sight& sight) {
                   .shapes = {},
                   .adds_to = std::string(law.adds_to)};
       if (!law.shape.empty()) c.shapes = {law.low, law.middle, law.high};
-      list.push_back(std::move(c));
+      const bool each = sight.pair && is_of_a_muscle<E>();
+      if (sight.gauge || !of_gauge) list.push_back(c);
+      if (each && (sight.gauge || !of_gauge)) list.push_back(c.of(Side::one));
+      if (each && (sight.opposite_gauge || !of_gauge)) list.push_back(c.of(Side::two));
     }
   };
   std::apply([&](const auto&... effect) { (add(effect), ...); }, plant::Effects::Table{});
@@ -488,10 +533,15 @@ std::vector<Candidate> catalogue(const RigFile& rig) {
 }
 std::vector<Candidate> catalogue(const domain::Dataset& data) {
   const bool given = data.pressure_is_given();
-  const bool read = std::ranges::any_of(
-      data.runs, [](const domain::Run& run) { return run.muscle_pressure_Pa.has_value(); });
-  std::vector<Candidate> list =
-      in_sight({.makes_pressure = !given, .load_guide = data.rig.pair() == nullptr, .gauge = given || read});
+  const auto read = [&](const auto& gauge) {
+    return std::ranges::any_of(data.runs, [&](const domain::Run& run) { return (run.*gauge).has_value(); });
+  };
+  const bool pair = data.rig.pair() != nullptr;
+  std::vector<Candidate> list = in_sight({.makes_pressure = !given,
+                                          .load_guide = !pair,
+                                          .gauge = given || read(&domain::Run::muscle_pressure_Pa),
+                                          .opposite_gauge = given || read(&domain::Run::opposite_pressure_Pa),
+                                          .pair = pair});
   for (const auto& law : data.rig.effects.laws.list)
     if (!given || !makes_pressure(*law.text)) list.push_back(candidate_of(*law.text));
   return list;

@@ -1,9 +1,9 @@
 // Parameters of a rig by name: those that a calibration may move, with what a data sheet says of them, and
 // those that switch effects on. A name is the path of keys in a rig file, `muscle.rest_radius`.
 //
-// Of a pair, effects act on both sides alike. A part that is the same on both sides (muscle, friction, valve,
-// hose) is one to a fit, too; of one that is not, each side's numbers are free by themselves, those of muscle
-// 2 as `mechanics.opposite.muscle.rest_radius`.
+// Of a pair, an effect may be of both sides alike, or of one. A part that is the same on both sides (muscle,
+// friction, valve, hose) is one to a fit; of one that is not, each side's numbers are free by themselves,
+// those of muscle 2 as `mechanics.opposite.muscle.rest_radius`.
 #pragma once
 
 #include <functional>
@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include <sim/diagnose/side.hpp>
 #include <sim/domain/dataset.hpp>
 #include <sim/domain/rig_file.hpp>
 #include <sim/domain/rig_number.hpp>
@@ -28,11 +29,15 @@ inline constexpr std::string_view of_laws = "hypotheses";
 Found find(RigFile& rig, std::string_view path);
 double value_of(const RigFile& rig, std::string_view path);
 
-/// Calls `visit` with the effects of each side of the rig.
-void each_side(RigFile& rig, const std::function<void(plant::Effects& effects)>& visit);
+/// What the paths of an effect's numbers begin with: `effects.muscle_leak.`.
+std::string keys_of(const EffectName& who);
 
-/// Whether this effect of the catalogue is in the rig.
-bool carries(RigFile rig, std::string_view effect);
+/// Calls `visit` with the effects of each side of the rig, or of one.
+void each_side(RigFile& rig, const std::function<void(plant::Effects& effects)>& visit,
+               Side side = Side::both);
+
+/// Whether this effect of the catalogue is in the rig, on one of these sides.
+bool carries(RigFile rig, std::string_view effect, Side side = Side::both);
 
 /// A parameter that a fit may move.
 struct Parameter {
@@ -81,13 +86,17 @@ struct Candidate {
   std::string adds_to{};           ///< the law that this one is with a term more; empty if it stands alone
   std::vector<Further> further{};  ///< what a user's law has besides size and shape
   bool own = false;                ///< of the user's own: its ranges are the file's
+  Side side = Side::both;          ///< of a pair: whose it is
 
+  EffectName who() const { return {effect, side}; }
+  /// The same law on one side of a pair alone.
+  Candidate of(Side one) const;
   /// Gives it this size in a rig; and a shape, if it has one.
   void put(RigFile& rig, double size) const;
   void put(RigFile& rig, double size, double with_shape) const;
   /// The rig with this law chosen, still without size.
   RigFile chosen(RigFile rig) const;
-  /// Whether the rig has this effect, with this law or one that adds to it.
+  /// Whether the rig has this effect on one of its sides, with this law or one that adds to it.
   bool carried(RigFile rig) const;
   /// Whether a rig may get it: one without this effect, or with the law that it adds to.
   bool fits(const RigFile& rig) const;
@@ -105,7 +114,8 @@ std::vector<Candidate> catalogue();
 /// The same, and the rig's laws of the user's own.
 std::vector<Candidate> catalogue(const RigFile& rig);
 /// What these data can show of both: where the muscle's pressure is given, without what acts on valve,
-/// supply, hose and gas alone, of a pair without the guide of a load, without a gauge no errors of one.
+/// supply, hose and gas alone, of a pair without the guide of a load, without a gauge no errors of one. Of a
+/// pair, what may be of one muscle alone stands there for both, for muscle 1 and for muscle 2.
 std::vector<Candidate> catalogue(const domain::Dataset& data);
 
 /// Effects of the catalogue, and parameters, that a given pressure leaves nothing to see of.

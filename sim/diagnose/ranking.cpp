@@ -11,7 +11,7 @@ namespace {
 constexpr std::string_view taken = "taken: ";
 
 bool is(const Ranked& one, const Candidate& candidate) {
-  return one.name == candidate.effect && one.variant == candidate.variant;
+  return one.name == candidate.effect && one.variant == candidate.variant && one.side == candidate.side;
 }
 
 void tell_fit(const Case& c, const Trial& trial, Ranked& one) {
@@ -44,7 +44,8 @@ std::vector<Ranked> ranked(const Case& c, int round, const std::vector<Screening
                .variant = score.candidate.variant,
                .round = round,
                .score = score.drop,
-               .likeness = likeness(score, front)};
+               .likeness = likeness(score, front),
+               .side = score.candidate.side};
     // Whichever screening promised more was the reason to try it.
     for (const Screening& screening : screenings)
       for (const Score& other : screening.scores)
@@ -72,10 +73,11 @@ void take(const Case& c, std::vector<Ranked>& ranking, const Candidate& candidat
   const int round = ranking.back().round;
   const auto at = std::find_if(ranking.begin(), ranking.end(),
                                [&](const Ranked& one) { return one.round == round && is(one, candidate); });
-  Ranked& one = at != ranking.end()
-                    ? *at
-                    : ranking.emplace_back(
-                          Ranked{.name = candidate.effect, .variant = candidate.variant, .round = round});
+  Ranked& one = at != ranking.end() ? *at
+                                    : ranking.emplace_back(Ranked{.name = candidate.effect,
+                                                                  .variant = candidate.variant,
+                                                                  .round = round,
+                                                                  .side = candidate.side});
   tell_fit(c, trial, one);
   if (is(one, trial.score.candidate)) one.score = std::max(one.score, trial.score.drop);
   one.fall = fall;
@@ -89,7 +91,7 @@ void give_up(std::vector<Ranked>& ranking, const Candidate& candidate, const std
 
 void disown(std::vector<Ranked>& ranking, const NamedEffect& stand_in) {
   for (Ranked& one : ranking)
-    if (one.name == stand_in.name && one.variant == stand_in.variant && one.outcome.starts_with(taken))
+    if (full_name(one) == full_name(stand_in) && one.outcome.starts_with(taken))
       one.outcome = "stands in for something else: not the same everywhere";
 }
 

@@ -22,7 +22,7 @@ std::optional<Trial> substitute(const Case& c, const Contender& smaller, const C
   for (std::size_t place = 0; place < thresholds.name.most_substitutes; ++place) {
     const Score& score = screening.scores[place];
     if (score.drop < thresholds.near.chance) break;
-    if (score.candidate.effect == gone.effect) continue;
+    if (score.candidate.who() == gone.who()) continue;
     step(fmt::format("trying {} instead of {}", title(score.candidate), title(gone)));
     Trial trial = rough(c, smaller, score, place);
     if (!trial.contender.fitted.failure.empty()) continue;
@@ -39,9 +39,9 @@ std::optional<Trial> substitute(const Case& c, const Contender& smaller, const C
 
 void forget(Naming& result, const Candidate& gone) {
   std::erase_if(result.effects,
-                [&](const NamedEffect& effect) { return goes_with(effect.name, effect.variant, gone); });
+                [&](const NamedEffect& effect) { return goes_with(effect.who(), effect.variant, gone); });
   if (gone.adds_to.empty())
-    std::erase_if(result.doubts, [&](const Doubt& doubt) { return doubt.effect == gone.effect; });
+    std::erase_if(result.doubts, [&](const Doubt& doubt) { return doubt.effect == gone.who(); });
 }
 
 void revise(const Case& c, Naming& result, const Eigen::VectorXd& reference, const Step& step) {
@@ -68,7 +68,7 @@ void revise(const Case& c, Naming& result, const Eigen::VectorXd& reference, con
              "serves better than " + title(old));
         result.best = std::move(better->contender);
         forget(result, old);  // the new one stands last in the model, too
-        result.effects.push_back({.name = candidate.effect, .variant = candidate.variant});
+        result.effects.push_back(named(candidate));
         continue;
       }
     }
@@ -105,7 +105,7 @@ void drop_uncertain(const Case& c, Naming& result, const Step& step) {
 }
 
 void sort_by_importance(const Case& c, Naming& result) {
-  std::vector<std::pair<std::string, double>> left;
+  std::vector<std::pair<EffectName, double>> left;
   const Model& model = result.best.fitted.model;
   for (std::size_t i = 0; i < result.effects.size(); ++i) {
     double squares = std::numeric_limits<double>::infinity();
@@ -114,16 +114,16 @@ void sort_by_importance(const Case& c, Naming& result) {
     } catch (const engine::NumericalFailure&) {
       // What cannot even be simulated without it matters most.
     }
-    left.emplace_back(result.effects[i].name, squares);
+    left.emplace_back(result.effects[i].who(), squares);
   }
-  const auto first = [&](const std::string& a, const std::string& b) {
-    const auto of = [&](const std::string& effect) {
+  const auto first = [&](const EffectName& a, const EffectName& b) {
+    const auto of = [&](const EffectName& effect) {
       return std::find_if(left.begin(), left.end(), [&](const auto& l) { return l.first == effect; })->second;
     };
     return of(a) > of(b);
   };
   std::stable_sort(result.effects.begin(), result.effects.end(),
-                   [&](const auto& a, const auto& b) { return first(a.name, b.name); });
+                   [&](const auto& a, const auto& b) { return first(a.who(), b.who()); });
   std::stable_sort(result.doubts.begin(), result.doubts.end(),
                    [&](const Doubt& a, const Doubt& b) { return first(a.effect, b.effect); });
 }

@@ -8,6 +8,15 @@
 #include <sim/diagnose/thresholds.hpp>
 
 namespace mckibben::diagnose {
+namespace {
+
+void sort(std::vector<Score>& scores) {
+  std::stable_sort(scores.begin(), scores.end(),
+                   [](const Score& a, const Score& b) { return a.drop > b.drop; });
+}
+
+}  // namespace
+
 Projector::Projector(const Fitted& fitted, double inflation)
     : rows_(fitted.residuals.size()), weight_(1.0 / std::sqrt(inflation)) {
   const auto& free = fitted.model.free;
@@ -80,9 +89,24 @@ std::vector<Score> screen(const Experiment& experiment, const Fitted& fitted,
     score.shape = probes[t].shape;
     score.column = std::move(column);
   }
-  std::stable_sort(scores.begin(), scores.end(),
-                   [](const Score& a, const Score& b) { return a.drop > b.drop; });
+  sort(scores);
   return scores;
+}
+
+void join_sides(std::vector<Score>& scores, double finer) {
+  for (Score& both : scores) {
+    if (both.candidate.side != Side::both || !(both.drop > 0.0)) continue;
+    for (Score& one : scores) {
+      if (one.candidate.side == Side::both || one.candidate.effect != both.candidate.effect ||
+          one.candidate.variant != both.candidate.variant || !(one.drop > 0.0))
+        continue;
+      const double alike = likeness(one, both), unlike = 1.0 - alike * alike;
+      if (finer * std::max(one.drop, both.drop) * unlike > thresholds.near.clear) continue;
+      both.same.push_back(one.candidate.side);
+      one.drop = 0.0;
+    }
+  }
+  sort(scores);
 }
 
 double likeness(const Score& a, const Score& b) {

@@ -32,11 +32,16 @@ struct Score {
   double amplitude = 0.0;    ///< expected value of the amplitude parameter
   double shape = 0.0;        ///< of the shapes tried, the best
   Eigen::VectorXd column{};  ///< slope, less what the free parameters imitate; of the residuals' size
+  std::vector<Side> same{};  ///< muscles of which one alone would change the same
 };
 
 /// The candidates, best first. Those already in the rig, and those with the wrong sign, score 0.
 std::vector<Score> screen(const Experiment& experiment, const Fitted& fitted,
                           const std::vector<Candidate>& candidates, const Runs& runs, double inflation);
+
+/// Of a pair: where what one muscle alone would do is, but for chance, what both do, both stand for it and it
+/// scores 0. `finer`: by how much sums of squares count more once something fits.
+void join_sides(std::vector<Score>& scores, double finer);
 
 /// Cosine between what two effects change: at 1 these data cannot tell them apart.
 double likeness(const Score& a, const Score& b);

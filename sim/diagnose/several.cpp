@@ -22,7 +22,7 @@ std::string words_of(const Subset& subset) {
 bool is_named(const Naming& naming, const Subset& subset) {
   return subset.members.size() == naming.effects.size() &&
          std::ranges::all_of(subset.members, [&](const Score& score) {
-           return std::ranges::find(naming.effects, score.candidate.effect, &NamedEffect::name) !=
+           return std::ranges::find(naming.effects, score.candidate.who(), &NamedEffect::who) !=
                   naming.effects.end();
          });
 }
@@ -75,7 +75,7 @@ bool try_several(const Case& c, Naming& result, std::span<const Screening> scree
   all.contender = *best;
   for (const Candidate& candidate : best->fitted.model.effects) {
     take(c, result.ranking, candidate, all, fall, "of several that close most of the gap together");
-    result.effects.push_back({.name = candidate.effect, .variant = candidate.variant});
+    result.effects.push_back(named(candidate));
   }
   result.best = std::move(*best);
   return true;

@@ -56,7 +56,7 @@ void tell_parameters(Diagnosis& diagnosis, const Model& model, const std::vector
     }
     for (auto* effects : {&diagnosis.effects, &diagnosis.stand_ins})
       for (auto& effect : *effects) {
-        std::string prefix = fmt::format("effects.{}.", effect.name);
+        std::string prefix = keys_of(effect.who());
         if (!p.path.starts_with(prefix)) prefix = fmt::format("effects.{}.{}.", of_laws, effect.name);
         if (!p.path.starts_with(prefix)) continue;
         number.name = p.path.substr(prefix.size());
@@ -162,8 +162,9 @@ std::vector<std::string> rows_in_words(const domain::Dataset& data, const NoiseF
   const bool pair = data.judged() == Judged::angle;
   if (pair)
     words.push_back(
-        "two muscles turn the joint: effects are looked for on both alike; runs are not looked through for "
-        "faults of a recorder, no further measurement is planned, and a load's guide there is none");
+        "two muscles turn the joint: effects are looked for on both alike and on each; runs are not looked "
+        "through for faults of a recorder, no further measurement is planned, and a load's guide there is "
+        "none");
   if (data.pressure_is_given())
     words.push_back(
         fmt::format("the muscle{} the input: valve, supply, hose and gas are out of sight, and with them {}",
@@ -223,7 +224,7 @@ std::string ignored_in_words(const domain::Dataset& data) {
 
 std::string remark_in_words(Remark remark, const Naming& naming, double left, const std::string& besides) {
   std::vector<std::string> names;
-  for (const NamedEffect& effect : naming.effects) names.push_back(full_name(effect.name, effect.variant));
+  for (const NamedEffect& effect : naming.effects) names.push_back(full_name(effect));
   const double floors = std::sqrt(left + 1.0);
   switch (remark) {
     case Remark::gauge_misleads:
@@ -239,7 +240,7 @@ std::string remark_in_words(Remark remark, const Naming& naming, double left, co
     case Remark::stands_in: {
       std::vector<std::string> stand_ins;
       for (const NamedEffect& effect : naming.effects)
-        if (effect.stands_in) stand_ins.push_back(full_name(effect.name, effect.variant));
+        if (effect.stands_in) stand_ins.push_back(full_name(effect));
       return fmt::format(
           "{}: added to the corrected rig, but no name for what is missing; how it drifts is a hint at the "
           "true "
@@ -323,7 +324,7 @@ std::string stand_ins_in_words(const Diagnosis& d) {
   std::string said;
   for (const NamedEffect& effect : d.stand_ins) {
     const Drift* drift = effect.constancy.drift();
-    said += fmt::format(" {} stands in for it: ", full_name(effect.name, effect.variant));
+    said += fmt::format(" {} stands in for it: ", full_name(effect));
     if (drift == nullptr || effect.parameters.empty()) {
       said += "much is left, and no two parts of the data show its size.";
       continue;
@@ -343,13 +344,27 @@ std::string stand_ins_in_words(const Diagnosis& d) {
   return said;
 }
 
+/// Of which muscle it is, if that is open; what else it may be.
+std::string doubts_in_words(const NamedEffect& effect) {
+  std::vector<std::string> others;
+  std::size_t sides = 0;
+  for (const EffectName& rival : effect.confusable_with) {
+    if (rival.effect == effect.name) ++sides;
+    if (rival.effect != effect.name || effect.side != Side::both) others.push_back(rival.words());
+  }
+  std::string said;
+  if (effect.side == Side::both && sides > 0)
+    said = " - whether of both muscles alike or of one these data cannot tell";
+  if (!others.empty()) said += fmt::format(" - these data cannot tell it from {}", fmt::join(others, ", "));
+  return said;
+}
+
 std::string effects_in_words(const Diagnosis& d) {
   std::string said;
   for (const NamedEffect& effect : d.effects) {
-    said += fmt::format("{}{} ({})", said.empty() ? "" : ", and ", effect.name,
+    said += fmt::format("{}{} ({})", said.empty() ? "" : ", and ", effect.who().words(),
                         sentence_of(effect.name, d.corrected.effects));
-    if (!effect.confusable_with.empty())
-      said += fmt::format(" - these data cannot tell it from {}", fmt::join(effect.confusable_with, ", "));
+    said += doubts_in_words(effect);
   }
   const std::string more = stand_ins_in_words(d);
   return fmt::format("Missing: {}.{} {}{}", said,

@@ -51,6 +51,11 @@ bool allowed(const Candidate& candidate, double change) {
   return candidate.either_sign || (change > 0.0) == (candidate.typical > 0.0);
 }
 
+/// The same effect of the same muscle.
+bool overlap(const Candidate& a, const Candidate& b) {
+  return a.effect == b.effect && (a.side == b.side || a.side == Side::both || b.side == Side::both);
+}
+
 /// Each member explains something that the others do not.
 bool all_needed(const Gram& gram, const std::vector<Eigen::Index>& members, double drop) {
   for (std::size_t i = 0; i < members.size(); ++i) {
@@ -96,11 +101,11 @@ std::vector<Subset> best_subsets(const std::vector<Score>& scores) {
     if (members.size() >= 2) judge();
     if (members.size() == subsets_by.most_effects) return;
     for (Eigen::Index next = from; next < gram.along.size(); ++next) {
-      const auto same_effect = [&](Eigen::Index other) {
-        return pool[static_cast<std::size_t>(other)]->candidate.effect ==
-               pool[static_cast<std::size_t>(next)]->candidate.effect;
+      const auto overlaps = [&](Eigen::Index member) {
+        return overlap(pool[static_cast<std::size_t>(member)]->candidate,
+                       pool[static_cast<std::size_t>(next)]->candidate);
       };
-      if (std::ranges::any_of(members, same_effect)) continue;
+      if (std::ranges::any_of(members, overlaps)) continue;
       members.push_back(next);
       grow(next + 1);
       members.pop_back();

@@ -17,7 +17,8 @@ struct Subset {
 };
 
 /// The sets that promise most, best first: of two effects and more, all with a sign that their laws allow,
-/// and none that the others could do without. Of one effect one law at a time.
+/// and none that the others could do without. Of one effect one law at a time; of a pair, each muscle
+/// may have its own.
 std::vector<Subset> best_subsets(const std::vector<Score>& scores);
 
 }  // namespace mckibben::diagnose

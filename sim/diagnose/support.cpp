@@ -29,9 +29,9 @@ void tell_support(const Case& c, const Contender& recalibrated, Naming& naming, 
   const auto& effects = best.fitted.model.effects;
   const KnownSlopes known = slopes_of_nominal(best.fitted);
   for (NamedEffect& effect : naming.effects) {
-    const auto place = std::ranges::find(effects, effect.name, &Candidate::effect);
+    const auto place = std::ranges::find(effects, effect.who(), &Candidate::who);
     if (place == effects.end()) continue;
-    step("without " + full_name(effect.name, effect.variant));
+    step("without " + full_name(effect));
     const auto index = static_cast<std::size_t>(place - effects.begin());
     const Contender without_it =
         effects.size() == 1 ? recalibrated : contend(c, without(best.fitted.model, index), &known);

@@ -10,7 +10,7 @@
 namespace mckibben::diagnose {
 
 std::string title(const Candidate& c) {
-  return full_name(c.effect, c.variant);
+  return full_name(c.effect, c.variant, c.side);
 }
 
 bool has_size(const Model& model, const Candidate& c) {
@@ -35,19 +35,19 @@ bool has_shape(const Model& model, const Candidate& c) {
   });
 }
 
-bool goes_with(std::string_view effect, std::string_view variant, const Candidate& gone) {
-  return effect == gone.effect && (gone.adds_to.empty() || variant == gone.variant);
+bool goes_with(const EffectName& who, std::string_view variant, const Candidate& gone) {
+  return who == gone.who() && (gone.adds_to.empty() || variant == gone.variant);
 }
 
 Model without(const Model& model, std::size_t effect) {
   Model smaller = model;
   const Candidate& gone = model.effects[effect];
   for (const Candidate& c : model.effects) {
-    if (!goes_with(c.effect, c.variant, gone)) continue;
+    if (!goes_with(c.who(), c.variant, gone)) continue;
     smaller.rig = c.removed(smaller.rig);
     std::erase_if(smaller.free, [&](const Parameter& p) { return c.moves(p.path); });
   }
-  std::erase_if(smaller.effects, [&](const Candidate& c) { return goes_with(c.effect, c.variant, gone); });
+  std::erase_if(smaller.effects, [&](const Candidate& c) { return goes_with(c.who(), c.variant, gone); });
   return smaller;
 }
 
@@ -100,13 +100,17 @@ Screening screen_at(const Case& c, const Contender& base) {
       std::max(c.inflation, variance_inflation(c.experiment, base.fitted.residuals, c.split.training));
   const auto candidates = catalogue(c.experiment.data());
   const Runs few = a_few(c.experiment.data(), c.split.training, thresholds.screen.most_runs);
-  if (few.size() == c.split.training.size())
-    return {&base, screen(c.experiment, base.fitted, candidates, few, scatter)};
+  const auto screened = [&](const Fitted& fitted, double scatter_of_rows) {
+    Screening screening{&base, screen(c.experiment, fitted, candidates, few, scatter_of_rows)};
+    join_sides(screening.scores, scatter / c.inflation);
+    return screening;
+  };
+  if (few.size() == c.split.training.size()) return screened(base.fitted, scatter);
   // Each of their rows stands for several.
   const Fitted part = part_of(base.fitted, c.experiment, c.split.training, few);
   const double share =
       static_cast<double>(part.residuals.size()) / static_cast<double>(base.fitted.residuals.size());
-  return {&base, screen(c.experiment, part, candidates, few, share * scatter)};
+  return screened(part, share * scatter);
 }
 
 Trial rough(const Case& c, const Contender& base, const Score& score, std::size_t place) {

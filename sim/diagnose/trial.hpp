@@ -51,7 +51,7 @@ Contender contend(const Case& c, Model model, const KnownSlopes* known = nullptr
 Model with(const Case& c, const Model& model, const Score& score);
 
 /// Whether a law of a model goes where `gone` does: itself, and what adds to it.
-bool goes_with(std::string_view effect, std::string_view variant, const Candidate& gone);
+bool goes_with(const EffectName& who, std::string_view variant, const Candidate& gone);
 
 /// The model without one of its effects.
 Model without(const Model& model, std::size_t effect);

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -42,6 +43,18 @@ struct SpreadsOf {
 /// Any value that a field list can hold.
 template <class T>
 Json to_json(const T& value, const SpreadsOf& spreads = {});
+
+/// What a rig file says of muscle 1 holds for both: effects that muscle 2 has not are said to be absent.
+template <class R>
+void say_absent_effects(const R& rig, Json& file) {
+  if (rig.pair() == nullptr) return;
+  const auto say = [&]<class E>(const E&) {
+    if (rig.effects.template get<E>().absent() || !rig.pair()->opposite.effects.template get<E>().absent())
+      return;
+    file["mechanics"]["opposite"]["effects"][std::string(E::name)] = to_json(E{});
+  };
+  std::apply([&](const auto&... effect) { (say(effect), ...); }, rig.effects.all);
+}
 
 /// A quantity: a number for the unit "1", else a text; a text as well with how well it is known.
 inline Json quantity_json(double value, std::string_view unit, std::optional<double> spread = {}) {
@@ -144,6 +157,7 @@ Json to_json(const T& value, const SpreadsOf& spreads) {
     };
     JsonWriter writer(object, own());
     T::fields(value, writer);
+    if constexpr (requires { value.pair()->opposite.effects; }) say_absent_effects(value, object);
     return object;
   }
 }

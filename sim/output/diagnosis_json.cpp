@@ -71,6 +71,31 @@ Json support_json(const diagnose::Support& support) {
           {"runs_against", support.against}};
 }
 
+/// 1 or 2; of both nothing is said.
+void tell_side(Json& json, diagnose::Side side) {
+  if (side != diagnose::Side::both) json["side"] = side == diagnose::Side::one ? 1 : 2;
+}
+
+/// Other effects, whosever they are, by name.
+std::vector<std::string> other_names(const diagnose::NamedEffect& effect) {
+  std::vector<std::string> names;
+  for (const auto& rival : effect.confusable_with)
+    if (rival.effect != effect.name && std::ranges::find(names, rival.effect) == names.end())
+      names.push_back(rival.effect);
+  return names;
+}
+
+/// Of a pair: the same effect, or another one, of one muscle or of both; empty where whose is no question.
+Json sides_json(const diagnose::NamedEffect& effect) {
+  Json list = Json::array();
+  for (const auto& rival : effect.confusable_with) {
+    if (rival.side == effect.side && effect.side == diagnose::Side::both) continue;
+    list.push_back({{"name", rival.effect}});
+    tell_side(list.back(), rival.side);
+  }
+  return list;
+}
+
 Json effects_json(const std::vector<diagnose::NamedEffect>& effects) {
   Json list = Json::array();
   for (const auto& effect : effects) {
@@ -78,11 +103,13 @@ Json effects_json(const std::vector<diagnose::NamedEffect>& effects) {
     for (const auto& parameter : effect.parameters) parameters[parameter.name] = value_json(parameter);
     list.push_back({{"name", effect.name},
                     {"variant", effect.variant},
-                    {"confusable_with", effect.confusable_with},
+                    {"confusable_with", other_names(effect)},
                     {"parameters", parameters},
                     {"stands_in", effect.stands_in},
                     {"support", support_json(effect.support)},
                     {"constancy", constancy_json(effect.constancy)}});
+    tell_side(list.back(), effect.side);
+    if (Json sides = sides_json(effect); !sides.empty()) list.back()["confusable_sides"] = std::move(sides);
   }
   return list;
 }
@@ -211,6 +238,7 @@ Json ranking_json(const diagnose::Diagnosis& diagnosis) {
       entry["held_out_rmse"] = one.held_out_rmse;
       entry["fall"] = one.fall;
     }
+    tell_side(entry, one.side);
     list.push_back(std::move(entry));
   }
   return list;

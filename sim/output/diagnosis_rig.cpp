@@ -60,7 +60,7 @@ std::string origin(const domain::Dataset& data, const diagnose::Diagnosis& diagn
       comment(fmt::format("The rig as a diagnosis of {} found it. {}.", name_of(data), title_of(diagnosis)));
   if (!diagnosis.because.empty()) text += comment(diagnosis.because);
   const auto add = [&](const char* as, const diagnose::NamedEffect& effect) {
-    text += comment(fmt::format("{}: {}: {}", as, full_name(effect.name, effect.variant),
+    text += comment(fmt::format("{}: {}: {}", as, full_name(effect),
                                 words_of(effect.name, diagnosis.corrected.effects).sentence));
     for (const auto& parameter : effect.parameters) text += number_line(parameter.name, parameter, "");
   };

@@ -30,11 +30,10 @@ std::string added(const Diagnosis& diagnosis) {
     grid.add({effect, name, shown.value, shown.interval});
   };
   for (const auto& effect : diagnosis.effects)
-    for (const auto& parameter : effect.parameters)
-      add(full_name(effect.name, effect.variant), parameter.name, parameter);
+    for (const auto& parameter : effect.parameters) add(full_name(effect), parameter.name, parameter);
   for (const auto& effect : diagnosis.stand_ins)
     for (const auto& parameter : effect.parameters)
-      add(full_name(effect.name, effect.variant) + ", stands in", parameter.name, parameter);
+      add(full_name(effect) + ", stands in", parameter.name, parameter);
   for (const auto& term : diagnosis.residual_law) {
     add("residual_law", term.term, term.coefficient);
     for (const auto& shape : term.shape) add("", shape.name, shape);
@@ -86,7 +85,7 @@ std::string twins(const Diagnosis& diagnosis) {
   std::string text;
   for (const auto& effect : diagnosis.effects)
     if (!effect.confusable_with.empty())
-      text += fmt::format("  {}: {}\n", effect.name, listed(effect.confusable_with));
+      text += fmt::format("  {}: {}\n", effect.who().words(), listed(words_of(effect.confusable_with)));
   std::size_t others = 0;
   for (const auto& one : diagnosis.explanations)
     if (one.as_good && !one.chosen && ++others <= most_others)

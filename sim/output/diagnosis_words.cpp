@@ -114,7 +114,7 @@ std::string listed(const std::vector<std::string>& names) {
 
 std::string title_of(const diagnose::Diagnosis& diagnosis) {
   std::vector<std::string> found;
-  for (const auto& effect : diagnosis.effects) found.push_back(effect.name);
+  for (const auto& effect : diagnosis.effects) found.push_back(effect.who().words());
   switch (diagnosis.verdict) {
     case diagnose::Verdict::nothing_missing:
       return "Nothing is missing";

@@ -36,10 +36,10 @@ std::string found(const Diagnosis& diagnosis) {
   std::string rows;
   for (const auto& effect : diagnosis.effects)
     for (const auto& parameter : effect.parameters)
-      rows += found_row(full_name(effect.name, effect.variant), parameter.name, parameter);
+      rows += found_row(full_name(effect), parameter.name, parameter);
   for (const auto& effect : diagnosis.stand_ins)
     for (const auto& parameter : effect.parameters)
-      rows += found_row(full_name(effect.name, effect.variant) + ", stands in", parameter.name, parameter);
+      rows += found_row(full_name(effect) + ", stands in", parameter.name, parameter);
   for (const auto& term : diagnosis.residual_law)
     rows += found_row("residual_law", term.term, term.coefficient);
   if (rows.empty())
@@ -189,12 +189,11 @@ std::string constancy_html(const Diagnosis& diagnosis, const plant::Rig& rig) {
           sizes += fmt::format(
               "{}{}: {}", sizes.empty() ? "" : "; ", size.part,
               size_in_words(size, effect.parameters.empty() ? "1" : effect.parameters.front().unit));
-        rows +=
-            fmt::format("<tr><th scope='row'>{}</th><td>{}</td><td>{}</td><td>{}</td></tr>\n",
-                        escaped(full_name(effect.name, effect.variant)), drift.along, text_html(sizes, rig),
-                        drift.deviations == 0.0 ? "no"
-                                                : fmt::format("by {:.0f} %{}", 100.0 * drift.share,
-                                                              drift.drifts() ? "" : ", which is little"));
+        rows += fmt::format("<tr><th scope='row'>{}</th><td>{}</td><td>{}</td><td>{}</td></tr>\n",
+                            escaped(full_name(effect)), drift.along, text_html(sizes, rig),
+                            drift.deviations == 0.0 ? "no"
+                                                    : fmt::format("by {:.0f} %{}", 100.0 * drift.share,
+                                                                  drift.drifts() ? "" : ", which is little"));
       }
   if (rows.empty()) return "";
   return folded(
@@ -213,8 +212,7 @@ std::string added_html(const Diagnosis& diagnosis, const plant::Rig& rig) {
     std::string says(words.sentence);
     if (!says.empty() && says[0] >= 'a' && says[0] <= 'z') says[0] = static_cast<char>(says[0] - 'a' + 'A');
     html += fmt::format("<h3>{}</h3>\n<p>{}.<br>Law: <code>{}</code><br><span class='small'>{}</span></p>\n",
-                        escaped(full_name(effect.name, effect.variant)), escaped(says), escaped(words.law),
-                        escaped(words.source));
+                        escaped(full_name(effect)), escaped(says), escaped(words.law), escaped(words.source));
     if (effect.stands_in)
       html += paragraph(
           "It stands in for something else: it makes the gap smaller, but is not the same everywhere.");

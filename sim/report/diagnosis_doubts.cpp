@@ -27,7 +27,7 @@ std::string support_html(const Diagnosis& diagnosis) {
       const auto runs = [](const std::vector<std::string>& ids) {
         return ids.empty() ? std::string("none") : output::listed(ids);
       };
-      rows += row(full_name(effect.name, effect.variant),
+      rows += row(full_name(effect),
                   {fmt::format("{:.0f}", support.fall),
                    std::isfinite(support.before_rivals) ? fmt::format("{:.0f}", support.before_rivals)
                                                         : std::string("none tried"),
@@ -69,11 +69,12 @@ std::string competition_html(const Diagnosis& diagnosis, const plant::Rig& rig) 
 std::string twins_html(const domain::Dataset& data, const Diagnosis& diagnosis) {
   std::string html;
   for (const auto& effect : diagnosis.effects)
-    html += paragraph(
-        effect.confusable_with.empty()
-            ? fmt::format("{}: no other effect of the catalogue explains these data as well.", effect.name)
-            : fmt::format("{} could as well be {}: these data cannot tell them apart.", effect.name,
-                          output::listed(effect.confusable_with)));
+    html +=
+        paragraph(effect.confusable_with.empty()
+                      ? fmt::format("{}: no other effect of the catalogue explains these data as well.",
+                                    effect.who().words())
+                      : fmt::format("{} could as well be {}: these data cannot tell them apart.",
+                                    effect.who().words(), output::listed(words_of(effect.confusable_with))));
   if (!gauged(data) && !data.pressure_is_given() &&
       (!diagnosis.effects.empty() || !diagnosis.residual_law.empty()))
     html += paragraph(

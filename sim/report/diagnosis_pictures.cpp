@@ -150,11 +150,11 @@ std::vector<Picture> ranking_pictures(const Diagnosis& diagnosis, const plant::R
     for (const auto* one : all) {
       if (!one->refitted &&
           (one->score < diagnose::thresholds.near.chance || one->score < least_share * most)) {
-        others[one->outcome].push_back(full_name(one->name, one->variant));
+        others[one->outcome].push_back(full_name(*one));
         continue;
       }
       const bool taken = one->outcome.starts_with("taken");
-      bars += label(x0 - 8, y + 13, "end", full_name(one->name, one->variant), taken ? "strong" : "");
+      bars += label(x0 - 8, y + 13, "end", full_name(*one), taken ? "strong" : "");
       const double end = length(fall(*one));
       bars += bar(x0, y + 2, end, 13.0, !one->refitted ? "empty" : taken ? "bar c0" : "bar");
       bars += label(x0 + end + 5, y + 13, "start", rounded(fall(*one), std::abs(fall(*one)) < 100.0 ? 1 : 0),

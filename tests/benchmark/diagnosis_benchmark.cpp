@@ -6,7 +6,8 @@
 //   benchmark_diagnosis --weak [SEED [SEEDS]]    effects of 3 to 100 % of a small size in four to nine runs:
 //   how
 //                                                often a name is right that is given with such evidence
-//   benchmark_diagnosis --corrupted [SEED [only=NAME]]   the same for data that were spoilt on purpose
+//   benchmark_diagnosis --pairs [SEED [SEEDS]]   two muscles on one wheel, an effect in one, in both or in
+//   none benchmark_diagnosis --corrupted [SEED [only=NAME]]   the same for data that were spoilt on purpose
 //
 // Every third data set is of the thesis's rig, of one of another size, of one that is badly known.
 // Started by mpirun or srun, its processes share the data sets out and meet in out/bench-diagnosis.ranks.
@@ -33,6 +34,7 @@
 
 #include "corrupted_benchmark.hpp"
 #include "hidden_effects.hpp"
+#include "pairs_benchmark.hpp"
 
 namespace {
 
@@ -83,10 +85,10 @@ struct Answer {
     for (const auto& effect : found.effects) {
       named.insert(effect.name);
       declared.insert(effect.name);
-      declared.insert(effect.confusable_with.begin(), effect.confusable_with.end());
+      for (const auto& rival : effect.confusable_with) declared.insert(rival.effect);
       said += (said.empty() ? "" : " + ") + effect.name;
       if (!effect.confusable_with.empty())
-        said += fmt::format(" (or {})", fmt::join(effect.confusable_with, ", "));
+        said += fmt::format(" (or {})", fmt::join(words_of(effect.confusable_with), ", "));
     }
     const Names truth(hidden.effects.begin(), hidden.effects.end());
     right = named == truth;
@@ -357,6 +359,10 @@ int main(int argc, char** argv) {
     return words.size() > at ? std::strtoull(words[at].c_str(), nullptr, 10) : otherwise;
   };
   const std::uint64_t first = number(0, 101), seeds = number(1, 3);
+  if (suite == "--pairs") {
+    if (cluster::crew().leads()) diagnose::score_pairs(first, number(1, 1), cluster::crew().threads);
+    return 0;
+  }
   try {
     const std::string wanted = words.size() > 2 ? words[2] : "";
     score_all(suite == "--nulls"  ? nulls(first, seeds, wanted)

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 #include <random>
 
@@ -27,13 +28,15 @@ inline std::array<double, 2> shares_at(std::size_t i, double time_s) {
 
 struct JointNoise {
   double angle_rad = 1e-3, pressure_Pa = 100.0;
+  std::uint64_t seed = 11;
+  solver::Method method = solver::Method::automatic;  ///< by which the readings are made
 };
 
 /// Five runs of 1.9 s, under commands, which tell less, of 2.6 s; a row each 12 ms; readings of `truth` with
 /// noise, handed over with the shipped pair. `commands`: currents drive it, and nothing else is known of the
 /// pressures.
 inline domain::Dataset of_a_joint(const RigFile& truth, bool commands = false, JointNoise noise = {}) {
-  std::mt19937_64 random(11);
+  std::mt19937_64 random(noise.seed);
   std::normal_distribution<double> normal;
   domain::Dataset data;
   data.rig = domain::thesis_pair();
@@ -56,10 +59,19 @@ inline domain::Dataset of_a_joint(const RigFile& truth, bool commands = false, J
       }
     }
     const Hanging pair{truth};
-    measured.angle_rad = predict(run, {&pair, 1}).front().judged;
+    measured.angle_rad = predict(run, {&pair, 1}, noise.method).front().judged;
     for (double& angle_rad : measured.angle_rad) angle_rad += noise.angle_rad * normal(random);
     for (auto& side : measured.sides)
       for (double& pressure_Pa : side.muscle_pressure_Pa) pressure_Pa += noise.pressure_Pa * normal(random);
+  }
+  return run::with_rows(std::move(data));
+}
+
+/// The same joint seen from behind: muscle 1 is muscle 2, and the angle turns the other way.
+inline domain::Dataset mirrored(domain::Dataset data) {
+  for (domain::Run& run : data.runs) {
+    std::swap(run.measured->sides[0], run.measured->sides[1]);
+    for (double& angle_rad : run.measured->angle_rad) angle_rad = -angle_rad;
   }
   return run::with_rows(std::move(data));
 }
@@ -69,6 +81,15 @@ template <class E>
 RigFile pair_with(const E& effect) {
   RigFile rig = domain::thesis_pair();
   each_side(rig, [&](plant::Effects& effects) { effects.get<E>() = effect; });
+  return rig;
+}
+
+/// The same on one.
+template <class E>
+RigFile pair_with(const E& effect, Side side) {
+  RigFile rig = domain::thesis_pair();
+  each_side(
+      rig, [&](plant::Effects& effects) { effects.get<E>() = effect; }, side);
   return rig;
 }
 

@@ -19,7 +19,7 @@ namespace {
 TEST(Joint, AnglesAreThoseOfAReplay) {
   const RigFile rig = domain::thesis_pair();
   for (const bool commands : {false, true}) {
-    const domain::Dataset data = of_a_joint(rig, commands, {0.0, 0.0});
+    const domain::Dataset data = of_a_joint(rig, commands, {.angle_rad = 0.0, .pressure_Pa = 0.0});
     const domain::Run& run = data.runs[1];
     const auto replayed = run::follow(rig, 0.0, run::course_of(run, rig));
     ASSERT_EQ(replayed.samples.size(), run.angle_rad.size());
@@ -43,7 +43,8 @@ TEST(Joint, ItsOwnDataLeaveTheFloor) {
 }
 
 TEST(Joint, SlopesAreThoseOfBothSides) {
-  const domain::Dataset data = of_a_joint(domain::thesis_pair(), false, {0.0, 0.0});
+  const domain::Dataset data =
+      of_a_joint(domain::thesis_pair(), false, {.angle_rad = 0.0, .pressure_Pa = 0.0});
   const Checked checked = check(data, 2);
   const Experiment experiment(data, checked.masked, 2);
   const auto parameters = nominal_parameters(data.rig);
@@ -131,6 +132,43 @@ TEST(Joint, AGuideOfALoadIsNoCandidate) {
   const auto offered = catalogue(data);
   EXPECT_EQ(std::ranges::find(offered, "guide_friction", &Candidate::effect), offered.end());
   EXPECT_NE(std::ranges::find(offered, "muscle_leak", &Candidate::effect), offered.end());
+}
+
+TEST(Joint, WhatIsOfAMuscleIsACandidateOfEach) {
+  const domain::Dataset data = of_a_joint(domain::thesis_pair(), true);
+  const auto offered = catalogue(data);
+  const auto sides = [&](const std::string& effect) {
+    return std::ranges::count(offered, effect, &Candidate::effect);
+  };
+  EXPECT_EQ(sides("muscle_leak"), 3);
+  EXPECT_EQ(sides("valve_lag"), 3);
+  EXPECT_EQ(sides("supply_droop"), 1);   // there is one supply,
+  EXPECT_EQ(sides("encoder_scale"), 1);  // one encoder
+  EXPECT_EQ(sides("polytropic_gas"), 1);
+  for (const Candidate& candidate : offered) {
+    if (candidate.effect != "muscle_leak") continue;
+    RigFile rig = data.rig;
+    EXPECT_TRUE(candidate.fits(rig));
+    candidate.put(rig, 1e-10);
+    EXPECT_EQ(carries(rig, "muscle_leak", Side::one), candidate.side != Side::two);
+    EXPECT_EQ(carries(rig, "muscle_leak", Side::two), candidate.side != Side::one);
+    for (const Candidate& next : offered)
+      if (next.effect == "muscle_leak")
+        EXPECT_EQ(next.fits(rig), next.side != Side::both && next.side == other(candidate.side));
+  }
+}
+
+TEST(Joint, ATubeThatPushesIsNoCandidate) {
+  const domain::Dataset data = of_a_joint(domain::thesis_pair(), true);
+  std::size_t laws = 0;
+  for (const RigFile& rig : {data.rig, RigFile{}})
+    for (const Candidate& candidate : rig.pair() != nullptr ? catalogue(data) : catalogue(rig)) {
+      if (candidate.effect != plant::BladderElasticity::name) continue;
+      EXPECT_FALSE(candidate.either_sign);
+      for (const Parameter& p : candidate.parameters(rig)) EXPECT_GT(p.lowest, 0.0) << p.path;
+      ++laws;
+    }
+  EXPECT_EQ(laws, 12u);  // three, of a pair of each muscle and of both
 }
 
 TEST(Joint, GaugesOfBothMusclesAreCompared) {

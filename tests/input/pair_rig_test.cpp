@@ -38,6 +38,23 @@ TEST(PairRig, WhatIsSaidOfMuscleOneHoldsForBothUntilTheOppositeDiffers) {
   EXPECT_EQ(to_json(rig_of(to_json(rig).dump())), to_json(rig));
 }
 
+TEST(PairRig, AnEffectOfOneMuscleIsWrittenAsOneOfThatMuscle) {
+  const std::string leak = "effects: {muscle_leak: {conductance: 1e-10 m3/(s.Pa)}}";
+  const RigFile of_one =
+      rig_of("base: thesis_pair\n" + leak +
+             "\nmechanics: {kind: pair, opposite: {effects: {muscle_leak: {conductance: 0 m3/(s.Pa)}}}}");
+  const RigFile of_two = rig_of("base: thesis_pair\nmechanics: {kind: pair, opposite: {" + leak + "}}");
+  for (const RigFile& rig : {of_one, of_two}) {
+    const RigFile again = rig_of(to_json(rig).dump());
+    const auto leaks = [](const plant::Effects& effects) {
+      return effects.get<plant::MuscleLeak>().conductance_m3_per_s_Pa;
+    };
+    EXPECT_EQ(leaks(again.effects), leaks(rig.effects));
+    EXPECT_EQ(leaks(again.pair()->opposite.effects), leaks(rig.pair()->opposite.effects));
+    EXPECT_EQ(leaks(again.effects) + leaks(again.pair()->opposite.effects), 1e-10);
+  }
+}
+
 TEST(PairRig, AMistakeOfMuscleOneIsToldOnce) {
   try {
     rig_of("base: thesis_pair\nmuscle: {rest_radius: 8 kg}");

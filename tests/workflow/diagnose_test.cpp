@@ -232,8 +232,8 @@ TEST(Diagnose, FindsThatAllRunsAreEarlyBesideAnEffectThatIsMissing) {
   EXPECT_EQ(found.effects[0].name, "speed_dependent_friction");
 }
 
-bool is_a_delay(const std::string& name) {
-  return name == plant::CommandDelay::name || name == plant::ReadingDelay::name;
+bool is_a_delay(const EffectName& name) {
+  return name.effect == plant::CommandDelay::name || name.effect == plant::ReadingDelay::name;
 }
 
 // What all runs have is the rig's, or of a recorder that a rig file can carry: whole ticks or not.
