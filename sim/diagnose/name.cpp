@@ -222,9 +222,13 @@ const Trial* of_both_if_untold(const Case& c, const std::vector<Trial>& trials, 
         return &trial;
     return nullptr;
   };
-  if (candidate.side == Side::both || does_as_well(other(candidate.side)) == nullptr) return &best;
+  if (candidate.side == Side::both) return &best;
   const Trial* both = does_as_well(Side::both);
-  return both != nullptr ? both : &best;
+  if (both == nullptr) return &best;
+  const Side rest = other(candidate.side);  // was tried, or both stand for it
+  const auto& same = both->score.same;
+  const bool untold = std::ranges::find(same, rest) != same.end() || does_as_well(rest) != nullptr;
+  return untold ? both : &best;
 }
 
 /// How much more misfit the best of the other effects leaves that does not do as well.

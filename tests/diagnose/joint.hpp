@@ -71,9 +71,10 @@ inline domain::Dataset of_a_joint(const RigFile& truth, bool commands = false, J
 inline domain::Dataset mirrored(domain::Dataset data) {
   for (domain::Run& run : data.runs) {
     std::swap(run.measured->sides[0], run.measured->sides[1]);
-    for (double& angle_rad : run.measured->angle_rad) angle_rad = -angle_rad;
+    for (auto* angles : {&run.measured->angle_rad, &run.angle_rad})
+      for (double& angle_rad : *angles) angle_rad = -angle_rad;
   }
-  return run::with_rows(std::move(data));
+  return data;
 }
 
 /// The shipped pair with the same effect on both sides.

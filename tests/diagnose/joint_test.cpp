@@ -152,9 +152,10 @@ TEST(Joint, WhatIsOfAMuscleIsACandidateOfEach) {
     candidate.put(rig, 1e-10);
     EXPECT_EQ(carries(rig, "muscle_leak", Side::one), candidate.side != Side::two);
     EXPECT_EQ(carries(rig, "muscle_leak", Side::two), candidate.side != Side::one);
-    for (const Candidate& next : offered)
-      if (next.effect == "muscle_leak")
-        EXPECT_EQ(next.fits(rig), next.side != Side::both && next.side == other(candidate.side));
+    for (const Candidate& next : offered) {
+      if (next.effect != "muscle_leak") continue;
+      EXPECT_EQ(next.fits(rig), next.side != Side::both && next.side == other(candidate.side));
+    }
   }
 }
 
