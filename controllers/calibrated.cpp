@@ -10,9 +10,6 @@ namespace {
 
 constexpr double settling_s = 1.0;  // at the first current, before tick 0
 
-// How wrong a load may be weighed: T 4.3 reports 6.5 %, T 5 "below 15 percent".
-constexpr double weighing_tolerance = 0.10;
-
 }  // namespace
 
 CalibratedController::CalibratedController(const CalibratedSettings& settings, const Knowledge& knowledge)
@@ -54,7 +51,7 @@ Command CalibratedController::step(const Reading& reading) {
   const double low_mA = *settings_.weighing.low_mA;
   const double way_mA =
       static_cast<double>(tick - weighing_->ticks()) * knowledge_.tick_s * *settings_.weighing.speed_mA_per_s;
-  return {settle_mA(reading, std::min(first_mA_, low_mA + way_mA))};
+  return {std::min(first_mA_, low_mA + way_mA)};
 }
 
 // A calibrated load must not be refused, or extrapolated, because it was weighed a little wrong: it is taken
@@ -101,13 +98,6 @@ double CalibratedController::begin_mA(double contraction_ratio, double lag_s) {
   asked_ratio_ = contraction_ratio;
   const Answer answer = (*inverse_)(Branch::contraction, contraction_ratio, 0.0);
   return current_mA_ = current_of(Branch::contraction, answer, lag_s);
-}
-
-double CalibratedController::balanced_mA(double contraction_ratio) const {
-  const auto of = [&](Branch branch) {
-    return current_of(branch, (*inverse_)(branch, contraction_ratio, 0.0), 0.0);
-  };
-  return 0.5 * (of(Branch::contraction) + of(Branch::relaxation));
 }
 
 // The branch is chosen by the target's direction. While it rests the threads hold the load where it is, and

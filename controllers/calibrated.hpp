@@ -1,5 +1,5 @@
-// What the model-based controllers share: they load a calibration, weigh the load before tick 0 unless they
-// are told it, and then ask the inverse for currents.
+// What the open loops share: they load a calibration, weigh the load before tick 0 unless they are told it,
+// and then ask the inverse for currents.
 #pragma once
 
 #include <cstdint>
@@ -12,32 +12,45 @@
 
 namespace mckibben::controllers {
 
-struct CalibratedSettings {
+struct CalibrationTerms {
   std::string calibration;
   Calibration model;  ///< filled from the file by whoever can read it, before make()
   std::optional<double> assumed_load_kg = std::nullopt;
-  WeighingSettings weighing;
-  bool extrapolate_load = false, extrapolate_target = false;
-
-  void follow(const CurrentRange& range) { weighing.follow(range); }
+  bool extrapolate_load = false;
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
     visit.required("calibration", self.calibration, "path of the calibration that `calibrate` wrote");
     visit("assumed_load", self.assumed_load_kg, "kg", 0.01, 500.0,
-          "load it believes in; weighed before the run if absent");
-    visit("weighing", self.weighing, "how the load is weighed");
+          "load it believes in; found out if absent");
     visit("extrapolate_load", self.extrapolate_load,
           "whether a load, and a weighing speed, outside the calibrated range are allowed");
-    visit("extrapolate_target", self.extrapolate_target,
-          "whether contraction ratios and current speeds may leave the calibrated range on the way; if not, "
-          "they are brought to its end");
   }
   template <class Report>
   void rules(Report& report) const {
     if (calibration.empty()) report("calibration", "must name a file");
   }
 };
+
+/// Those that weigh the load in contractions.
+struct CalibratedSettings : CalibrationTerms {
+  WeighingSettings weighing;
+  bool extrapolate_target = false;
+
+  void follow(const CurrentRange& range) { weighing.follow(range); }
+
+  template <class Self, class Visitor>
+  static void fields(Self& self, Visitor& visit) {
+    CalibrationTerms::fields(self, visit);
+    visit("weighing", self.weighing, "how the load is weighed before the run, unless it is assumed");
+    visit("extrapolate_target", self.extrapolate_target,
+          "whether contraction ratios and current speeds may leave the calibrated range on the way; if not, "
+          "they are brought to its end");
+  }
+};
+
+// How wrong a load may be weighed: T 4.3 reports 6.5 %, T 5 "below 15 percent".
+inline constexpr double weighing_tolerance = 0.10;
 
 /// Preparation and the inverse; what is done from tick 0 on is the derived controller's.
 class CalibratedController : public Controller {
@@ -54,8 +67,6 @@ class CalibratedController : public Controller {
   virtual void prepare() {}
   /// Current to begin with, once the load is known.
   virtual double first_mA() = 0;
-  /// Current on the way to the first one, once the load is known and before tick 0; `way_mA` leads there.
-  virtual double settle_mA(const Reading&, double way_mA) { return way_mA; }
   /// Current at tick 0 and after.
   virtual double drive_mA(const Reading& reading) = 0;
 
@@ -67,14 +78,7 @@ class CalibratedController : public Controller {
   /// Current that follows the target from tick to tick, held while the target rests; after `begin_mA`.
   double follow_mA(double contraction_ratio);
 
-  /// Current between the two branches at the slowest calibrated speed: at which the load would rest if its
-  /// threads pulled neither way. Beyond the calibrated contraction ratios that of the range's end; nothing is
-  /// counted.
-  double balanced_mA(double contraction_ratio) const;
-
   const Knowledge& knowledge() const { return knowledge_; }
-  const CalibratedRange& range() const { return settings_.model.range; }
-  bool load_is_calibrated() const { return !load_extrapolated_; }
   const Inverse& inverse() const { return *inverse_; }
   double load_kg() const { return load_kg_; }
   /// Contraction ratio that was last asked for.

@@ -1,5 +1,5 @@
-// The thesis's inverse as feedforward with a PID around it (ours): the inverse knows the muscle, the PID
-// makes up for what the inverse does not know.
+// PID with the thesis's inverse as feedforward (ours): the inverse knows the muscle, the PID makes up for
+// what the inverse does not know, and tells it the load.
 #pragma once
 
 #include <memory>
@@ -11,27 +11,22 @@
 
 namespace mckibben::controllers {
 
-struct FeedforwardPidSettings : CalibratedSettings, PidTerms {
+struct FeedforwardPidSettings : CalibrationTerms, PidTerms {
   static constexpr std::string_view kind = "feedforward_pid";
   std::string name{kind};
 
   /// Throws std::invalid_argument if a gain is missing.
   std::unique_ptr<Controller> make(const Knowledge& knowledge) const;
 
-  void follow(const CurrentRange& range) {
-    CalibratedSettings::follow(range);
-    PidTerms::follow(range);
-  }
-
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
     visit("name", self.name, "name in tables and file names");
-    CalibratedSettings::fields(self, visit);
+    CalibrationTerms::fields(self, visit);
     PidTerms::fields(self, visit);
   }
   template <class Report>
   void rules(Report& report) const {
-    CalibratedSettings::rules(report);
+    CalibrationTerms::rules(report);
     PidTerms::rules(report);
   }
 };

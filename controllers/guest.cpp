@@ -55,8 +55,7 @@ Command Guest::step(const Reading& reading) {
 std::vector<Finding> Guest::findings() const {
   std::vector<Finding> found;
   if (limited_ticks_ > 0) found.push_back({"ticks_limited", "1", static_cast<double>(limited_ticks_)});
-  if (believed_.lost_ticks() > 0)
-    found.push_back({"ticks_without_counts", "1", static_cast<double>(believed_.lost_ticks())});
+  believed_.tell(found);
   return found;
 }
 

@@ -33,8 +33,7 @@ class KeptSafe final : public Controller {
   }
   std::vector<Finding> findings() const override {
     std::vector<Finding> found = inside_->findings();
-    if (believed_.lost_ticks() > 0)
-      found.push_back({"ticks_without_counts", "1", static_cast<double>(believed_.lost_ticks())});
+    believed_.tell(found);
     return found;
   }
   bool already_quantised() const override { return inside_->already_quantised(); }

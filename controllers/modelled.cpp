@@ -56,8 +56,7 @@ std::vector<Finding> ModelledController::findings() const {
   std::vector<Finding> found;
   if (weighing_)
     found = {{"weighed_load", "kg", weighing_->load_kg()}, {"weighing_misfit", "1", weighing_->misfit()}};
-  if (believed_.lost_ticks() > 0)
-    found.push_back({"ticks_without_counts", "1", static_cast<double>(believed_.lost_ticks())});
+  believed_.tell(found);
   return found;
 }
 

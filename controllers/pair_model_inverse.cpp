@@ -158,8 +158,7 @@ class PairModelInverseFeedback final : public PairModelled {
 
   std::vector<Finding> findings() const override {
     std::vector<Finding> found = observer_.findings();
-    if (believed_.lost_ticks() > 0)
-      found.push_back({"ticks_without_counts", "1", static_cast<double>(believed_.lost_ticks())});
+    believed_.tell(found);
     return found;
   }
 

@@ -30,8 +30,9 @@ class PairPid final : public Controller {
     return given(loop_.step(reading, 0.0, co_contraction_.differences()));
   }
   std::vector<Finding> findings() const override {
-    if (loop_.lost_ticks() == 0) return {};
-    return {{"ticks_without_counts", "1", static_cast<double>(loop_.lost_ticks())}};
+    std::vector<Finding> found;
+    loop_.tell(found);
+    return found;
   }
 
  private:

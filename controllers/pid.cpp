@@ -25,8 +25,9 @@ class Pid final : public Controller {
   Command rest() override { return {loop_.clamped(rest_mA_)}; }
   Command step(const Reading& reading) override { return {loop_.step(reading, rest_mA_)}; }
   std::vector<Finding> findings() const override {
-    if (loop_.lost_ticks() == 0) return {};
-    return {{"ticks_without_counts", "1", static_cast<double>(loop_.lost_ticks())}};
+    std::vector<Finding> found;
+    loop_.tell(found);
+    return found;
   }
 
  private:

@@ -73,7 +73,11 @@ class PidLoop {
   double step(const Reading& reading, double base_mA, const CurrentRange& limits);
 
   double clamped(double current_mA) const;
-  std::int64_t lost_ticks() const { return believed_.lost_ticks(); }
+  bool inside_limits(double current_mA) const {
+    return current_mA > limits_.lowest_mA && current_mA < limits_.highest_mA;
+  }
+  /// Adds what the counter did.
+  void tell(std::vector<Finding>& findings) const { believed_.tell(findings); }
 
  private:
   double sample(std::int64_t counts, std::int64_t tick, double base_mA, const CurrentRange& limits);

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <vector>
 
 #include <controllers/controller.hpp>
 #include <controllers/current_range.hpp>
@@ -89,7 +90,10 @@ class BelievedCounts {
     return last_;
   }
   bool lost() const { return lost_; }
-  std::int64_t lost_ticks() const { return lost_ticks_; }
+  /// Adds `ticks_without_counts`, if there were any.
+  void tell(std::vector<Finding>& findings) const {
+    if (lost_ticks_ > 0) findings.push_back({"ticks_without_counts", "1", static_cast<double>(lost_ticks_)});
+  }
 
  private:
   double largest_step_;

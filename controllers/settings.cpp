@@ -73,12 +73,17 @@ const ModelTerms* model_terms(const Settings& settings) {
   return part_of<const ModelTerms>(settings);
 }
 
-CalibratedSettings* calibrated(Settings& settings) {
-  return part_of<CalibratedSettings>(settings);
+CalibrationTerms* calibrated(Settings& settings) {
+  return part_of<CalibrationTerms>(settings);
 }
 
-const CalibratedSettings* calibrated(const Settings& settings) {
-  return part_of<const CalibratedSettings>(settings);
+const CalibrationTerms* calibrated(const Settings& settings) {
+  return part_of<const CalibrationTerms>(settings);
+}
+
+const WeighingSettings* weighing_of(const Settings& settings) {
+  const auto* weighs = part_of<const CalibratedSettings>(settings);
+  return weighs != nullptr ? &weighs->weighing : nullptr;
 }
 
 }  // namespace mckibben::controllers

@@ -49,8 +49,11 @@ GuestTerms* guest_terms(Settings& settings);
 const GuestTerms* guest_terms(const Settings& settings);
 
 /// What a controller that needs a calibration says about it, else null.
-CalibratedSettings* calibrated(Settings& settings);
-const CalibratedSettings* calibrated(const Settings& settings);
+CalibrationTerms* calibrated(Settings& settings);
+const CalibrationTerms* calibrated(const Settings& settings);
+
+/// How a controller weighs the load in contractions, if it does, else null.
+const WeighingSettings* weighing_of(const Settings& settings);
 
 /// What a controller that plans with a model says about it, else null.
 ModelTerms* model_terms(Settings& settings);

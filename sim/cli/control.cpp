@@ -3,11 +3,15 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
+#include <optional>
+#include <regex>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
+#include <sim/bench/comedi.hpp>
 #include <sim/bench/loop.hpp>
 #include <sim/bench/serial.hpp>
 #include <sim/bench/simulated.hpp>
@@ -29,6 +33,7 @@ using input::Json;
 
 struct ControlOptions : Options {
   std::string scenario, device = "simulated", port;
+  bench::Wiring wiring;
   int most_missed_ticks = bench::LoopPlan{}.most_missed_ticks;
   bool dry_run = false;
 };
@@ -59,8 +64,50 @@ bench::LoopPlan loop_of(const Scenario& scenario, const run::Briefing& briefing,
 std::unique_ptr<bench::Device> device_of(const Scenario& scenario, const ControlOptions& options) {
   if (options.device == "serial" && !options.dry_run)
     return std::make_unique<bench::Serial>(options.port, scenario.rig.tick_s);
+  if (options.device == "comedi" && !options.dry_run)
+    return bench::open_comedi(options.port, options.wiring, scenario.rig.dac.largest_current_mA);
   return std::make_unique<bench::Simulated>(scenario.rig, scenario.loads_kg.front(), scenario.rig.integrator,
                                             0.0);
+}
+
+/// Reads `1:0`; a single number is read as the first of the two.
+std::pair<unsigned, std::optional<unsigned>> numbers_of(const std::string& text) {
+  static const std::regex form("([0-9]{1,4})(:([0-9]{1,4}))?");
+  std::smatch parts;
+  if (!std::regex_match(text, parts, form))
+    throw CLI::ValidationError(text + " is neither a number nor two with a colon, such as 1:0");
+  const auto number = [&](std::size_t i) { return static_cast<unsigned>(std::stoul(parts[i].str())); };
+  return {number(1), parts[3].matched ? std::optional(number(3)) : std::nullopt};
+}
+
+void add_wiring(CLI::App& verb, bench::Wiring& wiring) {
+  verb.add_option_function<std::string>(
+          "--output",
+          [&wiring](const std::string& text) {
+            const auto [output, channel] = numbers_of(text);
+            wiring.output = output;
+            wiring.channel = channel.value_or(0);
+          },
+          "Of comedi: subdevice and channel of the current's output (default: the board's first)")
+      ->type_name("N[:N]");
+  verb.add_option_function<std::string>(
+          "--full-scale",
+          [&wiring](const std::string& text) { wiring.full_scale_V = positive_quantity(text, "V", 1e3); },
+          "Of comedi: voltage that makes the DAC's largest current, if the output gives volts (default: 10 "
+          "V)")
+      ->type_name("VOLTAGE");
+  verb.add_option("--counter", wiring.counter,
+                  "Of comedi: subdevice of the counter (default: the board's first)")
+      ->type_name("N");
+  verb.add_option_function<std::string>(
+          "--encoder",
+          [&wiring](const std::string& text) {
+            const auto [a, b] = numbers_of(text);
+            if (!b) throw CLI::ValidationError(text + ": an encoder has two signals, such as 8:10");
+            wiring.encoder = {a, *b};
+          },
+          "Of comedi: lines (PFI) of the encoder's signals A and B (default: the board's own)")
+      ->type_name("A:B");
 }
 
 /// How late ticks began, in ms: of as many in a hundred, at most that.
@@ -127,8 +174,8 @@ int control(const ControlOptions& options) {
   const Scenario scenario = input::read_scenario(std::filesystem::path(options.scenario), warnings);
   for (const auto& warning : warnings) say(input::to_text(warning));
   std::string why = unfit(scenario);
-  if (why.empty() && options.device == "serial" && options.port.empty())
-    why = "--device serial needs its --port";
+  if (why.empty() && options.device != "simulated" && options.port.empty())
+    why = fmt::format("--device {} needs its --port", options.device);
   if (!why.empty()) {
     say(fmt::format("{}: {}", options.scenario, why));
     return bad_input;
@@ -175,9 +222,11 @@ void add_control(CLI::App& app, Asked& asked) {
   add_out(verb, options, "out/<name>-bench");
   add_json(verb, options);
   verb.add_option("--device", options.device, "What is driven (default: simulated)")
-      ->check(one_of("device", {"simulated", "serial"}))
+      ->check(one_of("device", {"simulated", "serial", "comedi"}))
       ->type_name("");
-  verb.add_option("--port", options.port, "Serial port, such as /dev/ttyACM0")->type_name("FILE");
+  verb.add_option("--port", options.port, "Serial port or board, such as /dev/ttyACM0 or /dev/comedi0")
+      ->type_name("FILE");
+  add_wiring(verb, options.wiring);
   verb.add_option("--most-missed", options.most_missed_ticks,
                   "Ticks in a row that may be missed before the watchdog vents (default: 3)")
       ->check(from_to(0, 1000))
@@ -189,6 +238,7 @@ void add_control(CLI::App& app, Asked& asked) {
       "  mckibben control my.yaml --dry-run\n"
       "  mckibben control my.yaml --device simulated\n"
       "  mckibben control my.yaml --device serial --port /dev/ttyACM0\n"
+      "  mckibben control my.yaml --device comedi --port /dev/comedi0 --output 1:0 --encoder 8:10\n"
       "Writes dataset.yaml, rig.yaml and bench.csv, which replay and diagnose read, and control.json.\n"
       "However it ends, the last current is 0 mA: the valve vents.\n");
 }

@@ -23,6 +23,7 @@
 #include <sim/input/rigs.hpp>
 #include <sim/input/scenario_file.hpp>
 #include <sim/input/suggest.hpp>
+#include <sim/input/upgrade.hpp>
 #include <sim/input/utf8.hpp>
 #include <sim/input/yaml_file.hpp>
 #include <sim/input/yaml_writer.hpp>
@@ -34,6 +35,10 @@ namespace {
 
 using input::Json;
 using input::Problem;
+
+constexpr std::string_view known_schemas[] = {
+    input::scenario_schema, input::campaign_schema,    input::rig_schema,       input::dataset_schema,
+    input::pair_schema,     input::calibration_schema, input::hypothesis_schema};
 
 /// Reads a data set and looks at what it says; adds warnings.
 /// Throws what is wrong with it. Returns what was looked at.
@@ -77,17 +82,16 @@ std::string read_any(const std::filesystem::path& path, std::vector<Problem>& wa
     std::vector<domain::InputFile> inputs;
     input::read_hypothesis(path.string(), inputs);
   } else {
-    constexpr std::string_view known[] = {
-        input::scenario_schema, input::campaign_schema,    input::rig_schema,       input::dataset_schema,
-        input::pair_schema,     input::calibration_schema, input::hypothesis_schema};
     input::Problems problems;
     if (schema == nullptr)
-      problems.error(file.source, file.root.place,
-                     fmt::format("the file must say what it is: schema: one of {}", input::join(known)));
+      problems.error(
+          file.source, file.root.place,
+          fmt::format("the file must say what it is: schema: one of {}", input::join(known_schemas)));
     else
-      problems.error(file.source, schema->place,
-                     fmt::format("unknown schema {}{} (known: {})", input::shortened(schema->text),
-                                 input::did_you_mean(schema->text, known), input::join(known)));
+      problems.error(
+          file.source, schema->place,
+          fmt::format("unknown schema {}{} (known: {})", input::shortened(schema->text),
+                      input::did_you_mean(schema->text, known_schemas), input::join(known_schemas)));
     problems.raise();
   }
   return "";
@@ -113,8 +117,15 @@ int print_kind(std::string_view schema, const char* title, const Schema& fields,
   return done;
 }
 
+/// The file that says what a folder is.
+std::filesystem::path described_by(const std::filesystem::path& path) {
+  std::error_code ignored;
+  return std::filesystem::is_directory(path, ignored) ? path / "dataset.yaml" : path;
+}
+
 struct CheckOptions : Options {
   std::vector<std::string> files;
+  bool upgrade = false;
 };
 
 int check_files(const CheckOptions& options) {
@@ -125,7 +136,13 @@ int check_files(const CheckOptions& options) {
     int file_status = done;
     std::string missing, looked;
     try {
-      looked = read_any(path, found);
+      if (options.upgrade) {
+        found = input::to_upgrade(input::load_yaml(described_by(path)), known_schemas);
+        file_status = found.empty() ? done : bad_input;
+        looked = "as this version wants it";
+      } else {
+        looked = read_any(path, found);
+      }
     } catch (const input::BadInput& bad) {
       file_status = bad_input;
       found = bad.problems();
@@ -189,10 +206,13 @@ void add_check(CLI::App& app, Asked& asked) {
                "Validate scenario, campaign, rig, data set and hypothesis files; nothing is run");
   CheckOptions& options = asked.when(verb, check_files);
   verb.add_option("files", options.files, "Files to check")->required()->type_name("FILE");
+  verb.add_flag("--upgrade", options.upgrade,
+                "Say only what is to be changed in files that were written for another version");
   add_common(verb, options, "nothing is written");
   verb.footer(
       "Examples:\n"
       "  mckibben check scenarios/*.yaml\n"
+      "  mckibben check --upgrade old.yaml\n"
       "  mckibben check measured/ --json                  a data set and all of its files\n"
       "Every error of a file at once, each with file, line, column, value and rule.\n");
 }

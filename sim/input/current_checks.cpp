@@ -86,10 +86,10 @@ void follow_valve(controllers::Settings& settings, const Source& source, const N
     if (const auto* one = std::get_if<controllers::PidSettings>(&settings); one != nullptr && works)
       output.rest(*one->rest_current_mA, *terms->lowest_current_mA, *terms->highest_current_mA);
   }
-  if (const auto* calibrated = controllers::calibrated(settings))
+  if (const auto* contractions = controllers::weighing_of(settings))
     if (const Node* weighing = node.find("weighing"))
       CurrentChecker(source, *weighing, rig, problems)
-          .ends("low", *calibrated->weighing.low_mA, "high", *calibrated->weighing.high_mA);
+          .ends("low", *contractions->low_mA, "high", *contractions->high_mA);
 }
 
 void check_dac(const plant::Rig& rig, const Source& source, Place place, Problems& problems) {

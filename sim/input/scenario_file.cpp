@@ -87,7 +87,7 @@ class ScenarioChecker {
           terms && !terms->rig.empty())
         load_believed_rig(name, *node.find("rig"));
       if (auto* calibrated = controllers::calibrated(scenario_.controllers[i]))
-        load_calibration(*calibrated, node);
+        load_calibration(*calibrated, controllers::weighing_of(scenario_.controllers[i]), node);
     }
   }
 
@@ -123,7 +123,8 @@ class ScenarioChecker {
     return entry->second;
   }
 
-  void load_calibration(controllers::CalibratedSettings& settings, const Node& node) {
+  void load_calibration(controllers::CalibrationTerms& settings,
+                        const controllers::WeighingSettings* contractions, const Node& node) {
     const auto& model = calibration(settings.calibration, *node.find("calibration"));
     if (!model) return;
     settings.model = *model;
@@ -139,11 +140,10 @@ class ScenarioChecker {
     if (settings.assumed_load_kg) {
       check(node.find("assumed_load"), "assumed_load", *settings.assumed_load_kg, range.lowest_load_kg,
             range.highest_load_kg, "kg");
-    } else {
+    } else if (contractions != nullptr) {
       const Node* weighing = node.find("weighing");
       check(weighing != nullptr ? weighing->find("speed") : nullptr, "weighing.speed",
-            *settings.weighing.speed_mA_per_s, range.lowest_speed_mA_per_s, range.highest_speed_mA_per_s,
-            "mA/s");
+            *contractions->speed_mA_per_s, range.lowest_speed_mA_per_s, range.highest_speed_mA_per_s, "mA/s");
     }
   }
 

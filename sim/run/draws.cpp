@@ -2,6 +2,7 @@
 // the mixing function of SplitMix64 (Steele, Lea & Flood 2014); a permutation that is calculated instead of
 // kept: a Feistel network over the next power of four, walked until it is back in range (Black & Rogaway
 // 2002).
+#include <algorithm>
 #include <bit>
 #include <cmath>
 
@@ -37,7 +38,8 @@ double below(double x) {
 double drawn(const domain::Varied& number, double probability) {
   if (number.law == domain::DrawLaw::uniform) return number.low + probability * (number.high - number.low);
   const double cut = below(-domain::most_deviations);
-  return number.middle + number.deviation * normal_quantile(cut + probability * (1.0 - 2.0 * cut));
+  return std::clamp(number.middle + number.deviation * normal_quantile(cut + probability * (1.0 - 2.0 * cut)),
+                    number.low, number.high);
 }
 
 }  // namespace

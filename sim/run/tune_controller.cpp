@@ -87,13 +87,22 @@ void set_gains(controllers::Settings& settings, const Gains& gains) {
 
 namespace {
 
+/// The loop as it is without what is fed forward: it is to be good by itself, and gains no less by a model.
+controllers::Settings loop_alone(const controllers::Settings& settings) {
+  if (!std::holds_alternative<controllers::FeedforwardPidSettings>(settings)) return settings;
+  controllers::PidSettings loop;
+  static_cast<controllers::PidTerms&>(loop) = std::get<controllers::FeedforwardPidSettings>(settings);
+  return loop;
+}
+
 TunedController tune_one(const domain::Scenario& scenario, const controllers::Knowledge& knowledge,
                          controllers::Settings& settings, Rounds& rounds,
                          const std::function<void()>& heard) {
   const controllers::PidTerms& pid = *controllers::pid_terms(settings);
   TunedController result{.controller = controllers::name_of(settings),
                          .load_kg = pid.tuning_load_kg.value_or(lower_median(scenario.loads_kg))};
-  const Tuning tuning(scenario, knowledge, settings, result.load_kg, rounds);
+  const controllers::Settings loop = loop_alone(settings);
+  const Tuning tuning(scenario, knowledge, loop, result.load_kg, rounds);
   const auto cost = [&](const Gains& gains) {
     heard();
     return tuning.cost_with_margin(gains);
@@ -108,7 +117,7 @@ TunedController tune_one(const domain::Scenario& scenario, const controllers::Kn
     if (ended.back().failure.empty()) result.idle_cost = tuning.cost(ended.back());
     result.metrics = tuning.metrics(ended.front());
     result.limits = tuning.limits();
-    settings = tuning.with(result.tuned.gains);
+    set_gains(settings, result.tuned.gains);
   } catch (const std::runtime_error& failure) {
     result.failure = failure.what();
   }

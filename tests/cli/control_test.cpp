@@ -62,5 +62,26 @@ TEST(Control, RefusesWhatCannotDriveABench) {
   EXPECT_NE(unreachable.err.find("/nowhere/port: "), std::string::npos) << unreachable.err;
 }
 
+#ifdef MCKIBBEN_AT_STAND_IN
+TEST(Control, ABoardByComediLeavesADataSetThatReplays) {
+  const Scratch scratch;
+  write_text(scratch / "b.yaml", on_bench);
+  const std::string comedi = MCKIBBEN_AT_STAND_IN " control b.yaml --device comedi --port /dev/comedi0 ";
+  const Said said = shell(comedi + "--encoder 8:10 --most-missed 1000 --json", scratch);
+  ASSERT_EQ(said.status, 0) << said.err;
+  EXPECT_EQ(Json::parse(said.out).at("device"), "comedi");
+  EXPECT_EQ(mckibben("replay out/b-bench", scratch).status, 0);
+  const auto refused = [&](const char* wiring, int status, const char* why) {
+    const Said refusal = shell(comedi + wiring, scratch);
+    EXPECT_EQ(refusal.status, status) << wiring;
+    EXPECT_NE(refusal.err.find(why), std::string::npos) << refusal.err;
+  };
+  refused("--output 0:0", 70, "/dev/comedi0: subdevice 0 is no analog output");
+  refused("--output one", 64, "one is neither a number nor two with a colon");
+  refused("--encoder 8", 64, "8: an encoder has two signals");
+  refused("--full-scale '10 mA'", 64, "10 mA");
+}
+#endif
+
 }  // namespace
 }  // namespace mckibben::cli

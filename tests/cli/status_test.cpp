@@ -233,5 +233,17 @@ TEST_F(Program, TheReferencePageIsWhatTheProgramPrints) {
         << "docs/reference.md is out of date: see docs/testing.md";
 }
 
+TEST(Check, SaysWhatIsToBeChangedForThisVersion) {
+  const Scratch scratch;
+  write_text(scratch / "old.yaml",
+             "schema: mckibben-scenario/1\ncontrollers:\n  - {kind: feedforward_pid, weighing: {}}\n");
+  write_text(scratch / "new.yaml", quick_scenario);
+  const Said said = mckibben("check --upgrade old.yaml new.yaml", scratch);
+  EXPECT_EQ(said.status, 65);
+  EXPECT_NE(said.err.find("old.yaml:3:29: warning: weighing: remove it"), std::string::npos) << said.err;
+  EXPECT_EQ(said.out, "new.yaml: ok (as this version wants it)\n");
+  EXPECT_EQ(mckibben("check --upgrade nowhere.yaml", scratch).status, 66);
+}
+
 }  // namespace
 }  // namespace mckibben::cli

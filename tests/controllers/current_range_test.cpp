@@ -37,12 +37,11 @@ TEST(CurrentRange, OpenLimitsFollowIt) {
 }
 
 TEST(CurrentRange, WeighingFollowsItInTheThesissProportions) {
-  FeedforwardPidSettings settings;
+  OpenLoopSettings settings;
   settings.follow(thesis);
   EXPECT_EQ(settings.weighing.low_mA, 4.0);
   EXPECT_EQ(settings.weighing.high_mA, 8.0);
   EXPECT_EQ(settings.weighing.speed_mA_per_s, 6.0);
-  EXPECT_EQ(settings.lowest_current_mA, 4.0);
   WeighingSettings weighing;
   weighing.follow(other);
   EXPECT_EQ(weighing.low_mA, 0.0);

@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <controllers/load_in_loop.hpp>
 #include <controllers/settings.hpp>
 
 #include "planted.hpp"
@@ -261,6 +262,59 @@ TEST(FeedforwardPid, IsALoopAloneUnderALoadThatWasNotCalibrated) {
                 std::max(first_mA + 50.0 * (target[k] - y), 4.0), 1e-9);
   }
   EXPECT_GT(finding(*controller, "ticks_feedforward_faded"), 190.0);
+}
+
+/// What a loop would give that holds the planted load on the target, tick by tick.
+double held_mA(const Inverse& inverse, const Knowledge& knowledge, std::int64_t tick) {
+  const double e = knowledge.target_at(tick),
+               w = (e - knowledge.target_at(std::max<std::int64_t>(tick - 1, 0))) / knowledge.tick_s;
+  if (w == 0.0) return balanced_mA(inverse, knowledge.valve, e);
+  return knowledge.valve.current_mA(
+      inverse(w > 0.0 ? Branch::contraction : Branch::relaxation, e, w).pressure_Pa);
+}
+
+TEST(LoadInLoop, IsFoundOnceAStretchOfTheTargetIsOver) {
+  const Knowledge knowledge = data_sheets(up_rest_down());
+  const Inverse inverse(planted_calibration(), planted_load_kg, knowledge.valve, false);
+  LoadInLoop load(planted_calibration(), knowledge), limited(planted_calibration(), knowledge);
+  for (std::int64_t k = 0; k < 249; ++k) {
+    const auto counts = counts_at(knowledge, knowledge.target_at(k), 0);
+    load.see(k, counts, held_mA(inverse, knowledge, k), true);
+    limited.see(k, counts, held_mA(inverse, knowledge, k), false);
+    if (k == 99) {
+      EXPECT_FALSE(load.load_kg()) << "the target still rises";
+    }
+    if (k == 101 || k == 151) {  // after the rise, after the rest
+      EXPECT_NEAR(load.load_kg().value_or(0.0), planted_load_kg, 0.01 * planted_load_kg) << k;
+    }
+  }
+  EXPECT_FALSE(limited.load_kg()) << "an output at its limit says nothing";
+}
+
+TEST(FeedforwardPid, BeginsAsALoopAndFeedsForwardOnceItKnowsTheLoad) {
+  const std::vector<double> target = up_rest_down();
+  const Knowledge knowledge = data_sheets(target);
+  auto settings = proportional();
+  settings.proportional_mA = 500.0;
+  settings.assumed_load_kg.reset();
+  const auto controller = settings.make(knowledge);
+  EXPECT_EQ(controller->preparation_ticks(), 0);
+  EXPECT_EQ(controller->rest().current_mA, 4.0);
+  const Inverse inverse(planted_calibration(), planted_load_kg, knowledge.valve, false);
+  // The load hangs where the loop's current is what it takes.
+  std::vector<double> bases_mA{4.0};
+  for (std::size_t k = 0; k < target.size(); ++k) {
+    const auto tick = static_cast<std::int64_t>(k);
+    const double y = target[k] - (held_mA(inverse, knowledge, tick) - bases_mA.back()) / 500.0;
+    const auto counts = static_cast<std::int64_t>(std::floor(y / knowledge.contraction_per_count));
+    const double read = (static_cast<double>(counts) + 0.5) * knowledge.contraction_per_count;
+    bases_mA.push_back(controller->step({tick, 0.0, counts}).current_mA - 500.0 * (target[k] - read));
+  }
+  EXPECT_NEAR(bases_mA[100], 4.0, 1e-9) << "it did not know the load before the first rise was over";
+  EXPECT_NEAR(bases_mA[150], 4.0, 1e-9) << "at rest nothing is fed forward";
+  EXPECT_LT(bases_mA[200], 3.9);
+  EXPECT_NEAR(finding(*controller, "found_load"), planted_load_kg, 0.1 * planted_load_kg);
+  EXPECT_GT(finding(*controller, "ticks_feedforward_faded"), 98.0);
 }
 
 /// Whether a controller without a loop keeps `terms`, which are part of `settings`.

@@ -16,7 +16,8 @@ target: {kind: points, points: [{at: 0 s, to: 0.05}]}
 controllers:
   - {kind: open_loop, calibration: calibration.yaml}
   - {kind: open_loop, name: up, calibration: calibration.yaml, mode: triangle, to: 30 mm, speed: 0.2 1/s}
-  - {kind: feedforward_pid, calibration: calibration.yaml, weighing: {speed: 8 mA/s}}
+  - {kind: open_loop, name: weighs, calibration: calibration.yaml, weighing: {speed: 8 mA/s}}
+  - {kind: feedforward_pid, calibration: calibration.yaml}
 )";
 
 Scenario read() {
@@ -36,8 +37,8 @@ TEST(OpenLoopScenario, LoadsTheCalibrationOfEachController) {
   EXPECT_EQ(up.mode, controllers::OpenLoopMode::triangle);
   EXPECT_EQ(up.speed_per_s, 0.2);
   EXPECT_NEAR(up.to.ratio(0.3), 0.1, 1e-12);
-  EXPECT_EQ(std::get<controllers::FeedforwardPidSettings>(scenario.controllers[2]).weighing.speed_mA_per_s,
-            8.0);
+  EXPECT_EQ(controllers::weighing_of(scenario.controllers[2])->speed_mA_per_s, 8.0);
+  EXPECT_EQ(controllers::weighing_of(scenario.controllers[3]), nullptr);
 }
 
 TEST(OpenLoopScenario, CountsTheCalibrationAmongItsInputsOnce) {
