@@ -68,7 +68,9 @@ std::size_t runs_of(const Contents& contents) {
 
 /// As JSON that can stand inside <script>: no "</script>", no "<!--".
 std::string data_of(const Contents& contents) {
-  Json data{{"tick_s", contents.rig.tick_s}, {"rig", drawn_rig_json(contents.rig, contents.mechanics, contents.gauge)}, {"drawn", contents.drawn}};
+  Json data{{"tick_s", contents.rig.tick_s},
+            {"rig", drawn_rig_json(contents.rig, contents.mechanics, contents.gauge)},
+            {"drawn", contents.drawn}};
   for (const auto& plot : contents.plots) data["plots"].push_back(plot_json(plot));
   for (const auto& group : contents.groups) data["groups"].push_back(group_json(group, runs_of(contents)));
   std::string text;
