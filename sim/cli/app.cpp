@@ -53,9 +53,9 @@ void build(CLI::App& app, Asked& asked) {
                        "Print the version and stop");
   app.get_help_ptr()->description("Print this help and stop");
   app.require_subcommand(1);
-  for (const auto add : {add_init, add_run, add_dataset, add_fmu, add_control, add_import, add_replay,
-                         add_diagnose, add_calibrate, add_map, add_study, add_diff, add_effects, add_check,
-                         add_schema, add_doctor, add_completion})
+  for (const auto add : {add_init, add_run, add_dataset, add_live, add_fmu, add_control, add_import,
+                         add_replay, add_diagnose, add_calibrate, add_map, add_study, add_diff, add_effects,
+                         add_check, add_schema, add_doctor, add_completion})
     add(app, asked);
 }
 

@@ -17,6 +17,7 @@ void add_run(CLI::App& app, Asked& asked);
 void add_dataset(CLI::App& app, Asked& asked);
 void add_fmu(CLI::App& app, Asked& asked);
 void add_control(CLI::App& app, Asked& asked);
+void add_live(CLI::App& app, Asked& asked);
 void add_import(CLI::App& app, Asked& asked);
 void add_replay(CLI::App& app, Asked& asked);
 void add_diagnose(CLI::App& app, Asked& asked);

@@ -10,6 +10,7 @@
 #include <sim/report/html.hpp>
 #include <sim/report/length.hpp>
 #include <sim/report/pack.hpp>
+#include <sim/report/rig_json.hpp>
 #include <sim/report/rig_words.hpp>
 #include <sim/report/still.hpp>
 
@@ -59,26 +60,6 @@ Json group_json(const Group& group, std::size_t all_runs) {
   return entry;
 }
 
-Json muscle_json(const plant::Muscle& muscle) {
-  return {{"rest_length_m", muscle.rest_length_m},
-          {"rest_radius_m", muscle.rest_radius_m},
-          {"braid_angle_rad", muscle.braid_angle_rad}};
-}
-
-Json rig_json(const Contents& contents) {
-  const plant::Rig& rig = contents.rig;
-  Json json = muscle_json(rig.muscle);
-  json.update({{"wheel_radius_m", rig.joint.wheel_radius_m},
-               {"supply_bar", rig.valve.supply_pressure_Pa / 1e5},
-               {"zero_mA", rig.valve.zero_current_mA},
-               {"span_mA", rig.valve.span_current_mA},
-               {"gauge", contents.gauge}});
-  if (const auto* pair = std::get_if<plant::Pair>(&contents.mechanics))
-    json["pair"] = {{"hangs_at_rad", pair->hangs_at_rad}, {"opposite", muscle_json(pair->opposite.muscle)}};
-  if (std::holds_alternative<plant::HeldLength>(contents.mechanics)) json["bench"] = true;
-  return json;
-}
-
 std::size_t runs_of(const Contents& contents) {
   std::size_t runs = 0;
   for (const auto& group : contents.groups) runs += group.runs.size();
@@ -87,7 +68,9 @@ std::size_t runs_of(const Contents& contents) {
 
 /// As JSON that can stand inside <script>: no "</script>", no "<!--".
 std::string data_of(const Contents& contents) {
-  Json data{{"tick_s", contents.rig.tick_s}, {"rig", rig_json(contents)}, {"drawn", contents.drawn}};
+  Json data{{"tick_s", contents.rig.tick_s},
+            {"rig", drawn_rig_json(contents.rig, contents.mechanics, contents.gauge)},
+            {"drawn", contents.drawn}};
   for (const auto& plot : contents.plots) data["plots"].push_back(plot_json(plot));
   for (const auto& group : contents.groups) data["groups"].push_back(group_json(group, runs_of(contents)));
   std::string text;

@@ -4,10 +4,9 @@
 #include <sim/ride/underway.hpp>
 
 namespace mckibben::ride {
-namespace {
 
-/// Each memory follows a straight law of its own: its rate at two values tells where it would be at rest.
-void rest_memories(Rider& rider, const plant::State<double>& before, double off) {
+// Each memory follows a straight law of its own: its rate at two values tells where it would be at rest.
+void rest_memories(Rider& rider, const plant::State<double>& before, double off, const Memories& which) {
   const plant::Plant& plant = rider.plant();
   if (!plant.remembers()) return;
   engine::Flow& flow = rider.now.flow;
@@ -19,6 +18,7 @@ void rest_memories(Rider& rider, const plant::State<double>& before, double off)
   };
   const auto at_rest = rates(before, none), now = rates(flow.state, none);
   for (std::size_t slot = 0; slot < none.size(); ++slot) {
+    if (!which[slot]) continue;
     const double size = plant::memory_sizes[slot];
     plant::SideMemory<double> further = none;
     further[slot] += size;
@@ -28,6 +28,8 @@ void rest_memories(Rider& rider, const plant::State<double>& before, double off)
     flow.memory.side[slot] = none[slot] + off * size - (clock ? 0.0 : now[slot] / slope);
   }
 }
+
+namespace {
 
 /// The threads' bristles bend as far as the acceleration asks for, and friction allows.
 void bend_bristles(Rider& rider, double acceleration_m_per_s2) {
@@ -63,7 +65,9 @@ void set_off(Rider& rider, const Underway& seen) {
   else if (seen.muscle_pressure_Pa)
     state.side.valve_pressure_Pa = state.side.muscle_pressure_Pa =
         plant.rig().effects.true_Pa(*seen.muscle_pressure_Pa);
-  rest_memories(rider, at_rest, seen.memories);
+  Memories all;
+  all.fill(true);
+  rest_memories(rider, at_rest, seen.memories, all);
   if (plant.has_events())
     now.held.slip = state.joint.contraction_speed_per_s < 0.0 ? plant::Slip::falling : plant::Slip::rising;
   else

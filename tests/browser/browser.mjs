@@ -10,14 +10,16 @@ const browser = await chromium.launch({
 export const close = () => browser.close();
 
 /** Opens a report; `complaints` and `requests` fill while it is used. */
-export async function open(folder, options = {}) {
+export const open = (folder, options) => look('file://' + process.cwd() + `/${folder}/report.html`, options);
+
+/** The same of any page. */
+export async function look(url, options = {}) {
   const context = await browser.newContext({viewport: {width: 1200, height: 900}, ...options});
   const page = await context.newPage();
   const complaints = [], requests = [];
   page.on('console', (said) => complaints.push(said.text()));
   page.on('pageerror', (error) => complaints.push(error.message));
   page.on('request', (asked) => requests.push(asked.url()));
-  const url = 'file://' + process.cwd() + `/${folder}/report.html`;
   await page.goto(url);
   return {page, complaints, requests, url, close: () => context.close()};
 }

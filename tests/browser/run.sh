@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Makes reports with the program and looks at them in Debian's Chromium.
-#   run.sh PROGRAM FOLDER    installs playwright-core (package-lock.json) and works in FOLDER, never in the sources
+#   run.sh PROGRAM FOLDER [live]    of reports, or of the live page; installs playwright-core (package-lock.json) and
+#                                   works in FOLDER, never in the sources
 set -euo pipefail
 here=$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")
 program=$1 folder=$2
@@ -11,6 +12,10 @@ cd "$folder"
 cmp -s package-lock.json node_modules/.installed ||
   { npm ci --no-audit --no-fund --loglevel=error && cp package-lock.json node_modules/.installed; }
 
+if [ "${3:-}" = live ]; then
+  MCKIBBEN=$program node --test --test-reporter=spec live_test.mjs
+  exit
+fi
 "$program" run "$here/short.yaml" --out "$folder/short" > /dev/null
 mkdir -p measured
 cp short/11.138kg_pid.csv measured/one.csv

@@ -1,0 +1,87 @@
+// The verb `live`: a rig in the browser, moved by hand in real time.
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <string>
+
+#include <fmt/format.h>
+
+#include <plant/geometry.hpp>
+#include <sim/cli/exit_status.hpp>
+#include <sim/cli/results.hpp>
+#include <sim/cli/verbs.hpp>
+#include <sim/input/common_checks.hpp>
+#include <sim/input/file_names.hpp>
+#include <sim/input/rigs.hpp>
+#include <sim/live/server.hpp>
+#include <sim/run/batch.hpp>
+
+namespace mckibben::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct LiveOptions : Options {
+  std::string rig;
+  int port = 0;
+  double load_kg = 0.0;
+};
+
+/// One that the muscle lifts about halfway: by its force at full pressure, in two digits.
+double usual_load_kg(const plant::Rig& rig) {
+  constexpr double share = 0.13;
+  const double most_N = plant::Braid(rig.muscle).largest_force_N(rig.valve.span_pressure_Pa);
+  const double kg = share * most_N / plant::gravity_m_per_s2;
+  const double digit = std::pow(10.0, std::floor(std::log10(kg)) - 1.0);
+  return std::round(kg / digit) * digit;
+}
+
+int show_live(const LiveOptions& options) {
+  std::vector<domain::InputFile> inputs;
+  const domain::RigFile rig = input::read_rig(options.rig, inputs);
+  input::require_load(rig, options.rig, "live");
+  const double load_kg = options.load_kg > 0.0 ? options.load_kg : usual_load_kg(rig);
+  if (const std::string heavy = input::too_heavy(load_kg, rig); !heavy.empty()) {
+    say(fmt::format("--load {:g} kg: {}", load_kg, heavy));
+    return bad_input;
+  }
+  const std::string name = input::made_file_safe(fs::path(options.rig).stem().string());
+  const fs::path where = destination(options, name + "-live");
+  keep_apart(where, inputs);
+  live::Host host(rig, load_kg, live::DataSets(where, "live " + options.rig + " " + live::new_token(), say));
+  {
+    const live::Server server(host, live::page_of(name, rig, live::Session(rig, load_kg)), options.port);
+    print(server.address() + "\n");
+    std::fflush(stdout);  // whoever reads it through a pipe wants it now
+    say("the page is at this address, on this machine; Ctrl-C ends it");
+    while (!run::interrupted()) host.write_recordings(say);
+  }
+  host.finish(say);
+  return done;
+}
+
+}  // namespace
+
+void add_live(CLI::App& app, Asked& asked) {
+  CLI::App& verb = add_verb(app, "live", to_simulate,
+                            "Move a rig by hand in the browser, switch its effects; record data sets");
+  LiveOptions& options = asked.when(verb, show_live);
+  add_input(verb, options.rig, "rig", "Rig file, or the name of a shipped rig", "RIG");
+  verb.add_option_function<std::string>(
+          "--load",
+          [&options](const std::string& text) { options.load_kg = positive_quantity(text, "kg", 500.0); },
+          "The load at first, such as \"16.138 kg\" (default: one that the muscle lifts halfway)")
+      ->type_name("LOAD");
+  verb.add_option("--port", options.port, "Port of 127.0.0.1 (default: one that is free)")
+      ->check(from_to(1, 65535))
+      ->type_name("N");
+  add_out(verb, options, "out/<name>-live");
+  verb.footer(
+      "Examples:\n"
+      "  mckibben live thesis\n"
+      "  mckibben live my_rig.yaml --load \"5 kg\" --port 8080\n"
+      "Prints the address of a page, which only this machine can see, and goes on until Ctrl-C.\n"
+      "What is recorded in the page is a data set, which replay and diagnose read.\n");
+}
+
+}  // namespace mckibben::cli

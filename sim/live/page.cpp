@@ -1,0 +1,121 @@
+// The skeleton, which script fills; style and script are those of reports with what is live.
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include <sim/input/fields_json.hpp>
+#include <sim/live/files.hpp>
+#include <sim/live/page.hpp>
+#include <sim/output/svg.hpp>
+#include <sim/report/files.hpp>
+#include <sim/report/length.hpp>
+#include <sim/report/rig_json.hpp>
+
+namespace mckibben::live {
+namespace {
+
+using input::Json;
+using output::escaped;
+
+Json dial_json(const Dial& dial) {
+  return {{"least", dial.least}, {"most", dial.most}, {"unit", dial.unit}};
+}
+
+Json switch_json(const Switch& one) {
+  Json json{{"name", one.name}, {"says", one.sentence}, {"law", one.law}, {"size", dial_json(one.size)}};
+  if (one.has_shape()) json["shape"] = dial_json(one.shape);
+  return json;
+}
+
+/// As JSON that can stand inside <script>: no "</script>", no "<!--".
+std::string data_of(const domain::RigFile& rig, const Session& session) {
+  Json data{{"rig", report::drawn_rig_json(rig, rig.mechanics, rig.gauge.fitted)},
+            {"tick_s", rig.tick_s},
+            {"largest_mA", rig.dac.largest_current_mA},
+            {"load_kg", session.load_kg()},
+            {"switches", Json::array()}};
+  for (const Switch& one : session.switches().all()) data["switches"].push_back(switch_json(one));
+  std::string text;
+  for (const char c : data.dump())
+    if (c == '<')
+      text += "\\u003c";
+    else
+      text += c;
+  return text;
+}
+
+constexpr const char* drive = R"html(<fieldset><legend>Current</legend>
+<div class='line'><input id='current' type='range' step='0.01' aria-label='Current in mA'>
+<input id='current-number' type='number' step='0.1' aria-label='Current in mA, as a number'> mA</div>
+<div class='line' role='group' aria-label='Sweeps'>
+<button type='button' data-sweep='' aria-pressed='true'>by hand</button>
+<button type='button' data-sweep='sine' aria-pressed='false'>sine</button>
+<button type='button' data-sweep='triangle' aria-pressed='false'>triangle</button>
+<button type='button' data-sweep='stairs' aria-pressed='false'>stairs</button></div>
+<div class='line'>from <input id='low' type='number' step='0.5' aria-label='Lowest current of sweeps in mA'>
+to <input id='high' type='number' step='0.5' aria-label='Highest current of sweeps in mA'> mA
+in <input id='period' type='number' step='1' min='0.1' max='1000' value='10' aria-label='Period of sweeps in s'> s</div>
+</fieldset>
+<fieldset><legend>Load</legend>
+<div class='line'><input id='load' type='range' step='any' aria-label='Load in kg'>
+<input id='load-number' type='number' step='0.1' min='0.01' max='500' aria-label='Load in kg, as a number'> kg</div>
+</fieldset>
+<fieldset><legend>Time</legend>
+<div class='line'><output id='clock'>0.0 s</output>
+<button id='pause' type='button'>Pause</button>
+<button id='again' type='button'>Begin again</button>
+<span id='pace' class='small' hidden></span></div>
+<div class='line'><button id='record' type='button'>Record</button>
+<label><input id='from-rest' type='checkbox' checked> from rest</label>
+<span id='recording' class='small' hidden></span></div>
+<p id='message' class='small' role='status'></p>
+</fieldset>
+)html";
+
+constexpr const char* effects_panel = R"html(<fieldset id='effects'><legend>Effects</legend>
+<div class='line'><button id='all-off' type='button'>All off</button>
+<span class='small'>What a rig may have besides. Switch them while it moves.</span></div>
+<div id='switches'></div></fieldset>
+)html";
+
+constexpr const char* stage = R"html(<div class='shown'>
+<figure><svg id='rig' role='img' aria-label='The rig as it is now'></svg>
+<figcaption id='rig-caption'></figcaption></figure>
+<div id='loops'></div><div id='plots'></div>
+<div class='line'><button id='keep' type='button'>Keep these loops in grey</button>
+<button id='forget' type='button'>Forget the grey ones</button>
+<label>Plots show the last <select id='span'><option>5</option><option>10</option><option selected>20</option>
+<option>40</option></select> s</label></div></div>
+)html";
+
+}  // namespace
+
+Page page_of(const std::string& name, const domain::RigFile& rig, const Session& session) {
+  Page page;
+  page.html = fmt::format(
+      "<!DOCTYPE html>\n<html lang='en'>\n<head>\n<meta charset='utf-8'>\n"
+      "<meta name='viewport' content='width=device-width,initial-scale=1'>\n<title>{0}, live</title>\n"
+      "<link rel='icon' href='data:,'>\n<link rel='stylesheet' href='page.css'>\n</head>\n<body "
+      "class='live-page'>\n"
+      "<header>\n<h1>{0}, live</h1>\n{1}</header>\n<noscript><p class='warning'>This page needs its "
+      "script.</p></noscript>\n"
+      "<div id='alarm' class='warning' role='alert' hidden><p id='alarm-text'></p>\n"
+      "<button id='alarm-again' type='button'>Begin again</button></div>\n"
+      "<div class='bench'>\n<div class='panel'>\n{2}</div>\n{3}{4}</div>\n"
+      "<p class='small'>mckibben {5}. This page is made on your machine, for this machine alone, and asks "
+      "for "
+      "nothing outside it. Space: pause.</p>\n"
+      "<details class='small'><summary>Licence of uPlot, which draws the "
+      "plots</summary><pre>{6}</pre></details>\n"
+      "<script type='application/json' id='data'>{7}</script>\n<script "
+      "src='page.js'></script>\n</body>\n</html>\n",
+      escaped(name), report::unit_switch, drive, stage, effects_panel, MCKIBBEN_VERSION,
+      escaped(report::uplot_licence), data_of(rig, session));
+  for (const auto& part : {report::uplot_css, report::page_css, live_css}) page.css += part;
+  page.js = std::string(report::uplot_js) + "\n'use strict';\n";
+  for (const auto& part : {report::data_js, report::plots_js, report::rig_js, scroll_js, panel_js, live_js})
+    page.js += part;
+  return page;
+}
+
+}  // namespace mckibben::live

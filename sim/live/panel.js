@@ -1,0 +1,192 @@
+// The controls: what the user asks for goes to the program, what the program says is shown. A control that is
+// being used is left alone.
+const live = {
+  state: null,
+  began: 0,     // simulated time since when the rig is as it is: earlier points are of another one
+  recorded: 0,  // when the recording began
+};
+
+/** Commands on their way: of each kind the last one that was asked for. */
+const asked = new Map();
+let sending = false;
+function ask(kind, command) {
+  asked.set(kind, command);
+  if (!sending) send();
+}
+async function send() {
+  sending = true;
+  while (asked.size > 0) {
+    const [kind, command] = asked.entries().next().value;
+    asked.delete(kind);
+    try {
+      const answer = await fetch(
+          'do',
+          {method: 'POST', headers: {'Content-Type': 'application/json'}, body: JSON.stringify(command)});
+      say((await answer.json()).refused, true);
+    } catch {
+      say('The program does not answer.', true);
+    }
+  }
+  sending = false;
+}
+
+/** In the line that is read out. */
+function say(text, refused = false) {
+  if (refused && text === '') {
+    if (byId('message').classList.contains('refused')) say('');
+    return;
+  }
+  byId('message').textContent = text;
+  byId('message').classList.toggle('refused', refused);
+}
+
+const inUse = (element) => element === document.activeElement;
+const number = (id) => Number(byId(id).value);
+const effectOf = (name) => live.state.effects.find((one) => one.name === name);
+
+function setCurrent(from) {
+  const other = from === 'current' ? 'current-number' : 'current';
+  byId(other).value = byId(from).value;
+  if (byId(from).value !== '') ask('current', {do: 'current', mA: number(from)});
+}
+function setLoad(from) {
+  const kg = from === 'load' ? Number(number('load').toPrecision(3)) : number(from);
+  if (byId(from).value === '') return;
+  byId(from === 'load' ? 'load-number' : 'load').value = kg;
+  ask('load', {do: 'load', kg});
+}
+function setSweep(shape) {
+  if (shape === '')
+    ask('current', {do: 'current', mA: live.state.wanted_mA});
+  else
+    ask('current', {do: 'sweep', shape, low: number('low'), high: number('high'), period: number('period')});
+}
+function setEffect(name, on, size, shape) {
+  ask('effect ' + name, {do: 'effect', name, on, size, shape: shape ?? 0});
+}
+
+/** A slider of an effect. Sizes go evenly, shapes by their logarithm. */
+function dialOf(one, which, label) {
+  const {least, most} = one[which], even = which === 'size';
+  const to = even ? (part) => least + part * (most - least) : (part) => least * (most / least) ** part;
+  const input = make('input', {
+    type: 'range',
+    min: 0,
+    max: 1,
+    step: 0.005,
+    'data-dial': which,
+    'aria-label': `${label} of ${one.name}`
+  });
+  input.from = (value) =>
+      even ? (value - least) / (most - least) : Math.log(value / least) / Math.log(most / least);
+  input.addEventListener('input', () => {
+    const now = effectOf(one.name);
+    now[which] = to(Number(input.value));
+    setEffect(one.name, true, now.size, now.shape);
+  });
+  return make('div', {class: 'dial'}, make('span', {}, label), input, make('output', {'data-says': which}));
+}
+
+function makeSwitches() {
+  byId('switches').replaceChildren(...report.switches.map((one) => {
+    const tick = make('input', {type: 'checkbox'});
+    tick.addEventListener('change', () => {
+      const now = effectOf(one.name);
+      setEffect(one.name, tick.checked, now.size, now.shape);
+    });
+    const dials = make(
+        'div', {hidden: ''}, dialOf(one, 'size', 'size'),
+        ...(one.shape ? [dialOf(one, 'shape', 'shape')] : []));
+    return make(
+        'div', {class: 'switch', 'data-effect': one.name, title: one.law},
+        make('label', {class: 'name'}, tick, one.name), make('p', {}, one.says), dials);
+  }));
+}
+
+function showSwitches(effects) {
+  for (const now of effects) {
+    const row = document.querySelector(`.switch[data-effect='${now.name}']`);
+    row.classList.toggle('on', now.on);
+    row.querySelector('input[type=checkbox]').checked = now.on;
+    row.lastElementChild.hidden = !now.on;
+    for (const which of ['size', 'shape']) {
+      const dial = row.querySelector(`[data-dial=${which}]`);
+      if (!dial) continue;
+      if (!inUse(dial)) dial.value = dial.from(now[which]);
+      row.querySelector(`[data-says=${which}]`).textContent = which === 'size' ? now.says : now.shape_says;
+      dial.setAttribute('aria-valuetext', which === 'size' ? now.says : now.shape_says);
+    }
+  }
+}
+
+/** What tells one rig from another: sizes apart, that may be on their way. */
+const rigOf = (state) =>
+    JSON.stringify([state.load_kg, ...state.effects.filter((one) => one.on).map((one) => one.name)]);
+
+function showState(state) {
+  const before = live.state;
+  live.state = state;
+  if (before && rigOf(before) !== rigOf(state)) keepLoops(true);
+  if (before && JSON.stringify(before.effects) !== JSON.stringify(state.effects))
+    live.began = samples.newest();
+  showSwitches(state.effects);
+  for (const button of document.querySelectorAll('[data-sweep]'))
+    button.setAttribute('aria-pressed', button.dataset.sweep === (state.sweep?.shape ?? ''));
+  for (const id of ['load', 'load-number'])
+    if (!inUse(byId(id))) byId(id).value = state.load_kg;
+  if (!state.sweep && !before) showCurrent(state.wanted_mA);
+  byId('pause').textContent = state.running ? 'Pause' : 'Go on';
+  byId('pace').hidden = state.pace > 0.9;
+  byId('pace').textContent = `This machine makes ${state.pace.toFixed(2)} s of a second.`;
+  if (state.recording && !before?.recording) live.recorded = samples.newest();
+  byId('record').textContent = state.recording ? 'Stop recording' : 'Record';
+  byId('record').setAttribute('aria-pressed', state.recording);
+  byId('recording').hidden = !state.recording;
+  byId('alarm').hidden = state.failure === '';
+  byId('alarm-text').textContent = state.failure === '' ? '' : 'The integration gave up. ' + state.failure;
+  if (state.message.number > 0 && state.message.number !== before?.message.number) say(state.message.text);
+}
+
+/** Sliders go along with a sweep. */
+function showCurrent(value) {
+  for (const id of ['current', 'current-number'])
+    if (!inUse(byId(id))) byId(id).value = value.toFixed(2);
+}
+
+function prepareControls() {
+  const {zero_mA, span_mA} = report.rig;
+  for (const id of ['current', 'current-number', 'low', 'high']) {
+    byId(id).min = 0;
+    byId(id).max = report.largest_mA;
+  }
+  byId('low').value = zero_mA;
+  byId('high').value = Math.min(report.largest_mA, span_mA);
+  byId('load').min = Number((0.1 * report.load_kg).toPrecision(2));
+  byId('load').max = Number((4 * report.load_kg).toPrecision(2));
+  makeSwitches();
+  for (const id of ['current', 'current-number']) byId(id).addEventListener('input', () => setCurrent(id));
+  for (const id of ['load', 'load-number']) byId(id).addEventListener('input', () => setLoad(id));
+  for (const button of document.querySelectorAll('[data-sweep]'))
+    button.addEventListener('click', () => setSweep(button.dataset.sweep));
+  for (const id of ['low', 'high', 'period'])
+    byId(id).addEventListener('change', () => {
+      if (live.state.sweep) setSweep(live.state.sweep.shape);
+    });
+  byId('pause').addEventListener('click', () => ask('run', {do: 'run', on: !live.state.running}));
+  for (const id of ['again', 'alarm-again'])
+    byId(id).addEventListener('click', () => ask('again', {do: 'again'}));
+  byId('record').addEventListener(
+      'click',
+      () =>
+          ask('record',
+              live.state.recording ? {do: 'stop'} : {do: 'record', from_rest: byId('from-rest').checked}));
+  byId('all-off').addEventListener('click', () => {
+    for (const one of live.state.effects)
+      if (one.on) setEffect(one.name, false, one.size, one.shape);
+  });
+  document.addEventListener('keydown', (event) => {
+    if (event.key !== ' ' || event.target.closest('input, select, button, summary, a')) return;
+    event.preventDefault();
+    byId('pause').click();
+  });
+}

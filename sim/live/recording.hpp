@@ -1,0 +1,53 @@
+// What was recorded of a session, as data sets on disk. Recordings of one rig go into one data set, each a
+// run with its load; once effects are switched the rig is another one, and a new data set begins. As those
+// that `dataset` makes, it holds the rig without its effects; they are in a folder beside it, with -truth at
+// its end.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <sim/live/session.hpp>
+#include <sim/output/folder.hpp>
+
+namespace mckibben::live {
+
+struct Recording {
+  domain::RigFile rig;  ///< as it was
+  double load_kg = 0.0;
+  bool settled = false;  ///< it began at rest
+  std::vector<Sample> rows;
+  std::string ended;  ///< why, if the user did not stop it
+};
+
+/// Fewer rows make no run.
+inline constexpr std::size_t least_rows = 100;
+
+class DataSets {
+ public:
+  /// `first`: the folder of the first data set; the next ones are called FIRST-2, ... `session`: words that
+  /// no other session has, so that none takes the place of another's. `say`: hears what was set aside.
+  DataSets(std::filesystem::path first, std::string session, output::Say say);
+
+  /// Adds a run, and writes its data set anew. Returns the folder. Throws output::CannotWrite; the run is
+  /// kept, and written with the next one.
+  std::filesystem::path put(Recording recording);
+  /// Writes again what could not be written. Throws output::CannotWrite.
+  void flush();
+
+  std::size_t runs() const { return runs_.size(); }  ///< of the data set that was written last
+
+ private:
+  void write();
+  std::filesystem::path folder() const;
+
+  std::filesystem::path first_;
+  std::string session_;
+  output::Say say_;
+  std::size_t number_ = 0;
+  bool written_ = true;
+  std::vector<Recording> runs_;
+};
+
+}  // namespace mckibben::live

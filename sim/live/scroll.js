@@ -1,0 +1,199 @@
+// What runs along: the samples of the last minute, plots of them over time, and loops with a grey trace of an
+// earlier one. Times are those of the simulation.
+const columns = [
+  'time', 'current', 'reference_pressure', 'valve_pressure', 'muscle_pressure', 'contraction', 'read',
+  'braid_force', 'friction_force', 'effects_pull'
+];
+const kept = 60, gap = 1;  // seconds: that are kept; without samples, after which a line begins anew
+
+/** Samples by column, in order of time. */
+const samples = {
+  of: Object.fromEntries(columns.map((name) => [name, []])),
+  next: 0,  // number of the sample that comes next
+
+  /** Adds rows from that number on; of those that are here already, none. Whether time began again. */
+  add(from, rows) {
+    let again = false;
+    for (const row of rows.slice(Math.max(0, this.next - from))) {
+      const times = this.of.time;
+      if (times.length > 0 && row[0] <= times[times.length - 1]) {
+        this.clear();
+        again = true;
+      }
+      columns.forEach((name, i) => this.of[name].push(row[i]));
+    }
+    this.next = from + rows.length;
+    const old = indexAt(this.of.time, this.newest() - kept);
+    if (old > 1000)
+      for (const name of columns) this.of[name].splice(0, old);
+    return again;
+  },
+  clear() {
+    for (const name of columns) this.of[name] = [];
+  },
+  newest() { return this.of.time.length === 0 ? 0 : this.of.time[this.of.time.length - 1]; },
+
+  /** Values at a time, between two samples on a straight line; null if there is none. */
+  at(time) {
+    const {time: times} = this.of;
+    if (times.length === 0) return null;
+    const i = indexAt(times, time), j = Math.min(i + 1, times.length - 1);
+    const part = i === j ? 0 : Math.min(1, Math.max(0, (time - times[i]) / (times[j] - times[i])));
+    return Object.fromEntries(columns.map((name) => {
+      const a = this.of[name][i], b = this.of[name][j];
+      return [name, a === null || b === null ? null : a + part * (b - a)];
+    }));
+  },
+
+  /** Values between two times, by column. */
+  between(from, to, names) {
+    const {time} = this.of;
+    const begin = time.length === 0 ? 0 : indexAt(time, from),
+          end = time.length === 0 ? 0 : indexAt(time, to) + 1;
+    return names.map((name) => this.of[name].slice(begin, end));
+  },
+};
+
+const timePlots = [
+  {title: 'Contraction', unit: 'contraction ratio', lines: [['contraction', 'true'], ['read', 'as counted']]},
+  {
+    title: 'Pressures',
+    unit: 'bar',
+    lines: [
+      ['muscle_pressure', 'muscle'], ['reference_pressure', 'asked of the valve'], ['valve_pressure', 'valve']
+    ]
+  },
+  {title: 'Current', unit: 'mA', lines: [['current', 'current']]},
+  {
+    title: 'Forces on the load, upwards',
+    unit: 'N',
+    lines:
+        [['braid_force', 'braid'], ['friction_force', 'friction of the threads'], ['effects_pull', 'effects']]
+  },
+];
+const loopPlots = [
+  {title: 'Pressure asked for, and contraction as counted', x: 'reference_pressure', y: 'read'},
+  {title: 'Contraction and pressure of the muscle', x: 'contraction', y: 'muscle_pressure'},
+  {title: 'Contraction and force of the braid', x: 'contraction', y: 'braid_force'},
+];
+const unitOf = {
+  reference_pressure: 'bar',
+  muscle_pressure: 'bar',
+  braid_force: 'N',
+  read: 'contraction ratio',
+  contraction: 'contraction ratio'
+};
+
+/** Round ends of an axis round some values, wide enough to be read. */
+function roundEnds(low, high) {
+  if (low === null || low === undefined || !isFinite(low)) return [0, 1];
+  return uPlot.rangeNum(...heights(low, high), 0, false);
+}
+const numbers = (_, values) => values.map((value) => String(+value.toPrecision(6)));
+const axisStyle = () =>
+    ({stroke: colour('soft'), grid: {stroke: colour('line'), width: 1}, ticks: {stroke: colour('line')}});
+const scaledBy = (factor, values) =>
+    factor === 1 ? values : values.map((value) => value === null ? null : factor * value);
+
+/** A plot in a cell of its own; what is in it is `chart`. */
+class Cell {
+  constructor(into, title, unit, keys) {
+    this.box = make('div', {class: 'plot'});
+    const head = make('h3', {}, title, ' ', make('span', {class: 'unit small'}, unit));
+    const key = ([, label], i) => {
+      const line = make('path', {d: 'M0 5H34', class: 'run k' + i});
+      return make('span', {}, make('svg', {viewBox: '0 0 34 10', 'aria-hidden': 'true'}, line), label);
+    };
+    const legend = keys.length > 1 ? [make('p', {class: 'keys'}, ...keys.map(key))] : [];
+    this.cell = make('div', {class: 'cell', role: 'img', 'aria-label': title}, head, ...legend, this.box);
+    into.append(this.cell);
+  }
+  size() {
+    const width = Math.max(200, this.box.clientWidth);
+    return {width, height: Math.round(Math.min(320, Math.max(170, 0.5 * width)))};
+  }
+  resize() { this.chart.setSize(this.size()); }
+}
+
+class TimePlot extends Cell {
+  constructor(plot) {
+    const {unit, factor} = shownAs(plot.unit);
+    super(byId('plots'), plot.title, unit, plot.lines);
+    this.names = plot.lines.map(([name]) => name);
+    this.factor = factor;
+    const series = ([, label], i) => ({label, stroke: colour('c' + i), width: 1.6, points: {show: false}});
+    const seconds = (_, values) => values.map((value) => +value.toFixed(3) + ' s');
+    this.chart = new uPlot(
+        {
+          ...this.size(),
+          legend: {show: false},
+          cursor: {show: false},
+          scales: {x: {time: false}, y: {range: (_, low, high) => roundEnds(low, high)}},
+          axes: [{...axisStyle(), values: seconds}, {...axisStyle(), values: numbers, size: 56}],
+          series: [{}, ...plot.lines.map(series)],
+        },
+        [[], ...plot.lines.map(() => [])], this.box);
+  }
+  draw(now, span) {
+    const [times, ...values] = samples.between(now - span - gap, now, ['time', ...this.names]);
+    this.chart.batch(() => {
+      this.chart.setData([times, ...values.map((one) => scaledBy(this.factor, one))], false);
+      this.chart.setScale('x', {min: now - span, max: now});
+    });
+  }
+}
+
+/** A line through points whose x may go back, and a dot at the last of them. */
+function trace(dot) {
+  return (u, index) => {
+    uPlot.orient(u, index, (series, xs, ys, scaleX, scaleY, toX, toY, left, top, width, height) => {
+      const {ctx} = u;
+      const x = (i) => toX(xs[i], scaleX, width, left), y = (i) => toY(ys[i], scaleY, height, top);
+      ctx.save();
+      ctx.strokeStyle = ctx.fillStyle = series.stroke(u, index);
+      ctx.lineWidth = 1.6 * devicePixelRatio;
+      ctx.lineJoin = 'round';
+      ctx.beginPath();
+      for (let i = 0; i < xs.length; ++i) ctx.lineTo(x(i), y(i));
+      ctx.stroke();
+      if (dot && xs.length > 0) {
+        ctx.beginPath();
+        ctx.arc(x(xs.length - 1), y(xs.length - 1), 5 * devicePixelRatio, 0, 2 * Math.PI);
+        ctx.fill();
+      }
+      ctx.restore();
+    });
+    return null;
+  };
+}
+
+class LoopPlot extends Cell {
+  constructor(plot, before) {
+    const x = shownAs(unitOf[plot.x]), y = shownAs(unitOf[plot.y]);
+    super(byId('loops'), plot.title, `${x.unit}, ${y.unit}`, []);
+    Object.assign(this, {names: [plot.x, plot.y], factors: [x.factor, y.factor], ghost: before ?? [[], []]});
+    const facets = [{scale: 'x', auto: true}, {scale: 'y', auto: true}];
+    const range = (_, low, high) => roundEnds(low, high);
+    this.chart = new uPlot(
+        {
+          mode: 2,
+          ...this.size(),
+          legend: {show: false},
+          cursor: {show: false},
+          scales: {x: {time: false, range}, y: {range}},
+          axes: [{...axisStyle(), values: numbers}, {...axisStyle(), values: numbers, size: 56}],
+          series: [
+            null, {facets, stroke: colour('soft'), paths: trace(false)},
+            {facets, stroke: colour('c0'), paths: trace(true)}
+          ],
+        },
+        [null, [[], []], [[], []]], this.box);
+  }
+  scaled(values) { return values.map((one, i) => scaledBy(this.factors[i], one)); }
+  draw(from, to) {
+    const both = samples.between(from, to, this.names);
+    const whole = both[0].map((value, i) => value !== null && both[1][i] !== null);
+    this.values = both.map((one) => one.filter((_, i) => whole[i]));
+    this.chart.setData([null, this.scaled(this.ghost), this.scaled(this.values)]);
+  }
+}

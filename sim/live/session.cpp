@@ -1,0 +1,182 @@
+// The order of a tick is that of a simulated run (sim/run/simulate.cpp); see the header.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include <controllers/waveform.hpp>
+#include <sim/engine/failure.hpp>
+#include <sim/input/common_checks.hpp>
+#include <sim/live/session.hpp>
+#include <sim/ride/changed.hpp>
+
+namespace mckibben::live {
+namespace {
+
+constexpr double shortest_period_s = 0.1, longest_period_s = 1000.0;
+
+std::string out_of_range(std::string_view key, double value, double low, double high, std::string_view unit) {
+  if (std::isfinite(value) && value >= low && value <= high) return "";
+  return fmt::format("{} = {:g}: must be from {:g} to {:g} {}", key, value, low, high, unit);
+}
+
+}  // namespace
+
+double Sweep::at(double time_s) const {
+  const double dwell_s = period_s / (2 * stairs_up);
+  switch (shape) {
+    case Shape::sine:
+      return controllers::SineCurrent{.low_mA = low_mA, .high_mA = high_mA, .period_s = period_s}.at(time_s);
+    case Shape::triangle:
+      return controllers::TriangleCurrent{.low_mA = low_mA, .high_mA = high_mA, .period_s = period_s}.at(
+          time_s);
+    case Shape::stairs:
+      break;
+  }
+  return controllers::StairCurrent{
+      .low_mA = low_mA, .high_mA = high_mA, .steps = stairs_up, .dwell_s = dwell_s}
+      .at(std::fmod(time_s, period_s));
+}
+
+double Sweep::when(double current_mA) const {
+  const double share = std::clamp((current_mA - low_mA) / (high_mA - low_mA), 0.0, 1.0);
+  switch (shape) {
+    case Shape::sine:
+      return period_s * std::acos(1.0 - 2.0 * share) / (2.0 * std::numbers::pi);
+    case Shape::triangle:
+      return 0.5 * share * period_s;
+    case Shape::stairs:
+      break;
+  }
+  return 0.0;
+}
+
+Session::Session(const domain::RigFile& rig, double load_kg)
+    : switches_(rig),
+      rig_(switches_.rig()),
+      load_kg_(load_kg),
+      current_mA_(rig.valve.zero_current_mA),
+      reader_(rig),
+      per_count_(plant::count_height_m(rig) / rig.muscle.rest_length_m),
+      ride_(ride::Hanging{rig_, load_kg}, rig.integrator) {
+  start_over();
+}
+
+template <class Work>
+void Session::guarded(const Work& work) {
+  try {
+    work();
+  } catch (const engine::NumericalFailure& gave_up) {
+    failure_ = gave_up.what();
+  }
+}
+
+std::string Session::set_current(double current_mA) {
+  const std::string why = out_of_range("mA", current_mA, 0.0, rig_.dac.largest_current_mA, "mA");
+  if (!why.empty()) return why;
+  sweep_.reset();
+  current_mA_ = current_mA;
+  return "";
+}
+
+std::string Session::set_sweep(const Sweep& sweep) {
+  std::string why = out_of_range("low", sweep.low_mA, 0.0, rig_.dac.largest_current_mA, "mA");
+  if (why.empty()) why = out_of_range("high", sweep.high_mA, 0.0, rig_.dac.largest_current_mA, "mA");
+  if (why.empty()) why = out_of_range("period", sweep.period_s, shortest_period_s, longest_period_s, "s");
+  if (why.empty() && !(sweep.high_mA > sweep.low_mA))
+    why = fmt::format("high = {:g}: must be above low, which is {:g} mA", sweep.high_mA, sweep.low_mA);
+  if (!why.empty()) return why;
+  sweep_ = sweep;
+  sweep_begin_s_ = time_s() - sweep.when(current_mA_);
+  return "";
+}
+
+std::string Session::set_load(double load_kg) {
+  std::string why = out_of_range("kg", load_kg, 0.01, 500.0, "kg");
+  if (why.empty() && load_kg + rig_.joint.load_offset_kg <= 0.0)
+    why = fmt::format("kg = {:g}: with the rig's load_offset of {:g} kg nothing hangs", load_kg,
+                      rig_.joint.load_offset_kg);
+  if (why.empty())
+    if (const std::string heavy = input::too_heavy(load_kg, rig_); !heavy.empty())
+      why = fmt::format("kg = {:g}: {}", load_kg, heavy);
+  if (!why.empty()) return why;
+  load_kg_ = load_kg;
+  go_on();
+  return "";
+}
+
+std::string Session::set_effect(std::string_view name, bool on, double size, double shape) {
+  if (std::string why = switches_.set(name, on, size, shape); !why.empty()) return why;
+  go_on();
+  return "";
+}
+
+void Session::go_on() {
+  untouched_ = false;
+  rig_ = switches_.rig();
+  guarded([&] {
+    ride_ = ride::Ride(ride::changed(ride_.rider(), {rig_, load_kg_}), {}, rig_.integrator);
+    measure();
+  });
+}
+
+void Session::start_over() {
+  failure_.clear();
+  tick_ = 0;
+  sweep_begin_s_ = 0.0;
+  untouched_ = true;
+  reader_ = plant::PositionReader(rig_);
+  ride_ = ride::Ride(ride::Hanging{rig_, load_kg_}, rig_.integrator);
+  sample_ = {};
+  drive_ = {};
+  drive_.current_mA = plant::dac_output_mA(rig_.dac, wanted_at(0.0));
+  guarded([&] {
+    const auto ticks = std::lround(rig_.settling_time_s / rig_.tick_s);
+    ride_.start(drive_, static_cast<double>(-ticks) * rig_.tick_s);
+    for (auto k = -ticks + 1; k <= 0; ++k) {
+      ride_.step(drive_, static_cast<double>(k) * rig_.tick_s);
+      sample_.counts = reader_.count(ride_.reading().wheel_m);
+    }
+  });
+  measure();
+}
+
+double Session::wanted_at(double time_s) const {
+  return sweep_ ? sweep_->at(time_s - sweep_begin_s_) : current_mA_;
+}
+
+/// Of the instant it is at.
+void Session::measure() {
+  const plant::State<double>& state = ride_.flow().state;
+  const auto moment = ride_.moment();
+  sample_.time_s = time_s();
+  sample_.current_mA = drive_.current_mA;
+  sample_.reference_Pa = ride_.plant().reference_pressure_Pa(drive_.current_mA);
+  sample_.valve_Pa = state.side.valve_pressure_Pa;
+  sample_.muscle_Pa = state.side.muscle_pressure_Pa;
+  sample_.shown_Pa = plant::gauge_reading_Pa(rig_.gauge, ride_.reading().muscle_pressure_Pa);
+  sample_.contraction_ratio = state.joint.contraction_ratio;
+  sample_.read_ratio = static_cast<double>(sample_.counts) * per_count_;
+  sample_.braid_N = moment.braid_force_N;
+  sample_.friction_N = moment.friction_force_N;
+  sample_.effects_N = moment.effects_pull_N;
+}
+
+const Sample& Session::step() {
+  if (!failure_.empty()) return sample_;
+  current_mA_ = wanted_at(time_s());
+  const double current_mA = plant::dac_output_mA(rig_.dac, current_mA_);
+  if (current_mA != drive_.current_mA) untouched_ = false;
+  drive_.current_mA = current_mA;
+  guarded([&] {
+    sample_.counts = reader_.count(ride_.reading().wheel_m);
+    ride_.hold(drive_, static_cast<double>(tick_ + 1) * rig_.tick_s);
+    measure();
+    ride_.advance();
+    ++tick_;
+  });
+  return sample_;
+}
+
+}  // namespace mckibben::live

@@ -1,0 +1,96 @@
+// A rig that is driven by hand: stepped tick by tick under a current that a slider or a sweep gives, while
+// its load and its effects are changed. It knows no clock; what makes it run in real time is host.hpp.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include <plant/instruments.hpp>
+#include <sim/live/switches.hpp>
+#include <sim/ride/ride.hpp>
+
+namespace mckibben::live {
+
+/// An instant: what the rig was, and what was held from there on. Pressures gauge.
+struct Sample {
+  double time_s = 0.0, current_mA = 0.0;
+  double reference_Pa = 0.0, valve_Pa = 0.0, muscle_Pa = 0.0;
+  double shown_Pa = 0.0;  ///< by a gauge on the muscle
+  double contraction_ratio = 0.0;
+  std::int64_t counts = 0;
+  double read_ratio = 0.0;  ///< what the counts say
+  double braid_N = 0.0, friction_N = 0.0, effects_N = 0.0;
+};
+
+/// How the current goes by itself, between two ends, for ever.
+struct Sweep {
+  enum class Shape { sine, triangle, stairs };
+  Shape shape = Shape::sine;
+  double low_mA = 4.0, high_mA = 20.0, period_s = 10.0;
+
+  static constexpr int stairs_up = 8;  ///< and as many down
+  double at(double time_s) const;
+  /// When it passes this current on its way up; of stairs, when they begin.
+  double when(double current_mA) const;
+};
+
+class Session {
+ public:
+  /// At rest at the current of no pressure. The rig must lift a load, and bear this one (input::no_load,
+  /// input::too_heavy).
+  Session(const domain::RigFile& rig, double load_kg);
+
+  // What acts from the next tick on. These say why they refuse, and then nothing has changed; else they are
+  // empty.
+  std::string set_current(double current_mA);  ///< by hand: a sweep ends
+  std::string set_sweep(const Sweep& sweep);   ///< goes on from the present current, if it is within
+  std::string set_load(double load_kg);
+  std::string set_effect(std::string_view name, bool on, double size, double shape);
+
+  /// At rest under the present current, or under a sweep's first one, for the rig's settling time; the time
+  /// is 0.
+  void start_over();
+
+  /// One tick: the sample of its beginning. Where the integration gives up, `failure` says so, and nothing
+  /// moves until it starts over.
+  const Sample& step();
+
+  const Sample& now() const { return sample_; }
+  const std::string& failure() const { return failure_; }
+  /// At rest since it started: nothing has been moved or switched.
+  bool untouched() const { return untouched_; }
+  double tick_s() const { return rig_.tick_s; }
+  double wanted_mA() const { return current_mA_; }
+  double load_kg() const { return load_kg_; }
+  const std::optional<Sweep>& sweep() const { return sweep_; }
+  const Switches& switches() const { return switches_; }
+  /// The rig as it is now, and as its owner knows it.
+  const domain::RigFile& rig() const { return rig_; }
+  domain::RigFile nominal() const { return plant::nominal(rig_); }
+
+ private:
+  void go_on();
+  template <class Work>
+  void guarded(const Work& work);
+  double wanted_at(double time_s) const;
+  double time_s() const { return static_cast<double>(tick_) * rig_.tick_s; }
+  void measure();
+
+  Switches switches_;
+  domain::RigFile rig_;
+  double load_kg_, current_mA_;
+  std::optional<Sweep> sweep_;
+  double sweep_begin_s_ = 0.0;
+  std::int64_t tick_ = 0;
+  bool untouched_ = true;
+  std::string failure_;
+  plant::PositionReader reader_;
+  double per_count_;
+  ride::Drive drive_;
+  ride::Ride ride_;
+  Sample sample_;
+};
+
+}  // namespace mckibben::live

@@ -1,0 +1,55 @@
+// Effects of the catalogue as things to be switched on and off, each with a size and perhaps a shape.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <sim/diagnose/parameter.hpp>
+#include <sim/domain/rig_file.hpp>
+
+namespace mckibben::live {
+
+/// A number that can be set: what it is of, and where it may lie, in its unit (SI).
+struct Dial {
+  std::string unit;
+  double lowest = 0.0, highest = 0.0;  ///< as rig files may have it
+  double least = 0.0, most = 0.0;      ///< that is worth looking at
+  double value = 0.0;
+};
+
+/// One law of one effect.
+struct Switch {
+  std::string name;  ///< "muscle_leak", or with the law's name: "gauge_error gain"
+  std::string effect;
+  std::string_view sentence, law;
+  bool on = false;
+  Dial size;   ///< the number that makes the effect; where it is `absent` there is none
+  Dial shape;  ///< its unit is empty where the law has none
+  double absent = 0.0;
+  diagnose::Candidate candidate{};
+
+  bool has_shape() const { return !candidate.shape.empty(); }
+};
+
+class Switches {
+ public:
+  /// Those that the rig has are on, at its sizes; others stand at typical ones.
+  explicit Switches(const domain::RigFile& rig);
+
+  const std::vector<Switch>& all() const { return all_; }
+  const Switch* find(std::string_view name) const;
+
+  /// Switches one; another law of the same effect goes off. Says why it cannot, and then nothing has changed;
+  /// empty if it can. `size`, `shape`: in SI.
+  std::string set(std::string_view name, bool on, double size, double shape);
+
+  /// The rig with what is on.
+  domain::RigFile rig() const;
+
+ private:
+  domain::RigFile bare_, file_;  // without what can be switched; as it was read
+  std::vector<Switch> all_;
+};
+
+}  // namespace mckibben::live

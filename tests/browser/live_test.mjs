@@ -1,0 +1,123 @@
+// The live page as a user meets it: the slider lifts the load, an effect changes what follows, what is
+// recorded is a data set; nothing is asked for outside the program, and nothing complains.
+import assert from 'node:assert/strict';
+import {execFileSync, spawn} from 'node:child_process';
+import {existsSync, readFileSync, rmSync} from 'node:fs';
+import {after, before, test} from 'node:test';
+
+import {close, look, table} from './browser.mjs';
+
+let program, address;
+before(async () => {
+  rmSync('live', {recursive: true, force: true});
+  program = spawn(
+      process.env.MCKIBBEN, ['live', 'thesis', '--load', '16.138 kg', '--out', 'live/data'],
+      {stdio: ['ignore', 'pipe', 'ignore']});
+  for await (const line of program.stdout) {
+    address = line.toString().trim();
+    break;
+  }
+});
+after(async () => {
+  program.kill('SIGINT');
+  await close();
+});
+
+const seen = (page, what) => page.evaluate((name) => samples.at(samples.newest())[name], what);
+const until = (page, so, given) => page.waitForFunction(so, given, {timeout: 300000});
+
+/** Opens it; `end` looks after what it complained of (but that something was refused) and asked for. */
+async function live(options) {
+  const opened = await look(address, options);
+  await until(opened.page, () => playing.frames > 3);
+  return {
+    ...opened,
+    end: async () => {
+      assert.deepEqual(opened.complaints.filter((one) => !one.includes('status of 400')), []);
+      for (const asked of opened.requests) assert.ok(asked.startsWith(address) || asked === 'data:,', asked);
+      await opened.close();
+    }
+  };
+}
+
+test('the slider lifts the load, and the picture and the plots follow', async () => {
+  const {page, end} = await live();
+  const low = await seen(page, 'contraction');
+  await page.locator('#current').focus();
+  await page.keyboard.press('End');  // 20 mA, by the keyboard
+  await until(page, (from) => samples.at(samples.newest()).contraction > from + 0.05, low);
+  assert.equal(await page.inputValue('#current-number'), '20');
+  await until(page, () => Number(document.querySelector('#rig path.tube').dataset.length) < 0.28);
+  await until(page, () => timed[0].chart.data[1].some((mm) => mm > 30));
+  await until(page, () => loops[1].values[0].length > 10);
+  await page.fill('#current-number', '4');
+  await until(page, (from) => samples.at(samples.newest()).contraction < from + 0.02, low);
+  await end();
+});
+
+test('a lighter load rises, an effect is switched and sized, both leave a grey loop', async () => {
+  const {page, end} = await live();
+  await page.fill('#period', '2');
+  await page.locator('[data-sweep=\'sine\']').click();
+  await until(page, () => live.state.sweep?.period === 2 && samples.newest() - live.began > 3);
+  assert.equal(await page.getAttribute('[data-sweep=\'sine\']', 'aria-pressed'), 'true');
+  const row = page.locator('.switch[data-effect=\'bladder_creep\']');
+  await row.locator('input[type=checkbox]').check();
+  await until(page, () => live.state.effects.some(({name, on}) => name === 'bladder_creep' && on));
+  await until(page, () => loops[1].ghost[0].length > 10);
+  await row.locator('[data-dial=size]').focus();
+  await page.keyboard.press('End');
+  await until(page, () => live.state.effects.find(({name}) => name === 'bladder_creep').size === 500);
+  assert.equal(await row.locator('[data-says=size]').textContent(), '500 N/m');
+  await until(page, () => samples.at(samples.newest()).effects_pull < -1);
+  await page.locator('#all-off').click();
+  await until(page, () => live.state.effects.every(({on}) => !on));
+  assert.ok(await row.locator('[data-dial=size]').isHidden());
+  await page.fill('#load-number', '8');
+  await until(page, () => live.state.load_kg === 8);
+  await until(page, () => document.querySelector('#rig .load-text').textContent === '8 kg');
+  await page.fill('#load-number', '900');
+  await until(page, () => document.getElementById('message').textContent.startsWith('kg = 900: must be'));
+  assert.equal(await page.evaluate(() => live.state.load_kg), 8);
+  await page.fill('#load-number', '16.138');
+  await until(page, () => live.state.load_kg === 16.138);
+  await end();
+});
+
+test('pause by the space bar, begin again, and a recording that replays', async () => {
+  const {page, end} = await live();
+  await page.locator('h1').click();
+  await page.keyboard.press(' ');
+  await until(page, () => !live.state.running);
+  await page.keyboard.press(' ');
+  await until(page, () => live.state.running);
+  await page.locator('[data-sweep=\'triangle\']').click();
+  await until(page, () => live.state.sweep?.shape === 'triangle');
+  await page.locator('#record').click();
+  await until(page, () => live.state.recording && samples.newest() > 3 && samples.newest() < 200);
+  await page.locator('#record').click();
+  await until(page, () => /^Recorded .* run 1\.$/.test(document.getElementById('message').textContent));
+  const folder = /into (\S+), run/.exec(await page.textContent('#message'))[1];
+  assert.ok(existsSync(folder + '/dataset.yaml') && existsSync(folder + '-truth/rig.yaml'));
+  const csv = table(folder + '/r01.csv');
+  assert.ok(csv.time_s.length >= 100 && Math.max(...csv.current_mA) > 5);
+  execFileSync(process.env.MCKIBBEN, ['replay', folder, '--out', 'live/replayed'], {stdio: 'ignore'});
+  assert.ok(JSON.parse(readFileSync('live/replayed/run.json')).runs.length === 1);
+  await end();
+});
+
+test('it fits a narrow screen and a dark one, in mm or ratios', async () => {
+  const {page, end} = await live({viewport: {width: 400, height: 800}, colorScheme: 'dark'});
+  const [wide, inner] = await page.evaluate(() => [document.documentElement.scrollWidth, innerWidth]);
+  assert.ok(wide <= inner, `${wide} > ${inner}`);
+  await page.locator('#in-ratio').check();
+  await until(page, () => timed[0].factor === 1);
+  const unnamed = await page.locator('input, button, select')
+                      .evaluateAll(
+                          (all) => all.filter(
+                                          (one) => !one.getAttribute('aria-label') && !one.labels?.length &&
+                                              !one.textContent.trim())
+                                       .map((one) => one.outerHTML));
+  assert.deepEqual(unnamed, []);
+  await end();
+});

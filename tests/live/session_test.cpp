@@ -1,0 +1,187 @@
+// A rig driven by hand: its steps are those of a ride; what is switched while it moves changes nothing but
+// what was switched; what cannot be is refused and changes nothing.
+#include <algorithm>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include <sim/live/session.hpp>
+#include <sim/ride/ride.hpp>
+
+#include "own_law.hpp"
+
+namespace mckibben::live {
+namespace {
+
+constexpr double load_kg = 16.138;
+
+void go(Session& session, int ticks) {
+  for (int k = 0; k < ticks; ++k) session.step();
+}
+
+/// Up and down, and in between still.
+Sweep up_and_down() {
+  return {Sweep::Shape::triangle, 4.0, 14.0, 2.4};
+}
+
+TEST(LiveSession, StepsAreThoseOfARideToTheBit) {
+  const domain::RigFile rig;
+  Session session(rig, load_kg);
+  ASSERT_EQ(session.set_sweep(up_and_down()), "");
+  ride::Ride ride(ride::Hanging{rig, load_kg}, rig.integrator);
+  ride::Drive drive;
+  drive.current_mA = plant::dac_output_mA(rig.dac, rig.valve.zero_current_mA);
+  const auto settling = std::lround(rig.settling_time_s / rig.tick_s);
+  ride.start(drive, -static_cast<double>(settling) * rig.tick_s);
+  for (auto k = -settling + 1; k <= 0; ++k) ride.step(drive, static_cast<double>(k) * rig.tick_s);
+  double highest = 0.0;
+  for (int k = 0; k < 400; ++k) {
+    const Sample now = session.step();
+    EXPECT_EQ(now.contraction_ratio, ride.flow().state.joint.contraction_ratio) << k;
+    EXPECT_EQ(now.muscle_Pa, ride.flow().state.side.muscle_pressure_Pa) << k;
+    drive.current_mA = plant::dac_output_mA(rig.dac, up_and_down().at(k * rig.tick_s));
+    EXPECT_EQ(now.current_mA, drive.current_mA);
+    EXPECT_EQ(now.time_s, k * rig.tick_s);
+    ride.step(drive, (k + 1) * rig.tick_s);
+    highest = std::max(highest, now.contraction_ratio);
+  }
+  EXPECT_GT(highest, 0.05);
+}
+
+TEST(LiveSession, WhatIsSwitchedWhileItMovesLeavesTheStateAsItIs) {
+  Session names(domain::RigFile{}, load_kg);
+  for (const Switch& one : names.switches().all()) {
+    Session session(domain::RigFile{}, load_kg), untouched(domain::RigFile{}, load_kg);
+    for (Session* each : {&session, &untouched}) {
+      ASSERT_EQ(each->set_sweep(up_and_down()), "");
+      go(*each, 60);
+    }
+    const Sample next = untouched.step();
+    ASSERT_EQ(session.set_effect(one.name, true, one.size.value, one.shape.value), "") << one.name;
+    EXPECT_FALSE(session.untouched());
+    const Sample same = session.step();
+    EXPECT_EQ(same.contraction_ratio, next.contraction_ratio) << one.name;
+    EXPECT_EQ(same.muscle_Pa, next.muscle_Pa) << one.name;
+    EXPECT_EQ(same.valve_Pa, next.valve_Pa) << one.name;
+    EXPECT_EQ(same.current_mA, next.current_mA) << one.name;
+    // It goes on, near where it would have been, and with the effect: of gauge and counts in what they show.
+    bool tells = false;
+    double farthest = 0.0;
+    for (int k = 0; k < 200; ++k) {
+      const Sample with = session.step(), without = untouched.step();
+      farthest = std::max(farthest, std::abs(with.contraction_ratio - without.contraction_ratio));
+      tells = tells || with.contraction_ratio != without.contraction_ratio || with.counts != without.counts ||
+              with.shown_Pa != without.shown_Pa;
+    }
+    EXPECT_EQ(session.failure(), "") << one.name;
+    EXPECT_TRUE(tells) << one.name;
+    EXPECT_LT(farthest, 0.06) << one.name;
+    ASSERT_EQ(session.set_effect(one.name, false, one.size.value, one.shape.value), "");
+    EXPECT_TRUE(session.rig().effects.absent()) << one.name;
+    go(session, 50);
+    EXPECT_EQ(session.failure(), "") << one.name;
+  }
+}
+
+TEST(LiveSession, AnotherLoadBeginsWhereTheFirstOneWas) {
+  Session session(domain::RigFile{}, load_kg);
+  ASSERT_EQ(session.set_current(10.0), "");
+  go(session, 300);
+  const double before = session.now().contraction_ratio;
+  ASSERT_EQ(session.set_load(0.5 * load_kg), "");
+  EXPECT_NEAR(session.step().contraction_ratio, before, 1e-4);
+  go(session, 300);
+  EXPECT_GT(session.now().contraction_ratio, before + 0.01);
+}
+
+TEST(LiveSession, AnotherLawOfTheSameEffectTakesItsPlace) {
+  Session session(domain::RigFile{}, load_kg);
+  const auto on = [&](const char* name) { return session.switches().find(name)->on; };
+  ASSERT_EQ(session.set_effect("gauge_error offset", true, 1e4, 0.0), "");
+  ASSERT_EQ(session.set_effect("gauge_error gain", true, 0.03, 0.0), "");
+  EXPECT_FALSE(on("gauge_error offset"));
+  EXPECT_TRUE(on("gauge_error gain"));
+}
+
+TEST(LiveSession, EffectsOfTheFileAreOnAtTheirSizes) {
+  domain::RigFile rig;
+  rig.effects.get<plant::MuscleLeak>().conductance_m3_per_s_Pa = 3e-10;
+  Session session(rig, load_kg);
+  const Switch& leak = *session.switches().find("muscle_leak");
+  EXPECT_TRUE(leak.on);
+  EXPECT_EQ(leak.size.value, 3e-10);
+  EXPECT_EQ(session.rig().effects.get<plant::MuscleLeak>().conductance_m3_per_s_Pa, 3e-10);
+  EXPECT_TRUE(session.nominal().effects.absent());
+}
+
+TEST(LiveSession, WhatCannotBeIsRefusedWithItsRuleAndChangesNothing) {
+  Session session(domain::RigFile{}, load_kg);
+  ASSERT_EQ(session.set_current(9.0), "");
+  const double nan = std::nan("");
+  EXPECT_EQ(session.set_current(20.5), "mA = 20.5: must be from 0 to 20 mA");
+  EXPECT_EQ(session.set_current(nan), "mA = nan: must be from 0 to 20 mA");
+  EXPECT_EQ(session.set_sweep({Sweep::Shape::sine, 9.0, 9.0, 5.0}),
+            "high = 9: must be above low, which is 9 mA");
+  EXPECT_EQ(session.set_sweep({Sweep::Shape::sine, 4.0, 9.0, 0.0}), "period = 0: must be from 0.1 to 1000 s");
+  EXPECT_EQ(session.set_load(0.0), "kg = 0: must be from 0.01 to 500 kg");
+  EXPECT_EQ(session.set_effect("leak", true, 1e-10, 0.0), "name = leak: there is no such effect");
+  EXPECT_EQ(session.set_effect("muscle_leak", true, -1.0, 0.0),
+            "size = -1: must be from 0 to 1e-08 m3/(s.Pa)");
+  EXPECT_EQ(session.set_effect("bladder_creep", true, 100.0, 0.0), "shape = 0: must be from 0.02 to 1000 s");
+  EXPECT_EQ(session.wanted_mA(), 9.0);
+  EXPECT_EQ(session.load_kg(), load_kg);
+  EXPECT_FALSE(session.sweep().has_value());
+  EXPECT_TRUE(session.untouched());
+  EXPECT_TRUE(session.rig().effects.absent());
+}
+
+TEST(LiveSession, TooHeavyALoadIsRefused) {
+  domain::RigFile rig;
+  rig.muscle.stop_stiffness_N_per_m = 1e4;
+  Session session(rig, 1.0);
+  EXPECT_NE(session.set_load(400.0).find("the taut threads of this muscle bear"), std::string::npos);
+  EXPECT_EQ(session.load_kg(), 1.0);
+}
+
+// A law of the user's own that is no number above a contraction.
+TEST(LiveSession, WhereTheIntegrationGivesUpItSaysSoAndCanBeginAgain) {
+  domain::RigFile rig;
+  rig.effects.laws.list = {
+      own_law(plant::LawTarget::force, "-F * sqrt(0.06 - e)", {{"F", law::newton, 5.0}})};
+  Session session(rig, load_kg);
+  ASSERT_EQ(session.failure(), "");
+  ASSERT_EQ(session.set_current(20.0), "");
+  for (int k = 0; k < 1000 && session.failure().empty(); ++k) session.step();
+  ASSERT_NE(session.failure(), "");
+  EXPECT_NE(session.failure().find("effects.hypotheses"), std::string::npos) << session.failure();
+  const double stood = session.now().time_s;
+  EXPECT_EQ(session.step().time_s, stood) << "nothing moves any more";
+  EXPECT_EQ(session.set_load(20.0), "");
+  EXPECT_NE(session.failure(), "");
+  ASSERT_EQ(session.set_current(4.0), "");
+  session.start_over();
+  EXPECT_EQ(session.failure(), "");
+  EXPECT_EQ(session.now().time_s, 0.0);
+  EXPECT_TRUE(session.untouched());
+  go(session, 20);
+  EXPECT_EQ(session.failure(), "");
+}
+
+TEST(LiveSweep, BeginsAtThePresentCurrentOnItsWayUp) {
+  for (const auto shape : {Sweep::Shape::sine, Sweep::Shape::triangle}) {
+    const Sweep sweep{shape, 4.0, 20.0, 8.0};
+    for (const double current_mA : {4.0, 7.3, 19.0, 20.0})
+      EXPECT_NEAR(sweep.at(sweep.when(current_mA)), current_mA, 1e-9);
+    EXPECT_EQ(sweep.when(2.0), 0.0);
+    EXPECT_EQ(sweep.when(25.0), 4.0);
+    EXPECT_NEAR(sweep.at(8.0 + 1.5), sweep.at(1.5), 1e-9);
+  }
+  const Sweep stairs{Sweep::Shape::stairs, 4.0, 20.0, 16.0};
+  EXPECT_EQ(stairs.at(0.5), 4.0);
+  EXPECT_EQ(stairs.at(8.5), 20.0);
+  EXPECT_EQ(stairs.at(16.5), 4.0);
+  EXPECT_EQ(stairs.at(17.5), 6.0);
+}
+
+}  // namespace
+}  // namespace mckibben::live
