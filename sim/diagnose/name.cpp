@@ -85,6 +85,29 @@ void refit(const Case& c, const std::string& name, const std::vector<Screening>&
   }
 }
 
+/// Of a pair: whose the effect is that fits best, is judged between fits in full.
+void fit_all_sides(const Case& c, const std::vector<Screening>& screenings, const Step& step,
+                   std::vector<Trial>& trials) {
+  if (trials.empty()) return;
+  const Trial best = *std::ranges::min_element(trials, cheaper);
+  const Side mine = best.score.candidate.side;
+  if (mine == Side::both) return;
+  for (const Side side : {Side::both, other(mine)}) {
+    const auto is_it = [&](const Score& score) {
+      return score.candidate.effect == best.score.candidate.effect &&
+             score.candidate.variant == best.score.candidate.variant && score.candidate.side == side;
+    };
+    auto trial = std::ranges::find_if(trials, is_it, &Trial::score);
+    for (auto at = screenings.begin(); at != screenings.end() && trial == trials.end(); ++at) {
+      const auto score = std::ranges::find_if(at->scores, is_it);
+      if (score == at->scores.end()) continue;
+      Trial one = rough(c, *at->base, *score, static_cast<std::size_t>(score - at->scores.begin()));
+      if (one.contender.fitted.failure.empty()) trial = trials.insert(trials.end(), std::move(one));
+    }
+    if (trial != trials.end()) polish(c, *trial, step);
+  }
+}
+
 /// First what fits best, with what it gains.
 void judge(const Case& c, const Eigen::VectorXd& reference, std::vector<Trial>& trials) {
   std::stable_sort(trials.begin(), trials.end(), cheaper);
@@ -304,7 +327,10 @@ Naming name_effects(const Case& c, const Contender& nominal, const Contender& re
       }
       // Priors may be strained although the data are met.
       const bool strained = screenings.back().scores.front().drop > to_name.strained;
-      if (left > thresholds.near.nothing_left || strained) refit(c, name, screenings, before, step, trials);
+      if (left > thresholds.near.nothing_left || strained) {
+        refit(c, name, screenings, before, step, trials);
+        fit_all_sides(c, screenings, step, trials);
+      }
     });
     if (screenings.empty()) break;
     judge(c, before, trials);
