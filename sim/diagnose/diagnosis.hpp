@@ -51,6 +51,7 @@ inline std::string full_name(const std::string& name, const std::string& variant
 
 inline std::vector<std::string> words_of(const std::vector<EffectName>& effects) {
   std::vector<std::string> list;
+  list.reserve(effects.size());
   for (const EffectName& effect : effects) list.push_back(effect.words());
   return list;
 }
