@@ -11,6 +11,7 @@
 #include <sim/cli/results.hpp>
 #include <sim/cli/verbs.hpp>
 #include <sim/input/common_checks.hpp>
+#include <sim/input/fields_json.hpp>
 #include <sim/input/file_names.hpp>
 #include <sim/input/rigs.hpp>
 #include <sim/live/server.hpp>
@@ -51,7 +52,8 @@ int show_live(const LiveOptions& options) {
   live::Host host(rig, load_kg, live::DataSets(where, "live " + options.rig + " " + live::new_token(), say));
   {
     const live::Server server(host, live::page_of(name, rig, live::Session(rig, load_kg)), options.port);
-    print(server.address() + "\n");
+    const input::Json document{{"schema", "mckibben-live/1"}, {"address", server.address()}};
+    print(options, {document.dump(2) + "\n", server.address() + "\n"});
     std::fflush(stdout);  // whoever reads it through a pipe wants it now
     say("the page is at this address, on this machine; Ctrl-C ends it");
     while (!run::interrupted()) host.write_recordings(say);
@@ -76,6 +78,7 @@ void add_live(CLI::App& app, Asked& asked) {
       ->check(from_to(1, 65535))
       ->type_name("N");
   add_out(verb, options, "out/<name>-live");
+  add_json(verb, options);
   verb.footer(
       "Examples:\n"
       "  mckibben live thesis\n"

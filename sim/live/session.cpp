@@ -73,7 +73,7 @@ void Session::guarded(const Work& work) {
 }
 
 std::string Session::set_current(double current_mA) {
-  const std::string why = out_of_range("mA", current_mA, 0.0, rig_.dac.largest_current_mA, "mA");
+  std::string why = out_of_range("mA", current_mA, 0.0, rig_.dac.largest_current_mA, "mA");
   if (!why.empty()) return why;
   sweep_.reset();
   current_mA_ = current_mA;

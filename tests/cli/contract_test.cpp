@@ -144,6 +144,7 @@ constexpr Case cases[] = {
     {66, "dataset nowhere.yaml"},
     {66, "fmu nowhere.yaml"},
     {66, "control nowhere.yaml"},
+    {66, "live nowhere.yaml"},
     {66, "calibrate nowhere"},
     {66, "study lag nowhere.yaml"},
     {66, "map nowhere.yaml"},
@@ -211,6 +212,15 @@ TEST_F(Contract, ExitStatusesAndJsonOfEveryVerb) {
         << arguments;
     printed.insert(arguments.substr(0, arguments.find(' ')));
   }
+  // It goes on until it is told to stop.
+  const Said live = shell(
+      "\"$M\" live thesis --json > page & until [ -s page ] || ! kill -0 $!; do sleep 0.05; done; kill -TERM "
+      "$!; wait $!; "
+      "status=$?; cat page; exit $status",
+      *scratch);
+  EXPECT_EQ(live.status, 0) << live.err;
+  EXPECT_EQ(Json::parse(live.out).at("schema"), "mckibben-live/1");
+  printed.insert("live");
   EXPECT_EQ(printed, verbs);
   EXPECT_EQ(read_text(*scratch / "file"), "mine");
 }
