@@ -14,7 +14,7 @@ class ModelInverseFeedback final : public ModelledController {
   ModelInverseFeedback(const ModelInverseFeedbackSettings& settings, const Knowledge& known)
       : ModelledController(settings, settings.name, settings.feedback_delay_ticks, known),
         look_(range().width_mA(), settings.look_ahead_ticks),
-        observer_(settings.filter_ticks, settings.feedback_delay_ticks, known) {}
+        observer_(settings, known) {}
 
   std::vector<Finding> findings() const override {
     std::vector<Finding> found = ModelledController::findings();

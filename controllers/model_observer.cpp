@@ -13,11 +13,11 @@ constexpr double share_of_way = 0.5;    // of what is new: believed to change it
 
 }  // namespace
 
-ModelObserver::ModelObserver(std::optional<double> filter_ticks, int delay_ticks, const Knowledge& known)
+ModelObserver::ModelObserver(const ObserverTerms& terms, const Knowledge& known)
     : per_count_(known.contraction_per_count),
       middle_of_count_(known.middle_of_count),
-      gain_(-std::expm1(-1.0 / filter_ticks.value_or(5.0 + delay_ticks))),
-      past_(delay_ticks) {}
+      gain_(-std::expm1(-1.0 / terms.filter_ticks.value_or(5.0 + terms.feedback_delay_ticks))),
+      past_(terms.feedback_delay_ticks) {}
 
 void ModelObserver::look(double shown) {
   turn(shown);

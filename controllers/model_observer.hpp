@@ -13,14 +13,26 @@
 
 namespace mckibben::controllers {
 
+/// What feedback by a model says of its counts.
+struct ObserverTerms {
+  int feedback_delay_ticks = 0;
+  std::optional<double> filter_ticks = std::nullopt;
+
+  template <class Self, class Visitor>
+  static void fields(Self& self, Visitor& visit) {
+    visit("feedback_delay_ticks", self.feedback_delay_ticks, 0, 1000, "age of the counts that are used");
+    visit("filter_ticks", self.filter_ticks, "1", 0.01, 1000.0,
+          "ticks in which 1 - 1/e of what the model does not know is believed; 5 and the delay's if absent");
+  }
+};
+
 /// All in contraction ratios. Once each tick: `look`, `learn` where counts are to be believed, then `unknown`
 /// is what the model's target is to be moved by.
 class ModelObserver {
  public:
-  /// `shown`: by the model, where it begins. `filter_ticks`: in which 1 - 1/e of what is new is believed; 5
-  /// and the delay's if none is said.
-  ModelObserver(std::optional<double> filter_ticks, int delay_ticks, const Knowledge& known);
+  ModelObserver(const ObserverTerms& terms, const Knowledge& known);
 
+  /// `shown`: by the model, where it begins.
   void begin(double shown) { turned_at_ = shown; }
   /// What the encoder of the model shows at this tick.
   void look(double shown);

@@ -154,7 +154,7 @@ class PairModelInverseFeedback final : public PairModelled {
       : PairModelled(settings, settings.name, known),
         believed_(settings.fastest_load_per_s(known), known),
         delayed_(settings.feedback_delay_ticks),
-        observer_(settings.filter_ticks, settings.feedback_delay_ticks, known) {}
+        observer_(settings, known) {}
 
   std::vector<Finding> findings() const override {
     std::vector<Finding> found = observer_.findings();

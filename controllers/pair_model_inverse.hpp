@@ -5,11 +5,11 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 #include <string>
 #include <string_view>
 
 #include <controllers/co_contraction.hpp>
+#include <controllers/model_observer.hpp>
 #include <controllers/rig_model.hpp>
 
 namespace mckibben::controllers {
@@ -45,11 +45,9 @@ struct PairModelInverseSettings : PairModelTerms {
   }
 };
 
-struct PairModelInverseFeedbackSettings : PairModelTerms {
+struct PairModelInverseFeedbackSettings : PairModelTerms, ObserverTerms {
   static constexpr std::string_view kind = "model_inverse_feedback";
   std::string name{kind};
-  int feedback_delay_ticks = 0;
-  std::optional<double> filter_ticks = std::nullopt;
 
   /// Throws std::invalid_argument if there is no model, or the rig has one muscle.
   std::unique_ptr<Controller> make(const Knowledge& knowledge) const;
@@ -58,9 +56,7 @@ struct PairModelInverseFeedbackSettings : PairModelTerms {
   static void fields(Self& self, Visitor& visit) {
     visit("name", self.name, "name in tables and file names");
     PairModelTerms::fields(self, visit);
-    visit("feedback_delay_ticks", self.feedback_delay_ticks, 0, 1000, "age of the counts that are used");
-    visit("filter_ticks", self.filter_ticks, "1", 0.01, 1000.0,
-          "ticks in which 1 - 1/e of what the model does not know is believed; 5 and the delay's if absent");
+    ObserverTerms::fields(self, visit);
   }
 };
 

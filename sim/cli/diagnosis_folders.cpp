@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <sim/cli/diagnosis_folders.hpp>
+#include <sim/diagnose/thresholds.hpp>
 #include <sim/input/fields_json.hpp>
 #include <sim/input/json_file.hpp>
 #include <sim/input/limits.hpp>
@@ -19,13 +20,12 @@ namespace {
 namespace fs = std::filesystem;
 using input::Json;
 
-constexpr double of_95_per_cent = 1.96;
 /// Standard errors: of some thirty numbers that are the same, one in twelve pairs of diagnoses has one so
 /// far.
 constexpr double beyond_chance = 3.0;
 
 double error_of(const Told& told) {
-  return 0.5 * (told.high - told.low) / of_95_per_cent;
+  return 0.5 * (told.high - told.low) / diagnose::thresholds.interval.normal;
 }
 
 Json read(const fs::path& folder) {

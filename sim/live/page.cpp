@@ -8,6 +8,7 @@
 #include <sim/live/page.hpp>
 #include <sim/output/svg.hpp>
 #include <sim/report/files.hpp>
+#include <sim/report/in_script.hpp>
 #include <sim/report/length.hpp>
 #include <sim/report/rig_json.hpp>
 
@@ -27,7 +28,6 @@ Json switch_json(const Switch& one) {
   return json;
 }
 
-/// As JSON that can stand inside <script>: no "</script>", no "<!--".
 std::string data_of(const domain::RigFile& rig, const Session& session) {
   Json data{{"rig", report::drawn_rig_json(rig, rig.mechanics, rig.gauge.fitted)},
             {"tick_s", rig.tick_s},
@@ -35,13 +35,7 @@ std::string data_of(const domain::RigFile& rig, const Session& session) {
             {"load_kg", session.load_kg()},
             {"switches", Json::array()}};
   for (const Switch& one : session.switches().all()) data["switches"].push_back(switch_json(one));
-  std::string text;
-  for (const char c : data.dump())
-    if (c == '<')
-      text += "\\u003c";
-    else
-      text += c;
-  return text;
+  return report::in_script(data);
 }
 
 constexpr const char* drive = R"html(<fieldset><legend>Current</legend>

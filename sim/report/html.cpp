@@ -8,6 +8,7 @@
 #include <sim/output/svg.hpp>
 #include <sim/report/files.hpp>
 #include <sim/report/html.hpp>
+#include <sim/report/in_script.hpp>
 #include <sim/report/length.hpp>
 #include <sim/report/pack.hpp>
 #include <sim/report/rig_json.hpp>
@@ -66,20 +67,13 @@ std::size_t runs_of(const Contents& contents) {
   return runs;
 }
 
-/// As JSON that can stand inside <script>: no "</script>", no "<!--".
 std::string data_of(const Contents& contents) {
   Json data{{"tick_s", contents.rig.tick_s},
             {"rig", drawn_rig_json(contents.rig, contents.mechanics, contents.gauge)},
             {"drawn", contents.drawn}};
   for (const auto& plot : contents.plots) data["plots"].push_back(plot_json(plot));
   for (const auto& group : contents.groups) data["groups"].push_back(group_json(group, runs_of(contents)));
-  std::string text;
-  for (const char c : data.dump())
-    if (c == '<')
-      text += "\\u003c";
-    else
-      text += c;
-  return text;
+  return in_script(data);
 }
 
 std::string key(const char* kind) {
