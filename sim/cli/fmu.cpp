@@ -1,6 +1,5 @@
 // The verb `fmu`: a rig as a Functional Mock-up Unit, for Simulink, OpenModelica and others.
 #include <filesystem>
-#include <stdexcept>
 
 #include <fmt/format.h>
 
@@ -30,12 +29,7 @@ int write_fmu(const FmuOptions& options) {
   const std::string name = input::made_file_safe(fs::path(options.rig).stem().string());
   const fs::path file = options.file.empty() ? fs::path(name + ".fmu") : fs::path(options.file);
   const auto version = options.version == "3.0" ? fmu::Version::three : fmu::Version::two;
-  try {
-    output::write_whole(fs::absolute(file), fmu::fmu_of(name, rig, version, options.true_states));
-  } catch (const std::invalid_argument& cannot) {
-    say(fmt::format("{}: {}", options.rig, cannot.what()));
-    return bad_input;
-  }
+  output::write_whole(fs::absolute(file), fmu::fmu_of(name, rig, version, options.true_states));
   input::Json document{{"schema", "mckibben-fmu/1"}, {"file", file.string()}, {"fmi", options.version}};
   auto& variables = document["variables"] = input::Json::array();
   std::string inputs_and_outputs;

@@ -119,10 +119,6 @@ std::string packed(const std::vector<File>& files) {
 }  // namespace
 
 std::string fmu_of(const std::string& name, const domain::RigFile& rig, Version version, bool true_states) {
-  if (rig.holds_a_length())
-    throw std::invalid_argument("mechanics: held_length: an FMU is of a load that hangs, or of a pair");
-  if (!can_be_text(rig))
-    throw std::invalid_argument("effects.hypotheses: an FMU cannot hold laws of your own; leave them out");
   Contents contents{"", rig};
   Description about{version, name, "", true_states};
   about.token = contents.token = token_of(MCKIBBEN_VERSION + text_of(contents) + description_xml(about, rig));

@@ -8,7 +8,7 @@
 
 namespace mckibben::fmu {
 
-/// `name`: of the model. Throws std::invalid_argument for a rig that an FMU cannot hold, and says why.
+/// `name`: of the model.
 std::string fmu_of(const std::string& name, const domain::RigFile& rig, Version version, bool true_states);
 
 }  // namespace mckibben::fmu

@@ -135,12 +135,13 @@ std::string description_xml(const Description& about, const domain::RigFile& rig
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
       "<fmiModelDescription fmiVersion=\"{}\"{}{}{}{} variableNamingConvention=\"structured\">\n"
       "  <CoSimulation modelIdentifier=\"{}\" canHandleVariableCommunicationStepSize=\"true\" "
-      "{}=\"true\"/>\n",
+      "{}=\"true\" {}=\"true\"/>\n",
       two ? "2.0" : "3.0", attribute("modelName", about.name),
       attribute(two ? "guid" : "instantiationToken", about.token),
       attribute("description", "A pneumatic muscle, its valve and what it moves"),
       attribute("generationTool", "mckibben " MCKIBBEN_VERSION), model_identifier,
-      two ? "canGetAndSetFMUstate" : "canGetAndSetFMUState");
+      two ? "canGetAndSetFMUstate" : "canGetAndSetFMUState",
+      two ? "canSerializeFMUstate" : "canSerializeFMUState");
   xml += units_xml(list);
   xml += "  <LogCategories>\n    <Category name=\"logStatusError\"/>\n  </LogCategories>\n";
   xml += fmt::format("  <DefaultExperiment startTime=\"0\" stopTime=\"20\" stepSize=\"{}\"/>\n",

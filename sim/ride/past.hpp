@@ -24,6 +24,11 @@ class PastCommands {
   /// When something else will be felt; infinite if all that was given is felt.
   double next_s(double now_s, double late_s) const;
 
+  template <class Self, class Visitor>
+  static void members(Self& self, Visitor& visit) {
+    visit(self.given_);
+  }
+
  private:
   std::vector<Given> given_;
 };
@@ -35,6 +40,11 @@ class PastRises {
   /// Throws away what no rise from `oldest_s` on asks for.
   void note(double at_s, double rise_m, double speed_m_per_s, double oldest_s);
   double rise_m(double at_s) const;
+
+  template <class Self, class Visitor>
+  static void members(Self& self, Visitor& visit) {
+    visit(self.seen_);
+  }
 
  private:
   struct Seen {

@@ -68,6 +68,13 @@ class Rider {
     PastCommands commands{}, opposite_commands{};  ///< where something makes them late
     PastRises rises{};
     bool reads = true;  ///< a law of the user's own may make no number of a reading
+
+    /// All of the above in turn, for whoever writes a state down.
+    template <class Self, class Visitor>
+    static void members(Self& self, Visitor& visit) {
+      visit(self.flow, self.held, self.plays, self.opposite_plays, self.reading, self.time_s, self.until_s,
+            self.drive, self.commands, self.opposite_commands, self.rises, self.reads);
+    }
   };
 
   explicit Rider(const Hanging& hanging) : plant_(hanging.rig, hanging.load_kg) {}

@@ -2,8 +2,8 @@
  * and 3.0. It does what it reads, line by line, with up to four instances:
  *   importer LIBRARY 2|3 TOKEN RESOURCES
  *   I set REFERENCE VALUE | I get REFERENCE | I count REFERENCE | I init TIME | I start | I step TIME LENGTH
- *   I save | I restore | I reset
- * I: the number of an instance. Of what was asked for it prints a line; what fails is `failed`, with the log. */
+ *   I save | I restore | I reset | I write FILE | I read FILE
+ * `save` keeps a state, `write` writes the kept one as bytes, `read` reads bytes as the kept one. I: the number of an instance. Of what was asked for it prints a line; what fails is `failed`, with the log. */
 #include <dlfcn.h>
 #include <stdbool.h>
 #include <stdint.h>
@@ -99,10 +99,33 @@ static int count(void* it, uint32_t reference, double* value) {
   return status;
 }
 
+/* The kept state into a file; what is there as a state. */
+static int write_state(void* it, void* state, const char* path) {
+  size_t size = 0;
+  if (CALL(version == 2 ? "SerializedFMUstateSize" : "SerializedFMUStateSize", void*, void*, size_t*)(it, state, &size))
+    return 1;
+  char* const bytes = malloc(size);
+  FILE* const file = fopen(path, "wb");
+  int status = bytes == NULL || file == NULL ||
+               CALL(version == 2 ? "SerializeFMUstate" : "SerializeFMUState", void*, void*, char*, size_t)(it, state, bytes, size);
+  if (!status) status = fwrite(bytes, 1, size, file) != size;
+  if (file != NULL) fclose(file);
+  free(bytes);
+  return status;
+}
+static int read_state(void* it, void** state, const char* path) {
+  static char bytes[1 << 16];
+  FILE* const file = fopen(path, "rb");
+  if (file == NULL) return 1;
+  const size_t size = fread(bytes, 1, sizeof bytes, file);
+  fclose(file);
+  return CALL(version == 2 ? "DeSerializeFMUstate" : "DeserializeFMUState", void*, const char*, size_t, void**)(it, bytes, size, state);
+}
+
 int main(int argc, char** argv) {
   void* instances[4] = {NULL};
   void* states[4] = {NULL};
-  char verb[16];
+  char verb[16], file[64];
   unsigned which;
   if (argc != 5 || (library = dlopen(argv[1], RTLD_NOW | RTLD_LOCAL)) == NULL) {
     fprintf(stderr, "%s\n", argc != 5 ? "four arguments" : dlerror());
@@ -137,6 +160,10 @@ int main(int argc, char** argv) {
       failed = CALL(get_state, void*, void**)(it, &states[which]);
     else if (strcmp(verb, "restore") == 0)
       failed = CALL(set_state, void*, void*)(it, states[which]);
+    else if (strcmp(verb, "write") == 0 && scanf("%63s", file) == 1)
+      failed = write_state(it, states[which], file);
+    else if (strcmp(verb, "read") == 0 && scanf("%63s", file) == 1)
+      failed = read_state(it, &states[which], file);
     else if (strcmp(verb, "reset") == 0)
       failed = CALL("Reset", void*)(it);
     if (failed) printf("failed\n");

@@ -125,8 +125,7 @@ EXPORTED Status fmi2SetString(Component c, const Reference*, std::size_t count, 
 EXPORTED Status fmi2GetFMUstate(Component instance, State* state) {
   return as_status(instance->done([&] {
     auto copy = std::make_unique<Slave>(instance->slave);
-    delete *state;
-    *state = copy.release();
+    delete std::exchange(*state, copy.release());
   }));
 }
 EXPORTED Status fmi2SetFMUstate(Component instance, State state) {
@@ -136,14 +135,15 @@ EXPORTED Status fmi2FreeFMUstate(Component, State* state) {
   if (state != nullptr) delete std::exchange(*state, nullptr);
   return ok;
 }
-EXPORTED Status fmi2SerializedFMUstateSize(Component c, State, std::size_t*) {
-  return not_offered(c);
+EXPORTED Status fmi2SerializedFMUstateSize(Component instance, State state, std::size_t* size) {
+  return as_status(instance->done([&] { *size = instance->bytes_of(*state).size(); }));
 }
-EXPORTED Status fmi2SerializeFMUstate(Component c, State, char*, std::size_t) {
-  return not_offered(c);
+EXPORTED Status fmi2SerializeFMUstate(Component instance, State state, char* bytes, std::size_t size) {
+  return as_status(instance->done([&] { instance->write(*state, bytes, size); }));
 }
-EXPORTED Status fmi2DeSerializeFMUstate(Component c, const char*, std::size_t, State*) {
-  return not_offered(c);
+EXPORTED Status fmi2DeSerializeFMUstate(Component instance, const char* bytes, std::size_t size,
+                                        State* state) {
+  return as_status(instance->done([&] { instance->read({bytes, size}, *state); }));
 }
 EXPORTED Status fmi2GetDirectionalDerivative(Component c, const Reference*, std::size_t, const Reference*,
                                              std::size_t, const double*, double*) {

@@ -94,6 +94,17 @@ EXPORTED Status fmi3FreeFMUState(Instance*, Slave** state) {
   return ok;
 }
 
+EXPORTED Status fmi3SerializedFMUStateSize(Instance* instance, Slave* state, std::size_t* size) {
+  return status_of(instance->done([&] { *size = instance->bytes_of(*state).size(); }));
+}
+EXPORTED Status fmi3SerializeFMUState(Instance* instance, Slave* state, char* bytes, std::size_t size) {
+  return status_of(instance->done([&] { instance->write(*state, bytes, size); }));
+}
+EXPORTED Status fmi3DeserializeFMUState(Instance* instance, const char* bytes, std::size_t size,
+                                        Slave** state) {
+  return status_of(instance->done([&] { instance->read({bytes, size}, *state); }));
+}
+
 EXPORTED Status fmi3DoStep(Instance* instance, double from_s, double length_s, bool, bool* event,
                            bool* terminate, bool* early, double* reached_s) {
   for (bool* flag : {event, terminate, early})
@@ -111,7 +122,7 @@ EXPORTED void* fmi3InstantiateScheduledExecution() {
   return nullptr;
 }
 
-// What a rig has no use for: variables of other types, clocks, derivatives, bytes of a state. Whoever calls
+// What a rig has no use for: variables of other types, clocks, derivatives. Whoever calls
 // cleans up the arguments, so these need not name them.
 #define NOT_OFFERED(function)                            \
   EXPORTED Status function(Instance* instance) {         \
@@ -145,9 +156,6 @@ NOT_OFFERED(fmi3SetBinary)
 NOT_OFFERED(fmi3SetClock)
 NOT_OFFERED(fmi3GetNumberOfVariableDependencies)
 NOT_OFFERED(fmi3GetVariableDependencies)
-NOT_OFFERED(fmi3SerializedFMUStateSize)
-NOT_OFFERED(fmi3SerializeFMUState)
-NOT_OFFERED(fmi3DeserializeFMUState)
 NOT_OFFERED(fmi3GetDirectionalDerivative)
 NOT_OFFERED(fmi3GetAdjointDerivative)
 NOT_OFFERED(fmi3EnterConfigurationMode)

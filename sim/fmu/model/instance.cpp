@@ -1,4 +1,5 @@
 // Making an instance; see the header.
+#include <algorithm>
 #include <charconv>
 #include <fstream>
 #include <iterator>
@@ -18,11 +19,23 @@ Instance* instance_in(const std::filesystem::path& resources, std::string_view t
     Contents contents = contents_of(text);
     if (contents.token != token)
       throw std::runtime_error("the description is of another FMU: its token is not " + contents.token);
-    return new Instance{std::move(log), contents.rig, Slave(contents.rig)};
+    return new Instance{std::move(log), contents.token, contents.rig, Slave(contents.rig)};
   } catch (const std::exception& failure) {
     log(failure.what());
     return nullptr;
   }
+}
+
+void Instance::write(const Slave& state, char* into, std::size_t size) const {
+  const std::string bytes = bytes_of(state);
+  if (size < bytes.size()) throw std::runtime_error("a state takes more bytes than that");
+  std::ranges::copy(bytes, into);
+}
+
+void Instance::read(std::string_view bytes, Slave*& state) const {
+  auto one = std::make_unique<Slave>(rig);
+  one->become(bytes, token);
+  delete std::exchange(state, one.release());
 }
 
 std::filesystem::path path_in(std::string_view address) {

@@ -16,6 +16,7 @@ namespace mckibben::fmu {
 
 struct Instance {
   std::function<void(const char* message)> log;
+  std::string token;    ///< of the FMU
   domain::RigFile rig;  ///< as it was unpacked, for a reset
   Slave slave;
 
@@ -30,6 +31,11 @@ struct Instance {
       return false;
     }
   }
+
+  std::string bytes_of(const Slave& state) const { return state.bytes(token); }
+  void write(const Slave& state, char* into, std::size_t size) const;
+  /// `state`: null, or one that is given up.
+  void read(std::string_view bytes, Slave*& state) const;
 };
 
 /// Null if the token is another's or the folder lacks what it must hold, and the log says why.

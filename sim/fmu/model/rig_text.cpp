@@ -4,9 +4,11 @@
 #include <concepts>
 #include <iterator>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <stdexcept>
 #include <type_traits>
+#include <utility>
 
 #include <sim/fmu/model/rig_text.hpp>
 
@@ -76,15 +78,84 @@ class Walk {
   std::string path_;
 };
 
+/// Laws of a user's own, whose members no field list has: `leaf` sees each number, and each word.
+template <class Leaf>
+class LawWalk {
+ public:
+  LawWalk(Leaf& leaf, std::string path) : leaf_(leaf), path_(std::move(path)) {}
+
+  void operator()(plant::OwnLawsOf<double>& laws) {
+    all(laws.list, [&](auto& law) {
+      plant::LawText text = law.text ? *law.text : plant::LawText{};
+      walk(text);
+      law.text = std::make_shared<const plant::LawText>(std::move(text));
+    });
+  }
+
+ private:
+  void walk(plant::LawText& text) {
+    leaf_(path_, text.name);
+    number(text.adds);
+    number(text.at);
+    number(text.knows_time);
+    all(text.parameters, [&](auto& parameter) {
+      leaf_(path_, parameter.name);
+      leaf_(path_, parameter.unit);
+      number(parameter.lowest);
+      number(parameter.highest);
+    });
+    all(text.memories, [&](auto& memory) {
+      number(memory.size);
+      walk(memory.program);
+    });
+    walk(text.program);
+  }
+  void walk(plant::LawProgram& program) {
+    all(program, [&](plant::LawStep& step) {
+      number(step.operation);
+      number(step.index);
+      number(step.number);
+    });
+  }
+  void all(auto& list, const auto& of_each) {
+    std::size_t size = list.size();
+    number(size);
+    list.resize(size);
+    for (auto& each : list) of_each(each);
+  }
+  template <class T>
+  void number(T& value) {
+    double number = static_cast<double>(value);
+    leaf_(path_, number);
+    value = static_cast<T>(number);
+  }
+
+  Leaf& leaf_;
+  std::string path_;
+};
+
+/// The kind of mechanics by its place in the variant.
+void become(plant::Mechanics& mechanics, std::size_t kind) {
+  if (kind == mechanics.index()) return;
+  if (kind == 1)
+    mechanics = plant::HeldLength{};
+  else
+    mechanics = plant::Pair{};
+}
+
 template <class Leaf>
 void walk(domain::RigFile& rig, Leaf leaf) {
   Walk visitor(leaf);
+  LawWalk(leaf, "law")(rig.effects.laws);
   plant::Rig::fields(static_cast<plant::Rig&>(rig), visitor);
   visitor("integrator", rig.integrator);
-  double pair = rig.pair() != nullptr ? 1.0 : 0.0;
-  leaf("pair", pair);
-  if (pair != 0.0 && rig.pair() == nullptr) rig.mechanics = plant::Pair{};
-  if (auto* const both = std::get_if<plant::Pair>(&rig.mechanics)) visitor("mechanics", *both);
+  double kind = static_cast<double>(rig.mechanics.index());
+  leaf("mechanics", kind);
+  become(rig.mechanics, static_cast<std::size_t>(kind));
+  if (auto* const both = std::get_if<plant::Pair>(&rig.mechanics)) {
+    LawWalk(leaf, "law_2")(both->opposite.effects.laws);
+    visitor("mechanics", *both);
+  }
 }
 
 /// The next line without its end, taken off the text.
@@ -94,21 +165,48 @@ std::string_view next_line(std::string_view& text) {
   return line;
 }
 
-}  // namespace
+/// A leaf of the walk that writes lines.
+struct Written {
+  std::string& text;
 
-bool can_be_text(const domain::RigFile& rig) {
-  const auto* const both = rig.pair();
-  return rig.effects.laws.list.empty() && (both == nullptr || both->opposite.effects.laws.list.empty());
-}
+  void operator()(const std::string& path, double number) const {
+    char digits[32];
+    const auto end = std::to_chars(std::begin(digits), std::end(digits), number).ptr;
+    (*this)(path, std::string(std::begin(digits), end));
+  }
+  void operator()(const std::string& path, const std::string& word) const {
+    text += path + ' ' + word + '\n';
+  }
+};
+
+/// One that reads them.
+struct Read {
+  std::string_view& text;
+
+  void operator()(const std::string& path, std::string& word) const {
+    const std::string_view line = next_line(text);
+    if (line.size() <= path.size() || !line.starts_with(path) || line[path.size()] != ' ') fail(path);
+    word = line.substr(path.size() + 1);
+  }
+  void operator()(const std::string& path, double& number) const {
+    std::string digits;
+    (*this)(path, digits);
+    const char* const end = digits.data() + digits.size();
+    if (std::from_chars(digits.data(), end, number).ptr != end) fail(path);
+  }
+
+ private:
+  [[noreturn]] static void fail(const std::string& path) {
+    throw std::runtime_error("there is no line for " + path);
+  }
+};
+
+}  // namespace
 
 std::string text_of(const Contents& contents) {
   std::string text = std::string(heading) + "\ntoken " + contents.token + "\n";
   domain::RigFile rig = contents.rig;
-  walk(rig, [&](const std::string& path, double& number) {
-    char digits[32];
-    const auto end = std::to_chars(std::begin(digits), std::end(digits), number).ptr;
-    text += path + ' ' + std::string(std::begin(digits), end) + '\n';
-  });
+  walk(rig, Written{text});
   return text;
 }
 
@@ -119,13 +217,7 @@ Contents contents_of(std::string_view text) {
   const std::string_view second = next_line(text);
   if (!second.starts_with(token)) throw std::runtime_error("its second line has no token");
   contents.token = second.substr(token.size());
-  walk(contents.rig, [&](const std::string& path, double& number) {
-    const std::string_view line = next_line(text);
-    const char* const end = line.data() + line.size();
-    if (line.size() <= path.size() || !line.starts_with(path) || line[path.size()] != ' ' ||
-        std::from_chars(line.data() + path.size() + 1, end, number).ptr != end)
-      throw std::runtime_error("there is no line for " + path);
-  });
+  walk(contents.rig, Read{text});
   return contents;
 }
 

@@ -1,5 +1,6 @@
 // A rig as plain lines, `muscle.rest_radius 0.0075`, so that an FMU can carry it and needs no library to read
-// it. Every member of the field lists has a line, those that are not at work too.
+// it. Every member of the field lists has a line, those that are not at work too; before them stand its
+// user's own laws, as the programs that the plant evaluates.
 #pragma once
 
 #include <string>
@@ -14,9 +15,6 @@ struct Contents {
   std::string token;  ///< by which an importer tells that description and program belong together
   domain::RigFile rig;
 };
-
-/// Whether all of a rig fits into lines: none whose laws are its user's own.
-bool can_be_text(const domain::RigFile& rig);
 
 std::string text_of(const Contents& contents);
 /// Throws std::runtime_error naming the line.

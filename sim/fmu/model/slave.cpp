@@ -2,7 +2,9 @@
 #include <cmath>
 #include <stdexcept>
 
+#include <plant/geometry.hpp>
 #include <sim/domain/rig_number.hpp>
+#include <sim/fmu/model/bytes.hpp>
 #include <sim/fmu/model/slave.hpp>
 
 namespace mckibben::fmu {
@@ -15,8 +17,12 @@ namespace {
 }  // namespace
 
 Slave::Slave(domain::RigFile rig)
-    : rig_(std::move(rig)), paths_(parameter_paths(rig_)), current_mA_(rig_.valve.zero_current_mA) {
+    : rig_(std::move(rig)),
+      paths_(parameter_paths(rig_)),
+      current_mA_(rig_.valve.zero_current_mA),
+      length_m_(rig_.muscle.rest_length_m) {
   if (const plant::Pair* pair = rig_.pair()) opposite_current_mA_ = pair->opposite.valve.zero_current_mA;
+  if (rig_.holds_a_length()) load_kg_ = 0.0;
 }
 
 void Slave::set(Reference reference, double value) {
@@ -26,7 +32,9 @@ void Slave::set(Reference reference, double value) {
     current_mA_ = value;
   } else if (reference == opposite_current && rig_.pair() != nullptr) {
     opposite_current_mA_ = value;
-  } else if (reference == load && rig_.pair() == nullptr) {
+  } else if (reference == length && rig_.holds_a_length()) {
+    length_m_ = value;
+  } else if (reference == load && rig_.lifts_a_load()) {
     if (value + rig_.joint.load_offset_kg <= 0.0) throw std::runtime_error("load: there must be some mass");
     load_kg_ = value;
   } else if (reference >= first_parameter && reference - first_parameter < paths_.size()) {
@@ -46,6 +54,12 @@ ride::Drive Slave::drive() const {
   ride::Drive now;
   now.current_mA = plant::dac_output_mA(rig_.dac, current_mA_);
   now.opposite.current_mA = plant::dac_output_mA(rig_.dac, opposite_current_mA_);
+  if (rig_.holds_a_length()) {
+    now.contraction_ratio = 1.0 - length_m_ / rig_.muscle.rest_length_m;
+    if (!plant::Braid(rig_.muscle).in_domain(*now.contraction_ratio))
+      throw std::runtime_error("length = " + std::to_string(length_m_) +
+                               " m is none that this muscle can have");
+  }
   return now;
 }
 
@@ -60,14 +74,18 @@ void Slave::set_off() {
   under_way_ = true;
 }
 
-void Slave::settle() {
-  if (const std::string broken = domain::broken_rule(rig_); !broken.empty()) throw std::runtime_error(broken);
+void Slave::make_ride() {
   if (const plant::Pair* pair = rig_.pair())
     ride_.emplace(ride::Paired{rig_, plant::opposite_rig(rig_, *pair), *pair}, rig_.integrator);
   else
-    ride_.emplace(ride::Hanging{rig_, load_kg_}, rig_.integrator);
-  hanging_kg_ = load_kg_;
+    ride_.emplace(ride::Hanging{rig_, hanging_kg_}, rig_.integrator);
   counter_.emplace(rig_);
+}
+
+void Slave::settle() {
+  if (const std::string broken = domain::broken_rule(rig_); !broken.empty()) throw std::runtime_error(broken);
+  hanging_kg_ = load_kg_;
+  make_ride();
   const auto ticks = std::lround(rig_.settling_time_s / rig_.tick_s);
   const auto before_s = [&](long k) { return time_s_ - static_cast<double>(k) * rig_.tick_s; };
   ride_->start(drive(), before_s(ticks));
@@ -98,6 +116,45 @@ void Slave::hang(double load_kg) {
   hanging_kg_ = load_kg;
 }
 
+template <class Self, class Visitor>
+void Slave::members(Self& self, Visitor& visit) {
+  visit(self.current_mA_, self.opposite_current_mA_, self.length_m_, self.load_kg_, self.hanging_kg_,
+        self.time_s_, self.initialised_, self.under_way_, self.counts_);
+}
+
+std::string Slave::bytes(const std::string& token) const {
+  BytesWriter write;
+  write(token);
+  members(*this, write);
+  domain::RigFile rig = rig_;
+  for (const std::string& path : paths_) write(*domain::find_number(rig, path).value);
+  write(ride_.has_value());
+  if (ride_) {
+    const ride::Ride::Saved saved = ride_->save();
+    write(saved.riders, saved.paces, *counter_);
+  }
+  return write.closed();
+}
+
+void Slave::become(std::string_view bytes, const std::string& token) {
+  BytesReader read(bytes);
+  std::string of;
+  read(of);
+  if (of != token) throw std::runtime_error("these bytes are of a state of another FMU");
+  members(*this, read);
+  for (const std::string& path : paths_) read(*domain::find_number(rig_, path).value);
+  bool rides = false;
+  read(rides);
+  ride_.reset();
+  if (rides) {
+    make_ride();
+    ride::Ride::Saved saved;
+    read(saved.riders, saved.paces, *counter_);
+    ride_->restore(saved);
+  }
+  read.end();
+}
+
 void Slave::look() {
   counts_ = counter_->count(ride_->reading().wheel_m);
 }
@@ -112,6 +169,8 @@ double Slave::get(Reference reference) {
       return opposite_current_mA_;
     case load:
       return load_kg_;
+    case length:
+      return length_m_;
     default:
       break;
   }

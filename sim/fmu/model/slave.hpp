@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <plant/instruments.hpp>
@@ -30,7 +31,15 @@ class Slave {
   /// An instant and the way to the next. Throws engine::NumericalFailure too.
   void step(double from_s, double length_s);
 
+  /// Its state as bytes; one that is made of the same rig becomes the same by them, to the bit. `token`: of
+  /// the FMU. Reading throws std::runtime_error if the bytes are of another one, or of none.
+  std::string bytes(const std::string& token) const;
+  void become(std::string_view bytes, const std::string& token);
+
  private:
+  template <class Self, class Visitor>
+  static void members(Self& self, Visitor& visit);
+  void make_ride();
   void settle();
   ride::Drive drive() const;
   void hang(double load_kg);
@@ -40,7 +49,8 @@ class Slave {
 
   domain::RigFile rig_;
   std::vector<std::string> paths_;
-  double current_mA_, opposite_current_mA_ = 0.0, load_kg_ = usual_load_kg, hanging_kg_ = usual_load_kg;
+  double current_mA_, opposite_current_mA_ = 0.0, length_m_;
+  double load_kg_ = usual_load_kg, hanging_kg_ = usual_load_kg;
   double time_s_ = 0.0;
   bool initialised_ = false, under_way_ = false;
   std::int64_t counts_ = 0;

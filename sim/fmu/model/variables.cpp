@@ -1,4 +1,7 @@
 // The list of variables; see the header.
+#include <cctype>
+#include <sstream>
+
 #include <sim/domain/rig_number.hpp>
 #include <sim/fmu/model/variables.hpp>
 
@@ -22,9 +25,13 @@ void add_inputs(std::vector<Variable>& list, const domain::RigFile& rig) {
     current_of(opposite_current, "current_2", "the same of muscle 2", pair->opposite.valve);
   } else {
     current_of(current, "current", "asked of the DAC that drives the valve", rig.valve);
+  }
+  if (rig.lifts_a_load())
     list.push_back(
         {load, "load", Role::input, "kg", "mass that hangs on the wheel", false, usual_load_kg, 0.01, 500.0});
-  }
+  if (rig.holds_a_length())
+    list.push_back({length, "length", Role::input, "m", "length that the muscle has at the end of a step",
+                    false, rig.muscle.rest_length_m, 0.01, 10.0});
 }
 
 void add_readings(std::vector<Variable>& list, const domain::RigFile& rig) {
@@ -41,7 +48,8 @@ void add_readings(std::vector<Variable>& list, const domain::RigFile& rig) {
   const bool other_gauge = rig.pair() != nullptr && rig.gauge.fitted;
   if (rig.gauge.fitted) add(gauge_pressure, "gauge_pressure", "Pa", "muscle pressure as the gauge shows it");
   if (other_gauge) add(opposite_gauge_pressure, "gauge_pressure_2", "Pa", "the same of muscle 2");
-  if (rig.load_cell.fitted) add(cell_force, "cell_force", "N", "force of the cord as the load cell shows it");
+  if (rig.load_cell.fitted || rig.holds_a_length())
+    add(cell_force, "cell_force", "N", "force of the cord as the load cell shows it");
 }
 
 void add_states(std::vector<Variable>& list, const domain::RigFile& rig) {
@@ -75,6 +83,22 @@ std::vector<std::string> parameter_paths(const domain::RigFile& rig) {
   return domain::paths_with_mechanics(rig);
 }
 
+namespace {
+
+/// `terms.0.size` as `terms[0].size`, as names are built in FMI.
+std::string structured(const std::string& path) {
+  std::string name;
+  std::istringstream parts(path);
+  for (std::string part; std::getline(parts, part, '.');)
+    if (std::isdigit(static_cast<unsigned char>(part.front())) != 0)
+      name += '[' + part + ']';
+    else
+      name += (name.empty() ? "" : ".") + part;
+  return name;
+}
+
+}  // namespace
+
 std::vector<Variable> variables_of(const domain::RigFile& rig, bool true_states) {
   std::vector<Variable> list{{time_of_ride, "time", Role::time, "s", "time"}};
   add_inputs(list, rig);
@@ -84,8 +108,8 @@ std::vector<Variable> variables_of(const domain::RigFile& rig, bool true_states)
   Reference reference = first_parameter;
   for (const std::string& path : parameter_paths(rig)) {
     const domain::RigNumber number = domain::find_number(copy, path);
-    list.push_back({reference++, path, Role::parameter, number.unit, std::string(number.meaning), false,
-                    *number.value, number.lowest, number.highest});
+    list.push_back({reference++, structured(path), Role::parameter, number.unit, std::string(number.meaning),
+                    false, *number.value, number.lowest, number.highest});
   }
   return list;
 }

@@ -18,6 +18,7 @@ enum : Reference {
   current = 1,
   load = 2,
   opposite_current = 3,
+  length = 4,
   counts = 100,
   position_read,
   gauge_pressure,
