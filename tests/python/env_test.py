@@ -53,14 +53,38 @@ class Env(unittest.TestCase):
         with self.assertRaises(mckibben.InputError):
             mckibben.Env(target={"kind": "sine"})
 
+    def keeps_gymnasiums_conventions(self, env):
+        """What Gymnasium's own checker of environments asks for."""
+        states = []
+        for seed in (123, 123, 456):
+            observation, info = env.reset(seed=seed)
+            self.assertIn(observation, env.observation_space)
+            self.assertEqual(observation.dtype, env.observation_space.dtype)
+            self.assertIsInstance(info, dict)
+            states.append(repr(env.unwrapped._np_random.bit_generator.state))
+        self.assertEqual(states[0], states[1])
+        self.assertNotEqual(states[0], states[2])
+        observation, reward, terminated, truncated, info = env.step(env.action_space.sample())
+        self.assertIn(observation, env.observation_space)
+        self.assertEqual([type(one) for one in (reward, terminated, truncated, info)], [float, bool, bool, dict])
+        before = repr(env.np_random.bit_generator.state)
+        env.reset()  # goes on with chance where it was
+        self.assertNotEqual(repr(env.np_random.bit_generator.state), before)
+        self.assertEqual((env.metadata["render_modes"], env.render_mode), ([], None))
+        env.close()
+
     def test_is_one_of_gymnasiums_where_that_is_installed(self):
+        self.keeps_gymnasiums_conventions(mckibben.Env())
         gymnasium = types.ModuleType("gymnasium")
-        gymnasium.Env = type("Env", (), {})
+        here = mckibben.env.Base
+        gymnasium.Env = type("Env", (), {"_np_random": None, "np_random": here.np_random, "unwrapped": here.unwrapped,
+                                         "reset": here.reset})
         gymnasium.spaces = types.SimpleNamespace(Box=mckibben.env.Box)
         try:
             with mock.patch.dict(sys.modules, {"gymnasium": gymnasium}):
                 module = importlib.reload(mckibben.env)
             self.assertTrue(issubclass(module.Env, gymnasium.Env))
+            self.keeps_gymnasiums_conventions(module.Env())
         finally:
             importlib.reload(mckibben.env)
         self.assertFalse(issubclass(mckibben.env.Env, gymnasium.Env))

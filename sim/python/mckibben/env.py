@@ -13,7 +13,25 @@ try:
     import gymnasium
     Base, Box = gymnasium.Env, gymnasium.spaces.Box
 except ImportError:
-    Base = object
+    class Base:
+        """What Env has of Gymnasium's Env: chance, by a seed."""
+        _np_random = None
+
+        @property
+        def np_random(self):
+            """Where all chance comes from, a numpy.random.Generator."""
+            if self._np_random is None:
+                self._np_random = numpy.random.default_rng()
+            return self._np_random
+
+        @property
+        def unwrapped(self):
+            """Itself."""
+            return self
+
+        def reset(self, *, seed=None, options=None):
+            if seed is not None:
+                self._np_random = numpy.random.default_rng(seed)
 
     class Box:
         """Numbers between `low` and `high`: what there is of Gymnasium's Box here."""
@@ -33,6 +51,9 @@ except ImportError:
         def contains(self, x):
             x = numpy.asarray(x)
             return x.shape == self.shape and bool(numpy.all((x >= self.low) & (x <= self.high)))
+
+        def __contains__(self, x):
+            return self.contains(x)
 
         def __repr__(self):
             return f"Box({self.low}, {self.high}, {self.shape}, {self.dtype})"
@@ -78,15 +99,13 @@ class Env(Base):
         most, fastest = self.rig.largest_contraction_ratio, 20.0
         self.observation_space = Box(numpy.float32([-most, -fastest, -1.0, -1.0]),
                                      numpy.float32([2.0 * most, fastest, 1.0, 1.0]))
-        self._random = numpy.random.default_rng()
         self.ride = None
 
     def reset(self, *, seed=None, options=None):
         """A new episode: (observation, info). `seed` decides its load and its jitter; `options` may say
         {"load_kg": ...}. The same seed, the same episode."""
-        if seed is not None:
-            self._random = numpy.random.default_rng(seed)
-        drawn_kg = float(self._random.uniform(*self.loads_kg))
+        super().reset(seed=seed)
+        drawn_kg = float(self.np_random.uniform(*self.loads_kg))
         load_kg = float((options or {}).get("load_kg", drawn_kg))
         self.ride = Ride(self.rig, load_kg=load_kg)
         self.tick, self.last, self.action = 0, self._read(), -1.0
@@ -124,7 +143,7 @@ class Env(Base):
 
     def _read(self):
         counted = self.ride.reading.contraction_ratio
-        return counted + self.jitter * self._random.standard_normal() if self.jitter else counted
+        return counted + self.jitter * self.np_random.standard_normal() if self.jitter else counted
 
     def _observation(self, speed_per_s):
         seen = numpy.float32([self.last, speed_per_s, self.target[self.tick], self.action])
