@@ -154,7 +154,12 @@ function trace(dot) {
       ctx.lineWidth = 1.6 * devicePixelRatio;
       ctx.lineJoin = 'round';
       ctx.beginPath();
-      for (let i = 0; i < xs.length; ++i) ctx.lineTo(x(i), y(i));
+      let [lastX, lastY] = [-9, -9];
+      for (let i = 0; i < xs.length; ++i) {
+        const nowX = x(i), nowY = y(i);
+        if (Math.abs(nowX - lastX) + Math.abs(nowY - lastY) < 1 && i + 1 < xs.length) continue;  // not seen
+        ctx.lineTo(lastX = nowX, lastY = nowY);
+      }
       ctx.stroke();
       if (dot && xs.length > 0) {
         ctx.beginPath();

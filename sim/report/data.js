@@ -14,6 +14,11 @@ function make(name, attributes = {}, ...children) {
   return element;
 }
 
+/** A text, where it is another one: a browser lays out anew what is written, the same or not. */
+function write(element, text) {
+  if (element.textContent !== text) element.textContent = text;
+}
+
 /** What a value of this unit is shown as: ratios are heights in mm, unless the reader wants ratios. */
 function shownAs(unit) {
   if (unit !== 'contraction ratio' || (byId('in-ratio')?.checked ?? true)) return {unit, factor: 1};

@@ -41,7 +41,7 @@ const share = (bar) => `${Math.round(10 + (70 * bar) / report.rig.supply_bar)}%`
 /** A muscle that lies along `axis`, its fixed end at `left`; `mm` units for a metre. */
 class MusclePicture {
   constructor(part, muscle, left, axis, mm) {
-    Object.assign(this, {muscle, left, axis, mm, fitting: 0.8 * muscle.rest_radius_m * mm});
+    Object.assign(this, {muscle, left, axis, mm, fitting: 0.8 * muscle.rest_radius_m * mm, threaded: -1});
     this.behind = part('path', {class: 'thread behind'});
     this.tube = part('path', {class: 'tube'});
     this.front = part('path', {class: 'thread'});
@@ -66,21 +66,27 @@ class MusclePicture {
     this.tube.dataset.radius = shape.radius;
     this.tube.dataset.length = shape.length;
     this.tube.dataset.angle = shape.angle;
-    let front = '', back = '';
-    for (const hand of [1, -1])
-      for (let i = 0; i < threads; ++i) {
-        const paths = threadPaths(scaled, (2 * Math.PI * (i + 0.25)) / threads, hand, left, axis, fitting);
-        front += paths[0];
-        back += paths[1];
-      }
-    this.front.setAttribute('d', front);
-    this.back.setAttribute('d', back);
+    if (Math.abs(scaled.length - this.threaded) > 0.05) this.drawThreads(scaled);  // less is not seen
     this.ends.forEach((end, i) => {
       const at =
           {x: i === 0 ? left - 10 : right - 2, y: axis - fitting - 2, width: 12, height: 2 * fitting + 4};
       for (const [key, value] of Object.entries(at)) end.setAttribute(key, value);
     });
     return {...shape, end: right + 10};
+  }
+
+  drawThreads(scaled) {
+    this.threaded = scaled.length;
+    let front = '', back = '';
+    for (const hand of [1, -1])
+      for (let i = 0; i < threads; ++i) {
+        const phase = (2 * Math.PI * (i + 0.25)) / threads;
+        const paths = threadPaths(scaled, phase, hand, this.left, this.axis, this.fitting);
+        front += paths[0];
+        back += paths[1];
+      }
+    this.front.setAttribute('d', front);
+    this.back.setAttribute('d', back);
   }
 
   /** How full of air it looks. */
@@ -172,25 +178,27 @@ class RigPicture {
     this.load.setAttribute('y', top);
     this.loadText.setAttribute('x', x);
     this.loadText.setAttribute('y', top + 31);
-    this.loadText.textContent =
-        report.rig.bench ? `${values.cord_force.toFixed(1)} N` : `${+ loadKg.toPrecision(4)} kg`;
+    write(
+        this.loadText,
+        report.rig.bench ? `${values.cord_force.toFixed(1)} N` : `${+ loadKg.toPrecision(4)} kg`);
     const wanted = given.given_contraction;
     this.target.setAttribute(
         'd',
         wanted === undefined || wanted === null ?
             '' :
             `M${x - 62} ${wheel.y + 140 - wanted * report.rig.rest_length_m * mm}h124`);
-    this.current.textContent = 'current' in values ? `${values.current.toFixed(2)} mA` : 'not used';
+    write(this.current, 'current' in values ? `${values.current.toFixed(2)} mA` : 'not used');
     for (const {key, name, frame, bar, text} of this.bars) {
       const absent = values[key] === undefined || values[key] === null;  // no gauge
       for (const part of [name, frame, bar, text]) part.style.display = absent ? 'none' : '';
       if (absent) continue;
       bar.setAttribute('width', Math.max(0, (100 * values[key]) / report.rig.supply_bar));
-      text.textContent = `${values[key].toFixed(2)} bar`;
+      write(text, `${values[key].toFixed(2)} bar`);
     }
     this.muscle.fill(values.muscle_pressure ?? values.reference_pressure);
-    this.numbers.textContent =
+    write(
+        this.numbers,
         `length ${(1e3 * shape.length).toFixed(1)} mm, radius ${(1e3 * shape.radius).toFixed(2)} mm, ` +
-        `braid angle ${((180 * shape.angle) / Math.PI).toFixed(1)}°`;
+            `braid angle ${((180 * shape.angle) / Math.PI).toFixed(1)}°`);
   }
 }
