@@ -22,7 +22,9 @@ class Comedi final : public Device {
       : file_(file), channel_(wiring.channel) {
     comedi_loglevel(0);  // what goes wrong is told once, by us
     board_.reset(comedi_open(file.c_str()));
-    if (!board_) throw DeviceFailure(fmt::format("{}: {}", file, comedi_strerror(comedi_errno())));
+    if (!board_)
+      throw DeviceFailure(
+          fmt::format("{} cannot be opened as a board: {}", file, comedi_strerror(comedi_errno())));
     output_ = subdevice(wiring.output, COMEDI_SUBD_AO, "analog output");
     counter_ = subdevice(wiring.counter, COMEDI_SUBD_COUNTER, "counter");
     const int channels = comedi_get_n_channels(board_.get(), output_);

@@ -18,6 +18,8 @@ struct Wiring {
   std::optional<unsigned> counter{};  ///< subdevice of the counter; the board's first
   /// Lines (PFI) of the encoder's signals A and B, on boards that ask which.
   std::optional<std::pair<unsigned, unsigned>> encoder{};
+
+  bool operator==(const Wiring&) const = default;
 };
 
 /// Whether this program was built where libcomedi is.

@@ -30,7 +30,7 @@ Serial::Serial(const std::string& port, double tick_s) : port_(port), tick_s_(ti
   if (line_ < 0 || tcgetattr(line_, &how) != 0) {
     const std::string why = std::strerror(errno);
     if (line_ >= 0) close(line_);
-    throw DeviceFailure(fmt::format("{}: {}", port, why));
+    throw DeviceFailure(fmt::format("{} cannot be opened as a serial port: {}", port, why));
   }
   cfmakeraw(&how);
   cfsetspeed(&how, B115200);

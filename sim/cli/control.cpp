@@ -48,6 +48,17 @@ std::string unfit(const Scenario& scenario) {
   return "";
 }
 
+/// Why the options do not go together; empty if they do.
+std::string misplaced(const ControlOptions& options) {
+  if (options.device != "simulated" && options.port.empty())
+    return fmt::format("--device {} needs its --port", options.device);
+  if (options.device == "simulated" && !options.port.empty())
+    return "--port is of a device: say which, --device serial or --device comedi";
+  if (options.device != "comedi" && options.wiring != bench::Wiring{})
+    return "--output, --full-scale, --counter and --encoder are of --device comedi";
+  return "";
+}
+
 bench::LoopPlan loop_of(const Scenario& scenario, const run::Briefing& briefing,
                         const ControlOptions& options) {
   bench::LoopPlan plan;
@@ -130,13 +141,14 @@ std::string csv_of(const Scenario& scenario, const run::Briefing& briefing, cons
 }
 
 std::string text_of(const Scenario& scenario, const bench::Recorded& recorded) {
-  std::string text = fmt::format(
-      "{}: {} of {} ticks of {:g} ms; each began late by {:.3f} ms (median), {:.3f} ms (99 %), {:.3f} ms (at "
-      "most)\n"
-      "missed ticks: {}; outputs that were limited: {}\n",
-      scenario.name, recorded.rows.size(), run::plan_of(scenario, 0.0, 0).ticks, 1e3 * scenario.rig.tick_s,
-      late_ms(recorded, 0.5), late_ms(recorded, 0.99), late_ms(recorded, 1.0), recorded.missed_ticks,
-      recorded.limited_ticks);
+  std::string text = fmt::format("{}: {} of {} ticks of {:g} ms; ", scenario.name, recorded.rows.size(),
+                                 run::plan_of(scenario, 0.0, 0).ticks, 1e3 * scenario.rig.tick_s);
+  text += recorded.rows.empty()
+              ? "it ended before tick 0, and nothing was recorded\n"
+              : fmt::format("each began late by {:.3f} ms (median), {:.3f} ms (99 %), {:.3f} ms (at most)\n",
+                            late_ms(recorded, 0.5), late_ms(recorded, 0.99), late_ms(recorded, 1.0));
+  text += fmt::format("missed ticks: {}; outputs that were limited: {}\n", recorded.missed_ticks,
+                      recorded.limited_ticks);
   for (const auto& finding : recorded.findings)
     text +=
         fmt::format("found out by the controller: {} {:g} {}\n", finding.name, finding.value, finding.unit);
@@ -170,13 +182,14 @@ int show(const ControlOptions& options, const Scenario& scenario, const bench::R
 }
 
 int control(const ControlOptions& options) {
+  if (const std::string why = misplaced(options); !why.empty()) {
+    say(why);
+    return usage_error;
+  }
   std::vector<input::Problem> warnings;
   const Scenario scenario = input::read_scenario(std::filesystem::path(options.scenario), warnings);
   for (const auto& warning : warnings) say(input::to_text(warning));
-  std::string why = unfit(scenario);
-  if (why.empty() && options.device != "simulated" && options.port.empty())
-    why = fmt::format("--device {} needs its --port", options.device);
-  if (!why.empty()) {
+  if (const std::string why = unfit(scenario); !why.empty()) {
     say(fmt::format("{}: {}", options.scenario, why));
     return bad_input;
   }
@@ -197,13 +210,15 @@ int control(const ControlOptions& options) {
     say(unreachable.what());
     return failure;
   }
-  Json dataset{{"schema", "mckibben-dataset/1"}, {"rig", "rig.yaml"}};
-  dataset["runs"] = Json::array({Json{{"id", "bench"},
-                                      {"file", "bench.csv"},
-                                      {"load", domain::write_number(scenario.loads_kg.front()) + " kg"}}});
-  job.write("bench.csv", csv_of(scenario, briefing, recorded));
-  job.write("rig.yaml", input::to_yaml(input::rig_json(plant::nominal(scenario.rig))));
-  job.write("dataset.yaml", input::to_yaml(dataset));
+  if (!recorded.rows.empty()) {
+    Json dataset{{"schema", "mckibben-dataset/1"}, {"rig", "rig.yaml"}};
+    dataset["runs"] = Json::array({Json{{"id", "bench"},
+                                        {"file", "bench.csv"},
+                                        {"load", domain::write_number(scenario.loads_kg.front()) + " kg"}}});
+    job.write("bench.csv", csv_of(scenario, briefing, recorded));
+    job.write("rig.yaml", input::to_yaml(input::rig_json(plant::nominal(scenario.rig))));
+    job.write("dataset.yaml", input::to_yaml(dataset));
+  }
   const std::string document = document_of(scenario, options, recorded), text = text_of(scenario, recorded);
   job.write("control.json", document);
   job.write("table.txt", text);

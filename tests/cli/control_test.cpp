@@ -55,11 +55,30 @@ TEST(Control, RefusesWhatCannotDriveABench) {
   };
   refused(on_bench, "[16.138 kg]", "[11 kg, 16 kg]", "one load hangs on a bench");
   refused(on_bench, "proportional: 60 mA, ", "", "its gains are missing");
-  refused(on_bench, "0.6 s", "0.6 s", "--device serial needs its --port", "--device serial");
+  for (const char* options : {"--device serial", "--device comedi", "--port /dev/ttyACM0",
+                              "--device serial --port /nowhere --encoder 8:10"})
+    EXPECT_EQ(mckibben(std::string("control b.yaml ") + options, scratch).status, 64) << options;
   write_text(scratch / "b.yaml", on_bench);
   const Said unreachable = mckibben("control b.yaml --device serial --port /nowhere/port", scratch);
   EXPECT_EQ(unreachable.status, 70);
-  EXPECT_NE(unreachable.err.find("/nowhere/port: "), std::string::npos) << unreachable.err;
+  EXPECT_NE(unreachable.err.find("/nowhere/port cannot be opened as a serial port: "), std::string::npos)
+      << unreachable.err;
+}
+
+TEST(Control, WhatEndsBeforeTheFirstTickLeavesNoDataSet) {
+  const Scratch scratch;
+  std::string dies(on_bench);
+  dies.replace(
+      dies.find("controllers:"), std::string::npos,
+      "controllers: [{kind: external, name: dies, preparation_ticks: 5, command: read a; echo 4; read b}]\n");
+  write_text(scratch / "b.yaml", dies);
+  const Said said = mckibben("control b.yaml --most-missed 1000", scratch);
+  EXPECT_EQ(said.status, 70);
+  EXPECT_NE(said.out.find("0 of 50 ticks of 12 ms; it ended before tick 0, and nothing was recorded"),
+            std::string::npos)
+      << said.out;
+  EXPECT_TRUE(std::filesystem::exists(scratch / "out/b-bench/control.json"));
+  EXPECT_FALSE(std::filesystem::exists(scratch / "out/b-bench/dataset.yaml"));
 }
 
 #ifdef MCKIBBEN_AT_STAND_IN
