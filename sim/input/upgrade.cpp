@@ -1,6 +1,9 @@
 // The keys that are gone; see the header.
+#include <algorithm>
 #include <array>
+#include <charconv>
 #include <string>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -24,6 +27,26 @@ constexpr std::array gone{
 std::string_view kind_of(std::string_view schema) {
   return schema.substr(0, schema.find('/'));
 }
+/// 0 where there is none.
+int version_of(std::string_view schema) {
+  int version = 0;
+  const std::size_t slash = std::min(schema.find('/'), schema.size() - 1);
+  std::from_chars(schema.data() + slash + 1, schema.data() + schema.size(), version);
+  return version;
+}
+
+/// What is to be said of a schema; nothing if it is one that is read.
+std::string note_on(std::string_view schema, std::span<const std::string_view> schemas) {
+  const auto read = std::ranges::find(schemas, kind_of(schema), kind_of);
+  if (read == schemas.end())
+    return fmt::format("schema = {} is none of this program's: {}", shortened(schema), join(schemas));
+  if (*read == schema) return "";
+  if (version_of(schema) > version_of(*read))
+    return fmt::format("schema = {}: this version reads {}; take the later one that the file was written for",
+                       shortened(schema), *read);
+  return fmt::format("schema = {}: this version reads {}; write that, and check the file", shortened(schema),
+                     *read);
+}
 
 void look_through(const Node& node, std::string_view file, const Source& source, Problems& found) {
   const Node* kind = node.find("kind");
@@ -40,12 +63,13 @@ void look_through(const Node& node, std::string_view file, const Source& source,
 std::vector<Problem> to_upgrade(const YamlFile& file, std::span<const std::string_view> schemas) {
   Problems found;
   const Node* schema = file.root.find("schema");
-  if (schema == nullptr) return {};
-  for (const std::string_view one : schemas)
-    if (kind_of(one) == kind_of(schema->text) && one != schema->text)
-      found.warning(file.source, schema->place,
-                    fmt::format("schema = {}: this version reads {}; write that, and check the file",
-                                shortened(schema->text), one));
+  if (schema == nullptr) {
+    found.warning(file.source, file.root.place,
+                  fmt::format("the file does not say what it is: schema: one of {}", join(schemas)));
+    return found.sorted();
+  }
+  if (std::string note = note_on(schema->text, schemas); !note.empty())
+    found.warning(file.source, schema->place, std::move(note));
   look_through(file.root, kind_of(schema->text), file.source, found);
   return found.sorted();
 }

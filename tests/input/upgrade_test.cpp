@@ -34,15 +34,22 @@ TEST(Upgrade, SaysWhichKeysAreGoneAndWhere) {
 }
 
 TEST(Upgrade, SaysWhichVersionIsRead) {
-  const auto found = notes("schema: mckibben-scenario/7\n");
-  ASSERT_EQ(found.size(), 1u);
-  EXPECT_EQ(
-      found[0],
-      "old.yaml:1:9: schema = mckibben-scenario/7: this version reads mckibben-scenario/1; write that, and "
-      "check the file");
+  const auto note = [](const std::string& text) {
+    const auto found = notes(text);
+    return found.size() == 1 ? found[0] : "there are " + std::to_string(found.size());
+  };
+  const std::string reads = ": this version reads mckibben-scenario/1; ";
+  EXPECT_EQ(note("schema: mckibben-scenario/0\n"),
+            "old.yaml:1:9: schema = mckibben-scenario/0" + reads + "write that, and check the file");
+  EXPECT_EQ(note("schema: mckibben-scenario/7\n"), "old.yaml:1:9: schema = mckibben-scenario/7" + reads +
+                                                       "take the later one that the file was written for");
+  EXPECT_EQ(note("schema: mckibben-scenario\n"),
+            "old.yaml:1:9: schema = mckibben-scenario" + reads + "write that, and check the file");
   EXPECT_TRUE(notes("schema: mckibben-scenario/1\nname: new\n").empty());
-  EXPECT_TRUE(notes("schema: of-somebody-else/2\n").empty());
-  EXPECT_TRUE(notes("name: none\n").empty());
+  EXPECT_EQ(note("schema: of-somebody-else/2\n"),
+            "old.yaml:1:9: schema = of-somebody-else/2 is none of this program's: mckibben-scenario/1");
+  EXPECT_EQ(note("name: none\n"),
+            "old.yaml:1:1: the file does not say what it is: schema: one of mckibben-scenario/1");
 }
 
 }  // namespace
