@@ -7,7 +7,6 @@ usage: fmu_test.py PROGRAM IMPORTER
 import copy
 import csv
 import json
-import shutil
 import subprocess
 import sys
 import tempfile
@@ -319,18 +318,18 @@ class AnFmu(unittest.TestCase):
             self.assertGreater(max(answers) - min(answers), 100)
             self.assertIn("length = 0.9", fmu.answers([f"0 set {length} 0.9", "0 init 0", "0 start"])[0])
 
-    def test_its_sources_make_the_same_program(self):
-        fmu = self.each("--true-states")[0]
-        build = self.folder / "built"
-        for command in (["cmake", "-S", fmu.folder / "sources", "-B", build, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Debug",
-                         "-DCMAKE_UNITY_BUILD=ON"], ["cmake", "--build", build]):
+    def test_its_sources_are_all_that_their_cmakelists_needs(self):
+        """All of them take minutes: one file is compiled, which includes most others, and the list is looked over."""
+        fmu, build = self.each()[1], self.folder / "built"
+        one = "CMakeFiles/mckibben_fmu.dir/sim/fmu/model/slave.cpp.o"
+        for command in (["cmake", "-S", fmu.folder / "sources", "-B", build, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=None",
+                         "-DCMAKE_EXPORT_COMPILE_COMMANDS=ON"], ["ninja", "-C", build, one]):
             done = subprocess.run(command, text=True, capture_output=True)
             self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
-        ride = fmu.ride([5 + 0.1 * k for k in range(60)], ["true_contraction_ratio", "counts"])
-        shipped = fmu.answers(ride)
-        shutil.copy(build / "mckibben.so", fmu.library)
-        for one, other in zip(fmu.answers(ride), shipped, strict=True):
-            self.assertAlmostEqual(float(one), float(other), delta=1e-9)
+        compiled = {Path(each["file"]).relative_to(fmu.folder / "sources")
+                    for each in json.loads((build / "compile_commands.json").read_text())}
+        listed = ET.parse(fmu.folder / "sources/buildDescription.xml").getroot().iter("SourceFile")
+        self.assertEqual(compiled, {Path(each.get("name")) for each in listed})
 
     def test_is_the_same_file_each_time(self):
         one = Fmu(self.folder, self.rig, "2.0").path.read_bytes()
