@@ -40,10 +40,14 @@ double usual_load_kg(const plant::Rig& rig) {
 int show_live(const LiveOptions& options) {
   std::vector<domain::InputFile> inputs;
   const domain::RigFile rig = input::read_rig(options.rig, inputs);
-  input::require_load(rig, options.rig, "live");
+  const bool pair = rig.pair() != nullptr;
+  if (!pair) input::require_load(rig, options.rig, "live");
   const double load_kg = options.load_kg > 0.0 ? options.load_kg : usual_load_kg(rig);
-  if (const std::string heavy = input::too_heavy(load_kg, rig); !heavy.empty()) {
-    say(fmt::format("--load {:g} kg: {}", load_kg, heavy));
+  const std::string why = !pair                   ? input::too_heavy(load_kg, rig)
+                          : options.load_kg > 0.0 ? "two muscles turn a link; no load hangs there"
+                                                  : "";
+  if (!why.empty()) {
+    say(fmt::format("--load {:g} kg: {}", load_kg, why));
     return bad_input;
   }
   const std::string name = input::made_file_safe(fs::path(options.rig).stem().string());

@@ -30,6 +30,11 @@ class Keys {
   explicit Keys(const Json& json) : json_(json) {}
 
   double number(const char* key) { return of(key, &Json::is_number, "a number").get<double>(); }
+  /// A whole number; 1 if it is left out.
+  std::int64_t which(const char* key) {
+    if (!json_.contains(key)) return 1;
+    return of(key, &Json::is_number_integer, "a whole number").get<std::int64_t>();
+  }
   bool yes(const char* key) { return of(key, &Json::is_boolean, "true or false").get<bool>(); }
   std::string text(const char* key) { return of(key, &Json::is_string, "a text").get<std::string>(); }
 
@@ -64,7 +69,7 @@ Sweep sweep_of(Keys& keys) {
 }
 
 Command command_of(const std::string& what, Keys& keys) {
-  if (what == "current") return SetCurrent{keys.number("mA")};
+  if (what == "current") return SetCurrent{keys.number("mA"), keys.which("muscle")};
   if (what == "sweep") return sweep_of(keys);
   if (what == "load") return SetLoad{keys.number("kg")};
   if (what == "effect")

@@ -2,6 +2,7 @@
 // asks for what cannot be, is refused with what is wrong with it, and changes nothing.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -12,6 +13,7 @@ namespace mckibben::live {
 
 struct SetCurrent {
   double mA;
+  std::int64_t muscle = 1;  ///< of a pair, 1 or 2
 };
 struct SetLoad {
   double kg;

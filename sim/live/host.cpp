@@ -9,7 +9,7 @@
 #include <sim/bench/device.hpp>
 #include <sim/input/fields_json.hpp>
 #include <sim/live/host.hpp>
-#include <sim/output/diagnosis_words.hpp>
+#include <sim/live/news.hpp>
 
 namespace mckibben::live {
 namespace {
@@ -22,43 +22,6 @@ constexpr double kept_s = 30.0;         // for who comes later
 constexpr double most_behind_s = 0.25;  // what a machine loses beyond that, it does not catch up
 constexpr double breath_s = 0.004;      // shorter ticks are made several at a time
 constexpr std::size_t most_rows = 1'000'000;
-
-/// Numbers of the page; what is none is null.
-void append(std::string& text, double value, int digits) {
-  text += std::isfinite(value) ? fmt::format("{:.{}g}", value, digits) : "null";
-}
-
-/// The order is that of `columns` in live.js.
-void append(std::string& text, const Sample& s) {
-  text += '[';
-  append(text, s.time_s, 10);
-  for (const double value : {s.current_mA, s.reference_Pa / plant::Pa_per_bar, s.valve_Pa / plant::Pa_per_bar,
-                             s.muscle_Pa / plant::Pa_per_bar, s.contraction_ratio, s.read_ratio, s.braid_N,
-                             s.friction_N, s.effects_N}) {
-    text += ',';
-    append(text, value, 7);
-  }
-  text += ']';
-}
-
-Json effect_json(const Switch& one) {
-  Json json{{"name", one.name},
-            {"on", one.on},
-            {"size", one.size.value},
-            {"says", output::readable(one.size.value, one.size.unit)}};
-  if (one.has_shape()) {
-    json["shape"] = one.shape.value;
-    json["shape_says"] = output::readable(one.shape.value, one.shape.unit);
-  }
-  return json;
-}
-
-Json sweep_json(const Sweep& sweep) {
-  const char* shape = sweep.shape == Sweep::Shape::sine       ? "sine"
-                      : sweep.shape == Sweep::Shape::triangle ? "triangle"
-                                                              : "stairs";
-  return {{"shape", shape}, {"low", sweep.low_mA}, {"high", sweep.high_mA}, {"period", sweep.period_s}};
-}
 
 }  // namespace
 
@@ -180,7 +143,7 @@ std::string Host::obey(const Command& command) {
   };
   return std::visit(
       Overloaded{
-          [&](const SetCurrent& to) { return done(session_.set_current(to.mA)); },
+          [&](const SetCurrent& to) { return done(session_.set_current(to.mA, to.muscle)); },
           [&](const Sweep& sweep) { return done(session_.set_sweep(sweep)); },
           [&](const SetLoad& to) { return done(session_.set_load(to.kg), "another load was hung on"); },
           [&](const SetEffect& to) {
@@ -196,6 +159,8 @@ std::string Host::obey(const Command& command) {
           },
           [&](const Record& record) -> std::string {
             if (recording_) return "a recording is under way";
+            if (session_.pair() && !record.from_rest && !session_.untouched())
+              return "of two muscles a recording begins from rest: their data sets cannot say otherwise";
             if (record.from_rest) session_.start_over();
             if (!session_.failure().empty()) return "nothing moves: the integration gave up";
             recording_.emplace();
@@ -213,15 +178,16 @@ std::string Host::obey(const Command& command) {
 }
 
 std::string Host::state_json() const {
+  const auto& wanted_mA = session_.wanted_mA();
   Json state{{"running", running_},
-             {"load_kg", session_.load_kg()},
-             {"wanted_mA", session_.wanted_mA()},
+             {"wanted_mA", session_.pair() ? Json(wanted_mA) : Json{wanted_mA[0]}},
              {"sweep", session_.sweep() ? sweep_json(*session_.sweep()) : Json()},
              {"pace", std::round(100.0 * pace_) / 100.0},
              {"recording", recording_.has_value()},
              {"message", {{"number", messages_}, {"text", message_}}},
              {"failure", session_.failure()},
              {"effects", Json::array()}};
+  if (!session_.pair()) state["load_kg"] = session_.load_kg();
   for (const Switch& one : session_.switches().all()) state["effects"].push_back(effect_json(one));
   return state.dump(-1, ' ', true, Json::error_handler_t::replace);
 }
@@ -236,7 +202,7 @@ std::string Host::news(Heard& heard, milliseconds longest) {
     text += fmt::format("\"from\":{},\"samples\":[", from);
     for (std::uint64_t i = from; i < last(); ++i) {
       if (i > from) text += ',';
-      append(text, samples_[i - first_sample_]);
+      append(text, samples_[i - first_sample_], session_.pair());
     }
     text += ']';
     heard.samples = last();
@@ -259,11 +225,11 @@ void Host::write_recordings(const output::Say& say) {
     std::string text;
     const std::string why = each.ended.empty() ? "" : " (it ended: " + each.ended + ")";
     const double lasting_s = static_cast<double>(each.rows.size()) * each.rig.tick_s;
-    const double load_kg = each.load_kg;
+    const std::string under = each.rig.pair() != nullptr ? "" : fmt::format(" under {:g} kg", each.load_kg);
     try {
       const auto folder = data_.put(std::move(each));
-      text = fmt::format("Recorded {:.1f} s under {:g} kg into {}, run {}{}.", lasting_s, load_kg,
-                         folder.string(), data_.runs(), why);
+      text = fmt::format("Recorded {:.1f} s{} into {}, run {}{}.", lasting_s, under, folder.string(),
+                         data_.runs(), why);
     } catch (const output::CannotWrite& cannot) {
       text = fmt::format("The recording is kept, and will be written with the next one: {}", cannot.what());
     }

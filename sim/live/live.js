@@ -3,7 +3,7 @@
 // graphics card, take longer than a frame lasts.
 const behind = 0.05;  // seconds by which the page follows
 const plotsAFrame = 2;
-const drawing = new RigPicture(byId('rig'));
+const drawing = new (pair ? PairPicture : RigPicture)(byId('rig'));
 const playing = {
   offset: null,
   shown: 0,
@@ -69,7 +69,7 @@ function frame() {
   write(byId('clock'), now.toFixed(1) + ' s');
   if (live.state.recording)
     write(byId('recording'), `recording, ${Math.max(0, now - live.recorded).toFixed(1)} s`);
-  if (live.state.sweep) showCurrent(seen.current);
+  if (live.state.sweep) showCurrents(currentColumns.map((name) => seen[name]));
 }
 
 prepareControls();

@@ -32,16 +32,23 @@ std::string data_of(const domain::RigFile& rig, const Session& session) {
   Json data{{"rig", report::drawn_rig_json(rig, rig.mechanics, rig.gauge.fitted)},
             {"tick_s", rig.tick_s},
             {"largest_mA", rig.dac.largest_current_mA},
-            {"load_kg", session.load_kg()},
             {"switches", Json::array()}};
+  if (!session.pair()) data["load_kg"] = session.load_kg();
   for (const Switch& one : session.switches().all()) data["switches"].push_back(switch_json(one));
   return report::in_script(data);
 }
 
-constexpr const char* drive = R"html(<fieldset><legend>Current</legend>
-<div class='line'><input id='current' type='range' step='0.01' aria-label='Current in mA'>
-<input id='current-number' type='number' step='0.1' aria-label='Current in mA, as a number'> mA</div>
-<div class='line' role='group' aria-label='Sweeps'>
+/// A slider and a number for the current of a muscle, which is named if there are two.
+std::string current_row(int muscle, bool named) {
+  return fmt::format(
+      "<div class='line'>{1}<input id='current-{0}' type='range' step='0.01' aria-label='Current{2} in mA'>\n"
+      "<input id='current-{0}-number' type='number' step='0.1' aria-label='Current{2} in mA, as a number'> "
+      "mA</div>\n",
+      muscle, named ? fmt::format("<span>muscle {}</span> ", muscle) : "",
+      named ? fmt::format(" of muscle {}", muscle) : "");
+}
+
+constexpr const char* sweeps = R"html(<div class='line' role='group' aria-label='Sweeps'>
 <button type='button' data-sweep='' aria-pressed='true'>by hand</button>
 <button type='button' data-sweep='sine' aria-pressed='false'>sine</button>
 <button type='button' data-sweep='triangle' aria-pressed='false'>triangle</button>
@@ -49,12 +56,15 @@ constexpr const char* drive = R"html(<fieldset><legend>Current</legend>
 <div class='line'>from <input id='low' type='number' step='0.5' aria-label='Lowest current of sweeps in mA'>
 to <input id='high' type='number' step='0.5' aria-label='Highest current of sweeps in mA'> mA
 in <input id='period' type='number' step='1' min='0.1' max='1000' value='10' aria-label='Period of sweeps in s'> s</div>
-</fieldset>
-<fieldset><legend>Load</legend>
+)html";
+
+constexpr const char* load = R"html(<fieldset><legend>Load</legend>
 <div class='line'><input id='load' type='range' step='any' aria-label='Load in kg'>
 <input id='load-number' type='number' step='0.1' min='0.01' max='500' aria-label='Load in kg, as a number'> kg</div>
 </fieldset>
-<fieldset><legend>Time</legend>
+)html";
+
+constexpr const char* time_panel = R"html(<fieldset><legend>Time</legend>
 <div class='line'><output id='clock'>0.0 s</output>
 <button id='pause' type='button'>Pause</button>
 <button id='again' type='button'>Begin again</button>
@@ -82,6 +92,16 @@ constexpr const char* stage = R"html(<div class='shown'>
 <option>40</option></select> s</label></div></div>
 )html";
 
+std::string panel_of(const Session& session) {
+  std::string panel = "<fieldset><legend>Current</legend>\n";
+  if (session.pair())
+    panel += current_row(1, true) + current_row(2, true) + sweeps +
+             "<p class='small'>Sweeps: muscle 2 goes against muscle 1.</p>\n</fieldset>\n";
+  else
+    panel += current_row(1, false) + sweeps + "</fieldset>\n" + load;
+  return panel + time_panel;
+}
+
 }  // namespace
 
 Page page_of(const std::string& name, const domain::RigFile& rig, const Session& session) {
@@ -103,11 +123,12 @@ Page page_of(const std::string& name, const domain::RigFile& rig, const Session&
       "plots</summary><pre>{6}</pre></details>\n"
       "<script type='application/json' id='data'>{7}</script>\n<script "
       "src='page.js'></script>\n</body>\n</html>\n",
-      escaped(name), report::unit_switch, drive, stage, effects_panel, MCKIBBEN_VERSION,
-      escaped(report::uplot_licence), data_of(rig, session));
+      escaped(name), session.pair() ? "" : report::unit_switch, panel_of(session), stage, effects_panel,
+      MCKIBBEN_VERSION, escaped(report::uplot_licence), data_of(rig, session));
   for (const auto& part : {report::uplot_css, report::page_css, live_css}) page.css += part;
   page.js = std::string(report::uplot_js) + "\n'use strict';\n";
-  for (const auto& part : {report::data_js, report::plots_js, report::rig_js, scroll_js, panel_js, live_js})
+  for (const auto& part :
+       {report::data_js, report::plots_js, report::rig_js, report::pair_js, scroll_js, panel_js, live_js})
     page.js += part;
   return page;
 }

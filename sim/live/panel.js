@@ -44,10 +44,13 @@ const inUse = (element) => element === document.activeElement;
 const number = (id) => Number(byId(id).value);
 const effectOf = (name) => live.state.effects.find((one) => one.name === name);
 
-function setCurrent(from) {
-  const other = from === 'current' ? 'current-number' : 'current';
-  byId(other).value = byId(from).value;
-  if (byId(from).value !== '') ask('current', {do: 'current', mA: number(from)});
+/** The slider and the number of a muscle's current. */
+const currentIds = (muscle) => [`current-${muscle}`, `current-${muscle}-number`];
+function setCurrent(muscle, from) {
+  for (const id of currentIds(muscle))
+    if (id !== from) byId(id).value = byId(from).value;
+  if (byId(from).value !== '')
+    ask(muscle === 1 ? 'current' : 'current 2', {do: 'current', mA: number(from), muscle});
 }
 function setLoad(from) {
   const kg = from === 'load' ? Number(number('load').toPrecision(3)) : number(from);
@@ -57,7 +60,7 @@ function setLoad(from) {
 }
 function setSweep(shape) {
   if (shape === '')
-    ask('current', {do: 'current', mA: live.state.wanted_mA});
+    ask('current', {do: 'current', mA: live.state.wanted_mA[0]});
   else
     ask('current', {do: 'sweep', shape, low: number('low'), high: number('high'), period: number('period')});
 }
@@ -132,9 +135,9 @@ function showState(state) {
   showSwitches(state.effects);
   for (const button of document.querySelectorAll('[data-sweep]'))
     button.setAttribute('aria-pressed', button.dataset.sweep === (state.sweep?.shape ?? ''));
-  for (const id of ['load', 'load-number'])
+  for (const id of pair ? [] : ['load', 'load-number'])
     if (!inUse(byId(id))) byId(id).value = state.load_kg;
-  if (!state.sweep && !before) showCurrent(state.wanted_mA);
+  if (!state.sweep && !before) showCurrents(state.wanted_mA);
   byId('pause').textContent = state.running ? 'Pause' : 'Go on';
   byId('pace').hidden = state.pace > 0.9;
   byId('pace').textContent = `This machine makes ${state.pace.toFixed(2)} s of a second.`;
@@ -148,24 +151,31 @@ function showState(state) {
 }
 
 /** Sliders go along with a sweep. */
-function showCurrent(value) {
-  for (const id of ['current', 'current-number'])
-    if (!inUse(byId(id))) byId(id).value = value.toFixed(2);
+function showCurrents(values) {
+  values.forEach((value, i) => {
+    for (const id of currentIds(i + 1))
+      if (!inUse(byId(id))) byId(id).value = value.toFixed(2);
+  });
 }
 
 function prepareControls() {
   const {zero_mA, span_mA} = report.rig;
-  for (const id of ['current', 'current-number', 'low', 'high']) {
+  const muscles = currentColumns.map((_, i) => i + 1);
+  for (const id of [...muscles.flatMap(currentIds), 'low', 'high']) {
     byId(id).min = 0;
     byId(id).max = report.largest_mA;
   }
   byId('low').value = zero_mA;
   byId('high').value = Math.min(report.largest_mA, span_mA);
-  byId('load').min = Number((0.1 * report.load_kg).toPrecision(2));
-  byId('load').max = Number((4 * report.load_kg).toPrecision(2));
+  byId('from-rest').disabled = pair;  // what else their data sets cannot say
   makeSwitches();
-  for (const id of ['current', 'current-number']) byId(id).addEventListener('input', () => setCurrent(id));
-  for (const id of ['load', 'load-number']) byId(id).addEventListener('input', () => setLoad(id));
+  for (const muscle of muscles)
+    for (const id of currentIds(muscle)) byId(id).addEventListener('input', () => setCurrent(muscle, id));
+  if (!pair) {
+    byId('load').min = Number((0.1 * report.load_kg).toPrecision(2));
+    byId('load').max = Number((4 * report.load_kg).toPrecision(2));
+    for (const id of ['load', 'load-number']) byId(id).addEventListener('input', () => setLoad(id));
+  }
   for (const button of document.querySelectorAll('[data-sweep]'))
     button.addEventListener('click', () => setSweep(button.dataset.sweep));
   for (const id of ['low', 'high', 'period'])

@@ -1,5 +1,7 @@
 // dataset.yaml, rig.yaml, a CSV for each run, and the truth; see the header.
+#include <string_view>
 #include <utility>
+#include <variant>
 
 #include <fmt/format.h>
 
@@ -26,29 +28,64 @@ double row_time_s(const Recording& run, std::size_t row) {
   return static_cast<double>(row) * run.rig.tick_s;
 }
 
+/// The rig as its owner knows it.
+domain::RigFile nominal(domain::RigFile rig) {
+  if (auto* const pair = std::get_if<plant::Pair>(&rig.mechanics)) pair->opposite.effects = {};
+  return plant::nominal(std::move(rig));
+}
+
+/// Under the headings that data sets of pairs are found by; the angle is counted.
+std::string measured_csv_of_pair(const Recording& run) {
+  const bool gauge = run.rig.gauge.fitted;
+  std::string csv = fmt::format("time_s,current_1_mA,current_2_mA,counts{}\n",
+                                gauge ? ",muscle_pressure_1_bar,muscle_pressure_2_bar" : "");
+  for (std::size_t k = 0; k < run.rows.size(); ++k) {
+    const Sample& row = run.rows[k];
+    csv +=
+        fmt::format("{},{},{},{}", row_time_s(run, k), row.current_mA, row.opposite.current_mA, row.counts);
+    csv += gauge ? fmt::format(",{},{}\n", row.shown_Pa / plant::Pa_per_bar,
+                               row.opposite.shown_Pa / plant::Pa_per_bar)
+                 : "\n";
+  }
+  return csv;
+}
+
 std::string measured_csv(const Recording& run) {
+  if (run.rig.pair() != nullptr) return measured_csv_of_pair(run);
   const bool gauge = run.rig.gauge.fitted;
   std::string csv =
       fmt::format("time_s,current_mA,contraction_ratio,counts{}\n", gauge ? ",muscle_pressure_bar" : "");
   for (std::size_t k = 0; k < run.rows.size(); ++k) {
     const Sample& row = run.rows[k];
-    csv += fmt::format("{},{},{},{}", row_time_s(run, k), row.current_mA, row.read_ratio, row.counts);
+    csv += fmt::format("{},{},{},{}", row_time_s(run, k), row.current_mA, row.read, row.counts);
     csv += gauge ? fmt::format(",{}\n", row.shown_Pa / plant::Pa_per_bar) : "\n";
   }
   return csv;
 }
 
+/// Headings of a muscle, with `number` behind each name; and what stands below them.
+std::string true_headings(std::string_view number) {
+  return fmt::format(
+      ",current{0}_mA,contraction_ratio{0},valve_pressure{0}_bar,muscle_pressure{0}_bar,braid_force{0}_N,"
+      "friction_force{0}_N,effects_pull{0}_N",
+      number);
+}
+std::string true_cells(const SideSample& row) {
+  return fmt::format(",{},{},{},{},{},{},{}", row.current_mA, row.contraction_ratio,
+                     row.valve_Pa / plant::Pa_per_bar, row.muscle_Pa / plant::Pa_per_bar, row.braid_N,
+                     row.friction_N, row.effects_N);
+}
+
 std::string true_csv(const Recording& run) {
+  const bool pair = run.rig.pair() != nullptr;
   std::string csv =
-      "time_s,current_mA,contraction_ratio,valve_pressure_bar,muscle_pressure_bar,braid_force_N,"
-      "friction_force_N,effects_pull_N\n";
+      "time_s" + (pair ? true_headings("_1") + true_headings("_2") + ",angle_rad" : true_headings(""));
   for (std::size_t k = 0; k < run.rows.size(); ++k) {
     const Sample& row = run.rows[k];
-    csv += fmt::format("{},{},{},{},{},{},{},{}\n", row_time_s(run, k), row.current_mA, row.contraction_ratio,
-                       row.valve_Pa / plant::Pa_per_bar, row.muscle_Pa / plant::Pa_per_bar, row.braid_N,
-                       row.friction_N, row.effects_N);
+    csv += fmt::format("\n{}{}", row_time_s(run, k), true_cells(row));
+    if (pair) csv += fmt::format("{},{}", true_cells(row.opposite), row.angle_rad);
   }
-  return csv;
+  return csv + "\n";
 }
 
 /// Everything but the rig itself.
@@ -58,10 +95,10 @@ std::string rig_text(const domain::RigFile& rig) {
 
 Json runs_json(const std::vector<Recording>& runs) {
   Json list = Json::array();
-  for (std::size_t i = 0; i < runs.size(); ++i)
-    list.push_back({{"id", id_of(i)},
-                    {"file", id_of(i) + ".csv"},
-                    {"load", domain::write_number(runs[i].load_kg) + " kg"}});
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    list.push_back({{"id", id_of(i)}, {"file", id_of(i) + ".csv"}});
+    if (runs[i].rig.pair() == nullptr) list.back()["load"] = domain::write_number(runs[i].load_kg) + " kg";
+  }
   return list;
 }
 
@@ -99,9 +136,10 @@ void DataSets::write() {
   output::ResultFolder truth(folder().string() + "-truth", session_, say_);
   Json dataset{{"schema", "mckibben-dataset/1"}, {"rig", "rig.yaml"}};
   if (!first.settled) dataset.update({{"start", "moving"}, {"skip", unjudged}});
+  if (first.rig.pair() != nullptr) dataset["columns"]["angle"] = {{"column", "counts"}, {"unit", "count"}};
   dataset["runs"] = runs_json(runs_);
   data.write("dataset.yaml", input::to_yaml(dataset));
-  data.write("rig.yaml", rig_text(plant::nominal(first.rig)));
+  data.write("rig.yaml", rig_text(nominal(first.rig)));
   truth.write("rig.yaml", rig_text(first.rig));
   truth.write("truth.yaml", input::to_yaml({{"schema", "mckibben-truth/1"},
                                             {"rig", input::to_json(first.rig)},

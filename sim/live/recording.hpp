@@ -14,8 +14,8 @@
 namespace mckibben::live {
 
 struct Recording {
-  domain::RigFile rig;  ///< as it was
-  double load_kg = 0.0;
+  domain::RigFile rig;   ///< as it was
+  double load_kg = 0.0;  ///< of one muscle
   bool settled = false;  ///< it began at rest
   std::vector<Sample> rows;
   std::string ended;  ///< why, if the user did not stop it

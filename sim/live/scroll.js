@@ -1,9 +1,17 @@
 // What runs along: the samples of the last minute, plots of them over time, and loops with a grey trace of an
 // earlier one. Times are those of the simulation.
-const columns = [
-  'time', 'current', 'reference_pressure', 'valve_pressure', 'muscle_pressure', 'contraction', 'read',
-  'braid_force', 'friction_force', 'effects_pull'
-];
+const pair = report.rig.pair !== undefined;
+const columns = pair ?
+    [
+      'time', 'current_1', 'current_2', 'reference_pressure_1', 'reference_pressure_2', 'muscle_pressure_1',
+      'muscle_pressure_2', 'contraction_1', 'contraction_2', 'tension_1', 'tension_2', 'angle', 'read',
+      'reference_difference', 'pressure_difference', 'tension_difference'
+    ] :
+    [
+      'time', 'current', 'reference_pressure', 'valve_pressure', 'muscle_pressure', 'contraction', 'read',
+      'braid_force', 'friction_force', 'effects_pull'
+    ];
+const currentColumns = pair ? ['current_1', 'current_2'] : ['current'];
 const kept = 60, gap = 1;  // seconds: that are kept; without samples, after which a line begins anew
 
 /** Samples by column, in order of time. */
@@ -54,7 +62,20 @@ const samples = {
   },
 };
 
-const timePlots = [
+const pairTimePlots = [
+  {title: 'Joint angle', unit: 'deg', lines: [['angle', 'true'], ['read', 'as counted']]},
+  {
+    title: 'Pressures',
+    unit: 'bar',
+    lines: [
+      ['muscle_pressure_1', 'muscle 1'], ['reference_pressure_1', 'asked of valve 1'],
+      ['muscle_pressure_2', 'muscle 2'], ['reference_pressure_2', 'asked of valve 2']
+    ]
+  },
+  {title: 'Currents', unit: 'mA', lines: [['current_1', 'of valve 1'], ['current_2', 'of valve 2']]},
+  {title: 'Forces of the cords', unit: 'N', lines: [['tension_1', 'cord 1'], ['tension_2', 'cord 2']]},
+];
+const singleTimePlots = [
   {title: 'Contraction', unit: 'contraction ratio', lines: [['contraction', 'true'], ['read', 'as counted']]},
   {
     title: 'Pressures',
@@ -71,17 +92,29 @@ const timePlots = [
         [['braid_force', 'braid'], ['friction_force', 'friction of the threads'], ['effects_pull', 'effects']]
   },
 ];
-const loopPlots = [
+const timePlots = pair ? pairTimePlots : singleTimePlots;
+/** Differences are those of muscle 1 less muscle 2. */
+const pairLoopPlots = [
+  {title: 'Difference of pressures asked for, and angle as counted', x: 'reference_difference', y: 'read'},
+  {title: 'Angle and difference of pressures', x: 'angle', y: 'pressure_difference'},
+  {title: 'Angle and difference of forces', x: 'angle', y: 'tension_difference'},
+];
+const singleLoopPlots = [
   {title: 'Pressure asked for, and contraction as counted', x: 'reference_pressure', y: 'read'},
   {title: 'Contraction and pressure of the muscle', x: 'contraction', y: 'muscle_pressure'},
   {title: 'Contraction and force of the braid', x: 'contraction', y: 'braid_force'},
 ];
+const loopPlots = pair ? pairLoopPlots : singleLoopPlots;
 const unitOf = {
   reference_pressure: 'bar',
   muscle_pressure: 'bar',
   braid_force: 'N',
-  read: 'contraction ratio',
-  contraction: 'contraction ratio'
+  read: pair ? 'deg' : 'contraction ratio',
+  contraction: 'contraction ratio',
+  reference_difference: 'bar',
+  pressure_difference: 'bar',
+  tension_difference: 'N',
+  angle: 'deg'
 };
 
 /** Round ends of an axis round some values, wide enough to be read. */

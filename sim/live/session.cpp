@@ -21,6 +21,15 @@ std::string out_of_range(std::string_view key, double value, double low, double 
   return fmt::format("{} = {:g}: must be from {:g} to {:g} {}", key, value, low, high, unit);
 }
 
+ride::Paired paired(const domain::RigFile& rig) {
+  return {rig, plant::opposite_rig(rig, *rig.pair()), *rig.pair()};
+}
+
+ride::Ride ride_of(const domain::RigFile& rig, double load_kg) {
+  if (rig.pair() != nullptr) return {paired(rig), rig.integrator};
+  return {ride::Hanging{rig, load_kg}, rig.integrator};
+}
+
 }  // namespace
 
 double Sweep::at(double time_s) const {
@@ -56,10 +65,12 @@ Session::Session(const domain::RigFile& rig, double load_kg)
     : switches_(rig),
       rig_(switches_.rig()),
       load_kg_(load_kg),
-      current_mA_(rig.valve.zero_current_mA),
+      currents_mA_{rig.valve.zero_current_mA,
+                   rig.pair() != nullptr ? rig.pair()->opposite.valve.zero_current_mA : 0.0},
       reader_(rig),
-      per_count_(plant::count_height_m(rig) / rig.muscle.rest_length_m),
-      ride_(ride::Hanging{rig_, load_kg}, rig.integrator) {
+      per_count_(plant::count_height_m(rig) /
+                 (rig.pair() != nullptr ? rig.joint.wheel_radius_m : rig.muscle.rest_length_m)),
+      ride_(ride_of(rig_, load_kg)) {
   start_over();
 }
 
@@ -72,11 +83,13 @@ void Session::guarded(const Work& work) {
   }
 }
 
-std::string Session::set_current(double current_mA) {
+std::string Session::set_current(double current_mA, std::int64_t muscle) {
   std::string why = out_of_range("mA", current_mA, 0.0, rig_.dac.largest_current_mA, "mA");
+  if (why.empty() && muscle != 1 && !(pair() && muscle == 2))
+    why = fmt::format("muscle = {}: there is none of that number", muscle);
   if (!why.empty()) return why;
   sweep_.reset();
-  current_mA_ = current_mA;
+  currents_mA_[muscle == 1 ? 0 : 1] = current_mA;
   return "";
 }
 
@@ -88,12 +101,13 @@ std::string Session::set_sweep(const Sweep& sweep) {
     why = fmt::format("high = {:g}: must be above low, which is {:g} mA", sweep.high_mA, sweep.low_mA);
   if (!why.empty()) return why;
   sweep_ = sweep;
-  sweep_begin_s_ = time_s() - sweep.when(current_mA_);
+  sweep_begin_s_ = time_s() - sweep.when(currents_mA_[0]);
   return "";
 }
 
 std::string Session::set_load(double load_kg) {
-  std::string why = out_of_range("kg", load_kg, 0.01, 500.0, "kg");
+  std::string why = pair() ? "kg: two muscles turn a link; no load hangs there"
+                           : out_of_range("kg", load_kg, 0.01, 500.0, "kg");
   if (why.empty() && load_kg + rig_.joint.load_offset_kg <= 0.0)
     why = fmt::format("kg = {:g}: with the rig's load_offset of {:g} kg nothing hangs", load_kg,
                       rig_.joint.load_offset_kg);
@@ -116,7 +130,9 @@ void Session::go_on() {
   untouched_ = false;
   rig_ = switches_.rig();
   guarded([&] {
-    ride_ = ride::Ride(ride::changed(ride_.rider(), {rig_, load_kg_}), {}, rig_.integrator);
+    ride_ = ride::Ride(pair() ? ride::changed(ride_.rider(), paired(rig_))
+                              : ride::changed(ride_.rider(), ride::Hanging{rig_, load_kg_}),
+                       {}, rig_.integrator);
     measure();
   });
 }
@@ -127,10 +143,10 @@ void Session::start_over() {
   sweep_begin_s_ = 0.0;
   untouched_ = true;
   reader_ = plant::PositionReader(rig_);
-  ride_ = ride::Ride(ride::Hanging{rig_, load_kg_}, rig_.integrator);
+  ride_ = ride_of(rig_, load_kg_);
   sample_ = {};
   drive_ = {};
-  drive_.current_mA = plant::dac_output_mA(rig_.dac, wanted_at(0.0));
+  hold(wanted_at(0.0));
   guarded([&] {
     const auto ticks = std::lround(rig_.settling_time_s / rig_.tick_s);
     ride_.start(drive_, static_cast<double>(-ticks) * rig_.tick_s);
@@ -142,33 +158,56 @@ void Session::start_over() {
   measure();
 }
 
-double Session::wanted_at(double time_s) const {
-  return sweep_ ? sweep_->at(time_s - sweep_begin_s_) : current_mA_;
+Session::Currents Session::wanted_at(double time_s) const {
+  if (!sweep_) return currents_mA_;
+  const double first_mA = sweep_->at(time_s - sweep_begin_s_);
+  return {first_mA, pair() ? sweep_->low_mA + sweep_->high_mA - first_mA : 0.0};
+}
+
+void Session::hold(const Currents& wanted_mA) {
+  drive_.current_mA = plant::dac_output_mA(rig_.dac, wanted_mA[0]);
+  if (pair()) drive_.opposite.current_mA = plant::dac_output_mA(rig_.dac, wanted_mA[1]);
 }
 
 /// Of the instant it is at.
 void Session::measure() {
+  const plant::Plant& plant = ride_.plant();
   const plant::State<double>& state = ride_.flow().state;
   const auto moment = ride_.moment();
+  const auto measure_side = [&](SideSample& sample, const plant::Side& side, double current_mA,
+                                const plant::SideState<double>& is, double shown_Pa, double contraction_ratio,
+                                const plant::SideMoment<double>& forces) {
+    sample = {.current_mA = current_mA,
+              .reference_Pa = side.reference_pressure_Pa(current_mA),
+              .valve_Pa = is.valve_pressure_Pa,
+              .muscle_Pa = is.muscle_pressure_Pa,
+              .shown_Pa = plant::gauge_reading_Pa(rig_.gauge, shown_Pa),
+              .contraction_ratio = contraction_ratio,
+              .braid_N = forces.braid_force_N,
+              .friction_N = forces.friction_force_N,
+              .effects_N = forces.effects_pull_N,
+              .cord_N = forces.cord_force_N()};
+  };
+  const ride::Reading& reading = ride_.reading();
   sample_.time_s = time_s();
-  sample_.current_mA = drive_.current_mA;
-  sample_.reference_Pa = ride_.plant().reference_pressure_Pa(drive_.current_mA);
-  sample_.valve_Pa = state.side.valve_pressure_Pa;
-  sample_.muscle_Pa = state.side.muscle_pressure_Pa;
-  sample_.shown_Pa = plant::gauge_reading_Pa(rig_.gauge, ride_.reading().muscle_pressure_Pa);
-  sample_.contraction_ratio = state.joint.contraction_ratio;
-  sample_.read_ratio = static_cast<double>(sample_.counts) * per_count_;
-  sample_.braid_N = moment.braid_force_N;
-  sample_.friction_N = moment.friction_force_N;
-  sample_.effects_N = moment.effects_pull_N;
+  sample_.read = static_cast<double>(sample_.counts) * per_count_;
+  measure_side(sample_, plant.side(), drive_.current_mA, state.side, reading.muscle_pressure_Pa,
+               state.joint.contraction_ratio, moment);
+  if (!plant.opposite()) return;
+  measure_side(sample_.opposite, *plant.opposite(), drive_.opposite.current_mA, state.opposite,
+               reading.opposite_pressure_Pa, plant.opposite_stroke(state).contraction_ratio, moment.opposite);
+  sample_.angle_rad = (state.joint.contraction_ratio - plant.link().contraction_ratio) *
+                      rig_.muscle.rest_length_m / rig_.joint.wheel_radius_m;
 }
 
 const Sample& Session::step() {
   if (!failure_.empty()) return sample_;
-  current_mA_ = wanted_at(time_s());
-  const double current_mA = plant::dac_output_mA(rig_.dac, current_mA_);
-  if (current_mA != drive_.current_mA) untouched_ = false;
-  drive_.current_mA = current_mA;
+  if (tick_ > 0) {  // the first one is under what it has settled under, so that a recording begins at rest
+    currents_mA_ = wanted_at(time_s());
+    const Currents before{drive_.current_mA, drive_.opposite.current_mA};
+    hold(currents_mA_);
+    if (before != Currents{drive_.current_mA, drive_.opposite.current_mA}) untouched_ = false;
+  }
   guarded([&] {
     sample_.counts = reader_.count(ride_.reading().wheel_m);
     ride_.hold(drive_, static_cast<double>(tick_ + 1) * rig_.tick_s);

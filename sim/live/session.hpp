@@ -1,7 +1,8 @@
-// A rig that is driven by hand: stepped tick by tick under a current that a slider or a sweep gives, while
-// its load and its effects are changed. It knows no clock; what makes it run in real time is host.hpp.
+// A rig that is driven by hand: stepped tick by tick under currents that sliders or a sweep give, while its
+// load and its effects are changed. It knows no clock; what makes it run in real time is host.hpp.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -13,15 +14,22 @@
 
 namespace mckibben::live {
 
-/// An instant: what the rig was, and what was held from there on. Pressures gauge.
-struct Sample {
-  double time_s = 0.0, current_mA = 0.0;
+/// Of one muscle at an instant. Pressures gauge.
+struct SideSample {
+  double current_mA = 0.0;
   double reference_Pa = 0.0, valve_Pa = 0.0, muscle_Pa = 0.0;
   double shown_Pa = 0.0;  ///< by a gauge on the muscle
   double contraction_ratio = 0.0;
+  double braid_N = 0.0, friction_N = 0.0, effects_N = 0.0, cord_N = 0.0;
+};
+
+/// An instant: what the rig was, and what was held from there on.
+struct Sample : SideSample {
+  double time_s = 0.0;
+  SideSample opposite{};   ///< of a pair
+  double angle_rad = 0.0;  ///< of its joint
   std::int64_t counts = 0;
-  double read_ratio = 0.0;  ///< what the counts say
-  double braid_N = 0.0, friction_N = 0.0, effects_N = 0.0;
+  double read = 0.0;  ///< what the counts say: contraction ratio; of a pair the joint angle [rad]
 };
 
 /// How the current goes by itself, between two ends, for ever.
@@ -38,14 +46,17 @@ struct Sweep {
 
 class Session {
  public:
-  /// At rest at the current of no pressure. The rig must lift a load, and bear this one (input::no_load,
-  /// input::too_heavy).
+  using Currents = std::array<double, 2>;  ///< [mA], the second of a pair
+
+  /// At rest at the current of no pressure. The rig must lift a load, and bear this one (input::too_heavy),
+  /// or have two muscles; then the load means nothing.
   Session(const domain::RigFile& rig, double load_kg);
 
   // What acts from the next tick on. These say why they refuse, and then nothing has changed; else they are
   // empty.
-  std::string set_current(double current_mA);  ///< by hand: a sweep ends
-  std::string set_sweep(const Sweep& sweep);   ///< goes on from the present current, if it is within
+  std::string set_current(double current_mA, std::int64_t muscle = 1);  ///< by hand: a sweep ends
+  /// Goes on from the present current, if it is within. Of a pair muscle 2 goes against muscle 1.
+  std::string set_sweep(const Sweep& sweep);
   std::string set_load(double load_kg);
   std::string set_effect(std::string_view name, bool on, double size, double shape);
 
@@ -62,25 +73,27 @@ class Session {
   /// At rest since it started: nothing has been moved or switched.
   bool untouched() const { return untouched_; }
   double tick_s() const { return rig_.tick_s; }
-  double wanted_mA() const { return current_mA_; }
+  bool pair() const { return rig_.pair() != nullptr; }
+  const Currents& wanted_mA() const { return currents_mA_; }
   double load_kg() const { return load_kg_; }
   const std::optional<Sweep>& sweep() const { return sweep_; }
   const Switches& switches() const { return switches_; }
   /// The rig as it is now, and as its owner knows it.
   const domain::RigFile& rig() const { return rig_; }
-  domain::RigFile nominal() const { return plant::nominal(rig_); }
 
  private:
   void go_on();
   template <class Work>
   void guarded(const Work& work);
-  double wanted_at(double time_s) const;
+  Currents wanted_at(double time_s) const;
+  void hold(const Currents& wanted_mA);
   double time_s() const { return static_cast<double>(tick_) * rig_.tick_s; }
   void measure();
 
   Switches switches_;
   domain::RigFile rig_;
-  double load_kg_, current_mA_;
+  double load_kg_;
+  Currents currents_mA_;
   std::optional<Sweep> sweep_;
   double sweep_begin_s_ = 0.0;
   std::int64_t tick_ = 0;

@@ -16,6 +16,8 @@ namespace {
 constexpr double most_typical_sizes = 5.0;  // further up effects only get absurd
 constexpr double shape_reach = 3.0;         // beyond the shapes that a diagnosis begins from
 
+using diagnose::Side;
+
 /// Does something with the effect of that name.
 template <class Work>
 void with_effect_named(plant::Effects& effects, std::string_view name, const Work& work) {
@@ -30,10 +32,30 @@ Dial dial_at(domain::RigFile& rig, const std::string& path) {
   return {.unit = number.unit, .lowest = number.lowest, .highest = number.highest, .value = *number.value};
 }
 
+/// One for both muscles, or where the rig's file tells them apart one for each.
+std::vector<diagnose::Candidate> by_side(const diagnose::Candidate& candidate, const domain::RigFile& rig) {
+  if (rig.pair() == nullptr) return {candidate};
+  const diagnose::Candidate one = candidate.of(Side::one), two = candidate.of(Side::two);
+  const auto same = [&](const std::string& path, const std::string& other) {
+    return path.empty() || diagnose::value_of(rig, path) == diagnose::value_of(rig, other);
+  };
+  if (same(one.amplitude, two.amplitude) && same(one.shape, two.shape)) return {candidate};
+  return {one, two};
+}
+
+/// Whether a pair may have it: one has no guide of a load, and both gases are of one kind.
+bool is_of(const domain::RigFile& rig, const diagnose::Candidate& candidate) {
+  if (rig.pair() == nullptr) return true;
+  domain::RigFile with = candidate.chosen(rig);
+  candidate.put(with, candidate.absent + candidate.typical);
+  return domain::broken_rule(with).empty();
+}
+
 Switch switch_of(const diagnose::Candidate& candidate, const domain::RigFile& file) {
   Switch one;
   one.effect = candidate.effect;
-  one.name = candidate.effect + (candidate.variant.empty() ? "" : " " + candidate.variant);
+  one.name = candidate.effect + (candidate.variant.empty() ? "" : " " + candidate.variant) +
+             diagnose::of_muscle(candidate.side);
   one.candidate = candidate;
   one.absent = candidate.absent;
   one.on = candidate.carried(file);
@@ -69,8 +91,11 @@ std::string refusal(std::string_view key, const Dial& dial, double value) {
 Switches::Switches(const domain::RigFile& rig) : bare_(rig), file_(rig) {
   for (const diagnose::Candidate& candidate : diagnose::catalogue()) {
     if (!candidate.adds_to.empty()) continue;  // a law with one term more: too much for one dial
-    all_.push_back(switch_of(candidate, rig));
-    with_effect_named(bare_.effects, candidate.effect, [](auto& effect) { effect = {}; });
+    if (!is_of(rig, candidate)) continue;
+    for (const diagnose::Candidate& each : by_side(candidate, rig)) all_.push_back(switch_of(each, rig));
+    diagnose::each_side(bare_, [&](plant::Effects& effects) {
+      with_effect_named(effects, candidate.effect, [](auto& effect) { effect = {}; });
+    });
   }
 }
 
@@ -87,8 +112,12 @@ std::string Switches::set(std::string_view name, bool on, double size, double sh
   if (!why.empty()) return why;
   const std::vector<Switch> before = all_;
   if (on)
-    for (Switch& one : all_)
-      if (one.effect == found->effect) one.on = false;
+    for (Switch& one : all_) {
+      const Side side = one.candidate.side;
+      const bool meets =
+          side == found->candidate.side || side == Side::both || found->candidate.side == Side::both;
+      if (one.effect == found->effect && meets) one.on = false;
+    }
   found->on = on;
   found->size.value = size;
   if (found->has_shape()) found->shape.value = shape;
@@ -97,13 +126,22 @@ std::string Switches::set(std::string_view name, bool on, double size, double sh
   return why;
 }
 
+/// What the file's effect has besides what is switched.
+void Switches::take_from_file(domain::RigFile& rig, const Switch& one) const {
+  const auto take = [&](plant::Effects& into, const plant::Effects& from) {
+    with_effect_named(into, one.effect, [&]<class E>(E& effect) { effect = from.get<E>(); });
+  };
+  if (one.candidate.side != Side::two) take(rig.effects, file_.effects);
+  if (auto* const pair = std::get_if<plant::Pair>(&rig.mechanics);
+      pair != nullptr && one.candidate.side != Side::one)
+    take(pair->opposite.effects, file_.pair()->opposite.effects);
+}
+
 domain::RigFile Switches::rig() const {
   domain::RigFile rig = bare_;
   for (const Switch& one : all_) {
     if (!one.on) continue;
-    with_effect_named(rig.effects, one.effect, [&]<class E>(E& effect) {
-      if (one.candidate.carried(file_)) effect = file_.effects.get<E>();  // what it has besides
-    });
+    if (one.candidate.carried(file_)) take_from_file(rig, one);
     rig = one.candidate.chosen(std::move(rig));
     if (one.has_shape())
       one.candidate.put(rig, one.size.value, one.shape.value);

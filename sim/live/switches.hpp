@@ -20,7 +20,7 @@ struct Dial {
 
 /// One law of one effect.
 struct Switch {
-  std::string name;  ///< "muscle_leak", or with the law's name: "gauge_error gain"
+  std::string name;  ///< "muscle_leak", with the law's name "gauge_error gain", or "muscle_leak of muscle 2"
   std::string effect;
   std::string_view sentence, law;
   bool on = false;
@@ -34,7 +34,8 @@ struct Switch {
 
 class Switches {
  public:
-  /// Those that the rig has are on, at its sizes; others stand at typical ones.
+  /// Those that the rig has are on, at its sizes; others stand at typical ones. Of a pair one switch is for
+  /// both muscles, unless the rig tells them apart there.
   explicit Switches(const domain::RigFile& rig);
 
   const std::vector<Switch>& all() const { return all_; }
@@ -48,6 +49,8 @@ class Switches {
   domain::RigFile rig() const;
 
  private:
+  void take_from_file(domain::RigFile& rig, const Switch& one) const;
+
   domain::RigFile bare_, file_;  // without what can be switched; as it was read
   std::vector<Switch> all_;
 };

@@ -54,8 +54,10 @@ class PairPicture {
       picture.fill(of('muscle_pressure'));
       cord.setAttribute('d', `M${end} ${axis}H${wheel.x}`);
       const current = of('current') ?? null;
-      text.textContent = `muscle ${i + 1}: ${current === null ? '' : `${current.toFixed(2)} mA, `}${
-          of('muscle_pressure').toFixed(2)} bar, ${of('tension').toFixed(0)} N`;
+      write(
+          text,
+          `muscle ${i + 1}: ${current === null ? '' : `${current.toFixed(2)} mA, `}${
+              of('muscle_pressure').toFixed(2)} bar, ${of('tension').toFixed(0)} N`);
     });
     const {x, y} = this.hangs(values.angle);
     this.arm.setAttribute('d', `M${wheel.x} ${wheel.y}L${x.toFixed(1)} ${y.toFixed(1)}`);
@@ -64,6 +66,6 @@ class PairPicture {
     const measured = given.given_angle;
     const at = measured === undefined || measured === null ? null : this.hangs(measured);
     this.target.setAttribute('d', at ? `M${wheel.x} ${wheel.y}L${at.x.toFixed(1)} ${at.y.toFixed(1)}` : '');
-    this.numbers.textContent = `joint angle ${fixed(values.angle, 1)}°`;
+    write(this.numbers, `joint angle ${fixed(values.angle, 1)}°`);
   }
 }

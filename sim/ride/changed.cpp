@@ -21,23 +21,39 @@ Memories begun(const plant::Effects& before, const plant::Effects& now, plant::E
   return begin;
 }
 
-}  // namespace
-
-Rider changed(const Rider& rider, const Hanging& other) {
-  Rider next(other);
-  next.now = rider.now;
-  const plant::Effects& before = rider.plant().rig().effects;
-  const plant::Effects& now = next.plant().rig().effects;
-  Rider::State& state = next.now;
-  const Memories begin = begun(before, now, state.plays);
+/// What goes on and begins on one muscle's side.
+void go_on(Rider& next, Muscle muscle, const plant::Effects& before, const plant::Effects& now,
+           plant::Effects::Plays& plays, PastCommands& commands, double current_mA) {
+  const Memories begin = begun(before, now, plays);
+  auto& memory = next.now.flow.memory;
   for (std::size_t slot = 0; slot < begin.size(); ++slot)
-    if (begin[slot]) state.flow.memory.side[slot] = 0.0;
-  rest_memories(next, next.plant().at_rest(state.held), 0.0, begin);
-  if (before.command_delay_s() == 0.0) state.commands.begin(state.drive.current_mA);
+    if (begin[slot]) (muscle == Muscle::first ? memory.side : memory.opposite)[slot] = 0.0;
+  rest_memories(next, next.plant().at_rest(next.now.held), 0.0, begin, muscle);
+  if (before.command_delay_s() == 0.0) commands.begin(current_mA);
+}
+
+Rider gone_on(const Rider& rider, Rider next) {
+  Rider::State& state = next.now = rider.now;
+  const plant::Effects& before = rider.plant().rig().effects;
+  go_on(next, Muscle::first, before, next.plant().rig().effects, state.plays, state.commands,
+        state.drive.current_mA);
+  if (next.plant().opposite())
+    go_on(next, Muscle::opposite, rider.plant().opposite()->rig().effects,
+          next.plant().opposite()->rig().effects, state.opposite_plays, state.opposite_commands,
+          state.drive.opposite.current_mA);
   if (before.reading_delay_s() == 0.0) state.rises = {};
   next.open_ledger();
   next.look();
   return next;
+}
+
+}  // namespace
+
+Rider changed(const Rider& rider, const Hanging& other) {
+  return gone_on(rider, Rider(other));
+}
+Rider changed(const Rider& rider, const Paired& other) {
+  return gone_on(rider, Rider(other));
 }
 
 }  // namespace mckibben::ride

@@ -6,15 +6,20 @@
 namespace mckibben::ride {
 
 // Each memory follows a straight law of its own: its rate at two values tells where it would be at rest.
-void rest_memories(Rider& rider, const plant::State<double>& before, double off, const Memories& which) {
+void rest_memories(Rider& rider, const plant::State<double>& before, double off, const Memories& which,
+                   Muscle muscle) {
   const plant::Plant& plant = rider.plant();
   if (!plant.remembers()) return;
   engine::Flow& flow = rider.now.flow;
-  const plant::SideMemory<double> none = flow.memory.side;
+  const auto of_muscle = [&](plant::Memory<double>& memory) -> plant::SideMemory<double>& {
+    return muscle == Muscle::first ? memory.side : memory.opposite;
+  };
+  const plant::SideMemory<double> none = of_muscle(flow.memory);
   const auto rates = [&](const plant::State<double>& state, const plant::SideMemory<double>& memory) {
     plant::Memory<double> whole = flow.memory;
-    whole.side = memory;
-    return plant.moment(state, whole, rider.now.held).memory_rates;
+    of_muscle(whole) = memory;
+    const plant::Moment<double> moment = plant.moment(state, whole, rider.now.held);
+    return muscle == Muscle::first ? moment.memory_rates : moment.opposite.memory_rates;
   };
   const auto at_rest = rates(before, none), now = rates(flow.state, none);
   for (std::size_t slot = 0; slot < none.size(); ++slot) {
@@ -25,7 +30,7 @@ void rest_memories(Rider& rider, const plant::State<double>& before, double off,
     const double slope = (rates(flow.state, further)[slot] - now[slot]) / size;
     if (slope >= 0.0) continue;                     // of an effect that is switched off
     const bool clock = now[slot] == at_rest[slot];  // it runs whatever the rig does
-    flow.memory.side[slot] = none[slot] + off * size - (clock ? 0.0 : now[slot] / slope);
+    of_muscle(flow.memory)[slot] = none[slot] + off * size - (clock ? 0.0 : now[slot] / slope);
   }
 }
 

@@ -7,19 +7,19 @@ import {after, before, test} from 'node:test';
 
 import {close, look, table} from './browser.mjs';
 
-let program, address;
+/** The program that shows a rig, and its address. */
+async function started(...options) {
+  const program = spawn(process.env.MCKIBBEN, ['live', ...options], {stdio: ['ignore', 'pipe', 'ignore']});
+  for await (const line of program.stdout) return {program, address: line.toString().trim()};
+}
+let one, two;
 before(async () => {
   rmSync('live', {recursive: true, force: true});
-  program = spawn(
-      process.env.MCKIBBEN, ['live', 'thesis', '--load', '16.138 kg', '--out', 'live/data'],
-      {stdio: ['ignore', 'pipe', 'ignore']});
-  for await (const line of program.stdout) {
-    address = line.toString().trim();
-    break;
-  }
+  one = await started('thesis', '--load', '16.138 kg', '--out', 'live/data');
+  two = await started('thesis_pair', '--out', 'live/pair');
 });
 after(async () => {
-  program.kill('SIGINT');
+  for (const {program} of [one, two]) program.kill('SIGINT');
   await close();
 });
 
@@ -27,7 +27,7 @@ const seen = (page, what) => page.evaluate((name) => samples.at(samples.newest()
 const until = (page, so, given) => page.waitForFunction(so, given, {timeout: 300000});
 
 /** Opens it; `end` looks after what it complained of (but that something was refused) and asked for. */
-async function live(options) {
+async function live(options, {address} = one) {
   const opened = await look(address, options);
   await until(opened.page, () => playing.frames > 3);
   return {
@@ -43,14 +43,14 @@ async function live(options) {
 test('the slider lifts the load, and the picture and the plots follow', async () => {
   const {page, end} = await live();
   const low = await seen(page, 'contraction');
-  await page.locator('#current').focus();
+  await page.locator('#current-1').focus();
   await page.keyboard.press('End');  // 20 mA, by the keyboard
   await until(page, (from) => samples.at(samples.newest()).contraction > from + 0.05, low);
-  assert.equal(await page.inputValue('#current-number'), '20');
+  assert.equal(await page.inputValue('#current-1-number'), '20');
   await until(page, () => Number(document.querySelector('#rig path.tube').dataset.length) < 0.28);
   await until(page, () => timed[0].chart.data[1].some((mm) => mm > 30));
   await until(page, () => loops[1].values[0].length > 10);
-  await page.fill('#current-number', '4');
+  await page.fill('#current-1-number', '4');
   await until(page, (from) => samples.at(samples.newest()).contraction < from + 0.02, low);
   await end();
 });
@@ -103,6 +103,29 @@ test('pause by the space bar, begin again, and a recording that replays', async 
   assert.ok(csv.time_s.length >= 100 && Math.max(...csv.current_mA) > 5);
   execFileSync(process.env.MCKIBBEN, ['replay', folder, '--out', 'live/replayed'], {stdio: 'ignore'});
   assert.ok(JSON.parse(readFileSync('live/replayed/run.json')).runs.length === 1);
+  await end();
+});
+
+test('two muscles have a slider each, and sweeps against each other', async () => {
+  const {page, end} = await live({}, two);
+  await page.fill('#current-2-number', '14');
+  await until(page, () => samples.at(samples.newest()).angle < -5);
+  await until(page, () => Math.abs(document.querySelector('#rig .load').getAttribute('cx') - 420) > 5);
+  await page.fill('#current-1-number', '18');
+  await until(page, () => samples.at(samples.newest()).angle > 2);
+  assert.match(await page.textContent('#rig'), /muscle 2: 14\.00 mA/);
+  await page.fill('#period', '2');
+  await page.locator('[data-sweep=\'sine\']').click();
+  await until(page, () => live.state.sweep && samples.newest() - live.began > 3);
+  await until(page, () => loops.every(({values}) => values[0].length > 10));
+  const currents = await page.evaluate(() => {
+    const {current_1, current_2} = samples.at(samples.newest());
+    return current_1 + current_2;
+  });
+  assert.ok(
+      Math.abs(currents - Number(await page.inputValue('#low')) - Number(await page.inputValue('#high'))) <
+      0.02);
+  assert.ok(await page.locator('#load').count() === 0 && await page.locator('#from-rest').isDisabled());
   await end();
 });
 

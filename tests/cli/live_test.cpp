@@ -104,10 +104,12 @@ TEST(Live, RefusesRigsThatItCannotShow) {
   const Said bad = mckibben("live bad.yaml", scratch);
   EXPECT_EQ(bad.status, 65);
   EXPECT_NE(bad.err.find("bad.yaml:3:"), std::string::npos) << bad.err;
-  const Said pair = mckibben("live thesis_pair", scratch);
-  EXPECT_EQ(pair.status, 65);
-  EXPECT_NE(pair.err.find("live cannot take it yet: the rig's two muscles turn a link"), std::string::npos)
-      << pair.err;
+  write_text(scratch / "held.yaml", "schema: mckibben-rig/1\nmechanics: {kind: held_length}\n");
+  const Said held = mckibben("live held.yaml", scratch);
+  EXPECT_EQ(held.status, 65);
+  EXPECT_NE(held.err.find("live cannot take it yet: the rig's muscle is held"), std::string::npos)
+      << held.err;
+  EXPECT_EQ(mckibben("live thesis_pair --load '5 kg'", scratch).status, 65);
   EXPECT_EQ(mckibben("live nowhere.yaml", scratch).status, 66);
   EXPECT_EQ(mckibben("live thesis --load much", scratch).status, 64);
   EXPECT_EQ(mckibben("live thesis --port 70000", scratch).status, 64);

@@ -20,6 +20,8 @@ std::string refusal(std::string_view text) {
 
 TEST(LiveCommands, EachIsRead) {
   EXPECT_EQ(std::get<SetCurrent>(read_command(R"({"do": "current", "mA": 9.5})")).mA, 9.5);
+  EXPECT_EQ(std::get<SetCurrent>(read_command(R"({"do": "current", "mA": 9.5})")).muscle, 1);
+  EXPECT_EQ(std::get<SetCurrent>(read_command(R"({"do": "current", "mA": 9.5, "muscle": 2})")).muscle, 2);
   EXPECT_EQ(std::get<SetLoad>(read_command(R"({"do": "load", "kg": 3})")).kg, 3.0);
   const auto sweep = std::get<Sweep>(
       read_command(R"({"do": "sweep", "shape": "stairs", "low": 4, "high": 12, "period": 7})"));
@@ -48,6 +50,7 @@ TEST(LiveCommands, NonsenseIsRefusedWithWhatIsWrong) {
   EXPECT_EQ(refusal(R"({"do": "current", "mA": "9"})"), "mA = \"9\": must be a number");
   EXPECT_EQ(refusal(R"({"do": "current", "mA": null})"), "mA = null: must be a number");
   EXPECT_EQ(refusal(R"({"do": "current", "mA": 9, "volts": 3})"), "\"volts\": is no key of this command");
+  EXPECT_EQ(refusal(R"({"do": "current", "mA": 9, "muscle": 1.5})"), "muscle = 1.5: must be a whole number");
   EXPECT_EQ(refusal(R"({"do": "run", "on": 1})"), "on = 1: must be true or false");
   EXPECT_EQ(refusal(R"({"do": "sweep", "shape": "saw", "low": 4, "high": 12, "period": 7})"),
             "shape = \"saw\": must be sine, triangle or stairs");

@@ -125,6 +125,28 @@ TEST_F(LiveHost, WhatIsRecordedFromRestReplaysToTheCount) {
         << k;
 }
 
+TEST_F(LiveHost, OfTwoMusclesWhatIsRecordedFromRestReplaysToTheCount) {
+  rig = domain::thesis_pair();
+  rig.gauge.fitted = true;
+  Host host(rig, 0.0, sets());
+  ASSERT_EQ(host.obey(SetCurrent{9.0, 2}), "");
+  record(host, true, 150);
+  EXPECT_EQ(host.obey(Record{false}),
+            "of two muscles a recording begins from rest: their data sets cannot say otherwise");
+  host.finish(say);
+  EXPECT_EQ(said.front().find(" kg"), std::string::npos) << said.front();
+  const domain::Dataset data = input::read_dataset(scratch / "out");
+  ASSERT_EQ(data.runs.size(), 1u);
+  const auto replayed = run::replay(data, 1, [](const std::string&, std::size_t, std::size_t) {});
+  const auto& samples = replayed.at(0).recording.samples;
+  const auto& read = data.runs[0].measured->angle_rad;
+  ASSERT_EQ(samples.size(), read.size());
+  const double per_count = plant::count_height_m(rig) / rig.joint.wheel_radius_m;
+  for (std::size_t k = 0; k < samples.size(); ++k)
+    EXPECT_NEAR(static_cast<double>(samples[k].counts) * per_count, read[k], 1e-9) << k;
+  EXPECT_GT(*std::ranges::max_element(read) - *std::ranges::min_element(read), 0.2);
+}
+
 TEST_F(LiveHost, SwitchingEndsARecordingAndBeginsAnotherDataSet) {
   Host host(rig, 16.138, sets());
   record(host, true, 120);

@@ -111,7 +111,6 @@ TEST(LiveSession, EffectsOfTheFileAreOnAtTheirSizes) {
   EXPECT_TRUE(leak.on);
   EXPECT_EQ(leak.size.value, 3e-10);
   EXPECT_EQ(session.rig().effects.get<plant::MuscleLeak>().conductance_m3_per_s_Pa, 3e-10);
-  EXPECT_TRUE(session.nominal().effects.absent());
 }
 
 TEST(LiveSession, WhatCannotBeIsRefusedWithItsRuleAndChangesNothing) {
@@ -128,7 +127,8 @@ TEST(LiveSession, WhatCannotBeIsRefusedWithItsRuleAndChangesNothing) {
   EXPECT_EQ(session.set_effect("muscle_leak", true, -1.0, 0.0),
             "size = -1: must be from 0 to 1e-08 m3/(s.Pa)");
   EXPECT_EQ(session.set_effect("bladder_creep", true, 100.0, 0.0), "shape = 0: must be from 0.02 to 1000 s");
-  EXPECT_EQ(session.wanted_mA(), 9.0);
+  EXPECT_EQ(session.set_current(9.0, 2), "muscle = 2: there is none of that number");
+  EXPECT_EQ(session.wanted_mA()[0], 9.0);
   EXPECT_EQ(session.load_kg(), load_kg);
   EXPECT_FALSE(session.sweep().has_value());
   EXPECT_TRUE(session.untouched());
@@ -165,6 +165,96 @@ TEST(LiveSession, WhereTheIntegrationGivesUpItSaysSoAndCanBeginAgain) {
   EXPECT_TRUE(session.untouched());
   go(session, 20);
   EXPECT_EQ(session.failure(), "");
+}
+
+TEST(LiveSession, TheFirstTickIsUnderWhatItHasSettledUnder) {
+  Session session(domain::RigFile{}, load_kg);
+  ASSERT_EQ(session.set_current(12.0), "");
+  const double settled_mA = session.step().current_mA;
+  EXPECT_NEAR(settled_mA, 4.0, 0.01);
+  EXPECT_TRUE(session.untouched());
+  EXPECT_NEAR(session.step().current_mA, 12.0, 0.01);
+  EXPECT_FALSE(session.untouched());
+}
+
+// Two muscles.
+
+ride::Ride settled_pair(const domain::RigFile& rig, const ride::Drive& drive) {
+  ride::Ride ride(ride::Paired{rig, plant::opposite_rig(rig, *rig.pair()), *rig.pair()}, rig.integrator);
+  const auto settling = std::lround(rig.settling_time_s / rig.tick_s);
+  ride.start(drive, -static_cast<double>(settling) * rig.tick_s);
+  for (auto k = -settling + 1; k <= 0; ++k) ride.step(drive, static_cast<double>(k) * rig.tick_s);
+  return ride;
+}
+
+TEST(LivePair, StepsAreThoseOfARideToTheBitAndASweepSetsThemAgainstEachOther) {
+  const domain::RigFile rig = domain::thesis_pair();
+  Session session(rig, 0.0);
+  ride::Drive drive;
+  const auto hold = [&](double one_mA, double two_mA) {
+    drive.current_mA = plant::dac_output_mA(rig.dac, one_mA);
+    drive.opposite.current_mA = plant::dac_output_mA(rig.dac, two_mA);
+  };
+  hold(rig.valve.zero_current_mA, rig.valve.zero_current_mA);
+  ride::Ride ride = settled_pair(rig, drive);
+  ASSERT_EQ(session.set_current(9.0, 2), "");
+  double highest = 0.0, lowest = 0.0;
+  for (int k = 0; k < 400; ++k) {
+    if (k == 100) {
+      ASSERT_EQ(session.set_sweep({Sweep::Shape::triangle, 4.0, 14.0, 2.4}), "");
+    }
+    const Sample now = session.step();
+    EXPECT_EQ(now.contraction_ratio, ride.flow().state.joint.contraction_ratio) << k;
+    EXPECT_EQ(now.opposite.muscle_Pa, ride.flow().state.opposite.muscle_pressure_Pa) << k;
+    if (k < 100)
+      hold(rig.valve.zero_current_mA, k == 0 ? rig.valve.zero_current_mA : 9.0);
+    else
+      hold(session.wanted_mA()[0], 18.0 - session.wanted_mA()[0]);
+    EXPECT_EQ(now.opposite.current_mA, drive.opposite.current_mA) << k;
+    ride.step(drive, (k + 1) * rig.tick_s);
+    highest = std::max(highest, now.angle_rad), lowest = std::min(lowest, now.angle_rad);
+  }
+  EXPECT_GT(highest, 0.1);
+  EXPECT_LT(lowest, -0.1);
+  EXPECT_NEAR(session.now().read, session.now().angle_rad, 0.01);
+}
+
+TEST(LivePair, EffectsActOnBothMusclesAndLeaveTheStateAsItIs) {
+  Session names(domain::thesis_pair(), 0.0);
+  EXPECT_EQ(names.switches().find("guide_friction"), nullptr) << "no guide of a load";
+  EXPECT_EQ(names.set_load(5.0), "kg: two muscles turn a link; no load hangs there");
+  for (const Switch& one : names.switches().all()) {
+    Session session(domain::thesis_pair(), 0.0), untouched(domain::thesis_pair(), 0.0);
+    for (Session* each : {&session, &untouched}) {
+      ASSERT_EQ(each->set_sweep({Sweep::Shape::sine, 8.0, 14.0, 2.4}), "");
+      go(*each, 60);
+    }
+    const Sample next = untouched.step();
+    ASSERT_EQ(session.set_effect(one.name, true, one.size.value, one.shape.value), "") << one.name;
+    const Sample same = session.step();
+    EXPECT_EQ(same.angle_rad, next.angle_rad) << one.name;
+    EXPECT_EQ(same.opposite.muscle_Pa, next.opposite.muscle_Pa) << one.name;
+    go(session, 50);
+    EXPECT_EQ(session.failure(), "") << one.name;
+    EXPECT_FALSE(session.rig().pair()->opposite.effects.absent()) << one.name;
+    ASSERT_EQ(session.set_effect(one.name, false, one.size.value, one.shape.value), "");
+    EXPECT_TRUE(session.rig().effects.absent() && session.rig().pair()->opposite.effects.absent())
+        << one.name;
+  }
+}
+
+TEST(LivePair, AnEffectOfOneMuscleInTheFileIsASwitchOfItsOwn) {
+  domain::RigFile rig = domain::thesis_pair();
+  std::get<plant::Pair>(rig.mechanics).opposite.effects.get<plant::MuscleLeak>().conductance_m3_per_s_Pa =
+      3e-10;
+  Session session(rig, 0.0);
+  EXPECT_FALSE(session.switches().find("muscle_leak of muscle 1")->on);
+  EXPECT_TRUE(session.switches().find("muscle_leak of muscle 2")->on);
+  const auto leak = [](const plant::Effects& effects) {
+    return effects.get<plant::MuscleLeak>().conductance_m3_per_s_Pa;
+  };
+  EXPECT_EQ(leak(session.rig().effects), 0.0);
+  EXPECT_EQ(leak(session.rig().pair()->opposite.effects), 3e-10);
 }
 
 TEST(LiveSweep, BeginsAtThePresentCurrentOnItsWayUp) {
