@@ -44,8 +44,11 @@ class Env(unittest.TestCase):
         with self.assertRaises(RuntimeError):
             env.step([0.0])
         env.reset(seed=1)
-        with self.assertRaises(ValueError):
-            env.step([float("nan")])
+        for no_action in ([float("nan")], [], [0.1, 0.2]):
+            with self.assertRaises(ValueError):
+                env.step(no_action)
+        with self.assertRaisesRegex(ValueError, "the lightest and the heaviest"):
+            mckibben.Env(loads_kg=(5.0,))
         self.assertFalse(env.step(env.action_space.sample())[3])
         self.assertTrue(env.step([5.0])[3])
         with self.assertRaises(RuntimeError):

@@ -84,9 +84,11 @@ class Env(Base):
 
     def __init__(self, rig="thesis", loads_kg=(8.0, 23.0), target=None, duration_s=12.0, jitter=0.0):
         """`loads_kg`: between these each episode draws its load. `target`: as in scenario files. `jitter`: root mean
-        square of what shakes the reading, as a contraction ratio [1]. Raises InputError."""
+        square of what shakes the reading, as a contraction ratio [1]. Raises InputError, ValueError."""
         self.rig = rig if isinstance(rig, Rig) else Rig(rig)
-        lightest, heaviest = map(float, loads_kg)
+        if len(loads_kg) != 2:
+            raise ValueError("loads_kg: the lightest and the heaviest load")
+        lightest, heaviest = sorted(map(float, loads_kg))
         # Whoever is to follow it: a scenario wants a controller.
         anybody = {"kind": "sine_current", "low": "0 mA", "high": "0.1 mA", "period": "1 s"}
         scenario = Scenario({"rig": self.rig, "loads": [f"{load!r} kg" for load in sorted({lightest, heaviest})],
@@ -117,10 +119,10 @@ class Env(Base):
             raise RuntimeError("reset comes before the first step")
         if self.tick + 1 >= len(self.target):
             raise RuntimeError("the episode has ended; reset begins another one")
-        value = float(numpy.asarray(action, dtype=float).reshape(-1)[0])
-        if not math.isfinite(value):
-            raise ValueError("the action is no finite number")
-        self.action = min(1.0, max(-1.0, value))
+        values = numpy.asarray(action, dtype=float).reshape(-1)
+        if values.size != 1 or not math.isfinite(values[0]):
+            raise ValueError("an action is one finite number")
+        self.action = min(1.0, max(-1.0, float(values[0])))
         wanted_mA = self.zero_mA + 0.5 * (self.action + 1.0) * (self.span_mA - self.zero_mA)
         info = {"current_mA": self.rig.dac_output_mA(wanted_mA)}
         terminated = False
