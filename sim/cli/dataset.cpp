@@ -85,6 +85,7 @@ int make_dataset(const DatasetOptions& options) {
   folder.publish(runs, [&](const std::filesystem::path& data) {
     return report::report_html(campaign, runs, run::with_rows(input::read_dataset(data)));
   });
+  warn(run::warnings_of(runs));
   print(options, {output::json_of(campaign, runs), output::table_of(campaign, runs)});
   fmt::print(stderr, "data set in {}, truth in {}\n", folder.data().string(), folder.truth().string());
   place.leave();
