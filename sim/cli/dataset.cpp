@@ -110,6 +110,8 @@ void add_dataset(CLI::App& app, Asked& asked) {
       "Examples:\n"
       "  mckibben dataset scenarios/thesis_campaign.yaml --out data\n"
       "  mckibben dataset my_campaign.yaml --seed 2       the same measured again, with other noise\n"
+      "  mckibben dataset joint.yaml                      two muscles on one wheel "
+      "(docs/datasets.md)\n"
       "  mckibben dataset ensemble.yaml --keep summary    10^5 drawn rigs (vary: ...), metrics in one file\n"
       "  mpirun -n 4 mckibben dataset my_campaign.yaml    or srun: spread over processes (docs/cluster.md)\n"
       "Writes data/ and data-truth/. If interrupted, the same command goes on where it stopped.\n");
