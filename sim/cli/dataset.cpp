@@ -85,6 +85,7 @@ int make_dataset(const DatasetOptions& options) {
   folder.publish(runs, [&](const std::filesystem::path& data) {
     return report::report_html(campaign, runs, run::with_rows(input::read_dataset(data)));
   });
+  warn(run::warnings_of(runs));
   print(options, {output::json_of(campaign, runs), output::table_of(campaign, runs)});
   fmt::print(stderr, "data set in {}, truth in {}\n", folder.data().string(), folder.truth().string());
   place.leave();
@@ -109,6 +110,8 @@ void add_dataset(CLI::App& app, Asked& asked) {
       "Examples:\n"
       "  mckibben dataset scenarios/thesis_campaign.yaml --out data\n"
       "  mckibben dataset my_campaign.yaml --seed 2       the same measured again, with other noise\n"
+      "  mckibben dataset joint.yaml                      two muscles on one wheel "
+      "(docs/datasets.md)\n"
       "  mckibben dataset ensemble.yaml --keep summary    10^5 drawn rigs (vary: ...), metrics in one file\n"
       "  mpirun -n 4 mckibben dataset my_campaign.yaml    or srun: spread over processes (docs/cluster.md)\n"
       "Writes data/ and data-truth/. If interrupted, the same command goes on where it stopped.\n");

@@ -8,6 +8,7 @@
 #include <sim/cli/results.hpp>
 #include <sim/cli/verbs.hpp>
 #include <sim/input/campaign_file.hpp>
+#include <sim/input/common_checks.hpp>
 #include <sim/output/calibration_report.hpp>
 #include <sim/output/chart.hpp>
 #include <sim/study/study.hpp>
@@ -22,6 +23,7 @@ struct StudyOptions : Options {
 
 int make_study(const StudyOptions& options) {
   domain::Campaign campaign = input::read_campaign(std::filesystem::path(options.campaign));
+  input::require_load(campaign.rig, options.campaign, "study");
   Job job(options, "study " + options.study + " " + options.campaign,
           "study-" + options.study + "-" + campaign.name, campaign.inputs);
   const study::Evidence evidence = with_progress(campaign.name, [&](const auto& hook) {

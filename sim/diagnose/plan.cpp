@@ -113,7 +113,7 @@ domain::Run played(const Item& item, const RigFile& rig, double load_kg) {
           else
             return 0.0;  // a recorded current: not on the menu
         },
-        item.current.current));
+        *item.current.current));
   return run;
 }
 
@@ -170,8 +170,8 @@ std::optional<NextExperiment> plan(const Experiment& experiment, const RigFile& 
   return NextExperiment{
       .separates = std::move(names),
       .current = chosen.words,
-      .waveform =
-          std::visit([](const auto& waveform) { return std::string(waveform.kind); }, chosen.current.current),
+      .waveform = std::visit([](const auto& waveform) { return std::string(waveform.kind); },
+                             *chosen.current.current),
       .load_kg = loads[job / items.size()],
       .expected_power = power(*best),
       .measurement = chosen.current};

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -20,25 +21,28 @@ using CampaignWaveform =
     std::variant<controllers::SineCurrent, controllers::TriangleCurrent, controllers::StepCurrent,
                  controllers::StairCurrent, controllers::ChirpCurrent, controllers::RecordedCurrent>;
 
-/// One current, and how long it is played.
+/// One current, and how long it is played; on a pair, two.
 struct CampaignCurrent {
   std::string name;
   double duration_s = 0.0;
-  CampaignWaveform current;
+  std::optional<CampaignWaveform> current{};                 ///< of one muscle
+  std::optional<CampaignWaveform> current_1{}, current_2{};  ///< of a pair
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
     visit("name", self.name,
           "part of the names of its runs; if left out, that of the waveform, or c and its place in the list");
     visit.required("duration", self.duration_s, "s", 1e-4, 3600.0, "length of each run");
-    visit.required("current", self.current, "the waveform");
+    visit("current", self.current, "the waveform; required where there is one muscle");
+    visit("current_1", self.current_1, "of a pair: current to the valve of muscle 1; required there");
+    visit("current_2", self.current_2, "of a pair: current to the valve of muscle 2; required there");
   }
 };
 
 struct Campaign {
   std::string name;
   RigFile rig;
-  std::vector<double> loads_kg;
+  std::vector<double> loads_kg;  ///< none of a pair
   std::vector<CampaignCurrent> currents;
   int repeats = 1;
   plant::Noise noise;
@@ -51,10 +55,10 @@ struct Campaign {
   static void fields(Self& self, Visitor& visit) {
     visit("name", self.name, "name of the results' folder; the file's name if left out");
     visit("rig", self.rig, "a shipped name, the path of a rig file, or changes in place");
-    visit.required("loads", self.loads_kg, "kg", 0.01, 500.0, "masses of the loads");
-    visit.required("currents", self.currents, "currents that drive each load");
+    visit("loads", self.loads_kg, "kg", 0.01, 500.0, "masses of the loads; required where they hang");
+    visit.required("currents", self.currents, "currents that drive each load, or a pair");
     visit("repeats", self.repeats, 1, 1000000,
-          "how often each load is driven by each current; without vary at most 10000 times");
+          "how often each load, or the pair, is driven by each current; without vary at most 10000 times");
     visit("noise", self.noise, "what disturbs the instruments");
     visit("seed", self.seed, 0, std::numeric_limits<std::uint64_t>::max(), "where chance begins");
     visit("vary", self.vary,

@@ -40,6 +40,13 @@ struct RigFile : plant::Rig {
   }
 };
 
+/// A rig as its owner believes it to be (plant::nominal), on both sides of a pair.
+inline RigFile nominal(const RigFile& rig) {
+  RigFile known = plant::nominal(rig);
+  if (auto* pair = std::get_if<plant::Pair>(&known.mechanics)) pair->opposite.effects = {};
+  return known;
+}
+
 /// The shipped rig of that name: two of the thesis's muscles on one wheel.
 inline RigFile thesis_pair() {
   RigFile rig;

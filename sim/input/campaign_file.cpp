@@ -6,7 +6,6 @@
 
 #include <sim/input/campaign_file.hpp>
 #include <sim/input/common_checks.hpp>
-#include <sim/input/current_checks.hpp>
 #include <sim/input/fields_json.hpp>
 #include <sim/input/file_names.hpp>
 #include <sim/input/variation_file.hpp>
@@ -18,26 +17,75 @@ namespace {
 // Names of runs are longer by load and repeat, and must still be file-safe.
 constexpr std::size_t longest_current_name = 80;
 
-std::string default_name(const CampaignWaveform& waveform, std::size_t place, std::size_t count) {
-  const auto [own, kind] = std::visit(
-      [](const auto& one) { return std::pair<std::string, std::string_view>(one.name, one.kind); }, waveform);
-  if (own != kind) return own;
+/// That of its one waveform, if it has a name; otherwise its place.
+std::string default_name(const std::optional<CampaignWaveform>& waveform, std::size_t place,
+                         std::size_t count) {
+  if (waveform) {
+    const auto [own, kind] = std::visit(
+        [](const auto& one) { return std::pair<std::string, std::string_view>(one.name, one.kind); },
+        *waveform);
+    if (own != kind) return own;
+  }
   const std::size_t width = std::max<std::size_t>(2, std::to_string(count).size());
   return fmt::format("c{:0{}}", place + 1, width);
+}
+
+/// Keys that are required of one muscle, or of two. `pair`: the rig that was read has two; an entry that has
+/// what two need asks for them, too, whatever is wrong with the rig.
+void check_keys(const YamlFile& file, bool pair, Problems& problems) {
+  const Node* currents = file.root.find("currents");
+  if (currents == nullptr || currents->kind != Node::Kind::list) return;
+  const auto need = [&](const Node& node, const char* key) {
+    if (node.find(key) == nullptr)
+      problems.error(file.source, node.place, fmt::format("the key {} is missing", key));
+  };
+  for (const Node& node : currents->children) {
+    if (node.kind != Node::Kind::map || node.find("current") != nullptr) continue;
+    if (node.find("current_1") != nullptr || node.find("current_2") != nullptr) pair = true;
+    for (const char* key : pair ? std::vector{"current_1", "current_2"} : std::vector{"current"})
+      need(node, key);
+  }
+  if (!pair) need(file.root, "loads");
+}
+
+/// What a campaign on two muscles has in place of loads and of one current each.
+void check_pair(const YamlFile& file, const Campaign& campaign, Problems& problems) {
+  if (!campaign.loads_kg.empty())
+    problems.error(file.source, file.root.find("loads")->place,
+                   "loads: the rig's two muscles turn a link, no load hangs there; what the link carries is "
+                   "the rig's mechanics: link_mass, link_length and link_inertia");
+  if (!campaign.vary.absent())
+    problems.error(file.source, file.root.find("vary")->place,
+                   "vary: rigs are drawn of one muscle only; give each rig of a pair a campaign of its own");
+}
+
+/// Whether an entry's currents are for as many muscles as the rig has.
+bool fits(const YamlFile& file, const Node& node, bool pair, Problems& problems) {
+  for (const char* key : pair ? std::vector{"current"} : std::vector{"current_1", "current_2"})
+    if (const Node* wrong = node.find(key)) {
+      problems.error(file.source, wrong->place,
+                     pair ? "current: the rig has two muscles; give current_1 and current_2"
+                          : fmt::format("{}: the rig has one muscle, driven by current; two are rig: "
+                                        "thesis_pair, or mechanics: {{kind: pair}}",
+                                        key));
+      return false;
+    }
+  return true;
 }
 
 void check_currents(const YamlFile& file, Campaign& campaign, Problems& problems) {
   const Node& nodes = *file.root.find("currents");
   if (campaign.currents.empty())
     problems.error(file.source, nodes.place, "currents: at least one current is needed");
+  const plant::Pair* pair = campaign.rig.pair();
   std::unordered_map<std::string, std::size_t> first;
   for (std::size_t i = 0; i < campaign.currents.size(); ++i) {
     CampaignCurrent& current = campaign.currents[i];
     const Node& node = nodes.children[i];
-    const Node& waveform = *node.find("current");
+    if (!fits(file, node, pair != nullptr, problems)) continue;
     const Node* given = node.find("name");
     if (given == nullptr) {
-      given = waveform.find("name");
+      if (pair == nullptr) given = node.find("current")->find("name");
       current.name = default_name(current.current, i, campaign.currents.size());
     }
     const Place place = given != nullptr ? given->place : node.place;
@@ -56,10 +104,15 @@ void check_currents(const YamlFile& file, Campaign& campaign, Problems& problems
       problems.error(file.source, node.find("duration")->place,
                      fmt::format("duration = {}: shorter than half a tick of {} ms",
                                  node.find("duration")->text, 1e3 * campaign.rig.tick_s));
-    if (auto* steps = std::get_if<controllers::StepCurrent>(&current.current))
-      steps->follow(working_range(campaign.rig));
-    if (auto* recorded = std::get_if<controllers::RecordedCurrent>(&current.current))
-      load_recording(*recorded, file.source, *waveform.find("file"), campaign.rig, problems);
+    const auto complete = [&](const char* key, CampaignWaveform& waveform, const plant::Rig& rig) {
+      complete_current(waveform, file.source, *node.find(key), rig, problems);
+    };
+    if (pair == nullptr) {
+      complete("current", *current.current, campaign.rig);
+    } else {
+      complete("current_1", *current.current_1, campaign.rig);
+      complete("current_2", *current.current_2, plant::opposite_rig(campaign.rig, *pair));
+    }
   }
 }
 
@@ -84,12 +137,17 @@ Campaign read_campaign(Source source) {
   constexpr std::string_view also_allowed[] = {"schema"};
   if (check_schema(file, campaign_schema, problems)) {
     read_struct(file.source, file.root, campaign, problems, also_allowed);
+    check_keys(file, campaign.rig.pair() != nullptr, problems);
     read_variation(file, campaign, problems);
   }
   if (problems.errors() == 0) {
     check_name(file, campaign.name, problems);
-    check_lifts_a_load(file, campaign.rig, problems);
-    check_loads(file, campaign.loads_kg, campaign.rig, problems);
+    if (campaign.rig.pair() != nullptr) {
+      check_pair(file, campaign, problems);
+    } else {
+      check_lifts_a_load(file, campaign.rig, problems);
+      check_loads(file, campaign.loads_kg, campaign.rig, problems);
+    }
     check_currents(file, campaign, problems);
     check_repeats(file, campaign, problems);
   }

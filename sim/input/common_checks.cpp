@@ -7,6 +7,7 @@
 #include <plant/geometry.hpp>
 #include <sim/input/common_checks.hpp>
 #include <sim/input/csv.hpp>
+#include <sim/input/current_checks.hpp>
 #include <sim/input/file_names.hpp>
 #include <sim/input/limits.hpp>
 #include <sim/input/quantity.hpp>
@@ -96,6 +97,13 @@ void load_recording(controllers::RecordedCurrent& recorded, const Source& source
   } catch (const MissingInput& missing) {
     problems.missing_file(source, node.place, missing.what());
   }
+}
+
+void complete_current(domain::CampaignWaveform& waveform, const Source& source, const Node& node,
+                      const plant::Rig& rig, Problems& problems) {
+  if (auto* steps = std::get_if<controllers::StepCurrent>(&waveform)) steps->follow(working_range(rig));
+  if (auto* recorded = std::get_if<controllers::RecordedCurrent>(&waveform))
+    load_recording(*recorded, source, *node.find("file"), rig, problems);
 }
 
 }  // namespace mckibben::input

@@ -6,6 +6,7 @@
 
 #include <controllers/waveform.hpp>
 #include <plant/rig.hpp>
+#include <sim/domain/campaign.hpp>
 #include <sim/domain/rig_file.hpp>
 #include <sim/input/diagnostics.hpp>
 #include <sim/input/yaml_file.hpp>
@@ -38,5 +39,9 @@ void check_loads(const YamlFile& file, const std::vector<double>& loads_kg, cons
 /// `rig`, within the range of its DAC.
 void load_recording(controllers::RecordedCurrent& recorded, const Source& source, const Node& node,
                     const plant::Rig& rig, Problems& problems);
+
+/// What a waveform (at `node`) leaves to the rig's valve, or to a table.
+void complete_current(domain::CampaignWaveform& waveform, const Source& source, const Node& node,
+                      const plant::Rig& rig, Problems& problems);
 
 }  // namespace mckibben::input

@@ -52,8 +52,8 @@ class PairChecker {
       const Node& node = file_.root.find("currents")->children[i];
       if (node.find("name") == nullptr) run.name = fmt::format("c{:02}", i + 1);
       check_name_of(run.name, node, "run", names);
-      complete(run.current_1, *node.find("current_1"), scenario_.rig);
-      complete(run.current_2, *node.find("current_2"), opposite());
+      complete_current(run.current_1, file_.source, *node.find("current_1"), scenario_.rig, problems_);
+      complete_current(run.current_2, file_.source, *node.find("current_2"), opposite(), problems_);
     }
   }
 
@@ -150,13 +150,6 @@ class PairChecker {
       problems_.error(file_.source, place,
                       fmt::format("the name {} is already that of the {} in line {}; give each a name", name,
                                   what, earlier->second));
-  }
-
-  /// What the waveform leaves to the rig or to a file.
-  void complete(domain::CampaignWaveform& waveform, const Node& node, const plant::Rig& rig) {
-    if (auto* steps = std::get_if<controllers::StepCurrent>(&waveform)) steps->follow(working_range(rig));
-    if (auto* recorded = std::get_if<controllers::RecordedCurrent>(&waveform))
-      load_recording(*recorded, file_.source, *node.find("file"), rig, problems_);
   }
 
   const YamlFile& file_;

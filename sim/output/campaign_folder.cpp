@@ -21,6 +21,7 @@
 #include <sim/output/campaign_folder.hpp>
 #include <sim/output/campaign_json.hpp>
 #include <sim/output/csv.hpp>
+#include <sim/output/driven_csv.hpp>
 #include <sim/output/publication.hpp>
 #include <sim/output/run_files.hpp>
 #include <sim/run/simulate.hpp>
@@ -123,6 +124,27 @@ Digests below(const std::string& folder, const Digests& files) {
   return found;
 }
 
+/// Columns of a run's tables: of what was measured, and of the truth.
+struct TwoTables {
+  std::vector<formats::Column> measured, truth;
+};
+
+TwoTables tables_of(const domain::Campaign& campaign, const run::CampaignRun& run) {
+  const domain::RigFile& rig = campaign.rig;
+  if (rig.pair() != nullptr)
+    return {measured_pair_columns(run.recording, rig), driven_columns(run.recording, rig, false)};
+  return {columns_of(run::measured(campaign, run), rig.tick_s),
+          columns_of(run.recording, run::contraction_per_count(rig), {}, besides_of(rig))};
+}
+
+/// The same without values.
+TwoTables heads_of(const domain::RigFile& rig) {
+  run::Recording none;
+  none.driven.pair = true;
+  if (rig.pair() != nullptr) return {measured_pair_columns(none, rig), driven_columns(none, rig, false)};
+  return {measured_columns(besides_of(rig)), recorded_columns(false, besides_of(rig))};
+}
+
 /// The shipped rig's name, if this is one; otherwise empty.
 std::string shipped_name(const domain::RigFile& rig) {
   const Json wanted = input::rig_json(rig);
@@ -202,17 +224,17 @@ void CampaignFolder::find_missing() {
 
 void CampaignFolder::put(const run::CampaignRun& run) const {
   const RunFiles files(run.job.id);
-  const domain::RigFile& rig = campaign_.rig;
   Json written = Json::array();
   const auto write = [&](const std::string& name, const std::string& text) {
     write_staged(unfinished_ / name, text);
     written.push_back({{"name", name}, {"bytes", text.size()}, {"sha256", input::sha256_hex(text)}});
   };
   if (run.failure.empty()) {
-    write(files.ascii, thesis_ascii(run.recording, rig, run.job.load_kg));
-    const auto measured = table_of(run, "measured", columns_of(run::measured(campaign_, run), rig.tick_s));
-    const auto truth = table_of(
-        run, "truth", columns_of(run.recording, run::contraction_per_count(rig), {}, besides_of(rig)));
+    const domain::RigFile& rig = campaign_.rig;
+    if (rig.pair() == nullptr) write(files.ascii, thesis_ascii(run.recording, rig, run.job.load_kg));
+    auto [measured_columns, true_columns] = tables_of(campaign_, run);
+    const auto measured = table_of(run, "measured", std::move(measured_columns));
+    const auto truth = table_of(run, "truth", std::move(true_columns));
     for (const auto& [stem, table] : {std::pair{&files.data, &measured}, std::pair{&files.truth, &truth}})
       for (const auto& file : run_files(*stem, *table, formats_)) write(file.name, file.content);
   }
@@ -222,22 +244,25 @@ void CampaignFolder::put(const run::CampaignRun& run) const {
 
 formats::Table CampaignFolder::table_of(const run::CampaignRun& run, const char* what,
                                         std::vector<formats::Column> columns) const {
-  return {fmt::format("{}: {}, {}", campaign_.name, run.job.id, what),
-          std::move(columns),
-          {{"source", program_name()},
-           {"load_kg", run.job.load_kg},
-           {"current", campaign_.currents[run.job.current].name},
-           {"repeat", static_cast<double>(run.job.repeat)},
-           {"seed", std::to_string(campaign_.seed)}}};
+  std::vector<formats::Attribute> attributes{{"source", program_name()}};
+  if (campaign_.rig.pair() == nullptr) attributes.emplace_back("load_kg", run.job.load_kg);
+  attributes.emplace_back("current", campaign_.currents[run.job.current].name);
+  attributes.emplace_back("repeat", static_cast<double>(run.job.repeat));
+  attributes.emplace_back("seed", std::to_string(campaign_.seed));
+  return {fmt::format("{}: {}, {}", campaign_.name, run.job.id, what), std::move(columns),
+          std::move(attributes)};
 }
 
 std::string CampaignFolder::package(const char* what, std::vector<formats::Column> columns,
                                     const std::vector<run::EndedRun>& runs) const {
   Package package{fmt::format("{}: {}", campaign_.name, what), std::move(columns), {}};
-  for (const auto& run : runs)
-    if (run.failure.empty())
-      package.runs.push_back({run.job.id, fmt::format("{} kg, {}", domain::write_number(run.job.load_kg),
-                                                      campaign_.currents[run.job.current].name)});
+  for (const auto& run : runs) {
+    if (!run.failure.empty()) continue;
+    std::string holds = campaign_.currents[run.job.current].name;
+    if (campaign_.rig.pair() == nullptr)
+      holds = fmt::format("{} kg, {}", domain::write_number(run.job.load_kg), holds);
+    package.runs.push_back({run.job.id, std::move(holds)});
+  }
   return datapackage(package);
 }
 
@@ -255,7 +280,7 @@ Digests CampaignFolder::write_rest(const std::vector<run::EndedRun>& runs, const
     write_staged(unfinished_ / name, text);
     files[name] = input::sha256_hex(text);
   };
-  const domain::RigFile known = plant::nominal(campaign_.rig);
+  const domain::RigFile known = domain::nominal(campaign_.rig);
   std::string rig = shipped_name(known);
   if (rig.empty()) {
     rig = "rig.yaml";
@@ -263,9 +288,9 @@ Digests CampaignFolder::write_rest(const std::vector<run::EndedRun>& runs, const
   }
   write("data/dataset.yaml", input::to_yaml(dataset_json(campaign_.rig, rig, runs)));
   write("data/campaign.json", json_of(campaign_, runs));
-  const Besides besides = besides_of(campaign_.rig);
-  write(std::string("data/") + package_file, package("measured", measured_columns(besides), runs));
-  write(std::string("truth/") + package_file, package("truth", recorded_columns(false, besides), runs));
+  auto [measured, truth] = heads_of(campaign_.rig);
+  write(std::string("data/") + package_file, package("measured", std::move(measured), runs));
+  write(std::string("truth/") + package_file, package("truth", std::move(truth), runs));
   if (std::any_of(runs.begin(), runs.end(), [](const auto& run) { return run.failure.empty(); }))
     write("data/report.html", report(unfinished_ / "data"));
   write("truth/truth.yaml", input::to_yaml(truth_json(campaign_, runs)));

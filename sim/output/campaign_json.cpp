@@ -5,6 +5,7 @@
 #include <sim/output/campaign_folder.hpp>
 #include <sim/output/campaign_json.hpp>
 #include <sim/output/json_parts.hpp>
+#include <sim/run/judged.hpp>
 #include <sim/run/simulate.hpp>
 
 namespace mckibben::output {
@@ -15,12 +16,18 @@ namespace {
 
 Json runs_json(const std::vector<run::EndedRun>& runs) {
   Json list = Json::array();
-  for (const auto& run : runs)
-    if (run.failure.empty())
-      list.push_back({{"id", run.job.id},
-                      {"file", run.job.id + ".csv"},
-                      {"load", input::quantity_json(run.job.load_kg, "kg")}});
+  for (const auto& run : runs) {
+    if (!run.failure.empty()) continue;
+    Json entry{{"id", run.job.id}, {"file", run.job.id + ".csv"}};
+    if (run.job.load_kg > 0.0) entry["load"] = input::quantity_json(run.job.load_kg, "kg");
+    list.push_back(std::move(entry));
+  }
   return list;
+}
+
+/// A column whose numbers are counts of the encoder, times what one is.
+Json counted_json(const char* column, double per_count) {
+  return {{"column", column}, {"unit", "count"}, {"factor", 1.0 / per_count}};
 }
 
 }  // namespace
@@ -28,41 +35,57 @@ Json runs_json(const std::vector<run::EndedRun>& runs) {
 std::string digest_of(const domain::Campaign& campaign) {
   std::string text = input::campaign_json(campaign).dump();
   for (const auto& current : campaign.currents)
-    if (const auto* recorded = std::get_if<controllers::RecordedCurrent>(&current.current))
-      text += Json(recorded->samples_mA).dump();
+    for (const auto* one : {&current.current, &current.current_1, &current.current_2})
+      if (const auto* recorded =
+              one->has_value() ? std::get_if<controllers::RecordedCurrent>(&**one) : nullptr)
+        text += Json(recorded->samples_mA).dump();
   return input::sha256_hex(text);
 }
 
 Json entry_json(const domain::Campaign& campaign, const run::EndedRun& run) {
-  Json entry{{"id", run.job.id},
-             {"load_kg", run.job.load_kg},
-             {"current", campaign.currents[run.job.current].name},
-             {"repeat", run.job.repeat}};
+  const bool pair = campaign.rig.pair() != nullptr;
+  Json entry{{"id", run.job.id}};
+  if (!pair) entry["load_kg"] = run.job.load_kg;
+  entry["current"] = campaign.currents[run.job.current].name;
+  entry["repeat"] = run.job.repeat;
   if (!run.failure.empty()) {
     entry["failure"] = run.failure;
     return entry;
   }
   entry["file"] = run.job.id + ".csv";
   entry["rows"] = run.rows;
-  entry["largest_contraction_ratio"] = run.largest_contraction_ratio;
+  if (pair)
+    entry["angle_rad"] = span_json(run.angle_rad);
+  else
+    entry["largest_contraction_ratio"] = run.largest_contraction_ratio;
   entry["solver"] = solver_json(run.solver);
+  if (!run.doubts.empty()) entry["doubts"] = run.doubts;
   return entry;
 }
 
 run::EndedRun ended_run(const run::CampaignJob& job, const Json& entry) {
   if (entry.contains("failure")) return {job, entry.at("failure").get<std::string>()};
-  return {job, "", entry.at("rows").get<std::size_t>(), entry.at("largest_contraction_ratio").get<double>(),
-          counters_of(entry.at("solver"))};
+  run::EndedRun run{.job = job,
+                    .rows = entry.at("rows").get<std::size_t>(),
+                    .solver = counters_of(entry.at("solver")),
+                    .doubts = entry.value("doubts", std::vector<std::string>{})};
+  if (entry.contains("angle_rad"))
+    run.angle_rad = {entry.at("angle_rad").at("lowest").get<double>(),
+                     entry.at("angle_rad").at("highest").get<double>()};
+  else
+    run.largest_contraction_ratio = entry.at("largest_contraction_ratio").get<double>();
+  return run;
 }
 
-// A load cell makes it one with a clock of its own, whose contraction says that it is counted.
-Json dataset_json(const plant::Rig& rig, const std::string& name, const std::vector<run::EndedRun>& runs) {
+// A load cell or a second muscle makes it one with a clock of its own, whose contraction or angle says that
+// it is counted.
+Json dataset_json(const domain::RigFile& rig, const std::string& name,
+                  const std::vector<run::EndedRun>& runs) {
   Json data{{"schema", input::dataset_schema}, {"rig", name}};
-  if (rig.load_cell.fitted)
-    data["columns"] = {{"contraction",
-                        {{"column", "contraction_ratio"},
-                         {"unit", "count"},
-                         {"factor", 1.0 / run::contraction_per_count(rig)}}},
+  if (rig.pair() != nullptr)
+    data["columns"] = {{"angle", counted_json("angle_rad", run::reading_per_count(rig))}};
+  else if (rig.load_cell.fitted)
+    data["columns"] = {{"contraction", counted_json("contraction_ratio", run::contraction_per_count(rig))},
                        {"force", {{"column", "force_N"}, {"unit", "N"}}}};
   data["runs"] = runs_json(runs);
   return data;
@@ -82,7 +105,7 @@ std::string json_of(const domain::Campaign& campaign, const std::vector<run::End
   document["tolerance"] = campaign.rig.integrator.tolerance;
   // As its owner knows it; what is hidden stands in truth.yaml.
   domain::Campaign known = campaign;
-  known.rig = plant::nominal(known.rig);
+  known.rig = domain::nominal(known.rig);
   document["campaign"] = input::campaign_json(known);
   document["campaign"].erase("noise");
   document["runs"] = Json::array();

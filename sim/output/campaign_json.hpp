@@ -18,7 +18,7 @@ input::Json entry_json(const domain::Campaign& campaign, const run::EndedRun& ru
 run::EndedRun ended_run(const run::CampaignJob& job, const input::Json& entry);
 
 /// dataset.yaml, on a rig that is given by its name or path.
-input::Json dataset_json(const plant::Rig& rig, const std::string& name,
+input::Json dataset_json(const domain::RigFile& rig, const std::string& name,
                          const std::vector<run::EndedRun>& runs);
 
 /// truth.yaml: what the data set's owner does not know.

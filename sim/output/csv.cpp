@@ -15,12 +15,11 @@ void append(std::string& text, double value) {
   text.append(digits, end);
 }
 
-// A tick's time without the rounding of k * 0.012, which would fill the column with digits.
+}  // namespace
+
 double tidy_s(double time_s) {
   return std::round(time_s * 1e9) / 1e9;
 }
-
-}  // namespace
 
 Besides besides_of(const plant::Rig& rig) {
   return {rig.gauge.fitted, rig.load_cell.fitted};

@@ -30,6 +30,9 @@ std::vector<formats::Column> columns_of(const run::Recording& recording, double 
 std::vector<formats::Column> measured_columns(Besides besides);
 std::vector<formats::Column> columns_of(const domain::Run& measured, double tick_s);
 
+/// A tick's time without the rounding of k * 0.012, which would fill the column with digits.
+double tidy_s(double time_s);
+
 /// Columns of one length as CSV.
 std::string csv_of(const std::vector<formats::Column>& columns);
 

@@ -1,6 +1,7 @@
-// The columns of a ride that followed stamps, in the order of the file.
+// The columns of a ride that followed stamps, and of a pair, in the order of the file.
 #include <string>
 
+#include <sim/output/csv.hpp>
 #include <sim/output/driven_csv.hpp>
 #include <sim/run/gaps.hpp>
 #include <sim/run/simulate.hpp>
@@ -69,6 +70,16 @@ class DrivenColumns {
     contraction("2", [](const Sample& row) { return row.opposite.contraction_ratio; });
     add("stiffness_Nm_per_rad", "N m rad-1", "stiffness of the joint at the pressures that it has, true",
         [](const Sample& row) { return row.stiffness_N_m_per_rad; });
+    if (rig_.gauge.fitted) gauges("gauge_pressure_");
+    return std::move(columns_);
+  }
+
+  std::vector<formats::Column> of_pair_as_measured() {
+    current("1", [](const Sample& row) { return row.current_mA; });
+    current("2", [](const Sample& row) { return row.opposite.current_mA; });
+    add("angle_rad", "rad", "joint angle, positive as muscle 1 contracts, as the encoder counts it",
+        [this](const Sample& row) { return run::counted_angle_rad(rig_, row); });
+    if (rig_.gauge.fitted) gauges("muscle_pressure_");
     return std::move(columns_);
   }
 
@@ -96,6 +107,14 @@ class DrivenColumns {
     add("muscle_pressure_" + muscle + "_bar", "bar", "gauge pressure in muscle " + muscle + ", true",
         [&](const Sample& row) { return value_Pa(row) / plant::Pa_per_bar; });
   }
+  void gauges(const std::string& name) {
+    const auto gauge = [&](const std::string& muscle, auto value_Pa) {
+      add(name + muscle + "_bar", "bar", "gauge pressure in muscle " + muscle + " as measured",
+          [&](const Sample& row) { return value_Pa(row) / plant::Pa_per_bar; });
+    };
+    gauge("1", [](const Sample& row) { return row.gauge_Pa; });
+    gauge("2", [](const Sample& row) { return row.opposite.gauge_Pa; });
+  }
   template <class Value>
   void tension(const std::string& muscle, const Value& value) {
     add("tension_" + muscle + "_N", "N", "force of the cord of muscle " + muscle + ", true", value);
@@ -116,6 +135,13 @@ std::vector<formats::Column> driven_columns(const run::Recording& recording, con
                                             bool force) {
   DrivenColumns columns(recording, rig);
   return recording.driven.pair ? columns.of_pair() : columns.of_one(force || recording.driven.length);
+}
+
+std::vector<formats::Column> measured_pair_columns(const run::Recording& recording,
+                                                   const domain::RigFile& rig) {
+  auto columns = DrivenColumns(recording, rig).of_pair_as_measured();
+  for (double& time_s : columns.front().values) time_s = tidy_s(time_s);
+  return columns;
 }
 
 std::vector<formats::Column> pair_columns(const run::PairRun& run, const domain::RigFile& rig) {

@@ -15,7 +15,11 @@ namespace mckibben::output {
 std::vector<formats::Column> driven_columns(const run::Recording& recording, const domain::RigFile& rig,
                                             bool force);
 
-/// The same of a run of a pair, and what was wanted of it.
+/// What was measured of a pair: currents, the angle as counted, pressures if the rig has gauges.
+std::vector<formats::Column> measured_pair_columns(const run::Recording& recording,
+                                                   const domain::RigFile& rig);
+
+/// Of a run of a pair, and what was wanted of it.
 std::vector<formats::Column> pair_columns(const run::PairRun& run, const domain::RigFile& rig);
 
 }  // namespace mckibben::output

@@ -34,10 +34,6 @@ void put_ride(Json& entry, const plant::Rig& rig, const run::Recording& recordin
   entry["solver"] = solver_json(recording.solver);
 }
 
-Json span_json(const run::Span& span) {
-  return {{"lowest", span.low}, {"highest", span.high}};
-}
-
 std::string degrees(double angle_rad) {
   return rounded(angle_rad / plant::degree_rad, 2, true);
 }

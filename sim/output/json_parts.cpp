@@ -62,6 +62,10 @@ Json ledger_json(const plant::Rig& rig, const run::Recording& recording) {
   return ledger;
 }
 
+Json span_json(const run::Span& span) {
+  return {{"lowest", span.low}, {"highest", span.high}};
+}
+
 std::string text_of(const Json& document) {
   return document.dump(2) + "\n";
 }

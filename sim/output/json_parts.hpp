@@ -21,6 +21,8 @@ engine::Counters counters_of(const input::Json& solver);
 /// Where air and work went in a run.
 input::Json ledger_json(const plant::Rig& rig, const run::Recording& recording);
 
+input::Json span_json(const run::Span& span);
+
 /// The text of a file that holds the document.
 std::string text_of(const input::Json& document);
 

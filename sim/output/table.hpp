@@ -23,7 +23,7 @@ std::string extrapolation_mark(const run::TrackedRun& run);
 /// Measured against simulated, run by run.
 std::string table_of(const domain::Dataset& dataset, const std::vector<run::ReplayedRun>& runs);
 
-/// What a campaign gave, load by load.
+/// What a campaign gave, load by load; of a pair, current by current.
 std::string table_of(const domain::Campaign& campaign, const std::vector<run::EndedRun>& ended);
 
 }  // namespace mckibben::output

@@ -41,6 +41,23 @@ void add_compared(std::vector<Plot>& plots, const std::string& key, const std::s
                      {{.key = key + "_error", .label = "error", .main = true}}});
 }
 
+Loop pressure_loop(const std::string& muscle) {
+  return {"pressure_" + muscle,
+          "Pressure and contraction of muscle " + muscle,
+          "contraction_" + muscle,
+          "muscle_pressure_" + muscle,
+          "contraction ratio of muscle " + muscle,
+          "pressure of muscle " + muscle + " in bar"};
+}
+
+Plot currents_plot() {
+  return {"current",
+          "Currents",
+          "mA",
+          {{.key = "current_1", .label = "muscle 1", .main = true},
+           {.key = "current_2", .label = "muscle 2", .main = true}}};
+}
+
 }  // namespace
 
 std::vector<Quantity> pair_quantities(const domain::RigFile& rig, const run::Recording& recording) {
@@ -83,12 +100,7 @@ std::vector<Quantity> single_quantities(const run::Recording& recording) {
 std::vector<Plot> pair_plots(const Beside& angle, bool commands) {
   std::vector<Plot> plots;
   add_compared(plots, "angle", "Joint angle", "deg", "angle", angle);
-  if (commands)
-    plots.push_back({"current",
-                     "Currents",
-                     "mA",
-                     {{.key = "current_1", .label = "muscle 1", .main = true},
-                      {.key = "current_2", .label = "muscle 2", .main = true}}});
+  if (commands) plots.push_back(currents_plot());
   plots.push_back({"pressures",
                    "Pressures",
                    "bar",
@@ -112,6 +124,28 @@ std::vector<Plot> pair_plots(const Beside& angle, bool commands) {
                    {{.key = "contraction_1", .label = "muscle 1", .main = true},
                     {.key = "contraction_2", .label = "muscle 2", .main = true}}});
   return plots;
+}
+
+std::vector<Plot> measured_pair_plots() {
+  return {
+      {"angle", "Joint angle, as counted", "deg", {{.key = "angle", .label = "angle", .main = true}}, true},
+      currents_plot(),
+      {"pressures",
+       "Pressures",
+       "bar",
+       {{.key = "reference_pressure_1", .label = "asked of valve 1", .main = true},
+        {.key = "reference_pressure_2", .label = "asked of valve 2", .main = true},
+        {.key = "muscle_pressure_1", .label = "gauge on muscle 1"},
+        {.key = "muscle_pressure_2", .label = "gauge on muscle 2"}}}};
+}
+
+std::vector<Loop> measured_pair_loops() {
+  return {{"reference_1", "Joint angle and pressure asked of valve 1", "reference_pressure_1", "angle",
+           "pressure asked of valve 1 in bar", "joint angle in deg"},
+          {"reference_2", "Joint angle and pressure asked of valve 2", "reference_pressure_2", "angle",
+           "pressure asked of valve 2 in bar", "joint angle in deg"},
+          pressure_loop("1"),
+          pressure_loop("2")};
 }
 
 std::vector<Plot> single_plots(bool contraction_is_measured, bool force, bool commands) {
@@ -143,10 +177,8 @@ std::vector<Loop> pair_loops() {
            "force in N"},
           {"tension_2", "Joint angle and force of cord 2", "angle", "tension_2", "joint angle in deg",
            "force in N"},
-          {"pressure_1", "Pressure and contraction of muscle 1", "contraction_1", "muscle_pressure_1",
-           "contraction ratio of muscle 1", "pressure of muscle 1 in bar"},
-          {"pressure_2", "Pressure and contraction of muscle 2", "contraction_2", "muscle_pressure_2",
-           "contraction ratio of muscle 2", "pressure of muscle 2 in bar"}};
+          pressure_loop("1"),
+          pressure_loop("2")};
 }
 
 std::vector<Loop> single_loops() {

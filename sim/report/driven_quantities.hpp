@@ -31,6 +31,10 @@ inline Beside target_beside() {
 std::vector<Plot> pair_plots(const Beside& angle, bool commands);
 std::vector<Plot> single_plots(bool contraction_is_measured, bool force, bool commands);
 
+/// Of what is measured alone of a pair, as measured_plots (quantities.hpp).
+std::vector<Plot> measured_pair_plots();
+std::vector<Loop> measured_pair_loops();
+
 std::vector<Loop> pair_loops();
 std::vector<Loop> single_loops();
 

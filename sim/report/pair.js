@@ -51,13 +51,14 @@ class PairPicture {
     this.sides.forEach(({picture, axis, cord, text}, i) => {
       const of = (name) => values[`${name}_${i + 1}`];
       const {end} = picture.draw(of('contraction'));
-      picture.fill(of('muscle_pressure'));
+      const pressure =
+          of('muscle_pressure') ?? of('reference_pressure');  // without a gauge, what is asked for
+      picture.fill(pressure);
       cord.setAttribute('d', `M${end} ${axis}H${wheel.x}`);
-      const current = of('current') ?? null;
-      write(
-          text,
-          `muscle ${i + 1}: ${current === null ? '' : `${current.toFixed(2)} mA, `}${
-              of('muscle_pressure').toFixed(2)} bar, ${of('tension').toFixed(0)} N`);
+      const said = [[of('current'), 2, 'mA'], [pressure, 2, 'bar'], [of('tension'), 0, 'N']];
+      const known = said.filter(([value]) => value !== undefined && value !== null);
+      const words = known.map(([value, digits, unit]) => `${value.toFixed(digits)} ${unit}`);
+      write(text, `muscle ${i + 1}: ${words.join(', ')}`);
     });
     const {x, y} = this.hangs(values.angle);
     this.arm.setAttribute('d', `M${wheel.x} ${wheel.y}L${x.toFixed(1)} ${y.toFixed(1)}`);

@@ -35,7 +35,7 @@ std::string report_html(const domain::PairScenario& scenario, const run::PairRun
 std::string report_html(const domain::Dataset& dataset, const std::vector<run::StampedRun>& runs,
                         const std::vector<std::string>& warnings);
 
-/// A campaign's measurements.
+/// A campaign's measurements; runs with their rows.
 std::string report_html(const domain::Campaign& campaign, const std::vector<run::EndedRun>& ended,
                         const domain::Dataset& dataset);
 

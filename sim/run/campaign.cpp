@@ -9,24 +9,33 @@
 #include <sim/run/batch.hpp>
 #include <sim/run/campaign.hpp>
 #include <sim/run/draws.hpp>
+#include <sim/run/gaps.hpp>
 #include <sim/run/simulate.hpp>
+#include <sim/run/two_currents.hpp>
+#include <sim/run/warnings.hpp>
 
 namespace mckibben::run {
 
 std::size_t count_of_jobs(const domain::Campaign& campaign) {
-  return campaign.loads_kg.size() * campaign.currents.size() * static_cast<std::size_t>(campaign.repeats);
+  const std::size_t loads = campaign.rig.pair() != nullptr ? 1 : campaign.loads_kg.size();
+  return loads * campaign.currents.size() * static_cast<std::size_t>(campaign.repeats);
 }
 
 CampaignJob job_of(const domain::Campaign& campaign, std::size_t place) {
   const auto digits = [](std::size_t count) { return std::to_string(count).size(); };
   const auto repeats = static_cast<std::size_t>(campaign.repeats);
-  const std::size_t load = place / repeats / campaign.currents.size();
-  const std::size_t current = place / repeats % campaign.currents.size();
-  const auto repeat = static_cast<int>(place % repeats) + 1;
-  std::string id =
-      fmt::format("m{:0{}}_{}", load + 1, digits(campaign.loads_kg.size()), campaign.currents[current].name);
-  if (repeats > 1) id += fmt::format("_r{:0{}}", repeat, digits(repeats));
-  return {std::move(id), campaign.loads_kg[load], current, repeat, place + 1};
+  CampaignJob job{.id = {},
+                  .current = place / repeats % campaign.currents.size(),
+                  .repeat = static_cast<int>(place % repeats) + 1,
+                  .stream = place + 1};
+  job.id = campaign.currents[job.current].name;
+  if (campaign.rig.pair() == nullptr) {
+    const std::size_t load = place / repeats / campaign.currents.size();
+    job.load_kg = campaign.loads_kg[load];
+    job.id = fmt::format("m{:0{}}_{}", load + 1, digits(campaign.loads_kg.size()), job.id);
+  }
+  if (repeats > 1) job.id += fmt::format("_r{:0{}}", job.repeat, digits(repeats));
+  return job;
 }
 
 std::vector<CampaignJob> jobs_of(const domain::Campaign& campaign) {
@@ -37,15 +46,24 @@ std::vector<CampaignJob> jobs_of(const domain::Campaign& campaign) {
 
 Order order_of(const domain::Campaign& campaign, const CampaignJob& job) {
   const domain::CampaignCurrent& current = campaign.currents[job.current];
-  return {{.rig = drawn_rig(campaign, job.repeat),
-           .load_kg = job.load_kg,
-           .ticks = static_cast<std::size_t>(std::llround(current.duration_s / campaign.rig.tick_s)),
-           .engine = campaign.rig.integrator,
-           .noise = campaign.noise,
-           .seed = campaign.seed,
-           .stream = job.stream},
-          std::visit([&](const auto& waveform) { return waveform.make(knowledge_of(campaign.rig, {})); },
-                     current.current)};
+  Order order{
+      .plan = {.rig = drawn_rig(campaign, job.repeat),
+               .load_kg = job.load_kg,
+               .ticks = static_cast<std::size_t>(std::llround(current.duration_s / campaign.rig.tick_s)),
+               .engine = campaign.rig.integrator,
+               .noise = campaign.noise,
+               .seed = campaign.seed,
+               .stream = job.stream},
+      .controller = nullptr};
+  if (const plant::Pair* pair = campaign.rig.pair()) {
+    order.plan.pair = *pair;
+    order.controller = play(*current.current_1, *current.current_2, campaign.rig);
+  } else {
+    order.controller =
+        std::visit([&](const auto& waveform) { return waveform.make(knowledge_of(campaign.rig, {})); },
+                   *current.current);
+  }
+  return order;
 }
 
 namespace {
@@ -86,10 +104,23 @@ void run_jobs(const domain::Campaign& campaign, std::span<const CampaignJob> job
 EndedRun ended(const domain::Campaign& campaign, const CampaignRun& run) {
   if (!run.failure.empty()) return {run.job, run.failure};
   const auto& samples = run.recording.samples;
-  std::int64_t largest = samples.front().counts;
-  for (const Sample& sample : samples) largest = std::max(largest, sample.counts);
-  return {run.job, "", samples.size(), static_cast<double>(largest) * contraction_per_count(campaign.rig),
-          run.recording.solver};
+  EndedRun end{.job = run.job, .rows = samples.size(), .solver = run.recording.solver};
+  if (campaign.rig.pair() != nullptr) {
+    end.angle_rad = span_of(samples, [&](const Sample& row) { return counted_angle_rad(campaign.rig, row); });
+    end.doubts = doubts(run.recording);
+  } else {
+    end.largest_contraction_ratio =
+        contraction_per_count(campaign.rig) *
+        span_of(samples, [](const Sample& row) { return static_cast<double>(row.counts); }).high;
+  }
+  return end;
+}
+
+std::vector<std::string> warnings_of(const std::vector<EndedRun>& runs) {
+  std::vector<std::string> all;
+  for (const EndedRun& run : runs)
+    for (const std::string& doubt : run.doubts) all.push_back(warning_of_run(run.job.id, doubt));
+  return grouped(all);
 }
 
 domain::Run measured(const domain::Campaign& campaign, const CampaignRun& run) {

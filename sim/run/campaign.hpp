@@ -1,5 +1,5 @@
-// The runs of a campaign: every load under every current, repeated, each with noise of its own; and what the
-// instruments would have recorded of them.
+// The runs of a campaign: every load, or the pair, under every current, repeated, each with noise of its own;
+// and what the instruments would have recorded of them.
 #pragma once
 
 #include <cstddef>
@@ -19,8 +19,10 @@ namespace mckibben::run {
 
 /// One run that a campaign asks for.
 struct CampaignJob {
-  std::string id;  ///< m<load>_<current>, with repeats m<load>_<current>_r<repeat>; loads and repeats from 1
-  double load_kg = 0.0;
+  /// m<load>_<current>, with repeats m<load>_<current>_r<repeat>; loads and repeats from 1. Of a pair without
+  /// the load.
+  std::string id;
+  double load_kg = 0.0;     ///< 0 of a pair
   std::size_t current = 0;  ///< place in the campaign's list
   int repeat = 1;
   std::uint64_t stream = 0;  ///< of its noise
@@ -38,8 +40,10 @@ struct EndedRun {
   CampaignJob job;
   std::string failure{};  ///< as in CampaignRun; then there is nothing else
   std::size_t rows = 0;
-  double largest_contraction_ratio = 0.0;  ///< as counted
+  double largest_contraction_ratio = 0.0;  ///< as counted; of one muscle
+  Span angle_rad{};                        ///< as counted; of a pair
   engine::Counters solver{};
+  std::vector<std::string> doubts{};  ///< of a pair: of what was simulated (run::doubts)
 };
 
 /// All runs of a campaign: loads in order, for each all currents, for each all repeats. Ids are unique.
@@ -69,7 +73,11 @@ void run_jobs(const domain::Campaign& campaign, std::span<const CampaignJob> job
 
 EndedRun ended(const domain::Campaign& campaign, const CampaignRun& run);
 
-/// What was measured in a run: currents, counted contraction ratios, pressures if the rig has a gauge.
+/// What should not be believed of the runs, in words.
+std::vector<std::string> warnings_of(const std::vector<EndedRun>& runs);
+
+/// What was measured in a run of one muscle: currents, counted contraction ratios, pressures if the rig has a
+/// gauge.
 domain::Run measured(const domain::Campaign& campaign, const CampaignRun& run);
 
 }  // namespace mckibben::run

@@ -116,7 +116,7 @@ Sample row_of(const ride::Rider& rider, const plant::Rig& rig, plant::PositionRe
              .cord_force_N = now.cord_force_N(),
              .cell_N = plant::cell_reading_N(rig.load_cell, now.cord_force_N(), 0.0),
              .misread_ratio = reading.misread_m / rig.muscle.rest_length_m};
-  if (rider.plant().opposite()) write_opposite(rider, now, row);
+  if (rider.plant().opposite()) write_opposite(rider, now, reading, row);
   return row;
 }
 

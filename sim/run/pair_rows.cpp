@@ -1,6 +1,7 @@
 // Muscle 2, the joint, and slack cords; see the header.
 #include <algorithm>
 
+#include <plant/instruments.hpp>
 #include <plant/joint_stiffness.hpp>
 #include <sim/run/pair_rows.hpp>
 
@@ -21,14 +22,16 @@ void note_slack_of(Recording& recording, int muscle, const Force& force_N) {
 
 }  // namespace
 
-double write_opposite(const ride::Rider& rider, const plant::Moment<double>& now, Sample& row) {
+double write_opposite(const ride::Rider& rider, const plant::Moment<double>& now, const ride::Reading& seen,
+                      Sample& row) {
   const auto& state = rider.now.flow.state;
   row.opposite = {.current_mA = rider.now.drive.opposite.current_mA,
                   .contraction_ratio = rider.plant().opposite_stroke(state).contraction_ratio,
                   .braid_force_N = now.opposite.braid_force_N,
                   .friction_force_N = now.opposite.friction_force_N,
                   .effects_pull_N = now.opposite.effects_pull_N,
-                  .cord_force_N = now.opposite.cord_force_N()};
+                  .cord_force_N = now.opposite.cord_force_N(),
+                  .gauge_Pa = plant::gauge_reading_Pa(rider.plant().rig().gauge, seen.opposite_pressure_Pa)};
   row.stiffness_N_m_per_rad =
       plant::joint_stiffness_N_m_per_rad(rider.plant(), state, rider.now.flow.memory, rider.now.held);
   return std::max(state.joint.contraction_ratio, row.opposite.contraction_ratio);

@@ -6,8 +6,10 @@
 
 namespace mckibben::run {
 
-/// Muscle 2 and the joint at this instant, under what is held; the larger contraction of both.
-double write_opposite(const ride::Rider& rider, const plant::Moment<double>& now, Sample& row);
+/// Muscle 2 and the joint at this instant, under what is held, and what instruments see of them; the larger
+/// contraction of both.
+double write_opposite(const ride::Rider& rider, const plant::Moment<double>& now, const ride::Reading& seen,
+                      Sample& row);
 
 /// Notes where cords would have to push: of both muscles, or of the first alone.
 void note_slack(Recording& recording, bool both);

@@ -1,9 +1,8 @@
-// Waveforms through the DAC, tick by tick, and controllers; see the header.
+// See the header.
 #include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <numeric>
-#include <type_traits>
 #include <utility>
 
 #include <fmt/format.h>
@@ -15,29 +14,11 @@
 #include <sim/run/pair_runs.hpp>
 #include <sim/run/remarks.hpp>
 #include <sim/run/rig_model.hpp>
+#include <sim/run/two_currents.hpp>
 #include <sim/run/warnings.hpp>
 
 namespace mckibben::run {
 namespace {
-
-/// What the DAC gives at a tick; a recording is what it gave.
-double current_mA(const domain::CampaignWaveform& waveform, std::size_t tick, const plant::Rig& rig) {
-  return std::visit(
-      [&](const auto& one) {
-        if constexpr (std::is_same_v<std::remove_cvref_t<decltype(one)>, controllers::RecordedCurrent>)
-          return one.samples_mA[std::min(tick, one.samples_mA.size() - 1)];
-        else
-          return plant::dac_output_mA(rig.dac, one.at(static_cast<double>(tick) * rig.tick_s));
-      },
-      waveform);
-}
-
-template <class Value>
-Span span_of(const std::vector<Sample>& rows, const Value& value) {
-  const auto [low, high] = std::minmax_element(
-      rows.begin(), rows.end(), [&](const auto& a, const auto& b) { return value(a) < value(b); });
-  return {value(*low), value(*high)};
-}
 
 void take(PairRun& run, Recording recording, const domain::RigFile& rig) {
   run.recording = std::move(recording);
@@ -47,20 +28,6 @@ void take(PairRun& run, Recording recording, const domain::RigFile& rig) {
   run.angle_rad = span_of(rows, [&](const Sample& row) { return angle_rad(rig, row); });
   run.cord_force_N = span_of(rows, [](const Sample& row) { return row.cord_force_N; });
   run.opposite_cord_force_N = span_of(rows, [](const Sample& row) { return row.opposite.cord_force_N; });
-}
-
-Recording under_currents(const domain::TwoCurrents& currents, const domain::PairScenario& scenario) {
-  const domain::RigFile& rig = scenario.rig;
-  Course course;
-  const auto ticks = static_cast<std::size_t>(std::llround(scenario.duration_s / rig.tick_s));
-  for (std::size_t k = 0; k < ticks; ++k) {
-    course.time_s.push_back(static_cast<double>(k) * rig.tick_s);
-    ride::Drive& drive = course.drives.emplace_back();
-    drive.current_mA = current_mA(currents.current_1, k, rig);
-    drive.opposite.current_mA = current_mA(currents.current_2, k, rig);
-    course.rows.push_back(k);
-  }
-  return follow(rig, 0.0, course);
 }
 
 double mean_of(const std::vector<double>& values) {
@@ -156,7 +123,11 @@ class RunningPairs {
 
   void run(std::size_t i) {
     PairRun& run = result_.runs[i];
-    if (!run.followed) return take(run, under_currents(scenario_.currents[i], scenario_), scenario_.rig);
+    if (!run.followed) {
+      const domain::TwoCurrents& given = scenario_.currents[i];
+      const auto player = play(given.current_1, given.current_2, scenario_.rig);
+      return take(run, simulate(plan_of(scenario_, 0.0), *player), scenario_.rig);
+    }
     const controllers::PairSettings& settings = settings_[run.followed->controller];
     for (const TunedPair& tuned : result_.tuned)
       if (tuned.controller == name_of(settings) && !tuned.failure.empty()) {

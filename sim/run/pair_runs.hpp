@@ -8,15 +8,9 @@
 
 #include <sim/domain/pair_scenario.hpp>
 #include <sim/run/compare.hpp>
-#include <sim/run/follow.hpp>
 #include <sim/run/tune_pair.hpp>
 
 namespace mckibben::run {
-
-/// Lowest and highest of what a run came through.
-struct Span {
-  double low = 0.0, high = 0.0;
-};
 
 /// What a controller was asked for, and what came of it.
 struct JointFollowed {

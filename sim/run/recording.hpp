@@ -1,6 +1,7 @@
 // What one run leaves behind: a row for each tick, and sums.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <string>
@@ -30,12 +31,26 @@ struct Sample {
     double current_mA = 0.0;
     double contraction_ratio = 0.0;
     double braid_force_N = 0.0, friction_force_N = 0.0, effects_pull_N = 0.0, cord_force_N = 0.0;
+    double gauge_Pa = 0.0;
   };
   Opposite opposite{};
   double stiffness_N_m_per_rad = 0.0;  ///< of the joint of a pair, at the pressures that it has
 
   double shown_ratio() const { return state.joint.contraction_ratio + misread_ratio; }
 };
+
+/// Lowest and highest of what a run came through.
+struct Span {
+  double low = 0.0, high = 0.0;
+};
+
+/// Of one row or more.
+template <class Value>
+Span span_of(const std::vector<Sample>& rows, const Value& value) {
+  const auto [low, high] = std::minmax_element(
+      rows.begin(), rows.end(), [&](const auto& a, const auto& b) { return value(a) < value(b); });
+  return {value(*low), value(*high)};
+}
 
 /// A cord that would have to push: a real one goes slack, the equations take it as taut.
 struct Slack {

@@ -132,23 +132,26 @@ class Run {
       return false;
     }
     hold(rider);
-    const double gauge_Pa = rider.now.reading.muscle_pressure_Pa + disturbance_.gauge_Pa();
-    if (k_ >= 0) write(rider, gauge_Pa);
+    ride::Reading seen = rider.now.reading;
+    seen.muscle_pressure_Pa += disturbance_.gauge_Pa();
+    if (plan_.pair) seen.opposite_pressure_Pa += disturbance_.gauge_Pa();
+    if (k_ >= 0) write(rider, seen);
     return true;
   }
 
-  void write(const ride::Rider& rider, double gauge_Pa) {
+  void write(const ride::Rider& rider, const ride::Reading& seen) {
     const auto now = rider.moment();
     const plant::State<double>& state = rider.now.flow.state;
     recording_.samples.push_back({time_s(k_), drive_.current_mA, state, counts_,
-                                  plant::gauge_reading_Pa(plan_.rig.gauge, gauge_Pa), now.braid_force_N,
-                                  now.friction_force_N, now.effects_pull_N, now.cord_force_N()});
+                                  plant::gauge_reading_Pa(plan_.rig.gauge, seen.muscle_pressure_Pa),
+                                  now.braid_force_N, now.friction_force_N, now.effects_pull_N,
+                                  now.cord_force_N()});
     const plant::LoadCell& cell = plan_.rig.load_cell;
     recording_.samples.back().cell_N =
         plant::cell_reading_N(cell, now.cord_force_N(), disturbance_.cell_N(cell));
-    recording_.samples.back().misread_ratio = rider.now.reading.misread_m / plan_.rig.muscle.rest_length_m;
+    recording_.samples.back().misread_ratio = seen.misread_m / plan_.rig.muscle.rest_length_m;
     double most = state.joint.contraction_ratio;
-    if (plan_.pair) most = write_opposite(rider, now, recording_.samples.back());
+    if (plan_.pair) most = write_opposite(rider, now, seen, recording_.samples.back());
     recording_.largest_contraction_ratio = std::max(recording_.largest_contraction_ratio, most);
   }
 

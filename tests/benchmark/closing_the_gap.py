@@ -24,6 +24,7 @@ CASES = [
     ("bladder_elasticity", "stiffness: 300 N/m", "end_cap_correction", "", "slope", "", 0.05),
     ("bladder_creep", "stiffness: 250 N/m, time: 1.5 s", "bladder_elasticity", "", "stiffness", "N/m", 800),
     ("bladder_hysteresis", "force: 12 N, stroke: 8 mm", "guide_friction", "", "coefficient", "", 0.2),
+    ("end_cap_correction", "slope: 0.015", "bladder_elasticity", "", "stiffness", "N/m", 1500),
     ("pressure_threshold", "pressure: 0.4 bar", "bladder_elasticity", "", "stiffness", "N/m", 1500),
     ("muscle_leak", "conductance: 2e-10 m3/(s.Pa)", "exhaust_restriction", "", "share", "", 0.9),
     ("polytropic_gas", "exponent: 1.3", "viscous_damping", "", "damping", "N.s/m", 400),
@@ -31,9 +32,13 @@ CASES = [
     ("valve_lag", "time: 40 ms", "viscous_damping", "", "damping", "N.s/m", 400),
     ("valve_dead_band", "half_width: 80 mbar", "guide_friction", "", "coefficient", "", 0.2),
     ("valve_hysteresis", "half_width: 80 mbar", "guide_friction", "", "coefficient", "", 0.2),
+    ("supply_droop", "line_resistance: 1e8 s.Pa/kg, volume: 0.3 l", "valve_lag", "", "time", "ms", 200),
     ("exhaust_restriction", "share: 0.5", "muscle_leak", "", "conductance", "m3/(s.Pa)", 1e-9),
     ("command_delay", "time: 50 ms", "valve_lag", "", "time", "ms", 200),
     ("friction_warm_up", "change: -0.35, time: 5 s", "guide_friction", "", "coefficient", "", 0.1),
+    ("encoder_backlash", "width: 1.2 mm", "bladder_hysteresis", "stroke: 8 mm, ", "force", "N", 40),
+    ("encoder_scale", "error: 0.03", "end_cap_correction", "", "slope", "", 0.05),
+    ("reading_delay", "time: 50 ms", "command_delay", "", "time", "ms", 200),
 ]
 LOADS = "[11.138 kg, 16.138 kg, 23.406 kg]"
 CONTROLLERS = ("nominal", "corrected", "wrong_name", "pid")

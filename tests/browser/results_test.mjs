@@ -181,3 +181,19 @@ test('two muscles turn their joint as their CSV has it, and never to -0.0 degree
   assert.deepEqual(requests, [url]);
   await done();
 });
+
+test('what was measured of two muscles is drawn with the pressures that are asked for', async () => {
+  const {page, close: done, complaints, requests, url} = await open('joint');
+  const csv = table('joint/against.csv');
+  const degrees = csv.angle_rad.map((angle) => (180 * angle) / Math.PI);
+  const series = Object.values(await seriesOf(page, 'angle')), pressures = await seriesOf(page, 'pressures');
+  near(series[0].values, degrees, rangeOf(degrees), 'angle');
+  assert.ok(!Object.keys(pressures).some((label) => label.startsWith('gauge')), Object.keys(pressures));
+  assert.match(
+      await page.locator('#rig text.side').last().textContent(), /^muscle 2: \d+\.\d\d mA, \d+\.\d\d bar$/);
+  const plots = await page.evaluate(() => view.plots.map(({plot}) => plot.id));
+  assert.deepEqual(plots, ['angle', 'current', 'pressures']);  // nothing that only the simulation knows
+  assert.deepEqual(complaints, []);
+  assert.deepEqual(requests, [url]);
+  await done();
+});

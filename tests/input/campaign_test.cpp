@@ -34,8 +34,8 @@ TEST(Campaign, ReadsEveryKindOfField) {
   EXPECT_TRUE(campaign.rig.gauge.fitted);
   EXPECT_DOUBLE_EQ(campaign.loads_kg.at(1), 13.87);
   EXPECT_DOUBLE_EQ(campaign.currents.at(1).duration_s, 0.999);
-  EXPECT_DOUBLE_EQ(std::get<controllers::SineCurrent>(campaign.currents.at(0).current).period_s, 2.4);
-  EXPECT_EQ(std::get<controllers::RecordedCurrent>(campaign.currents.at(3).current).samples_mA,
+  EXPECT_DOUBLE_EQ(std::get<controllers::SineCurrent>(*campaign.currents.at(0).current).period_s, 2.4);
+  EXPECT_EQ(std::get<controllers::RecordedCurrent>(*campaign.currents.at(3).current).samples_mA,
             (std::vector<double>{4.0, 4.0}));
   EXPECT_EQ(campaign.repeats, 3);
   EXPECT_EQ(campaign.noise.encoder_jitter, 5e-5);
@@ -47,7 +47,29 @@ TEST(Campaign, StepsBeginAtTheValvesZeroCurrent) {
   const Campaign campaign = campaign_of(
       "schema: mckibben-campaign/1\nrig: {valve: {zero_current: 1 mA}}\nloads: [11 kg]\n"
       "currents: [{duration: 2 s, current: {kind: step_current, moves: [{at: 1 s, to: 9 mA}]}}]\n");
-  EXPECT_EQ(std::get<controllers::StepCurrent>(campaign.currents.at(0).current).start_mA, 1.0);
+  EXPECT_EQ(std::get<controllers::StepCurrent>(*campaign.currents.at(0).current).start_mA, 1.0);
+}
+
+TEST(Campaign, APairHasTwoCurrentsEachThatFollowTheirValves) {
+  const Campaign campaign = campaign_of(
+      "schema: mckibben-campaign/1\n"
+      "rig: {base: thesis_pair, mechanics: {kind: pair, opposite: {valve: {zero_current: 1 mA}}}}\n"
+      "currents:\n"
+      "  - duration: 2 s\n"
+      "    current_1: {kind: step_current, moves: []}\n"
+      "    current_2: {kind: step_current, moves: []}\n"
+      "  - name: played\n"
+      "    duration: 1 s\n"
+      "    current_1: {kind: recorded_current, file: tests/bad/good.csv}\n"
+      "    current_2: {kind: sine_current, low: 6 mA, high: 14 mA, period: 1 s}\n");
+  EXPECT_TRUE(campaign.loads_kg.empty());
+  ASSERT_EQ(campaign.currents.size(), 2u);
+  EXPECT_EQ(campaign.currents[0].name, "c01");
+  EXPECT_FALSE(campaign.currents[0].current);
+  EXPECT_EQ(std::get<controllers::StepCurrent>(*campaign.currents[0].current_1).start_mA, 4.0);
+  EXPECT_EQ(std::get<controllers::StepCurrent>(*campaign.currents[0].current_2).start_mA, 1.0);
+  EXPECT_EQ(std::get<controllers::RecordedCurrent>(*campaign.currents[1].current_1).samples_mA.size(), 2u);
+  EXPECT_EQ(campaign_json(campaign_of(to_yaml(campaign_json(campaign)))), campaign_json(campaign));
 }
 
 TEST(Campaign, CurrentsWithoutANameAreNamedAfterWaveformOrPlace) {
@@ -66,9 +88,9 @@ TEST(Campaign, ResolvedReadsBackBitForBit) {
 
 TEST(Campaign, SchemaOffersGivenCurrentsOnly) {
   const Json schema = json_schema(campaign_schema, "Campaign", list_fields<Campaign>());
-  EXPECT_EQ(schema["required"], (Json{"schema", "loads", "currents"}));
+  EXPECT_EQ(schema["required"], (Json{"schema", "currents"}));
   const Json& current = schema["properties"]["currents"]["items"];
-  EXPECT_EQ(current["required"], (Json{"duration", "current"}));
+  EXPECT_EQ(current["required"], Json{"duration"});
   EXPECT_EQ(current["properties"]["current"]["oneOf"].size(), 6u);
 }
 
@@ -80,7 +102,7 @@ TEST(Campaign, ShippedOneIsTheThesiss) {
   for (std::size_t i = 0; i < 20; ++i) {
     const int samples = i < 19 ? 200 + 20 * static_cast<int>(i) : 600;
     const CampaignCurrent& current = campaign.currents[i];
-    const auto& sine = std::get<controllers::SineCurrent>(current.current);
+    const auto& sine = std::get<controllers::SineCurrent>(*current.current);
     EXPECT_EQ(current.name, "n" + std::to_string(samples));
     EXPECT_NEAR(sine.period_s / campaign.rig.tick_s, samples, 1e-9);
     EXPECT_NEAR(current.duration_s / sine.period_s, 5.0, 1e-12);
@@ -88,7 +110,7 @@ TEST(Campaign, ShippedOneIsTheThesiss) {
     EXPECT_EQ(sine.high_mA, 20.0);
   }
   const auto speed = [&](std::size_t i) {
-    return 40.0 / std::get<controllers::SineCurrent>(campaign.currents[i].current).period_s;
+    return 40.0 / std::get<controllers::SineCurrent>(*campaign.currents[i].current).period_s;
   };
   EXPECT_NEAR(speed(0), 16.7, 0.05);
   EXPECT_NEAR(speed(19), 5.6, 0.05);

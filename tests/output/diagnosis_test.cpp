@@ -167,7 +167,7 @@ TEST(DiagnosisPlan, IsACampaignWithThatCurrentAndLoadOnTheCorrectedRig) {
   const domain::Campaign campaign = input::read_campaign(input::Source("plan.yaml", text, "."));
   EXPECT_EQ(campaign.loads_kg, std::vector<double>{16.138});
   ASSERT_EQ(campaign.currents.size(), 1u);
-  EXPECT_TRUE(std::holds_alternative<controllers::StairCurrent>(campaign.currents[0].current));
+  EXPECT_TRUE(std::holds_alternative<controllers::StairCurrent>(campaign.currents[0].current.value()));
   EXPECT_EQ(input::rig_json(campaign.rig), input::rig_json(found.corrected));
 }
 

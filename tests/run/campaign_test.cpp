@@ -1,5 +1,7 @@
 // The runs of a campaign: their names, noise of their own,
 // no dependence on order or threads, and an end in the middle.
+#include <algorithm>
+#include <cmath>
 #include <csignal>
 #include <cstdlib>
 #include <map>
@@ -13,6 +15,8 @@
 #include <sim/input/campaign_file.hpp>
 #include <sim/run/batch.hpp>
 #include <sim/run/campaign.hpp>
+#include <sim/run/gaps.hpp>
+#include <sim/run/judged.hpp>
 #include <sim/run/simulate.hpp>
 
 namespace mckibben::run {
@@ -87,6 +91,67 @@ TEST(Campaign, MeasuredIsWhatTheInstrumentsShow) {
             static_cast<double>(sample.counts) * contraction_per_count(campaign.rig));
   EXPECT_EQ(table.muscle_pressure_Pa.value()[49], sample.gauge_Pa);
   EXPECT_NE(sample.gauge_Pa, sample.state.side.muscle_pressure_Pa);
+}
+
+domain::Campaign small_pair() {
+  domain::Campaign campaign;
+  campaign.rig = domain::thesis_pair();
+  campaign.rig.gauge.fitted = true;
+  controllers::SineCurrent sine;
+  sine.low_mA = 6.0;
+  sine.high_mA = 16.0;
+  controllers::StepCurrent still;
+  still.start_mA = 9.0;
+  campaign.currents = {{.name = "a", .duration_s = 0.6, .current_1 = sine, .current_2 = still},
+                       {.name = "b", .duration_s = 0.6, .current_1 = still, .current_2 = sine}};
+  return campaign;
+}
+
+TEST(Campaign, APairHasARunForEachPairOfCurrents) {
+  auto campaign = small_pair();
+  campaign.repeats = 2;
+  const auto jobs = jobs_of(campaign);
+  ASSERT_EQ(jobs.size(), 4u);
+  EXPECT_EQ(jobs[1].id, "a_r2");
+  EXPECT_EQ(jobs[2].id, "b_r1");
+  EXPECT_EQ(jobs[2].load_kg, 0.0);
+}
+
+TEST(Campaign, ExchangedCurrentsTurnAPairTheOtherWay) {
+  const auto campaign = small_pair();
+  const auto jobs = jobs_of(campaign);
+  const auto a = run_job(campaign, jobs[0]), b = run_job(campaign, jobs[1]);
+  ASSERT_EQ(a.recording.samples.size(), 50u);
+  double most_rad = 0.0;
+  for (std::size_t k = 0; k < 50; ++k) {
+    const Sample &one = a.recording.samples[k], &other = b.recording.samples[k];
+    EXPECT_EQ(one.current_mA, other.opposite.current_mA);
+    EXPECT_NEAR(angle_rad(campaign.rig, one), -angle_rad(campaign.rig, other), 2e-5);
+    EXPECT_NEAR(one.gauge_Pa, other.opposite.gauge_Pa, 10.0);
+    most_rad = std::max(most_rad, angle_rad(campaign.rig, one));
+  }
+  EXPECT_GT(most_rad, 0.1);
+  const EndedRun end = ended(campaign, a);
+  EXPECT_NEAR(end.angle_rad.high, most_rad, reading_per_count(campaign.rig));
+}
+
+TEST(Campaign, EachGaugeOfAPairHasNoiseOfItsOwn) {
+  auto campaign = small_pair();
+  const auto quiet = run_job(campaign, jobs_of(campaign)[0]);
+  campaign.noise.gauge_Pa = 1e3;
+  const auto noisy = run_job(campaign, jobs_of(campaign)[0]);
+  double squares = 0.0, others = 0.0, together = 0.0;
+  for (std::size_t k = 0; k < 50; ++k) {
+    const Sample &is = noisy.recording.samples[k], &was = quiet.recording.samples[k];
+    EXPECT_EQ(is.state.side.muscle_pressure_Pa, was.state.side.muscle_pressure_Pa);
+    const double one = is.gauge_Pa - was.gauge_Pa, two = is.opposite.gauge_Pa - was.opposite.gauge_Pa;
+    squares += one * one / 50.0;
+    others += two * two / 50.0;
+    together += one * two / 50.0;
+  }
+  EXPECT_NEAR(std::sqrt(squares), 1e3, 300.0);
+  EXPECT_NEAR(std::sqrt(others), 1e3, 300.0);
+  EXPECT_LT(std::abs(together), 0.4e6);
 }
 
 TEST(Campaign, RunsDoNotDependOnThreads) {
