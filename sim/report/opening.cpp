@@ -176,14 +176,19 @@ std::string loop_and_rig(const domain::Dataset& data, const Diagnosis& diagnosis
   const auto loops = curves_of(run, loop, looked_at);
   hold(loops, seen);
   for (output::Scale* scale : {&seen.x, &seen.y}) scale->widen(1e-6);
-  std::string svg = axes_svg(seen, loop.x_label, loop.y_label, data.rig) + drawn(loops, seen);
+  std::string svg =
+      loops.empty() ? "" : axes_svg(seen, loop.x_label, loop.y_label, data.rig) + drawn(loops, seen);
   auto found = found_in(diagnosis);
   const std::size_t more = found.size() - std::min(found.size(), most_told);
   found.resize(found.size() - more, {});
-  std::vector<Part> marks;
-  for (const Found& one : found) marks.push_back(one.part);
-  svg += fmt::format("<g transform='translate({:g} 0)'>\n{}</g>\n", column, rig_drawing(marks, gauged(data)));
-  double y = 172.0;
+  double y = 22.0;
+  if (data.judged() != diagnose::Judged::angle) {  // the drawing is of one muscle
+    std::vector<Part> marks;
+    for (const Found& one : found) marks.push_back(one.part);
+    svg +=
+        fmt::format("<g transform='translate({:g} 0)'>\n{}</g>\n", column, rig_drawing(marks, gauged(data)));
+    y = 172.0;
+  }
   for (std::size_t i = 0; i < found.size(); ++i, y += 32.0)
     svg += words_at(column, y, fmt::format("{} {}", i + 1, found[i].name), "strong") +
            words_at(column + 12.0, y + 15.0, found[i].size, "soft");

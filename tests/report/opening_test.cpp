@@ -97,6 +97,18 @@ TEST(Opening, WithoutEffectsMarksNumbersThatMovedAndElseNothing) {
   EXPECT_EQ(opening(found).find("class='without'"), std::string::npos);
 }
 
+TEST(Opening, OfTwoMusclesNamesWhatWasFoundWithoutADrawing) {
+  diagnose::Diagnosis found = diagnosed();
+  found.gap.judged = diagnose::Judged::angle;
+  domain::Dataset data = output::measured();
+  data.rig = domain::thesis_pair();
+  const std::string html = report_html(data, found, {}, {});
+  EXPECT_NE(html.find("<figure class='opening'>"), std::string::npos);
+  EXPECT_NE(html.find(">1 muscle_leak<"), std::string::npos);
+  EXPECT_EQ(html.find("class='mark c0' cx="), std::string::npos);
+  EXPECT_EQ(html.find("class='without'"), std::string::npos);
+}
+
 TEST(RigParts, EveryEffectAndEveryNumberHasAPlace) {
   const auto check = [](std::string_view name) { EXPECT_TRUE(part_of(name)) << name; };
   std::apply([&](const auto&... effect) { (check(effect.name), ...); }, plant::Effects::Table{});
