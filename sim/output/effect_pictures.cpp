@@ -7,7 +7,6 @@
 
 #include <fmt/format.h>
 
-#include <controllers/waveform.hpp>
 #include <plant/plant.hpp>
 #include <sim/diagnose/parameter.hpp>
 #include <sim/output/axes.hpp>
@@ -58,31 +57,16 @@ std::string line(const char* ink, double wide, const std::string& d) {
       ink, wide, d);
 }
 
-/// Whose pressure it is.
-enum class Across { current, gauge };
-
-/// The loop that one sees from outside: pressure that the current asks for, or that a gauge shows;
-/// contraction as the encoder has it.
-std::string loop(const plant::Rig& rig, const Ride& ride, Across across, const char* ink, double wide) {
+std::string loop(const plant::Rig& rig, const Ride& ride, bool gauge, const char* ink, double wide) {
   const Panel panel = panel_of(ride);
   controllers::TriangleCurrent current;
   current.low_mA = low_mA;
   current.high_mA = high_mA;
   current.period_s = ride.period_s;
-  const auto ticks = static_cast<std::size_t>(std::lround(ride.duration_s / rig.tick_s));
-  const auto controller = current.make(run::knowledge_of(rig, std::vector<double>(ticks, 0.0)));
-  const run::Recording recording =
-      run::simulate({.rig = rig, .load_kg = load_kg, .ticks = ticks}, *controller);
-  if (!recording.failure.empty()) throw std::runtime_error(recording.failure);
-  const plant::Plant plant(rig, load_kg);
-  const double count = run::contraction_per_count(rig);
   std::string d;
   double last_x = 0.0, last_y = 0.0;
-  for (const run::Sample& sample : recording.samples) {
-    const double pressure_Pa =
-        across == Across::gauge ? sample.gauge_Pa : plant.reference_pressure_Pa(sample.current_mA);
-    const double x = panel.x.px(pressure_Pa / 1e5);
-    const double y = panel.y.px((static_cast<double>(sample.counts) + 0.5) * count);
+  for (const auto& [pressure_bar, ratio] : loop_of(rig, load_kg, current, ride.duration_s, gauge)) {
+    const double x = panel.x.px(pressure_bar), y = panel.y.px(ratio);
     if (!d.empty() && std::hypot(x - last_x, y - last_y) < 2.5) continue;
     d += fmt::format("{}{:.1f} {:.1f}", d.empty() ? 'M' : 'L', x, y);
     last_x = x, last_y = y;
@@ -91,16 +75,15 @@ std::string loop(const plant::Rig& rig, const Ride& ride, Across across, const c
 }
 
 /// The ratios are written beside the first panel, and hold for all.
-std::string axes(const Ride& ride, Across across) {
+std::string axes(const Ride& ride, bool gauge) {
   const Panel panel = panel_of(ride);
   const bool first = &ride == &rides.front();
   std::vector<Tick> ratios = round_numbers(panel.y, 6);
   if (!first)
     for (Tick& tick : ratios) tick.text.clear();
   return fmt::format("<text x='{}' y='{}'>{}</text>\n", ride.left_px, loop_top - 8, ride.title) +
-         panel.across(round_numbers(panel.x, 4), across == Across::gauge
-                                                     ? "pressure the gauge shows [bar]"
-                                                     : "pressure the current asks for [bar]") +
+         panel.across(round_numbers(panel.x, 4),
+                      gauge ? "pressure the gauge shows [bar]" : "pressure the current asks for [bar]") +
          panel.upwards(ratios, first ? "contraction ratio" : "") + panel.frame();
 }
 
@@ -121,6 +104,24 @@ double telling_size(const diagnose::Candidate& law) {
 }
 
 }  // namespace
+
+std::vector<std::pair<double, double>> loop_of(const plant::Rig& rig, double load_kg,
+                                               const controllers::TriangleCurrent& current, double duration_s,
+                                               bool gauge) {
+  const auto ticks = static_cast<std::size_t>(std::lround(duration_s / rig.tick_s));
+  const auto controller = current.make(run::knowledge_of(rig, std::vector<double>(ticks, 0.0)));
+  const run::Recording recording =
+      run::simulate({.rig = rig, .load_kg = load_kg, .ticks = ticks}, *controller);
+  if (!recording.failure.empty()) throw std::runtime_error(recording.failure);
+  const plant::Plant plant(rig, load_kg);
+  const double count = run::contraction_per_count(rig);
+  std::vector<std::pair<double, double>> points;
+  for (const run::Sample& sample : recording.samples) {
+    const double pressure_Pa = gauge ? sample.gauge_Pa : plant.reference_pressure_Pa(sample.current_mA);
+    points.emplace_back(pressure_Pa / 1e5, (static_cast<double>(sample.counts) + 0.5) * count);
+  }
+  return points;
+}
 
 std::string effect_svg(std::string_view effect, const domain::RigFile& nominal) {
   std::vector<std::pair<std::string, domain::RigFile>> laws;
@@ -153,10 +154,10 @@ std::string effect_svg(std::string_view effect, const domain::RigFile& nominal) 
   legend(460, 22, "nominal", 4.0, "nominal rig");
   for (std::size_t i = 0; i < laws.size(); ++i)
     legend(12, 44.0 + 20.0 * static_cast<double>(i), inks[i], 2.2, laws[i].first);
-  const Across across = effect == plant::GaugeError::name ? Across::gauge : Across::current;
+  const bool gauge = effect == plant::GaugeError::name;
   for (const Ride& ride : rides) {
-    svg += axes(ride, across) + loop(nominal, ride, across, "nominal", 4.0);
-    for (std::size_t i = 0; i < laws.size(); ++i) svg += loop(laws[i].second, ride, across, inks[i], 2.2);
+    svg += axes(ride, gauge) + loop(nominal, ride, gauge, "nominal", 4.0);
+    for (std::size_t i = 0; i < laws.size(); ++i) svg += loop(laws[i].second, ride, gauge, inks[i], 2.2);
   }
   return svg + "</svg>\n";
 }

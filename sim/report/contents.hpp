@@ -71,17 +71,20 @@ struct Picture {
 /// A headed part of the page, as HTML; left out if it is empty.
 struct Chapter {
   std::string title, html;
+  bool on_paper = true;  ///< if not, it is printed only where the reader asks for all
 };
 
 struct Contents {
   std::string title, about;
   std::vector<std::string> warnings{};
   std::string sentence{};                 ///< the result in one sentence, as HTML
+  std::string opening{};                  ///< a picture of it, as HTML; may be empty
   std::string table{};                    ///< the result as HTML
   std::string details{};                  ///< all of it, as text
   std::string beside{};                   ///< what is where in the folder
   std::vector<Chapter> chapters{};        ///< before the runs
   std::vector<Chapter> later_chapters{};  ///< after them
+  bool short_on_paper = false;            ///< runs are printed only where the reader asks for all
   bool lengths = true;                    ///< it has some, and the reader may choose their unit
   plant::Rig rig{};
   plant::Mechanics mechanics{};

@@ -300,8 +300,10 @@ std::string result_table(const domain::Dataset& data, const Diagnosis& diagnosis
 std::vector<Chapter> story(const domain::Dataset& data, const Diagnosis& diagnosis,
                            const std::vector<const diagnose::RunGap*>& runs) {
   const plant::Rig& rig = data.rig;
-  return {{"Where they disagree", where_html(diagnosis, rig)},
-          {diagnosis.effects.empty() ? "What was tried" : "What explains it", ranking_html(diagnosis, rig)},
+  return {{.title = "Where they disagree", .html = where_html(diagnosis, rig), .on_paper = false},
+          {.title = diagnosis.effects.empty() ? "What was tried" : "What explains it",
+           .html = ranking_html(diagnosis, rig),
+           .on_paper = false},
           {diagnosis.effects.empty() && diagnosis.stand_ins.empty() && diagnosis.residual_law.empty()
                ? "What was changed"
                : "What was added",

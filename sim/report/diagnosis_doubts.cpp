@@ -106,10 +106,12 @@ std::string next_html(const Diagnosis& diagnosis) {
 }  // namespace
 
 std::vector<Chapter> doubts_and_plan(const domain::Dataset& data, const Diagnosis& diagnosis) {
-  return {{diagnosis.effects.empty() && diagnosis.residual_law.empty() ? "Which candidates look alike"
-                                                                       : "What else it could be",
-           twins_html(data, diagnosis)},
-          {"What to measure next", next_html(diagnosis)}};
+  return {
+      {.title = diagnosis.effects.empty() && diagnosis.residual_law.empty() ? "Which candidates look alike"
+                                                                            : "What else it could be",
+       .html = twins_html(data, diagnosis),
+       .on_paper = false},
+      {"What to measure next", next_html(diagnosis)}};
 }
 
 }  // namespace mckibben::report

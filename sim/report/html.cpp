@@ -110,10 +110,15 @@ std::string stills(const Contents& contents) {
   return html;
 }
 
+/// Of what is printed only where the reader asks for all.
+constexpr const char* on_screen = " class='on-screen'";
+
 std::string chapters_html(const std::vector<Chapter>& chapters) {
   std::string html;
   for (const auto& chapter : chapters)
-    if (!chapter.html.empty()) html += fmt::format("<h2>{}</h2>\n{}", escaped(chapter.title), chapter.html);
+    if (!chapter.html.empty())
+      html += fmt::format("<section{}><h2>{}</h2>\n{}</section>\n", chapter.on_paper ? "" : on_screen,
+                          escaped(chapter.title), chapter.html);
   return html;
 }
 
@@ -175,15 +180,24 @@ std::string html_of(const Contents& contents) {
   if (contents.lengths) html += unit_switch;
   html += fmt::format("<p class='small'>{}</p>\n<h1>{}</h1>\n<p class='lead'>{}</p>\n",
                       escaped(contents.about), escaped(contents.title), contents.sentence);
+  html += contents.opening;
   html += "<div class='wide result'>\n" + contents.table + "</div>\n";
   html += warnings_html(contents);
   html += "<details><summary>All numbers, as printed</summary><pre>" + escaped(contents.details) +
           "</pre></details>\n";
   html += chapters_html(contents.chapters);
   if (runs)
-    html += "<h2 id='runs'>The rig and its runs</h2>\n" + std::string(controls) + rig_and_plots(contents) +
-            ("<h2>Loops<span class='still'> and plots over time</span></h2>\n" + stills(contents));
+    html += fmt::format("<section{}><h2 id='runs'>The rig and its runs</h2>\n",
+                        contents.short_on_paper ? on_screen : "") +
+            controls + rig_and_plots(contents) +
+            "<h2>Loops<span class='still'> and plots over time</span></h2>\n" + stills(contents) +
+            "</section>\n";
   html += chapters_html(contents.later_chapters);
+  if (contents.short_on_paper)
+    html +=
+        "<p class='small'><label><input type='checkbox' id='all-on-paper'> Print all of this page, not only "
+        "its "
+        "beginning, what was changed, the gap and what to measure next</label></p>\n";
   html += fmt::format("<p class='small'>mckibben {}. {}</p>\n", MCKIBBEN_VERSION,
                       text_html(contents.beside, contents.rig));
   if (runs) {

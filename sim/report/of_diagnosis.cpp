@@ -16,6 +16,7 @@
 #include <sim/report/driven_quantities.hpp>
 #include <sim/report/html.hpp>
 #include <sim/report/length.hpp>
+#include <sim/report/opening.hpp>
 #include <sim/report/quantities.hpp>
 #include <sim/report/report.hpp>
 #include <sim/run/gaps.hpp>
@@ -292,6 +293,7 @@ std::string report_html(const domain::Dataset& data, const Diagnosis& diagnosis,
           100.0 * diagnosis.false_alarm_rate, diagnosis.seed),
       .chapters = story(data, diagnosis, ordered(diagnosis.runs, output::changed(diagnosis))),
       .later_chapters = doubts_and_plan(data, diagnosis),
+      .short_on_paper = true,
       .lengths = !pair,
       .rig = diagnosis.corrected,
       .mechanics = pair ? diagnosis.corrected.mechanics : plant::Mechanics{},
@@ -299,9 +301,12 @@ std::string report_html(const domain::Dataset& data, const Diagnosis& diagnosis,
       .plots = plots(data, diagnosis),
       .loops = loops_of_runs(data),
       .drawn = output::changed(diagnosis) ? 2u : 0u};  // the corrected
+  const RunGap* telling = telling_run(diagnosis);
   for (const RunGap* run : runs) {
     const auto of = pair ? pair_group : group_of;
     auto group = of(data, diagnosis, *run, by_id(nominal, run->id), by_id(corrected, run->id));
+    if (run == telling && !group.runs.empty())
+      contents.opening = opening_html(data, diagnosis, group, contents.plots, contents.loops.front());
     if (!group.runs.empty()) contents.groups.push_back(std::move(group));
   }
   return html_of(contents);

@@ -4,7 +4,10 @@
 #pragma once
 
 #include <string>
+#include <utility>
+#include <vector>
 
+#include <sim/output/axes.hpp>
 #include <sim/report/contents.hpp>
 
 namespace mckibben::report {
@@ -18,5 +21,25 @@ std::string still_svg(const Group& group, const Plot& plot, const plant::Rig& ri
 
 /// Two quantities of each run against each other; empty if no run has them.
 std::string loop_svg(const Group& group, const Loop& loop, const plant::Rig& rig, std::size_t most);
+
+// Parts of such pictures, for those that lay out their own.
+
+/// A line as it is drawn, and where it goes; NaN lifts the pen.
+struct Curve {
+  std::string kind;  ///< class and data-run
+  bool dots = false;
+  std::vector<std::pair<double, double>> points{};
+};
+std::vector<Curve> curves_over_time(const Group& group, const Plot& plot, const plant::Rig& rig,
+                                    std::size_t most);
+std::vector<Curve> curves_of(const Group& group, const Loop& loop, std::size_t most);
+
+/// Makes room for them.
+void hold(const std::vector<Curve>& curves, output::Panel& panel);
+
+/// Axes in the units that the reader wants. Without words an axis has no numbers either.
+std::string axes_svg(const output::Panel& panel, const std::string& x_label, const std::string& y_label,
+                     const plant::Rig& rig);
+std::string curve_svg(const Curve& curve, const output::Panel& panel);
 
 }  // namespace mckibben::report

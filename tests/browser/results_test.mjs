@@ -94,6 +94,38 @@ test('a diagnosis shows the runs held out first, as measured and by each rig', a
   await done();
 });
 
+test('a diagnosis opens with one picture, wide or narrow, light or dark', async () => {
+  for (const [width, colorScheme] of [[1200, 'light'], [400, 'dark']]) {
+    const {page, close: done, complaints} =
+        await open('diagnosis', {viewport: {width, height: 800}, colorScheme});
+    const opening = page.locator('.opening');
+    assert.match(await opening.locator('figcaption').innerText(), /^m2_sine, 16.138 kg, held out/);
+    assert.ok(await opening.getByText('1 muscle_leak').isVisible());
+    const [first, second] = await opening.locator('svg[role=img]')
+                                .evaluateAll((all) => all.map((one) => one.getBoundingClientRect().toJSON()));
+    assert.equal(first.top === second.top, width > 400);
+    assert.ok(first.width > 360 && second.right <= width, JSON.stringify([first, second]));
+    const ink = (kind) => opening.locator(kind).first().evaluate((one) => getComputedStyle(one).stroke);
+    const inks = await Promise.all(['path.c1', 'path.c0', 'path.given'].map(ink));
+    assert.deepEqual(inks, width > 400 ? ['rgb(213, 94, 0)', 'rgb(0, 96, 156)', 'rgb(26, 26, 26)'] : [
+      'rgb(240, 128, 56)', 'rgb(74, 144, 226)', 'rgb(236, 236, 236)'
+    ]);
+    assert.deepEqual(complaints, []);
+    await done();
+  }
+});
+
+test('a diagnosis prints on two pages of A4, and as a whole where that is asked for', async () => {
+  const {page, close: done} = await open('diagnosis');
+  const margin = Object.fromEntries(['top', 'right', 'bottom', 'left'].map((side) => [side, '12mm']));
+  const pages = async () =>
+      (await page.pdf({format: 'A4', margin})).toString('latin1').match(/\/Type *\/Page\b(?!s)/g).length;
+  assert.equal(await pages(), 2);
+  await page.locator('#all-on-paper').check();
+  assert.ok(await pages() > 3);
+  await done();
+});
+
 test('the axis of a diagnosis\'s errors lets the noise floor be seen', async () => {
   const {page, close: done} = await open('diagnosis');
   const [zero, floor, most, high] = await page.evaluate(() => {
