@@ -60,11 +60,11 @@ Contender replay(const Case& c) {
 
 Recalibrated recalibrate(Case& c, const Contender& nominal) {
   const auto slight = with_slight_effects(c, nominal.fitted.model);
-  Recalibrated result{.contender = contend(c, nominal.fitted.model, nullptr, slight.has_value())};
+  Recalibrated result{.contender = contend(c, nominal.fitted.model, {.thorough = slight.has_value()})};
   Contender& best = result.contender;
   if (slight) {
     // They may be there in vain: from next to nothing the way down can be another.
-    auto other = contend(c, *slight, nullptr, true);
+    auto other = contend(c, *slight, {.thorough = true});
     if (other.fitted.failure.empty() &&
         (!best.fitted.failure.empty() || other.fitted.cost < best.fitted.cost))
       best = std::move(other);

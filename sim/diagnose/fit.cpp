@@ -3,6 +3,7 @@
 #include <cmath>
 #include <exception>
 
+#include <Eigen/Cholesky>
 #include <ceres/ceres.h>
 #include <glog/logging.h>
 
@@ -177,6 +178,30 @@ std::string descend(Misfit& misfit, Model& model, bool thorough) {
 
 }  // namespace
 
+double least_by_lines(const Fitted& fitted, double inflation) {
+  const auto& free = fitted.model.free;
+  const auto count = static_cast<Eigen::Index>(free.size());
+  Eigen::VectorXd moved = Eigen::VectorXd::Zero(count),
+                  priors = Eigen::VectorXd::Constant(count, thresholds.screen.ridge);
+  for (Eigen::Index j = 0; j < count; ++j) {
+    const Parameter& p = free[static_cast<std::size_t>(j)];
+    if (!p.has_prior) continue;
+    priors[j] = 1.0;
+    moved[j] = p.scaled(value_of(fitted.model.rig, p.path));
+  }
+  Eigen::MatrixXd normal = fitted.columns.transpose() * fitted.columns / inflation;
+  normal.diagonal() += priors;
+  const Eigen::VectorXd step = normal.ldlt().solve(fitted.columns.transpose() * fitted.residuals / inflation -
+                                                   priors.cwiseProduct(moved));
+  const Eigen::VectorXd left = fitted.residuals - fitted.columns * step;
+  return left.squaredNorm() / inflation + (moved + step).cwiseAbs2().dot(priors);
+}
+
+bool out_of_reach(double aim, const Fitted& fitted, double inflation) {
+  const double missing = std::max(0.0, fitted.cost - aim);
+  return least_by_lines(fitted, inflation) > aim + thresholds.near.clear + thresholds.fit.hopeless * missing;
+}
+
 KnownSlopes slopes_of_nominal(const Fitted& fitted) {
   KnownSlopes list;
   for (std::size_t j = 0; j < fitted.model.free.size(); ++j)
@@ -227,6 +252,7 @@ Fitted fit(const Experiment& experiment, Model start, const Runs& runs, const Fi
     result.failure = descend(misfit, result.model, settings.thorough);
     if (!result.failure.empty() || !look(rough ? known : none)) return result;
     if (before - result.cost < thresholds.fit.least_descent * (1.0 + coarseness * result.cost)) break;
+    if (settings.aim && out_of_reach(*settings.aim, result, settings.inflation)) break;
   }
   return result;
 }

@@ -2,6 +2,7 @@
 // measured runs.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -27,6 +28,7 @@ struct FitSettings {
       1.0;  ///< how much more the residuals scatter, over long times, than white noise at the floor
   bool thorough = false;               ///< to the bottom of the valley, for numbers that are told
   const KnownSlopes* known = nullptr;  ///< for a rough fit: slopes taken over from an earlier one
+  std::optional<double> aim{};         ///< cost that is wanted: where it is out of reach the fit ends early
 };
 
 struct Fitted {
@@ -36,6 +38,12 @@ struct Fitted {
   double cost = 0.0;          ///< residuals and priors: sum of squares / inflation + deviations^2
   std::string failure{};      ///< why there is no fit; empty if there is
 };
+
+/// The least cost that could be reached from a fit if its slopes held all the way and there were no bounds.
+double least_by_lines(const Fitted& fitted, double inflation);
+
+/// Whether that misses a cost that is aimed at by far.
+bool out_of_reach(double aim, const Fitted& fitted, double inflation);
 
 /// The slopes of the nominal parameters, without effects: those may move far.
 KnownSlopes slopes_of_nominal(const Fitted& fitted);

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Cholesky>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -74,41 +73,25 @@ Fitted with_wider_numbers(Fitted fitted, const Case& c) {
   return fitted;
 }
 
-double least_by_numbers(const Fitted& fitted, double inflation) {
-  const auto& free = fitted.model.free;
-  const auto count = static_cast<Eigen::Index>(free.size());
-  Eigen::VectorXd moved = Eigen::VectorXd::Zero(count),
-                  priors = Eigen::VectorXd::Constant(count, thresholds.screen.ridge);
-  for (Eigen::Index j = 0; j < count; ++j) {
-    const Parameter& p = free[static_cast<std::size_t>(j)];
-    if (!p.has_prior) continue;
-    priors[j] = 1.0;
-    moved[j] = p.scaled(value_of(fitted.model.rig, p.path));
-  }
-  Eigen::MatrixXd normal = fitted.columns.transpose() * fitted.columns / inflation;
-  normal.diagonal() += priors;
-  const Eigen::VectorXd step = normal.ldlt().solve(fitted.columns.transpose() * fitted.residuals / inflation -
-                                                   priors.cwiseProduct(moved));
-  const Eigen::VectorXd left = fitted.residuals - fitted.columns * step;
-  return left.squaredNorm() / inflation + (moved + step).cwiseAbs2().dot(priors);
-}
-
 namespace {
 
-/// The best fit of wider numbers from these bases; without those from which straight lines miss too much of
-/// what is to be gained down to `cost`. None if no number departs further than it is stated to.
+/// Of a fit that leaves noise alone.
+double cost_at_the_floor(const Eigen::VectorXd& residuals, double inflation) {
+  return static_cast<double>(residuals.size()) / inflation;
+}
+
+/// The best fit of wider numbers from these bases; without those from which `cost` is out of reach. None if
+/// no number departs further than it is stated to.
 std::optional<Contender> best_numbers(const Case& c, const Bases& bases, double cost) {
   std::optional<Contender> best;
   const auto begin = [&](Model model) {
-    Contender numbers = contend(c, std::move(model));
+    Contender numbers = contend(c, std::move(model), {.aim = cost});
     if (!numbers.fitted.failure.empty() || (best && best->fitted.cost <= numbers.fitted.cost)) return;
     best = std::move(numbers);
   };
   for (const Fitted* base : bases) {
     const Fitted wider = with_wider_numbers(*base, c);
-    const double gain = std::max(0.0, base->cost - cost);
-    if (least_by_numbers(wider, c.inflation) > cost + thresholds.near.clear + of_further.hopeless * gain)
-      continue;
+    if (out_of_reach(cost, wider, c.inflation)) continue;
     begin(wider.model);
     if (best && meets(*best)) break;
     for (Model& place : one_number_far_off(c, wider.model)) begin(std::move(place));
@@ -128,7 +111,7 @@ std::optional<Contender> numbers_as_good(const Case& c, const Bases& bases, cons
 
 std::optional<Contender> numbers_that_close(const Case& c, const Bases& bases,
                                             const Eigen::VectorXd& before) {
-  auto numbers = best_numbers(c, bases, 0.0);
+  auto numbers = best_numbers(c, bases, cost_at_the_floor(bases.front()->residuals, c.inflation));
   if (!numbers) return numbers;
   const auto gain = compare(c.experiment, before, numbers->held_out, c.split.held_out);
   const bool near = all_near_floor(c.experiment, numbers->fitted.residuals, c.split.training) &&
@@ -142,8 +125,9 @@ bool numbers_reach_all(const Case& c, const Model& described, const Runs& usable
   const auto from = as_it_stands(of_all, described);
   if (!from) return false;
   const Fitted wider = with_wider_numbers(*from, of_all);
-  if (least_by_numbers(wider, c.inflation) > of_further.hopeless * from->cost) return false;
-  const Fitted fitted = fit(c.experiment, wider.model, usable, {.inflation = c.inflation});
+  const double aim = cost_at_the_floor(wider.residuals, c.inflation);
+  if (out_of_reach(aim, wider, c.inflation)) return false;
+  const Fitted fitted = fit(c.experiment, wider.model, usable, {.inflation = c.inflation, .aim = aim});
   return fitted.failure.empty() && all_near_floor(c.experiment, fitted.residuals, usable);
 }
 

@@ -15,10 +15,6 @@ namespace mckibben::diagnose {
 /// sizes of effects, have none that could be wider.
 Fitted with_wider_numbers(Fitted fitted, const Case& c);
 
-/// The least cost that the numbers could reach from a fit if its slopes held all the way and there were no
-/// bounds.
-double least_by_numbers(const Fitted& fitted, double inflation);
-
 /// Fits to begin from, without what is to be spared.
 using Bases = std::vector<const Fitted*>;
 

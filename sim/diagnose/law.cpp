@@ -229,7 +229,7 @@ void extend_law(const Case& c, const std::vector<const Contender*>& bases, const
     const auto extend = [&](const Contender& base) {
       const auto known = slopes_of_nominal(base.fitted);
       for (const Proposal& proposal : propose(c, base.fitted)) {
-        auto longer = contend(c, with_term(base.fitted.model, proposal.term), &known);
+        auto longer = contend(c, with_term(base.fitted.model, proposal.term), {.known = &known});
         if (longer.fitted.failure.empty() && (!next || longer.fitted.cost < next->fitted.cost))
           next = std::move(longer);
       }

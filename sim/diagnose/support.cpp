@@ -34,7 +34,7 @@ void tell_support(const Case& c, const Contender& recalibrated, Naming& naming, 
     step("without " + full_name(effect));
     const auto index = static_cast<std::size_t>(place - effects.begin());
     const Contender without_it =
-        effects.size() == 1 ? recalibrated : contend(c, without(best.fitted.model, index), &known);
+        effects.size() == 1 ? recalibrated : contend(c, without(best.fitted.model, index), {.known = &known});
     if (!without_it.fitted.failure.empty()) continue;
     Support& support = effect.support;
     support.fall = without_it.fitted.cost - best.fitted.cost;

@@ -51,10 +51,10 @@ Model without(const Model& model, std::size_t effect) {
   return smaller;
 }
 
-Contender contend(const Case& c, Model model, const KnownSlopes* known, bool thorough) {
+Contender contend(const Case& c, Model model, FitSettings settings) {
   Contender contender;
-  contender.fitted = fit(c.experiment, std::move(model), c.split.training,
-                         {.inflation = c.inflation, .thorough = thorough, .known = known});
+  settings.inflation = c.inflation;
+  contender.fitted = fit(c.experiment, std::move(model), c.split.training, settings);
   if (!contender.fitted.failure.empty()) return contender;
   try {
     contender.held_out = c.experiment.residuals(contender.fitted.model.rig, c.split.held_out);
@@ -115,7 +115,7 @@ Screening screen_at(const Case& c, const Contender& base) {
 
 Trial rough(const Case& c, const Contender& base, const Score& score, std::size_t place) {
   const auto known = slopes_of_nominal(base.fitted);
-  return {score, place, contend(c, with(c, base.fitted.model, score), &known), {}};
+  return {score, place, contend(c, with(c, base.fitted.model, score), {.known = &known}), {}};
 }
 
 void polish(const Case& c, Trial& trial, const Step& step) {

@@ -44,8 +44,8 @@ struct Screening {
   std::vector<Score> scores;
 };
 
-/// Fits a model to the training runs. `known`, `thorough` as in FitSettings.
-Contender contend(const Case& c, Model model, const KnownSlopes* known = nullptr, bool thorough = false);
+/// Fits a model to the training runs, whose inflation is the case's.
+Contender contend(const Case& c, Model model, FitSettings settings = {});
 
 /// The model with one candidate more, at the size that serves best along the direction of its score.
 Model with(const Case& c, const Model& model, const Score& score);

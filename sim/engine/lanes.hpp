@@ -161,18 +161,19 @@ inline Lanes log(const Lanes& x) {
 }
 
 // Where `f` is called it is compiled once for any machine of the kind and, on x86-64, once for those with
-// AVX2; what runs is chosen when the program runs. Without fused multiply-add: see above. With sanitizers in
-// it, what is flattened takes the compiler twenty times as long.
-#if defined(__SANITIZE_ADDRESS__)
+// AVX2; what runs is chosen when the program runs. Without fused multiply-add: see above. What is flattened
+// is quicker and takes the compiler long (with sanitizers in it twenty times as long): only what most
+// machines run.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 #define MCKIBBEN_FLATTEN
 #else
 #define MCKIBBEN_FLATTEN gnu::flatten
 #endif
+#if defined(__x86_64__)
 template <class F>
-[[MCKIBBEN_FLATTEN]] void on_any_machine(const F& f) {
+void on_any_machine(const F& f) {
   f();
 }
-#if defined(__x86_64__)
 template <class F>
 [[MCKIBBEN_FLATTEN]] [[gnu::target("avx2")]] void with_avx2(const F& f) {
   f();
@@ -180,6 +181,11 @@ template <class F>
 inline bool has_avx2() {
   static const bool has = __builtin_cpu_supports("avx2") != 0;
   return has;
+}
+#else
+template <class F>
+[[MCKIBBEN_FLATTEN]] void on_any_machine(const F& f) {
+  f();
 }
 #endif
 template <class F>

@@ -12,10 +12,10 @@
 namespace mckibben::input {
 namespace {
 
-constexpr std::string_view count = "count";
+constexpr std::string_view counts_unit = "count";
 
 std::string contraction_problem(const std::string& unit) {
-  if (unit == "1" || unit == "%" || unit == count) return "";
+  if (unit == "1" || unit == "%" || unit == counts_unit) return "";
   if (unit_problem(unit, "m").empty() || unit_problem(unit, "rad").empty()) return "";
   return fmt::format(
       "{} is not a unit of contraction; wanted is 1, %, count, an angle (deg) or a length (mm)", unit);
@@ -25,7 +25,7 @@ std::string contraction_problem(const std::string& unit) {
 void to_ratio(std::vector<double>& values, const std::string& unit, const plant::Rig& rig) {
   double ratio = 1.0;
   if (unit == "1") return;
-  if (unit == count) {
+  if (unit == counts_unit) {
     ratio = plant::count_height_m(rig) / rig.muscle.rest_length_m;
   } else if (unit == "%") {
     for (double& value : values) value /= 100.0;
@@ -54,7 +54,7 @@ bool is_command(const domain::Quantity& quantity) {
 std::string problem_of(const domain::Quantity& quantity, const std::string& unit) {
   if (is_command(quantity)) return command_problem(unit);
   if (quantity.key == "contraction") return contraction_problem(unit);
-  if (quantity.key == "angle" && unit == count) return "";
+  if (quantity.key == "angle" && unit == counts_unit) return "";
   if (quantity.key == "time" && unit == date_unit) return "";
   return unit_problem(unit, quantity.unit);
 }
@@ -124,7 +124,7 @@ void convert_columns(Table& table, const ColumnMap& map, const domain::RigFile& 
     if (column.is_date) continue;  // was read in seconds
     if (found->key == "contraction") {
       to_ratio(column.values, place.unit, rig);
-    } else if (place.unit == count) {  // of the joint's angle
+    } else if (place.unit == counts_unit) {  // of the joint's angle
       const double count_rad = plant::count_height_m(rig) / rig.joint.wheel_radius_m;
       for (double& value : column.values) value *= count_rad;
     } else if (is_command(*found) && !is_current(place.unit)) {

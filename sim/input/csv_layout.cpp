@@ -12,11 +12,11 @@ namespace mckibben::input {
 namespace {
 
 constexpr std::size_t longest_head = 100, most_unit_lines = 5;  // lines
-constexpr std::string_view separators = ",;\t";
+constexpr std::string_view between_cells = ",;\t";
 
 /// What stands most often between the cells of a line; a comma if nothing does.
 char separator_of(std::string_view line) {
-  return *std::max_element(separators.begin(), separators.end(), [&](char a, char b) {
+  return *std::max_element(between_cells.begin(), between_cells.end(), [&](char a, char b) {
     return split_cells(line, a).size() < split_cells(line, b).size();
   });
 }
@@ -30,7 +30,7 @@ std::optional<char> said_separator(std::string_view line) {
       line.size() > word.size() && std::equal(word.begin(), word.end(), line.begin(), [](char a, char b) {
         return a == (b >= 'A' && b <= 'Z' ? b - 'A' + 'a' : b);
       });
-  if (!says || separators.find(line[word.size()]) == std::string_view::npos) return std::nullopt;
+  if (!says || between_cells.find(line[word.size()]) == std::string_view::npos) return std::nullopt;
   return line[word.size()];
 }
 
@@ -49,7 +49,7 @@ bool is_row(const std::vector<Cell>& cells) {
 
 /// The same of a line between whose cells may stand anything: decimal commas look like separators.
 bool is_row(std::string_view line) {
-  return std::any_of(separators.begin(), separators.end(),
+  return std::any_of(between_cells.begin(), between_cells.end(),
                      [&](char separator) { return is_row(split_cells(line, separator)); });
 }
 

@@ -28,12 +28,6 @@ double row_time_s(const Recording& run, std::size_t row) {
   return static_cast<double>(row) * run.rig.tick_s;
 }
 
-/// The rig as its owner knows it.
-domain::RigFile nominal(domain::RigFile rig) {
-  if (auto* const pair = std::get_if<plant::Pair>(&rig.mechanics)) pair->opposite.effects = {};
-  return plant::nominal(std::move(rig));
-}
-
 /// Under the headings that data sets of pairs are found by; the angle is counted.
 std::string measured_csv_of_pair(const Recording& run) {
   const bool gauge = run.rig.gauge.fitted;
@@ -139,7 +133,7 @@ void DataSets::write() {
   if (first.rig.pair() != nullptr) dataset["columns"]["angle"] = {{"column", "counts"}, {"unit", "count"}};
   dataset["runs"] = runs_json(runs_);
   data.write("dataset.yaml", input::to_yaml(dataset));
-  data.write("rig.yaml", rig_text(nominal(first.rig)));
+  data.write("rig.yaml", rig_text(domain::nominal(first.rig)));
   truth.write("rig.yaml", rig_text(first.rig));
   truth.write("truth.yaml", input::to_yaml({{"schema", "mckibben-truth/1"},
                                             {"rig", input::to_json(first.rig)},

@@ -123,9 +123,9 @@ class MapPanel {
       path += fmt::format("L{:.1f} {:.1f}", x(ratio), y(std::clamp(speed, speeds_.front(), speeds_.back())));
     }
     path += fmt::format("L{:.1f} {:.1f}", x(to), y(speeds_.front()));
-    const auto line = [&](const char* stroke, double width) {
+    const auto line = [&](const char* stroke, double stroke_width) {
       return fmt::format("<path class='border' d='{}' fill='none' stroke='{}' stroke-width='{}'/>\n", path,
-                         stroke, width);
+                         stroke, stroke_width);
     };
     return line("white", 5.0) + line("black", 2.2);
   }

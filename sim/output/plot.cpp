@@ -32,7 +32,7 @@ std::string axes(const Panel& panel, const std::string& title) {
 /// A line through one value each tick; at most a point for each pixel, the extreme ones of each.
 template <class Value>
 std::string line(const Panel& panel, std::size_t ticks, double tick_s, const char* colour, const char* dash,
-                 double width, const Value& value) {
+                 double stroke_width, const Value& value) {
   const auto per_pixel = std::max<std::size_t>(1, ticks / static_cast<std::size_t>(plot_width));
   std::string points;
   for (std::size_t k = 0; k < ticks; k += per_pixel) {
@@ -50,7 +50,7 @@ std::string line(const Panel& panel, std::size_t ticks, double tick_s, const cha
   }
   return fmt::format(
       "<polyline fill='none' stroke='{}' stroke-dasharray='{}' stroke-width='{}' points='{}'/>\n", colour,
-      dash, width, points);
+      dash, stroke_width, points);
 }
 
 /// Colours first, then the same ones dashed.

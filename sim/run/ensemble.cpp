@@ -40,7 +40,7 @@ double largest(const Recording& recording, const Of& of) {
   return most;
 }
 
-constexpr Metric metrics[] = {
+constexpr Metric kept_metrics[] = {
     {"rows", "1", "ticks recorded", [](const Recording& r) { return static_cast<double>(r.samples.size()); }},
     {"smallest_contraction_ratio", "1", "true, at any tick",
      [](const Recording& r) { return -largest(r, [](const Sample& s) { return -ratio(s); }); }},
@@ -73,7 +73,7 @@ std::vector<Kept> kept_of_runs(const domain::Campaign& campaign) {
                          {"repeat", "1", "which rig: runs of the same repeat have the same draws"}};
   for (const auto& number : campaign.vary.numbers)
     list.push_back({variable_of(number.path), number.unit, "drawn: " + number.path});
-  for (const Metric& metric : metrics) list.push_back({metric.name, metric.unit, metric.meaning});
+  for (const Metric& metric : kept_metrics) list.push_back({metric.name, metric.unit, metric.meaning});
   return list;
 }
 
@@ -172,7 +172,7 @@ void EnsembleBlock::put(const domain::Campaign& campaign, std::size_t place, con
   failures_[at] = recording.failure;
   done_[at] = 1;
   if (!recording.failure.empty()) return;
-  for (const Metric& metric : metrics) enter(metric.of(recording));
+  for (const Metric& metric : kept_metrics) enter(metric.of(recording));
   const double per_count = contraction_per_count(campaign.rig);  // as its owner believes it
   for (std::size_t row = 0; row < std::min(rows_, recording.samples.size()); ++row) {
     const Sample& sample = recording.samples[row];

@@ -59,7 +59,26 @@ TEST(Further, ExpectsOfNumbersWhatStraightLinesReach) {
   fitted.residuals = Eigen::VectorXd::Constant(4, 6.0);
   fitted.columns = Eigen::MatrixXd::Constant(4, 1, 2.0);
   // Of s more deviations: 4 (6 - 2 s)^2 / 4 + (1 + s)^2, least at s = 11/5.
-  EXPECT_NEAR(least_by_numbers(fitted, 4.0), 1.6 * 1.6 + 3.2 * 3.2, 1e-6);
+  EXPECT_NEAR(least_by_lines(fitted, 4.0), 1.6 * 1.6 + 3.2 * 3.2, 1e-6);
+}
+
+TEST(Further, GivesUpAnAimThatStraightLinesMissByFar) {
+  Fitted fitted;
+  fitted.residuals = Eigen::VectorXd::Constant(4, 60.0);
+  fitted.columns = Eigen::MatrixXd::Zero(4, 0);  // nothing moves them
+  fitted.cost = 3600.0;
+  EXPECT_TRUE(out_of_reach(0.0, fitted, 4.0));
+  EXPECT_FALSE(out_of_reach(3590.0, fitted, 4.0));
+}
+
+TEST(Further, FitsAllTheWayWhereTheAimIsWithinReach) {
+  const Case& c = *rubbing().at;
+  const auto cost_with = [&](std::optional<double> aim) {
+    return contend(c, with_wider_numbers(rubbing().recalibrated.fitted, c).model, {.aim = aim}).fitted.cost;
+  };
+  const double whole = cost_with(std::nullopt);
+  EXPECT_EQ(cost_with(whole), whole);
+  EXPECT_LT(whole, 0.5 * rubbing().recalibrated.fitted.cost);
 }
 
 TEST(Further, PrefersANumberFarOffToTheEffectThatImitatesIt) {

@@ -47,7 +47,7 @@ TEST(Starts, AreSeveralWhereANumberIsUnknownAndTheBestIsNearTheTruth) {
   EXPECT_NEAR(places.front().rig.valve.conductance_m3_per_s_Pa, 1.8 * told, 0.15 * told);
   for (const Model& place : places) EXPECT_EQ(place.rig.friction.scale, written.data.rig.friction.scale);
 
-  const Recalibrated found = recalibrate(c, described);
+  const Recalibrated found = diagnose::recalibrate(c, described);
   EXPECT_EQ(found.begun, 3u);
   EXPECT_TRUE(found.other_ends.empty());  // one valley
   EXPECT_NEAR(found.contender.fitted.model.rig.valve.conductance_m3_per_s_Pa, 1.8 * told, 0.05 * told);

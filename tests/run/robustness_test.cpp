@@ -9,17 +9,17 @@
 namespace mckibben::run {
 namespace {
 
-constexpr double tick_s = 0.012;
+constexpr double apart_s = 0.012;
 
 Followed followed(const std::vector<double>& target, const std::vector<double>& contraction) {
-  return {.target = target, .contraction = contraction, .current_mA = {}, .tick_s = tick_s};
+  return {.target = target, .contraction = contraction, .current_mA = {}, .tick_s = apart_s};
 }
 
 /// Up in a second, then three seconds of rest with an oscillation of so much, for so long.
 std::pair<std::vector<double>, std::vector<double>> resting(double amplitude, double lasting_s) {
   std::vector<double> target, contraction;
   for (int k = 0; k < 333; ++k) {
-    const double time_s = tick_s * k;
+    const double time_s = apart_s * k;
     target.push_back(0.1 * std::min(time_s, 1.0));
     const double swings = time_s < 1.0 + lasting_s ? amplitude : 0.0;
     contraction.push_back(target.back() + swings * std::sin(2.0 * std::numbers::pi * 2.0 * time_s));

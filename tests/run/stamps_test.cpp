@@ -12,7 +12,7 @@
 namespace mckibben::run {
 namespace {
 
-constexpr double noise_Pa = 400.0;
+constexpr double scatter_Pa = 400.0;
 
 /// Three seconds at so many stamps a second, at uneven instants.
 std::vector<double> stamps(double per_s) {
@@ -26,7 +26,7 @@ std::vector<double> stamps(double per_s) {
 /// A gauge's readings: a slow swing, a jump, noise, and a tone.
 std::vector<double> pressures(const std::vector<double>& time_s, double hz, double amplitude_Pa) {
   std::mt19937_64 random(3);
-  std::normal_distribution<double> noise(0.0, noise_Pa);
+  std::normal_distribution<double> noise(0.0, scatter_Pa);
   std::vector<double> values;
   for (const double at_s : time_s) {
     const double turn = 2.0 * std::numbers::pi * at_s;
@@ -51,9 +51,9 @@ TEST(Stamps, HumOfTheMainsStandsOut) {
 }
 
 /// At 1 mm steps of 0.001 with noise, cut off at 0.12.
-std::vector<double> contractions(double resolution, double noise_ratio) {
+std::vector<double> contractions(double resolution, double scatter_ratio) {
   std::mt19937_64 random(4);
-  std::normal_distribution<double> noise(0.0, noise_ratio);
+  std::normal_distribution<double> noise(0.0, scatter_ratio);
   std::vector<double> values;
   for (int k = 0; k < 3000; ++k) {
     const double ratio = 0.1 + 0.05 * std::sin(4e-3 * k) + noise(random);
