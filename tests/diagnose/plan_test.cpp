@@ -35,7 +35,7 @@ TEST_F(Plan, FindsWhatSeparatesDeadBandFromHysteresis) {
   EXPECT_EQ(found->separates, (std::vector<std::string>{"a", "b"}));
   EXPECT_FALSE(found->current.empty());
   EXPECT_TRUE(std::visit([&](const auto& waveform) { return std::string(waveform.kind) == found->waveform; },
-                         *found->measurement.current));
+                         found->measurement.current.value()));
   EXPECT_DOUBLE_EQ(found->measurement.duration_s, 10.0);
   EXPECT_TRUE(found->load_kg == 85.0 || found->load_kg == 42.5);  // 1.3 times it would not be lifted
 }
