@@ -317,6 +317,7 @@ class AnFmu(unittest.TestCase):
                     self.assertAlmostEqual(is_now, float(row["force_N"]), delta=1e-6, msg=k)
             self.assertGreater(max(answers) - min(answers), 100)
             self.assertIn("length = 0.9", fmu.answers([f"0 set {length} 0.9", "0 init 0", "0 start"])[0])
+            self.assertEqual(fmu.answers([f"0 set {length} 0.9", "0 init 0", "0 start", "0 start"]).count("failed"), 2)
 
     def test_its_sources_are_all_that_their_cmakelists_needs(self):
         """All of them take minutes: one file is compiled, which includes most others, and the list is looked over."""

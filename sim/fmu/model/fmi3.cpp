@@ -122,8 +122,8 @@ EXPORTED void* fmi3InstantiateScheduledExecution() {
   return nullptr;
 }
 
-// What a rig has no use for: variables of other types, clocks, derivatives. Whoever calls
-// cleans up the arguments, so these need not name them.
+// What a rig has no use for: variables of other types, clocks, derivatives. Whoever calls cleans up the
+// arguments, so these need not name them.
 #define NOT_OFFERED(function)                            \
   EXPORTED Status function(Instance* instance) {         \
     instance->log("this FMU does not offer " #function); \

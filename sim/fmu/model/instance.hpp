@@ -33,8 +33,9 @@ struct Instance {
   }
 
   std::string bytes_of(const Slave& state) const { return state.bytes(token); }
+  /// Throws std::runtime_error where there is no room for it.
   void write(const Slave& state, char* into, std::size_t size) const;
-  /// `state`: null, or one that is given up.
+  /// `state`: null, or one that is given up. Throws as Slave::become.
   void read(std::string_view bytes, Slave*& state) const;
 };
 

@@ -84,13 +84,14 @@ void Slave::make_ride() {
 
 void Slave::settle() {
   if (const std::string broken = domain::broken_rule(rig_); !broken.empty()) throw std::runtime_error(broken);
+  const ride::Drive at_first = drive();
   hanging_kg_ = load_kg_;
   make_ride();
   const auto ticks = std::lround(rig_.settling_time_s / rig_.tick_s);
   const auto before_s = [&](long k) { return time_s_ - static_cast<double>(k) * rig_.tick_s; };
-  ride_->start(drive(), before_s(ticks));
+  ride_->start(at_first, before_s(ticks));
   for (long k = ticks; k > 0; --k) {
-    ride_->step(drive(), before_s(k - 1));
+    ride_->step(at_first, before_s(k - 1));
     look();
   }
   look();
