@@ -184,6 +184,7 @@ std::string loop_and_rig(const domain::Dataset& data, const Diagnosis& diagnosis
   double y = 22.0;
   if (data.judged() != diagnose::Judged::angle) {  // the drawing is of one muscle
     std::vector<Part> marks;
+    marks.reserve(found.size());
     for (const Found& one : found) marks.push_back(one.part);
     svg +=
         fmt::format("<g transform='translate({:g} 0)'>\n{}</g>\n", column, rig_drawing(marks, gauged(data)));

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <random>
 #include <string_view>
+#include <variant>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -289,40 +290,41 @@ plant::Rig rig_with(const Kind& kind, std::uint64_t seed, const Surroundings& su
   return truth;
 }
 
-/// What is measured of it: load and kind of current differ from run to run.
-domain::Run measured_run(const plant::Rig& truth, const Kind& kind, std::size_t run, std::uint64_t seed,
-                         std::uint64_t stream, Dice& dice) {
-  const double larger = std::pow(truth.muscle.rest_radius_m / plant::Rig{}.muscle.rest_radius_m, 2);
-  constexpr double loads_kg[] = {11.138, 11.138, 16.138, 16.138, 23.406, 23.406, 13.870, 18.870, 18.870};
-  constexpr std::size_t currents[] = {0, 1, 2, 3, 0, 1, 4, 3, 1};
-  plant::Noise noise = kind.noise;
-  if (noise.encoder_jitter == 0.0) noise.encoder_jitter = 5e-5;
-  if (kind.gauge) noise.gauge_Pa = 400.0;
-  const auto rows = static_cast<std::size_t>(dice.between(600.0, 900.0));
-  controllers::RecordedCurrent recorded;
-  recorded.samples_mA = current_mA(currents[run], rows, dice);
-  for (double& i : recorded.samples_mA) i = plant::dac_output_mA(truth.dac, i);
-  const auto controller = recorded.make(run::knowledge_of(truth, {}));
-  const auto recording = run::simulate({.rig = truth,
-                                        .load_kg = larger * loads_kg[run],
-                                        .ticks = rows,
+/// What is read of it while a current drives it under a load.
+template <class Waveform>
+domain::Run read(const Hidden& hidden, const Waveform& current, double load_kg, std::size_t ticks,
+                 std::uint64_t stream) {
+  const auto controller = current.make(run::knowledge_of(hidden.rig, std::vector<double>(ticks)));
+  const auto recording = run::simulate({.rig = hidden.rig,
+                                        .load_kg = load_kg,
+                                        .ticks = ticks,
                                         .engine = {solver::Method::cvode, 1e-8},
-                                        .noise = noise,
-                                        .seed = seed,
+                                        .noise = hidden.noise,
+                                        .seed = hidden.seed,
                                         .stream = stream},
                                        *controller);
   domain::Run measured;
-  measured.id = fmt::format("r{:02}", run + 1);
-  measured.load_kg = larger * loads_kg[run];
-  measured.current_mA = recorded.samples_mA;
-  for (const auto& sample : recording.samples)
+  measured.id = fmt::format("r{:02}", hidden.data.runs.size() + 1);
+  measured.load_kg = load_kg;
+  if (hidden.rig.gauge.fitted) measured.muscle_pressure_Pa.emplace();
+  for (const auto& sample : recording.samples) {
+    measured.current_mA.push_back(sample.current_mA);
     measured.contraction_ratio.push_back(static_cast<double>(sample.counts) *
-                                         run::contraction_per_count(truth));
-  if (kind.gauge) {
-    measured.muscle_pressure_Pa.emplace();
-    for (const auto& sample : recording.samples) measured.muscle_pressure_Pa->push_back(sample.gauge_Pa);
+                                         run::contraction_per_count(hidden.rig));
+    if (hidden.rig.gauge.fitted) measured.muscle_pressure_Pa->push_back(sample.gauge_Pa);
   }
   return measured;
+}
+
+/// Load and kind of current differ from run to run; of poor data there are only sines.
+domain::Run measured_run(const Hidden& hidden, std::size_t run, bool poor, std::uint64_t stream, Dice& dice) {
+  const double larger = std::pow(hidden.rig.muscle.rest_radius_m / plant::Rig{}.muscle.rest_radius_m, 2);
+  constexpr double loads_kg[] = {11.138, 11.138, 16.138, 16.138, 23.406, 23.406, 13.870, 18.870, 18.870};
+  constexpr std::size_t currents[] = {0, 1, 2, 3, 0, 1, 4, 3, 1};
+  const auto rows = static_cast<std::size_t>((poor ? 0.4 : 1.0) * dice.between(600.0, 900.0));
+  controllers::RecordedCurrent recorded;
+  recorded.samples_mA = current_mA(poor ? 0 : currents[run], rows, dice);
+  return read(hidden, recorded, larger * loads_kg[run], rows, stream);
 }
 
 }  // namespace
@@ -338,12 +340,25 @@ const std::string& title(std::size_t kind) {
 Hidden hide(std::size_t index, std::uint64_t seed, const Surroundings& surroundings) {
   const Kind& kind = all_kinds()[index];
   Dice dice(1000 * seed + index);
-  Hidden hidden{.title = kind.title, .verdict = kind.verdict, .effects = kind.effects};
-  const plant::Rig truth = rig_with(kind, seed, surroundings, dice, hidden);
+  Hidden hidden{.title = kind.title,
+                .verdict = kind.verdict,
+                .effects = kind.effects,
+                .noise = kind.noise,
+                .seed = seed};
+  if (hidden.noise.encoder_jitter == 0.0) hidden.noise.encoder_jitter = 5e-5;
+  if (kind.gauge) hidden.noise.gauge_Pa = 400.0;
+  hidden.rig = rig_with(kind, seed, surroundings, dice, hidden);
   hidden.data.rig.gauge.fitted = kind.gauge;
   for (std::size_t run = 0; run < surroundings.runs; ++run)
-    hidden.data.runs.push_back(measured_run(truth, kind, run, seed, 100 * index + run, dice));
+    hidden.data.runs.push_back(measured_run(hidden, run, surroundings.poor, 100 * index + run, dice));
   return hidden;
+}
+
+domain::Run measured_as(const NextExperiment& wanted, const Hidden& hidden) {
+  const auto ticks = static_cast<std::size_t>(std::lround(wanted.measurement.duration_s / hidden.rig.tick_s));
+  constexpr std::uint64_t stream = 100'000;  // beyond those of all kinds
+  return std::visit([&](const auto& current) { return read(hidden, current, wanted.load_kg, ticks, stream); },
+                    wanted.measurement.current);
 }
 
 }  // namespace mckibben::diagnose

@@ -24,6 +24,9 @@ struct Hidden {
   std::vector<Planted> truth{};    ///< of the effects
   std::vector<Planted> numbers{};  ///< of the rig, as it truly is
   domain::Dataset data{};
+  plant::Rig rig{};      ///< that was measured
+  plant::Noise noise{};  ///< what disturbed it
+  std::uint64_t seed = 1;
 };
 
 /// The rig that is measured: the thesis's, one of another size, or one whose numbers are known three times
@@ -35,6 +38,7 @@ struct Surroundings {
   bool off_its_sheet = false;  ///< also where nothing is hidden: by a third of what its numbers are known to
   double share = 1.0;          ///< of an effect's size
   std::size_t runs = 9;
+  bool poor = false;  ///< data: nothing but short sines
 };
 
 /// What may be hidden. `kind` counts from 0 to kinds() - 1: each effect at two sizes, pairs, triples, changed
@@ -43,5 +47,8 @@ struct Surroundings {
 std::size_t kinds();
 const std::string& title(std::size_t kind);
 Hidden hide(std::size_t kind, std::uint64_t seed, const Surroundings& surroundings = {});
+
+/// The measurement that a diagnosis asks for, made on the rig that was measured.
+domain::Run measured_as(const NextExperiment& wanted, const Hidden& hidden);
 
 }  // namespace mckibben::diagnose

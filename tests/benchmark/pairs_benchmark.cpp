@@ -15,6 +15,7 @@
 #include <sim/diagnose/diagnose.hpp>
 
 #include "diagnose/joint.hpp"
+#include "tally.hpp"
 
 namespace mckibben::diagnose {
 namespace {
@@ -46,12 +47,6 @@ domain::Dataset hide(const Kind& kind, std::uint64_t seed, double& size) {
         rig, size);
   return of_a_joint(rig, true, {.seed = seed, .method = solver::Method::cvode});
 }
-
-struct Tally {
-  int yes = 0, of = 0;
-  void count(bool hit) { yes += hit ? 1 : 0, ++of; }
-  void print(const char* what) const { fmt::print("{:<48} {:>3} of {}\n", what, yes, of); }
-};
 
 }  // namespace
 
