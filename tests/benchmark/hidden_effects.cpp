@@ -358,7 +358,7 @@ domain::Run measured_as(const NextExperiment& wanted, const Hidden& hidden) {
   const auto ticks = static_cast<std::size_t>(std::lround(wanted.measurement.duration_s / hidden.rig.tick_s));
   constexpr std::uint64_t stream = 100'000;  // beyond those of all kinds
   return std::visit([&](const auto& current) { return read(hidden, current, wanted.load_kg, ticks, stream); },
-                    wanted.measurement.current);
+                    wanted.measurement.current.value());
 }
 
 }  // namespace mckibben::diagnose
