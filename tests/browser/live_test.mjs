@@ -67,8 +67,12 @@ test('a lighter load rises, an effect is switched and sized, both leave a grey l
   await until(page, () => loops[1].ghost[0].length > 10);
   await row.locator('[data-dial=size]').focus();
   await page.keyboard.press('End');
-  await until(page, () => live.state.effects.find(({name}) => name === 'bladder_creep').size === 500);
-  assert.equal(await row.locator('[data-says=size]').textContent(), '500 N/m');
+  // Words come from the program, after the page's own number.
+  await until(
+      page,
+      () => document.querySelector('[data-effect=bladder_creep] [data-says=size]').textContent === '500 N/m');
+  assert.equal(
+      await page.evaluate(() => live.state.effects.find(({name}) => name === 'bladder_creep').size), 500);
   await until(page, () => samples.at(samples.newest()).effects_pull < -1);
   await page.locator('#all-off').click();
   await until(page, () => live.state.effects.every(({on}) => !on));
