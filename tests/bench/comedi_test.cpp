@@ -85,7 +85,8 @@ TEST(ComediBench, CountsDownThroughZero) {
 }
 
 TEST(ComediBench, SaysWhatIsWrongWithTheWiring) {
-  EXPECT_EQ(refusal("/dev/comedi3", {}), "/dev/comedi3: No such file or directory");
+  EXPECT_EQ(refusal("/dev/comedi3", {}),
+            "/dev/comedi3 cannot be opened as a board: No such file or directory");
   EXPECT_EQ(refusal("/dev/comedi0", {.output = 0}), "/dev/comedi0: subdevice 0 is no analog output");
   EXPECT_EQ(refusal("/dev/comedi0", {.counter = 1}), "/dev/comedi0: subdevice 1 is no counter");
   EXPECT_EQ(refusal("/dev/comedi0", {.channel = 2}),
