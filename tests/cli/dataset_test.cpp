@@ -347,7 +347,8 @@ TEST_F(PairDataset, ReplayedOnItsTrueRigItIsRightToACount) {
   ASSERT_EQ(run("dataset quiet.yaml").status, 0);
   const auto said = run("replay out/quiet --rig leaky.yaml --out back --json");
   ASSERT_EQ(said.status, 0) << said.err;
-  for (const auto& entry : Json::parse(said.out).at("runs")) {
+  const Json document = Json::parse(said.out);
+  for (const auto& entry : document.at("runs")) {
     ASSERT_EQ(entry.at("gaps").size(), 3u);
     EXPECT_LT(entry.at("gaps").at(0).at("largest_error"), 4.5e-3);  // 0.25 deg
     EXPECT_LT(entry.at("gaps").at(2).at("largest_error"), 1e-5);
