@@ -1,7 +1,6 @@
 // Units of the page are bar, mA, N, deg; see the header.
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <span>
 
 #include <fmt/format.h>
@@ -31,7 +30,6 @@ std::array<double, 9> shown(const Sample& s) {
           s.effects_N};
 }
 std::array<double, 15> shown_of_pair(const Sample& s) {
-  constexpr double deg_per_rad = 180.0 / std::numbers::pi;
   const SideSample& other = s.opposite;
   return {s.current_mA,
           other.current_mA,
@@ -43,8 +41,8 @@ std::array<double, 15> shown_of_pair(const Sample& s) {
           other.contraction_ratio,
           s.cord_N,
           other.cord_N,
-          s.angle_rad * deg_per_rad,
-          s.read * deg_per_rad,
+          s.angle_rad / plant::degree_rad,
+          s.read / plant::degree_rad,
           (s.reference_Pa - other.reference_Pa) / plant::Pa_per_bar,
           (s.muscle_Pa - other.muscle_Pa) / plant::Pa_per_bar,
           s.cord_N - other.cord_N};
