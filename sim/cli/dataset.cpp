@@ -34,7 +34,7 @@ struct DatasetOptions : Options {
 /// Makes the runs that are not there yet, with the rest of the crew; rank 0 waits until all are there.
 void make_runs(const domain::Campaign& campaign, const output::CampaignFolder& folder, unsigned threads,
                cluster::Workplace& place, const run::ProgressHook& progress) {
-  const auto& jobs = folder.jobs();
+  const auto jobs = run::longest_first(campaign, folder.jobs());
   cluster::Handout handout(place, jobs.size(), [&](std::size_t i) { return folder.has(jobs[i]); });
   const auto take = [&] { return handout.take(); };
   const auto finished = [&](std::size_t i, const run::CampaignRun& run) {

@@ -64,16 +64,7 @@ struct LaneVector {
     v->ops->nvmin = [](N_Vector x) { return *std::min_element(data(x), data(x) + length(x)); };
     v->ops->nvwrmsnorm = wrms_norm;
     v->ops->nvlinearcombination = [](int count, double* c, N_Vector* x, N_Vector z) {
-      constexpr int most = 16;  // ERKStep has as many as stages
-      if (count > most) return -1;
-      std::array<const Lanes*, most> from;
-      for (int k = 0; k < count; ++k) from[static_cast<std::size_t>(k)] = values(x[k]).data();
-      each(z, [&](std::size_t i) {
-        Lanes sum = c[0] * from[0][i];
-        for (int k = 1; k < count; ++k) sum = sum + c[k] * from[static_cast<std::size_t>(k)][i];
-        return sum;
-      });
-      return 0;
+      return combine<most_terms>(static_cast<std::size_t>(count), c, x, z) ? 0 : -1;
     };
     v->ops->nvscaleaddmulti = [](int count, double* a, N_Vector x, N_Vector* y, N_Vector* z) {
       for (int k = 0; k < count; ++k)
@@ -103,6 +94,26 @@ struct LaneVector {
     on_this_machine([&, &to = values(z)] {
       for (std::size_t i = 0; i < to.size(); ++i) to[i] = f(i);
     });
+  }
+
+  static constexpr std::size_t most_terms = 8;  // ERKStep has the state and as many as stages
+
+  /// Their number is known to the compiler: it keeps the factors in registers. False if there are more.
+  template <std::size_t Terms>
+  static bool combine(std::size_t count, const double* c, N_Vector* x, N_Vector z) {
+    if (count > Terms) return false;
+    if constexpr (Terms > 1)
+      if (count < Terms) return combine<Terms - 1>(count, c, x, z);
+    std::array<const Lanes*, Terms> from;
+    for (std::size_t k = 0; k < Terms; ++k) from[k] = values(x[k]).data();
+    std::array<double, Terms> by;
+    std::copy_n(c, Terms, by.begin());
+    each(z, [=](std::size_t i) {
+      Lanes sum = by[0] * from[0][i];
+      for (std::size_t k = 1; k < Terms; ++k) sum = sum + by[k] * from[k][i];
+      return sum;
+    });
+    return true;
   }
 
   static double wrms_norm(N_Vector x, N_Vector w) {

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <functional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -44,6 +45,13 @@ std::vector<CampaignJob> jobs_of(const domain::Campaign& campaign) {
   return jobs;
 }
 
+std::vector<CampaignJob> longest_first(const domain::Campaign& campaign, std::span<const CampaignJob> jobs) {
+  std::vector<CampaignJob> sorted(jobs.begin(), jobs.end());
+  std::ranges::stable_sort(sorted, std::greater(),
+                           [&](const CampaignJob& job) { return campaign.currents[job.current].duration_s; });
+  return sorted;
+}
+
 Order order_of(const domain::Campaign& campaign, const CampaignJob& job) {
   const domain::CampaignCurrent& current = campaign.currents[job.current];
   Order order{
@@ -84,12 +92,13 @@ CampaignRun run_job(const domain::Campaign& campaign, const CampaignJob& job) {
 void run_jobs(const domain::Campaign& campaign, std::span<const CampaignJob> jobs, unsigned threads,
               const std::function<void(const CampaignRun&)>& finished, const ProgressHook& progress) {
   std::atomic<std::size_t> done{0};
-  progress("simulating", 0, jobs.size());
+  const auto sorted = longest_first(campaign, jobs);
+  progress("simulating", 0, sorted.size());
   simulate_all(
-      jobs.size(), threads, [&](std::size_t i) { return order_of(campaign, jobs[i]); },
+      sorted.size(), threads, [&](std::size_t i) { return order_of(campaign, sorted[i]); },
       [&](std::size_t i, Recording recording) {
-        finished(made(jobs[i], std::move(recording)));
-        progress("simulating", ++done, jobs.size());
+        finished(made(sorted[i], std::move(recording)));
+        progress("simulating", ++done, sorted.size());
       });
 }
 

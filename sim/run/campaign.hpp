@@ -48,6 +48,8 @@ struct EndedRun {
 
 /// All runs of a campaign: loads in order, for each all currents, for each all repeats. Ids are unique.
 std::vector<CampaignJob> jobs_of(const domain::Campaign& campaign);
+/// The same jobs in the order in which they leave the fewest places empty at the end.
+std::vector<CampaignJob> longest_first(const domain::Campaign& campaign, std::span<const CampaignJob> jobs);
 
 /// How many there are, and one of them by its place: 0, 1, ...
 std::size_t count_of_jobs(const domain::Campaign& campaign);
