@@ -38,6 +38,7 @@ class FeedforwardPid final : public Controller {
         known_(kept_low(known, settings)),
         loop_(settings, known),
         load_(settings.model, known_),
+        believed_(settings.fastest_load_per_s, known),
         delayed_(settings.feedback_delay_ticks),
         braking_mA_s_(*settings.proportional_mA * *settings.derivative_time_s),
         is_told_(settings.assumed_load_kg.has_value()),
@@ -54,7 +55,8 @@ class FeedforwardPid final : public Controller {
 
   Command step(const Reading& reading) override {
     if (!is_told_) {
-      load_.see(reading.tick, delayed_(reading.counts), output_mA_, loop_.inside_limits(output_mA_));
+      const std::int64_t counts = delayed_(believed_(reading.counts));
+      load_.see(reading.tick, counts, output_mA_, !believed_.lost() && loop_.inside_limits(output_mA_));
       if (const auto found_kg = load_.load_kg(); found_kg && found_kg != found_kg_)
         believe(*(found_kg_ = found_kg), weighing_tolerance);
     }
@@ -135,6 +137,7 @@ class FeedforwardPid final : public Controller {
   Knowledge known_;
   PidLoop loop_;
   LoadInLoop load_;
+  BelievedCounts believed_;
   Delayed<std::int64_t> delayed_;
   double braking_mA_s_;
   bool is_told_, calibrated_ = false;

@@ -96,6 +96,26 @@ TEST(FeedforwardPid, FollowsNoTargetAboveTheHighest) {
   EXPECT_EQ(play(*settings.make(knowledge), cut.target.size()), to_cut);
 }
 
+/// The load that is found from counts that lie on the target, but for one tick.
+double found_kg(const FeedforwardPidSettings& settings, int jump) {
+  const Knowledge knowledge = without_lag(up_rest_down());
+  const auto controller = settings.make(knowledge);
+  controller->rest();
+  for (std::int64_t k = 0; k < 150; ++k)
+    controller->step({k, 0.0, counts_at(knowledge, knowledge.target_at(k), 20) + (k == 64 ? jump : 0)});
+  return finding(*controller, "found_load");
+}
+
+TEST(FeedforwardPid, CountsThatJumpDoNotMisleadItAboutTheLoad) {
+  auto settings = proportional();
+  settings.assumed_load_kg.reset();
+  settings.proportional_mA = 200.0;
+  const double sound_kg = found_kg(settings, 0);
+  EXPECT_GT(std::abs(found_kg(settings, 100) - sound_kg), 0.02 * sound_kg);
+  settings.fastest_load_per_s = 1.0;
+  EXPECT_NEAR(found_kg(settings, 100), sound_kg, 0.01 * sound_kg);
+}
+
 TEST(FeedforwardPid, FadesOutWhereTheModelEnds) {
   std::vector<double> target;
   for (int k = 0; k < 100; ++k) target.push_back(0.15 + 0.001 * k);  // calibrated to 0.20, believed to 0.182
