@@ -15,7 +15,7 @@ struct FeedforwardPidSettings : CalibrationTerms, PidTerms {
   static constexpr std::string_view kind = "feedforward_pid";
   std::string name{kind};
 
-  /// Throws std::invalid_argument if a gain is missing.
+  /// Throws std::invalid_argument if a gain is missing, or what is reachable was not computed.
   std::unique_ptr<Controller> make(const Knowledge& knowledge) const;
 
   template <class Self, class Visitor>

@@ -114,17 +114,23 @@ TEST(FiveLoads, AnswersTheThesissQuestion) {
     }
     EXPECT_EQ(run.contains("unreachable"), unknown);
   }
-  // The model helps PID, or does no harm; threads that stick and slip scatter by 2 %.
+  // The model helps PID, by 9 % on the mean of the calibrated loads; threads that stick and slip scatter by 2
+  // %.
+  double pid_sum = 0.0, feedforward_sum = 0.0;
   std::map<double, double> pid_rmse;
   for (const auto& run : document.at("runs"))
     if (run.at("controller") == "pid")
       pid_rmse[run.at("load_kg").get<double>()] = run.at("rmse").get<double>();
   for (const auto& run : document.at("runs")) {
     if (run.at("controller") != "feedforward_pid") continue;
-    const double load_kg = run.at("load_kg").get<double>();
-    EXPECT_LT(run.at("rmse").get<double>(), 1.02 * pid_rmse.at(load_kg)) << load_kg;
+    const double load_kg = run.at("load_kg").get<double>(), rmse = run.at("rmse").get<double>();
+    EXPECT_LT(rmse, 1.02 * pid_rmse.at(load_kg)) << load_kg;
     EXPECT_NEAR(run.at("findings").at("found_load").at("value").get<double>(), load_kg, 0.05 * load_kg);
+    if (load_kg == 8.87) continue;
+    pid_sum += pid_rmse.at(load_kg);
+    feedforward_sum += rmse;
   }
+  EXPECT_LT(feedforward_sum, 0.95 * pid_sum);
   for (const auto& run : document.at("runs")) {
     if (run.at("controller") != "open_loop") continue;
     const double weighed_kg = run.at("findings").at("weighed_load").at("value").get<double>();

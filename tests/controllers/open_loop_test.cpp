@@ -1,4 +1,4 @@
-// The model-based controllers on a planted calibration: along a target, to one point, slowed, with feedback.
+// The controllers without feedback on a planted calibration: along a target, to one point, slowed.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -7,37 +7,12 @@
 
 #include <gtest/gtest.h>
 
-#include <controllers/load_in_loop.hpp>
 #include <controllers/settings.hpp>
 
 #include "planted.hpp"
 
 namespace mckibben::controllers {
 namespace {
-
-double finding(const Controller& controller, const std::string& name) {
-  for (const Finding& one : controller.findings())
-    if (one.name == name) return one.value;
-  ADD_FAILURE() << "no finding " << name;
-  return NAN;
-}
-
-std::vector<double> play(Controller& controller, std::size_t ticks) {
-  controller.rest();
-  std::vector<double> currents_mA;
-  for (std::size_t k = 0; k < ticks; ++k)
-    currents_mA.push_back(
-        controller.step({static_cast<std::int64_t>(k), 0.012 * static_cast<double>(k), 0}).current_mA);
-  return currents_mA;
-}
-
-std::vector<double> up_rest_down() {
-  std::vector<double> target;
-  for (int k = 0; k < 100; ++k) target.push_back(0.05 + 0.001 * k);
-  for (int k = 0; k < 50; ++k) target.push_back(0.15);
-  for (int k = 1; k < 100; ++k) target.push_back(0.15 - 0.001 * k);
-  return target;
-}
 
 TEST(OpenLoop, FollowsTheTargetOnTheBranchOfItsDirection) {
   const Knowledge knowledge = data_sheets(up_rest_down());
@@ -183,138 +158,10 @@ TEST(OpenLoopLimited, AsksForASlowedTargetEarlier) {
 
 TEST(OpenLoopLimited, OnAReachableTargetWithoutLagIsTheThesissController) {
   const std::vector<double> target = up_rest_down();
-  Knowledge knowledge = data_sheets(target);
-  knowledge.reach = even_reach();
-  for (auto& load : knowledge.reach.loads) load.rising_lag_s = load.falling_lag_s = {-0.006, -0.006, -0.006};
+  const Knowledge knowledge = without_lag(target);
   const auto limited = play(*with_planted_load<OpenLoopLimitedSettings>().make(knowledge), target.size());
   const auto plain = play(*with_planted_load<OpenLoopSettings>().make(knowledge), target.size());
   for (std::size_t k = 0; k < target.size(); ++k) EXPECT_NEAR(limited[k], plain[k], 1e-6) << "tick " << k;
-}
-
-FeedforwardPidSettings proportional() {
-  auto settings = with_planted_load<FeedforwardPidSettings>();
-  settings.proportional_mA = 50.0;
-  settings.integral_time_s = 0.0;
-  settings.derivative_time_s = 0.0;
-  return settings;
-}
-
-/// Counts of a load that lies so many counts below a target.
-std::int64_t counts_at(const Knowledge& knowledge, double target, int below) {
-  return static_cast<std::int64_t>(target / knowledge.contraction_per_count) - below;
-}
-
-TEST(FeedforwardPid, MovesWithTheMeanOfBothBranchesAndCorrectsWhatIsLeft) {
-  const std::vector<double> target = up_rest_down();
-  const Knowledge knowledge = data_sheets(target);
-  EXPECT_THROW(with_planted_load<FeedforwardPidSettings>().make(knowledge), std::invalid_argument)
-      << "gains are missing";
-  const auto controller = proportional().make(knowledge);
-  const double first_mA = controller->rest().current_mA;
-  EXPECT_EQ(first_mA, with_planted_load<OpenLoopSettings>().make(knowledge)->rest().current_mA);
-  const Inverse inverse(planted_calibration(), planted_load_kg, knowledge.valve, false);
-  const auto mean_mA = [&](double e) {
-    return 0.5 * (knowledge.valve.current_mA(inverse(Branch::contraction, e, 0.0).pressure_Pa) +
-                  knowledge.valve.current_mA(inverse(Branch::relaxation, e, 0.0).pressure_Pa));
-  };
-  for (std::size_t k = 0; k < target.size(); ++k) {
-    const auto counts = counts_at(knowledge, target[k], k > 50 ? 10 : 0);
-    const double y = (static_cast<double>(counts) + 0.5) * knowledge.contraction_per_count;
-    const double expected =
-        std::clamp(first_mA + mean_mA(target[k]) - mean_mA(target[0]) + 50.0 * (target[k] - y), 4.0, 20.0);
-    EXPECT_NEAR(controller->step({static_cast<std::int64_t>(k), 0.0, counts}).current_mA, expected, 1e-9);
-  }
-  EXPECT_EQ(finding(*controller, "ticks_feedforward_faded"), 0.0);
-}
-
-TEST(FeedforwardPid, FadesOutWhereTheModelEnds) {
-  std::vector<double> target;
-  for (int k = 0; k < 100; ++k) target.push_back(0.15 + 0.001 * k);  // calibrated to 0.20, believed to 0.182
-  const Knowledge knowledge = data_sheets(target);
-  const auto controller = proportional().make(knowledge);
-  controller->rest();
-  std::vector<double> bases_mA;
-  for (std::size_t k = 0; k < target.size(); ++k) {
-    const auto counts = counts_at(knowledge, target[k], 0);
-    const double y = (static_cast<double>(counts) + 0.5) * knowledge.contraction_per_count;
-    bases_mA.push_back(controller->step({static_cast<std::int64_t>(k), 0.0, counts}).current_mA -
-                       50.0 * (target[k] - y));
-  }
-  const auto step_mA = [&](std::size_t k) { return bases_mA[k] - bases_mA[k - 1]; };
-  EXPECT_GT(step_mA(31), 0.0);
-  EXPECT_LT(step_mA(45), 0.5 * step_mA(31));
-  EXPECT_NEAR(step_mA(60), 0.0, 1e-9);
-  EXPECT_NEAR(finding(*controller, "ticks_feedforward_faded"), 67.0, 1.0);
-}
-
-TEST(FeedforwardPid, IsALoopAloneUnderALoadThatWasNotCalibrated) {
-  const std::vector<double> target = up_rest_down();
-  const Knowledge knowledge = data_sheets(target);
-  auto settings = proportional();
-  settings.assumed_load_kg = 8.87;
-  settings.extrapolate_load = true;
-  const auto controller = settings.make(knowledge);
-  const double first_mA = controller->rest().current_mA;
-  for (std::size_t k = 0; k < target.size(); ++k) {
-    const auto counts = counts_at(knowledge, target[k], 0);
-    const double y = (static_cast<double>(counts) + 0.5) * knowledge.contraction_per_count;
-    EXPECT_NEAR(controller->step({static_cast<std::int64_t>(k), 0.0, counts}).current_mA,
-                std::max(first_mA + 50.0 * (target[k] - y), 4.0), 1e-9);
-  }
-  EXPECT_GT(finding(*controller, "ticks_feedforward_faded"), 190.0);
-}
-
-/// What a loop would give that holds the planted load on the target, tick by tick.
-double held_mA(const Inverse& inverse, const Knowledge& knowledge, std::int64_t tick) {
-  const double e = knowledge.target_at(tick),
-               w = (e - knowledge.target_at(std::max<std::int64_t>(tick - 1, 0))) / knowledge.tick_s;
-  if (w == 0.0) return balanced_mA(inverse, knowledge.valve, e);
-  return knowledge.valve.current_mA(
-      inverse(w > 0.0 ? Branch::contraction : Branch::relaxation, e, w).pressure_Pa);
-}
-
-TEST(LoadInLoop, IsFoundOnceAStretchOfTheTargetIsOver) {
-  const Knowledge knowledge = data_sheets(up_rest_down());
-  const Inverse inverse(planted_calibration(), planted_load_kg, knowledge.valve, false);
-  LoadInLoop load(planted_calibration(), knowledge), limited(planted_calibration(), knowledge);
-  for (std::int64_t k = 0; k < 249; ++k) {
-    const auto counts = counts_at(knowledge, knowledge.target_at(k), 0);
-    load.see(k, counts, held_mA(inverse, knowledge, k), true);
-    limited.see(k, counts, held_mA(inverse, knowledge, k), false);
-    if (k == 99) {
-      EXPECT_FALSE(load.load_kg()) << "the target still rises";
-    }
-    if (k == 101 || k == 151) {  // after the rise, after the rest
-      EXPECT_NEAR(load.load_kg().value_or(0.0), planted_load_kg, 0.01 * planted_load_kg) << k;
-    }
-  }
-  EXPECT_FALSE(limited.load_kg()) << "an output at its limit says nothing";
-}
-
-TEST(FeedforwardPid, BeginsAsALoopAndFeedsForwardOnceItKnowsTheLoad) {
-  const std::vector<double> target = up_rest_down();
-  const Knowledge knowledge = data_sheets(target);
-  auto settings = proportional();
-  settings.proportional_mA = 500.0;
-  settings.assumed_load_kg.reset();
-  const auto controller = settings.make(knowledge);
-  EXPECT_EQ(controller->preparation_ticks(), 0);
-  EXPECT_EQ(controller->rest().current_mA, 4.0);
-  const Inverse inverse(planted_calibration(), planted_load_kg, knowledge.valve, false);
-  // The load hangs where the loop's current is what it takes.
-  std::vector<double> bases_mA{4.0};
-  for (std::size_t k = 0; k < target.size(); ++k) {
-    const auto tick = static_cast<std::int64_t>(k);
-    const double y = target[k] - (held_mA(inverse, knowledge, tick) - bases_mA.back()) / 500.0;
-    const auto counts = static_cast<std::int64_t>(std::floor(y / knowledge.contraction_per_count));
-    const double read = (static_cast<double>(counts) + 0.5) * knowledge.contraction_per_count;
-    bases_mA.push_back(controller->step({tick, 0.0, counts}).current_mA - 500.0 * (target[k] - read));
-  }
-  EXPECT_NEAR(bases_mA[100], 4.0, 1e-9) << "it did not know the load before the first rise was over";
-  EXPECT_NEAR(bases_mA[150], 4.0, 1e-9) << "at rest nothing is fed forward";
-  EXPECT_LT(bases_mA[200], 3.9);
-  EXPECT_NEAR(finding(*controller, "found_load"), planted_load_kg, 0.1 * planted_load_kg);
-  EXPECT_GT(finding(*controller, "ticks_feedforward_faded"), 98.0);
 }
 
 /// Whether a controller without a loop keeps `terms`, which are part of `settings`.

@@ -1,9 +1,15 @@
 // A calibration with known coefficients, and data sheets, for the tests of what is built on them.
 #pragma once
 
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <numbers>
+#include <string>
 #include <utility>
 #include <vector>
+
+#include <gtest/gtest.h>
 
 #include <controllers/calibrated.hpp>
 
@@ -67,6 +73,14 @@ inline Reach even_reach() {
   return reach;
 }
 
+/// Data sheets of a rig whose lag makes up for the half tick that a current is old.
+inline Knowledge without_lag(std::vector<double> target) {
+  Knowledge knowledge = data_sheets(std::move(target));
+  knowledge.reach = even_reach();
+  for (auto& load : knowledge.reach.loads) load.rising_lag_s = load.falling_lag_s = {-0.006, -0.006, -0.006};
+  return knowledge;
+}
+
 /// Settings with the planted calibration and no weighing.
 template <class Settings>
 Settings with_planted_load() {
@@ -75,6 +89,30 @@ Settings with_planted_load() {
   settings.model = planted_calibration();
   settings.assumed_load_kg = planted_load_kg;
   return settings;
+}
+
+inline double finding(const Controller& controller, const std::string& name) {
+  for (const Finding& one : controller.findings())
+    if (one.name == name) return one.value;
+  ADD_FAILURE() << "no finding " << name;
+  return NAN;
+}
+
+inline std::vector<double> play(Controller& controller, std::size_t ticks) {
+  controller.rest();
+  std::vector<double> currents_mA;
+  for (std::size_t k = 0; k < ticks; ++k)
+    currents_mA.push_back(
+        controller.step({static_cast<std::int64_t>(k), 0.012 * static_cast<double>(k), 0}).current_mA);
+  return currents_mA;
+}
+
+inline std::vector<double> up_rest_down() {
+  std::vector<double> target;
+  for (int k = 0; k < 100; ++k) target.push_back(0.05 + 0.001 * k);
+  for (int k = 0; k < 50; ++k) target.push_back(0.15);
+  for (int k = 1; k < 100; ++k) target.push_back(0.15 - 0.001 * k);
+  return target;
 }
 
 }  // namespace mckibben::controllers
