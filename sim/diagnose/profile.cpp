@@ -52,10 +52,13 @@ class Valley {
     const Along along{static_cast<Eigen::Index>(number), bounds.half, bounds.rise};
     const double bound = thresholds.screen.at_bound * (highest_ - lowest_)[along.number];
     if (room(along, -1.0) <= bound || room(along, 1.0) <= bound) return;
+    if (!is_settled(along, fit_, bottom_)) return;
     const auto down = first_look(along, -1.0), up = first_look(along, 1.0);
     if (down.trusted && up.trusted) return;
     const Parameter& p = parameter(along.number);
-    const double low = p.unscaled(end(along, -1.0, down)), high = p.unscaled(end(along, 1.0, up));
+    const auto lower = end(along, -1.0, down), upper = end(along, 1.0, up);
+    if (!lower || !upper) return;
+    const double low = p.unscaled(*lower), high = p.unscaled(*upper);
     bounds.quadratic = {bounds.low, bounds.high};
     bounds.low = std::min(low, high);
     bounds.high = std::max(low, high);
@@ -140,6 +143,10 @@ class Valley {
   double rise(const Along& along, const Place& place) const {
     return refitted(place, along.number).cost - bottom_;
   }
+  /// Whether a place keeps what lines from it promise: where loads stick it may not.
+  bool is_settled(const Along& along, const Place& place, double promised) const {
+    return cost(place.residuals, place.at) - promised < profile_by.tolerance * along.rise;
+  }
   /// How far it is to a bound.
   double room(const Along& along, double sign) const {
     const double at = fit_.at[along.number];
@@ -155,19 +162,19 @@ class Valley {
             std::abs(risen - along.rise * expected * expected) <= profile_by.trusted * along.rise};
   }
 
-  /// Where the cost has risen so far, or the bound.
-  double end(const Along& along, double sign, Look look) const {
+  /// Where the cost has risen so far, or the bound; nothing if the walk does not arrive.
+  std::optional<double> end(const Along& along, double sign, Look look) const {
     double inner = 0.0, outer = room(along, sign);
     Place from = fit_;    // the last that could be simulated
     bool walled = false;  // `outer` is too far, and not just as far as is allowed
     for (int round = 0; round < profile_by.rounds; ++round) {
       double next = 0.5 * (inner + look.way);
       if (look.place) {
-        const double unsettled = cost(look.place->residuals, look.place->at) - bottom_ - look.rise;
-        const bool settled = unsettled<profile_by.tolerance * along.rise, far = look.rise> along.rise;
-        if (settled && (std::abs(look.rise / along.rise - 1.0) < profile_by.tolerance ||
-                        (!far && look.way >= room(along, sign))))
-          break;
+        const bool far = look.rise > along.rise;
+        const bool arrived = std::abs(look.rise / along.rise - 1.0) < profile_by.tolerance ||
+                             (!far && look.way >= room(along, sign));
+        if (arrived && is_settled(along, *look.place, bottom_ + look.rise))
+          return fit_.at[along.number] + sign * look.way;
         (far ? outer : inner) = look.way;
         walled = walled || far;
         from = *std::move(look.place);
@@ -184,7 +191,7 @@ class Valley {
       look.place = look_at(along, bed(along, from, sign * next));
       look.rise = look.place ? rise(along, *look.place) : 0.0;
     }
-    return fit_.at[along.number] + sign * look.way;
+    return std::nullopt;
   }
 
   const Experiment& experiment_;
