@@ -18,6 +18,7 @@
 #include <sim/diagnose/left_open.hpp>
 #include <sim/diagnose/name.hpp>
 #include <sim/diagnose/plan.hpp>
+#include <sim/diagnose/profile.hpp>
 #include <sim/diagnose/ranking.hpp>
 #include <sim/diagnose/remaining.hpp>
 #include <sim/diagnose/repair.hpp>
@@ -378,8 +379,9 @@ class Workflow {
       warn("the fit to all runs failed, the numbers are those of the training runs: " + whole.failure);
       whole = chosen;
     }
-    const auto bounds =
-        intervals(experiment_, whole, failed ? case_.split.training : usable_, chosen_inflation_);
+    auto bounds = intervals(experiment_, whole, failed ? case_.split.training : usable_, chosen_inflation_);
+    if (!failed)
+      trust_or_profile(experiment_, whole, usable_, chosen_inflation_, worth_a_profile(whole.model), bounds);
     tell_parameters(result_, whole.model, bounds, recalibrated_.fitted.model.rig);
     tell_left_open(whole);
     result_.corrected = whole.model.rig;

@@ -42,6 +42,8 @@ struct FittedNumber {
   std::string unit;
   double value = 0.0, low = 0.0, high = 0.0;
   bool determined = true;  ///< false: the interval is all that is allowed, or a whole turn of an angle
+  /// Where the interval is by profile: what slopes at the fit would say, and are not to be trusted with.
+  std::optional<std::array<double, 2>> quadratic{};
 };
 
 /// As it is told: "valve_dead_band", "bladder_elasticity (linear)", "muscle_leak of muscle 2".

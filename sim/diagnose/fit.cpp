@@ -27,15 +27,6 @@ class Misfit final : public ceres::CostFunction {
       if (known_slope(model.free[j]) == nullptr) fresh_.push_back(model.free[j]);
   }
 
-  RigFile rig_at(const double* values) const {
-    RigFile rig = model_.rig;
-    for (std::size_t j = 0; j < model_.free.size(); ++j) {
-      const Parameter& p = model_.free[j];
-      p.put(rig, std::clamp(p.unscaled(values[j]), p.lowest, p.highest));
-    }
-    return rig;
-  }
-
   Experiment::Slopes slopes(const RigFile& rig) const {
     auto fresh = experiment_.slopes(rig, fresh_, runs_);
     Eigen::MatrixXd columns(rows_, static_cast<Eigen::Index>(model_.free.size()));
@@ -89,7 +80,7 @@ class Misfit final : public ceres::CostFunction {
     const std::vector<double> wanted(values, values + model_.free.size());
     if (wanted != last_values_) {
       last_values_.clear();
-      last_ = slopes(rig_at(values));
+      last_ = slopes(rig_at(model_, values));
       last_values_ = wanted;
     }
     return last_;
@@ -170,13 +161,22 @@ std::string descend(Misfit& misfit, Model& model, bool thorough) {
   ceres::Solve(options, &problem, &summary);
   misfit.rethrow();
   if (!summary.IsSolutionUsable()) return summary.message;
-  model.rig = misfit.rig_at(values.data());
+  model.rig = rig_at(model, values.data());
   for (const Parameter& p : model.free)
     if (p.period > 0.0) p.put(model.rig, std::remainder(value_of(model.rig, p.path), p.period));
   return {};
 }
 
 }  // namespace
+
+RigFile rig_at(const Model& model, const double* scaled) {
+  RigFile rig = model.rig;
+  for (std::size_t j = 0; j < model.free.size(); ++j) {
+    const Parameter& p = model.free[j];
+    p.put(rig, std::clamp(p.unscaled(scaled[j]), p.lowest, p.highest));
+  }
+  return rig;
+}
 
 double least_by_lines(const Fitted& fitted, double inflation) {
   const auto& free = fitted.model.free;

@@ -31,6 +31,9 @@ struct FitSettings {
   std::optional<double> aim{};         ///< cost that is wanted: where it is out of reach the fit ends early
 };
 
+/// The rig with its free parameters at these scaled values, or at the bounds that they are beyond.
+RigFile rig_at(const Model& model, const double* scaled);
+
 struct Fitted {
   Model model;
   Eigen::VectorXd residuals;  ///< of the fitted runs

@@ -103,15 +103,15 @@ std::vector<Bounds> intervals(const Experiment& experiment, const Fitted& fitted
     const double value = value_of(fitted.model.rig, p.path);
     const double half =
         thresholds.interval.normal * few * std::sqrt(std::max({robust(j, j), inverse(j, j), counted(j, j)}));
-    const double at = p.scaled(value);
+    const double at = p.scaled(value), rise = half * half / inverse(j, j);
     const double ends[] = {p.unscaled(at - half), p.unscaled(at + half)};
     const double low = std::min(ends[0], ends[1]), high = std::max(ends[0], ends[1]);
     if (p.period > 0.0)
       list.push_back({value, std::max(low, value - 0.5 * p.period), std::min(high, value + 0.5 * p.period),
-                      high - low < p.period});
+                      high - low < p.period, half, rise});
     else
       list.push_back({value, std::clamp(low, p.lowest, p.highest), std::clamp(high, p.lowest, p.highest),
-                      low > p.lowest || high < p.highest});
+                      low > p.lowest || high < p.highest, half, rise});
   }
   return list;
 }

@@ -4,6 +4,9 @@
 // parametric bootstrap, Efron & Tibshirani, An Introduction to the Bootstrap, 1993).
 #pragma once
 
+#include <array>
+#include <optional>
+
 #include <sim/diagnose/fit.hpp>
 
 namespace mckibben::diagnose {
@@ -18,7 +21,9 @@ Scatter scatter_of(const Experiment& experiment, const Runs& runs, const Eigen::
 
 struct Bounds {
   double value, low, high;
-  bool determined;  ///< less than all that is allowed, or than a whole turn of an angle
+  bool determined;                ///< less than all that is allowed, or than a whole turn of an angle
+  double half = 0.0, rise = 0.0;  ///< half of it in the parameter's scale, and of the cost up to there
+  std::optional<std::array<double, 2>> quadratic{};  ///< what low and high were before a profile was taken
 };
 
 /// One for each free parameter of a model fitted to `runs`.

@@ -45,8 +45,9 @@ void tell_parameters(Diagnosis& diagnosis, const Model& model, const std::vector
   RigFile rig = model.rig;
   for (std::size_t j = 0; j < model.free.size(); ++j) {
     const Parameter& p = model.free[j];
-    FittedNumber number{p.path,        find(rig, p.path).unit, bounds[j].value,
-                        bounds[j].low, bounds[j].high,         bounds[j].determined};
+    const Bounds& at = bounds[j];
+    FittedNumber number{p.path,  find(rig, p.path).unit, at.value,    at.low,
+                        at.high, at.determined,          at.quadratic};
     if (p.has_prior) {
       const double moved = p.deviations(number.value);
       const double most = thresholds.parameter.at_the_edge * thresholds.parameter.most_deviations;

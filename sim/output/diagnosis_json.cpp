@@ -20,9 +20,15 @@ Json ci95(const diagnose::FittedNumber& number) {
   return {number.low, number.high};
 }
 
+/// Only of an interval by profile.
+void tell_quadratic(Json& json, const diagnose::FittedNumber& number) {
+  if (number.quadratic) json["quadratic_ci95"] = *number.quadratic;
+}
+
 Json value_json(const diagnose::FittedNumber& number) {
   Json json{{"value", number.value}, {"unit", number.unit}, {"ci95", ci95(number)}};
   if (!number.determined) json["determined"] = false;
+  tell_quadratic(json, number);
   return json;
 }
 
@@ -116,10 +122,12 @@ Json effects_json(const std::vector<diagnose::NamedEffect>& effects) {
 
 Json recalibrated_json(const diagnose::Diagnosis& diagnosis, const domain::RigFile& nominal) {
   Json all = Json::object();
-  for (const auto& moved : diagnosis.recalibrated)
-    all[short_key(moved.fitted.name, nominal)] = {
-        {"path", moved.fitted.name}, {"nominal", moved.nominal},   {"fitted", moved.fitted.value},
-        {"unit", moved.fitted.unit}, {"ci95", ci95(moved.fitted)}, {"deviations", moved.deviations}};
+  for (const auto& moved : diagnosis.recalibrated) {
+    Json& json = all[short_key(moved.fitted.name, nominal)];
+    json = {{"path", moved.fitted.name}, {"nominal", moved.nominal},   {"fitted", moved.fitted.value},
+            {"unit", moved.fitted.unit}, {"ci95", ci95(moved.fitted)}, {"deviations", moved.deviations}};
+    tell_quadratic(json, moved.fitted);
+  }
   return all;
 }
 

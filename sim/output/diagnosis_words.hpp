@@ -18,7 +18,7 @@ std::string name_of(const domain::Dataset& data);
 std::string readable(double value, std::string_view si_unit);
 
 /// A fitted number and its 95 % interval, both with the digits that the interval allows: "7.68 mm",
-/// "7.66 to 7.70 mm". An interval that is not known is "unknown".
+/// "7.66 to 7.70 mm". An interval that is not known is "unknown"; one by profile says so.
 struct Readable {
   std::string value, interval;
 };
@@ -43,6 +43,9 @@ std::string listed(const std::vector<std::string>& names);
 std::string title_of(const diagnose::Diagnosis& diagnosis);
 
 using diagnose::full_name;
+
+/// Of intervals by profile, what slopes at the fit would have said: "bladder_creep.time 1.2 to 4.1 s".
+std::vector<std::string> quadratic_intervals(const diagnose::Diagnosis& diagnosis);
 
 /// What an explanation that competed explains the data by: "muscle_leak with valve_lag", "numbers further off
 /// than they are stated to be".

@@ -147,6 +147,15 @@ std::string recalibrated_html(const Diagnosis& diagnosis) {
          "</div>\n";
 }
 
+std::string profiles_html(const Diagnosis& diagnosis) {
+  const auto intervals = output::quadratic_intervals(diagnosis);
+  if (intervals.empty()) return "";
+  return paragraph(
+      "By profile: how the misfit rises along this number, all others fitted anew, is no parabola. From the "
+      "slopes at the fit alone the interval would be " +
+      output::listed(intervals) + ".");
+}
+
 std::string left_open_html(const Diagnosis& diagnosis) {
   if (diagnosis.left_open.empty()) return "";
   std::string items;
@@ -220,7 +229,7 @@ std::string added_html(const Diagnosis& diagnosis, const plant::Rig& rig) {
   for (const auto& effect : diagnosis.effects) add(effect);
   for (const auto& effect : diagnosis.stand_ins) add(effect);
   return html + constancy_html(diagnosis, rig) + law_html(diagnosis, rig) + recalibrated_html(diagnosis) +
-         left_open_html(diagnosis) + absorbed_html(diagnosis);
+         profiles_html(diagnosis) + left_open_html(diagnosis) + absorbed_html(diagnosis);
 }
 
 /// Errors that are left, by load.

@@ -3,8 +3,9 @@
 //   benchmark_diagnosis [SEED [SEEDS [TITLE]]]   seeds SEED to SEED + SEEDS - 1 (default 101, 3 of them), of
 //                                                what has a title that begins so (default: all)
 //   benchmark_diagnosis --nulls [SEED [SEEDS [TITLE]]]   the same where nothing is hidden, on four benches
-//   benchmark_diagnosis --weak [SEED [SEEDS]]    effects of 3 to 100 % of a small size in four to nine runs:
-//                                                how often a name is right that is given with such evidence
+//   benchmark_diagnosis --weak [SEED [SEEDS [TITLE]]]   effects of 3 to 100 % of a small size in four to nine
+//                                                runs: how often a name is right that is given with such
+//                                                evidence
 //   benchmark_diagnosis --advice [SEED [SETS]]   SETS data sets (default 60), three or four short sines with
 //                                                little of an effect that has relatives: where a name is
 //                                                open, the measurement that is asked for is made, and all is
@@ -317,7 +318,7 @@ std::vector<DataSet> nulls(std::uint64_t first, std::uint64_t seeds, const std::
 }
 
 /// Small effects made weaker still, in fewer runs.
-std::vector<DataSet> weak_ones(std::uint64_t first, std::uint64_t seeds) {
+std::vector<DataSet> weak_ones(std::uint64_t first, std::uint64_t seeds, const std::string& wanted) {
   std::vector<DataSet> sets;
   std::mt19937_64 random(first);
   std::uniform_real_distribution<double> exponent(-1.5, 0.0);
@@ -326,11 +327,12 @@ std::vector<DataSet> weak_ones(std::uint64_t first, std::uint64_t seeds) {
     for (std::size_t kind = 0; kind < diagnose::kinds(); ++kind) {
       const std::string& title = diagnose::title(kind);
       if (!title.ends_with(" small") || title.starts_with("gauge:")) continue;
-      sets.push_back({kind,
-                      seed,
-                      {.bench = benches.at((kind + seed) % benches.size()),
-                       .share = std::pow(10.0, exponent(random)),
-                       .runs = runs(random)}});
+      const DataSet set{kind,
+                        seed,
+                        {.bench = benches.at((kind + seed) % benches.size()),
+                         .share = std::pow(10.0, exponent(random)),
+                         .runs = runs(random)}};
+      if (title.starts_with(wanted)) sets.push_back(set);
     }
   return sets;
 }
@@ -380,7 +382,7 @@ int main(int argc, char** argv) {
   try {
     const std::string wanted = words.size() > 2 ? words[2] : "";
     score_all(suite == "--nulls"    ? nulls(first, seeds, wanted)
-              : suite == "--weak"   ? weak_ones(first, seeds)
+              : suite == "--weak"   ? weak_ones(first, seeds, wanted)
               : suite == "--advice" ? open_ones(first, number(1, 60))
                                     : all_sets(first, seeds, wanted),
               all);

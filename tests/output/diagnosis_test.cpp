@@ -99,6 +99,22 @@ TEST(DiagnosisJson, TellsWhatWasReadBesideOnlyWhereSomethingWas) {
   EXPECT_NE(table.find("each weighed by its own floor"), std::string::npos) << table;
 }
 
+TEST(DiagnosisJson, TellsWhatSlopesWouldSayOnlyOfIntervalsByProfile) {
+  auto diagnosis = diagnosed();
+  const std::array by_slopes{0.98e-10, 1.2e-10};
+  diagnosis.effects[0].parameters[0].quadratic = by_slopes;
+  diagnosis.recalibrated[0].fitted.quadratic = {0.00765, 0.0077};
+  const Json document = Json::parse(json_of(measured(), diagnosis));
+  const Json& leak = document.at("effects").at(0).at("parameters").at("conductance");
+  EXPECT_EQ(leak.at("ci95"), Json::array({0.97e-10, 1.09e-10}));
+  EXPECT_EQ(leak.at("quadratic_ci95"), Json(by_slopes));
+  EXPECT_EQ(document.at("recalibrated").at("rest_radius").at("quadratic_ci95").at(0), 0.00765);
+  EXPECT_FALSE(document.at("recalibrated").at("braid_angle").contains("quadratic_ci95"));
+  EXPECT_EQ(readable(diagnosis.effects[0].parameters[0]).interval, "0.582 to 0.654 l/(min bar), by profile");
+  EXPECT_EQ(listed(quadratic_intervals(diagnosis)),
+            "muscle_leak.conductance 0.588 to 0.720 l/(min bar) and muscle.rest_radius 7.650 to 7.700 mm");
+}
+
 TEST(DiagnosisJson, NamesAParameterByItsPartOnlyWhereTheLastWordIsNotEnough) {
   const Json moved = Json::parse(json_of(measured(), diagnosed())).at("recalibrated");
   EXPECT_EQ(moved.at("rest_radius").at("nominal"), 0.0075);
