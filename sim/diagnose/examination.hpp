@@ -70,6 +70,7 @@ class Examination {
   std::vector<Suspected> most_promising(std::vector<Suspected> list, double at_best) const;
   Suspicion told(const Suspected& one) const;
   std::vector<Suspicion> suspicions(const Regression& alone, double at_best) const;
+  std::vector<Suspicion> suspicions_of_a_few() const;
   Hypothesis few(double near) const;
   /// The line of all runs being so many ticks late, for a size of 1 tick.
   Eigen::VectorXd all_late(int ticks) const;

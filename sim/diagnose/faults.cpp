@@ -25,6 +25,7 @@ Examined Examination::operator()() {
     if (other.cost < best.cost) best = other;
   const bool better = !best.faults.empty() && best.cost <= of_faults.strictly_better * alone.cost();
   if (!better && most <= sound) return {};
+  if (!better && runs_.size() > thresholds.screen.most_runs) return {{}, suspicions_of_a_few()};
   draw_effects();
   const double with_an_effect = alone.cost() - most_gained(alone);
   if (better && best.cost <= of_faults.strictly_better * with_an_effect) return {best.faults, {}};
@@ -173,21 +174,27 @@ Hypothesis Examination::common_lateness(const Regression& alone) const {
   return best.cost < infinite ? best : Hypothesis{};
 }
 
-/// Each run with a zero, or a drift, of its own.
+/// Each run with a zero, or a drift, of its own. These lines have no row in common: each is taken out of its
+/// run, what is left is fitted, and how large it is follows.
 Hypothesis Examination::own_line(FaultKind kind) const {
-  const auto all = static_cast<Eigen::Index>(runs_.size()), free = columns_.cols();
-  Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(columns_.rows(), free + all);
-  columns.leftCols(free) = columns_;
+  const auto line = [&](std::size_t i) {
+    return weighted(kind == FaultKind::drift ? ramp(rows(i)) : Eigen::VectorXd::Ones(rows(i)));
+  };
+  Eigen::VectorXd residuals = residuals_;
+  Eigen::MatrixXd columns = columns_;
   for (std::size_t i = 0; i < runs_.size(); ++i) {
-    auto line = columns.col(free + static_cast<Eigen::Index>(i)).segment(begin(i), rows(i));
-    line = weighted(kind == FaultKind::drift ? ramp(rows(i)) : Eigen::VectorXd::Ones(rows(i)));
+    const Eigen::VectorXd along = line(i).normalized();
+    auto own = residuals.segment(begin(i), rows(i));
+    own -= along * along.dot(own);
+    auto of_columns = columns.middleRows(begin(i), rows(i));
+    of_columns -= along * (along.transpose() * of_columns).eval();
   }
-  const Eigen::VectorXd solved = columns.colPivHouseholderQr().solve(residuals_);
-  const Eigen::VectorXd left = residuals_ - columns * solved;
+  const Eigen::VectorXd solved = columns.colPivHouseholderQr().solve(residuals);
+  const Eigen::VectorXd left = residuals - columns * solved, with_lines = residuals_ - columns_ * solved;
   Hypothesis found{{}, left.squaredNorm()};
   for (std::size_t i = 0; i < runs_.size(); ++i) {
     if (mean_square(left, i) > sound) return {};
-    const double size = solved[free + static_cast<Eigen::Index>(i)];
+    const double size = line(i).dot(with_lines.segment(begin(i), rows(i))) / line(i).squaredNorm();
     if (worth_telling(kind, size)) found.faults.push_back({runs_[i], kind, size});
   }
   const bool common = found.faults.size() == runs_.size() &&

@@ -177,4 +177,23 @@ std::vector<Suspicion> Examination::suspicions(const Regression& alone, double a
   return best;
 }
 
+/// Of a few runs: what is suspected is looked at again with the others.
+std::vector<Suspicion> Examination::suspicions_of_a_few() const {
+  const Runs few = a_few(experiment_.data(), runs_, thresholds.screen.most_runs);
+  Examination of_few(experiment_, at_, few, effects_);
+  of_few.draw_effects();
+  const Regression alone = of_few.regression(Kept(few.size(), true));
+  auto list = of_few.suspicions(alone, alone.cost() - of_few.most_gained(alone));
+  for (Suspicion& suspicion : list) {
+    if (suspicion.common.empty()) continue;
+    Fault fault = suspicion.common.front();
+    suspicion.common.clear();
+    for (const std::size_t run : runs_) {
+      fault.run = run;
+      suspicion.common.push_back(fault);
+    }
+  }
+  return list;
+}
+
 }  // namespace mckibben::diagnose

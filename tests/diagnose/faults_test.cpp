@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <numeric>
 #include <utility>
 
 #include <gtest/gtest.h>
@@ -194,6 +195,33 @@ TEST(Faults, AreMendedWhereThatIsSafeAndElseLeftOut) {
   EXPECT_EQ(checked.faulty[0].words, "is 2 ticks late and was shifted");
   EXPECT_EQ(checked.faulty[1].words, "has its zero moved by 3.2 counts (corrected)");
   EXPECT_EQ(checked.faulty[2].words, "drifts by 0.6 mm from its beginning to its end (left out)");
+}
+
+// Of more than 24 runs a few are asked which effect it may be; what all have in common is taken out of all.
+TEST(Faults, OfManyRunsAFewSayWhichEffectIsSuspected) {
+  plant::Rig truth;
+  truth.effects.get<plant::SpeedDependentFriction>().ratio = 0.8;
+  auto kinds = three_kinds();
+  kinds.pop_back();
+  std::vector<domain::CampaignCurrent> currents;
+  for (std::size_t i = 0; i < 10; ++i) {
+    currents.push_back(kinds[i % 2]);
+    currents.back().duration_s = 2.0 + 0.1 * static_cast<double>(i);
+  }
+  auto data = planted(truth, {11.138, 16.138, 23.406}, currents, 7);
+  for (domain::Run& run : data.runs) hasten(run, 3);
+  const Experiment experiment(data, no_doubts(data).masked, 2);
+  Runs all(data.runs.size());
+  std::iota(all.begin(), all.end(), 0);
+  auto friction = catalogue();
+  std::erase_if(friction, [](const Candidate& c) { return c.effect != plant::SpeedDependentFriction::name; });
+  const auto found = examine(experiment, {data.rig, nominal_parameters(data.rig)}, all, friction);
+  EXPECT_TRUE(found.faults.empty());
+  ASSERT_FALSE(found.suspicions.empty());
+  const Suspicion& first = found.suspicions.front();
+  EXPECT_EQ(first.sound.size(), 24u);
+  ASSERT_EQ(first.common.size(), 30u);
+  for (std::size_t i = 0; i < all.size(); ++i) EXPECT_EQ(first.common[i].run, i);
 }
 
 }  // namespace
