@@ -194,7 +194,8 @@ Hypothesis Examination::own_line(FaultKind kind) const {
   Hypothesis found{{}, left.squaredNorm()};
   for (std::size_t i = 0; i < runs_.size(); ++i) {
     if (mean_square(left, i) > sound) return {};
-    const double size = line(i).dot(with_lines.segment(begin(i), rows(i))) / line(i).squaredNorm();
+    const Eigen::VectorXd own = line(i);
+    const double size = own.dot(with_lines.segment(begin(i), rows(i))) / own.squaredNorm();
     if (worth_telling(kind, size)) found.faults.push_back({runs_[i], kind, size});
   }
   const bool common = found.faults.size() == runs_.size() &&
