@@ -15,6 +15,7 @@
 
 #include <controllers/delayed.hpp>
 #include <controllers/feedforward_pid.hpp>
+#include <controllers/kept_safe.hpp>
 #include <controllers/load_in_loop.hpp>
 
 namespace mckibben::controllers {
@@ -24,18 +25,12 @@ constexpr double fading_share = 0.1;   // of the calibrated contraction ratios, 
 constexpr double threads_share = 0.5;  // of half their band: with too much the load runs ahead
 constexpr double slow_per_s = 0.01;    // a target as slow as this does not tell for sure which way they pull
 
-/// The target of a controller is never above what it may follow.
-Knowledge kept_low(Knowledge known, const SafetyTerms& terms) {
-  for (double& ratio : known.target) ratio = terms.allowed(ratio);
-  return known;
-}
-
 class FeedforwardPid final : public Controller {
  public:
   FeedforwardPid(const FeedforwardPidSettings& settings, const Knowledge& known)
       : range_(settings.model.range),
         model_(settings.model),
-        known_(kept_low(known, settings)),
+        known_(allowed(settings, known)),
         loop_(settings, known),
         load_(settings.model, known_),
         believed_(settings.fastest_load_per_s, known),

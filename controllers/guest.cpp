@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include <controllers/guest.hpp>
+#include <controllers/kept_safe.hpp>
 #include <controllers/line.hpp>
 
 namespace mckibben::controllers {
@@ -17,12 +18,10 @@ GuestTerms followed_by(GuestTerms terms, const Knowledge& known) {
 
 Guest::Guest(const GuestTerms& terms, const Knowledge& known)
     : terms_(followed_by(terms, known)),
-      known_(known),
+      known_(allowed(terms_, known)),
       range_(terms_.within(known)),
       believed_(terms.fastest_load_per_s, known),
-      before_mA_(range_.lowest_mA) {
-  for (double& target : known_.target) target = terms_.allowed(target);
-}
+      before_mA_(range_.lowest_mA) {}
 
 double Guest::obeyed_mA(double asked_mA, const CurrentRange& reach) {
   if (!std::isfinite(asked_mA)) throw ControllerFailure("its current is no finite number");

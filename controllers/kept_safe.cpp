@@ -4,11 +4,6 @@
 namespace mckibben::controllers {
 namespace {
 
-Knowledge allowed(const SafetyTerms& terms, Knowledge knowledge) {
-  for (double& ratio : knowledge.target) ratio = terms.allowed(ratio);
-  return knowledge;
-}
-
 class KeptSafe final : public Controller {
  public:
   KeptSafe(const SafetyTerms& terms, const Knowledge& knowledge, std::unique_ptr<Controller> inside)
@@ -48,6 +43,11 @@ class KeptSafe final : public Controller {
 };
 
 }  // namespace
+
+Knowledge allowed(const SafetyTerms& terms, Knowledge knowledge) {
+  for (double& ratio : knowledge.target) ratio = terms.allowed(ratio);
+  return knowledge;
+}
 
 std::unique_ptr<Controller> kept_safe(const SafetyTerms& terms, const Knowledge& knowledge,
                                       const MakeController& make) {

@@ -10,6 +10,9 @@
 
 namespace mckibben::controllers {
 
+/// With a target that is nowhere above what `terms` allow.
+Knowledge allowed(const SafetyTerms& terms, Knowledge knowledge);
+
 using MakeController = std::function<std::unique_ptr<Controller>(const Knowledge& knowledge)>;
 
 /// What `make` makes, kept within `terms`; itself, if there are none. Findings gain `ticks_without_counts`.
