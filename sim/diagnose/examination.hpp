@@ -9,6 +9,7 @@
 
 #include <sim/diagnose/faults.hpp>
 #include <sim/diagnose/held_out.hpp>
+#include <sim/diagnose/in_brief.hpp>
 #include <sim/diagnose/regression.hpp>
 #include <sim/diagnose/shapes.hpp>
 #include <sim/diagnose/thresholds.hpp>
@@ -36,6 +37,12 @@ class Examination {
 
  private:
   using Kept = std::vector<bool>;
+
+  /// Of a few of `whole`'s runs.
+  Examination(const Examination& whole, const Runs& few);
+  struct Brief {};
+  /// What regressions need of `whole`: its rows in brief, without what shapes of faults are drawn from.
+  Examination(const Examination& whole, Brief);
 
   Eigen::Index begin(std::size_t i) const { return begins_[i]; }
   Eigen::Index rows(std::size_t i) const { return begins_[i + 1] - begins_[i]; }
@@ -71,9 +78,7 @@ class Examination {
   Suspicion told(const Suspected& one) const;
   std::vector<Suspicion> suspicions(const Regression& alone, double at_best) const;
   std::vector<Suspicion> suspicions_of_a_few() const;
-  Hypothesis few(double near) const;
-  /// The line of all runs being so many ticks late, for a size of 1 tick.
-  Eigen::VectorXd all_late(int ticks) const;
+  Hypothesis few(const Examination& brief, double near) const;
   Hypothesis common_lateness(const Regression& alone) const;
   Hypothesis own_line(FaultKind kind) const;
   std::optional<Fault> look_up(std::size_t i, Kept kept) const;
@@ -94,8 +99,7 @@ class Examination {
   }
   /// Of a run's residuals, in floors.
   double mean_square(const Eigen::VectorXd& left, std::size_t i) const {
-    return thresholds.scatter.first_inflation * left.segment(begin(i), rows(i)).squaredNorm() /
-           static_cast<double>(rows(i));
+    return thresholds.scatter.first_inflation * left.segment(begin(i), rows(i)).squaredNorm() / readings_[i];
   }
   double worst(const Regression& fitted) const {
     double most = 0.0;
@@ -118,8 +122,15 @@ class Examination {
   const std::vector<Candidate>& effects_;
   double weight_ = 1.0;               ///< of a contraction ratio
   std::vector<Eigen::Index> begins_;  ///< of each run's rows; one more for the end of the last
+  std::vector<double> readings_;      ///< of each run
   Eigen::VectorXd residuals_;         ///< then a row for each prior
   Eigen::MatrixXd columns_;           ///< of the free parameters
+  /// All runs late by so many ticks, for a size of 1 tick.
+  struct Late {
+    int ticks;
+    Eigen::VectorXd column;
+  };
+  std::vector<Late> lates_;
   std::vector<Undisturbed> undisturbed_;
   std::vector<Drawn> drawn_;
 };

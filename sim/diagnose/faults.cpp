@@ -16,21 +16,24 @@ constexpr const FaultThresholds& of_faults = thresholds.fault;
 }  // namespace
 
 Examined Examination::operator()() {
-  const Regression alone = regression(Kept(runs_.size(), true));
-  const double most = worst(alone);
+  const Examination brief(*this, Brief{});
+  const Regression alone = brief.regression(Kept(runs_.size(), true));
+  const double most = brief.worst(alone);
   if (runs_.size() <= of_faults.least_sound || most <= of_faults.unquestioned) return {};
-  Hypothesis best = few(most > sound ? sound : of_faults.unquestioned);
+  Hypothesis best = few(brief, most > sound ? sound : of_faults.unquestioned);
   for (const Hypothesis& other :
-       {common_lateness(alone), own_line(FaultKind::zero), own_line(FaultKind::drift)})
+       {brief.common_lateness(alone), own_line(FaultKind::zero), own_line(FaultKind::drift)})
     if (other.cost < best.cost) best = other;
   const bool better = !best.faults.empty() && best.cost <= of_faults.strictly_better * alone.cost();
   if (!better && most <= sound) return {};
   if (!better && runs_.size() > thresholds.screen.most_runs) return {{}, suspicions_of_a_few()};
   draw_effects();
-  const double with_an_effect = alone.cost() - most_gained(alone);
+  const Examination drawn(*this, Brief{});
+  const Regression numbers = drawn.regression(Kept(runs_.size(), true));
+  const double with_an_effect = numbers.cost() - drawn.most_gained(numbers);
   if (better && best.cost <= of_faults.strictly_better * with_an_effect) return {best.faults, {}};
   if (most <= sound) return {};
-  return {{}, suspicions(alone, with_an_effect)};
+  return {{}, drawn.suspicions(numbers, with_an_effect)};
 }
 
 bool Examination::worth_telling(FaultKind kind, double size) const {
@@ -70,8 +73,14 @@ void Examination::fly() {
     columns_.middleRows(begin(i), rows(i)) = to_weighted * of_run(fitted.columns);
     const auto& measured = experiment_.data().runs[part.run].judged();
     const Eigen::Map<const Eigen::VectorXd> shown(measured.data(), part.rows);
+    readings_.push_back(static_cast<double>(part.rows));
     undisturbed_.push_back({shown - scale * of_run(fitted.residuals), scale * of_run(driven.columns).col(0),
                             scale * of_run(driven.columns).col(1)});
+  }
+  for (const int ticks : of_faults.common_ticks) {
+    lates_.push_back({ticks, Eigen::VectorXd::Zero(residuals_.size())});
+    for (std::size_t i = 0; i < parts.size(); ++i)
+      lates_.back().column.segment(begin(i), rows(i)) = weighted(lateness(undisturbed_[i].model, ticks));
   }
   for (Eigen::Index j = 0; j < free; ++j) {
     const Parameter& p = at_.free[static_cast<std::size_t>(j)];
@@ -79,6 +88,71 @@ void Examination::fly() {
     residuals_[begins_.back() + j] = -p.scaled(value_of(at_.rig, p.path));
     columns_(begins_.back() + j, j) = 1.0;
   }
+}
+
+Examination::Examination(const Examination& whole, const Runs& few)
+    : experiment_(whole.experiment_),
+      at_(whole.at_),
+      runs_(few),
+      effects_(whole.effects_),
+      weight_(whole.weight_),
+      begins_{0} {
+  std::vector<Eigen::Index> rows;
+  const auto take = [&](Eigen::Index from, Eigen::Index to) {
+    for (Eigen::Index row = from; row < to; ++row) rows.push_back(row);
+  };
+  for (std::size_t i = 0; i < whole.runs_.size(); ++i) {
+    if (std::find(few.begin(), few.end(), whole.runs_[i]) == few.end()) continue;
+    take(whole.begins_[i], whole.begins_[i + 1]);
+    begins_.push_back(static_cast<Eigen::Index>(rows.size()));
+    readings_.push_back(whole.readings_[i]);
+    undisturbed_.push_back(whole.undisturbed_[i]);
+  }
+  take(whole.begins_.back(), whole.residuals_.size());
+  residuals_ = whole.residuals_(rows);
+  columns_ = whole.columns_(rows, Eigen::all);
+  for (const Late& late : whole.lates_) lates_.push_back({late.ticks, late.column(rows)});
+}
+
+Examination::Examination(const Examination& whole, Brief)
+    : experiment_(whole.experiment_),
+      at_(whole.at_),
+      runs_(whole.runs_),
+      effects_(whole.effects_),
+      weight_(whole.weight_),
+      begins_{0},
+      readings_(whole.readings_),
+      lates_(whole.lates_),
+      drawn_(whole.drawn_) {
+  const Eigen::Index free = whole.columns_.cols();
+  const auto count = static_cast<Eigen::Index>(1 + lates_.size() + drawn_.size()) + free;
+  // Runs, then the priors.
+  std::vector<Eigen::MatrixXd> parts;
+  Eigen::Index total = 0;
+  for (std::size_t i = 0; i <= runs_.size(); ++i) {
+    const Eigen::Index from = whole.begins_[i];
+    const Eigen::Index rows = (i < runs_.size() ? whole.begins_[i + 1] : whole.residuals_.size()) - from;
+    Eigen::MatrixXd part(rows, count);
+    part.col(0) = whole.residuals_.segment(from, rows);
+    part.middleCols(1, free) = whole.columns_.middleRows(from, rows);
+    Eigen::Index next = 1 + free;
+    for (const Late& late : lates_) part.col(next++) = late.column.segment(from, rows);
+    for (const Drawn& effect : drawn_) part.col(next++) = effect.column.segment(from, rows);
+    parts.push_back(in_brief(std::move(part)));
+    total += parts.back().rows();
+    if (i < runs_.size()) begins_.push_back(total);
+  }
+  Eigen::MatrixXd all(total, count);
+  Eigen::Index row = 0;
+  for (const Eigen::MatrixXd& part : parts) {
+    all.middleRows(row, part.rows()) = part;
+    row += part.rows();
+  }
+  residuals_ = all.col(0);
+  columns_ = all.middleCols(1, free);
+  Eigen::Index next = 1 + free;
+  for (Late& late : lates_) late.column = all.col(next++);
+  for (Drawn& effect : drawn_) effect.column = all.col(next++);
 }
 
 /// The fault of the dictionary that explains run `i` next to those kept; another rig if none does. None if
@@ -109,14 +183,14 @@ std::optional<Fault> Examination::look_up(std::size_t i, Kept kept) const {
 }
 
 /// A few runs of their own kind, the others near the floor without them: within `near` [mean square].
-Hypothesis Examination::few(double near) const {
+Hypothesis Examination::few(const Examination& brief, double near) const {
   Kept kept(runs_.size(), true);
   std::vector<std::size_t> odd;
   for (;;) {
-    const Regression fitted = regression(kept);
+    const Regression fitted = brief.regression(kept);
     std::vector<std::pair<double, std::size_t>> worst;
     for (std::size_t i = 0; i < runs_.size(); ++i)
-      if (kept[i]) worst.emplace_back(mean_square(fitted.left(), i), i);
+      if (kept[i]) worst.emplace_back(brief.mean_square(fitted.left(), i), i);
     std::sort(worst.rbegin(), worst.rend());
     if (worst.front().first <= near) {
       Hypothesis found{{}, fitted.cost()};
@@ -137,7 +211,7 @@ Hypothesis Examination::few(double near) const {
     for (std::size_t tried = 0; tried < std::min(worst.size(), of_faults.most_tried); ++tried) {
       Kept fewer = kept;
       fewer[worst[tried].second] = false;
-      const double cost = regression(fewer).cost();
+      const double cost = brief.regression(fewer).cost();
       if (cost < least) {
         least = cost;
         oddest = worst[tried].second;
@@ -148,22 +222,14 @@ Hypothesis Examination::few(double near) const {
   }
 }
 
-Eigen::VectorXd Examination::all_late(int ticks) const {
-  Eigen::VectorXd column = Eigen::VectorXd::Zero(residuals_.size());
-  for (std::size_t i = 0; i < runs_.size(); ++i)
-    column.segment(begin(i), rows(i)) = weighted(lateness(undisturbed_[i].model, ticks));
-  return column;
-}
-
 /// All runs late by the same whole number of ticks.
 Hypothesis Examination::common_lateness(const Regression& alone) const {
   Hypothesis best;
-  for (const int ticks : of_faults.common_ticks) {
-    const Eigen::VectorXd column = all_late(ticks);
-    const double amplitude = alone.gain(column, 0).amplitude;
-    if (std::abs(amplitude - ticks) > of_faults.whole_tick) continue;
+  for (const Late& late : lates_) {
+    const double amplitude = alone.gain(late.column, 0).amplitude;
+    if (std::abs(amplitude - late.ticks) > of_faults.whole_tick) continue;
     Regression with = alone;
-    with.add(column);
+    with.add(late.column);
     if (with.cost() >= best.cost) continue;
     best = {{}, with.cost()};
     for (std::size_t i = 0; i < runs_.size(); ++i) {

@@ -8,6 +8,7 @@
 #include <glog/logging.h>
 
 #include <sim/diagnose/fit.hpp>
+#include <sim/diagnose/in_brief.hpp>
 #include <sim/diagnose/thresholds.hpp>
 #include <sim/engine/failure.hpp>
 
@@ -19,9 +20,14 @@ class Misfit final : public ceres::CostFunction {
   Misfit(const Experiment& experiment, const Model& model, const Runs& runs, double inflation,
          const KnownSlopes& known)
       : experiment_(experiment), model_(model), runs_(runs), inflation_(inflation), known_(known) {
-    for (const std::size_t run : runs) rows_ += static_cast<Eigen::Index>(experiment.rows(run));
+    const auto columns = static_cast<Eigen::Index>(1 + model.free.size());
+    for (const std::size_t run : runs) {
+      const auto of_run = static_cast<Eigen::Index>(experiment.rows(run));
+      rows_ += of_run;
+      brief_rows_ += std::min(of_run, columns);
+    }
     for (const Parameter& p : model.free) priors_ += p.has_prior ? 1 : 0;
-    set_num_residuals(static_cast<int>(rows_ + priors_));
+    set_num_residuals(static_cast<int>(brief_rows_ + priors_));
     mutable_parameter_block_sizes()->push_back(static_cast<int>(model.free.size()));
     for (std::size_t j = 0; j < model.free.size(); ++j)
       if (known_slope(model.free[j]) == nullptr) fresh_.push_back(model.free[j]);
@@ -41,25 +47,25 @@ class Misfit final : public ceres::CostFunction {
     return {std::move(fresh.residuals), std::move(columns)};
   }
 
-  /// Slopes always come along, at little cost beside the rig itself: Ceres asks for those of a step that it
-  /// takes, right after.
+  /// Ceres gets the rows of each run in brief. Slopes always come along, at little cost beside the rig
+  /// itself: it asks for those of a step that it takes, right after.
   bool Evaluate(double const* const* values, double* residuals, double** jacobians) const override {
     if (thrown_) return false;
     const double weight = 1.0 / std::sqrt(inflation_);
     try {
-      const auto& at = slopes_at(values[0]);
-      const auto columns = static_cast<Eigen::Index>(model_.free.size());
-      Eigen::Map<Eigen::VectorXd> r(residuals, rows_ + priors_);
-      r.head(rows_) = weight * at.residuals;
-      Eigen::Index row = rows_;
+      const Eigen::MatrixXd& at = brief_at(values[0]);
+      const Eigen::Index columns = at.cols() - 1;
+      Eigen::Map<Eigen::VectorXd> r(residuals, brief_rows_ + priors_);
+      r.head(brief_rows_) = weight * at.col(0);
+      Eigen::Index row = brief_rows_;
       for (Eigen::Index c = 0; c < columns; ++c)
         if (model_.free[static_cast<std::size_t>(c)].has_prior) r[row++] = values[0][c];
       if (jacobians == nullptr || jacobians[0] == nullptr) return r.allFinite();
       Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> j(
-          jacobians[0], rows_ + priors_, columns);
+          jacobians[0], brief_rows_ + priors_, columns);
       j.setZero();
-      j.topRows(rows_) = -weight * at.columns;
-      row = rows_;
+      j.topRows(brief_rows_) = -weight * at.rightCols(columns);
+      row = brief_rows_;
       for (Eigen::Index c = 0; c < columns; ++c)
         if (model_.free[static_cast<std::size_t>(c)].has_prior) j(row++, c) = 1.0;
       return r.allFinite();
@@ -76,13 +82,24 @@ class Misfit final : public ceres::CostFunction {
   }
 
  private:
-  const Experiment::Slopes& slopes_at(const double* values) const {
+  /// Residuals, then slopes.
+  const Eigen::MatrixXd& brief_at(const double* values) const {
     const std::vector<double> wanted(values, values + model_.free.size());
-    if (wanted != last_values_) {
-      last_values_.clear();
-      last_ = slopes(rig_at(model_, values));
-      last_values_ = wanted;
+    if (wanted == last_values_) return last_;
+    last_values_.clear();
+    const auto at = slopes(rig_at(model_, values));
+    last_.resize(brief_rows_, 1 + at.columns.cols());
+    Eigen::Index from = 0, to = 0;
+    for (const std::size_t run : runs_) {
+      const auto rows = static_cast<Eigen::Index>(experiment_.rows(run));
+      Eigen::MatrixXd whole(rows, last_.cols());
+      whole << at.residuals.segment(from, rows), at.columns.middleRows(from, rows);
+      const Eigen::MatrixXd brief = in_brief(std::move(whole));
+      last_.middleRows(to, brief.rows()) = brief;
+      from += rows;
+      to += brief.rows();
     }
+    last_values_ = wanted;
     return last_;
   }
 
@@ -97,10 +114,10 @@ class Misfit final : public ceres::CostFunction {
   const Runs& runs_;
   double inflation_;
   const KnownSlopes& known_;
-  Eigen::Index rows_ = 0, priors_ = 0;
+  Eigen::Index rows_ = 0, brief_rows_ = 0, priors_ = 0;
   std::vector<Parameter> fresh_;
   mutable std::vector<double> last_values_;
-  mutable Experiment::Slopes last_;  // at these
+  mutable Eigen::MatrixXd last_;  // at these
   mutable std::exception_ptr thrown_;
 };
 

@@ -116,17 +116,16 @@ bool is_a_delay(const Candidate& candidate) {
 /// Each effect with all runs early by the same whole number of ticks.
 std::vector<Examination::Suspected> Examination::beside_lateness(const Regression& alone) const {
   std::vector<Suspected> list;
-  for (const int ticks : thresholds.fault.common_ticks) {
-    const Eigen::VectorXd late = all_late(ticks);
+  for (const Late& late : lates_) {
     Regression all = alone;
-    all.add(late);
+    all.add(late.column);
     for (const Drawn& effect : drawn_) {
       if (is_a_delay(*effect.candidate)) continue;
       Regression with = alone;
       with.add(effect.column);
-      if (std::abs(with.gain(late, 0).amplitude - ticks) > thresholds.fault.whole_tick) continue;
+      if (std::abs(with.gain(late.column, 0).amplitude - late.ticks) > thresholds.fault.whole_tick) continue;
       const auto [drop, amplitude] = all.gain(effect.column, 0);
-      list.push_back({&effect, Kept(runs_.size(), true), all.cost() - drop, amplitude, ticks});
+      list.push_back({&effect, Kept(runs_.size(), true), all.cost() - drop, amplitude, late.ticks});
     }
   }
   return list;
@@ -180,10 +179,11 @@ std::vector<Suspicion> Examination::suspicions(const Regression& alone, double a
 /// Of a few runs: what is suspected is looked at again with the others.
 std::vector<Suspicion> Examination::suspicions_of_a_few() const {
   const Runs few = a_few(experiment_.data(), runs_, thresholds.screen.most_runs);
-  Examination of_few(experiment_, at_, few, effects_);
+  Examination of_few(*this, few);
   of_few.draw_effects();
-  const Regression alone = of_few.regression(Kept(few.size(), true));
-  auto list = of_few.suspicions(alone, alone.cost() - of_few.most_gained(alone));
+  const Examination drawn(of_few, Brief{});
+  const Regression numbers = drawn.regression(Kept(few.size(), true));
+  auto list = drawn.suspicions(numbers, numbers.cost() - drawn.most_gained(numbers));
   for (Suspicion& suspicion : list) {
     if (suspicion.common.empty()) continue;
     Fault fault = suspicion.common.front();

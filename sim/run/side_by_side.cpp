@@ -1,9 +1,9 @@
 // See the header.
 #include <algorithm>
 #include <deque>
-#include <iterator>
 #include <list>
 #include <map>
+#include <mutex>
 #include <thread>
 #include <utility>
 
@@ -13,57 +13,72 @@
 namespace mckibben::run {
 namespace {
 
-/// What one thread does: takes errands, and carries those of one class side by side.
-class Carrier {
+/// Errands that are made ready, by class. All threads share them: whoever meets one of another class than
+/// its own leaves it there for who comes first.
+class Waiting {
  public:
-  Carrier(const Take& take, const Prepare& prepare, std::size_t places)
-      : take_(take), prepare_(prepare), places_(places) {}
+  using Begin = std::function<std::unique_ptr<Errand>()>;
 
-  void operator()() {
-    while (fetch()) {
-      const ride::ConvoyClass now = waiting_.begin()->first;
-      ride::ride_in_convoy([&] { return next(now); }, now, places_);
-      on_board_.clear();
+  Waiting(const Take& take, const Prepare& prepare) : take_(take), prepare_(prepare) {}
+
+  /// A class that has one; none if there is none left.
+  std::optional<ride::ConvoyClass> any() {
+    for (;;) {
+      if (const std::lock_guard lock(mutex_); !ready_.empty()) return ready_.begin()->first;
+      if (!fetch()) return std::nullopt;
+    }
+  }
+
+  /// The next of a class; nothing if there is none left.
+  Begin next(const ride::ConvoyClass& of) {
+    for (;;) {
+      {
+        const std::lock_guard lock(mutex_);
+        if (const auto mine = ready_.find(of); mine != ready_.end()) {
+          Begin begin = std::move(mine->second.front());
+          mine->second.pop_front();
+          if (mine->second.empty()) ready_.erase(mine);
+          return begin;
+        }
+      }
+      if (!fetch()) return {};
     }
   }
 
  private:
-  using Begin = std::function<std::unique_ptr<Errand>()>;
-
-  /// Takes an errand; those that go by themselves are done at once. False if there is none left.
+  /// Makes one more ready; those that go by themselves are done at once. False if there is none left.
   bool fetch() {
-    while (waiting_.empty()) {
+    for (;;) {
       const auto index = take_();
       if (!index) return false;
-      if (auto prepared = prepare_(*index))
-        waiting_[std::move(prepared->in)].push_back(std::move(prepared->begin));
-    }
-    return true;
-  }
-
-  ride::Party* next(const ride::ConvoyClass& now) {
-    std::erase_if(on_board_, [](const auto& errand) { return errand->is_done(); });
-    for (;;) {
-      if (const auto mine = waiting_.find(now); mine != waiting_.end()) {
-        on_board_.push_back(mine->second.front()());
-        mine->second.pop_front();
-        if (mine->second.empty()) waiting_.erase(mine);
-        return on_board_.back().get();
+      if (auto prepared = prepare_(*index)) {
+        const std::lock_guard lock(mutex_);
+        ready_[std::move(prepared->in)].push_back(std::move(prepared->begin));
+        return true;
       }
-      auto others = std::exchange(waiting_, {});  // they come when these are through
-      const bool more = fetch();
-      for (auto& [other, errands] : others)
-        std::move(errands.begin(), errands.end(), std::back_inserter(waiting_[other]));
-      if (!more) return nullptr;
     }
   }
 
   const Take& take_;
   const Prepare& prepare_;
-  std::size_t places_;
-  std::map<ride::ConvoyClass, std::deque<Begin>> waiting_;
-  std::list<std::unique_ptr<Errand>> on_board_;
+  std::mutex mutex_;
+  std::map<ride::ConvoyClass, std::deque<Begin>> ready_;
 };
+
+/// What one thread does: carries errands of one class side by side until there is none, then of another.
+void carry(Waiting& waiting, std::size_t places) {
+  while (const auto now = waiting.any()) {
+    std::list<std::unique_ptr<Errand>> on_board;
+    const auto next = [&]() -> ride::Party* {
+      std::erase_if(on_board, [](const auto& errand) { return errand->is_done(); });
+      const auto begin = waiting.next(*now);
+      if (!begin) return nullptr;
+      on_board.push_back(begin());
+      return on_board.back().get();
+    };
+    ride::ride_in_convoy(next, *now, places);
+  }
+}
 
 }  // namespace
 
@@ -72,8 +87,9 @@ void do_all(const Take& take, std::size_t rigs, unsigned threads, const Prepare&
   const std::size_t carriers =
       std::min<std::size_t>(rigs, threads == 0 ? std::max(1u, std::thread::hardware_concurrency()) : threads);
   const std::size_t places = rigs > carriers * Convoy::wing ? Convoy::places : Convoy::wing;
+  Waiting waiting(take, prepare);
   for_each_job(
-      carriers, threads, [&](std::size_t) { Carrier(take, prepare, places)(); }, [](std::size_t) {});
+      carriers, threads, [&](std::size_t) { carry(waiting, places); }, [](std::size_t) {});
 }
 
 }  // namespace mckibben::run
