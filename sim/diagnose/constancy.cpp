@@ -9,7 +9,6 @@
 #include <sim/diagnose/constancy.hpp>
 #include <sim/diagnose/held_out.hpp>
 #include <sim/diagnose/interval.hpp>
-#include <sim/run/batch.hpp>
 
 namespace mckibben::diagnose {
 namespace {
@@ -106,10 +105,8 @@ Parting by_speed(const Experiment& experiment, const RigFile& rig, const Runs& r
 std::vector<Parting> partings(const Experiment& experiment, const RigFile& rig, const Runs& runs) {
   std::vector<Parting> list{by_level(experiment, runs)};
   if (!experiment.data().force_is_judged()) {
-    States states(runs.size());
-    run::for_each_job(
-        runs.size(), experiment.threads(),
-        [&](std::size_t i) { states[i] = experiment.readings(rig, runs[i]).states; }, [](std::size_t) {});
+    States states;
+    for (Readings& of_run : experiment.readings(rig, runs)) states.push_back(std::move(of_run.states));
     list.push_back(by_motion(experiment, runs, states));
     list.push_back(by_speed(experiment, rig, runs, states));
   }

@@ -65,8 +65,9 @@ double motion_left(const Gap& gap) {
 
 class Workflow {
  public:
+  /// `ask_all`: runs in the search, however many there are.
   Workflow(const domain::Dataset& data, const Checked& checked, const Settings& settings, const Step& step,
-           Search& search)
+           Search& search, bool ask_all)
       : settings_(settings),
         step_(step),
         search_(search),
@@ -75,9 +76,10 @@ class Workflow {
         usable_(all_but(checked_.left_out, data.runs.size())),
         experiment_(data_, checked_.masked, settings.threads, usable_),
         nominal_(data.rig),
+        whole_(split(data_, usable_)),
         case_{experiment_,
               nominal_,
-              {},
+              ask_all ? whole_ : asked(data_, whole_),
               thresholds.scatter.first_inflation,
               [this](const std::string& what) { learn(what); },
               [this](const Contender& contender) { competition_.enter(case_, contender); }} {}
@@ -88,10 +90,12 @@ class Workflow {
   /// Faults of the recording that stand in the way; none if `operator()` has a result. `look`: for such.
   const std::vector<Fault>& faults() const { return faults_; }
 
+  /// Whether the runs that the search did not ask are met by what it chose as well as those that it asked.
+  bool is_confirmed() const { return confirmed_; }
+
   Diagnosis operator()(bool look) {
     tell_check();
     if (checked_.cannot_tell) return unusable();
-    case_.split = split(data_, usable_);
     replay_as_described();
     look = look &&
            judged() == Judged::contraction;  // at another length a run may fit no model for other reasons
@@ -108,6 +112,7 @@ class Workflow {
     if (look) faults_ = faults_beside(decision.chosen);
     if (!faults_.empty()) return std::move(result_);
     hand_over(decision);
+    confirm();
     show_gap();
     plan_next();
     tell_verdict();
@@ -262,7 +267,10 @@ class Workflow {
   /// Names that are not the same everywhere, or are not shown to be where much is left.
   void look_for_stand_ins() {
     const Fitted& fitted = naming_.best.fitted;
-    const auto found = constancies(experiment_, fitted.model, usable_,
+    Runs asked = case_.split.training;
+    asked.insert(asked.end(), case_.split.held_out.begin(), case_.split.held_out.end());
+    std::ranges::sort(asked);
+    const auto found = constancies(experiment_, fitted.model, asked,
                                    variance_inflation(experiment_, fitted.residuals, case_.split.training));
     const bool much_left = evidence_.named_left + 1.0 > thresholds.near.mean_square();
     for (NamedEffect& effect : naming_.effects) {
@@ -317,6 +325,8 @@ class Workflow {
     };
     look_at(contender.fitted.residuals, case_.split.training);
     look_at(contender.held_out, case_.split.held_out);
+    const Runs others = not_asked();
+    look_at(experiment_.residuals(contender.fitted.model.rig, others), others);
     return list;
   }
 
@@ -325,6 +335,31 @@ class Workflow {
     const Contender& fitted = chosen == Chosen::nominal ? recalibrated_ : contender(chosen);
     if (far_from(fitted).empty()) return {};
     return examine(experiment_, fitted.fitted.model, usable_, {}).faults;
+  }
+
+  /// Usable runs that the search does without.
+  Runs not_asked() const {
+    const auto& [training, held_out] = case_.split;
+    Runs others;
+    std::ranges::copy_if(usable_, std::back_inserter(others), [&](std::size_t run) {
+      return !std::ranges::binary_search(training, run) && !std::ranges::binary_search(held_out, run);
+    });
+    return others;
+  }
+
+  void confirm() {
+    const Runs others = not_asked();
+    if (others.empty()) return;
+    const auto left = [&](const Runs& runs) {
+      return excess(experiment_.residuals(result_.corrected, runs)) + 1.0;
+    };
+    const double of_asked = std::max(left(case_.split.training), left(case_.split.held_out));
+    const double allowed = std::max(thresholds.near.mean_square(), thresholds.asked.confirmed * of_asked);
+    confirmed_ = left(others) <= allowed;
+    warn(fmt::format(
+        "of {} runs the search asked {}, of all loads and currents; what it chose was fitted to "
+        "all{}",
+        usable_.size(), usable_.size() - others.size(), confirmed_ ? ", and meets the others as well" : ""));
   }
 
   void hand_over(const Decision& decision) {
@@ -401,11 +436,15 @@ class Workflow {
 
   /// How far the gap shrank, on the runs held out and run by run.
   void show_gap() {
-    const Eigen::VectorXd corrected = experiment_.residuals(chosen_rig_, case_.split.held_out);
+    const Runs& held_out = whole_.held_out;
+    const Eigen::VectorXd nominal = experiment_.residuals(nominal_, held_out),
+                          recalibrated = experiment_.residuals(recalibrated_.fitted.model.rig, held_out),
+                          corrected = experiment_.residuals(chosen_rig_, held_out);
+    const auto rmse = [&](const Eigen::VectorXd& residuals) { return experiment_.rmse(residuals, held_out); };
     Gap& gap = result_.gap;
     gap = {.noise_floor = experiment_.floor().judged,
-           .nominal_rmse = rmse(nominal_fit_.held_out),
-           .recalibrated_rmse = rmse(recalibrated_.held_out),
+           .nominal_rmse = rmse(nominal),
+           .recalibrated_rmse = rmse(recalibrated),
            .corrected_rmse = rmse(corrected),
            .jitter = experiment_.floor().jitter,
            .judged = judged()};
@@ -415,18 +454,18 @@ class Workflow {
     if (above(gap.nominal_rmse) > 0.0)
       gap.closed = std::clamp(1.0 - above(gap.corrected_rmse) / above(gap.nominal_rmse), 0.0, 1.0);
     for (const domain::Beside which : domain::besides)
-      if (const auto error = experiment_.rmse(which, corrected, case_.split.held_out)) {
-        const auto of = [&](const Contender& contender) {
-          return *experiment_.rmse(which, contender.held_out, case_.split.held_out);
+      if (const auto error = experiment_.rmse(which, corrected, held_out)) {
+        const auto of = [&](const Eigen::VectorXd& residuals) {
+          return *experiment_.rmse(which, residuals, held_out);
         };
         const auto [reading, unit] = told(which, data_.rig.pair() != nullptr);
         gap.beside.push_back({std::string(reading), std::string(unit), experiment_.floor().beside(which),
-                              of(nominal_fit_), of(recalibrated_), *error});
+                              of(nominal), of(recalibrated), *error});
       }
     result_.start = look_at_start(experiment_, chosen_rig_, usable_);
     result_.remaining = remaining(experiment_, chosen_rig_, usable_, gap, settings_.seed);
-    result_.runs = gaps_of_runs(experiment_, case_.split.held_out, usable_,
-                                {nominal_, recalibrated_.fitted.model.rig, chosen_rig_});
+    result_.runs =
+        gaps_of_runs(experiment_, held_out, usable_, {nominal_, recalibrated_.fitted.model.rig, chosen_rig_});
   }
 
   // What would separate the effect named first from those it may be, or the next one.
@@ -464,7 +503,8 @@ class Workflow {
   Experiment experiment_;
   RigFile nominal_;
   Competition competition_;
-  Case case_;
+  Split whole_;
+  Case case_;              ///< of the runs that the search asks
   Contender nominal_fit_;  ///< the rig as described, nothing moved
   Contender recalibrated_;
   std::vector<RigFile> other_ends_;  ///< of recalibrations that did not end alike
@@ -474,19 +514,28 @@ class Workflow {
   RigFile chosen_rig_;             ///< fitted to the training runs
   double chosen_inflation_ = 1.0;  ///< of its residuals over long times
   std::vector<Fault> faults_;
+  bool confirmed_ = true;
   Diagnosis result_;
 };
 
-/// The workflow, again each time that faults of the recording have been mended.
+/// The workflow, again each time that faults of the recording have been mended, and of all runs where a few
+/// have led to what does not hold of the others.
 std::pair<Diagnosis, bool> mended(domain::Dataset data, const Settings& settings, const Step& step,
                                   Search& search) {
   step(stage("checking"));
   Checked checked = check(data, settings.threads);
-  for (int repairs = 0;; ++repairs) {
-    Workflow workflow(data, checked, settings, step, search);
+  bool ask_all = false;
+  for (int repairs = 0;;) {
+    Workflow workflow(data, checked, settings, step, search, ask_all);
     Diagnosis result = workflow(repairs < thresholds.fault.most_repairs);
-    if (workflow.faults().empty()) return {std::move(result), workflow.reads_more()};
-    mend(data, checked, workflow.faults());
+    if (!workflow.faults().empty()) {
+      mend(data, checked, workflow.faults());
+      ++repairs;
+    } else if (!workflow.is_confirmed() && search.ended() == Ended::no) {
+      ask_all = true;
+    } else {
+      return {std::move(result), workflow.reads_more()};
+    }
   }
 }
 

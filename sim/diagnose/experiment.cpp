@@ -253,8 +253,25 @@ Eigen::VectorXd Experiment::residuals(const Readings& readings, std::size_t run)
   return list;
 }
 
-Readings Experiment::readings(const RigFile& rig, std::size_t run) const {
-  return begun(run, {{rig, data_.runs[run].load_kg}}).front();
+std::vector<Readings> Experiment::readings(const RigFile& rig, const Runs& runs) const {
+  std::vector<Readings> list(runs.size());
+  if (seeks_memories(rig)) {
+    run::for_each_job(
+        runs.size(), threads_,
+        [&](std::size_t i) {
+          list[i] = begun(runs[i], {{rig, data_.runs[runs[i]].load_kg}}).front();
+        },
+        [](std::size_t) {});
+    return list;
+  }
+  predict_all(
+      runs.size(), runs.size(), threads_, data_.rig.integrator.method,
+      [&](std::size_t i) { return wanted(rig, {}, runs[i]); },
+      [&](std::size_t i, std::vector<Readings> of_run, const std::exception_ptr& failure) {
+        if (failure) std::rethrow_exception(failure);
+        list[i] = std::move(of_run.front());
+      });
+  return list;
 }
 
 double Experiment::rmse(const Eigen::VectorXd& residuals, const Runs& runs) const {

@@ -54,8 +54,8 @@ class Experiment {
   /// The same of one run whose readings are known.
   Eigen::VectorXd residuals(const Readings& readings, std::size_t run) const;
 
-  /// Readings of one run.
-  Readings readings(const RigFile& rig, std::size_t run) const;
+  /// Readings of each of these runs. Throws engine::NumericalFailure, run::Interrupted.
+  std::vector<Readings> readings(const RigFile& rig, const Runs& runs) const;
 
   /// Root mean square of measured minus predicted, of the reading that is judged.
   double rmse(const Eigen::VectorXd& residuals, const Runs& runs) const;

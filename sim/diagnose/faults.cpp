@@ -26,7 +26,7 @@ Examined Examination::operator()() {
     if (other.cost < best.cost) best = other;
   const bool better = !best.faults.empty() && best.cost <= of_faults.strictly_better * alone.cost();
   if (!better && most <= sound) return {};
-  if (!better && runs_.size() > thresholds.screen.most_runs) return {{}, suspicions_of_a_few()};
+  if (!better && asked(experiment_.data(), runs_).size() < runs_.size()) return {{}, suspicions_of_a_few()};
   draw_effects();
   const Examination drawn(*this, Brief{});
   const Regression numbers = drawn.regression(Kept(runs_.size(), true));

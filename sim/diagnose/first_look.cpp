@@ -18,10 +18,11 @@ std::pair<std::ptrdiff_t, std::size_t> shortfall(const std::vector<Fault>& fault
           faults.front().common ? 1 : faults.size()};
 }
 
-/// Whether a model that is fitted to all runs as they are takes each of them there.
+/// Whether a model that is fitted to a few of all runs as they are takes each of all there.
 bool reaches_all(const Case& c, const Model& model, const Runs& usable) {
-  const auto fitted = fit(c.experiment, model, usable, {.inflation = thresholds.scatter.first_inflation});
-  return fitted.failure.empty() && all_near_floor(c.experiment, fitted.residuals, usable);
+  const Runs few = asked(c.experiment.data(), usable);
+  const auto fitted = fit(c.experiment, model, few, {.inflation = thresholds.scatter.first_inflation});
+  return diagnose::reaches_all(c.experiment, fitted, few, usable);
 }
 
 /// The same of a suspected effect: from where it went without the runs at fault, or as it would have begun
@@ -29,7 +30,8 @@ bool reaches_all(const Case& c, const Model& model, const Runs& usable) {
 bool explains_all(const Case& c, const Model& described, const Suspicion& suspicion, const Model& from,
                   const Runs& usable) {
   if (reaches_all(c, from, usable)) return true;
-  const Case of_all{c.experiment, c.nominal, {usable, c.split.held_out}, c.inflation, c.learned};
+  const Runs few = asked(c.experiment.data(), usable);
+  const Case of_all{c.experiment, c.nominal, {few, c.split.held_out}, c.inflation, c.learned};
   return reaches_all(c, with(of_all, described, suspicion.effect), usable);
 }
 
@@ -37,7 +39,7 @@ bool explains_all(const Case& c, const Model& described, const Suspicion& suspic
 Contender with_suspect(const Case& c, const Checked& checked, const Model& described, const Runs& usable,
                        const Suspicion& suspicion) {
   const auto fitted = [&](const Experiment& experiment) {
-    const Runs few = a_few(experiment.data(), suspicion.sound, thresholds.screen.most_runs);
+    const Runs few = asked(experiment.data(), suspicion.sound);
     const Case of_sound{experiment, c.nominal, {few, c.split.held_out}, c.inflation, c.learned};
     return contend(of_sound, with(of_sound, described, suspicion.effect));
   };
@@ -93,7 +95,8 @@ std::vector<Fault> first_look(const Case& c, const Checked& checked, const Model
     if (std::none_of(faults.begin(), faults.end(), [&](const Fault& fault) { return fault.run == run; }))
       others.push_back(run);
   if (others.empty()) return faults;
-  const auto fitted = fit(c.experiment, described, others, {.inflation = thresholds.scatter.first_inflation});
+  const auto fitted = fit(c.experiment, described, asked(c.experiment.data(), others),
+                          {.inflation = thresholds.scatter.first_inflation});
   if (!fitted.failure.empty()) return faults;
   const auto again = examine(c.experiment, fitted.model, usable, catalogue(c.experiment.data())).faults;
   return !again.empty() && explains_more(faults, again) ? faults : again;

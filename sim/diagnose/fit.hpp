@@ -28,7 +28,6 @@ struct FitSettings {
       1.0;  ///< how much more the residuals scatter, over long times, than white noise at the floor
   bool thorough = false;               ///< to the bottom of the valley, for numbers that are told
   const KnownSlopes* known = nullptr;  ///< for a rough fit: slopes taken over from an earlier one
-  std::optional<double> aim{};         ///< cost that is wanted: where it is out of reach the fit ends early
 };
 
 /// The rig with its free parameters at these scaled values, or at the bounds that they are beyond.

@@ -85,7 +85,7 @@ double cost_at_the_floor(const Eigen::VectorXd& residuals, double inflation) {
 std::optional<Contender> best_numbers(const Case& c, const Bases& bases, double cost) {
   std::optional<Contender> best;
   const auto begin = [&](Model model) {
-    Contender numbers = contend(c, std::move(model), {.aim = cost});
+    Contender numbers = contend(c, std::move(model));
     if (!numbers.fitted.failure.empty() || (best && best->fitted.cost <= numbers.fitted.cost)) return;
     best = std::move(numbers);
   };
@@ -120,15 +120,22 @@ std::optional<Contender> numbers_that_close(const Case& c, const Bases& bases,
   return numbers;
 }
 
+bool reaches_all(const Experiment& experiment, const Fitted& fitted, const Runs& few, const Runs& all) {
+  return fitted.failure.empty() && all_near_floor(experiment, fitted.residuals, few) &&
+         (few.size() == all.size() ||
+          all_near_floor(experiment, experiment.residuals(fitted.model.rig, all), all));
+}
+
 bool numbers_reach_all(const Case& c, const Model& described, const Runs& usable) {
-  const Case of_all{c.experiment, c.nominal, {usable, {}}, c.inflation, c.learned};
+  const Runs few = asked(c.experiment.data(), usable);
+  const Case of_all{c.experiment, c.nominal, {few, {}}, c.inflation, c.learned};
   const auto from = as_it_stands(of_all, described);
   if (!from) return false;
   const Fitted wider = with_wider_numbers(*from, of_all);
   const double aim = cost_at_the_floor(wider.residuals, c.inflation);
   if (out_of_reach(aim, wider, c.inflation)) return false;
-  const Fitted fitted = fit(c.experiment, wider.model, usable, {.inflation = c.inflation, .aim = aim});
-  return fitted.failure.empty() && all_near_floor(c.experiment, fitted.residuals, usable);
+  const Fitted fitted = fit(c.experiment, wider.model, few, {.inflation = c.inflation});
+  return reaches_all(c.experiment, fitted, few, usable);
 }
 
 namespace {

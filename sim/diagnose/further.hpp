@@ -26,7 +26,10 @@ std::optional<Contender> numbers_as_good(const Case& c, const Bases& bases, cons
 /// out, and come near every run.
 std::optional<Contender> numbers_that_close(const Case& c, const Bases& bases, const Eigen::VectorXd& before);
 
-/// Whether numbers take each of the runs near the floor, as they are.
+/// Whether a fit to `few` of these runs takes each of all near the floor.
+bool reaches_all(const Experiment& experiment, const Fitted& fitted, const Runs& few, const Runs& all);
+
+/// Whether numbers, fitted to a few of the runs, take each of all near the floor, as they are.
 bool numbers_reach_all(const Case& c, const Model& described, const Runs& usable);
 
 /// Gives up each effect that numbers do as well as, others kept. `bases`: of no effect.

@@ -75,6 +75,28 @@ Split split(const domain::Dataset& data, const Runs& usable) {
   return result;
 }
 
+namespace {
+
+/// Of runs of this length so many say enough.
+std::size_t most_asked(const domain::Dataset& data, const Runs& runs) {
+  const AskedThresholds& by = thresholds.asked;
+  double rows = 0.0;
+  for (const std::size_t run : runs) rows += static_cast<double>(data.runs[run].judged().size());
+  const double mean_s = rows * data.row_s() / static_cast<double>(runs.size());
+  return std::max(by.least_runs, static_cast<std::size_t>(by.enough_s / std::max(mean_s, data.row_s())));
+}
+
+}  // namespace
+
+Runs asked(const domain::Dataset& data, const Runs& runs) {
+  return runs.empty() ? runs : a_few(data, runs, most_asked(data, runs));
+}
+
+Split asked(const domain::Dataset& data, const Split& whole) {
+  if (whole.training.empty()) return whole;
+  return {asked(data, whole.training), a_few(data, whole.held_out, most_asked(data, whole.training) / 2)};
+}
+
 double variance_inflation(const Experiment& experiment, const Eigen::VectorXd& residuals, const Runs& runs) {
   const Eigen::Index lags = segment_rows(experiment);
   double sum = 0.0;

@@ -25,6 +25,11 @@ Split split(const domain::Dataset& data, const Runs& usable);
 /// So many of the runs, spread evenly over loads and, in their order, currents; all if there are no more.
 Runs a_few(const domain::Dataset& data, const Runs& runs, std::size_t most);
 
+/// As many as a search asks, in the same way.
+Runs asked(const domain::Dataset& data, const Runs& runs);
+/// The same of what is fitted to, and half as many held out.
+Split asked(const domain::Dataset& data, const Split& whole);
+
 /// Variance of the residuals over long times (Bartlett's window), at least 1: by this factor the data
 /// say less than as much white noise would.
 double variance_inflation(const Experiment& experiment, const Eigen::VectorXd& residuals, const Runs& runs);

@@ -1,6 +1,7 @@
 // See the header.
 #include <algorithm>
 #include <limits>
+#include <numeric>
 
 #include <fmt/format.h>
 
@@ -20,15 +21,19 @@ std::vector<RunGap> gaps_of_runs(const Experiment& experiment, const Runs& held_
     gap.left_out = !std::binary_search(usable.begin(), usable.end(), run);
     gap.measured = runs[run].judged();
     for (double& read : gap.measured) read += experiment.floor().middle;
-    const auto tell = [&](const RigFile& rig, double& rmse, std::vector<double>& readings) {
-      auto simulated = experiment.readings(rig, run);
-      rmse = experiment.rmse(experiment.residuals(simulated, run), {run});
-      readings = std::move(simulated.judged);
-    };
-    tell(rigs.nominal, gap.nominal_rmse, gap.nominal);
-    tell(rigs.recalibrated, gap.recalibrated_rmse, gap.recalibrated);
-    tell(rigs.corrected, gap.corrected_rmse, gap.corrected);
   }
+  Runs all(runs.size());
+  std::iota(all.begin(), all.end(), 0);
+  const auto tell = [&](const RigFile& rig, double RunGap::*rmse, std::vector<double> RunGap::*simulated) {
+    auto readings = experiment.readings(rig, all);
+    for (const std::size_t run : all) {
+      gaps[run].*rmse = experiment.rmse(experiment.residuals(readings[run], run), {run});
+      gaps[run].*simulated = std::move(readings[run].judged);
+    }
+  };
+  tell(rigs.nominal, &RunGap::nominal_rmse, &RunGap::nominal);
+  tell(rigs.recalibrated, &RunGap::recalibrated_rmse, &RunGap::recalibrated);
+  tell(rigs.corrected, &RunGap::corrected_rmse, &RunGap::corrected);
   return gaps;
 }
 

@@ -34,8 +34,10 @@ Start look_at_start(const Experiment& experiment, const RigFile& corrected, cons
   const double limit =
       of_start.counts * run::reading_grain(corrected) + of_start.jitters * experiment.floor().jitter;
   double early = 0.0, all = 0.0, early_rows = 0.0, all_rows = 0.0;
-  for (const std::size_t run : runs) {
-    const Readings readings = experiment.readings(corrected, run);
+  const auto simulated = experiment.readings(corrected, runs);
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    const std::size_t run = runs[i];
+    const Readings& readings = simulated[i];
     const Eigen::VectorXd residuals =
         experiment.residuals(readings, run).head(static_cast<Eigen::Index>(readings.judged.size()));
     const Eigen::Index rows = std::min(first, residuals.size());

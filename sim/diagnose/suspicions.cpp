@@ -178,7 +178,7 @@ std::vector<Suspicion> Examination::suspicions(const Regression& alone, double a
 
 /// Of a few runs: what is suspected is looked at again with the others.
 std::vector<Suspicion> Examination::suspicions_of_a_few() const {
-  const Runs few = a_few(experiment_.data(), runs_, thresholds.screen.most_runs);
+  const Runs few = asked(experiment_.data(), runs_);
   Examination of_few(*this, few);
   of_few.draw_effects();
   const Examination drawn(of_few, Brief{});

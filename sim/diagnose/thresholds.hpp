@@ -215,6 +215,13 @@ struct HeldOutThresholds {
   double last = 1.0 / 3.0;      ///< of the runs, where loads do not do
 };
 
+/// Which of many runs a search asks: what it chooses is fitted to all.
+struct AskedThresholds {
+  std::size_t least_runs = 9;
+  double enough_s = 288.0;  ///< as many runs as make up this. As in 24 of 12 s
+  double confirmed = 1.5;   ///< of what is left of runs that were asked [mean square]: the others, at most
+};
+
 /// Least squares.
 struct FitThresholds {
   int rounds = 5, thorough_rounds = 20;  ///< of descents, each along slopes of its own
@@ -284,7 +291,6 @@ struct ScreenThresholds {
   double visible =
       10.5;  ///< expected fall that a test at 5 % finds with a power of 90 %: noncentral chi-square. Derived
   double least_norm = 1e-300;  ///< no division by nothing
-  std::size_t most_runs = 24;  ///< of more, so many are screened: what they propose is fitted to all
 };
 
 /// Whether one model is better than another on runs held out. Set on seeds that the benchmark does not score.
@@ -435,6 +441,7 @@ struct Thresholds {
   FaultThresholds fault{};
   NoiseThresholds noise{};
   HeldOutThresholds held_out{};
+  AskedThresholds asked{};
   FitThresholds fit{};
   StartsThresholds starts{};
   IntervalThresholds interval{};

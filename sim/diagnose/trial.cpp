@@ -99,7 +99,7 @@ Screening screen_at(const Case& c, const Contender& base) {
   const double scatter =
       std::max(c.inflation, variance_inflation(c.experiment, base.fitted.residuals, c.split.training));
   const auto candidates = catalogue(c.experiment.data());
-  const Runs few = a_few(c.experiment.data(), c.split.training, thresholds.screen.most_runs);
+  const Runs few = asked(c.experiment.data(), c.split.training);
   const auto screened = [&](const Fitted& fitted, double scatter_of_rows) {
     Screening screening{&base, screen(c.experiment, fitted, candidates, few, scatter_of_rows)};
     join_sides(screening.scores, scatter / c.inflation);

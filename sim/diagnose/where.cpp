@@ -12,7 +12,6 @@
 #include <sim/diagnose/held_out.hpp>
 #include <sim/diagnose/thresholds.hpp>
 #include <sim/diagnose/where.hpp>
-#include <sim/run/batch.hpp>
 #include <sim/run/simulate.hpp>
 
 namespace mckibben::diagnose {
@@ -79,20 +78,16 @@ Row in_state(const RigFile& rig, const plant::State<double>& state) {
 /// The rows of all runs that count, and the number of segments.
 std::vector<Row> rows_of(const Experiment& experiment, const RigFile& rig, const Runs& runs,
                          std::size_t& segments) {
-  const Eigen::VectorXd residuals = experiment.residuals(rig, runs);
-  std::vector<Readings> readings(runs.size());
-  run::for_each_job(
-      runs.size(), experiment.threads(),
-      [&](std::size_t i) { readings[i] = experiment.readings(rig, runs[i]); }, [](std::size_t) {});
+  const auto readings = experiment.readings(rig, runs);
   std::vector<Row> rows;
-  const auto parts = experiment.parts(runs);
   const auto per_segment = static_cast<std::size_t>(
       std::lround(std::ceil(thresholds.scatter.segment_s / experiment.data().row_s())));
   for (std::size_t i = 0; i < runs.size(); ++i) {
     const auto& states = readings[i].states;
+    const Eigen::VectorXd residuals = experiment.residuals(readings[i], runs[i]);
     const auto since_s = since_turn_s(states, run::contraction_per_count(rig), experiment.data().row_s());
     for (std::size_t k = 0; k < states.size(); ++k) {
-      const double residual = residuals[parts[i].begin + static_cast<Eigen::Index>(k)];
+      const double residual = residuals[static_cast<Eigen::Index>(k)];
       if (residual == 0.0) continue;  // masked
       Row row = in_state(rig, states[k]);
       row.residual = experiment.floor().judged * residual;

@@ -2,6 +2,8 @@
 #include "bench.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -9,6 +11,7 @@
 #include <sim/diagnose/check.hpp>
 #include <sim/diagnose/experiment.hpp>
 #include <sim/diagnose/held_out.hpp>
+#include <sim/diagnose/in_brief.hpp>
 #include <sim/domain/objection.hpp>
 
 namespace mckibben::diagnose {
@@ -57,6 +60,38 @@ TEST(HeldOut, AFewOfManyRunsAreOfAllLoads) {
   for (std::size_t load = 0; load < 5; ++load)
     EXPECT_GE(std::count_if(few.begin(), few.end(), [&](std::size_t run) { return run % 5 == load; }), 4)
         << load;
+}
+
+TEST(HeldOut, OfLongRunsASearchAsksFew) {
+  const auto asked_of = [](std::size_t runs, double duration_s) {
+    domain::Dataset data;
+    const auto rows = static_cast<std::size_t>(std::lround(duration_s / data.row_s()));
+    Split whole;
+    for (std::size_t i = 0; i < runs; ++i) {
+      domain::Run& run = data.runs.emplace_back();
+      run.load_kg = static_cast<double>(10 + i % 5);
+      run.contraction_ratio.assign(rows, 0.1);
+      (i % 3 == 0 ? whole.held_out : whole.training).push_back(i);
+    }
+    const Split few = asked(data, whole);
+    return std::pair{few.training.size(), few.held_out.size()};
+  };
+  EXPECT_EQ(asked_of(99, 24.0), std::pair(std::size_t{12}, std::size_t{6}));
+  EXPECT_EQ(asked_of(99, 2.0), std::pair(std::size_t{66}, std::size_t{33}));  // short ones: all
+  EXPECT_EQ(asked_of(30, 600.0), std::pair(std::size_t{9}, std::size_t{4}));  // never fewer
+  EXPECT_EQ(asked_of(12, 600.0), std::pair(std::size_t{8}, std::size_t{4}));
+}
+
+TEST(HeldOut, RowsInBriefHaveTheProductsOfAll) {
+  Eigen::MatrixXd rows(40, 3);
+  for (Eigen::Index k = 0; k < rows.rows(); ++k) {
+    const double t = 0.1 * static_cast<double>(k);
+    rows.row(k) << std::sin(t), 2.0 * std::sin(t), t * t;  // two are one
+  }
+  const Eigen::MatrixXd brief = in_brief(rows);
+  EXPECT_EQ(brief.rows(), 3);
+  EXPECT_TRUE((brief.transpose() * brief).isApprox(rows.transpose() * rows, 1e-13));
+  EXPECT_EQ(in_brief(rows.topRows(2)), rows.topRows(2));
 }
 
 TEST(Bench, ForcesInAnotherUnitAreRefused) {

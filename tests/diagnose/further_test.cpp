@@ -71,16 +71,6 @@ TEST(Further, GivesUpAnAimThatStraightLinesMissByFar) {
   EXPECT_FALSE(out_of_reach(3590.0, fitted, 4.0));
 }
 
-TEST(Further, FitsAllTheWayWhereTheAimIsWithinReach) {
-  const Case& c = *rubbing().at;
-  const auto cost_with = [&](std::optional<double> aim) {
-    return contend(c, with_wider_numbers(rubbing().recalibrated.fitted, c).model, {.aim = aim}).fitted.cost;
-  };
-  const double whole = cost_with(std::nullopt);
-  EXPECT_EQ(cost_with(whole), whole);
-  EXPECT_LT(whole, 0.5 * rubbing().recalibrated.fitted.cost);
-}
-
 TEST(Further, PrefersANumberFarOffToTheEffectThatImitatesIt) {
   const Strained& runs = rubbing();
   const Contender named = runs.named("speed_dependent_friction");
