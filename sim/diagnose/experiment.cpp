@@ -196,6 +196,10 @@ Experiment::Slopes Experiment::slopes(const RigFile& rig, std::span<const Change
   for (const Part& part : list)
     for (std::size_t first = 0; first == 0 || first < changes.size(); first += wing)
       groups.push_back({part, first, std::min(changes.size(), first + wing)});
+  // The longest first, so that no thread is left with one at the end.
+  std::ranges::stable_sort(groups, std::ranges::greater{}, [](const Group& group) {
+    return group.part.rows * static_cast<Eigen::Index>(1 + group.last - group.first);
+  });
   std::vector<Group> failed = fly(rig, changes, groups, result, false);
   // Those that some change keeps from flying fly change by change.
   std::vector<Group> single;
