@@ -262,11 +262,12 @@ Fitted fit(const Experiment& experiment, Model start, const Runs& runs, const Fi
   }
   const int rounds = rough ? 1 : settings.thorough ? thresholds.fit.thorough_rounds : thresholds.fit.rounds;
   const double coarseness = settings.thorough ? 0.0 : thresholds.fit.coarseness;
-  // Of the cost: a fall that is worth going for. What slopes promise is heard first: costs of many runs
-  // differ by more than that from one simulation to the next.
   const auto enough = [&] { return thresholds.fit.least_descent * (1.0 + coarseness * result.cost); };
-  for (int round = 0; round < rounds && !result.model.free.empty(); ++round) {
-    if (!rough && result.cost - least_by_lines(result, settings.inflation) < enough()) break;
+  // Costs of many runs differ by more than that from one simulation to the next: slopes are heard first.
+  const auto has_arrived = [&] {
+    return settings.thorough && result.cost - least_by_lines(result, settings.inflation) < enough();
+  };
+  for (int round = 0; round < rounds && !result.model.free.empty() && !has_arrived(); ++round) {
     const KnownSlopes known = rough ? *settings.known : slopes_of_nominal(result);
     const double before = result.cost;
     Misfit misfit(experiment, result.model, runs, settings.inflation, known);
