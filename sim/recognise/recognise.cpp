@@ -131,11 +131,10 @@ class Recogniser {
       first_s = clock.begin_s != 0.0 ? clock.begin_s : first_s;
     }
     even_ = even && step_s_ >= shortest_tick_s && step_s_ <= longest_tick_s;
-    clock_ = even_ ? fmt::format("all stamps are {:.6g} ms apart", 1e3 * step_s_)
-             : first_s != 0.0
-                 ? fmt::format("stamps {:.6g} ms apart begin at {:.6g} s, not at 0", 1e3 * step_s_, first_s)
-                 : fmt::format("stamps about {:.6g} ms apart are uneven, by up to {:.3g} ms", 1e3 * step_s_,
-                               1e3 * jitter_s);
+    clock_ = fmt::format("stamps {:.6g} ms apart", 1e3 * step_s_);
+    if (jitter_s > even_s) clock_ = fmt::format("{}, uneven by up to {:.3g} ms", clock_, 1e3 * jitter_s);
+    if (first_s != 0.0) clock_ += fmt::format(", begin at {:.6g} s and not at 0", first_s);
+    if (even_) clock_ = fmt::format("all stamps are {:.6g} ms apart", 1e3 * step_s_);
   }
 
   void start() {
