@@ -150,6 +150,8 @@ Heading heading_of(const UnknownColumn& column) {
   heading.unit_fits = is_unit_of(key, heading.unit);
   if (is_suffix && !heading.unit_fits) heading.unit.clear();
   heading.reason = std::move(told);
+  static const Vocabulary lengths{"contraction", {"length", "länge", "laenge"}, {"länge"}};
+  heading.is_length = !lengths.told_by(words).empty();
   return heading;
 }
 

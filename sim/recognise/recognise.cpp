@@ -32,6 +32,8 @@ std::size_t Recognised::open() const {
       if (guess.zero) add(*guess.zero);
       if (guess.factor) add(*guess.factor);
     }
+  for (const MapGuess& map : maps)
+    if (map.rows) add(map.rows->told);
   for (const RunGuess& run : runs)
     if (run.load) add(*run.load);
   for (const Setting& each : dataset) add(each.told);
@@ -183,12 +185,14 @@ class Recogniser {
     if (const ColumnGuess* pressure = first_map().find("muscle_pressure");
         pressure != nullptr && !pressure->input)
       set("gauge.fitted", {"true", "a muscle pressure was recorded" + absolute(*pressure)});
-    if (held_)
+    if (held_ && contraction != nullptr && contraction->input)
+      set("mechanics", {"{kind: held_length}", "a force was read, at lengths that stay"});
+    else if (held_)
       set("mechanics",
           left_open(
               "no load is named, and a force was read: {kind: held_length}, and contraction with as: input; "
               "or leave this out, and give each run its load"));
-    if (first_map().rows_are_ticks)
+    if (first_map().rows && first_map().rows->key == "rows_are_ticks")
       set("tick", left_open("time between two rows"));
     else if (step_s_ > 0.0)
       set("tick",
