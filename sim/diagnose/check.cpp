@@ -205,7 +205,7 @@ class DatasetChecker {
     const Series sharpest = sharpest_nearby(model, data_.row_s());
     range_ends(i);
     mask_spikes(i, reading(), values, model, count_);
-    for (const Still& still : stills(values, model, count_, data_.row_s())) stands_still(i, still);
+    stand_still(i, stills(values, model, count_, data_.row_s()));
     if (left_out_[i]) return;
     const auto lost = std::count(masked.begin(), masked.end(), true);
     if (const auto row = lost_counts(values, sharpest, masked, count_))
@@ -244,22 +244,37 @@ class DatasetChecker {
     find(i, "saturated", "masked", what);
   }
 
-  void stands_still(std::size_t i, const Still& still) {
-    const double from_s = time_s(still.begin - 1), to_s = time_s(still.end - 1);
-    if (still.why == Still::Why::stuck) {
-      if (!left_out_[i])
-        leave_out(i, fmt::format("the {0} stands still from {1:.3f} s to {2:.3f} s though the {3} should "
-                                 "move it: {4}something held the {0}",
-                                 moving(), from_s, to_s, data_.pressure_is_given() ? "pressure" : "current",
-                                 data_.pressure_is_given() ? "" : "the valve was stuck, or "));
-      return;
+  // What ends at the same value again and again is told once.
+  void stand_still(std::size_t i, const std::vector<Still>& stills) {
+    const auto value = [&](const Still& still) { return data_.runs[i].judged()[still.begin]; };
+    for (auto still = stills.begin(); still != stills.end(); ++still) {
+      if (still->why == Still::Why::stuck) {
+        stuck(i, *still);
+        continue;
+      }
+      mask(i, *still);
+      const auto same = [&](const Still& one) {
+        return one.why == still->why && value(one) == value(*still);
+      };
+      if (std::find_if(stills.begin(), still, same) != still) continue;
+      const auto times = std::count_if(still, stills.end(), same);
+      const std::string why = still->why == Still::Why::frozen ? "frozen" : "saturated";
+      const auto what =
+          fmt::format("{} is {} at {:.4g}{} from {:.3f} s to {:.3f} s though the {} should move; not used",
+                      reading(), why, value(*still), times > 1 ? fmt::format(" {} times, first", times) : "",
+                      time_s(still->begin - 1), time_s(still->end - 1), moving());
+      warn(i, what);
+      find(i, why, "masked", what);
     }
-    mask(i, still);
-    const auto what =
-        fmt::format("{} is {} from {:.3f} s to {:.3f} s though the {} should move; not used", reading(),
-                    still.why == Still::Why::frozen ? "frozen" : "saturated", from_s, to_s, moving());
-    warn(i, what);
-    find(i, still.why == Still::Why::frozen ? "frozen" : "saturated", "masked", what);
+  }
+
+  void stuck(std::size_t i, const Still& still) {
+    if (left_out_[i]) return;
+    leave_out(i, fmt::format("the {0} stands still from {1:.3f} s to {2:.3f} s though the {3} should "
+                             "move it: {4}something held the {0}",
+                             moving(), time_s(still.begin - 1), time_s(still.end - 1),
+                             data_.pressure_is_given() ? "pressure" : "current",
+                             data_.pressure_is_given() ? "" : "the valve was stuck, or "));
   }
 
   static bool same_inputs(const domain::Measurement& one, const domain::Measurement& other) {

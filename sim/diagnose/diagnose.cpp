@@ -109,7 +109,10 @@ class Workflow {
     look_for_law();
     evidence_.search_ended = search_.ended() != Ended::no;
     const Decision decision = decide(evidence_, thresholds);
-    if (look) faults_ = faults_beside(decision.chosen);
+    if (look)
+      search_.part("faults of runs beside what was found", [&] {
+        faults_ = faults_beside(decision.chosen);
+      });  // of a model that was found to its end
     if (!faults_.empty()) return std::move(result_);
     hand_over(decision);
     confirm();

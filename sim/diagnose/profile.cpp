@@ -44,7 +44,7 @@ class Valley {
       lowest_[j] = p.scaled(p.lowest);
       highest_[j] = p.scaled(p.highest);
     }
-    bottom_ = refitted(fit_, {}).cost;
+    bottom_ = refitted(fit_, {});
   }
 
   void look_along(std::size_t number, Bounds& bounds) const {
@@ -52,9 +52,9 @@ class Valley {
     const Along along{static_cast<Eigen::Index>(number), bounds.half, bounds.rise};
     const double bound = thresholds.screen.at_bound * (highest_ - lowest_)[along.number];
     if (room(along, -1.0) <= bound || room(along, 1.0) <= bound) return;
-    if (!is_settled(along, fit_, bottom_)) return;
+    if (!is_settled(along, fit_, bottom_.cost)) return;
     const auto down = first_look(along, -1.0), up = first_look(along, 1.0);
-    if (down.trusted && up.trusted) return;
+    if (is_parabola(along, down, up)) return;
     const Parameter& p = parameter(along.number);
     const auto lower = end(along, -1.0, down), upper = end(along, 1.0, up);
     if (!lower || !upper) return;
@@ -75,7 +75,7 @@ class Valley {
     double way;                  ///< from the fit
     std::optional<Place> place;  ///< none: the rig cannot be simulated there
     double rise;
-    bool trusted;
+    double surplus;  ///< over the parabola's
   };
 
   Eigen::Index size() const { return static_cast<Eigen::Index>(fitted_.model.free.size()); }
@@ -141,7 +141,7 @@ class Valley {
   }
 
   double rise(const Along& along, const Place& place) const {
-    return refitted(place, along.number).cost - bottom_;
+    return refitted(place, along.number).cost - bottom_.cost;
   }
   /// Whether a place keeps what lines from it promise: where loads stick it may not.
   bool is_settled(const Along& along, const Place& place, double promised) const {
@@ -154,12 +154,19 @@ class Valley {
   }
 
   Look first_look(const Along& along, double sign) const {
-    const double way = std::min(along.half, room(along, sign)), expected = way / along.half;
+    const double way = std::min(along.half, room(along, sign));
+    const double from_bottom = sign * way - (bottom_.at - fit_.at)[along.number];
     auto place = look_at(along, bed(along, fit_, sign * way));
-    if (!place) return {way, {}, 0.0, false};
+    if (!place) return {way, {}, 0.0, 0.0};
     const double risen = rise(along, *place);
-    return {way, std::move(place), risen,
-            std::abs(risen - along.rise * expected * expected) <= profile_by.trusted * along.rise};
+    return {way, std::move(place), risen, risen - along.rise * std::pow(from_bottom / along.half, 2)};
+  }
+
+  /// By both looks together, how wide the interval is, and where its middle lies.
+  static bool is_parabola(const Along& along, const Look& down, const Look& up) {
+    if (!down.place || !up.place) return false;
+    const double wider = 0.5 * (up.surplus + down.surplus), beside = 0.5 * (up.surplus - down.surplus);
+    return std::max(std::abs(wider), std::abs(beside)) <= profile_by.trusted * along.rise;
   }
 
   /// Where the cost has risen so far, or the bound; nothing if the walk does not arrive.
@@ -173,7 +180,7 @@ class Valley {
         const bool far = look.rise > along.rise;
         const bool arrived = std::abs(look.rise / along.rise - 1.0) < profile_by.tolerance ||
                              (!far && look.way >= room(along, sign));
-        if (arrived && is_settled(along, *look.place, bottom_ + look.rise))
+        if (arrived && is_settled(along, *look.place, bottom_.cost + look.rise))
           return fit_.at[along.number] + sign * look.way;
         (far ? outer : inner) = look.way;
         walled = walled || far;
@@ -200,7 +207,7 @@ class Valley {
   double inflation_;
   Place fit_;
   Eigen::VectorXd priors_, lowest_, highest_;
-  double bottom_ = 0.0;  ///< least cost, of all
+  Promise bottom_;  ///< of all
 };
 
 }  // namespace

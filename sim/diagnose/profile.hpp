@@ -17,11 +17,12 @@ namespace mckibben::diagnose {
 /// off than a data sheet promises.
 std::vector<std::size_t> worth_a_profile(const Model& model);
 
-/// Looks at the quadratic ends of these free parameters, or at the bound where that is nearer: at neither may
-/// the rise differ from the parabola's by more than a share (thresholds.interval) of that at the ends. Where
-/// it does, both ends become those of the profile; `quadratic` keeps what they were. The interval
-/// stays where the number stands at a bound, or the runs do not keep what slopes promise. `fitted`: to
-/// `runs`. Throws run::Interrupted.
+/// Looks at the quadratic ends of these free parameters, or at the bound where that is nearer: by how much
+/// the cost rises more than the parabola promises. Neither in the mean of both ends (how wide the interval
+/// is) nor in half their difference (where its middle lies) may that be more than a share
+/// (thresholds.interval) of the rise at the ends. Where it is more, both ends become those of the profile;
+/// `quadratic` keeps what they were. The interval stays where the number stands at a bound, or the runs do
+/// not keep what slopes promise. `fitted`: to `runs`. Throws run::Interrupted.
 void trust_or_profile(const Experiment& experiment, const Fitted& fitted, const Runs& runs, double inflation,
                       const std::vector<std::size_t>& which, std::vector<Bounds>& bounds);
 

@@ -250,7 +250,8 @@ struct IntervalThresholds {
   double normal = 1.96;  ///< deviations of a normal variable: 95 %. Convention
   int draws = 100;       ///< of what counting does
   double still = 1e-12;  ///< counts^2: what is moved less is at rest
-  /// Of the rise of the cost up to quadratic ends: where it differs by more, the profile is looked along,
+  /// Of the rise of the cost up to quadratic ends: where it differs by more, in the mean of both or in half
+  /// their difference, the profile is looked along,
   double trusted = 0.3;
   double tolerance = 0.1;  ///< until it has risen as much but for this: the end is right to 5 %,
   int rounds = 10;         ///< or so often, each

@@ -54,9 +54,9 @@ std::string columns_yaml(const MapGuess& map, const std::string& indent) {
   std::string text;
   for (const ColumnGuess& guess : map.columns)
     text += fmt::format("{0}{1}\n{0}{2}\n", indent, comment(reasons_of(guess)), place_of(guess));
-  if (map.rows_are_ticks)
-    text += fmt::format("{0}{1}\n{0}rows_are_ticks: {2}\n", indent, comment(map.rows_are_ticks->reason),
-                        map.rows_are_ticks->value);
+  if (map.rows)
+    text += fmt::format("{0}{1}\n{0}{2}: {3}\n", indent, comment(map.rows->told.reason), map.rows->key,
+                        map.rows->told.value);
   for (const Told& each : map.ignored)
     text += fmt::format("{}{}\n", indent, comment(fmt::format("not used: {}: {}", each.value, each.reason)));
   return text;
@@ -128,8 +128,8 @@ std::string table_of(const Recognised& found, const std::string& where) {
       text += fmt::format("  {}\n      {}\n", place_of(guess), reasons_of(guess));
     for (const Told& each : found.maps[m].ignored)
       text += fmt::format("  not used: {}: {}\n", each.value, each.reason);
-    if (const auto& ticks = found.maps[m].rows_are_ticks)
-      text += fmt::format("  rows_are_ticks: true\n      {}\n", ticks->reason);
+    if (const auto& rows = found.maps[m].rows)
+      text += fmt::format("  {}: {}\n      {}\n", rows->key, rows->told.value, rows->told.reason);
   }
   Grid runs({"run", "load", "why"}, 3);
   for (const RunGuess& run : found.runs)
@@ -161,7 +161,7 @@ input::Json map_json(const MapGuess& map) {
     if (guess.input) column["as"] = told_json(*guess.input);
   }
   for (const Told& each : map.ignored) json["not_used"][each.value] = each.reason;
-  if (map.rows_are_ticks) json["rows_are_ticks"] = told_json(*map.rows_are_ticks);
+  if (map.rows) json[map.rows->key] = told_json(map.rows->told);
   return json;
 }
 

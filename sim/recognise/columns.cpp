@@ -14,7 +14,7 @@
 namespace mckibben::recognise {
 namespace {
 
-constexpr double least_correlation = 0.5, least_zero_share = 0.01, digits_of_range = 1e-4;
+constexpr double least_correlation = 0.5, least_zero_share = 0.01, digits_of_range = 1e-4, held_share = 0.01;
 
 /// A column, and what its heading says.
 struct Named {
@@ -84,6 +84,28 @@ void sign_and_zero(ColumnGuess& contraction, const ColumnGuess& drive,
                        drive.column.value, driven.low)};
 }
 
+/// Whether a bench holds the muscle at a length in each table.
+bool is_held(const ColumnGuess& contraction, const std::vector<const UnknownTable*>& tables) {
+  Range all{1e300, -1e300};
+  double widest = 0.0;
+  for (const UnknownTable* table : tables) {
+    const Values* values = column_of(*table, contraction.column.value);
+    if (values == nullptr) return false;
+    const Range own = range_of(*values);
+    all = {std::min(all.low, own.low), std::max(all.high, own.high)};
+    widest = std::max(widest, own.high - own.low);
+  }
+  return widest <= held_share * (all.high - all.low);
+}
+
+/// Lengths that a bench gives go along with nothing.
+void given_length(ColumnGuess& contraction, bool is_length) {
+  contraction.input = Told{"input", "it stays the same in each table: a bench holds the muscle at it"};
+  contraction.zero = left_open("what it reads with the muscle at its rest length");
+  contraction.factor = is_length ? Told{"-1", "a length falls as the muscle contracts"}
+                                 : left_open("1 if it grows as the muscle contracts, else -1");
+}
+
 /// Numbers without headings: a column that ascends by itself is the time.
 std::vector<Named> with_time_by_numbers(const UnknownTable& table, std::vector<Named> named) {
   if (table.has_headings) return named;
@@ -139,9 +161,6 @@ MapGuess map_of(const std::vector<const UnknownTable*>& tables) {
                           quantity == "force";
     if (!found.empty() || !may_lack) map.columns.push_back(guess_of(quantity_of(quantity), found));
   }
-  if (candidates("time").empty() && !table.time_is_inside) {
-    if (table.has_headings) map.rows_are_ticks = Told{"true", "no column seems to hold time"};
-  }
   for (const Named& each : named)
     if (each.heading.quantity == nullptr)
       map.ignored.push_back(
@@ -153,9 +172,24 @@ MapGuess map_of(const std::vector<const UnknownTable*>& tables) {
       if (guess.quantity->key == "muscle_pressure" && has_pressure)
         guess.input = Told{"input", "no command was recorded, so that the pressure drives the simulation"};
   const ColumnGuess* drive = drive_of(map);
+  bool held = false;
   for (ColumnGuess& guess : map.columns)
-    if (guess.quantity->key == "contraction" && drive != nullptr && !guess.column.open())
-      sign_and_zero(guess, *drive, tables);
+    if (guess.quantity->key == "contraction" && drive != nullptr && !guess.column.open()) {
+      held = has_force && is_held(guess, tables);
+      if (held)
+        given_length(guess, candidates("contraction").front()->heading.is_length);
+      else
+        sign_and_zero(guess, *drive, tables);
+    }
+  if (candidates("time").empty() && !table.time_is_inside && table.has_headings)
+    map.rows = held
+                   ? Setting{"settled",
+                             left_open("no column seems to hold time, and each table stays at one length: "
+                                       "its rows seem to be settled points; {each: 5 s}, with what one took")}
+                   : Setting{"rows_are_ticks",
+                             {"true",
+                              "no column seems to hold time; of settled points write settled: {each: 5 s} "
+                              "in its place, with what one took"}};
   return map;
 }
 

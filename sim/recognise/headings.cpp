@@ -20,28 +20,47 @@ using Words = std::vector<std::string>;
 struct Vocabulary {
   std::string_view key;
   Words words;
+  Words stems{};  ///< that German begins or ends a word with: Sollspannung, Muskeldruck
+
+  /// The first word that tells, and by which of these; empty if none does.
+  std::string told_by(const Words& heading) const {
+    for (const std::string& word : heading)
+      if (std::ranges::find(words, word) != words.end()) return fmt::format("its word `{}`", word);
+    for (const std::string& word : heading)
+      for (const std::string& stem : stems)
+        if (word.starts_with(stem) || word.ends_with(stem))
+          return fmt::format("`{}` in its word `{}`", stem, word);
+    return {};
+  }
 };
 
 /// What is asked first wins: a set pressure is a command, whatever its unit.
 const std::vector<Vocabulary>& vocabularies() {
   static const std::vector<Vocabulary> all{
       {"",
-       {"supply", "tank", "versorgung", "speise", "ambient", "temperature", "temperatur", "temp", "index"}},
+       {"supply", "tank", "versorgung", "speise", "ambient", "temperature", "temperatur", "temp", "index"},
+       {"versorgung", "speise", "umgebung", "temperatur"}},
       {"command",
        {"set", "setpoint", "soll", "sollwert", "ref", "reference", "command", "cmd", "demand", "desired",
-        "target", "stellgröße", "stellgroesse", "consigne", "ao0", "ao1", "dac"}},
+        "target", "stellgröße", "stellgroesse", "consigne", "ao0", "ao1", "dac"},
+       {"soll", "stell"}},
       {"time",
        {"t", "time", "zeit", "temps", "timestamp", "stamp", "date", "datetime", "datum", "uhrzeit", "clock",
-        "elapsed", "zeitstempel"}},
-      {"force", {"f", "force", "kraft", "loadcell", "kraftsensor"}},
+        "elapsed"},
+       {"zeit"}},
+      {"force", {"f", "force", "kraft", "loadcell"}, {"kraft"}},
       {"muscle_pressure",
-       {"p", "pressure", "druck", "pm", "gauge", "manometer", "manometre", "pression", "pmuscle"}},
+       {"p", "pressure", "druck", "pm", "gauge", "manometer", "manometre", "pression", "pmuscle"},
+       {"druck"}},
       {"contraction",
        {"contraction", "kontraktion", "strain", "eps",     "epsilon", "laser",       "distance", "abstand",
         "position",    "pos",         "weg",    "hub",     "travel",  "length",      "länge",    "laenge",
         "x",           "y",           "stroke", "encoder", "counts",  "wheel",       "angle",    "winkel",
-        "rope",        "height",      "höhe",   "lvdt",    "poti",    "displacement"}},
-      {"command", {"u", "i", "current", "strom", "voltage", "spannung", "valve", "ventil"}}};
+        "rope",        "height",      "höhe",   "lvdt",    "poti",    "displacement"},
+       {"laser", "abstand", "weg", "winkel", "länge", "höhe"}},
+      {"command",
+       {"u", "i", "current", "strom", "voltage", "spannung", "valve", "ventil"},
+       {"strom", "spannung", "ventil"}}};
   return all;
 }
 
@@ -114,13 +133,10 @@ Heading heading_of(const UnknownColumn& column) {
   std::string_view key;
   std::string told;
   for (const Vocabulary& each : vocabularies()) {
-    const auto word = std::find_if(words.begin(), words.end(), [&](const std::string& one) {
-      return std::find(each.words.begin(), each.words.end(), one) != each.words.end();
-    });
-    if (word == words.end()) continue;
-    if (each.key.empty()) return {nullptr, heading.unit, false, fmt::format("its word `{}`", *word)};
+    told = each.told_by(words);
+    if (told.empty()) continue;
+    if (each.key.empty()) return {nullptr, heading.unit, false, told};
     key = each.key;
-    told = fmt::format("its word `{}`", *word);
     break;
   }
   if (column.is_date) key = "time";
@@ -134,6 +150,8 @@ Heading heading_of(const UnknownColumn& column) {
   heading.unit_fits = is_unit_of(key, heading.unit);
   if (is_suffix && !heading.unit_fits) heading.unit.clear();
   heading.reason = std::move(told);
+  static const Vocabulary lengths{"contraction", {"length", "länge", "laenge"}, {"länge"}};
+  heading.is_length = !lengths.told_by(words).empty();
   return heading;
 }
 

@@ -14,6 +14,7 @@ struct Heading {
   std::string unit;                            ///< that it says, or the line below it does; empty: none
   bool unit_fits = false;                      ///< what is said can be a unit of the quantity
   std::string reason;                          ///< which words tell
+  bool is_length = false;                      ///< the muscle's, which falls as it contracts
 };
 
 Heading heading_of(const UnknownColumn& column);

@@ -32,6 +32,8 @@ std::size_t Recognised::open() const {
       if (guess.zero) add(*guess.zero);
       if (guess.factor) add(*guess.factor);
     }
+  for (const MapGuess& map : maps)
+    if (map.rows) add(map.rows->told);
   for (const RunGuess& run : runs)
     if (run.load) add(*run.load);
   for (const Setting& each : dataset) add(each.told);
@@ -131,11 +133,10 @@ class Recogniser {
       first_s = clock.begin_s != 0.0 ? clock.begin_s : first_s;
     }
     even_ = even && step_s_ >= shortest_tick_s && step_s_ <= longest_tick_s;
-    clock_ = even_ ? fmt::format("all stamps are {:.6g} ms apart", 1e3 * step_s_)
-             : first_s != 0.0
-                 ? fmt::format("stamps {:.6g} ms apart begin at {:.6g} s, not at 0", 1e3 * step_s_, first_s)
-                 : fmt::format("stamps about {:.6g} ms apart are uneven, by up to {:.3g} ms", 1e3 * step_s_,
-                               1e3 * jitter_s);
+    clock_ = fmt::format("stamps {:.6g} ms apart", 1e3 * step_s_);
+    if (jitter_s > even_s) clock_ = fmt::format("{}, uneven by up to {:.3g} ms", clock_, 1e3 * jitter_s);
+    if (first_s != 0.0) clock_ += fmt::format(", begin at {:.6g} s and not at 0", first_s);
+    if (even_) clock_ = fmt::format("all stamps are {:.6g} ms apart", 1e3 * step_s_);
   }
 
   void start() {
@@ -184,12 +185,14 @@ class Recogniser {
     if (const ColumnGuess* pressure = first_map().find("muscle_pressure");
         pressure != nullptr && !pressure->input)
       set("gauge.fitted", {"true", "a muscle pressure was recorded" + absolute(*pressure)});
-    if (held_)
+    if (held_ && contraction != nullptr && contraction->input)
+      set("mechanics", {"{kind: held_length}", "a force was read, at lengths that stay"});
+    else if (held_)
       set("mechanics",
           left_open(
               "no load is named, and a force was read: {kind: held_length}, and contraction with as: input; "
               "or leave this out, and give each run its load"));
-    if (first_map().rows_are_ticks)
+    if (first_map().rows && first_map().rows->key == "rows_are_ticks")
       set("tick", left_open("time between two rows"));
     else if (step_s_ > 0.0)
       set("tick",

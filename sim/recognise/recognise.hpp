@@ -30,11 +30,17 @@ struct ColumnGuess {
   std::optional<Told> input;         ///< it drives the simulation
 };
 
+/// A key of a file: `valve.span_command`.
+struct Setting {
+  std::string key;
+  Told told;
+};
+
 /// A map from quantities to columns, for tables whose columns have the same names.
 struct MapGuess {
   std::vector<ColumnGuess> columns;
-  std::vector<Told> ignored;  ///< names of columns, and why
-  std::optional<Told> rows_are_ticks;
+  std::vector<Told> ignored;    ///< names of columns, and why
+  std::optional<Setting> rows;  ///< where no column holds time: `rows_are_ticks` or `settled`
 
   const ColumnGuess* find(std::string_view key) const;
 };
@@ -43,12 +49,6 @@ struct RunGuess {
   std::string id;
   std::size_t map = 0;  ///< of `Recognised::maps`
   std::optional<Told> load;
-};
-
-/// A key of a file: `valve.span_command`.
-struct Setting {
-  std::string key;
-  Told told;
 };
 
 struct Recognised {

@@ -249,7 +249,8 @@ class Judging {
     }
     fill(rows);
     for (const Beside& other : others) fill(other.rows);
-    step = step_of(readings);
+    // What points scatter by holds it; and steps of force that are even, as pressures are, look like one.
+    if (raw_.point_s == 0.0) step = step_of(readings);
     if (!fast_) note_slow_noise(readings);
   }
 

@@ -30,9 +30,9 @@ constexpr std::size_t least_cut_off = 20;  // readings in a row
 constexpr double scatters = 0.2;           // of neighbours are equal, at most, in a column that scatters
 constexpr std::size_t beside_cut_off = 5;  // readings: their noise is cut off on one side
 
-/// A wave in a window, beside a cubic for what the rig does; and what the two leave.
+/// A wave in a window, beside a cubic for what the rig does; what the cubic leaves, and what both leave.
 struct Wave {
-  double cosine = 0.0, sine = 0.0, mean_square_beside = 0.0;
+  double cosine = 0.0, sine = 0.0, mean_square_beside = 0.0, mean_square_left = 0.0;
   double amplitude() const { return std::hypot(cosine, sine); }
 };
 
@@ -67,13 +67,17 @@ Wave wave_in(const std::vector<double>& time_s, const std::vector<double>& value
     ++count;
   }
   if (count < least_in_window) return {};
-  Vector fitted = normal.ldlt().solve(right);
-  const Wave wave{fitted[4], fitted[5]};
-  fitted.tail<2>().setZero();
-  double squares = 0.0;
-  for (std::size_t k = first; k < last; ++k)
-    if (!std::isnan(values[k])) squares += std::pow(values[k] - shape(k).dot(fitted), 2);
-  return {wave.cosine, wave.sine, squares / static_cast<double>(count)};
+  const Vector fitted = normal.ldlt().solve(right);
+  Wave wave{fitted[4], fitted[5]};
+  for (std::size_t k = first; k < last; ++k) {
+    if (std::isnan(values[k])) continue;
+    const Vector row = shape(k);
+    const double beside = values[k] - row.head<4>().dot(fitted.head<4>());
+    const double left = beside - row.tail<2>().dot(fitted.tail<2>());
+    wave.mean_square_beside += beside * beside / static_cast<double>(count);
+    wave.mean_square_left += left * left / static_cast<double>(count);
+  }
+  return wave;
 }
 
 /// In the middle one of all windows, so that jumps of what the rig does count for nothing.
@@ -92,7 +96,8 @@ Level level(const std::vector<double>& time_s, const std::vector<double>& values
   return {median(std::move(amplitudes)), median(std::move(squares))};
 }
 
-/// Window by window; in each as the middle one of those around it has it, so that a jump does not matter.
+/// Window by window; in each as those around it have it, the more by how much less they leave: where the load
+/// starts or stops, a cubic leaves much, and a part of it looks like a wave.
 void take_out(const Tone& tone, const std::vector<double>& time_s, std::vector<double>& values) {
   std::vector<Wave> waves;
   std::vector<std::size_t> begins;
@@ -102,16 +107,19 @@ void take_out(const Tone& tone, const std::vector<double>& time_s, std::vector<d
   });
   begins.push_back(time_s.size());  // the last window goes on to the end
   for (std::size_t i = 0; i < waves.size(); ++i) {
-    std::vector<double> cosines, sines;
+    double cosine = 0.0, sine = 0.0, weights = 0.0;
     for (std::size_t near = i > around ? i - around : 0; near < std::min(waves.size(), i + around + 1);
          ++near) {
-      cosines.push_back(waves[near].cosine);
-      sines.push_back(waves[near].sine);
+      if (!(waves[near].mean_square_left > 0.0)) continue;
+      const double weight = 1.0 / waves[near].mean_square_left;
+      cosine += weight * waves[near].cosine;
+      sine += weight * waves[near].sine;
+      weights += weight;
     }
-    const double cosine = median(std::move(cosines)), sine = median(std::move(sines));
+    if (!(weights > 0.0)) continue;
     for (std::size_t k = begins[i]; k < begins[i + 1]; ++k) {
       const double turn = 2.0 * std::numbers::pi * tone.hz * time_s[k];
-      values[k] -= cosine * std::cos(turn) + sine * std::sin(turn);
+      values[k] -= (cosine * std::cos(turn) + sine * std::sin(turn)) / weights;
     }
   }
 }

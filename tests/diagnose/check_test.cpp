@@ -92,7 +92,9 @@ TEST(Checks, AnEncoderThatSticksIsMaskedWhileItSticks) {
   auto& readings = data.runs[0].contraction_ratio;
   std::fill(readings.begin() + 36, readings.begin() + 110, readings[36]);
   const Checked checked = check(data, 2);
-  EXPECT_TRUE(says(checked, "run r01: contraction_ratio is frozen from 0.432 s to 1.308 s"));
+  EXPECT_TRUE(says(
+      checked,
+      fmt::format("run r01: contraction_ratio is frozen at {:.4g} from 0.432 s to 1.308 s", readings[36])));
   EXPECT_TRUE(checked.masked[0][37]);
   EXPECT_TRUE(checked.masked[0][109]);
   EXPECT_FALSE(checked.masked[0][110]);
@@ -107,7 +109,7 @@ TEST(Checks, ReadingsFrozenWhileTheLoadLeavesTheStopAreMasked) {
   std::fill(leaves, leaves + 60, 0.0);
   const auto end = static_cast<std::size_t>(leaves - readings.begin()) + 60;
   const Checked checked = check(data, 2);
-  EXPECT_TRUE(says(checked, "run r01: contraction_ratio is frozen from"));
+  EXPECT_TRUE(says(checked, "run r01: contraction_ratio is frozen at 0 from"));
   EXPECT_TRUE(checked.masked[0][end - 1]);
   EXPECT_FALSE(checked.masked[0][end]);
   EXPECT_EQ(checked.left_out, Runs{});
@@ -117,7 +119,7 @@ TEST(Checks, ReadingsCutOffByTheEndOfTheirRangeAreSaidAndNotTakenForAnotherLoad)
   controllers::TriangleCurrent slow;
   slow.low_mA = 4.0;
   slow.high_mA = 14.0;
-  slow.speed_mA_per_s = 4.0;
+  slow.speed_mA_per_s = 8.0;
   auto data = planted({}, {11.138, 13.87, 16.138, 18.87}, {{"triangle", 5.0, slow}}, 5);
   auto& readings = data.runs[0].contraction_ratio;
   const double count = run::contraction_per_count(data.rig);
@@ -125,7 +127,8 @@ TEST(Checks, ReadingsCutOffByTheEndOfTheirRangeAreSaidAndNotTakenForAnotherLoad)
       count * std::floor(0.8 * *std::max_element(readings.begin(), readings.end()) / count + 0.5);
   for (double& ratio : readings) ratio = std::min(ratio, most);
   const Checked checked = check(data, 2);
-  EXPECT_TRUE(says(checked, "run r01: contraction_ratio is saturated from"));
+  EXPECT_TRUE(says(
+      checked, fmt::format("run r01: contraction_ratio is saturated at {:.4g} 2 times, first from ", most)));
   for (const std::size_t row : masked(checked, 0)) EXPECT_EQ(readings[row], most);
   EXPECT_TRUE(says(checked, "run r01: too little of it is left"));
   EXPECT_EQ(checked.left_out, Runs{0});

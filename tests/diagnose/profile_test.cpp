@@ -1,5 +1,6 @@
 // Intervals where the misfit is no parabola: against fits in which the number is held at the ends.
 #include <cmath>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -56,14 +57,17 @@ struct Valleys {
     const auto found = std::ranges::find(fitted.model.free, path, &Parameter::path);
     return static_cast<std::size_t>(found - fitted.model.free.begin());
   }
-  /// By how much of what it should the cost rises if the number stands here and all others are fitted anew.
-  double rise_at(const std::string& path, double value) const {
+  /// The number stands here, and all others are fitted anew.
+  Fitted held_at(const std::string& path, double value) const {
     const std::size_t j = place(path);
     Model held = fitted.model;
     held.free[j].put(held.rig, value);
     held.free.erase(held.free.begin() + static_cast<std::ptrdiff_t>(j));
-    const Fitted anew = fit(experiment, held, runs, {.inflation = inflation, .thorough = true});
-    return (anew.cost - fitted.cost) / bounds[j].rise;
+    return fit(experiment, held, runs, {.inflation = inflation, .thorough = true});
+  }
+  /// By how much of what it should the cost rises there.
+  double rise_at(const std::string& path, double value) const {
+    return (held_at(path, value).cost - fitted.cost) / bounds[place(path)].rise;
   }
 
   double inflation;
@@ -107,8 +111,23 @@ TEST(Profile, IsNotNeededWhereTheValleyIsAParabola) {
   truth.effects.get<plant::BladderElasticity>().stiffness_N_per_m = 100.0;
   truth.muscle.rest_radius_m *= 1.02;
   const Valleys valleys(truth, "bladder_elasticity", {11.138, 16.138, 23.406}, 3.0, 1.0);
-  EXPECT_GT(worth_a_profile(valleys.fitted.model).size(), 1u);
+  const Model& model = valleys.fitted.model;
+  EXPECT_GT(worth_a_profile(model).size(), 1u);
   for (const Bounds& bounds : valleys.bounds) EXPECT_FALSE(bounds.quadratic) << bounds.value;
+
+  // Nor if the fit ended a little beside its bottom.
+  const std::string stiffness = "effects.bladder_elasticity.stiffness";
+  const std::size_t place = valleys.place(stiffness);
+  const Parameter& p = model.free[place];
+  const Bounds& of = valleys.bounds[place];
+  const auto rig = valleys.held_at(stiffness, p.unscaled(p.scaled(of.value) + 0.25 * of.half)).model.rig;
+  auto told = valleys.experiment.slopes(rig, model.free, valleys.runs);
+  Fitted beside{.model = model, .residuals = std::move(told.residuals), .columns = std::move(told.columns)};
+  beside.model.rig = rig;
+  auto bounds = intervals(valleys.experiment, beside, valleys.runs, valleys.inflation);
+  trust_or_profile(valleys.experiment, beside, valleys.runs, valleys.inflation, {place}, bounds);
+  EXPECT_GT(bounds[place].value, of.value);
+  EXPECT_FALSE(bounds[place].quadratic);
 }
 
 }  // namespace

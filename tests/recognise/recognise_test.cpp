@@ -35,6 +35,12 @@ TEST(Headings, WordsAndUnitsTell) {
                           {"Laser", "mm", "contraction", "mm"},
                           {"angle [°]", "", "contraction", "deg"},
                           {"Kraft/N", "", "force", "N"},
+                          {"Sollspannung [V]", "", "command", "V"},
+                          {"Steuerspannung [V]", "", "command", "V"},
+                          {"Muskeldruck [bar]", "", "muscle_pressure", "bar"},
+                          {"Versorgungsdruck [bar]", "", "", "bar"},
+                          {"Seilzugweg [mm]", "", "contraction", "mm"},
+                          {"Offset [V]", "", "", "V"},
                           {"AI3 [N]", "", "force", "N"},
                           {"p_m", "", "muscle_pressure", ""},
                           {"supply pressure [bar]", "", "", "bar"},
@@ -137,6 +143,22 @@ TEST_F(Recognise, APressureWithoutACommandDrives) {
   EXPECT_TRUE(setting(found.rig, "mechanics")->told.open()) << "held, or a load that nobody named";
   EXPECT_FALSE(found.runs[0].load);
   EXPECT_EQ(setting(found.rig, "valve.zero_pressure"), nullptr) << "no valve is there";
+}
+
+TEST_F(Recognise, LengthsThatABenchHolds) {
+  const auto at = [](const char* length) {
+    return [=](int k) { return fmt::format("{};{:.3f};{:.2f}", length, 5 * drive(k), 400 * drive(k)); };
+  };
+  const char* const head = "Länge [mm];Druck [bar];Kraft [N]\n";
+  const Recognised found = recognise({run("a.csv", head, at("190")), run("b.csv", head, at("182.5"))}, false);
+  const ColumnGuess& length = *found.maps[0].find("contraction");
+  EXPECT_EQ(length.input->value, "input");
+  EXPECT_EQ(length.factor->value, "-1");
+  EXPECT_TRUE(length.zero->open());
+  EXPECT_EQ(setting(found.rig, "mechanics")->told.value, "{kind: held_length}");
+  EXPECT_EQ(setting(found.rig, "tick"), nullptr);
+  EXPECT_EQ(found.maps[0].rows->key, "settled");
+  EXPECT_EQ(found.open(), 5u) << "muscle's three, its length's zero, what a point took";
 }
 
 TEST_F(Recognise, RunsThatBeginOnTheirWay) {

@@ -34,6 +34,24 @@ TEST(Points, AreReadAtTheEndOfTheirTime) {
   EXPECT_EQ(*course.drives[2].contraction_ratio, 0.1);
 }
 
+TEST(Points, EvenStepsAreNoGrainOfTheSensor) {
+  domain::Dataset data;
+  data.own_clock = true;
+  domain::Measurement& measured = data.runs.emplace_back().measured.emplace();
+  measured.point_s = 5.0;
+  measured.length_is_given = measured.sides[0].pressure_is_given = true;
+  for (int k = 0; k < 10; ++k) {
+    measured.time_s.push_back(5.0 * k);
+    measured.contraction_ratio.push_back(0.05);
+    measured.sides[0].muscle_pressure_Pa.push_back(5e4 * (k + 1));
+    measured.force_N.push_back(142.0 * (k + 1) + 0.5 * (k % 3));
+  }
+  data = with_rows(std::move(data));
+  EXPECT_EQ(data.rows_of_stamps->step, 0.0);
+  EXPECT_GT(data.rows_of_stamps->noise, 0.1);
+  EXPECT_LT(data.rows_of_stamps->noise, 1.0);
+}
+
 TEST(Points, ScatterIsWhatNeighboursDoNotExplain) {
   constexpr double noise_N = 2.0;
   std::mt19937_64 random(5);

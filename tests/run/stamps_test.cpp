@@ -50,6 +50,35 @@ TEST(Stamps, HumOfTheMainsStandsOut) {
   EXPECT_EQ(hum_of(slow_s, pressures(slow_s, 50.0, 2e3)).amplitude, 0.0);  // cannot be told
 }
 
+/// A load that starts and stops each half second, as a laser sees it.
+std::vector<double> starting_and_stopping(const std::vector<double>& time_s, double hum) {
+  std::mt19937_64 random(6);
+  std::normal_distribution<double> noise(0.0, 1e-4);
+  std::vector<double> values;
+  for (const double at_s : time_s) {
+    const double turns = std::floor(2.0 * at_s), way = std::min(1.0, (at_s - 0.5 * turns) / 0.05);
+    const double risen = way * way * (3.0 - 2.0 * way);
+    values.push_back(0.1 + 0.03 * (std::fmod(turns, 2.0) == 0.0 ? risen : 1.0 - risen) + noise(random) +
+                     hum * std::sin(100.0 * std::numbers::pi * at_s));
+  }
+  return values;
+}
+
+TEST(Stamps, StartsAndStopsAreNotTakenForHum) {
+  constexpr double hum = 5e-4;
+  domain::Dataset data;
+  data.own_clock = true;
+  domain::Measurement& measured = data.runs.emplace_back().measured.emplace();
+  measured.time_s = stamps(1000.0);
+  measured.contraction_ratio = starting_and_stopping(measured.time_s, hum);
+  ASSERT_EQ(mend_at_stamps(data).size(), 1u);
+  const std::vector<double> clean = starting_and_stopping(measured.time_s, 0.0);
+  double squares = 0.0;
+  for (std::size_t k = 0; k < clean.size(); ++k)
+    squares += std::pow(measured.contraction_ratio[k] - clean[k], 2);
+  EXPECT_LT(std::sqrt(squares / static_cast<double>(clean.size())), 0.04 * hum / std::sqrt(2.0));
+}
+
 /// At 1 mm steps of 0.001 with noise, cut off at 0.12.
 std::vector<double> contractions(double resolution, double scatter_ratio) {
   std::mt19937_64 random(4);
