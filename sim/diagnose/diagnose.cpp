@@ -471,18 +471,22 @@ class Workflow {
         gaps_of_runs(experiment_, held_out, usable_, {nominal_, recalibrated_.fitted.model.rig, chosen_rig_});
   }
 
-  // What would separate the effect named first from those it may be, or the next one.
+  bool is_open(const Doubt& doubt) const {
+    if (!doubt.effect) return result_.verdict == Verdict::recalibrate;
+    return std::ranges::find(result_.effects, *doubt.effect, &NamedEffect::who) != result_.effects.end();
+  }
+
+  // What would separate the effect named first from those it may be, or the next one; or the numbers that
+  // were preferred from an effect.
   void plan_next() {
     // Plans are of currents, under loads.
-    if (result_.effects.empty() || data_.pressure_is_given() || judged() != Judged::contraction) return;
+    if (data_.pressure_is_given() || judged() != Judged::contraction) return;
     for (const Doubt& doubt : naming_.doubts) {
-      if (std::ranges::find(result_.effects, doubt.effect, &NamedEffect::who) == result_.effects.end())
-        continue;
+      if (!is_open(doubt)) continue;
       step_(stage("planning"));
       search_.part("the measurement that would tell more", [&] {
-        result_.next_experiment = plan(experiment_, doubt.with_effect, doubt.with_rival,
-                                       {doubt.effect.words(), doubt.rival.words()},
-                                       result_.gap.corrected_rmse, 1.0 / chosen_inflation_);
+        result_.next_experiment = plan(experiment_, doubt.with_effect, doubt.with_rival, doubt.words(),
+                                       case_.inflation, chosen_inflation_);
       });
       if (result_.next_experiment) return;
     }

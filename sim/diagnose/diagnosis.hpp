@@ -279,7 +279,7 @@ struct NextExperiment {
   std::string current;     ///< in words
   std::string waveform{};  ///< kind in a scenario file
   double load_kg = 0.0;
-  double expected_power = 0.0;            ///< probability to tell them apart at 5 %
+  double expected_power = 0.0;            ///< probability to tell them apart
   domain::CampaignCurrent measurement{};  ///< the same current as a campaign or a scenario plays it
 };
 

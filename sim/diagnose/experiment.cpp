@@ -69,8 +69,8 @@ Eigen::VectorXd Experiment::residuals(const RigFile& rig, const Runs& runs) cons
   return slopes(rig, std::span<const Change>{}, runs).residuals;
 }
 
-Experiment::Slopes Experiment::slopes(const RigFile& rig, std::span<const Parameter> parameters,
-                                      const Runs& runs) const {
+std::vector<Experiment::Change> Experiment::changes_of(const RigFile& rig,
+                                                       std::span<const Parameter> parameters) {
   std::vector<Change> changes;
   for (const Parameter& p : parameters) {
     const double value = value_of(rig, p.path);
@@ -80,7 +80,12 @@ Experiment::Slopes Experiment::slopes(const RigFile& rig, std::span<const Parame
     changes.push_back({[p, value, change](Hanging& h) { p.put(h.rig, value + change); },
                        p.logarithmic ? change / value : change / p.scale});
   }
-  return slopes(rig, changes, runs);
+  return changes;
+}
+
+Experiment::Slopes Experiment::slopes(const RigFile& rig, std::span<const Parameter> parameters,
+                                      const Runs& runs) const {
+  return slopes(rig, changes_of(rig, parameters), runs);
 }
 
 namespace {

@@ -50,6 +50,8 @@ class Experiment {
     bool may_fail = false;  ///< a rig that cannot be simulated with it gets a column of zeros
   };
   Slopes slopes(const RigFile& rig, std::span<const Change> changes, const Runs& runs) const;
+  /// Those of which slopes of parameters are taken.
+  static std::vector<Change> changes_of(const RigFile& rig, std::span<const Parameter> parameters);
 
   /// The same of one run whose readings are known.
   Eigen::VectorXd residuals(const Readings& readings, std::size_t run) const;

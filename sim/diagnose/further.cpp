@@ -151,7 +151,10 @@ void replace(Naming& result, const Candidate& effect, const Contender& numbers) 
 void prefer_numbers(const Case& c, const Bases& bases, Naming& result, const Step& step) {
   step("trying other numbers instead of what was named");
   if (auto numbers = numbers_as_good(c, bases, result.best)) {
-    for (const Candidate& effect : result.best.fitted.model.effects) replace(result, effect, *numbers);
+    for (const Candidate& effect : result.best.fitted.model.effects) {
+      replace(result, effect, *numbers);
+      result.doubts.push_back({std::nullopt, effect.who(), numbers->fitted, result.best.fitted});
+    }
     result.best = std::move(*numbers);
     return;
   }

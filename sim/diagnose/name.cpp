@@ -278,8 +278,7 @@ void take_one(const Case& c, Naming& result, const std::vector<Trial>& trials, c
       continue;
     if (!as_good(c, chosen.contender, rival.contender)) continue;
     named.confusable_with.push_back(other);
-    result.doubts.push_back(
-        {named.who(), other, chosen.contender.fitted.model.rig, rival.contender.fitted.model.rig});
+    result.doubts.push_back({named.who(), other, chosen.contender.fitted, rival.contender.fitted});
   }
   named.support.before_rivals = before_rivals(trials, chosen, named);
   result.effects.push_back(std::move(named));

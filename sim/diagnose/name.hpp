@@ -1,6 +1,8 @@
 // Which effects are missing: one is added after another, each chosen on runs that the fits have not seen.
 #pragma once
 
+#include <optional>
+#include <string>
 #include <vector>
 
 #include <sim/diagnose/diagnosis.hpp>
@@ -9,10 +11,16 @@
 
 namespace mckibben::diagnose {
 
-/// An effect that was taken, and one that explains the data as well.
+/// An effect that was taken, and one that explains the data as well; or, without the first, numbers of the
+/// rig in place of the other.
 struct Doubt {
-  EffectName effect, rival;
-  RigFile with_effect, with_rival;
+  std::optional<EffectName> effect;
+  EffectName rival;
+  Fitted with_effect, with_rival;
+
+  std::vector<std::string> words() const {
+    return {effect ? effect->words() : "other numbers", rival.words()};
+  }
 };
 
 /// A candidate as it is named.

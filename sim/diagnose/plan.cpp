@@ -1,7 +1,8 @@
 // The menu, and the power of each item; see the header.
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
+#include <functional>
+#include <numeric>
 #include <variant>
 
 #include <Eigen/Core>
@@ -9,8 +10,10 @@
 
 #include <plant/instruments.hpp>
 #include <sim/diagnose/plan.hpp>
+#include <sim/diagnose/screen.hpp>
 #include <sim/diagnose/thresholds.hpp>
 #include <sim/engine/failure.hpp>
+#include <sim/engine/flock.hpp>
 #include <sim/run/batch.hpp>
 #include <sim/run/simulate.hpp>
 
@@ -128,44 +131,109 @@ double unexplained(const std::vector<double>& one, const std::vector<double>& ot
   return difference.squaredNorm();
 }
 
-/// Probability that a noncentral chi-square variable with one degree of freedom, the square of a normal one
-/// round sqrt(noncentrality), exceeds the central one's 95 % point.
-double power(double noncentrality) {
-  constexpr double limit = thresholds.plan.normal;
-  const auto below = [](double z) { return 0.5 * std::erfc(-z / std::sqrt(2.0)); };
-  return below(std::sqrt(noncentrality) - limit) + below(-std::sqrt(noncentrality) - limit);
+/// What a model reads in a run, and how that changes with what is free in it; in floors.
+struct Foretold {
+  Eigen::VectorXd readings;
+  Eigen::MatrixXd columns;
+};
+
+Foretold foretold(const Experiment& experiment, const Model& model, const domain::Run& run) {
+  const auto changes = Experiment::changes_of(model.rig, model.free);
+  Foretold result;
+  constexpr std::size_t wing = engine::Flock::most - 1;
+  for (std::size_t first = 0; first == 0 || first < changes.size(); first += wing) {
+    const std::size_t count = std::min(wing, changes.size() - first);
+    std::vector<Hanging> rigs(1 + count, {model.rig, run.load_kg});
+    for (std::size_t i = 0; i < count; ++i) changes[first + i].apply(rigs[1 + i]);
+    const auto readings = predict(run, rigs, experiment.data().rig.integrator.method);
+    const auto of = [&](std::size_t i) {
+      return Eigen::Map<const Eigen::VectorXd>(readings[i].judged.data(),
+                                               static_cast<Eigen::Index>(readings[i].judged.size()));
+    };
+    if (first == 0) {
+      result.readings = of(0) / experiment.floor().judged;
+      result.columns.resize(of(0).size(), static_cast<Eigen::Index>(changes.size()));
+    }
+    for (std::size_t i = 0; i < count; ++i)
+      result.columns.col(static_cast<Eigen::Index>(first + i)) =
+          (of(1 + i) - of(0)) / (experiment.floor().judged * changes[first + i].size);
+  }
+  return result;
+}
+
+/// By how much the misfit of a model grows that is fitted again, where a run is added that reads `truth`.
+double misfit_beside(const Fitted& fitted, const Foretold& foretold, const Eigen::VectorXd& truth,
+                     double inflation) {
+  Fitted all{.model = fitted.model,
+             .residuals = Eigen::VectorXd::Zero(fitted.columns.rows() + truth.size()),
+             .columns = Eigen::MatrixXd(fitted.columns.rows() + truth.size(), fitted.columns.cols())};
+  all.residuals.tail(truth.size()) = truth - foretold.readings;
+  all.columns << fitted.columns, foretold.columns;
+  return Projector(all, inflation)(all.residuals).squaredNorm();
+}
+
+/// Probability that the misfit of the one that is wrong grows by more than what still counts as doing as
+/// well: it scatters normally round `growth` as noise of that long-term variance makes it. `cost`: of the
+/// right one.
+double power(double growth, double cost, double inflation, double long_variance) {
+  const double limit = std::max(thresholds.near.clear, thresholds.name.as_good_cost * cost);
+  const double deviation = 2.0 * std::sqrt(growth * long_variance / inflation);
+  return growth > 0.0 ? 0.5 * std::erfc((limit - growth) / (std::sqrt(2.0) * deviation)) : 0.0;
+}
+
+/// The places of the largest values, largest first.
+std::vector<std::size_t> largest(const std::vector<double>& values, std::size_t most) {
+  std::vector<std::size_t> places(values.size());
+  std::iota(places.begin(), places.end(), std::size_t{0});
+  std::ranges::stable_sort(places, std::ranges::greater(), [&](std::size_t i) { return values[i]; });
+  places.resize(std::min(places.size(), most));
+  return places;
 }
 
 }  // namespace
 
-std::optional<NextExperiment> plan(const Experiment& experiment, const RigFile& named, const RigFile& rival,
-                                   std::vector<std::string> names, double noise_ratio,
-                                   double effective_share) {
-  if (!(effective_share > 0.0 && effective_share <= 1.0))
-    throw std::invalid_argument("effective_share must be above 0 and at most 1");
-  const std::vector<Item> items = menu(named);
-  const std::vector<double> loads = loads_kg(experiment.data(), named);
-  const double noise = std::max(noise_ratio, experiment.floor().judged);
-  std::vector<double> noncentrality(items.size() * loads.size(), 0.0);
-  run::for_each_job(
-      noncentrality.size(), experiment.threads(),
-      [&](std::size_t job) {
-        const double load_kg = loads[job / items.size()];
-        const Hanging both[] = {{named, load_kg}, {rival, load_kg}};
-        try {
-          const auto readings = predict(played(items[job % items.size()], named, load_kg), both,
-                                        experiment.data().rig.integrator.method);
-          noncentrality[job] =
-              unexplained(readings[0].judged, readings[1].judged) / (noise * noise) * effective_share;
-        } catch (const engine::NumericalFailure&) {
-          // Not an experiment to propose.
-        }
-      },
-      [](std::size_t) {});
-  if (noncentrality.empty()) return std::nullopt;
-  const auto best = std::max_element(noncentrality.begin(), noncentrality.end());
-  if (power(*best) < thresholds.plan.least_power) return std::nullopt;
-  const auto job = static_cast<std::size_t>(best - noncentrality.begin());
+std::optional<NextExperiment> plan(const Experiment& experiment, const Fitted& one, const Fitted& other,
+                                   std::vector<std::string> names, double inflation, double long_variance) {
+  const std::vector<Item> items = menu(one.model.rig);
+  const std::vector<double> loads = loads_kg(experiment.data(), one.model.rig);
+  const auto run_of = [&](std::size_t job) {
+    return played(items[job % items.size()], one.model.rig, loads[job / items.size()]);
+  };
+  // What cannot be simulated stays at 0.
+  const auto for_each = [&](std::size_t count, const std::function<double(std::size_t)>& value) {
+    std::vector<double> values(count, 0.0);
+    run::for_each_job(
+        count, experiment.threads(),
+        [&](std::size_t i) {
+          try {
+            values[i] = value(i);
+          } catch (const engine::NumericalFailure&) {
+            // Not an experiment to propose.
+          }
+        },
+        [](std::size_t) {});
+    return values;
+  };
+  const auto apart = for_each(items.size() * loads.size(), [&](std::size_t job) {
+    const auto run = run_of(job);
+    const Hanging both[] = {{one.model.rig, run.load_kg}, {other.model.rig, run.load_kg}};
+    const auto readings = predict(run, both, experiment.data().rig.integrator.method);
+    return unexplained(readings[0].judged, readings[1].judged);
+  });
+  const auto promising = largest(apart, thresholds.plan.refitted);
+  const auto powers = for_each(promising.size(), [&](std::size_t i) {
+    const auto run = run_of(promising[i]);
+    const Foretold by_one = foretold(experiment, one.model, run),
+                   by_other = foretold(experiment, other.model, run);
+    const double more = static_cast<double>(by_one.readings.size()) / inflation;
+    return std::min(power(misfit_beside(other, by_other, by_one.readings, inflation), one.cost + more,
+                          inflation, long_variance),
+                    power(misfit_beside(one, by_one, by_other.readings, inflation), other.cost + more,
+                          inflation, long_variance));
+  });
+  const auto best = std::ranges::max_element(powers);
+  if (best == powers.end() || *best < thresholds.plan.least_power) return std::nullopt;
+  const std::size_t job = promising[static_cast<std::size_t>(best - powers.begin())];
   const Item& chosen = items[job % items.size()];
   return NextExperiment{
       .separates = std::move(names),
@@ -173,7 +241,7 @@ std::optional<NextExperiment> plan(const Experiment& experiment, const RigFile& 
       .waveform = std::visit([](const auto& waveform) { return std::string(waveform.kind); },
                              *chosen.current.current),
       .load_kg = loads[job / items.size()],
-      .expected_power = power(*best),
+      .expected_power = *best,
       .measurement = chosen.current};
 }
 

@@ -1,31 +1,31 @@
 // The next experiment: which current and which load would tell two explanations of the data apart
-// (T-optimality: Atkinson & Fedorov, Biometrika 62 (1975) 57-70; here over a menu instead of a design space).
+// (T-optimality: Atkinson & Fedorov, Biometrika 62 (1975) 57-70; here over a menu instead of a design space,
+// the rival fitted again to each).
 #pragma once
 
 #include <optional>
 #include <string>
 #include <vector>
 
-#include <plant/rig.hpp>
 #include <sim/diagnose/diagnosis.hpp>
-#include <sim/diagnose/experiment.hpp>
+#include <sim/diagnose/fit.hpp>
 
 namespace mckibben::diagnose {
 
 /// From a menu of currents of 10 s, under the data set's loads and half and 1.3 times these as far as the rig
-/// lifts them, the experiment in which the encoder readings that `named` and `rival` predict differ most.
+/// lifts them, the experiment that most probably ends the doubt between two fits to the same runs.
 ///
-/// What counts is the part of the difference that neither an offset nor a gain of the readings can take away.
-/// Over `noise_ratio` (rms that is left with the best model, contraction ratio; never taken below what the
-/// encoder cannot see) and with `effective_share` independent samples for each tick, its sum of squares is
-/// the noncentrality of the likelihood-ratio test between the two, and the power that of a noncentral
-/// chi-square with one degree of freedom at 5 %. It is hopeful: the rival would be fitted again to the new
-/// data, with more than an offset and a gain.
+/// Whichever of the two is right, the other is fitted again to old and new readings: what its free parameters
+/// imitate of the difference, as far as priors and old readings let them, is projected out (straight lines
+/// from the fit). What is left, a sum of squares over `inflation` as in fits, is by how much its misfit
+/// grows; it scatters as noise of `long_variance` (in floors^2) makes it. The power is the probability that
+/// it grows by more than what still counts as doing as well, for the one of the two of which that is less
+/// probable. This is reckoned for those items of the menu in which the two differ most, but for an offset and
+/// a gain.
 ///
 /// Experiments that cannot be simulated are passed over. None if not even the best has a power of 10 %.
-/// Throws std::invalid_argument for a share outside (0, 1]; run::Interrupted.
-std::optional<NextExperiment> plan(const Experiment& experiment, const RigFile& named, const RigFile& rival,
-                                   std::vector<std::string> names, double noise_ratio,
-                                   double effective_share);
+/// Throws run::Interrupted.
+std::optional<NextExperiment> plan(const Experiment& experiment, const Fitted& one, const Fitted& other,
+                                   std::vector<std::string> names, double inflation, double long_variance);
 
 }  // namespace mckibben::diagnose

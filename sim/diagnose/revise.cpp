@@ -125,7 +125,7 @@ void sort_by_importance(const Case& c, Naming& result) {
   std::stable_sort(result.effects.begin(), result.effects.end(),
                    [&](const auto& a, const auto& b) { return first(a.who(), b.who()); });
   std::stable_sort(result.doubts.begin(), result.doubts.end(),
-                   [&](const Doubt& a, const Doubt& b) { return first(a.effect, b.effect); });
+                   [&](const Doubt& a, const Doubt& b) { return first(*a.effect, *b.effect); });
 }
 
 }  // namespace mckibben::diagnose

@@ -426,7 +426,7 @@ struct StartThresholds {
 struct PlanThresholds {
   double lasting_s = 10.0;   ///< of a current
   double least_power = 0.1;  ///< probability to tell, that is worth proposing
-  double normal = 1.959964;  ///< deviations of a normal variable: 5 %, both sides. Convention
+  std::size_t refitted = 8;  ///< items that promise most, for which the other explanation is fitted again
   std::array<double, 3> loads{1.0, 0.5, 1.3};  ///< of the data set's
   double same_load = 0.08;                     ///< relative: one load
   double least_rise = 0.05;  ///< contraction ratio at the highest pressure: a heavier load is not proposed

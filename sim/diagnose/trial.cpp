@@ -141,8 +141,9 @@ bool meets(const Contender& contender) {
 bool as_good(const Case& c, const Contender& chosen, const Contender& rival) {
   const auto worse = compare(c.experiment, rival.held_out, chosen.held_out, c.split.held_out);
   const double costlier = rival.fitted.cost - chosen.fitted.cost;
-  return costlier < thresholds.near.clear || (worse.gained < thresholds.name.as_good_gained &&
-                                              costlier < thresholds.name.as_good_cost * chosen.fitted.cost);
+  return (costlier < thresholds.near.clear && !convinces(worse)) ||
+         (worse.gained < thresholds.name.as_good_gained &&
+          costlier < thresholds.name.as_good_cost * chosen.fitted.cost);
 }
 
 }  // namespace mckibben::diagnose

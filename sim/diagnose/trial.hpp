@@ -77,7 +77,8 @@ bool has_shape(const Model& model, const Candidate& candidate);
 /// Nothing left to find, in the runs held out and in those fitted.
 bool meets(const Contender& contender);
 
-/// Whether `rival` explains these data as well as `chosen`.
+/// Whether `rival` explains these data as well as `chosen`: its misfit is near, and the runs held out make no
+/// clear difference.
 bool as_good(const Case& c, const Contender& chosen, const Contender& rival);
 
 std::string title(const Candidate& candidate);

@@ -34,7 +34,7 @@ bool is_open(const NamedEffect& effect) {
 }  // namespace
 
 Advice follow(const Hidden& hidden, const Diagnosis& found, const Settings& settings, std::string& words) {
-  Advice advice{.open = std::ranges::any_of(found.effects, is_open)};
+  Advice advice{.open = found.next_experiment || std::ranges::any_of(found.effects, is_open)};
   if (!advice.open) return advice;
   advice.right_before = names_are_right(found, hidden);
   if (!found.next_experiment) {
@@ -48,12 +48,12 @@ Advice follow(const Hidden& hidden, const Diagnosis& found, const Settings& sett
   more.data.runs.push_back(measured_as(next, hidden));
   const Diagnosis again = diagnose(more.data, settings, [](auto, auto, auto) {});
   advice.right = names_are_right(again, hidden);
-  advice.settled =
-      advice.right && std::ranges::none_of(again.effects, [&](const NamedEffect& effect) {
-        return std::ranges::any_of(words_of(effect.confusable_with), [&](const std::string& rival) {
-          return std::ranges::count(next.separates, rival) > 0;
-        });
-      });
+  const auto still_as_good = [&](const NamedEffect& effect) {
+    return std::ranges::any_of(words_of(effect.confusable_with), [&](const std::string& rival) {
+      return std::ranges::find(next.separates, rival) != next.separates.end();
+    });
+  };
+  advice.settled = advice.right && std::ranges::none_of(again.effects, still_as_good);
   words = fmt::format("      {}, {:.3g} kg, {:.0f} % to tell {}: {}{}\n", next.waveform, next.load_kg,
                       100.0 * next.expected_power, fmt::join(next.separates, " from "), names_of(again),
                       advice.settled ? "" : "  OPEN");

@@ -3,13 +3,16 @@
 //   benchmark_diagnosis [SEED [SEEDS [TITLE]]]   seeds SEED to SEED + SEEDS - 1 (default 101, 3 of them), of
 //                                                what has a title that begins so (default: all)
 //   benchmark_diagnosis --nulls [SEED [SEEDS [TITLE]]]   the same where nothing is hidden, on four benches
-//   benchmark_diagnosis --weak [SEED [SEEDS [TITLE]]]   effects of 3 to 100 % of a small size in four to nine
-//                                                runs: how often a name is right that is given with such
-//                                                evidence
+//   benchmark_diagnosis --weak [SEED [SEEDS [TITLE]]]   effects of 10 to 200 % of a small size, other numbers
+//                                                and laws of no catalogue in four to nine short runs: how
+//                                                often a name is right that is given with such evidence
 //   benchmark_diagnosis --advice [SEED [SETS]]   SETS data sets (default 60), three or four short sines with
 //                                                little of an effect that has relatives: where a name is
 //                                                open, the measurement that is asked for is made, and all is
 //                                                diagnosed again
+//   benchmark_diagnosis --doubts [SEED [SETS]]   the same between two explanations alone, numbers in place of
+//   an
+//                                                effect among them (default 30 data sets)
 //   benchmark_diagnosis --pairs [SEED [SEEDS]]   two muscles on one wheel, an effect in one, both or none
 //   benchmark_diagnosis --corrupted [SEED [only=NAME]]   the same for data that were spoilt on purpose
 //
@@ -23,6 +26,8 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <functional>
+#include <limits>
 #include <random>
 #include <set>
 #include <string>
@@ -35,9 +40,11 @@
 #include <sim/cluster/share.hpp>
 #include <sim/diagnose/diagnose.hpp>
 #include <sim/input/hash.hpp>
+#include <sim/run/batch.hpp>
 
 #include "advice_benchmark.hpp"
 #include "corrupted_benchmark.hpp"
+#include "doubts_benchmark.hpp"
 #include "hidden_effects.hpp"
 #include "pairs_benchmark.hpp"
 #include "tally.hpp"
@@ -91,9 +98,31 @@ struct Coverage {
 
 /// A name that was given, and by what evidence.
 struct Given {
-  bool right = false;
-  double fall = 0.0, before_rivals = 0.0, floors = 0.0;
+  bool right = false, alone = true;
+  bool among = false;    ///< right, or one of those is that do as well
+  bool simpler = false;  ///< an explanation without effects does as well
+  double margin = 0.0;   ///< by which it is ahead
+
+  Given() = default;
+  Given(const diagnose::NamedEffect& effect, const std::vector<std::string>& truth, bool simpler_does)
+      : right(is_in(truth, effect.name)),
+        alone(effect.confusable_with.empty()),
+        among(right || std::ranges::any_of(effect.confusable_with,
+                                           [&](const auto& rival) { return is_in(truth, rival.effect); })),
+        simpler(simpler_does),
+        margin(std::min(effect.support.fall, effect.support.before_rivals)) {}
+
+ private:
+  static bool is_in(const std::vector<std::string>& list, const std::string& name) {
+    return std::ranges::find(list, name) != list.end();
+  }
 };
+
+bool simpler_does_as_well(const diagnose::Diagnosis& found) {
+  return std::ranges::any_of(found.explanations, [](const diagnose::Explanation& one) {
+    return one.as_good && !one.chosen && one.kind < diagnose::Explanation::Kind::effects;
+  });
+}
 
 /// What counts of a diagnosis.
 struct Outcome {
@@ -123,9 +152,7 @@ struct Outcome {
       for (const auto& moved : diagnosis.recalibrated)
         if (moved.fitted.name == number.path) numbers.count(number.value, moved.fitted);
     for (const auto& effect : diagnosis.effects)
-      if (names < given.size())
-        given[names++] = {std::ranges::count(truth.effects, effect.name) > 0, effect.support.fall,
-                          effect.support.before_rivals, diagnosis.remaining.floors};
+      if (names < given.size()) given[names++] = {effect, truth.effects, simpler_does_as_well(diagnosis)};
   }
   Outcome() = default;
 };
@@ -174,17 +201,25 @@ class Score {
     tally.of += coverage.of;
   }
 
-  /// How often names were right, by what they gain over the next best.
+  /// How often names were right, by how far they were ahead.
   void print_reliability() const {
-    constexpr std::array edges{0.0, 12.0, 30.0, 100.0, 300.0, 1000.0, 1e300};
+    constexpr std::array edges{0.0, 50.0, 200.0, 1000.0, std::numeric_limits<double>::infinity()};
     for (std::size_t bin = 0; bin + 1 < edges.size(); ++bin) {
       Tally right;
-      for (const Given& one : given_) {
-        const double margin = std::min(one.fall, one.before_rivals);
-        if (margin >= edges.at(bin) && margin < edges.at(bin + 1)) right.count(one.right);
-      }
-      if (right.of > 0) right.print(fmt::format("names with a margin from {:g}", edges.at(bin)).c_str());
+      for (const Given& one : given_)
+        if (one.alone && one.margin >= edges.at(bin) && one.margin < edges.at(bin + 1))
+          right.count(one.right);
+      right.print(fmt::format("names ahead by {:g}", edges.at(bin)));
     }
+    Tally first, among, simpler;
+    for (const Given& one : given_) {
+      if (!one.alone) first.count(one.right);
+      if (!one.alone) among.count(one.among);
+      if (one.simpler) simpler.count(one.right);
+    }
+    first.print("names beside which others do as well: right");
+    among.print("the same: one of them right");
+    simpler.print("names beside which numbers do as well: right");
   }
 
   Tally few_, triples_, in_set_, false_alarms_, unknown_, wrong_names_, sizes_, numbers_, closed_,
@@ -210,12 +245,13 @@ std::string_view name_of(diagnose::Bench bench) {
   return bench == diagnose::Bench::thesis ? "" : bench == diagnose::Bench::other_size ? "size" : "wide";
 }
 
-/// The evidence for each name, as `[fall over rivals]`.
+/// The evidence for each name.
 std::string evidence_in_words(const Outcome& outcome) {
   std::string words;
   for (std::size_t i = 0; i < outcome.names; ++i)
-    words += fmt::format(" [{:.0f} over {:.0f}{}]", outcome.given.at(i).fall,
-                         outcome.given.at(i).before_rivals, outcome.given.at(i).right ? "" : " wrong");
+    words += fmt::format(" [ahead by {:.0f}{}{}]", outcome.given.at(i).margin,
+                         outcome.given.at(i).simpler ? ", numbers" : "",
+                         outcome.given.at(i).right ? "" : ", wrong");
   return words;
 }
 
@@ -260,23 +296,40 @@ void count_and_print(const std::string& bytes, Score& score) {
   std::fflush(stdout);
 }
 
-/// Diagnoses all of them, with the rest of the crew if there is one; rank 0 prints.
-void score_all(const std::vector<DataSet>& sets, const std::string& words) {
-  Score score;
-  const auto job = [&](std::size_t i) { return diagnose_one(sets[i]); };
-  const auto take = [&](std::size_t, const std::string& bytes) { count_and_print(bytes, score); };
+using Job = std::function<std::string(std::size_t)>;
+using Take = std::function<void(std::size_t, const std::string&)>;
+
+/// With the rest of the crew if there is one; rank 0 takes.
+void diagnose_all(std::size_t count, const std::string& words, const Job& job, const Take& take) {
   if (cluster::crew().alone()) {
-    for (std::size_t i = 0; i < sets.size(); ++i) take(i, job(i));
-    return score.print();
+    for (std::size_t i = 0; i < count; ++i) take(i, job(i));
+    return;
   }
   cluster::Workplace place("out/bench-diagnosis.ranks", cluster::crew());
   const auto program = output::read_regular(std::filesystem::read_symlink("/proc/self/exe"));
   place.begin(input::sha256_hex(program.value_or("")) + " " + words);
-  cluster::share(place, "diagnosis", sets.size(), 1, cluster::Needed::by_rank_0, job, take);
+  cluster::share(place, "diagnosis", count, 1, cluster::Needed::by_rank_0, job, take);
   if (!cluster::crew().leads()) return;
   place.close();
   place.leave();
-  score.print();
+}
+
+/// Diagnoses all of them; after Ctrl-C what was done by then is counted.
+void score_all(const std::vector<DataSet>& sets, const std::string& words) {
+  Score score;
+  std::size_t taken = 0;
+  run::catch_interrupts();
+  try {
+    diagnose_all(
+        sets.size(), words, [&](std::size_t i) { return diagnose_one(sets[i]); },
+        [&](std::size_t, const std::string& bytes) {
+          count_and_print(bytes, score);
+          ++taken;
+        });
+  } catch (const run::Interrupted&) {
+    fmt::print("interrupted: {} of {} data sets\n", taken, sets.size());
+  }
+  if (cluster::crew().leads()) score.print();
 }
 
 void score_corrupted(const std::vector<std::string>& words) {
@@ -304,6 +357,12 @@ std::vector<DataSet> all_sets(std::uint64_t first, std::uint64_t seeds, const st
   return sets;
 }
 
+/// Data sets as people have them: four to nine runs of 4 to 5 s.
+diagnose::Surroundings few_runs(diagnose::Bench bench, std::uint64_t number) {
+  constexpr std::array<std::size_t, 4> runs{4, 5, 6, 9};
+  return {.bench = bench, .runs = runs.at(number % runs.size()), .lasting = 0.5};
+}
+
 /// Those in which nothing is hidden, on each bench, and on one that is off its data sheet.
 std::vector<DataSet> nulls(std::uint64_t first, std::uint64_t seeds, const std::string& wanted) {
   std::vector<DataSet> sets;
@@ -311,29 +370,28 @@ std::vector<DataSet> nulls(std::uint64_t first, std::uint64_t seeds, const std::
     for (std::size_t kind = 0; kind < diagnose::kinds(); ++kind) {
       const std::string& title = diagnose::title(kind);
       if (!title.starts_with("nothing") || !title.starts_with(wanted)) continue;
-      for (const diagnose::Bench bench : benches) sets.push_back({kind, seed, {.bench = bench}});
-      sets.push_back({kind, seed, {.off_its_sheet = true}});
+      for (const diagnose::Bench bench : benches) sets.push_back({kind, seed, few_runs(bench, kind + seed)});
+      sets.push_back({kind, seed, few_runs(diagnose::Bench::thesis, kind + seed)});
+      sets.back().surroundings.off_its_sheet = true;
     }
   return sets;
 }
 
-/// Small effects made weaker still, in fewer runs.
+/// Small effects made weaker or twice as large, and what has no name, in few runs.
 std::vector<DataSet> weak_ones(std::uint64_t first, std::uint64_t seeds, const std::string& wanted) {
   std::vector<DataSet> sets;
-  std::mt19937_64 random(first);
-  std::uniform_real_distribution<double> exponent(-1.5, 0.0);
-  std::uniform_int_distribution<std::size_t> runs(4, 9);
-  for (std::uint64_t seed = first; seed < first + seeds; ++seed)
+  for (std::uint64_t seed = first; seed < first + seeds; ++seed) {
+    std::mt19937_64 random(seed);
+    std::uniform_real_distribution<double> exponent(-1.0, 0.3);
     for (std::size_t kind = 0; kind < diagnose::kinds(); ++kind) {
       const std::string& title = diagnose::title(kind);
-      if (!title.ends_with(" small") || title.starts_with("gauge:")) continue;
-      const DataSet set{kind,
-                        seed,
-                        {.bench = benches.at((kind + seed) % benches.size()),
-                         .share = std::pow(10.0, exponent(random)),
-                         .runs = runs(random)}};
+      const bool small = title.ends_with(" small") && !title.starts_with("gauge:");
+      if (!small && !title.starts_with("recalibrate") && !title.starts_with("unknown")) continue;
+      DataSet set{kind, seed, few_runs(benches.at((kind + seed) % benches.size()), kind / 2 + seed)};
+      if (small) set.surroundings.share = std::pow(10.0, exponent(random));
       if (title.starts_with(wanted)) sets.push_back(set);
     }
+  }
   return sets;
 }
 
@@ -351,11 +409,13 @@ std::vector<DataSet> open_ones(std::uint64_t first, std::size_t count) {
     const std::string wanted = fmt::format("{} small", relatives.at(i % relatives.size()));
     std::size_t kind = 0;
     while (diagnose::title(kind) != wanted) ++kind;
-    sets.push_back(
-        {.kind = kind,
-         .seed = first + i / relatives.size(),
-         .surroundings = {.share = std::pow(10.0, exponent(random)), .runs = 3 + i % 2, .poor = true},
-         .advised = true});
+    sets.push_back({.kind = kind,
+                    .seed = first + i / relatives.size(),
+                    .surroundings = {.share = std::pow(10.0, exponent(random)),
+                                     .runs = 3 + i % 2,
+                                     .lasting = 0.4,
+                                     .poor = true},
+                    .advised = true});
   }
   return sets;
 }
@@ -375,8 +435,13 @@ int main(int argc, char** argv) {
     return words.size() > at ? std::strtoull(words[at].c_str(), nullptr, 10) : otherwise;
   };
   const std::uint64_t first = number(0, 101), seeds = number(1, 3);
-  if (suite == "--pairs") {
-    if (cluster::crew().leads()) diagnose::score_pairs(first, number(1, 1), cluster::crew().threads);
+  if (suite == "--pairs" || suite == "--doubts") {
+    const unsigned threads = cluster::crew().threads;
+    if (!cluster::crew().leads()) return 0;
+    if (suite == "--pairs")
+      diagnose::score_pairs(first, number(1, 1), threads);
+    else
+      diagnose::score_doubts(first, number(1, 30), threads);
     return 0;
   }
   try {

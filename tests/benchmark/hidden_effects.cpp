@@ -317,13 +317,14 @@ domain::Run read(const Hidden& hidden, const Waveform& current, double load_kg, 
 }
 
 /// Load and kind of current differ from run to run; of poor data there are only sines.
-domain::Run measured_run(const Hidden& hidden, std::size_t run, bool poor, std::uint64_t stream, Dice& dice) {
+domain::Run measured_run(const Hidden& hidden, std::size_t run, const Surroundings& surroundings,
+                         std::uint64_t stream, Dice& dice) {
   const double larger = std::pow(hidden.rig.muscle.rest_radius_m / plant::Rig{}.muscle.rest_radius_m, 2);
   constexpr double loads_kg[] = {11.138, 11.138, 16.138, 16.138, 23.406, 23.406, 13.870, 18.870, 18.870};
   constexpr std::size_t currents[] = {0, 1, 2, 3, 0, 1, 4, 3, 1};
-  const auto rows = static_cast<std::size_t>((poor ? 0.4 : 1.0) * dice.between(600.0, 900.0));
+  const auto rows = static_cast<std::size_t>(surroundings.lasting * dice.between(600.0, 900.0));
   controllers::RecordedCurrent recorded;
-  recorded.samples_mA = current_mA(poor ? 0 : currents[run], rows, dice);
+  recorded.samples_mA = current_mA(surroundings.poor ? 0 : currents[run], rows, dice);
   return read(hidden, recorded, larger * loads_kg[run], rows, stream);
 }
 
@@ -350,7 +351,7 @@ Hidden hide(std::size_t index, std::uint64_t seed, const Surroundings& surroundi
   hidden.rig = rig_with(kind, seed, surroundings, dice, hidden);
   hidden.data.rig.gauge.fitted = kind.gauge;
   for (std::size_t run = 0; run < surroundings.runs; ++run)
-    hidden.data.runs.push_back(measured_run(hidden, run, surroundings.poor, 100 * index + run, dice));
+    hidden.data.runs.push_back(measured_run(hidden, run, surroundings, 100 * index + run, dice));
   return hidden;
 }
 

@@ -38,7 +38,8 @@ struct Surroundings {
   bool off_its_sheet = false;  ///< also where nothing is hidden: by a third of what its numbers are known to
   double share = 1.0;          ///< of an effect's size
   std::size_t runs = 9;
-  bool poor = false;  ///< data: nothing but short sines
+  double lasting = 1.0;  ///< of the 7 to 11 s of a run
+  bool poor = false;     ///< data: nothing but sines
 };
 
 /// What may be hidden. `kind` counts from 0 to kinds() - 1: each effect at two sizes, pairs, triples, changed

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
@@ -23,7 +24,7 @@ struct Tally {
     yes += hit ? 1 : 0;
     ++of;
   }
-  void print(const char* what) const {
+  void print(std::string_view what) const {
     if (of == 0) return;
     const auto [low, high] = wilson(yes, of);
     fmt::print("{:<48} {:>4} of {:<4} {:5.1f} % ({:.1f} to {:.1f} %)\n", what, yes, of, 100.0 * yes / of, low,

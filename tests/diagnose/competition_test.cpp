@@ -47,6 +47,14 @@ TEST(Competition, TellsWhatWasChosenBeforeTheRigAsDescribedAndItsNumbers) {
   EXPECT_LT(list[1].misfit, list[2].misfit);
 }
 
+TEST(Competition, NothingDoesAsWellThatTheRunsHeldOutSpeakAgainst) {
+  Contender rival = named_leak();
+  rival.fitted.cost += 0.5 * thresholds.near.clear;
+  EXPECT_TRUE(as_good(*leaky_runs().at, named_leak(), rival));
+  rival.held_out *= 2.0;
+  EXPECT_FALSE(as_good(*leaky_runs().at, named_leak(), rival));
+}
+
 TEST(Competition, CountsTheStrainOfNumbersAsEvidence) {
   const auto list = competed({&leaky_runs().described, &leaky_runs().recalibrated});
   double deviations = 0.0;

@@ -90,6 +90,9 @@ TEST(Further, PrefersANumberFarOffToTheEffectThatImitatesIt) {
   EXPECT_TRUE(
       naming.ranking.front().outcome.starts_with("given up: other numbers do as well: friction.scale +"))
       << naming.ranking.front().outcome;
+  ASSERT_EQ(naming.doubts.size(), 1u);
+  EXPECT_EQ(naming.doubts.front().words(),
+            (std::vector<std::string>{"other numbers", "speed_dependent_friction"}));
 }
 
 TEST(Further, KeepsAnEffectThatNumbersCannotImitate) {
