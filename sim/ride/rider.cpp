@@ -5,6 +5,7 @@
 
 #include <sim/engine/failure.hpp>
 #include <sim/ride/rider.hpp>
+#include <sim/ride/underway.hpp>
 
 namespace mckibben::ride {
 namespace {
@@ -72,8 +73,14 @@ void Rider::start(const Drive& given, double at_s) {
     held.opposite.reference_pressure_Pa = full(*plant_.opposite(), drive.opposite, now.opposite_plays);
   held.length_is_given = drive.contraction_ratio.has_value();
   engine::Flow& flow = now.flow = {.state = plant_.at_rest(held)};
-  if (drive.contraction_ratio)
+  if (drive.contraction_ratio) {
+    // A muscle that a bench has held at a length has got used to it.
+    const plant::State<double> at_rest_length = flow.state;
     flow.state.joint.contraction_ratio = given_ratio(plant_.rig(), *drive.contraction_ratio);
+    Memories all;
+    all.fill(true);
+    rest_memories(*this, at_rest_length, 0.0, all);
+  }
   flow.ledger = plant_.opened(flow.state);
   if (plant_.has_events() && !held.length_is_given)
     held.slip = plant_.slip_from_rest(flow.state, flow.memory, held);

@@ -175,7 +175,8 @@ TEST_F(Interrupt, ATimeLimitEndsASearchWithWhatIsKnown) {
   EXPECT_EQ(document.at("search").at("ended"), "by_time");
   EXPECT_EQ(document.at("search").at("not_done"),
             Json({"faults of runs", "effects of the catalogue",
-                  "numbers that are further off than they are stated to be"}));
+                  "numbers that are further off than they are stated to be",
+                  "faults of runs beside what was found"}));
   EXPECT_EQ(mckibben("diagnose data --time-limit 0", scratch).status, 64);
   EXPECT_EQ(mckibben("diagnose data --time-limit '5 kg'", scratch).status, 64);
 }

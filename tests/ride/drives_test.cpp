@@ -133,6 +133,26 @@ TEST(Drives, CoulombThreadsKeepTheirForceWhereABenchStops) {
   EXPECT_EQ(ride.moment().friction_force_N, ride.moment().friction_level_N);
 }
 
+// Rubber that creeps has come to rest at the length at which a bench holds it, and pulls back after a move.
+TEST(Drives, AMuscleThatIsHeldBeginsAtRestAtItsLength) {
+  plant::Rig rig;
+  auto& creep = rig.effects.get<plant::BladderCreep>();
+  creep.stiffness_N_per_m = 1000.0;
+  creep.time_s = 30.0;
+  Ride ride(Hanging{rig, 0.0}, {Method::erk, 1e-7}), without(Hanging{{}, 0.0}, {Method::erk, 1e-7});
+  Drive drive;
+  drive.muscle_pressure_Pa = 3e5;
+  drive.contraction_ratio = 0.15;
+  const auto pull_N = [&] { return ride.moment().cord_force_N() - without.moment().cord_force_N(); };
+  ride.start(drive, 0.0);
+  without.start(drive, 0.0);
+  EXPECT_NEAR(pull_N(), 0.0, 1e-9);
+  drive.contraction_ratio = 0.16;
+  ride.step(drive, 0.1);
+  without.step(drive, 0.1);
+  EXPECT_NEAR(pull_N(), -1000.0 * 0.01 * rig.muscle.rest_length_m, 0.02);
+}
+
 TEST(Drives, APairOfDifferentFrictionOrGasIsRefused) {
   Paired pair;
   const solver::Settings settings;
