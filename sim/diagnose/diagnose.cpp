@@ -342,10 +342,11 @@ class Workflow {
 
   /// Usable runs that the search does without.
   Runs not_asked() const {
-    const auto& [training, held_out] = case_.split;
+    const Split& asked = case_.split;
     Runs others;
     std::ranges::copy_if(usable_, std::back_inserter(others), [&](std::size_t run) {
-      return !std::ranges::binary_search(training, run) && !std::ranges::binary_search(held_out, run);
+      return !std::ranges::binary_search(asked.training, run) &&
+             !std::ranges::binary_search(asked.held_out, run);
     });
     return others;
   }
