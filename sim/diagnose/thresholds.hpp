@@ -228,7 +228,8 @@ struct FitThresholds {
   int iterations = 8;                    ///< in a round
   double least_descent = 0.01;  ///< of the cost, where 1 is a parameter moved by its deviation: else the last
   double coarseness = 0.01;     ///< of the cost: that is enough too, what is missing moves parameters further
-  double hopeless = 0.85;  ///< of what is missing to an aim: fits whose straight lines miss more end early
+  double hopeless =
+      0.85;  ///< of what is missing to an aim: fits whose straight lines miss more are not begun
   double least_influence = 1e-12;  ///< sum of squares of a slope [floors per scale], that is rounding below
   double cost_tolerance = 1e-4, thorough_cost_tolerance = 1e-7;            ///< relative: a round has arrived
   double parameter_tolerance = 1e-5, thorough_parameter_tolerance = 1e-7;  ///< relative

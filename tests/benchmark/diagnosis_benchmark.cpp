@@ -10,9 +10,8 @@
 //                                                little of an effect that has relatives: where a name is
 //                                                open, the measurement that is asked for is made, and all is
 //                                                diagnosed again
-//   benchmark_diagnosis --doubts [SEED [SETS]]   the same between two explanations alone, numbers in place of
-//   an
-//                                                effect among them (default 30 data sets)
+//   benchmark_diagnosis --doubts [SEED [SETS]]   the same between two explanations alone, numbers in
+//                                                place of an effect among them (default 30 data sets)
 //   benchmark_diagnosis --pairs [SEED [SEEDS]]   two muscles on one wheel, an effect in one, both or none
 //   benchmark_diagnosis --corrupted [SEED [only=NAME]]   the same for data that were spoilt on purpose
 //
