@@ -126,10 +126,12 @@ void polish(const Case& c, Trial& trial, const Step& step) {
 }
 
 bool at_bounds(const Model& model) {
+  constexpr double most = thresholds.parameter.at_the_edge * thresholds.parameter.most_deviations;
   return std::ranges::any_of(model.free, [&](const Parameter& p) {
     const double value = value_of(model.rig, p.path),
                  edge = thresholds.name.at_bound * (p.highest - p.lowest);
-    return p.has_prior && !p.of_effect() && (value < p.lowest + edge || value > p.highest - edge);
+    return p.has_prior && !p.of_effect() && std::abs(p.deviations(value)) >= most &&
+           (value < p.lowest + edge || value > p.highest - edge);
   });
 }
 

@@ -68,7 +68,8 @@ void polish(const Case& c, Trial& trial, const Step& step);
 /// A size that a fit has not driven against a bound, nor to nothing.
 bool has_size(const Model& model, const Candidate& candidate);
 
-/// Whether a nominal number stands at the edge of what is allowed of it.
+/// Whether a nominal number stands at the edge of what is allowed of it, as far off as is believed. (At
+/// nought, where nature ends it sooner, it may well be: damping that is not there.)
 bool at_bounds(const Model& model);
 
 /// A shape, if it has one, that a fit has not driven against a bound.

@@ -1,10 +1,12 @@
 // Layout of diagnosis.json. Its first keys are relied on from outside (schema mckibben-diagnosis/1).
 #include <algorithm>
+#include <optional>
 #include <string>
 
 #include <ceres/version.h>
 
 #include <sim/diagnose/parameter.hpp>
+#include <sim/diagnose/record.hpp>
 #include <sim/input/field_kinds.hpp>
 #include <sim/input/rigs.hpp>
 #include <sim/output/diagnosis_json.hpp>
@@ -69,6 +71,25 @@ Json constancy_json(const diagnose::Constancy& constancy) {
   return list;
 }
 
+Json ci95(const diagnose::Share& share) {
+  return share.interval();
+}
+
+/// How often a name was right that was given with such evidence; null where that was not measured.
+Json confidence_json(const std::optional<diagnose::Share>& share) {
+  if (!share) return nullptr;
+  return {{"right", share->yes}, {"of", share->of}, {"ci95", ci95(*share)}};
+}
+
+Json false_alarms_json() {
+  const diagnose::Record& record = diagnose::record;
+  return {{"alarms", record.false_alarms.yes},
+          {"of", record.false_alarms.of},
+          {"ci95", ci95(record.false_alarms)},
+          {"seeds", record.null_seeds},
+          {"measured", record.measured}};
+}
+
 Json support_json(const diagnose::Support& support) {
   const bool rivals = std::isfinite(support.before_rivals);
   return {{"misfit_fall", support.fall},
@@ -102,7 +123,7 @@ Json sides_json(const diagnose::NamedEffect& effect) {
   return list;
 }
 
-Json effects_json(const std::vector<diagnose::NamedEffect>& effects) {
+Json effects_json(const diagnose::Diagnosis& diagnosis, const std::vector<diagnose::NamedEffect>& effects) {
   Json list = Json::array();
   for (const auto& effect : effects) {
     Json parameters = Json::object();
@@ -113,6 +134,7 @@ Json effects_json(const std::vector<diagnose::NamedEffect>& effects) {
                     {"parameters", parameters},
                     {"stands_in", effect.stands_in},
                     {"support", support_json(effect.support)},
+                    {"confidence", confidence_json(diagnose::confidence(diagnosis, effect))},
                     {"constancy", constancy_json(effect.constancy)}});
     tell_side(list.back(), effect.side);
     if (Json sides = sides_json(effect); !sides.empty()) list.back()["confusable_sides"] = std::move(sides);
@@ -319,8 +341,8 @@ std::string json_of(const domain::Dataset& data, const diagnose::Diagnosis& diag
   Json document{{"schema", "mckibben-diagnosis/1"},
                 {"verdict", std::string(input::spelling(diagnosis.verdict))},
                 {"because", diagnosis.because},
-                {"effects", effects_json(diagnosis.effects)},
-                {"stand_ins", effects_json(diagnosis.stand_ins)},
+                {"effects", effects_json(diagnosis, diagnosis.effects)},
+                {"stand_ins", effects_json(diagnosis, diagnosis.stand_ins)},
                 {"recalibrated", recalibrated_json(diagnosis, data.rig)},
                 {"left_open", left_open_json(diagnosis)},
                 {"begun", {{"places", diagnosis.begun.places}, {"agree", diagnosis.begun.agree}}},
@@ -332,6 +354,7 @@ std::string json_of(const domain::Dataset& data, const diagnose::Diagnosis& diag
                 {"next_experiment", next_json(diagnosis)},
                 {"search", search_json(diagnosis)},
                 {"false_alarm_rate", diagnosis.false_alarm_rate},
+                {"false_alarms", false_alarms_json()},
                 {"seed", diagnosis.seed},
                 {"warnings", diagnosis.warnings},
                 {"faults", faults_json(diagnosis)},

@@ -95,6 +95,14 @@ std::string twins(const Diagnosis& diagnosis) {
   return text;
 }
 
+std::string confidence(const Diagnosis& diagnosis) {
+  std::string text;
+  for (const auto& effect : diagnosis.effects)
+    if (const auto share = diagnose::confidence(diagnosis, effect))
+      text += fmt::format("  {}: {}\n", full_name(effect), in_words(*share));
+  return text;
+}
+
 std::string next(const Diagnosis& diagnosis) {
   if (!diagnosis.next_experiment) {
     const bool unexplained = diagnosis.gap.floors_left() > diagnose::thresholds.start.explained_floors;
@@ -128,6 +136,7 @@ std::string table_of(const domain::Dataset& data, const Diagnosis& diagnosis) {
   if (!unseen.empty()) text += section("rmse of the runs held out", gap(diagnosis));
   text += section("rmse of what was read beside it, each weighed by its own floor", beside(diagnosis));
   text += section("explain these data as well", twins(diagnosis));
+  text += section("names given with such evidence to simulated data were right", confidence(diagnosis));
   return text + section("to measure next", next(diagnosis));
 }
 

@@ -108,6 +108,11 @@ std::string rounded(double value, int decimals, bool sign) {
   return sign && value > 0.0 && !nothing ? "+" + text : text;
 }
 
+std::string in_words(const diagnose::Share& share) {
+  const auto [low, high] = share.interval();
+  return fmt::format("{} of {} ({:.0f} to {:.0f} %)", share.yes, share.of, 100.0 * low, 100.0 * high);
+}
+
 std::string listed(const std::vector<std::string>& names) {
   if (names.size() < 2) return names.empty() ? "" : names.front();
   return fmt::format("{} and {}", fmt::join(names.begin(), names.end() - 1, ", "), names.back());

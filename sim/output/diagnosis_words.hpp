@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <sim/diagnose/diagnosis.hpp>
+#include <sim/diagnose/record.hpp>
 #include <sim/domain/dataset.hpp>
 
 namespace mckibben::output {
@@ -35,6 +36,9 @@ std::string mass(double kg);
 
 /// With so many decimals, without the sign of a rounded nothing; `sign`: "+" before what is above 0.
 std::string rounded(double value, int decimals, bool sign = false);
+
+/// A share that was measured, with its interval: "57 of 60 (86 to 98 %)".
+std::string in_words(const diagnose::Share& share);
 
 /// "a", "a and b", "a, b and c".
 std::string listed(const std::vector<std::string>& names);

@@ -27,19 +27,21 @@ std::string support_html(const Diagnosis& diagnosis) {
       const auto runs = [](const std::vector<std::string>& ids) {
         return ids.empty() ? std::string("none") : output::listed(ids);
       };
+      const auto share = diagnose::confidence(diagnosis, effect);
       rows += row(full_name(effect),
                   {fmt::format("{:.0f}", support.fall),
                    std::isfinite(support.before_rivals) ? fmt::format("{:.0f}", support.before_rivals)
                                                         : std::string("none tried"),
-                   runs(support.by), runs(support.against)});
+                   runs(support.by), runs(support.against),
+                   share ? output::in_words(*share) : std::string("not measured")});
     }
   if (rows.empty()) return "";
   return "<div class='wide'>" +
          table(
              "What speaks for each name: by how much the misfit falls with it, how much more the best of the "
-             "others leaves that does not do as well, and runs whose own misfit falls or rises by more than "
-             "chance",
-             {"name", "fall", "next best leaves", "runs for it", "runs against it"}, rows) +
+             "others leaves that does not do as well, runs whose own misfit falls or rises by more than "
+             "chance, and how many names were right that were given with such evidence to simulated data",
+             {"name", "fall", "next best leaves", "runs for it", "runs against it", "right"}, rows) +
          "</div>\n";
 }
 

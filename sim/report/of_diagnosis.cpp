@@ -286,11 +286,13 @@ std::string report_html(const domain::Dataset& data, const Diagnosis& diagnosis,
           "{}The noise floor is what counting and jitter of the readings "
           "(here "
           "{}) let nobody see, or what equal runs differ by. The thresholds were set to name an effect where "
-          "none is missing in {:.0f} % of data sets: a rate aimed at, not one measured on these data. Seed "
-          "{}. Every number is in diagnosis.json, the corrected rig in rig.yaml.",
+          "none is missing in {:.0f} % of data sets: a rate aimed at, not one measured on these data. Of "
+          "simulated data sets with nothing missing an effect or a law was given to {} (measured {}, seeds "
+          "{}). Seed {}. Every number is in diagnosis.json, the corrected rig in rig.yaml.",
           of_what_is_judged(data.judged()),
           output::amount(diagnosis.gap.jitter, diagnosis.gap.judged, data.rig),
-          100.0 * diagnosis.false_alarm_rate, diagnosis.seed),
+          100.0 * diagnosis.false_alarm_rate, output::in_words(diagnose::record.false_alarms),
+          diagnose::record.measured, diagnose::record.null_seeds, diagnosis.seed),
       .chapters = story(data, diagnosis, ordered(diagnosis.runs, output::changed(diagnosis))),
       .later_chapters = doubts_and_plan(data, diagnosis),
       .short_on_paper = true,

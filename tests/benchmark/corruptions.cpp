@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
 #include <sim/diagnose/predict.hpp>
 #include <sim/run/simulate.hpp>
@@ -14,15 +13,9 @@ namespace {
 constexpr double length_m = 0.3;  // of the muscle: what a mm is in contraction ratio
 constexpr std::size_t rows = 660;
 
-std::size_t kind_of(const std::string& name) {
-  for (std::size_t kind = 0; kind < kinds(); ++kind)
-    if (title(kind) == name) return kind;
-  throw std::logic_error("no data set hides " + name);
-}
-
 /// The same six of the nine runs, cut to one length: every load, all kinds of current but one.
 Hidden six_runs(const std::string& name, std::uint64_t seed) {
-  Hidden hidden = hide(kind_of(name), seed);
+  Hidden hidden = hide(kind_titled(name), seed);
   std::vector<domain::Run> kept;
   for (const std::size_t run : {0u, 1u, 3u, 4u, 6u, 7u}) {
     kept.push_back(std::move(hidden.data.runs[run]));

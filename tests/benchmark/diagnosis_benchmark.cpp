@@ -18,17 +18,11 @@
 // Every third data set is of the thesis's rig, of one of another size, of one that is badly known.
 // Started by mpirun or srun, its processes share the data sets out and meet in out/bench-diagnosis.ranks.
 // Thresholds of the workflow were set on seeds below 100.
-#include <algorithm>
-#include <array>
 #include <chrono>
-#include <cmath>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <functional>
-#include <limits>
-#include <random>
-#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -41,207 +35,22 @@
 #include <sim/input/hash.hpp>
 #include <sim/run/batch.hpp>
 
-#include "advice_benchmark.hpp"
 #include "corrupted_benchmark.hpp"
+#include "data_sets.hpp"
 #include "doubts_benchmark.hpp"
-#include "hidden_effects.hpp"
 #include "pairs_benchmark.hpp"
-#include "tally.hpp"
+#include "score.hpp"
 
 namespace {
 
 using namespace mckibben;
+using diagnose::DataSet;
+using diagnose::Outcome;
 using diagnose::Verdict;
-
-std::string_view name_of(Verdict verdict) {
-  for (const auto& [value, name] : names(verdict))
-    if (value == verdict) return name;
-  return {};
-}
-
-using Names = std::set<std::string>;
-
-bool holds(const Names& all, const Names& some) {
-  return std::includes(all.begin(), all.end(), some.begin(), some.end());
-}
-
-/// What a diagnosis says, and how that compares with what was hidden.
-struct Answer {
-  Names named, declared;
-  std::string said;
-  bool right = false, within = false;
-
-  Answer(const diagnose::Hidden& hidden, const diagnose::Diagnosis& found) {
-    for (const auto& effect : found.effects) {
-      named.insert(effect.name);
-      declared.insert(effect.name);
-      for (const auto& rival : effect.confusable_with) declared.insert(rival.effect);
-      said += (said.empty() ? "" : " + ") + effect.name;
-      if (!effect.confusable_with.empty())
-        said += fmt::format(" (or {})", fmt::join(words_of(effect.confusable_with), ", "));
-    }
-    const Names truth(hidden.effects.begin(), hidden.effects.end());
-    right = named == truth;
-    within = holds(declared, truth);
-  }
-};
-
-/// How often a true value lies in the interval that is told.
-struct Coverage {
-  int inside = 0, of = 0;
-  void count(double truth, const diagnose::FittedNumber& told) {
-    inside += truth >= told.low && truth <= told.high ? 1 : 0;
-    ++of;
-  }
-};
-
-/// A name that was given, and by what evidence.
-struct Given {
-  bool right = false, alone = true;
-  bool among = false;    ///< right, or one of those is that do as well
-  bool simpler = false;  ///< an explanation without effects does as well
-  double margin = 0.0;   ///< by which it is ahead
-
-  Given() = default;
-  Given(const diagnose::NamedEffect& effect, const std::vector<std::string>& truth, bool simpler_does)
-      : right(is_in(truth, effect.name)),
-        alone(effect.confusable_with.empty()),
-        among(right || std::ranges::any_of(effect.confusable_with,
-                                           [&](const auto& rival) { return is_in(truth, rival.effect); })),
-        simpler(simpler_does),
-        margin(std::min(effect.support.fall, effect.support.before_rivals)) {}
-
- private:
-  static bool is_in(const std::vector<std::string>& list, const std::string& name) {
-    return std::ranges::find(list, name) != list.end();
-  }
-};
-
-bool simpler_does_as_well(const diagnose::Diagnosis& found) {
-  return std::ranges::any_of(found.explanations, [](const diagnose::Explanation& one) {
-    return one.as_good && !one.chosen && one.kind < diagnose::Explanation::Kind::effects;
-  });
-}
-
-/// What counts of a diagnosis.
-struct Outcome {
-  Verdict hidden{}, found{};
-  std::size_t effects = 0;  ///< that were hidden
-  bool right = false, within = false, wrong_name = false, closed = false;
-  Coverage sizes, numbers;
-  std::array<Given, 4> given{};
-  std::size_t names = 0;
-  diagnose::Advice advice{};
-  double took_s = 0.0;
-
-  Outcome(const diagnose::Hidden& truth, const diagnose::Diagnosis& diagnosis, const Answer& answer)
-      : hidden(truth.verdict),
-        found(diagnosis.verdict),
-        effects(truth.effects.size()),
-        right(answer.right),
-        within(answer.within),
-        wrong_name(!answer.named.empty() &&
-                   !holds({truth.effects.begin(), truth.effects.end()}, answer.named)),
-        closed(diagnosis.gap.closed >= 0.9) {
-    for (const auto& planted : truth.truth)
-      for (const auto& effect : diagnosis.effects)
-        for (const auto& p : effect.parameters)
-          if (planted.path == "effects." + effect.name + "." + p.name) sizes.count(planted.value, p);
-    for (const auto& number : truth.numbers)
-      for (const auto& moved : diagnosis.recalibrated)
-        if (moved.fitted.name == number.path) numbers.count(number.value, moved.fitted);
-    for (const auto& effect : diagnosis.effects)
-      if (names < given.size()) given[names++] = {effect, truth.effects, simpler_does_as_well(diagnosis)};
-  }
-  Outcome() = default;
-};
-
-class Score {
- public:
-  void count(const Outcome& outcome) {
-    slowest_s_ = std::max(slowest_s_, outcome.took_s);
-    if (outcome.hidden == Verdict::missing_effect) {
-      const bool right = outcome.right && outcome.found == Verdict::missing_effect;
-      (outcome.effects > 2 ? triples_ : few_).count(right);
-      in_set_.count(outcome.within);
-      if (outcome.right) closed_.count(outcome.closed);
-      if (outcome.right) add(sizes_, outcome.sizes);
-    }
-    if (outcome.right) add(numbers_, outcome.numbers);
-    if (outcome.hidden == Verdict::nothing_missing)
-      false_alarms_.count(outcome.found == Verdict::missing_effect ||
-                          outcome.found == Verdict::unknown_effect);
-    if (outcome.hidden == Verdict::recalibrate) recalibrated_.count(outcome.found == Verdict::recalibrate);
-    if (outcome.hidden == Verdict::unknown_effect) unknown_.count(outcome.found == Verdict::unknown_effect);
-    wrong_names_.count(outcome.wrong_name);
-    advice_.count(outcome.advice);
-    for (std::size_t i = 0; i < outcome.names; ++i) given_.push_back(outcome.given.at(i));
-  }
-
-  void print() const {
-    few_.print("one or two effects: right names");
-    triples_.print("three effects: right names");
-    in_set_.print("effects: right name in the declared set");
-    closed_.print("effects: gap on held-out runs closed by 90 %");
-    sizes_.print("effects: true parameter in its interval");
-    numbers_.print("the rig's numbers: true one in its interval");
-    recalibrated_.print("changed nominal parameter: recalibrate");
-    unknown_.print("unknown laws recognised");
-    false_alarms_.print("nothing hidden: false alarms");
-    wrong_names_.print("wrong names (all data sets)");
-    print_reliability();
-    advice_.print();
-    fmt::print("slowest diagnosis {:.1f} s\n", slowest_s_);
-  }
-
- private:
-  static void add(Tally& tally, const Coverage& coverage) {
-    tally.yes += coverage.inside;
-    tally.of += coverage.of;
-  }
-
-  /// How often names were right, by how far they were ahead.
-  void print_reliability() const {
-    constexpr std::array edges{0.0, 50.0, 200.0, 1000.0, std::numeric_limits<double>::infinity()};
-    for (std::size_t bin = 0; bin + 1 < edges.size(); ++bin) {
-      Tally right;
-      for (const Given& one : given_)
-        if (one.alone && one.margin >= edges.at(bin) && one.margin < edges.at(bin + 1))
-          right.count(one.right);
-      right.print(fmt::format("names ahead by {:g}", edges.at(bin)));
-    }
-    Tally first, among, simpler;
-    for (const Given& one : given_) {
-      if (!one.alone) first.count(one.right);
-      if (!one.alone) among.count(one.among);
-      if (one.simpler) simpler.count(one.right);
-    }
-    first.print("names beside which others do as well: right");
-    among.print("the same: one of them right");
-    simpler.print("names beside which numbers do as well: right");
-  }
-
-  Tally few_, triples_, in_set_, false_alarms_, unknown_, wrong_names_, sizes_, numbers_, closed_,
-      recalibrated_;
-  std::vector<Given> given_;
-  diagnose::AdviceScore advice_;
-  double slowest_s_ = 0.0;
-};
 
 /// A diagnosis for another process: its outcome and its line, as bytes.
 std::string bytes_of(const Outcome& outcome, const std::string& line) {
   return std::string(reinterpret_cast<const char*>(&outcome), sizeof outcome) + line;
-}
-
-struct DataSet {
-  std::size_t kind = 0;
-  std::uint64_t seed = 0;
-  diagnose::Surroundings surroundings{};
-  bool advised = false;  ///< its advice is followed
-};
-
-std::string_view name_of(diagnose::Bench bench) {
-  return bench == diagnose::Bench::thesis ? "" : bench == diagnose::Bench::other_size ? "size" : "wide";
 }
 
 /// The evidence for each name.
@@ -268,7 +77,7 @@ std::string diagnose_one(const DataSet& set) {
   const auto start = std::chrono::steady_clock::now();
   const diagnose::Settings settings{.threads = cluster::crew().threads, .seed = set.seed};
   const auto found = diagnose::diagnose(hidden.data, settings, [](auto, auto, auto) {});
-  const Answer answer(hidden, found);
+  const diagnose::Answer answer(hidden, found);
   Outcome outcome(hidden, found, answer);
   outcome.took_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   std::string advised;
@@ -281,13 +90,13 @@ std::string diagnose_one(const DataSet& set) {
           set.seed, name_of(set.surroundings.bench), name_of(found.verdict), answer.said,
           found.gap.nominal_rmse, found.gap.recalibrated_rmse, found.gap.corrected_rmse, outcome.took_s,
           evidence_in_words(outcome) + (found.verdict == Verdict::unknown_effect ? left_in_words(found) : ""),
-          right                                      ? ""
+          right                                      ? std::string()
           : answer.within && !hidden.effects.empty() ? "  in the set"
-                                                     : "  MISSED",
+                                                     : fmt::format("  MISSED: {}", found.because),
           advised));
 }
 
-void count_and_print(const std::string& bytes, Score& score) {
+void count_and_print(const std::string& bytes, diagnose::Score& score) {
   Outcome outcome;
   std::memcpy(static_cast<void*>(&outcome), bytes.data(), sizeof outcome);
   score.count(outcome);
@@ -315,7 +124,7 @@ void diagnose_all(std::size_t count, const std::string& words, const Job& job, c
 
 /// Diagnoses all of them; after Ctrl-C what was done by then is counted.
 void score_all(const std::vector<DataSet>& sets, const std::string& words) {
-  Score score;
+  diagnose::Score score;
   std::size_t taken = 0;
   run::catch_interrupts();
   try {
@@ -341,82 +150,6 @@ void score_corrupted(const std::vector<std::string>& words) {
       seed = std::strtoull(word.c_str(), nullptr, 10);
   }
   diagnose::score_corrupted(seed, only);
-}
-
-constexpr std::array benches{diagnose::Bench::thesis, diagnose::Bench::other_size,
-                             diagnose::Bench::badly_known};
-
-/// What has a title that begins so, on one bench after another.
-std::vector<DataSet> all_sets(std::uint64_t first, std::uint64_t seeds, const std::string& wanted) {
-  std::vector<DataSet> sets;
-  for (std::size_t kind = 0; kind < diagnose::kinds(); ++kind)
-    if (diagnose::title(kind).starts_with(wanted))
-      for (std::uint64_t seed = first; seed < first + seeds; ++seed)
-        sets.push_back({kind, seed, {.bench = benches.at((kind + seed) % benches.size())}});
-  return sets;
-}
-
-/// Data sets as people have them: four to nine runs of 4 to 5 s.
-diagnose::Surroundings few_runs(diagnose::Bench bench, std::uint64_t number) {
-  constexpr std::array<std::size_t, 4> runs{4, 5, 6, 9};
-  return {.bench = bench, .runs = runs.at(number % runs.size()), .lasting = 0.5};
-}
-
-/// Those in which nothing is hidden, on each bench, and on one that is off its data sheet.
-std::vector<DataSet> nulls(std::uint64_t first, std::uint64_t seeds, const std::string& wanted) {
-  std::vector<DataSet> sets;
-  for (std::uint64_t seed = first; seed < first + seeds; ++seed)
-    for (std::size_t kind = 0; kind < diagnose::kinds(); ++kind) {
-      const std::string& title = diagnose::title(kind);
-      if (!title.starts_with("nothing") || !title.starts_with(wanted)) continue;
-      for (const diagnose::Bench bench : benches) sets.push_back({kind, seed, few_runs(bench, kind + seed)});
-      sets.push_back({kind, seed, few_runs(diagnose::Bench::thesis, kind + seed)});
-      sets.back().surroundings.off_its_sheet = true;
-    }
-  return sets;
-}
-
-/// Small effects made weaker or twice as large, and what has no name, in few runs.
-std::vector<DataSet> weak_ones(std::uint64_t first, std::uint64_t seeds, const std::string& wanted) {
-  std::vector<DataSet> sets;
-  for (std::uint64_t seed = first; seed < first + seeds; ++seed) {
-    std::mt19937_64 random(seed);
-    std::uniform_real_distribution<double> exponent(-1.0, 0.3);
-    for (std::size_t kind = 0; kind < diagnose::kinds(); ++kind) {
-      const std::string& title = diagnose::title(kind);
-      const bool small = title.ends_with(" small") && !title.starts_with("gauge:");
-      if (!small && !title.starts_with("recalibrate") && !title.starts_with("unknown")) continue;
-      DataSet set{kind, seed, few_runs(benches.at((kind + seed) % benches.size()), kind / 2 + seed)};
-      if (small) set.surroundings.share = std::pow(10.0, exponent(random));
-      if (title.starts_with(wanted)) sets.push_back(set);
-    }
-  }
-  return sets;
-}
-
-/// So many data sets in which names may be open: little of an effect that has relatives (docs/effects.md), in
-/// three or four short sines. Delays are not among them, as no current tells
-/// which of the two it is.
-std::vector<DataSet> open_ones(std::uint64_t first, std::size_t count) {
-  constexpr std::array<std::string_view, 10> relatives{
-      "viscous_damping", "guide_friction",  "bladder_hysteresis", "polytropic_gas",   "gas_temperature",
-      "valve_lag",       "valve_dead_band", "valve_hysteresis",   "friction_warm_up", "encoder_backlash"};
-  std::vector<DataSet> sets;
-  std::mt19937_64 random(first);
-  std::uniform_real_distribution<double> exponent(-1.3, 0.0);
-  for (std::size_t i = 0; i < count; ++i) {
-    const std::string wanted = fmt::format("{} small", relatives.at(i % relatives.size()));
-    std::size_t kind = 0;
-    while (diagnose::title(kind) != wanted) ++kind;
-    sets.push_back({.kind = kind,
-                    .seed = first + i / relatives.size(),
-                    .surroundings = {.share = std::pow(10.0, exponent(random)),
-                                     .runs = 3 + i % 2,
-                                     .lasting = 0.4,
-                                     .poor = true},
-                    .advised = true});
-  }
-  return sets;
 }
 
 }  // namespace
@@ -445,10 +178,10 @@ int main(int argc, char** argv) {
   }
   try {
     const std::string wanted = words.size() > 2 ? words[2] : "";
-    score_all(suite == "--nulls"    ? nulls(first, seeds, wanted)
-              : suite == "--weak"   ? weak_ones(first, seeds, wanted)
-              : suite == "--advice" ? open_ones(first, number(1, 60))
-                                    : all_sets(first, seeds, wanted),
+    score_all(suite == "--nulls"    ? diagnose::nulls(first, seeds, wanted)
+              : suite == "--weak"   ? diagnose::weak_ones(first, seeds, wanted)
+              : suite == "--advice" ? diagnose::open_ones(first, number(1, 60))
+                                    : diagnose::all_sets(first, seeds, wanted),
               all);
   } catch (const output::CannotWrite& error) {
     fmt::print(stderr, "mckibben: {}\n", error.what());

@@ -2,14 +2,12 @@
 #include "doubts_benchmark.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdio>
 #include <numeric>
 #include <optional>
 #include <random>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include <fmt/format.h>
@@ -121,16 +119,10 @@ void follow(const Hidden& hidden, const Measured& before, const Contender& effec
   std::fflush(stdout);
 }
 
-constexpr std::array<std::string_view, 10> relatives{
-    "viscous_damping", "guide_friction",  "bladder_hysteresis", "polytropic_gas",   "gas_temperature",
-    "valve_lag",       "valve_dead_band", "valve_hysteresis",   "friction_warm_up", "encoder_backlash"};
-
 Hidden hidden_one(std::uint64_t seed, std::size_t i) {
   std::mt19937_64 random(1000 * seed + i);
-  const std::string wanted = fmt::format("{} small", relatives.at(i % relatives.size()));
-  std::size_t kind = 0;
-  while (title(kind) != wanted) ++kind;
-  return hide(kind, seed + i / relatives.size(),
+  return hide(kind_titled(fmt::format("{} small", relatives.at(i % relatives.size()))),
+              seed + i / relatives.size(),
               {.share = std::pow(10.0, std::uniform_real_distribution<double>(-0.7, 0.3)(random)),
                .runs = 3 + i % 2,
                .lasting = 0.4,

@@ -6,6 +6,7 @@
 #include <functional>
 #include <numbers>
 #include <random>
+#include <stdexcept>
 #include <string_view>
 #include <variant>
 
@@ -336,6 +337,12 @@ std::size_t kinds() {
 
 const std::string& title(std::size_t kind) {
   return all_kinds()[kind].title;
+}
+
+std::size_t kind_titled(std::string_view wanted) {
+  const auto place = std::ranges::find(all_kinds(), wanted, &Kind::title);
+  if (place == all_kinds().end()) throw std::invalid_argument(fmt::format("no data set hides {}", wanted));
+  return static_cast<std::size_t>(place - all_kinds().begin());
 }
 
 Hidden hide(std::size_t index, std::uint64_t seed, const Surroundings& surroundings) {

@@ -3,8 +3,10 @@
 // sheet, jitter, counts and slow disturbances.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <sim/diagnose/diagnosis.hpp>
@@ -47,7 +49,15 @@ struct Surroundings {
 /// seeds hide the other sign where an effect may have either, every third the saturating bladder.
 std::size_t kinds();
 const std::string& title(std::size_t kind);
+/// The one that has this title. Throws std::invalid_argument.
+std::size_t kind_titled(std::string_view wanted);
 Hidden hide(std::size_t kind, std::uint64_t seed, const Surroundings& surroundings = {});
+
+/// Effects that have relatives (docs/effects.md), which poor data may take for them. Delays are not among
+/// them, as no current tells which of the two it is.
+inline constexpr std::array<std::string_view, 10> relatives{
+    "viscous_damping", "guide_friction",  "bladder_hysteresis", "polytropic_gas",   "gas_temperature",
+    "valve_lag",       "valve_dead_band", "valve_hysteresis",   "friction_warm_up", "encoder_backlash"};
 
 /// The measurement that a diagnosis asks for, made on the rig that was measured.
 domain::Run measured_as(const NextExperiment& wanted, const Hidden& hidden);

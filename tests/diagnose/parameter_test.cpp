@@ -8,6 +8,7 @@
 
 #include <sim/diagnose/parameter.hpp>
 #include <sim/diagnose/thresholds.hpp>
+#include <sim/diagnose/trial.hpp>
 
 namespace mckibben::diagnose {
 namespace {
@@ -96,6 +97,18 @@ TEST(NominalParameters, IncludeTheSizesOfEffectsThatTheRigHas) {
   EXPECT_TRUE(carries(rig, "valve_dead_band"));
   EXPECT_FALSE(carries(rig, "muscle_leak"));
   EXPECT_EQ(nominal_parameters(plant::Rig{}).size() + 3, list.size());
+}
+
+TEST(NominalParameters, AreBentAtTheEdgeOfWhatIsBelievedNotWhereNatureEndsThem) {
+  Model model{.rig = plant::Rig{}, .free = nominal_parameters(plant::Rig{})};
+  EXPECT_FALSE(at_bounds(model));
+  Parameter& damping = *std::ranges::find(model.free, "joint.guide_damping", &Parameter::path);
+  damping.put(model.rig, damping.lowest);
+  EXPECT_TRUE(at_bounds(model));
+  damping.scale = 0.6 * damping.origin;  // known to 60 %: nought is less than two deviations off
+  damping.lowest = 0.0;
+  damping.put(model.rig, 0.0);
+  EXPECT_FALSE(at_bounds(model));
 }
 
 TEST(Catalogue, ALawWithATermMoreIsLookedForWhereTheShorterOneIs) {

@@ -79,12 +79,28 @@ TEST(DiagnosisJson, HoldsWhatIsPromised) {
   EXPECT_EQ(next.at("load_kg"), 16.138);
   EXPECT_EQ(next.at("expected_power"), 0.93);
   EXPECT_EQ(document.at("false_alarm_rate"), 0.03);
+  EXPECT_EQ(document.at("false_alarms").at("of"), diagnose::record.false_alarms.of);
   EXPECT_EQ(document.at("seed"), 7);
   EXPECT_EQ(document.at("runs").at(3).at("left_out"), true);
   EXPECT_FALSE(document.at("ranking").at(2).contains("held_out_rmse"));  // was not refitted
   EXPECT_EQ(document.at("confusion").at("likeness").at(1).at(2), 0.93);
   EXPECT_EQ(document.at("input_files").at(0).at("file"), "measured/dataset.yaml");
   EXPECT_TRUE(document.at("program").contains("ceres"));
+}
+
+TEST(DiagnosisJson, TellsHowOftenSuchNamesWereRight) {
+  diagnose::Diagnosis found = diagnosed();
+  const auto told = [&](std::size_t effect) {
+    return Json::parse(json_of(measured(), found)).at("effects").at(effect).at("confidence");
+  };
+  EXPECT_TRUE(told(0).is_null()) << "more than noise is left";
+  found.remaining.floors = 1.0;
+  found.effects[0].support = {.fall = 1e9, .before_rivals = 1e9};
+  const diagnose::Share right = diagnose::record.names.back().right;
+  EXPECT_EQ(told(0).at("of"), right.of);
+  EXPECT_EQ(told(0).at("right"), right.yes);
+  EXPECT_EQ(told(0).at("ci95").at(0), right.interval()[0]);
+  EXPECT_NE(table_of(measured(), found).find("muscle_leak: " + in_words(right)), std::string::npos);
 }
 
 TEST(DiagnosisJson, TellsWhatWasReadBesideOnlyWhereSomethingWas) {

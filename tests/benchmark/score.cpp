@@ -1,0 +1,147 @@
+// See the header.
+#include "score.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <sim/diagnose/record.hpp>
+
+namespace mckibben::diagnose {
+
+std::string_view name_of(Verdict verdict) {
+  for (const auto& [value, name] : names(verdict))
+    if (value == verdict) return name;
+  return {};
+}
+
+namespace {
+
+using Names = std::set<std::string>;
+
+bool holds(const Names& all, const Names& some) {
+  return std::includes(all.begin(), all.end(), some.begin(), some.end());
+}
+
+bool is_in(const std::vector<std::string>& list, const std::string& name) {
+  return std::ranges::find(list, name) != list.end();
+}
+
+bool simpler_does_as_well(const Diagnosis& found) {
+  return std::ranges::any_of(found.explanations, [](const Explanation& one) {
+    return one.as_good && !one.chosen && one.kind < Explanation::Kind::effects;
+  });
+}
+
+void add(Tally& tally, const Coverage& coverage) {
+  tally.yes += coverage.inside;
+  tally.of += coverage.of;
+}
+
+}  // namespace
+
+Answer::Answer(const Hidden& hidden, const Diagnosis& found) {
+  for (const auto& effect : found.effects) {
+    named.insert(effect.name);
+    declared.insert(effect.name);
+    for (const auto& rival : effect.confusable_with) declared.insert(rival.effect);
+    said += (said.empty() ? "" : " + ") + effect.name;
+    if (!effect.confusable_with.empty())
+      said += fmt::format(" (or {})", fmt::join(words_of(effect.confusable_with), ", "));
+  }
+  const Names truth(hidden.effects.begin(), hidden.effects.end());
+  right = named == truth;
+  within = holds(declared, truth);
+}
+
+void Coverage::count(double truth, const FittedNumber& told) {
+  inside += truth >= told.low && truth <= told.high ? 1 : 0;
+  ++of;
+}
+
+Given::Given(const NamedEffect& effect, const std::vector<std::string>& truth, bool simpler_does)
+    : right(is_in(truth, effect.name)),
+      alone(effect.confusable_with.empty()),
+      among(right || std::ranges::any_of(effect.confusable_with,
+                                         [&](const auto& rival) { return is_in(truth, rival.effect); })),
+      simpler(simpler_does),
+      margin(diagnose::margin(effect.support)) {}
+
+Outcome::Outcome(const Hidden& truth, const Diagnosis& diagnosis, const Answer& answer)
+    : hidden(truth.verdict),
+      found(diagnosis.verdict),
+      effects(truth.effects.size()),
+      right(answer.right),
+      within(answer.within),
+      wrong_name(!answer.named.empty() && !holds({truth.effects.begin(), truth.effects.end()}, answer.named)),
+      closed(diagnosis.gap.closed >= 0.9) {
+  for (const auto& planted : truth.truth)
+    for (const auto& effect : diagnosis.effects)
+      for (const auto& p : effect.parameters)
+        if (planted.path == "effects." + effect.name + "." + p.name) sizes.count(planted.value, p);
+  for (const auto& number : truth.numbers)
+    for (const auto& moved : diagnosis.recalibrated)
+      if (moved.fitted.name == number.path) numbers.count(number.value, moved.fitted);
+  for (const auto& effect : diagnosis.effects)
+    if (names < given.size()) given[names++] = {effect, truth.effects, simpler_does_as_well(diagnosis)};
+}
+
+void Score::count(const Outcome& outcome) {
+  slowest_s_ = std::max(slowest_s_, outcome.took_s);
+  if (outcome.hidden == Verdict::missing_effect) {
+    const bool right = outcome.right && outcome.found == Verdict::missing_effect;
+    (outcome.effects > 2 ? triples_ : few_).count(right);
+    in_set_.count(outcome.within);
+    if (outcome.right) closed_.count(outcome.closed);
+    if (outcome.right) add(sizes_, outcome.sizes);
+  }
+  if (outcome.right) add(numbers_, outcome.numbers);
+  if (outcome.hidden == Verdict::nothing_missing)
+    false_alarms_.count(outcome.found == Verdict::missing_effect || outcome.found == Verdict::unknown_effect);
+  if (outcome.hidden == Verdict::recalibrate) recalibrated_.count(outcome.found == Verdict::recalibrate);
+  if (outcome.hidden == Verdict::unknown_effect) unknown_.count(outcome.found == Verdict::unknown_effect);
+  wrong_names_.count(outcome.wrong_name);
+  advice_.count(outcome.advice);
+  for (std::size_t i = 0; i < outcome.names; ++i) given_.push_back(outcome.given.at(i));
+}
+
+void Score::print() const {
+  few_.print("one or two effects: right names");
+  triples_.print("three effects: right names");
+  in_set_.print("effects: right name in the declared set");
+  closed_.print("effects: gap on held-out runs closed by 90 %");
+  sizes_.print("effects: true parameter in its interval");
+  numbers_.print("the rig's numbers: true one in its interval");
+  recalibrated_.print("changed nominal parameter: recalibrate");
+  unknown_.print("unknown laws recognised");
+  false_alarms_.print("nothing hidden: false alarms");
+  wrong_names_.print("wrong names (all data sets)");
+  print_reliability();
+  advice_.print();
+  fmt::print("slowest diagnosis {:.1f} s\n", slowest_s_);
+}
+
+/// How often names were right, by how far they were ahead, and what is told of such names.
+void Score::print_reliability() const {
+  const auto& bins = record.names;
+  for (auto bin = bins.begin(); bin != bins.end(); ++bin) {
+    const auto next = std::next(bin);
+    Tally right;
+    for (const Given& one : given_)
+      if (one.alone && one.margin >= bin->margin && (next == bins.end() || one.margin < next->margin))
+        right.count(one.right);
+    right.print(fmt::format("names ahead by {:g} (told {:.1f} %)", bin->margin, 100.0 * bin->right.value()));
+  }
+  Tally first, among, simpler;
+  for (const Given& one : given_) {
+    if (!one.alone) first.count(one.right);
+    if (!one.alone) among.count(one.among);
+    if (one.simpler) simpler.count(one.right);
+  }
+  first.print("names beside which others do as well: right");
+  among.print("the same: one of them right");
+  simpler.print("names beside which numbers do as well: right");
+}
+
+}  // namespace mckibben::diagnose
