@@ -11,7 +11,7 @@
 //
 // and then tells what was found (story, left_open, start, run_gaps). All of it stands on a few tools: runs
 // against a rig (experiment, predict, noise, parameter), fits (fit, interval), slopes (screen, regression),
-// runs held out (held_out). Every number that decides is in thresholds.hpp.
+// runs held out (held_out). Every number that decides is in thresholds/.
 #pragma once
 
 #include <cstdint>
