@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <sim/diagnose/baseline.hpp>
+#include <sim/diagnose/catalogue.hpp>
 #include <sim/diagnose/check.hpp>
 #include <sim/diagnose/competition.hpp>
 #include <sim/diagnose/constancy.hpp>

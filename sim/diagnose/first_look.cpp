@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include <sim/diagnose/catalogue.hpp>
 #include <sim/diagnose/first_look.hpp>
 #include <sim/diagnose/further.hpp>
 #include <sim/diagnose/repair.hpp>

@@ -8,6 +8,7 @@
 
 #include <Eigen/Core>
 
+#include <sim/diagnose/candidate.hpp>
 #include <sim/diagnose/experiment.hpp>
 
 namespace mckibben::diagnose {

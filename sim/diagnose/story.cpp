@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <sim/diagnose/catalogue.hpp>
 #include <sim/diagnose/story.hpp>
 #include <sim/diagnose/thresholds.hpp>
 

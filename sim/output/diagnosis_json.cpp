@@ -4,7 +4,7 @@
 
 #include <ceres/version.h>
 
-#include <sim/diagnose/parameter.hpp>
+#include <sim/diagnose/priors.hpp>
 #include <sim/input/field_kinds.hpp>
 #include <sim/input/rigs.hpp>
 #include <sim/output/diagnosis_json.hpp>
