@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <sim/diagnose/amount.hpp>
 #include <sim/diagnose/baseline.hpp>
 #include <sim/diagnose/catalogue.hpp>
 #include <sim/diagnose/check.hpp>
@@ -11,6 +12,7 @@
 #include <sim/diagnose/constancy.hpp>
 #include <sim/diagnose/decide.hpp>
 #include <sim/diagnose/diagnose.hpp>
+#include <sim/diagnose/estimates.hpp>
 #include <sim/diagnose/faults.hpp>
 #include <sim/diagnose/first_look.hpp>
 #include <sim/diagnose/further.hpp>
@@ -22,6 +24,7 @@
 #include <sim/diagnose/profile.hpp>
 #include <sim/diagnose/ranking.hpp>
 #include <sim/diagnose/remaining.hpp>
+#include <sim/diagnose/remarks.hpp>
 #include <sim/diagnose/repair.hpp>
 #include <sim/diagnose/run_gaps.hpp>
 #include <sim/diagnose/search.hpp>
