@@ -14,6 +14,7 @@
 #include <sim/input/yaml_reader.hpp>
 #include <sim/input/yaml_writer.hpp>
 #include <sim/law/compile.hpp>
+#include <sim/law/names.hpp>
 
 namespace mckibben::input {
 namespace {
