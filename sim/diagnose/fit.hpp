@@ -2,8 +2,8 @@
 // measured runs.
 #pragma once
 
-#include <optional>
-#include <span>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
