@@ -14,6 +14,7 @@
 #include <sim/cli/options.hpp>
 #include <sim/cli/results.hpp>
 #include <sim/cli/verbs.hpp>
+#include <sim/diagnose/catalogue.hpp>
 #include <sim/diagnose/parameter.hpp>
 #include <sim/input/field_list.hpp>
 #include <sim/input/hypothesis_file.hpp>

@@ -3,6 +3,8 @@
 #include <optional>
 
 #include <sim/diagnose/baseline.hpp>
+#include <sim/diagnose/catalogue.hpp>
+#include <sim/diagnose/priors.hpp>
 #include <sim/diagnose/starts.hpp>
 #include <sim/diagnose/thresholds.hpp>
 

@@ -5,12 +5,12 @@
 
 #include <fmt/format.h>
 
+#include <sim/diagnose/amount.hpp>
 #include <sim/diagnose/check.hpp>
 #include <sim/diagnose/labels.hpp>
 #include <sim/diagnose/odd_readings.hpp>
 #include <sim/diagnose/other_units.hpp>
 #include <sim/diagnose/repair.hpp>
-#include <sim/diagnose/story.hpp>
 #include <sim/diagnose/thresholds.hpp>
 #include <sim/run/batch.hpp>
 #include <sim/run/judged.hpp>

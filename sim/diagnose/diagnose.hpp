@@ -1,4 +1,4 @@
-// The whole workflow, in running order:
+// The whole workflow, in running order (workflow, evidence):
 //
 //   check      which data can be trusted                check, odd_readings, labels
 //              faults of recordings, found and mended   first_look, faults, suspicions, shapes, repair
@@ -9,9 +9,10 @@
 //   decide     the verdict                              decide
 //   plan       the measurement that would tell more     plan
 //
-// and then tells what was found (story, left_open, start, run_gaps). All of it stands on a few tools: runs
-// against a rig (experiment, predict, noise, parameter), fits (fit, interval), slopes (screen, regression),
-// runs held out (held_out). Every number that decides is in thresholds.hpp.
+// and then tells what was found (handing_over, estimates, left_open, start, run_gaps, remarks, story). All of
+// it stands on a few tools: numbers and effects of a rig (parameter, priors, candidate, catalogue), runs
+// against it (experiment, predict, noise), fits (fit, interval), slopes (screen, regression), runs held out
+// (held_out). Every number that decides is in thresholds/.
 #pragma once
 
 #include <cstdint>

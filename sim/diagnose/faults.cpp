@@ -39,6 +39,7 @@ Examined Examination::operator()() {
 bool Examination::worth_telling(FaultKind kind, double size) const {
   switch (kind) {
     case FaultKind::late:
+      return std::abs(size) * experiment_.data().readings_in_a_row() >= of_faults.least_ticks;
     case FaultKind::rows_lost:
       return std::abs(size) >= of_faults.least_ticks;
     case FaultKind::current_scale:
@@ -75,7 +76,8 @@ void Examination::fly() {
     const Eigen::Map<const Eigen::VectorXd> shown(measured.data(), part.rows);
     readings_.push_back(static_cast<double>(part.rows));
     undisturbed_.push_back({shown - scale * of_run(fitted.residuals), scale * of_run(driven.columns).col(0),
-                            scale * of_run(driven.columns).col(1)});
+                            scale * of_run(driven.columns).col(1),
+                            experiment_.data().readings_in_a_row() > 1.0});
   }
   for (const int ticks : of_faults.common_ticks) {
     lates_.push_back({ticks, Eigen::VectorXd::Zero(residuals_.size())});

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include <sim/diagnose/candidate.hpp>
 #include <sim/diagnose/experiment.hpp>
 #include <sim/diagnose/fit.hpp>
 #include <sim/diagnose/screen.hpp>

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include <sim/diagnose/catalogue.hpp>
 #include <sim/diagnose/first_look.hpp>
 #include <sim/diagnose/further.hpp>
 #include <sim/diagnose/repair.hpp>
@@ -19,8 +20,7 @@ std::pair<std::ptrdiff_t, std::size_t> shortfall(const std::vector<Fault>& fault
 }
 
 /// Whether a model that is fitted to a few of all runs as they are takes each of all there.
-bool leads_to_all(const Case& c, const Model& model, const Runs& usable) {
-  const Runs few = asked(c.experiment.data(), usable);
+bool leads_to_all(const Case& c, const Model& model, const Runs& few, const Runs& usable) {
   const auto fitted = fit(c.experiment, model, few, {.inflation = thresholds.scatter.first_inflation});
   return reaches_all(c.experiment, fitted, few, usable);
 }
@@ -29,10 +29,10 @@ bool leads_to_all(const Case& c, const Model& model, const Runs& usable) {
 /// without a suspicion. A fit to few runs may end where no way leads on.
 bool explains_all(const Case& c, const Model& described, const Suspicion& suspicion, const Model& from,
                   const Runs& usable) {
-  if (leads_to_all(c, from, usable)) return true;
   const Runs few = asked(c.experiment.data(), usable);
+  if (leads_to_all(c, from, few, usable)) return true;
   const Case of_all{c.experiment, c.nominal, {few, c.split.held_out}, c.inflation, c.learned};
-  return leads_to_all(c, with(of_all, described, suspicion.effect), usable);
+  return leads_to_all(c, with(of_all, described, suspicion.effect), few, usable);
 }
 
 /// The suspected effect fitted to the runs that may be sound, the fault that all have taken out.

@@ -2,12 +2,13 @@
 // measured runs.
 #pragma once
 
-#include <optional>
-#include <span>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
 
+#include <sim/diagnose/candidate.hpp>
 #include <sim/diagnose/experiment.hpp>
 
 namespace mckibben::diagnose {

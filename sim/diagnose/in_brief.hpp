@@ -2,8 +2,6 @@
 // columns with one another, and least squares the same answer. Long recordings are regressed so, run by run.
 #pragma once
 
-#include <algorithm>
-
 #include <Eigen/QR>
 
 namespace mckibben::diagnose {

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <plant/geometry.hpp>
+#include <sim/diagnose/candidate.hpp>
 #include <sim/diagnose/interval.hpp>
 #include <sim/diagnose/law.hpp>
 #include <sim/diagnose/thresholds.hpp>

@@ -306,11 +306,17 @@ bool asks_for_several(const Naming& result) {
 }  // namespace
 
 Naming name_effects(const Case& c, const Contender& nominal, const Contender& recalibrated,
-                    const Eigen::VectorXd& reference, const Step& step, Search& search) {
+                    const Eigen::VectorXd& reference, const AtFault& at_fault, const Step& step,
+                    Search& search) {
   Naming result;
   result.best = recalibrated;
   Eigen::VectorXd before = reference;
   std::vector<Screening> first;  // at the rig as described and as recalibrated
+  const auto is_at_fault = [&](More more) {
+    bool faulty = false;
+    search.part("faults of runs beside what was found", [&] { faulty = at_fault(result.best, more); });
+    return faulty;
+  };
   for (int round = 1; round <= static_cast<int>(to_name.most_effects); ++round) {
     const std::string name = fmt::format("naming, round {}", round);
     step(stage(name));
@@ -350,9 +356,11 @@ Naming name_effects(const Case& c, const Contender& nominal, const Contender& re
     const bool revised =
         search.part("whether each effect is needed", [&] { revise(c, result, reference, step); });
     if (!whole || !revised) break;
+    if (is_at_fault(More::not_tried)) return result;
     before = result.best.held_out;
   }
   if (asks_for_several(result)) {
+    if (!result.effects.empty() && is_at_fault(More::tried_in_vain)) return result;
     search.part("several effects at once", [&] {
       std::vector<Screening> bases = std::move(first);
       const Contender named = result.best;  // and what more there may be beside the names

@@ -1,6 +1,7 @@
 // Which effects are missing: one is added after another, each chosen on runs that the fits have not seen.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -38,9 +39,15 @@ struct Naming {
   std::vector<std::vector<double>> confusion{};
 };
 
+enum class More { not_tried, tried_in_vain };
+using AtFault = std::function<bool(const Contender&, More)>;
+
 /// Starts from the nominal and from the recalibrated rig. `reference`: residuals held out that an improvement
-/// is measured against. Where the search is ended, the best of what was tried by then is chosen.
+/// is measured against. Where the search is ended, the best of what was tried by then is chosen. `at_fault`:
+/// whether single runs are what is left beside a model, with one more effect not tried yet, or in vain. Then
+/// no more names are looked for: they would stand in for the runs' faults.
 Naming name_effects(const Case& c, const Contender& nominal, const Contender& recalibrated,
-                    const Eigen::VectorXd& reference, const Step& step, Search& search);
+                    const Eigen::VectorXd& reference, const AtFault& at_fault, const Step& step,
+                    Search& search);
 
 }  // namespace mckibben::diagnose

@@ -14,8 +14,8 @@ namespace {
 
 /// Ticks of a rig that has any; else a time.
 std::string ticks(const domain::Dataset& data, double number) {
+  if (data.own_clock) return fmt::format("{:.3g} ms", 1e3 * std::abs(number) * data.row_s());
   const double whole = std::abs(std::round(number));
-  if (data.own_clock) return fmt::format("{:.0f} ms", 1e3 * whole * data.row_s());
   return fmt::format("{:.0f} tick{}", whole, whole == 1.0 ? "" : "s");
 }
 
@@ -105,8 +105,8 @@ FaultyRun told(const domain::Dataset& data, const Fault& fault) {
   };
   switch (fault.kind) {
     case FaultKind::late:
-      faulty.size = std::round(fault.size);
-      tell("late", "tick",
+      faulty.size = data.own_clock ? fault.size * data.row_s() : std::round(fault.size);
+      tell("late", data.own_clock ? "s" : "tick",
            fmt::format("is {} {}", ticks(data, fault.size), fault.size > 0.0 ? "late" : "early"));
       break;
     case FaultKind::current_scale:
@@ -153,9 +153,10 @@ void mend(domain::Dataset& data, Checked& checked, const std::vector<Fault>& fau
   for (const Fault& fault : faults) {
     FaultyRun faulty = told(data, fault);
     domain::Run& run = data.runs[fault.run];
-    const bool late = fault.kind == FaultKind::late, zero = fault.kind == FaultKind::zero;
+    const int rows = static_cast<int>(std::round(fault.size));  // 0 if it is late by part of one
+    const bool late = fault.kind == FaultKind::late && rows != 0, zero = fault.kind == FaultKind::zero;
     const bool common_drift = fault.kind == FaultKind::drift && fault.common;
-    if (late) shift(data.rig, run, checked.masked[fault.run], static_cast<int>(std::round(fault.size)));
+    if (late) shift(data.rig, run, checked.masked[fault.run], rows);
     if (zero) take_out(run, counts(data, run), count, fault.size, fault.size);
     if (common_drift) take_out(run, counts(data, run), count, 0.0, fault.size);
     if (late || zero || common_drift) {

@@ -7,6 +7,7 @@
 
 #include <Eigen/Cholesky>
 
+#include <sim/diagnose/candidate.hpp>
 #include <sim/diagnose/fit.hpp>
 
 namespace mckibben::diagnose {

@@ -63,6 +63,10 @@ void each_shape(const Undisturbed& run, const std::function<void(const Shape&)>&
   const Eigen::Index rows = run.model.size();
   visit({FaultKind::zero, 0, 0.0, Eigen::VectorXd::Ones(rows)});
   visit({FaultKind::drift, 0, 0.0, ramp(rows)});
+  if (run.of_stamps) {
+    const Eigen::VectorXd slight = 0.5 * (lateness(run.model, 1) + lateness(run.model, -1));
+    for (const double half : {0.5, -0.5}) visit({FaultKind::late, 0, half, slight});
+  }
   for (int ticks = 1; ticks <= thresholds.fault.most_ticks; ++ticks)
     for (const int signed_ticks : {ticks, -ticks})
       visit({FaultKind::late, 0, static_cast<double>(signed_ticks), lateness(run.model, signed_ticks)});

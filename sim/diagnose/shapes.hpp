@@ -21,6 +21,7 @@ struct Shape {
 /// it really had, for a share of 1 and for 1 mA.
 struct Undisturbed {
   Eigen::VectorXd model, scale, offset;
+  bool of_stamps = false;  ///< rows hold several readings: one may be late by part of a row
 };
 
 /// A current that is higher in the table than what the valve had, by a share and by mA: the same as another

@@ -3,175 +3,15 @@
 #include <cctype>
 #include <cmath>
 #include <tuple>
+#include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <sim/diagnose/amount.hpp>
 #include <sim/diagnose/story.hpp>
-#include <sim/diagnose/thresholds.hpp>
 
 namespace mckibben::diagnose {
-namespace {
-
-constexpr std::string_view law_terms = "effects.residual_law.terms.";
-
-std::string words(const plant::ForceTerm& term) {
-  if (term.of == plant::Basis::sine) {
-    const bool shifted = std::abs(term.phase_rad) >= thresholds.law.told_phase;
-    return fmt::format(
-        "sin(2 pi x / {:.3f} mm{})", 1e3 * term.wavelength_m,
-        shifted ? fmt::format(" {} {:.2f} rad", term.phase_rad < 0.0 ? "-" : "+", std::abs(term.phase_rad))
-                : "");
-  }
-  for (const auto& [basis, name] : names(plant::Basis{}))
-    if (basis == term.of) return std::string(name);
-  return {};
-}
-
-std::string sentence_of(const std::string& effect, const plant::Effects& of_rig) {
-  std::string text;
-  std::apply([&](const auto&... e) { ((effect == e.name ? void(text = e.sentence) : void()), ...); },
-             plant::Effects::Table{});
-  for (const auto& law : of_rig.laws.list)
-    if (effect == law.text->name) text = law.text->sentence;
-  return text;
-}
-
-}  // namespace
-
-void tell_parameters(Diagnosis& diagnosis, const Model& model, const std::vector<Bounds>& bounds,
-                     const RigFile& recalibrated) {
-  const auto& terms = model.rig.effects.get<plant::ResidualForce>().terms;
-  RigFile rig = model.rig;
-  for (std::size_t j = 0; j < model.free.size(); ++j) {
-    const Parameter& p = model.free[j];
-    const Bounds& at = bounds[j];
-    FittedNumber number{p.path,  find(rig, p.path).unit, at.value,    at.low,
-                        at.high, at.determined,          at.quadratic};
-    if (p.has_prior) {
-      const double moved = p.deviations(number.value);
-      const double most = thresholds.parameter.at_the_edge * thresholds.parameter.most_deviations;
-      diagnosis.recalibrated.push_back({number, p.origin, moved, std::abs(p.scaled(number.value)) > most});
-      diagnosis.absorbed.push_back({p.path, p.deviations(value_of(recalibrated, p.path)), moved});
-      continue;
-    }
-    for (auto* effects : {&diagnosis.effects, &diagnosis.stand_ins})
-      for (auto& effect : *effects) {
-        std::string prefix = keys_of(effect.who());
-        if (!p.path.starts_with(prefix)) prefix = fmt::format("effects.{}.{}.", of_laws, effect.name);
-        if (!p.path.starts_with(prefix)) continue;
-        number.name = p.path.substr(prefix.size());
-        effect.parameters.push_back(number);
-      }
-    if (!p.path.starts_with(law_terms)) continue;
-    // terms.INDEX.KEY: the nominal rig may have had terms of its own.
-    const std::size_t dot = p.path.find('.', law_terms.size());
-    number.name = p.path.substr(dot + 1);
-    if (number.name == "coefficient") {
-      const auto index = std::stoul(p.path.substr(law_terms.size(), dot - law_terms.size()));
-      number.name = words(terms[index]);
-      diagnosis.residual_law.push_back({number.name, number});
-    } else {
-      diagnosis.residual_law.back().shape.push_back(number);  // a term's coefficient comes first
-    }
-  }
-}
-
-std::string amount_of(Judged judged, double value, const RigFile& rig, int digits) {
-  switch (judged) {
-    case Judged::force:
-      return fmt::format("{:.{}g} N", value, digits);
-    case Judged::angle:
-      return fmt::format("{:.{}g} deg", value / plant::degree_rad, digits);
-    case Judged::contraction:
-      break;
-  }
-  return fmt::format("{:.{}g} mm", 1e3 * value * rig.muscle.rest_length_m, digits);
-}
-
-std::string_view unit_in_words(Judged judged) {
-  switch (judged) {
-    case Judged::force:
-      return "N";
-    case Judged::angle:
-      return "rad";
-    case Judged::contraction:
-      break;
-  }
-  return "in contraction ratio";
-}
-
-namespace {
-
-std::string noise_of_given_pressure(const domain::Dataset& data, const NoiseFloor& floor) {
-  switch (data.judged()) {
-    case Judged::force:
-      return fmt::format("force, {:.2g} N", floor.given);
-    case Judged::angle:
-      return fmt::format("joint, {}", amount_of(Judged::angle, floor.given, data.rig));
-    case Judged::contraction:
-      break;
-  }
-  return fmt::format("motion, {:.2g} in contraction ratio", floor.given);
-}
-
-}  // namespace
-
-std::vector<std::string> sheets_in_words(const domain::Dataset& data, const NoiseFloor& floor) {
-  std::vector<std::string> words;
-  if (floor.command > 0.0)
-    words.push_back(fmt::format(
-        "the regulator repeats a pressure within {:.2g} mbar; what that does to what was read, {} (rms), "
-        "counts "
-        "in the noise floor",
-        1e-2 * data.rig.valve.repeatability_Pa, amount_of(data.judged(), floor.command, data.rig)));
-  if (floor.accuracy > 0.0)
-    words.push_back(fmt::format("the sensor's accuracy, {}, counts in the noise floor",
-                                amount_of(data.judged(), floor.accuracy, data.rig)));
-  return words;
-}
-
-std::vector<std::string> rows_in_words(const domain::Dataset& data, const NoiseFloor& floor) {
-  std::vector<std::string> words;
-  if (!data.rows_of_stamps) return words;
-  const domain::Rows& rows = *data.rows_of_stamps;
-  if (rows.rows < rows.stamps)
-    words.push_back(
-        fmt::format("of {} stamps {} rows were judged, {:.3g} ms apart, each of {:.0f} readings on average; "
-                    "the inputs were "
-                    "followed at {} stamps, with all at which they jump or bend",
-                    rows.stamps, rows.rows, 1e3 * rows.row_s, rows.readings, rows.inputs));
-  if (rows.given_noise_Pa > 0.0)
-    words.push_back(fmt::format(
-        "the noise of the given pressure, {:.2g} mbar, {}; what it does to the {}, counts in the noise floor",
-        1e-2 * rows.given_noise_Pa, rows.smoothed ? "was smoothed" : "was left as it is",
-        noise_of_given_pressure(data, floor)));
-  if (rows.slack > 0)
-    words.push_back(
-        fmt::format("{} readings of force are 0, a cord that hangs through: how far the muscle is from "
-                    "pulling they do not say, and nothing goes by them",
-                    rows.slack));
-  if (rows.at_the_end > 0)
-    words.push_back(
-        fmt::format("{} readings of force are at the end of the load cell's range; nothing goes by them",
-                    rows.at_the_end));
-  if (data.force_is_judged())
-    words.push_back(
-        "the muscle's length is the input: what acts on the load, on its guide or on the encoder is out of "
-        "sight, "
-        "and runs are not looked through for faults of a recorder");
-  const bool pair = data.judged() == Judged::angle;
-  if (pair)
-    words.push_back(
-        "two muscles turn the joint: effects are looked for on both alike and on each; runs are not looked "
-        "through for faults of a recorder, no further measurement is planned, and a load's guide there is "
-        "none");
-  if (data.pressure_is_given())
-    words.push_back(
-        fmt::format("the muscle{} the input: valve, supply, hose and gas are out of sight, and with them {}",
-                    pair ? "s' pressures are" : "'s pressure is", fmt::join(effects_out_of_sight(), ", ")));
-  return words;
-}
 
 std::string faults_in_words(const Diagnosis& d) {
   std::string text;
@@ -185,91 +25,16 @@ std::string faults_in_words(const Diagnosis& d) {
   return text + ". ";
 }
 
-std::pair<std::string_view, std::string_view> told(domain::Beside which, bool pair) {
-  switch (which) {
-    case domain::Beside::force:
-      return {"force", "N"};
-    case domain::Beside::opposite_pressure:
-      return {"muscle_pressure_2", "Pa"};
-    case domain::Beside::muscle_pressure:
-      break;
-  }
-  return {pair ? "muscle_pressure_1" : "muscle_pressure", "Pa"};
-}
-
-std::string besides_in_words(const domain::Dataset& data) {
-  std::vector<std::string> list;
-  for (const domain::Beside which : domain::besides) {
-    const auto read = [&](const domain::Run& run) { return run.beside(which) != nullptr; };
-    if (std::ranges::none_of(data.runs, read)) continue;
-    const auto [reading, unit] = told(which, data.rig.pair() != nullptr);
-    list.push_back(fmt::format("{}_{}", reading, unit == "Pa" ? "bar" : unit));
-  }
-  return fmt::format("{}", fmt::join(list, " and "));
-}
-
-std::string ignored_in_words(const domain::Dataset& data) {
-  const auto has = [&](domain::Beside which) {
-    return std::ranges::any_of(data.runs, [&](const auto& run) { return run.beside(which) != nullptr; });
-  };
-  const bool gauge = std::ranges::any_of(domain::gauges, has), cell = has(domain::Beside::force);
-  const bool several = std::ranges::count_if(domain::besides, has) > 1;
-  return fmt::format(
-      "{} {} ignored: no model meets both {} and the motion, but one meets the motion alone "
-      "(has the {} an offset, another scale, a limit; was it on another muscle?)",
-      besides_in_words(data), several ? "are" : "is", several ? "them" : "it",
-      gauge && cell ? "gauge or the load cell"
-      : gauge       ? "gauge"
-                    : "load cell");
-}
-
-std::string remark_in_words(Remark remark, const Naming& naming, double left, const std::string& besides) {
-  std::vector<std::string> names;
-  for (const NamedEffect& effect : naming.effects) names.push_back(full_name(effect));
-  const double floors = std::sqrt(left + 1.0);
-  switch (remark) {
-    case Remark::gauge_misleads:
-      return fmt::format("effects that would explain {} make the motion worse: is it right?", besides);
-    case Remark::more_is_missing:
-      return fmt::format(
-          "{:.1f} noise floors are left with the effects named: more is missing, or their laws are "
-          "not quite these",
-          floors);
-    case Remark::not_named:
-      return fmt::format("nearest comes {}, but {:.1f} noise floors are left: not named",
-                         fmt::join(names, " with "), floors);
-    case Remark::stands_in: {
-      std::vector<std::string> stand_ins;
-      for (const NamedEffect& effect : naming.effects)
-        if (effect.stands_in) stand_ins.push_back(full_name(effect));
-      return fmt::format(
-          "{}: added to the corrected rig, but no name for what is missing; how it drifts is a hint at the "
-          "true "
-          "law",
-          fmt::join(stand_ins, " and "));
-    }
-    case Remark::bent_numbers:
-      return fmt::format(
-          "other numbers come nearest, but at the edge of what is allowed of them or with {:.1f} noise "
-          "floors "
-          "left: that is no explanation",
-          floors);
-    case Remark::invisible:
-      break;
-  }
-  return fmt::format("these data would not show, even at their usual size: {}",
-                     fmt::join(naming.invisible, ", "));
-}
-
-std::string far_runs_in_words(const std::vector<FarRun>& runs) {
-  std::vector<std::string> list;
-  list.reserve(runs.size());
-  for (const FarRun& run : runs) list.push_back(fmt::format("{} by {:.0f}", run.id, std::sqrt(run.left)));
-  std::sort(list.begin(), list.end());
-  return fmt::format("{}", fmt::join(list, ", "));
-}
-
 namespace {
+
+std::string sentence_of(const std::string& effect, const plant::Effects& of_rig) {
+  std::string text;
+  std::apply([&](const auto&... e) { ((effect == e.name ? void(text = e.sentence) : void()), ...); },
+             plant::Effects::Table{});
+  for (const auto& law : of_rig.laws.list)
+    if (effect == law.text->name) text = law.text->sentence;
+  return text;
+}
 
 std::string amount_in_words(const Diagnosis& d, double value) {
   return amount_of(d.gap.judged, value, d.corrected);

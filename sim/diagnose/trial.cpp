@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <sim/diagnose/catalogue.hpp>
 #include <sim/diagnose/diagnosis.hpp>
 #include <sim/diagnose/thresholds.hpp>
 #include <sim/diagnose/trial.hpp>

@@ -115,6 +115,7 @@ struct Dataset {
   std::optional<Rows> rows_of_stamps;
 
   double row_s() const { return rows_of_stamps ? rows_of_stamps->row_s : rig.tick_s; }
+  double readings_in_a_row() const { return rows_of_stamps ? rows_of_stamps->readings : 1.0; }
   double rows_begin_s() const { return rows_of_stamps ? recorded.skip_s : 0.0; }
   /// A bench gives every run its length, and what is judged is the force.
   bool force_is_judged() const { return !runs.empty() && std::ranges::all_of(runs, &Run::length_is_given); }

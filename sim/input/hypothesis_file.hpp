@@ -31,7 +31,4 @@ std::string hypothesis_yaml(const OwnLaw& law);
 /// The keys of such a file.
 std::vector<FieldInfo> hypothesis_fields();
 
-/// Where byte `offset` of a scalar's text stands in its file, whatever lines the scalar is written in.
-Place place_in(const Source& source, const Node& scalar, std::size_t offset);
-
 }  // namespace mckibben::input

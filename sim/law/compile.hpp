@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <functional>
 #include <optional>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -52,8 +51,6 @@ struct Programs {
 /// Nothing, with faults, if something is wrong.
 std::optional<Programs> compile(const Wording& wording, const Units& units, std::vector<Fault>& faults);
 
-/// Names that parameters and memories cannot have: of inputs, functions and constants.
-std::span<const std::string_view> reserved_names();
 /// All that a law may name, to suggest what was meant.
 std::vector<std::string> known_names(const Wording& wording);
 

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include <sim/diagnose/catalogue.hpp>
 #include <sim/domain/rig_number.hpp>
 #include <sim/live/switches.hpp>
 

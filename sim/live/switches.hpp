@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include <sim/diagnose/parameter.hpp>
+#include <sim/diagnose/candidate.hpp>
 #include <sim/domain/rig_file.hpp>
 
 namespace mckibben::live {

@@ -5,7 +5,7 @@
 
 #include <ceres/version.h>
 
-#include <sim/diagnose/parameter.hpp>
+#include <sim/diagnose/priors.hpp>
 #include <sim/diagnose/record.hpp>
 #include <sim/input/field_kinds.hpp>
 #include <sim/input/rigs.hpp>

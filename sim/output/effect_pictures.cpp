@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <plant/plant.hpp>
+#include <sim/diagnose/catalogue.hpp>
 #include <sim/diagnose/parameter.hpp>
 #include <sim/output/axes.hpp>
 #include <sim/output/diagnosis_words.hpp>

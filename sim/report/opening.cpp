@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include <sim/diagnose/catalogue.hpp>
 #include <sim/diagnose/parameter.hpp>
 #include <sim/output/diagnosis_words.hpp>
 #include <sim/output/effect_pictures.hpp>

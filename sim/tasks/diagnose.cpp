@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include <sim/diagnose/parameter.hpp>
+#include <sim/diagnose/candidate.hpp>
 #include <sim/input/dataset_file.hpp>
 #include <sim/input/hypothesis_file.hpp>
 #include <sim/run/judged.hpp>

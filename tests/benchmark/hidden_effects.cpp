@@ -15,7 +15,9 @@
 
 #include <controllers/waveform.hpp>
 #include <plant/instruments.hpp>
+#include <sim/diagnose/catalogue.hpp>
 #include <sim/diagnose/parameter.hpp>
+#include <sim/diagnose/priors.hpp>
 #include <sim/run/simulate.hpp>
 
 namespace mckibben::diagnose {

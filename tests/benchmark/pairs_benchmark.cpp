@@ -13,6 +13,7 @@
 #include <fmt/ranges.h>
 
 #include <sim/diagnose/diagnose.hpp>
+#include <sim/diagnose/priors.hpp>
 
 #include "diagnose/joint.hpp"
 #include "tally.hpp"

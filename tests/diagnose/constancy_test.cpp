@@ -5,8 +5,10 @@
 
 #include <gtest/gtest.h>
 
+#include <sim/diagnose/catalogue.hpp>
 #include <sim/diagnose/constancy.hpp>
 #include <sim/diagnose/held_out.hpp>
+#include <sim/diagnose/priors.hpp>
 
 #include "examined.hpp"
 

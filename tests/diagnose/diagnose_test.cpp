@@ -6,6 +6,7 @@
 
 #include <sim/diagnose/experiment.hpp>
 #include <sim/diagnose/fit.hpp>
+#include <sim/diagnose/priors.hpp>
 
 #include "planted.hpp"
 

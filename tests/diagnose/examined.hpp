@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <sim/diagnose/first_look.hpp>
+#include <sim/diagnose/priors.hpp>
 
 #include "planted.hpp"
 

@@ -8,6 +8,8 @@
 
 #include <gtest/gtest.h>
 
+#include <sim/diagnose/catalogue.hpp>
+#include <sim/diagnose/priors.hpp>
 #include <sim/diagnose/repair.hpp>
 #include <sim/run/judged.hpp>
 #include <sim/run/simulate.hpp>

@@ -11,6 +11,7 @@
 
 #include <fmt/format.h>
 
+#include <sim/diagnose/candidate.hpp>
 #include <sim/diagnose/predict.hpp>
 #include <sim/run/judged.hpp>
 

@@ -7,9 +7,12 @@
 
 #include <gtest/gtest.h>
 
+#include <sim/diagnose/candidate.hpp>
+#include <sim/diagnose/catalogue.hpp>
 #include <sim/diagnose/check.hpp>
 #include <sim/diagnose/experiment.hpp>
 #include <sim/diagnose/held_out.hpp>
+#include <sim/diagnose/priors.hpp>
 #include <sim/domain/objection.hpp>
 #include <sim/run/gaps.hpp>
 

@@ -8,7 +8,7 @@
 
 #include <sim/diagnose/check.hpp>
 #include <sim/diagnose/experiment.hpp>
-#include <sim/diagnose/story.hpp>
+#include <sim/diagnose/remarks.hpp>
 #include <sim/domain/objection.hpp>
 #include <sim/run/replay.hpp>
 

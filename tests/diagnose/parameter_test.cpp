@@ -6,7 +6,10 @@
 
 #include <gtest/gtest.h>
 
+#include <sim/diagnose/candidate.hpp>
+#include <sim/diagnose/catalogue.hpp>
 #include <sim/diagnose/parameter.hpp>
+#include <sim/diagnose/priors.hpp>
 #include <sim/diagnose/thresholds.hpp>
 #include <sim/diagnose/trial.hpp>
 

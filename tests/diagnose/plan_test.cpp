@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <sim/diagnose/plan.hpp>
+#include <sim/diagnose/priors.hpp>
 
 #include "planted.hpp"
 

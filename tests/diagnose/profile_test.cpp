@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <sim/diagnose/catalogue.hpp>
+#include <sim/diagnose/priors.hpp>
 #include <sim/diagnose/profile.hpp>
 
 #include "planted.hpp"

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include <sim/diagnose/parameter.hpp>
+#include <sim/diagnose/catalogue.hpp>
 #include <sim/output/effect_pictures.hpp>
 
 namespace mckibben::output {

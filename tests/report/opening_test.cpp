@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <plant/effects.hpp>
-#include <sim/diagnose/parameter.hpp>
+#include <sim/diagnose/priors.hpp>
 #include <sim/report/opening.hpp>
 #include <sim/report/report.hpp>
 #include <sim/report/rig_parts.hpp>

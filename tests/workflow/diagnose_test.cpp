@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <sim/diagnose/first_look.hpp>
+#include <sim/diagnose/priors.hpp>
 #include <sim/input/dataset_file.hpp>
 #include <sim/run/simulate.hpp>
 

@@ -1,0 +1,166 @@
+// Parameters of what the gas comes through: servo valve or regulator, and hose. Laws: flow.hpp, side.hpp. How
+// fields are listed: rig.hpp.
+#pragma once
+
+#include <array>
+#include <numbers>
+#include <string_view>
+#include <utility>
+
+#include <plant/command.hpp>
+
+namespace mckibben::plant {
+
+/// What keeps the pressure: the thesis's servo valve, whose proportional band makes its dynamics, or a
+/// regulator of which a data sheet tells the lag.
+enum class ValveKind { servo, regulator };
+constexpr auto names(ValveKind) {
+  using enum ValveKind;
+  return std::array{std::pair{servo, std::string_view{"servo"}},
+                    std::pair{regulator, std::string_view{"regulator"}}};
+}
+/// Every valve is a servo valve unless it says otherwise.
+constexpr bool absent(ValveKind kind) {
+  return kind == ValveKind::servo;
+}
+
+/// How a regulator's pressure follows its command.
+enum class RegulatorLag { first_order, second_order };
+constexpr auto names(RegulatorLag) {
+  using enum RegulatorLag;
+  return std::array{std::pair{first_order, std::string_view{"first_order"}},
+                    std::pair{second_order, std::string_view{"second_order"}}};
+}
+
+/// Whether a visitor of a field list wants fields as well that the struct's own choices rule out.
+template <class Visitor>
+concept ListsAll = requires {
+  requires Visitor::lists_all;
+};
+
+/// Current to pressure reference, two proportional valves round a controlled volume (T 3.1, 3.2). They open
+/// in proportion to the error (servo), or as far as it takes that the pressure follows with a lag (regulator;
+/// docs/equations.md).
+template <class P>
+struct ValveOf {
+  ValveKind kind = ValveKind::servo;
+  P zero_current_mA = 4.0, span_current_mA = 20.0;
+  P zero_pressure_Pa = 0.5e5, span_pressure_Pa = 5.0e5;
+  P supply_pressure_Pa = 6.0e5;
+  P conductance_m3_per_s_Pa = 4.0e-9;
+  P critical_ratio = 0.30;
+  P proportional_band_Pa = 0.3e5;
+  P volume_m3 = 5.0e-5;
+  RatedCommand zero_command, span_command;  ///< absent: currents are what it is commanded with
+  // Of a regulator. Its lag is not said as long as it is 0.
+  RegulatorLag lag = RegulatorLag::first_order;
+  P time_constant_s = 0.0;
+  P natural_frequency_Hz = 0.0, damping = 0.0;
+  P venting_conductance_m3_per_s_Pa = 0.0;
+  P dead_band_Pa = 0.0;
+  P repeatability_Pa = 0.0;
+
+  bool is_regulator() const { return kind == ValveKind::regulator; }
+  /// Whether its pressure swings: then it remembers how fast it was changing.
+  bool swings() const { return is_regulator() && lag == RegulatorLag::second_order; }
+  /// By what time a regulator's pressure stays behind a slow ramp.
+  P slow_lag_s() const {
+    return swings() ? damping / (std::numbers::pi * natural_frequency_Hz) : time_constant_s;
+  }
+
+  /// Whether it is commanded with volts or with a pressure; results hold the currents that would do the same.
+  bool has_own_command() const { return !zero_command.absent(); }
+  /// The current that does the same as `command`, a number in the unit of its own commands.
+  double current_for_mA(double command) const {
+    const double share = (command - zero_command.value) / (span_command.value - zero_command.value);
+    return zero_current_mA + share * (span_current_mA - zero_current_mA);
+  }
+
+  template <class Self, class Visitor>
+  static void fields(Self& self, Visitor& visit) {
+    visit("kind", self.kind, "servo (if left out), or a regulator by its data sheet");
+    visit("zero_current", self.zero_current_mA, "mA", 0.0, 100.0, "current at zero pressure");
+    visit("span_current", self.span_current_mA, "mA", 0.1, 100.0, "current at span pressure");
+    visit("zero_command", self.zero_command,
+          "command at zero pressure, of a valve that takes volts or a pressure");
+    visit("span_command", self.span_command, "command at span pressure, of such a valve");
+    visit("zero_pressure", self.zero_pressure_Pa, "Pa", 0.0, 2e6, "gauge pressure at zero current (T 3.2)");
+    visit("span_pressure", self.span_pressure_Pa, "Pa", 1e3, 2e6, "gauge pressure at span current (T 3.2)");
+    visit("supply_pressure", self.supply_pressure_Pa, "Pa", 1e3, 2e6, "gauge pressure of the supply (T 3.1)");
+    visit("conductance", self.conductance_m3_per_s_Pa, "m3/(s.Pa)", 1e-12, 1e-5,
+          "sonic conductance of each proportional valve, fully open, C_v");
+    visit("critical_ratio", self.critical_ratio, "1", 0.01, 0.9,
+          "critical pressure ratio of valve and hose, b_c");
+    if (ListsAll<Visitor> || !self.is_regulator())
+      visit("proportional_band", self.proportional_band_Pa, "Pa", 10.0, 2e6,
+            "pressure error that opens fully");
+    visit("volume", self.volume_m3, "m3", 1e-7, 1e-2, "controlled volume, V_v");
+    if (ListsAll<Visitor> || self.is_regulator()) fields_of_regulator(self, visit);
+  }
+  template <class Self, class Visitor>
+  static void fields_of_regulator(Self& self, Visitor& visit) {
+    visit("lag", self.lag, "of a regulator: how its pressure follows the command");
+    if (ListsAll<Visitor> || !self.swings())
+      visit("time_constant", self.time_constant_s, "s", 1e-4, 100.0, "of a lag of first order, T");
+    if (ListsAll<Visitor> || self.swings()) {
+      visit("natural_frequency", self.natural_frequency_Hz, "Hz", 1e-3, 1e3, "of a lag of second order, f");
+      visit("damping", self.damping, "1", 0.01, 100.0, "of a lag of second order, D; 1: no overshoot");
+    }
+    visit("venting_conductance", self.venting_conductance_m3_per_s_Pa, "m3/(s.Pa)", 0.0, 1e-5,
+          "of a regulator: sonic conductance where it vents; 0: that of filling, C_v");
+    visit("dead_band", self.dead_band_Pa, "Pa", 0.0, 2e5,
+          "of a regulator: pressure errors, either way, about which it does nothing");
+    visit("repeatability", self.repeatability_Pa, "Pa", 0.0, 1e5,
+          "of a regulator: the ± (one deviation) within which the same command gives the same pressure; "
+          "counted in a diagnosis's noise floor, not simulated");
+  }
+  /// A command in mA is a current.
+  void resolve() {
+    const auto to_current = [](RatedCommand& command, P& current_mA) {
+      if (command.unit != RatedCommand::Unit::mA) return;
+      current_mA = command.value;
+      command = {};
+    };
+    to_current(zero_command, zero_current_mA);
+    to_current(span_command, span_current_mA);
+  }
+  template <class Report>
+  void rules(Report& report) const {
+    if (zero_command.unit != span_command.unit)
+      report(zero_command.absent() ? "span_command" : "zero_command",
+             "zero_command and span_command are both in V, both in bar, or both in mA");
+    else if (has_own_command() && span_command.value <= zero_command.value)
+      report("span_command", "must be above zero_command");
+    if (span_current_mA <= zero_current_mA) report("span_current", "must be above zero_current");
+    if (span_pressure_Pa <= zero_pressure_Pa) report("span_pressure", "must be above zero_pressure");
+    if (supply_pressure_Pa < span_pressure_Pa) report("supply_pressure", "must not be below span_pressure");
+    const auto say = [&](const P& value, std::string_view key, std::string_view message) {
+      if (value == 0.0) report(key, message);
+    };
+    if (is_regulator() && !swings())
+      say(time_constant_s, "time_constant",
+          "a regulator's lag must be said, if only as a guess: 0.1 s ± unknown; or lag: second_order");
+    if (swings()) {
+      say(natural_frequency_Hz, "natural_frequency", "a lag of second order has one: say it, as 5 Hz");
+      say(damping, "damping", "a lag of second order has one: say it, as 0.7");
+    }
+  }
+};
+using Valve = ValveOf<double>;
+
+/// Hose between valve and muscle (ISO 6358).
+template <class P>
+struct HoseOf {
+  P conductance_m3_per_s_Pa = 1.5e-8;
+  P linear_zone_Pa = 1.0e3;
+
+  template <class Self, class Visitor>
+  static void fields(Self& self, Visitor& visit) {
+    visit("conductance", self.conductance_m3_per_s_Pa, "m3/(s.Pa)", 1e-12, 1e-5, "sonic conductance C_h");
+    visit("linear_zone", self.linear_zone_Pa, "Pa", 1.0, 1e5,
+          "pressure difference below which flow is linear (valve and hose)");
+  }
+};
+using Hose = HoseOf<double>;
+
+}  // namespace mckibben::plant

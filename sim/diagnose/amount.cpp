@@ -1,0 +1,44 @@
+// See the header.
+#include <fmt/format.h>
+
+#include <sim/diagnose/amount.hpp>
+
+namespace mckibben::diagnose {
+
+std::string amount_of(Judged judged, double value, const domain::RigFile& rig, int digits) {
+  switch (judged) {
+    case Judged::force:
+      return fmt::format("{:.{}g} N", value, digits);
+    case Judged::angle:
+      return fmt::format("{:.{}g} deg", value / plant::degree_rad, digits);
+    case Judged::contraction:
+      break;
+  }
+  return fmt::format("{:.{}g} mm", 1e3 * value * rig.muscle.rest_length_m, digits);
+}
+
+std::string_view unit_in_words(Judged judged) {
+  switch (judged) {
+    case Judged::force:
+      return "N";
+    case Judged::angle:
+      return "rad";
+    case Judged::contraction:
+      break;
+  }
+  return "in contraction ratio";
+}
+
+std::pair<std::string_view, std::string_view> told(domain::Beside which, bool pair) {
+  switch (which) {
+    case domain::Beside::force:
+      return {"force", "N"};
+    case domain::Beside::opposite_pressure:
+      return {"muscle_pressure_2", "Pa"};
+    case domain::Beside::muscle_pressure:
+      break;
+  }
+  return {pair ? "muscle_pressure_1" : "muscle_pressure", "Pa"};
+}
+
+}  // namespace mckibben::diagnose

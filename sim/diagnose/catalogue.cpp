@@ -1,0 +1,154 @@
+// From the plant's table of effects to candidates; see the header.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string_view>
+#include <tuple>
+#include <type_traits>
+#include <utility>
+
+#include <sim/diagnose/catalogue.hpp>
+#include <sim/diagnose/thresholds.hpp>
+
+namespace mckibben::diagnose {
+namespace {
+
+/// A law of the user's own, as one of the catalogue. A second parameter that is always positive is its shape.
+Candidate candidate_of(const plant::LawText& law) {
+  const std::string prefix = "effects." + std::string(of_laws) + "." + law.name + ".";
+  const plant::LawText::Parameter& size = law.parameters.front();
+  Candidate c{.effect = law.name,
+              .variant = "",
+              .amplitude = prefix + size.name,
+              .shape = "",
+              .typical = size.typical,
+              .step = 1e-3 * std::abs(size.typical),
+              .either_sign = size.lowest < 0.0 && size.highest > 0.0,
+              .shapes = {},
+              .own = true};
+  for (std::size_t i = 1; i < law.parameters.size(); ++i) {
+    const plant::LawText::Parameter& p = law.parameters[i];
+    std::vector<double> values{std::lerp(p.lowest, p.highest, 0.25), p.typical,
+                               std::lerp(p.lowest, p.highest, 0.75)};
+    if (p.lowest > 0.0) {  // over its whole range: a wavelength is found from close by only
+      const int places = thresholds.parameter.law_places;
+      values = {p.lowest, p.typical};
+      for (int k = 1; k <= places; ++k)
+        values.push_back(p.lowest * std::pow(p.highest / p.lowest, static_cast<double>(k) / places));
+    }
+    if (c.shape.empty() && p.lowest > 0.0) {
+      c.shape = prefix + p.name;
+      c.shapes = std::move(values);
+    } else {
+      c.further.push_back({prefix + p.name, p.typical, std::move(values), p.lowest, p.highest});
+    }
+  }
+  return c;
+}
+
+/// What a user's law acts on: whether data of a given pressure show it.
+bool makes_pressure(const plant::LawText& law) {
+  return law.adds == plant::LawTarget::outflow || law.adds == plant::LawTarget::command;
+}
+
+/// Whether an effect acts on what makes the muscle's pressure, and on nothing else.
+template <class E>
+constexpr bool makes_pressure() {
+  using enum plant::Hook;
+  constexpr std::array of_pressure{outflow,           gas_exponent,  muscle_heating,
+                                   valve_error_shift, valve_opening, supply_drop,
+                                   vent_factor,       command_delay, reference};
+  return std::ranges::all_of(
+      E::hooks, [&](plant::Hook hook) { return std::ranges::find(of_pressure, hook) != of_pressure.end(); });
+}
+
+}  // namespace
+
+std::vector<std::string> effects_out_of_sight() {
+  std::vector<std::string> names;
+  const auto add = [&]<class E>(const E& effect) {
+    if (makes_pressure<E>() && !E::variants.empty()) names.emplace_back(effect.name);
+  };
+  std::apply([&](const auto&... effect) { (add(effect), ...); }, plant::Effects::Table{});
+  return names;
+}
+
+bool out_of_sight(const Parameter& p) {
+  const std::string_view path = of_muscle_1(p.path);
+  const auto begins = [&](std::string_view part) { return path.starts_with(part); };
+  return begins("valve.") || begins("hose.") || begins("gas.") || path == "muscle.dead_volume";
+}
+
+namespace {
+
+/// Whether an effect is of a muscle and what drives it, so that one of a pair may have it alone; others are
+/// of what both share, the encoder, the supply and the gas.
+template <class E>
+constexpr bool is_of_a_muscle() {
+  using enum plant::Hook;
+  constexpr std::array shared{gas_exponent, supply_drop, reading_delay, wheel, reading_factor};
+  return std::ranges::none_of(
+      E::hooks, [&](plant::Hook hook) { return std::ranges::find(shared, hook) != shared.end(); });
+}
+
+/// What data can show of the catalogue. Of a pair, `gauge` is that of muscle 1.
+struct Sight {
+  bool makes_pressure = true, load_guide = true, gauge = true, opposite_gauge = false, pair = false;
+};
+
+std::vector<Candidate> in_sight(const Sight& sight) {
+  std::vector<Candidate> list;
+  const auto add = [&]<class E>(const E& effect) {
+    if (!sight.makes_pressure && makes_pressure<E>()) return;
+    if (!sight.load_guide && std::is_same_v<E, plant::GuideFriction>) return;
+    const bool of_gauge = plant::declares<E>(plant::Hook::gauge);
+    for (const plant::Variant& law : E::variants) {
+      const std::string prefix = "effects." + std::string(effect.name) + ".";
+      Candidate c{.effect = std::string(effect.name),
+                  .variant = std::string(law.name),
+                  .amplitude = prefix + std::string(law.amplitude),
+                  .shape = law.shape.empty() ? "" : prefix + std::string(law.shape),
+                  .absent = law.absent,
+                  .typical = law.typical,
+                  .step = law.step,
+                  .either_sign = law.sign == plant::Sign::either,
+                  .shapes = {},
+                  .adds_to = std::string(law.adds_to)};
+      if (!law.shape.empty()) c.shapes = {law.low, law.middle, law.high};
+      const bool each = sight.pair && is_of_a_muscle<E>();
+      if (sight.gauge || !of_gauge) list.push_back(c);
+      if (each && (sight.gauge || !of_gauge)) list.push_back(c.of(Side::one));
+      if (each && (sight.opposite_gauge || !of_gauge)) list.push_back(c.of(Side::two));
+    }
+  };
+  std::apply([&](const auto&... effect) { (add(effect), ...); }, plant::Effects::Table{});
+  return list;
+}
+
+}  // namespace
+
+std::vector<Candidate> catalogue() {
+  return in_sight({});
+}
+std::vector<Candidate> catalogue(const RigFile& rig) {
+  std::vector<Candidate> list = catalogue();
+  for (const auto& law : rig.effects.laws.list) list.push_back(candidate_of(*law.text));
+  return list;
+}
+std::vector<Candidate> catalogue(const domain::Dataset& data) {
+  const bool given = data.pressure_is_given();
+  const auto read = [&](const auto& gauge) {
+    return std::ranges::any_of(data.runs, [&](const domain::Run& run) { return (run.*gauge).has_value(); });
+  };
+  const bool pair = data.rig.pair() != nullptr;
+  std::vector<Candidate> list = in_sight({.makes_pressure = !given,
+                                          .load_guide = !pair,
+                                          .gauge = given || read(&domain::Run::muscle_pressure_Pa),
+                                          .opposite_gauge = given || read(&domain::Run::opposite_pressure_Pa),
+                                          .pair = pair});
+  for (const auto& law : data.rig.effects.laws.list)
+    if (!given || !makes_pressure(*law.text)) list.push_back(candidate_of(*law.text));
+  return list;
+}
+
+}  // namespace mckibben::diagnose

@@ -1,0 +1,57 @@
+// A small campaign, begun and made with the verb dataset: what its tests share.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <sim/output/campaign_folder.hpp>
+
+#include "program.hpp"
+
+namespace mckibben::cli {
+
+namespace fs = std::filesystem;
+
+inline constexpr const char* small_campaign =
+    "schema: mckibben-campaign/1\n"
+    "rig: {gauge: {fitted: true}}\n"
+    "loads: [11.138 kg, 23.406 kg]\n"
+    "currents:\n"
+    "  - {duration: 2.4 s, current: {kind: sine_current, low: 0 mA, high: 20 mA, period: 2.4 s}}\n"
+    "  - {name: up, duration: 1.2 s, current: {kind: step_current, start: 4 mA, "
+    "moves: [{at: 0.3 s, to: 14 mA}]}}\n"
+    "repeats: 2\n"
+    "noise: {encoder_jitter: 1e-4, gauge: 4 mbar}\n";
+
+/// Every file below a folder with its content.
+inline std::map<std::string, std::string> contents(const fs::path& folder) {
+  std::map<std::string, std::string> files;
+  for (const auto& entry : fs::recursive_directory_iterator(folder))
+    if (entry.is_regular_file())
+      files[entry.path().lexically_relative(folder).generic_string()] = read_text(entry.path());
+  return files;
+}
+
+/// Leaves OUT.unfinished as a campaign does that was stopped after `runs` runs.
+inline void begin(const fs::path& out, const domain::Campaign& campaign, std::size_t runs,
+                  const std::vector<std::string>& formats = {}) {
+  const output::CampaignFolder folder(out, campaign, formats, [](const std::string&) {});
+  run::run_jobs(
+      campaign, std::span(folder.jobs()).first(runs), 1, [&](const auto& run) { folder.put(run); },
+      [](const auto&, auto, auto) {});
+}
+
+class Dataset : public testing::Test {
+ protected:
+  void SetUp() override { write_text(scratch / "small.yaml", small_campaign); }
+  Said run(const std::string& arguments) { return mckibben(arguments, scratch); }
+  bool exists(const std::string& name) { return fs::exists(scratch / name); }
+  Scratch scratch;
+};
+
+}  // namespace mckibben::cli
