@@ -56,6 +56,22 @@ TEST(Faults, ARunThatIsLate) {
   expect_one(data, FaultKind::late, 1, 3.0, 0.3);
 }
 
+/// Of a recorder with a clock of its own, twelve of whose readings make a row.
+TEST(Faults, ARunThatIsLateByAPartOfARow) {
+  auto data = undisturbed();
+  data.own_clock = true;
+  data.rows_of_stamps = {.row_s = data.rig.tick_s, .readings = 12.0};
+  auto& ratios = data.runs[1].contraction_ratio;
+  for (std::size_t k = ratios.size(); k-- > 1;) ratios[k] = std::lerp(ratios[k], ratios[k - 1], 0.4);
+  expect_one(data, FaultKind::late, 1, 0.4, 0.1);
+  const Fault fault{1, FaultKind::late, 0.25};
+  EXPECT_EQ(told(data, fault).words, "is 3 ms late");
+  EXPECT_EQ(told(data, fault).unit, "s");
+  Checked checked = no_doubts(data);
+  mend(data, checked, {fault});
+  EXPECT_EQ(checked.left_out, Runs{1});  // it cannot be shifted by a part of a row
+}
+
 TEST(Faults, CurrentThatTheValveDidNotHave) {
   auto scaled = undisturbed(), moved = undisturbed();
   for (double& current_mA : scaled.runs[4].current_mA) current_mA *= 1.05;
