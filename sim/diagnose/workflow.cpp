@@ -192,6 +192,24 @@ std::vector<Fault> Workflow::told_faults_beside(const Contender& named) const {
   return faults;
 }
 
+/// The same where a run at fault has bent the fit so far that straight lines from there do not tell: fitted
+/// again without the run that it meets worst, the model must meet all others.
+std::vector<Fault> Workflow::faults_that_bend(const Contender& named) const {
+  const Fitted& bent = named.fitted;
+  if (case_.split.training.size() <= thresholds.fault.least_sound || far_from(named).empty()) return {};
+  const auto parts = experiment_.parts(case_.split.training);
+  const auto worst = std::ranges::max_element(parts, {}, [&](const auto& part) {
+    return bent.residuals.segment(part.begin, part.rows).squaredNorm() / static_cast<double>(part.rows);
+  });
+  Split others = case_.split;
+  std::erase(others.training, worst->run);
+  const Fitted fitted = fit(experiment_, bent.model, others.training, {.inflation = case_.inflation});
+  if (!fitted.failure.empty() || !all_near_floor(experiment_, fitted.residuals, others.training) ||
+      !all_near_floor(experiment_, experiment_.residuals(fitted.model.rig, others.held_out), others.held_out))
+    return {};
+  return examine(experiment_, fitted.model, usable_, {}).faults;
+}
+
 /// Usable runs that the search does without.
 Runs Workflow::not_asked() const {
   const Split& asked = case_.split;

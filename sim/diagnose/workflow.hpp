@@ -53,6 +53,7 @@ class Workflow {
   std::vector<FarRun> far_from(const Contender& contender) const;
   std::vector<Fault> faults_beside(const Contender& fitted) const;
   std::vector<Fault> told_faults_beside(const Contender& named) const;
+  std::vector<Fault> faults_that_bend(const Contender& named) const;
   Runs not_asked() const;
   void confirm();
 

@@ -37,7 +37,7 @@ std::vector<DataSet> nulls(std::uint64_t first, std::uint64_t seeds, const std::
   std::vector<DataSet> sets;
   for (std::uint64_t seed = first; seed < first + seeds; ++seed)
     for (std::size_t kind = 0; kind < kinds(); ++kind) {
-      const std::string& title = title(kind);
+      const std::string& title = diagnose::title(kind);
       if (!title.starts_with("nothing") || !title.starts_with(wanted)) continue;
       for (const Bench bench : benches) sets.push_back({kind, seed, few_runs(bench, kind + seed)});
       sets.push_back({kind, seed, few_runs(Bench::thesis, kind + seed)});
@@ -52,7 +52,7 @@ std::vector<DataSet> weak_ones(std::uint64_t first, std::uint64_t seeds, const s
     std::mt19937_64 random(seed);
     std::uniform_real_distribution<double> exponent(-1.0, 0.3);
     for (std::size_t kind = 0; kind < kinds(); ++kind) {
-      const std::string& title = title(kind);
+      const std::string& title = diagnose::title(kind);
       const bool small = title.ends_with(" small") && !title.starts_with("gauge:");
       if (!small && !title.starts_with("recalibrate") && !title.starts_with("unknown")) continue;
       DataSet set{kind, seed, few_runs(benches.at((kind + seed) % benches.size()), kind / 2 + seed)};

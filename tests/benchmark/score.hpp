@@ -51,7 +51,7 @@ struct Outcome {
   Coverage sizes, numbers;
   std::array<Given, 4> given{};
   std::size_t names = 0;
-  AdviceScore advice{};
+  Advice advice{};
   double took_s = 0.0;
 
   Outcome() = default;
