@@ -8,7 +8,6 @@ namespace mckibben::diagnose {
 
 constinit const Record record{.measured = "2026-11-24",
                               .null_seeds = "501 to 504",
-                              .name_seeds = "401 (--advice) and 601 (--weak), in part",
                               .false_alarms = {2, 73},
                               .names = {{{0.0, {9, 9}}, {50.0, {5, 5}}}},
                               .first_of_several = {0, 0}};

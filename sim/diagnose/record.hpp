@@ -27,7 +27,7 @@ struct Bin {
 };
 
 struct Record {
-  std::string_view measured, null_seeds, name_seeds;
+  std::string_view measured, null_seeds;
   Share false_alarms{};        ///< of data sets in which nothing was hidden
   std::array<Bin, 2> names{};  ///< that no other did as well as
   Share first_of_several{};    ///< names beside which others did as well
