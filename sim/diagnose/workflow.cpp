@@ -196,11 +196,11 @@ std::vector<Fault> Workflow::told_faults_beside(const Contender& named) const {
 /// again without the run that it meets worst, the model must meet all others.
 std::vector<Fault> Workflow::faults_that_bend(const Contender& named) const {
   const Fitted& bent = named.fitted;
-  if (case_.split.training.size() <= thresholds.fault.least_sound || far_from(named).empty()) return {};
+  if (case_.split.training.size() <= thresholds.fault.least_sound) return {};
+  const auto left = [&](const auto& part) { return excess(bent.residuals.segment(part.begin, part.rows)); };
   const auto parts = experiment_.parts(case_.split.training);
-  const auto worst = std::ranges::max_element(parts, {}, [&](const auto& part) {
-    return bent.residuals.segment(part.begin, part.rows).squaredNorm() / static_cast<double>(part.rows);
-  });
+  const auto worst = std::ranges::max_element(parts, {}, left);
+  if (left(*worst) <= thresholds.near.mean_square()) return {};
   Split others = case_.split;
   std::erase(others.training, worst->run);
   const Fitted fitted = fit(experiment_, bent.model, others.training, {.inflation = case_.inflation});
