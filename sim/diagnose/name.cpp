@@ -46,16 +46,19 @@ std::size_t laws_in(const std::vector<Trial>& trials) {
 }
 
 /// Refits of a round: the best of each screening and those like them, roughly first, then in full those that
-/// promise. Once one meets the data, only those like it are tried.
+/// promise. Once one meets the data, only those like it are tried. As long as much is left and none helps,
+/// scores have misled, drawn as they are far from where the effect would be: then more are tried.
 void refit(const Case& c, const std::string& name, const std::vector<Screening>& screenings,
            const Eigen::VectorXd& reference, const Step& step, std::vector<Trial>& trials) {
   const Score* solved = nullptr;
+  bool misled = excess(reference) > to_name.worth_a_pair;
   const auto wanted = [&](const Score& score, const Score& front) {
     const bool known = std::any_of(trials.begin(), trials.end(), [&](const Trial& t) {
       return t.score.candidate.amplitude == score.candidate.amplitude &&
              t.score.candidate.side == score.candidate.side;
     });
-    if (known || laws_in(trials) == to_name.most_refits || score.drop < thresholds.near.chance) return false;
+    const bool enough = laws_in(trials) >= to_name.most_refits || score.drop < thresholds.near.chance;
+    if (known || !(score.drop > 0.0) || (enough && !misled)) return false;
     if (solved != nullptr) return likeness(score, *solved) > to_name.likeness_solved;
     return score.drop > to_name.least_score * front.drop ||
            likeness(score, front) > to_name.likeness_refitted;
@@ -69,6 +72,8 @@ void refit(const Case& c, const std::string& name, const std::vector<Screening>&
       Trial trial = rough(c, *base, score, place);
       if (!trial.contender.fitted.failure.empty()) continue;
       trials.push_back(std::move(trial));
+      if (convinces(compare(c.experiment, reference, trials.back().contender.held_out, c.split.held_out)))
+        misled = false;
       if (place > 0) continue;
       polish(c, trials.back(), step);
       if (meets(trials.back().contender)) solved = &score;

@@ -11,6 +11,7 @@
 #include <sim/input/dataset_file.hpp>
 #include <sim/run/simulate.hpp>
 
+#include "benchmark/hidden_effects.hpp"
 #include "diagnose/examined.hpp"
 #include "own_law.hpp"
 
@@ -64,6 +65,15 @@ TEST(Diagnose, NamesTheLeakOfARigWithCoulombFrictionAndNothingWhereNothingIs) {
     EXPECT_LT(2e-10, found.effects[0].parameters[0].high);
     EXPECT_GT(found.gap.closed, 0.95);
   }
+}
+
+// At the rig as described, and at the one that numbers have bent towards the data, seven effects promise
+// more.
+TEST(Diagnose, TriesFurtherEffectsWhereThoseThatPromiseMostDoNotHelp) {
+  const auto found = diagnosis_of(hide(kind_titled("guide_friction large"), 102).data, 0);
+  EXPECT_EQ(found.verdict, Verdict::missing_effect) << found.because;
+  ASSERT_EQ(found.effects.size(), 1u) << found.because;
+  EXPECT_EQ(found.effects[0].name, "guide_friction");
 }
 
 TEST(Diagnose, FindsALawForWhatIsInNoCatalogue) {
@@ -165,7 +175,7 @@ TEST(Diagnose, NamesTheErrorOfAGaugeAndLeavesTheMotionAlone) {
 TEST(Diagnose, IgnoresAGaugeThatContradictsTheMotion) {
   plant::Rig truth;
   truth.gauge.fitted = true;
-  auto data = small(truth);
+  auto data = small(truth, 2.4);
   for (domain::Run& run : data.runs) {
     double shown_Pa = run.muscle_pressure_Pa->front();
     for (double& pressure_Pa : *run.muscle_pressure_Pa)

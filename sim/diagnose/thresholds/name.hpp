@@ -28,7 +28,7 @@ struct ImprovementThresholds {
 /// Which effects are tried, and taken.
 struct NameThresholds {
   std::size_t most_effects = 3;    ///< rounds
-  std::size_t most_refits = 7;     ///< in a round
+  std::size_t most_refits = 7;     ///< in a round, unless all are tried
   std::size_t most_polished = 3;   ///< of these, fitted with all slopes anew
   double likeness_refitted = 0.7;  ///< cosine: so alike is refitted whatever its score
   double likeness_solved = 0.35;   ///< the same, to one that meets the data: only those are
@@ -44,7 +44,7 @@ struct NameThresholds {
   double to_nothing = 1.1;           ///< of the size that is as good as absent: it has driven it to nothing
   double as_good_gained = 0.05;      ///< mean square that a twin may be worse by on runs held out,
   double as_good_cost = 0.1;         ///< and of the cost
-  double worth_a_pair = 4.0;         ///< left: two effects at once are looked for
+  double worth_a_pair = 4.0;         ///< left: every effect is tried, then two at once
   std::size_t most_firsts = 3;       ///< as the first of a pair
   std::size_t most_substitutes = 3;  ///< as the second, or instead of one that was named
   double pair_share = 0.6;           ///< of the gap, that they must close,
