@@ -47,6 +47,21 @@ TEST(Diagnose, SaysThatNothingIsMissingWhereNothingIs) {
   EXPECT_LT(found.gap.nominal_rmse, 1.3 * found.gap.noise_floor);
 }
 
+// A day's runs: the search asks as many as make up 288 s, and what it found is tried on the others.
+TEST(Diagnose, AsksSomeOfManyRunsAndTriesWhatItFoundOnAll) {
+  auto currents = three_kinds();
+  for (auto& current : currents) current.duration_s = 20.0;
+  const auto found =
+      diagnosis_of(planted({}, {6.0, 9.0, 12.0, 14.0, 16.0, 19.0, 22.0, 25.0}, currents, 7), 0);
+  EXPECT_EQ(found.verdict, Verdict::nothing_missing) << found.because;
+  ASSERT_EQ(found.runs.size(), 24u);
+  const auto asked = std::ranges::find_if(found.warnings, [](const std::string& warning) {
+    return warning.find("of 24 runs the search asked") != std::string::npos;
+  });
+  ASSERT_NE(asked, found.warnings.end());
+  EXPECT_NE(asked->find("was tried on all, and meets the others as well"), std::string::npos) << *asked;
+}
+
 // Exact stick and slip has no common steps: each rig rides alone.
 TEST(Diagnose, NamesTheLeakOfARigWithCoulombFrictionAndNothingWhereNothingIs) {
   plant::Rig nominal;
