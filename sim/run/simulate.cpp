@@ -18,12 +18,23 @@
 namespace mckibben::run {
 namespace {
 
+/// With the noise that the sensor of position has by its data sheet.
+plant::Noise with_sensor(plant::Noise noise, const plant::Rig& rig) {
+  const double rise_m = rig.sensor.noise * rig.sensor.rise_m(rig.joint.wheel_radius_m);
+  noise.encoder_jitter = std::hypot(noise.encoder_jitter, rise_m / rig.muscle.rest_length_m);
+  return noise;
+}
+
 /// Draws the noise of one run: the same for the same seed and stream, whatever runs beside it.
 class Disturbance {
  public:
-  Disturbance(const plant::Noise& noise, double tick_s, std::uint64_t seed, std::uint64_t stream)
-      : noise_(noise), kept_(std::exp(-tick_s / noise.wander_time_s)) {
-    std::seed_seq sequence{seed & 0xffffffffu, seed >> 32, stream & 0xffffffffu, stream >> 32};
+  explicit Disturbance(const RunPlan& plan)
+      : noise_(with_sensor(plan.noise, plan.rig)),
+        is_none_(noise_.encoder_jitter == 0.0 && noise_.gauge_Pa == 0.0 && noise_.current_mA == 0.0 &&
+                 noise_.wander_Pa == 0.0 && plan.rig.load_cell.noise_N == 0.0),
+        kept_(std::exp(-plan.rig.tick_s / noise_.wander_time_s)) {
+    std::seed_seq sequence{plan.seed & 0xffffffffu, plan.seed >> 32, plan.stream & 0xffffffffu,
+                           plan.stream >> 32};
     random_.seed(sequence);
     if (noise_.ripple_Pa > 0.0) phase_ = std::uniform_real_distribution(0.0, 2.0 * std::numbers::pi)(random_);
     if (noise_.wander_Pa > 0.0) wander_ = draw();
@@ -46,20 +57,15 @@ class Disturbance {
   }
 
  private:
-  double draw() { return normal_(random_); }
+  /// Also where a kind of noise is absent, so that the others do not change with it; but for nothing at all.
+  double draw() { return is_none_ ? 0.0 : normal_(random_); }
 
   plant::Noise noise_;
+  bool is_none_;
   double kept_, phase_ = 0.0, wander_ = 0.0;
   std::mt19937_64 random_;
   std::normal_distribution<double> normal_;
 };
-
-/// With the noise that the sensor of position has by its data sheet.
-plant::Noise with_sensor(plant::Noise noise, const plant::Rig& rig) {
-  const double rise_m = rig.sensor.noise * rig.sensor.rise_m(rig.joint.wheel_radius_m);
-  noise.encoder_jitter = std::hypot(noise.encoder_jitter, rise_m / rig.muscle.rest_length_m);
-  return noise;
-}
 
 /// What a run does at each instant, and what it leaves behind.
 class Run {
@@ -71,7 +77,7 @@ class Run {
         begin_(first_ - std::lround(plan.rig.settling_time_s / plan.rig.tick_s)),
         k_(begin_),
         counter_(plan.rig),
-        disturbance_(with_sensor(plan.noise, plan.rig), plan.rig.tick_s, plan.seed, plan.stream) {
+        disturbance_(plan) {
     recording_.samples.reserve(plan_.ticks);
   }
 
