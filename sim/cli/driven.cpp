@@ -78,6 +78,7 @@ int replay_stamped(const Options& options, const std::string& path, const domain
   Job job(options, "replay " + path, name + "-replay", dataset.inputs);
   const std::vector<run::StampedRun> runs = with_progress(
       name, [&](const auto& hook) { return run::replay_stamped(dataset, options.threads, hook); });
+  const auto warnings = tasks::warnings_of(dataset, runs);
   TablesOf tables(job, "Replay of " + name, formats);
   for (std::size_t i = 0; i < runs.size(); ++i) {
     const run::StampedRun& run = runs[i];
@@ -90,7 +91,7 @@ int replay_stamped(const Options& options, const std::string& path, const domain
         std::move(attributes));
   }
   tables.close();
-  return finish(job, dataset, runs, runs, tasks::warnings_of(runs));
+  return finish(job, dataset, runs, runs, warnings);
 }
 
 }  // namespace mckibben::cli

@@ -142,6 +142,7 @@ void read_table_of(Source source, Format format, const Wanted& wanted, const Col
   check_said_units(table, map, found);
   if (dataset.own_clock && (found.count() > 0 || table.columns.empty())) return;
   convert_columns(table, map, dataset.rig);
+  if (contraction != nullptr) run.ratio_per_unit = ratio_per_unit(map.contraction, dataset.rig);
   if (dataset.own_clock) {
     run.measured = measurement_of(table, map, dataset.rig, dataset.recorded, found);
     run.rest_length_m = dataset.rig.muscle.rest_length_m;
@@ -155,7 +156,6 @@ void read_table_of(Source source, Format format, const Wanted& wanted, const Col
   checks.pressure(lowest_gauge_bar, highest_gauge_bar);
   run.current_mA = std::move(current->values);
   run.contraction_ratio = std::move(contraction->values);
-  run.ratio_per_unit = ratio_per_unit(map.contraction, dataset.rig);
   if (Table::Column* pressure = table.find("muscle_pressure_bar")) {
     run.muscle_pressure_Pa = std::move(pressure->values);
     for (double& value : *run.muscle_pressure_Pa) value *= plant::Pa_per_bar;

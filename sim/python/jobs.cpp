@@ -161,8 +161,12 @@ Result replay(const domain::Dataset& dataset, const py::object& rig, unsigned th
   domain::Dataset data = dataset;
   if (!rig.is_none()) tasks::replace_rig(data, "rig", rig_of(rig).file);
   if (!data.own_clock) return replay_ticked(std::move(data), threads, progress);
-  auto runs = long_work(progress, [&](const auto& hook) { return run::replay_stamped(data, threads, hook); });
-  auto warnings = tasks::warnings_of(runs);
+  std::vector<std::string> warnings;
+  auto runs = long_work(progress, [&](const auto& hook) {
+    auto replayed = run::replay_stamped(data, threads, hook);
+    warnings = tasks::warnings_of(data, replayed);
+    return replayed;
+  });
   return driven(std::move(data), std::move(runs), std::move(warnings),
                 [](const run::StampedRun& run, Simulated& one) {
                   one.name = run.id;

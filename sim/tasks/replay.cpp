@@ -2,12 +2,30 @@
 #include <utility>
 
 #include <sim/input/common_checks.hpp>
+#include <sim/input/dataset_file.hpp>
 #include <sim/input/diagnostics.hpp>
+#include <sim/run/judged.hpp>
 #include <sim/run/sanity.hpp>
 #include <sim/run/warnings.hpp>
 #include <sim/tasks/replay.hpp>
 
 namespace mckibben::tasks {
+namespace {
+
+template <class Runs>
+std::vector<std::string> warnings_of(const domain::Dataset& dataset,
+                                     const std::vector<domain::Objection>& objections, const Runs& runs) {
+  run::raise(dataset, objections);
+  std::vector<std::string> warnings;
+  warnings.reserve(objections.size());
+  for (const auto& objection : objections) warnings.push_back(domain::text_of(dataset, objection));
+  for (const auto& run : runs)
+    for (const auto& doubt : run::doubts(run.recording))
+      warnings.push_back(run::warning_of_run(run.id, doubt));
+  return warnings;
+}
+
+}  // namespace
 
 void replace_rig(domain::Dataset& dataset, const std::string& called, domain::RigFile rig) {
   const bool pair = dataset.rig.pair() != nullptr;
@@ -22,23 +40,15 @@ void replace_rig(domain::Dataset& dataset, const std::string& called, domain::Ri
 
 std::vector<std::string> warnings_of(const domain::Dataset& dataset,
                                      const std::vector<run::ReplayedRun>& runs) {
-  const auto objections = run::sanity(dataset, run::expected_of(runs));
-  run::raise(dataset, objections);
-  std::vector<std::string> warnings;
-  warnings.reserve(objections.size());
-  for (const auto& objection : objections) warnings.push_back(domain::text_of(dataset, objection));
-  for (const auto& run : runs)
-    for (const auto& doubt : run::doubts(run.recording))
-      warnings.push_back(run::warning_of_run(run.id, doubt));
-  return warnings;
+  return warnings_of(dataset, run::sanity(dataset, run::expected_of(runs)), runs);
 }
 
-std::vector<std::string> warnings_of(const std::vector<run::StampedRun>& runs) {
-  std::vector<std::string> warnings;
-  for (const run::StampedRun& run : runs)
-    for (const auto& doubt : run::doubts(run.recording))
-      warnings.push_back(run::warning_of_run(run.id, doubt));
-  return run::grouped(warnings);
+std::vector<std::string> warnings_of(const domain::Dataset& dataset,
+                                     const std::vector<run::StampedRun>& runs) {
+  std::vector<domain::Objection> objections;
+  if (input::has_one_load(dataset) && !run::interrupted())
+    objections = run::look(run::with_rows(dataset)).objections;
+  return run::grouped(warnings_of(dataset, objections, runs));
 }
 
 }  // namespace mckibben::tasks

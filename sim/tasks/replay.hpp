@@ -18,7 +18,8 @@ void replace_rig(domain::Dataset& dataset, const std::string& called, domain::Ri
 /// comparison with them would mean nothing.
 std::vector<std::string> warnings_of(const domain::Dataset& dataset,
                                      const std::vector<run::ReplayedRun>& runs);
-/// What is doubtful in the simulation of data with a clock of their own.
-std::vector<std::string> warnings_of(const std::vector<run::StampedRun>& runs);
+/// The same of data with a clock of their own. Where one load hangs, what `check` would look at is looked at.
+std::vector<std::string> warnings_of(const domain::Dataset& dataset,
+                                     const std::vector<run::StampedRun>& runs);
 
 }  // namespace mckibben::tasks

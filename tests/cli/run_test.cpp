@@ -258,15 +258,18 @@ TEST(Replay, AndCheckRefuseDataThatAreNotWhatTheySay) {
   const Scratch scratch;
   write_text(scratch / "quick.yaml", quick_scenario);
   ASSERT_EQ(mckibben("run quick.yaml --out sim", scratch).status, 0);
-  write_text(scratch / "dataset.yaml",
-             "schema: mckibben-dataset/1\nrig: thesis\n"
-             "columns: {contraction: {column: contraction_ratio, unit: mm}}\nruns:\n"
-             "  - {id: a, file: sim/11.138kg_sine_current.csv, load: 11.138 kg}\n");
-  for (const char* verb : {"replay . --out back", "check .", "diagnose . --out back"}) {
-    const auto said = mckibben(verb, scratch);
-    EXPECT_EQ(said.status, 65) << verb;
-    EXPECT_NE(said.err.find("dataset.yaml:3:"), std::string::npos) << said.err;
-    EXPECT_NE(said.err.find("this looks like a ratio, not millimetres (mm)"), std::string::npos) << said.err;
+  for (const std::string clock : {"", "start: settled\n"}) {  // the second is a clock of its own
+    write_text(scratch / "dataset.yaml",
+               "schema: mckibben-dataset/1\nrig: thesis\n"
+               "columns: {contraction: {column: contraction_ratio, unit: mm}}\n" +
+                   clock + "runs:\n  - {id: a, file: sim/11.138kg_sine_current.csv, load: 11.138 kg}\n");
+    for (const char* verb : {"replay . --out back", "check .", "diagnose . --out back"}) {
+      const auto said = mckibben(verb, scratch);
+      EXPECT_EQ(said.status, 65) << verb << clock;
+      EXPECT_NE(said.err.find("dataset.yaml:3:"), std::string::npos) << said.err;
+      EXPECT_NE(said.err.find("this looks like a ratio, not millimetres (mm)"), std::string::npos)
+          << said.err;
+    }
   }
   EXPECT_FALSE(fs::exists(scratch / "back"));
 }
@@ -275,16 +278,19 @@ TEST(Replay, AndCheckNameLabelsThatLookExchanged) {
   const Scratch scratch;
   write_text(scratch / "quick.yaml", quick_scenario);
   ASSERT_EQ(mckibben("run quick.yaml --out sim", scratch).status, 0);
-  write_text(scratch / "dataset.yaml",
-             "schema: mckibben-dataset/1\nrig: thesis\nruns:\n"
-             "  - {id: a, file: sim/11.138kg_sine_current.csv, load: 16.138 kg}\n"
-             "  - {id: b, file: sim/16.138kg_sine_current.csv, load: 11.138 kg}\n");
+  const std::string runs =
+      "runs:\n"
+      "  - {id: a, file: sim/11.138kg_sine_current.csv, load: 16.138 kg}\n"
+      "  - {id: b, file: sim/16.138kg_sine_current.csv, load: 11.138 kg}\n";
   const char* const words = "look exchanged; write load: 11.138 kg for a, load: 16.138 kg for b";
-  const auto said = mckibben("replay . --out back --json", scratch);
-  ASSERT_EQ(said.status, 0) << said.err;
-  EXPECT_NE(said.err.find(words), std::string::npos) << said.err;
-  EXPECT_NE(Json::parse(said.out).at("warnings").at(0).get<std::string>().find(words), std::string::npos);
-  EXPECT_NE(read_text(scratch / "back/report.html").find(words), std::string::npos);
+  for (const std::string clock : {"start: settled\n", ""}) {  // the first is a clock of its own
+    write_text(scratch / "dataset.yaml", "schema: mckibben-dataset/1\nrig: thesis\n" + clock + runs);
+    const auto said = mckibben("replay . --out back --json", scratch);
+    ASSERT_EQ(said.status, 0) << said.err;
+    EXPECT_NE(said.err.find(words), std::string::npos) << said.err;
+    EXPECT_NE(Json::parse(said.out).at("warnings").at(0).get<std::string>().find(words), std::string::npos);
+    EXPECT_NE(read_text(scratch / "back/report.html").find(words), std::string::npos);
+  }
   const auto checked = mckibben("check .", scratch);
   EXPECT_EQ(checked.status, 0);
   EXPECT_NE(checked.err.find("dataset.yaml:4:"), std::string::npos) << checked.err;
