@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <plant/own_command.hpp>
 #include <sim/input/column_hints.hpp>
 #include <sim/input/number.hpp>
 #include <sim/input/quantity.hpp>
@@ -116,6 +117,22 @@ void ColumnChecks::current(double largest_mA) {
                     line_of("current", map_.current)));
 }
 
+// No DAC of ours made it; what lies a whole range outside is of another valve, or in another unit.
+void ColumnChecks::command(const Table::Column& column, const std::string& key, const ColumnPlace& place,
+                           const plant::Valve& valve) {
+  constexpr double digits = 1e9;  // those of a table come back
+  const double zero = valve.zero_command.value, span = valve.span_command.value;
+  Table::Column commands = column;
+  commands.name = key;
+  for (double& value : commands.values)
+    value = std::round(digits * plant::command_for(valve, value)) / digits;
+  range(commands, 2.0 * zero - span, 2.0 * span - zero,
+        fmt::format("the rig's valve takes {:g} to {:g} {}", zero, span,
+                    plant::name_of(valve.zero_command.unit)),
+        fmt::format("is it in another unit or another column? columns: {{{}}} would say so",
+                    line_of(key, place)));
+}
+
 void ColumnChecks::contraction(double lowest, double highest, double largest_mA) {
   const Table::Column& column = *table_.find("contraction_ratio");
   const Table::Column* current = has_own_command_ ? nullptr : table_.find("current_mA");
@@ -137,6 +154,11 @@ void ColumnChecks::contraction(double lowest, double highest, double largest_mA)
     hint =
         fmt::format("if it falls as the muscle contracts, its sign is the other one; write columns: {{{}}}",
                     line_of("contraction", meant));
+  } else if (meant.unit != "1" && meant.zero == 0.0 && within(column.values, highest, infinite)) {
+    hint = fmt::format(
+        "does it read something else than 0 at rest length? Then columns: {{{}}} says so with zero: and that "
+        "reading, and with factor: -1 if it falls as the muscle contracts",
+        line_of("contraction", meant));
   } else {
     if (meant.unit == "1") meant = {meant.column, "mm", meant.zero, meant.factor};
     hint = fmt::format(

@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 
+#include <plant/valve.hpp>
 #include <sim/input/column_units.hpp>
 
 namespace mckibben::input {
@@ -23,6 +24,9 @@ class ColumnChecks {
   /// As `check_ticks`; a clock in another unit or with another tick is said to be so.
   void time(double tick_s);
   void current(double largest_mA);
+  /// Of a valve with commands of its own; `column` holds the currents that they stand for.
+  void command(const Table::Column& column, const std::string& key, const ColumnPlace& place,
+               const plant::Valve& valve);
   void contraction(double lowest, double highest, double largest_mA);
   void pressure(double lowest_bar, double highest_bar);
 

@@ -215,22 +215,20 @@ class Assembling {
         take("muscle_pressure" + number + "_bar", into.pressure_is_given ? lowest_given_bar : lowest_read_bar,
              highest_bar, into.pressure_is_given ? "what a muscle can be given" : "what a gauge can show");
     for (double& value : into.muscle_pressure_Pa) value *= plant::Pa_per_bar;
-    into.current_mA =
-        command(command_of(map_, pair_, side), valve_of(rig_, side), "current" + number + "_mA");
+    into.current_mA = command(command_of(map_, pair_, side), valve_of(rig_, side), number);
   }
 
-  std::vector<double> command(const ColumnPlace& place, const plant::Valve& valve, const std::string& name) {
+  std::vector<double> command(const ColumnPlace& place, const plant::Valve& valve,
+                              const std::string& number) {
+    const std::string name = "current" + number + "_mA";
     if (place.absent() || is_current(place.unit)) {
       constexpr double slack_mA = 1e-9;  // shortest digits of a sum of DAC steps
       return take(name, 0.0, rig_.dac.largest_current_mA + slack_mA, "range of the rig's DAC");
     }
-    // No DAC of ours made it; what lies a whole range outside is of another valve, or in another unit.
-    const plant::RatedCommand &zero = valve.zero_command, &span = valve.span_command;
-    return take(
-        name, valve.current_for_mA(2.0 * zero.value - span.value),
-        valve.current_for_mA(2.0 * span.value - zero.value),
-        fmt::format("the rig's valve takes {:g} to {:g} {}, here as {:g} to {:g} mA", zero.value, span.value,
-                    plant::name_of(zero.unit), valve.zero_current_mA, valve.span_current_mA));
+    const Table::Column* column = table_.find(name);
+    if (column == nullptr) return {};
+    ColumnChecks(table_, map_, problems_).command(*column, "command" + number, place, valve);
+    return column->values;
   }
 
   std::vector<double> contraction() {
