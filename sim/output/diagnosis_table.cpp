@@ -52,7 +52,7 @@ std::string moved(const Diagnosis& diagnosis) {
   return grid.empty() ? "" : grid.text();
 }
 
-std::string gap(const Diagnosis& diagnosis) {
+std::string gap(const Diagnosis& diagnosis, const plant::Rig& rig) {
   const auto& gap = diagnosis.gap;
   Grid grid({"nominal", "recalibrated", "corrected", "noise floor", "closed"}, 0);
   const auto error = [&](double value) {
@@ -64,7 +64,7 @@ std::string gap(const Diagnosis& diagnosis) {
       case diagnose::Judged::contraction:
         break;
     }
-    return fmt::format("{:.6f}", value);
+    return fmt::format("{:.3f}", 1e3 * rig.muscle.rest_length_m * value);
   };
   grid.add({error(gap.nominal_rmse), error(gap.recalibrated_rmse), error(gap.corrected_rmse),
             error(gap.noise_floor), fmt::format("{:.1f} %", 100.0 * gap.closed)});
@@ -116,7 +116,7 @@ std::string next(const Diagnosis& diagnosis) {
 std::string unit_of(const domain::Dataset& data) {
   if (data.judged() == diagnose::Judged::force) return "forces in N";
   if (data.judged() == diagnose::Judged::angle) return "joint angles in deg";
-  return fmt::format("contraction ratios (0.001 = {:g} mm)", data.rig.muscle.rest_length_m);
+  return "heights of the load in mm";
 }
 
 }  // namespace
@@ -133,7 +133,7 @@ std::string table_of(const domain::Dataset& data, const Diagnosis& diagnosis) {
   if (!diagnosis.residual_law.empty() && !diagnosis.law_valid_for.empty())
     text += "  residual_law is valid for " + diagnosis.law_valid_for + "\n";
   text += section("recalibrated by more than a deviation of what a data sheet promises", moved(diagnosis));
-  if (!unseen.empty()) text += section("rmse of the runs held out", gap(diagnosis));
+  if (!unseen.empty()) text += section("rmse of the runs held out", gap(diagnosis, data.rig));
   text += section("rmse of what was read beside it, each weighed by its own floor", beside(diagnosis));
   text += section("explain these data as well", twins(diagnosis));
   text += section("names given with such evidence to simulated data were right", confidence(diagnosis));

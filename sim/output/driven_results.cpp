@@ -154,9 +154,13 @@ std::string table_of(const domain::Dataset& dataset, const std::vector<run::Stam
       grid.add({run.id, "no result", "", "-", "-", "-", "-"});
     else if (run.gaps.empty())
       grid.add({run.id, "none", "", "-", "-", "-", "-"});
-    for (const run::Gap& gap : run.gaps)
-      grid.add({run.id, gap.reading, gap.unit, gap_number(gap.rmse), gap_number(gap.largest),
-                gap_number(gap.mean, true), std::to_string(gap.rows)});
+    for (const run::Gap& gap : run.gaps) {
+      const bool height = gap.reading == "contraction";
+      const double factor = height ? 1e3 * dataset.rig.muscle.rest_length_m : 1.0;
+      grid.add({run.id, gap.reading, height ? "mm" : gap.unit, gap_number(factor * gap.rmse),
+                gap_number(factor * gap.largest), gap_number(factor * gap.mean, true),
+                std::to_string(gap.rows)});
+    }
   }
   return fmt::format("{}: {} run{} replayed; simulated less measured, of each reading\n\n",
                      dataset.path.string(), runs.size(), runs.size() == 1 ? "" : "s") +

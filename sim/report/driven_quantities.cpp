@@ -148,12 +148,12 @@ std::vector<Loop> measured_pair_loops() {
           pressure_loop("2")};
 }
 
-std::vector<Plot> single_plots(bool contraction_is_measured, bool force, bool commands) {
+std::vector<Plot> single_plots(const Measured& measured) {
   std::vector<Plot> plots;
   add_compared(plots, "contraction", "Contraction", std::string(ratio_unit), "contraction",
-               contraction_is_measured ? measured_beside() : Beside{});
-  if (force) add_compared(plots, "cord_force", "Force of the cord", "N", "cord", measured_beside());
-  if (commands)
+               measured.contraction ? measured_beside() : Beside{});
+  if (measured.force) add_compared(plots, "cord_force", "Force of the cord", "N", "cord", measured_beside());
+  if (measured.commands)
     plots.push_back({"current", "Current", "mA", {{.key = "current", .label = "current", .main = true}}});
   plots.push_back({"pressures",
                    "Pressures",
@@ -161,6 +161,11 @@ std::vector<Plot> single_plots(bool contraction_is_measured, bool force, bool co
                    {{.key = "muscle_pressure", .label = "muscle", .main = true},
                     {.key = "valve_pressure", .label = "valve"},
                     {.key = "given_muscle_pressure", .label = "measured", .given = true}}});
+  if (measured.pressure)
+    plots.push_back({"muscle_pressure_error",
+                     "Error of the pressure: " + measured_beside().error,
+                     "bar",
+                     {{.key = "muscle_pressure_error", .label = "error", .main = true}}});
   plots.push_back({"forces",
                    "Forces that shorten the muscle",
                    "N",

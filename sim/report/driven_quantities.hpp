@@ -29,7 +29,11 @@ inline Beside target_beside() {
 }
 
 std::vector<Plot> pair_plots(const Beside& angle, bool commands);
-std::vector<Plot> single_plots(bool contraction_is_measured, bool force, bool commands);
+/// What was measured of one muscle; commands drove it, or a pressure did.
+struct Measured {
+  bool contraction = false, force = false, pressure = false, commands = false;
+};
+std::vector<Plot> single_plots(const Measured& measured);
 
 /// Of what is measured alone of a pair, as measured_plots (quantities.hpp).
 std::vector<Plot> measured_pair_plots();

@@ -10,6 +10,7 @@
 #include <sim/report/html.hpp>
 #include <sim/report/in_script.hpp>
 #include <sim/report/length.hpp>
+#include <sim/report/own_commands.hpp>
 #include <sim/report/pack.hpp>
 #include <sim/report/rig_json.hpp>
 #include <sim/report/rig_words.hpp>
@@ -71,6 +72,11 @@ std::string data_of(const Contents& contents) {
   Json data{{"tick_s", contents.rig.tick_s},
             {"rig", drawn_rig_json(contents.rig, contents.mechanics, contents.gauge)},
             {"drawn", contents.drawn}};
+  if (const plant::Valve& valve = contents.rig.valve; shows_own_commands(contents))
+    data["rig"]["command"] = {{"name", "command"},
+                              {"unit", plant::name_of(valve.zero_command.unit)},
+                              {"zero", valve.zero_command.value},
+                              {"span", valve.span_command.value}};
   for (const auto& plot : contents.plots) data["plots"].push_back(plot_json(plot));
   for (const auto& group : contents.groups) data["groups"].push_back(group_json(group, runs_of(contents)));
   return in_script(data);
@@ -168,7 +174,8 @@ std::string figures_html(const std::vector<Picture>& pictures, bool wide) {
   return html + "</div>\n";
 }
 
-std::string html_of(const Contents& contents) {
+std::string html_of(const Contents& as_calculated) {
+  const Contents contents = with_own_commands(as_calculated);
   const bool runs = !contents.groups.empty();
   std::string html = fmt::format(
       "<!DOCTYPE html>\n<html lang='en'>\n<head>\n<meta charset='utf-8'>\n"

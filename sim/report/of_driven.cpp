@@ -1,6 +1,8 @@
 // Reports of replays of data with a clock of their own. A group for each run; a pair has lines for either
 // muscle.
 #include <algorithm>
+#include <functional>
+#include <numeric>
 #include <utility>
 
 #include <fmt/format.h>
@@ -9,8 +11,10 @@
 #include <sim/output/diagnosis_words.hpp>
 #include <sim/output/driven_results.hpp>
 #include <sim/output/svg.hpp>
+#include <sim/report/by_load.hpp>
 #include <sim/report/driven_quantities.hpp>
 #include <sim/report/html.hpp>
+#include <sim/report/length.hpp>
 #include <sim/report/quantities.hpp>
 #include <sim/report/report.hpp>
 
@@ -32,42 +36,81 @@ void add_readings(Group& group, Run& shown, const domain::Measurement& measured,
   }
 }
 
-std::string gaps_table(const std::vector<run::StampedRun>& runs) {
-  std::string html =
-      "<table><caption>Simulated less measured</caption>\n<thead><tr><th scope='col'>run</th><th "
-      "scope='col'>reading</th><th scope='col'>rmse</th><th scope='col'>largest</th><th "
-      "scope='col'>mean</th><th scope='col'>rows</th></tr></thead>\n<tbody>\n";
-  std::size_t group = 0;
-  for (const auto& run : runs) {
-    const bool drawn = !run.recording.samples.empty();
-    const auto head = [&] {
-      return drawn ? fmt::format("<tr data-group='{}'><th scope='row'>{}</th>", group, escaped(run.id))
-                   : fmt::format("<tr><th scope='row'>{}</th>", escaped(run.id));
-    };
-    if (run.gaps.empty())
-      html += head() +
-              fmt::format("<td colspan='5'>{}</td></tr>\n", run.failure.empty() ? "no reading" : "no result");
-    for (const run::Gap& gap : run.gaps)
-      html += head() + fmt::format("<td>{}{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
-                                   gap.reading, gap.unit == "1" ? "" : ", " + gap.unit,
-                                   output::gap_number(gap.rmse), output::gap_number(gap.largest),
-                                   output::gap_number(gap.mean, true), gap.rows);
-    if (drawn) ++group;
-  }
-  return html + "</tbody></table>\n";
+/// The gap of the height of the load; null where that was not read.
+const run::Gap* height_of(const run::StampedRun& run) {
+  const auto gap = std::ranges::find(run.gaps, "contraction", &run::Gap::reading);
+  return gap == run.gaps.end() ? nullptr : &*gap;
 }
 
-std::string sentence(const std::vector<run::StampedRun>& runs) {
+bool drawn(const run::StampedRun& run) {
+  return !run.recording.samples.empty();
+}
+
+/// In the order in which the page shows them: as measured, or of many the worst first.
+std::vector<std::size_t> order(const std::vector<run::StampedRun>& runs) {
+  std::vector<std::size_t> all(runs.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  if (runs.size() <= many_runs) return all;
+  const auto badness = [&](std::size_t i) { return runs[i].gaps.empty() ? -1.0 : runs[i].gaps.front().rmse; };
+  std::ranges::stable_sort(all, std::greater(), badness);
+  return all;
+}
+
+std::string gap_row(const run::Gap& gap, const plant::Rig& rig) {
+  const bool height = gap.reading == "contraction";
+  const auto cell = [&](double value, bool sign) {
+    return height ? length_html(value, rig, 3, sign) : output::gap_number(value, sign);
+  };
+  const std::string unit = height ? length_unit_html() : gap.unit;
+  return fmt::format("<td>{}, {}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n", gap.reading, unit,
+                     cell(gap.rmse, false), cell(gap.largest, false), cell(gap.mean, true), gap.rows);
+}
+
+/// A row for each reading of each run; of many runs the loads first.
+std::string gaps_table(const domain::Dataset& dataset, const std::vector<run::StampedRun>& runs) {
+  std::string html =
+      "<table><caption>Simulated less measured</caption>\n<thead><tr><th scope='col'>run</th><th "
+      "scope='col'>load, kg</th><th scope='col'>reading</th><th scope='col'>rmse</th><th "
+      "scope='col'>largest</th><th scope='col'>mean</th><th scope='col'>rows</th></tr></thead>\n<tbody>\n";
+  std::vector<Judged> judged;
+  std::size_t group = 0;
+  for (const std::size_t i : order(runs)) {
+    const run::StampedRun& run = runs[i];
+    const std::string link = drawn(run) ? link_html(group, run.id) : escaped(run.id);
+    const std::string head = fmt::format("<tr{}><th scope='row'>{}</th><td>{}</td>",
+                                         drawn(run) ? fmt::format(" data-group='{}'", group) : "", link,
+                                         run.load_kg > 0.0 ? domain::write_number(run.load_kg) : "-");
+    if (run.gaps.empty())
+      html += head +
+              fmt::format("<td colspan='5'>{}</td></tr>\n", run.failure.empty() ? "no reading" : "no result");
+    for (const run::Gap& gap : run.gaps) html += head + gap_row(gap, dataset.rig);
+    if (const run::Gap* height = height_of(run); height != nullptr && run.load_kg > 0.0)
+      judged.push_back({run.id, run.load_kg, height->rmse, group});
+    if (drawn(run)) ++group;
+  }
+  html += "</tbody></table>\n";
+  if (runs.size() <= many_runs || judged.empty()) return html;
+  return by_load_html(judged, dataset.rig) +
+         fmt::format("<details><summary>All {} runs, the worst first</summary>\n{}</details>\n", runs.size(),
+                     html);
+}
+
+std::string sentence(const domain::Dataset& dataset, const std::vector<run::StampedRun>& runs) {
   const run::Gap* worst = nullptr;
   const run::StampedRun* of = nullptr;
   for (const auto& run : runs)
     if (!run.gaps.empty() && (worst == nullptr || run.gaps.front().rmse > worst->rmse))
       worst = &run.gaps.front(), of = &run;
   if (worst == nullptr) return "Nothing was read that a simulation could be compared with.";
+  const bool height = worst->reading == "contraction";
   return fmt::format(
-      "Simulated and measured {} differ by {}{}, root mean square, where they differ most: in {}.",
-      worst->reading == "muscle_pressure" ? "pressure" : worst->reading, output::gap_number(worst->rmse),
-      worst->unit == "1" ? "" : " " + worst->unit, escaped(of->id));
+      "Simulated and measured {} differ by {}, root mean square, where they differ most: in {}.",
+      height                                ? "height of the load"
+      : worst->reading == "muscle_pressure" ? "pressure"
+                                            : worst->reading,
+      height ? full_length_html(worst->rmse, dataset.rig)
+             : output::gap_number(worst->rmse) + " " + worst->unit,
+      escaped(of->id));
 }
 
 Contents contents_of(const domain::RigFile& rig, const run::Driven& driven) {
@@ -91,24 +134,26 @@ std::string report_html(const domain::Dataset& dataset, const std::vector<run::S
                          [&](const auto& gap) { return gap.reading == reading; });
     });
   };
-  const auto drawn =
-      std::find_if(runs.begin(), runs.end(), [](const auto& run) { return !run.recording.samples.empty(); });
-  const run::Driven driven = drawn == runs.end() ? run::Driven{} : drawn->recording.driven;
+  const auto first = std::ranges::find_if(runs, drawn);
+  const run::Driven driven = first == runs.end() ? run::Driven{} : first->recording.driven;
   Contents contents = contents_of(dataset.rig, driven);
   contents.title = "Replay of " + output::name_of(dataset);
   contents.about = fmt::format("{} measured run{}, simulated with what drove them", runs.size(),
                                runs.size() == 1 ? "" : "s");
   contents.warnings = warnings;
-  contents.sentence = sentence(runs);
-  contents.table = gaps_table(runs);
+  contents.sentence = sentence(dataset, runs);
+  contents.table = gaps_table(dataset, runs);
+  contents.gauge = measured("muscle_pressure") || driven.pressure[0];
   contents.details = output::table_of(dataset, runs, warnings);
-  contents.plots = driven.pair
-                       ? pair_plots(measured("angle") ? measured_beside() : Beside{},
-                                    !driven.pressure[0] || !driven.pressure[1])
-                       : single_plots(measured("contraction"), measured("force"), !driven.pressure[0]);
-  for (std::size_t i = 0; i < runs.size(); ++i) {
+  contents.plots = driven.pair ? pair_plots(measured("angle") ? measured_beside() : Beside{},
+                                            !driven.pressure[0] || !driven.pressure[1])
+                               : single_plots({.contraction = measured("contraction"),
+                                               .force = measured("force"),
+                                               .pressure = measured("muscle_pressure"),
+                                               .commands = !driven.pressure[0]});
+  for (const std::size_t i : order(runs)) {
     const run::StampedRun& run = runs[i];
-    if (run.recording.samples.empty()) continue;
+    if (!drawn(run)) continue;
     const domain::Measurement& given = *dataset.runs[i].measured;
     Group group{.name = run.load_kg > 0.0
                             ? fmt::format("{}, {} kg", run.id, domain::write_number(run.load_kg))
@@ -117,6 +162,7 @@ std::string report_html(const domain::Dataset& dataset, const std::vector<run::S
                 .ticks = run.recording.samples.size(),
                 .time_s = given.time_s};
     group.time_s.resize(group.ticks);
+    if (const run::Gap* height = height_of(run)) group.rmse = height->rmse;
     Run shown{.name = "simulated", .ticks = group.ticks};
     shown.quantities =
         driven.pair ? pair_quantities(dataset.rig, run.recording) : single_quantities(run.recording);

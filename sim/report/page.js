@@ -12,11 +12,12 @@ const calm = matchMedia('(prefers-reduced-motion: reduce)').matches;
 const drawing = new (report.rig.pair ? PairPicture : RigPicture)(byId('rig'));
 const ratio = 'contraction ratio';
 const allColumns = [
-  ['contraction', 'contraction', ratio, 5], ['error', 'error', ratio, 5], ['current', 'current', 'mA', 2],
-  ['muscle_pressure', 'muscle', 'bar', 3], ['pressure_error', 'error', 'bar', 3],
-  ['braid_force', 'braid', 'N', 1], ['friction_force', 'friction', 'N', 1], ['cord_force', 'cord', 'N', 1],
-  ['contraction_error', 'error', ratio, 5], ['cord_force_error', 'error', 'N', 1],
-  ['angle', 'angle', 'deg', 2], ['angle_error', 'error', 'deg', 3],
+  ['contraction', 'contraction', ratio, 5], ['error', 'error', ratio, 5],
+  ['current', command.name, command.unit, 2], ['muscle_pressure', 'muscle', 'bar', 3],
+  ['pressure_error', 'error', 'bar', 3], ['braid_force', 'braid', 'N', 1],
+  ['friction_force', 'friction', 'N', 1], ['cord_force', 'cord', 'N', 1],
+  ['contraction_error', 'error', ratio, 5], ['muscle_pressure_error', 'error', 'bar', 3],
+  ['cord_force_error', 'error', 'N', 1], ['angle', 'angle', 'deg', 2], ['angle_error', 'error', 'deg', 3],
   ['muscle_pressure_1', 'muscle 1', 'bar', 3], ['muscle_pressure_2', 'muscle 2', 'bar', 3],
   ['tension_1', 'cord 1', 'N', 1], ['tension_2', 'cord 2', 'N', 1], ['stiffness', 'stiffness', 'N m/rad', 2]
 ];

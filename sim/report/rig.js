@@ -35,6 +35,9 @@ function threadPaths(shape, phase, hand, left, axis, fitting) {
   return paths;
 }
 
+/** What drives the valve, and its range. */
+const command =
+    report.rig.command ?? {name: 'current', unit: 'mA', zero: report.rig.zero_mA, span: report.rig.span_mA};
 const short = (value) => String(+value.toPrecision(4));
 const share = (bar) => `${Math.round(10 + (70 * bar) / report.rig.supply_bar)}%`;
 
@@ -127,11 +130,11 @@ class RigPicture {
     this.load = part('rect', {class: 'load', width: 88, height: 50, rx: 4});
     this.loadText = part('text', {class: 'load-text', 'text-anchor': 'middle'});
     part('rect', {class: 'metal', x: 18, y: floor, width: 88, height: 56, rx: 4});
-    const {zero_mA, span_mA, supply_bar} = report.rig;
+    const {supply_bar} = report.rig, {zero, span, unit} = command;
     part('text', {x: 62, y: floor + 22, 'text-anchor': 'middle'}).append('valve');
     this.current = part('text', {x: 62, y: floor + 44, 'text-anchor': 'middle'});
     part('text', {class: 'soft range', x: 62, y: floor + 73, 'text-anchor': 'middle'})
-        .append(`${short(zero_mA)} to ${short(span_mA)} mA`);
+        .append(`${short(zero)} to ${short(span)} ${unit}`);
     part('text', {class: 'soft', x: 192, y: floor - 24}).append(`0 to ${short(supply_bar)} bar`);
     if (report.rig.gauge) this.drawGauge(part);
     this.bars = [
@@ -187,7 +190,7 @@ class RigPicture {
         wanted === undefined || wanted === null ?
             '' :
             `M${x - 62} ${wheel.y + 140 - wanted * report.rig.rest_length_m * mm}h124`);
-    write(this.current, 'current' in values ? `${values.current.toFixed(2)} mA` : 'not used');
+    write(this.current, 'current' in values ? `${fixed(values.current, 2)} ${command.unit}` : 'not used');
     for (const {key, name, frame, bar, text} of this.bars) {
       const absent = values[key] === undefined || values[key] === null;  // no gauge
       for (const part of [name, frame, bar, text]) part.style.display = absent ? 'none' : '';

@@ -266,6 +266,65 @@ TEST(Replay, WithAGaugeDrawsTheErrorOfThePressure) {
   EXPECT_NE(replayed(1).find("\"pressure_error\":{"), std::string::npos);
 }
 
+/// The same of data with a clock of their own, on a muscle of 180 mm under a regulator that takes volts.
+std::string replayed_by_stamps(std::size_t runs) {
+  domain::Dataset data;
+  data.path = "measured/dataset.yaml";
+  data.rig.muscle.rest_length_m = 0.18;
+  data.rig.valve.zero_command = {0.0, plant::RatedCommand::Unit::V};
+  data.rig.valve.span_command = {10.0, plant::RatedCommand::Unit::V};
+  std::vector<run::StampedRun> all;
+  for (std::size_t i = 0; i < runs; ++i) {
+    domain::Run measured;
+    measured.id = fmt::format("r{}", i);
+    measured.load_kg = 5.0;
+    domain::Measurement& stamps = measured.measured.emplace();
+    stamps.time_s = {0.0, 1.0};
+    stamps.contraction_ratio = {0.1, 0.1};
+    stamps.sides[0].current_mA = {12.0, 12.0};
+    stamps.sides[0].muscle_pressure_Pa = {1e5, 1e5};
+    data.runs.push_back(measured);
+    run::StampedRun run{.id = measured.id, .load_kg = 5.0};
+    run.gaps = {{"contraction", "1", 0.001 * static_cast<double>(i + 1), 0.02, -0.001, 2},
+                {"muscle_pressure", "bar", 0.5, 0.6, 0.1, 2}};
+    run.recording.samples.resize(2);
+    for (auto& sample : run.recording.samples) sample.current_mA = 12.0;
+    all.push_back(run);
+  }
+  return report_html(data, all, {});
+}
+
+TEST(Replay, ByStampsIsInTheUnitThatTheReaderWantsAndOfManyRunsBeginsWithTheLoads) {
+  const std::string few = replayed_by_stamps(12), many = replayed_by_stamps(13);
+  EXPECT_NE(few.find("height of the load differ by <span class='mm'>2.160 mm</span>"), std::string::npos);
+  EXPECT_NE(few.find("<td>5</td><td>contraction, <span class='mm'>mm</span>"), std::string::npos);
+  EXPECT_NE(few.find("<td>muscle_pressure, bar</td><td>0.5</td>"), std::string::npos);
+  EXPECT_EQ(few.find("by-load"), std::string::npos);
+  const auto loads = many.find("class='by-load'"), all = many.find("All 13 runs, the worst first");
+  ASSERT_LT(loads, all);
+  ASSERT_NE(all, std::string::npos);
+  EXPECT_LT(many.find(">r12</a>", all), many.find(">r11</a>", all));
+  EXPECT_NE(many.find("id='group-0' data-group='0'>\n<h3>r12, 5 kg"), std::string::npos);
+}
+
+TEST(Replay, ByStampsDrawsTheErrorOfThePressureAndTheGauge) {
+  const std::string html = replayed_by_stamps(1);
+  EXPECT_NE(html.find("\"muscle_pressure_error\":{"), std::string::npos);
+  EXPECT_NE(html.find("\"id\":\"muscle_pressure_error\""), std::string::npos);
+  EXPECT_NE(html.find("<dt>gauge</dt><dd>on the muscle"), std::string::npos);
+}
+
+TEST(Page, OfAValveThatTakesVoltsShowsVolts) {
+  const std::string html = replayed_by_stamps(1);
+  EXPECT_NE(html.find("\"command\":{\"name\":\"command\",\"unit\":\"V\",\"zero\":0.0,\"span\":10.0}"),
+            std::string::npos);
+  EXPECT_NE(html.find("\"current\":{\"low\":5.0,"), std::string::npos);  // 12 mA
+  EXPECT_NE(html.find("\"title\":\"Command\",\"unit\":\"V\""), std::string::npos);
+  const std::string of_mA = replayed(1);
+  EXPECT_EQ(of_mA.find("\"command\":{"), std::string::npos);
+  EXPECT_NE(of_mA.find("\"title\":\"Current\",\"unit\":\"mA\""), std::string::npos);
+}
+
 TEST(Run, SaysHowLongControllersStoodAtALimitOfTheirCurrent) {
   domain::Scenario scenario;
   scenario.loads_kg = {5.0};
