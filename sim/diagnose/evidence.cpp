@@ -125,7 +125,9 @@ void Workflow::look_for_stand_ins() {
 
 void Workflow::look_for_law() {
   if (!asks_for_law(evidence_, thresholds)) return;
-  law_ = find_law(case_, {&recalibrated_, &nominal_fit_}, reference(), step_, search_);
+  std::vector<const Contender*> bases{&recalibrated_};
+  if (excess(recalibrated_.fitted.residuals) > thresholds.law.bent) bases.push_back(&nominal_fit_);
+  law_ = find_law(case_, bases, reference(), step_, search_);
   if (law_.terms > 0 && naming_.effects.empty()) spare_law();
   evidence_.law_terms = law_.terms;
   evidence_.law_left = excess(law_.contender.held_out);

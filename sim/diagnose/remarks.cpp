@@ -45,11 +45,12 @@ std::vector<std::string> rows_in_words(const domain::Dataset& data, const NoiseF
   if (!data.rows_of_stamps) return words;
   const domain::Rows& rows = *data.rows_of_stamps;
   if (rows.rows < rows.stamps)
-    words.push_back(
-        fmt::format("of {} stamps {} rows were judged, {:.3g} ms apart, each of {:.0f} readings on average; "
-                    "the inputs were "
-                    "followed at {} stamps, with all at which they jump or bend",
-                    rows.stamps, rows.rows, 1e3 * rows.row_s, rows.readings, rows.inputs));
+    words.push_back(fmt::format(
+        "of {} stamps {} rows were judged, {:.3g} ms apart{}; the inputs were followed at {} "
+        "stamps, with all at which they jump or bend",
+        rows.stamps, rows.rows, 1e3 * rows.row_s,
+        rows.readings < 2.0 ? "" : fmt::format(", each of {:.0f} readings on average", rows.readings),
+        rows.inputs));
   if (rows.given_noise_Pa > 0.0)
     words.push_back(fmt::format(
         "the noise of the given pressure, {:.2g} mbar, {}; what it does to the {}, counts in the noise floor",

@@ -62,9 +62,13 @@ std::string sentence_of(const Start& start, const Gap& gap) {
     text +=
         fmt::format(" {:.0f} % of what is left lies in the first {:.2g} s of the runs, {:.0f} % of the time.",
                     100.0 * start.share_of_gap, start.lasting_s, 100.0 * start.share_of_time);
-  if (start.unsettled.empty()) return text + " Did they begin settled, at rest under their first current?";
-  return text + fmt::format(" Not settled at the start, since the {} moves from the first reading on: {}.",
-                            gap.judged == Judged::angle ? "joint" : "load", fmt::join(start.unsettled, ", "));
+  const bool joint = gap.judged == Judged::angle;
+  if (start.unsettled.empty())
+    text += " Did they begin settled, at rest under their first current?";
+  else
+    text += fmt::format(" Not settled at the start, since the {} moves from the first reading on: {}.",
+                        joint ? "joint" : "load", fmt::join(start.unsettled, ", "));
+  return joint ? text : text + " The data set can say that they did not: start: moving.";
 }
 
 }  // namespace mckibben::diagnose

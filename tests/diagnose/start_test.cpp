@@ -34,6 +34,7 @@ TEST(Start, IsASuspectWhereRunsBeginInMotion) {
   const std::string said = sentence_of(start, gap);
   EXPECT_NE(said.find("in the first 1 s"), std::string::npos) << said;
   EXPECT_NE(said.find("Not settled at the start"), std::string::npos) << said;
+  EXPECT_NE(said.find("start: moving"), std::string::npos) << said;
   EXPECT_EQ(sentence_of(start, {.noise_floor = 1e-3, .corrected_rmse = 1e-3}), "");
 }
 

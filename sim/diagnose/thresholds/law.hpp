@@ -9,8 +9,9 @@ namespace mckibben::diagnose {
 struct LawThresholds {
   std::size_t most_terms = 3;
   std::size_t most_fits = 4;  ///< proposals that are fitted, of each base
-  double same_wave = 0.15;    ///< logarithm: waves of lengths so near are one proposal
-  double no_slope = 1e-12;    ///< sum of squares that is rounding below
+  double bent = 4.0;  ///< left by numbers that may have bent to imitate a law: the rig as described is a base
+  double same_wave = 0.15;  ///< logarithm: waves of lengths so near are one proposal
+  double no_slope = 1e-12;  ///< sum of squares that is rounding below
   /// Forces for slopes: next to nothing, and of a size that matters, because a muscle that swings answers a
   /// small change in another way than a large one.
   std::array<double, 5> probes_N{0.01, 5.0, -5.0, 40.0, -40.0};
