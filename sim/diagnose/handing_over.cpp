@@ -155,7 +155,8 @@ void Workflow::tell_verdict() {
   result_.not_done = search_.not_done();
   result_.because = because(result_);
   if (result_.verdict != Verdict::nothing_missing)
-    result_.because += sentence_of(result_.remaining) + sentence_of(result_.start, result_.gap);
+    result_.because +=
+        sentence_of(result_.remaining) + sentence_of(result_.start, result_.gap, data_.recorded.start);
 }
 
 }  // namespace mckibben::diagnose

@@ -55,20 +55,21 @@ Start look_at_start(const Experiment& experiment, const RigFile& corrected, cons
   return start;
 }
 
-std::string sentence_of(const Start& start, const Gap& gap) {
+std::string sentence_of(const Start& start, const Gap& gap, domain::Start said) {
   std::string text;
   if (gap.floors_left() <= of_start.explained_floors || !start.suspect()) return text;
   if (start.share_of_gap > of_start.share_of_gap)
     text +=
         fmt::format(" {:.0f} % of what is left lies in the first {:.2g} s of the runs, {:.0f} % of the time.",
                     100.0 * start.share_of_gap, start.lasting_s, 100.0 * start.share_of_time);
-  const bool joint = gap.judged == Judged::angle;
+  if (said == domain::Start::moving) return text;
   if (start.unsettled.empty())
     text += " Did they begin settled, at rest under their first current?";
   else
     text += fmt::format(" Not settled at the start, since the {} moves from the first reading on: {}.",
-                        joint ? "joint" : "load", fmt::join(start.unsettled, ", "));
-  return joint ? text : text + " The data set can say that they did not: start: moving.";
+                        gap.judged == Judged::angle ? "joint" : "load", fmt::join(start.unsettled, ", "));
+  if (gap.judged == Judged::contraction) text += " The data set can say that they did not: start: moving.";
+  return text;
 }
 
 }  // namespace mckibben::diagnose

@@ -14,7 +14,8 @@ namespace mckibben::diagnose {
 /// first reading on by more than it would. Throws engine::NumericalFailure.
 Start look_at_start(const Experiment& experiment, const RigFile& corrected, const Runs& runs);
 
-/// It in a sentence; empty if there is nothing to suspect, or nothing left to explain.
-std::string sentence_of(const Start& start, const Gap& gap);
+/// It in a sentence, next to what the data set has `said`; empty if there is nothing to suspect, or nothing
+/// left to explain.
+std::string sentence_of(const Start& start, const Gap& gap, domain::Start said);
 
 }  // namespace mckibben::diagnose

@@ -22,7 +22,7 @@ TEST(Start, IsASuspectWhereRunsBeginInMotion) {
   auto data = small(plant::Rig{});
   const Gap gap{.noise_floor = 1e-4, .corrected_rmse = 1e-3};
   EXPECT_FALSE(look(data).suspect());
-  EXPECT_EQ(sentence_of(look(data), gap), "");
+  EXPECT_EQ(sentence_of(look(data), gap, domain::Start::settled), "");
   constexpr std::ptrdiff_t lost = 40;  // the recorder was switched on late, while the sine was rising
   auto& late = data.runs[2];
   late.contraction_ratio.erase(late.contraction_ratio.begin(), late.contraction_ratio.begin() + lost);
@@ -31,11 +31,12 @@ TEST(Start, IsASuspectWhereRunsBeginInMotion) {
   EXPECT_EQ(start.unsettled, std::vector<std::string>{"r03"});
   EXPECT_GT(start.share_of_gap, 0.5);
   EXPECT_LT(start.share_of_time, 0.3);
-  const std::string said = sentence_of(start, gap);
+  const std::string said = sentence_of(start, gap, domain::Start::settled);
   EXPECT_NE(said.find("in the first 1 s"), std::string::npos) << said;
   EXPECT_NE(said.find("Not settled at the start"), std::string::npos) << said;
   EXPECT_NE(said.find("start: moving"), std::string::npos) << said;
-  EXPECT_EQ(sentence_of(start, {.noise_floor = 1e-3, .corrected_rmse = 1e-3}), "");
+  EXPECT_EQ(sentence_of(start, gap, domain::Start::moving).find("settled"), std::string::npos);
+  EXPECT_EQ(sentence_of(start, {.noise_floor = 1e-3, .corrected_rmse = 1e-3}, domain::Start::settled), "");
 }
 
 }  // namespace
