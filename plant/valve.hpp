@@ -75,6 +75,11 @@ struct ValveOf {
     const double share = (command - zero_command.value) / (span_command.value - zero_command.value);
     return zero_current_mA + share * (span_current_mA - zero_current_mA);
   }
+  /// The way back, in the unit of such a valve's commands.
+  double command_for(double current_mA) const {
+    const double share = (current_mA - zero_current_mA) / (span_current_mA - zero_current_mA);
+    return zero_command.value + share * (span_command.value - zero_command.value);
+  }
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {

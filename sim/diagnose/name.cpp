@@ -72,8 +72,8 @@ void refit(const Case& c, const std::string& name, const std::vector<Screening>&
       Trial trial = rough(c, *base, score, place);
       if (!trial.contender.fitted.failure.empty()) continue;
       trials.push_back(std::move(trial));
-      if (convinces(compare(c.experiment, reference, trials.back().contender.held_out, c.split.held_out)))
-        misled = false;
+      misled = misled && !convinces(compare(c.experiment, reference, trials.back().contender.held_out,
+                                            c.split.held_out));
       if (place > 0) continue;
       polish(c, trials.back(), step);
       if (meets(trials.back().contender)) solved = &score;

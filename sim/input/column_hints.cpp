@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-#include <plant/own_command.hpp>
 #include <sim/input/column_hints.hpp>
 #include <sim/input/number.hpp>
 #include <sim/input/quantity.hpp>
@@ -124,8 +123,7 @@ void ColumnChecks::command(const Table::Column& column, const std::string& key, 
   const double zero = valve.zero_command.value, span = valve.span_command.value;
   Table::Column commands = column;
   commands.name = key;
-  for (double& value : commands.values)
-    value = std::round(digits * plant::command_for(valve, value)) / digits;
+  for (double& value : commands.values) value = std::round(digits * valve.command_for(value)) / digits;
   range(commands, 2.0 * zero - span, 2.0 * span - zero,
         fmt::format("the rig's valve takes {:g} to {:g} {}", zero, span,
                     plant::name_of(valve.zero_command.unit)),

@@ -155,7 +155,7 @@ std::string table_of(const domain::Dataset& dataset, const std::vector<run::Stam
     else if (run.gaps.empty())
       grid.add({run.id, "none", "", "-", "-", "-", "-"});
     for (const run::Gap& gap : run.gaps) {
-      const bool height = gap.reading == "contraction";
+      const bool height = is_height(gap);
       const double factor = height ? 1e3 * dataset.rig.muscle.rest_length_m : 1.0;
       grid.add({run.id, gap.reading, height ? "mm" : gap.unit, gap_number(factor * gap.rmse),
                 gap_number(factor * gap.largest), gap_number(factor * gap.mean, true),

@@ -24,6 +24,11 @@ std::string table_of(const domain::PairScenario& scenario, const run::PairRuns& 
 std::string table_of(const domain::Dataset& dataset, const std::vector<run::StampedRun>& runs,
                      const std::vector<std::string>& warnings);
 
+/// Whether it is of the load's height, which is told in millimetres.
+inline bool is_height(const run::Gap& gap) {
+  return gap.reading == "contraction";
+}
+
 /// A gap's numbers with as many digits as it deserves.
 std::string gap_number(double value, bool sign = false);
 

@@ -38,7 +38,7 @@ void add_readings(Group& group, Run& shown, const domain::Measurement& measured,
 
 /// The gap of the height of the load; null where that was not read.
 const run::Gap* height_of(const run::StampedRun& run) {
-  const auto gap = std::ranges::find(run.gaps, "contraction", &run::Gap::reading);
+  const auto gap = std::ranges::find_if(run.gaps, output::is_height);
   return gap == run.gaps.end() ? nullptr : &*gap;
 }
 
@@ -57,7 +57,7 @@ std::vector<std::size_t> order(const std::vector<run::StampedRun>& runs) {
 }
 
 std::string gap_row(const run::Gap& gap, const plant::Rig& rig) {
-  const bool height = gap.reading == "contraction";
+  const bool height = output::is_height(gap);
   const auto cell = [&](double value, bool sign) {
     return height ? length_html(value, rig, 3, sign) : output::gap_number(value, sign);
   };
@@ -102,7 +102,7 @@ std::string sentence(const domain::Dataset& dataset, const std::vector<run::Stam
     if (!run.gaps.empty() && (worst == nullptr || run.gaps.front().rmse > worst->rmse))
       worst = &run.gaps.front(), of = &run;
   if (worst == nullptr) return "Nothing was read that a simulation could be compared with.";
-  const bool height = worst->reading == "contraction";
+  const bool height = output::is_height(*worst);
   return fmt::format(
       "Simulated and measured {} differ by {}, root mean square, where they differ most: in {}.",
       height                                ? "height of the load"

@@ -3,7 +3,6 @@
 #include <utility>
 #include <vector>
 
-#include <plant/own_command.hpp>
 #include <sim/report/own_commands.hpp>
 
 namespace mckibben::report {
@@ -15,7 +14,7 @@ void convert(std::vector<Quantity>& quantities, const plant::Valve& valve) {
   for (Quantity& quantity : quantities)
     if (quantity.key == called)
       quantity.at = [valve, current_mA = std::move(quantity.at)](std::size_t k) {
-        return plant::command_for(valve, current_mA(k));
+        return valve.command_for(current_mA(k));
       };
 }
 
