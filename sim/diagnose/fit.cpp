@@ -149,8 +149,24 @@ void refuse_without_influence(Fitted& fitted) {
   fitted.columns = Eigen::MatrixXd(fitted.columns(Eigen::all, kept));
 }
 
-/// Moves the rig of `model` to the least misfit along these slopes. The reason why not, if it cannot.
-std::string descend(Misfit& misfit, Model& model, bool thorough) {
+/// Numbers at a bound beyond which the misfit would fall: they stay there while the others move (Bertsekas,
+/// SIAM J. Control Optim. 20 (1982) 221-246). A step that is cut off at a bound is none of least squares.
+std::vector<int> held_at_bounds(const Fitted& fitted, double inflation) {
+  std::vector<int> held;
+  for (Eigen::Index j = 0; j < fitted.columns.cols(); ++j) {
+    const Parameter& p = fitted.model.free[static_cast<std::size_t>(j)];
+    const double value = value_of(fitted.model.rig, p.path), at = p.scaled(value);
+    const double near = thresholds.screen.at_bound * (p.highest - p.lowest);
+    const double falls = fitted.columns.col(j).dot(fitted.residuals) / inflation - (p.has_prior ? at : 0.0);
+    if ((value < p.lowest + near && falls < 0.0) || (value > p.highest - near && falls > 0.0))
+      held.push_back(static_cast<int>(j));
+  }
+  return held;
+}
+
+/// Moves the rig of `fitted` to the least misfit along these slopes. The reason why not, if it cannot.
+std::string descend(Misfit& misfit, Fitted& fitted, double inflation, bool thorough) {
+  Model& model = fitted.model;
   std::vector<double> values;
   for (const Parameter& p : model.free) values.push_back(p.scaled(value_of(model.rig, p.path)));
   ceres::Problem::Options ownership;
@@ -162,6 +178,10 @@ std::string descend(Misfit& misfit, Model& model, bool thorough) {
     problem.SetParameterLowerBound(values.data(), static_cast<int>(j), p.scaled(p.lowest));
     problem.SetParameterUpperBound(values.data(), static_cast<int>(j), p.scaled(p.highest));
   }
+  const auto held = held_at_bounds(fitted, inflation);
+  if (held.size() == values.size()) return {};
+  if (!held.empty())
+    problem.SetManifold(values.data(), new ceres::SubsetManifold(static_cast<int>(values.size()), held));
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::DENSE_QR;
   options.max_num_iterations = thresholds.fit.iterations;
@@ -267,13 +287,19 @@ Fitted fit(const Experiment& experiment, Model start, const Runs& runs, const Fi
   const auto has_arrived = [&] {
     return settings.thorough && result.cost - least_by_lines(result, settings.inflation) < enough();
   };
-  for (int round = 0; round < rounds && !result.model.free.empty() && !has_arrived(); ++round) {
+  // One that still falls fast has far to go: its numbers are far from where it began.
+  bool falls = false;
+  const auto goes_on = [&](int round) {
+    return round < rounds || (falls && round < thresholds.fit.thorough_rounds);
+  };
+  for (int round = 0; goes_on(round) && !result.model.free.empty() && !has_arrived(); ++round) {
     const KnownSlopes known = rough ? *settings.known : slopes_of_nominal(result);
     const double before = result.cost;
     Misfit misfit(experiment, result.model, runs, settings.inflation, known);
-    result.failure = descend(misfit, result.model, settings.thorough);
+    result.failure = descend(misfit, result, settings.inflation, settings.thorough);
     if (!result.failure.empty() || !look(rough ? known : none)) return result;
     if (before - result.cost < enough()) break;
+    falls = !rough && before - result.cost > thresholds.fit.falls * before;
   }
   return result;
 }

@@ -35,6 +35,21 @@ std::optional<Trial> substitute(const Case& c, const Contender& smaller, const C
   return std::nullopt;
 }
 
+/// Another law of an effect that does as well as one of two terms, without which `smaller` is.
+std::optional<Trial> simpler_law(const Case& c, const Contender& smaller, const Candidate& gone,
+                                 const Contender& best, const Step& step) {
+  for (const Score& score : screen_at(c, smaller).scores) {
+    const Candidate& law = score.candidate;
+    if (law.who() != gone.who() || law.variant == gone.variant || !law.adds_to.empty()) continue;
+    step(fmt::format("trying {} instead of {}", title(law), title(gone)));
+    Trial trial = rough(c, smaller, score, 0);
+    if (!trial.contender.fitted.failure.empty()) continue;
+    polish(c, trial, step);
+    if (has_size(trial.contender.fitted.model, law) && as_good(c, best, trial.contender)) return trial;
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 void forget(Naming& result, const Candidate& gone) {
@@ -98,9 +113,27 @@ void drop_uncertain(const Case& c, Naming& result, const Step& step) {
     step("trying without " + title(candidate));
     auto smaller = contend(c, without(fitted.model, i));
     if (!smaller.fitted.failure.empty()) return;
-    give_up(result.ranking, candidate, "its 95 % interval reaches nothing");
-    result.best = std::move(smaller);
+    const char* why = "its 95 % interval reaches nothing";
+    const bool has_more = candidate.adds_to.empty() &&
+                          std::ranges::count(fitted.model.effects, candidate.who(), &Candidate::who) > 1;
+    if (!has_more) {
+      give_up(result.ranking, candidate, why);
+      result.best = std::move(smaller);
+      forget(result, candidate);
+      continue;
+    }
+    auto simpler = simpler_law(c, smaller, candidate, result.best, step);
+    if (!simpler) {  // its other term cannot do without it
+      ++i;
+      continue;
+    }
+    give_up(result.ranking, candidate, why);
+    const Candidate& law = simpler->score.candidate;
+    take(c, result.ranking, law, *simpler, smaller.fitted.cost - simpler->contender.fitted.cost,
+         "does as well as " + title(candidate));
     forget(result, candidate);
+    result.effects.push_back(named(law));
+    result.best = std::move(simpler->contender);
   }
 }
 

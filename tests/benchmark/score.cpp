@@ -34,6 +34,15 @@ bool simpler_does_as_well(const Diagnosis& found) {
   });
 }
 
+/// The name that is meant: nothing in these data tells a late command from a late reading, so either is right
+/// if both are told.
+std::string meant(const NamedEffect& effect, const Names& truth) {
+  const auto told = words_of(effect.confusable_with);
+  for (const char* late : {"command_delay", "reading_delay"})
+    if (effect.name.ends_with("_delay") && truth.contains(late) && is_in(told, late)) return late;
+  return effect.name;
+}
+
 void add(Tally& tally, const Coverage& coverage) {
   tally.yes += coverage.inside;
   tally.of += coverage.of;
@@ -42,15 +51,15 @@ void add(Tally& tally, const Coverage& coverage) {
 }  // namespace
 
 Answer::Answer(const Hidden& hidden, const Diagnosis& found) {
+  const Names truth(hidden.effects.begin(), hidden.effects.end());
   for (const auto& effect : found.effects) {
-    named.insert(effect.name);
+    named.insert(meant(effect, truth));
     declared.insert(effect.name);
     for (const auto& rival : effect.confusable_with) declared.insert(rival.effect);
     said += (said.empty() ? "" : " + ") + effect.name;
     if (!effect.confusable_with.empty())
       said += fmt::format(" (or {})", fmt::join(words_of(effect.confusable_with), ", "));
   }
-  const Names truth(hidden.effects.begin(), hidden.effects.end());
   right = named == truth;
   within = holds(declared, truth);
 }
@@ -96,7 +105,8 @@ void Score::count(const Outcome& outcome) {
     if (outcome.right) closed_.count(outcome.closed);
     if (outcome.right) add(sizes_, outcome.sizes);
   }
-  if (outcome.right) add(numbers_, outcome.numbers);
+  // What a law of no catalogue does to them is not theirs.
+  if (outcome.right && outcome.hidden != Verdict::unknown_effect) add(numbers_, outcome.numbers);
   if (outcome.hidden == Verdict::nothing_missing)
     false_alarms_.count(outcome.found == Verdict::missing_effect || outcome.found == Verdict::unknown_effect);
   if (outcome.hidden == Verdict::recalibrate) recalibrated_.count(outcome.found == Verdict::recalibrate);

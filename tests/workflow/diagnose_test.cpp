@@ -91,6 +91,18 @@ TEST(Diagnose, TriesFurtherEffectsWhereThoseThatPromiseMostDoNotHelp) {
   EXPECT_EQ(found.effects[0].name, "guide_friction");
 }
 
+// Friction that warms up closes less than a hundredth of what a tube that needs pressure opens.
+TEST(Diagnose, NamesWhatClosesLittleOfAHugeGapAndAllThatIsLeftOfIt) {
+  plant::Rig truth;
+  truth.effects.get<plant::PressureThreshold>().pressure_Pa = 4e4;
+  truth.effects.get<plant::FrictionWarmUp>() = {.change = -0.35, .time_s = 3.0};
+  const auto found = diagnosis_of(small(truth, 6.0), 0);
+  EXPECT_EQ(found.verdict, Verdict::missing_effect) << found.because;
+  ASSERT_EQ(found.effects.size(), 2u) << found.because;
+  EXPECT_EQ(found.effects[0].name, "pressure_threshold");
+  EXPECT_EQ(found.effects[1].name, "friction_warm_up");
+}
+
 TEST(Diagnose, FindsALawForWhatIsInNoCatalogue) {
   plant::Rig truth;
   truth.effects.get<plant::ResidualForce>().terms = {

@@ -44,12 +44,13 @@ struct NameThresholds {
   double to_nothing = 1.1;           ///< of the size that is as good as absent: it has driven it to nothing
   double as_good_gained = 0.05;      ///< mean square that a twin may be worse by on runs held out,
   double as_good_cost = 0.1;         ///< and of the cost
-  double worth_a_pair = 4.0;         ///< left: every effect is tried, then two at once
+  double worth_a_pair = 4.0;         ///< left, that is much: every effect is tried, then two at once
   std::size_t most_firsts = 3;       ///< as the first of a pair
   std::size_t most_substitutes = 3;  ///< as the second, or instead of one that was named
   double pair_share = 0.6;           ///< of the gap, that they must close,
   double rough_pair_share = 0.3;     ///< and in a rough fit
   double least_of_all = 0.01;        ///< of the whole gap: an effect that closes less mends another's law
+  double closes_rest = 0.9;          ///< of what is left, if that is much: then it mends nothing
   double least_whole_gap = 1.0;  ///< left: shares of the whole gap are of no less, where one is tried without
   std::size_t shown_alike = 8;   ///< candidates of which the likeness is told
 };
