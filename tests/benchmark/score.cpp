@@ -28,10 +28,14 @@ bool is_in(const std::vector<std::string>& list, const std::string& name) {
   return std::ranges::find(list, name) != list.end();
 }
 
+/// Whether a simpler explanation does as well as the one that was chosen.
 bool simpler_does_as_well(const Diagnosis& found) {
-  return std::ranges::any_of(found.explanations, [](const Explanation& one) {
-    return one.as_good && !one.chosen && one.kind < Explanation::Kind::effects;
-  });
+  const auto weight = [](const Explanation& one) { return std::pair(one.kind, one.effects.size()); };
+  const auto chosen = std::ranges::find_if(found.explanations, &Explanation::chosen);
+  return chosen != found.explanations.end() &&
+         std::ranges::any_of(found.explanations, [&](const Explanation& one) {
+           return one.as_good && weight(one) < weight(*chosen);
+         });
 }
 
 /// The name that is meant: nothing in these data tells a late command from a late reading, so either is right
@@ -69,12 +73,11 @@ void Coverage::count(double truth, const FittedNumber& told) {
   ++of;
 }
 
-Given::Given(const NamedEffect& effect, const std::vector<std::string>& truth, bool simpler_does)
+Given::Given(const NamedEffect& effect, const std::vector<std::string>& truth)
     : right(is_in(truth, effect.name)),
       alone(effect.confusable_with.empty()),
       among(right || std::ranges::any_of(effect.confusable_with,
                                          [&](const auto& rival) { return is_in(truth, rival.effect); })),
-      simpler(simpler_does),
       margin(diagnose::margin(effect.support)) {}
 
 Outcome::Outcome(const Hidden& truth, const Diagnosis& diagnosis, const Answer& answer)
@@ -84,7 +87,8 @@ Outcome::Outcome(const Hidden& truth, const Diagnosis& diagnosis, const Answer& 
       right(answer.right),
       within(answer.within),
       wrong_name(!answer.named.empty() && !holds({truth.effects.begin(), truth.effects.end()}, answer.named)),
-      closed(diagnosis.gap.closed >= 0.9) {
+      closed(diagnosis.gap.closed >= 0.9),
+      simpler(simpler_does_as_well(diagnosis)) {
   for (const auto& planted : truth.truth)
     for (const auto& effect : diagnosis.effects)
       for (const auto& p : effect.parameters)
@@ -93,7 +97,7 @@ Outcome::Outcome(const Hidden& truth, const Diagnosis& diagnosis, const Answer& 
     for (const auto& moved : diagnosis.recalibrated)
       if (moved.fitted.name == number.path) numbers.count(number.value, moved.fitted);
   for (const auto& effect : diagnosis.effects)
-    if (names < given.size()) given[names++] = {effect, truth.effects, simpler_does_as_well(diagnosis)};
+    if (names < given.size()) given[names++] = {effect, truth.effects};
 }
 
 void Score::count(const Outcome& outcome) {
@@ -112,6 +116,7 @@ void Score::count(const Outcome& outcome) {
   if (outcome.hidden == Verdict::recalibrate) recalibrated_.count(outcome.found == Verdict::recalibrate);
   if (outcome.hidden == Verdict::unknown_effect) unknown_.count(outcome.found == Verdict::unknown_effect);
   wrong_names_.count(outcome.wrong_name);
+  simpler_.count(outcome.simpler);
   advice_.count(outcome.advice);
   for (std::size_t i = 0; i < outcome.names; ++i) given_.push_back(outcome.given.at(i));
 }
@@ -127,6 +132,7 @@ void Score::print() const {
   unknown_.print("unknown laws recognised");
   false_alarms_.print("nothing hidden: false alarms");
   wrong_names_.print("wrong names (all data sets)");
+  simpler_.print("a simpler explanation does as well");
   print_reliability();
   advice_.print();
   fmt::print("slowest diagnosis {:.1f} s\n", slowest_s_);
@@ -143,15 +149,13 @@ void Score::print_reliability() const {
         right.count(one.right);
     right.print(fmt::format("names ahead by {:g} (told {:.1f} %)", bin->margin, 100.0 * bin->right.value()));
   }
-  Tally first, among, simpler;
+  Tally first, among;
   for (const Given& one : given_) {
     if (!one.alone) first.count(one.right);
     if (!one.alone) among.count(one.among);
-    if (one.simpler) simpler.count(one.right);
   }
   first.print("names beside which others do as well: right");
   among.print("the same: one of them right");
-  simpler.print("names beside which numbers do as well: right");
 }
 
 }  // namespace mckibben::diagnose

@@ -35,12 +35,11 @@ struct Coverage {
 /// A name that was given, and by what evidence.
 struct Given {
   bool right = false, alone = true;
-  bool among = false;    ///< right, or one of those is that do as well
-  bool simpler = false;  ///< an explanation without effects does as well
-  double margin = 0.0;   ///< by which it is ahead
+  bool among = false;   ///< right, or one of those is that do as well
+  double margin = 0.0;  ///< by which it is ahead
 
   Given() = default;
-  Given(const NamedEffect& effect, const std::vector<std::string>& truth, bool simpler_does);
+  Given(const NamedEffect& effect, const std::vector<std::string>& truth);
 };
 
 /// What counts of a diagnosis. Its bytes go from one process to another.
@@ -48,6 +47,7 @@ struct Outcome {
   Verdict hidden{}, found{};
   std::size_t effects = 0;  ///< that were hidden
   bool right = false, within = false, wrong_name = false, closed = false;
+  bool simpler = false;  ///< an explanation that is simpler does as well
   Coverage sizes, numbers;
   std::array<Given, 4> given{};
   std::size_t names = 0;
@@ -67,7 +67,7 @@ class Score {
   void print_reliability() const;
 
   Tally few_, triples_, in_set_, false_alarms_, unknown_, wrong_names_, sizes_, numbers_, closed_,
-      recalibrated_;
+      recalibrated_, simpler_;
   std::vector<Given> given_;
   AdviceScore advice_;
   double slowest_s_ = 0.0;
