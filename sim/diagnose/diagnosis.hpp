@@ -98,7 +98,8 @@ struct Support {
   /// So much more would the best of the others leave that were tried in its place and do not do as well;
   /// infinite if none was.
   double before_rivals = std::numeric_limits<double>::infinity();
-  std::vector<std::string> by{}, against{};  ///< runs whose misfit falls, or rises, by more than chance
+  std::size_t runs = 0;                      ///< that were looked at
+  std::vector<std::string> by{}, against{};  ///< those whose misfit falls, or rises, by more than chance
 };
 
 struct NamedEffect {

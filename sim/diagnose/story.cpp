@@ -125,17 +125,36 @@ std::string doubts_in_words(const NamedEffect& effect) {
   return said;
 }
 
+/// Which runs speak for it, by name if they are few, and which against.
+std::string support_in_words(const NamedEffect& effect) {
+  constexpr std::size_t few = 6;
+  const Support& s = effect.support;
+  if (s.runs == 0) return {};
+  const auto ids = [](const std::vector<std::string>& runs) {
+    return fmt::format("run{} {}", runs.size() > 1 ? "s" : "", fmt::join(runs, ", "));
+  };
+  const std::string by = s.by.empty()            ? "No single run"
+                         : s.by.size() == s.runs ? fmt::format("All {} runs", s.runs)
+                         : s.by.size() > few     ? fmt::format("{} of {} runs", s.by.size(), s.runs)
+                                                 : ids(s.by);
+  std::string said = fmt::format("{} speak{} for {}", by, s.by.size() < 2 ? "s" : "", effect.who().words());
+  said.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(said.front())));
+  if (!s.against.empty()) said += fmt::format(", {} against it", ids(s.against));
+  return said + ". ";
+}
+
 std::string effects_in_words(const Diagnosis& d) {
-  std::string said;
+  std::string said, runs;
   for (const NamedEffect& effect : d.effects) {
     said += fmt::format("{}{} ({})", said.empty() ? "" : ", and ", effect.who().words(),
                         sentence_of(effect.name, d.corrected.effects));
     said += doubts_in_words(effect);
+    runs += support_in_words(effect);
   }
   const std::string more = stand_ins_in_words(d);
-  return fmt::format("Missing: {}.{} {}{}", said,
-                     more.empty() ? "" : " Something else is missing besides." + more, exceeded_in_words(d),
-                     gap_in_words(d));
+  return fmt::format("Missing: {}. {}{}{}{}", said, runs,
+                     more.empty() ? "" : "Something else is missing besides." + more + " ",
+                     exceeded_in_words(d), gap_in_words(d));
 }
 
 std::string law_in_words(const Diagnosis& d) {

@@ -38,6 +38,7 @@ void tell_support(const Case& c, const Contender& recalibrated, Naming& naming, 
     if (!without_it.fitted.failure.empty()) continue;
     Support& support = effect.support;
     support.fall = without_it.fitted.cost - best.fitted.cost;
+    support.runs = c.split.training.size() + c.split.held_out.size();
     sort_runs(c, c.split.training, without_it.fitted.residuals, best.fitted.residuals, support);
     sort_runs(c, c.split.held_out, without_it.held_out, best.held_out, support);
     std::ranges::sort(support.by);
