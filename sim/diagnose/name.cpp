@@ -11,6 +11,7 @@
 #include <sim/diagnose/ranking.hpp>
 #include <sim/diagnose/revise.hpp>
 #include <sim/diagnose/several.hpp>
+#include <sim/diagnose/starts.hpp>
 #include <sim/diagnose/thresholds.hpp>
 
 namespace mckibben::diagnose {
@@ -343,6 +344,7 @@ Naming name_effects(const Case& c, const Contender& nominal, const Contender& re
       if (left > thresholds.near.nothing_left || strained) {
         refit(c, name, screenings, before, step, trials);
         fit_all_sides(c, screenings, step, trials);
+        deepen(c, trials, {&nominal.fitted.model.rig, &recalibrated.fitted.model.rig}, step);
       }
     });
     if (screenings.empty()) break;

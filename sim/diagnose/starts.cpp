@@ -1,8 +1,12 @@
 // See the header.
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numeric>
 
+#include <fmt/format.h>
+
+#include <sim/diagnose/held_out.hpp>
 #include <sim/diagnose/starts.hpp>
 #include <sim/diagnose/thresholds.hpp>
 
@@ -95,6 +99,26 @@ Model begun_at(Model model, const RigFile& other) {
   for (const Parameter& p : model.free)
     if (p.has_prior && !p.of_effect()) p.put(model.rig, value_of(other, p.path));
   return model;
+}
+
+void deepen(const Case& c, std::vector<Trial>& trials, const std::vector<const RigFile*>& others,
+            const Step& step) {
+  Trial* best = nullptr;
+  for (Trial& trial : trials)
+    if (has_size(trial.contender.fitted.model, trial.score.candidate) &&
+        (best == nullptr || trial.contender.fitted.cost < best->contender.fitted.cost))
+      best = &trial;
+  if (best == nullptr || excess(best->contender.held_out) < thresholds.name.worth_a_pair) return;
+  step(fmt::format("trying {} from other numbers", title(best->score.candidate)));
+  Contender& end = best->contender;
+  std::vector<Model> places;
+  for (const RigFile* rig : others) places.push_back(begun_at(end.fitted.model, *rig));
+  std::ranges::move(one_number_far_off(c, places.front()), std::back_inserter(places));
+  for (Model& place : places) {
+    if (near_floor(end.fitted.residuals)) break;
+    Contender other = contend(c, std::move(place));
+    if (other.fitted.failure.empty() && other.fitted.cost < end.fitted.cost) end = std::move(other);
+  }
 }
 
 bool disagree(const std::vector<double>& costs) {

@@ -19,6 +19,11 @@ std::vector<Model> one_number_far_off(const Case& c, const Model& described);
 /// The model with its nominal numbers as they are in another rig.
 Model begun_at(Model model, const RigFile& other);
 
+/// What fits best may have ended beside the deepest valley: if much is left with it, it is begun from the
+/// numbers of these rigs too, and from those of the first with one far off. The deepest end is kept.
+void deepen(const Case& c, std::vector<Trial>& trials, const std::vector<const RigFile*>& others,
+            const Step& step);
+
 /// Whether fits from several places ended in valleys of different depth. `costs`: where each ended.
 bool disagree(const std::vector<double>& costs);
 

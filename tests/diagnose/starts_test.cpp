@@ -1,13 +1,14 @@
 // Where a recalibration begins if numbers are hardly known.
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include <gtest/gtest.h>
 
-#include <sim/diagnose/baseline.hpp>
+#include <sim/diagnose/held_out.hpp>
 #include <sim/diagnose/starts.hpp>
 
-#include "planted.hpp"
+#include "strained.hpp"
 
 namespace mckibben::diagnose {
 namespace {
@@ -67,6 +68,37 @@ TEST(Starts, AreWhereOneNumberIsFarOffIfThatExplainsMost) {
   ASSERT_EQ(places.size(), 1u);
   EXPECT_NEAR(places.front().rig.friction.scale, 1.4, 1e-9);  // four deviations of a tenth
   EXPECT_EQ(places.front().rig.muscle.rest_radius_m, data.rig.muscle.rest_radius_m);
+}
+
+// Of two fits the one that is better so far ended at a bound, far from what the data say.
+TEST(Starts, DeepenTheBestTrialOnlyAndOnlyWhereMuchIsLeft) {
+  plant::Rig truth;
+  truth.effects.get<plant::MuscleLeak>().conductance_m3_per_s_Pa = 2e-10;
+  const Strained runs(truth);
+  const Case& c = *runs.at;
+  const Screening screening = screen_at(c, runs.described);
+  const auto score = std::ranges::find(screening.scores, "muscle_leak",
+                                       [](const Score& one) { return one.candidate.effect; });
+  ASSERT_NE(score, screening.scores.end());
+  Trial stuck = rough(c, runs.described, *score, 0);
+  stuck.contender.fitted.model.rig.friction.scale = 0.7;
+  stuck.contender.fitted.residuals =
+      c.experiment.residuals(stuck.contender.fitted.model.rig, c.split.training);
+  stuck.contender.held_out = c.experiment.residuals(stuck.contender.fitted.model.rig, c.split.held_out);
+  Trial worse = stuck;
+  stuck.contender.fitted.cost = 1e6;
+  worse.contender.fitted.cost = 2e6;
+  std::vector<Trial> trials{worse, stuck};
+  const RigFile described = runs.data.rig;
+  deepen(c, trials, {&described}, [](const Doing&) {});
+  EXPECT_TRUE(near_floor(trials[1].contender.fitted.residuals));
+  EXPECT_NEAR(trials[1].contender.fitted.model.rig.friction.scale, 1.0, 0.1);
+  EXPECT_EQ(trials[0].contender.fitted.cost, 2e6);
+
+  stuck.contender.held_out.setZero();
+  std::vector<Trial> met{stuck};
+  deepen(c, met, {&described}, [](const Doing&) {});
+  EXPECT_EQ(met[0].contender.fitted.cost, 1e6);
 }
 
 TEST(Starts, TakeOverNumbersButNotEffects) {
