@@ -165,8 +165,7 @@ std::vector<int> held_at_bounds(const Fitted& fitted, double inflation) {
 }
 
 /// Moves the rig of `fitted` to the least misfit along these slopes. The reason why not, if it cannot.
-/// `radius`: of the trust region, where the descent before left it.
-std::string descend(Misfit& misfit, Fitted& fitted, double inflation, bool thorough, double& radius) {
+std::string descend(Misfit& misfit, Fitted& fitted, double inflation, bool thorough) {
   Model& model = fitted.model;
   std::vector<double> values;
   for (const Parameter& p : model.free) values.push_back(p.scaled(value_of(model.rig, p.path)));
@@ -186,7 +185,6 @@ std::string descend(Misfit& misfit, Fitted& fitted, double inflation, bool thoro
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::DENSE_QR;
   options.max_num_iterations = thresholds.fit.iterations;
-  options.initial_trust_region_radius = radius;
   // Steps are projected onto the bounds; a line search along them would need all slopes at each trial.
   options.max_num_line_search_step_size_iterations = 0;
   options.function_tolerance =
@@ -200,7 +198,6 @@ std::string descend(Misfit& misfit, Fitted& fitted, double inflation, bool thoro
   ceres::Solve(options, &problem, &summary);
   misfit.rethrow();
   if (!summary.IsSolutionUsable()) return summary.message;
-  radius = std::max(thresholds.fit.least_radius, summary.iterations.back().trust_region_radius);
   model.rig = rig_at(model, values.data());
   for (const Parameter& p : model.free)
     if (p.period > 0.0) p.put(model.rig, std::remainder(value_of(model.rig, p.path), p.period));
@@ -292,7 +289,6 @@ Fitted fit(const Experiment& experiment, Model start, const Runs& runs, const Fi
   };
   // One that still falls fast has far to go: its numbers are far from where it began.
   bool falls = false;
-  double radius = thresholds.fit.radius;
   const auto goes_on = [&](int round) {
     return round < rounds || (falls && round < thresholds.fit.thorough_rounds);
   };
@@ -300,7 +296,7 @@ Fitted fit(const Experiment& experiment, Model start, const Runs& runs, const Fi
     const KnownSlopes known = rough ? *settings.known : slopes_of_nominal(result);
     const double before = result.cost;
     Misfit misfit(experiment, result.model, runs, settings.inflation, known);
-    result.failure = descend(misfit, result, settings.inflation, settings.thorough, radius);
+    result.failure = descend(misfit, result, settings.inflation, settings.thorough);
     if (!result.failure.empty() || !look(rough ? known : none)) return result;
     if (before - result.cost < enough()) break;
     falls = !rough && before - result.cost > thresholds.fit.falls * before;

@@ -26,7 +26,6 @@ struct FitThresholds {
   int rounds = 5, thorough_rounds = 20;  ///< of descents, each along slopes of its own
   int iterations = 8;                    ///< in a round
   double falls = 0.1;  ///< of the cost, by the last of the rounds: it goes on, up to the thorough ones
-  double radius = 1e4, least_radius = 1.0;  ///< of the trust region, at first and when a round begins
   double least_descent = 0.01;  ///< of the cost, where 1 is a parameter moved by its deviation: else the last
   double coarseness = 0.01;     ///< of the cost: that is enough too, what is missing moves parameters further
   double hopeless =
