@@ -10,6 +10,7 @@
 
 #include <sim/diagnose/amount.hpp>
 #include <sim/diagnose/story.hpp>
+#include <sim/diagnose/thresholds.hpp>
 
 namespace mckibben::diagnose {
 
@@ -127,7 +128,6 @@ std::string doubts_in_words(const NamedEffect& effect) {
 
 /// Which runs speak for it, by name if they are few, and which against.
 std::string support_in_words(const NamedEffect& effect) {
-  constexpr std::size_t few = 6;
   const Support& s = effect.support;
   if (s.runs == 0) return {};
   const auto ids = [](const std::vector<std::string>& runs) {
@@ -135,8 +135,9 @@ std::string support_in_words(const NamedEffect& effect) {
   };
   const std::string by = s.by.empty()            ? "No single run"
                          : s.by.size() == s.runs ? fmt::format("All {} runs", s.runs)
-                         : s.by.size() > few     ? fmt::format("{} of {} runs", s.by.size(), s.runs)
-                                                 : ids(s.by);
+                         : s.by.size() > thresholds.name.few_runs
+                             ? fmt::format("{} of {} runs", s.by.size(), s.runs)
+                             : ids(s.by);
   std::string said = fmt::format("{} speak{} for {}", by, s.by.size() < 2 ? "s" : "", effect.who().words());
   said.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(said.front())));
   if (!s.against.empty()) said += fmt::format(", {} against it", ids(s.against));

@@ -52,6 +52,7 @@ struct NameThresholds {
   double least_of_all = 0.01;        ///< of the whole gap: an effect that closes less mends another's law
   double closes_rest = 0.9;          ///< of what is left, if that is much: then it mends nothing
   double least_whole_gap = 1.0;  ///< left: shares of the whole gap are of no less, where one is tried without
+  std::size_t few_runs = 6;      ///< that speak for a name: they are told one by one
   std::size_t shown_alike = 8;   ///< candidates of which the likeness is told
 };
 
