@@ -1,7 +1,6 @@
 // See the header.
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <numeric>
 
 #include <fmt/format.h>
@@ -111,14 +110,15 @@ void deepen(const Case& c, std::vector<Trial>& trials, const std::vector<const R
   if (best == nullptr || excess(best->contender.held_out) < thresholds.name.worth_a_pair) return;
   step(fmt::format("trying {} from other numbers", title(best->score.candidate)));
   Contender& end = best->contender;
-  std::vector<Model> places;
-  for (const RigFile* rig : others) places.push_back(begun_at(end.fitted.model, *rig));
-  std::ranges::move(one_number_far_off(c, places.front()), std::back_inserter(places));
-  for (Model& place : places) {
-    if (near_floor(end.fitted.residuals)) break;
+  const Model model = end.fitted.model;
+  const auto begin = [&](Model place) {
+    if (near_floor(end.fitted.residuals)) return;
     Contender other = contend(c, std::move(place));
     if (other.fitted.failure.empty() && other.fitted.cost < end.fitted.cost) end = std::move(other);
-  }
+  };
+  for (const RigFile* rig : others) begin(begun_at(model, *rig));
+  if (near_floor(end.fitted.residuals)) return;
+  for (Model& place : one_number_far_off(c, begun_at(model, *others.front()))) begin(std::move(place));
 }
 
 bool disagree(const std::vector<double>& costs) {

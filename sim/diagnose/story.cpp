@@ -3,6 +3,7 @@
 #include <cctype>
 #include <cmath>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -14,6 +15,15 @@
 
 namespace mckibben::diagnose {
 
+namespace {
+
+std::string capitalised(std::string text) {
+  text.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(text.front())));
+  return text;
+}
+
+}  // namespace
+
 std::string faults_in_words(const Diagnosis& d) {
   std::string text;
   for (const FaultyRun& faulty : d.faults) {
@@ -22,8 +32,7 @@ std::string faults_in_words(const Diagnosis& d) {
                         faulty.common ? "every run" : "run " + faulty.run, faulty.words);
   }
   if (text.empty()) return text;
-  text.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(text.front())));
-  return text + ". ";
+  return capitalised(std::move(text)) + ". ";
 }
 
 namespace {
@@ -139,9 +148,8 @@ std::string support_in_words(const NamedEffect& effect) {
                              ? fmt::format("{} of {} runs", s.by.size(), s.runs)
                              : ids(s.by);
   std::string said = fmt::format("{} speak{} for {}", by, s.by.size() < 2 ? "s" : "", effect.who().words());
-  said.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(said.front())));
   if (!s.against.empty()) said += fmt::format(", {} against it", ids(s.against));
-  return said + ". ";
+  return capitalised(std::move(said)) + ". ";
 }
 
 std::string effects_in_words(const Diagnosis& d) {

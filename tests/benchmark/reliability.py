@@ -11,7 +11,7 @@ import pathlib
 import re
 import sys
 
-BINS = (0.0, 15.0, 50.0, 500.0)  # as in record.cpp, and one more: there nothing else is told
+BINS = (0.0, 15.0, 50.0, 500.0)  # those of record.cpp, divided further
 EVIDENCE = re.compile(r"\[ahead by (-?[\d.]+|inf)(, wrong)?\]")
 COLOUR = {"told": "#0072b2", "counted": "#d55e00"}
 
