@@ -53,12 +53,12 @@ void refit(const Case& c, const std::string& name, const std::vector<Screening>&
            const Eigen::VectorXd& reference, const Step& step, std::vector<Trial>& trials) {
   const Score* solved = nullptr;
   bool misled = excess(reference) > to_name.worth_a_pair;
-  const auto wanted = [&](const Score& score, const Score& front) {
+  const auto wanted = [&](const Score& score, const Score& front, double finer) {
     const bool known = std::any_of(trials.begin(), trials.end(), [&](const Trial& t) {
       return t.score.candidate.amplitude == score.candidate.amplitude &&
              t.score.candidate.side == score.candidate.side;
     });
-    const bool enough = laws_in(trials) >= to_name.most_refits || score.drop < thresholds.near.chance;
+    const bool enough = laws_in(trials) >= to_name.most_refits || finer * score.drop < thresholds.near.chance;
     if (known || !(score.drop > 0.0) || (enough && !misled)) return false;
     if (solved != nullptr) return likeness(score, *solved) > to_name.likeness_solved;
     return score.drop > to_name.least_score * front.drop ||
@@ -66,9 +66,9 @@ void refit(const Case& c, const std::string& name, const std::vector<Screening>&
   };
   step(stage(name, most_tries(screenings)));
   for (std::size_t place = 0; place < screenings.front().scores.size(); ++place) {
-    for (const auto& [base, scores] : screenings) {
+    for (const auto& [base, scores, finer] : screenings) {
       const Score& score = scores[place];
-      if (!wanted(score, scores.front())) continue;
+      if (!wanted(score, scores.front(), finer)) continue;
       step("trying " + title(score.candidate));
       Trial trial = rough(c, *base, score, place);
       if (!trial.contender.fitted.failure.empty()) continue;

@@ -102,8 +102,9 @@ Screening screen_at(const Case& c, const Contender& base) {
   const auto candidates = catalogue(c.experiment.data());
   const Runs few = asked(c.experiment.data(), c.split.training);
   const auto screened = [&](const Fitted& fitted, double scatter_of_rows) {
-    Screening screening{&base, screen(c.experiment, fitted, candidates, few, scatter_of_rows)};
-    join_sides(screening.scores, scatter / c.inflation);
+    Screening screening{&base, screen(c.experiment, fitted, candidates, few, scatter_of_rows),
+                        scatter / c.inflation};
+    join_sides(screening.scores, screening.finer);
     return screening;
   };
   if (few.size() == c.split.training.size()) return screened(base.fitted, scatter);

@@ -42,6 +42,7 @@ struct Trial {
 struct Screening {
   const Contender* base;
   std::vector<Score> scores;
+  double finer = 1.0;  ///< by how much sums of squares count more once something fits
 };
 
 /// Fits a model to the training runs, whose inflation is the case's.

@@ -91,6 +91,18 @@ TEST(Diagnose, TriesFurtherEffectsWhereThoseThatPromiseMostDoNotHelp) {
   EXPECT_EQ(found.effects[0].name, "guide_friction");
 }
 
+// While its motion is met badly, what a little friction of the guide promises is below chance; as a fit would
+// count it, it is far above.
+TEST(Diagnose, TriesWhatPromisesMoreThanChanceAsAFitWouldCountIt) {
+  const auto found =
+      diagnosis_of(hide(kind_titled("guide_friction small"), 812, {.bench = Bench::other_size}).data, 0);
+  EXPECT_EQ(found.verdict, Verdict::missing_effect) << found.because;
+  ASSERT_EQ(found.effects.size(), 1u) << found.because;
+  EXPECT_EQ(found.effects[0].name, "guide_friction");
+  EXPECT_LT(found.effects[0].parameters[0].low, 0.0083);
+  EXPECT_GT(found.effects[0].parameters[0].high, 0.0083);
+}
+
 // Friction that warms up closes less than a hundredth of what a tube that needs pressure opens.
 TEST(Diagnose, NamesWhatClosesLittleOfAHugeGapAndAllThatIsLeftOfIt) {
   plant::Rig truth;
