@@ -7,6 +7,8 @@
 
 #include <fmt/ranges.h>
 
+#include "whole.hpp"
+
 namespace mckibben::diagnose {
 namespace {
 
@@ -46,7 +48,7 @@ Advice follow(const Hidden& hidden, const Diagnosis& found, const Settings& sett
   advice.power = next.expected_power;
   Hidden more = hidden;
   more.data.runs.push_back(measured_as(next, hidden));
-  const Diagnosis again = diagnose(more.data, settings, [](auto, auto, auto) {});
+  const Diagnosis again = whole_diagnosis(more.data, settings);
   advice.right = names_are_right(again, hidden);
   const auto still_as_good = [&](const NamedEffect& effect) {
     return std::ranges::any_of(words_of(effect.confusable_with), [&](const std::string& rival) {

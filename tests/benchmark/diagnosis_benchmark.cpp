@@ -18,6 +18,8 @@
 // Every third data set is of the thesis's rig, of one of another size, of one that is badly known.
 // Started by mpirun or srun, its processes share the data sets out and meet in out/bench-diagnosis.ranks.
 // Thresholds of the workflow were set on seeds below 100.
+#include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstdlib>
 #include <cstring>
@@ -40,6 +42,7 @@
 #include "doubts_benchmark.hpp"
 #include "pairs_benchmark.hpp"
 #include "score.hpp"
+#include "whole.hpp"
 
 namespace {
 
@@ -76,7 +79,7 @@ std::string diagnose_one(const DataSet& set) {
   const auto hidden = diagnose::hide(set.kind, set.seed, set.surroundings);
   const auto start = std::chrono::steady_clock::now();
   const diagnose::Settings settings{.threads = cluster::crew().threads, .seed = set.seed};
-  const auto found = diagnose::diagnose(hidden.data, settings, [](auto, auto, auto) {});
+  const auto found = diagnose::whole_diagnosis(hidden.data, settings);
   const diagnose::Answer answer(hidden, found);
   Outcome outcome(hidden, found, answer);
   outcome.took_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -152,6 +155,21 @@ void score_corrupted(const std::vector<std::string>& words) {
   diagnose::score_corrupted(seed, only);
 }
 
+constexpr std::array suites{"", "--nulls", "--weak", "--advice", "--doubts", "--pairs", "--corrupted"};
+
+bool is_number(const std::string& word) {
+  return !word.empty() && word.find_first_not_of("0123456789") == std::string::npos;
+}
+
+/// Whether a suite takes these words: at most two numbers, then a title.
+bool are_understood(const std::string& suite, const std::vector<std::string>& words) {
+  if (std::ranges::find(suites, suite) == suites.end()) return false;
+  if (suite == "--corrupted") return true;
+  return words.size() <= 3 &&
+         std::all_of(words.begin(), words.begin() + std::min<std::ptrdiff_t>(std::ssize(words), 2),
+                     is_number);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -163,6 +181,11 @@ int main(int argc, char** argv) {
   const std::string all = fmt::format("{}", fmt::join(words, " "));
   const std::string suite = !words.empty() && words.front().starts_with("--") ? words.front() : "";
   if (!suite.empty()) words.erase(words.begin());
+  if (!are_understood(suite, words)) {
+    fmt::print(stderr, "usage: bench diagnosis [{}] [SEED [SEEDS [TITLE]]], see docs/testing.md\n",
+               fmt::join(std::next(suites.begin()), suites.end(), " | "));
+    return suite == "--help" ? 0 : 64;
+  }
   const auto number = [&](std::size_t at, std::uint64_t otherwise) {
     return words.size() > at ? std::strtoull(words[at].c_str(), nullptr, 10) : otherwise;
   };
