@@ -171,14 +171,15 @@ std::string left_open_html(const Diagnosis& diagnosis) {
 std::string absorbed_html(const Diagnosis& diagnosis) {
   if (diagnosis.effects.empty() && diagnosis.stand_ins.empty() && diagnosis.residual_law.empty()) return "";
   if (diagnosis.absorbed.empty()) return "";
-  return "<h3>What the numbers had absorbed</h3>\n" +
+  return "<div class='on-screen'><h3>What the numbers had absorbed</h3>\n" +
          paragraph(
              "A nominal parameter that is wrong in the right way imitates a missing effect. With the effect "
              "in the model it should return towards 0.") +
          "<p class='keys'><span class='c3'><svg viewBox='0 0 34 10' aria-hidden='true'><path class='bar' "
          "d='M0 1H34V9H0Z'/></svg>without what was added</span><span class='c0'><svg viewBox='0 0 34 10' "
          "aria-hidden='true'><path class='bar' d='M0 1H34V9H0Z'/></svg>with it</span></p>\n" +
-         figures_html({{"How far each was moved, in deviations as above.", absorbed_svg(diagnosis)}});
+         figures_html({{"How far each was moved, in deviations as above.", absorbed_svg(diagnosis)}}) +
+         "</div>\n";
 }
 
 /// "12.3 N, +- 0.4 N".
