@@ -56,13 +56,15 @@ std::string bytes_of(const Outcome& outcome, const std::string& line) {
   return std::string(reinterpret_cast<const char*>(&outcome), sizeof outcome) + line;
 }
 
-/// The evidence for each name.
+/// The evidence for each name, and numbers whose interval misses the true one.
 std::string evidence_in_words(const Outcome& outcome) {
   std::string words;
   for (std::size_t i = 0; i < outcome.names; ++i)
     words += fmt::format(" [ahead by {:.0f}{}]", outcome.given.at(i).margin,
                          outcome.given.at(i).right ? "" : ", wrong");
   if (outcome.simpler) words += " [a simpler explanation does as well]";
+  if (const auto& numbers = outcome.numbers; numbers.inside < numbers.of)
+    words += fmt::format(" [{} of {} numbers in their intervals]", numbers.inside, numbers.of);
   return words;
 }
 
