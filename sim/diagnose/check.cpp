@@ -29,9 +29,10 @@ constexpr const CheckThresholds& of_check = thresholds.check;
 
 class DatasetChecker {
  public:
-  DatasetChecker(const domain::Dataset& data, unsigned threads)
+  DatasetChecker(const domain::Dataset& data, unsigned threads, const Runs& sound)
       : data_(data),
         threads_(threads),
+        sound_(sound),
         bench_(data.force_is_judged()),
         pair_(data.rig.pair() != nullptr),
         count_(run::reading_grain(data.rig)),
@@ -313,6 +314,8 @@ class DatasetChecker {
                       common_ratio));
     }
     for (const WrongLabel& label : wrong) {
+      if (std::ranges::find(sound_, label.run) != sound_.end()) continue;
+      checked_.contradicted.push_back(label.run);
       if (label.other)
         leave_out_for(*label.other);
       else
@@ -351,6 +354,7 @@ class DatasetChecker {
 
   const domain::Dataset& data_;
   unsigned threads_;
+  const Runs& sound_;
   bool bench_;  ///< lengths are given, and forces judged
   bool pair_;   ///< two muscles turn a joint, and its angle is judged
   double count_;
@@ -361,8 +365,8 @@ class DatasetChecker {
 
 }  // namespace
 
-Checked check(const domain::Dataset& data, unsigned threads) {
-  return DatasetChecker(data, threads)();
+Checked check(const domain::Dataset& data, unsigned threads, const Runs& sound) {
+  return DatasetChecker(data, threads, sound)();
 }
 
 }  // namespace mckibben::diagnose

@@ -1,13 +1,16 @@
 // The workflow as often as it takes: with faults mended, with all runs asked, without the gauge. See the
 // header and docs/diagnosis.md.
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <string>
 #include <utility>
 
 #include <sim/diagnose/check.hpp>
 #include <sim/diagnose/decide.hpp>
 #include <sim/diagnose/diagnose.hpp>
+#include <sim/diagnose/held_out.hpp>
 #include <sim/diagnose/remarks.hpp>
 #include <sim/diagnose/repair.hpp>
 #include <sim/diagnose/search.hpp>
@@ -33,15 +36,32 @@ double motion_left(const Gap& gap) {
   return std::pow(gap.corrected_rmse / gap.noise_floor, 2) - 1.0;
 }
 
-/// The workflow, again each time that faults of the recording have been mended, and of all runs where a few
-/// have led to what does not hold of the others.
-std::pair<Diagnosis, bool> mended(domain::Dataset data, const Settings& settings, const Step& step,
+/// Runs left out for what other runs say of them, but which the corrected rig meets as they were recorded:
+/// fits on the way had not arrived, and the fault is none.
+Runs met_after_all(const domain::Dataset& recorded, const Checked& as_recorded, const Checked& checked,
+                   const Diagnosis& result, unsigned threads) {
+  Runs blamed = as_recorded.contradicted, met;
+  std::ranges::set_difference(checked.left_out, as_recorded.left_out, std::back_inserter(blamed));
+  if (blamed.empty()) return {};
+  const Experiment experiment(recorded, as_recorded.masked, threads, blamed);
+  const Eigen::VectorXd residuals = experiment.residuals(result.corrected, blamed);
+  for (const auto& part : experiment.parts(blamed))
+    if (near_floor(residuals.segment(part.begin, part.rows))) met.push_back(part.run);
+  return met;
+}
+
+/// The workflow, again each time that faults of the recording have been mended, or turn out to be none, and
+/// of all runs where a few have led to what does not hold of the others.
+std::pair<Diagnosis, bool> mended(const domain::Dataset& recorded, const Settings& settings, const Step& step,
                                   Search& search) {
   step(stage("checking"));
-  Checked checked = check(data, settings.threads);
+  Runs sound;
+  Checked as_recorded = check(recorded, settings.threads, sound);
+  domain::Dataset data = recorded;
+  Checked checked = as_recorded;
   bool ask_all = false;
   for (int repairs = 0;;) {
-    Workflow workflow(data, checked, settings, step, search, ask_all);
+    Workflow workflow(data, checked, settings, step, search, sound, ask_all);
     Diagnosis result = workflow(repairs < thresholds.fault.most_repairs);
     if (!workflow.faults().empty()) {
       mend(data, checked, workflow.faults());
@@ -49,7 +69,15 @@ std::pair<Diagnosis, bool> mended(domain::Dataset data, const Settings& settings
     } else if (!workflow.is_confirmed() && search.ended() == Ended::no) {
       ask_all = true;
     } else {
-      return {std::move(result), workflow.reads_more()};
+      Runs met;
+      if (search.ended() == Ended::no)
+        met = met_after_all(recorded, as_recorded, checked, result, settings.threads);
+      if (met.empty()) return {std::move(result), workflow.reads_more()};
+      std::ranges::copy(met, std::back_inserter(sound));
+      as_recorded = check(recorded, settings.threads, sound);
+      data = recorded;
+      checked = as_recorded;
+      repairs = 0;
     }
   }
 }

@@ -345,6 +345,7 @@ Naming name_effects(const Case& c, const Contender& nominal, const Contender& re
         refit(c, name, screenings, before, step, trials);
         fit_all_sides(c, screenings, step, trials);
         deepen(c, trials, {&nominal.fitted.model.rig, &recalibrated.fitted.model.rig}, step);
+        catch_up(c, trials, step);
       }
     });
     if (screenings.empty()) break;

@@ -121,6 +121,26 @@ void deepen(const Case& c, std::vector<Trial>& trials, const std::vector<const R
   for (Model& place : one_number_far_off(c, begun_at(model, *others.front()))) begin(std::move(place));
 }
 
+void catch_up(const Case& c, std::vector<Trial>& trials, const Step& step) {
+  const auto cost = [](const Trial& trial) { return trial.contender.fitted.cost; };
+  // Once one that caught up is ahead, others may catch up with it.
+  for (const Trial* last = nullptr; !trials.empty();) {
+    const Trial& best = *std::ranges::min_element(trials, {}, cost);
+    if (&best == last || !near_floor(best.contender.fitted.residuals)) return;
+    last = &best;
+    for (Trial& rival : trials) {
+      const Contender& end = rival.contender;
+      if (likeness(rival.score, best.score) < of_starts.likeness_of_arrived ||
+          as_good(c, best.contender, end))
+        continue;
+      step(fmt::format("trying {} from other numbers", title(rival.score.candidate)));
+      Contender other = contend(c, begun_at(end.fitted.model, best.contender.fitted.model.rig));
+      if (other.fitted.failure.empty() && other.fitted.cost < end.fitted.cost)
+        rival.contender = std::move(other);
+    }
+  }
+}
+
 bool disagree(const std::vector<double>& costs) {
   if (costs.empty()) return false;
   const auto [least, most] = std::minmax_element(costs.begin(), costs.end());

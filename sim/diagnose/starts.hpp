@@ -24,6 +24,10 @@ Model begun_at(Model model, const RigFile& other);
 void deepen(const Case& c, std::vector<Trial>& trials, const std::vector<const RigFile*>& others,
             const Step& step);
 
+/// A rival that moves the readings as what meets them does, and is left far behind all the same, may have
+/// ended beside the valley: it is begun from the numbers of the one that arrived, too.
+void catch_up(const Case& c, std::vector<Trial>& trials, const Step& step);
+
 /// Whether fits from several places ended in valleys of different depth. `costs`: where each ended.
 bool disagree(const std::vector<double>& costs);
 

@@ -35,13 +35,14 @@ Runs all_but(const Runs& left_out, std::size_t count) {
 }  // namespace
 
 Workflow::Workflow(const domain::Dataset& data, const Checked& checked, const Settings& settings,
-                   const Step& step, Search& search, bool ask_all)
+                   const Step& step, Search& search, const Runs& sound, bool ask_all)
     : settings_(settings),
       step_(step),
       search_(search),
       checked_(checked),
       data_(without_gauges(data, checked_.dead_gauges, checked_.dead_opposite_gauges)),
       usable_(all_but(checked_.left_out, data.runs.size())),
+      sound_(sound),
       experiment_(data_, checked_.masked, settings.threads, usable_),
       nominal_(data.rig),
       whole_(split(data_, usable_)),
@@ -71,8 +72,7 @@ Diagnosis Workflow::operator()(bool look) {
   const Decision decision = decide(evidence_, thresholds);
   if (looks_for_faults_)  // of a model that was found to its end
     search_.part("faults of runs beside what was found", [&] {
-      faults_ =
-          faults_beside(decision.chosen == Chosen::nominal ? recalibrated_ : contender(decision.chosen));
+      found(faults_beside(decision.chosen == Chosen::nominal ? recalibrated_ : contender(decision.chosen)));
     });
   if (!faults_.empty()) return std::move(result_);
   hand_over(decision);
@@ -139,7 +139,15 @@ void Workflow::replay_as_described() {
 
 void Workflow::look_for_faults() {
   search_.part("faults of runs",
-               [&] { faults_ = first_look(case_, checked_, nominal_fit_.fitted.model, usable_, step_); });
+               [&] { found(first_look(case_, checked_, nominal_fit_.fitted.model, usable_, step_)); });
+}
+
+/// Those of sound runs are none.
+void Workflow::found(std::vector<Fault> faults) {
+  std::erase_if(faults, [&](const Fault& fault) {
+    return !fault.common && std::ranges::find(sound_, fault.run) != sound_.end();
+  });
+  faults_ = std::move(faults);
 }
 
 const Contender& Workflow::contender(Chosen chosen) const {

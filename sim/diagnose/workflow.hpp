@@ -24,9 +24,10 @@ namespace mckibben::diagnose {
 
 class Workflow {
  public:
-  /// `ask_all`: runs in the search, however many there are.
+  /// `sound`: runs in which no fault of their own is looked for. `ask_all`: runs in the search, however many
+  /// there are.
   Workflow(const domain::Dataset& data, const Checked& checked, const Settings& settings, const Step& step,
-           Search& search, bool ask_all);
+           Search& search, const Runs& sound, bool ask_all);
 
   Judged judged() const { return data_.judged(); }
   bool reads_more() const { return experiment_.floor().any_beside(); }
@@ -49,6 +50,7 @@ class Workflow {
   Diagnosis unusable();
   void replay_as_described();
   void look_for_faults();
+  void found(std::vector<Fault> faults);
   const Contender& contender(Chosen chosen) const;
   std::vector<FarRun> far_from(const Contender& contender) const;
   std::vector<Fault> faults_beside(const Contender& fitted) const;
@@ -88,6 +90,7 @@ class Workflow {
   Checked checked_;
   domain::Dataset data_;
   Runs usable_;
+  Runs sound_;
   Experiment experiment_;
   RigFile nominal_;
   Competition competition_;

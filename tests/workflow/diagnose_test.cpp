@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <set>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -101,6 +102,18 @@ TEST(Diagnose, TriesWhatPromisesMoreThanChanceAsAFitWouldCountIt) {
   EXPECT_EQ(found.effects[0].name, "guide_friction");
   EXPECT_LT(found.effects[0].parameters[0].low, 0.0083);
   EXPECT_GT(found.effects[0].parameters[0].high, 0.0083);
+}
+
+// On the way there a run seemed to contradict the others, and one delay was met by a fit that stopped
+// half-way.
+TEST(Diagnose, BelievesARunThatTheRigMeetsAfterAllAndTellsBothDelays) {
+  const auto found =
+      diagnosis_of(hide(kind_titled("command_delay large"), 821, {.bench = Bench::badly_known}).data, 0);
+  EXPECT_TRUE(found.faults.empty()) << found.because;
+  ASSERT_EQ(found.effects.size(), 1u) << found.because;
+  ASSERT_EQ(found.effects[0].confusable_with.size(), 1u) << found.because;
+  EXPECT_EQ((std::set{found.effects[0].name, found.effects[0].confusable_with[0].effect}),
+            (std::set<std::string>{"command_delay", "reading_delay"}));
 }
 
 // Friction that warms up closes less than a hundredth of what a tube that needs pressure opens.

@@ -37,13 +37,14 @@ struct FitThresholds {
 
 /// Where a fit begins, besides the rig as described.
 struct StartsThresholds {
-  double wide = 0.4;        ///< relative deviation of a number from which its range is looked over
-  double reach = 2.0;       ///< deviations, each way
-  std::size_t places = 14;  ///< that are looked at: two flocks beside the rig itself,
-  std::size_t runs = 3;     ///< in so many runs,
-  std::size_t begun = 2;    ///< and so many begun from
-  double far = 4.0;         ///< deviations, of one number that may be far off
-  double same_cost = 0.1;   ///< of the cost: ends that differ by no more agree
+  double wide = 0.4;                 ///< relative deviation of a number from which its range is looked over
+  double reach = 2.0;                ///< deviations, each way
+  std::size_t places = 14;           ///< that are looked at: two flocks beside the rig itself,
+  std::size_t runs = 3;              ///< in so many runs,
+  std::size_t begun = 2;             ///< and so many begun from
+  double far = 4.0;                  ///< deviations, of one number that may be far off
+  double likeness_of_arrived = 0.9;  ///< cosine, to what meets the data: begun from its numbers
+  double same_cost = 0.1;            ///< of the cost: ends that differ by no more agree
 };
 
 /// Intervals.
