@@ -10,7 +10,6 @@
 #include <sim/diagnose/check.hpp>
 #include <sim/diagnose/decide.hpp>
 #include <sim/diagnose/diagnose.hpp>
-#include <sim/diagnose/held_out.hpp>
 #include <sim/diagnose/remarks.hpp>
 #include <sim/diagnose/repair.hpp>
 #include <sim/diagnose/search.hpp>
@@ -36,17 +35,18 @@ double motion_left(const Gap& gap) {
   return std::pow(gap.corrected_rmse / gap.noise_floor, 2) - 1.0;
 }
 
-/// Runs left out for what other runs say of them, but which the corrected rig meets as they were recorded:
-/// fits on the way had not arrived, and the fault is none.
-Runs met_after_all(const domain::Dataset& recorded, const Checked& as_recorded, const Checked& checked,
-                   const Diagnosis& result, unsigned threads) {
+/// Runs left out for what other runs say of them, but which the corrected rig meets: fits on the way had not
+/// arrived, and the fault is none.
+Runs met_after_all(const Checked& as_recorded, const Checked& checked, const Runs& sound,
+                   const Diagnosis& result) {
   Runs blamed = as_recorded.contradicted, met;
+  if (result.runs.empty()) return {};  // the data are of no use
   std::ranges::set_difference(checked.left_out, as_recorded.left_out, std::back_inserter(blamed));
-  if (blamed.empty()) return {};
-  const Experiment experiment(recorded, as_recorded.masked, threads, blamed);
-  const Eigen::VectorXd residuals = experiment.residuals(result.corrected, blamed);
-  for (const auto& part : experiment.parts(blamed))
-    if (near_floor(residuals.segment(part.begin, part.rows))) met.push_back(part.run);
+  for (const std::size_t run : blamed) {
+    if (std::ranges::find(sound, run) != sound.end()) continue;  // it was tried
+    const double floors = result.runs[run].corrected_rmse / result.gap.noise_floor;
+    if (floors * floors <= thresholds.near.mean_square()) met.push_back(run);
+  }
   return met;
 }
 
@@ -70,8 +70,7 @@ std::pair<Diagnosis, bool> mended(const domain::Dataset& recorded, const Setting
       ask_all = true;
     } else {
       Runs met;
-      if (search.ended() == Ended::no)
-        met = met_after_all(recorded, as_recorded, checked, result, settings.threads);
+      if (search.ended() == Ended::no) met = met_after_all(as_recorded, checked, sound, result);
       if (met.empty()) return {std::move(result), workflow.reads_more()};
       std::ranges::copy(met, std::back_inserter(sound));
       as_recorded = check(recorded, settings.threads, sound);
