@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
+#include <iterator>
 #include <utility>
 
 #include <sim/diagnose/experiment.hpp>
@@ -69,16 +70,30 @@ Eigen::VectorXd Experiment::residuals(const RigFile& rig, const Runs& runs) cons
   return slopes(rig, std::span<const Change>{}, runs).residuals;
 }
 
+namespace {
+
+double step_of(const Parameter& p, double value) {
+  return p.logarithmic ? value * p.step : p.step;
+}
+
+bool may_be(const Parameter& p, double value) {
+  return value >= p.lowest && value <= p.highest;
+}
+
+Experiment::Change change_by(const Parameter& p, double value, double change) {
+  return {[p, value, change](Hanging& h) { p.put(h.rig, value + change); },
+          p.logarithmic ? change / value : change / p.scale};
+}
+
+}  // namespace
+
 std::vector<Experiment::Change> Experiment::changes_of(const RigFile& rig,
                                                        std::span<const Parameter> parameters) {
   std::vector<Change> changes;
   for (const Parameter& p : parameters) {
-    const double value = value_of(rig, p.path);
-    double change = p.logarithmic ? value * p.step : p.step;
+    const double value = value_of(rig, p.path), step = step_of(p, value);
     // Not over the edge of its range, and not over the kink that an effect has where it is absent.
-    if (value + change > p.highest || value + change < p.lowest) change = -change;
-    changes.push_back({[p, value, change](Hanging& h) { p.put(h.rig, value + change); },
-                       p.logarithmic ? change / value : change / p.scale});
+    changes.push_back(change_by(p, value, may_be(p, value + step) ? step : -step));
   }
   return changes;
 }
@@ -86,6 +101,29 @@ std::vector<Experiment::Change> Experiment::changes_of(const RigFile& rig,
 Experiment::Slopes Experiment::slopes(const RigFile& rig, std::span<const Parameter> parameters,
                                       const Runs& runs) const {
   return slopes(rig, changes_of(rig, parameters), runs);
+}
+
+Experiment::Slopes Experiment::fine_slopes(const RigFile& rig, std::span<const Parameter> parameters,
+                                           const Runs& runs) const {
+  std::vector<Parameter> wide(parameters.begin(), parameters.end());
+  for (Parameter& p : wide) p.step *= thresholds.fit.wider_steps;
+  auto changes = changes_of(rig, wide);
+  const auto count = static_cast<Eigen::Index>(wide.size());
+  std::vector<Eigen::Index> two_sided;
+  for (Eigen::Index j = 0; j < count; ++j) {
+    const Parameter& p = wide[static_cast<std::size_t>(j)];
+    const double value = value_of(rig, p.path), step = step_of(p, value);
+    if (!may_be(p, value + step) || !may_be(p, value - step)) continue;
+    changes.push_back(change_by(p, value, -step));
+    two_sided.push_back(j);
+  }
+  auto sides = slopes(rig, changes, runs);
+  Slopes result{std::move(sides.residuals), sides.columns.leftCols(count)};
+  for (Eigen::Index k = 0; k < std::ssize(two_sided); ++k) {
+    auto column = result.columns.col(two_sided[static_cast<std::size_t>(k)]);
+    column = 0.5 * (column + sides.columns.col(count + k)).eval();
+  }
+  return result;
 }
 
 namespace {

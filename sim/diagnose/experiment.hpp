@@ -42,6 +42,9 @@ class Experiment {
     Eigen::MatrixXd columns;
   };
   Slopes slopes(const RigFile& rig, std::span<const Parameter> parameters, const Runs& runs) const;
+  /// The same from wider steps to both sides, at twice the cost: where columns of several parameters all but
+  /// cancel, what one side's bend adds to each is as large as what they leave.
+  Slopes fine_slopes(const RigFile& rig, std::span<const Parameter> parameters, const Runs& runs) const;
   /// The derivative with respect to other changes: each makes a changed rig and load from the given ones, for
   /// a change of `size` in the units of its choice.
   struct Change {

@@ -17,9 +17,14 @@ namespace {
 
 class Misfit final : public ceres::CostFunction {
  public:
-  Misfit(const Experiment& experiment, const Model& model, const Runs& runs, double inflation,
+  Misfit(const Experiment& experiment, const Model& model, const Runs& runs, const FitSettings& settings,
          const KnownSlopes& known)
-      : experiment_(experiment), model_(model), runs_(runs), inflation_(inflation), known_(known) {
+      : experiment_(experiment),
+        model_(model),
+        runs_(runs),
+        inflation_(settings.inflation),
+        thorough_(settings.thorough),
+        known_(known) {
     const auto columns = static_cast<Eigen::Index>(1 + model.free.size());
     for (const std::size_t run : runs) {
       const auto of_run = static_cast<Eigen::Index>(experiment.rows(run));
@@ -34,7 +39,8 @@ class Misfit final : public ceres::CostFunction {
   }
 
   Experiment::Slopes slopes(const RigFile& rig) const {
-    auto fresh = experiment_.slopes(rig, fresh_, runs_);
+    auto fresh =
+        thorough_ ? experiment_.fine_slopes(rig, fresh_, runs_) : experiment_.slopes(rig, fresh_, runs_);
     Eigen::MatrixXd columns(rows_, static_cast<Eigen::Index>(model_.free.size()));
     Eigen::Index next = 0;
     for (std::size_t j = 0; j < model_.free.size(); ++j) {
@@ -113,6 +119,7 @@ class Misfit final : public ceres::CostFunction {
   const Model& model_;
   const Runs& runs_;
   double inflation_;
+  bool thorough_;
   const KnownSlopes& known_;
   Eigen::Index rows_ = 0, brief_rows_ = 0, priors_ = 0;
   std::vector<Parameter> fresh_;
@@ -265,7 +272,7 @@ Fitted fit(const Experiment& experiment, Model start, const Runs& runs, const Fi
   // Whether the rig can be simulated, a little changed too.
   const auto look = [&](const KnownSlopes& known) {
     try {
-      auto at = Misfit(experiment, result.model, runs, settings.inflation, known).slopes(result.model.rig);
+      auto at = Misfit(experiment, result.model, runs, settings, known).slopes(result.model.rig);
       result.residuals = std::move(at.residuals);
       result.columns = std::move(at.columns);
       result.cost = cost_of(result, settings.inflation);
@@ -295,7 +302,7 @@ Fitted fit(const Experiment& experiment, Model start, const Runs& runs, const Fi
   for (int round = 0; goes_on(round) && !result.model.free.empty() && !has_arrived(); ++round) {
     const KnownSlopes known = rough ? *settings.known : slopes_of_nominal(result);
     const double before = result.cost;
-    Misfit misfit(experiment, result.model, runs, settings.inflation, known);
+    Misfit misfit(experiment, result.model, runs, settings, known);
     result.failure = descend(misfit, result, settings.inflation, settings.thorough);
     if (!result.failure.empty() || !look(rough ? known : none)) return result;
     if (before - result.cost < enough()) break;

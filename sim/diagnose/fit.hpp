@@ -27,7 +27,7 @@ using KnownSlopes = std::vector<std::pair<std::string, Eigen::VectorXd>>;
 struct FitSettings {
   double inflation =
       1.0;  ///< how much more the residuals scatter, over long times, than white noise at the floor
-  bool thorough = false;               ///< to the bottom of the valley, for numbers that are told
+  bool thorough = false;  ///< to the bottom of the valley, along finer slopes, for numbers that are told
   const KnownSlopes* known = nullptr;  ///< for a rough fit: slopes taken over from an earlier one
 };
 

@@ -131,7 +131,7 @@ class Valley {
         places.push_back(j);
       }
     try {
-      auto told = experiment_.slopes(rig_at(fitted_.model, at.data()), fresh, runs_);
+      auto told = experiment_.fine_slopes(rig_at(fitted_.model, at.data()), fresh, runs_);
       Place place{std::move(at), std::move(told.residuals), fit_.columns};
       place.columns(Eigen::all, places) = told.columns;
       return place;

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <random>
 
+#include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
 
 #include <sim/diagnose/experiment.hpp>
@@ -24,6 +25,43 @@ TEST(Diagnose, HasTheSameSlopesForAnyNumberOfThreads) {
   EXPECT_EQ(one.residuals, three.residuals);
   EXPECT_EQ(one.columns, three.columns);
   EXPECT_GT(one.columns.norm(), 1.0);
+}
+
+TEST(Diagnose, HasFineSlopesAlongTheValleyWhereNumbersMakeUpForEachOther) {
+  auto data = small(plant::Rig{}, 2.4);
+  for (const Parameter& p : nominal_parameters(data.rig)) data.rig.spreads[p.path] = 3.0 * p.scale;
+  std::vector<std::vector<bool>> masked;
+  for (const auto& run : data.runs) masked.emplace_back(run.current_mA.size(), false);
+  const Experiment experiment(data, masked, 2);
+  const auto parameters = nominal_parameters(data.rig, data.rig.spreads);
+  const Runs runs{0, 1, 2, 3, 4, 5};
+  const Eigen::MatrixXd fine = experiment.fine_slopes(data.rig, parameters, runs).columns;
+  const Eigen::MatrixXd normal = fine.transpose() * fine;
+  const Eigen::VectorXd along = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(normal).eigenvectors().col(0);
+  const auto gone = [&](double way) {
+    RigFile rig = data.rig;
+    for (std::size_t j = 0; j < parameters.size(); ++j)
+      parameters[j].put(rig, parameters[j].unscaled(way * along[static_cast<Eigen::Index>(j)]));
+    return experiment.residuals(rig, runs);
+  };
+  const Eigen::VectorXd true_slope = (gone(-0.1) - gone(0.1)) / 0.2;
+  const auto off = [&](const Eigen::MatrixXd& columns) { return (columns * along - true_slope).norm(); };
+  EXPECT_LT(off(fine), 0.3 * off(experiment.slopes(data.rig, parameters, runs).columns));
+  EXPECT_NEAR((fine * along).norm(), true_slope.norm(), 0.3 * true_slope.norm());
+}
+
+TEST(Diagnose, HasFineSlopesAtTheEdgeOfARange) {
+  const auto data = small(plant::Rig{}, 2.4);
+  std::vector<std::vector<bool>> masked;
+  for (const auto& run : data.runs) masked.emplace_back(run.current_mA.size(), false);
+  const Experiment experiment(data, masked, 2);
+  auto parameters = nominal_parameters(data.rig);
+  const auto inside = experiment.fine_slopes(data.rig, parameters, {0}).columns;
+  for (Parameter& p : parameters) p.lowest = p.origin;  // there is one side only
+  const auto at_the_edge = experiment.fine_slopes(data.rig, parameters, {0}).columns;
+  for (Eigen::Index j = 0; j < inside.cols(); ++j)
+    EXPECT_LT((at_the_edge - inside).col(j).norm(), 0.2 * inside.col(j).norm())
+        << parameters[static_cast<std::size_t>(j)].path;
 }
 
 TEST(Diagnose, TakesForNoiseWhatRepeatedRunsDoNotRepeat) {

@@ -31,6 +31,7 @@ struct FitThresholds {
   double hopeless =
       0.85;  ///< of what is missing to an aim: fits whose straight lines miss more are not begun
   double least_influence = 1e-12;  ///< sum of squares of a slope [floors per scale], that is rounding below
+  double wider_steps = 2.0;        ///< times as wide, to both sides: slopes of numbers that are told
   double cost_tolerance = 1e-4, thorough_cost_tolerance = 1e-7;            ///< relative: a round has arrived
   double parameter_tolerance = 1e-5, thorough_parameter_tolerance = 1e-7;  ///< relative
 };
