@@ -4,6 +4,11 @@
 namespace mckibben::diagnose {
 namespace {
 
+/// Names that do not come near the data: their laws are not quite these, or more is missing.
+bool names_leave_much(const Evidence& e, const Thresholds& t) {
+  return e.named() && e.named_left + 1.0 > t.near.mean_square();
+}
+
 /// A law is believed if it closes much of the gap, far more than the names do, and more than what stands in.
 bool lawful(const Evidence& e, const DecideThresholds& t) {
   return e.law_terms > 0 && e.law_share > t.law_share &&
@@ -45,7 +50,8 @@ void decide_nothing_added(const Evidence& e, const Thresholds& t, Decision& deci
 }  // namespace
 
 bool asks_for_law(const Evidence& e, const Thresholds& t) {
-  return e.left() > t.decide.worth_a_law && e.left() > t.decide.worth_a_law_share * e.nominal_left;
+  const bool much = e.left() > t.decide.worth_a_law_share * e.nominal_left || names_leave_much(e, t);
+  return e.left() > t.decide.worth_a_law && much;
 }
 
 Decision decide(const Evidence& e, const Thresholds& t) {
@@ -59,7 +65,7 @@ Decision decide(const Evidence& e, const Thresholds& t) {
     decision.verdict = Verdict::missing_effect;
     decision.chosen = Chosen::named;
     if (e.stand_ins > 0) decision.remarks.push_back(Remark::stands_in);
-    if (e.named_left + 1.0 > t.near.mean_square()) decision.remarks.push_back(Remark::more_is_missing);
+    if (names_leave_much(e, t)) decision.remarks.push_back(Remark::more_is_missing);
   } else if (e.only_stand_ins() && stands(e, t.decide)) {
     decision.verdict = e.search_ended ? Verdict::cannot_tell : Verdict::unknown_effect;
     decision.chosen = Chosen::named;

@@ -383,6 +383,15 @@ TEST(Decide, SearchesForALawWhereEnoughIsLeft) {
   EXPECT_TRUE(asks_for_law(evidence, thresholds));
 }
 
+TEST(Decide, SearchesForALawWhereNamesLeaveMuchHoweverFarTheDescribedRigIs) {
+  Evidence evidence = one_name();
+  evidence.nominal_left = 5e4;
+  evidence.named_left = close.mean_square() - 1.0;
+  EXPECT_FALSE(asks_for_law(evidence, thresholds));
+  evidence.named_left = above(close.mean_square());
+  EXPECT_TRUE(asks_for_law(evidence, thresholds));
+}
+
 TEST(Decide, SuspectsTheGaugeWhereTheMotionIsNotMet) {
   EXPECT_FALSE(gauge_is_suspect(below(at.contradicted), thresholds));
   EXPECT_TRUE(gauge_is_suspect(at.contradicted, thresholds));
