@@ -312,78 +312,130 @@ bool asks_for_several(const Naming& result) {
          (result.effects.empty() ? to_name.worth_a_pair : thresholds.subset.worth_it);
 }
 
+/// One effect after the other, several at once where that leaves a gap, and one after the other beside those.
+class Namer {
+ public:
+  Namer(const Case& c, const Contender& nominal, const Contender& recalibrated,
+        const Eigen::VectorXd& reference, const AtFault& at_fault, const Step& step, Search& search)
+      : c_(c),
+        nominal_(nominal),
+        recalibrated_(recalibrated),
+        reference_(reference),
+        at_fault_(at_fault),
+        step_(step),
+        search_(search) {
+    result_.best = recalibrated;
+  }
+
+  Naming operator()() {
+    if (!name_in_turn() || !name_several()) return std::move(result_);
+    drop_uncertain(c_, result_, step_);
+    tidy_doubts(result_);
+    sort_by_importance(c_, result_);
+    merge_laws(result_.best.fitted.model, result_);
+    return std::move(result_);
+  }
+
+ private:
+  const Eigen::VectorXd& before() const {
+    return result_.effects.empty() ? reference_ : result_.best.held_out;
+  }
+  std::vector<const RigFile*> other_numbers() const {
+    return {&nominal_.fitted.model.rig, &recalibrated_.fitted.model.rig};
+  }
+  bool is_at_fault(More more) {
+    bool faulty = false;
+    search_.part("faults of runs beside what was found", [&] { faulty = at_fault_(result_.best, more); });
+    return faulty;
+  }
+
+  /// Rounds, as long as each finds something. False if runs are at fault.
+  bool name_in_turn() {
+    for (std::size_t more = 0; more < to_name.most_effects && take_next(); ++more)
+      if (is_at_fault(More::not_tried)) return false;
+    if (!result_.effects.empty())
+      search_.part("what was named, from other numbers",
+                   [&] { deepen(c_, result_.best, other_numbers(), step_); });
+    return true;
+  }
+
+  /// A round: false if it finds nothing, or was ended.
+  bool take_next() {
+    const int round = ++round_;
+    const std::string name = fmt::format("naming, round {}", round);
+    step_(stage(name));
+    step_("screening");
+    const double left = excess(before());
+    std::vector<Screening> screenings;
+    std::vector<Trial> trials;
+    const bool whole = search_.part(round_in_words(result_), [&] {
+      screenings = screenings_of(c_, round, nominal_, round == 1 ? recalibrated_ : result_.best);
+      if (round == 1) {
+        first_ = screenings;
+        tell_first(c_, screenings, result_);
+      }
+      // Priors may be strained although the data are met.
+      const bool strained = screenings.back().scores.front().drop > to_name.strained;
+      if (left > thresholds.near.nothing_left || strained) {
+        refit(c_, name, screenings, before(), step_, trials);
+        fit_all_sides(c_, screenings, step_, trials);
+        deepen_best(c_, trials, other_numbers(), step_);
+        catch_up(c_, trials, step_);
+      }
+    });
+    if (screenings.empty()) return false;
+    judge(c_, before(), trials);
+    const Trial* chosen = choose(trials, result_.best, left, excess(reference_));
+    if (chosen != nullptr) chosen = of_both_if_untold(c_, trials, *chosen);
+    const auto judged = ranked(c_, round, screenings, trials, chosen, result_.best);
+    result_.ranking.insert(result_.ranking.end(), judged.begin(), judged.end());
+    if (chosen != nullptr) {
+      c_.learned(fmt::format("taken in round {}: {}", round, title(chosen->score.candidate)));
+      take_one(c_, result_, trials, *chosen);
+    } else {
+      if (!result_.effects.empty() || !(left > to_name.worth_a_pair)) return false;
+      std::optional<std::array<Trial, 2>> both;
+      search_.part("effects that help only together", [&] { both = pair_of(c_, trials, before(), step_); });
+      if (!both) return false;
+      take_both(c_, result_, std::move(*both));
+    }
+    const bool revised =
+        search_.part("whether each effect is needed", [&] { revise(c_, result_, reference_, step_); });
+    return whole && revised;
+  }
+
+  /// Sets, where a gap is left; what a set leaves may be one effect more. False if runs are at fault.
+  bool name_several() {
+    if (!asks_for_several(result_)) return true;
+    if (!result_.effects.empty() && is_at_fault(More::tried_in_vain)) return false;
+    bool taken = false;
+    search_.part("several effects at once", [&] {
+      std::vector<Screening> bases = first_;
+      const Contender named = result_.best;  // and what more there may be beside the names
+      if (!result_.effects.empty()) bases.push_back(screen_at(c_, named));
+      taken = try_several(c_, result_, bases, step_);
+      if (taken) revise(c_, result_, reference_, step_);
+    });
+    return !taken || !asks_for_several(result_) || name_in_turn();
+  }
+
+  const Case& c_;
+  const Contender &nominal_, &recalibrated_;
+  const Eigen::VectorXd& reference_;
+  const AtFault& at_fault_;
+  const Step& step_;
+  Search& search_;
+  int round_ = 0;
+  std::vector<Screening> first_{};  ///< at the rig as described and as recalibrated
+  Naming result_{};
+};
+
 }  // namespace
 
 Naming name_effects(const Case& c, const Contender& nominal, const Contender& recalibrated,
                     const Eigen::VectorXd& reference, const AtFault& at_fault, const Step& step,
                     Search& search) {
-  Naming result;
-  result.best = recalibrated;
-  Eigen::VectorXd before = reference;
-  std::vector<Screening> first;  // at the rig as described and as recalibrated
-  const auto is_at_fault = [&](More more) {
-    bool faulty = false;
-    search.part("faults of runs beside what was found", [&] { faulty = at_fault(result.best, more); });
-    return faulty;
-  };
-  for (int round = 1; round <= static_cast<int>(to_name.most_effects); ++round) {
-    const std::string name = fmt::format("naming, round {}", round);
-    step(stage(name));
-    step("screening");
-    const double left = excess(before);
-    std::vector<Screening> screenings;
-    std::vector<Trial> trials;
-    const bool whole = search.part(round_in_words(result), [&] {
-      screenings = screenings_of(c, round, nominal, round == 1 ? recalibrated : result.best);
-      if (round == 1) {
-        first = screenings;
-        tell_first(c, screenings, result);
-      }
-      // Priors may be strained although the data are met.
-      const bool strained = screenings.back().scores.front().drop > to_name.strained;
-      if (left > thresholds.near.nothing_left || strained) {
-        refit(c, name, screenings, before, step, trials);
-        fit_all_sides(c, screenings, step, trials);
-        deepen(c, trials, {&nominal.fitted.model.rig, &recalibrated.fitted.model.rig}, step);
-        catch_up(c, trials, step);
-      }
-    });
-    if (screenings.empty()) break;
-    judge(c, before, trials);
-    const Trial* chosen = choose(trials, result.best, left, excess(reference));
-    if (chosen != nullptr) chosen = of_both_if_untold(c, trials, *chosen);
-    const auto judged = ranked(c, round, screenings, trials, chosen, result.best);
-    result.ranking.insert(result.ranking.end(), judged.begin(), judged.end());
-    if (chosen != nullptr) {
-      c.learned(fmt::format("taken in round {}: {}", round, title(chosen->score.candidate)));
-      take_one(c, result, trials, *chosen);
-    } else {
-      if (!result.effects.empty() || !(left > to_name.worth_a_pair)) break;
-      std::optional<std::array<Trial, 2>> both;
-      search.part("effects that help only together", [&] { both = pair_of(c, trials, before, step); });
-      if (!both) break;
-      take_both(c, result, std::move(*both));
-    }
-    const bool revised =
-        search.part("whether each effect is needed", [&] { revise(c, result, reference, step); });
-    if (!whole || !revised) break;
-    if (is_at_fault(More::not_tried)) return result;
-    before = result.best.held_out;
-  }
-  if (asks_for_several(result)) {
-    if (!result.effects.empty() && is_at_fault(More::tried_in_vain)) return result;
-    search.part("several effects at once", [&] {
-      std::vector<Screening> bases = std::move(first);
-      const Contender named = result.best;  // and what more there may be beside the names
-      if (!result.effects.empty()) bases.push_back(screen_at(c, named));
-      if (try_several(c, result, bases, step)) revise(c, result, reference, step);
-    });
-  }
-  drop_uncertain(c, result, step);
-  tidy_doubts(result);
-  sort_by_importance(c, result);
-  merge_laws(result.best.fitted.model, result);
-  return result;
+  return Namer(c, nominal, recalibrated, reference, at_fault, step, search)();
 }
 
 }  // namespace mckibben::diagnose

@@ -27,7 +27,8 @@ bool is_named(const Naming& naming, const Subset& subset) {
          });
 }
 
-/// The base with all members, those that the fit drives to nothing or to a bound taken out again.
+/// The base with all members, those that the fit drives to nothing or to a bound taken out again; a shape at
+/// its edge belongs to another law.
 std::optional<Contender> fitted(const Case& c, const Contender& base, const Subset& subset) {
   Model model = base.fitted.model;
   for (const Score& score : subset.members) model = with(c, model, score);
@@ -36,7 +37,7 @@ std::optional<Contender> fitted(const Case& c, const Contender& base, const Subs
     if (!contender.fitted.failure.empty()) return std::nullopt;
     const Model& now = contender.fitted.model;
     const auto gone = std::ranges::find_if_not(
-        now.effects, [&](const Candidate& candidate) { return has_size(now, candidate); });
+        now.effects, [&](const Candidate& one) { return has_size(now, one) && has_shape(now, one); });
     if (gone == now.effects.end()) return contender;
     if (now.effects.size() < 2) return std::nullopt;
     contender = contend(c, without(now, static_cast<std::size_t>(gone - now.effects.begin())));
@@ -56,10 +57,6 @@ bool try_several(const Case& c, Naming& result, std::span<const Screening> scree
     step("trying " + words_of(subset));
     auto contender = fitted(c, *base, subset);
     if (!contender || contender->fitted.model.effects.size() < 2) continue;
-    const Model& model = contender->fitted.model;
-    // A shape at its edge belongs to another law.
-    if (!std::ranges::all_of(model.effects, [&](const Candidate& e) { return has_shape(model, e); }))
-      continue;
     if (!best || contender->fitted.cost < best->fitted.cost) best = std::move(contender);
     if (meets(*best)) break;
   }

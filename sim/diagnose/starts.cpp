@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <sim/diagnose/held_out.hpp>
 #include <sim/diagnose/starts.hpp>
@@ -100,25 +101,49 @@ Model begun_at(Model model, const RigFile& other) {
   return model;
 }
 
-void deepen(const Case& c, std::vector<Trial>& trials, const std::vector<const RigFile*>& others,
-            const Step& step) {
+std::vector<Model> in_other_shapes(const Model& model, std::vector<const RigFile*> rigs) {
+  rigs.push_back(&model.rig);
+  std::vector<Model> places;
+  for (const RigFile* rig : rigs) {
+    const Model there = begun_at(model, *rig);
+    for (const Candidate& effect : model.effects)
+      for (const double shape : effect.shapes) {
+        places.push_back(there);
+        effect.put(places.back().rig, value_of(there.rig, effect.amplitude), shape);
+      }
+  }
+  return places;
+}
+
+void deepen(const Case& c, Contender& end, const std::vector<const RigFile*>& others, const Step& step) {
+  if (excess(end.held_out) < thresholds.name.worth_a_pair) return;
+  const Model model = end.fitted.model;
+  std::vector<std::string> names;
+  for (const Candidate& effect : model.effects) names.push_back(title(effect));
+  step(fmt::format("trying {} from other numbers", fmt::join(names, " with ")));
+  const auto begin = [&](Model place) {
+    if (near_floor(end.fitted.residuals)) return;
+    Contender other = contend(c, std::move(place));
+    if (other.fitted.failure.empty() && other.fitted.cost < end.fitted.cost &&
+        other.held_out.squaredNorm() <= end.held_out.squaredNorm())
+      end = std::move(other);
+  };
+  for (const RigFile* rig : others) begin(begun_at(model, *rig));
+  if (near_floor(end.fitted.residuals)) return;
+  for (Model& place : best_of(c, model, in_other_shapes(model, others), of_starts.begun))
+    begin(std::move(place));
+  if (near_floor(end.fitted.residuals)) return;
+  for (Model& place : one_number_far_off(c, begun_at(model, *others.front()))) begin(std::move(place));
+}
+
+void deepen_best(const Case& c, std::vector<Trial>& trials, const std::vector<const RigFile*>& others,
+                 const Step& step) {
   Trial* best = nullptr;
   for (Trial& trial : trials)
     if (has_size(trial.contender.fitted.model, trial.score.candidate) &&
         (best == nullptr || trial.contender.fitted.cost < best->contender.fitted.cost))
       best = &trial;
-  if (best == nullptr || excess(best->contender.held_out) < thresholds.name.worth_a_pair) return;
-  step(fmt::format("trying {} from other numbers", title(best->score.candidate)));
-  Contender& end = best->contender;
-  const Model model = end.fitted.model;
-  const auto begin = [&](Model place) {
-    if (near_floor(end.fitted.residuals)) return;
-    Contender other = contend(c, std::move(place));
-    if (other.fitted.failure.empty() && other.fitted.cost < end.fitted.cost) end = std::move(other);
-  };
-  for (const RigFile* rig : others) begin(begun_at(model, *rig));
-  if (near_floor(end.fitted.residuals)) return;
-  for (Model& place : one_number_far_off(c, begun_at(model, *others.front()))) begin(std::move(place));
+  if (best != nullptr) deepen(c, best->contender, others, step);
 }
 
 void catch_up(const Case& c, std::vector<Trial>& trials, const Step& step) {

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <sim/diagnose/catalogue.hpp>
 #include <sim/diagnose/held_out.hpp>
 #include <sim/diagnose/starts.hpp>
 
@@ -90,15 +91,38 @@ TEST(Starts, DeepenTheBestTrialOnlyAndOnlyWhereMuchIsLeft) {
   worse.contender.fitted.cost = 2e6;
   std::vector<Trial> trials{worse, stuck};
   const RigFile described = runs.data.rig;
-  deepen(c, trials, {&described}, [](const Doing&) {});
+  deepen_best(c, trials, {&described}, [](const Doing&) {});
   EXPECT_TRUE(near_floor(trials[1].contender.fitted.residuals));
   EXPECT_NEAR(trials[1].contender.fitted.model.rig.friction.scale, 1.0, 0.1);
   EXPECT_EQ(trials[0].contender.fitted.cost, 2e6);
 
   stuck.contender.held_out.setZero();
   std::vector<Trial> met{stuck};
-  deepen(c, met, {&described}, [](const Doing&) {});
+  deepen_best(c, met, {&described}, [](const Doing&) {});
   EXPECT_EQ(met[0].contender.fitted.cost, 1e6);
+}
+
+TEST(Starts, AreTheShapesOfTheCatalogueAtOwnNumbersAndAtOthers) {
+  Model model;
+  model.free = {{.path = "muscle.rest_radius", .has_prior = true}};
+  for (const Candidate& candidate : catalogue())
+    if (candidate.effect == "muscle_leak" || candidate.effect == "speed_dependent_friction")
+      model.effects.push_back(candidate);
+  ASSERT_EQ(model.effects.size(), 2u);  // one has no shape
+  const Candidate& friction =
+      *std::ranges::find(model.effects, "speed_dependent_friction", &Candidate::effect);
+  friction.put(model.rig, 0.6, 0.5);
+  RigFile other;
+  other.muscle.rest_radius_m = 0.009;
+  std::vector<std::pair<double, double>> expected, found;
+  for (const double radius_m : {0.009, model.rig.muscle.rest_radius_m})
+    for (const double shape : friction.shapes) expected.emplace_back(radius_m, shape);
+  for (const Model& place : in_other_shapes(model, {&other})) {
+    found.emplace_back(place.rig.muscle.rest_radius_m, value_of(place.rig, friction.shape));
+    EXPECT_EQ(value_of(place.rig, friction.amplitude), 0.6);
+  }
+  EXPECT_GT(friction.shapes.size(), 1u);
+  EXPECT_EQ(found, expected);
 }
 
 TEST(Starts, TakeOverNumbersButNotEffects) {
