@@ -16,8 +16,7 @@ namespace {
 
 TEST(Diagnose, HasTheSameSlopesForAnyNumberOfThreads) {
   const auto data = small(plant::Rig{});
-  std::vector<std::vector<bool>> masked;
-  for (const auto& run : data.runs) masked.emplace_back(run.current_mA.size(), false);
+  const auto masked = nothing_masked(data);
   const auto parameters = nominal_parameters(data.rig);
   const Runs runs{0, 3, 4};
   const auto one = Experiment(data, masked, 1).slopes(data.rig, parameters, runs);
@@ -30,8 +29,7 @@ TEST(Diagnose, HasTheSameSlopesForAnyNumberOfThreads) {
 TEST(Diagnose, HasFineSlopesAlongTheValleyWhereNumbersMakeUpForEachOther) {
   auto data = small(plant::Rig{}, 2.4);
   for (const Parameter& p : nominal_parameters(data.rig)) data.rig.spreads[p.path] = 3.0 * p.scale;
-  std::vector<std::vector<bool>> masked;
-  for (const auto& run : data.runs) masked.emplace_back(run.current_mA.size(), false);
+  const auto masked = nothing_masked(data);
   const Experiment experiment(data, masked, 2);
   const auto parameters = nominal_parameters(data.rig, data.rig.spreads);
   const Runs runs{0, 1, 2, 3, 4, 5};
@@ -52,8 +50,7 @@ TEST(Diagnose, HasFineSlopesAlongTheValleyWhereNumbersMakeUpForEachOther) {
 
 TEST(Diagnose, HasFineSlopesAtTheEdgeOfARange) {
   const auto data = small(plant::Rig{}, 2.4);
-  std::vector<std::vector<bool>> masked;
-  for (const auto& run : data.runs) masked.emplace_back(run.current_mA.size(), false);
+  const auto masked = nothing_masked(data);
   const Experiment experiment(data, masked, 2);
   auto parameters = nominal_parameters(data.rig);
   const auto inside = experiment.fine_slopes(data.rig, parameters, {0}).columns;
@@ -66,11 +63,7 @@ TEST(Diagnose, HasFineSlopesAtTheEdgeOfARange) {
 
 TEST(Diagnose, TakesForNoiseWhatRepeatedRunsDoNotRepeat) {
   auto data = small(plant::Rig{});
-  const auto masked = [&] {
-    std::vector<std::vector<bool>> rows;
-    for (const auto& run : data.runs) rows.emplace_back(run.current_mA.size(), false);
-    return rows;
-  };
+  const auto masked = [&] { return nothing_masked(data); };
   const NoiseFloor single = Experiment(data, masked(), 1).floor();
   EXPECT_EQ(single.repeats, 0.0);
   EXPECT_NEAR(single.judged, std::hypot(single.count / std::sqrt(12.0), 5e-5), 1e-5);
@@ -87,11 +80,7 @@ TEST(Diagnose, TakesForNoiseWhatRepeatedRunsDoNotRepeat) {
 
 TEST(Diagnose, KnowsCountsAlsoWhenTheyAreRoundedToAFewDecimals) {
   auto data = small(plant::Rig{});
-  const auto floor = [&] {
-    std::vector<std::vector<bool>> masked;
-    for (const auto& run : data.runs) masked.emplace_back(run.current_mA.size(), false);
-    return Experiment(data, masked, 1).floor();
-  };
+  const auto floor = [&] { return Experiment(data, nothing_masked(data), 1).floor(); };
   const NoiseFloor exact = floor();
   for (domain::Run& run : data.runs)
     for (double& ratio : run.contraction_ratio) ratio = std::round(ratio * 1e4) / 1e4;
@@ -117,8 +106,7 @@ TEST(Diagnose, TakesForNoiseWhatScattersFromTickToTick) {
 
 TEST(Fit, RefusesParametersThatNoReadingDependsOn) {
   const auto data = small(plant::Rig{});
-  std::vector<std::vector<bool>> masked;
-  for (const auto& run : data.runs) masked.emplace_back(run.current_mA.size(), false);
+  const auto masked = nothing_masked(data);
   Model model{.rig = data.rig, .free = nominal_parameters(data.rig)};
   // The warm-up's time says nothing as long as nothing warms up.
   model.free.push_back({.path = "effects.friction_warm_up.time",

@@ -32,8 +32,7 @@ domain::Dataset badly_known(std::uint64_t seed) {
 TEST(Fit, ArrivesHoweverFarTheRigIsFromItsSheet) {
   for (const std::uint64_t seed : {13, 21}) {  // numbers that come to bounds on the way
     const domain::Dataset data = badly_known(seed);
-    std::vector<std::vector<bool>> masked;
-    for (const auto& run : data.runs) masked.emplace_back(run.current_mA.size(), false);
+    const auto masked = nothing_masked(data);
     const Experiment experiment(data, masked, 2);
     Case c{experiment, data.rig, split(data, {0, 1, 2, 3, 4, 5}), 20.0, {}};
     const Recalibrated found = diagnose::recalibrate(c, replay(c));

@@ -12,12 +12,6 @@
 namespace mckibben::diagnose {
 namespace {
 
-std::vector<std::vector<bool>> nothing_masked(const domain::Dataset& data) {
-  std::vector<std::vector<bool>> masked;
-  for (const auto& run : data.runs) masked.emplace_back(run.current_mA.size(), false);
-  return masked;
-}
-
 /// Runs that stand on one count throughout, and a parameter that would move them by ten counts for each unit.
 struct Standing {
   domain::Dataset data{};

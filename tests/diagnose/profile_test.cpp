@@ -29,14 +29,7 @@ struct Valleys {
           currents.front().duration_s = duration_s;
           return planted(truth, std::move(loads_kg), currents, 7);
         }()),
-        experiment(
-            data,
-            [&] {
-              std::vector<std::vector<bool>> masked;
-              for (const auto& run : data.runs) masked.emplace_back(run.current_mA.size(), false);
-              return masked;
-            }(),
-            2),
+        experiment(data, nothing_masked(data), 2),
         inflation(inflation_of_rows) {
     for (std::size_t run = 0; run < data.runs.size(); ++run) runs.push_back(run);
     Model model{.rig = data.rig};

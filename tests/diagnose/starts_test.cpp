@@ -24,7 +24,7 @@ struct Written {
     truth.valve.conductance_m3_per_s_Pa *= times;
     data = small(truth, 2.4);
     data.rig.spreads["valve.conductance"] = deviation;
-    for (const auto& run : data.runs) masked.emplace_back(run.current_mA.size(), false);
+    masked = nothing_masked(data);
   }
 };
 
@@ -59,8 +59,7 @@ TEST(Starts, AreWhereOneNumberIsFarOffIfThatExplainsMost) {
   plant::Rig truth;
   truth.friction.scale = 1.46;
   const auto data = small(truth, 2.4);
-  std::vector<std::vector<bool>> masked;
-  for (const auto& run : data.runs) masked.emplace_back(run.current_mA.size(), false);
+  const auto masked = nothing_masked(data);
   const Experiment experiment(data, masked, 2);
   Case c{experiment, data.rig, split(data, {0, 1, 2, 3, 4, 5}), 20.0, {}};
   Model described = replay(c).fitted.model;

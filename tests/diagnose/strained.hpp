@@ -20,7 +20,7 @@ struct Strained {
   Contender described, recalibrated;
 
   explicit Strained(const plant::Rig& truth) : data(small(truth, 2.4)) {
-    for (const auto& run : data.runs) masked.emplace_back(run.current_mA.size(), false);
+    masked = nothing_masked(data);
     experiment.emplace(data, masked, 2);
     at.emplace(Case{*experiment, data.rig, split(data, {0, 1, 2, 3, 4, 5}),
                     thresholds.scatter.first_inflation, [](const auto&) {}});
