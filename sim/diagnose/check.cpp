@@ -29,14 +29,14 @@ constexpr const CheckThresholds& of_check = thresholds.check;
 
 class DatasetChecker {
  public:
-  DatasetChecker(const domain::Dataset& data, unsigned threads, const Runs& sound)
+  DatasetChecker(const domain::Dataset& data, unsigned threads, Runs sound)
       : data_(data),
         threads_(threads),
-        sound_(sound),
         bench_(data.force_is_judged()),
         pair_(data.rig.pair() != nullptr),
         count_(run::reading_grain(data.rig)),
         model_(data.runs.size()) {
+    checked_.sound = std::move(sound);
     for (const domain::Run& run : data.runs) {
       checked_.masked.emplace_back(run.judged().size(), false);
       if (!run.missing.empty()) checked_.masked.back() = run.missing;
@@ -314,7 +314,7 @@ class DatasetChecker {
                       common_ratio));
     }
     for (const WrongLabel& label : wrong) {
-      if (std::ranges::find(sound_, label.run) != sound_.end()) continue;
+      if (std::ranges::find(checked_.sound, label.run) != checked_.sound.end()) continue;
       checked_.contradicted.push_back(label.run);
       if (label.other)
         leave_out_for(*label.other);
@@ -354,7 +354,6 @@ class DatasetChecker {
 
   const domain::Dataset& data_;
   unsigned threads_;
-  const Runs& sound_;
   bool bench_;  ///< lengths are given, and forces judged
   bool pair_;   ///< two muscles turn a joint, and its angle is judged
   double count_;
@@ -365,8 +364,8 @@ class DatasetChecker {
 
 }  // namespace
 
-Checked check(const domain::Dataset& data, unsigned threads, const Runs& sound) {
-  return DatasetChecker(data, threads, sound)();
+Checked check(const domain::Dataset& data, unsigned threads, Runs sound) {
+  return DatasetChecker(data, threads, std::move(sound))();
 }
 
 }  // namespace mckibben::diagnose

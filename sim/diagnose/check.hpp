@@ -16,6 +16,7 @@ struct Checked {
   std::vector<std::vector<bool>> masked;     ///< [run][row]: readings that are not the load's
   Runs left_out;                             ///< ascending
   Runs contradicted{};                       ///< of these: by what the other runs say of their load
+  Runs sound{};                              ///< believed: no fault of their own is looked for in them
   Runs dead_gauges;                          ///< runs whose muscle pressure says nothing: ignore it
   Runs dead_opposite_gauges{};               ///< the same of muscle 2's
   std::vector<std::string> warnings;         ///< each names its run
@@ -28,10 +29,10 @@ struct Checked {
 /// is the data set's rig as it is, so a test fires only where no effect of the catalogue and no tolerance of
 /// a parameter could be the reason.
 ///
-/// Labels of loads that contradict the other runs: see labels.hpp. Those of `sound` runs are believed.
+/// Labels of loads that contradict the other runs: see labels.hpp. `sound` runs are believed.
 ///
 /// Throws domain::UnfitData where a column is in another unit, or has another sign, than it says;
 /// engine::NumericalFailure; run::Interrupted.
-Checked check(const domain::Dataset& data, unsigned threads, const Runs& sound = {});
+Checked check(const domain::Dataset& data, unsigned threads, Runs sound = {});
 
 }  // namespace mckibben::diagnose

@@ -6,7 +6,7 @@ namespace {
 
 /// Names that do not come near the data: their laws are not quite these, or more is missing.
 bool names_leave_much(const Evidence& e, const Thresholds& t) {
-  return e.named() && e.named_left + 1.0 > t.near.mean_square();
+  return e.named() && t.near.is_much(e.named_left);
 }
 
 /// A law is believed if it closes much of the gap, far more than the names do, and more than what stands in.

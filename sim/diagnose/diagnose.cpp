@@ -37,15 +37,14 @@ double motion_left(const Gap& gap) {
 
 /// Runs left out for what other runs say of them, but which the corrected rig meets: fits on the way had not
 /// arrived, and the fault is none.
-Runs met_after_all(const Checked& as_recorded, const Checked& checked, const Runs& sound,
-                   const Diagnosis& result) {
+Runs met_after_all(const Checked& as_recorded, const Checked& checked, const Diagnosis& result) {
   Runs blamed = as_recorded.contradicted, met;
   if (result.runs.empty()) return {};  // the data are of no use
   std::ranges::set_difference(checked.left_out, as_recorded.left_out, std::back_inserter(blamed));
   for (const std::size_t run : blamed) {
-    if (std::ranges::find(sound, run) != sound.end()) continue;  // it was tried
-    const double floors = result.runs[run].corrected_rmse / result.gap.noise_floor;
-    if (floors * floors <= thresholds.near.mean_square()) met.push_back(run);
+    const bool was_tried = std::ranges::find(checked.sound, run) != checked.sound.end();
+    const double near = thresholds.near.floors * result.gap.noise_floor;
+    if (!was_tried && result.runs[run].corrected_rmse <= near) met.push_back(run);
   }
   return met;
 }
@@ -55,13 +54,12 @@ Runs met_after_all(const Checked& as_recorded, const Checked& checked, const Run
 std::pair<Diagnosis, bool> mended(const domain::Dataset& recorded, const Settings& settings, const Step& step,
                                   Search& search) {
   step(stage("checking"));
-  Runs sound;
-  Checked as_recorded = check(recorded, settings.threads, sound);
+  Checked as_recorded = check(recorded, settings.threads);
   domain::Dataset data = recorded;
   Checked checked = as_recorded;
   bool ask_all = false;
   for (int repairs = 0;;) {
-    Workflow workflow(data, checked, settings, step, search, sound, ask_all);
+    Workflow workflow(data, checked, settings, step, search, ask_all);
     Diagnosis result = workflow(repairs < thresholds.fault.most_repairs);
     if (!workflow.faults().empty()) {
       mend(data, checked, workflow.faults());
@@ -70,10 +68,10 @@ std::pair<Diagnosis, bool> mended(const domain::Dataset& recorded, const Setting
       ask_all = true;
     } else {
       Runs met;
-      if (search.ended() == Ended::no) met = met_after_all(as_recorded, checked, sound, result);
+      if (search.ended() == Ended::no) met = met_after_all(as_recorded, checked, result);
       if (met.empty()) return {std::move(result), workflow.reads_more()};
-      std::ranges::copy(met, std::back_inserter(sound));
-      as_recorded = check(recorded, settings.threads, sound);
+      std::ranges::copy(as_recorded.sound, std::back_inserter(met));
+      as_recorded = check(recorded, settings.threads, std::move(met));
       data = recorded;
       checked = as_recorded;
       repairs = 0;

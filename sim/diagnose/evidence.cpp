@@ -114,7 +114,7 @@ void Workflow::look_for_stand_ins() {
   std::ranges::sort(asked);
   const auto found = constancies(experiment_, fitted.model, asked,
                                  variance_inflation(experiment_, fitted.residuals, case_.split.training));
-  const bool much_left = evidence_.named_left + 1.0 > thresholds.near.mean_square();
+  const bool much_left = thresholds.near.is_much(evidence_.named_left);
   for (NamedEffect& effect : naming_.effects) {
     const auto place = std::ranges::find(fitted.model.effects, effect.who(), &Candidate::who);
     effect.constancy = found[static_cast<std::size_t>(place - fitted.model.effects.begin())];

@@ -240,9 +240,7 @@ void extend_law(const Case& c, const std::vector<const Contender*>& bases, const
     else
       extend(law.contender);
     if (!next) break;
-    auto polished = contend(c, next->fitted.model);
-    if (polished.fitted.failure.empty() && polished.fitted.cost < next->fitted.cost)
-      next = std::move(polished);
+    begin_too(c, *next, next->fitted.model);
     if (!convinces(compare(c.experiment, before, next->held_out, c.split.held_out))) break;
     ++law.terms;
     law.contender = std::move(*next);

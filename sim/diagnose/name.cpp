@@ -410,7 +410,7 @@ class Namer {
     if (!result_.effects.empty() && is_at_fault(More::tried_in_vain)) return false;
     bool taken = false;
     search_.part("several effects at once", [&] {
-      std::vector<Screening> bases = first_;
+      std::vector<Screening> bases = std::move(first_);
       const Contender named = result_.best;  // and what more there may be beside the names
       if (!result_.effects.empty()) bases.push_back(screen_at(c_, named));
       taken = try_several(c_, result_, bases, step_);

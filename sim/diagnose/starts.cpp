@@ -154,14 +154,12 @@ void catch_up(const Case& c, std::vector<Trial>& trials, const Step& step) {
     if (&best == last || !near_floor(best.contender.fitted.residuals)) return;
     last = &best;
     for (Trial& rival : trials) {
-      const Contender& end = rival.contender;
+      Contender& end = rival.contender;
       if (likeness(rival.score, best.score) < of_starts.likeness_of_arrived ||
           as_good(c, best.contender, end))
         continue;
       step(fmt::format("trying {} from other numbers", title(rival.score.candidate)));
-      Contender other = contend(c, begun_at(end.fitted.model, best.contender.fitted.model.rig));
-      if (other.fitted.failure.empty() && other.fitted.cost < end.fitted.cost)
-        rival.contender = std::move(other);
+      begin_too(c, end, begun_at(end.fitted.model, best.contender.fitted.model.rig));
     }
   }
 }

@@ -120,11 +120,14 @@ Trial rough(const Case& c, const Contender& base, const Score& score, std::size_
   return {score, place, contend(c, with(c, base.fitted.model, score), {.known = &known}), {}};
 }
 
+void begin_too(const Case& c, Contender& end, Model start) {
+  Contender other = contend(c, std::move(start));
+  if (other.fitted.failure.empty() && other.fitted.cost < end.fitted.cost) end = std::move(other);
+}
+
 void polish(const Case& c, Trial& trial, const Step& step) {
   step("fitting " + title(trial.score.candidate));
-  auto polished = contend(c, trial.contender.fitted.model);
-  if (polished.fitted.failure.empty() && polished.fitted.cost < trial.contender.fitted.cost)
-    trial.contender = std::move(polished);
+  begin_too(c, trial.contender, trial.contender.fitted.model);
 }
 
 bool at_bounds(const Model& model) {

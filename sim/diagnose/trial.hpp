@@ -63,6 +63,9 @@ Screening screen_at(const Case& c, const Contender& base);
 /// One candidate more than `base`, fitted with the slopes that `base` has. Look at the fit's failure.
 Trial rough(const Case& c, const Contender& base, const Score& score, std::size_t place);
 
+/// Fits a model from here too, and keeps the end that is deeper.
+void begin_too(const Case& c, Contender& end, Model start);
+
 /// Fits a trial with all slopes anew.
 void polish(const Case& c, Trial& trial, const Step& step);
 

@@ -35,14 +35,13 @@ Runs all_but(const Runs& left_out, std::size_t count) {
 }  // namespace
 
 Workflow::Workflow(const domain::Dataset& data, const Checked& checked, const Settings& settings,
-                   const Step& step, Search& search, const Runs& sound, bool ask_all)
+                   const Step& step, Search& search, bool ask_all)
     : settings_(settings),
       step_(step),
       search_(search),
       checked_(checked),
       data_(without_gauges(data, checked_.dead_gauges, checked_.dead_opposite_gauges)),
       usable_(all_but(checked_.left_out, data.runs.size())),
-      sound_(sound),
       experiment_(data_, checked_.masked, settings.threads, usable_),
       nominal_(data.rig),
       whole_(split(data_, usable_)),
@@ -145,7 +144,7 @@ void Workflow::look_for_faults() {
 /// Those of sound runs are none.
 void Workflow::found(std::vector<Fault> faults) {
   std::erase_if(faults, [&](const Fault& fault) {
-    return !fault.common && std::ranges::find(sound_, fault.run) != sound_.end();
+    return !fault.common && std::ranges::find(checked_.sound, fault.run) != checked_.sound.end();
   });
   faults_ = std::move(faults);
 }

@@ -24,10 +24,9 @@ namespace mckibben::diagnose {
 
 class Workflow {
  public:
-  /// `sound`: runs in which no fault of their own is looked for. `ask_all`: runs in the search, however many
-  /// there are.
+  /// `ask_all`: runs in the search, however many there are.
   Workflow(const domain::Dataset& data, const Checked& checked, const Settings& settings, const Step& step,
-           Search& search, const Runs& sound, bool ask_all);
+           Search& search, bool ask_all);
 
   Judged judged() const { return data_.judged(); }
   bool reads_more() const { return experiment_.floor().any_beside(); }
@@ -90,7 +89,6 @@ class Workflow {
   Checked checked_;
   domain::Dataset data_;
   Runs usable_;
-  Runs sound_;
   Experiment experiment_;
   RigFile nominal_;
   Competition competition_;

@@ -14,6 +14,8 @@ struct NearThresholds {
   double clear = 12.0;         ///< difference of misfits that scatter does not make
 
   constexpr double mean_square() const { return floors * floors; }
+  /// `left`: mean square above the floor's, over it.
+  constexpr bool is_much(double left) const { return left + 1.0 > mean_square(); }
 };
 
 /// Residuals are correlated: how long, and what is assumed until a model has been fitted.
