@@ -27,7 +27,7 @@ bool stands(const Evidence& e, const DecideThresholds& t) {
 bool numbers_explain(const Evidence& e, const Thresholds& t) {
   const double explained = t.start.explained_floors * t.start.explained_floors;
   const double most = e.patterned ? explained : t.near.mean_square();
-  return !e.at_bounds && e.recalibrated_left + 1.0 <= most;
+  return !e.bent && e.recalibrated_left + 1.0 <= most;
 }
 
 /// Where nothing is added. "Nothing is missing" is for data that would have shown it, and agree run by run.

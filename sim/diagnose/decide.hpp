@@ -26,7 +26,7 @@ struct Evidence {
   // baseline
   double nominal_left = 0.0, recalibrated_left = 0.0;
   Improvement recalibration{};  ///< from the rig as described to the recalibrated one
-  bool at_bounds = false;       ///< a number stands at the edge of what is allowed
+  bool bent = false;            ///< a number stands where more than is allowed would clearly fit better
   bool patterned = false;       ///< what the recalibrated rig leaves is more in parts of the data than chance
   std::vector<FarRun> far_from_nominal{}, far_from_recalibrated{};  ///< of all usable runs
   // name

@@ -30,7 +30,7 @@ void Workflow::weigh_numbers() {
   evidence_.recalibrated_left = excess(recalibrated_.held_out);
   evidence_.recalibration =
       compare(experiment_, nominal_fit_.held_out, recalibrated_.held_out, case_.split.held_out);
-  evidence_.at_bounds = at_bounds(recalibrated_.fitted.model);
+  evidence_.bent = bent(recalibrated_.fitted, case_.inflation);
   evidence_.far_from_nominal = far_from(nominal_fit_);
   evidence_.far_from_recalibrated = far_from(recalibrated_);
 }

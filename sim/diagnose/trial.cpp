@@ -130,14 +130,15 @@ void polish(const Case& c, Trial& trial, const Step& step) {
   begin_too(c, trial.contender, trial.contender.fitted.model);
 }
 
-bool at_bounds(const Model& model) {
+bool bent(const Fitted& fitted, double inflation) {
   constexpr double most = thresholds.parameter.at_the_edge * thresholds.parameter.most_deviations;
-  return std::ranges::any_of(model.free, [&](const Parameter& p) {
-    const double value = value_of(model.rig, p.path),
+  const bool at_bounds = std::ranges::any_of(fitted.model.free, [&](const Parameter& p) {
+    const double value = value_of(fitted.model.rig, p.path),
                  edge = thresholds.name.at_bound * (p.highest - p.lowest);
     return p.has_prior && !p.of_effect() && std::abs(p.deviations(value)) >= most &&
            (value < p.lowest + edge || value > p.highest - edge);
   });
+  return at_bounds && fitted.cost - least_by_lines(fitted, inflation) > thresholds.near.clear;
 }
 
 bool meets(const Contender& contender) {

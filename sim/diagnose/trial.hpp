@@ -72,9 +72,10 @@ void polish(const Case& c, Trial& trial, const Step& step);
 /// A size that a fit has not driven against a bound, nor to nothing.
 bool has_size(const Model& model, const Candidate& candidate);
 
-/// Whether a nominal number stands at the edge of what is allowed of it, as far off as is believed. (At
-/// nought, where nature ends it sooner, it may well be: damping that is not there.)
-bool at_bounds(const Model& model);
+/// Whether a nominal number stands at the edge of what is allowed of it, as far off as is believed, and
+/// beyond it the misfit would clearly fall. (At nought, where nature ends it sooner, it may well be: damping
+/// that is not there. Along a valley of numbers that make up for each other a fit may end there by chance.)
+bool bent(const Fitted& fitted, double inflation);
 
 /// A shape, if it has one, that a fit has not driven against a bound.
 bool has_shape(const Model& model, const Candidate& candidate);
