@@ -3,8 +3,8 @@
 
     reliability.py TOLD COUNTED FOLDER
 
-TOLD and COUNTED: what `bench diagnosis --weak` printed on two sets of seeds. Of the first is what a diagnosis tells
-(sim/diagnose/record.cpp), the second checks it. Prints a table, as Markdown, and writes reliability.svg into FOLDER.
+TOLD and COUNTED: what `bench diagnosis --weak` printed on two sets of seeds, of the first with what `--nulls` printed
+after it. Of the first is what a diagnosis tells (sim/diagnose/record.cpp), the second checks it. Prints a table, as Markdown, and writes reliability.svg into FOLDER.
 """
 import math
 import pathlib
@@ -68,7 +68,7 @@ def picture(rows):
     for i in range(len(BINS)):
         middle = left + column * (i + 0.5)
         out.append(f'<text x="{middle}" y="{top + height + 20}" text-anchor="middle">{title(i)}</text>')
-        for (kind, colour), shift in zip(COLOUR.items(), (-16, 16)):
+        for (kind, colour), shift in zip(COLOUR.items(), (-24, 24)):
             count, of = rows[kind][i]
             if of == 0:
                 continue
