@@ -1,12 +1,12 @@
 // See the header.
 #include <algorithm>
 #include <map>
-#include <string>
 
 #include <fmt/format.h>
 
 #include <sim/diagnose/remaining.hpp>
 #include <sim/diagnose/where.hpp>
+#include <sim/domain/number.hpp>
 
 namespace mckibben::diagnose {
 
@@ -39,8 +39,7 @@ Remaining remaining(const Experiment& experiment, const RigFile& corrected, cons
 
 std::string sentence_of(const Remaining& remaining) {
   if (!remaining.is_more_than_noise()) return "";
-  const double two_digits = std::stod(fmt::format("{:.2g}", remaining.floors));  // else 170 would be 1.7e+02
-  std::string text = fmt::format(" {:g} noise floors are left", two_digits);
+  std::string text = fmt::format(" {:g} noise floors are left", domain::two_digits(remaining.floors));
   if (remaining.pattern.empty()) return text + ", in no part of the data more than in others.";
   const Dense& most = remaining.pattern.front();
   return text + fmt::format(", {:.0f} % of it in {:.0f} % of the readings: {} {}.",

@@ -18,4 +18,12 @@ std::string write_number(double value) {
   return {digits.data(), end};
 }
 
+double two_digits(double value) {
+  std::array<char, 16> digits{};
+  const auto written =
+      std::to_chars(digits.data(), digits.data() + digits.size(), value, std::chars_format::scientific, 1);
+  std::from_chars(digits.data(), written.ptr, value);
+  return value;
+}
+
 }  // namespace mckibben::domain

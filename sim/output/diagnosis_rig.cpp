@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <sim/domain/number.hpp>
 #include <sim/input/campaign_file.hpp>
 #include <sim/input/fields_json.hpp>
 #include <sim/input/hypothesis_file.hpp>
@@ -115,10 +116,10 @@ std::string expression(const plant::ForceTerm& term, bool with_parameters) {
 
 /// What it is, exactly; where to begin and between which bounds, in few digits.
 Json parameter(const char* unit, double value, double lowest, double highest) {
-  const auto about = [](double number) { return std::stod(fmt::format("{:.2g}", number)); };
+  using domain::two_digits;
   return {{"unit", unit},
-          {"typical", about(value)},
-          {"range", {about(lowest), about(highest)}},
+          {"typical", two_digits(value)},
+          {"range", {two_digits(lowest), two_digits(highest)}},
           {"value", value}};
 }
 

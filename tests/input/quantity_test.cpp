@@ -40,6 +40,13 @@ TEST(Number, WritesWhatReadsBackExactly) {
   }
 }
 
+TEST(Number, IsRoundedToTwoDigits) {
+  EXPECT_EQ(domain::two_digits(168.4), 170.0);
+  EXPECT_EQ(domain::two_digits(-0.004567), -0.0046);
+  EXPECT_EQ(domain::two_digits(9.96), 10.0);
+  EXPECT_EQ(domain::two_digits(0.0), 0.0);
+}
+
 struct Case {
   const char* text;
   const char* unit;
