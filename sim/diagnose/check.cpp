@@ -314,7 +314,7 @@ class DatasetChecker {
                       common_ratio));
     }
     for (const WrongLabel& label : wrong) {
-      if (std::ranges::find(checked_.sound, label.run) != checked_.sound.end()) continue;
+      if (checked_.is_sound(label.run)) continue;
       checked_.contradicted.push_back(label.run);
       if (label.other)
         leave_out_for(*label.other);

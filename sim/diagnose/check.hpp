@@ -2,6 +2,8 @@
 // else looks wrong is masked or left out, and said by name.
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -22,6 +24,8 @@ struct Checked {
   std::vector<std::string> warnings;         ///< each names its run
   std::vector<FaultyRun> faulty{};           ///< of runs left out or mended, for the verdict's sentence
   std::optional<std::string> cannot_tell{};  ///< why no answer is possible, and what would help
+
+  bool is_sound(std::size_t run) const { return std::ranges::find(sound, run) != sound.end(); }
 };
 
 /// Looks for single readings and jumps that no load could follow, a reading that froze, gauges that are dead,

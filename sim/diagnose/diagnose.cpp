@@ -41,11 +41,9 @@ Runs met_after_all(const Checked& as_recorded, const Checked& checked, const Dia
   Runs blamed = as_recorded.contradicted, met;
   if (result.runs.empty()) return {};  // the data are of no use
   std::ranges::set_difference(checked.left_out, as_recorded.left_out, std::back_inserter(blamed));
-  for (const std::size_t run : blamed) {
-    const bool was_tried = std::ranges::find(checked.sound, run) != checked.sound.end();
-    const double near = thresholds.near.floors * result.gap.noise_floor;
-    if (!was_tried && result.runs[run].corrected_rmse <= near) met.push_back(run);
-  }
+  const double near = thresholds.near.floors * result.gap.noise_floor;
+  for (const std::size_t run : blamed)
+    if (!checked.is_sound(run) && result.runs[run].corrected_rmse <= near) met.push_back(run);
   return met;
 }
 

@@ -143,9 +143,7 @@ void Workflow::look_for_faults() {
 
 /// Those of sound runs are none.
 void Workflow::found(std::vector<Fault> faults) {
-  std::erase_if(faults, [&](const Fault& fault) {
-    return !fault.common && std::ranges::find(checked_.sound, fault.run) != checked_.sound.end();
-  });
+  std::erase_if(faults, [&](const Fault& fault) { return !fault.common && checked_.is_sound(fault.run); });
   faults_ = std::move(faults);
 }
 

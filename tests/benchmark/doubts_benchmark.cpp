@@ -16,17 +16,12 @@
 #include <sim/diagnose/plan.hpp>
 #include <sim/run/batch.hpp>
 
+#include "diagnose/planted.hpp"
 #include "hidden_effects.hpp"
 #include "tally.hpp"
 
 namespace mckibben::diagnose {
 namespace {
-
-std::vector<std::vector<bool>> nothing_masked(const domain::Dataset& data) {
-  std::vector<std::vector<bool>> masked;
-  for (const auto& run : data.runs) masked.emplace_back(run.current_mA.size(), false);
-  return masked;
-}
 
 Runs all_runs(const domain::Dataset& data) {
   Runs runs(data.runs.size());

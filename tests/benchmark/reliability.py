@@ -4,7 +4,8 @@
     reliability.py TOLD COUNTED FOLDER
 
 TOLD and COUNTED: what `bench diagnosis --weak` printed on two sets of seeds, of the first with what `--nulls` printed
-after it. Of the first is what a diagnosis tells (sim/diagnose/record.cpp), the second checks it. Prints a table, as Markdown, and writes reliability.svg into FOLDER.
+after it. Of the first is what a diagnosis tells (sim/diagnose/record.cpp), the second checks it. Prints a table, as
+Markdown, and writes reliability.svg into FOLDER.
 """
 import math
 import pathlib
