@@ -59,8 +59,8 @@ const Eigen::VectorXd& Workflow::reference() const {
 void Workflow::name() {
   const auto at_fault = [&](const Contender& named, More more) {
     if (!looks_for_faults_) return false;
-    found(more == More::tried_in_vain ? faults_beside(named) : told_faults_beside(named));
-    if (faults_.empty() && more == More::tried_in_vain) found(faults_that_bend(named));
+    found_on_the_way(more == More::tried_in_vain ? faults_beside(named) : told_faults_beside(named));
+    if (faults_.empty() && more == More::tried_in_vain) found_on_the_way(faults_that_bend(named));
     return !faults_.empty();
   };
   naming_ = name_effects(case_, nominal_fit_, recalibrated_, reference(), at_fault, step_, search_);

@@ -2,6 +2,8 @@
 // fault must be far larger than what is left of the others.
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <numeric>
 
 #include <Eigen/QR>
 
@@ -12,6 +14,25 @@ namespace mckibben::diagnose {
 namespace {
 
 constexpr const FaultThresholds& of_faults = thresholds.fault;
+
+/// Whether the loads tell the sizes.
+bool told_by_loads(const std::vector<Fault>& faults, const std::vector<domain::Run>& runs) {
+  const auto squares = [](const std::vector<double>& sizes) {
+    const double mean = std::accumulate(sizes.begin(), sizes.end(), 0.0) / static_cast<double>(sizes.size());
+    return std::accumulate(sizes.begin(), sizes.end(), 0.0,
+                           [&](double sum, double size) { return sum + (size - mean) * (size - mean); });
+  };
+  std::vector<double> all;
+  std::map<double, std::vector<double>> of_load;
+  for (const Fault& fault : faults) {
+    all.push_back(fault.size);
+    of_load[runs[fault.run].load_kg].push_back(fault.size);
+  }
+  if (all.size() < of_load.size() + of_faults.chances) return false;
+  double within = 0.0;
+  for (const auto& [load, sizes] : of_load) within += squares(sizes);
+  return within < of_faults.least_by_chance * squares(all);
+}
 
 }  // namespace
 
@@ -270,7 +291,11 @@ Hypothesis Examination::own_line(FaultKind kind) const {
                       std::all_of(found.faults.begin(), found.faults.end(), [&](const Fault& fault) {
                         return fault.size * found.faults.front().size > 0.0;
                       });
-  for (Fault& fault : found.faults) fault.common = common;
+  const bool by_load = told_by_loads(found.faults, experiment_.data().runs);
+  for (Fault& fault : found.faults) {
+    fault.common = common;
+    fault.told_by_load = by_load;
+  }
   return found;
 }
 

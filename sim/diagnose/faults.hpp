@@ -33,6 +33,9 @@ struct Fault {
   double size = 0.0;
   std::size_t row = 0;
   bool common = false;  ///< all runs have it: it is the recorder's, or it is real
+  /// Each run has its own, and the load tells its size: what befalls runs one by one does not know the load,
+  /// what is missing does.
+  bool told_by_load = false;
 };
 
 /// An effect that may be missing beside faults of a few runs, or one of all runs: with these it comes much

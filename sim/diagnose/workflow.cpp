@@ -137,14 +137,20 @@ void Workflow::replay_as_described() {
 }
 
 void Workflow::look_for_faults() {
-  search_.part("faults of runs",
-               [&] { found(first_look(case_, checked_, nominal_fit_.fitted.model, usable_, step_)); });
+  search_.part("faults of runs", [&] {
+    found_on_the_way(first_look(case_, checked_, nominal_fit_.fitted.model, usable_, step_));
+  });
 }
 
 /// Those of sound runs are none.
 void Workflow::found(std::vector<Fault> faults) {
   std::erase_if(faults, [&](const Fault& fault) { return !fault.common && checked_.is_sound(fault.run); });
   faults_ = std::move(faults);
+}
+
+/// What the load tells is believed only if nothing that was found explains it.
+void Workflow::found_on_the_way(std::vector<Fault> faults) {
+  if (std::ranges::none_of(faults, &Fault::told_by_load)) found(std::move(faults));
 }
 
 const Contender& Workflow::contender(Chosen chosen) const {

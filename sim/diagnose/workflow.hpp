@@ -50,6 +50,7 @@ class Workflow {
   void replay_as_described();
   void look_for_faults();
   void found(std::vector<Fault> faults);
+  void found_on_the_way(std::vector<Fault> faults);
   const Contender& contender(Chosen chosen) const;
   std::vector<FarRun> far_from(const Contender& contender) const;
   std::vector<Fault> faults_beside(const Contender& fitted) const;

@@ -215,6 +215,27 @@ TEST(Faults, AreMendedWhereThatIsSafeAndElseLeftOut) {
   EXPECT_EQ(checked.faulty[2].words, "drifts by 0.6 mm from its beginning to its end (left out)");
 }
 
+// Runs that were each begun at another zero; where the load tells it, it may be a law of the rig's.
+TEST(Faults, EachRunMayHaveAZeroOfItsOwn) {
+  const auto moved_by = [](const std::vector<double>& counts) {
+    auto data = undisturbed();
+    EXPECT_EQ(counts.size(), data.runs.size());
+    for (std::size_t i = 0; i < data.runs.size(); ++i)
+      for (double& ratio : data.runs[i].contraction_ratio) ratio += counts[i] * count();
+    return faults_of(data);
+  };
+  const auto by_chance = moved_by({7.0, -5.0, 4.0, 9.0, -8.0, 6.0});
+  ASSERT_EQ(by_chance.size(), 6u);
+  for (const Fault& fault : by_chance) {
+    EXPECT_EQ(fault.kind, FaultKind::zero);
+    EXPECT_FALSE(fault.told_by_load);
+  }
+  EXPECT_NEAR(by_chance[1].size, -5.0 * count(), 1.5 * count());
+  const auto by_load = moved_by({7.0, 7.2, -1.0, -1.2, -8.0, -8.1});
+  ASSERT_EQ(by_load.size(), 6u);
+  for (const Fault& fault : by_load) EXPECT_TRUE(fault.told_by_load);
+}
+
 // Of runs that last longer than a search needs, a few are asked which effect it may be; what all have in
 // common is taken out of all.
 TEST(Faults, OfManyRunsAFewSayWhichEffectIsSuspected) {
