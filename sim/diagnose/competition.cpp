@@ -52,22 +52,28 @@ void Competition::enter(const Case& c, const Contender& contender) {
     *same = std::move(now);
 }
 
-std::vector<Explanation> Competition::told(const Case& c, const Contender& chosen) const {
-  const Entry winner = entry(chosen);
+std::vector<Explanation> Competition::told(const Case& c, const Contender* chosen) const {
+  if (entries_.empty()) return {};
   std::vector<Explanation> list;
   std::array<std::size_t, thresholds.competition.shown.size()> shown{};
   std::vector<const Entry*> sorted;
   for (const Entry& one : entries_) sorted.push_back(&one);
   std::ranges::stable_sort(sorted, {}, [&](const Entry* one) { return one->misfit(c.inflation); });
+  const auto competitor = [&](const Entry& one) {
+    Contender contender = one.contender;
+    contender.fitted.cost = one.misfit(c.inflation);
+    return contender;
+  };
+  const Entry winner = chosen ? entry(*chosen) : *sorted.front();
+  const Contender measure = chosen ? *chosen : competitor(winner);
   for (const Entry* one : sorted) {
-    Contender rival = one->contender;
-    rival.fitted.cost = one->misfit(c.inflation);
-    const bool is_chosen = one->kind == winner.kind && one->effects == winner.effects;
-    const bool as_well = is_chosen || as_good(c, chosen, rival);
+    const Contender rival = competitor(*one);
+    const bool wins = one->kind == winner.kind && one->effects == winner.effects;
+    const bool as_well = wins || as_good(c, measure, rival);
     const auto kind = static_cast<std::size_t>(one->kind);
     if (!as_well && shown.at(kind)++ >= thresholds.competition.shown.at(kind)) continue;
     list.push_back({one->kind, one->effects, rival.fitted.cost, one->strain,
-                    c.experiment.rmse(one->contender.held_out, c.split.held_out), as_well, is_chosen});
+                    c.experiment.rmse(one->contender.held_out, c.split.held_out), as_well, wins && chosen});
   }
   return list;
 }

@@ -17,8 +17,9 @@ class Competition {
   /// to nothing does not explain by it.
   void enter(const Case& c, const Contender& contender);
 
-  /// The best of each kind, and every one that does as well as `chosen`; least misfit first.
-  std::vector<Explanation> told(const Case& c, const Contender& chosen) const;
+  /// The best of each kind, and every one that does as well as `chosen`, or as the best if nothing is chosen;
+  /// least misfit first.
+  std::vector<Explanation> told(const Case& c, const Contender* chosen) const;
 
  private:
   struct Entry {

@@ -211,7 +211,7 @@ struct Explanation {
   double misfit = 0.0;                 ///< of the fitted runs, the strain of the priors in it
   double strain = 0.0;                 ///< squares of the numbers' deviations
   double held_out_rmse = 0.0;
-  bool as_good = false;  ///< as the one that is handed over, or better
+  bool as_good = false;  ///< as the one that is chosen, or better; if none is, as the best
   bool chosen = false;
 };
 constexpr auto names(Explanation::Kind) {

@@ -37,7 +37,8 @@ void Workflow::hand_over(const Decision& decision) {
   result_.confusion_names = naming_.confusion_names;
   result_.confusion = naming_.confusion;
   if (decision.verdict == Verdict::unknown_effect) result_.law_valid_for = visited(data_, usable_);
-  result_.explanations = competition_.told(case_, contender(decision.chosen));
+  const bool undecided = decision.verdict == Verdict::cannot_tell && decision.chosen == Chosen::nominal;
+  result_.explanations = competition_.told(case_, undecided ? nullptr : &contender(decision.chosen));
   chosen_rig_ = nominal_;
   if (decision.chosen != Chosen::nominal) fit_all_runs(contender(decision.chosen).fitted);
 }

@@ -135,7 +135,8 @@ std::string table_of(const domain::Dataset& data, const Diagnosis& diagnosis) {
   text += section("recalibrated by more than a deviation of what a data sheet promises", moved(diagnosis));
   if (!unseen.empty()) text += section("rmse of the runs held out", gap(diagnosis, data.rig));
   text += section("rmse of what was read beside it, each weighed by its own floor", beside(diagnosis));
-  text += section("explain these data as well", twins(diagnosis));
+  const bool undecided = std::ranges::none_of(diagnosis.explanations, &diagnose::Explanation::chosen);
+  text += section(undecided ? "come nearest to these data" : "explain these data as well", twins(diagnosis));
   text += section("names given with such evidence to simulated data were right", confidence(diagnosis));
   return text + section("to measure next", next(diagnosis));
 }

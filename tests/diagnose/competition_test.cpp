@@ -28,10 +28,11 @@ const Contender& named_leak() {
   return named;
 }
 
-std::vector<Explanation> competed(std::initializer_list<const Contender*> entered) {
+std::vector<Explanation> competed(std::initializer_list<const Contender*> entered,
+                                  const Contender* chosen = &named_leak()) {
   Competition competition;
   for (const Contender* one : entered) competition.enter(*leaky_runs().at, *one);
-  return competition.told(*leaky_runs().at, named_leak());
+  return competition.told(*leaky_runs().at, chosen);
 }
 
 TEST(Competition, TellsWhatWasChosenBeforeTheRigAsDescribedAndItsNumbers) {
@@ -45,6 +46,15 @@ TEST(Competition, TellsWhatWasChosenBeforeTheRigAsDescribedAndItsNumbers) {
   EXPECT_FALSE(list[1].as_good || list[2].as_good);
   EXPECT_LT(list[0].misfit, list[1].misfit);
   EXPECT_LT(list[1].misfit, list[2].misfit);
+}
+
+TEST(Competition, MeasuresByTheBestWhereNothingIsChosen) {
+  const auto list = competed({&leaky_runs().described, &leaky_runs().recalibrated, &named_leak()}, nullptr);
+  ASSERT_EQ(list.size(), 3u);
+  EXPECT_TRUE(list[0].as_good);
+  EXPECT_FALSE(list[1].as_good || list[2].as_good);
+  EXPECT_TRUE(std::ranges::none_of(list, &Explanation::chosen));
+  EXPECT_TRUE(competed({}, nullptr).empty());
 }
 
 TEST(Competition, NothingDoesAsWellThatTheRunsHeldOutSpeakAgainst) {
