@@ -116,23 +116,25 @@ std::vector<Model> in_other_shapes(const Model& model, std::vector<const RigFile
 }
 
 void deepen(const Case& c, Contender& end, const std::vector<const RigFile*>& others, const Step& step) {
-  if (excess(end.held_out) < thresholds.name.worth_a_pair) return;
+  const auto arrived = [&] { return near_floor(end.fitted.residuals) && !bent(end.fitted, c.inflation); };
+  if (arrived() || (excess(end.held_out) < thresholds.name.worth_a_pair && !bent(end.fitted, c.inflation)))
+    return;
   const Model model = end.fitted.model;
   std::vector<std::string> names;
   for (const Candidate& effect : model.effects) names.push_back(title(effect));
   step(fmt::format("trying {} from other numbers", fmt::join(names, " with ")));
   const auto begin = [&](Model place) {
-    if (near_floor(end.fitted.residuals)) return;
+    if (arrived()) return;
     Contender other = contend(c, std::move(place));
     if (other.fitted.failure.empty() && other.fitted.cost < end.fitted.cost &&
         other.held_out.squaredNorm() <= end.held_out.squaredNorm())
       end = std::move(other);
   };
   for (const RigFile* rig : others) begin(begun_at(model, *rig));
-  if (near_floor(end.fitted.residuals)) return;
+  if (arrived()) return;
   for (Model& place : best_of(c, model, in_other_shapes(model, others), of_starts.begun))
     begin(std::move(place));
-  if (near_floor(end.fitted.residuals)) return;
+  if (arrived()) return;
   for (Model& place : one_number_far_off(c, begun_at(model, *others.front()))) begin(std::move(place));
 }
 
