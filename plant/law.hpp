@@ -19,7 +19,7 @@
 namespace mckibben::plant {
 
 /// What a law may be about: of the muscle it acts on, at this instant.
-enum class LawInput { ratio, rise, speed, pressure, valve_pressure, load, command, time };
+enum class LawInput { ratio, rise, speed, pressure, valve_pressure, braid_force, load, command, time };
 inline constexpr std::size_t law_inputs = static_cast<std::size_t>(LawInput::time) + 1;
 
 /// Which quantity a law adds to: force on the load, upwards [N]; the factor of the friction level [1]; gas

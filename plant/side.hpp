@@ -117,7 +117,8 @@ class SideOf {
             gas_energy_J_per_kg_,
             unit_flow_,
             state.valve_pressure_Pa,
-            held.reference_pressure_Pa};
+            held.reference_pressure_Pa,
+            braid_.force_N(e, state.muscle_pressure_Pa)};
   }
   template <class S>
   S flow_to_follow(const SideMemory<S>& memory, const S& error_Pa, const S& hose_flow) const;

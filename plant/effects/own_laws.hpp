@@ -146,7 +146,7 @@ class OwnLawsOf {
                                   const std::array<S, slots>& memory, std::size_t from) {
     LawNumbers<S, P> known{
         {now.contraction_ratio, now.rise_m, now.speed_m_per_s, now.muscle_pressure_Pa, now.valve_pressure_Pa,
-         S(now.weight_N), now.reference_Pa, memory[from + law_slots - 1]},
+         now.braid_force_N, S(now.weight_N), now.reference_Pa, memory[from + law_slots - 1]},
         law.values,
         {}};
     const auto& memories = law.text->memories;

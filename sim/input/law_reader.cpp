@@ -212,10 +212,11 @@ class LawReader {
     for (std::size_t i = 1; i < text_.parameters.size(); ++i) values[i] = text_.parameters[i].typical;
     for (int i = 0; i < 8; ++i) {
       const double e = 0.01 + 0.03 * i, sign = i % 2 == 0 ? 1.0 : -1.0;
-      plant::LawNumbers<double, double> known{{e, 0.3 * e, sign * 0.02 * (i + 1), 0.5e5 * (i + 1),
-                                               0.45e5 * (i + 1), 20.0 * (i + 1), 0.55e5 * (i + 1), 0.7 * i},
-                                              values,
-                                              {}};
+      plant::LawNumbers<double, double> known{
+          {e, 0.3 * e, sign * 0.02 * (i + 1), 0.5e5 * (i + 1), 0.45e5 * (i + 1), 15.0 * (i + 1),
+           20.0 * (i + 1), 0.55e5 * (i + 1), 0.7 * i},
+          values,
+          {}};
       for (std::size_t k = 0; k < text_.memories.size(); ++k)
         known.memories[k] = sign * 0.1 * (i + 1) * text_.memories[k].size;
       const double left = plant::value_of(text_.program, known);

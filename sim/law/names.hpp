@@ -22,6 +22,7 @@ inline constexpr std::array<Input, plant::law_inputs> inputs{
      {"v", plant::LawInput::speed, metre_per_second},
      {"P", plant::LawInput::pressure, pascal},
      {"P_valve", plant::LawInput::valve_pressure, pascal},
+     {"F_braid", plant::LawInput::braid_force, newton},
      {"load", plant::LawInput::load, newton},
      {"command", plant::LawInput::command, pascal},
      {"t", plant::LawInput::time, second}}};

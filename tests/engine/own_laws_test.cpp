@@ -29,15 +29,15 @@ TEST(OwnLaw, DoublesDualsAndLanesAgree) {
   for (const char* text : {"F * e", "F * sqrt(e)", "F * e^n", "F * e^3", "F * tanh(v / 5 [mm/s]) * exp(-e)",
                            "F * log(1 + e)", "F * if(v > 0, e, -2 * e)", "F * min(e, 0.1) - F * max(e, 0.1)",
                            "F * sin(x / 0.01 [m]) + F * cos(e) - F",
-                           "F * abs(v) / (v + 1000 [mm/s]) * P / P_valve * load / 1 [N]"}) {
+                           "F * abs(v) / (v + 1000 [mm/s]) * P / P_valve * F_braid / load"}) {
     const auto law = own_law(LawTarget::force, text, parameters);
     using Number = Dual<2>;
     for (int i = 0; i < 40; ++i) {
       const double e = i == 0 ? 0.0 : 0.008 * i, v = 0.02 * (i - 20);
       const auto at = [&](const auto& ratio, const auto& speed) {
         using S = std::decay_t<decltype(ratio)>;
-        return std::array<S, plant::law_inputs>{ratio,    S(0.3 * ratio), speed,  S(2e5),
-                                                S(2.5e5), S(90.0),        S(3e5), S(1.0)};
+        return std::array<S, plant::law_inputs>{ratio,    S(0.3 * ratio), speed,  S(2e5), S(2.5e5),
+                                                S(110.0), S(90.0),        S(3e5), S(1.0)};
       };
       const auto alone = [&](double ratio, double speed) {
         return plant::value_of(law.text->program,

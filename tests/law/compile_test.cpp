@@ -50,8 +50,9 @@ double value(const std::string& law) {
     return 0.0;
   }
   const std::array<double, plant::most_law_parameters> parameters{200.0, 2.0, 1.5};
-  return plant::value_of(programs->law, plant::LawNumbers<double, double>{
-                                            {0.1, 0.03, -0.2, 3e5, 2e5, 98.0, 2.5e5, 7.0}, parameters, {}});
+  return plant::value_of(programs->law,
+                         plant::LawNumbers<double, double>{
+                             {0.1, 0.03, -0.2, 3e5, 2e5, 150.0, 98.0, 2.5e5, 7.0}, parameters, {}});
 }
 
 TEST(Law, BindsAsPeopleCalculate) {
@@ -68,6 +69,7 @@ TEST(Law, BindsAsPeopleCalculate) {
 
 TEST(Law, KnowsTheInputsAndFunctions) {
   EXPECT_DOUBLE_EQ(value("k * x / load"), 200.0 * 0.03 / 98.0);
+  EXPECT_DOUBLE_EQ(value("F_braid / load"), 150.0 / 98.0);
   EXPECT_DOUBLE_EQ(value("P / P_valve - command / P"), 3.0 / 2.0 - 2.5 / 3.0);
   EXPECT_DOUBLE_EQ(value("tanh(v / 1 [mm/s])"), std::tanh(-200.0));
   EXPECT_DOUBLE_EQ(value("exp(-t / tau) + log(n) * sqrt(e)"),
