@@ -12,14 +12,17 @@
 
 namespace mckibben::plant {
 
-/// What a term is proportional to. Speeds count in 0.1 m/s, pressures in bar, loads in 10 kg, so that every
-/// coefficient is a force. The sign of v is smoothed over 1 mm/s.
+/// What a term is proportional to. Speeds count in 0.1 m/s, pressures in bar, loads in 10 kg, the braid's
+/// force F (T 2.8) in 100 N, so that every coefficient is a force. The sign of v is smoothed over 1 mm/s.
 enum class Basis {
   constant,
   ratio,
   ratio_squared,
   pressure,
   pressure_ratio,
+  force_ratio,
+  force_ratio_squared,
+  force_ratio_cubed,
   load,
   speed,
   speed_squared,
@@ -35,6 +38,9 @@ constexpr auto names(Basis) {
                     std::pair{ratio_squared, std::string_view{"e^2"}},
                     std::pair{pressure, std::string_view{"P"}},
                     std::pair{pressure_ratio, std::string_view{"P e"}},
+                    std::pair{force_ratio, std::string_view{"F e"}},
+                    std::pair{force_ratio_squared, std::string_view{"F e^2"}},
+                    std::pair{force_ratio_cubed, std::string_view{"F e^3"}},
                     std::pair{load, std::string_view{"m g"}},
                     std::pair{speed, std::string_view{"v"}},
                     std::pair{speed_squared, std::string_view{"v |v|"}},
@@ -52,7 +58,7 @@ struct ForceTermOf {
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
-    visit.required("of", self.of, "v in 0.1 m/s, P in bar, m g in 98.0665 N");
+    visit.required("of", self.of, "v in 0.1 m/s, P in bar, F (of the braid) in 100 N, m g in 98.0665 N");
     visit.required("coefficient", self.coefficient_N, "N", -1e4, 1e4,
                    "force for one of it, positive upwards");
     visit("wavelength", self.wavelength_m, "m", 1e-4, 10.0, "of the sine");
@@ -68,6 +74,7 @@ struct ForceTermOf {
     const S v = now.speed_m_per_s / 0.1;
     const S pressure_bar = now.muscle_pressure_Pa / 1e5;
     const auto direction = [&] { return S(tanh(now.speed_m_per_s / 1e-3)); };
+    const auto force = [&] { return S(now.braid_force_N / 100.0); };
     S value = S(0.0);
     switch (of) {
       case Basis::constant:
@@ -84,6 +91,15 @@ struct ForceTermOf {
         break;
       case Basis::pressure_ratio:
         value = pressure_bar * e;
+        break;
+      case Basis::force_ratio:
+        value = force() * e;
+        break;
+      case Basis::force_ratio_squared:
+        value = force() * e * e;
+        break;
+      case Basis::force_ratio_cubed:
+        value = force() * e * e * e;
         break;
       case Basis::load:
         value = S(now.weight_N / 98.0665);

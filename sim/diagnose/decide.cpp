@@ -9,25 +9,35 @@ bool names_leave_much(const Evidence& e, const Thresholds& t) {
   return e.named() && t.near.is_much(e.named_left);
 }
 
-/// A law is believed if it closes much of the gap, far more than the names do, and more than what stands in.
-bool lawful(const Evidence& e, const DecideThresholds& t) {
-  return e.law_terms > 0 && e.law_share > t.law_share &&
-         (!e.named() || e.law_left < t.law_beyond_names * e.left()) &&
-         (!e.only_stand_ins() || e.law_left < e.named_left);
+/// What may be left of an explanation that is whole [mean square, the floor's with it]. What a slow
+/// disturbance leaves has no place of its own: it does not know where the load is.
+double most_left(const Evidence& e, const Thresholds& t) {
+  return e.patterned ? t.start.explained_floors * t.start.explained_floors : t.near.mean_square();
+}
+
+/// Numbers that are bent to their bounds, or leave a gap, are no explanation.
+bool numbers_explain(const Evidence& e, const Thresholds& t) {
+  return !e.bent && e.recalibrated_left + 1.0 <= most_left(e, t);
+}
+
+/// A gap that is small beside what the described rig leaves: numbers close nearly all of it.
+bool nearly_closed(const Evidence& e, const Thresholds& t) {
+  return !e.named() && e.left() <= t.decide.worth_a_law_share * e.nominal_left;
+}
+
+/// A law is believed if it closes much of the gap, far more than the names do, and more than what stands in;
+/// and where numbers close nearly all, if it explains what they do not.
+bool lawful(const Evidence& e, const Thresholds& t) {
+  return e.law_terms > 0 && e.law_share > t.decide.law_share &&
+         (!e.named() || e.law_left < t.decide.law_beyond_names * e.left()) &&
+         (!e.only_stand_ins() || e.law_left < e.named_left) &&
+         (!nearly_closed(e, t) || e.law_left + 1.0 <= most_left(e, t));
 }
 
 /// What was added stands if it closes much of a gap that is worth it, and does not leave far too much.
 bool stands(const Evidence& e, const DecideThresholds& t) {
   const bool bearable = e.named_left < t.hopeless || e.named_share >= t.nearly_all;
   return bearable && (e.named_share >= t.named_share || e.reference_left() < t.worth_a_law);
-}
-
-/// Numbers that are bent to their bounds, or leave a gap, are no explanation. What a slow disturbance leaves
-/// has no place of its own: it does not know where the load is.
-bool numbers_explain(const Evidence& e, const Thresholds& t) {
-  const double explained = t.start.explained_floors * t.start.explained_floors;
-  const double most = e.patterned ? explained : t.near.mean_square();
-  return !e.bent && e.recalibrated_left + 1.0 <= most;
 }
 
 /// Where nothing is added. "Nothing is missing" is for data that would have shown it, and agree run by run.
@@ -50,15 +60,16 @@ void decide_nothing_added(const Evidence& e, const Thresholds& t, Decision& deci
 }  // namespace
 
 bool asks_for_law(const Evidence& e, const Thresholds& t) {
-  const bool much = e.left() > t.decide.worth_a_law_share * e.nominal_left || names_leave_much(e, t);
-  return e.left() > t.decide.worth_a_law && much;
+  if (e.left() <= t.decide.worth_a_law) return false;
+  if (e.named()) return e.left() > t.decide.worth_a_law_share * e.nominal_left || names_leave_much(e, t);
+  return !nearly_closed(e, t) || (e.patterned && !numbers_explain(e, t));
 }
 
 Decision decide(const Evidence& e, const Thresholds& t) {
   Decision decision;
   if (!e.usable) return decision;
   if (e.gauge_misleads) decision.remarks.push_back(Remark::gauge_misleads);
-  if (lawful(e, t.decide)) {
+  if (lawful(e, t)) {
     decision.verdict = Verdict::unknown_effect;
     decision.chosen = Chosen::law;
   } else if (e.named() && stands(e, t.decide)) {

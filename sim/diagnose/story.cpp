@@ -12,6 +12,7 @@
 #include <sim/diagnose/amount.hpp>
 #include <sim/diagnose/story.hpp>
 #include <sim/diagnose/thresholds.hpp>
+#include <sim/domain/number.hpp>
 
 namespace mckibben::diagnose {
 
@@ -166,10 +167,28 @@ std::string effects_in_words(const Diagnosis& d) {
                      exceeded_in_words(d), gap_in_words(d));
 }
 
+/// In what the letters of its terms count (plant/effects/residual_force.hpp); empty if there are none.
+std::string counted_in_words(const std::vector<LawTerm>& law) {
+  std::vector<std::string_view> said;
+  for (const auto& [letter, words] :
+       {std::pair{"F ", "F: the braid's force in 100 N"}, std::pair{"P", "P in bar"},
+        std::pair{"v", "v in 0.1 m/s"}, std::pair{"m g", "m g in 98 N"}})
+    for (const LawTerm& term : law)
+      if (term.term.starts_with(letter)) {
+        said.emplace_back(words);
+        break;
+      }
+  return said.empty() ? "" : fmt::format(" ({})", fmt::join(said, ", "));
+}
+
 std::string law_in_words(const Diagnosis& d) {
   std::string law;
-  for (const LawTerm& term : d.residual_law)
-    law += fmt::format("{}{:.3g} N x {}", law.empty() ? "" : " + ", term.coefficient.value, term.term);
+  for (const LawTerm& term : d.residual_law) {
+    const double force_N = domain::significant(term.coefficient.value, 3);
+    const char* sign = law.empty() ? "" : force_N < 0.0 ? " - " : " + ";
+    law += fmt::format("{}{} N x {}", sign, law.empty() ? force_N : std::abs(force_N), term.term);
+  }
+  law += counted_in_words(d.residual_law);
   if (law.empty() && !d.stand_ins.empty())
     return fmt::format("Something real is missing that no effect of the catalogue explains.{} {}",
                        stand_ins_in_words(d), gap_in_words(d));

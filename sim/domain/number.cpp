@@ -18,11 +18,11 @@ std::string write_number(double value) {
   return {digits.data(), end};
 }
 
-double two_digits(double value) {
-  std::array<char, 16> digits{};
+double significant(double value, int digits) {
+  std::array<char, 24> text{};
   const auto written =
-      std::to_chars(digits.data(), digits.data() + digits.size(), value, std::chars_format::scientific, 1);
-  std::from_chars(digits.data(), written.ptr, value);
+      std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::scientific, digits - 1);
+  std::from_chars(text.data(), written.ptr, value);
   return value;
 }
 

@@ -8,7 +8,7 @@ namespace mckibben::domain {
 /// Shortest digits that read back exactly.
 std::string write_number(double value);
 
-/// The number nearest to it that has two digits that count: 170 for 168.4.
-double two_digits(double value);
+/// The number nearest to it that has so many digits that count, at most 9: 170 for 168.4 and two.
+double significant(double value, int digits);
 
 }  // namespace mckibben::domain

@@ -95,6 +95,12 @@ std::string expression(const plant::ForceTerm& term, bool with_parameters) {
       return "P / 1 [bar]";
     case pressure_ratio:
       return "P / 1 [bar] * e";
+    case force_ratio:
+      return "F_braid / 100 [N] * e";
+    case force_ratio_squared:
+      return "F_braid / 100 [N] * e^2";
+    case force_ratio_cubed:
+      return "F_braid / 100 [N] * e^3";
     case load:
       return "load / 98.0665 [N]";
     case speed:
@@ -116,7 +122,7 @@ std::string expression(const plant::ForceTerm& term, bool with_parameters) {
 
 /// What it is, exactly; where to begin and between which bounds, in few digits.
 Json parameter(const char* unit, double value, double lowest, double highest) {
-  using domain::two_digits;
+  const auto two_digits = [](double number) { return domain::significant(number, 2); };
   return {{"unit", unit},
           {"typical", two_digits(value)},
           {"range", {two_digits(lowest), two_digits(highest)}},

@@ -383,6 +383,39 @@ TEST(Decide, SearchesForALawWhereEnoughIsLeft) {
   EXPECT_TRUE(asks_for_law(evidence, thresholds));
 }
 
+/// Numbers that close nearly all of a gap, and leave what knows where the load is.
+Evidence nearly_closed() {
+  Evidence e = other_numbers();
+  e.nominal_left = 2000.0;
+  e.recalibrated_left = 16.0;
+  e.patterned = true;
+  return e;
+}
+
+TEST(Decide, SearchesForALawWhereNumbersThatCloseNearlyAllLeaveAPattern) {
+  Evidence evidence = nearly_closed();
+  EXPECT_TRUE(asks_for_law(evidence, thresholds));
+  evidence.patterned = false;  // a slow disturbance does
+  EXPECT_FALSE(asks_for_law(evidence, thresholds));
+  evidence = nearly_closed();
+  evidence.recalibrated_left = most_explained - 1.0;
+  EXPECT_FALSE(asks_for_law(evidence, thresholds));
+  evidence.bent = true;
+  EXPECT_TRUE(asks_for_law(evidence, thresholds));
+}
+
+TEST(Decide, BelievesALawAfterNumbersThatCloseNearlyAllOnlyIfItExplainsTheRest) {
+  Evidence evidence = nearly_closed();
+  evidence.law_terms = 1;
+  evidence.law_share = 0.9;
+  evidence.law_left = most_explained - 1.0;
+  EXPECT_EQ(decide(evidence, thresholds).chosen, Chosen::law);
+  evidence.law_left += 0.1;
+  EXPECT_NE(decide(evidence, thresholds).chosen, Chosen::law);
+  evidence.nominal_left = 100.0;  // numbers leave much of the gap: a law need not close all of it
+  EXPECT_EQ(decide(evidence, thresholds).chosen, Chosen::law);
+}
+
 TEST(Decide, SearchesForALawWhereNamesLeaveMuchHoweverFarTheDescribedRigIs) {
   Evidence evidence = one_name();
   evidence.nominal_left = 5e4;

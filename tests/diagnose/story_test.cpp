@@ -34,5 +34,20 @@ TEST(Story, NamesTheRunsThatSpeakForANameAndAgainstIt) {
   EXPECT_TRUE(says(none, "No single run speaks for muscle_leak.")) << none;
 }
 
+TEST(Story, WritesALawAsASumAndSaysInWhatItCounts) {
+  Diagnosis d;
+  d.verdict = Verdict::unknown_effect;
+  const auto says = [&](const std::string& words) {
+    EXPECT_NE(because(d).find("as a force on the load it is " + words), std::string::npos) << because(d);
+  };
+  d.residual_law = {{"F e^3", {"coefficient", "N", -1599.7, -1616.0, -1584.0}}};
+  says("-1600 N x F e^3 (F: the braid's force in 100 N). ");
+  d.residual_law.push_back({"sin(2 pi x / 12 mm + 1 rad)", {"coefficient", "N", -0.51234, -0.6, -0.4}});
+  d.residual_law.push_back({"P e", {"coefficient", "N", 2.0, 1.9, 2.1}});
+  says(
+      "-1600 N x F e^3 - 0.512 N x sin(2 pi x / 12 mm + 1 rad) + 2 N x P e (F: the braid's force in 100 N, "
+      "P in bar). ");
+}
+
 }  // namespace
 }  // namespace mckibben::diagnose

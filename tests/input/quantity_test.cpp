@@ -41,10 +41,11 @@ TEST(Number, WritesWhatReadsBackExactly) {
 }
 
 TEST(Number, IsRoundedToTwoDigits) {
-  EXPECT_EQ(domain::two_digits(168.4), 170.0);
-  EXPECT_EQ(domain::two_digits(-0.004567), -0.0046);
-  EXPECT_EQ(domain::two_digits(9.96), 10.0);
-  EXPECT_EQ(domain::two_digits(0.0), 0.0);
+  EXPECT_EQ(domain::significant(168.4, 2), 170.0);
+  EXPECT_EQ(domain::significant(-0.004567, 2), -0.0046);
+  EXPECT_EQ(domain::significant(9.96, 2), 10.0);
+  EXPECT_EQ(domain::significant(0.0, 2), 0.0);
+  EXPECT_EQ(domain::significant(-1599.7, 3), -1600.0);
 }
 
 struct Case {

@@ -241,7 +241,8 @@ void expect_same_law(const diagnose::Diagnosis& found) {
   const std::array<double, plant::memory_size> memory{};
   for (int i = 0; i < 50; ++i) {
     const double e = 0.005 * i, v = 0.01 * (i - 25);
-    const plant::Instant<double> now{e, 0.3 * e, v, 1e4 * i, 3.0 * i, 101325.0, 84150.0, {}, 1e5, 2e5};
+    const plant::Instant<double> now{e,       0.3 * e, v,   1e4 * i, 3.0 * i, 101325.0,
+                                     84150.0, {},      1e5, 2e5,     4.0 * i};
     const double wanted_N = found.corrected.effects.pull(now, memory).all_N;
     EXPECT_NEAR(own.pull(now, memory).all_N, wanted_N, 1e-12 * (1.0 + std::abs(wanted_N))) << e << " " << v;
   }

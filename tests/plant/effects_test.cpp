@@ -219,10 +219,11 @@ TEST(Catalogue, PolytropicGasKeepsPVn) {
 
 TEST(Catalogue, TheResidualLawIsTheSumOfItsTerms) {
   ResidualForce law;
-  const Instant<double> now{0.1, 0.03, -0.2, 3e5, 98.0665, 101325.0, 84150.0, {}};
+  const Instant<double> now{0.1, 0.03, -0.2, 3e5, 98.0665, 101325.0, 84150.0, {}, 2e5, 2e5, 200.0};
   for (const auto& [of, value] : names(Basis{})) {
     law.terms = {{of, 2.0, 0.12}};
-    const double expected[] = {1.0, 0.1, 0.01, 3.0, 0.3, 1.0, -2.0, -4.0, -1.0, -0.1, -3.0, 1.0, 0.0};
+    const double expected[] = {1.0, 0.1,  0.01, 3.0,  0.3,  0.2,  0.02, 0.002,
+                               1.0, -2.0, -4.0, -1.0, -0.1, -3.0, 1.0,  0.0};
     EXPECT_NEAR(law.pull_N(now, 0.0), 2.0 * expected[static_cast<std::size_t>(of)], 1e-12) << value;
   }
   law.terms = {{Basis::constant, 2.0}, {Basis::pressure, -1.0}};

@@ -141,6 +141,22 @@ TEST(Diagnose, FindsALawForWhatIsInNoCatalogue) {
   EXPECT_GT(found.gap.closed, 0.9);
 }
 
+// Numbers close 99 % of it, and leave several floors.
+TEST(Diagnose, FindsThatABraidLosesForceWithContraction) {
+  plant::Rig truth;
+  truth.effects.laws.list = {
+      own_law(plant::LawTarget::force, "-loss * F_braid * e^3", {{"loss", law::ratio, 8.0, 5.0, 0.0, 50.0}})};
+  auto data = small(truth, 8.0);
+  static_cast<plant::Rig&>(data.rig) = plant::Rig{};
+  const auto found = diagnosis_of(data, 0);
+  EXPECT_EQ(found.verdict, Verdict::unknown_effect) << found.because;
+  ASSERT_EQ(found.residual_law.size(), 1u) << found.because;
+  EXPECT_EQ(found.residual_law[0].term, "F e^3");
+  EXPECT_NEAR(found.residual_law[0].coefficient.value, -800.0, 40.0);
+  EXPECT_LT(found.gap.corrected_rmse, 1.2 * found.gap.noise_floor);
+  EXPECT_GT(found.gap.recalibrated_rmse, 2.0 * found.gap.noise_floor);
+}
+
 TEST(Diagnose, NamesALawOfTheUsersOwn) {
   const auto cogging = [](double force_N) {
     return own_law(plant::LawTarget::force, "F * sin(2 * pi * x / wavelength + phase)",

@@ -17,7 +17,7 @@ struct LawThresholds {
   std::array<double, 5> probes_N{0.01, 5.0, -5.0, 40.0, -40.0};
   std::array<double, 2> wave_probes_N{0.01, 3.0};
   double first_periods = 1.0, last_periods = 20.0, step_periods = 0.5;  ///< of a wave over the largest rise
-  double most_N = 1e3;                                                  ///< of a coefficient
+  double most_N = 1e4;                                                  ///< of a coefficient
   double step_N = 0.01;                                                 ///< for a slope
   double shorter = 0.7, longer = 1.4;  ///< than proposed, that a wave may become
   double wave_step = 1e-3;             ///< logarithm of its length, and its phase [rad], for a slope
