@@ -23,9 +23,10 @@ Model begun_at(Model model, const RigFile& other);
 /// while something else was missing may be far off. At the numbers of these rigs, and at its own.
 std::vector<Model> in_other_shapes(const Model& model, std::vector<const RigFile*> rigs);
 
-/// What fits best may have ended beside the deepest valley: if much is left with it, it is begun from the
-/// numbers of these rigs too, with one of its effects in another shape, and from the numbers of the first
-/// with one far off. The deepest end is kept, of those that are as good on the runs held out.
+/// What fits best may have ended beside the deepest valley: if much is left with it, or a number is bent, it
+/// is begun from the numbers of these rigs too, with one of its effects in another shape, and from the
+/// numbers of the first with one far off. The deepest end is kept, of those that are as good on the runs held
+/// out.
 void deepen(const Case& c, Contender& end, const std::vector<const RigFile*>& others, const Step& step);
 
 /// The same of the trial that fits best.

@@ -60,7 +60,7 @@ std::string bytes_of(const Outcome& outcome, const std::string& line) {
 std::string evidence_in_words(const Outcome& outcome) {
   std::string words;
   for (std::size_t i = 0; i < outcome.names; ++i)
-    words += fmt::format(" [ahead by {:.0f}{}]", outcome.given.at(i).margin,
+    words += fmt::format(" [ahead by {:.1f}{}]", outcome.given.at(i).margin,
                          outcome.given.at(i).right ? "" : ", wrong");
   if (outcome.simpler) words += " [a simpler explanation does as well]";
   if (const auto& numbers = outcome.numbers; numbers.inside < numbers.of)
