@@ -40,6 +40,11 @@ bool stands(const Evidence& e, const DecideThresholds& t) {
   return bearable && (e.named_share >= t.named_share || e.reference_left() < t.worth_a_law);
 }
 
+/// Numbers close much of the gap, and come near no run: what befalls runs one by one spares some.
+bool all_are_far(const Evidence& e) {
+  return e.patterned && e.far_from_recalibrated.size() == e.runs;
+}
+
 /// Where nothing is added. "Nothing is missing" is for data that would have shown it, and agree run by run.
 void decide_nothing_added(const Evidence& e, const Thresholds& t, Decision& decision) {
   const bool gap = e.nominal_left > t.near.nothing_left;
@@ -48,7 +53,8 @@ void decide_nothing_added(const Evidence& e, const Thresholds& t, Decision& deci
   const double most_invisible = t.decide.invisible * static_cast<double>(e.catalogue);
   if (!recalibrate && static_cast<double>(e.invisible) > most_invisible) return;
   recalibrate = recalibrate || (e.recalibration_helps() && !e.far_from_nominal.empty());
-  decision.unexplained = recalibrate ? e.far_from_recalibrated : e.far_from_nominal;
+  if (!recalibrate || !all_are_far(e))
+    decision.unexplained = recalibrate ? e.far_from_recalibrated : e.far_from_nominal;
   if (e.common_fault || e.search_ended || !decision.unexplained.empty()) return;
   decision.verdict = recalibrate ? Verdict::recalibrate : Verdict::nothing_missing;
   decision.chosen = recalibrate ? Chosen::recalibrated : Chosen::nominal;

@@ -23,6 +23,7 @@ struct Evidence {
   // check
   bool usable = true;         ///< the data allow an answer
   bool common_fault = false;  ///< all runs have the same fault: the recorder's, or the rig's
+  std::size_t runs = 0;       ///< that are usable
   // baseline
   double nominal_left = 0.0, recalibrated_left = 0.0;
   Improvement recalibration{};  ///< from the rig as described to the recalibrated one

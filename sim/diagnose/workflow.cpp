@@ -104,6 +104,7 @@ void Workflow::tell_check() {
   result_.false_alarm_rate = thresholds.decide.false_alarm_rate;
   result_.corrected = data_.rig;
   evidence_.usable = !checked_.cannot_tell;
+  evidence_.runs = usable_.size();
   evidence_.common_fault = std::any_of(checked_.faulty.begin(), checked_.faulty.end(),
                                        [](const FaultyRun& faulty) { return faulty.common; });
   const NoiseFloor& floor = experiment_.floor();

@@ -27,6 +27,7 @@ double above(double value) {
 /// As good as it gets: model and data agree, every effect would have shown.
 Evidence agreeing() {
   Evidence e;
+  e.runs = 2;
   e.nominal_left = e.recalibrated_left = below(close.nothing_left);
   e.catalogue = 20;
   return e;
@@ -48,6 +49,15 @@ Evidence gap() {
   Evidence e = other_numbers();
   e.nominal_left = 110.0;
   e.recalibrated_left = 100.0;
+  return e;
+}
+
+/// Numbers that close nearly all of a gap, and leave what knows where the load is.
+Evidence nearly_closed() {
+  Evidence e = other_numbers();
+  e.nominal_left = 2000.0;
+  e.recalibrated_left = 16.0;
+  e.patterned = true;
   return e;
 }
 
@@ -357,6 +367,19 @@ TEST(Decide, NamesTheRunsThatNoModelComesNear) {
   EXPECT_EQ(decide(evidence, thresholds).unexplained[0].left, 18.0);
 }
 
+TEST(Decide, WhatLeavesEveryRunFarBefallsTheRigAndNotTheRuns) {
+  Evidence evidence = nearly_closed();
+  evidence.far_from_nominal = evidence.far_from_recalibrated = {{"r01", 18.0}, {"r02", 20.0}};
+  EXPECT_EQ(decide(evidence, thresholds).verdict, unknown_effect);
+  EXPECT_EQ(decide(evidence, thresholds).chosen, Chosen::recalibrated);
+  EXPECT_TRUE(decide(evidence, thresholds).unexplained.empty());
+  evidence.patterned = false;
+  EXPECT_EQ(decide(evidence, thresholds).verdict, cannot_tell);
+  evidence = nearly_closed();
+  evidence.far_from_nominal = evidence.far_from_recalibrated = {{"r01", 18.0}};
+  EXPECT_EQ(decide(evidence, thresholds).verdict, cannot_tell);
+}
+
 TEST(Decide, GoesByTheThresholdsThatItIsGiven) {
   Thresholds strict = thresholds;
   strict.decide.beyond_disturbance = 1.0;
@@ -381,15 +404,6 @@ TEST(Decide, SearchesForALawWhereEnoughIsLeft) {
   EXPECT_FALSE(asks_for_law(evidence, thresholds));
   evidence.gauge_misleads = true;
   EXPECT_TRUE(asks_for_law(evidence, thresholds));
-}
-
-/// Numbers that close nearly all of a gap, and leave what knows where the load is.
-Evidence nearly_closed() {
-  Evidence e = other_numbers();
-  e.nominal_left = 2000.0;
-  e.recalibrated_left = 16.0;
-  e.patterned = true;
-  return e;
 }
 
 TEST(Decide, SearchesForALawWhereNumbersThatCloseNearlyAllLeaveAPattern) {
