@@ -57,7 +57,7 @@ struct Instant {
   RestrictionOf<P> unit_flow;  ///< of a conductance of 1 m3/(s Pa)
   S valve_pressure_Pa{};       ///< P_v
   S reference_Pa{};            ///< P_ref, what the valve follows
-  S braid_force_N{};           ///< F, Tondu-Lopez (T 2.8)
+  S braid_force_N{};           ///< F, Tondu-Lopez (T 2.8), by e and P_m
 };
 
 /// What flows into the plant at that instant, after all effects on it.

@@ -40,9 +40,10 @@ bool stands(const Evidence& e, const DecideThresholds& t) {
   return bearable && (e.named_share >= t.named_share || e.reference_left() < t.worth_a_law);
 }
 
-/// Numbers close much of the gap, and come near no run: what befalls runs one by one spares some.
+/// With other numbers every run stays far, and not by a fault of all: what befalls runs one by one spares
+/// some.
 bool all_are_far(const Evidence& e) {
-  return e.patterned && e.far_from_recalibrated.size() == e.runs;
+  return e.patterned && !e.common_fault && e.far_from_recalibrated.size() == e.runs;
 }
 
 /// Where nothing is added. "Nothing is missing" is for data that would have shown it, and agree run by run.

@@ -15,8 +15,8 @@ namespace {
 
 constexpr const FaultThresholds& of_faults = thresholds.fault;
 
-/// Whether the loads tell the sizes.
-bool told_by_loads(const std::vector<Fault>& faults, const std::vector<domain::Run>& runs) {
+/// What sizes vary by [rms] if the loads tell them, else 0.
+double varied_by_loads(const std::vector<Fault>& faults, const std::vector<domain::Run>& runs) {
   const auto squares = [](const std::vector<double>& sizes) {
     const double mean = std::accumulate(sizes.begin(), sizes.end(), 0.0) / static_cast<double>(sizes.size());
     return std::accumulate(sizes.begin(), sizes.end(), 0.0,
@@ -28,10 +28,11 @@ bool told_by_loads(const std::vector<Fault>& faults, const std::vector<domain::R
     all.push_back(fault.size);
     of_load[runs[fault.run].load_kg].push_back(fault.size);
   }
-  if (all.size() < of_load.size() + of_faults.chances) return false;
+  if (all.size() < of_load.size() + of_faults.spare_runs) return 0.0;
   double within = 0.0;
   for (const auto& [load, sizes] : of_load) within += squares(sizes);
-  return within < of_faults.least_by_chance * squares(all);
+  if (within >= of_faults.within_loads * squares(all)) return 0.0;
+  return std::sqrt(squares(all) / static_cast<double>(all.size()));
 }
 
 }  // namespace
@@ -291,7 +292,7 @@ Hypothesis Examination::own_line(FaultKind kind) const {
                       std::all_of(found.faults.begin(), found.faults.end(), [&](const Fault& fault) {
                         return fault.size * found.faults.front().size > 0.0;
                       });
-  const bool by_load = told_by_loads(found.faults, experiment_.data().runs);
+  const bool by_load = worth_telling(kind, varied_by_loads(found.faults, experiment_.data().runs));
   for (Fault& fault : found.faults) {
     fault.common = common;
     fault.told_by_load = by_load;

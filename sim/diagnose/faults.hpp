@@ -33,8 +33,8 @@ struct Fault {
   double size = 0.0;
   std::size_t row = 0;
   bool common = false;  ///< all runs have it: it is the recorder's, or it is real
-  /// Each run has its own, and the load tells its size: what befalls runs one by one does not know the load,
-  /// what is missing does.
+  /// Each run has its own, and the load tells its size: what is missing may do that, or who set the zero
+  /// anew with each load.
   bool told_by_load = false;
 };
 

@@ -373,6 +373,10 @@ TEST(Decide, WhatLeavesEveryRunFarBefallsTheRigAndNotTheRuns) {
   EXPECT_EQ(decide(evidence, thresholds).verdict, unknown_effect);
   EXPECT_EQ(decide(evidence, thresholds).chosen, Chosen::recalibrated);
   EXPECT_TRUE(decide(evidence, thresholds).unexplained.empty());
+  evidence.common_fault = true;
+  EXPECT_EQ(decide(evidence, thresholds).verdict, cannot_tell);
+  EXPECT_EQ(decide(evidence, thresholds).unexplained.size(), 2u);
+  evidence.common_fault = false;
   evidence.patterned = false;
   EXPECT_EQ(decide(evidence, thresholds).verdict, cannot_tell);
   evidence = nearly_closed();

@@ -234,6 +234,7 @@ TEST(Faults, EachRunMayHaveAZeroOfItsOwn) {
   const auto by_load = moved_by({7.0, 7.2, -1.0, -1.2, -8.0, -8.1});
   ASSERT_EQ(by_load.size(), 6u);
   for (const Fault& fault : by_load) EXPECT_TRUE(fault.told_by_load);
+  for (const Fault& fault : moved_by({8.0, 8.0, 8.1, 8.1, 8.2, 8.2})) EXPECT_FALSE(fault.told_by_load);
 }
 
 // Of runs that last longer than a search needs, a few are asked which effect it may be; what all have in

@@ -40,7 +40,7 @@ TEST(Number, WritesWhatReadsBackExactly) {
   }
 }
 
-TEST(Number, IsRoundedToTwoDigits) {
+TEST(Number, IsRoundedToDigitsThatCount) {
   EXPECT_EQ(domain::significant(168.4, 2), 170.0);
   EXPECT_EQ(domain::significant(-0.004567, 2), -0.0046);
   EXPECT_EQ(domain::significant(9.96, 2), 10.0);

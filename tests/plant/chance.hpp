@@ -28,8 +28,8 @@ class Chance {
   /// At an instant in the range of use.
   Instant<double> instant() {
     const double e = between(-0.01, 0.28);
-    return {e,        0.3 * e, between(-0.5, 0.5), between(0.0, 5e5), between(50.0, 300.0),
-            101325.0, 84150.0, {1.185, 0.3, 1e3}};
+    return {e,       0.3 * e,           between(-0.5, 0.5), between(0.0, 5e5), between(50.0, 300.0), 101325.0,
+            84150.0, {1.185, 0.3, 1e3}, between(0.0, 5e5),  between(0.0, 5e5), between(0.0, 300.0)};
   }
 
  private:

@@ -80,8 +80,8 @@ struct FaultThresholds {
   std::size_t least_sound = 3;    ///< runs that must be sound,
   std::size_t sound_for_one = 2;  ///< and so many for each that is not
   std::size_t most_tried = 6;     ///< the worst runs that are tried as the odd one
-  std::size_t chances = 3;        ///< runs more than loads, to say whether loads tell the sizes of faults,
-  double least_by_chance = 0.1;   ///< and of their sum of squares so much among runs of a load: they do not
+  std::size_t spare_runs = 3;     ///< runs more than loads, without which loads tell no sizes of faults
+  double within_loads = 0.1;      ///< of their sum of squares, among runs of a load: loads tell them below
   double least_ticks = 0.6;       ///< sizes below are nothing to talk of: late, rows lost
   double least_scale = 0.004;     ///< of a current or of readings
   double least_mA = 0.03;         ///< of a current's offset

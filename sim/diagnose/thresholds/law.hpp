@@ -12,8 +12,8 @@ struct LawThresholds {
   double bent = 4.0;  ///< left by numbers that may have bent to imitate a law: the rig as described is a base
   double same_wave = 0.15;  ///< logarithm: waves of lengths so near are one proposal
   double no_slope = 1e-12;  ///< sum of squares that is rounding below
-  /// Forces for slopes: next to nothing, and of a size that matters, because a muscle that swings answers a
-  /// small change in another way than a large one.
+  /// Forces for slopes: next to nothing, and of sizes that matter of most terms, because a muscle that swings
+  /// answers a small change in another way than a large one.
   std::array<double, 5> probes_N{0.01, 5.0, -5.0, 40.0, -40.0};
   std::array<double, 2> wave_probes_N{0.01, 3.0};
   double first_periods = 1.0, last_periods = 20.0, step_periods = 0.5;  ///< of a wave over the largest rise
