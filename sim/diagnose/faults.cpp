@@ -29,10 +29,11 @@ double varied_by_loads(const std::vector<Fault>& faults, const std::vector<domai
     of_load[runs[fault.run].load_kg].push_back(fault.size);
   }
   if (all.size() < of_load.size() + of_faults.spare_runs) return 0.0;
+  const double of_all = squares(all);
   double within = 0.0;
   for (const auto& [load, sizes] : of_load) within += squares(sizes);
-  if (within >= of_faults.within_loads * squares(all)) return 0.0;
-  return std::sqrt(squares(all) / static_cast<double>(all.size()));
+  if (within >= of_faults.within_loads * of_all) return 0.0;
+  return std::sqrt(of_all / static_cast<double>(all.size()));
 }
 
 }  // namespace

@@ -46,6 +46,14 @@ std::size_t laws_in(const std::vector<Trial>& trials) {
   return count;
 }
 
+/// Whether a fit has left the effect that it tries within its law; beside others also its shape, as one that
+/// has none of its own mends the law of what is named.
+bool is_itself(const Trial& trial) {
+  const Model& model = trial.contender.fitted.model;
+  return has_size(model, trial.score.candidate) &&
+         (model.effects.size() < 2 || has_shape(model, trial.score.candidate));
+}
+
 /// Refits of a round: the best of each screening and those like them, roughly first, then in full those that
 /// promise. Once one meets the data, only those like it are tried. As long as much is left and none helps,
 /// scores have misled, drawn as they are far from where the effect would be: then more are tried.
@@ -73,8 +81,9 @@ void refit(const Case& c, const std::string& name, const std::vector<Screening>&
       Trial trial = rough(c, *base, score, place);
       if (!trial.contender.fitted.failure.empty()) continue;
       trials.push_back(std::move(trial));
-      misled = misled && !convinces(compare(c.experiment, reference, trials.back().contender.held_out,
-                                            c.split.held_out));
+      if (is_itself(trials.back()))
+        misled = misled && !convinces(compare(c.experiment, reference, trials.back().contender.held_out,
+                                              c.split.held_out));
       if (place > 0) continue;
       polish(c, trials.back(), step);
       if (meets(trials.back().contender)) solved = &score;
@@ -191,11 +200,23 @@ std::vector<std::string> invisible(const Case& c, const std::vector<Score>& scor
   return names;
 }
 
-/// At the rig as described first: the recalibrated one may have bent far to imitate what is missing.
-std::vector<Screening> screenings_of(const Case& c, int round, const Contender& nominal,
-                                     const Contender& best) {
+/// What was named, fitted from the numbers as described as if what is left were scatter: as long as much is,
+/// numbers bend far to imitate what is missing. None if nothing speaks for that.
+std::optional<Contender> unbent(const Case& c, const Contender& best) {
+  if (best.fitted.model.effects.empty() || !is_doubtful(c, best)) return std::nullopt;
+  Case scattered = c;
+  scattered.inflation =
+      std::max(c.inflation, variance_inflation(c.experiment, best.fitted.residuals, c.split.training));
+  scattered.fitted = {};  // it does not compete
+  Contender end = contend(scattered, begun_at(best.fitted.model, c.nominal));
+  if (!end.fitted.failure.empty()) return std::nullopt;
+  return end;
+}
+
+/// At the numbers as described first: those that were fitted may have bent far to imitate what is missing.
+std::vector<Screening> screenings_of(const Case& c, const Contender* described, const Contender& best) {
   std::vector<Screening> screenings;
-  if (round == 1) screenings.push_back(screen_at(c, nominal));
+  if (described != nullptr) screenings.push_back(screen_at(c, *described));
   screenings.push_back(screen_at(c, best));
   return screenings;
 }
@@ -225,11 +246,8 @@ void tell_first(const Case& c, const std::vector<Screening>& screenings, Naming&
 /// unless much is left and it closes nearly all of that; so does one whose shape a fit has driven to a bound.
 /// Null if there is none.
 const Trial* choose(const std::vector<Trial>& trials, const Contender& best, double left, double whole_gap) {
-  const bool beside = !best.fitted.model.effects.empty();
   for (const Trial& trial : trials) {
-    const Model& model = trial.contender.fitted.model;
-    if (!has_size(model, trial.score.candidate)) continue;
-    if (beside && !has_shape(model, trial.score.candidate)) continue;
+    if (!is_itself(trial)) continue;
     const double fall = best.fitted.cost - trial.contender.fitted.cost;
     const bool relieves = left <= thresholds.near.nothing_left && trial.gain.gained > -to_name.relief_loss &&
                           fall > thresholds.near.clear;
@@ -368,8 +386,11 @@ class Namer {
     const double left = excess(before());
     std::vector<Screening> screenings;
     std::vector<Trial> trials;
+    std::optional<Contender> straight;
     const bool whole = search_.part(round_in_words(result_), [&] {
-      screenings = screenings_of(c_, round, nominal_, round == 1 ? recalibrated_ : result_.best);
+      straight = unbent(c_, result_.best);
+      screenings = round == 1 ? screenings_of(c_, &nominal_, recalibrated_)
+                              : screenings_of(c_, straight ? &*straight : nullptr, result_.best);
       if (round == 1) {
         first_ = screenings;
         tell_first(c_, screenings, result_);
@@ -412,6 +433,8 @@ class Namer {
     search_.part("several effects at once", [&] {
       std::vector<Screening> bases = std::move(first_);
       const Contender named = result_.best;  // and what more there may be beside the names
+      const std::optional<Contender> straight = unbent(c_, named);
+      if (straight) bases.push_back(screen_at(c_, *straight));
       if (!result_.effects.empty()) bases.push_back(screen_at(c_, named));
       taken = try_several(c_, result_, bases, step_);
       if (taken) revise(c_, result_, reference_, step_);

@@ -117,8 +117,7 @@ std::vector<Model> in_other_shapes(const Model& model, std::vector<const RigFile
 
 void deepen(const Case& c, Contender& end, const std::vector<const RigFile*>& others, const Step& step) {
   const auto arrived = [&] { return near_floor(end.fitted.residuals) && !bent(end.fitted, c.inflation); };
-  if (arrived() || (excess(end.held_out) < thresholds.name.worth_a_pair && !bent(end.fitted, c.inflation)))
-    return;
+  if (!is_doubtful(c, end) || arrived()) return;
   const Model model = end.fitted.model;
   std::vector<std::string> names;
   for (const Candidate& effect : model.effects) names.push_back(title(effect));

@@ -141,6 +141,10 @@ bool bent(const Fitted& fitted, double inflation) {
   return at_bounds && fitted.cost - least_by_lines(fitted, inflation) > thresholds.near.clear;
 }
 
+bool is_doubtful(const Case& c, const Contender& end) {
+  return excess(end.held_out) > thresholds.name.worth_a_pair || bent(end.fitted, c.inflation);
+}
+
 bool meets(const Contender& contender) {
   const double nothing = thresholds.near.nothing_left;
   return excess(contender.held_out) < nothing && excess(contender.fitted.residuals) < 2.0 * nothing;

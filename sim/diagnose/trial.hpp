@@ -77,6 +77,9 @@ bool has_size(const Model& model, const Candidate& candidate);
 /// that is not there. Along a valley of numbers that make up for each other a fit may end there by chance.)
 bool bent(const Fitted& fitted, double inflation);
 
+/// Whether a fit may have ended beside the deepest valley: much is left with it, or a number is bent.
+bool is_doubtful(const Case& c, const Contender& end);
+
 /// A shape, if it has one, that a fit has not driven against a bound.
 bool has_shape(const Model& model, const Candidate& candidate);
 

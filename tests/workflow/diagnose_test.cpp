@@ -104,6 +104,18 @@ TEST(Diagnose, TriesWhatPromisesMoreThanChanceAsAFitWouldCountIt) {
   EXPECT_GT(found.effects[0].parameters[0].high, 0.0083);
 }
 
+// Beside the tube and the leak, friction that is three deviations off imitates the guide's, and stays there.
+TEST(Diagnose, NamesWhatNumbersImitateBesideNames) {
+  const auto hidden = hide(kind_titled("muscle_leak + guide_friction + bladder_elasticity"), 1101,
+                           {.bench = Bench::other_size, .runs = 6, .lasting = 0.4});
+  const auto found = diagnosis_of(hidden.data, 0);
+  EXPECT_EQ(found.verdict, Verdict::missing_effect) << found.because;
+  std::set<std::string> names;
+  for (const NamedEffect& effect : found.effects) names.insert(effect.name);
+  EXPECT_EQ(names, std::set<std::string>(hidden.effects.begin(), hidden.effects.end())) << found.because;
+  EXPECT_LT(found.gap.corrected_rmse, 1.1 * found.gap.noise_floor);
+}
+
 // On the way there a run seemed to contradict the others, and one delay was met by a fit that stopped
 // half-way.
 TEST(Diagnose, BelievesARunThatTheRigMeetsAfterAllAndTellsBothDelays) {
