@@ -94,8 +94,9 @@ int diagnose_dataset(const DiagnoseOptions& options) {
   if (!diagnosis.residual_law.empty()) job.write("law.yaml", output::law_yaml(data, diagnosis));
   job.write("report.html", report::report_html(data, diagnosis, found.nominal, found.corrected));
   const auto file = [&](const char* leaf) { return (job.where() / leaf).string(); };
-  const std::string files = fmt::format("\nreport {}\nrig    {}\nall    {}\n", file("report.html"),
-                                        file("rig.yaml"), file("diagnosis.json"));
+  const std::string law = diagnosis.residual_law.empty() ? "" : fmt::format("law    {}\n", file("law.yaml"));
+  const std::string files = fmt::format("\nreport {}\nrig    {}\n{}all    {}\n", file("report.html"),
+                                        file("rig.yaml"), law, file("diagnosis.json"));
   const int status = job.finish({document, output::table_of(data, diagnosis) + files}, done);
   write_plan(options.plan, data, diagnosis);
   return status;

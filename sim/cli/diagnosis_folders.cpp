@@ -45,7 +45,25 @@ Told told(const Json& number, const char* value) {
   return {number.at(value), number.at("ci95").at(0), number.at("ci95").at(1)};
 }
 
-/// Those of one document: of its effects, then of its rig.
+/// The terms of a law without a name. The length of a wave is in its term's words, which differ from fit to
+/// fit, so terms go by their place.
+void add_law(const Json& law, std::vector<NumberDifference>& list) {
+  if (law.is_null()) return;
+  const Json& terms = law.at("terms");
+  for (std::size_t i = 0; i < terms.size(); ++i) {
+    const Json& term = terms.at(i);
+    std::string of = term.at("term").get<std::string>();
+    if (term.contains("wavelength")) of = fmt::format("wave {}", i + 1);
+    of = "residual_law." + of;
+    list.push_back({of, term.at("unit"), told(term, "coefficient"), {}, true});
+    for (const char* shape : {"wavelength", "phase"})
+      if (term.contains(shape))
+        list.push_back(
+            {of + "." + shape, term.at(shape).at("unit"), told(term.at(shape), "value"), {}, true});
+  }
+}
+
+/// Those of one document: of its effects and its law, then of its rig.
 std::vector<NumberDifference> numbers_of(const Json& document) {
   std::vector<NumberDifference> list;
   const auto add = [&](const Json& effect, const char* more) {
@@ -56,6 +74,7 @@ std::vector<NumberDifference> numbers_of(const Json& document) {
   };
   for (const Json& effect : document.at("effects")) add(effect, "");
   for (const Json& effect : document.value("stand_ins", Json::array())) add(effect, " (stands in)");
+  add_law(document.value("residual_law", Json()), list);
   for (const auto& [key, number] : document.at("recalibrated").items())
     list.push_back({number.value("path", key), number.at("unit"), told(number, "fitted"), {}, false});
   return list;

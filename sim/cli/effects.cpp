@@ -2,6 +2,7 @@
 // computes with (plant/effects.hpp) and the lists that the reader checks with.
 #include <algorithm>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <tuple>
 #include <type_traits>
@@ -247,10 +248,20 @@ int list_effects(const EffectsOptions& options) {
   for (const Entry& entry : named) text += (text.empty() ? "" : "\n") + details(entry) + how_to(entry);
   Job job(options, "effects", std::nullopt, inputs);
   job.write("effects.json", json);
-  if (job.has_folder())
-    for (const Entry& entry : chosen)
-      if (!is_residual(entry))
-        job.write(std::string(entry.name) + ".svg", output::effect_svg(entry.name, rig));
+  for (const Entry& entry : chosen) {
+    if (!job.has_folder() || is_residual(entry)) continue;
+    std::string picture;
+    try {
+      picture = output::effect_svg(entry.name, rig);
+    } catch (const std::runtime_error& error) {
+      say(
+          fmt::format("mckibben: {} cannot be drawn: with it, at its typical values, the rig cannot be "
+                      "simulated: {}",
+                      entry.name, error.what()));
+      return failure;
+    }
+    job.write(std::string(entry.name) + ".svg", picture);
+  }
   return job.finish({json, text}, done);
 }
 

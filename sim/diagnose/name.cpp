@@ -46,8 +46,8 @@ std::size_t laws_in(const std::vector<Trial>& trials) {
   return count;
 }
 
-/// Whether a fit has left the effect that it tries within its law; beside others also its shape, as one that
-/// has none of its own mends the law of what is named.
+/// Whether a fit has left what it tries within its law. Alone, an effect may be named at the edge of its
+/// shape; beside others it mends their laws there.
 bool is_itself(const Trial& trial) {
   const Model& model = trial.contender.fitted.model;
   return has_size(model, trial.score.candidate) &&
@@ -202,7 +202,7 @@ std::vector<std::string> invisible(const Case& c, const std::vector<Score>& scor
 
 /// What was named, fitted from the numbers as described as if what is left were scatter: as long as much is,
 /// numbers bend far to imitate what is missing. None if nothing speaks for that.
-std::optional<Contender> unbent(const Case& c, const Contender& best) {
+std::optional<Contender> with_straight_numbers(const Case& c, const Contender& best) {
   if (best.fitted.model.effects.empty() || !is_doubtful(c, best)) return std::nullopt;
   Case scattered = c;
   scattered.inflation =
@@ -213,10 +213,10 @@ std::optional<Contender> unbent(const Case& c, const Contender& best) {
   return end;
 }
 
-/// At the numbers as described first: those that were fitted may have bent far to imitate what is missing.
-std::vector<Screening> screenings_of(const Case& c, const Contender* described, const Contender& best) {
+/// First where numbers have not bent to imitate what is missing, if there is such a place.
+std::vector<Screening> screenings_of(const Case& c, const Contender* straight, const Contender& best) {
   std::vector<Screening> screenings;
-  if (described != nullptr) screenings.push_back(screen_at(c, *described));
+  if (straight != nullptr) screenings.push_back(screen_at(c, *straight));
   screenings.push_back(screen_at(c, best));
   return screenings;
 }
@@ -388,7 +388,7 @@ class Namer {
     std::vector<Trial> trials;
     std::optional<Contender> straight;
     const bool whole = search_.part(round_in_words(result_), [&] {
-      straight = unbent(c_, result_.best);
+      straight = with_straight_numbers(c_, result_.best);
       screenings = round == 1 ? screenings_of(c_, &nominal_, recalibrated_)
                               : screenings_of(c_, straight ? &*straight : nullptr, result_.best);
       if (round == 1) {
@@ -433,7 +433,7 @@ class Namer {
     search_.part("several effects at once", [&] {
       std::vector<Screening> bases = std::move(first_);
       const Contender named = result_.best;  // and what more there may be beside the names
-      const std::optional<Contender> straight = unbent(c_, named);
+      const std::optional<Contender> straight = with_straight_numbers(c_, named);
       if (straight) bases.push_back(screen_at(c_, *straight));
       if (!result_.effects.empty()) bases.push_back(screen_at(c_, named));
       taken = try_several(c_, result_, bases, step_);

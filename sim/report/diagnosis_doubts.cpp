@@ -61,8 +61,8 @@ std::string competition_html(const Diagnosis& diagnosis, const plant::Rig& rig) 
       "What competed",
       paragraph("Every explanation that was fitted, or the best of its kind. The misfit is the sum of "
                 "squares of the fitted runs over their long-term variance, and the strain: the squares "
-                "of the deviations by which the rig's numbers had to move. Of those that do as well as the "
-                "best the simplest is chosen, unless the data cannot tell.") +
+                "of the deviations by which the rig's numbers had to move (further off: of wider ones, by "
+                "5/3). Other numbers come before names, names before a law, if they do as well.") +
           "<div class='wide'>" +
           table("Explanations", {"by", "misfit", "of it strain", "error held out", "does as well"}, rows) +
           "</div>\n");

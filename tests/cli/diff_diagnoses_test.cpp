@@ -1,6 +1,7 @@
 // The verb diff of two folders that diagnose wrote.
 #include <cmath>
 #include <string>
+#include <tuple>
 
 #include <gtest/gtest.h>
 
@@ -74,6 +75,34 @@ TEST_F(DiffOfDiagnoses, TellsWhatIsNewAndWhatIsGone) {
   EXPECT_NE(diff("tight leaking").out.find("nothing_missing, then missing_effect"), std::string::npos);
   EXPECT_NE(diff("tight leaking").out.find(" new"), std::string::npos);
   EXPECT_NE(diff("leaking tight").out.find(" gone"), std::string::npos);
+}
+
+/// The same with a law of two terms.
+Json with_law(double straight_N, double wave_N, double wavelength_m, const char* wave) {
+  Json document = diagnosis(0.0, 7.5e-3);
+  Json straight = told("coefficient", straight_N, 0.1, "N"), second = told("coefficient", wave_N, 0.1, "N");
+  straight["term"] = "F e^3";
+  second["term"] = wave;
+  second["wavelength"] = told("value", wavelength_m, 1e-5, "m");
+  second["phase"] = told("value", 0.5, 0.01, "rad");
+  document["verdict"] = "unknown_effect";
+  document["residual_law"] = {{"terms", {straight, second}}, {"valid_for", "these runs"}};
+  return document;
+}
+
+TEST_F(DiffOfDiagnoses, TellsHowALawWithoutANameHasChanged) {
+  put("may", with_law(-8.0, 6.0, 9.06e-3, "sin(2 pi x / 9.060 mm)"));
+  put("june", with_law(-8.0, 7.0, 9.07e-3, "sin(2 pi x / 9.070 mm)"));
+  for (const auto& [index, name, changed] : {std::tuple{0u, "residual_law.F e^3", false},
+                                             {1u, "residual_law.wave 2", true},
+                                             {2u, "residual_law.wave 2.wavelength", false},
+                                             {3u, "residual_law.wave 2.phase", false}}) {
+    const Json one = number("may june", index);
+    EXPECT_EQ(one.at("name"), name);
+    EXPECT_EQ(one.at("changed"), changed) << name;
+  }
+  put("none", diagnosis(0.0, 7.5e-3));
+  EXPECT_NE(diff("none may").out.find(" new"), std::string::npos);
 }
 
 TEST_F(DiffOfDiagnoses, OfTheSameRigFindsNoChange) {

@@ -99,6 +99,17 @@ TEST_F(EffectsVerb, TellsOneByItsName) {
   EXPECT_FALSE(fs::exists(scratch / "list/valve_lag.svg"));
 }
 
+TEST_F(EffectsVerb, SaysWhichLawOfOnesOwnIsTooMuchToBeDrawn) {
+  write_text(scratch / "push.yaml",
+             "schema: mckibben-hypothesis/1\nname: push\nsentence: something pushes\nadds: force\n"
+             "law: F\nparameters: {F: {unit: N, typical: 3000, range: [0, 5000]}}\n");
+  const Said said = mckibben("effects --hypothesis push.yaml --out pictures", scratch);
+  EXPECT_EQ(said.status, 70);
+  EXPECT_NE(said.err.find("push cannot be drawn"), std::string::npos) << said.err;
+  EXPECT_EQ(said.err.find("defect"), std::string::npos) << said.err;
+  EXPECT_FALSE(fs::exists(scratch / "pictures"));
+}
+
 TEST_F(EffectsVerb, AnUnknownNameIsAUsageError) {
   const auto said = run("effects muscle_leek");
   EXPECT_EQ(said.status, 64);
