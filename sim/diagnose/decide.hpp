@@ -28,7 +28,7 @@ struct Evidence {
   double nominal_left = 0.0, recalibrated_left = 0.0;
   Improvement recalibration{};  ///< from the rig as described to the recalibrated one
   bool bent = false;            ///< a number stands where more than is allowed would clearly fit better
-  bool patterned = false;       ///< what the recalibrated rig leaves is more in parts of the data than chance
+  bool patterned = false;       ///< what the recalibrated rig leaves lies in parts of the data: densest()
   std::vector<FarRun> far_from_nominal{}, far_from_recalibrated{};  ///< of all usable runs
   // name
   std::size_t names = 0;        ///< effects that were found, with one size everywhere

@@ -8,6 +8,7 @@
 #include <sim/diagnose/catalogue.hpp>
 #include <sim/diagnose/constancy.hpp>
 #include <sim/diagnose/further.hpp>
+#include <sim/diagnose/remaining.hpp>
 #include <sim/diagnose/support.hpp>
 #include <sim/diagnose/thresholds.hpp>
 #include <sim/diagnose/where.hpp>
@@ -48,7 +49,7 @@ void Workflow::tell_starts(Recalibrated& result) {
 void Workflow::map_where() {
   step_(stage("mapping"));
   result_.where = where(experiment_, recalibrated_.fitted.model.rig, usable_, settings_.seed);
-  evidence_.patterned = std::ranges::any_of(result_.where, &Cell::significant);
+  evidence_.patterned = !densest(result_.where).empty();
 }
 
 /// Residuals held out that an improvement is measured against.
