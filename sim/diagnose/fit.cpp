@@ -128,6 +128,15 @@ class Misfit final : public ceres::CostFunction {
   mutable std::exception_ptr thrown_;
 };
 
+Eigen::VectorXd scaled_values(const Model& model) {
+  Eigen::VectorXd values(static_cast<Eigen::Index>(model.free.size()));
+  for (Eigen::Index j = 0; j < values.size(); ++j) {
+    const Parameter& p = model.free[static_cast<std::size_t>(j)];
+    values[j] = p.scaled(value_of(model.rig, p.path));
+  }
+  return values;
+}
+
 /// Residuals and priors: sum of squares / inflation + deviations^2.
 double cost_of(const Fitted& fitted, double inflation) {
   double cost = fitted.residuals.squaredNorm() / inflation;
@@ -171,24 +180,55 @@ std::vector<int> held_at_bounds(const Fitted& fitted, double inflation) {
   return held;
 }
 
+/// Where straight lines along a fit's slopes lead, in scaled values; numbers that are held stay.
+struct Lines {
+  Eigen::MatrixXd normal;
+  Eigen::VectorXd step;
+  double least = 0.0;  ///< cost at the end of the step
+
+  Lines(const Fitted& fitted, double inflation, const std::vector<int>& held = {}) {
+    const auto& free = fitted.model.free;
+    const auto count = static_cast<Eigen::Index>(free.size());
+    const Eigen::VectorXd at = scaled_values(fitted.model);
+    Eigen::VectorXd moved = Eigen::VectorXd::Zero(count),
+                    priors = Eigen::VectorXd::Constant(count, thresholds.screen.ridge);
+    for (Eigen::Index j = 0; j < count; ++j) {
+      if (!free[static_cast<std::size_t>(j)].has_prior) continue;
+      priors[j] = 1.0;
+      moved[j] = at[j];
+    }
+    normal = fitted.columns.transpose() * fitted.columns / inflation;
+    normal.diagonal() += priors;
+    Eigen::VectorXd downhill =
+        fitted.columns.transpose() * fitted.residuals / inflation - priors.cwiseProduct(moved);
+    for (const int j : held) {
+      normal.row(j).setZero();
+      normal(j, j) = 1.0;
+      downhill[j] = 0.0;
+    }
+    step = normal.partialPivLu().solve(downhill);
+    least = (fitted.residuals - fitted.columns * step).squaredNorm() / inflation +
+            (moved + step).cwiseAbs2().dot(priors);
+  }
+};
+
 /// Moves the rig of `fitted` to the least misfit along these slopes. The reason why not, if it cannot.
 std::string descend(Misfit& misfit, Fitted& fitted, double inflation, bool thorough) {
   Model& model = fitted.model;
-  std::vector<double> values;
-  for (const Parameter& p : model.free) values.push_back(p.scaled(value_of(model.rig, p.path)));
+  Eigen::VectorXd values = scaled_values(model);
   ceres::Problem::Options ownership;
   ownership.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
   ceres::Problem problem(ownership);
   problem.AddResidualBlock(&misfit, nullptr, values.data());
-  for (std::size_t j = 0; j < values.size(); ++j) {
+  for (std::size_t j = 0; j < model.free.size(); ++j) {
     const Parameter& p = model.free[j];
     problem.SetParameterLowerBound(values.data(), static_cast<int>(j), p.scaled(p.lowest));
     problem.SetParameterUpperBound(values.data(), static_cast<int>(j), p.scaled(p.highest));
   }
   const auto held = held_at_bounds(fitted, inflation);
-  if (held.size() == values.size()) return {};
+  if (held.size() == model.free.size()) return {};
   if (!held.empty())
-    problem.SetManifold(values.data(), new ceres::SubsetManifold(static_cast<int>(values.size()), held));
+    problem.SetManifold(values.data(), new ceres::SubsetManifold(static_cast<int>(model.free.size()), held));
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::DENSE_QR;
   options.max_num_iterations = thresholds.fit.iterations;
@@ -211,6 +251,56 @@ std::string descend(Misfit& misfit, Fitted& fitted, double inflation, bool thoro
   return {};
 }
 
+/// Slopes anew, along the axes of the valley that a fit has ended in, over about as far as each is known.
+/// Where numbers all but make up for each other the difference that one of them makes must be right to a
+/// thousandth to say anything of the way along the valley; it is not where loads stick or a play is used up.
+void take_slopes_along_axes(const Experiment& experiment, Fitted& fitted, const Runs& runs,
+                            double inflation) {
+  const auto& by = thresholds.fit;
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> axes(Lines(fitted, inflation).normal);
+  const Eigen::VectorXd at = scaled_values(fitted.model);
+  const Eigen::Index count = at.size();
+  std::vector<Experiment::Change> changes;
+  Eigen::MatrixXd moved(count, count);
+  const auto go = [&](Eigen::Index axis, double way) {
+    Model there = fitted.model;
+    there.rig = rig_at(fitted.model, Eigen::VectorXd(at + way * axes.eigenvectors().col(axis)).data());
+    changes.push_back({[rig = there.rig](Hanging& h) { h.rig = rig; }, 1.0});
+    return scaled_values(there);
+  };
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const double way = std::min(by.along_axes / std::sqrt(axes.eigenvalues()[i]), by.most_along_axes);
+    moved.col(i) = go(i, way);
+    moved.col(i) -= go(i, -way);  // less at a bound
+  }
+  auto sides = experiment.slopes(fitted.model.rig, changes, runs);
+  Eigen::MatrixXd differences(sides.columns.rows(), count);
+  for (Eigen::Index i = 0; i < count; ++i)
+    differences.col(i) = sides.columns.col(2 * i) - sides.columns.col(2 * i + 1);
+  fitted.columns = differences * moved.inverse();
+  fitted.residuals = std::move(sides.residuals);
+  fitted.cost = cost_of(fitted, inflation);
+}
+
+/// Goes on from where a descent ended, as long as slopes along the axes promise something and it comes true.
+void follow_axes(const Experiment& experiment, Fitted& fitted, const Runs& runs, double inflation) {
+  const auto& by = thresholds.fit;
+  for (int round = 0; round <= by.axes_rounds; ++round) {
+    take_slopes_along_axes(experiment, fitted, runs, inflation);
+    const Lines lines(fitted, inflation, held_at_bounds(fitted, inflation));
+    if (round == by.axes_rounds || fitted.cost - lines.least < by.worth_axes) return;
+    Fitted next = fitted;
+    for (double share = 1.0; !(next.cost < fitted.cost); share *= 0.5) {
+      if (share < by.least_share) return;
+      const Eigen::VectorXd aim = scaled_values(fitted.model) + share * lines.step;
+      next.model.rig = rig_at(fitted.model, aim.data());
+      next.residuals = experiment.residuals(next.model.rig, runs);
+      next.cost = cost_of(next, inflation);
+    }
+    fitted = std::move(next);
+  }
+}
+
 }  // namespace
 
 RigFile rig_at(const Model& model, const double* scaled) {
@@ -223,22 +313,7 @@ RigFile rig_at(const Model& model, const double* scaled) {
 }
 
 double least_by_lines(const Fitted& fitted, double inflation) {
-  const auto& free = fitted.model.free;
-  const auto count = static_cast<Eigen::Index>(free.size());
-  Eigen::VectorXd moved = Eigen::VectorXd::Zero(count),
-                  priors = Eigen::VectorXd::Constant(count, thresholds.screen.ridge);
-  for (Eigen::Index j = 0; j < count; ++j) {
-    const Parameter& p = free[static_cast<std::size_t>(j)];
-    if (!p.has_prior) continue;
-    priors[j] = 1.0;
-    moved[j] = p.scaled(value_of(fitted.model.rig, p.path));
-  }
-  Eigen::MatrixXd normal = fitted.columns.transpose() * fitted.columns / inflation;
-  normal.diagonal() += priors;
-  const Eigen::VectorXd step = normal.ldlt().solve(fitted.columns.transpose() * fitted.residuals / inflation -
-                                                   priors.cwiseProduct(moved));
-  const Eigen::VectorXd left = fitted.residuals - fitted.columns * step;
-  return left.squaredNorm() / inflation + (moved + step).cwiseAbs2().dot(priors);
+  return Lines(fitted, inflation).least;
 }
 
 bool out_of_reach(double aim, const Fitted& fitted, double inflation) {
@@ -307,6 +382,12 @@ Fitted fit(const Experiment& experiment, Model start, const Runs& runs, const Fi
     if (!result.failure.empty() || !look(rough ? known : none)) return result;
     if (before - result.cost < enough()) break;
     falls = !rough && before - result.cost > thresholds.fit.falls * before;
+  }
+  if (settings.thorough && result.failure.empty() && !result.model.free.empty()) {
+    try {
+      follow_axes(experiment, result, runs, settings.inflation);
+    } catch (const engine::NumericalFailure&) {  // too far along an axis: the fit stays where it is
+    }
   }
   return result;
 }

@@ -3,9 +3,11 @@
 #include <cstdint>
 #include <random>
 
+#include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
 
 #include <sim/diagnose/baseline.hpp>
+#include <sim/diagnose/catalogue.hpp>
 #include <sim/diagnose/held_out.hpp>
 #include <sim/diagnose/priors.hpp>
 
@@ -37,6 +39,41 @@ TEST(Fit, ArrivesHoweverFarTheRigIsFromItsSheet) {
     Case c{experiment, data.rig, split(data, {0, 1, 2, 3, 4, 5}), 20.0, {}};
     const Recalibrated found = diagnose::recalibrate(c, replay(c));
     EXPECT_LT(excess(found.contender.fitted.residuals), 0.1) << seed;
+  }
+}
+
+// Numbers make up for each other, and a play that is used up at its own times gives the misfit kinks.
+TEST(Fit, ThoroughKnowsHowReadingsChangeAlongTheValley) {
+  RigFile truth;
+  truth.effects.get<plant::SpeedDependentFriction>().ratio = 0.58;
+  truth.effects.get<plant::BladderCreep>().stiffness_N_per_m = 300.0;
+  truth.effects.get<plant::EncoderBacklash>().width_m = 1e-3;
+  const domain::Dataset data = small(truth, 2.4);
+  const auto masked = nothing_masked(data);
+  const Experiment experiment(data, masked, 2);
+  const Runs runs{0, 1, 2, 3, 4, 5};
+  Model model{.rig = truth, .free = nominal_parameters(truth)};
+  for (const Candidate& candidate : catalogue())
+    if (candidate.carried(truth))
+      for (const Parameter& p : candidate.parameters(truth)) model.free.push_back(p);
+  const Fitted fitted = fit(experiment, model, runs, {.inflation = 1.0, .thorough = true});
+  const auto& free = fitted.model.free;
+  const auto count = std::ssize(free);
+  Eigen::MatrixXd normal = fitted.columns.transpose() * fitted.columns;
+  normal.diagonal().array() += 1.0;
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> axes(normal);  // the least known first
+  const auto read_at = [&](const Eigen::VectorXd& step) {
+    Eigen::VectorXd there(count);
+    for (Eigen::Index j = 0; j < count; ++j) {
+      const Parameter& p = free[static_cast<std::size_t>(j)];
+      there[j] = p.scaled(value_of(fitted.model.rig, p.path)) + step[j];
+    }
+    return experiment.residuals(rig_at(fitted.model, there.data()), runs);
+  };
+  for (Eigen::Index i = 0; i < 4; ++i) {
+    const Eigen::VectorXd step = 0.15 * axes.eigenvectors().col(i);
+    const Eigen::VectorXd met = 0.5 * (read_at(-step) - read_at(step));
+    EXPECT_LT((fitted.columns * step - met).norm(), 15.0) << "floors, along axis " << i;
   }
 }
 

@@ -28,6 +28,11 @@ struct FitThresholds {
   double falls = 0.1;  ///< of the cost, by the last of the rounds: it goes on, up to the thorough ones
   double least_descent = 0.01;  ///< of the cost, where 1 is a parameter moved by its deviation: else the last
   double coarseness = 0.01;     ///< of the cost: that is enough too, what is missing moves parameters further
+  int axes_rounds = 6;          ///< steps of a thorough fit along the axes of its valley, each worth
+  double worth_axes = 1.0;      ///< so much of the cost, promised, and halved
+  double least_share = 0.1;     ///< down to this until it comes true
+  double along_axes = 2.0;      ///< standard errors, for slopes,
+  double most_along_axes = 0.2;  ///< and no more than these scales
   double hopeless =
       0.85;  ///< of what is missing to an aim: fits whose straight lines miss more are not begun
   double least_influence = 1e-12;  ///< sum of squares of a slope [floors per scale], that is rounding below
