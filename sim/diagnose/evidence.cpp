@@ -85,7 +85,13 @@ void Workflow::name() {
 
 /// Numbers further off than they are stated to be come before names.
 void Workflow::spare_names() {
-  if (naming_.effects.empty()) return spare_search();
+  if (naming_.effects.empty()) {
+    // A name that was given up again may have led to numbers that no descent had found.
+    const Fitted& end = naming_.best.fitted;
+    if (end.model.effects.empty() && recalibrated_.fitted.cost - end.cost > thresholds.near.clear)
+      believe_numbers(naming_.best);
+    return spare_search();
+  }
   step_(stage("trying other numbers", naming_.effects.size() + 1));
   search_.part("whether other numbers do as well as the names",
                [&] { prefer_numbers(case_, bases(), naming_, step_); });

@@ -116,6 +116,16 @@ TEST(Diagnose, NamesWhatNumbersImitateBesideNames) {
   EXPECT_LT(found.gap.corrected_rmse, 1.1 * found.gap.noise_floor);
 }
 
+// No descent from the sheet arrives; one beside friction that warms up does, and that friction is given up
+// again.
+TEST(Diagnose, KeepsNumbersThatANameGivenUpHadLedTo) {
+  const auto hidden = hide(kind_titled("nothing, much jitter"), 1405,
+                           {.bench = Bench::badly_known, .runs = 6, .lasting = 0.5});
+  const auto found = diagnosis_of(hidden.data, 0);
+  EXPECT_EQ(found.verdict, Verdict::recalibrate) << found.because;
+  EXPECT_LT(found.gap.recalibrated_rmse, 1.2 * found.gap.noise_floor);
+}
+
 // On the way there a run seemed to contradict the others, and one delay was met by a fit that stopped
 // half-way.
 TEST(Diagnose, BelievesARunThatTheRigMeetsAfterAllAndTellsBothDelays) {
