@@ -3,7 +3,8 @@
 #include <cmath>
 #include <exception>
 
-#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <ceres/ceres.h>
 #include <glog/logging.h>
 
@@ -128,15 +129,6 @@ class Misfit final : public ceres::CostFunction {
   mutable std::exception_ptr thrown_;
 };
 
-Eigen::VectorXd scaled_values(const Model& model) {
-  Eigen::VectorXd values(static_cast<Eigen::Index>(model.free.size()));
-  for (Eigen::Index j = 0; j < values.size(); ++j) {
-    const Parameter& p = model.free[static_cast<std::size_t>(j)];
-    values[j] = p.scaled(value_of(model.rig, p.path));
-  }
-  return values;
-}
-
 /// Residuals and priors: sum of squares / inflation + deviations^2.
 double cost_of(const Fitted& fitted, double inflation) {
   double cost = fitted.residuals.squaredNorm() / inflation;
@@ -180,25 +172,32 @@ std::vector<int> held_at_bounds(const Fitted& fitted, double inflation) {
   return held;
 }
 
+/// What a prior says of each number: of one without, next to nothing.
+Eigen::VectorXd priors_of(const Model& model) {
+  Eigen::VectorXd priors(static_cast<Eigen::Index>(model.free.size()));
+  for (Eigen::Index j = 0; j < priors.size(); ++j)
+    priors[j] = model.free[static_cast<std::size_t>(j)].has_prior ? 1.0 : thresholds.screen.ridge;
+  return priors;
+}
+
+/// Half the second derivatives of the cost by scaled values, if the slopes held all the way.
+Eigen::MatrixXd normal_of(const Fitted& fitted, double inflation) {
+  Eigen::MatrixXd normal = fitted.columns.transpose() * fitted.columns / inflation;
+  normal.diagonal() += priors_of(fitted.model);
+  return normal;
+}
+
 /// Where straight lines along a fit's slopes lead, in scaled values; numbers that are held stay.
 struct Lines {
-  Eigen::MatrixXd normal;
   Eigen::VectorXd step;
   double least = 0.0;  ///< cost at the end of the step
 
   Lines(const Fitted& fitted, double inflation, const std::vector<int>& held = {}) {
-    const auto& free = fitted.model.free;
-    const auto count = static_cast<Eigen::Index>(free.size());
-    const Eigen::VectorXd at = scaled_values(fitted.model);
-    Eigen::VectorXd moved = Eigen::VectorXd::Zero(count),
-                    priors = Eigen::VectorXd::Constant(count, thresholds.screen.ridge);
-    for (Eigen::Index j = 0; j < count; ++j) {
-      if (!free[static_cast<std::size_t>(j)].has_prior) continue;
-      priors[j] = 1.0;
-      moved[j] = at[j];
-    }
-    normal = fitted.columns.transpose() * fitted.columns / inflation;
-    normal.diagonal() += priors;
+    const Eigen::VectorXd priors = priors_of(fitted.model);
+    Eigen::VectorXd moved = scaled_values(fitted.model);
+    for (Eigen::Index j = 0; j < moved.size(); ++j)
+      if (!fitted.model.free[static_cast<std::size_t>(j)].has_prior) moved[j] = 0.0;
+    Eigen::MatrixXd normal = normal_of(fitted, inflation);
     Eigen::VectorXd downhill =
         fitted.columns.transpose() * fitted.residuals / inflation - priors.cwiseProduct(moved);
     for (const int j : held) {
@@ -257,7 +256,7 @@ std::string descend(Misfit& misfit, Fitted& fitted, double inflation, bool thoro
 void take_slopes_along_axes(const Experiment& experiment, Fitted& fitted, const Runs& runs,
                             double inflation) {
   const auto& by = thresholds.fit;
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> axes(Lines(fitted, inflation).normal);
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> axes(normal_of(fitted, inflation));
   const Eigen::VectorXd at = scaled_values(fitted.model);
   const Eigen::Index count = at.size();
   std::vector<Experiment::Change> changes;
@@ -302,6 +301,15 @@ void follow_axes(const Experiment& experiment, Fitted& fitted, const Runs& runs,
 }
 
 }  // namespace
+
+Eigen::VectorXd scaled_values(const Model& model) {
+  Eigen::VectorXd values(static_cast<Eigen::Index>(model.free.size()));
+  for (Eigen::Index j = 0; j < values.size(); ++j) {
+    const Parameter& p = model.free[static_cast<std::size_t>(j)];
+    values[j] = p.scaled(value_of(model.rig, p.path));
+  }
+  return values;
+}
 
 RigFile rig_at(const Model& model, const double* scaled) {
   RigFile rig = model.rig;

@@ -27,9 +27,12 @@ using KnownSlopes = std::vector<std::pair<std::string, Eigen::VectorXd>>;
 struct FitSettings {
   double inflation =
       1.0;  ///< how much more the residuals scatter, over long times, than white noise at the floor
-  bool thorough = false;  ///< to the bottom of the valley, along finer slopes, for numbers that are told
+  bool thorough = false;  ///< to the bottom of the valley, along its axes, for numbers that are told
   const KnownSlopes* known = nullptr;  ///< for a rough fit: slopes taken over from an earlier one
 };
+
+/// The free parameters as they stand in the rig, scaled.
+Eigen::VectorXd scaled_values(const Model& model);
 
 /// The rig with its free parameters at these scaled values, or at the bounds that they are beyond.
 RigFile rig_at(const Model& model, const double* scaled);

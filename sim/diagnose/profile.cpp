@@ -33,13 +33,12 @@ class Valley {
         fitted_(fitted),
         runs_(runs),
         inflation_(inflation),
-        fit_{Eigen::VectorXd(size()), fitted.residuals, fitted.columns},
+        fit_{scaled_values(fitted.model), fitted.residuals, fitted.columns},
         priors_(Eigen::VectorXd::Zero(size())),
         lowest_(size()),
         highest_(size()) {
     for (Eigen::Index j = 0; j < size(); ++j) {
       const Parameter& p = parameter(j);
-      fit_.at[j] = p.scaled(value_of(fitted.model.rig, p.path));
       priors_[j] = p.has_prior ? 1.0 : 0.0;
       lowest_[j] = p.scaled(p.lowest);
       highest_[j] = p.scaled(p.highest);

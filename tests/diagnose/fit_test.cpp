@@ -57,17 +57,11 @@ TEST(Fit, ThoroughKnowsHowReadingsChangeAlongTheValley) {
     if (candidate.carried(truth))
       for (const Parameter& p : candidate.parameters(truth)) model.free.push_back(p);
   const Fitted fitted = fit(experiment, model, runs, {.inflation = 1.0, .thorough = true});
-  const auto& free = fitted.model.free;
-  const auto count = std::ssize(free);
   Eigen::MatrixXd normal = fitted.columns.transpose() * fitted.columns;
   normal.diagonal().array() += 1.0;
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> axes(normal);  // the least known first
   const auto read_at = [&](const Eigen::VectorXd& step) {
-    Eigen::VectorXd there(count);
-    for (Eigen::Index j = 0; j < count; ++j) {
-      const Parameter& p = free[static_cast<std::size_t>(j)];
-      there[j] = p.scaled(value_of(fitted.model.rig, p.path)) + step[j];
-    }
+    const Eigen::VectorXd there = scaled_values(fitted.model) + step;
     return experiment.residuals(rig_at(fitted.model, there.data()), runs);
   };
   for (Eigen::Index i = 0; i < 4; ++i) {
