@@ -78,6 +78,8 @@ Recalibrated recalibrate(Case& c, const Contender& nominal) {
   c.inflation = variance_inflation(c.experiment, residuals, c.split.training);
   auto again = contend(c, best.fitted.model);
   if (again.fitted.failure.empty()) best = std::move(again);
+  // It may have come to the edge along a valley; a descent that looks along it goes another way.
+  if (bent(best.fitted, c.inflation)) begin_too(c, best, nominal.fitted.model, {.thorough = true});
   return result;
 }
 

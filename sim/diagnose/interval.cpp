@@ -8,7 +8,6 @@
 #include <plant/instruments.hpp>
 #include <sim/diagnose/held_out.hpp>
 #include <sim/diagnose/interval.hpp>
-#include <sim/diagnose/thresholds.hpp>
 
 namespace mckibben::diagnose {
 namespace {
@@ -80,7 +79,7 @@ Scatter scatter_of(const Experiment& experiment, const Runs& runs, const Eigen::
 }
 
 std::vector<Bounds> intervals(const Experiment& experiment, const Fitted& fitted, const Runs& runs,
-                              double inflation) {
+                              double inflation, double deviations) {
   const auto& free = fitted.model.free;
   const auto count = static_cast<Eigen::Index>(free.size());
   Eigen::MatrixXd priors = Eigen::MatrixXd::Zero(count, count);
@@ -94,15 +93,14 @@ std::vector<Bounds> intervals(const Experiment& experiment, const Fitted& fitted
       inverse * priors * inverse + counting_errors(experiment, fitted, runs,
                                                    inverse * fitted.columns.transpose() / inflation,
                                                    robust + inverse);
-  // Few clusters make the sandwich too optimistic: the widest of the three, and a little for their number.
-  const double few =
-      std::sqrt(static_cast<double>(segments) / std::max(1.0, static_cast<double>(segments - count)));
+  // So many numbers that were fitted to so few segments have taken this share out of their scatter.
+  const double taken = std::min(1.0, static_cast<double>(count) / static_cast<double>(segments));
   std::vector<Bounds> list;
   for (Eigen::Index j = 0; j < count; ++j) {
     const Parameter& p = free[static_cast<std::size_t>(j)];
     const double value = value_of(fitted.model.rig, p.path);
     const double half =
-        thresholds.interval.normal * few * std::sqrt(std::max({robust(j, j), inverse(j, j), counted(j, j)}));
+        deviations * std::sqrt(std::max(robust(j, j) + taken * inverse(j, j), counted(j, j)));
     const double at = p.scaled(value), rise = half * half / inverse(j, j);
     const double ends[] = {p.unscaled(at - half), p.unscaled(at + half)};
     const double low = std::min(ends[0], ends[1]), high = std::max(ends[0], ends[1]);

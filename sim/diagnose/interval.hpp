@@ -8,6 +8,7 @@
 #include <optional>
 
 #include <sim/diagnose/fit.hpp>
+#include <sim/diagnose/thresholds.hpp>
 
 namespace mckibben::diagnose {
 
@@ -26,8 +27,8 @@ struct Bounds {
   std::optional<std::array<double, 2>> quadratic{};  ///< what low and high were before a profile was taken
 };
 
-/// One for each free parameter of a model fitted to `runs`.
+/// One for each free parameter of a model fitted to `runs`, so many standard errors each way.
 std::vector<Bounds> intervals(const Experiment& experiment, const Fitted& fitted, const Runs& runs,
-                              double inflation);
+                              double inflation, double deviations = thresholds.interval.normal);
 
 }  // namespace mckibben::diagnose

@@ -182,12 +182,13 @@ void drop_needless(const Case& c, Law& law, const Step& step) {
   }
 }
 
-/// Drops terms whose 95 % interval says nothing, not even their sign.
+/// Drops terms whose 99 % interval says nothing, not even their sign.
 void drop_uncertain(const Case& c, Law& law, const Step& step) {
   for (std::size_t i = 0; i < law.terms;) {
     const Fitted& fitted = law.contender.fitted;
     const double inflation = variance_inflation(c.experiment, fitted.residuals, c.split.training);
-    const auto bounds = intervals(c.experiment, fitted, c.split.training, inflation);
+    const auto bounds =
+        intervals(c.experiment, fitted, c.split.training, inflation, thresholds.interval.certain);
     const std::size_t all = fitted.model.rig.effects.get<plant::ResidualForce>().terms.size();
     const std::size_t term = all - law.terms + i;
     const std::string path = fmt::format("effects.residual_law.terms.{}.", term);

@@ -95,7 +95,8 @@ void drop_uncertain(const Case& c, Naming& result, const Step& step) {
   for (std::size_t i = 0; i < result.effects.size();) {
     const Fitted& fitted = result.best.fitted;
     const double inflation = variance_inflation(c.experiment, fitted.residuals, c.split.training);
-    const auto bounds = intervals(c.experiment, fitted, c.split.training, inflation);
+    const auto bounds =
+        intervals(c.experiment, fitted, c.split.training, inflation, thresholds.interval.certain);
     const Candidate candidate = fitted.model.effects[i];
     bool certain = false;
     for (std::size_t j = 0; j < bounds.size(); ++j) {
@@ -113,7 +114,7 @@ void drop_uncertain(const Case& c, Naming& result, const Step& step) {
     step("trying without " + title(candidate));
     auto smaller = contend(c, without(fitted.model, i));
     if (!smaller.fitted.failure.empty()) return;
-    const char* why = "its 95 % interval reaches nothing";
+    const char* why = "its 99 % interval reaches nothing";
     const bool has_more = candidate.adds_to.empty() &&
                           std::ranges::count(fitted.model.effects, candidate.who(), &Candidate::who) > 1;
     if (!has_more) {

@@ -10,7 +10,7 @@ namespace mckibben::diagnose {
 /// and swaps those that another one beats now.
 void revise(const Case& c, Naming& result, const Eigen::VectorXd& reference, const Step& step);
 
-/// Drops effects whose 95 % interval reaches "absent".
+/// Drops effects whose 99 % interval reaches "absent".
 void drop_uncertain(const Case& c, Naming& result, const Step& step);
 
 /// Takes an effect and what was said of it out of the names.

@@ -120,8 +120,8 @@ Trial rough(const Case& c, const Contender& base, const Score& score, std::size_
   return {score, place, contend(c, with(c, base.fitted.model, score), {.known = &known}), {}};
 }
 
-void begin_too(const Case& c, Contender& end, Model start) {
-  Contender other = contend(c, std::move(start));
+void begin_too(const Case& c, Contender& end, Model start, FitSettings settings) {
+  Contender other = contend(c, std::move(start), settings);
   if (other.fitted.failure.empty() && other.fitted.cost < end.fitted.cost) end = std::move(other);
 }
 

@@ -64,7 +64,7 @@ Screening screen_at(const Case& c, const Contender& base);
 Trial rough(const Case& c, const Contender& base, const Score& score, std::size_t place);
 
 /// Fits a model from here too, and keeps the end that is deeper.
-void begin_too(const Case& c, Contender& end, Model start);
+void begin_too(const Case& c, Contender& end, Model start, FitSettings settings = {});
 
 /// Fits a trial with all slopes anew.
 void polish(const Case& c, Trial& trial, const Step& step);

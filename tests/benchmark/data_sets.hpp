@@ -19,7 +19,8 @@ struct DataSet {
 
 std::string_view name_of(Bench bench);
 
-/// What has a title that begins so, on one bench after another.
+/// What has a title that begins so, on one bench after another, as far off its data sheet as this says of
+/// itself.
 std::vector<DataSet> all_sets(std::uint64_t first, std::uint64_t seeds, const std::string& wanted);
 
 /// Those in which nothing is hidden, on each bench, and on one that is off its data sheet.

@@ -244,8 +244,7 @@ domain::RigFile described(const Surroundings& surroundings, Dice& dice) {
 /// By how many of its deviations each number of a rig is off.
 double off_by(const Kind& kind, const Surroundings& surroundings) {
   if (surroundings.bench == Bench::badly_known) return 1.0;
-  if (surroundings.off_its_sheet) return 0.3;
-  return kind.verdict == Verdict::nothing_missing ? 0.0 : 0.1;
+  return surroundings.off_by.value_or(kind.verdict == Verdict::nothing_missing ? 0.0 : 0.1);
 }
 
 /// A rig that has it; notes in `hidden` what was planted.
@@ -254,7 +253,7 @@ plant::Rig rig_with(const Kind& kind, std::uint64_t seed, const Surroundings& su
   const domain::RigFile nominal = described(surroundings, dice);
   static_cast<domain::RigFile&>(hidden.data.rig) = nominal;
   domain::RigFile truth = nominal;
-  // Every rig is a little off its data sheet; where nothing is to be found, less than one would notice.
+  // Rigs are off their data sheets; where nothing is to be found, as told only.
   for (const Parameter& p : nominal_parameters(nominal, nominal.spreads))
     *find(truth, p.path).value =
         std::clamp(p.origin + off_by(kind, surroundings) * p.scale * dice.normal(), p.lowest, p.highest);

@@ -1,10 +1,11 @@
 // Measured data with something hidden in it, for scoring the diagnosis: made with the other engine and
-// another tolerance than the diagnosis uses, laws sharper or softer than its own, a rig a little off its data
+// another tolerance than the diagnosis uses, laws sharper or softer than its own, a rig off its data
 // sheet, jitter, counts and slow disturbances.
 #pragma once
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -37,8 +38,10 @@ enum class Bench { thesis, other_size, badly_known };
 
 struct Surroundings {
   Bench bench = Bench::thesis;
-  bool off_its_sheet = false;  ///< also where nothing is hidden: by a third of what its numbers are known to
-  double share = 1.0;          ///< of an effect's size
+  /// By how many of their deviations its numbers are off; unless told, a tenth where something is hidden.
+  /// Those of a rig that is badly known are always as far off as they are known.
+  std::optional<double> off_by{};
+  double share = 1.0;  ///< of an effect's size
   std::size_t runs = 9;
   double lasting = 1.0;  ///< of the 7 to 11 s of a run
   bool poor = false;     ///< data: nothing but sines

@@ -1,9 +1,11 @@
 // Intervals that neither counting nor an angle without a direction makes wrong.
 #include <cmath>
 #include <numbers>
+#include <random>
 
 #include <gtest/gtest.h>
 
+#include <sim/diagnose/held_out.hpp>
 #include <sim/diagnose/interval.hpp>
 #include <sim/run/simulate.hpp>
 
@@ -71,6 +73,75 @@ TEST(Intervals, OfAllThatIsAllowedSayThatNothingIsKnown) {
   still.fitted.columns *= 1e-6;
   const Experiment experiment(still.data, nothing_masked(still.data), 1);
   EXPECT_FALSE(intervals(experiment, still.fitted, {0, 1, 2}, 1.0).front().determined);
+}
+
+/// Fits of straight lines to noise that is remembered, one as good as another: how many intervals of their
+/// numbers, half of which have a prior, hold the true one. Runs so long, in rows.
+double covered(Eigen::Index rows) {
+  constexpr Eigen::Index numbers = 10;
+  constexpr int fits = 200, runs = 6;
+  constexpr double remembered = 0.9;  // of each reading's error in the next: a tenth of a second
+  std::mt19937_64 random(3);
+  std::normal_distribution<double> normal;
+  domain::Dataset data;
+  for (int i = 0; i < runs; ++i) {
+    domain::Run run;
+    run.current_mA.assign(static_cast<std::size_t>(rows), 8.0);
+    for (Eigen::Index k = 0; k < rows; ++k) run.contraction_ratio.push_back(0.1 + 1e-4 * normal(random));
+    data.runs.push_back(std::move(run));
+  }
+  const Experiment experiment(data, nothing_masked(data), 1);
+  const Runs all{0, 1, 2, 3, 4, 5};
+  int inside = 0;
+  for (int fit = 0; fit < fits; ++fit) {
+    Fitted fitted;
+    fitted.model.rig = data.rig;
+    fitted.columns.resize(runs * rows, numbers);
+    fitted.residuals.resize(runs * rows);
+    double error = normal(random);
+    for (Eigen::Index row = 0; row < runs * rows; ++row) {
+      error = remembered * error + std::sqrt(1.0 - remembered * remembered) * normal(random);
+      fitted.residuals[row] = error;
+    }
+    for (Eigen::Index j = 0; j < numbers; ++j) {
+      const double phase = 6.0 * normal(random), period = 40.0 * static_cast<double>(1 + j);
+      for (Eigen::Index row = 0; row < runs * rows; ++row)
+        fitted.columns(row, j) =
+            0.1 * std::sin(2.0 * std::numbers::pi * static_cast<double>(row) / period + phase);
+    }
+    const double inflation = variance_inflation(experiment, fitted.residuals, all);
+    Eigen::MatrixXd normal_equations = fitted.columns.transpose() * fitted.columns / inflation;
+    Eigen::VectorXd truth = Eigen::VectorXd::Zero(numbers);
+    for (Eigen::Index j = 0; j < numbers; ++j) {
+      const bool has_prior = j % 2 == 0;
+      if (has_prior) {
+        normal_equations(j, j) += 1.0;
+        truth[j] = normal(random);
+      }
+      fitted.model.free.push_back({.path = "muscle.rest_radius",
+                                   .origin = data.rig.muscle.rest_radius_m,
+                                   .scale = 1e-6,
+                                   .lowest = 0.0,
+                                   .highest = 1.0,
+                                   .has_prior = has_prior});
+    }
+    fitted.residuals += fitted.columns * truth;
+    const Eigen::VectorXd found =
+        normal_equations.ldlt().solve(fitted.columns.transpose() * fitted.residuals / inflation);
+    fitted.residuals -= fitted.columns * found;
+    const auto bounds = intervals(experiment, fitted, all, inflation);
+    for (Eigen::Index j = 0; j < numbers; ++j)
+      inside += std::abs(found[j] - truth[j]) < bounds[static_cast<std::size_t>(j)].half ? 1 : 0;
+  }
+  return static_cast<double>(inside) / (fits * numbers);
+}
+
+TEST(Intervals, HoldTheTruthAsOftenAsTheySay) {
+  EXPECT_NEAR(covered(750), 0.95, 0.03);
+}
+
+TEST(Intervals, AreNotTooNarrowWhereSegmentsAreHardlyMoreThanNumbers) {
+  EXPECT_GT(covered(250), 0.92);
 }
 
 }  // namespace

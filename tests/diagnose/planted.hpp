@@ -33,12 +33,12 @@ inline std::vector<domain::CampaignCurrent> three_kinds() {
 /// gauge if `truth` has one. The data set's rig is `nominal`.
 inline domain::Dataset planted(const plant::Rig& truth, std::vector<double> loads_kg,
                                std::vector<domain::CampaignCurrent> currents, std::uint64_t seed,
-                               const plant::Rig& nominal = {}) {
+                               const plant::Rig& nominal = {}, double jitter = 5e-5) {
   domain::Campaign campaign;
   static_cast<plant::Rig&>(campaign.rig) = truth;
   campaign.loads_kg = std::move(loads_kg);
   campaign.currents = std::move(currents);
-  campaign.noise = {.encoder_jitter = 5e-5, .gauge_Pa = 400.0};
+  campaign.noise = {.encoder_jitter = jitter, .gauge_Pa = 400.0};
   campaign.seed = seed;
   domain::Dataset data;
   static_cast<plant::Rig&>(data.rig) = nominal;

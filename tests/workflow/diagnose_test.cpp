@@ -7,8 +7,12 @@
 
 #include <gtest/gtest.h>
 
+#include <sim/diagnose/baseline.hpp>
 #include <sim/diagnose/first_look.hpp>
+#include <sim/diagnose/held_out.hpp>
 #include <sim/diagnose/priors.hpp>
+#include <sim/diagnose/thresholds.hpp>
+#include <sim/diagnose/trial.hpp>
 #include <sim/input/dataset_file.hpp>
 #include <sim/run/simulate.hpp>
 
@@ -219,6 +223,20 @@ TEST(Diagnose, RecalibratesANumberFarBeyondItsDataSheetBeforeItNamesAnEffect) {
       << found.because;
   EXPECT_LT(found.gap.corrected_rmse, 1.3 * found.gap.noise_floor);
   for (const Ranked& one : found.ranking) EXPECT_FALSE(one.outcome.starts_with("taken")) << one.name;
+}
+
+// Radius, braid angle and end correction make up for each other: a descent ends with the radius at its edge.
+TEST(Diagnose, RecalibratesToTheBottomOfAValleyAlongWhichItCameToAnEdge) {
+  const auto hidden = hide(kind_titled("recalibrate muscle.end_correction"), 1301, {.off_by = 1.0});
+  const auto masked = nothing_masked(hidden.data);
+  const Experiment experiment(hidden.data, masked, 0);
+  Runs runs(hidden.data.runs.size());
+  std::iota(runs.begin(), runs.end(), std::size_t{0});
+  Case c{experiment, hidden.data.rig, split(hidden.data, runs), thresholds.scatter.first_inflation, {}};
+  const Fitted found = recalibrate(c, replay(c)).contender.fitted;
+  EXPECT_FALSE(bent(found, c.inflation));
+  EXPECT_NEAR(found.model.rig.muscle.rest_radius_m, hidden.rig.muscle.rest_radius_m, 5e-5);
+  EXPECT_LT(excess(found.residuals), 0.0);  // at the edge some of them was left
 }
 
 TEST(Diagnose, FitsTheSizeOfAnEffectThatTheRigHasAlready) {
