@@ -99,8 +99,7 @@ std::vector<Bounds> intervals(const Experiment& experiment, const Fitted& fitted
   for (Eigen::Index j = 0; j < count; ++j) {
     const Parameter& p = free[static_cast<std::size_t>(j)];
     const double value = value_of(fitted.model.rig, p.path);
-    const double half =
-        deviations * std::sqrt(std::max(robust(j, j) + taken * inverse(j, j), counted(j, j)));
+    const double half = deviations * std::sqrt(std::max(robust(j, j) + taken * inverse(j, j), counted(j, j)));
     const double at = p.scaled(value), rise = half * half / inverse(j, j);
     const double ends[] = {p.unscaled(at - half), p.unscaled(at + half)};
     const double low = std::min(ends[0], ends[1]), high = std::max(ends[0], ends[1]);

@@ -243,8 +243,8 @@ void tell_first(const Case& c, const std::vector<Screening>& screenings, Naming&
 
 /// The best fit of those that convince on the runs held out; with nothing left there, one that relieves
 /// strained priors. Beside another effect, one that closes little of the whole gap mends that one's law,
-/// unless much is left and it closes nearly all of that; so does one whose shape a fit has driven to a bound.
-/// Null if there is none.
+/// unless more than noise is left and it closes nearly all of that; so does one whose shape a fit has driven
+/// to a bound. Null if there is none.
 const Trial* choose(const std::vector<Trial>& trials, const Contender& best, double left, double whole_gap) {
   for (const Trial& trial : trials) {
     if (!is_itself(trial)) continue;
@@ -252,7 +252,7 @@ const Trial* choose(const std::vector<Trial>& trials, const Contender& best, dou
     const bool relieves = left <= thresholds.near.nothing_left && trial.gain.gained > -to_name.relief_loss &&
                           fall > thresholds.near.clear;
     const bool mends_its_own = !trial.score.candidate.adds_to.empty();
-    const bool closes_rest = left > to_name.worth_a_pair && trial.gain.share > to_name.closes_rest &&
+    const bool closes_rest = left > to_name.worth_closing && trial.gain.share > to_name.closes_rest &&
                              near_floor(trial.contender.fitted.residuals);
     const double least = to_name.least_of_all * (mends_its_own || closes_rest ? left : whole_gap);
     const bool worthwhile = fall > thresholds.near.chance && trial.gain.gained > least;

@@ -57,8 +57,8 @@ struct StartsThresholds {
 struct IntervalThresholds {
   double normal = 1.96;   ///< deviations of a normal variable: 95 %. Convention
   double certain = 2.58;  ///< the same: 99 %. By so much what is kept differs from nothing
-  int draws = 100;       ///< of what counting does
-  double still = 1e-12;  ///< counts^2: what is moved less is at rest
+  int draws = 100;        ///< of what counting does
+  double still = 1e-12;   ///< counts^2: what is moved less is at rest
   /// Of the rise of the cost up to quadratic ends: where it differs by more, in the mean of both or in half
   /// their difference, the profile is looked along,
   double trusted = 0.3;

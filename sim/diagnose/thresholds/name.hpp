@@ -50,7 +50,8 @@ struct NameThresholds {
   double pair_share = 0.6;           ///< of the gap, that they must close,
   double rough_pair_share = 0.3;     ///< and in a rough fit
   double least_of_all = 0.01;        ///< of the whole gap: an effect that closes less mends another's law
-  double closes_rest = 0.9;          ///< of what is left, if that is much: then it mends nothing
+  double closes_rest = 0.9;          ///< of what is left: then it mends nothing,
+  double worth_closing = 1.0;        ///< if so much is left
   double least_whole_gap = 1.0;  ///< left: shares of the whole gap are of no less, where one is tried without
   std::size_t few_runs = 6;      ///< that speak for a name: they are told one by one
   std::size_t shown_alike = 8;   ///< candidates of which the likeness is told
