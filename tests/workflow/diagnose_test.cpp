@@ -142,8 +142,8 @@ TEST(Diagnose, BelievesARunThatTheRigMeetsAfterAllAndTellsBothDelays) {
             (std::set<std::string>{"command_delay", "reading_delay"}));
 }
 
-// Friction that warms up closes less than a hundredth of what a tube that needs pressure opens; at its smaller
-// size it leaves 1.8 floors.
+// Friction that warms up closes less than a hundredth of what a tube that needs pressure opens; at its
+// smaller size it leaves 1.8 floors.
 TEST(Diagnose, NamesWhatClosesLittleOfAHugeGapAndAllThatIsLeftOfIt) {
   for (const double change : {-0.35, -0.13}) {
     plant::Rig truth;
