@@ -1,4 +1,4 @@
-// MATLAB's MAT-files of level 5 (what `save -v6` and `save -v7` write), read and written with libmatio.
+// MATLAB's MAT-files of level 5 (what `save -v6` and `save -v7` write).
 #pragma once
 
 #include <string>

@@ -1,66 +1,84 @@
-// Writing of MAT-files with libmatio; see mat_file.hpp.
-// The heading is ours: the library's own holds the date.
-#include <array>
-#include <mutex>
-
-#include <fmt/format.h>
+// Writing of MAT-files; see mat_file.hpp. Layout: MathWorks, "MAT-File Format". The heading holds no date.
+#include <algorithm>
+#include <cstdint>
+#include <cstring>
+#include <initializer_list>
 
 #include <sim/formats/mat_file.hpp>
-#include <sim/formats/mat_handles.hpp>
-#include <sim/formats/memory_file.hpp>
 
 namespace mckibben::formats {
 namespace {
 
-Variable numbers(const std::string& name, std::vector<double> values) {
-  std::array<std::size_t, 2> dims{values.size(), 1};
-  return Variable(Mat_VarCreate(name.c_str(), MAT_C_DOUBLE, MAT_T_DOUBLE, 2, dims.data(), values.data(), 0));
+enum Type : std::uint32_t { bytes_8 = 1, integers = 5, words = 6, doubles = 9, array = 14, utf8 = 16 };
+enum Class : std::uint32_t { of_fields = 2, of_text = 4, of_doubles = 6 };
+
+std::string words_of(std::initializer_list<std::size_t> values) {
+  std::string bytes;
+  for (const std::size_t value : values)
+    for (unsigned shift = 0; shift < 32; shift += 8) bytes += static_cast<char>(value >> shift & 0xFFU);
+  return bytes;
 }
 
-Variable text(const std::string& name, std::string value) {
-  std::array<std::size_t, 2> dims{value.empty() ? std::size_t{0} : std::size_t{1}, value.size()};
-  return Variable(Mat_VarCreate(name.c_str(), MAT_C_CHAR, MAT_T_UTF8, 2, dims.data(), value.data(), 0));
+std::string element(Type type, std::string_view content) {
+  return words_of({type, content.size()}).append(content).append((8 - content.size() % 8) % 8, '\0');
+}
+
+/// Up to four bytes stand in the tag itself.
+std::string short_element(Type type, std::string_view content) {
+  if (content.empty() || content.size() > 4) return element(type, content);
+  return words_of({type | content.size() << 16U}).append(content).append(4 - content.size(), '\0');
+}
+
+std::string array_of(Class kind, std::size_t rows, std::size_t columns, std::string_view name,
+                     std::string_view contents) {
+  return element(array, element(words, words_of({kind, 0}))
+                            .append(element(integers, words_of({rows, columns})))
+                            .append(short_element(bytes_8, name))
+                            .append(contents));
+}
+
+std::string numbers(std::string_view name, const std::vector<double>& values) {
+  std::string bytes(values.size() * sizeof(double), '\0');
+  std::memcpy(bytes.data(), values.data(), bytes.size());
+  return array_of(of_doubles, values.size(), 1, name, element(doubles, bytes));
+}
+
+std::string text(std::string_view name, std::string_view value) {
+  const auto letters = std::count_if(
+      value.begin(), value.end(), [](char byte) { return (static_cast<unsigned>(byte) & 0xC0U) != 0x80U; });
+  return array_of(of_text, value.empty() ? 0 : 1, static_cast<std::size_t>(letters), name,
+                  element(utf8, value));
 }
 
 /// A struct with a text for each column.
-template <class Text>
-Variable texts(const char* name, const std::vector<Column>& columns, Text text_of) {
-  std::vector<const char*> fields;
-  fields.reserve(columns.size());
-  for (const Column& column : columns) fields.push_back(column.name.c_str());
-  std::array<std::size_t, 2> dims{1, 1};
-  Variable variable(
-      Mat_VarCreateStruct(name, 2, dims.data(), fields.data(), static_cast<unsigned>(fields.size())));
-  for (const Column& column : columns)
-    if (variable)
-      Mat_VarSetStructFieldByName(variable.get(), column.name.c_str(), 0,
-                                  text(column.name, text_of(column)).release());
-  return variable;
+std::string texts(std::string_view name, const std::vector<Column>& columns, std::string Column::*text_of) {
+  std::size_t width = 0;
+  for (const Column& column : columns) width = std::max(width, column.name.size() + 1);
+  while (columns.size() * width % 8 != 0) ++width;
+  std::string names, fields;
+  for (const Column& column : columns) {
+    names.append(column.name).append(width - column.name.size(), '\0');
+    fields += text("", column.*text_of);
+  }
+  return array_of(of_fields, 1, 1, name,
+                  short_element(integers, words_of({width})) + element(bytes_8, names) + fields);
 }
 
 }  // namespace
 
 std::string mat_of(const Table& table) {
-  static std::mutex library;  // nothing is promised of its threads
-  const std::lock_guard lock(library);
-  const MemoryFile file;
-  {
-    const Mat mat(
-        Mat_CreateVer(file.path().c_str(), "MATLAB 5.0 MAT-file, written by mckibben", MAT_FT_MAT5));
-    const auto write = [&mat](const Variable& variable) {
-      if (!mat || !variable || Mat_VarWrite(mat.get(), variable.get(), MAT_COMPRESSION_NONE) != 0)
-        throw BadFile("libmatio could not make the MAT-file");
-    };
-    for (const Column& column : table.columns) write(numbers(column.name, column.values));
-    write(texts("units", table.columns, [](const Column& column) { return column.unit; }));
-    write(texts("descriptions", table.columns, [](const Column& column) { return column.meaning; }));
-    write(text("title", table.title));
-    for (const auto& [name, value] : table.attributes) {
-      const auto* number = std::get_if<double>(&value);
-      write(number != nullptr ? numbers(name, {*number}) : text(name, std::get<std::string>(value)));
-    }
+  std::string bytes = "MATLAB 5.0 MAT-file, written by mckibben";
+  bytes.append(1, '\0').resize(124, ' ');
+  bytes.append({'\0', '\1', 'I', 'M'});
+  for (const Column& column : table.columns) bytes += numbers(column.name, column.values);
+  bytes +=
+      texts("units", table.columns, &Column::unit) + texts("descriptions", table.columns, &Column::meaning);
+  bytes += text("title", table.title);
+  for (const auto& [name, value] : table.attributes) {
+    const auto* number = std::get_if<double>(&value);
+    bytes += number != nullptr ? numbers(name, {*number}) : text(name, std::get<std::string>(value));
   }
-  return file.bytes();
+  return bytes;
 }
 
 }  // namespace mckibben::formats

@@ -80,6 +80,17 @@ TEST(MatFile, SizesThatCannotBeAreNotBelieved) {
   }
 }
 
+TEST(MatFile, BigEndianNumbersAreRead) {
+  std::string bytes = mat_of(table()).substr(0, 124) + std::string("\1\0MI", 4);
+  const auto words = [&bytes](std::initializer_list<unsigned char> low_bytes) {
+    for (const unsigned char low : low_bytes) bytes.append(3, '\0') += static_cast<char>(low);
+  };
+  words({14, 56, 6, 8, 11, 0, 5, 8, 1, 3, 0});  // an array of uint16, 1 x 3
+  bytes.replace(bytes.size() - 4, 4, std::string("\0\1\0\1n\0\0\0", 8));
+  bytes += std::string("\0\0\0\4\0\0\0\6\1\0\0\2\0\3\0\0", 16);
+  EXPECT_EQ(read_mat(bytes, {"n"}).found[0].values, (std::vector<double>{256.0, 2.0, 3.0}));
+}
+
 /// A variable of cells, or a struct, that says it has more elements than it holds.
 std::string hollow(char kind, std::size_t count) {
   const auto word = [](std::size_t value) {
