@@ -68,9 +68,8 @@ int make_dataset(const DatasetOptions& options) {
   for (const char* suffix : {"", "-truth", ".unfinished", ".ranks"})
     keep_apart(where.string() + suffix, campaign.inputs);
   cluster::Workplace place(where.string() + ".ranks", cluster::crew());
-  const output::CampaignFolder folder = place.crew().leads()
-                                            ? output::CampaignFolder(where, campaign, options.formats, say)
-                                            : output::CampaignFolder(where, campaign, options.formats);
+  const output::CampaignFolder folder(where, campaign, options.formats,
+                                      place.crew().leads() ? output::Say(say) : nullptr);
   place.begin(folder.key());
   try {
     with_progress(campaign.name, [&](const auto& hook) {

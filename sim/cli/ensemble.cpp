@@ -111,29 +111,25 @@ int make_ensemble(const Options& options, const domain::Campaign& campaign, run:
     keep_apart(where.string() + suffix, campaign.inputs);
   cluster::Workplace place(where.string() + ".ranks", cluster::crew());
   const bool leads = place.crew().leads();
-  std::optional<output::EnsembleFolder> folder;
-  if (leads)
-    folder.emplace(where, campaign, keep, say);
-  else
-    folder.emplace(where, campaign, keep);
-  place.begin(folder->key());
+  output::EnsembleFolder folder(where, campaign, keep, leads ? output::Say(say) : nullptr);
+  place.begin(folder.key());
   try {
     with_progress(campaign.name, [&](const auto& hook) {
       const run::ProgressHook progress = hook;
       do {  // again only for blocks that were not as written
-        Blocks(campaign, *folder, place, progress)(cluster::threads_of(options.threads));
-      } while (leads && !folder->gathered());
+        Blocks(campaign, folder, place, progress)(cluster::threads_of(options.threads));
+      } while (leads && !folder.gathered());
     });
     if (!leads) return done;
     place.close();
   } catch (const run::Interrupted&) {
-    return stopped(folder->runs_there(), folder->shape().runs, folder->unfinished());
+    return stopped(folder.runs_there(), folder.shape().runs, folder.unfinished());
   }
-  folder->publish();
-  print(options, {folder->document(), folder->table()});
-  fmt::print(stderr, "ensemble in {}\n", folder->data().string());
+  folder.publish();
+  print(options, {folder.document(), folder.table()});
+  fmt::print(stderr, "ensemble in {}\n", folder.data().string());
   place.leave();
-  return folder->failed() > 0 ? failure : done;
+  return folder.failed() > 0 ? failure : done;
 }
 
 }  // namespace mckibben::cli

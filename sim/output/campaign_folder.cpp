@@ -22,7 +22,6 @@
 #include <sim/output/campaign_json.hpp>
 #include <sim/output/csv.hpp>
 #include <sim/output/driven_csv.hpp>
-#include <sim/output/publication.hpp>
 #include <sim/output/run_files.hpp>
 #include <sim/run/simulate.hpp>
 
@@ -32,7 +31,6 @@ namespace {
 
 using input::Json;
 
-constexpr const char* plan_file = "plan.json";
 constexpr const char* plan_schema = "mckibben-campaign-plan/1";
 
 Json plan_of(const domain::Campaign& campaign, const std::vector<run::CampaignJob>& jobs,
@@ -90,7 +88,7 @@ bool is_whole(const fs::path& folder, const Json& record) {
 
 /// All files that a campaign with these ids can have written there.
 FileNames files_of(const std::vector<std::string>& ids) {
-  FileNames names{plan_file,         record_name,          "data/dataset.yaml",
+  FileNames names{plan_name,         record_name,          "data/dataset.yaml",
                   "data/rig.yaml",   "data/campaign.json", "data/report.html",
                   "truth/truth.yaml"};
   for (const char* folder : {"data/", "truth/"})
@@ -106,22 +104,14 @@ FileNames files_of(const std::vector<std::string>& ids) {
 
 /// What a folder with this plan may hold for us to remove it. A plan is written whole or not at all, so what
 /// is no plan is not ours.
-FileNames files_of(const std::optional<Json>& plan) {
+FileNames files_in(const std::string& text) {
   try {
-    if (plan && plan->at("schema") == plan_schema)
-      return files_of(plan->at("ids").get<std::vector<std::string>>());
+    const Json plan = Json::parse(text);
+    if (plan.at("schema") == plan_schema) return files_of(plan.at("ids").get<std::vector<std::string>>());
   } catch (const Json::exception&) {
-    // Somebody else's JSON.
+    // Somebody else's.
   }
   return {};
-}
-
-/// The files below a folder, named from there.
-Digests below(const std::string& folder, const Digests& files) {
-  Digests found;
-  for (const auto& [name, digest] : files)
-    if (name.starts_with(folder + "/")) found[name.substr(folder.size() + 1)] = digest;
-  return found;
 }
 
 /// Columns of a run's tables: of what was measured, and of the truth.
@@ -157,41 +147,24 @@ std::string shipped_name(const domain::RigFile& rig) {
 }  // namespace
 
 CampaignFolder::CampaignFolder(const fs::path& destination, const domain::Campaign& campaign,
-                               std::vector<std::string> formats)
+                               std::vector<std::string> formats, Say say)
     : campaign_(campaign),
       formats_(std::move(formats)),
       jobs_(run::jobs_of(campaign)),
       destination_(result_path(destination)),
-      truth_(result_path(destination_.string() + "-truth")),
-      unfinished_(result_path(destination_.string() + ".unfinished")) {
+      truth_(result_path(destination.string() + "-truth")),
+      unfinished_(result_path(destination.string() + ".unfinished")),
+      say_(std::move(say)) {
   std::erase(formats_, "csv");
   std::sort(formats_.begin(), formats_.end());
   formats_.erase(std::unique(formats_.begin(), formats_.end()), formats_.end());
-}
-
-CampaignFolder::CampaignFolder(const fs::path& destination, const domain::Campaign& campaign,
-                               std::vector<std::string> formats, Say say)
-    : CampaignFolder(destination, campaign, std::move(formats)) {
-  say_ = std::move(say);
+  plan_ = plan_of(campaign_, jobs_, formats_).dump(2) + "\n";
+  if (!say_) return;
   for (const auto* place : {&destination_, &truth_, &unfinished_})
     locks_.emplace_back(*place, "dataset " + campaign.name);
-  writing(unfinished_, [&] { open(); });
-}
-
-void CampaignFolder::open() {
-  const Json plan = plan_of(campaign_, jobs_, formats_);
-  const bool finished = finish(unfinished_, say_);
-  if (fs::exists(unfinished_) && !fs::is_empty(unfinished_)) {
-    const auto found = read_json(unfinished_ / plan_file);
-    if (found == plan && !finished) {
-      find_missing();
-      return;
-    }
-    if (clear(unfinished_, files_of(found), {plan_file}, unfinished_, say_) && !finished)
-      say_(fmt::format("{} was of another campaign or version; starting anew", unfinished_.string()));
-  }
-  write_whole(unfinished_ / plan_file, plan.dump(2) + "\n");
-  missing_ = jobs_;
+  writing(unfinished_, [&] {
+    if (resume(unfinished_, plan_, files_in, say_)) remove_damaged();
+  });
 }
 
 bool CampaignFolder::has(const run::CampaignJob& job) const {
@@ -199,24 +172,24 @@ bool CampaignFolder::has(const run::CampaignJob& job) const {
 }
 
 std::string CampaignFolder::key() const {
-  return input::sha256_hex(plan_of(campaign_, jobs_, formats_).dump());
+  return input::sha256_hex(plan_);
 }
 
 // A run that is not as it was written is made again: nothing else in the folder tells whether it was its rows
 // or its entry that somebody changed.
-void CampaignFolder::find_missing() {
+void CampaignFolder::remove_damaged() const {
   std::string damaged;
-  std::size_t count = 0;
+  std::size_t there = 0, count = 0;
   for (const auto& job : jobs_) {
     const fs::path entry = unfinished_ / RunFiles(job.id).entry;
     const auto record = read_json(entry);
-    if (record && is_whole(unfinished_, *record)) continue;
-    missing_.push_back(job);
-    const bool there = fs::remove(entry);
-    if (there && ++count <= 3) damaged += (count > 1 ? ", " : "") + job.id;
+    if (record && is_whole(unfinished_, *record))
+      ++there;
+    else if (fs::remove(entry) && ++count <= 3)
+      damaged += (count > 1 ? ", " : "") + job.id;
   }
-  say_(fmt::format("{}: {} of {} runs are there already; going on", unfinished_.string(),
-                   jobs_.size() - missing_.size(), jobs_.size()));
+  say_(fmt::format("{}: {} of {} runs are there already; going on", unfinished_.string(), there,
+                   jobs_.size()));
   if (count > 0)
     say_(fmt::format("{} run{} not as written, and made again: {}{}", count, count == 1 ? " is" : "s are",
                      damaged, count > 3 ? ", ..." : ""));
@@ -300,18 +273,15 @@ Digests CampaignFolder::write_rest(const std::vector<run::EndedRun>& runs, const
 void CampaignFolder::publish(const std::vector<run::EndedRun>& runs, const Report& report) const {
   writing(unfinished_, [&] {
     Digests files = write_rest(runs, report);
-    std::vector<std::string> ids;
     for (const auto& job : jobs_) {
-      ids.push_back(job.id);
       const Json record = read_json(unfinished_ / RunFiles(job.id).entry).value_or(Json::object());
       for (const auto& file : record.value("files", Json::array()))
         files[file.at("name").get<std::string>()] = file.at("sha256").get<std::string>();
     }
-    const std::vector<Move> moves{{"truth", truth_, "truth of " + campaign_.name},
-                                  {"data", destination_, "dataset " + campaign_.name}};
-    for (const Move& move : moves) seal(unfinished_ / move.folder, move.job, below(move.folder, files));
-    for (const Aside& aside : put_in_place(unfinished_, moves)) say_(to_text(aside));
-    if (!is_on_its_way(unfinished_)) clear(unfinished_, files_of(ids), {plan_file}, unfinished_, say_);
+    publish_resumed(unfinished_,
+                    {{"truth", truth_, "truth of " + campaign_.name},
+                     {"data", destination_, "dataset " + campaign_.name}},
+                    files, files_in, say_);
   });
 }
 

@@ -19,18 +19,14 @@ class CampaignFolder {
  public:
   /// Opens OUT.unfinished for `destination` = OUT. What is there is kept if it belongs to the same campaign
   /// and program and is as it was written; an earlier campaign's is removed; anything else is moved aside.
-  /// `formats`: of the runs, besides CSV (run_formats). `say`: hears what became of what was there before.
+  /// `formats`: of the runs, besides CSV (run_formats). `say`: hears what became of what was there before;
+  /// null in a process that helps the one which has opened it: then nothing is locked, looked at or said.
   /// Throws CannotWrite, at once if another program is writing there.
   CampaignFolder(const std::filesystem::path& destination, const domain::Campaign& campaign,
                  std::vector<std::string> formats, Say say);
 
-  /// The same for a process that helps the one which has opened it: nothing is locked, looked at or said.
-  CampaignFolder(const std::filesystem::path& destination, const domain::Campaign& campaign,
-                 std::vector<std::string> formats);
-
-  /// All runs of the campaign, and those that were not on disk, as they were written, when it was opened.
+  /// All runs of the campaign.
   const std::vector<run::CampaignJob>& jobs() const { return jobs_; }
-  const std::vector<run::CampaignJob>& missing() const { return missing_; }
   std::filesystem::path unfinished() const { return unfinished_; }
 
   /// Whether a run is on disk, as it was written or since it was opened.
@@ -55,8 +51,7 @@ class CampaignFolder {
   const std::filesystem::path& truth() const { return truth_; }
 
  private:
-  void open();
-  void find_missing();
+  void remove_damaged() const;
   Digests write_rest(const std::vector<run::EndedRun>& runs, const Report& report) const;
 
   formats::Table table_of(const run::CampaignRun& run, const char* what,
@@ -66,8 +61,9 @@ class CampaignFolder {
 
   const domain::Campaign& campaign_;
   std::vector<std::string> formats_;
-  std::vector<run::CampaignJob> jobs_, missing_;
+  std::vector<run::CampaignJob> jobs_;
   std::filesystem::path destination_, truth_, unfinished_;
+  std::string plan_;
   Say say_;
   std::vector<Lock> locks_;
 };

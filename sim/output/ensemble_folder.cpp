@@ -12,7 +12,6 @@
 #include <sim/output/grid.hpp>
 #include <sim/output/json_parts.hpp>
 #include <sim/output/manifest.hpp>
-#include <sim/output/publication.hpp>
 #include <sim/output/run_files.hpp>
 
 namespace mckibben::output {
@@ -21,8 +20,7 @@ namespace {
 
 using input::Json;
 
-constexpr const char *ensemble_plan_file = "plan.json", *ensemble_file = "ensemble.nc",
-                     *document_file = "ensemble.json";
+constexpr const char *ensemble_file = "ensemble.nc", *document_file = "ensemble.json";
 constexpr std::size_t most_failures_told = 20;
 
 /// Everything that the bytes depend on.
@@ -58,18 +56,18 @@ formats::RunsLayout layout_of(const domain::Campaign& campaign, const run::Ensem
   return layout;
 }
 
-/// Whether everything in OUT.unfinished is an ensemble's.
-bool is_an_ensembles(const fs::path& folder) {
-  const auto plan = read_regular(folder / ensemble_plan_file);
-  if (!plan || plan->find("mckibben-ensemble-plan/") == std::string::npos) return false;
-  FileNames names{ensemble_plan_file, record_name};
+/// What OUT.unfinished with this plan may hold for us to remove it.
+FileNames files_in(const fs::path& folder, const std::string& plan) {
+  if (plan.find("mckibben-ensemble-plan/") == std::string::npos) return {};
+  FileNames names{plan_name, record_name};
   for (const char* name : {ensemble_file, document_file, manifest_name})
     names.insert(std::string("data/") + name);
-  for (const auto& entry : fs::directory_iterator(folder / "blocks"))
+  std::error_code none;
+  for (const auto& entry : fs::directory_iterator(folder / "blocks", none))
     if (const auto name = entry.path().filename();
         name.string().find_first_not_of("0123456789.part") == std::string::npos)
       names.insert("blocks/" + name.string());
-  return holds_only(folder, names);
+  return names;
 }
 
 }  // namespace
@@ -87,47 +85,32 @@ double Moments::deviation() const {
   return runs < 2 ? 0.0 : std::sqrt(squares / static_cast<double>(runs - 1));
 }
 
-EnsembleFolder::EnsembleFolder(const fs::path& destination, const domain::Campaign& campaign, run::Keep keep)
+EnsembleFolder::EnsembleFolder(const fs::path& destination, const domain::Campaign& campaign, run::Keep keep,
+                               Say say)
     : campaign_(campaign),
       keep_(keep),
       shape_(campaign, keep),
       destination_(result_path(destination)),
       unfinished_(result_path(destination_.string() + ".unfinished")),
-      moments_(shape_.of_run.size()) {}
-
-EnsembleFolder::EnsembleFolder(const fs::path& destination, const domain::Campaign& campaign, run::Keep keep,
-                               Say say)
-    : EnsembleFolder(destination, campaign, keep) {
-  say_ = std::move(say);
+      plan_(plan_of(campaign, shape_, keep).dump(2) + "\n"),
+      files_of_([this](const std::string& plan) { return files_in(unfinished_, plan); }),
+      say_(std::move(say)),
+      moments_(shape_.of_run.size()) {
+  if (!say_) return;
   for (const auto* place : {&destination_, &unfinished_})
     locks_.emplace_back(*place, "ensemble " + campaign.name);
-  writing(unfinished_, [&] { open(); });
-}
-
-void EnsembleFolder::open() {
-  const std::string plan = plan_of(campaign_, shape_, keep_).dump(2) + "\n";
-  const bool finished = finish(unfinished_, say_);
-  if (fs::exists(unfinished_) && !fs::is_empty(unfinished_)) {
-    const bool ours = is_an_ensembles(unfinished_);
-    if (ours && !finished && read_regular(unfinished_ / ensemble_plan_file) == plan) {
+  writing(unfinished_, [&] {
+    if (resume(unfinished_, plan_, files_of_, say_))
       say_(fmt::format("{}: {} of {} runs are there already; going on", unfinished_.string(), runs_there(),
                        shape_.runs));
-    } else if (ours) {
-      remove_folder(unfinished_, {ensemble_plan_file});
-      if (!finished)
-        say_(fmt::format("{} was of another campaign or version; starting anew", unfinished_.string()));
-    } else {
-      clear(unfinished_, {}, {}, unfinished_, say_);
-    }
-  }
-  write_whole(unfinished_ / ensemble_plan_file, plan);
-  fs::create_directories(unfinished_ / "blocks");
-  fs::create_directories(unfinished_ / "data");
-  file_.emplace(unfinished_ / "data" / ensemble_file, layout_of(campaign_, shape_));
+    fs::create_directories(unfinished_ / "blocks");
+    fs::create_directories(unfinished_ / "data");
+    file_.emplace(unfinished_ / "data" / ensemble_file, layout_of(campaign_, shape_));
+  });
 }
 
 std::string EnsembleFolder::key() const {
-  return input::sha256_hex(plan_of(campaign_, shape_, keep_).dump());
+  return input::sha256_hex(plan_);
 }
 
 fs::path EnsembleFolder::file_of(std::size_t block) const {
@@ -240,14 +223,12 @@ std::string EnsembleFolder::table() const {
 void EnsembleFolder::publish() {
   file_->close();
   writing(unfinished_, [&] {
-    const fs::path data = unfinished_ / "data";
-    const std::string text = document();
-    write_staged(data / document_file, text);
-    const std::string job = "ensemble " + campaign_.name;
-    seal(data, job,
-         {{document_file, input::sha256_hex(text)}, {ensemble_file, digest_of(data / ensemble_file)}});
-    for (const Aside& aside : put_in_place(unfinished_, {{"data", destination_, job}})) say_(to_text(aside));
-    if (!is_on_its_way(unfinished_)) remove_folder(unfinished_, {ensemble_plan_file});
+    const std::string text = document(), data = "data/";
+    write_staged(unfinished_ / data / document_file, text);
+    publish_resumed(unfinished_, {{"data", destination_, "ensemble " + campaign_.name}},
+                    {{data + document_file, input::sha256_hex(text)},
+                     {data + ensemble_file, digest_of(unfinished_ / data / ensemble_file)}},
+                    files_of_, say_);
   });
 }
 

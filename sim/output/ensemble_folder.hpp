@@ -32,10 +32,11 @@ struct Moments {
 
 class EnsembleFolder {
  public:
-  /// Opens OUT.unfinished, or, for a helper, only knows where it is; the same as CampaignFolder.
+  /// Opens OUT.unfinished; with no `say`, as a helper. The same as CampaignFolder.
   EnsembleFolder(const std::filesystem::path& destination, const domain::Campaign& campaign, run::Keep keep,
                  Say say);
-  EnsembleFolder(const std::filesystem::path& destination, const domain::Campaign& campaign, run::Keep keep);
+  EnsembleFolder(const EnsembleFolder&) = delete;
+  EnsembleFolder& operator=(const EnsembleFolder&) = delete;
 
   const run::EnsembleShape& shape() const { return shape_; }
   std::string key() const;
@@ -66,7 +67,6 @@ class EnsembleFolder {
   std::size_t failed() const { return failed_; }
 
  private:
-  void open();
   std::filesystem::path file_of(std::size_t block) const;
   std::optional<run::EnsembleBlock> read(const std::filesystem::path& path, std::size_t block) const;
   void count(const run::EnsembleBlock& block);
@@ -75,7 +75,9 @@ class EnsembleFolder {
   run::Keep keep_;
   run::EnsembleShape shape_;
   std::filesystem::path destination_, unfinished_;
-  Say say_{};
+  std::string plan_;
+  FilesOf files_of_;
+  Say say_;
   std::vector<Lock> locks_;
   std::optional<formats::NetcdfRuns> file_;
   std::size_t gathered_ = 0, failed_ = 0;

@@ -15,7 +15,6 @@
 
 #include <sim/input/hash.hpp>
 #include <sim/output/folder.hpp>
-#include <sim/output/publication.hpp>
 
 namespace mckibben::output {
 namespace fs = std::filesystem;
@@ -39,6 +38,29 @@ FileNames names_begun(const fs::path& container) {
   return names;
 }
 
+/// Completes what a killed program was putting in place from a container; whether there was any.
+bool finish(const fs::path& container, const Say& say) {
+  if (!is_on_its_way(container)) return false;
+  const auto asides = complete(container);
+  say("an earlier run was killed while its result took its place; that is completed now");
+  for (const Aside& aside : asides) say(to_text(aside));
+  return true;
+}
+
+/// Removes a container that holds nothing but these files, `last` of them last; else renames it to the first
+/// free name after `otherwise` and says so. Whether it was removed.
+bool clear(const fs::path& container, const FileNames& names, const FileNames& last,
+           const fs::path& otherwise, const Say& say) {
+  if (fs::is_directory(fs::symlink_status(container)) && holds_only(container, names)) {
+    remove_folder(container, last);
+    return true;
+  }
+  const fs::path aside = first_free(otherwise);
+  rename_new(container, aside);
+  say(fmt::format("{} held other files and is now {}", container.string(), aside.string()));
+  return false;
+}
+
 }  // namespace
 
 fs::path result_path(const fs::path& wanted) {
@@ -59,24 +81,34 @@ fs::path result_path(const fs::path& wanted) {
   return path;
 }
 
-bool finish(const fs::path& container, const Say& say) {
-  if (!is_on_its_way(container)) return false;
-  const auto asides = complete(container);
-  say("an earlier run was killed while its result took its place; that is completed now");
-  for (const Aside& aside : asides) say(to_text(aside));
-  return true;
+bool resume(const fs::path& container, const std::string& plan, const FilesOf& files_of, const Say& say) {
+  const bool finished = finish(container, say);
+  if (fs::exists(container) && !fs::is_empty(container)) {
+    const std::string found = read_regular(container / plan_name).value_or("");
+    if (found == plan && !finished) return true;
+    if (clear(container, files_of(found), {plan_name}, container, say) && !finished)
+      say(fmt::format("{} was of another campaign or version; starting anew", container.string()));
+  }
+  write_whole(container / plan_name, plan);
+  return false;
 }
 
-bool clear(const fs::path& container, const FileNames& names, const FileNames& last,
-           const fs::path& otherwise, const Say& say) {
-  if (fs::is_directory(fs::symlink_status(container)) && holds_only(container, names)) {
-    remove_folder(container, last);
-    return true;
+void publish(const fs::path& container, const std::vector<Move>& moves, const Digests& files,
+             const Say& say) {
+  for (const Move& move : moves) {
+    Digests below;
+    for (const auto& [name, digest] : files)
+      if (name.starts_with(move.folder + "/")) below[name.substr(move.folder.size() + 1)] = digest;
+    seal(container / move.folder, move.job, below);
   }
-  const fs::path aside = first_free(otherwise);
-  rename_new(container, aside);
-  say(fmt::format("{} held other files and is now {}", container.string(), aside.string()));
-  return false;
+  for (const Aside& aside : put_in_place(container, moves)) say(to_text(aside));
+}
+
+void publish_resumed(const fs::path& container, const std::vector<Move>& moves, const Digests& files,
+                     const FilesOf& files_of, const Say& say) {
+  publish(container, moves, files, say);
+  if (is_on_its_way(container)) return;
+  clear(container, files_of(read_regular(container / plan_name).value_or("")), {plan_name}, container, say);
 }
 
 ResultFolder::ResultFolder(std::string job, Say say) : job_(std::move(job)), say_(std::move(say)) {}
@@ -116,15 +148,14 @@ void ResultFolder::go_to(const fs::path& destination) {
 
 void ResultFolder::write(const std::string& name, const std::string& content) {
   if (const int failed = write_all(begun_.number(), name + "\n")) cannot_write(container_, failed);
-  write_staged(container_ / result_name / name, content);
-  files_[name] = input::sha256_hex(content);
+  const std::string path = fmt::format("{}/{}", result_name, name);
+  write_staged(container_ / path, content);
+  files_[path] = input::sha256_hex(content);
 }
 
 void ResultFolder::publish() {
   writing(destination_, [&] {
-    seal(container_ / result_name, job_, files_);
-    for (const Aside& aside : put_in_place(container_, {{result_name, destination_, job_}}))
-      say_(to_text(aside));
+    output::publish(container_, {{result_name, destination_, job_}}, files_, say_);
   });
 }
 

@@ -11,6 +11,7 @@
 #include <sim/output/file.hpp>
 #include <sim/output/lock.hpp>
 #include <sim/output/manifest.hpp>
+#include <sim/output/publication.hpp>
 
 namespace mckibben::output {
 
@@ -22,13 +23,25 @@ using Say = std::function<void(const std::string&)>;
 /// or if it is the current folder or holds it.
 std::filesystem::path result_path(const std::filesystem::path& wanted);
 
-/// Completes what a killed program was putting in place from a container, and says so; whether there was any.
-bool finish(const std::filesystem::path& container, const Say& say);
+/// The files that a container may hold whose plan is this text, for us to remove them.
+using FilesOf = std::function<FileNames(const std::string& plan)>;
 
-/// Removes a container that holds nothing but these files, `last` of them last; else renames it to the first
-/// free name after `otherwise` and says so. Whether it was removed.
-bool clear(const std::filesystem::path& container, const FileNames& names, const FileNames& last,
-           const std::filesystem::path& otherwise, const Say& say);
+inline constexpr const char* plan_name = "plan.json";  ///< in a container: whose pieces it holds
+
+/// Opens a container whose result is made piece by piece, so that a job that was interrupted resumes.
+/// Completes what a killed program was putting in place; keeps what is there if its plan is the same; removes
+/// what was made by another plan; renames what holds other files; says so. Whether anything was kept.
+bool resume(const std::filesystem::path& container, const std::string& plan, const FilesOf& files_of,
+            const Say& say);
+
+/// Lets folders of a container take their places: all or none. `files`: all that they hold, named from the
+/// container. Says what was set aside. Throws CannotWrite.
+void publish(const std::filesystem::path& container, const std::vector<Move>& moves, const Digests& files,
+             const Say& say);
+
+/// The same of one that was resumed; then removes it, or renames it if it holds other files.
+void publish_resumed(const std::filesystem::path& container, const std::vector<Move>& moves,
+                     const Digests& files, const FilesOf& files_of, const Say& say);
 
 /// Does something with `path`; what the file system objects to becomes CannotWrite.
 template <class Work>
