@@ -22,7 +22,7 @@ namespace mckibben::plant {
 template <class S>
 struct Moment : SideMoment<S> {
   S guide_force_N;          // c v
-  S bench_force_N;          // what gives the muscle its length, where something does
+  S bench_force_N;          // of what gives the muscle its length, or pulls on the joint from outside
   S acceleration_m_per_s2;  // dv/dt
   SideMoment<S> opposite;
 };
@@ -228,7 +228,8 @@ template <int sides, class S, class H>
 void PlantOf<P>::joint_balance(const State<S>& state, const HeldOf<H>& held, Moment<S>& now) const {
   using std::sin;
   now.guide_force_N = -damping_N_s_per_m_ * now.speed_m_per_s;
-  S others = now.braid_force_N + now.stop_force_N + now.guide_force_N - weight_N() + now.effects_pull_N;
+  S others = now.braid_force_N + now.stop_force_N + now.guide_force_N - weight_N() + now.effects_pull_N -
+             held.joint_force_N;
   if constexpr (sides == 2) {
     const S lean = (state.joint.contraction_ratio - link_.contraction_ratio) *
                        (side_.braid().rest_length_m() / radius_m_) -
@@ -247,7 +248,7 @@ void PlantOf<P>::joint_balance(const State<S>& state, const HeldOf<H>& held, Mom
     }
   }
   const S all = others + friction_force_N<sides>(now);
-  now.bench_force_N = held.length_is_given ? S(-all) : S(0.0);
+  now.bench_force_N = (held.length_is_given ? S(-all) : S(0.0)) - held.joint_force_N;
   now.acceleration_m_per_s2 = held.length_is_given ? S(0.0) : S(all / mass_kg_);
 }
 

@@ -54,7 +54,7 @@ std::string_view SideOf<P>::law_without_number(const Stroke<double>& stroke,
                                                const SideState<double>& state) const {
   SideMoment<double> now{};
   now.speed_m_per_s = braid_.rest_length_m() * stroke.speed_per_s;
-  const HeldSide held{state.valve_pressure_Pa, 0.0, {}};
+  const HeldSide held{.reference_pressure_Pa = state.valve_pressure_Pa};
   return rig_.effects.laws.without_number(instant(stroke, state, held, now));
 }
 

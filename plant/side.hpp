@@ -125,6 +125,9 @@ class SideOf {
   template <class S, class H>
   void valve_flows(const Stroke<S>& stroke, const SideState<S>& state, const SideMemory<S>& memory,
                    const HeldSideOf<H>& held, SideMoment<S>& now) const;
+  template <class S, class H>
+  void given_flows(const Stroke<S>& stroke, const SideState<S>& state, const HeldSideOf<H>& held,
+                   SideMoment<S>& now) const;
   template <class S>
   static Inflow<S> inflow(const Stroke<S>& stroke, const SideMoment<S>& now, const S& supply_flow) {
     return {now.wanted_opening, supply_flow,   now.hose_flow,
@@ -239,6 +242,28 @@ void SideOf<P>::valve_flows(const Stroke<S>& stroke, const SideState<S>& state, 
   now.vent_flow = select(fills, S(0.0), S(-flow));
 }
 
+// Whatever keeps a given pressure brings the gas that this takes.
+template <class P>
+template <class S, class H>
+void SideOf<P>::given_flows(const Stroke<S>& stroke, const SideState<S>& state, const HeldSideOf<H>& held,
+                            SideMoment<S>& now) const {
+  const P& atmosphere = rig_.gas.atmosphere_Pa;
+  const S muscle_Pa = state.muscle_pressure_Pa + atmosphere;
+  const P n = effects_ ? rig_.effects.gas_exponent() : P(1.0);
+  now.pressure_error_Pa = now.wanted_opening = now.valve_opening = now.vent_flow = S(0.0);
+  if (held.given == GivenPressure::muscle) {
+    now.hose_flow = (now.volume_m3 * (held.pressure_rate_Pa_per_s / n) +
+                     muscle_Pa * now.volume_slope_m3 * stroke.speed_per_s) /
+                        gas_energy_J_per_kg_ +
+                    now.leak_flow;
+    now.supply_flow = now.hose_flow;
+  } else {
+    now.hose_flow = hose_.flow_kg_per_s(S(state.valve_pressure_Pa + atmosphere), muscle_Pa);
+    now.supply_flow =
+        now.hose_flow + rig_.valve.volume_m3 * (held.pressure_rate_Pa_per_s / n) / gas_energy_J_per_kg_;
+  }
+}
+
 template <class P>
 template <class S, class H>
 void SideOf<P>::gas_balance(const Stroke<S>& stroke, const SideState<S>& state, const SideMemory<S>& memory,
@@ -250,20 +275,12 @@ void SideOf<P>::gas_balance(const Stroke<S>& stroke, const SideState<S>& state, 
   now.leak_flow = S(0.0);
   if (effects_) now.leak_flow = rig_.effects.outflow_kg_per_s(instant(stroke, state, held, now), memory);
 
-  if (held.pressure_rate_Pa_per_s) {  // whatever keeps the pressure brings the gas that this takes
-    const S muscle_Pa = state.muscle_pressure_Pa + rig_.gas.atmosphere_Pa;
-    const P n = effects_ ? rig_.effects.gas_exponent() : P(1.0);
-    now.pressure_error_Pa = now.wanted_opening = now.valve_opening = now.vent_flow = S(0.0);
-    now.hose_flow = (now.volume_m3 * (*held.pressure_rate_Pa_per_s / n) +
-                     muscle_Pa * now.volume_slope_m3 * stroke.speed_per_s) /
-                        gas_energy_J_per_kg_ +
-                    now.leak_flow;
-    now.supply_flow = now.hose_flow;
-  } else {
+  if (held.given == GivenPressure::none)
     valve_flows(stroke, state, memory, held, now);
-  }
+  else
+    given_flows(stroke, state, held, now);
   now.heating_Pa_per_s = S(0.0);
-  if (effects_ && !held.pressure_rate_Pa_per_s)
+  if (effects_ && held.given != GivenPressure::muscle)
     now.heating_Pa_per_s = rig_.effects.heating_Pa_per_s(instant(stroke, state, held, now),
                                                          inflow(stroke, now, now.supply_flow), memory);
 }

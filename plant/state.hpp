@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <optional>
 
 #include <plant/effects.hpp>
 
@@ -51,7 +50,7 @@ struct Ledger {
   S guide_work_J;            ///< taken by the load guide, or by the bearings of a pair
   S stop_work_J;             ///< done by the taut threads on the load
   S effects_work_J;          ///< done by the pull of effects on the load
-  S bench_work_J;            ///< done on the cord by what gives the muscle its length
+  S bench_work_J;            ///< done on the cord by what gives the muscle its length, or pulls from outside
   // Only where the gas is polytropic; else pressures and volumes tell what is there.
   S valve_air_kg, muscle_air_kg;  ///< what is there, not a sum
   S air_inflow_J;                 ///< R T of all that came less what went, as the gas law counts it
@@ -83,13 +82,16 @@ struct Imbalance {
 /// Motion of a joint with Coulomb friction; `sticking` also means "not Coulomb's business" for LuGre threads.
 enum class Slip { sticking, rising, falling };
 
+/// Which pressure of a side is given, if one is. What lies upstream of it does not exist then.
+enum class GivenPressure { none, valve, muscle };
+
 /// What is constant on one side between two ticks or events.
 template <class P>
 struct HeldSideOf {
   P reference_pressure_Pa = 0.0;   ///< P_ref, gauge
   P current_speed_mA_per_s = 0.0;  ///< nu of T 4.6: change of the held current over the last tick
-  /// Where the muscle's pressure is given, valve and hose do not exist: how fast it runs to its next value.
-  std::optional<P> pressure_rate_Pa_per_s{};
+  GivenPressure given = GivenPressure::none;
+  P pressure_rate_Pa_per_s = 0.0;  ///< how fast a given pressure runs to its next value
 };
 using HeldSide = HeldSideOf<double>;
 
@@ -98,6 +100,7 @@ struct HeldOf : HeldSideOf<P> {
   Slip slip = Slip::sticking;
   /// The muscle's length is given: w stays what it is, whatever force that takes.
   bool length_is_given = false;
+  P joint_force_N = 0.0;  ///< on the cord from outside, beside the load: positive lengthens the first muscle
   HeldSideOf<P> opposite{};
 };
 using Held = HeldOf<double>;

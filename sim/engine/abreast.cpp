@@ -257,12 +257,8 @@ namespace {
 void put_side(const plant::HeldSide& held, std::size_t lane, plant::HeldSideOf<Lanes>& all) {
   all.reference_pressure_Pa.set(lane, held.reference_pressure_Pa);
   all.current_speed_mA_per_s.set(lane, held.current_speed_mA_per_s);
-  if (held.pressure_rate_Pa_per_s) {
-    if (!all.pressure_rate_Pa_per_s) all.pressure_rate_Pa_per_s = Lanes(0.0);
-    all.pressure_rate_Pa_per_s->set(lane, *held.pressure_rate_Pa_per_s);
-  } else {
-    all.pressure_rate_Pa_per_s.reset();
-  }
+  all.given = held.given;
+  all.pressure_rate_Pa_per_s.set(lane, held.pressure_rate_Pa_per_s);
 }
 
 }  // namespace
@@ -271,6 +267,7 @@ void put(const plant::Held& held, std::size_t lane, plant::HeldOf<Lanes>& all) {
   put_side(held, lane, all);
   put_side(held.opposite, lane, all.opposite);
   all.length_is_given = held.length_is_given;
+  all.joint_force_N.set(lane, held.joint_force_N);
 }
 
 std::optional<Kind> kind_of(std::span<const plant::Rig* const> party) {

@@ -179,7 +179,8 @@ class Linearising {
 
 Linear linearise(const plant::Plant& plant, const Flow& at, const plant::Held& held,
                  const std::array<double, 2>& current_mA) {
-  if (held.length_is_given || held.pressure_rate_Pa_per_s || held.opposite.pressure_rate_Pa_per_s)
+  constexpr auto none = plant::GivenPressure::none;
+  if (held.length_is_given || held.given != none || held.opposite.given != none)
     throw std::invalid_argument("linearise: a pressure or the length is given; it wants currents alone");
   if (plant.has_events() && held.slip == plant::Slip::sticking)
     throw std::invalid_argument("linearise: the load sticks (Coulomb friction), and has no slopes");

@@ -143,12 +143,8 @@ std::optional<ConvoyClass> convoy_class(std::span<const plant::Rig* const> rigs,
   if (!kind) return std::nullopt;
   const bool remembers =
       std::any_of(rigs.begin(), rigs.end(), [](const plant::Rig* rig) { return rig->remembers(); });
-  return ConvoyClass{remembers,
-                     keep_ledger,
-                     settings.method,
-                     settings.tolerance,
-                     drive.muscle_pressure_Pa.has_value(),
-                     drive.contraction_ratio.has_value(),
+  return ConvoyClass{remembers,          keep_ledger,   settings.method,
+                     settings.tolerance, drive.given(), drive.contraction_ratio.has_value(),
                      *std::move(kind)};
 }
 

@@ -38,13 +38,13 @@ struct ConvoyClass {
   bool remembers = false, keep_ledger = false;
   solver::Method method{};
   double tolerance = 0.0;
-  bool pressure_is_given = false, length_is_given = false;
+  plant::GivenPressure given{};
+  bool length_is_given = false;
   engine::Kind kind{};
 
   bool operator<(const ConvoyClass& other) const {
     const auto all = [](const ConvoyClass& c) {
-      return std::tie(c.remembers, c.keep_ledger, c.method, c.tolerance, c.pressure_is_given,
-                      c.length_is_given, c.kind);
+      return std::tie(c.remembers, c.keep_ledger, c.method, c.tolerance, c.given, c.length_is_given, c.kind);
     };
     return all(*this) < all(other);
   }

@@ -40,15 +40,25 @@ void feel(const plant::Side& side, Command command, double now_s, PastCommands& 
 
 /// What is held of a side until the next instant, `length_s` away.
 void hold_side(const plant::Side& side, const Command& before, const Command& now, double now_s,
-               double pressure_Pa, double length_s, PastCommands& past, plant::Effects::Plays& plays,
-               plant::HeldSide& held) {
+               const plant::SideState<double>& state, double length_s, PastCommands& past,
+               plant::Effects::Plays& plays, plant::HeldSide& held) {
   held.current_speed_mA_per_s = (now.current_mA - before.current_mA) / length_s;
   if (side.rig().effects.command_delay_s() > 0.0)
     past.give({now_s, now.current_mA, held.current_speed_mA_per_s});
   feel(side, now, now_s, past, plays, held);
-  held.pressure_rate_Pa_per_s.reset();
-  if (now.muscle_pressure_Pa)
-    held.pressure_rate_Pa_per_s = (*now.muscle_pressure_Pa - pressure_Pa) / length_s;
+  held.given = now.given();
+  if (held.given == plant::GivenPressure::muscle)
+    held.pressure_rate_Pa_per_s = (*now.muscle_pressure_Pa - state.muscle_pressure_Pa) / length_s;
+  else if (held.given == plant::GivenPressure::valve)
+    held.pressure_rate_Pa_per_s = (*now.valve_pressure_Pa - state.valve_pressure_Pa) / length_s;
+}
+
+/// A given pressure is reached to the last bit.
+void take_given(const Command& drive, plant::SideState<double>& state) {
+  if (drive.muscle_pressure_Pa)
+    state.muscle_pressure_Pa = *drive.muscle_pressure_Pa;
+  else if (drive.valve_pressure_Pa)
+    state.valve_pressure_Pa = *drive.valve_pressure_Pa;
 }
 
 /// Of a muscle whose length is given: what the bench says, by its zero.
@@ -65,13 +75,15 @@ void Rider::start(const Drive& given, double at_s) {
   now.opposite_commands.begin(drive.opposite.current_mA);
   plant_.rig().effects.wheel_m(0.0, now.plays);
   const auto full = [](const plant::Side& side, const Command& command, plant::Effects::Plays& plays) {
-    return command.muscle_pressure_Pa.value_or(reference_Pa(side, command, plays));
+    const double reference = reference_Pa(side, command, plays);
+    return command.muscle_pressure_Pa.value_or(command.valve_pressure_Pa.value_or(reference));
   };
   plant::Held& held = now.held;
   held.reference_pressure_Pa = full(plant_.side(), drive, now.plays);
   if (plant_.opposite())
     held.opposite.reference_pressure_Pa = full(*plant_.opposite(), drive.opposite, now.opposite_plays);
   held.length_is_given = drive.contraction_ratio.has_value();
+  held.joint_force_N = drive.joint_force_N;
   engine::Flow& flow = now.flow = {.state = plant_.at_rest(held)};
   if (drive.contraction_ratio) {
     // A muscle that a bench has held at a length has got used to it.
@@ -93,13 +105,13 @@ void Rider::hold(const Drive& given, double until_s) {
   const double length_s = until_s - now.time_s;
   plant::Held& held = now.held;
   engine::Flow& flow = now.flow;
-  hold_side(plant_.side(), now.drive, drive, now.time_s, flow.state.side.muscle_pressure_Pa, length_s,
-            now.commands, now.plays, held);
+  hold_side(plant_.side(), now.drive, drive, now.time_s, flow.state.side, length_s, now.commands, now.plays,
+            held);
   if (plant_.opposite())
-    hold_side(*plant_.opposite(), now.drive.opposite, drive.opposite, now.time_s,
-              flow.state.opposite.muscle_pressure_Pa, length_s, now.opposite_commands, now.opposite_plays,
-              held.opposite);
+    hold_side(*plant_.opposite(), now.drive.opposite, drive.opposite, now.time_s, flow.state.opposite,
+              length_s, now.opposite_commands, now.opposite_plays, held.opposite);
   held.length_is_given = drive.contraction_ratio.has_value();
+  held.joint_force_N = drive.joint_force_N;
   if (drive.contraction_ratio) {
     const double wanted = given_ratio(plant_.rig(), *drive.contraction_ratio);
     const double speed_per_s = (wanted - flow.state.joint.contraction_ratio) / length_s;
@@ -143,9 +155,8 @@ bool Rider::arrive(double at_s) {
   plant::State<double>& state = now.flow.state;
   if (now.drive.contraction_ratio)
     state.joint.contraction_ratio = given_ratio(plant_.rig(), *now.drive.contraction_ratio);
-  if (now.drive.muscle_pressure_Pa) state.side.muscle_pressure_Pa = *now.drive.muscle_pressure_Pa;
-  if (now.drive.opposite.muscle_pressure_Pa)
-    state.opposite.muscle_pressure_Pa = *now.drive.opposite.muscle_pressure_Pa;
+  take_given(now.drive, state.side);
+  take_given(now.drive.opposite, state.opposite);
   look();
   return true;
 }

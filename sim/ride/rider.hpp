@@ -2,7 +2,7 @@
 //
 //   x-         state that was reached; what the instruments see of it
 //   hold       held = { play(P_ref(i)) + stray, nu = change of i / length of the step } of each side, or the
-//              slope of a pressure that is given; w of a length that is given
+//              slope of a pressure that is given; w of a length that is given; a force on the joint
 //              Coulomb friction: a load that sticks is judged anew
 //   moment     forces and flows at (x-, held)
 //   (an integrator carries x- to x+; where commands come late, from one that is felt to the next)
@@ -33,19 +33,26 @@ struct Paired {
 };
 
 /// What acts on a muscle from outside, from one instant to the next: a command, or in its place the pressure
-/// that the muscle has at the end, and runs straight to.
+/// that the valve's volume or the muscle has at the end, and runs straight to.
 struct Command {
   double current_mA = 0.0;         ///< as a DAC gives it
   double stray_current_mA = 0.0;   ///< reaches the valve besides, and is in no table
   double stray_pressure_Pa = 0.0;  ///< on the reference that the valve follows, in the end
   std::optional<double> muscle_pressure_Pa{};
+  std::optional<double> valve_pressure_Pa{};  ///< where that of the muscle is not given
+
+  plant::GivenPressure given() const {
+    if (muscle_pressure_Pa) return plant::GivenPressure::muscle;
+    return valve_pressure_Pa ? plant::GivenPressure::valve : plant::GivenPressure::none;
+  }
 };
 
 /// What acts on a rig: on its muscle, on the opposite one of a pair, on the joint a bench that gives the
-/// (first) muscle the length that it has at the end, straight.
+/// (first) muscle the length that it has at the end, straight, or a force on the cord beside the load.
 struct Drive : Command {
   std::optional<double> contraction_ratio{};
   Command opposite{};
+  double joint_force_N = 0.0;  ///< held until then; positive lengthens the (first) muscle
 };
 
 /// What instruments see at an instant, before they count or round.

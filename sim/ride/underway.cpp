@@ -65,11 +65,12 @@ void set_off(Rider& rider, const Underway& seen) {
   const double speed_m_per_s = seen.speed_m_per_s + late_s * seen.acceleration_m_per_s2;
   const double rise_m = stood_m + 0.5 * late_s * (seen.speed_m_per_s + speed_m_per_s);
   state.joint = {rise_m / length_m, speed_m_per_s / length_m};
-  if (now.drive.muscle_pressure_Pa)
-    now.held.pressure_rate_Pa_per_s = 0.0;
-  else if (seen.muscle_pressure_Pa)
-    state.side.valve_pressure_Pa = state.side.muscle_pressure_Pa =
-        plant.rig().effects.true_Pa(*seen.muscle_pressure_Pa);
+  now.held.given = now.drive.given();
+  now.held.pressure_rate_Pa_per_s = 0.0;
+  if (!now.drive.muscle_pressure_Pa && seen.muscle_pressure_Pa) {
+    state.side.muscle_pressure_Pa = plant.rig().effects.true_Pa(*seen.muscle_pressure_Pa);
+    if (!now.drive.valve_pressure_Pa) state.side.valve_pressure_Pa = state.side.muscle_pressure_Pa;
+  }
   Memories all;
   all.fill(true);
   rest_memories(rider, at_rest, seen.memories, all);

@@ -1,5 +1,6 @@
 // Two muscles on one wheel, muscles at given pressure and at given length: nothing is lost, what is saved
 // goes on to the same bits, both kinds of friction, the effects.
+#include <array>
 #include <cmath>
 #include <stdexcept>
 
@@ -35,10 +36,27 @@ Drive pulling(double at_s) {
   return drive;
 }
 
+/// The pressure behind the valve is given, and a hand pulls on the load besides.
+Drive blowing(double at_s) {
+  Drive drive;
+  drive.valve_pressure_Pa = 3e5 + 1e5 * std::sin(at_s);
+  drive.joint_force_N = 20.0 * std::sin(3.0 * at_s);
+  return drive;
+}
+
+/// A pair that is blown up so, its joint turned from outside.
+Drive blowing_a_pair(double at_s) {
+  Drive drive = blowing(at_s);
+  drive.opposite.valve_pressure_Pa = 3e5 - 1e5 * std::sin(at_s);
+  return drive;
+}
+
 struct Journey {
   Drive (*drive)(double);
   bool pair;
 };
+constexpr std::array journeys{Journey{turning, true}, Journey{pulling, false}, Journey{blowing, false},
+                              Journey{blowing_a_pair, true}};
 
 Ride ride_of(const Journey& journey, const plant::Rig& rig, Method method) {
   const solver::Settings settings{method, 1e-7};
@@ -48,12 +66,13 @@ Ride ride_of(const Journey& journey, const plant::Rig& rig, Method method) {
 }
 
 TEST(Drives, LoseNoGasAndNoEnergyWithOneMuscleOrTwo) {
-  for (const Journey& journey : {Journey{turning, true}, Journey{pulling, false}})
+  for (const Journey& journey : journeys)
     for (const auto method : {Method::erk, Method::cvode})
       for (const auto memory : {plant::FrictionMemory::lugre, plant::FrictionMemory::coulomb})
         for (const plant::Rig& rig : {plant::Rig{}, plant::rig_with_all_effects()}) {
           // Without a bristle nothing is left that would steer CVODE's steps: see docs/architecture.md.
-          if (!journey.pair && memory == plant::FrictionMemory::coulomb && method == Method::cvode) continue;
+          if (journey.drive == pulling && memory == plant::FrictionMemory::coulomb && method == Method::cvode)
+            continue;
           Ride ride = ride_of(journey, rubbing(rig, memory), method);
           const auto first = ride.flow().state;
           for (int k = 1; k <= 300; ++k) ride.step(journey.drive(0.01 * k), 0.01 * k);
@@ -65,7 +84,7 @@ TEST(Drives, LoseNoGasAndNoEnergyWithOneMuscleOrTwo) {
 }
 
 TEST(Drives, GoOnToTheSameBitsFromWhatWasSaved) {
-  for (const Journey& journey : {Journey{turning, true}, Journey{pulling, false}}) {
+  for (const Journey& journey : journeys) {
     Ride ride = ride_of(journey, plant::rig_with_all_effects(), Method::automatic);
     for (int k = 1; k <= 50; ++k) ride.step(journey.drive(0.01 * k), 0.01 * k);
     Ride copy = ride;
@@ -93,6 +112,47 @@ TEST(Drives, EqualMusclesHoldTheLinkWhereItHangs) {
     EXPECT_NEAR(ride.plant().angle_rad(ride.flow().state.joint.contraction_ratio), 0.0, 1e-9);
     EXPECT_NEAR(ride.moment().cord_force_N(), ride.moment().opposite.cord_force_N(), 1e-6);
     EXPECT_EQ(ride.reading().muscle_pressure_Pa, ride.reading().opposite_pressure_Pa);
+  }
+}
+
+// A force from outside carries what a load of that weight would.
+TEST(Drives, AForceOnTheJointIsAWeightWithoutMass) {
+  Ride ride(Hanging{{}, 5.0}, {Method::erk, 1e-7});
+  Drive drive;
+  drive.valve_pressure_Pa = 3e5;
+  drive.joint_force_N = 50.0;
+  ride.start(drive, 0.0);
+  for (int k = 1; k <= 400; ++k) ride.step(drive, 0.01 * k);
+  EXPECT_NEAR(ride.moment().cord_force_N(), 5.0 * 9.80665 + 50.0, 1e-4);
+  EXPECT_NEAR(ride.flow().state.side.muscle_pressure_Pa, 3e5, 1.0);
+  EXPECT_GT(ride.flow().state.joint.contraction_ratio, 0.05);
+}
+
+// What a valve made of its commands, given to a rig with another valve, fills the muscle in the same way.
+TEST(Drives, AGivenValvePressureTakesTheValvesPlace) {
+  constexpr double step_s = 0.0005;
+  Ride ride(Hanging{{}, 10.0}, {Method::erk, 1e-8});
+  plant::Rig other;
+  other.valve.conductance_m3_per_s_Pa *= 0.1;
+  other.effects.get<plant::ValveDeadBand>().half_width_Pa = 2e4;
+  Ride given(Hanging{other, 10.0}, {Method::erk, 1e-8});
+  const auto command = [](int k) {
+    Drive drive;
+    drive.current_mA = 12.0 + 4.0 * std::sin(0.0025 * k);
+    return drive;
+  };
+  const auto pressure = [&] {
+    Drive drive;
+    drive.valve_pressure_Pa = ride.flow().state.side.valve_pressure_Pa;
+    return drive;
+  };
+  ride.start(command(0), 0.0);
+  given.start(pressure(), 0.0);
+  for (int k = 0; k < 2000; ++k) {
+    ride.step(command(k), step_s * (k + 1));
+    given.step(pressure(), step_s * (k + 1));
+    ASSERT_NEAR(given.flow().state.side.muscle_pressure_Pa, ride.flow().state.side.muscle_pressure_Pa, 10.0);
+    ASSERT_NEAR(given.flow().state.joint.contraction_ratio, ride.flow().state.joint.contraction_ratio, 1e-5);
   }
 }
 
