@@ -130,7 +130,7 @@ TEST(Linear, RefusesWhatHasNoSlopes) {
   plant::Rig rig;
   const plant::Plant plant(rig, 15.0);
   plant::Held held = held_of(plant);
-  held.pressure_rate_Pa_per_s = 0.0;
+  held.given = plant::GivenPressure::muscle;
   EXPECT_THROW(linearise(plant, lifting(plant), held, currents), std::invalid_argument);
   Flow outside = lifting(plant);
   outside.state.joint.contraction_ratio = 0.9;
