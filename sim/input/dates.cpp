@@ -1,7 +1,9 @@
 // Stamps of ISO 8601, and as Excel writes them in its languages; see the header.
 #include <algorithm>
-#include <charconv>
 #include <chrono>
+#include <cstddef>
+#include <cstring>
+#include <ctime>
 
 #include <fmt/format.h>
 
@@ -13,131 +15,76 @@ namespace {
 
 constexpr double hour_s = 3600.0, minute_s = 60.0, day_s = 86400.0;
 
-/// Takes a text apart from left to right.
-class Scanner {
- public:
-  explicit Scanner(std::string_view text) : rest_(text) {}
-
-  std::optional<int> digits(std::size_t least, std::size_t most) {
-    std::size_t length = 0;
-    while (length < rest_.size() && length < most && rest_[length] >= '0' && rest_[length] <= '9') ++length;
-    int value = 0;
-    if (length < least) return std::nullopt;
-    std::from_chars(rest_.data(), rest_.data() + length, value);
-    rest_.remove_prefix(length);
-    return value;
-  }
-  /// The next letter, if it is one of these; 0 if not.
-  char one_of(std::string_view letters) {
-    if (rest_.empty() || letters.find(rest_.front()) == std::string_view::npos) return '\0';
-    const char letter = rest_.front();
-    rest_.remove_prefix(1);
-    return letter;
-  }
-  bool word(std::string_view wanted) {
-    if (!rest_.starts_with(wanted)) return false;
-    rest_.remove_prefix(wanted.size());
-    return true;
-  }
-  std::string_view rest() const { return rest_; }
-
- private:
-  std::string_view rest_;
+struct Date {
+  std::ptrdiff_t length;    ///< in letters
+  std::optional<long> day;  ///< since 1970; none where day and month cannot be told apart
 };
 
-std::optional<long> day_number(int year, int month, int day) {
-  const std::chrono::year_month_day date{std::chrono::year(year),
-                                         std::chrono::month(static_cast<unsigned>(month)),
-                                         std::chrono::day(static_cast<unsigned>(day))};
-  if (!date.ok()) return std::nullopt;
-  return std::chrono::sys_days(date).time_since_epoch().count();
+/// By the formats that fit; a day that does not exist tells which number is the month.
+std::optional<Date> date_at(const char* text) {
+  std::optional<Date> found;
+  for (const char* format :
+       {"%Y-%m-%d", "%Y/%m/%d", "%Y.%m.%d", "%d.%m.%Y", "%d/%m/%Y", "%m/%d/%Y", "%d-%m-%Y", "%m-%d-%Y"}) {
+    std::tm read{};
+    const char* const end = strptime(text, format, &read);
+    const std::chrono::year_month_day date{std::chrono::year(read.tm_year + 1900),
+                                           std::chrono::month(static_cast<unsigned>(read.tm_mon + 1)),
+                                           std::chrono::day(static_cast<unsigned>(read.tm_mday))};
+    constexpr std::chrono::year first_of_four_digits{1000};
+    if (end == nullptr || date.year() < first_of_four_digits || !date.ok()) continue;
+    const long day = std::chrono::sys_days(date).time_since_epoch().count();
+    if (!found)
+      found = {end - text, day};
+    else if (found->day != day)
+      found->day.reset();
+  }
+  return found;
 }
 
-/// 2024-05-03, 2024/05/03. False if it is none.
-bool year_first(Scanner& scan, std::optional<long>& number) {
-  const auto year = scan.digits(4, 4);
-  const char sign = scan.one_of("-/.");
-  const auto month = scan.digits(1, 2);
-  const bool same = sign != '\0' && scan.one_of({&sign, 1}) != '\0';
-  const auto day = scan.digits(1, 2);
-  if (!year || !month || !day || !same) return false;
-  number = day_number(*year, *month, *day);
-  return number.has_value();
-}
-
-/// 03.05.2024; 5/3/2024, where the larger number may tell which is the day.
-bool year_last(Scanner& scan, std::optional<long>& number) {
-  const auto one = scan.digits(1, 2);
-  const char sign = scan.one_of("./-");
-  const auto two = scan.digits(1, 2);
-  const bool same = sign != '\0' && scan.one_of({&sign, 1}) != '\0';
-  const auto year = scan.digits(4, 4);
-  if (!one || !two || !year || !same) return false;
-  const auto day_first = day_number(*year, *two, *one), month_first = day_number(*year, *one, *two);
-  if (!day_first && !month_first) return false;
-  if (sign == '.')
-    number = day_first;
-  else if (!day_first || !month_first || *one == *two)
-    number = day_first ? day_first : month_first;
-  return sign != '.' || number.has_value();
-}
-
-/// 14:22, 14:22:01.120, 2:22:01,5 PM; none if it is no time of the day.
-std::optional<double> second_of_day(Scanner& scan) {
-  const auto hour = scan.digits(1, 2);
-  if (!hour || scan.one_of(":") == '\0') return std::nullopt;
-  const auto minute = scan.digits(2, 2);
+/// Takes 14:22, 14:22:01.120 or 2:22:01,5 PM from the beginning of a text; none if it is no time of the day.
+std::optional<double> second_of_day(const char*& text) {
+  std::tm read{};
+  const char* end = strptime(text, "%H:%M", &read);
   double second = 0.0;
-  if (scan.one_of(":") != '\0') {
-    const auto whole = scan.digits(2, 2);
-    if (!whole) return std::nullopt;
-    second = *whole;
-    if (scan.one_of(".,") != '\0') {
-      std::string fraction = "0.";
-      while (const char digit = scan.one_of("0123456789")) fraction += digit;
-      second += parse_number(fraction).value_or(0.0);
+  if (end != nullptr && *end == ':') {
+    end = strptime(end, ":%S", &read);
+    second = read.tm_sec;
+    if (end != nullptr && (*end == '.' || *end == ',')) {
+      const std::size_t digits = std::strspn(end + 1, "0123456789");
+      second += parse_number("0." + std::string(end + 1, digits)).value_or(0.0);
+      end += 1 + digits;
     }
   }
-  int added = 0;
-  if (scan.word(" AM") || scan.word(" am")) added = *hour == 12 ? -12 : 0;
-  if (scan.word(" PM") || scan.word(" pm")) added = *hour == 12 ? 0 : 12;
-  if (!minute || *minute > 59 || second >= 61.0 || *hour + added > 23 || *hour + added < 0)
-    return std::nullopt;
-  return (*hour + added) * hour_s + *minute * minute_s + second;
-}
-
-/// Seconds of a zone behind a time, Z or +02:00, to be taken away.
-double zone_s(Scanner& scan) {
-  if (scan.word("Z")) return 0.0;
-  const char sign = scan.one_of("+-");
-  if (sign == '\0') return 0.0;
-  const double hours = scan.digits(2, 2).value_or(0);
-  scan.one_of(":");
-  const double minutes = scan.digits(2, 2).value_or(0);
-  return (sign == '-' ? -1.0 : 1.0) * (hours * hour_s + minutes * minute_s);
+  if (end == nullptr || second >= 61.0) return std::nullopt;
+  const std::string_view half(end, std::min<std::size_t>(3, std::strlen(end)));
+  if (half == " AM" || half == " am" || half == " PM" || half == " pm") {
+    if (read.tm_hour > 12) return std::nullopt;
+    read.tm_hour = read.tm_hour % 12 + (half[1] == 'P' || half[1] == 'p' ? 12 : 0);
+    end += half.size();
+  }
+  text = end;
+  return read.tm_hour * hour_s + read.tm_min * minute_s + second;
 }
 
 }  // namespace
 
-std::optional<ClockReader::Stamp> ClockReader::stamp_of(std::string_view text) {
-  Stamp stamp;
-  Scanner scan(text);
-  if (text.find(':') > std::min<std::size_t>(text.find_first_of("./-"), 2)) {  // a date comes first
-    Scanner other(text);
-    if (!year_first(scan, stamp.day)) {
-      stamp.day.reset();
-      if (!year_last(other, stamp.day)) return std::nullopt;
-      scan = other;
-    }
-    stamp.date = text.substr(0, text.size() - scan.rest().size());
-    if (scan.one_of("T ") == '\0') return std::nullopt;
-  } else {
-    stamp.day = 0;
+std::optional<ClockReader::Stamp> ClockReader::stamp_of(std::string_view cell) {
+  const std::string text(cell);
+  const char* at = text.c_str();
+  Stamp stamp{.day = 0};
+  if (const auto date = date_at(at)) {
+    stamp.date = text.substr(0, static_cast<std::size_t>(date->length));
+    stamp.day = date->day;
+    at += date->length;
+    if (*at != 'T' && *at != ' ') return std::nullopt;
+    ++at;
   }
-  const auto second = second_of_day(scan);
+  const auto second = second_of_day(at);
   if (!second) return std::nullopt;
-  stamp.second = *second - zone_s(scan);
-  if (!trimmed(scan.rest()).empty()) return std::nullopt;
+  std::tm zone{};  // Z or +02:00
+  if (const char* const end = strptime(at, "%z", &zone)) at = end;
+  stamp.second = *second - static_cast<double>(zone.tm_gmtoff);
+  if (!trimmed(at).empty()) return std::nullopt;
   return stamp;
 }
 

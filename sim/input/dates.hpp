@@ -22,9 +22,9 @@ class ClockReader {
 
  private:
   struct Stamp {
-    std::string date;
-    std::optional<long> day;  ///< since 1970; none where day and month cannot be told apart
-    double second = 0.0;      ///< of that day
+    std::string date{};
+    std::optional<long> day{};  ///< since 1970; none where day and month cannot be told apart
+    double second = 0.0;        ///< of that day
   };
   static std::optional<Stamp> stamp_of(std::string_view text);
 

@@ -48,6 +48,8 @@ const Kind tables[] = {
     {"dates_in_german", dated, "Zeit;Strom;Weg\n03.05.2024 14:22:01,5;4;0\n03.05.2024 14:22:01,512;4,5;3\n"},
     {"dates_in_american", dated,
      "Zeit,Strom,Weg\n5/3/2024 2:22:01.5 PM,4,0\n5/3/2024 2:22:01.512 PM,4.5,3\n"},
+    {"dates_with_zones", dated,
+     "Zeit;Strom;Weg\n2024-05-03T14:22:01.500+02:00;4;0\n2024-05-03T12:22:01.512Z;4,5;3\n"},
     {"times_of_day", dated, "Zeit,Strom,Weg\n14:22:01.5,4,0\n14:22:01.512,4.5,3\n"},
     {"dates_that_nobody_needs", german, "Datum;Zeit;Strom;Weg\n03.05.2024;0;4;0\n03.05.2024;0,012;4,5;3\n"},
 };
