@@ -5,7 +5,6 @@
 # SUNDIALS, libstdc++ and libgcc are linked statically; of Eigen and fmt the headers are enough.
 file(GLOB fmu_sources CONFIGURE_DEPENDS ${MCKIBBEN_ROOT}/plant/*.cpp ${MCKIBBEN_ROOT}/sim/engine/*.cpp
   ${MCKIBBEN_ROOT}/sim/ride/*.cpp ${MCKIBBEN_ROOT}/sim/fmu/model/*.cpp ${MCKIBBEN_ROOT}/sim/domain/rig_number.cpp)
-list(REMOVE_ITEM fmu_sources ${MCKIBBEN_ROOT}/sim/engine/versions.cpp) # which asks for shared libraries
 foreach(library arkode cvode generic)
   find_library(SUNDIALS_${library}_STATIC libsundials_${library}.a REQUIRED)
   list(APPEND fmu_static ${SUNDIALS_${library}_STATIC})

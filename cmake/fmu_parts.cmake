@@ -23,7 +23,6 @@ include(fmu.cmake)
 ")
 # What FMI 3.0 wants to know of sources.
 file(GLOB_RECURSE sources RELATIVE ${STAGE}/sources ${STAGE}/sources/*.cpp)
-list(REMOVE_ITEM sources sim/engine/versions.cpp)
 list(SORT sources)
 set(list "")
 foreach(source ${sources})

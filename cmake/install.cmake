@@ -1,4 +1,4 @@
-# What `cmake --install` and the Debian package put where: the program with its manual and completions, the rig as a
+# What `cmake --install` and the Debian package put where: the program with its manual and completion, the rig as a
 # library with its headers for find_package(mckibben), the scenarios.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
@@ -13,8 +13,7 @@ set(said ${PROJECT_BINARY_DIR}/said)
 install(CODE "execute_process(COMMAND ${CMAKE_COMMAND} -D PROGRAM=$<TARGET_FILE:mckibben> -D FOLDER=${said}
   -D VERSION=${PROJECT_VERSION} -P ${PROJECT_SOURCE_DIR}/cmake/said.cmake COMMAND_ERROR_IS_FATAL ANY)")
 install(DIRECTORY ${said}/man1 DESTINATION ${CMAKE_INSTALL_MANDIR})
-install(FILES ${said}/mckibben DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
-install(FILES ${said}/_mckibben DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions)
+install(FILES cmake/completion.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME mckibben)
 
 # The library: the rig and a ride on it (docs/library.md).
 set(library plant solver engine ride)

@@ -1,14 +1,7 @@
-# What the program says of itself, for the system: completions of both shells, and a manual page of each verb, which
-# is its --help.
+# What the program says of itself, for the system: a manual page of each verb, which is its --help.
 #   cmake -D PROGRAM=mckibben -D FOLDER=said -D VERSION=0.1.0 -P said.cmake
 file(REMOVE_RECURSE ${FOLDER})
 file(MAKE_DIRECTORY ${FOLDER}/man1)
-
-function(say file)
-  execute_process(COMMAND ${PROGRAM} ${ARGN} OUTPUT_FILE ${FOLDER}/${file} COMMAND_ERROR_IS_FATAL ANY)
-endfunction()
-say(mckibben completion bash)
-say(_mckibben completion zsh)
 
 # page(NAME ARGUMENTS...): of the program, or of one of its verbs.
 function(page name)

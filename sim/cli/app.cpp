@@ -2,8 +2,12 @@
 #include <memory>
 #include <string>
 
+#include <Eigen/Core>
+#include <fmt/format.h>
+
 #include <sim/cli/app.hpp>
 #include <sim/cli/verbs.hpp>
+#include <sim/engine/versions.hpp>
 
 namespace mckibben::cli {
 namespace {
@@ -36,6 +40,12 @@ class Help : public CLI::Formatter {
   }
 };
 
+std::string versions() {
+  return fmt::format("mckibben {}\nSUNDIALS {}, Eigen {}.{}.{}, compiler {}", MCKIBBEN_VERSION,
+                     engine::sundials_version(), EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION,
+                     EIGEN_MINOR_VERSION, __VERSION__);
+}
+
 }  // namespace
 
 CLI::App& add_verb(CLI::App& app, const char* name, const char* group, const char* what_it_does) {
@@ -49,13 +59,12 @@ void build(CLI::App& app, Asked& asked) {
   app.footer(last_words);
   app.formatter(std::make_shared<Help>());
   app.get_formatter()->label("SUBCOMMAND", "VERB ...");
-  app.set_version_flag("--version", std::string("mckibben ") + MCKIBBEN_VERSION,
-                       "Print the version and stop");
+  app.set_version_flag("--version", versions, "Print the versions of program and libraries and stop");
   app.get_help_ptr()->description("Print this help and stop");
   app.require_subcommand(1);
-  for (const auto add : {add_init, add_run, add_dataset, add_live, add_fmu, add_control, add_import,
-                         add_replay, add_diagnose, add_calibrate, add_map, add_study, add_diff, add_effects,
-                         add_check, add_schema, add_doctor, add_completion})
+  for (const auto add :
+       {add_init, add_run, add_dataset, add_live, add_fmu, add_control, add_import, add_replay, add_diagnose,
+        add_calibrate, add_map, add_study, add_diff, add_effects, add_check, add_schema})
     add(app, asked);
 }
 

@@ -1,4 +1,4 @@
-// The command line as CLI11 reads it: the one list of verbs and options from which help and completion come.
+// The command line as CLI11 reads it: the one list of verbs and options from which help comes.
 #pragma once
 
 #include <functional>

@@ -1,11 +1,11 @@
-// The verb `diff`: two folders side by side, of runs or of diagnoses.
+// The verb `diff`: two folders of `run` or of `replay` side by side.
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include <fmt/format.h>
 
-#include <sim/cli/diagnosis_folders.hpp>
 #include <sim/cli/exit_status.hpp>
 #include <sim/cli/options.hpp>
 #include <sim/cli/results.hpp>
@@ -126,33 +126,8 @@ struct DiffOptions : Options {
   std::optional<double> tolerance;  ///< largest difference of the contraction ratio that is allowed
 };
 
-/// Writes both forms where they are asked for.
-int hand_over(const DiffOptions& options, const char* file, const Json& document, const std::string& text,
-              int status) {
-  const std::string &left = options.left, &right = options.right, json = document.dump(2) + "\n";
-  Job job(options, "diff " + left + " " + right, std::nullopt,
-          {{(std::filesystem::path(left) / file).string(), ""},
-           {(std::filesystem::path(right) / file).string(), ""}});
-  job.write("diff.json", json);
-  job.write("table.txt", text);
-  return job.finish({json, text}, status);
-}
-
-int compare_two_diagnoses(const DiffOptions& options) {
-  if (options.tolerance) {
-    fmt::print(stderr, "mckibben diff: --tolerance is of trajectories; these are diagnoses\n");
-    return usage_error;
-  }
-  const DiagnosisDifference found = compare_diagnoses(options.left, options.right);
-  Json document{{"schema", "mckibben-diff/1"}, {"left", options.left}, {"right", options.right}};
-  document.update(json_of(found));
-  return hand_over(options, "diagnosis.json", document,
-                   fmt::format("left {}, right {}\n\n", options.left, options.right) + text_of(found), done);
-}
-
 int compare_folders(const DiffOptions& options) {
   const std::string &left = options.left, &right = options.right;
-  if (is_diagnosis_folder(left) || is_diagnosis_folder(right)) return compare_two_diagnoses(options);
   const FolderDifference found = compare_run_folders(left, right);
   Json document{{"schema", "mckibben-diff/1"},
                 {"left", left},
@@ -169,18 +144,22 @@ int compare_folders(const DiffOptions& options) {
                         *options.tolerance);
   }
   document.update(json_of(found));
-  return hand_over(options, "run.json", document, text, met ? done : criterion_not_met);
+  const std::string json = document.dump(2) + "\n";
+  Job job(options, "diff " + left + " " + right, std::nullopt,
+          {{(std::filesystem::path(left) / "run.json").string(), ""},
+           {(std::filesystem::path(right) / "run.json").string(), ""}});
+  job.write("diff.json", json);
+  job.write("table.txt", text);
+  return job.finish({json, text}, met ? done : criterion_not_met);
 }
 
 }  // namespace
 
 void add_diff(CLI::App& app, Asked& asked) {
-  CLI::App& verb =
-      add_verb(app, "diff", to_find_out,
-               "Compare two folders that run or replay wrote (inputs, metrics, trajectories), or two that "
-               "diagnose wrote (verdicts, sizes of effects, numbers of the rig)");
+  CLI::App& verb = add_verb(app, "diff", to_find_out,
+                            "Compare two folders that run or replay wrote: inputs, metrics, trajectories");
   DiffOptions& options = asked.when(verb, compare_folders);
-  add_input(verb, options.left, "left", "Folder that run, replay or diagnose wrote", "FOLDER");
+  add_input(verb, options.left, "left", "Folder that run or replay wrote", "FOLDER");
   add_input(verb, options.right, "right", "Another one, written by the same verb", "FOLDER");
   add_out(verb, options, "nothing is written");
   add_json(verb, options);
@@ -192,8 +171,7 @@ void add_diff(CLI::App& app, Asked& asked) {
   verb.footer(
       "Examples:\n"
       "  mckibben diff out/five_loads out/mine            what differs?\n"
-      "  mckibben diff before/ after/ --tolerance 1e-6    has anything changed? for a script\n"
-      "  mckibben diff out/in_may out/in_june             two diagnoses: what has changed in the rig?\n");
+      "  mckibben diff before/ after/ --tolerance 1e-6    has anything changed? for a script\n");
 }
 
 }  // namespace mckibben::cli

@@ -28,7 +28,5 @@ void add_diff(CLI::App& app, Asked& asked);
 void add_effects(CLI::App& app, Asked& asked);
 void add_check(CLI::App& app, Asked& asked);
 void add_schema(CLI::App& app, Asked& asked);
-void add_doctor(CLI::App& app, Asked& asked);
-void add_completion(CLI::App& app, Asked& asked);
 
 }  // namespace mckibben::cli

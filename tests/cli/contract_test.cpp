@@ -96,8 +96,6 @@ constexpr Case cases[] = {
     {0, "check quick.yaml campaign.yaml still"},
     {0, "effects"},
     {0, "schema rig"},
-    {0, "doctor"},
-    {0, "completion bash"},
     {0, "init started.yaml"},
     {1, "run strict.yaml --out r8"},
     {1, "diff a b --tolerance 0"},
@@ -120,8 +118,6 @@ constexpr Case cases[] = {
     {64, "effects nothing"},
     {64, "schema kitchen"},
     {64, "schema rig --json --format yaml"},
-    {64, "doctor --tolerance 0"},
-    {64, "completion fish"},
     {64, "init one.yaml two.yaml"},
     {64, "fmu thesis --fmi 1.0"},
     {64, "control bench.yaml --device hammer"},
@@ -160,7 +156,6 @@ constexpr Case cases[] = {
     {70,
      "map cal/calibration.yaml --rig falling_rig.yaml --load '45 kg' "
      "--extrapolate-load --ratios 1 --speeds 1 --out r13"},
-    {70, "doctor --tolerance 1e-3"},
     {74, "run quick.yaml --out file"},
     {74, "dataset campaign.yaml --out file"},
     {74, "calibrate data --out file/below"},
@@ -226,10 +221,9 @@ TEST_F(Contract, ExitStatusesAndJsonOfEveryVerb) {
 }
 
 TEST_F(Contract, WhatCannotBePrintedIs74) {
-  for (const char* arguments :
-       {"run quick.yaml", "replay still", "diagnose still", "diff a b", "check quick.yaml",
-        "check quick.yaml --json", "effects", "schema", "schema --format markdown",
-        "schema rig --format yaml", "doctor", "completion zsh", "init full.yaml"})
+  for (const char* arguments : {"run quick.yaml", "replay still", "diagnose still", "diff a b",
+                                "check quick.yaml", "check quick.yaml --json", "effects", "schema",
+                                "schema --format markdown", "schema rig --format yaml", "init full.yaml"})
     EXPECT_EQ(run(std::string(arguments) + " > /dev/full; exit $?; true").status, 74) << arguments;
 }
 
