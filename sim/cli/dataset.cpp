@@ -59,11 +59,20 @@ int make_dataset(const DatasetOptions& options) {
   domain::Campaign campaign = input::read_campaign(std::filesystem::path(options.campaign));
   if (options.seed) campaign.seed = *options.seed;
   if (!campaign.vary.absent()) {
-    if (!options.formats.empty())
-      say("warning: --format is not for campaigns that vary: they write one NetCDF file");
+    if (!options.formats.empty()) {
+      say("--format does not apply to a campaign with `vary`: it writes one NetCDF file; --keep rows or "
+          "summary says what is in it");
+      return usage_error;
+    }
     return make_ensemble(options, campaign, options.keep == "summary" ? run::Keep::summary : run::Keep::rows);
   }
-  if (!options.keep.empty()) say("warning: --keep is for campaigns that vary; this one does not");
+  if (!options.keep.empty()) {
+    say(
+        fmt::format("--keep applies to campaigns with `vary` only, and {} has none; --format chooses the "
+                    "files of its runs",
+                    options.campaign));
+    return usage_error;
+  }
   const auto where = destination(options, campaign.name);
   for (const char* suffix : {"", "-truth", ".unfinished", ".ranks"})
     keep_apart(where.string() + suffix, campaign.inputs);

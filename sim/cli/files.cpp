@@ -176,11 +176,15 @@ int check_files(const CheckOptions& options) {
 
 struct SchemaOptions : Options {
   std::string kind = "scenario";  ///< scenario, campaign, rig, dataset, pair or hypothesis
-  std::string format = "json";  ///< JSON Schema; markdown: a table; yaml: the rig `thesis`, whatever the kind
+  std::string format = "json";    ///< JSON Schema; markdown: a table; yaml: the rig `thesis`
 };
 
 int print_schema(const SchemaOptions& options) {
   const std::string &kind = options.kind, &format = options.format;
+  if (format == "yaml" && kind != "rig") {
+    say("--format yaml applies to `schema rig` only; `init` writes a scenario to start from");
+    return usage_error;
+  }
   if (format == "yaml") {
     print(input::to_yaml(input::rig_json(domain::RigFile{})));
     return done;
@@ -225,7 +229,7 @@ void add_schema(CLI::App& app, Asked& asked) {
       ->check(one_of("kind", {"scenario", "campaign", "rig", "dataset", "pair", "hypothesis"}))
       ->type_name("");
   CLI::Option* format = verb.add_option("--format", options.format,
-                                        "How to print it (default: json); yaml prints the rig "
+                                        "How to print it (default: json); yaml, of a rig only, prints "
                                         "`thesis` with every value, to start from")
                             ->check(one_of("format", {"json", "markdown", "yaml"}))
                             ->type_name("");

@@ -57,6 +57,15 @@ TEST_F(EnsembleOf, WritesOneFileWithDrawsMetricsAndRows) {
   EXPECT_NE(dumped.out.find("148, 149, 150 ;"), std::string::npos);
 }
 
+TEST_F(EnsembleOf, TakesNoFormat) {
+  write(2);
+  const auto said = run("dataset e.yaml --format mat");
+  EXPECT_EQ(said.status, 64);
+  EXPECT_NE(said.err.find("--format does not apply to a campaign with `vary`"), std::string::npos)
+      << said.err;
+  EXPECT_FALSE(fs::exists(scratch / "out"));
+}
+
 TEST_F(EnsembleOf, IsTheSameOnAnyThreadsAndRanks) {
   write(200, "{sampling: latin_hypercube, muscle.rest_radius: normal 7.5 mm ± 1 %}");
   ASSERT_EQ(run("dataset e.yaml --out one --threads 1").status, 0);
