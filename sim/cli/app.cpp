@@ -64,7 +64,7 @@ void build(CLI::App& app, Asked& asked) {
   app.require_subcommand(1);
   for (const auto add :
        {add_init, add_run, add_dataset, add_live, add_fmu, add_control, add_import, add_replay, add_diagnose,
-        add_calibrate, add_map, add_study, add_diff, add_effects, add_check, add_schema})
+        add_calibrate, add_map, add_diff, add_effects, add_check, add_schema})
     add(app, asked);
 }
 

@@ -23,7 +23,6 @@ void add_replay(CLI::App& app, Asked& asked);
 void add_diagnose(CLI::App& app, Asked& asked);
 void add_calibrate(CLI::App& app, Asked& asked);
 void add_map(CLI::App& app, Asked& asked);
-void add_study(CLI::App& app, Asked& asked);
 void add_diff(CLI::App& app, Asked& asked);
 void add_effects(CLI::App& app, Asked& asked);
 void add_check(CLI::App& app, Asked& asked);

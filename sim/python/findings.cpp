@@ -1,4 +1,5 @@
 // calibrate and diagnose: what measured runs tell.
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -69,6 +70,30 @@ Calibration calibrate(const domain::Dataset& dataset, const std::string& pressur
   });
 }
 
+py::dict coefficients_of(const Calibration& c) {
+  py::dict all;
+  for (const auto& one : c.result.calibration.details)
+    all[one.name.c_str()] = py::make_tuple(one.value, one.standard_error);
+  return all;
+}
+
+py::dict used_rows_of(const Calibration& c) {
+  py::dict all;
+  for (const domain::Run& run : c.data->runs) {
+    const thesis::ProcessedRun used = thesis::process(run, *c.data, c.options.processing);
+    if (!used.unusable.empty()) continue;
+    py::dict by_direction;
+    for (const thesis::Direction direction : thesis::directions) {
+      const auto& places = used.rows[static_cast<std::size_t>(direction)];
+      const std::vector<std::int64_t> rows(places.begin(), places.end());  // differences may be negative
+      by_direction[std::string(thesis::name_of(direction)).c_str()] =
+          py::array_t<std::int64_t>(static_cast<py::ssize_t>(rows.size()), rows.data());
+    }
+    all[run.id.c_str()] = by_direction;
+  }
+  return all;
+}
+
 struct Diagnosis {
   std::shared_ptr<const domain::Dataset> data;
   std::shared_ptr<const tasks::Found> found;
@@ -102,6 +127,12 @@ void add_calibration(py::module_& module) {
             return report::report_html(*c.data, c.result, c.options, false, thesis::figures(c.result, false));
           },
           "The text of report.html, with all figures.")
+      .def(
+          "used_rows", &used_rows_of,
+          "Places of the rows that the fits use: an array for 'contraction' and one for 'relaxation', by the "
+          "id of the run.")
+      .def_property_readonly("coefficients", &coefficients_of,
+                             "(value, standard error) of each coefficient of the calibration file, by name.")
       .def_property_readonly(
           "warnings", [](const Calibration& c) { return output::warnings_of(c.result, c.options); },
           "Fits that cannot be used, and what may help.")

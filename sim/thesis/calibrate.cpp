@@ -25,12 +25,10 @@ std::string runs_left_out(const Grid& grid) {
 }
 
 /// Too few for an order. If that is because nothing moved, more of the same would not help: the cause leads.
-[[noreturn]] void refuse_few(const domain::Dataset& dataset, const Grid& grid, const Options& options,
-                             const std::string& short_of, const char* more, const char* option,
-                             std::size_t order) {
+[[noreturn]] void refuse_few(const domain::Dataset& dataset, const Grid& grid, const std::string& short_of,
+                             const char* more, const char* option, std::size_t order) {
   const std::string still = grid.still_runs(dataset.rig.valve);
-  const std::string instead =
-      options.orders_can_be_asked ? fmt::format(", or ask for {} {}", option, order) : "";
+  const std::string instead = fmt::format(", or ask for {} {}", option, order);
   if (!still.empty()) refuse(dataset, fmt::format("{}{}. Without these runs, {}", still, instead, short_of));
   refuse(dataset, fmt::format("{}: measure {}{}{}", short_of, more, instead, runs_left_out(grid)));
 }
@@ -41,7 +39,7 @@ void check_grid(const domain::Dataset& dataset, const Grid& grid, const Options&
   const auto loads = static_cast<std::size_t>(std::min(options.orders.load, highest_load_order)) + 1;
   const auto speeds = static_cast<std::size_t>(std::min(options.orders.speed, highest_speed_order)) + 1;
   if (grid.loads_kg.size() < loads)
-    refuse_few(dataset, grid, options,
+    refuse_few(dataset, grid,
                fmt::format("a polynomial of order {} in the load (T 4.14 to 4.28) needs {} loads, and there "
                            "{} {} ({} kg{})",
                            loads - 1, loads, grid.loads_kg.size() == 1 ? "is" : "are", grid.loads_kg.size(),
@@ -54,7 +52,7 @@ void check_grid(const domain::Dataset& dataset, const Grid& grid, const Options&
       if (cell.load_kg == load_kg) found.push_back(cell.speed_mA_per_s);
     if (found.size() < speeds)
       refuse_few(
-          dataset, grid, options,
+          dataset, grid,
           fmt::format("a polynomial of order {} in the current's speed (T 4.9 to 4.13) needs {} speeds, and "
                       "with {:g} kg there {} {} ({} mA/s)",
                       speeds - 1, speeds, load_kg, found.size() == 1 ? "is" : "are", found.size(),

@@ -20,7 +20,6 @@ struct Options {
   ProcessingOptions processing;
   Orders orders;
   PressureFitting fitting = PressureFitting::joint;
-  bool orders_can_be_asked = true;  ///< whether messages may advise --load-order and --speed-order
 };
 
 struct CalibrationResult {

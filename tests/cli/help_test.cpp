@@ -98,7 +98,6 @@ TEST(DidYouMean, ForVerbsOptionsAndValues) {
            {"--json run x.yaml",
             "unknown option --json (options: -h, --help, --version; those of a verb stand"},
            {"calibrate x --fit jiont", "unknown choice jiont; did you mean joint?"},
-           {"study lga x", "unknown study lga; did you mean lag?"},
            {"schema senario", "unknown kind senario; did you mean scenario?"},
            {"schema rig --format yml", "unknown format yml; did you mean yaml?"},
            {"effects muscle_leek", "unknown effect muscle_leek; did you mean muscle_leak?"},

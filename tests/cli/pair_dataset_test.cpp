@@ -103,13 +103,5 @@ TEST_F(PairDataset, ACordThatWouldHaveToPushIsSaid) {
         << told.substr(0, 2000);
 }
 
-TEST_F(PairDataset, AStudyOfTheThesissRigRefusesIt) {
-  const auto said = run("study lag pair.yaml");
-  EXPECT_EQ(said.status, 65);
-  EXPECT_NE(said.err.find("pair.yaml: error: study cannot take it yet: the rig's two muscles"),
-            std::string::npos)
-      << said.err;
-}
-
 }  // namespace
 }  // namespace mckibben::cli

@@ -217,15 +217,6 @@ TEST(BadData, NearlyEqualLoadsAreOne) {
   EXPECT_TRUE(says(text, "loads within 0.1 % of each other are one"));
 }
 
-TEST(BadData, WhoHasNoOptionsForOrdersIsNotToldOfThem) {
-  domain::Dataset dataset = campaign();
-  std::erase_if(dataset.runs, [](const auto& run) { return run.load_kg > 17.0; });
-  Options options;
-  options.orders_can_be_asked = false;
-  EXPECT_TRUE(says(refusal(dataset, options), "measure more loads"));
-  EXPECT_FALSE(says(refusal(dataset, options), "--load-order"));
-}
-
 // A swing may carry the muscle a little beyond e_max, where the braid pulls no more.
 TEST(BadData, RowsALittleAboveTheLimitAreDroppedAndCounted) {
   domain::Dataset dataset = campaign();
