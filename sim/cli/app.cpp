@@ -62,10 +62,7 @@ void build(CLI::App& app, Asked& asked) {
   app.set_version_flag("--version", versions, "Print the versions of program and libraries and stop");
   app.get_help_ptr()->description("Print this help and stop");
   app.require_subcommand(1);
-  for (const auto add :
-       {add_init, add_run, add_dataset, add_live, add_fmu, add_control, add_import, add_replay, add_diagnose,
-        add_calibrate, add_map, add_diff, add_effects, add_check, add_schema})
-    add(app, asked);
+  for (AddVerb* add : all_verbs) add(app, asked);
 }
 
 }  // namespace mckibben::cli

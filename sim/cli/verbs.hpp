@@ -1,5 +1,5 @@
-// The verbs: each adds itself to the command line, with options of its own,
-// in the file that does what it is for.
+// The list of verbs. Each adds itself to the command line, with options of its own, in the file that does
+// what it is for. docs/add_a_part.md, "A verb", says what else a further one touches.
 #pragma once
 
 #include <sim/cli/app.hpp>
@@ -12,20 +12,13 @@ inline constexpr const char* to_compare = "Compare with measurements";
 inline constexpr const char* models_of_thesis = "The thesis's models";
 inline constexpr const char* to_find_out = "Find out";
 
-void add_init(CLI::App& app, Asked& asked);
-void add_run(CLI::App& app, Asked& asked);
-void add_dataset(CLI::App& app, Asked& asked);
-void add_fmu(CLI::App& app, Asked& asked);
-void add_control(CLI::App& app, Asked& asked);
-void add_live(CLI::App& app, Asked& asked);
-void add_import(CLI::App& app, Asked& asked);
-void add_replay(CLI::App& app, Asked& asked);
-void add_diagnose(CLI::App& app, Asked& asked);
-void add_calibrate(CLI::App& app, Asked& asked);
-void add_map(CLI::App& app, Asked& asked);
-void add_diff(CLI::App& app, Asked& asked);
-void add_effects(CLI::App& app, Asked& asked);
-void add_check(CLI::App& app, Asked& asked);
-void add_schema(CLI::App& app, Asked& asked);
+using AddVerb = void(CLI::App& app, Asked& asked);
+AddVerb add_init, add_run, add_dataset, add_live, add_fmu, add_control, add_import, add_replay, add_diagnose,
+    add_calibrate, add_map, add_diff, add_effects, add_check, add_schema;
+
+/// In the order of the help.
+inline constexpr AddVerb* all_verbs[] = {add_init,    add_run,    add_dataset, add_live,     add_fmu,
+                                         add_control, add_import, add_replay,  add_diagnose, add_calibrate,
+                                         add_map,     add_diff,   add_effects, add_check,    add_schema};
 
 }  // namespace mckibben::cli

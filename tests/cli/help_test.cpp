@@ -1,4 +1,5 @@
 // Help, and what is said of words that are none: for every verb, from the program's own list of verbs.
+#include <regex>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -56,6 +57,12 @@ TEST(Help, OfTheProgramTeaches) {
   for (const std::string& verb : verbs())
     EXPECT_NE(said.out.find("\n  " + verb + " "), std::string::npos) << verb;
   EXPECT_EQ(said.out.find("Subcommands"), std::string::npos) << "a verb is in no group";
+}
+
+TEST(Help, TheReadmeNamesEveryVerb) {
+  const std::string readme = read_text(MCKIBBEN_SOURCE_DIR "/README.md");
+  for (const std::string& verb : verbs())
+    EXPECT_TRUE(std::regex_search(readme, std::regex("\n\\| `" + verb + "[ `]"))) << verb;
 }
 
 TEST(Help, OfEveryVerbHasExamplesThatItTakes) {
