@@ -2,7 +2,7 @@
 #   cmake -D OUTPUT=parts.zip -D LIBRARY=mckibben.so -D ROOT=/path -D STAGE=/path/of/a/folder -P fmu_parts.cmake
 file(REMOVE_RECURSE ${STAGE})
 file(COPY ${LIBRARY} DESTINATION ${STAGE}/binaries)
-foreach(folder plant sim/solver sim/engine sim/ride sim/fmu/model)
+foreach(folder plant sim/engine sim/ride sim/fmu/model)
   get_filename_component(parent ${folder} DIRECTORY)
   file(COPY ${ROOT}/${folder} DESTINATION ${STAGE}/sources/${parent})
 endforeach()

@@ -16,13 +16,13 @@ install(DIRECTORY ${said}/man1 DESTINATION ${CMAKE_INSTALL_MANDIR})
 install(FILES cmake/completion.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME mckibben)
 
 # The library: the rig and a ride on it (docs/library.md).
-set(library plant solver engine ride)
+set(library plant engine ride)
 set_property(TARGET plant PROPERTY OUTPUT_NAME mckibben-plant) # in a system, others have engines too
 set_property(TARGET engine PROPERTY OUTPUT_NAME mckibben-engine)
 set_property(TARGET ride PROPERTY OUTPUT_NAME mckibben-ride)
 install(TARGETS ${library} EXPORT mckibben INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/mckibben)
 install(DIRECTORY plant DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/mckibben FILES_MATCHING PATTERN *.hpp)
-install(DIRECTORY sim/solver sim/engine sim/ride DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/mckibben/sim
+install(DIRECTORY sim/engine sim/ride DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/mckibben/sim
         FILES_MATCHING PATTERN *.hpp)
 set(config ${CMAKE_INSTALL_LIBDIR}/cmake/mckibben)
 install(EXPORT mckibben NAMESPACE mckibben:: FILE mckibben-targets.cmake DESTINATION ${config})

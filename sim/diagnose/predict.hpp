@@ -8,10 +8,10 @@
 #include <span>
 #include <vector>
 
+#include <plant/solver.hpp>
 #include <plant/state.hpp>
 #include <sim/diagnose/parameter.hpp>
 #include <sim/domain/dataset.hpp>
-#include <sim/solver/settings.hpp>
 
 namespace mckibben::diagnose {
 

@@ -4,8 +4,8 @@
 #include <variant>
 
 #include <plant/mechanics.hpp>
+#include <plant/solver.hpp>
 #include <sim/domain/spread.hpp>
-#include <sim/solver/settings.hpp>
 
 namespace mckibben::domain {
 

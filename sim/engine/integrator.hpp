@@ -3,8 +3,8 @@
 
 #include <memory>
 
+#include <plant/solver.hpp>
 #include <sim/engine/problem.hpp>
-#include <sim/solver/settings.hpp>
 
 namespace mckibben::engine {
 

@@ -8,9 +8,9 @@
 #include <span>
 #include <tuple>
 
+#include <plant/solver.hpp>
 #include <sim/engine/convoy.hpp>
 #include <sim/ride/rider.hpp>
-#include <sim/solver/settings.hpp>
 
 namespace mckibben::ride {
 

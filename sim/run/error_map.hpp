@@ -13,8 +13,8 @@
 #include <controllers/inverse.hpp>
 #include <controllers/reach.hpp>
 #include <plant/rig.hpp>
+#include <plant/solver.hpp>
 #include <sim/run/compare.hpp>
-#include <sim/solver/settings.hpp>
 
 namespace mckibben::run {
 

@@ -3,8 +3,8 @@
 
 #include <controllers/rig_model.hpp>
 #include <plant/rig.hpp>
+#include <plant/solver.hpp>
 #include <sim/domain/rig_file.hpp>
-#include <sim/solver/settings.hpp>
 
 namespace mckibben::run {
 

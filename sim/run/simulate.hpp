@@ -15,9 +15,9 @@
 #include <plant/instruments.hpp>
 #include <plant/mechanics.hpp>
 #include <plant/rig.hpp>
+#include <plant/solver.hpp>
 #include <sim/run/recording.hpp>
 #include <sim/run/side_by_side.hpp>
-#include <sim/solver/settings.hpp>
 
 namespace mckibben::run {
 
