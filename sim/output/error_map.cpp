@@ -137,8 +137,7 @@ std::string json_of(const run::MapPlan& plan, const run::ErrorMaps& maps,
   Json document = heading_json("mckibben-map/1", files);
   document["report"] = "report.html";
   document["tolerance"] = plan.engine.tolerance;
-  domain::RigFile rig;
-  static_cast<plant::Rig&>(rig) = plan.rig;
+  domain::RigFile rig = plan.rig;
   rig.integrator = plan.engine;
   document["rig"] = input::rig_json(rig);
   document["extrapolate_load"] = plan.extrapolate_load;

@@ -251,7 +251,7 @@ double off_by(const Kind& kind, const Surroundings& surroundings) {
 plant::Rig rig_with(const Kind& kind, std::uint64_t seed, const Surroundings& surroundings, Dice& dice,
                     Hidden& hidden) {
   const domain::RigFile nominal = described(surroundings, dice);
-  static_cast<domain::RigFile&>(hidden.data.rig) = nominal;
+  hidden.data.rig = nominal;
   domain::RigFile truth = nominal;
   // Rigs are off their data sheets; where nothing is to be found, as told only.
   for (const Parameter& p : nominal_parameters(nominal, nominal.spreads))

@@ -17,7 +17,7 @@ class Plan : public testing::Test {
  protected:
   Fitted fitted(const plant::Rig& rig, std::vector<Parameter> free = {}) const {
     Fitted fit;
-    static_cast<plant::Rig&>(fit.model.rig) = rig;
+    fit.model.rig = rig;
     fit.model.free = std::move(free);
     fit.columns = experiment().slopes(fit.model.rig, fit.model.free, {0}).columns;
     fit.cost = static_cast<double>(fit.columns.rows()) / inflation_;

@@ -35,13 +35,13 @@ inline domain::Dataset planted(const plant::Rig& truth, std::vector<double> load
                                std::vector<domain::CampaignCurrent> currents, std::uint64_t seed,
                                const plant::Rig& nominal = {}, double jitter = 5e-5) {
   domain::Campaign campaign;
-  static_cast<plant::Rig&>(campaign.rig) = truth;
+  campaign.rig = truth;
   campaign.loads_kg = std::move(loads_kg);
   campaign.currents = std::move(currents);
   campaign.noise = {.encoder_jitter = jitter, .gauge_Pa = 400.0};
   campaign.seed = seed;
   domain::Dataset data;
-  static_cast<plant::Rig&>(data.rig) = nominal;
+  data.rig = nominal;
   data.rig.gauge = truth.gauge;
   data.path = "planted/dataset.yaml";
   for (const run::CampaignJob& job : run::jobs_of(campaign)) {

@@ -50,7 +50,7 @@ TEST(Underway, WhatAnEffectRemembersIsFittedAndNotCharged) {
   EXPECT_GT(excess(experiment.residuals(predict(data.runs[0], {&hanging, 1}).front(), 0)), 100.0);
 
   domain::Dataset known = data;  // a replay finds the memory as well
-  static_cast<plant::Rig&>(known.rig) = creeping;
+  known.rig = creeping;
   EXPECT_LT(run::replay(known, 1, [](const auto&, auto, auto) {}).front().rmse, 1e-5);
 
   // A wrong rig stays wrong, and is told by its slope.
@@ -77,7 +77,7 @@ TEST(Underway, AReplayReadsWhatADiagnosisReads) {
   domain::Dataset data = begun_on_its_way(rig);
   EXPECT_GT(run::replay(data, 1, [](const auto&, auto, auto) {}).front().rmse, 1e-3);
   rig.effects.get<plant::BladderCreep>() = {};
-  static_cast<plant::Rig&>(data.rig) = rig;
+  data.rig = rig;
   const Hanging hanging{rig, data.runs[0].load_kg};
   data.runs[0].contraction_ratio = predict(data.runs[0], {&hanging, 1}).front().judged;
   EXPECT_LT(run::replay(data, 1, [](const auto&, auto, auto) {}).front().rmse, 1e-5);

@@ -24,13 +24,13 @@ domain::Dataset measured_on(const plant::Rig& truth, std::vector<double> loads_k
   stair.steps = 3;
   stair.dwell_s = 0.5;
   domain::Campaign campaign;
-  static_cast<plant::Rig&>(campaign.rig) = truth;
+  campaign.rig = truth;
   campaign.loads_kg = std::move(loads_kg);
   campaign.currents = {{"sine", 3.0, sine}, {"stair", 3.0, stair}};
   campaign.noise = {.encoder_jitter = 5e-5, .gauge_Pa = 400.0};
   domain::Dataset data;
   data.path = "measured/dataset.yaml";
-  static_cast<plant::Rig&>(data.rig) = nominal;
+  data.rig = nominal;
   data.rig.gauge = truth.gauge;
   for (const CampaignJob& job : jobs_of(campaign)) {
     data.runs.push_back(measured(campaign, run_job(campaign, job)));

@@ -75,7 +75,7 @@ TEST(Diagnose, NamesTheLeakOfARigWithCoulombFrictionAndNothingWhereNothingIs) {
   leaking.effects.get<plant::MuscleLeak>().conductance_m3_per_s_Pa = 2e-10;
   for (const bool leaks : {false, true}) {
     auto data = small(leaks ? leaking : nominal, 2.6);
-    static_cast<plant::Rig&>(data.rig) = nominal;
+    data.rig = nominal;
     const auto found = diagnosis_of(data, 0);
     EXPECT_EQ(found.verdict, leaks ? Verdict::missing_effect : Verdict::nothing_missing) << found.because;
     ASSERT_EQ(found.effects.size(), leaks ? 1u : 0u) << found.because;
@@ -176,7 +176,7 @@ TEST(Diagnose, FindsThatABraidLosesForceWithContraction) {
   truth.effects.laws.list = {
       own_law(plant::LawTarget::force, "-loss * F_braid * e^3", {{"loss", law::ratio, 8.0, 5.0, 0.0, 50.0}})};
   auto data = small(truth, 8.0);
-  static_cast<plant::Rig&>(data.rig) = plant::Rig{};
+  data.rig = plant::Rig{};
   const auto found = diagnosis_of(data, 0);
   EXPECT_EQ(found.verdict, Verdict::unknown_effect) << found.because;
   ASSERT_EQ(found.residual_law.size(), 1u) << found.because;
@@ -196,7 +196,7 @@ TEST(Diagnose, NamesALawOfTheUsersOwn) {
   plant::Rig truth;
   truth.effects.laws.list = {cogging(6.0)};
   auto data = small(truth);
-  static_cast<plant::Rig&>(data.rig) = plant::Rig{};
+  data.rig = plant::Rig{};
   auto suspected = cogging(0.0);
   suspected.values[1] = 0.015;
   suspected.values[2] = 0.0;
@@ -247,7 +247,7 @@ TEST(Diagnose, FitsTheSizeOfAnEffectThatTheRigHasAlready) {
   truth.effects.get<plant::ValveDeadBand>().half_width_Pa = 7.9e3;
   guess.effects.get<plant::ValveDeadBand>().half_width_Pa = 4e3;
   auto data = small(truth);
-  static_cast<plant::Rig&>(data.rig) = guess;
+  data.rig = guess;
   const auto found = diagnosis_of(data, 0);
   EXPECT_EQ(found.verdict, Verdict::recalibrate);
   EXPECT_TRUE(found.effects.empty());

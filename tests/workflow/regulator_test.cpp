@@ -13,7 +13,7 @@ TEST(RegulatorDiagnosis, RecalibratesALagThatIsNotThatOfTheDataSheet) {
   plant::Rig truth = sheet;
   truth.valve.time_constant_s = 0.14;
   auto data = small(truth, 3.0);
-  static_cast<plant::Rig&>(data.rig) = sheet;
+  data.rig = sheet;
   const auto found = diagnosis_of(data, 0);
   EXPECT_EQ(found.verdict, Verdict::recalibrate) << found.because;
   EXPECT_TRUE(found.effects.empty()) << found.because;

@@ -147,7 +147,7 @@ template <class Leaf>
 void walk(domain::RigFile& rig, Leaf leaf) {
   Walk visitor(leaf);
   LawWalk(leaf, "law")(rig.effects.laws);
-  plant::Rig::fields(static_cast<plant::Rig&>(rig), visitor);
+  plant::Rig::fields(rig, visitor);
   visitor("integrator", rig.integrator);
   double kind = static_cast<double>(rig.mechanics.index());
   leaf("mechanics", kind);
