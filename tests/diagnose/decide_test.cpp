@@ -1,83 +1,15 @@
 // Every way to each verdict, and the edges between them. Numbers are those of an ordinary data set, moved to
 // where it matters.
-#include <cmath>
 #include <functional>
-#include <limits>
 
 #include <gtest/gtest.h>
 
-#include <sim/diagnose/decide.hpp>
+#include "evidence.hpp"
 
 namespace mckibben::diagnose {
 namespace {
 
 using enum Verdict;
-const DecideThresholds& at = thresholds.decide;
-const NearThresholds& close = thresholds.near;
-constexpr double most_explained = thresholds.start.explained_floors * thresholds.start.explained_floors;
-const ImprovementThresholds& least = thresholds.improvement;
-
-double below(double value) {
-  return std::nextafter(value, -std::numeric_limits<double>::infinity());
-}
-double above(double value) {
-  return std::nextafter(value, std::numeric_limits<double>::infinity());
-}
-
-/// As good as it gets: model and data agree, every effect would have shown.
-Evidence agreeing() {
-  Evidence e;
-  e.runs = 2;
-  e.nominal_left = e.recalibrated_left = below(close.nothing_left);
-  e.catalogue = 20;
-  return e;
-}
-
-/// Other numbers close the gap, just clearly enough.
-Evidence other_numbers() {
-  Evidence e = agreeing();
-  e.nominal_left = 30.0;
-  e.recalibrated_left = 0.1;
-  e.recalibration = {.gained = least.gained, .share = least.share, .significance = least.significance};
-  e.recalibration.better = 2;
-  e.recalibration.runs = 3;
-  return e;
-}
-
-/// A gap that other numbers make a little smaller.
-Evidence gap() {
-  Evidence e = other_numbers();
-  e.nominal_left = 110.0;
-  e.recalibrated_left = 100.0;
-  return e;
-}
-
-/// Numbers that close nearly all of a gap, and leave what knows where the load is.
-Evidence nearly_closed() {
-  Evidence e = other_numbers();
-  e.nominal_left = 2000.0;
-  e.recalibrated_left = 16.0;
-  e.patterned = true;
-  return e;
-}
-
-/// An effect closes nearly all of it.
-Evidence one_name() {
-  Evidence e = gap();
-  e.names = 1;
-  e.named_left = 0.1;
-  e.named_share = 0.99;
-  return e;
-}
-
-/// Terms of a force do.
-Evidence one_law() {
-  Evidence e = gap();
-  e.law_terms = 1;
-  e.law_left = 0.2;
-  e.law_share = 0.99;
-  return e;
-}
 
 struct Way {
   const char* what;
@@ -393,35 +325,6 @@ TEST(Decide, GoesByTheThresholdsThatItIsGiven) {
   EXPECT_EQ(decide(evidence, strict).verdict, unknown_effect);
 }
 
-TEST(Decide, SearchesForALawWhereEnoughIsLeft) {
-  Evidence evidence = gap();
-  const auto asked = [&](double nominal_left, double left) {
-    evidence.nominal_left = nominal_left;
-    evidence.recalibrated_left = left;
-    return asks_for_law(evidence, thresholds);
-  };
-  EXPECT_FALSE(asked(1.0, at.worth_a_law));
-  EXPECT_TRUE(asked(1.0, above(at.worth_a_law)));
-  EXPECT_FALSE(asked(100.0, 100.0 * at.worth_a_law_share));
-  EXPECT_TRUE(asked(100.0, above(100.0 * at.worth_a_law_share)));
-  evidence = one_name();  // by what the names leave, unless only the gauge asks for them
-  EXPECT_FALSE(asks_for_law(evidence, thresholds));
-  evidence.gauge_misleads = true;
-  EXPECT_TRUE(asks_for_law(evidence, thresholds));
-}
-
-TEST(Decide, SearchesForALawWhereNumbersThatCloseNearlyAllLeaveAPattern) {
-  Evidence evidence = nearly_closed();
-  EXPECT_TRUE(asks_for_law(evidence, thresholds));
-  evidence.patterned = false;  // a slow disturbance does
-  EXPECT_FALSE(asks_for_law(evidence, thresholds));
-  evidence = nearly_closed();
-  evidence.recalibrated_left = most_explained - 1.0;
-  EXPECT_FALSE(asks_for_law(evidence, thresholds));
-  evidence.bent = true;
-  EXPECT_TRUE(asks_for_law(evidence, thresholds));
-}
-
 TEST(Decide, BelievesALawAfterNumbersThatCloseNearlyAllOnlyIfItExplainsTheRest) {
   Evidence evidence = nearly_closed();
   evidence.law_terms = 1;
@@ -432,27 +335,6 @@ TEST(Decide, BelievesALawAfterNumbersThatCloseNearlyAllOnlyIfItExplainsTheRest) 
   EXPECT_NE(decide(evidence, thresholds).chosen, Chosen::law);
   evidence.nominal_left = 100.0;  // numbers leave much of the gap: a law need not close all of it
   EXPECT_EQ(decide(evidence, thresholds).chosen, Chosen::law);
-}
-
-TEST(Decide, SearchesForALawWhereNamesLeaveMuchHoweverFarTheDescribedRigIs) {
-  Evidence evidence = one_name();
-  evidence.nominal_left = 5e4;
-  evidence.named_left = close.mean_square() - 1.0;
-  EXPECT_FALSE(asks_for_law(evidence, thresholds));
-  evidence.named_left = above(close.mean_square());
-  EXPECT_TRUE(asks_for_law(evidence, thresholds));
-}
-
-TEST(Decide, SuspectsTheGaugeWhereTheMotionIsNotMet) {
-  EXPECT_FALSE(gauge_is_suspect(below(at.contradicted), thresholds));
-  EXPECT_TRUE(gauge_is_suspect(at.contradicted, thresholds));
-  EXPECT_FALSE(gauge_is_suspect(std::nan(""), thresholds));  // nothing was compared
-  const double most = 8.0 * at.without_gauge;
-  EXPECT_TRUE(better_without_gauge(8.0, most, nothing_missing, false, thresholds));
-  EXPECT_TRUE(better_without_gauge(8.0, most, missing_effect, false, thresholds));
-  EXPECT_FALSE(better_without_gauge(8.0, above(most), missing_effect, false, thresholds));
-  EXPECT_FALSE(better_without_gauge(8.0, 0.0, cannot_tell, false, thresholds));
-  EXPECT_FALSE(better_without_gauge(8.0, 0.0, unknown_effect, true, thresholds));
 }
 
 }  // namespace

@@ -1,23 +1,13 @@
 // The workflow on data whose answer is known. The benchmark scores many more; these must hold whenever.
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <set>
 #include <string>
 
 #include <gtest/gtest.h>
 
-#include <sim/diagnose/baseline.hpp>
-#include <sim/diagnose/first_look.hpp>
-#include <sim/diagnose/held_out.hpp>
-#include <sim/diagnose/priors.hpp>
-#include <sim/diagnose/thresholds.hpp>
-#include <sim/diagnose/trial.hpp>
-#include <sim/input/dataset_file.hpp>
-#include <sim/run/simulate.hpp>
-
 #include "benchmark/hidden_effects.hpp"
-#include "diagnose/examined.hpp"
+#include "diagnose/planted.hpp"
 #include "own_law.hpp"
 
 namespace mckibben::diagnose {
@@ -53,7 +43,7 @@ TEST(Diagnose, SaysThatNothingIsMissingWhereNothingIs) {
 }
 
 // A day's runs: the search asks as many as make up 288 s, and what it found is tried on the others.
-TEST(Diagnose, AsksSomeOfManyRunsAndTriesWhatItFoundOnAll) {
+TEST(NightlyDiagnose, AsksSomeOfManyRunsAndTriesWhatItFoundOnAll) {
   auto currents = three_kinds();
   for (auto& current : currents) current.duration_s = 20.0;
   const auto found =
@@ -68,7 +58,7 @@ TEST(Diagnose, AsksSomeOfManyRunsAndTriesWhatItFoundOnAll) {
 }
 
 // Exact stick and slip has no common steps: each rig rides alone.
-TEST(Diagnose, NamesTheLeakOfARigWithCoulombFrictionAndNothingWhereNothingIs) {
+TEST(NightlyDiagnose, NamesTheLeakOfARigWithCoulombFrictionAndNothingWhereNothingIs) {
   plant::Rig nominal;
   nominal.friction.memory = plant::FrictionMemory::coulomb;
   plant::Rig leaking = nominal;
@@ -89,7 +79,7 @@ TEST(Diagnose, NamesTheLeakOfARigWithCoulombFrictionAndNothingWhereNothingIs) {
 
 // At the rig as described, and at the one that numbers have bent towards the data, seven effects promise
 // more.
-TEST(Diagnose, TriesFurtherEffectsWhereThoseThatPromiseMostDoNotHelp) {
+TEST(NightlyDiagnose, TriesFurtherEffectsWhereThoseThatPromiseMostDoNotHelp) {
   const auto found = diagnosis_of(hide(kind_titled("guide_friction large"), 102).data, 0);
   EXPECT_EQ(found.verdict, Verdict::missing_effect) << found.because;
   ASSERT_EQ(found.effects.size(), 1u) << found.because;
@@ -98,7 +88,7 @@ TEST(Diagnose, TriesFurtherEffectsWhereThoseThatPromiseMostDoNotHelp) {
 
 // While its motion is met badly, what a little friction of the guide promises is below chance; as a fit would
 // count it, it is far above.
-TEST(Diagnose, TriesWhatPromisesMoreThanChanceAsAFitWouldCountIt) {
+TEST(NightlyDiagnose, TriesWhatPromisesMoreThanChanceAsAFitWouldCountIt) {
   const auto found =
       diagnosis_of(hide(kind_titled("guide_friction small"), 812, {.bench = Bench::other_size}).data, 0);
   EXPECT_EQ(found.verdict, Verdict::missing_effect) << found.because;
@@ -109,7 +99,7 @@ TEST(Diagnose, TriesWhatPromisesMoreThanChanceAsAFitWouldCountIt) {
 }
 
 // Beside the tube and the leak, friction that is three deviations off imitates the guide's, and stays there.
-TEST(Diagnose, NamesWhatNumbersImitateBesideNames) {
+TEST(NightlyDiagnose, NamesWhatNumbersImitateBesideNames) {
   const auto hidden = hide(kind_titled("muscle_leak + guide_friction + bladder_elasticity"), 1101,
                            {.bench = Bench::other_size, .runs = 6, .lasting = 0.4});
   const auto found = diagnosis_of(hidden.data, 0);
@@ -122,7 +112,7 @@ TEST(Diagnose, NamesWhatNumbersImitateBesideNames) {
 
 // No descent from the sheet arrives; one beside friction that warms up does, and that friction is given up
 // again.
-TEST(Diagnose, KeepsNumbersThatANameGivenUpHadLedTo) {
+TEST(NightlyDiagnose, KeepsNumbersThatANameGivenUpHadLedTo) {
   const auto hidden = hide(kind_titled("nothing, much jitter"), 1405,
                            {.bench = Bench::badly_known, .runs = 6, .lasting = 0.5});
   const auto found = diagnosis_of(hidden.data, 0);
@@ -132,7 +122,7 @@ TEST(Diagnose, KeepsNumbersThatANameGivenUpHadLedTo) {
 
 // On the way there a run seemed to contradict the others, and one delay was met by a fit that stopped
 // half-way.
-TEST(Diagnose, BelievesARunThatTheRigMeetsAfterAllAndTellsBothDelays) {
+TEST(NightlyDiagnose, BelievesARunThatTheRigMeetsAfterAllAndTellsBothDelays) {
   const auto found =
       diagnosis_of(hide(kind_titled("command_delay large"), 821, {.bench = Bench::badly_known}).data, 0);
   EXPECT_TRUE(found.faults.empty()) << found.because;
@@ -144,7 +134,7 @@ TEST(Diagnose, BelievesARunThatTheRigMeetsAfterAllAndTellsBothDelays) {
 
 // Friction that warms up closes less than a hundredth of what a tube that needs pressure opens; at its
 // smaller size it leaves 1.8 floors.
-TEST(Diagnose, NamesWhatClosesLittleOfAHugeGapAndAllThatIsLeftOfIt) {
+TEST(NightlyDiagnose, NamesWhatClosesLittleOfAHugeGapAndAllThatIsLeftOfIt) {
   for (const double change : {-0.35, -0.13}) {
     plant::Rig truth;
     truth.effects.get<plant::PressureThreshold>().pressure_Pa = 4e4;
@@ -171,7 +161,7 @@ TEST(Diagnose, FindsALawForWhatIsInNoCatalogue) {
 }
 
 // Numbers close 99 % of it, and leave several floors.
-TEST(Diagnose, FindsThatABraidLosesForceWithContraction) {
+TEST(NightlyDiagnose, FindsThatABraidLosesForceWithContraction) {
   plant::Rig truth;
   truth.effects.laws.list = {
       own_law(plant::LawTarget::force, "-loss * F_braid * e^3", {{"loss", law::ratio, 8.0, 5.0, 0.0, 50.0}})};
@@ -213,57 +203,6 @@ TEST(Diagnose, NamesALawOfTheUsersOwn) {
   EXPECT_FALSE(found.corrected.effects.laws.absent());
 }
 
-// Friction that falls with speed imitates friction that is larger than a data sheet says.
-TEST(Diagnose, RecalibratesANumberFarBeyondItsDataSheetBeforeItNamesAnEffect) {
-  plant::Rig truth;
-  truth.friction.scale = 1.46;
-  const auto found = diagnosis_of(small(truth), 0);
-  EXPECT_EQ(found.verdict, Verdict::recalibrate) << found.because;
-  EXPECT_TRUE(found.effects.empty());
-  EXPECT_NEAR(found.corrected.friction.scale, 1.46, 0.04);
-  EXPECT_NE(found.because.find("The ± of friction.scale, 0.1, is exceeded: it is off by 4."),
-            std::string::npos)
-      << found.because;
-  EXPECT_LT(found.gap.corrected_rmse, 1.3 * found.gap.noise_floor);
-  for (const Ranked& one : found.ranking) EXPECT_FALSE(one.outcome.starts_with("taken")) << one.name;
-}
-
-// Radius, braid angle and end correction make up for each other: a descent ends with the radius at its edge.
-TEST(Diagnose, RecalibratesToTheBottomOfAValleyAlongWhichItCameToAnEdge) {
-  const auto hidden = hide(kind_titled("recalibrate muscle.end_correction"), 1301, {.off_by = 1.0});
-  const auto masked = nothing_masked(hidden.data);
-  const Experiment experiment(hidden.data, masked, 0);
-  Runs runs(hidden.data.runs.size());
-  std::iota(runs.begin(), runs.end(), std::size_t{0});
-  Case c{experiment, hidden.data.rig, split(hidden.data, runs), thresholds.scatter.first_inflation, {}};
-  const Fitted found = recalibrate(c, replay(c)).contender.fitted;
-  EXPECT_FALSE(bent(found, c.inflation));
-  EXPECT_NEAR(found.model.rig.muscle.rest_radius_m, hidden.rig.muscle.rest_radius_m, 5e-5);
-  EXPECT_LT(excess(found.residuals), 0.0);  // at the edge some of them was left
-}
-
-TEST(Diagnose, FitsTheSizeOfAnEffectThatTheRigHasAlready) {
-  plant::Rig truth, guess;
-  truth.effects.get<plant::ValveDeadBand>().half_width_Pa = 7.9e3;
-  guess.effects.get<plant::ValveDeadBand>().half_width_Pa = 4e3;
-  auto data = small(truth);
-  data.rig = guess;
-  const auto found = diagnosis_of(data, 0);
-  EXPECT_EQ(found.verdict, Verdict::recalibrate);
-  EXPECT_TRUE(found.effects.empty());
-  EXPECT_NEAR(found.corrected.effects.get<plant::ValveDeadBand>().half_width_Pa, 7.9e3, 300.0);
-  EXPECT_GT(found.gap.closed, 0.95);
-}
-
-TEST(Diagnose, TakesOutAnEffectThatTheRigHasInVain) {
-  auto data = small(plant::Rig{});
-  data.rig.effects.get<plant::GuideFriction>().coefficient = 0.1;
-  const auto found = diagnosis_of(data, 0);
-  EXPECT_EQ(found.verdict, Verdict::recalibrate);
-  EXPECT_LT(found.corrected.effects.get<plant::GuideFriction>().coefficient, 2e-3);
-  EXPECT_NE(found.because.find("effects.guide_friction.coefficient from 0.1 to"), std::string::npos);
-}
-
 TEST(Diagnose, NamesTheErrorOfAGaugeAndLeavesTheMotionAlone) {
   plant::Rig offset, gain;
   offset.gauge.fitted = gain.gauge.fitted = true;
@@ -299,67 +238,12 @@ TEST(Diagnose, IgnoresAGaugeThatContradictsTheMotion) {
       << found.warnings.front();
 }
 
-TEST(Diagnose, SaysARunThatIsLateInTheVerdictAndShiftsIt) {
-  auto data = small(plant::Rig{});
-  auto& ratios = data.runs[1].contraction_ratio;
-  ratios.insert(ratios.begin(), 3, ratios.front());
-  ratios.resize(data.runs[1].current_mA.size());
-  const auto found = diagnosis_of(data, 0);
-  EXPECT_TRUE(found.because.starts_with("Run r02 is 3 ticks late and was shifted. Apart from that"))
-      << found.because;
-  EXPECT_TRUE(found.effects.empty());
-  ASSERT_EQ(found.faults.size(), 1u);
-  EXPECT_EQ(found.faults[0].kind, "late");
-  EXPECT_EQ(found.faults[0].size, 3.0);
-  EXPECT_LT(found.runs[1].corrected_rmse, 2.0 * found.gap.noise_floor);
-}
-
-TEST(Diagnose, FindsTheRunThatIsLateBesideAnEffectThatIsMissing) {
-  plant::Rig truth;
-  truth.effects.get<plant::SpeedDependentFriction>().ratio = 0.4;
-  auto data = small(truth);
-  auto& ratios = data.runs[1].contraction_ratio;
-  ratios.insert(ratios.begin(), 3, ratios.front());
-  ratios.resize(data.runs[1].current_mA.size());
-  const auto found = diagnosis_of(data, 0);
-  EXPECT_TRUE(found.because.starts_with("Run r02 is 3 ticks late and was shifted.")) << found.because;
-  ASSERT_EQ(found.effects.size(), 1u);
-  EXPECT_EQ(found.effects[0].name, "speed_dependent_friction");
-}
-
-// Nine runs of a rig whose friction falls by a third with speed and whose supply wanders a little, all sound
-// (tests/data/strong_friction). So far from the rig that is described the straight line of the effect leaves
-// one run over, which was said to be of another rig.
-TEST(Diagnose, AccusesNoRunThatAnEffectExplainsWithTheOthers) {
-  const auto data = input::read_dataset(MCKIBBEN_TEST_DATA "/strong_friction/dataset.yaml");
-  Runs runs(data.runs.size());
-  std::iota(runs.begin(), runs.end(), 0);
-  Checked checked;
-  for (const domain::Run& run : data.runs) checked.masked.emplace_back(run.contraction_ratio.size());
-  const Experiment experiment(data, checked.masked, 0, runs);
-  const plant::Rig& rig = data.rig;
-  const Case c{experiment, rig, split(data, runs), thresholds.scatter.first_inflation,
-               [](const std::string&) {}};
-  EXPECT_TRUE(first_look(c, checked, {rig, nominal_parameters(rig)}, runs, [](const Doing&) {}).empty());
-}
-
-TEST(Diagnose, FindsThatAllRunsAreEarlyBesideAnEffectThatIsMissing) {
-  plant::Rig truth;
-  truth.effects.get<plant::SpeedDependentFriction>().ratio = 0.8;
-  auto data = small(truth);
-  for (domain::Run& run : data.runs) hasten(run, 3);
-  const auto found = diagnosis_of(data, 0);
-  EXPECT_TRUE(found.because.starts_with("Every run is 3 ticks early and was shifted.")) << found.because;
-  ASSERT_EQ(found.effects.size(), 1u) << found.because;
-  EXPECT_EQ(found.effects[0].name, "speed_dependent_friction");
-}
-
 bool is_a_delay(const EffectName& name) {
   return name.effect == plant::CommandDelay::name || name.effect == plant::ReadingDelay::name;
 }
 
 // What all runs have is the rig's, or of a recorder that a rig file can carry: whole ticks or not.
-TEST(Diagnose, NamesADelayOfAllRunsBesideAnEffectThatIsMissing) {
+TEST(NightlyDiagnose, NamesADelayOfAllRunsBesideAnEffectThatIsMissing) {
   plant::Rig truth;
   truth.effects.get<plant::SpeedDependentFriction>().ratio = 0.6;
   auto data = small(truth, 3.0);
@@ -397,18 +281,6 @@ TEST(Diagnose, SaysThatALateCommandMayBeALateReadingUnlessAGaugeTells) {
     }
     EXPECT_NEAR(effect.parameters[0].value, 0.028, 0.002);
   }
-}
-
-TEST(Diagnose, NamesNoEffectForADriftThatAllRunsHave) {
-  auto data = small(plant::Rig{});
-  const double count = run::contraction_per_count(data.rig);
-  for (domain::Run& run : data.runs)
-    for (std::size_t k = 0; k < run.contraction_ratio.size(); ++k)
-      run.contraction_ratio[k] += count * std::floor(static_cast<double>(k) / 40.0);
-  const auto found = diagnosis_of(data, 0);
-  EXPECT_EQ(found.verdict, Verdict::cannot_tell);
-  EXPECT_TRUE(found.effects.empty());
-  EXPECT_TRUE(found.because.starts_with("Every run drifts by 1.")) << found.because;
 }
 
 }  // namespace

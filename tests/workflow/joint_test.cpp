@@ -31,7 +31,7 @@ TEST(JointDiagnosis, NamesWhatDampsBothMusclesFromPressuresAndAnAngle) {
             damping.value);
 }
 
-TEST(JointDiagnosis, NamesTheLeakOfBothMusclesUnderCommands) {
+TEST(NightlyJointDiagnosis, NamesTheLeakOfBothMusclesUnderCommands) {
   const Diagnosis found =
       diagnosis_of(of_a_joint(pair_with(plant::MuscleLeak{.conductance_m3_per_s_Pa = 3e-10}), true), 2);
   EXPECT_EQ(found.verdict, Verdict::missing_effect) << found.because;
@@ -67,7 +67,7 @@ TEST(JointDiagnosis, NamesTheMuscleThatLeaksAndTheOtherInTheMirror) {
   EXPECT_NEAR(sizes[1], sizes[0], 0.01 * sizes[0]);
 }
 
-TEST(JointDiagnosis, ATubeThatPushesIsNeverTheAnswer) {
+TEST(NightlyJointDiagnosis, ATubeThatPushesIsNeverTheAnswer) {
   const Diagnosis found =
       diagnosis_of(of_a_joint(pair_with(plant::BladderElasticity{.stiffness_N_per_m = -800.0})), 2);
   for (const auto* effects : {&found.effects, &found.stand_ins})
@@ -76,7 +76,7 @@ TEST(JointDiagnosis, ATubeThatPushesIsNeverTheAnswer) {
   EXPECT_FALSE(carries(found.corrected, plant::BladderElasticity::name)) << found.because;
 }
 
-TEST(JointDiagnosis, RecalibratesFrictionOfBothMusclesAsOne) {
+TEST(NightlyJointDiagnosis, RecalibratesFrictionOfBothMusclesAsOne) {
   RigFile truth = domain::thesis_pair();
   truth.friction.scale = std::get<plant::Pair>(truth.mechanics).opposite.friction.scale = 1.25;
   const Diagnosis found = diagnosis_of(of_a_joint(truth), 2);

@@ -1,0 +1,85 @@
+// Whole diagnoses in which other numbers of the rig explain the gap, those of its effects too.
+#include <numeric>
+
+#include <gtest/gtest.h>
+
+#include <sim/diagnose/baseline.hpp>
+#include <sim/diagnose/held_out.hpp>
+#include <sim/diagnose/thresholds.hpp>
+#include <sim/diagnose/trial.hpp>
+
+#include "benchmark/hidden_effects.hpp"
+#include "diagnose/planted.hpp"
+
+namespace mckibben::diagnose {
+namespace {
+
+// Friction that falls with speed imitates friction that is larger than a data sheet says.
+TEST(Recalibrates, ANumberFarBeyondItsDataSheetBeforeItNamesAnEffect) {
+  plant::Rig truth;
+  truth.friction.scale = 1.46;
+  const auto found = diagnosis_of(small(truth), 0);
+  EXPECT_EQ(found.verdict, Verdict::recalibrate) << found.because;
+  EXPECT_TRUE(found.effects.empty());
+  EXPECT_NEAR(found.corrected.friction.scale, 1.46, 0.04);
+  EXPECT_NE(found.because.find("The ± of friction.scale, 0.1, is exceeded: it is off by 4."),
+            std::string::npos)
+      << found.because;
+  EXPECT_LT(found.gap.corrected_rmse, 1.3 * found.gap.noise_floor);
+  for (const Ranked& one : found.ranking) EXPECT_FALSE(one.outcome.starts_with("taken")) << one.name;
+}
+
+// Radius, braid angle and end correction make up for each other: a descent ends with the radius at its edge.
+TEST(NightlyRecalibrates, ToTheBottomOfAValleyAlongWhichItCameToAnEdge) {
+  const auto hidden = hide(kind_titled("recalibrate muscle.end_correction"), 1301, {.off_by = 1.0});
+  const auto masked = nothing_masked(hidden.data);
+  const Experiment experiment(hidden.data, masked, 0);
+  Runs runs(hidden.data.runs.size());
+  std::iota(runs.begin(), runs.end(), std::size_t{0});
+  Case c{experiment, hidden.data.rig, split(hidden.data, runs), thresholds.scatter.first_inflation, {}};
+  const Fitted found = recalibrate(c, replay(c)).contender.fitted;
+  EXPECT_FALSE(bent(found, c.inflation));
+  EXPECT_NEAR(found.model.rig.muscle.rest_radius_m, hidden.rig.muscle.rest_radius_m, 5e-5);
+  EXPECT_LT(excess(found.residuals), 0.0);  // at the edge some of them was left
+}
+
+TEST(Recalibrates, TheSizeOfAnEffectThatTheRigHasAlready) {
+  plant::Rig truth, guess;
+  truth.effects.get<plant::ValveDeadBand>().half_width_Pa = 7.9e3;
+  guess.effects.get<plant::ValveDeadBand>().half_width_Pa = 4e3;
+  auto data = small(truth);
+  data.rig = guess;
+  const auto found = diagnosis_of(data, 0);
+  EXPECT_EQ(found.verdict, Verdict::recalibrate);
+  EXPECT_TRUE(found.effects.empty());
+  EXPECT_NEAR(found.corrected.effects.get<plant::ValveDeadBand>().half_width_Pa, 7.9e3, 300.0);
+  EXPECT_GT(found.gap.closed, 0.95);
+}
+
+TEST(Recalibrates, AnEffectThatTheRigHasInVainToNone) {
+  auto data = small(plant::Rig{});
+  data.rig.effects.get<plant::GuideFriction>().coefficient = 0.1;
+  const auto found = diagnosis_of(data, 0);
+  EXPECT_EQ(found.verdict, Verdict::recalibrate);
+  EXPECT_LT(found.corrected.effects.get<plant::GuideFriction>().coefficient, 2e-3);
+  EXPECT_NE(found.because.find("effects.guide_friction.coefficient from 0.1 to"), std::string::npos);
+}
+
+TEST(NightlyRecalibrates, TheLagOfARegulatorThatIsNotThatOfTheDataSheet) {
+  plant::Rig sheet;
+  sheet.valve.kind = plant::ValveKind::regulator;
+  sheet.valve.time_constant_s = 0.1;
+  plant::Rig truth = sheet;
+  truth.valve.time_constant_s = 0.14;
+  auto data = small(truth, 3.0);
+  data.rig = sheet;
+  const auto found = diagnosis_of(data, 0);
+  EXPECT_EQ(found.verdict, Verdict::recalibrate) << found.because;
+  EXPECT_TRUE(found.effects.empty()) << found.because;
+  EXPECT_NEAR(found.corrected.valve.time_constant_s, 0.14, 2e-3);
+  EXPECT_NE(found.because.find("valve.time_constant from 0.1 to"), std::string::npos) << found.because;
+  EXPECT_GT(found.gap.closed, 0.95);
+}
+
+}  // namespace
+}  // namespace mckibben::diagnose
