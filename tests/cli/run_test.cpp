@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <regex>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -31,10 +33,10 @@ std::vector<std::string> shipped_scenarios() {
   return names;
 }
 
-/// Runs a shipped scenario, looks at all that it wrote, and returns its run.json.
-Json run_shipped(const std::string& name) {
+/// Runs a scenario of a folder, looks at all that it wrote, and returns its run.json.
+Json run_from(const fs::path& scenarios, const std::string& name) {
   const Scratch scratch;
-  const auto said = mckibben("run '" MCKIBBEN_SOURCE_DIR "/scenarios/" + name + ".yaml'", scratch);
+  const auto said = mckibben("run '" + (scenarios / (name + ".yaml")).string() + "'", scratch);
   EXPECT_EQ(said.status, 0) << said.err;
   const fs::path folder = scratch / "out/" / name;
   EXPECT_EQ(read_text(folder / "table.txt"), said.out);
@@ -59,13 +61,31 @@ Json run_shipped(const std::string& name) {
 }
 
 class ShippedScenario : public testing::TestWithParam<std::string> {};
+class NightlyShippedScenario : public ShippedScenario {};
 
-TEST_P(ShippedScenario, RunsFromEndToEnd) {
-  run_shipped(GetParam());
+/// Four seconds of its first load, on two rigs where it draws them; whole where it has criteria to meet.
+TEST_P(ShippedScenario, BeginsFromEndToEnd) {
+  const Scratch scratch;
+  fs::copy(MCKIBBEN_SOURCE_DIR "/scenarios", scratch / "s", fs::copy_options::recursive);
+  const fs::path file = scratch / ("s/" + GetParam() + ".yaml");
+  if (std::string text = read_text(file); text.find("criteria:") == std::string::npos) {
+    for (const auto& [whole, part] : {std::pair{"\nduration: [^\n]*", "\nduration: 4 s"},
+                                      {"\nloads: \\[([^,\\]]*)[^\n]*", "\nloads: [$1]"},
+                                      {"rigs: 20", "rigs: 2"}})
+      text = std::regex_replace(text, std::regex(whole), part);
+    write_text(file, text);
+  }
+  run_from(scratch / "s", GetParam());
 }
 
-INSTANTIATE_TEST_SUITE_P(All, ShippedScenario, testing::ValuesIn(shipped_scenarios()),
-                         [](const auto& p) { return p.param; });
+TEST_P(NightlyShippedScenario, RunsFromEndToEnd) {
+  run_from(MCKIBBEN_SOURCE_DIR "/scenarios", GetParam());
+}
+
+const auto the_scenario = [](const auto& p) { return p.param; };
+INSTANTIATE_TEST_SUITE_P(All, ShippedScenario, testing::ValuesIn(shipped_scenarios()), the_scenario);
+INSTANTIATE_TEST_SUITE_P(Nightly, NightlyShippedScenario, testing::ValuesIn(shipped_scenarios()),
+                         the_scenario);
 
 TEST(RunWarnings, OfTheReaderAreInTheResultsToo) {
   const Scratch scratch;
@@ -83,7 +103,7 @@ TEST(RunWarnings, OfTheReaderAreInTheResultsToo) {
 }
 
 TEST(FiveLoads, AnswersTheThesissQuestion) {
-  const Json document = run_shipped("five_loads");
+  const Json document = run_from(MCKIBBEN_SOURCE_DIR "/scenarios", "five_loads");
   const auto mean_rmse = [&](const std::string& controller) {
     for (const auto& row : document.at("spreads"))
       if (row.at("controller") == controller) return row.at("rmse").at("mean").get<double>();
