@@ -113,7 +113,8 @@ TEST(ModerateRigs, CloseTheirBooksWithEveryMethodAndAgree) {
   }
 }
 
-TEST(ModerateRigs, SayWhereTheirBooksDoNotClose) {
+// By day: Doubts.TellOfBooksThatDoNotClose, WholeRange.RunsOrSaysWhatToDo.
+TEST(NightlyModerateRigs, SayWhereTheirBooksDoNotClose) {
   // Which one it is depends on how many effects there are to draw.
   const auto is_open = [](unsigned seed) {
     return random_ride(seed, false, solver::Method::automatic).imbalance.energy > 1e-6;
