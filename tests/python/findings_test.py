@@ -43,7 +43,7 @@ class Diagnoses(unittest.TestCase):
         hidden = mckibben.Rig({"effects": {"viscous_damping": {"damping": "150 N.s/m"}}})
         controllers = [{"kind": "sine_current", "name": f"s{i}", "low": "4 mA", "high": "12 mA", "period": f"{period} s"}
                        for i, period in enumerate((2.4, 6.0))]
-        result = hidden.run(**{**SCENARIO, "duration": "12 s", "controllers": controllers})
+        result = hidden.run(**{**SCENARIO, "duration": "5 s", "controllers": controllers})
         cls.data = mckibben.Dataset({"runs": [
             {"id": f"r{i}", "load": f"{run.load_kg} kg",
              "data": {"time_s": numpy.round(run["time_s"], 9), "current_mA": run["current_mA"],
