@@ -16,7 +16,7 @@ target_link_options(mckibben_fmu PRIVATE -static-libstdc++ -static-libgcc -s LIN
   LINKER:--version-script=${MCKIBBEN_ROOT}/sim/fmu/model/exports.map)
 # As in the program itself: the same numbers.
 target_compile_options(mckibben_fmu PRIVATE -fno-tree-vectorize -fno-math-errno)
-foreach(lanes abreast convoy flock lane_problem)
+foreach(lanes batch lane_problem vectorised)
   set_property(SOURCE ${MCKIBBEN_ROOT}/sim/engine/${lanes}.cpp TARGET_DIRECTORY mckibben_fmu APPEND PROPERTY
     COMPILE_OPTIONS -ftree-vectorize -fno-trapping-math -ffp-contract=off -Wno-psabi)
 endforeach()

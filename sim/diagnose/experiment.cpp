@@ -1,4 +1,5 @@
-// Residuals and slopes; see the header. Parameters fly in flocks of seven beside the rig they are changes of.
+// Residuals and slopes; see the header. Parameters share a batch item, seven at a time, with the rig that
+// they are changes of.
 #include <algorithm>
 #include <cmath>
 #include <exception>
@@ -7,8 +8,8 @@
 
 #include <sim/diagnose/experiment.hpp>
 #include <sim/diagnose/thresholds.hpp>
+#include <sim/engine/batch.hpp>
 #include <sim/engine/failure.hpp>
-#include <sim/engine/flock.hpp>
 #include <sim/run/batch.hpp>
 
 namespace mckibben::diagnose {
@@ -157,7 +158,7 @@ bool Experiment::seeks_memories(const RigFile& rig) const {
   return data_.recorded.start != domain::Start::settled && rig.remembers();
 }
 
-// A further rig of the flock, with its memories a little off, tells what they change; a straight line then
+// A further rig of the group, with its memories a little off, tells what they change; a straight line then
 // takes all readings to where the run's own say. Where that is far, all fly again from near there.
 std::vector<Readings> Experiment::begun(std::size_t run, std::vector<Hanging> rigs) const {
   const domain::Run& measured = data_.runs[run];
@@ -234,11 +235,11 @@ Experiment::Slopes Experiment::slopes(const RigFile& rig, std::span<const Change
   for (const std::size_t run : runs) total += static_cast<Eigen::Index>(rows(run));
   Slopes result{Eigen::VectorXd(total), Eigen::MatrixXd(total, static_cast<Eigen::Index>(changes.size()))};
   // Of runs on their way one place more is taken: see `begun`.
-  const std::size_t wing = engine::Flock::most - (data_.recorded.start == domain::Start::moving ? 2 : 1);
+  const std::size_t width = engine::Batch::width - (data_.recorded.start == domain::Start::moving ? 2 : 1);
   std::vector<Group> groups;
   for (const Part& part : list)
-    for (std::size_t first = 0; first == 0 || first < changes.size(); first += wing)
-      groups.push_back({part, first, std::min(changes.size(), first + wing)});
+    for (std::size_t first = 0; first == 0 || first < changes.size(); first += width)
+      groups.push_back({part, first, std::min(changes.size(), first + width)});
   // The longest first, so that no thread is left with one at the end.
   std::ranges::stable_sort(groups, std::ranges::greater{}, [](const Group& group) {
     return group.part.rows * static_cast<Eigen::Index>(1 + group.last - group.first);
@@ -286,8 +287,8 @@ std::vector<Experiment::Group> Experiment::fly(const RigFile& rig, std::span<con
   std::vector<Group> failed;
   for (std::size_t i = 0; i < groups.size(); ++i) {
     if (!failures[i]) continue;
-    const auto flock = of(groups[i]);
-    if (std::none_of(flock.begin(), flock.end(), [](const Change& change) { return change.may_fail; }))
+    const auto group = of(groups[i]);
+    if (std::none_of(group.begin(), group.end(), [](const Change& change) { return change.may_fail; }))
       std::rethrow_exception(failures[i]);
     failed.push_back(groups[i]);
   }

@@ -1,4 +1,4 @@
-// Ceres runs the trust region; residuals and slopes come from flocks of simulations. See the header.
+// Ceres runs the trust region; residuals and slopes come from batches of simulations. See the header.
 #include <algorithm>
 #include <cmath>
 #include <exception>

@@ -12,8 +12,8 @@
 #include <sim/diagnose/plan.hpp>
 #include <sim/diagnose/screen.hpp>
 #include <sim/diagnose/thresholds.hpp>
+#include <sim/engine/batch.hpp>
 #include <sim/engine/failure.hpp>
-#include <sim/engine/flock.hpp>
 #include <sim/run/batch.hpp>
 #include <sim/run/simulate.hpp>
 
@@ -140,9 +140,9 @@ struct Foretold {
 Foretold foretold(const Experiment& experiment, const Model& model, const domain::Run& run) {
   const auto changes = Experiment::changes_of(model.rig, model.free);
   Foretold result;
-  constexpr std::size_t wing = engine::Flock::most - 1;
-  for (std::size_t first = 0; first == 0 || first < changes.size(); first += wing) {
-    const std::size_t count = std::min(wing, changes.size() - first);
+  constexpr std::size_t width = engine::Batch::width - 1;
+  for (std::size_t first = 0; first == 0 || first < changes.size(); first += width) {
+    const std::size_t count = std::min(width, changes.size() - first);
     std::vector<Hanging> rigs(1 + count, {model.rig, run.load_kg});
     for (std::size_t i = 0; i < count; ++i) changes[first + i].apply(rigs[1 + i]);
     const auto readings = predict(run, rigs, experiment.data().rig.integrator.method);

@@ -1,76 +1,84 @@
 // What drove a run drives riders; see the header.
 #include <algorithm>
-#include <atomic>
 #include <memory>
 #include <utility>
-#include <variant>
 
 #include <sim/diagnose/predict.hpp>
 #include <sim/diagnose/thresholds.hpp>
 #include <sim/engine/failure.hpp>
-#include <sim/run/batch.hpp>
 #include <sim/run/follow.hpp>
-#include <sim/run/side_by_side.hpp>
+#include <sim/run/run_batch.hpp>
 
 namespace mckibben::diagnose {
 namespace {
 
 /// What riders do at each instant of a run, and what instruments see of them.
-class Flight {
+class Prediction final : public ride::BatchItem {
  public:
-  Flight(const domain::Run& run, std::span<const Hanging> rigs)
+  using Done = std::function<void(std::vector<Readings> readings, std::exception_ptr failure)>;
+
+  Prediction(const domain::Run& run, std::span<const Hanging> rigs, std::span<const double> memories,
+             Done done)
       : pair_(rigs.front().rig.pair() != nullptr),
         forces_(run.length_is_given()),
         force_beside_(run.beside(domain::Beside::force) != nullptr),
         rest_length_m_(run.rest_length_m),
         rig_(rigs.front().rig),
-        course_(run::course_of(run, rig_)) {
-    readings_.resize(rigs.size());
-    for (Readings& list : readings_) {
+        course_(run::course_of(run, rig_)),
+        done_(std::move(done)) {
+    for (const Hanging& one : rigs) {
+      if (const plant::Pair* pair = one.rig.pair())
+        riders_.emplace_back(run::paired(one.rig, *pair));
+      else
+        riders_.emplace_back(ride::Hanging{one.rig, one.load_kg});
+      Readings& list = readings_.emplace_back();
       list.judged.reserve(course_.rows.size());
       list.pressure_Pa.reserve(course_.rows.size());
     }
+    settling_ = run::start(riders_, course_, rig_, memories);
   }
 
-  const run::Course& course() const { return course_; }
-
-  void begin(std::span<ride::Rider> riders, std::span<const double> memories = {}) {
-    settling_ = run::start(riders, course_, rig_, memories);
+  ride::BatchKey key(const solver::Settings& settings) const {
+    return ride::batch_key(riders_, course_.drives.front(), settings);
   }
 
-  /// At an instant: holds what acts until the next one; false if this was the last that is asked for.
-  bool go_on(std::span<ride::Rider> riders) {
+  std::span<ride::Rider> riders() override { return riders_; }
+
+  bool go_on() override {
     if (settling_ > 0) {
       --settling_;
-      hold(riders, course_.drives.front(), run::before_s(course_, rig_, settling_));
+      hold(course_.drives.front(), run::before_s(course_, rig_, settling_));
       return true;
     }
-    hold(riders, course_.toward(k_), course_.until_s(k_, rig_.tick_s));  // forces are those of the way ahead
+    hold(course_.toward(k_), course_.until_s(k_, rig_.tick_s));  // forces are those of the way ahead
     if (course_.rows[row_] == k_) {
-      look(riders);
+      look();
       if (++row_ == course_.rows.size()) return false;
     }
     ++k_;
     return true;
   }
 
-  std::vector<Readings> close() { return std::move(readings_); }
-
- private:
-  static void hold(std::span<ride::Rider> riders, const ride::Drive& drive, double until_s) {
-    for (ride::Rider& rider : riders) rider.hold(drive, until_s);
+  void end(const engine::Counters&, const engine::NumericalFailure* failure) override {
+    done_(std::move(readings_), failure == nullptr ? nullptr : std::make_exception_ptr(*failure));
   }
 
-  void look(std::span<const ride::Rider> riders) {
-    for (std::size_t i = 0; i < riders.size(); ++i) {
-      const ride::Reading& seen = riders[i].now.reading;
-      readings_[i].judged.push_back(forces_ ? riders[i].moment().cord_force_N()
-                                            : seen.wheel_m / travel_m(riders[i].plant().rig()));
+ private:
+  void hold(const ride::Drive& drive, double until_s) {
+    for (ride::Rider& rider : riders_) rider.hold(drive, until_s);
+  }
+
+  void look() {
+    for (std::size_t i = 0; i < riders_.size(); ++i) {
+      const ride::Rider& rider = riders_[i];
+      const ride::Reading& seen = rider.now.reading;
+      readings_[i].judged.push_back(forces_ ? rider.moment().cord_force_N()
+                                            : seen.wheel_m / travel_m(rider.plant().rig()));
       readings_[i].pressure_Pa.push_back(seen.muscle_pressure_Pa);
-      if (force_beside_) readings_[i].force_N.push_back(std::max(riders[i].moment().cord_force_N(), 0.0));
+      if (force_beside_) readings_[i].force_N.push_back(std::max(rider.moment().cord_force_N(), 0.0));
       if (pair_) readings_[i].opposite_pressure_Pa.push_back(seen.opposite_pressure_Pa);
     }
-    readings_[0].states.push_back(riders[0].now.flow.state);
+    readings_[0].states.push_back(riders_[0].now.flow.state);
   }
 
   /// Of the wheel's rim, for a reading of 1.
@@ -85,111 +93,51 @@ class Flight {
   double rest_length_m_;  // that readings go by; 0: each rig's own
   plant::Rig rig_;        // whose ticks count
   run::Course course_;
+  Done done_;
   long settling_ = 0;
   std::size_t k_ = 0, row_ = 0;
+  std::vector<ride::Rider> riders_;
   std::vector<Readings> readings_;
 };
-
-/// A flight beside others.
-class Flying final : public run::Errand {
- public:
-  using Done = std::function<void(std::vector<Readings> readings, std::exception_ptr failure)>;
-
-  Flying(Flight flight, const Wanted& wanted, solver::Method method, Done done)
-      : flight_(std::move(flight)), wanted_(wanted), method_(method), done_(std::move(done)) {
-    for (const Hanging& hanging : wanted_.rigs)
-      riders_.emplace_back(ride::Hanging{hanging.rig, hanging.load_kg});
-    flight_.begin(riders_);
-  }
-
-  std::span<ride::Rider> riders() override { return riders_; }
-  bool go_on() override { return flight_.go_on(riders_); }
-  void end(const engine::Counters&) override { finish(flight_.close(), nullptr); }
-  void alone(const engine::Pace&, const engine::Counters&) override {  // from the start, as it would anywhere
-    try {
-      finish(predict(*wanted_.run, wanted_.rigs, method_), nullptr);
-    } catch (const engine::NumericalFailure&) {
-      finish({}, std::current_exception());
-    }
-  }
-  bool is_done() const override { return is_done_; }
-
- private:
-  void finish(std::vector<Readings> readings, std::exception_ptr failure) {
-    is_done_ = true;
-    done_(std::move(readings), std::move(failure));
-  }
-
-  Flight flight_;
-  Wanted wanted_;
-  solver::Method method_;
-  Done done_;
-  std::vector<ride::Rider> riders_;
-  bool is_done_ = false;
-};
-
-std::optional<ride::ConvoyClass> class_of(const Wanted& wanted, const Flight& flight, solver::Method method) {
-  std::vector<const plant::Rig*> rigs;
-  for (const Hanging& hanging : wanted.rigs) rigs.push_back(&hanging.rig);
-  if (wanted.rigs.front().rig.pair() != nullptr) return std::nullopt;  // convoys are of single muscles
-  return ride::convoy_class(rigs, flight.course().drives.front(), settings_for(wanted.rigs, method));
-}
-
-/// As a ride takes them: all have one muscle, or all have two.
-std::variant<std::vector<ride::Hanging>, std::vector<ride::Paired>> riding(std::span<const Hanging> rigs) {
-  std::vector<ride::Hanging> hanging;
-  std::vector<ride::Paired> pairs;
-  for (const Hanging& one : rigs) {
-    if (const plant::Pair* pair = one.rig.pair())
-      pairs.push_back(run::paired(one.rig, *pair));
-    else
-      hanging.push_back({one.rig, one.load_kg});
-  }
-  if (pairs.empty()) return hanging;
-  return pairs;
-}
 
 }  // namespace
 
 solver::Settings settings_for(std::span<const Hanging> rigs, solver::Method method) {
-  const bool shared = std::visit(
-      [&](const auto& list) { return ride::can_share_steps(std::span(list), method); }, riding(rigs));
+  const bool shared = method != solver::Method::cvode && std::ranges::none_of(rigs, [](const Hanging& one) {
+                        return one.rig.friction.memory == plant::FrictionMemory::coulomb;
+                      });
   return {method, shared ? thresholds.predict.tolerance : thresholds.predict.tolerance_alone};
 }
 
 std::vector<Readings> predict(const domain::Run& run, std::span<const Hanging> rigs, solver::Method method,
                               std::span<const double> memories) {
-  Flight flight(run, rigs);
-  const solver::Settings settings = settings_for(rigs, method);
-  ride::Ride ride =
-      std::visit([&](const auto& list) { return ride::Ride(std::span(list), settings); }, riding(rigs));
-  flight.begin(ride.riders(), memories);
-  while (flight.go_on(ride.riders())) ride.advance();
-  return flight.close();
+  std::vector<Readings> readings;
+  std::exception_ptr failure;
+  const auto prediction = std::make_shared<Prediction>(
+      run, rigs, memories, [&](std::vector<Readings> all, std::exception_ptr why) {
+        readings = std::move(all);
+        failure = std::move(why);
+      });
+  const ride::BatchKey key = prediction->key(settings_for(rigs, method));
+  if (rigs.size() == 1 || !key.in_lanes) {
+    ride::Alone(prediction->riders(), key).run(*prediction);
+  } else {
+    ride::Batch batch(key, rigs.size());
+    batch.submit(prediction);
+    batch.run();
+  }
+  if (failure) std::rethrow_exception(failure);
+  return readings;
 }
 
 void predict_all(std::size_t count, std::size_t rigs, unsigned threads, solver::Method method,
                  const std::function<Wanted(std::size_t index)>& wanted, const Predicted& predicted) {
-  std::atomic<std::size_t> next{0}, done{0};
-  const run::Take take = [&]() -> std::optional<std::size_t> {
-    const std::size_t index = run::interrupted() ? count : next++;
-    return index < count ? std::optional(index) : std::nullopt;
-  };
-  run::do_all(take, rigs, threads, [&](std::size_t index) -> std::optional<run::Prepared> {
-    const auto one = std::make_shared<const Wanted>(wanted(index));
-    const Flying::Done tell = [&, index](std::vector<Readings> readings, std::exception_ptr failure) {
-      predicted(index, std::move(readings), std::move(failure));
-      ++done;
-    };
-    const auto flight = std::make_shared<Flight>(*one->run, one->rigs);
-    if (auto in = class_of(*one, *flight, method))
-      return run::Prepared{*std::move(in), [one, flight, method, tell] {
-                             return std::make_unique<Flying>(std::move(*flight), *one, method, tell);
-                           }};
-    Flying(std::move(*flight), *one, method, tell).alone({}, {});
-    return std::nullopt;
+  run::run_batch(count, rigs, threads, [&](std::size_t index) {
+    const Wanted one = wanted(index);
+    const auto prediction = std::make_shared<Prediction>(*one.run, one.rigs, std::span<const double>{},
+                                                         std::bind_front(predicted, index));
+    return run::Task{prediction->key(settings_for(one.rigs, method)), [=] { return prediction; }};
   });
-  if (done < count) throw run::Interrupted();
 }
 
 }  // namespace mckibben::diagnose

@@ -38,9 +38,9 @@ struct Readings {
   }
 };
 
-/// Readings of up to engine::Flock::most rigs, in common steps where these can be had (ride::Ride). Ticks are
-/// those of the first rig. `memories`: of runs that began on their way, how far those of each rig's effects
-/// are from rest (ride::Underway). Throws engine::NumericalFailure.
+/// Readings of up to engine::Batch::width rigs, in common steps where these can be had (ride::Batch). Ticks
+/// are those of the first rig. `memories`: of runs that began on their way, how far those of each rig's
+/// effects are from rest (ride::Underway). Throws engine::NumericalFailure.
 std::vector<Readings> predict(const domain::Run& run, std::span<const Hanging> rigs,
                               solver::Method method = solver::Method::automatic,
                               std::span<const double> memories = {});
@@ -54,8 +54,8 @@ struct Wanted {
 using Predicted =
     std::function<void(std::size_t index, std::vector<Readings> readings, std::exception_ptr failure)>;
 
-/// Many predictions, side by side in convoys on `threads` threads: those whose rigs can, in common steps; the
-/// others as `predict` does. What comes of one depends neither on threads nor on what goes beside it. Both
+/// Many predictions, in batches on `threads` threads: those whose rigs can, in common steps; the others as
+/// `predict` does. The result of one depends neither on threads nor on what shares the batch. Both
 /// functions are called from any thread, in any order. `rigs`: of all together, about. Throws
 /// run::Interrupted.
 void predict_all(std::size_t count, std::size_t rigs, unsigned threads, solver::Method method,

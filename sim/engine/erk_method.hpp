@@ -35,30 +35,6 @@ void set_up_erk(void* m, N_Vector y, double tolerance, void* user, std::string& 
   ERKStepSetFixedStepBounds(m, 1.0, 1.0);
 }
 
-inline Pace pace_of(void* m, const EvenSteps& steps) {
-  Pace pace{.log_of_last_error = steps.log_of_last_error};
-  if (steps.resumed_step_s)  // of which the library says nothing yet
-    pace.step_s = *steps.resumed_step_s;
-  else
-    ERKStepGetCurrentStep(m, &pace.step_s);
-  return pace;
-}
-inline void resume_at(const Pace& pace, void* m, EvenSteps& steps) {
-  steps.log_of_last_error = pace.log_of_last_error;
-  steps.resumed_step_s = pace.step_s;
-  ERKStepSetInitStep(m, pace.step_s);
-}
-
-inline Counters counters_of(void* m) {
-  long expansions = 0, accuracy = 0, attempts = 0, evaluations = 0, failures = 0;
-  Counters c;
-  ERKStepGetTimestepperStats(m, &expansions, &accuracy, &attempts, &evaluations, &failures);
-  ERKStepGetNumSteps(m, &c.steps);
-  c.rejected_steps = failures;
-  c.right_hand_sides = evaluations;
-  return c;
-}
-
 /// V: kind of SUNDIALS vector, see sundials.hpp.
 template <class V>
 class Erk final : public Integrator {
@@ -99,13 +75,27 @@ class Erk final : public Integrator {
   }
 
   Counters counters() const override { return all_counters() - before_; }
-  Pace pace() const override { return pace_of(memory_.get(), steps_); }
-  void resume(const Pace& pace) override { resume_at(pace, memory_.get(), steps_); }
+  Pace pace() const override {
+    Pace pace{.log_of_last_error = steps_.log_of_last_error};
+    if (steps_.resumed_step_s)  // of which the library says nothing yet
+      pace.step_s = *steps_.resumed_step_s;
+    else
+      ERKStepGetCurrentStep(memory_.get(), &pace.step_s);
+    return pace;
+  }
+  void resume(const Pace& pace) override {
+    steps_.log_of_last_error = pace.log_of_last_error;
+    steps_.resumed_step_s = pace.step_s;
+    ERKStepSetInitStep(memory_.get(), pace.step_s);
+  }
 
  private:
   Counters all_counters() const {
-    Counters c = counters_of(memory_.get());
-    c.events = events_;
+    long expansions = 0, accuracy = 0, attempts = 0;
+    Counters c{.events = events_};
+    ERKStepGetTimestepperStats(memory_.get(), &expansions, &accuracy, &attempts, &c.right_hand_sides,
+                               &c.rejected_steps);
+    ERKStepGetNumSteps(memory_.get(), &c.steps);
     return c;
   }
 

@@ -15,8 +15,7 @@
 namespace mckibben::engine {
 
 /// N components, of which the first `Norm` make the error norm, their sum of squares over `Counted`; the
-/// others are passengers. The norm is that of the rig that is worst off; or it is told of each rig, and the
-/// library sees one that always passes.
+/// others are quadrature variables. The norm is that of each rig; the library sees one that always passes.
 template <int N, int Norm, int Counted = Norm>
 struct LaneVector {
   /// Component i of block b stands at i * blocks + b.
@@ -25,8 +24,8 @@ struct LaneVector {
   static Values& values(N_Vector v) { return content(v).values; }
   static double* data(N_Vector v) { return reinterpret_cast<double*>(values(v).data()); }
 
-  /// `norms`: where those of each rig go, block by block; or null.
-  static N_Vector make(SUNContext context, std::size_t blocks, Values* norms = nullptr) {
+  /// `norms`: where those of each rig go, block by block.
+  static N_Vector make(SUNContext context, std::size_t blocks, Values& norms) {
     N_Vector v = N_VNewEmpty(context);
     if (v == nullptr) throw std::bad_alloc();
     v->content = new Content{Values(blocks * N, Lanes(0.0)), norms};
@@ -77,7 +76,7 @@ struct LaneVector {
  private:
   struct Content {
     Values values;
-    Values* norms;
+    Values& norms;
   };
   static Content& content(N_Vector v) { return *static_cast<Content*>(v->content); }
   static std::size_t length(N_Vector v) { return values(v).size() * Lanes::count; }
@@ -119,23 +118,17 @@ struct LaneVector {
   static double wrms_norm(N_Vector x, N_Vector w) {
     constexpr double passes = 0.5;
     const std::size_t blocks = values(x).size() / N;
-    double largest = 0.0;
-    on_this_machine([&, &p = values(x), &q = values(w), norms = content(x).norms] {
+    on_this_machine([&, &p = values(x), &q = values(w), &norms = content(x).norms] {
       for (std::size_t b = 0; b < blocks; ++b) {
         Lanes sum = 0.0;
         for (std::size_t i = b; i < Norm * blocks; i += blocks) {
           const Lanes term = p[i] * q[i];
           sum = sum + term * term;
         }
-        if (norms != nullptr) {
-          (*norms)[b] = sqrt(sum / Lanes(Counted));
-          continue;
-        }
-        for (std::size_t lane = 0; lane < Lanes::count; ++lane)
-          if (!(sum[lane] <= largest)) largest = sum[lane];  // also where it is not a number
+        norms[b] = sqrt(sum / Lanes(Counted));
       }
     });
-    return content(x).norms != nullptr ? passes : std::sqrt(largest / Counted);
+    return passes;
   }
 };
 

@@ -71,8 +71,8 @@ int event_margin(double, N_Vector y, double* margin, void* problem) {
   return 0;
 }
 
-/// Absolute tolerances for a vector like `y`: the working sizes times the tolerance; passengers get a weight
-/// of no consequence.
+/// Absolute tolerances for a vector like `y`: the working sizes times the tolerance; quadrature variables get
+/// a weight of no consequence.
 template <class V>
 Vector absolute_tolerances(N_Vector y, double tolerance) {
   using L = typename V::layout;

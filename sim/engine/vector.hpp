@@ -12,8 +12,8 @@
 namespace mckibben::engine {
 
 /// The vector operations for N components, of which the first `Norm` make the error norm, their sum of
-/// squares over `Counted`; the others are passengers. One component of padding makes an odd N even, so that
-/// all loads and stores are of pairs.
+/// squares over `Counted`; the others are quadrature variables. One component of padding makes an odd N even,
+/// so that all loads and stores are of pairs.
 template <int N, int Norm, int Counted = Norm>
 struct FixedVector {
   static constexpr int size = N;

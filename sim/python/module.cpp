@@ -38,5 +38,5 @@ PYBIND11_MODULE(_core, module) {
   add_jobs(module);
   add_findings(module);
   add_rides(module);
-  add_fleets(module);
+  add_batch(module);
 }

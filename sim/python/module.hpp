@@ -24,7 +24,7 @@ void add_recordings(py::module_& module);
 void add_jobs(py::module_& module);
 void add_findings(py::module_& module);
 void add_rides(py::module_& module);
-void add_fleets(py::module_& module);
+void add_batch(py::module_& module);
 
 /// A rig as it was read, and the text of a file that holds every field of it.
 struct Rig {

@@ -8,7 +8,7 @@
 //   (an integrator carries x- to x+; where commands come late, from one that is felt to the next)
 //   arrive     what the instruments see of x+
 //
-// Times are the caller's. What carries riders: ride.hpp, convoy.hpp.
+// Times are the caller's. What carries riders: ride.hpp, batch.hpp.
 #pragma once
 
 #include <optional>

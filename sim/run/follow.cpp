@@ -60,7 +60,7 @@ class Following {
 
   /// Settled, or on its way; the counter goes along.
   void begin() {
-    for (long k = start(ride_.riders(), course_, rig_); k > 0; --k) {
+    for (long k = start({&ride_.rider(), 1}, course_, rig_); k > 0; --k) {
       ride_.step(course_.drives.front(), before_s(course_, rig_, k - 1));
       counter_.count(ride_.reading().wheel_m);
     }

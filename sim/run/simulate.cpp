@@ -1,6 +1,5 @@
 // What drives a ride tick by tick: a controller, through the instruments, with noise.
 #include <algorithm>
-#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <numbers>
@@ -8,11 +7,9 @@
 #include <random>
 #include <utility>
 
-#include <sim/engine/failure.hpp>
-#include <sim/ride/ride.hpp>
-#include <sim/run/batch.hpp>
+#include <sim/ride/batch.hpp>
 #include <sim/run/pair_rows.hpp>
-#include <sim/run/side_by_side.hpp>
+#include <sim/run/run_batch.hpp>
 #include <sim/run/simulate.hpp>
 
 namespace mckibben::run {
@@ -67,87 +64,85 @@ class Disturbance {
   std::normal_distribution<double> normal_;
 };
 
-/// What a run does at each instant, and what it leaves behind.
-class Run {
+ride::Rider rider_of(const RunPlan& plan) {
+  if (plan.pair)
+    return ride::Rider(ride::Paired{plan.rig, plant::opposite_rig(plan.rig, *plan.pair), *plan.pair});
+  return ride::Rider(ride::Hanging{plan.rig, plan.load_kg});
+}
+
+/// What a run does at each instant, and what it leaves behind. `done` hears that.
+class Run : public ride::BatchItem {
  public:
-  Run(const RunPlan& plan, controllers::Controller& controller)
+  using Done = std::function<void(Recording recording)>;
+
+  Run(const RunPlan& plan, controllers::Controller& controller, Done done)
       : plan_(plan),
         controller_(controller),
+        done_(std::move(done)),
+        rider_(rider_of(plan)),
         first_(-controller.preparation_ticks()),
         begin_(first_ - std::lround(plan.rig.settling_time_s / plan.rig.tick_s)),
         k_(begin_),
         counter_(plan.rig),
         disturbance_(plan) {
     recording_.samples.reserve(plan_.ticks);
-  }
-
-  void begin(ride::Rider& rider) {
     ask(controller_.rest());
-    rider.start(drive_, time_s(begin_));
+    rider_.start(drive_, time_s(begin_));
   }
 
-  /// At an instant: holds what acts until the next one; false if this was the last.
-  bool go_on(ride::Rider& rider) {
-    if (k_ > begin_ && k_ <= first_) look(rider);  // at the end of each tick of settling
+  std::span<ride::Rider> riders() override { return {&rider_, 1}; }
+
+  bool go_on() override {
+    if (k_ > begin_ && k_ <= first_) look();  // at the end of each tick of settling
     if (k_ < first_) {
-      hold(rider);
+      hold();
     } else {
-      if (k_ == 0) rider.open_ledger();
-      if (!tick(rider) || k_ + 1 >= static_cast<std::int64_t>(plan_.ticks)) return false;
+      if (k_ == 0) rider_.open_ledger();
+      if (!tick() || k_ + 1 >= static_cast<std::int64_t>(plan_.ticks)) return false;
     }
     ++k_;
     return true;
   }
 
-  void give_up(std::string why) { recording_.failure = std::move(why); }
-
-  /// Carries it on by itself to its end.
-  void ride_on(ride::Ride& ride, bool held) {
-    try {
-      if (!held) held = go_on(ride.rider());
-      for (; held; held = go_on(ride.rider())) ride.advance();
-    } catch (const engine::NumericalFailure& failure) {
-      give_up(failure.what());
-    }
-  }
-
-  Recording close(const ride::Rider& rider, const engine::Counters& solver) {
-    const engine::Flow& end = rider.now.flow;
-    recording_.ledger = end.ledger;
+  void end(const engine::Counters& solver, const engine::NumericalFailure* failure) override {
+    const engine::Flow& last = rider_.now.flow;
+    if (failure != nullptr) recording_.failure = failure->what();
+    recording_.ledger = last.ledger;
     if (plan_.keep_ledger && !recording_.samples.empty())
-      recording_.imbalance = rider.plant().imbalance(recording_.samples.front().state, end.state, end.ledger);
+      recording_.imbalance =
+          rider_.plant().imbalance(recording_.samples.front().state, last.state, last.ledger);
     recording_.solver = solver;
     if (recording_.solver.stiff_from_tick >= 0) recording_.solver.stiff_from_tick += begin_;
     recording_.findings = controller_.findings();
     recording_.driven.pair = plan_.pair.has_value();
     if (plan_.pair) note_slack(recording_, true);
-    return std::move(recording_);
+    done_(std::move(recording_));
   }
 
  private:
   /// The ticks that a controller needs to find out about its load leave no row. False if it gives up.
-  bool tick(ride::Rider& rider) {
-    look(rider);
+  bool tick() {
+    look();
     try {
       const auto begin = std::chrono::steady_clock::now();
       ask(controller_.step({k_, time_s(k_), counts_}));
       recording_.controller_s +=
           std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     } catch (const controllers::ControllerFailure& failure) {
-      give_up(failure.what());
+      recording_.failure = failure.what();
       return false;
     }
-    hold(rider);
-    ride::Reading seen = rider.now.reading;
+    hold();
+    ride::Reading seen = rider_.now.reading;
     seen.muscle_pressure_Pa += disturbance_.gauge_Pa();
     if (plan_.pair) seen.opposite_pressure_Pa += disturbance_.gauge_Pa();
-    if (k_ >= 0) write(rider, seen);
+    if (k_ >= 0) write(seen);
     return true;
   }
 
-  void write(const ride::Rider& rider, const ride::Reading& seen) {
-    const auto now = rider.moment();
-    const plant::State<double>& state = rider.now.flow.state;
+  void write(const ride::Reading& seen) {
+    const auto now = rider_.moment();
+    const plant::State<double>& state = rider_.now.flow.state;
     recording_.samples.push_back({time_s(k_), drive_.current_mA, state, counts_,
                                   plant::gauge_reading_Pa(plan_.rig.gauge, seen.muscle_pressure_Pa),
                                   now.braid_force_N, now.friction_force_N, now.effects_pull_N,
@@ -157,13 +152,13 @@ class Run {
         plant::cell_reading_N(cell, now.cord_force_N(), disturbance_.cell_N(cell));
     recording_.samples.back().misread_ratio = seen.misread_m / plan_.rig.muscle.rest_length_m;
     double most = state.joint.contraction_ratio;
-    if (plan_.pair) most = write_opposite(rider, now, seen, recording_.samples.back());
+    if (plan_.pair) most = write_opposite(rider_, now, seen, recording_.samples.back());
     recording_.largest_contraction_ratio = std::max(recording_.largest_contraction_ratio, most);
   }
 
-  void look(const ride::Rider& rider) {
+  void look() {
     const double jitter_m = disturbance_.jitter() * plan_.rig.muscle.rest_length_m;
-    counts_ = counter_.count(rider.now.reading.wheel_m + jitter_m);
+    counts_ = counter_.count(rider_.now.reading.wheel_m + jitter_m);
   }
 
   void ask(const controllers::Command& wanted) {
@@ -177,15 +172,17 @@ class Run {
     drive_.opposite.stray_current_mA = disturbance_.current_mA();
   }
 
-  void hold(ride::Rider& rider) {
+  void hold() {
     drive_.stray_pressure_Pa = disturbance_.reference_Pa(time_s(k_));
-    rider.hold(drive_, time_s(k_ + 1));
+    rider_.hold(drive_, time_s(k_ + 1));
   }
 
   double time_s(std::int64_t k) const { return static_cast<double>(k) * plan_.rig.tick_s; }
 
   const RunPlan& plan_;
   controllers::Controller& controller_;
+  Done done_;
+  ride::Rider rider_;
   std::int64_t first_, begin_, k_;  // ticks: of the controller, of the settling, now
   ride::Drive drive_;
   plant::PositionReader counter_;
@@ -199,99 +196,52 @@ bool moves(const RunPlan& plan) {
   return plan.pair || plan.load_kg + plan.rig.joint.load_offset_kg > 0.0;
 }
 
-ride::Ride ride_of(const RunPlan& plan) {
-  if (plan.pair)
-    return {ride::Paired{plan.rig, plant::opposite_rig(plan.rig, *plan.pair), *plan.pair}, plan.engine,
-            plan.keep_ledger};
-  return {ride::Hanging{plan.rig, plan.load_kg}, plan.engine, plan.keep_ledger};
+/// Pairs go alone, as `follow` has them: to the same bits.
+ride::BatchKey key_of(const RunPlan& plan) {
+  const ride::Rider rider = rider_of(plan);
+  ride::BatchKey key = ride::batch_key({&rider, 1}, {}, plan.engine, plan.keep_ledger);
+  key.in_lanes = key.in_lanes && !plan.pair;
+  return key;
 }
 
-/// A run that rides beside others.
-class Seated final : public Errand {
- public:
-  Seated(std::size_t index, std::shared_ptr<Order> order, const Finished& finished)
-      : index_(index),
-        finished_(finished),
-        order_(std::move(order)),
-        run_(order_->plan, *order_->controller),
-        rider_(ride::Hanging{order_->plan.rig, order_->plan.load_kg}) {
-    run_.begin(rider_);
-  }
+Recording without_load() {
+  Recording none;
+  none.failure = "load and load_offset of the rig leave no load";
+  return none;
+}
 
-  std::span<ride::Rider> riders() override { return {&rider_, 1}; }
-  bool go_on() override { return run_.go_on(rider_); }
-  void end(const engine::Counters& solver) override { finish(rider_, solver); }
-  void alone(const engine::Pace& pace, const engine::Counters& solver) override {
-    ride::Ride ride(rider_, pace, order_->plan.engine, order_->plan.keep_ledger);
-    run_.ride_on(ride, true);
-    engine::Counters counters = solver + ride.counters();
-    counters.stiff_from_tick = ride.counters().stiff_from_tick;
-    finish(ride.rider(), counters);
-  }
-
-  bool is_done() const override { return done_; }
-
- private:
-  void finish(const ride::Rider& rider, const engine::Counters& solver) {
-    done_ = true;
-    finished_(index_, run_.close(rider, solver));
-  }
-
-  std::size_t index_;
-  const Finished& finished_;
-  bool done_ = false;
-  std::shared_ptr<Order> order_;
-  Run run_;
-  ride::Rider rider_;
-};
-
-std::optional<ride::ConvoyClass> class_of(const RunPlan& plan) {
-  if (plan.pair || !moves(plan)) return std::nullopt;
-  const plant::Rig* rig = &plan.rig;
-  return ride::convoy_class({&rig, 1}, {}, plan.engine, plan.keep_ledger);
+Prepare preparing(const Ordering& ordering, const Finished& finished) {
+  return [&](std::size_t index) -> std::optional<Task> {
+    const auto order = std::make_shared<Order>(ordering(index));
+    if (moves(order->plan))
+      return Task{key_of(order->plan), [=, &finished] {
+                    return std::make_shared<Run>(order->plan, *order->controller,
+                                                 [index, order, &finished](Recording recording) {
+                                                   finished(index, std::move(recording));
+                                                 });
+                  }};
+    finished(index, without_load());
+    return std::nullopt;
+  };
 }
 
 }  // namespace
 
 Recording simulate(const RunPlan& plan, controllers::Controller& controller) {
-  if (!moves(plan)) {
-    Recording none;
-    none.failure = "load and load_offset of the rig leave no load";
-    return none;
-  }
-  Run run(plan, controller);
-  ride::Ride ride = ride_of(plan);
-  run.begin(ride.rider());
-  run.ride_on(ride, false);
-  return run.close(ride.rider(), ride.counters());
+  if (!moves(plan)) return without_load();
+  Recording result;
+  Run run(plan, controller, [&](Recording recording) { result = std::move(recording); });
+  ride::Alone(run.riders(), key_of(plan)).run(run);
+  return result;
 }
 
 void simulate_all(std::size_t count, unsigned threads, const Ordering& ordering, const Finished& finished) {
-  std::atomic<std::size_t> next{0}, done{0};
-  const Finished counting = [&](std::size_t index, Recording recording) {
-    finished(index, std::move(recording));
-    ++done;
-  };
-  const Take take = [&]() -> std::optional<std::size_t> {
-    const std::size_t index = interrupted() ? count : next++;
-    return index < count ? std::optional(index) : std::nullopt;
-  };
-  simulate_all(take, count, threads, ordering, counting);
-  if (done < count) throw Interrupted();
+  run_batch(count, count, threads, preparing(ordering, finished));
 }
 
 void simulate_all(const Take& take, std::size_t about, unsigned threads, const Ordering& ordering,
                   const Finished& finished) {
-  do_all(take, about, threads, [&](std::size_t index) -> std::optional<Prepared> {
-    const auto order = std::make_shared<Order>(ordering(index));
-    auto in = class_of(order->plan);
-    if (!in) {
-      finished(index, simulate(order->plan, *order->controller));
-      return std::nullopt;
-    }
-    return Prepared{*std::move(in),
-                    [index, order, &finished] { return std::make_unique<Seated>(index, order, finished); }};
-  });
+  run_batch(take, about, threads, preparing(ordering, finished));
 }
 
 double contraction_per_count(const plant::Rig& rig) {

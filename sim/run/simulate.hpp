@@ -17,7 +17,7 @@
 #include <plant/rig.hpp>
 #include <plant/solver.hpp>
 #include <sim/run/recording.hpp>
-#include <sim/run/side_by_side.hpp>
+#include <sim/run/run_batch.hpp>
 
 namespace mckibben::run {
 
@@ -45,11 +45,10 @@ using Ordering = std::function<Order(std::size_t index)>;
 using Finished = std::function<void(std::size_t index, Recording recording)>;
 
 /// Simulates many runs on `threads` threads (0: all the machine has), several times quicker than one by one:
-/// side by side in a convoy, but for those with exact stick and slip, with CVODE, or with a ledger of a gas
-/// that has a temperature. A run's
-/// recording depends neither on threads nor on what rides beside it, and a run that fails, fails alone;
-/// alone (`simulate`) it is the same within the rounding of its laws. `ordering` and `finished` are called
-/// from any thread, in any order. Throws Interrupted; what they throw.
+/// in batches, but for pairs and runs with exact stick and slip, with CVODE, or with a ledger of a gas that
+/// has a temperature. A recording depends neither on threads nor on what shares the batch, and a run that
+/// fails, fails alone; alone (`simulate`) it is the same within the rounding of its laws. `ordering` and
+/// `finished` are called from any thread, in any order. Throws Interrupted; what they throw.
 void simulate_all(std::size_t count, unsigned threads, const Ordering& ordering, const Finished& finished);
 
 /// The same of runs that `take` hands out, from any thread; `about`: how many at most. Ends when

@@ -46,13 +46,13 @@ def steps():
 
     python_s, cpp_s = best(one_by_one), best(in_cpp)
     loads_kg = numpy.linspace(8.0, 24.0, 64)
-    flock = mckibben.Flock("thesis", loads_kg)
+    batch = mckibben.Batch("thesis", loads_kg)
     table = numpy.tile(CURRENTS[:, None], 64)
-    flock_s = best(lambda: (flock.start(), flock.follow(table)), 3)
+    batch_s = best(lambda: (batch.start(), batch.follow(table)), 3)
     ticks = len(currents)
     print(f"step, from Python          {ticks / python_s:10.0f} calls a second")
     print(f"the same loop in C++       {ticks / cpp_s:10.0f} ticks a second, {python_s / cpp_s:5.2f} times as many")
-    print(f"64 rigs in a flock         {64 * ticks / flock_s:10.0f} ticks a second, {64 * cpp_s / flock_s:5.2f} times the loop in C++")
+    print(f"64 rigs in a batch         {64 * ticks / batch_s:10.0f} ticks a second, {64 * cpp_s / batch_s:5.2f} times the loop in C++")
 
 
 def scenario(loads):

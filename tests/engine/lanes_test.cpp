@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include <sim/engine/abreast.hpp>
+#include <sim/engine/vectorised.hpp>
 
 #include "random_rigs.hpp"
 #include "regulators.hpp"
@@ -112,7 +112,7 @@ struct Eight {
   }
 
   std::vector<Lanes> rates() const {
-    const auto all = abreast(plants).value();
+    const auto all = vectorised(plants).value();
     plant::HeldOf<Lanes> holds;
     for (std::size_t lane = 0; lane < held.size(); ++lane) put(held[lane], lane, holds);
     const auto now = all.moment<1>(state, memory, holds);
@@ -149,7 +149,7 @@ void expect_alike(const Eight& eight, const std::string& what) {
   }
 }
 
-TEST(Abreast, RigsKeepToTheirOwnLaws) {
+TEST(Vectorised, RigsKeepToTheirOwnLaws) {
   Chance chance(3);
   for (const auto law : {plant::FrictionLaw::superposition, plant::FrictionLaw::area,
                          plant::FrictionLaw::logarithmic, plant::FrictionLaw::power})
@@ -167,7 +167,7 @@ TEST(Abreast, RigsKeepToTheirOwnLaws) {
   for (int i = 0; i < 100; ++i) expect_alike(Eight(chance, plant::rig_with_all_effects()), "all effects");
 }
 
-TEST(Abreast, AnEffectOfOneRigIsNotItsNeighbours) {
+TEST(Vectorised, AnEffectOfOneRigIsNotItsNeighbours) {
   Chance chance(4);
   const auto rigs = plant::rigs_with_one_effect();
   for (std::size_t first = 0; first < rigs.size(); ++first) {
@@ -189,7 +189,7 @@ TEST(Abreast, AnEffectOfOneRigIsNotItsNeighbours) {
   }
 }
 
-TEST(Abreast, TermsOfALawAreEachTheirOwn) {
+TEST(Vectorised, TermsOfALawAreEachTheirOwn) {
   using plant::Basis;
   Chance chance(6);
   Eight eight(chance, plant::Rig{});
@@ -205,23 +205,23 @@ TEST(Abreast, TermsOfALawAreEachTheirOwn) {
   expect_alike(eight, "terms");
 }
 
-TEST(Abreast, RigsOfAnotherKindAreNot) {
+TEST(Vectorised, RigsOfAnotherKindAreNot) {
   plant::Rig area;
   area.friction.law = plant::FrictionLaw::area;
-  EXPECT_FALSE(abreast(std::vector<plant::Plant>{{plant::Rig{}, 12.0}, {area, 12.0}}).has_value());
+  EXPECT_FALSE(vectorised(std::vector<plant::Plant>{{plant::Rig{}, 12.0}, {area, 12.0}}).has_value());
   for (const plant::Rig& other : {plant::Rig{}, plant::swinging_regulator(5.0, 0.7)})
-    EXPECT_FALSE(
-        abreast(std::vector<plant::Plant>{{plant::quick_regulator(0.1), 12.0}, {other, 12.0}}).has_value());
+    EXPECT_FALSE(vectorised(std::vector<plant::Plant>{{plant::quick_regulator(0.1), 12.0}, {other, 12.0}})
+                     .has_value());
   plant::Rig linear, saturating;
   linear.effects.get<plant::BladderElasticity>().stiffness_N_per_m = 50.0;
   auto& bladder = saturating.effects.get<plant::BladderElasticity>();
   bladder.variant = plant::BladderLaw::saturating;
   bladder.force_N = 5.0;
-  EXPECT_FALSE(abreast(std::vector<plant::Plant>{{linear, 12.0}, {saturating, 12.0}}).has_value());
-  EXPECT_TRUE(abreast(std::vector<plant::Plant>{{plant::Rig{}, 12.0}, {saturating, 12.0}}).has_value());
+  EXPECT_FALSE(vectorised(std::vector<plant::Plant>{{linear, 12.0}, {saturating, 12.0}}).has_value());
+  EXPECT_TRUE(vectorised(std::vector<plant::Plant>{{plant::Rig{}, 12.0}, {saturating, 12.0}}).has_value());
 }
 
-TEST(Abreast, EachMachineGetsTheSameBits) {
+TEST(Vectorised, EachMachineGetsTheSameBits) {
 #if defined(__x86_64__)
   if (!has_avx2()) GTEST_SKIP() << "no AVX2 here";
   Chance chance(5);

@@ -4,11 +4,11 @@
 
 #include <gtest/gtest.h>
 
-#include <sim/engine/abreast.hpp>
 #include <sim/engine/dual.hpp>
 #include <sim/engine/failure.hpp>
 #include <sim/engine/integrator.hpp>
 #include <sim/engine/lanes.hpp>
+#include <sim/engine/vectorised.hpp>
 
 #include "own_law.hpp"
 
@@ -157,7 +157,7 @@ TEST(OwnLaw, OtherLawsInEachLaneAreEachTheirOwn) {
     if (i == 6) rig.effects.get<plant::ValveLag>().time_s = 0.1;
     plants.emplace_back(rig, 12.0 + i);
   }
-  const auto together = abreast(plants);
+  const auto together = vectorised(plants);
   ASSERT_TRUE(together);
   plant::HeldOf<Lanes> held;
   held.reference_pressure_Pa = Lanes(3e5);

@@ -1,4 +1,4 @@
-"""Ride, flock and slopes: where they go, to the bit, whatever runs beside them."""
+"""Ride, batch and slopes: where they go, to the bit, whatever runs beside them."""
 import threading
 import unittest
 
@@ -107,14 +107,14 @@ class Rides(unittest.TestCase):
         self.assertIsInstance(caught.exception, ArithmeticError)
 
 
-class Flocks(unittest.TestCase):
+class Batches(unittest.TestCase):
     LOADS = numpy.linspace(8.0, 26.0, 40)
 
     def test_each_goes_where_it_goes_alone_on_any_threads(self):
         rig = mckibben.Rig({"integrator": {"tolerance": 1e-9}})
         currents = numpy.tile(CURRENTS[:, None], 40)
-        rows = mckibben.Flock(rig, self.LOADS).follow(currents)
-        on_two = mckibben.Flock(rig, self.LOADS, threads=2).follow(currents)
+        rows = mckibben.Batch(rig, self.LOADS).follow(currents)
+        on_two = mckibben.Batch(rig, self.LOADS, threads=2).follow(currents)
         self.assertEqual(rows["state"].tobytes(), on_two["state"].tobytes())
         for i in (0, 17, 39):
             alone = mckibben.Ride(rig, load_kg=self.LOADS[i]).follow(CURRENTS)
@@ -124,7 +124,7 @@ class Flocks(unittest.TestCase):
 
     def test_step_is_a_row_of_follow(self):
         rigs = [mckibben.Rig(), mckibben.Rig({"friction": {"memory": "coulomb"}}), mckibben.Rig()]
-        one, other = mckibben.Flock(rigs, [11.0, 12.0, 13.0]), mckibben.Flock(rigs, [11.0, 12.0, 13.0])
+        one, other = mckibben.Batch(rigs, [11.0, 12.0, 13.0]), mckibben.Batch(rigs, [11.0, 12.0, 13.0])
         rows = one.follow(numpy.tile(CURRENTS[:50, None], 3))
         for k in range(50):
             self.assertEqual(other.state.tobytes(), rows["state"][k].tobytes())
@@ -134,17 +134,17 @@ class Flocks(unittest.TestCase):
 
     def test_one_that_fails_fails_alone(self):
         soft = mckibben.Rig({"muscle": {"stop_stiffness": "1000 N/m", "stop_damping": "0 s/m"}})
-        flock = mckibben.Flock([mckibben.Rig(), soft, mckibben.Rig()], [11.0, 400.0, 11.0])
-        flock.step(9.0)
-        self.assertEqual(list(flock.failures), [1])
-        self.assertEqual(flock.state[0].tolist(), flock.state[2].tolist())
+        batch = mckibben.Batch([mckibben.Rig(), soft, mckibben.Rig()], [11.0, 400.0, 11.0])
+        batch.step(9.0)
+        self.assertEqual(list(batch.failures), [1])
+        self.assertEqual(batch.state[0].tolist(), batch.state[2].tolist())
 
     def test_nonsense_is_refused(self):
-        flock = mckibben.Flock("thesis", [11.0, 12.0])
-        for bad in (lambda: mckibben.Flock([], [11.0]), lambda: mckibben.Flock("thesis", [0.0]),
-                    lambda: mckibben.Flock("thesis_pair", [1.0]), lambda: flock.step([1.0, 2.0, 3.0]),
-                    lambda: flock.step([numpy.nan, 1.0]), lambda: flock.follow(numpy.ones(4)),
-                    lambda: mckibben.Flock(["thesis", {"tick": "10 ms"}], [11.0, 11.0])):
+        batch = mckibben.Batch("thesis", [11.0, 12.0])
+        for bad in (lambda: mckibben.Batch([], [11.0]), lambda: mckibben.Batch("thesis", [0.0]),
+                    lambda: mckibben.Batch("thesis_pair", [1.0]), lambda: batch.step([1.0, 2.0, 3.0]),
+                    lambda: batch.step([numpy.nan, 1.0]), lambda: batch.follow(numpy.ones(4)),
+                    lambda: mckibben.Batch(["thesis", {"tick": "10 ms"}], [11.0, 11.0])):
             with self.assertRaises(ValueError):
                 bad()
 

@@ -1,5 +1,4 @@
-// The step-able rig: what is saved, restored or copied goes on to the same bits; when a drive is felt;
-// several rigs on one ride.
+// The step-able rig: what is saved, restored or copied goes on to the same bits; when a drive is felt.
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -32,10 +31,10 @@ void go(Ride& ride, int from, int to) {
   for (int k = from; k < to; ++k) ride.step(drive_at(k), tick_s * (k + 1));
 }
 
-bool same_bits(const Ride& a, const Ride& b, std::size_t rig = 0) {
+bool same_bits(const Ride& a, const Ride& b) {
   const auto same = [](const auto& x, const auto& y) { return std::memcmp(&x, &y, sizeof x) == 0; };
-  return same(a.flow(rig).state, b.flow(rig).state) && same(a.flow(rig).memory, b.flow(rig).memory) &&
-         same(a.flow(rig).ledger, b.flow(rig).ledger) && a.reading(rig).wheel_m == b.reading(rig).wheel_m &&
+  return same(a.flow().state, b.flow().state) && same(a.flow().memory, b.flow().memory) &&
+         same(a.flow().ledger, b.flow().ledger) && a.reading().wheel_m == b.reading().wheel_m &&
          a.time_s() == b.time_s();
 }
 
@@ -141,29 +140,22 @@ TEST(Ride, ALateCommandIsFeltAsItWasGivenBefore) {
   EXPECT_GT(late.reading().wheel_m, 0.01);
 }
 
-// A tick and a half late: the same as in a ride whose commands change there, whatever rides beside it.
+// A tick and a half late: the same as in a ride whose commands change there.
 TEST(Ride, ALateCommandIsFeltBetweenInstantsToo) {
   const double half_s = 0.5 * tick_s;
   for (const auto memory : {plant::FrictionMemory::lugre, plant::FrictionMemory::coulomb}) {
     const Hanging late{with_friction(late_by(3 * half_s, 0.0), memory), load_kg};
-    const Hanging later{with_friction(late_by(4.4 * half_s, 0.0), memory), load_kg};
-    const Hanging both[] = {late, later};
-    Ride alone(late, {solver::Method::erk, 1e-9}), together(both, {solver::Method::erk, 1e-9});
+    Ride alone(late, {solver::Method::erk, 1e-9});
     Ride prompt(Hanging{with_friction({}, memory), load_kg}, {solver::Method::erk, 1e-9});
-    for (Ride* ride : {&alone, &together, &prompt}) ride->start(drive_at(0), 0.0);
+    for (Ride* ride : {&alone, &prompt}) ride->start(drive_at(0), 0.0);
     for (int k = 0; k < 120; ++k) {
       const Drive given{{.current_mA = drive_at(k / 2).current_mA}};
-      if (k % 2 == 0) {
-        alone.step(given, tick_s * (k / 2 + 1));
-        together.step(given, tick_s * (k / 2 + 1));
-      }
+      if (k % 2 == 0) alone.step(given, tick_s * (k / 2 + 1));
       prompt.step({{.current_mA = drive_at(std::max(0, k - 3) / 2).current_mA}}, half_s * (k + 1));
       if (k % 2 == 0) continue;
       ASSERT_NEAR(alone.reading().wheel_m, prompt.reading().wheel_m, 1e-8) << k;
-      ASSERT_NEAR(together.reading().wheel_m, prompt.reading().wheel_m, 1e-7) << k;
     }
     EXPECT_GT(alone.reading().wheel_m, 0.01);
-    EXPECT_LT(together.reading(1).wheel_m, together.reading(0).wheel_m - 1e-4);
   }
 }
 
@@ -241,60 +233,7 @@ TEST(Ride, TimesAreTheCallers) {
   EXPECT_NEAR(arrive(0.25), e, 1e-7);
 }
 
-TEST(Ride, CarriesSeveralRigsEachWhereItGoesAlone) {
-  plant::Rig lagging;
-  lagging.effects.get<plant::ValveLag>().time_s = 0.03;
-  for (const auto memory : {plant::FrictionMemory::lugre, plant::FrictionMemory::coulomb}) {
-    const Hanging rigs[] = {{with_friction({}, memory), 11.0}, {with_friction(lagging, memory), load_kg}};
-    EXPECT_EQ(can_share_steps(rigs, solver::Method::automatic), memory == plant::FrictionMemory::lugre);
-    Ride together(rigs, {solver::Method::erk, 1e-9});
-    together.start(drive_at(0), 0.0);
-    go(together, 0, 84);
-    for (std::size_t i = 0; i < 2; ++i) {
-      Ride alone(rigs[i], {solver::Method::erk, 1e-9});
-      alone.start(drive_at(0), 0.0);
-      go(alone, 0, 84);
-      EXPECT_NEAR(together.reading(i).wheel_m, alone.reading().wheel_m, 3e-8) << i;
-      EXPECT_GT(together.reading(i).wheel_m, 0.015);
-    }
-    Ride copy = together;
-    go(together, 84, 120);
-    go(copy, 84, 120);
-    for (std::size_t i = 0; i < 2; ++i) EXPECT_TRUE(same_bits(together, copy, i)) << i;
-  }
-}
-
-TEST(Ride, CarriesSeveralPairsEachWhereItGoesAlone) {
-  Paired nominal, other;
-  other.rig.effects.get<plant::ValveLag>().time_s = other.opposite.effects.get<plant::ValveLag>().time_s =
-      0.03;
-  other.opposite.effects.get<plant::BladderCreep>().stiffness_N_per_m = 300.0;
-  other.opposite.muscle.rest_radius_m *= 1.02;
-  other.link = {.contraction_ratio = 0.12, .inertia_kg_m2 = 0.2, .hangs_at_rad = 0.1};
-  const Paired pairs[] = {nominal, other};
-  EXPECT_TRUE(can_share_steps(pairs, solver::Method::automatic));
-  Ride together(pairs, {solver::Method::erk, 1e-9});
-  const auto go_pair = [](Ride& ride) {
-    const auto both = [](int k) {
-      Drive drive = drive_at(k);
-      drive.opposite.current_mA = 12.0 + 4.0 * std::sin(0.03 * k);
-      return drive;
-    };
-    ride.start(both(0), 0.0);
-    for (int k = 0; k < 84; ++k) ride.step(both(k), tick_s * (k + 1));
-  };
-  go_pair(together);
-  for (std::size_t i = 0; i < 2; ++i) {
-    Ride alone(pairs[i], {solver::Method::erk, 1e-9});
-    go_pair(alone);
-    EXPECT_NEAR(together.reading(i).wheel_m, alone.reading().wheel_m, 3e-8) << i;
-    EXPECT_NEAR(together.reading(i).opposite_pressure_Pa, alone.reading().opposite_pressure_Pa, 1.0) << i;
-  }
-  EXPECT_GT(std::abs(together.reading(0).wheel_m - together.reading(1).wheel_m), 1e-4);
-}
-
 TEST(Ride, RefusesWhatItCannotDo) {
-  EXPECT_THROW(Ride(std::span<const Hanging>{}, {}), std::invalid_argument);
   Ride ride(Hanging{plant::Rig{}, load_kg}, {});
   ride.start({{.current_mA = 4.0}}, 1.0);
   EXPECT_THROW(ride.step({{.current_mA = 4.0}}, 1.0), std::invalid_argument);

@@ -45,7 +45,7 @@ struct FitThresholds {
 struct StartsThresholds {
   double wide = 0.4;                 ///< relative deviation of a number from which its range is looked over
   double reach = 2.0;                ///< deviations, each way
-  std::size_t places = 14;           ///< that are looked at: two flocks beside the rig itself,
+  std::size_t places = 14;           ///< that are looked at: two groups with the rig itself,
   std::size_t runs = 3;              ///< in so many runs,
   std::size_t begun = 2;             ///< and so many begun from
   double far = 4.0;                  ///< deviations, of one number that may be far off

@@ -113,7 +113,7 @@ void Slave::step(double from_s, double length_s) {
 void Slave::hang(double load_kg) {
   ride::Rider rider(ride::Hanging{rig_, load_kg});
   rider.now = ride_->rider().now;
-  ride_.emplace(rider, ride_->save().paces.front(), rig_.integrator);
+  ride_.emplace(rider, ride_->save().pace, rig_.integrator);
   hanging_kg_ = load_kg;
 }
 
@@ -132,7 +132,7 @@ std::string Slave::bytes(const std::string& token) const {
   write(ride_.has_value());
   if (ride_) {
     const ride::Ride::Saved saved = ride_->save();
-    write(saved.riders, saved.paces, *counter_);
+    write(saved.rider, saved.pace, *counter_);
   }
   return write.closed();
 }
@@ -150,7 +150,7 @@ void Slave::become(std::string_view bytes, const std::string& token) {
   if (rides) {
     make_ride();
     ride::Ride::Saved saved;
-    read(saved.riders, saved.paces, *counter_);
+    read(saved.rider, saved.pace, *counter_);
     ride_->restore(saved);
   }
   read.end();

@@ -8,11 +8,13 @@
 
 Numbers are SI, gauge pressures, currents in mA; names end in their units. docs/python.md is the tutorial.
 """
-from ._core import (Calibration, Dataset, Diagnosis, Flock, Linear, Reading, Result, Ride, Rig, Run, SavedRide,
+from ._core import (Batch, Calibration, Dataset, Diagnosis, Linear, Reading, Result, Ride, Rig, Run, SavedRide,
                     Scenario)
 from ._core import version as __version__
 from .env import Env
 from .errors import Error, InputError, InputWarning, MissingInput, NumericalFailure, Problem, UnfitData
 
-__all__ = ["Calibration", "Dataset", "Diagnosis", "Env", "Error", "Flock", "InputError", "InputWarning", "Linear",
+Flock = Batch  #: its name until it was called after what it is
+
+__all__ = ["Batch", "Calibration", "Dataset", "Diagnosis", "Env", "Error", "Flock", "InputError", "InputWarning", "Linear",
            "MissingInput", "NumericalFailure", "Problem", "Reading", "Result", "Ride", "Rig", "Run", "SavedRide", "Scenario", "UnfitData"]

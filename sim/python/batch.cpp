@@ -1,4 +1,4 @@
-// Many rides as arrays: fleets, as many as fill their lanes, on as many threads as wanted.
+// Many rigs as arrays: a vector ride for as many as fill a batch's lanes, on as many threads as wanted.
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -11,7 +11,7 @@
 #include <sim/python/inputs.hpp>
 #include <sim/python/long_work.hpp>
 #include <sim/python/turn.hpp>
-#include <sim/ride/fleet.hpp>
+#include <sim/ride/vector_ride.hpp>
 #include <sim/run/batch.hpp>
 #include <sim/run/simulate.hpp>
 
@@ -25,9 +25,9 @@ struct Rows {
   std::vector<double> time_s, state, contraction_ratio;
 };
 
-class Flock {
+class Batch {
  public:
-  Flock(const py::object& rigs, const Numbers& loads_kg, unsigned threads) : threads_(threads) {
+  Batch(const py::object& rigs, const Numbers& loads_kg, unsigned threads) : threads_(threads) {
     const bool many = py::isinstance<py::list>(rigs) || py::isinstance<py::tuple>(rigs);
     std::vector<domain::RigFile> files;
     if (many)
@@ -36,14 +36,14 @@ class Flock {
       files.push_back(rig_of(rigs).file);
     const auto loads = static_cast<std::size_t>(loads_kg.size());
     rigs_ = many ? files.size() : loads;
-    if (rigs_ == 0) throw py::value_error("a flock has one rig at least");
+    if (rigs_ == 0) throw py::value_error("a batch has one rig at least");
     if (loads != 1 && loads != rigs_) throw py::value_error("loads_kg: one number, or one for each rig");
     std::vector<ride::Hanging> hanging;
     std::vector<solver::Settings> settings;
     for (std::size_t i = 0; i < rigs_; ++i) {
       const domain::RigFile& file = files[many ? i : 0];
-      if (file.tick_s != files.front().tick_s) throw py::value_error("rigs of a flock have the same tick");
-      if (file.pair() != nullptr) throw py::value_error("rigs of a flock have one muscle each");
+      if (file.tick_s != files.front().tick_s) throw py::value_error("rigs of a batch have the same tick");
+      if (file.pair() != nullptr) throw py::value_error("rigs of a batch have one muscle each");
       const double load_kg = loads_kg.data()[loads == 1 ? 0 : i];
       if (!(load_kg + file.joint.load_offset_kg > 0.0) || !(load_kg <= 500.0))
         throw py::value_error("loads_kg: masses above 0 and up to 500 kg");
@@ -55,10 +55,10 @@ class Flock {
     }
     tick_s_ = files.front().tick_s;
     counts_.resize(rigs_);
-    for (std::size_t first = 0; first < rigs_; first += engine::Convoy::places) {
-      const std::size_t count = std::min(engine::Convoy::places, rigs_ - first);
-      fleets_.push_back(std::make_unique<ride::Fleet>(std::span(hanging).subspan(first, count),
-                                                      std::span(settings).subspan(first, count)));
+    for (std::size_t first = 0; first < rigs_; first += most) {
+      const std::size_t count = std::min(most, rigs_ - first);
+      parts_.push_back(std::make_unique<ride::VectorRide>(std::span(hanging).subspan(first, count),
+                                                          std::span(settings).subspan(first, count)));
     }
     start(std::nullopt);
   }
@@ -68,17 +68,13 @@ class Flock {
     const std::vector<double> currents = current_mA ? all(*current_mA) : zero_mA_;
     const py::gil_scoped_release released;
     counters_.clear();
-    for (std::size_t i = 0; i < rigs_; ++i)
-      counters_.emplace_back(fleet_of(i).rider(place_of(i)).plant().rig());
+    for (std::size_t i = 0; i < rigs_; ++i) counters_.emplace_back(rider(i).plant().rig());
     ticks_ = -settling_ticks_;
-    run::for_each_job(
-        fleets_.size(), threads_,
-        [&](std::size_t f) {
-          const auto mine = part(currents, f);
-          fleets_[f]->start(mine, time_s(-settling_ticks_));
-          for (long k = -settling_ticks_; k < 0; ++k) step(f, mine, k);
-        },
-        [](std::size_t) {});
+    for_each_part([&](std::size_t p) {
+      const auto mine = of_part(currents, p);
+      parts_[p]->start(mine, time_s(ticks_));
+      for (long k = ticks_; k < 0; ++k) step(p, mine, k);
+    });
     ticks_ = 0;
   }
 
@@ -86,9 +82,7 @@ class Flock {
     const Turn turn(busy_);
     const std::vector<double> currents = all(current_mA);
     const py::gil_scoped_release released;
-    run::for_each_job(
-        fleets_.size(), threads_, [&](std::size_t f) { step(f, part(currents, f), ticks_); },
-        [](std::size_t) {});
+    for_each_part([&](std::size_t p) { step(p, of_part(currents, p), ticks_); });
     ++ticks_;
   }
 
@@ -104,9 +98,8 @@ class Flock {
     rows->contraction_ratio.resize(ticks * rigs_);
     for (std::size_t k = 0; k < ticks; ++k) rows->time_s.push_back(time_s(ticks_ + static_cast<long>(k)));
     do_long(progress, [&](const run::ProgressHook& hook) {
-      run::for_each_job(
-          fleets_.size(), threads_, [&](std::size_t f) { follow(f, currents, *rows); },
-          [&](std::size_t done) { hook("following", done, fleets_.size()); });
+      for_each_part([&](std::size_t p) { follow(p, currents, *rows); },
+                    [&](std::size_t done) { hook("following", done, parts_.size()); });
     });
     ticks_ += static_cast<long>(ticks);
     return as_dict(std::move(rows));
@@ -126,13 +119,15 @@ class Flock {
   py::dict failures() const {
     py::dict all;
     for (std::size_t i = 0; i < rigs_; ++i)
-      if (const std::string& why = fleet_of(i).failure(place_of(i)); !why.empty()) all[py::int_(i)] = why;
+      if (const std::string& why = parts_[i / most]->failure(i % most); !why.empty()) all[py::int_(i)] = why;
     return all;
   }
   std::size_t rigs() const { return rigs_; }
   double now_s() const { return time_s(ticks_); }
 
  private:
+  static constexpr std::size_t most = engine::Batch::most_lanes;  // rigs of a part
+
   static void require_finite(std::span<const double> currents) {
     for (const double current_mA : currents)
       if (!std::isfinite(current_mA)) throw py::value_error("current_mA holds what is no finite number");
@@ -145,23 +140,30 @@ class Flock {
     require_finite(currents);
     return currents;
   }
-  std::span<const double> part(std::span<const double> all, std::size_t fleet) const {
-    return all.subspan(fleet * engine::Convoy::places, fleets_[fleet]->rigs());
+  std::span<const double> of_part(std::span<const double> all, std::size_t part) const {
+    return all.subspan(part * most, parts_[part]->rigs());
   }
-  const ride::Fleet& fleet_of(std::size_t rig) const { return *fleets_[rig / engine::Convoy::places]; }
-  static std::size_t place_of(std::size_t rig) { return rig % engine::Convoy::places; }
-  const double* state_of(std::size_t rig) const {
-    return &fleet_of(rig).rider(place_of(rig)).now.flow.state.joint.contraction_ratio;
+  void for_each_part(
+      const std::function<void(std::size_t)>& job,
+      const std::function<void(std::size_t)>& done = [](std::size_t) {}) const {
+    run::for_each_job(parts_.size(), threads_, job, done);
   }
+  const ride::Rider& rider(std::size_t rig) const { return parts_[rig / most]->rider(rig % most); }
+  const double* state_of(std::size_t rig) const { return &rider(rig).now.flow.state.joint.contraction_ratio; }
   double read_ratio(std::size_t rig) const { return static_cast<double>(counts_[rig]) * per_count_[rig]; }
   double time_s(long ticks) const { return static_cast<double>(ticks) * tick_s_; }
 
-  void follow(std::size_t f, std::span<const double> currents, Rows& rows) {
-    for (std::size_t k = 0; k < rows.time_s.size() && !run::interrupted(); ++k) {
-      write(f, k, rows);
-      step(f, part(currents.subspan(k * rigs_, rigs_), f), ticks_ + static_cast<long>(k));
+  void follow(std::size_t part, std::span<const double> currents, Rows& rows) {
+    for (std::size_t k = 0; k < rows.time_s.size(); ++k) {
+      if (run::interrupted()) throw run::Interrupted();
+      const std::size_t first = k * rigs_ + part * most;
+      for (std::size_t i = 0; i < parts_[part]->rigs(); ++i) {
+        rows.contraction_ratio[first + i] = read_ratio(part * most + i);
+        std::copy_n(state_of(part * most + i), plant::single_size,
+                    &rows.state[(first + i) * plant::single_size]);
+      }
+      step(part, of_part(currents.subspan(k * rigs_, rigs_), part), ticks_ + static_cast<long>(k));
     }
-    if (run::interrupted()) throw run::Interrupted();
   }
 
   py::dict as_dict(std::unique_ptr<Rows> made) const {
@@ -177,28 +179,17 @@ class Flock {
     return all;
   }
 
-  /// The tick `k` of one fleet.
-  void step(std::size_t f, std::span<const double> currents, long k) {
-    ride::Fleet& fleet = *fleets_[f];
-    fleet.step(currents, time_s(k + 1));
-    for (std::size_t place = 0; place < fleet.rigs(); ++place) {
-      const std::size_t rig = f * engine::Convoy::places + place;
-      counts_[rig] = counters_[rig].count(fleet.rider(place).now.reading.wheel_m);
-    }
-  }
-
-  void write(std::size_t f, std::size_t k, Rows& rows) const {
-    for (std::size_t place = 0; place < fleets_[f]->rigs(); ++place) {
-      const std::size_t rig = f * engine::Convoy::places + place, row = k * rigs_ + rig;
-      rows.contraction_ratio[row] = read_ratio(rig);
-      std::copy_n(state_of(rig), plant::single_size,
-                  rows.state.begin() + static_cast<std::ptrdiff_t>(row * plant::single_size));
-    }
+  /// The tick `k` of a part.
+  void step(std::size_t part, std::span<const double> currents, long k) {
+    ride::VectorRide& rides = *parts_[part];
+    rides.step(currents, time_s(k + 1));
+    for (std::size_t i = 0; i < rides.rigs(); ++i)
+      counts_[part * most + i] = counters_[part * most + i].count(rides.rider(i).now.reading.wheel_m);
   }
 
   unsigned threads_;
   std::size_t rigs_ = 0;
-  std::vector<std::unique_ptr<ride::Fleet>> fleets_;
+  std::vector<std::unique_ptr<ride::VectorRide>> parts_;
   std::vector<plant::PositionReader> counters_;
   std::vector<std::int64_t> counts_;
   std::vector<double> per_count_, zero_mA_;
@@ -209,8 +200,8 @@ class Flock {
 
 }  // namespace
 
-void add_fleets(py::module_& module) {
-  py::class_<Flock>(module, "Flock",
+void add_batch(py::module_& module) {
+  py::class_<Batch>(module, "Batch",
                     "Many rigs with a load each, stepped together, each under its own current.")
       .def(py::init<const py::object&, const Numbers&, unsigned>(), py::arg("rigs"), py::arg("loads_kg"),
            py::arg("threads") = 1,
@@ -220,25 +211,25 @@ void add_fleets(py::module_& module) {
            "depends neither on the others nor on threads, to the bit. They stand settled at 0 s, the valves "
            "at "
            "the lower ends of their lines.")
-      .def("start", &Flock::start, py::arg("current_mA") = py::none(),
+      .def("start", &Batch::start, py::arg("current_mA") = py::none(),
            "Settled at 0 s under these currents [mA], one or n.")
-      .def("step", py::overload_cast<const Numbers&>(&Flock::step), py::arg("current_mA"),
+      .def("step", py::overload_cast<const Numbers&>(&Batch::step), py::arg("current_mA"),
            "A tick with these currents [mA], one or n. A rig that cannot go on stays where it came to and is "
            "in `failures`; the others go on.")
-      .def("follow", py::overload_cast<const Numbers&, const py::object&>(&Flock::follow),
+      .def("follow", py::overload_cast<const Numbers&, const py::object&>(&Batch::follow),
            py::arg("current_mA"), py::arg("progress") = py::none(),
            "A tick for each row of currents [mA], shape (ticks, n), in one call. Gives a dict of time_s "
            "(ticks,), state (ticks, n, 5) and contraction_ratio (ticks, n) as the encoder counts it, each as "
            "it was before the tick, without copies.")
-      .def_property_readonly("contraction_ratio", &Flock::contraction_ratio,
+      .def_property_readonly("contraction_ratio", &Batch::contraction_ratio,
                              "As the encoders count it [1], shape (n,).")
       .def_property_readonly(
-          "state", &Flock::state,
+          "state", &Batch::state,
           "True states, shape (n, 5): contraction ratio [1] and its speed [1/s], valve and "
           "muscle pressure [Pa], bristles [m].")
-      .def_property_readonly("failures", &Flock::failures, "Why rigs could not go on, by their index.")
-      .def_property_readonly("time_s", &Flock::now_s, "Now [s].")
-      .def("__len__", &Flock::rigs);
+      .def_property_readonly("failures", &Batch::failures, "Why rigs could not go on, by their index.")
+      .def_property_readonly("time_s", &Batch::now_s, "Now [s].")
+      .def("__len__", &Batch::rigs);
 }
 
 }  // namespace mckibben::python

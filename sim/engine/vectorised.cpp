@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include <sim/engine/abreast.hpp>
-#include <sim/engine/convoy.hpp>
+#include <sim/engine/batch.hpp>
+#include <sim/engine/vectorised.hpp>
 
 namespace mckibben::engine {
 namespace {
@@ -197,10 +197,6 @@ std::vector<Leaves> levelled_leaves(std::vector<plant::Rig>& rigs) {
   return leaves;
 }
 
-}  // namespace
-
-namespace {
-
 /// Rigs as one; nothing if they differ in more than numbers.
 std::optional<plant::RigOf<Lanes>> as_one(std::vector<plant::Rig> rigs) {
   const auto leaves = levelled_leaves(rigs);
@@ -230,9 +226,16 @@ plant::LinkOf<Lanes> as_one(std::span<const plant::Plant> pairs) {
   return link;
 }
 
+void put_side(const plant::HeldSide& held, std::size_t lane, plant::HeldSideOf<Lanes>& all) {
+  all.reference_pressure_Pa.set(lane, held.reference_pressure_Pa);
+  all.current_speed_mA_per_s.set(lane, held.current_speed_mA_per_s);
+  all.given = held.given;
+  all.pressure_rate_Pa_per_s.set(lane, held.pressure_rate_Pa_per_s);
+}
+
 }  // namespace
 
-std::optional<plant::PlantOf<Lanes>> abreast(std::span<const plant::Plant> plants) {
+std::optional<plant::PlantOf<Lanes>> vectorised(std::span<const plant::Plant> plants) {
   std::vector<plant::Rig> rigs, opposite;
   rigs.reserve(plants.size());
   for (const plant::Plant& plant : plants) {
@@ -252,17 +255,6 @@ std::optional<plant::PlantOf<Lanes>> abreast(std::span<const plant::Plant> plant
   return plant::PlantOf<Lanes>(*rig, load_kg);
 }
 
-namespace {
-
-void put_side(const plant::HeldSide& held, std::size_t lane, plant::HeldSideOf<Lanes>& all) {
-  all.reference_pressure_Pa.set(lane, held.reference_pressure_Pa);
-  all.current_speed_mA_per_s.set(lane, held.current_speed_mA_per_s);
-  all.given = held.given;
-  all.pressure_rate_Pa_per_s.set(lane, held.pressure_rate_Pa_per_s);
-}
-
-}  // namespace
-
 void put(const plant::Held& held, std::size_t lane, plant::HeldOf<Lanes>& all) {
   put_side(held, lane, all);
   put_side(held.opposite, lane, all.opposite);
@@ -270,11 +262,18 @@ void put(const plant::Held& held, std::size_t lane, plant::HeldOf<Lanes>& all) {
   all.joint_force_N.set(lane, held.joint_force_N);
 }
 
-std::optional<Kind> kind_of(std::span<const plant::Rig* const> party) {
-  std::vector<plant::Rig> rigs;
-  rigs.reserve(party.size());
-  for (const plant::Rig* rig : party) rigs.push_back(*rig);
-  return common_choices(levelled_leaves(rigs));
+std::optional<Kind> kind_of(std::span<const plant::Plant* const> group) {
+  std::vector<plant::Rig> rigs, opposite;
+  for (const plant::Plant* plant : group) {
+    rigs.push_back(plant->rig());
+    if (plant->opposite()) opposite.push_back(plant->opposite()->rig());
+  }
+  auto kind = common_choices(levelled_leaves(rigs));
+  if (!kind || opposite.empty()) return kind;
+  const auto other = common_choices(levelled_leaves(opposite));
+  if (!other) return std::nullopt;
+  kind->insert(kind->end(), other->begin(), other->end());
+  return kind;
 }
 
 }  // namespace mckibben::engine

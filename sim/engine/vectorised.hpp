@@ -1,5 +1,5 @@
-// Rigs of one kind as one rig whose numbers are lanes: parameters gathered by their field lists, so that no
-// parameter can be forgotten.
+// Rigs of one kind as one rig whose numbers are SIMD lanes: parameters gathered by their field lists, so that
+// none can be forgotten.
 #pragma once
 
 #include <optional>
@@ -12,7 +12,7 @@ namespace mckibben::engine {
 
 /// The plants, and the first again where there are fewer than lanes; nothing if they differ in more than
 /// numbers (friction law, variant of an effect that two of them have). All of one muscle each, or of two.
-std::optional<plant::PlantOf<Lanes>> abreast(std::span<const plant::Plant> plants);
+std::optional<plant::PlantOf<Lanes>> vectorised(std::span<const plant::Plant> plants);
 
 /// What one of them holds, in its lane. All of them are driven alike: a pressure, a length is given to all or
 /// to none.

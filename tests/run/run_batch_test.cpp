@@ -1,4 +1,4 @@
-// Runs side by side: each is what it is alone, within the tolerance, whatever rides beside it; one that
+// Runs in batches: each is what it is alone, within the tolerance, whatever shares the batch; one that
 // fails, fails alone.
 #include <algorithm>
 #include <cmath>
@@ -35,7 +35,7 @@ class Runs {
     const Order order = order_of(i);
     return simulate(order.plan, *order.controller);
   }
-  std::vector<Recording> abreast(unsigned threads = 1) const {
+  std::vector<Recording> in_batch(unsigned threads = 1) const {
     std::vector<Recording> recordings(plans_.size());
     simulate_all(
         plans_.size(), threads, [&](std::size_t i) { return order_of(i); },
@@ -81,10 +81,10 @@ Runs ten_of_all_kinds(const solver::Settings& settings) {
   return runs;
 }
 
-TEST(Abreast, EachRunIsWhatItIsAlone) {
+TEST(RunBatch, EachRunIsWhatItIsAlone) {
   for (const auto& [tolerance, most] : {std::pair{solver::tightest_tolerance, 1e-9}, {1e-6, 2e-6}}) {
     const Runs runs = ten_of_all_kinds({solver::Method::automatic, tolerance});
-    const std::vector<Recording> together = runs.abreast();
+    const std::vector<Recording> together = runs.in_batch();
     for (std::size_t i = 0; i < together.size(); ++i) {
       EXPECT_TRUE(together[i].failure.empty()) << together[i].failure;
       const Recording alone = runs.alone(i);
@@ -94,7 +94,7 @@ TEST(Abreast, EachRunIsWhatItIsAlone) {
   }
 }
 
-TEST(Abreast, LedgersComeAlongAndChangeNothing) {
+TEST(RunBatch, LedgersComeAlongAndChangeNothing) {
   const Runs without = ten_of_all_kinds({});
   Runs with = ten_of_all_kinds({});
   plant::Rig polytropic;  // its ledger is kept alone, as is that of any gas with a temperature
@@ -104,7 +104,7 @@ TEST(Abreast, LedgersComeAlongAndChangeNothing) {
   plant::switch_on(warming.effects.get<plant::GasTemperature>(), plant::GasTemperature::variants.front());
   with.add(warming, 14.0);
   with.keep_ledgers();
-  const std::vector<Recording> plain = without.abreast(), kept = with.abreast();
+  const std::vector<Recording> plain = without.in_batch(), kept = with.in_batch();
   for (std::size_t i = 0; i < plain.size(); ++i) EXPECT_EQ(furthest(kept[i], plain[i]), 0.0) << i;
   for (std::size_t i = 0; i < kept.size(); ++i) {
     EXPECT_GT(kept[i].ledger.air_drawn_kg, 0.0) << i;
@@ -118,18 +118,18 @@ TEST(Abreast, LedgersComeAlongAndChangeNothing) {
   }
 }
 
-TEST(Abreast, WhatRidesBesideARunMakesNoDifference) {
+TEST(RunBatch, OtherRunsMakeNoDifference) {
   const Runs all = ten_of_all_kinds({});
   Runs three;  // some of them
   for (const double load_kg : {16.138, 8.0, 20.0}) three.add({}, load_kg);
-  const std::vector<Recording> of_ten = all.abreast(), of_three = three.abreast(), on_two = all.abreast(2);
+  const std::vector<Recording> of_ten = all.in_batch(), of_three = three.in_batch(), on_two = all.in_batch(2);
   EXPECT_EQ(furthest(of_ten[2], of_three[0]), 0.0);
   EXPECT_EQ(furthest(of_ten[0], of_three[1]), 0.0);
   EXPECT_EQ(furthest(of_ten[9], of_three[2]), 0.0);
   for (std::size_t i = 0; i < of_ten.size(); ++i) EXPECT_EQ(furthest(of_ten[i], on_two[i]), 0.0) << i;
 }
 
-TEST(Abreast, ARunThatFailsFailsAlone) {
+TEST(RunBatch, ARunThatFailsFailsAlone) {
   Runs runs;
   plant::Rig soft;  // its load falls past the range of the laws
   soft.muscle.stop_stiffness_N_per_m = 1e3;
@@ -138,7 +138,7 @@ TEST(Abreast, ARunThatFailsFailsAlone) {
   runs.add(soft, 400.0);
   runs.add({}, 0.0);
   runs.add({}, 23.406);
-  const std::vector<Recording> together = runs.abreast();
+  const std::vector<Recording> together = runs.in_batch();
   EXPECT_NE(together[1].failure.find("integration failed"), std::string::npos) << together[1].failure;
   EXPECT_EQ(together[1].samples.size(), runs.alone(1).samples.size());
   EXPECT_NE(together[2].failure.find("leave no load"), std::string::npos);
@@ -148,28 +148,28 @@ TEST(Abreast, ARunThatFailsFailsAlone) {
   }
 }
 
-TEST(Abreast, StiffRunsAreLeftToTheirOwnSteps) {
+TEST(RunBatch, StiffRunsAreLeftToTheirOwnSteps) {
   Runs runs;
   plant::Rig stiff;
   stiff.friction.bristle_stiffness_N_per_m = 1e8;
   runs.add(stiff, 11.138);
   runs.add({}, 11.138);
-  const std::vector<Recording> together = runs.abreast();
+  const std::vector<Recording> together = runs.in_batch();
   EXPECT_GE(together[0].solver.jacobians, 1);
   EXPECT_EQ(together[1].solver.jacobians, 0);
   for (std::size_t i = 0; i < 2; ++i) EXPECT_LT(furthest(together[i], runs.alone(i)), 2e-6) << i;
 }
 
-TEST(Abreast, WithExactStickAndSlipEachRidesAlone) {
+TEST(RunBatch, WithExactStickAndSlipEachRidesAlone) {
   Runs runs;
   plant::Rig coulomb;
   coulomb.friction.memory = plant::FrictionMemory::coulomb;
   runs.add(coulomb, 11.138);
   runs.add({}, 16.138);
-  EXPECT_EQ(furthest(runs.abreast()[0], runs.alone(0)), 0.0);
+  EXPECT_EQ(furthest(runs.in_batch()[0], runs.alone(0)), 0.0);
 }
 
-TEST(Abreast, WhatIsThrownOnTheWayComesOut) {
+TEST(RunBatch, WhatIsThrownOnTheWayComesOut) {
   const auto order = [](std::size_t) {
     const RunPlan plan{.rig = {}, .load_kg = 11.138, .ticks = 20};
     return Order{plan, controllers::StairCurrent{}.make(knowledge_of(plan.rig, {}))};
@@ -178,15 +178,15 @@ TEST(Abreast, WhatIsThrownOnTheWayComesOut) {
   EXPECT_THROW(simulate_all(5, 2, order, full), std::runtime_error);
 }
 
-TEST(Abreast, NoiseIsTheRunsOwn) {
+TEST(RunBatch, NoiseIsTheRunsOwn) {
   Runs runs;
   for (int i = 0; i < 3; ++i) runs.add({}, 11.138, {}, {.encoder_jitter = 1e-3, .current_mA = 0.1});
-  const std::vector<Recording> together = runs.abreast();
+  const std::vector<Recording> together = runs.in_batch();
   EXPECT_GT(furthest(together[0], together[1]), 1e-4);
   for (std::size_t i = 0; i < 3; ++i) EXPECT_LT(furthest(together[i], runs.alone(i)), 2e-6) << i;
 }
 
-TEST(Abreast, ARunOfACampaignDoesNotDependOnWhatElseIsAskedFor) {
+TEST(RunBatch, ARunOfACampaignDoesNotDependOnWhatElseIsAskedFor) {
   domain::Campaign campaign;
   campaign.loads_kg = {9.0, 11.138, 13.0, 16.138, 23.406};
   campaign.currents = {{"a", 0.6, controllers::SineCurrent{}}, {"b", 0.6, controllers::StairCurrent{}}};

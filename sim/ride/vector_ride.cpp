@@ -1,0 +1,81 @@
+// Items that keep their lanes from instant to instant; see the header.
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+#include <sim/ride/vector_ride.hpp>
+
+namespace mckibben::ride {
+
+struct VectorRide::Member final : BatchItem {
+  explicit Member(const Hanging& rig) : rider(rig) {}
+
+  std::span<Rider> riders() override { return {&rider, 1}; }
+  bool go_on() override { return std::exchange(holds, false); }
+  void end(const engine::Counters&, const engine::NumericalFailure* why) override {
+    if (why != nullptr) failure = why->what();
+  }
+
+  Rider rider;
+  bool holds = false;
+  std::string failure;
+};
+
+VectorRide::VectorRide(std::span<const Hanging> rigs, std::span<const solver::Settings> settings)
+    : rigs_(rigs.begin(), rigs.end()) {
+  if (rigs.size() != settings.size()) throw std::invalid_argument("rigs and settings are not as many");
+  for (std::size_t i = 0; i < rigs.size(); ++i) {
+    const Rider rider(rigs[i]);
+    alike_[batch_key({&rider, 1}, {}, settings[i])].push_back(i);
+  }
+}
+
+void VectorRide::require_as_many(std::span<const double> current_mA) const {
+  if (current_mA.size() != rigs()) throw std::invalid_argument("rigs and currents are not as many");
+}
+
+void VectorRide::start(std::span<const double> current_mA, double at_s) {
+  require_as_many(current_mA);
+  time_s_ = at_s;
+  members_.clear();
+  for (std::size_t i = 0; i < rigs(); ++i) {
+    members_.push_back(std::make_shared<Member>(rigs_[i]));
+    members_.back()->rider.start({{.current_mA = current_mA[i]}, {}, {}}, at_s);
+  }
+  batches_.clear();
+  alone_.clear();
+  constexpr std::size_t most = engine::Batch::most_lanes;
+  for (const auto& [key, all] : alike_)
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      const auto& member = members_[all[k]];
+      if (!key.in_lanes) {
+        alone_.emplace_back(member, Alone(member->riders(), key));
+        continue;
+      }
+      if (k % most == 0) batches_.emplace_back(key, std::min(most, all.size() - k), true);
+      batches_.back().submit(member);
+    }
+}
+
+void VectorRide::step(std::span<const double> current_mA, double until_s) {
+  require_as_many(current_mA);
+  if (!(until_s > time_s_)) throw std::invalid_argument("time goes forward");
+  time_s_ = until_s;
+  for (std::size_t i = 0; i < rigs(); ++i) {
+    Member& member = *members_[i];
+    if (!member.failure.empty()) continue;
+    member.rider.hold({{.current_mA = current_mA[i]}, {}, {}}, until_s);
+    member.holds = true;
+  }
+  for (auto& [member, alone] : alone_) alone.run(*member);
+  for (Batch& batch : batches_) batch.run();
+}
+
+const Rider& VectorRide::rider(std::size_t rig) const {
+  return members_[rig]->rider;
+}
+const std::string& VectorRide::failure(std::size_t rig) const {
+  return members_[rig]->failure;
+}
+
+}  // namespace mckibben::ride

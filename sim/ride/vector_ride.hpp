@@ -1,0 +1,46 @@
+// Independent rigs with a load each, stepped together from outside: arrays in, arrays out. They share the
+// lanes of batches where they can; the others go one by one. The result of one does not depend on the others,
+// to the bit.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <sim/ride/batch.hpp>
+
+namespace mckibben::ride {
+
+class VectorRide {
+ public:
+  /// `settings`: of each rig. Throws std::invalid_argument where there are not as many.
+  VectorRide(std::span<const Hanging> rigs, std::span<const solver::Settings> settings);
+
+  /// As a ride starts; so many currents as rigs.
+  void start(std::span<const double> current_mA, double at_s);
+  /// An instant and the way to the next [s]. A rig that cannot go on stays where it came to, and `failure`
+  /// says why; the others go on. Throws std::invalid_argument.
+  void step(std::span<const double> current_mA, double until_s);
+
+  std::size_t rigs() const { return rigs_.size(); }
+  const Rider& rider(std::size_t rig) const;
+  const std::string& failure(std::size_t rig) const;
+  double time_s() const { return time_s_; }
+
+ private:
+  struct Member;
+
+  void require_as_many(std::span<const double> current_mA) const;
+
+  std::vector<Hanging> rigs_;
+  std::map<BatchKey, std::vector<std::size_t>> alike_;  // which rigs
+  std::vector<std::shared_ptr<Member>> members_;
+  std::vector<Batch> batches_;
+  std::vector<std::pair<std::shared_ptr<Member>, Alone>> alone_;
+  double time_s_ = 0.0;
+};
+
+}  // namespace mckibben::ride
