@@ -6,8 +6,8 @@
 #include <sim/cli/results.hpp>
 #include <sim/domain/number.hpp>
 #include <sim/input/pair_scenario_file.hpp>
+#include <sim/output/csv.hpp>
 #include <sim/output/diagnosis_words.hpp>
-#include <sim/output/driven_csv.hpp>
 #include <sim/output/driven_results.hpp>
 #include <sim/output/run_files.hpp>
 #include <sim/report/report.hpp>
@@ -65,9 +65,13 @@ int run_pair(const Options& options, const std::string& path, const std::vector<
   const run::PairRuns all = with_progress(
       scenario.name, [&](const auto& hook) { return run::run_pairs(scenario, options.threads, hook); });
   TablesOf tables(job, scenario.name, formats);
-  for (const auto& run : all.runs)
-    if (!run.recording.samples.empty())
-      tables.write(run.name, run.name, output::pair_columns(run, scenario.rig), {});
+  for (const auto& run : all.runs) {
+    if (run.recording.samples.empty()) continue;
+    output::Targets targets;
+    if (run.followed)
+      targets = {{"angle", run.followed->angle_rad}, {"stiffness", run.followed->stiffness_N_m_per_rad}};
+    tables.write(run.name, run.name, output::columns_of(run.recording, scenario.rig, targets), {});
+  }
   tables.close();
   return finish(job, scenario, all, all.runs, run::warnings_of(all.runs));
 }
@@ -85,10 +89,7 @@ int replay_stamped(const Options& options, const std::string& path, const domain
     if (run.recording.samples.empty()) continue;
     std::vector<formats::Attribute> attributes;
     if (run.load_kg > 0.0) attributes.emplace_back("load_kg", run.load_kg);
-    tables.write(
-        run.id, run.id,
-        output::driven_columns(run.recording, dataset.rig, !dataset.runs[i].measured->force_N.empty()),
-        std::move(attributes));
+    tables.write(run.id, run.id, output::columns_of(run.recording, dataset.rig), std::move(attributes));
   }
   tables.close();
   return finish(job, dataset, runs, runs, warnings);

@@ -59,15 +59,14 @@ void write_table(Job& job, output::Package& package, const std::string& stem, co
 
 void write_tables(Job& job, const domain::Scenario& scenario, const run::Comparison& comparison,
                   const std::vector<std::string>& formats) {
-  const double per_count = run::contraction_per_count(scenario.rig);
-  const output::Besides besides = output::besides_of(scenario.rig);
-  output::Package package{scenario.name, output::recorded_columns(true, besides), {}};
+  const output::Targets targets{{"contraction_ratio", comparison.target}};
+  output::Package package{scenario.name, output::columns_of({}, scenario.rig, targets), {}};
   for (const auto& run : comparison.runs) {
     if (run.recording.samples.empty()) continue;
     const std::string title = fmt::format("{} kg, {}", domain::write_number(run.load_kg), run.controller);
     write_table(job, package, output::file_stem(run), title,
                 {scenario.name + ": " + title,
-                 output::columns_of(run.recording, per_count, comparison.target, besides),
+                 output::columns_of(run.recording, scenario.rig, targets),
                  {{"source", output::program_name()},
                   {"load_kg", run.load_kg},
                   {"controller", run.controller},
@@ -79,16 +78,14 @@ void write_tables(Job& job, const domain::Scenario& scenario, const run::Compari
 
 void write_tables(Job& job, const std::string& name, const domain::Dataset& dataset,
                   const std::vector<run::ReplayedRun>& runs, const std::vector<std::string>& formats) {
-  const double per_count = run::contraction_per_count(dataset.rig);
-  const output::Besides besides = output::besides_of(dataset.rig);
-  output::Package package{"Replay of " + name, output::recorded_columns(false, besides), {}};
+  output::Package package{"Replay of " + name, output::columns_of({}, dataset.rig), {}};
   for (const auto& run : runs) {
     if (run.recording.samples.empty()) continue;
     const std::string title = fmt::format("{}, {} kg", run.id, domain::write_number(run.load_kg));
     write_table(
         job, package, run.id, title,
         {package.title + ": " + title,
-         output::columns_of(run.recording, per_count, {}, besides),
+         output::columns_of(run.recording, dataset.rig),
          {{"source", output::program_name()}, {"load_kg", run.load_kg}, {"controller", "recorded current"}}},
         formats);
   }

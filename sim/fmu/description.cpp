@@ -39,21 +39,27 @@ std::string attribute(std::string_view name, double value) {
 
 /// What is known of units in base units; an importer may convert those, and passes over the others.
 std::string base_of(std::string_view unit) {
-  static const std::map<std::string_view, std::string_view> bases{{"mA", "A=\"1\" factor=\"0.001\""},
-                                                                  {"Pa", "kg=\"1\" m=\"-1\" s=\"-2\""},
-                                                                  {"N", "kg=\"1\" m=\"1\" s=\"-2\""},
-                                                                  {"N/m", "kg=\"1\" s=\"-2\""},
-                                                                  {"N.s/m", "kg=\"1\" s=\"-1\""},
-                                                                  {"kg", "kg=\"1\""},
-                                                                  {"kg.m2", "kg=\"1\" m=\"2\""},
-                                                                  {"kg/m3", "kg=\"1\" m=\"-3\""},
-                                                                  {"m", "m=\"1\""},
-                                                                  {"m3", "m=\"3\""},
-                                                                  {"s", "s=\"1\""},
-                                                                  {"1/s", "s=\"-1\""},
-                                                                  {"Hz", "s=\"-1\""},
-                                                                  {"K", "K=\"1\""},
-                                                                  {"rad", "rad=\"1\""}};
+  static const std::map<std::string_view, std::string_view> bases{
+      {"mA", "A=\"1\" factor=\"0.001\""},
+      {"Pa", "kg=\"1\" m=\"-1\" s=\"-2\""},
+      {"bar", "kg=\"1\" m=\"-1\" s=\"-2\" factor=\"100000\""},
+      {"s-1", "s=\"-1\""},
+      {"rad s-1", "rad=\"1\" s=\"-1\""},
+      {"N m", "kg=\"1\" m=\"2\" s=\"-2\""},
+      {"N m rad-1", "kg=\"1\" m=\"2\" s=\"-2\" rad=\"-1\""},
+      {"N", "kg=\"1\" m=\"1\" s=\"-2\""},
+      {"N/m", "kg=\"1\" s=\"-2\""},
+      {"N.s/m", "kg=\"1\" s=\"-1\""},
+      {"kg", "kg=\"1\""},
+      {"kg.m2", "kg=\"1\" m=\"2\""},
+      {"kg/m3", "kg=\"1\" m=\"-3\""},
+      {"m", "m=\"1\""},
+      {"m3", "m=\"3\""},
+      {"s", "s=\"1\""},
+      {"1/s", "s=\"-1\""},
+      {"Hz", "s=\"-1\""},
+      {"K", "K=\"1\""},
+      {"rad", "rad=\"1\""}};
   const auto found = bases.find(unit);
   return found == bases.end() ? "" : fmt::format("<BaseUnit {}/>", found->second);
 }

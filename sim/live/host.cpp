@@ -27,6 +27,7 @@ constexpr std::size_t most_rows = 1'000'000;
 
 Host::Host(const domain::RigFile& rig, double load_kg, DataSets data)
     : session_(rig, load_kg),
+      channels_(channels_of(rig)),
       data_(std::move(data)),
       each_(static_cast<std::uint64_t>(std::max(1.0, std::floor(shown_each_s / rig.tick_s)))),
       thread_([this] { run(); }) {}
@@ -54,7 +55,7 @@ void Host::tell(std::string text) {
 void Host::end_recording(const std::string& why) {
   if (!recording_) return;
   recording_->ended = why;
-  const std::size_t rows = recording_->rows.size();
+  const std::size_t rows = recording_->rows.samples.size();
   if (rows < least_rows)
     tell(fmt::format("The recording ended{}, after {} rows. It takes {} to make a run; nothing was written.",
                      why.empty() ? "" : ": " + why, rows, least_rows));
@@ -68,9 +69,14 @@ void Host::step() {
   const bool moved = session_.failure().empty();
   const Sample& now = session_.step();
   if (recording_) {
-    if (recording_->rows.empty()) recording_->load_kg = session_.load_kg();
-    if (session_.failure().empty()) recording_->rows.push_back(now);
-    if (recording_->rows.size() == most_rows) end_recording(fmt::format("{} rows are the most", most_rows));
+    auto& rows = recording_->rows.samples;
+    if (rows.empty()) recording_->load_kg = session_.load_kg();
+    if (session_.failure().empty()) {
+      rows.push_back(now);  // times begin with the run
+      rows.back().time_s = run::tidy_s(static_cast<double>(rows.size() - 1) * session_.tick_s());
+    }
+    if (recording_->rows.samples.size() == most_rows)
+      end_recording(fmt::format("{} rows are the most", most_rows));
   }
   if (moved && !session_.failure().empty()) {
     end_recording("the integration gave up");
@@ -167,6 +173,7 @@ std::string Host::obey(const Command& command) {
             recording_->rig = session_.rig();
             recording_->load_kg = session_.load_kg();
             recording_->settled = session_.untouched();
+            recording_->rows.driven.pair = session_.pair();
             running_ = true;
             return done("");
           },
@@ -202,7 +209,7 @@ std::string Host::news(Heard& heard, milliseconds longest) {
     text += fmt::format("\"from\":{},\"samples\":[", from);
     for (std::uint64_t i = from; i < last(); ++i) {
       if (i > from) text += ',';
-      append(text, samples_[i - first_sample_], session_.pair());
+      append(text, channels_, samples_[i - first_sample_]);
     }
     text += ']';
     heard.samples = last();
@@ -224,7 +231,7 @@ void Host::write_recordings(const output::Say& say) {
   for (Recording& each : ended) {
     std::string text;
     const std::string why = each.ended.empty() ? "" : " (it ended: " + each.ended + ")";
-    const double lasting_s = static_cast<double>(each.rows.size()) * each.rig.tick_s;
+    const double lasting_s = static_cast<double>(each.rows.samples.size()) * each.rig.tick_s;
     const std::string under = each.rig.pair() != nullptr ? "" : fmt::format(" under {:g} kg", each.load_kg);
     try {
       const auto folder = data_.put(std::move(each));

@@ -56,6 +56,7 @@ class Host {
   mutable std::mutex mutex_;
   std::condition_variable moved_;
   Session session_;
+  std::vector<plant::Channel> channels_;
   DataSets data_;
   bool stop_ = false, running_ = true;
   std::deque<Sample> samples_;

@@ -1,7 +1,5 @@
-// Units of the page are bar, mA, N, deg; see the header.
-#include <array>
+// Names, units and numbers; see the header.
 #include <cmath>
-#include <span>
 
 #include <fmt/format.h>
 
@@ -17,54 +15,26 @@ void append(std::string& text, double value, int digits) {
   text += std::isfinite(value) ? fmt::format("{:.{}g}", value, digits) : "null";
 }
 
-/// The order of what follows is that of `columns` in scroll.js.
-std::array<double, 9> shown(const Sample& s) {
-  return {s.current_mA,
-          s.reference_Pa / plant::Pa_per_bar,
-          s.valve_Pa / plant::Pa_per_bar,
-          s.muscle_Pa / plant::Pa_per_bar,
-          s.contraction_ratio,
-          s.read,
-          s.braid_N,
-          s.friction_N,
-          s.effects_N};
-}
-std::array<double, 15> shown_of_pair(const Sample& s) {
-  const SideSample& other = s.opposite;
-  return {s.current_mA,
-          other.current_mA,
-          s.reference_Pa / plant::Pa_per_bar,
-          other.reference_Pa / plant::Pa_per_bar,
-          s.muscle_Pa / plant::Pa_per_bar,
-          other.muscle_Pa / plant::Pa_per_bar,
-          s.contraction_ratio,
-          other.contraction_ratio,
-          s.cord_N,
-          other.cord_N,
-          s.angle_rad / plant::degree_rad,
-          s.read / plant::degree_rad,
-          (s.reference_Pa - other.reference_Pa) / plant::Pa_per_bar,
-          (s.muscle_Pa - other.muscle_Pa) / plant::Pa_per_bar,
-          s.cord_N - other.cord_N};
-}
-
-void append_row(std::string& text, double time_s, std::span<const double> values) {
-  text += '[';
-  append(text, time_s, 10);
-  for (const double value : values) {
-    text += ',';
-    append(text, value, 7);
-  }
-  text += ']';
-}
-
 }  // namespace
 
-void append(std::string& text, const Sample& sample, bool of_pair) {
-  if (of_pair)
-    append_row(text, sample.time_s, shown_of_pair(sample));
-  else
-    append_row(text, sample.time_s, shown(sample));
+std::vector<plant::Channel> channels_of(const domain::RigFile& rig) {
+  return plant::channels_of(rig, {.pair = rig.pair() != nullptr});
+}
+
+input::Json signals_json(const domain::RigFile& rig) {
+  input::Json list = input::Json::array();
+  for (const plant::Channel& channel : channels_of(rig))
+    list.push_back({{"key", channel.key()}, {"unit", channel.page_unit()}});
+  return list;
+}
+
+void append(std::string& text, const std::vector<plant::Channel>& channels, const Sample& sample) {
+  text += '[';
+  for (const plant::Channel& channel : channels) {
+    if (&channel != &channels.front()) text += ',';
+    append(text, channel.on_page(sample), channel.signal->kind == plant::Kind::time ? 10 : 7);
+  }
+  text += ']';
 }
 
 input::Json effect_json(const Switch& one) {

@@ -2,14 +2,19 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include <sim/input/json.hpp>
 #include <sim/live/session.hpp>
 
 namespace mckibben::live {
 
-/// Appends a sample as a list of numbers, in the order of `columns` in scroll.js; what is no number is null.
-void append(std::string& text, const Sample& sample, bool of_pair);
+/// What the page is sent of each instant, and what these signals are: key, unit.
+std::vector<plant::Channel> channels_of(const domain::RigFile& rig);
+input::Json signals_json(const domain::RigFile& rig);
+
+/// Appends a sample as a list of numbers, one for each channel; what is no number is null.
+void append(std::string& text, const std::vector<plant::Channel>& channels, const Sample& sample);
 
 input::Json effect_json(const Switch& one);
 input::Json sweep_json(const Sweep& sweep);

@@ -5,6 +5,7 @@
 
 #include <sim/input/fields_json.hpp>
 #include <sim/live/files.hpp>
+#include <sim/live/news.hpp>
 #include <sim/live/page.hpp>
 #include <sim/output/svg.hpp>
 #include <sim/report/files.hpp>
@@ -32,6 +33,7 @@ std::string data_of(const domain::RigFile& rig, const Session& session) {
   Json data{{"rig", report::drawn_rig_json(rig, rig.mechanics, rig.gauge.fitted)},
             {"tick_s", rig.tick_s},
             {"largest_mA", rig.dac.largest_current_mA},
+            {"signals", signals_json(rig)},
             {"switches", Json::array()}};
   if (!session.pair()) data["load_kg"] = session.load_kg();
   for (const Switch& one : session.switches().all()) data["switches"].push_back(switch_json(one));

@@ -10,6 +10,7 @@
 
 #include <sim/live/session.hpp>
 #include <sim/output/folder.hpp>
+#include <sim/run/recording.hpp>
 
 namespace mckibben::live {
 
@@ -17,7 +18,7 @@ struct Recording {
   domain::RigFile rig;   ///< as it was
   double load_kg = 0.0;  ///< of one muscle
   bool settled = false;  ///< it began at rest
-  std::vector<Sample> rows;
+  run::Recording rows;
   std::string ended;  ///< why, if the user did not stop it
 };
 

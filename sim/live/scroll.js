@@ -1,17 +1,9 @@
 // What runs along: the samples of the last minute, plots of them over time, and loops with a grey trace of an
 // earlier one. Times are those of the simulation.
 const pair = report.rig.pair !== undefined;
-const columns = pair ?
-    [
-      'time', 'current_1', 'current_2', 'reference_pressure_1', 'reference_pressure_2', 'muscle_pressure_1',
-      'muscle_pressure_2', 'contraction_1', 'contraction_2', 'tension_1', 'tension_2', 'angle', 'read',
-      'reference_difference', 'pressure_difference', 'tension_difference'
-    ] :
-    [
-      'time', 'current', 'reference_pressure', 'valve_pressure', 'muscle_pressure', 'contraction', 'read',
-      'braid_force', 'friction_force', 'effects_pull'
-    ];
-const currentColumns = pair ? ['current_1', 'current_2'] : ['current'];
+const columns = report.signals.map(({key}) => key);
+const currentColumns = columns.filter((key) => key.startsWith('current'));
+const unitOf = Object.fromEntries(report.signals.map(({key, unit}) => [key, unit]));
 const kept = 60, gap = 1;  // seconds: that are kept; without samples, after which a line begins anew
 
 /** Samples by column, in order of time. */
@@ -53,41 +45,42 @@ const samples = {
     }));
   },
 
-  /** Values between two times, by column. */
+  /** Values between two times, by column; of `a - b` their difference. */
   between(from, to, names) {
     const {time} = this.of;
     const begin = time.length === 0 ? 0 : indexAt(time, from),
           end = time.length === 0 ? 0 : indexAt(time, to) + 1;
-    return names.map((name) => this.of[name].slice(begin, end));
+    return names.map((name) => {
+      const [a, b] = name.split(' - ').map((each) => this.of[each].slice(begin, end));
+      return b ? a.map((value, i) => value === null || b[i] === null ? null : value - b[i]) : a;
+    });
   },
 };
 
+const read = pair ? 'encoder_angle' : 'encoder_contraction_ratio';
 const pairTimePlots = [
-  {title: 'Joint angle', unit: 'deg', lines: [['angle', 'true'], ['read', 'as counted']]},
+  {title: 'Joint angle', lines: [['angle', 'true'], [read, 'as counted']]},
   {
     title: 'Pressures',
-    unit: 'bar',
     lines: [
       ['muscle_pressure_1', 'muscle 1'], ['reference_pressure_1', 'asked of valve 1'],
       ['muscle_pressure_2', 'muscle 2'], ['reference_pressure_2', 'asked of valve 2']
     ]
   },
-  {title: 'Currents', unit: 'mA', lines: [['current_1', 'of valve 1'], ['current_2', 'of valve 2']]},
-  {title: 'Forces of the cords', unit: 'N', lines: [['tension_1', 'cord 1'], ['tension_2', 'cord 2']]},
+  {title: 'Currents', lines: [['current_1', 'of valve 1'], ['current_2', 'of valve 2']]},
+  {title: 'Forces of the cords', lines: [['tension_1', 'cord 1'], ['tension_2', 'cord 2']]},
 ];
 const singleTimePlots = [
-  {title: 'Contraction', unit: 'contraction ratio', lines: [['contraction', 'true'], ['read', 'as counted']]},
+  {title: 'Contraction', lines: [['contraction_ratio', 'true'], [read, 'as counted']]},
   {
     title: 'Pressures',
-    unit: 'bar',
     lines: [
       ['muscle_pressure', 'muscle'], ['reference_pressure', 'asked of the valve'], ['valve_pressure', 'valve']
     ]
   },
-  {title: 'Current', unit: 'mA', lines: [['current', 'current']]},
+  {title: 'Current', lines: [['current', 'current']]},
   {
     title: 'Forces on the load, upwards',
-    unit: 'N',
     lines:
         [['braid_force', 'braid'], ['friction_force', 'friction of the threads'], ['effects_pull', 'effects']]
   },
@@ -95,27 +88,21 @@ const singleTimePlots = [
 const timePlots = pair ? pairTimePlots : singleTimePlots;
 /** Differences are those of muscle 1 less muscle 2. */
 const pairLoopPlots = [
-  {title: 'Difference of pressures asked for, and angle as counted', x: 'reference_difference', y: 'read'},
-  {title: 'Angle and difference of pressures', x: 'angle', y: 'pressure_difference'},
-  {title: 'Angle and difference of forces', x: 'angle', y: 'tension_difference'},
+  {
+    title: 'Difference of pressures asked for, and angle as counted',
+    x: 'reference_pressure_1 - reference_pressure_2',
+    y: read
+  },
+  {title: 'Angle and difference of pressures', x: 'angle', y: 'muscle_pressure_1 - muscle_pressure_2'},
+  {title: 'Angle and difference of forces', x: 'angle', y: 'tension_1 - tension_2'},
 ];
 const singleLoopPlots = [
-  {title: 'Pressure asked for, and contraction as counted', x: 'reference_pressure', y: 'read'},
-  {title: 'Contraction and pressure of the muscle', x: 'contraction', y: 'muscle_pressure'},
-  {title: 'Contraction and force of the braid', x: 'contraction', y: 'braid_force'},
+  {title: 'Pressure asked for, and contraction as counted', x: 'reference_pressure', y: read},
+  {title: 'Contraction and pressure of the muscle', x: 'contraction_ratio', y: 'muscle_pressure'},
+  {title: 'Contraction and force of the braid', x: 'contraction_ratio', y: 'braid_force'},
 ];
 const loopPlots = pair ? pairLoopPlots : singleLoopPlots;
-const unitOf = {
-  reference_pressure: 'bar',
-  muscle_pressure: 'bar',
-  braid_force: 'N',
-  read: pair ? 'deg' : 'contraction ratio',
-  contraction: 'contraction ratio',
-  reference_difference: 'bar',
-  pressure_difference: 'bar',
-  tension_difference: 'N',
-  angle: 'deg'
-};
+const unitOfAxis = (name) => unitOf[name.split(' - ')[0]];
 
 /** Round ends of an axis round some values, wide enough to be read. */
 function roundEnds(low, high) {
@@ -150,7 +137,7 @@ class Cell {
 
 class TimePlot extends Cell {
   constructor(plot) {
-    const {unit, factor} = shownAs(plot.unit);
+    const {unit, factor} = shownAs(unitOf[plot.lines[0][0]]);
     super(byId('plots'), plot.title, unit, plot.lines);
     this.names = plot.lines.map(([name]) => name);
     this.factor = factor;
@@ -207,7 +194,7 @@ function trace(dot) {
 
 class LoopPlot extends Cell {
   constructor(plot, before) {
-    const x = shownAs(unitOf[plot.x]), y = shownAs(unitOf[plot.y]);
+    const x = shownAs(unitOfAxis(plot.x)), y = shownAs(unitOfAxis(plot.y));
     super(byId('loops'), plot.title, `${x.unit}, ${y.unit}`, []);
     Object.assign(this, {names: [plot.x, plot.y], factors: [x.factor, y.factor], ghost: before ?? [[], []]});
     const facets = [{scale: 'x', auto: true}, {scale: 'y', auto: true}];

@@ -10,6 +10,7 @@
 #include <sim/input/common_checks.hpp>
 #include <sim/live/session.hpp>
 #include <sim/ride/changed.hpp>
+#include <sim/ride/sample.hpp>
 
 namespace mckibben::live {
 namespace {
@@ -68,8 +69,6 @@ Session::Session(const domain::RigFile& rig, double load_kg)
       currents_mA_{rig.valve.zero_current_mA,
                    rig.pair() != nullptr ? rig.pair()->opposite.valve.zero_current_mA : 0.0},
       reader_(rig),
-      per_count_(plant::count_height_m(rig) /
-                 (rig.pair() != nullptr ? rig.joint.wheel_radius_m : rig.muscle.rest_length_m)),
       ride_(ride_of(rig_, load_kg)) {
   start_over();
 }
@@ -171,33 +170,8 @@ void Session::hold(const Currents& wanted_mA) {
 
 /// Of the instant it is at.
 void Session::measure() {
-  const plant::Plant& plant = ride_.plant();
-  const plant::State<double>& state = ride_.flow().state;
-  const auto moment = ride_.moment();
-  const auto measure_side = [&](SideSample& sample, const plant::Side& side, double current_mA,
-                                const plant::SideState<double>& is, double shown_Pa, double contraction_ratio,
-                                const plant::SideMoment<double>& forces) {
-    sample = {.current_mA = current_mA,
-              .reference_Pa = side.reference_pressure_Pa(current_mA),
-              .valve_Pa = is.valve_pressure_Pa,
-              .muscle_Pa = is.muscle_pressure_Pa,
-              .shown_Pa = plant::gauge_reading_Pa(rig_.gauge, shown_Pa),
-              .contraction_ratio = contraction_ratio,
-              .braid_N = forces.braid_force_N,
-              .friction_N = forces.friction_force_N,
-              .effects_N = forces.effects_pull_N,
-              .cord_N = forces.cord_force_N()};
-  };
-  const ride::Reading& reading = ride_.reading();
+  sample_ = ride::sample_of(ride_.rider(), sample_.counts);
   sample_.time_s = time_s();
-  sample_.read = static_cast<double>(sample_.counts) * per_count_;
-  measure_side(sample_, plant.side(), drive_.current_mA, state.side, reading.muscle_pressure_Pa,
-               state.joint.contraction_ratio, moment);
-  if (!plant.opposite()) return;
-  measure_side(sample_.opposite, *plant.opposite(), drive_.opposite.current_mA, state.opposite,
-               reading.opposite_pressure_Pa, plant.opposite_stroke(state).contraction_ratio, moment.opposite);
-  sample_.angle_rad = (state.joint.contraction_ratio - plant.link().contraction_ratio) *
-                      rig_.muscle.rest_length_m / rig_.joint.wheel_radius_m;
 }
 
 const Sample& Session::step() {

@@ -9,28 +9,13 @@
 #include <string_view>
 
 #include <plant/instruments.hpp>
+#include <plant/signals.hpp>
 #include <sim/live/switches.hpp>
 #include <sim/ride/ride.hpp>
 
 namespace mckibben::live {
 
-/// Of one muscle at an instant. Pressures gauge.
-struct SideSample {
-  double current_mA = 0.0;
-  double reference_Pa = 0.0, valve_Pa = 0.0, muscle_Pa = 0.0;
-  double shown_Pa = 0.0;  ///< by a gauge on the muscle
-  double contraction_ratio = 0.0;
-  double braid_N = 0.0, friction_N = 0.0, effects_N = 0.0, cord_N = 0.0;
-};
-
-/// An instant: what the rig was, and what was held from there on.
-struct Sample : SideSample {
-  double time_s = 0.0;
-  SideSample opposite{};   ///< of a pair
-  double angle_rad = 0.0;  ///< of its joint
-  std::int64_t counts = 0;
-  double read = 0.0;  ///< what the counts say: contraction ratio; of a pair the joint angle [rad]
-};
+using plant::Sample;
 
 /// How the current goes by itself, between two ends, for ever.
 struct Sweep {
@@ -100,7 +85,6 @@ class Session {
   bool untouched_ = true;
   std::string failure_;
   plant::PositionReader reader_;
-  double per_count_;
   ride::Drive drive_;
   ride::Ride ride_;
   Sample sample_;

@@ -21,7 +21,6 @@
 #include <sim/output/campaign_folder.hpp>
 #include <sim/output/campaign_json.hpp>
 #include <sim/output/csv.hpp>
-#include <sim/output/driven_csv.hpp>
 #include <sim/output/run_files.hpp>
 #include <sim/run/simulate.hpp>
 
@@ -119,20 +118,15 @@ struct TwoTables {
   std::vector<formats::Column> measured, truth;
 };
 
-TwoTables tables_of(const domain::Campaign& campaign, const run::CampaignRun& run) {
-  const domain::RigFile& rig = campaign.rig;
-  if (rig.pair() != nullptr)
-    return {measured_pair_columns(run.recording, rig), driven_columns(run.recording, rig, false)};
-  return {columns_of(run::measured(campaign, run), rig.tick_s),
-          columns_of(run.recording, run::contraction_per_count(rig), {}, besides_of(rig))};
+TwoTables tables_of(const run::Recording& recording, const plant::Rig& rig) {
+  return {measured_columns(recording, rig), columns_of(recording, rig)};
 }
 
 /// The same without values.
 TwoTables heads_of(const domain::RigFile& rig) {
   run::Recording none;
-  none.driven.pair = true;
-  if (rig.pair() != nullptr) return {measured_pair_columns(none, rig), driven_columns(none, rig, false)};
-  return {measured_columns(besides_of(rig)), recorded_columns(false, besides_of(rig))};
+  none.driven.pair = rig.pair() != nullptr;
+  return tables_of(none, rig);
 }
 
 /// The shipped rig's name, if this is one; otherwise empty.
@@ -205,7 +199,7 @@ void CampaignFolder::put(const run::CampaignRun& run) const {
   if (run.failure.empty()) {
     const domain::RigFile& rig = campaign_.rig;
     if (rig.pair() == nullptr) write(files.ascii, thesis_ascii(run.recording, rig, run.job.load_kg));
-    auto [measured_columns, true_columns] = tables_of(campaign_, run);
+    auto [measured_columns, true_columns] = tables_of(run.recording, rig);
     const auto measured = table_of(run, "measured", std::move(measured_columns));
     const auto truth = table_of(run, "truth", std::move(true_columns));
     for (const auto& [stem, table] : {std::pair{&files.data, &measured}, std::pair{&files.truth, &truth}})

@@ -77,16 +77,17 @@ run::EndedRun ended_run(const run::CampaignJob& job, const Json& entry) {
   return run;
 }
 
-// A load cell or a second muscle makes it one with a clock of its own, whose contraction or angle says that
-// it is counted.
+Json columns_json(const domain::RigFile& rig) {
+  if (rig.pair() != nullptr) return {{"angle", counted_json("angle_rad", run::reading_per_count(rig))}};
+  if (!rig.load_cell.fitted) return Json::object();
+  return {{"contraction", counted_json("contraction_ratio", run::contraction_per_count(rig))},
+          {"force", {{"column", "force_N"}, {"unit", "N"}}}};
+}
+
 Json dataset_json(const domain::RigFile& rig, const std::string& name,
                   const std::vector<run::EndedRun>& runs) {
   Json data{{"schema", input::dataset_schema}, {"rig", name}};
-  if (rig.pair() != nullptr)
-    data["columns"] = {{"angle", counted_json("angle_rad", run::reading_per_count(rig))}};
-  else if (rig.load_cell.fitted)
-    data["columns"] = {{"contraction", counted_json("contraction_ratio", run::contraction_per_count(rig))},
-                       {"force", {{"column", "force_N"}, {"unit", "N"}}}};
+  if (Json columns = columns_json(rig); !columns.empty()) data["columns"] = std::move(columns);
   data["runs"] = runs_json(runs);
   return data;
 }

@@ -1,6 +1,5 @@
 // The columns of a recording, in the order of the file.
 #include <charconv>
-#include <cmath>
 
 #include <plant/plant.hpp>
 #include <sim/output/csv.hpp>
@@ -15,82 +14,37 @@ void append(std::string& text, double value) {
   text.append(digits, end);
 }
 
+formats::Column column_of(const run::Recording& recording, const plant::Channel& channel, std::string name,
+                          std::string words) {
+  formats::Column column{std::move(name), std::string(channel.signal->unit.name), std::move(words), {}};
+  column.values.reserve(recording.samples.size());
+  for (const run::Sample& row : recording.samples) column.values.push_back(channel.value(row));
+  return column;
+}
+
 }  // namespace
 
-double tidy_s(double time_s) {
-  return std::round(time_s * 1e9) / 1e9;
-}
-
-Besides besides_of(const plant::Rig& rig) {
-  return {rig.gauge.fitted, rig.load_cell.fitted};
-}
-
-std::vector<formats::Column> recorded_columns(bool target, Besides besides) {
-  std::vector<formats::Column> columns{
-      {"time_s", "s", "time since the run began", {}},
-      {"current_mA", "mA", "current to the valve, from this row to the next", {}},
-      {"contraction_ratio", "1", "contraction ratio of the muscle, true", {}},
-      {"contraction_speed_per_s", "s-1", "speed of the contraction ratio, true", {}},
-      {"valve_pressure_bar", "bar", "gauge pressure at the valve, true", {}},
-      {"muscle_pressure_bar", "bar", "gauge pressure in the muscle, true", {}},
-      {"encoder_contraction_ratio", "1", "contraction ratio as the encoder counts it", {}},
-      {"bristle_m", "m", "deflection of the bristles of thread friction, true", {}},
-      {"braid_force_N", "N", "force of the braid on the load, upwards", {}},
-      {"friction_force_N", "N", "force of thread friction on the load, upwards", {}}};
-  if (target) columns.push_back({"target_contraction_ratio", "1", "contraction ratio that is asked for", {}});
-  if (besides.gauge)
-    columns.push_back({"gauge_pressure_bar", "bar", "gauge pressure in the muscle as measured", {}});
-  if (besides.load_cell)
-    columns.push_back({"cell_force_N", "N", "force of the muscle's cord as measured", {}});
-  return columns;
-}
-
-std::vector<formats::Column> columns_of(const run::Recording& recording, double per_count,
-                                        const std::vector<double>& target, Besides besides) {
-  std::vector<formats::Column> columns = recorded_columns(!target.empty(), besides);
-  for (auto& column : columns) column.values.reserve(recording.samples.size());
-  for (std::size_t k = 0; k < recording.samples.size(); ++k) {
-    const auto& row = recording.samples[k];
-    auto column = columns.begin();
-    const auto put = [&column](double value) { (column++)->values.push_back(value); };
-    put(tidy_s(row.time_s));
-    put(row.current_mA);
-    put(row.state.joint.contraction_ratio);
-    put(row.state.joint.contraction_speed_per_s);
-    put(row.state.side.valve_pressure_Pa / 1e5);
-    put(row.state.side.muscle_pressure_Pa / 1e5);
-    put(static_cast<double>(row.counts) * per_count);
-    put(row.state.side.bristle_m);
-    put(row.braid_force_N);
-    put(row.friction_force_N);
-    if (!target.empty()) put(target[k]);
-    if (besides.gauge) put(row.gauge_Pa / 1e5);
-    if (besides.load_cell) put(row.cell_N);
+std::vector<formats::Column> columns_of(const run::Recording& recording, const plant::Rig& rig,
+                                        const Targets& targets) {
+  std::vector<formats::Column> columns;
+  const std::vector<plant::Channel> channels = plant::recorded_channels(rig, recording.driven);
+  for (const plant::Channel& channel : channels)
+    columns.push_back(column_of(recording, channel, channel.name(), channel.words()));
+  for (const auto& [key, values] : targets) {
+    if (values.empty()) continue;
+    const plant::Channel& channel = plant::channel_of(channels, key);
+    columns.push_back({"target_" + channel.name(), std::string(channel.signal->unit.name),
+                       std::string(channel.signal->words) + ", as it is wanted", values});
+    columns.back().values.resize(recording.samples.size());
   }
   return columns;
 }
 
-std::vector<formats::Column> measured_columns(Besides besides) {
-  std::vector<formats::Column> columns{
-      {"time_s", "s", "time since the run began", {}},
-      {"current_mA", "mA", "current to the valve, from this row to the next", {}},
-      {"contraction_ratio", "1", "contraction ratio of the muscle as the encoder counts it", {}}};
-  if (besides.gauge)
-    columns.push_back({"muscle_pressure_bar", "bar", "gauge pressure in the muscle as measured", {}});
-  if (besides.load_cell) columns.push_back({"force_N", "N", "force of the muscle's cord as measured", {}});
-  return columns;
-}
-
-std::vector<formats::Column> columns_of(const domain::Run& measured, double tick_s) {
-  std::vector<formats::Column> columns =
-      measured_columns({measured.muscle_pressure_Pa.has_value(), !measured.force_N.empty()});
-  for (std::size_t k = 0; k < measured.current_mA.size(); ++k)
-    columns[0].values.push_back(tidy_s(static_cast<double>(k) * tick_s));
-  columns[1].values = measured.current_mA;
-  columns[2].values = measured.contraction_ratio;
-  if (measured.muscle_pressure_Pa)
-    for (const double value : *measured.muscle_pressure_Pa) columns[3].values.push_back(value / 1e5);
-  if (!measured.force_N.empty()) columns.back().values = measured.force_N;
+std::vector<formats::Column> measured_columns(const run::Recording& recording, const plant::Rig& rig) {
+  std::vector<formats::Column> columns;
+  for (const plant::Channel& channel : plant::recorded_channels(rig, recording.driven))
+    if (channel.signal->kind != plant::Kind::state)
+      columns.push_back(column_of(recording, channel, channel.name_in_dataset(), channel.words()));
   return columns;
 }
 

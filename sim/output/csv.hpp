@@ -3,35 +3,26 @@
 #pragma once
 
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include <plant/rig.hpp>
-#include <sim/domain/dataset.hpp>
 #include <sim/formats/table.hpp>
 #include <sim/run/recording.hpp>
 
 namespace mckibben::output {
 
-/// What is recorded of a muscle beside its position.
-struct Besides {
-  bool gauge = false, load_cell = false;
-};
-Besides besides_of(const plant::Rig& rig);
+/// What was wanted of a run: the key of a signal, and its value at each row, in the unit of its column; none
+/// if empty.
+using Targets = std::vector<std::pair<std::string_view, std::vector<double>>>;
 
-/// Columns of a recording: true values, and what the encoder counted. A target, a gauge and a load cell are
-/// columns where there are any.
-std::vector<formats::Column> recorded_columns(bool target, Besides besides);
-/// The same with their values. `target` [contraction ratio] may be empty. `per_count` is the contraction
-/// ratio of one encoder count.
-std::vector<formats::Column> columns_of(const run::Recording& recording, double per_count,
-                                        const std::vector<double>& target, Besides besides);
+/// The columns of a recording's file. Without rows, what they are.
+std::vector<formats::Column> columns_of(const run::Recording& recording, const plant::Rig& rig,
+                                        const Targets& targets = {});
 
-/// Columns of a data set's table: what was measured.
-std::vector<formats::Column> measured_columns(Besides besides);
-std::vector<formats::Column> columns_of(const domain::Run& measured, double tick_s);
-
-/// A tick's time without the rounding of k * 0.012, which would fill the column with digits.
-double tidy_s(double time_s);
+/// Of these what a laboratory records, as the columns of a data set.
+std::vector<formats::Column> measured_columns(const run::Recording& recording, const plant::Rig& rig);
 
 /// Columns of one length as CSV.
 std::string csv_of(const std::vector<formats::Column>& columns);

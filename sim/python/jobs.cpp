@@ -50,7 +50,7 @@ Result result_of(domain::Scenario scenario, run::Comparison comparison) {
   };
   const auto whole = std::make_shared<Whole>(Whole{std::move(scenario), std::move(comparison)});
   const std::shared_ptr<const std::vector<double>> target(whole, &whole->comparison.target);
-  const double per_count = run::contraction_per_count(whole->scenario.rig);
+  const auto channels = plant::channels_of(whole->scenario.rig, {});
   Result result{{},
                 whole->comparison.warnings,
                 whole->comparison.unmet,
@@ -59,7 +59,7 @@ Result result_of(domain::Scenario scenario, run::Comparison comparison) {
                 [whole] { return report::report_html(whole->scenario, whole->comparison); }};
   for (const run::TrackedRun& run : whole->comparison.runs)
     result.runs.push_back(std::make_shared<Simulated>(
-        Simulated{part_of(whole, run.recording), per_count, output::file_stem(run), run.controller,
+        Simulated{part_of(whole, run.recording), channels, output::file_stem(run), run.controller,
                   run.failure, run.load_kg, target, metrics_of(run)}));
   return result;
 }
@@ -89,7 +89,7 @@ Result driven(What what, Runs runs, std::vector<std::string> warnings, const See
                 [whole] { return report::report_html(whole->what, whole->runs, whole->warnings); }};
   for (const auto& run : list_of(whole->runs)) {
     const auto one = std::make_shared<Simulated>(
-        Simulated{part_of(whole, run.recording), run::contraction_per_count(whole->what.rig)});
+        Simulated{part_of(whole, run.recording), plant::channels_of(whole->what.rig, run.recording.driven)});
     one->failure = run.failure;
     seen(run, *one);
     result.runs.push_back(one);
@@ -146,8 +146,8 @@ Result replay_ticked(domain::Dataset data, unsigned threads, const py::object& p
                 [whole] { return output::json_of(whole->data, whole->runs, whole->warnings); },
                 [whole] { return report::report_html(whole->data, whole->runs, whole->warnings); }};
   for (const run::ReplayedRun& run : whole->runs) {
-    const auto one = std::make_shared<Simulated>(
-        Simulated{part_of(whole, run.recording), run::contraction_per_count(whole->data.rig), run.id});
+    const auto one = std::make_shared<Simulated>(Simulated{
+        part_of(whole, run.recording), plant::channels_of(whole->data.rig, run.recording.driven), run.id});
     one->failure = run.failure;
     one->load_kg = run.load_kg;
     one->gaps = gaps_of_ticked(run);

@@ -1,87 +1,44 @@
-// Rows of a recording as one structured NumPy array in the memory where they are.
+// Rows of a recording as NumPy arrays: the names and units of its file.
 #include <sim/python/recordings.hpp>
 
 namespace mckibben::python {
 namespace {
 
-using run::Sample;
-
-struct Column {
-  const char *name, *unit, *meaning;
-  std::ptrdiff_t offset;
-  bool whole = false;  ///< an integer
-};
-
-template <class T>
-Column column(const char* name, const char* unit, const char* meaning, const Sample& row, const T& member) {
-  return {name, unit, meaning, reinterpret_cast<const char*>(&member) - reinterpret_cast<const char*>(&row),
-          std::is_integral_v<T>};
+const plant::Channel& channel_of(const Simulated& run, const std::string& name) {
+  for (const plant::Channel& channel : run.channels)
+    if (channel.name() == name) return channel;
+  throw py::key_error(name);
 }
 
-/// Of one muscle; of a pair what is added to that.
-std::vector<Column> columns_of(bool pair) {
-  static const Sample row{};
-  const auto& joint = row.state.joint;
-  const auto &side = row.state.side, &other = row.state.opposite;
-  std::vector<Column> columns{
-      column("time_s", "s", "time", row, row.time_s),
-      column("current_mA", "mA", "to the valve, from this row to the next", row, row.current_mA),
-      column("contraction_ratio", "1", "e, true", row, joint.contraction_ratio),
-      column("contraction_speed_per_s", "s-1", "de/dt, true", row, joint.contraction_speed_per_s),
-      column("valve_pressure_Pa", "Pa", "gauge pressure at the valve, true", row, side.valve_pressure_Pa),
-      column("muscle_pressure_Pa", "Pa", "gauge pressure in the muscle, true", row, side.muscle_pressure_Pa),
-      column("bristle_m", "m", "deflection of the bristles of thread friction, true", row, side.bristle_m),
-      column("counts", "1", "as the encoder counts", row, row.counts),
-      column("gauge_pressure_Pa", "Pa", "as a gauge shows the muscle's pressure", row, row.gauge_Pa),
-      column("braid_force_N", "N", "of the braid, upwards", row, row.braid_force_N),
-      column("friction_force_N", "N", "of the threads on the load, upwards", row, row.friction_force_N),
-      column("effects_pull_N", "N", "of effects on the load, upwards", row, row.effects_pull_N),
-      column("cord_force_N", "N", "what the cord carries", row, row.cord_force_N),
-      column("cell_force_N", "N", "as a load cell shows it, if one is fitted", row, row.cell_N)};
-  if (!pair) return columns;
-  const auto& second = row.opposite;
-  const std::vector<Column> more{
-      column("current_2_mA", "mA", "to the valve of muscle 2", row, second.current_mA),
-      column("contraction_ratio_2", "1", "of muscle 2, true", row, second.contraction_ratio),
-      column("valve_pressure_2_Pa", "Pa", "gauge pressure at valve 2, true", row, other.valve_pressure_Pa),
-      column("muscle_pressure_2_Pa", "Pa", "gauge pressure in muscle 2, true", row, other.muscle_pressure_Pa),
-      column("bristle_2_m", "m", "of muscle 2, true", row, other.bristle_m),
-      column("braid_force_2_N", "N", "of braid 2, as it shortens muscle 2", row, second.braid_force_N),
-      column("friction_force_2_N", "N", "of threads 2", row, second.friction_force_N),
-      column("effects_pull_2_N", "N", "of effects on muscle 2", row, second.effects_pull_N),
-      column("cord_force_2_N", "N", "what cord 2 carries", row, second.cord_force_N)};
-  columns.insert(columns.end(), more.begin(), more.end());
-  return columns;
+py::dtype type_of(const plant::Channel& channel) {
+  return channel.signal->whole ? py::dtype::of<std::int64_t>() : py::dtype::of<double>();
 }
 
-py::dtype dtype_of(const std::vector<Column>& columns) {
-  py::list names, formats, offsets;
-  for (const Column& column : columns) {
-    names.append(column.name);
-    formats.append(column.whole ? "i8" : "f8");
-    offsets.append(column.offset);
-  }
-  py::dict fields;
-  fields["names"] = names;
-  fields["formats"] = formats;
-  fields["offsets"] = offsets;
-  fields["itemsize"] = sizeof(Sample);
-  return py::dtype::from_args(fields);
-}
-
-py::array samples_of(const py::object& self) {
-  const auto& run = self.cast<const Simulated&>();
+py::array column_of(const Simulated& run, const plant::Channel& channel) {
   const auto& samples = run.recording->samples;
-  py::array rows(dtype_of(columns_of(run.recording->driven.pair)), {static_cast<py::ssize_t>(samples.size())},
-                 {static_cast<py::ssize_t>(sizeof(Sample))}, samples.data(), self);
-  rows.attr("setflags")(py::arg("write") = false);
+  const auto filled = [&](auto column) {
+    auto* into = column.mutable_data();
+    for (const run::Sample& row : samples)
+      *into++ = static_cast<std::decay_t<decltype(*into)>>(channel.value(row));
+    return py::array(std::move(column));
+  };
+  const auto rows = static_cast<py::ssize_t>(samples.size());
+  return channel.signal->whole ? filled(py::array_t<std::int64_t>(rows)) : filled(py::array_t<double>(rows));
+}
+
+py::array samples_of(const Simulated& run) {
+  py::list fields;
+  for (const plant::Channel& channel : run.channels)
+    fields.append(py::make_tuple(channel.name(), type_of(channel)));
+  py::array rows(py::dtype::from_args(fields), static_cast<py::ssize_t>(run.recording->samples.size()));
+  for (const plant::Channel& channel : run.channels) rows[channel.name().c_str()] = column_of(run, channel);
   return rows;
 }
 
 template <class Value>
 py::dict by_column(const Simulated& run, const Value& value) {
   py::dict all;
-  for (const Column& column : columns_of(run.recording->driven.pair)) all[column.name] = value(column);
+  for (const plant::Channel& channel : run.channels) all[channel.name().c_str()] = value(channel);
   return all;
 }
 
@@ -136,38 +93,29 @@ void add_recordings(py::module_& module) {
             return run.failure;
           },
           "Why it ends early; None if it does not.")
-      .def_property_readonly(
-          "samples", &samples_of,
-          "All rows as a structured array, shape (rows,), in SI units: the simulator's own "
-          "memory, without a copy; it cannot be written. run['muscle_pressure_Pa'] is a "
-          "column of it, shape (rows,).")
+      .def_property_readonly("samples", &samples_of,
+                             "All rows as a structured array, shape (rows,): a copy, with the columns of the "
+                             "run's file and more "
+                             "(`meanings`).")
       .def(
           "__getitem__",
-          [](const py::object& self, const std::string& name) {
-            const auto& run = self.cast<const Simulated&>();
-            for (const Column& known : columns_of(run.recording->driven.pair))
-              if (known.name == name) return py::object(samples_of(self)[name.c_str()]);
-            throw py::key_error(name);
-          },
-          py::arg("name"), "A column, shape (rows,), without a copy.")
+          [](const Simulated& run, const std::string& name) { return column_of(run, channel_of(run, name)); },
+          py::arg("name"), "A column, shape (rows,), in its unit; a copy.")
       .def("__len__", [](const Simulated& run) { return run.recording->samples.size(); })
       .def_property_readonly(
           "units",
-          [](const Simulated& run) { return by_column(run, [](const Column& c) { return c.unit; }); },
+          [](const Simulated& run) {
+            return by_column(run, [](const plant::Channel& c) { return std::string(c.signal->unit.name); });
+          },
           "Unit of each column, as UDUNITS-2 spells it.")
       .def_property_readonly(
           "meanings",
-          [](const Simulated& run) { return by_column(run, [](const Column& c) { return c.meaning; }); },
+          [](const Simulated& run) {
+            return by_column(run, [](const plant::Channel& c) { return c.words(); });
+          },
           "What each column is, in words.")
       .def_property_readonly("target", &target_of,
                              "Contraction ratio that was wanted, shape (rows,), or None; without a copy.")
-      .def_property_readonly(
-          "encoder_contraction_ratio",
-          [](const py::object& self) {
-            const py::object counts = self["counts"];
-            return py::object(counts * py::float_(self.cast<const Simulated&>().contraction_per_count));
-          },
-          "Contraction ratio as the encoder counts it, shape (rows,).")
       .def_property_readonly(
           "metrics",
           [](const Simulated& run) {

@@ -15,7 +15,7 @@ namespace mckibben::python {
 
 struct Simulated {
   std::shared_ptr<const run::Recording> recording;
-  double contraction_per_count = 0.0;
+  std::vector<plant::Channel> channels;
   std::string name{}, controller{}, failure{};
   double load_kg = 0.0;                                 ///< 0 where none hangs
   std::shared_ptr<const std::vector<double>> target{};  ///< contraction ratio at each row; none

@@ -7,6 +7,7 @@
 
 #include <sim/python/inputs.hpp>
 #include <sim/python/ride.hpp>
+#include <sim/ride/sample.hpp>
 #include <sim/run/follow.hpp>
 #include <sim/run/simulate.hpp>
 
@@ -105,17 +106,14 @@ Simulated Ride::follow(const Currents& current_mA, const std::optional<Currents>
       drive_.current_mA = one[k];
       if (two != nullptr) drive_.opposite.current_mA = two[k];
       ride_.hold(drive_, time_after(1));
-      auto counter = counter_;  // the reading of this instant has been counted
-      recording->samples.push_back(run::row_of(ride_.rider(), rig_, counter));
-      recording->samples.back().counts = counts_;
+      recording->take(ride::sample_of(ride_.rider(), counts_));
       ride_.advance();
       ++ticks_;
       look();
     }
     recording->solver = ride_.counters();
   }
-  Simulated run{recording, run::contraction_per_count(rig_), "ride"};
-  return run;
+  return {recording, plant::channels_of(rig_, recording->driven), "ride"};
 }
 
 Ride::Saved Ride::save() const {

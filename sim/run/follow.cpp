@@ -5,13 +5,13 @@
 
 #include <plant/instruments.hpp>
 #include <sim/engine/failure.hpp>
+#include <sim/ride/sample.hpp>
 #include <sim/run/follow.hpp>
-#include <sim/run/pair_rows.hpp>
 
 namespace mckibben::run {
 namespace {
 
-using ride::Command, ride::Drive;
+using ride::Drive;
 
 ride::Ride ride_of(const domain::RigFile& rig, double load_kg) {
   if (const plant::Pair* pair = rig.pair()) return {paired(rig, *pair), rig.integrator, true};
@@ -41,7 +41,7 @@ class Following {
       for (std::size_t k = 0; k < stamps(); ++k) {
         ride_.hold(course_.toward(k), course_.until_s(k, rig_.tick_s));
         if (row != course_.rows.end() && *row == k) {
-          recording_.samples.push_back(sample(k));
+          recording_.take(sample(k));
           ++row;
         }
         if (row == course_.rows.end()) break;
@@ -68,10 +68,8 @@ class Following {
   }
 
   Sample sample(std::size_t k) {
-    Sample row = row_of(ride_.rider(), rig_, counter_);
+    Sample row = ride::sample_of(ride_.rider(), counter_.count(ride_.reading().wheel_m));
     row.time_s = time(k);
-    const double most = std::max(row.state.joint.contraction_ratio, row.opposite.contraction_ratio);
-    recording_.largest_contraction_ratio = std::max(recording_.largest_contraction_ratio, most);
     return row;
   }
 
@@ -87,8 +85,7 @@ class Following {
       recording_.imbalance = ride_.plant().imbalance(recording_.samples.front().state, end.state, end.ledger);
     if (recording_.solver.stiff_from_tick >= 0)
       recording_.solver.stiff_from_tick -= std::lround(rig_.settling_time_s / rig_.tick_s);
-    const Driven& driven = recording_.driven;
-    if (driven.pair || driven.length) note_slack(recording_, driven.pair);
+    note_slack(recording_);
   }
 
   const domain::RigFile& rig_;
@@ -99,26 +96,6 @@ class Following {
 };
 
 }  // namespace
-
-Sample row_of(const ride::Rider& rider, const plant::Rig& rig, plant::PositionReader& counter) {
-  const auto now = rider.moment();
-  const plant::State<double>& state = rider.now.flow.state;
-  const ride::Reading& reading = rider.now.reading;
-  const Drive& drive = rider.now.drive;
-  Sample row{.time_s = rider.now.time_s,
-             .current_mA = drive.current_mA,
-             .state = state,
-             .counts = counter.count(reading.wheel_m),
-             .gauge_Pa = plant::gauge_reading_Pa(rig.gauge, reading.muscle_pressure_Pa),
-             .braid_force_N = now.braid_force_N,
-             .friction_force_N = now.friction_force_N,
-             .effects_pull_N = now.effects_pull_N,
-             .cord_force_N = now.cord_force_N(),
-             .cell_N = plant::cell_reading_N(rig.load_cell, now.cord_force_N(), 0.0),
-             .misread_ratio = reading.misread_m / rig.muscle.rest_length_m};
-  if (rider.plant().opposite()) write_opposite(rider, now, reading, row);
-  return row;
-}
 
 double before_s(const Course& course, const plant::Rig& rig, long ticks) {
   return course.time_s.front() - static_cast<double>(ticks) * rig.tick_s;

@@ -8,7 +8,6 @@
 
 #include <span>
 
-#include <plant/instruments.hpp>
 #include <sim/domain/rig_file.hpp>
 #include <sim/run/course.hpp>
 #include <sim/run/recording.hpp>
@@ -24,9 +23,6 @@ double before_s(const Course& course, const plant::Rig& rig, long ticks);
 
 /// Its two muscles on their wheel.
 ride::Paired paired(const domain::RigFile& rig, const plant::Pair& pair);
-
-/// What there is to record of a rider at the instant that it is at; `counter` counts its wheel.
-Sample row_of(const ride::Rider& rider, const plant::Rig& rig, plant::PositionReader& counter);
 
 /// A row for each stamp that has one. If the integrator gives up, the recording ends there and says why.
 Recording follow(const domain::RigFile& rig, double load_kg, const Course& course);

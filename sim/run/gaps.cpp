@@ -100,6 +100,7 @@ std::vector<StampedRun> replay_stamped(const domain::Dataset& dataset, unsigned 
                                        {measured.contraction_ratio, dataset.runs[i].rest_length_m,
                                         measured.time_s.front() + measured.recorded.skip_s});
     runs[i].failure = runs[i].recording.failure;
+    runs[i].recording.driven.force = !measured.force_N.empty();
     if (runs[i].failure.empty()) runs[i].gaps = gaps_of(measured, dataset.rig, runs[i].recording);
   };
   for_each_result(runs.size(), threads, "replaying", progress, replay_one);

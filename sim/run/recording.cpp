@@ -15,7 +15,24 @@ constexpr double most_imbalance = 1e-6;
 /// Below the atmosphere by more than this [Pa], a tube no longer fills its braid.
 constexpr double suction_Pa = 100.0;
 
+void note_slack_of(Recording& recording, std::size_t muscle) {
+  Slack slack{.muscle = static_cast<int>(muscle)};
+  for (const Sample& row : recording.samples) {
+    const double now_N = row.side(muscle).cord_force_N;
+    if (now_N >= 0.0) continue;
+    if (slack.rows++ == 0) slack.from_s = row.time_s;
+    if (now_N < slack.lowest_N) slack.lowest_N = now_N, slack.lowest_at_s = row.time_s;
+  }
+  if (slack.rows > 0) recording.slack.push_back(slack);
+}
+
 }  // namespace
+
+void note_slack(Recording& recording) {
+  const Driven& driven = recording.driven;
+  if (driven.pair || driven.length) note_slack_of(recording, 1);
+  if (driven.pair) note_slack_of(recording, 2);
+}
 
 std::vector<std::string> doubts(const Recording& recording) {
   std::vector<std::string> found;

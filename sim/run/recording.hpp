@@ -2,42 +2,23 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
-#include <cstdint>
+#include <cmath>
 #include <string>
 #include <vector>
 
 #include <controllers/controller.hpp>
-#include <plant/state.hpp>
+#include <plant/signals.hpp>
 #include <sim/engine/integrator.hpp>
 
 namespace mckibben::run {
 
-/// The rig at one tick, before its current is applied. True values, except the two that are read.
-struct Sample {
-  double time_s;
-  double current_mA;  ///< what the DAC gives from here to the next tick
-  plant::State<double> state;
-  std::int64_t counts;          ///< as the encoder counts
-  double gauge_Pa;              ///< as the gauge shows, if one is fitted
-  double braid_force_N;         ///< F
-  double friction_force_N;      ///< force of the threads on the load, positive upwards
-  double effects_pull_N = 0.0;  ///< force of effects on the load, positive upwards
-  double cord_force_N = 0.0;    ///< T, what the muscle's cord carries
-  double cell_N = 0.0;          ///< as the load cell shows it, if one is fitted
-  double misread_ratio = 0.0;   ///< what an encoder shows besides e, before it counts
-  /// The same of muscle 2, where there is one; forces positive where they shorten it.
-  struct Opposite {
-    double current_mA = 0.0;
-    double contraction_ratio = 0.0;
-    double braid_force_N = 0.0, friction_force_N = 0.0, effects_pull_N = 0.0, cord_force_N = 0.0;
-    double gauge_Pa = 0.0;
-  };
-  Opposite opposite{};
-  double stiffness_N_m_per_rad = 0.0;  ///< of the joint of a pair, at the pressures that it has
+using plant::Driven;
+using plant::Sample;
 
-  double shown_ratio() const { return state.joint.contraction_ratio + misread_ratio; }
-};
+/// A tick's time without the rounding of k * 0.012, which would fill a column with digits.
+inline double tidy_s(double time_s) {
+  return std::round(time_s * 1e9) / 1e9;
+}
 
 /// Lowest and highest of what a run came through.
 struct Span {
@@ -60,12 +41,6 @@ struct Slack {
   double lowest_N = 0.0, lowest_at_s = 0.0;
 };
 
-/// What drove a rig, where it was not a current to the valve of one muscle that lifts a load.
-struct Driven {
-  bool pair = false, length = false;  ///< two muscles; the length of one is given
-  std::array<bool, 2> pressure{};     ///< of each muscle: its pressure is given, and it has no valve
-};
-
 struct Recording {
   std::vector<Sample> samples;
   plant::Ledger<double> ledger{};  ///< from the first tick to the last, if it was kept
@@ -78,7 +53,17 @@ struct Recording {
   double controller_s = 0.0;  ///< that the controller itself took, planning included, by the machine's clock
   Driven driven{};
   std::vector<Slack> slack{};  ///< of a pair, or of a muscle whose length is given
+
+  /// One more row.
+  void take(const Sample& row) {
+    samples.push_back(row);
+    largest_contraction_ratio =
+        std::max({largest_contraction_ratio, row.contraction_ratio, row.opposite.contraction_ratio});
+  }
 };
+
+/// Notes where cords would have to push: of a pair, or of a muscle whose length is given.
+void note_slack(Recording& recording);
 
 /// What should not be believed of a run that came to its end, in words: a ledger that does not close, laws
 /// used where no muscle follows them. Empty for nearly all.

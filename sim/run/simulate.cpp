@@ -8,7 +8,7 @@
 #include <utility>
 
 #include <sim/ride/batch.hpp>
-#include <sim/run/pair_rows.hpp>
+#include <sim/ride/sample.hpp>
 #include <sim/run/run_batch.hpp>
 #include <sim/run/simulate.hpp>
 
@@ -115,7 +115,7 @@ class Run : public ride::BatchItem {
     if (recording_.solver.stiff_from_tick >= 0) recording_.solver.stiff_from_tick += begin_;
     recording_.findings = controller_.findings();
     recording_.driven.pair = plan_.pair.has_value();
-    if (plan_.pair) note_slack(recording_, true);
+    note_slack(recording_);
     done_(std::move(recording_));
   }
 
@@ -133,27 +133,17 @@ class Run : public ride::BatchItem {
       return false;
     }
     hold();
-    ride::Reading seen = rider_.now.reading;
-    seen.muscle_pressure_Pa += disturbance_.gauge_Pa();
-    if (plan_.pair) seen.opposite_pressure_Pa += disturbance_.gauge_Pa();
-    if (k_ >= 0) write(seen);
+    ride::SensorNoise noise{.gauge_Pa = disturbance_.gauge_Pa()};
+    if (plan_.pair) noise.opposite_gauge_Pa = disturbance_.gauge_Pa();
+    if (k_ >= 0) write(noise);
     return true;
   }
 
-  void write(const ride::Reading& seen) {
-    const auto now = rider_.moment();
-    const plant::State<double>& state = rider_.now.flow.state;
-    recording_.samples.push_back({time_s(k_), drive_.current_mA, state, counts_,
-                                  plant::gauge_reading_Pa(plan_.rig.gauge, seen.muscle_pressure_Pa),
-                                  now.braid_force_N, now.friction_force_N, now.effects_pull_N,
-                                  now.cord_force_N()});
-    const plant::LoadCell& cell = plan_.rig.load_cell;
-    recording_.samples.back().cell_N =
-        plant::cell_reading_N(cell, now.cord_force_N(), disturbance_.cell_N(cell));
-    recording_.samples.back().misread_ratio = seen.misread_m / plan_.rig.muscle.rest_length_m;
-    double most = state.joint.contraction_ratio;
-    if (plan_.pair) most = write_opposite(rider_, now, seen, recording_.samples.back());
-    recording_.largest_contraction_ratio = std::max(recording_.largest_contraction_ratio, most);
+  void write(ride::SensorNoise noise) {
+    noise.cell_N = disturbance_.cell_N(plan_.rig.load_cell);
+    Sample row = ride::sample_of(rider_, counts_, noise);
+    row.time_s = tidy_s(time_s(k_));
+    recording_.take(row);
   }
 
   void look() {

@@ -107,11 +107,11 @@ def table(folder, rig):
         return list(csv.DictReader(rows))
 
 
-# As `run` calls them, and the factor from the FMU's SI.
-COLUMNS = {"true_contraction_ratio": ("contraction_ratio", 1), "true_contraction_speed": ("contraction_speed_per_s", 1),
-           "true_valve_pressure": ("valve_pressure_bar", 1e-5), "true_muscle_pressure": ("muscle_pressure_bar", 1e-5),
-           "contraction_ratio_read": ("encoder_contraction_ratio", 1), "gauge_pressure": ("gauge_pressure_bar", 1e-5),
-           "true_braid_force": ("braid_force_N", 1)}
+# As `run` calls them: with the unit.
+COLUMNS = {"contraction_ratio": "contraction_ratio", "contraction_speed": "contraction_speed_per_s",
+           "valve_pressure": "valve_pressure_bar", "muscle_pressure": "muscle_pressure_bar",
+           "encoder_contraction_ratio": "encoder_contraction_ratio", "gauge_pressure": "gauge_pressure_bar",
+           "braid_force": "braid_force_N"}
 
 
 class AnFmu(unittest.TestCase):
@@ -179,8 +179,8 @@ class AnFmu(unittest.TestCase):
             load = f"set {fmu.reference['load']} 16.138"
             answers = iter(fmu.answers(fmu.ride(currents, COLUMNS, [load])))
             for k, row in enumerate(rows):
-                for name, (column, factor) in COLUMNS.items():
-                    expected, is_now = float(row[column]), float(next(answers)) * factor
+                for name, column in COLUMNS.items():
+                    expected, is_now = float(row[column]), float(next(answers))
                     self.assertAlmostEqual(is_now, expected, delta=1e-9 * max(1.0, abs(expected)), msg=f"{name} in row {k}")
             self.assertGreater(max(float(row["contraction_ratio"]) for row in rows), 0.1)
 
@@ -190,12 +190,12 @@ class AnFmu(unittest.TestCase):
         currents = [float(row["current_mA"]) for row in rows]
         for fmu in self.each("--true-states"):
             before = [f"set {fmu.reference['load']} 16.138", f"set {fmu.reference['muscle.rest_radius']} 0.0079"]
-            last = fmu.answers(fmu.ride(currents, ["true_contraction_ratio"], before))[-1]
+            last = fmu.answers(fmu.ride(currents, ["contraction_ratio"], before))[-1]
             self.assertAlmostEqual(float(last), float(rows[-1]["contraction_ratio"]), delta=1e-9)
 
     def test_goes_on_from_a_saved_state_to_the_same_bits_and_beside_others(self):
         for fmu in self.each("--true-states"):
-            outputs = ["true_contraction_ratio", "true_muscle_pressure", "counts"]
+            outputs = ["contraction_ratio", "muscle_pressure", "counts"]
             first = fmu.ride([5 + 0.1 * k for k in range(60)], outputs)
             on = [f"0 set {fmu.reference['current']} 12"]
             for k in range(59, 120):
@@ -217,7 +217,7 @@ class AnFmu(unittest.TestCase):
 
     def test_another_load_hangs_from_the_next_step_on(self):
         for fmu in self.each("--true-states"):
-            ride = fmu.ride([10] * 200, ["true_contraction_ratio"])
+            ride = fmu.ride([10] * 200, ["contraction_ratio"])
             heavier = [line for k, line in enumerate(ride)]
             heavier[-201] = heavier[-201] + f"\n0 set {fmu.reference['load']} 20"
             self.assertLess(float(fmu.answers(heavier)[-1]), float(fmu.answers(ride)[-1]) - 0.01)
@@ -240,7 +240,7 @@ class AnFmu(unittest.TestCase):
     def test_of_a_pair_has_two_currents(self):
         fmu = Fmu(self.folder, "thesis_pair", "2.0", "--true-states")
         self.assertNotIn("load", fmu.reference)
-        one, two, angle = (fmu.reference[name] for name in ("current_1", "current_2", "angle_read"))
+        one, two, angle = (fmu.reference[name] for name in ("current_1", "current_2", "encoder_angle"))
         steps = [f"0 step {k * 0.012!r} 0.012" for k in range(100)]
         answers = fmu.answers([f"0 set {one} 12", f"0 set {two} 8", "0 init 0", "0 start", f"0 set {one} 16", *steps,
                                f"0 get {angle}", f"0 set {one} 6", f"0 set {two} 14",
@@ -252,7 +252,7 @@ class AnFmu(unittest.TestCase):
     def test_a_state_as_bytes_goes_on_in_another_program(self):
         late = "  reading_delay: {time: 20 ms}\n  command_delay: {time: 30 ms}\n"
         self.rig.write_text("schema: mckibben-rig/1\n" + LAW + late)
-        outputs = ["true_contraction_ratio", "true_muscle_pressure", "counts"]
+        outputs = ["contraction_ratio", "muscle_pressure", "counts"]
         for fmu in self.each("--true-states"):
             thick = f"set {fmu.reference['muscle.rest_radius']} 0.0079"
             begin = fmu.ride([5 + 0.1 * k for k in range(60)], outputs, [thick])
@@ -280,10 +280,10 @@ class AnFmu(unittest.TestCase):
         currents = [float(row["current_mA"]) for row in rows]
         for fmu in self.each("--true-states"):
             load, size = f"set {fmu.reference['load']} 16.138", fmu.reference["effects.hypotheses.cord_creep.k"]
-            ride = fmu.ride(currents, ["true_contraction_ratio"], [load])
+            ride = fmu.ride(currents, ["contraction_ratio"], [load])
             for row, is_now in zip(rows, fmu.answers(ride), strict=True):
                 self.assertAlmostEqual(float(is_now), float(row["contraction_ratio"]), delta=1e-9)
-            without = fmu.answers(fmu.ride(currents, ["true_contraction_ratio"], [load, f"set {size} 0"]))
+            without = fmu.answers(fmu.ride(currents, ["contraction_ratio"], [load, f"set {size} 0"]))
             self.assertGreater(max(abs(float(a) - float(row["contraction_ratio"])) for a, row in zip(without, rows)), 1e-3)
             self.assertIn("outside its range", fmu.answers([f"0 set {size} 6000"])[0])
 

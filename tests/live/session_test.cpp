@@ -38,7 +38,7 @@ TEST(LiveSession, StepsAreThoseOfARideToTheBit) {
   for (int k = 0; k < 400; ++k) {
     const Sample now = session.step();
     EXPECT_EQ(now.contraction_ratio, ride.flow().state.joint.contraction_ratio) << k;
-    EXPECT_EQ(now.muscle_Pa, ride.flow().state.side.muscle_pressure_Pa) << k;
+    EXPECT_EQ(now.state.side.muscle_pressure_Pa, ride.flow().state.side.muscle_pressure_Pa) << k;
     drive.current_mA = plant::dac_output_mA(rig.dac, up_and_down().at(k * rig.tick_s));
     EXPECT_EQ(now.current_mA, drive.current_mA);
     EXPECT_EQ(now.time_s, k * rig.tick_s);
@@ -61,8 +61,8 @@ TEST(LiveSession, WhatIsSwitchedWhileItMovesLeavesTheStateAsItIs) {
     EXPECT_FALSE(session.untouched());
     const Sample same = session.step();
     EXPECT_EQ(same.contraction_ratio, next.contraction_ratio) << one.name;
-    EXPECT_EQ(same.muscle_Pa, next.muscle_Pa) << one.name;
-    EXPECT_EQ(same.valve_Pa, next.valve_Pa) << one.name;
+    EXPECT_EQ(same.state.side.muscle_pressure_Pa, next.state.side.muscle_pressure_Pa) << one.name;
+    EXPECT_EQ(same.state.side.valve_pressure_Pa, next.state.side.valve_pressure_Pa) << one.name;
     EXPECT_EQ(same.current_mA, next.current_mA) << one.name;
     // It goes on, near where it would have been, and with the effect: of gauge and counts in what they show.
     bool tells = false;
@@ -71,7 +71,7 @@ TEST(LiveSession, WhatIsSwitchedWhileItMovesLeavesTheStateAsItIs) {
       const Sample with = session.step(), without = untouched.step();
       farthest = std::max(farthest, std::abs(with.contraction_ratio - without.contraction_ratio));
       tells = tells || with.contraction_ratio != without.contraction_ratio || with.counts != without.counts ||
-              with.shown_Pa != without.shown_Pa;
+              with.gauge_Pa != without.gauge_Pa;
     }
     EXPECT_EQ(session.failure(), "") << one.name;
     EXPECT_TRUE(tells) << one.name;
@@ -205,7 +205,7 @@ TEST(LivePair, StepsAreThoseOfARideToTheBitAndASweepSetsThemAgainstEachOther) {
     }
     const Sample now = session.step();
     EXPECT_EQ(now.contraction_ratio, ride.flow().state.joint.contraction_ratio) << k;
-    EXPECT_EQ(now.opposite.muscle_Pa, ride.flow().state.opposite.muscle_pressure_Pa) << k;
+    EXPECT_EQ(now.state.opposite.muscle_pressure_Pa, ride.flow().state.opposite.muscle_pressure_Pa) << k;
     if (k < 100)
       hold(rig.valve.zero_current_mA, k == 0 ? rig.valve.zero_current_mA : 9.0);
     else
@@ -216,7 +216,7 @@ TEST(LivePair, StepsAreThoseOfARideToTheBitAndASweepSetsThemAgainstEachOther) {
   }
   EXPECT_GT(highest, 0.1);
   EXPECT_LT(lowest, -0.1);
-  EXPECT_NEAR(session.now().read, session.now().angle_rad, 0.01);
+  EXPECT_NEAR(session.now().read_angle_rad, session.now().angle_rad, 0.01);
 }
 
 TEST(LivePair, EffectsActOnBothMusclesAndLeaveTheStateAsItIs) {
@@ -233,7 +233,7 @@ TEST(LivePair, EffectsActOnBothMusclesAndLeaveTheStateAsItIs) {
     ASSERT_EQ(session.set_effect(one.name, true, one.size.value, one.shape.value), "") << one.name;
     const Sample same = session.step();
     EXPECT_EQ(same.angle_rad, next.angle_rad) << one.name;
-    EXPECT_EQ(same.opposite.muscle_Pa, next.opposite.muscle_Pa) << one.name;
+    EXPECT_EQ(same.state.opposite.muscle_pressure_Pa, next.state.opposite.muscle_pressure_Pa) << one.name;
     go(session, 50);
     EXPECT_EQ(session.failure(), "") << one.name;
     EXPECT_FALSE(session.rig().pair()->opposite.effects.absent()) << one.name;

@@ -47,7 +47,7 @@ class Diagnoses(unittest.TestCase):
         cls.data = mckibben.Dataset({"runs": [
             {"id": f"r{i}", "load": f"{run.load_kg} kg",
              "data": {"time_s": numpy.round(run["time_s"], 9), "current_mA": run["current_mA"],
-                      "contraction_ratio": run.encoder_contraction_ratio}} for i, run in enumerate(result.runs)]})
+                      "contraction_ratio": run["encoder_contraction_ratio"]}} for i, run in enumerate(result.runs)]})
 
     def test_names_what_was_hidden(self):
         told = []

@@ -6,6 +6,7 @@
 #include <sim/domain/rig_number.hpp>
 #include <sim/fmu/model/bytes.hpp>
 #include <sim/fmu/model/slave.hpp>
+#include <sim/ride/sample.hpp>
 
 namespace mckibben::fmu {
 namespace {
@@ -19,6 +20,7 @@ namespace {
 Slave::Slave(domain::RigFile rig)
     : rig_(std::move(rig)),
       paths_(parameter_paths(rig_)),
+      channels_(channels_of(rig_)),
       current_mA_(rig_.valve.zero_current_mA),
       length_m_(rig_.muscle.rest_length_m) {
   if (const plant::Pair* pair = rig_.pair()) opposite_current_mA_ = pair->opposite.valve.zero_current_mA;
@@ -147,6 +149,7 @@ void Slave::become(std::string_view bytes, const std::string& token) {
   bool rides = false;
   read(rides);
   ride_.reset();
+  sample_.reset();
   if (rides) {
     make_ride();
     ride::Ride::Saved saved;
@@ -158,6 +161,7 @@ void Slave::become(std::string_view bytes, const std::string& token) {
 
 void Slave::look() {
   counts_ = counter_->count(ride_->reading().wheel_m);
+  sample_.reset();
 }
 
 double Slave::get(Reference reference) {
@@ -179,62 +183,9 @@ double Slave::get(Reference reference) {
     return *domain::find_number(rig_, paths_[reference - first_parameter]).value;
   if (!initialised_) throw std::runtime_error("outputs are there once it is being initialised");
   if (!ride_) settle();
-  return shown(reference);
-}
-
-double Slave::shown(Reference reference) const {
-  const plant::State<double>& state = ride_->flow().state;
-  switch (reference) {
-    case counts:
-      return static_cast<double>(counts_);
-    case position_read: {
-      const double rise_m = static_cast<double>(counts_) * plant::count_height_m(rig_);
-      return rig_.pair() != nullptr ? rise_m / rig_.joint.wheel_radius_m : rise_m / rig_.muscle.rest_length_m;
-    }
-    case gauge_pressure:
-      return plant::gauge_reading_Pa(rig_.gauge, ride_->reading().muscle_pressure_Pa);
-    case opposite_gauge_pressure:
-      return plant::gauge_reading_Pa(rig_.gauge, ride_->reading().opposite_pressure_Pa);
-    case cell_force:
-      return plant::cell_reading_N(rig_.load_cell, ride_->moment().cord_force_N(), 0.0);
-    case contraction_ratio:
-      return state.joint.contraction_ratio;
-    case contraction_speed:
-      return state.joint.contraction_speed_per_s;
-    case valve_pressure:
-      return state.side.valve_pressure_Pa;
-    case muscle_pressure:
-      return state.side.muscle_pressure_Pa;
-    case braid_force:
-      return ride_->moment().braid_force_N;
-    case friction_force:
-      return ride_->moment().friction_force_N;
-    case cord_force:
-      return ride_->moment().cord_force_N();
-    default:
-      return of_opposite(reference);
-  }
-}
-
-double Slave::of_opposite(Reference reference) const {
-  if (rig_.pair() == nullptr) unknown(reference);
-  const plant::State<double>& state = ride_->flow().state;
-  switch (reference) {
-    case opposite_contraction_ratio:
-      return ride_->plant().opposite_stroke(state).contraction_ratio;
-    case opposite_valve_pressure:
-      return state.opposite.valve_pressure_Pa;
-    case opposite_muscle_pressure:
-      return state.opposite.muscle_pressure_Pa;
-    case opposite_braid_force:
-      return ride_->moment().opposite.braid_force_N;
-    case opposite_friction_force:
-      return ride_->moment().opposite.friction_force_N;
-    case opposite_cord_force:
-      return ride_->moment().opposite.cord_force_N();
-    default:
-      unknown(reference);
-  }
+  if (reference < first_output || reference - first_output >= channels_.size()) unknown(reference);
+  if (!sample_) sample_ = ride::sample_of(ride_->rider(), counts_);
+  return channels_[reference - first_output].value(*sample_);
 }
 
 }  // namespace mckibben::fmu

@@ -44,11 +44,10 @@ class Slave {
   ride::Drive drive() const;
   void hang(double load_kg);
   void look();
-  double shown(Reference reference) const;
-  double of_opposite(Reference reference) const;
 
   domain::RigFile rig_;
   std::vector<std::string> paths_;
+  std::vector<plant::Channel> channels_;
   double current_mA_, opposite_current_mA_ = 0.0, length_m_;
   double load_kg_ = usual_load_kg, hanging_kg_ = usual_load_kg;
   double time_s_ = 0.0;
@@ -56,6 +55,7 @@ class Slave {
   std::int64_t counts_ = 0;
   std::optional<plant::PositionReader> counter_;
   std::optional<ride::Ride> ride_;
+  std::optional<plant::Sample> sample_;  ///< of the instant it is at, once somebody has asked
 };
 
 }  // namespace mckibben::fmu

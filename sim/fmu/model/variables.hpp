@@ -6,37 +6,21 @@
 #include <string>
 #include <vector>
 
+#include <plant/signals.hpp>
 #include <sim/domain/rig_file.hpp>
 
 namespace mckibben::fmu {
 
 using Reference = std::uint32_t;
 
-/// References of what every rig has; parameters follow in the order of the rig's file.
+/// References: inputs, outputs in the order of `channels_of`, parameters in the order of the rig's file.
 enum : Reference {
   time_of_ride = 0,
   current = 1,
   load = 2,
   opposite_current = 3,
   length = 4,
-  counts = 100,
-  position_read,
-  gauge_pressure,
-  opposite_gauge_pressure,
-  cell_force,
-  contraction_ratio = 200,
-  contraction_speed,
-  valve_pressure,
-  muscle_pressure,
-  braid_force,
-  friction_force,
-  cord_force,
-  opposite_contraction_ratio = 250,
-  opposite_valve_pressure,
-  opposite_muscle_pressure,
-  opposite_braid_force,
-  opposite_friction_force,
-  opposite_cord_force,
+  first_output = 100,
   first_parameter = 1000
 };
 
@@ -46,7 +30,7 @@ struct Variable {
   Reference reference{};
   std::string name;
   Role role{};
-  std::string unit;  ///< SI, but for a current in mA
+  std::string unit;  ///< of inputs and outputs that of the signal (plant/signals.hpp); of parameters SI
   std::string meaning;
   bool whole = false;                               ///< an integer
   double start = 0.0, lowest = 0.0, highest = 0.0;  ///< of inputs and parameters
@@ -54,6 +38,9 @@ struct Variable {
 
 /// `true_states`: whether outputs show what no instrument does, too.
 std::vector<Variable> variables_of(const domain::RigFile& rig, bool true_states);
+
+/// What outputs show, and more.
+std::vector<plant::Channel> channels_of(const domain::RigFile& rig);
 
 /// The paths of what are parameters, in the order of their references.
 std::vector<std::string> parameter_paths(const domain::RigFile& rig);

@@ -1,0 +1,97 @@
+// Names, and which signals a rig has; see the header.
+#include <algorithm>
+#include <iterator>
+#include <stdexcept>
+
+#include <plant/signals.hpp>
+
+namespace mckibben::plant {
+namespace {
+
+bool exists(const Channel& channel, const Rig& rig, const Driven& driven) {
+  switch (channel.signal->needs) {
+    case Needs::one_muscle:
+      return !driven.pair;
+    case Needs::pair:
+      return driven.pair;
+    case Needs::valve:
+      return !driven.pressure[channel.muscle == 2 ? 1 : 0];
+    case Needs::gauge:
+      return rig.gauge.fitted;
+    case Needs::load_cell:
+      return rig.load_cell.fitted;
+    case Needs::nothing:
+      break;
+  }
+  return true;
+}
+
+const Signal& signal_of(std::string_view key) {
+  return *std::find_if(signals.begin(), signals.end(), [&](const Signal& s) { return s.key == key; });
+}
+
+std::string name_of(const Signal& signal, std::size_t muscle) {
+  std::string name(muscle == 0 ? signal.key : signal.of_two);
+  if (muscle > 0) name += "_" + std::to_string(muscle);
+  if (!signal.unit.ending.empty()) name.append("_").append(signal.unit.ending);
+  return name;
+}
+
+}  // namespace
+
+std::string Channel::key() const {
+  if (muscle == 0) return std::string(signal->key);
+  return std::string(signal->of_two) + "_" + std::to_string(muscle);
+}
+
+std::string Channel::name() const {
+  return name_of(*signal, muscle);
+}
+
+std::string Channel::name_in_dataset() const {
+  return name_of(signal->reads.empty() ? *signal : signal_of(signal->reads), muscle);
+}
+
+std::string Channel::words() const {
+  std::string words(signal->words);
+  if (muscle > 0) {
+    constexpr std::string_view whole = "the muscle";
+    const std::string one = "muscle " + std::to_string(muscle);
+    const auto at = words.find(whole);
+    at == std::string::npos ? words += " of " + one : words.replace(at, whole.size(), one);
+  }
+  if (signal->kind == Kind::state) words += ", true";
+  if (signal->kind == Kind::input) words += ", from this row to the next";
+  return words;
+}
+
+std::vector<Channel> channels_of(const Rig& rig, const Driven& driven) {
+  std::vector<Channel> all;
+  for (auto first = signals.begin(); first != signals.end();) {
+    const auto last = std::find_if(first, signals.end(), [](const Signal& s) { return !s.with_next; }) + 1;
+    const bool of_each = driven.pair && first->part == Part::muscle;
+    for (std::size_t muscle = of_each ? 1 : 0; muscle <= (of_each ? 2 : 0); ++muscle)
+      for (auto signal = first; signal != last; ++signal)
+        if (const Channel channel{&*signal, muscle}; exists(channel, rig, driven)) all.push_back(channel);
+    first = last;
+  }
+  return all;
+}
+
+std::vector<Channel> recorded_channels(const Rig& rig, const Driven& driven) {
+  std::vector<Channel> all = channels_of(rig, driven);
+  const bool force = driven.pair || driven.length || driven.force;
+  std::erase_if(all, [&](const Channel& channel) {
+    const InFiles in_files = channel.signal->in_files;
+    return in_files == InFiles::no || (in_files == InFiles::measured_force && !force);
+  });
+  return all;
+}
+
+const Channel& channel_of(const std::vector<Channel>& channels, std::string_view key) {
+  for (const Channel& channel : channels)
+    if (channel.key() == key) return channel;
+  throw std::invalid_argument("there is no signal " + std::string(key));
+}
+
+}  // namespace mckibben::plant

@@ -1,0 +1,271 @@
+// Every quantity of a rig that is recorded, shown or given, each declared once: key, unit, words, and how a
+// row of a recording has it. Tables, pages, Python, FMUs and data sets read this list; the recipe for a
+// further signal is in docs/add_a_part.md.
+//
+//   Sample    the row of a recording: a rig at one instant, in the units that the program calculates in
+//   Signal    a quantity            Channel    a signal of the rig's joint, or of one of its muscles
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <plant/constants.hpp>
+#include <plant/rig.hpp>
+#include <plant/state.hpp>
+
+namespace mckibben::plant {
+
+/// One muscle at an instant. Pressures gauge, forces positive where they shorten it.
+struct SideSample {
+  double current_mA = 0.0;    ///< as the DAC gives it, from here to the next row
+  double reference_Pa = 0.0;  ///< that it asks of the valve
+  double contraction_ratio = 0.0;
+  double braid_force_N = 0.0, friction_force_N = 0.0, effects_pull_N = 0.0;
+  double cord_force_N = 0.0;  ///< T, the sum
+  double gauge_Pa = 0.0;      ///< as the gauge shows the muscle's pressure, if one is fitted
+};
+
+/// A rig at an instant, before what is given changes. True values, but for `counts`, `read_...`, `gauge_Pa`
+/// and `cell_N`.
+struct Sample : SideSample {
+  double time_s = 0.0;
+  State<double> state{};
+  std::int64_t counts = 0;
+  double read_ratio = 0.0, read_angle_rad = 0.0;        ///< by these counts
+  double misread_ratio = 0.0;                           ///< what an encoder shows besides e, before it counts
+  double cell_N = 0.0;                                  ///< as the load cell shows it, if one is fitted
+  double angle_rad = 0.0, angle_speed_rad_per_s = 0.0;  ///< of a pair's joint
+  double torque_N_m = 0.0, stiffness_N_m_per_rad = 0.0;
+  SideSample opposite{};  ///< muscle 2 of a pair
+
+  double shown_ratio() const { return state.joint.contraction_ratio + misread_ratio; }
+  const SideSample& side(std::size_t muscle) const { return muscle == 2 ? opposite : *this; }
+  const SideState<double>& side_state(std::size_t muscle) const {
+    return muscle == 2 ? state.opposite : state.side;
+  }
+};
+
+/// What drives a rig, where it is not a current to the valve of one muscle that lifts a load.
+struct Driven {
+  bool pair = false, length = false;  ///< two muscles; the length of one is given
+  std::array<bool, 2> pressure{};     ///< of each muscle: its pressure is given, and it has no valve
+  bool force = false;                 ///< the force of the cord is measured
+};
+
+/// A unit of columns: as UDUNITS-2 spells it, at the end of a column's name, and how much one is in the
+/// units that the program calculates in. Pages may show another one.
+struct Unit {
+  std::string_view name, ending;
+  double size = 1.0;
+  std::string_view on_page{};
+  double page_size = 1.0;
+};
+
+enum class Kind { time, input, state, reading };
+enum class Part { joint, muscle };
+/// What a rig must have for a signal to exist.
+enum class Needs { nothing, one_muscle, pair, valve, gauge, load_cell };
+/// Whether it is a column of the files of runs; a force only of pairs, and where it is measured or a length
+/// is given. Pages, Python and FMUs have all signals.
+enum class InFiles { yes, no, measured_force };
+
+struct Signal {
+  std::string_view key;
+  Unit unit;
+  std::string_view words;
+  Kind kind = Kind::state;
+  Part part = Part::joint;
+  Needs needs = Needs::nothing;
+  double (*value)(const Sample& row, std::size_t muscle);  ///< muscle 1 or 2
+  InFiles in_files = InFiles::yes;
+  bool with_next = false;         ///< of two muscles: in one group with the signal that follows
+  bool may_be_given = false;      ///< it may drive a simulation; an input always does
+  std::string_view of_two = key;  ///< its key where there are two muscles
+  std::string_view reads{};       ///< of a reading: the key of what is read; a data set's column has its name
+  std::string_view in_dataset{};  ///< its key in a data set's `columns:`
+  bool whole = false;             ///< an integer
+};
+
+namespace units {
+inline constexpr Unit s{"s", "s"}, mA{"mA", "mA"}, bar{"bar", "bar", Pa_per_bar}, m{"m", "m"}, N{"N", "N"},
+    ratio{"1", "", 1.0, "contraction ratio"}, count{"1", ""}, per_s{"s-1", "per_s"},
+    rad{"rad", "rad", 1.0, "deg", degree_rad}, rad_per_s{"rad s-1", "rad_per_s"},
+    N_m{"N m", "Nm", 1.0, "N m"}, N_m_per_rad{"N m rad-1", "Nm_per_rad", 1.0, "N m/rad"};
+}  // namespace units
+
+/// In the order of the columns of a file.
+inline constexpr auto signals = std::to_array<Signal>({
+    {.key = "time",
+     .unit = units::s,
+     .words = "time",
+     .kind = Kind::time,
+     .value = [](const Sample& row, std::size_t) { return row.time_s; },
+     .in_dataset = "time"},
+    {.key = "current",
+     .unit = units::mA,
+     .words = "current to the valve",
+     .kind = Kind::input,
+     .part = Part::muscle,
+     .needs = Needs::valve,
+     .value = [](const Sample& row, std::size_t i) { return row.side(i).current_mA; },
+     .may_be_given = true,
+     .in_dataset = "command"},
+    {.key = "contraction_ratio",
+     .unit = units::ratio,
+     .words = "contraction ratio",
+     .needs = Needs::one_muscle,
+     .value = [](const Sample& row, std::size_t) { return row.state.joint.contraction_ratio; },
+     .may_be_given = true,
+     .in_dataset = "contraction"},
+    {.key = "contraction_speed",
+     .unit = units::per_s,
+     .words = "speed of the contraction ratio",
+     .needs = Needs::one_muscle,
+     .value = [](const Sample& row, std::size_t) { return row.state.joint.contraction_speed_per_s; }},
+    {.key = "angle",
+     .unit = units::rad,
+     .words = "joint angle, positive as muscle 1 contracts",
+     .needs = Needs::pair,
+     .value = [](const Sample& row, std::size_t) { return row.angle_rad; },
+     .in_dataset = "angle"},
+    {.key = "angle_speed",
+     .unit = units::rad_per_s,
+     .words = "speed of the joint angle",
+     .needs = Needs::pair,
+     .value = [](const Sample& row, std::size_t) { return row.angle_speed_rad_per_s; }},
+    {.key = "reference_pressure",
+     .unit = units::bar,
+     .words = "gauge pressure asked of the valve",
+     .part = Part::muscle,
+     .needs = Needs::valve,
+     .value = [](const Sample& row, std::size_t i) { return row.side(i).reference_Pa; },
+     .in_files = InFiles::no},
+    {.key = "valve_pressure",
+     .unit = units::bar,
+     .words = "gauge pressure in the valve",
+     .part = Part::muscle,
+     .needs = Needs::valve,
+     .value = [](const Sample& row, std::size_t i) { return row.side_state(i).valve_pressure_Pa; },
+     .with_next = true},
+    {.key = "muscle_pressure",
+     .unit = units::bar,
+     .words = "gauge pressure in the muscle",
+     .part = Part::muscle,
+     .value = [](const Sample& row, std::size_t i) { return row.side_state(i).muscle_pressure_Pa; },
+     .may_be_given = true,
+     .in_dataset = "muscle_pressure"},
+    {.key = "force",
+     .unit = units::N,
+     .words = "force of the cord",
+     .part = Part::muscle,
+     .value = [](const Sample& row, std::size_t i) { return row.side(i).cord_force_N; },
+     .in_files = InFiles::measured_force,
+     .of_two = "tension",
+     .in_dataset = "force"},
+    {.key = "encoder_contraction_ratio",
+     .unit = units::ratio,
+     .words = "contraction ratio as it is counted",
+     .kind = Kind::reading,
+     .needs = Needs::one_muscle,
+     .value = [](const Sample& row, std::size_t) { return row.read_ratio; },
+     .reads = "contraction_ratio"},
+    {.key = "encoder_angle",
+     .unit = units::rad,
+     .words = "joint angle as it is counted",
+     .kind = Kind::reading,
+     .needs = Needs::pair,
+     .value = [](const Sample& row, std::size_t) { return row.read_angle_rad; },
+     .reads = "angle"},
+    {.key = "counts",
+     .unit = units::count,
+     .words = "counts of the encoder, or steps of the sensor in its place",
+     .kind = Kind::reading,
+     .value = [](const Sample& row, std::size_t) { return static_cast<double>(row.counts); },
+     .in_files = InFiles::no,
+     .whole = true},
+    {.key = "contraction_ratio",
+     .unit = units::ratio,
+     .words = "contraction ratio",
+     .part = Part::muscle,
+     .needs = Needs::pair,
+     .value = [](const Sample& row, std::size_t i) { return row.side(i).contraction_ratio; }},
+    {.key = "bristle",
+     .unit = units::m,
+     .words = "deflection of the bristles of thread friction",
+     .part = Part::muscle,
+     .value = [](const Sample& row, std::size_t i) { return row.side_state(i).bristle_m; }},
+    {.key = "braid_force",
+     .unit = units::N,
+     .words = "force of the braid, positive where it shortens the muscle",
+     .part = Part::muscle,
+     .value = [](const Sample& row, std::size_t i) { return row.side(i).braid_force_N; }},
+    {.key = "friction_force",
+     .unit = units::N,
+     .words = "force of thread friction, positive where it shortens the muscle",
+     .part = Part::muscle,
+     .value = [](const Sample& row, std::size_t i) { return row.side(i).friction_force_N; }},
+    {.key = "effects_pull",
+     .unit = units::N,
+     .words = "force of effects, positive where it shortens the muscle",
+     .part = Part::muscle,
+     .value = [](const Sample& row, std::size_t i) { return row.side(i).effects_pull_N; },
+     .in_files = InFiles::no},
+    {.key = "torque",
+     .unit = units::N_m,
+     .words = "torque of both muscles on the joint",
+     .needs = Needs::pair,
+     .value = [](const Sample& row, std::size_t) { return row.torque_N_m; },
+     .in_files = InFiles::no},
+    {.key = "stiffness",
+     .unit = units::N_m_per_rad,
+     .words = "stiffness of the joint at these pressures",
+     .needs = Needs::pair,
+     .value = [](const Sample& row, std::size_t) { return row.stiffness_N_m_per_rad; }},
+    {.key = "gauge_pressure",
+     .unit = units::bar,
+     .words = "gauge pressure in the muscle as measured",
+     .kind = Kind::reading,
+     .part = Part::muscle,
+     .needs = Needs::gauge,
+     .value = [](const Sample& row, std::size_t i) { return row.side(i).gauge_Pa; },
+     .reads = "muscle_pressure"},
+    {.key = "cell_force",
+     .unit = units::N,
+     .words = "force of the cord as measured",
+     .kind = Kind::reading,
+     .needs = Needs::load_cell,
+     .value = [](const Sample& row, std::size_t) { return row.cell_N; },
+     .reads = "force"},
+});
+
+struct Channel {
+  const Signal* signal;
+  std::size_t muscle = 0;  ///< 1 or 2 of a pair's; 0 of a joint's, and where there is one muscle
+
+  std::string key() const;   ///< muscle_pressure_1
+  std::string name() const;  ///< of its column: muscle_pressure_1_bar
+  /// Of a data set's column: a reading has the name of what it reads.
+  std::string name_in_dataset() const;
+  std::string words() const;
+  /// In its unit.
+  double value(const Sample& row) const { return signal->value(row, muscle) / signal->unit.size; }
+  /// In the unit of a page.
+  double on_page(const Sample& row) const { return value(row) / signal->unit.page_size; }
+  std::string_view page_unit() const {
+    return signal->unit.on_page.empty() ? signal->unit.name : signal->unit.on_page;
+  }
+};
+
+/// What a rig that is driven so has, in the order of its columns.
+std::vector<Channel> channels_of(const Rig& rig, const Driven& driven);
+/// Of these, the columns of the file of a run.
+std::vector<Channel> recorded_channels(const Rig& rig, const Driven& driven);
+
+/// A channel by its key. Throws std::invalid_argument if there is none.
+const Channel& channel_of(const std::vector<Channel>& channels, std::string_view key);
+
+}  // namespace mckibben::plant

@@ -1,0 +1,20 @@
+// The row of a recording, as every room takes it: of a rider at the instant that it is at, under what it
+// holds.
+#pragma once
+
+#include <cstdint>
+
+#include <plant/signals.hpp>
+#include <sim/ride/rider.hpp>
+
+namespace mckibben::ride {
+
+/// What noise adds to what gauges and load cell show.
+struct SensorNoise {
+  double gauge_Pa = 0.0, opposite_gauge_Pa = 0.0, cell_N = 0.0;
+};
+
+/// `counts`: as the position has been read at this instant.
+plant::Sample sample_of(const Rider& rider, std::int64_t counts, const SensorNoise& noise = {});
+
+}  // namespace mckibben::ride
