@@ -26,10 +26,6 @@ bool exists(const Channel& channel, const Rig& rig, const Driven& driven) {
   return true;
 }
 
-const Signal& signal_of(std::string_view key) {
-  return *std::find_if(signals.begin(), signals.end(), [&](const Signal& s) { return s.key == key; });
-}
-
 std::string name_of(const Signal& signal, std::size_t muscle) {
   std::string name(muscle == 0 ? signal.key : signal.of_two);
   if (muscle > 0) name += "_" + std::to_string(muscle);
@@ -86,6 +82,12 @@ std::vector<Channel> recorded_channels(const Rig& rig, const Driven& driven) {
     return in_files == InFiles::no || (in_files == InFiles::measured_force && !force);
   });
   return all;
+}
+
+const Signal& signal_of(std::string_view key) {
+  for (const Signal& signal : signals)
+    if (signal.key == key) return signal;
+  throw std::invalid_argument("there is no signal " + std::string(key));
 }
 
 const Channel& channel_of(const std::vector<Channel>& channels, std::string_view key) {

@@ -265,6 +265,10 @@ std::vector<Channel> channels_of(const Rig& rig, const Driven& driven);
 /// Of these, the columns of the file of a run.
 std::vector<Channel> recorded_channels(const Rig& rig, const Driven& driven);
 
+/// A signal by its key: of one muscle, where a pair's joint has one of that key too. Throws
+/// std::invalid_argument if there is none.
+const Signal& signal_of(std::string_view key);
+
 /// A channel by its key. Throws std::invalid_argument if there is none.
 const Channel& channel_of(const std::vector<Channel>& channels, std::string_view key);
 

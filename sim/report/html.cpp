@@ -1,5 +1,7 @@
 // Order of the page, and what the script is told.
 #include <algorithm>
+#include <set>
+#include <string>
 
 #include <fmt/format.h>
 
@@ -44,7 +46,19 @@ Json times_json(const std::vector<double>& time_s, std::size_t per_column) {
   return times;
 }
 
-Json group_json(const Group& group, std::size_t all_runs) {
+/// Keys of what the page draws, in plots, loops and the picture of the rig.
+std::set<std::string> drawn_keys(const Contents& contents) {
+  std::set<std::string> keys;
+  for (const char* key : {"angle", "contraction_ratio", "current", "force", "muscle_pressure",
+                          "reference_pressure", "tension", "valve_pressure"})
+    for (const char* muscle : {"", "_1", "_2"}) keys.insert(std::string(key) + muscle);
+  for (const Plot& plot : contents.plots)
+    for (const Line& line : plot.lines) keys.insert(line.key);
+  for (const Loop& loop : contents.loops) keys.insert({loop.x, loop.y});
+  return keys;
+}
+
+Json group_json(const Group& group, std::size_t all_runs, const std::set<std::string>& drawn) {
   const std::size_t per_column = ticks_per_column(group.ticks, all_runs);
   Json entry{{"name", group.name},      {"load_kg", group.load_kg},
              {"ticks", group.ticks},    {"ticks_per_column", per_column},
@@ -56,7 +70,8 @@ Json group_json(const Group& group, std::size_t all_runs) {
   for (const auto& run : group.runs) {
     Json values = Json::object();
     for (const auto& quantity : run.quantities)
-      values[quantity.key] = packed_json(pack(quantity.at, group.ticks, run.ticks, per_column));
+      if (drawn.contains(quantity.key))
+        values[quantity.key] = packed_json(pack(quantity.at, group.ticks, run.ticks, per_column));
     entry["runs"].push_back({{"name", run.name}, {"style", run.style}, {"values", values}});
   }
   return entry;
@@ -78,7 +93,9 @@ std::string data_of(const Contents& contents) {
                               {"zero", valve.zero_command.value},
                               {"span", valve.span_command.value}};
   for (const auto& plot : contents.plots) data["plots"].push_back(plot_json(plot));
-  for (const auto& group : contents.groups) data["groups"].push_back(group_json(group, runs_of(contents)));
+  const std::set<std::string> drawn = drawn_keys(contents);
+  for (const auto& group : contents.groups)
+    data["groups"].push_back(group_json(group, runs_of(contents), drawn));
   return in_script(data);
 }
 

@@ -8,7 +8,6 @@
 #include <sim/output/svg.hpp>
 #include <sim/output/table.hpp>
 #include <sim/report/by_load.hpp>
-#include <sim/report/driven_quantities.hpp>
 #include <sim/report/html.hpp>
 #include <sim/report/length.hpp>
 #include <sim/report/quantities.hpp>
@@ -24,11 +23,12 @@ struct Counted {
 
 Run shown(const domain::Run& measured, std::size_t style, const plant::Plant& plant) {
   Run run{.name = measured.id, .style = style, .ticks = measured.current_mA.size()};
-  run.quantities = {{"contraction", [&measured](std::size_t k) { return measured.contraction_ratio[k]; }},
-                    {"current", [&measured](std::size_t k) { return measured.current_mA[k]; }},
-                    {"reference_pressure", [&measured, plant](std::size_t k) {
-                       return plant.reference_pressure_Pa(measured.current_mA[k]) / 1e5;
-                     }}};
+  run.quantities = {
+      {"contraction_ratio", [&measured](std::size_t k) { return measured.contraction_ratio[k]; }},
+      {"current", [&measured](std::size_t k) { return measured.current_mA[k]; }},
+      {"reference_pressure", [&measured, plant](std::size_t k) {
+         return plant.reference_pressure_Pa(measured.current_mA[k]) / 1e5;
+       }}};
   if (measured.muscle_pressure_Pa)
     run.quantities.push_back(
         {"muscle_pressure", [&measured](std::size_t k) { return (*measured.muscle_pressure_Pa)[k] / 1e5; }});
@@ -102,8 +102,8 @@ Run shown_of_pair(const domain::Run& measured, std::size_t style, const domain::
   Run run{.name = measured.id, .style = style, .ticks = measured.angle_rad.size()};
   run.quantities = {
       {"angle", [&measured](std::size_t k) { return in_degrees * measured.angle_rad[k]; }},
-      {"contraction_1", contraction(pair.contraction_ratio, radius_m / rig.muscle.rest_length_m)},
-      {"contraction_2",
+      {"contraction_ratio_1", contraction(pair.contraction_ratio, radius_m / rig.muscle.rest_length_m)},
+      {"contraction_ratio_2",
        contraction(pair.opposite_contraction_ratio, -radius_m / pair.opposite.muscle.rest_length_m)},
       {"current_1", [sides](std::size_t k) { return (*sides)[0].current_mA[k]; }},
       {"current_2", [sides](std::size_t k) { return (*sides)[1].current_mA[k]; }},
@@ -175,8 +175,8 @@ std::string report_html(const domain::Campaign& campaign, const std::vector<run:
       .rig = dataset.rig,
       .mechanics = dataset.rig.mechanics,
       .gauge = dataset.rig.gauge.fitted,
-      .plots = pair ? measured_pair_plots() : measured_plots(),
-      .loops = pair ? measured_pair_loops() : measured_loops()};
+      .plots = measured_plots(pair),
+      .loops = measured_loops(pair)};
   if (pair)
     add_currents(contents, campaign, ended, dataset);
   else

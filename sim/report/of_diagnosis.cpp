@@ -13,7 +13,6 @@
 #include <sim/output/svg.hpp>
 #include <sim/report/by_load.hpp>
 #include <sim/report/diagnosis_chapters.hpp>
-#include <sim/report/driven_quantities.hpp>
 #include <sim/report/html.hpp>
 #include <sim/report/length.hpp>
 #include <sim/report/opening.hpp>
@@ -80,22 +79,26 @@ Run shown(const char* name, std::size_t style, const RunGap& gap, const std::vec
   const bool bench = recorded != nullptr && recorded->length_is_given();
   Run run{.name = name, .style = style, .ticks = std::min(readings.size(), gap.measured.size())};
   const auto *model = &readings, *measured = &gap.measured;
-  run.quantities = {{bench ? "force" : "contraction", [model](std::size_t k) { return (*model)[k]; }},
+  run.quantities = {{bench ? "force" : "contraction_ratio", [model](std::size_t k) { return (*model)[k]; }},
                     {"error", [=](std::size_t k) { return (*measured)[k] - (*model)[k]; }}};
   if (replayed == nullptr || replayed->recording.samples.size() < run.ticks) return run;
   constexpr std::array<std::string_view, 5> wanted{"valve_pressure", "muscle_pressure", "braid_force",
                                                    "friction_force", "effects_pull"};
-  for (auto& quantity : quantities_of(replayed->recording, plant))
-    if ((bench && quantity.key == "contraction") ||
+  for (auto& quantity : quantities_of(replayed->recording, plant.rig()))
+    if ((bench && quantity.key == "contraction_ratio") ||
         std::find(wanted.begin(), wanted.end(), quantity.key) != wanted.end())
       run.quantities.push_back(std::move(quantity));
-  if (recorded != nullptr && recorded->beside(domain::Beside::force) != nullptr)
-    run.quantities.push_back({"cord_force", [replayed](std::size_t k) {
-                                return std::max(replayed->recording.samples[k].cord_force_N, 0.0);
-                              }});
+  if (const auto* force_N = recorded == nullptr ? nullptr : recorded->beside(domain::Beside::force)) {
+    const auto pull_N = [replayed](std::size_t k) {
+      return std::max(replayed->recording.samples[k].cord_force_N, 0.0);
+    };
+    run.quantities.push_back({"force", pull_N});
+    run.quantities.push_back(
+        {"force_error", [force_N, pull_N](std::size_t k) { return (*force_N)[k] - pull_N(k); }});
+  }
   if (recorded != nullptr && recorded->muscle_pressure_Pa)
     run.quantities.push_back(
-        {"pressure_error", [replayed, recorded, effects = plant.rig().effects](std::size_t k) {
+        {"muscle_pressure_error", [replayed, recorded, effects = plant.rig().effects](std::size_t k) {
            const double true_Pa = replayed->recording.samples[k].state.side.muscle_pressure_Pa;
            return ((*recorded->muscle_pressure_Pa)[k] - effects.shown_Pa(true_Pa)) / 1e5;
          }});
@@ -115,7 +118,7 @@ Run shown_pair(const char* name, std::size_t style, const RunGap& gap, const std
       {"angle", [model](std::size_t k) { return (*model)[k] / plant::degree_rad; }},
       {"error", [=](std::size_t k) { return ((*measured)[k] - (*model)[k]) / plant::degree_rad; }}};
   if (replayed == nullptr || replayed->recording.samples.size() < run.ticks) return run;
-  for (auto& quantity : pair_quantities(rig, replayed->recording))
+  for (auto& quantity : quantities_of(replayed->recording, rig))
     if (quantity.key != "angle") run.quantities.push_back(std::move(quantity));
   return run;
 }
@@ -151,7 +154,7 @@ Group group_of(const domain::Dataset& data, const Diagnosis& diagnosis, const Ru
               .load_kg = gap.load_kg,
               .ticks = gap.measured.size()};
   group.given = {
-      {bench ? "given_force" : "given_contraction", [&gap](std::size_t k) { return gap.measured[k]; }}};
+      {bench ? "given_force" : "given_contraction_ratio", [&gap](std::size_t k) { return gap.measured[k]; }}};
   if (!bench)
     group.given.push_back({"weight", [weight_N = mended.weight_N()](std::size_t) { return weight_N; }});
   const domain::Run* recorded = by_id(data.runs, gap.id);
@@ -165,10 +168,10 @@ Group group_of(const domain::Dataset& data, const Diagnosis& diagnosis, const Ru
                              }});
     }
     if (const auto* force_N = run->beside(domain::Beside::force))
-      group.given.push_back({"given_cord_force", [force_N](std::size_t k) { return (*force_N)[k]; }});
+      group.given.push_back({"given_force", [force_N](std::size_t k) { return (*force_N)[k]; }});
     if (run->muscle_pressure_Pa)
       group.given.push_back(
-          {"given_pressure", [run](std::size_t k) { return (*run->muscle_pressure_Pa)[k] / 1e5; }});
+          {"given_muscle_pressure", [run](std::size_t k) { return (*run->muscle_pressure_Pa)[k] / 1e5; }});
   }
   if (const double left = left_of(gap, output::changed(diagnosis)); std::isfinite(left) && left > 0.0)
     group.rmse = left;
@@ -181,76 +184,47 @@ Group group_of(const domain::Dataset& data, const Diagnosis& diagnosis, const Ru
   return group;
 }
 
-/// On a bench: force and its error, then what made it.
-std::vector<Plot> bench_plots(const domain::Dataset& data, const Diagnosis& diagnosis) {
-  auto all = plots_for(diagnosis.corrected, "Contraction, as given", "", "", gauged(data));
-  std::vector<Plot> plots{
-      {"force",
-       "Force, measured and by each rig",
-       "N",
-       {{.key = "given_force", .label = "Measured", .given = true},
-        {.key = "force", .label = "force", .main = true}}},
-      {"error", "Error: measured less model", "N", {{.key = "error", .label = "error", .main = true}}}};
-  for (Plot& plot : all) {
-    const bool of_a_load = plot.id == "error" || plot.id == "current";
-    if (plot.id == "forces") plot.title = "Forces that shorten the muscle";
-    if (!of_a_load) plots.push_back(std::move(plot));
-  }
-  return plots;
-}
-
-/// Of a pair: angle and its error, then what made it.
-std::vector<Plot> joint_plots(const domain::Dataset& data, const Diagnosis& diagnosis) {
-  std::vector<Plot> plots{{"angle",
-                           "Joint angle, measured and by each rig",
-                           "deg",
-                           {{.key = "given_angle", .label = "Measured", .given = true},
-                            {.key = "angle", .label = "angle", .main = true}},
-                           true},
-                          {"error",
-                           "Error: measured less model",
-                           "deg",
-                           {{.key = "error", .label = "error", .main = true}},
-                           true,
-                           diagnosis.gap.noise_floor / plant::degree_rad}};
-  for (Plot& plot : pair_plots(measured_beside(), !data.pressure_is_given()))
-    if (!plot.id.starts_with("angle")) plots.push_back(std::move(plot));
-  return plots;
-}
-
+/// What is judged and its error, then what made it.
 std::vector<Plot> plots(const domain::Dataset& data, const Diagnosis& diagnosis) {
-  const double floor = diagnosis.gap.noise_floor;
-  if (data.judged() == diagnose::Judged::force) return bench_plots(data, diagnosis);
-  if (data.judged() == diagnose::Judged::angle) return joint_plots(data, diagnosis);
-  auto all = plots_for(diagnosis.corrected, "Contraction, measured and by each rig", "Measured",
-                       fmt::format("Error: measured less model, as height of the load{}",
-                                   floor > 0.0 ? "; logarithmic beyond the noise floor" : ""),
-                       gauged(data));
-  for (Plot& plot : all) {
-    if (plot.id == "error") plot.still = true, plot.floor = floor;
-    if (plot.id == "pressure_error") plot.title = "Error of the pressure: measured less model";
-    for (Line& line : plot.lines)  // one for all rigs
-      if (line.key == "current" || line.key == "reference_pressure") line.given = true;
-  }
+  const bool bench = data.judged() == diagnose::Judged::force,
+             pair = data.judged() == diagnose::Judged::angle;
+  const double floor = diagnosis.gap.noise_floor / (pair ? plant::degree_rad : 1.0);
+  const std::string error = "Error: measured less model";
   const auto cell = [](const domain::Run& run) { return run.beside(domain::Beside::force) != nullptr; };
-  if (std::ranges::any_of(data.runs, cell))
-    all.insert(all.begin() + 2, {"cord_force",
-                                 "Force of the cord, measured and by each rig",
-                                 "N",
-                                 {{.key = "given_cord_force", .label = "Measured", .given = true},
-                                  {.key = "cord_force", .label = "cord", .main = true}}});
+  auto all = plots_of(
+      diagnosis.corrected,
+      {.driven = {.pair = pair, .length = bench},
+       .key = bench  ? "force"
+              : pair ? "angle"
+                     : "contraction_ratio",
+       .title = fmt::format("{}, measured and by each rig", bench  ? "Force"
+                                                            : pair ? "Joint angle"
+                                                                   : "Contraction"),
+       .given = "Measured",
+       .error = bench || pair ? error
+                              : fmt::format("{}, as height of the load{}", error,
+                                            floor > 0.0 ? "; logarithmic beyond the noise floor" : ""),
+       .commands = !data.pressure_is_given(),
+       .pressure = gauged(data),
+       .force = !bench && std::ranges::any_of(data.runs, cell),
+       .off = "measured less model"});
+  for (Plot& plot : all) {
+    if (plot.id == "error" && !bench) plot.still = true, plot.floor = floor;
+    for (Line& line : plot.lines)  // one for all rigs
+      if (!pair && (line.key == "current" || line.key == "reference_pressure")) line.given = true;
+  }
   return all;
 }
 
 std::vector<Loop> loops_of_runs(const domain::Dataset& data) {
-  if (data.judged() == diagnose::Judged::angle) return pair_loops();
+  if (data.judged() == diagnose::Judged::angle) return loops_of({.pair = true});
   if (data.force_is_judged())
     return {{"force", "Force and pressure", "muscle_pressure", "force", "muscle pressure in bar",
              "force in N", false, "muscle_pressure", "given_force"}};
-  return {{"asked", "Contraction and pressure asked of the valve", "reference_pressure", "contraction",
+  return {{"asked", "Contraction and pressure asked of the valve", "reference_pressure", "contraction_ratio",
            "pressure asked of the valve in bar", std::string(ratio_unit), false, "reference_pressure",
-           "given_contraction"},
-          loops().front()};
+           "given_contraction_ratio"},
+          loops_of({}).front()};
 }
 
 const char* of_what_is_judged(diagnose::Judged judged) {

@@ -12,7 +12,6 @@
 #include <sim/output/driven_results.hpp>
 #include <sim/output/svg.hpp>
 #include <sim/report/by_load.hpp>
-#include <sim/report/driven_quantities.hpp>
 #include <sim/report/html.hpp>
 #include <sim/report/length.hpp>
 #include <sim/report/quantities.hpp>
@@ -28,11 +27,14 @@ void add_readings(Group& group, Run& shown, const domain::Measurement& measured,
                   const run::Recording& recording) {
   for (const run::Compared& one : run::compared(measured, rig, recording)) {
     const double factor = one.unit == "rad" ? in_degrees : 1.0;
-    const std::string key = one.reading == "force" ? "cord_force" : one.reading;
+    const bool position = one.reading == "contraction" || one.reading == "angle";
+    const std::string key = one.reading == "contraction" ? "contraction_ratio" : one.reading;
     group.given.push_back(
         {"given_" + key, [factor, at = one.measured](std::size_t k) { return factor * at(k); }});
-    shown.quantities.push_back({key + "_error", [factor, is = one.simulated, at = one.measured](
-                                                    std::size_t k) { return factor * (is(k) - at(k)); }});
+    shown.quantities.push_back(
+        {position ? "error" : key + "_error", [factor, is = one.simulated, at = one.measured](std::size_t k) {
+           return factor * (is(k) - at(k));
+         }});
   }
 }
 
@@ -120,7 +122,7 @@ Contents contents_of(const domain::RigFile& rig, const run::Driven& driven) {
   if (driven.length) contents.mechanics = plant::HeldLength{};
   contents.lengths = !driven.pair;
   contents.beside = std::string(beside_runs);
-  contents.loops = driven.pair ? pair_loops() : single_loops();
+  contents.loops = loops_of(driven);
   return contents;
 }
 
@@ -145,12 +147,17 @@ std::string report_html(const domain::Dataset& dataset, const std::vector<run::S
   contents.table = gaps_table(dataset, runs);
   contents.gauge = measured("muscle_pressure") || driven.pressure[0];
   contents.details = output::table_of(dataset, runs, warnings);
-  contents.plots = driven.pair ? pair_plots(measured("angle") ? measured_beside() : Beside{},
-                                            !driven.pressure[0] || !driven.pressure[1])
-                               : single_plots({.contraction = measured("contraction"),
-                                               .force = measured("force"),
-                                               .pressure = measured("muscle_pressure"),
-                                               .commands = !driven.pressure[0]});
+  const bool position = measured(driven.pair ? "angle" : "contraction");
+  const std::string title = driven.pair ? "Joint angle" : "Contraction";
+  contents.plots =
+      plots_of(dataset.rig, {.driven = driven,
+                             .key = driven.pair ? "angle" : "contraction_ratio",
+                             .title = title,
+                             .given = position ? "measured" : "",
+                             .error = position ? title + ": simulated less measured" : "",
+                             .commands = !driven.pressure[0] || (driven.pair && !driven.pressure[1]),
+                             .pressure = measured("muscle_pressure"),
+                             .force = measured("force")});
   for (const std::size_t i : order(runs)) {
     const run::StampedRun& run = runs[i];
     if (!drawn(run)) continue;
@@ -164,8 +171,7 @@ std::string report_html(const domain::Dataset& dataset, const std::vector<run::S
     group.time_s.resize(group.ticks);
     if (const run::Gap* height = height_of(run)) group.rmse = height->rmse;
     Run shown{.name = "simulated", .ticks = group.ticks};
-    shown.quantities =
-        driven.pair ? pair_quantities(dataset.rig, run.recording) : single_quantities(run.recording);
+    shown.quantities = quantities_of(run.recording, dataset.rig);
     add_readings(group, shown, given, dataset.rig, run.recording);
     group.runs.push_back(std::move(shown));
     contents.groups.push_back(std::move(group));

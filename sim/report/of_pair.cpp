@@ -10,7 +10,6 @@
 #include <sim/output/driven_results.hpp>
 #include <sim/output/svg.hpp>
 #include <sim/report/by_load.hpp>
-#include <sim/report/driven_quantities.hpp>
 #include <sim/report/html.hpp>
 #include <sim/report/quantities.hpp>
 #include <sim/report/report.hpp>
@@ -117,7 +116,7 @@ Run shown(const std::string& name, std::size_t style, const run::PairRun& run, c
   return {.name = name,
           .style = style,
           .ticks = run.recording.samples.size(),
-          .quantities = pair_quantities(rig, run.recording)};
+          .quantities = quantities_of(run.recording, rig)};
 }
 
 Group group_of(const domain::PairScenario& scenario, const run::PairRuns& all, const Place& at) {
@@ -133,8 +132,8 @@ Group group_of(const domain::PairScenario& scenario, const run::PairRuns& all, c
     const auto* rows = &runs[c]->recording.samples;
     if (rows->empty()) continue;
     Run run = shown(name_of(scenario.controllers[c]), c, *runs[c], scenario.rig);
-    run.quantities.push_back({"angle_error", [rows, angle, &rig = scenario.rig](std::size_t k) {
-                                return in_degrees * (run::angle_rad(rig, (*rows)[k]) - (*angle)[k]);
+    run.quantities.push_back({"error", [rows, angle](std::size_t k) {
+                                return in_degrees * ((*rows)[k].angle_rad - (*angle)[k]);
                               }});
     group.runs.push_back(std::move(run));
   }
@@ -155,8 +154,13 @@ std::string report_html(const domain::PairScenario& scenario, const run::PairRun
       .lengths = false,
       .rig = scenario.rig,
       .mechanics = scenario.rig.mechanics,
-      .plots = pair_plots(scenario.targets.empty() ? Beside{} : target_beside(), true),
-      .loops = pair_loops()};
+      .plots =
+          plots_of(scenario.rig, {.driven = {.pair = true},
+                                  .key = "angle",
+                                  .title = "Joint angle",
+                                  .given = scenario.targets.empty() ? "" : "target",
+                                  .error = scenario.targets.empty() ? "" : "Joint angle: angle less target"}),
+      .loops = loops_of({.pair = true})};
   for (const Place& at : places(scenario))
     if (is_drawn(runs_at(all, at))) contents.groups.push_back(group_of(scenario, all, at));
   contents.table = table(scenario, all, 0);

@@ -107,21 +107,21 @@ Group group_of(const domain::Dataset& dataset, const domain::Run& measured, cons
   Group group{.name = fmt::format("{}, {} kg", run.id, domain::write_number(run.load_kg)),
               .load_kg = run.load_kg,
               .ticks = measured.contraction_ratio.size()};
-  group.given = {{"given_contraction", [&measured](std::size_t k) { return measured.contraction_ratio[k]; }},
-                 {"weight", [weight_N = plant.weight_N()](std::size_t) { return weight_N; }}};
+  group.given = {
+      {"given_contraction_ratio", [&measured](std::size_t k) { return measured.contraction_ratio[k]; }},
+      {"weight", [weight_N = plant.weight_N()](std::size_t) { return weight_N; }}};
   if (run.failure.empty()) group.rmse = run.rmse;
   if (measured.muscle_pressure_Pa)
-    group.given.push_back(
-        {"given_pressure", [&measured](std::size_t k) { return (*measured.muscle_pressure_Pa)[k] / 1e5; }});
+    group.given.push_back({"given_muscle_pressure",
+                           [&measured](std::size_t k) { return (*measured.muscle_pressure_Pa)[k] / 1e5; }});
   Run shown{.name = "simulated", .ticks = rows->size()};
-  shown.quantities = quantities_of(run.recording, plant);
-  shown.quantities.push_back(
-      {"error", [rows, &measured, per_count = run::contraction_per_count(dataset.rig)](std::size_t k) {
-         return static_cast<double>((*rows)[k].counts) * per_count - measured.contraction_ratio[k];
-       }});
+  shown.quantities = quantities_of(run.recording, dataset.rig);
+  shown.quantities.push_back({"error", [rows, &measured](std::size_t k) {
+                                return (*rows)[k].read_ratio - measured.contraction_ratio[k];
+                              }});
   if (measured.muscle_pressure_Pa)
     shown.quantities.push_back(
-        {"pressure_error", [rows, &measured, effects = dataset.rig.effects](std::size_t k) {
+        {"muscle_pressure_error", [rows, &measured, effects = dataset.rig.effects](std::size_t k) {
            const double shown_Pa = effects.shown_Pa((*rows)[k].state.side.muscle_pressure_Pa);
            return (shown_Pa - (*measured.muscle_pressure_Pa)[k]) / 1e5;
          }});
@@ -148,9 +148,11 @@ std::string report_html(const domain::Dataset& dataset, const std::vector<run::R
       .beside = std::string(beside_runs),
       .rig = dataset.rig,
       .gauge = gauge,
-      .plots = plots_for(dataset.rig, "Contraction, measured and simulated", "Measured",
-                         "Error: simulated less measured, both as counted", gauge),
-      .loops = loops()};
+      .plots = plots_of(dataset.rig, {.title = "Contraction, measured and simulated",
+                                      .given = "Measured",
+                                      .error = "Error: simulated less measured, both as counted",
+                                      .pressure = gauge}),
+      .loops = loops_of({})};
   for (const std::size_t i : order(runs))
     if (drawn(runs[i])) contents.groups.push_back(group_of(dataset, dataset.runs[i], runs[i]));
   return html_of(contents);

@@ -148,14 +148,14 @@ Group group_of(const domain::Scenario& scenario, const run::Comparison& comparis
   const plant::Plant plant(scenario.rig, load_kg);
   const auto* target = &comparison.target;
   Group group{.name = domain::write_number(load_kg) + " kg", .load_kg = load_kg, .ticks = target->size()};
-  group.given = {{"given_contraction", [target](std::size_t k) { return (*target)[k]; }},
+  group.given = {{"given_contraction_ratio", [target](std::size_t k) { return (*target)[k]; }},
                  {"weight", [weight_N = plant.weight_N()](std::size_t) { return weight_N; }}};
   for (std::size_t c = 0; c < columns; ++c) {
     const run::TrackedRun& run = comparison.runs[r * columns + c];
     const auto* rows = &run.recording.samples;
     if (rows->empty()) continue;
     Run shown{.name = run.controller, .style = c, .ticks = rows->size()};
-    shown.quantities = quantities_of(run.recording, plant);
+    shown.quantities = quantities_of(run.recording, scenario.rig);
     shown.quantities.push_back({"error", [rows, target](std::size_t k) {
                                   return (*rows)[k].state.joint.contraction_ratio - (*target)[k];
                                 }});
@@ -178,9 +178,10 @@ std::string report_html(const domain::Scenario& scenario, const run::Comparison&
                     .chapters = {robustness(scenario, comparison)},
                     .rig = scenario.rig,
                     .gauge = scenario.rig.gauge.fitted,
-                    .plots = plots_for(scenario.rig, "Target and contraction", "Target",
-                                       "Error: contraction less target", false),
-                    .loops = loops()};
+                    .plots = plots_of(scenario.rig, {.title = "Target and contraction",
+                                                     .given = "Target",
+                                                     .error = "Error: contraction less target"}),
+                    .loops = loops_of({})};
   for (std::size_t r = 0; r < scenario.loads_kg.size(); ++r)
     if (auto group = group_of(scenario, comparison, r); !group.runs.empty())
       contents.groups.push_back(std::move(group));

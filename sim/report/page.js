@@ -11,16 +11,18 @@ const view = {
 const calm = matchMedia('(prefers-reduced-motion: reduce)').matches;
 const drawing = new (report.rig.pair ? PairPicture : RigPicture)(byId('rig'));
 const ratio = 'contraction ratio';
-const allColumns = [
-  ['contraction', 'contraction', ratio, 5], ['error', 'error', ratio, 5],
-  ['current', command.name, command.unit, 2], ['muscle_pressure', 'muscle', 'bar', 3],
-  ['pressure_error', 'error', 'bar', 3], ['braid_force', 'braid', 'N', 1],
-  ['friction_force', 'friction', 'N', 1], ['cord_force', 'cord', 'N', 1],
-  ['contraction_error', 'error', ratio, 5], ['muscle_pressure_error', 'error', 'bar', 3],
-  ['cord_force_error', 'error', 'N', 1], ['angle', 'angle', 'deg', 2], ['angle_error', 'error', 'deg', 3],
-  ['muscle_pressure_1', 'muscle 1', 'bar', 3], ['muscle_pressure_2', 'muscle 2', 'bar', 3],
-  ['tension_1', 'cord 1', 'N', 1], ['tension_2', 'cord 2', 'N', 1], ['stiffness', 'stiffness', 'N m/rad', 2]
-];
+const digits = {
+  [ratio]: 5,
+  ratio: 5,
+  bar: 3,
+  N: 1,
+  deg: 3,
+  'N m/rad': 2
+};
+/** What the table of runs has: main lines of the plots, and forces, each once: [key, name, unit, digits]. */
+const columnsOf = ({lines, unit}) => lines.filter(({given, main}) => !given && (main || unit === 'N'))
+                                         .map(({key, label}) => [key, [key, label, unit, digits[unit] ?? 2]]);
+const allColumns = [...new Map(report.plots.flatMap(columnsOf)).values()];
 let columns = [];  // those that this group has
 
 /** A value as the reader wants it; mm have two decimals less than ratios. */
@@ -137,7 +139,7 @@ function setTime(time) {
   const run = group.runs[view.drawn];
   drawing.draw(valuesAt(run.values, tick), valuesAt(group.given, tick), group.load_kg);
   byId('rig-caption').textContent = `${run.name}, ${group.name}, ${drawing.scale}.${
-      group.given.given_contraction || group.given.given_angle ?
+      group.given.given_contraction_ratio || group.given.given_angle ?
           ` Dashed: ${report.plots[0].lines[0].label.toLowerCase()}.` :
           ''}`;
 }

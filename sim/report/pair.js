@@ -50,7 +50,7 @@ class PairPicture {
     const {wheel} = this;
     this.sides.forEach(({picture, axis, cord, text}, i) => {
       const of = (name) => values[`${name}_${i + 1}`];
-      const {end} = picture.draw(of('contraction'));
+      const {end} = picture.draw(of('contraction_ratio'));
       const pressure =
           of('muscle_pressure') ?? of('reference_pressure');  // without a gauge, what is asked for
       picture.fill(pressure);

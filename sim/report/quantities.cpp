@@ -1,7 +1,8 @@
-// Keys, units and labels.
+// Plots and loops; see the header.
 #include <cmath>
 #include <limits>
 
+#include <plant/geometry.hpp>
 #include <sim/report/length.hpp>
 #include <sim/report/quantities.hpp>
 
@@ -11,97 +12,180 @@ namespace {
 constexpr double least_normal_N = 50.0;      // below it a coefficient is a quotient of small numbers
 constexpr double least_speed_per_s = 0.002;  // below it threads may stick, with any friction up to the level
 
+/// Where the joint is: what a page is about, unless it is about a force.
+const char* position(bool pair) {
+  return pair ? "angle" : "contraction_ratio";
+}
+
+/// The lines of a signal: one, or of two muscles one each, called `label N`.
+std::vector<Line> lines_of(bool pair, const std::string& key, const std::string& label, bool main = true,
+                           const std::string& each = "muscle") {
+  if (!pair) return {{.key = key, .label = label, .main = main}};
+  return {{.key = key + "_1", .label = each + " 1", .main = main},
+          {.key = key + "_2", .label = each + " 2", .main = main}};
+}
+
+std::string unit_of(std::string_view key) {
+  return std::string(plant::Channel{&plant::signal_of(key)}.page_unit());
+}
+
+Plot plot_of(std::string id, std::string title, std::string_view key, std::vector<Line> lines) {
+  return {.id = std::move(id), .title = std::move(title), .unit = unit_of(key), .lines = std::move(lines)};
+}
+
+Plot error_of(const std::string& id, std::string title, std::string_view key) {
+  return plot_of(id, std::move(title), key, {{.key = id, .label = "error", .main = true}});
+}
+
+Plot pressures_of(const PlotsOf& of) {
+  const bool pair = of.driven.pair;
+  Plot plot =
+      plot_of("pressures", "Pressures", "muscle_pressure", lines_of(pair, "muscle_pressure", "muscle"));
+  const auto add = [&](std::vector<Line> lines) {
+    plot.lines.insert(plot.lines.end(), lines.begin(), lines.end());
+  };
+  if (!pair && of.commands)
+    add({{.key = "valve_pressure", .label = "valve"},
+         {.key = "reference_pressure", .label = "asked of the valve"}});
+  std::vector<Line> given = lines_of(pair, "given_muscle_pressure", "measured", false, "measured, muscle");
+  for (Line& line : given) line.given = true;
+  if (pair || of.pressure) add(given);
+  return plot;
+}
+
+Loop pressure_loop(const std::string& muscle) {
+  return {"pressure_" + muscle,
+          "Pressure and contraction of muscle " + muscle,
+          "contraction_ratio_" + muscle,
+          "muscle_pressure_" + muscle,
+          "contraction ratio of muscle " + muscle,
+          "pressure of muscle " + muscle + " in bar"};
+}
+
+Loop pressure_loop() {
+  return {"pressure",
+          "Pressure and contraction",
+          "contraction_ratio",
+          "muscle_pressure",
+          std::string(ratio_unit),
+          "muscle pressure in bar",
+          false,
+          "given_contraction_ratio",
+          "given_muscle_pressure"};
+}
+
 }  // namespace
 
-std::vector<Quantity> quantities_of(const run::Recording& recording, const plant::Plant& plant) {
+std::vector<Quantity> quantities_of(const run::Recording& recording, const plant::Rig& rig) {
   const auto* rows = &recording.samples;
-  const auto of = [rows](auto value) { return [rows, value](std::size_t k) { return value((*rows)[k]); }; };
-  std::vector<Quantity> all{
-      {"contraction", of([](const run::Sample& s) { return s.state.joint.contraction_ratio; })},
-      {"current", of([](const run::Sample& s) { return s.current_mA; })},
-      {"reference_pressure",
-       of([plant](const run::Sample& s) { return plant.reference_pressure_Pa(s.current_mA) / 1e5; })},
-      {"valve_pressure", of([](const run::Sample& s) { return s.state.side.valve_pressure_Pa / 1e5; })},
-      {"muscle_pressure", of([](const run::Sample& s) { return s.state.side.muscle_pressure_Pa / 1e5; })},
-      {"braid_force", of([](const run::Sample& s) { return s.braid_force_N; })},
-      {"friction_force", of([](const run::Sample& s) { return s.friction_force_N; })},
-      {"friction_coefficient", of([braid = plant::Braid(plant.rig().muscle)](const run::Sample& s) {
-         const double normal_N = braid.contact_surface_m2(s.state.joint.contraction_ratio) *
-                                 s.state.side.muscle_pressure_Pa;  // T 4.2
-         const bool slides = std::abs(s.state.joint.contraction_speed_per_s) > least_speed_per_s;
-         return !slides || normal_N < least_normal_N ? std::numeric_limits<double>::quiet_NaN()
-                                                     : std::abs(s.friction_force_N) / normal_N;
-       })}};
-  if (!plant.rig().effects.absent())
-    all.push_back({"effects_pull", of([](const run::Sample& s) { return s.effects_pull_N; })});
+  std::vector<Quantity> all;
+  for (const plant::Channel& channel : plant::channels_of(rig, recording.driven))
+    all.push_back({channel.key(), [rows, channel](std::size_t k) { return channel.on_page((*rows)[k]); }});
+  if (recording.driven.pair) return all;
+  all.push_back({"friction_coefficient", [rows, braid = plant::Braid(rig.muscle)](std::size_t k) {
+                   const run::Sample& row = (*rows)[k];
+                   const auto& joint = row.state.joint;
+                   const double normal_N = braid.contact_surface_m2(joint.contraction_ratio) *
+                                           row.state.side.muscle_pressure_Pa;  // T 4.2
+                   const bool slides = std::abs(joint.contraction_speed_per_s) > least_speed_per_s;
+                   return !slides || normal_N < least_normal_N ? std::numeric_limits<double>::quiet_NaN()
+                                                               : std::abs(row.friction_force_N) / normal_N;
+                 }});
   return all;
 }
 
-std::vector<Plot> plots_for(const plant::Rig& rig, const std::string& title, const std::string& wanted,
-                            const std::string& error, bool gauge) {
-  Plot pressures{"pressures",
-                 "Pressures",
-                 "bar",
-                 {{.key = "muscle_pressure", .label = "muscle", .main = true},
-                  {.key = "valve_pressure", .label = "valve"},
-                  {.key = "reference_pressure", .label = "asked of the valve"}}};
-  if (gauge) pressures.lines.push_back({.key = "given_pressure", .label = "measured", .given = true});
-  Plot forces{"forces",
-              "Forces on the load, upwards",
-              "N",
-              {{.key = "braid_force", .label = "braid", .main = true},
-               {.key = "friction_force", .label = "friction of the threads"},
-               {.key = "weight", .label = "weight of the load, downwards", .given = true}}};
+std::vector<Plot> plots_of(const plant::Rig& rig, const PlotsOf& of) {
+  const bool pair = of.driven.pair, about_force = of.key == "force";
+  const std::string at = position(pair);
+  const char* label = of.key == "angle" ? "angle" : about_force ? "force" : "contraction";
+  Plot first = plot_of(about_force ? "force" : pair ? "angle" : "height", of.title, of.key, {});
+  if (!of.given.empty()) first.lines.push_back({.key = "given_" + of.key, .label = of.given, .given = true});
+  first.lines.push_back({.key = of.key, .label = label, .main = true});
+  first.still = true;
+  std::vector<Plot> plots{std::move(first)};
+  if (!of.error.empty()) plots.push_back(error_of("error", of.error, of.key));
+  if (about_force)
+    plots.push_back(plot_of("height", "Contraction, as given", at, lines_of(false, at, "contraction")));
+  if (of.force) {
+    plots.push_back(plot_of("force", "Force of the cord", "force",
+                            {{.key = "given_force", .label = "measured", .given = true},
+                             {.key = "force", .label = "cord", .main = true}}));
+    plots.push_back(error_of("force_error", "Force of the cord: " + of.off, "force"));
+  }
+  if (of.commands)
+    plots.push_back(
+        plot_of("current", pair ? "Currents" : "Current", "current", lines_of(pair, "current", "current")));
+  plots.push_back(pressures_of(of));
+  if (!pair && of.pressure)
+    plots.push_back(error_of("muscle_pressure_error", "Error of the pressure: " + of.off, "muscle_pressure"));
+  if (pair) {
+    plots.push_back(plot_of("tensions", "Forces of the cords", "force", lines_of(true, "tension", "")));
+    plots.push_back(plot_of("stiffness", "Stiffness of the joint", "stiffness",
+                            {{.key = "given_stiffness", .label = "target", .given = true},
+                             {.key = "stiffness", .label = "stiffness", .main = true}}));
+    plots.push_back(plot_of("ratios", "Contraction ratios of the muscles", "contraction_ratio",
+                            lines_of(true, "contraction_ratio", "")));
+    plots.back().unit = "ratio";  // lengths of two muscles have no common mm
+    return plots;
+  }
+  Plot forces = plot_of(
+      "forces", of.driven.length ? "Forces that shorten the muscle" : "Forces on the load, upwards", "force",
+      {{.key = "braid_force", .label = "braid", .main = true},
+       {.key = "friction_force", .label = "friction of the threads"},
+       {.key = "weight", .label = "weight of the load, downwards", .given = true}});
   if (!rig.effects.absent()) forces.lines.push_back({.key = "effects_pull", .label = "effects of the rig"});
-  std::vector<Plot> plots{
-      {"height",
-       title,
-       std::string(ratio_unit),
-       {{.key = "given_contraction", .label = wanted, .given = true},
-        {.key = "contraction", .label = "contraction", .main = true}},
-       true},
-      {"error", error, std::string(ratio_unit), {{.key = "error", .label = "error", .main = true}}},
-      {"current", "Current", "mA", {{.key = "current", .label = "current", .main = true}}},
-      std::move(pressures),
-      std::move(forces)};
-  if (gauge)
-    plots.insert(plots.begin() + 4, {"pressure_error",
-                                     "Error of the pressure: simulated less measured",
-                                     "bar",
-                                     {{.key = "pressure_error", .label = "error", .main = true}}});
+  if (of.driven.length || of.force) forces.lines.push_back({.key = "force", .label = "all: the cord"});
+  plots.push_back(std::move(forces));
   return plots;
 }
 
-std::vector<Loop> loops() {
-  return {{"pressure", "Pressure and contraction", "contraction", "muscle_pressure", std::string(ratio_unit),
-           "muscle pressure in bar", false, "given_contraction", "given_pressure"},
-          {"force", "Braid force and contraction", "contraction", "braid_force", std::string(ratio_unit),
-           "braid force in N"},
-          {"friction",
-           "Friction coefficient and contraction: friction of the threads for "
-           "each newton of normal force, while they slide",
-           "contraction", "friction_coefficient", std::string(ratio_unit), "friction coefficient", true}};
+std::vector<Loop> loops_of(const run::Driven& driven) {
+  const std::string ratio(ratio_unit), angle = "joint angle in deg";
+  if (driven.pair)
+    return {{"torque", "Joint angle and torque of both muscles", "angle", "torque", angle, "torque in N m"},
+            {"tension_1", "Joint angle and force of cord 1", "angle", "tension_1", angle, "force in N"},
+            {"tension_2", "Joint angle and force of cord 2", "angle", "tension_2", angle, "force in N"},
+            pressure_loop("1"),
+            pressure_loop("2")};
+  if (driven.length || driven.force)
+    return {{"force", "Force of the cord and contraction", "contraction_ratio", "force", ratio, "force in N"},
+            pressure_loop()};
+  return {
+      pressure_loop(),
+      {"force", "Braid force and contraction", "contraction_ratio", "braid_force", ratio, "braid force in N"},
+      {"friction",
+       "Friction coefficient and contraction: friction of the threads for "
+       "each newton of normal force, while they slide",
+       "contraction_ratio", "friction_coefficient", ratio, "friction coefficient", true}};
 }
 
-std::vector<Plot> measured_plots() {
-  return {{"height",
-           "Contraction, as counted",
-           std::string(ratio_unit),
-           {{.key = "contraction", .label = "contraction", .main = true}},
-           true},
-          {"current", "Current", "mA", {{.key = "current", .label = "current", .main = true}}},
-          {"pressures",
-           "Pressures",
-           "bar",
-           {{.key = "reference_pressure", .label = "asked of the valve", .main = true},
-            {.key = "muscle_pressure", .label = "gauge on the muscle"}}}};
+std::vector<Plot> measured_plots(bool pair) {
+  const std::string at = position(pair);
+  std::vector<Plot> plots{
+      plot_of(pair ? "angle" : "height", pair ? "Joint angle, as counted" : "Contraction, as counted", at,
+              lines_of(false, at, pair ? "angle" : "contraction")),
+      plot_of("current", pair ? "Currents" : "Current", "current", lines_of(pair, "current", "current")),
+      plot_of("pressures", "Pressures", "muscle_pressure",
+              lines_of(pair, "reference_pressure", "asked of the valve", true, "asked of valve"))};
+  plots.front().still = true;
+  for (Line& line : lines_of(pair, "muscle_pressure", "gauge on the muscle", false, "gauge on muscle"))
+    plots.back().lines.push_back(std::move(line));
+  return plots;
 }
 
-std::vector<Loop> measured_loops() {
-  return {{"current", "Contraction and pressure asked of the valve", "reference_pressure", "contraction",
-           "pressure asked of the valve in bar", std::string(ratio_unit)},
-          {"pressure", "Pressure and contraction", "contraction", "muscle_pressure", std::string(ratio_unit),
-           "muscle pressure in bar"}};
+std::vector<Loop> measured_loops(bool pair) {
+  const auto asked = [](const std::string& muscle) {
+    return Loop{"reference_" + muscle,
+                "Joint angle and pressure asked of valve " + muscle,
+                "reference_pressure_" + muscle,
+                "angle",
+                "pressure asked of valve " + muscle + " in bar",
+                "joint angle in deg"};
+  };
+  if (pair) return {asked("1"), asked("2"), pressure_loop("1"), pressure_loop("2")};
+  return {{"current", "Contraction and pressure asked of the valve", "reference_pressure",
+           "contraction_ratio", "pressure asked of the valve in bar", std::string(ratio_unit)},
+          pressure_loop()};
 }
 
 }  // namespace mckibben::report

@@ -1,34 +1,47 @@
-// What a recording has to show, and the plots and loops it is shown in. Forces are those that the plant gave
-// while it ran.
+// What is drawn of a rig: the signals of a recording, and the plots and loops that show them, of one muscle
+// and of two. What was measured or wanted of a signal X has the key given_X; the error of what a page is
+// about is `error`, of anything else X_error. Units are those of pages (plant/signals.hpp).
 #pragma once
 
+#include <string>
+#include <string_view>
 #include <vector>
 
-#include <plant/plant.hpp>
+#include <plant/signals.hpp>
 #include <sim/report/contents.hpp>
 #include <sim/run/recording.hpp>
 
 namespace mckibben::report {
 
-/// Refers to `recording` and copies `plant`.
-std::vector<Quantity> quantities_of(const run::Recording& recording, const plant::Plant& plant);
+inline constexpr double in_degrees = 1.0 / plant::degree_rad;
 
 /// What lies beside the page in a folder of runs.
 inline constexpr std::string_view beside_runs =
     "Every number of every tick is in the CSV files beside this page; "
     "input, versions and hashes are in run.json.";
 
-/// The plots for a rig, beginning with that of contraction, which has this title. `wanted` is the label of
-/// what is given there (key "given_contraction"); `gauge` tells that muscle pressure was measured (key
-/// "given_pressure"), and what the simulation makes of it is wrong by "pressure_error".
-std::vector<Plot> plots_for(const plant::Rig& rig, const std::string& title, const std::string& wanted,
-                            const std::string& error, bool gauge);
+/// Every signal of a recording. Refers to it.
+std::vector<Quantity> quantities_of(const run::Recording& recording, const plant::Rig& rig);
 
-std::vector<Loop> loops();
+/// What a page draws over time.
+struct PlotsOf {
+  run::Driven driven{};
+  /// What it is about: contraction_ratio, force, or of a pair angle; its title; what was measured or wanted
+  /// of it, and the title of the error: none if empty.
+  std::string key = "contraction_ratio", title{}, given{}, error{};
+  bool commands = true;                         ///< drove it, or a pressure did
+  bool pressure = false, force = false;         ///< were measured besides
+  std::string off = "simulated less measured";  ///< what their errors are
+};
 
-/// The same of what is measured alone: contraction, current, the pressure asked for by the valve's line, and
-/// that of the gauge where there is one.
-std::vector<Plot> measured_plots();
-std::vector<Loop> measured_loops();
+/// What a page is about comes first, with its error; then what made it.
+std::vector<Plot> plots_of(const plant::Rig& rig, const PlotsOf& of);
+/// Loops of the cord's force where it is measured or a length is given.
+std::vector<Loop> loops_of(const run::Driven& driven);
+
+/// The same of what is measured alone: position, currents, the pressures asked for by the valves' lines, and
+/// those of gauges where there are any.
+std::vector<Plot> measured_plots(bool pair);
+std::vector<Loop> measured_loops(bool pair);
 
 }  // namespace mckibben::report

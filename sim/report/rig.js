@@ -166,14 +166,14 @@ class RigPicture {
 
   /** `values` of one run and what was given, at one tick. */
   draw(values, given, loadKg) {
-    if (values.contraction === null) return;
+    if (values.contraction_ratio === null) return;
     const {mm, axis, wheel} = this;
-    const shape = this.muscle.draw(values.contraction);
-    const rise = values.contraction * report.rig.rest_length_m * mm;
+    const shape = this.muscle.draw(values.contraction_ratio);
+    const rise = values.contraction_ratio * report.rig.rest_length_m * mm;
     const top = wheel.y + 140 - rise, x = wheel.x + wheel.r;
     this.cord.setAttribute(
         'd', `M${shape.end} ${axis}H${wheel.x}A${wheel.r} ${wheel.r} 0 0 1 ${x} ${wheel.y}V${top}`);
-    const turned = -(values.contraction * report.rig.rest_length_m) / report.rig.wheel_radius_m;
+    const turned = -(values.contraction_ratio * report.rig.rest_length_m) / report.rig.wheel_radius_m;
     this.spoke.setAttribute(
         'd',
         `M${wheel.x} ${wheel.y}l${0.8 * wheel.r * Math.sin(turned)} ${- 0.8 * wheel.r * Math.cos(turned)}`);
@@ -181,10 +181,8 @@ class RigPicture {
     this.load.setAttribute('y', top);
     this.loadText.setAttribute('x', x);
     this.loadText.setAttribute('y', top + 31);
-    write(
-        this.loadText,
-        report.rig.bench ? `${values.cord_force.toFixed(1)} N` : `${+ loadKg.toPrecision(4)} kg`);
-    const wanted = given.given_contraction;
+    write(this.loadText, report.rig.bench ? `${values.force.toFixed(1)} N` : `${+ loadKg.toPrecision(4)} kg`);
+    const wanted = given.given_contraction_ratio;
     this.target.setAttribute(
         'd',
         wanted === undefined || wanted === null ?

@@ -42,16 +42,16 @@ async function live(options, {address} = one) {
 
 test('the slider lifts the load, and the picture and the plots follow', async () => {
   const {page, end} = await live();
-  const low = await seen(page, 'contraction');
+  const low = await seen(page, 'contraction_ratio');
   await page.locator('#current-1').focus();
   await page.keyboard.press('End');  // 20 mA, by the keyboard
-  await until(page, (from) => samples.at(samples.newest()).contraction > from + 0.05, low);
+  await until(page, (from) => samples.at(samples.newest()).contraction_ratio > from + 0.05, low);
   assert.equal(await page.inputValue('#current-1-number'), '20');
   await until(page, () => Number(document.querySelector('#rig path.tube').dataset.length) < 0.28);
   await until(page, () => timed[0].chart.data[1].some((mm) => mm > 30));
   await until(page, () => loops[1].values[0].length > 10);
   await page.fill('#current-1-number', '4');
-  await until(page, (from) => samples.at(samples.newest()).contraction < from + 0.02, low);
+  await until(page, (from) => samples.at(samples.newest()).contraction_ratio < from + 0.02, low);
   await end();
 });
 
