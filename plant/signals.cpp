@@ -26,9 +26,12 @@ bool exists(const Channel& channel, const Rig& rig, const Driven& driven) {
   return true;
 }
 
+std::string numbered(std::string_view key, std::size_t muscle) {
+  return muscle == 0 ? std::string(key) : std::string(key) + "_" + std::to_string(muscle);
+}
+
 std::string name_of(const Signal& signal, std::size_t muscle) {
-  std::string name(muscle == 0 ? signal.key : signal.of_two);
-  if (muscle > 0) name += "_" + std::to_string(muscle);
+  std::string name = numbered(muscle == 0 ? signal.key : signal.of_two, muscle);
   if (!signal.unit.ending.empty()) name.append("_").append(signal.unit.ending);
   return name;
 }
@@ -36,8 +39,11 @@ std::string name_of(const Signal& signal, std::size_t muscle) {
 }  // namespace
 
 std::string Channel::key() const {
-  if (muscle == 0) return std::string(signal->key);
-  return std::string(signal->of_two) + "_" + std::to_string(muscle);
+  return numbered(muscle == 0 ? signal->key : signal->of_two, muscle);
+}
+
+std::string Channel::key_in_dataset() const {
+  return numbered(signal->in_dataset, muscle);
 }
 
 std::string Channel::name() const {

@@ -246,8 +246,9 @@ struct Channel {
   const Signal* signal;
   std::size_t muscle = 0;  ///< 1 or 2 of a pair's; 0 of a joint's, and where there is one muscle
 
-  std::string key() const;   ///< muscle_pressure_1
-  std::string name() const;  ///< of its column: muscle_pressure_1_bar
+  std::string key() const;             ///< muscle_pressure_1
+  std::string key_in_dataset() const;  ///< in `columns:`: command_1
+  std::string name() const;            ///< of its column: muscle_pressure_1_bar
   /// Of a data set's column: a reading has the name of what it reads.
   std::string name_in_dataset() const;
   std::string words() const;

@@ -7,6 +7,8 @@
 #include <string_view>
 #include <utility>
 
+#include <plant/signals.hpp>
+
 namespace mckibben::domain {
 
 /// What a column is to a simulation.
@@ -95,24 +97,33 @@ struct ColumnMap {
   void rules(Report& report) const;
 };
 
-/// A quantity of the map: its key, the name that its column has where the map does not say another, with our
-/// unit at its end.
+/// A quantity of the map: its key, and the name and unit that its column has where the map does not say
+/// others, those of the signal (plant/signals.hpp).
 struct Quantity {
-  std::string_view key, column, unit;
+  std::string key, column;
+  std::string_view unit;
   ColumnPlace ColumnMap::*place;
 };
-inline constexpr std::array<Quantity, 11> quantities{
-    {{"time", "time_s", "s", &ColumnMap::time},
-     {"current", "current_mA", "mA", &ColumnMap::current},
-     {"contraction", "contraction_ratio", "1", &ColumnMap::contraction},
-     {"muscle_pressure", "muscle_pressure_bar", "bar", &ColumnMap::muscle_pressure},
-     {"command", "current_mA", "mA", &ColumnMap::command},
-     {"force", "force_N", "N", &ColumnMap::force},
-     {"command_1", "current_1_mA", "mA", &ColumnMap::command_1},
-     {"command_2", "current_2_mA", "mA", &ColumnMap::command_2},
-     {"angle", "angle_rad", "rad", &ColumnMap::angle},
-     {"muscle_pressure_1", "muscle_pressure_1_bar", "bar", &ColumnMap::muscle_pressure_1},
-     {"muscle_pressure_2", "muscle_pressure_2_bar", "bar", &ColumnMap::muscle_pressure_2}}};
+
+/// Of the signal of that key; of a pair's muscle, if one is named.
+inline Quantity quantity_of_signal(std::string_view signal, ColumnPlace ColumnMap::*place,
+                                   std::size_t muscle = 0) {
+  const plant::Channel channel{&plant::signal_of(signal), muscle};
+  return {channel.key_in_dataset(), channel.name(), channel.signal->unit.name, place};
+}
+
+inline const std::array<Quantity, 11> quantities{
+    {quantity_of_signal("time", &ColumnMap::time),
+     {"current", "current_mA", "mA", &ColumnMap::current},  // a command, in data without a clock
+     quantity_of_signal("contraction_ratio", &ColumnMap::contraction),
+     quantity_of_signal("muscle_pressure", &ColumnMap::muscle_pressure),
+     quantity_of_signal("current", &ColumnMap::command),
+     quantity_of_signal("force", &ColumnMap::force),
+     quantity_of_signal("current", &ColumnMap::command_1, 1),
+     quantity_of_signal("current", &ColumnMap::command_2, 2),
+     quantity_of_signal("angle", &ColumnMap::angle),
+     quantity_of_signal("muscle_pressure", &ColumnMap::muscle_pressure_1, 1),
+     quantity_of_signal("muscle_pressure", &ColumnMap::muscle_pressure_2, 2)}};
 
 template <class Report>
 void ColumnMap::rules(Report& report) const {

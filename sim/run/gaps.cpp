@@ -32,36 +32,35 @@ double counted_angle_rad(const domain::RigFile& rig, const Sample& row) {
 std::vector<Compared> compared(const Measurement& measured, const domain::RigFile& rig,
                                const Recording& recording) {
   std::vector<Compared> all;
-  const auto add = [&](const char* reading, const char* unit, double factor,
-                       const std::vector<double>& values, auto simulated) {
+  const bool counted = measured.counted, pair = rig.pair() != nullptr;
+  const auto add = [&](std::string_view signal, std::size_t muscle, const std::vector<double>& values,
+                       auto simulated) {
     if (values.empty()) return;
-    all.push_back({reading, unit, [factor, &values](std::size_t k) { return factor * values[k]; },
+    const plant::Channel channel{&plant::signal_of(signal), muscle};
+    const bool degrees = measured.angle_in_degrees && signal == "angle";
+    const double factor = 1.0 / (degrees ? plant::degree_rad : channel.signal->unit.size);
+    all.push_back({channel.key_in_dataset(), degrees ? "deg" : std::string(channel.signal->unit.name),
+                   [factor, &values](std::size_t k) { return factor * values[k]; },
                    [factor, &recording, simulated](std::size_t k) {
                      return factor * simulated(recording.samples[k]);
                    }});
   };
-  const bool counted = measured.counted, pair = rig.pair() != nullptr;
   if (!measured.length_is_given)
-    add("contraction", "1", 1.0, measured.contraction_ratio,
-        [counted, per_count = contraction_per_count(rig)](const Sample& row) {
-          return counted ? static_cast<double>(row.counts) * per_count : row.shown_ratio();
-        });
-  const double of_angle = measured.angle_in_degrees ? 1.0 / plant::degree_rad : 1.0;
-  add("angle", measured.angle_in_degrees ? "deg" : "rad", of_angle, measured.angle_rad,
-      [counted, &rig](const Sample& row) {
-        return counted ? counted_angle_rad(rig, row) : angle_at_rad(rig, row.shown_ratio());
-      });
+    add("contraction_ratio", 0, measured.contraction_ratio,
+        [counted](const Sample& row) { return counted ? row.read_ratio : row.shown_ratio(); });
+  add("angle", 0, measured.angle_rad, [counted, &rig](const Sample& row) {
+    return counted ? row.read_angle_rad : angle_at_rad(rig, row.shown_ratio());
+  });
   // A cord cannot push: a load cell on one that hangs through reads nothing.
-  add("force", "N", 1.0, measured.force_N, [](const Sample& row) { return std::max(row.cord_force_N, 0.0); });
-  const auto& [one, two] = measured.sides;
-  if (!one.pressure_is_given)
-    add(pair ? "muscle_pressure_1" : "muscle_pressure", "bar", 1.0 / plant::Pa_per_bar,
-        one.muscle_pressure_Pa,
-        [&rig](const Sample& row) { return rig.effects.shown_Pa(row.state.side.muscle_pressure_Pa); });
-  if (!two.pressure_is_given)
-    add("muscle_pressure_2", "bar", 1.0 / plant::Pa_per_bar, two.muscle_pressure_Pa,
-        [effects = pair ? plant::opposite_rig(rig, *rig.pair()).effects : plant::Effects{}](
-            const Sample& row) { return effects.shown_Pa(row.state.opposite.muscle_pressure_Pa); });
+  add("force", 0, measured.force_N, [](const Sample& row) { return std::max(row.cord_force_N, 0.0); });
+  for (std::size_t muscle = 1; muscle <= (pair ? 2 : 1); ++muscle) {
+    const auto& side = measured.sides[muscle - 1];
+    if (!side.pressure_is_given)
+      add("muscle_pressure", pair ? muscle : 0, side.muscle_pressure_Pa,
+          [muscle, effects = muscle == 2 ? rig.pair()->opposite.effects : rig.effects](const Sample& row) {
+            return effects.shown_Pa(row.side_state(muscle).muscle_pressure_Pa);
+          });
+  }
   return all;
 }
 
