@@ -25,8 +25,9 @@ struct SideSample {
   double reference_Pa = 0.0;  ///< that it asks of the valve
   double contraction_ratio = 0.0;
   double braid_force_N = 0.0, friction_force_N = 0.0, effects_pull_N = 0.0;
-  double cord_force_N = 0.0;  ///< T, the sum
-  double gauge_Pa = 0.0;      ///< as the gauge shows the muscle's pressure, if one is fitted
+  double cord_force_N = 0.0;     ///< T, the sum
+  double inflow_kg_per_s = 0.0;  ///< through the hose, or what keeps a given pressure
+  double gauge_Pa = 0.0;         ///< as the gauge shows the muscle's pressure, if one is fitted
 };
 
 /// A rig at an instant, before what is given changes. True values, but for `counts`, `read_...`, `gauge_Pa`
@@ -94,7 +95,8 @@ namespace units {
 inline constexpr Unit s{"s", "s"}, mA{"mA", "mA"}, bar{"bar", "bar", Pa_per_bar}, m{"m", "m"}, N{"N", "N"},
     ratio{"1", "", 1.0, "contraction ratio"}, count{"1", ""}, per_s{"s-1", "per_s"},
     rad{"rad", "rad", 1.0, "deg", degree_rad}, rad_per_s{"rad s-1", "rad_per_s"},
-    N_m{"N m", "Nm", 1.0, "N m"}, N_m_per_rad{"N m rad-1", "Nm_per_rad", 1.0, "N m/rad"};
+    kg_per_s{"kg s-1", "kg_per_s"}, N_m{"N m", "Nm", 1.0, "N m"},
+    N_m_per_rad{"N m rad-1", "Nm_per_rad", 1.0, "N m/rad"};
 }  // namespace units
 
 /// In the order of the columns of a file.
@@ -213,6 +215,12 @@ inline constexpr auto signals = std::to_array<Signal>({
      .words = "force of effects, positive where it shortens the muscle",
      .part = Part::muscle,
      .value = [](const Sample& row, std::size_t i) { return row.side(i).effects_pull_N; },
+     .in_files = InFiles::no},
+    {.key = "inflow",
+     .unit = units::kg_per_s,
+     .words = "air flow into the muscle",
+     .part = Part::muscle,
+     .value = [](const Sample& row, std::size_t i) { return row.side(i).inflow_kg_per_s; },
      .in_files = InFiles::no},
     {.key = "torque",
      .unit = units::N_m,

@@ -22,6 +22,7 @@ plant::Sample sample_of(const Rider& rider, std::int64_t counts, const SensorNoi
     to.friction_force_N = forces.friction_force_N;
     to.effects_pull_N = forces.effects_pull_N;
     to.cord_force_N = forces.cord_force_N();
+    to.inflow_kg_per_s = forces.hose_flow;
     to.gauge_Pa = plant::gauge_reading_Pa(rig.gauge, shown_Pa);
   };
   const double counted = static_cast<double>(counts), height_m = plant::count_height_m(rig);
