@@ -90,6 +90,12 @@ std::vector<Channel> recorded_channels(const Rig& rig, const Driven& driven) {
   return all;
 }
 
+std::vector<Channel> measured_channels(const Rig& rig, const Driven& driven) {
+  std::vector<Channel> all = recorded_channels(rig, driven);
+  std::erase_if(all, [](const Channel& channel) { return channel.signal->kind == Kind::state; });
+  return all;
+}
+
 const Signal& signal_of(std::string_view key) {
   for (const Signal& signal : signals)
     if (signal.key == key) return signal;

@@ -273,6 +273,8 @@ struct Channel {
 std::vector<Channel> channels_of(const Rig& rig, const Driven& driven);
 /// Of these, the columns of the file of a run.
 std::vector<Channel> recorded_channels(const Rig& rig, const Driven& driven);
+/// Of these, what a laboratory records: time, inputs, readings.
+std::vector<Channel> measured_channels(const Rig& rig, const Driven& driven);
 
 /// A signal by its key: of one muscle, where a pair's joint has one of that key too. Throws
 /// std::invalid_argument if there is none.

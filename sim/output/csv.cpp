@@ -42,9 +42,8 @@ std::vector<formats::Column> columns_of(const run::Recording& recording, const p
 
 std::vector<formats::Column> measured_columns(const run::Recording& recording, const plant::Rig& rig) {
   std::vector<formats::Column> columns;
-  for (const plant::Channel& channel : plant::recorded_channels(rig, recording.driven))
-    if (channel.signal->kind != plant::Kind::state)
-      columns.push_back(column_of(recording, channel, channel.name_in_dataset(), channel.words()));
+  for (const plant::Channel& channel : plant::measured_channels(rig, recording.driven))
+    columns.push_back(column_of(recording, channel, channel.name_in_dataset(), channel.words()));
   return columns;
 }
 

@@ -77,13 +77,17 @@ std::vector<Kept> kept_of_runs(const domain::Campaign& campaign) {
   return list;
 }
 
+/// What is measured but for the time, which all runs share.
+std::vector<plant::Channel> channels_of_rows(const plant::Rig& rig) {
+  std::vector<plant::Channel> channels = plant::measured_channels(rig, {});
+  std::erase_if(channels, [](const auto& channel) { return channel.signal->kind == plant::Kind::time; });
+  return channels;
+}
+
 std::vector<Kept> kept_of_rows(const plant::Rig& rig) {
-  std::vector<Kept> list{
-      {"current_mA", "mA", "current to the valve, from this row to the next"},
-      {"contraction_ratio", "1", "contraction ratio of the muscle as the encoder counts it"}};
-  if (rig.gauge.fitted)
-    list.push_back({"muscle_pressure", "bar", "gauge pressure in the muscle as measured"});
-  if (rig.load_cell.fitted) list.push_back({"force_N", "N", "force of the muscle's cord as measured"});
+  std::vector<Kept> list;
+  for (const plant::Channel& channel : channels_of_rows(rig))
+    list.push_back({channel.name_in_dataset(), std::string(channel.signal->unit.name), channel.words()});
   return list;
 }
 
@@ -173,15 +177,13 @@ void EnsembleBlock::put(const domain::Campaign& campaign, std::size_t place, con
   done_[at] = 1;
   if (!recording.failure.empty()) return;
   for (const Metric& metric : kept_metrics) enter(metric.of(recording));
-  const double per_count = contraction_per_count(campaign.rig);  // as its owner believes it
+  const double per_count = contraction_per_count(campaign.rig);
+  const std::vector<plant::Channel> channels = channels_of_rows(campaign.rig);
   for (std::size_t row = 0; row < std::min(rows_, recording.samples.size()); ++row) {
-    const Sample& sample = recording.samples[row];
-    auto column = of_row_.begin();
-    const auto put = [&](double value) { (*column++)[at * rows_ + row] = static_cast<float>(value); };
-    put(sample.current_mA);
-    put(static_cast<double>(sample.counts) * per_count);
-    if (campaign.rig.gauge.fitted) put(1e-5 * sample.gauge_Pa);
-    if (campaign.rig.load_cell.fitted) put(sample.cell_N);
+    Sample sample = recording.samples[row];
+    sample.read_ratio = static_cast<double>(sample.counts) * per_count;  // as its owner believes it
+    for (std::size_t c = 0; c < channels.size(); ++c)
+      of_row_[c][at * rows_ + row] = static_cast<float>(channels[c].value(sample));
   }
 }
 
