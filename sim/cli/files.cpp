@@ -27,6 +27,7 @@
 #include <sim/input/utf8.hpp>
 #include <sim/input/yaml_file.hpp>
 #include <sim/input/yaml_writer.hpp>
+#include <sim/output/csv.hpp>
 #include <sim/run/judged.hpp>
 #include <sim/run/sanity.hpp>
 
@@ -117,6 +118,16 @@ int print_kind(std::string_view schema, const char* title, const Schema& fields,
   return done;
 }
 
+Json columns_json() {
+  Json list = Json::array();
+  for (const plant::Signal& signal : plant::signals) {
+    const plant::Channel channel{
+        &signal, signal.needs == plant::Needs::pair && signal.part == plant::Part::muscle ? 1U : 0U};
+    list.push_back({{"column", channel.name()}, {"unit", signal.unit.name}, {"meaning", channel.words()}});
+  }
+  return list;
+}
+
 /// The file that says what a folder is.
 std::filesystem::path described_by(const std::filesystem::path& path) {
   std::error_code ignored;
@@ -175,7 +186,7 @@ int check_files(const CheckOptions& options) {
 }
 
 struct SchemaOptions : Options {
-  std::string kind = "scenario";  ///< scenario, campaign, rig, dataset, pair or hypothesis
+  std::string kind = "scenario";  ///< scenario, campaign, rig, dataset, pair, hypothesis or columns
   std::string format = "json";    ///< JSON Schema; markdown: a table; yaml: the rig `thesis`
 };
 
@@ -187,6 +198,10 @@ int print_schema(const SchemaOptions& options) {
   }
   if (format == "yaml") {
     print(input::to_yaml(input::rig_json(domain::RigFile{})));
+    return done;
+  }
+  if (kind == "columns") {
+    print(format == "json" ? columns_json().dump(2) + "\n" : output::table_of_signals());
     return done;
   }
   if (kind == "rig")
@@ -225,8 +240,8 @@ void add_schema(CLI::App& app, Asked& asked) {
   CLI::App& verb =
       add_verb(app, "schema", to_find_out, "Print the keys of a kind of file, as JSON Schema or as a table");
   SchemaOptions& options = asked.when(verb, print_schema);
-  verb.add_option("kind", options.kind, "Kind of file (default: scenario)")
-      ->check(one_of("kind", {"scenario", "campaign", "rig", "dataset", "pair", "hypothesis"}))
+  verb.add_option("kind", options.kind, "Kind of file (default: scenario); columns: what tables have")
+      ->check(one_of("kind", {"scenario", "campaign", "rig", "dataset", "pair", "hypothesis", "columns"}))
       ->type_name("");
   CLI::Option* format = verb.add_option("--format", options.format,
                                         "How to print it (default: json); yaml, of a rig only, prints "

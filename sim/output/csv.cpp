@@ -1,6 +1,8 @@
 // The columns of a recording, in the order of the file.
 #include <charconv>
 
+#include <fmt/format.h>
+
 #include <plant/plant.hpp>
 #include <sim/output/csv.hpp>
 #include <sim/run/simulate.hpp>
@@ -45,6 +47,26 @@ std::vector<formats::Column> measured_columns(const run::Recording& recording, c
   for (const plant::Channel& channel : plant::measured_channels(rig, recording.driven))
     columns.push_back(column_of(recording, channel, channel.name_in_dataset(), channel.words()));
   return columns;
+}
+
+std::string table_of_signals() {
+  std::string text =
+      "## Columns\n\n| column | of a pair | unit | in files of runs | in a data set's `columns` | meaning |\n"
+      "|---|---|---|---|---|---|\n";
+  const auto code = [](const std::string& name) { return name.empty() ? "" : "`" + name + "`"; };
+  for (const plant::Signal& signal : plant::signals) {
+    using plant::InFiles, plant::Needs;
+    const bool each = signal.part == plant::Part::muscle;
+    const plant::Channel alone{&signal}, of_pair{&signal, each ? 1U : 0U};
+    const std::string one = signal.needs == Needs::pair ? "" : alone.name(),
+                      two = signal.needs == Needs::one_muscle ? "" : of_pair.name();
+    const char* in_files = signal.in_files == InFiles::yes  ? "yes"
+                           : signal.in_files == InFiles::no ? ""
+                                                            : "of a pair; where measured";
+    text += fmt::format("| {} | {} | {} | {} | {} | {} |\n", code(one), code(two), signal.unit.name, in_files,
+                        code(alone.key_in_dataset()), alone.words());
+  }
+  return text;
 }
 
 std::string csv_of(const std::vector<formats::Column>& columns) {

@@ -24,6 +24,9 @@ std::vector<formats::Column> columns_of(const run::Recording& recording, const p
 /// Of these what a laboratory records, as the columns of a data set.
 std::vector<formats::Column> measured_columns(const run::Recording& recording, const plant::Rig& rig);
 
+/// Every column of every rig as a Markdown table: `mckibben schema columns`.
+std::string table_of_signals();
+
 /// Columns of one length as CSV.
 std::string csv_of(const std::vector<formats::Column>& columns);
 

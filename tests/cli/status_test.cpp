@@ -231,7 +231,7 @@ TEST_F(Program, ShippedThesisRigIsTheBuiltInOne) {
 
 TEST_F(Program, TheReferencePageIsWhatTheProgramPrints) {
   const std::string page = read_text(MCKIBBEN_SOURCE_DIR "/docs/reference.md");
-  for (const char* kind : {"scenario", "campaign", "rig", "dataset", "hypothesis"})
+  for (const char* kind : {"scenario", "campaign", "rig", "dataset", "hypothesis", "columns"})
     EXPECT_NE(page.find(run(std::string("schema ") + kind + " --format markdown").out), std::string::npos)
         << "docs/reference.md is out of date: see docs/testing.md";
 }
