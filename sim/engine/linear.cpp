@@ -68,7 +68,7 @@ class Linearising {
       result.inputs.push_back({"current" + s + "_mA", "mA"});
       result.inputs.push_back({"current_speed" + s + "_mA_per_s", "mA s-1"});
       result.outputs.push_back({"muscle_pressure" + s + "_Pa", "Pa"});
-      result.outputs.push_back({"cord_force" + s + "_N", "N"});
+      result.outputs.push_back({(L::sides == 1 ? "force" : "tension") + s + "_N", "N"});
     }
     for (int i = 0; i < L::sides; ++i)
       for (const Remembered& memory : memories_of(side(i), suffix(i))) {

@@ -21,7 +21,7 @@ py::dict moment_of(const Ride& ride) {
     put("friction_force", "N", side.friction_force_N);
     put("friction_level", "N", side.friction_level_N);
     put("effects_pull", "N", side.effects_pull_N);
-    put("cord_force", "N", side.cord_force_N());
+    put(ride.pair() ? "tension" : "force", "N", side.cord_force_N());
     put("supply_flow", "kg_per_s", side.supply_flow);
     put("vent_flow", "kg_per_s", side.vent_flow);
     put("hose_flow", "kg_per_s", side.hose_flow);
@@ -139,7 +139,8 @@ void add_rides(py::module_& module) {
           "then "
           "what effects remember. Inputs: current_mA and its speed of each muscle, last a force that lifts "
           "the load [N], or a torque [N m]. Outputs: contraction_ratio or angle_rad, then muscle_pressure_Pa "
-          "and cord_force_N of each muscle. Raises ValueError where there are no slopes.")
+          "and force_N of the cord, of a pair tension_1_N, tension_2_N. Raises ValueError where there are no "
+          "slopes.")
       .def_property_readonly("reading", &Ride::shown, "What instruments show now.")
       .def_property_readonly(
           "time_s", [](const Ride& ride) { return ride.shown().time_s; }, "Now [s].")

@@ -86,7 +86,7 @@ TEST(Linear, NamesWhatItHoldsAndLeavesOutWhatIsNotAtWork) {
   EXPECT_EQ(names(linear.states),
             "contraction_ratio contraction_speed_per_s valve_pressure_Pa muscle_pressure_Pa bristle_m ");
   EXPECT_EQ(names(linear.inputs), "current_mA current_speed_mA_per_s load_force_N ");
-  EXPECT_EQ(names(linear.outputs), "contraction_ratio muscle_pressure_Pa cord_force_N ");
+  EXPECT_EQ(names(linear.outputs), "contraction_ratio muscle_pressure_Pa force_N ");
   plant::switch_on(rig.effects.get<plant::BladderCreep>(), plant::BladderCreep::variants.front());
   const plant::Plant creeping(rig, 15.0);
   const Linear more = linearise(creeping, lifting(creeping), held_of(creeping), currents);

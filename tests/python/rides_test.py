@@ -87,7 +87,7 @@ class Rides(unittest.TestCase):
         bench.start(8.0, contraction_ratio=0.05)
         bench.step(contraction_ratio=0.06)
         self.assertEqual(bench.state[0], 0.06)
-        self.assertGreater(bench.moment["cord_force_N"], 0.0)
+        self.assertGreater(bench.moment["force_N"], 0.0)
 
     def test_nonsense_is_refused(self):
         ride = mckibben.Ride(load_kg=11.138)
