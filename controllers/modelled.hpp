@@ -17,12 +17,9 @@
 
 namespace mckibben::controllers {
 
-struct ModelTerms : SafetyTerms {
-  std::string rig;
-  ModelMaker model;  ///< filled in by whoever can simulate `rig`, before make()
+struct ModelTerms : PlansWithModel, SafetyTerms {
   std::optional<double> assumed_load_kg = std::nullopt;
   std::optional<double> weighing_speed_mA_per_s = std::nullopt;
-  int look_ahead_ticks = 8;
 
   void follow(const CurrentRange& range) {
     if (!weighing_speed_mA_per_s) weighing_speed_mA_per_s = range.width_mA() / 32.0;

@@ -14,11 +14,8 @@
 
 namespace mckibben::controllers {
 
-struct PairModelTerms : JointTerms {
-  std::string rig;
-  ModelMaker model;  ///< filled in by whoever can simulate `rig`, before make()
+struct PairModelTerms : PlansWithModel, JointTerms {
   double assumed_load_kg = 0.0;
-  int look_ahead_ticks = 8;
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {

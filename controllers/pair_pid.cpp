@@ -10,8 +10,7 @@ namespace {
 PidTerms terms_of(const PairPidSettings& settings, const Knowledge& known, double width_mA) {
   PidTerms terms;
   static_cast<PidForm&>(terms) = settings;
-  if (settings.proportional_mA_per_rad)
-    terms.proportional_mA = *settings.proportional_mA_per_rad / ratio_per_rad(known);
+  if (settings.proportional_mA) terms.proportional_mA = *settings.proportional_mA / ratio_per_rad(known);
   terms.fastest_load_per_s = settings.fastest_load_per_s(known);
   terms.lowest_current_mA = -width_mA;
   terms.highest_current_mA = width_mA;

@@ -15,17 +15,14 @@ namespace mckibben::controllers {
 struct PairPidSettings : PidForm, JointTerms {
   static constexpr std::string_view kind = "pid";
   std::string name{kind};
-  std::optional<double> proportional_mA_per_rad = std::nullopt;
-  std::optional<double> tuning_load_kg = std::nullopt;
 
-  bool needs_tuning() const { return !proportional_mA_per_rad || !integral_time_s || !derivative_time_s; }
   /// Throws std::invalid_argument if a gain is missing, or the rig has one muscle.
   std::unique_ptr<Controller> make(const Knowledge& knowledge) const;
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
     visit("name", self.name, "name in tables and file names");
-    visit("proportional", self.proportional_mA_per_rad, "mA/rad", 0.0, 1e6,
+    visit("proportional", self.proportional_mA, "mA/rad", 0.0, 1e6,
           "gain K, by which the current to muscle 1 rises for an error of the angle; tuned if absent");
     PidForm::fields(self, visit);
     visit("tuning_load", self.tuning_load_kg, "kg", 0.0, 500.0,

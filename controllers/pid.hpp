@@ -14,8 +14,10 @@
 
 namespace mckibben::controllers {
 
-/// What a feedback is besides its gain and its limits.
+/// A feedback, whatever limits it has. Its gain is a current for a unit of what is controlled: for a whole
+/// contraction ratio, or of a joint for a radian.
 struct PidForm {
+  std::optional<double> proportional_mA = std::nullopt;
   std::optional<double> integral_time_s = std::nullopt;
   std::optional<double> derivative_time_s = std::nullopt;
   int sample_ticks = 1;
@@ -23,6 +25,10 @@ struct PidForm {
   double setpoint_weight = 1.0;
   std::optional<double> tracking_time_s = std::nullopt;
   int feedback_delay_ticks = 0;
+  std::optional<double> tuning_load_kg = std::nullopt;
+
+  /// Whether some gain is left to tuning.
+  bool needs_tuning() const { return !proportional_mA || !integral_time_s || !derivative_time_s; }
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
@@ -42,12 +48,6 @@ struct PidForm {
 
 /// Everything about the feedback itself.
 struct PidTerms : PidForm, SafetyTerms, OutputLimits {
-  std::optional<double> proportional_mA = std::nullopt;
-  std::optional<double> tuning_load_kg = std::nullopt;
-
-  /// Whether some gain is left to tuning.
-  bool needs_tuning() const { return !proportional_mA || !integral_time_s || !derivative_time_s; }
-
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
     visit("proportional", self.proportional_mA, "mA", 0.0, 1e6,

@@ -6,6 +6,7 @@
 #include <functional>
 #include <memory>
 #include <stdexcept>
+#include <string>
 
 #include <controllers/controller.hpp>
 
@@ -48,5 +49,12 @@ class RigModel {
 /// Makes the model with a load [kg] on it, of a pair in the hand, settled under a command. Throws
 /// ModelFailure.
 using ModelMaker = std::function<std::unique_ptr<RigModel>(double load_kg, const Command& rest)>;
+
+/// What every controller that plans with a model says of it.
+struct PlansWithModel {
+  std::string rig;
+  ModelMaker model;  ///< filled in by whoever can simulate `rig`, before make()
+  int look_ahead_ticks = 8;
+};
 
 }  // namespace mckibben::controllers

@@ -40,6 +40,7 @@ void follow(Settings& settings, const CurrentRange& range) {
 std::optional<CurrentRange> limits_of(const Settings& settings, const Knowledge& knowledge) {
   const auto* open_loop = std::get_if<OpenLoopSettings>(&settings);
   if (open_loop != nullptr && open_loop->mode == OpenLoopMode::triangle) return std::nullopt;
+  if (knowledge.pair) return std::nullopt;
   Settings complete = settings;
   follow(complete, working_range(knowledge));
   if (const OutputLimits* limits = output_limits(complete)) return limits->within(knowledge);
@@ -49,8 +50,8 @@ std::optional<CurrentRange> limits_of(const Settings& settings, const Knowledge&
   return std::nullopt;
 }
 
-PidTerms* pid_terms(Settings& settings) {
-  return part_of<PidTerms>(settings);
+PidForm* feedback_of(Settings& settings) {
+  return part_of<PidForm>(settings);
 }
 
 const OutputLimits* output_limits(const Settings& settings) {
@@ -65,12 +66,12 @@ const GuestTerms* guest_terms(const Settings& settings) {
   return part_of<const GuestTerms>(settings);
 }
 
-ModelTerms* model_terms(Settings& settings) {
-  return part_of<ModelTerms>(settings);
+PlansWithModel* model_terms(Settings& settings) {
+  return part_of<PlansWithModel>(settings);
 }
 
-const ModelTerms* model_terms(const Settings& settings) {
-  return part_of<const ModelTerms>(settings);
+const PlansWithModel* model_terms(const Settings& settings) {
+  return part_of<const PlansWithModel>(settings);
 }
 
 CalibrationTerms* calibrated(Settings& settings) {

@@ -1,9 +1,13 @@
-// The one table of controllers: an entry here and its header make a controller known to scenarios.
+// The one table of controllers: an entry here and its header make a controller known to scenarios. What
+// drives one muscle cannot drive two, so each is listed under the rigs that it is for.
 #pragma once
 
+#include <concepts>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 #include <string>
+#include <type_traits>
 #include <variant>
 
 #include <controllers/controller.hpp>
@@ -13,6 +17,8 @@
 #include <controllers/model_inverse_feedback.hpp>
 #include <controllers/open_loop.hpp>
 #include <controllers/open_loop_limited.hpp>
+#include <controllers/pair_model_inverse.hpp>
+#include <controllers/pair_pid.hpp>
 #include <controllers/pid.hpp>
 #include <controllers/plugin.hpp>
 #include <controllers/static_inverse.hpp>
@@ -20,10 +26,38 @@
 
 namespace mckibben::controllers {
 
-using Settings = std::variant<PidSettings, FeedforwardPidSettings, OpenLoopSettings, OpenLoopLimitedSettings,
-                              StaticInverseSettings, ModelInverseSettings, ModelInverseFeedbackSettings,
-                              ExternalSettings, PluginSettings, SineCurrent, TriangleCurrent, StepCurrent,
-                              StairCurrent, ChirpCurrent, RecordedCurrent>;
+/// Of one muscle that lifts a load.
+using SingleSettings =
+    std::variant<PidSettings, FeedforwardPidSettings, OpenLoopSettings, OpenLoopLimitedSettings,
+                 StaticInverseSettings, ModelInverseSettings, ModelInverseFeedbackSettings, ExternalSettings,
+                 PluginSettings, SineCurrent, TriangleCurrent, StepCurrent, StairCurrent, ChirpCurrent,
+                 RecordedCurrent>;
+/// Of two muscles that turn a joint.
+using PairSettings =
+    std::variant<PairPidSettings, PairModelInverseSettings, PairModelInverseFeedbackSettings>;
+
+template <class... Ones, class... Pairs>
+std::variant<Ones..., Pairs...> joined(std::variant<Ones...>, std::variant<Pairs...>);
+using Settings = decltype(joined(SingleSettings(), PairSettings()));
+
+template <class One, class Variant>
+inline constexpr bool is_one_of = false;
+template <class One, class... All>
+inline constexpr bool is_one_of<One, std::variant<All...>> = (std::same_as<One, All> || ...);
+
+/// The same settings among others: those of one kind of rig, or all. Throws std::invalid_argument if they are
+/// none of them.
+template <class To, class... From>
+To settings_as(const std::variant<From...>& settings) {
+  return std::visit(
+      []<class One>(const One& one) -> To {
+        if constexpr (is_one_of<One, To>)
+          return To(std::in_place_type<One>, one);
+        else
+          throw std::invalid_argument("a controller of another kind of rig");
+      },
+      settings);
+}
 
 /// A controller at its beginning. Throws std::invalid_argument if the settings are incomplete: a PID whose
 /// gains are still to be tuned, a recording that was not read.
@@ -35,11 +69,12 @@ const std::string& name_of(const Settings& settings);
 /// Currents that are left open become what they follow: the ends of what the rig's valve answers to.
 void follow(Settings& settings, const CurrentRange& range);
 
-/// Between which currents the controller works; none for a given current, which has no limits of its own.
+/// Between which currents the controller works; none for a given current, which has no limits of its own, and
+/// of two muscles, whose limits are those of their pressures.
 std::optional<CurrentRange> limits_of(const Settings& settings, const Knowledge& knowledge);
 
-/// The feedback terms of a controller that has some, else null.
-PidTerms* pid_terms(Settings& settings);
+/// The feedback of a controller that has one, else null.
+PidForm* feedback_of(Settings& settings);
 
 /// The ends of the output of a controller that lets them be given, else null.
 const OutputLimits* output_limits(const Settings& settings);
@@ -56,7 +91,7 @@ const CalibrationTerms* calibrated(const Settings& settings);
 const WeighingSettings* weighing_of(const Settings& settings);
 
 /// What a controller that plans with a model says about it, else null.
-ModelTerms* model_terms(Settings& settings);
-const ModelTerms* model_terms(const Settings& settings);
+PlansWithModel* model_terms(Settings& settings);
+const PlansWithModel* model_terms(const Settings& settings);
 
 }  // namespace mckibben::controllers

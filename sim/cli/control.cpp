@@ -19,6 +19,7 @@
 #include <sim/cli/results.hpp>
 #include <sim/cli/verbs.hpp>
 #include <sim/domain/number.hpp>
+#include <sim/input/common_checks.hpp>
 #include <sim/input/fields_json.hpp>
 #include <sim/input/scenario_file.hpp>
 #include <sim/input/yaml_writer.hpp>
@@ -40,10 +41,11 @@ struct ControlOptions : Options {
 
 /// Why a scenario is none that one controller can drive under one load; empty if it is.
 std::string unfit(const Scenario& scenario) {
+  if (const std::string why = input::no_load(scenario.rig); !why.empty()) return "rig: " + why;
   if (scenario.loads_kg.size() != 1) return "loads: one load hangs on a bench; name it alone";
   if (scenario.controllers.size() != 1) return "controllers: one controller drives a bench; name it alone";
   controllers::Settings only = scenario.controllers.front();
-  if (const auto* terms = controllers::pid_terms(only); terms != nullptr && terms->needs_tuning())
+  if (const auto* terms = controllers::feedback_of(only); terms != nullptr && terms->needs_tuning())
     return "controllers: its gains are missing; tune them with `run`, and write them down";
   return "";
 }
@@ -67,7 +69,7 @@ bench::LoopPlan loop_of(const Scenario& scenario, const run::Briefing& briefing,
   plan.most_missed_ticks = options.most_missed_ticks;
   plan.stop = run::interrupted;
   const auto& settings = briefing.settings.front();
-  plan.limits = controllers::limits_of(settings, briefing.knowledge)
+  plan.limits = controllers::limits_of(settings, briefing.knowledge.front())
                     .value_or(controllers::CurrentRange{0.0, scenario.rig.dac.largest_current_mA});
   return plan;
 }
@@ -131,7 +133,7 @@ double late_ms(const bench::Recorded& recorded, double share) {
 }
 
 std::string csv_of(const Scenario& scenario, const run::Briefing& briefing, const bench::Recorded& recorded) {
-  const controllers::Knowledge& known = briefing.knowledge;
+  const controllers::Knowledge& known = briefing.knowledge.front();
   std::string csv = "time_s,current_mA,contraction_ratio,counts,target,late_ms\n";
   for (const auto& row : recorded.rows)
     csv += fmt::format("{},{},{},{},{},{:.3f}\n", static_cast<double>(row.tick) * scenario.rig.tick_s,
@@ -194,7 +196,7 @@ int control(const ControlOptions& options) {
     return bad_input;
   }
   const run::Briefing briefing = run::briefing_of(scenario);
-  const auto controller = briefing.make(briefing.settings.front(), scenario.loads_kg.front());
+  const auto controller = briefing.make(briefing.settings.front(), 0, scenario.loads_kg.front());
   const bench::LoopPlan plan = loop_of(scenario, briefing, options);
   if (options.dry_run) {
     bench::PatientClock clock;

@@ -19,7 +19,6 @@
 #include <sim/input/hypothesis_file.hpp>
 #include <sim/input/json_schema.hpp>
 #include <sim/input/objection_places.hpp>
-#include <sim/input/pair_scenario_file.hpp>
 #include <sim/input/rigs.hpp>
 #include <sim/input/scenario_file.hpp>
 #include <sim/input/suggest.hpp>
@@ -75,10 +74,8 @@ std::string read_any(const std::filesystem::path& path, std::vector<Problem>& wa
   } else if (kind == "mckibben-calibration") {
     std::vector<domain::InputFile> inputs;
     input::read_calibration(path, inputs);
-  } else if (kind == "mckibben-scenario") {
+  } else if (kind == "mckibben-scenario" || kind == "mckibben-pair") {
     input::read_scenario(path, warnings);
-  } else if (kind == "mckibben-pair") {
-    input::read_pair_scenario(path);
   } else if (kind == "mckibben-hypothesis") {
     std::vector<domain::InputFile> inputs;
     input::read_hypothesis(path.string(), inputs);
@@ -211,7 +208,7 @@ int print_schema(const SchemaOptions& options) {
   if (kind == "dataset")
     return print_kind(input::dataset_schema, "Data set", input::list_fields<domain::Dataset>(), format);
   if (kind == "pair")
-    return print_kind(input::pair_schema, "Pair", input::list_fields<domain::PairScenario>(), format);
+    return print_kind(input::pair_schema, "Pair", input::list_fields(domain::pair_scenario()), format);
   if (kind == "hypothesis")
     return print_kind(input::hypothesis_schema, "Hypothesis", input::hypothesis_fields(), format);
   return print_kind(input::scenario_schema, "Scenario", input::list_fields<domain::Scenario>(), format);

@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <sim/cli/driven.hpp>
 #include <sim/cli/exit_status.hpp>
 #include <sim/cli/options.hpp>
 #include <sim/cli/results.hpp>
@@ -17,12 +16,11 @@
 #include <sim/domain/number.hpp>
 #include <sim/engine/versions.hpp>
 #include <sim/input/dataset_file.hpp>
-#include <sim/input/pair_scenario_file.hpp>
 #include <sim/input/rigs.hpp>
 #include <sim/input/scenario_file.hpp>
-#include <sim/input/yaml_reader.hpp>
 #include <sim/output/csv.hpp>
 #include <sim/output/diagnosis_words.hpp>
+#include <sim/output/driven_results.hpp>
 #include <sim/output/plot.hpp>
 #include <sim/output/run_files.hpp>
 #include <sim/output/run_json.hpp>
@@ -50,46 +48,74 @@ struct ReplayOptions : Options {
   std::vector<std::string> formats;  ///< of runs, besides CSV
 };
 
-/// Tables of runs as files in the formats asked for, listed in the package.
-void write_table(Job& job, output::Package& package, const std::string& stem, const std::string& title,
-                 const formats::Table& table, const std::vector<std::string>& formats) {
-  for (const auto& file : output::run_files(stem, table, formats)) job.write(file.name, file.content);
-  package.runs.push_back({stem, title});
-}
+/// Tables of runs as files in the formats asked for, and what their columns are.
+class Tables {
+ public:
+  Tables(Job& job, std::string title, const std::vector<std::string>& formats)
+      : job_(job), formats_(formats), package_{std::move(title), {}, {}} {}
+
+  void write(const std::string& stem, const std::string& title, std::vector<formats::Column> columns,
+             std::vector<formats::Attribute> attributes) {
+    attributes.insert(attributes.begin(), {"source", output::program_name()});
+    std::vector<formats::Column> heads;
+    heads.reserve(columns.size());
+    for (const auto& column : columns) heads.push_back({column.name, column.unit, column.meaning, {}});
+    const formats::Table table{package_.title + ": " + title, std::move(columns), std::move(attributes)};
+    for (const auto& file : output::run_files(stem, table, formats_)) job_.write(file.name, file.content);
+    package_.runs.push_back({stem, title, std::move(heads)});
+  }
+  void close() { job_.write(output::package_file, output::datapackage(package_)); }
+
+ private:
+  Job& job_;
+  const std::vector<std::string>& formats_;
+  output::Package package_;
+};
 
 void write_tables(Job& job, const domain::Scenario& scenario, const run::Comparison& comparison,
                   const std::vector<std::string>& formats) {
-  const output::Targets targets{{"contraction_ratio", comparison.target}};
-  output::Package package{scenario.name, output::columns_of({}, scenario.rig, targets), {}};
+  const bool pair = scenario.rig.pair() != nullptr;
+  Tables tables(job, scenario.name, formats);
   for (const auto& run : comparison.runs) {
     if (run.recording.samples.empty()) continue;
-    const std::string title = fmt::format("{} kg, {}", domain::write_number(run.load_kg), run.controller);
-    write_table(job, package, output::file_stem(run), title,
-                {scenario.name + ": " + title,
-                 output::columns_of(run.recording, scenario.rig, targets),
-                 {{"source", output::program_name()},
-                  {"load_kg", run.load_kg},
-                  {"controller", run.controller},
-                  {"seed", std::to_string(scenario.seed)}}},
-                formats);
+    std::vector<formats::Attribute> attributes;
+    output::Targets targets;
+    if (run.followed()) {
+      const run::Wanted& wanted = comparison.targets[run.target];
+      targets = {{pair ? "angle" : "contraction_ratio", wanted.values},
+                 {"stiffness", wanted.stiffness_N_m_per_rad}};
+      attributes = {{"load_kg", run.load_kg}, {"controller", run.controller}};
+    }
+    attributes.emplace_back("seed", std::to_string(scenario.seed));
+    const std::string title =
+        pair ? run.name : fmt::format("{} kg, {}", domain::write_number(run.load_kg), run.controller);
+    tables.write(run.name, title, output::columns_of(run.recording, scenario.rig, targets),
+                 std::move(attributes));
   }
-  job.write(output::package_file, output::datapackage(package));
+  tables.close();
 }
 
 void write_tables(Job& job, const std::string& name, const domain::Dataset& dataset,
                   const std::vector<run::ReplayedRun>& runs, const std::vector<std::string>& formats) {
-  output::Package package{"Replay of " + name, output::columns_of({}, dataset.rig), {}};
-  for (const auto& run : runs) {
+  Tables tables(job, "Replay of " + name, formats);
+  for (const auto& run : runs)
+    if (!run.recording.samples.empty())
+      tables.write(run.id, fmt::format("{}, {} kg", run.id, domain::write_number(run.load_kg)),
+                   output::columns_of(run.recording, dataset.rig),
+                   {{"load_kg", run.load_kg}, {"controller", "recorded current"}});
+  tables.close();
+}
+
+void write_tables(Job& job, const std::string& name, const domain::Dataset& dataset,
+                  const std::vector<run::StampedRun>& runs, const std::vector<std::string>& formats) {
+  Tables tables(job, "Replay of " + name, formats);
+  for (const run::StampedRun& run : runs) {
     if (run.recording.samples.empty()) continue;
-    const std::string title = fmt::format("{}, {} kg", run.id, domain::write_number(run.load_kg));
-    write_table(
-        job, package, run.id, title,
-        {package.title + ": " + title,
-         output::columns_of(run.recording, dataset.rig),
-         {{"source", output::program_name()}, {"load_kg", run.load_kg}, {"controller", "recorded current"}}},
-        formats);
+    std::vector<formats::Attribute> attributes;
+    if (run.load_kg > 0.0) attributes.emplace_back("load_kg", run.load_kg);
+    tables.write(run.id, run.id, output::columns_of(run.recording, dataset.rig), std::move(attributes));
   }
-  job.write(output::package_file, output::datapackage(package));
+  tables.close();
 }
 
 /// What the bytes of a scenario's results depend on.
@@ -135,8 +161,6 @@ void tell_times(const run::Comparison& comparison) {
 
 int run_scenario(const RunOptions& options) {
   const cluster::Crew& crew = cluster::crew();
-  if (input::schema_of(options.scenario) == input::pair_schema)
-    return crew.leads() ? run_pair(options, options.scenario, options.formats) : done;
   std::vector<input::Problem> problems;
   domain::Scenario scenario = input::read_scenario(std::filesystem::path(options.scenario), problems);
   for (const auto& problem : problems) fmt::print(stderr, "{}\n", to_text(problem));
@@ -167,7 +191,7 @@ int run_scenario(const RunOptions& options) {
   write_tables(job, scenario, comparison, options.formats);
   job.write("run.json", document);
   job.write("table.txt", table);
-  job.write("tracking.svg", output::tracking_svg(scenario, comparison));
+  if (scenario.rig.pair() == nullptr) job.write("tracking.svg", output::tracking_svg(scenario, comparison));
   job.write("report.html", report::report_html(scenario, comparison));
   const int status = job.finish({document, table}, any_failed(comparison.runs) ? failure
                                                    : !comparison.unmet.empty() ? criterion_not_met
@@ -176,26 +200,32 @@ int run_scenario(const RunOptions& options) {
   return status;
 }
 
-int replay_dataset(const ReplayOptions& options) {
-  domain::Dataset dataset = input::read_dataset(options.dataset);
-  if (!options.rig.empty())
-    tasks::replace_rig(dataset, options.rig, input::read_rig(options.rig, dataset.inputs));
-  if (dataset.own_clock) return replay_stamped(options, options.dataset, dataset, options.formats);
+/// Simulates with `replay`, compares, prints and writes.
+template <class Replay>
+int replay_with(const ReplayOptions& options, const domain::Dataset& dataset, const Replay& replay) {
   const std::string name = output::name_of(dataset);
   Job job(options, "replay " + options.dataset, name + "-replay", dataset.inputs);
-  const std::vector<run::ReplayedRun> runs =
-      with_progress(name, [&](const auto& hook) { return run::replay(dataset, options.threads, hook); });
+  const auto runs =
+      with_progress(name, [&](const auto& hook) { return replay(dataset, options.threads, hook); });
   const auto warnings = tasks::warnings_of(dataset, runs);
   warn(warnings);
   if (begun(runs) < runs.size()) job.interrupted(begun(runs), runs.size(), "runs");
 
   const std::string document = output::json_of(dataset, runs, warnings);
-  const std::string table = output::table_of(dataset, runs);
+  const std::string table = output::table_of(dataset, runs, warnings);
   write_tables(job, name, dataset, runs, options.formats);
   job.write("run.json", document);
   job.write("table.txt", table);
   job.write("report.html", report::report_html(dataset, runs, warnings));
   return job.finish({document, table}, any_failed(runs) ? failure : done);
+}
+
+int replay_dataset(const ReplayOptions& options) {
+  domain::Dataset dataset = input::read_dataset(options.dataset);
+  if (!options.rig.empty())
+    tasks::replace_rig(dataset, options.rig, input::read_rig(options.rig, dataset.inputs));
+  return dataset.own_clock ? replay_with(options, dataset, run::replay_stamped)
+                           : replay_with(options, dataset, run::replay);
 }
 
 }  // namespace

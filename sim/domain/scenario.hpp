@@ -1,24 +1,30 @@
-// A scenario: which rig lifts which loads along which target,
-// under which controllers, and what counts as good enough.
+// A scenario: what a rig is to do, under which controllers, and what counts as good enough. One muscle lifts
+// loads along a target; two turn a joint along targets with loads in the hand, or under given currents.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <map>
+#include <numbers>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <type_traits>
 #include <vector>
 
 #include <controllers/settings.hpp>
 #include <controllers/target.hpp>
 #include <plant/instruments.hpp>
-#include <plant/rig.hpp>
+#include <sim/domain/campaign.hpp>
 #include <sim/domain/input_file.hpp>
+#include <sim/domain/number.hpp>
 #include <sim/domain/rig_file.hpp>
 
 namespace mckibben::domain {
 
-/// Limits on the tracking error; a run that exceeds one ends with exit status 1.
+/// Limits on the tracking error; a run that exceeds one ends with exit status 1. Errors are contraction
+/// ratios, or of a joint angles [rad].
 struct Criterion {
   std::string controller;
   std::optional<double> rmse_below;
@@ -41,6 +47,20 @@ struct Criterion {
   }
 };
 
+/// The same as it is written of a joint.
+struct JointCriterion : Criterion {
+  template <class Self, class Visitor>
+  static void fields(Self& self, Visitor& visit) {
+    constexpr double turn_rad = 2.0 * std::numbers::pi;
+    visit("controller", self.controller, "name of the controller it is for; all if left out");
+    visit("rmse_below", self.rmse_below, "rad", 0.0, turn_rad, "root mean square error of the angle");
+    visit("largest_error_below", self.largest_error_below, "rad", 0.0, turn_rad,
+          "largest error of the angle");
+    visit("spread_below", self.spread_below, "rad", 0.0, turn_rad,
+          "difference of the rmse between the worst and the best run");
+  }
+};
+
 /// Rigs drawn within what the rig's file says of its numbers; none: the described one alone is simulated.
 struct Robustness {
   int rigs = 0;
@@ -52,34 +72,153 @@ struct Robustness {
   }
 };
 
+/// The currents of one run.
+struct TwoCurrents {
+  std::string name;
+  CampaignWaveform current_1, current_2;
+
+  template <class Self, class Visitor>
+  static void fields(Self& self, Visitor& visit) {
+    visit("name", self.name, "name of the run; if left out, c and its place in the list");
+    visit.required("current_1", self.current_1, "current to the valve of muscle 1");
+    visit.required("current_2", self.current_2, "current to the valve of muscle 2");
+  }
+};
+
+/// What is wanted of the joint.
+struct JointTarget {
+  std::string name;
+  controllers::AngleTarget angle;
+  std::optional<controllers::StiffnessTarget> stiffness;
+
+  template <class Self, class Visitor>
+  static void fields(Self& self, Visitor& visit) {
+    visit("name", self.name, "part of the names of its runs; if left out, t and its place in the list");
+    visit.required("angle", self.angle, "the movement that is wanted");
+    visit(
+        "stiffness", self.stiffness,
+        "stiffness of the joint that is wanted besides; if left out, controllers hold their co-contraction");
+  }
+};
+
+/// Where the link holds a load, and which ones it holds, one after the other.
+struct Hand {
+  double distance_m = 0.4;
+  std::vector<double> loads_kg{0.0};
+
+  template <class Self, class Visitor>
+  static void fields(Self& self, Visitor& visit) {
+    visit("distance", self.distance_m, "m", 0.0, 5.0,
+          "from the axis to the load, in line with the link's mass");
+    visit("loads", self.loads_kg, "kg", 0.0, 500.0, "masses in the hand; 0 kg is the link alone");
+  }
+};
+
+/// Lets `visit` see a list as elements of another type, and takes back what it read.
+template <class As, class List, class To, class Back, class Visit>
+void visit_as(List& list, const To& to, const Back& back, const Visit& visit) {
+  std::vector<As> seen;
+  for (const auto& each : list) seen.push_back(to(each));
+  visit(seen);
+  if constexpr (!std::is_const_v<List>) {
+    list.clear();
+    for (const As& each : seen) list.push_back(back(each));
+  }
+}
+
 struct Scenario {
   std::string name;
   RigFile rig;
-  std::vector<double> loads_kg;
-  controllers::Target target;
+  std::vector<double> loads_kg;       ///< that hang; of a pair in the hand
+  controllers::Target target;         ///< of one muscle
+  std::vector<JointTarget> targets;   ///< of a pair
+  double hand_m = Hand{}.distance_m;  ///< of a pair: from the axis to the load
+  std::vector<TwoCurrents> currents;  ///< of a pair: runs without a controller
   double duration_s = 0.0;
   std::vector<controllers::Settings> controllers;
   plant::Noise noise;
   std::uint64_t seed = 1;
   std::vector<Criterion> criteria;
-  Robustness robustness;
+  Robustness robustness;  ///< of one muscle
 
   std::map<std::string, RigFile> believed;  ///< rigs of controllers that name one, by controller
   std::vector<InputFile> inputs;            ///< the files it was read from
 
+  /// The rig says which keys there are: it is visited first.
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
+    const bool pair = self.rig.pair() != nullptr;
     visit("name", self.name, "name of the results' folder; the file's name if left out");
-    visit("rig", self.rig, "a shipped name, the path of a rig file, or changes in place");
+    visit("rig", self.rig,
+          pair ? "a shipped name, the path of a rig file, or changes in place; thesis_pair if left out"
+               : "a shipped name, the path of a rig file, or changes in place");
+    if (self.rig.pair() != nullptr)
+      fields_of_pair(self, visit);
+    else
+      fields_of_one(self, visit);
+  }
+
+ private:
+  template <class Self, class Visitor>
+  static void fields_of_one(Self& self, Visitor& visit) {
     visit.required("loads", self.loads_kg, "kg", 0.01, 500.0, "masses of the loads");
     visit.required("target", self.target, "the movement that is wanted");
     visit.required("duration", self.duration_s, "s", 1e-4, 3600.0, "length of each run");
-    visit.required("controllers", self.controllers, "what is to follow the target");
-    visit("noise", self.noise, "what disturbs the instruments");
-    visit("seed", self.seed, 0, std::numeric_limits<std::uint64_t>::max(), "where chance begins");
+    visit_controllers<controllers::SingleSettings>(self, [&](auto& controllers) {
+      visit.required("controllers", controllers, "what is to follow the target");
+    });
+    fields_of_chance(self, visit);
     visit("criteria", self.criteria, "what counts as good enough");
     visit("robustness", self.robustness, "how controllers do on rigs that are not quite as described");
   }
+
+  template <class Self, class Visitor>
+  static void fields_of_pair(Self& self, Visitor& visit) {
+    visit.required("duration", self.duration_s, "s", 1e-4, 3600.0, "length of each run");
+    visit("currents", self.currents, "runs under given currents, two each");
+    visit("targets", self.targets, "what controllers are to do with the joint");
+    Hand hand{self.hand_m, self.loads_kg.empty() ? Hand{}.loads_kg : self.loads_kg};
+    visit("hand", hand, "what the link holds while they do it");
+    if constexpr (!std::is_const_v<Self>) {
+      self.hand_m = hand.distance_m;
+      self.loads_kg = hand.loads_kg;
+    }
+    visit_controllers<controllers::PairSettings>(
+        self, [&](auto& controllers) { visit("controllers", controllers, "what is to follow the targets"); });
+    fields_of_chance(self, visit);
+    visit_as<JointCriterion>(
+        self.criteria, [](const Criterion& one) { return JointCriterion{one}; },
+        [](const JointCriterion& one) -> Criterion { return one; },
+        [&](auto& criteria) { visit("criteria", criteria, "what counts as good enough"); });
+  }
+
+  template <class Self, class Visitor>
+  static void fields_of_chance(Self& self, Visitor& visit) {
+    visit("noise", self.noise, "what disturbs the instruments");
+    visit("seed", self.seed, 0, std::numeric_limits<std::uint64_t>::max(), "where chance begins");
+  }
+
+  template <class OfRig, class Self, class Visit>
+  static void visit_controllers(Self& self, const Visit& visit) {
+    visit_as<OfRig>(
+        self.controllers, [](const auto& one) { return controllers::settings_as<OfRig>(one); },
+        [](const OfRig& one) { return controllers::settings_as<controllers::Settings>(one); }, visit);
+  }
 };
+
+/// A scenario of two muscles with every default.
+inline Scenario pair_scenario() {
+  Scenario scenario;
+  scenario.rig = thesis_pair();
+  scenario.loads_kg = Hand{}.loads_kg;
+  return scenario;
+}
+
+/// What names the files of a run: its target, if targets have names, its load and its controller.
+inline std::string name_of_run(const Scenario& scenario, std::size_t target, double load_kg,
+                               const std::string& controller) {
+  const std::string of_target = scenario.targets.empty() ? "" : scenario.targets[target].name + '_';
+  return of_target + write_number(load_kg) + "kg_" + controller;
+}
 
 }  // namespace mckibben::domain

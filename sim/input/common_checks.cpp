@@ -61,16 +61,23 @@ void check_name(const YamlFile& file, const std::string& name, Problems& problem
     problems.error(file.source, given->place, fmt::format("name = {}: {}", name, file_safe_rule));
 }
 
+void check_different(const std::vector<double>& loads_kg, const Node& nodes, const Source& source,
+                     Problems& problems) {
+  std::set<double> earlier;
+  for (std::size_t i = 0; i < loads_kg.size(); ++i)
+    if (!earlier.insert(loads_kg[i]).second)
+      problems.error(source, nodes.children[i].place,
+                     fmt::format("loads: {} stands in the list already", nodes.children[i].text));
+}
+
 void check_loads(const YamlFile& file, const std::vector<double>& loads_kg, const plant::Rig& rig,
                  Problems& problems) {
   const Node& nodes = *file.root.find("loads");
   if (loads_kg.empty()) problems.error(file.source, nodes.place, "loads: at least one load is needed");
-  std::set<double> earlier;
+  check_different(loads_kg, nodes, file.source, problems);
   const double offset_kg = rig.joint.load_offset_kg;
   for (std::size_t i = 0; i < loads_kg.size(); ++i) {
     const Node& node = nodes.children[i];
-    if (!earlier.insert(loads_kg[i]).second)
-      problems.error(file.source, node.place, fmt::format("loads: {} stands in the list already", node.text));
     if (loads_kg[i] + offset_kg <= 0.0)
       problems.error(file.source, node.place,
                      fmt::format("loads: {} and the rig's joint.load_offset of {} leave no load", node.text,

@@ -30,6 +30,10 @@ void require_load(const domain::RigFile& rig, const std::string& file, std::stri
 /// Why the rig's taut threads cannot bear a load; empty if they can.
 std::string too_heavy(double load_kg, const plant::Rig& rig);
 
+/// No load may stand twice in the list at `nodes`.
+void check_different(const std::vector<double>& loads_kg, const Node& nodes, const Source& source,
+                     Problems& problems);
+
 /// The key `loads` of a file must hold at least one load, none twice, none that the rig's load offset takes
 /// away, and none that is too heavy.
 void check_loads(const YamlFile& file, const std::vector<double>& loads_kg, const plant::Rig& rig,

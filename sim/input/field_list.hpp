@@ -55,8 +55,9 @@ struct FieldInfo {
   std::string meaning;
 };
 
+/// Of a struct whose list depends on what is in it, as it is for these `defaults`.
 template <Listed T>
-std::vector<FieldInfo> list_fields();
+std::vector<FieldInfo> list_fields(const T& defaults = {});
 
 /// The visitor of a field list.
 class FieldLister {
@@ -153,10 +154,9 @@ class FieldLister {
 };
 
 template <Listed T>
-std::vector<FieldInfo> list_fields() {
+std::vector<FieldInfo> list_fields(const T& defaults) {
   std::vector<FieldInfo> list;
   FieldLister lister(list);
-  const T defaults{};
   T::fields(defaults, lister);
   return list;
 }

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <set>
 #include <unordered_map>
 
 #include <fmt/format.h>
@@ -35,17 +36,43 @@ class ScenarioChecker {
     check_name(file_, scenario_.name, problems_);
     check_duration(file_, scenario_.duration_s, scenario_.rig, problems_);
     check_noise();
-    check_lifts_a_load(file_, scenario_.rig, problems_);
-    check_loads(file_, scenario_.loads_kg, scenario_.rig, problems_);
     check_rig();
+    if (pair() != nullptr) {
+      check_currents();
+      check_joint_targets();
+      check_hand();
+      check_controlled();
+    } else {
+      check_lifts_a_load(file_, scenario_.rig, problems_);
+      check_loads(file_, scenario_.loads_kg, scenario_.rig, problems_);
+      check_target();
+      if (scenario_.controllers.empty())
+        problems_.error(source_, list("controllers").place, "controllers: at least one controller is needed");
+    }
     check_controllers();
     check_criteria();
     check_robustness();
-    check_target();
+    if (pair() != nullptr && problems_.errors() == 0) check_files();
   }
 
  private:
+  using Names = std::unordered_map<std::string, std::size_t>;  // and the lines in which they stand
+
   const Node& list(std::string_view key) const { return *root_.find(key); }
+  const plant::Pair* pair() const { return scenario_.rig.pair(); }
+  plant::Rig opposite() const { return plant::opposite_rig(scenario_.rig, *pair()); }
+
+  void check_name_of(const std::string& name, const Node& node, std::string_view what, Names& names) {
+    const Node* given = node.find("name");
+    const Place place = given != nullptr ? given->place : node.place;
+    const auto [earlier, is_new] = names.try_emplace(name, node.place.line);
+    if (!is_file_safe(name))
+      problems_.error(source_, place, fmt::format("name = {}: {}", name, file_safe_rule));
+    else if (!is_new)
+      problems_.error(source_, place,
+                      fmt::format("the name {} is already that of the {} in line {}; give each a name", name,
+                                  what, earlier->second));
+  }
 
   void check_noise() {
     if (scenario_.noise.gauge_Pa > 0.0 && !scenario_.rig.gauge.fitted)
@@ -55,27 +82,89 @@ class ScenarioChecker {
 
   void check_rig() {
     const Node* rig = root_.find("rig");
-    check_dac(scenario_.rig, source_, rig != nullptr ? rig->place : root_.place, problems_);
+    const Place place = rig != nullptr ? rig->place : root_.place;
+    check_dac(scenario_.rig, source_, place, problems_);
+    if (pair() != nullptr) check_dac(opposite(), source_, place, problems_);
+  }
+
+  void check_currents() {
+    Names names;
+    for (std::size_t i = 0; i < scenario_.currents.size(); ++i) {
+      domain::TwoCurrents& run = scenario_.currents[i];
+      const Node& node = list("currents").children[i];
+      if (node.find("name") == nullptr) run.name = fmt::format("c{:02}", i + 1);
+      check_name_of(run.name, node, "run", names);
+      complete_current(run.current_1, source_, *node.find("current_1"), scenario_.rig, problems_);
+      complete_current(run.current_2, source_, *node.find("current_2"), opposite(), problems_);
+    }
+  }
+
+  void check_joint_targets() {
+    Names names;
+    for (std::size_t i = 0; i < scenario_.targets.size(); ++i) {
+      domain::JointTarget& target = scenario_.targets[i];
+      const Node& node = list("targets").children[i];
+      if (node.find("name") == nullptr) target.name = fmt::format("t{:02}", i + 1);
+      check_name_of(target.name, node, "target", names);
+      const double radius_m = scenario_.rig.joint.wheel_radius_m;
+      const auto [lowest, highest] = controllers::range(target.angle, scenario_.duration_s, 1.0);
+      const Place place = node.find("angle")->place;
+      check_contraction(1, pair()->contraction_ratio, radius_m * highest, scenario_.rig.muscle, place);
+      check_contraction(2, pair()->opposite_contraction_ratio, -radius_m * lowest, pair()->opposite.muscle,
+                        place);
+    }
+  }
+
+  void check_contraction(int muscle, double mounted, double rise_m, const plant::Muscle& of, Place place) {
+    const double most = mounted + rise_m / of.rest_length_m,
+                 largest = plant::Braid(of).largest_contraction_ratio();
+    if (!(most <= largest))
+      problems_.error(source_, place,
+                      fmt::format("the angle takes muscle {} to a contraction ratio of {:.4g}; its limit is "
+                                  "{:.4g} (T 2.10)",
+                                  muscle, most, largest));
+  }
+
+  void check_hand() {
+    const Node* hand = root_.find("hand");
+    const Node* loads = hand != nullptr ? hand->find("loads") : nullptr;
+    if (loads == nullptr) return;
+    if (scenario_.loads_kg.empty())
+      problems_.error(source_, loads->place, "loads: at least one load is needed, 0 kg for an empty hand");
+    check_different(scenario_.loads_kg, *loads, source_, problems_);
+  }
+
+  /// Either currents, or targets and controllers, or all of them.
+  void check_controlled() {
+    const bool targets = !scenario_.targets.empty(), controllers = !scenario_.controllers.empty();
+    const auto lacks = [&](std::string_view what) {
+      problems_.error(source_, root_.place, std::string(what));
+    };
+    if (scenario_.currents.empty() && !targets && !controllers)
+      lacks("nothing is to be run: give currents, or targets and controllers");
+    if (targets && !controllers) lacks("targets need controllers that follow them");
+    if (controllers && !targets) lacks("controllers need targets that they follow");
+  }
+
+  /// Each run has files of its own.
+  void check_files() {
+    std::set<std::string> names;
+    for (const domain::TwoCurrents& run : scenario_.currents) names.insert(run.name);
+    for (std::size_t t = 0; t < scenario_.targets.size(); ++t)
+      for (const double load_kg : scenario_.loads_kg)
+        for (const auto& controller : scenario_.controllers)
+          if (const auto name = domain::name_of_run(scenario_, t, load_kg, name_of(controller));
+              !names.insert(name).second)
+            problems_.error(source_, list("targets").children[t].place,
+                            fmt::format("two runs would be called {}; choose other names", name));
   }
 
   void check_controllers() {
-    const Node& nodes = list("controllers");
-    if (scenario_.controllers.empty())
-      problems_.error(source_, nodes.place, "controllers: at least one controller is needed");
-    std::unordered_map<std::string, std::size_t> first;
+    Names names;
     for (std::size_t i = 0; i < scenario_.controllers.size(); ++i) {
-      const Node& node = nodes.children[i];
-      const Node* given = node.find("name");
-      const Place place = given != nullptr ? given->place : node.place;
+      const Node& node = list("controllers").children[i];
       const std::string& name = controllers::name_of(scenario_.controllers[i]);
-      const auto [earlier, is_new] = first.try_emplace(name, node.place.line);
-      if (!is_file_safe(name))
-        problems_.error(source_, place, fmt::format("name = {}: {}", name, file_safe_rule));
-      else if (!is_new)
-        problems_.error(
-            source_, place,
-            fmt::format("the name {} is already that of the controller in line {}; give each a name", name,
-                        earlier->second));
+      check_name_of(name, node, "controller", names);
       if (auto* recorded = std::get_if<controllers::RecordedCurrent>(&scenario_.controllers[i]))
         load_recording(*recorded, source_, *node.find("file"), scenario_.rig, problems_);
       if (auto* guest = controllers::guest_terms(scenario_.controllers[i]))
@@ -104,7 +193,9 @@ class ScenarioChecker {
   void load_believed_rig(const std::string& controller, const Node& node) {
     RigFile& rig = scenario_.believed[controller];
     read_named(source_, node, rig, problems_);
-    if (const std::string why = no_load(rig); !why.empty())
+    if (pair() != nullptr && problems_.errors() == 0 && rig.pair() == nullptr)
+      problems_.error(source_, node.place, "rig: it has one muscle, a controller of a pair needs two");
+    if (const std::string why = no_load(rig); pair() == nullptr && !why.empty())
       problems_.error(source_, node.place, "rig: " + why);
   }
 
@@ -204,6 +295,22 @@ class ScenarioChecker {
   std::map<std::string, std::optional<controllers::Calibration>> calibrations_;
 };
 
+/// Files of this schema are of two muscles, those of `thesis_pair` if they name no others. False if theirs
+/// has one.
+bool begin_pair(const YamlFile& file, Scenario& scenario, Problems& problems) {
+  scenario.rig = domain::thesis_pair();
+  const Node* given = file.root.find("rig");
+  if (given == nullptr) return true;
+  RigFile rig = scenario.rig;
+  Problems found;
+  read_named(file.source, *given, rig, found);
+  if (found.errors() > 0 || rig.pair() != nullptr) return true;
+  problems.error(
+      file.source, given->place,
+      "this rig has one muscle; two currents need two: rig: thesis_pair, or mechanics: {kind: pair}");
+  return false;
+}
+
 }  // namespace
 
 Scenario read_scenario(Source source, std::vector<Problem>& warnings) {
@@ -214,7 +321,10 @@ Scenario read_scenario(Source source, std::vector<Problem>& warnings) {
   Scenario scenario;
   scenario.name = made_file_safe(fs::path(file.source.name()).stem().string());
   constexpr std::string_view also_allowed[] = {"schema"};
-  if (check_schema(file, scenario_schema, problems))
+  const Node* schema = file.root.find("schema");
+  const bool of_pair = schema != nullptr && schema->text == pair_schema;
+  if (check_schema(file, of_pair ? pair_schema : scenario_schema, problems) &&
+      (!of_pair || begin_pair(file, scenario, problems)))
     read_struct(file.source, file.root, scenario, problems, also_allowed);
   if (problems.errors() == 0) ScenarioChecker(file, scenario, problems).check();
   problems.raise();

@@ -1,5 +1,5 @@
-// Scenarios in files (schema mckibben-scenario/1). `read_scenario` gives one complete, every default in
-// place, or says all that is wrong.
+// Scenarios in files (schema mckibben-scenario/1, or mckibben-pair/1, whose rig has two muscles).
+// `read_scenario` gives one complete, every default in place, or says all that is wrong.
 #pragma once
 
 #include <filesystem>
@@ -16,7 +16,7 @@ namespace mckibben::input {
 
 using domain::Criterion, domain::Scenario;
 
-inline constexpr std::string_view scenario_schema = "mckibben-scenario/1";
+inline constexpr std::string_view scenario_schema = "mckibben-scenario/1", pair_schema = "mckibben-pair/1";
 
 /// Reads a scenario and the rig files and recorded currents that it names; `warnings` are added to.
 /// Throws MissingInput; BadInput with the problems of all files.

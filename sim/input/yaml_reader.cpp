@@ -36,12 +36,6 @@ std::string integer_message(std::string_view key, const Node& node, auto lowest,
 
 }  // namespace
 
-std::string schema_of(const std::string& path) {
-  const YamlFile file = load_yaml(path);
-  const Node* schema = file.root.find("schema");
-  return schema == nullptr ? "" : schema->text;
-}
-
 bool ValueReader::is_map() {
   if (map_.kind == Node::Kind::map) return true;
   bad(map_, fmt::format("{} must be a map of keys, not {}", map_.key.empty() ? "this" : map_.key,

@@ -51,9 +51,6 @@ void read_named(const Source& source, const Node& node, plant::OwnLawsOf<double>
 /// False if it is another kind of file, not worth reading on.
 bool check_schema(const YamlFile& file, std::string_view schema, Problems& problems);
 
-/// What the file at `path` says it is, or nothing. Throws MissingInput, BadInput.
-std::string schema_of(const std::string& path);
-
 /// Reads single values; says what is wrong with them. The same for all structs.
 class ValueReader {
  public:

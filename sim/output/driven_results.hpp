@@ -1,5 +1,4 @@
-// Results of pairs, and of rides that followed stamps (replays of data with a clock of their own), as JSON
-// and as text.
+// Results of rides that followed stamps (replays of data with a clock of their own), as JSON and as text.
 #pragma once
 
 #include <string>
@@ -7,20 +6,15 @@
 
 #include <sim/domain/dataset.hpp>
 #include <sim/run/gaps.hpp>
-#include <sim/run/pair_runs.hpp>
 
 namespace mckibben::output {
 
 /// The run.json of a results folder, and what --json prints. Holds nothing that differs between two runs of
 /// the same input.
-std::string json_of(const domain::PairScenario& scenario, const run::PairRuns& all,
-                    const std::vector<std::string>& warnings, bool interrupted);
 std::string json_of(const domain::Dataset& dataset, const std::vector<run::StampedRun>& runs,
-                    const std::vector<std::string>& warnings, bool interrupted);
+                    const std::vector<std::string>& warnings);
 
 /// What is printed, and table.txt.
-std::string table_of(const domain::PairScenario& scenario, const run::PairRuns& all,
-                     const std::vector<std::string>& warnings);
 std::string table_of(const domain::Dataset& dataset, const std::vector<run::StampedRun>& runs,
                      const std::vector<std::string>& warnings);
 

@@ -25,6 +25,17 @@ class Grid {
 
   bool empty() const { return rows_.size() == 1; }
   void add(std::vector<std::string> row) { rows_.push_back(std::move(row)); }
+  /// What a line is of, and what is said of it.
+  void add(std::vector<std::string> head, const std::vector<std::string>& cells) {
+    head.insert(head.end(), cells.begin(), cells.end());
+    add(std::move(head));
+  }
+  /// The same where there is nothing but a word.
+  void add(std::vector<std::string> head, const std::string& word) {
+    head.push_back(word);
+    head.resize(rows_.front().size(), "-");
+    add(std::move(head));
+  }
 
   std::string text() const {
     std::vector<std::size_t> widths(rows_.front().size(), 0);

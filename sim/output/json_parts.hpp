@@ -23,6 +23,9 @@ input::Json ledger_json(const plant::Rig& rig, const run::Recording& recording);
 
 input::Json span_json(const run::Span& span);
 
+/// Where cords would have to push.
+input::Json slack_json(const run::Recording& recording);
+
 /// The text of a file that holds the document.
 std::string text_of(const input::Json& document);
 

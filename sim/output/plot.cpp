@@ -93,12 +93,13 @@ Legend make_legend(const domain::Scenario& scenario) {
 
 std::string tracking_svg(const domain::Scenario& scenario, const run::Comparison& comparison) {
   const std::size_t columns = scenario.controllers.size(), rows = scenario.loads_kg.size();
+  const std::vector<double>& target = comparison.targets.front().values;
   const Legend legend = make_legend(scenario);
   const double first_px = legend.bottom_px + 30.0;
   const double height = first_px + static_cast<double>(rows) * (plot_height + plot_gap) + 10.0;
   const double width = plot_left + plot_width + plot_right;
   Scale ratios{0.0, 0.0};
-  for (const double ratio : comparison.target) ratios.hold(ratio);
+  for (const double ratio : target) ratios.hold(ratio);
   for (const auto& run : comparison.runs)
     for (const auto& sample : run.recording.samples) ratios.hold(sample.state.joint.contraction_ratio);
   ratios.widen(1e-4);
@@ -107,10 +108,10 @@ std::string tracking_svg(const domain::Scenario& scenario, const run::Comparison
   std::string svg = svg_begin(width, height) + legend.svg;
   for (std::size_t r = 0; r < rows; ++r) {
     const Panel panel = panel_at(first_px + static_cast<double>(r) * (plot_height + plot_gap), ratios.low,
-                                 ratios.high, static_cast<double>(comparison.target.size()) * tick_s);
+                                 ratios.high, static_cast<double>(target.size()) * tick_s);
     svg += axes(panel, fmt::format("{} kg: contraction ratio", domain::write_number(scenario.loads_kg[r])));
-    svg += line(panel, comparison.target.size(), tick_s, "#000000", "none", 2.2,
-                [&](std::size_t k) { return comparison.target[k]; });
+    svg +=
+        line(panel, target.size(), tick_s, "#000000", "none", 2.2, [&](std::size_t k) { return target[k]; });
     for (std::size_t c = 0; c < columns; ++c) {
       const auto& samples = comparison.runs[r * columns + c].recording.samples;
       svg += line(panel, samples.size(), tick_s, colour_of(c), dash_of(c), 1.4,

@@ -2,10 +2,7 @@
 #include <algorithm>
 #include <optional>
 
-#include <fmt/format.h>
-
 #include <plant/geometry.hpp>
-#include <sim/domain/number.hpp>
 #include <sim/input/rigs.hpp>
 #include <sim/input/scenario_file.hpp>
 #include <sim/output/json_parts.hpp>
@@ -52,27 +49,56 @@ Json unreachable_json(const run::Unreachable& found) {
   return entry;
 }
 
-Json run_json(const plant::Rig& rig, const run::TrackedRun& run) {
-  Json entry{{"load_kg", run.load_kg}, {"controller", run.controller}};
-  if (!run.recording.samples.empty()) entry["file"] = file_stem(run) + ".csv";
+/// What is told of two muscles and their joint besides.
+void put_joint(Json& entry, const run::TrackedRun& run) {
+  const run::JointFigures& joint = *run.joint;
+  entry["angle_rad"] = span_json(joint.angle_rad);
+  entry["tension_1_N"] = span_json(joint.cord_force_N);
+  entry["tension_2_N"] = span_json(joint.opposite_cord_force_N);
+  entry["slack"] = slack_json(run.recording);
+  if (!run.followed()) return;
+  entry["stiffness_N_m_per_rad"] = {{"asked", or_null(joint.stiffness_asked)},
+                                    {"had", joint.stiffness_had},
+                                    {"rmse", or_null(joint.stiffness_rmse)}};
+  entry["at_limit"] = joint.at_limit;
+}
+
+/// Errors of a joint are in rad, and their keys say so.
+void put_metrics(Json& entry, const run::Metrics& m, bool of_joint) {
+  const std::string unit = of_joint ? "_rad" : "";
+  entry["rmse" + unit] = m.rmse;
+  entry["mae" + unit] = m.mae;
+  entry["largest_error" + unit] = m.largest_error;
+  entry["final_error" + unit] = m.final_error;
+  entry["time_lag_s"] = or_null(m.time_lag_s);
+  entry["overshoot"] = or_null(m.overshoot);
+  entry["settling_time_s"] = or_null(m.settling_time_s);
+  entry["current_travel_mA"] = m.current_travel_mA;
+  if (of_joint) return;
+  entry["at_lowest_current"] = or_null(m.at_lowest_current);
+  entry["at_highest_current"] = or_null(m.at_highest_current);
+}
+
+Json run_json(const domain::Scenario& scenario, const run::Comparison& comparison,
+              const run::TrackedRun& run) {
+  Json entry;
+  const bool pair = scenario.rig.pair() != nullptr;
+  if (pair) entry["name"] = run.name;
+  if (run.followed()) {
+    if (pair) entry["target"] = comparison.targets[run.target].name;
+    entry["load_kg"] = run.load_kg;
+    entry["controller"] = run.controller;
+  }
+  if (!run.recording.samples.empty()) entry["file"] = run.name + ".csv";
   if (run.unreachable.any()) entry["unreachable"] = unreachable_json(run.unreachable);
   if (!run.failure.empty()) {
     entry["failure"] = run.failure;
     return entry;
   }
-  const auto& m = run.metrics;
-  entry["rmse"] = m.rmse;
-  entry["mae"] = m.mae;
-  entry["largest_error"] = m.largest_error;
-  entry["final_error"] = m.final_error;
-  entry["time_lag_s"] = or_null(m.time_lag_s);
-  entry["overshoot"] = or_null(m.overshoot);
-  entry["settling_time_s"] = or_null(m.settling_time_s);
-  entry["current_travel_mA"] = m.current_travel_mA;
-  entry["at_lowest_current"] = or_null(m.at_lowest_current);
-  entry["at_highest_current"] = or_null(m.at_highest_current);
-  entry["contraction"] = contraction_json(rig, run.recording);
-  entry["ledger"] = ledger_json(rig, run.recording);
+  if (run.followed()) put_metrics(entry, run.metrics, pair);
+  if (run.joint) put_joint(entry, run);
+  entry["contraction"] = contraction_json(scenario.rig, run.recording);
+  entry["ledger"] = ledger_json(scenario.rig, run.recording);
   entry["solver"] = solver_json(run.recording.solver);
   for (const auto& one : run.recording.findings)
     entry["findings"][one.name] = {{"value", one.value}, {"unit", one.unit}};
@@ -99,10 +125,6 @@ Json robustness_json(const run::Comparison& comparison) {
 
 }  // namespace
 
-std::string file_stem(const run::TrackedRun& run) {
-  return fmt::format("{}kg_{}", domain::write_number(run.load_kg), run.controller);
-}
-
 std::string json_of(const domain::Scenario& scenario, const run::Comparison& comparison) {
   Json document = heading_json("mckibben-run/1", scenario.inputs);
   document["report"] = "report.html";
@@ -110,11 +132,13 @@ std::string json_of(const domain::Scenario& scenario, const run::Comparison& com
   document["tolerance"] = scenario.rig.integrator.tolerance;
   document["scenario"] = input::scenario_json(scenario);
   document["tuned"] = Json::array();
+  const bool pair = scenario.rig.pair() != nullptr;
   for (const auto& row : comparison.tuned) {
     if (!row.failure.empty()) continue;
     document["tuned"].push_back({{"controller", row.controller},
                                  {"load_kg", row.load_kg},
-                                 {"proportional_mA", row.tuned.gains.proportional_mA},
+                                 {pair ? "proportional_mA_per_rad" : "proportional_mA",
+                                  row.tuned.gains.proportional_mA / run::per_ratio(scenario.rig)},
                                  {"integral_time_s", row.tuned.gains.integral_time_s},
                                  {"derivative_time_s", row.tuned.gains.derivative_time_s},
                                  {"cost", row.tuned.cost},
@@ -125,16 +149,16 @@ std::string json_of(const domain::Scenario& scenario, const run::Comparison& com
   }
   if (!comparison.robustness.empty()) document["robustness"] = robustness_json(comparison);
   document["runs"] = Json::array();
-  for (const auto& run : comparison.runs) document["runs"].push_back(run_json(scenario.rig, run));
+  for (const auto& run : comparison.runs) document["runs"].push_back(run_json(scenario, comparison, run));
   document["spreads"] = Json::array();
   for (const auto& row : comparison.spreads) {
     Json entry{{"controller", row.controller}};
     if (row.rmse)
-      entry["rmse"] = {{"mean", row.rmse->mean},
-                       {"lowest", row.rmse->lowest},
-                       {"highest", row.rmse->highest},
-                       {"spread", row.rmse->width()},
-                       {"standard_deviation", row.rmse->standard_deviation}};
+      entry[pair ? "rmse_rad" : "rmse"] = {{"mean", row.rmse->mean},
+                                           {"lowest", row.rmse->lowest},
+                                           {"highest", row.rmse->highest},
+                                           {"spread", row.rmse->width()},
+                                           {"standard_deviation", row.rmse->standard_deviation}};
     document["spreads"].push_back(std::move(entry));
   }
   document["criteria_not_met"] = comparison.unmet;

@@ -17,7 +17,4 @@ std::string json_of(const domain::Scenario& scenario, const run::Comparison& com
 std::string json_of(const domain::Dataset& dataset, const std::vector<run::ReplayedRun>& runs,
                     const std::vector<std::string>& warnings);
 
-/// Name of one run's files in the results folder, without ending.
-std::string file_stem(const run::TrackedRun& run);
-
 }  // namespace mckibben::output

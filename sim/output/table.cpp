@@ -7,8 +7,10 @@
 
 #include <plant/geometry.hpp>
 #include <sim/domain/number.hpp>
+#include <sim/output/diagnosis_words.hpp>
 #include <sim/output/grid.hpp>
 #include <sim/output/table.hpp>
+#include <sim/run/gaps.hpp>
 #include <sim/run/remarks.hpp>
 
 namespace mckibben::output {
@@ -59,14 +61,19 @@ std::string percent(std::optional<double> share) {
   return share ? fmt::format("{:.0f}", 100.0 * *share) : "-";
 }
 
-std::string tuned_line(const run::TunedController& row) {
+std::string degrees(double angle_rad) {
+  return rounded(angle_rad / plant::degree_rad, 2, true);
+}
+
+std::string tuned_line(const domain::RigFile& rig, const run::TunedController& row) {
   const auto cost = [](std::optional<double> value) {
     return value ? fmt::format("{:.3g}", *value) : std::string("no result");
   };
   return fmt::format(
-      "  {} at {:g} kg: proportional {:.4g} mA, integral_time {:.4g} s, derivative_time {:.4g} s ({} runs); "
+      "  {} at {:g} kg: proportional {:.4g} {}, integral_time {:.4g} s, derivative_time {:.4g} s ({} runs); "
       "cost {:.3g}, at the start {}, without feedback {}{}\n",
-      row.controller, row.load_kg, row.tuned.gains.proportional_mA, row.tuned.gains.integral_time_s,
+      row.controller, row.load_kg, row.tuned.gains.proportional_mA / run::per_ratio(rig),
+      rig.pair() != nullptr ? "mA/rad" : "mA", row.tuned.gains.integral_time_s,
       row.tuned.gains.derivative_time_s, row.tuned.evaluations, row.tuned.cost, cost(row.tuned.start_cost),
       cost(row.idle_cost), run::gained_nothing(row) ? ": the tuning gained nothing" : "");
 }
@@ -87,9 +94,9 @@ std::string robustness(const run::Comparison& comparison) {
 
 std::string contraction_notes(const domain::Scenario& scenario, const run::Comparison& comparison) {
   std::string text;
+  if (scenario.rig.pair() != nullptr) return text;  // whose muscles may differ
   for (const auto& run : comparison.runs)
-    text += contraction_note(scenario.rig, run.recording.largest_contraction_ratio,
-                             fmt::format("{} at {} kg", run.controller, domain::write_number(run.load_kg)));
+    text += contraction_note(scenario.rig, run.recording.largest_contraction_ratio, run.id);
   return text;
 }
 
@@ -102,7 +109,7 @@ std::string findings(const run::Comparison& comparison) {
       line += fmt::format("{}{} {:.4g}{}", line.empty() ? "" : ", ", one.name, one.value,
                           one.unit == "1" ? "" : " " + one.unit);
     }
-    if (!line.empty()) text += fmt::format("  {} at {:g} kg: {}\n", run.controller, run.load_kg, line);
+    if (!line.empty()) text += fmt::format("  {}: {}\n", run.id, line);
   }
   return text;
 }
@@ -118,65 +125,141 @@ std::string extrapolation_mark(const run::TrackedRun& run) {
                                                                : "";
 }
 
-std::string table_of(const domain::Scenario& scenario, const run::Comparison& comparison) {
-  std::string text = fmt::format(
-      "{}: {} load{} x {} controller{}, {:g} s each; errors are contraction ratios (0.001 = {:g} mm)\n\n",
-      scenario.name, scenario.loads_kg.size(), scenario.loads_kg.size() == 1 ? "" : "s",
-      scenario.controllers.size(), scenario.controllers.size() == 1 ? "" : "s", scenario.duration_s,
-      scenario.rig.muscle.rest_length_m);
+namespace {
+
+/// Errors as contraction ratios and lengths, a line for each load under each controller.
+std::string lines_of_one(const domain::Scenario& scenario, const run::Comparison& comparison) {
   const double length_mm = 1e3 * scenario.rig.muscle.rest_length_m;
-  Grid runs({"load_kg", "controller", "rmse", "rmse_mm", "mae", "largest", "final", "lag_ms", "overshoot_%",
+  Grid grid({"load_kg", "controller", "rmse", "rmse_mm", "mae", "largest", "final", "lag_ms", "overshoot_%",
              "settling_s", "air_g", "at_limit_%"},
             2);
-  std::string failures;
   for (const auto& run : comparison.runs) {
     const auto& m = run.metrics;
-    const auto load = domain::write_number(run.load_kg);
-    if (!run.failure.empty()) {
-      runs.add({load, run.controller + extrapolation_mark(run), "no result", "-", "-", "-", "-", "-", "-",
-                "-", "-", "-"});
-      failures += fmt::format("  {} at {} kg: {}\n", run.controller, load, run.failure);
-      continue;
-    }
-    runs.add({load, run.controller + extrapolation_mark(run), ratio(m.rmse), cell(m.rmse, length_mm, 2),
-              ratio(m.mae), ratio(m.largest_error), fmt::format("{:+.5f}", m.final_error),
-              cell(m.time_lag_s, 1e3, 0), cell(m.overshoot, 100.0, 1), cell(m.settling_time_s, 1.0, 2),
-              cell(m.air_kg, 1e3, 3),
-              percent(run.limits ? std::optional(run::share_at_limit(run)) : std::nullopt)});
+    const std::vector<std::string> head{domain::write_number(run.load_kg),
+                                        run.controller + extrapolation_mark(run)};
+    if (!run.failure.empty())
+      grid.add(head, "no result");
+    else
+      grid.add(head, {ratio(m.rmse), cell(m.rmse, length_mm, 2), ratio(m.mae), ratio(m.largest_error),
+                      fmt::format("{:+.5f}", m.final_error), cell(m.time_lag_s, 1e3, 0),
+                      cell(m.overshoot, 100.0, 1), cell(m.settling_time_s, 1.0, 2), cell(m.air_kg, 1e3, 3),
+                      percent(run.limits ? std::optional(run::share_at_limit(run)) : std::nullopt)});
   }
-  text += runs.text() + footnotes(comparison.runs);
+  return grid.text() + footnotes(comparison.runs);
+}
 
+/// What the rmse is over all runs of each controller.
+std::string spreads(const domain::Scenario& scenario, const run::Comparison& comparison) {
   const auto extrapolated = [&](const std::string& controller) {
     return std::any_of(comparison.runs.begin(), comparison.runs.end(), [&](const auto& run) {
       return run.controller == controller && run.failure.empty() && extrapolation_mark(run) == "*";
     });
   };
-  Grid spreads({"controller", "rmse mean", "mean_mm", "lowest", "highest", "spread", "std dev"}, 1);
+  Grid grid({"controller", "rmse mean", "mean_mm", "lowest", "highest", "spread", "std dev"}, 1);
   for (const auto& row : comparison.spreads)
     if (row.rmse)
-      spreads.add({row.controller + (extrapolated(row.controller) ? "*" : ""), ratio(row.rmse->mean),
-                   cell(row.rmse->mean, length_mm, 2), ratio(row.rmse->lowest), ratio(row.rmse->highest),
-                   ratio(row.rmse->width()), ratio(row.rmse->standard_deviation)});
-  if (!spreads.empty()) text += section("rmse over the loads (spread: highest less lowest)", spreads.text());
-
-  if (!comparison.robustness.empty())
-    text += section(fmt::format("on {} rigs drawn within their ± ({} number{})", scenario.robustness.rigs,
-                                comparison.drawn.size(), comparison.drawn.size() == 1 ? "" : "s"),
-                    robustness(comparison));
-  std::string tuned;
-  for (const auto& row : comparison.tuned)
-    if (row.failure.empty()) tuned += tuned_line(row);
-  text += section("gains tuned", tuned);
-  text += section("found out by the controllers", findings(comparison));
-  text += section("contraction", contraction_notes(scenario, comparison));
-  text += section("no result", failures);
-  std::string unmet;
-  for (const auto& line : comparison.unmet) unmet += "  " + line + "\n";
-  text += section("criteria not met", unmet);
-  return text;
+      grid.add({row.controller + (extrapolated(row.controller) ? "*" : ""), ratio(row.rmse->mean),
+                cell(row.rmse->mean, 1e3 * scenario.rig.muscle.rest_length_m, 2), ratio(row.rmse->lowest),
+                ratio(row.rmse->highest), ratio(row.rmse->width()), ratio(row.rmse->standard_deviation)});
+  return grid.empty() ? "" : grid.text();
 }
 
-std::string table_of(const domain::Dataset& dataset, const std::vector<run::ReplayedRun>& runs) {
+/// Of two muscles under given currents.
+std::string lines_of_currents(const domain::Scenario& scenario, const run::Comparison& comparison) {
+  Grid grid({"run", "angle_deg lowest", "highest", "final", "tension_1_N lowest", "highest",
+             "tension_2_N lowest", "highest", "air_g"},
+            1);
+  const auto newton = [](double value) { return fmt::format("{:.1f}", value); };
+  for (const auto& run : comparison.runs) {
+    if (run.followed()) continue;
+    if (!run.failure.empty())
+      grid.add({run.name}, "no result");
+    else
+      grid.add({run.name},
+               {degrees(run.joint->angle_rad.low), degrees(run.joint->angle_rad.high),
+                degrees(run::angle_rad(scenario.rig, run.recording.samples.back())),
+                newton(run.joint->cord_force_N.low), newton(run.joint->cord_force_N.high),
+                newton(run.joint->opposite_cord_force_N.low), newton(run.joint->opposite_cord_force_N.high),
+                cell(run.recording.ledger.air_drawn_kg, 1e3, 3)});
+  }
+  return grid.empty() ? "" : grid.text();
+}
+
+/// Errors as joint angles, a line for each target and load under each controller.
+std::string lines_of_joint(const run::Comparison& comparison) {
+  constexpr double deg = 1.0 / plant::degree_rad;
+  Grid grid({"target", "load_kg", "controller", "rmse_deg", "largest", "final", "lag_ms", "overshoot_%",
+             "stiffness_Nm/rad asked", "had", "rmse", "air_g", "at_limit_%"},
+            3);
+  for (const auto& run : comparison.runs) {
+    if (!run.followed()) continue;
+    const auto& m = run.metrics;
+    const std::vector<std::string> head{comparison.targets[run.target].name,
+                                        domain::write_number(run.load_kg), run.controller};
+    if (!run.failure.empty())
+      grid.add(head, "no result");
+    else
+      grid.add(head, {cell(m.rmse, deg, 2), cell(m.largest_error, deg, 2),
+                      fmt::format("{:+.2f}", deg * m.final_error), cell(m.time_lag_s, 1e3, 0),
+                      cell(m.overshoot, 100.0, 1), cell(run.joint->stiffness_asked, 1.0, 2),
+                      cell(run.joint->stiffness_had, 1.0, 2), cell(run.joint->stiffness_rmse, 1.0, 2),
+                      cell(m.air_kg, 1e3, 3), percent(run.joint->at_limit)});
+  }
+  return grid.empty() ? "" : grid.text();
+}
+
+std::string plural(std::size_t count, const char* what) {
+  return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+}
+
+std::string heading(const domain::Scenario& scenario, const run::Comparison& comparison) {
+  if (scenario.rig.pair() != nullptr)
+    return fmt::format("{}: two muscles, {}, {:g} s each; joint angle positive as muscle 1 contracts\n",
+                       scenario.name, plural(comparison.runs.size(), "run"), scenario.duration_s);
+  return fmt::format("{}: {} x {}, {:g} s each; errors are contraction ratios (0.001 = {:g} mm)\n",
+                     scenario.name, plural(scenario.loads_kg.size(), "load"),
+                     plural(scenario.controllers.size(), "controller"), scenario.duration_s,
+                     scenario.rig.muscle.rest_length_m);
+}
+
+std::string lines(const std::vector<std::string>& texts) {
+  std::string all;
+  for (const auto& text : texts) all += "  " + text + "\n";
+  return all;
+}
+
+}  // namespace
+
+std::string table_of(const domain::Scenario& scenario, const run::Comparison& comparison) {
+  std::string text = heading(scenario, comparison), tuned, failures;
+  for (const auto& row : comparison.tuned)
+    if (row.failure.empty()) tuned += tuned_line(scenario.rig, row);
+  for (const auto& run : comparison.runs)
+    if (!run.failure.empty()) failures += fmt::format("  {}: {}\n", run.id, run.failure);
+
+  const bool pair = scenario.rig.pair() != nullptr;
+  if (pair) {
+    const std::string given = lines_of_currents(scenario, comparison), followed = lines_of_joint(comparison);
+    const bool both = !given.empty() && !followed.empty();
+    if (!given.empty()) text += (both ? "\nunder given currents\n" : "\n") + given;
+    if (!followed.empty()) text += (both ? "\nunder controllers\n" : "\n") + followed;
+  } else {
+    text += "\n" + lines_of_one(scenario, comparison) +
+            section("rmse over the loads (spread: highest less lowest)", spreads(scenario, comparison));
+  }
+  if (!comparison.robustness.empty())
+    text += section(fmt::format("on {} rigs drawn within their ± ({})", scenario.robustness.rigs,
+                                plural(comparison.drawn.size(), "number")),
+                    robustness(comparison));
+  return text + section(pair ? "gains tuned, for all targets" : "gains tuned", tuned) +
+         section("found out by the controllers", findings(comparison)) +
+         section("contraction", contraction_notes(scenario, comparison)) + section("no result", failures) +
+         section("criteria not met", lines(comparison.unmet)) +
+         section("warnings", pair ? lines(comparison.warnings) : "");
+}
+
+std::string table_of(const domain::Dataset& dataset, const std::vector<run::ReplayedRun>& runs,
+                     const std::vector<std::string>&) {
   std::string text = fmt::format(
       "{}: {} run{} replayed; simulated less measured, as contraction ratio (0.001 = {:g} mm)\n\n",
       dataset.path.string(), runs.size(), runs.size() == 1 ? "" : "s", dataset.rig.muscle.rest_length_m);

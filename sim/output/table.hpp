@@ -21,7 +21,8 @@ std::string table_of(const domain::Scenario& scenario, const run::Comparison& co
 std::string extrapolation_mark(const run::TrackedRun& run);
 
 /// Measured against simulated, run by run.
-std::string table_of(const domain::Dataset& dataset, const std::vector<run::ReplayedRun>& runs);
+std::string table_of(const domain::Dataset& dataset, const std::vector<run::ReplayedRun>& runs,
+                     const std::vector<std::string>& warnings = {});
 
 /// What a campaign gave, load by load; of a pair, current by current.
 std::string table_of(const domain::Campaign& campaign, const std::vector<run::EndedRun>& ended);

@@ -1,5 +1,4 @@
 // Rigs, scenarios and data sets: from files or dicts, by the readers of the command line.
-#include <cmath>
 #include <filesystem>
 
 #include <nlohmann/json.hpp>
@@ -8,12 +7,11 @@
 #include <plant/geometry.hpp>
 #include <plant/instruments.hpp>
 #include <sim/input/dataset_file.hpp>
-#include <sim/input/pair_scenario_file.hpp>
 #include <sim/input/scenario_file.hpp>
-#include <sim/input/yaml_reader.hpp>
 #include <sim/python/dicts.hpp>
 #include <sim/python/inputs.hpp>
 #include <sim/run/simulate.hpp>
+#include <sim/run/track.hpp>
 
 namespace mckibben::python {
 
@@ -40,27 +38,17 @@ std::string repr_of_rig(const Rig& rig) {
          ", rest length " + std::to_string(rig.file.muscle.rest_length_m) + " m>";
 }
 
-bool says_pair(const py::object& from) {
-  if (!py::isinstance<py::dict>(from))
-    return input::schema_of(py::module_::import("os").attr("fspath")(from).cast<std::string>()) ==
-           input::pair_schema;
-  const auto dict = from.cast<py::dict>();
-  if (dict.contains("schema")) return py::str(dict["schema"]).cast<std::string>() == input::pair_schema;
-  return dict.contains("currents");
+/// The schema of a dict that does not say it.
+std::string schema_for(const py::object& from) {
+  const bool pair = py::isinstance<py::dict>(from) && from.cast<py::dict>().contains("currents");
+  return std::string(pair ? input::pair_schema : input::scenario_schema);
 }
 
 Scenario scenario_of(const py::object& from, const std::filesystem::path& folder) {
-  if (says_pair(from))
-    return {
-        read_either(
-            from, folder, "scenario", std::string(input::pair_schema),
-            [](input::Source source) { return input::read_pair_scenario(std::move(source)); },
-            [](const std::string& path) { return input::read_pair_scenario(std::filesystem::path(path)); }),
-        {}};
   std::vector<input::Problem> problems;
   Scenario scenario{
       read_either(
-          from, folder, "scenario", std::string(input::scenario_schema),
+          from, folder, "scenario", schema_for(from),
           [&](input::Source source) { return input::read_scenario(std::move(source), problems); },
           [&](const std::string& path) {
             return input::read_scenario(std::filesystem::path(path), problems);
@@ -73,11 +61,9 @@ Scenario scenario_of(const py::object& from, const std::filesystem::path& folder
 }
 
 py::object sampled_target(const Scenario& scenario) {
-  const auto* one = std::get_if<domain::Scenario>(&scenario.what);
-  if (one == nullptr) return py::none();
-  const auto ticks = static_cast<std::size_t>(std::lround(one->duration_s / one->rig.tick_s));
-  const auto target = controllers::sample(one->target, ticks, one->rig.tick_s, one->rig.muscle.rest_length_m);
-  return py::array_t<double>(static_cast<py::ssize_t>(ticks), target.data());
+  if (scenario.what.rig.pair() != nullptr) return py::none();
+  const std::vector<double> target = run::wanted_of(scenario.what).front().ratios;
+  return py::array_t<double>(static_cast<py::ssize_t>(target.size()), target.data());
 }
 
 domain::Dataset read_dataset(const py::object& from, const std::filesystem::path& folder) {
@@ -153,30 +139,19 @@ void add_inputs(py::module_& module) {
            "InputError, MissingInput; warns of what is odd.")
       .def(
           "to_dict",
-          [](const Scenario& scenario) {
-            return from_json(std::visit(
-                [](const auto& of) {
-                  if constexpr (std::same_as<std::decay_t<decltype(of)>, domain::Scenario>)
-                    return input::scenario_json(of).dump();
-                  else
-                    return input::pair_scenario_json(of).dump();
-                },
-                scenario.what));
-          },
+          [](const Scenario& scenario) { return from_json(input::scenario_json(scenario.what).dump()); },
           "Every field, as a scenario file has it.")
       .def_property_readonly(
-          "name",
-          [](const Scenario& s) { return std::visit([](const auto& of) { return of.name; }, s.what); },
-          "What folders of its results are called.")
+          "name", [](const Scenario& s) { return s.what.name; }, "What folders of its results are called.")
       .def_property_readonly(
           "rig",
           [](const Scenario& s) {
-            return Rig{std::visit([](const auto& of) { return of.rig; }, s.what), {}};
+            return Rig{s.what.rig, {}};
           },
           "Its rig.")
       .def_property_readonly(
           "target", &sampled_target,
-          "Contraction ratio that is wanted at each tick [1], shape (ticks,); None for currents of a pair.")
+          "Contraction ratio that is wanted at each tick [1], shape (ticks,); None for a pair.")
       .def_readonly("warnings", &Scenario::warnings, "What its reader warned of.");
 
   py::class_<domain::Dataset, std::shared_ptr<domain::Dataset>>(module, "Dataset",

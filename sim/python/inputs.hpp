@@ -3,18 +3,16 @@
 
 #include <filesystem>
 #include <string>
-#include <variant>
 #include <vector>
 
 #include <sim/domain/dataset.hpp>
-#include <sim/domain/pair_scenario.hpp>
 #include <sim/domain/scenario.hpp>
 #include <sim/python/module.hpp>
 
 namespace mckibben::python {
 
 struct Scenario {
-  std::variant<domain::Scenario, domain::PairScenario> what;
+  domain::Scenario what;
   std::vector<std::string> warnings;  ///< of its reader
 };
 

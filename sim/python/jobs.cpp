@@ -12,7 +12,6 @@
 #include <sim/python/long_work.hpp>
 #include <sim/report/report.hpp>
 #include <sim/run/compare.hpp>
-#include <sim/run/pair_runs.hpp>
 #include <sim/run/replay.hpp>
 #include <sim/run/simulate.hpp>
 #include <sim/tasks/replay.hpp>
@@ -27,13 +26,15 @@ std::shared_ptr<const run::Recording> part_of(const std::shared_ptr<Whole>& whol
   return {whole, &recording};
 }
 
+/// Errors of a joint are in rad, and their keys say so.
 std::vector<std::pair<std::string, std::optional<double>>> metrics_of(const run::TrackedRun& run) {
   const run::Metrics& m = run.metrics;
-  if (!run.failure.empty()) return {};
-  return {{"rmse", m.rmse},
-          {"mae", m.mae},
-          {"largest_error", m.largest_error},
-          {"final_error", m.final_error},
+  if (!run.failure.empty() || !run.followed()) return {};
+  const std::string unit = run.joint ? "_rad" : "";
+  return {{"rmse" + unit, m.rmse},
+          {"mae" + unit, m.mae},
+          {"largest_error" + unit, m.largest_error},
+          {"final_error" + unit, m.final_error},
           {"time_lag_s", m.time_lag_s},
           {"overshoot", m.overshoot},
           {"settling_time_s", m.settling_time_s},
@@ -43,81 +44,35 @@ std::vector<std::pair<std::string, std::optional<double>>> metrics_of(const run:
           {"at_highest_current", m.at_highest_current}};
 }
 
-Result result_of(domain::Scenario scenario, run::Comparison comparison) {
+Result run_scenario(const Scenario& asked, unsigned threads, std::optional<std::uint64_t> seed,
+                    const py::object& progress) {
   struct Whole {
     domain::Scenario scenario;
-    run::Comparison comparison;
+    run::Comparison comparison{};
   };
-  const auto whole = std::make_shared<Whole>(Whole{std::move(scenario), std::move(comparison)});
-  const std::shared_ptr<const std::vector<double>> target(whole, &whole->comparison.target);
-  const auto channels = plant::channels_of(whole->scenario.rig, {});
+  const auto whole = std::make_shared<Whole>(Whole{asked.what});
+  if (seed) whole->scenario.seed = *seed;
+  whole->comparison =
+      long_work(progress, [&](const auto& hook) { return run::compare(whole->scenario, threads, hook); });
   Result result{{},
                 whole->comparison.warnings,
                 whole->comparison.unmet,
                 [whole] { return output::table_of(whole->scenario, whole->comparison); },
                 [whole] { return output::json_of(whole->scenario, whole->comparison); },
                 [whole] { return report::report_html(whole->scenario, whole->comparison); }};
-  for (const run::TrackedRun& run : whole->comparison.runs)
-    result.runs.push_back(std::make_shared<Simulated>(
-        Simulated{part_of(whole, run.recording), channels, output::file_stem(run), run.controller,
-                  run.failure, run.load_kg, target, metrics_of(run)}));
-  return result;
-}
-
-const std::vector<run::StampedRun>& list_of(const std::vector<run::StampedRun>& runs) {
-  return runs;
-}
-const std::vector<run::PairRun>& list_of(const run::PairRuns& all) {
-  return all.runs;
-}
-
-/// Of pairs, and of rides that followed stamps. `seen`: a run of theirs as Python sees it, given what keeps
-/// it.
-template <class What, class Runs, class Seen>
-Result driven(What what, Runs runs, std::vector<std::string> warnings, const Seen& seen) {
-  struct Whole {
-    What what;
-    Runs runs;
-    std::vector<std::string> warnings;
-  };
-  const auto whole = std::make_shared<Whole>(Whole{std::move(what), std::move(runs), std::move(warnings)});
-  Result result{{},
-                whole->warnings,
-                {},
-                [whole] { return output::table_of(whole->what, whole->runs, whole->warnings); },
-                [whole] { return output::json_of(whole->what, whole->runs, whole->warnings, false); },
-                [whole] { return report::report_html(whole->what, whole->runs, whole->warnings); }};
-  for (const auto& run : list_of(whole->runs)) {
-    const auto one = std::make_shared<Simulated>(
-        Simulated{part_of(whole, run.recording), plant::channels_of(whole->what.rig, run.recording.driven)});
-    one->failure = run.failure;
-    seen(run, *one);
-    result.runs.push_back(one);
+  for (const run::TrackedRun& run : whole->comparison.runs) {
+    std::shared_ptr<const std::vector<double>> target;
+    if (run.followed() && !run.joint) target = {whole, &whole->comparison.targets[run.target].values};
+    const auto channels = plant::channels_of(whole->scenario.rig, run.recording.driven);
+    result.runs.push_back(std::make_shared<Simulated>(Simulated{part_of(whole, run.recording), channels,
+                                                                run.name, run.controller, run.failure,
+                                                                run.load_kg, target, metrics_of(run)}));
   }
   return result;
-}
-
-Result run_pair(const domain::PairScenario& scenario, unsigned threads, const py::object& progress) {
-  auto runs = long_work(progress, [&](const auto& hook) { return run::run_pairs(scenario, threads, hook); });
-  auto warnings = run::warnings_of(runs.runs);
-  return driven(scenario, std::move(runs), std::move(warnings),
-                [](const run::PairRun& run, Simulated& one) { one.name = run.name; });
-}
-
-Result run_scenario(const Scenario& scenario, unsigned threads, std::optional<std::uint64_t> seed,
-                    const py::object& progress) {
-  if (const auto* of_pair = std::get_if<domain::PairScenario>(&scenario.what)) {
-    if (seed) throw py::value_error("the currents of a pair are given: nothing is left to a seed");
-    return run_pair(*of_pair, threads, progress);
-  }
-  domain::Scenario one = std::get<domain::Scenario>(scenario.what);
-  if (seed) one.seed = *seed;
-  auto comparison = long_work(progress, [&](const auto& hook) { return run::compare(one, threads, hook); });
-  return result_of(std::move(one), std::move(comparison));
 }
 
 /// In bar, as of data with a clock of their own.
-std::vector<run::Gap> gaps_of_ticked(const run::ReplayedRun& run) {
+std::vector<run::Gap> gaps_of(const run::ReplayedRun& run) {
   if (!run.failure.empty()) return {};
   const std::size_t rows = run.recording.samples.size();
   std::vector<run::Gap> gaps{{"contraction", "1", run.rmse, run.largest_error, run.mean_error, rows}};
@@ -128,29 +83,35 @@ std::vector<run::Gap> gaps_of_ticked(const run::ReplayedRun& run) {
   return gaps;
 }
 
-Result replay_ticked(domain::Dataset data, unsigned threads, const py::object& progress) {
+const std::vector<run::Gap>& gaps_of(const run::StampedRun& run) {
+  return run.gaps;
+}
+
+template <class Replay>
+Result replay_with(domain::Dataset data, const Replay& replay, unsigned threads, const py::object& progress) {
+  using Runs = decltype(replay(data, threads, run::ProgressHook()));
   struct Whole {
     domain::Dataset data;
-    std::vector<run::ReplayedRun> runs{};
+    Runs runs{};
     std::vector<std::string> warnings{};
   };
   const auto whole = std::make_shared<Whole>(Whole{std::move(data)});
   do_long(progress, [&](const auto& hook) {
-    whole->runs = run::replay(whole->data, threads, hook);
+    whole->runs = replay(whole->data, threads, hook);
     whole->warnings = tasks::warnings_of(whole->data, whole->runs);
   });
   Result result{{},
                 whole->warnings,
                 {},
-                [whole] { return output::table_of(whole->data, whole->runs); },
+                [whole] { return output::table_of(whole->data, whole->runs, whole->warnings); },
                 [whole] { return output::json_of(whole->data, whole->runs, whole->warnings); },
                 [whole] { return report::report_html(whole->data, whole->runs, whole->warnings); }};
-  for (const run::ReplayedRun& run : whole->runs) {
+  for (const auto& run : whole->runs) {
     const auto one = std::make_shared<Simulated>(Simulated{
         part_of(whole, run.recording), plant::channels_of(whole->data.rig, run.recording.driven), run.id});
     one->failure = run.failure;
     one->load_kg = run.load_kg;
-    one->gaps = gaps_of_ticked(run);
+    one->gaps = gaps_of(run);
     result.runs.push_back(one);
   }
   return result;
@@ -160,19 +121,8 @@ Result replay(const domain::Dataset& dataset, const py::object& rig, unsigned th
               const py::object& progress) {
   domain::Dataset data = dataset;
   if (!rig.is_none()) tasks::replace_rig(data, "rig", rig_of(rig).file);
-  if (!data.own_clock) return replay_ticked(std::move(data), threads, progress);
-  std::vector<std::string> warnings;
-  auto runs = long_work(progress, [&](const auto& hook) {
-    auto replayed = run::replay_stamped(data, threads, hook);
-    warnings = tasks::warnings_of(data, replayed);
-    return replayed;
-  });
-  return driven(std::move(data), std::move(runs), std::move(warnings),
-                [](const run::StampedRun& run, Simulated& one) {
-                  one.name = run.id;
-                  one.load_kg = run.load_kg;
-                  one.gaps = run.gaps;
-                });
+  return data.own_clock ? replay_with(std::move(data), run::replay_stamped, threads, progress)
+                        : replay_with(std::move(data), run::replay, threads, progress);
 }
 
 std::shared_ptr<Simulated> run_at(const Result& result, py::ssize_t index) {

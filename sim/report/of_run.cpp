@@ -1,9 +1,12 @@
-// The report of `run`: which controller follows best, rmse by load and controller, the runs of each load.
+// The report of `run`: which controller follows best, rmse by target, load and controller, and the runs that
+// are compared with each other, drawn together; of two muscles also those under given currents.
 #include <algorithm>
+#include <span>
 
 #include <fmt/format.h>
 
 #include <sim/domain/number.hpp>
+#include <sim/output/diagnosis_words.hpp>
 #include <sim/output/svg.hpp>
 #include <sim/output/table.hpp>
 #include <sim/report/bands.hpp>
@@ -17,33 +20,66 @@
 namespace mckibben::report {
 namespace {
 
+using domain::Scenario;
 using output::escaped;
+using run::Comparison, run::tasks_of;
 
-std::string loads_text(std::size_t count) {
-  return count == 1 ? "one load" : fmt::format("{} loads", count);
+bool of_pair(const Scenario& scenario) {
+  return scenario.rig.pair() != nullptr;
 }
 
-std::string sentence(const domain::Scenario& scenario, const run::Comparison& comparison) {
+/// What a controller's mean is over.
+std::string over_what(const Scenario& scenario) {
+  const std::size_t count = tasks_of(scenario).size();
+  return of_pair(scenario) ? fmt::format("{} runs", count) : fmt::format("{} loads", count);
+}
+
+/// An error in a sentence: of the height of a load, or of the angle of a joint.
+std::string full_error_html(double error, const Scenario& scenario) {
+  return of_pair(scenario) ? fmt::format("{:.2f}°", in_degrees * error)
+                           : full_length_html(error, scenario.rig, 2);
+}
+std::string error_html(double error, const Scenario& scenario) {
+  return of_pair(scenario) ? fmt::format("{:.2f}", in_degrees * error) : length_html(error, scenario.rig);
+}
+
+std::string sentence_of_currents(const run::TrackedRun& run) {
+  if (!run.failure.empty()) return fmt::format("{}: no result.", escaped(run.name));
+  const run::JointFigures& joint = *run.joint;
+  return fmt::format(
+      "{}: the joint turns between {}° and {}°, the cords carry {:.0f} to {:.0f} N and {:.0f} to {:.0f} N.",
+      escaped(run.name), output::rounded(in_degrees * joint.angle_rad.low, 1),
+      output::rounded(in_degrees * joint.angle_rad.high, 1), joint.cord_force_N.low, joint.cord_force_N.high,
+      joint.opposite_cord_force_N.low, joint.opposite_cord_force_N.high);
+}
+
+std::string sentence(const Scenario& scenario, const Comparison& comparison) {
   const run::ControllerSpread *best = nullptr, *worst = nullptr;
   for (const auto& one : comparison.spreads) {
     if (!one.rmse) continue;
     if (best == nullptr || one.rmse->mean < best->rmse->mean) best = &one;
     if (worst == nullptr || one.rmse->mean > worst->rmse->mean) worst = &one;
   }
-  if (best == nullptr) return "No run came to its end.";
-  const auto loads = scenario.loads_kg.size();
+  std::string text, given;
+  for (const auto& run : comparison.runs)
+    if (!run.followed()) given += ' ' + sentence_of_currents(run);
+  if (best == nullptr) return (scenario.controllers.empty() ? "" : "No run came to its end.") + given;
   const auto failed = std::count_if(comparison.runs.begin(), comparison.runs.end(),
                                     [](const auto& run) { return !run.failure.empty(); });
-  const std::string error = fmt::format(
-      "root mean square error {}{}", full_length_html(best->rmse->mean, scenario.rig, 2),
-      loads == 1 ? "" : ", the mean over " + (failed > 0 ? "the loads with a result" : loads_text(loads)));
+  const char* of_what = of_pair(scenario) ? "root mean square error of the angle" : "root mean square error";
+  const std::string over = failed == 0         ? over_what(scenario)
+                           : of_pair(scenario) ? "the runs with a result"
+                                               : "the loads with a result";
+  const std::string error = fmt::format("{} {}{}", of_what, full_error_html(best->rmse->mean, scenario),
+                                        tasks_of(scenario).size() == 1 ? "" : ", the mean over " + over);
   const std::string name = escaped(best->controller);
-  std::string text = fmt::format("{}: {}.", name, error);
-  if (best != worst)
+  if (best == worst)
+    text = fmt::format("{}: {}.", name, error);
+  else
     text = fmt::format("{} {}: {}. Of the {} controllers {} is the worst: {}.", name,
                        run::in_doubt(comparison, best->controller) ? "errs least" : "follows the target best",
                        error, comparison.spreads.size(), escaped(worst->controller),
-                       full_length_html(worst->rmse->mean, scenario.rig, 2));
+                       full_error_html(worst->rmse->mean, scenario));
   if (const std::string stood = run::limit_words(comparison, best->controller); !stood.empty())
     text += fmt::format(" {} {}.", name, stood);
   if (std::any_of(comparison.tuned.begin(), comparison.tuned.end(), [&](const auto& tuned) {
@@ -54,18 +90,43 @@ std::string sentence(const domain::Scenario& scenario, const run::Comparison& co
   if (!comparison.unmet.empty())
     text += fmt::format(" {} of the scenario's criteria {} not met.", comparison.unmet.size(),
                         comparison.unmet.size() == 1 ? "is" : "are");
-  return text;
+  return text + given;
 }
 
-/// rmse in mm, a row for each load; the smallest of a row is marked.
-std::string table(const domain::Scenario& scenario, const run::Comparison& comparison) {
-  const std::size_t columns = scenario.controllers.size();
-  std::string html = "<table><caption>Root mean square error, " + length_unit_html() +
-                     (columns > 1 ? "; the smallest of each row is bold" : "") +
-                     "</caption>\n<thead><tr><th scope='col'>load</th>";
+std::string name_of(const Scenario& scenario, const run::Task& task) {
+  const std::string load = domain::write_number(task.load_kg) + " kg";
+  if (!of_pair(scenario)) return load;
+  const std::string& target = scenario.targets[task.target].name;
+  return scenario.loads_kg.size() == 1 && task.load_kg == 0.0
+             ? target
+             : fmt::format("{}, {} in the hand", target, load);
+}
+
+/// The runs of one target with one load, in the order of the controllers.
+std::span<const run::TrackedRun> runs_of(const Scenario& scenario, const Comparison& comparison,
+                                         const run::Task& task) {
+  return std::span(comparison.runs).subspan(task.first, scenario.controllers.size());
+}
+
+bool is_drawn(std::span<const run::TrackedRun> runs) {
+  return std::ranges::any_of(runs, [](const auto& run) { return !run.recording.samples.empty(); });
+}
+
+std::string heads(const Scenario& scenario) {
+  std::string html = fmt::format("<th scope='col'>{}</th>", of_pair(scenario) ? "target" : "load");
   for (const auto& one : scenario.controllers)
     html += "<th scope='col'>" + escaped(controllers::name_of(one)) + "</th>";
-  html += "</tr></thead>\n<tbody>\n";
+  return html;
+}
+
+/// Errors, a row for each target and load; the smallest of a row is marked.
+std::string table(const Scenario& scenario, const Comparison& comparison) {
+  const std::size_t columns = scenario.controllers.size();
+  if (columns == 0) return "";
+  std::string html = fmt::format(
+      "<table><caption>Root mean square error{}{}</caption>\n<thead><tr>{}</tr></thead>\n<tbody>\n",
+      of_pair(scenario) ? " of the joint angle, deg" : ", " + length_unit_html(),
+      columns > 1 ? "; the smallest of each row is bold" : "", heads(scenario));
   bool marked = false;
   const auto row = [&](const std::string& head, const auto& rmse_of, const auto& mark_of) {
     std::optional<double> least;
@@ -77,29 +138,27 @@ std::string table(const domain::Scenario& scenario, const run::Comparison& compa
       const std::string mark = mark_of(c);
       marked = marked || !mark.empty();
       html += rmse ? fmt::format("<td{}>{}{}</td>", rmse == least && columns > 1 ? " class='best'" : "",
-                                 length_html(*rmse, scenario.rig), mark)
+                                 error_html(*rmse, scenario), mark)
                    : "<td>no result</td>";
     }
     html += "</tr>\n";
   };
-  std::size_t group = 0;  // loads without any row have none
-  for (std::size_t r = 0; r < scenario.loads_kg.size(); ++r) {
-    const auto run = [&](std::size_t c) -> const run::TrackedRun& {
-      return comparison.runs[r * columns + c];
-    };
-    bool shown = false;
-    for (std::size_t c = 0; c < columns; ++c) shown = shown || !run(c).recording.samples.empty();
-    const std::string load = domain::write_number(scenario.loads_kg[r]) + " kg";
+  std::size_t group = 0;  // tasks without any row have none
+  const std::vector<run::Task> tasks = tasks_of(scenario);
+  for (const run::Task& task : tasks) {
+    const auto runs = runs_of(scenario, comparison, task);
+    const bool shown = is_drawn(runs);
+    const std::string name = name_of(scenario, task);
     row(
-        shown ? fmt::format("<tr data-group='{}'><th scope='row'>{}</th>", group, link_html(group, load))
-              : fmt::format("<tr><th scope='row'>{}</th>", load),
+        shown ? fmt::format("<tr data-group='{}'><th scope='row'>{}</th>", group, link_html(group, name))
+              : fmt::format("<tr><th scope='row'>{}</th>", escaped(name)),
         [&](std::size_t c) {
-          return run(c).failure.empty() ? std::optional(run(c).metrics.rmse) : std::nullopt;
+          return runs[c].failure.empty() ? std::optional(runs[c].metrics.rmse) : std::nullopt;
         },
-        [&](std::size_t c) { return run(c).failure.empty() ? output::extrapolation_mark(run(c)) : ""; });
+        [&](std::size_t c) { return runs[c].failure.empty() ? output::extrapolation_mark(runs[c]) : ""; });
     if (shown) ++group;
   }
-  if (scenario.loads_kg.size() > 1)
+  if (tasks.size() > 1)
     row(
         "<tr class='mean'><th scope='row'>mean</th>",
         [&](std::size_t c) {
@@ -116,17 +175,13 @@ std::string table(const domain::Scenario& scenario, const run::Comparison& compa
 }
 
 /// How long each run was at a limit of its current; empty where none was for 1 % of its time.
-std::string limits_table(const domain::Scenario& scenario, const run::Comparison& comparison) {
-  const std::size_t columns = scenario.controllers.size();
-  std::string head, rows;
-  for (const auto& one : scenario.controllers)
-    head += "<th scope='col'>" + escaped(controllers::name_of(one)) + "</th>";
+std::string limits_table(const Scenario& scenario, const Comparison& comparison) {
+  std::string rows;
   double most = 0.0;
-  for (std::size_t r = 0; r < scenario.loads_kg.size(); ++r) {
-    rows += "<tr><th scope='row'>" + domain::write_number(scenario.loads_kg[r]) + " kg</th>";
-    for (std::size_t c = 0; c < columns; ++c) {
-      const run::TrackedRun& run = comparison.runs[r * columns + c];
-      const bool told = run.limits && run.failure.empty();
+  for (const run::Task& task : tasks_of(scenario)) {
+    rows += "<tr><th scope='row'>" + escaped(name_of(scenario, task)) + "</th>";
+    for (const run::TrackedRun& run : runs_of(scenario, comparison, task)) {
+      const bool told = (run.limits || run.joint) && run.failure.empty();
       const double share = told ? run::share_at_limit(run) : 0.0;
       most = std::max(most, share);
       rows += told ? fmt::format("<td>{:.0f}</td>", 100.0 * share) : "<td>-</td>";
@@ -137,54 +192,92 @@ std::string limits_table(const domain::Scenario& scenario, const run::Comparison
   return fmt::format(
       "<details class='limits'><summary>Controllers stood at a limit of their current for up to {:.0f} % of "
       "the time</summary>\n<table><caption>Share of the time at the lowest or highest current, in "
-      "%</caption>\n<thead><tr><th scope='col'>load</th>{}</tr></thead>\n<tbody>\n{}</tbody></table>\n"
+      "%</caption>\n<thead><tr>{}</tr></thead>\n<tbody>\n{}</tbody></table>\n"
       "</details>\n",
-      100.0 * most, head, rows);
+      100.0 * most, heads(scenario), rows);
 }
 
-Group group_of(const domain::Scenario& scenario, const run::Comparison& comparison, std::size_t r) {
-  const std::size_t columns = scenario.controllers.size();
-  const double load_kg = scenario.loads_kg[r];
-  const plant::Plant plant(scenario.rig, load_kg);
-  const auto* target = &comparison.target;
-  Group group{.name = domain::write_number(load_kg) + " kg", .load_kg = load_kg, .ticks = target->size()};
-  group.given = {{"given_contraction_ratio", [target](std::size_t k) { return (*target)[k]; }},
-                 {"weight", [weight_N = plant.weight_N()](std::size_t) { return weight_N; }}};
-  for (std::size_t c = 0; c < columns; ++c) {
-    const run::TrackedRun& run = comparison.runs[r * columns + c];
-    const auto* rows = &run.recording.samples;
+Run shown(const Scenario& scenario, const run::TrackedRun& run, const std::string& name, std::size_t style) {
+  return {.name = name,
+          .style = style,
+          .ticks = run.recording.samples.size(),
+          .quantities = quantities_of(run.recording, scenario.rig)};
+}
+
+Group group_of(const Scenario& scenario, const Comparison& comparison, const run::Task& task) {
+  const run::Wanted& wanted = comparison.targets[task.target];
+  const auto* target = &wanted.values;
+  const bool pair = of_pair(scenario);
+  Group group{.name = name_of(scenario, task), .load_kg = task.load_kg, .ticks = target->size()};
+  if (pair) {
+    group.given.push_back({"given_angle", [target](std::size_t k) { return in_degrees * (*target)[k]; }});
+    if (const auto* stiffness = &wanted.stiffness_N_m_per_rad; !stiffness->empty())
+      group.given.push_back({"given_stiffness", [stiffness](std::size_t k) { return (*stiffness)[k]; }});
+  } else {
+    const double weight_N = plant::Plant(scenario.rig, task.load_kg).weight_N();
+    group.given = {{"given_contraction_ratio", [target](std::size_t k) { return (*target)[k]; }},
+                   {"weight", [weight_N](std::size_t) { return weight_N; }}};
+  }
+  const auto runs = runs_of(scenario, comparison, task);
+  for (std::size_t c = 0; c < runs.size(); ++c) {
+    const auto* rows = &runs[c].recording.samples;
     if (rows->empty()) continue;
-    Run shown{.name = run.controller, .style = c, .ticks = rows->size()};
-    shown.quantities = quantities_of(run.recording, scenario.rig);
-    shown.quantities.push_back({"error", [rows, target](std::size_t k) {
+    Run run = shown(scenario, runs[c], runs[c].controller, c);
+    if (pair)
+      run.quantities.push_back({"error", [rows, target](std::size_t k) {
+                                  return in_degrees * ((*rows)[k].angle_rad - (*target)[k]);
+                                }});
+    else
+      run.quantities.push_back({"error", [rows, target](std::size_t k) {
                                   return (*rows)[k].state.joint.contraction_ratio - (*target)[k];
                                 }});
-    group.runs.push_back(std::move(shown));
+    group.runs.push_back(std::move(run));
   }
   return group;
 }
 
+PlotsOf plots_for(const Scenario& scenario) {
+  if (!of_pair(scenario))
+    return {.title = "Target and contraction", .given = "Target", .error = "Error: contraction less target"};
+  const bool targets = !scenario.targets.empty();
+  return {.driven = {.pair = true},
+          .key = "angle",
+          .title = "Joint angle",
+          .given = targets ? "target" : "",
+          .error = targets ? "Joint angle: angle less target" : ""};
+}
+
 }  // namespace
 
-std::string report_html(const domain::Scenario& scenario, const run::Comparison& comparison) {
+std::string report_html(const Scenario& scenario, const Comparison& comparison) {
+  const bool pair = of_pair(scenario);
+  const std::size_t loads = scenario.loads_kg.size();
+  const std::string of_what = pair         ? "two muscles on one wheel"
+                              : loads == 1 ? "one load"
+                                           : fmt::format("{} loads", loads);
   Contents contents{.title = scenario.name,
-                    .about = fmt::format("Simulated: {}, {:g} s each", loads_text(scenario.loads_kg.size()),
-                                         scenario.duration_s),
+                    .about = fmt::format("Simulated: {}, {:g} s each", of_what, scenario.duration_s),
                     .warnings = comparison.warnings,
                     .sentence = sentence(scenario, comparison),
                     .table = table(scenario, comparison) + limits_table(scenario, comparison),
                     .details = output::table_of(scenario, comparison),
                     .beside = std::string(beside_runs),
                     .chapters = {robustness(scenario, comparison)},
+                    .lengths = !pair,
                     .rig = scenario.rig,
-                    .gauge = scenario.rig.gauge.fitted,
-                    .plots = plots_of(scenario.rig, {.title = "Target and contraction",
-                                                     .given = "Target",
-                                                     .error = "Error: contraction less target"}),
-                    .loops = loops_of({})};
-  for (std::size_t r = 0; r < scenario.loads_kg.size(); ++r)
-    if (auto group = group_of(scenario, comparison, r); !group.runs.empty())
-      contents.groups.push_back(std::move(group));
+                    .mechanics = scenario.rig.mechanics,
+                    .gauge = !pair && scenario.rig.gauge.fitted,
+                    .plots = plots_of(scenario.rig, plots_for(scenario)),
+                    .loops = loops_of({.pair = pair})};
+  for (const run::Task& task : tasks_of(scenario))
+    if (is_drawn(runs_of(scenario, comparison, task)))
+      contents.groups.push_back(group_of(scenario, comparison, task));
+  for (const run::TrackedRun& run : comparison.runs) {
+    if (run.followed() || run.recording.samples.empty()) continue;
+    Group group{.name = run.name, .ticks = run.recording.samples.size()};
+    group.runs.push_back(shown(scenario, run, "simulated", 0));
+    contents.groups.push_back(std::move(group));
+  }
   return html_of(contents);
 }
 

@@ -13,23 +13,18 @@
 #include <sim/run/compare.hpp>
 #include <sim/run/error_map.hpp>
 #include <sim/run/gaps.hpp>
-#include <sim/run/pair_runs.hpp>
 #include <sim/run/replay.hpp>
 #include <sim/thesis/calibrate.hpp>
 #include <sim/thesis/figures.hpp>
 
 namespace mckibben::report {
 
-/// Every load under every controller.
+/// Every target with every load under every controller, and given currents.
 std::string report_html(const domain::Scenario& scenario, const run::Comparison& comparison);
 
 /// Measured runs and their simulation.
 std::string report_html(const domain::Dataset& dataset, const std::vector<run::ReplayedRun>& runs,
                         const std::vector<std::string>& warnings = {});
-
-/// Two muscles under given currents and under controllers.
-std::string report_html(const domain::PairScenario& scenario, const run::PairRuns& all,
-                        const std::vector<std::string>& warnings);
 
 /// Measured runs with a clock of their own, and their simulation.
 std::string report_html(const domain::Dataset& dataset, const std::vector<run::StampedRun>& runs,

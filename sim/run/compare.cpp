@@ -1,4 +1,4 @@
-// Loads x controllers; see the header.
+// Targets x loads x controllers; see the header.
 #include <algorithm>
 #include <atomic>
 #include <cmath>
@@ -20,6 +20,7 @@
 #include <sim/run/remarks.hpp>
 #include <sim/run/simulate.hpp>
 #include <sim/run/track.hpp>
+#include <sim/run/two_currents.hpp>
 #include <sim/run/warnings.hpp>
 
 namespace mckibben::run {
@@ -39,9 +40,8 @@ class Comparing {
         progress_(progress),
         sharing_(sharing),
         briefing_(briefing_of(scenario)),
-        settings_(briefing_.settings),
-        knowledge_(briefing_.knowledge) {
-    result_.target = knowledge_.target;
+        settings_(briefing_.settings) {
+    result_.targets = briefing_.targets;
   }
 
   Comparison operator()() {
@@ -58,7 +58,7 @@ class Comparing {
   void tune_all() {
     std::vector<controllers::Settings*> open;
     for (auto& settings : settings_)
-      if (const auto* terms = controllers::pid_terms(settings); terms && terms->needs_tuning())
+      if (const auto* terms = controllers::feedback_of(settings); terms && terms->needs_tuning())
         open.push_back(&settings);
     if (open.empty()) return;
     const std::size_t most = open.size() * static_cast<std::size_t>(TuningOptions{}.evaluations);
@@ -66,25 +66,35 @@ class Comparing {
     progress_("tuning PID", 0, most);
     const auto tried = [&] { progress_("tuning PID", ++evaluations, most); };
     if (!sharing_) {
-      result_.tuned = tune_controllers(scenario_, knowledge_, open, threads_, tried);
+      result_.tuned = tune_controllers(scenario_, briefing_, open, threads_, tried);
       return;
     }
     const auto job = [&](std::size_t i) {
-      return packed(tune_controllers(scenario_, knowledge_, std::span(&open[i], 1), 1, tried).front());
+      return packed(tune_controllers(scenario_, briefing_, std::span(&open[i], 1), 1, tried).front());
     };
     result_.tuned.resize(open.size());
     sharing_("tuned", open.size(), true, job, [&](std::size_t i, const std::string& bytes) {
       result_.tuned[i] = unpacked_tuning(bytes);
-      if (result_.tuned[i].failure.empty()) set_gains(*open[i], result_.tuned[i].tuned.gains);
+      if (result_.tuned[i].failure.empty()) set_gains(*open[i], result_.tuned[i].tuned.gains, scenario_.rig);
     });
   }
 
   void run_all() {
-    const std::size_t columns = settings_.size(), total = columns * scenario_.loads_kg.size();
-    for (std::size_t i = 0; i < total; ++i)
-      result_.runs.push_back({.load_kg = scenario_.loads_kg[i / columns],
-                              .controller = controllers::name_of(settings_[i % columns]),
-                              .failure = not_begun});
+    for (const auto& currents : scenario_.currents)
+      result_.runs.push_back(
+          {.controller = "", .failure = not_begun, .id = currents.name, .name = currents.name});
+    for (const auto& [target, load_kg, first] : tasks_of(scenario_))
+      for (const auto& settings : settings_) {
+        const std::string& controller = controllers::name_of(settings);
+        const std::string name = domain::name_of_run(scenario_, target, load_kg, controller);
+        result_.runs.push_back({.load_kg = load_kg,
+                                .controller = controller,
+                                .failure = not_begun,
+                                .id = scenario_.rig.pair() != nullptr ? name : id_of(controller, load_kg),
+                                .name = name,
+                                .target = target});
+      }
+    const std::size_t total = result_.runs.size();
     progress_("simulating", 0, total);
     try {
       if (sharing_)
@@ -118,9 +128,9 @@ class Comparing {
       const auto runs = lacks_gains(result_.runs[i])
                             ? std::vector<DrawnRun>(static_cast<std::size_t>(scenario_.robustness.rigs))
                             : on_drawn_rigs(
-                                  scenario_, result_.target, variation, load_kg,
-                                  limits_of(settings, knowledge_, scenario_.rig),
-                                  [&] { return briefing_.make(settings, load_kg); }, threads);
+                                  scenario_, result_.targets.front(), variation, load_kg,
+                                  limits_of(settings, briefing_.knowledge.front(), scenario_.rig),
+                                  [&] { return briefing_.make(settings, 0, load_kg); }, threads);
       return std::string(reinterpret_cast<const char*>(runs.data()), runs.size() * sizeof(DrawnRun));
     };
     const auto take = [&](std::size_t i, const std::string& bytes) {
@@ -142,7 +152,7 @@ class Comparing {
   }
 
   const controllers::Settings& settings_of(std::size_t run) const {
-    return settings_[run % settings_.size()];
+    return settings_[(run - scenario_.currents.size()) % settings_.size()];
   }
 
   void simulate_runs(std::size_t first, std::size_t count, unsigned threads, const ProgressHook& progress) {
@@ -153,15 +163,21 @@ class Comparing {
     simulate_all(
         wanted.size(), threads,
         [&](std::size_t i) {
-          const std::size_t run = wanted[i];
-          const double load_kg = result_.runs[run].load_kg;
-          return Order{plan_of(scenario_, load_kg, run + 1), briefing_.make(settings_of(run), load_kg)};
+          const std::size_t at = wanted[i];
+          return Order{plan_of(scenario_, result_.runs[at].load_kg, at + 1), controller_of(at)};
         },
         [&](std::size_t i, Recording recording) {
           result_.runs[wanted[i]].recording = std::move(recording);
-          measure(result_.runs[wanted[i]], settings_of(wanted[i]));
+          measure(wanted[i]);
           progress("simulating", ++done, count);
         });
+  }
+
+  std::unique_ptr<controllers::Controller> controller_of(std::size_t at) const {
+    const TrackedRun& run = result_.runs[at];
+    if (run.followed()) return briefing_.make(settings_of(at), run.target, run.load_kg);
+    const domain::TwoCurrents& given = scenario_.currents[at];
+    return play(given.current_1, given.current_2, scenario_.rig);
   }
 
   bool lacks_gains(TrackedRun& run) const {
@@ -173,22 +189,29 @@ class Comparing {
     return false;
   }
 
-  void measure(TrackedRun& run, const controllers::Settings& settings) const {
+  void measure(std::size_t at) {
+    TrackedRun& run = result_.runs[at];
     run.failure = run.recording.failure;
+    const Wanted* wanted = run.followed() ? &result_.targets[run.target] : nullptr;
+    if (scenario_.rig.pair() != nullptr && !run.recording.samples.empty())
+      run.joint = joint_figures(scenario_.rig, run.recording, wanted);
+    if (wanted == nullptr) return;
+    const controllers::Settings& settings = settings_of(at);
     if (controllers::calibrated(settings)) run.unreachable = unreachable_of(run, settings);
     if (!run.failure.empty()) return;
-    run.limits = limits_of(settings, knowledge_, scenario_.rig);
-    run.metrics = metrics_of(scenario_, result_.target, run.recording, run.limits);
+    run.limits = limits_of(settings, briefing_.knowledge[run.target], scenario_.rig);
+    run.metrics = metrics_of(scenario_, *wanted, run.recording, run.limits);
   }
 
   Unreachable unreachable_of(const TrackedRun& run, const controllers::Settings& settings) const {
-    const controllers::Reach& reach = knowledge_.reach;
+    const controllers::Knowledge& known = briefing_.knowledge[run.target];
+    const controllers::Reach& reach = known.reach;
     const controllers::ReachOfLoad limits = reach.at_load(run.load_kg);
     const auto* open = std::get_if<controllers::OpenLoopSettings>(&settings);
     Unreachable found =
         open && open->mode == controllers::OpenLoopMode::triangle
-            ? unreachable(open->to.ratio(knowledge_.model.rest_length_m), open->speed_per_s, reach, limits)
-            : unreachable(result_.target, knowledge_.tick_s, reach, limits, knowledge_.contraction_per_count);
+            ? unreachable(open->to.ratio(known.model.rest_length_m), open->speed_per_s, reach, limits)
+            : unreachable(known.target, known.tick_s, reach, limits, known.contraction_per_count);
     found.ticks_without_current_speed =
         static_cast<std::size_t>(controllers::value_of(run.recording.findings, "ticks_unreachable"));
     return found;
@@ -197,7 +220,7 @@ class Comparing {
   void warn() {
     std::vector<std::string> all;
     for (const auto& run : result_.runs) {
-      const std::string id = id_of(run.controller, run.load_kg);
+      const std::string& id = run.id;
       if (run.unreachable.any()) all.push_back(warning_of_run(id, run.unreachable.text()));
       if (const std::string stood = limit_warning(run, scenario_.rig); !stood.empty())
         all.push_back(warning_of_run(id, stood));
@@ -222,6 +245,7 @@ class Comparing {
   }
 
   void judge() {
+    const char* unit = scenario_.rig.pair() != nullptr ? " rad" : "";
     for (const auto& criterion : scenario_.criteria) {
       const auto concerns = [&](const std::string& name) {
         return criterion.controller.empty() || criterion.controller == name;
@@ -230,13 +254,12 @@ class Comparing {
                              std::optional<double> limit) {
         if (limit && !(value < *limit))
           result_.unmet.push_back(
-              fmt::format("{}: {} = {:.4g} is not below {:.4g}", who, what, value, *limit));
+              fmt::format("{}: {} = {:.4g}{} is not below {:.4g}{}", who, what, value, unit, *limit, unit));
       };
       for (const auto& run : result_.runs) {
-        if (!concerns(run.controller) || !run.failure.empty()) continue;
-        const auto who = id_of(run.controller, run.load_kg);
-        check(who, "rmse", run.metrics.rmse, criterion.rmse_below);
-        check(who, "largest_error", run.metrics.largest_error, criterion.largest_error_below);
+        if (!run.followed() || !concerns(run.controller) || !run.failure.empty()) continue;
+        check(run.id, "rmse", run.metrics.rmse, criterion.rmse_below);
+        check(run.id, "largest_error", run.metrics.largest_error, criterion.largest_error_below);
       }
       for (const auto& row : result_.spreads)
         if (concerns(row.controller) && row.rmse)
@@ -250,11 +273,19 @@ class Comparing {
   const Sharing& sharing_;
   Briefing briefing_;
   std::vector<controllers::Settings>& settings_;
-  const controllers::Knowledge& knowledge_;
   Comparison result_;
 };
 
 }  // namespace
+
+std::vector<Task> tasks_of(const Scenario& scenario) {
+  std::vector<Task> all;
+  const std::size_t given = scenario.currents.size(), controllers = scenario.controllers.size();
+  for (std::size_t t = 0; t < (scenario.rig.pair() != nullptr ? scenario.targets.size() : 1); ++t)
+    for (const double load_kg : scenario.loads_kg)
+      all.push_back({t, load_kg, given + all.size() * controllers});
+  return all;
+}
 
 Comparison compare(const Scenario& scenario, unsigned threads, const ProgressHook& progress,
                    const Sharing& sharing) {

@@ -1,4 +1,5 @@
-// The main job: every load of a scenario under every controller, and how well each followed the target.
+// The main job: every target of a scenario with every load under every controller, and how well each was
+// followed; of a pair also the runs under given currents.
 #pragma once
 
 #include <functional>
@@ -11,32 +12,39 @@
 #include <sim/run/metrics.hpp>
 #include <sim/run/recording.hpp>
 #include <sim/run/robustness.hpp>
+#include <sim/run/track.hpp>
 #include <sim/run/tune_controller.hpp>
 #include <sim/run/unreachable.hpp>
 
 namespace mckibben::run {
 
-/// One load under one controller.
+/// One load under one controller, or two muscles under given currents.
 struct TrackedRun {
   double load_kg = 0.0;
-  std::string controller;
+  std::string controller;  ///< empty under given currents
   Recording recording{};
   Metrics metrics{};
   std::string failure{};      ///< why there is no result; empty if there is one
   Unreachable unreachable{};  ///< what the target asks in vain of a controller that plans its way
   std::optional<controllers::CurrentRange> limits{};  ///< of its current, as the DAC gives them
+  std::string id{};                                   ///< what warnings call it
+  std::string name{};                                 ///< of its files, without ending
+  std::size_t target = 0;                             ///< which of the comparison's
+  std::optional<JointFigures> joint{};                ///< of a pair, if there is a row
+
+  bool followed() const { return !controller.empty(); }
 };
 
-/// One controller over all loads that did not fail; absent if none of its runs ended well.
+/// One controller over all runs that did not fail; absent if none of its runs ended well.
 struct ControllerSpread {
   std::string controller;
   std::optional<Spread> rmse{};
 };
 
 struct Comparison {
-  std::vector<double> target;  ///< contraction ratio at each tick
+  std::vector<Wanted> targets;
   std::vector<TunedController> tuned;
-  std::vector<TrackedRun> runs;  ///< loads in order, for each all controllers in order
+  std::vector<TrackedRun> runs;  ///< given currents; targets in order, for each loads, for each controllers
   std::vector<ControllerSpread> spreads;
   std::vector<RobustRow> robustness{};  ///< as `runs`; empty if no rigs are drawn
   std::vector<std::string> drawn{};     ///< numbers of the rig that were, by path
@@ -45,6 +53,14 @@ struct Comparison {
   std::vector<std::string>
       warnings;  ///< targets out of reach and doubtful runs: scenario, load, controllers, why
 };
+
+/// One target with one load: its runs, one of each controller, begin at `first` of a comparison's.
+struct Task {
+  std::size_t target = 0;
+  double load_kg = 0.0;
+  std::size_t first = 0;
+};
+std::vector<Task> tasks_of(const domain::Scenario& scenario);
 
 /// Tunes what is to be tuned, runs everything on `threads` threads (0: all the machine has) and measures. The
 /// result does not depend on the number of threads. With `sharing`, other processes help, and the result is

@@ -114,6 +114,10 @@ void visit_members(Visitor& visit, Of& of) {
     visit(of.failure);
     visit(of.unreachable);
     visit(of.limits);
+    visit(of.id);
+    visit(of.name);
+    visit(of.target);
+    visit(of.joint);
   } else {
     visit(of.controller);
     visit(of.load_kg);

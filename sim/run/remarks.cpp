@@ -51,6 +51,7 @@ std::string limit_warning(const Metrics& metrics, const std::optional<controller
 }  // namespace
 
 double share_at_limit(const TrackedRun& run) {
+  if (run.joint) return run.joint->at_limit;
   return run.metrics.at_lowest_current.value_or(0.0) + run.metrics.at_highest_current.value_or(0.0);
 }
 
@@ -76,6 +77,12 @@ std::string limit_words(const Comparison& comparison, std::string_view controlle
 }
 
 std::string limit_warning(const TrackedRun& run, const plant::Rig& rig) {
+  if (run.joint && run.followed() && run.failure.empty() && run.joint->at_limit >= mostly)
+    return fmt::format(
+        "some current stood at an end of what its valve answers to for {:.0f} % of the time: the stiffness, "
+        "or "
+        "co_contraction, leaves the angle nothing, or both ask for more than the valves have",
+        100.0 * run.joint->at_limit);
   return limit_warning(run.metrics, run.limits, rig);
 }
 

@@ -13,7 +13,8 @@ namespace mckibben::run {
 /// From this share of the time on at a limit, a run says more of the limit than of its controller.
 inline constexpr double mostly = 0.5;
 
-/// Share of a run's ticks at the lowest or highest current of its controller; 0 where it has no limits.
+/// Share of a run's ticks at the lowest or highest current of its controller, of a pair at an end of what
+/// either valve answers to; 0 where it has no limits.
 double share_at_limit(const TrackedRun& run);
 
 /// How often a controller stood at a limit, over its runs: "stood at its lowest current, 4 mA, for 7 % of the

@@ -77,16 +77,14 @@ class RiddenModel final : public controllers::RigModel {
 
 }  // namespace
 
-controllers::ModelMaker model_of(const plant::Rig& rig, const solver::Settings& engine, double tick_s) {
+controllers::ModelMaker model_of(const domain::RigFile& rig, double tick_s, double hand_m) {
   return [=](double load_kg, const controllers::Command& rest) -> std::unique_ptr<controllers::RigModel> {
-    return std::make_unique<RiddenModel>(rig, ride::Ride(ride::Hanging{rig, load_kg}, engine), rest, tick_s);
-  };
-}
-
-controllers::ModelMaker model_of_pair(const domain::RigFile& rig, double hand_m, double tick_s) {
-  return [=](double load_kg, const controllers::Command& rest) -> std::unique_ptr<controllers::RigModel> {
+    const auto model = [&](ride::Ride ride) {
+      return std::make_unique<RiddenModel>(rig, std::move(ride), rest, tick_s);
+    };
+    if (rig.pair() == nullptr) return model(ride::Ride(ride::Hanging{rig, load_kg}, rig.integrator));
     const plant::Pair pair = plant::with_load_in_hand(*rig.pair(), load_kg, hand_m);
-    return std::make_unique<RiddenModel>(rig, ride::Ride(paired(rig, pair), rig.integrator), rest, tick_s);
+    return model(ride::Ride(paired(rig, pair), rig.integrator));
   };
 }
 

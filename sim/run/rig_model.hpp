@@ -2,15 +2,12 @@
 #pragma once
 
 #include <controllers/rig_model.hpp>
-#include <plant/rig.hpp>
-#include <plant/solver.hpp>
 #include <sim/domain/rig_file.hpp>
 
 namespace mckibben::run {
 
-/// Models of `rig` that are stepped in ticks of `tick_s`, which are those of the rig that is controlled.
-controllers::ModelMaker model_of(const plant::Rig& rig, const solver::Settings& engine, double tick_s);
-/// The same of a pair that holds its load in a hand so far from the axis [m].
-controllers::ModelMaker model_of_pair(const domain::RigFile& rig, double hand_m, double tick_s);
+/// Models of `rig` that are stepped in ticks of `tick_s`, which are those of the rig that is controlled. A
+/// pair holds its load in a hand so far from the axis.
+controllers::ModelMaker model_of(const domain::RigFile& rig, double tick_s, double hand_m = 0.0);
 
 }  // namespace mckibben::run

@@ -70,26 +70,27 @@ bool cycles(const Followed& run) {
 
 namespace {
 
-DrawnRun outcome(const domain::Scenario& scenario, const std::vector<double>& target,
-                 const Recording& recording, const std::optional<controllers::CurrentRange>& limits) {
+DrawnRun outcome(const domain::Scenario& scenario, const Wanted& target, const Recording& recording,
+                 const std::optional<controllers::CurrentRange>& limits) {
   if (!recording.failure.empty()) return {};
   const Metrics metrics = metrics_of(scenario, target, recording, limits);
   const double at_limit = metrics.at_lowest_current.value_or(0.0) + metrics.at_highest_current.value_or(0.0);
   std::vector<double> contraction;
   contraction.reserve(recording.samples.size());
   for (const Sample& sample : recording.samples) contraction.push_back(sample.state.joint.contraction_ratio);
-  return {
-      .ended = true,
-      .rmse = metrics.rmse,
-      .cycles = cycles(
-          {.target = target, .contraction = contraction, .current_mA = {}, .tick_s = scenario.rig.tick_s}),
-      .saturated = at_limit > saturated_share,
-      .over_contracted = recording.largest_contraction_ratio > plant::risky_contraction_ratio};
+  return {.ended = true,
+          .rmse = metrics.rmse,
+          .cycles = cycles({.target = target.values,
+                            .contraction = contraction,
+                            .current_mA = {},
+                            .tick_s = scenario.rig.tick_s}),
+          .saturated = at_limit > saturated_share,
+          .over_contracted = recording.largest_contraction_ratio > plant::risky_contraction_ratio};
 }
 
 }  // namespace
 
-std::vector<DrawnRun> on_drawn_rigs(const domain::Scenario& scenario, const std::vector<double>& target,
+std::vector<DrawnRun> on_drawn_rigs(const domain::Scenario& scenario, const Wanted& target,
                                     const domain::Variation& variation, double load_kg,
                                     const std::optional<controllers::CurrentRange>& limits,
                                     const std::function<std::unique_ptr<controllers::Controller>()>& make,

@@ -14,6 +14,7 @@
 #include <sim/domain/variation.hpp>
 #include <sim/run/batch.hpp>
 #include <sim/run/metrics.hpp>
+#include <sim/run/track.hpp>
 
 namespace mckibben::run {
 
@@ -56,7 +57,7 @@ bool cycles(const Followed& run);
 /// One load under the controllers that `make` makes, on each of the scenario's drawn rigs. What is drawn
 /// depends on the scenario's seed and on nothing else: all controllers meet the same rigs, and the same noise
 /// on each. Throws Interrupted.
-std::vector<DrawnRun> on_drawn_rigs(const domain::Scenario& scenario, const std::vector<double>& target,
+std::vector<DrawnRun> on_drawn_rigs(const domain::Scenario& scenario, const Wanted& target,
                                     const domain::Variation& variation, double load_kg,
                                     const std::optional<controllers::CurrentRange>& limits,
                                     const std::function<std::unique_ptr<controllers::Controller>()>& make,

@@ -1,20 +1,77 @@
-// Plan and metrics; see the header.
+// See the header.
+#include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include <plant/instruments.hpp>
+#include <sim/run/gaps.hpp>
 #include <sim/run/track.hpp>
 
 namespace mckibben::run {
+namespace {
+
+std::size_t ticks_of(const domain::Scenario& scenario) {
+  return static_cast<std::size_t>(std::llround(scenario.duration_s / scenario.rig.tick_s));
+}
+
+double mean_of(const std::vector<double>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+/// Whether a current is at an end of what the valve answers to, as the DAC gives it.
+bool is_at_end(double current_mA, const plant::Rig& rig) {
+  return current_mA <= plant::dac_output_mA(rig.dac, rig.valve.zero_current_mA) ||
+         current_mA >= plant::dac_output_mA(rig.dac, rig.valve.span_current_mA);
+}
+
+}  // namespace
+
+double per_ratio(const domain::RigFile& rig) {
+  return rig.pair() != nullptr ? rig.muscle.rest_length_m / rig.joint.wheel_radius_m : 1.0;
+}
+
+std::vector<Wanted> wanted_of(const domain::Scenario& scenario) {
+  const domain::RigFile& rig = scenario.rig;
+  const std::size_t ticks = ticks_of(scenario);
+  if (rig.pair() == nullptr) {
+    const auto ratios = controllers::sample(scenario.target, ticks, rig.tick_s, rig.muscle.rest_length_m);
+    return {{"", ratios, ratios, {}, controllers::last_change_s(scenario.target)}};
+  }
+  std::vector<Wanted> all;
+  for (const domain::JointTarget& target : scenario.targets) {
+    Wanted wanted{target.name,
+                  controllers::sample(target.angle, ticks, rig.tick_s, per_ratio(rig)),
+                  {},
+                  {},
+                  controllers::last_change_s(target.angle)};
+    for (const double ratio : wanted.ratios) wanted.values.push_back(ratio * per_ratio(rig));
+    if (target.stiffness)
+      wanted.stiffness_N_m_per_rad = controllers::sample(*target.stiffness, ticks, rig.tick_s, 1.0);
+    all.push_back(std::move(wanted));
+  }
+  return all;
+}
+
+controllers::Knowledge knowledge_of(const domain::Scenario& scenario, const Wanted& wanted) {
+  const plant::Pair* pair = scenario.rig.pair();
+  if (pair == nullptr) return knowledge_of(scenario.rig, wanted.ratios);
+  controllers::Knowledge known = knowledge_of(scenario.rig, *pair, wanted.ratios);
+  known.pair->stiffness_N_m_per_rad = wanted.stiffness_N_m_per_rad;
+  return known;
+}
 
 RunPlan plan_of(const domain::Scenario& scenario, double load_kg, std::uint64_t stream) {
-  return {.rig = scenario.rig,
-          .load_kg = load_kg,
-          .ticks = static_cast<std::size_t>(std::llround(scenario.duration_s / scenario.rig.tick_s)),
-          .engine = scenario.rig.integrator,
-          .noise = scenario.noise,
-          .seed = scenario.seed,
-          .stream = stream,
-          .keep_ledger = true};
+  RunPlan plan{.rig = scenario.rig,
+               .load_kg = load_kg,
+               .ticks = ticks_of(scenario),
+               .engine = scenario.rig.integrator,
+               .noise = scenario.noise,
+               .seed = scenario.seed,
+               .stream = stream,
+               .keep_ledger = true};
+  if (const plant::Pair* pair = scenario.rig.pair())
+    plan.pair = plant::with_load_in_hand(*pair, load_kg, scenario.hand_m);
+  return plan;
 }
 
 std::optional<controllers::CurrentRange> limits_of(const controllers::Settings& settings,
@@ -27,20 +84,45 @@ std::optional<controllers::CurrentRange> limits_of(const controllers::Settings& 
   return limits;
 }
 
-Metrics metrics_of(const domain::Scenario& scenario, const std::vector<double>& target,
-                   const Recording& recording, const std::optional<controllers::CurrentRange>& limits) {
-  std::vector<double> contraction, current_mA;
+Metrics metrics_of(const domain::Scenario& scenario, const Wanted& wanted, const Recording& recording,
+                   const std::optional<controllers::CurrentRange>& limits) {
+  const bool pair = scenario.rig.pair() != nullptr;
+  std::vector<double> followed, current_mA;
   for (const auto& sample : recording.samples) {
-    contraction.push_back(sample.state.joint.contraction_ratio);
+    followed.push_back(pair ? angle_rad(scenario.rig, sample) : sample.state.joint.contraction_ratio);
     current_mA.push_back(sample.current_mA);
   }
-  return measure({.target = target,
-                  .contraction = contraction,
+  return measure({.target = wanted.values,
+                  .contraction = followed,
                   .current_mA = current_mA,
                   .tick_s = scenario.rig.tick_s,
-                  .last_change_s = controllers::last_change_s(scenario.target),
+                  .last_change_s = wanted.last_change_s,
                   .air_kg = recording.ledger.air_drawn_kg,
                   .limits = limits});
+}
+
+JointFigures joint_figures(const domain::RigFile& rig, const Recording& recording, const Wanted* wanted) {
+  const auto& rows = recording.samples;
+  JointFigures found{
+      .angle_rad = span_of(rows, [&](const Sample& row) { return angle_rad(rig, row); }),
+      .cord_force_N = span_of(rows, [](const Sample& row) { return row.cord_force_N; }),
+      .opposite_cord_force_N = span_of(rows, [](const Sample& row) { return row.opposite.cord_force_N; })};
+  const plant::Rig opposite = plant::opposite_rig(rig, *rig.pair());
+  std::vector<double> stiffness;
+  std::size_t at_end = 0;
+  for (const Sample& row : rows) {
+    stiffness.push_back(row.stiffness_N_m_per_rad);
+    if (is_at_end(row.current_mA, rig) || is_at_end(row.opposite.current_mA, opposite)) ++at_end;
+  }
+  found.at_limit = static_cast<double>(at_end) / static_cast<double>(rows.size());
+  found.stiffness_had = mean_of(stiffness);
+  if (wanted == nullptr || wanted->stiffness_N_m_per_rad.empty()) return found;
+  found.stiffness_asked = mean_of(wanted->stiffness_N_m_per_rad);
+  double squares = 0.0;
+  for (std::size_t k = 0; k < rows.size(); ++k)
+    squares += std::pow(stiffness[k] - wanted->stiffness_N_m_per_rad[k], 2);
+  found.stiffness_rmse = std::sqrt(squares / static_cast<double>(rows.size()));
+  return found;
 }
 
 }  // namespace mckibben::run

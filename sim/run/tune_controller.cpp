@@ -1,13 +1,13 @@
 // The cost of gains, and the searches with it; see the header.
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <initializer_list>
 #include <stdexcept>
 #include <utility>
 #include <vector>
 
 #include <sim/run/rounds.hpp>
-#include <sim/run/track.hpp>
 #include <sim/run/tune_controller.hpp>
 #include <sim/run/tuning_cost.hpp>
 
@@ -18,74 +18,75 @@ double lower_median(std::vector<double> values) {
   return values[(values.size() - 1) / 2];
 }
 
+void set_gains(controllers::Settings& settings, const Gains& gains, const domain::RigFile& rig) {
+  controllers::PidForm& feedback = *controllers::feedback_of(settings);
+  feedback.proportional_mA = gains.proportional_mA / per_ratio(rig);
+  feedback.integral_time_s = gains.integral_time_s;
+  feedback.derivative_time_s = gains.derivative_time_s;
+}
+
 namespace {
 
 class Tuning {
  public:
-  Tuning(const domain::Scenario& scenario, const controllers::Knowledge& knowledge,
-         const controllers::Settings& settings, double load_kg, Rounds& rounds)
+  Tuning(const domain::Scenario& scenario, const Briefing& briefing, const controllers::Settings& settings,
+         double load_kg, Rounds& rounds)
       : scenario_(scenario),
-        knowledge_(knowledge),
+        briefing_(briefing),
         settings_(settings),
         plan_(plan_of(scenario, load_kg, 0)),
-        span_mA_(controllers::working_range(knowledge).width_mA()),
-        limits_(limits_of(settings, knowledge, scenario.rig)),
+        span_mA_(controllers::working_range(briefing.knowledge.front()).width_mA()),
         rounds_(rounds) {
     plan_.keep_ledger = false;  // nothing here asks where the air went
   }
 
-  controllers::Settings with(const Gains& gains) const {
-    controllers::Settings complete = settings_;
-    set_gains(complete, gains);
-    return complete;
-  }
-
   double span_mA() const { return span_mA_; }
-  const std::optional<controllers::CurrentRange>& limits() const { return limits_; }
 
-  /// What came of each of these gains; those that could not be simulated say so.
+  /// What came of each of these gains along every target; a run that could not be simulated says so.
   std::vector<Recording> tried(std::initializer_list<Gains> all) const {
     std::vector<Order> orders;
-    for (const Gains& gains : all) orders.push_back({plan_, controllers::make(with(gains), knowledge_)});
+    for (const Gains& gains : all) {
+      controllers::Settings complete = settings_;
+      set_gains(complete, gains, scenario_.rig);
+      for (const auto& known : briefing_.knowledge)
+        orders.push_back({plan_, controllers::make(complete, known)});
+    }
     return rounds_.simulated(std::move(orders));
   }
 
-  Metrics metrics(const Recording& recording) const {
-    if (!recording.failure.empty()) throw std::runtime_error(recording.failure);
-    return metrics_of(scenario_, knowledge_.target, recording, limits_);
-  }
-
-  double cost(const Recording& recording) const {
-    return tuning_cost(metrics(recording).rmse, recording, span_mA_);
+  /// The mean over recordings that `tried` gave.
+  double cost(std::span<const Recording> recordings) const {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < recordings.size(); ++i) {
+      if (!recordings[i].failure.empty()) throw std::runtime_error(recordings[i].failure);
+      const auto& known = briefing_.knowledge[i % briefing_.knowledge.size()];
+      sum += tuning_cost(rmse(recordings[i], known.target), recordings[i], span_mA_);
+    }
+    return sum / static_cast<double>(recordings.size());
   }
 
   double cost_with_margin(const Gains& gains) const {
     Gains higher = gains;
     higher.proportional_mA *= gain_margin;
-    const auto both = tried({gains, higher});
-    return 0.5 * (cost(both.front()) + cost(both.back()));
+    return cost(tried({gains, higher}));
   }
 
  private:
+  double rmse(const Recording& recording, const std::vector<double>& target) const {
+    const double mounted_ratio = plan_.pair ? plan_.pair->contraction_ratio : 0.0;
+    double squares = 0.0;
+    for (std::size_t k = 0; k < target.size(); ++k)
+      squares += std::pow(recording.samples[k].state.joint.contraction_ratio - mounted_ratio - target[k], 2);
+    return std::sqrt(squares / static_cast<double>(target.size()));
+  }
+
   const domain::Scenario& scenario_;
-  const controllers::Knowledge& knowledge_;
+  const Briefing& briefing_;
   const controllers::Settings& settings_;
   RunPlan plan_;
   double span_mA_;
-  std::optional<controllers::CurrentRange> limits_;
   Rounds& rounds_;
 };
-
-}  // namespace
-
-void set_gains(controllers::Settings& settings, const Gains& gains) {
-  controllers::PidTerms& terms = *controllers::pid_terms(settings);
-  terms.proportional_mA = gains.proportional_mA;
-  terms.integral_time_s = gains.integral_time_s;
-  terms.derivative_time_s = gains.derivative_time_s;
-}
-
-namespace {
 
 /// The loop as it is without what is fed forward: it is to be good by itself, and gains no less by a model.
 controllers::Settings loop_alone(const controllers::Settings& settings) {
@@ -95,29 +96,33 @@ controllers::Settings loop_alone(const controllers::Settings& settings) {
   return loop;
 }
 
-TunedController tune_one(const domain::Scenario& scenario, const controllers::Knowledge& knowledge,
+TunedController tune_one(const domain::Scenario& scenario, const Briefing& briefing,
                          controllers::Settings& settings, Rounds& rounds,
                          const std::function<void()>& heard) {
-  const controllers::PidTerms& pid = *controllers::pid_terms(settings);
+  const controllers::PidForm& pid = *controllers::feedback_of(settings);
   TunedController result{.controller = controllers::name_of(settings),
                          .load_kg = pid.tuning_load_kg.value_or(lower_median(scenario.loads_kg))};
   const controllers::Settings loop = loop_alone(settings);
-  const Tuning tuning(scenario, knowledge, loop, result.load_kg, rounds);
+  const Tuning tuning(scenario, briefing, loop, result.load_kg, rounds);
   const auto cost = [&](const Gains& gains) {
     heard();
     return tuning.cost_with_margin(gains);
   };
   const auto begin = std::chrono::steady_clock::now();
   try {
-    result.tuned = tune(cost, {pid.proportional_mA, pid.integral_time_s, pid.derivative_time_s},
-                        TuningOptions::for_span(tuning.span_mA()));
+    GivenGains given{pid.proportional_mA, pid.integral_time_s, pid.derivative_time_s};
+    if (given.proportional_mA) *given.proportional_mA *= per_ratio(scenario.rig);
+    result.tuned = tune(cost, given, TuningOptions::for_span(tuning.span_mA()));
     Gains idle = result.tuned.gains;
     idle.proportional_mA = 0.0;
     const auto ended = tuning.tried({result.tuned.gains, idle});
-    if (ended.back().failure.empty()) result.idle_cost = tuning.cost(ended.back());
-    result.metrics = tuning.metrics(ended.front());
-    result.limits = tuning.limits();
-    set_gains(settings, result.tuned.gains);
+    const std::span without = std::span(ended).last(briefing.targets.size());
+    if (std::ranges::all_of(without, [](const Recording& one) { return one.failure.empty(); }))
+      result.idle_cost = tuning.cost(without);
+    if (!ended.front().failure.empty()) throw std::runtime_error(ended.front().failure);
+    result.limits = limits_of(loop, briefing.knowledge.front(), scenario.rig);
+    result.metrics = metrics_of(scenario, briefing.targets.front(), ended.front(), result.limits);
+    set_gains(settings, result.tuned.gains, scenario.rig);
   } catch (const std::runtime_error& failure) {
     result.failure = failure.what();
   }
@@ -127,13 +132,12 @@ TunedController tune_one(const domain::Scenario& scenario, const controllers::Kn
 
 }  // namespace
 
-std::vector<TunedController> tune_controllers(const domain::Scenario& scenario,
-                                              const controllers::Knowledge& knowledge,
+std::vector<TunedController> tune_controllers(const domain::Scenario& scenario, const Briefing& briefing,
                                               std::span<controllers::Settings* const> open, unsigned threads,
                                               const std::function<void()>& tried) {
   std::vector<TunedController> tuned(open.size());
   search_in_rounds(open.size(), threads, [&](std::size_t i, Rounds& rounds) {
-    tuned[i] = tune_one(scenario, knowledge, *open[i], rounds, tried);
+    tuned[i] = tune_one(scenario, briefing, *open[i], rounds, tried);
   });
   return tuned;
 }

@@ -323,10 +323,12 @@ TEST(Pair, FollowsItsTargetsUnderControllers) {
       "    stiffness: {kind: steps, start: 13 N.m/rad, moves: []}\n"
       "hand: {loads: [0 kg, 0.5 kg]}\n"
       "controllers:\n  - {kind: pid, proportional: 30 mA/rad, integral_time: 0.1 s, derivative_time: "
-      "0.08 s}\n  - {kind: model_inverse_feedback}\n");
+      "0.08 s}\n  - {kind: model_inverse_feedback}\n"
+      "criteria: [{controller: pid, rmse_below: 0.01 deg}]\n");
   ASSERT_EQ(mckibben("check arm.yaml", scratch).status, 0);
   const Said said = mckibben("run arm.yaml", scratch);
-  ASSERT_EQ(said.status, 0) << said.err;
+  ASSERT_EQ(said.status, 1) << said.err;
+  EXPECT_NE(said.out.find("sine_0.5kg_pid: rmse ="), std::string::npos) << said.out;
   EXPECT_NE(said.out.find("under given currents"), std::string::npos) << said.out;
   EXPECT_NE(said.out.find("  sine   0.5     model_inverse_feedback"), std::string::npos) << said.out;
   const Json document = Json::parse(read_text(scratch / "out/arm/run.json"));
@@ -361,7 +363,7 @@ TEST(Pair, RunsUnderTwoCurrents) {
   ASSERT_EQ(said.status, 0) << said.err;
   EXPECT_EQ(read_text(scratch / "out/pair/table.txt"), said.out);
   const Json document = Json::parse(read_text(scratch / "out/pair/run.json"));
-  EXPECT_EQ(document.at("schema"), "mckibben-pair-run/1");
+  EXPECT_EQ(document.at("schema"), "mckibben-run/1");
   ASSERT_EQ(document.at("runs").size(), 2u);
   const Table is = table_of(scratch / "out/pair/steps.csv");
   EXPECT_EQ(is.at("time_s").size(), 500u);

@@ -8,7 +8,6 @@
 
 #include <gtest/gtest.h>
 
-#include <controllers/pair_settings.hpp>
 #include <controllers/settings.hpp>
 #include <controllers/target.hpp>
 
@@ -58,7 +57,6 @@ TEST(Fields, DefaultsLieWithinTheirRangesAndKeysDiffer) {
     EXPECT_GE(walker.keys.size(), 1U);
   };
   for_each_alternative<Settings>(walk);
-  for_each_alternative<PairSettings>(walk);
   for_each_alternative<Target>(walk);
   for_each_alternative<AngleTarget>(walk);
   for_each_alternative<StiffnessTarget>(walk);
@@ -77,7 +75,7 @@ void expect_kinds_and_names() {
 }
 
 TEST(Fields, EveryControllerHasAKindOfItsOwnAndAName) {
-  expect_kinds_and_names<Settings>();
+  expect_kinds_and_names<SingleSettings>();
   expect_kinds_and_names<PairSettings>();
 }
 

@@ -224,13 +224,13 @@ TEST(Safety, AWeighingIsNotMisledByCountsThatJumpAndEndsWhereTheyStandStill) {
 
 TEST(Settings, KnowWhichControllersHaveFeedbackAndWhichACalibration) {
   Settings settings = PidSettings{};
-  EXPECT_NE(pid_terms(settings), nullptr);
+  EXPECT_NE(feedback_of(settings), nullptr);
   EXPECT_EQ(calibrated(settings), nullptr);
   settings = FeedforwardPidSettings{};
-  EXPECT_NE(pid_terms(settings), nullptr);
+  EXPECT_NE(feedback_of(settings), nullptr);
   EXPECT_NE(calibrated(settings), nullptr);
   settings = OpenLoopLimitedSettings{};
-  EXPECT_EQ(pid_terms(settings), nullptr);
+  EXPECT_EQ(feedback_of(settings), nullptr);
   EXPECT_NE(calibrated(settings), nullptr);
 }
 

@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-#include <controllers/pair_settings.hpp>
+#include <controllers/settings.hpp>
 
 namespace mckibben::controllers {
 namespace {
@@ -92,7 +92,7 @@ TEST(CoContraction, BothCurrentsKeepTheirSpeedThroughAStepOfStiffness) {
   std::fill(wanted.begin() + 50, wanted.end(), 18.0);
   const Knowledge k = known(std::vector<double>(100, 0.0), wanted);
   PairPidSettings settings;
-  settings.proportional_mA_per_rad = 50.0;
+  settings.proportional_mA = 50.0;
   settings.integral_time_s = 0.1;
   settings.derivative_time_s = 0.0;
   settings.largest_current_speed_mA_per_s = 20.0;
@@ -125,7 +125,7 @@ class Joint {
 
 PairPidSettings quiet_pid() {
   PairPidSettings settings;
-  settings.proportional_mA_per_rad = 5.0;
+  settings.proportional_mA = 5.0;
   settings.integral_time_s = 0.06;
   settings.derivative_time_s = 0.0;
   settings.co_contraction_Pa = 2.5e5;

@@ -14,7 +14,6 @@
 #include <sim/input/campaign_file.hpp>
 #include <sim/input/dataset_file.hpp>
 #include <sim/input/hypothesis_file.hpp>
-#include <sim/input/pair_scenario_file.hpp>
 #include <sim/input/rigs.hpp>
 #include <sim/input/scenario_file.hpp>
 
@@ -49,8 +48,6 @@ std::string said_about(const fs::path& file) {
       read_campaign(file);
     else if (name.starts_with("hypothesis_"))
       read_hypothesis(file.string(), inputs);
-    else if (name.starts_with("pair_"))
-      read_pair_scenario(file);
     else
       read_scenario(file, warnings);
   } catch (const BadInput& error) {

@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <sim/input/fields_json.hpp>
-#include <sim/input/pair_scenario_file.hpp>
 #include <sim/input/rigs.hpp>
+#include <sim/input/scenario_file.hpp>
 
 #include "rig_text.hpp"
 
@@ -64,14 +64,36 @@ TEST(PairRig, AMistakeOfMuscleOneIsToldOnce) {
   }
 }
 
-TEST(PairScenario, IsCompleteAndReadsBack) {
-  const PairScenario scenario = read_pair_scenario(MCKIBBEN_SOURCE_DIR "/scenarios/pair.yaml");
+Scenario scenario_of(const std::string& text) {
+  std::vector<Problem> warnings;
+  return read_scenario(Source("test.yaml", text, ""), warnings);
+}
+
+TEST(PairScenario, IsCompleteAndReadsBackAsAScenario) {
+  std::vector<Problem> warnings;
+  const Scenario scenario = read_scenario(MCKIBBEN_SOURCE_DIR "/scenarios/pair.yaml", warnings);
   EXPECT_EQ(scenario.name, "pair");
   ASSERT_EQ(scenario.currents.size(), 2u);
   EXPECT_NE(scenario.rig.pair(), nullptr);
-  const Json written = pair_scenario_json(scenario);
-  EXPECT_EQ(pair_scenario_json(read_pair_scenario(Source("again.yaml", written.dump(), ""))).dump(),
-            written.dump());
+  const Json written = scenario_json(scenario);
+  EXPECT_EQ(written.at("schema"), scenario_schema);
+  EXPECT_EQ(scenario_json(scenario_of(written.dump())).dump(), written.dump());
+}
+
+TEST(PairScenario, IsWhatTheRigMakesItAndTheOlderSchemaMeansTwoMuscles) {
+  const std::string rest =
+      "duration: 1 s\nhand: {loads: [0.5 kg]}\nnoise: {encoder_jitter: 1e-4}\nseed: 3\n"
+      "targets: [{angle: {kind: sine, mean: 0 deg, amplitude: 10 deg, period: 1 s}}]\n"
+      "criteria: [{rmse_below: 180 deg}]\n"
+      "controllers: [{kind: pid, proportional: 30 mA/rad}, {kind: model_inverse}]\n";
+  const Scenario now = scenario_of("schema: mckibben-scenario/1\nrig: thesis_pair\n" + rest);
+  const Scenario older = scenario_of("schema: mckibben-pair/1\n" + rest);
+  EXPECT_EQ(scenario_json(now).dump(), scenario_json(older).dump());
+  EXPECT_EQ(now.loads_kg, std::vector<double>{0.5});
+  EXPECT_EQ(now.seed, 3U);
+  EXPECT_NEAR(*now.criteria.front().rmse_below, 3.14159265, 1e-7);
+  EXPECT_TRUE(std::holds_alternative<controllers::PairPidSettings>(now.controllers.front()));
+  EXPECT_EQ(scenario_json(now).at("controllers")[0].at("proportional"), "30 mA/rad");
 }
 
 }  // namespace

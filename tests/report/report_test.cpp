@@ -332,6 +332,7 @@ TEST(Run, SaysHowLongControllersStoodAtALimitOfTheirCurrent) {
   scenario.controllers = {controllers::PidSettings{}};
   run::Comparison comparison;
   comparison.runs.resize(1);
+  comparison.runs[0].controller = "pid";
   EXPECT_EQ(report_html(scenario, comparison).find("class='limits'"), std::string::npos);
   comparison.runs[0].limits = controllers::CurrentRange{4.0, 20.0};
   comparison.runs[0].metrics.at_lowest_current = 0.31;

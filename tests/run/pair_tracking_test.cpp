@@ -9,8 +9,7 @@
 #include <gtest/gtest.h>
 
 #include <plant/joint_stiffness.hpp>
-#include <sim/run/pair_runs.hpp>
-#include <sim/run/rig_model.hpp>
+#include <sim/run/compare.hpp>
 
 #include "heap_watch.hpp"
 
@@ -20,21 +19,21 @@ namespace {
 constexpr double deg = plant::degree_rad;
 const ProgressHook nobody = [](const std::string&, std::size_t, std::size_t) {};
 
-domain::PairScenario sine(std::vector<controllers::PairSettings> settings, std::vector<double> loads_kg) {
-  domain::PairScenario scenario;
+domain::Scenario sine(std::vector<controllers::Settings> settings, std::vector<double> loads_kg) {
+  domain::Scenario scenario = domain::pair_scenario();
   scenario.duration_s = 2.4;
   controllers::SineOf<controllers::Angle> angle;
   angle.amplitude.value = 15.0 * deg;
   angle.period_s = 2.4;
   scenario.targets.push_back({"sine", angle, std::nullopt});
-  scenario.hand.loads_kg = std::move(loads_kg);
+  scenario.loads_kg = std::move(loads_kg);
   scenario.controllers = std::move(settings);
   return scenario;
 }
 
 controllers::PairPidSettings pid() {
   controllers::PairPidSettings settings;
-  settings.proportional_mA_per_rad = 30.0;
+  settings.proportional_mA = 30.0;
   settings.integral_time_s = 0.1;
   settings.derivative_time_s = 0.08;
   return settings;
@@ -61,12 +60,12 @@ TEST(PairTracking, ATrueModelFollowsAndAWrongLoadIsMadeUpForByFeedback) {
   controllers::PairModelInverseFeedbackSettings closed, late;
   late.name = "late";
   late.feedback_delay_ticks = 5;
-  const PairRuns all = run_pairs(sine({open, closed, late, pid()}, {0.0, 1.0}), 2, nobody);
+  const Comparison all = compare(sine({open, closed, late, pid()}, {0.0, 1.0}), 2, nobody);
   ASSERT_EQ(all.runs.size(), 8u);
   std::vector<double> rmse_deg;
-  for (const PairRun& run : all.runs) {
+  for (const TrackedRun& run : all.runs) {
     ASSERT_EQ(run.failure, "") << run.name;
-    rmse_deg.push_back(run.followed->metrics.rmse / deg);
+    rmse_deg.push_back(run.metrics.rmse / deg);
   }
   EXPECT_EQ(all.runs[5].name, "sine_1kg_model_inverse_feedback");
   EXPECT_LT(rmse_deg[0], 0.4) << "the model is the rig";
@@ -78,35 +77,35 @@ TEST(PairTracking, ATrueModelFollowsAndAWrongLoadIsMadeUpForByFeedback) {
 
   controllers::PairModelInverseSettings told = open;
   told.assumed_load_kg = 1.0;
-  const PairRuns once = run_pairs(sine({told}, {1.0}), 1, nobody);
-  EXPECT_LT(once.runs.front().followed->metrics.rmse / deg, 0.4);
+  const Comparison once = compare(sine({told}, {1.0}), 1, nobody);
+  EXPECT_LT(once.runs.front().metrics.rmse / deg, 0.4);
 }
 
 TEST(PairTracking, TheStiffnessIsHadThatIsWanted) {
   controllers::PairModelInverseSettings inverse;
-  domain::PairScenario scenario = sine({pid(), inverse}, {0.5});
+  domain::Scenario scenario = sine({pid(), inverse}, {0.5});
   controllers::StepsOf<controllers::Stiffness> steps;
   steps.start.value = 12.0;
   steps.moves.push_back({1.2, {16.0}});
   scenario.targets.front().stiffness = steps;
-  const PairRuns all = run_pairs(scenario, 2, nobody);
-  for (const PairRun& run : all.runs) {
+  const Comparison all = compare(scenario, 2, nobody);
+  for (const TrackedRun& run : all.runs) {
     ASSERT_EQ(run.failure, "");
     const auto& rows = run.recording.samples;
     EXPECT_NEAR(rows[88].stiffness_N_m_per_rad, 12.0, 0.4) << run.name;  // plans look 8 ticks ahead
     EXPECT_NEAR(rows.back().stiffness_N_m_per_rad, 16.0, 0.4) << run.name;
-    EXPECT_NEAR(*run.followed->stiffness_asked, 14.0, 0.1);
-    EXPECT_LT(*run.followed->stiffness_rmse, 0.7);
+    EXPECT_NEAR(*run.joint->stiffness_asked, 14.0, 0.1);
+    EXPECT_LT(*run.joint->stiffness_rmse, 0.7);
   }
 }
 
 TEST(PairTracking, SidesMayBeExchanged) {
-  domain::PairScenario one = sine({pid()}, {0.0}), two = one;
+  domain::Scenario one = sine({pid()}, {0.0}), two = one;
   one.rig.muscle.rest_radius_m = 0.0085;  // muscle 1 the stronger, or muscle 2
   std::get<plant::Pair>(two.rig.mechanics).opposite.muscle.rest_radius_m = 0.0085;
   auto& angle = std::get<controllers::SineOf<controllers::Angle>>(two.targets.front().angle);
   angle.amplitude.value = -angle.amplitude.value;
-  const PairRuns first = run_pairs(one, 1, nobody), second = run_pairs(two, 1, nobody);
+  const Comparison first = compare(one, 1, nobody), second = compare(two, 1, nobody);
   const auto &a = first.runs.front().recording.samples, &b = second.runs.front().recording.samples;
   // The encoder rounds down both ways round, by half a count in the mean; the controller knows that.
   for (std::size_t k = 0; k < a.size(); ++k)
@@ -117,18 +116,19 @@ TEST(PairTracking, TuningLeavesGainsThatFollow) {
   controllers::PairPidSettings open;
   open.integral_time_s = 0.1;
   open.derivative_time_s = 0.08;  // one gain is left
-  domain::PairScenario scenario = sine({open}, {0.0, 1.0});
-  std::vector<controllers::PairSettings> settings = scenario.controllers;
+  domain::Scenario scenario = sine({open}, {0.0, 1.0});
+  Briefing briefing = briefing_of(scenario);
   int trials = 0;
-  const auto tuned = tune_pair(scenario, settings, 1, [&] { ++trials; });
+  controllers::Settings* left[] = {&briefing.settings.front()};
+  const auto tuned = tune_controllers(scenario, briefing, left, 1, [&] { ++trials; });
   ASSERT_EQ(tuned.size(), 1u);
   EXPECT_EQ(tuned.front().failure, "");
   EXPECT_EQ(tuned.front().load_kg, 0.0) << "the lower of the two in the middle";
   EXPECT_EQ(trials, tuned.front().tuned.evaluations);
-  const auto& pid = std::get<controllers::PairPidSettings>(settings.front());
+  const auto& pid = std::get<controllers::PairPidSettings>(briefing.settings.front());
   EXPECT_FALSE(pid.needs_tuning());
-  EXPECT_NEAR(*pid.proportional_mA_per_rad * rad_per_ratio(scenario.rig),
-              tuned.front().tuned.gains.proportional_mA, 1e-9);
+  EXPECT_NEAR(*pid.proportional_mA * per_ratio(scenario.rig), tuned.front().tuned.gains.proportional_mA,
+              1e-9);
   EXPECT_LT(tuned.front().tuned.cost, *tuned.front().tuned.start_cost + 1e-12);
 }
 
@@ -153,14 +153,14 @@ class Watched final : public controllers::Controller {
 };
 
 TEST(PairTracking, TouchesNoHeapBetweenFirstAndLastTick) {
-  const domain::PairScenario scenario =
+  const domain::Scenario scenario =
       sine({pid(), controllers::PairModelInverseSettings{}, controllers::PairModelInverseFeedbackSettings{}},
            {0.5});
-  const auto known = knowledge_of(scenario, scenario.targets.front());
-  for (controllers::PairSettings settings : scenario.controllers) {
-    if (auto* terms = model_terms(settings)) terms->model = model_of_pair(scenario.rig, 0.4, known.tick_s);
-    Watched controller(make(settings, known), static_cast<std::int64_t>(known.target.size()) - 1);
-    EXPECT_EQ(simulate(plan_of(scenario, 0.5), controller).failure, "");
+  const Briefing briefing = briefing_of(scenario);
+  for (const controllers::Settings& settings : briefing.settings) {
+    Watched controller(briefing.make(settings, 0, 0.5),
+                       static_cast<std::int64_t>(briefing.targets.front().values.size()) - 1);
+    EXPECT_EQ(simulate(plan_of(scenario, 0.5, 1), controller).failure, "");
     EXPECT_EQ(controller.allocations, 0) << name_of(settings);
   }
 }

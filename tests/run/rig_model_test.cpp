@@ -56,7 +56,7 @@ double rmse(const plant::Rig& truth, const controllers::Settings& settings) {
 }
 
 controllers::ModelMaker believed(const plant::Rig& rig) {
-  return model_of(rig, {}, rig.tick_s);
+  return model_of(rig, rig.tick_s);
 }
 
 TEST(RigModel, GoesWhereTheRigGoesUnderTheSameCurrents) {
@@ -128,9 +128,10 @@ TEST(RigModel, AndKnowingItIsBetterStill) {
 double within_reach(const Comparison& comparison, const TrackedRun& run, double lowest) {
   double squares = 0.0;
   std::size_t n = 0;
-  for (std::size_t k = 0; k < comparison.target.size(); ++k)
-    if (comparison.target[k] >= lowest) {
-      squares += std::pow(run.recording.samples[k].state.joint.contraction_ratio - comparison.target[k], 2);
+  for (std::size_t k = 0; k < comparison.targets.front().values.size(); ++k)
+    if (comparison.targets.front().values[k] >= lowest) {
+      squares += std::pow(
+          run.recording.samples[k].state.joint.contraction_ratio - comparison.targets.front().values[k], 2);
       ++n;
     }
   return std::sqrt(squares / static_cast<double>(n));

@@ -90,7 +90,7 @@ std::vector<controllers::Settings> one_of_each() {
   controllers::RecordedCurrent recorded;
   recorded.samples_mA = std::vector<double>(100, 10.0);
   controllers::ModelInverseSettings planned;
-  planned.model = model_of({}, {}, 0.012);
+  planned.model = model_of(domain::RigFile(), 0.012);
   controllers::ModelInverseFeedbackSettings with_feedback;
   with_feedback.model = planned.model;
   with_feedback.feedback_delay_ticks = 2;
@@ -110,7 +110,7 @@ std::vector<controllers::Settings> one_of_each() {
   std::vector<domain::InputFile> inputs;
   const auto model = input::read_calibration(MCKIBBEN_TEST_DATA "/calibration.yaml", inputs);
   for (auto& settings : all) {
-    if (auto* terms = controllers::pid_terms(settings)) {
+    if (auto* terms = controllers::feedback_of(settings)) {
       terms->proportional_mA = 60.0;
       terms->integral_time_s = 0.2;
       terms->derivative_time_s = 0.05;
@@ -151,7 +151,7 @@ TEST(Simulate, TouchesNoHeapBetweenFirstAndLastTick) {
   for (const auto& settings : one_of_each())
     EXPECT_EQ(allocations_of(plan(13.87, ticks), settings), 0) << controllers::name_of(settings);
   constexpr std::size_t guests = 2;  // a process and a library, whose heap is their own affair
-  EXPECT_EQ(one_of_each().size() + guests, std::variant_size_v<controllers::Settings>);
+  EXPECT_EQ(one_of_each().size() + guests, std::variant_size_v<controllers::SingleSettings>);
 }
 
 // A load that the stop cannot hold falls out of the range of the laws.
