@@ -12,9 +12,10 @@ double dac_output_mA(const Dac& dac, double wanted_mA) {
   return std::min(std::round(clamped / step) * step, dac.largest_current_mA);
 }
 
-double count_height_m(const Encoder& encoder, const Joint& joint) {
-  const double turns_per_count = 1.0 / (encoder.pulses_per_turn * encoder.wheel_ratio);
-  return joint.wheel_radius_m * 2.0 * std::numbers::pi * turns_per_count;
+double count_height_m(const Sensor& position, double wheel_radius_m) {
+  if (!position.counts_pulses()) return position.resolution * position.rise_m(wheel_radius_m);
+  const double turns_per_count = 1.0 / (position.pulses_per_turn * position.wheel_ratio);
+  return wheel_radius_m * 2.0 * std::numbers::pi * turns_per_count;
 }
 
 std::int64_t PulseCounter::count(double x_m) {
@@ -29,26 +30,22 @@ std::int64_t PulseCounter::count(double x_m) {
 }
 
 std::int64_t PositionReader::count(double x_m) {
-  if (sensor_.absent()) return counter_.count(x_m);
+  if (sensor_.counts_pulses()) return counter_.count(x_m);
   double steps = x_m / step_m_;
   if (sensor_.lowest) steps = std::max(steps, *sensor_.lowest / sensor_.resolution);
   if (sensor_.highest) steps = std::min(steps, *sensor_.highest / sensor_.resolution);
   return std::llround(steps);
 }
 
-double middle_of_count(const Sensor& sensor) {
-  return sensor.absent() ? 0.5 : 0.0;
+double middle_of_count(const Sensor& position) {
+  return position.counts_pulses() ? 0.5 : 0.0;
 }
 
-double cell_reading_N(const LoadCell& cell, double force_N, double noise_N) {
-  double read_N = std::max(force_N, 0.0) + noise_N;
-  if (cell.highest_N) read_N = std::min(read_N, *cell.highest_N);
-  return cell.resolution_N > 0.0 ? std::round(read_N / cell.resolution_N) * cell.resolution_N : read_N;
-}
-
-double gauge_reading_Pa(const Gauge& gauge, double pressure_Pa) {
-  if (gauge.resolution_Pa <= 0.0) return pressure_Pa;
-  return std::round(pressure_Pa / gauge.resolution_Pa) * gauge.resolution_Pa;
+double shown(const Sensor* sensor, double value) {
+  if (sensor == nullptr) return value;
+  if (sensor->lowest) value = std::max(value, *sensor->lowest);
+  if (sensor->highest) value = std::min(value, *sensor->highest);
+  return sensor->resolution > 0.0 ? std::round(value / sensor->resolution) * sensor->resolution : value;
 }
 
 }  // namespace mckibben::plant

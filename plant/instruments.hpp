@@ -36,14 +36,10 @@ struct Noise {
 /// The current [mA] a DAC gives when asked for one: clamped to its range, rounded to the nearest step.
 double dac_output_mA(const Dac& dac, double wanted_mA);
 
-/// Rise of the load for one encoder count [m].
-double count_height_m(const Encoder& encoder, const Joint& joint);
-
-/// Rise of the load for one count of what reads the position [m]: of the encoder, or a step of the sensor.
-template <class P>
-double count_height_m(const RigOf<P>& rig) {
-  return rig.sensor.absent() ? count_height_m(rig.encoder, rig.joint)
-                             : rig.sensor.resolution * rig.sensor.rise_m(rig.joint.wheel_radius_m);
+/// Rise of the load for one count of what reads the position [m]: of an encoder, or a step of another sensor.
+double count_height_m(const Sensor& position, double wheel_radius_m);
+inline double count_height_m(const Rig& rig) {
+  return count_height_m(rig.sensors.position(), rig.joint.wheel_radius_m);
 }
 
 /// A pulse counter on the encoder.
@@ -72,7 +68,7 @@ class PulseCounter {
 class PositionReader {
  public:
   explicit PositionReader(const Rig& rig)
-      : sensor_(rig.sensor), step_m_(count_height_m(rig)), counter_(rig.encoder.wiring, step_m_) {}
+      : sensor_(rig.sensors.position()), step_m_(count_height_m(rig)), counter_(sensor_.wiring, step_m_) {}
 
   /// At a rise x [m], reached from the last one without turning on the way.
   std::int64_t count(double x_m);
@@ -83,14 +79,11 @@ class PositionReader {
   PulseCounter counter_;
 };
 
-/// By how much more than its count a reading stands for, in counts: a counter rounds down, a sensor to the
-/// nearest.
-double middle_of_count(const Sensor& sensor);
+/// By how much more than its count a reading stands for, in counts: a counter rounds down, another sensor to
+/// the nearest.
+double middle_of_count(const Sensor& position);
 
-/// What the load cell shows of a force [N] with its noise in it. A cord that would push is slack.
-double cell_reading_N(const LoadCell& cell, double force_N, double noise_N);
-
-/// What the gauge shows at a gauge pressure [Pa].
-double gauge_reading_Pa(const Gauge& gauge, double pressure_Pa);
+/// What a sensor shows of a value with its noise in it; the value itself where there is no sensor.
+double shown(const Sensor* sensor, double value);
 
 }  // namespace mckibben::plant

@@ -18,15 +18,6 @@
 
 namespace mckibben::plant {
 
-/// How the encoder's pulses are counted: floor of the position,
-/// or the thesis's two crosswise counters (T 3.1).
-enum class EncoderWiring { ideal, crosswise };
-constexpr auto names(EncoderWiring) {
-  using enum EncoderWiring;
-  return std::array{std::pair{ideal, std::string_view{"ideal"}},
-                    std::pair{crosswise, std::string_view{"crosswise"}}};
-}
-
 /// The gas and what surrounds it: isothermal ideal air.
 template <class P>
 struct GasOf {
@@ -85,32 +76,6 @@ struct Dac {
   }
 };
 
-/// Optical encoder on the joint (T 3.1).
-struct Encoder {
-  int pulses_per_turn = 720;
-  double wheel_ratio = 2.0;
-  EncoderWiring wiring = EncoderWiring::ideal;
-
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
-    visit("pulses_per_turn", self.pulses_per_turn, 1, 10000000, "pulses of one turn of the encoder's disk");
-    visit("wheel_ratio", self.wheel_ratio, "1", 0.01, 1000.0, "turns of the disk for one turn of the joint");
-    visit("wiring", self.wiring, "ideal: floor of the position; crosswise: the thesis's two gated counters");
-  }
-};
-
-/// Pressure gauge on the muscle, if one is fitted. It is recorded; controllers do not see it.
-struct Gauge {
-  bool fitted = false;
-  double resolution_Pa = 0.0;
-
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
-    visit("fitted", self.fitted, "whether muscle pressure is recorded as a gauge would show it");
-    visit("resolution", self.resolution_Pa, "Pa", 0.0, 1e5, "smallest step of the gauge; 0 for none");
-  }
-};
-
 /// The whole rig, all parts of one muscle side and the joint it moves.
 template <class P>
 struct RigOf {
@@ -124,10 +89,7 @@ struct RigOf {
   GasOf<P> gas;
   JointOf<P> joint;
   Dac dac;
-  Encoder encoder;
-  Gauge gauge;
-  Sensor sensor;
-  LoadCell load_cell;
+  Sensors sensors;
   EffectsOf<P> effects;
   double tick_s = 0.012;
   double settling_time_s = 2.004;
@@ -141,10 +103,9 @@ struct RigOf {
     visit("gas", self.gas, "air and atmosphere");
     visit("joint", self.joint, "wheel, inertia and load guide");
     visit("dac", self.dac, "current output");
-    visit("encoder", self.encoder, "position input");
-    visit("gauge", self.gauge, "optional pressure gauge");
-    visit("sensor", self.sensor, "what reads the position, if not the encoder");
-    visit("load_cell", self.load_cell, "optional load cell on the cord");
+    visit("sensors", self.sensors,
+          "what reads the rig, one for each signal; those of the base that are not named here stay, "
+          "`kind: none` takes one away");
     visit("effects", self.effects, "what the nominal rig leaves out; each absent unless given a size");
     visit("tick", self.tick_s, "s", 1e-4, 1.0, "time between two readings; the current is held in between");
     visit("settling_time", self.settling_time_s, "s", 0.0, 1000.0,

@@ -1,59 +1,158 @@
-// Sensors by their data sheets, in place of the optical encoder or beside it: what reads the position of the
-// joint, and a load cell on the muscle's cord.
+// A rig's sensors by their data sheets: a list, one for each signal that is read. What kinds there are, what
+// each may read and which numbers it has stands in `sensor_kinds`.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstddef>
 #include <optional>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 namespace mckibben::plant {
 
-/// What reads the position: the thesis's encoder on the joint; a laser or a linear encoder, which see the
-/// load's height; or a potentiometer on the joint's axis, which sees its angle.
-enum class SensorKind { encoder, laser, linear_encoder, potentiometer };
+/// What a sensor can read, spelled as its signal (signals.hpp); the position in any of its forms.
+enum class Sensed { contraction, muscle_pressure, force };
+constexpr auto names(Sensed) {
+  using enum Sensed;
+  return std::array{std::pair{contraction, std::string_view{"contraction"}},
+                    std::pair{muscle_pressure, std::string_view{"muscle_pressure"}},
+                    std::pair{force, std::string_view{"force"}}};
+}
+
+/// A number for each of them.
+struct BySensed {
+  std::array<double, names(Sensed{}).size()> values{};
+
+  double& operator[](Sensed signal) { return values[static_cast<std::size_t>(signal)]; }
+  double operator[](Sensed signal) const { return values[static_cast<std::size_t>(signal)]; }
+};
+
+enum class SensorKind { encoder, laser, linear_encoder, potentiometer, load_cell, gauge };
 constexpr auto names(SensorKind) {
   using enum SensorKind;
   return std::array{std::pair{encoder, std::string_view{"encoder"}},
                     std::pair{laser, std::string_view{"laser"}},
                     std::pair{linear_encoder, std::string_view{"linear_encoder"}},
-                    std::pair{potentiometer, std::string_view{"potentiometer"}}};
+                    std::pair{potentiometer, std::string_view{"potentiometer"}},
+                    std::pair{load_cell, std::string_view{"load_cell"}},
+                    std::pair{gauge, std::string_view{"gauge"}}};
 }
 
-/// Another sensor of position than the encoder. Numbers are heights in m; of a potentiometer angles in rad.
-/// Readings are whole steps of `resolution`, the nearest one, and stay between the ends of its range.
+/// How an encoder's pulses are counted: floor of the position, or the thesis's two crosswise counters
+/// (T 3.1).
+enum class EncoderWiring { ideal, crosswise };
+constexpr auto names(EncoderWiring) {
+  using enum EncoderWiring;
+  return std::array{std::pair{ideal, std::string_view{"ideal"}},
+                    std::pair{crosswise, std::string_view{"crosswise"}}};
+}
+
+/// The spelling of a choice of these.
+template <class Choice>
+constexpr std::string_view name_of(Choice choice) requires requires {
+  names(choice);
+}
+{
+  for (const auto& [known, name] : names(choice))
+    if (known == choice) return name;
+  return {};
+}
+
+/// What is the same of all sensors of a kind.
+struct SensorSheet {
+  SensorKind kind;
+  std::array<std::optional<Sensed>, 2> reads;
+  std::string_view unit{};        ///< of its numbers; none: it has a disk, and counts pulses
+  double largest = 0.0;           ///< of its steps and errors
+  double range = 0.0;             ///< furthest end of its range
+  bool needs_resolution = false;  ///< readings are whole steps
+};
+
+inline constexpr std::array sensor_kinds{
+    SensorSheet{SensorKind::encoder, {Sensed::contraction}},
+    SensorSheet{SensorKind::laser, {Sensed::contraction}, "m", 0.1, 10.0, true},
+    SensorSheet{SensorKind::linear_encoder, {Sensed::contraction}, "m", 0.1, 10.0, true},
+    SensorSheet{SensorKind::potentiometer, {Sensed::contraction}, "rad", 0.1, 10.0, true},
+    SensorSheet{SensorKind::load_cell, {Sensed::force}, "N", 1e3, 1e6},
+    SensorSheet{SensorKind::gauge, {Sensed::muscle_pressure}, "Pa", 1e5, 1e8},
+};
+
+constexpr const SensorSheet& sheet_of(SensorKind kind) {
+  return *std::find_if(sensor_kinds.begin(), sensor_kinds.end(),
+                       [&](const SensorSheet& sheet) { return sheet.kind == kind; });
+}
+constexpr bool may_read(SensorKind kind, Sensed signal) {
+  const auto& reads = sheet_of(kind).reads;
+  return std::find(reads.begin(), reads.end(), signal) != reads.end();
+}
+
+/// One sensor. Numbers are in its kind's unit. Readings are whole steps of `resolution`, the nearest one, and
+/// stay between the ends of its range.
 struct Sensor {
+  Sensed signal = Sensed::contraction;
   SensorKind kind = SensorKind::encoder;
-  double resolution = 0.0;  ///< of what digitises it, too
+  double resolution = 0.0;  ///< of what digitises it, too; 0: no steps
   double noise = 0.0;       ///< rms
   double accuracy = 0.0;    ///< rms
-  std::optional<double> lowest, highest;
+  std::optional<double> lowest{}, highest{};
+  // Of what reads the position.
+  std::optional<double> rate_Hz{}, delay_s{};
+  // Of an encoder (T 3.1).
+  int pulses_per_turn = 720;
+  double wheel_ratio = 2.0;
+  EncoderWiring wiring = EncoderWiring::ideal;
 
-  bool absent() const { return kind == SensorKind::encoder; }
-  bool turns() const { return kind == SensorKind::potentiometer; }
-  /// What one of its numbers is as a rise of the load [m].
-  double rise_m(double wheel_radius_m) const { return turns() ? wheel_radius_m : 1.0; }
+  const SensorSheet& sheet() const { return sheet_of(kind); }
+  bool counts_pulses() const { return sheet().unit.empty(); }
+  /// When the reading was taken that it has at an instant; before its delay.
+  double taken_s(double now_s) const {
+    constexpr double same_instant = 1e-6;  // of the time between two readings
+    return rate_Hz ? std::floor(now_s * *rate_Hz + same_instant) / *rate_Hz : now_s;
+  }
+  bool is_late() const { return rate_Hz || delay_s; }
+  double late_s(double now_s) const { return std::max(now_s - taken_s(now_s), 0.0) + delay_s.value_or(0.0); }
 
+  /// What one of a position sensor's numbers is as a rise of the load [m].
+  double rise_m(double wheel_radius_m) const {
+    return kind == SensorKind::potentiometer ? wheel_radius_m : 1.0;
+  }
+
+  /// Without signal and kind, which decide which fields there are.
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
-    visit.required("kind", self.kind, "another sensor than the encoder, by its data sheet");
-    const std::string_view unit = self.turns() ? "rad" : "m";
-    visit("resolution", self.resolution, unit, 0.0, 0.1,
-          "smallest step of its readings, of the converter's as well; of a potentiometer this and the "
-          "following are angles");
-    visit("noise", self.noise, unit, 0.0, 0.1, "rms of its readings from one to the next");
-    visit("accuracy", self.accuracy, unit, 0.0, 0.1,
-          "rms by which readings are off that do not scatter: linearity, drift; counted in a diagnosis's "
-          "noise floor, not simulated");
-    visit("lowest", self.lowest, unit, -10.0, 10.0,
-          "the lowest that it reads, from rest; no end if left out");
-    visit("highest", self.highest, unit, -10.0, 10.0,
-          "the highest that it reads, from rest; no end if left out");
+    const SensorSheet& sheet = self.sheet();
+    const std::string_view unit = sheet.unit;
+    if (self.counts_pulses()) {
+      visit("pulses_per_turn", self.pulses_per_turn, 1, 10000000, "pulses of one turn of the encoder's disk");
+      visit("wheel_ratio", self.wheel_ratio, "1", 0.01, 1000.0,
+            "turns of the disk for one turn of the joint");
+      visit("wiring", self.wiring,
+            "ideal: floor of the position; crosswise: the thesis's two gated counters");
+    } else {
+      visit("resolution", self.resolution, unit, 0.0, sheet.largest,
+            "smallest step of its readings, of the converter's as well; 0 for none");
+      visit("noise", self.noise, unit, 0.0, sheet.largest, "rms of its readings from one to the next");
+      visit("accuracy", self.accuracy, unit, 0.0, sheet.largest,
+            "rms by which readings are off that do not scatter: linearity, hysteresis, drift; counted in a "
+            "diagnosis's noise floor, not simulated");
+      visit("lowest", self.lowest, unit, -sheet.range, sheet.range,
+            "the lowest that it reads, from rest; no end if left out");
+      visit("highest", self.highest, unit, -sheet.range, sheet.range,
+            "the highest that it reads, from rest; no end if left out");
+    }
+    if (!may_read(self.kind, Sensed::contraction)) return;
+    visit("rate", self.rate_Hz, "Hz", 0.01, 1e6,
+          "how often it takes a reading, which it shows until the next; if left out, whenever it is read");
+    visit("delay", self.delay_s, "s", 0.0, 10.0,
+          "how long ago the load was where it shows it; none if left out");
   }
   template <class Report>
   void rules(Report& report) const {
-    if (absent()) return;
-    if (resolution == 0.0)
+    if (counts_pulses()) return;
+    if (sheet().needs_resolution && resolution == 0.0)
       report("resolution", "a sensor's resolution must be said; an analogue one has that of its converter");
     if (lowest && highest && *highest <= *lowest) report("highest", "must be above lowest");
     if (lowest && *lowest > 0.0) report("lowest", "must not be above the rest, which is 0");
@@ -61,24 +160,32 @@ struct Sensor {
   }
 };
 
-/// A load cell between muscle and cord, if one is fitted. It is recorded; controllers do not see it.
-struct LoadCell {
-  bool fitted = false;
-  double resolution_N = 0.0, noise_N = 0.0, accuracy_N = 0.0;
-  std::optional<double> highest_N;
+/// The sensors of a rig, at most one for each signal. The first reads the position, which every rig has.
+struct Sensors : std::vector<Sensor> {
+  Sensors() : std::vector<Sensor>(1) {}
 
-  bool absent() const { return !fitted; }
-
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
-    visit("fitted", self.fitted, "whether the cord's force is recorded as a load cell would show it");
-    visit("resolution", self.resolution_N, "N", 0.0, 1e3, "smallest step of its readings; 0 for none");
-    visit("noise", self.noise_N, "N", 0.0, 1e3, "rms of its readings from one to the next");
-    visit("accuracy", self.accuracy_N, "N", 0.0, 1e3,
-          "rms by which readings are off that do not scatter: linearity, hysteresis, drift; counted in a "
-          "diagnosis's noise floor, not simulated");
-    visit("highest", self.highest_N, "N", 1e-3, 1e6, "the highest force that it reads; no end if left out");
+  const Sensor& position() const { return front(); }
+  Sensor& position() { return front(); }
+  /// What reads a signal; null if nothing does.
+  const Sensor* of(Sensed signal) const {
+    const auto found = std::find_if(begin(), end(), [&](const Sensor& one) { return one.signal == signal; });
+    return found == end() ? nullptr : &*found;
+  }
+  Sensor* of(Sensed signal) { return const_cast<Sensor*>(std::as_const(*this).of(signal)); }
+  /// In place of what read its signal before.
+  void put(const Sensor& sensor) {
+    if (Sensor* before = of(sensor.signal))
+      *before = sensor;
+    else
+      push_back(sensor);
+  }
+  void remove(Sensed signal) {
+    std::erase_if(*this, [&](const Sensor& one) { return one.signal == signal; });
   }
 };
+
+inline Sensor gauge(double resolution_Pa = 0.0) {
+  return {.signal = Sensed::muscle_pressure, .kind = SensorKind::gauge, .resolution = resolution_Pa};
+}
 
 }  // namespace mckibben::plant

@@ -16,10 +16,11 @@ bool exists(const Channel& channel, const Rig& rig, const Driven& driven) {
       return driven.pair;
     case Needs::valve:
       return !driven.pressure[channel.muscle == 2 ? 1 : 0];
-    case Needs::gauge:
-      return rig.gauge.fitted;
-    case Needs::load_cell:
-      return rig.load_cell.fitted;
+    case Needs::sensor:
+      return exists({&signal_of(channel.signal->reads), channel.muscle}, rig, driven) &&
+             std::any_of(rig.sensors.begin(), rig.sensors.end(), [&](const Sensor& sensor) {
+               return name_of(sensor.signal) == channel.signal->reads;
+             });
     case Needs::nothing:
       break;
   }

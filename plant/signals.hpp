@@ -27,18 +27,17 @@ struct SideSample {
   double braid_force_N = 0.0, friction_force_N = 0.0, effects_pull_N = 0.0;
   double cord_force_N = 0.0;     ///< T, the sum
   double inflow_kg_per_s = 0.0;  ///< through the hose, or what keeps a given pressure
-  double gauge_Pa = 0.0;         ///< as the gauge shows the muscle's pressure, if one is fitted
+  BySensed shown{};              ///< by sensors; the value itself where none reads it
 };
 
-/// A rig at an instant, before what is given changes. True values, but for `counts`, `read_...`, `gauge_Pa`
-/// and `cell_N`.
+/// A rig at an instant, before what is given changes. True values, but for `counts`, `read_...` and
+/// `shown`.
 struct Sample : SideSample {
   double time_s = 0.0;
   State<double> state{};
   std::int64_t counts = 0;
   double read_ratio = 0.0, read_angle_rad = 0.0;        ///< by these counts
   double misread_ratio = 0.0;                           ///< what an encoder shows besides e, before it counts
-  double cell_N = 0.0;                                  ///< as the load cell shows it, if one is fitted
   double angle_rad = 0.0, angle_speed_rad_per_s = 0.0;  ///< of a pair's joint
   double torque_N_m = 0.0, stiffness_N_m_per_rad = 0.0;
   SideSample opposite{};  ///< muscle 2 of a pair
@@ -69,7 +68,7 @@ struct Unit {
 enum class Kind { time, input, state, reading };
 enum class Part { joint, muscle };
 /// What a rig must have for a signal to exist.
-enum class Needs { nothing, one_muscle, pair, valve, gauge, load_cell };
+enum class Needs { nothing, one_muscle, pair, valve, sensor };
 /// Whether it is a column of the files of runs; a force only of pairs, and where it is measured or a length
 /// is given. Pages, Python and FMUs have all signals.
 enum class InFiles { yes, no, measured_force };
@@ -238,15 +237,15 @@ inline constexpr auto signals = std::to_array<Signal>({
      .words = "gauge pressure in the muscle as measured",
      .kind = Kind::reading,
      .part = Part::muscle,
-     .needs = Needs::gauge,
-     .value = [](const Sample& row, std::size_t i) { return row.side(i).gauge_Pa; },
+     .needs = Needs::sensor,
+     .value = [](const Sample& row, std::size_t i) { return row.side(i).shown[Sensed::muscle_pressure]; },
      .reads = "muscle_pressure"},
     {.key = "cell_force",
      .unit = units::N,
      .words = "force of the cord as measured",
      .kind = Kind::reading,
-     .needs = Needs::load_cell,
-     .value = [](const Sample& row, std::size_t) { return row.cell_N; },
+     .needs = Needs::sensor,
+     .value = [](const Sample& row, std::size_t) { return row.shown[Sensed::force]; },
      .reads = "force"},
 });
 

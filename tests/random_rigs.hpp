@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <concepts>
+#include <optional>
 #include <random>
 #include <string_view>
 #include <type_traits>
@@ -40,6 +41,8 @@ struct RulesKept {
   template <class T, class... Rest>
   void operator()(std::string_view, T& value, Rest&&...) {
     if constexpr (requires { T::fields(value, *this); }) T::fields(value, *this);
+    if constexpr (std::is_same_v<std::remove_const_t<T>, Sensors>)
+      for (const Sensor& sensor : value) check(sensor);
     check(value);
   }
   template <class T, class... Rest>
@@ -80,6 +83,8 @@ struct Shuffle {
       value = chance.between(lowest, highest);
     }
   }
+  void operator()(std::string_view, std::optional<double>&, std::string_view, double, double,
+                  std::string_view) {}
   template <std::integral T>
   void operator()(std::string_view, T& value, std::type_identity_t<T> lowest, std::type_identity_t<T> highest,
                   std::string_view) {
@@ -94,7 +99,13 @@ struct Shuffle {
     } else if constexpr (AnEffect<T>) {
       if (chance.pick(one_in) == 0) shuffle_effect(value);
     } else if constexpr (std::is_same_v<T, ValveKind>) {  // of a regulator more must be said
-    } else if constexpr (std::is_same_v<T, Sensor> || std::is_same_v<T, LoadCell>) {  // no law knows them
+    } else if constexpr (std::is_same_v<T,
+                                        Sensors>) {  // an encoder, and a gauge or none; no law knows others
+      Sensor::fields(value.position(), *this);
+      const bool fitted = chance.pick(2) == 0;
+      Sensor other = gauge();
+      (*this)("resolution", other.resolution, "Pa", 0.0, 1e5, "");
+      if (fitted) value.put(other);
     } else if constexpr (std::is_enum_v<T>) {
       const auto all = names(T{});
       value = all[static_cast<std::size_t>(chance.pick(static_cast<int>(all.size())))].first;

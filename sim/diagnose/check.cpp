@@ -226,7 +226,7 @@ class DatasetChecker {
 
   // What a sensor reads at the end of its range is no position.
   void range_ends(std::size_t i) {
-    const plant::Sensor& sensor = data_.rig.sensor;
+    const plant::Sensor& sensor = data_.rig.sensors.position();
     const Series& values = data_.runs[i].judged();
     const double step = run::reading_per_count(data_.rig);
     std::size_t ended = 0;

@@ -42,7 +42,7 @@ Eigen::MatrixXd counting_errors(const Experiment& experiment, const Fitted& fitt
     for (double& one : change) one = normal(random);
     const Eigen::VectorXd motion = counts * (fitted.columns * (root * change));
     for (const auto& part : parts) {
-      plant::PulseCounter counter(experiment.data().rig.encoder.wiring, 1.0);
+      plant::PulseCounter counter(experiment.data().rig.sensors.position().wiring, 1.0);
       const auto& measured = experiment.data().runs[part.run].judged();
       for (Eigen::Index k = 0; k < part.rows; ++k) {
         const Eigen::Index row = part.begin + k;

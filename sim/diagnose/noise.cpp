@@ -233,10 +233,11 @@ struct Sheet {
   double step = 0.0, noise = 0.0, accuracy = 0.0;
 };
 Sheet sheet_of(const domain::Dataset& data) {
-  const plant::LoadCell& cell = data.rig.load_cell;
-  if (data.judged() == domain::Judged::force)
-    return cell.fitted ? Sheet{cell.resolution_N, cell.noise_N, cell.accuracy_N} : Sheet{};
-  const plant::Sensor& sensor = data.rig.sensor;
+  if (data.judged() == domain::Judged::force) {
+    const plant::Sensor* cell = data.rig.sensors.of(plant::Sensed::force);
+    return cell != nullptr ? Sheet{cell->resolution, cell->noise, cell->accuracy} : Sheet{};
+  }
+  const plant::Sensor& sensor = data.rig.sensors.position();
   const double radius_m = data.rig.joint.wheel_radius_m;
   const double reading = sensor.rise_m(radius_m) /
                          (data.judged() == domain::Judged::angle ? radius_m : data.rig.muscle.rest_length_m);
@@ -294,8 +295,8 @@ double force_floor_N(const domain::Dataset& data, const Runs& trusted) {
   constexpr std::array of_cell{domain::Beside::force};
   const double noise_N =
       data.rows_of_stamps ? data.rows_of_stamps->force_noise_N : noise_beside(data, trusted, of_cell);
-  const plant::LoadCell& cell = data.rig.load_cell;
-  return std::max({std::hypot(noise_N, cell.fitted ? cell.accuracy_N : 0.0),
+  const plant::Sensor* cell = data.rig.sensors.of(plant::Sensed::force);
+  return std::max({std::hypot(noise_N, cell != nullptr ? cell->accuracy : 0.0),
                    thresholds.predict.tolerance * largest_force_N(data), assumed.least_force_N});
 }
 
@@ -328,7 +329,7 @@ NoiseFloor noise_floor(const domain::Dataset& data, const std::vector<std::vecto
   floor.noisy = floor.jitter > std::max(count, assumed.sheet_noise * sheet_of(data).noise);
   if (floor.count > 0.0 && !floor.noisy) floor.jitter = count * dither(data, masked, trusted, count);
   const auto [simulated, believed] = least_of(data);
-  floor.middle = floor.count * plant::middle_of_count(data.rig.sensor);
+  floor.middle = floor.count * plant::middle_of_count(data.rig.sensors.position());
   floor.judged =
       std::max({floor.repeats, floor.with_sheets(std::hypot(rounding, floor.jitter, simulated)), believed});
   if (std::ranges::any_of(domain::gauges, [&](auto which) { return is_read(data, trusted, which); }))

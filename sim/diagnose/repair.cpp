@@ -84,7 +84,7 @@ void take_out(domain::Run& run, bool counted, double count, double at_begin, dou
 }  // namespace
 
 bool counts(const domain::Dataset& data, const domain::Run& run) {
-  return run.measured ? run.measured->counted : data.rig.sensor.absent();
+  return run.measured ? run.measured->counted : data.rig.sensors.position().counts_pulses();
 }
 
 FaultyRun told(const domain::Dataset& data, const Fault& fault) {

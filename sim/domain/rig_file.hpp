@@ -35,8 +35,8 @@ struct RigFile : plant::Rig {
   void rules(Report& report) const {
     plant::Rig::rules(report);
     if (pair() != nullptr) plant::pair_rules(*this, *pair(), report);
-    if (pair() != nullptr && load_cell.fitted)
-      report("load_cell", "is of rigs with one muscle: of two, angle and pressures are read");
+    if (pair() != nullptr && sensors.of(plant::Sensed::force) != nullptr)
+      report("sensors", "a load cell is of rigs with one muscle: of two, angle and pressures are read");
   }
 };
 

@@ -1,11 +1,21 @@
 // The field lists of the plant, walked with the path as a guide; see the header.
+#include <array>
 #include <concepts>
 #include <string>
+#include <utility>
 
 #include <sim/domain/rig_number.hpp>
 
 namespace mckibben::domain {
 namespace {
+
+/// Elements of a list go by their place, sensors by what they read.
+std::string key_in(const auto&, std::size_t place) {
+  return std::to_string(place);
+}
+std::string key_in(const plant::Sensors& sensors, std::size_t place) {
+  return std::string(plant::name_of(sensors[place].signal));
+}
 
 /// The visitor of a field list that goes into structs and lists of structs.
 template <class Own>
@@ -20,7 +30,7 @@ class Walker {
     } else if constexpr (requires { T::value_type::fields(value.front(), own()); }) {
       own().enter(key, value, [&] {
         for (std::size_t i = 0; i < value.size(); ++i)
-          own().enter(std::to_string(i), value[i], [&] { T::value_type::fields(value[i], own()); });
+          own().enter(key_in(value, i), value[i], [&] { T::value_type::fields(value[i], own()); });
       });
     }
   }
@@ -95,6 +105,15 @@ class Judge : public Walker<Judge> {
 }  // namespace
 
 RigNumber find_number(plant::Rig& rig, std::string_view path) {
+  // As sensors were called when each had a key of its own.
+  constexpr auto before =
+      std::to_array<std::pair<std::string_view, std::string_view>>({{"encoder.", "sensors.contraction."},
+                                                                    {"sensor.", "sensors.contraction."},
+                                                                    {"gauge.", "sensors.muscle_pressure."},
+                                                                    {"load_cell.", "sensors.force."}});
+  std::string renamed;
+  for (const auto& [old, now] : before)
+    if (path.starts_with(old)) path = renamed = std::string(now) + std::string(path.substr(old.size()));
   Guide guide(path);
   plant::Rig::fields(rig, guide);
   return guide.found;

@@ -81,8 +81,8 @@ struct Leaves {
   requires(std::integral<T> || std::is_enum_v<T>) void operator()(T& choice) {
     choices.push_back(makes_no_difference ? std::nullopt : std::optional(static_cast<long>(choice)));
   }
-  void operator()(const plant::RatedCommand&) {}    // whatever a command is called, the valve gets a current
-  void operator()(const std::optional<double>&) {}  // ends of a sensor's range: laws know none
+  void operator()(const plant::RatedCommand&) {}  // whatever a command is called, the valve gets a current
+  void operator()(const plant::Sensors&) {}       // laws know none
   template <class T>
   void size(const std::vector<T>& list) {
     choices.emplace_back(static_cast<long>(list.size()));
@@ -112,9 +112,9 @@ struct Fill {
       lanes.set(lane, rigs[lane < rigs.size() ? lane : 0].numbers[number]);
     ++number;
   }
-  void operator()(double& value) { value = rigs.front().numbers[number++]; }  // of instruments
+  void operator()(double& value) { value = rigs.front().numbers[number++]; }  // of the DAC
   void operator()(const plant::RatedCommand&) {}
-  void operator()(const std::optional<double>&) {}
+  void operator()(const plant::Sensors&) {}
   template <class T>
   requires(std::integral<T> || std::is_enum_v<T>) void operator()(T& value) {
     value = static_cast<T>(choices[choice++]);

@@ -2,6 +2,7 @@
 // from the struct's `fields`; the JSON Schema and the tables of the documentation are written from it.
 #pragma once
 
+#include <algorithm>
 #include <concepts>
 #include <cstddef>
 #include <optional>
@@ -16,6 +17,7 @@
 #include <plant/command.hpp>
 #include <sim/input/field_kinds.hpp>
 #include <sim/input/fields_json.hpp>
+#include <sim/input/sensors_file.hpp>
 #include <sim/input/yaml_reader.hpp>
 
 namespace mckibben::input {
@@ -53,6 +55,7 @@ struct FieldInfo {
   std::vector<std::string> choices;
   std::vector<Group> groups;
   std::string meaning;
+  std::vector<std::string> in_place_of{};  ///< keys that are still read, but not to be written any more
 };
 
 /// Of a struct whose list depends on what is in it, as it is for these `defaults`.
@@ -98,7 +101,7 @@ class FieldLister {
       info.is_list = true;
     } else {
       describe<T>(info);
-      if constexpr (!is_variant<T> && !Listed<T> && !is_optional<T>)
+      if constexpr (!is_variant<T> && !Listed<T> && !is_optional<T> && !std::same_as<T, plant::Sensors>)
         if (!is_absent(value)) info.default_value = to_json(value);
     }
   }
@@ -133,6 +136,8 @@ class FieldLister {
       for (const std::string_view text : spellings<domain::Sampling>()) info.choices.emplace_back(text);
     } else if constexpr (std::same_as<T, plant::OwnLawsOf<double>>) {
       info.type = FieldInfo::Type::laws;
+    } else if constexpr (std::same_as<T, plant::Sensors>) {
+      add_sensors(info);
     } else if constexpr (Named<T>) {
       info.type = FieldInfo::Type::choice;
       for (const std::string_view text : spellings<T>()) info.choices.emplace_back(text);
@@ -148,6 +153,29 @@ class FieldLister {
   template <class... Ts>
   static void add_alternatives(FieldInfo& info, std::variant<Ts...>*) {
     (info.groups.push_back({std::string(Ts::kind), list_fields<Ts>()}), ...);
+  }
+
+  static void add_sensors(FieldInfo& info) {
+    info.type = FieldInfo::Type::variant;
+    info.is_list = true;
+    for (const OldSensorKey& old : old_sensor_keys) info.in_place_of.emplace_back(old.key);
+    const auto signal = [](FieldInfo::Group& group) -> FieldInfo& {
+      FieldLister(group.fields).required("signal", plant::Sensed{}, "what it reads");
+      return group.fields.back();
+    };
+    for (const plant::SensorSheet& sheet : plant::sensor_kinds) {
+      FieldInfo::Group& group =
+          info.groups.emplace_back(FieldInfo::Group{std::string(name_of(sheet.kind)), {}});
+      std::erase_if(signal(group).choices, [&](const std::string& text) {
+        return std::ranges::none_of(names(plant::Sensed{}), [&](const auto& named) {
+          return named.second == text && may_read(sheet.kind, named.first);
+        });
+      });
+      FieldLister lister(group.fields);
+      const plant::Sensor sensor{.kind = sheet.kind};
+      plant::Sensor::fields(sensor, lister);
+    }
+    signal(info.groups.emplace_back(FieldInfo::Group{std::string(no_sensor), {}}));
   }
 
   std::vector<FieldInfo>& list_;

@@ -17,6 +17,7 @@
 #include <controllers/target.hpp>
 #include <plant/command.hpp>
 #include <plant/effects/own_laws.hpp>
+#include <plant/sensors.hpp>
 #include <sim/domain/spread.hpp>
 #include <sim/domain/variation.hpp>
 #include <sim/input/field_kinds.hpp>
@@ -138,6 +139,14 @@ Json to_json(const T& value, const SpreadsOf& spreads) {
   } else if constexpr (is_vector<T>) {
     Json list = Json::array();
     for (const auto& each : value) list.push_back(to_json(each, spreads.below(std::to_string(list.size()))));
+    return list;
+  } else if constexpr (std::same_as<T, plant::Sensors>) {
+    Json list = Json::array();
+    for (const plant::Sensor& sensor : value) {
+      const std::string signal(name_of(sensor.signal));
+      list.push_back({{"signal", signal}, {"kind", std::string(name_of(sensor.kind))}});
+      list.back().update(to_json(sensor, spreads.below(signal)));
+    }
     return list;
   } else if constexpr (is_variant<T>) {
     return std::visit(

@@ -78,6 +78,10 @@ Json group_schema(const FieldInfo::Group& group) {
     schema["description"] = description(info);
     if (!info.default_value.is_null()) schema["default"] = info.default_value;
     properties[info.key] = std::move(schema);
+    for (const std::string& old : info.in_place_of)
+      properties[old] = {{"type", "object"},
+                         {"deprecated", true},
+                         {"description", fmt::format("write it in {} (mckibben check --upgrade)", info.key)}};
     if (info.required) required.push_back(info.key);
   }
   Json schema{{"type", "object"}, {"properties", properties}, {"additionalProperties", false}};

@@ -11,6 +11,7 @@
 #include <sim/input/fields_json.hpp>
 #include <sim/input/muscles.hpp>
 #include <sim/input/rigs.hpp>
+#include <sim/input/sensors_file.hpp>
 #include <sim/input/suggest.hpp>
 #include <sim/input/utf8.hpp>
 #include <sim/input/yaml_reader.hpp>
@@ -125,7 +126,11 @@ void read_changes(const Source& source, const Node& map, RigFile& into, Problems
                      fmt::format("base must be the name or the path of a rig, not {}", base->kind_name()));
   }
   into.mechanics = with_both_sides(source, map, into);
-  read_struct(source, map, into, problems, also_allowed, {&into.spreads});
+  std::vector<std::string_view> allowed(also_allowed.begin(), also_allowed.end());
+  for (const OldSensorKey& old : old_sensor_keys)
+    if (map.find(old.key) != nullptr) allowed.push_back(old.key);
+  read_old_sensors(source, map, into.sensors, problems, {&into.spreads, "sensors."});
+  read_struct(source, map, into, problems, allowed, {&into.spreads});
 }
 
 }  // namespace

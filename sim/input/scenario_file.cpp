@@ -75,9 +75,10 @@ class ScenarioChecker {
   }
 
   void check_noise() {
-    if (scenario_.noise.gauge_Pa > 0.0 && !scenario_.rig.gauge.fitted)
+    if (scenario_.noise.gauge_Pa > 0.0 && scenario_.rig.sensors.of(plant::Sensed::muscle_pressure) == nullptr)
       problems_.warning(source_, list("noise").place,
-                        "noise.gauge has no effect: the rig has no gauge (gauge: {fitted: true})");
+                        "noise.gauge has no effect: the rig has no gauge (sensors: [{signal: "
+                        "muscle_pressure, kind: gauge}])");
   }
 
   void check_rig() {

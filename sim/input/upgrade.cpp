@@ -7,8 +7,10 @@
 
 #include <fmt/format.h>
 
+#include <sim/input/sensors_file.hpp>
 #include <sim/input/suggest.hpp>
 #include <sim/input/upgrade.hpp>
+#include <sim/input/utf8.hpp>
 
 namespace mckibben::input {
 namespace {
@@ -49,6 +51,13 @@ std::string note_on(std::string_view schema, std::span<const std::string_view> s
 }
 
 void look_through(const Node& node, std::string_view file, const Source& source, Problems& found) {
+  if (const std::string list = in_place_of_old_sensors(node); !list.empty())
+    for (const OldSensorKey& old : old_sensor_keys)
+      if (const Node* one = node.find(old.key); one != nullptr && one->kind == Node::Kind::map) {
+        found.warning(source, one->key_place,
+                      fmt::format("{}: sensors are one list; write {}", old.key, list));
+        break;
+      }
   const Node* kind = node.find("kind");
   for (const Node& child : node.children) {
     for (const Gone& one : gone)

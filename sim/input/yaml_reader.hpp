@@ -19,6 +19,7 @@
 #include <controllers/target.hpp>
 #include <plant/command.hpp>
 #include <plant/effects/own_laws.hpp>
+#include <plant/sensors.hpp>
 #include <sim/domain/spread.hpp>
 #include <sim/domain/variation.hpp>
 #include <sim/input/diagnostics.hpp>
@@ -46,6 +47,10 @@ void read_struct(const Source& source, const Node& node, T& into, Problems& prob
 
 /// Reads a list of a user's own laws (hypothesis_file.hpp).
 void read_named(const Source& source, const Node& node, plant::OwnLawsOf<double>& into, Problems& problems);
+
+/// Reads the list of a rig's sensors on top of what is there (sensors_file.hpp).
+void read_sensors(const Source& source, const Node& node, plant::Sensors& into, Problems& problems,
+                  const SpreadsInto& spreads);
 
 /// Checks the line `schema: NAME/VERSION` of a file.
 /// False if it is another kind of file, not worth reading on.
@@ -194,6 +199,8 @@ class StructReader : public ValueReader {
       if (const auto index = kind(key, node, kinds<T>)) read_alternative(node, value, *index, path);
     } else if constexpr (std::same_as<T, domain::Variation>) {
       // Read once the rig is known whose numbers it names (variation_file.hpp).
+    } else if constexpr (std::same_as<T, plant::Sensors>) {
+      if (is_list(key, node)) read_sensors(source_, node, value, problems_, spreads_.below(path));
     } else if constexpr (NamedStruct<T>) {
       read_named(source_, node, value, problems_);  // stands beside the reader of T
     } else {

@@ -30,7 +30,8 @@ Json switch_json(const Switch& one) {
 }
 
 std::string data_of(const domain::RigFile& rig, const Session& session) {
-  Json data{{"rig", report::drawn_rig_json(rig, rig.mechanics, rig.gauge.fitted)},
+  Json data{{"rig", report::drawn_rig_json(rig, rig.mechanics,
+                                           rig.sensors.of(plant::Sensed::muscle_pressure) != nullptr)},
             {"tick_s", rig.tick_s},
             {"largest_mA", rig.dac.largest_current_mA},
             {"signals", signals_json(rig)},

@@ -79,7 +79,7 @@ run::EndedRun ended_run(const run::CampaignJob& job, const Json& entry) {
 
 Json columns_json(const domain::RigFile& rig) {
   if (rig.pair() != nullptr) return {{"angle", counted_json("angle_rad", run::reading_per_count(rig))}};
-  if (!rig.load_cell.fitted) return Json::object();
+  if (rig.sensors.of(plant::Sensed::force) == nullptr) return Json::object();
   return {{"contraction", counted_json("contraction_ratio", run::contraction_per_count(rig))},
           {"force", {{"column", "force_N"}, {"unit", "N"}}}};
 }

@@ -118,7 +118,8 @@ std::vector<std::pair<double, double>> loop_of(const plant::Rig& rig, double loa
   const double count = run::contraction_per_count(rig);
   std::vector<std::pair<double, double>> points;
   for (const run::Sample& sample : recording.samples) {
-    const double pressure_Pa = gauge ? sample.gauge_Pa : plant.reference_pressure_Pa(sample.current_mA);
+    const double pressure_Pa =
+        gauge ? sample.shown[plant::Sensed::muscle_pressure] : plant.reference_pressure_Pa(sample.current_mA);
     points.emplace_back(pressure_Pa / 1e5, (static_cast<double>(sample.counts) + 0.5) * count);
   }
   return points;

@@ -1,5 +1,6 @@
 // Files and words; see the header.
 #include <algorithm>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -101,15 +102,20 @@ std::string rig_yaml(const Recognised& found) {
       "# What is not said here is the base's: mckibben schema rig --format yaml shows every value.\n"
       "schema: {}\nbase: thesis\n",
       how_to_go_on, input::rig_schema);
-  std::string section;
+  std::string section, sensor;
   for (const Setting& each : found.rig) {
     const std::size_t dot = each.key.find('.');
     const std::string part = dot == std::string::npos ? "" : each.key.substr(0, dot);
     if (part != section && !part.empty()) text += part + ":\n";
     section = part;
-    const std::string indent = part.empty() ? "" : "  ";
-    text += fmt::format("{0}{1}\n{0}{2}: {3}\n", indent, comment(each.told.reason),
-                        part.empty() ? each.key : each.key.substr(dot + 1), each.told.value);
+    std::string indent = part.empty() ? "" : "  ", key = part.empty() ? each.key : each.key.substr(dot + 1);
+    if (part == "sensors") {
+      const std::string signal = key.substr(0, key.find('.'));
+      if (signal != std::exchange(sensor, signal)) text += "  - signal: " + signal + "\n";
+      indent = "    ";
+      key = key.substr(signal.size() + 1);
+    }
+    text += fmt::format("{0}{1}\n{0}{2}: {3}\n", indent, comment(each.told.reason), key, each.told.value);
   }
   return text;
 }

@@ -142,11 +142,12 @@ Shown Ride::shown() const {
   const bool pair = rig_.pair() != nullptr;
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
   const ride::Reading& reading = ride_.reading();
+  const plant::Sensor* const gauge = rig_.sensors.of(plant::Sensed::muscle_pressure);
   return {ride_.time_s(),
           pair ? none : rise_m / rig_.muscle.rest_length_m,
           pair ? rise_m / rig_.joint.wheel_radius_m : none,
-          plant::gauge_reading_Pa(rig_.gauge, reading.muscle_pressure_Pa),
-          pair ? plant::gauge_reading_Pa(rig_.gauge, reading.opposite_pressure_Pa) : none,
+          plant::shown(gauge, reading.muscle_pressure_Pa),
+          pair ? plant::shown(gauge, reading.opposite_pressure_Pa) : none,
           counts_};
 }
 

@@ -179,12 +179,13 @@ class Recogniser {
           {"0 mm ± 1 mm", "the zero of " + contraction->column.value +
                               " is a guess, and diagnose may move it by so much; less, if you know it"});
     if (unit == "count") {
-      set("encoder.pulses_per_turn", left_open("of the encoder's disk"));
-      set("encoder.wheel_ratio", left_open("turns of the disk for one of the wheel"));
+      set("sensors.contraction.kind", {"encoder", "counts were recorded"});
+      set("sensors.contraction.pulses_per_turn", left_open("of the encoder's disk"));
+      set("sensors.contraction.wheel_ratio", left_open("turns of the disk for one of the wheel"));
     }
     if (const ColumnGuess* pressure = first_map().find("muscle_pressure");
         pressure != nullptr && !pressure->input)
-      set("gauge.fitted", {"true", "a muscle pressure was recorded" + absolute(*pressure)});
+      set("sensors.muscle_pressure.kind", {"gauge", "a muscle pressure was recorded" + absolute(*pressure)});
     if (held_ && contraction != nullptr && contraction->input)
       set("mechanics", {"{kind: held_length}", "a force was read, at lengths that stay"});
     else if (held_)

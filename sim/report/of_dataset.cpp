@@ -174,7 +174,7 @@ std::string report_html(const domain::Campaign& campaign, const std::vector<run:
       .lengths = !pair,
       .rig = dataset.rig,
       .mechanics = dataset.rig.mechanics,
-      .gauge = dataset.rig.gauge.fitted,
+      .gauge = dataset.rig.sensors.of(plant::Sensed::muscle_pressure) != nullptr,
       .plots = measured_plots(pair),
       .loops = measured_loops(pair)};
   if (pair)

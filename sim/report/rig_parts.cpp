@@ -41,9 +41,6 @@ constexpr auto sits_at = [] {
                                                            {"valve", valve},
                                                            {"hose", hose},
                                                            {"joint", guide},
-                                                           {"encoder", encoder},
-                                                           {"sensor", encoder},
-                                                           {"gauge", gauge},
                                                            {"gas", muscle}});
 }();
 

@@ -1,4 +1,5 @@
 // One line for each part.
+#include <algorithm>
 #include <tuple>
 #include <vector>
 
@@ -62,21 +63,23 @@ std::string encoder(const plant::Rig& rig, bool pair) {
   const double height_m = plant::count_height_m(rig);
   const std::string step = pair ? readable(height_m / rig.joint.wheel_radius_m, "rad") + " of angle"
                                 : readable(height_m, "m") + " of height";
-  return rig.sensor.absent() ? "on the wheel: a count is " + step : "in steps of " + step;
+  return rig.sensors.position().counts_pulses() ? "on the wheel: a count is " + step : "in steps of " + step;
 }
 
-std::string position(plant::SensorKind kind) {
-  switch (kind) {
-    case plant::SensorKind::laser:
-      return "laser";
-    case plant::SensorKind::linear_encoder:
-      return "linear encoder";
-    case plant::SensorKind::potentiometer:
-      return "potentiometer";
-    case plant::SensorKind::encoder:
-      break;
-  }
-  return "encoder";
+std::string in_words(std::string_view name) {
+  std::string words(name);
+  std::replace(words.begin(), words.end(), '_', ' ');
+  return words;
+}
+
+/// What a sensor reads that is not the position.
+std::string sensor(const plant::Sensor& sensor) {
+  std::string says = sensor.signal == plant::Sensed::muscle_pressure
+                         ? "on the muscle"
+                         : "reads " + in_words(name_of(sensor.signal));
+  if (sensor.resolution > 0.0)
+    says += ", in steps of " + readable(sensor.resolution, std::string(sensor.sheet().unit));
+  return says;
 }
 
 }  // namespace
@@ -95,18 +98,15 @@ std::string rig_html(const Contents& contents) {
                     (rig.joint.load_offset_kg == 0.0
                          ? ""
                          : "; " + readable(rig.joint.load_offset_kg, "kg") + " hang on it besides the load"));
-  html += fmt::format("<dt>{}</dt><dd>{}</dd>\n", position(rig.sensor.kind),
+  html += fmt::format("<dt>{}</dt><dd>{}</dd>\n", in_words(name_of(rig.sensors.position().kind)),
                       text_html(encoder(rig, pair != nullptr), rig));
   part("valve", valve(rig.valve));
   part("hose", "sonic conductance " + readable(rig.hose.conductance_m3_per_s_Pa, "m3/(s.Pa)"));
-  part("gauge", !contents.gauge ? "none"
-                : rig.gauge.resolution_Pa > 0
-                    ? "on the muscle, in steps of " + readable(rig.gauge.resolution_Pa, "Pa")
-                    : "on the muscle");
-  if (rig.load_cell.fitted)
-    part("load cell", "on the cord" + (rig.load_cell.resolution_N > 0.0
-                                           ? ", in steps of " + readable(rig.load_cell.resolution_N, "N")
-                                           : std::string()));
+  const plant::Sensor* gauge = rig.sensors.of(plant::Sensed::muscle_pressure);
+  part("gauge", contents.gauge ? sensor(gauge != nullptr ? *gauge : plant::gauge()) : "none");
+  for (const plant::Sensor& other : rig.sensors)
+    if (&other != &rig.sensors.position() && &other != gauge)
+      part(in_words(name_of(other.kind)).c_str(), sensor(other));
   part("effects", effects(rig.effects));
   return html + "</dl>\n";
 }

@@ -41,7 +41,7 @@ Rider gone_on(const Rider& rider, Rider next) {
     go_on(next, Muscle::opposite, rider.plant().opposite()->rig().effects,
           next.plant().opposite()->rig().effects, state.opposite_plays, state.opposite_commands,
           state.drive.opposite.current_mA);
-  if (before.reading_delay_s() == 0.0) state.rises = {};
+  if (before.reading_delay_s() == 0.0 && !rider.plant().rig().sensors.position().is_late()) state.rises = {};
   next.open_ledger();
   next.look();
   return next;

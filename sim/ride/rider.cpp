@@ -180,8 +180,9 @@ void Rider::look() {
   const double length_m = plant_.rig().muscle.rest_length_m;
   const double true_rise_m = turned * length_m;
   double rise_m = true_rise_m;
-  if (const double late_s = plant_.rig().effects.reading_delay_s(); late_s > 0.0) {
-    const double then_s = now.time_s - late_s;
+  const plant::Sensor& sensor = plant_.rig().sensors.position();
+  if (const double effect_s = plant_.rig().effects.reading_delay_s(); effect_s > 0.0 || sensor.is_late()) {
+    const double then_s = now.time_s - (effect_s + sensor.late_s(now.time_s));
     now.rises.note(now.time_s, rise_m, state.joint.contraction_speed_per_s * length_m, then_s);
     rise_m = now.rises.rise_m(then_s);
   }

@@ -1,9 +1,38 @@
 // What there is to see of a rig; see the header.
+#include <algorithm>
+
 #include <plant/instruments.hpp>
 #include <plant/joint_stiffness.hpp>
 #include <sim/ride/sample.hpp>
 
 namespace mckibben::ride {
+
+namespace {
+
+using Value = double (*)(const plant::Sample&, std::size_t);
+
+/// Of each signal that sensors read, but for the position.
+constexpr auto true_values = [] {
+  std::array<Value, names(plant::Sensed{}).size()> all{};
+  for (const auto& [sensed, key] : names(plant::Sensed{}))
+    for (const plant::Signal& signal : plant::signals)
+      if (signal.key == key) all[static_cast<std::size_t>(sensed)] = signal.value;
+  return all;
+}();
+
+/// What the sensors of a muscle show; `gauge_Pa`: what a gauge on it has before it.
+void show(const plant::Sensors& sensors, const plant::Sample& row, std::size_t muscle, double gauge_Pa,
+          const plant::BySensed& noise, plant::BySensed& shown) {
+  for (const auto& [sensed, key] : names(plant::Sensed{})) {
+    if (sensed == plant::Sensed::contraction) continue;
+    double value = true_values[static_cast<std::size_t>(sensed)](row, muscle);
+    if (sensed == plant::Sensed::muscle_pressure) value = gauge_Pa;
+    if (sensed == plant::Sensed::force) value = std::max(value, 0.0);  // a cord that would push is slack
+    shown[sensed] = plant::shown(sensors.of(sensed), value + noise[sensed]);
+  }
+}
+
+}  // namespace
 
 plant::Sample sample_of(const Rider& rider, std::int64_t counts, const SensorNoise& noise) {
   const plant::Plant& plant = rider.plant();
@@ -14,7 +43,7 @@ plant::Sample sample_of(const Rider& rider, std::int64_t counts, const SensorNoi
   const plant::Moment<double> now = rider.moment();
   plant::Sample row;
   const auto write = [&](plant::SideSample& to, const plant::Side& side, const Command& command,
-                         double contraction_ratio, const plant::SideMoment<double>& forces, double shown_Pa) {
+                         double contraction_ratio, const plant::SideMoment<double>& forces) {
     to.current_mA = command.current_mA;
     to.reference_Pa = side.reference_pressure_Pa(command.current_mA);
     to.contraction_ratio = contraction_ratio;
@@ -23,7 +52,6 @@ plant::Sample sample_of(const Rider& rider, std::int64_t counts, const SensorNoi
     to.effects_pull_N = forces.effects_pull_N;
     to.cord_force_N = forces.cord_force_N();
     to.inflow_kg_per_s = forces.hose_flow;
-    to.gauge_Pa = plant::gauge_reading_Pa(rig.gauge, shown_Pa);
   };
   const double counted = static_cast<double>(counts), height_m = plant::count_height_m(rig);
   const double length_m = rig.muscle.rest_length_m, radius_m = rig.joint.wheel_radius_m;
@@ -31,15 +59,15 @@ plant::Sample sample_of(const Rider& rider, std::int64_t counts, const SensorNoi
   row.state = state;
   row.counts = counts;
   row.misread_ratio = reading.misread_m / length_m;
-  write(row, plant.side(), drive, state.joint.contraction_ratio, now,
-        reading.muscle_pressure_Pa + noise.gauge_Pa);
+  write(row, plant.side(), drive, state.joint.contraction_ratio, now);
+  show(rig.sensors, row, 1, reading.muscle_pressure_Pa, noise[0], row.shown);
   if (!plant.opposite()) {
     row.read_ratio = counted * (height_m / length_m);
-    row.cell_N = plant::cell_reading_N(rig.load_cell, row.cord_force_N, noise.cell_N);
     return row;
   }
   write(row.opposite, *plant.opposite(), drive.opposite, plant.opposite_stroke(state).contraction_ratio,
-        now.opposite, reading.opposite_pressure_Pa + noise.opposite_gauge_Pa);
+        now.opposite);
+  show(rig.sensors, row, 2, reading.opposite_pressure_Pa, noise[1], row.opposite.shown);
   row.read_angle_rad = counted * height_m / radius_m;
   row.angle_rad = plant.angle_rad(state.joint.contraction_ratio);
   row.angle_speed_rad_per_s = length_m / radius_m * state.joint.contraction_speed_per_s;

@@ -2,6 +2,7 @@
 // holds.
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include <plant/signals.hpp>
@@ -9,10 +10,8 @@
 
 namespace mckibben::ride {
 
-/// What noise adds to what gauges and load cell show.
-struct SensorNoise {
-  double gauge_Pa = 0.0, opposite_gauge_Pa = 0.0, cell_N = 0.0;
-};
+/// What noise adds to what the sensors of each muscle show.
+using SensorNoise = std::array<plant::BySensed, 2>;
 
 /// `counts`: as the position has been read at this instant.
 plant::Sample sample_of(const Rider& rider, std::int64_t counts, const SensorNoise& noise = {});

@@ -58,7 +58,9 @@ void set_off(Rider& rider, const Underway& seen) {
   plant::State<double>& state = now.flow.state;
   const plant::State<double> at_rest = state;
   const double length_m = plant.rig().muscle.rest_length_m;
-  const double late_s = plant.rig().effects.reading_delay_s();  // what is seen was so long ago
+  // What is seen was so long ago.
+  const double late_s =
+      plant.rig().effects.reading_delay_s() + plant.rig().sensors.position().late_s(now.time_s);
   now.rises = {};
   const double stood_m = seen.rise_m - plant.rig().joint.reading_offset_m;
   now.rises.note(now.time_s - late_s, stood_m, seen.speed_m_per_s, now.time_s - late_s);

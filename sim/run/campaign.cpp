@@ -138,12 +138,14 @@ domain::Run measured(const domain::Campaign& campaign, const CampaignRun& run) {
   table.file = run.job.id + ".csv";
   table.load_kg = run.job.load_kg;
   const double per_count = contraction_per_count(campaign.rig);
-  if (campaign.rig.gauge.fitted) table.muscle_pressure_Pa.emplace();
+  if (campaign.rig.sensors.of(plant::Sensed::muscle_pressure) != nullptr) table.muscle_pressure_Pa.emplace();
   for (const Sample& sample : run.recording.samples) {
     table.current_mA.push_back(sample.current_mA);
     table.contraction_ratio.push_back(static_cast<double>(sample.counts) * per_count);
-    if (table.muscle_pressure_Pa) table.muscle_pressure_Pa->push_back(sample.gauge_Pa);
-    if (campaign.rig.load_cell.fitted) table.force_N.push_back(sample.cell_N);
+    if (table.muscle_pressure_Pa)
+      table.muscle_pressure_Pa->push_back(sample.shown[plant::Sensed::muscle_pressure]);
+    if (campaign.rig.sensors.of(plant::Sensed::force) != nullptr)
+      table.force_N.push_back(sample.shown[plant::Sensed::force]);
   }
   return table;
 }

@@ -333,11 +333,11 @@ double row_s_of(const domain::Dataset& data) {
 }
 
 /// Readings at the end of a load cell's range say no more than that. How many there are.
-std::size_t leave_out_the_end(const plant::LoadCell& cell, std::vector<double>& force_N) {
-  if (!cell.fitted || !cell.highest_N) return 0;
+std::size_t leave_out_the_end(const plant::Sensor* cell, std::vector<double>& force_N) {
+  if (cell == nullptr || !cell->highest) return 0;
   std::size_t count = 0;
   for (double& read_N : force_N) {
-    if (!(read_N >= *cell.highest_N - 0.5 * cell.resolution_N)) continue;
+    if (!(read_N >= *cell->highest - 0.5 * cell->resolution)) continue;
     read_N = std::nan("");
     ++count;
   }
@@ -353,11 +353,12 @@ double reading_per_count(const domain::RigFile& rig) {
 
 double reading_grain(const domain::RigFile& rig) {
   const double count = reading_per_count(rig);
-  if (rig.sensor.absent()) return count;
-  const double usual_m = plant::count_height_m(plant::Encoder{}, rig.joint);
+  const plant::Sensor& sensor = rig.sensors.position();
+  if (sensor.counts_pulses()) return count;
+  const double usual_m = plant::count_height_m(plant::Sensor{}, rig.joint.wheel_radius_m);
   return count / plant::count_height_m(rig) *
          std::max({plant::count_height_m(rig), usual_m,
-                   noises_in_a_grain * rig.sensor.noise * rig.sensor.rise_m(rig.joint.wheel_radius_m)});
+                   noises_in_a_grain * sensor.noise * sensor.rise_m(rig.joint.wheel_radius_m)});
 }
 
 domain::Dataset with_rows(domain::Dataset data) {
@@ -368,7 +369,7 @@ domain::Dataset with_rows(domain::Dataset data) {
   for (std::size_t i = 0; i < data.runs.size(); ++i) {
     domain::Run& run = data.runs[i];
     rows.stamps += run.measured->time_s.size();
-    rows.at_the_end += leave_out_the_end(data.rig.load_cell, run.measured->force_N);
+    rows.at_the_end += leave_out_the_end(data.rig.sensors.of(plant::Sensed::force), run.measured->force_N);
     Judging judging(run, data.rig.pair() != nullptr, rows.row_s, i + 1);
     judging();
     rows.rows += run.judged().size();

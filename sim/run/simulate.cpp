@@ -15,20 +15,27 @@
 namespace mckibben::run {
 namespace {
 
-/// With the noise that the sensor of position has by its data sheet.
-plant::Noise with_sensor(plant::Noise noise, const plant::Rig& rig) {
-  const double rise_m = rig.sensor.noise * rig.sensor.rise_m(rig.joint.wheel_radius_m);
-  noise.encoder_jitter = std::hypot(noise.encoder_jitter, rise_m / rig.muscle.rest_length_m);
-  return noise;
+using plant::Sensed;
+
+/// By data sheets and what else there is, in units of the readings; of the position as contraction ratio.
+plant::BySensed noise_of_sensors(const plant::Noise& noise, const plant::Rig& rig) {
+  plant::BySensed sizes;
+  for (const plant::Sensor& sensor : rig.sensors) sizes[sensor.signal] = sensor.noise;
+  const plant::Sensor& position = rig.sensors.position();
+  const double rise_m = position.noise * position.rise_m(rig.joint.wheel_radius_m);
+  sizes[Sensed::contraction] = std::hypot(noise.encoder_jitter, rise_m / rig.muscle.rest_length_m);
+  sizes[Sensed::muscle_pressure] = std::hypot(noise.gauge_Pa, sizes[Sensed::muscle_pressure]);
+  return sizes;
 }
 
 /// Draws the noise of one run: the same for the same seed and stream, whatever runs beside it.
 class Disturbance {
  public:
   explicit Disturbance(const RunPlan& plan)
-      : noise_(with_sensor(plan.noise, plan.rig)),
-        is_none_(noise_.encoder_jitter == 0.0 && noise_.gauge_Pa == 0.0 && noise_.current_mA == 0.0 &&
-                 noise_.wander_Pa == 0.0 && plan.rig.load_cell.noise_N == 0.0),
+      : noise_(plan.noise),
+        of_sensors_(noise_of_sensors(plan.noise, plan.rig)),
+        is_none_(noise_.current_mA == 0.0 && noise_.wander_Pa == 0.0 &&
+                 std::ranges::all_of(of_sensors_.values, [](double size) { return size == 0.0; })),
         kept_(std::exp(-plan.rig.tick_s / noise_.wander_time_s)) {
     std::seed_seq sequence{plan.seed & 0xffffffffu, plan.seed >> 32, plan.stream & 0xffffffffu,
                            plan.stream >> 32};
@@ -36,10 +43,8 @@ class Disturbance {
     if (noise_.ripple_Pa > 0.0) phase_ = std::uniform_real_distribution(0.0, 2.0 * std::numbers::pi)(random_);
     if (noise_.wander_Pa > 0.0) wander_ = draw();
   }
-  double jitter() { return noise_.encoder_jitter * draw(); }
-  double gauge_Pa() { return noise_.gauge_Pa * draw(); }
+  double of(Sensed signal) { return of_sensors_[signal] * draw(); }
   double current_mA() { return noise_.current_mA * draw(); }
-  double cell_N(const plant::LoadCell& cell) { return cell.fitted ? cell.noise_N * draw() : 0.0; }
   /// Of the reference pressure; to be asked once a tick.
   double reference_Pa(double time_s) {
     double sum_Pa = 0.0;
@@ -58,6 +63,7 @@ class Disturbance {
   double draw() { return is_none_ ? 0.0 : normal_(random_); }
 
   plant::Noise noise_;
+  plant::BySensed of_sensors_;
   bool is_none_;
   double kept_, phase_ = 0.0, wander_ = 0.0;
   std::mt19937_64 random_;
@@ -133,22 +139,31 @@ class Run : public ride::BatchItem {
       return false;
     }
     hold();
-    ride::SensorNoise noise{.gauge_Pa = disturbance_.gauge_Pa()};
-    if (plan_.pair) noise.opposite_gauge_Pa = disturbance_.gauge_Pa();
+    // Of a gauge on the muscle whether there is one or not.
+    ride::SensorNoise noise{};
+    draw(Sensed::muscle_pressure, noise);
     if (k_ >= 0) write(noise);
     return true;
   }
 
   void write(ride::SensorNoise noise) {
-    noise.cell_N = disturbance_.cell_N(plan_.rig.load_cell);
+    for (const plant::Sensor& sensor : plan_.rig.sensors)
+      if (sensor.signal != Sensed::contraction && sensor.signal != Sensed::muscle_pressure)
+        draw(sensor.signal, noise);
     Sample row = ride::sample_of(rider_, counts_, noise);
     row.time_s = tidy_s(time_s(k_));
     recording_.take(row);
   }
 
+  void draw(Sensed signal, ride::SensorNoise& noise) {
+    noise[0][signal] = disturbance_.of(signal);
+    if (plan_.pair) noise[1][signal] = disturbance_.of(signal);
+  }
+
   void look() {
-    const double jitter_m = disturbance_.jitter() * plan_.rig.muscle.rest_length_m;
-    counts_ = counter_.count(rider_.now.reading.wheel_m + jitter_m);
+    const double jitter_m = disturbance_.of(Sensed::contraction) * plan_.rig.muscle.rest_length_m;
+    if (k_ == begin_ + 1 || sensor_.taken_s(time_s(k_)) != sensor_.taken_s(time_s(k_ - 1)))
+      counts_ = counter_.count(rider_.now.reading.wheel_m + jitter_m);
   }
 
   void ask(const controllers::Command& wanted) {
@@ -175,6 +190,7 @@ class Run : public ride::BatchItem {
   ride::Rider rider_;
   std::int64_t first_, begin_, k_;  // ticks: of the controller, of the settling, now
   ride::Drive drive_;
+  const plant::Sensor& sensor_ = plan_.rig.sensors.position();
   plant::PositionReader counter_;
   Disturbance disturbance_;
   std::int64_t counts_ = 0;
@@ -253,7 +269,7 @@ controllers::ValveLine valve_line(const plant::Valve& valve) {
 
 controllers::Knowledge knowledge_of(const plant::Rig& rig, std::vector<double> target) {
   return {.contraction_per_count = contraction_per_count(rig),
-          .middle_of_count = plant::middle_of_count(rig.sensor),
+          .middle_of_count = plant::middle_of_count(rig.sensors.position()),
           .tick_s = rig.tick_s,
           .largest_current_mA = rig.dac.largest_current_mA,
           .target = std::move(target),

@@ -106,7 +106,8 @@ class Processor {
                         run_.id, ratio, braid_.largest_contraction_ratio()));
     }
     constexpr double clearly_off = 0.15;  // a wrong count would give 0.25, a rounded table less than 0.1
-    counted_ = rig_.sensor.absent() && off <= clearly_off * static_cast<double>(counts_.size());
+    counted_ =
+        rig_.sensors.position().counts_pulses() && off <= clearly_off * static_cast<double>(counts_.size());
     if (!counted_ && has_other_sensor())
       take_as_read();
     else if (!counted_)
@@ -121,7 +122,7 @@ class Processor {
 
   /// Whether the rig has another sensor, or the data set names a unit of contraction that no encoder has.
   bool has_other_sensor() const {
-    if (!rig_.sensor.absent()) return true;
+    if (!rig_.sensors.position().counts_pulses()) return true;
     const domain::ColumnPlace place = domain::merged(dataset_.columns, run_.columns).contraction;
     return !place.absent() && place.unit != "count" && place.unit != "1";
   }

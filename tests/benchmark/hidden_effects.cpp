@@ -288,7 +288,7 @@ plant::Rig rig_with(const Kind& kind, std::uint64_t seed, const Surroundings& su
   }
   truth.effects.get<plant::GuideFriction>().slip_speed_m_per_s = 1e-3 * dice.between(0.6, 1.5);
   truth.effects.get<plant::ResidualForce>().terms = kind.law;
-  truth.gauge.fitted = kind.gauge;
+  if (kind.gauge) truth.sensors.put(plant::gauge());
   return truth;
 }
 
@@ -308,12 +308,13 @@ domain::Run read(const Hidden& hidden, const Waveform& current, double load_kg, 
   domain::Run measured;
   measured.id = fmt::format("r{:02}", hidden.data.runs.size() + 1);
   measured.load_kg = load_kg;
-  if (hidden.rig.gauge.fitted) measured.muscle_pressure_Pa.emplace();
+  const bool gauge = hidden.rig.sensors.of(plant::Sensed::muscle_pressure) != nullptr;
+  if (gauge) measured.muscle_pressure_Pa.emplace();
   for (const auto& sample : recording.samples) {
     measured.current_mA.push_back(sample.current_mA);
     measured.contraction_ratio.push_back(static_cast<double>(sample.counts) *
                                          run::contraction_per_count(hidden.rig));
-    if (hidden.rig.gauge.fitted) measured.muscle_pressure_Pa->push_back(sample.gauge_Pa);
+    if (gauge) measured.muscle_pressure_Pa->push_back(sample.shown[plant::Sensed::muscle_pressure]);
   }
   return measured;
 }
@@ -357,7 +358,7 @@ Hidden hide(std::size_t index, std::uint64_t seed, const Surroundings& surroundi
   if (hidden.noise.encoder_jitter == 0.0) hidden.noise.encoder_jitter = 5e-5;
   if (kind.gauge) hidden.noise.gauge_Pa = 400.0;
   hidden.rig = rig_with(kind, seed, surroundings, dice, hidden);
-  hidden.data.rig.gauge.fitted = kind.gauge;
+  if (kind.gauge) hidden.data.rig.sensors.put(plant::gauge());
   for (std::size_t run = 0; run < surroundings.runs; ++run)
     hidden.data.runs.push_back(measured_run(hidden, run, surroundings, 100 * index + run, dice));
   return hidden;

@@ -41,7 +41,8 @@ TEST_F(Dataset, WritesMeasurementsAndApartTheTruth) {
   EXPECT_EQ(dataset.runs[7].load_kg, 23.406);
   EXPECT_EQ(dataset.runs[7].current_mA.size(), 100u);
   EXPECT_TRUE(dataset.runs[0].muscle_pressure_Pa);
-  EXPECT_TRUE(dataset.rig.gauge.fitted);  // rig.yaml, because it is not the shipped rig
+  EXPECT_NE(dataset.rig.sensors.of(plant::Sensed::muscle_pressure),
+            nullptr);  // rig.yaml, because it is not the shipped rig
   EXPECT_TRUE(exists("out/small/rig.yaml"));
   for (const auto& run : dataset.runs) {
     EXPECT_EQ(read_text(scratch / "out/small-truth" / (run.id + ".csv"))

@@ -171,7 +171,7 @@ TEST_F(EffectsVerb, ARigThatDiffersBesidesIsWrittenWithoutThem) {
   write_text(scratch / "leaky.yaml", read_text(scratch / "leaky.yaml") + "gauge: {fitted: true}\n");
   ASSERT_EQ(run("dataset hidden.yaml").status, 0);
   const auto dataset = input::read_dataset(scratch / "out/hidden");
-  EXPECT_TRUE(dataset.rig.gauge.fitted);
+  EXPECT_NE(dataset.rig.sensors.of(plant::Sensed::muscle_pressure), nullptr);
   EXPECT_TRUE(dataset.rig.effects.absent());
   EXPECT_EQ(dataset.rig.joint.load_offset_kg, 0.0);
 }

@@ -97,7 +97,8 @@ TEST(RunWarnings, OfTheReaderAreInTheResultsToo) {
   ASSERT_EQ(said.status, 0) << said.err;
   EXPECT_NE(said.err.find("w.yaml:4:8: warning: noise.gauge has no effect"), std::string::npos) << said.err;
   EXPECT_EQ(Json::parse(said.out).at("warnings").at(0),
-            "w.yaml:4:8: noise.gauge has no effect: the rig has no gauge (gauge: {fitted: true})");
+            "w.yaml:4:8: noise.gauge has no effect: the rig has no gauge (sensors: [{signal: "
+            "muscle_pressure, kind: gauge}])");
   EXPECT_NE(read_text(scratch / "out/w/report.html").find("w.yaml:4:8: noise.gauge has no"),
             std::string::npos);
 }

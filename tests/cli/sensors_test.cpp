@@ -28,7 +28,7 @@ TEST(SensorsOfARig, AreWhatADatasetIsReadThrough) {
       read_text(scratch / "out/small/m1_c01.csv").rfind("time_s,current_mA,contraction_ratio,force_N", 0),
       0u);
   const domain::Dataset dataset = input::read_dataset(scratch / "out/small");
-  EXPECT_EQ(dataset.rig.sensor.kind, plant::SensorKind::laser);
+  EXPECT_EQ(dataset.rig.sensors.position().kind, plant::SensorKind::laser);
   ASSERT_TRUE(dataset.runs[0].measured);
   for (const double force_N : dataset.runs[0].measured->force_N)
     ASSERT_NEAR(force_N / 0.5, std::round(force_N / 0.5), 1e-6);

@@ -22,7 +22,7 @@ domain::Dataset sound() {
 domain::Dataset with_gauge() {
   static const domain::Dataset data = [] {
     plant::Rig truth;
-    truth.gauge.fitted = true;
+    truth.sensors.put(plant::gauge());
     return planted(truth, {11.138, 16.138}, three_kinds(), 2);
   }();
   return data;

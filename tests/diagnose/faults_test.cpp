@@ -101,7 +101,7 @@ TEST(Faults, VoltsThatTheValveDidNotHave) {
 /// The pressure that a gauge read drives the muscle, in one run another one than the gauge says.
 domain::Dataset driven_by_pressure(std::size_t run, double factor, double offset_Pa) {
   plant::Rig gauged;
-  gauged.gauge.fitted = true;
+  gauged.sensors.put(plant::gauge());
   domain::Dataset data = small(gauged);
   data.own_clock = true;
   for (domain::Run& each : data.runs) {
@@ -177,7 +177,7 @@ TEST(Faults, ThatSayWhatItIsAreBetterThanAnotherRig) {
 
 TEST(Faults, AGaugeIsShiftedOnlyIfItIsLateToo) {
   plant::Rig gauged;
-  gauged.gauge.fitted = true;
+  gauged.sensors.put(plant::gauge());
   auto data = small(gauged);
   const auto before = *data.runs[1].muscle_pressure_Pa;
   const std::vector<Fault> late{{1, FaultKind::late, 4.0}};

@@ -42,7 +42,7 @@ inline domain::Dataset planted(const plant::Rig& truth, std::vector<double> load
   campaign.seed = seed;
   domain::Dataset data;
   data.rig = nominal;
-  data.rig.gauge = truth.gauge;
+  if (const auto* gauge = truth.sensors.of(plant::Sensed::muscle_pressure)) data.rig.sensors.put(*gauge);
   data.path = "planted/dataset.yaml";
   for (const run::CampaignJob& job : run::jobs_of(campaign)) {
     data.runs.push_back(run::measured(campaign, run::run_job(campaign, job)));

@@ -49,12 +49,13 @@ TEST(Predict, MakesOfACurrentTheSameBitsAsSimulate) {
         ASSERT_EQ(simulated.failure, "") << name;
         ASSERT_EQ(simulated.samples.size(), predicted.states.size());
         const double length_m = rig.muscle.rest_length_m;
-        plant::PulseCounter counter(rig.encoder.wiring, plant::count_height_m(rig.encoder, rig.joint));
+        plant::PulseCounter counter(rig.sensors.position().wiring, plant::count_height_m(rig));
         for (std::size_t k = 0; k < predicted.states.size(); ++k) {
           const run::Sample& sample = simulated.samples[k];
           ASSERT_EQ(std::memcmp(&sample.state, &predicted.states[k], sizeof sample.state), 0)
               << name << ", " << input::spelling(method) << ", row " << k;
-          ASSERT_EQ(sample.gauge_Pa, plant::gauge_reading_Pa(rig.gauge, predicted.pressure_Pa[k]));
+          ASSERT_EQ(sample.shown[plant::Sensed::muscle_pressure],
+                    plant::shown(rig.sensors.of(plant::Sensed::muscle_pressure), predicted.pressure_Pa[k]));
           ASSERT_EQ(sample.counts, counter.count(predicted.judged[k] * length_m)) << name;
         }
         EXPECT_GT(predicted.judged.back(), 0.01) << name;

@@ -25,10 +25,10 @@ domain::Dataset read_by(const plant::Rig& truth, const plant::Rig& sheet) {
 
 plant::Rig with_laser(double accuracy_m = 0.0) {
   plant::Rig rig;
-  rig.sensor.kind = plant::SensorKind::laser;
-  rig.sensor.resolution = 2e-4;
-  rig.sensor.noise = 1e-4;
-  rig.sensor.accuracy = accuracy_m;
+  rig.sensors.position().kind = plant::SensorKind::laser;
+  rig.sensors.position().resolution = 2e-4;
+  rig.sensors.position().noise = 1e-4;
+  rig.sensors.position().accuracy = accuracy_m;
   return rig;
 }
 
@@ -73,7 +73,7 @@ TEST(Sensors, AccuracyCountsInTheFloor) {
 
 TEST(Sensors, RowsAtTheEndOfTheRangeDoNotCount) {
   plant::Rig rig = with_laser();
-  rig.sensor.highest = 0.03;
+  rig.sensors.position().highest = 0.03;
   const domain::Dataset data = read_by(rig, rig);
   const Checked checked = check(data, 2);
   std::size_t ended = 0;

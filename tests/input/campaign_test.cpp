@@ -31,7 +31,7 @@ Campaign campaign_of(const std::string& text) {
 TEST(Campaign, ReadsEveryKindOfField) {
   const Campaign campaign = campaign_of(good_campaign);
   EXPECT_EQ(campaign.name, "my_campaign");
-  EXPECT_TRUE(campaign.rig.gauge.fitted);
+  EXPECT_NE(campaign.rig.sensors.of(plant::Sensed::muscle_pressure), nullptr);
   EXPECT_DOUBLE_EQ(campaign.loads_kg.at(1), 13.87);
   EXPECT_DOUBLE_EQ(campaign.currents.at(1).duration_s, 0.999);
   EXPECT_DOUBLE_EQ(std::get<controllers::SineCurrent>(*campaign.currents.at(0).current).period_s, 2.4);

@@ -20,7 +20,7 @@ TEST(Scenario, ReadsEveryKindOfField) {
   EXPECT_DOUBLE_EQ(scenario.rig.muscle.rest_length_m, 0.3);
   EXPECT_DOUBLE_EQ(scenario.rig.muscle.braid_angle_rad, 21.0 * std::numbers::pi / 180.0);
   EXPECT_EQ(scenario.rig.friction.law, plant::FrictionLaw::area);
-  EXPECT_TRUE(scenario.rig.gauge.fitted);
+  EXPECT_NE(scenario.rig.sensors.of(plant::Sensed::muscle_pressure), nullptr);
   EXPECT_DOUBLE_EQ(scenario.rig.gas.temperature_K, 291.65);
   EXPECT_DOUBLE_EQ(scenario.loads_kg.at(1), 13.87);
   const auto& target = std::get<controllers::MinimumJerk>(scenario.target);
@@ -103,7 +103,7 @@ TEST(Scenario, RecordedCurrentIsLoaded) {
 TEST(Rig, ResolvedReadsBackBitForBit) {
   RigFile rig;
   rig.muscle.rest_radius_m = 0.0075 * (1.0 + 1e-15);
-  rig.encoder.wiring = plant::EncoderWiring::crosswise;
+  rig.sensors.position().wiring = plant::EncoderWiring::crosswise;
   const YamlFile file = parse_yaml(Source("rig.yaml", to_json(rig).dump(), ""));
   RigFile read;
   Problems problems;

@@ -57,6 +57,18 @@ TEST(JsonSchema, SaysWhatIsRequiredAndAllowed) {
             "angle between thread and axis at rest, alpha0 (T 2.6); 5 deg to 50 deg");
 }
 
+TEST(JsonSchema, KnowsEachKindOfSensorAndTheKeysFromBefore) {
+  const Json properties = json_schema("mckibben-rig/1", "Rig", list_fields<RigFile>())["properties"];
+  const Json& kinds = properties["sensors"]["items"]["oneOf"];
+  ASSERT_EQ(kinds.size(), names(plant::SensorKind{}).size() + 1);
+  const Json& cell = kinds[4]["properties"];
+  EXPECT_EQ(cell["kind"]["const"], "load_cell");
+  EXPECT_EQ(cell["signal"]["enum"], Json{"force"});
+  EXPECT_TRUE(cell["noise"]["description"].get<std::string>().ends_with("; 0 N to 1000 N"));
+  EXPECT_TRUE(kinds[0]["properties"].contains("wheel_ratio"));
+  EXPECT_EQ(properties["gauge"]["deprecated"], true);
+}
+
 TEST(FieldTable, HasARowForEachFieldAndASectionForEachPart) {
   const std::string table = field_table("Rig", list_fields<RigFile>());
   EXPECT_NE(table.find("| `tick` | s | 0.012 s | 0.0001 s to 1 s | time between two readings"),

@@ -33,6 +33,29 @@ TEST(Upgrade, SaysWhichKeysAreGoneAndWhere) {
   EXPECT_TRUE(found[1].starts_with("old.yaml:6:5: extrapolate_target: remove it")) << found[1];
 }
 
+TEST(Upgrade, ShowsTheListInPlaceOfEachSensorsOwnKey) {
+  const auto found = notes(
+      "schema: mckibben-scenario/1\n"
+      "rig:\n"
+      "  base: thesis\n"
+      "  encoder: {wheel_ratio: 3}\n"
+      "  gauge: {fitted: true, resolution: 1 mbar ± 0.1 mbar}\n"
+      "noise: {gauge: 4 mbar}\n"
+      "model:\n"
+      "  encoder: {wheel_ratio: 3}\n"
+      "  sensor: {kind: laser, resolution: 10 um}\n"
+      "  load_cell: {fitted: false, noise: 1 N}\n");
+  ASSERT_EQ(found.size(), 2u);
+  EXPECT_EQ(
+      found[0],
+      "old.yaml:4:3: encoder: sensors are one list; write sensors: [{signal: contraction, kind: encoder, "
+      "wheel_ratio: 3}, {signal: muscle_pressure, kind: gauge, resolution: 1 mbar ± 0.1 mbar}]");
+  EXPECT_EQ(found[1],
+            "old.yaml:8:3: encoder: sensors are one list; write sensors: [{signal: contraction, kind: laser, "
+            "resolution: 10 um}, {signal: force, kind: none}]");
+  EXPECT_TRUE(notes("schema: mckibben-scenario/1\nrig: {sensors: [{signal: force, kind: none}]}\n").empty());
+}
+
 TEST(Upgrade, SaysWhichVersionIsRead) {
   const auto note = [](const std::string& text) {
     const auto found = notes(text);

@@ -104,7 +104,7 @@ TEST_F(LiveHost, RefusesWhatIsNotTheTimeFor) {
 }
 
 TEST_F(LiveHost, WhatIsRecordedFromRestReplaysToTheCount) {
-  rig.gauge.fitted = true;
+  rig.sensors.put(plant::gauge());
   Host host(rig, 16.138, sets());
   record(host, true, 150);
   host.finish(say);
@@ -127,7 +127,7 @@ TEST_F(LiveHost, WhatIsRecordedFromRestReplaysToTheCount) {
 
 TEST_F(LiveHost, OfTwoMusclesWhatIsRecordedFromRestReplaysToTheCount) {
   rig = domain::thesis_pair();
-  rig.gauge.fitted = true;
+  rig.sensors.put(plant::gauge());
   Host host(rig, 0.0, sets());
   ASSERT_EQ(host.obey(SetCurrent{9.0, 2}), "");
   record(host, true, 150);

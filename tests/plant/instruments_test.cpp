@@ -15,8 +15,8 @@ TEST(Dac, RoundsToTheNearestStepAndReachesItsTop) {
 }
 
 TEST(Encoder, CountsAQuarterDegree) {
-  EXPECT_NEAR(count_height_m(Encoder{}, Joint{}), 0.1309e-3, 1e-8);
-  EXPECT_NEAR(count_height_m(Encoder{}, Joint{}) / 0.3, 4.363e-4, 1e-7);
+  EXPECT_NEAR(count_height_m(Rig{}), 0.1309e-3, 1e-8);
+  EXPECT_NEAR(count_height_m(Rig{}) / 0.3, 4.363e-4, 1e-7);
 }
 
 TEST(Encoder, IdealWiringCountsTheFloor) {
@@ -44,8 +44,9 @@ TEST(Encoder, CrosswiseWiringCountsATrembleUpAndUp) {
 }
 
 TEST(Gauge, ShowsStepsOfItsResolution) {
-  EXPECT_DOUBLE_EQ(gauge_reading_Pa({true, 100.0}, 12344.0), 12300.0);
-  EXPECT_DOUBLE_EQ(gauge_reading_Pa({true, 0.0}, 12344.0), 12344.0);
+  const Sensor stepped = gauge(100.0), smooth = gauge();
+  EXPECT_DOUBLE_EQ(shown(&stepped, 12344.0), 12300.0);
+  EXPECT_DOUBLE_EQ(shown(&smooth, 12344.0), 12344.0);
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
 // The list of signals: names and units that files have, which of them a rig has, and that no two are alike.
+#include <algorithm>
 #include <set>
 #include <stdexcept>
 #include <string>
@@ -42,7 +43,8 @@ TEST(Signals, WhatIsGivenHasNothingUpstreamAndALengthHasAForce) {
 
 TEST(Signals, OfEveryRigHaveNamesOfTheirOwn) {
   Rig fitted;
-  fitted.gauge.fitted = fitted.load_cell.fitted = true;
+  fitted.sensors.put(gauge());
+  fitted.sensors.put({.signal = Sensed::force, .kind = SensorKind::load_cell});
   for (const Driven& driven : {Driven{}, Driven{.pair = true}, Driven{.length = true}}) {
     std::set<std::string> keys, names;
     for (const Channel& channel : channels_of(fitted, driven)) {
@@ -58,7 +60,8 @@ TEST(Signals, OfEveryRigHaveNamesOfTheirOwn) {
 
 TEST(Signals, AReadingIsInADataSetWhatItReads) {
   Rig fitted;
-  fitted.gauge.fitted = fitted.load_cell.fitted = true;
+  fitted.sensors.put(gauge());
+  fitted.sensors.put({.signal = Sensed::force, .kind = SensorKind::load_cell});
   std::string measured;
   for (const Channel& channel : recorded_channels(fitted, {}))
     if (channel.signal->kind == Kind::reading) measured += channel.name_in_dataset() + " ";

@@ -140,6 +140,26 @@ TEST(Ride, ALateCommandIsFeltAsItWasGivenBefore) {
   EXPECT_GT(late.reading().wheel_m, 0.01);
 }
 
+// By its data sheet a sensor reads as late as one that has the effect.
+TEST(Ride, ASensorsReadingIsOfSoLongAgoAndStaysUntilItsNext) {
+  plant::Rig by_sheet, slow;
+  by_sheet.sensors.position().delay_s = 2.5 * tick_s;
+  slow.sensors.position().rate_Hz = 0.25 / tick_s;
+  Ride effect(Hanging{late_by(0.0, 2.5 * tick_s), load_kg}, {solver::Method::erk, 1e-9});
+  Ride sheet(Hanging{by_sheet, load_kg}, {solver::Method::erk, 1e-9});
+  Ride held(Hanging{slow, load_kg}, {solver::Method::erk, 1e-9});
+  Ride prompt(Hanging{plant::Rig{}, load_kg}, {solver::Method::erk, 1e-9});
+  std::vector<double> rises_m{0.0};
+  for (Ride* ride : {&effect, &sheet, &held, &prompt}) ride->start(drive_at(0), 0.0);
+  for (int k = 1; k < 80; ++k) {
+    for (Ride* ride : {&effect, &sheet, &held, &prompt}) ride->step(drive_at(k - 1), tick_s * k);
+    rises_m.push_back(prompt.reading().wheel_m);
+    ASSERT_EQ(sheet.reading().wheel_m, effect.reading().wheel_m) << k;
+    ASSERT_NEAR(held.reading().wheel_m, rises_m[static_cast<std::size_t>(k - k % 4)], 1e-9) << k;
+  }
+  EXPECT_GT(rises_m.back(), 0.01);
+}
+
 // A tick and a half late: the same as in a ride whose commands change there.
 TEST(Ride, ALateCommandIsFeltBetweenInstantsToo) {
   const double half_s = 0.5 * tick_s;

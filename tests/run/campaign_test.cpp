@@ -81,22 +81,21 @@ TEST(Campaign, RepeatsDifferByTheirNoiseAndARunIsAlwaysTheSame) {
 
 TEST(Campaign, MeasuredIsWhatTheInstrumentsShow) {
   auto campaign = small_campaign();
-  campaign.rig.gauge.fitted = true;
-  campaign.rig.gauge.resolution_Pa = 1e3;
+  campaign.rig.sensors.put(plant::gauge(1e3));
   const auto run = run_job(campaign, jobs_of(campaign)[0]);
   const auto table = measured(campaign, run);
   ASSERT_EQ(table.current_mA.size(), 50u);
   const auto& sample = run.recording.samples[49];
   EXPECT_EQ(table.contraction_ratio[49],
             static_cast<double>(sample.counts) * contraction_per_count(campaign.rig));
-  EXPECT_EQ(table.muscle_pressure_Pa.value()[49], sample.gauge_Pa);
-  EXPECT_NE(sample.gauge_Pa, sample.state.side.muscle_pressure_Pa);
+  EXPECT_EQ(table.muscle_pressure_Pa.value()[49], sample.shown[plant::Sensed::muscle_pressure]);
+  EXPECT_NE(sample.shown[plant::Sensed::muscle_pressure], sample.state.side.muscle_pressure_Pa);
 }
 
 domain::Campaign small_pair() {
   domain::Campaign campaign;
   campaign.rig = domain::thesis_pair();
-  campaign.rig.gauge.fitted = true;
+  campaign.rig.sensors.put(plant::gauge());
   controllers::SineCurrent sine;
   sine.low_mA = 6.0;
   sine.high_mA = 16.0;
@@ -127,7 +126,8 @@ TEST(Campaign, ExchangedCurrentsTurnAPairTheOtherWay) {
     const Sample &one = a.recording.samples[k], &other = b.recording.samples[k];
     EXPECT_EQ(one.current_mA, other.opposite.current_mA);
     EXPECT_NEAR(angle_rad(campaign.rig, one), -angle_rad(campaign.rig, other), 2e-5);
-    EXPECT_NEAR(one.gauge_Pa, other.opposite.gauge_Pa, 10.0);
+    EXPECT_NEAR(one.shown[plant::Sensed::muscle_pressure],
+                other.opposite.shown[plant::Sensed::muscle_pressure], 10.0);
     most_rad = std::max(most_rad, angle_rad(campaign.rig, one));
   }
   EXPECT_GT(most_rad, 0.1);
@@ -144,7 +144,9 @@ TEST(Campaign, EachGaugeOfAPairHasNoiseOfItsOwn) {
   for (std::size_t k = 0; k < 50; ++k) {
     const Sample &is = noisy.recording.samples[k], &was = quiet.recording.samples[k];
     EXPECT_EQ(is.state.side.muscle_pressure_Pa, was.state.side.muscle_pressure_Pa);
-    const double one = is.gauge_Pa - was.gauge_Pa, two = is.opposite.gauge_Pa - was.opposite.gauge_Pa;
+    const double one = is.shown[plant::Sensed::muscle_pressure] - was.shown[plant::Sensed::muscle_pressure],
+                 two = is.opposite.shown[plant::Sensed::muscle_pressure] -
+                       was.opposite.shown[plant::Sensed::muscle_pressure];
     squares += one * one / 50.0;
     others += two * two / 50.0;
     together += one * two / 50.0;

@@ -51,7 +51,8 @@ double reading_apart(const Recording& a, const Recording& b) {
 double gauge_apart(const Recording& a, const Recording& b) {
   double largest = 0.0;
   for (std::size_t k = 0; k < a.samples.size(); ++k)
-    largest = std::max(largest, 1e-3 * std::abs(a.samples[k].gauge_Pa - b.samples[k].gauge_Pa));
+    largest = std::max(largest, 1e-3 * std::abs(a.samples[k].shown[plant::Sensed::muscle_pressure] -
+                                                b.samples[k].shown[plant::Sensed::muscle_pressure]));
   return largest;
 }
 

@@ -45,9 +45,10 @@ plant::Rig tuned_rig(Chance& chance) {
   rig.gas.atmosphere_Pa = chance.between(7e4, 1.1e5);
   rig.joint.wheel_radius_m = chance.around(0.03, 2.0);
   rig.dac.bits = 8 + chance.pick(9);
-  rig.encoder.pulses_per_turn = 100 + chance.pick(2000);
+  rig.sensors.position().pulses_per_turn = 100 + chance.pick(2000);
   rig.tick_s = chance.around(0.012, 2.0);
-  rig.encoder.wiring = chance.pick(2) ? plant::EncoderWiring::ideal : plant::EncoderWiring::crosswise;
+  rig.sensors.position().wiring =
+      chance.pick(2) ? plant::EncoderWiring::ideal : plant::EncoderWiring::crosswise;
   return rig;
 }
 
@@ -80,7 +81,7 @@ TEST_P(AnyRig, StaysWithinWhatIsPossible) {
     EXPECT_LE(side.muscle_pressure_Pa, plan.rig.valve.supply_pressure_Pa + 1.0);
     lowest = std::min(lowest, joint.contraction_ratio);
     highest = std::max(highest, joint.contraction_ratio);
-    if (plan.rig.encoder.wiring == plant::EncoderWiring::ideal) {
+    if (plan.rig.sensors.position().wiring == plant::EncoderWiring::ideal) {
       EXPECT_EQ(sample.counts, std::floor(joint.contraction_ratio / per_count));
     }
     EXPECT_LE(std::abs(static_cast<double>(sample.counts)), 1.0 / per_count);

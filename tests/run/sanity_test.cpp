@@ -31,7 +31,7 @@ domain::Dataset measured_on(const plant::Rig& truth, std::vector<double> loads_k
   domain::Dataset data;
   data.path = "measured/dataset.yaml";
   data.rig = nominal;
-  data.rig.gauge = truth.gauge;
+  if (const auto* gauge = truth.sensors.of(plant::Sensed::muscle_pressure)) data.rig.sensors.put(*gauge);
   for (const CampaignJob& job : jobs_of(campaign)) {
     data.runs.push_back(measured(campaign, run_job(campaign, job)));
     data.runs.back().id = fmt::format("r{:02}", data.runs.size());
@@ -42,7 +42,7 @@ domain::Dataset measured_on(const plant::Rig& truth, std::vector<double> loads_k
 const domain::Dataset& sound() {
   static const domain::Dataset data = [] {
     plant::Rig rig;
-    rig.gauge.fitted = true;
+    rig.sensors.put(plant::gauge());
     return measured_on(rig);
   }();
   return data;
@@ -83,7 +83,7 @@ TEST(Sanity, SoundDataOfOtherRigsAreLeftAlone) {
   rigs.push_back({"less air", {}});
   rigs.back().rig.valve.span_pressure_Pa *= 0.7;
   rigs.push_back({"gauge", {}});
-  rigs.back().rig.gauge.fitted = true;
+  rigs.back().rig.sensors.put(plant::gauge());
   for (const auto& [name, rig] : rigs) EXPECT_EQ(said(measured_on(rig)), std::vector<std::string>{}) << name;
 }
 

@@ -139,7 +139,7 @@ TEST(Simulate, TouchesNoHeapBetweenFirstAndLastTick) {
         p.engine.method = method;
         p.keep_ledger = ledger;
         p.rig.friction.memory = memory;
-        p.rig.encoder.wiring = plant::EncoderWiring::crosswise;
+        p.rig.sensors.position().wiring = plant::EncoderWiring::crosswise;
         p.noise = {1e-4, 100.0, 0.01};
         EXPECT_EQ(allocations_of(p, one_of_each().front()), 0)
             << "method " << static_cast<int>(method) << ", ledger " << ledger;
@@ -182,7 +182,9 @@ TEST(Simulate, SameSeedAndStreamGiveTheSameBytesOthersDoNot) {
   const auto same = [](const Recording& a, const Recording& b) {
     for (std::size_t k = 0; k < a.samples.size(); ++k)
       if (std::memcmp(&a.samples[k].state, &b.samples[k].state, sizeof a.samples[k].state) != 0 ||
-          a.samples[k].counts != b.samples[k].counts || a.samples[k].gauge_Pa != b.samples[k].gauge_Pa)
+          a.samples[k].counts != b.samples[k].counts ||
+          a.samples[k].shown[plant::Sensed::muscle_pressure] !=
+              b.samples[k].shown[plant::Sensed::muscle_pressure])
         return false;
     return true;
   };

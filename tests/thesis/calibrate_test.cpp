@@ -298,7 +298,7 @@ TEST(BadData, RunsThatCannotBeUsedAreLeftOutAndNamed) {
 
 TEST(BadData, AWrongRigIsNoticed) {
   domain::Dataset dataset = campaign();
-  dataset.rig.encoder.pulses_per_turn = 500;
+  dataset.rig.sensors.position().pulses_per_turn = 500;
   EXPECT_TRUE(says(refusal(dataset), "no multiples of this rig's encoder count"));
   dataset = campaign();
   dataset.rig.muscle.end_correction = 1.6;

@@ -52,7 +52,7 @@ TEST(HalfPeriods, AConstantCurrentHasNone) {
 /// to 4.3 ask for these friction coefficients.
 domain::Run planted_run(const plant::Rig& rig, double load_kg, double contraction, double relaxation) {
   const plant::Braid braid(rig.muscle);
-  const double per_count = plant::count_height_m(rig.encoder, rig.joint) / rig.muscle.rest_length_m;
+  const double per_count = plant::count_height_m(rig) / rig.muscle.rest_length_m;
   domain::Run run;
   run.id = "planted";
   run.load_kg = load_kg;
@@ -86,9 +86,9 @@ TEST(Processing, RecoversPlantedCoefficientsInBothDirections) {
 TEST(Processing, WhatALaserReadsIsNotTakenForCounts) {
   domain::Dataset dataset;
   domain::Run run = planted_run(dataset.rig, 16.0, 0.012, 0.013);
-  const double rise_m = plant::count_height_m(dataset.rig.encoder, dataset.rig.joint);
+  const double rise_m = plant::count_height_m(dataset.rig);
   for (double& e : run.contraction_ratio) e += 0.5 * rise_m / dataset.rig.muscle.rest_length_m;
-  dataset.rig.encoder.pulses_per_turn = 137;
+  dataset.rig.sensors.position().pulses_per_turn = 137;
   ProcessingOptions options;
   options.acceleration = Acceleration::neglected;
   EXPECT_THROW(process(run, dataset, options), domain::UnfitData) << "they should be counts of this encoder";
@@ -103,7 +103,7 @@ TEST(Processing, WhatALaserReadsIsNotTakenForCounts) {
 TEST(Processing, InertiaIsTakenOffByDifferencesOfCounts) {
   domain::Dataset dataset;
   domain::Run run = planted_run(dataset.rig, 16.0, 0.012, 0.012);
-  const double rise_m = plant::count_height_m(dataset.rig.encoder, dataset.rig.joint);
+  const double rise_m = plant::count_height_m(dataset.rig);
   run.contraction_ratio[100] += rise_m / dataset.rig.muscle.rest_length_m;  // one count early
   ProcessingOptions options;
   const Samples counted = process(run, dataset, options).of(Direction::contraction);

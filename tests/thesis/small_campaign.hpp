@@ -41,7 +41,7 @@ Grid planted_grid(const std::vector<double>& loads_kg, const std::vector<double>
 inline domain::Run ride(double load_kg, double period_s, double cycles = 3.0) {
   run::RunPlan plan;
   plan.load_kg = load_kg;
-  plan.rig.gauge.fitted = true;
+  plan.rig.sensors.put(plant::gauge());
   plan.ticks = static_cast<std::size_t>(std::llround(cycles * period_s / plan.rig.tick_s));
   controllers::SineCurrent sine;
   sine.low_mA = 0.0;
@@ -57,7 +57,7 @@ inline domain::Run ride(double load_kg, double period_s, double cycles = 3.0) {
     result.current_mA.push_back(sample.current_mA);
     result.contraction_ratio.push_back(static_cast<double>(sample.counts) *
                                        run::contraction_per_count(plan.rig));
-    result.muscle_pressure_Pa->push_back(sample.gauge_Pa);
+    result.muscle_pressure_Pa->push_back(sample.shown[plant::Sensed::muscle_pressure]);
   }
   return result;
 }

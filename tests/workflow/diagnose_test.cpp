@@ -205,7 +205,7 @@ TEST(Diagnose, NamesALawOfTheUsersOwn) {
 
 void expect_gauge_error(const plant::GaugeError& wanted) {
   plant::Rig truth;
-  truth.gauge.fitted = true;
+  truth.sensors.put(plant::gauge());
   truth.effects.get<plant::GaugeError>() = wanted;
   const auto found = diagnosis_of(small(truth, 2.4), 0);
   EXPECT_EQ(found.verdict, Verdict::missing_effect) << found.because;
@@ -227,7 +227,7 @@ TEST(NightlyDiagnose, NamesTheOffsetOfAGauge) {
 // A gauge that hangs on another muscle, after a narrow hose: no error of its own explains that.
 TEST(Diagnose, IgnoresAGaugeThatContradictsTheMotion) {
   plant::Rig truth;
-  truth.gauge.fitted = true;
+  truth.sensors.put(plant::gauge());
   auto data = small(truth, 2.4);
   for (domain::Run& run : data.runs) {
     double shown_Pa = run.muscle_pressure_Pa->front();
@@ -266,7 +266,7 @@ void expect_named_as_late(double command_s, double reading_s, bool gauge) {
   plant::Rig truth;
   truth.effects.get<plant::CommandDelay>().time_s = command_s;
   truth.effects.get<plant::ReadingDelay>().time_s = reading_s;
-  truth.gauge.fitted = gauge;
+  if (gauge) truth.sensors.put(plant::gauge());
   const auto found = diagnosis_of(small(truth, 2.4), 0);
   EXPECT_EQ(found.verdict, Verdict::missing_effect) << found.because;
   ASSERT_EQ(found.effects.size(), 1u) << found.because;

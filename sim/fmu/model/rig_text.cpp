@@ -39,7 +39,14 @@ class Walk {
         std::size_t size = value.size();
         member("size", size);
         value.resize(size);
-        for (std::size_t i = 0; i < size; ++i) (*this)(std::to_string(i), value[i]);
+        for (std::size_t i = 0; i < size; ++i)
+          enter(std::to_string(i), [&] {
+            if constexpr (std::same_as<T, plant::Sensors>) {
+              member("signal", value[i].signal);
+              member("kind", value[i].kind);
+            }
+            T::value_type::fields(value[i], *this);
+          });
       });
     else
       member(key, value);

@@ -46,7 +46,8 @@ void add_outputs(std::vector<Variable>& list, const domain::RigFile& rig, bool t
 
 std::vector<plant::Channel> channels_of(const domain::RigFile& rig) {
   plant::Rig seen = rig;
-  seen.load_cell.fitted = rig.load_cell.fitted || rig.holds_a_length();  // a bench has one
+  if (rig.holds_a_length() && seen.sensors.of(plant::Sensed::force) == nullptr)  // a bench has one
+    seen.sensors.put({.signal = plant::Sensed::force, .kind = plant::SensorKind::load_cell});
   return plant::channels_of(seen, {.pair = rig.pair() != nullptr, .length = rig.holds_a_length()});
 }
 
