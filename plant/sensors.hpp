@@ -14,11 +14,12 @@
 namespace mckibben::plant {
 
 /// What a sensor can read, spelled as its signal (signals.hpp); the position in any of its forms.
-enum class Sensed { contraction, muscle_pressure, force };
+enum class Sensed { contraction, muscle_pressure, valve_pressure, force };
 constexpr auto names(Sensed) {
   using enum Sensed;
   return std::array{std::pair{contraction, std::string_view{"contraction"}},
                     std::pair{muscle_pressure, std::string_view{"muscle_pressure"}},
+                    std::pair{valve_pressure, std::string_view{"valve_pressure"}},
                     std::pair{force, std::string_view{"force"}}};
 }
 
@@ -77,7 +78,7 @@ inline constexpr std::array sensor_kinds{
     SensorSheet{SensorKind::linear_encoder, {Sensed::contraction}, "m", 0.1, 10.0, true},
     SensorSheet{SensorKind::potentiometer, {Sensed::contraction}, "rad", 0.1, 10.0, true},
     SensorSheet{SensorKind::load_cell, {Sensed::force}, "N", 1e3, 1e6},
-    SensorSheet{SensorKind::gauge, {Sensed::muscle_pressure}, "Pa", 1e5, 1e8},
+    SensorSheet{SensorKind::gauge, {Sensed::muscle_pressure, Sensed::valve_pressure}, "Pa", 1e5, 1e8},
 };
 
 constexpr const SensorSheet& sheet_of(SensorKind kind) {

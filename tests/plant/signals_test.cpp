@@ -73,6 +73,22 @@ TEST(Signals, AReadingIsInADataSetWhatItReads) {
   EXPECT_THROW(signal_of("torque_of_nothing"), std::invalid_argument);
 }
 
+TEST(Signals, AFurtherSensorIsAFurtherColumn) {
+  Rig fitted;
+  fitted.sensors.put({.signal = Sensed::valve_pressure, .kind = SensorKind::gauge});
+  const std::string one = names_of(recorded_channels(fitted, {}));
+  EXPECT_TRUE(one.ends_with(",gauge_valve_pressure_bar")) << one;
+  EXPECT_EQ(names_of(recorded_channels({}, {})), one.substr(0, one.rfind(',')));
+  EXPECT_TRUE(names_of(recorded_channels(fitted, {.pair = true, .pressure = {true, false}}))
+                  .ends_with(",gauge_valve_pressure_2_bar"));
+  EXPECT_EQ(recorded_channels(fitted, {}).back().name_in_dataset(), "valve_pressure_bar");
+  for (const auto& [sensed, key] : names(Sensed{}))
+    if (sensed != Sensed::contraction) {
+      EXPECT_TRUE(std::ranges::any_of(signals, [&, name = key](const Signal& s) { return s.reads == name; }))
+          << key << " has a column";
+    }
+}
+
 TEST(Signals, ValuesAreInTheUnitOfTheColumnAndOfThePage) {
   Sample row;
   row.state.opposite.muscle_pressure_Pa = 2.5e5;

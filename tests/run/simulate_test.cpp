@@ -176,6 +176,29 @@ TEST(Simulate, HeapWatchSeesAllocations) {
   EXPECT_GT(stop_heap_watch(), 0);
 }
 
+TEST(Simulate, AGaugeOnTheValveReadsItsPressureWithANoiseOfItsOwn) {
+  RunPlan s = plan(11.138, 400);
+  s.rig.sensors.put({.signal = plant::Sensed::valve_pressure,
+                     .kind = plant::SensorKind::gauge,
+                     .resolution = 10.0,
+                     .noise = 300.0,
+                     .highest = 1e5});
+  double squares = 0.0;
+  int below = 0, at_the_end = 0;
+  for (const Sample& row : ride(s, slow_triangle()).samples) {
+    const double read_Pa = row.shown[plant::Sensed::valve_pressure];
+    EXPECT_NEAR(read_Pa, 10.0 * std::round(read_Pa / 10.0), 1e-6);
+    if (row.state.side.valve_pressure_Pa < 9.8e4) {
+      squares += std::pow(read_Pa - row.state.side.valve_pressure_Pa, 2);
+      ++below;
+    }
+    at_the_end += read_Pa == 1e5 ? 1 : 0;
+  }
+  ASSERT_GT(below, 50);
+  EXPECT_GT(at_the_end, 50);
+  EXPECT_NEAR(std::sqrt(squares / below), 300.0, 60.0);
+}
+
 TEST(Simulate, SameSeedAndStreamGiveTheSameBytesOthersDoNot) {
   RunPlan s = plan(11.138, 300);
   s.noise = {1e-4, 200.0, 0.02};
