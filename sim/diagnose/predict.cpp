@@ -136,7 +136,7 @@ void predict_all(std::size_t count, std::size_t rigs, unsigned threads, solver::
     const Wanted one = wanted(index);
     const auto prediction = std::make_shared<Prediction>(*one.run, one.rigs, std::span<const double>{},
                                                          std::bind_front(predicted, index));
-    return run::Task{prediction->key(settings_for(one.rigs, method)), [=] { return prediction; }};
+    return run::BatchTask{prediction->key(settings_for(one.rigs, method)), [=] { return prediction; }};
   });
 }
 

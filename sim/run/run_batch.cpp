@@ -20,12 +20,12 @@ class Tasks {
   Tasks(const Take& take, const Prepare& prepare) : take_(take), prepare_(prepare) {}
 
   /// The next with a key, or with any; none if there is none left.
-  std::optional<Task> next(const std::optional<ride::BatchKey>& key) {
+  std::optional<BatchTask> next(const std::optional<ride::BatchKey>& key) {
     do {
       const std::lock_guard lock(mutex_);
       const auto mine = key ? made_.find(*key) : made_.begin();
       if (mine == made_.end()) continue;
-      Task task{mine->first, std::move(mine->second.front())};
+      BatchTask task{mine->first, std::move(mine->second.front())};
       mine->second.pop();
       if (mine->second.empty()) made_.erase(mine);
       return task;
@@ -53,7 +53,7 @@ class Tasks {
   const Take& take_;
   const Prepare& prepare_;
   std::mutex mutex_;
-  std::map<ride::BatchKey, std::queue<decltype(Task::begin)>> made_;
+  std::map<ride::BatchKey, std::queue<decltype(BatchTask::begin)>> made_;
 };
 
 }  // namespace

@@ -12,7 +12,7 @@
 namespace mckibben::run {
 
 /// An item that shares lanes with others of its key or goes alone, and how it begins.
-struct Task {
+struct BatchTask {
   ride::BatchKey key;
   std::function<std::shared_ptr<ride::BatchItem>()> begin;
 };
@@ -20,7 +20,7 @@ struct Task {
 /// The index of the next task; none if there is none.
 using Take = std::function<std::optional<std::size_t>()>;
 /// Makes a task; none if nothing is left to do.
-using Prepare = std::function<std::optional<Task>(std::size_t index)>;
+using Prepare = std::function<std::optional<BatchTask>(std::size_t index)>;
 
 /// Does all tasks that `take` hands out on `threads` threads (0: all the machine has). `rigs`: about how many
 /// they have, all in all. Both are called from any thread. Results depend neither on threads nor on what

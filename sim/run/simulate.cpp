@@ -217,15 +217,15 @@ Recording without_load() {
 }
 
 Prepare preparing(const Ordering& ordering, const Finished& finished) {
-  return [&](std::size_t index) -> std::optional<Task> {
+  return [&](std::size_t index) -> std::optional<BatchTask> {
     const auto order = std::make_shared<Order>(ordering(index));
     if (moves(order->plan))
-      return Task{key_of(order->plan), [=, &finished] {
-                    return std::make_shared<Run>(order->plan, *order->controller,
-                                                 [index, order, &finished](Recording recording) {
-                                                   finished(index, std::move(recording));
-                                                 });
-                  }};
+      return BatchTask{key_of(order->plan), [=, &finished] {
+                         return std::make_shared<Run>(order->plan, *order->controller,
+                                                      [index, order, &finished](Recording recording) {
+                                                        finished(index, std::move(recording));
+                                                      });
+                       }};
     finished(index, without_load());
     return std::nullopt;
   };
