@@ -162,7 +162,7 @@ class Run : public ride::BatchItem {
 
   void look() {
     const double jitter_m = disturbance_.of(Sensed::contraction) * plan_.rig.muscle.rest_length_m;
-    if (k_ == begin_ + 1 || sensor_.taken_s(time_s(k_)) != sensor_.taken_s(time_s(k_ - 1)))
+    if (k_ <= begin_ + 1 || sensor_.taken_s(time_s(k_)) != sensor_.taken_s(time_s(k_ - 1)))
       counts_ = counter_.count(rider_.now.reading.wheel_m + jitter_m);
   }
 
