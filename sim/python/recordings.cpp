@@ -48,7 +48,7 @@ py::object target_of(const py::object& self) {
   return view(target->data(), {static_cast<py::ssize_t>(target->size())}, {sizeof(double)}, self);
 }
 
-py::dict gaps_of(const Simulated& run) {
+py::dict gaps_as_dict(const Simulated& run) {
   py::dict all;
   for (const run::Gap& gap : run.gaps) {
     py::dict one;
@@ -124,7 +124,7 @@ void add_recordings(py::module_& module) {
             return all;
           },
           "How well the target was followed, as run.json calls it; None where there is no such number.")
-      .def_property_readonly("gaps", &gaps_of,
+      .def_property_readonly("gaps", &gaps_as_dict,
                              "Of a replay: simulated less measured, for each reading a dict of unit, rmse, "
                              "largest, mean and rows.")
       .def_property_readonly(
