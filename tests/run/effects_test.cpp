@@ -95,7 +95,7 @@ TEST(EffectsInARun, OfTypicalSizeEachShowsAndOfNextToNoSizeNone) {
 TEST(EffectsInARun, ControllersDoNotKnowThem) {
   plant::Rig rig = plant::rig_with_all_effects();
   rig.joint.load_offset_kg = 0.5;
-  const auto known = knowledge_of(rig, {}), nominal = knowledge_of({}, {});
+  const auto known = knowledge_of(rig, {}), nominal = knowledge_of(plant::Rig{}, {});
   EXPECT_EQ(known.contraction_per_count, nominal.contraction_per_count);
   EXPECT_EQ(known.model.end_correction, nominal.model.end_correction);
   EXPECT_EQ(known.valve.zero_pressure_Pa, nominal.valve.zero_pressure_Pa);
