@@ -24,7 +24,7 @@ class Evidence:
         self.data = mckibben.Dataset({"runs": [
             {"id": name, "load": f"{run.load_kg} kg",
              "data": {"time_s": run["time_s"].round(9), "current_mA": run["current_mA"],
-                      "contraction_ratio": run.encoder_contraction_ratio,
+                      "contraction_ratio": run["encoder_contraction_ratio"],
                       "muscle_pressure_bar": 1e-5 * run["muscle_pressure_Pa"]}} for name, run in self.runs.items()]})
         self.from_current, self.from_gauge = (self.data.calibrate(pressure=p) for p in ("current", "gauge"))
         self.found = {"current": self.from_current.to_dict(), "gauge": self.from_gauge.to_dict()}

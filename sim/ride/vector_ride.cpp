@@ -25,8 +25,8 @@ VectorRide::VectorRide(std::span<const Hanging> rigs, std::span<const solver::Se
     : rigs_(rigs.begin(), rigs.end()) {
   if (rigs.size() != settings.size()) throw std::invalid_argument("rigs and settings are not as many");
   for (std::size_t i = 0; i < rigs.size(); ++i) {
-    const Rider rider(rigs[i]);
-    alike_[batch_key({&rider, 1}, {}, settings[i])].push_back(i);
+    members_.push_back(std::make_shared<Member>(rigs[i]));
+    alike_[batch_key(members_.back()->riders(), {}, settings[i])].push_back(i);
   }
 }
 
@@ -37,10 +37,9 @@ void VectorRide::require_as_many(std::span<const double> current_mA) const {
 void VectorRide::start(std::span<const double> current_mA, double at_s) {
   require_as_many(current_mA);
   time_s_ = at_s;
-  members_.clear();
   for (std::size_t i = 0; i < rigs(); ++i) {
-    members_.push_back(std::make_shared<Member>(rigs_[i]));
-    members_.back()->rider.start({{.current_mA = current_mA[i]}, {}, {}}, at_s);
+    members_[i] = std::make_shared<Member>(rigs_[i]);
+    members_[i]->rider.start({{.current_mA = current_mA[i]}, {}, {}}, at_s);
   }
   batches_.clear();
   alone_.clear();

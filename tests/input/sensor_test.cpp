@@ -80,7 +80,7 @@ TEST(SensorFile, TheNumbersOfSensorsAreFoundByTheirSignalAndAsTheyWereCalled) {
   RigFile rig = rig_of(laser_and_cell);
   rig.sensors.put(plant::gauge(100.0));
   const auto value = [&](const char* path) { return domain::find_number(rig, path).value; };
-  EXPECT_EQ(*value("sensors.contraction.noise"), 3e-5);
+  EXPECT_DOUBLE_EQ(*value("sensors.contraction.noise"), 3e-5);
   EXPECT_EQ(value("sensor.noise"), value("sensors.contraction.noise"));
   EXPECT_EQ(value("gauge.resolution"), &rig.sensors.of(Sensed::muscle_pressure)->resolution);
   EXPECT_EQ(*value("load_cell.noise"), 0.2);

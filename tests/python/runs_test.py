@@ -82,7 +82,7 @@ class Runs(unittest.TestCase):
         run, = mckibben.Rig("thesis_pair").run(
             duration="1.2 s", targets=[{"name": "swing", "angle": {"kind": "sine", "mean": "0 deg", "amplitude": "10 deg", "period": "1.2 s"}}],
             controllers=[{"kind": "pid", "proportional": "30 mA/rad", "integral_time": "0.1 s", "derivative_time": "0.08 s"}]).runs
-        self.assertEqual((run.name, run.controller, run.failure), ("swing_0kg_pid", "pid", ""))
+        self.assertEqual((run.name, run.controller, run.failure), ("swing_0kg_pid", "pid", None))
         self.assertLess(run.metrics["rmse_rad"], 0.1)
 
     def test_threads_make_no_difference(self):
