@@ -58,14 +58,15 @@ TEST_F(Plan, PromisesNothingThatNoiseHides) {
 
 TEST_F(Plan, PromisesNothingThatTheRivalsNumbersImitateUnlessOldReadingsKeepThem) {
   plant::Rig rougher;
-  rougher.friction.scale = 1.03;
+  rougher.friction.scale = 1.02;  // small enough that straight slopes imitate it
   EXPECT_TRUE(next(fitted({}), fitted(rougher)));
   const auto numbers = nominal_parameters(RigFile{});
   Fitted one = fitted({}, numbers), other = fitted(rougher, numbers);
   EXPECT_TRUE(next(one, other));
   one.columns.setZero();
   other.columns.setZero();
-  EXPECT_FALSE(next(one, other));
+  const auto found = next(one, other);
+  EXPECT_FALSE(found) << found->expected_power << ' ' << found->current;
 }
 
 }  // namespace
