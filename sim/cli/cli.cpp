@@ -20,7 +20,7 @@
 #include <sim/cluster/crew.hpp>
 #include <sim/formats/table.hpp>
 #include <sim/input/diagnostics.hpp>
-#include <sim/input/objection_places.hpp>
+#include <sim/input/finding_places.hpp>
 #include <sim/input/utf8.hpp>
 #include <sim/output/folder.hpp>
 #include <sim/run/batch.hpp>
@@ -45,8 +45,8 @@ int guarded(const std::function<int()>& work) {
   } catch (const input::BadInput& error) {
     say(error.what());
     return bad_input;
-  } catch (const domain::UnfitData& error) {
-    say(to_text(input::problems_of(error.path(), error.objections())).c_str());
+  } catch (const data::UnfitData& error) {
+    say(to_text(input::problems_of(error.path(), error.findings())).c_str());
     return bad_input;
   } catch (const input::MissingInput& error) {
     complain(error.what());

@@ -14,13 +14,13 @@
 #include <sim/cli/results.hpp>
 #include <sim/cli/verbs.hpp>
 #include <sim/cluster/handout.hpp>
+#include <sim/data/judged.hpp>
 #include <sim/input/campaign_file.hpp>
 #include <sim/input/dataset_file.hpp>
 #include <sim/output/campaign_folder.hpp>
 #include <sim/output/table.hpp>
 #include <sim/report/report.hpp>
 #include <sim/run/batch.hpp>
-#include <sim/run/judged.hpp>
 
 namespace mckibben::cli {
 namespace {
@@ -91,7 +91,7 @@ int make_dataset(const DatasetOptions& options) {
   }
   const std::vector<run::EndedRun> runs = folder.runs();
   folder.publish(runs, [&](const std::filesystem::path& data) {
-    return report::report_html(campaign, runs, run::with_rows(input::read_dataset(data)));
+    return report::report_html(campaign, runs, data::with_rows(input::read_dataset(data)));
   });
   warn(run::warnings_of(runs));
   print(options, {output::json_of(campaign, runs), output::table_of(campaign, runs)});

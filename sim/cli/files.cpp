@@ -16,9 +16,9 @@
 #include <sim/input/campaign_file.hpp>
 #include <sim/input/dataset_file.hpp>
 #include <sim/input/field_table.hpp>
+#include <sim/input/finding_places.hpp>
 #include <sim/input/hypothesis_file.hpp>
 #include <sim/input/json_schema.hpp>
-#include <sim/input/objection_places.hpp>
 #include <sim/input/rigs.hpp>
 #include <sim/input/scenario_file.hpp>
 #include <sim/input/suggest.hpp>
@@ -27,8 +27,7 @@
 #include <sim/input/yaml_file.hpp>
 #include <sim/input/yaml_writer.hpp>
 #include <sim/output/csv.hpp>
-#include <sim/run/judged.hpp>
-#include <sim/run/sanity.hpp>
+#include <sim/run/look.hpp>
 
 namespace mckibben::cli {
 namespace {
@@ -40,25 +39,34 @@ constexpr std::string_view known_schemas[] = {
     input::scenario_schema, input::campaign_schema,    input::rig_schema,       input::dataset_schema,
     input::pair_schema,     input::calibration_schema, input::hypothesis_schema};
 
-/// Reads a data set and looks at what it says; adds warnings.
-/// Throws what is wrong with it. Returns what was looked at.
-std::string read_measured(const std::filesystem::path& path, std::vector<Problem>& warnings) {
-  domain::Dataset data = input::read_dataset(path);
-  if (data.own_clock && !input::has_one_load(data))
-    return fmt::format("{} runs read; none simulated", data.runs.size());
-  data = run::with_rows(std::move(data));
-  const run::Look look = run::look(data);
-  warnings = input::problems_of(data.path, with_runs_named(data, look.objections));
-  if (std::any_of(look.objections.begin(), look.objections.end(),
-                  [](const auto& one) { return one.certain; }))
+/// What was looked at besides the file's text, and why `diagnose` would find little or nothing in it.
+struct Looked {
+  std::string at;
+  std::vector<std::string> diagnose{};
+};
+
+/// Reads a data set and looks at what it says; adds warnings. Throws what is wrong with it.
+Looked read_measured(const std::filesystem::path& path, std::vector<Problem>& warnings) {
+  const domain::Dataset data = input::read_dataset(path);
+  if (std::string why = input::why_not_judged(data); !why.empty())
+    return {fmt::format("{} runs read; none simulated", data.runs.size()), {"cannot take it yet: " + why}};
+  run::Look look = run::look(data);
+  Looked looked{fmt::format("{} of {} runs simulated: stroke, sign, units, order of loads", look.runs,
+                            data.runs.size())};
+  std::erase_if(look.findings, [&](const data::Finding& one) {
+    if (data::only_limits_diagnosis(one)) looked.diagnose.push_back(one.message);
+    return data::only_limits_diagnosis(one);
+  });
+  warnings = input::problems_of(data.path, with_runs_named(data, look.findings));
+  if (std::ranges::any_of(warnings,
+                          [](const Problem& one) { return one.severity == input::Severity::error; }))
     throw input::BadInput(warnings);
-  return fmt::format("{} of {} runs simulated: stroke, sign, units, order of loads", look.runs,
-                     data.runs.size());
+  return looked;
 }
 
 /// Reads a file as what its `schema:` says it is; adds warnings. Throws what is wrong with it. Returns what
 /// was looked at besides.
-std::string read_any(const std::filesystem::path& path, std::vector<Problem>& warnings) {
+Looked read_any(const std::filesystem::path& path, std::vector<Problem>& warnings) {
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored)) return read_measured(path, warnings);
   const input::YamlFile file = input::load_yaml(path);
@@ -92,7 +100,7 @@ std::string read_any(const std::filesystem::path& path, std::vector<Problem>& wa
                       input::did_you_mean(schema->text, known_schemas), input::join(known_schemas)));
     problems.raise();
   }
-  return "";
+  return {};
 }
 
 Json problem_json(const Problem& problem) {
@@ -142,12 +150,13 @@ int check_files(const CheckOptions& options) {
   for (const auto& path : options.files) {
     std::vector<Problem> found;
     int file_status = done;
-    std::string missing, looked;
+    std::string missing;
+    Looked looked;
     try {
       if (options.upgrade) {
         found = input::to_upgrade(input::load_yaml(described_by(path)), known_schemas);
         file_status = found.empty() ? done : bad_input;
-        looked = "as this version wants it";
+        looked.at = "as this version wants it";
       } else {
         looked = read_any(path, found);
       }
@@ -168,10 +177,12 @@ int check_files(const CheckOptions& options) {
       entry["problems"].push_back({{"file", path}, {"severity", "error"}, {"message", missing}});
       fmt::print(stderr, "mckibben: {}\n", missing);
     }
-    if (!looked.empty()) entry["looked_at"] = looked;
+    if (!looked.at.empty()) entry["looked_at"] = looked.at;
+    if (!looked.diagnose.empty()) entry["diagnose"] = looked.diagnose;
     findings.push_back(std::move(entry));
-    if (file_status == done && !options.json)
-      print(fmt::format("{}: ok{}\n", path, looked.empty() ? "" : fmt::format(" ({})", looked)));
+    if (file_status != done || options.json) continue;
+    print(fmt::format("{}: ok{}\n", path, looked.at.empty() ? "" : fmt::format(" ({})", looked.at)));
+    for (const std::string& why : looked.diagnose) print(fmt::format("  diagnose: {}\n", why));
   }
   const std::string document = Json{{"schema", "mckibben-check/1"}, {"files", findings}}.dump(2) + "\n";
   std::vector<domain::InputFile> read;

@@ -35,7 +35,7 @@ struct Checked {
 ///
 /// Labels of loads that contradict the other runs: see labels.hpp. `sound` runs are believed.
 ///
-/// Throws domain::UnfitData where a column is in another unit, or has another sign, than it says;
+/// Throws data::UnfitData where a column is in another unit, or has another sign, than it says;
 /// engine::NumericalFailure; run::Interrupted.
 Checked check(const domain::Dataset& data, unsigned threads, Runs sound = {});
 

@@ -1,6 +1,6 @@
 // The whole workflow, in running order (workflow, evidence):
 //
-//   check      which data can be trusted                check, odd_readings, labels
+//   check      which data can be trusted                check, labels; sim/data
 //              faults of recordings, found and mended   first_look, faults, suspicions, shapes, repair
 //   baseline   the rig as described, then recalibrated  baseline, starts
 //   where      the map of what remains                  where
@@ -37,7 +37,7 @@ struct Settings {
 
 /// Progress counts steps and has no total: how much there is to try depends on what is found. A time limit,
 /// or the user, ends the search with what is known. Throws run::Interrupted if the user asks to stop before
-/// or after the search; domain::UnfitData where the data cannot be used at all.
+/// or after the search; data::UnfitData where the data cannot be used at all.
 Diagnosis diagnose(const domain::Dataset& data, const Settings& settings, const run::ProgressHook& progress);
 
 }  // namespace mckibben::diagnose

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include <sim/diagnose/amount.hpp>
+#include <sim/data/amount.hpp>
 #include <sim/diagnose/estimates.hpp>
 #include <sim/diagnose/interval.hpp>
 #include <sim/diagnose/left_open.hpp>
@@ -119,7 +119,7 @@ void Workflow::show_gap() {
       const auto of = [&](const Eigen::VectorXd& residuals) {
         return *experiment_.rmse(which, residuals, held_out);
       };
-      const auto [reading, unit] = told(which, data_.rig.pair() != nullptr);
+      const auto [reading, unit] = data::told(which, data_.rig.pair() != nullptr);
       gap.beside.push_back({std::string(reading), std::string(unit), experiment_.floor().beside(which),
                             of(nominal), of(recalibrated), *error});
     }

@@ -4,10 +4,10 @@
 #include <limits>
 #include <optional>
 
+#include <sim/data/series.hpp>
 #include <sim/diagnose/labels.hpp>
 #include <sim/diagnose/shapes.hpp>
 #include <sim/diagnose/thresholds.hpp>
-#include <sim/run/series.hpp>
 
 namespace mckibben::diagnose {
 namespace {
@@ -33,7 +33,7 @@ class Scales {
   double common_ratio(const Runs& runs) const {
     Series ratios;
     for (const std::size_t run : runs) ratios.push_back(loads_kg_[run] / data_.runs[run].load_kg);
-    return run::median(std::move(ratios));
+    return data::median(std::move(ratios));
   }
 
  private:
@@ -124,7 +124,7 @@ std::optional<WrongLabel> Scales::worst(const Runs& runs) const {
     Series values;
     for (const std::size_t other : runs)
       if (other != run) values.push_back(value(other));
-    return run::median(std::move(values));
+    return data::median(std::move(values));
   };
   // How far each run's offset is from that of the others, and its load with theirs.
   Series away_kg(data_.runs.size(), 0.0), usual_kg = away_kg, doubt = away_kg;

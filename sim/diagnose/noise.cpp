@@ -9,11 +9,11 @@
 #include <variant>
 
 #include <plant/instruments.hpp>
+#include <sim/data/judged.hpp>
+#include <sim/data/series.hpp>
 #include <sim/diagnose/noise.hpp>
 #include <sim/diagnose/predict.hpp>
 #include <sim/diagnose/thresholds.hpp>
-#include <sim/run/judged.hpp>
-#include <sim/run/series.hpp>
 
 namespace mckibben::diagnose {
 namespace {
@@ -67,7 +67,7 @@ double noise_beside(const domain::Dataset& data, const Runs& runs, std::span<con
       for (std::size_t k = 2; k < p.size(); ++k) second.push_back(std::abs(p[k] - 2.0 * p[k - 1] + p[k - 2]));
       if (second.empty()) continue;
       // The median is blind to the few ticks at which the gas itself turns.
-      const double deviation = run::upper_median(std::move(second)) / assumed.normal_median / std::sqrt(6.0);
+      const double deviation = data::upper_median(std::move(second)) / assumed.normal_median / std::sqrt(6.0);
       squares += deviation * deviation;
       ++count;
     }
@@ -87,7 +87,7 @@ double scatter(const domain::Dataset& data, const std::vector<std::vector<bool>>
         fourth.push_back(std::abs(e[k] - 4.0 * e[k - 1] + 6.0 * e[k - 2] - 4.0 * e[k - 3] + e[k - 4]));
   }
   if (fourth.empty()) return 0.0;
-  return run::upper_median(std::move(fourth)) / assumed.normal_median / std::sqrt(70.0);
+  return data::upper_median(std::move(fourth)) / assumed.normal_median / std::sqrt(70.0);
 }
 
 /// Whether the same drove both, over as many rows.
@@ -305,7 +305,7 @@ double force_floor_N(const domain::Dataset& data, const Runs& trusted) {
 NoiseFloor noise_floor(const domain::Dataset& data, const std::vector<std::vector<bool>>& masked,
                        std::vector<std::size_t> trusted) {
   NoiseFloor floor;
-  const double count = run::reading_per_count(data.rig);
+  const double count = data::reading_per_count(data.rig);
   floor.repeats = repeatability(data, masked, trusted);
   if (trusted.empty()) {
     trusted.resize(data.runs.size());

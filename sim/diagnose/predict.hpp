@@ -10,6 +10,7 @@
 
 #include <plant/solver.hpp>
 #include <plant/state.hpp>
+#include <sim/data/examine.hpp>
 #include <sim/diagnose/parameter.hpp>
 #include <sim/domain/dataset.hpp>
 
@@ -22,20 +23,8 @@ struct Hanging {
 };
 
 /// At each row, before counting.
-struct Readings {
-  std::vector<double> judged;  ///< contraction ratio; the cord's force [N] at a given length; angle [rad]
-  std::vector<double> pressure_Pa, opposite_pressure_Pa;  ///< the latter of a pair only
-  std::vector<double> force_N;                            ///< of the cord, where it was read beside
-  std::vector<plant::State<double>> states;               ///< of the first rig only
-
-  std::vector<double>& beside(domain::Beside which) {
-    if (which == domain::Beside::force) return force_N;
-    return which == domain::Beside::muscle_pressure ? pressure_Pa : opposite_pressure_Pa;
-  }
-  const std::vector<double>& beside(domain::Beside which) const {
-    if (which == domain::Beside::force) return force_N;
-    return which == domain::Beside::muscle_pressure ? pressure_Pa : opposite_pressure_Pa;
-  }
+struct Readings : data::Expected {
+  std::vector<plant::State<double>> states;  ///< of the first rig only
 };
 
 /// Readings of up to engine::Batch::width rigs, in common steps where these can be had (ride::Batch). Ticks

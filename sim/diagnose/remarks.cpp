@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <sim/diagnose/amount.hpp>
+#include <sim/data/amount.hpp>
 #include <sim/diagnose/catalogue.hpp>
 #include <sim/diagnose/remarks.hpp>
 
@@ -17,7 +17,7 @@ std::string noise_of_given_pressure(const domain::Dataset& data, const NoiseFloo
     case Judged::force:
       return fmt::format("force, {:.2g} N", floor.given);
     case Judged::angle:
-      return fmt::format("joint, {}", amount_of(Judged::angle, floor.given, data.rig));
+      return fmt::format("joint, {}", data::amount_of(Judged::angle, floor.given, data.rig));
     case Judged::contraction:
       break;
   }
@@ -33,10 +33,10 @@ std::vector<std::string> sheets_in_words(const domain::Dataset& data, const Nois
         "the regulator repeats a pressure within {:.2g} mbar; what that does to what was read, {} (rms), "
         "counts "
         "in the noise floor",
-        1e-2 * data.rig.valve.repeatability_Pa, amount_of(data.judged(), floor.command, data.rig)));
+        1e-2 * data.rig.valve.repeatability_Pa, data::amount_of(data.judged(), floor.command, data.rig)));
   if (floor.accuracy > 0.0)
     words.push_back(fmt::format("the sensor's accuracy, {}, counts in the noise floor",
-                                amount_of(data.judged(), floor.accuracy, data.rig)));
+                                data::amount_of(data.judged(), floor.accuracy, data.rig)));
   return words;
 }
 
@@ -88,7 +88,7 @@ std::string besides_in_words(const domain::Dataset& data) {
   for (const domain::Beside which : domain::besides) {
     const auto read = [&](const domain::Run& run) { return run.beside(which) != nullptr; };
     if (std::ranges::none_of(data.runs, read)) continue;
-    const auto [reading, unit] = told(which, data.rig.pair() != nullptr);
+    const auto [reading, unit] = data::told(which, data.rig.pair() != nullptr);
     list.push_back(fmt::format("{}_{}", reading, unit == "Pa" ? "bar" : unit));
   }
   return fmt::format("{}", fmt::join(list, " and "));

@@ -4,9 +4,9 @@
 
 #include <fmt/format.h>
 
+#include <sim/data/series.hpp>
 #include <sim/diagnose/predict.hpp>
 #include <sim/diagnose/repair.hpp>
-#include <sim/run/series.hpp>
 #include <sim/run/simulate.hpp>
 
 namespace mckibben::diagnose {
@@ -21,7 +21,8 @@ std::string ticks(const domain::Dataset& data, double number) {
 
 /// Counts of an encoder; of another sensor the load's way.
 std::string moved(const domain::Dataset& data, const domain::Run& run, double ratio) {
-  if (counts(data, run)) return fmt::format("{:.1f} counts", ratio / run::contraction_per_count(data.rig));
+  if (data::counts(data, run))
+    return fmt::format("{:.1f} counts", ratio / run::contraction_per_count(data.rig));
   return fmt::format("{:.2g} mm", 1e3 * data.rig.muscle.rest_length_m * ratio);
 }
 
@@ -64,7 +65,7 @@ void shift(const RigFile& rig, domain::Run& run, std::vector<bool>& masked, int 
   const Readings model = predict(run, {&hanging, 1}, rig.integrator.method).front();
   const auto move = [&](std::vector<double>& read, const std::vector<double>& expected) {
     std::vector<double> moved = shifted(read, late);
-    if (run::Line(moved, expected).correlation > run::Line(read, expected).correlation)
+    if (data::Line(moved, expected).correlation > data::Line(read, expected).correlation)
       read = std::move(moved);
   };
   if (run.muscle_pressure_Pa) move(*run.muscle_pressure_Pa, model.pressure_Pa);
@@ -82,10 +83,6 @@ void take_out(domain::Run& run, bool counted, double count, double at_begin, dou
 }
 
 }  // namespace
-
-bool counts(const domain::Dataset& data, const domain::Run& run) {
-  return run.measured ? run.measured->counted : data.rig.sensors.position().counts_pulses();
-}
 
 FaultyRun told(const domain::Dataset& data, const Fault& fault) {
   const domain::Run& run = data.runs[fault.run];
@@ -157,8 +154,8 @@ void mend(domain::Dataset& data, Checked& checked, const std::vector<Fault>& fau
     const bool late = fault.kind == FaultKind::late && rows != 0, zero = fault.kind == FaultKind::zero;
     const bool common_drift = fault.kind == FaultKind::drift && fault.common;
     if (late) shift(data.rig, run, checked.masked[fault.run], rows);
-    if (zero) take_out(run, counts(data, run), count, fault.size, fault.size);
-    if (common_drift) take_out(run, counts(data, run), count, 0.0, fault.size);
+    if (zero) take_out(run, data::counts(data, run), count, fault.size, fault.size);
+    if (common_drift) take_out(run, data::counts(data, run), count, 0.0, fault.size);
     if (late || zero || common_drift) {
       faulty.action = "corrected";
       faulty.words += late ? " and was shifted" : " (corrected)";

@@ -7,9 +7,6 @@
 
 namespace mckibben::diagnose {
 
-/// Whether a run's readings are counts of an encoder.
-bool counts(const domain::Dataset& data, const domain::Run& run);
-
 /// The fault as it is told; without what is done about it.
 FaultyRun told(const domain::Dataset& data, const Fault& fault);
 

@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <sim/diagnose/amount.hpp>
+#include <sim/data/amount.hpp>
 #include <sim/diagnose/story.hpp>
 #include <sim/diagnose/thresholds.hpp>
 #include <sim/domain/number.hpp>
@@ -48,7 +48,7 @@ std::string sentence_of(const std::string& effect, const plant::Effects& of_rig)
 }
 
 std::string amount_in_words(const Diagnosis& d, double value) {
-  return amount_of(d.gap.judged, value, d.corrected);
+  return data::amount_of(d.gap.judged, value, d.corrected);
 }
 std::string what_is_judged(const Diagnosis& d) {
   switch (d.gap.judged) {

@@ -22,7 +22,6 @@ struct Thresholds {
   ScatterThresholds scatter{};
   PredictThresholds predict{};
   ParameterThresholds parameter{};
-  CheckThresholds check{};
   LabelThresholds label{};
   FaultThresholds fault{};
   NoiseThresholds noise{};

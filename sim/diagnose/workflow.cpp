@@ -6,7 +6,8 @@
 
 #include <fmt/format.h>
 
-#include <sim/diagnose/amount.hpp>
+#include <sim/data/amount.hpp>
+#include <sim/data/warnings.hpp>
 #include <sim/diagnose/candidate.hpp>
 #include <sim/diagnose/catalogue.hpp>
 #include <sim/diagnose/first_look.hpp>
@@ -14,7 +15,6 @@
 #include <sim/diagnose/story.hpp>
 #include <sim/diagnose/thresholds.hpp>
 #include <sim/diagnose/workflow.hpp>
-#include <sim/run/warnings.hpp>
 
 namespace mckibben::diagnose {
 namespace {
@@ -88,8 +88,8 @@ void Workflow::learn(const std::string& what) {
 
 void Workflow::learn_gap(const std::string& of, const Eigen::VectorXd& held_out) {
   learn(fmt::format("{}: {} (rms) on the runs held out, the noise floor is {}", of,
-                    amount_of(judged(), rmse(held_out), nominal_),
-                    amount_of(judged(), experiment_.floor().judged, nominal_)));
+                    data::amount_of(judged(), rmse(held_out), nominal_),
+                    data::amount_of(judged(), experiment_.floor().judged, nominal_)));
 }
 
 double Workflow::rmse(const Eigen::VectorXd& held_out) const {
@@ -99,7 +99,7 @@ double Workflow::rmse(const Eigen::VectorXd& held_out) const {
 void Workflow::tell_check() {
   result_.seed = settings_.seed;
   result_.warnings = settings_.warnings;
-  for (std::string& what : run::grouped(checked_.warnings)) warn(std::move(what));
+  for (std::string& what : data::grouped(checked_.warnings)) warn(std::move(what));
   result_.faults = checked_.faulty;
   result_.false_alarm_rate = thresholds.decide.false_alarm_rate;
   result_.corrected = data_.rig;
@@ -112,7 +112,7 @@ void Workflow::tell_check() {
     warn(
         fmt::format("equal runs differ by {:.2g} {} (rms over sqrt 2), more than a count "
                     "and its jitter explain: this is taken for the noise floor",
-                    floor.repeats, unit_in_words(judged())));
+                    floor.repeats, data::unit_in_words(judged())));
   else if (floor.noisy)
     warn(
         fmt::format("{} scatters by {:.2g} from tick to tick (rms), far more than counts "

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <plant/instruments.hpp>
+#include <sim/data/ranges.hpp>
 #include <sim/input/column_units.hpp>
 #include <sim/input/dates.hpp>
 #include <sim/input/quantity.hpp>
@@ -135,6 +136,28 @@ void convert_columns(Table& table, const ColumnMap& map, const domain::RigFile& 
       convert_units(column.values, place.unit, found->unit);
     }
   }
+}
+
+void check_numbers(const Table& table, const ColumnMap& map, const domain::RigFile& rig,
+                   TableProblems& problems) {
+  std::vector<data::ReadColumn> columns;
+  for (const Table::Column& column : table.columns) {
+    const bool own_command = std::ranges::any_of(domain::quantities, [&](const domain::Quantity& each) {
+      const ColumnPlace& place = map.*each.place;
+      return each.column == column.name && is_command(each) && !place.absent() && !is_current(place.unit);
+    });
+    columns.push_back({column.name, &column.values, own_command});
+  }
+  for (const data::WrongNumber& wrong : data::check_ranges(columns, map, rig))
+    problems.add(table, table.columns[wrong.column], wrong.row, wrong.message);
+}
+
+void check_clock(const Table& table, const ColumnMap& map, double tick_s, TableProblems& problems) {
+  const Table::Column* column = table.find("time_s");
+  if (column != nullptr && problems.count() == 0)
+    if (const auto wrong = data::check_clock(column->values, map, tick_s))
+      problems.add(table, *column, wrong->row, wrong->message);
+  check_ticks(table, tick_s, problems, std::string("; ") + data::own_clock);
 }
 
 }  // namespace mckibben::input

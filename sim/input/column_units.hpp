@@ -29,4 +29,10 @@ double ratio_per_unit(const ColumnPlace& contraction, const plant::Rig& rig);
 /// commands of a valve that takes volts or a pressure the currents that would do the same.
 void convert_columns(Table& table, const ColumnMap& map, const domain::RigFile& rig);
 
+/// What is wrong with the numbers of a table that was brought to our units, at its place.
+void check_numbers(const Table& table, const ColumnMap& map, const domain::RigFile& rig,
+                   TableProblems& problems);
+/// The same of a clock that is to tick as the rig does.
+void check_clock(const Table& table, const ColumnMap& map, double tick_s, TableProblems& problems);
+
 }  // namespace mckibben::input

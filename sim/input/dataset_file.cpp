@@ -193,13 +193,19 @@ bool has_one_load(const Dataset& dataset) {
          std::ranges::all_of(dataset.runs, [](const Run& run) { return why_not_one_load(run).empty(); });
 }
 
-void require_judged(const Dataset& dataset, std::string_view verb) {
-  if (dataset.judged() == domain::Judged::contraction) require_load(dataset.rig, dataset.path.string(), verb);
+std::string why_not_judged(const Dataset& dataset) {
+  if (dataset.judged() == domain::Judged::contraction)
+    if (std::string why = no_load(dataset.rig); !why.empty()) return why;
   for (const Run& run : dataset.runs)
     if (const auto why = why_not(dataset, run); !why.empty())
-      throw BadInput(
-          {{Severity::error, dataset.path.string(), nowhere,
-            fmt::format("{} cannot take it yet: in run {} {}", verb, shortened(run.id), why), ""}});
+      return fmt::format("in run {} {}", shortened(run.id), why);
+  return "";
+}
+
+void require_judged(const Dataset& dataset, std::string_view verb) {
+  if (const std::string why = why_not_judged(dataset); !why.empty())
+    throw BadInput({{Severity::error, dataset.path.string(), nowhere,
+                     fmt::format("{} cannot take it yet: {}", verb, why), ""}});
 }
 
 }  // namespace mckibben::input

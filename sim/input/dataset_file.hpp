@@ -26,6 +26,8 @@ void require_ticks(const Dataset& dataset, std::string_view verb);
 
 /// Whether a load hangs on the muscle of each run, and contraction was read.
 bool has_one_load(const Dataset& dataset);
+/// Why runs have nothing that a model could be judged by; empty if they have.
+std::string why_not_judged(const Dataset& dataset);
 /// Throws BadInput unless `verb` has what it needs of each run: a load that hangs on one muscle and whose
 /// contraction was read, of all runs a given length and the muscle's force, or two muscles and their joint's
 /// angle.

@@ -10,6 +10,7 @@
 
 #include <sim/input/ascii.hpp>
 #include <sim/input/column_hints.hpp>
+#include <sim/input/column_units.hpp>
 #include <sim/input/csv.hpp>
 #include <sim/input/dates.hpp>
 #include <sim/input/format.hpp>
@@ -22,9 +23,6 @@
 
 namespace mckibben::input {
 namespace {
-
-constexpr double lowest_contraction = -0.2, highest_contraction = 1.0;
-constexpr double lowest_gauge_bar = -2.0, highest_gauge_bar = 100.0;  // a vacuum, and noise
 
 /// What is looked for; problems are those of the map, shown in the data set's file.
 class Wanted {
@@ -148,12 +146,8 @@ void read_table_of(Source source, Format format, const Wanted& wanted, const Col
     run.rest_length_m = dataset.rig.muscle.rest_length_m;
     return;
   }
-  const double largest_mA = dataset.rig.dac.largest_current_mA;
-  ColumnChecks checks(table, map, found);
-  checks.time(dataset.rig.tick_s);
-  checks.current(largest_mA);
-  checks.contraction(lowest_contraction, highest_contraction, largest_mA);
-  checks.pressure(lowest_gauge_bar, highest_gauge_bar);
+  check_clock(table, map, dataset.rig.tick_s, found);
+  check_numbers(table, map, dataset.rig, found);
   run.current_mA = std::move(current->values);
   run.contraction_ratio = std::move(contraction->values);
   if (Table::Column* pressure = table.find("muscle_pressure_bar")) {

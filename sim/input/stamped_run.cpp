@@ -7,9 +7,7 @@
 
 #include <fmt/format.h>
 
-#include <plant/geometry.hpp>
 #include <sim/domain/number.hpp>
-#include <sim/input/column_hints.hpp>
 #include <sim/input/column_units.hpp>
 #include <sim/input/quantity.hpp>
 #include <sim/input/stamped_run.hpp>
@@ -19,9 +17,6 @@ namespace {
 
 using domain::ColumnMap, domain::ColumnPlace, domain::Measurement, domain::Quantity, domain::Role;
 
-constexpr double lowest_ratio = -0.2, highest_ratio = 1.0;
-constexpr double lowest_read_bar = -2.0, lowest_given_bar = -1.0, highest_bar = 100.0;  // noise; a vacuum
-constexpr double largest_angle_rad = 10.0, largest_force_N = 1e6;
 constexpr long least_to_begin = 10;  // readings, for place, speed and acceleration of the first instant
 
 bool is_input(const ColumnPlace& place) {
@@ -150,23 +145,18 @@ namespace {
 /// The columns of a table as a measurement, checked one by one.
 class Assembling {
  public:
-  Assembling(Table& table, const ColumnMap& map, const domain::RigFile& rig, TableProblems& problems)
+  Assembling(const Table& table, const ColumnMap& map, const domain::RigFile& rig, TableProblems& problems)
       : table_(table), map_(map), rig_(rig), problems_(problems), pair_(rig.pair() != nullptr) {}
 
   Measurement operator()(const domain::Recorded& recorded) {
     measured_.recorded = recorded;
     time();
+    check_numbers(table_, map_, rig_, problems_);
     for (std::size_t side = 0; side < (pair_ ? 2 : 1); ++side) drive(side);
     measured_.length_is_given = is_input(map_.contraction);
-    if (measured_.length_is_given) {
-      const plant::Braid braid(rig_.muscle);
-      range(
-          "contraction_ratio", [&](double e) { return braid.in_domain(e); },
-          "what this muscle can be held at");
-    }
-    measured_.contraction_ratio = contraction();
-    measured_.angle_rad = take("angle_rad", -largest_angle_rad, largest_angle_rad, "what a joint can turn");
-    measured_.force_N = take("force_N", -largest_force_N, largest_force_N, "what a cord can bear");
+    measured_.contraction_ratio = take("contraction_ratio");
+    measured_.angle_rad = take("angle_rad");
+    measured_.force_N = take("force_N");
     measured_.angle_in_degrees = map_.angle.unit == "deg";
     measured_.counted = (pair_ ? map_.angle : map_.contraction).unit == "count";
     beginning();
@@ -211,53 +201,17 @@ class Assembling {
     Measurement::Side& into = measured_.sides[side];
     const std::string number = pair_ ? (side == 0 ? "_1" : "_2") : "";
     into.pressure_is_given = is_input(pressure_of(map_, pair_, side));
-    into.muscle_pressure_Pa =
-        take("muscle_pressure" + number + "_bar", into.pressure_is_given ? lowest_given_bar : lowest_read_bar,
-             highest_bar, into.pressure_is_given ? "what a muscle can be given" : "what a gauge can show");
+    into.muscle_pressure_Pa = take("muscle_pressure" + number + "_bar");
     for (double& value : into.muscle_pressure_Pa) value *= plant::Pa_per_bar;
-    into.current_mA = command(command_of(map_, pair_, side), valve_of(rig_, side), number);
+    into.current_mA = take("current" + number + "_mA");
   }
 
-  std::vector<double> command(const ColumnPlace& place, const plant::Valve& valve,
-                              const std::string& number) {
-    const std::string name = "current" + number + "_mA";
-    if (place.absent() || is_current(place.unit)) {
-      constexpr double slack_mA = 1e-9;  // shortest digits of a sum of DAC steps
-      return take(name, 0.0, rig_.dac.largest_current_mA + slack_mA, "range of the rig's DAC");
-    }
+  std::vector<double> take(std::string_view name) const {
     const Table::Column* column = table_.find(name);
-    if (column == nullptr) return {};
-    ColumnChecks(table_, map_, problems_).command(*column, "command" + number, place, valve);
-    return column->values;
+    return column != nullptr ? column->values : std::vector<double>{};
   }
 
-  std::vector<double> contraction() {
-    const Table::Column* column = table_.find("contraction_ratio");
-    if (column == nullptr) return {};
-    ColumnChecks(table_, map_, problems_)
-        .contraction(lowest_ratio, highest_ratio, rig_.dac.largest_current_mA);
-    return column->values;
-  }
-
-  std::vector<double> take(const std::string& name, double lowest, double highest,
-                           const std::string& meaning) {
-    Table::Column* column = table_.find(name);
-    if (column == nullptr) return {};
-    check_range(table_, *column, lowest, highest, meaning, problems_);
-    return column->values;
-  }
-
-  template <class Within>
-  void range(const char* name, const Within& within, const char* meaning) {
-    const Table::Column& column = *table_.find(name);
-    for (std::size_t row = 0; row < column.values.size(); ++row)
-      if (const double value = column.values[row]; !std::isnan(value) && !within(value))
-        problems_.add(
-            table_, column, row,
-            fmt::format("{} = {} is out of range ({})", name, domain::write_number(value), meaning));
-  }
-
-  Table& table_;
+  const Table& table_;
   const ColumnMap& map_;
   const domain::RigFile& rig_;
   TableProblems& problems_;

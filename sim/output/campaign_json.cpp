@@ -1,11 +1,11 @@
 // Layout of a campaign's documents; see the header.
+#include <sim/data/judged.hpp>
 #include <sim/input/campaign_file.hpp>
 #include <sim/input/dataset_file.hpp>
 #include <sim/input/hash.hpp>
 #include <sim/output/campaign_folder.hpp>
 #include <sim/output/campaign_json.hpp>
 #include <sim/output/json_parts.hpp>
-#include <sim/run/judged.hpp>
 #include <sim/run/simulate.hpp>
 
 namespace mckibben::output {
@@ -78,7 +78,7 @@ run::EndedRun ended_run(const run::CampaignJob& job, const Json& entry) {
 }
 
 Json columns_json(const domain::RigFile& rig) {
-  if (rig.pair() != nullptr) return {{"angle", counted_json("angle_rad", run::reading_per_count(rig))}};
+  if (rig.pair() != nullptr) return {{"angle", counted_json("angle_rad", data::reading_per_count(rig))}};
   if (rig.sensors.of(plant::Sensed::force) == nullptr) return Json::object();
   return {{"contraction", counted_json("contraction_ratio", run::contraction_per_count(rig))},
           {"force", {{"column", "force_N"}, {"unit", "N"}}}};

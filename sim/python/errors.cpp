@@ -2,7 +2,7 @@
 #include <exception>
 #include <utility>
 
-#include <sim/domain/objection.hpp>
+#include <sim/data/finding.hpp>
 #include <sim/engine/failure.hpp>
 #include <sim/input/quantity.hpp>
 #include <sim/python/dicts.hpp>
@@ -38,11 +38,11 @@ void raise_input(const std::string& text, const std::vector<input::Problem>& pro
   raise(of_package("errors", only_missing ? "MissingInput" : "InputError")(text, py::tuple(list)));
 }
 
-void raise_unfit(const domain::UnfitData& unfit) {
+void raise_unfit(const data::UnfitData& unfit) {
   py::list list;
-  for (const auto& objection : unfit.objections())
+  for (const auto& finding : unfit.findings())
     list.append(of_package("errors", "Problem")(unfit.path().string(), py::none(), py::none(),
-                                                objection.quantity, objection.message, "error", ""));
+                                                finding.quantity, finding.message, "error", ""));
   raise(of_package("errors", "UnfitData")(unfit.what(), py::tuple(list)));
 }
 
@@ -57,7 +57,7 @@ void translate(std::exception_ptr thrown) {
     raise(of_package("errors", "MissingInput")(missing.what(), py::tuple()));
   } catch (const input::BadQuantity& bad) {
     raise(of_package("errors", "InputError")(bad.what(), py::tuple()));
-  } catch (const domain::UnfitData& unfit) {
+  } catch (const data::UnfitData& unfit) {
     raise_unfit(unfit);
   } catch (const engine::NumericalFailure& failure) {
     raise(of_package("errors", "NumericalFailure")(failure.what()));

@@ -7,13 +7,13 @@
 
 #include <fmt/format.h>
 
+#include <sim/data/warnings.hpp>
 #include <sim/run/batch.hpp>
 #include <sim/run/campaign.hpp>
 #include <sim/run/draws.hpp>
 #include <sim/run/gaps.hpp>
 #include <sim/run/simulate.hpp>
 #include <sim/run/two_currents.hpp>
-#include <sim/run/warnings.hpp>
 
 namespace mckibben::run {
 
@@ -128,8 +128,8 @@ EndedRun ended(const domain::Campaign& campaign, const CampaignRun& run) {
 std::vector<std::string> warnings_of(const std::vector<EndedRun>& runs) {
   std::vector<std::string> all;
   for (const EndedRun& run : runs)
-    for (const std::string& doubt : run.doubts) all.push_back(warning_of_run(run.job.id, doubt));
-  return grouped(all);
+    for (const std::string& doubt : run.doubts) all.push_back(data::warning_of_run(run.job.id, doubt));
+  return data::grouped(all);
 }
 
 domain::Run measured(const domain::Campaign& campaign, const CampaignRun& run) {

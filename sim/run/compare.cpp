@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include <plant/geometry.hpp>
+#include <sim/data/warnings.hpp>
 #include <sim/domain/number.hpp>
 #include <sim/run/batch.hpp>
 #include <sim/run/briefing.hpp>
@@ -21,7 +22,6 @@
 #include <sim/run/simulate.hpp>
 #include <sim/run/track.hpp>
 #include <sim/run/two_currents.hpp>
-#include <sim/run/warnings.hpp>
 
 namespace mckibben::run {
 namespace {
@@ -221,16 +221,16 @@ class Comparing {
     std::vector<std::string> all;
     for (const auto& run : result_.runs) {
       const std::string& id = run.id;
-      if (run.unreachable.any()) all.push_back(warning_of_run(id, run.unreachable.text()));
+      if (run.unreachable.any()) all.push_back(data::warning_of_run(id, run.unreachable.text()));
       if (const std::string stood = limit_warning(run, scenario_.rig); !stood.empty())
-        all.push_back(warning_of_run(id, stood));
-      for (const auto& doubt : doubts(run.recording)) all.push_back(warning_of_run(id, doubt));
+        all.push_back(data::warning_of_run(id, stood));
+      for (const auto& doubt : doubts(run.recording)) all.push_back(data::warning_of_run(id, doubt));
     }
     for (const auto& tuned : result_.tuned)
       if (gained_nothing(tuned))
-        all.push_back(
-            warning_of_run(id_of(tuned.controller, tuned.load_kg), tuning_warning(tuned, scenario_.rig)));
-    result_.warnings = grouped(all);
+        all.push_back(data::warning_of_run(id_of(tuned.controller, tuned.load_kg),
+                                           tuning_warning(tuned, scenario_.rig)));
+    result_.warnings = data::grouped(all);
   }
 
   void spread_all() {

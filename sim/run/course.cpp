@@ -1,21 +1,17 @@
 // Stamps to drives; see the header.
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 
-#include <Eigen/QR>
-
+#include <sim/data/scatter.hpp>
 #include <sim/run/course.hpp>
 
 namespace mckibben::run {
 namespace {
 
-using domain::FirstState, domain::Hold, domain::Measurement;
+using domain::Hold, domain::Measurement;
 
-constexpr double jump_s = 1e-6;           // of a pressure that is held until its next stamp
-constexpr double first_moments_s = 0.04;  // what a load does in them is a parabola
-constexpr std::size_t least_readings = 4;
+constexpr double jump_s = 1e-6;  // of a pressure that is held until its next stamp
 
 bool any_given(const Measurement& measured) {
   return measured.sides[0].pressure_is_given || measured.sides[1].pressure_is_given;
@@ -97,27 +93,6 @@ class Drives {
   Course course_;
 };
 
-/// Value, slope and curvature at the first stamp, of what is read in the first moments.
-std::array<double, 3> parabola(const std::vector<double>& time_s, const std::vector<double>& values) {
-  std::vector<double> at, read;
-  for (std::size_t k = 0; k < values.size(); ++k) {
-    const double since_s = time_s[k] - time_s.front();
-    if (since_s > first_moments_s && at.size() >= least_readings) break;
-    if (std::isnan(values[k])) continue;
-    at.push_back(since_s);
-    read.push_back(values[k]);
-  }
-  const auto rows = static_cast<Eigen::Index>(at.size());
-  Eigen::MatrixXd powers(rows, 3);
-  for (Eigen::Index row = 0; row < rows; ++row) {
-    const double since_s = at[static_cast<std::size_t>(row)];
-    powers.row(row) << 1.0, since_s, 0.5 * since_s * since_s;
-  }
-  const Eigen::Vector3d fitted =
-      powers.colPivHouseholderQr().solve(Eigen::Map<const Eigen::VectorXd>(read.data(), rows));
-  return {fitted[0], fitted[1], fitted[2]};
-}
-
 }  // namespace
 
 ride::Drive Course::toward(std::size_t k) const {
@@ -139,21 +114,10 @@ double Course::until_s(std::size_t k, double alone_s) const {
   return time_s[k] + (k > 0 ? time_s[k] - time_s[k - 1] : alone_s);
 }
 
-FirstState first_state(const Measurement& measured) {
-  const auto [ratio, speed, acceleration] = parabola(measured.time_s, measured.contraction_ratio);
-  FirstState first{ratio, speed, acceleration};
-  const Measurement::Side& side = measured.sides[0];
-  const auto& read = side.muscle_pressure_Pa;
-  const auto known = std::count_if(read.begin(), read.end(), [](double value) { return !std::isnan(value); });
-  if (!side.pressure_is_given && static_cast<std::size_t>(known) >= least_readings)
-    first.muscle_pressure_Pa = parabola(measured.time_s, read)[0];
-  return first;
-}
-
 Course course_of(const Measurement& measured, const plant::Rig& rig) {
   Course course = Drives(measured, rig)();
   if (measured.recorded.start == domain::Start::moving) {
-    const FirstState first = measured.first ? *measured.first : first_state(measured);
+    const domain::FirstState first = measured.first ? *measured.first : data::first_state(measured);
     const double length_m = rig.muscle.rest_length_m;
     course.begins = {length_m * first.contraction_ratio, length_m * first.speed_per_s,
                      length_m * first.acceleration_per_s2, first.muscle_pressure_Pa};

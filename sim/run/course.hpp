@@ -34,7 +34,4 @@ Course course_of(const domain::Measurement& measured, const plant::Rig& rig);
 /// Of a run with a clock of its own, or with a row each tick of `rig`.
 Course course_of(const domain::Run& run, const plant::Rig& rig);
 
-/// From the readings of the first moments, by a parabola. A run that begins on its way has enough of them.
-domain::FirstState first_state(const domain::Measurement& measured);
-
 }  // namespace mckibben::run

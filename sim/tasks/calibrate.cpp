@@ -4,8 +4,8 @@
 
 #include <fmt/format.h>
 
+#include <sim/data/judged.hpp>
 #include <sim/input/dataset_file.hpp>
-#include <sim/run/judged.hpp>
 #include <sim/tasks/calibrate.hpp>
 #include <sim/thesis/processing.hpp>
 
@@ -16,7 +16,7 @@ domain::Dataset ticked(domain::Dataset data, const std::function<void(const std:
     input::require_ticks(data, "calibrate");
     return data;
   }
-  data = run::with_rows(std::move(data));
+  data = data::with_rows(std::move(data));
   data.rig.tick_s = data.row_s();
   constexpr double uneven = 0.1;  // of a row
   for (const domain::Run& run : data.runs)

@@ -9,7 +9,7 @@
 namespace mckibben::tasks {
 
 /// A data set with a row each tick: what it is, or rows made of its stamps; `say` hears that. Throws
-/// input::BadInput, domain::UnfitData where it cannot be.
+/// input::BadInput, data::UnfitData where it cannot be.
 domain::Dataset ticked(domain::Dataset data, const std::function<void(const std::string&)>& say);
 
 }  // namespace mckibben::tasks

@@ -4,11 +4,11 @@
 
 #include <fmt/format.h>
 
+#include <sim/data/judged.hpp>
+#include <sim/data/stamps.hpp>
 #include <sim/diagnose/candidate.hpp>
 #include <sim/input/dataset_file.hpp>
 #include <sim/input/hypothesis_file.hpp>
-#include <sim/run/judged.hpp>
-#include <sim/run/stamps.hpp>
 #include <sim/tasks/diagnose.hpp>
 
 namespace mckibben::tasks {
@@ -39,8 +39,10 @@ void add_hypotheses(const std::vector<std::string>& files, domain::Dataset& data
 std::vector<std::string> prepare(domain::Dataset& data, const std::vector<std::string>& hypotheses) {
   add_hypotheses(hypotheses, data);
   input::require_judged(data, "diagnose");
-  std::vector<std::string> warnings = run::mend_at_stamps(data);
-  data = run::with_rows(std::move(data));
+  std::vector<std::string> warnings;
+  for (const data::Finding& finding : data::mend_at_stamps(data))
+    warnings.push_back(data::text_of(data, finding).append(data::consequence_of(finding)));
+  data = data::with_rows(std::move(data));
   return warnings;
 }
 

@@ -12,7 +12,7 @@ namespace mckibben::tasks {
 
 /// Adds the laws of hypothesis files to the rig, on both sides of a pair, checks that the data can be judged
 /// and makes rows of stamps. Gives what is to be warned of. Throws input::BadInput, input::MissingInput,
-/// domain::UnfitData.
+/// data::UnfitData.
 std::vector<std::string> prepare(domain::Dataset& data, const std::vector<std::string>& hypotheses);
 
 /// What is found, and the runs replayed on the data set's rig and on

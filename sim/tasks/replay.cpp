@@ -1,12 +1,11 @@
 // See the header.
 #include <utility>
 
+#include <sim/data/warnings.hpp>
 #include <sim/input/common_checks.hpp>
 #include <sim/input/dataset_file.hpp>
 #include <sim/input/diagnostics.hpp>
-#include <sim/run/judged.hpp>
-#include <sim/run/sanity.hpp>
-#include <sim/run/warnings.hpp>
+#include <sim/run/look.hpp>
 #include <sim/tasks/replay.hpp>
 
 namespace mckibben::tasks {
@@ -14,14 +13,14 @@ namespace {
 
 template <class Runs>
 std::vector<std::string> warnings_of(const domain::Dataset& dataset,
-                                     const std::vector<domain::Objection>& objections, const Runs& runs) {
-  run::raise(dataset, objections);
+                                     const std::vector<data::Finding>& findings, const Runs& runs) {
+  data::raise(dataset, findings);
   std::vector<std::string> warnings;
-  warnings.reserve(objections.size());
-  for (const auto& objection : objections) warnings.push_back(domain::text_of(dataset, objection));
+  for (const auto& finding : findings)
+    if (!data::only_limits_diagnosis(finding)) warnings.push_back(data::text_of(dataset, finding));
   for (const auto& run : runs)
     for (const auto& doubt : run::doubts(run.recording))
-      warnings.push_back(run::warning_of_run(run.id, doubt));
+      warnings.push_back(data::warning_of_run(run.id, doubt));
   return warnings;
 }
 
@@ -40,15 +39,14 @@ void replace_rig(domain::Dataset& dataset, const std::string& called, domain::Ri
 
 std::vector<std::string> warnings_of(const domain::Dataset& dataset,
                                      const std::vector<run::ReplayedRun>& runs) {
-  return warnings_of(dataset, run::sanity(dataset, run::expected_of(runs)), runs);
+  return warnings_of(dataset, data::examine(dataset, run::expected_of(dataset, runs)).findings, runs);
 }
 
 std::vector<std::string> warnings_of(const domain::Dataset& dataset,
                                      const std::vector<run::StampedRun>& runs) {
-  std::vector<domain::Objection> objections;
-  if (input::has_one_load(dataset) && !run::interrupted())
-    objections = run::look(run::with_rows(dataset)).objections;
-  return run::grouped(warnings_of(dataset, objections, runs));
+  std::vector<data::Finding> findings;
+  if (input::why_not_judged(dataset).empty() && !run::interrupted()) findings = run::look(dataset).findings;
+  return data::grouped(warnings_of(dataset, findings, runs));
 }
 
 }  // namespace mckibben::tasks

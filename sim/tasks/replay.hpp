@@ -14,11 +14,11 @@ namespace mckibben::tasks {
 /// `called`: as messages call the rig. Throws input::BadInput where the data are not of such a rig.
 void replace_rig(domain::Dataset& dataset, const std::string& called, domain::RigFile rig);
 
-/// What looks wrong in the data, and what is doubtful in their simulation. Throws domain::UnfitData where a
+/// What looks wrong in the data, and what is doubtful in their simulation. Throws data::UnfitData where a
 /// comparison with them would mean nothing.
 std::vector<std::string> warnings_of(const domain::Dataset& dataset,
                                      const std::vector<run::ReplayedRun>& runs);
-/// The same of data with a clock of their own. Where one load hangs, what `check` would look at is looked at.
+/// The same of data with a clock of their own.
 std::vector<std::string> warnings_of(const domain::Dataset& dataset,
                                      const std::vector<run::StampedRun>& runs);
 

@@ -36,7 +36,7 @@ struct CalibrationResult {
   }
 };
 
-/// Throws domain::UnfitData if the data set cannot bear the fits; the message says what would help.
+/// Throws data::UnfitData if the data set cannot bear the fits; the message says what would help.
 CalibrationResult calibrate(const domain::Dataset& dataset, const Options& options);
 
 }  // namespace mckibben::thesis

@@ -40,7 +40,7 @@ struct Grid {
   }
 };
 
-/// Processes every run and sorts it in. Throws domain::UnfitData.
+/// Processes every run and sorts it in. Throws data::UnfitData.
 Grid make_grid(const domain::Dataset& dataset, const ProcessingOptions& options);
 
 /// A column of samples as Eigen sees it.

@@ -6,7 +6,7 @@
 
 #include <plant/geometry.hpp>
 #include <plant/instruments.hpp>
-#include <sim/domain/objection.hpp>
+#include <sim/data/finding.hpp>
 #include <sim/thesis/processing.hpp>
 
 namespace mckibben::thesis {
@@ -264,7 +264,7 @@ ProcessedRun process(const domain::Run& run, const domain::Dataset& dataset,
 }
 
 void refuse(const domain::Dataset& dataset, std::string message) {
-  throw domain::UnfitData(dataset, std::move(message));
+  throw data::UnfitData(dataset, std::move(message));
 }
 
 }  // namespace mckibben::thesis

@@ -78,11 +78,11 @@ struct HalfPeriod {
 };
 std::vector<HalfPeriod> half_periods(const std::vector<double>& current_mA);
 
-/// Throws domain::UnfitData if the run cannot be of this rig or the gauge is missing.
+/// Throws data::UnfitData if the run cannot be of this rig or the gauge is missing.
 ProcessedRun process(const domain::Run& run, const domain::Dataset& dataset,
                      const ProcessingOptions& options);
 
-/// A problem with the whole data set, to be thrown as domain::UnfitData.
+/// A problem with the whole data set, to be thrown as data::UnfitData.
 [[noreturn]] void refuse(const domain::Dataset& dataset, std::string message);
 
 }  // namespace mckibben::thesis

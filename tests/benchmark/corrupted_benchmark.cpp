@@ -6,8 +6,8 @@
 
 #include <fmt/format.h>
 
+#include <sim/data/finding.hpp>
 #include <sim/diagnose/diagnose.hpp>
-#include <sim/domain/objection.hpp>
 #include <sim/engine/failure.hpp>
 
 #include "corruptions.hpp"
@@ -28,7 +28,7 @@ Said said_of(const domain::Dataset& data, std::uint64_t seed) {
       if (value == found.verdict) said.verdict = name;
     for (const auto& effect : found.effects) said.effects.push_back(effect.name);
     return said;
-  } catch (const domain::UnfitData& unfit) {
+  } catch (const data::UnfitData& unfit) {
     return {.verdict = "refused", .sentence = unfit.what()};
   } catch (const engine::NumericalFailure& failure) {
     return {.verdict = "failed", .sentence = failure.what()};

@@ -316,7 +316,11 @@ TEST(Replay, AndCheckNameLabelsThatLookExchanged) {
   EXPECT_EQ(checked.status, 0);
   EXPECT_NE(checked.err.find("dataset.yaml:4:"), std::string::npos) << checked.err;
   EXPECT_NE(checked.err.find(words), std::string::npos) << checked.err;
-  EXPECT_EQ(checked.out, ".: ok (2 of 2 runs simulated: stroke, sign, units, order of loads)\n");
+  EXPECT_EQ(
+      checked.out,
+      ".: ok (2 of 2 runs simulated: stroke, sign, units, order of loads)\n"
+      "  diagnose: 2 usable runs: too few to choose on some and judge on others; at least four runs would "
+      "help, with two loads and two kinds of current.\n");
 }
 
 TEST(Replay, NeverTakesThePlaceOfItsData) {

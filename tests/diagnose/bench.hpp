@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
+#include <sim/data/judged.hpp>
 #include <sim/diagnose/predict.hpp>
-#include <sim/run/judged.hpp>
 
 namespace mckibben::diagnose {
 
@@ -34,7 +34,7 @@ inline domain::Dataset on_a_bench(const plant::Rig& truth, double noise_N) {
     measured.force_N = predict(run, {&held, 1}).front().judged;
     for (double& force_N : measured.force_N) force_N = std::max(0.0, force_N + noise(random));
   }
-  return run::with_rows(std::move(data));
+  return data::with_rows(std::move(data));
 }
 
 }  // namespace mckibben::diagnose

@@ -8,11 +8,11 @@
 #include <gtest/gtest.h>
 
 #include <plant/geometry.hpp>
+#include <sim/data/finding.hpp>
 #include <sim/diagnose/check.hpp>
 #include <sim/diagnose/experiment.hpp>
 #include <sim/diagnose/held_out.hpp>
 #include <sim/diagnose/in_brief.hpp>
-#include <sim/domain/objection.hpp>
 
 namespace mckibben::diagnose {
 namespace {
@@ -98,10 +98,10 @@ TEST(Bench, ForcesInAnotherUnitAreRefused) {
   domain::Dataset data = on_a_bench({}, 0.0);
   for (domain::Run& run : data.runs)
     for (double& force_N : run.force_N) force_N *= 1e-3;
-  EXPECT_THROW(check(data, 1), domain::UnfitData);
+  EXPECT_THROW(check(data, 1), data::UnfitData);
   for (domain::Run& run : data.runs)
     for (double& force_N : run.force_N) force_N *= -1e3;
-  EXPECT_THROW(check(data, 1), domain::UnfitData);
+  EXPECT_THROW(check(data, 1), data::UnfitData);
 }
 
 }  // namespace

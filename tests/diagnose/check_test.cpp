@@ -4,9 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <sim/data/finding.hpp>
 #include <sim/diagnose/check.hpp>
 #include <sim/diagnose/predict.hpp>
-#include <sim/domain/objection.hpp>
 #include <sim/run/simulate.hpp>
 
 #include "planted.hpp"
@@ -45,7 +45,7 @@ std::vector<std::size_t> masked(const Checked& checked, std::size_t run) {
 std::string error(const domain::Dataset& data) {
   try {
     check(data, 2);
-  } catch (const domain::UnfitData& unfit) {
+  } catch (const data::UnfitData& unfit) {
     return unfit.what();
   }
   return "";
@@ -213,15 +213,17 @@ TEST(Checks, WrongUnitsAreErrorsThatNameFileAndColumn) {
 TEST(Checks, ContractionWithTheOtherSignIsAnError) {
   auto data = sound();
   for (double& ratio : data.runs[0].contraction_ratio) ratio *= -0.5;
-  EXPECT_NE(error(data).find("it falls while the current rises"), std::string::npos);
+  EXPECT_NE(error(data).find("it goes the other way than the rig would; its sign is the other one"),
+            std::string::npos);
 }
 
 TEST(Checks, PressureInAnotherUnitIsAnError) {
   auto kilopascal = with_gauge(), absolute = with_gauge();
   for (double& pressure : *kilopascal.runs[5].muscle_pressure_Pa) pressure *= 100.0;
   EXPECT_EQ(error(kilopascal),
-            "planted/dataset.yaml: error: run r06: muscle_pressure is up to 435.8 bar; this looks like kPa, "
-            "not bar; write columns: {muscle_pressure: {column: muscle_pressure_bar, unit: kPa}}");
+            "planted/dataset.yaml: error: run r06: muscle_pressure is up to 435.8 bar, 100 times what the "
+            "rig would do; this looks like kPa, not bar; write columns: {muscle_pressure: {column: "
+            "muscle_pressure_bar, unit: kPa}}");
   for (double& pressure : *absolute.runs[0].muscle_pressure_Pa) pressure += 1.013e5;
   EXPECT_NE(error(absolute).find("run r01: muscle_pressure is about one atmosphere"), std::string::npos);
 }

@@ -8,10 +8,10 @@
 
 #include <gtest/gtest.h>
 
+#include <sim/data/judged.hpp>
 #include <sim/diagnose/catalogue.hpp>
 #include <sim/diagnose/priors.hpp>
 #include <sim/diagnose/repair.hpp>
-#include <sim/run/judged.hpp>
 #include <sim/run/simulate.hpp>
 
 #include "examined.hpp"
@@ -117,7 +117,7 @@ domain::Dataset driven_by_pressure(std::size_t run, double factor, double offset
     each.current_mA.clear();
     each.muscle_pressure_Pa.reset();
   }
-  return run::with_rows(std::move(data));
+  return data::with_rows(std::move(data));
 }
 
 TEST(Faults, APressureThatTheMuscleDidNotHave) {

@@ -11,9 +11,9 @@
 
 #include <fmt/format.h>
 
+#include <sim/data/judged.hpp>
 #include <sim/diagnose/candidate.hpp>
 #include <sim/diagnose/predict.hpp>
-#include <sim/run/judged.hpp>
 
 namespace mckibben::diagnose {
 
@@ -65,7 +65,7 @@ inline domain::Dataset of_a_joint(const RigFile& truth, bool commands = false, J
     for (auto& side : measured.sides)
       for (double& pressure_Pa : side.muscle_pressure_Pa) pressure_Pa += noise.pressure_Pa * normal(random);
   }
-  return run::with_rows(std::move(data));
+  return data::with_rows(std::move(data));
 }
 
 /// The same joint seen from behind: muscle 1 is muscle 2, and the angle turns the other way.

@@ -7,13 +7,13 @@
 
 #include <gtest/gtest.h>
 
+#include <sim/data/finding.hpp>
 #include <sim/diagnose/candidate.hpp>
 #include <sim/diagnose/catalogue.hpp>
 #include <sim/diagnose/check.hpp>
 #include <sim/diagnose/experiment.hpp>
 #include <sim/diagnose/held_out.hpp>
 #include <sim/diagnose/priors.hpp>
-#include <sim/domain/objection.hpp>
 #include <sim/run/gaps.hpp>
 
 namespace mckibben::diagnose {
@@ -99,7 +99,7 @@ std::string refused(domain::Dataset data, const std::function<void(domain::Run& 
   for (domain::Run& run : data.runs) spoil(run);
   try {
     check(data, 2);
-  } catch (const domain::UnfitData& unfit) {
+  } catch (const data::UnfitData& unfit) {
     return unfit.what();
   }
   return "";

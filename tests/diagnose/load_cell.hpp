@@ -7,8 +7,8 @@
 
 #include <fmt/format.h>
 
+#include <sim/data/judged.hpp>
 #include <sim/diagnose/predict.hpp>
-#include <sim/run/judged.hpp>
 
 namespace mckibben::diagnose {
 

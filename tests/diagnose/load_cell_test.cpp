@@ -6,10 +6,10 @@
 
 #include <gtest/gtest.h>
 
+#include <sim/data/finding.hpp>
 #include <sim/diagnose/check.hpp>
 #include <sim/diagnose/experiment.hpp>
 #include <sim/diagnose/remarks.hpp>
-#include <sim/domain/objection.hpp>
 #include <sim/run/replay.hpp>
 
 namespace mckibben::diagnose {
@@ -22,8 +22,8 @@ const Runs every_run{0, 1, 2, 3, 4, 5};
 /// The words that the data are refused with; empty if they are not.
 std::string refusal(domain::Dataset data) {
   try {
-    check(run::with_rows(std::move(data)), 2);
-  } catch (const domain::UnfitData& unfit) {
+    check(data::with_rows(std::move(data)), 2);
+  } catch (const data::UnfitData& unfit) {
     return unfit.what();
   }
   return "";
@@ -37,7 +37,7 @@ domain::Dataset forces_times(double factor) {
 }
 
 TEST(LoadCell, EachReadingWeighsByItsOwnFloor) {
-  const domain::Dataset data = run::with_rows(with_a_cell({}));
+  const domain::Dataset data = data::with_rows(with_a_cell({}));
   EXPECT_EQ(data.judged(), domain::Judged::contraction);
   const Checked checked = check(data, 2);
   EXPECT_TRUE(checked.warnings.empty()) << checked.warnings.front();
@@ -57,7 +57,7 @@ TEST(LoadCell, EachReadingWeighsByItsOwnFloor) {
 double more_on_the_way_up(double guide_friction) {
   plant::Rig rubbing;
   rubbing.effects.get<plant::GuideFriction>().coefficient = guide_friction;
-  const domain::Dataset data = run::with_rows(with_a_cell(rubbing, {0.0, 0.0}));
+  const domain::Dataset data = data::with_rows(with_a_cell(rubbing, {0.0, 0.0}));
   const domain::Run& run = data.runs[0];
   double up_N = 0.0, down_N = 0.0, up = 0.0, down = 0.0;
   for (std::size_t k = 1; k + 1 < run.force_N.size(); ++k) {
@@ -75,7 +75,7 @@ TEST(LoadCell, FeelsThatTheGuideHoldsTheLoad) {
 }
 
 TEST(LoadCell, ThatIsIgnoredIsNamed) {
-  domain::Dataset data = run::with_rows(with_a_cell({}));
+  domain::Dataset data = data::with_rows(with_a_cell({}));
   EXPECT_TRUE(
       ignored_in_words(data).starts_with("force_N is ignored: no model meets both it and the motion"));
   data.runs[2].muscle_pressure_Pa.emplace();
@@ -90,7 +90,7 @@ TEST(LoadCell, AReadingThatIsMissingCostsNoOther) {
   for (domain::Run& run : data.runs)
     for (std::size_t k = 0; k < rows_with_a_cell; ++k)
       if (k % 10 != 0) run.measured->force_N[k] = std::nan("");
-  data = run::with_rows(std::move(data));
+  data = data::with_rows(std::move(data));
   const Checked checked = check(data, 2);
   EXPECT_TRUE(checked.left_out.empty());
   EXPECT_EQ(std::ranges::count(checked.masked[0], true), 0);
@@ -102,12 +102,12 @@ TEST(LoadCell, AReadingThatIsMissingCostsNoOther) {
 
 TEST(LoadCell, BesideCountsOfAnEncoderHasAFloorToo) {
   domain::Dataset data = with_a_cell({});
-  const double count = run::reading_per_count(data.rig);
+  const double count = data::reading_per_count(data.rig);
   for (domain::Run& run : data.runs) {
     run.measured->counted = true;
     for (double& ratio : run.measured->contraction_ratio) ratio = count * std::floor(ratio / count);
   }
-  data = run::with_rows(std::move(data));
+  data = data::with_rows(std::move(data));
   const Experiment experiment(data, check(data, 2).masked, 2, every_run);
   EXPECT_GT(experiment.floor().count, 0.0);
   EXPECT_NEAR(experiment.floor().force_N, 2.0, 0.3);

@@ -12,11 +12,11 @@
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
+#include <sim/data/judged.hpp>
 #include <sim/input/campaign_file.hpp>
 #include <sim/run/batch.hpp>
 #include <sim/run/campaign.hpp>
 #include <sim/run/gaps.hpp>
-#include <sim/run/judged.hpp>
 #include <sim/run/simulate.hpp>
 
 namespace mckibben::run {
@@ -132,7 +132,7 @@ TEST(Campaign, ExchangedCurrentsTurnAPairTheOtherWay) {
   }
   EXPECT_GT(most_rad, 0.1);
   const EndedRun end = ended(campaign, a);
-  EXPECT_NEAR(end.angle_rad.high, most_rad, reading_per_count(campaign.rig));
+  EXPECT_NEAR(end.angle_rad.high, most_rad, data::reading_per_count(campaign.rig));
 }
 
 TEST(Campaign, EachGaugeOfAPairHasNoiseOfItsOwn) {

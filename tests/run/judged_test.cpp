@@ -7,11 +7,13 @@
 
 #include <gtest/gtest.h>
 
+#include <sim/data/judged.hpp>
 #include <sim/run/follow.hpp>
-#include <sim/run/judged.hpp>
 
 namespace mckibben::run {
 namespace {
+
+using data::with_rows;
 
 constexpr double noise_ratio = 1e-4, noise_Pa = 400.0;
 

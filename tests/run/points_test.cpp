@@ -5,11 +5,13 @@
 
 #include <gtest/gtest.h>
 
+#include <sim/data/judged.hpp>
 #include <sim/run/course.hpp>
-#include <sim/run/judged.hpp>
 
 namespace mckibben::run {
 namespace {
+
+using data::with_rows;
 
 TEST(Points, AreReadAtTheEndOfTheirTime) {
   domain::Measurement measured;

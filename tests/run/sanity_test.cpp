@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <sim/run/campaign.hpp>
-#include <sim/run/sanity.hpp>
+#include <sim/run/look.hpp>
 
 #include "switched_on.hpp"
 
@@ -50,7 +50,8 @@ const domain::Dataset& sound() {
 
 std::vector<std::string> said(const domain::Dataset& data) {
   std::vector<std::string> list;
-  for (const auto& one : look(data).objections) list.emplace_back(domain::UnfitData(data, {one}).what());
+  for (const auto& one : look(data).findings)
+    if (!data::only_limits_diagnosis(one)) list.emplace_back(data::UnfitData(data, {one}).what());
   return list;
 }
 
@@ -135,6 +136,24 @@ TEST(Sanity, TheOtherSignIsSaidOnceWithItsFactor) {
   EXPECT_NE(says(data).find("{column: rope, unit: mm, zero: 412.5, factor: -2}"), std::string::npos);
 }
 
+TEST(Sanity, AnotherUnitWithTheOtherSignIsSaidAsBoth) {
+  EXPECT_NE(says(scaled(-300.0))
+                .find("its sign is the other one, and this looks like millimetres (mm), not a ratio; write "
+                      "columns: {contraction: {column: contraction_ratio, unit: mm, factor: -1}}"),
+            std::string::npos);
+}
+
+TEST(Sanity, SingleReadingsAreLookedAtWithoutAFit) {
+  auto data = sound();
+  data.runs[1].contraction_ratio[200] += 0.05;
+  EXPECT_EQ(says(data),
+            "measured/dataset.yaml: warning: run r02: 1 outlier in contraction_ratio, at 2.400 s");
+  data.runs.resize(2);
+  const auto findings = look(data).findings;
+  ASSERT_EQ(findings.size(), 2u);
+  EXPECT_EQ(findings[1].severity, data::Severity::undecidable) << findings[1].message;
+}
+
 TEST(Sanity, ExchangedColumnsAreSaid) {
   auto data = sound();
   for (domain::Run& run : data.runs) {
@@ -195,10 +214,10 @@ TEST(Sanity, ExchangedLabelsAreFoundWhateverTheRigHas) {
   rigs.back().rig.muscle.rest_radius_m *= std::sqrt(2.0 / 3.0);
   for (const auto& [name, rig] : rigs) {
     const auto data = measured_on(rig);
-    const auto objections = look(labelled(data, {0, 2, 4}, {11.138, 23.406, 16.138})).objections;
-    ASSERT_EQ(objections.size(), 1u) << name;
-    EXPECT_EQ(objections.front().runs, (std::vector<std::size_t>{1, 2})) << name;
-    EXPECT_FALSE(objections.front().exchanged.empty()) << name;
+    const auto findings = look(labelled(data, {0, 2, 4}, {11.138, 23.406, 16.138})).findings;
+    ASSERT_EQ(findings.size(), 1u) << name;
+    EXPECT_EQ(findings.front().runs, (std::vector<std::size_t>{1, 2})) << name;
+    EXPECT_FALSE(findings.front().exchanged.empty()) << name;
   }
 }
 

@@ -7,9 +7,9 @@
 
 #include <gtest/gtest.h>
 
-#include <sim/run/stamps.hpp>
+#include <sim/data/stamps.hpp>
 
-namespace mckibben::run {
+namespace mckibben::data {
 namespace {
 
 constexpr double scatter_Pa = 400.0;
@@ -119,7 +119,9 @@ TEST(Stamps, WhatWasDoneIsTold) {
     measured.sides[0].muscle_pressure_Pa = pressures(measured.time_s, 50.0, 3e3);
   }
   for (double& ratio : data.runs[1].measured->contraction_ratio) ratio *= 0.9 + 1e-9 * ratio;
-  const auto words = mend_at_stamps(data);
+  std::vector<std::string> words;
+  for (const Finding& one : mend_at_stamps(data))
+    words.push_back(text_of(data, one).append(consequence_of(one)));
   ASSERT_EQ(words.size(), 3u);
   EXPECT_TRUE(words[0].starts_with("run r1: contraction stays at 36 mm to the last digit in ")) << words[0];
   EXPECT_EQ(words[2],
@@ -134,4 +136,4 @@ TEST(Stamps, WhatWasDoneIsTold) {
 }
 
 }  // namespace
-}  // namespace mckibben::run
+}  // namespace mckibben::data

@@ -4,9 +4,9 @@
 
 #include <gtest/gtest.h>
 
-#include <sim/run/warnings.hpp>
+#include <sim/data/warnings.hpp>
 
-namespace mckibben::run {
+namespace mckibben::data {
 namespace {
 
 using Lines = std::vector<std::string>;
@@ -40,4 +40,4 @@ TEST(Warnings, OfOtherKindsStayApart) {
 }
 
 }  // namespace
-}  // namespace mckibben::run
+}  // namespace mckibben::data

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <plant/geometry.hpp>
-#include <sim/domain/objection.hpp>
+#include <sim/data/finding.hpp>
 #include <sim/input/calibration_file.hpp>
 #include <sim/input/fields_json.hpp>
 #include <sim/output/calibration_report.hpp>
@@ -140,7 +140,7 @@ TEST(Figures, InKgfAreTheSamePressures) {
 std::string refusal(const domain::Dataset& dataset, const Options& options = {}) {
   try {
     calibrate(dataset, options);
-  } catch (const domain::UnfitData& unfit) {
+  } catch (const data::UnfitData& unfit) {
     return unfit.what();
   }
   return "accepted";

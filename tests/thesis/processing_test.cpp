@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <plant/geometry.hpp>
+#include <sim/data/finding.hpp>
 #include <sim/thesis/processing.hpp>
 
 #include "small_campaign.hpp"
@@ -91,7 +92,7 @@ TEST(Processing, WhatALaserReadsIsNotTakenForCounts) {
   dataset.rig.sensors.position().pulses_per_turn = 137;
   ProcessingOptions options;
   options.acceleration = Acceleration::neglected;
-  EXPECT_THROW(process(run, dataset, options), domain::UnfitData) << "they should be counts of this encoder";
+  EXPECT_THROW(process(run, dataset, options), data::UnfitData) << "they should be counts of this encoder";
   dataset.columns.contraction = {"laser", "mm"};
   const ProcessedRun processed = process(run, dataset, options);
   ASSERT_EQ(processed.unusable, "");

@@ -11,7 +11,7 @@ namespace {
 TEST(LoadCellDiagnosis, TellsTheGuidesFrictionFromTheThreads) {
   plant::Rig truth;
   truth.effects.get<plant::GuideFriction>().coefficient = 0.03;
-  const Diagnosis found = diagnosis_of(run::with_rows(with_a_cell(truth)), 2);
+  const Diagnosis found = diagnosis_of(data::with_rows(with_a_cell(truth)), 2);
   EXPECT_EQ(found.verdict, Verdict::missing_effect) << found.because;
   ASSERT_EQ(found.effects.size(), 1u) << found.because;
   EXPECT_EQ(found.effects[0].name, "guide_friction");

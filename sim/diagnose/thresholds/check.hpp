@@ -1,52 +1,11 @@
-// Thresholds of stage 1, check: single readings, labels of loads, runs at fault, and what nobody can see.
+// Thresholds of stage 1, check: labels of loads, runs at fault, and what nobody can see. Those of single
+// readings are in sim/data/thresholds.hpp.
 #pragma once
 
 #include <array>
 #include <cstddef>
 
 namespace mckibben::diagnose {
-
-/// Single readings, and runs by themselves. Counts are the encoder's.
-struct CheckThresholds {
-  std::size_t least_runs = 3;        ///< to choose on some and judge on others
-  double gauge_step_Pa = 2e3;        ///< what gauges cannot resolve: for them a count
-  double sharp_reach_s = 0.3;        ///< a hidden effect moves the model's sharpest bend by no more
-  std::size_t spike_ticks = 5;       ///< an outlier's width at most
-  double spike_counts = 5.0;         ///< it jumps by more than this beside what the model's bends explain
-  double spike_balance = 0.5;        ///< of the smaller jump: what the way back may differ by
-  double end_counts = 2.0;           ///< a tick: at the ends of a run a faster load is no proof
-  double beside_counts = 3.0;        ///< what an outlier's neighbours may be off its line by,
-  double beside_bends = 2.0;         ///< and so many of the model's bends
-  double lost_counts = 20.0;         ///< a jump that stays: more than this,
-  double lost_steps = 8.0;           ///< and so many median steps,
-  double lost_bends = 4.0;           ///< and so many of the model's bends
-  double lost_change = 0.25;         ///< of the jump: what the speed may change by at most
-  double still_s = 0.5;              ///< a reading stands still from here on
-  double at_zero_counts = 3.0;       ///< below it the load rests on the braid's stop
-  double off_zero_counts = 60.0;     ///< in a tick: no load leaves the stop so quickly
-  std::size_t cut_off_ticks = 5;     ///< before and after readings that are cut off
-  double cut_off_speed = 1.0;        ///< counts a tick, in these: the load is on its way
-  double stops_dead_counts = 10.0;   ///< in a tick: no friction stops it so
-  double catches_up_counts = 6.0;    ///< in a tick, after standing still
-  double saturated_counts = 80.0;    ///< the model's way meanwhile, if cut off,
-  double frozen_counts = 100.0;      ///< if it stopped dead or caught up,
-  double stuck_counts = 200.0;       ///< if neither
-  double dead_current = 1e-3;        ///< of the valve's range above its zero: nothing moves
-  double moving_counts = 1.5;        ///< of a run that moves at all
-  double should_move_counts = 20.0;  ///< of the model: the load should have moved
-  double gauge_bar = 0.3;            ///< the model's pressure moves so far: a gauge must follow
-  double gauge_slope = 0.1;          ///< of the gauge over the model, at least
-  double like_kilo = 1.0;            ///< logarithm, round a thousandth of the model's forces: they are in kN
-  double like_turn = 0.5;            ///< correlation of a joint's angle with the model's: it turns alike,
-  double turns_at_all = 0.2;         ///< and so far, over the model's
-  double like_degrees = 0.7;         ///< logarithm, round 180/pi: degrees for radians, or the other way
-  double opposite_force = 0.5;       ///< of the model's mean force, below 0: a force of the other sign
-  double like_kilogram = 0.2;        ///< logarithm, round 1/g of the model's forces: they are in kg
-  double most_masked = 0.3;          ///< of a run: more, and too little of it is left
-  double most_contradicted =
-      1.0 / 3.0;            ///< of the runs, whose labels contradict the others: more cannot tell
-  double same_load = 0.01;  ///< relative: one load
-};
 
 /// Labels of loads. Set on 64 data sets: each effect of the catalogue at twice its typical size, each
 /// parameter at three prior deviations, nine runs, five loads; no label was doubted wrongly, of 2304

@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-namespace mckibben::diagnose {
+namespace mckibben::data {
 
 using Series = std::vector<double>;
 
@@ -25,8 +25,9 @@ struct Still : Stretch {
 Series sharpest_nearby(const Series& model, double tick_s);
 
 /// Readings that leave the line through their neighbours with a jump and come back to it with another, within
-/// a few ticks. At the ends of a run it must stand still: there one jump is all that is seen.
-std::vector<Stretch> spikes(Series values, const Series& sharpest, double count);
+/// a few ticks. `at_ends`: also where a run begins and ends; there it must stand still, as one jump is all
+/// that is seen.
+std::vector<Stretch> spikes(Series values, const Series& sharpest, double count, bool at_ends);
 
 /// A row at which the reading jumps and stays: the load moves before and after as if nothing had happened.
 std::optional<std::size_t> lost_counts(const Series& values, const Series& sharpest,
@@ -38,4 +39,4 @@ std::optional<std::size_t> lost_counts(const Series& values, const Series& sharp
 /// is stuck; readings cut off on their way up and down, at the highest of the run, by the end of their range.
 std::vector<Still> stills(const Series& values, const Series& model, double count, double tick_s);
 
-}  // namespace mckibben::diagnose
+}  // namespace mckibben::data

@@ -1,9 +1,9 @@
 // See the header.
 #include <fmt/format.h>
 
-#include <sim/diagnose/amount.hpp>
+#include <sim/data/amount.hpp>
 
-namespace mckibben::diagnose {
+namespace mckibben::data {
 
 std::string amount_of(Judged judged, double value, const domain::RigFile& rig, int digits) {
   switch (judged) {
@@ -41,4 +41,4 @@ std::pair<std::string_view, std::string_view> told(domain::Beside which, bool pa
   return {pair ? "muscle_pressure_1" : "muscle_pressure", "Pa"};
 }
 
-}  // namespace mckibben::diagnose
+}  // namespace mckibben::data

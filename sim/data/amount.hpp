@@ -5,9 +5,11 @@
 #include <string_view>
 #include <utility>
 
-#include <sim/diagnose/diagnosis.hpp>
+#include <sim/domain/dataset.hpp>
 
-namespace mckibben::diagnose {
+namespace mckibben::data {
+
+using domain::Judged;
 
 /// An amount of the judged reading: "1.2 mm" of the load's height, "3.4 N", "0.25 deg".
 std::string amount_of(Judged judged, double value, const domain::RigFile& rig, int digits = 2);
@@ -17,4 +19,4 @@ std::string_view unit_in_words(Judged judged);
 /// A reading beside the one that is judged, and its SI unit.
 std::pair<std::string_view, std::string_view> told(domain::Beside which, bool pair);
 
-}  // namespace mckibben::diagnose
+}  // namespace mckibben::data

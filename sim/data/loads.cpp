@@ -8,17 +8,17 @@
 #include <fmt/format.h>
 
 #include <plant/geometry.hpp>
+#include <sim/data/loads.hpp>
+#include <sim/data/series.hpp>
+#include <sim/data/thresholds.hpp>
 #include <sim/domain/number.hpp>
-#include <sim/run/load_sanity.hpp>
-#include <sim/run/sanity_thresholds.hpp>
-#include <sim/run/series.hpp>
 
-namespace mckibben::run {
+namespace mckibben::data {
 namespace {
 
 using Series = std::vector<double>;
 
-constexpr const LoadThresholds& of_loads = sanity_thresholds.load;
+constexpr const LoadThresholds& of_loads = thresholds.load;
 
 struct Weighed {
   std::size_t run;
@@ -46,9 +46,9 @@ std::optional<Weighed> weigh(const plant::Braid& braid, std::size_t index, const
   };
   Series plain_kg, compared_kg;
   for (std::size_t k = 0; k < std::min(run.contraction_ratio.size(), expected.pressure_Pa.size()); ++k) {
-    const double measured = run.contraction_ratio[k], simulated = expected.contraction_ratio[k];
+    const double measured = run.contraction_ratio[k], simulated = expected.judged[k];
     if (measured < of_loads.lifted || !braid.in_domain(measured)) continue;
-    if (stands_still(run.contraction_ratio, expected.contraction_ratio, k)) continue;
+    if (stands_still(run.contraction_ratio, expected.judged, k)) continue;
     plain_kg.push_back(carried_kg(measured, k));
     if (simulated > of_loads.lifted)
       compared_kg.push_back(run.load_kg + plain_kg.back() - carried_kg(simulated, k));
@@ -86,7 +86,7 @@ struct LoadUnit {
   const char* says;
 };
 
-std::optional<domain::Objection> other_unit(const std::vector<Weighed>& list) {
+std::optional<Finding> other_unit(const std::vector<Weighed>& list) {
   constexpr LoadUnit units[] = {
       {1e3, of_loads.near_grams, of_loads.near_grams, "kg that are written in g: write kg"},
       {1.0 / plant::gravity_m_per_s2, of_loads.near_newtons, of_loads.near_newtons,
@@ -97,12 +97,12 @@ std::optional<domain::Objection> other_unit(const std::vector<Weighed>& list) {
   for (const LoadUnit& unit : units) {
     const double off = std::abs(std::log(ratio / unit.ratio));
     if (off > std::log(unit.near)) continue;
-    return domain::Objection{
+    return Finding{
         "load", runs_of(list),
         fmt::format("load = {} kg, but it moves like {:.3g} kg, and all loads are off by about that "
                     "factor; these look like {}",
                     domain::write_number(list.front().label_kg), list.front().seems_kg, unit.says),
-        off < std::log(unit.sure)};
+        off < std::log(unit.sure) ? Severity::refused : Severity::doubtful};
   }
   return std::nullopt;
 }
@@ -136,18 +136,17 @@ std::vector<Weighed> in_order(std::vector<Weighed> list) {
   return list;
 }
 
-std::optional<domain::Objection> exchanged_labels(const domain::Dataset& data,
-                                                  const std::vector<Weighed>& list) {
+std::optional<Finding> exchanged_labels(const domain::Dataset& data, const std::vector<Weighed>& list) {
   const std::vector<Weighed> ordered = in_order(list);
   const double scale = common_ratio(ordered);
-  domain::Objection objection{"load", {}, "", false};
+  Finding found{.quantity = "load", .message = "", .severity = Severity::doubtful};
   std::string written, seems;
   bool all_agree = true;
   for (std::size_t i = 0; i < list.size(); ++i) {
     const double label_kg = list[i].label_kg, other_kg = ordered[i].label_kg;
     if (label_kg == other_kg) continue;
-    objection.runs.push_back(list[i].run);
-    objection.exchanged.push_back({list[i].run, other_kg});
+    found.runs.push_back(list[i].run);
+    found.exchanged.push_back({list[i].run, other_kg});
     all_agree = all_agree && std::abs(list[i].seems_kg - scale * other_kg) <
                                  of_loads.agrees * std::abs(label_kg - other_kg) * scale;
     const std::string& id = data.runs[list[i].run].id;
@@ -156,24 +155,24 @@ std::optional<domain::Objection> exchanged_labels(const domain::Dataset& data,
     seems += fmt::format("{}{} ({} kg) like {:.1f} kg", comma, id, domain::write_number(label_kg),
                          list[i].seems_kg);
   }
-  if (objection.runs.empty()) return std::nullopt;
-  if (!all_agree) objection.exchanged.clear();
-  objection.message =
+  if (found.runs.empty()) return std::nullopt;
+  if (!all_agree) found.exchanged.clear();
+  found.message =
       fmt::format("at equal pressure a heavier load contracts less, but {}: {}", seems,
                   all_agree ? "these labels look exchanged; write " + written
                             : "are the labels right, and were the encoders set to zero at the same place?");
-  return objection;
+  return found;
 }
 
 }  // namespace
 
 void check_loads(const domain::Dataset& data, const std::vector<Expected>& expected,
-                 std::vector<domain::Objection>& objections) {
+                 std::vector<Finding>& findings) {
   const std::vector<Weighed> list = weigh(data, expected);
   if (list.empty()) return;
   auto found = other_unit(list);
   if (!found) found = exchanged_labels(data, list);
-  if (found) objections.push_back(std::move(*found));
+  if (found) findings.push_back(std::move(*found));
 }
 
-}  // namespace mckibben::run
+}  // namespace mckibben::data

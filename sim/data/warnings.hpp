@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-namespace mckibben::run {
+namespace mckibben::data {
 
 /// A warning of one run, in the form that `grouped` knows. `id` holds no colon.
 std::string warning_of_run(std::string_view id, std::string_view text);
@@ -15,4 +15,4 @@ std::string warning_of_run(std::string_view id, std::string_view text);
 /// the first one's numbers. Of equal ones that are of no run, one is left.
 std::vector<std::string> grouped(const std::vector<std::string>& warnings);
 
-}  // namespace mckibben::run
+}  // namespace mckibben::data

@@ -1,17 +1,42 @@
 // Averages over neighbours and differences; see the header.
+#include <array>
 #include <functional>
 #include <utility>
 
 #include <Eigen/LU>
+#include <Eigen/QR>
 
-#include <sim/run/scatter.hpp>
-#include <sim/run/series.hpp>
+#include <sim/data/scatter.hpp>
+#include <sim/data/series.hpp>
 
-namespace mckibben::run {
+namespace mckibben::data {
 namespace {
 
 constexpr double normal_median = 0.6745;  // of the size of a normal variable. Derived
+constexpr double first_moments_s = 0.04;  // what a load does in them is a parabola
+constexpr std::size_t least_readings = 4;
 constexpr double steps_that_are_whole = 0.95, whole = 0.05;
+
+/// Value, slope and curvature at the first stamp, of what is read in the first moments.
+std::array<double, 3> parabola(const std::vector<double>& time_s, const std::vector<double>& values) {
+  std::vector<double> at, read;
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    const double since_s = time_s[k] - time_s.front();
+    if (since_s > first_moments_s && at.size() >= least_readings) break;
+    if (std::isnan(values[k])) continue;
+    at.push_back(since_s);
+    read.push_back(values[k]);
+  }
+  const auto rows = static_cast<Eigen::Index>(at.size());
+  Eigen::MatrixXd powers(rows, 3);
+  for (Eigen::Index row = 0; row < rows; ++row) {
+    const double since_s = at[static_cast<std::size_t>(row)];
+    powers.row(row) << 1.0, since_s, 0.5 * since_s * since_s;
+  }
+  const Eigen::Vector3d fitted =
+      powers.colPivHouseholderQr().solve(Eigen::Map<const Eigen::VectorXd>(read.data(), rows));
+  return {fitted[0], fitted[1], fitted[2]};
+}
 
 }  // namespace
 
@@ -117,4 +142,15 @@ double step_of(const std::vector<double>& values) {
   return least > 0.0 && many >= steps_that_are_whole * static_cast<double>(moves.size()) ? least : 0.0;
 }
 
-}  // namespace mckibben::run
+domain::FirstState first_state(const domain::Measurement& measured) {
+  const auto [ratio, speed, acceleration] = parabola(measured.time_s, measured.contraction_ratio);
+  domain::FirstState first{ratio, speed, acceleration};
+  const domain::Measurement::Side& side = measured.sides[0];
+  const auto& read = side.muscle_pressure_Pa;
+  const auto known = std::count_if(read.begin(), read.end(), [](double value) { return !std::isnan(value); });
+  if (!side.pressure_is_given && static_cast<std::size_t>(known) >= least_readings)
+    first.muscle_pressure_Pa = parabola(measured.time_s, read)[0];
+  return first;
+}
+
+}  // namespace mckibben::data

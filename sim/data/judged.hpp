@@ -9,7 +9,7 @@
 
 #include <sim/domain/dataset.hpp>
 
-namespace mckibben::run {
+namespace mckibben::data {
 
 /// The runs with their rows, what is skipped left out. Of one muscle, with a hanging load whose contraction
 /// was read or at a given length and with its force, or of a pair whose angle was read; data with a row each
@@ -24,4 +24,4 @@ double reading_per_count(const domain::RigFile& rig);
 /// more, more coarsely.
 double reading_grain(const domain::RigFile& rig);
 
-}  // namespace mckibben::run
+}  // namespace mckibben::data

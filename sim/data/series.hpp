@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-namespace mckibben::run {
+namespace mckibben::data {
 
 /// Largest less smallest.
 inline double range(std::span<const double> values) {
@@ -51,4 +51,4 @@ struct Line {
   }
 };
 
-}  // namespace mckibben::run
+}  // namespace mckibben::data

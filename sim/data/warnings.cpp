@@ -6,9 +6,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <sim/run/warnings.hpp>
+#include <sim/data/warnings.hpp>
 
-namespace mckibben::run {
+namespace mckibben::data {
 namespace {
 
 constexpr std::string_view beginning = "run ";
@@ -81,4 +81,4 @@ std::vector<std::string> grouped(const std::vector<std::string>& warnings) {
   return result;
 }
 
-}  // namespace mckibben::run
+}  // namespace mckibben::data

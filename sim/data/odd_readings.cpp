@@ -2,14 +2,14 @@
 #include <algorithm>
 #include <cmath>
 
-#include <sim/diagnose/odd_readings.hpp>
-#include <sim/diagnose/thresholds.hpp>
-#include <sim/run/series.hpp>
+#include <sim/data/odd_readings.hpp>
+#include <sim/data/series.hpp>
+#include <sim/data/thresholds.hpp>
 
-namespace mckibben::diagnose {
+namespace mckibben::data {
 namespace {
 
-constexpr const CheckThresholds& beyond = thresholds.check;
+constexpr const ReadingThresholds& beyond = thresholds.reading;
 
 }  // namespace
 
@@ -25,13 +25,13 @@ Series sharpest_nearby(const Series& model, double tick_s) {
   return sharpest;
 }
 
-std::vector<Stretch> spikes(Series values, const Series& sharpest, double count) {
+std::vector<Stretch> spikes(Series values, const Series& sharpest, double count, bool at_ends) {
   std::vector<Stretch> found;
   const std::size_t rows = values.size();
   for (std::size_t begin = 0; begin < rows && rows > 3; ++begin) {
     for (std::size_t end = begin + 1; end <= std::min(rows, begin + beyond.spike_ticks); ++end) {
       const bool first = begin == 0, last = end == rows;
-      if ((first || last) && end - begin > 1) break;
+      if ((first || last) && (!at_ends || end - begin > 1)) break;
       // Beyond the ends of the run the movement is taken to go on.
       const double before = first ? 3.0 * values[1] - 2.0 * values[2] : values[begin - 1];
       const double after = last ? 3.0 * values[rows - 2] - 2.0 * values[rows - 3] : values[end];
@@ -62,7 +62,7 @@ std::optional<std::size_t> lost_counts(const Series& values, const Series& sharp
   std::vector<double> steps;
   for (std::size_t k = 1; k < values.size(); ++k) steps.push_back(std::abs(values[k] - values[k - 1]));
   if (steps.empty()) return std::nullopt;
-  const double noise = beyond.lost_steps * run::upper_median(std::move(steps));
+  const double noise = beyond.lost_steps * upper_median(std::move(steps));
   for (std::size_t k = 2; k + 1 < values.size(); ++k) {
     if (masked[k - 2] || masked[k - 1] || masked[k] || masked[k + 1]) continue;
     const double before = values[k - 1] - values[k - 2], after = values[k + 1] - values[k];
@@ -87,7 +87,7 @@ std::vector<Still> stills(const Series& values, const Series& model, double coun
     const bool catches_up =
         end < values.size() && std::abs(values[end] - values[begin]) > beyond.off_zero_counts * count;
     if (values[begin] < beyond.at_zero_counts * count && !catches_up) continue;
-    const double missed = run::range({model.data() + begin, end - begin});
+    const double missed = range({model.data() + begin, end - begin});
     const bool inside = begin >= nearby && end + nearby <= values.size();
     const auto moves = [&](std::size_t from, std::size_t to) {
       return std::abs(values[from] - values[to]) > beyond.cut_off_speed * static_cast<double>(nearby) * count;
@@ -108,4 +108,4 @@ std::vector<Still> stills(const Series& values, const Series& model, double coun
   return found;
 }
 
-}  // namespace mckibben::diagnose
+}  // namespace mckibben::data

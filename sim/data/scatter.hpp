@@ -9,7 +9,9 @@
 #include <span>
 #include <vector>
 
-namespace mckibben::run {
+#include <sim/domain/measurement.hpp>
+
+namespace mckibben::data {
 
 /// What the readings near an instant say together.
 struct Together {
@@ -73,4 +75,7 @@ double points_noise(const std::vector<double>& read, const std::vector<std::vect
 /// The step that readings are rounded to; 0 if they are to none.
 double step_of(const std::vector<double>& values);
 
-}  // namespace mckibben::run
+/// From the readings of the first moments, by a parabola. A run that begins on its way has enough of them.
+domain::FirstState first_state(const domain::Measurement& measured);
+
+}  // namespace mckibben::data

@@ -6,16 +6,16 @@
 #pragma once
 
 #include <cstddef>
-#include <string>
 #include <vector>
 
+#include <sim/data/finding.hpp>
 #include <sim/domain/dataset.hpp>
 
-namespace mckibben::run {
+namespace mckibben::data {
 
-/// Readings at the end of a range become missing, hum is taken out; what was done is told in words. Of data
+/// Readings at the end of a range become missing, hum is taken out; what was found. Of data
 /// with a clock of their own, before `with_rows`; nothing is done to others.
-std::vector<std::string> mend_at_stamps(domain::Dataset& data);
+std::vector<Finding> mend_at_stamps(domain::Dataset& data);
 
 /// The tone of the mains in readings [Hz, their unit]; an amplitude of 0 if there is none, or the readings
 /// come too slowly.
@@ -31,4 +31,4 @@ struct CutOff {
 };
 CutOff leave_out_cut_off(std::vector<double>& values);
 
-}  // namespace mckibben::run
+}  // namespace mckibben::data

@@ -10,10 +10,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <sim/run/series.hpp>
-#include <sim/run/stamps.hpp>
+#include <sim/data/series.hpp>
+#include <sim/data/stamps.hpp>
 
-namespace mckibben::run {
+namespace mckibben::data {
 namespace {
 
 using domain::Measurement;
@@ -211,20 +211,23 @@ CutOff leave_out_cut_off(std::vector<double>& values) {
   return cut_off;
 }
 
-std::vector<std::string> mend_at_stamps(domain::Dataset& data) {
-  std::vector<std::string> words;
+std::vector<Finding> mend_at_stamps(domain::Dataset& data) {
+  std::vector<Finding> findings;
   std::map<std::pair<std::string, double>, Hum> hums;
   std::map<std::string, std::string> units;
-  for (domain::Run& run : data.runs) {
+  for (std::size_t i = 0; i < data.runs.size(); ++i) {
+    domain::Run& run = data.runs[i];
     if (!run.measured || run.measured->point_s > 0.0 || run.measured->counted) continue;
     for (const Told& column : columns_of(*run.measured, data.rig)) {
       if (const CutOff cut_off = column.given ? CutOff{} : leave_out_cut_off(*column.values);
           cut_off.readings > 0)
-        words.push_back(fmt::format(
-            "run {}: {} stays at {:.4g} {} to the last digit in {} of {} readings, and scatters elsewhere: "
-            "the end of the sensor's range; not used",
-            run.id, column.name, cut_off.at * column.per_unit, column.unit, cut_off.readings,
-            column.values->size()));
+        findings.push_back({.runs = {i},
+                            .message = fmt::format(
+                                "{} stays at {:.4g} {} to the last digit in {} of {} readings, and scatters "
+                                "elsewhere: the end of the sensor's range",
+                                column.name, cut_off.at * column.per_unit, column.unit, cut_off.readings,
+                                column.values->size()),
+                            .severity = Severity::masked});
       const Tone tone = hum_of(run.measured->time_s, *column.values);
       if (tone.amplitude == 0.0) continue;
       take_out(tone, run.measured->time_s, *column.values);
@@ -236,13 +239,14 @@ std::vector<std::string> mend_at_stamps(domain::Dataset& data) {
   }
   for (const auto& [of, hum] : hums) {
     const auto& [name, hz] = of;
-    words.push_back(fmt::format(
-        "{}: a tone of {:g} Hz, {:.2g} {} in amplitude, in {}: hum of the mains; it was taken out", name, hz,
-        hum.largest, units[name],
-        hum.runs.size() == data.runs.size() ? "every run"
-                                            : fmt::format("run {}", fmt::join(hum.runs, ", "))));
+    const std::string in =
+        hum.runs.size() == data.runs.size() ? "every run" : fmt::format("run {}", fmt::join(hum.runs, ", "));
+    findings.push_back({.message = fmt::format("{}: a tone of {:g} Hz, {:.2g} {} in amplitude, in {}: hum of "
+                                               "the mains",
+                                               name, hz, hum.largest, units[name], in),
+                        .severity = Severity::taken_out});
   }
-  return words;
+  return findings;
 }
 
-}  // namespace mckibben::run
+}  // namespace mckibben::data

@@ -6,13 +6,11 @@
 #include <utility>
 
 #include <plant/instruments.hpp>
-#include <sim/run/course.hpp>
-#include <sim/run/judged.hpp>
-#include <sim/run/scatter.hpp>
-#include <sim/run/series.hpp>
-#include <sim/run/simulate.hpp>
+#include <sim/data/judged.hpp>
+#include <sim/data/scatter.hpp>
+#include <sim/data/series.hpp>
 
-namespace mckibben::run {
+namespace mckibben::data {
 namespace {
 
 using domain::Measurement, domain::Rows;
@@ -347,7 +345,7 @@ std::size_t leave_out_the_end(const plant::Sensor* cell, std::vector<double>& fo
 }  // namespace
 
 double reading_per_count(const domain::RigFile& rig) {
-  if (rig.pair() == nullptr) return contraction_per_count(rig);
+  if (rig.pair() == nullptr) return plant::count_height_m(rig) / rig.muscle.rest_length_m;
   return plant::count_height_m(rig) / rig.joint.wheel_radius_m;
 }
 
@@ -394,4 +392,4 @@ domain::Dataset with_rows(domain::Dataset data) {
   return data;
 }
 
-}  // namespace mckibben::run
+}  // namespace mckibben::data

@@ -4,12 +4,12 @@
 
 #include <vector>
 
-#include <sim/run/sanity.hpp>
+#include <sim/data/examine.hpp>
 
-namespace mckibben::run {
+namespace mckibben::data {
 
-/// All loads in another unit; labels that two or more runs have of each other. Adds to `objections`.
+/// All loads in another unit; labels that two or more runs have of each other. Adds to `findings`.
 void check_loads(const domain::Dataset& data, const std::vector<Expected>& expected,
-                 std::vector<domain::Objection>& objections);
+                 std::vector<Finding>& findings);
 
-}  // namespace mckibben::run
+}  // namespace mckibben::data

@@ -1,0 +1,360 @@
+// See the header. A unit is suspected from the slope of what was measured over what the rig would do.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include <plant/geometry.hpp>
+#include <plant/instruments.hpp>
+#include <sim/data/amount.hpp>
+#include <sim/data/columns.hpp>
+#include <sim/data/ranges.hpp>
+#include <sim/data/series.hpp>
+#include <sim/data/thresholds.hpp>
+
+namespace mckibben::data {
+namespace {
+
+using domain::Beside, domain::ColumnPlace, domain::line_of;
+using Series = std::vector<double>;
+
+constexpr const ColumnThresholds& of_columns = thresholds.column;
+
+double largest(const Series& values) {
+  return *std::max_element(values.begin(), values.end());
+}
+double lowest(const Series& values) {
+  return *std::min_element(values.begin(), values.end());
+}
+
+double mean(const Series& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+/// A unit that a column may be in, and what one of it is in ours.
+struct Unit {
+  std::string name;
+  double size;
+  double same = of_columns.same;  ///< a slope within this factor speaks for it
+};
+
+/// A quantity of the map, and how it is judged.
+struct Quantity {
+  std::string key;
+  ColumnPlace place;
+  std::vector<Unit> units;
+  std::string_view shown = "";             ///< ` bar`: the unit of messages,
+  double of_shown = 1.0;                   ///< what one of it is in ours,
+  double said = of_shown;                  ///< and one of the unit that the map says, if it is none of these
+  double moves = 0.0;                      ///< the model must move by more
+  double alike = of_columns.hardly_alike;  ///< correlation, if only unit and sign are wrong
+  double opposite = of_columns.opposite;   ///< slope below minus this: the other sign
+  double most = 0.0;     ///< that a rig can do: of a unit that is too small there must be more
+  bool by_mean = false;  ///< the mean says more of what hardly moves than a slope does
+
+  const Unit* unit_said() const {
+    const auto found = std::ranges::find(units, place.unit, &Unit::name);
+    return found != units.end() ? &*found : nullptr;
+  }
+};
+
+std::string in_words(const std::string& unit) {
+  if (unit == "1") return "a ratio";
+  if (unit == "%") return "per cent";
+  if (unit == "mm") return "millimetres (mm)";
+  if (unit == "m") return "metres";
+  if (unit == "deg") return "degrees";
+  if (unit == "rad") return "radians";
+  return unit == "count" ? "counts" : unit;
+}
+
+/// Measured and simulated, row by row.
+struct Compared {
+  std::vector<std::size_t> runs{};
+  Series measured{}, model{};
+
+  /// Without rows that `is_missing` names; nothing if the simulation ended early.
+  template <class IsMissing>
+  void add(std::size_t run, const Series& read, const Series& simulated, const IsMissing& is_missing) {
+    if (read.size() != simulated.size()) return;
+    runs.push_back(run);
+    for (std::size_t k = 0; k < read.size(); ++k) {
+      if (is_missing(k)) continue;
+      measured.push_back(read[k]);
+      model.push_back(simulated[k]);
+    }
+  }
+};
+
+/// Rows in which nothing but the scale differs.
+bool only_scaled(const Compared& rows, double factor) {
+  double scaled = 0.0, as_is = 0.0;
+  for (std::size_t k = 0; k < rows.model.size(); ++k) {
+    scaled += std::pow(rows.measured[k] / factor - rows.model[k], 2);
+    as_is += std::pow(rows.measured[k] - rows.model[k], 2);
+  }
+  return scaled < of_columns.scaled_share * as_is;
+}
+
+/// The unit that explains a scale.
+std::optional<Unit> other_unit(const Quantity& quantity, const Compared& rows, double scale) {
+  const Unit* const said = quantity.unit_said();
+  const double most = std::max(largest(rows.measured), -lowest(rows.measured));
+  std::optional<Unit> found;
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const Unit& unit : quantity.units) {
+    const double factor = (said != nullptr ? said->size : quantity.said) / unit.size;
+    const double size = std::abs(std::log(factor)), off = std::abs(std::log(scale / factor));
+    // What a rig can do may be another load or another supply just as well.
+    if (factor > 1.0 && most < of_columns.beyond_rig * quantity.most) continue;
+    if (size < std::log(of_columns.near_one) || off > std::min(nearest, std::log(unit.same))) continue;
+    if (size < std::log(of_columns.far) && !only_scaled(rows, factor)) continue;
+    nearest = off;
+    found = unit;
+  }
+  return found;
+}
+
+class Columns {
+ public:
+  Columns(const domain::Dataset& data, const std::vector<Expected>& expected, std::vector<Finding>& findings)
+      : data_(data), expected_(expected), findings_(findings) {}
+
+  void operator()() {
+    for (std::size_t i = 0; i < data_.runs.size(); ++i) {
+      const domain::Run& run = data_.runs[i];
+      map_ = with_our_names(domain::merged(data_.columns, run.columns));
+      const bool hangs = data_.judged() == domain::Judged::contraction && !run.contraction_ratio.empty();
+      if (hangs && !data_.own_clock) {  // else ranges of the rig's valve have been looked at
+        if (exchanged(i)) continue;
+        current(i);
+      }
+      if (hangs) judge(contraction(run), judged(i));
+      for (const Beside which : domain::gauges) gauge(i, which);
+    }
+    map_ = with_our_names(domain::merged(data_.columns, data_.runs.front().columns));
+    Compared all, beside;
+    for (std::size_t i = 0; i < data_.runs.size(); ++i) {
+      judged(i, all);
+      read_beside(i, Beside::force, beside);
+    }
+    if (data_.judged() == domain::Judged::angle) angle(all);
+    if (data_.judged() == domain::Judged::force) force(all, false);
+    force(beside, true);
+  }
+
+ private:
+  void judged(std::size_t i, Compared& into) const {
+    const domain::Run& run = data_.runs[i];
+    into.add(i, run.judged(), expected_[i].judged,
+             [&](std::size_t k) { return !run.missing.empty() && run.missing[k]; });
+  }
+  Compared judged(std::size_t i) const {
+    Compared rows;
+    judged(i, rows);
+    return rows;
+  }
+  void read_beside(std::size_t i, Beside which, Compared& into) const {
+    const domain::Run& run = data_.runs[i];
+    if (const Series* read = run.beside(which))
+      into.add(i, *read, expected_[i].beside(which), [&](std::size_t k) { return run.is_missing(which, k); });
+  }
+
+  Quantity contraction(const domain::Run& run) const {
+    const plant::Rig& rig = data_.rig;
+    const double metre = 1.0 / rig.muscle.rest_length_m, radian = rig.joint.wheel_radius_m * metre;
+    Quantity judged{.key = "contraction",
+                    .place = map_.contraction,
+                    .units = {{"1", 1.0},
+                              {"%", 0.01},
+                              {"mm", 1e-3 * metre},
+                              {"cm", 1e-2 * metre},
+                              {"m", metre},
+                              {"in", 0.0254 * metre},
+                              {"count", plant::count_height_m(rig) * metre},
+                              {"deg", plant::degree_rad * radian},
+                              {"rad", radian}},
+                    .said = run.ratio_per_unit,
+                    .moves = moving(),
+                    .alike = of_columns.alike,
+                    .opposite = of_columns.opposite_contraction,
+                    .most = plant::Braid(rig.muscle).largest_contraction_ratio()};
+    if (judged.place.unit == "1") judged.units.push_back({divided_twice, 1e3 * rig.muscle.rest_length_m});
+    return judged;
+  }
+  double moving() const {
+    return of_columns.moving_counts * plant::count_height_m(data_.rig) / data_.rig.muscle.rest_length_m;
+  }
+
+  void angle(const Compared& rows) {
+    judge({.key = "angle",
+           .place = map_.angle,
+           .units = {{"rad", 1.0, of_columns.same_turn}, {"deg", plant::degree_rad, of_columns.same_turn}},
+           .shown = " rad"},
+          rows);
+  }
+
+  // What hangs on a cord says how large its force is, whatever moves it.
+  void force(const Compared& rows, bool by_mean) {
+    judge({.key = "force",
+           .place = map_.force,
+           .units = {{"N", 1.0}, {"kN", 1e3, of_columns.same_kilo}, {"kgf", plant::gravity_m_per_s2}},
+           .shown = " N",
+           .opposite = by_mean ? of_columns.opposite_mean : of_columns.opposite,
+           .by_mean = by_mean},
+          rows);
+  }
+
+  Quantity pressure(Beside which) const {
+    const std::string key(told(which, data_.rig.pair() != nullptr).first);
+    const auto place = std::ranges::find(domain::quantities, key, &domain::Quantity::key)->place;
+    return {
+        .key = key,
+        .place = map_.*place,
+        .units = {{"bar", 1e5}, {"kPa", 1e3}, {"psi", 6894.757}, {"mbar", 1e2}, {"MPa", 1e6}, {"Pa", 1.0}},
+        .shown = " bar",
+        .of_shown = plant::Pa_per_bar,
+        .moves = of_columns.gauge_bar * plant::Pa_per_bar,
+        .opposite = std::numeric_limits<double>::infinity()};  // what does not follow is dead
+  }
+
+  /// One finding for all runs of which the same is to be said; `seen` is of the first.
+  void find(const std::string& quantity, const std::vector<std::size_t>& runs, const std::string& seen,
+            const std::string& so) {
+    const auto same_as = [&](const Finding& one) { return one.message.ends_with(so); };
+    const auto found = std::ranges::find_if(findings_, same_as);
+    if (found == findings_.end())
+      findings_.push_back({.quantity = quantity, .runs = runs, .message = seen + so});
+    else
+      found->runs.insert(found->runs.end(), runs.begin(), runs.end());
+  }
+  static std::string mend(std::string_view what, std::string_view line) {
+    return fmt::format("{}; write columns: {{{}}}", what, line);
+  }
+
+  /// Scale and sign against the model. False if something is wrong with them.
+  bool judge(const Quantity& quantity, const Compared& rows) {
+    if (rows.measured.size() < 2) return true;
+    const Line line(rows.measured, rows.model);
+    double scale = line.slope, alike = line.correlation;
+    if (quantity.by_mean) {
+      scale = mean(rows.model) > 0.0 ? mean(rows.measured) / mean(rows.model) : 0.0;
+      alike = scale > 0.0 ? 1.0 : -1.0;
+    } else if (range(rows.model) <= quantity.moves) {
+      return true;
+    }
+    if (scale == 0.0) return true;
+    const auto unit =
+        std::abs(alike) < quantity.alike ? std::nullopt : other_unit(quantity, rows, std::abs(scale));
+    const bool opposite = scale < 0.0 && alike < -of_columns.opposite_alike &&
+                          ((unit && !quantity.by_mean) || scale < -quantity.opposite);
+    if (!opposite && (!unit || scale < 0.0)) return true;
+    ColumnPlace meant = quantity.place;
+    std::string what;
+    if (opposite) {
+      meant.factor = -meant.factor;
+      what = "it goes the other way than the rig would; its sign is the other one";
+    }
+    if (unit && unit->name == divided_twice) {
+      what += "this looks like a ratio that was divided by the rest length in millimetres, as if it were mm";
+    } else if (unit) {
+      meant.unit = unit->name;
+      what += fmt::format("{}this looks like {}, not {}", opposite ? ", and " : "", in_words(unit->name),
+                          in_words(quantity.place.unit));
+    }
+    if (!unit || unit->name != divided_twice) what = mend(what, line_of(quantity.key, meant));
+    if (opposite && quantity.key == "angle") what += ", or exchange muscle 1 and muscle 2";
+    const double seen = quantity.by_mean ? mean(rows.measured)
+                        : opposite       ? range(rows.measured)
+                                         : largest(rows.measured);
+    find(quantity.key, rows.runs,
+         fmt::format("{} {} {:.4g}{}, {:.3g} times what the rig would do; ", quantity.key,
+                     quantity.by_mean ? "is on average"
+                     : opposite       ? "moves by"
+                                      : "is up to",
+                     seen / quantity.of_shown, quantity.shown, scale),
+         what);
+    return false;
+  }
+
+  bool exchanged(std::size_t i) {
+    const domain::Run& run = data_.runs[i];
+    if (!run.muscle_pressure_Pa) return false;
+    const double most_bar = largest(*run.muscle_pressure_Pa) / plant::Pa_per_bar;
+    const double supply_bar = data_.rig.valve.supply_pressure_Pa / plant::Pa_per_bar;
+    if (most_bar < of_columns.beyond_rig * supply_bar ||
+        most_bar > data_.rig.dac.largest_current_mA + of_columns.rounding_mA ||
+        largest(run.current_mA) > of_columns.within_supply * supply_bar)
+      return false;
+    ColumnPlace current = map_.current, pressure = map_.muscle_pressure;
+    std::swap(current.column, pressure.column);
+    find("muscle_pressure", {i},
+         fmt::format("muscle_pressure is up to {:.4g} bar, more than the supply has, "
+                     "and the current up to {:.3g} mA: ",
+                     most_bar, largest(run.current_mA)),
+         mend("these two columns look exchanged",
+              fmt::format("{}, {}", line_of("current", current), line_of("muscle_pressure", pressure))));
+    return true;
+  }
+
+  void current(std::size_t i) {
+    const domain::Run& run = data_.runs[i];
+    const plant::Valve& valve = data_.rig.valve;
+    const double most_mA = largest(run.current_mA);
+    const std::string never = fmt::format("current: never above {:.3g} mA", most_mA);
+    ColumnPlace amperes = map_.current;
+    amperes.unit = std::string("A");  // g++ 12 warns of a literal
+    if (most_mA > 0.0 && most_mA < valve.span_current_mA * of_columns.amperes)
+      find("current", {i}, never, mend("; this looks like amperes, not mA", line_of("current", amperes)));
+    else if (most_mA < valve.zero_current_mA && range(run.contraction_ratio) > moving())
+      find("current", {i}, never,
+           fmt::format(", where the valve does nothing (below {:.3g} mA), yet the muscle moves; is this "
+                       "another unit, or a share of the range? unit, zero and factor in columns: current say "
+                       "so",
+                       valve.zero_current_mA));
+  }
+
+  void gauge(std::size_t i, Beside which) {
+    Compared rows;
+    read_beside(i, which, rows);
+    if (rows.measured.empty()) return;
+    const Quantity quantity = pressure(which);
+    if (!judge(quantity, rows)) return;
+    const Line line(rows.measured, rows.model);
+    if (range(rows.model) > quantity.moves &&
+        (line.slope < of_columns.least_gauge_slope || line.slope > of_columns.most_gauge_slope))
+      return;
+    const double atmosphere_Pa = data_.rig.gas.atmosphere_Pa;
+    const auto an_atmosphere = [&](double difference_Pa) {
+      return std::abs(difference_Pa / atmosphere_Pa - 1.0) < of_columns.atmosphere;
+    };
+    if (!an_atmosphere(line.mean_difference) || !an_atmosphere(lowest(rows.measured) - lowest(rows.model)))
+      return;
+    ColumnPlace meant = quantity.place;
+    if (const Unit* said = quantity.unit_said()) meant.zero += atmosphere_Pa / said->size / meant.factor;
+    find(quantity.key, {i}, quantity.key + " is about one atmosphere too high; ",
+         mend("this looks like absolute, not gauge pressure: the zero takes the atmosphere off",
+              line_of(quantity.key, meant)));
+  }
+
+  static constexpr const char* divided_twice = "";
+
+  const domain::Dataset& data_;
+  const std::vector<Expected>& expected_;
+  std::vector<Finding>& findings_;
+  domain::ColumnMap map_;  ///< with our names where it says none
+};
+
+}  // namespace
+
+void check_columns(const domain::Dataset& data, const std::vector<Expected>& expected,
+                   std::vector<Finding>& findings) {
+  Columns(data, expected, findings)();
+}
+
+}  // namespace mckibben::data

@@ -1,0 +1,14 @@
+// Columns against what the rig would do: in another unit than they say, with the other sign, exchanged.
+#pragma once
+
+#include <vector>
+
+#include <sim/data/examine.hpp>
+
+namespace mckibben::data {
+
+/// Adds to `findings`: one for each kind, with all runs that it concerns.
+void check_columns(const domain::Dataset& data, const std::vector<Expected>& expected,
+                   std::vector<Finding>& findings);
+
+}  // namespace mckibben::data

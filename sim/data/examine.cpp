@@ -1,0 +1,281 @@
+// Runs row by row; see the header.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include <sim/data/amount.hpp>
+#include <sim/data/columns.hpp>
+#include <sim/data/examine.hpp>
+#include <sim/data/judged.hpp>
+#include <sim/data/loads.hpp>
+#include <sim/data/odd_readings.hpp>
+#include <sim/data/series.hpp>
+#include <sim/data/thresholds.hpp>
+
+namespace mckibben::data {
+namespace {
+
+constexpr const ReadingThresholds& of_readings = thresholds.reading;
+
+/// The readings of runs whose columns are what they are called.
+class Readings {
+ public:
+  Readings(const domain::Dataset& data, const std::vector<Expected>& expected, Examined& result)
+      : data_(data),
+        expected_(expected),
+        result_(result),
+        bench_(data.force_is_judged()),
+        pair_(data.rig.pair() != nullptr),
+        count_(reading_grain(data.rig)) {}
+
+  void operator()() {
+    for (std::size_t i = 0; i < data_.runs.size(); ++i) {
+      if (data_.runs[i].judged().size() != expected_[i].judged.size()) continue;
+      for (const domain::Beside which : domain::gauges) gauge(i, which);
+      if (bench_)
+        pulls(i);
+      else if (moves(i))
+        readings(i);
+    }
+    copies();
+  }
+
+ private:
+  /// The judged reading's column, and what shows it.
+  const char* reading() const { return pair_ ? "angle_rad" : "contraction_ratio"; }
+  const char* moving() const { return pair_ ? "joint" : "load"; }
+  bool of_points(std::size_t run) const {
+    return data_.runs[run].measured && data_.runs[run].measured->point_s > 0.0;
+  }
+  void find(std::size_t run, Severity severity, std::string kind, std::string message) {
+    result_.findings.push_back(
+        {.runs = {run}, .message = std::move(message), .severity = severity, .kind = std::move(kind)});
+  }
+  void leave_out(std::size_t run, std::string why) {
+    find(run, Severity::left_out, "reading", std::move(why));
+    result_.left_out[run] = true;
+  }
+  std::string amount(double value) const { return amount_of(data_.judged(), value, data_.rig, 3); }
+  double time_s(std::size_t row) const {
+    return data_.rows_begin_s() + static_cast<double>(row) * data_.row_s();
+  }
+
+  void gauge(std::size_t i, domain::Beside which) {
+    const auto* const shown = data_.runs[i].beside(which);
+    if (shown == nullptr) return;
+    const Series& model = expected_[i].beside(which);
+    const std::string name = std::string(told(which, pair_).first) + "_bar";
+    const bool constant = range(*shown) == 0.0;
+    const bool should_move = range(model) > of_readings.gauge_bar * plant::Pa_per_bar;
+    if (!constant && (!should_move || Line(*shown, model).slope > of_readings.gauge_slope)) {
+      mask_spikes(i, name, *shown, model, of_readings.gauge_step_Pa);
+      return;
+    }
+    (which == domain::Beside::muscle_pressure ? result_.dead_gauges : result_.dead_opposite_gauges)
+        .push_back(i);
+    find(i, Severity::ignored, "",
+         fmt::format("{} {}", name,
+                     constant ? fmt::format("is {:.4g} throughout", shown->front() / plant::Pa_per_bar)
+                              : "does not follow the current"));
+  }
+
+  void mask(std::size_t run, const Stretch& stretch) {
+    std::fill(result_.masked[run].begin() + static_cast<std::ptrdiff_t>(stretch.begin),
+              result_.masked[run].begin() + static_cast<std::ptrdiff_t>(stretch.end), true);
+  }
+
+  void mask_spikes(std::size_t i, std::string_view column, const Series& values, const Series& model,
+                   double step) {
+    const auto outliers = spikes(values, sharpest_nearby(model, data_.row_s()), step, !of_points(i));
+    if (outliers.empty()) return;
+    std::string times;
+    for (std::size_t n = 0; n < outliers.size(); ++n) {
+      mask(i, outliers[n]);
+      if (n < 3) times += fmt::format("{}{:.3f} s", n > 0 ? ", " : "", time_s(outliers[n].begin));
+    }
+    find(i, Severity::masked, "",
+         fmt::format("{} outlier{} in {}, at {}{}", outliers.size(), outliers.size() > 1 ? "s" : "", column,
+                     times, outliers.size() > 3 ? " and later" : ""));
+  }
+
+  void pulls(std::size_t i) {
+    const std::vector<bool>& masked = result_.masked[i];
+    if (std::find(masked.begin(), masked.end(), false) == masked.end())
+      leave_out(i, "the cord hangs through all the time: no force was read");
+  }
+
+  bool moves(std::size_t i) {
+    const domain::Run& run = data_.runs[i];
+    const double largest_mA = run.current_mA.empty() || pair_ ? std::numeric_limits<double>::infinity()
+                                                              : *std::ranges::max_element(run.current_mA);
+    const double dead_mA =
+        data_.rig.valve.zero_current_mA +
+        of_readings.dead_current * (data_.rig.valve.span_current_mA - data_.rig.valve.zero_current_mA);
+    const double should = range(expected_[i].judged);
+    if (largest_mA <= dead_mA)
+      leave_out(i, fmt::format("the current stays at or below {:.4g} mA and moves nothing", largest_mA));
+    else if (range(run.judged()) > of_readings.moving_counts * count_)
+      return true;
+    else if (should > of_readings.should_move_counts * count_)
+      leave_out(i, fmt::format("the reading never changes, though the {0} should move by {1} (is the "
+                               "{2} connected, the {0} held?)",
+                               moving(), amount(should), pair_ ? "sensor" : "encoder"));
+    else
+      leave_out(i, "nothing moves");
+    return false;
+  }
+
+  void readings(std::size_t i) {
+    const Series& values = data_.runs[i].judged();
+    const Series& model = expected_[i].judged;
+    std::vector<bool>& masked = result_.masked[i];
+    const Series sharpest = sharpest_nearby(model, data_.row_s());
+    range_ends(i);
+    mask_spikes(i, reading(), values, model, count_);
+    stand_still(i, stills(values, model, count_, data_.row_s()));
+    if (result_.left_out[i]) return;
+    const auto lost = std::count(masked.begin(), masked.end(), true);
+    if (const auto row = lost_counts(values, sharpest, masked, count_))
+      leave_out(i, lost_in_words(i, values[*row] - values[*row - 1], time_s(*row)));
+    else if (static_cast<double>(lost) > of_readings.most_masked * static_cast<double>(masked.size()))
+      leave_out(i, "too little of it is left");
+  }
+
+  std::string lost_in_words(std::size_t i, double jump, double at_s) const {
+    if (counts(data_, data_.runs[i]))
+      return fmt::format("{} jumps by {:.3g} at {:.3f} s and stays there: counts were lost", reading(), jump,
+                         at_s);
+    return fmt::format(
+        "{} jumps by {} at {:.3f} s and stays there: the sensor was moved, or what it looks at", reading(),
+        amount(jump), at_s);
+  }
+
+  // What a sensor reads at the end of its range is no position.
+  void range_ends(std::size_t i) {
+    const plant::Sensor& sensor = data_.rig.sensors.position();
+    const Series& values = data_.runs[i].judged();
+    const double step = reading_per_count(data_.rig);
+    std::size_t ended = 0;
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      const double own = values[k] / step * sensor.resolution, half = 0.5 * sensor.resolution;
+      if (!(sensor.lowest && own <= *sensor.lowest + half) &&
+          !(sensor.highest && own >= *sensor.highest - half))
+        continue;
+      result_.masked[i][k] = true;
+      ++ended;
+    }
+    if (ended == 0) return;
+    find(i, Severity::masked, "saturated",
+         fmt::format("{} is at the end of the sensor's range in {} row{}", reading(), ended,
+                     ended == 1 ? "" : "s"));
+  }
+
+  // What ends at the same value again and again is told once.
+  void stand_still(std::size_t i, const std::vector<Still>& stills) {
+    const auto value = [&](const Still& still) { return data_.runs[i].judged()[still.begin]; };
+    for (auto still = stills.begin(); still != stills.end(); ++still) {
+      if (still->why == Still::Why::stuck) {
+        stuck(i, *still);
+        continue;
+      }
+      mask(i, *still);
+      const auto same = [&](const Still& one) {
+        return one.why == still->why && value(one) == value(*still);
+      };
+      if (std::find_if(stills.begin(), still, same) != still) continue;
+      const auto times = std::count_if(still, stills.end(), same);
+      const std::string why = still->why == Still::Why::frozen ? "frozen" : "saturated";
+      find(i, Severity::masked, why,
+           fmt::format("{} is {} at {:.4g}{} from {:.3f} s to {:.3f} s though the {} should move", reading(),
+                       why, value(*still), times > 1 ? fmt::format(" {} times, first", times) : "",
+                       time_s(still->begin - 1), time_s(still->end - 1), moving()));
+    }
+  }
+
+  void stuck(std::size_t i, const Still& still) {
+    if (result_.left_out[i]) return;
+    leave_out(i, fmt::format("the {0} stands still from {1:.3f} s to {2:.3f} s though the {3} should "
+                             "move it: {4}something held the {0}",
+                             moving(), time_s(still.begin - 1), time_s(still.end - 1),
+                             data_.pressure_is_given() ? "pressure" : "current",
+                             data_.pressure_is_given() ? "" : "the valve was stuck, or "));
+  }
+
+  static bool same_inputs(const domain::Measurement& one, const domain::Measurement& other) {
+    return std::ranges::equal(one.sides, other.sides, [](const auto& a, const auto& b) {
+      return a.current_mA == b.current_mA && a.muscle_pressure_Pa == b.muscle_pressure_Pa;
+    });
+  }
+
+  // The same file twice says nothing new, and would stand on both sides of the split.
+  void copies() {
+    for (std::size_t i = 0; i < data_.runs.size(); ++i) {
+      const auto same = [&](const domain::Run& run) {
+        return run.judged() == data_.runs[i].judged() && run.current_mA == data_.runs[i].current_mA &&
+               (!bench_ || run.measured->contraction_ratio == data_.runs[i].measured->contraction_ratio) &&
+               (!pair_ || same_inputs(*run.measured, *data_.runs[i].measured));
+      };
+      const auto last = data_.runs.begin() + static_cast<std::ptrdiff_t>(i);
+      const auto first = std::find_if(data_.runs.begin(), last, same);
+      if (first != last && !result_.left_out[i])
+        leave_out(i, fmt::format("equal to run {} in every reading: a copy", first->id));
+    }
+  }
+
+  const domain::Dataset& data_;
+  const std::vector<Expected>& expected_;
+  Examined& result_;
+  bool bench_;  ///< lengths are given, and forces judged
+  bool pair_;   ///< two muscles turn a joint, and its angle is judged
+  double count_;
+};
+
+}  // namespace
+
+Examined examine(const domain::Dataset& data, const std::vector<Expected>& expected) {
+  Examined result;
+  for (const domain::Run& run : data.runs)
+    result.masked.push_back(run.missing.empty() ? std::vector<bool>(run.judged().size(), false)
+                                                : run.missing);
+  result.left_out.assign(data.runs.size(), false);
+  check_columns(data, expected, result.findings);
+  if (!result.findings.empty()) return result;  // the wrong numbers would weigh wrong
+  if (data.judged() == domain::Judged::contraction) check_loads(data, expected, result.findings);
+  const auto refused = [](const Finding& one) { return one.severity == Severity::refused; };
+  if (std::ranges::none_of(result.findings, refused)) Readings(data, expected, result)();
+  return result;
+}
+
+void require_enough(const domain::Dataset& data, const std::vector<bool>& left_out,
+                    std::vector<Finding>& findings) {
+  std::vector<double> loads_kg;
+  for (std::size_t i = 0; i < data.runs.size(); ++i)
+    if (!left_out[i]) loads_kg.push_back(data.runs[i].load_kg);
+  const domain::Judged judged = data.judged();
+  if (loads_kg.size() < of_readings.least_runs)
+    findings.push_back(
+        {.message = fmt::format(
+             "{} usable run{}: too few to choose on some and judge on others; at least four runs would help, "
+             "with {}.",
+             loads_kg.size(), loads_kg.size() == 1 ? "" : "s",
+             judged == domain::Judged::force   ? "each its own length"
+             : judged == domain::Judged::angle ? "each another course of the two pressures"
+                                               : "two loads and two kinds of current"),
+         .severity = Severity::undecidable});
+  else if (judged == domain::Judged::contraction &&
+           range(loads_kg) < of_readings.same_load * loads_kg.front())
+    findings.push_back({.message = fmt::format("all runs have the same load, {:.6g} kg: what grows with the "
+                                               "load cannot be told from what does not",
+                                               loads_kg.front()),
+                        .severity = Severity::limited});
+}
+
+bool counts(const domain::Dataset& data, const domain::Run& run) {
+  return run.measured ? run.measured->counted : data.rig.sensors.position().counts_pulses();
+}
+
+}  // namespace mckibben::data

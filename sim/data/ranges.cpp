@@ -1,0 +1,231 @@
+// See the header.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include <plant/geometry.hpp>
+#include <sim/data/ranges.hpp>
+#include <sim/domain/number.hpp>
+
+namespace mckibben::data {
+namespace {
+
+using domain::ColumnMap, domain::ColumnPlace, domain::line_of, domain::write_number;
+using Series = std::vector<double>;
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+constexpr double lowest_ratio = -0.2, highest_ratio = 1.0, hardly_contracts = 0.02;
+constexpr double lowest_read_bar = -2.0, lowest_given_bar = -1.0, highest_bar = 100.0;  // noise; a vacuum
+constexpr double largest_angle_rad = 10.0, largest_force_N = 1e6;
+constexpr double slack_mA = 1e-9;           // shortest digits of a sum of DAC steps
+constexpr std::ptrdiff_t few_numbers = 3;   // numbers out of range that are told one by one
+constexpr double digits_of_commands = 1e9;  // those of a table come back
+
+/// Readings that are missing lie anywhere.
+bool within(const Series& values, double lowest, double highest) {
+  return std::none_of(values.begin(), values.end(), [&](double v) { return v < lowest || v > highest; });
+}
+
+/// The unit of a clock whose rows are so many ticks of our seconds apart; empty if it is none.
+std::string clock_unit(double ticks) {
+  for (const auto& [factor, unit] : {std::pair{1e3, "ms"}, {1e6, "us"}, {1e9, "ns"}, {1.0 / 60.0, "min"}})
+    if (std::abs(ticks / factor - 1.0) < 1e-3) return unit;
+  return "";
+}
+
+/// The step [s] of a clock that goes evenly; 0 if it does not.
+double even_step_s(const Series& time_s) {
+  if (time_s.size() < 3) return 0.0;
+  const double step_s = (time_s.back() - time_s.front()) / static_cast<double>(time_s.size() - 1);
+  for (std::size_t k = 1; k < time_s.size(); ++k)
+    if (std::abs(time_s[k] - time_s[k - 1] - step_s) > 1e-3 * std::abs(step_s)) return 0.0;
+  return step_s;
+}
+
+class Ranges {
+ public:
+  Ranges(std::span<const ReadColumn> columns, const ColumnMap& map, const domain::RigFile& rig)
+      : columns_(columns), commands_(!map.command.absent()), map_(with_our_names(map)), rig_(rig) {}
+
+  std::vector<WrongNumber> operator()() {
+    for (at_ = 0; at_ < columns_.size(); ++at_) {
+      const auto quantity =
+          std::ranges::find(domain::quantities, columns_[at_].name, &domain::Quantity::column);
+      if (quantity == domain::quantities.end()) continue;
+      const std::string key(quantity->key == "current" && commands_ ? "command" : quantity->key);
+      const ColumnPlace& place = key == "command" ? map_.command : map_.*quantity->place;
+      if (quantity->unit == "mA")
+        command(key, place);
+      else if (key == "contraction")
+        contraction(place);
+      else if (quantity->unit == "bar")
+        pressure(key, place);
+      else if (key == "angle")
+        look(-largest_angle_rad, largest_angle_rad, "what a joint can turn", other(key, place));
+      else if (key == "force")
+        look(-largest_force_N, largest_force_N, "what a cord can bear", other(key, place));
+    }
+    return std::move(found_);
+  }
+
+ private:
+  const Series& values() const { return *columns_[at_].values; }
+  const Series* values_of(std::string_view name) const {
+    const auto found = std::ranges::find(columns_, name, &ReadColumn::name);
+    return found != columns_.end() ? found->values : nullptr;
+  }
+  static std::string other(const std::string& key, const ColumnPlace& place) {
+    return fmt::format("is it in another unit or another column? columns: {{{}}} would say so",
+                       line_of(key, place));
+  }
+
+  // Commands in volts or bar no DAC of ours made: a whole range outside they are of another valve.
+  void command(const std::string& key, const ColumnPlace& place) {
+    if (!columns_[at_].own_command)
+      return look(0.0, rig_.dac.largest_current_mA + slack_mA, "range of the rig's DAC", other(key, place));
+    const plant::Valve& valve = key == "command_2" ? rig_.pair()->opposite.valve : rig_.valve;
+    const double zero = valve.zero_command.value, span = valve.span_command.value;
+    Series commands = values();
+    for (double& value : commands)
+      value = std::round(digits_of_commands * valve.command_for(value)) / digits_of_commands;
+    look(commands, key, 2.0 * zero - span, 2.0 * span - zero,
+         fmt::format("the rig's valve takes {:g} to {:g} {}", zero, span,
+                     plant::name_of(valve.zero_command.unit)),
+         other(key, place));
+  }
+
+  void contraction(ColumnPlace meant) {
+    if (meant.as == domain::Role::input) return held();
+    const Series* current = commands_ ? nullptr : values_of("current_mA");
+    const Series* pressure = values_of("muscle_pressure_bar");
+    std::string hint;
+    const auto exchanged_with = [&](std::string_view quantity, ColumnPlace other_place) {
+      std::swap(meant.column, other_place.column);
+      hint = fmt::format("it looks exchanged with {}; write columns: {{{}, {}}}", quantity,
+                         line_of("contraction", meant), line_of(quantity, other_place));
+    };
+    if (current != nullptr && within(*current, lowest_ratio, highest_ratio) &&
+        within(values(), 0.0, rig_.dac.largest_current_mA)) {
+      exchanged_with("current", map_.current);
+    } else if (pressure != nullptr && within(*pressure, lowest_ratio, highest_ratio)) {
+      exchanged_with("muscle_pressure", map_.muscle_pressure);
+    } else if (within(values(), -infinite, hardly_contracts)) {
+      meant.factor = -meant.factor;
+      hint =
+          fmt::format("if it falls as the muscle contracts, its sign is the other one; write columns: {{{}}}",
+                      line_of("contraction", meant));
+    } else if (meant.unit != "1" && meant.zero == 0.0 && within(values(), highest_ratio, infinite)) {
+      hint = fmt::format(
+          "does it read something else than 0 at rest length? Then columns: {{{}}} says so with zero: and "
+          "that "
+          "reading, and with factor: -1 if it falls as the muscle contracts",
+          line_of("contraction", meant));
+    } else {
+      if (meant.unit == "1") meant.unit = "mm";
+      hint = fmt::format(
+          "is it in another unit (\"%\", mm, deg, count), or its zero elsewhere? Then write so, "
+          "as in columns: {{{}}}",
+          line_of("contraction", meant));
+    }
+    look(lowest_ratio, highest_ratio, "what a muscle can do", hint);
+  }
+
+  void held() {
+    const plant::Braid braid(rig_.muscle);
+    for (std::size_t row = 0; row < values().size(); ++row)
+      if (const double value = values()[row]; !std::isnan(value) && !braid.in_domain(value))
+        found_.push_back(
+            {at_, row,
+             fmt::format("contraction_ratio = {} is out of range (what this muscle can be held at)",
+                         write_number(value))});
+  }
+
+  void pressure(const std::string& key, ColumnPlace meant) {
+    const bool given = meant.as == domain::Role::input;
+    if (meant.unit == "bar") meant.unit = "kPa";
+    look(given ? lowest_given_bar : lowest_read_bar, highest_bar,
+         given ? "what a muscle can be given" : "what a gauge can show",
+         fmt::format("is it in another unit (kPa, mbar, Pa, psi)? Then write so, as in columns: {{{}}}",
+                     line_of(key, meant)));
+  }
+
+  void look(double lowest, double highest, std::string_view meaning, const std::string& hint) {
+    look(values(), columns_[at_].name, lowest, highest, meaning, hint);
+  }
+  void look(const Series& values, std::string_view name, double lowest, double highest,
+            std::string_view meaning, const std::string& hint) {
+    const auto outside = [&](double value) { return value < lowest || value > highest; };
+    const auto count = std::ranges::count_if(values, outside);
+    for (std::size_t row = 0; row < values.size(); ++row) {
+      if (!outside(values[row])) continue;
+      std::string message = fmt::format("{} = {} is out of range: {:.6g} to {:.6g} ({})", name,
+                                        write_number(values[row]), lowest, highest, meaning);
+      if (count > few_numbers) {
+        double least = infinite, most = -infinite;
+        for (const double value : values) {
+          if (value < least) least = value;
+          if (value > most) most = value;
+        }
+        message += fmt::format(", as in {} of {} rows, which go from {:.6g} to {:.6g}; {}", count,
+                               values.size(), least, most, hint);
+      }
+      found_.push_back({at_, row, std::move(message)});
+      if (count > few_numbers) return;
+    }
+  }
+
+  std::span<const ReadColumn> columns_;
+  bool commands_;  ///< the map has a command, in place of a current
+  ColumnMap map_;  ///< with our own names where it says none
+  const domain::RigFile& rig_;
+  std::size_t at_ = 0;
+  std::vector<WrongNumber> found_;
+};
+
+}  // namespace
+
+ColumnMap with_our_names(ColumnMap map) {
+  for (const domain::Quantity& quantity : domain::quantities)
+    if (ColumnPlace& place = map.*quantity.place; place.absent())
+      place = {std::string(quantity.column), std::string(quantity.unit)};
+  return map;
+}
+
+std::vector<WrongNumber> check_ranges(std::span<const ReadColumn> columns, const ColumnMap& map,
+                                      const domain::RigFile& rig) {
+  return Ranges(columns, map, rig)();
+}
+
+std::optional<WrongNumber> check_clock(const Series& time_s, const ColumnMap& map, double tick_s) {
+  const double step_s = even_step_s(time_s);
+  const bool right = std::abs(step_s / tick_s - 1.0) < 1e-3;
+  ColumnPlace meant = with_our_names(map).time;
+  if (const std::string unit = clock_unit(step_s / tick_s); !unit.empty() && meant.unit == "s") {
+    meant = {meant.column, unit, meant.zero, meant.factor};
+    return WrongNumber{
+        0, 1,
+        fmt::format("time_s = {}: its rows are {:.6g} s apart, the rig's ticks {:.6g} s; this looks "
+                    "like {}, not s; write columns: {{{}}}",
+                    write_number(time_s[1]), step_s, tick_s, unit, line_of("time", meant))};
+  }
+  if (right && time_s.front() != 0.0 && meant.unit == "s" && meant.factor == 1.0) {
+    meant.zero += time_s.front();
+    return WrongNumber{
+        0, 0,
+        fmt::format("time_s = {} is not the beginning: expected is 0; if the run begins there, "
+                    "write columns: {{{}}}",
+                    write_number(time_s.front()), line_of("time", meant))};
+  }
+  if (step_s > 0.0 && !right)
+    return WrongNumber{
+        0, 1,
+        fmt::format("time_s = {} is not a tick of {} ms: all rows are {:.6g} ms apart; if that is "
+                    "the rig's tick, its file must say so: tick: {:.6g} ms; {}",
+                    write_number(time_s[1]), 1e3 * tick_s, 1e3 * step_s, 1e3 * step_s, own_clock)};
+  return std::nullopt;
+}
+
+}  // namespace mckibben::data

@@ -1,0 +1,43 @@
+// A run's columns against what rig, tick and instruments can do, before anything is simulated: a few numbers
+// out of range one by one, many of them as one problem, with the line of `columns` that mends it.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <sim/domain/columns.hpp>
+#include <sim/domain/rig_file.hpp>
+
+namespace mckibben::data {
+
+/// With our names and units where it says none.
+domain::ColumnMap with_our_names(domain::ColumnMap map);
+
+/// A column of a run, in our unit.
+struct ReadColumn {
+  std::string_view name;  ///< current_mA
+  const std::vector<double>* values;
+  bool own_command = false;  ///< the currents stand for commands in the valve's unit
+};
+
+struct WrongNumber {
+  std::size_t column, row;
+  std::string message;
+};
+
+/// `map` says where the columns came from.
+std::vector<WrongNumber> check_ranges(std::span<const ReadColumn> columns, const domain::ColumnMap& map,
+                                      const domain::RigFile& rig);
+
+/// A clock in another unit, with another tick or another beginning than a row each tick has.
+std::optional<WrongNumber> check_clock(const std::vector<double>& time_s, const domain::ColumnMap& map,
+                                       double tick_s);
+
+/// Of a recorder that had one of its own: what to say of rows that are no ticks.
+inline constexpr const char* own_clock =
+    "if the recorder had a clock of its own, the data set says start: settled, or start: moving";
+
+}  // namespace mckibben::data

@@ -1,0 +1,105 @@
+// Every number by which measured data are looked at: its unit, what it means, where it comes from.
+//
+// Chosen by hand so that no effect of the catalogue and no muscle a third stronger or weaker is taken for a
+// wrong unit or label; tests/run/sanity_test.cpp tries them.
+#pragma once
+
+#include <cstddef>
+
+namespace mckibben::data {
+
+/// kg, by definition.
+inline constexpr double pound_kg = 0.45359237;
+
+/// How much is simulated for a look.
+struct LookThresholds {
+  std::size_t most_rows = 200'000;  ///< a few seconds' work: the thesis's campaign
+  std::size_t most_rows_of_a_run = 20'000;
+};
+
+/// Columns. Slopes are of what was measured over what the rig would do.
+struct ColumnThresholds {
+  double same = 1.25;           ///< factors as near as that are one
+  double near_one = 2.0;        ///< factors that effects reach: no unit is told by less,
+  double far = 5.0;             ///< and one by less only if
+  double scaled_share = 0.04;   ///< of the sum of squares is left with the scale taken out
+  double alike = 0.8;           ///< correlation with the model, if only the unit is wrong
+  double moving_counts = 20.0;  ///< that a column must move to be judged
+  double beyond_rig = 1.2;      ///< times what a muscle can do, or a supply has: the unit is too small
+  double rounding_mA = 1e-6;    ///< above the DAC's range
+  double within_supply =
+      1.05;  ///< times the supply [bar], as a number: what is called current may be a pressure
+  double amperes = 1.0 / 400.0;  ///< of the valve's span: currents so small are amperes
+  double hardly_alike = 0.5;     ///< the same of angles, forces and pressures
+  double opposite = 0.2;         ///< the sign is the other one if the slope is below minus this,
+  double opposite_contraction = 0.3, opposite_mean = 0.5;  ///< of a cord's mean force: a zero set under load
+  double opposite_alike = 0.5;                             ///< and the correlation below minus this
+  double same_turn = 2.0;                                  ///< as `same`: degrees and radians are far apart,
+  double same_kilo = 2.7;                                  ///< and so are N and kN
+  double gauge_bar = 0.3;  ///< that the model's pressure must move to judge a gauge's unit
+  double least_gauge_slope = 0.5, most_gauge_slope = 2.0;  ///< of a gauge in the right unit
+  double atmosphere = 0.2;                                 ///< relative: an offset so near to it is it
+};
+
+/// Loads, weighed by the muscle.
+struct LoadThresholds {
+  double lifted = 0.01;         ///< contraction ratio of a load that hangs and does not rest
+  std::size_t least_rows = 40;  ///< of those
+  std::size_t still_rows = 20;  ///< each way: a reading at the end of its range, or frozen,
+  double moving = 0.01;         ///< if the simulated load moves so far meanwhile, contraction ratio
+  double compared_share =
+      0.5;  ///< of the rows in which the simulated load hangs as well: then it is compared
+  double least_difference = 0.08;  ///< of the heavier of two loads that are compared
+  double reversed = 0.5;           ///< of that difference: so far the other way round
+  double agrees = 0.35;            ///< the same with the labels exchanged
+  double near_grams = 2.0;     ///< factors, round kg written in g, N and pounds; a muscle of half or twice
+  double near_newtons = 1.25;  ///< the force comes near to pounds, none to the others
+  double near_pounds = 1.2, sure_pounds = 1.08;
+};
+
+/// Single readings, and runs by themselves. Counts are the encoder's.
+struct ReadingThresholds {
+  std::size_t least_runs = 3;        ///< to choose on some and judge on others
+  double gauge_step_Pa = 2e3;        ///< what gauges cannot resolve: for them a count
+  double sharp_reach_s = 0.3;        ///< a hidden effect moves the model's sharpest bend by no more
+  std::size_t spike_ticks = 5;       ///< an outlier's width at most
+  double spike_counts = 5.0;         ///< it jumps by more than this beside what the model's bends explain
+  double spike_balance = 0.5;        ///< of the smaller jump: what the way back may differ by
+  double end_counts = 2.0;           ///< a tick: at the ends of a run a faster load is no proof
+  double beside_counts = 3.0;        ///< what an outlier's neighbours may be off its line by,
+  double beside_bends = 2.0;         ///< and so many of the model's bends
+  double lost_counts = 20.0;         ///< a jump that stays: more than this,
+  double lost_steps = 8.0;           ///< and so many median steps,
+  double lost_bends = 4.0;           ///< and so many of the model's bends
+  double lost_change = 0.25;         ///< of the jump: what the speed may change by at most
+  double still_s = 0.5;              ///< a reading stands still from here on
+  double at_zero_counts = 3.0;       ///< below it the load rests on the braid's stop
+  double off_zero_counts = 60.0;     ///< in a tick: no load leaves the stop so quickly
+  std::size_t cut_off_ticks = 5;     ///< before and after readings that are cut off
+  double cut_off_speed = 1.0;        ///< counts a tick, in these: the load is on its way
+  double stops_dead_counts = 10.0;   ///< in a tick: no friction stops it so
+  double catches_up_counts = 6.0;    ///< in a tick, after standing still
+  double saturated_counts = 80.0;    ///< the model's way meanwhile, if cut off,
+  double frozen_counts = 100.0;      ///< if it stopped dead or caught up,
+  double stuck_counts = 200.0;       ///< if neither
+  double dead_current = 1e-3;        ///< of the valve's range above its zero: nothing moves
+  double moving_counts = 1.5;        ///< of a run that moves at all
+  double should_move_counts = 20.0;  ///< of the model: the load should have moved
+  double gauge_bar = 0.3;            ///< the model's pressure moves so far: a gauge must follow
+  double gauge_slope = 0.1;          ///< of the gauge over the model, at least
+  double most_masked = 0.3;          ///< of a run: more, and too little of it is left
+  double most_contradicted =
+      1.0 / 3.0;            ///< of the runs, whose labels contradict the others: more cannot tell
+  double same_load = 0.01;  ///< relative: one load
+};
+
+struct Thresholds {
+  LookThresholds look{};
+  ColumnThresholds column{};
+  LoadThresholds load{};
+  ReadingThresholds reading{};
+};
+
+inline constexpr Thresholds thresholds{};
+
+}  // namespace mckibben::data
