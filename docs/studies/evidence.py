@@ -25,7 +25,7 @@ class Evidence:
             {"id": name, "load": f"{run.load_kg} kg",
              "data": {"time_s": run["time_s"].round(9), "current_mA": run["current_mA"],
                       "contraction_ratio": run["encoder_contraction_ratio"],
-                      "muscle_pressure_bar": 1e-5 * run["muscle_pressure_Pa"]}} for name, run in self.runs.items()]})
+                      "muscle_pressure_bar": run["muscle_pressure_bar"]}} for name, run in self.runs.items()]})
         self.from_current, self.from_gauge = (self.data.calibrate(pressure=p) for p in ("current", "gauge"))
         self.found = {"current": self.from_current.to_dict(), "gauge": self.from_gauge.to_dict()}
         self.speeds = self.found["current"]["current_speeds_mA_per_s"]
@@ -79,7 +79,7 @@ class Evidence:
             "run": name, "k": k, "up": up, "load": run.load_kg, "nu": self._nearest(half_periods),
             "slope": (current[k] - current[k - 1]) / tick, "e": e,
             "line": self.number("valve", "zero_pressure") + self.slope_Pa_per_mA * (current[k] - self.number("valve", "zero_current")),
-            "muscle": run["muscle_pressure_Pa"][k], "friction": -up * run["friction_force_N"][k],
+            "muscle": 1e5 * run["muscle_pressure_bar"][k], "friction": -up * run["friction_force_N"][k],
             "generated": np.pi * radius**2 * (3.0 * cosine2 / sine2 * u * u - 1.0 / sine2),  # T 2.8, of 1 Pa
             "surface": (2.0 * np.pi * radius * length * np.sqrt(sine2)
                         / ((1.0 - e) * np.sqrt(1.0 - cosine2 * (1.0 - e) ** 2))),  # T 4.3
