@@ -155,7 +155,8 @@ test('the cursor of one plot is the cursor of all, and the table tells the value
   assert.equal(shares.length, 5);
   for (const share of shares) assert.ok(Math.abs(share - shares[0]) < 0.003, `${shares}`);
   const k = Math.floor(time / 0.012 + 1e-6);
-  const cell = await page.locator('#readout tr[data-run=\'pid\'] td[data-key=contraction_ratio]').textContent();
+  const cell =
+      await page.locator('#readout tr[data-run=\'pid\'] td[data-key=contraction_ratio]').textContent();
   assert.ok(
       Math.abs(Number(cell) - 300 * csv.contraction_ratio[k]) < 2e-3,
       `${cell} instead of ${300 * csv.contraction_ratio[k]}`);

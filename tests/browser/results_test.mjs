@@ -58,7 +58,9 @@ test('a replay with a gauge shows the measured pressure too, over time and in th
       (await seriesOf(page, 'pressures')).measured.values, csv.muscle_pressure_bar,
       rangeOf(csv.muscle_pressure_bar), 'measured');
   const error = simulated.muscle_pressure_bar.map((bar, k) => bar - csv.muscle_pressure_bar[k]);
-  near((await seriesOf(page, 'muscle_pressure_error'))['error, simulated'].values, error, rangeOf(error), 'error');
+  near(
+      (await seriesOf(page, 'muscle_pressure_error'))['error, simulated'].values, error, rangeOf(error),
+      'error');
   assert.ok(await page.locator('.group.chosen svg[data-loop=\'pressure\'] path.given').isVisible());
   assert.deepEqual(complaints, []);
   await done();
