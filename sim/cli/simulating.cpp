@@ -20,8 +20,8 @@
 #include <sim/input/scenario_file.hpp>
 #include <sim/output/csv.hpp>
 #include <sim/output/diagnosis_words.hpp>
-#include <sim/output/driven_results.hpp>
 #include <sim/output/plot.hpp>
+#include <sim/output/replay_results.hpp>
 #include <sim/output/run_files.hpp>
 #include <sim/output/run_json.hpp>
 #include <sim/output/table.hpp>
@@ -98,22 +98,14 @@ void write_tables(Job& job, const domain::Scenario& scenario, const run::Compari
 void write_tables(Job& job, const std::string& name, const domain::Dataset& dataset,
                   const std::vector<run::ReplayedRun>& runs, const std::vector<std::string>& formats) {
   Tables tables(job, "Replay of " + name, formats);
-  for (const auto& run : runs)
-    if (!run.recording.samples.empty())
-      tables.write(run.id, fmt::format("{}, {} kg", run.id, domain::write_number(run.load_kg)),
-                   output::columns_of(run.recording, dataset.rig),
-                   {{"load_kg", run.load_kg}, {"controller", "recorded current"}});
-  tables.close();
-}
-
-void write_tables(Job& job, const std::string& name, const domain::Dataset& dataset,
-                  const std::vector<run::StampedRun>& runs, const std::vector<std::string>& formats) {
-  Tables tables(job, "Replay of " + name, formats);
-  for (const run::StampedRun& run : runs) {
+  for (const run::ReplayedRun& run : runs) {
     if (run.recording.samples.empty()) continue;
     std::vector<formats::Attribute> attributes;
     if (run.load_kg > 0.0) attributes.emplace_back("load_kg", run.load_kg);
-    tables.write(run.id, run.id, output::columns_of(run.recording, dataset.rig), std::move(attributes));
+    if (!dataset.own_clock) attributes.emplace_back("controller", "recorded current");
+    const std::string title =
+        run.load_kg > 0.0 ? fmt::format("{}, {} kg", run.id, domain::write_number(run.load_kg)) : run.id;
+    tables.write(run.id, title, output::columns_of(run.recording, dataset.rig), std::move(attributes));
   }
   tables.close();
 }
@@ -200,13 +192,14 @@ int run_scenario(const RunOptions& options) {
   return status;
 }
 
-/// Simulates with `replay`, compares, prints and writes.
-template <class Replay>
-int replay_with(const ReplayOptions& options, const domain::Dataset& dataset, const Replay& replay) {
+int replay_dataset(const ReplayOptions& options) {
+  domain::Dataset dataset = input::read_dataset(options.dataset);
+  if (!options.rig.empty())
+    tasks::replace_rig(dataset, options.rig, input::read_rig(options.rig, dataset.inputs));
   const std::string name = output::name_of(dataset);
   Job job(options, "replay " + options.dataset, name + "-replay", dataset.inputs);
   const auto runs =
-      with_progress(name, [&](const auto& hook) { return replay(dataset, options.threads, hook); });
+      with_progress(name, [&](const auto& hook) { return run::replay(dataset, options.threads, hook); });
   const auto warnings = tasks::warnings_of(dataset, runs);
   warn(warnings);
   if (begun(runs) < runs.size()) job.interrupted(begun(runs), runs.size(), "runs");
@@ -218,14 +211,6 @@ int replay_with(const ReplayOptions& options, const domain::Dataset& dataset, co
   job.write("table.txt", table);
   job.write("report.html", report::report_html(dataset, runs, warnings));
   return job.finish({document, table}, any_failed(runs) ? failure : done);
-}
-
-int replay_dataset(const ReplayOptions& options) {
-  domain::Dataset dataset = input::read_dataset(options.dataset);
-  if (!options.rig.empty())
-    tasks::replace_rig(dataset, options.rig, input::read_rig(options.rig, dataset.inputs));
-  return dataset.own_clock ? replay_with(options, dataset, run::replay_stamped)
-                           : replay_with(options, dataset, run::replay);
 }
 
 }  // namespace

@@ -12,51 +12,31 @@
 namespace mckibben::diagnose {
 namespace {
 
-/// What riders do at each instant of a run, and what instruments see of them.
-class Prediction final : public ride::BatchItem {
+std::vector<ride::Rider> riders_of(std::span<const Hanging> rigs) {
+  std::vector<ride::Rider> riders;
+  riders.reserve(rigs.size());
+  for (const Hanging& one : rigs) riders.push_back(run::rider_of(one.rig, one.load_kg));
+  return riders;
+}
+
+/// What instruments see of riders that follow a run.
+class Prediction final : public run::Follower {
  public:
   using Done = std::function<void(std::vector<Readings> readings, std::exception_ptr failure)>;
 
   Prediction(const domain::Run& run, std::span<const Hanging> rigs, std::span<const double> memories,
              Done done)
-      : pair_(rigs.front().rig.pair() != nullptr),
+      : Follower(riders_of(rigs), rigs.front().rig, run::course_of(run, rigs.front().rig), memories),
+        pair_(rigs.front().rig.pair() != nullptr),
         forces_(run.length_is_given()),
         force_beside_(run.beside(domain::Beside::force) != nullptr),
         rest_length_m_(run.rest_length_m),
-        rig_(rigs.front().rig),
-        course_(run::course_of(run, rig_)),
-        done_(std::move(done)) {
-    for (const Hanging& one : rigs) {
-      if (const plant::Pair* pair = one.rig.pair())
-        riders_.emplace_back(run::paired(one.rig, *pair));
-      else
-        riders_.emplace_back(ride::Hanging{one.rig, one.load_kg});
-      Readings& list = readings_.emplace_back();
-      list.judged.reserve(course_.rows.size());
-      list.pressure_Pa.reserve(course_.rows.size());
+        done_(std::move(done)),
+        readings_(rigs.size()) {
+    for (Readings& one : readings_) {
+      one.judged.reserve(course().rows.size());
+      one.pressure_Pa.reserve(course().rows.size());
     }
-    settling_ = run::start(riders_, course_, rig_, memories);
-  }
-
-  ride::BatchKey key(const solver::Settings& settings) const {
-    return ride::batch_key(riders_, course_.drives.front(), settings);
-  }
-
-  std::span<ride::Rider> riders() override { return riders_; }
-
-  bool go_on() override {
-    if (settling_ > 0) {
-      --settling_;
-      hold(course_.drives.front(), run::before_s(course_, rig_, settling_));
-      return true;
-    }
-    hold(course_.toward(k_), course_.until_s(k_, rig_.tick_s));  // forces are those of the way ahead
-    if (course_.rows[row_] == k_) {
-      look();
-      if (++row_ == course_.rows.size()) return false;
-    }
-    ++k_;
-    return true;
   }
 
   void end(const engine::Counters&, const engine::NumericalFailure* failure) override {
@@ -64,13 +44,10 @@ class Prediction final : public ride::BatchItem {
   }
 
  private:
-  void hold(const ride::Drive& drive, double until_s) {
-    for (ride::Rider& rider : riders_) rider.hold(drive, until_s);
-  }
-
-  void look() {
-    for (std::size_t i = 0; i < riders_.size(); ++i) {
-      const ride::Rider& rider = riders_[i];
+  void look(std::size_t) override {
+    const std::span<const ride::Rider> all = riders();
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      const ride::Rider& rider = all[i];
       const ride::Reading& seen = rider.now.reading;
       readings_[i].judged.push_back(forces_ ? rider.moment().cord_force_N()
                                             : seen.wheel_m / travel_m(rider.plant().rig()));
@@ -78,7 +55,7 @@ class Prediction final : public ride::BatchItem {
       if (force_beside_) readings_[i].force_N.push_back(std::max(rider.moment().cord_force_N(), 0.0));
       if (pair_) readings_[i].opposite_pressure_Pa.push_back(seen.opposite_pressure_Pa);
     }
-    readings_[0].states.push_back(riders_[0].now.flow.state);
+    readings_[0].states.push_back(all[0].now.flow.state);
   }
 
   /// Of the wheel's rim, for a reading of 1.
@@ -91,12 +68,7 @@ class Prediction final : public ride::BatchItem {
   bool forces_;           // are read, at lengths that are given
   bool force_beside_;     // of the cord is read besides
   double rest_length_m_;  // that readings go by; 0: each rig's own
-  plant::Rig rig_;        // whose ticks count
-  run::Course course_;
   Done done_;
-  long settling_ = 0;
-  std::size_t k_ = 0, row_ = 0;
-  std::vector<ride::Rider> riders_;
   std::vector<Readings> readings_;
 };
 
@@ -118,7 +90,7 @@ std::vector<Readings> predict(const domain::Run& run, std::span<const Hanging> r
         readings = std::move(all);
         failure = std::move(why);
       });
-  const ride::BatchKey key = prediction->key(settings_for(rigs, method));
+  const ride::BatchKey key = prediction->key(settings_for(rigs, method), false);
   if (rigs.size() == 1 || !key.in_lanes) {
     ride::Alone(prediction->riders(), key).run(*prediction);
   } else {
@@ -136,7 +108,7 @@ void predict_all(std::size_t count, std::size_t rigs, unsigned threads, solver::
     const Wanted one = wanted(index);
     const auto prediction = std::make_shared<Prediction>(*one.run, one.rigs, std::span<const double>{},
                                                          std::bind_front(predicted, index));
-    return run::BatchTask{prediction->key(settings_for(one.rigs, method)), [=] { return prediction; }};
+    return run::BatchTask{prediction->key(settings_for(one.rigs, method), false), [=] { return prediction; }};
   });
 }
 

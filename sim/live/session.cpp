@@ -22,12 +22,8 @@ std::string out_of_range(std::string_view key, double value, double low, double 
   return fmt::format("{} = {:g}: must be from {:g} to {:g} {}", key, value, low, high, unit);
 }
 
-ride::Paired paired(const domain::RigFile& rig) {
-  return {rig, plant::opposite_rig(rig, *rig.pair()), *rig.pair()};
-}
-
 ride::Ride ride_of(const domain::RigFile& rig, double load_kg) {
-  if (rig.pair() != nullptr) return {paired(rig), rig.integrator};
+  if (rig.pair() != nullptr) return {ride::paired(rig, *rig.pair()), rig.integrator};
   return {ride::Hanging{rig, load_kg}, rig.integrator};
 }
 
@@ -129,7 +125,7 @@ void Session::go_on() {
   untouched_ = false;
   rig_ = switches_.rig();
   guarded([&] {
-    ride_ = ride::Ride(pair() ? ride::changed(ride_.rider(), paired(rig_))
+    ride_ = ride::Ride(pair() ? ride::changed(ride_.rider(), ride::paired(rig_, *rig_.pair()))
                               : ride::changed(ride_.rider(), ride::Hanging{rig_, load_kg_}),
                        {}, rig_.integrator);
     measure();

@@ -81,4 +81,12 @@ std::string text_of(const Json& document) {
   return document.dump(2) + "\n";
 }
 
+/// Thesis 2.3: what contraction did to the muscle.
+Json contraction_json(const plant::Rig& rig, const run::Recording& recording) {
+  const char* said[] = {"safe", "risk", "impossible"};
+  return {
+      {"largest_ratio", recording.largest_contraction_ratio},
+      {"verdict", said[static_cast<int>(plant::danger_of(rig.muscle, recording.largest_contraction_ratio))]}};
+}
+
 }  // namespace mckibben::output

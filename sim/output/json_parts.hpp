@@ -29,4 +29,7 @@ input::Json slack_json(const run::Recording& recording);
 /// The text of a file that holds the document.
 std::string text_of(const input::Json& document);
 
+/// How far it came, and whether that is where braids end.
+input::Json contraction_json(const plant::Rig& rig, const run::Recording& recording);
+
 }  // namespace mckibben::output

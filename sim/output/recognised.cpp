@@ -23,7 +23,7 @@ constexpr const char* how_to_go_on =
     "# `mckibben check` shows each place, and nothing is simulated before all are filled in.\n";
 
 /// A comment in a line of YAML: headings may hold anything.
-std::string comment(std::string text) {
+std::string as_comment(std::string text) {
   std::replace_if(
       text.begin(), text.end(), [](unsigned char c) { return c < 0x20 || c == 0x7F; }, ' ');
   return "# " + text;
@@ -54,12 +54,13 @@ std::string place_of(const ColumnGuess& guess) {
 std::string columns_yaml(const MapGuess& map, const std::string& indent) {
   std::string text;
   for (const ColumnGuess& guess : map.columns)
-    text += fmt::format("{0}{1}\n{0}{2}\n", indent, comment(reasons_of(guess)), place_of(guess));
+    text += fmt::format("{0}{1}\n{0}{2}\n", indent, as_comment(reasons_of(guess)), place_of(guess));
   if (map.rows)
-    text += fmt::format("{0}{1}\n{0}{2}: {3}\n", indent, comment(map.rows->told.reason), map.rows->key,
+    text += fmt::format("{0}{1}\n{0}{2}: {3}\n", indent, as_comment(map.rows->told.reason), map.rows->key,
                         map.rows->told.value);
   for (const Told& each : map.ignored)
-    text += fmt::format("{}{}\n", indent, comment(fmt::format("not used: {}: {}", each.value, each.reason)));
+    text +=
+        fmt::format("{}{}\n", indent, as_comment(fmt::format("not used: {}: {}", each.value, each.reason)));
   return text;
 }
 
@@ -68,7 +69,7 @@ std::string run_yaml(const Recognised& found, std::size_t i, const std::filesyst
   const std::string file =
       std::filesystem::weakly_canonical(found.tables[i].path).lexically_relative(folder).generic_string();
   std::string text;
-  if (run.load) text += fmt::format("  {}\n", comment(run.load->reason));
+  if (run.load) text += fmt::format("  {}\n", as_comment(run.load->reason));
   text += fmt::format("  - id: {}\n    file: {}\n", domain::yaml_scalar(run.id), domain::yaml_scalar(file));
   if (run.load) text += fmt::format("    load: {}\n", run.load->value);
   if (run.map > 0)
@@ -90,7 +91,7 @@ std::string dataset_yaml(const Recognised& found, const std::filesystem::path& f
       found.tables.size(), found.tables.size() == 1 ? "" : "s", found.tables.size() == 1 ? "s" : "",
       how_to_go_on, input::dataset_schema, domain::yaml_scalar(rig));
   for (const Setting& each : found.dataset)
-    text += fmt::format("\n{}\n{}: {}\n", comment(each.told.reason), each.key, each.told.value);
+    text += fmt::format("\n{}\n{}: {}\n", as_comment(each.told.reason), each.key, each.told.value);
   text += "\ncolumns:\n" + columns_yaml(found.maps.front(), "  ") + "\nruns:\n";
   for (std::size_t i = 0; i < found.runs.size(); ++i) text += run_yaml(found, i, folder);
   return text;
@@ -115,7 +116,7 @@ std::string rig_yaml(const Recognised& found) {
       indent = "    ";
       key = key.substr(signal.size() + 1);
     }
-    text += fmt::format("{0}{1}\n{0}{2}: {3}\n", indent, comment(each.told.reason), key, each.told.value);
+    text += fmt::format("{0}{1}\n{0}{2}: {3}\n", indent, as_comment(each.told.reason), key, each.told.value);
   }
   return text;
 }

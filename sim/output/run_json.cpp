@@ -19,14 +19,6 @@ Json or_null(const std::optional<double>& value) {
   return value ? Json(*value) : Json(nullptr);
 }
 
-/// Thesis 2.3: what contraction did to the muscle.
-Json contraction_json(const plant::Rig& rig, const run::Recording& recording) {
-  const char* said[] = {"safe", "risk", "impossible"};
-  return {
-      {"largest_ratio", recording.largest_contraction_ratio},
-      {"verdict", said[static_cast<int>(plant::danger_of(rig.muscle, recording.largest_contraction_ratio))]}};
-}
-
 Json beyond_json(const run::Beyond& beyond, const char* asked, const char* limit) {
   return {{"ticks", beyond.ticks},
           {asked, beyond.asked},
@@ -164,35 +156,6 @@ std::string json_of(const domain::Scenario& scenario, const run::Comparison& com
   document["criteria_not_met"] = comparison.unmet;
   document["warnings"] = comparison.warnings;
   if (comparison.interrupted) document["interrupted"] = true;
-  return text_of(document);
-}
-
-std::string json_of(const domain::Dataset& dataset, const std::vector<run::ReplayedRun>& runs,
-                    const std::vector<std::string>& warnings) {
-  Json document = heading_json("mckibben-replay/1", dataset.inputs);
-  document["report"] = "report.html";
-  document["tolerance"] = dataset.rig.integrator.tolerance;
-  document["rig"] = input::rig_json(dataset.rig);
-  document["runs"] = Json::array();
-  for (const auto& run : runs) {
-    Json entry{{"id", run.id}, {"load_kg", run.load_kg}};
-    if (!run.failure.empty()) {
-      entry["failure"] = run.failure;
-    } else {
-      entry["file"] = run.id + ".csv";
-      entry["rmse"] = run.rmse;
-      entry["largest_error"] = run.largest_error;
-      entry["mean_error"] = run.mean_error;
-      entry["pressure_rmse_bar"] = run.pressure_rmse_Pa ? Json(*run.pressure_rmse_Pa / 1e5) : Json(nullptr);
-      entry["contraction"] = contraction_json(dataset.rig, run.recording);
-      entry["ledger"] = ledger_json(dataset.rig, run.recording);
-      entry["solver"] = solver_json(run.recording.solver);
-    }
-    document["runs"].push_back(std::move(entry));
-  }
-  document["warnings"] = warnings;
-  if (std::any_of(runs.begin(), runs.end(), [](const auto& run) { return run.failure == run::not_begun; }))
-    document["interrupted"] = true;
   return text_of(document);
 }
 

@@ -2,19 +2,14 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
-#include <sim/domain/dataset.hpp>
 #include <sim/domain/scenario.hpp>
 #include <sim/run/compare.hpp>
-#include <sim/run/replay.hpp>
 
 namespace mckibben::output {
 
 /// Resolved input, versions, seed, tolerance, hashes of the input files, results and solver counts. Holds
 /// nothing that differs between two runs of the same input.
 std::string json_of(const domain::Scenario& scenario, const run::Comparison& comparison);
-std::string json_of(const domain::Dataset& dataset, const std::vector<run::ReplayedRun>& runs,
-                    const std::vector<std::string>& warnings);
 
 }  // namespace mckibben::output

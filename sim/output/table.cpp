@@ -10,10 +10,25 @@
 #include <sim/output/diagnosis_words.hpp>
 #include <sim/output/grid.hpp>
 #include <sim/output/table.hpp>
-#include <sim/run/gaps.hpp>
 #include <sim/run/remarks.hpp>
 
 namespace mckibben::output {
+/// Thesis 2.3: what contraction does to a muscle.
+std::string contraction_note(const plant::Rig& rig, double reached, const std::string& who) {
+  switch (plant::danger_of(rig.muscle, reached)) {
+    case plant::Danger::impossible:
+      return fmt::format(
+          "  {}: contraction ratio {:.4f} is above e_max = {:.4f}: impossible for a real muscle (T 2.3)\n",
+          who, reached, plant::Braid(rig.muscle).largest_contraction_ratio());
+    case plant::Danger::risk:
+      return fmt::format("  {}: contraction ratio {:.4f} is above {:.2f}: a risk to the muscle (T 2.3)\n",
+                         who, reached, plant::risky_contraction_ratio);
+    case plant::Danger::safe:
+      break;
+  }
+  return "";
+}
+
 namespace {
 
 std::string cell(std::optional<double> value, double factor, int decimals) {
@@ -39,22 +54,6 @@ std::string footnotes(const std::vector<run::TrackedRun>& runs) {
         "  + the load was weighed less than 10 % outside the calibrated range and taken as the range's end; "
         "not extrapolated\n";
   return text;
-}
-
-/// Thesis 2.3: what contraction does to a muscle.
-std::string contraction_note(const plant::Rig& rig, double reached, const std::string& who) {
-  switch (plant::danger_of(rig.muscle, reached)) {
-    case plant::Danger::impossible:
-      return fmt::format(
-          "  {}: contraction ratio {:.4f} is above e_max = {:.4f}: impossible for a real muscle (T 2.3)\n",
-          who, reached, plant::Braid(rig.muscle).largest_contraction_ratio());
-    case plant::Danger::risk:
-      return fmt::format("  {}: contraction ratio {:.4f} is above {:.2f}: a risk to the muscle (T 2.3)\n",
-                         who, reached, plant::risky_contraction_ratio);
-    case plant::Danger::safe:
-      break;
-  }
-  return "";
 }
 
 std::string percent(std::optional<double> share) {
@@ -165,7 +164,7 @@ std::string spreads(const domain::Scenario& scenario, const run::Comparison& com
 }
 
 /// Of two muscles under given currents.
-std::string lines_of_currents(const domain::Scenario& scenario, const run::Comparison& comparison) {
+std::string lines_of_currents(const run::Comparison& comparison) {
   Grid grid({"run", "angle_deg lowest", "highest", "final", "tension_1_N lowest", "highest",
              "tension_2_N lowest", "highest", "air_g"},
             1);
@@ -175,12 +174,12 @@ std::string lines_of_currents(const domain::Scenario& scenario, const run::Compa
     if (!run.failure.empty())
       grid.add({run.name}, "no result");
     else
-      grid.add({run.name},
-               {degrees(run.joint->angle_rad.low), degrees(run.joint->angle_rad.high),
-                degrees(run::angle_rad(scenario.rig, run.recording.samples.back())),
-                newton(run.joint->cord_force_N.low), newton(run.joint->cord_force_N.high),
-                newton(run.joint->opposite_cord_force_N.low), newton(run.joint->opposite_cord_force_N.high),
-                cell(run.recording.ledger.air_drawn_kg, 1e3, 3)});
+      grid.add(
+          {run.name},
+          {degrees(run.joint->angle_rad.low), degrees(run.joint->angle_rad.high),
+           degrees(run.recording.samples.back().angle_rad), newton(run.joint->cord_force_N.low),
+           newton(run.joint->cord_force_N.high), newton(run.joint->opposite_cord_force_N.low),
+           newton(run.joint->opposite_cord_force_N.high), cell(run.recording.ledger.air_drawn_kg, 1e3, 3)});
   }
   return grid.empty() ? "" : grid.text();
 }
@@ -239,7 +238,7 @@ std::string table_of(const domain::Scenario& scenario, const run::Comparison& co
 
   const bool pair = scenario.rig.pair() != nullptr;
   if (pair) {
-    const std::string given = lines_of_currents(scenario, comparison), followed = lines_of_joint(comparison);
+    const std::string given = lines_of_currents(comparison), followed = lines_of_joint(comparison);
     const bool both = !given.empty() && !followed.empty();
     if (!given.empty()) text += (both ? "\nunder given currents\n" : "\n") + given;
     if (!followed.empty()) text += (both ? "\nunder controllers\n" : "\n") + followed;
@@ -256,28 +255,6 @@ std::string table_of(const domain::Scenario& scenario, const run::Comparison& co
          section("contraction", contraction_notes(scenario, comparison)) + section("no result", failures) +
          section("criteria not met", lines(comparison.unmet)) +
          section("warnings", pair ? lines(comparison.warnings) : "");
-}
-
-std::string table_of(const domain::Dataset& dataset, const std::vector<run::ReplayedRun>& runs,
-                     const std::vector<std::string>&) {
-  std::string text = fmt::format(
-      "{}: {} run{} replayed; simulated less measured, as contraction ratio (0.001 = {:g} mm)\n\n",
-      dataset.path.string(), runs.size(), runs.size() == 1 ? "" : "s", dataset.rig.muscle.rest_length_m);
-  const double length_mm = 1e3 * dataset.rig.muscle.rest_length_m;
-  Grid grid({"run", "load_kg", "rmse", "rmse_mm", "largest", "mean", "pressure_rmse_bar"}, 1);
-  std::string failures, notes;
-  for (const auto& run : runs) {
-    const auto load = domain::write_number(run.load_kg);
-    if (!run.failure.empty()) {
-      grid.add({run.id, load, "no result", "-", "-", "-", "-"});
-      failures += fmt::format("  {}: {}\n", run.id, run.failure);
-      continue;
-    }
-    grid.add({run.id, load, ratio(run.rmse), cell(run.rmse, length_mm, 3), ratio(run.largest_error),
-              fmt::format("{:+.5f}", run.mean_error), cell(run.pressure_rmse_Pa, 1e-5, 4)});
-    notes += contraction_note(dataset.rig, run.recording.largest_contraction_ratio, run.id);
-  }
-  return text + grid.text() + section("contraction", notes) + section("no result", failures);
 }
 
 namespace {

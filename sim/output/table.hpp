@@ -5,11 +5,9 @@
 #include <vector>
 
 #include <sim/domain/campaign.hpp>
-#include <sim/domain/dataset.hpp>
 #include <sim/domain/scenario.hpp>
 #include <sim/run/campaign.hpp>
 #include <sim/run/compare.hpp>
-#include <sim/run/replay.hpp>
 
 namespace mckibben::output {
 
@@ -20,9 +18,8 @@ std::string table_of(const domain::Scenario& scenario, const run::Comparison& co
 /// "+" load taken as the range's end, or empty.
 std::string extrapolation_mark(const run::TrackedRun& run);
 
-/// Measured against simulated, run by run.
-std::string table_of(const domain::Dataset& dataset, const std::vector<run::ReplayedRun>& runs,
-                     const std::vector<std::string>& warnings = {});
+/// That a run came to where braids end; empty if it did not. `who`: as the note calls it.
+std::string contraction_note(const plant::Rig& rig, double reached, const std::string& who);
 
 /// What a campaign gave, load by load; of a pair, current by current.
 std::string table_of(const domain::Campaign& campaign, const std::vector<run::EndedRun>& ended);

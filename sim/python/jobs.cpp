@@ -4,7 +4,7 @@
 #include <optional>
 #include <utility>
 
-#include <sim/output/driven_results.hpp>
+#include <sim/output/replay_results.hpp>
 #include <sim/output/run_json.hpp>
 #include <sim/output/table.hpp>
 #include <sim/python/inputs.hpp>
@@ -71,33 +71,17 @@ Result run_scenario(const Scenario& asked, unsigned threads, std::optional<std::
   return result;
 }
 
-/// In bar, as of data with a clock of their own.
-std::vector<run::Gap> gaps_of(const run::ReplayedRun& run) {
-  if (!run.failure.empty()) return {};
-  const std::size_t rows = run.recording.samples.size();
-  std::vector<run::Gap> gaps{{"contraction", "1", run.rmse, run.largest_error, run.mean_error, rows}};
-  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-  if (run.pressure_rmse_Pa)
-    gaps.push_back(
-        {"muscle_pressure", "bar", *run.pressure_rmse_Pa / plant::Pa_per_bar, unknown, unknown, rows});
-  return gaps;
-}
-
-const std::vector<run::Gap>& gaps_of(const run::StampedRun& run) {
-  return run.gaps;
-}
-
-template <class Replay>
-Result replay_with(domain::Dataset data, const Replay& replay, unsigned threads, const py::object& progress) {
-  using Runs = decltype(replay(data, threads, run::ProgressHook()));
+Result replay(const domain::Dataset& dataset, const py::object& rig, unsigned threads,
+              const py::object& progress) {
   struct Whole {
     domain::Dataset data;
-    Runs runs{};
+    std::vector<run::ReplayedRun> runs{};
     std::vector<std::string> warnings{};
   };
-  const auto whole = std::make_shared<Whole>(Whole{std::move(data)});
+  const auto whole = std::make_shared<Whole>(Whole{dataset});
+  if (!rig.is_none()) tasks::replace_rig(whole->data, "rig", rig_of(rig).file);
   do_long(progress, [&](const auto& hook) {
-    whole->runs = replay(whole->data, threads, hook);
+    whole->runs = run::replay(whole->data, threads, hook);
     whole->warnings = tasks::warnings_of(whole->data, whole->runs);
   });
   Result result{{},
@@ -106,23 +90,15 @@ Result replay_with(domain::Dataset data, const Replay& replay, unsigned threads,
                 [whole] { return output::table_of(whole->data, whole->runs, whole->warnings); },
                 [whole] { return output::json_of(whole->data, whole->runs, whole->warnings); },
                 [whole] { return report::report_html(whole->data, whole->runs, whole->warnings); }};
-  for (const auto& run : whole->runs) {
+  for (const run::ReplayedRun& run : whole->runs) {
     const auto one = std::make_shared<Simulated>(Simulated{
         part_of(whole, run.recording), plant::channels_of(whole->data.rig, run.recording.driven), run.id});
     one->failure = run.failure;
     one->load_kg = run.load_kg;
-    one->gaps = gaps_of(run);
+    one->gaps = run.gaps;
     result.runs.push_back(one);
   }
   return result;
-}
-
-Result replay(const domain::Dataset& dataset, const py::object& rig, unsigned threads,
-              const py::object& progress) {
-  domain::Dataset data = dataset;
-  if (!rig.is_none()) tasks::replace_rig(data, "rig", rig_of(rig).file);
-  return data.own_clock ? replay_with(std::move(data), run::replay_stamped, threads, progress)
-                        : replay_with(std::move(data), run::replay, threads, progress);
 }
 
 std::shared_ptr<Simulated> run_at(const Result& result, py::ssize_t index) {

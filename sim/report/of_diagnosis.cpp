@@ -18,7 +18,6 @@
 #include <sim/report/opening.hpp>
 #include <sim/report/quantities.hpp>
 #include <sim/report/report.hpp>
-#include <sim/run/gaps.hpp>
 
 namespace mckibben::report {
 namespace {
@@ -32,7 +31,7 @@ double read_of(const domain::Dataset& data, const run::Sample& sample) {
     case diagnose::Judged::force:
       return sample.cord_force_N;
     case diagnose::Judged::angle:
-      return run::angle_rad(data.rig, sample);
+      return sample.angle_rad;
     case diagnose::Judged::contraction:
       break;
   }

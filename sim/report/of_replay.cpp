@@ -1,160 +1,178 @@
-// The report of `replay`: how far the simulation is from what was measured, a group for each run.
+// The report of `replay`: how far the simulation is from what was measured, a group for each run; a pair has
+// lines for either muscle.
 #include <algorithm>
-#include <cmath>
-#include <filesystem>
+#include <functional>
 #include <numeric>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include <sim/domain/number.hpp>
+#include <sim/output/diagnosis_words.hpp>
+#include <sim/output/replay_results.hpp>
 #include <sim/output/svg.hpp>
-#include <sim/output/table.hpp>
 #include <sim/report/by_load.hpp>
 #include <sim/report/html.hpp>
 #include <sim/report/length.hpp>
 #include <sim/report/quantities.hpp>
 #include <sim/report/report.hpp>
-#include <sim/run/simulate.hpp>
 
 namespace mckibben::report {
 namespace {
 
 using output::escaped;
 
-std::string sentence(const domain::Dataset& dataset, const std::vector<run::ReplayedRun>& runs) {
-  const run::ReplayedRun* worst = nullptr;
-  double squares = 0.0;
-  std::size_t rows = 0, ended = 0;
-  for (const auto& run : runs) {
-    if (!run.failure.empty()) continue;
-    const auto count = run.recording.samples.size();
-    squares += run.rmse * run.rmse * static_cast<double>(count);
-    rows += count;
-    ++ended;
-    if (worst == nullptr || run.rmse > worst->rmse) worst = &run;
+/// The readings of a run beside their simulation, under the keys of its plots.
+void add_readings(Group& group, Run& shown, const domain::Run& measured, const domain::RigFile& rig,
+                  const run::Recording& recording) {
+  for (const run::Compared& one : run::compared(measured, rig, recording)) {
+    const double factor = one.unit == "rad" ? in_degrees : 1.0;
+    const bool position = one.reading == "contraction" || one.reading == "angle";
+    const std::string key = one.reading == "contraction" ? "contraction_ratio" : one.reading;
+    group.given.push_back(
+        {"given_" + key, [factor, at = one.measured](std::size_t k) { return factor * at(k); }});
+    shown.quantities.push_back(
+        {position ? "error" : key + "_error", [factor, is = one.simulated, at = one.measured](std::size_t k) {
+           return factor * (is(k) - at(k));
+         }});
   }
-  if (worst == nullptr) return "No run could be simulated to its end.";
-  const double rmse = std::sqrt(squares / static_cast<double>(rows));
-  if (rmse == 0.0)
-    return fmt::format("Simulated and measured height agree in every count of all {} runs.", ended);
-  std::string text =
-      fmt::format("Simulated and measured height of the load differ by {}, root mean square over {} run{}",
-                  full_length_html(rmse, dataset.rig), ended, ended == 1 ? "" : "s");
-  text += ended == 1 ? "."
-                     : fmt::format("; by most in {}: {}.", escaped(worst->id),
-                                   full_length_html(worst->rmse, dataset.rig));
-  if (ended < runs.size())
-    text += fmt::format(" {} of {} runs have no result.", runs.size() - ended, runs.size());
-  return text;
-}
-
-/// In the order in which the page shows them: as measured, or of many the worst first, and last those
-/// without a result.
-std::vector<std::size_t> order(const std::vector<run::ReplayedRun>& runs) {
-  std::vector<std::size_t> all(runs.size());
-  std::iota(all.begin(), all.end(), std::size_t{0});
-  if (runs.size() <= many_runs) return all;
-  const auto badness = [&](std::size_t i) { return runs[i].failure.empty() ? runs[i].rmse : -1.0; };
-  std::stable_sort(all.begin(), all.end(),
-                   [&](std::size_t a, std::size_t b) { return badness(a) > badness(b); });
-  return all;
 }
 
 bool drawn(const run::ReplayedRun& run) {
   return !run.recording.samples.empty();
 }
 
-std::string row(const run::ReplayedRun& run, std::size_t group, const plant::Rig& rig, bool gauge) {
-  std::string html =
-      drawn(run) ? fmt::format("<tr data-group='{}'><th scope='row'>{}</th>", group, link_html(group, run.id))
-                 : "<tr><th scope='row'>" + escaped(run.id) + "</th>";
-  html += "<td>" + domain::write_number(run.load_kg) + "</td>";
-  if (!run.failure.empty())
-    return html + fmt::format("<td colspan='{}'>no result</td></tr>\n", gauge ? 4 : 3);
-  html += fmt::format("<td>{}</td><td>{}</td><td>{}</td>", length_html(run.rmse, rig),
-                      length_html(run.largest_error, rig), length_html(run.mean_error, rig, 3, true));
-  if (gauge)
-    html += run.pressure_rmse_Pa ? fmt::format("<td>{:.4f}</td>", *run.pressure_rmse_Pa / 1e5) : "<td>-</td>";
-  return html + "</tr>\n";
+/// In the order in which the page shows them: as measured, or of many the worst first.
+std::vector<std::size_t> order(const std::vector<run::ReplayedRun>& runs) {
+  std::vector<std::size_t> all(runs.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  if (runs.size() <= many_runs) return all;
+  const auto badness = [&](std::size_t i) { return runs[i].gaps.empty() ? -1.0 : runs[i].gaps.front().rmse; };
+  std::ranges::stable_sort(all, std::greater(), badness);
+  return all;
 }
 
-/// Every run; of many the loads first.
-std::string table(const domain::Dataset& dataset, const std::vector<run::ReplayedRun>& runs) {
-  const bool gauge =
-      std::any_of(runs.begin(), runs.end(), [](const auto& run) { return run.pressure_rmse_Pa; });
-  std::string html = fmt::format(
-      "<table><caption>Simulated less measured height</caption>\n<thead><tr><th scope='col'>run</th><th "
-      "scope='col'>load, kg</th><th scope='col'>rmse, {0}</th><th scope='col'>largest, {0}</th><th "
-      "scope='col'>mean, {0}</th>{1}</tr></thead>\n<tbody>\n",
-      length_unit_html(), gauge ? "<th scope='col'>pressure rmse, bar</th>" : "");
+std::string gap_row(const run::Gap& gap, const plant::Rig& rig) {
+  const bool height = output::is_height(gap);
+  const auto cell = [&](double value, bool sign) {
+    return height ? length_html(value, rig, 3, sign) : output::gap_number(value, sign);
+  };
+  const std::string unit = height ? length_unit_html() : gap.unit;
+  return fmt::format("<td>{}, {}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n", gap.reading, unit,
+                     cell(gap.rmse, false), cell(gap.largest, false), cell(gap.mean, true), gap.rows);
+}
+
+/// A row for each reading of each run; of many runs the loads first.
+std::string gaps_table(const domain::Dataset& dataset, const std::vector<run::ReplayedRun>& runs) {
+  std::string html =
+      "<table><caption>Simulated less measured</caption>\n<thead><tr><th scope='col'>run</th><th "
+      "scope='col'>load, kg</th><th scope='col'>reading</th><th scope='col'>rmse</th><th "
+      "scope='col'>largest</th><th scope='col'>mean</th><th scope='col'>rows</th></tr></thead>\n<tbody>\n";
   std::vector<Judged> judged;
   std::size_t group = 0;
   for (const std::size_t i : order(runs)) {
-    html += row(runs[i], group, dataset.rig, gauge);
-    if (runs[i].failure.empty()) judged.push_back({runs[i].id, runs[i].load_kg, runs[i].rmse, group});
-    if (drawn(runs[i])) ++group;
+    const run::ReplayedRun& run = runs[i];
+    const std::string link = drawn(run) ? link_html(group, run.id) : escaped(run.id);
+    const std::string head = fmt::format("<tr{}><th scope='row'>{}</th><td>{}</td>",
+                                         drawn(run) ? fmt::format(" data-group='{}'", group) : "", link,
+                                         run.load_kg > 0.0 ? domain::write_number(run.load_kg) : "-");
+    if (run.gaps.empty())
+      html += head +
+              fmt::format("<td colspan='5'>{}</td></tr>\n", run.failure.empty() ? "no reading" : "no result");
+    for (const run::Gap& gap : run.gaps) html += head + gap_row(gap, dataset.rig);
+    if (const run::Gap* height = run.gap("contraction"); height != nullptr && run.load_kg > 0.0)
+      judged.push_back({run.id, run.load_kg, height->rmse, group});
+    if (drawn(run)) ++group;
   }
   html += "</tbody></table>\n";
-  if (runs.size() <= many_runs) return html;
+  if (runs.size() <= many_runs || judged.empty()) return html;
   return by_load_html(judged, dataset.rig) +
          fmt::format("<details><summary>All {} runs, the worst first</summary>\n{}</details>\n", runs.size(),
                      html);
 }
 
-Group group_of(const domain::Dataset& dataset, const domain::Run& measured, const run::ReplayedRun& run) {
-  const plant::Plant plant(dataset.rig, run.load_kg);
-  const auto* rows = &run.recording.samples;
-  Group group{.name = fmt::format("{}, {} kg", run.id, domain::write_number(run.load_kg)),
-              .load_kg = run.load_kg,
-              .ticks = measured.contraction_ratio.size()};
-  group.given = {
-      {"given_contraction_ratio", [&measured](std::size_t k) { return measured.contraction_ratio[k]; }},
-      {"weight", [weight_N = plant.weight_N()](std::size_t) { return weight_N; }}};
-  if (run.failure.empty()) group.rmse = run.rmse;
-  if (measured.muscle_pressure_Pa)
-    group.given.push_back({"given_muscle_pressure",
-                           [&measured](std::size_t k) { return (*measured.muscle_pressure_Pa)[k] / 1e5; }});
-  Run shown{.name = "simulated", .ticks = rows->size()};
-  shown.quantities = quantities_of(run.recording, dataset.rig);
-  shown.quantities.push_back({"error", [rows, &measured](std::size_t k) {
-                                return (*rows)[k].read_ratio - measured.contraction_ratio[k];
-                              }});
-  if (measured.muscle_pressure_Pa)
-    shown.quantities.push_back(
-        {"muscle_pressure_error", [rows, &measured, effects = dataset.rig.effects](std::size_t k) {
-           const double shown_Pa = effects.shown_Pa((*rows)[k].state.side.muscle_pressure_Pa);
-           return (shown_Pa - (*measured.muscle_pressure_Pa)[k]) / 1e5;
-         }});
-  group.runs.push_back(std::move(shown));
-  return group;
+std::string sentence(const domain::Dataset& dataset, const std::vector<run::ReplayedRun>& runs) {
+  const run::Gap* worst = nullptr;
+  const run::ReplayedRun* of = nullptr;
+  for (const auto& run : runs)
+    if (!run.gaps.empty() && (worst == nullptr || run.gaps.front().rmse > worst->rmse))
+      worst = &run.gaps.front(), of = &run;
+  if (worst == nullptr) return "Nothing was read that a simulation could be compared with.";
+  const bool height = output::is_height(*worst);
+  return fmt::format(
+      "Simulated and measured {} differ by {}, root mean square, where they differ most: in {}.",
+      height                                ? "height of the load"
+      : worst->reading == "muscle_pressure" ? "pressure"
+                                            : worst->reading,
+      height ? full_length_html(worst->rmse, dataset.rig)
+             : output::gap_number(worst->rmse) + " " + worst->unit,
+      escaped(of->id));
+}
+
+Contents contents_of(const domain::RigFile& rig, const run::Driven& driven) {
+  Contents contents;
+  contents.rig = rig;
+  contents.mechanics = rig.mechanics;
+  if (driven.length) contents.mechanics = plant::HeldLength{};
+  contents.lengths = !driven.pair;
+  contents.beside = std::string(beside_runs);
+  contents.loops = loops_of(driven);
+  return contents;
 }
 
 }  // namespace
 
 std::string report_html(const domain::Dataset& dataset, const std::vector<run::ReplayedRun>& runs,
                         const std::vector<std::string>& warnings) {
-  const std::string name =
-      std::filesystem::absolute(dataset.path).lexically_normal().parent_path().filename().string();
-  const bool gauge = std::any_of(dataset.runs.begin(), dataset.runs.end(), [](const auto& measured) {
-    return measured.muscle_pressure_Pa.has_value();
-  });
-  Contents contents{
-      .title = "Replay of " + name,
-      .about = fmt::format("{} measured runs, simulated with their recorded currents", runs.size()),
-      .warnings = warnings,
-      .sentence = sentence(dataset, runs),
-      .table = table(dataset, runs),
-      .details = output::table_of(dataset, runs),
-      .beside = std::string(beside_runs),
-      .rig = dataset.rig,
-      .gauge = gauge,
-      .plots = plots_of(dataset.rig, {.title = "Contraction, measured and simulated",
-                                      .given = "Measured",
-                                      .error = "Error: simulated less measured, both as counted",
-                                      .pressure = gauge}),
-      .loops = loops_of({})};
-  for (const std::size_t i : order(runs))
-    if (drawn(runs[i])) contents.groups.push_back(group_of(dataset, dataset.runs[i], runs[i]));
+  const auto measured = [&](const char* reading) {
+    return std::any_of(runs.begin(), runs.end(), [&](const auto& run) {
+      return std::any_of(run.gaps.begin(), run.gaps.end(),
+                         [&](const auto& gap) { return gap.reading == reading; });
+    });
+  };
+  const auto first = std::ranges::find_if(runs, drawn);
+  const run::Driven driven = first == runs.end() ? run::Driven{} : first->recording.driven;
+  Contents contents = contents_of(dataset.rig, driven);
+  contents.title = "Replay of " + output::name_of(dataset);
+  contents.about = fmt::format("{} measured run{}, simulated with what drove them", runs.size(),
+                               runs.size() == 1 ? "" : "s");
+  contents.warnings = warnings;
+  contents.sentence = sentence(dataset, runs);
+  contents.table = gaps_table(dataset, runs);
+  contents.gauge = measured("muscle_pressure") || driven.pressure[0];
+  contents.details = output::table_of(dataset, runs, warnings);
+  const bool position = measured(driven.pair ? "angle" : "contraction");
+  const std::string title = driven.pair ? "Joint angle" : "Contraction";
+  contents.plots =
+      plots_of(dataset.rig, {.driven = driven,
+                             .key = driven.pair ? "angle" : "contraction_ratio",
+                             .title = title,
+                             .given = position ? "measured" : "",
+                             .error = position ? title + ": simulated less measured" : "",
+                             .commands = !driven.pressure[0] || (driven.pair && !driven.pressure[1]),
+                             .pressure = measured("muscle_pressure"),
+                             .force = measured("force")});
+  for (const std::size_t i : order(runs)) {
+    const run::ReplayedRun& run = runs[i];
+    if (!drawn(run)) continue;
+    const domain::Run& measured_run = dataset.runs[i];
+    Group group{.name = run.load_kg > 0.0
+                            ? fmt::format("{}, {} kg", run.id, domain::write_number(run.load_kg))
+                            : run.id,
+                .load_kg = run.load_kg,
+                .ticks = run.recording.samples.size()};
+    if (measured_run.measured)
+      for (const run::Sample& row : run.recording.samples) group.time_s.push_back(row.time_s);
+    if (run.load_kg > 0.0)
+      group.given.push_back({"weight", [weight_N = plant::Plant(dataset.rig, run.load_kg).weight_N()](
+                                           std::size_t) { return weight_N; }});
+    if (const run::Gap* height = run.gap("contraction")) group.rmse = height->rmse;
+    Run shown{.name = "simulated", .ticks = group.ticks};
+    shown.quantities = quantities_of(run.recording, dataset.rig);
+    add_readings(group, shown, measured_run, dataset.rig, run.recording);
+    group.runs.push_back(std::move(shown));
+    contents.groups.push_back(std::move(group));
+  }
   return html_of(contents);
 }
 

@@ -12,7 +12,6 @@
 #include <sim/run/campaign.hpp>
 #include <sim/run/compare.hpp>
 #include <sim/run/error_map.hpp>
-#include <sim/run/gaps.hpp>
 #include <sim/run/replay.hpp>
 #include <sim/thesis/calibrate.hpp>
 #include <sim/thesis/figures.hpp>
@@ -25,10 +24,6 @@ std::string report_html(const domain::Scenario& scenario, const run::Comparison&
 /// Measured runs and their simulation.
 std::string report_html(const domain::Dataset& dataset, const std::vector<run::ReplayedRun>& runs,
                         const std::vector<std::string>& warnings = {});
-
-/// Measured runs with a clock of their own, and their simulation.
-std::string report_html(const domain::Dataset& dataset, const std::vector<run::StampedRun>& runs,
-                        const std::vector<std::string>& warnings);
 
 /// A campaign's measurements; runs with their rows.
 std::string report_html(const domain::Campaign& campaign, const std::vector<run::EndedRun>& ended,

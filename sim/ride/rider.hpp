@@ -14,6 +14,7 @@
 #include <optional>
 #include <span>
 
+#include <plant/mechanics.hpp>
 #include <plant/plant.hpp>
 #include <sim/engine/problem.hpp>
 #include <sim/ride/past.hpp>
@@ -31,6 +32,10 @@ struct Paired {
   plant::Rig rig, opposite;
   plant::Link link{};
 };
+
+inline Paired paired(const plant::Rig& rig, const plant::Pair& pair) {
+  return {rig, plant::opposite_rig(rig, pair), pair};
+}
 
 /// What acts on a muscle from outside, from one instant to the next: a command, or in its place the pressure
 /// that the valve's volume or the muscle has at the end, and runs straight to.

@@ -11,7 +11,6 @@
 #include <sim/run/batch.hpp>
 #include <sim/run/campaign.hpp>
 #include <sim/run/draws.hpp>
-#include <sim/run/gaps.hpp>
 #include <sim/run/simulate.hpp>
 #include <sim/run/two_currents.hpp>
 
@@ -115,7 +114,7 @@ EndedRun ended(const domain::Campaign& campaign, const CampaignRun& run) {
   const auto& samples = run.recording.samples;
   EndedRun end{.job = run.job, .rows = samples.size(), .solver = run.recording.solver};
   if (campaign.rig.pair() != nullptr) {
-    end.angle_rad = span_of(samples, [&](const Sample& row) { return counted_angle_rad(campaign.rig, row); });
+    end.angle_rad = span_of(samples, [](const Sample& row) { return row.read_angle_rad; });
     end.doubts = doubts(run.recording);
   } else {
     end.largest_contraction_ratio =

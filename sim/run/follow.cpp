@@ -1,125 +1,97 @@
 // Stamp after stamp; see the header.
-#include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include <plant/instruments.hpp>
 #include <sim/engine/failure.hpp>
 #include <sim/ride/sample.hpp>
 #include <sim/run/follow.hpp>
 
 namespace mckibben::run {
-namespace {
 
-using ride::Drive;
-
-ride::Ride ride_of(const domain::RigFile& rig, double load_kg) {
-  if (const plant::Pair* pair = rig.pair()) return {paired(rig, *pair), rig.integrator, true};
-  return {ride::Hanging{rig, load_kg}, rig.integrator, true};
+Follower::Follower(std::vector<ride::Rider> riders, const plant::Rig& rig, Course course,
+                   std::span<const double> memories)
+    : rig_(rig), course_(std::move(course)), riders_(std::move(riders)) {
+  if (!course_.begins) settling_ = std::lround(rig_.settling_time_s / rig_.tick_s);
+  for (std::size_t i = 0; i < riders_.size(); ++i) {
+    riders_[i].start(course_.drives.front(), before_s(settling_));
+    if (!course_.begins) continue;
+    ride::Underway begins = *course_.begins;
+    if (!memories.empty()) begins.memories = memories[i];
+    ride::set_off(riders_[i], begins);
+  }
 }
 
-/// Whether something is not left to the equations.
-bool is_given(const Driven& driven) {
-  return driven.length || driven.pressure[0] || driven.pressure[1];
+bool Follower::go_on() {
+  const auto hold = [this](const ride::Drive& drive, double until_s) {
+    for (ride::Rider& rider : riders_) rider.hold(drive, until_s);
+  };
+  if (has_settled_ && k_ == 0) settled_a_tick();
+  if (settling_ > 0) {
+    has_settled_ = true;
+    hold(course_.drives.front(), before_s(--settling_));
+    return true;
+  }
+  if (k_ == 0) begin();
+  hold(course_.toward(k_), course_.until_s(k_, rig_.tick_s));  // forces are those of the way ahead
+  if (row_ < course_.rows.size() && course_.rows[row_] == k_) {
+    look(k_);
+    ++row_;
+  }
+  ++k_;
+  return row_ < course_.rows.size();
 }
 
-class Following {
- public:
-  Following(const domain::RigFile& rig, double load_kg, const Course& course)
-      : rig_(rig), course_(course), ride_(ride_of(rig, load_kg)), counter_(rig) {}
+ride::Rider rider_of(const domain::RigFile& rig, double load_kg) {
+  if (const plant::Pair* pair = rig.pair()) return ride::Rider(ride::paired(rig, *pair));
+  return ride::Rider(ride::Hanging{rig, load_kg});
+}
 
-  Recording operator()() {
-    recording_.samples.reserve(course_.rows.size());
-    const Drive& first = course_.drives.front();
-    recording_.driven = {
-        .pair = rig_.pair() != nullptr,
-        .length = first.contraction_ratio.has_value(),
-        .pressure = {first.muscle_pressure_Pa.has_value(), first.opposite.muscle_pressure_Pa.has_value()}};
-    try {
-      begin();
-      auto row = course_.rows.begin();
-      for (std::size_t k = 0; k < stamps(); ++k) {
-        ride_.hold(course_.toward(k), course_.until_s(k, rig_.tick_s));
-        if (row != course_.rows.end() && *row == k) {
-          recording_.take(sample(k));
-          ++row;
-        }
-        if (row == course_.rows.end()) break;
-        ride_.advance();
-      }
-    } catch (const engine::NumericalFailure& failure) {
-      recording_.failure = failure.what();
-    }
-    close();
-    return std::move(recording_);
-  }
+Following::Following(const domain::RigFile& rig, double load_kg, Course course, Done done)
+    : Follower({rider_of(rig, load_kg)}, rig, std::move(course)),
+      integrator_(rig.integrator),
+      counter_(rig),
+      done_(std::move(done)) {
+  const ride::Drive& first = this->course().drives.front();
+  recording_.driven = {
+      .pair = rig.pair() != nullptr,
+      .length = first.contraction_ratio.has_value(),
+      .pressure = {first.muscle_pressure_Pa.has_value(), first.opposite.muscle_pressure_Pa.has_value()}};
+  recording_.samples.reserve(this->course().rows.size());
+}
 
- private:
-  std::size_t stamps() const { return course_.time_s.size(); }
-  double time(std::size_t k) const { return course_.time_s[k]; }
+void Following::look(std::size_t stamp) {
+  const ride::Rider& rider = riders().front();
+  Sample row = ride::sample_of(rider, counter_.count(rider.now.reading.wheel_m));
+  row.time_s = course().time_s[stamp];
+  recording_.take(row);
+}
 
-  /// Settled, or on its way; the counter goes along.
-  void begin() {
-    for (long k = start({&ride_.rider(), 1}, course_, rig_); k > 0; --k) {
-      ride_.step(course_.drives.front(), before_s(course_, rig_, k - 1));
-      counter_.count(ride_.reading().wheel_m);
-    }
-    ride_.open_ledger();
-  }
-
-  Sample sample(std::size_t k) {
-    Sample row = ride::sample_of(ride_.rider(), counter_.count(ride_.reading().wheel_m));
-    row.time_s = time(k);
-    return row;
-  }
-
-  void close() {
-    const engine::Flow& end = ride_.flow();
-    recording_.ledger = end.ledger;
-    recording_.solver = ride_.counters();
-    if (recording_.samples.empty()) return;
+void Following::end(const engine::Counters& solver, const engine::NumericalFailure* failure) {
+  const ride::Rider& rider = riders().front();
+  const engine::Flow& last = rider.now.flow;
+  if (failure != nullptr) recording_.failure = failure->what();
+  recording_.ledger = last.ledger;
+  recording_.solver = solver;
+  if (!recording_.samples.empty()) {
     // Where values are given, only `erk` keeps an exact ledger (docs/architecture.md, An instant).
-    const bool exact =
-        rig_.integrator.method != solver::Method::cvode && recording_.solver.stiff_from_tick < 0;
-    if (exact || !is_given(recording_.driven))
-      recording_.imbalance = ride_.plant().imbalance(recording_.samples.front().state, end.state, end.ledger);
-    if (recording_.solver.stiff_from_tick >= 0)
-      recording_.solver.stiff_from_tick -= std::lround(rig_.settling_time_s / rig_.tick_s);
+    const Driven& driven = recording_.driven;
+    const bool given = driven.length || driven.pressure[0] || driven.pressure[1];
+    const bool exact = integrator_.method != solver::Method::cvode && solver.stiff_from_tick < 0;
+    if (exact || !given)
+      recording_.imbalance =
+          rider.plant().imbalance(recording_.samples.front().state, last.state, last.ledger);
+    if (solver.stiff_from_tick >= 0)
+      recording_.solver.stiff_from_tick -= std::lround(rig().settling_time_s / rig().tick_s);
     note_slack(recording_);
   }
-
-  const domain::RigFile& rig_;
-  const Course& course_;
-  ride::Ride ride_;
-  plant::PositionReader counter_;
-  Recording recording_;
-};
-
-}  // namespace
-
-double before_s(const Course& course, const plant::Rig& rig, long ticks) {
-  return course.time_s.front() - static_cast<double>(ticks) * rig.tick_s;
-}
-
-long start(std::span<ride::Rider> riders, const Course& course, const plant::Rig& rig,
-           std::span<const double> memories) {
-  const long ticks = course.begins ? 0 : std::lround(rig.settling_time_s / rig.tick_s);
-  for (std::size_t i = 0; i < riders.size(); ++i) {
-    riders[i].start(course.drives.front(), before_s(course, rig, ticks));
-    if (!course.begins) continue;
-    ride::Underway begins = *course.begins;
-    if (!memories.empty()) begins.memories = memories[i];
-    ride::set_off(riders[i], begins);
-  }
-  return ticks;
-}
-
-ride::Paired paired(const domain::RigFile& rig, const plant::Pair& pair) {
-  return {rig, plant::opposite_rig(rig, pair), pair};
+  done_(std::move(recording_));
 }
 
 Recording follow(const domain::RigFile& rig, double load_kg, const Course& course) {
-  return Following(rig, load_kg, course)();
+  Recording recording;
+  Following following(rig, load_kg, course, [&](Recording whole) { recording = std::move(whole); });
+  ride::Alone(following.riders(), following.key()).run(following);
+  return recording;
 }
 
 }  // namespace mckibben::run

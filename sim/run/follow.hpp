@@ -1,30 +1,84 @@
-// A rig that follows what drives it from stamp to stamp, whatever it is and however unequal the stamps:
-// commands, given muscle pressures, a given length; one muscle or two.
+// Rigs that follow what drives them from stamp to stamp, whatever it is and however unequal the stamps:
+// commands, given pressures, a given length or force; one muscle or two; ticks as well.
 //
 //   settle: the first drive is held for the settling time, in steps of a tick; or the rig is on its way
 //   row k = (t_k, x-); then a command is held until t_(k+1), a given pressure or length runs straight to its
 //   next
 #pragma once
 
+#include <functional>
 #include <span>
+#include <vector>
 
+#include <plant/instruments.hpp>
 #include <sim/domain/rig_file.hpp>
+#include <sim/ride/batch.hpp>
 #include <sim/run/course.hpp>
 #include <sim/run/recording.hpp>
 
 namespace mckibben::run {
 
-/// Starts riders where a course begins: at rest, or on their way, with `memories` of each (ride::Underway) in
-/// place of the course's. The ticks of settling that come first, under the first drive.
-long start(std::span<ride::Rider> riders, const Course& course, const plant::Rig& rig,
+/// What follows a course, as an item of a batch.
+class Follower : public ride::BatchItem {
+ public:
+  /// `rig`: whose ticks count. `memories`: of riders that begin on their way (ride::Underway), in place of
+  /// the course's.
+  Follower(std::vector<ride::Rider> riders, const plant::Rig& rig, Course course,
            std::span<const double> memories = {});
-/// The instant so many of these ticks before the first stamp [s].
-double before_s(const Course& course, const plant::Rig& rig, long ticks);
 
-/// Its two muscles on their wheel.
-ride::Paired paired(const domain::RigFile& rig, const plant::Pair& pair);
+  ride::BatchKey key(const solver::Settings& settings, bool keep_ledger) const {
+    return ride::batch_key(riders_, course_.drives.front(), settings, keep_ledger);
+  }
+  std::span<ride::Rider> riders() final { return riders_; }
+  bool go_on() final;
 
-/// A row for each stamp that has one. If the integrator gives up, the recording ends there and says why.
+ protected:
+  const Course& course() const { return course_; }
+  const plant::Rig& rig() const { return rig_; }
+
+ private:
+  virtual void settled_a_tick() {}
+  virtual void begin() {}  ///< at the first stamp
+  /// At the next row, which is this stamp; the drive of the way ahead is held.
+  virtual void look(std::size_t stamp) = 0;
+
+  double before_s(long ticks) const {
+    return course_.time_s.front() - static_cast<double>(ticks) * rig_.tick_s;
+  }
+
+  plant::Rig rig_;
+  Course course_;
+  std::vector<ride::Rider> riders_;
+  long settling_ = 0;  // ticks that are left
+  bool has_settled_ = false;
+  std::size_t k_ = 0, row_ = 0;
+};
+
+/// A rig with its load [kg], where one hangs on it.
+ride::Rider rider_of(const domain::RigFile& rig, double load_kg);
+
+/// One rig that leaves a recording: a row for each stamp that has one. `done` hears of it. If the integrator
+/// gives up, the recording ends there and says why.
+class Following final : public Follower {
+ public:
+  using Done = std::function<void(Recording recording)>;
+  Following(const domain::RigFile& rig, double load_kg, Course course, Done done);
+
+  ride::BatchKey key() const { return Follower::key(integrator_, true); }
+  void end(const engine::Counters& solver, const engine::NumericalFailure* failure) override;
+
+ private:
+  void settled_a_tick() override { counter_.count(riders().front().now.reading.wheel_m); }
+  void begin() override { riders().front().open_ledger(); }
+  void look(std::size_t stamp) override;
+
+  solver::Settings integrator_;
+  plant::PositionReader counter_;
+  Done done_;
+  Recording recording_;
+};
+
+/// The same at once.
 Recording follow(const domain::RigFile& rig, double load_kg, const Course& course);
 
 }  // namespace mckibben::run

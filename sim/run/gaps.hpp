@@ -1,14 +1,13 @@
-// A measured run with a clock of its own: what drove it, for a ride to follow, and how far the simulation is
-// from each reading.
+// Readings of a measured run beside their simulation, whatever was read: how far one is from the other.
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <string>
 #include <vector>
 
 #include <sim/domain/dataset.hpp>
-#include <sim/run/compare.hpp>
-#include <sim/run/follow.hpp>
+#include <sim/run/recording.hpp>
 
 namespace mckibben::run {
 
@@ -20,35 +19,15 @@ struct Gap {
   std::size_t rows = 0;
 };
 
-/// One for each reading that there is. What was counted is compared with counts, all else with true values.
-std::vector<Gap> gaps_of(const domain::Measurement& measured, const domain::RigFile& rig,
-                         const Recording& recording);
-
-/// Each reading beside its simulation, in the unit of its gap.
+/// Each reading beside its simulation at a row of the recording, in the unit of its gap; NaN where there is
+/// no reading. What was counted is compared with counts, all else with what a sensor would show.
 struct Compared {
   std::string reading, unit;
   std::function<double(std::size_t k)> measured, simulated;
 };
-/// Refers to `measured` and `recording`.
-std::vector<Compared> compared(const domain::Measurement& measured, const domain::RigFile& rig,
+/// What models are judged by comes first. Refers to `run` and `recording`.
+std::vector<Compared> compared(const domain::Run& run, const domain::RigFile& rig,
                                const Recording& recording);
-
-/// A measured run and its simulation.
-struct StampedRun {
-  std::string id;
-  double load_kg = 0.0;  ///< where one hangs
-  Recording recording{};
-  std::vector<Gap> gaps{};
-  std::string failure{};  ///< why the integrator gave up; empty if it did not
-};
-
-/// Simulates every run of a data set with a clock of its own. Of runs that were not begun when the user
-/// stopped, `failure` says so (`not_begun`).
-std::vector<StampedRun> replay_stamped(const domain::Dataset& dataset, unsigned threads,
-                                       const ProgressHook& progress);
-
-/// Joint angle [rad] of a pair in a row, true and as the encoder counts it.
-double angle_rad(const domain::RigFile& rig, const Sample& row);
-double counted_angle_rad(const domain::RigFile& rig, const Sample& row);
+std::vector<Gap> gaps_of(const domain::Run& run, const domain::RigFile& rig, const Recording& recording);
 
 }  // namespace mckibben::run

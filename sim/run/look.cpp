@@ -7,7 +7,6 @@
 #include <sim/data/stamps.hpp>
 #include <sim/data/thresholds.hpp>
 #include <sim/run/batch.hpp>
-#include <sim/run/gaps.hpp>
 #include <sim/run/look.hpp>
 
 namespace mckibben::run {
@@ -34,7 +33,7 @@ std::vector<data::Expected> expected_of(const domain::Dataset& data,
     const domain::Run& run = data.runs[i];
     const double longer = run.rest_length_m > 0.0 ? data.rig.muscle.rest_length_m / run.rest_length_m : 1.0;
     for (const Sample& sample : replayed[i].recording.samples) {
-      list[i].judged.push_back(run.kind_of_judged() == domain::Judged::angle ? angle_rad(data.rig, sample)
+      list[i].judged.push_back(run.kind_of_judged() == domain::Judged::angle ? sample.angle_rad
                                : run.kind_of_judged() == domain::Judged::force
                                    ? sample.cord_force_N
                                    : sample.shown_ratio() * longer);

@@ -1,100 +1,87 @@
 // Replay; see the header.
-#include <algorithm>
 #include <atomic>
-#include <cmath>
+#include <memory>
+#include <optional>
 #include <utility>
 
-#include <controllers/waveform.hpp>
-#include <sim/run/batch.hpp>
-#include <sim/run/gaps.hpp>
+#include <sim/run/follow.hpp>
 #include <sim/run/remembered.hpp>
 #include <sim/run/replay.hpp>
-#include <sim/run/simulate.hpp>
+#include <sim/run/run_batch.hpp>
 
 namespace mckibben::run {
 namespace {
 
-/// Of a run with the tick's own rows: its current, as a controller.
-Order order_of(const domain::Run& measured, const domain::RigFile& rig) {
-  controllers::RecordedCurrent recorded;
-  recorded.samples_mA = measured.current_mA;
-  return {{.rig = rig,
-           .load_kg = measured.load_kg,
-           .ticks = measured.current_mA.size(),
-           .engine = rig.integrator,
-           .keep_ledger = true},
-          recorded.make(knowledge_of(rig, {}))};
-}
+constexpr const char* no_load = "load and load_offset of the rig leave no load";
 
-/// Of a run with stamps of its own.
-Recording followed(const domain::Run& measured, const domain::RigFile& rig) {
-  return follow_as_seen(
-      rig, measured.load_kg, course_of(*measured.measured, rig),
-      {measured.contraction_ratio, measured.rest_length_m, measured.measured->time_s.front()});
-}
-
-/// What a row of the measurement would read: counts, or where its rows were made of stamps the load's place,
-/// the joint's angle, or the cord's force.
-double read_of(const Sample& sample, const domain::Run& measured, const domain::RigFile& rig) {
-  if (measured.kind_of_judged() == domain::Judged::angle) return angle_rad(rig, sample);
-  if (measured.kind_of_judged() == domain::Judged::force) return sample.cord_force_N;
-  if (!measured.measured) return static_cast<double>(sample.counts) * contraction_per_count(rig);
-  return sample.shown_ratio() * rig.muscle.rest_length_m / measured.rest_length_m;
-}
-
-ReplayedRun compared(const domain::Run& measured, const domain::RigFile& rig, Recording recording) {
-  ReplayedRun run{.id = measured.id, .load_kg = measured.load_kg, .recording = std::move(recording)};
-  run.failure = run.recording.failure;
-  if (!run.failure.empty()) return run;
-  const auto rows = static_cast<double>(measured.judged().size());
-  double squares = 0.0, sum = 0.0, pressure_squares = 0.0;
-  for (std::size_t k = 0; k < measured.judged().size(); ++k) {
-    const auto& sample = run.recording.samples[k];
-    const double error = read_of(sample, measured, rig) - measured.judged()[k];
-    squares += error * error;
-    sum += error;
-    run.largest_error = std::max(run.largest_error, std::abs(error));
-    if (measured.muscle_pressure_Pa) {
-      const double off_Pa =
-          rig.effects.shown_Pa(sample.state.side.muscle_pressure_Pa) - (*measured.muscle_pressure_Pa)[k];
-      pressure_squares += off_Pa * off_Pa;
-    }
+class Replaying {
+ public:
+  Replaying(const domain::Dataset& dataset, const ProgressHook& progress)
+      : dataset_(dataset), progress_(progress) {
+    for (const auto& run : dataset.runs)
+      runs_.push_back({.id = run.id, .load_kg = run.load_kg, .failure = not_begun});
   }
-  run.rmse = std::sqrt(squares / rows);
-  run.mean_error = sum / rows;
-  if (measured.muscle_pressure_Pa) run.pressure_rmse_Pa = std::sqrt(pressure_squares / rows);
-  return run;
-}
+
+  std::vector<ReplayedRun> operator()(unsigned threads) {
+    progress_("replaying", 0, runs_.size());
+    try {
+      run_batch(runs_.size(), runs_.size(), threads, [this](std::size_t i) { return task(i); });
+    } catch (const Interrupted&) {  // what was not begun says so
+    }
+    return std::move(runs_);
+  }
+
+ private:
+  std::optional<BatchTask> task(std::size_t i) {
+    const domain::Run& run = dataset_.runs[i];
+    Course course = course_of(run, dataset_.rig);
+    if (!moves(run)) {
+      Recording none;
+      none.failure = no_load;
+      take(i, std::move(none));
+    } else if (course.begins && dataset_.rig.remembers()) {
+      const double from_s = course.time_s.front() + run.measured->recorded.skip_s;
+      const auto& seen =
+          run.contraction_ratio.empty() ? run.measured->contraction_ratio : run.contraction_ratio;
+      take(i,
+           follow_as_seen(dataset_.rig, run.load_kg, std::move(course), {seen, run.rest_length_m, from_s}));
+    } else {
+      const auto following =
+          std::make_shared<Following>(dataset_.rig, run.load_kg, std::move(course),
+                                      [this, i](Recording recording) { take(i, std::move(recording)); });
+      return BatchTask{following->key(), [=] { return following; }};
+    }
+    return std::nullopt;
+  }
+
+  /// No load, no motion.
+  bool moves(const domain::Run& run) const {
+    return !dataset_.rig.lifts_a_load() || run.length_is_given() ||
+           run.load_kg + dataset_.rig.joint.load_offset_kg > 0.0;
+  }
+
+  void take(std::size_t i, Recording recording) {
+    const domain::Run& run = dataset_.runs[i];
+    if (!run.measured)
+      for (Sample& row : recording.samples) row.time_s = tidy_s(row.time_s);
+    recording.driven.force = !run.force_N.empty() || (run.measured && !run.measured->force_N.empty());
+    runs_[i].failure = recording.failure;
+    if (recording.failure.empty()) runs_[i].gaps = gaps_of(run, dataset_.rig, recording);
+    runs_[i].recording = std::move(recording);
+    progress_("replaying", ++done_, runs_.size());
+  }
+
+  const domain::Dataset& dataset_;
+  const ProgressHook& progress_;
+  std::vector<ReplayedRun> runs_;
+  std::atomic<std::size_t> done_{0};
+};
 
 }  // namespace
 
 std::vector<ReplayedRun> replay(const domain::Dataset& dataset, unsigned threads,
                                 const ProgressHook& progress) {
-  std::vector<ReplayedRun> runs;
-  runs.reserve(dataset.runs.size());
-  for (const auto& run : dataset.runs)
-    runs.push_back({.id = run.id, .load_kg = run.load_kg, .failure = not_begun});
-  std::vector<std::size_t> by_stamps, by_ticks;
-  for (std::size_t i = 0; i < runs.size(); ++i)
-    (dataset.runs[i].measured ? by_stamps : by_ticks).push_back(i);
-  std::atomic<std::size_t> done{0};
-  const auto take = [&](std::size_t i, Recording recording) {
-    runs[i] = compared(dataset.runs[i], dataset.rig, std::move(recording));
-    progress("replaying", ++done, runs.size());
-  };
-  progress("replaying", 0, runs.size());
-  try {
-    simulate_all(
-        by_ticks.size(), threads,
-        [&](std::size_t i) { return order_of(dataset.runs[by_ticks[i]], dataset.rig); },
-        [&](std::size_t i, Recording recording) { take(by_ticks[i], std::move(recording)); });
-    for_each_job(
-        by_stamps.size(), threads,
-        [&](std::size_t i) { take(by_stamps[i], followed(dataset.runs[by_stamps[i]], dataset.rig)); },
-        [](std::size_t) {});
-  } catch (const Interrupted&) {  // what was not begun says so
-  }
-  return runs;
+  return Replaying(dataset, progress)(threads);
 }
 
 }  // namespace mckibben::run

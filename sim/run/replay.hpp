@@ -1,13 +1,14 @@
-// A data set simulated again with its recorded currents,
-// and how far the simulation is from what was measured.
+// A data set simulated again with what drove it, and how far the simulation is from what was measured.
 #pragma once
 
-#include <optional>
+#include <algorithm>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <sim/domain/dataset.hpp>
-#include <sim/run/compare.hpp>
+#include <sim/run/batch.hpp>
+#include <sim/run/gaps.hpp>
 #include <sim/run/recording.hpp>
 
 namespace mckibben::run {
@@ -15,17 +16,20 @@ namespace mckibben::run {
 /// One measured run and its simulation.
 struct ReplayedRun {
   std::string id;
-  double load_kg = 0.0;
+  double load_kg = 0.0;  ///< where one hangs
   Recording recording{};
-  double rmse = 0.0;           ///< simulated encoder reading against measured, contraction ratio
-  double largest_error = 0.0;  ///< of the same
-  double mean_error = 0.0;     ///< simulated minus measured
-  std::optional<double> pressure_rmse_Pa{};  ///< muscle pressure, if a gauge was fitted
-  std::string failure{};                     ///< why the integrator gave up; empty if it did not
+  std::vector<Gap> gaps{};  ///< of each reading that there is; none if the integrator gave up
+  std::string failure{};    ///< why it gave up; empty if it did not
+
+  /// Null where that was not read.
+  const Gap* gap(std::string_view reading) const {
+    const auto found = std::ranges::find(gaps, reading, &Gap::reading);
+    return found == gaps.end() ? nullptr : &*found;
+  }
 };
 
-/// Simulates every run of a data set. Of runs that were not begun when the user stopped,
-/// `failure` says so (`not_begun`).
+/// Simulates every run of a data set. Of runs that were not begun when the user stopped, `failure` says so
+/// (`not_begun`).
 std::vector<ReplayedRun> replay(const domain::Dataset& dataset, unsigned threads,
                                 const ProgressHook& progress);
 

@@ -6,7 +6,6 @@
 #include <plant/joint_stiffness.hpp>
 #include <sim/engine/failure.hpp>
 #include <sim/ride/ride.hpp>
-#include <sim/run/follow.hpp>
 #include <sim/run/rig_model.hpp>
 
 namespace mckibben::run {
@@ -84,7 +83,7 @@ controllers::ModelMaker model_of(const domain::RigFile& rig, double tick_s, doub
     };
     if (rig.pair() == nullptr) return model(ride::Ride(ride::Hanging{rig, load_kg}, rig.integrator));
     const plant::Pair pair = plant::with_load_in_hand(*rig.pair(), load_kg, hand_m);
-    return model(ride::Ride(paired(rig, pair), rig.integrator));
+    return model(ride::Ride(ride::paired(rig, pair), rig.integrator));
   };
 }
 

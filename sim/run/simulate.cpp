@@ -71,8 +71,7 @@ class Disturbance {
 };
 
 ride::Rider rider_of(const RunPlan& plan) {
-  if (plan.pair)
-    return ride::Rider(ride::Paired{plan.rig, plant::opposite_rig(plan.rig, *plan.pair), *plan.pair});
+  if (plan.pair) return ride::Rider(ride::paired(plan.rig, *plan.pair));
   return ride::Rider(ride::Hanging{plan.rig, plan.load_kg});
 }
 

@@ -4,7 +4,6 @@
 #include <numeric>
 
 #include <plant/instruments.hpp>
-#include <sim/run/gaps.hpp>
 #include <sim/run/track.hpp>
 
 namespace mckibben::run {
@@ -89,7 +88,7 @@ Metrics metrics_of(const domain::Scenario& scenario, const Wanted& wanted, const
   const bool pair = scenario.rig.pair() != nullptr;
   std::vector<double> followed, current_mA;
   for (const auto& sample : recording.samples) {
-    followed.push_back(pair ? angle_rad(scenario.rig, sample) : sample.state.joint.contraction_ratio);
+    followed.push_back(pair ? sample.angle_rad : sample.state.joint.contraction_ratio);
     current_mA.push_back(sample.current_mA);
   }
   return measure({.target = wanted.values,
@@ -104,7 +103,7 @@ Metrics metrics_of(const domain::Scenario& scenario, const Wanted& wanted, const
 JointFigures joint_figures(const domain::RigFile& rig, const Recording& recording, const Wanted* wanted) {
   const auto& rows = recording.samples;
   JointFigures found{
-      .angle_rad = span_of(rows, [&](const Sample& row) { return angle_rad(rig, row); }),
+      .angle_rad = span_of(rows, [](const Sample& row) { return row.angle_rad; }),
       .cord_force_N = span_of(rows, [](const Sample& row) { return row.cord_force_N; }),
       .opposite_cord_force_N = span_of(rows, [](const Sample& row) { return row.opposite.cord_force_N; })};
   const plant::Rig opposite = plant::opposite_rig(rig, *rig.pair());

@@ -9,23 +9,6 @@
 #include <sim/tasks/replay.hpp>
 
 namespace mckibben::tasks {
-namespace {
-
-template <class Runs>
-std::vector<std::string> warnings_of(const domain::Dataset& dataset,
-                                     const std::vector<data::Finding>& findings, const Runs& runs) {
-  data::raise(dataset, findings);
-  std::vector<std::string> warnings;
-  for (const auto& finding : findings)
-    if (!data::only_limits_diagnosis(finding)) warnings.push_back(data::text_of(dataset, finding));
-  for (const auto& run : runs)
-    for (const auto& doubt : run::doubts(run.recording))
-      warnings.push_back(data::warning_of_run(run.id, doubt));
-  return warnings;
-}
-
-}  // namespace
-
 void replace_rig(domain::Dataset& dataset, const std::string& called, domain::RigFile rig) {
   const bool pair = dataset.rig.pair() != nullptr;
   if (!dataset.own_clock) input::require_load(rig, called, "a replay of data with a load");
@@ -39,14 +22,19 @@ void replace_rig(domain::Dataset& dataset, const std::string& called, domain::Ri
 
 std::vector<std::string> warnings_of(const domain::Dataset& dataset,
                                      const std::vector<run::ReplayedRun>& runs) {
-  return warnings_of(dataset, data::examine(dataset, run::expected_of(dataset, runs)).findings, runs);
-}
-
-std::vector<std::string> warnings_of(const domain::Dataset& dataset,
-                                     const std::vector<run::StampedRun>& runs) {
   std::vector<data::Finding> findings;
-  if (input::why_not_judged(dataset).empty() && !run::interrupted()) findings = run::look(dataset).findings;
-  return data::grouped(warnings_of(dataset, findings, runs));
+  if (!dataset.own_clock)
+    findings = data::examine(dataset, run::expected_of(dataset, runs)).findings;
+  else if (input::why_not_judged(dataset).empty() && !run::interrupted())
+    findings = run::look(dataset).findings;
+  data::raise(dataset, findings);
+  std::vector<std::string> warnings;
+  for (const auto& finding : findings)
+    if (!data::only_limits_diagnosis(finding)) warnings.push_back(data::text_of(dataset, finding));
+  for (const auto& run : runs)
+    for (const auto& doubt : run::doubts(run.recording))
+      warnings.push_back(data::warning_of_run(run.id, doubt));
+  return dataset.own_clock ? data::grouped(std::move(warnings)) : warnings;
 }
 
 }  // namespace mckibben::tasks

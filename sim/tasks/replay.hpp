@@ -6,7 +6,6 @@
 #include <vector>
 
 #include <sim/domain/dataset.hpp>
-#include <sim/run/gaps.hpp>
 #include <sim/run/replay.hpp>
 
 namespace mckibben::tasks {
@@ -18,8 +17,5 @@ void replace_rig(domain::Dataset& dataset, const std::string& called, domain::Ri
 /// comparison with them would mean nothing.
 std::vector<std::string> warnings_of(const domain::Dataset& dataset,
                                      const std::vector<run::ReplayedRun>& runs);
-/// The same of data with a clock of their own.
-std::vector<std::string> warnings_of(const domain::Dataset& dataset,
-                                     const std::vector<run::StampedRun>& runs);
 
 }  // namespace mckibben::tasks

@@ -269,7 +269,11 @@ TEST_F(Replayed, VerbsThatNeedTicksAndALoadRefuseTheRest) {
   EXPECT_EQ(mckibben("replay dataset.yaml --rig thesis", scratch).status, 65);
   EXPECT_EQ(mckibben("map '" MCKIBBEN_TEST_DATA "/calibration.yaml' --rig thesis_pair", scratch).status, 65);
   EXPECT_EQ(mckibben("check dataset.yaml", scratch).status, 0);
-  EXPECT_EQ(mckibben("diff out out", scratch).status, 65);
+}
+
+TEST_F(Replayed, FoldersAreComparedAsThoseOfOneMuscleAre) {
+  ASSERT_EQ(replay("thesis_pair", "", "  - {id: a, file: " + reference + "pair_steps.csv}\n").status, 0);
+  EXPECT_EQ(mckibben("diff out out", scratch).status, 0);
 }
 
 TEST_F(Replayed, BothMusclesAreDrivenAlikeToBeDiagnosed) {

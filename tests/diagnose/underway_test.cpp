@@ -51,7 +51,7 @@ TEST(Underway, WhatAnEffectRemembersIsFittedAndNotCharged) {
 
   domain::Dataset known = data;  // a replay finds the memory as well
   known.rig = creeping;
-  EXPECT_LT(run::replay(known, 1, [](const auto&, auto, auto) {}).front().rmse, 1e-5);
+  EXPECT_LT(run::replay(known, 1, [](const auto&, auto, auto) {}).front().gaps.front().rmse, 1e-5);
 
   // A wrong rig stays wrong, and is told by its slope.
   plant::Rig stiffer = creeping;
@@ -75,12 +75,12 @@ TEST(Underway, AReplayReadsWhatADiagnosisReads) {
   rig.effects.get<plant::EncoderScale>().error = 0.02;
   rig.effects.get<plant::ReadingDelay>().time_s = 0.05;
   domain::Dataset data = begun_on_its_way(rig);
-  EXPECT_GT(run::replay(data, 1, [](const auto&, auto, auto) {}).front().rmse, 1e-3);
+  EXPECT_GT(run::replay(data, 1, [](const auto&, auto, auto) {}).front().gaps.front().rmse, 1e-3);
   rig.effects.get<plant::BladderCreep>() = {};
   data.rig = rig;
   const Hanging hanging{rig, data.runs[0].load_kg};
   data.runs[0].contraction_ratio = predict(data.runs[0], {&hanging, 1}).front().judged;
-  EXPECT_LT(run::replay(data, 1, [](const auto&, auto, auto) {}).front().rmse, 1e-5);
+  EXPECT_LT(run::replay(data, 1, [](const auto&, auto, auto) {}).front().gaps.front().rmse, 1e-5);
 }
 
 TEST(Underway, AGivenPressureLeavesValveHoseAndGasOutOfSight) {

@@ -245,7 +245,8 @@ std::string replayed(std::size_t runs) {
     measured.muscle_pressure_Pa = {1e5, 1e5};
     data.runs.push_back(measured);
     run::ReplayedRun run{.id = measured.id, .load_kg = 5.0};
-    run.rmse = 0.001 * static_cast<double>(i + 1);
+    run.gaps = {{"contraction", "1", 0.001 * static_cast<double>(i + 1), 0.02, -0.001, 2},
+                {"muscle_pressure", "bar", 0.5, 0.6, 0.1, 2}};
     run.recording.samples.resize(2);
     all.push_back(run);
   }
@@ -274,7 +275,7 @@ std::string replayed_by_stamps(std::size_t runs) {
   data.rig.muscle.rest_length_m = 0.18;
   data.rig.valve.zero_command = {0.0, plant::RatedCommand::Unit::V};
   data.rig.valve.span_command = {10.0, plant::RatedCommand::Unit::V};
-  std::vector<run::StampedRun> all;
+  std::vector<run::ReplayedRun> all;
   for (std::size_t i = 0; i < runs; ++i) {
     domain::Run measured;
     measured.id = fmt::format("r{}", i);
@@ -285,7 +286,7 @@ std::string replayed_by_stamps(std::size_t runs) {
     stamps.sides[0].current_mA = {12.0, 12.0};
     stamps.sides[0].muscle_pressure_Pa = {1e5, 1e5};
     data.runs.push_back(measured);
-    run::StampedRun run{.id = measured.id, .load_kg = 5.0};
+    run::ReplayedRun run{.id = measured.id, .load_kg = 5.0};
     run.gaps = {{"contraction", "1", 0.001 * static_cast<double>(i + 1), 0.02, -0.001, 2},
                 {"muscle_pressure", "bar", 0.5, 0.6, 0.1, 2}};
     run.recording.samples.resize(2);

@@ -16,7 +16,6 @@
 #include <sim/input/campaign_file.hpp>
 #include <sim/run/batch.hpp>
 #include <sim/run/campaign.hpp>
-#include <sim/run/gaps.hpp>
 #include <sim/run/simulate.hpp>
 
 namespace mckibben::run {
@@ -125,10 +124,10 @@ TEST(Campaign, ExchangedCurrentsTurnAPairTheOtherWay) {
   for (std::size_t k = 0; k < 50; ++k) {
     const Sample &one = a.recording.samples[k], &other = b.recording.samples[k];
     EXPECT_EQ(one.current_mA, other.opposite.current_mA);
-    EXPECT_NEAR(angle_rad(campaign.rig, one), -angle_rad(campaign.rig, other), 2e-5);
+    EXPECT_NEAR(one.angle_rad, -other.angle_rad, 2e-5);
     EXPECT_NEAR(one.shown[plant::Sensed::muscle_pressure],
                 other.opposite.shown[plant::Sensed::muscle_pressure], 10.0);
-    most_rad = std::max(most_rad, angle_rad(campaign.rig, one));
+    most_rad = std::max(most_rad, one.angle_rad);
   }
   EXPECT_GT(most_rad, 0.1);
   const EndedRun end = ended(campaign, a);

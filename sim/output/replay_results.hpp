@@ -1,21 +1,21 @@
-// Results of rides that followed stamps (replays of data with a clock of their own), as JSON and as text.
+// Results of a replay, as JSON and as text.
 #pragma once
 
 #include <string>
 #include <vector>
 
 #include <sim/domain/dataset.hpp>
-#include <sim/run/gaps.hpp>
+#include <sim/run/replay.hpp>
 
 namespace mckibben::output {
 
 /// The run.json of a results folder, and what --json prints. Holds nothing that differs between two runs of
 /// the same input.
-std::string json_of(const domain::Dataset& dataset, const std::vector<run::StampedRun>& runs,
+std::string json_of(const domain::Dataset& dataset, const std::vector<run::ReplayedRun>& runs,
                     const std::vector<std::string>& warnings);
 
 /// What is printed, and table.txt.
-std::string table_of(const domain::Dataset& dataset, const std::vector<run::StampedRun>& runs,
+std::string table_of(const domain::Dataset& dataset, const std::vector<run::ReplayedRun>& runs,
                      const std::vector<std::string>& warnings);
 
 /// Whether it is of the load's height, which is told in millimetres.

@@ -4,9 +4,10 @@
 #include <fmt/format.h>
 
 #include <sim/input/rigs.hpp>
-#include <sim/output/driven_results.hpp>
 #include <sim/output/grid.hpp>
 #include <sim/output/json_parts.hpp>
+#include <sim/output/replay_results.hpp>
+#include <sim/output/table.hpp>
 #include <sim/run/batch.hpp>
 
 namespace mckibben::output {
@@ -14,17 +15,13 @@ namespace {
 
 using input::Json;
 
-/// What is told of every ride that came to its end.
-void put_ride(Json& entry, const plant::Rig& rig, const run::Recording& recording) {
-  entry["slack"] = slack_json(recording);
-  entry["largest_contraction_ratio"] = recording.largest_contraction_ratio;
-  entry["ledger"] = ledger_json(rig, recording);
-  if (recording.driven.length) entry["ledger"]["bench_work_J"] = recording.ledger.bench_work_J;
-  entry["solver"] = solver_json(recording.solver);
+Json gap_json(const run::Gap& gap) {
+  return {{"reading", gap.reading},       {"unit", gap.unit},      {"rows", gap.rows}, {"rmse", gap.rmse},
+          {"largest_error", gap.largest}, {"mean_error", gap.mean}};
 }
 
-template <class Runs>
-std::string without_result(const Runs& runs, const std::vector<std::string>& warnings) {
+std::string without_result(const std::vector<run::ReplayedRun>& runs,
+                           const std::vector<std::string>& warnings) {
   std::string failures, warned;
   for (const auto& run : runs)
     if (!run.failure.empty()) failures += fmt::format("  {}: {}\n", run.id, run.failure);
@@ -34,9 +31,9 @@ std::string without_result(const Runs& runs, const std::vector<std::string>& war
 
 }  // namespace
 
-std::string json_of(const domain::Dataset& dataset, const std::vector<run::StampedRun>& runs,
+std::string json_of(const domain::Dataset& dataset, const std::vector<run::ReplayedRun>& runs,
                     const std::vector<std::string>& warnings) {
-  Json document = heading_json("mckibben-stamped-replay/1", dataset.inputs);
+  Json document = heading_json("mckibben-replay/1", dataset.inputs);
   document["report"] = "report.html";
   document["tolerance"] = dataset.rig.integrator.tolerance;
   document["rig"] = input::rig_json(dataset.rig);
@@ -48,15 +45,20 @@ std::string json_of(const domain::Dataset& dataset, const std::vector<run::Stamp
     if (!run.failure.empty()) {
       entry["failure"] = run.failure;
     } else {
+      if (const run::Gap* height = run.gap("contraction")) {
+        entry["rmse"] = height->rmse;
+        entry["largest_error"] = height->largest;
+        entry["mean_error"] = height->mean;
+        const run::Gap* pressure = run.gap("muscle_pressure");
+        entry["pressure_rmse_bar"] = pressure != nullptr ? Json(pressure->rmse) : Json(nullptr);
+      }
       entry["gaps"] = Json::array();
-      for (const run::Gap& gap : run.gaps)
-        entry["gaps"].push_back({{"reading", gap.reading},
-                                 {"unit", gap.unit},
-                                 {"rows", gap.rows},
-                                 {"rmse", gap.rmse},
-                                 {"largest_error", gap.largest},
-                                 {"mean_error", gap.mean}});
-      put_ride(entry, dataset.rig, run.recording);
+      for (const run::Gap& gap : run.gaps) entry["gaps"].push_back(gap_json(gap));
+      entry["contraction"] = contraction_json(dataset.rig, run.recording);
+      entry["slack"] = slack_json(run.recording);
+      entry["ledger"] = ledger_json(dataset.rig, run.recording);
+      if (run.recording.driven.length) entry["ledger"]["bench_work_J"] = run.recording.ledger.bench_work_J;
+      entry["solver"] = solver_json(run.recording.solver);
     }
     document["runs"].push_back(std::move(entry));
   }
@@ -70,9 +72,10 @@ std::string gap_number(double value, bool sign) {
   return sign ? fmt::format("{:+.4g}", value) : fmt::format("{:.4g}", value);
 }
 
-std::string table_of(const domain::Dataset& dataset, const std::vector<run::StampedRun>& runs,
+std::string table_of(const domain::Dataset& dataset, const std::vector<run::ReplayedRun>& runs,
                      const std::vector<std::string>& warnings) {
   Grid grid({"run", "reading", "unit", "rmse", "largest", "mean", "rows"}, 3);
+  std::string notes;
   for (const auto& run : runs) {
     if (!run.failure.empty())
       grid.add({run.id, "no result", "", "-", "-", "-", "-"});
@@ -85,10 +88,12 @@ std::string table_of(const domain::Dataset& dataset, const std::vector<run::Stam
                 gap_number(factor * gap.largest), gap_number(factor * gap.mean, true),
                 std::to_string(gap.rows)});
     }
+    if (run.failure.empty() && !run.recording.driven.pair && !run.recording.driven.length)
+      notes += contraction_note(dataset.rig, run.recording.largest_contraction_ratio, run.id);
   }
   return fmt::format("{}: {} run{} replayed; simulated less measured, of each reading\n\n",
                      dataset.path.string(), runs.size(), runs.size() == 1 ? "" : "s") +
-         grid.text() + without_result(runs, warnings);
+         grid.text() + section("contraction", notes) + without_result(runs, warnings);
 }
 
 }  // namespace mckibben::output
