@@ -11,6 +11,8 @@
 #include <utility>
 #include <vector>
 
+#include <plant/names.hpp>
+
 namespace mckibben::plant {
 
 /// What a sensor can read, spelled as its signal (signals.hpp); the position in any of its forms.
@@ -49,17 +51,6 @@ constexpr auto names(EncoderWiring) {
   using enum EncoderWiring;
   return std::array{std::pair{ideal, std::string_view{"ideal"}},
                     std::pair{crosswise, std::string_view{"crosswise"}}};
-}
-
-/// The spelling of a choice of these.
-template <class Choice>
-constexpr std::string_view name_of(Choice choice) requires requires {
-  names(choice);
-}
-{
-  for (const auto& [known, name] : names(choice))
-    if (known == choice) return name;
-  return {};
 }
 
 /// What is the same of all sensors of a kind.

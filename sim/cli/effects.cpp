@@ -63,7 +63,7 @@ Entry entry_of() {
 Entry entry_of(const input::OwnLaw& law) {
   const plant::LawText& text = *law.text;
   Entry entry{text.name,
-              std::string(input::spelling(text.adds)),
+              std::string(plant::name_of(text.adds)),
               text.law,
               text.sentence,
               "a hypothesis of the user's own",

@@ -6,6 +6,7 @@
 #include <utility>
 #include <variant>
 
+#include <plant/names.hpp>
 #include <sim/diagnose/candidate.hpp>
 #include <sim/diagnose/thresholds.hpp>
 
@@ -87,9 +88,7 @@ RigFile with_law(RigFile rig, const EffectName& whose, std::string_view variant)
 template <class E>
 bool has_law(const E& mine, std::string_view variant) {
   if constexpr (requires { mine.variant; }) {
-    std::string_view chosen;
-    for (const auto& [law, name] : names(mine.variant))
-      if (law == mine.variant) chosen = name;
+    const std::string_view chosen = plant::name_of(mine.variant);
     return std::ranges::any_of(E::variants, [&](const plant::Variant& law) {
       return law.name == chosen && (law.name == variant || law.adds_to == variant);
     });

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <plant/names.hpp>
 #include <sim/diagnose/estimates.hpp>
 #include <sim/diagnose/thresholds.hpp>
 
@@ -21,9 +22,7 @@ std::string words(const plant::ForceTerm& term) {
         shifted ? fmt::format(" {} {:.2f} rad", term.phase_rad < 0.0 ? "-" : "+", std::abs(term.phase_rad))
                 : "");
   }
-  for (const auto& [basis, name] : names(plant::Basis{}))
-    if (basis == term.of) return std::string(name);
-  return {};
+  return std::string(plant::name_of(term.of));
 }
 
 }  // namespace

@@ -12,6 +12,8 @@
 #include <variant>
 #include <vector>
 
+#include <plant/names.hpp>
+
 namespace mckibben::input {
 
 /// A struct with a field list.
@@ -20,11 +22,7 @@ concept Listed = requires(T& value, int& visitor) {
   T::fields(value, visitor);
 };
 
-/// An enum whose spellings are listed by `names`.
-template <class T>
-concept Named = std::is_enum_v<T> && requires(T value) {
-  names(value);
-};
+using plant::Named;
 
 /// A struct that can be told the same in more than one way; `resolve` leaves one of them.
 template <class T>
@@ -100,13 +98,6 @@ auto spellings() {
   std::array<std::string_view, list.size()> texts;
   for (std::size_t i = 0; i < list.size(); ++i) texts[i] = list[i].second;
   return texts;
-}
-
-template <Named T>
-std::string_view spelling(T value) {
-  for (const auto& [known, text] : names(value))
-    if (known == value) return text;
-  return {};
 }
 
 /// The kinds of a variant's alternatives, in order.

@@ -121,7 +121,7 @@ Json to_json(const T& value, const SpreadsOf& spreads) {
   } else if constexpr (std::same_as<T, plant::RatedCommand>) {
     return quantity_json(value.value, plant::name_of(value.unit));
   } else if constexpr (std::same_as<T, domain::Variation>) {
-    Json object{{"sampling", std::string(spelling(value.sampling))}};
+    Json object{{"sampling", std::string(plant::name_of(value.sampling))}};
     for (const auto& each : value.numbers)
       object[each.path] = each.law == domain::DrawLaw::normal
                               ? "normal " + write_quantity(each.middle, each.unit) + " ± " +
@@ -135,7 +135,7 @@ Json to_json(const T& value, const SpreadsOf& spreads) {
       if (!law.absent()) list.push_back(hypothesis_json(law));
     return list;
   } else if constexpr (Named<T>) {
-    return std::string(spelling(value));
+    return std::string(plant::name_of(value));
   } else if constexpr (is_vector<T>) {
     Json list = Json::array();
     for (const auto& each : value) list.push_back(to_json(each, spreads.below(std::to_string(list.size()))));

@@ -69,8 +69,9 @@ void read_named(const Source& source, const Node& node, OwnLaws& into, Problems&
 
 Json hypothesis_json(const OwnLaw& law) {
   const plant::LawText& text = *law.text;
-  Json json{{"name", text.name}, {"sentence", text.sentence}, {"adds", std::string(spelling(text.adds))}};
-  if (text.at != plant::LawPlace::side) json["at"] = std::string(spelling(text.at));
+  Json json{
+      {"name", text.name}, {"sentence", text.sentence}, {"adds", std::string(plant::name_of(text.adds))}};
+  if (text.at != plant::LawPlace::side) json["at"] = std::string(plant::name_of(text.at));
   json["law"] = text.law;
   for (const auto& memory : text.memories) json["memories"][memory.name] = memory.rate;
   for (std::size_t i = 0; i < text.parameters.size(); ++i) {

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include <plant/names.hpp>
 #include <sim/law/compile.hpp>
 #include <sim/law/names.hpp>
 #include <sim/law/pass.hpp>
@@ -28,7 +29,7 @@ class Compiler {
     find_units();
     Programs programs;
     one(0, wording_.law, std::nullopt, dimension_of(wording_.adds),
-        fmt::format("adds: {} wants", spelling(wording_.adds)), programs.law, programs.knows_time);
+        fmt::format("adds: {} wants", plant::name_of(wording_.adds)), programs.law, programs.knows_time);
     for (std::size_t i = 0; i < wording_.memories.size(); ++i) {
       const auto& memory = wording_.memories[i];
       auto& into = programs.memories.emplace_back();
@@ -49,11 +50,6 @@ class Compiler {
   }
 
  private:
-  static std::string_view spelling(plant::LawTarget target) {
-    for (const auto& [known, text] : names(target))
-      if (known == target) return text;
-    return {};
-  }
   void parse(std::string_view text, std::optional<std::size_t> memory) {
     std::vector<Problem> problems;
     pieces_.push_back(law::parse(text, problems));

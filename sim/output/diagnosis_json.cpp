@@ -210,7 +210,7 @@ Json gap_json(const diagnose::Diagnosis& diagnosis) {
   Json all{{"held_out_runs", held_out(diagnosis)}, {"noise_floor", gap.noise_floor},
            {"nominal_rmse", gap.nominal_rmse},     {"recalibrated_rmse", gap.recalibrated_rmse},
            {"corrected_rmse", gap.corrected_rmse}, {"closed", gap.closed},
-           {"encoder_jitter", gap.jitter},         {"reading", std::string(input::spelling(gap.judged))},
+           {"encoder_jitter", gap.jitter},         {"reading", std::string(plant::name_of(gap.judged))},
            {"unit", unit_of(gap.judged)}};
   if (!gap.beside.empty()) all["beside"] = beside_json(gap);
   return all;
@@ -277,7 +277,7 @@ Json ranking_json(const diagnose::Diagnosis& diagnosis) {
 Json explanations_json(const diagnose::Diagnosis& diagnosis) {
   Json list = Json::array();
   for (const auto& one : diagnosis.explanations)
-    list.push_back({{"kind", std::string(input::spelling(one.kind))},
+    list.push_back({{"kind", std::string(plant::name_of(one.kind))},
                     {"effects", one.effects},
                     {"misfit", one.misfit},
                     {"strain", one.strain},
@@ -339,7 +339,7 @@ Json search_json(const diagnose::Diagnosis& diagnosis) {
 
 std::string json_of(const domain::Dataset& data, const diagnose::Diagnosis& diagnosis) {
   Json document{{"schema", "mckibben-diagnosis/1"},
-                {"verdict", std::string(input::spelling(diagnosis.verdict))},
+                {"verdict", std::string(plant::name_of(diagnosis.verdict))},
                 {"because", diagnosis.because},
                 {"effects", effects_json(diagnosis, diagnosis.effects)},
                 {"stand_ins", effects_json(diagnosis, diagnosis.stand_ins)},

@@ -128,7 +128,7 @@ std::string table_of(const domain::Dataset& data, const Diagnosis& diagnosis) {
       fmt::format("{}: {} run{}, {} held out; errors are {}\n", data.path.string(), data.runs.size(),
                   data.runs.size() == 1 ? "" : "s", unseen.empty() ? "none" : listed(unseen), unit_of(data));
   text += warnings(diagnosis);
-  text += fmt::format("\n{}: {}\n", input::spelling(diagnosis.verdict), title_of(diagnosis));
+  text += fmt::format("\n{}: {}\n", plant::name_of(diagnosis.verdict), title_of(diagnosis));
   if (!diagnosis.because.empty()) text += diagnosis.because + "\n";
   text += section("added to the rig", added(diagnosis));
   if (!diagnosis.residual_law.empty() && !diagnosis.law_valid_for.empty())

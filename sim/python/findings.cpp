@@ -144,7 +144,7 @@ void add_diagnosis(py::module_& module) {
   py::class_<Diagnosis>(module, "Diagnosis", "What measured runs have and the rig lacks.")
       .def_property_readonly(
           "verdict",
-          [](const Diagnosis& d) { return std::string(input::spelling(d.found->diagnosis.verdict)); },
+          [](const Diagnosis& d) { return std::string(plant::name_of(d.found->diagnosis.verdict)); },
           "nothing_missing, recalibrate, missing_effect, unknown_effect or cannot_tell.")
       .def_property_readonly(
           "because", [](const Diagnosis& d) { return d.found->diagnosis.because; },
@@ -177,7 +177,7 @@ void add_diagnosis(py::module_& module) {
           "The text of report.html.")
       .def("__str__", [](const Diagnosis& d) { return output::table_of(*d.data, d.found->diagnosis); })
       .def("__repr__", [](const Diagnosis& d) {
-        return "<mckibben.Diagnosis: " + std::string(input::spelling(d.found->diagnosis.verdict)) + ">";
+        return "<mckibben.Diagnosis: " + std::string(plant::name_of(d.found->diagnosis.verdict)) + ">";
       });
 }
 

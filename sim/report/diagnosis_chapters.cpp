@@ -46,7 +46,7 @@ std::string found(const Diagnosis& diagnosis) {
     for (const auto& moved : diagnosis.recalibrated)
       if (std::abs(moved.deviations) > 1.0)
         rows += found_row("recalibrated", moved.fitted.name, moved.fitted);
-  const std::string verdict = fmt::format("Verdict: {}", input::spelling(diagnosis.verdict));
+  const std::string verdict = fmt::format("Verdict: {}", plant::name_of(diagnosis.verdict));
   if (rows.empty()) return "<p><b>" + escaped(verdict) + "</b></p>\n";
   return table(verdict, {"found", "parameter", "value", "95 % interval"}, rows);
 }
@@ -89,7 +89,7 @@ JudgedWords words_of(diagnose::Judged judged) {
 
 /// "height", "force", "angle".
 std::string name_of(diagnose::Judged judged) {
-  return judged == diagnose::Judged::contraction ? "height" : std::string(input::spelling(judged));
+  return judged == diagnose::Judged::contraction ? "height" : std::string(plant::name_of(judged));
 }
 
 std::string where_html(const Diagnosis& diagnosis, const plant::Rig& rig) {

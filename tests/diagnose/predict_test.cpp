@@ -53,7 +53,7 @@ TEST(Predict, MakesOfACurrentTheSameBitsAsSimulate) {
         for (std::size_t k = 0; k < predicted.states.size(); ++k) {
           const run::Sample& sample = simulated.samples[k];
           ASSERT_EQ(std::memcmp(&sample.state, &predicted.states[k], sizeof sample.state), 0)
-              << name << ", " << input::spelling(method) << ", row " << k;
+              << name << ", " << plant::name_of(method) << ", row " << k;
           ASSERT_EQ(sample.shown[plant::Sensed::muscle_pressure],
                     plant::shown(rig.sensors.of(plant::Sensed::muscle_pressure), predicted.pressure_Pa[k]));
           ASSERT_EQ(sample.counts, counter.count(predicted.judged[k] * length_m)) << name;
