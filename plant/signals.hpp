@@ -83,7 +83,7 @@ struct Signal {
   double (*value)(const Sample& row, std::size_t muscle);  ///< muscle 1 or 2
   InFiles in_files = InFiles::yes;
   bool with_next = false;         ///< of two muscles: in one group with the signal that follows
-  bool may_be_given = false;      ///< it may drive a simulation; an input always does
+  bool may_be_given = false;      ///< in a data set: it may drive a simulation
   std::string_view of_two = key;  ///< its key where there are two muscles
   std::string_view reads{};       ///< of a reading: the key of what is read; a data set's column has its name
   std::string_view in_dataset{};  ///< its key in a data set's `columns:`

@@ -90,9 +90,6 @@ struct ColumnMap {
     visit("muscle_pressure_2", self.muscle_pressure_2, "of two muscles: gauge pressure in muscle 2");
   }
 
-  /// The file's times, if it has any, do not count.
-  bool has_no_time() const { return rows_are_ticks || !settled.absent(); }
-
   template <class Report>
   void rules(Report& report) const;
 };
@@ -103,18 +100,20 @@ struct Quantity {
   std::string key, column;
   std::string_view unit;
   ColumnPlace ColumnMap::*place;
+  bool may_be_given;  ///< it may be an input
 };
 
 /// Of the signal of that key; of a pair's muscle, if one is named.
 inline Quantity quantity_of_signal(std::string_view signal, ColumnPlace ColumnMap::*place,
                                    std::size_t muscle = 0) {
   const plant::Channel channel{&plant::signal_of(signal), muscle};
-  return {channel.key_in_dataset(), channel.name(), channel.signal->unit.name, place};
+  return {channel.key_in_dataset(), channel.name(), channel.signal->unit.name, place,
+          channel.signal->may_be_given};
 }
 
 inline const std::array<Quantity, 11> quantities{
     {quantity_of_signal("time", &ColumnMap::time),
-     {"current", "current_mA", "mA", &ColumnMap::current},  // a command, in data without a clock
+     {"current", "current_mA", "mA", &ColumnMap::current, true},  // a command, in data without a clock
      quantity_of_signal("contraction_ratio", &ColumnMap::contraction),
      quantity_of_signal("muscle_pressure", &ColumnMap::muscle_pressure),
      quantity_of_signal("current", &ColumnMap::command),

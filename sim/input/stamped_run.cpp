@@ -109,14 +109,12 @@ void check_roles(const YamlFile& file, const Node& run, const ColumnMap& map, co
   for (const Quantity& quantity : domain::quantities) {
     const ColumnPlace& place = map.*quantity.place;
     if (place.absent()) continue;
-    constexpr std::array readings{"time", "angle", "force"};
     if (!belongs(quantity, pair))
       complain(quantity.key, pair
                                  ? "the rig has two muscles: command_1, command_2, angle, muscle_pressure_1, "
                                    "muscle_pressure_2"
                                  : "the rig has one muscle: command, contraction, force, muscle_pressure");
-    else if (place.as == Role::input &&
-             std::find(readings.begin(), readings.end(), quantity.key) != readings.end())
+    else if (place.as == Role::input && !quantity.may_be_given)
       complain(quantity.key, "it can only be a reading");
   }
   if (!pair && !map.current.absent() && !map.command.absent())
