@@ -21,8 +21,7 @@ struct VectorRide::Member final : BatchItem {
   std::string failure;
 };
 
-VectorRide::VectorRide(std::span<const Hanging> rigs, std::span<const solver::Settings> settings)
-    : rigs_(rigs.begin(), rigs.end()) {
+VectorRide::VectorRide(std::span<const Hanging> rigs, std::span<const solver::Settings> settings) {
   if (rigs.size() != settings.size()) throw std::invalid_argument("rigs and settings are not as many");
   for (std::size_t i = 0; i < rigs.size(); ++i) {
     members_.push_back(std::make_shared<Member>(rigs[i]));
@@ -38,8 +37,10 @@ void VectorRide::start(std::span<const double> current_mA, double at_s) {
   require_as_many(current_mA);
   time_s_ = at_s;
   for (std::size_t i = 0; i < rigs(); ++i) {
-    members_[i] = std::make_shared<Member>(rigs_[i]);
-    members_[i]->rider.start({{.current_mA = current_mA[i]}, {}, {}}, at_s);
+    Member& member = *members_[i];
+    member.rider.start({{.current_mA = current_mA[i]}, {}, {}}, at_s);
+    member.holds = false;
+    member.failure.clear();
   }
   batches_.clear();
   alone_.clear();

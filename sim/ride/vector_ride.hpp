@@ -25,7 +25,7 @@ class VectorRide {
   /// says why; the others go on. Throws std::invalid_argument.
   void step(std::span<const double> current_mA, double until_s);
 
-  std::size_t rigs() const { return rigs_.size(); }
+  std::size_t rigs() const { return members_.size(); }
   const Rider& rider(std::size_t rig) const;
   const std::string& failure(std::size_t rig) const;
   double time_s() const { return time_s_; }
@@ -35,7 +35,6 @@ class VectorRide {
 
   void require_as_many(std::span<const double> current_mA) const;
 
-  std::vector<Hanging> rigs_;
   std::map<BatchKey, std::vector<std::size_t>> alike_;  // which rigs
   std::vector<std::shared_ptr<Member>> members_;
   std::vector<Batch> batches_;
