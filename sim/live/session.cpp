@@ -11,6 +11,7 @@
 #include <sim/live/session.hpp>
 #include <sim/ride/changed.hpp>
 #include <sim/ride/sample.hpp>
+#include <sim/run/follow.hpp>
 
 namespace mckibben::live {
 namespace {
@@ -23,8 +24,7 @@ std::string out_of_range(std::string_view key, double value, double low, double 
 }
 
 ride::Ride ride_of(const domain::RigFile& rig, double load_kg) {
-  if (rig.pair() != nullptr) return {ride::paired(rig, *rig.pair()), rig.integrator};
-  return {ride::Hanging{rig, load_kg}, rig.integrator};
+  return {run::rider_of(rig, load_kg), {}, rig.integrator};
 }
 
 }  // namespace

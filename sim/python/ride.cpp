@@ -8,6 +8,7 @@
 #include <sim/python/inputs.hpp>
 #include <sim/python/ride.hpp>
 #include <sim/ride/sample.hpp>
+#include <sim/run/follow.hpp>
 #include <sim/run/simulate.hpp>
 
 namespace mckibben::python {
@@ -19,21 +20,17 @@ double finite(double value, const char* name) {
 }
 
 ride::Ride ride_of(const domain::RigFile& rig, std::optional<double> load_kg) {
-  const plant::Pair* pair = rig.pair();
-  if (pair != nullptr) {
-    if (load_kg) throw py::value_error("two muscles turn a link; no load hangs there");
-    return {ride::paired(rig, *pair), rig.integrator};
-  }
-  if (!load_kg || !(*load_kg + rig.joint.load_offset_kg > 0.0) || !(*load_kg <= 500.0))
+  if (rig.pair() != nullptr && load_kg) throw py::value_error("two muscles turn a link; no load hangs there");
+  if (rig.pair() == nullptr &&
+      (!load_kg || !(*load_kg + rig.joint.load_offset_kg > 0.0) || !(*load_kg <= 500.0)))
     throw py::value_error("load_kg: a mass above 0 and up to 500 kg hangs on one muscle");
-  return {ride::Hanging{rig, *load_kg}, rig.integrator};
+  return {run::rider_of(rig, load_kg.value_or(0.0)), {}, rig.integrator};
 }
 
 /// No pressure asked for.
 Given lowest(const domain::RigFile& rig) {
   Given given{.current_mA = rig.valve.zero_current_mA};
-  if (const plant::Pair* pair = rig.pair())
-    given.opposite_current_mA = ride::paired(rig, *pair).opposite.valve.zero_current_mA;
+  if (const plant::Pair* pair = rig.pair()) given.opposite_current_mA = pair->opposite.valve.zero_current_mA;
   return given;
 }
 

@@ -28,6 +28,12 @@ void note_slack_of(Recording& recording, std::size_t muscle) {
 
 }  // namespace
 
+Recording without_load() {
+  Recording none;
+  none.failure = "load and load_offset of the rig leave no load";
+  return none;
+}
+
 void note_slack(Recording& recording) {
   const Driven& driven = recording.driven;
   if (driven.pair || driven.length) note_slack_of(recording, 1);

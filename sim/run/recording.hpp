@@ -62,6 +62,9 @@ struct Recording {
   }
 };
 
+/// Of a run that cannot begin: what hangs on the rig, its load_offset included, has no mass.
+Recording without_load();
+
 /// Notes where cords would have to push: of a pair, or of a muscle whose length is given.
 void note_slack(Recording& recording);
 

@@ -12,8 +12,6 @@
 namespace mckibben::run {
 namespace {
 
-constexpr const char* no_load = "load and load_offset of the rig leave no load";
-
 class Replaying {
  public:
   Replaying(const domain::Dataset& dataset, const ProgressHook& progress)
@@ -36,9 +34,7 @@ class Replaying {
     const domain::Run& run = dataset_.runs[i];
     Course course = course_of(run, dataset_.rig);
     if (!moves(run)) {
-      Recording none;
-      none.failure = no_load;
-      take(i, std::move(none));
+      take(i, without_load());
     } else if (course.begins && dataset_.rig.remembers()) {
       const double from_s = course.time_s.front() + run.measured->recorded.skip_s;
       const auto& seen =

@@ -209,12 +209,6 @@ ride::BatchKey key_of(const RunPlan& plan) {
   return key;
 }
 
-Recording without_load() {
-  Recording none;
-  none.failure = "load and load_offset of the rig leave no load";
-  return none;
-}
-
 Prepare preparing(const Ordering& ordering, const Finished& finished) {
   return [&](std::size_t index) -> std::optional<BatchTask> {
     const auto order = std::make_shared<Order>(ordering(index));
