@@ -6,8 +6,8 @@ foreach(folder plant sim/engine sim/ride sim/fmu/model)
   get_filename_component(parent ${folder} DIRECTORY)
   file(COPY ${ROOT}/${folder} DESTINATION ${STAGE}/sources/${parent})
 endforeach()
-file(COPY ${ROOT}/sim/domain/rig_number.cpp ${ROOT}/sim/domain/rig_number.hpp ${ROOT}/sim/domain/rig_file.hpp
-  ${ROOT}/sim/domain/spread.hpp DESTINATION ${STAGE}/sources/sim/domain)
+file(COPY ${ROOT}/sim/domain/rig_number.cpp ${ROOT}/sim/domain/rig_number.hpp
+  DESTINATION ${STAGE}/sources/sim/domain)
 file(COPY ${ROOT}/cmake/fmu.cmake ${ROOT}/LICENSE DESTINATION ${STAGE}/sources)
 file(WRITE ${STAGE}/sources/CMakeLists.txt
 "# The program of this FMU: cmake -S . -B build && cmake --build build

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <plant/choose.hpp>
-#include <plant/rig.hpp>
+#include <plant/muscle.hpp>
 
 namespace mckibben::plant {
 

@@ -1,15 +1,17 @@
 // What a rig's muscle pulls on: a hanging load, a test bench that gives it its length, or a link that it
 // turns against a second muscle (T 2.7). Values of the pair: the shipped rig `thesis_pair`.
 //
-// Everything else of a Rig is one side and the wheel's joint; of a pair, the second side departs from it.
+// Everything else of a Rig (rig.hpp) is one side and the wheel's joint; of a pair, the second side departs
+// from it.
 #pragma once
 
-#include <string>
 #include <string_view>
 #include <variant>
 
-#include <plant/geometry.hpp>
-#include <plant/rig.hpp>
+#include <plant/constants.hpp>
+#include <plant/effects.hpp>
+#include <plant/muscle.hpp>
+#include <plant/valve.hpp>
 
 namespace mckibben::plant {
 
@@ -81,10 +83,6 @@ struct OppositeSide {
   }
 };
 
-inline OppositeSide side_of(const Rig& rig) {
-  return {rig.muscle, rig.friction, rig.valve, rig.hose, rig.effects};
-}
-
 /// A second muscle against the first.
 struct Pair : Link {
   static constexpr std::string_view kind = "pair";
@@ -109,39 +107,5 @@ inline Pair with_load_in_hand(Pair pair, double load_kg, double hand_m) {
 }
 
 using Mechanics = std::variant<HangingLoad, HeldLength, Pair>;
-
-/// The second side with all that both share, as a rig of its own.
-inline Rig opposite_rig(const Rig& rig, const Pair& pair) {
-  Rig other = rig;
-  other.muscle = pair.opposite.muscle;
-  other.friction = pair.opposite.friction;
-  other.valve = pair.opposite.valve;
-  other.hose = pair.opposite.hose;
-  other.effects = pair.opposite.effects;
-  return other;
-}
-
-/// What must be true between the sides of a pair.
-template <class Report>
-void pair_rules(const Rig& rig, const Pair& pair, Report& report) {
-  const OppositeSide& two = pair.opposite;
-  if (rig.friction.memory != two.friction.memory)
-    report("mechanics", "friction.memory must be the same on both sides of a pair");
-  if (rig.effects.gas_exponent() != two.effects.gas_exponent())
-    report("mechanics", "effects.polytropic_gas must be the same on both sides of a pair");
-  if (rig.valve.supply_pressure_Pa != two.valve.supply_pressure_Pa)
-    report("mechanics",
-           "valve.supply_pressure must be the same on both sides of a pair: there is one supply");
-  if (!rig.effects.get<GuideFriction>().absent() || !two.effects.get<GuideFriction>().absent())
-    report("mechanics", "effects.guide_friction is of a hanging load's guide, which a pair has not");
-  if (pair.contraction_ratio >= Braid(rig.muscle).largest_contraction_ratio())
-    report("mechanics", "contraction_1 is more than muscle 1 can contract (T 2.10)");
-  if (pair.opposite_contraction_ratio >= Braid(two.muscle).largest_contraction_ratio())
-    report("mechanics", "contraction_2 is more than muscle 2 can contract (T 2.10)");
-  const auto of_two = [&](std::string_view, std::string_view message) {
-    report("mechanics", std::string("the side of muscle 2: ").append(message));
-  };
-  opposite_rig(rig, pair).rules(of_two);
-}
 
 }  // namespace mckibben::plant

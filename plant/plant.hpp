@@ -171,6 +171,11 @@ class PlantOf {
 };
 using Plant = PlantOf<double>;
 
+/// What a rig's mechanics make of it: a load [kg] hangs on one muscle, two turn a link.
+inline Plant plant_of(const Rig& rig, double load_kg = 0.0) {
+  return rig.pair() != nullptr ? Plant(rig, opposite_rig(rig), *rig.pair()) : Plant(rig, load_kg);
+}
+
 template <class P>
 PlantOf<P>::PlantOf(const RigOf<P>& rig, const P& load_kg)
     : side_(rig, (load_kg + rig.joint.load_offset_kg) * gravity_m_per_s2),

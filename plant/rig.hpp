@@ -1,5 +1,6 @@
-// The rig's parameters, with the values of the shipped rig `thesis` as defaults: muscle (muscle.hpp), valve
-// and hose (valve.hpp), gas, joint and instruments. Laws that use them stand in the files beside this one.
+// A rig as its file describes it, with the values of the shipped rig `thesis` as defaults: muscle
+// (muscle.hpp), valve and hose (valve.hpp), gas, joint and instruments, what the muscle pulls on
+// (mechanics.hpp), and how its equations are solved. Laws that use them stand in the files beside this one.
 //
 // Each struct lists its fields once, in `fields`: key, member, unit, smallest and largest value, meaning.
 // Reading, writing, checking, documentation and schema all walk that list. A visitor is anything that can be
@@ -7,13 +8,17 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
+#include <map>
+#include <string>
 #include <string_view>
-#include <utility>
+#include <variant>
 
 #include <plant/effects.hpp>
+#include <plant/geometry.hpp>
+#include <plant/mechanics.hpp>
 #include <plant/muscle.hpp>
 #include <plant/sensors.hpp>
+#include <plant/solver.hpp>
 #include <plant/valve.hpp>
 
 namespace mckibben::plant {
@@ -76,9 +81,15 @@ struct Dac {
   }
 };
 
-/// The whole rig, all parts of one muscle side and the joint it moves.
+/// How well parameters are known: standard deviations [in the field's SI unit] by path of keys,
+/// `muscle.rest_radius`. Infinite: unknown. Of what is not listed nothing is stated.
+using Spreads = std::map<std::string, double, std::less<>>;
+
+/// The whole rig: the parts of one muscle's side and the joint it moves, what it pulls on, how well its
+/// parameters are known, and how its equations are solved. Of P are the parts that laws calculate with.
 template <class P>
 struct RigOf {
+  static constexpr bool by_name = true;  ///< other files may name it, or its path
   /// No valve or hose is quicker than this, and no step of a solver should have to be.
   static constexpr double quickest_s = 1e-6;
 
@@ -93,9 +104,25 @@ struct RigOf {
   EffectsOf<P> effects;
   double tick_s = 0.012;
   double settling_time_s = 2.004;
+  Mechanics mechanics;
+  solver::Settings integrator;
+  Spreads spreads;  ///< `6 mm ± 0.1 mm`
+
+  /// The second muscle and the link, or null.
+  const Pair* pair() const { return std::get_if<Pair>(&mechanics); }
+  Pair* pair() { return std::get_if<Pair>(&mechanics); }
+  bool lifts_a_load() const { return std::holds_alternative<HangingLoad>(mechanics); }
+  bool holds_a_length() const { return std::holds_alternative<HeldLength>(mechanics); }
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
+    parts(self, visit);
+    visit("mechanics", self.mechanics,
+          "what the muscle pulls on: hanging_load (if left out), held_length or pair (docs/two_muscles.md)");
+    visit("integrator", self.integrator, "how the equations are solved");
+  }
+  template <class Self, class Visitor>
+  static void parts(Self& self, Visitor& visit) {
     visit("muscle", self.muscle, "braid and tube");
     visit("friction", self.friction, "thread friction");
     visit("valve", self.valve, "servo valve or regulator, and supply");
@@ -114,9 +141,19 @@ struct RigOf {
   /// Whether something in it has a memory: an effect, or a regulator that swings.
   bool remembers() const { return effects.remember() || valve.swings(); }
 
-  /// Volumes must not fill in no time.
   template <class Report>
   void rules(Report& report) const {
+    side_rules(report);
+    if (pair() == nullptr) return;
+    pair_rules(report);
+    if (sensors.of(Sensed::force) != nullptr)
+      report("sensors", "a load cell is of rigs with one muscle: of two, angle and pressures are read");
+  }
+
+ private:
+  /// Volumes must not fill in no time.
+  template <class Report>
+  void side_rules(Report& report) const {
     const double supply_Pa = valve.supply_pressure_Pa + gas.atmosphere_Pa;
     const double volume_rate_m3_per_s_Pa =
         gas.gas_constant_J_per_kg_K * gas.temperature_K * gas.reference_density_kg_per_m3;
@@ -139,15 +176,66 @@ struct RigOf {
              "it would move the valve's volume by a whole linear_zone in less than 1 us: take a smaller "
              "conductance, a larger linear_zone or a larger volume of the valve");
   }
+
+  /// What must be true between the sides of a pair.
+  template <class Report>
+  void pair_rules(Report& report) const {
+    const OppositeSide& two = pair()->opposite;
+    if (friction.memory != two.friction.memory)
+      report("mechanics", "friction.memory must be the same on both sides of a pair");
+    if (effects.gas_exponent() != two.effects.gas_exponent())
+      report("mechanics", "effects.polytropic_gas must be the same on both sides of a pair");
+    if (valve.supply_pressure_Pa != two.valve.supply_pressure_Pa)
+      report("mechanics",
+             "valve.supply_pressure must be the same on both sides of a pair: there is one supply");
+    if (!effects.template get<GuideFriction>().absent() || !two.effects.get<GuideFriction>().absent())
+      report("mechanics", "effects.guide_friction is of a hanging load's guide, which a pair has not");
+    if (pair()->contraction_ratio >= Braid(muscle).largest_contraction_ratio())
+      report("mechanics", "contraction_1 is more than muscle 1 can contract (T 2.10)");
+    if (pair()->opposite_contraction_ratio >= Braid(two.muscle).largest_contraction_ratio())
+      report("mechanics", "contraction_2 is more than muscle 2 can contract (T 2.10)");
+    const auto of_two = [&](std::string_view, std::string_view message) {
+      report("mechanics", std::string("the side of muscle 2: ").append(message));
+    };
+    opposite_rig(*this).side_rules(of_two);
+  }
 };
 using Rig = RigOf<double>;
 
 /// A rig as its owner believes it to be: without effects, and with nothing beside the load on the wheel.
-template <class R>
-R nominal(R rig) {
+inline Rig nominal(Rig rig) {
   rig.effects = {};
   rig.joint.load_offset_kg = 0.0;
+  if (Pair* pair = rig.pair()) pair->opposite.effects = {};
   return rig;
+}
+
+inline OppositeSide side_of(const Rig& rig) {
+  return {rig.muscle, rig.friction, rig.valve, rig.hose, rig.effects};
+}
+
+/// Two muscles on one wheel: this rig's, and against it that of the other.
+inline Rig pair_of(Rig rig, const Rig& opposite, const Link& link = {}) {
+  rig.mechanics = Pair{link, side_of(opposite)};
+  return rig;
+}
+
+/// The shipped rig of that name: two of the thesis's muscles on one wheel.
+inline Rig thesis_pair() {
+  return pair_of({}, {});
+}
+
+/// The second side with all that both share, as a rig of its own. Of a pair only.
+inline Rig opposite_rig(const Rig& rig) {
+  const Pair& pair = *rig.pair();
+  Rig other = rig;
+  other.mechanics = HangingLoad{};
+  other.muscle = pair.opposite.muscle;
+  other.friction = pair.opposite.friction;
+  other.valve = pair.opposite.valve;
+  other.hose = pair.opposite.hose;
+  other.effects = pair.opposite.effects;
+  return other;
 }
 
 }  // namespace mckibben::plant

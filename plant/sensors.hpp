@@ -90,7 +90,6 @@ struct Sensor {
   double noise = 0.0;       ///< rms
   double accuracy = 0.0;    ///< rms
   std::optional<double> lowest{}, highest{};
-  // Of what reads the position.
   std::optional<double> rate_Hz{}, delay_s{};
   // Of an encoder (T 3.1).
   int pulses_per_turn = 720;
@@ -135,11 +134,9 @@ struct Sensor {
       visit("highest", self.highest, unit, -sheet.range, sheet.range,
             "the highest that it reads, from rest; no end if left out");
     }
-    if (!may_read(self.kind, Sensed::contraction)) return;
     visit("rate", self.rate_Hz, "Hz", 0.01, 1e6,
           "how often it takes a reading, which it shows until the next; if left out, whenever it is read");
-    visit("delay", self.delay_s, "s", 0.0, 10.0,
-          "how long ago the load was where it shows it; none if left out");
+    visit("delay", self.delay_s, "s", 0.0, 10.0, "how old a reading is when it is shown; none if left out");
   }
   template <class Report>
   void rules(Report& report) const {

@@ -28,7 +28,7 @@ struct RandomRide {
 
 inline Recording random_ride(unsigned seed, bool whole_range, solver::Method method) {
   RandomRide ride(seed, whole_range);
-  ride.plan.engine.method = method;
+  ride.plan.rig.integrator.method = method;
   return simulate(ride.plan, *ride.current.make(knowledge_of(ride.plan.rig, {})));
 }
 

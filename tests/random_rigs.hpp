@@ -52,7 +52,7 @@ struct RulesKept {
 };
 inline bool rules_kept(const Rig& rig) {
   RulesKept rules;
-  Rig::fields(rig, rules);
+  Rig::parts(rig, rules);
   rules.check(rig);
   return rules.kept;
 }
@@ -135,7 +135,7 @@ inline Rig shuffled_rig(Chance& chance, bool whole_range) {
   for (;;) {
     Rig rig;
     Shuffle shuffle{chance, whole_range ? 0.0 : 2.0};
-    Rig::fields(rig, shuffle);
+    Rig::parts(rig, shuffle);
     rig.tick_s = whole_range ? chance.log_between(1e-3, 0.1) : chance.around(0.012, 2.0);
     if (rules_kept(rig)) return rig;
   }

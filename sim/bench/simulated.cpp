@@ -6,7 +6,7 @@ namespace mckibben::bench {
 
 Simulated::Simulated(const plant::Rig& rig, double load_kg, const solver::Settings& integrator,
                      double current_mA)
-    : ride_(ride::Hanging{rig, load_kg}, integrator), counter_(rig) {
+    : ride_(ride::Loaded{rig, load_kg}, integrator), counter_(rig) {
   drive_.current_mA = current_mA;
   ride_.start(drive_, 0.0);
 }

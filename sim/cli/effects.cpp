@@ -229,7 +229,7 @@ int list_effects(const EffectsOptions& options) {
   for (const auto& name : options.names)
     named.push_back(
         *std::find_if(all.begin(), all.end(), [&name](const Entry& entry) { return entry.name == name; }));
-  domain::RigFile rig;
+  plant::Rig rig;
   std::vector<domain::InputFile> inputs;
   for (const std::string& file : options.hypotheses)
     rig.effects.laws.list.push_back(input::read_hypothesis(file, inputs));

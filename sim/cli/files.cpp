@@ -205,15 +205,14 @@ int print_schema(const SchemaOptions& options) {
     return usage_error;
   }
   if (format == "yaml") {
-    print(input::to_yaml(input::rig_json(domain::RigFile{})));
+    print(input::to_yaml(input::rig_json(plant::Rig{})));
     return done;
   }
   if (kind == "columns") {
     print(format == "json" ? columns_json().dump(2) + "\n" : output::table_of_signals());
     return done;
   }
-  if (kind == "rig")
-    return print_kind(input::rig_schema, "Rig", input::list_fields<domain::RigFile>(), format);
+  if (kind == "rig") return print_kind(input::rig_schema, "Rig", input::list_fields<plant::Rig>(), format);
   if (kind == "campaign")
     return print_kind(input::campaign_schema, "Campaign", input::list_fields<domain::Campaign>(), format);
   if (kind == "dataset")

@@ -25,7 +25,7 @@ struct FmuOptions : Options {
 
 int write_fmu(const FmuOptions& options) {
   std::vector<domain::InputFile> inputs;
-  const domain::RigFile rig = input::read_rig(options.rig, inputs);
+  const plant::Rig rig = input::read_rig(options.rig, inputs);
   const std::string name = input::made_file_safe(fs::path(options.rig).stem().string());
   const fs::path file = options.file.empty() ? fs::path(name + ".fmu") : fs::path(options.file);
   const auto version = options.version == "3.0" ? fmu::Version::three : fmu::Version::two;

@@ -39,7 +39,7 @@ double usual_load_kg(const plant::Rig& rig) {
 
 int show_live(const LiveOptions& options) {
   std::vector<domain::InputFile> inputs;
-  const domain::RigFile rig = input::read_rig(options.rig, inputs);
+  const plant::Rig rig = input::read_rig(options.rig, inputs);
   const bool pair = rig.pair() != nullptr;
   if (!pair) input::require_load(rig, options.rig, "live");
   const double load_kg = options.load_kg > 0.0 ? options.load_kg : usual_load_kg(rig);

@@ -92,10 +92,9 @@ std::vector<double> loads_of(const controllers::CalibratedRange& range, const Ma
 run::MapPlan plan_of(const MapOptions& options, std::vector<domain::InputFile>& files) {
   run::MapPlan plan;
   plan.calibration = input::read_calibration(options.calibration, files);
-  const domain::RigFile rig = input::read_rig(options.rig.empty() ? "thesis" : options.rig, files);
+  const plant::Rig rig = input::read_rig(options.rig.empty() ? "thesis" : options.rig, files);
   input::require_load(rig, options.rig, "map");
   plan.rig = rig;
-  plan.engine = rig.integrator;
   plan.loads_kg = loads_of(plan.calibration.range, options);
   if (options.up || !options.down) plan.branches.push_back(controllers::Branch::contraction);
   if (options.down || !options.up) plan.branches.push_back(controllers::Branch::relaxation);

@@ -183,7 +183,7 @@ int run_scenario(const RunOptions& options) {
   write_tables(job, scenario, comparison, options.formats);
   job.write("run.json", document);
   job.write("table.txt", table);
-  if (scenario.rig.pair() == nullptr) job.write("tracking.svg", output::tracking_svg(scenario, comparison));
+  if (!comparison.targets.empty()) job.write("tracking.svg", output::tracking_svg(scenario, comparison));
   job.write("report.html", report::report_html(scenario, comparison));
   const int status = job.finish({document, table}, any_failed(comparison.runs) ? failure
                                                    : !comparison.unmet.empty() ? criterion_not_met

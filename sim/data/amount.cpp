@@ -5,7 +5,7 @@
 
 namespace mckibben::data {
 
-std::string amount_of(Judged judged, double value, const domain::RigFile& rig, int digits) {
+std::string amount_of(Judged judged, double value, const plant::Rig& rig, int digits) {
   switch (judged) {
     case Judged::force:
       return fmt::format("{:.{}g} N", value, digits);

@@ -12,7 +12,7 @@ namespace mckibben::data {
 using domain::Judged;
 
 /// An amount of the judged reading: "1.2 mm" of the load's height, "3.4 N", "0.25 deg".
-std::string amount_of(Judged judged, double value, const domain::RigFile& rig, int digits = 2);
+std::string amount_of(Judged judged, double value, const plant::Rig& rig, int digits = 2);
 /// What such numbers are in: "in contraction ratio", "N", "rad".
 std::string_view unit_in_words(Judged judged);
 

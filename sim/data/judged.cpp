@@ -344,12 +344,12 @@ std::size_t leave_out_the_end(const plant::Sensor* cell, std::vector<double>& fo
 
 }  // namespace
 
-double reading_per_count(const domain::RigFile& rig) {
+double reading_per_count(const plant::Rig& rig) {
   if (rig.pair() == nullptr) return plant::count_height_m(rig) / rig.muscle.rest_length_m;
   return plant::count_height_m(rig) / rig.joint.wheel_radius_m;
 }
 
-double reading_grain(const domain::RigFile& rig) {
+double reading_grain(const plant::Rig& rig) {
   const double count = reading_per_count(rig);
   const plant::Sensor& sensor = rig.sensors.position();
   if (sensor.counts_pulses()) return count;

@@ -17,11 +17,11 @@ namespace mckibben::data {
 domain::Dataset with_rows(domain::Dataset data);
 
 /// One count of the encoder in the reading that is judged: contraction ratio, or joint angle [rad] of a pair.
-double reading_per_count(const domain::RigFile& rig);
+double reading_per_count(const plant::Rig& rig);
 
 /// What checks of readings may take for a move, in the same: a count. A sensor that is finer than the
 /// thesis's encoder is looked at as coarsely, since that is what they were tried with, and one that scatters
 /// more, more coarsely.
-double reading_grain(const domain::RigFile& rig);
+double reading_grain(const plant::Rig& rig);
 
 }  // namespace mckibben::data

@@ -47,7 +47,7 @@ double even_step_s(const Series& time_s) {
 
 class Ranges {
  public:
-  Ranges(std::span<const ReadColumn> columns, const ColumnMap& map, const domain::RigFile& rig)
+  Ranges(std::span<const ReadColumn> columns, const ColumnMap& map, const plant::Rig& rig)
       : columns_(columns), commands_(!map.command.absent()), map_(with_our_names(map)), rig_(rig) {}
 
   std::vector<WrongNumber> operator()() {
@@ -180,7 +180,7 @@ class Ranges {
   std::span<const ReadColumn> columns_;
   bool commands_;  ///< the map has a command, in place of a current
   ColumnMap map_;  ///< with our own names where it says none
-  const domain::RigFile& rig_;
+  const plant::Rig& rig_;
   std::size_t at_ = 0;
   std::vector<WrongNumber> found_;
 };
@@ -195,7 +195,7 @@ ColumnMap with_our_names(ColumnMap map) {
 }
 
 std::vector<WrongNumber> check_ranges(std::span<const ReadColumn> columns, const ColumnMap& map,
-                                      const domain::RigFile& rig) {
+                                      const plant::Rig& rig) {
   return Ranges(columns, map, rig)();
 }
 

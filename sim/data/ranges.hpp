@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
+#include <plant/rig.hpp>
 #include <sim/domain/columns.hpp>
-#include <sim/domain/rig_file.hpp>
 
 namespace mckibben::data {
 
@@ -30,7 +30,7 @@ struct WrongNumber {
 
 /// `map` says where the columns came from.
 std::vector<WrongNumber> check_ranges(std::span<const ReadColumn> columns, const domain::ColumnMap& map,
-                                      const domain::RigFile& rig);
+                                      const plant::Rig& rig);
 
 /// A clock in another unit, with another tick or another beginning than a row each tick has.
 std::optional<WrongNumber> check_clock(const std::vector<double>& time_s, const domain::ColumnMap& map,

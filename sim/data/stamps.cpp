@@ -132,7 +132,7 @@ struct Told {
   std::vector<double>* values;
 };
 
-std::vector<Told> columns_of(Measurement& measured, const domain::RigFile& rig) {
+std::vector<Told> columns_of(Measurement& measured, const plant::Rig& rig) {
   const bool pair = rig.pair() != nullptr;
   std::vector<Told> list;
   const auto add = [&](std::string name, std::string unit, double per_unit, bool given,

@@ -13,9 +13,9 @@ Contender replay(const Case& c);
 
 struct Recalibrated {
   Contender contender{};
-  std::vector<RigFile> other_ends{};  ///< where it ended from other places, if not all ended alike
-  std::size_t begun = 1;              ///< places it was begun from
-  std::string failure{};  ///< why nothing could be fitted: the rig is as described; empty if it could
+  std::vector<Rig> other_ends{};  ///< where it ended from other places, if not all ended alike
+  std::size_t begun = 1;          ///< places it was begun from
+  std::string failure{};          ///< why nothing could be fitted: the rig is as described; empty if it could
 };
 
 /// The nominal parameters, and the sizes of effects that the rig has already, fitted to the training runs.

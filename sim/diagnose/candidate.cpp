@@ -12,7 +12,7 @@
 
 namespace mckibben::diagnose {
 
-void each_side(RigFile& rig, const std::function<void(plant::Effects& effects)>& visit, Side side) {
+void each_side(Rig& rig, const std::function<void(plant::Effects& effects)>& visit, Side side) {
   if (side != Side::two) visit(rig.effects);
   auto* pair = std::get_if<plant::Pair>(&rig.mechanics);
   if (pair != nullptr && side != Side::one) visit(pair->opposite.effects);
@@ -22,7 +22,7 @@ namespace {
 
 /// Calls `tell` with the effect of this name in the rig, on each of these sides.
 template <class Tell>
-void with_effect(RigFile& rig, std::string_view effect, Side side, const Tell& tell) {
+void with_effect(Rig& rig, std::string_view effect, Side side, const Tell& tell) {
   const auto visit = [&](plant::Effects& effects) {
     const auto look = [&]<class E>(E& mine) {
       if (effect == E::name) tell(mine);
@@ -37,7 +37,7 @@ void with_effect(RigFile& rig, std::string_view effect, Side side, const Tell& t
 
 }  // namespace
 
-bool carries(RigFile rig, std::string_view effect, Side side) {
+bool carries(Rig rig, std::string_view effect, Side side) {
   bool present = false;
   with_effect(rig, effect, side, [&](const auto& mine) { present = present || !mine.absent(); });
   return present;
@@ -56,16 +56,16 @@ Candidate Candidate::of(Side one) const {
 namespace {
 
 /// Whether a number of a candidate is one for both sides.
-bool is_of_both(const Candidate& candidate, const RigFile& rig) {
+bool is_of_both(const Candidate& candidate, const Rig& rig) {
   return rig.pair() != nullptr && candidate.side == Side::both;
 }
 
 }  // namespace
 
-void Candidate::put(RigFile& rig, double size) const {
+void Candidate::put(Rig& rig, double size) const {
   Parameter{.path = amplitude, .both_sides = is_of_both(*this, rig)}.put(rig, size);
 }
-void Candidate::put(RigFile& rig, double size, double with_shape) const {
+void Candidate::put(Rig& rig, double size, double with_shape) const {
   const bool both = is_of_both(*this, rig);
   for (const Further& one : further) Parameter{.path = one.path, .both_sides = both}.put(rig, one.value);
   if (!shape.empty()) Parameter{.path = shape, .both_sides = both}.put(rig, with_shape);
@@ -74,7 +74,7 @@ void Candidate::put(RigFile& rig, double size, double with_shape) const {
 
 namespace {
 
-RigFile with_law(RigFile rig, const EffectName& whose, std::string_view variant) {
+Rig with_law(Rig rig, const EffectName& whose, std::string_view variant) {
   with_effect(rig, whose.effect, whose.side, [&](auto& mine) {
     if constexpr (requires { mine.variant; }) {
       for (const auto& [law, name] : names(mine.variant))
@@ -98,18 +98,18 @@ bool has_law(const E& mine, std::string_view variant) {
 
 }  // namespace
 
-RigFile Candidate::chosen(RigFile rig) const {
+Rig Candidate::chosen(Rig rig) const {
   return with_law(std::move(rig), who(), variant);
 }
 
-bool Candidate::carried(RigFile rig) const {
+bool Candidate::carried(Rig rig) const {
   bool present = false;
   with_effect(rig, effect, side,
               [&](const auto& mine) { present = present || (!mine.absent() && has_law(mine, variant)); });
   return present;
 }
 
-bool Candidate::fits(const RigFile& rig) const {
+bool Candidate::fits(const Rig& rig) const {
   if (adds_to.empty()) return !carries(rig, effect, side);
   Candidate base = *this;
   base.variant = adds_to;
@@ -119,7 +119,7 @@ bool Candidate::fits(const RigFile& rig) const {
   return side == Side::both ? on(Side::one) && on(Side::two) : !on(other(side));
 }
 
-RigFile Candidate::removed(RigFile rig) const {
+Rig Candidate::removed(Rig rig) const {
   put(rig, absent);
   return adds_to.empty() ? rig : with_law(std::move(rig), who(), adds_to);
 }
@@ -148,8 +148,8 @@ Parameter moved(const Further& one, bool both_sides) {
 
 }  // namespace
 
-std::vector<Parameter> Candidate::parameters(const RigFile& rig) const {
-  RigFile copy = rig;
+std::vector<Parameter> Candidate::parameters(const Rig& rig) const {
+  Rig copy = rig;
   const bool both = is_of_both(*this, rig);
   const Found size = find(copy, amplitude);
   // Next to nothing is as good as nothing, and can be stiff: a supply line of no resistance, a lag of no

@@ -12,11 +12,10 @@
 namespace mckibben::diagnose {
 
 /// Calls `visit` with the effects of each side of the rig, or of one.
-void each_side(RigFile& rig, const std::function<void(plant::Effects& effects)>& visit,
-               Side side = Side::both);
+void each_side(Rig& rig, const std::function<void(plant::Effects& effects)>& visit, Side side = Side::both);
 
 /// Whether this effect of the catalogue is in the rig, on one of these sides.
-bool carries(RigFile rig, std::string_view effect, Side side = Side::both);
+bool carries(Rig rig, std::string_view effect, Side side = Side::both);
 
 /// A parameter of a law, besides its size, and the values to begin a fit from.
 struct Further {
@@ -44,18 +43,18 @@ struct Candidate {
   /// The same law on one side of a pair alone.
   Candidate of(Side one) const;
   /// Gives it this size in a rig; and a shape, if it has one.
-  void put(RigFile& rig, double size) const;
-  void put(RigFile& rig, double size, double with_shape) const;
+  void put(Rig& rig, double size) const;
+  void put(Rig& rig, double size, double with_shape) const;
   /// The rig with this law chosen, still without size.
-  RigFile chosen(RigFile rig) const;
+  Rig chosen(Rig rig) const;
   /// Whether the rig has this effect on one of its sides, with this law or one that adds to it.
-  bool carried(RigFile rig) const;
+  bool carried(Rig rig) const;
   /// Whether a rig may get it: one without this effect, or with the law that it adds to.
-  bool fits(const RigFile& rig) const;
+  bool fits(const Rig& rig) const;
   /// The rig without it; with what it adds to.
-  RigFile removed(RigFile rig) const;
+  Rig removed(Rig rig) const;
   /// What a fit moves: amplitude and, if any, shape and further parameters.
-  std::vector<Parameter> parameters(const RigFile& rig) const;
+  std::vector<Parameter> parameters(const Rig& rig) const;
   bool moves(std::string_view path) const;
   /// Itself, and with each further parameter at each of its other values: what is scored.
   std::vector<Candidate> variations() const;

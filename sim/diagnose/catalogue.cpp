@@ -130,7 +130,7 @@ std::vector<Candidate> in_sight(const Sight& sight) {
 std::vector<Candidate> catalogue() {
   return in_sight({});
 }
-std::vector<Candidate> catalogue(const RigFile& rig) {
+std::vector<Candidate> catalogue(const Rig& rig) {
   std::vector<Candidate> list = catalogue();
   for (const auto& law : rig.effects.laws.list) list.push_back(candidate_of(*law.text));
   return list;

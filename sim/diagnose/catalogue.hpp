@@ -12,7 +12,7 @@ namespace mckibben::diagnose {
 /// The whole catalogue, in the order of its table.
 std::vector<Candidate> catalogue();
 /// The same, and the rig's laws of the user's own.
-std::vector<Candidate> catalogue(const RigFile& rig);
+std::vector<Candidate> catalogue(const Rig& rig);
 /// What these data can show of both: where the muscle's pressure is given, without what acts on valve,
 /// supply, hose and gas alone, of a pair without the guide of a load, without a gauge no errors of one. Of a
 /// pair, what may be of one muscle alone stands there for both, for muscle 1 and for muscle 2.

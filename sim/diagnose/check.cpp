@@ -48,7 +48,7 @@ class DatasetChecker {
     run::for_each_job(
         data_.runs.size(), threads_,
         [&](std::size_t i) {
-          const Hanging hanging{data_.rig, data_.runs[i].load_kg};
+          const Loaded hanging{data_.rig, data_.runs[i].load_kg};
           list[i] = std::move(predict(data_.runs[i], {&hanging, 1}, data_.rig.integrator.method).front());
         },
         [](std::size_t) {});

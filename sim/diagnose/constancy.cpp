@@ -79,7 +79,7 @@ Parting by_motion(const Experiment& experiment, const Runs& runs, const States& 
 }
 
 /// Speeds in two halves, those of a row and not of its run.
-Parting by_speed(const Experiment& experiment, const RigFile& rig, const Runs& runs, const States& states) {
+Parting by_speed(const Experiment& experiment, const Rig& rig, const Runs& runs, const States& states) {
   const bool pair = rig.pair() != nullptr;
   const double per_ratio = pair ? rig.muscle.rest_length_m / rig.joint.wheel_radius_m / plant::degree_rad
                                 : 1e3 * rig.muscle.rest_length_m;
@@ -102,7 +102,7 @@ Parting by_speed(const Experiment& experiment, const RigFile& rig, const Runs& r
   return parting;
 }
 
-std::vector<Parting> partings(const Experiment& experiment, const RigFile& rig, const Runs& runs) {
+std::vector<Parting> partings(const Experiment& experiment, const Rig& rig, const Runs& runs) {
   std::vector<Parting> list{by_level(experiment, runs)};
   if (!experiment.data().force_is_judged()) {
     States states;

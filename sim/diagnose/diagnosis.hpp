@@ -312,7 +312,7 @@ struct Diagnosis {
   double time_limit_s = 0.0;
   std::vector<std::string> not_done{};  ///< of it
   std::string unexplained{};            ///< runs that no model comes near, in words
-  domain::RigFile corrected{};
+  plant::Rig corrected{};
   double false_alarm_rate = 0.0;  ///< that the thresholds were set for
   std::uint64_t seed = 1;
 };

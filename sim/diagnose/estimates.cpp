@@ -28,9 +28,9 @@ std::string words(const plant::ForceTerm& term) {
 }  // namespace
 
 void tell_parameters(Diagnosis& diagnosis, const Model& model, const std::vector<Bounds>& bounds,
-                     const RigFile& recalibrated) {
+                     const Rig& recalibrated) {
   const auto& terms = model.rig.effects.get<plant::ResidualForce>().terms;
-  RigFile rig = model.rig;
+  Rig rig = model.rig;
   for (std::size_t j = 0; j < model.free.size(); ++j) {
     const Parameter& p = model.free[j];
     const Bounds& at = bounds[j];

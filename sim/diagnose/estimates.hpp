@@ -13,6 +13,6 @@ namespace mckibben::diagnose {
 /// Files the free parameters of the final fit under effects, law and nominal parameters. `bounds`: one for
 /// each free parameter; `recalibrated`: the rig fitted without effects.
 void tell_parameters(Diagnosis& diagnosis, const Model& model, const std::vector<Bounds>& bounds,
-                     const RigFile& recalibrated);
+                     const Rig& recalibrated);
 
 }  // namespace mckibben::diagnose

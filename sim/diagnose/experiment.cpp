@@ -67,7 +67,7 @@ void Experiment::compare(const Readings& readings, std::size_t run, double* resi
   });
 }
 
-Eigen::VectorXd Experiment::residuals(const RigFile& rig, const Runs& runs) const {
+Eigen::VectorXd Experiment::residuals(const Rig& rig, const Runs& runs) const {
   return slopes(rig, std::span<const Change>{}, runs).residuals;
 }
 
@@ -82,13 +82,13 @@ bool may_be(const Parameter& p, double value) {
 }
 
 Experiment::Change change_by(const Parameter& p, double value, double change) {
-  return {[p, value, change](Hanging& h) { p.put(h.rig, value + change); },
+  return {[p, value, change](Loaded& h) { p.put(h.rig, value + change); },
           p.logarithmic ? change / value : change / p.scale};
 }
 
 }  // namespace
 
-std::vector<Experiment::Change> Experiment::changes_of(const RigFile& rig,
+std::vector<Experiment::Change> Experiment::changes_of(const Rig& rig,
                                                        std::span<const Parameter> parameters) {
   std::vector<Change> changes;
   for (const Parameter& p : parameters) {
@@ -99,12 +99,12 @@ std::vector<Experiment::Change> Experiment::changes_of(const RigFile& rig,
   return changes;
 }
 
-Experiment::Slopes Experiment::slopes(const RigFile& rig, std::span<const Parameter> parameters,
+Experiment::Slopes Experiment::slopes(const Rig& rig, std::span<const Parameter> parameters,
                                       const Runs& runs) const {
   return slopes(rig, changes_of(rig, parameters), runs);
 }
 
-Experiment::Slopes Experiment::fine_slopes(const RigFile& rig, std::span<const Parameter> parameters,
+Experiment::Slopes Experiment::fine_slopes(const Rig& rig, std::span<const Parameter> parameters,
                                            const Runs& runs) const {
   std::vector<Parameter> wide(parameters.begin(), parameters.end());
   for (Parameter& p : wide) p.step *= thresholds.fit.wider_steps;
@@ -154,13 +154,13 @@ void go(Readings& readings, const Readings& from, const Readings& to, double tim
 
 }  // namespace
 
-bool Experiment::seeks_memories(const RigFile& rig) const {
+bool Experiment::seeks_memories(const Rig& rig) const {
   return data_.recorded.start != domain::Start::settled && rig.remembers();
 }
 
 // A further rig of the group, with its memories a little off, tells what they change; a straight line then
 // takes all readings to where the run's own say. Where that is far, all fly again from near there.
-std::vector<Readings> Experiment::begun(std::size_t run, std::vector<Hanging> rigs) const {
+std::vector<Readings> Experiment::begun(std::size_t run, std::vector<Loaded> rigs) const {
   const domain::Run& measured = data_.runs[run];
   const solver::Method method = data_.rig.integrator.method;
   if (!seeks_memories(rigs.front().rig)) return predict(measured, rigs, method);
@@ -197,7 +197,7 @@ std::vector<Readings> Experiment::begun(std::size_t run, std::vector<Hanging> ri
   }
 }
 
-Wanted Experiment::wanted(const RigFile& rig, std::span<const Change> changes, std::size_t run) const {
+Wanted Experiment::wanted(const Rig& rig, std::span<const Change> changes, std::size_t run) const {
   Wanted one{&data_.runs[run], {{rig, data_.runs[run].load_kg}}};
   for (const Change& change : changes) {
     one.rigs.push_back(one.rigs.front());
@@ -228,7 +228,7 @@ void Experiment::note(const std::vector<Readings>& readings, std::span<const Cha
   }
 }
 
-Experiment::Slopes Experiment::slopes(const RigFile& rig, std::span<const Change> changes,
+Experiment::Slopes Experiment::slopes(const Rig& rig, std::span<const Change> changes,
                                       const Runs& runs) const {
   const auto list = parts(runs);
   Eigen::Index total = 0;
@@ -258,7 +258,7 @@ Experiment::Slopes Experiment::slopes(const RigFile& rig, std::span<const Change
 
 // Groups that cannot fly, all of whose failures may be forgiven: because of a change that may fail, if it is
 // alone, or one of some that fly together.
-std::vector<Experiment::Group> Experiment::fly(const RigFile& rig, std::span<const Change> changes,
+std::vector<Experiment::Group> Experiment::fly(const Rig& rig, std::span<const Change> changes,
                                                const std::vector<Group>& groups, Slopes& result,
                                                bool alone) const {
   std::size_t rigs = 0;
@@ -301,7 +301,7 @@ Eigen::VectorXd Experiment::residuals(const Readings& readings, std::size_t run)
   return list;
 }
 
-std::vector<Readings> Experiment::readings(const RigFile& rig, const Runs& runs) const {
+std::vector<Readings> Experiment::readings(const Rig& rig, const Runs& runs) const {
   std::vector<Readings> list(runs.size());
   if (seeks_memories(rig)) {
     run::for_each_job(

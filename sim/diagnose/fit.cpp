@@ -39,7 +39,7 @@ class Misfit final : public ceres::CostFunction {
       if (known_slope(model.free[j]) == nullptr) fresh_.push_back(model.free[j]);
   }
 
-  Experiment::Slopes slopes(const RigFile& rig) const {
+  Experiment::Slopes slopes(const Rig& rig) const {
     auto fresh =
         thorough_ ? experiment_.fine_slopes(rig, fresh_, runs_) : experiment_.slopes(rig, fresh_, runs_);
     Eigen::MatrixXd columns(rows_, static_cast<Eigen::Index>(model_.free.size()));
@@ -264,7 +264,7 @@ void take_slopes_along_axes(const Experiment& experiment, Fitted& fitted, const 
   const auto go = [&](Eigen::Index axis, double way) {
     Model there = fitted.model;
     there.rig = rig_at(fitted.model, Eigen::VectorXd(at + way * axes.eigenvectors().col(axis)).data());
-    changes.push_back({[rig = there.rig](Hanging& h) { h.rig = rig; }, 1.0});
+    changes.push_back({[rig = there.rig](Loaded& h) { h.rig = rig; }, 1.0});
     return scaled_values(there);
   };
   for (Eigen::Index i = 0; i < count; ++i) {
@@ -311,8 +311,8 @@ Eigen::VectorXd scaled_values(const Model& model) {
   return values;
 }
 
-RigFile rig_at(const Model& model, const double* scaled) {
-  RigFile rig = model.rig;
+Rig rig_at(const Model& model, const double* scaled) {
+  Rig rig = model.rig;
   for (std::size_t j = 0; j < model.free.size(); ++j) {
     const Parameter& p = model.free[j];
     p.put(rig, std::clamp(p.unscaled(scaled[j]), p.lowest, p.highest));

@@ -15,7 +15,7 @@ namespace mckibben::diagnose {
 
 /// A rig and what is free in it.
 struct Model {
-  RigFile rig;  ///< with the values as they stand
+  Rig rig;  ///< with the values as they stand
   std::vector<Parameter> free{};
   std::vector<Candidate> effects{};    ///< that have been added, in this order
   std::vector<std::string> refused{};  ///< not free, although asked for: no reading depends on them
@@ -35,7 +35,7 @@ struct FitSettings {
 Eigen::VectorXd scaled_values(const Model& model);
 
 /// The rig with its free parameters at these scaled values, or at the bounds that they are beyond.
-RigFile rig_at(const Model& model, const double* scaled);
+Rig rig_at(const Model& model, const double* scaled);
 
 struct Fitted {
   Model model;

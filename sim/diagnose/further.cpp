@@ -17,14 +17,14 @@ namespace {
 
 constexpr const FurtherThresholds& of_further = thresholds.further;
 
-bool may_widen(const Parameter& p, const RigFile& nominal) {
+bool may_widen(const Parameter& p, const Rig& nominal) {
   const auto stated = nominal.spreads.find(p.path);
   const bool unknown = stated != nominal.spreads.end() && !std::isfinite(stated->second);
   return p.has_prior && !p.of_effect() && p.widened == 1.0 && !unknown;
 }
 
 /// Bounds that stand where the deviation puts them move with it, as far as the number's range goes.
-void widen(Parameter& p, RigFile rig) {
+void widen(Parameter& p, Rig rig) {
   const Found found = find(rig, p.path);
   const double most = thresholds.parameter.most_deviations * p.scale;
   const double near = of_further.same_bound * most;

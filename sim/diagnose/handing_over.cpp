@@ -47,7 +47,7 @@ void Workflow::hand_over(const Decision& decision) {
 Fitted Workflow::best_fit_of_all_runs(const Model& chosen) const {
   const FitSettings settings{.inflation = chosen_inflation_, .thorough = true};
   Fitted best = fit(experiment_, chosen, usable_, settings);
-  for (const RigFile& end : other_ends_) {
+  for (const Rig& end : other_ends_) {
     Fitted other = fit(experiment_, begun_at(chosen, end), usable_, settings);
     if (other.failure.empty() && (!best.failure.empty() || other.cost < best.cost)) best = std::move(other);
   }

@@ -43,7 +43,7 @@ class Scales {
     for (const std::size_t run : runs)
       moved.runs[run].load_kg = std::max(loads_kg[run], thresholds.label.least_kg);
     constexpr double step_kg = thresholds.label.step_kg;
-    const Experiment::Change heavier{[](Hanging& h) { h.load_kg += step_kg; }, step_kg};
+    const Experiment::Change heavier{[](Loaded& h) { h.load_kg += step_kg; }, step_kg};
     return Experiment(moved, masked_, threads_).slopes(moved.rig, {&heavier, 1}, runs);
   }
   std::vector<Experiment::Part> parts(const Runs& runs) const {

@@ -24,7 +24,7 @@ std::vector<plant::ForceTerm>& terms_of(plant::Effects& effects) {
 }
 
 /// Of a pair, each muscle gets the force.
-void add(RigFile& rig, const plant::ForceTerm& term) {
+void add(Rig& rig, const plant::ForceTerm& term) {
   each_side(rig, [&](plant::Effects& effects) { terms_of(effects).push_back(term); });
 }
 
@@ -33,7 +33,7 @@ plant::ForceTerm wave(double probe_N, double wavelength_m, double phase_rad) {
 }
 
 /// Wavelengths that the data can tell apart: whole and half periods over the largest rise.
-std::vector<double> wavelengths_m(const RigFile& rig) {
+std::vector<double> wavelengths_m(const Rig& rig) {
   const double rise_m = plant::Braid(rig.muscle).largest_contraction_ratio() * rig.muscle.rest_length_m;
   std::vector<double> list;
   for (double periods = of_law.first_periods; periods <= of_law.last_periods; periods += of_law.step_periods)
@@ -52,7 +52,7 @@ struct Probes {
   std::size_t plain = 0;
 };
 
-Probes probes_of(const RigFile& rig) {
+Probes probes_of(const Rig& rig) {
   Probes probes;
   for (const auto& [basis, name] : names(Basis{})) {
     if (basis == Basis::sine || basis == Basis::constant) continue;
@@ -74,7 +74,7 @@ std::vector<Proposal> score(const Case& c, const Fitted& fitted, const Probes& p
   std::vector<Experiment::Change> changes;
   changes.reserve(probes.terms.size());
   for (const auto& term : probes.terms)
-    changes.push_back({[term](Hanging& h) { add(h.rig, term); }, term.coefficient_N, true});
+    changes.push_back({[term](Loaded& h) { add(h.rig, term); }, term.coefficient_N, true});
   const auto slopes = c.experiment.slopes(fitted.model.rig, changes, c.split.training);
   // As long as nothing fits, the misfit itself is the scatter.
   const Projector project(
@@ -213,7 +213,7 @@ void drop_uncertain(const Case& c, Law& law, const Step& step) {
 }
 
 /// Terms are counted through on both sides of a pair alike.
-bool sides_have_as_many_terms(RigFile rig) {
+bool sides_have_as_many_terms(Rig rig) {
   const std::size_t count = terms_of(rig.effects).size();
   bool alike = true;
   each_side(rig, [&](plant::Effects& effects) { alike = alike && terms_of(effects).size() == count; });

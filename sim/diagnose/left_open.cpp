@@ -206,7 +206,7 @@ LeftOpen told(const Group& group, const std::vector<FittedOne>& all) {
 std::vector<LeftOpen> left_open(const Fitted& fitted, double inflation) {
   const Eigen::MatrixXd information = fitted.columns.transpose() * fitted.columns / inflation;
   std::vector<FittedOne> numbers;
-  RigFile rig = fitted.model.rig;
+  Rig rig = fitted.model.rig;
   for (const Parameter& p : fitted.model.free) {
     const Found found = find(rig, p.path);
     numbers.push_back({p.path, found.unit, *found.value, p.logarithmic ? *found.value : p.scale});

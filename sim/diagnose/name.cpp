@@ -358,7 +358,7 @@ class Namer {
   const Eigen::VectorXd& before() const {
     return result_.effects.empty() ? reference_ : result_.best.held_out;
   }
-  std::vector<const RigFile*> other_numbers() const {
+  std::vector<const Rig*> other_numbers() const {
     return {&nominal_.fitted.model.rig, &recalibrated_.fitted.model.rig};
   }
   bool is_at_fault(More more) {

@@ -185,7 +185,7 @@ double of_given_pressure(const domain::Dataset& data, const Runs& runs) {
   for (const std::size_t i : runs) {
     domain::Run run = data.runs[i];
     if (!run.shaken) continue;
-    const Hanging hanging{data.rig, run.load_kg};
+    const Loaded hanging{data.rig, run.load_kg};
     const auto readings = [&] {
       return predict(run, {&hanging, 1}, data.rig.integrator.method).front().judged;
     };
@@ -204,7 +204,7 @@ double of_command(const domain::Dataset& data, const Runs& runs) {
   double squares = 0.0, count = 0.0;
   for (const std::size_t i : runs) {
     const domain::Run& run = data.runs[i];
-    std::vector<Hanging> rigs{{data.rig, run.load_kg}};
+    std::vector<Loaded> rigs{{data.rig, run.load_kg}};
     const auto off_by = [&](std::size_t side, auto valve_of) {
       const double off_Pa = valve_of(rigs.front().rig).repeatability_Pa;
       if (off_Pa == 0.0 || (run.measured && run.measured->sides[side].pressure_is_given)) return;
@@ -213,11 +213,10 @@ double of_command(const domain::Dataset& data, const Runs& runs) {
       valve.zero_pressure_Pa += off_Pa;
       valve.span_pressure_Pa += off_Pa;
     };
-    off_by(0, [](RigFile& rig) -> plant::Valve& { return rig.valve; });
+    off_by(0, [](Rig& rig) -> plant::Valve& { return rig.valve; });
     if (data.rig.pair() != nullptr)
-      off_by(1, [](RigFile& rig) -> plant::Valve& {
-        return std::get<plant::Pair>(rig.mechanics).opposite.valve;
-      });
+      off_by(1,
+             [](Rig& rig) -> plant::Valve& { return std::get<plant::Pair>(rig.mechanics).opposite.valve; });
     if (rigs.size() == 1) continue;
     const auto readings = predict(run, rigs, data.rig.integrator.method);
     for (std::size_t rig = 1; rig < readings.size(); ++rig)

@@ -17,18 +17,18 @@ std::string keys_of(const EffectName& who) {
       .append(".");
 }
 
-Found find(RigFile& rig, std::string_view path) {
+Found find(Rig& rig, std::string_view path) {
   Found found = domain::find_number(rig, path);
   if (found.value == nullptr) throw std::invalid_argument("no parameter " + std::string(path));
   return found;
 }
 
-double value_of(const RigFile& rig, std::string_view path) {
-  RigFile copy = rig;
+double value_of(const Rig& rig, std::string_view path) {
+  Rig copy = rig;
   return *find(copy, path).value;
 }
 
-void Parameter::put(RigFile& rig, double value) const {
+void Parameter::put(Rig& rig, double value) const {
   *find(rig, path).value = value;
   if (both_sides) *find(rig, std::string(of_muscle_2) + path).value = value;
 }

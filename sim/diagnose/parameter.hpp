@@ -8,13 +8,13 @@
 #include <string>
 #include <string_view>
 
+#include <plant/rig.hpp>
 #include <sim/diagnose/side.hpp>
-#include <sim/domain/rig_file.hpp>
 #include <sim/domain/rig_number.hpp>
 
 namespace mckibben::diagnose {
 
-using domain::RigFile;
+using plant::Rig;
 using Found = domain::RigNumber;
 
 /// Under this key of a rig's effects stand the laws of a user's own.
@@ -26,8 +26,8 @@ inline constexpr std::string_view of_muscle_2 = "mechanics.opposite.";
 std::string_view of_muscle_1(std::string_view path);
 
 /// Throws std::invalid_argument for a path that leads to no number.
-Found find(RigFile& rig, std::string_view path);
-double value_of(const RigFile& rig, std::string_view path);
+Found find(Rig& rig, std::string_view path);
+double value_of(const Rig& rig, std::string_view path);
 
 /// What the paths of an effect's numbers begin with: `effects.muscle_leak.`.
 std::string keys_of(const EffectName& who);
@@ -46,7 +46,7 @@ struct Parameter {
   bool both_sides = false;   ///< of a pair: the number of muscle 2's side is the same one
 
   bool of_effect() const { return path.find("effects.") != std::string::npos; }
-  void put(RigFile& rig, double value) const;
+  void put(Rig& rig, double value) const;
   double unscaled(double number) const;
   double scaled(double value) const;
   /// From the origin, of the prior that is stated.

@@ -49,7 +49,7 @@ controllers::StepCurrent triangles_on_a_ramp(double low_mA, double high_mA, doub
   return steps;
 }
 
-std::vector<Item> menu(const RigFile& rig) {
+std::vector<Item> menu(const Rig& rig) {
   const double low = rig.valve.zero_current_mA;
   const double high = std::min(rig.valve.span_current_mA, rig.dac.largest_current_mA);
   const double span = high - low;
@@ -87,7 +87,7 @@ std::vector<Item> menu(const RigFile& rig) {
 
 /// The data set's loads, their halves and 1.3 times them, none within 8 % of another, none that the rig would
 /// not lift by 5 % of its length.
-std::vector<double> loads_kg(const domain::Dataset& data, const RigFile& rig) {
+std::vector<double> loads_kg(const domain::Dataset& data, const Rig& rig) {
   std::vector<double> wanted;
   for (const double factor : thresholds.plan.loads)
     for (const domain::Run& run : data.runs) wanted.push_back(std::round(1e3 * factor * run.load_kg) / 1e3);
@@ -105,7 +105,7 @@ std::vector<double> loads_kg(const domain::Dataset& data, const RigFile& rig) {
 }
 
 /// The current as the DAC gives it, at each tick.
-domain::Run played(const Item& item, const RigFile& rig, double load_kg) {
+domain::Run played(const Item& item, const Rig& rig, double load_kg) {
   domain::Run run;
   run.load_kg = load_kg;
   for (int k = 0; k * rig.tick_s < lasting_s; ++k)
@@ -143,7 +143,7 @@ Foretold foretold(const Experiment& experiment, const Model& model, const domain
   constexpr std::size_t width = engine::Batch::width - 1;
   for (std::size_t first = 0; first == 0 || first < changes.size(); first += width) {
     const std::size_t count = std::min(width, changes.size() - first);
-    std::vector<Hanging> rigs(1 + count, {model.rig, run.load_kg});
+    std::vector<Loaded> rigs(1 + count, {model.rig, run.load_kg});
     for (std::size_t i = 0; i < count; ++i) changes[first + i].apply(rigs[1 + i]);
     const auto readings = predict(run, rigs, experiment.data().rig.integrator.method);
     const auto of = [&](std::size_t i) {
@@ -216,7 +216,7 @@ std::optional<NextExperiment> plan(const Experiment& experiment, const Fitted& o
   };
   const auto apart = for_each(items.size() * loads.size(), [&](std::size_t job) {
     const auto run = run_of(job);
-    const Hanging both[] = {{one.model.rig, run.load_kg}, {other.model.rig, run.load_kg}};
+    const Loaded both[] = {{one.model.rig, run.load_kg}, {other.model.rig, run.load_kg}};
     const auto readings = predict(run, both, experiment.data().rig.integrator.method);
     return unexplained(readings[0].judged, readings[1].judged);
   });

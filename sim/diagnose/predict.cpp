@@ -12,21 +12,15 @@
 namespace mckibben::diagnose {
 namespace {
 
-std::vector<ride::Rider> riders_of(std::span<const Hanging> rigs) {
-  std::vector<ride::Rider> riders;
-  riders.reserve(rigs.size());
-  for (const Hanging& one : rigs) riders.push_back(run::rider_of(one.rig, one.load_kg));
-  return riders;
-}
-
 /// What instruments see of riders that follow a run.
 class Prediction final : public run::Follower {
  public:
   using Done = std::function<void(std::vector<Readings> readings, std::exception_ptr failure)>;
 
-  Prediction(const domain::Run& run, std::span<const Hanging> rigs, std::span<const double> memories,
+  Prediction(const domain::Run& run, std::span<const Loaded> rigs, std::span<const double> memories,
              Done done)
-      : Follower(riders_of(rigs), rigs.front().rig, run::course_of(run, rigs.front().rig), memories),
+      : Follower({rigs.begin(), rigs.end()}, rigs.front().rig, run::course_of(run, rigs.front().rig),
+                 memories),
         pair_(rigs.front().rig.pair() != nullptr),
         forces_(run.length_is_given()),
         force_beside_(run.beside(domain::Beside::force) != nullptr),
@@ -74,14 +68,14 @@ class Prediction final : public run::Follower {
 
 }  // namespace
 
-solver::Settings settings_for(std::span<const Hanging> rigs, solver::Method method) {
-  const bool shared = method != solver::Method::cvode && std::ranges::none_of(rigs, [](const Hanging& one) {
+solver::Settings settings_for(std::span<const Loaded> rigs, solver::Method method) {
+  const bool shared = method != solver::Method::cvode && std::ranges::none_of(rigs, [](const Loaded& one) {
                         return one.rig.friction.memory == plant::FrictionMemory::coulomb;
                       });
   return {method, shared ? thresholds.predict.tolerance : thresholds.predict.tolerance_alone};
 }
 
-std::vector<Readings> predict(const domain::Run& run, std::span<const Hanging> rigs, solver::Method method,
+std::vector<Readings> predict(const domain::Run& run, std::span<const Loaded> rigs, solver::Method method,
                               std::span<const double> memories) {
   std::vector<Readings> readings;
   std::exception_ptr failure;

@@ -13,14 +13,11 @@
 #include <sim/data/examine.hpp>
 #include <sim/diagnose/parameter.hpp>
 #include <sim/domain/dataset.hpp>
+#include <sim/ride/rider.hpp>
 
 namespace mckibben::diagnose {
 
-/// A rig with its load [kg], where one hangs on it.
-struct Hanging {
-  RigFile rig;
-  double load_kg = 0.0;
-};
+using ride::Loaded;
 
 /// At each row, before counting.
 struct Readings : data::Expected {
@@ -30,14 +27,14 @@ struct Readings : data::Expected {
 /// Readings of up to engine::Batch::width rigs, in common steps where these can be had (ride::Batch). Ticks
 /// are those of the first rig. `memories`: of runs that began on their way, how far those of each rig's
 /// effects are from rest (ride::Underway). Throws engine::NumericalFailure.
-std::vector<Readings> predict(const domain::Run& run, std::span<const Hanging> rigs,
+std::vector<Readings> predict(const domain::Run& run, std::span<const Loaded> rigs,
                               solver::Method method = solver::Method::automatic,
                               std::span<const double> memories = {});
 
 /// A prediction that is wanted: of a run, for rigs of which the first is the one whose slopes others tell.
 struct Wanted {
   const domain::Run* run;
-  std::vector<Hanging> rigs;
+  std::vector<Loaded> rigs;
 };
 /// Hears of one: its readings, or why there are none (an engine::NumericalFailure).
 using Predicted =
@@ -51,6 +48,6 @@ void predict_all(std::size_t count, std::size_t rigs, unsigned threads, solver::
                  const std::function<Wanted(std::size_t index)>& wanted, const Predicted& predicted);
 
 /// How `predict` integrates these rigs.
-solver::Settings settings_for(std::span<const Hanging> rigs, solver::Method method);
+solver::Settings settings_for(std::span<const Loaded> rigs, solver::Method method);
 
 }  // namespace mckibben::diagnose

@@ -13,7 +13,7 @@
 namespace mckibben::diagnose {
 namespace {
 
-using Stated = domain::Spreads;
+using Stated = plant::Spreads;
 
 /// The deviation that a rig's file states, of a value; none if it says nothing. What it says of the side of
 /// muscle 1 holds for muscle 2 as well, until it says otherwise.
@@ -41,10 +41,10 @@ std::string_view part_of_side(std::string_view path) {
 }
 
 /// Whether both sides of a pair have the same part, and are known alike.
-bool is_one_part(const RigFile& rig, std::string_view part, const Stated& stated) {
+bool is_one_part(const Rig& rig, std::string_view part, const Stated& stated) {
   const std::string other(of_muscle_2);
   const auto numbers = domain::paths_of_numbers(rig);
-  RigFile copy = rig;
+  Rig copy = rig;
   const auto same = [&](const std::string& path) {
     const double *one = domain::find_number(copy, path).value,
                  *two = domain::find_number(copy, other + path).value;
@@ -57,7 +57,7 @@ bool is_one_part(const RigFile& rig, std::string_view part, const Stated& stated
 }
 
 /// What a number of the side of muscle 1, or of what both share, stands for.
-std::vector<Standing> standings(const RigFile& rig, const std::string& path, const Stated& stated) {
+std::vector<Standing> standings(const Rig& rig, const std::string& path, const Stated& stated) {
   constexpr std::string_view one_for_both = "valve.supply_pressure";
   const std::string_view part = part_of_side(path);
   if (rig.pair() == nullptr || part.empty()) return {{path}};
@@ -78,7 +78,7 @@ Parameter normal(const std::string& path, const Found& found, double deviation) 
 }
 
 /// What somebody has put there: its size is a guess, good within a factor of a few, if nothing is stated.
-Parameter size_of(const Candidate& candidate, bool is_size, Parameter p, const RigFile& nominal,
+Parameter size_of(const Candidate& candidate, bool is_size, Parameter p, const Rig& nominal,
                   const Stated& stated) {
   p.origin = value_of(nominal, p.path);
   const double size = p.origin - (is_size ? candidate.absent : 0.0);
@@ -98,10 +98,10 @@ Parameter size_of(const Candidate& candidate, bool is_size, Parameter p, const R
 
 /// Numbers of the rig's parts that a file may say how well it knows. What is not in a part is not of the
 /// plant: the tick, the settling time.
-bool of_a_part(const RigFile& nominal, std::string_view path) {
+bool of_a_part(const Rig& nominal, std::string_view path) {
   constexpr std::array<std::string_view, 7> parts{"muscle.", "friction.", "valve.",    "hose.",
                                                   "gas.",    "joint.",    "mechanics."};
-  RigFile rig = nominal;
+  Rig rig = nominal;
   return path.find("effects.") == std::string_view::npos && domain::find_number(rig, path).value != nullptr &&
          std::any_of(parts.begin(), parts.end(), [&](auto part) { return path.starts_with(part); });
 }
@@ -120,7 +120,7 @@ void keep_link_possible(const plant::Link& link, Parameter& p) {
 /// Gathers what a fit may move.
 class Gathering {
  public:
-  Gathering(const RigFile& nominal, const Stated& stated) : rig_(nominal), stated_(stated) {}
+  Gathering(const Rig& nominal, const Stated& stated) : rig_(nominal), stated_(stated) {}
 
   std::vector<Parameter> operator()() {
     usual(thresholds.parameter.priors);
@@ -176,14 +176,14 @@ class Gathering {
     if (rig_.pair() != nullptr) keep_link_possible(*rig_.pair(), list_.back());
   }
 
-  RigFile rig_;
+  Rig rig_;
   const Stated& stated_;
   std::vector<Parameter> list_;
 };
 
 }  // namespace
 
-std::vector<Parameter> nominal_parameters(const RigFile& nominal, const domain::Spreads& stated) {
+std::vector<Parameter> nominal_parameters(const Rig& nominal, const plant::Spreads& stated) {
   return Gathering(nominal, stated)();
 }
 

@@ -4,8 +4,8 @@
 
 #include <vector>
 
+#include <plant/rig.hpp>
 #include <sim/diagnose/parameter.hpp>
-#include <sim/domain/spread.hpp>
 
 namespace mckibben::diagnose {
 
@@ -13,6 +13,6 @@ namespace mckibben::diagnose {
 /// how well it knows, with that (also of parameters that would not move else; one that is known exactly does
 /// not). Those of effects that the rig has already count with them; their size is believed to a factor of a
 /// few, or to what is typical, whichever is more.
-std::vector<Parameter> nominal_parameters(const RigFile& nominal, const domain::Spreads& stated = {});
+std::vector<Parameter> nominal_parameters(const Rig& nominal, const plant::Spreads& stated = {});
 
 }  // namespace mckibben::diagnose

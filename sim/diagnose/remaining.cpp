@@ -30,7 +30,7 @@ std::vector<Dense> densest(std::span<const Cell> map) {
   return all;
 }
 
-Remaining remaining(const Experiment& experiment, const RigFile& corrected, const Runs& runs, const Gap& gap,
+Remaining remaining(const Experiment& experiment, const Rig& corrected, const Runs& runs, const Gap& gap,
                     std::uint64_t seed) {
   Remaining left{.floors = gap.floors_left(), .share = 1.0 - gap.closed};
   if (left.is_more_than_noise()) left.pattern = densest(where(experiment, corrected, runs, seed));

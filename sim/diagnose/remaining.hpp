@@ -16,7 +16,7 @@ std::vector<Dense> densest(std::span<const Cell> map);
 
 /// How much the corrected rig leaves on the runs held out; where more than noise is left, where it lies in
 /// all runs. Throws engine::NumericalFailure, run::Interrupted.
-Remaining remaining(const Experiment& experiment, const RigFile& corrected, const Runs& runs, const Gap& gap,
+Remaining remaining(const Experiment& experiment, const Rig& corrected, const Runs& runs, const Gap& gap,
                     std::uint64_t seed);
 
 /// It in a sentence; empty if no more is left than noise.

@@ -51,7 +51,7 @@ std::vector<double> shifted(const std::vector<double>& values, int late) {
 
 /// What was read beside is shifted with the readings where it then goes with the model: a recorder may be
 /// late, or the one sensor.
-void shift(const RigFile& rig, domain::Run& run, std::vector<bool>& masked, int late) {
+void shift(const Rig& rig, domain::Run& run, std::vector<bool>& masked, int late) {
   const bool beside = run.muscle_pressure_Pa || !run.force_N.empty();
   run.contraction_ratio = shifted(run.contraction_ratio, late);
   const std::vector<bool> was = masked;
@@ -61,7 +61,7 @@ void shift(const RigFile& rig, domain::Run& run, std::vector<bool>& masked, int 
     masked[static_cast<std::size_t>(k)] = from < 0 || from >= rows || was[static_cast<std::size_t>(from)];
   }
   if (!beside) return;
-  const Hanging hanging{rig, run.load_kg};
+  const Loaded hanging{rig, run.load_kg};
   const Readings model = predict(run, {&hanging, 1}, rig.integrator.method).front();
   const auto move = [&](std::vector<double>& read, const std::vector<double>& expected) {
     std::vector<double> moved = shifted(read, late);

@@ -24,7 +24,7 @@ std::vector<RunGap> gaps_of_runs(const Experiment& experiment, const Runs& held_
   }
   Runs all(runs.size());
   std::iota(all.begin(), all.end(), 0);
-  const auto tell = [&](const RigFile& rig, double RunGap::*rmse, std::vector<double> RunGap::*simulated) {
+  const auto tell = [&](const Rig& rig, double RunGap::*rmse, std::vector<double> RunGap::*simulated) {
     auto readings = experiment.readings(rig, all);
     for (const std::size_t run : all) {
       gaps[run].*rmse = experiment.rmse(experiment.residuals(readings[run], run), {run});

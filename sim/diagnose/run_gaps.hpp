@@ -12,7 +12,7 @@ namespace mckibben::diagnose {
 
 /// The rigs of a diagnosis: as described, with its numbers fitted, with what was found.
 struct ThreeRigs {
-  const RigFile &nominal, &recalibrated, &corrected;
+  const Rig &nominal, &recalibrated, &corrected;
 };
 
 /// All runs of the experiment, also those that are not `usable`. Throws engine::NumericalFailure.

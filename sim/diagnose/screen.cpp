@@ -61,7 +61,7 @@ std::vector<Score> screen(const Experiment& experiment, const Fitted& fitted,
       for (const double shape : shapes)
         for (const double size : {c.step, thresholds.parameter.probe * c.typical}) {
           probes.push_back({i, variation, shape});
-          changes.push_back({[variation, shape, size](Hanging& h) {
+          changes.push_back({[variation, shape, size](Loaded& h) {
                                h.rig = variation.chosen(h.rig);
                                variation.put(h.rig, variation.absent + size, shape);
                              },

@@ -31,7 +31,7 @@ std::vector<Experiment::Change> inputs_in_error(bool pressure_is_given) {
   if (pressure_is_given) {
     constexpr double offset_bar = thresholds.fault.pressure_bar;
     const auto gauge = [](plant::GaugeLaw law, const auto& change) {
-      return [=](Hanging& h) {
+      return [=](Loaded& h) {
         auto& error = h.rig.effects.get<plant::GaugeError>();
         if (error.absent()) error.variant = law;
         change(error);
@@ -42,7 +42,7 @@ std::vector<Experiment::Change> inputs_in_error(bool pressure_is_given) {
                    [](plant::GaugeError& error) { error.offset_Pa += offset_bar * plant::Pa_per_bar; }),
              offset_bar}};
   }
-  return {{[](Hanging& h) {
+  return {{[](Loaded& h) {
              plant::Valve& valve = h.rig.valve;
              const bool own = valve.has_own_command();  // whose nothing is another current than none
              const double zero_mA = own ? valve.current_for_mA((1.0 + share) * valve.zero_command.value)
@@ -52,7 +52,7 @@ std::vector<Experiment::Change> inputs_in_error(bool pressure_is_given) {
              valve.zero_current_mA = zero_mA;
            },
            share},
-          {[](Hanging& h) {
+          {[](Loaded& h) {
              h.rig.valve.zero_current_mA += offset_mA;
              h.rig.valve.span_current_mA += offset_mA;
            },

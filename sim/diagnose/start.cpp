@@ -23,7 +23,7 @@ double moved(const std::vector<double>& ratio) {
 
 }  // namespace
 
-Start look_at_start(const Experiment& experiment, const RigFile& corrected, const Runs& runs) {
+Start look_at_start(const Experiment& experiment, const Rig& corrected, const Runs& runs) {
   Start start;
   const double tick_s = experiment.data().row_s();
   std::size_t longest = 0;

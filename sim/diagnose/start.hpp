@@ -12,7 +12,7 @@ namespace mckibben::diagnose {
 
 /// What is left with the corrected rig in the first seconds of these runs, and which of them move from the
 /// first reading on by more than it would. Throws engine::NumericalFailure.
-Start look_at_start(const Experiment& experiment, const RigFile& corrected, const Runs& runs);
+Start look_at_start(const Experiment& experiment, const Rig& corrected, const Runs& runs);
 
 /// It in a sentence, next to what the data set has `said`; empty if there is nothing to suspect, or nothing
 /// left to explain.

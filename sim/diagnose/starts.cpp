@@ -50,7 +50,7 @@ std::vector<Model> best_of(const Case& c, const Model& described, std::vector<Mo
   std::vector<Experiment::Change> changes;
   changes.reserve(places.size());
   for (const Model& place : places)
-    changes.push_back({[&place](Hanging& h) { h.rig = place.rig; }, 1.0, true});
+    changes.push_back({[&place](Loaded& h) { h.rig = place.rig; }, 1.0, true});
   const auto flown = c.experiment.slopes(described.rig, changes,
                                          a_few(c.experiment.data(), c.split.training, of_starts.runs));
   std::vector<std::pair<double, std::size_t>> order;
@@ -95,16 +95,16 @@ std::vector<Model> one_number_far_off(const Case& c, const Model& described) {
   return best_of(c, described, std::move(places), 1);
 }
 
-Model begun_at(Model model, const RigFile& other) {
+Model begun_at(Model model, const Rig& other) {
   for (const Parameter& p : model.free)
     if (p.has_prior && !p.of_effect()) p.put(model.rig, value_of(other, p.path));
   return model;
 }
 
-std::vector<Model> in_other_shapes(const Model& model, std::vector<const RigFile*> rigs) {
+std::vector<Model> in_other_shapes(const Model& model, std::vector<const Rig*> rigs) {
   rigs.push_back(&model.rig);
   std::vector<Model> places;
-  for (const RigFile* rig : rigs) {
+  for (const Rig* rig : rigs) {
     const Model there = begun_at(model, *rig);
     for (const Candidate& effect : model.effects)
       for (const double shape : effect.shapes) {
@@ -115,7 +115,7 @@ std::vector<Model> in_other_shapes(const Model& model, std::vector<const RigFile
   return places;
 }
 
-void deepen(const Case& c, Contender& end, const std::vector<const RigFile*>& others, const Step& step) {
+void deepen(const Case& c, Contender& end, const std::vector<const Rig*>& others, const Step& step) {
   const auto arrived = [&] { return near_floor(end.fitted.residuals) && !bent(end.fitted, c.inflation); };
   if (!is_doubtful(c, end) || arrived()) return;
   const Model model = end.fitted.model;
@@ -129,7 +129,7 @@ void deepen(const Case& c, Contender& end, const std::vector<const RigFile*>& ot
         other.held_out.squaredNorm() <= end.held_out.squaredNorm())
       end = std::move(other);
   };
-  for (const RigFile* rig : others) begin(begun_at(model, *rig));
+  for (const Rig* rig : others) begin(begun_at(model, *rig));
   if (arrived()) return;
   for (Model& place : best_of(c, model, in_other_shapes(model, others), of_starts.begun))
     begin(std::move(place));
@@ -137,7 +137,7 @@ void deepen(const Case& c, Contender& end, const std::vector<const RigFile*>& ot
   for (Model& place : one_number_far_off(c, begun_at(model, *others.front()))) begin(std::move(place));
 }
 
-void deepen_best(const Case& c, std::vector<Trial>& trials, const std::vector<const RigFile*>& others,
+void deepen_best(const Case& c, std::vector<Trial>& trials, const std::vector<const Rig*>& others,
                  const Step& step) {
   Trial* best = nullptr;
   for (Trial& trial : trials)

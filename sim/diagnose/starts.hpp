@@ -17,20 +17,20 @@ std::vector<Model> places_to_begin(const Case& c, const Model& described);
 std::vector<Model> one_number_far_off(const Case& c, const Model& described);
 
 /// The model with its nominal numbers as they are in another rig.
-Model begun_at(Model model, const RigFile& other);
+Model begun_at(Model model, const Rig& other);
 
 /// The model with one of its effects in each of the shapes that it is looked for in: a shape that was found
 /// while something else was missing may be far off. At the numbers of these rigs, and at its own.
-std::vector<Model> in_other_shapes(const Model& model, std::vector<const RigFile*> rigs);
+std::vector<Model> in_other_shapes(const Model& model, std::vector<const Rig*> rigs);
 
 /// What fits best may have ended beside the deepest valley: if much is left with it, or a number is bent, it
 /// is begun from the numbers of these rigs too, with one of its effects in another shape, and from the
 /// numbers of the first with one far off. The deepest end is kept, of those that are as good on the runs held
 /// out.
-void deepen(const Case& c, Contender& end, const std::vector<const RigFile*>& others, const Step& step);
+void deepen(const Case& c, Contender& end, const std::vector<const Rig*>& others, const Step& step);
 
 /// The same of the trial that fits best.
-void deepen_best(const Case& c, std::vector<Trial>& trials, const std::vector<const RigFile*>& others,
+void deepen_best(const Case& c, std::vector<Trial>& trials, const std::vector<const Rig*>& others,
                  const Step& step);
 
 /// A rival that moves the readings as what meets them does, and is left far behind all the same, may have

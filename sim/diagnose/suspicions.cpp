@@ -18,7 +18,7 @@ void Examination::draw_effects() {
   for (const Candidate& c : effects_) {
     if (!c.fits(at_.rig)) continue;
     for (const double shape : c.shapes.empty() ? std::vector{0.0} : c.shapes) {
-      changes.push_back({[&c, shape](Hanging& h) {
+      changes.push_back({[&c, shape](Loaded& h) {
                            h.rig = c.chosen(h.rig);
                            c.put(h.rig, c.absent + thresholds.parameter.probe * c.typical, shape);
                          },

@@ -18,7 +18,7 @@ struct Contender;
 /// What stays the same throughout a diagnosis.
 struct Case {
   const Experiment& experiment;
-  const RigFile& nominal;
+  const Rig& nominal;
   Split split;
   double inflation;
   std::function<void(const std::string&)> learned;  ///< hears what is known so far

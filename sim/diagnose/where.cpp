@@ -59,7 +59,7 @@ std::vector<double> since_turn_s(const std::vector<plant::State<double>>& states
 }
 
 /// What a row says of the state that the model was in.
-Row in_state(const RigFile& rig, const plant::State<double>& state) {
+Row in_state(const Rig& rig, const plant::State<double>& state) {
   const auto& joint = state.joint;
   Row row{.speed = 1e3 * rig.muscle.rest_length_m * joint.contraction_speed_per_s,
           .pressure_Pa = state.side.muscle_pressure_Pa,
@@ -76,7 +76,7 @@ Row in_state(const RigFile& rig, const plant::State<double>& state) {
 }
 
 /// The rows of all runs that count, and the number of segments.
-std::vector<Row> rows_of(const Experiment& experiment, const RigFile& rig, const Runs& runs,
+std::vector<Row> rows_of(const Experiment& experiment, const Rig& rig, const Runs& runs,
                          std::size_t& segments) {
   const auto readings = experiment.readings(rig, runs);
   std::vector<Row> rows;
@@ -167,7 +167,7 @@ Factor by_pressure(std::string name, const plant::Valve& valve, double Row::*pre
 }
 
 /// By how one muscle moves, under its load.
-std::vector<Factor> by_muscle(const Experiment& experiment, const RigFile& rig, const Runs& runs) {
+std::vector<Factor> by_muscle(const Experiment& experiment, const Rig& rig, const Runs& runs) {
   std::vector<Factor> factors;
   factors.push_back(by_direction("contracting", "relaxing", cells_by.rest_mm_per_s));
   factors.push_back(by_speed(cells_by.speeds_mm_per_s, "mm/s"));
@@ -181,7 +181,7 @@ std::vector<Factor> by_muscle(const Experiment& experiment, const RigFile& rig, 
 }
 
 /// By how two muscles turn their joint.
-std::vector<Factor> by_joint(const RigFile& rig, const std::vector<Row>& rows) {
+std::vector<Factor> by_joint(const Rig& rig, const std::vector<Row>& rows) {
   std::vector<Factor> factors;
   factors.push_back(by_direction("towards muscle 1", "towards muscle 2", cells_by.rest_deg_per_s));
   factors.push_back(by_speed(cells_by.speeds_deg_per_s, "deg/s"));
@@ -201,7 +201,7 @@ bool settled(const domain::Dataset& data) {
       data.runs, [](const domain::Run& run) { return run.measured && run.measured->point_s > 0.0; });
 }
 
-std::vector<Factor> factors_of(const Experiment& experiment, const RigFile& rig, const Runs& runs,
+std::vector<Factor> factors_of(const Experiment& experiment, const Rig& rig, const Runs& runs,
                                const std::vector<Row>& rows) {
   double longest_s = 0.0;
   for (const std::size_t run : runs)
@@ -312,7 +312,7 @@ void mark_significant(std::vector<Cell>& cells) {
 
 }  // namespace
 
-std::vector<Cell> where(const Experiment& experiment, const RigFile& recalibrated, const Runs& runs,
+std::vector<Cell> where(const Experiment& experiment, const Rig& recalibrated, const Runs& runs,
                         std::uint64_t seed) {
   std::size_t segments = 0;
   const auto rows = rows_of(experiment, recalibrated, runs, segments);

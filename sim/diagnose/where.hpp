@@ -23,7 +23,7 @@ namespace mckibben::diagnose {
 /// Time since reversal counts from the last turn that was followed by more than one count of movement; rows
 /// before a run's first turn have none. The same for the same seed. Throws engine::NumericalFailure,
 /// run::Interrupted.
-std::vector<Cell> where(const Experiment& experiment, const RigFile& recalibrated, const Runs& runs,
+std::vector<Cell> where(const Experiment& experiment, const Rig& recalibrated, const Runs& runs,
                         std::uint64_t seed);
 
 }  // namespace mckibben::diagnose

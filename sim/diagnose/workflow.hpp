@@ -91,17 +91,17 @@ class Workflow {
   domain::Dataset data_;
   Runs usable_;
   Experiment experiment_;
-  RigFile nominal_;
+  Rig nominal_;
   Competition competition_;
   Split whole_;
   Case case_;              ///< of the runs that the search asks
   Contender nominal_fit_;  ///< the rig as described, nothing moved
   Contender recalibrated_;
-  std::vector<RigFile> other_ends_;  ///< of recalibrations that did not end alike
+  std::vector<Rig> other_ends_;  ///< of recalibrations that did not end alike
   Naming naming_;
   Law law_;
   Evidence evidence_;
-  RigFile chosen_rig_;             ///< fitted to the training runs
+  Rig chosen_rig_;                 ///< fitted to the training runs
   double chosen_inflation_ = 1.0;  ///< of its residuals over long times
   bool looks_for_faults_ = false;
   std::vector<Fault> faults_;

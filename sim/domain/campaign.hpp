@@ -11,8 +11,8 @@
 
 #include <controllers/waveform.hpp>
 #include <plant/instruments.hpp>
+#include <plant/rig.hpp>
 #include <sim/domain/input_file.hpp>
-#include <sim/domain/rig_file.hpp>
 #include <sim/domain/variation.hpp>
 
 namespace mckibben::domain {
@@ -41,7 +41,7 @@ struct CampaignCurrent {
 
 struct Campaign {
   std::string name;
-  RigFile rig;
+  plant::Rig rig;
   std::vector<double> loads_kg;  ///< none of a pair
   std::vector<CampaignCurrent> currents;
   int repeats = 1;

@@ -10,10 +10,10 @@
 #include <utility>
 #include <vector>
 
+#include <plant/rig.hpp>
 #include <sim/domain/columns.hpp>
 #include <sim/domain/input_file.hpp>
 #include <sim/domain/measurement.hpp>
-#include <sim/domain/rig_file.hpp>
 
 namespace mckibben::domain {
 
@@ -107,7 +107,7 @@ struct Rows {
 };
 
 struct Dataset {
-  RigFile rig;
+  plant::Rig rig;
   ColumnMap columns;
   Recorded recorded{};
   std::vector<Run> runs;

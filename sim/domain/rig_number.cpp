@@ -111,31 +111,27 @@ RigNumber find_number(plant::Rig& rig, std::string_view path) {
                                                                     {"sensor.", "sensors.contraction."},
                                                                     {"gauge.", "sensors.muscle_pressure."},
                                                                     {"load_cell.", "sensors.force."}});
+  constexpr std::string_view of_mechanics = "mechanics.";
+  if (path.starts_with(of_mechanics)) {
+    Guide guide(path.substr(of_mechanics.size()));
+    if (plant::Pair* pair = rig.pair()) plant::Pair::fields(*pair, guide);
+    return guide.found;
+  }
   std::string renamed;
   for (const auto& [old, now] : before)
     if (path.starts_with(old)) path = renamed = std::string(now) + std::string(path.substr(old.size()));
   Guide guide(path);
-  plant::Rig::fields(rig, guide);
-  return guide.found;
-}
-
-RigNumber find_number(RigFile& rig, std::string_view path) {
-  constexpr std::string_view of_mechanics = "mechanics.";
-  if (!path.starts_with(of_mechanics)) return find_number(static_cast<plant::Rig&>(rig), path);
-  auto* const pair = std::get_if<plant::Pair>(&rig.mechanics);
-  if (pair == nullptr) return {};
-  Guide guide(path.substr(of_mechanics.size()));
-  plant::Pair::fields(*pair, guide);
+  plant::Rig::parts(rig, guide);
   return guide.found;
 }
 
 std::vector<std::string> paths_of_numbers(const plant::Rig& rig) {
   PathLister lister;
-  plant::Rig::fields(rig, lister);
+  plant::Rig::parts(rig, lister);
   return lister.list;
 }
 
-std::vector<std::string> paths_with_mechanics(const RigFile& rig) {
+std::vector<std::string> paths_with_mechanics(const plant::Rig& rig) {
   std::vector<std::string> list = paths_of_numbers(rig);
   if (const plant::Pair* pair = rig.pair()) {
     PathLister lister;
@@ -147,17 +143,9 @@ std::vector<std::string> paths_with_mechanics(const RigFile& rig) {
 
 std::string broken_rule(const plant::Rig& rig) {
   Judge judge;
-  plant::Rig::fields(rig, judge);
-  judge.judge(rig);
-  return judge.broken;
-}
-
-std::string broken_rule(const RigFile& rig) {
-  if (std::string broken = broken_rule(static_cast<const plant::Rig&>(rig)); !broken.empty()) return broken;
-  const plant::Pair* pair = rig.pair();
-  if (pair == nullptr) return "";
-  Judge judge;
-  judge.enter("mechanics", *pair, [&] { plant::Pair::fields(*pair, judge); });
+  plant::Rig::parts(rig, judge);
+  if (const plant::Pair* pair = rig.pair())
+    judge.enter("mechanics", *pair, [&] { plant::Pair::fields(*pair, judge); });
   judge.judge(rig);
   return judge.broken;
 }

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include <plant/rig.hpp>
-#include <sim/domain/rig_file.hpp>
 
 namespace mckibben::domain {
 
@@ -18,18 +17,15 @@ struct RigNumber {
   std::string meaning{};
 };
 
-RigNumber find_number(plant::Rig& rig, std::string_view path);
 /// Of a pair also `mechanics.link_length`, `mechanics.opposite.muscle.rest_radius`.
-RigNumber find_number(RigFile& rig, std::string_view path);
+RigNumber find_number(plant::Rig& rig, std::string_view path);
 
 /// The paths of all numbers of a rig, in the order of its file.
 std::vector<std::string> paths_of_numbers(const plant::Rig& rig);
 /// The same with those of a pair's mechanics.
-std::vector<std::string> paths_with_mechanics(const RigFile& rig);
+std::vector<std::string> paths_with_mechanics(const plant::Rig& rig);
 
 /// The first rule between fields that the rig breaks, in words; empty if none.
 std::string broken_rule(const plant::Rig& rig);
-/// Those of a pair with them.
-std::string broken_rule(const RigFile& rig);
 
 }  // namespace mckibben::domain

@@ -16,10 +16,10 @@
 #include <controllers/settings.hpp>
 #include <controllers/target.hpp>
 #include <plant/instruments.hpp>
+#include <plant/rig.hpp>
 #include <sim/domain/campaign.hpp>
 #include <sim/domain/input_file.hpp>
 #include <sim/domain/number.hpp>
-#include <sim/domain/rig_file.hpp>
 
 namespace mckibben::domain {
 
@@ -128,7 +128,7 @@ void visit_as(List& list, const To& to, const Back& back, const Visit& visit) {
 
 struct Scenario {
   std::string name;
-  RigFile rig;
+  plant::Rig rig;
   std::vector<double> loads_kg;       ///< that hang; of a pair in the hand
   controllers::Target target;         ///< of one muscle
   std::vector<JointTarget> targets;   ///< of a pair
@@ -141,8 +141,8 @@ struct Scenario {
   std::vector<Criterion> criteria;
   Robustness robustness;  ///< of one muscle
 
-  std::map<std::string, RigFile> believed;  ///< rigs of controllers that name one, by controller
-  std::vector<InputFile> inputs;            ///< the files it was read from
+  std::map<std::string, plant::Rig> believed;  ///< rigs of controllers that name one, by controller
+  std::vector<InputFile> inputs;               ///< the files it was read from
 
   /// The rig says which keys there are: it is visited first.
   template <class Self, class Visitor>
@@ -209,7 +209,7 @@ struct Scenario {
 /// A scenario of two muscles with every default.
 inline Scenario pair_scenario() {
   Scenario scenario;
-  scenario.rig = thesis_pair();
+  scenario.rig = plant::thesis_pair();
   scenario.loads_kg = Hand{}.loads_kg;
   return scenario;
 }

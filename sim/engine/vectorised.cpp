@@ -57,7 +57,10 @@ class Walk {
 template <class Rig, class Leaf>
 void walk(Rig& rig, Leaf& leaf) {
   Walk<Leaf> visitor(leaf);
-  Rig::fields(rig, visitor);
+  if constexpr (requires { Rig::parts(rig, visitor); })
+    Rig::parts(rig, visitor);
+  else
+    Rig::fields(rig, visitor);
 }
 
 /// Numbers of a rig in the order of its field lists, and all choices that are no numbers; but for those of an

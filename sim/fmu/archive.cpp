@@ -118,7 +118,7 @@ std::string packed(const std::vector<File>& files) {
 
 }  // namespace
 
-std::string fmu_of(const std::string& name, const domain::RigFile& rig, Version version, bool true_states) {
+std::string fmu_of(const std::string& name, const plant::Rig& rig, Version version, bool true_states) {
   Contents contents{"", rig};
   Description about{version, name, "", true_states};
   about.token = contents.token = token_of(MCKIBBEN_VERSION + text_of(contents) + description_xml(about, rig));

@@ -9,6 +9,6 @@
 namespace mckibben::fmu {
 
 /// `name`: of the model.
-std::string fmu_of(const std::string& name, const domain::RigFile& rig, Version version, bool true_states);
+std::string fmu_of(const std::string& name, const plant::Rig& rig, Version version, bool true_states);
 
 }  // namespace mckibben::fmu

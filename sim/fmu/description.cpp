@@ -134,7 +134,7 @@ std::string structure_xml(const std::vector<Variable>& list, Version version) {
 
 }  // namespace
 
-std::string description_xml(const Description& about, const domain::RigFile& rig) {
+std::string description_xml(const Description& about, const plant::Rig& rig) {
   const bool two = about.version == Version::two;
   const std::vector<Variable> list = variables_of(rig, about.true_states);
   std::string xml = fmt::format(

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include <sim/domain/rig_file.hpp>
+#include <plant/rig.hpp>
 
 namespace mckibben::fmu {
 
@@ -20,6 +20,6 @@ struct Description {
 /// How an importer finds the program: the name of its file without the ending.
 inline constexpr const char* model_identifier = "mckibben";
 
-std::string description_xml(const Description& about, const domain::RigFile& rig);
+std::string description_xml(const Description& about, const plant::Rig& rig);
 
 }  // namespace mckibben::fmu

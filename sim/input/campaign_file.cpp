@@ -111,7 +111,7 @@ void check_currents(const YamlFile& file, Campaign& campaign, Problems& problems
       complete("current", *current.current, campaign.rig);
     } else {
       complete("current_1", *current.current_1, campaign.rig);
-      complete("current_2", *current.current_2, plant::opposite_rig(campaign.rig, *pair));
+      complete("current_2", *current.current_2, plant::opposite_rig(campaign.rig));
     }
   }
 }

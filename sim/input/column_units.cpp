@@ -112,7 +112,7 @@ double ratio_per_unit(const ColumnPlace& contraction, const plant::Rig& rig) {
   return one.front();
 }
 
-void convert_columns(Table& table, const ColumnMap& map, const domain::RigFile& rig) {
+void convert_columns(Table& table, const ColumnMap& map, const plant::Rig& rig) {
   for (Table::Column& column : table.columns) {
     const auto found =
         std::find_if(domain::quantities.begin(), domain::quantities.end(), [&](const domain::Quantity& each) {
@@ -138,8 +138,7 @@ void convert_columns(Table& table, const ColumnMap& map, const domain::RigFile& 
   }
 }
 
-void check_numbers(const Table& table, const ColumnMap& map, const domain::RigFile& rig,
-                   TableProblems& problems) {
+void check_numbers(const Table& table, const ColumnMap& map, const plant::Rig& rig, TableProblems& problems) {
   std::vector<data::ReadColumn> columns;
   for (const Table::Column& column : table.columns) {
     const bool own_command = std::ranges::any_of(domain::quantities, [&](const domain::Quantity& each) {

@@ -2,8 +2,8 @@
 // whether they can be what they stand for, and tables brought to ours.
 #pragma once
 
+#include <plant/rig.hpp>
 #include <sim/domain/columns.hpp>
-#include <sim/domain/rig_file.hpp>
 #include <sim/input/table.hpp>
 #include <sim/input/yaml_file.hpp>
 
@@ -27,11 +27,10 @@ double ratio_per_unit(const ColumnPlace& contraction, const plant::Rig& rig);
 /// Brings a table that was read with a map to our units: time_s, current_mA, contraction_ratio,
 /// muscle_pressure_bar. Lengths and angles become ratios by the rig's wheel and the muscle's rest length,
 /// commands of a valve that takes volts or a pressure the currents that would do the same.
-void convert_columns(Table& table, const ColumnMap& map, const domain::RigFile& rig);
+void convert_columns(Table& table, const ColumnMap& map, const plant::Rig& rig);
 
 /// What is wrong with the numbers of a table that was brought to our units, at its place.
-void check_numbers(const Table& table, const ColumnMap& map, const domain::RigFile& rig,
-                   TableProblems& problems);
+void check_numbers(const Table& table, const ColumnMap& map, const plant::Rig& rig, TableProblems& problems);
 /// The same of a clock that is to tick as the rig does.
 void check_clock(const Table& table, const ColumnMap& map, double tick_s, TableProblems& problems);
 

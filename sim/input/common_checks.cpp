@@ -25,7 +25,7 @@ void check_duration(const YamlFile& file, double duration_s, const plant::Rig& r
                     node.text, write_quantity(rig.tick_s, "s"), ticks, most_ticks));
 }
 
-std::string no_load(const domain::RigFile& rig) {
+std::string no_load(const plant::Rig& rig) {
   if (rig.lifts_a_load()) return "";
   return rig.pair() != nullptr ? "the rig's two muscles turn a link, no load hangs there; see "
                                  "docs/two_muscles.md for what a pair can do"
@@ -34,13 +34,13 @@ std::string no_load(const domain::RigFile& rig) {
                                  "done with it";
 }
 
-void check_lifts_a_load(const YamlFile& file, const domain::RigFile& rig, Problems& problems) {
+void check_lifts_a_load(const YamlFile& file, const plant::Rig& rig, Problems& problems) {
   const Node* given = file.root.find("rig");
   if (const std::string why = no_load(rig); !why.empty())
     problems.error(file.source, given != nullptr ? given->place : file.root.place, "rig: " + why);
 }
 
-void require_load(const domain::RigFile& rig, const std::string& file, std::string_view verb) {
+void require_load(const plant::Rig& rig, const std::string& file, std::string_view verb) {
   if (const std::string why = no_load(rig); !why.empty())
     throw BadInput(
         {{Severity::error, file, nowhere, fmt::format("{} cannot take it yet: {}", verb, why), ""}});

@@ -7,7 +7,6 @@
 #include <controllers/waveform.hpp>
 #include <plant/rig.hpp>
 #include <sim/domain/campaign.hpp>
-#include <sim/domain/rig_file.hpp>
 #include <sim/input/diagnostics.hpp>
 #include <sim/input/yaml_file.hpp>
 
@@ -20,12 +19,12 @@ void check_name(const YamlFile& file, const std::string& name, Problems& problem
 void check_duration(const YamlFile& file, double duration_s, const plant::Rig& rig, Problems& problems);
 
 /// Why a load cannot hang on the rig's muscle; empty if it can.
-std::string no_load(const domain::RigFile& rig);
+std::string no_load(const plant::Rig& rig);
 /// The same said where a file names its rig.
-void check_lifts_a_load(const YamlFile& file, const domain::RigFile& rig, Problems& problems);
+void check_lifts_a_load(const YamlFile& file, const plant::Rig& rig, Problems& problems);
 
 /// Throws BadInput, said of `file`, if a load cannot hang on the rig's muscle, as `verb` needs it.
-void require_load(const domain::RigFile& rig, const std::string& file, std::string_view verb);
+void require_load(const plant::Rig& rig, const std::string& file, std::string_view verb);
 
 /// Why the rig's taut threads cannot bear a load; empty if they can.
 std::string too_heavy(double load_kg, const plant::Rig& rig);

@@ -17,8 +17,8 @@
 #include <controllers/target.hpp>
 #include <plant/command.hpp>
 #include <plant/effects/own_laws.hpp>
+#include <plant/rig.hpp>
 #include <plant/sensors.hpp>
-#include <sim/domain/spread.hpp>
 #include <sim/domain/variation.hpp>
 #include <sim/input/field_kinds.hpp>
 #include <sim/input/json.hpp>
@@ -28,7 +28,7 @@ namespace mckibben::input {
 
 /// How well values are known that stand inside the key `inside`.
 struct SpreadsOf {
-  const domain::Spreads* list = nullptr;
+  const plant::Spreads* list = nullptr;
   std::string inside{};
 
   SpreadsOf below(std::string_view key) const {

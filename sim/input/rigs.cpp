@@ -35,10 +35,10 @@ bool looks_like_path(std::string_view text) {
 /// Files being read, outermost first.
 using Chain = std::vector<fs::path>;
 
-void read_changes(const Source& source, const Node& map, RigFile& into, Problems& problems, Chain& chain,
+void read_changes(const Source& source, const Node& map, Rig& into, Problems& problems, Chain& chain,
                   std::span<const std::string_view> also_allowed);
 
-void read_rig_map(const YamlFile& file, RigFile& into, Problems& problems, Chain& chain) {
+void read_rig_map(const YamlFile& file, Rig& into, Problems& problems, Chain& chain) {
   constexpr std::string_view also_allowed[] = {"schema", "base"};
   if (check_schema(file, rig_schema, problems))
     read_changes(file.source, file.root, into, problems, chain, also_allowed);
@@ -52,8 +52,8 @@ std::string_view catalogue_text(std::string_view name) {
   return {};
 }
 
-RigFile shipped_rig(std::string_view name) {
-  RigFile rig = name == "thesis_pair" ? domain::thesis_pair() : RigFile{};
+Rig shipped_rig(std::string_view name) {
+  Rig rig = name == "thesis_pair" ? plant::thesis_pair() : Rig{};
   if (const std::string_view text = catalogue_text(name); !text.empty()) {
     Problems problems;
     Chain chain;
@@ -63,8 +63,8 @@ RigFile shipped_rig(std::string_view name) {
   return rig;
 }
 
-void read_file(const Source& source, const Node& node, const fs::path& path, RigFile& into,
-               Problems& problems, Chain& chain) {
+void read_file(const Source& source, const Node& node, const fs::path& path, Rig& into, Problems& problems,
+               Chain& chain) {
   std::error_code ignored;
   fs::path real = fs::weakly_canonical(path, ignored);
   if (real.empty()) real = path;
@@ -86,7 +86,7 @@ void read_file(const Source& source, const Node& node, const fs::path& path, Rig
   chain.pop_back();
 }
 
-void read_reference(const Source& source, const Node& node, RigFile& into, Problems& problems, Chain& chain) {
+void read_reference(const Source& source, const Node& node, Rig& into, Problems& problems, Chain& chain) {
   if (is_shipped(node.text)) {
     into = shipped_rig(node.text);
   } else if (looks_like_path(node.text)) {
@@ -101,7 +101,7 @@ void read_reference(const Source& source, const Node& node, RigFile& into, Probl
 
 /// The mechanics that a map goes on from: what it says of the side of muscle 1 holds for muscle 2 as well,
 /// until `opposite` says otherwise.
-plant::Mechanics with_both_sides(const Source& source, const Node& map, const RigFile& base) {
+plant::Mechanics with_both_sides(const Source& source, const Node& map, const Rig& base) {
   const Node *said = map.find("mechanics"), *kind = said != nullptr ? said->find("kind") : nullptr;
   const bool pair = kind != nullptr ? kind->text == plant::Pair::kind : base.pair() != nullptr;
   if (!pair) return base.mechanics;
@@ -115,7 +115,7 @@ plant::Mechanics with_both_sides(const Source& source, const Node& map, const Ri
   return both;
 }
 
-void read_changes(const Source& source, const Node& map, RigFile& into, Problems& problems, Chain& chain,
+void read_changes(const Source& source, const Node& map, Rig& into, Problems& problems, Chain& chain,
                   std::span<const std::string_view> also_allowed) {
   into = {};
   if (const Node* base = map.find("base")) {
@@ -139,7 +139,7 @@ std::span<const std::string_view> shipped_rigs() {
   return shipped;
 }
 
-void read_named(const Source& source, const Node& node, RigFile& into, Problems& problems) {
+void read_named(const Source& source, const Node& node, Rig& into, Problems& problems) {
   Chain chain;
   constexpr std::string_view also_allowed[] = {"base"};
   if (node.kind == Node::Kind::scalar)
@@ -151,7 +151,7 @@ void read_named(const Source& source, const Node& node, RigFile& into, Problems&
                    fmt::format("rig must be a name, a path or a map of changes, not {}", node.kind_name()));
 }
 
-RigFile read_rig(const std::string& name_or_path, std::vector<InputFile>& inputs) {
+Rig read_rig(const std::string& name_or_path, std::vector<InputFile>& inputs) {
   if (is_shipped(name_or_path)) return shipped_rig(name_or_path);
   std::error_code ignored;
   if (!looks_like_path(name_or_path) && !fs::exists(name_or_path, ignored))
@@ -160,8 +160,8 @@ RigFile read_rig(const std::string& name_or_path, std::vector<InputFile>& inputs
   return read_rig(Source::load(name_or_path, largest_yaml_bytes), inputs);
 }
 
-RigFile read_rig(Source source, std::vector<InputFile>& inputs) {
-  RigFile rig;
+Rig read_rig(Source source, std::vector<InputFile>& inputs) {
+  Rig rig;
   Problems problems;
   const YamlFile file = parse_yaml(std::move(source));
   std::error_code ignored;
@@ -174,7 +174,7 @@ RigFile read_rig(Source source, std::vector<InputFile>& inputs) {
   return rig;
 }
 
-Json rig_json(const RigFile& rig) {
+Json rig_json(const Rig& rig) {
   Json file{{"schema", rig_schema}};
   file.update(to_json(rig));
   return file;

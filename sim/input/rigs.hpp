@@ -7,13 +7,13 @@
 #include <string_view>
 #include <vector>
 
-#include <sim/domain/rig_file.hpp>
+#include <plant/rig.hpp>
 #include <sim/input/json.hpp>
 #include <sim/input/yaml_file.hpp>
 
 namespace mckibben::input {
 
-using domain::RigFile;
+using plant::Rig;
 
 inline constexpr std::string_view rig_schema = "mckibben-rig/1";
 
@@ -22,15 +22,15 @@ std::span<const std::string_view> shipped_rigs();
 
 /// The rig of that name, or of the file at that path; the files read are added to `inputs`.
 /// Throws MissingInput, BadInput.
-RigFile read_rig(const std::string& name_or_path, std::vector<InputFile>& inputs);
+Rig read_rig(const std::string& name_or_path, std::vector<InputFile>& inputs);
 /// The same from the text of a rig file at hand; relative paths start at the source's folder.
-RigFile read_rig(Source source, std::vector<InputFile>& inputs);
+Rig read_rig(Source source, std::vector<InputFile>& inputs);
 
 /// The contents of a rig file that holds every field.
-Json rig_json(const RigFile& rig);
+Json rig_json(const Rig& rig);
 
 /// Reads what stands under `rig` in another file: a name,
 /// a path relative to the folder of `source`, or a map of changes.
-void read_named(const Source& source, const Node& node, RigFile& into, Problems& problems);
+void read_named(const Source& source, const Node& node, Rig& into, Problems& problems);
 
 }  // namespace mckibben::input

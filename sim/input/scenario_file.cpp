@@ -60,7 +60,7 @@ class ScenarioChecker {
 
   const Node& list(std::string_view key) const { return *root_.find(key); }
   const plant::Pair* pair() const { return scenario_.rig.pair(); }
-  plant::Rig opposite() const { return plant::opposite_rig(scenario_.rig, *pair()); }
+  plant::Rig opposite() const { return plant::opposite_rig(scenario_.rig); }
 
   void check_name_of(const std::string& name, const Node& node, std::string_view what, Names& names) {
     const Node* given = node.find("name");
@@ -192,7 +192,7 @@ class ScenarioChecker {
   }
 
   void load_believed_rig(const std::string& controller, const Node& node) {
-    RigFile& rig = scenario_.believed[controller];
+    Rig& rig = scenario_.believed[controller];
     read_named(source_, node, rig, problems_);
     if (pair() != nullptr && problems_.errors() == 0 && rig.pair() == nullptr)
       problems_.error(source_, node.place, "rig: it has one muscle, a controller of a pair needs two");
@@ -299,10 +299,10 @@ class ScenarioChecker {
 /// Files of this schema are of two muscles, those of `thesis_pair` if they name no others. False if theirs
 /// has one.
 bool begin_pair(const YamlFile& file, Scenario& scenario, Problems& problems) {
-  scenario.rig = domain::thesis_pair();
+  scenario.rig = plant::thesis_pair();
   const Node* given = file.root.find("rig");
   if (given == nullptr) return true;
-  RigFile rig = scenario.rig;
+  Rig rig = scenario.rig;
   Problems found;
   read_named(file.source, *given, rig, found);
   if (found.errors() > 0 || rig.pair() != nullptr) return true;

@@ -42,7 +42,7 @@ const ColumnPlace& pressure_of(const ColumnMap& map, bool pair, std::size_t side
   return map.muscle_pressure;
 }
 
-const plant::Valve& valve_of(const domain::RigFile& rig, std::size_t side) {
+const plant::Valve& valve_of(const plant::Rig& rig, std::size_t side) {
   return side == 0 ? rig.valve : rig.pair()->opposite.valve;
 }
 
@@ -72,7 +72,7 @@ bool drives(const Quantity& quantity, const ColumnMap& map, bool pair) {
 
 }  // namespace
 
-bool has_own_clock(const ColumnMap& map, const domain::RigFile& rig) {
+bool has_own_clock(const ColumnMap& map, const plant::Rig& rig) {
   if (!rig.lifts_a_load() || !map.settled.absent()) return true;
   return std::any_of(domain::quantities.begin(), domain::quantities.end(), [&](const Quantity& quantity) {
     const ColumnPlace& place = map.*quantity.place;
@@ -82,7 +82,7 @@ bool has_own_clock(const ColumnMap& map, const domain::RigFile& rig) {
   });
 }
 
-std::vector<Wish> stamped_quantities(const ColumnMap& map, const domain::RigFile& rig) {
+std::vector<Wish> stamped_quantities(const ColumnMap& map, const plant::Rig& rig) {
   const bool pair = rig.pair() != nullptr;
   std::vector<Wish> wishes;
   for (const Quantity& quantity : domain::quantities) {
@@ -96,7 +96,7 @@ std::vector<Wish> stamped_quantities(const ColumnMap& map, const domain::RigFile
   return wishes;
 }
 
-void check_roles(const YamlFile& file, const Node& run, const ColumnMap& map, const domain::RigFile& rig,
+void check_roles(const YamlFile& file, const Node& run, const ColumnMap& map, const plant::Rig& rig,
                  Problems& problems) {
   const bool pair = rig.pair() != nullptr;
   const auto complain = [&](std::string_view key, const std::string& message) {
@@ -143,7 +143,7 @@ namespace {
 /// The columns of a table as a measurement, checked one by one.
 class Assembling {
  public:
-  Assembling(const Table& table, const ColumnMap& map, const domain::RigFile& rig, TableProblems& problems)
+  Assembling(const Table& table, const ColumnMap& map, const plant::Rig& rig, TableProblems& problems)
       : table_(table), map_(map), rig_(rig), problems_(problems), pair_(rig.pair() != nullptr) {}
 
   Measurement operator()(const domain::Recorded& recorded) {
@@ -211,7 +211,7 @@ class Assembling {
 
   const Table& table_;
   const ColumnMap& map_;
-  const domain::RigFile& rig_;
+  const plant::Rig& rig_;
   TableProblems& problems_;
   bool pair_;
   Measurement measured_;
@@ -219,7 +219,7 @@ class Assembling {
 
 }  // namespace
 
-Measurement measurement_of(Table& table, const ColumnMap& map, const domain::RigFile& rig,
+Measurement measurement_of(Table& table, const ColumnMap& map, const plant::Rig& rig,
                            const domain::Recorded& recorded, TableProblems& problems) {
   return Assembling(table, map, rig, problems)(recorded);
 }

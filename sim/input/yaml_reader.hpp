@@ -19,8 +19,8 @@
 #include <controllers/target.hpp>
 #include <plant/command.hpp>
 #include <plant/effects/own_laws.hpp>
+#include <plant/rig.hpp>
 #include <plant/sensors.hpp>
-#include <sim/domain/spread.hpp>
 #include <sim/domain/variation.hpp>
 #include <sim/input/diagnostics.hpp>
 #include <sim/input/field_kinds.hpp>
@@ -31,7 +31,7 @@ namespace mckibben::input {
 /// Where values may say how well they are known (`6 mm ± 0.1 mm`): into which list that goes, under the path
 /// `inside` and their key. Without a list it is a problem.
 struct SpreadsInto {
-  domain::Spreads* list = nullptr;
+  plant::Spreads* list = nullptr;
   std::string inside{};
 
   SpreadsInto below(std::string_view key) const {

@@ -25,7 +25,7 @@ constexpr std::size_t most_rows = 1'000'000;
 
 }  // namespace
 
-Host::Host(const domain::RigFile& rig, double load_kg, DataSets data)
+Host::Host(const plant::Rig& rig, double load_kg, DataSets data)
     : session_(rig, load_kg),
       channels_(channels_of(rig)),
       data_(std::move(data)),

@@ -26,7 +26,7 @@ struct Heard {
 
 class Host {
  public:
-  Host(const domain::RigFile& rig, double load_kg, DataSets data);
+  Host(const plant::Rig& rig, double load_kg, DataSets data);
   Host(const Host&) = delete;
   Host& operator=(const Host&) = delete;
   ~Host();

@@ -17,11 +17,11 @@ void append(std::string& text, double value, int digits) {
 
 }  // namespace
 
-std::vector<plant::Channel> channels_of(const domain::RigFile& rig) {
+std::vector<plant::Channel> channels_of(const plant::Rig& rig) {
   return plant::channels_of(rig, {.pair = rig.pair() != nullptr});
 }
 
-input::Json signals_json(const domain::RigFile& rig) {
+input::Json signals_json(const plant::Rig& rig) {
   input::Json list = input::Json::array();
   for (const plant::Channel& channel : channels_of(rig))
     list.push_back({{"key", channel.key()}, {"unit", channel.page_unit()}});

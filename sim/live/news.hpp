@@ -10,8 +10,8 @@
 namespace mckibben::live {
 
 /// What the page is sent of each instant, and what these signals are: key, unit.
-std::vector<plant::Channel> channels_of(const domain::RigFile& rig);
-input::Json signals_json(const domain::RigFile& rig);
+std::vector<plant::Channel> channels_of(const plant::Rig& rig);
+input::Json signals_json(const plant::Rig& rig);
 
 /// Appends a sample as a list of numbers, one for each channel; what is no number is null.
 void append(std::string& text, const std::vector<plant::Channel>& channels, const Sample& sample);

@@ -29,7 +29,7 @@ Json switch_json(const Switch& one) {
   return json;
 }
 
-std::string data_of(const domain::RigFile& rig, const Session& session) {
+std::string data_of(const plant::Rig& rig, const Session& session) {
   Json data{{"rig", report::drawn_rig_json(rig, rig.mechanics,
                                            rig.sensors.of(plant::Sensed::muscle_pressure) != nullptr)},
             {"tick_s", rig.tick_s},
@@ -107,7 +107,7 @@ std::string panel_of(const Session& session) {
 
 }  // namespace
 
-Page page_of(const std::string& name, const domain::RigFile& rig, const Session& session) {
+Page page_of(const std::string& name, const plant::Rig& rig, const Session& session) {
   Page page;
   page.html = fmt::format(
       "<!DOCTYPE html>\n<html lang='en'>\n<head>\n<meta charset='utf-8'>\n"

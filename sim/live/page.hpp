@@ -13,6 +13,6 @@ struct Page {
 };
 
 /// `name`: of the rig, for the heading.
-Page page_of(const std::string& name, const domain::RigFile& rig, const Session& session);
+Page page_of(const std::string& name, const plant::Rig& rig, const Session& session);
 
 }  // namespace mckibben::live

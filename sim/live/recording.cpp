@@ -24,7 +24,7 @@ std::string id_of(std::size_t run) {
 }
 
 /// Everything but the rig itself.
-std::string rig_text(const domain::RigFile& rig) {
+std::string rig_text(const plant::Rig& rig) {
   return input::to_yaml(input::rig_json(rig));
 }
 
@@ -75,7 +75,7 @@ void DataSets::write() {
     dataset["columns"] = std::move(columns);
   dataset["runs"] = runs_json(runs_);
   data.write("dataset.yaml", input::to_yaml(dataset));
-  data.write("rig.yaml", rig_text(domain::nominal(first.rig)));
+  data.write("rig.yaml", rig_text(plant::nominal(first.rig)));
   truth.write("rig.yaml", rig_text(first.rig));
   truth.write("truth.yaml", input::to_yaml({{"schema", "mckibben-truth/1"},
                                             {"rig", input::to_json(first.rig)},

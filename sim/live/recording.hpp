@@ -15,7 +15,7 @@
 namespace mckibben::live {
 
 struct Recording {
-  domain::RigFile rig;   ///< as it was
+  plant::Rig rig;        ///< as it was
   double load_kg = 0.0;  ///< of one muscle
   bool settled = false;  ///< it began at rest
   run::Recording rows;

@@ -23,8 +23,8 @@ std::string out_of_range(std::string_view key, double value, double low, double 
   return fmt::format("{} = {:g}: must be from {:g} to {:g} {}", key, value, low, high, unit);
 }
 
-ride::Ride ride_of(const domain::RigFile& rig, double load_kg) {
-  return {run::rider_of(rig, load_kg), {}, rig.integrator};
+ride::Ride ride_of(const plant::Rig& rig, double load_kg) {
+  return {ride::Loaded{rig, load_kg}, rig.integrator};
 }
 
 }  // namespace
@@ -58,7 +58,7 @@ double Sweep::when(double current_mA) const {
   return 0.0;
 }
 
-Session::Session(const domain::RigFile& rig, double load_kg)
+Session::Session(const plant::Rig& rig, double load_kg)
     : switches_(rig),
       rig_(switches_.rig()),
       load_kg_(load_kg),
@@ -125,9 +125,7 @@ void Session::go_on() {
   untouched_ = false;
   rig_ = switches_.rig();
   guarded([&] {
-    ride_ = ride::Ride(pair() ? ride::changed(ride_.rider(), ride::paired(rig_, *rig_.pair()))
-                              : ride::changed(ride_.rider(), ride::Hanging{rig_, load_kg_}),
-                       {}, rig_.integrator);
+    ride_ = ride::Ride(ride::changed(ride_.rider(), {rig_, load_kg_}), {}, rig_.integrator);
     measure();
   });
 }

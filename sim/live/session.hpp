@@ -35,7 +35,7 @@ class Session {
 
   /// At rest at the current of no pressure. The rig must lift a load, and bear this one (input::too_heavy),
   /// or have two muscles; then the load means nothing.
-  Session(const domain::RigFile& rig, double load_kg);
+  Session(const plant::Rig& rig, double load_kg);
 
   // What acts from the next tick on. These say why they refuse, and then nothing has changed; else they are
   // empty.
@@ -64,7 +64,7 @@ class Session {
   const std::optional<Sweep>& sweep() const { return sweep_; }
   const Switches& switches() const { return switches_; }
   /// The rig as it is now, and as its owner knows it.
-  const domain::RigFile& rig() const { return rig_; }
+  const plant::Rig& rig() const { return rig_; }
 
  private:
   void go_on();
@@ -76,7 +76,7 @@ class Session {
   void measure();
 
   Switches switches_;
-  domain::RigFile rig_;
+  plant::Rig rig_;
   double load_kg_;
   Currents currents_mA_;
   std::optional<Sweep> sweep_;

@@ -28,13 +28,13 @@ void with_effect_named(plant::Effects& effects, std::string_view name, const Wor
   std::apply([&](auto&... effect) { (look_at(effect), ...); }, effects.all);
 }
 
-Dial dial_at(domain::RigFile& rig, const std::string& path) {
+Dial dial_at(plant::Rig& rig, const std::string& path) {
   const domain::RigNumber number = domain::find_number(rig, path);
   return {.unit = number.unit, .lowest = number.lowest, .highest = number.highest, .value = *number.value};
 }
 
 /// One for both muscles, or where the rig's file tells them apart one for each.
-std::vector<diagnose::Candidate> by_side(const diagnose::Candidate& candidate, const domain::RigFile& rig) {
+std::vector<diagnose::Candidate> by_side(const diagnose::Candidate& candidate, const plant::Rig& rig) {
   if (rig.pair() == nullptr) return {candidate};
   const diagnose::Candidate one = candidate.of(Side::one), two = candidate.of(Side::two);
   const auto same = [&](const std::string& path, const std::string& other) {
@@ -45,14 +45,14 @@ std::vector<diagnose::Candidate> by_side(const diagnose::Candidate& candidate, c
 }
 
 /// Whether a pair may have it: one has no guide of a load, and both gases are of one kind.
-bool is_of(const domain::RigFile& rig, const diagnose::Candidate& candidate) {
+bool is_of(const plant::Rig& rig, const diagnose::Candidate& candidate) {
   if (rig.pair() == nullptr) return true;
-  domain::RigFile with = candidate.chosen(rig);
+  plant::Rig with = candidate.chosen(rig);
   candidate.put(with, candidate.absent + candidate.typical);
   return domain::broken_rule(with).empty();
 }
 
-Switch switch_of(const diagnose::Candidate& candidate, const domain::RigFile& file) {
+Switch switch_of(const diagnose::Candidate& candidate, const plant::Rig& file) {
   Switch one;
   one.effect = candidate.effect;
   one.name = candidate.effect + (candidate.variant.empty() ? "" : " " + candidate.variant) +
@@ -60,7 +60,7 @@ Switch switch_of(const diagnose::Candidate& candidate, const domain::RigFile& fi
   one.candidate = candidate;
   one.absent = candidate.absent;
   one.on = candidate.carried(file);
-  domain::RigFile rig = file;
+  plant::Rig rig = file;
   with_effect_named(rig.effects, candidate.effect, [&]<class E>(E&) {
     one.sentence = E::sentence;
     one.law = E::law;
@@ -89,7 +89,7 @@ std::string refusal(std::string_view key, const Dial& dial, double value) {
 
 }  // namespace
 
-Switches::Switches(const domain::RigFile& rig) : bare_(rig), file_(rig) {
+Switches::Switches(const plant::Rig& rig) : bare_(rig), file_(rig) {
   for (const diagnose::Candidate& candidate : diagnose::catalogue()) {
     if (!candidate.adds_to.empty()) continue;  // a law with one term more: too much for one dial
     if (!is_of(rig, candidate)) continue;
@@ -128,7 +128,7 @@ std::string Switches::set(std::string_view name, bool on, double size, double sh
 }
 
 /// What the file's effect has besides what is switched.
-void Switches::take_from_file(domain::RigFile& rig, const Switch& one) const {
+void Switches::take_from_file(plant::Rig& rig, const Switch& one) const {
   const auto take = [&](plant::Effects& into, const plant::Effects& from) {
     with_effect_named(into, one.effect, [&]<class E>(E& effect) { effect = from.get<E>(); });
   };
@@ -138,8 +138,8 @@ void Switches::take_from_file(domain::RigFile& rig, const Switch& one) const {
     take(pair->opposite.effects, file_.pair()->opposite.effects);
 }
 
-domain::RigFile Switches::rig() const {
-  domain::RigFile rig = bare_;
+plant::Rig Switches::rig() const {
+  plant::Rig rig = bare_;
   for (const Switch& one : all_) {
     if (!one.on) continue;
     if (one.candidate.carried(file_)) take_from_file(rig, one);

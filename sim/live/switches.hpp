@@ -5,8 +5,8 @@
 #include <string_view>
 #include <vector>
 
+#include <plant/rig.hpp>
 #include <sim/diagnose/candidate.hpp>
-#include <sim/domain/rig_file.hpp>
 
 namespace mckibben::live {
 
@@ -36,7 +36,7 @@ class Switches {
  public:
   /// Those that the rig has are on, at its sizes; others stand at typical ones. Of a pair one switch is for
   /// both muscles, unless the rig tells them apart there.
-  explicit Switches(const domain::RigFile& rig);
+  explicit Switches(const plant::Rig& rig);
 
   const std::vector<Switch>& all() const { return all_; }
   const Switch* find(std::string_view name) const;
@@ -46,12 +46,12 @@ class Switches {
   std::string set(std::string_view name, bool on, double size, double shape);
 
   /// The rig with what is on.
-  domain::RigFile rig() const;
+  plant::Rig rig() const;
 
  private:
-  void take_from_file(domain::RigFile& rig, const Switch& one) const;
+  void take_from_file(plant::Rig& rig, const Switch& one) const;
 
-  domain::RigFile bare_, file_;  // without what can be switched; as it was read
+  plant::Rig bare_, file_;  // without what can be switched; as it was read
   std::vector<Switch> all_;
 };
 

@@ -123,14 +123,14 @@ TwoTables tables_of(const run::Recording& recording, const plant::Rig& rig) {
 }
 
 /// The same without values.
-TwoTables heads_of(const domain::RigFile& rig) {
+TwoTables heads_of(const plant::Rig& rig) {
   run::Recording none;
   none.driven.pair = rig.pair() != nullptr;
   return tables_of(none, rig);
 }
 
 /// The shipped rig's name, if this is one; otherwise empty.
-std::string shipped_name(const domain::RigFile& rig) {
+std::string shipped_name(const plant::Rig& rig) {
   const Json wanted = input::rig_json(rig);
   std::vector<domain::InputFile> none;
   for (const auto name : input::shipped_rigs())
@@ -197,7 +197,7 @@ void CampaignFolder::put(const run::CampaignRun& run) const {
     written.push_back({{"name", name}, {"bytes", text.size()}, {"sha256", input::sha256_hex(text)}});
   };
   if (run.failure.empty()) {
-    const domain::RigFile& rig = campaign_.rig;
+    const plant::Rig& rig = campaign_.rig;
     if (rig.pair() == nullptr) write(files.ascii, thesis_ascii(run.recording, rig, run.job.load_kg));
     auto [measured_columns, true_columns] = tables_of(run.recording, rig);
     const auto measured = table_of(run, "measured", std::move(measured_columns));
@@ -247,7 +247,7 @@ Digests CampaignFolder::write_rest(const std::vector<run::EndedRun>& runs, const
     write_staged(unfinished_ / name, text);
     files[name] = input::sha256_hex(text);
   };
-  const domain::RigFile known = domain::nominal(campaign_.rig);
+  const plant::Rig known = plant::nominal(campaign_.rig);
   std::string rig = shipped_name(known);
   if (rig.empty()) {
     rig = "rig.yaml";

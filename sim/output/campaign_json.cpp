@@ -77,15 +77,14 @@ run::EndedRun ended_run(const run::CampaignJob& job, const Json& entry) {
   return run;
 }
 
-Json columns_json(const domain::RigFile& rig) {
+Json columns_json(const plant::Rig& rig) {
   if (rig.pair() != nullptr) return {{"angle", counted_json("angle_rad", data::reading_per_count(rig))}};
   if (rig.sensors.of(plant::Sensed::force) == nullptr) return Json::object();
   return {{"contraction", counted_json("contraction_ratio", run::contraction_per_count(rig))},
           {"force", {{"column", "force_N"}, {"unit", "N"}}}};
 }
 
-Json dataset_json(const domain::RigFile& rig, const std::string& name,
-                  const std::vector<run::EndedRun>& runs) {
+Json dataset_json(const plant::Rig& rig, const std::string& name, const std::vector<run::EndedRun>& runs) {
   Json data{{"schema", input::dataset_schema}, {"rig", name}};
   if (Json columns = columns_json(rig); !columns.empty()) data["columns"] = std::move(columns);
   data["runs"] = runs_json(runs);
@@ -106,7 +105,7 @@ std::string json_of(const domain::Campaign& campaign, const std::vector<run::End
   document["tolerance"] = campaign.rig.integrator.tolerance;
   // As its owner knows it; what is hidden stands in truth.yaml.
   domain::Campaign known = campaign;
-  known.rig = domain::nominal(known.rig);
+  known.rig = plant::nominal(known.rig);
   document["campaign"] = input::campaign_json(known);
   document["campaign"].erase("noise");
   document["runs"] = Json::array();

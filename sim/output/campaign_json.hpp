@@ -20,10 +20,10 @@ run::EndedRun ended_run(const run::CampaignJob& job, const input::Json& entry);
 /// What dataset.yaml says of the columns of measured tables. A load cell or a second muscle makes a data set
 /// one with a clock of its own, whose contraction or angle says that it is counted; else there is nothing to
 /// say.
-input::Json columns_json(const domain::RigFile& rig);
+input::Json columns_json(const plant::Rig& rig);
 
 /// dataset.yaml, on a rig that is given by its name or path.
-input::Json dataset_json(const domain::RigFile& rig, const std::string& name,
+input::Json dataset_json(const plant::Rig& rig, const std::string& name,
                          const std::vector<run::EndedRun>& runs);
 
 /// truth.yaml: what the data set's owner does not know.

@@ -40,7 +40,7 @@ std::string last_part(const std::string& path) {
 
 /// The last part of a path, `rest_radius`; with its part of the rig, `valve_conductance`, where another
 /// parameter that a calibration may move ends alike.
-std::string short_key(const std::string& path, const domain::RigFile& nominal) {
+std::string short_key(const std::string& path, const plant::Rig& nominal) {
   const auto movable = diagnose::nominal_parameters(nominal, nominal.spreads);
   const auto alike = [&](const auto& other) {
     return other.path != path && last_part(other.path) == last_part(path);
@@ -142,7 +142,7 @@ Json effects_json(const diagnose::Diagnosis& diagnosis, const std::vector<diagno
   return list;
 }
 
-Json recalibrated_json(const diagnose::Diagnosis& diagnosis, const domain::RigFile& nominal) {
+Json recalibrated_json(const diagnose::Diagnosis& diagnosis, const plant::Rig& nominal) {
   Json all = Json::object();
   for (const auto& moved : diagnosis.recalibrated) {
     Json& json = all[short_key(moved.fitted.name, nominal)];

@@ -33,7 +33,7 @@ Json changes(const Json& from, const Json& to) {
 
 /// The corrected rig as it stands in a file, without schema.
 Json corrected_rig(const domain::Dataset& data, const diagnose::Diagnosis& diagnosis) {
-  const Json shipped = input::to_json(domain::RigFile{});
+  const Json shipped = input::to_json(plant::Rig{});
   Json rig = input::to_json(diagnosis.corrected);
   if (input::to_json(data.rig) == shipped) {
     Json file{{"base", "thesis"}};

@@ -125,8 +125,8 @@ std::vector<std::pair<double, double>> loop_of(const plant::Rig& rig, double loa
   return points;
 }
 
-std::string effect_svg(std::string_view effect, const domain::RigFile& nominal) {
-  std::vector<std::pair<std::string, domain::RigFile>> laws;
+std::string effect_svg(std::string_view effect, const plant::Rig& nominal) {
+  std::vector<std::pair<std::string, plant::Rig>> laws;
   for (const auto& law : diagnose::catalogue(nominal)) {
     if (law.effect != effect) continue;
     auto& [words, rig] =

@@ -9,13 +9,13 @@
 #include <vector>
 
 #include <controllers/waveform.hpp>
-#include <sim/domain/rig_file.hpp>
+#include <plant/rig.hpp>
 
 namespace mckibben::output {
 
 /// The picture (SVG) of an effect of the catalogue, all its law variants in it, or of a law of the nominal
 /// rig's own at its typical values. Throws std::invalid_argument for a name without a law of its own.
-std::string effect_svg(std::string_view effect, const domain::RigFile& nominal = {});
+std::string effect_svg(std::string_view effect, const plant::Rig& nominal = {});
 
 /// The loop that one sees from outside: the pressure that the current asks for [bar], or that a gauge shows,
 /// and the contraction ratio as the encoder has it, at each tick of a ride.

@@ -136,10 +136,8 @@ std::string json_of(const run::MapPlan& plan, const run::ErrorMaps& maps,
                     const std::vector<domain::InputFile>& files) {
   Json document = heading_json("mckibben-map/1", files);
   document["report"] = "report.html";
-  document["tolerance"] = plan.engine.tolerance;
-  domain::RigFile rig = plan.rig;
-  rig.integrator = plan.engine;
-  document["rig"] = input::rig_json(rig);
+  document["tolerance"] = plan.rig.integrator.tolerance;
+  document["rig"] = input::rig_json(plan.rig);
   document["extrapolate_load"] = plan.extrapolate_load;
   document["extrapolate_target"] = plan.extrapolate_target;
   document["calibrated"] = input::to_json(plan.calibration.range);

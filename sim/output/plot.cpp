@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <plant/signals.hpp>
 #include <sim/domain/number.hpp>
 #include <sim/output/axes.hpp>
 #include <sim/output/plot.hpp>
@@ -16,7 +17,7 @@ namespace {
 constexpr double plot_width = 900.0, plot_height = 190.0, plot_left = 60.0, plot_right = 20.0,
                  plot_gap = 46.0;
 
-/// Contraction ratios over time, below an upper edge.
+/// What is followed over time, below an upper edge.
 Panel panel_at(double top_px, double low, double high, double duration_s) {
   return {.x = {.from_px = plot_left, .to_px = plot_left + plot_width, .low = 0.0, .high = duration_s},
           .y = {.from_px = top_px + plot_height, .to_px = top_px, .low = low, .high = high}};
@@ -92,30 +93,38 @@ Legend make_legend(const domain::Scenario& scenario) {
 }  // namespace
 
 std::string tracking_svg(const domain::Scenario& scenario, const run::Comparison& comparison) {
-  const std::size_t columns = scenario.controllers.size(), rows = scenario.loads_kg.size();
-  const std::vector<double>& target = comparison.targets.front().values;
+  const auto tasks = run::tasks_of(scenario);
+  const plant::Driven driven{.pair = scenario.rig.pair() != nullptr};
+  const auto channels = plant::channels_of(scenario.rig, driven);
+  const plant::Channel& followed = plant::channel_of(channels, driven.pair ? "angle" : "contraction_ratio");
+  const double page_size = followed.signal->unit.page_size, tick_s = scenario.rig.tick_s;
   const Legend legend = make_legend(scenario);
   const double first_px = legend.bottom_px + 30.0;
-  const double height = first_px + static_cast<double>(rows) * (plot_height + plot_gap) + 10.0;
+  const double height = first_px + static_cast<double>(tasks.size()) * (plot_height + plot_gap) + 10.0;
   const double width = plot_left + plot_width + plot_right;
-  Scale ratios{0.0, 0.0};
-  for (const double ratio : target) ratios.hold(ratio);
+  Scale values{0.0, 0.0};
+  for (const run::Wanted& target : comparison.targets)
+    for (const double value : target.values) values.hold(value / page_size);
   for (const auto& run : comparison.runs)
-    for (const auto& sample : run.recording.samples) ratios.hold(sample.state.joint.contraction_ratio);
-  ratios.widen(1e-4);
-  const double tick_s = scenario.rig.tick_s;
+    if (run.followed())
+      for (const auto& sample : run.recording.samples) values.hold(followed.on_page(sample));
+  values.widen(1e-4);
 
   std::string svg = svg_begin(width, height) + legend.svg;
-  for (std::size_t r = 0; r < rows; ++r) {
-    const Panel panel = panel_at(first_px + static_cast<double>(r) * (plot_height + plot_gap), ratios.low,
-                                 ratios.high, static_cast<double>(target.size()) * tick_s);
-    svg += axes(panel, fmt::format("{} kg: contraction ratio", domain::write_number(scenario.loads_kg[r])));
-    svg +=
-        line(panel, target.size(), tick_s, "#000000", "none", 2.2, [&](std::size_t k) { return target[k]; });
-    for (std::size_t c = 0; c < columns; ++c) {
-      const auto& samples = comparison.runs[r * columns + c].recording.samples;
+  for (std::size_t r = 0; r < tasks.size(); ++r) {
+    const run::Wanted& target = comparison.targets[tasks[r].target];
+    const std::size_t ticks = target.values.size();
+    const Panel panel = panel_at(first_px + static_cast<double>(r) * (plot_height + plot_gap), values.low,
+                                 values.high, static_cast<double>(ticks) * tick_s);
+    svg += axes(panel, fmt::format("{}{}{} kg: {}", target.name, target.name.empty() ? "" : ", ",
+                                   domain::write_number(tasks[r].load_kg),
+                                   driven.pair ? "joint angle [deg]" : "contraction ratio"));
+    svg += line(panel, ticks, tick_s, "#000000", "none", 2.2,
+                [&](std::size_t k) { return target.values[k] / page_size; });
+    for (std::size_t c = 0; c < scenario.controllers.size(); ++c) {
+      const auto& samples = comparison.runs[tasks[r].first + c].recording.samples;
       svg += line(panel, samples.size(), tick_s, colour_of(c), dash_of(c), 1.4,
-                  [&](std::size_t k) { return samples[k].state.joint.contraction_ratio; });
+                  [&](std::size_t k) { return followed.on_page(samples[k]); });
     }
   }
   return svg + "</svg>\n";

@@ -64,7 +64,7 @@ std::string degrees(double angle_rad) {
   return rounded(angle_rad / plant::degree_rad, 2, true);
 }
 
-std::string tuned_line(const domain::RigFile& rig, const run::TunedController& row) {
+std::string tuned_line(const plant::Rig& rig, const run::TunedController& row) {
   const auto cost = [](std::optional<double> value) {
     return value ? fmt::format("{:.3g}", *value) : std::string("no result");
   };

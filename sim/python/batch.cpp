@@ -29,7 +29,7 @@ class Batch {
  public:
   Batch(const py::object& rigs, const Numbers& loads_kg, unsigned threads) : threads_(threads) {
     const bool many = py::isinstance<py::list>(rigs) || py::isinstance<py::tuple>(rigs);
-    std::vector<domain::RigFile> files;
+    std::vector<plant::Rig> files;
     if (many)
       for (const auto& rig : rigs) files.push_back(rig_of(py::reinterpret_borrow<py::object>(rig)).file);
     else
@@ -38,10 +38,10 @@ class Batch {
     rigs_ = many ? files.size() : loads;
     if (rigs_ == 0) throw py::value_error("a batch has one rig at least");
     if (loads != 1 && loads != rigs_) throw py::value_error("loads_kg: one number, or one for each rig");
-    std::vector<ride::Hanging> hanging;
+    std::vector<ride::Loaded> hanging;
     std::vector<solver::Settings> settings;
     for (std::size_t i = 0; i < rigs_; ++i) {
-      const domain::RigFile& file = files[many ? i : 0];
+      const plant::Rig& file = files[many ? i : 0];
       if (file.tick_s != files.front().tick_s) throw py::value_error("rigs of a batch have the same tick");
       if (file.pair() != nullptr) throw py::value_error("rigs of a batch have one muscle each");
       const double load_kg = loads_kg.data()[loads == 1 ? 0 : i];

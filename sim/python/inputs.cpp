@@ -27,7 +27,7 @@ Rig rig_of(const py::object& from, const std::filesystem::path& folder) {
 
 namespace {
 
-std::string json_of(const domain::RigFile& rig) {
+std::string json_of(const plant::Rig& rig) {
   input::Json json = input::rig_json(rig);
   json.erase("schema");
   return json.dump();

@@ -10,7 +10,7 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
-#include <sim/domain/rig_file.hpp>
+#include <plant/rig.hpp>
 #include <sim/input/diagnostics.hpp>
 
 namespace mckibben::python {
@@ -28,7 +28,7 @@ void add_batch(py::module_& module);
 
 /// A rig as it was read, and the text of a file that holds every field of it.
 struct Rig {
-  domain::RigFile file;
+  plant::Rig file;
   std::vector<domain::InputFile> inputs;
 };
 

@@ -19,16 +19,16 @@ double finite(double value, const char* name) {
   return value;
 }
 
-ride::Ride ride_of(const domain::RigFile& rig, std::optional<double> load_kg) {
+ride::Ride ride_of(const plant::Rig& rig, std::optional<double> load_kg) {
   if (rig.pair() != nullptr && load_kg) throw py::value_error("two muscles turn a link; no load hangs there");
   if (rig.pair() == nullptr &&
       (!load_kg || !(*load_kg + rig.joint.load_offset_kg > 0.0) || !(*load_kg <= 500.0)))
     throw py::value_error("load_kg: a mass above 0 and up to 500 kg hangs on one muscle");
-  return {run::rider_of(rig, load_kg.value_or(0.0)), {}, rig.integrator};
+  return {ride::Loaded{rig, load_kg.value_or(0.0)}, rig.integrator};
 }
 
 /// No pressure asked for.
-Given lowest(const domain::RigFile& rig) {
+Given lowest(const plant::Rig& rig) {
   Given given{.current_mA = rig.valve.zero_current_mA};
   if (const plant::Pair* pair = rig.pair()) given.opposite_current_mA = pair->opposite.valve.zero_current_mA;
   return given;

@@ -63,7 +63,7 @@ class Ride {
   void look() { counts_ = counter_.count(ride_.reading().wheel_m); }
   double time_after(long ticks) const { return begin_s_ + static_cast<double>(ticks_ + ticks) * rig_.tick_s; }
 
-  domain::RigFile rig_;
+  plant::Rig rig_;
   ride::Ride ride_;
   plant::PositionReader counter_;
   ride::Drive drive_;

@@ -91,9 +91,9 @@ void add_loads(Contents& contents, const domain::Campaign& campaign, const domai
 }
 
 /// Of a pair: its two currents, the pressures that they ask for, the angle and what follows from it.
-Run shown_of_pair(const domain::Run& measured, std::size_t style, const domain::RigFile& rig) {
+Run shown_of_pair(const domain::Run& measured, std::size_t style, const plant::Rig& rig) {
   const plant::Pair& pair = *rig.pair();
-  const plant::Plant plant(rig, plant::opposite_rig(rig, pair), pair);
+  const plant::Plant plant = plant::plant_of(rig);
   const auto* sides = &measured.measured->sides;
   const double radius_m = rig.joint.wheel_radius_m;
   const auto contraction = [&measured](double mounted, double per_rad) {

@@ -110,7 +110,7 @@ std::string name_of(const RunGap& gap, const std::string& load) {
 
 /// One model's angles, and what else two muscles did where they were replayed.
 Run shown_pair(const char* name, std::size_t style, const RunGap& gap, const std::vector<double>& angles,
-               const ReplayedRun* replayed, const domain::RigFile& rig) {
+               const ReplayedRun* replayed, const plant::Rig& rig) {
   Run run{.name = name, .style = style, .ticks = std::min(angles.size(), gap.measured.size())};
   const auto *model = &angles, *measured = &gap.measured;
   run.quantities = {

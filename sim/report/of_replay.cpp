@@ -23,7 +23,7 @@ namespace {
 using output::escaped;
 
 /// The readings of a run beside their simulation, under the keys of its plots.
-void add_readings(Group& group, Run& shown, const domain::Run& measured, const domain::RigFile& rig,
+void add_readings(Group& group, Run& shown, const domain::Run& measured, const plant::Rig& rig,
                   const run::Recording& recording) {
   for (const run::Compared& one : run::compared(measured, rig, recording)) {
     const double factor = one.unit == "rad" ? in_degrees : 1.0;
@@ -109,7 +109,7 @@ std::string sentence(const domain::Dataset& dataset, const std::vector<run::Repl
       escaped(of->id));
 }
 
-Contents contents_of(const domain::RigFile& rig, const run::Driven& driven) {
+Contents contents_of(const plant::Rig& rig, const run::Driven& driven) {
   Contents contents;
   contents.rig = rig;
   contents.mechanics = rig.mechanics;

@@ -109,8 +109,8 @@ std::vector<Found> found_in(const Diagnosis& diagnosis) {
 }
 
 /// The corrected rig with what was added so many times as large.
-domain::RigFile enlarged(const domain::RigFile& nominal, const Diagnosis& diagnosis, double times) {
-  domain::RigFile rig = diagnosis.corrected;
+plant::Rig enlarged(const plant::Rig& nominal, const Diagnosis& diagnosis, double times) {
+  plant::Rig rig = diagnosis.corrected;
   for (const auto* effects : {&diagnosis.effects, &diagnosis.stand_ins})
     for (const auto& effect : *effects)
       for (const auto& law : diagnose::catalogue(nominal))
@@ -145,7 +145,7 @@ std::string what_it_does(const domain::Dataset& data, const Diagnosis& diagnosis
     return output::loop_of(rig, run.load_kg, up_and_down, 2.0 * period_s);
   };
   const bool by_name = !diagnosis.effects.empty() || !diagnosis.stand_ins.empty();
-  domain::RigFile without = data.rig;
+  plant::Rig without = data.rig;
   if (by_name || !diagnosis.residual_law.empty())
     without = diagnosis.corrected, without.effects = data.rig.effects;
   std::vector<Curve> loops;

@@ -32,7 +32,10 @@ void go_on(Rider& next, Muscle muscle, const plant::Effects& before, const plant
   if (before.command_delay_s() == 0.0) commands.begin(current_mA);
 }
 
-Rider gone_on(const Rider& rider, Rider next) {
+}  // namespace
+
+Rider changed(const Rider& rider, const Loaded& other) {
+  Rider next(other);
   Rider::State& state = next.now = rider.now;
   const plant::Effects& before = rider.plant().rig().effects;
   go_on(next, Muscle::first, before, next.plant().rig().effects, state.plays, state.commands,
@@ -45,15 +48,6 @@ Rider gone_on(const Rider& rider, Rider next) {
   next.open_ledger();
   next.look();
   return next;
-}
-
-}  // namespace
-
-Rider changed(const Rider& rider, const Hanging& other) {
-  return gone_on(rider, Rider(other));
-}
-Rider changed(const Rider& rider, const Paired& other) {
-  return gone_on(rider, Rider(other));
 }
 
 }  // namespace mckibben::ride

@@ -10,7 +10,6 @@ namespace mckibben::ride {
 /// A rider of `other` that goes on from where this one is, at the same instant under the same drive; it has
 /// as many muscles. An effect that was not there before remembers what it would if the load had stood here
 /// for long; its play is in the middle, and what it makes late begins now.
-Rider changed(const Rider& rider, const Hanging& other);
-Rider changed(const Rider& rider, const Paired& other);
+Rider changed(const Rider& rider, const Loaded& other);
 
 }  // namespace mckibben::ride

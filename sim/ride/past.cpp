@@ -1,5 +1,6 @@
 // See the header.
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include <sim/ride/past.hpp>
@@ -51,20 +52,21 @@ double PastCommands::next_s(double now_s, double late_s) const {
   return std::numeric_limits<double>::infinity();
 }
 
-void PastRises::note(double at_s, double rise_m, double speed_m_per_s, double oldest_s) {
+void PastValues::note(double at_s, double value, double slope_per_s, double oldest_s) {
   forget_before(seen_, oldest_s);
-  append(seen_, {at_s, rise_m, speed_m_per_s});
+  append(seen_, {at_s, value, slope_per_s});
 }
 
-double PastRises::rise_m(double at_s) const {
+double PastValues::at(double at_s) const {
   const auto later =
       std::find_if(seen_.begin(), seen_.end(), [&](const Seen& each) { return each.at_s > at_s; });
-  if (later == seen_.begin()) return later->rise_m;
+  if (later == seen_.begin()) return later->value;
   const Seen& from = *(later - 1);
-  if (later == seen_.end() || from.at_s == at_s) return from.rise_m;
+  if (later == seen_.end() || from.at_s == at_s) return from.value;
   const double length_s = later->at_s - from.at_s, share = (at_s - from.at_s) / length_s, rest = 1.0 - share;
-  return rest * rest * ((1.0 + 2.0 * share) * from.rise_m + share * length_s * from.speed_m_per_s) +
-         share * share * ((1.0 + 2.0 * rest) * later->rise_m - rest * length_s * later->speed_m_per_s);
+  if (std::isnan(from.slope_per_s)) return rest * from.value + share * later->value;
+  return rest * rest * ((1.0 + 2.0 * share) * from.value + share * length_s * from.slope_per_s) +
+         share * share * ((1.0 + 2.0 * rest) * later->value - rest * length_s * later->slope_per_s);
 }
 
 }  // namespace mckibben::ride

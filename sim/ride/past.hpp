@@ -1,4 +1,4 @@
-// What effects that make something late look back to: which commands were given, and where the load was.
+// What is looked back to where something is late: which commands were given, and what sensors saw.
 // Only what may still be asked for is kept.
 #pragma once
 
@@ -33,13 +33,13 @@ class PastCommands {
   std::vector<Given> given_;
 };
 
-/// Rises of the load [m] at instants, between them by the cubic that has their heights and speeds (Hermite);
-/// before the first one it was where that found it.
-class PastRises {
+/// Values at instants, between them by the cubic that has their values and slopes (Hermite), or straight
+/// where slopes are not known (NaN); before the first one it was that.
+class PastValues {
  public:
-  /// Throws away what no rise from `oldest_s` on asks for.
-  void note(double at_s, double rise_m, double speed_m_per_s, double oldest_s);
-  double rise_m(double at_s) const;
+  /// Throws away what no value from `oldest_s` on asks for.
+  void note(double at_s, double value, double slope_per_s, double oldest_s);
+  double at(double at_s) const;
 
   template <class Self, class Visitor>
   static void members(Self& self, Visitor& visit) {
@@ -48,7 +48,7 @@ class PastRises {
 
  private:
   struct Seen {
-    double at_s, rise_m, speed_m_per_s;
+    double at_s, value, slope_per_s;
   };
   std::vector<Seen> seen_;
 };

@@ -21,10 +21,8 @@ class Ride {
     engine::Pace pace;
   };
 
-  Ride(const Hanging& rig, const solver::Settings& settings, bool keep_ledger = false)
-      : Ride(Rider(rig), settings, keep_ledger) {}
-  Ride(const Paired& pair, const solver::Settings& settings, bool keep_ledger = false)
-      : Ride(Rider(pair), settings, keep_ledger) {}
+  Ride(const Loaded& loaded, const solver::Settings& settings, bool keep_ledger = false)
+      : Ride(Rider(loaded), settings, keep_ledger) {}
   /// Goes on from where the rider is.
   Ride(const Rider& rider, const engine::Pace& pace, const solver::Settings& settings,
        bool keep_ledger = false);

@@ -1,6 +1,7 @@
 // The order of an instant; see the header.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include <sim/engine/failure.hpp>
@@ -123,6 +124,8 @@ void Rider::hold(const Drive& given, double until_s) {
   }
   now.drive = drive;
   now.until_s = until_s;
+  if (const plant::Sensor* cell = plant_.rig().sensors.of(plant::Sensed::force); cell && cell->is_late())
+    now.reading.late_force_N = seen(plant::Sensed::force, 0, std::max(moment().cord_force_N(), 0.0));
 }
 
 /// The level may have jumped with the current's speed (T 4.6): a load that stuck may be free now.
@@ -184,7 +187,7 @@ void Rider::look() {
   if (const double effect_s = plant_.rig().effects.reading_delay_s(); effect_s > 0.0 || sensor.is_late()) {
     const double then_s = now.time_s - (effect_s + sensor.late_s(now.time_s));
     now.rises.note(now.time_s, rise_m, state.joint.contraction_speed_per_s * length_m, then_s);
-    rise_m = now.rises.rise_m(then_s);
+    rise_m = now.rises.at(then_s);
   }
   const plant::Stroke<double> stroke{state.joint.contraction_ratio, state.joint.contraction_speed_per_s};
   const double shift_m = plant_.side().reading_shift_m(stroke, state.side, now.flow.memory.side, now.held);
@@ -193,8 +196,28 @@ void Rider::look() {
   const double wheel_m =
       plant_.rig().effects.wheel_m(rise_m, now.plays) + plant_.rig().joint.reading_offset_m;
   const plant::Rig& other = plant_.opposite() ? plant_.opposite()->rig() : plant_.rig();
-  now.reading = {wheel_m, wheel_m - true_rise_m, plant_.rig().effects.shown_Pa(state.side.muscle_pressure_Pa),
-                 other.effects.shown_Pa(state.opposite.muscle_pressure_Pa)};
+  using enum plant::Sensed;
+  now.reading = {.wheel_m = wheel_m,
+                 .misread_m = wheel_m - true_rise_m,
+                 .muscle_pressure_Pa =
+                     plant_.rig().effects.shown_Pa(seen(muscle_pressure, 0, state.side.muscle_pressure_Pa)),
+                 .opposite_pressure_Pa =
+                     other.effects.shown_Pa(seen(muscle_pressure, 1, state.opposite.muscle_pressure_Pa)),
+                 .valve_pressure_Pa = seen(valve_pressure, 0, state.side.valve_pressure_Pa),
+                 .opposite_valve_pressure_Pa = seen(valve_pressure, 1, state.opposite.valve_pressure_Pa),
+                 .late_force_N = now.reading.late_force_N};
+}
+
+double Rider::seen(plant::Sensed sensed, std::size_t muscle, double value) {
+  const plant::Sensor* const sensor = plant_.rig().sensors.of(sensed);
+  if (sensor == nullptr || !sensor->is_late()) return value;
+  constexpr double no_slope = std::numeric_limits<double>::quiet_NaN();
+  constexpr std::size_t signals = names(plant::Sensed{}).size();
+  now.late.resize(2 * signals);
+  PastValues& past = now.late[muscle * signals + static_cast<std::size_t>(sensed)];
+  const double then_s = now.time_s - sensor->late_s(now.time_s);
+  past.note(now.time_s, value, no_slope, then_s);
+  return past.at(then_s);
 }
 
 void Rider::require_reading() const {

@@ -13,29 +13,19 @@
 
 #include <optional>
 #include <span>
+#include <vector>
 
-#include <plant/mechanics.hpp>
 #include <plant/plant.hpp>
 #include <sim/engine/problem.hpp>
 #include <sim/ride/past.hpp>
 
 namespace mckibben::ride {
 
-/// A rig with a load [kg] on it.
-struct Hanging {
+/// A rig, and the load [kg] that hangs on it where its mechanics have one.
+struct Loaded {
   plant::Rig rig;
-  double load_kg;
+  double load_kg = 0.0;
 };
-
-/// Two muscles on one wheel (T 2.7); the joint and its encoder are those of the first rig.
-struct Paired {
-  plant::Rig rig, opposite;
-  plant::Link link{};
-};
-
-inline Paired paired(const plant::Rig& rig, const plant::Pair& pair) {
-  return {rig, plant::opposite_rig(rig, pair), pair};
-}
 
 /// What acts on a muscle from outside, from one instant to the next: a command, or in its place the pressure
 /// that the valve's volume or the muscle has at the end, and runs straight to.
@@ -64,7 +54,10 @@ struct Drive : Command {
 struct Reading {
   double wheel_m = 0.0;    ///< rise that the encoder's wheel shows; of a pair, from theta = 0
   double misread_m = 0.0;  ///< what of it is not the joint's
-  double muscle_pressure_Pa = 0.0, opposite_pressure_Pa = 0.0;  ///< as gauges show them
+  // As sensors on each muscle show them; a force only where its sensor is late.
+  double muscle_pressure_Pa = 0.0, opposite_pressure_Pa = 0.0;
+  double valve_pressure_Pa = 0.0, opposite_valve_pressure_Pa = 0.0;
+  double late_force_N = 0.0;
 };
 
 class Rider {
@@ -78,19 +71,19 @@ class Rider {
     double time_s = 0.0, until_s = 0.0;
     Drive drive{};                                 ///< that was held last, pressures as they are
     PastCommands commands{}, opposite_commands{};  ///< where something makes them late
-    PastRises rises{};
-    bool reads = true;  ///< a law of the user's own may make no number of a reading
+    PastValues rises{};
+    std::vector<PastValues> late{};  ///< of other sensors that are late, by muscle and signal
+    bool reads = true;               ///< a law of the user's own may make no number of a reading
 
     /// All of the above in turn, for whoever writes a state down.
     template <class Self, class Visitor>
     static void members(Self& self, Visitor& visit) {
       visit(self.flow, self.held, self.plays, self.opposite_plays, self.reading, self.time_s, self.until_s,
-            self.drive, self.commands, self.opposite_commands, self.rises, self.reads);
+            self.drive, self.commands, self.opposite_commands, self.rises, self.late, self.reads);
     }
   };
 
-  explicit Rider(const Hanging& hanging) : plant_(hanging.rig, hanging.load_kg) {}
-  explicit Rider(const Paired& pair) : plant_(pair.rig, pair.opposite, pair.link) {}
+  explicit Rider(const Loaded& loaded) : plant_(plant::plant_of(loaded.rig, loaded.load_kg)) {}
 
   /// At rest, pressures as the drive asks for, the encoder at zero. A load may still sink onto the braid
   /// stop, a link swing to where the muscles hold it: the steps of the rig's settling time follow.
@@ -116,6 +109,8 @@ class Rider {
 
  private:
   void judge_slip();
+  /// What a sensor on a muscle (0 or 1) shows of a value that it has now.
+  double seen(plant::Sensed sensed, std::size_t muscle, double value);
 
   plant::Plant plant_;
 };

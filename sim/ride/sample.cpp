@@ -20,15 +20,20 @@ constexpr auto true_values = [] {
   return all;
 }();
 
-/// What the sensors of a muscle show; `gauge_Pa`: what a gauge on it has before it.
-void show(const plant::Sensors& sensors, const plant::Sample& row, std::size_t muscle, double gauge_Pa,
+/// What the sensors of a muscle show.
+void show(const plant::Sensors& sensors, const plant::Sample& row, std::size_t muscle, const Reading& reading,
           const plant::BySensed& noise, plant::BySensed& shown) {
   for (const auto& [sensed, key] : names(plant::Sensed{})) {
     if (sensed == plant::Sensed::contraction) continue;
+    const plant::Sensor* const sensor = sensors.of(sensed);
     double value = true_values[static_cast<std::size_t>(sensed)](row, muscle);
-    if (sensed == plant::Sensed::muscle_pressure) value = gauge_Pa;
-    if (sensed == plant::Sensed::force) value = std::max(value, 0.0);  // a cord that would push is slack
-    shown[sensed] = plant::shown(sensors.of(sensed), value + noise[sensed]);
+    if (sensed == plant::Sensed::muscle_pressure)
+      value = muscle == 1 ? reading.muscle_pressure_Pa : reading.opposite_pressure_Pa;
+    if (sensed == plant::Sensed::valve_pressure)
+      value = muscle == 1 ? reading.valve_pressure_Pa : reading.opposite_valve_pressure_Pa;
+    if (sensed == plant::Sensed::force)  // a cord that would push is slack
+      value = sensor && sensor->is_late() ? reading.late_force_N : std::max(value, 0.0);
+    shown[sensed] = plant::shown(sensor, value + noise[sensed]);
   }
 }
 
@@ -60,14 +65,14 @@ plant::Sample sample_of(const Rider& rider, std::int64_t counts, const SensorNoi
   row.counts = counts;
   row.misread_ratio = reading.misread_m / length_m;
   write(row, plant.side(), drive, state.joint.contraction_ratio, now);
-  show(rig.sensors, row, 1, reading.muscle_pressure_Pa, noise[0], row.shown);
+  show(rig.sensors, row, 1, reading, noise[0], row.shown);
   if (!plant.opposite()) {
     row.read_ratio = counted * (height_m / length_m);
     return row;
   }
   write(row.opposite, *plant.opposite(), drive.opposite, plant.opposite_stroke(state).contraction_ratio,
         now.opposite);
-  show(rig.sensors, row, 2, reading.opposite_pressure_Pa, noise[1], row.opposite.shown);
+  show(rig.sensors, row, 2, reading, noise[1], row.opposite.shown);
   row.read_angle_rad = counted * height_m / radius_m;
   row.angle_rad = plant.angle_rad(state.joint.contraction_ratio);
   row.angle_speed_rad_per_s = length_m / radius_m * state.joint.contraction_speed_per_s;

@@ -62,6 +62,7 @@ void set_off(Rider& rider, const Underway& seen) {
   const double late_s =
       plant.rig().effects.reading_delay_s() + plant.rig().sensors.position().late_s(now.time_s);
   now.rises = {};
+  now.late.clear();
   const double stood_m = seen.rise_m - plant.rig().joint.reading_offset_m;
   now.rises.note(now.time_s - late_s, stood_m, seen.speed_m_per_s, now.time_s - late_s);
   const double speed_m_per_s = seen.speed_m_per_s + late_s * seen.acceleration_m_per_s2;

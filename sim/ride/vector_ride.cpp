@@ -8,7 +8,7 @@
 namespace mckibben::ride {
 
 struct VectorRide::Member final : BatchItem {
-  explicit Member(const Hanging& rig) : rider(rig) {}
+  explicit Member(const Loaded& rig) : rider(rig) {}
 
   std::span<Rider> riders() override { return {&rider, 1}; }
   bool go_on() override { return std::exchange(holds, false); }
@@ -21,7 +21,7 @@ struct VectorRide::Member final : BatchItem {
   std::string failure;
 };
 
-VectorRide::VectorRide(std::span<const Hanging> rigs, std::span<const solver::Settings> settings) {
+VectorRide::VectorRide(std::span<const Loaded> rigs, std::span<const solver::Settings> settings) {
   if (rigs.size() != settings.size()) throw std::invalid_argument("rigs and settings are not as many");
   for (std::size_t i = 0; i < rigs.size(); ++i) {
     members_.push_back(std::make_shared<Member>(rigs[i]));

@@ -17,7 +17,7 @@ namespace mckibben::ride {
 class VectorRide {
  public:
   /// `settings`: of each rig. Throws std::invalid_argument where there are not as many.
-  VectorRide(std::span<const Hanging> rigs, std::span<const solver::Settings> settings);
+  VectorRide(std::span<const Loaded> rigs, std::span<const solver::Settings> settings);
 
   /// As a ride starts; so many currents as rigs.
   void start(std::span<const double> current_mA, double at_s);

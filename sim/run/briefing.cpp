@@ -18,7 +18,7 @@ Briefing briefing_of(const domain::Scenario& scenario) {
   for (auto& settings : all.settings)
     if (auto* terms = controllers::model_terms(settings)) {
       const auto named = scenario.believed.find(controllers::name_of(settings));
-      const domain::RigFile& believed = named == scenario.believed.end() ? scenario.rig : named->second;
+      const plant::Rig& believed = named == scenario.believed.end() ? scenario.rig : named->second;
       terms->model = model_of(believed, scenario.rig.tick_s, scenario.hand_m);
     }
   return all;

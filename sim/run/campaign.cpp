@@ -57,13 +57,11 @@ Order order_of(const domain::Campaign& campaign, const CampaignJob& job) {
       .plan = {.rig = drawn_rig(campaign, job.repeat),
                .load_kg = job.load_kg,
                .ticks = static_cast<std::size_t>(std::llround(current.duration_s / campaign.rig.tick_s)),
-               .engine = campaign.rig.integrator,
                .noise = campaign.noise,
                .seed = campaign.seed,
                .stream = job.stream},
       .controller = nullptr};
-  if (const plant::Pair* pair = campaign.rig.pair()) {
-    order.plan.pair = *pair;
+  if (campaign.rig.pair() != nullptr) {
     order.controller = play(*current.current_1, *current.current_2, campaign.rig);
   } else {
     order.controller =

@@ -79,8 +79,7 @@ class Mapping {
   }
 
   Order order(double load_kg, std::size_t ticks, const controllers::OpenLoopSettings& how) const {
-    return {{.rig = plan_.rig, .load_kg = load_kg, .ticks = ticks, .engine = plan_.engine},
-            how.make(knowledge_)};
+    return {{.rig = plan_.rig, .load_kg = load_kg, .ticks = ticks}, how.make(knowledge_)};
   }
 
   void weigh_all() {

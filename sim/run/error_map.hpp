@@ -13,14 +13,12 @@
 #include <controllers/inverse.hpp>
 #include <controllers/reach.hpp>
 #include <plant/rig.hpp>
-#include <plant/solver.hpp>
 #include <sim/run/compare.hpp>
 
 namespace mckibben::run {
 
 struct MapPlan {
   plant::Rig rig;
-  solver::Settings engine{};
   controllers::Calibration calibration;
   std::vector<double> loads_kg;
   std::vector<controllers::Branch> branches;

@@ -41,16 +41,8 @@ bool Follower::go_on() {
   return row_ < course_.rows.size();
 }
 
-ride::Rider rider_of(const domain::RigFile& rig, double load_kg) {
-  if (const plant::Pair* pair = rig.pair()) return ride::Rider(ride::paired(rig, *pair));
-  return ride::Rider(ride::Hanging{rig, load_kg});
-}
-
-Following::Following(const domain::RigFile& rig, double load_kg, Course course, Done done)
-    : Follower({rider_of(rig, load_kg)}, rig, std::move(course)),
-      integrator_(rig.integrator),
-      counter_(rig),
-      done_(std::move(done)) {
+Following::Following(const plant::Rig& rig, double load_kg, Course course, Done done)
+    : Follower({ride::Rider({rig, load_kg})}, rig, std::move(course)), counter_(rig), done_(std::move(done)) {
   const ride::Drive& first = this->course().drives.front();
   recording_.driven = {
       .pair = rig.pair() != nullptr,
@@ -76,7 +68,7 @@ void Following::end(const engine::Counters& solver, const engine::NumericalFailu
     // Where values are given, only `erk` keeps an exact ledger (docs/architecture.md, An instant).
     const Driven& driven = recording_.driven;
     const bool given = driven.length || driven.pressure[0] || driven.pressure[1];
-    const bool exact = integrator_.method != solver::Method::cvode && solver.stiff_from_tick < 0;
+    const bool exact = rig().integrator.method != solver::Method::cvode && solver.stiff_from_tick < 0;
     if (exact || !given)
       recording_.imbalance =
           rider.plant().imbalance(recording_.samples.front().state, last.state, last.ledger);
@@ -87,7 +79,7 @@ void Following::end(const engine::Counters& solver, const engine::NumericalFailu
   done_(std::move(recording_));
 }
 
-Recording follow(const domain::RigFile& rig, double load_kg, const Course& course) {
+Recording follow(const plant::Rig& rig, double load_kg, const Course& course) {
   Recording recording;
   Following following(rig, load_kg, course, [&](Recording whole) { recording = std::move(whole); });
   ride::Alone(following.riders(), following.key()).run(following);

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include <plant/instruments.hpp>
-#include <sim/domain/rig_file.hpp>
+#include <plant/rig.hpp>
 #include <sim/ride/batch.hpp>
 #include <sim/run/course.hpp>
 #include <sim/run/recording.hpp>
@@ -54,17 +54,14 @@ class Follower : public ride::BatchItem {
   std::size_t k_ = 0, row_ = 0;
 };
 
-/// A rig with its load [kg], where one hangs on it.
-ride::Rider rider_of(const domain::RigFile& rig, double load_kg);
-
 /// One rig that leaves a recording: a row for each stamp that has one. `done` hears of it. If the integrator
 /// gives up, the recording ends there and says why.
 class Following final : public Follower {
  public:
   using Done = std::function<void(Recording recording)>;
-  Following(const domain::RigFile& rig, double load_kg, Course course, Done done);
+  Following(const plant::Rig& rig, double load_kg, Course course, Done done);
 
-  ride::BatchKey key() const { return Follower::key(integrator_, true); }
+  ride::BatchKey key() const { return Follower::key(rig().integrator, true); }
   void end(const engine::Counters& solver, const engine::NumericalFailure* failure) override;
 
  private:
@@ -72,13 +69,12 @@ class Following final : public Follower {
   void begin() override { riders().front().open_ledger(); }
   void look(std::size_t stamp) override;
 
-  solver::Settings integrator_;
   plant::PositionReader counter_;
   Done done_;
   Recording recording_;
 };
 
 /// The same at once.
-Recording follow(const domain::RigFile& rig, double load_kg, const Course& course);
+Recording follow(const plant::Rig& rig, double load_kg, const Course& course);
 
 }  // namespace mckibben::run

@@ -63,8 +63,7 @@ bool has_rows(const domain::Run& run) {
 
 }  // namespace
 
-std::vector<Compared> compared(const domain::Run& run, const domain::RigFile& rig,
-                               const Recording& recording) {
+std::vector<Compared> compared(const domain::Run& run, const plant::Rig& rig, const Recording& recording) {
   std::vector<Compared> all;
   const Readings read = has_rows(run) ? rows_of(run) : stamps_of(*run.measured);
   const bool degrees = run.measured && run.measured->angle_in_degrees, pair = rig.pair() != nullptr;
@@ -99,7 +98,7 @@ std::vector<Compared> compared(const domain::Run& run, const domain::RigFile& ri
   return all;
 }
 
-std::vector<Gap> gaps_of(const domain::Run& run, const domain::RigFile& rig, const Recording& recording) {
+std::vector<Gap> gaps_of(const domain::Run& run, const plant::Rig& rig, const Recording& recording) {
   // Rows that were made of stamps have left out what is skipped.
   const double skip_s = has_rows(run) ? 0.0 : run.measured->recorded.skip_s;
   std::vector<Gap> gaps;

@@ -26,8 +26,7 @@ struct Compared {
   std::function<double(std::size_t k)> measured, simulated;
 };
 /// What models are judged by comes first. Refers to `run` and `recording`.
-std::vector<Compared> compared(const domain::Run& run, const domain::RigFile& rig,
-                               const Recording& recording);
-std::vector<Gap> gaps_of(const domain::Run& run, const domain::RigFile& rig, const Recording& recording);
+std::vector<Compared> compared(const domain::Run& run, const plant::Rig& rig, const Recording& recording);
+std::vector<Gap> gaps_of(const domain::Run& run, const plant::Rig& rig, const Recording& recording);
 
 }  // namespace mckibben::run

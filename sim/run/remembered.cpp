@@ -27,7 +27,7 @@ double further(const Recording& here, const Recording& aside, double length_m, c
 
 }  // namespace
 
-Recording follow_as_seen(const domain::RigFile& rig, double load_kg, Course course, const Seen& seen) {
+Recording follow_as_seen(const plant::Rig& rig, double load_kg, Course course, const Seen& seen) {
   Recording here = follow(rig, load_kg, course);
   if (!course.begins || !rig.remembers()) return here;
   double& memories = course.begins->memories;

@@ -18,6 +18,6 @@ struct Seen {
 };
 
 /// As `follow`; where the course begins on its way and the rig remembers, with memories that fit `seen`.
-Recording follow_as_seen(const domain::RigFile& rig, double load_kg, Course course, const Seen& seen);
+Recording follow_as_seen(const plant::Rig& rig, double load_kg, Course course, const Seen& seen);
 
 }  // namespace mckibben::run

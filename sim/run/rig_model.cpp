@@ -76,14 +76,11 @@ class RiddenModel final : public controllers::RigModel {
 
 }  // namespace
 
-controllers::ModelMaker model_of(const domain::RigFile& rig, double tick_s, double hand_m) {
+controllers::ModelMaker model_of(const plant::Rig& rig, double tick_s, double hand_m) {
   return [=](double load_kg, const controllers::Command& rest) -> std::unique_ptr<controllers::RigModel> {
-    const auto model = [&](ride::Ride ride) {
-      return std::make_unique<RiddenModel>(rig, std::move(ride), rest, tick_s);
-    };
-    if (rig.pair() == nullptr) return model(ride::Ride(ride::Hanging{rig, load_kg}, rig.integrator));
-    const plant::Pair pair = plant::with_load_in_hand(*rig.pair(), load_kg, hand_m);
-    return model(ride::Ride(ride::paired(rig, pair), rig.integrator));
+    ride::Loaded loaded{rig, load_kg};
+    if (plant::Pair* pair = loaded.rig.pair()) *pair = plant::with_load_in_hand(*pair, load_kg, hand_m);
+    return std::make_unique<RiddenModel>(rig, ride::Ride(loaded, rig.integrator), rest, tick_s);
   };
 }
 

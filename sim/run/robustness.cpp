@@ -39,7 +39,7 @@ double quantile(const std::vector<double>& sorted, double share) {
 
 }  // namespace
 
-domain::Variation within_stated(domain::RigFile rig) {
+domain::Variation within_stated(plant::Rig rig) {
   domain::Variation variation;
   for (const auto& [path, deviation] : rig.spreads) {
     const domain::RigNumber number = domain::find_number(rig, path);

@@ -49,7 +49,7 @@ struct RobustRow {
 
 /// What is drawn of a rig, by the deviations that its file states; cut at the documented range. Numbers that
 /// are not known at all are none of them.
-domain::Variation within_stated(domain::RigFile rig);
+domain::Variation within_stated(plant::Rig rig);
 
 /// Whether the load goes round and round where its target rests.
 bool cycles(const Followed& run);

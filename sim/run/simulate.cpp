@@ -70,11 +70,6 @@ class Disturbance {
   std::normal_distribution<double> normal_;
 };
 
-ride::Rider rider_of(const RunPlan& plan) {
-  if (plan.pair) return ride::Rider(ride::paired(plan.rig, *plan.pair));
-  return ride::Rider(ride::Hanging{plan.rig, plan.load_kg});
-}
-
 /// What a run does at each instant, and what it leaves behind. `done` hears that.
 class Run : public ride::BatchItem {
  public:
@@ -84,7 +79,7 @@ class Run : public ride::BatchItem {
       : plan_(plan),
         controller_(controller),
         done_(std::move(done)),
-        rider_(rider_of(plan)),
+        rider_(ride::Loaded{plan.rig, plan.load_kg}),
         first_(-controller.preparation_ticks()),
         begin_(first_ - std::lround(plan.rig.settling_time_s / plan.rig.tick_s)),
         k_(begin_),
@@ -119,7 +114,7 @@ class Run : public ride::BatchItem {
     recording_.solver = solver;
     if (recording_.solver.stiff_from_tick >= 0) recording_.solver.stiff_from_tick += begin_;
     recording_.findings = controller_.findings();
-    recording_.driven.pair = plan_.pair.has_value();
+    recording_.driven.pair = plan_.rig.pair() != nullptr;
     note_slack(recording_);
     done_(std::move(recording_));
   }
@@ -146,9 +141,13 @@ class Run : public ride::BatchItem {
   }
 
   void write(ride::SensorNoise noise) {
-    for (const plant::Sensor& sensor : plan_.rig.sensors)
-      if (sensor.signal != Sensed::contraction && sensor.signal != Sensed::muscle_pressure)
-        draw(sensor.signal, noise);
+    for (const plant::Sensor& sensor : plan_.rig.sensors) {
+      if (sensor.signal == Sensed::contraction) continue;
+      if (sensor.signal != Sensed::muscle_pressure) draw(sensor.signal, noise);
+      if (k_ > 0 && !takes_a_reading(sensor))
+        for (std::size_t muscle : {0, 1}) noise[muscle][sensor.signal] = noise_[muscle][sensor.signal];
+    }
+    noise_ = noise;
     Sample row = ride::sample_of(rider_, counts_, noise);
     row.time_s = tidy_s(time_s(k_));
     recording_.take(row);
@@ -156,12 +155,17 @@ class Run : public ride::BatchItem {
 
   void draw(Sensed signal, ride::SensorNoise& noise) {
     noise[0][signal] = disturbance_.of(signal);
-    if (plan_.pair) noise[1][signal] = disturbance_.of(signal);
+    if (plan_.rig.pair()) noise[1][signal] = disturbance_.of(signal);
+  }
+
+  /// Or shows the one that it showed a tick ago.
+  bool takes_a_reading(const plant::Sensor& sensor) const {
+    return sensor.taken_s(time_s(k_)) != sensor.taken_s(time_s(k_ - 1));
   }
 
   void look() {
     const double jitter_m = disturbance_.of(Sensed::contraction) * plan_.rig.muscle.rest_length_m;
-    if (k_ <= begin_ + 1 || sensor_.taken_s(time_s(k_)) != sensor_.taken_s(time_s(k_ - 1)))
+    if (k_ <= begin_ + 1 || takes_a_reading(sensor_))
       counts_ = counter_.count(rider_.now.reading.wheel_m + jitter_m);
   }
 
@@ -171,7 +175,7 @@ class Run : public ride::BatchItem {
     };
     drive_.current_mA = given(wanted.current_mA);
     drive_.stray_current_mA = disturbance_.current_mA();
-    if (!plan_.pair) return;
+    if (!plan_.rig.pair()) return;
     drive_.opposite.current_mA = given(wanted.opposite_mA);
     drive_.opposite.stray_current_mA = disturbance_.current_mA();
   }
@@ -193,19 +197,20 @@ class Run : public ride::BatchItem {
   plant::PositionReader counter_;
   Disturbance disturbance_;
   std::int64_t counts_ = 0;
+  ride::SensorNoise noise_{};  ///< of the last row
   Recording recording_;
 };
 
 /// No load, no motion.
 bool moves(const RunPlan& plan) {
-  return plan.pair || plan.load_kg + plan.rig.joint.load_offset_kg > 0.0;
+  return plan.rig.pair() || plan.load_kg + plan.rig.joint.load_offset_kg > 0.0;
 }
 
 /// Pairs go alone, as `follow` has them: to the same bits.
 ride::BatchKey key_of(const RunPlan& plan) {
-  const ride::Rider rider = rider_of(plan);
-  ride::BatchKey key = ride::batch_key({&rider, 1}, {}, plan.engine, plan.keep_ledger);
-  key.in_lanes = key.in_lanes && !plan.pair;
+  const ride::Rider rider(ride::Loaded{plan.rig, plan.load_kg});
+  ride::BatchKey key = ride::batch_key({&rider, 1}, {}, plan.rig.integrator, plan.keep_ledger);
+  key.in_lanes = key.in_lanes && !plan.rig.pair();
   return key;
 }
 
@@ -261,25 +266,21 @@ controllers::ValveLine valve_line(const plant::Valve& valve) {
 }  // namespace
 
 controllers::Knowledge knowledge_of(const plant::Rig& rig, std::vector<double> target) {
-  return {.contraction_per_count = contraction_per_count(rig),
-          .middle_of_count = plant::middle_of_count(rig.sensors.position()),
-          .tick_s = rig.tick_s,
-          .largest_current_mA = rig.dac.largest_current_mA,
-          .target = std::move(target),
-          .model = force_model(rig.muscle),
-          .valve = valve_line(rig.valve),
-          .reach = {}};
-}
-
-controllers::Knowledge knowledge_of(const plant::Rig& rig, const plant::Pair& pair,
-                                    std::vector<double> target) {
-  controllers::Knowledge known = knowledge_of(rig, std::move(target));
-  known.pair = {.opposite = force_model(pair.opposite.muscle),
-                .opposite_valve = valve_line(pair.opposite.valve),
-                .wheel_radius_m = rig.joint.wheel_radius_m,
-                .mounted_ratio = pair.contraction_ratio,
-                .opposite_mounted_ratio = pair.opposite_contraction_ratio,
-                .stiffness_N_m_per_rad = {}};
+  controllers::Knowledge known{.contraction_per_count = contraction_per_count(rig),
+                               .middle_of_count = plant::middle_of_count(rig.sensors.position()),
+                               .tick_s = rig.tick_s,
+                               .largest_current_mA = rig.dac.largest_current_mA,
+                               .target = std::move(target),
+                               .model = force_model(rig.muscle),
+                               .valve = valve_line(rig.valve),
+                               .reach = {}};
+  if (const plant::Pair* pair = rig.pair())
+    known.pair = {.opposite = force_model(pair->opposite.muscle),
+                  .opposite_valve = valve_line(pair->opposite.valve),
+                  .wheel_radius_m = rig.joint.wheel_radius_m,
+                  .mounted_ratio = pair->contraction_ratio,
+                  .opposite_mounted_ratio = pair->opposite_contraction_ratio,
+                  .stiffness_N_m_per_rad = {}};
   return known;
 }
 

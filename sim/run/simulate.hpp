@@ -13,20 +13,16 @@
 
 #include <controllers/controller.hpp>
 #include <plant/instruments.hpp>
-#include <plant/mechanics.hpp>
 #include <plant/rig.hpp>
-#include <plant/solver.hpp>
 #include <sim/run/recording.hpp>
 #include <sim/run/run_batch.hpp>
 
 namespace mckibben::run {
 
 struct RunPlan {
-  plant::Rig rig;
-  std::optional<plant::Pair> pair{};  ///< two muscles; what the hand holds is in the link
-  double load_kg = 0.0;               ///< that hangs on the cord of one
-  std::size_t ticks = 0;              ///< rows of the recording
-  solver::Settings engine{};
+  plant::Rig rig;         ///< of a pair, what the hand holds is in the link
+  double load_kg = 0.0;   ///< that hangs on the cord of one muscle
+  std::size_t ticks = 0;  ///< rows of the recording
   plant::Noise noise{};
   std::uint64_t seed = 1, stream = 0;  ///< runs of one seed differ by their stream
   bool keep_ledger = false;
@@ -56,13 +52,10 @@ void simulate_all(std::size_t count, unsigned threads, const Ordering& ordering,
 void simulate_all(const Take& take, std::size_t about, unsigned threads, const Ordering& ordering,
                   const Finished& finished);
 
-/// What the data sheets of a rig tell a controller, and the target [contraction ratio] at each tick. Nothing
-/// of its effects.
-/// Without `reach`, which takes a moment to compute: see `reachable`.
+/// What the data sheets of a rig tell a controller, and the target at each tick [contraction ratio; of a pair
+/// R theta/l0]. Nothing of its effects. Without `reach`, which takes a moment to compute (`reachable`), and
+/// the stiffness that is wanted of a pair.
 controllers::Knowledge knowledge_of(const plant::Rig& rig, std::vector<double> target);
-/// The same of a pair; the target is R theta/l0. The stiffness that is wanted is filled in by who knows it.
-controllers::Knowledge knowledge_of(const plant::Rig& rig, const plant::Pair& pair,
-                                    std::vector<double> target);
 
 /// Contraction ratio of one encoder count.
 double contraction_per_count(const plant::Rig& rig);

@@ -25,12 +25,12 @@ bool is_at_end(double current_mA, const plant::Rig& rig) {
 
 }  // namespace
 
-double per_ratio(const domain::RigFile& rig) {
+double per_ratio(const plant::Rig& rig) {
   return rig.pair() != nullptr ? rig.muscle.rest_length_m / rig.joint.wheel_radius_m : 1.0;
 }
 
 std::vector<Wanted> wanted_of(const domain::Scenario& scenario) {
-  const domain::RigFile& rig = scenario.rig;
+  const plant::Rig& rig = scenario.rig;
   const std::size_t ticks = ticks_of(scenario);
   if (rig.pair() == nullptr) {
     const auto ratios = controllers::sample(scenario.target, ticks, rig.tick_s, rig.muscle.rest_length_m);
@@ -52,10 +52,8 @@ std::vector<Wanted> wanted_of(const domain::Scenario& scenario) {
 }
 
 controllers::Knowledge knowledge_of(const domain::Scenario& scenario, const Wanted& wanted) {
-  const plant::Pair* pair = scenario.rig.pair();
-  if (pair == nullptr) return knowledge_of(scenario.rig, wanted.ratios);
-  controllers::Knowledge known = knowledge_of(scenario.rig, *pair, wanted.ratios);
-  known.pair->stiffness_N_m_per_rad = wanted.stiffness_N_m_per_rad;
+  controllers::Knowledge known = knowledge_of(scenario.rig, wanted.ratios);
+  if (known.pair) known.pair->stiffness_N_m_per_rad = wanted.stiffness_N_m_per_rad;
   return known;
 }
 
@@ -63,13 +61,11 @@ RunPlan plan_of(const domain::Scenario& scenario, double load_kg, std::uint64_t 
   RunPlan plan{.rig = scenario.rig,
                .load_kg = load_kg,
                .ticks = ticks_of(scenario),
-               .engine = scenario.rig.integrator,
                .noise = scenario.noise,
                .seed = scenario.seed,
                .stream = stream,
                .keep_ledger = true};
-  if (const plant::Pair* pair = scenario.rig.pair())
-    plan.pair = plant::with_load_in_hand(*pair, load_kg, scenario.hand_m);
+  if (plant::Pair* pair = plan.rig.pair()) *pair = plant::with_load_in_hand(*pair, load_kg, scenario.hand_m);
   return plan;
 }
 
@@ -100,13 +96,13 @@ Metrics metrics_of(const domain::Scenario& scenario, const Wanted& wanted, const
                   .limits = limits});
 }
 
-JointFigures joint_figures(const domain::RigFile& rig, const Recording& recording, const Wanted* wanted) {
+JointFigures joint_figures(const plant::Rig& rig, const Recording& recording, const Wanted* wanted) {
   const auto& rows = recording.samples;
   JointFigures found{
       .angle_rad = span_of(rows, [](const Sample& row) { return row.angle_rad; }),
       .cord_force_N = span_of(rows, [](const Sample& row) { return row.cord_force_N; }),
       .opposite_cord_force_N = span_of(rows, [](const Sample& row) { return row.opposite.cord_force_N; })};
-  const plant::Rig opposite = plant::opposite_rig(rig, *rig.pair());
+  const plant::Rig opposite = plant::opposite_rig(rig);
   std::vector<double> stiffness;
   std::size_t at_end = 0;
   for (const Sample& row : rows) {

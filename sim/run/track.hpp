@@ -28,7 +28,7 @@ controllers::Knowledge knowledge_of(const domain::Scenario& scenario, const Want
 
 /// Of what is followed and shown, for a whole contraction ratio of muscle 1: 1, or of a pair the joint angle
 /// [rad].
-double per_ratio(const domain::RigFile& rig);
+double per_ratio(const plant::Rig& rig);
 
 RunPlan plan_of(const domain::Scenario& scenario, double load_kg, std::uint64_t stream);
 
@@ -51,6 +51,6 @@ struct JointFigures {
   double at_limit = 0.0;
 };
 /// Of one row or more; `wanted`: null under given currents.
-JointFigures joint_figures(const domain::RigFile& rig, const Recording& recording, const Wanted* wanted);
+JointFigures joint_figures(const plant::Rig& rig, const Recording& recording, const Wanted* wanted);
 
 }  // namespace mckibben::run

@@ -18,7 +18,7 @@ double lower_median(std::vector<double> values) {
   return values[(values.size() - 1) / 2];
 }
 
-void set_gains(controllers::Settings& settings, const Gains& gains, const domain::RigFile& rig) {
+void set_gains(controllers::Settings& settings, const Gains& gains, const plant::Rig& rig) {
   controllers::PidForm& feedback = *controllers::feedback_of(settings);
   feedback.proportional_mA = gains.proportional_mA / per_ratio(rig);
   feedback.integral_time_s = gains.integral_time_s;
@@ -73,7 +73,7 @@ class Tuning {
 
  private:
   double rmse(const Recording& recording, const std::vector<double>& target) const {
-    const double mounted_ratio = plan_.pair ? plan_.pair->contraction_ratio : 0.0;
+    const double mounted_ratio = plan_.rig.pair() ? plan_.rig.pair()->contraction_ratio : 0.0;
     double squares = 0.0;
     for (std::size_t k = 0; k < target.size(); ++k)
       squares += std::pow(recording.samples[k].state.joint.contraction_ratio - mounted_ratio - target[k], 2);

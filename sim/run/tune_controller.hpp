@@ -31,7 +31,7 @@ struct TunedController {
 double lower_median(std::vector<double> values);
 
 /// Gives a PID of this rig these gains.
-void set_gains(controllers::Settings& settings, const Gains& gains, const domain::RigFile& rig);
+void set_gains(controllers::Settings& settings, const Gains& gains, const plant::Rig& rig);
 
 /// Tunes each of `open` and fills the gains in, on `threads` threads (0: all the machine has); what comes of
 /// one depends neither on them nor on the others. `tried` hears of each trial, from any thread. Throws

@@ -9,7 +9,7 @@
 #include <sim/tasks/replay.hpp>
 
 namespace mckibben::tasks {
-void replace_rig(domain::Dataset& dataset, const std::string& called, domain::RigFile rig) {
+void replace_rig(domain::Dataset& dataset, const std::string& called, plant::Rig rig) {
   const bool pair = dataset.rig.pair() != nullptr;
   if (!dataset.own_clock) input::require_load(rig, called, "a replay of data with a load");
   if ((rig.pair() != nullptr) != pair)

@@ -11,7 +11,7 @@
 namespace mckibben::tasks {
 
 /// `called`: as messages call the rig. Throws input::BadInput where the data are not of such a rig.
-void replace_rig(domain::Dataset& dataset, const std::string& called, domain::RigFile rig);
+void replace_rig(domain::Dataset& dataset, const std::string& called, plant::Rig rig);
 
 /// What looks wrong in the data, and what is doubtful in their simulation. Throws data::UnfitData where a
 /// comparison with them would mean nothing.

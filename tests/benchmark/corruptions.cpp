@@ -68,7 +68,7 @@ void make_again(domain::Dataset& data, domain::Run& run, const Series& true_curr
                 const plant::Rig& truth) {
   domain::Run moved = run;
   moved.current_mA = true_current_mA;
-  const Hanging hanging{truth, load_kg};
+  const Loaded hanging{truth, load_kg};
   const auto readings = predict(moved, {&hanging, 1}).front().judged;
   const double count = run::contraction_per_count(data.rig);
   for (std::size_t k = 0; k < readings.size(); ++k)

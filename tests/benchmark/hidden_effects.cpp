@@ -227,8 +227,8 @@ std::vector<double> current_mA(std::size_t run, std::size_t rows, Dice& dice) {
 }
 
 /// The rig as its owner describes it.
-domain::RigFile described(const Surroundings& surroundings, Dice& dice) {
-  domain::RigFile rig;
+plant::Rig described(const Surroundings& surroundings, Dice& dice) {
+  plant::Rig rig;
   if (surroundings.bench == Bench::other_size) {
     rig.muscle.rest_radius_m *= dice.between(0.85, 1.2);
     rig.muscle.rest_length_m *= dice.between(0.7, 1.4);
@@ -250,9 +250,9 @@ double off_by(const Kind& kind, const Surroundings& surroundings) {
 /// A rig that has it; notes in `hidden` what was planted.
 plant::Rig rig_with(const Kind& kind, std::uint64_t seed, const Surroundings& surroundings, Dice& dice,
                     Hidden& hidden) {
-  const domain::RigFile nominal = described(surroundings, dice);
+  const plant::Rig nominal = described(surroundings, dice);
   hidden.data.rig = nominal;
-  domain::RigFile truth = nominal;
+  plant::Rig truth = nominal;
   // Rigs are off their data sheets; where nothing is to be found, as told only.
   for (const Parameter& p : nominal_parameters(nominal, nominal.spreads))
     *find(truth, p.path).value =
@@ -260,7 +260,7 @@ plant::Rig rig_with(const Kind& kind, std::uint64_t seed, const Surroundings& su
   for (const Planted& planted : kind.plan) {
     const Found found = find(truth, planted.path);
     const bool number = !planted.path.starts_with("effects.");
-    const double of_thesis = value_of(domain::RigFile{}, planted.path);
+    const double of_thesis = value_of(plant::Rig{}, planted.path);
     const bool shape = &planted != &kind.plan.front() && kind.effects.size() < 2;
     const double factor = dice.between(0.8, 1.25) * (shape ? 1.0 : surroundings.share);
     const double sign = seed % 2 == 0 && either_sign(planted.path) ? -1.0 : 1.0;
@@ -297,10 +297,11 @@ template <class Waveform>
 domain::Run read(const Hidden& hidden, const Waveform& current, double load_kg, std::size_t ticks,
                  std::uint64_t stream) {
   const auto controller = current.make(run::knowledge_of(hidden.rig, std::vector<double>(ticks)));
-  const auto recording = run::simulate({.rig = hidden.rig,
+  plant::Rig rig = hidden.rig;
+  rig.integrator = {solver::Method::cvode, 1e-8};
+  const auto recording = run::simulate({.rig = rig,
                                         .load_kg = load_kg,
                                         .ticks = ticks,
-                                        .engine = {solver::Method::cvode, 1e-8},
                                         .noise = hidden.noise,
                                         .seed = hidden.seed,
                                         .stream = stream},

@@ -39,7 +39,7 @@ const std::array kinds{Kind{""},
 domain::Dataset hide(const Kind& kind, std::uint64_t seed, double& size) {
   std::mt19937_64 random(seed);
   std::normal_distribution<double> normal;
-  RigFile rig = domain::thesis_pair();
+  Rig rig = plant::thesis_pair();
   for (const Parameter& p : nominal_parameters(rig))
     p.put(rig, std::clamp(p.origin + p.scale * normal(random) / 3.0, p.lowest, p.highest));
   size = kind.size * std::uniform_real_distribution(0.7, 1.3)(random);

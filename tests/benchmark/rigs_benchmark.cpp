@@ -59,7 +59,7 @@ void survey(unsigned first_seed, unsigned count, bool whole_range) {
 
 void show(unsigned seed, bool whole_range) {
   const RandomRide ride(seed, whole_range);
-  const domain::RigFile file = ride.plan.rig;
+  const plant::Rig file = ride.plan.rig;
   fmt::print("{}\n", input::rig_json(file).dump(2));
   fmt::print(stderr, "load {} kg, {} ticks\n", ride.plan.load_kg, ride.plan.ticks);
 }

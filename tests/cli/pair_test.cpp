@@ -357,6 +357,8 @@ TEST(Pair, FollowsItsTargetsUnderControllers) {
        {"sine, 0.5 kg in the hand", "given_stiffness", "Joint angle and torque of both muscles",
         "Pressure and contraction of muscle 2", "angle less target"})
     EXPECT_NE(html.find(words), std::string::npos) << words;
+  EXPECT_NE(read_text(scratch / "out/arm/tracking.svg").find(">sine, 0.5 kg: joint angle [deg]<"),
+            std::string::npos);
 }
 
 TEST(Pair, RunsUnderTwoCurrents) {
@@ -380,6 +382,7 @@ TEST(Pair, RunsUnderTwoCurrents) {
   EXPECT_NE(html.find("PairPicture"), std::string::npos);
   EXPECT_NE(html.find("Joint angle"), std::string::npos);
   EXPECT_TRUE(std::filesystem::exists(scratch / "out/pair/triangle.mat"));
+  EXPECT_FALSE(std::filesystem::exists(scratch / "out/pair/tracking.svg")) << "nothing is followed";
 
   // What was simulated is found again by a replay.
   write_text(scratch / "dataset.yaml",

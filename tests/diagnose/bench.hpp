@@ -30,7 +30,7 @@ inline domain::Dataset on_a_bench(const plant::Rig& truth, double noise_N) {
       measured.contraction_ratio.push_back(length);
       measured.sides[0].muscle_pressure_Pa.push_back(5e4 * (k + 1.0));
     }
-    const Hanging held{truth, 0.0};
+    const Loaded held{truth, 0.0};
     measured.force_N = predict(run, {&held, 1}).front().judged;
     for (double& force_N : measured.force_N) force_N = std::max(0.0, force_N + noise(random));
   }

@@ -20,7 +20,7 @@ namespace {
 TEST(Bench, ForcesAreThoseOfTheCord) {
   const plant::Rig rig;
   const domain::Dataset data = on_a_bench(rig, 0.0);
-  const Hanging held{rig, 0.0};
+  const Loaded held{rig, 0.0};
   const auto readings = predict(data.runs[2], {&held, 1}).front();
   for (std::size_t k = 0; k < 9; ++k)  // no length moves: threads do not rub
     EXPECT_NEAR(readings.judged[k], plant::Braid(rig.muscle).force_N(0.11, readings.pressure_Pa[k]), 1e-6);
@@ -33,7 +33,7 @@ TEST(Bench, TheZeroOfTheLengthShiftsWhatIsGiven) {
   plant::Rig rig;
   rig.joint.length_offset_m = 3e-3;
   const domain::Dataset data = on_a_bench({}, 0.0);
-  const Hanging held{rig, 0.0};
+  const Loaded held{rig, 0.0};
   const auto readings = predict(data.runs[2], {&held, 1}).front();
   EXPECT_NEAR(readings.judged[4], plant::Braid(rig.muscle).force_N(0.12, readings.pressure_Pa[4]), 1e-6);
 }

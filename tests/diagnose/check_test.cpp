@@ -138,7 +138,7 @@ TEST(Checks, AValveThatStuckCostsItsRun) {
   auto data = sound();
   domain::Run stuck = data.runs[0];
   std::fill(stuck.current_mA.begin() + 150, stuck.current_mA.end(), stuck.current_mA[150]);
-  const Hanging hanging{data.rig, stuck.load_kg};
+  const Loaded hanging{data.rig, stuck.load_kg};
   data.runs[0].contraction_ratio = predict(stuck, {&hanging, 1}).front().judged;
   const double count = run::contraction_per_count(data.rig);
   for (double& ratio : data.runs[0].contraction_ratio) ratio = count * std::floor(ratio / count);

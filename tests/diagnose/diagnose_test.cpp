@@ -37,7 +37,7 @@ TEST(Diagnose, HasFineSlopesAlongTheValleyWhereNumbersMakeUpForEachOther) {
   const Eigen::MatrixXd normal = fine.transpose() * fine;
   const Eigen::VectorXd along = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(normal).eigenvectors().col(0);
   const auto gone = [&](double way) {
-    RigFile rig = data.rig;
+    Rig rig = data.rig;
     for (std::size_t j = 0; j < parameters.size(); ++j)
       parameters[j].put(rig, parameters[j].unscaled(way * along[static_cast<Eigen::Index>(j)]));
     return experiment.residuals(rig, runs);

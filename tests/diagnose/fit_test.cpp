@@ -18,10 +18,10 @@ namespace {
 
 /// Each number may be off by three times what is usual, and is off by as much as scatter makes it.
 domain::Dataset badly_known(std::uint64_t seed) {
-  RigFile described;
+  Rig described;
   for (const Parameter& p : nominal_parameters(described))
     if (p.path != "muscle.dead_volume") described.spreads[p.path] = 3.0 * p.scale;
-  RigFile truth = described;
+  Rig truth = described;
   std::mt19937_64 random(seed);
   for (const Parameter& p : nominal_parameters(described, described.spreads))
     p.put(truth,
@@ -50,7 +50,7 @@ TEST(NightlyFit, ArrivesHoweverFarTheRigIsFromItsSheet) {
 // Numbers make up for each other (by day: Diagnose.HasFineSlopesAlongTheValley), and a play that is used up
 // at its own times gives the misfit kinks.
 TEST(NightlyFit, ThoroughKnowsHowReadingsChangeAlongTheValley) {
-  RigFile truth;
+  Rig truth;
   truth.effects.get<plant::SpeedDependentFriction>().ratio = 0.58;
   truth.effects.get<plant::BladderCreep>().stiffness_N_per_m = 300.0;
   truth.effects.get<plant::EncoderBacklash>().width_m = 1e-3;

@@ -46,7 +46,7 @@ TEST(Further, WidensPriorsAndBoundsOfNumbersAndKeepsWhatStandsWhereItDid) {
 
 TEST(Further, LeavesNumbersThatAreNotKnownAtAllAsTheyAre) {
   Case c = *rubbing().at;
-  RigFile nominal = c.nominal;
+  Rig nominal = c.nominal;
   nominal.spreads["friction.scale"] = std::numeric_limits<double>::infinity();
   const Case unknown{c.experiment, nominal, c.split, c.inflation, {}};
   EXPECT_EQ(friction(with_wider_numbers(rubbing().recalibrated.fitted, unknown).model).widened, 1.0);

@@ -36,11 +36,11 @@ struct JointNoise {
 /// Five runs of 1.9 s, under commands, which tell less, of 2.6 s; a row each 12 ms; readings of `truth` with
 /// noise, handed over with the shipped pair. `commands`: currents drive it, and nothing else is known of the
 /// pressures.
-inline domain::Dataset of_a_joint(const RigFile& truth, bool commands = false, JointNoise noise = {}) {
+inline domain::Dataset of_a_joint(const Rig& truth, bool commands = false, JointNoise noise = {}) {
   std::mt19937_64 random(noise.seed);
   std::normal_distribution<double> normal;
   domain::Dataset data;
-  data.rig = domain::thesis_pair();
+  data.rig = plant::thesis_pair();
   data.own_clock = true;
   data.path = "joint/dataset.yaml";
   for (std::size_t i = 0; i < 5; ++i) {
@@ -59,7 +59,7 @@ inline domain::Dataset of_a_joint(const RigFile& truth, bool commands = false, J
           pressure_Pa.push_back(5e5 * shares[side]);
       }
     }
-    const Hanging pair{truth};
+    const Loaded pair{truth};
     measured.angle_rad = predict(run, {&pair, 1}, noise.method).front().judged;
     for (double& angle_rad : measured.angle_rad) angle_rad += noise.angle_rad * normal(random);
     for (auto& side : measured.sides)
@@ -80,16 +80,16 @@ inline domain::Dataset mirrored(domain::Dataset data) {
 
 /// The shipped pair with the same effect on both sides.
 template <class E>
-RigFile pair_with(const E& effect) {
-  RigFile rig = domain::thesis_pair();
+Rig pair_with(const E& effect) {
+  Rig rig = plant::thesis_pair();
   each_side(rig, [&](plant::Effects& effects) { effects.get<E>() = effect; });
   return rig;
 }
 
 /// The same on one.
 template <class E>
-RigFile pair_with(const E& effect, Side side) {
-  RigFile rig = domain::thesis_pair();
+Rig pair_with(const E& effect, Side side) {
+  Rig rig = plant::thesis_pair();
   each_side(
       rig, [&](plant::Effects& effects) { effects.get<E>() = effect; }, side);
   return rig;

@@ -20,7 +20,7 @@ namespace mckibben::diagnose {
 namespace {
 
 TEST(Joint, AnglesAreThoseOfAReplay) {
-  const RigFile rig = domain::thesis_pair();
+  const Rig rig = plant::thesis_pair();
   for (const bool commands : {false, true}) {
     const domain::Dataset data = of_a_joint(rig, commands, {.angle_rad = 0.0, .pressure_Pa = 0.0});
     const domain::Run& run = data.runs[1];
@@ -33,7 +33,7 @@ TEST(Joint, AnglesAreThoseOfAReplay) {
 }
 
 TEST(Joint, ItsOwnDataLeaveTheFloor) {
-  const domain::Dataset data = of_a_joint(domain::thesis_pair());
+  const domain::Dataset data = of_a_joint(plant::thesis_pair());
   const Checked checked = check(data, 2);
   EXPECT_TRUE(checked.warnings.empty()) << checked.warnings.front();
   const Runs all{0, 1, 2, 3, 4};
@@ -47,7 +47,7 @@ TEST(Joint, ItsOwnDataLeaveTheFloor) {
 
 TEST(Joint, SlopesAreThoseOfBothSides) {
   const domain::Dataset data =
-      of_a_joint(domain::thesis_pair(), false, {.angle_rad = 0.0, .pressure_Pa = 0.0});
+      of_a_joint(plant::thesis_pair(), false, {.angle_rad = 0.0, .pressure_Pa = 0.0});
   const Checked checked = check(data, 2);
   const Experiment experiment(data, checked.masked, 2);
   const auto parameters = nominal_parameters(data.rig);
@@ -55,7 +55,7 @@ TEST(Joint, SlopesAreThoseOfBothSides) {
   ASSERT_NE(radius, parameters.end());
   EXPECT_TRUE(radius->both_sides);
   const Eigen::VectorXd slope = experiment.slopes(data.rig, std::span(&*radius, 1), {0}).columns.col(0);
-  RigFile wide = data.rig;
+  Rig wide = data.rig;
   radius->put(wide, radius->origin + 0.2 * radius->scale);
   EXPECT_EQ(wide.pair()->opposite.muscle.rest_radius_m, wide.muscle.rest_radius_m);
   const Eigen::VectorXd change =
@@ -64,12 +64,12 @@ TEST(Joint, SlopesAreThoseOfBothSides) {
 }
 
 TEST(Joint, APartOfBothSidesIsOneToAFitUnlessTheRigFileHasTwo) {
-  const auto named = [](const RigFile& rig, const domain::Spreads& stated, const std::string& path) {
+  const auto named = [](const Rig& rig, const plant::Spreads& stated, const std::string& path) {
     const auto all = nominal_parameters(rig, stated);
     const auto found = std::ranges::find(all, path, &Parameter::path);
     return found == all.end() ? std::optional<Parameter>() : *found;
   };
-  RigFile rig = domain::thesis_pair();
+  Rig rig = plant::thesis_pair();
   EXPECT_TRUE(named(rig, {}, "muscle.rest_radius")->both_sides);
   EXPECT_FALSE(named(rig, {}, "mechanics.opposite.muscle.rest_radius"));
   EXPECT_TRUE(named(rig, {}, "mechanics.link_hangs_at"));
@@ -85,8 +85,8 @@ TEST(Joint, APartOfBothSidesIsOneToAFitUnlessTheRigFileHasTwo) {
 }
 
 TEST(Joint, ALinkStaysOneThatCanBe) {
-  RigFile rig = domain::thesis_pair();
-  const domain::Spreads stated{
+  Rig rig = plant::thesis_pair();
+  const plant::Spreads stated{
       {"mechanics.link_mass", 1.0}, {"mechanics.link_length", 0.1}, {"mechanics.link_inertia", 0.1}};
   for (const Parameter& p : nominal_parameters(rig, stated))
     if (stated.contains(p.path)) p.put(rig, p.path.ends_with("inertia") ? p.lowest : p.highest);
@@ -106,7 +106,7 @@ std::string refused(domain::Dataset data, const std::function<void(domain::Run& 
 }
 
 TEST(Joint, ReadingsThatAreNotWhatTheirColumnsSayAreRefusedWithTheLineToWrite) {
-  domain::Dataset data = of_a_joint(domain::thesis_pair());
+  domain::Dataset data = of_a_joint(plant::thesis_pair());
   const auto times = [](double factor) {
     return [factor](domain::Run& run) {
       for (double& angle_rad : run.angle_rad) angle_rad *= factor;
@@ -131,14 +131,14 @@ TEST(Joint, ReadingsThatAreNotWhatTheirColumnsSayAreRefusedWithTheLineToWrite) {
 }
 
 TEST(Joint, AGuideOfALoadIsNoCandidate) {
-  const domain::Dataset data = of_a_joint(domain::thesis_pair(), true);
+  const domain::Dataset data = of_a_joint(plant::thesis_pair(), true);
   const auto offered = catalogue(data);
   EXPECT_EQ(std::ranges::find(offered, "guide_friction", &Candidate::effect), offered.end());
   EXPECT_NE(std::ranges::find(offered, "muscle_leak", &Candidate::effect), offered.end());
 }
 
 TEST(Joint, WhatIsOfAMuscleIsACandidateOfEach) {
-  const domain::Dataset data = of_a_joint(domain::thesis_pair(), true);
+  const domain::Dataset data = of_a_joint(plant::thesis_pair(), true);
   const auto offered = catalogue(data);
   const auto sides = [&](const std::string& effect) {
     return std::ranges::count(offered, effect, &Candidate::effect);
@@ -150,7 +150,7 @@ TEST(Joint, WhatIsOfAMuscleIsACandidateOfEach) {
   EXPECT_EQ(sides("polytropic_gas"), 1);
   for (const Candidate& candidate : offered) {
     if (candidate.effect != "muscle_leak") continue;
-    RigFile rig = data.rig;
+    Rig rig = data.rig;
     EXPECT_TRUE(candidate.fits(rig));
     candidate.put(rig, 1e-10);
     EXPECT_EQ(carries(rig, "muscle_leak", Side::one), candidate.side != Side::two);
@@ -163,9 +163,9 @@ TEST(Joint, WhatIsOfAMuscleIsACandidateOfEach) {
 }
 
 TEST(Joint, ATubeThatPushesIsNoCandidate) {
-  const domain::Dataset data = of_a_joint(domain::thesis_pair(), true);
+  const domain::Dataset data = of_a_joint(plant::thesis_pair(), true);
   std::size_t laws = 0;
-  for (const RigFile& rig : {data.rig, RigFile{}})
+  for (const Rig& rig : {data.rig, Rig{}})
     for (const Candidate& candidate : rig.pair() != nullptr ? catalogue(data) : catalogue(rig)) {
       if (candidate.effect != plant::BladderElasticity::name) continue;
       EXPECT_FALSE(candidate.either_sign);
@@ -176,11 +176,11 @@ TEST(Joint, ATubeThatPushesIsNoCandidate) {
 }
 
 TEST(Joint, GaugesOfBothMusclesAreCompared) {
-  RigFile leaking = domain::thesis_pair();
+  Rig leaking = plant::thesis_pair();
   std::get<plant::Pair>(leaking.mechanics).opposite.effects.get<plant::MuscleLeak>().conductance_m3_per_s_Pa =
       3e-10;
   domain::Dataset data = of_a_joint(leaking, true);
-  const Hanging pair{leaking};
+  const Loaded pair{leaking};
   for (domain::Run& run : data.runs) {
     Readings readings = predict(run, {&pair, 1}).front();
     run.muscle_pressure_Pa = std::move(readings.pressure_Pa);

@@ -40,7 +40,7 @@ inline domain::Dataset with_a_cell(const plant::Rig& truth, CellNoise noise = {}
     }
     // What is not given is not predicted: the column says that a cell is there.
     run.force_N.assign(rows_with_a_cell, 0.0);
-    const Hanging hanging{truth, run.load_kg};
+    const Loaded hanging{truth, run.load_kg};
     auto readings = predict(run, {&hanging, 1}).front();
     run.force_N.clear();
     for (double& ratio : readings.judged) ratio += noise.ratio * normal(random);

@@ -18,7 +18,7 @@ namespace mckibben::diagnose {
 namespace {
 
 TEST(Parameters, AreFoundByTheirPathThroughPartsEffectsAndLists) {
-  RigFile rig;
+  Rig rig;
   rig.effects.get<plant::ResidualForce>().terms.resize(2);
   *find(rig, "muscle.rest_radius").value = 8e-3;
   *find(rig, "effects.muscle_leak.conductance").value = 1e-10;
@@ -36,7 +36,7 @@ TEST(Catalogue, HoldsAllEffectsWithANameAndEveryLawMovesSomething) {
   std::set<std::string> effects;
   for (const Candidate& c : catalogue()) {
     effects.insert(c.effect);
-    const RigFile rig = c.chosen(RigFile{});
+    const Rig rig = c.chosen(Rig{});
     EXPECT_EQ(value_of(rig, c.amplitude), c.absent) << c.effect;
     for (const Parameter& p : c.parameters(rig)) {
       EXPECT_LT(p.lowest, p.highest) << p.path;
@@ -58,12 +58,12 @@ TEST(NominalParameters, StayWithinThreeDeviationsOfTheirDataSheet) {
 
 TEST(NominalParameters, AreKnownAsWellAsTheRigSays) {
   const plant::Rig rig;
-  const domain::Spreads stated{{"muscle.rest_radius", 4e-4},
-                               {"muscle.end_correction", 0.0},
-                               {"muscle.rest_length", 1e-3},
-                               {"hose.conductance", std::numeric_limits<double>::infinity()},
-                               {"tick", 1e-3},
-                               {"valve.zero_command", 0.1}};
+  const plant::Spreads stated{{"muscle.rest_radius", 4e-4},
+                              {"muscle.end_correction", 0.0},
+                              {"muscle.rest_length", 1e-3},
+                              {"hose.conductance", std::numeric_limits<double>::infinity()},
+                              {"tick", 1e-3},
+                              {"valve.zero_command", 0.1}};
   const auto usual = nominal_parameters(rig), list = nominal_parameters(rig, stated);
   const auto named = [](const auto& all, std::string_view path) {
     return std::find_if(all.begin(), all.end(), [&](const Parameter& p) { return p.path == path; });
@@ -78,7 +78,7 @@ TEST(NominalParameters, AreKnownAsWellAsTheRigSays) {
 }
 
 TEST(NominalParameters, IncludeTheSizesOfEffectsThatTheRigHas) {
-  RigFile rig;
+  Rig rig;
   rig.effects.get<plant::ValveDeadBand>().half_width_Pa = 4e3;
   auto& bladder = rig.effects.get<plant::BladderElasticity>();
   bladder.variant = plant::BladderLaw::saturating;
@@ -153,7 +153,7 @@ TEST(Catalogue, ALawWithATermMoreIsLookedForWhereTheShorterOneIs) {
   const auto longer = std::ranges::find(all, "saturating_linear", &Candidate::variant);
   const auto shorter = std::ranges::find(all, "saturating", &Candidate::variant);
   ASSERT_NE(longer, all.end());
-  RigFile rig;
+  Rig rig;
   EXPECT_FALSE(longer->fits(rig));
   EXPECT_TRUE(shorter->fits(rig));
   rig = shorter->chosen(rig);

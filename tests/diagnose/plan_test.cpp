@@ -60,7 +60,7 @@ TEST_F(Plan, PromisesNothingThatTheRivalsNumbersImitateUnlessOldReadingsKeepThem
   plant::Rig rougher;
   rougher.friction.scale = 1.02;  // small enough that straight slopes imitate it
   EXPECT_TRUE(next(fitted({}), fitted(rougher)));
-  const auto numbers = nominal_parameters(RigFile{});
+  const auto numbers = nominal_parameters(Rig{});
   Fitted one = fitted({}, numbers), other = fitted(rougher, numbers);
   EXPECT_TRUE(next(one, other));
   one.columns.setZero();

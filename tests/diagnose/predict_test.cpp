@@ -35,17 +35,15 @@ TEST(Predict, MakesOfACurrentTheSameBitsAsSimulate) {
         rig.friction.memory = memory;
         rig.friction.f1_s2_per_mA2 = 1e-5;
         rig.settling_time_s = 0.24;
-        const Hanging hanging{rig, load_kg};
+        const Loaded hanging{rig, load_kg};
         const auto predicted = predict(run, {&hanging, 1}, method).front();
 
         controllers::RecordedCurrent recorded;
         recorded.samples_mA = run.current_mA;
         const auto controller = recorded.make(run::knowledge_of(rig, {}));
-        const auto simulated = run::simulate({.rig = rig,
-                                              .load_kg = load_kg,
-                                              .ticks = run.current_mA.size(),
-                                              .engine = settings_for({&hanging, 1}, method)},
-                                             *controller);
+        rig.integrator = settings_for({&hanging, 1}, method);
+        const auto simulated =
+            run::simulate({.rig = rig, .load_kg = load_kg, .ticks = run.current_mA.size()}, *controller);
         ASSERT_EQ(simulated.failure, "") << name;
         ASSERT_EQ(simulated.samples.size(), predicted.states.size());
         const double length_m = rig.muscle.rest_length_m;
@@ -68,10 +66,10 @@ TEST(Predict, DifferencesOfCoulombRigsAreSensitivities) {
   const auto slope = [&](double h) {
     plant::Rig rig;
     rig.friction.memory = plant::FrictionMemory::coulomb;
-    const Hanging near{rig, load_kg};
-    Hanging far = near;
+    const Loaded near{rig, load_kg};
+    Loaded far = near;
     far.rig.muscle.rest_radius_m += h;
-    const Hanging both[] = {near, far};
+    const Loaded both[] = {near, far};
     const auto readings = predict(run, both);
     return (readings[1].judged[130] - readings[0].judged[130]) / h;
   };
@@ -86,7 +84,7 @@ std::vector<Wanted> several(const std::vector<domain::Run>& runs) {
   std::vector<Wanted> list;
   for (const auto& run : runs)
     for (auto& [name, rig] : plant::rigs_with_one_effect()) {
-      Hanging aside{rig, run.load_kg};
+      Loaded aside{rig, run.load_kg};
       aside.rig.muscle.rest_radius_m *= 1.001;
       list.push_back({&run, {{rig, run.load_kg}, aside}});
     }
@@ -129,7 +127,7 @@ TEST(Predict, SideBySideOneThatFailsFailsAlone) {
   const std::vector<domain::Run> runs{up_and_down(30)};
   auto list = several(runs);
   const auto all = all_of(list, 2, false);
-  Hanging& soft = list[3].rigs.back();  // its load falls past the range of the laws
+  Loaded& soft = list[3].rigs.back();  // its load falls past the range of the laws
   soft.rig.muscle.stop_stiffness_N_per_m = 1e3;
   soft.rig.muscle.stop_damping_s_per_m = 0.0;
   soft.load_kg = 400.0;

@@ -89,7 +89,7 @@ TEST(Starts, DeepenTheBestTrialOnlyAndOnlyWhereMuchIsLeft) {
   stuck.contender.fitted.cost = 1e6;
   worse.contender.fitted.cost = 2e6;
   std::vector<Trial> trials{worse, stuck};
-  const RigFile described = runs.data.rig;
+  const Rig described = runs.data.rig;
   deepen_best(c, trials, {&described}, [](const Doing&) {});
   EXPECT_TRUE(near_floor(trials[1].contender.fitted.residuals));
   EXPECT_NEAR(trials[1].contender.fitted.model.rig.friction.scale, 1.0, 0.1);
@@ -111,7 +111,7 @@ TEST(Starts, AreTheShapesOfTheCatalogueAtOwnNumbersAndAtOthers) {
   const Candidate& friction =
       *std::ranges::find(model.effects, "speed_dependent_friction", &Candidate::effect);
   friction.put(model.rig, 0.6, 0.5);
-  RigFile other;
+  Rig other;
   other.muscle.rest_radius_m = 0.009;
   std::vector<std::pair<double, double>> expected, found;
   for (const double radius_m : {0.009, model.rig.muscle.rest_radius_m})
@@ -128,7 +128,7 @@ TEST(Starts, TakeOverNumbersButNotEffects) {
   Model model;
   model.free = {{.path = "muscle.rest_radius", .has_prior = true},
                 {.path = "effects.muscle_leak.conductance", .has_prior = true}};
-  RigFile other;
+  Rig other;
   other.muscle.rest_radius_m = 0.009;
   other.effects.get<plant::MuscleLeak>().conductance_m3_per_s_Pa = 1e-10;
   const Model begun = begun_at(model, other);

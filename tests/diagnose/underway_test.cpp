@@ -35,7 +35,7 @@ domain::Dataset begun_on_its_way(plant::Rig& creeping) {
     measured.sides[0].muscle_pressure_Pa.push_back(2e5 - 5e4 * std::cos(0.1 * k));
   }
   for (std::size_t k = 15; k < 150; ++k) measured.rows.push_back(k);
-  const Hanging hanging{creeping, run.load_kg};
+  const Loaded hanging{creeping, run.load_kg};
   const double memory = 0.12;
   run.contraction_ratio = predict(run, {&hanging, 1}, solver::Method::automatic, {&memory, 1}).front().judged;
   return data;
@@ -46,7 +46,7 @@ TEST(Underway, WhatAnEffectRemembersIsFittedAndNotCharged) {
   const domain::Dataset data = begun_on_its_way(creeping);
   const Experiment experiment(data, {std::vector<bool>(data.runs[0].contraction_ratio.size())}, 1);
   EXPECT_LT(excess(experiment.residuals(creeping, {0})), 0.0);  // within the floor
-  const Hanging hanging{creeping, 12.0};
+  const Loaded hanging{creeping, 12.0};
   EXPECT_GT(excess(experiment.residuals(predict(data.runs[0], {&hanging, 1}).front(), 0)), 100.0);
 
   domain::Dataset known = data;  // a replay finds the memory as well
@@ -78,7 +78,7 @@ TEST(Underway, AReplayReadsWhatADiagnosisReads) {
   EXPECT_GT(run::replay(data, 1, [](const auto&, auto, auto) {}).front().gaps.front().rmse, 1e-3);
   rig.effects.get<plant::BladderCreep>() = {};
   data.rig = rig;
-  const Hanging hanging{rig, data.runs[0].load_kg};
+  const Loaded hanging{rig, data.runs[0].load_kg};
   data.runs[0].contraction_ratio = predict(data.runs[0], {&hanging, 1}).front().judged;
   EXPECT_LT(run::replay(data, 1, [](const auto&, auto, auto) {}).front().gaps.front().rmse, 1e-5);
 }

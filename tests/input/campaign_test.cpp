@@ -114,7 +114,7 @@ TEST(Campaign, ShippedOneIsTheThesiss) {
   };
   EXPECT_NEAR(speed(0), 16.7, 0.05);
   EXPECT_NEAR(speed(19), 5.6, 0.05);
-  EXPECT_EQ(rig_json(campaign.rig), rig_json(RigFile{}));
+  EXPECT_EQ(rig_json(campaign.rig), rig_json(Rig{}));
 }
 
 }  // namespace

@@ -8,12 +8,12 @@
 namespace mckibben::input {
 namespace {
 
-RigFile rig_with(const std::string& valve) {
+Rig rig_with(const std::string& valve) {
   return rig_of("valve: " + valve);
 }
 
 TEST(Commands, InMilliampereAreCurrents) {
-  const RigFile rig = rig_with("{zero_command: 0 mA, span_command: 0.01 A}");
+  const Rig rig = rig_with("{zero_command: 0 mA, span_command: 0.01 A}");
   EXPECT_EQ(rig.valve.zero_current_mA, 0.0);
   EXPECT_EQ(rig.valve.span_current_mA, 10.0);
   EXPECT_EQ(rig_json(rig), rig_json(rig_with("{zero_current: 0 mA, span_current: 10 mA}")));
@@ -21,7 +21,7 @@ TEST(Commands, InMilliampereAreCurrents) {
 }
 
 TEST(Commands, InVoltsOrBarStandBesideTheCurrentsAndReadBack) {
-  const RigFile volts = rig_with("{zero_command: -5000 mV, span_command: 5 V}");
+  const Rig volts = rig_with("{zero_command: -5000 mV, span_command: 5 V}");
   EXPECT_EQ(volts.valve.zero_current_mA, 4.0);
   EXPECT_EQ(volts.valve.current_for_mA(-5.0), 4.0);
   EXPECT_EQ(volts.valve.current_for_mA(0.0), 12.0);
@@ -30,7 +30,7 @@ TEST(Commands, InVoltsOrBarStandBesideTheCurrentsAndReadBack) {
   EXPECT_EQ(to_json(rig_with(written.dump())).at("valve"), written);
   EXPECT_EQ(to_json(rig_with("{zero_command: 0 kPa, span_command: 800 kPa}")).at("valve").at("span_command"),
             "8 bar");
-  EXPECT_FALSE(to_json(RigFile{}).at("valve").contains("zero_command"));
+  EXPECT_FALSE(to_json(Rig{}).at("valve").contains("zero_command"));
 }
 
 }  // namespace

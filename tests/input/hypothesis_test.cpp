@@ -72,20 +72,20 @@ TEST(Hypothesis, InARigIsWrittenWithItsValues) {
       "    - {name: push, sentence: a push, adds: force, law: F, parameters: "
       "{F: {unit: N, typical: 1, range: [-9, 9], value: 2.5}}}\n";
   std::vector<InputFile> inputs;
-  const RigFile rig = read_rig(scratch.write("rig.yaml", rig_text).string(), inputs);
+  const Rig rig = read_rig(scratch.write("rig.yaml", rig_text).string(), inputs);
   ASSERT_EQ(rig.effects.laws.list.size(), 2u);
   EXPECT_EQ(inputs.size(), 2u);
   EXPECT_FALSE(rig.effects.absent());
   const Json written = rig_json(rig);
   ASSERT_EQ(written.at("effects").at("hypotheses").size(), 1u);  // the one without size is left out
-  const RigFile again = read_rig(scratch.write("again.yaml", written.dump()).string(), inputs);
+  const Rig again = read_rig(scratch.write("again.yaml", written.dump()).string(), inputs);
   EXPECT_EQ(*again.effects.laws.list[0].text, *rig.effects.laws.list[1].text);
   EXPECT_EQ(again.effects.laws.list[0].values[0], 2.5);
   EXPECT_EQ(rig_json(again), written);
 }
 
 TEST(Hypothesis, NumbersHaveAPathAndARange) {
-  RigFile rig = rig_of(
+  Rig rig = rig_of(
       "effects: {hypotheses: [{name: push, sentence: a push, adds: force, law: F, parameters: "
       "{F: {unit: N, typical: 1, range: [-9, 9], value: 2.5}}}]}");
   const auto found = domain::find_number(rig, "effects.hypotheses.push.F");

@@ -14,9 +14,9 @@ namespace {
 TEST(Muscles, AreTheShippedFiles) {
   std::vector<InputFile> inputs;
   for (const std::string name : {"festo_dmsp_10", "festo_dmsp_20", "home_made"}) {
-    const RigFile built_in = read_rig(name, inputs);
+    const Rig built_in = read_rig(name, inputs);
     EXPECT_TRUE(inputs.empty()) << name;
-    const RigFile file = read_rig(MCKIBBEN_SOURCE_DIR "/scenarios/rigs/" + name + ".yaml", inputs);
+    const Rig file = read_rig(MCKIBBEN_SOURCE_DIR "/scenarios/rigs/" + name + ".yaml", inputs);
     inputs.clear();
     EXPECT_EQ(rig_json(built_in), rig_json(file)) << name;
     EXPECT_EQ(built_in.spreads, file.spreads) << name;
@@ -26,7 +26,7 @@ TEST(Muscles, AreTheShippedFiles) {
 }
 
 TEST(Muscles, MayBeChangedLikeAnyBase) {
-  const RigFile rig = rig_of("base: festo_dmsp_20\nmuscle: {rest_length: 200 mm ± 1 mm}");
+  const Rig rig = rig_of("base: festo_dmsp_20\nmuscle: {rest_length: 200 mm ± 1 mm}");
   EXPECT_DOUBLE_EQ(rig.muscle.rest_length_m, 0.2);
   EXPECT_DOUBLE_EQ(rig.spreads.at("muscle.rest_length"), 1e-3);
   EXPECT_DOUBLE_EQ(rig.muscle.rest_radius_m, 10.6e-3);
@@ -37,7 +37,7 @@ TEST(Muscles, MayBeChangedLikeAnyBase) {
 TEST(Muscles, PullAboutAsTheyAreRated) {
   for (const auto& [name, rated_N, pressure_Pa] :
        {std::tuple{"festo_dmsp_20", 1500.0, 6e5}, std::tuple{"festo_dmsp_10", 630.0, 8e5}}) {
-    const RigFile rig = rig_of(std::string("base: ") + name);
+    const Rig rig = rig_of(std::string("base: ") + name);
     const plant::Braid braid(rig.muscle);
     EXPECT_NEAR(braid.force_N(0.0, pressure_Pa), rated_N, 0.16 * rated_N) << name;
     const double pulled_back_N = rig.effects.get<plant::BladderElasticity>().force_N;

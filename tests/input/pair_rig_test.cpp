@@ -12,8 +12,8 @@ namespace mckibben::input {
 namespace {
 
 TEST(PairRig, OneMuscleIsWrittenAsEver) {
-  EXPECT_FALSE(rig_json(RigFile{}).contains("mechanics"));
-  EXPECT_EQ(rig_json(rig_of("mechanics: {kind: hanging_load}")), rig_json(RigFile{}));
+  EXPECT_FALSE(rig_json(Rig{}).contains("mechanics"));
+  EXPECT_EQ(rig_json(rig_of("mechanics: {kind: hanging_load}")), rig_json(Rig{}));
 }
 
 TEST(PairRig, ShippedByNameAndAsAFile) {
@@ -25,7 +25,7 @@ TEST(PairRig, ShippedByNameAndAsAFile) {
 }
 
 TEST(PairRig, WhatIsSaidOfMuscleOneHoldsForBothUntilTheOppositeDiffers) {
-  const RigFile rig = rig_of(
+  const Rig rig = rig_of(
       "base: thesis_pair\nmuscle: {rest_radius: 8 mm}\nhose: {conductance: 1e-8 m3/(s.Pa)}\n"
       "mechanics: {kind: pair, contraction_1: 0.08, opposite: {muscle: {rest_length: 280 mm}}}");
   const plant::OppositeSide& two = rig.pair()->opposite;
@@ -40,12 +40,12 @@ TEST(PairRig, WhatIsSaidOfMuscleOneHoldsForBothUntilTheOppositeDiffers) {
 
 TEST(PairRig, AnEffectOfOneMuscleIsWrittenAsOneOfThatMuscle) {
   const std::string leak = "effects: {muscle_leak: {conductance: 1e-10 m3/(s.Pa)}}";
-  const RigFile of_one =
+  const Rig of_one =
       rig_of("base: thesis_pair\n" + leak +
              "\nmechanics: {kind: pair, opposite: {effects: {muscle_leak: {conductance: 0 m3/(s.Pa)}}}}");
-  const RigFile of_two = rig_of("base: thesis_pair\nmechanics: {kind: pair, opposite: {" + leak + "}}");
-  for (const RigFile& rig : {of_one, of_two}) {
-    const RigFile again = rig_of(to_json(rig).dump());
+  const Rig of_two = rig_of("base: thesis_pair\nmechanics: {kind: pair, opposite: {" + leak + "}}");
+  for (const Rig& rig : {of_one, of_two}) {
+    const Rig again = rig_of(to_json(rig).dump());
     const auto leaks = [](const plant::Effects& effects) {
       return effects.get<plant::MuscleLeak>().conductance_m3_per_s_Pa;
     };

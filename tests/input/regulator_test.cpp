@@ -9,7 +9,7 @@ namespace mckibben::input {
 namespace {
 
 TEST(RegulatorFile, IsReadWithHowWellItIsKnownAndWrittenBack) {
-  const RigFile rig = rig_of(
+  const Rig rig = rig_of(
       "valve: {kind: regulator, zero_command: 0 V, span_command: 10 V, time_constant: 80 ms ± 30 %, "
       "conductance: 18 l/(min bar), venting_conductance: 9 l/(min bar), dead_band: 5 mbar}");
   EXPECT_TRUE(rig.valve.is_regulator());
@@ -26,7 +26,7 @@ TEST(RegulatorFile, IsReadWithHowWellItIsKnownAndWrittenBack) {
 }
 
 TEST(RegulatorFile, OfSecondOrderHasAFrequencyAndADamping) {
-  const RigFile rig =
+  const Rig rig =
       rig_of("valve: {kind: regulator, lag: second_order, natural_frequency: 4 Hz, damping: 0.7}");
   EXPECT_TRUE(rig.valve.swings());
   EXPECT_DOUBLE_EQ(rig.valve.slow_lag_s(), 2.0 * 0.7 / (2.0 * std::numbers::pi * 4.0));
@@ -36,7 +36,7 @@ TEST(RegulatorFile, OfSecondOrderHasAFrequencyAndADamping) {
 }
 
 TEST(RegulatorFile, AServoValveIsWrittenAsEver) {
-  const Json written = to_json(RigFile{}).at("valve");
+  const Json written = to_json(Rig{}).at("valve");
   EXPECT_TRUE(written.contains("proportional_band"));
   for (const char* other : {"kind", "lag", "time_constant", "dead_band"})
     EXPECT_FALSE(written.contains(other)) << other;

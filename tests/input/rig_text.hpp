@@ -8,9 +8,9 @@
 namespace mckibben::input {
 
 /// The rig of a file with this text, without its line `schema`. Throws BadInput.
-inline RigFile rig_of(const std::string& text) {
+inline Rig rig_of(const std::string& text) {
   const YamlFile file = parse_yaml(Source("rig.yaml", text, ""));
-  RigFile rig;
+  Rig rig;
   Problems problems;
   read_named(file.source, file.root, rig, problems);
   problems.raise();

@@ -38,7 +38,7 @@ TEST(Scenario, ReadsEveryKindOfField) {
 }
 
 TEST(Scenario, LeavesTheRestAtItsDefault) {
-  const RigFile thesis;
+  const Rig thesis;
   const Scenario scenario = read_text(good_scenario);
   EXPECT_EQ(scenario.rig.muscle.rest_radius_m, thesis.muscle.rest_radius_m);
   EXPECT_EQ(scenario.rig.valve.conductance_m3_per_s_Pa, thesis.valve.conductance_m3_per_s_Pa);
@@ -101,11 +101,11 @@ TEST(Scenario, RecordedCurrentIsLoaded) {
 }
 
 TEST(Rig, ResolvedReadsBackBitForBit) {
-  RigFile rig;
+  Rig rig;
   rig.muscle.rest_radius_m = 0.0075 * (1.0 + 1e-15);
   rig.sensors.position().wiring = plant::EncoderWiring::crosswise;
   const YamlFile file = parse_yaml(Source("rig.yaml", to_json(rig).dump(), ""));
-  RigFile read;
+  Rig read;
   Problems problems;
   read_named(file.source, file.root, read, problems);
   EXPECT_EQ(problems.errors(), 0u);
@@ -123,7 +123,7 @@ hose: {conductance: 1e-8 m3/(s.Pa) ± unknown}
 effects: {residual_law: {terms: [{of: v, coefficient: 3 N ± 1 N}]}}
 )",
                                           ""));
-  RigFile rig, again;
+  Rig rig, again;
   Problems problems;
   read_named(file.source, file.root, rig, problems);
   ASSERT_EQ(problems.errors(), 0u);
@@ -144,18 +144,18 @@ effects: {residual_law: {terms: [{of: v, coefficient: 3 N ± 1 N}]}}
 }
 
 TEST(Rig, AValueSaidAnewIsKnownAsWellAsIsSaidAnew) {
-  RigFile rig;
+  Rig rig;
   rig.spreads = {{"muscle.rest_radius", 1e-4}, {"muscle.rest_length", 1e-3}};
   const YamlFile file = parse_yaml(Source("rig.yaml", "muscle: {rest_radius: 7 mm}", ""));
   Problems problems;
   read_struct(file.source, file.root, rig, problems, {}, {&rig.spreads});
   EXPECT_EQ(problems.errors(), 0u);
-  EXPECT_EQ(rig.spreads, (domain::Spreads{{"muscle.rest_length", 1e-3}}));
+  EXPECT_EQ(rig.spreads, (plant::Spreads{{"muscle.rest_length", 1e-3}}));
 }
 
 TEST(Rig, ShippedByName) {
   std::vector<InputFile> inputs;
-  EXPECT_EQ(rig_json(read_rig("thesis", inputs)).dump(), rig_json(RigFile{}).dump());
+  EXPECT_EQ(rig_json(read_rig("thesis", inputs)).dump(), rig_json(Rig{}).dump());
   EXPECT_THROW(read_rig("no/such/rig.yaml", inputs), MissingInput);
 }
 

@@ -58,7 +58,7 @@ TEST(JsonSchema, SaysWhatIsRequiredAndAllowed) {
 }
 
 TEST(JsonSchema, KnowsEachKindOfSensorAndTheKeysFromBefore) {
-  const Json properties = json_schema("mckibben-rig/1", "Rig", list_fields<RigFile>())["properties"];
+  const Json properties = json_schema("mckibben-rig/1", "Rig", list_fields<Rig>())["properties"];
   const Json& kinds = properties["sensors"]["items"]["oneOf"];
   ASSERT_EQ(kinds.size(), names(plant::SensorKind{}).size() + 1);
   const Json& cell = kinds[4]["properties"];
@@ -70,7 +70,7 @@ TEST(JsonSchema, KnowsEachKindOfSensorAndTheKeysFromBefore) {
 }
 
 TEST(FieldTable, HasARowForEachFieldAndASectionForEachPart) {
-  const std::string table = field_table("Rig", list_fields<RigFile>());
+  const std::string table = field_table("Rig", list_fields<Rig>());
   EXPECT_NE(table.find("| `tick` | s | 0.012 s | 0.0001 s to 1 s | time between two readings"),
             std::string::npos);
   EXPECT_NE(table.find("## Rig: muscle\n"), std::string::npos);

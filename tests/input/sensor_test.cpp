@@ -20,7 +20,7 @@ constexpr const char* laser_and_cell =
     "  - {signal: force, kind: load_cell, noise: 0.2 N, highest: 1 kN}\n";
 
 TEST(SensorFile, ALaserIsReadWithHowWellItIsKnownAndWrittenBack) {
-  const RigFile rig = rig_of(laser_and_cell);
+  const Rig rig = rig_of(laser_and_cell);
   const plant::Sensor& laser = rig.sensors.position();
   EXPECT_EQ(laser.kind, SensorKind::laser);
   EXPECT_DOUBLE_EQ(laser.resolution, 1e-5);
@@ -33,7 +33,7 @@ TEST(SensorFile, ALaserIsReadWithHowWellItIsKnownAndWrittenBack) {
 }
 
 TEST(SensorFile, APotentiometersNumbersAreAngles) {
-  const RigFile rig =
+  const Rig rig =
       rig_of("sensors: [{signal: contraction, kind: potentiometer, resolution: 0.1 deg, lowest: -10 deg}]");
   EXPECT_DOUBLE_EQ(rig.sensors.position().resolution, 0.1 * plant::degree_rad);
   EXPECT_EQ(to_json(rig_of("sensors: " + to_json(rig).at("sensors").dump())), to_json(rig));
@@ -77,7 +77,7 @@ TEST(SensorFile, WhatTheBaseHasStaysUntilItIsNamed) {
 }
 
 TEST(SensorFile, TheNumbersOfSensorsAreFoundByTheirSignalAndAsTheyWereCalled) {
-  RigFile rig = rig_of(laser_and_cell);
+  Rig rig = rig_of(laser_and_cell);
   rig.sensors.put(plant::gauge(100.0));
   const auto value = [&](const char* path) { return domain::find_number(rig, path).value; };
   EXPECT_DOUBLE_EQ(*value("sensors.contraction.noise"), 3e-5);

@@ -49,7 +49,7 @@ struct Watcher {
 class LiveHost : public testing::Test {
  protected:
   Scratch scratch;
-  domain::RigFile rig;
+  plant::Rig rig;
   std::vector<std::string> said;
   output::Say say = [this](const std::string& text) { said.push_back(text); };
 
@@ -126,7 +126,7 @@ TEST_F(LiveHost, WhatIsRecordedFromRestReplaysToTheCount) {
 }
 
 TEST_F(LiveHost, OfTwoMusclesWhatIsRecordedFromRestReplaysToTheCount) {
-  rig = domain::thesis_pair();
+  rig = plant::thesis_pair();
   rig.sensors.put(plant::gauge());
   Host host(rig, 0.0, sets());
   ASSERT_EQ(host.obey(SetCurrent{9.0, 2}), "");
@@ -172,7 +172,7 @@ TEST_F(LiveHost, SwitchingEndsARecordingAndBeginsAnotherDataSet) {
   const domain::Dataset leaky = input::read_dataset(scratch / "out-3");
   EXPECT_TRUE(leaky.rig.effects.absent()) << "the data set's owner does not know of the leak";
   std::vector<domain::InputFile> read;
-  const domain::RigFile truth = input::read_rig((scratch / "out-3-truth/rig.yaml").string(), read);
+  const plant::Rig truth = input::read_rig((scratch / "out-3-truth/rig.yaml").string(), read);
   EXPECT_EQ(truth.effects.get<plant::MuscleLeak>().conductance_m3_per_s_Pa, 3e-10);
 }
 

@@ -25,10 +25,10 @@ Sweep up_and_down() {
 }
 
 TEST(LiveSession, StepsAreThoseOfARideToTheBit) {
-  const domain::RigFile rig;
+  const plant::Rig rig;
   Session session(rig, load_kg);
   ASSERT_EQ(session.set_sweep(up_and_down()), "");
-  ride::Ride ride(ride::Hanging{rig, load_kg}, rig.integrator);
+  ride::Ride ride(ride::Loaded{rig, load_kg}, rig.integrator);
   ride::Drive drive;
   drive.current_mA = plant::dac_output_mA(rig.dac, rig.valve.zero_current_mA);
   const auto settling = std::lround(rig.settling_time_s / rig.tick_s);
@@ -49,9 +49,9 @@ TEST(LiveSession, StepsAreThoseOfARideToTheBit) {
 }
 
 TEST(LiveSession, WhatIsSwitchedWhileItMovesLeavesTheStateAsItIs) {
-  Session names(domain::RigFile{}, load_kg);
+  Session names(plant::Rig{}, load_kg);
   for (const Switch& one : names.switches().all()) {
-    Session session(domain::RigFile{}, load_kg), untouched(domain::RigFile{}, load_kg);
+    Session session(plant::Rig{}, load_kg), untouched(plant::Rig{}, load_kg);
     for (Session* each : {&session, &untouched}) {
       ASSERT_EQ(each->set_sweep(up_and_down()), "");
       go(*each, 60);
@@ -84,7 +84,7 @@ TEST(LiveSession, WhatIsSwitchedWhileItMovesLeavesTheStateAsItIs) {
 }
 
 TEST(LiveSession, AnotherLoadBeginsWhereTheFirstOneWas) {
-  Session session(domain::RigFile{}, load_kg);
+  Session session(plant::Rig{}, load_kg);
   ASSERT_EQ(session.set_current(10.0), "");
   go(session, 300);
   const double before = session.now().contraction_ratio;
@@ -95,7 +95,7 @@ TEST(LiveSession, AnotherLoadBeginsWhereTheFirstOneWas) {
 }
 
 TEST(LiveSession, AnotherLawOfTheSameEffectTakesItsPlace) {
-  Session session(domain::RigFile{}, load_kg);
+  Session session(plant::Rig{}, load_kg);
   const auto on = [&](const char* name) { return session.switches().find(name)->on; };
   ASSERT_EQ(session.set_effect("gauge_error offset", true, 1e4, 0.0), "");
   ASSERT_EQ(session.set_effect("gauge_error gain", true, 0.03, 0.0), "");
@@ -104,7 +104,7 @@ TEST(LiveSession, AnotherLawOfTheSameEffectTakesItsPlace) {
 }
 
 TEST(LiveSession, EffectsOfTheFileAreOnAtTheirSizes) {
-  domain::RigFile rig;
+  plant::Rig rig;
   rig.effects.get<plant::MuscleLeak>().conductance_m3_per_s_Pa = 3e-10;
   Session session(rig, load_kg);
   const Switch& leak = *session.switches().find("muscle_leak");
@@ -114,7 +114,7 @@ TEST(LiveSession, EffectsOfTheFileAreOnAtTheirSizes) {
 }
 
 TEST(LiveSession, WhatCannotBeIsRefusedWithItsRuleAndChangesNothing) {
-  Session session(domain::RigFile{}, load_kg);
+  Session session(plant::Rig{}, load_kg);
   ASSERT_EQ(session.set_current(9.0), "");
   const double nan = std::nan("");
   EXPECT_EQ(session.set_current(20.5), "mA = 20.5: must be from 0 to 20 mA");
@@ -136,7 +136,7 @@ TEST(LiveSession, WhatCannotBeIsRefusedWithItsRuleAndChangesNothing) {
 }
 
 TEST(LiveSession, TooHeavyALoadIsRefused) {
-  domain::RigFile rig;
+  plant::Rig rig;
   rig.muscle.stop_stiffness_N_per_m = 1e4;
   Session session(rig, 1.0);
   EXPECT_NE(session.set_load(400.0).find("the taut threads of this muscle bear"), std::string::npos);
@@ -145,7 +145,7 @@ TEST(LiveSession, TooHeavyALoadIsRefused) {
 
 // A law of the user's own that is no number above a contraction.
 TEST(LiveSession, WhereTheIntegrationGivesUpItSaysSoAndCanBeginAgain) {
-  domain::RigFile rig;
+  plant::Rig rig;
   rig.effects.laws.list = {
       own_law(plant::LawTarget::force, "-F * sqrt(0.06 - e)", {{"F", law::newton, 5.0}})};
   Session session(rig, load_kg);
@@ -168,7 +168,7 @@ TEST(LiveSession, WhereTheIntegrationGivesUpItSaysSoAndCanBeginAgain) {
 }
 
 TEST(LiveSession, TheFirstTickIsUnderWhatItHasSettledUnder) {
-  Session session(domain::RigFile{}, load_kg);
+  Session session(plant::Rig{}, load_kg);
   ASSERT_EQ(session.set_current(12.0), "");
   const double settled_mA = session.step().current_mA;
   EXPECT_NEAR(settled_mA, 4.0, 0.01);
@@ -179,8 +179,8 @@ TEST(LiveSession, TheFirstTickIsUnderWhatItHasSettledUnder) {
 
 // Two muscles.
 
-ride::Ride settled_pair(const domain::RigFile& rig, const ride::Drive& drive) {
-  ride::Ride ride(ride::Paired{rig, plant::opposite_rig(rig, *rig.pair()), *rig.pair()}, rig.integrator);
+ride::Ride settled_pair(const plant::Rig& rig, const ride::Drive& drive) {
+  ride::Ride ride(ride::Loaded{rig}, rig.integrator);
   const auto settling = std::lround(rig.settling_time_s / rig.tick_s);
   ride.start(drive, -static_cast<double>(settling) * rig.tick_s);
   for (auto k = -settling + 1; k <= 0; ++k) ride.step(drive, static_cast<double>(k) * rig.tick_s);
@@ -188,7 +188,7 @@ ride::Ride settled_pair(const domain::RigFile& rig, const ride::Drive& drive) {
 }
 
 TEST(LivePair, StepsAreThoseOfARideToTheBitAndASweepSetsThemAgainstEachOther) {
-  const domain::RigFile rig = domain::thesis_pair();
+  const plant::Rig rig = plant::thesis_pair();
   Session session(rig, 0.0);
   ride::Drive drive;
   const auto hold = [&](double one_mA, double two_mA) {
@@ -220,11 +220,11 @@ TEST(LivePair, StepsAreThoseOfARideToTheBitAndASweepSetsThemAgainstEachOther) {
 }
 
 TEST(LivePair, EffectsActOnBothMusclesAndLeaveTheStateAsItIs) {
-  Session names(domain::thesis_pair(), 0.0);
+  Session names(plant::thesis_pair(), 0.0);
   EXPECT_EQ(names.switches().find("guide_friction"), nullptr) << "no guide of a load";
   EXPECT_EQ(names.set_load(5.0), "kg: two muscles turn a link; no load hangs there");
   for (const Switch& one : names.switches().all()) {
-    Session session(domain::thesis_pair(), 0.0), untouched(domain::thesis_pair(), 0.0);
+    Session session(plant::thesis_pair(), 0.0), untouched(plant::thesis_pair(), 0.0);
     for (Session* each : {&session, &untouched}) {
       ASSERT_EQ(each->set_sweep({Sweep::Shape::sine, 8.0, 14.0, 2.4}), "");
       go(*each, 60);
@@ -244,7 +244,7 @@ TEST(LivePair, EffectsActOnBothMusclesAndLeaveTheStateAsItIs) {
 }
 
 TEST(LivePair, AnEffectOfOneMuscleInTheFileIsASwitchOfItsOwn) {
-  domain::RigFile rig = domain::thesis_pair();
+  plant::Rig rig = plant::thesis_pair();
   std::get<plant::Pair>(rig.mechanics).opposite.effects.get<plant::MuscleLeak>().conductance_m3_per_s_Pa =
       3e-10;
   Session session(rig, 0.0);

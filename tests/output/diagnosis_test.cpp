@@ -158,7 +158,7 @@ TEST(DiagnosisJson, IsNullWhereThereIsNothing) {
 }
 
 /// `text` read as a rig file.
-domain::RigFile read_back(const std::string& text) {
+plant::Rig read_back(const std::string& text) {
   const Scratch folder;
   std::vector<domain::InputFile> inputs;
   return input::read_rig(folder.write("rig.yaml", text).string(), inputs);
@@ -188,8 +188,8 @@ TEST(DiagnosisRig, HoldsEveryFieldOfARigThatIsNotShipped) {
 TEST(DiagnosisRig, IsTheNominalOneWhereNothingWasFound) {
   diagnose::Diagnosis nothing;
   nothing.because = "the gap is within noise,\nschema: mckibben-scenario/1";  // stays a comment
-  const domain::RigFile rig = read_back(rig_yaml(measured(), nothing));
-  EXPECT_EQ(input::rig_json(rig), input::rig_json(domain::RigFile{}));
+  const plant::Rig rig = read_back(rig_yaml(measured(), nothing));
+  EXPECT_EQ(input::rig_json(rig), input::rig_json(plant::Rig{}));
 }
 
 TEST(DiagnosisPlan, IsACampaignWithThatCurrentAndLoadOnTheCorrectedRig) {

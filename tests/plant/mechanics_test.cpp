@@ -4,16 +4,17 @@
 
 #include <gtest/gtest.h>
 
-#include <plant/mechanics.hpp>
+#include <plant/rig.hpp>
 
 namespace mckibben::plant {
 namespace {
 
-std::vector<std::string> broken(const Rig& rig, const Pair& pair) {
+std::vector<std::string> broken(Rig rig, const Pair& pair) {
   std::vector<std::string> found;
   const auto report = [&](std::string_view, std::string_view message) { found.emplace_back(message); };
   pair.rules(report);
-  pair_rules(rig, pair, report);
+  rig.mechanics = pair;
+  rig.rules(report);
   return found;
 }
 
@@ -24,7 +25,9 @@ TEST(Mechanics, TheSecondSideHasItsOwnPartsAndSharesTheRest) {
   Pair pair;
   pair.opposite = side_of(rig);
   pair.opposite.hose.conductance_m3_per_s_Pa = 1e-8;
-  const Rig other = opposite_rig(rig, pair);
+  Rig both = rig;
+  both.mechanics = pair;
+  const Rig other = opposite_rig(both);
   EXPECT_EQ(other.muscle.rest_radius_m, 8e-3);
   EXPECT_EQ(other.gas.temperature_K, 300.0);
   EXPECT_EQ(other.hose.conductance_m3_per_s_Pa, 1e-8);

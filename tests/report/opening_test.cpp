@@ -101,7 +101,7 @@ TEST(Opening, OfTwoMusclesNamesWhatWasFoundWithoutADrawing) {
   diagnose::Diagnosis found = diagnosed();
   found.gap.judged = diagnose::Judged::angle;
   domain::Dataset data = output::measured();
-  data.rig = domain::thesis_pair();
+  data.rig = plant::thesis_pair();
   const std::string html = report_html(data, found, {}, {});
   EXPECT_NE(html.find("<figure class='opening'>"), std::string::npos);
   EXPECT_NE(html.find(">1 muscle_leak<"), std::string::npos);

@@ -85,7 +85,7 @@ TEST(Batch, EachRigOfAGroupGoesWhereItGoesAlone) {
     plant::Rig rig, lagging;
     lagging.effects.get<plant::ValveLag>().time_s = 0.03;
     rig.friction.memory = lagging.friction.memory = memory;
-    const std::vector<Hanging> rigs{{rig, 11.0}, {lagging, 16.138}, {rig, 23.0}};
+    const std::vector<Loaded> rigs{{rig, 11.0}, {lagging, 16.138}, {rig, 23.0}};
     expect_as_alone(rigs, together(rigs, 1e-9, memory == plant::FrictionMemory::lugre));
   }
 }
@@ -93,8 +93,8 @@ TEST(Batch, EachRigOfAGroupGoesWhereItGoesAlone) {
 // Each is carried to the instants at which another's command is felt, too.
 TEST(Batch, LateCommandsOfAGroupAreFeltBetweenInstants) {
   for (const auto memory : {plant::FrictionMemory::lugre, plant::FrictionMemory::coulomb}) {
-    std::vector<Hanging> rigs(2, {plant::Rig{}, 16.138});
-    for (Hanging& one : rigs) one.rig.friction.memory = memory;
+    std::vector<Loaded> rigs(2, {plant::Rig{}, 16.138});
+    for (Loaded& one : rigs) one.rig.friction.memory = memory;
     rigs[0].rig.effects.get<plant::CommandDelay>().time_s = 1.5 * group_tick_s;
     rigs[1].rig.effects.get<plant::CommandDelay>().time_s = 2.2 * group_tick_s;
     expect_as_alone(rigs, together(rigs, 1e-9, memory == plant::FrictionMemory::lugre), 1e-7);
@@ -105,24 +105,23 @@ TEST(Batch, RigsThatDifferInMoreThanNumbersGoToo) {
   plant::Rig area, log;
   area.friction.law = plant::FrictionLaw::area;
   log.friction.law = plant::FrictionLaw::logarithmic;
-  const std::vector<Hanging> rigs{{plant::Rig{}, 16.138}, {area, 16.138}, {log, 16.138}};
+  const std::vector<Loaded> rigs{{plant::Rig{}, 16.138}, {area, 16.138}, {log, 16.138}};
   expect_as_alone(rigs, together(rigs, 1e-9));
 }
 
 TEST(Batch, EachPairOfAGroupGoesWhereItGoesAlone) {
-  Paired nominal, other;
-  other.rig.effects.get<plant::ValveLag>().time_s = other.opposite.effects.get<plant::ValveLag>().time_s =
-      0.03;
-  other.opposite.effects.get<plant::BladderCreep>().stiffness_N_per_m = 300.0;
-  other.opposite.muscle.rest_radius_m *= 1.02;
-  other.link = {.contraction_ratio = 0.12, .inertia_kg_m2 = 0.2, .hangs_at_rad = 0.1};
-  const std::vector<Paired> pairs{nominal, other};
+  plant::Rig one, two;
+  one.effects.get<plant::ValveLag>().time_s = two.effects.get<plant::ValveLag>().time_s = 0.03;
+  two.effects.get<plant::BladderCreep>().stiffness_N_per_m = 300.0;
+  two.muscle.rest_radius_m *= 1.02;
+  const plant::Link link{.contraction_ratio = 0.12, .inertia_kg_m2 = 0.2, .hangs_at_rad = 0.1};
+  const std::vector<Loaded> pairs{{plant::thesis_pair()}, {plant::pair_of(one, two, link)}};
   expect_as_alone(pairs, together(pairs, 1e-9));
 }
 
 TEST(Batch, DifferencesOverATinyChangeAreSensitivities) {
   const auto rises = [](double low_m, double high_m, double tolerance) {
-    std::vector<Hanging> rigs{{plant::Rig{}, 16.138}, {plant::Rig{}, 16.138}};
+    std::vector<Loaded> rigs{{plant::Rig{}, 16.138}, {plant::Rig{}, 16.138}};
     rigs[0].rig.muscle.rest_radius_m = low_m;
     rigs[1].rig.muscle.rest_radius_m = high_m;
     const auto readings = together(rigs, tolerance);

@@ -60,7 +60,8 @@ constexpr std::array journeys{Journey{turning, true}, Journey{pulling, false}, J
 
 Ride ride_of(const Journey& journey, const plant::Rig& rig, Method method) {
   const solver::Settings settings{method, 1e-7};
-  Ride ride = journey.pair ? Ride(Paired{rig, rig}, settings, true) : Ride(Hanging{rig, 5.0}, settings, true);
+  Ride ride = journey.pair ? Ride(Loaded{plant::pair_of(rig, rig)}, settings, true)
+                           : Ride(Loaded{rig, 5.0}, settings, true);
   ride.start(journey.drive(0.0), 0.0);
   return ride;
 }
@@ -104,7 +105,7 @@ TEST(Drives, GoOnToTheSameBitsFromWhatWasSaved) {
 TEST(Drives, EqualMusclesHoldTheLinkWhereItHangs) {
   for (const auto memory : {plant::FrictionMemory::lugre, plant::FrictionMemory::coulomb}) {
     const plant::Rig rig = rubbing({}, memory);
-    Ride ride(Paired{rig, rig}, {Method::erk, 1e-7});
+    Ride ride(Loaded{plant::pair_of(rig, rig)}, {Method::erk, 1e-7});
     Drive drive;
     drive.current_mA = drive.opposite.current_mA = 12.0;
     ride.start(drive, 0.0);
@@ -117,7 +118,7 @@ TEST(Drives, EqualMusclesHoldTheLinkWhereItHangs) {
 
 // A force from outside carries what a load of that weight would.
 TEST(Drives, AForceOnTheJointIsAWeightWithoutMass) {
-  Ride ride(Hanging{{}, 5.0}, {Method::erk, 1e-7});
+  Ride ride(Loaded{{}, 5.0}, {Method::erk, 1e-7});
   Drive drive;
   drive.valve_pressure_Pa = 3e5;
   drive.joint_force_N = 50.0;
@@ -131,11 +132,11 @@ TEST(Drives, AForceOnTheJointIsAWeightWithoutMass) {
 // What a valve made of its commands, given to a rig with another valve, fills the muscle in the same way.
 TEST(Drives, AGivenValvePressureTakesTheValvesPlace) {
   constexpr double step_s = 0.0005;
-  Ride ride(Hanging{{}, 10.0}, {Method::erk, 1e-8});
+  Ride ride(Loaded{{}, 10.0}, {Method::erk, 1e-8});
   plant::Rig other;
   other.valve.conductance_m3_per_s_Pa *= 0.1;
   other.effects.get<plant::ValveDeadBand>().half_width_Pa = 2e4;
-  Ride given(Hanging{other, 10.0}, {Method::erk, 1e-8});
+  Ride given(Loaded{other, 10.0}, {Method::erk, 1e-8});
   const auto command = [](int k) {
     Drive drive;
     drive.current_mA = 12.0 + 4.0 * std::sin(0.0025 * k);
@@ -158,9 +159,9 @@ TEST(Drives, AGivenValvePressureTakesTheValvesPlace) {
 
 // The link's side that is blown up pulls it up, by the balance of the cords and the link's weight.
 TEST(Drives, AtRestTheCordsCarryTheLink) {
-  Paired pair;
-  pair.link.damping_N_m_s_per_rad = 2.0;
-  Ride ride(pair, {Method::erk, 1e-7});
+  plant::Rig pair = plant::thesis_pair();
+  pair.pair()->damping_N_m_s_per_rad = 2.0;
+  Ride ride(Loaded{pair}, {Method::erk, 1e-7});
   Drive drive;
   drive.current_mA = 14.0;
   drive.opposite.current_mA = 10.0;
@@ -177,7 +178,7 @@ TEST(Drives, AtRestTheCordsCarryTheLink) {
 // Exact stick and slip at a given length: the threads pull with their whole level against the way the end
 // goes, keep that force where it stops, and have none before it has moved.
 TEST(Drives, CoulombThreadsKeepTheirForceWhereABenchStops) {
-  Ride ride(Hanging{rubbing({}, plant::FrictionMemory::coulomb), 0.0}, {Method::erk, 1e-7});
+  Ride ride(Loaded{rubbing({}, plant::FrictionMemory::coulomb), 0.0}, {Method::erk, 1e-7});
   Drive drive;
   drive.muscle_pressure_Pa = 3e5;
   drive.contraction_ratio = 0.05;
@@ -199,7 +200,7 @@ TEST(Drives, AMuscleThatIsHeldBeginsAtRestAtItsLength) {
   auto& creep = rig.effects.get<plant::BladderCreep>();
   creep.stiffness_N_per_m = 1000.0;
   creep.time_s = 30.0;
-  Ride ride(Hanging{rig, 0.0}, {Method::erk, 1e-7}), without(Hanging{{}, 0.0}, {Method::erk, 1e-7});
+  Ride ride(Loaded{rig, 0.0}, {Method::erk, 1e-7}), without(Loaded{{}, 0.0}, {Method::erk, 1e-7});
   Drive drive;
   drive.muscle_pressure_Pa = 3e5;
   drive.contraction_ratio = 0.15;
@@ -214,13 +215,11 @@ TEST(Drives, AMuscleThatIsHeldBeginsAtRestAtItsLength) {
 }
 
 TEST(Drives, APairOfDifferentFrictionOrGasIsRefused) {
-  Paired pair;
-  const solver::Settings settings;
-  pair.opposite.friction.memory = plant::FrictionMemory::coulomb;
-  EXPECT_THROW(Ride(pair, settings), std::invalid_argument);
-  pair.opposite = pair.rig;
-  pair.opposite.gas.temperature_K += 1.0;
-  EXPECT_THROW(Ride(pair, settings), std::invalid_argument);
+  plant::Rig rough, warm;
+  rough.friction.memory = plant::FrictionMemory::coulomb;
+  EXPECT_THROW(Ride(Loaded{plant::pair_of({}, rough)}, {}), std::invalid_argument);
+  warm.gas.temperature_K += 1.0;
+  EXPECT_THROW(plant::Plant({}, warm, {}), std::invalid_argument);
 }
 
 }  // namespace

@@ -61,7 +61,7 @@ class Driven : public testing::TestWithParam<Method> {
   static Errors at_given_pressure(const char* name, double load_kg, const solver::Settings& settings) {
     const Columns reference = read_reference(name);
     const auto& given = reference.at("muscle_pressure_bar");
-    Ride ride(Hanging{plant::Rig{}, load_kg}, settings);
+    Ride ride(Loaded{plant::Rig{}, load_kg}, settings);
     Drive drive;
     drive.muscle_pressure_Pa = bar * given.front();
     ride.start(drive, -settling * stamp_s);
@@ -82,7 +82,7 @@ class Driven : public testing::TestWithParam<Method> {
     const Columns reference = read_reference(name);
     const auto& pressure = reference.at("muscle_pressure_bar");
     const auto& length = reference.at("contraction_ratio");
-    Ride ride(Hanging{plant::Rig{}, 0.0}, settings);
+    Ride ride(Loaded{plant::Rig{}, 0.0}, settings);
     Drive drive;
     drive.muscle_pressure_Pa = bar * pressure.front();
     drive.contraction_ratio = length.front();
@@ -103,7 +103,7 @@ class Driven : public testing::TestWithParam<Method> {
     const Columns reference = read_reference(name);
     const auto& one = reference.at("current_1_mA");
     const auto& two = reference.at("current_2_mA");
-    Ride ride(Paired{}, settings);
+    Ride ride(Loaded{plant::thesis_pair()}, settings);
     const plant::Plant& plant = ride.plant();
     Drive drive;
     const auto hold = [&](std::size_t k) {

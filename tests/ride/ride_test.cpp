@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <sim/ride/ride.hpp>
+#include <sim/ride/sample.hpp>
 #include <sim/ride/underway.hpp>
 
 #include "switched_on.hpp"
@@ -42,7 +43,7 @@ TEST(Ride, ReadsALoadFromAnotherZeroWithoutMovingItElsewhere) {
   plant::Rig off;
   off.joint.reading_offset_m = -2.3e-4;
   const solver::Settings settings{solver::Method::erk, 1e-6};
-  Ride ride(Hanging{plant::Rig{}, load_kg}, settings), other(Hanging{off, load_kg}, settings);
+  Ride ride(Loaded{plant::Rig{}, load_kg}, settings), other(Loaded{off, load_kg}, settings);
   ride.start(drive_at(0), 0.0);
   other.start(drive_at(0), 0.0);
   go(ride, 0, 60);
@@ -54,7 +55,7 @@ TEST(Ride, ReadsALoadFromAnotherZeroWithoutMovingItElsewhere) {
 TEST(Ride, SetsOffWhereALoadStandsAndNotWhereItIsRead) {
   plant::Rig off;
   off.joint.reading_offset_m = 1e-3;
-  Ride ride(Hanging{off, load_kg}, {solver::Method::erk, 1e-6});
+  Ride ride(Loaded{off, load_kg}, {solver::Method::erk, 1e-6});
   ride.start(drive_at(0), 0.0);
   set_off(ride.rider(), {.rise_m = 0.021});
   EXPECT_NEAR(ride.flow().state.joint.contraction_ratio, 0.020 / off.muscle.rest_length_m, 1e-12);
@@ -65,7 +66,7 @@ TEST(Ride, GoesOnToTheSameBitsFromWhatWasSavedAndAsACopy) {
   for (const auto method : {solver::Method::erk, solver::Method::cvode, solver::Method::automatic})
     for (const auto memory : {plant::FrictionMemory::lugre, plant::FrictionMemory::coulomb})
       for (const plant::Rig& rig : {plant::Rig{}, plant::rig_with_all_effects()}) {
-        Ride ride(Hanging{with_friction(rig, memory), load_kg}, {method, 1e-6}, true);
+        Ride ride(Loaded{with_friction(rig, memory), load_kg}, {method, 1e-6}, true);
         ride.start(drive_at(0), 0.0);
         for (int begin = 0; begin < 120; begin += 7) {
           const Ride::Saved saved = ride.save();
@@ -87,7 +88,7 @@ TEST(Ride, GoesOnToTheSameBitsFromWhatWasSavedAndAsACopy) {
 }
 
 TEST(Ride, ADriveIsFeltFromItsInstantOn) {
-  Ride ride(Hanging{plant::Rig{}, load_kg}, {solver::Method::erk, 1e-6});
+  Ride ride(Loaded{plant::Rig{}, load_kg}, {solver::Method::erk, 1e-6});
   ride.start({{.current_mA = 8.0}}, 0.0);
   const double before_Pa = ride.flow().state.side.valve_pressure_Pa;
   EXPECT_EQ(before_Pa, ride.plant().reference_pressure_Pa(8.0));
@@ -103,7 +104,7 @@ TEST(Ride, ADriveIsFeltFromItsInstantOn) {
 TEST(Ride, TheCurrentsSpeedIsItsChangeOverTheStep) {
   plant::Rig rig;
   rig.friction.f1_s2_per_mA2 = 1e-4;
-  Ride ride(Hanging{rig, load_kg}, {solver::Method::erk, 1e-6});
+  Ride ride(Loaded{rig, load_kg}, {solver::Method::erk, 1e-6});
   ride.start({{.current_mA = 8.0}}, 0.0);
   for (const double step_s : {0.012, 0.05}) {
     ride.hold({{.current_mA = 8.0}}, ride.time_s() + step_s);
@@ -128,8 +129,8 @@ plant::Rig late_by(double command_s, double reading_s) {
 
 // Two ticks late, all that happens has happened two ticks before in a ride that has its commands at once.
 TEST(Ride, ALateCommandIsFeltAsItWasGivenBefore) {
-  Ride late(Hanging{late_by(2 * tick_s, 0.0), load_kg}, {solver::Method::erk, 1e-9});
-  Ride prompt(Hanging{plant::Rig{}, load_kg}, {solver::Method::erk, 1e-9});
+  Ride late(Loaded{late_by(2 * tick_s, 0.0), load_kg}, {solver::Method::erk, 1e-9});
+  Ride prompt(Loaded{plant::Rig{}, load_kg}, {solver::Method::erk, 1e-9});
   late.start(drive_at(0), 0.0);
   prompt.start(drive_at(0), 0.0);
   for (int k = 0; k < 80; ++k) {
@@ -145,10 +146,10 @@ TEST(Ride, ASensorsReadingIsOfSoLongAgoAndStaysUntilItsNext) {
   plant::Rig by_sheet, slow;
   by_sheet.sensors.position().delay_s = 2.5 * tick_s;
   slow.sensors.position().rate_Hz = 0.25 / tick_s;
-  Ride effect(Hanging{late_by(0.0, 2.5 * tick_s), load_kg}, {solver::Method::erk, 1e-9});
-  Ride sheet(Hanging{by_sheet, load_kg}, {solver::Method::erk, 1e-9});
-  Ride held(Hanging{slow, load_kg}, {solver::Method::erk, 1e-9});
-  Ride prompt(Hanging{plant::Rig{}, load_kg}, {solver::Method::erk, 1e-9});
+  Ride effect(Loaded{late_by(0.0, 2.5 * tick_s), load_kg}, {solver::Method::erk, 1e-9});
+  Ride sheet(Loaded{by_sheet, load_kg}, {solver::Method::erk, 1e-9});
+  Ride held(Loaded{slow, load_kg}, {solver::Method::erk, 1e-9});
+  Ride prompt(Loaded{plant::Rig{}, load_kg}, {solver::Method::erk, 1e-9});
   std::vector<double> rises_m{0.0};
   for (Ride* ride : {&effect, &sheet, &held, &prompt}) ride->start(drive_at(0), 0.0);
   for (int k = 1; k < 80; ++k) {
@@ -160,13 +161,44 @@ TEST(Ride, ASensorsReadingIsOfSoLongAgoAndStaysUntilItsNext) {
   EXPECT_GT(rises_m.back(), 0.01);
 }
 
+// Gauges and load cells, too, whatever they read.
+TEST(Ride, EverySensorMayBeLate) {
+  using plant::Sensed;
+  constexpr auto late_s = 2.0 * tick_s, rate_Hz = 0.25 / tick_s;
+  plant::Rig delayed, slow;
+  for (const auto& [signal, kind] : {std::pair{Sensed::muscle_pressure, plant::SensorKind::gauge},
+                                     {Sensed::valve_pressure, plant::SensorKind::gauge},
+                                     {Sensed::force, plant::SensorKind::load_cell}}) {
+    delayed.sensors.put({.signal = signal, .kind = kind, .delay_s = late_s});
+    slow.sensors.put({.signal = signal, .kind = kind, .rate_Hz = rate_Hz});
+  }
+  std::vector<plant::Sample> rows, late, held;
+  const auto take = [](const plant::Rig& rig, std::vector<plant::Sample>& into) {
+    Ride ride(Loaded{rig, load_kg}, {solver::Method::erk, 1e-9});
+    ride.start(drive_at(0), 0.0);
+    for (int k = 0; k < 40; ++k) {
+      ride.hold(drive_at(k), tick_s * (k + 1));
+      into.push_back(sample_of(ride.rider(), 0));
+      ride.advance();
+    }
+  };
+  take({}, rows), take(delayed, late), take(slow, held);
+  for (const Sensed signal : {Sensed::muscle_pressure, Sensed::valve_pressure, Sensed::force})
+    for (std::size_t k = 2; k < rows.size(); ++k) {
+      const double then = rows[k - 2].shown[signal], taken = rows[k - k % 4].shown[signal];
+      ASSERT_NEAR(late[k].shown[signal], then, 1e-9 * std::abs(then)) << k;
+      ASSERT_NEAR(held[k].shown[signal], taken, 1e-9 * std::abs(taken)) << k;
+    }
+  EXPECT_GT(rows.back().shown[Sensed::muscle_pressure], rows[10].shown[Sensed::muscle_pressure]);
+}
+
 // A tick and a half late: the same as in a ride whose commands change there.
 TEST(Ride, ALateCommandIsFeltBetweenInstantsToo) {
   const double half_s = 0.5 * tick_s;
   for (const auto memory : {plant::FrictionMemory::lugre, plant::FrictionMemory::coulomb}) {
-    const Hanging late{with_friction(late_by(3 * half_s, 0.0), memory), load_kg};
+    const Loaded late{with_friction(late_by(3 * half_s, 0.0), memory), load_kg};
     Ride alone(late, {solver::Method::erk, 1e-9});
-    Ride prompt(Hanging{with_friction({}, memory), load_kg}, {solver::Method::erk, 1e-9});
+    Ride prompt(Loaded{with_friction({}, memory), load_kg}, {solver::Method::erk, 1e-9});
     for (Ride* ride : {&alone, &prompt}) ride->start(drive_at(0), 0.0);
     for (int k = 0; k < 120; ++k) {
       const Drive given{{.current_mA = drive_at(k / 2).current_mA}};
@@ -181,8 +213,8 @@ TEST(Ride, ALateCommandIsFeltBetweenInstantsToo) {
 
 TEST(Ride, ALateReadingShowsWhereTheLoadWas) {
   for (const double late_s : {3 * tick_s, 2.4 * tick_s, 0.3 * tick_s}) {
-    Ride late(Hanging{late_by(0.0, late_s), load_kg}, {solver::Method::erk, 1e-9});
-    Ride prompt(Hanging{plant::Rig{}, load_kg}, {solver::Method::erk, 1e-9});
+    Ride late(Loaded{late_by(0.0, late_s), load_kg}, {solver::Method::erk, 1e-9});
+    Ride prompt(Loaded{plant::Rig{}, load_kg}, {solver::Method::erk, 1e-9});
     late.start(drive_at(0), 0.0);
     prompt.start(drive_at(0), 0.0);
     for (int k = 0; k < 60; ++k) {
@@ -202,7 +234,7 @@ TEST(Ride, ALateReadingShowsWhereTheLoadWas) {
 TEST(Ride, EachMuscleOfAPairHasItsOwnDelay) {
   const plant::Rig prompt, late = late_by(2 * tick_s, 0.0);
   const auto references = [&](const plant::Rig& rig, const plant::Rig& opposite) {
-    Ride ride(Paired{rig, opposite}, {solver::Method::erk, 1e-6});
+    Ride ride(Loaded{plant::pair_of(rig, opposite)}, {solver::Method::erk, 1e-6});
     ride.start({{.current_mA = 8.0}, {}, {.current_mA = 8.0}}, 0.0);
     ride.hold({{.current_mA = 12.0}, {}, {.current_mA = 12.0}}, tick_s);
     const plant::Held& held = ride.rider().now.held;
@@ -220,14 +252,14 @@ TEST(Ride, AGaugeInErrorIsReadAndGivenAsItShows) {
   offset.effects.get<plant::GaugeError>().offset_Pa = 2e4;
   gain.effects.get<plant::GaugeError>() = {.variant = plant::GaugeLaw::gain, .gain = 0.1};
   for (const auto& [rig, true_Pa] : {std::pair{offset, 1.8e5}, std::pair{gain, 2e5 / 1.1}}) {
-    Ride driven(Hanging{rig, load_kg}, {solver::Method::erk, 1e-6});
+    Ride driven(Loaded{rig, load_kg}, {solver::Method::erk, 1e-6});
     driven.start({{.muscle_pressure_Pa = 1e5}}, 0.0);
     EXPECT_NEAR(driven.reading().muscle_pressure_Pa, 1e5, 1e-6);
     driven.step({{.muscle_pressure_Pa = 2e5}}, tick_s);
     EXPECT_NEAR(driven.flow().state.side.muscle_pressure_Pa, true_Pa, 1e-6);
     EXPECT_NEAR(driven.reading().muscle_pressure_Pa, 2e5, 1e-6);
-    Ride commanded(Hanging{rig, load_kg}, {solver::Method::erk, 1e-6});
-    Ride nominal(Hanging{plant::Rig{}, load_kg}, {solver::Method::erk, 1e-6});
+    Ride commanded(Loaded{rig, load_kg}, {solver::Method::erk, 1e-6});
+    Ride nominal(Loaded{plant::Rig{}, load_kg}, {solver::Method::erk, 1e-6});
     for (Ride* ride : {&commanded, &nominal}) {
       ride->start({{.current_mA = 8.0}}, 0.0);
       ride->step({{.current_mA = 12.0}}, tick_s);
@@ -242,7 +274,7 @@ TEST(Ride, AGaugeInErrorIsReadAndGivenAsItShows) {
 
 TEST(Ride, TimesAreTheCallers) {
   const auto arrive = [](double step_s) {
-    Ride ride(Hanging{plant::Rig{}, load_kg}, {solver::Method::erk, 1e-9});
+    Ride ride(Loaded{plant::Rig{}, load_kg}, {solver::Method::erk, 1e-9});
     ride.start({{.current_mA = 4.0}}, 0.0);
     for (int k = 1; k * step_s < 1.0 + 1e-9; ++k) ride.step({{.current_mA = 12.0}}, k * step_s);
     return ride.flow().state.joint.contraction_ratio;
@@ -254,7 +286,7 @@ TEST(Ride, TimesAreTheCallers) {
 }
 
 TEST(Ride, RefusesWhatItCannotDo) {
-  Ride ride(Hanging{plant::Rig{}, load_kg}, {});
+  Ride ride(Loaded{plant::Rig{}, load_kg}, {});
   ride.start({{.current_mA = 4.0}}, 1.0);
   EXPECT_THROW(ride.step({{.current_mA = 4.0}}, 1.0), std::invalid_argument);
 }

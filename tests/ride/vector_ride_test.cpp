@@ -22,7 +22,7 @@ double wave_mA(std::size_t rig, int k) {
 }
 
 struct Members {
-  std::vector<Hanging> rigs;
+  std::vector<Loaded> rigs;
   std::vector<solver::Settings> settings;
 
   void add(const plant::Rig& rig, double mass_kg, const solver::Settings& with = {}) {

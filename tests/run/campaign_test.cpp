@@ -93,7 +93,7 @@ TEST(Campaign, MeasuredIsWhatTheInstrumentsShow) {
 
 domain::Campaign small_pair() {
   domain::Campaign campaign;
-  campaign.rig = domain::thesis_pair();
+  campaign.rig = plant::thesis_pair();
   campaign.rig.sensors.put(plant::gauge());
   controllers::SineCurrent sine;
   sine.low_mA = 6.0;

@@ -40,8 +40,8 @@ controllers::PairPidSettings pid() {
 }
 
 TEST(JointStiffness, IsThatOfTheBraidsAtTheirPressures) {
-  const domain::RigFile rig = domain::thesis_pair();
-  const plant::Plant plant(rig, plant::opposite_rig(rig, *rig.pair()), *rig.pair());
+  const plant::Rig rig = plant::thesis_pair();
+  const plant::Plant plant = plant::plant_of(rig);
   plant::State<double> state{};
   state.joint.contraction_ratio = 0.12;
   state.side.muscle_pressure_Pa = 3e5;

@@ -127,7 +127,7 @@ TEST(NightlyModerateRigs, SayWhereTheirBooksDoNotClose) {
   ASSERT_EQ(doubts(run).size(), 1u);
   EXPECT_NE(doubts(run)[0].find("a tighter integrator.tolerance helps"), std::string::npos);
   RandomRide tighter(seed, false);
-  tighter.plan.engine.tolerance *= 0.1;
+  tighter.plan.rig.integrator.tolerance *= 0.1;
   const auto controller = tighter.current.make(knowledge_of(tighter.plan.rig, {}));
   EXPECT_TRUE(doubts(simulate(tighter.plan, *controller)).empty());
 }

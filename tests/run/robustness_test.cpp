@@ -64,7 +64,7 @@ TEST(Robustness, BandsAreOfThoseThatEndedAndFailuresAreCountedOnce) {
 }
 
 TEST(Robustness, DrawsWhatIsStatedWithinItsDocumentedRange) {
-  domain::RigFile rig;
+  plant::Rig rig;
   rig.spreads = {{"muscle.rest_radius", 1e-4}, {"muscle.end_correction", 0.2}, {"friction.scale", INFINITY}};
   const domain::Variation variation = within_stated(rig);
   ASSERT_EQ(variation.numbers.size(), 2u);

@@ -19,14 +19,10 @@ namespace {
 /// Runs of 200 ticks under a sine that lifts and lowers.
 class Runs {
  public:
-  void add(const plant::Rig& rig, double load_kg, const solver::Settings& engine = {},
+  void add(plant::Rig rig, double load_kg, const solver::Settings& engine = {},
            const plant::Noise& noise = {}) {
-    plans_.push_back({.rig = rig,
-                      .load_kg = load_kg,
-                      .ticks = 200,
-                      .engine = engine,
-                      .noise = noise,
-                      .stream = plans_.size()});
+    rig.integrator = engine;
+    plans_.push_back({.rig = rig, .load_kg = load_kg, .ticks = 200, .noise = noise, .stream = plans_.size()});
   }
   void keep_ledgers() {
     for (RunPlan& plan : plans_) plan.keep_ledger = true;

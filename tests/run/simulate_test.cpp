@@ -90,7 +90,7 @@ std::vector<controllers::Settings> one_of_each() {
   controllers::RecordedCurrent recorded;
   recorded.samples_mA = std::vector<double>(100, 10.0);
   controllers::ModelInverseSettings planned;
-  planned.model = model_of(domain::RigFile(), 0.012);
+  planned.model = model_of(plant::Rig(), 0.012);
   controllers::ModelInverseFeedbackSettings with_feedback;
   with_feedback.model = planned.model;
   with_feedback.feedback_delay_ticks = 2;
@@ -136,7 +136,7 @@ TEST(Simulate, TouchesNoHeapBetweenFirstAndLastTick) {
     for (const bool ledger : {false, true})
       for (const auto memory : {plant::FrictionMemory::lugre, plant::FrictionMemory::coulomb}) {
         RunPlan p = plan(13.87, ticks);
-        p.engine.method = method;
+        p.rig.integrator.method = method;
         p.keep_ledger = ledger;
         p.rig.friction.memory = memory;
         p.rig.sensors.position().wiring = plant::EncoderWiring::crosswise;
@@ -197,6 +197,18 @@ TEST(Simulate, AGaugeOnTheValveReadsItsPressureWithANoiseOfItsOwn) {
   ASSERT_GT(below, 50);
   EXPECT_GT(at_the_end, 50);
   EXPECT_NEAR(std::sqrt(squares / below), 300.0, 60.0);
+}
+
+TEST(Simulate, ASlowGaugeShowsAReadingWithItsNoiseUntilTheNext) {
+  RunPlan s = plan(11.138, 100);
+  plant::Sensor slow = plant::gauge();
+  slow.noise = 300.0;
+  slow.rate_Hz = 0.2 / s.rig.tick_s;
+  s.rig.sensors.put(slow);
+  const auto rows = ride(s, slow_triangle()).samples;
+  const auto shown_Pa = [&](std::size_t k) { return rows[k].shown[plant::Sensed::muscle_pressure]; };
+  for (std::size_t k = 0; k < rows.size(); ++k) EXPECT_NEAR(shown_Pa(k), shown_Pa(k - k % 5), 1e-6) << k;
+  EXPECT_NE(shown_Pa(0), shown_Pa(5));
 }
 
 TEST(Simulate, SameSeedAndStreamGiveTheSameBytesOthersDoNot) {

@@ -83,7 +83,7 @@ TEST(NightlyJointDiagnosis, ATubeThatPushesIsNeverTheAnswer) {
 }
 
 TEST(NightlyJointDiagnosis, RecalibratesFrictionOfBothMusclesAsOne) {
-  RigFile truth = domain::thesis_pair();
+  Rig truth = plant::thesis_pair();
   truth.friction.scale = std::get<plant::Pair>(truth.mechanics).opposite.friction.scale = 1.25;
   const Diagnosis found = diagnosis_of(of_a_joint(truth), 2);
   EXPECT_EQ(found.verdict, Verdict::recalibrate) << found.because;
@@ -93,7 +93,7 @@ TEST(NightlyJointDiagnosis, RecalibratesFrictionOfBothMusclesAsOne) {
 }
 
 TEST(JointDiagnosis, NamesNothingWhereNothingIsMissing) {
-  const Diagnosis found = diagnosis_of(of_a_joint(domain::thesis_pair()), 2);
+  const Diagnosis found = diagnosis_of(of_a_joint(plant::thesis_pair()), 2);
   EXPECT_EQ(found.verdict, Verdict::nothing_missing) << found.because;
   EXPECT_FALSE(found.next_experiment);
 }

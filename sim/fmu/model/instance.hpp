@@ -16,8 +16,8 @@ namespace mckibben::fmu {
 
 struct Instance {
   std::function<void(const char* message)> log;
-  std::string token;    ///< of the FMU
-  domain::RigFile rig;  ///< as it was unpacked, for a reset
+  std::string token;  ///< of the FMU
+  plant::Rig rig;     ///< as it was unpacked, for a reset
   Slave slave;
 
   /// Does it; false if it could not, and the log says why.

@@ -151,10 +151,10 @@ void become(plant::Mechanics& mechanics, std::size_t kind) {
 }
 
 template <class Leaf>
-void walk(domain::RigFile& rig, Leaf leaf) {
+void walk(plant::Rig& rig, Leaf leaf) {
   Walk visitor(leaf);
   LawWalk(leaf, "law")(rig.effects.laws);
-  plant::Rig::fields(rig, visitor);
+  plant::Rig::parts(rig, visitor);
   visitor("integrator", rig.integrator);
   double kind = static_cast<double>(rig.mechanics.index());
   leaf("mechanics", kind);
@@ -212,7 +212,7 @@ struct Read {
 
 std::string text_of(const Contents& contents) {
   std::string text = std::string(heading) + "\ntoken " + contents.token + "\n";
-  domain::RigFile rig = contents.rig;
+  plant::Rig rig = contents.rig;
   walk(rig, Written{text});
   return text;
 }

@@ -6,14 +6,14 @@
 #include <string>
 #include <string_view>
 
-#include <sim/domain/rig_file.hpp>
+#include <plant/rig.hpp>
 
 namespace mckibben::fmu {
 
 /// What an FMU carries with it besides its program.
 struct Contents {
   std::string token;  ///< by which an importer tells that description and program belong together
-  domain::RigFile rig;
+  plant::Rig rig;
 };
 
 std::string text_of(const Contents& contents);

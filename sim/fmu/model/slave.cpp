@@ -17,7 +17,7 @@ namespace {
 
 }  // namespace
 
-Slave::Slave(domain::RigFile rig)
+Slave::Slave(plant::Rig rig)
     : rig_(std::move(rig)),
       paths_(parameter_paths(rig_)),
       channels_(channels_of(rig_)),
@@ -77,10 +77,7 @@ void Slave::set_off() {
 }
 
 void Slave::make_ride() {
-  if (const plant::Pair* pair = rig_.pair())
-    ride_.emplace(ride::Paired{rig_, plant::opposite_rig(rig_, *pair), *pair}, rig_.integrator);
-  else
-    ride_.emplace(ride::Hanging{rig_, hanging_kg_}, rig_.integrator);
+  ride_.emplace(ride::Loaded{rig_, hanging_kg_}, rig_.integrator);
   counter_.emplace(rig_);
 }
 
@@ -113,7 +110,7 @@ void Slave::step(double from_s, double length_s) {
 
 /// Another mass from here on, at the speed that the last one had.
 void Slave::hang(double load_kg) {
-  ride::Rider rider(ride::Hanging{rig_, load_kg});
+  ride::Rider rider(ride::Loaded{rig_, load_kg});
   rider.now = ride_->rider().now;
   ride_.emplace(rider, ride_->save().pace, rig_.integrator);
   hanging_kg_ = load_kg;
@@ -129,7 +126,7 @@ std::string Slave::bytes(const std::string& token) const {
   BytesWriter write;
   write(token);
   members(*this, write);
-  domain::RigFile rig = rig_;
+  plant::Rig rig = rig_;
   for (const std::string& path : paths_) write(*domain::find_number(rig, path).value);
   write(ride_.has_value());
   if (ride_) {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include <plant/instruments.hpp>
-#include <sim/domain/rig_file.hpp>
+#include <plant/rig.hpp>
 #include <sim/fmu/model/variables.hpp>
 #include <sim/ride/ride.hpp>
 
@@ -18,7 +18,7 @@ namespace mckibben::fmu {
 /// `variables_of`.
 class Slave {
  public:
-  explicit Slave(domain::RigFile rig);
+  explicit Slave(plant::Rig rig);
 
   double get(Reference reference);
   /// Parameters until it is under way, inputs at any time: they act from the next step on.
@@ -45,7 +45,7 @@ class Slave {
   void hang(double load_kg);
   void look();
 
-  domain::RigFile rig_;
+  plant::Rig rig_;
   std::vector<std::string> paths_;
   std::vector<plant::Channel> channels_;
   double current_mA_, opposite_current_mA_ = 0.0, length_m_;

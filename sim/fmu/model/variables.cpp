@@ -17,7 +17,7 @@ Variable of_channel(Reference reference, const plant::Channel& channel, Role rol
           .whole = channel.signal->whole};
 }
 
-void add_inputs(std::vector<Variable>& list, const domain::RigFile& rig) {
+void add_inputs(std::vector<Variable>& list, const plant::Rig& rig) {
   for (const plant::Channel& channel : channels_of(rig)) {
     if (channel.signal->kind != plant::Kind::input) continue;
     const bool second = channel.muscle == 2;
@@ -33,7 +33,7 @@ void add_inputs(std::vector<Variable>& list, const domain::RigFile& rig) {
                     false, rig.muscle.rest_length_m, 0.01, 10.0});
 }
 
-void add_outputs(std::vector<Variable>& list, const domain::RigFile& rig, bool true_states) {
+void add_outputs(std::vector<Variable>& list, const plant::Rig& rig, bool true_states) {
   const std::vector<plant::Channel> channels = channels_of(rig);
   for (std::size_t i = 0; i < channels.size(); ++i) {
     const plant::Kind kind = channels[i].signal->kind;
@@ -44,14 +44,14 @@ void add_outputs(std::vector<Variable>& list, const domain::RigFile& rig, bool t
 
 }  // namespace
 
-std::vector<plant::Channel> channels_of(const domain::RigFile& rig) {
+std::vector<plant::Channel> channels_of(const plant::Rig& rig) {
   plant::Rig seen = rig;
   if (rig.holds_a_length() && seen.sensors.of(plant::Sensed::force) == nullptr)  // a bench has one
     seen.sensors.put({.signal = plant::Sensed::force, .kind = plant::SensorKind::load_cell});
   return plant::channels_of(seen, {.pair = rig.pair() != nullptr, .length = rig.holds_a_length()});
 }
 
-std::vector<std::string> parameter_paths(const domain::RigFile& rig) {
+std::vector<std::string> parameter_paths(const plant::Rig& rig) {
   return domain::paths_with_mechanics(rig);
 }
 
@@ -71,11 +71,11 @@ std::string structured(const std::string& path) {
 
 }  // namespace
 
-std::vector<Variable> variables_of(const domain::RigFile& rig, bool true_states) {
+std::vector<Variable> variables_of(const plant::Rig& rig, bool true_states) {
   std::vector<Variable> list{{time_of_ride, "time", Role::time, "s", "time"}};
   add_inputs(list, rig);
   add_outputs(list, rig, true_states);
-  domain::RigFile copy = rig;
+  plant::Rig copy = rig;
   Reference reference = first_parameter;
   for (const std::string& path : parameter_paths(rig)) {
     const domain::RigNumber number = domain::find_number(copy, path);

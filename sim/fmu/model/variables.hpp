@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include <plant/rig.hpp>
 #include <plant/signals.hpp>
-#include <sim/domain/rig_file.hpp>
 
 namespace mckibben::fmu {
 
@@ -37,13 +37,13 @@ struct Variable {
 };
 
 /// `true_states`: whether outputs show what no instrument does, too.
-std::vector<Variable> variables_of(const domain::RigFile& rig, bool true_states);
+std::vector<Variable> variables_of(const plant::Rig& rig, bool true_states);
 
 /// What outputs show, and more.
-std::vector<plant::Channel> channels_of(const domain::RigFile& rig);
+std::vector<plant::Channel> channels_of(const plant::Rig& rig);
 
 /// The paths of what are parameters, in the order of their references.
-std::vector<std::string> parameter_paths(const domain::RigFile& rig);
+std::vector<std::string> parameter_paths(const plant::Rig& rig);
 
 /// Mass that hangs unless the importer says otherwise.
 inline constexpr double usual_load_kg = 10.0;
