@@ -225,7 +225,7 @@ TEST(NightlyDiagnose, NamesTheOffsetOfAGauge) {
 }
 
 // A gauge that hangs on another muscle, after a narrow hose: no error of its own explains that.
-TEST(Diagnose, IgnoresAGaugeThatContradictsTheMotion) {
+TEST(NightlyDiagnose, IgnoresAGaugeThatContradictsTheMotion) {
   plant::Rig truth;
   truth.sensors.put(plant::gauge());
   auto data = small(truth, 2.4);
