@@ -48,7 +48,7 @@ struct Looked {
 /// Reads a data set and looks at what it says; adds warnings. Throws what is wrong with it.
 Looked read_measured(const std::filesystem::path& path, std::vector<Problem>& warnings) {
   const domain::Dataset data = input::read_dataset(path);
-  if (std::string why = input::why_not_judged(data); !why.empty())
+  if (std::string why = input::why_unfit(domain::Purpose::judging, data); !why.empty())
     return {fmt::format("{} runs read; none simulated", data.runs.size()), {"cannot take it yet: " + why}};
   run::Look look = run::look(data);
   Looked looked{fmt::format("{} of {} runs simulated: stroke, sign, units, order of loads", look.runs,

@@ -68,7 +68,7 @@ class Readings {
     const auto* const shown = data_.runs[i].beside(which);
     if (shown == nullptr) return;
     const Series& model = expected_[i].beside(which);
-    const std::string name = std::string(told(which, pair_).first) + "_bar";
+    const std::string name = told(which, pair_).first + "_bar";
     const bool constant = range(*shown) == 0.0;
     const bool should_move = range(model) > of_readings.gauge_bar * plant::Pa_per_bar;
     if (!constant && (!should_move || Line(*shown, model).slope > of_readings.gauge_slope)) {
@@ -206,9 +206,8 @@ class Readings {
   }
 
   static bool same_inputs(const domain::Measurement& one, const domain::Measurement& other) {
-    return std::ranges::equal(one.sides, other.sides, [](const auto& a, const auto& b) {
-      return a.current_mA == b.current_mA && a.muscle_pressure_Pa == b.muscle_pressure_Pa;
-    });
+    return std::ranges::equal(one.columns, other.columns, {}, &domain::MeasuredColumn::values,
+                              &domain::MeasuredColumn::values);
   }
 
   // The same file twice says nothing new, and would stand on both sides of the split.
@@ -216,8 +215,7 @@ class Readings {
     for (std::size_t i = 0; i < data_.runs.size(); ++i) {
       const auto same = [&](const domain::Run& run) {
         return run.judged() == data_.runs[i].judged() && run.current_mA == data_.runs[i].current_mA &&
-               (!bench_ || run.measured->contraction_ratio == data_.runs[i].measured->contraction_ratio) &&
-               (!pair_ || same_inputs(*run.measured, *data_.runs[i].measured));
+               ((!bench_ && !pair_) || same_inputs(*run.measured, *data_.runs[i].measured));
       };
       const auto last = data_.runs.begin() + static_cast<std::ptrdiff_t>(i);
       const auto first = std::find_if(data_.runs.begin(), last, same);

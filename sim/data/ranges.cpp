@@ -48,25 +48,32 @@ double even_step_s(const Series& time_s) {
 class Ranges {
  public:
   Ranges(std::span<const ReadColumn> columns, const ColumnMap& map, const plant::Rig& rig)
-      : columns_(columns), commands_(!map.command.absent()), map_(with_our_names(map)), rig_(rig) {}
+      : columns_(columns),
+        commands_(!map[domain::command_key].absent()),
+        map_(with_our_names(map)),
+        rig_(rig) {}
 
   std::vector<WrongNumber> operator()() {
     for (at_ = 0; at_ < columns_.size(); ++at_) {
-      const auto quantity =
-          std::ranges::find(domain::quantities, columns_[at_].name, &domain::Quantity::column);
-      if (quantity == domain::quantities.end()) continue;
-      const std::string key(quantity->key == "current" && commands_ ? "command" : quantity->key);
-      const ColumnPlace& place = key == "command" ? map_.command : map_.*quantity->place;
-      if (quantity->unit == "mA")
-        command(key, place);
+      const auto found =
+          std::ranges::find(domain::quantities(), columns_[at_].name, &domain::Quantity::column);
+      if (found == domain::quantities().end()) continue;
+      const domain::Quantity& quantity =
+          found->is_old_current && commands_ ? domain::quantity_of(domain::command_key) : *found;
+      const std::string& key = quantity.key;
+      const ColumnPlace& place = map_[quantity];
+      if (quantity.is_command())
+        command(quantity, place);
       else if (key == "contraction")
         contraction(place);
-      else if (quantity->unit == "bar")
-        pressure(key, place);
+      else if (quantity.unit() == plant::units::bar.name)
+        pressure(quantity, place);
       else if (key == "angle")
         look(-largest_angle_rad, largest_angle_rad, "what a joint can turn", other(key, place));
-      else if (key == "force")
+      else if (quantity.unit() == plant::units::N.name)
         look(-largest_force_N, largest_force_N, "what a cord can bear", other(key, place));
+      else if (quantity.unit() == plant::units::N_m.name)
+        look(-largest_force_N, largest_force_N, "what a joint can bear", other(key, place));
     }
     return std::move(found_);
   }
@@ -83,10 +90,11 @@ class Ranges {
   }
 
   // Commands in volts or bar no DAC of ours made: a whole range outside they are of another valve.
-  void command(const std::string& key, const ColumnPlace& place) {
+  void command(const domain::Quantity& quantity, const ColumnPlace& place) {
+    const std::string& key = quantity.key;
     if (!columns_[at_].own_command)
       return look(0.0, rig_.dac.largest_current_mA + slack_mA, "range of the rig's DAC", other(key, place));
-    const plant::Valve& valve = key == "command_2" ? rig_.pair()->opposite.valve : rig_.valve;
+    const plant::Valve& valve = quantity.channel.muscle == 2 ? rig_.pair()->opposite.valve : rig_.valve;
     const double zero = valve.zero_command.value, span = valve.span_command.value;
     Series commands = values();
     for (double& value : commands)
@@ -109,9 +117,9 @@ class Ranges {
     };
     if (current != nullptr && within(*current, lowest_ratio, highest_ratio) &&
         within(values(), 0.0, rig_.dac.largest_current_mA)) {
-      exchanged_with("current", map_.current);
+      exchanged_with("current", map_["current"]);
     } else if (pressure != nullptr && within(*pressure, lowest_ratio, highest_ratio)) {
-      exchanged_with("muscle_pressure", map_.muscle_pressure);
+      exchanged_with("muscle_pressure", map_["muscle_pressure"]);
     } else if (within(values(), -infinite, hardly_contracts)) {
       meant.factor = -meant.factor;
       hint =
@@ -143,13 +151,14 @@ class Ranges {
                          write_number(value))});
   }
 
-  void pressure(const std::string& key, ColumnPlace meant) {
+  void pressure(const domain::Quantity& quantity, ColumnPlace meant) {
     const bool given = meant.as == domain::Role::input;
+    const char* can = quantity.channel.signal->key == "muscle_pressure" ? "what a muscle can be given"
+                                                                        : "what a valve can give";
     if (meant.unit == "bar") meant.unit = "kPa";
-    look(given ? lowest_given_bar : lowest_read_bar, highest_bar,
-         given ? "what a muscle can be given" : "what a gauge can show",
+    look(given ? lowest_given_bar : lowest_read_bar, highest_bar, given ? can : "what a gauge can show",
          fmt::format("is it in another unit (kPa, mbar, Pa, psi)? Then write so, as in columns: {{{}}}",
-                     line_of(key, meant)));
+                     line_of(quantity.key, meant)));
   }
 
   void look(double lowest, double highest, std::string_view meaning, const std::string& hint) {
@@ -188,9 +197,9 @@ class Ranges {
 }  // namespace
 
 ColumnMap with_our_names(ColumnMap map) {
-  for (const domain::Quantity& quantity : domain::quantities)
-    if (ColumnPlace& place = map.*quantity.place; place.absent())
-      place = {std::string(quantity.column), std::string(quantity.unit)};
+  for (const domain::Quantity& quantity : domain::quantities())
+    if (ColumnPlace& place = map[quantity]; place.absent())
+      place = {quantity.column, std::string(quantity.unit())};
   return map;
 }
 
@@ -202,7 +211,7 @@ std::vector<WrongNumber> check_ranges(std::span<const ReadColumn> columns, const
 std::optional<WrongNumber> check_clock(const Series& time_s, const ColumnMap& map, double tick_s) {
   const double step_s = even_step_s(time_s);
   const bool right = std::abs(step_s / tick_s - 1.0) < 1e-3;
-  ColumnPlace meant = with_our_names(map).time;
+  ColumnPlace meant = with_our_names(map)["time"];
   if (const std::string unit = clock_unit(step_s / tick_s); !unit.empty() && meant.unit == "s") {
     meant = {meant.column, unit, meant.zero, meant.factor};
     return WrongNumber{

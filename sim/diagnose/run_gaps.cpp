@@ -52,10 +52,11 @@ struct Range {
 std::string visited_by_pair(const domain::Dataset& data, const Runs& runs) {
   Range current_mA, pressure_bar, angle_deg;
   for (const std::size_t run : runs) {
-    for (const auto& side : data.runs[run].measured->sides) {
-      for (const double value : side.current_mA) current_mA.see(value);
-      if (side.pressure_is_given)
-        for (const double value : side.muscle_pressure_Pa) pressure_bar.see(value / plant::Pa_per_bar);
+    for (const std::size_t muscle : {1U, 2U}) {
+      const domain::Measurement& measured = *data.runs[run].measured;
+      for (const double value : measured.given("command", muscle)) current_mA.see(value);
+      for (const double value : measured.given("muscle_pressure", muscle))
+        pressure_bar.see(value / plant::Pa_per_bar);
     }
     for (const double value : data.runs[run].angle_rad) angle_deg.see(value / plant::degree_rad);
   }
@@ -74,11 +75,11 @@ std::string visited(const domain::Dataset& data, const Runs& runs) {
   for (const std::size_t run : runs) {
     for (const double value : data.runs[run].current_mA) current_mA.see(value);
     const domain::Run& measured = data.runs[run];
-    for (const double value :
-         measured.length_is_given() ? measured.measured->contraction_ratio : measured.contraction_ratio)
+    for (const double value : measured.length_is_given() ? measured.measured->given("contraction")
+                                                         : measured.contraction_ratio)
       ratio.see(value);
     if (data.pressure_is_given())
-      for (const double value : measured.measured->sides[0].muscle_pressure_Pa)
+      for (const double value : measured.measured->given("muscle_pressure"))
         pressure_bar.see(value / plant::Pa_per_bar);
     load_kg.see(measured.load_kg);
   }

@@ -36,9 +36,8 @@ class Wanted {
         if (wish.quantity->key != "time") add(*wish.quantity, map, wish.drives, !wish.drives);
       return;
     }
-    for (const domain::Quantity& quantity : domain::quantities)
-      if (quantity.key == "current" || quantity.key == "contraction" || quantity.key == "muscle_pressure")
-        add(quantity, map, quantity.key != "muscle_pressure", false);
+    for (const char* key : {"current", "contraction", "muscle_pressure"})
+      add(domain::quantity_of(key), map, key != std::string_view("muscle_pressure"), false);
   }
   const std::vector<WantedColumn>& columns() const { return columns_; }
 
@@ -49,17 +48,17 @@ class Wanted {
       if (format_ == Format::csv || format_ == Format::mat) columns_.push_back({"time_s", "time_s", false});
       return;
     }
-    if (!map.time.absent() || format_ == Format::csv || format_ == Format::mat)
-      add(domain::quantities.front(), map, true, false);
+    if (!map["time"].absent() || format_ == Format::csv || format_ == Format::mat)
+      add(domain::quantity_of("time"), map, true, false);
     else if (format_ == Format::lvm)
       columns_.push_back({"time_s", "", true});
     else
-      missing(domain::quantities.front(), " (or rows_are_ticks: true, if it holds no time)");
+      missing(domain::quantity_of("time"), " (or rows_are_ticks: true, if it holds no time)");
   }
 
   void add(const domain::Quantity& quantity, const ColumnMap& map, bool needed, bool may_miss) {
-    const ColumnPlace& place = map.*quantity.place;
-    const std::string name(quantity.column);
+    const ColumnPlace& place = map[quantity];
+    const std::string& name = quantity.column;
     if (!place.absent()) {
       const bool is_date = quantity.key == "time" && place.unit == date_unit;
       columns_.push_back({name, place.column, true, may_miss, is_date});
@@ -77,7 +76,7 @@ class Wanted {
         file_.source, run_.find("file")->place,
         fmt::format("{} has no headings: columns must say where {} stands, for example {}: {{column: 1, "
                     "unit: {}}}{}",
-                    run_.find("file")->text, quantity.key, quantity.key, quantity.unit, otherwise));
+                    run_.find("file")->text, quantity.key, quantity.key, quantity.unit(), otherwise));
   }
 
   /// Where the map names the column of a quantity.
@@ -140,7 +139,7 @@ void read_table_of(Source source, Format format, const Wanted& wanted, const Col
   check_said_units(table, map, found);
   if (dataset.own_clock && (found.count() > 0 || table.columns.empty())) return;
   convert_columns(table, map, dataset.rig);
-  if (contraction != nullptr) run.ratio_per_unit = ratio_per_unit(map.contraction, dataset.rig);
+  if (contraction != nullptr) run.ratio_per_unit = ratio_per_unit(map["contraction"], dataset.rig);
   if (dataset.own_clock) {
     run.measured = measurement_of(table, map, dataset.rig, dataset.recorded, found);
     run.rest_length_m = dataset.rig.muscle.rest_length_m;
@@ -170,7 +169,6 @@ void read_run_file(const YamlFile& file, const Node& node, const Dataset& datase
     problems.error(file.source, node.find("segment")->place, "segment: only .lvm files have segments");
   const ColumnMap map = merged(dataset.columns, run.columns);
   const std::size_t errors = problems.errors();
-  if (dataset.own_clock) check_roles(file, node, map, dataset.rig, problems);
   const Wanted wanted(file, node, *format, map, dataset, problems);
   if (problems.errors() > errors) return;
   try {

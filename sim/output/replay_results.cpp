@@ -57,7 +57,8 @@ std::string json_of(const domain::Dataset& dataset, const std::vector<run::Repla
       entry["contraction"] = contraction_json(dataset.rig, run.recording);
       entry["slack"] = slack_json(run.recording);
       entry["ledger"] = ledger_json(dataset.rig, run.recording);
-      if (run.recording.driven.length) entry["ledger"]["bench_work_J"] = run.recording.ledger.bench_work_J;
+      if (run.recording.driven.length || run.recording.driven.joint_force)
+        entry["ledger"]["bench_work_J"] = run.recording.ledger.bench_work_J;
       entry["solver"] = solver_json(run.recording.solver);
     }
     document["runs"].push_back(std::move(entry));

@@ -100,7 +100,7 @@ bool is_unit_of(std::string_view key, std::string_view unit) {
   if (key == "time") return unit == input::date_unit || fits("s");
   if (key == "command") return fits("mA") || fits("V") || fits("bar");
   if (key == "contraction") return unit == "1" || unit == "%" || unit == "count" || fits("m") || fits("rad");
-  return fits(quantity_of(key).unit);
+  return fits(domain::quantity_of(key).unit());
 }
 
 /// What a unit alone tells; a voltage may be anything.
@@ -116,14 +116,10 @@ std::string_view key_of_unit(std::string_view unit) {
 
 }  // namespace
 
-const domain::Quantity& quantity_of(std::string_view key) {
-  return *std::find_if(domain::quantities.begin(), domain::quantities.end(),
-                       [&](const domain::Quantity& each) { return each.key == key; });
-}
-
 Heading heading_of(const UnknownColumn& column) {
-  for (const domain::Quantity& each : domain::quantities)
-    if (column.name == each.column) return {&each, std::string(each.unit), true, "it has our own name"};
+  for (const domain::Quantity& each : domain::quantities())
+    if (column.name == each.column && !each.channel.signal->must_be_named)
+      return {&each, std::string(each.unit()), true, "it has our own name"};
   const Split split = split_unit(column.name);
   Heading heading;
   heading.unit = !column.unit.empty() ? column.unit : input::unit_word(split.behind);
@@ -146,7 +142,7 @@ Heading heading_of(const UnknownColumn& column) {
   }
   if (column.is_date) told = "it holds dates";
   if (key.empty()) return {nullptr, heading.unit, false, "neither its words nor its unit tell"};
-  heading.quantity = &quantity_of(key);
+  heading.quantity = &domain::quantity_of(key);
   heading.unit_fits = is_unit_of(key, heading.unit);
   if (is_suffix && !heading.unit_fits) heading.unit.clear();
   heading.reason = std::move(told);

@@ -19,7 +19,4 @@ struct Heading {
 
 Heading heading_of(const UnknownColumn& column);
 
-/// The quantity of that key.
-const domain::Quantity& quantity_of(std::string_view key);
-
 }  // namespace mckibben::recognise

@@ -94,7 +94,9 @@ void add_loads(Contents& contents, const domain::Campaign& campaign, const domai
 Run shown_of_pair(const domain::Run& measured, std::size_t style, const plant::Rig& rig) {
   const plant::Pair& pair = *rig.pair();
   const plant::Plant plant = plant::plant_of(rig);
-  const auto* sides = &measured.measured->sides;
+  const auto current_mA = [&measured](std::size_t muscle) {
+    return &measured.measured->given("command", muscle);
+  };
   const double radius_m = rig.joint.wheel_radius_m;
   const auto contraction = [&measured](double mounted, double per_rad) {
     return [&measured, mounted, per_rad](std::size_t k) { return mounted + per_rad * measured.angle_rad[k]; };
@@ -105,14 +107,14 @@ Run shown_of_pair(const domain::Run& measured, std::size_t style, const plant::R
       {"contraction_ratio_1", contraction(pair.contraction_ratio, radius_m / rig.muscle.rest_length_m)},
       {"contraction_ratio_2",
        contraction(pair.opposite_contraction_ratio, -radius_m / pair.opposite.muscle.rest_length_m)},
-      {"current_1", [sides](std::size_t k) { return (*sides)[0].current_mA[k]; }},
-      {"current_2", [sides](std::size_t k) { return (*sides)[1].current_mA[k]; }},
+      {"current_1", [mA = current_mA(1)](std::size_t k) { return (*mA)[k]; }},
+      {"current_2", [mA = current_mA(2)](std::size_t k) { return (*mA)[k]; }},
       {"reference_pressure_1",
-       [sides, plant](std::size_t k) {
-         return plant.reference_pressure_Pa((*sides)[0].current_mA[k]) / plant::Pa_per_bar;
+       [mA = current_mA(1), plant](std::size_t k) {
+         return plant.reference_pressure_Pa((*mA)[k]) / plant::Pa_per_bar;
        }},
-      {"reference_pressure_2", [sides, plant](std::size_t k) {
-         return plant.opposite()->reference_pressure_Pa((*sides)[1].current_mA[k]) / plant::Pa_per_bar;
+      {"reference_pressure_2", [mA = current_mA(2), plant](std::size_t k) {
+         return plant.opposite()->reference_pressure_Pa((*mA)[k]) / plant::Pa_per_bar;
        }}};
   const auto gauge = [&run](const char* key, const std::optional<std::vector<double>>& read) {
     if (read)

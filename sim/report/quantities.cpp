@@ -44,12 +44,16 @@ Plot pressures_of(const PlotsOf& of) {
   const auto add = [&](std::vector<Line> lines) {
     plot.lines.insert(plot.lines.end(), lines.begin(), lines.end());
   };
-  if (!pair && of.commands)
-    add({{.key = "valve_pressure", .label = "valve"},
-         {.key = "reference_pressure", .label = "asked of the valve"}});
-  std::vector<Line> given = lines_of(pair, "given_muscle_pressure", "measured", false, "measured, muscle");
-  for (Line& line : given) line.given = true;
-  if (pair || of.pressure) add(given);
+  if (of.valve_pressure || (!pair && (of.commands || of.driven.pressure[0] == plant::GivenPressure::valve)))
+    add(lines_of(pair, "valve_pressure", "valve", false, "valve of muscle"));
+  if (!pair && of.commands) add({{.key = "reference_pressure", .label = "asked of the valve"}});
+  const auto measured = [&](const std::string& key, const std::string& label, const std::string& each) {
+    std::vector<Line> lines = lines_of(pair, key, label, false, each);
+    for (Line& line : lines) line.given = true;
+    add(lines);
+  };
+  if (pair || of.pressure) measured("given_muscle_pressure", "measured", "measured, muscle");
+  if (of.valve_pressure) measured("given_valve_pressure", "measured, valve", "measured, valve of muscle");
   return plot;
 }
 
@@ -118,6 +122,14 @@ std::vector<Plot> plots_of(const plant::Rig& rig, const PlotsOf& of) {
   plots.push_back(pressures_of(of));
   if (!pair && of.pressure)
     plots.push_back(error_of("muscle_pressure_error", "Error of the pressure: " + of.off, "muscle_pressure"));
+  if (!pair && of.valve_pressure)
+    plots.push_back(
+        error_of("valve_pressure_error", "Error of the valve's pressure: " + of.off, "valve_pressure"));
+  if (of.driven.joint_force)
+    plots.push_back(pair ? plot_of("joint_torque", "Torque on the joint from outside", "joint_torque",
+                                   {{.key = "joint_torque", .label = "torque"}})
+                         : plot_of("joint_force", "Force on the cord from outside", "joint_force",
+                                   {{.key = "joint_force", .label = "force"}}));
   if (pair) {
     plots.push_back(plot_of("tensions", "Forces of the cords", "force", lines_of(true, "tension", "")));
     plots.push_back(plot_of("stiffness", "Stiffness of the joint", "stiffness",

@@ -12,7 +12,7 @@
 namespace mckibben::tasks {
 
 domain::Dataset ticked(domain::Dataset data, const std::function<void(const std::string&)>& say) {
-  if (!data.own_clock || !input::has_one_load(data) || data.pressure_is_given()) {
+  if (!data.own_clock || !input::why_unfit(domain::Purpose::calibration, data).empty()) {
     input::require_ticks(data, "calibrate");
     return data;
   }

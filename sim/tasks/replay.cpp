@@ -25,7 +25,7 @@ std::vector<std::string> warnings_of(const domain::Dataset& dataset,
   std::vector<data::Finding> findings;
   if (!dataset.own_clock)
     findings = data::examine(dataset, run::expected_of(dataset, runs)).findings;
-  else if (input::why_not_judged(dataset).empty() && !run::interrupted())
+  else if (input::why_unfit(domain::Purpose::judging, dataset).empty() && !run::interrupted())
     findings = run::look(dataset).findings;
   data::raise(dataset, findings);
   std::vector<std::string> warnings;

@@ -123,7 +123,7 @@ class Processor {
   /// Whether the rig has another sensor, or the data set names a unit of contraction that no encoder has.
   bool has_other_sensor() const {
     if (!rig_.sensors.position().counts_pulses()) return true;
-    const domain::ColumnPlace place = domain::merged(dataset_.columns, run_.columns).contraction;
+    const domain::ColumnPlace place = domain::merged(dataset_.columns, run_.columns)["contraction"];
     return !place.absent() && place.unit != "count" && place.unit != "1";
   }
 

@@ -49,8 +49,8 @@ TEST_F(PairDataset, HasTwoCommandsAnAngleAndGaugesAndHidesWhatEitherSideHas) {
   EXPECT_EQ(dataset.runs[2].id, "c02_r1");
   const domain::Measurement& measured = dataset.runs[0].measured.value();
   EXPECT_TRUE(measured.counted);
-  EXPECT_EQ(measured.angle_rad.size(), 100u);
-  EXPECT_EQ(measured.sides[1].muscle_pressure_Pa.size(), 100u);
+  EXPECT_EQ(measured.read("angle").size(), 100u);
+  EXPECT_EQ(measured.read("muscle_pressure", 2).size(), 100u);
   EXPECT_TRUE(dataset.rig.effects.absent());
   EXPECT_TRUE(dataset.rig.pair()->opposite.effects.absent());
   for (const auto& [name, content] : contents(scratch / "out/pair")) {

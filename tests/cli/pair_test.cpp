@@ -2,7 +2,6 @@
 // program (tests/data/reference: fixed steps of 20 us, fourth order, same equations) replayed as
 // measurements; a pair run; what is refused.
 #include <cmath>
-#include <map>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -12,34 +11,14 @@
 #include <sim/input/fields_json.hpp>
 
 #include "program.hpp"
+#include "table_of.hpp"
 
 namespace mckibben::cli {
 namespace {
 
 using input::Json;
-using Table = std::map<std::string, std::vector<double>>;
 
 const std::string reference = MCKIBBEN_TEST_DATA "/reference/";
-
-std::vector<std::string> cells_of(const std::string& line) {
-  std::vector<std::string> cells;
-  std::istringstream stream(line);
-  for (std::string cell; std::getline(stream, cell, ',');) cells.push_back(cell);
-  return cells;
-}
-
-Table table_of(const std::filesystem::path& path) {
-  std::istringstream stream(read_text(path));
-  std::string line;
-  std::getline(stream, line);
-  const std::vector<std::string> head = cells_of(line);
-  Table table;
-  while (std::getline(stream, line)) {
-    const auto cells = cells_of(line);
-    for (std::size_t i = 0; i < head.size(); ++i) table[head[i]].push_back(std::stod(cells.at(i)));
-  }
-  return table;
-}
 
 std::string first_line(const std::filesystem::path& path) {
   const std::string text = read_text(path);

@@ -110,10 +110,9 @@ domain::Dataset driven_by_pressure(std::size_t run, double factor, double offset
     for (std::size_t k = 0; k < each.contraction_ratio.size(); ++k) {
       measured.time_s.push_back(static_cast<double>(k) * data.rig.tick_s);
       const double read_Pa = (*each.muscle_pressure_Pa)[k];
-      measured.sides[0].muscle_pressure_Pa.push_back(off ? factor * read_Pa + offset_Pa : read_Pa);
+      measured.give("muscle_pressure").push_back(off ? factor * read_Pa + offset_Pa : read_Pa);
     }
-    measured.sides[0].pressure_is_given = true;
-    measured.contraction_ratio = std::exchange(each.contraction_ratio, {});
+    measured.take("contraction") = std::exchange(each.contraction_ratio, {});
     each.current_mA.clear();
     each.muscle_pressure_Pa.reset();
   }

@@ -139,7 +139,7 @@ TEST_F(LiveHost, OfTwoMusclesWhatIsRecordedFromRestReplaysToTheCount) {
   ASSERT_EQ(data.runs.size(), 1u);
   const auto replayed = run::replay(data, 1, [](const std::string&, std::size_t, std::size_t) {});
   const auto& samples = replayed.at(0).recording.samples;
-  const auto& read = data.runs[0].measured->angle_rad;
+  const auto& read = data.runs[0].measured->read("angle");
   ASSERT_EQ(samples.size(), read.size());
   const double per_count = plant::count_height_m(rig) / rig.joint.wheel_radius_m;
   for (std::size_t k = 0; k < samples.size(); ++k)

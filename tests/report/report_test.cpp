@@ -282,9 +282,9 @@ std::string replayed_by_stamps(std::size_t runs) {
     measured.load_kg = 5.0;
     domain::Measurement& stamps = measured.measured.emplace();
     stamps.time_s = {0.0, 1.0};
-    stamps.contraction_ratio = {0.1, 0.1};
-    stamps.sides[0].current_mA = {12.0, 12.0};
-    stamps.sides[0].muscle_pressure_Pa = {1e5, 1e5};
+    stamps.take("contraction") = {0.1, 0.1};
+    stamps.give("command") = {12.0, 12.0};
+    stamps.take("muscle_pressure") = {1e5, 1e5};
     data.runs.push_back(measured);
     run::ReplayedRun run{.id = measured.id, .load_kg = 5.0};
     run.gaps = {{"contraction", "1", 0.001 * static_cast<double>(i + 1), 0.02, -0.001, 2},

@@ -71,7 +71,7 @@ domain::Dataset scaled(double factor, std::vector<std::size_t> runs = {0, 1, 2, 
 
 /// As if the contraction had been read from a column in mm.
 void read_from(domain::Dataset& data, domain::ColumnPlace millimetres) {
-  data.columns.contraction = std::move(millimetres);
+  data.columns["contraction"] = std::move(millimetres);
   for (domain::Run& run : data.runs) run.ratio_per_unit = 1e-3 / data.rig.muscle.rest_length_m;
 }
 
