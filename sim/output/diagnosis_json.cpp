@@ -181,18 +181,6 @@ Json where_json(const diagnose::Diagnosis& diagnosis) {
   return list;
 }
 
-std::string unit_of(diagnose::Judged judged) {
-  switch (judged) {
-    case diagnose::Judged::force:
-      return "N";
-    case diagnose::Judged::angle:
-      return "rad";
-    case diagnose::Judged::contraction:
-      break;
-  }
-  return "1";
-}
-
 Json beside_json(const diagnose::Gap& gap) {
   Json list = Json::array();
   for (const auto& one : gap.beside)
@@ -211,7 +199,7 @@ Json gap_json(const diagnose::Diagnosis& diagnosis) {
            {"nominal_rmse", gap.nominal_rmse},     {"recalibrated_rmse", gap.recalibrated_rmse},
            {"corrected_rmse", gap.corrected_rmse}, {"closed", gap.closed},
            {"encoder_jitter", gap.jitter},         {"reading", std::string(plant::name_of(gap.judged))},
-           {"unit", unit_of(gap.judged)}};
+           {"unit", words_of(gap.judged).unit}};
   if (!gap.beside.empty()) all["beside"] = beside_json(gap);
   return all;
 }
