@@ -55,7 +55,7 @@ std::string json_of(const domain::Dataset& dataset, const std::vector<run::Repla
       entry["gaps"] = Json::array();
       for (const run::Gap& gap : run.gaps) entry["gaps"].push_back(gap_json(gap));
       entry["contraction"] = contraction_json(dataset.rig, run.recording);
-      entry["slack"] = slack_json(run.recording);
+      entry["slack"] = run.recording.slack;
       entry["ledger"] = ledger_json(dataset.rig, run.recording);
       if (run.recording.driven.length || run.recording.driven.joint_force)
         entry["ledger"]["bench_work_J"] = run.recording.ledger.bench_work_J;

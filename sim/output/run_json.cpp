@@ -47,7 +47,7 @@ void put_joint(Json& entry, const run::TrackedRun& run) {
   entry["angle_rad"] = span_json(joint.angle_rad);
   entry["tension_1_N"] = span_json(joint.cord_force_N);
   entry["tension_2_N"] = span_json(joint.opposite_cord_force_N);
-  entry["slack"] = slack_json(run.recording);
+  entry["slack"] = run.recording.slack;
   if (!run.followed()) return;
   entry["stiffness_N_m_per_rad"] = {{"asked", or_null(joint.stiffness_asked)},
                                     {"had", joint.stiffness_had},
