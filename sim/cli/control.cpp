@@ -15,7 +15,6 @@
 #include <sim/bench/loop.hpp>
 #include <sim/bench/serial.hpp>
 #include <sim/bench/simulated.hpp>
-#include <sim/cli/exit_status.hpp>
 #include <sim/cli/results.hpp>
 #include <sim/cli/verbs.hpp>
 #include <sim/domain/number.hpp>
@@ -103,12 +102,10 @@ void add_wiring(CLI::App& verb, bench::Wiring& wiring) {
           },
           "Of comedi: subdevice and channel of the current's output (default: the board's first)")
       ->type_name("N[:N]");
-  verb.add_option_function<std::string>(
-          "--full-scale",
-          [&wiring](const std::string& text) { wiring.full_scale_V = positive_quantity(text, "V", 1e3); },
-          "Of comedi: voltage that makes the DAC's largest current, if the output gives volts (default: 10 "
-          "V)")
-      ->type_name("VOLTAGE");
+  add_quantity(
+      verb, "--full-scale", wiring.full_scale_V, "V", 1e3,
+      "Of comedi: voltage that makes the DAC's largest current, if the output gives volts (default: 10 V)",
+      "VOLTAGE");
   verb.add_option("--counter", wiring.counter,
                   "Of comedi: subdevice of the counter (default: the board's first)")
       ->type_name("N");
@@ -244,10 +241,8 @@ void add_control(CLI::App& app, Asked& asked) {
   verb.add_option("--port", options.port, "Serial port or board, such as /dev/ttyACM0 or /dev/comedi0")
       ->type_name("FILE");
   add_wiring(verb, options.wiring);
-  verb.add_option("--most-missed", options.most_missed_ticks,
-                  "Ticks in a row that may be missed before the watchdog vents (default: 3)")
-      ->check(from_to(0, 1000))
-      ->type_name("N");
+  add_number(verb, "--most-missed", options.most_missed_ticks, 0, 1000,
+             "Ticks in a row that may be missed before the watchdog vents (default: 3)");
   verb.add_flag("--dry-run", options.dry_run,
                 "Show what would be sent, at a simulated bench; nothing is opened");
   verb.footer(

@@ -7,17 +7,13 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <sim/cli/exit_status.hpp>
-#include <sim/cli/options.hpp>
 #include <sim/cli/results.hpp>
 #include <sim/cli/verbs.hpp>
 #include <sim/diagnose/diagnose.hpp>
 #include <sim/engine/failure.hpp>
 #include <sim/input/dataset_file.hpp>
 #include <sim/input/rigs.hpp>
-#include <sim/output/diagnosis_json.hpp>
-#include <sim/output/diagnosis_rig.hpp>
-#include <sim/output/diagnosis_table.hpp>
+#include <sim/output/diagnosis_results.hpp>
 #include <sim/output/diagnosis_words.hpp>
 #include <sim/report/report.hpp>
 #include <sim/run/batch.hpp>
@@ -117,11 +113,9 @@ void add_diagnose(CLI::App& app, Asked& asked) {
   verb.add_option("--plan", options.plan,
                   "Write the measurement that would tell more, if one would, as a campaign")
       ->type_name("FILE");
-  verb.add_option_function<std::string>(
-          "--time-limit",
-          [&options](const std::string& text) { options.time_limit_s = positive_quantity(text, "s", 1e6); },
-          "When the search ends with what it has found (default: 5 min); Ctrl-C ends it as well")
-      ->type_name("TIME");
+  add_quantity(verb, "--time-limit", options.time_limit_s, "s", 1e6,
+               "When the search ends with what it has found (default: 5 min); Ctrl-C ends it as well",
+               "TIME");
   verb.footer(
       "Examples:\n"
       "  mckibben diagnose measured/\n"

@@ -6,8 +6,6 @@
 
 #include <fmt/format.h>
 
-#include <sim/cli/exit_status.hpp>
-#include <sim/cli/options.hpp>
 #include <sim/cli/results.hpp>
 #include <sim/cli/run_folders.hpp>
 #include <sim/cli/verbs.hpp>
@@ -163,11 +161,10 @@ void add_diff(CLI::App& app, Asked& asked) {
   add_input(verb, options.right, "right", "Another one, written by the same verb", "FOLDER");
   add_out(verb, options, "nothing is written");
   add_json(verb, options);
-  verb.add_option("--tolerance", options.tolerance,
-                  "Difference of the contraction ratio that is allowed at any tick; more is exit status 1 "
-                  "(default: any)")
-      ->check(from_to(0.0, 1.0))
-      ->type_name("RATIO");
+  add_number(
+      verb, "--tolerance", options.tolerance, 0, 1,
+      "Difference of the contraction ratio that is allowed at any tick; more is exit status 1 (default: any)",
+      "RATIO");
   verb.footer(
       "Examples:\n"
       "  mckibben diff out/five_loads out/mine            what differs?\n"

@@ -8,17 +8,14 @@
 
 #include <fmt/format.h>
 
-#include <sim/cli/exit_status.hpp>
-#include <sim/cli/options.hpp>
 #include <sim/cli/results.hpp>
 #include <sim/cli/verbs.hpp>
 #include <sim/input/calibration_file.hpp>
 #include <sim/input/campaign_file.hpp>
 #include <sim/input/dataset_file.hpp>
-#include <sim/input/field_table.hpp>
+#include <sim/input/field_list.hpp>
 #include <sim/input/finding_places.hpp>
 #include <sim/input/hypothesis_file.hpp>
-#include <sim/input/json_schema.hpp>
 #include <sim/input/rigs.hpp>
 #include <sim/input/scenario_file.hpp>
 #include <sim/input/suggest.hpp>
@@ -26,7 +23,7 @@
 #include <sim/input/utf8.hpp>
 #include <sim/input/yaml_file.hpp>
 #include <sim/input/yaml_writer.hpp>
-#include <sim/output/csv.hpp>
+#include <sim/output/run_files.hpp>
 #include <sim/run/look.hpp>
 
 namespace mckibben::cli {

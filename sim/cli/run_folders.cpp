@@ -12,9 +12,9 @@
 
 #include <sim/cli/run_folders.hpp>
 #include <sim/domain/number.hpp>
-#include <sim/input/csv.hpp>
 #include <sim/input/json_file.hpp>
 #include <sim/input/limits.hpp>
+#include <sim/input/readers.hpp>
 #include <sim/input/source.hpp>
 #include <sim/input/utf8.hpp>
 

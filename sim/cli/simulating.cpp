@@ -8,8 +8,6 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <sim/cli/exit_status.hpp>
-#include <sim/cli/options.hpp>
 #include <sim/cli/results.hpp>
 #include <sim/cli/verbs.hpp>
 #include <sim/cluster/share.hpp>
@@ -18,13 +16,10 @@
 #include <sim/input/dataset_file.hpp>
 #include <sim/input/rigs.hpp>
 #include <sim/input/scenario_file.hpp>
-#include <sim/output/csv.hpp>
 #include <sim/output/diagnosis_words.hpp>
-#include <sim/output/plot.hpp>
 #include <sim/output/replay_results.hpp>
 #include <sim/output/run_files.hpp>
-#include <sim/output/run_json.hpp>
-#include <sim/output/table.hpp>
+#include <sim/output/run_results.hpp>
 #include <sim/report/report.hpp>
 #include <sim/run/batch.hpp>
 #include <sim/run/compare.hpp>

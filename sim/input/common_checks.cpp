@@ -6,11 +6,11 @@
 
 #include <plant/geometry.hpp>
 #include <sim/input/common_checks.hpp>
-#include <sim/input/csv.hpp>
 #include <sim/input/current_checks.hpp>
 #include <sim/input/file_names.hpp>
 #include <sim/input/limits.hpp>
 #include <sim/input/quantity.hpp>
+#include <sim/input/readers.hpp>
 
 namespace mckibben::input {
 

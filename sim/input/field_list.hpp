@@ -189,4 +189,13 @@ std::vector<FieldInfo> list_fields(const T& defaults) {
   return list;
 }
 
+/// For the documentation: a section titled `title` with the table of `fields`, then the sections of the
+/// structs inside, each titled by its path of keys. A table that has been there before is referred to, and so
+/// is that of a rig.
+std::string field_table(const std::string& title, const std::vector<FieldInfo>& fields);
+
+/// JSON Schema (draft 2020-12), for editors that complete and check while one types: of a file whose first
+/// line is `schema: NAME` and whose other keys are `fields`.
+Json json_schema(std::string_view schema, std::string_view title, const std::vector<FieldInfo>& fields);
+
 }  // namespace mckibben::input

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <sim/input/field_table.hpp>
+#include <sim/input/field_list.hpp>
 
 namespace mckibben::input {
 namespace {

@@ -7,7 +7,6 @@
 #include <sim/input/fields_json.hpp>
 #include <sim/input/hypothesis_file.hpp>
 #include <sim/input/hypothesis_keys.hpp>
-#include <sim/input/law_reader.hpp>
 #include <sim/input/yaml_reader.hpp>
 #include <sim/input/yaml_writer.hpp>
 

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include <sim/input/json_schema.hpp>
+#include <sim/input/field_list.hpp>
 
 namespace mckibben::input {
 namespace {

@@ -8,15 +8,11 @@
 
 #include <fmt/format.h>
 
-#include <sim/input/ascii.hpp>
 #include <sim/input/column_hints.hpp>
 #include <sim/input/column_units.hpp>
-#include <sim/input/csv.hpp>
 #include <sim/input/dates.hpp>
-#include <sim/input/format.hpp>
 #include <sim/input/limits.hpp>
-#include <sim/input/lvm.hpp>
-#include <sim/input/mat.hpp>
+#include <sim/input/readers.hpp>
 #include <sim/input/run_file.hpp>
 #include <sim/input/stamped_run.hpp>
 #include <sim/input/suggest.hpp>

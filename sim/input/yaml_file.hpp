@@ -43,4 +43,7 @@ struct YamlFile {
 YamlFile load_yaml(const std::filesystem::path& path);
 YamlFile parse_yaml(Source source);
 
+/// Where byte `offset` of a scalar's text stands in its file, whatever lines the scalar is written in.
+Place place_in(const Source& source, const Node& scalar, std::size_t offset);
+
 }  // namespace mckibben::input

@@ -11,7 +11,6 @@
 #include <sim/report/files.hpp>
 #include <sim/report/in_script.hpp>
 #include <sim/report/length.hpp>
-#include <sim/report/rig_json.hpp>
 
 namespace mckibben::live {
 namespace {

@@ -10,7 +10,7 @@
 #include <sim/input/yaml_writer.hpp>
 #include <sim/live/recording.hpp>
 #include <sim/output/campaign_json.hpp>
-#include <sim/output/csv.hpp>
+#include <sim/output/run_files.hpp>
 
 namespace mckibben::live {
 namespace {

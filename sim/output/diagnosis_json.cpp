@@ -9,7 +9,7 @@
 #include <sim/diagnose/record.hpp>
 #include <sim/input/field_kinds.hpp>
 #include <sim/input/rigs.hpp>
-#include <sim/output/diagnosis_json.hpp>
+#include <sim/output/diagnosis_results.hpp>
 #include <sim/output/diagnosis_words.hpp>
 #include <sim/output/json_parts.hpp>
 

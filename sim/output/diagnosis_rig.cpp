@@ -12,7 +12,7 @@
 #include <sim/input/number.hpp>
 #include <sim/input/rigs.hpp>
 #include <sim/input/yaml_writer.hpp>
-#include <sim/output/diagnosis_rig.hpp>
+#include <sim/output/diagnosis_results.hpp>
 #include <sim/output/diagnosis_words.hpp>
 
 namespace mckibben::output {

@@ -6,7 +6,7 @@
 
 #include <sim/diagnose/thresholds.hpp>
 #include <sim/input/field_kinds.hpp>
-#include <sim/output/diagnosis_table.hpp>
+#include <sim/output/diagnosis_results.hpp>
 #include <sim/output/diagnosis_words.hpp>
 #include <sim/output/grid.hpp>
 

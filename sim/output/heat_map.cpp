@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include <sim/output/axes.hpp>
-#include <sim/output/heat_map.hpp>
+#include <sim/output/error_map.hpp>
 #include <sim/output/svg.hpp>
 
 namespace mckibben::output {

@@ -7,7 +7,7 @@
 #include <sim/output/grid.hpp>
 #include <sim/output/json_parts.hpp>
 #include <sim/output/replay_results.hpp>
-#include <sim/output/table.hpp>
+#include <sim/output/run_results.hpp>
 #include <sim/run/batch.hpp>
 
 namespace mckibben::output {

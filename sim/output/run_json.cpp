@@ -6,7 +6,7 @@
 #include <sim/input/rigs.hpp>
 #include <sim/input/scenario_file.hpp>
 #include <sim/output/json_parts.hpp>
-#include <sim/output/run_json.hpp>
+#include <sim/output/run_results.hpp>
 #include <sim/run/batch.hpp>
 #include <sim/run/remarks.hpp>
 

@@ -9,7 +9,7 @@
 #include <sim/domain/number.hpp>
 #include <sim/output/diagnosis_words.hpp>
 #include <sim/output/grid.hpp>
-#include <sim/output/table.hpp>
+#include <sim/output/run_results.hpp>
 #include <sim/run/remarks.hpp>
 
 namespace mckibben::output {

@@ -8,9 +8,7 @@
 #include <sim/input/calibration_file.hpp>
 #include <sim/input/field_kinds.hpp>
 #include <sim/output/calibration_report.hpp>
-#include <sim/output/diagnosis_json.hpp>
-#include <sim/output/diagnosis_rig.hpp>
-#include <sim/output/diagnosis_table.hpp>
+#include <sim/output/diagnosis_results.hpp>
 #include <sim/python/inputs.hpp>
 #include <sim/python/long_work.hpp>
 #include <sim/report/report.hpp>

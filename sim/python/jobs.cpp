@@ -5,8 +5,7 @@
 #include <utility>
 
 #include <sim/output/replay_results.hpp>
-#include <sim/output/run_json.hpp>
-#include <sim/output/table.hpp>
+#include <sim/output/run_results.hpp>
 #include <sim/python/inputs.hpp>
 #include <sim/python/jobs.hpp>
 #include <sim/python/long_work.hpp>

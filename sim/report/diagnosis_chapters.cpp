@@ -9,7 +9,6 @@
 #include <sim/input/field_kinds.hpp>
 #include <sim/output/diagnosis_words.hpp>
 #include <sim/output/svg.hpp>
-#include <sim/report/by_load.hpp>
 #include <sim/report/diagnosis_chapters.hpp>
 #include <sim/report/diagnosis_pictures.hpp>
 #include <sim/report/html.hpp>

@@ -14,8 +14,6 @@
 #include <sim/report/length.hpp>
 #include <sim/report/own_commands.hpp>
 #include <sim/report/pack.hpp>
-#include <sim/report/rig_json.hpp>
-#include <sim/report/rig_words.hpp>
 #include <sim/report/still.hpp>
 
 namespace mckibben::report {

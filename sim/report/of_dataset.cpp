@@ -5,13 +5,13 @@
 #include <fmt/format.h>
 
 #include <sim/domain/number.hpp>
+#include <sim/output/run_results.hpp>
 #include <sim/output/svg.hpp>
-#include <sim/output/table.hpp>
-#include <sim/report/by_load.hpp>
 #include <sim/report/html.hpp>
 #include <sim/report/length.hpp>
 #include <sim/report/quantities.hpp>
 #include <sim/report/report.hpp>
+#include <sim/report/tables.hpp>
 
 namespace mckibben::report {
 namespace {

@@ -8,16 +8,16 @@
 
 #include <fmt/format.h>
 
-#include <sim/output/diagnosis_table.hpp>
+#include <sim/output/diagnosis_results.hpp>
 #include <sim/output/diagnosis_words.hpp>
 #include <sim/output/svg.hpp>
-#include <sim/report/by_load.hpp>
 #include <sim/report/diagnosis_chapters.hpp>
 #include <sim/report/html.hpp>
 #include <sim/report/length.hpp>
 #include <sim/report/opening.hpp>
 #include <sim/report/quantities.hpp>
 #include <sim/report/report.hpp>
+#include <sim/report/tables.hpp>
 
 namespace mckibben::report {
 namespace {
@@ -99,10 +99,6 @@ Run shown(const char* name, std::size_t style, const RunGap& gap, const std::vec
            return ((*recorded->muscle_pressure_Pa)[k] - effects.shown_Pa(true_Pa)) / 1e5;
          }});
   return run;
-}
-
-std::string name_of(const RunGap& gap, const std::string& load) {
-  return fmt::format("{}{}{}", gap.id, load, gap.left_out ? ", left out" : gap.held_out ? ", held out" : "");
 }
 
 /// What drove a run of one muscle and was read beside, in the order in which a page lists it.

@@ -7,14 +7,14 @@
 
 #include <sim/domain/number.hpp>
 #include <sim/output/diagnosis_words.hpp>
+#include <sim/output/run_results.hpp>
 #include <sim/output/svg.hpp>
-#include <sim/output/table.hpp>
 #include <sim/report/bands.hpp>
-#include <sim/report/by_load.hpp>
 #include <sim/report/html.hpp>
 #include <sim/report/length.hpp>
 #include <sim/report/quantities.hpp>
 #include <sim/report/report.hpp>
+#include <sim/report/tables.hpp>
 #include <sim/run/remarks.hpp>
 
 namespace mckibben::report {

@@ -9,8 +9,8 @@
 #include <sim/domain/number.hpp>
 #include <sim/output/diagnosis_words.hpp>
 #include <sim/output/svg.hpp>
+#include <sim/report/html.hpp>
 #include <sim/report/length.hpp>
-#include <sim/report/rig_words.hpp>
 
 namespace mckibben::report {
 namespace {

@@ -53,14 +53,13 @@ TEST(Limits, AControllerAtItsLimitIsSaidEverywhere) {
         "valve goes down to 0 mA: lower lowest_current",
         "run higher at 8 kg: it stood at its lowest current, 5 mA, ",
         "run pid at 8 kg: its tuning gained nothing: the cost is "})
-    EXPECT_NE(said.err.find(words), std::string::npos) << words << said.err;
-  EXPECT_NE(said.out.find("at_limit_%"), std::string::npos) << said.out;
-  EXPECT_NE(said.out.find(": the tuning gained nothing\n"), std::string::npos) << said.out;
+    EXPECT_TRUE(holds(said.err, words)) << words << said.err;
+  EXPECT_TRUE(holds(said.out, "at_limit_%", ": the tuning gained nothing\n"));
   const std::string report = read_text(scratch / "out/held/report.html");
-  EXPECT_EQ(report.find("follows the target best"), std::string::npos);
-  EXPECT_NE(report.find("pid errs least: "), std::string::npos);
-  EXPECT_NE(report.find(" pid stood at its lowest current, 4 mA, for 100 % of the time."), std::string::npos);
-  EXPECT_NE(report.find("The tuning of pid gained nothing"), std::string::npos);
+  EXPECT_TRUE(lacks(report, "follows the target best"));
+  EXPECT_TRUE(holds(report,
+                    "pid errs least: ", " pid stood at its lowest current, 4 mA, for 100 % of the time.",
+                    "The tuning of pid gained nothing"));
 }
 
 }  // namespace

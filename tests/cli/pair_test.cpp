@@ -78,7 +78,7 @@ TEST_F(Replayed, PairsGoAsTheReferenceDoes) {
   EXPECT_EQ(gap.at("reading"), "angle");
   EXPECT_EQ(gap.at("unit"), "rad");
   EXPECT_LT(gap.at("largest_error").get<double>(), 2e-5);
-  EXPECT_NE(said.out.find("pair_opposed  angle"), std::string::npos) << said.out;
+  EXPECT_TRUE(holds(said.out, "pair_opposed  angle"));
 
   ASSERT_EQ(replay("{base: thesis_pair, " + tightest, "", runs).status, 0);
   for (const auto& name : names) expect_near(name, name, {{"angle_rad", 1e-7}});
@@ -102,8 +102,7 @@ TEST_F(Replayed, AGivenPressureLiftsTheLoadAsTheReferenceDoes) {
                            reference + "pressure_18.87kg_steps.csv, load: 18.87 kg}\n";
   ASSERT_EQ(replay("thesis", columns, runs).status, 0);
   const std::string head = first_line(scratch / "out/sine.csv");
-  for (const char* none : {"valve", "current", "force_N,enc"})
-    EXPECT_EQ(head.find(none), std::string::npos) << head;
+  for (const char* none : {"valve", "current", "force_N,enc"}) EXPECT_TRUE(lacks(head, none));
   expect_near("sine", "pressure_12.5kg_sine", {{"contraction_ratio", 2e-6}, {"muscle_pressure_bar", 1e-12}});
   expect_near("steps", "pressure_18.87kg_steps", {{"contraction_ratio", 2e-6}});
   ASSERT_EQ(replay("{base: thesis, " + tightest, columns, runs).status, 0);
@@ -202,7 +201,7 @@ TEST_F(Replayed, VoltsAndBarDoWhatTheirCurrentDoes) {
   const std::string currents = replayed("{}", "{column: mA, unit: mA}");
   const std::string volts = "{zero_command: 0 V, span_command: 10 V}";
   EXPECT_EQ(replayed(volts, "{column: V, unit: V}"), currents);
-  EXPECT_NE(read_text(scratch / "out/report.html").find("0 to 10 V (here as 4 to 20 mA)"), std::string::npos);
+  EXPECT_TRUE(holds(read_text(scratch / "out/report.html"), "0 to 10 V (here as 4 to 20 mA)"));
   EXPECT_EQ(document().at("rig").at("valve").at("span_command"), "10 V");
   EXPECT_EQ(replayed(volts, "{column: mA, unit: mA}"), currents);
   EXPECT_EQ(replayed("{zero_command: 0 bar, span_command: 5 bar}", "{column: kPa, unit: kPa}"), currents);
@@ -229,9 +228,9 @@ TEST_F(Replayed, ASlackCordIsSaid) {
   const Said said = replay("thesis", columns, "  - {id: r, file: r.csv}\n");
   ASSERT_EQ(said.status, 0) << said.err;
   const std::string words = "the cord of muscle 1 would have to push, from 0.200 s on in 2 of 4 rows";
-  EXPECT_NE(said.err.find(words), std::string::npos) << said.err;
+  EXPECT_TRUE(holds(said.err, words));
   for (const char* file : {"table.txt", "run.json", "report.html"})
-    EXPECT_NE(read_text(scratch / "out" / file).find(words), std::string::npos) << file;
+    EXPECT_TRUE(holds(read_text(scratch / "out" / file), words)) << file;
   const Json slack = document().at("runs").at(0).at("slack").at(0);
   EXPECT_EQ(slack.at("muscle"), 1);
   EXPECT_LT(slack.at("lowest_N").get<double>(), 0.0);
@@ -241,9 +240,7 @@ TEST_F(Replayed, VerbsThatNeedTicksAndALoadRefuseTheRest) {
   ASSERT_EQ(replay("thesis_pair", "", "  - {id: a, file: " + reference + "pair_steps.csv}\n").status, 0);
   const Said said = mckibben("calibrate dataset.yaml --out other", scratch);
   EXPECT_EQ(said.status, 65);
-  EXPECT_NE(said.err.find("dataset.yaml: error: calibrate cannot take it yet: the rig's two muscles"),
-            std::string::npos)
-      << said.err;
+  EXPECT_TRUE(holds(said.err, "dataset.yaml: error: calibrate cannot take it yet: the rig's two muscles"));
   EXPECT_FALSE(std::filesystem::exists(scratch / "other"));
   EXPECT_EQ(mckibben("replay dataset.yaml --rig thesis", scratch).status, 65);
   EXPECT_EQ(mckibben("map '" MCKIBBEN_TEST_DATA "/calibration.yaml' --rig thesis_pair", scratch).status, 65);
@@ -261,9 +258,7 @@ TEST_F(Replayed, BothMusclesAreDrivenAlikeToBeDiagnosed) {
   ASSERT_EQ(replay("thesis_pair", columns, "  - {id: a, file: " + reference + "pair_steps.csv}\n").status, 0);
   const Said said = mckibben("diagnose dataset.yaml --out other", scratch);
   EXPECT_EQ(said.status, 65);
-  EXPECT_NE(said.err.find("in run a the pressure of one muscle is given, and that of the other is not"),
-            std::string::npos)
-      << said.err;
+  EXPECT_TRUE(holds(said.err, "in run a the pressure of one muscle is given, and that of the other is not"));
 }
 
 TEST(Pair, IsDiagnosedByItsAngleAndItsGauges) {
@@ -282,7 +277,7 @@ TEST(Pair, IsDiagnosedByItsAngleAndItsGauges) {
   write_text(scratch / "dataset.yaml", data);
   const Said said = mckibben("diagnose dataset.yaml --out found --threads 2", scratch);
   ASSERT_EQ(said.status, 0) << said.err;
-  EXPECT_NE(said.out.find("errors are joint angles in deg"), std::string::npos) << said.out;
+  EXPECT_TRUE(holds(said.out, "errors are joint angles in deg"));
   const Json found = Json::parse(read_text(scratch / "found/diagnosis.json"));
   EXPECT_EQ(found.at("verdict"), "nothing_missing") << found.at("because");
   EXPECT_EQ(found.at("gap").at("reading"), "angle");
@@ -290,8 +285,8 @@ TEST(Pair, IsDiagnosedByItsAngleAndItsGauges) {
   const std::string page = read_text(scratch / "found/report.html");
   for (const char* words : {"Joint angle, measured and by each rig", "given_muscle_pressure_2",
                             "pressure of muscle 2", "two muscles turn the joint", "towards muscle 1"})
-    EXPECT_NE(page.find(words), std::string::npos) << words;
-  EXPECT_EQ(page.find("contraction ratio</label>"), std::string::npos);  // no lengths to choose the unit of
+    EXPECT_TRUE(holds(page, words)) << words;
+  EXPECT_TRUE(lacks(page, "contraction ratio</label>"));  // no lengths to choose the unit of
   EXPECT_EQ(mckibben("replay dataset.yaml --rig found/rig.yaml --out again", scratch).status, 0);
 }
 
@@ -311,9 +306,8 @@ TEST(Pair, FollowsItsTargetsUnderControllers) {
   ASSERT_EQ(mckibben("check arm.yaml", scratch).status, 0);
   const Said said = mckibben("run arm.yaml", scratch);
   ASSERT_EQ(said.status, 1) << said.err;
-  EXPECT_NE(said.out.find("sine_0.5kg_pid: rmse ="), std::string::npos) << said.out;
-  EXPECT_NE(said.out.find("under given currents"), std::string::npos) << said.out;
-  EXPECT_NE(said.out.find("  sine   0.5     model_inverse_feedback"), std::string::npos) << said.out;
+  EXPECT_TRUE(holds(said.out, "sine_0.5kg_pid: rmse =", "under given currents",
+                    "  sine   0.5     model_inverse_feedback"));
   const Json document = Json::parse(read_text(scratch / "out/arm/run.json"));
   ASSERT_EQ(document.at("runs").size(), 5u);
   const Json& run = document.at("runs").at(1);
@@ -335,9 +329,8 @@ TEST(Pair, FollowsItsTargetsUnderControllers) {
   for (const char* words :
        {"sine, 0.5 kg in the hand", "given_stiffness", "Joint angle and torque of both muscles",
         "Pressure and contraction of muscle 2", "angle less target"})
-    EXPECT_NE(html.find(words), std::string::npos) << words;
-  EXPECT_NE(read_text(scratch / "out/arm/tracking.svg").find(">sine, 0.5 kg: joint angle [deg]<"),
-            std::string::npos);
+    EXPECT_TRUE(holds(html, words)) << words;
+  EXPECT_TRUE(holds(read_text(scratch / "out/arm/tracking.svg"), ">sine, 0.5 kg: joint angle [deg]<"));
 }
 
 TEST(Pair, RunsUnderTwoCurrents) {
@@ -358,8 +351,7 @@ TEST(Pair, RunsUnderTwoCurrents) {
   EXPECT_LT(is.at("angle_rad").back(), -0.2);
   EXPECT_LT(document.at("runs").at(0).at("ledger").at("unexplained_share").at("energy").get<double>(), 1e-5);
   const std::string html = read_text(scratch / "out/pair/report.html");
-  EXPECT_NE(html.find("PairPicture"), std::string::npos);
-  EXPECT_NE(html.find("Joint angle"), std::string::npos);
+  EXPECT_TRUE(holds(html, "PairPicture", "Joint angle"));
   EXPECT_TRUE(std::filesystem::exists(scratch / "out/pair/triangle.mat"));
   EXPECT_FALSE(std::filesystem::exists(scratch / "out/pair/tracking.svg")) << "nothing is followed";
 

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <string>
 
+#include "says.hpp"
 #include "scratch.hpp"
 
 namespace mckibben::cli {

@@ -9,15 +9,12 @@
 #include <vector>
 
 #include <sim/cli/run_folders.hpp>
-#include <sim/input/ascii.hpp>
 #include <sim/input/calibration_file.hpp>
 #include <sim/input/campaign_file.hpp>
-#include <sim/input/csv.hpp>
 #include <sim/input/dataset_file.hpp>
 #include <sim/input/hypothesis_file.hpp>
-#include <sim/input/lvm.hpp>
-#include <sim/input/mat.hpp>
 #include <sim/input/quantity.hpp>
+#include <sim/input/readers.hpp>
 #include <sim/input/rigs.hpp>
 #include <sim/input/scenario_file.hpp>
 

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "diagnose/planted.hpp"
+#include "says.hpp"
 
 namespace mckibben::diagnose {
 namespace {
@@ -25,8 +26,7 @@ TEST(JointDiagnosis, NamesWhatDampsBothMusclesFromPressuresAndAnAngle) {
   EXPECT_GT(damping.high, 400.0);
   EXPECT_EQ(found.gap.judged, Judged::angle);
   EXPECT_LT(found.gap.corrected_rmse, 1.2 * found.gap.noise_floor);
-  EXPECT_NE(found.because.find("the joint's angle falls from"), std::string::npos) << found.because;
-  EXPECT_NE(found.because.find(" deg"), std::string::npos) << found.because;
+  EXPECT_TRUE(holds(found.because, "the joint's angle falls from", " deg"));
   EXPECT_EQ(found.corrected.pair()->opposite.effects.get<plant::ViscousDamping>().damping_N_s_per_m,
             damping.value);
 }
@@ -51,9 +51,7 @@ double leak_of_one_muscle(bool mirror) {
   if (found.effects.size() != 1u) return 0.0;
   EXPECT_EQ(found.effects[0].who(), EffectName("muscle_leak", mirror ? Side::one : Side::two))
       << found.because;
-  EXPECT_NE(found.because.find(mirror ? "muscle_leak of muscle 1" : "muscle_leak of muscle 2"),
-            std::string::npos)
-      << found.because;
+  EXPECT_TRUE(holds(found.because, mirror ? "muscle_leak of muscle 1" : "muscle_leak of muscle 2"));
   const FittedNumber& leak = found.effects[0].parameters.at(0);
   EXPECT_LT(leak.low, 3e-10);
   EXPECT_GT(leak.high, 3e-10);

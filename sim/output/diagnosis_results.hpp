@@ -1,4 +1,5 @@
-// Files that a diagnosis hands on: the corrected rig, and the measurement that would tell more.
+// A diagnosis as text for a terminal, as JSON, and as files to go on with: the corrected rig, a law, the
+// measurement that would tell more.
 #pragma once
 
 #include <string>
@@ -7,6 +8,14 @@
 #include <sim/domain/dataset.hpp>
 
 namespace mckibben::output {
+
+/// Warnings, verdict, effects with parameters and intervals, what was recalibrated by more than a prior
+/// deviation, the gap, names that cannot be told apart, and what to measure next.
+std::string table_of(const domain::Dataset& data, const diagnose::Diagnosis& diagnosis);
+
+/// The text of diagnosis.json: everything that a diagnosis found but the recordings; SI throughout. Numbers
+/// that are not known (an interval without an end) are null. `data.rig` is the nominal rig.
+std::string json_of(const domain::Dataset& data, const diagnose::Diagnosis& diagnosis);
 
 /// A rig file that reads back to the same numbers. It holds what differs from the shipped rig where the
 /// nominal one (`data.rig`) is that; otherwise every field. Effects that are off are left out. A comment

@@ -1,4 +1,4 @@
-// Results as text for a terminal: the table a user came for.
+// Results of runs and of campaigns: tables for a terminal, JSON, the picture of targets and contractions.
 #pragma once
 
 #include <string>
@@ -23,5 +23,12 @@ std::string contraction_note(const plant::Rig& rig, double reached, const std::s
 
 /// What a campaign gave, load by load; of a pair, current by current.
 std::string table_of(const domain::Campaign& campaign, const std::vector<run::EndedRun>& ended);
+
+/// Resolved input, versions, seed, tolerance, hashes of the input files, results and solver counts. Holds
+/// nothing that differs between two runs of the same input.
+std::string json_of(const domain::Scenario& scenario, const run::Comparison& comparison);
+
+/// One picture: for each load a panel with the target and every controller's contraction.
+std::string tracking_svg(const domain::Scenario& scenario, const run::Comparison& comparison);
 
 }  // namespace mckibben::output
