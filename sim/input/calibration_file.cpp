@@ -44,11 +44,9 @@ void check_range(const YamlFile& file, const controllers::CalibratedRange& range
 controllers::Calibration read_calibration(const std::filesystem::path& path, std::vector<InputFile>& inputs) {
   const YamlFile file = load_yaml(path);
   Problems problems;
-  problems.opened(file.source);
-  problems.adopt(file.found);
   controllers::Calibration calibration;
   constexpr std::string_view also_allowed[] = {"schema"};
-  if (check_schema(file, calibration_schema, problems))
+  if (begin_file(file, calibration_schema, problems))
     read_struct(file.source, file.root, calibration, problems, also_allowed);
   if (problems.errors() == 0) {
     PolynomialCheck contraction(file, "contraction", problems), relaxation(file, "relaxation", problems);
@@ -62,9 +60,7 @@ controllers::Calibration read_calibration(const std::filesystem::path& path, std
 }
 
 std::string calibration_yaml(const controllers::Calibration& calibration) {
-  Json file{{"schema", calibration_schema}};
-  file.update(to_json(calibration));
-  return to_yaml(file);
+  return to_yaml(file_json(calibration_schema, calibration));
 }
 
 }  // namespace mckibben::input

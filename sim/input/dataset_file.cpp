@@ -104,10 +104,8 @@ Dataset read_dataset(Source source) {
   const YamlFile file = parse_yaml(std::move(source));
   dataset.path = file.source.name();
   Problems problems;
-  problems.opened(file.source);
-  problems.adopt(file.found);
   constexpr std::string_view also_allowed[] = {"schema"};
-  if (check_schema(file, dataset_schema, problems))
+  if (begin_file(file, dataset_schema, problems))
     read_struct(file.source, file.root, dataset, problems, also_allowed);
   check_kind(file, dataset, problems);
   if (problems.errors() == 0) {

@@ -171,4 +171,12 @@ Json to_json(const T& value, const SpreadsOf& spreads) {
   }
 }
 
+/// The contents of a file of that schema that holds every field.
+template <class T>
+Json file_json(std::string_view schema, const T& value) {
+  Json file{{"schema", schema}};
+  file.update(to_json(value));
+  return file;
+}
+
 }  // namespace mckibben::input

@@ -14,22 +14,17 @@ namespace mckibben::input {
 namespace {
 
 OwnLaw read_law_file(const YamlFile& file, Problems& problems) {
-  problems.opened(file.source);
-  problems.adopt(file.found);
-  if (!check_schema(file, hypothesis_schema, problems)) return {};
+  if (!begin_file(file, hypothesis_schema, problems)) return {};
   return read_law(file.source, file.root, problems);
 }
 
 /// A law named in another file.
 OwnLaw read_other_file(const Source& source, const Node& node, Problems& problems) {
-  try {
-    return read_law_file(load_yaml((source.folder() / node.text).lexically_normal()), problems);
-  } catch (const MissingInput& missing) {
-    problems.missing_file(source, node.place, missing.what());
-  } catch (const BadInput& bad) {
-    problems.adopt(bad.problems());
-  }
-  return {};
+  OwnLaw law;
+  read_other(source, node, problems, [&] {
+    law = read_law_file(load_yaml((source.folder() / node.text).lexically_normal()), problems);
+  });
+  return law;
 }
 
 }  // namespace

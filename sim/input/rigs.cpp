@@ -40,7 +40,7 @@ void read_changes(const Source& source, const Node& map, Rig& into, Problems& pr
 
 void read_rig_map(const YamlFile& file, Rig& into, Problems& problems, Chain& chain) {
   constexpr std::string_view also_allowed[] = {"schema", "base"};
-  if (check_schema(file, rig_schema, problems))
+  if (begin_file(file, rig_schema, problems))
     read_changes(file.source, file.root, into, problems, chain, also_allowed);
 }
 
@@ -73,16 +73,7 @@ void read_file(const Source& source, const Node& node, const fs::path& path, Rig
     return;
   }
   chain.push_back(real);
-  try {
-    const YamlFile file = load_yaml(path);
-    problems.opened(file.source);
-    problems.adopt(file.found);
-    read_rig_map(file, into, problems, chain);
-  } catch (const MissingInput& missing) {
-    problems.missing_file(source, node.place, missing.what());
-  } catch (const BadInput& bad) {
-    problems.adopt(bad.problems());
-  }
+  read_other(source, node, problems, [&] { read_rig_map(load_yaml(path), into, problems, chain); });
   chain.pop_back();
 }
 
@@ -166,8 +157,6 @@ Rig read_rig(Source source, std::vector<InputFile>& inputs) {
   const YamlFile file = parse_yaml(std::move(source));
   std::error_code ignored;
   Chain chain{fs::weakly_canonical(file.source.name(), ignored)};
-  problems.opened(file.source);
-  problems.adopt(file.found);
   read_rig_map(file, rig, problems, chain);
   problems.raise();
   inputs.insert(inputs.end(), problems.inputs().begin(), problems.inputs().end());
@@ -175,9 +164,7 @@ Rig read_rig(Source source, std::vector<InputFile>& inputs) {
 }
 
 Json rig_json(const Rig& rig) {
-  Json file{{"schema", rig_schema}};
-  file.update(to_json(rig));
-  return file;
+  return file_json(rig_schema, rig);
 }
 
 }  // namespace mckibben::input

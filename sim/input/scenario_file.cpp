@@ -184,11 +184,9 @@ class ScenarioChecker {
   /// Reading a scenario runs nothing of it; what is in the library is seen when it is used.
   void look_for_library(const std::string& library, const Node& node) {
     constexpr std::size_t largest_library_bytes = 256U << 20U;
-    try {
+    read_other(source_, node, problems_, [&] {
       problems_.opened(Source::load((source_.folder() / library).lexically_normal(), largest_library_bytes));
-    } catch (const MissingInput& missing) {
-      problems_.missing_file(source_, node.place, missing.what());
-    }
+    });
   }
 
   void load_believed_rig(const std::string& controller, const Node& node) {
@@ -205,13 +203,8 @@ class ScenarioChecker {
     const auto path = (source_.folder() / file).lexically_normal();
     const auto [entry, is_new] = calibrations_.try_emplace(path.string());
     if (!is_new) return entry->second;
-    try {
-      entry->second = read_calibration(path, scenario_.inputs);
-    } catch (const MissingInput& missing) {
-      problems_.missing_file(source_, node.place, missing.what());
-    } catch (const BadInput& bad) {
-      problems_.adopt(bad.problems());
-    }
+    read_other(source_, node, problems_,
+               [&, &read = entry->second] { read = read_calibration(path, scenario_.inputs); });
     return entry->second;
   }
 
@@ -317,14 +310,12 @@ bool begin_pair(const YamlFile& file, Scenario& scenario, Problems& problems) {
 Scenario read_scenario(Source source, std::vector<Problem>& warnings) {
   const YamlFile file = parse_yaml(std::move(source));
   Problems problems;
-  problems.opened(file.source);
-  problems.adopt(file.found);
   Scenario scenario;
   scenario.name = made_file_safe(fs::path(file.source.name()).stem().string());
   constexpr std::string_view also_allowed[] = {"schema"};
   const Node* schema = file.root.find("schema");
   const bool of_pair = schema != nullptr && schema->text == pair_schema;
-  if (check_schema(file, of_pair ? pair_schema : scenario_schema, problems) &&
+  if (begin_file(file, of_pair ? pair_schema : scenario_schema, problems) &&
       (!of_pair || begin_pair(file, scenario, problems)))
     read_struct(file.source, file.root, scenario, problems, also_allowed);
   if (problems.errors() == 0) ScenarioChecker(file, scenario, problems).check();
@@ -340,9 +331,7 @@ Scenario read_scenario(const std::filesystem::path& path, std::vector<Problem>& 
 }
 
 Json scenario_json(const Scenario& scenario) {
-  Json file{{"schema", scenario_schema}};
-  file.update(to_json(scenario));
-  return file;
+  return file_json(scenario_schema, scenario);
 }
 
 }  // namespace mckibben::input

@@ -218,7 +218,9 @@ std::optional<std::size_t> ValueReader::kind(std::string_view key, const Node& n
   return choice("kind", *given, kinds);
 }
 
-bool check_schema(const YamlFile& file, std::string_view schema, Problems& problems) {
+bool begin_file(const YamlFile& file, std::string_view schema, Problems& problems) {
+  problems.opened(file.source);
+  problems.adopt(file.found);
   const Node* given = file.root.find("schema");
   if (given == nullptr) {
     problems.error(file.source, file.root.place,

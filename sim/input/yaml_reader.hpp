@@ -52,9 +52,21 @@ void read_named(const Source& source, const Node& node, plant::OwnLawsOf<double>
 void read_sensors(const Source& source, const Node& node, plant::Sensors& into, Problems& problems,
                   const SpreadsInto& spreads);
 
-/// Checks the line `schema: NAME/VERSION` of a file.
+/// Notes that a file was opened and what was found in it, and checks its line `schema: NAME/VERSION`.
 /// False if it is another kind of file, not worth reading on.
-bool check_schema(const YamlFile& file, std::string_view schema, Problems& problems);
+bool begin_file(const YamlFile& file, std::string_view schema, Problems& problems);
+
+/// Reads another file, which is named at `node`; what is wrong with it is a problem of this one.
+template <class Read>
+void read_other(const Source& source, const Node& node, Problems& problems, const Read& read) {
+  try {
+    read();
+  } catch (const MissingInput& missing) {
+    problems.missing_file(source, node.place, missing.what());
+  } catch (const BadInput& bad) {
+    problems.adopt(bad.problems());
+  }
+}
 
 /// Reads single values; says what is wrong with them. The same for all structs.
 class ValueReader {

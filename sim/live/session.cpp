@@ -18,11 +18,6 @@ namespace {
 
 constexpr double shortest_period_s = 0.1, longest_period_s = 1000.0;
 
-std::string out_of_range(std::string_view key, double value, double low, double high, std::string_view unit) {
-  if (std::isfinite(value) && value >= low && value <= high) return "";
-  return fmt::format("{} = {:g}: must be from {:g} to {:g} {}", key, value, low, high, unit);
-}
-
 ride::Ride ride_of(const plant::Rig& rig, double load_kg) {
   return {ride::Loaded{rig, load_kg}, rig.integrator};
 }
