@@ -14,7 +14,7 @@
 #include <sim/output/diagnosis_words.hpp>
 #include <sim/report/report.hpp>
 #include <sim/run/batch.hpp>
-#include <sim/tasks/calibrate.hpp>
+#include <sim/tasks/tasks.hpp>
 #include <sim/thesis/calibrate.hpp>
 #include <sim/thesis/figures.hpp>
 

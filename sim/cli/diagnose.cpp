@@ -17,7 +17,7 @@
 #include <sim/output/diagnosis_words.hpp>
 #include <sim/report/report.hpp>
 #include <sim/run/batch.hpp>
-#include <sim/tasks/diagnose.hpp>
+#include <sim/tasks/tasks.hpp>
 
 namespace mckibben::cli {
 namespace {

@@ -11,7 +11,6 @@
 #include <sim/data/columns.hpp>
 #include <sim/data/examine.hpp>
 #include <sim/data/judged.hpp>
-#include <sim/data/loads.hpp>
 #include <sim/data/odd_readings.hpp>
 #include <sim/data/series.hpp>
 #include <sim/data/thresholds.hpp>

@@ -9,7 +9,7 @@
 #include <sim/bench/device.hpp>
 #include <sim/input/fields_json.hpp>
 #include <sim/live/host.hpp>
-#include <sim/live/news.hpp>
+#include <sim/live/page.hpp>
 
 namespace mckibben::live {
 namespace {

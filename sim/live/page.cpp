@@ -5,7 +5,6 @@
 
 #include <sim/input/fields_json.hpp>
 #include <sim/live/files.hpp>
-#include <sim/live/news.hpp>
 #include <sim/live/page.hpp>
 #include <sim/output/svg.hpp>
 #include <sim/report/files.hpp>

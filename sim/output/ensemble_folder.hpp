@@ -14,7 +14,7 @@
 #include <vector>
 
 #include <sim/domain/campaign.hpp>
-#include <sim/formats/netcdf_runs.hpp>
+#include <sim/formats/netcdf.hpp>
 #include <sim/output/folder.hpp>
 #include <sim/run/ensemble.hpp>
 

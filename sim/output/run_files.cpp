@@ -8,7 +8,7 @@
 
 #include <plant/plant.hpp>
 #include <sim/formats/mat_file.hpp>
-#include <sim/formats/netcdf_file.hpp>
+#include <sim/formats/netcdf.hpp>
 #include <sim/input/fields_json.hpp>
 #include <sim/output/run_files.hpp>
 #include <sim/run/simulate.hpp>

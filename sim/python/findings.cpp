@@ -13,8 +13,7 @@
 #include <sim/python/long_work.hpp>
 #include <sim/report/report.hpp>
 #include <sim/run/batch.hpp>
-#include <sim/tasks/calibrate.hpp>
-#include <sim/tasks/diagnose.hpp>
+#include <sim/tasks/tasks.hpp>
 #include <sim/thesis/figures.hpp>
 
 namespace mckibben::python {

@@ -13,7 +13,7 @@
 #include <sim/run/compare.hpp>
 #include <sim/run/replay.hpp>
 #include <sim/run/simulate.hpp>
-#include <sim/tasks/replay.hpp>
+#include <sim/tasks/tasks.hpp>
 
 namespace mckibben::python {
 namespace {

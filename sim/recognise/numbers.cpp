@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <sim/recognise/numbers.hpp>
+#include <sim/recognise/columns.hpp>
 
 namespace mckibben::recognise {
 namespace {

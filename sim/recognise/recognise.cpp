@@ -12,7 +12,7 @@
 #include <sim/input/number.hpp>
 #include <sim/input/quantity.hpp>
 #include <sim/recognise/columns.hpp>
-#include <sim/recognise/names.hpp>
+#include <sim/recognise/headings.hpp>
 
 namespace mckibben::recognise {
 

@@ -9,7 +9,7 @@
 
 #include <sim/run/rounds.hpp>
 #include <sim/run/tune_controller.hpp>
-#include <sim/run/tuning_cost.hpp>
+#include <sim/run/tune_pid.hpp>
 
 namespace mckibben::run {
 
@@ -140,6 +140,28 @@ std::vector<TunedController> tune_controllers(const domain::Scenario& scenario, 
     tuned[i] = tune_one(scenario, briefing, *open[i], rounds, tried);
   });
   return tuned;
+}
+
+namespace {
+
+// What a change of current costs in tuning [contraction ratio for each mA rms and tick, at the thesis's
+// span]: enough to keep gains from chasing single encoder counts,
+// too little to matter for how the target is followed.
+constexpr double effort_weight = 2e-4;
+
+double effort_mA(const Recording& recording) {
+  double sum_squared_mA = 0.0;
+  for (std::size_t k = 1; k < recording.samples.size(); ++k) {
+    const double change_mA = recording.samples[k].current_mA - recording.samples[k - 1].current_mA;
+    sum_squared_mA += change_mA * change_mA;
+  }
+  return std::sqrt(sum_squared_mA / static_cast<double>(recording.samples.size()));
+}
+
+}  // namespace
+
+double tuning_cost(double rmse, const Recording& recording, double span_mA) {
+  return rmse + effort_weight * (thesis_span_mA / span_mA) * effort_mA(recording);
 }
 
 }  // namespace mckibben::run

@@ -2,7 +2,6 @@
 #include <cmath>
 #include <functional>
 
-#include <sim/thesis/joint.hpp>
 #include <sim/thesis/pressure.hpp>
 
 namespace mckibben::thesis {

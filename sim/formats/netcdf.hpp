@@ -1,4 +1,5 @@
-// Many runs in one NetCDF-4 file, written in chunks as they come: the file may be larger than the memory.
+// NetCDF-4 files, written with Unidata's library: a table each; or many runs in one, written in chunks as
+// they come, so that it may be larger than the memory.
 #pragma once
 
 #include <cstddef>
@@ -45,5 +46,10 @@ class NetcdfRuns {
   std::size_t first_ = 0, rows_;
   std::vector<int> of_run_, of_row_;
 };
+
+/// A NetCDF-4 file (CF-1.8) with a variable for each column, all along the first one, each with `units` and
+/// `long_name`; title and attributes are global attributes. The same table gives the same bytes. Safe to call
+/// from several threads. Throws BadFile.
+std::string netcdf_of(const Table& table);
 
 }  // namespace mckibben::formats
