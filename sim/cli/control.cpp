@@ -44,7 +44,8 @@ std::string unfit(const Scenario& scenario) {
   if (scenario.loads_kg.size() != 1) return "loads: one load hangs on a bench; name it alone";
   if (scenario.controllers.size() != 1) return "controllers: one controller drives a bench; name it alone";
   controllers::Settings only = scenario.controllers.front();
-  if (const auto* terms = controllers::feedback_of(only); terms != nullptr && terms->needs_tuning())
+  if (const auto* terms = controllers::part_of<controllers::PidForm>(only);
+      terms != nullptr && terms->needs_tuning())
     return "controllers: its gains are missing; tune them with `run`, and write them down";
   return "";
 }

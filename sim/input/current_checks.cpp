@@ -79,7 +79,7 @@ controllers::CurrentRange working_range(const plant::Rig& rig) {
 void follow_valve(controllers::Settings& settings, const Source& source, const Node& node,
                   const plant::Rig& rig, Problems& problems) {
   controllers::follow(settings, working_range(rig));
-  if (const auto* terms = controllers::output_limits(settings)) {
+  if (const auto* terms = controllers::part_of<controllers::OutputLimits>(settings)) {
     CurrentChecker output(source, node, rig, problems);
     const bool works = output.ends("lowest_current", *terms->lowest_current_mA, "highest_current",
                                    *terms->highest_current_mA);

@@ -168,15 +168,15 @@ class ScenarioChecker {
       check_name_of(name, node, "controller", names);
       if (auto* recorded = std::get_if<controllers::RecordedCurrent>(&scenario_.controllers[i]))
         load_recording(*recorded, source_, *node.find("file"), scenario_.rig, problems_);
-      if (auto* guest = controllers::guest_terms(scenario_.controllers[i]))
+      if (auto* guest = controllers::part_of<controllers::GuestTerms>(scenario_.controllers[i]))
         guest->folder = source_.folder().string();
       if (const auto* plugin = std::get_if<controllers::PluginSettings>(&scenario_.controllers[i]))
         look_for_library(plugin->library, *node.find("library"));
       follow_valve(scenario_.controllers[i], source_, node, scenario_.rig, problems_);
-      if (const auto* terms = controllers::model_terms(scenario_.controllers[i]);
+      if (const auto* terms = controllers::part_of<controllers::PlansWithModel>(scenario_.controllers[i]);
           terms && !terms->rig.empty())
         load_believed_rig(name, *node.find("rig"));
-      if (auto* calibrated = controllers::calibrated(scenario_.controllers[i]))
+      if (auto* calibrated = controllers::part_of<controllers::CalibrationTerms>(scenario_.controllers[i]))
         load_calibration(*calibrated, controllers::weighing_of(scenario_.controllers[i]), node);
     }
   }

@@ -58,7 +58,8 @@ class Comparing {
   void tune_all() {
     std::vector<controllers::Settings*> open;
     for (auto& settings : settings_)
-      if (const auto* terms = controllers::feedback_of(settings); terms && terms->needs_tuning())
+      if (const auto* terms = controllers::part_of<controllers::PidForm>(settings);
+          terms && terms->needs_tuning())
         open.push_back(&settings);
     if (open.empty()) return;
     const std::size_t most = open.size() * static_cast<std::size_t>(TuningOptions{}.evaluations);
@@ -197,7 +198,8 @@ class Comparing {
       run.joint = joint_figures(scenario_.rig, run.recording, wanted);
     if (wanted == nullptr) return;
     const controllers::Settings& settings = settings_of(at);
-    if (controllers::calibrated(settings)) run.unreachable = unreachable_of(run, settings);
+    if (controllers::part_of<controllers::CalibrationTerms>(settings))
+      run.unreachable = unreachable_of(run, settings);
     if (!run.failure.empty()) return;
     run.limits = limits_of(settings, briefing_.knowledge[run.target], scenario_.rig);
     run.metrics = metrics_of(scenario_, *wanted, run.recording, run.limits);

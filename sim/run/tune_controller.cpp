@@ -19,7 +19,7 @@ double lower_median(std::vector<double> values) {
 }
 
 void set_gains(controllers::Settings& settings, const Gains& gains, const plant::Rig& rig) {
-  controllers::PidForm& feedback = *controllers::feedback_of(settings);
+  controllers::PidForm& feedback = *controllers::part_of<controllers::PidForm>(settings);
   feedback.proportional_mA = gains.proportional_mA / per_ratio(rig);
   feedback.integral_time_s = gains.integral_time_s;
   feedback.derivative_time_s = gains.derivative_time_s;
@@ -99,7 +99,7 @@ controllers::Settings loop_alone(const controllers::Settings& settings) {
 TunedController tune_one(const domain::Scenario& scenario, const Briefing& briefing,
                          controllers::Settings& settings, Rounds& rounds,
                          const std::function<void()>& heard) {
-  const controllers::PidForm& pid = *controllers::feedback_of(settings);
+  const controllers::PidForm& pid = *controllers::part_of<controllers::PidForm>(settings);
   TunedController result{.controller = controllers::name_of(settings),
                          .load_kg = pid.tuning_load_kg.value_or(lower_median(scenario.loads_kg))};
   const controllers::Settings loop = loop_alone(settings);
