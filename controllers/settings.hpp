@@ -14,7 +14,6 @@
 #include <controllers/external.hpp>
 #include <controllers/feedforward_pid.hpp>
 #include <controllers/model_inverse.hpp>
-#include <controllers/model_inverse_feedback.hpp>
 #include <controllers/open_loop.hpp>
 #include <controllers/open_loop_limited.hpp>
 #include <controllers/pair_model_inverse.hpp>

@@ -7,7 +7,6 @@
 #include <gtest/gtest.h>
 
 #include <controllers/model_inverse.hpp>
-#include <controllers/model_inverse_feedback.hpp>
 #include <controllers/pid.hpp>
 
 #include "believed.hpp"

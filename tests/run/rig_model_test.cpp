@@ -11,7 +11,6 @@
 #include <gtest/gtest.h>
 
 #include <controllers/model_inverse.hpp>
-#include <controllers/model_inverse_feedback.hpp>
 #include <controllers/waveform.hpp>
 #include <sim/input/scenario_file.hpp>
 #include <sim/run/compare.hpp>
