@@ -2,7 +2,6 @@
 // also when some of them die. The launcher's variables are set here as Slurm sets them; mpirun itself is
 // tried where it is installed.
 #include <cstdlib>
-#include <map>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -32,26 +31,16 @@ constexpr const char* ranks =
     "at_work() { until [ -e $1.ranks/rank-1 ] && ls $1.unfinished/runs/*.json; do sleep 0.01; done > "
     "/dev/null 2>&1; }\n";
 
-/// Every file below a folder with its content.
-std::map<std::string, std::string> files_in(const fs::path& folder) {
-  std::map<std::string, std::string> files;
-  for (const auto& entry : fs::recursive_directory_iterator(folder))
-    if (entry.is_regular_file())
-      files[entry.path().lexically_relative(folder).generic_string()] = read_text(entry.path());
-  return files;
-}
-
-class Cluster : public testing::Test {
+class Cluster : public InAFolder {
  protected:
   Said script(const std::string& words, const std::string& lines) {
     return shell("words='" + words + "'\n" + ranks + lines, scratch);
   }
   void expect_same(const std::string& one, const std::string& other) {
-    EXPECT_EQ(files_in(scratch / one), files_in(scratch / other));
+    EXPECT_EQ(contents(scratch / one), contents(scratch / other));
     EXPECT_FALSE(fs::exists(scratch / (other + ".ranks")));
     EXPECT_FALSE(fs::exists(scratch / (other + ".unfinished")));
   }
-  Scratch scratch;
 };
 
 TEST_F(Cluster, ADataSetIsTheSameFromThreeRanksAndFromOneAlone) {

@@ -16,19 +16,17 @@ namespace {
 namespace fs = std::filesystem;
 using input::Json;
 
-class Diff : public testing::Test {
+class Diff : public InAFolder {
  protected:
   void SetUp() override {
     write_text(scratch / "quick.yaml", quick_scenario);
     ASSERT_EQ(run("run quick.yaml --out a").status, 0);
   }
-  Said run(const std::string& arguments) { return mckibben(arguments, scratch); }
   /// A scenario with something else in one place, simulated into `folder`.
   void run_changed(const std::string& what, const std::string& by, const std::string& folder) {
     write_text(scratch / "quick.yaml", std::regex_replace(quick_scenario, std::regex(what), by));
     ASSERT_EQ(run("run quick.yaml --out " + folder).status, 0);
   }
-  Scratch scratch;
 };
 
 TEST_F(Diff, OfTheSameFindsNothing) {

@@ -25,7 +25,7 @@ constexpr const char* hidden_campaign =
     "  - {duration: 2.4 s, current: {kind: sine_current, low: 4 mA, high: 18 mA, period: 2.4 s}}\n"
     "noise: {encoder_jitter: 1e-5, ripple: 200 Pa}\n";
 
-class EffectsVerb : public testing::Test {
+class EffectsVerb : public InAFolder {
  protected:
   void SetUp() override {
     write_text(scratch / "leaky.yaml",
@@ -37,8 +37,6 @@ class EffectsVerb : public testing::Test {
                "  encoder_backlash: {width: 1 mm}\n");
     write_text(scratch / "hidden.yaml", hidden_campaign);
   }
-  Said run(const std::string& arguments) { return mckibben(arguments, scratch); }
-  Scratch scratch;
 };
 
 TEST_F(EffectsVerb, ListsEveryEffectWithAllThereIsToSay) {

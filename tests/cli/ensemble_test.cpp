@@ -26,14 +26,12 @@ std::string ensemble_of(int repeats, const std::string& vary) {
 constexpr const char* usual_vary =
     "{muscle.rest_radius: normal 7.5 mm ± 1 %, friction.scale: uniform 0.8 .. 1.2}";
 
-class EnsembleOf : public testing::Test {
+class EnsembleOf : public InAFolder {
  protected:
-  Said run(const std::string& arguments) { return mckibben(arguments, scratch); }
   void write(int repeats, const std::string& vary = usual_vary) {
     write_text(scratch / "e.yaml", ensemble_of(repeats, vary));
   }
   std::string netcdf(const std::string& out) { return read_text(scratch / (out + "/ensemble.nc")); }
-  Scratch scratch;
 };
 
 TEST_F(EnsembleOf, WritesOneFileWithDrawsMetricsAndRows) {

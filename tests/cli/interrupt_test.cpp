@@ -17,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 using input::Json;
 
-class Interrupt : public testing::Test {
+class Interrupt : public InAFolder {
  protected:
   /// Runs the verb on a terminal of its own and presses Ctrl-C once what it shows matches `shown`.
   Said stop(const std::string& arguments, const std::string& shown) {
@@ -39,7 +39,6 @@ class Interrupt : public testing::Test {
     return static_cast<std::size_t>(
         std::distance(fs::directory_iterator(scratch / folder), fs::directory_iterator()));
   }
-  Scratch scratch;
 };
 
 constexpr const char* some_done = "[]] [1-9][0-9]*/";

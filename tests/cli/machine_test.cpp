@@ -11,10 +11,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class Machine : public testing::Test {
+class Machine : public WithQuickScenario {
  protected:
-  void SetUp() override { write_text(scratch / "quick.yaml", quick_scenario); }
-  Said run(const std::string& arguments) { return mckibben(arguments, scratch); }
   Said sh(const std::string& script) { return shell(script, scratch); }
   bool is_whole(const std::string& folder) const { return fs::exists(scratch / folder / ".mckibben-files"); }
   /// A measured run as a MAT-file.
@@ -24,7 +22,6 @@ class Machine : public testing::Test {
     write_text(scratch / "dataset.yaml",
                "schema: mckibben-dataset/1\nruns: [{id: r1, file: r1.mat, load: 11.138 kg}]\n");
   }
-  Scratch scratch;
 };
 using Memory = Machine;
 

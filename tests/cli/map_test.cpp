@@ -15,7 +15,7 @@
 namespace mckibben::cli {
 namespace {
 
-class Map : public testing::Test {
+class Map : public InAFolder {
  protected:
   void SetUp() override {
     write_text(scratch / "small.yaml", campaign_of_sines());
@@ -25,7 +25,6 @@ class Map : public testing::Test {
   Said run(const std::string& arguments) {
     return mckibben("map cal/calibration.yaml " + arguments, scratch);
   }
-  Scratch scratch;
 };
 
 TEST_F(Map, CoversTargetsAndDrawsThem) {

@@ -30,12 +30,7 @@ class Holder {
   int file_;
 };
 
-class Out : public testing::Test {
- protected:
-  void SetUp() override { write_text(scratch / "quick.yaml", quick_scenario); }
-  Said run(const std::string& arguments) { return mckibben(arguments, scratch); }
-  Scratch scratch;
-};
+using Out = WithQuickScenario;
 
 TEST_F(Out, WhatIsReadIsNeverReplaced) {
   fs::create_directories(scratch / "f");

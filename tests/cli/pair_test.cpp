@@ -30,7 +30,7 @@ struct Columns {
   double most;
 };
 
-class Replayed : public testing::Test {
+class Replayed : public InAFolder {
  protected:
   /// Replays runs that lie beside each other with a rig; returns the status.
   Said replay(const std::string& rig, const std::string& columns, const std::string& runs) {
@@ -51,8 +51,6 @@ class Replayed : public testing::Test {
       }
   }
   Json document() { return Json::parse(read_text(scratch / "out/run.json")); }
-
-  Scratch scratch;
 };
 
 const std::string tightest = "integrator: {tolerance: 1e-12}}";

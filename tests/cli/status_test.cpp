@@ -13,12 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class Program : public testing::Test {
- protected:
-  void SetUp() override { write_text(scratch / "quick.yaml", quick_scenario); }
-  Said run(const std::string& arguments) { return mckibben(arguments, scratch); }
-  Scratch scratch;
-};
+using Program = WithQuickScenario;
 
 TEST_F(Program, TellsItsVersion) {
   const std::string said = run("--version").out;

@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <sim/input/campaign_file.hpp>
+#include <sim/input/field_list.hpp>
 #include <sim/input/fields_json.hpp>
-#include <sim/input/json_schema.hpp>
 #include <sim/input/yaml_writer.hpp>
 
 namespace mckibben::input {

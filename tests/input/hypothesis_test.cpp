@@ -3,9 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <sim/domain/rig_number.hpp>
+#include <sim/input/field_list.hpp>
 #include <sim/input/fields_json.hpp>
 #include <sim/input/hypothesis_file.hpp>
-#include <sim/input/json_schema.hpp>
 
 #include "rig_text.hpp"
 #include "scratch.hpp"
