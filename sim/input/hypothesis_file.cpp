@@ -76,12 +76,6 @@ Json hypothesis_json(const OwnLaw& law) {
   return json;
 }
 
-std::string hypothesis_yaml(const OwnLaw& law) {
-  Json file{{"schema", hypothesis_schema}};
-  file.update(hypothesis_json(law));
-  return to_yaml(file);
-}
-
 std::vector<FieldInfo> hypothesis_fields() {
   std::vector<FieldInfo> fields = list_fields<WrittenLaw>();
   FieldInfo memories;

@@ -25,9 +25,6 @@ OwnLaw read_hypothesis(const std::string& path, std::vector<InputFile>& inputs);
 /// Reads a list of laws: paths relative to the folder of `source`, or what would stand in such files.
 void read_named(const Source& source, const Node& node, OwnLaws& into, Problems& problems);
 
-/// A hypothesis as YAML, with its schema.
-std::string hypothesis_yaml(const OwnLaw& law);
-
 /// The keys of such a file.
 std::vector<FieldInfo> hypothesis_fields();
 

@@ -25,7 +25,7 @@ constexpr std::size_t most_failures_told = 20;
 
 /// Everything that the bytes depend on.
 Json plan_of(const domain::Campaign& campaign, const run::EnsembleShape& shape, run::Keep keep) {
-  return {{"schema", "mckibben-ensemble-plan/1"},
+  return {{"schema", "mckibben-ensemble-plan/2"},
           {"program", {{"mckibben", program_name()}, {"sundials", engine::sundials_version()}}},
           {"campaign_sha256", digest_of(campaign)},
           {"keep", keep == run::Keep::rows ? "rows" : "summary"},

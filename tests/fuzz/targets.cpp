@@ -12,6 +12,7 @@
 #include <sim/input/calibration_file.hpp>
 #include <sim/input/campaign_file.hpp>
 #include <sim/input/dataset_file.hpp>
+#include <sim/input/fields_json.hpp>
 #include <sim/input/hypothesis_file.hpp>
 #include <sim/input/quantity.hpp>
 #include <sim/input/readers.hpp>
@@ -91,7 +92,10 @@ void calibration(const std::string& bytes) {
 void hypothesis(const std::string& bytes) {
   reads_back(bytes, [](const std::string& text) {
     std::vector<domain::InputFile> inputs;
-    return input::hypothesis_yaml(input::read_hypothesis(folder().write("law.yaml", text).string(), inputs));
+    auto law =
+        input::hypothesis_json(input::read_hypothesis(folder().write("law.yaml", text).string(), inputs));
+    law["schema"] = input::hypothesis_schema;
+    return law.dump();
   });
 }
 
