@@ -228,91 +228,74 @@ TEST(ByLoad, NamesTheWorstRunOfEachLoadAndLeadsToIt) {
   EXPECT_NE(html.find("<a href='#group-0' data-group='0'>b</a>", heavy), std::string::npos);
 }
 
-/// A replay of so many runs, each worse than the one before.
-std::string replayed(std::size_t runs) {
+/// A replay of so many runs, each worse than the one before: in ticks, or by stamps on a muscle of 180 mm
+/// under a regulator that takes volts.
+std::string replayed(std::size_t runs, bool by_stamps = false) {
   domain::Dataset data;
   data.path = "measured/dataset.yaml";
+  if (by_stamps) {
+    data.rig.muscle.rest_length_m = 0.18;
+    data.rig.valve.zero_command = {0.0, plant::RatedCommand::Unit::V};
+    data.rig.valve.span_command = {10.0, plant::RatedCommand::Unit::V};
+  }
   std::vector<run::ReplayedRun> all;
   for (std::size_t i = 0; i < runs; ++i) {
     domain::Run measured;
     measured.id = fmt::format("r{}", i);
     measured.load_kg = 5.0;
-    measured.contraction_ratio = measured.current_mA = {0.1, 0.1};
-    measured.muscle_pressure_Pa = {1e5, 1e5};
+    if (by_stamps) {
+      domain::Measurement& stamps = measured.measured.emplace();
+      stamps.time_s = {0.0, 1.0};
+      stamps.take("contraction") = {0.1, 0.1};
+      stamps.give("command") = {12.0, 12.0};
+      stamps.take("muscle_pressure") = {1e5, 1e5};
+    } else {
+      measured.contraction_ratio = measured.current_mA = {0.1, 0.1};
+      measured.muscle_pressure_Pa = {1e5, 1e5};
+    }
     data.runs.push_back(measured);
     run::ReplayedRun run{.id = measured.id, .load_kg = 5.0};
     run.gaps = {{"contraction", "1", 0.001 * static_cast<double>(i + 1), 0.02, -0.001, 2},
                 {"muscle_pressure", "bar", 0.5, 0.6, 0.1, 2}};
     run.recording.samples.resize(2);
+    if (by_stamps)
+      for (auto& sample : run.recording.samples) sample.current_mA = 12.0;
     all.push_back(run);
   }
   return report_html(data, all);
 }
 
 TEST(Replay, OfManyRunsBeginsWithTheLoadsAndShowsTheWorstFirst) {
-  const std::string few = replayed(12), many = replayed(13);
-  EXPECT_TRUE(lacks(few, "by-load"));
-  EXPECT_TRUE(holds(few, "id='group-0' data-group='0'>\n<h3>r0, 5 kg"));
-  const auto loads = many.find("class='by-load'"), all = many.find("All 13 runs, the worst first");
-  ASSERT_LT(loads, all);
-  ASSERT_NE(all, std::string::npos);
-  EXPECT_LT(many.find(">r12</a>", all), many.find(">r11</a>", all));
-  EXPECT_TRUE(holds(many, "id='group-0' data-group='0'>\n<h3>r12, 5 kg"));
+  for (const bool by_stamps : {false, true}) {
+    const std::string few = replayed(12, by_stamps), many = replayed(13, by_stamps);
+    EXPECT_TRUE(lacks(few, "by-load"));
+    const auto loads = many.find("class='by-load'"), all = many.find("All 13 runs, the worst first");
+    ASSERT_LT(loads, all);
+    ASSERT_NE(all, std::string::npos);
+    EXPECT_LT(many.find(">r12</a>", all), many.find(">r11</a>", all));
+    EXPECT_TRUE(holds(few, "id='group-0' data-group='0'>\n<h3>r0, 5 kg"));
+    EXPECT_TRUE(holds(many, "id='group-0' data-group='0'>\n<h3>r12, 5 kg"));
+  }
 }
 
 TEST(Replay, WithAGaugeDrawsTheErrorOfThePressure) {
   EXPECT_TRUE(holds(replayed(1), "\"muscle_pressure_error\":{"));
 }
 
-/// The same of data with a clock of their own, on a muscle of 180 mm under a regulator that takes volts.
-std::string replayed_by_stamps(std::size_t runs) {
-  domain::Dataset data;
-  data.path = "measured/dataset.yaml";
-  data.rig.muscle.rest_length_m = 0.18;
-  data.rig.valve.zero_command = {0.0, plant::RatedCommand::Unit::V};
-  data.rig.valve.span_command = {10.0, plant::RatedCommand::Unit::V};
-  std::vector<run::ReplayedRun> all;
-  for (std::size_t i = 0; i < runs; ++i) {
-    domain::Run measured;
-    measured.id = fmt::format("r{}", i);
-    measured.load_kg = 5.0;
-    domain::Measurement& stamps = measured.measured.emplace();
-    stamps.time_s = {0.0, 1.0};
-    stamps.take("contraction") = {0.1, 0.1};
-    stamps.give("command") = {12.0, 12.0};
-    stamps.take("muscle_pressure") = {1e5, 1e5};
-    data.runs.push_back(measured);
-    run::ReplayedRun run{.id = measured.id, .load_kg = 5.0};
-    run.gaps = {{"contraction", "1", 0.001 * static_cast<double>(i + 1), 0.02, -0.001, 2},
-                {"muscle_pressure", "bar", 0.5, 0.6, 0.1, 2}};
-    run.recording.samples.resize(2);
-    for (auto& sample : run.recording.samples) sample.current_mA = 12.0;
-    all.push_back(run);
-  }
-  return report_html(data, all, {});
-}
-
-TEST(Replay, ByStampsIsInTheUnitThatTheReaderWantsAndOfManyRunsBeginsWithTheLoads) {
-  const std::string few = replayed_by_stamps(12), many = replayed_by_stamps(13);
-  EXPECT_TRUE(holds(few, "height of the load differ by <span class='mm'>2.160 mm</span>",
+TEST(Replay, ByStampsIsInTheUnitThatTheReaderWants) {
+  EXPECT_TRUE(holds(replayed(12, true), "height of the load differ by <span class='mm'>2.160 mm</span>",
                     "<td>5</td><td>contraction, <span class='mm'>mm</span>",
                     "<td>muscle_pressure, bar</td><td>0.5</td>"));
-  EXPECT_TRUE(lacks(few, "by-load"));
-  const auto loads = many.find("class='by-load'"), all = many.find("All 13 runs, the worst first");
-  ASSERT_LT(loads, all);
-  ASSERT_NE(all, std::string::npos);
-  EXPECT_LT(many.find(">r12</a>", all), many.find(">r11</a>", all));
-  EXPECT_TRUE(holds(many, "id='group-0' data-group='0'>\n<h3>r12, 5 kg"));
 }
 
 TEST(Replay, ByStampsDrawsTheErrorOfThePressureAndTheGauge) {
-  const std::string html = replayed_by_stamps(1);
+  const std::string html = replayed(1, true);
   EXPECT_TRUE(holds(html, "\"muscle_pressure_error\":{", "\"id\":\"muscle_pressure_error\"",
                     "<dt>gauge</dt><dd>on the muscle"));
 }
 
 TEST(Page, OfAValveThatTakesVoltsShowsVolts) {
-  const std::string html = replayed_by_stamps(1);
+  const std::string html = replayed(1, true);
   EXPECT_TRUE(holds(html, "\"command\":{\"name\":\"command\",\"unit\":\"V\",\"zero\":0.0,\"span\":10.0}",
                     "\"current\":{\"low\":5.0,"));  // 12 mA
   EXPECT_TRUE(holds(html, "\"title\":\"Command\",\"unit\":\"V\""));
