@@ -59,9 +59,8 @@ TEST_F(Dataset, RunsThatSomebodyChangedAreMadeAgain) {
   const auto untouched = fs::last_write_time(unfinished / "data/m2_c01_r2.csv");
   const auto said = run("dataset small.yaml --out parts");
   ASSERT_EQ(said.status, 0) << said.err;
-  for (const char* words :
-       {"2 of 8 runs are there already", "5 runs are not as written, and made again: m1_c01_r1"})
-    EXPECT_TRUE(holds(said.err, words));
+  EXPECT_TRUE(holds(said.err, "2 of 8 runs are there already",
+                    "5 runs are not as written, and made again: m1_c01_r1"));
   EXPECT_EQ(fs::last_write_time(scratch / "parts/m2_c01_r2.csv"), untouched);
   EXPECT_EQ(contents(scratch / "whole"), contents(scratch / "parts"));
   EXPECT_EQ(contents(scratch / "whole-truth"), contents(scratch / "parts-truth"));

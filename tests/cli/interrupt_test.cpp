@@ -73,10 +73,9 @@ TEST_F(Interrupt, OfRunLeavesTheRunsThatAreFinished) {
   write_text(scratch / "out/long/notes.txt", "mine");
   const Said said = stop("run long.yaml --threads 1", some_done);
   EXPECT_EQ(said.status, 130);
-  for (const char* words :
-       {"long: simulating [", "stopping after what is under way", " of 40 runs are finished",
-        "in out/long.interrupted", "The same command makes all of them again"})
-    EXPECT_TRUE(holds(said.err, words)) << words << said.err;
+  EXPECT_TRUE(holds(said.err, "long: simulating [", "stopping after what is under way",
+                    " of 40 runs are finished", "in out/long.interrupted",
+                    "The same command makes all of them again"));
   EXPECT_EQ(read_text(scratch / "out/long/notes.txt"), "mine");
   const Json document = Json::parse(read_text(scratch / "out/long.interrupted/run.json"));
   EXPECT_EQ(document.at("interrupted"), true);
@@ -127,9 +126,8 @@ TEST_F(Interrupt, OfDiagnoseLeavesEarlierResultsAlone) {
   ASSERT_EQ(mckibben("dataset some.yaml --out data", scratch).status, 0);
   const Said said = stop("diagnose data", "recalibrating, step");
   EXPECT_EQ(said.status, 130) << said.err;
-  for (const char* words :
-       {"known so far:", "  the rig as described: ", "nothing was written", "The same command begins again"})
-    EXPECT_TRUE(holds(said.err, words));
+  EXPECT_TRUE(holds(said.err, "known so far:", "  the rig as described: ", "nothing was written",
+                    "The same command begins again"));
   EXPECT_EQ(entries("out"), 0u);
 }
 

@@ -100,7 +100,7 @@ TEST_F(Replayed, AGivenPressureLiftsTheLoadAsTheReferenceDoes) {
                            reference + "pressure_18.87kg_steps.csv, load: 18.87 kg}\n";
   ASSERT_EQ(replay("thesis", columns, runs).status, 0);
   const std::string head = first_line(scratch / "out/sine.csv");
-  for (const char* none : {"valve", "current", "force_N,enc"}) EXPECT_TRUE(lacks(head, none));
+  EXPECT_TRUE(lacks(head, "valve", "current", "force_N,enc"));
   expect_near("sine", "pressure_12.5kg_sine", {{"contraction_ratio", 2e-6}, {"muscle_pressure_bar", 1e-12}});
   expect_near("steps", "pressure_18.87kg_steps", {{"contraction_ratio", 2e-6}});
   ASSERT_EQ(replay("{base: thesis, " + tightest, columns, runs).status, 0);
@@ -281,9 +281,8 @@ TEST(Pair, IsDiagnosedByItsAngleAndItsGauges) {
   EXPECT_EQ(found.at("gap").at("reading"), "angle");
   EXPECT_EQ(found.at("gap").at("unit"), "rad");
   const std::string page = read_text(scratch / "found/report.html");
-  for (const char* words : {"Joint angle, measured and by each rig", "given_muscle_pressure_2",
-                            "pressure of muscle 2", "two muscles turn the joint", "towards muscle 1"})
-    EXPECT_TRUE(holds(page, words)) << words;
+  EXPECT_TRUE(holds(page, "Joint angle, measured and by each rig", "given_muscle_pressure_2",
+                    "pressure of muscle 2", "two muscles turn the joint", "towards muscle 1"));
   EXPECT_TRUE(lacks(page, "contraction ratio</label>"));  // no lengths to choose the unit of
   EXPECT_EQ(mckibben("replay dataset.yaml --rig found/rig.yaml --out again", scratch).status, 0);
 }
@@ -324,10 +323,9 @@ TEST(Pair, FollowsItsTargetsUnderControllers) {
   EXPECT_EQ(columns(1), is.size());
   EXPECT_EQ(columns(0) + 2, columns(1));
   const std::string html = read_text(scratch / "out/arm/report.html");
-  for (const char* words :
-       {"sine, 0.5 kg in the hand", "given_stiffness", "Joint angle and torque of both muscles",
-        "Pressure and contraction of muscle 2", "angle less target"})
-    EXPECT_TRUE(holds(html, words)) << words;
+  EXPECT_TRUE(holds(html, "sine, 0.5 kg in the hand", "given_stiffness",
+                    "Joint angle and torque of both muscles", "Pressure and contraction of muscle 2",
+                    "angle less target"));
   EXPECT_TRUE(holds(read_text(scratch / "out/arm/tracking.svg"), ">sine, 0.5 kg: joint angle [deg]<"));
 }
 

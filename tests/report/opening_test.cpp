@@ -78,10 +78,8 @@ TEST(Opening, MarksWhatWasAddedWithItsSize) {
   diagnose::Diagnosis found = diagnosed();
   const std::string html = opening(found);
   EXPECT_EQ(count(html, "class='mark c0'"), 3u);  // leak, dead band, law
-  for (const char* part :
-       {"<circle class='mark c0' cx='64' cy='38'", ">1 muscle_leak<", ">0.619 l/(min bar)<",
-        "<circle class='mark c0' cx='46' cy='118'", ">2 valve_dead_band<", ">3 a law of force<"})
-    EXPECT_TRUE(holds(html, part)) << part;
+  EXPECT_TRUE(holds(html, "<circle class='mark c0' cx='64' cy='38'", ">1 muscle_leak<", ">0.619 l/(min bar)<",
+                    "<circle class='mark c0' cx='46' cy='118'", ">2 valve_dead_band<", ">3 a law of force<"));
   EXPECT_EQ(count(html, "class='without'"), 1u);
   found.stand_ins = found.effects;
   EXPECT_TRUE(holds(opening(found), ">and 2 more<"));
