@@ -65,34 +65,6 @@ constexpr const char* load = R"html(<fieldset><legend>Load</legend>
 </fieldset>
 )html";
 
-constexpr const char* time_panel = R"html(<fieldset><legend>Time</legend>
-<div class='line'><output id='clock'>0.0 s</output>
-<button id='pause' type='button'>Pause</button>
-<button id='again' type='button'>Begin again</button>
-<span id='pace' class='small' hidden></span></div>
-<div class='line'><button id='record' type='button'>Record</button>
-<label><input id='from-rest' type='checkbox' checked> from rest</label>
-<span id='recording' class='small' hidden></span></div>
-<p id='message' class='small' role='status'></p>
-</fieldset>
-)html";
-
-constexpr const char* effects_panel = R"html(<fieldset id='effects'><legend>Effects</legend>
-<div class='line'><button id='all-off' type='button'>All off</button>
-<span class='small'>What a rig may have besides. Switch them while it moves.</span></div>
-<div id='switches'></div></fieldset>
-)html";
-
-constexpr const char* stage = R"html(<div class='shown'>
-<figure><svg id='rig' role='img' aria-label='The rig as it is now'></svg>
-<figcaption id='rig-caption'></figcaption></figure>
-<div id='loops'></div><div id='plots'></div>
-<div class='line'><button id='keep' type='button'>Keep these loops in grey</button>
-<button id='forget' type='button'>Forget the grey ones</button>
-<label>Plots show the last <select id='span'><option>5</option><option>10</option><option selected>20</option>
-<option>40</option></select> s</label></div></div>
-)html";
-
 std::string panel_of(const Session& session) {
   std::string panel = "<fieldset><legend>Current</legend>\n";
   if (session.pair())
@@ -100,7 +72,7 @@ std::string panel_of(const Session& session) {
              "<p class='small'>Sweeps: muscle 2 goes against muscle 1.</p>\n</fieldset>\n";
   else
     panel += current_row(1, false) + sweeps + "</fieldset>\n" + load;
-  return panel + time_panel;
+  return panel + std::string(time_html);
 }
 
 }  // namespace
@@ -116,15 +88,15 @@ Page page_of(const std::string& name, const plant::Rig& rig, const Session& sess
       "script.</p></noscript>\n"
       "<div id='alarm' class='warning' role='alert' hidden><p id='alarm-text'></p>\n"
       "<button id='alarm-again' type='button'>Begin again</button></div>\n"
-      "<div class='bench'>\n<div class='panel'>\n{2}</div>\n{3}{4}</div>\n"
-      "<p class='small'>mckibben {5}. This page is made on your machine, for this machine alone, and asks "
+      "<div class='bench'>\n<div class='panel'>\n{2}</div>\n{3}</div>\n"
+      "<p class='small'>mckibben {4}. This page is made on your machine, for this machine alone, and asks "
       "for "
       "nothing outside it. Space: pause.</p>\n"
       "<details class='small'><summary>Licence of uPlot, which draws the "
-      "plots</summary><pre>{6}</pre></details>\n"
-      "<script type='application/json' id='data'>{7}</script>\n<script "
+      "plots</summary><pre>{5}</pre></details>\n"
+      "<script type='application/json' id='data'>{6}</script>\n<script "
       "src='page.js'></script>\n</body>\n</html>\n",
-      escaped(name), session.pair() ? "" : report::unit_switch, panel_of(session), stage, effects_panel,
+      escaped(name), session.pair() ? "" : report::unit_switch, panel_of(session), stage_html,
       MCKIBBEN_VERSION, escaped(report::uplot_licence), data_of(rig, session));
   for (const auto& part : {report::uplot_css, report::page_css, live_css}) page.css += part;
   page.js = std::string(report::uplot_js) + "\n'use strict';\n";
