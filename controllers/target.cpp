@@ -2,7 +2,6 @@
 // 1985), the smoothest way from rest to rest.
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include <controllers/target.hpp>
 

@@ -1,5 +1,4 @@
 // What a side precomputes, and what is asked of it between instants.
-#include <algorithm>
 
 #include <plant/side.hpp>
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <vector>
 
 #include <controllers/waveform.hpp>
 #include <sim/run/simulate.hpp>

@@ -5,7 +5,6 @@
 #include <sim/bench/comedi.hpp>
 
 #ifdef MCKIBBEN_COMEDI
-#include <cmath>
 #include <cstdint>
 
 #include <comedilib.h>

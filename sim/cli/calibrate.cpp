@@ -1,7 +1,6 @@
 // The verb `calibrate`: a data set's friction and pressure models, with all figures of the thesis.
 #include <map>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include <fmt/format.h>

@@ -1,7 +1,6 @@
 // Shared options; see the header.
 #include <algorithm>
 #include <charconv>
-#include <cstdint>
 
 #include <fmt/format.h>
 

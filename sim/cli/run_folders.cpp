@@ -3,7 +3,6 @@
 #include <cmath>
 #include <map>
 #include <set>
-#include <span>
 #include <string_view>
 #include <system_error>
 #include <utility>

@@ -1,5 +1,4 @@
 // The verbs that simulate: run, replay. Each reads, computes, prints and writes.
-#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <string>

@@ -1,6 +1,5 @@
 // Runs row by row; see the header.
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <string>
 #include <utility>

@@ -5,7 +5,6 @@
 #include <numeric>
 
 #include <sim/diagnose/held_out.hpp>
-#include <sim/diagnose/thresholds.hpp>
 
 namespace mckibben::diagnose {
 namespace {

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
 
 #include <sim/data/series.hpp>
 #include <sim/diagnose/labels.hpp>

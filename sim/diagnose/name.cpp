@@ -1,7 +1,6 @@
 // Screen, refit, choose, and again; see the header.
 #include <algorithm>
 #include <limits>
-#include <optional>
 #include <set>
 
 #include <fmt/format.h>

@@ -1,7 +1,6 @@
 // The field lists of the plant, walked with the path as a guide; see the header.
 #include <array>
 #include <concepts>
-#include <string>
 #include <utility>
 
 #include <sim/domain/rig_number.hpp>

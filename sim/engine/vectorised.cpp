@@ -1,7 +1,6 @@
 // Walks the field lists of a rig; see the header.
 #include <algorithm>
 #include <concepts>
-#include <optional>
 #include <string_view>
 #include <type_traits>
 #include <utility>

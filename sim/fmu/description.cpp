@@ -1,5 +1,4 @@
 // XML of both versions; see the header.
-#include <array>
 #include <map>
 #include <string_view>
 #include <vector>

@@ -10,7 +10,6 @@
 #include <sim/input/csv_layout.hpp>
 #include <sim/input/dates.hpp>
 #include <sim/input/limits.hpp>
-#include <sim/input/number.hpp>
 #include <sim/input/readers.hpp>
 #include <sim/input/suggest.hpp>
 

@@ -1,5 +1,4 @@
 // Limits and currents of controllers and weighing; see the header.
-#include <optional>
 #include <string_view>
 
 #include <fmt/format.h>

@@ -4,12 +4,9 @@
 
 #include <algorithm>
 #include <concepts>
-#include <cstddef>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <type_traits>
-#include <utility>
 #include <variant>
 #include <vector>
 

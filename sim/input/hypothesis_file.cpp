@@ -8,7 +8,6 @@
 #include <sim/input/hypothesis_file.hpp>
 #include <sim/input/hypothesis_keys.hpp>
 #include <sim/input/yaml_reader.hpp>
-#include <sim/input/yaml_writer.hpp>
 
 namespace mckibben::input {
 namespace {

@@ -8,7 +8,6 @@
 
 #include <plant/effects/own_laws.hpp>
 #include <sim/input/field_list.hpp>
-#include <sim/input/json.hpp>
 #include <sim/input/yaml_file.hpp>
 
 namespace mckibben::input {

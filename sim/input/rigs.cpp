@@ -4,7 +4,6 @@
 #include <array>
 #include <filesystem>
 #include <utility>
-#include <vector>
 
 #include <fmt/format.h>
 

@@ -1,5 +1,4 @@
 // Formats of runs; see the header.
-#include <algorithm>
 #include <charconv>
 #include <optional>
 #include <string>
@@ -15,7 +14,6 @@
 #include <sim/input/readers.hpp>
 #include <sim/input/run_file.hpp>
 #include <sim/input/stamped_run.hpp>
-#include <sim/input/suggest.hpp>
 
 namespace mckibben::input {
 namespace {

@@ -14,9 +14,7 @@
 #include <sim/input/current_checks.hpp>
 #include <sim/input/fields_json.hpp>
 #include <sim/input/file_names.hpp>
-#include <sim/input/number.hpp>
 #include <sim/input/quantity.hpp>
-#include <sim/input/rigs.hpp>
 #include <sim/input/scenario_file.hpp>
 #include <sim/input/suggest.hpp>
 #include <sim/input/yaml_reader.hpp>

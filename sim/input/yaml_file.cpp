@@ -4,7 +4,6 @@
 #include <cctype>
 #include <optional>
 #include <sstream>
-#include <string_view>
 #include <tuple>
 #include <unordered_map>
 #include <utility>

@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include <sim/input/fields_json.hpp>
-#include <sim/input/utf8.hpp>
 #include <sim/live/commands.hpp>
 
 namespace mckibben::live {

@@ -1,5 +1,4 @@
 // The skeleton, which script fills; style and script are those of reports with what is live.
-#include <algorithm>
 
 #include <fmt/format.h>
 

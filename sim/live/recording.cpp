@@ -1,6 +1,5 @@
 // dataset.yaml, rig.yaml, a CSV for each run, and the truth; see the header.
 #include <utility>
-#include <variant>
 
 #include <fmt/format.h>
 

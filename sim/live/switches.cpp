@@ -1,9 +1,7 @@
 // From the plant's table, and what a diagnosis knows of typical sizes; see the header.
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <tuple>
-#include <type_traits>
 
 #include <fmt/format.h>
 

@@ -5,7 +5,6 @@
 
 #include <sim/output/calibration_report.hpp>
 #include <sim/output/grid.hpp>
-#include <sim/thesis/figures.hpp>
 #include <sim/thesis/quality.hpp>
 
 namespace mckibben::output {

@@ -1,6 +1,5 @@
 // Layout of the text; see the header.
 #include <algorithm>
-#include <cmath>
 
 #include <fmt/format.h>
 

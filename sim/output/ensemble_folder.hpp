@@ -7,7 +7,6 @@
 //                  data/         what will be OUT
 #pragma once
 
-#include <array>
 #include <filesystem>
 #include <optional>
 #include <string>

@@ -9,7 +9,6 @@
 
 #include <sim/output/axes.hpp>
 #include <sim/output/error_map.hpp>
-#include <sim/output/svg.hpp>
 
 namespace mckibben::output {
 namespace {

@@ -1,9 +1,7 @@
 // Layout of the JSON documents.
-#include <algorithm>
 #include <optional>
 
 #include <plant/geometry.hpp>
-#include <sim/input/rigs.hpp>
 #include <sim/input/scenario_file.hpp>
 #include <sim/output/json_parts.hpp>
 #include <sim/output/run_results.hpp>

@@ -1,6 +1,5 @@
 // Layout of the tables.
 #include <algorithm>
-#include <cmath>
 #include <optional>
 
 #include <fmt/format.h>

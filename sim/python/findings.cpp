@@ -1,6 +1,5 @@
 // calibrate and diagnose: what measured runs tell.
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <utility>

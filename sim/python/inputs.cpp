@@ -1,5 +1,4 @@
 // Rigs, scenarios and data sets: from files or dicts, by the readers of the command line.
-#include <filesystem>
 
 #include <nlohmann/json.hpp>
 #include <pybind11/stl/filesystem.h>

@@ -1,6 +1,5 @@
 // run and replay: what the verbs of the same names calculate, without their files.
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <utility>
 

@@ -1,6 +1,5 @@
 // See the header.
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include <fmt/format.h>

@@ -2,7 +2,6 @@
 // way contraction counts and where it is zero, whether a run began at rest.
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include <sim/recognise/recognise.hpp>

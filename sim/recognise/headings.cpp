@@ -1,6 +1,5 @@
 // Words of headings; see the header.
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <regex>
 #include <vector>

@@ -5,8 +5,6 @@
 
 #include <fmt/format.h>
 
-#include <sim/domain/number.hpp>
-#include <sim/input/column_units.hpp>
 #include <sim/input/dates.hpp>
 #include <sim/input/file_names.hpp>
 #include <sim/input/number.hpp>

@@ -1,11 +1,9 @@
 // Order of the page, and what the script is told.
 #include <algorithm>
 #include <set>
-#include <string>
 
 #include <fmt/format.h>
 
-#include <sim/domain/number.hpp>
 #include <sim/input/fields_json.hpp>
 #include <sim/output/svg.hpp>
 #include <sim/report/files.hpp>

@@ -1,5 +1,4 @@
 // What is called a current, in runs and plots; see the header.
-#include <string>
 #include <utility>
 #include <vector>
 

@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include <plant/instruments.hpp>
-#include <sim/domain/number.hpp>
 #include <sim/output/diagnosis_words.hpp>
 #include <sim/output/svg.hpp>
 #include <sim/report/html.hpp>

@@ -5,7 +5,6 @@
 #include <sim/run/reachable.hpp>
 #include <sim/run/rig_model.hpp>
 #include <sim/run/simulate.hpp>
-#include <sim/run/track.hpp>
 
 namespace mckibben::run {
 

@@ -1,10 +1,7 @@
 // Targets x loads x controllers; see the header.
-#include <algorithm>
 #include <atomic>
-#include <cmath>
 #include <cstring>
 #include <span>
-#include <stdexcept>
 #include <utility>
 #include <variant>
 
@@ -13,14 +10,11 @@
 #include <plant/geometry.hpp>
 #include <sim/data/warnings.hpp>
 #include <sim/domain/number.hpp>
-#include <sim/run/batch.hpp>
 #include <sim/run/briefing.hpp>
 #include <sim/run/compare.hpp>
 #include <sim/run/packed.hpp>
-#include <sim/run/reachable.hpp>
 #include <sim/run/remarks.hpp>
 #include <sim/run/simulate.hpp>
-#include <sim/run/track.hpp>
 #include <sim/run/two_currents.hpp>
 
 namespace mckibben::run {

@@ -1,6 +1,4 @@
 // What a run that came to its end should not be believed without a word.
-#include <algorithm>
-#include <cmath>
 
 #include <fmt/format.h>
 

@@ -3,13 +3,11 @@
 #include <chrono>
 #include <cmath>
 #include <numbers>
-#include <optional>
 #include <random>
 #include <utility>
 
 #include <sim/ride/batch.hpp>
 #include <sim/ride/sample.hpp>
-#include <sim/run/run_batch.hpp>
 #include <sim/run/simulate.hpp>
 
 namespace mckibben::run {

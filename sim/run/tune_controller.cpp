@@ -5,11 +5,9 @@
 #include <initializer_list>
 #include <stdexcept>
 #include <utility>
-#include <vector>
 
 #include <sim/run/rounds.hpp>
 #include <sim/run/tune_controller.hpp>
-#include <sim/run/tune_pid.hpp>
 
 namespace mckibben::run {
 

@@ -1,7 +1,6 @@
 // The friction figures are those of contraction, as the thesis's captions of 4.20 to 4.25 say, except 4.26.
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include <fmt/format.h>
 

@@ -1,6 +1,5 @@
 // See the header.
 #include <cmath>
-#include <functional>
 
 #include <sim/thesis/pressure.hpp>
 

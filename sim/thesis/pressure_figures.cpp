@@ -1,5 +1,4 @@
 // See the header. Where the thesis shows one load, it is its lightest.
-#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>

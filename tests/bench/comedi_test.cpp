@@ -1,7 +1,5 @@
 // Boards by Comedi, at the stand-in: a loop at one is a loop at the simulated bench, but for the output's
 // steps; wiring that cannot be is told.
-#include <cmath>
-#include <memory>
 #include <string>
 
 #include <gtest/gtest.h>

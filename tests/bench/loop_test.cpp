@@ -2,10 +2,8 @@
 // is a test's, so no machine is too slow for it.
 #include <algorithm>
 #include <atomic>
-#include <cmath>
 #include <cstdint>
 #include <limits>
-#include <memory>
 #include <mutex>
 #include <string>
 #include <thread>

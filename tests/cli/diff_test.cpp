@@ -1,6 +1,5 @@
 // The verb diff: the same folder twice, a change that is seen in inputs, metrics and trajectories, and what
 // is no run folder.
-#include <cmath>
 #include <regex>
 #include <string>
 

@@ -1,6 +1,5 @@
 // A laser and a load cell from a rig file to `dataset` and back by `replay`.
 #include <cmath>
-#include <string>
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,8 @@
 // Controllers that are somebody else's: what they hear, how far they are obeyed, and that whatever becomes of
 // them is a failure with its reason.
-#include <cmath>
-#include <csignal>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
-#include <memory>
 #include <string>
 
 #include <gtest/gtest.h>

@@ -1,7 +1,6 @@
 // Limits that every controller with feedback or a model keeps, and counts that stop or jump.
 #include <cmath>
 #include <cstdint>
-#include <memory>
 #include <vector>
 
 #include <gtest/gtest.h>

@@ -7,7 +7,6 @@
 
 #include <fmt/format.h>
 
-#include <sim/data/judged.hpp>
 #include <sim/diagnose/predict.hpp>
 
 namespace mckibben::diagnose {

@@ -1,5 +1,4 @@
 // Campaigns: what is read, names of currents, round trips, and that the shipped one is the thesis's.
-#include <cmath>
 
 #include <gtest/gtest.h>
 

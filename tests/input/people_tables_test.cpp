@@ -6,7 +6,6 @@
 #include <sim/input/csv_layout.hpp>
 #include <sim/input/dataset_file.hpp>
 #include <sim/input/dates.hpp>
-#include <sim/input/readers.hpp>
 
 #include "scratch.hpp"
 

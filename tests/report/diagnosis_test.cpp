@@ -1,7 +1,6 @@
 // The page of a diagnosis: its story in order, its pictures, its runs; with something in every part of it and
 // with next to nothing. How it looks and moves is tested in tests/browser.
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include <fmt/format.h>

@@ -1,6 +1,5 @@
 // Settled points: when their inputs act, what their readings scatter by, and cords that hang through.
 #include <algorithm>
-#include <cmath>
 #include <random>
 
 #include <gtest/gtest.h>

@@ -1,6 +1,5 @@
 // Data that are not what they are called are said to be so, with the line to write; sound data of rigs that
 // are another than described are left alone.
-#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>

@@ -1,6 +1,5 @@
 // Targets against the limits of a made-up rig: up at 0.5 /s,
 // down at 0.25 /s, from 0.01 (from above 0.03) to 0.2.
-#include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
