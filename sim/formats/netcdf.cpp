@@ -152,7 +152,8 @@ void NetcdfRuns::define(const RunsLayout& layout) {
     netcdf::put(id_, times, "units", "s");
     netcdf::put(id_, times, "long_name", "time since the run began");
     for (const Column& column : layout.of_row) {
-      of_row_.push_back(variable<2>(id_, column, NC_FLOAT, {run, time}, {layout.in_chunk, rows_}));
+      of_row_.push_back(
+          variable<2>(id_, column, NC_FLOAT, {run, time}, {std::min(layout.runs, layout.in_chunk), rows_}));
       check(nc_def_var_deflate(id_, of_row_.back(), 1, 1, 1));
     }
   }

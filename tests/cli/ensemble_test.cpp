@@ -62,6 +62,11 @@ TEST_F(EnsembleOf, TakesNoFormat) {
   EXPECT_FALSE(fs::exists(scratch / "out"));
 }
 
+TEST_F(EnsembleOf, MayBeOfFewerRunsThanAreWrittenAtOnce) {
+  write(5);
+  EXPECT_EQ(run("dataset e.yaml").status, 0);
+}
+
 TEST_F(EnsembleOf, IsTheSameOnAnyThreadsAndRanks) {
   write(200, "{sampling: latin_hypercube, muscle.rest_radius: normal 7.5 mm ± 1 %}");
   ASSERT_EQ(run("dataset e.yaml --out one --threads 1").status, 0);
