@@ -15,7 +15,8 @@ bool exists(const Channel& channel, const Rig& rig, const Driven& driven) {
     case Needs::pair:
       return driven.pair;
     case Needs::command:
-      return driven.pressure[channel.muscle == 2 ? 1 : 0] == GivenPressure::none;
+      return driven.pressure[channel.muscle == 2 ? 1 : 0] == GivenPressure::none &&
+             channel.signal->of_commands_in.value_or(rig.command_unit()) == rig.command_unit();
     case Needs::valve:
       return driven.pressure[channel.muscle == 2 ? 1 : 0] != GivenPressure::muscle;
     case Needs::outer_force:
@@ -114,6 +115,11 @@ const Signal& signal_of(std::string_view key) {
   for (const Signal& signal : signals)
     if (signal.key == key) return signal;
   throw std::invalid_argument("there is no signal " + std::string(key));
+}
+
+const Signal& command_of(CommandUnit unit) {
+  return *std::find_if(signals.begin(), signals.end(),
+                       [&](const Signal& signal) { return signal.of_commands_in == unit; });
 }
 
 const Channel& channel_of(const std::vector<Channel>& channels, std::string_view key) {

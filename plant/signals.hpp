@@ -9,6 +9,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -94,15 +95,31 @@ struct Signal {
   std::string_view of_two = key;     ///< its key where there are two muscles
   std::string_view reads{};  ///< of a reading: the key of what is read; a data set's column has its name
   bool whole = false;        ///< an integer
+  std::optional<CommandUnit> of_commands_in{};  ///< of rigs whose valves take this
 };
 
 namespace units {
-inline constexpr Unit s{"s", "s"}, mA{"mA", "mA"}, bar{"bar", "bar", Pa_per_bar}, m{"m", "m"}, N{"N", "N"},
+inline constexpr Unit s{"s", "s"}, bar{"bar", "bar", Pa_per_bar}, m{"m", "m"}, N{"N", "N"},
     ratio{"1", "", 1.0, "contraction ratio"}, count{"1", ""}, per_s{"s-1", "per_s"},
     rad{"rad", "rad", 1.0, "deg", degree_rad}, rad_per_s{"rad s-1", "rad_per_s"},
     kg_per_s{"kg s-1", "kg_per_s"}, N_m{"N m", "Nm", 1.0, "N m"},
     N_m_per_rad{"N m rad-1", "Nm_per_rad", 1.0, "N m/rad"};
 }  // namespace units
+
+/// To the valve, natively in what it takes.
+constexpr Signal command_signal(CommandUnit unit, std::string_view key, std::string_view words) {
+  return {.key = key,
+          .unit = {name_of(unit), name_of(unit)},
+          .words = words,
+          .kind = Kind::input,
+          .part = Part::muscle,
+          .needs = Needs::command,
+          .value = [](const Sample& row, std::size_t i) { return row.side(i).current_mA; },
+          .may_be_given = true,
+          .in_dataset = "command",
+          .dataset_words = "command to the valve of the muscle, in mA, V or bar",
+          .of_commands_in = unit};
+}
 
 /// In the order of the columns of a file.
 inline constexpr auto signals = std::to_array<Signal>({
@@ -113,16 +130,9 @@ inline constexpr auto signals = std::to_array<Signal>({
      .value = [](const Sample& row, std::size_t) { return row.time_s; },
      .in_dataset = "time",
      .dataset_words = "time since the first row"},
-    {.key = "current",
-     .unit = units::mA,
-     .words = "current to the valve",
-     .kind = Kind::input,
-     .part = Part::muscle,
-     .needs = Needs::command,
-     .value = [](const Sample& row, std::size_t i) { return row.side(i).current_mA; },
-     .may_be_given = true,
-     .in_dataset = "command",
-     .dataset_words = "command to the valve of the muscle, in mA, V or bar"},
+    command_signal(CommandUnit::mA, "current", "current to the valve"),
+    command_signal(CommandUnit::V, "command", "voltage to the valve"),
+    command_signal(CommandUnit::bar, "command", "pressure asked of the valve"),
     {.key = "contraction_ratio",
      .unit = units::ratio,
      .words = "contraction ratio",
@@ -319,6 +329,12 @@ std::vector<Channel> measured_channels(const Rig& rig, const Driven& driven);
 /// A signal by its key: of one muscle, where a pair's joint has one of that key too. Throws
 /// std::invalid_argument if there is none.
 const Signal& signal_of(std::string_view key);
+
+/// What valves are commanded with; its key is current or command.
+const Signal& command_of(CommandUnit unit);
+inline std::string command_key(const Rig& rig) {
+  return std::string(command_of(rig.command_unit()).key);
+}
 
 /// A channel by its key. Throws std::invalid_argument if there is none.
 const Channel& channel_of(const std::vector<Channel>& channels, std::string_view key);

@@ -70,7 +70,7 @@ tasks::Found find(const domain::Dataset& data, const DiagnoseOptions& options,
 
 int diagnose_dataset(const DiagnoseOptions& options) {
   domain::Dataset data = input::read_dataset(options.dataset);
-  if (!options.rig.empty()) data.rig = input::read_rig(options.rig, data.inputs);
+  if (!options.rig.empty()) input::take_rig(data, options.rig, input::read_rig(options.rig, data.inputs));
   const std::vector<std::string> warnings = tasks::prepare(data, options.hypotheses);
   const std::string name = output::name_of(data);
   check_plan(options.plan);

@@ -128,9 +128,10 @@ class Columns {
   void operator()() {
     for (std::size_t i = 0; i < data_.runs.size(); ++i) {
       const domain::Run& run = data_.runs[i];
-      map_ = with_our_names(domain::merged(data_.columns, run.columns));
+      map_ = with_our_names(domain::merged(data_.columns, run.columns), data_.rig.command_unit());
       const bool hangs = data_.judged() == domain::Judged::contraction && !run.contraction_ratio.empty();
-      if (hangs && !data_.own_clock) {  // else ranges of the rig's valve have been looked at
+      const bool of_mA = data_.rig.command_unit() == plant::CommandUnit::mA;
+      if (hangs && !data_.own_clock && of_mA) {  // else ranges of the rig's valve have been looked at
         if (exchanged(i)) continue;
         current(i);
       }
@@ -138,7 +139,8 @@ class Columns {
       for (const Beside which : domain::besides)
         if (which != Beside::force) gauge(i, which);
     }
-    map_ = with_our_names(domain::merged(data_.columns, data_.runs.front().columns));
+    map_ =
+        with_our_names(domain::merged(data_.columns, data_.runs.front().columns), data_.rig.command_unit());
     Compared all, beside;
     for (std::size_t i = 0; i < data_.runs.size(); ++i) {
       judged(i, all);
@@ -288,7 +290,7 @@ class Columns {
     const double most_bar = largest(*run.muscle_pressure_Pa) / plant::Pa_per_bar;
     const double supply_bar = data_.rig.valve.supply_pressure_Pa / plant::Pa_per_bar;
     if (most_bar < of_columns.beyond_rig * supply_bar ||
-        most_bar > data_.rig.dac.largest_current_mA + of_columns.rounding_mA ||
+        most_bar > data_.rig.dac.largest_command + of_columns.rounding_mA ||
         largest(run.current_mA) > of_columns.within_supply * supply_bar)
       return false;
     ColumnPlace current = map_["current"], pressure = map_["muscle_pressure"];
@@ -309,14 +311,14 @@ class Columns {
     const std::string never = fmt::format("current: never above {:.3g} mA", most_mA);
     ColumnPlace amperes = map_["current"];
     amperes.unit = std::string("A");  // g++ 12 warns of a literal
-    if (most_mA > 0.0 && most_mA < valve.span_current_mA * of_columns.amperes)
+    if (most_mA > 0.0 && most_mA < valve.span_command * of_columns.amperes)
       find("current", {i}, never, mend("; this looks like amperes, not mA", line_of("current", amperes)));
-    else if (most_mA < valve.zero_current_mA && range(run.contraction_ratio) > moving())
+    else if (most_mA < valve.zero_command && range(run.contraction_ratio) > moving())
       find("current", {i}, never,
            fmt::format(", where the valve does nothing (below {:.3g} mA), yet the muscle moves; is this "
                        "another unit, or a share of the range? unit, zero and factor in columns: current say "
                        "so",
-                       valve.zero_current_mA));
+                       valve.zero_command));
   }
 
   void gauge(std::size_t i, Beside which) {

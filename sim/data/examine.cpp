@@ -78,7 +78,7 @@ class Readings {
     find(i, Severity::ignored, "",
          fmt::format("{} {}", name,
                      constant ? fmt::format("is {:.4g} throughout", shown->front() / plant::Pa_per_bar)
-                              : "does not follow the current"));
+                              : "does not follow the " + command_));
   }
 
   void mask(std::size_t run, const Stretch& stretch) {
@@ -111,11 +111,12 @@ class Readings {
     const double largest_mA = run.current_mA.empty() || pair_ ? std::numeric_limits<double>::infinity()
                                                               : *std::ranges::max_element(run.current_mA);
     const double dead_mA =
-        data_.rig.valve.zero_current_mA +
-        of_readings.dead_current * (data_.rig.valve.span_current_mA - data_.rig.valve.zero_current_mA);
+        data_.rig.valve.zero_command +
+        of_readings.dead_current * (data_.rig.valve.span_command - data_.rig.valve.zero_command);
     const double should = range(expected_[i].judged);
     if (largest_mA <= dead_mA)
-      leave_out(i, fmt::format("the current stays at or below {:.4g} mA and moves nothing", largest_mA));
+      leave_out(i, fmt::format("the {} stays at or below {:.4g} {} and moves nothing", command_, largest_mA,
+                               name_of(data_.rig.command_unit())));
     else if (range(run.judged()) > of_readings.moving_counts * count_)
       return true;
     else if (should > of_readings.should_move_counts * count_)
@@ -199,7 +200,7 @@ class Readings {
     leave_out(i, fmt::format("the {0} stands still from {1:.3f} s to {2:.3f} s though the {3} should "
                              "move it: {4}something held the {0}",
                              moving(), time_s(still.begin - 1), time_s(still.end - 1),
-                             data_.pressure_is_given() ? "pressure" : "current",
+                             data_.pressure_is_given() ? "pressure" : command_,
                              data_.pressure_is_given() ? "" : "the valve was stuck, or "));
   }
 
@@ -223,6 +224,7 @@ class Readings {
   }
 
   const domain::Dataset& data_;
+  const std::string command_ = plant::command_key(data_.rig);
   const std::vector<Expected>& expected_;
   Examined& result_;
   bool bench_;  ///< lengths are given, and forces judged

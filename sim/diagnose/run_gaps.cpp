@@ -63,8 +63,8 @@ std::string visited_by_pair(const domain::Dataset& data, const Runs& runs) {
   const bool given = data.pressure_is_given();
   const Range& driven = given ? pressure_bar : current_mA;
   return fmt::format("{} of {:.3g} to {:.3g} {} and joint angles of {:.3g} to {:.3g} deg, as in these runs",
-                     given ? "pressures" : "currents", driven.low, driven.high, given ? "bar" : "mA",
-                     angle_deg.low, angle_deg.high);
+                     given ? "pressures" : plant::command_key(data.rig) + "s", driven.low, driven.high,
+                     given ? "bar" : name_of(data.rig.command_unit()), angle_deg.low, angle_deg.high);
 }
 
 }  // namespace
@@ -75,29 +75,30 @@ std::string visited(const domain::Dataset& data, const Runs& runs) {
   for (const std::size_t run : runs) {
     for (const double value : data.runs[run].current_mA) current_mA.see(value);
     const domain::Run& measured = data.runs[run];
-    for (const double value : measured.length_is_given() ? measured.measured->given("contraction")
-                                                         : measured.contraction_ratio)
+    for (const double value :
+         measured.length_is_given() ? measured.measured->given("contraction") : measured.contraction_ratio)
       ratio.see(value);
     if (data.pressure_is_given())
       for (const double value : measured.measured->given("muscle_pressure"))
         pressure_bar.see(value / plant::Pa_per_bar);
     load_kg.see(measured.load_kg);
   }
+  const std::string commanded =
+      in_unit(data.rig.command_unit(),
+              fmt::format("currents of {:.3g} to {:.3g} mA", current_mA.low, current_mA.high));
   if (data.force_is_judged())
-    return fmt::format(
-        "{} and contraction ratios of {:.3f} to {:.3f}, as in these runs",
-        data.pressure_is_given()
-            ? fmt::format("pressures of {:.3g} to {:.3g} bar", pressure_bar.low, pressure_bar.high)
-            : fmt::format("currents of {:.3g} to {:.3g} mA", current_mA.low, current_mA.high),
-        ratio.low, ratio.high);
+    return fmt::format("{} and contraction ratios of {:.3f} to {:.3f}, as in these runs",
+                       data.pressure_is_given() ? fmt::format("pressures of {:.3g} to {:.3g} bar",
+                                                              pressure_bar.low, pressure_bar.high)
+                                                : commanded,
+                       ratio.low, ratio.high);
   if (data.pressure_is_given())
     return fmt::format(
         "loads of {:.4g} to {:.4g} kg and contraction ratios of {:.3f} to {:.3f}, as in these runs",
         load_kg.low, load_kg.high, ratio.low, ratio.high);
   return fmt::format(
-      "currents of {:.3g} to {:.3g} mA, loads of {:.4g} to {:.4g} kg and contraction ratios of {:.3f} to "
-      "{:.3f}, as in these runs",
-      current_mA.low, current_mA.high, load_kg.low, load_kg.high, ratio.low, ratio.high);
+      "{}, loads of {:.4g} to {:.4g} kg and contraction ratios of {:.3f} to {:.3f}, as in these runs",
+      commanded, load_kg.low, load_kg.high, ratio.low, ratio.high);
 }
 
 }  // namespace mckibben::diagnose

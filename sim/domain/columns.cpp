@@ -9,7 +9,7 @@
 namespace mckibben::domain {
 namespace {
 
-std::vector<Quantity> all_quantities() {
+std::vector<Quantity> all_quantities(plant::CommandUnit unit) {
   std::vector<Quantity> all;
   const auto add = [&](const plant::Channel& channel) {
     Quantity quantity{channel, channel.key_in_dataset(), channel.name(), channel.words_in_dataset(),
@@ -18,9 +18,14 @@ std::vector<Quantity> all_quantities() {
     all.push_back(std::move(quantity));
   };
   for (const plant::Signal& signal : plant::signals) {
-    if (signal.in_dataset.empty()) continue;
+    if (signal.in_dataset.empty() || signal.of_commands_in.value_or(unit) != unit) continue;
     if (signal.in_dataset == command_key)
-      all.push_back({{&signal}, "current", "current_mA", "command to the valve in mA", all.size(), true});
+      all.push_back({{&signal},
+                     "current",
+                     plant::Channel{&signal}.name(),
+                     "current to the valve, of one that takes mA",
+                     all.size(),
+                     true});
     add({&signal});
     if (signal.part == plant::Part::muscle && signal.of_each_muscle)
       for (const std::size_t muscle : {1U, 2U}) add({&signal, muscle});
@@ -44,18 +49,19 @@ plant::GivenPressure ColumnMap::given_pressure(std::size_t muscle) const {
   return gives("valve_pressure" + number) ? plant::GivenPressure::valve : plant::GivenPressure::none;
 }
 
-const std::vector<Quantity>& quantities() {
-  static const std::vector<Quantity> all = all_quantities();
-  return all;
+const std::vector<Quantity>& quantities(plant::CommandUnit commands) {
+  using enum plant::CommandUnit;
+  static const std::array all{all_quantities(mA), all_quantities(V), all_quantities(bar)};
+  return all[static_cast<std::size_t>(commands)];
 }
 
-const Quantity* find_quantity(std::string_view key) {
-  const auto found = std::ranges::find(quantities(), key, &Quantity::key);
-  return found == quantities().end() ? nullptr : &*found;
+const Quantity* find_quantity(std::string_view key, plant::CommandUnit commands) {
+  const auto found = std::ranges::find(quantities(commands), key, &Quantity::key);
+  return found == quantities(commands).end() ? nullptr : &*found;
 }
 
-const Quantity& quantity_of(std::string_view key) {
-  if (const Quantity* found = find_quantity(key)) return *found;
+const Quantity& quantity_of(std::string_view key, plant::CommandUnit commands) {
+  if (const Quantity* found = find_quantity(key, commands)) return *found;
   throw std::invalid_argument("no data set has columns of " + std::string(key));
 }
 

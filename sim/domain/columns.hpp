@@ -86,12 +86,13 @@ struct Quantity {
   bool belongs(bool pair) const;
 };
 
-/// One for each signal that has a key in data sets, and for each muscle of two.
-const std::vector<Quantity>& quantities();
+/// One for each signal that has a key in data sets, and for each muscle of two; of rigs that are commanded in
+/// that unit, which the columns of commands are called by.
+const std::vector<Quantity>& quantities(plant::CommandUnit commands = plant::CommandUnit::mA);
 /// Null if there is none of that key.
-const Quantity* find_quantity(std::string_view key);
+const Quantity* find_quantity(std::string_view key, plant::CommandUnit commands = plant::CommandUnit::mA);
 /// Throws std::invalid_argument if there is none.
-const Quantity& quantity_of(std::string_view key);
+const Quantity& quantity_of(std::string_view key, plant::CommandUnit commands = plant::CommandUnit::mA);
 
 struct ColumnMap {
   std::vector<ColumnPlace> places = std::vector<ColumnPlace>(quantities().size());  ///< by Quantity::at

@@ -10,7 +10,7 @@
 namespace mckibben::input {
 namespace {
 
-using domain::quantities, domain::Quantity;
+using domain::Quantity;
 
 /// The unit at the end of a heading, as in U_mA, `I [A]` or t(ms); ours if there is none that fits.
 std::string unit_in(std::string_view heading, const Quantity& quantity) {
@@ -24,13 +24,16 @@ std::string unit_in(std::string_view heading, const Quantity& quantity) {
 }  // namespace
 
 std::string hint_of_missing(const WantedColumn& column, std::span<const std::string_view> found) {
-  const auto quantity = std::ranges::find(quantities(), column.in_file, &Quantity::column);
-  if (quantity == quantities().end()) return "";  // a map has named it
-  const auto meant = nearest(column.in_file, found);
-  const ColumnPlace place{std::string(meant.value_or("NAME")),
-                          meant ? unit_in(*meant, *quantity) : std::string(quantity->unit())};
-  return fmt::format("; where it stands under another name, write columns: {{{}}}",
-                     line_of(quantity->key, place));
+  for (const auto& [commands, name] : names(plant::CommandUnit{}))
+    for (const Quantity& quantity : domain::quantities(commands)) {
+      if (quantity.column != column.in_file) continue;
+      const auto meant = nearest(column.in_file, found);
+      const ColumnPlace place{std::string(meant.value_or("NAME")),
+                              meant ? unit_in(*meant, quantity) : std::string(quantity.unit())};
+      return fmt::format("; where it stands under another name, write columns: {{{}}}",
+                         line_of(quantity.key, place));
+    }
+  return "";  // a map has named it
 }
 
 }  // namespace mckibben::input

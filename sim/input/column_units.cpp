@@ -41,20 +41,15 @@ void to_ratio(std::vector<double>& values, const std::string& unit, const plant:
   for (double& value : values) value *= ratio;
 }
 
-/// Commands other than a current may be in any unit that a valve takes.
+/// Which of them the rig's valve takes is asked once the rig is known.
 std::string command_problem(const std::string& unit) {
-  for (const plant::CommandUnit& each : plant::command_units)
-    if (unit_problem(unit, each.name).empty()) return "";
+  for (const auto& [each, name] : names(plant::CommandUnit{}))
+    if (unit_problem(unit, name).empty()) return "";
   return fmt::format("{} is not a unit of commands; wanted is mA, V or bar", unit);
 }
 
-/// In a unit of its valve.
-bool is_command(const domain::Quantity& quantity) {
-  return quantity.is_command() && !quantity.is_old_current;
-}
-
 std::string problem_of(const domain::Quantity& quantity, const std::string& unit) {
-  if (is_command(quantity)) return command_problem(unit);
+  if (quantity.is_command() && quantity.key != "current") return command_problem(unit);
   if (quantity.key == "contraction") return contraction_problem(unit);
   if (quantity.key == "angle" && unit == counts_unit) return "";
   if (quantity.key == "time" && unit == date_unit) return "";
@@ -73,8 +68,9 @@ void check_units(const Source& source, const Node& map, Problems& problems) {
   }
 }
 
-void check_said_units(const Table& table, const ColumnMap& map, TableProblems& problems) {
-  for (const domain::Quantity& quantity : domain::quantities()) {
+void check_said_units(const Table& table, const ColumnMap& map, const plant::Rig& rig,
+                      TableProblems& problems) {
+  for (const domain::Quantity& quantity : domain::quantities(rig.command_unit())) {
     const Table::Column* column = table.find(quantity.column);
     const ColumnPlace& place = map[quantity];
     if (column == nullptr || column->unit.empty() || column->is_date) continue;
@@ -108,11 +104,11 @@ double ratio_per_unit(const ColumnPlace& contraction, const plant::Rig& rig) {
 }
 
 void convert_columns(Table& table, const ColumnMap& map, const plant::Rig& rig) {
+  const auto& all = domain::quantities(rig.command_unit());
   for (Table::Column& column : table.columns) {
-    const auto found = std::ranges::find_if(domain::quantities(), [&](const domain::Quantity& each) {
-      return each.column == column.name && !map[each].absent();
-    });
-    if (found == domain::quantities().end()) continue;
+    const auto found = std::ranges::find_if(
+        all, [&](const domain::Quantity& each) { return each.column == column.name && !map[each].absent(); });
+    if (found == all.end()) continue;
     const ColumnPlace& place = map[*found];
     if (place.zero != 0.0 || place.factor != 1.0)
       for (double& value : column.values) value = (value - place.zero) * place.factor;
@@ -122,10 +118,6 @@ void convert_columns(Table& table, const ColumnMap& map, const plant::Rig& rig) 
     } else if (place.unit == counts_unit) {  // of the joint's angle
       const double count_rad = plant::count_height_m(rig) / rig.joint.wheel_radius_m;
       for (double& value : column.values) value *= count_rad;
-    } else if (is_command(*found) && !is_current(place.unit)) {
-      const plant::Valve& valve = found->channel.muscle == 2 ? rig.pair()->opposite.valve : rig.valve;
-      convert_units(column.values, place.unit, plant::name_of(valve.zero_command.unit));
-      for (double& value : column.values) value = valve.current_for_mA(value);
     } else {
       convert_units(column.values, place.unit, found->unit());
     }
@@ -134,23 +126,17 @@ void convert_columns(Table& table, const ColumnMap& map, const plant::Rig& rig) 
 
 void check_numbers(const Table& table, const ColumnMap& map, const plant::Rig& rig, TableProblems& problems) {
   std::vector<data::ReadColumn> columns;
-  for (const Table::Column& column : table.columns) {
-    const bool own_command = std::ranges::any_of(domain::quantities(), [&](const domain::Quantity& each) {
-      const ColumnPlace& place = map[each];
-      return each.column == column.name && is_command(each) && !place.absent() && !is_current(place.unit);
-    });
-    columns.push_back({column.name, &column.values, own_command});
-  }
+  for (const Table::Column& column : table.columns) columns.push_back({column.name, &column.values});
   for (const data::WrongNumber& wrong : data::check_ranges(columns, map, rig))
     problems.add(table, table.columns[wrong.column], wrong.row, wrong.message);
 }
 
-void check_clock(const Table& table, const ColumnMap& map, double tick_s, TableProblems& problems) {
+void check_clock(const Table& table, const ColumnMap& map, const plant::Rig& rig, TableProblems& problems) {
   const Table::Column* column = table.find("time_s");
   if (column != nullptr && problems.count() == 0)
-    if (const auto wrong = data::check_clock(column->values, map, tick_s))
+    if (const auto wrong = data::check_clock(column->values, map, rig))
       problems.add(table, *column, wrong->row, wrong->message);
-  check_ticks(table, tick_s, problems, std::string("; ") + data::own_clock);
+  check_ticks(table, rig.tick_s, problems, std::string("; ") + data::own_clock);
 }
 
 }  // namespace mckibben::input

@@ -90,6 +90,8 @@ void check_loads(const YamlFile& file, const std::vector<double>& loads_kg, cons
 
 void load_recording(controllers::RecordedCurrent& recorded, const Source& source, const Node& node,
                     const plant::Rig& rig, Problems& problems) {
+  const std::string ours = plant::Channel{&plant::command_of(rig.command_unit())}.name();
+  if (recorded.column == controllers::RecordedCurrent{}.column) recorded.column = ours;
   read_other(source, node, problems, [&] {
     const Source table_source =
         Source::load((source.folder() / recorded.file).lexically_normal(), most_text_bytes);
@@ -100,7 +102,8 @@ void load_recording(controllers::RecordedCurrent& recorded, const Source& source
     const Table::Column* current = table.find(recorded.column);
     if (current == nullptr) return;
     check_ticks(table, rig.tick_s, found);
-    check_range(table, *current, 0.0, rig.dac.largest_current_mA, "range of the rig's DAC", found);
+    check_range(table, *current, rig.dac.lowest_command, rig.dac.largest_command, "range of the rig's DAC",
+                found);
     recorded.samples_mA = current->values;
   });
 }

@@ -53,9 +53,11 @@ void show(const YamlFile& file, const Node& run, const domain::Contradiction& fo
   problems.error(file.source, said != nullptr ? said->place : run.place, what + found.why);
 }
 
-/// Loads as they were given, and a clock; and what beside its columns contradicts them, or the rig.
+/// Loads as they were given, and a clock; and what contradicts the rig, or itself: in columns only if they
+/// were read without errors.
 void check_kind(const YamlFile& file, Dataset& dataset, Problems& problems) {
   const Node* list = file.root.find("runs");
+  const bool well_read = problems.errors() == 0;
   for (const char* key : {"start", "skip", "hold"})
     dataset.own_clock = dataset.own_clock || file.root.find(key) != nullptr;
   for (Run& run : dataset.runs) {
@@ -67,19 +69,18 @@ void check_kind(const YamlFile& file, Dataset& dataset, Problems& problems) {
     const bool empty_load = !dataset.runs[i].given_load_kg && node.find("load") != nullptr;  // has been shown
     if (node.kind == Node::Kind::map)
       for (const domain::Contradiction& found : domain::contradictions(dataset, dataset.runs[i]))
-        if (domain::find_quantity(found.key) == nullptr && !(empty_load && found.key == "load"))
+        if ((well_read || domain::find_quantity(found.key) == nullptr) &&
+            !(empty_load && found.key == "load"))
           show(file, node, found, problems);
   }
 }
 
-/// What contradicts the rig, or itself, in the columns of a run; false if something does.
-bool check_roles(const YamlFile& file, const Node& node, const Dataset& dataset, const Run& run,
-                 Problems& problems) {
-  std::vector<domain::Contradiction> all = domain::contradictions(dataset, run);
-  if (dataset.own_clock) add_wrong_command_units(merged(dataset.columns, run.columns), dataset.rig, all);
-  std::erase_if(all, [](const auto& found) { return domain::find_quantity(found.key) == nullptr; });
-  for (const domain::Contradiction& found : all) show(file, node, found, problems);
-  return all.empty();
+/// Whether a run's commands are in a unit of its valves.
+bool check_commands(const YamlFile& file, const Node& node, const Dataset& dataset, const Run& run,
+                    Problems& problems) {
+  const auto wrong = wrong_command_units(merged(dataset.columns, run.columns), dataset.rig);
+  for (const domain::Contradiction& found : wrong) show(file, node, found, problems);
+  return wrong.empty();
 }
 
 /// False if a unit is wrong: the numbers would be, too.
@@ -113,7 +114,7 @@ Dataset read_dataset(Source source) {
     if (check_columns(file, problems))
       for (std::size_t i = 0; i < dataset.runs.size(); ++i) {
         const Node& node = file.root.find("runs")->children[i];
-        if (check_roles(file, node, dataset, dataset.runs[i], problems))
+        if (check_commands(file, node, dataset, dataset.runs[i], problems))
           read_run_file(file, node, dataset, dataset.runs[i], problems);
       }
   }
@@ -131,6 +132,15 @@ void require_ticks(const Dataset& dataset, std::string_view verb) {
                       "replay does",
                       verb),
           ""}});
+}
+
+void take_rig(Dataset& dataset, const std::string& called, Rig rig) {
+  if (const auto recorded = dataset.rig.command_unit(); rig.command_unit() != recorded)
+    throw BadInput({{Severity::error, called, nowhere,
+                     fmt::format("the data are of a valve that is commanded in {}, this rig's is in {}",
+                                 name_of(recorded), name_of(rig.command_unit())),
+                     ""}});
+  dataset.rig = std::move(rig);
 }
 
 std::string why_unfit(domain::Purpose purpose, const Dataset& dataset) {

@@ -25,6 +25,10 @@ Dataset read_dataset(Source source);
 /// Throws BadInput unless a load hangs on the muscle and each run has a row each tick, as `verb` needs it.
 void require_ticks(const Dataset& dataset, std::string_view verb);
 
+/// Another rig in place of the data set's, `called` so in messages. Throws BadInput where its valve takes
+/// other commands.
+void take_rig(Dataset& dataset, const std::string& called, Rig rig);
+
 /// Why its runs cannot serve; empty if they can.
 std::string why_unfit(domain::Purpose purpose, const Dataset& dataset);
 /// Throws BadInput unless they can serve a diagnosis, by `verb`.

@@ -12,6 +12,7 @@
 
 #include <controllers/target.hpp>
 #include <plant/command.hpp>
+#include <sim/domain/renamed.hpp>
 #include <sim/input/field_kinds.hpp>
 #include <sim/input/fields_json.hpp>
 #include <sim/input/sensors_file.hpp>
@@ -28,7 +29,6 @@ struct FieldInfo {
     choice,
     text,
     height,
-    command,
     draws,
     laws,
     named,  ///< a map of names; what each is stands in a group, or it is a text
@@ -109,6 +109,8 @@ class FieldLister {
     info.key = key;
     info.type = type;
     info.meaning = meaning;
+    for (const domain::Renamed& one : domain::renamed)
+      if (one.now == key) info.in_place_of.emplace_back(one.before);
     return info;
   }
   template <class T>
@@ -126,8 +128,6 @@ class FieldLister {
       info.highest = T::highest;
     } else if constexpr (is_optional<T>) {
       describe<typename T::value_type>(info);
-    } else if constexpr (std::same_as<T, plant::RatedCommand>) {
-      info.type = FieldInfo::Type::command;
     } else if constexpr (std::same_as<T, domain::Variation>) {
       info.type = FieldInfo::Type::draws;
       for (const std::string_view text : spellings<domain::Sampling>()) info.choices.emplace_back(text);

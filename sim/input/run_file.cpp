@@ -23,7 +23,7 @@ class Wanted {
  public:
   Wanted(const YamlFile& file, const Node& run, Format format, const ColumnMap& map, const Dataset& dataset,
          Problems& problems)
-      : file_(file), run_(run), format_(format), problems_(problems) {
+      : file_(file), run_(run), format_(format), commands_(dataset.rig.command_unit()), problems_(problems) {
     add_time(map);
     if (dataset.own_clock) {
       for (const Wish& wish : stamped_quantities(map, dataset.rig))
@@ -31,7 +31,7 @@ class Wanted {
       return;
     }
     for (const char* key : {"current", "contraction", "muscle_pressure"})
-      add(domain::quantity_of(key), map, key != std::string_view("muscle_pressure"), false);
+      add(domain::quantity_of(key, commands_), map, key != std::string_view("muscle_pressure"), false);
   }
   const std::vector<WantedColumn>& columns() const { return columns_; }
 
@@ -99,6 +99,7 @@ class Wanted {
   const YamlFile& file_;
   const Node& run_;
   Format format_;
+  plant::CommandUnit commands_;
   Problems& problems_;
   std::vector<WantedColumn> columns_;
 };
@@ -126,11 +127,12 @@ void read_table_of(Source source, Format format, const Wanted& wanted, const Col
   if (from_windows && source.first_bad_byte()) source.reread_as_latin1();
   TableProblems found(source, problems);
   Table table = read_as(format, source, wanted.columns(), static_cast<std::size_t>(run.segment), found);
-  Table::Column *current = table.find("current_mA"), *contraction = table.find("contraction_ratio");
+  const std::string command = plant::Channel{&plant::command_of(dataset.rig.command_unit())}.name();
+  Table::Column *current = table.find(command), *contraction = table.find("contraction_ratio");
   if (!dataset.own_clock && (current == nullptr || contraction == nullptr)) return;
   if (const Table::Column* time = table.find("time_s"); time != nullptr && map.rows_are_ticks)
     found.add(table, *time, 0, "rows_are_ticks is said, and yet the file holds time_s");
-  check_said_units(table, map, found);
+  check_said_units(table, map, dataset.rig, found);
   if (dataset.own_clock && (found.count() > 0 || table.columns.empty())) return;
   convert_columns(table, map, dataset.rig);
   if (contraction != nullptr) run.ratio_per_unit = ratio_per_unit(map["contraction"], dataset.rig);
@@ -139,7 +141,7 @@ void read_table_of(Source source, Format format, const Wanted& wanted, const Col
     run.rest_length_m = dataset.rig.muscle.rest_length_m;
     return;
   }
-  check_clock(table, map, dataset.rig.tick_s, found);
+  check_clock(table, map, dataset.rig, found);
   check_numbers(table, map, dataset.rig, found);
   run.current_mA = std::move(current->values);
   run.contraction_ratio = std::move(contraction->values);

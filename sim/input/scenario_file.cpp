@@ -192,6 +192,10 @@ class ScenarioChecker {
     read_named(source_, node, rig, problems_);
     if (pair() != nullptr && problems_.errors() == 0 && rig.pair() == nullptr)
       problems_.error(source_, node.place, "rig: it has one muscle, a controller of a pair needs two");
+    if (problems_.errors() == 0 && rig.command_unit() != scenario_.rig.command_unit())
+      problems_.error(source_, node.place,
+                      fmt::format("rig: its valve is commanded in {}, the scenario's in {}",
+                                  name_of(rig.command_unit()), name_of(scenario_.rig.command_unit())));
     if (const std::string why = no_load(rig); pair() == nullptr && !why.empty())
       problems_.error(source_, node.place, "rig: " + why);
   }
@@ -210,6 +214,9 @@ class ScenarioChecker {
                         const controllers::WeighingSettings* contractions, const Node& node) {
     const auto& model = calibration(settings.calibration, *node.find("calibration"));
     if (!model) return;
+    if (const std::string why = wrong_commands(*model, scenario_.rig); !why.empty())
+      return problems_.error(source_, node.find("calibration")->place,
+                             fmt::format("calibration = {}: {}", settings.calibration, why));
     settings.model = *model;
     const controllers::CalibratedRange& range = settings.model.range;
     const auto check = [&](const Node* given, std::string_view key, double value, double lowest,
@@ -226,7 +233,8 @@ class ScenarioChecker {
     } else if (contractions != nullptr) {
       const Node* weighing = node.find("weighing");
       check(weighing != nullptr ? weighing->find("speed") : nullptr, "weighing.speed",
-            *contractions->speed_mA_per_s, range.lowest_speed_mA_per_s, range.highest_speed_mA_per_s, "mA/s");
+            *contractions->speed_mA_per_s, range.lowest_speed_mA_per_s, range.highest_speed_mA_per_s,
+            in_unit(scenario_.rig.command_unit(), "mA/s"));
     }
   }
 

@@ -21,16 +21,12 @@ constexpr long least_to_begin = 10;  // readings, for place, speed and accelerat
 
 /// What is wrong with the unit of a command to this valve, or nothing.
 std::string unit_of_command_problem(const ColumnPlace& command, const plant::Valve& valve) {
-  if (is_current(command.unit)) return "";
-  if (!valve.has_own_command())
-    return fmt::format(
-        "unit = {}: the rig's valve is commanded with a current; if it is not, its "
-        "zero_command and span_command must be said",
-        command.unit);
-  const std::string_view wanted = plant::name_of(valve.zero_command.unit);
-  return unit_problem(command.unit, wanted).empty()
-             ? ""
-             : fmt::format("unit = {}: the rig's valve is commanded in {}", command.unit, wanted);
+  const std::string_view wanted = name_of(valve.command_unit);
+  if (unit_problem(command.unit, wanted).empty()) return "";
+  return fmt::format("unit = {}: the rig's valve is commanded {}", command.unit,
+                     valve.command_unit == plant::CommandUnit::mA
+                         ? "with a current; if it is not, set zero_command and span_command"
+                         : fmt::format("in {}", wanted));
 }
 
 /// Whether the column must be there: what drives the rig must.
@@ -54,7 +50,7 @@ bool has_own_clock(const ColumnMap& map, const plant::Rig& rig) {
 std::vector<Wish> stamped_quantities(const ColumnMap& map, const plant::Rig& rig) {
   const bool pair = rig.pair() != nullptr;
   std::vector<Wish> wishes;
-  for (const Quantity& quantity : domain::quantities()) {
+  for (const Quantity& quantity : domain::quantities(rig.command_unit())) {
     const ColumnPlace& place = map[quantity];
     if (!quantity.belongs(pair) || (!place.absent() && place.as == Role::ignored)) continue;
     if (place.absent() && quantity.channel.signal->must_be_named) continue;
@@ -66,14 +62,15 @@ std::vector<Wish> stamped_quantities(const ColumnMap& map, const plant::Rig& rig
   return wishes;
 }
 
-void add_wrong_command_units(const ColumnMap& map, const plant::Rig& rig,
-                             std::vector<domain::Contradiction>& found) {
+std::vector<domain::Contradiction> wrong_command_units(const ColumnMap& map, const plant::Rig& rig) {
+  std::vector<domain::Contradiction> found;
   for (const Quantity& quantity : domain::quantities()) {
     if (!quantity.is_command() || !quantity.belongs(rig.pair() != nullptr) || !map.gives(quantity)) continue;
     const std::string why = unit_of_command_problem(
         map[quantity], quantity.channel.muscle == 2 ? rig.pair()->opposite.valve : rig.valve);
     if (!why.empty()) found.push_back({quantity.key, why});
   }
+  return found;
 }
 
 namespace {

@@ -19,9 +19,8 @@ struct Wish {
 };
 std::vector<Wish> stamped_quantities(const domain::ColumnMap& map, const plant::Rig& rig);
 
-/// Adds the columns of commands in a unit that their valve does not take.
-void add_wrong_command_units(const domain::ColumnMap& map, const plant::Rig& rig,
-                             std::vector<domain::Contradiction>& found);
+/// Columns of commands in a unit that their valve does not take.
+std::vector<domain::Contradiction> wrong_command_units(const domain::ColumnMap& map, const plant::Rig& rig);
 
 /// Checks a converted table and makes of it what drove the rig and what was read.
 domain::Measurement measurement_of(Table& table, const domain::ColumnMap& map, const plant::Rig& rig,

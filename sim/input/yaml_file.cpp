@@ -12,6 +12,7 @@
 #include <yaml-cpp/eventhandler.h>
 #include <yaml-cpp/yaml.h>
 
+#include <sim/domain/renamed.hpp>
 #include <sim/input/limits.hpp>
 #include <sim/input/utf8.hpp>
 #include <sim/input/yaml_file.hpp>
@@ -201,9 +202,11 @@ void check_bytes(const Source& source, Problems& problems) {
 
 const Node* Node::find(std::string_view wanted) const {
   if (kind != Kind::map) return nullptr;
-  const auto found =
-      std::find_if(children.begin(), children.end(), [&](const Node& child) { return child.key == wanted; });
-  return found == children.end() ? nullptr : &*found;
+  const auto found = std::ranges::find(children, wanted, &Node::key);
+  if (found != children.end()) return &*found;
+  const auto old = std::ranges::find_if(
+      children, [&](const Node& child) { return domain::name_today(child.key) == wanted; });
+  return old == children.end() ? nullptr : &*old;
 }
 
 std::string_view Node::kind_name() const {

@@ -26,7 +26,7 @@ struct Node {
   Place key_place;
   std::vector<Node> children;  ///< of a list or a map, in the order of the file
 
-  /// The value under `wanted`, or null.
+  /// The value under `wanted`, or under the key's earlier name; or null.
   const Node* find(std::string_view wanted) const;
   /// The kind in words: "a list".
   std::string_view kind_name() const;

@@ -30,7 +30,7 @@ std::string data_of(const plant::Rig& rig, const Session& session) {
   Json data{{"rig", report::drawn_rig_json(rig, rig.mechanics,
                                            rig.sensors.of(plant::Sensed::muscle_pressure) != nullptr)},
             {"tick_s", rig.tick_s},
-            {"largest_mA", rig.dac.largest_current_mA},
+            {"dac", {{"lowest", rig.dac.lowest_command}, {"largest", rig.dac.largest_command}}},
             {"signals", signals_json(rig)},
             {"switches", Json::array()}};
   if (!session.pair()) data["load_kg"] = session.load_kg();
@@ -38,8 +38,8 @@ std::string data_of(const plant::Rig& rig, const Session& session) {
   return report::in_script(data);
 }
 
-/// A slider and a number for the current of a muscle, which is named if there are two.
-std::string current_row(int muscle, bool named) {
+/// A slider and a number for the command of a muscle, which is named if there are two.
+std::string command_row(int muscle, bool named) {
   return fmt::format(
       "<div class='line'>{1}<input id='current-{0}' type='range' step='0.01' aria-label='Current{2} in mA'>\n"
       "<input id='current-{0}-number' type='number' step='0.1' aria-label='Current{2} in mA, as a number'> "
@@ -67,11 +67,12 @@ constexpr const char* load = R"html(<fieldset><legend>Load</legend>
 std::string panel_of(const Session& session) {
   std::string panel = "<fieldset><legend>Current</legend>\n";
   if (session.pair())
-    panel += current_row(1, true) + current_row(2, true) + sweeps +
+    panel += command_row(1, true) + command_row(2, true) + sweeps +
              "<p class='small'>Sweeps: muscle 2 goes against muscle 1.</p>\n</fieldset>\n";
   else
-    panel += current_row(1, false) + sweeps + "</fieldset>\n" + load;
-  return panel + std::string(time_html);
+    panel += command_row(1, false) + sweeps + "</fieldset>\n";
+  panel = in_unit(session.rig().command_unit(), panel);  // with its ids, as the script has them
+  return panel + (session.pair() ? "" : load) + std::string(time_html);
 }
 
 }  // namespace

@@ -117,9 +117,11 @@ std::string_view key_of_unit(std::string_view unit) {
 }  // namespace
 
 Heading heading_of(const UnknownColumn& column) {
-  for (const domain::Quantity& each : domain::quantities())
-    if (column.name == each.column && !each.channel.signal->must_be_named)
-      return {&each, std::string(each.unit()), true, "it has our own name"};
+  for (const auto& [commands, unit] : names(plant::CommandUnit{}))
+    for (const domain::Quantity& each : domain::quantities(commands))
+      if (column.name == each.column && !each.channel.signal->must_be_named &&
+          (!each.is_old_current || unit == "mA"))
+        return {&domain::quantity_of(each.key), std::string(each.unit()), true, "it has our own name"};
   const Split split = split_unit(column.name);
   Heading heading;
   heading.unit = !column.unit.empty() ? column.unit : input::unit_word(split.behind);

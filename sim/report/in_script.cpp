@@ -28,9 +28,12 @@ input::Json drawn_rig_json(const plant::Rig& rig, const plant::Mechanics& mechan
   input::Json json = muscle_json(rig.muscle);
   json.update({{"wheel_radius_m", rig.joint.wheel_radius_m},
                {"supply_bar", rig.valve.supply_pressure_Pa / 1e5},
-               {"zero_mA", rig.valve.zero_current_mA},
-               {"span_mA", rig.valve.span_current_mA},
                {"gauge", gauge}});
+  json["command"] = {{"name", plant::command_key(rig)},
+                     {"title", in_unit(rig.command_unit(), "Current")},
+                     {"unit", name_of(rig.command_unit())},
+                     {"zero", rig.valve.zero_command},
+                     {"span", rig.valve.span_command}};
   if (const auto* pair = std::get_if<plant::Pair>(&mechanics))
     json["pair"] = {{"hangs_at_rad", pair->hangs_at_rad}, {"opposite", muscle_json(pair->opposite.muscle)}};
   if (std::holds_alternative<plant::HeldLength>(mechanics)) json["bench"] = true;

@@ -20,7 +20,7 @@ Run shown(const domain::Run& measured, std::size_t style, const plant::Plant& pl
   Run run{.name = measured.id, .style = style, .ticks = measured.current_mA.size()};
   run.quantities = {
       {"contraction_ratio", [&measured](std::size_t k) { return measured.contraction_ratio[k]; }},
-      {"current", [&measured](std::size_t k) { return measured.current_mA[k]; }},
+      {plant::command_key(plant.rig()), [&measured](std::size_t k) { return measured.current_mA[k]; }},
       {"reference_pressure", [&measured, plant](std::size_t k) {
          return plant.reference_pressure_Pa(measured.current_mA[k]) / 1e5;
        }}};
@@ -47,8 +47,8 @@ Run shown_of_pair(const domain::Run& measured, std::size_t style, const plant::R
       {"contraction_ratio_1", contraction(pair.contraction_ratio, radius_m / rig.muscle.rest_length_m)},
       {"contraction_ratio_2",
        contraction(pair.opposite_contraction_ratio, -radius_m / pair.opposite.muscle.rest_length_m)},
-      {"current_1", [mA = current_mA(1)](std::size_t k) { return (*mA)[k]; }},
-      {"current_2", [mA = current_mA(2)](std::size_t k) { return (*mA)[k]; }},
+      {plant::command_key(rig) + "_1", [commands = current_mA(1)](std::size_t k) { return (*commands)[k]; }},
+      {plant::command_key(rig) + "_2", [commands = current_mA(2)](std::size_t k) { return (*commands)[k]; }},
       {"reference_pressure_1",
        [mA = current_mA(1), plant](std::size_t k) {
          return plant.reference_pressure_Pa((*mA)[k]) / plant::Pa_per_bar;
@@ -150,7 +150,7 @@ std::string report_html(const domain::Campaign& campaign, const std::vector<run:
       .rig = dataset.rig,
       .mechanics = dataset.rig.mechanics,
       .gauge = dataset.rig.sensors.of(plant::Sensed::muscle_pressure) != nullptr,
-      .plots = measured_plots(pair),
+      .plots = measured_plots(dataset.rig, pair),
       .loops = measured_loops(pair)};
   add_parts(contents, campaign, ended, dataset);
   return html_of(contents);

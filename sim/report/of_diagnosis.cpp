@@ -104,7 +104,8 @@ Run shown(const char* name, std::size_t style, const RunGap& gap, const std::vec
 /// What drove a run of one muscle and was read beside, in the order in which a page lists it.
 void add_given(Group& group, const domain::Run& recorded, const plant::Rig& rig) {
   if (!recorded.current_mA.empty()) {
-    group.given.push_back({"current", [&recorded](std::size_t k) { return recorded.current_mA[k]; }});
+    group.given.push_back(
+        {plant::command_key(rig), [&recorded](std::size_t k) { return recorded.current_mA[k]; }});
     group.given.push_back(
         {"reference_pressure", [&recorded, plant = plant::Plant(rig, recorded.load_kg)](std::size_t k) {
            return plant.reference_pressure_Pa(recorded.current_mA[k]) / 1e5;
@@ -184,7 +185,8 @@ std::vector<Plot> plots(const domain::Dataset& data, const Diagnosis& diagnosis)
   for (Plot& plot : all) {
     if (plot.id == "error" && !bench) plot.still = true, plot.floor = floor;
     for (Line& line : plot.lines)  // one for all rigs
-      if (!pair && (line.key == "current" || line.key == "reference_pressure")) line.given = true;
+      if (!pair && (line.key == plant::command_key(data.rig) || line.key == "reference_pressure"))
+        line.given = true;
   }
   return all;
 }

@@ -135,9 +135,9 @@ double apart(const std::vector<std::pair<double, double>>& one,
 std::string what_it_does(const domain::Dataset& data, const Diagnosis& diagnosis, const Group& run,
                          output::Panel panel) {
   constexpr double plain = 0.12, period_s = 20.0;
-  const auto current = std::ranges::find(run.given, "current", &Quantity::key);
+  const auto current = std::ranges::find(run.given, plant::command_key(data.rig), &Quantity::key);
   if (current == run.given.end() || data.judged() != diagnose::Judged::contraction) return "";
-  controllers::TriangleCurrent up_and_down{.low_mA = data.rig.valve.zero_current_mA, .period_s = period_s};
+  controllers::TriangleCurrent up_and_down{.low_mA = data.rig.valve.zero_command, .period_s = period_s};
   up_and_down.high_mA = up_and_down.low_mA;
   for (std::size_t k = 0; k < run.ticks; ++k)
     up_and_down.high_mA = std::max(up_and_down.high_mA, current->at(k));

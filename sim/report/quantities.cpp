@@ -33,6 +33,15 @@ Plot plot_of(std::string id, std::string title, std::string_view key, std::vecto
   return {.id = std::move(id), .title = std::move(title), .unit = unit_of(key), .lines = std::move(lines)};
 }
 
+Plot commands_of(const plant::Rig& rig, bool pair) {
+  const plant::Signal& command = plant::command_of(rig.command_unit());
+  const std::string key(command.key);
+  return {.id = key,
+          .title = in_unit(rig.command_unit(), pair ? "Currents" : "Current"),
+          .unit = std::string(command.unit.name),
+          .lines = lines_of(pair, key, key)};
+}
+
 Plot error_of(const std::string& id, std::string title, std::string_view key) {
   return plot_of(id, std::move(title), key, {{.key = id, .label = "error", .main = true}});
 }
@@ -116,9 +125,7 @@ std::vector<Plot> plots_of(const plant::Rig& rig, const PlotsOf& of) {
                              {.key = "force", .label = "cord", .main = true}}));
     plots.push_back(error_of("force_error", "Force of the cord: " + of.off, "force"));
   }
-  if (of.commands)
-    plots.push_back(
-        plot_of("current", pair ? "Currents" : "Current", "current", lines_of(pair, "current", "current")));
+  if (of.commands) plots.push_back(commands_of(rig, pair));
   plots.push_back(pressures_of(of));
   if (!pair && of.pressure)
     plots.push_back(error_of("muscle_pressure_error", "Error of the pressure: " + of.off, "muscle_pressure"));
@@ -171,12 +178,12 @@ std::vector<Loop> loops_of(const run::Driven& driven) {
        "contraction_ratio", "friction_coefficient", ratio, "friction coefficient", true}};
 }
 
-std::vector<Plot> measured_plots(bool pair) {
+std::vector<Plot> measured_plots(const plant::Rig& rig, bool pair) {
   const std::string at = position(pair);
   std::vector<Plot> plots{
       plot_of(pair ? "angle" : "height", pair ? "Joint angle, as counted" : "Contraction, as counted", at,
               lines_of(false, at, pair ? "angle" : "contraction")),
-      plot_of("current", pair ? "Currents" : "Current", "current", lines_of(pair, "current", "current")),
+      commands_of(rig, pair),
       plot_of("pressures", "Pressures", "muscle_pressure",
               lines_of(pair, "reference_pressure", "asked of the valve", true, "asked of valve"))};
   plots.front().still = true;

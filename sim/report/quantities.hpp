@@ -41,7 +41,7 @@ std::vector<Loop> loops_of(const run::Driven& driven);
 
 /// The same of what is measured alone: position, currents, the pressures asked for by the valves' lines, and
 /// those of gauges where there are any.
-std::vector<Plot> measured_plots(bool pair);
+std::vector<Plot> measured_plots(const plant::Rig& rig, bool pair);
 std::vector<Loop> measured_loops(bool pair);
 
 }  // namespace mckibben::report

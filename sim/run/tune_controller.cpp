@@ -159,7 +159,7 @@ double effort_mA(const Recording& recording) {
 }  // namespace
 
 double tuning_cost(double rmse, const Recording& recording, double span_mA) {
-  return rmse + effort_weight * (thesis_span_mA / span_mA) * effort_mA(recording);
+  return rmse + effort_weight * (plant::thesis_span_mA / span_mA) * effort_mA(recording);
 }
 
 }  // namespace mckibben::run

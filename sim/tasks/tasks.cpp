@@ -26,7 +26,7 @@ void replace_rig(domain::Dataset& dataset, const std::string& called, plant::Rig
                             pair ? "the data are of two muscles, this rig has one"
                                  : "the data are of one muscle, this rig has two",
                             ""}});
-  dataset.rig = std::move(rig);
+  input::take_rig(dataset, called, std::move(rig));
 }
 
 std::vector<std::string> warnings_of(const domain::Dataset& dataset,

@@ -186,6 +186,12 @@ std::vector<Figure> figures(const CalibrationResult& result, bool kgf) {
   }
   all.push_back(deviations(fit, result.friction_of(Direction::relaxation)));
   add_pressure_figures(result, kgf, all);
+  const auto say = [&](std::string& text) { text = in_unit(result.command_unit(), text); };
+  for (Figure& figure : all) {
+    for (std::string* text : {&figure.title, &figure.x_label, &figure.y_label}) say(*text);
+    for (Column& column : figure.columns) say(column.name);
+    for (Curved& curve : figure.curves) say(curve.label);
+  }
   return all;
 }
 

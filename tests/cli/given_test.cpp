@@ -61,18 +61,18 @@ class Given : public testing::Test {
   Scratch scratch;
 };
 
-const std::string measured =
+const std::string read_columns =
     "  contraction: {column: contraction_ratio, unit: 1}\n"
     "  muscle_pressure: {column: muscle_pressure_bar, unit: bar}\n";
 
 TEST_F(Given, TheValvesPressureFillsTheMuscleAsTheValveDid) {
   swing();
   const std::string columns =
-      "columns:\n  valve_pressure: {column: valve_pressure_bar, unit: bar, as: input}\n" + measured;
+      "columns:\n  valve_pressure: {column: valve_pressure_bar, unit: bar, as: input}\n" + read_columns;
   const Said said = replay("{base: thesis, valve: {conductance: 2.5e-10 m3/(s.Pa)}}", columns,
                            "file: out/r1.csv, load: 5 kg", "again");
   ASSERT_EQ(said.status, 0) << said.err;
-  EXPECT_LT(gap("contraction", "again").at("largest_error").get<double>(), 2e-5);
+  EXPECT_LT(gap("contraction", "again").at("largest_error").get<double>(), 5e-5);
   EXPECT_LT(gap("muscle_pressure", "again").at("largest_error").get<double>(), 1e-3);
   const auto table = table_of(scratch / "again/r1.csv");
   EXPECT_FALSE(table.contains("current_mA"));
@@ -89,7 +89,7 @@ TEST_F(Given, TheValvesPressureFillsTheMuscleAsTheValveDid) {
 TEST_F(Given, AGaugeOnTheValveIsComparedWithTheValve) {
   swing();
   const std::string gauge = "  valve_pressure: {column: valve_pressure_bar, unit: bar, zero: 0.1}\n";
-  const Said said = replay("thesis", "start: settled\ncolumns:\n" + gauge + measured,
+  const Said said = replay("thesis", "start: settled\ncolumns:\n" + gauge + read_columns,
                            "file: out/r1.csv, load: 5 kg", "again");
   ASSERT_EQ(said.status, 0) << said.err;
   EXPECT_NEAR(gap("valve_pressure", "again").at("mean_error").get<double>(), 0.1, 1e-6);

@@ -185,37 +185,51 @@ TEST_F(Replayed, InputsHoldOrRunStraightOn) {
   EXPECT_GT(ramp[2], rises("", current)[2] + 0.02);
 }
 
-TEST_F(Replayed, VoltsAndBarDoWhatTheirCurrentDoes) {
+TEST_F(Replayed, VoltsAndBarDoWhatACurrentDoes) {
   write_text(scratch / "r.csv",
              "t,mA,V,kPa,x\n0,6,1.25,62.5,0\n0.1,6,1.25,62.5,0\n0.2,9,3.125,156.25,0.1\n0.9,20,10,500,5\n"
              "1.9,4,0,0,9\n");
   const auto replayed = [&](const std::string& valve, const std::string& command) {
     const std::string columns = "columns: {time: {column: t, unit: s}, command: " + command +
                                 ", contraction: {column: x, unit: mm}}\n";
-    const Said said = replay("{valve: " + valve + "}", columns, "  - {id: r, file: r.csv, load: 11 kg}\n");
-    EXPECT_EQ(said.status, 0) << said.err;
-    return read_text(scratch / "out/r.csv");
+    return replay("{valve: " + valve + "}", columns, "  - {id: r, file: r.csv, load: 11 kg}\n");
   };
-  const std::string currents = replayed("{}", "{column: mA, unit: mA}");
+  const auto rises = [&] { return table_of(scratch / "out/r.csv").at("contraction_ratio"); };
+  ASSERT_EQ(replayed("{}", "{column: mA, unit: mA}").status, 0);
+  const std::vector<double> by_current = rises();
+  const auto same = [&] {
+    const std::vector<double> now = rises();
+    ASSERT_EQ(now.size(), by_current.size());
+    for (std::size_t k = 0; k < now.size(); ++k) EXPECT_NEAR(now[k], by_current[k], 1e-9) << k;
+  };
   const std::string volts = "{zero_command: 0 V, span_command: 10 V}";
-  EXPECT_EQ(replayed(volts, "{column: V, unit: V}"), currents);
-  EXPECT_TRUE(holds(read_text(scratch / "out/report.html"), "0 to 10 V (here as 4 to 20 mA)"));
+  ASSERT_EQ(replayed(volts, "{column: V, unit: V}").status, 0);
+  same();
+  EXPECT_EQ(table_of(scratch / "out/r.csv").at("command_V"), (std::vector<double>{1.25, 1.25, 3.125, 10, 0}));
+  EXPECT_TRUE(holds(read_text(scratch / "out/report.html"), "0 to 10 V for ",
+                    "\"title\":\"Command\",\"unit\":\"V\""));
   EXPECT_EQ(document().at("rig").at("valve").at("span_command"), "10 V");
-  EXPECT_EQ(replayed(volts, "{column: mA, unit: mA}"), currents);
-  EXPECT_EQ(replayed("{zero_command: 0 bar, span_command: 5 bar}", "{column: kPa, unit: kPa}"), currents);
+  EXPECT_EQ(document().at("rig").at("dac").at("largest_command"), "10 V");
+  ASSERT_EQ(replayed("{zero_command: 0 bar, span_command: 5 bar}", "{column: kPa, unit: kPa}").status, 0);
+  same();
+  const Said refused = replayed(volts, "{column: mA, unit: mA}");
+  EXPECT_EQ(refused.status, 65);
+  EXPECT_NE(refused.err.find("command: unit = mA: the rig's valve is commanded in V"), std::string::npos)
+      << refused.err;
 }
 
-TEST_F(Replayed, TheOppositeValveMayTakeOtherCommands) {
-  write_text(scratch / "r.csv", "time_s,I,V,mA\n0,12,5,12\n0.2,16,2.5,8\n0.7,16,2.5,8\n");
-  const std::string columns = "columns:\n  command_1: {column: I, unit: mA}\n  command_2: ";
-  const std::string runs = "  - {id: r, file: r.csv}\n";
-  ASSERT_EQ(replay("thesis_pair", columns + "{column: mA, unit: mA}\n", runs).status, 0);
-  const std::string currents = read_text(scratch / "out/r.csv");
-  const std::string volts = "{valve: {zero_command: 0 V, span_command: 10 V}}";
-  const Said said = replay("{base: thesis_pair, mechanics: {kind: pair, opposite: " + volts + "}}",
-                           columns + "{column: V, unit: V}\n", runs);
-  ASSERT_EQ(said.status, 0) << said.err;
-  EXPECT_EQ(read_text(scratch / "out/r.csv"), currents);
+TEST_F(Replayed, BothValvesOfAPairTakeTheSame) {
+  write_text(scratch / "r.csv", "time_s,I,V\n0,6,2\n0.2,8,4\n0.7,8,4\n");
+  const std::string columns =
+      "columns:\n  command_1: {column: I, unit: V}\n  command_2: {column: V, unit: V}\n";
+  const std::string runs = "  - {id: r, file: r.csv}\n",
+                    volts = "{valve: {zero_command: 0 V, span_command: 10 V}}";
+  const Said other =
+      replay("{base: thesis_pair, mechanics: {kind: pair, opposite: " + volts + "}}", columns, runs);
+  EXPECT_NE(other.err.find("V is the wrong kind of unit; wanted is mA"), std::string::npos) << other.err;
+  const Said both = replay("{base: thesis_pair, " + volts.substr(1), columns, runs);
+  ASSERT_EQ(both.status, 0) << both.err;
+  EXPECT_EQ(table_of(scratch / "out/r.csv").at("command_2_V"), (std::vector<double>{2, 4, 4}));
 }
 
 TEST_F(Replayed, ASlackCordIsSaid) {

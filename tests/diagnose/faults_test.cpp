@@ -82,19 +82,19 @@ TEST(Faults, CurrentThatTheValveDidNotHave) {
 
 /// With a valve that takes 0 to 10 V.
 domain::Dataset in_volts(domain::Dataset data) {
-  data.rig.valve.zero_command = {0.0, plant::RatedCommand::Unit::V};
-  data.rig.valve.span_command = {10.0, plant::RatedCommand::Unit::V};
+  for (domain::Run& run : data.runs)
+    for (double& command : run.current_mA) command = 10.0 * (command - 4.0) / plant::thesis_span_mA;
+  plant::command_in(data.rig, plant::CommandUnit::V, 0.0, 10.0);
   return data;
 }
 
 TEST(Faults, VoltsThatTheValveDidNotHave) {
   auto data = in_volts(undisturbed());
-  const double zero_mA = data.rig.valve.zero_current_mA;
-  for (double& current_mA : data.runs[4].current_mA) current_mA = zero_mA + 1.05 * (current_mA - zero_mA);
+  for (double& command_V : data.runs[4].current_mA) command_V *= 1.05;
   expect_one(data, FaultKind::current_scale, 4, 0.05, 0.005);
   EXPECT_EQ(told(data, {4, FaultKind::current_scale, 0.05}).words,
             "has a command that is 1.050 times what the valve had");
-  EXPECT_EQ(told(data, {4, FaultKind::current_offset, 1.6}).words,
+  EXPECT_EQ(told(data, {4, FaultKind::current_offset, 1.0}).words,
             "has a command that is 1.00 V more than what the valve had");
 }
 

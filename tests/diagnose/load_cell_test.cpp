@@ -63,9 +63,9 @@ TEST(ValveGauge, WeighsByItsOwnFloor) {
   run.id = "r1";
   run.load_kg = 12.0;
   domain::Measurement& measured = run.measured.emplace();
-  for (int k = 0; k < 160; ++k) {
+  for (int k = 0; k < 640; ++k) {
     measured.time_s.push_back(0.012 * k);
-    measured.give("command").push_back(12.0 + 4.0 * std::sin(0.05 * k));
+    measured.give("command").push_back(12.0 + 4.0 * std::sin(0.02 * k));
   }
   run.valve_pressure_Pa.emplace();  // says that a gauge is there
   const Loaded hanging{data.rig, run.load_kg};
@@ -75,10 +75,10 @@ TEST(ValveGauge, WeighsByItsOwnFloor) {
   measured.take("contraction") = std::move(readings.judged);
   measured.take("valve_pressure") = std::move(readings.valve_pressure_Pa);
   data = data::with_rows(std::move(data));
-  const Experiment experiment(data, {std::vector<bool>(160, false)}, 1, {0});
+  const Experiment experiment(data, {std::vector<bool>(640, false)}, 1, {0});
   EXPECT_NEAR(experiment.floor().valve_Pa, noise_Pa, 0.25 * noise_Pa);
   EXPECT_EQ(experiment.floor().pressure_Pa, 0.0);
-  EXPECT_EQ(experiment.rows(0), 320u);
+  EXPECT_EQ(experiment.rows(0), 1280u);
   const auto residuals = experiment.residuals(data.rig, {0});
   EXPECT_NEAR(*experiment.rmse(Beside::valve_pressure, residuals, {0}), noise_Pa, 0.25 * noise_Pa);
 }

@@ -160,12 +160,12 @@ TEST_F(DatasetFolder, RunsWithAndWithoutGauge) {
   write("dataset.yaml",
         "schema: mckibben-dataset/1\nrig: my_rig.yaml\nruns:\n"
         "  - {id: r01, file: one.csv, load: 11.138 kg}\n  - {id: r02, file: two.csv, load: 5000 g}\n");
-  write("my_rig.yaml", "schema: mckibben-rig/1\ndac: {largest_current: 25 mA}\n");
+  write("my_rig.yaml", "schema: mckibben-rig/1\ndac: {largest_command: 25 mA}\n");
   write("one.csv", "contraction_ratio,time_s,current_mA\n0.001,0,4\n0.002,0.012,24\n");
   write("two.csv", "time_s,current_mA,contraction_ratio,muscle_pressure_bar\n0,4,0,0.5\n");
   for (const fs::path& path : {fs::path(folder_), folder_ / "dataset.yaml"}) {
     const Dataset dataset = read_dataset(path);
-    EXPECT_EQ(dataset.rig.dac.largest_current_mA, 25.0);
+    EXPECT_EQ(dataset.rig.dac.largest_command, 25.0);
     ASSERT_EQ(dataset.runs.size(), 2u);
     EXPECT_EQ(dataset.runs[0].current_mA, (std::vector<double>{4.0, 24.0}));
     EXPECT_EQ(dataset.runs[0].contraction_ratio, (std::vector<double>{0.001, 0.002}));

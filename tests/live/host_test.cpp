@@ -95,7 +95,7 @@ TEST_F(LiveHost, RefusesWhatIsNotTheTimeFor) {
   EXPECT_EQ(host.obey(StopRecording{}), "nothing is being recorded");
   ASSERT_EQ(host.obey(Record{false}), "");
   EXPECT_EQ(host.obey(Record{false}), "a recording is under way");
-  EXPECT_EQ(host.obey(SetCurrent{99.0}), "mA = 99: must be from 0 to 20 mA");
+  EXPECT_EQ(host.obey(SetCommand{99.0}), "to = 99: must be from 0 to 20 mA");
   ASSERT_EQ(host.obey(StopRecording{}), "");
   host.write_recordings(say);
   EXPECT_FALSE(fs::exists(scratch / "out")) << "a handful of rows is no run";
@@ -127,7 +127,7 @@ TEST_F(LiveHost, OfTwoMusclesWhatIsRecordedFromRestReplaysToTheCount) {
   rig = plant::thesis_pair();
   rig.sensors.put(plant::gauge());
   Host host(rig, 0.0, sets());
-  ASSERT_EQ(host.obey(SetCurrent{9.0, 2}), "");
+  ASSERT_EQ(host.obey(SetCommand{9.0, 2}), "");
   record(host, true, 150);
   EXPECT_EQ(host.obey(Record{false}),
             "of two muscles a recording begins from rest: their data sets cannot say otherwise");

@@ -234,8 +234,7 @@ std::string replayed(std::size_t runs, bool by_stamps = false) {
   data.path = "measured/dataset.yaml";
   if (by_stamps) {
     data.rig.muscle.rest_length_m = 0.18;
-    data.rig.valve.zero_command = {0.0, plant::RatedCommand::Unit::V};
-    data.rig.valve.span_command = {10.0, plant::RatedCommand::Unit::V};
+    plant::command_in(data.rig, plant::CommandUnit::V, 0.0, 10.0);
   }
   std::vector<run::ReplayedRun> all;
   for (std::size_t i = 0; i < runs; ++i) {
@@ -246,7 +245,7 @@ std::string replayed(std::size_t runs, bool by_stamps = false) {
       domain::Measurement& stamps = measured.measured.emplace();
       stamps.time_s = {0.0, 1.0};
       stamps.take("contraction") = {0.1, 0.1};
-      stamps.give("command") = {12.0, 12.0};
+      stamps.give("command") = {5.0, 5.0};
       stamps.take("muscle_pressure") = {1e5, 1e5};
     } else {
       measured.contraction_ratio = measured.current_mA = {0.1, 0.1};
@@ -258,7 +257,7 @@ std::string replayed(std::size_t runs, bool by_stamps = false) {
                 {"muscle_pressure", "bar", 0.5, 0.6, 0.1, 2}};
     run.recording.samples.resize(2);
     if (by_stamps)
-      for (auto& sample : run.recording.samples) sample.current_mA = 12.0;
+      for (auto& sample : run.recording.samples) sample.current_mA = 5.0;
     all.push_back(run);
   }
   return report_html(data, all);
@@ -295,12 +294,13 @@ TEST(Replay, ByStampsDrawsTheErrorOfThePressureAndTheGauge) {
 
 TEST(Page, OfAValveThatTakesVoltsShowsVolts) {
   const std::string html = replayed(1, true);
-  EXPECT_TRUE(holds(html, "\"command\":{\"name\":\"command\",\"unit\":\"V\",\"zero\":0.0,\"span\":10.0}",
-                    "\"current\":{\"low\":5.0,"));  // 12 mA
-  EXPECT_TRUE(holds(html, "\"title\":\"Command\",\"unit\":\"V\""));
-  const std::string of_mA = replayed(1);
-  EXPECT_TRUE(lacks(of_mA, "\"command\":{"));
-  EXPECT_TRUE(holds(of_mA, "\"title\":\"Current\",\"unit\":\"mA\""));
+  EXPECT_TRUE(holds(
+      html,
+      "\"command\":{\"name\":\"command\",\"title\":\"Command\",\"unit\":\"V\",\"zero\":0.0,\"span\":10.0}",
+      "\"command\":{\"low\":5.0,"));
+  EXPECT_TRUE(holds(
+      replayed(1),
+      "\"command\":{\"name\":\"current\",\"title\":\"Current\",\"unit\":\"mA\",\"zero\":4.0,\"span\":20.0}"));
 }
 
 TEST(Run, SaysHowLongControllersStoodAtALimitOfTheirCurrent) {
@@ -322,7 +322,7 @@ TEST(RigWords, TellWhatTheRigHasAndWhatItHasNot) {
   Contents contents;
   plant::Rig& rig = contents.rig;
   EXPECT_TRUE(holds(rig_html(contents), "<dt>gauge</dt><dd>none", "none: nominal laws only"));
-  rig.valve.zero_current_mA = 0.0;
+  rig.valve.zero_command = 0.0;
   rig.joint.wheel_radius_m = 0.2;
   rig.effects.get<plant::MuscleLeak>().conductance_m3_per_s_Pa = 1e-10;
   contents.gauge = true;

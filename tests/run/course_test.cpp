@@ -19,7 +19,7 @@ TEST(Course, AForceRunsStraightInStepsOfATickAndACommandIsHeld) {
   const Course course = course_of(two_stamps(domain::Hold::usual), plant::Rig{});
   EXPECT_TRUE(course.outer_force);
   ASSERT_EQ(course.drives.size(), 4u);
-  EXPECT_EQ(course.time_s[1], 0.01);
+  EXPECT_DOUBLE_EQ(course.time_s[1], 0.01);
   EXPECT_EQ(course.drives[0].joint_force_N, 5.0);  // its mean on the way to the next
   EXPECT_EQ(course.drives[2].joint_force_N, 25.0);
   EXPECT_EQ(course.drives[2].current_mA, 10.0);
