@@ -44,7 +44,7 @@ struct CalibratedSettings : CalibrationTerms {
     CalibrationTerms::fields(self, visit);
     visit("weighing", self.weighing, "how the load is weighed before the run, unless it is assumed");
     visit("extrapolate_target", self.extrapolate_target,
-          "whether contraction ratios and current speeds may leave the calibrated range on the way; if not, "
+          "whether contraction ratios and command speeds may leave the calibrated range on the way; if not, "
           "they are brought to its end");
   }
 };

@@ -4,8 +4,8 @@
 // `open_loop` reads it.
 #pragma once
 
+#include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace mckibben::controllers {
@@ -19,7 +19,7 @@ struct FrictionModel {
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
     visit.required("f0", self.f0, "1", -1e6, 1e6, "constant term");
-    visit.required("f1", self.f1_s2_per_mA2, "s2/mA2", -1e6, 1e6, "factor of the squared current speed");
+    visit.required("f1", self.f1_s2_per_mA2, "s2/mA2", -1e6, 1e6, "factor of the squared command speed");
     visit.required("f2", self.f2, "1", -1e6, 1e6, "factor of the contraction ratio");
     visit.required("f3", self.f3, "1", -1e6, 1e6, "factor of its logarithm");
   }
@@ -78,8 +78,8 @@ struct CalibratedRange {
     visit.required("highest_ratio", self.highest_ratio, "1", 0.0, 1.0, "largest contraction ratio used");
     visit.required("lowest_load", self.lowest_load_kg, "kg", 0.0, 500.0, "lightest load");
     visit.required("highest_load", self.highest_load_kg, "kg", 0.0, 500.0, "heaviest load");
-    visit.required("lowest_speed", self.lowest_speed_mA_per_s, "mA/s", 0.0, 1e5, "slowest current");
-    visit.required("highest_speed", self.highest_speed_mA_per_s, "mA/s", 0.0, 1e5, "fastest current");
+    visit.required("lowest_speed", self.lowest_speed_mA_per_s, "mA/s", 0.0, 1e5, "slowest command");
+    visit.required("highest_speed", self.highest_speed_mA_per_s, "mA/s", 0.0, 1e5, "fastest command");
   }
 };
 
@@ -103,6 +103,7 @@ struct FittedCoefficient {
 };
 
 struct Calibration {
+  std::optional<std::string> command_unit{};  ///< absent: mA
   FrictionModel contraction_friction, relaxation_friction;
   ContractionModel contraction;
   RelaxationModel relaxation;
@@ -111,6 +112,8 @@ struct Calibration {
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
+    visit("command_unit", self.command_unit,
+          "what the rig's valve is commanded in, and what this has in place of mA: V or bar; mA if absent");
     visit.required("contraction_friction", self.contraction_friction,
                    "friction coefficient while contracting");
     visit.required("relaxation_friction", self.relaxation_friction, "friction coefficient while relaxing");

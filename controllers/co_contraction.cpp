@@ -3,7 +3,6 @@
 //   K = -d/dtheta R (F_1 - F_2) = sum of R^2/l0_i (-dF_i/de_i)
 // and both forces are proportional to their pressures: K = c1 (P0 + dP) + c2 (P0 - dP).
 #include <algorithm>
-#include <cmath>
 #include <stdexcept>
 
 #include <controllers/co_contraction.hpp>

@@ -30,8 +30,8 @@ struct JointTerms {
     visit("co_contraction", self.co_contraction_Pa, "Pa", 0.0, 1e7,
           "P0 that is held; if absent, what nominal muscles take for the wanted stiffness, or the middle of "
           "the valves' pressures where none is wanted");
-    visit("largest_current_speed", self.largest_current_speed_mA_per_s, "mA/s", 1e-3, 1e6,
-          "how fast each current may change; at once if absent");
+    visit("largest_command_speed", self.largest_current_speed_mA_per_s, "mA/s", 1e-3, 1e6,
+          "how fast each command may change; at once if absent");
     visit("lowest_angle", self.lowest_angle_rad, "rad", -turn_rad, turn_rad,
           "joint angle at which a lower target is cut");
     visit("highest_angle", self.highest_angle_rad, "rad", -turn_rad, turn_rad,

@@ -1,4 +1,4 @@
-// What every controller is: encoder counts in, current out (two where there are two muscles), once each tick.
+// What every controller is: encoder counts in, command out (two where there are two muscles), once each tick.
 // A controller knows the hardware only by its data sheet (`Knowledge`); true states and the plant's own code
 // are out of its sight.
 #pragma once
@@ -47,12 +47,13 @@ struct ForceModel {
   double largest_contraction_ratio() const;  ///< e_max (T 2.10)
 };
 
-/// Nominal line of the servo valve, from current to gauge pressure (T 3.2).
+/// Nominal line of the servo valve, from command to gauge pressure (T 3.2).
 struct ValveLine {
   double zero_current_mA = 0.0;
   double span_current_mA = 0.0;
   double zero_pressure_Pa = 0.0;
   double span_pressure_Pa = 0.0;
+  std::string_view unit = "mA";  ///< of the commands: mA, V or bar
 
   double slope_Pa_per_mA() const;
   double pressure_Pa(double current_mA) const;  ///< kept between its ends
@@ -90,7 +91,7 @@ struct Knowledge {
 /// Something a controller found out about its load or its own limits.
 struct Finding {
   std::string name;
-  std::string unit;
+  std::string unit;  ///< of commands, here and in the name, as they are in mA
   double value = 0.0;
 };
 

@@ -27,9 +27,12 @@ class External final : public Guest {
     line_.add("contraction_per_count", known().contraction_per_count);
     line_.add("middle_of_count", known().middle_of_count);
     line_.add("rest_length_m", known().model.rest_length_m);
-    line_.add("lowest_mA", range().lowest_mA);
-    line_.add("highest_mA", range().highest_mA);
-    line_.add("largest_current_speed_mA_per_s", terms().largest_current_speed_mA_per_s.value_or(unlimited));
+    const std::string unit(known().valve.unit), in_unit = "_" + unit;
+    line_.add_text("command_unit", unit);
+    line_.add("lowest" + in_unit, range().lowest_mA);
+    line_.add("highest" + in_unit, range().highest_mA);
+    line_.add((unit == "mA" ? "largest_current_speed" : "largest_command_speed") + in_unit + "_per_s",
+              terms().largest_current_speed_mA_per_s.value_or(unlimited));
     line_.add("load_kg", known().load_kg.value_or(unlimited));
     line_.add("preparation_ticks", preparation_ticks());
     line_.add_list("target", known().target);
@@ -49,7 +52,9 @@ class External final : public Guest {
   double answered_mA(double within_s) {
     const std::string_view answer = process_->ask(line_.end(), within_s);
     const auto current_mA = number_in(answer);
-    if (!current_mA) throw ControllerFailure("its answer is no number of mA: " + in_quotes(answer));
+    if (!current_mA)
+      throw ControllerFailure("its answer is no number of " + std::string(known().valve.unit) + ": " +
+                              in_quotes(answer));
     return *current_mA;
   }
 

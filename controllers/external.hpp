@@ -1,4 +1,4 @@
-// A controller in a process of its own: one line of counts in, one number of mA out a tick, in any language
+// A controller in a process of its own: one line of counts in, one command out a tick, in any language
 // (docs/your_controller.md).
 #pragma once
 

@@ -24,7 +24,7 @@ Guest::Guest(const GuestTerms& terms, const Knowledge& known)
       before_mA_(range_.lowest_mA) {}
 
 double Guest::obeyed_mA(double asked_mA, const CurrentRange& reach) {
-  if (!std::isfinite(asked_mA)) throw ControllerFailure("its current is no finite number");
+  if (!std::isfinite(asked_mA)) throw ControllerFailure("its command is no finite number");
   before_mA_ = std::clamp(asked_mA, reach.lowest_mA, reach.highest_mA);
   if (before_mA_ != asked_mA) ++limited_ticks_;
   return before_mA_;

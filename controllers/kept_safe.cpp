@@ -1,4 +1,6 @@
 // See the header.
+#include <algorithm>
+
 #include <controllers/kept_safe.hpp>
 
 namespace mckibben::controllers {
@@ -9,7 +11,7 @@ class KeptSafe final : public Controller {
   KeptSafe(const SafetyTerms& terms, const Knowledge& knowledge, std::unique_ptr<Controller> inside)
       : terms_(terms),
         inside_(std::move(inside)),
-        range_{0.0, knowledge.largest_current_mA},
+        range_{std::min(0.0, knowledge.valve.zero_current_mA), knowledge.largest_current_mA},
         tick_s_(knowledge.tick_s),
         believed_(terms.fastest_load_per_s, knowledge) {}
 

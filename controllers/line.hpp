@@ -27,6 +27,11 @@ class LineWriter {
     else
       append(text_, value);
   }
+  /// Of letters that need no escape.
+  void add_text(std::string_view key, std::string_view value) {
+    open(key);
+    text_.append(1, '"').append(value).append(1, '"');
+  }
   /// Any range of numbers.
   void add_list(std::string_view key, const auto& values) {
     open(key);

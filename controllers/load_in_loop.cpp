@@ -1,7 +1,6 @@
 // One load for each look at the loop; see the header. A rest is explained half way between the branches, as
 // the threads may pull either way; a motion by its branch.
 #include <algorithm>
-#include <cmath>
 
 #include <controllers/load_in_loop.hpp>
 

@@ -3,8 +3,6 @@
 // inverted.
 #pragma once
 
-#include <vector>
-
 #include <controllers/current_range.hpp>
 #include <controllers/rig_model.hpp>
 

@@ -12,10 +12,11 @@
 extern "C" {
 #endif
 
-#define MCKIBBEN_CONTROLLER_VERSION 1
+#define MCKIBBEN_CONTROLLER_VERSION 2 /* 1 had no command_unit; it still drives valves that take mA */
 #define MCKIBBEN_CONTROLLER_WHY 256 /* bytes of a message, its end with it */
 
-/* What is known on paper before the run. Pointers are valid until `close`. */
+/* What is known on paper before the run. Pointers are valid until `close`. What is called mA is in
+ * `command_unit`: a valve may take volts or a pressure as well. */
 typedef struct {
   double period_s;                        /* from tick to tick */
   double contraction_per_count;           /* contraction ratio of one count */
@@ -28,6 +29,7 @@ typedef struct {
   const double* target;                   /* contraction ratio at tick 0, 1, ... */
   size_t target_ticks;
   const char* settings;                   /* what the scenario says behind `settings`, else "" */
+  const char* command_unit;               /* "mA", "V" or "bar" */
 } mckibben_controller_hello;
 
 /* What the hardware shows at a tick. */
@@ -45,10 +47,10 @@ int mckibben_controller_version(void);
 /* A controller at its beginning; NULL if it cannot do its work, the reason in `why`. */
 void* mckibben_controller_open(const mckibben_controller_hello* hello, char* why);
 
-/* Current [mA] held while the rig settles, before the first tick. */
+/* Command held while the rig settles, before the first tick. */
 double mckibben_controller_rest(void* self);
 
-/* Current [mA] from this tick to the next. Not 0 ends the run as failed, the reason in `why`. */
+/* Command from this tick to the next. Not 0 ends the run as failed, the reason in `why`. */
 int mckibben_controller_step(void* self, const mckibben_controller_reading* reading, double* current_mA, char* why);
 
 /* The run is over. */

@@ -1,7 +1,6 @@
 // Weighing first; see the header.
 #include <cmath>
 #include <stdexcept>
-#include <utility>
 
 #include <controllers/modelled.hpp>
 

@@ -32,9 +32,9 @@ struct ModelTerms : PlansWithModel, SafetyTerms {
     visit("assumed_load", self.assumed_load_kg, "kg", 0.01, 500.0,
           "load it believes in; weighed before the run if absent");
     visit("weighing_speed", self.weighing_speed_mA_per_s, "mA/s", 1e-3, 1e5,
-          "speed of the current while it weighs; 1/32 of the valve's span in a second if absent");
+          "speed of the command while it weighs; 1/32 of the valve's span in a second if absent");
     visit("look_ahead_ticks", self.look_ahead_ticks, 1, 1000,
-          "ticks after which a current is to have brought the load to the target");
+          "ticks after which a command is to have brought the load to the target");
     SafetyTerms::fields(self, visit);
   }
 };

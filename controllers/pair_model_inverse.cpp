@@ -9,7 +9,6 @@
 
 #include <controllers/delayed.hpp>
 #include <controllers/look_ahead.hpp>
-#include <controllers/model_observer.hpp>
 #include <controllers/pair_model_inverse.hpp>
 #include <controllers/safety.hpp>
 

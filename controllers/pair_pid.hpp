@@ -3,7 +3,6 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 #include <string>
 #include <string_view>
 
@@ -23,7 +22,7 @@ struct PairPidSettings : PidForm, JointTerms {
   static void fields(Self& self, Visitor& visit) {
     visit("name", self.name, "name in tables and file names");
     visit("proportional", self.proportional_mA, "mA/rad", 0.0, 1e6,
-          "gain K, by which the current to muscle 1 rises for an error of the angle; tuned if absent");
+          "gain K, by which the command to muscle 1 rises for an error of the angle; tuned if absent");
     PidForm::fields(self, visit);
     visit("tuning_load", self.tuning_load_kg, "kg", 0.0, 500.0,
           "load in the hand at which missing gains are tuned; the scenario's median load if absent");

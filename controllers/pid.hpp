@@ -36,7 +36,7 @@ struct PidForm {
           "Ti; 0 for no integral action, tuned if absent");
     visit("derivative_time", self.derivative_time_s, "s", 0.0, 1e3,
           "Td; 0 for no derivative action, tuned if absent");
-    visit("sample_ticks", self.sample_ticks, 1, 1000, "ticks from one new current to the next");
+    visit("sample_ticks", self.sample_ticks, 1, 1000, "ticks from one new command to the next");
     visit("derivative_filter", self.derivative_filter, "1", 1.0, 100.0,
           "N: the derivative is filtered with time constant Td/N");
     visit("setpoint_weight", self.setpoint_weight, "1", 0.0, 1.0, "b: share of the target in the K term");
@@ -51,7 +51,7 @@ struct PidTerms : PidForm, SafetyTerms, OutputLimits {
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
     visit("proportional", self.proportional_mA, "mA", 0.0, 1e6,
-          "gain K, current for a whole contraction ratio; tuned if absent");
+          "gain K, command for a whole contraction ratio; tuned if absent");
     PidForm::fields(self, visit);
     OutputLimits::fields(self, visit);
     visit("tuning_load", self.tuning_load_kg, "kg", 0.0, 500.0,
@@ -107,15 +107,15 @@ struct PidSettings : PidTerms {
   static void fields(Self& self, Visitor& visit) {
     visit("name", self.name, "name in tables and file names");
     PidTerms::fields(self, visit);
-    visit("rest_current", self.rest_current_mA, "mA", 0.0, 100.0,
-          "current before the first reading, and output without error; lowest_current if absent");
+    visit("rest_command", self.rest_current_mA, "mA", 0.0, 100.0,
+          "command before the first reading, and output without error; lowest_command if absent");
   }
   template <class Report>
   void rules(Report& report) const {
     PidTerms::rules(report);
     if (rest_current_mA && ((lowest_current_mA && *rest_current_mA < *lowest_current_mA) ||
                             (highest_current_mA && *rest_current_mA > *highest_current_mA)))
-      report("rest_current", "must lie between lowest_current and highest_current");
+      report("rest_command", "must lie between lowest_command and highest_command");
   }
 };
 

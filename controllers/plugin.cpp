@@ -12,6 +12,8 @@
 namespace mckibben::controllers {
 namespace {
 
+constexpr int version_for_mA = 1;  // did not tell the unit
+
 /// A library as long as somebody uses it.
 class Library {
  public:
@@ -58,7 +60,8 @@ class Plugin final : public Guest {
         .preparation_ticks = preparation_ticks(),
         .target = known().target.data(),
         .target_ticks = known().target.size(),
-        .settings = settings_.c_str()};
+        .settings = settings_.c_str(),
+        .command_unit = known().valve.unit.data()};
     self_ = open_(&hello, why_.data());
     if (self_ == nullptr) throw ControllerFailure("its library gives up: " + why());
     return rest_(self_);
@@ -77,7 +80,12 @@ class Plugin final : public Guest {
     library_ = std::make_unique<Library>(path_.string());
     decltype(mckibben_controller_version)* version = nullptr;
     library_->find(version, "mckibben_controller_version");
-    if (const int its = version(); its != MCKIBBEN_CONTROLLER_VERSION)
+    if (const int its = version(); its == version_for_mA && known().valve.unit != "mA")
+      throw ControllerFailure(
+          "its library is for version 1 of the interface, whose commands are in mA; here "
+          "they are in " +
+          std::string(known().valve.unit));
+    else if (its != MCKIBBEN_CONTROLLER_VERSION && its != version_for_mA)
       throw ControllerFailure("its library is for version " + std::to_string(its) +
                               " of the interface, not " + std::to_string(MCKIBBEN_CONTROLLER_VERSION));
     library_->find(open_, "mckibben_controller_open");

@@ -2,7 +2,6 @@
 // likely cause of its errors and leaves them open (T 5). The numbers come from whoever knows the plant.
 #pragma once
 
-#include <cstddef>
 #include <vector>
 
 namespace mckibben::controllers {

@@ -72,9 +72,9 @@ double RiseWeighing::guess_kg() const {
 std::unique_ptr<RigModel> RiseWeighing::weighed(const ModelMaker& maker) {
   if (counts_.back() < fewest_counts) {
     std::ostringstream text;
-    text << "weighing: up to " << current_mA_ << " mA the load rose by " << counts_.back()
-         << " counts, to a contraction ratio of " << ratio(counts_.back()) << "; at least " << fewest_counts
-         << " counts are needed. It is too heavy for this rig, or something holds it";
+    text << "weighing: up to " << current_mA_ << ' ' << knowledge_.valve.unit << " the load rose by "
+         << counts_.back() << " counts, to a contraction ratio of " << ratio(counts_.back()) << "; at least "
+         << fewest_counts << " counts are needed. It is too heavy for this rig, or something holds it";
     throw ControllerFailure(text.str());
   }
   // The heavier, the less the model rises, down to none at all: between two loads that bracket the counts, by

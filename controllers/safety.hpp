@@ -32,8 +32,8 @@ struct SafetyTerms {
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
-    visit("largest_current_speed", self.largest_current_speed_mA_per_s, "mA/s", 1e-3, 1e6,
-          "how fast the current may change; at once if absent");
+    visit("largest_command_speed", self.largest_current_speed_mA_per_s, "mA/s", 1e-3, 1e6,
+          "how fast the command may change; at once if absent");
     visit("highest_target", self.highest_target, "1", 0.0, 1.0,
           "contraction ratio at which a higher target is cut (T 2.3: above 0.20 the muscle is at risk)");
     visit(
@@ -59,16 +59,16 @@ struct OutputLimits {
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
-    visit("lowest_current", self.lowest_current_mA, "mA", 0.0, 100.0,
-          "lower limit of the output; the valve's zero_current if absent");
-    visit("highest_current", self.highest_current_mA, "mA", 0.0, 100.0,
-          "upper limit of the output; the valve's span_current, "
-          "or the DAC's largest_current if that is lower, if absent");
+    visit("lowest_command", self.lowest_current_mA, "mA", 0.0, 100.0,
+          "lower limit of the output; the valve's zero_command if absent");
+    visit("highest_command", self.highest_current_mA, "mA", 0.0, 100.0,
+          "upper limit of the output; the valve's span_command, "
+          "or the DAC's largest_command if that is lower, if absent");
   }
   template <class Report>
   void rules(Report& report) const {
     if (lowest_current_mA && highest_current_mA && *highest_current_mA <= *lowest_current_mA)
-      report("highest_current", "must be above lowest_current");
+      report("highest_command", "must be above lowest_command");
   }
 };
 

@@ -14,7 +14,6 @@
 #include <controllers/external.hpp>
 #include <controllers/feedforward_pid.hpp>
 #include <controllers/model_inverse.hpp>
-#include <controllers/model_inverse_feedback.hpp>
 #include <controllers/open_loop.hpp>
 #include <controllers/open_loop_limited.hpp>
 #include <controllers/pair_model_inverse.hpp>
@@ -73,25 +72,21 @@ void follow(Settings& settings, const CurrentRange& range);
 /// of two muscles, whose limits are those of their pressures.
 std::optional<CurrentRange> limits_of(const Settings& settings, const Knowledge& knowledge);
 
-/// The feedback of a controller that has one, else null.
-PidForm* feedback_of(Settings& settings);
-
-/// The ends of the output of a controller that lets them be given, else null.
-const OutputLimits* output_limits(const Settings& settings);
-
-/// What is said about a controller that is somebody else's program, else null.
-GuestTerms* guest_terms(Settings& settings);
-const GuestTerms* guest_terms(const Settings& settings);
-
-/// What a controller that needs a calibration says about it, else null.
-CalibrationTerms* calibrated(Settings& settings);
-const CalibrationTerms* calibrated(const Settings& settings);
+/// What the settings share with other controllers: the feedback (PidForm), the ends of the output
+/// (OutputLimits), what is said of somebody else's program (GuestTerms), of a calibration (CalibrationTerms),
+/// of a model of the rig (PlansWithModel). Null if they have no such part.
+template <class Part, class Whole>
+auto part_of(Whole& settings) {
+  using Found = std::conditional_t<std::is_const_v<Whole>, const Part, Part>;
+  return std::visit(
+      [](auto& one) -> Found* {
+        if constexpr (std::derived_from<std::remove_cvref_t<decltype(one)>, Part>) return &one;
+        return nullptr;
+      },
+      settings);
+}
 
 /// How a controller weighs the load in contractions, if it does, else null.
 const WeighingSettings* weighing_of(const Settings& settings);
-
-/// What a controller that plans with a model says about it, else null.
-PlansWithModel* model_terms(Settings& settings);
-const PlansWithModel* model_terms(const Settings& settings);
 
 }  // namespace mckibben::controllers

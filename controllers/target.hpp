@@ -114,12 +114,12 @@ void check_order(Report& report, std::string_view key, const std::vector<GlideOf
 //   at(time_s, rest_length_m)  contraction ratio wanted at that time,
 //   knots_s()                  times at which a largest or smallest value can stand, besides start and end.
 
-/// Heights held one after the other.
-template <class Value>
-struct StepsOf {
-  static constexpr std::string_view kind = "steps";
+/// Heights one after the other, from each to the next along a path.
+template <class Value, class Path>
+struct MovesOf {
+  static constexpr std::string_view kind = Path::kind;
   Value start;
-  std::vector<MoveOf<Value>> moves;
+  std::vector<typename Path::template Move<Value>> moves;
 
   double at(double time_s, double rest_length_m) const;
   std::vector<double> knots_s() const;
@@ -127,58 +127,47 @@ struct StepsOf {
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
     visit("start", self.start, "before the first move");
-    visit.required("moves", self.moves, "steps in order of time; an empty list holds the start");
+    visit.required("moves", self.moves, Path::moves);
   }
   template <class Report>
   void rules(Report& report) const {
     check_height(report, "start", start);
     check_order(report, "moves", moves);
   }
+};
+
+/// Heights held.
+struct StepPath {
+  static constexpr std::string_view kind = "steps";
+  static constexpr const char* moves = "steps in order of time; an empty list holds the start";
+  template <class Value>
+  using Move = MoveOf<Value>;
 };
 
 /// Straight moves between heights.
-template <class Value>
-struct RampsOf {
+struct RampPath {
   static constexpr std::string_view kind = "ramps";
-  Value start;
-  std::vector<GlideOf<Value>> moves;
-
-  double at(double time_s, double rest_length_m) const;
-  std::vector<double> knots_s() const;
-
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
-    visit("start", self.start, "before the first move");
-    visit.required("moves", self.moves, "straight moves in order of time; an empty list holds the start");
-  }
-  template <class Report>
-  void rules(Report& report) const {
-    check_height(report, "start", start);
-    check_order(report, "moves", moves);
-  }
+  static constexpr const char* moves = "straight moves in order of time; an empty list holds the start";
+  template <class Value>
+  using Move = GlideOf<Value>;
+  static double at(double share) { return share; }
 };
 
 /// Smoothest moves between heights: 10 s^3 - 15 s^4 + 6 s^5, speed and acceleration zero at both ends.
-template <class Value>
-struct MinimumJerkOf {
+struct MinimumJerkPath {
   static constexpr std::string_view kind = "minimum_jerk";
-  Value start;
-  std::vector<GlideOf<Value>> moves;
-
-  double at(double time_s, double rest_length_m) const;
-  std::vector<double> knots_s() const;
-
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
-    visit("start", self.start, "before the first move");
-    visit.required("moves", self.moves, "smooth moves in order of time; an empty list holds the start");
-  }
-  template <class Report>
-  void rules(Report& report) const {
-    check_height(report, "start", start);
-    check_order(report, "moves", moves);
-  }
+  static constexpr const char* moves = "smooth moves in order of time; an empty list holds the start";
+  template <class Value>
+  using Move = GlideOf<Value>;
+  static double at(double share) { return share * share * share * (10.0 + share * (6.0 * share - 15.0)); }
 };
+
+template <class Value>
+using StepsOf = MovesOf<Value, StepPath>;
+template <class Value>
+using RampsOf = MovesOf<Value, RampPath>;
+template <class Value>
+using MinimumJerkOf = MovesOf<Value, MinimumJerkPath>;
 
 /// mean + amplitude sin(2 pi (t - delay)/period); the mean before the delay is over.
 template <class Value>
@@ -273,20 +262,18 @@ using Target = TargetOf<Height>;
 using AngleTarget = TargetOf<Angle>;
 using StiffnessTarget = TargetOf<Stiffness>;
 
-/// Contraction ratio wanted at each of the ticks 0 ... ticks - 1; with a rest length of 1, angles [rad] and
-/// stiffnesses [N m/rad] as they are.
-std::vector<double> sample(const Target& target, std::size_t ticks, double tick_s, double rest_length_m);
-std::vector<double> sample(const AngleTarget& target, std::size_t ticks, double tick_s,
-                           double rest_length_in_radii);
-std::vector<double> sample(const StiffnessTarget& target, std::size_t ticks, double tick_s, double one);
+/// Contraction ratio wanted at each of the ticks 0 ... ticks - 1. Of angles `rest_length_m` is in radii of
+/// the wheel: with 1 they [rad], as stiffnesses [N m/rad], are as they are.
+template <class Value>
+std::vector<double> sample(const TargetOf<Value>& target, std::size_t ticks, double tick_s,
+                           double rest_length_m);
 
 /// Time of the last commanded change, from which settling is counted; none for a periodic target.
-std::optional<double> last_change_s(const Target& target);
-std::optional<double> last_change_s(const AngleTarget& target);
+template <class Value>
+std::optional<double> last_change_s(const TargetOf<Value>& target);
 
 /// Lowest and highest contraction ratio wanted from 0 to duration_s.
-std::pair<double, double> range(const Target& target, double duration_s, double rest_length_m);
-std::pair<double, double> range(const AngleTarget& target, double duration_s, double rest_length_in_radii);
-std::pair<double, double> range(const StiffnessTarget& target, double duration_s, double one);
+template <class Value>
+std::pair<double, double> range(const TargetOf<Value>& target, double duration_s, double rest_length_m);
 
 }  // namespace mckibben::controllers

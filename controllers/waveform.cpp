@@ -1,7 +1,6 @@
 // The waveforms' values, and the two controllers that play a formula and a recording.
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <limits>
 #include <numbers>
 #include <stdexcept>

@@ -32,8 +32,8 @@ struct SineCurrent {
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
     visit("name", self.name, "name in tables and file names");
-    visit.required("low", self.low_mA, "mA", 0.0, 100.0, "lowest current, where the sine begins");
-    visit.required("high", self.high_mA, "mA", 0.0, 100.0, "highest current");
+    visit.required("low", self.low_mA, "mA", 0.0, 100.0, "lowest command, where the sine begins");
+    visit.required("high", self.high_mA, "mA", 0.0, 100.0, "highest command");
     visit.required("period", self.period_s, "s", 1e-3, 1e6, "time of one cycle");
     visit("cycles", self.cycles, "1", 0.01, 1e6, "number of cycles, then the last value; endless if absent");
     visit("delay", self.delay_s, "s", 0.0, 1e6, "time at low before the sine begins");
@@ -60,10 +60,10 @@ struct TriangleCurrent {
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
     visit("name", self.name, "name in tables and file names");
-    visit.required("low", self.low_mA, "mA", 0.0, 100.0, "lowest current, where the triangle begins");
-    visit.required("high", self.high_mA, "mA", 0.0, 100.0, "highest current");
+    visit.required("low", self.low_mA, "mA", 0.0, 100.0, "lowest command, where the triangle begins");
+    visit.required("high", self.high_mA, "mA", 0.0, 100.0, "highest command");
     visit("period", self.period_s, "s", 1e-3, 1e6, "time from low to high and back; or give speed");
-    visit("speed", self.speed_mA_per_s, "mA/s", 1e-6, 1e5, "speed of the current; or give period");
+    visit("speed", self.speed_mA_per_s, "mA/s", 1e-6, 1e5, "speed of the command; or give period");
     visit("cycles", self.cycles, "1", 0.01, 1e6, "number of cycles, then the last value; endless if absent");
     visit("delay", self.delay_s, "s", 0.0, 1e6, "time at low before the triangle begins");
   }
@@ -83,7 +83,7 @@ struct CurrentMove {
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
     visit.required("at", self.at_s, "s", 0.0, 1e6, "time of the step");
-    visit.required("to", self.to_mA, "mA", 0.0, 100.0, "current from then on");
+    visit.required("to", self.to_mA, "mA", 0.0, 100.0, "command from then on");
   }
 };
 
@@ -103,7 +103,7 @@ struct StepCurrent {
   static void fields(Self& self, Visitor& visit) {
     visit("name", self.name, "name in tables and file names");
     visit("start", self.start_mA, "mA", 0.0, 100.0,
-          "current before the first step; the valve's zero_current if absent");
+          "command before the first step; the valve's zero_command if absent");
     visit.required("moves", self.moves, "steps in order of time; an empty list holds the start");
   }
   template <class Report>
@@ -127,8 +127,8 @@ struct StairCurrent {
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
     visit("name", self.name, "name in tables and file names");
-    visit.required("low", self.low_mA, "mA", 0.0, 100.0, "lowest current, the first level");
-    visit.required("high", self.high_mA, "mA", 0.0, 100.0, "highest current");
+    visit.required("low", self.low_mA, "mA", 0.0, 100.0, "lowest command, the first level");
+    visit.required("high", self.high_mA, "mA", 0.0, 100.0, "highest command");
     visit.required("steps", self.steps, 1, 10000, "number of steps from low to high");
     visit.required("dwell", self.dwell_s, "s", 1e-3, 1e6, "time at each level");
   }
@@ -152,8 +152,8 @@ struct ChirpCurrent {
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
     visit("name", self.name, "name in tables and file names");
-    visit.required("low", self.low_mA, "mA", 0.0, 100.0, "lowest current; the chirp begins midway");
-    visit.required("high", self.high_mA, "mA", 0.0, 100.0, "highest current");
+    visit.required("low", self.low_mA, "mA", 0.0, 100.0, "lowest command; the chirp begins midway");
+    visit.required("high", self.high_mA, "mA", 0.0, 100.0, "highest command");
     visit.required("first_frequency", self.first_frequency_Hz, "Hz", 0.0, 1e3, "frequency at the beginning");
     visit.required("last_frequency", self.last_frequency_Hz, "Hz", 0.0, 1e3, "frequency at the end");
     visit.required("lasting", self.lasting_s, "s", 1e-3, 1e6, "length of the chirp, then the last value");
@@ -180,7 +180,8 @@ struct RecordedCurrent {
   static void fields(Self& self, Visitor& visit) {
     visit("name", self.name, "name in tables and file names");
     visit.required("file", self.file, "CSV table, one row each tick");
-    visit("column", self.column, "heading of the column that holds the current in mA");
+    visit("column", self.column,
+          "heading of the column that holds the command; the rig's own, current_mA or command_V, if absent");
   }
   template <class Report>
   void rules(Report& report) const {

@@ -79,8 +79,8 @@ WeighedLoad Weighing::result() const {
            << static_cast<double>(one.highest_counts) * contraction_per_count_ << ", of which " << one.samples
            << " samples can be used (at least " << fewest_samples
            << "; calibrated are contraction ratios from " << range_.lowest_ratio << " to "
-           << range_.highest_ratio << "). A higher weighing.high (now " << high_mA_
-           << " mA) lifts it further, a lower weighing.speed gives more samples";
+           << range_.highest_ratio << "). A higher weighing.high (now " << high_mA_ << ' ' << valve_.unit
+           << ") lifts it further, a lower weighing.speed gives more samples";
       throw ControllerFailure(text.str());
     }
     sum_kg += one.sum_kg / one.samples;

@@ -4,7 +4,6 @@
 
 #include <cstdint>
 #include <optional>
-#include <string_view>
 #include <vector>
 
 #include <controllers/calibration.hpp>
@@ -26,11 +25,11 @@ struct WeighingSettings {
   static void fields(Self& self, Visitor& visit) {
     visit("contractions", self.contractions, 2, 1000, "how often the load is lifted (T 4.3: five times)");
     visit("speed", self.speed_mA_per_s, "mA/s", 1e-3, 1e5,
-          "speed of the current; 3/8 of the valve's span in a second if absent");
+          "speed of the command; 3/8 of the valve's span in a second if absent");
     visit("low", self.low_mA, "mA", 0.0, 100.0,
-          "current between two contractions; the valve's zero_current if absent");
+          "command between two contractions; the valve's zero_command if absent");
     visit("high", self.high_mA, "mA", 0.0, 100.0,
-          "current at the top of each; a quarter of the valve's span up if absent");
+          "command at the top of each; a quarter of the valve's span up if absent");
   }
   template <class Report>
   void rules(Report& report) const {

@@ -7,9 +7,9 @@
 namespace mckibben::plant {
 
 double dac_output_mA(const Dac& dac, double wanted_mA) {
-  const double step = dac.largest_current_mA / std::ldexp(1.0, dac.bits);
-  const double clamped = std::clamp(wanted_mA, 0.0, dac.largest_current_mA);
-  return std::min(std::round(clamped / step) * step, dac.largest_current_mA);
+  const double range = dac.largest_command - dac.lowest_command, step = range / std::ldexp(1.0, dac.bits);
+  const double above = std::clamp(wanted_mA, dac.lowest_command, dac.largest_command) - dac.lowest_command;
+  return dac.lowest_command + std::min(std::round(above / step) * step, range);
 }
 
 double count_height_m(const Sensor& position, double wheel_radius_m) {

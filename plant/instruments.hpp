@@ -23,7 +23,7 @@ struct Noise {
           "rms of the position before it is counted, as contraction ratio");
     visit("gauge", self.gauge_Pa, "Pa", 0.0, 1e5, "rms of the pressure gauge");
     visit("current", self.current_mA, "mA", 0.0, 10.0,
-          "rms of the current that reaches the valve; not recorded");
+          "rms of the command that reaches the valve; not recorded");
     visit("ripple", self.ripple_Pa, "Pa", 0.0, 1e5,
           "amplitude of a sine on the valve's reference pressure, its phase by chance");
     visit("ripple_period", self.ripple_period_s, "s", 0.1, 1e4, "its period");
@@ -33,7 +33,7 @@ struct Noise {
   }
 };
 
-/// The current [mA] a DAC gives when asked for one: clamped to its range, rounded to the nearest step.
+/// The command a DAC gives when asked for one: clamped to its range, rounded to the nearest step.
 double dac_output_mA(const Dac& dac, double wanted_mA);
 
 /// Rise of the load for one count of what reads the position [m]: of an encoder, or a step of another sensor.

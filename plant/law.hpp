@@ -3,7 +3,6 @@
 // go one way; nothing here allocates or looks up a name. What a law sees and adds to: docs/hypotheses.md.
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>

@@ -122,7 +122,8 @@ Imbalance PlantOf<P>::imbalance(const State<double>& from, const State<double>& 
   const double work_J = std::abs(books.braid_work_J) + std::abs(books.stop_work_J) +
                         std::abs(books.effects_work_J) + std::abs(books.thread_friction_work_J) +
                         std::abs(books.guide_work_J) + std::abs(books.bench_work_J);
-  return {std::abs(lost_kg) / all_kg, std::abs(lost_J) / std::max(work_J, least_J)};
+  const double whole_J = std::max(work_J, least_J);  // 0 where nothing hangs and nothing moved
+  return {std::abs(lost_kg) / all_kg, whole_J > 0.0 ? std::abs(lost_J) / whole_J : 0.0};
 }
 
 template class PlantOf<double>;

@@ -70,14 +70,20 @@ using Joint = JointOf<double>;
 
 /// Digital-to-analogue converter that drives the valve (T 3.1; the 12 bits are an assumption).
 struct Dac {
-  double largest_current_mA = 20.0;
+  double lowest_command = 0.0, largest_command = 20.0;
   int bits = 12;
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
-    visit("largest_current", self.largest_current_mA, "mA", 0.1, 100.0,
-          "top of the range that starts at 0 mA");
-    visit("bits", self.bits, 4, 24, "resolution: steps of largest_current / 2^bits");
+    visit("lowest_command", self.lowest_command, "mA", 0.0, 100.0,
+          "bottom of its range, put out when all ends; in V or bar 0, or zero_command where that is below");
+    visit("largest_command", self.largest_command, "mA", 0.1, 100.0,
+          "top of its range; in V or bar the valve's span_command if left out");
+    visit("bits", self.bits, 4, 24, "resolution: steps of the range / 2^bits");
+  }
+  template <class Report>
+  void rules(Report& report) const {
+    if (largest_command <= lowest_command) report("largest_command", "must be above lowest_command");
   }
 };
 
@@ -129,15 +135,16 @@ struct RigOf {
     visit("hose", self.hose, "hose from valve to muscle");
     visit("gas", self.gas, "air and atmosphere");
     visit("joint", self.joint, "wheel, inertia and load guide");
-    visit("dac", self.dac, "current output");
+    visit("dac", self.dac, "output of commands");
     visit("sensors", self.sensors,
           "what reads the rig, one for each signal; those of the base that are not named here stay, "
           "`kind: none` takes one away");
     visit("effects", self.effects, "what the nominal rig leaves out; each absent unless given a size");
-    visit("tick", self.tick_s, "s", 1e-4, 1.0, "time between two readings; the current is held in between");
+    visit("tick", self.tick_s, "s", 1e-4, 1.0, "time between two readings; the command is held in between");
     visit("settling_time", self.settling_time_s, "s", 0.0, 1000.0,
-          "how long the first current is held before the first reading (rounded to ticks)");
+          "how long the first command is held before the first reading (rounded to ticks)");
   }
+  CommandUnit command_unit() const { return valve.command_unit; }
   /// Whether something in it has a memory: an effect, or a regulator that swings.
   bool remembers() const { return effects.remember() || valve.swings(); }
 
@@ -201,6 +208,23 @@ struct RigOf {
   }
 };
 using Rig = RigOf<double>;
+
+/// A side (a rig, or the second muscle's) with a valve that is commanded otherwise: friction is as it was at
+/// the same speeds of the pressure. The caller sees to it that the span is above zero.
+template <class Side>
+void command_in(Side& side, CommandUnit unit, double zero, double span) {
+  const double ratio = (side.valve.span_command - side.valve.zero_command) / (span - zero);
+  side.friction.f1_s2_per_mA2 *= ratio * ratio;
+  side.valve.command_unit = unit;
+  side.valve.zero_command = zero;
+  side.valve.span_command = span;
+}
+
+/// The range of its own unit: the thesis's in mA, in another the valve's, with 0 in it.
+inline Dac dac_for(const Valve& valve) {
+  if (valve.command_unit == CommandUnit::mA) return {};
+  return {.lowest_command = std::min(0.0, valve.zero_command), .largest_command = valve.span_command};
+}
 
 /// A rig as its owner believes it to be: without effects, and with nothing beside the load on the wheel.
 inline Rig nominal(Rig rig) {

@@ -1,5 +1,4 @@
 // What a side precomputes, and what is asked of it between instants.
-#include <algorithm>
 
 #include <plant/side.hpp>
 
@@ -8,7 +7,7 @@ namespace mckibben::plant {
 namespace {
 
 double slope_Pa_per_mA(const Valve& valve) {
-  return (valve.span_pressure_Pa - valve.zero_pressure_Pa) / (valve.span_current_mA - valve.zero_current_mA);
+  return (valve.span_pressure_Pa - valve.zero_pressure_Pa) / (valve.span_command - valve.zero_command);
 }
 
 }  // namespace
@@ -16,14 +15,14 @@ double slope_Pa_per_mA(const Valve& valve) {
 template <class P>
 double SideOf<P>::reference_pressure_Pa(double current_mA) const {
   const Valve& valve = rig_.valve;
-  return std::clamp(valve.zero_pressure_Pa + slope_Pa_per_mA(valve) * (current_mA - valve.zero_current_mA),
+  return std::clamp(valve.zero_pressure_Pa + slope_Pa_per_mA(valve) * (current_mA - valve.zero_command),
                     valve.zero_pressure_Pa, valve.span_pressure_Pa);
 }
 
 template <class P>
 double SideOf<P>::reference_slope_Pa_per_mA(double current_mA) const {
   const Valve& valve = rig_.valve;
-  const bool trimmed = current_mA < valve.zero_current_mA || current_mA > valve.span_current_mA;
+  const bool trimmed = current_mA < valve.zero_command || current_mA > valve.span_command;
   return trimmed ? 0.0 : slope_Pa_per_mA(valve);
 }
 

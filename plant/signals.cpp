@@ -14,8 +14,15 @@ bool exists(const Channel& channel, const Rig& rig, const Driven& driven) {
       return !driven.pair;
     case Needs::pair:
       return driven.pair;
+    case Needs::command:
+      return driven.pressure[channel.muscle == 2 ? 1 : 0] == GivenPressure::none &&
+             channel.signal->of_commands_in.value_or(rig.command_unit()) == rig.command_unit();
     case Needs::valve:
-      return !driven.pressure[channel.muscle == 2 ? 1 : 0];
+      return driven.pressure[channel.muscle == 2 ? 1 : 0] != GivenPressure::muscle;
+    case Needs::outer_force:
+      return driven.joint_force && !driven.pair;
+    case Needs::outer_torque:
+      return driven.joint_force && driven.pair;
     case Needs::sensor:
       return exists({&signal_of(channel.signal->reads), channel.muscle}, rig, driven) &&
              std::any_of(rig.sensors.begin(), rig.sensors.end(), [&](const Sensor& sensor) {
@@ -37,6 +44,14 @@ std::string name_of(const Signal& signal, std::size_t muscle) {
   return name;
 }
 
+std::string of_muscle(std::string words, std::size_t muscle) {
+  if (muscle == 0) return words;
+  constexpr std::string_view whole = "the muscle";
+  const std::string one = "muscle " + std::to_string(muscle);
+  const auto at = words.find(whole);
+  return at == std::string::npos ? words += " of " + one : words.replace(at, whole.size(), one);
+}
+
 }  // namespace
 
 std::string Channel::key() const {
@@ -55,14 +70,13 @@ std::string Channel::name_in_dataset() const {
   return name_of(signal->reads.empty() ? *signal : signal_of(signal->reads), muscle);
 }
 
+std::string Channel::words_in_dataset() const {
+  return of_muscle(std::string(signal->dataset_words.empty() ? signal->words : signal->dataset_words),
+                   muscle);
+}
+
 std::string Channel::words() const {
-  std::string words(signal->words);
-  if (muscle > 0) {
-    constexpr std::string_view whole = "the muscle";
-    const std::string one = "muscle " + std::to_string(muscle);
-    const auto at = words.find(whole);
-    at == std::string::npos ? words += " of " + one : words.replace(at, whole.size(), one);
-  }
+  std::string words = of_muscle(std::string(signal->words), muscle);
   if (signal->kind == Kind::state) words += ", true";
   if (signal->kind == Kind::input) words += ", from this row to the next";
   return words;
@@ -101,6 +115,11 @@ const Signal& signal_of(std::string_view key) {
   for (const Signal& signal : signals)
     if (signal.key == key) return signal;
   throw std::invalid_argument("there is no signal " + std::string(key));
+}
+
+const Signal& command_of(CommandUnit unit) {
+  return *std::find_if(signals.begin(), signals.end(),
+                       [&](const Signal& signal) { return signal.of_commands_in == unit; });
 }
 
 const Channel& channel_of(const std::vector<Channel>& channels, std::string_view key) {

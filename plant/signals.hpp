@@ -9,6 +9,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -40,7 +41,8 @@ struct Sample : SideSample {
   double misread_ratio = 0.0;                           ///< what an encoder shows besides e, before it counts
   double angle_rad = 0.0, angle_speed_rad_per_s = 0.0;  ///< of a pair's joint
   double torque_N_m = 0.0, stiffness_N_m_per_rad = 0.0;
-  SideSample opposite{};  ///< muscle 2 of a pair
+  double joint_force_N = 0.0, joint_torque_N_m = 0.0;  ///< from outside, from here to the next row
+  SideSample opposite{};                               ///< muscle 2 of a pair
 
   double shown_ratio() const { return state.joint.contraction_ratio + misread_ratio; }
   const SideSample& side(std::size_t muscle) const { return muscle == 2 ? opposite : *this; }
@@ -51,9 +53,10 @@ struct Sample : SideSample {
 
 /// What drives a rig, where it is not a current to the valve of one muscle that lifts a load.
 struct Driven {
-  bool pair = false, length = false;  ///< two muscles; the length of one is given
-  std::array<bool, 2> pressure{};     ///< of each muscle: its pressure is given, and it has no valve
-  bool force = false;                 ///< the force of the cord is measured
+  bool pair = false, length = false;        ///< two muscles; the length of one is given
+  std::array<GivenPressure, 2> pressure{};  ///< of each muscle: that of its valve or its own is given
+  bool joint_force = false;                 ///< a force, of a pair a torque, acts on the joint from outside
+  bool force = false;                       ///< the force of the cord is measured
 };
 
 /// A unit of columns: as UDUNITS-2 spells it, at the end of a column's name, and how much one is in the
@@ -68,7 +71,7 @@ struct Unit {
 enum class Kind { time, input, state, reading };
 enum class Part { joint, muscle };
 /// What a rig must have for a signal to exist.
-enum class Needs { nothing, one_muscle, pair, valve, sensor };
+enum class Needs { nothing, one_muscle, pair, command, valve, sensor, outer_force, outer_torque };
 /// Whether it is a column of the files of runs; a force only of pairs, and where it is measured or a length
 /// is given. Pages, Python and FMUs have all signals.
 enum class InFiles { yes, no, measured_force };
@@ -82,21 +85,41 @@ struct Signal {
   Needs needs = Needs::nothing;
   double (*value)(const Sample& row, std::size_t muscle);  ///< muscle 1 or 2
   InFiles in_files = InFiles::yes;
-  bool with_next = false;         ///< of two muscles: in one group with the signal that follows
-  bool may_be_given = false;      ///< in a data set: it may drive a simulation
-  std::string_view of_two = key;  ///< its key where there are two muscles
-  std::string_view reads{};       ///< of a reading: the key of what is read; a data set's column has its name
-  std::string_view in_dataset{};  ///< its key in a data set's `columns:`
-  bool whole = false;             ///< an integer
+  bool with_next = false;  ///< of two muscles: in one group with the signal that follows
+  // Of a data set's `columns:`.
+  bool may_be_given = false;         ///< it may drive a simulation; of an input: it does
+  std::string_view in_dataset{};     ///< its key
+  std::string_view dataset_words{};  ///< what the key means, where `words` do not say it
+  bool must_be_named = false;        ///< a column that has our name by chance is not meant
+  bool of_each_muscle = true;        ///< of a pair, too
+  std::string_view of_two = key;     ///< its key where there are two muscles
+  std::string_view reads{};  ///< of a reading: the key of what is read; a data set's column has its name
+  bool whole = false;        ///< an integer
+  std::optional<CommandUnit> of_commands_in{};  ///< of rigs whose valves take this
 };
 
 namespace units {
-inline constexpr Unit s{"s", "s"}, mA{"mA", "mA"}, bar{"bar", "bar", Pa_per_bar}, m{"m", "m"}, N{"N", "N"},
+inline constexpr Unit s{"s", "s"}, bar{"bar", "bar", Pa_per_bar}, m{"m", "m"}, N{"N", "N"},
     ratio{"1", "", 1.0, "contraction ratio"}, count{"1", ""}, per_s{"s-1", "per_s"},
     rad{"rad", "rad", 1.0, "deg", degree_rad}, rad_per_s{"rad s-1", "rad_per_s"},
     kg_per_s{"kg s-1", "kg_per_s"}, N_m{"N m", "Nm", 1.0, "N m"},
     N_m_per_rad{"N m rad-1", "Nm_per_rad", 1.0, "N m/rad"};
 }  // namespace units
+
+/// To the valve, natively in what it takes.
+constexpr Signal command_signal(CommandUnit unit, std::string_view key, std::string_view words) {
+  return {.key = key,
+          .unit = {name_of(unit), name_of(unit)},
+          .words = words,
+          .kind = Kind::input,
+          .part = Part::muscle,
+          .needs = Needs::command,
+          .value = [](const Sample& row, std::size_t i) { return row.side(i).current_mA; },
+          .may_be_given = true,
+          .in_dataset = "command",
+          .dataset_words = "command to the valve of the muscle, in mA, V or bar",
+          .of_commands_in = unit};
+}
 
 /// In the order of the columns of a file.
 inline constexpr auto signals = std::to_array<Signal>({
@@ -105,23 +128,19 @@ inline constexpr auto signals = std::to_array<Signal>({
      .words = "time",
      .kind = Kind::time,
      .value = [](const Sample& row, std::size_t) { return row.time_s; },
-     .in_dataset = "time"},
-    {.key = "current",
-     .unit = units::mA,
-     .words = "current to the valve",
-     .kind = Kind::input,
-     .part = Part::muscle,
-     .needs = Needs::valve,
-     .value = [](const Sample& row, std::size_t i) { return row.side(i).current_mA; },
-     .may_be_given = true,
-     .in_dataset = "command"},
+     .in_dataset = "time",
+     .dataset_words = "time since the first row"},
+    command_signal(CommandUnit::mA, "current", "current to the valve"),
+    command_signal(CommandUnit::V, "command", "voltage to the valve"),
+    command_signal(CommandUnit::bar, "command", "pressure asked of the valve"),
     {.key = "contraction_ratio",
      .unit = units::ratio,
      .words = "contraction ratio",
      .needs = Needs::one_muscle,
      .value = [](const Sample& row, std::size_t) { return row.state.joint.contraction_ratio; },
      .may_be_given = true,
-     .in_dataset = "contraction"},
+     .in_dataset = "contraction",
+     .dataset_words = "height of the load: ratio, angle of the wheel, travel of the rope, or encoder counts"},
     {.key = "contraction_speed",
      .unit = units::per_s,
      .words = "speed of the contraction ratio",
@@ -142,7 +161,7 @@ inline constexpr auto signals = std::to_array<Signal>({
      .unit = units::bar,
      .words = "gauge pressure asked of the valve",
      .part = Part::muscle,
-     .needs = Needs::valve,
+     .needs = Needs::command,
      .value = [](const Sample& row, std::size_t i) { return row.side(i).reference_Pa; },
      .in_files = InFiles::no},
     {.key = "valve_pressure",
@@ -151,7 +170,11 @@ inline constexpr auto signals = std::to_array<Signal>({
      .part = Part::muscle,
      .needs = Needs::valve,
      .value = [](const Sample& row, std::size_t i) { return row.side_state(i).valve_pressure_Pa; },
-     .with_next = true},
+     .with_next = true,
+     .may_be_given = true,
+     .in_dataset = "valve_pressure",
+     .dataset_words = "gauge pressure between the valve and the hose of the muscle",
+     .must_be_named = true},
     {.key = "muscle_pressure",
      .unit = units::bar,
      .words = "gauge pressure in the muscle",
@@ -165,8 +188,27 @@ inline constexpr auto signals = std::to_array<Signal>({
      .part = Part::muscle,
      .value = [](const Sample& row, std::size_t i) { return row.side(i).cord_force_N; },
      .in_files = InFiles::measured_force,
-     .of_two = "tension",
-     .in_dataset = "force"},
+     .in_dataset = "force",
+     .of_each_muscle = false,
+     .of_two = "tension"},
+    {.key = "joint_force",
+     .unit = units::N,
+     .words = "force on the cord from outside, positive where it lengthens the muscle, as a load does",
+     .kind = Kind::input,
+     .needs = Needs::outer_force,
+     .value = [](const Sample& row, std::size_t) { return row.joint_force_N; },
+     .may_be_given = true,
+     .in_dataset = "joint_force",
+     .must_be_named = true},
+    {.key = "joint_torque",
+     .unit = units::N_m,
+     .words = "torque on the joint from outside, positive where it turns as muscle 1 does that contracts",
+     .kind = Kind::input,
+     .needs = Needs::outer_torque,
+     .value = [](const Sample& row, std::size_t) { return row.joint_torque_N_m; },
+     .may_be_given = true,
+     .in_dataset = "joint_torque",
+     .must_be_named = true},
     {.key = "encoder_contraction_ratio",
      .unit = units::ratio,
      .words = "contraction ratio as it is counted",
@@ -267,6 +309,7 @@ struct Channel {
   /// Of a data set's column: a reading has the name of what it reads.
   std::string name_in_dataset() const;
   std::string words() const;
+  std::string words_in_dataset() const;
   /// In its unit.
   double value(const Sample& row) const { return signal->value(row, muscle) / signal->unit.size; }
   /// In the unit of a page.
@@ -286,6 +329,12 @@ std::vector<Channel> measured_channels(const Rig& rig, const Driven& driven);
 /// A signal by its key: of one muscle, where a pair's joint has one of that key too. Throws
 /// std::invalid_argument if there is none.
 const Signal& signal_of(std::string_view key);
+
+/// What valves are commanded with; its key is current or command.
+const Signal& command_of(CommandUnit unit);
+inline std::string command_key(const Rig& rig) {
+  return std::string(command_of(rig.command_unit()).key);
+}
 
 /// A channel by its key. Throws std::invalid_argument if there is none.
 const Channel& channel_of(const std::vector<Channel>& channels, std::string_view key);

@@ -32,26 +32,29 @@ constexpr auto names(RegulatorLag) {
                     std::pair{second_order, std::string_view{"second_order"}}};
 }
 
+/// From 4 to 20 mA.
+inline constexpr double thesis_span_mA = 16.0;
+
 /// Whether a visitor of a field list wants fields as well that the struct's own choices rule out.
 template <class Visitor>
 concept ListsAll = requires {
   requires Visitor::lists_all;
 };
 
-/// Current to pressure reference, two proportional valves round a controlled volume (T 3.1, 3.2). They open
+/// Command to pressure reference, two proportional valves round a controlled volume (T 3.1, 3.2). They open
 /// in proportion to the error (servo), or as far as it takes that the pressure follows with a lag (regulator;
 /// docs/equations.md).
 template <class P>
 struct ValveOf {
   ValveKind kind = ValveKind::servo;
-  P zero_current_mA = 4.0, span_current_mA = 20.0;
+  CommandUnit command_unit = CommandUnit::mA;  ///< of its commands, and of all that is measured in them
+  P zero_command = 4.0, span_command = 20.0;
   P zero_pressure_Pa = 0.5e5, span_pressure_Pa = 5.0e5;
   P supply_pressure_Pa = 6.0e5;
   P conductance_m3_per_s_Pa = 4.0e-9;
   P critical_ratio = 0.30;
   P proportional_band_Pa = 0.3e5;
   P volume_m3 = 5.0e-5;
-  RatedCommand zero_command, span_command;  ///< absent: currents are what it is commanded with
   // Of a regulator. Its lag is not said as long as it is 0.
   RegulatorLag lag = RegulatorLag::first_order;
   P time_constant_s = 0.0;
@@ -68,29 +71,20 @@ struct ValveOf {
     return swings() ? damping / (std::numbers::pi * natural_frequency_Hz) : time_constant_s;
   }
 
-  /// Whether it is commanded with volts or with a pressure; results hold the currents that would do the same.
-  bool has_own_command() const { return !zero_command.absent(); }
-  /// The current that does the same as `command`, a number in the unit of its own commands.
-  double current_for_mA(double command) const {
-    const double share = (command - zero_command.value) / (span_command.value - zero_command.value);
-    return zero_current_mA + share * (span_current_mA - zero_current_mA);
-  }
-  /// The way back, in the unit of such a valve's commands.
-  double command_for(double current_mA) const {
-    const double share = (current_mA - zero_current_mA) / (span_current_mA - zero_current_mA);
-    return zero_command.value + share * (span_command.value - zero_command.value);
+  /// What does to it as 1 mA does to the thesis's valve of 4 to 20 mA: what is a number of mA there is as
+  /// many of these here. 1 of any valve that takes a current.
+  P per_mA() const {
+    return command_unit == CommandUnit::mA ? 1.0 : (span_command - zero_command) / thesis_span_mA;
   }
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
     visit("kind", self.kind, "servo (if left out), or a regulator by its data sheet");
-    visit("zero_current", self.zero_current_mA, "mA", 0.0, 100.0, "current at zero pressure");
-    visit("span_current", self.span_current_mA, "mA", 0.1, 100.0, "current at span pressure");
-    visit("zero_command", self.zero_command,
-          "command at zero pressure, of a valve that takes volts or a pressure");
-    visit("span_command", self.span_command, "command at span pressure, of such a valve");
-    visit("zero_pressure", self.zero_pressure_Pa, "Pa", 0.0, 2e6, "gauge pressure at zero current (T 3.2)");
-    visit("span_pressure", self.span_pressure_Pa, "Pa", 1e3, 2e6, "gauge pressure at span current (T 3.2)");
+    visit("zero_command", self.zero_command, "mA", 0.0, 100.0,
+          "command at zero pressure: mA, V or bar, as the valve takes it, and then all commands of the rig");
+    visit("span_command", self.span_command, "mA", 0.1, 100.0, "command at span pressure, in the same unit");
+    visit("zero_pressure", self.zero_pressure_Pa, "Pa", 0.0, 2e6, "gauge pressure at zero_command (T 3.2)");
+    visit("span_pressure", self.span_pressure_Pa, "Pa", 1e3, 2e6, "gauge pressure at span_command (T 3.2)");
     visit("supply_pressure", self.supply_pressure_Pa, "Pa", 1e3, 2e6, "gauge pressure of the supply (T 3.1)");
     visit("conductance", self.conductance_m3_per_s_Pa, "m3/(s.Pa)", 1e-12, 1e-5,
           "sonic conductance of each proportional valve, fully open, C_v");
@@ -119,24 +113,9 @@ struct ValveOf {
           "of a regulator: the ± (one deviation) within which the same command gives the same pressure; "
           "counted in a diagnosis's noise floor, not simulated");
   }
-  /// A command in mA is a current.
-  void resolve() {
-    const auto to_current = [](RatedCommand& command, P& current_mA) {
-      if (command.unit != RatedCommand::Unit::mA) return;
-      current_mA = command.value;
-      command = {};
-    };
-    to_current(zero_command, zero_current_mA);
-    to_current(span_command, span_current_mA);
-  }
   template <class Report>
   void rules(Report& report) const {
-    if (zero_command.unit != span_command.unit)
-      report(zero_command.absent() ? "span_command" : "zero_command",
-             "zero_command and span_command are both in V, both in bar, or both in mA");
-    else if (has_own_command() && span_command.value <= zero_command.value)
-      report("span_command", "must be above zero_command");
-    if (span_current_mA <= zero_current_mA) report("span_current", "must be above zero_current");
+    if (span_command <= zero_command) report("span_command", "must be above zero_command");
     if (span_pressure_Pa <= zero_pressure_Pa) report("span_pressure", "must be above zero_pressure");
     if (supply_pressure_Pa < span_pressure_Pa) report("supply_pressure", "must not be below span_pressure");
     const auto say = [&](const P& value, std::string_view key, std::string_view message) {

@@ -3,7 +3,6 @@
 
 #include <cmath>
 #include <string>
-#include <vector>
 
 #include <plant/effects.hpp>
 #include <sim/diagnose/diagnosis.hpp>

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <vector>
 
 #include <controllers/waveform.hpp>
 #include <sim/run/simulate.hpp>
@@ -22,7 +21,7 @@ struct RandomRide {
     plan.load_kg = load_kg;
     plan.ticks = static_cast<std::size_t>(std::clamp(5.0 / rig.tick_s, 50.0, 600.0));
     plan.keep_ledger = true;
-    current.samples_mA = plant::random_current(chance, plan.ticks, rig.dac.largest_current_mA);
+    current.samples_mA = plant::random_current(chance, plan.ticks, rig.dac.largest_command);
   }
 };
 

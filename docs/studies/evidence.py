@@ -51,7 +51,7 @@ class Evidence:
     @property
     def slope_Pa_per_mA(self):
         return ((self.number("valve", "span_pressure") - self.number("valve", "zero_pressure"))
-                / (self.number("valve", "span_current") - self.number("valve", "zero_current")))
+                / (self.number("valve", "span_command") - self.number("valve", "zero_command")))
 
     def look(self, name, k, direction):
         """Rows k of a run as measured and as they were; none of the first two."""
@@ -78,7 +78,7 @@ class Evidence:
         return pd.DataFrame({
             "run": name, "k": k, "up": up, "load": run.load_kg, "nu": self._nearest(half_periods),
             "slope": (current[k] - current[k - 1]) / tick, "e": e,
-            "line": self.number("valve", "zero_pressure") + self.slope_Pa_per_mA * (current[k] - self.number("valve", "zero_current")),
+            "line": self.number("valve", "zero_pressure") + self.slope_Pa_per_mA * (current[k] - self.number("valve", "zero_command")),
             "muscle": 1e5 * run["muscle_pressure_bar"][k], "friction": -up * run["friction_force_N"][k],
             "generated": np.pi * radius**2 * (3.0 * cosine2 / sine2 * u * u - 1.0 / sine2),  # T 2.8, of 1 Pa
             "surface": (2.0 * np.pi * radius * length * np.sqrt(sine2)

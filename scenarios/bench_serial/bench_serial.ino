@@ -7,12 +7,13 @@
 const int channel_a = 2, channel_b = 3;  // of the encoder; pins that can interrupt
 const int output = DAC0;                 // drives a 0 to 20 mA stage: 0 V is 0 mA, full scale is 20 mA
 const int output_bits = 12;
-const float largest_mA = 20.0;
+const char unit[] = "mA";                // what your valve takes: mA, V or bar
+const float largest_command = 20.0;      // in that unit, at full scale
 
 void begin_output() { analogWriteResolution(output_bits); }
-void put_mA(float current_mA) {
+void put(float command) {
   const long top = (1L << output_bits) - 1;
-  analogWrite(output, constrain(lround(current_mA / largest_mA * top), 0L, top));
+  analogWrite(output, constrain(lround(command / largest_command * top), 0L, top));
 }
 // --------------------------------------------------------------------------------------------------------
 
@@ -33,22 +34,25 @@ long counts_now() {
 
 void answer(const char* text) {
   long tick_ms = 0;
-  if (sscanf(text, "mckibben 1 %ld", &tick_ms) == 1) {
+  int version = 0;
+  char wanted[8] = "mA";
+  if (sscanf(text, "mckibben %d %ld %7s", &version, &tick_ms, wanted) >= 2) {
+    if (strcmp(wanted, unit) != 0) return;  // commands for another valve
     patience_ms = 10 * tick_ms;
     noInterrupts();
     counts = 0;
     interrupts();
-    Serial.println("ready 1");
+    Serial.println(version == 2 ? "ready 2" : "ready 1");
   } else if (text[0] == '?') {
     Serial.println(counts_now());
   } else if (text[0] == '=') {
-    put_mA(atof(text + 1));
+    put(atof(text + 1));
   }
 }
 
 void setup() {
   begin_output();
-  put_mA(0.0);
+  put(0.0);
   pinMode(channel_a, INPUT_PULLUP);
   pinMode(channel_b, INPUT_PULLUP);
   attachInterrupt(digitalPinToInterrupt(channel_a), edge_of_a, RISING);
@@ -67,5 +71,5 @@ void loop() {
       line[length++] = c;
     }
   }
-  if (millis() - heard_ms > patience_ms) put_mA(0.0);
+  if (millis() - heard_ms > patience_ms) put(0.0);
 }

@@ -5,7 +5,6 @@
 #include <sim/bench/comedi.hpp>
 
 #ifdef MCKIBBEN_COMEDI
-#include <cmath>
 #include <cstdint>
 
 #include <comedilib.h>
@@ -18,7 +17,7 @@ namespace {
 
 class Comedi final : public Device {
  public:
-  Comedi(const std::string& file, const Wiring& wiring, double largest_current_mA)
+  Comedi(const std::string& file, const Wiring& wiring, const plant::Rig& rig)
       : file_(file), channel_(wiring.channel) {
     comedi_loglevel(0);  // what goes wrong is told once, by us
     board_.reset(comedi_open(file.c_str()));
@@ -30,7 +29,7 @@ class Comedi final : public Device {
     const int channels = comedi_get_n_channels(board_.get(), output_);
     if (channels < 0 || channel_ >= static_cast<unsigned>(channels))
       fail(fmt::format("subdevice {} has {} channels, none is number {}", output_, channels, channel_));
-    choose_range(largest_current_mA, wiring.full_scale_V);
+    choose_range(rig, wiring.full_scale_V.value_or(10.0));
     start_counting(wiring);
   }
 
@@ -45,7 +44,7 @@ class Comedi final : public Device {
   }
 
   void put(double current_mA, double) override {
-    const lsampl_t data = comedi_from_phys(current_mA * per_mA_, range_, output_top_);
+    const lsampl_t data = comedi_from_phys(current_mA * per_command_, range_, output_top_);
     if (comedi_data_write(board_.get(), output_, channel_, range_number_, AREF_GROUND, data) < 1)
       fail(fmt::format("cannot write channel {} of subdevice {}", channel_, output_));
   }
@@ -69,16 +68,25 @@ class Comedi final : public Device {
     return number;
   }
 
-  /// A range in mA as it is, one in volts over a stage that makes the largest current of the full scale.
-  void choose_range(double largest_current_mA, double full_scale_V) {
-    int number = comedi_find_range(board_.get(), output_, channel_, UNIT_mA, 0.0, largest_current_mA);
-    if (number < 0) {
-      number = comedi_find_range(board_.get(), output_, channel_, UNIT_volt, 0.0, full_scale_V);
-      per_mA_ = full_scale_V / largest_current_mA;
+  /// A range in what the valve takes as it is; else one in volts over a stage that makes the largest command
+  /// of the full scale.
+  void choose_range(const plant::Rig& rig, double full_scale_V) {
+    using enum plant::CommandUnit;
+    const auto unit = rig.command_unit();
+    const double lowest = rig.dac.lowest_command, largest = rig.dac.largest_command;
+    int number = -1;
+    std::string sought;
+    if (unit != bar) {
+      number = comedi_find_range(board_.get(), output_, channel_, unit == V ? UNIT_volt : UNIT_mA, lowest,
+                                 largest);
+      sought = fmt::format("from {:g} to {:g} {}", lowest, largest, name_of(unit));
     }
-    if (number < 0)
-      fail(fmt::format("subdevice {} has no range from 0 to {:g} mA or 0 to {:g} V", output_,
-                       largest_current_mA, full_scale_V));
+    if (number < 0 && unit != V) {
+      number = comedi_find_range(board_.get(), output_, channel_, UNIT_volt, 0.0, full_scale_V);
+      per_command_ = full_scale_V / largest;
+      sought += fmt::format("{}0 to {:g} V", sought.empty() ? "from " : " or ", full_scale_V);
+    }
+    if (number < 0) fail(fmt::format("subdevice {} has no range {}", output_, sought));
     range_number_ = static_cast<unsigned>(number);
     range_ = comedi_get_range(board_.get(), output_, channel_, range_number_);
     output_top_ = comedi_get_maxdata(board_.get(), output_, channel_);
@@ -117,7 +125,7 @@ class Comedi final : public Device {
   std::unique_ptr<comedi_t, Close> board_;
   unsigned output_ = 0, channel_, counter_ = 0, range_number_ = 0;
   comedi_range* range_ = nullptr;
-  double per_mA_ = 1.0;
+  double per_command_ = 1.0;
   lsampl_t output_top_ = 0, counter_top_ = 0, last_ = 0;
   std::int64_t counts_ = 0;
 };
@@ -128,9 +136,8 @@ bool has_comedi() {
   return true;
 }
 
-std::unique_ptr<Device> open_comedi(const std::string& file, const Wiring& wiring,
-                                    double largest_current_mA) {
-  return std::make_unique<Comedi>(file, wiring, largest_current_mA);
+std::unique_ptr<Device> open_comedi(const std::string& file, const Wiring& wiring, const plant::Rig& rig) {
+  return std::make_unique<Comedi>(file, wiring, rig);
 }
 
 #else
@@ -139,7 +146,7 @@ bool has_comedi() {
   return false;
 }
 
-std::unique_ptr<Device> open_comedi(const std::string& file, const Wiring&, double) {
+std::unique_ptr<Device> open_comedi(const std::string& file, const Wiring&, const plant::Rig&) {
   throw DeviceFailure(file +
                       ": this program was built without Comedi; install libcomedi-dev and build it again");
 }

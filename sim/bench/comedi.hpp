@@ -1,4 +1,4 @@
-// A measuring board that Comedi drives (https://www.comedi.org): an analog output gives the current, a
+// A measuring board that Comedi drives (https://www.comedi.org): an analog output gives the command, a
 // counter counts what the encoder says.
 #pragma once
 
@@ -7,14 +7,17 @@
 #include <string>
 #include <utility>
 
+#include <plant/rig.hpp>
 #include <sim/bench/device.hpp>
 
 namespace mckibben::bench {
 
 struct Wiring {
-  std::optional<unsigned> output{};   ///< subdevice of the analog output; the board's first
-  unsigned channel = 0;               ///< of the output
-  double full_scale_V = 10.0;         ///< at the DAC's largest current, of an output in volts; 0 V is 0 mA
+  std::optional<unsigned> output{};  ///< subdevice of the analog output; the board's first
+  unsigned channel = 0;              ///< of the output
+  /// At the DAC's largest_command, of an output in volts for a valve that takes none; 0 V is 0 mA or bar. 10
+  /// V.
+  std::optional<double> full_scale_V{};
   std::optional<unsigned> counter{};  ///< subdevice of the counter; the board's first
   /// Lines (PFI) of the encoder's signals A and B, on boards that ask which.
   std::optional<std::pair<unsigned, unsigned>> encoder{};
@@ -26,7 +29,7 @@ struct Wiring {
 bool has_comedi();
 
 /// The board of a device file such as /dev/comedi0; its counter begins at 0. Throws DeviceFailure: what
-/// cannot be opened, has no such output or counter, or no range for the current; without libcomedi, always.
-std::unique_ptr<Device> open_comedi(const std::string& file, const Wiring& wiring, double largest_current_mA);
+/// cannot be opened, has no such output or counter, or no range for the commands; without libcomedi, always.
+std::unique_ptr<Device> open_comedi(const std::string& file, const Wiring& wiring, const plant::Rig& rig);
 
 }  // namespace mckibben::bench

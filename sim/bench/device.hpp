@@ -1,4 +1,4 @@
-// What controllers drive on a bench, whatever it is made of: counts in, a current out.
+// What controllers drive on a bench, whatever it is made of: counts in, a command out.
 #pragma once
 
 #include <cstdint>
@@ -22,7 +22,7 @@ class Device {
 
   /// Encoder counts since it was opened. Throws DeviceFailure.
   virtual std::int64_t counts(double now_s) = 0;
-  /// The current [mA] of its output from now on. Throws DeviceFailure.
+  /// The command of its output from now on, in what the rig's valve takes. Throws DeviceFailure.
   virtual void put(double current_mA, double now_s) = 0;
 };
 

@@ -38,12 +38,15 @@ class Loop {
       recorded_.stopped = why.what();
     }
     try {
-      device_.put(0.0, clock_.now_s());
+      device_.put(plan_.rig.dac.lowest_command, clock_.now_s());
     } catch (const DeviceFailure& failure) {
       recorded_.stopped += fmt::format("{}and it could not be told to vent: {}",
                                        recorded_.stopped.empty() ? "" : "; ", failure.what());
     }
     recorded_.findings = controller_.findings();
+    for (controllers::Finding& finding : recorded_.findings)
+      for (std::string* text : {&finding.name, &finding.unit})
+        *text = in_unit(plan_.rig.command_unit(), *text);
     return std::move(recorded_);
   }
 
@@ -86,7 +89,7 @@ class Loop {
   }
 
   double allowed(double wanted_mA) {
-    if (!std::isfinite(wanted_mA)) throw Stop("the controller's current is no number");
+    if (!std::isfinite(wanted_mA)) throw Stop("the controller's command is no number");
     const double allowed_mA = std::clamp(wanted_mA, plan_.limits.lowest_mA, plan_.limits.highest_mA);
     if (allowed_mA != wanted_mA) ++recorded_.limited_ticks;
     return controller_.already_quantised() ? allowed_mA : plant::dac_output_mA(plan_.rig.dac, allowed_mA);

@@ -1,5 +1,6 @@
 // A controller on a bench, tick by tick in the clock's time; the order of a tick is that of a simulated one
-// (sim/run/simulate.hpp). However it ends, the last thing that is put out is 0 mA: the valve vents.
+// (sim/run/simulate.hpp). However it ends, the last thing that is put out is the lowest of the DAC, 0 mA: the
+// valve vents.
 #pragma once
 
 #include <cstdint>

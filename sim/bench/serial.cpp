@@ -20,11 +20,10 @@ namespace {
 /// Boards restart when their port is opened, and take a while.
 constexpr double longest_start_s = 5.0;
 constexpr int most_tries = 5;
-constexpr std::string_view ready = "ready 1";
 
 }  // namespace
 
-Serial::Serial(const std::string& port, double tick_s) : port_(port), tick_s_(tick_s) {
+Serial::Serial(const std::string& port, const plant::Rig& rig) : port_(port), tick_s_(rig.tick_s) {
   line_ = open(port.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
   termios how{};
   if (line_ < 0 || tcgetattr(line_, &how) != 0) {
@@ -35,23 +34,26 @@ Serial::Serial(const std::string& port, double tick_s) : port_(port), tick_s_(ti
   cfmakeraw(&how);
   cfsetspeed(&how, B115200);
   tcsetattr(line_, TCSANOW, &how);
-  const std::string greeting = fmt::format("mckibben 1 {}", std::lround(1e3 * tick_s));
+  const bool of_mA = rig.command_unit() == plant::CommandUnit::mA;
+  const std::string greeting = fmt::format("mckibben {} {}{}", of_mA ? 1 : 2, std::lround(1e3 * tick_s_),
+                                           of_mA ? "" : fmt::format(" {}", name_of(rig.command_unit())));
+  ready_ = of_mA ? "ready 1" : "ready 2";
   for (int tries = 1;; ++tries) {
     try {
       say(greeting);
-      while (heard(longest_start_s / most_tries) != ready) {  // a board may have much to say as it starts
+      while (heard(longest_start_s / most_tries) != ready_) {  // a board may have much to say as it starts
       }
       return;
     } catch (const DeviceFailure&) {
       if (tries < most_tries) continue;
       close(line_);
-      throw DeviceFailure(fmt::format("{}: nobody answers \"{}\" with \"{}\"", port, greeting, ready));
+      throw DeviceFailure(fmt::format("{}: nobody answers \"{}\" with \"{}\"", port, greeting, ready_));
     }
   }
 }
 
 Serial::~Serial() {
-  tcdrain(line_);  // the last current must arrive
+  tcdrain(line_);  // the last command must arrive
   close(line_);
 }
 
@@ -89,7 +91,7 @@ std::int64_t Serial::counts(double) {
   std::string line;
   do {
     line = heard(10.0 * tick_s_);
-  } while (line == ready);  // to an earlier greeting, which was not heard in time
+  } while (line == ready_);  // to an earlier greeting, which was not heard in time
   std::int64_t value = 0;
   const auto [end, error] = std::from_chars(line.data(), line.data() + line.size(), value);
   if (error != std::errc() || end != line.data() + line.size())

@@ -6,10 +6,12 @@
 //            =12.345         the current [mA] from now on
 //   from it  ready 1         to the first
 //            1234            to the second
+// To a valve that takes volts or a pressure: mckibben 2 12 V, ready 2, and the commands in that unit.
 #pragma once
 
 #include <string>
 
+#include <plant/rig.hpp>
 #include <sim/bench/device.hpp>
 
 namespace mckibben::bench {
@@ -17,7 +19,7 @@ namespace mckibben::bench {
 class Serial final : public Device {
  public:
   /// Opens the port and greets. Throws DeviceFailure.
-  Serial(const std::string& port, double tick_s);
+  Serial(const std::string& port, const plant::Rig& rig);
   ~Serial() override;
 
   std::int64_t counts(double now_s) override;
@@ -30,7 +32,7 @@ class Serial final : public Device {
   std::string port_;
   double tick_s_;
   int line_ = -1;
-  std::string received_;
+  std::string received_, ready_;
 };
 
 }  // namespace mckibben::bench

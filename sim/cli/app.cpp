@@ -1,5 +1,4 @@
 // The help of the program and the order of its verbs.
-#include <memory>
 #include <string>
 
 #include <Eigen/Core>

@@ -1,23 +1,19 @@
 // The verb `calibrate`: a data set's friction and pressure models, with all figures of the thesis.
 #include <map>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
-#include <sim/cli/exit_status.hpp>
-#include <sim/cli/options.hpp>
 #include <sim/cli/results.hpp>
 #include <sim/cli/verbs.hpp>
 #include <sim/input/calibration_file.hpp>
 #include <sim/input/dataset_file.hpp>
 #include <sim/output/calibration_report.hpp>
-#include <sim/output/chart.hpp>
 #include <sim/output/diagnosis_words.hpp>
 #include <sim/report/report.hpp>
 #include <sim/run/batch.hpp>
-#include <sim/tasks/calibrate.hpp>
+#include <sim/tasks/tasks.hpp>
 #include <sim/thesis/calibrate.hpp>
 #include <sim/thesis/figures.hpp>
 
@@ -83,14 +79,10 @@ void add_calibrate(CLI::App& app, Asked& asked) {
              {{"joint", PressureFitting::joint}, {"sequence", PressureFitting::sequence}},
              "Pressure coefficients from all samples at once, "
              "or from the thesis's sequence of fits (default: joint)");
-  verb.add_option("--load-order", options.fits.orders.load,
-                  "Highest order in load (default: 3, the thesis's)")
-      ->check(from_to(0, 3))
-      ->type_name("N");
-  verb.add_option("--speed-order", options.fits.orders.speed,
-                  "Highest order in the current's speed (default: 2, the thesis's)")
-      ->check(from_to(0, 2))
-      ->type_name("N");
+  add_number(verb, "--load-order", options.fits.orders.load, 0, 3,
+             "Highest order in load (default: 3, the thesis's)");
+  add_number(verb, "--speed-order", options.fits.orders.speed, 0, 2,
+             "Highest order in the current's speed (default: 2, the thesis's)");
   verb.footer(
       "Examples:\n"
       "  mckibben calibrate data --out calibration\n"

@@ -14,8 +14,6 @@
 
 #include <sim/cli/app.hpp>
 #include <sim/cli/cli.hpp>
-#include <sim/cli/exit_status.hpp>
-#include <sim/cli/options.hpp>
 #include <sim/cli/results.hpp>
 #include <sim/cluster/crew.hpp>
 #include <sim/formats/table.hpp>

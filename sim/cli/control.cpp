@@ -15,7 +15,6 @@
 #include <sim/bench/loop.hpp>
 #include <sim/bench/serial.hpp>
 #include <sim/bench/simulated.hpp>
-#include <sim/cli/exit_status.hpp>
 #include <sim/cli/results.hpp>
 #include <sim/cli/verbs.hpp>
 #include <sim/domain/number.hpp>
@@ -45,7 +44,8 @@ std::string unfit(const Scenario& scenario) {
   if (scenario.loads_kg.size() != 1) return "loads: one load hangs on a bench; name it alone";
   if (scenario.controllers.size() != 1) return "controllers: one controller drives a bench; name it alone";
   controllers::Settings only = scenario.controllers.front();
-  if (const auto* terms = controllers::feedback_of(only); terms != nullptr && terms->needs_tuning())
+  if (const auto* terms = controllers::part_of<controllers::PidForm>(only);
+      terms != nullptr && terms->needs_tuning())
     return "controllers: its gains are missing; tune them with `run`, and write them down";
   return "";
 }
@@ -70,17 +70,18 @@ bench::LoopPlan loop_of(const Scenario& scenario, const run::Briefing& briefing,
   plan.stop = run::interrupted;
   const auto& settings = briefing.settings.front();
   plan.limits = controllers::limits_of(settings, briefing.knowledge.front())
-                    .value_or(controllers::CurrentRange{0.0, scenario.rig.dac.largest_current_mA});
+                    .value_or(controllers::CurrentRange{scenario.rig.dac.lowest_command,
+                                                        scenario.rig.dac.largest_command});
   return plan;
 }
 
 std::unique_ptr<bench::Device> device_of(const Scenario& scenario, const ControlOptions& options) {
   if (options.device == "serial" && !options.dry_run)
-    return std::make_unique<bench::Serial>(options.port, scenario.rig.tick_s);
+    return std::make_unique<bench::Serial>(options.port, scenario.rig);
   if (options.device == "comedi" && !options.dry_run)
-    return bench::open_comedi(options.port, options.wiring, scenario.rig.dac.largest_current_mA);
+    return bench::open_comedi(options.port, options.wiring, scenario.rig);
   return std::make_unique<bench::Simulated>(scenario.rig, scenario.loads_kg.front(), scenario.rig.integrator,
-                                            0.0);
+                                            scenario.rig.dac.lowest_command);
 }
 
 /// Reads `1:0`; a single number is read as the first of the two.
@@ -101,14 +102,13 @@ void add_wiring(CLI::App& verb, bench::Wiring& wiring) {
             wiring.output = output;
             wiring.channel = channel.value_or(0);
           },
-          "Of comedi: subdevice and channel of the current's output (default: the board's first)")
+          "Of comedi: subdevice and channel of the output (default: the board's first)")
       ->type_name("N[:N]");
-  verb.add_option_function<std::string>(
-          "--full-scale",
-          [&wiring](const std::string& text) { wiring.full_scale_V = positive_quantity(text, "V", 1e3); },
-          "Of comedi: voltage that makes the DAC's largest current, if the output gives volts (default: 10 "
-          "V)")
-      ->type_name("VOLTAGE");
+  add_quantity(
+      verb, "--full-scale", wiring.full_scale_V, "V", 1e3,
+      "Of comedi: voltage that makes the DAC's largest command, where the output gives volts and the "
+      "valve takes none (default: 10 V)",
+      "VOLTAGE");
   verb.add_option("--counter", wiring.counter,
                   "Of comedi: subdevice of the counter (default: the board's first)")
       ->type_name("N");
@@ -132,9 +132,14 @@ double late_ms(const bench::Recorded& recorded, double share) {
   return 1e3 * late_s[static_cast<std::size_t>(share * static_cast<double>(late_s.size() - 1))];
 }
 
+/// Of the commands.
+std::string column_of(const Scenario& scenario) {
+  return plant::Channel{&plant::command_of(scenario.rig.command_unit())}.name();
+}
+
 std::string csv_of(const Scenario& scenario, const run::Briefing& briefing, const bench::Recorded& recorded) {
   const controllers::Knowledge& known = briefing.knowledge.front();
-  std::string csv = "time_s,current_mA,contraction_ratio,counts,target,late_ms\n";
+  std::string csv = fmt::format("time_s,{},contraction_ratio,counts,target,late_ms\n", column_of(scenario));
   for (const auto& row : recorded.rows)
     csv += fmt::format("{},{},{},{},{},{:.3f}\n", static_cast<double>(row.tick) * scenario.rig.tick_s,
                        row.current_mA, static_cast<double>(row.counts) * known.contraction_per_count,
@@ -176,7 +181,8 @@ std::string document_of(const Scenario& scenario, const ControlOptions& options,
 }
 
 int show(const ControlOptions& options, const Scenario& scenario, const bench::Recorded& recorded) {
-  std::string text = "  tick    counts  current_mA   (the bench is simulated; nothing is sent)\n";
+  std::string text = fmt::format("  tick    counts {:>11}   (the bench is simulated; nothing is sent)\n",
+                                 column_of(scenario));
   for (const auto& row : recorded.rows)
     text += fmt::format("{:6} {:9} {:11.4f}\n", row.tick, row.counts, row.current_mA);
   print(options, {document_of(scenario, options, recorded), text + text_of(scenario, recorded)});
@@ -194,6 +200,10 @@ int control(const ControlOptions& options) {
   if (const std::string why = unfit(scenario); !why.empty()) {
     say(fmt::format("{}: {}", options.scenario, why));
     return bad_input;
+  }
+  if (options.wiring.full_scale_V && scenario.rig.command_unit() == plant::CommandUnit::V) {
+    say("--full-scale is of a stage behind the output; this rig's valve takes its volts as they are");
+    return usage_error;
   }
   const run::Briefing briefing = run::briefing_of(scenario);
   const auto controller = briefing.make(briefing.settings.front(), 0, scenario.loads_kg.front());
@@ -244,10 +254,8 @@ void add_control(CLI::App& app, Asked& asked) {
   verb.add_option("--port", options.port, "Serial port or board, such as /dev/ttyACM0 or /dev/comedi0")
       ->type_name("FILE");
   add_wiring(verb, options.wiring);
-  verb.add_option("--most-missed", options.most_missed_ticks,
-                  "Ticks in a row that may be missed before the watchdog vents (default: 3)")
-      ->check(from_to(0, 1000))
-      ->type_name("N");
+  add_number(verb, "--most-missed", options.most_missed_ticks, 0, 1000,
+             "Ticks in a row that may be missed before the watchdog vents (default: 3)");
   verb.add_flag("--dry-run", options.dry_run,
                 "Show what would be sent, at a simulated bench; nothing is opened");
   verb.footer(
@@ -257,7 +265,7 @@ void add_control(CLI::App& app, Asked& asked) {
       "  mckibben control my.yaml --device serial --port /dev/ttyACM0\n"
       "  mckibben control my.yaml --device comedi --port /dev/comedi0 --output 1:0 --encoder 8:10\n"
       "Writes dataset.yaml, rig.yaml and bench.csv, which replay and diagnose read, and control.json.\n"
-      "However it ends, the last current is 0 mA: the valve vents.\n");
+      "However it ends, the last command is the DAC's lowest, 0 mA: the valve vents.\n");
 }
 
 }  // namespace mckibben::cli

@@ -7,21 +7,17 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <sim/cli/exit_status.hpp>
-#include <sim/cli/options.hpp>
 #include <sim/cli/results.hpp>
 #include <sim/cli/verbs.hpp>
 #include <sim/diagnose/diagnose.hpp>
 #include <sim/engine/failure.hpp>
 #include <sim/input/dataset_file.hpp>
 #include <sim/input/rigs.hpp>
-#include <sim/output/diagnosis_json.hpp>
-#include <sim/output/diagnosis_rig.hpp>
-#include <sim/output/diagnosis_table.hpp>
+#include <sim/output/diagnosis_results.hpp>
 #include <sim/output/diagnosis_words.hpp>
 #include <sim/report/report.hpp>
 #include <sim/run/batch.hpp>
-#include <sim/tasks/diagnose.hpp>
+#include <sim/tasks/tasks.hpp>
 
 namespace mckibben::cli {
 namespace {
@@ -74,7 +70,7 @@ tasks::Found find(const domain::Dataset& data, const DiagnoseOptions& options,
 
 int diagnose_dataset(const DiagnoseOptions& options) {
   domain::Dataset data = input::read_dataset(options.dataset);
-  if (!options.rig.empty()) data.rig = input::read_rig(options.rig, data.inputs);
+  if (!options.rig.empty()) input::take_rig(data, options.rig, input::read_rig(options.rig, data.inputs));
   const std::vector<std::string> warnings = tasks::prepare(data, options.hypotheses);
   const std::string name = output::name_of(data);
   check_plan(options.plan);
@@ -117,11 +113,9 @@ void add_diagnose(CLI::App& app, Asked& asked) {
   verb.add_option("--plan", options.plan,
                   "Write the measurement that would tell more, if one would, as a campaign")
       ->type_name("FILE");
-  verb.add_option_function<std::string>(
-          "--time-limit",
-          [&options](const std::string& text) { options.time_limit_s = positive_quantity(text, "s", 1e6); },
-          "When the search ends with what it has found (default: 5 min); Ctrl-C ends it as well")
-      ->type_name("TIME");
+  add_quantity(verb, "--time-limit", options.time_limit_s, "s", 1e6,
+               "When the search ends with what it has found (default: 5 min); Ctrl-C ends it as well",
+               "TIME");
   verb.footer(
       "Examples:\n"
       "  mckibben diagnose measured/\n"

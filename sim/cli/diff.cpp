@@ -6,8 +6,6 @@
 
 #include <fmt/format.h>
 
-#include <sim/cli/exit_status.hpp>
-#include <sim/cli/options.hpp>
 #include <sim/cli/results.hpp>
 #include <sim/cli/run_folders.hpp>
 #include <sim/cli/verbs.hpp>
@@ -72,13 +70,23 @@ std::string text_of(const char* title, const std::vector<Difference>& list) {
 }
 
 std::string trajectories(const FolderDifference& found) {
-  output::Grid grid({"run", "contraction_ratio", "at s", "rms", "muscle bar", "rms", "current mA", "rms"}, 1);
+  plant::CommandUnit commands{};
+  const auto command = [](plant::CommandUnit unit) {
+    return plant::Channel{&plant::command_of(unit)}.name();
+  };
+  for (const auto& [unit, name] : names(commands))
+    if (std::ranges::any_of(found.runs, [&](const auto& run) { return run.find(command(unit)) != nullptr; }))
+      commands = unit;
+  output::Grid grid({"run", "contraction_ratio", "at s", "rms", "muscle bar", "rms",
+                     in_unit(commands, "current mA"), "rms"},
+                    1);
   std::string notes;
   for (const RunDifference& run : found.runs) {
     if (!run.note.empty()) notes += fmt::format("  {}: {}\n", run.name, run.note);
     if (run.same() || run.columns.empty()) continue;
     std::vector<std::string> row{run.name};
-    for (const char* name : {"contraction_ratio", "muscle_pressure_bar", "current_mA"}) {
+    for (const std::string& name :
+         {std::string("contraction_ratio"), std::string("muscle_pressure_bar"), command(commands)}) {
       const ColumnDifference* column = run.find(name);
       const auto cell = [&](double value) { return column ? fmt::format("{:.3g}", value) : "-"; };
       row.push_back(cell(column ? column->largest : 0.0));
@@ -163,11 +171,10 @@ void add_diff(CLI::App& app, Asked& asked) {
   add_input(verb, options.right, "right", "Another one, written by the same verb", "FOLDER");
   add_out(verb, options, "nothing is written");
   add_json(verb, options);
-  verb.add_option("--tolerance", options.tolerance,
-                  "Difference of the contraction ratio that is allowed at any tick; more is exit status 1 "
-                  "(default: any)")
-      ->check(from_to(0.0, 1.0))
-      ->type_name("RATIO");
+  add_number(
+      verb, "--tolerance", options.tolerance, 0, 1,
+      "Difference of the contraction ratio that is allowed at any tick; more is exit status 1 (default: any)",
+      "RATIO");
   verb.footer(
       "Examples:\n"
       "  mckibben diff out/five_loads out/mine            what differs?\n"

@@ -11,8 +11,6 @@
 #include <fmt/format.h>
 
 #include <plant/effects.hpp>
-#include <sim/cli/exit_status.hpp>
-#include <sim/cli/options.hpp>
 #include <sim/cli/results.hpp>
 #include <sim/cli/verbs.hpp>
 #include <sim/diagnose/catalogue.hpp>

@@ -8,17 +8,14 @@
 
 #include <fmt/format.h>
 
-#include <sim/cli/exit_status.hpp>
-#include <sim/cli/options.hpp>
 #include <sim/cli/results.hpp>
 #include <sim/cli/verbs.hpp>
 #include <sim/input/calibration_file.hpp>
 #include <sim/input/campaign_file.hpp>
 #include <sim/input/dataset_file.hpp>
-#include <sim/input/field_table.hpp>
+#include <sim/input/field_list.hpp>
 #include <sim/input/finding_places.hpp>
 #include <sim/input/hypothesis_file.hpp>
-#include <sim/input/json_schema.hpp>
 #include <sim/input/rigs.hpp>
 #include <sim/input/scenario_file.hpp>
 #include <sim/input/suggest.hpp>
@@ -26,7 +23,7 @@
 #include <sim/input/utf8.hpp>
 #include <sim/input/yaml_file.hpp>
 #include <sim/input/yaml_writer.hpp>
-#include <sim/output/csv.hpp>
+#include <sim/output/run_files.hpp>
 #include <sim/run/look.hpp>
 
 namespace mckibben::cli {
@@ -48,7 +45,7 @@ struct Looked {
 /// Reads a data set and looks at what it says; adds warnings. Throws what is wrong with it.
 Looked read_measured(const std::filesystem::path& path, std::vector<Problem>& warnings) {
   const domain::Dataset data = input::read_dataset(path);
-  if (std::string why = input::why_not_judged(data); !why.empty())
+  if (std::string why = input::why_unfit(domain::Purpose::judging, data); !why.empty())
     return {fmt::format("{} runs read; none simulated", data.runs.size()), {"cannot take it yet: " + why}};
   run::Look look = run::look(data);
   Looked looked{fmt::format("{} of {} runs simulated: stroke, sign, units, order of loads", look.runs,

@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <sim/cli/exit_status.hpp>
 #include <sim/cli/results.hpp>
 #include <sim/cli/verbs.hpp>
 #include <sim/fmu/archive.hpp>

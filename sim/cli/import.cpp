@@ -3,8 +3,6 @@
 #include <string>
 #include <vector>
 
-#include <sim/cli/exit_status.hpp>
-#include <sim/cli/options.hpp>
 #include <sim/cli/results.hpp>
 #include <sim/cli/verbs.hpp>
 #include <sim/input/file_names.hpp>

@@ -8,8 +8,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <sim/cli/exit_status.hpp>
-#include <sim/cli/options.hpp>
 #include <sim/cli/results.hpp>
 #include <sim/cli/verbs.hpp>
 #include <sim/input/field_list.hpp>

@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include <plant/geometry.hpp>
-#include <sim/cli/exit_status.hpp>
 #include <sim/cli/results.hpp>
 #include <sim/cli/verbs.hpp>
 #include <sim/input/common_checks.hpp>
@@ -73,14 +72,10 @@ void add_live(CLI::App& app, Asked& asked) {
                             "Move a rig by hand in the browser, switch its effects; record data sets");
   LiveOptions& options = asked.when(verb, show_live);
   add_input(verb, options.rig, "rig", "Rig file, or the name of a shipped rig", "RIG");
-  verb.add_option_function<std::string>(
-          "--load",
-          [&options](const std::string& text) { options.load_kg = positive_quantity(text, "kg", 500.0); },
-          "The load at first, such as \"16.138 kg\" (default: one that the muscle lifts halfway)")
-      ->type_name("LOAD");
-  verb.add_option("--port", options.port, "Port of 127.0.0.1 (default: one that is free)")
-      ->check(from_to(1, 65535))
-      ->type_name("N");
+  add_quantity(verb, "--load", options.load_kg, "kg", 500.0,
+               "The load at first, such as \"16.138 kg\" (default: one that the muscle lifts halfway)",
+               "LOAD");
+  add_number(verb, "--port", options.port, 1, 65535, "Port of 127.0.0.1 (default: one that is free)");
   add_out(verb, options, "out/<name>-live");
   add_json(verb, options);
   verb.footer(

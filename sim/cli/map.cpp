@@ -7,8 +7,6 @@
 #include <fmt/format.h>
 
 #include <plant/geometry.hpp>
-#include <sim/cli/exit_status.hpp>
-#include <sim/cli/options.hpp>
 #include <sim/cli/results.hpp>
 #include <sim/cli/verbs.hpp>
 #include <sim/domain/number.hpp>
@@ -16,7 +14,6 @@
 #include <sim/input/common_checks.hpp>
 #include <sim/input/rigs.hpp>
 #include <sim/output/error_map.hpp>
-#include <sim/output/heat_map.hpp>
 #include <sim/report/report.hpp>
 #include <sim/run/batch.hpp>
 #include <sim/run/error_map.hpp>
@@ -94,6 +91,8 @@ run::MapPlan plan_of(const MapOptions& options, std::vector<domain::InputFile>& 
   plan.calibration = input::read_calibration(options.calibration, files);
   const plant::Rig rig = input::read_rig(options.rig.empty() ? "thesis" : options.rig, files);
   input::require_load(rig, options.rig, "map");
+  if (std::string why = input::wrong_commands(plan.calibration, rig); !why.empty())
+    throw input::BadInput({{input::Severity::error, options.calibration, {}, std::move(why), ""}});
   plan.rig = rig;
   plan.loads_kg = loads_of(plan.calibration.range, options);
   if (options.up || !options.down) plan.branches.push_back(controllers::Branch::contraction);
@@ -171,19 +170,11 @@ void add_map(CLI::App& app, Asked& asked) {
   add_rig(verb, options.rig, "(default: thesis)");
   verb.add_flag("--up", options.up, "Going up only");
   verb.add_flag("--down", options.down, "Going down only");
-  verb.add_option("--ratios", options.ratios, "How many target contraction ratios, up to e_max (default: 30)")
-      ->check(from_to(1, 1000))
-      ->type_name("N");
-  verb.add_option("--speeds", options.speeds, "How many target speeds (default: 5)")
-      ->check(from_to(1, 1000))
-      ->type_name("N");
-  verb.add_option_function<std::string>(
-          "--fastest",
-          [&options](const std::string& text) {
-            options.fastest_per_s = positive_quantity(text, "1/s", 100.0);
-          },
-          "The largest target speed (default: \"0.5 1/s\")")
-      ->type_name("SPEED");
+  add_number(verb, "--ratios", options.ratios, 1, 1000,
+             "How many target contraction ratios, up to e_max (default: 30)");
+  add_number(verb, "--speeds", options.speeds, 1, 1000, "How many target speeds (default: 5)");
+  add_quantity(verb, "--fastest", options.fastest_per_s, "1/s", 100.0,
+               "The largest target speed (default: \"0.5 1/s\")", "SPEED");
   verb.add_flag("--extrapolate-load", options.extrapolate_load, "Allow loads outside the calibrated range");
   verb.add_flag("--extrapolate-target", options.extrapolate_target,
                 "Let contraction ratios and current speeds leave the calibrated range; otherwise they are "

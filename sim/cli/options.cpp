@@ -1,7 +1,6 @@
 // Shared options; see the header.
 #include <algorithm>
 #include <charconv>
-#include <cstdint>
 
 #include <fmt/format.h>
 
@@ -57,10 +56,8 @@ void add_json(CLI::App& verb, Options& options) {
 }
 
 void add_threads(CLI::App& verb, Options& options) {
-  verb.add_option("--threads", options.threads,
-                  "Threads (default: all the machine has); results do not depend on it")
-      ->check(from_to(1, 1024))
-      ->type_name("N");
+  add_number(verb, "--threads", options.threads, 1, 1024,
+             "Threads (default: all the machine has); results do not depend on it");
 }
 
 void add_common(CLI::App& verb, Options& options, const std::string& otherwise) {

@@ -12,6 +12,18 @@
 
 namespace mckibben::cli {
 
+/// Exit statuses that scripts rely on (the numbers are those of sysexits.h where it has one).
+enum ExitStatus : int {
+  done = 0,
+  criterion_not_met = 1,
+  usage_error = 64,
+  bad_input = 65,
+  missing_input = 66,
+  failure = 70,  ///< the integrator gave up, or a defect of ours
+  cannot_write = 74,
+  interrupted = 130,
+};
+
 /// What many verbs can be told. The options of a verb are these and its own.
 struct Options {
   std::string out;  ///< results folder; empty for out/<name>, or nowhere
@@ -46,6 +58,23 @@ CLI::Validator from_to(double lowest, double highest);
 
 /// A quantity such as "8.87 kg", above 0 and up to `most`; what is wrong with it is a usage error.
 double positive_quantity(const std::string& text, const char* unit, double most);
+
+/// An option that is such a number.
+template <class T>
+void add_number(CLI::App& verb, const char* name, T& value, double lowest, double highest, const char* what,
+                const char* type = "N") {
+  verb.add_option(name, value, what)->check(from_to(lowest, highest))->type_name(type);
+}
+
+/// An option that is such a quantity.
+template <class T>
+void add_quantity(CLI::App& verb, const char* name, T& value, const char* unit, double most, const char* what,
+                  const char* type) {
+  const auto read = [&value, unit, most](const std::string& text) {
+    value = positive_quantity(text, unit, most);
+  };
+  verb.add_option_function<std::string>(name, read, what)->type_name(type);
+}
 
 /// What is wrong with the first verb or option that is none, and what may have been meant; empty if nothing.
 /// CLI11 would name a missing argument instead, or nothing that helps.

@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-#include <sim/cli/exit_status.hpp>
 #include <sim/cli/results.hpp>
 
 namespace mckibben::cli {

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <map>
 #include <set>
-#include <span>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -12,9 +11,9 @@
 
 #include <sim/cli/run_folders.hpp>
 #include <sim/domain/number.hpp>
-#include <sim/input/csv.hpp>
 #include <sim/input/json_file.hpp>
 #include <sim/input/limits.hpp>
+#include <sim/input/readers.hpp>
 #include <sim/input/source.hpp>
 #include <sim/input/utf8.hpp>
 

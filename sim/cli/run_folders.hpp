@@ -1,7 +1,6 @@
 // Two folders that `run` or `replay` wrote, compared: what went in, what came out, tick by tick.
 #pragma once
 
-#include <cstddef>
 #include <filesystem>
 #include <string>
 #include <vector>

@@ -1,5 +1,4 @@
 // The verbs that simulate: run, replay. Each reads, computes, prints and writes.
-#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <string>
@@ -8,8 +7,6 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <sim/cli/exit_status.hpp>
-#include <sim/cli/options.hpp>
 #include <sim/cli/results.hpp>
 #include <sim/cli/verbs.hpp>
 #include <sim/cluster/share.hpp>
@@ -18,19 +15,16 @@
 #include <sim/input/dataset_file.hpp>
 #include <sim/input/rigs.hpp>
 #include <sim/input/scenario_file.hpp>
-#include <sim/output/csv.hpp>
 #include <sim/output/diagnosis_words.hpp>
-#include <sim/output/plot.hpp>
 #include <sim/output/replay_results.hpp>
 #include <sim/output/run_files.hpp>
-#include <sim/output/run_json.hpp>
-#include <sim/output/table.hpp>
+#include <sim/output/run_results.hpp>
 #include <sim/report/report.hpp>
 #include <sim/run/batch.hpp>
 #include <sim/run/compare.hpp>
 #include <sim/run/replay.hpp>
 #include <sim/run/simulate.hpp>
-#include <sim/tasks/replay.hpp>
+#include <sim/tasks/tasks.hpp>
 
 namespace mckibben::cli {
 namespace {

@@ -29,16 +29,8 @@ std::string_view unit_in_words(Judged judged) {
   return "in contraction ratio";
 }
 
-std::pair<std::string_view, std::string_view> told(domain::Beside which, bool pair) {
-  switch (which) {
-    case domain::Beside::force:
-      return {"force", "N"};
-    case domain::Beside::opposite_pressure:
-      return {"muscle_pressure_2", "Pa"};
-    case domain::Beside::muscle_pressure:
-      break;
-  }
-  return {pair ? "muscle_pressure_1" : "muscle_pressure", "Pa"};
+std::pair<std::string, std::string_view> told(domain::Beside which, bool pair) {
+  return {domain::channel_of(which, pair).key_in_dataset(), which == domain::Beside::force ? "N" : "Pa"};
 }
 
 }  // namespace mckibben::data

@@ -17,6 +17,6 @@ std::string amount_of(Judged judged, double value, const plant::Rig& rig, int di
 std::string_view unit_in_words(Judged judged);
 
 /// A reading beside the one that is judged, and its SI unit.
-std::pair<std::string_view, std::string_view> told(domain::Beside which, bool pair);
+std::pair<std::string, std::string_view> told(domain::Beside which, bool pair);
 
 }  // namespace mckibben::data

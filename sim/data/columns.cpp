@@ -128,16 +128,19 @@ class Columns {
   void operator()() {
     for (std::size_t i = 0; i < data_.runs.size(); ++i) {
       const domain::Run& run = data_.runs[i];
-      map_ = with_our_names(domain::merged(data_.columns, run.columns));
+      map_ = with_our_names(domain::merged(data_.columns, run.columns), data_.rig.command_unit());
       const bool hangs = data_.judged() == domain::Judged::contraction && !run.contraction_ratio.empty();
-      if (hangs && !data_.own_clock) {  // else ranges of the rig's valve have been looked at
+      const bool of_mA = data_.rig.command_unit() == plant::CommandUnit::mA;
+      if (hangs && !data_.own_clock && of_mA) {  // else ranges of the rig's valve have been looked at
         if (exchanged(i)) continue;
         current(i);
       }
       if (hangs) judge(contraction(run), judged(i));
-      for (const Beside which : domain::gauges) gauge(i, which);
+      for (const Beside which : domain::besides)
+        if (which != Beside::force) gauge(i, which);
     }
-    map_ = with_our_names(domain::merged(data_.columns, data_.runs.front().columns));
+    map_ =
+        with_our_names(domain::merged(data_.columns, data_.runs.front().columns), data_.rig.command_unit());
     Compared all, beside;
     for (std::size_t i = 0; i < data_.runs.size(); ++i) {
       judged(i, all);
@@ -169,7 +172,7 @@ class Columns {
     const plant::Rig& rig = data_.rig;
     const double metre = 1.0 / rig.muscle.rest_length_m, radian = rig.joint.wheel_radius_m * metre;
     Quantity judged{.key = "contraction",
-                    .place = map_.contraction,
+                    .place = map_["contraction"],
                     .units = {{"1", 1.0},
                               {"%", 0.01},
                               {"mm", 1e-3 * metre},
@@ -193,7 +196,7 @@ class Columns {
 
   void angle(const Compared& rows) {
     judge({.key = "angle",
-           .place = map_.angle,
+           .place = map_["angle"],
            .units = {{"rad", 1.0, of_columns.same_turn}, {"deg", plant::degree_rad, of_columns.same_turn}},
            .shown = " rad"},
           rows);
@@ -202,7 +205,7 @@ class Columns {
   // What hangs on a cord says how large its force is, whatever moves it.
   void force(const Compared& rows, bool by_mean) {
     judge({.key = "force",
-           .place = map_.force,
+           .place = map_["force"],
            .units = {{"N", 1.0}, {"kN", 1e3, of_columns.same_kilo}, {"kgf", plant::gravity_m_per_s2}},
            .shown = " N",
            .opposite = by_mean ? of_columns.opposite_mean : of_columns.opposite,
@@ -211,11 +214,10 @@ class Columns {
   }
 
   Quantity pressure(Beside which) const {
-    const std::string key(told(which, data_.rig.pair() != nullptr).first);
-    const auto place = std::ranges::find(domain::quantities, key, &domain::Quantity::key)->place;
+    const std::string key = told(which, data_.rig.pair() != nullptr).first;
     return {
         .key = key,
-        .place = map_.*place,
+        .place = map_[key],
         .units = {{"bar", 1e5}, {"kPa", 1e3}, {"psi", 6894.757}, {"mbar", 1e2}, {"MPa", 1e6}, {"Pa", 1.0}},
         .shown = " bar",
         .of_shown = plant::Pa_per_bar,
@@ -288,10 +290,10 @@ class Columns {
     const double most_bar = largest(*run.muscle_pressure_Pa) / plant::Pa_per_bar;
     const double supply_bar = data_.rig.valve.supply_pressure_Pa / plant::Pa_per_bar;
     if (most_bar < of_columns.beyond_rig * supply_bar ||
-        most_bar > data_.rig.dac.largest_current_mA + of_columns.rounding_mA ||
+        most_bar > data_.rig.dac.largest_command + of_columns.rounding_mA ||
         largest(run.current_mA) > of_columns.within_supply * supply_bar)
       return false;
-    ColumnPlace current = map_.current, pressure = map_.muscle_pressure;
+    ColumnPlace current = map_["current"], pressure = map_["muscle_pressure"];
     std::swap(current.column, pressure.column);
     find("muscle_pressure", {i},
          fmt::format("muscle_pressure is up to {:.4g} bar, more than the supply has, "
@@ -307,16 +309,16 @@ class Columns {
     const plant::Valve& valve = data_.rig.valve;
     const double most_mA = largest(run.current_mA);
     const std::string never = fmt::format("current: never above {:.3g} mA", most_mA);
-    ColumnPlace amperes = map_.current;
+    ColumnPlace amperes = map_["current"];
     amperes.unit = std::string("A");  // g++ 12 warns of a literal
-    if (most_mA > 0.0 && most_mA < valve.span_current_mA * of_columns.amperes)
+    if (most_mA > 0.0 && most_mA < valve.span_command * of_columns.amperes)
       find("current", {i}, never, mend("; this looks like amperes, not mA", line_of("current", amperes)));
-    else if (most_mA < valve.zero_current_mA && range(run.contraction_ratio) > moving())
+    else if (most_mA < valve.zero_command && range(run.contraction_ratio) > moving())
       find("current", {i}, never,
            fmt::format(", where the valve does nothing (below {:.3g} mA), yet the muscle moves; is this "
                        "another unit, or a share of the range? unit, zero and factor in columns: current say "
                        "so",
-                       valve.zero_current_mA));
+                       valve.zero_command));
   }
 
   void gauge(std::size_t i, Beside which) {

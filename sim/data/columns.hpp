@@ -1,4 +1,5 @@
-// Columns against what the rig would do: in another unit than they say, with the other sign, exchanged.
+// Columns and loads against what the rig would do: in another unit than they say, with the other sign,
+// exchanged.
 #pragma once
 
 #include <vector>
@@ -10,5 +11,9 @@ namespace mckibben::data {
 /// Adds to `findings`: one for each kind, with all runs that it concerns.
 void check_columns(const domain::Dataset& data, const std::vector<Expected>& expected,
                    std::vector<Finding>& findings);
+
+/// All loads in another unit; labels that two or more runs have of each other. Adds to `findings`.
+void check_loads(const domain::Dataset& data, const std::vector<Expected>& expected,
+                 std::vector<Finding>& findings);
 
 }  // namespace mckibben::data

@@ -1,6 +1,5 @@
 // Runs row by row; see the header.
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <string>
 #include <utility>
@@ -11,7 +10,6 @@
 #include <sim/data/columns.hpp>
 #include <sim/data/examine.hpp>
 #include <sim/data/judged.hpp>
-#include <sim/data/loads.hpp>
 #include <sim/data/odd_readings.hpp>
 #include <sim/data/series.hpp>
 #include <sim/data/thresholds.hpp>
@@ -68,7 +66,7 @@ class Readings {
     const auto* const shown = data_.runs[i].beside(which);
     if (shown == nullptr) return;
     const Series& model = expected_[i].beside(which);
-    const std::string name = std::string(told(which, pair_).first) + "_bar";
+    const std::string name = told(which, pair_).first + "_bar";
     const bool constant = range(*shown) == 0.0;
     const bool should_move = range(model) > of_readings.gauge_bar * plant::Pa_per_bar;
     if (!constant && (!should_move || Line(*shown, model).slope > of_readings.gauge_slope)) {
@@ -80,7 +78,7 @@ class Readings {
     find(i, Severity::ignored, "",
          fmt::format("{} {}", name,
                      constant ? fmt::format("is {:.4g} throughout", shown->front() / plant::Pa_per_bar)
-                              : "does not follow the current"));
+                              : "does not follow the " + command_));
   }
 
   void mask(std::size_t run, const Stretch& stretch) {
@@ -113,11 +111,12 @@ class Readings {
     const double largest_mA = run.current_mA.empty() || pair_ ? std::numeric_limits<double>::infinity()
                                                               : *std::ranges::max_element(run.current_mA);
     const double dead_mA =
-        data_.rig.valve.zero_current_mA +
-        of_readings.dead_current * (data_.rig.valve.span_current_mA - data_.rig.valve.zero_current_mA);
+        data_.rig.valve.zero_command +
+        of_readings.dead_current * (data_.rig.valve.span_command - data_.rig.valve.zero_command);
     const double should = range(expected_[i].judged);
     if (largest_mA <= dead_mA)
-      leave_out(i, fmt::format("the current stays at or below {:.4g} mA and moves nothing", largest_mA));
+      leave_out(i, fmt::format("the {} stays at or below {:.4g} {} and moves nothing", command_, largest_mA,
+                               name_of(data_.rig.command_unit())));
     else if (range(run.judged()) > of_readings.moving_counts * count_)
       return true;
     else if (should > of_readings.should_move_counts * count_)
@@ -201,14 +200,13 @@ class Readings {
     leave_out(i, fmt::format("the {0} stands still from {1:.3f} s to {2:.3f} s though the {3} should "
                              "move it: {4}something held the {0}",
                              moving(), time_s(still.begin - 1), time_s(still.end - 1),
-                             data_.pressure_is_given() ? "pressure" : "current",
+                             data_.pressure_is_given() ? "pressure" : command_,
                              data_.pressure_is_given() ? "" : "the valve was stuck, or "));
   }
 
   static bool same_inputs(const domain::Measurement& one, const domain::Measurement& other) {
-    return std::ranges::equal(one.sides, other.sides, [](const auto& a, const auto& b) {
-      return a.current_mA == b.current_mA && a.muscle_pressure_Pa == b.muscle_pressure_Pa;
-    });
+    return std::ranges::equal(one.columns, other.columns, {}, &domain::MeasuredColumn::values,
+                              &domain::MeasuredColumn::values);
   }
 
   // The same file twice says nothing new, and would stand on both sides of the split.
@@ -216,8 +214,7 @@ class Readings {
     for (std::size_t i = 0; i < data_.runs.size(); ++i) {
       const auto same = [&](const domain::Run& run) {
         return run.judged() == data_.runs[i].judged() && run.current_mA == data_.runs[i].current_mA &&
-               (!bench_ || run.measured->contraction_ratio == data_.runs[i].measured->contraction_ratio) &&
-               (!pair_ || same_inputs(*run.measured, *data_.runs[i].measured));
+               ((!bench_ && !pair_) || same_inputs(*run.measured, *data_.runs[i].measured));
       };
       const auto last = data_.runs.begin() + static_cast<std::ptrdiff_t>(i);
       const auto first = std::find_if(data_.runs.begin(), last, same);
@@ -227,6 +224,7 @@ class Readings {
   }
 
   const domain::Dataset& data_;
+  const std::string command_ = plant::command_key(data_.rig);
   const std::vector<Expected>& expected_;
   Examined& result_;
   bool bench_;  ///< lengths are given, and forces judged

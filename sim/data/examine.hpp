@@ -16,11 +16,15 @@ namespace mckibben::data {
 struct Expected {
   std::vector<double> judged{};  ///< contraction ratio; the cord's force [N] at a given length; angle [rad]
   std::vector<double> pressure_Pa{}, opposite_pressure_Pa{};  ///< the latter of a pair only
-  std::vector<double> force_N{};                              ///< of the cord, where it was read beside
+  // Where they were read beside: force of the cord, pressures in the valves.
+  std::vector<double> force_N{}, valve_pressure_Pa{}, opposite_valve_pressure_Pa{};
 
   std::vector<double>& beside(domain::Beside which) {
-    if (which == domain::Beside::force) return force_N;
-    return which == domain::Beside::muscle_pressure ? pressure_Pa : opposite_pressure_Pa;
+    using enum domain::Beside;
+    if (which == force) return force_N;
+    if (which == valve_pressure) return valve_pressure_Pa;
+    if (which == opposite_valve_pressure) return opposite_valve_pressure_Pa;
+    return which == muscle_pressure ? pressure_Pa : opposite_pressure_Pa;
   }
   const std::vector<double>& beside(domain::Beside which) const {
     return const_cast<Expected*>(this)->beside(which);

@@ -13,7 +13,7 @@
 namespace mckibben::data {
 namespace {
 
-using domain::Measurement, domain::Rows;
+using domain::MeasuredColumn, domain::Measurement, domain::Rows;
 
 constexpr double even_row_s = 0.012;     // no load bends within half of it by what a sensor could show
 constexpr double slack_share = 0.002;    // of a run's largest force: less is a cord that hangs through
@@ -36,11 +36,10 @@ class Judging {
       : run_(run), raw_(*run.measured), pair_(pair), row_s_(row_s), random_(seed) {}
 
   void operator()() {
-    if (raw_.length_is_given) leave_out_slack();
+    if (raw_.gives_length()) leave_out_slack();
     if (raw_.recorded.start == domain::Start::moving) raw_.first = first_state(raw_);
     fast_ = row_s_ / median_gap_s(raw_.time_s) >= enough_readings && !raw_.counted;
     Measurement driving = fast_ ? thinned() : as_recorded();
-    if (raw_.length_is_given) hold_length(driving);
     judge(driving);
     shake(driving);
     run_.measured = std::move(driving);
@@ -48,59 +47,47 @@ class Judging {
 
   std::size_t slack = 0;  ///< rows without a force
   /// Of single readings, a value for each row: of what is judged, of gauges, of a force beside it.
-  std::vector<double> squares{}, pressure_squares{}, force_squares{};
+  std::vector<double> squares{}, pressure_squares{}, force_squares{}, valve_squares{};
   double gain_sum = 0.0, readings_sum = 0.0, given_noise_Pa = 0.0, step = 0.0;
   bool fast() const { return fast_; }
 
  private:
   double end_s() const { return raw_.time_s.back(); }
   double begin_s() const { return raw_.time_s.front(); }
-  std::size_t sides() const { return pair_ ? 2 : 1; }
 
-  /// Without what is only read.
+  /// Without what is only read; what is given has no values yet.
   Measurement bare() const {
     Measurement bare;
     bare.recorded = raw_.recorded;
     bare.first = raw_.first;
     bare.counted = raw_.counted;
     bare.point_s = raw_.point_s;
-    bare.length_is_given = raw_.length_is_given;
-    for (std::size_t side = 0; side < sides(); ++side)
-      bare.sides[side].pressure_is_given = raw_.sides[side].pressure_is_given;
+    for (const MeasuredColumn& column : raw_.columns)
+      if (column.given) bare.columns.push_back({column.channel, true});
     return bare;
   }
 
   /// A cord without force is slack: how far the muscle is from pulling, no load cell reads.
   void leave_out_slack() {
     double most_N = 0.0;
-    for (const double force_N : raw_.force_N)
+    std::vector<double>& read_N = raw_.take("force");
+    for (const double force_N : read_N)
       if (force_N > most_N) most_N = force_N;
-    for (double& force_N : raw_.force_N) {
+    for (double& force_N : read_N) {
       if (!(force_N <= slack_share * most_N)) continue;
       force_N = std::nan("");
       ++slack;
     }
   }
 
-  /// The length that a bench gives, at the stamps that drive.
-  void hold_length(Measurement& driving) const {
-    const Column length(raw_.time_s, raw_.contraction_ratio);
-    for (const double at_s : driving.time_s)
-      driving.contraction_ratio.push_back(length.between(length.last_before(at_s), at_s));
-  }
-
   Measurement as_recorded() const {
     Measurement same = bare();
     same.time_s = raw_.time_s;
-    for (std::size_t side = 0; side < sides(); ++side) {
-      same.sides[side].current_mA = raw_.sides[side].current_mA;
-      if (same.sides[side].pressure_is_given)
-        same.sides[side].muscle_pressure_Pa = raw_.sides[side].muscle_pressure_Pa;
-    }
+    std::erase_if(same.columns = raw_.columns, [](const MeasuredColumn& column) { return !column.given; });
+    const bool each = !raw_.counted || raw_.gives_length();
     double last_s = begin_s() + raw_.recorded.skip_s - row_s_;
     for (std::size_t k = 0; k < raw_.time_s.size(); ++k) {
-      const bool counts_each =
-          !raw_.counted || raw_.length_is_given || raw_.time_s[k] - last_s >= 0.999 * row_s_;
+      const bool counts_each = each || raw_.time_s[k] - last_s >= 0.999 * row_s_;
       if (raw_.time_s[k] - begin_s() < raw_.recorded.skip_s || !counts_each) continue;
       last_s = raw_.time_s[k];
       same.rows.push_back(k);
@@ -110,7 +97,8 @@ class Judging {
 
   Measurement thinned() {
     Measurement thin = bare();
-    if (!thin.sides[0].pressure_is_given) thin.recorded.hold = domain::Hold::usual;  // means are held
+    if (std::ranges::any_of(thin.columns, &MeasuredColumn::is_command))
+      thin.recorded.hold = domain::Hold::usual;  // means are held
     const double quarter_s = row_s_ / static_cast<double>(quarters);
     const auto skipped = static_cast<std::size_t>(std::ceil(raw_.recorded.skip_s / row_s_ - 1e-9));
     const auto rows = static_cast<std::size_t>(std::floor((end_s() - begin_s()) / row_s_));
@@ -122,39 +110,34 @@ class Judging {
     return thin;
   }
 
-  /// What drives a side, as it was recorded.
+  /// What drives the rig, as it was recorded.
   struct Input {
-    const std::vector<double>& values;
-    bool given;  ///< a pressure; else a command
+    const MeasuredColumn& of;
     Column column;
   };
-  Input input(std::size_t side) const {
-    const bool given = raw_.sides[side].pressure_is_given;
-    const auto& values = given ? raw_.sides[side].muscle_pressure_Pa : raw_.sides[side].current_mA;
-    return {values, given, Column(raw_.time_s, values)};
-  }
+  static bool is_length(const MeasuredColumn& column) { return column.is("contraction", 1); }
 
   /// Adds the inputs of a quarter, at every stamp where one of them jumps or bends.
   void follow(Measurement& thin, double from_s, double to_s) const {
-    std::array<bool, 2> uneven{};
-    for (std::size_t side = 0; side < sides(); ++side) {
-      const Input of = input(side);
-      uneven[side] = of.given ? jumps(of, from_s) : bends(of, from_s, to_s);
-    }
+    std::vector<Input> inputs;
+    for (const MeasuredColumn& column : raw_.columns)
+      if (column.given) inputs.push_back({column, Column(raw_.time_s, column.values)});
+    std::vector<bool> uneven;
+    for (const Input& input : inputs)
+      uneven.push_back(!is_length(input.of) &&
+                       (input.of.is_command() ? bends(input, from_s, to_s) : jumps(input, from_s)));
     const auto put = [&](double a_s, double b_s) {
       thin.time_s.push_back(a_s);
-      for (std::size_t side = 0; side < sides(); ++side) {
-        const Input of = input(side);
-        if (of.given)
-          thin.sides[side].muscle_pressure_Pa.push_back(pressure(of, a_s, uneven[side]));
-        else
-          thin.sides[side].current_mA.push_back(
-              of.column.mean(a_s, b_s, raw_.recorded.hold == domain::Hold::linear));
+      for (std::size_t i = 0; i < inputs.size(); ++i) {
+        const Column& column = inputs[i].column;
+        thin.columns[i].values.push_back(
+            inputs[i].of.is_command() ? column.mean(a_s, b_s, raw_.recorded.hold == domain::Hold::linear)
+                                      : smooth(inputs[i], a_s, uneven[i] || is_length(inputs[i].of)));
       }
     };
     double at_s = from_s;
-    if (uneven[0] || uneven[1])
-      for (const double stamp_s : input(0).column.stamps(from_s, to_s))
+    if (std::ranges::find(uneven, true) != uneven.end())
+      for (const double stamp_s : inputs.front().column.stamps(from_s, to_s))
         put(std::exchange(at_s, stamp_s), stamp_s);
     put(at_s, to_s);
   }
@@ -169,19 +152,19 @@ class Judging {
       bend = std::max(bend, std::abs(column[k] - std::lerp(column[first], column[last], share)));
       if (k > first) bend = std::max(bend, 0.5 * std::abs(column[k] - column[k - 1]));
     }
-    return bend > straight * range_of(of.values);
+    return bend > straight * range_of(of.of.values);
   }
 
   bool jumps(const Input& of, double at_s) const {
     const Together here = of.column.near(at_s, 0.5 * row_s_);
-    return here.worst > std::max(straight * range_of(of.values), outlying * std::sqrt(here.squares)) ||
+    return here.worst > std::max(straight * range_of(of.of.values), outlying * std::sqrt(here.squares)) ||
            std::isnan(here.value);
   }
 
-  /// Of a given pressure: smoothed, unless it jumps.
-  double pressure(const Input& of, double at_s, bool jumps) const {
+  /// Of a given pressure or force: smoothed, unless it jumps; of a length as it is.
+  double smooth(const Input& of, double at_s, bool as_it_is) const {
     const double raw = of.column.between(of.column.last_before(at_s), at_s);
-    if (jumps) return raw;
+    if (as_it_is) return raw;
     const double smooth = of.column.near(at_s, 0.5 * row_s_).value;
     return std::isnan(smooth) ? raw : smooth;
   }
@@ -198,15 +181,15 @@ class Judging {
     const auto add = [&](domain::Beside which, const auto& recorded, auto& rows, auto& left) {
       list.push_back({recorded, rows, run_.missing_beside[static_cast<std::size_t>(which)], left});
     };
-    const auto gauge = [&](domain::Beside which, std::size_t side, auto& rows) {
-      const Measurement::Side& of = raw_.sides[side];
-      if (side < sides() && !of.pressure_is_given && is_read(of.muscle_pressure_Pa))
-        add(which, of.muscle_pressure_Pa, rows.emplace(), pressure_squares);
+    const auto gauge = [&](domain::Beside which, auto& left) {
+      const plant::Channel channel = domain::channel_of(which, true);
+      const auto& read = raw_.read(channel.signal->in_dataset, channel.muscle);
+      if (is_read(read)) add(which, read, run_.gauge(which).emplace(), left);
     };
-    gauge(domain::Beside::muscle_pressure, 0, run_.muscle_pressure_Pa);
-    gauge(domain::Beside::opposite_pressure, 1, run_.opposite_pressure_Pa);
-    if (!raw_.length_is_given && is_read(raw_.force_N))
-      add(domain::Beside::force, raw_.force_N, run_.force_N, force_squares);
+    for (const domain::Beside which : domain::gauges) gauge(which, pressure_squares);
+    for (const domain::Beside which : domain::valve_gauges) gauge(which, valve_squares);
+    if (const auto& read_N = raw_.read("force"); !raw_.gives_length() && is_read(read_N))
+      add(domain::Beside::force, read_N, run_.force_N, force_squares);
     return list;
   }
   static bool is_read(const std::vector<double>& values) {
@@ -215,14 +198,15 @@ class Judging {
 
   /// The reading that is judged, as it was recorded, and where its rows go.
   std::pair<const std::vector<double>&, std::vector<double>&> judged() {
-    if (pair_) return {raw_.angle_rad, run_.angle_rad};
-    if (raw_.length_is_given) return {raw_.force_N, run_.force_N};
-    return {raw_.contraction_ratio, run_.contraction_ratio};
+    if (pair_) return {raw_.read("angle"), run_.angle_rad};
+    if (raw_.gives_length()) return {raw_.read("force"), run_.force_N};
+    return {raw_.read("contraction"), run_.contraction_ratio};
   }
 
   /// What the readings say at each row.
   void judge(const Measurement& driving) {
     const auto [readings, rows] = judged();
+    const std::vector<double>& current_mA = driving.given("command");
     const std::vector<Beside> others = besides();
     for (const std::size_t stamp : driving.rows) {
       const double at_s = driving.time_s[stamp];
@@ -241,7 +225,7 @@ class Judging {
       }
       run_.time_s.push_back(at_s - begin_s());
       rows.push_back(all.value);
-      if (!driving.sides[0].current_mA.empty()) run_.current_mA.push_back(driving.sides[0].current_mA[stamp]);
+      if (!current_mA.empty()) run_.current_mA.push_back(current_mA[stamp]);
       gain_sum += all.gain;
       readings_sum += static_cast<double>(all.readings);
     }
@@ -255,21 +239,23 @@ class Judging {
   void note_slow_noise(const std::vector<double>& readings) {
     if (const double noise = noise_of_slow(readings); noise > 0.0) squares = {noise * noise};
     pressure_squares.clear();
-    for (std::size_t side = 0; side < sides(); ++side)
-      if (const auto& read = raw_.sides[side].muscle_pressure_Pa; is_read(read))
-        pressure_squares.push_back(std::pow(noise_of_slow(read), 2));
-    if (is_read(raw_.force_N)) force_squares = {std::pow(noise_of_slow(raw_.force_N), 2)};
+    valve_squares.clear();
+    for (const std::size_t muscle : {1U, 2U}) {
+      if (const auto& gauge = raw_.values("muscle_pressure", muscle); is_read(gauge))
+        pressure_squares.push_back(std::pow(noise_of_slow(gauge), 2));
+      if (const auto& gauge = raw_.read("valve_pressure", muscle); is_read(gauge))
+        valve_squares.push_back(std::pow(noise_of_slow(gauge), 2));
+    }
+    if (const auto& cell = raw_.read("force"); is_read(cell))
+      force_squares = {std::pow(noise_of_slow(cell), 2)};
   }
 
   double noise_of_slow(const std::vector<double>& readings) const {
     if (raw_.point_s == 0.0) return slow_noise(readings);
     std::vector<std::vector<double>> inputs;
-    for (std::size_t side = 0; side < sides(); ++side) {
-      inputs.push_back(raw_.sides[side].current_mA);
-      if (raw_.sides[side].pressure_is_given) inputs.push_back(raw_.sides[side].muscle_pressure_Pa);
-    }
-    if (raw_.length_is_given) inputs.push_back(raw_.contraction_ratio);
-    std::erase_if(inputs, [](const auto& input) { return input.empty(); });
+    for (const MeasuredColumn& column : raw_.columns)
+      if (column.given && !column.values.empty())
+        inputs.insert(is_length(column) ? inputs.end() : inputs.begin(), column.values);
     return readings.empty() ? 0.0 : points_noise(readings, inputs);
   }
 
@@ -287,25 +273,29 @@ class Judging {
     }
   }
 
-  /// As much noise as a given pressure has, once more on it.
+  /// As much noise as a given pressure or force has, once more on it.
   void shake(const Measurement& driving) {
     if (driving.point_s > 0.0) return;  // a point's has come to rest
-    for (std::size_t side = 0; side < sides(); ++side)
-      if (driving.sides[side].pressure_is_given) shake(driving, side);
+    std::size_t at = 0;
+    for (MeasuredColumn& column : raw_.columns) {
+      if (!column.given) continue;
+      if (!column.is_command() && !is_length(column)) shake(driving, column, at);
+      ++at;
+    }
   }
-  void shake(const Measurement& driving, std::size_t side) {
-    auto& readings = raw_.sides[side].muscle_pressure_Pa;
+  void shake(const Measurement& driving, MeasuredColumn& given, std::size_t at) {
+    auto& readings = given.values;
     const Column column(raw_.time_s, readings);
     std::vector<double> left;
     if (fast_)
       for (const std::size_t stamp : driving.rows)
         left.push_back(column.near(driving.time_s[stamp], 0.5 * row_s_).squares);
-    const double noise_Pa = fast_ ? noise_of(left) : slow_noise(readings);
-    given_noise_Pa = std::max(given_noise_Pa, noise_Pa);
-    std::normal_distribution<double> noise(0.0, noise_Pa);
+    const double level = fast_ ? noise_of(left) : slow_noise(readings);
+    if (given.is_pressure()) given_noise_Pa = std::max(given_noise_Pa, level);
+    std::normal_distribution<double> noise(0.0, level);
     for (double& reading : readings) reading += noise(random_);
     if (!run_.shaken) run_.shaken = driving;
-    auto& shaken = run_.shaken->sides[side].muscle_pressure_Pa;
+    auto& shaken = run_.shaken->columns[at].values;
     for (std::size_t k = 0; k < driving.time_s.size(); ++k) {
       const double at_s = driving.time_s[k];
       const Together here = column.near(at_s, 0.5 * row_s_);
@@ -362,12 +352,14 @@ double reading_grain(const plant::Rig& rig) {
 domain::Dataset with_rows(domain::Dataset data) {
   if (!data.own_clock || data.rows_of_stamps) return data;
   Rows rows{.row_s = row_s_of(data), .readings = 0.0};
-  std::vector<double> squares, pressure_squares, force_squares;
+  std::vector<double> squares, pressure_squares, force_squares, valve_squares;
   double gain = 0.0;
   for (std::size_t i = 0; i < data.runs.size(); ++i) {
     domain::Run& run = data.runs[i];
     rows.stamps += run.measured->time_s.size();
-    rows.at_the_end += leave_out_the_end(data.rig.sensors.of(plant::Sensed::force), run.measured->force_N);
+    if (!run.measured->read("force").empty())
+      rows.at_the_end +=
+          leave_out_the_end(data.rig.sensors.of(plant::Sensed::force), run.measured->take("force"));
     Judging judging(run, data.rig.pair() != nullptr, rows.row_s, i + 1);
     judging();
     rows.rows += run.judged().size();
@@ -375,10 +367,13 @@ domain::Dataset with_rows(domain::Dataset data) {
     rows.readings += judging.readings_sum;
     rows.slack += judging.slack;
     gain += judging.gain_sum;
-    squares.insert(squares.end(), judging.squares.begin(), judging.squares.end());
-    pressure_squares.insert(pressure_squares.end(), judging.pressure_squares.begin(),
-                            judging.pressure_squares.end());
-    force_squares.insert(force_squares.end(), judging.force_squares.begin(), judging.force_squares.end());
+    const auto add = [](std::vector<double>& to, const std::vector<double>& more) {
+      to.insert(to.end(), more.begin(), more.end());
+    };
+    add(squares, judging.squares);
+    add(pressure_squares, judging.pressure_squares);
+    add(force_squares, judging.force_squares);
+    add(valve_squares, judging.valve_squares);
     rows.given_noise_Pa = std::max(rows.given_noise_Pa, judging.given_noise_Pa);
     rows.step = std::max(rows.step, judging.step);
     rows.smoothed = rows.smoothed || (judging.fast() && run.shaken);
@@ -388,6 +383,7 @@ domain::Dataset with_rows(domain::Dataset data) {
   rows.noise = noise_of(squares) * std::sqrt(gain / all);
   rows.pressure_noise_Pa = noise_of(pressure_squares) * std::sqrt(gain / all);
   rows.force_noise_N = noise_of(force_squares) * std::sqrt(gain / all);
+  rows.valve_noise_Pa = noise_of(valve_squares) * std::sqrt(gain / all);
   data.rows_of_stamps = rows;
   return data;
 }

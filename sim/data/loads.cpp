@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include <plant/geometry.hpp>
-#include <sim/data/loads.hpp>
+#include <sim/data/columns.hpp>
 #include <sim/data/series.hpp>
 #include <sim/data/thresholds.hpp>
 #include <sim/domain/number.hpp>

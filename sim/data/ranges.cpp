@@ -20,9 +20,8 @@ constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr double lowest_ratio = -0.2, highest_ratio = 1.0, hardly_contracts = 0.02;
 constexpr double lowest_read_bar = -2.0, lowest_given_bar = -1.0, highest_bar = 100.0;  // noise; a vacuum
 constexpr double largest_angle_rad = 10.0, largest_force_N = 1e6;
-constexpr double slack_mA = 1e-9;           // shortest digits of a sum of DAC steps
-constexpr std::ptrdiff_t few_numbers = 3;   // numbers out of range that are told one by one
-constexpr double digits_of_commands = 1e9;  // those of a table come back
+constexpr double slack_mA = 1e-9;          // shortest digits of a sum of DAC steps
+constexpr std::ptrdiff_t few_numbers = 3;  // numbers out of range that are told one by one
 
 /// Readings that are missing lie anywhere.
 bool within(const Series& values, double lowest, double highest) {
@@ -48,25 +47,32 @@ double even_step_s(const Series& time_s) {
 class Ranges {
  public:
   Ranges(std::span<const ReadColumn> columns, const ColumnMap& map, const plant::Rig& rig)
-      : columns_(columns), commands_(!map.command.absent()), map_(with_our_names(map)), rig_(rig) {}
+      : columns_(columns),
+        commands_(!map[domain::command_key].absent()),
+        map_(with_our_names(map, rig.command_unit())),
+        rig_(rig) {}
 
   std::vector<WrongNumber> operator()() {
     for (at_ = 0; at_ < columns_.size(); ++at_) {
-      const auto quantity =
-          std::ranges::find(domain::quantities, columns_[at_].name, &domain::Quantity::column);
-      if (quantity == domain::quantities.end()) continue;
-      const std::string key(quantity->key == "current" && commands_ ? "command" : quantity->key);
-      const ColumnPlace& place = key == "command" ? map_.command : map_.*quantity->place;
-      if (quantity->unit == "mA")
-        command(key, place);
+      const auto& all = domain::quantities(rig_.command_unit());
+      const auto found = std::ranges::find(all, columns_[at_].name, &domain::Quantity::column);
+      if (found == all.end()) continue;
+      const domain::Quantity& quantity =
+          found->is_old_current && commands_ ? domain::quantity_of(domain::command_key) : *found;
+      const std::string& key = quantity.key;
+      const ColumnPlace& place = map_[quantity];
+      if (quantity.is_command())
+        command(quantity, place);
       else if (key == "contraction")
         contraction(place);
-      else if (quantity->unit == "bar")
-        pressure(key, place);
+      else if (quantity.unit() == plant::units::bar.name)
+        pressure(quantity, place);
       else if (key == "angle")
         look(-largest_angle_rad, largest_angle_rad, "what a joint can turn", other(key, place));
-      else if (key == "force")
+      else if (quantity.unit() == plant::units::N.name)
         look(-largest_force_N, largest_force_N, "what a cord can bear", other(key, place));
+      else if (quantity.unit() == plant::units::N_m.name)
+        look(-largest_force_N, largest_force_N, "what a joint can bear", other(key, place));
     }
     return std::move(found_);
   }
@@ -83,23 +89,22 @@ class Ranges {
   }
 
   // Commands in volts or bar no DAC of ours made: a whole range outside they are of another valve.
-  void command(const std::string& key, const ColumnPlace& place) {
-    if (!columns_[at_].own_command)
-      return look(0.0, rig_.dac.largest_current_mA + slack_mA, "range of the rig's DAC", other(key, place));
-    const plant::Valve& valve = key == "command_2" ? rig_.pair()->opposite.valve : rig_.valve;
-    const double zero = valve.zero_command.value, span = valve.span_command.value;
-    Series commands = values();
-    for (double& value : commands)
-      value = std::round(digits_of_commands * valve.command_for(value)) / digits_of_commands;
-    look(commands, key, 2.0 * zero - span, 2.0 * span - zero,
-         fmt::format("the rig's valve takes {:g} to {:g} {}", zero, span,
-                     plant::name_of(valve.zero_command.unit)),
-         other(key, place));
+  void command(const domain::Quantity& quantity, const ColumnPlace& place) {
+    const plant::CommandUnit unit = rig_.command_unit();
+    if (unit == plant::CommandUnit::mA)
+      return look(rig_.dac.lowest_command, rig_.dac.largest_command + slack_mA, "range of the rig's DAC",
+                  other(quantity.key, place));
+    const plant::Valve& valve = quantity.channel.muscle == 2 ? rig_.pair()->opposite.valve : rig_.valve;
+    const double zero = valve.zero_command, span = valve.span_command;
+    look(2.0 * zero - span, 2.0 * span - zero,
+         fmt::format("the rig's valve takes {:g} to {:g} {}", zero, span, name_of(unit)),
+         other(quantity.key, place));
   }
 
   void contraction(ColumnPlace meant) {
     if (meant.as == domain::Role::input) return held();
-    const Series* current = commands_ ? nullptr : values_of("current_mA");
+    const Series* current =
+        commands_ ? nullptr : values_of(plant::Channel{&plant::command_of(rig_.command_unit())}.name());
     const Series* pressure = values_of("muscle_pressure_bar");
     std::string hint;
     const auto exchanged_with = [&](std::string_view quantity, ColumnPlace other_place) {
@@ -108,10 +113,10 @@ class Ranges {
                          line_of("contraction", meant), line_of(quantity, other_place));
     };
     if (current != nullptr && within(*current, lowest_ratio, highest_ratio) &&
-        within(values(), 0.0, rig_.dac.largest_current_mA)) {
-      exchanged_with("current", map_.current);
+        within(values(), rig_.dac.lowest_command, rig_.dac.largest_command)) {
+      exchanged_with(plant::command_key(rig_), map_["current"]);
     } else if (pressure != nullptr && within(*pressure, lowest_ratio, highest_ratio)) {
-      exchanged_with("muscle_pressure", map_.muscle_pressure);
+      exchanged_with("muscle_pressure", map_["muscle_pressure"]);
     } else if (within(values(), -infinite, hardly_contracts)) {
       meant.factor = -meant.factor;
       hint =
@@ -143,20 +148,19 @@ class Ranges {
                          write_number(value))});
   }
 
-  void pressure(const std::string& key, ColumnPlace meant) {
+  void pressure(const domain::Quantity& quantity, ColumnPlace meant) {
     const bool given = meant.as == domain::Role::input;
+    const char* can = quantity.channel.signal->key == "muscle_pressure" ? "what a muscle can be given"
+                                                                        : "what a valve can give";
     if (meant.unit == "bar") meant.unit = "kPa";
-    look(given ? lowest_given_bar : lowest_read_bar, highest_bar,
-         given ? "what a muscle can be given" : "what a gauge can show",
+    look(given ? lowest_given_bar : lowest_read_bar, highest_bar, given ? can : "what a gauge can show",
          fmt::format("is it in another unit (kPa, mbar, Pa, psi)? Then write so, as in columns: {{{}}}",
-                     line_of(key, meant)));
+                     line_of(quantity.key, meant)));
   }
 
   void look(double lowest, double highest, std::string_view meaning, const std::string& hint) {
-    look(values(), columns_[at_].name, lowest, highest, meaning, hint);
-  }
-  void look(const Series& values, std::string_view name, double lowest, double highest,
-            std::string_view meaning, const std::string& hint) {
+    const Series& values = *columns_[at_].values;
+    const std::string_view name = columns_[at_].name;
     const auto outside = [&](double value) { return value < lowest || value > highest; };
     const auto count = std::ranges::count_if(values, outside);
     for (std::size_t row = 0; row < values.size(); ++row) {
@@ -187,10 +191,10 @@ class Ranges {
 
 }  // namespace
 
-ColumnMap with_our_names(ColumnMap map) {
-  for (const domain::Quantity& quantity : domain::quantities)
-    if (ColumnPlace& place = map.*quantity.place; place.absent())
-      place = {std::string(quantity.column), std::string(quantity.unit)};
+ColumnMap with_our_names(ColumnMap map, plant::CommandUnit commands) {
+  for (const domain::Quantity& quantity : domain::quantities(commands))
+    if (ColumnPlace& place = map[quantity]; place.absent())
+      place = {quantity.column, std::string(quantity.unit())};
   return map;
 }
 
@@ -199,10 +203,10 @@ std::vector<WrongNumber> check_ranges(std::span<const ReadColumn> columns, const
   return Ranges(columns, map, rig)();
 }
 
-std::optional<WrongNumber> check_clock(const Series& time_s, const ColumnMap& map, double tick_s) {
-  const double step_s = even_step_s(time_s);
+std::optional<WrongNumber> check_clock(const Series& time_s, const ColumnMap& map, const plant::Rig& rig) {
+  const double step_s = even_step_s(time_s), tick_s = rig.tick_s;
   const bool right = std::abs(step_s / tick_s - 1.0) < 1e-3;
-  ColumnPlace meant = with_our_names(map).time;
+  ColumnPlace meant = with_our_names(map, rig.command_unit())["time"];
   if (const std::string unit = clock_unit(step_s / tick_s); !unit.empty() && meant.unit == "s") {
     meant = {meant.column, unit, meant.zero, meant.factor};
     return WrongNumber{

@@ -14,13 +14,12 @@
 namespace mckibben::data {
 
 /// With our names and units where it says none.
-domain::ColumnMap with_our_names(domain::ColumnMap map);
+domain::ColumnMap with_our_names(domain::ColumnMap map, plant::CommandUnit commands);
 
 /// A column of a run, in our unit.
 struct ReadColumn {
   std::string_view name;  ///< current_mA
   const std::vector<double>* values;
-  bool own_command = false;  ///< the currents stand for commands in the valve's unit
 };
 
 struct WrongNumber {
@@ -34,7 +33,7 @@ std::vector<WrongNumber> check_ranges(std::span<const ReadColumn> columns, const
 
 /// A clock in another unit, with another tick or another beginning than a row each tick has.
 std::optional<WrongNumber> check_clock(const std::vector<double>& time_s, const domain::ColumnMap& map,
-                                       double tick_s);
+                                       const plant::Rig& rig);
 
 /// Of a recorder that had one of its own: what to say of rows that are no ticks.
 inline constexpr const char* own_clock =

@@ -143,13 +143,12 @@ double step_of(const std::vector<double>& values) {
 }
 
 domain::FirstState first_state(const domain::Measurement& measured) {
-  const auto [ratio, speed, acceleration] = parabola(measured.time_s, measured.contraction_ratio);
+  const auto [ratio, speed, acceleration] = parabola(measured.time_s, measured.read("contraction"));
   domain::FirstState first{ratio, speed, acceleration};
-  const domain::Measurement::Side& side = measured.sides[0];
-  const auto& read = side.muscle_pressure_Pa;
-  const auto known = std::count_if(read.begin(), read.end(), [](double value) { return !std::isnan(value); });
-  if (!side.pressure_is_given && static_cast<std::size_t>(known) >= least_readings)
-    first.muscle_pressure_Pa = parabola(measured.time_s, read)[0];
+  const auto& gauge = measured.read("muscle_pressure");
+  const auto known = std::ranges::count_if(gauge, [](double value) { return !std::isnan(value); });
+  if (static_cast<std::size_t>(known) >= least_readings)
+    first.muscle_pressure_Pa = parabola(measured.time_s, gauge)[0];
   return first;
 }
 

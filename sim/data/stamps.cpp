@@ -133,20 +133,16 @@ struct Told {
 };
 
 std::vector<Told> columns_of(Measurement& measured, const plant::Rig& rig) {
-  const bool pair = rig.pair() != nullptr;
   std::vector<Told> list;
-  const auto add = [&](std::string name, std::string unit, double per_unit, bool given,
-                       std::vector<double>& values) {
-    if (!values.empty()) list.push_back({std::move(name), std::move(unit), per_unit, given, &values});
-  };
-  add("contraction", "mm", 1e3 * rig.muscle.rest_length_m, measured.length_is_given,
-      measured.contraction_ratio);
-  add("angle", "deg", 1.0 / plant::degree_rad, false, measured.angle_rad);
-  add("force", "N", 1.0, false, measured.force_N);
-  for (std::size_t side = 0; side < measured.sides.size(); ++side)
-    add(pair ? fmt::format("muscle_pressure_{}", side + 1) : "muscle_pressure", "mbar",
-        1e3 / plant::Pa_per_bar, measured.sides[side].pressure_is_given,
-        measured.sides[side].muscle_pressure_Pa);
+  for (domain::MeasuredColumn& column : measured.columns) {
+    if (column.is_command() || column.values.empty()) continue;
+    const plant::Unit& unit = column.channel.signal->unit;
+    auto [shown, per_unit] = std::pair{std::string(unit.name), 1.0 / unit.size};
+    if (unit.name == plant::units::ratio.name) shown = "mm", per_unit = 1e3 * rig.muscle.rest_length_m;
+    if (unit.name == plant::units::rad.name) shown = "deg", per_unit = 1.0 / plant::degree_rad;
+    if (column.is_pressure()) shown = "mbar", per_unit = 1e3 / plant::Pa_per_bar;
+    list.push_back({column.channel.key_in_dataset(), shown, per_unit, column.given, &column.values});
+  }
   return list;
 }
 

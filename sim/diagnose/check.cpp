@@ -1,5 +1,4 @@
 // Checks of measured data; see the header. What needs no fit is found in sim/data.
-#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>

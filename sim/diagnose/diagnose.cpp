@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstddef>
 #include <iterator>
-#include <string>
 #include <utility>
 
 #include <sim/diagnose/check.hpp>
@@ -23,8 +22,8 @@ namespace {
 /// With what is judged alone.
 domain::Dataset without_besides(domain::Dataset data) {
   for (domain::Run& run : data.runs) {
-    run.muscle_pressure_Pa.reset();
-    run.opposite_pressure_Pa.reset();
+    for (const domain::Beside which : domain::besides)
+      if (which != domain::Beside::force) run.gauge(which).reset();
     if (run.kind_of_judged() != Judged::force) run.force_N.clear();
   }
   return data;

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include <sim/diagnose/faults.hpp>
-#include <sim/diagnose/held_out.hpp>
 #include <sim/diagnose/in_brief.hpp>
 #include <sim/diagnose/regression.hpp>
 #include <sim/diagnose/shapes.hpp>

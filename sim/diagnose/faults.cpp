@@ -69,8 +69,9 @@ bool Examination::worth_telling(FaultKind kind, double size) const {
     case FaultKind::reading_scale:
       return std::abs(size) >= of_faults.least_scale;
     case FaultKind::current_offset:
-      return std::abs(size) >=
-             (experiment_.data().pressure_is_given() ? of_faults.least_bar : of_faults.least_mA);
+      return std::abs(size) >= (experiment_.data().pressure_is_given()
+                                    ? of_faults.least_bar
+                                    : of_faults.least_mA * experiment_.data().rig.valve.per_mA());
     case FaultKind::drift:
       return std::abs(size) >= of_faults.least_drift;
     default:
@@ -81,8 +82,7 @@ bool Examination::worth_telling(FaultKind kind, double size) const {
 void Examination::fly() {
   weight_ = 1.0 / (experiment_.floor().judged * std::sqrt(thresholds.scatter.first_inflation));
   const auto fitted = experiment_.slopes(at_.rig, at_.free, runs_);
-  const auto driven =
-      experiment_.slopes(at_.rig, inputs_in_error(experiment_.data().pressure_is_given()), runs_);
+  const auto driven = experiment_.slopes(at_.rig, inputs_in_error(experiment_.data()), runs_);
   const auto parts = experiment_.parts(runs_);
   begins_ = {0};
   for (const auto& part : parts) begins_.push_back(begins_.back() + part.rows);

@@ -2,7 +2,6 @@
 // with the floor and with what the other runs say of the rig.
 #pragma once
 
-#include <string_view>
 #include <vector>
 
 #include <sim/diagnose/candidate.hpp>

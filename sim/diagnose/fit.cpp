@@ -337,18 +337,6 @@ KnownSlopes slopes_of_nominal(const Fitted& fitted) {
   return list;
 }
 
-Fitted part_of(const Fitted& fitted, const Experiment& experiment, const Runs& runs, const Runs& few) {
-  std::vector<Eigen::Index> kept;
-  Eigen::Index row = 0;
-  for (const std::size_t run : runs) {
-    const bool wanted = std::find(few.begin(), few.end(), run) != few.end();
-    for (std::size_t k = 0; k < experiment.rows(run); ++k, ++row)
-      if (wanted) kept.push_back(row);
-  }
-  return {fitted.model, fitted.residuals(kept), fitted.columns(kept, Eigen::all), fitted.cost,
-          fitted.failure};
-}
-
 Fitted fit(const Experiment& experiment, Model start, const Runs& runs, const FitSettings& settings) {
   Fitted result;
   result.model = std::move(start);

@@ -54,9 +54,6 @@ bool out_of_reach(double aim, const Fitted& fitted, double inflation);
 /// The slopes of the nominal parameters, without effects: those may move far.
 KnownSlopes slopes_of_nominal(const Fitted& fitted);
 
-/// What a fit to `runs` says of `few` of them: residuals and slopes. The cost is that of all.
-Fitted part_of(const Fitted& fitted, const Experiment& experiment, const Runs& runs, const Runs& few);
-
 /// A parameter that no reading depends on is refused: it keeps its value and is free no more.
 ///
 /// Slopes of nominal parameters, which hardly move, are computed once a round of descent, the others at each

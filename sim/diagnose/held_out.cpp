@@ -5,7 +5,6 @@
 #include <numeric>
 
 #include <sim/diagnose/held_out.hpp>
-#include <sim/diagnose/thresholds.hpp>
 
 namespace mckibben::diagnose {
 namespace {
@@ -26,7 +25,7 @@ Eigen::Index segment_rows(const Experiment& experiment) {
 
 double level_of(const domain::Run& run) {
   if (!run.length_is_given()) return run.load_kg;
-  const auto& lengths = run.measured->contraction_ratio;
+  const auto& lengths = run.measured->given("contraction");
   return std::accumulate(lengths.begin(), lengths.end(), 0.0) / static_cast<double>(lengths.size());
 }
 

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
 
 #include <sim/data/series.hpp>
 #include <sim/diagnose/labels.hpp>
@@ -62,7 +61,7 @@ class Scales {
     domain::Dataset usual = data_;
     usual.runs[run].load_kg = usual_kg[run];
     const Experiment experiment(usual, masked_, threads_);
-    const auto slopes = experiment.slopes(usual.rig, inputs_in_error(usual.pressure_is_given()), {run});
+    const auto slopes = experiment.slopes(usual.rig, inputs_in_error(usual), {run});
     const auto part = experiment.parts({run}).front();
     const Eigen::VectorXd residuals = slopes.residuals.segment(part.begin, part.rows);
     double least = squares_[run];

@@ -4,8 +4,6 @@
 // plant/effects/residual_force.hpp).
 #pragma once
 
-#include <sim/diagnose/name.hpp>
-
 namespace mckibben::diagnose {
 
 struct Law {

@@ -1,8 +1,7 @@
 // Screen, refit, choose, and again; see the header.
 #include <algorithm>
-#include <array>
 #include <limits>
-#include <optional>
+#include <set>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -39,11 +38,9 @@ bool is_same_law(const Trial& a, const Trial& b) {
 
 /// How many laws were tried, on whichever side.
 std::size_t laws_in(const std::vector<Trial>& trials) {
-  std::size_t count = 0;
-  for (auto one = trials.begin(); one != trials.end(); ++one)
-    if (std::none_of(trials.begin(), one, [&](const Trial& earlier) { return is_same_law(earlier, *one); }))
-      ++count;
-  return count;
+  std::set<std::pair<std::string, std::string>> laws;
+  for (const Trial& one : trials) laws.emplace(one.score.candidate.effect, one.score.candidate.variant);
+  return laws.size();
 }
 
 /// Whether a fit has left what it tries within its law. Alone, an effect may be named at the edge of its
@@ -128,63 +125,6 @@ void judge(const Case& c, const Eigen::VectorXd& reference, std::vector<Trial>& 
   std::stable_sort(trials.begin(), trials.end(), cheaper);
   for (Trial& trial : trials)
     trial.gain = compare(c.experiment, reference, trial.contender.held_out, c.split.held_out);
-}
-
-/// Two effects that help only together: next to one that fits best but does not convince, another one with
-/// which it closes most of the gap.
-std::optional<std::array<Trial, 2>> pair_of(const Case& c, const std::vector<Trial>& trials,
-                                            const Eigen::VectorXd& before, const Step& step) {
-  for (std::size_t i = 0; i < std::min(trials.size(), to_name.most_firsts); ++i) {
-    const Trial& first = trials[i];
-    if (!has_size(first.contender.fitted.model, first.score.candidate)) continue;
-    const Screening screening = screen_at(c, first.contender);
-    for (std::size_t place = 0; place < to_name.most_substitutes; ++place) {
-      const Score& score = screening.scores[place];
-      if (score.drop < thresholds.near.chance) break;
-      step(fmt::format("trying {} with {}", title(first.score.candidate), title(score.candidate)));
-      Trial second = rough(c, first.contender, score, place);
-      if (!second.contender.fitted.failure.empty()) continue;
-      const auto closes = [&] {
-        second.gain = compare(c.experiment, before, second.contender.held_out, c.split.held_out);
-        return second.gain.share;
-      };
-      if (closes() < to_name.rough_pair_share) continue;
-      polish(c, second, step);
-      closes();
-      const auto beyond =
-          compare(c.experiment, first.contender.held_out, second.contender.held_out, c.split.held_out);
-      if (has_size(second.contender.fitted.model, score.candidate) &&
-          has_size(second.contender.fitted.model, first.score.candidate) &&
-          second.gain.share > to_name.pair_share && convinces(second.gain) && convinces(beyond))
-        return std::array{first, second};
-    }
-  }
-  return std::nullopt;
-}
-
-/// What has been named itself is no alternative any more.
-void tidy_doubts(Naming& result) {
-  const auto named = [&](const EffectName& effect) {
-    return std::ranges::find(result.effects, effect, &NamedEffect::who) != result.effects.end();
-  };
-  for (NamedEffect& effect : result.effects) std::erase_if(effect.confusable_with, named);
-  std::erase_if(result.doubts, [&](const Doubt& doubt) { return named(doubt.rival); });
-}
-
-/// A law that has got a term more is one effect, under the name of the longer law.
-void merge_laws(const Model& model, Naming& result) {
-  for (const Candidate& added : model.effects) {
-    if (added.adds_to.empty()) continue;
-    const auto of_it = [&](const NamedEffect& effect) { return effect.who() == added.who(); };
-    const auto first = std::ranges::find_if(result.effects, of_it);
-    const auto again = std::find_if(std::next(first), result.effects.end(), of_it);
-    if (again == result.effects.end()) continue;  // the rig had the shorter law already
-    for (const EffectName& rival : again->confusable_with)
-      if (std::ranges::find(first->confusable_with, rival) == first->confusable_with.end())
-        first->confusable_with.push_back(rival);
-    first->variant = added.variant;
-    result.effects.erase(again);
-  }
 }
 
 /// Effects whose usual size would change these readings, next to what the free parameters can, by less than
@@ -300,9 +240,7 @@ void take_one(const Case& c, Naming& result, const std::vector<Trial>& trials, c
   for (const Trial& rival : trials) {
     const EffectName other = rival.score.candidate.who();
     if (other == named.who() || !has_size(rival.contender.fitted.model, rival.score.candidate)) continue;
-    if (std::find(named.confusable_with.begin(), named.confusable_with.end(), other) !=
-        named.confusable_with.end())
-      continue;
+    if (std::ranges::find(named.confusable_with, other) != named.confusable_with.end()) continue;
     if (!as_good(c, chosen.contender, rival.contender)) continue;
     named.confusable_with.push_back(other);
     result.doubts.push_back({named.who(), other, chosen.contender.fitted, rival.contender.fitted});
@@ -310,18 +248,6 @@ void take_one(const Case& c, Naming& result, const std::vector<Trial>& trials, c
   named.support.before_rivals = before_rivals(trials, chosen, named);
   result.effects.push_back(std::move(named));
   result.best = chosen.contender;
-}
-
-void take_both(const Case& c, Naming& result, std::array<Trial, 2> both) {
-  const double fall = result.best.fitted.cost - both.back().contender.fitted.cost;
-  for (const Trial& one : both) {
-    const Candidate& candidate = one.score.candidate;
-    const Trial& other = both.at(&one == &both.front() ? 1 : 0);
-    take(c, result.ranking, candidate, both.back(), fall,
-         fmt::format("with {} it closes most of the gap", title(other.score.candidate)));
-    result.effects.push_back(named(candidate));
-  }
-  result.best = std::move(both.back().contender);
 }
 
 /// What was named leaves a gap; where nothing was, slow disturbances are no reason.
@@ -348,9 +274,7 @@ class Namer {
   Naming operator()() {
     if (!name_in_turn() || !name_several()) return std::move(result_);
     drop_uncertain(c_, result_, step_);
-    tidy_doubts(result_);
-    sort_by_importance(c_, result_);
-    merge_laws(result_.best.fitted.model, result_);
+    settle(c_, result_);
     return std::move(result_);
   }
 
@@ -415,10 +339,10 @@ class Namer {
       take_one(c_, result_, trials, *chosen);
     } else {
       if (!result_.effects.empty() || !(left > to_name.worth_a_pair)) return false;
-      std::optional<std::array<Trial, 2>> both;
-      search_.part("effects that help only together", [&] { both = pair_of(c_, trials, before(), step_); });
-      if (!both) return false;
-      take_both(c_, result_, std::move(*both));
+      bool taken = false;
+      search_.part("effects that help only together",
+                   [&] { taken = try_pair(c_, result_, trials, before(), step_); });
+      if (!taken) return false;
     }
     const bool revised =
         search_.part("whether each effect is needed", [&] { revise(c_, result_, reference_, step_); });

@@ -95,14 +95,14 @@ bool driven_alike(const domain::Run& one, const domain::Run& other) {
   if (one.load_kg != other.load_kg || one.current_mA != other.current_mA || one.shaken) return false;
   if (one.judged().size() != other.judged().size()) return false;
   if (!one.measured || !other.measured) return one.measured.has_value() == other.measured.has_value();
-  const auto same_side = [&](std::size_t side) {
-    const auto &a = one.measured->sides[side], &b = other.measured->sides[side];
-    return a.pressure_is_given == b.pressure_is_given &&
-           (!a.pressure_is_given || a.muscle_pressure_Pa == b.muscle_pressure_Pa);
+  const auto given = [](const domain::Run& run) {
+    auto columns = run.measured->columns;
+    std::erase_if(columns, [](const domain::MeasuredColumn& column) { return !column.given; });
+    return columns;
   };
-  const bool same_opposite = one.measured->sides[1].current_mA == other.measured->sides[1].current_mA;
-  return same_side(0) && same_side(1) && same_opposite &&
-         (!one.length_is_given() || one.measured->contraction_ratio == other.measured->contraction_ratio);
+  return std::ranges::equal(given(one), given(other), [](const auto& a, const auto& b) {
+    return a.is(b.channel.signal->in_dataset, b.channel.muscle) && a.values == b.values;
+  });
 }
 
 /// Scatter of what is judged between runs that the same drove; 0 if there are none.
@@ -207,7 +207,7 @@ double of_command(const domain::Dataset& data, const Runs& runs) {
     std::vector<Loaded> rigs{{data.rig, run.load_kg}};
     const auto off_by = [&](std::size_t side, auto valve_of) {
       const double off_Pa = valve_of(rigs.front().rig).repeatability_Pa;
-      if (off_Pa == 0.0 || (run.measured && run.measured->sides[side].pressure_is_given)) return;
+      if (off_Pa == 0.0 || (run.measured && run.measured->gives("muscle_pressure", side + 1))) return;
       rigs.push_back({data.rig, run.load_kg});
       plant::Valve& valve = valve_of(rigs.back().rig);
       valve.zero_pressure_Pa += off_Pa;
@@ -299,6 +299,16 @@ double force_floor_N(const domain::Dataset& data, const Runs& trusted) {
                    thresholds.predict.tolerance * largest_force_N(data), assumed.least_force_N});
 }
 
+/// Of gauges on valves, in the same way.
+double valve_floor_Pa(const domain::Dataset& data, const Runs& trusted) {
+  if (std::ranges::none_of(domain::valve_gauges, [&](auto which) { return is_read(data, trusted, which); }))
+    return 0.0;
+  const double noise_Pa = data.rows_of_stamps ? data.rows_of_stamps->valve_noise_Pa
+                                              : noise_beside(data, trusted, domain::valve_gauges);
+  const plant::Sensor* gauge = data.rig.sensors.of(plant::Sensed::valve_pressure);
+  return std::max(std::hypot(noise_Pa, gauge != nullptr ? gauge->accuracy : 0.0), assumed.least_pressure_Pa);
+}
+
 }  // namespace
 
 NoiseFloor noise_floor(const domain::Dataset& data, const std::vector<std::vector<bool>>& masked,
@@ -311,6 +321,7 @@ NoiseFloor noise_floor(const domain::Dataset& data, const std::vector<std::vecto
     std::iota(trusted.begin(), trusted.end(), std::size_t{0});
   }
   floor.force_N = force_floor_N(data, trusted);
+  floor.valve_Pa = valve_floor_Pa(data, trusted);
   floor.command = of_command(data, trusted);
   floor.accuracy = sheet_of(data).accuracy;
   const bool encoder = std::any_of(data.runs.begin(), data.runs.end(), [](const domain::Run& run) {

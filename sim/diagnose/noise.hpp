@@ -16,16 +16,21 @@ struct NoiseFloor {
   double repeats = 0.0;      ///< of the same, between equal runs; 0: none are equal
   double pressure_Pa = 0.0;  ///< of the gauges; 0: none fitted
   double force_N = 0.0;      ///< of a force that was read beside; 0: none was
+  double valve_Pa = 0.0;     ///< of a valve's pressure that was read beside; 0: none was
   double given = 0.0;        ///< of the reading that is judged, by the noise of a pressure that is given
   double command = 0.0;      ///< of the same, by what a regulator does not repeat
   double accuracy = 0.0;     ///< of the same, by the sensor's data sheet
   double middle = 0.0;       ///< what a counter's readings are too low by, on average
   bool noisy = false;        ///< the jitter is more than a count of the rig's encoder
 
-  double beside(domain::Beside which) const { return which == domain::Beside::force ? force_N : pressure_Pa; }
+  double beside(domain::Beside which) const {
+    using enum domain::Beside;
+    if (which == force) return force_N;
+    return which == muscle_pressure || which == opposite_pressure ? pressure_Pa : valve_Pa;
+  }
   /// What scatters, together with what data sheets say is off.
   double with_sheets(double scatter) const { return std::hypot(scatter, command, accuracy); }
-  bool any_beside() const { return pressure_Pa > 0.0 || force_N > 0.0; }
+  bool any_beside() const { return pressure_Pa > 0.0 || force_N > 0.0 || valve_Pa > 0.0; }
 };
 
 /// `masked[run][row]` rows do not count. `trusted` runs are looked at, and compared where they are equal;

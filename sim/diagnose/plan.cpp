@@ -50,8 +50,8 @@ controllers::StepCurrent triangles_on_a_ramp(double low_mA, double high_mA, doub
 }
 
 std::vector<Item> menu(const Rig& rig) {
-  const double low = rig.valve.zero_current_mA;
-  const double high = std::min(rig.valve.span_current_mA, rig.dac.largest_current_mA);
+  const double low = rig.valve.zero_command;
+  const double high = std::min(rig.valve.span_command, rig.dac.largest_command);
   const double span = high - low;
   const auto at = [&](double share) { return low + share * span; };
   controllers::StairCurrent stair{.name = "staircase", .low_mA = low, .high_mA = high, .steps = 6};
@@ -65,23 +65,23 @@ std::vector<Item> menu(const Rig& rig) {
                                         .last_frequency_Hz = 2.0,
                                         .lasting_s = lasting_s};
   std::vector<Item> items;
-  items.push_back(item(fmt::format("one slow sine from {:g} to {:g} mA and back", low, high),
-                       sine("slow_sine", low, high, lasting_s)));
-  items.push_back(item(fmt::format("fast sine between {:g} and {:g} mA, 1.25 s each", low, high),
-                       sine("fast_sine", low, high, 1.25)));
-  items.push_back(item(fmt::format("small sine between {:.3g} and {:.3g} mA, 2.5 s each", at(0.4), at(0.6)),
-                       sine("small_sine", at(0.4), at(0.6), 2.5)));
-  items.push_back(item(fmt::format("staircase from {:g} to {:g} mA in {} steps and down again, {:.2g} s each",
-                                   low, high, stair.steps, stair.dwell_s),
-                       stair));
-  items.push_back(item(
-      fmt::format("small triangles of {:.2g} mA on a slow ramp from {:g} to {:g} mA", span / 16.0, low, high),
-      triangles_on_a_ramp(low, high, span / 16.0, rig.tick_s)));
-  items.push_back(item(
-      fmt::format("steps to {:.3g}, {:.3g} and {:.3g} mA, each held for 3 s", at(0.6), at(0.15), at(0.9)),
-      steps));
-  items.push_back(
-      item(fmt::format("chirp between {:.3g} and {:.3g} mA, from 0.1 to 2 Hz", at(0.1), at(0.9)), chirp));
+  const auto add = [&](std::string words, auto waveform) {
+    items.push_back(item(in_unit(rig.command_unit(), words), std::move(waveform)));
+  };
+  add(fmt::format("one slow sine from {:g} to {:g} mA and back", low, high),
+      sine("slow_sine", low, high, lasting_s));
+  add(fmt::format("fast sine between {:g} and {:g} mA, 1.25 s each", low, high),
+      sine("fast_sine", low, high, 1.25));
+  add(fmt::format("small sine between {:.3g} and {:.3g} mA, 2.5 s each", at(0.4), at(0.6)),
+      sine("small_sine", at(0.4), at(0.6), 2.5));
+  add(fmt::format("staircase from {:g} to {:g} mA in {} steps and down again, {:.2g} s each", low, high,
+                  stair.steps, stair.dwell_s),
+      stair);
+  add(fmt::format("small triangles of {:.2g} mA on a slow ramp from {:g} to {:g} mA", span / 16.0, low, high),
+      triangles_on_a_ramp(low, high, span / 16.0, rig.tick_s));
+  add(fmt::format("steps to {:.3g}, {:.3g} and {:.3g} mA, each held for 3 s", at(0.6), at(0.15), at(0.9)),
+      steps);
+  add(fmt::format("chirp between {:.3g} and {:.3g} mA, from 0.1 to 2 Hz", at(0.1), at(0.9)), chirp);
   return items;
 }
 

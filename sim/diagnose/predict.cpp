@@ -24,6 +24,8 @@ class Prediction final : public run::Follower {
         pair_(rigs.front().rig.pair() != nullptr),
         forces_(run.length_is_given()),
         force_beside_(run.beside(domain::Beside::force) != nullptr),
+        valve_beside_(run.valve_pressure_Pa.has_value()),
+        opposite_valve_beside_(run.opposite_valve_pressure_Pa.has_value()),
         rest_length_m_(run.rest_length_m),
         done_(std::move(done)),
         readings_(rigs.size()) {
@@ -48,6 +50,9 @@ class Prediction final : public run::Follower {
       readings_[i].pressure_Pa.push_back(seen.muscle_pressure_Pa);
       if (force_beside_) readings_[i].force_N.push_back(std::max(rider.moment().cord_force_N(), 0.0));
       if (pair_) readings_[i].opposite_pressure_Pa.push_back(seen.opposite_pressure_Pa);
+      if (valve_beside_) readings_[i].valve_pressure_Pa.push_back(seen.valve_pressure_Pa);
+      if (opposite_valve_beside_)
+        readings_[i].opposite_valve_pressure_Pa.push_back(seen.opposite_valve_pressure_Pa);
     }
     readings_[0].states.push_back(all[0].now.flow.state);
   }
@@ -58,10 +63,10 @@ class Prediction final : public run::Follower {
     return rest_length_m_ > 0.0 ? rest_length_m_ : rig.muscle.rest_length_m;
   }
 
-  bool pair_;             // angles are read
-  bool forces_;           // are read, at lengths that are given
-  bool force_beside_;     // of the cord is read besides
-  double rest_length_m_;  // that readings go by; 0: each rig's own
+  bool pair_;                                                 // angles are read
+  bool forces_;                                               // are read, at lengths that are given
+  bool force_beside_, valve_beside_, opposite_valve_beside_;  // of the cord, of valves are read besides
+  double rest_length_m_;                                      // that readings go by; 0: each rig's own
   Done done_;
   std::vector<Readings> readings_;
 };

@@ -11,7 +11,6 @@
 #include <plant/solver.hpp>
 #include <plant/state.hpp>
 #include <sim/data/examine.hpp>
-#include <sim/diagnose/parameter.hpp>
 #include <sim/domain/dataset.hpp>
 #include <sim/ride/rider.hpp>
 

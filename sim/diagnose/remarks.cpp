@@ -98,7 +98,9 @@ std::string ignored_in_words(const domain::Dataset& data) {
   const auto has = [&](domain::Beside which) {
     return std::ranges::any_of(data.runs, [&](const auto& run) { return run.beside(which) != nullptr; });
   };
-  const bool gauge = std::ranges::any_of(domain::gauges, has), cell = has(domain::Beside::force);
+  const bool gauge =
+                 std::ranges::any_of(domain::gauges, has) || std::ranges::any_of(domain::valve_gauges, has),
+             cell = has(domain::Beside::force);
   const bool several = std::ranges::count_if(domain::besides, has) > 1;
   return fmt::format(
       "{} {} ignored: no model meets both {} and the motion, but one meets the motion alone "

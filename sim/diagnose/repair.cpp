@@ -28,17 +28,11 @@ std::string moved(const domain::Dataset& data, const domain::Run& run, double ra
 
 /// What drives the muscle, as the data set has it.
 struct Input {
-  std::string kind, words, of;
-  std::string unit;
-  double per_size;  ///< of its unit
+  std::string kind, of, unit;
 };
 Input input_of(const domain::Dataset& data) {
-  if (data.pressure_is_given()) return {"pressure", "pressure", "the muscle", "bar", 1.0};
-  const plant::Valve& valve = data.rig.valve;
-  if (!valve.has_own_command()) return {"current", "current", "the valve", "mA", 1.0};
-  return {"command", "command", "the valve", std::string(plant::name_of(valve.zero_command.unit)),
-          (valve.span_command.value - valve.zero_command.value) /
-              (valve.span_current_mA - valve.zero_current_mA)};
+  if (data.pressure_is_given()) return {"pressure", "the muscle", "bar"};
+  return {plant::command_key(data.rig), "the valve", std::string(name_of(data.rig.command_unit()))};
 }
 
 std::vector<double> shifted(const std::vector<double>& values, int late) {
@@ -108,12 +102,11 @@ FaultyRun told(const domain::Dataset& data, const Fault& fault) {
       break;
     case FaultKind::current_scale:
       tell(input.kind + "_scale", "1",
-           fmt::format("has a {} that is {:.3f} times what {} had", input.words, 1.0 + fault.size, input.of));
+           fmt::format("has a {} that is {:.3f} times what {} had", input.kind, 1.0 + fault.size, input.of));
       break;
     case FaultKind::current_offset:
-      faulty.size *= input.per_size;
       tell(input.kind + "_offset", input.unit,
-           fmt::format("has a {} that is {:.2f} {} {} than what {} had", input.words, std::abs(faulty.size),
+           fmt::format("has a {} that is {:.2f} {} {} than what {} had", input.kind, std::abs(faulty.size),
                        input.unit, faulty.size > 0.0 ? "more" : "less", input.of));
       break;
     case FaultKind::drift:

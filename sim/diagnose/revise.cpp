@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <limits>
 #include <optional>
-#include <string>
 
 #include <fmt/format.h>
 
@@ -138,6 +137,34 @@ void drop_uncertain(const Case& c, Naming& result, const Step& step) {
   }
 }
 
+namespace {
+
+/// What has been named itself is no alternative any more.
+void tidy_doubts(Naming& result) {
+  const auto named = [&](const EffectName& effect) {
+    return std::ranges::find(result.effects, effect, &NamedEffect::who) != result.effects.end();
+  };
+  for (NamedEffect& effect : result.effects) std::erase_if(effect.confusable_with, named);
+  std::erase_if(result.doubts, [&](const Doubt& doubt) { return named(doubt.rival); });
+}
+
+/// A law that has got a term more is one effect, under the name of the longer law.
+void merge_laws(const Model& model, Naming& result) {
+  for (const Candidate& added : model.effects) {
+    if (added.adds_to.empty()) continue;
+    const auto of_it = [&](const NamedEffect& effect) { return effect.who() == added.who(); };
+    const auto first = std::ranges::find_if(result.effects, of_it);
+    const auto again = std::find_if(std::next(first), result.effects.end(), of_it);
+    if (again == result.effects.end()) continue;  // the rig had the shorter law already
+    for (const EffectName& rival : again->confusable_with)
+      if (std::ranges::find(first->confusable_with, rival) == first->confusable_with.end())
+        first->confusable_with.push_back(rival);
+    first->variant = added.variant;
+    result.effects.erase(again);
+  }
+}
+
+/// Sorts by how much worse the runs held out are without each effect, everything else as it is.
 void sort_by_importance(const Case& c, Naming& result) {
   std::vector<std::pair<EffectName, double>> left;
   const Model& model = result.best.fitted.model;
@@ -160,6 +187,14 @@ void sort_by_importance(const Case& c, Naming& result) {
                    [&](const auto& a, const auto& b) { return first(a.who(), b.who()); });
   std::stable_sort(result.doubts.begin(), result.doubts.end(),
                    [&](const Doubt& a, const Doubt& b) { return first(*a.effect, *b.effect); });
+}
+
+}  // namespace
+
+void settle(const Case& c, Naming& result) {
+  tidy_doubts(result);
+  sort_by_importance(c, result);
+  merge_laws(result.best.fitted.model, result);
 }
 
 }  // namespace mckibben::diagnose

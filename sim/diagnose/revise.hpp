@@ -16,7 +16,8 @@ void drop_uncertain(const Case& c, Naming& result, const Step& step);
 /// Takes an effect and what was said of it out of the names.
 void forget(Naming& result, const Candidate& gone);
 
-/// Sorts by how much worse the runs held out are without each effect, everything else as it is.
-void sort_by_importance(const Case& c, Naming& result);
+/// Names in their last form: by how much worse the runs held out are without each, terms of one law as one
+/// effect, no doubts about what has been named itself.
+void settle(const Case& c, Naming& result);
 
 }  // namespace mckibben::diagnose

@@ -52,18 +52,19 @@ struct Range {
 std::string visited_by_pair(const domain::Dataset& data, const Runs& runs) {
   Range current_mA, pressure_bar, angle_deg;
   for (const std::size_t run : runs) {
-    for (const auto& side : data.runs[run].measured->sides) {
-      for (const double value : side.current_mA) current_mA.see(value);
-      if (side.pressure_is_given)
-        for (const double value : side.muscle_pressure_Pa) pressure_bar.see(value / plant::Pa_per_bar);
+    for (const std::size_t muscle : {1U, 2U}) {
+      const domain::Measurement& measured = *data.runs[run].measured;
+      for (const double value : measured.given("command", muscle)) current_mA.see(value);
+      for (const double value : measured.given("muscle_pressure", muscle))
+        pressure_bar.see(value / plant::Pa_per_bar);
     }
     for (const double value : data.runs[run].angle_rad) angle_deg.see(value / plant::degree_rad);
   }
   const bool given = data.pressure_is_given();
   const Range& driven = given ? pressure_bar : current_mA;
   return fmt::format("{} of {:.3g} to {:.3g} {} and joint angles of {:.3g} to {:.3g} deg, as in these runs",
-                     given ? "pressures" : "currents", driven.low, driven.high, given ? "bar" : "mA",
-                     angle_deg.low, angle_deg.high);
+                     given ? "pressures" : plant::command_key(data.rig) + "s", driven.low, driven.high,
+                     given ? "bar" : name_of(data.rig.command_unit()), angle_deg.low, angle_deg.high);
 }
 
 }  // namespace
@@ -75,28 +76,29 @@ std::string visited(const domain::Dataset& data, const Runs& runs) {
     for (const double value : data.runs[run].current_mA) current_mA.see(value);
     const domain::Run& measured = data.runs[run];
     for (const double value :
-         measured.length_is_given() ? measured.measured->contraction_ratio : measured.contraction_ratio)
+         measured.length_is_given() ? measured.measured->given("contraction") : measured.contraction_ratio)
       ratio.see(value);
     if (data.pressure_is_given())
-      for (const double value : measured.measured->sides[0].muscle_pressure_Pa)
+      for (const double value : measured.measured->given("muscle_pressure"))
         pressure_bar.see(value / plant::Pa_per_bar);
     load_kg.see(measured.load_kg);
   }
+  const std::string commanded =
+      in_unit(data.rig.command_unit(),
+              fmt::format("currents of {:.3g} to {:.3g} mA", current_mA.low, current_mA.high));
   if (data.force_is_judged())
-    return fmt::format(
-        "{} and contraction ratios of {:.3f} to {:.3f}, as in these runs",
-        data.pressure_is_given()
-            ? fmt::format("pressures of {:.3g} to {:.3g} bar", pressure_bar.low, pressure_bar.high)
-            : fmt::format("currents of {:.3g} to {:.3g} mA", current_mA.low, current_mA.high),
-        ratio.low, ratio.high);
+    return fmt::format("{} and contraction ratios of {:.3f} to {:.3f}, as in these runs",
+                       data.pressure_is_given() ? fmt::format("pressures of {:.3g} to {:.3g} bar",
+                                                              pressure_bar.low, pressure_bar.high)
+                                                : commanded,
+                       ratio.low, ratio.high);
   if (data.pressure_is_given())
     return fmt::format(
         "loads of {:.4g} to {:.4g} kg and contraction ratios of {:.3f} to {:.3f}, as in these runs",
         load_kg.low, load_kg.high, ratio.low, ratio.high);
   return fmt::format(
-      "currents of {:.3g} to {:.3g} mA, loads of {:.4g} to {:.4g} kg and contraction ratios of {:.3f} to "
-      "{:.3f}, as in these runs",
-      current_mA.low, current_mA.high, load_kg.low, load_kg.high, ratio.low, ratio.high);
+      "{}, loads of {:.4g} to {:.4g} kg and contraction ratios of {:.3f} to {:.3f}, as in these runs",
+      commanded, load_kg.low, load_kg.high, ratio.low, ratio.high);
 }
 
 }  // namespace mckibben::diagnose

@@ -1,5 +1,6 @@
 // See the header.
 #include <algorithm>
+#include <array>
 #include <optional>
 
 #include <fmt/format.h>
@@ -44,6 +45,50 @@ std::optional<Contender> fitted(const Case& c, const Contender& base, const Subs
   }
 }
 
+/// Two effects that help only together: next to one that fits best but does not convince, another one with
+/// which it closes most of the gap.
+std::optional<std::array<Trial, 2>> pair_of(const Case& c, const std::vector<Trial>& trials,
+                                            const Eigen::VectorXd& before, const Step& step) {
+  for (std::size_t i = 0; i < std::min(trials.size(), thresholds.name.most_firsts); ++i) {
+    const Trial& first = trials[i];
+    if (!has_size(first.contender.fitted.model, first.score.candidate)) continue;
+    const Screening screening = screen_at(c, first.contender);
+    for (std::size_t place = 0; place < thresholds.name.most_substitutes; ++place) {
+      const Score& score = screening.scores[place];
+      if (score.drop < thresholds.near.chance) break;
+      step(fmt::format("trying {} with {}", title(first.score.candidate), title(score.candidate)));
+      Trial second = rough(c, first.contender, score, place);
+      if (!second.contender.fitted.failure.empty()) continue;
+      const auto closes = [&] {
+        second.gain = compare(c.experiment, before, second.contender.held_out, c.split.held_out);
+        return second.gain.share;
+      };
+      if (closes() < thresholds.name.rough_pair_share) continue;
+      polish(c, second, step);
+      closes();
+      const auto beyond =
+          compare(c.experiment, first.contender.held_out, second.contender.held_out, c.split.held_out);
+      if (has_size(second.contender.fitted.model, score.candidate) &&
+          has_size(second.contender.fitted.model, first.score.candidate) &&
+          second.gain.share > thresholds.name.pair_share && convinces(second.gain) && convinces(beyond))
+        return std::array{first, second};
+    }
+  }
+  return std::nullopt;
+}
+
+void take_both(const Case& c, Naming& result, std::array<Trial, 2> both) {
+  const double fall = result.best.fitted.cost - both.back().contender.fitted.cost;
+  for (const Trial& one : both) {
+    const Candidate& candidate = one.score.candidate;
+    const Trial& other = both.at(&one == &both.front() ? 1 : 0);
+    take(c, result.ranking, candidate, both.back(), fall,
+         fmt::format("with {} it closes most of the gap", title(other.score.candidate)));
+    result.effects.push_back(named(candidate));
+  }
+  result.best = std::move(both.back().contender);
+}
+
 }  // namespace
 
 bool try_several(const Case& c, Naming& result, std::span<const Screening> screenings, const Step& step) {
@@ -76,6 +121,13 @@ bool try_several(const Case& c, Naming& result, std::span<const Screening> scree
   }
   result.best = std::move(*best);
   return true;
+}
+
+bool try_pair(const Case& c, Naming& result, const std::vector<Trial>& trials, const Eigen::VectorXd& before,
+              const Step& step) {
+  auto both = pair_of(c, trials, before, step);
+  if (both) take_both(c, result, std::move(*both));
+  return both.has_value();
 }
 
 }  // namespace mckibben::diagnose

@@ -26,9 +26,10 @@ Eigen::VectorXd ramp(Eigen::Index rows) {
   return Eigen::VectorXd::LinSpaced(rows, 0.0, 1.0);
 }
 
-std::vector<Experiment::Change> inputs_in_error(bool pressure_is_given) {
-  constexpr double share = thresholds.fault.current_share, offset_mA = thresholds.fault.current_mA;
-  if (pressure_is_given) {
+std::vector<Experiment::Change> inputs_in_error(const domain::Dataset& data) {
+  constexpr double share = thresholds.fault.current_share;
+  const double offset = thresholds.fault.current_mA * data.rig.valve.per_mA();
+  if (data.pressure_is_given()) {
     constexpr double offset_bar = thresholds.fault.pressure_bar;
     const auto gauge = [](plant::GaugeLaw law, const auto& change) {
       return [=](Loaded& h) {
@@ -43,20 +44,15 @@ std::vector<Experiment::Change> inputs_in_error(bool pressure_is_given) {
              offset_bar}};
   }
   return {{[](Loaded& h) {
-             plant::Valve& valve = h.rig.valve;
-             const bool own = valve.has_own_command();  // whose nothing is another current than none
-             const double zero_mA = own ? valve.current_for_mA((1.0 + share) * valve.zero_command.value)
-                                        : (1.0 + share) * valve.zero_current_mA;
-             valve.span_current_mA = own ? valve.current_for_mA((1.0 + share) * valve.span_command.value)
-                                         : (1.0 + share) * valve.span_current_mA;
-             valve.zero_current_mA = zero_mA;
+             h.rig.valve.zero_command *= 1.0 + share;
+             h.rig.valve.span_command *= 1.0 + share;
            },
            share},
-          {[](Loaded& h) {
-             h.rig.valve.zero_current_mA += offset_mA;
-             h.rig.valve.span_current_mA += offset_mA;
+          {[offset](Loaded& h) {
+             h.rig.valve.zero_command += offset;
+             h.rig.valve.span_command += offset;
            },
-           offset_mA}};
+           offset}};
 }
 
 void each_shape(const Undisturbed& run, const std::function<void(const Shape&)>& visit) {

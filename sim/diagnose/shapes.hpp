@@ -18,16 +18,16 @@ struct Shape {
 };
 
 /// `model`: what the run's rig would read; `scale`, `offset`: how its readings change with the current that
-/// it really had, for a share of 1 and for 1 mA.
+/// it really had, for a share of 1 and for 1 of its unit.
 struct Undisturbed {
   Eigen::VectorXd model, scale, offset;
   bool of_stamps = false;  ///< rows hold several readings: one may be late by part of a row
 };
 
-/// A current that is higher in the table than what the valve had, by a share and by mA: the same as another
-/// zero and span of the valve. Where a pressure drives the muscle, that one, by a share and by bar: the same
-/// as an error of its gauge.
-std::vector<Experiment::Change> inputs_in_error(bool pressure_is_given);
+/// A command that is higher in the table than what the valve had, by a share and by some of its unit: the
+/// same as another zero and span of the valve. Where a pressure drives the muscle, that one, by a share and
+/// by bar: the same as an error of its gauge.
+std::vector<Experiment::Change> inputs_in_error(const domain::Dataset& data);
 
 /// Tells `visit` of each shape, the simple ones first.
 void each_shape(const Undisturbed& run, const std::function<void(const Shape&)>& visit);

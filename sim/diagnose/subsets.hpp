@@ -4,7 +4,6 @@
 // Subset Selection in Regression, 1990).
 #pragma once
 
-#include <cstddef>
 #include <vector>
 
 #include <sim/diagnose/screen.hpp>

@@ -1,5 +1,4 @@
 // See the header.
-#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>

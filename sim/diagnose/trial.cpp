@@ -94,6 +94,23 @@ Model with(const Case& c, const Model& model, const Score& score) {
   return bigger;
 }
 
+namespace {
+
+/// What a fit to `runs` says of `few` of them: residuals and slopes. The cost is that of all.
+Fitted part_of(const Fitted& fitted, const Experiment& experiment, const Runs& runs, const Runs& few) {
+  std::vector<Eigen::Index> kept;
+  Eigen::Index row = 0;
+  for (const std::size_t run : runs) {
+    const bool wanted = std::find(few.begin(), few.end(), run) != few.end();
+    for (std::size_t k = 0; k < experiment.rows(run); ++k, ++row)
+      if (wanted) kept.push_back(row);
+  }
+  return {fitted.model, fitted.residuals(kept), fitted.columns(kept, Eigen::all), fitted.cost,
+          fitted.failure};
+}
+
+}  // namespace
+
 Screening screen_at(const Case& c, const Contender& base) {
   // As long as nothing fits, the misfit itself is the scatter: no nominal parameter is worth believing far
   // from its data sheet for the sake of details.

@@ -2,7 +2,6 @@
 // it, runs that the search did not ask.
 #include <algorithm>
 #include <iterator>
-#include <utility>
 
 #include <fmt/format.h>
 

@@ -1,11 +1,70 @@
 // Maps of a data set and of its runs; see the header.
 #include <algorithm>
 #include <cctype>
+#include <stdexcept>
 
 #include <sim/domain/columns.hpp>
 #include <sim/domain/number.hpp>
 
 namespace mckibben::domain {
+namespace {
+
+std::vector<Quantity> all_quantities(plant::CommandUnit unit) {
+  std::vector<Quantity> all;
+  const auto add = [&](const plant::Channel& channel) {
+    Quantity quantity{channel, channel.key_in_dataset(), channel.name(), channel.words_in_dataset(),
+                      all.size()};
+    if (!quantity.belongs(false)) quantity.words.insert(0, "of two muscles: ");
+    all.push_back(std::move(quantity));
+  };
+  for (const plant::Signal& signal : plant::signals) {
+    if (signal.in_dataset.empty() || signal.of_commands_in.value_or(unit) != unit) continue;
+    if (signal.in_dataset == command_key)
+      all.push_back({{&signal},
+                     "current",
+                     plant::Channel{&signal}.name(),
+                     "current to the valve, of one that takes mA",
+                     all.size(),
+                     true});
+    add({&signal});
+    if (signal.part == plant::Part::muscle && signal.of_each_muscle)
+      for (const std::size_t muscle : {1U, 2U}) add({&signal, muscle});
+  }
+  return all;
+}
+
+}  // namespace
+
+bool Quantity::belongs(bool pair) const {
+  using plant::Needs;
+  const plant::Signal& signal = *channel.signal;
+  if (signal.part == plant::Part::muscle) return pair == (channel.muscle > 0);
+  if (signal.needs == Needs::one_muscle || signal.needs == Needs::outer_force) return !pair;
+  return pair || !(signal.needs == Needs::pair || signal.needs == Needs::outer_torque);
+}
+
+plant::GivenPressure ColumnMap::given_pressure(std::size_t muscle) const {
+  const std::string number = muscle == 0 ? "" : muscle == 1 ? "_1" : "_2";
+  if (gives("muscle_pressure" + number)) return plant::GivenPressure::muscle;
+  return gives("valve_pressure" + number) ? plant::GivenPressure::valve : plant::GivenPressure::none;
+}
+
+const std::vector<Quantity>& quantities(plant::CommandUnit commands) {
+  using enum plant::CommandUnit;
+  static const std::array all{all_quantities(mA), all_quantities(V), all_quantities(bar)};
+  return all[static_cast<std::size_t>(commands)];
+}
+
+const Quantity* find_quantity(std::string_view key, plant::CommandUnit commands) {
+  const auto found = std::ranges::find(quantities(commands), key, &Quantity::key);
+  return found == quantities(commands).end() ? nullptr : &*found;
+}
+
+const Quantity& quantity_of(std::string_view key, plant::CommandUnit commands) {
+  if (const Quantity* found = find_quantity(key, commands)) return *found;
+  throw std::invalid_argument("no data set has columns of " + std::string(key));
+}
+
 std::string yaml_scalar(const std::string& text) {
   const bool plain = !text.empty() && std::all_of(text.begin(), text.end(), [](unsigned char c) {
     return std::isalnum(c) != 0 || c == '_';
@@ -29,13 +88,13 @@ std::string line_of(std::string_view quantity, const ColumnPlace& place) {
 
 ColumnMap merged(const ColumnMap& shared, const ColumnMap& own) {
   ColumnMap map = own;
-  for (const Quantity& quantity : quantities)
-    if (ColumnPlace& place = map.*quantity.place; place.absent()) place = shared.*quantity.place;
-  if (own.rows_are_ticks) map.time = own.time;
-  if (map.settled.absent() && !own.rows_are_ticks && own.time.absent()) map.settled = shared.settled;
-  if (!map.settled.absent()) map.time = own.time;
-  map.rows_are_ticks =
-      own.rows_are_ticks || (shared.rows_are_ticks && own.time.absent() && own.settled.absent());
+  for (const Quantity& quantity : quantities())
+    if (map[quantity].absent()) map[quantity] = shared[quantity];
+  const bool own_time = !own["time"].absent();
+  if (own.rows_are_ticks) map["time"] = own["time"];
+  if (map.settled.absent() && !own.rows_are_ticks && !own_time) map.settled = shared.settled;
+  if (!map.settled.absent()) map["time"] = own["time"];
+  map.rows_are_ticks = own.rows_are_ticks || (shared.rows_are_ticks && !own_time && own.settled.absent());
   return map;
 }
 

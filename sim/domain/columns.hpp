@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include <plant/signals.hpp>
 
@@ -41,9 +42,8 @@ struct ColumnPlace {
     visit("zero", self.zero, "1", -1e12, 1e12, "taken from each number, in that unit, first of all");
     visit("factor", self.factor, "1", -1e12, 1e12, "each is multiplied by it then: a gear, a sensor, a sign");
     visit("as", self.as,
-          "a reading to be compared with, an input that drives the simulation (a given pressure or length; a "
-          "command "
-          "always is), or ignored");
+          "a reading to be compared with, an input that drives the simulation (a given pressure or length; "
+          "commands, and forces and torques from outside, always are), or ignored");
   }
 
   template <class Report>
@@ -66,75 +66,75 @@ struct SettledPoints {
   }
 };
 
+inline constexpr std::string_view command_key = "command";
+
+/// A quantity that a data set's columns may hold: its key, and the name and unit that its column has where
+/// the map does not say others, those of the signal (plant/signals.hpp).
+struct Quantity {
+  plant::Channel channel;
+  std::string key, column, words;
+  std::size_t at = 0;  ///< its place in a map
+  bool is_old_current =
+      false;  ///< `current`: a command in mA, and the only name of it in data without a clock
+
+  std::string_view unit() const { return channel.signal->unit.name; }
+  bool may_be_given() const { return channel.signal->may_be_given; }
+  /// An input always drives.
+  bool is_input() const { return channel.signal->kind == plant::Kind::input; }
+  bool is_command() const { return channel.signal->in_dataset == command_key; }
+  /// Of two muscles, or of one; time is of all.
+  bool belongs(bool pair) const;
+};
+
+/// One for each signal that has a key in data sets, and for each muscle of two; of rigs that are commanded in
+/// that unit, which the columns of commands are called by.
+const std::vector<Quantity>& quantities(plant::CommandUnit commands = plant::CommandUnit::mA);
+/// Null if there is none of that key.
+const Quantity* find_quantity(std::string_view key, plant::CommandUnit commands = plant::CommandUnit::mA);
+/// Throws std::invalid_argument if there is none.
+const Quantity& quantity_of(std::string_view key, plant::CommandUnit commands = plant::CommandUnit::mA);
+
 struct ColumnMap {
-  ColumnPlace time, current, command, contraction, muscle_pressure, force;
-  ColumnPlace command_1, command_2, angle, muscle_pressure_1, muscle_pressure_2;
+  std::vector<ColumnPlace> places = std::vector<ColumnPlace>(quantities().size());  ///< by Quantity::at
   bool rows_are_ticks = false;
   SettledPoints settled;
 
+  ColumnPlace& operator[](const Quantity& quantity) { return places[quantity.at]; }
+  const ColumnPlace& operator[](const Quantity& quantity) const { return places[quantity.at]; }
+  ColumnPlace& operator[](std::string_view key) { return places[quantity_of(key).at]; }
+  const ColumnPlace& operator[](std::string_view key) const { return places[quantity_of(key).at]; }
+  /// That it names, and drives a simulation.
+  bool gives(const Quantity& quantity) const {
+    const ColumnPlace& place = (*this)[quantity];
+    if (place.absent() || place.as == Role::ignored) return false;
+    return place.as == Role::input || quantity.is_input();
+  }
+  bool gives(std::string_view key) const { return gives(quantity_of(key)); }
+  /// What of a muscle's pressure it gives; 0: of one muscle.
+  plant::GivenPressure given_pressure(std::size_t muscle) const;
+
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
-    visit("time", self.time, "time since the first row");
-    visit("current", self.current, "current to the valve");
-    visit("contraction", self.contraction,
-          "height of the load: ratio, angle of the wheel, travel of the rope, or encoder counts");
-    visit("muscle_pressure", self.muscle_pressure, "gauge pressure in the muscle, where it was measured");
+    for (const Quantity& quantity : quantities()) visit(quantity.key, self[quantity], quantity.words);
     visit("rows_are_ticks", self.rows_are_ticks, "the file holds no time: its rows are one tick apart");
     visit("settled", self.settled, "the rows are settled points, in the order in which they were measured");
-    visit("command", self.command, "command to the valve; current, in data with a clock of their own");
-    visit("force", self.force, "force of the muscle's cord");
-    visit("command_1", self.command_1, "of two muscles: command to the valve of muscle 1");
-    visit("command_2", self.command_2, "of two muscles: command to the valve of muscle 2");
-    visit("angle", self.angle, "of two muscles: joint angle, positive as muscle 1 contracts");
-    visit("muscle_pressure_1", self.muscle_pressure_1, "of two muscles: gauge pressure in muscle 1");
-    visit("muscle_pressure_2", self.muscle_pressure_2, "of two muscles: gauge pressure in muscle 2");
   }
 
   template <class Report>
-  void rules(Report& report) const;
+  void rules(Report& report) const {
+    if (rows_are_ticks && !(*this)["time"].absent())
+      report("rows_are_ticks", "and yet a column of time is named");
+    if (!settled.absent() && (rows_are_ticks || !(*this)["time"].absent()))
+      report("settled", "and yet the file's rows are said to be ticks, or to have times");
+    for (const Quantity& quantity : quantities())
+      for (const Quantity& other : quantities()) {
+        if (other.at == quantity.at) break;
+        if (const ColumnPlace& place = (*this)[quantity];
+            !place.absent() && place.column == (*this)[other].column)
+          report(quantity.key, std::string("it stands in the same column as ").append(other.key));
+      }
+  }
 };
-
-/// A quantity of the map: its key, and the name and unit that its column has where the map does not say
-/// others, those of the signal (plant/signals.hpp).
-struct Quantity {
-  std::string key, column;
-  std::string_view unit;
-  ColumnPlace ColumnMap::*place;
-  bool may_be_given;  ///< it may be an input
-};
-
-/// Of the signal of that key; of a pair's muscle, if one is named.
-inline Quantity quantity_of_signal(std::string_view signal, ColumnPlace ColumnMap::*place,
-                                   std::size_t muscle = 0) {
-  const plant::Channel channel{&plant::signal_of(signal), muscle};
-  return {channel.key_in_dataset(), channel.name(), channel.signal->unit.name, place,
-          channel.signal->may_be_given};
-}
-
-inline const std::array<Quantity, 11> quantities{
-    {quantity_of_signal("time", &ColumnMap::time),
-     {"current", "current_mA", "mA", &ColumnMap::current, true},  // a command, in data without a clock
-     quantity_of_signal("contraction_ratio", &ColumnMap::contraction),
-     quantity_of_signal("muscle_pressure", &ColumnMap::muscle_pressure),
-     quantity_of_signal("current", &ColumnMap::command),
-     quantity_of_signal("force", &ColumnMap::force),
-     quantity_of_signal("current", &ColumnMap::command_1, 1),
-     quantity_of_signal("current", &ColumnMap::command_2, 2),
-     quantity_of_signal("angle", &ColumnMap::angle),
-     quantity_of_signal("muscle_pressure", &ColumnMap::muscle_pressure_1, 1),
-     quantity_of_signal("muscle_pressure", &ColumnMap::muscle_pressure_2, 2)}};
-
-template <class Report>
-void ColumnMap::rules(Report& report) const {
-  if (rows_are_ticks && !time.absent()) report("rows_are_ticks", "and yet a column of time is named");
-  if (!settled.absent() && (rows_are_ticks || !time.absent()))
-    report("settled", "and yet the file's rows are said to be ticks, or to have times");
-  for (const Quantity& quantity : quantities)
-    for (const Quantity* other = quantities.data(); other->key != quantity.key; ++other)
-      if (const ColumnPlace& place = this->*quantity.place;
-          !place.absent() && place.column == (this->*other->place).column)
-        report(quantity.key, std::string("it stands in the same column as ").append(other->key));
-}
 
 /// A text as YAML takes it: in quotes, unless it is letters, digits and _.
 std::string yaml_scalar(const std::string& text);

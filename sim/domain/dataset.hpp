@@ -26,10 +26,18 @@ constexpr auto names(Judged) {
                     std::pair{force, std::string_view{"force"}}, std::pair{angle, std::string_view{"angle"}}};
 }
 
-/// What may have been read beside it, in the order in which it is told.
-enum class Beside { muscle_pressure, opposite_pressure, force };
+/// What may have been read beside it, in the order in which it is reported; of a pair the opposite ones too.
+enum class Beside { muscle_pressure, opposite_pressure, force, valve_pressure, opposite_valve_pressure };
 inline constexpr std::array gauges{Beside::muscle_pressure, Beside::opposite_pressure};
-inline constexpr std::array besides{Beside::muscle_pressure, Beside::opposite_pressure, Beside::force};
+inline constexpr std::array valve_gauges{Beside::valve_pressure, Beside::opposite_valve_pressure};
+inline constexpr std::array besides{Beside::muscle_pressure, Beside::opposite_pressure, Beside::force,
+                                    Beside::valve_pressure, Beside::opposite_valve_pressure};
+inline plant::Channel channel_of(Beside which, bool pair) {
+  if (which == Beside::force) return {&plant::signal_of("force")};
+  const bool muscle = which == Beside::muscle_pressure || which == Beside::opposite_pressure;
+  const bool first = which == Beside::muscle_pressure || which == Beside::valve_pressure;
+  return {&plant::signal_of(muscle ? "muscle_pressure" : "valve_pressure"), !pair ? 0U : first ? 1U : 2U};
+}
 
 /// One measured run: a row each tick, the first at time 0; or `measured` with a clock of its own.
 struct Run {
@@ -46,6 +54,7 @@ struct Run {
   std::vector<double> angle_rad;  ///< of a pair
   std::optional<std::vector<double>> muscle_pressure_Pa;
   std::optional<std::vector<double>> opposite_pressure_Pa;  ///< of muscle 2
+  std::optional<std::vector<double>> valve_pressure_Pa, opposite_valve_pressure_Pa;
   double ratio_per_unit = 1.0;  ///< of contraction: what one of its file's unit is
   double rest_length_m = 0.0;   ///< that its rise was divided by; 0: that of the rig it is compared with
 
@@ -67,14 +76,19 @@ struct Run {
   /// What was read beside it; null if it was not.
   const std::vector<double>* beside(Beside which) const {
     if (which == Beside::force) return force_N.empty() || length_is_given() ? nullptr : &force_N;
-    const auto& read = which == Beside::muscle_pressure ? muscle_pressure_Pa : opposite_pressure_Pa;
+    const auto& read = const_cast<Run*>(this)->gauge(which);
     return read ? &*read : nullptr;
+  }
+  std::optional<std::vector<double>>& gauge(Beside which) {
+    if (which == Beside::muscle_pressure) return muscle_pressure_Pa;
+    if (which == Beside::opposite_pressure) return opposite_pressure_Pa;
+    return which == Beside::valve_pressure ? valve_pressure_Pa : opposite_valve_pressure_Pa;
   }
   bool is_missing(Beside which, std::size_t row) const {
     const auto& rows = missing_beside[static_cast<std::size_t>(which)];
     return !rows.empty() && rows[row];
   }
-  bool length_is_given() const { return measured && measured->length_is_given; }
+  bool length_is_given() const { return measured && measured->gives_length(); }
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
@@ -92,16 +106,16 @@ struct Run {
 
 /// How rows were made of stamps, over all runs.
 struct Rows {
-  double row_s = 0.0;                            ///< from row to row
-  std::size_t stamps = 0, rows = 0, inputs = 0;  ///< in the files; judged; that drive the simulation
-  double readings = 1.0;                         ///< in a row, on average
-  double noise = 0.0, pressure_noise_Pa = 0.0;   ///< of a row's values, by what the readings scatter
-  double force_noise_N = 0.0;                    ///< of a force that was read beside
-  double step = 0.0;                             ///< that the readings are rounded to
-  double given_noise_Pa = 0.0;                   ///< of a reading of a pressure that is given
-  bool smoothed = false;                         ///< that pressure was
-  std::size_t slack = 0;                         ///< readings of force that are none: the cord hung through
-  std::size_t at_the_end = 0;                    ///< and those at the end of the load cell's range
+  double row_s = 0.0;                                ///< from row to row
+  std::size_t stamps = 0, rows = 0, inputs = 0;      ///< in the files; judged; that drive the simulation
+  double readings = 1.0;                             ///< in a row, on average
+  double noise = 0.0, pressure_noise_Pa = 0.0;       ///< of a row's values, by what the readings scatter
+  double force_noise_N = 0.0, valve_noise_Pa = 0.0;  ///< of a force, a valve's pressure, read beside
+  double step = 0.0;                                 ///< that the readings are rounded to
+  double given_noise_Pa = 0.0;                       ///< of a reading of a pressure that is given
+  bool smoothed = false;                             ///< that pressure was
+  std::size_t slack = 0;       ///< readings of force that are none: the cord hung through
+  std::size_t at_the_end = 0;  ///< and those at the end of the load cell's range
 
   friend bool operator==(const Rows&, const Rows&) = default;
 };
@@ -126,9 +140,9 @@ struct Dataset {
   /// No run has a valve: the pressure is given, of a pair both are.
   bool pressure_is_given() const {
     const bool pair = rig.pair() != nullptr;
-    return std::all_of(runs.begin(), runs.end(), [&](const Run& run) {
-      return run.measured && run.measured->sides[0].pressure_is_given &&
-             (!pair || run.measured->sides[1].pressure_is_given);
+    return std::ranges::all_of(runs, [&](const Run& run) {
+      return run.measured && run.measured->gives("muscle_pressure") &&
+             (!pair || run.measured->gives("muscle_pressure", 2));
     });
   }
 

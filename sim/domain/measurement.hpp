@@ -1,5 +1,5 @@
 // What was measured of a rig with a clock of its own: at each stamp what drove it and what was read, in
-// columns of one length. A reading that is missing is NaN; a column that is not there is empty.
+// columns of one length. A reading that is missing is NaN.
 #pragma once
 
 #include <array>
@@ -8,6 +8,8 @@
 #include <string_view>
 #include <utility>
 #include <vector>
+
+#include <sim/domain/columns.hpp>
 
 namespace mckibben::domain {
 
@@ -42,26 +44,45 @@ struct FirstState {
   std::optional<double> muscle_pressure_Pa{};  ///< where it was read
 };
 
+/// What was given or read of a signal, a value each stamp, in the units that the program calculates in.
+struct MeasuredColumn {
+  plant::Channel channel;
+  bool given = false;  ///< it drives the rig, and what is upstream of it does not exist
+  std::vector<double> values{};
+
+  /// By its key in a data set's `columns`; muscle 1 is that of one muscle, too.
+  bool is(std::string_view key, std::size_t muscle) const {
+    return channel.signal->in_dataset == key && (channel.muscle == 2) == (muscle == 2);
+  }
+  /// Held from its stamp to the next; all else that is given runs straight.
+  bool is_command() const { return channel.signal->in_dataset == command_key; }
+  bool is_pressure() const { return channel.signal->unit.name == plant::units::bar.name && !is_command(); }
+};
+
 struct Measurement {
-  /// Of one muscle: a command to its valve, or its pressure, which then is given and the valve does not
-  /// exist.
-  struct Side {
-    std::vector<double> current_mA;          ///< held from its stamp to the next
-    std::vector<double> muscle_pressure_Pa;  ///< read; or given, and straight from stamp to stamp
-    bool pressure_is_given = false;
-  };
   std::vector<double> time_s;  ///< ascending
   double point_s = 0.0;        ///< rows are settled points, each read at the end of so long; 0: they are not
-  std::array<Side, 2> sides;   ///< the second of a pair only
-  std::vector<double> contraction_ratio;
-  bool length_is_given = false;  ///< the contraction is, straight from stamp to stamp
-  std::vector<double> force_N;   ///< of the muscle's cord
-  std::vector<double> angle_rad;
-  bool angle_in_degrees = false;  ///< as the file has it, and as its gap is told
-  bool counted = false;           ///< contraction or angle are counts of the encoder
+  std::vector<MeasuredColumn> columns;  ///< each signal at most once
+  bool angle_in_degrees = false;        ///< as the file has it, and as its gap is told
+  bool counted = false;                 ///< contraction or angle are counts of the encoder
   Recorded recorded{};
   std::vector<std::size_t> rows{};    ///< stamps that are judged, ascending; none: all
   std::optional<FirstState> first{};  ///< of a run that began on its way; none: its readings have it
+
+  // By the key in a data set's `columns`, without the muscle's number: of muscle 1 or of one muscle, or of 2.
+  bool gives(std::string_view key, std::size_t muscle = 1) const;
+  /// Empty if it was not given, not read, neither.
+  const std::vector<double>& given(std::string_view key, std::size_t muscle = 1) const;
+  const std::vector<double>& read(std::string_view key, std::size_t muscle = 1) const;
+  const std::vector<double>& values(std::string_view key, std::size_t muscle = 1) const;
+  /// To be filled; a further column moves those that there are. `muscle`: 1 or 2 of a pair's.
+  std::vector<double>& give(std::string_view key, std::size_t muscle = 0);
+  std::vector<double>& take(std::string_view key, std::size_t muscle = 0);
+
+  bool gives_length() const { return gives("contraction"); }
+  /// What of a muscle's pressure there is upstream of it: its own, that of its valve, or none.
+  plant::GivenPressure given_pressure(std::size_t muscle = 1) const;
+  bool gives_outer_force() const { return gives("joint_force") || gives("joint_torque"); }
 };
 
 }  // namespace mckibben::domain

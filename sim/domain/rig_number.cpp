@@ -1,9 +1,9 @@
 // The field lists of the plant, walked with the path as a guide; see the header.
 #include <array>
 #include <concepts>
-#include <string>
 #include <utility>
 
+#include <sim/domain/renamed.hpp>
 #include <sim/domain/rig_number.hpp>
 
 namespace mckibben::domain {
@@ -42,11 +42,13 @@ class Walker {
 
 class Guide : public Walker<Guide> {
  public:
-  explicit Guide(std::string_view path) : rest_(path) {}
+  Guide(std::string_view path, plant::CommandUnit commands) : rest_(path), commands_(commands) {}
 
   void number(std::string_view key, double& value, std::string_view unit, double lowest, double highest,
               std::string_view meaning) {
-    if (key == rest_) found = {&value, std::string(unit), lowest, highest, std::string(meaning)};
+    if (key != name_today(rest_)) return;
+    const auto [least, most] = in_unit(commands_, unit, plant::Limits{lowest, highest});
+    found = {&value, in_unit(commands_, unit), least, most, std::string(meaning)};
   }
   // Goes on inside `key` if the path leads there.
   void enter(std::string_view key, const auto&, const auto& inside) {
@@ -61,6 +63,7 @@ class Guide : public Walker<Guide> {
 
  private:
   std::string_view rest_;
+  plant::CommandUnit commands_;
 };
 
 class PathLister : public Walker<PathLister> {
@@ -113,14 +116,14 @@ RigNumber find_number(plant::Rig& rig, std::string_view path) {
                                                                     {"load_cell.", "sensors.force."}});
   constexpr std::string_view of_mechanics = "mechanics.";
   if (path.starts_with(of_mechanics)) {
-    Guide guide(path.substr(of_mechanics.size()));
+    Guide guide(path.substr(of_mechanics.size()), rig.command_unit());
     if (plant::Pair* pair = rig.pair()) plant::Pair::fields(*pair, guide);
     return guide.found;
   }
-  std::string renamed;
+  std::string today;
   for (const auto& [old, now] : before)
-    if (path.starts_with(old)) path = renamed = std::string(now) + std::string(path.substr(old.size()));
-  Guide guide(path);
+    if (path.starts_with(old)) path = today = std::string(now) + std::string(path.substr(old.size()));
+  Guide guide(path, rig.command_unit());
   plant::Rig::parts(rig, guide);
   return guide.found;
 }

@@ -9,7 +9,6 @@
 #include <numbers>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <type_traits>
 #include <vector>
 

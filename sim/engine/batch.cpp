@@ -5,11 +5,9 @@
 #include <array>
 #include <cmath>
 #include <exception>
-#include <span>
 #include <stdexcept>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include <sim/engine/batch.hpp>
 #include <sim/engine/erk_method.hpp>

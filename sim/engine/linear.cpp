@@ -65,8 +65,9 @@ class Linearising {
       result.states.push_back({"valve_pressure" + s + "_Pa", "Pa"});
       result.states.push_back({"muscle_pressure" + s + "_Pa", "Pa"});
       result.states.push_back({"bristle" + s + "_m", "m"});
-      result.inputs.push_back({"current" + s + "_mA", "mA"});
-      result.inputs.push_back({"current_speed" + s + "_mA_per_s", "mA s-1"});
+      const auto named = [&](const std::string& text) { return in_unit(plant_.rig().command_unit(), text); };
+      result.inputs.push_back({named("current" + s + "_mA"), named("mA")});
+      result.inputs.push_back({named("current_speed" + s + "_mA_per_s"), named("mA s-1")});
       result.outputs.push_back({"muscle_pressure" + s + "_Pa", "Pa"});
       result.outputs.push_back({(L::sides == 1 ? "force" : "tension") + s + "_N", "N"});
     }

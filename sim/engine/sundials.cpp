@@ -1,5 +1,4 @@
 // Words for what the solvers report.
-#include <algorithm>
 #include <string_view>
 
 #include <fmt/format.h>

@@ -1,7 +1,6 @@
 // Walks the field lists of a rig; see the header.
 #include <algorithm>
 #include <concepts>
-#include <optional>
 #include <string_view>
 #include <type_traits>
 #include <utility>
@@ -84,8 +83,7 @@ struct Leaves {
   requires(std::integral<T> || std::is_enum_v<T>) void operator()(T& choice) {
     choices.push_back(makes_no_difference ? std::nullopt : std::optional(static_cast<long>(choice)));
   }
-  void operator()(const plant::RatedCommand&) {}  // whatever a command is called, the valve gets a current
-  void operator()(const plant::Sensors&) {}       // laws know none
+  void operator()(const plant::Sensors&) {}  // laws know none
   template <class T>
   void size(const std::vector<T>& list) {
     choices.emplace_back(static_cast<long>(list.size()));
@@ -116,7 +114,6 @@ struct Fill {
     ++number;
   }
   void operator()(double& value) { value = rigs.front().numbers[number++]; }  // of the DAC
-  void operator()(const plant::RatedCommand&) {}
   void operator()(const plant::Sensors&) {}
   template <class T>
   requires(std::integral<T> || std::is_enum_v<T>) void operator()(T& value) {

@@ -1,5 +1,4 @@
 // XML of both versions; see the header.
-#include <array>
 #include <map>
 #include <string_view>
 #include <vector>
@@ -41,6 +40,7 @@ std::string attribute(std::string_view name, double value) {
 std::string base_of(std::string_view unit) {
   static const std::map<std::string_view, std::string_view> bases{
       {"mA", "A=\"1\" factor=\"0.001\""},
+      {"V", "kg=\"1\" m=\"2\" s=\"-3\" A=\"-1\""},
       {"Pa", "kg=\"1\" m=\"-1\" s=\"-2\""},
       {"bar", "kg=\"1\" m=\"-1\" s=\"-2\" factor=\"100000\""},
       {"s-1", "s=\"-1\""},

@@ -6,10 +6,10 @@
 
 #include <fmt/format.h>
 
-#include <sim/input/ascii.hpp>
 #include <sim/input/cells.hpp>
 #include <sim/input/limits.hpp>
 #include <sim/input/number.hpp>
+#include <sim/input/readers.hpp>
 
 namespace mckibben::input {
 namespace {

@@ -39,17 +39,25 @@ void check_range(const YamlFile& file, const controllers::CalibratedRange& range
   ordered("lowest_speed", range.lowest_speed_mA_per_s, range.highest_speed_mA_per_s);
 }
 
+plant::CommandUnit unit_of_commands(const YamlFile& file, Problems& problems) {
+  const Node* said = file.root.find("command_unit");
+  const plant::CommandUnit unit = plant::command_unit_of(said == nullptr ? "mA" : said->text);
+  if (said != nullptr && name_of(unit) != said->text)
+    problems.error(file.source, said->place,
+                   fmt::format("command_unit = {}: it is mA, V or bar", said->text));
+  return unit;
+}
+
 }  // namespace
 
 controllers::Calibration read_calibration(const std::filesystem::path& path, std::vector<InputFile>& inputs) {
   const YamlFile file = load_yaml(path);
   Problems problems;
-  problems.opened(file.source);
-  problems.adopt(file.found);
   controllers::Calibration calibration;
   constexpr std::string_view also_allowed[] = {"schema"};
-  if (check_schema(file, calibration_schema, problems))
-    read_struct(file.source, file.root, calibration, problems, also_allowed);
+  if (begin_file(file, calibration_schema, problems))
+    read_struct(file.source, file.root, calibration, problems, also_allowed,
+                {unit_of_commands(file, problems)});
   if (problems.errors() == 0) {
     PolynomialCheck contraction(file, "contraction", problems), relaxation(file, "relaxation", problems);
     controllers::ContractionModel::fields(calibration.contraction, contraction);
@@ -61,10 +69,17 @@ controllers::Calibration read_calibration(const std::filesystem::path& path, std
   return calibration;
 }
 
+std::string wrong_commands(const controllers::Calibration& calibration, const plant::Rig& rig) {
+  const std::string made = calibration.command_unit.value_or("mA");
+  const std::string_view taken = name_of(rig.command_unit());
+  return made == taken
+             ? ""
+             : fmt::format("made with a rig that is commanded in {}, and this one is in {}", made, taken);
+}
+
 std::string calibration_yaml(const controllers::Calibration& calibration) {
-  Json file{{"schema", calibration_schema}};
-  file.update(to_json(calibration));
-  return to_yaml(file);
+  return to_yaml(file_json(calibration_schema, calibration,
+                           {plant::command_unit_of(calibration.command_unit.value_or("mA"))}));
 }
 
 }  // namespace mckibben::input

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <controllers/calibration.hpp>
+#include <plant/rig.hpp>
 #include <sim/input/diagnostics.hpp>
 
 namespace mckibben::input {
@@ -16,6 +17,10 @@ inline constexpr std::string_view calibration_schema = "mckibben-calibration/1";
 
 /// Reads a calibration; the file read is added to `inputs`. Throws MissingInput, BadInput.
 controllers::Calibration read_calibration(const std::filesystem::path& path, std::vector<InputFile>& inputs);
+
+/// What is wrong with it for a rig that is commanded in another unit than the one it was made with, or
+/// nothing.
+std::string wrong_commands(const controllers::Calibration& calibration, const plant::Rig& rig);
 
 /// The text of a calibration file.
 std::string calibration_yaml(const controllers::Calibration& calibration);

@@ -130,12 +130,10 @@ void check_repeats(const YamlFile& file, const Campaign& campaign, Problems& pro
 Campaign read_campaign(Source source) {
   const YamlFile file = parse_yaml(std::move(source));
   Problems problems;
-  problems.opened(file.source);
-  problems.adopt(file.found);
   Campaign campaign;
   campaign.name = made_file_safe(std::filesystem::path(file.source.name()).stem().string());
   constexpr std::string_view also_allowed[] = {"schema"};
-  if (check_schema(file, campaign_schema, problems)) {
+  if (begin_file(file, campaign_schema, problems)) {
     read_struct(file.source, file.root, campaign, problems, also_allowed);
     check_keys(file, campaign.rig.pair() != nullptr, problems);
     read_variation(file, campaign, problems);
@@ -162,9 +160,7 @@ Campaign read_campaign(const std::filesystem::path& path) {
 }
 
 Json campaign_json(const Campaign& campaign) {
-  Json file{{"schema", campaign_schema}};
-  file.update(to_json(campaign));
-  return file;
+  return file_json(campaign_schema, campaign);
 }
 
 }  // namespace mckibben::input

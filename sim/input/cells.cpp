@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <sim/input/cells.hpp>
-#include <sim/input/number.hpp>
 
 namespace mckibben::input {
 namespace {

@@ -10,28 +10,30 @@
 namespace mckibben::input {
 namespace {
 
-using domain::quantities, domain::Quantity;
+using domain::Quantity;
 
 /// The unit at the end of a heading, as in U_mA, `I [A]` or t(ms); ours if there is none that fits.
 std::string unit_in(std::string_view heading, const Quantity& quantity) {
   if (heading.ends_with(']') || heading.ends_with(')')) heading.remove_suffix(1);
   const std::string_view unit = heading.substr(std::min(heading.find_last_of("_[( ") + 1, heading.size()));
-  if (unit.size() == heading.size() || quantity.unit == "1" || !unit_problem(unit, quantity.unit).empty())
-    return std::string(quantity.unit);
+  if (unit.size() == heading.size() || quantity.unit() == "1" || !unit_problem(unit, quantity.unit()).empty())
+    return std::string(quantity.unit());
   return std::string(unit);
 }
 
 }  // namespace
 
 std::string hint_of_missing(const WantedColumn& column, std::span<const std::string_view> found) {
-  const auto quantity = std::find_if(quantities.begin(), quantities.end(),
-                                     [&](const Quantity& each) { return each.column == column.in_file; });
-  if (quantity == quantities.end()) return "";  // a map has named it
-  const auto meant = nearest(column.in_file, found);
-  const ColumnPlace place{std::string(meant.value_or("NAME")),
-                          meant ? unit_in(*meant, *quantity) : std::string(quantity->unit)};
-  return fmt::format("; where it stands under another name, write columns: {{{}}}",
-                     line_of(quantity->key, place));
+  for (const auto& [commands, name] : names(plant::CommandUnit{}))
+    for (const Quantity& quantity : domain::quantities(commands)) {
+      if (quantity.column != column.in_file) continue;
+      const auto meant = nearest(column.in_file, found);
+      const ColumnPlace place{std::string(meant.value_or("NAME")),
+                              meant ? unit_in(*meant, quantity) : std::string(quantity.unit())};
+      return fmt::format("; where it stands under another name, write columns: {{{}}}",
+                         line_of(quantity.key, place));
+    }
+  return "";  // a map has named it
 }
 
 }  // namespace mckibben::input

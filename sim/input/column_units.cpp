@@ -41,29 +41,19 @@ void to_ratio(std::vector<double>& values, const std::string& unit, const plant:
   for (double& value : values) value *= ratio;
 }
 
-/// Commands other than a current may be in any unit that a valve takes.
+/// Which of them the rig's valve takes is asked once the rig is known.
 std::string command_problem(const std::string& unit) {
-  for (const plant::CommandUnit& each : plant::command_units)
-    if (unit_problem(unit, each.name).empty()) return "";
+  for (const auto& [each, name] : names(plant::CommandUnit{}))
+    if (unit_problem(unit, name).empty()) return "";
   return fmt::format("{} is not a unit of commands; wanted is mA, V or bar", unit);
 }
 
-bool is_command(const domain::Quantity& quantity) {
-  return quantity.key.starts_with("command");
-}
-
 std::string problem_of(const domain::Quantity& quantity, const std::string& unit) {
-  if (is_command(quantity)) return command_problem(unit);
+  if (quantity.is_command() && quantity.key != "current") return command_problem(unit);
   if (quantity.key == "contraction") return contraction_problem(unit);
   if (quantity.key == "angle" && unit == counts_unit) return "";
   if (quantity.key == "time" && unit == date_unit) return "";
-  return unit_problem(unit, quantity.unit);
-}
-
-const domain::Quantity* quantity_of(std::string_view key) {
-  const auto found = std::find_if(domain::quantities.begin(), domain::quantities.end(),
-                                  [&](const domain::Quantity& each) { return each.key == key; });
-  return found == domain::quantities.end() ? nullptr : &*found;
+  return unit_problem(unit, quantity.unit());
 }
 
 }  // namespace
@@ -71,24 +61,25 @@ const domain::Quantity* quantity_of(std::string_view key) {
 void check_units(const Source& source, const Node& map, Problems& problems) {
   for (const Node& entry : map.children) {
     const Node* unit = entry.find("unit");
-    const domain::Quantity* quantity = quantity_of(entry.key);
+    const domain::Quantity* quantity = domain::find_quantity(entry.key);
     if (quantity == nullptr || unit == nullptr || unit->kind != Node::Kind::scalar) continue;
     const std::string problem = problem_of(*quantity, unit->text);
     if (!problem.empty()) problems.error(source, unit->place, "unit = " + problem);
   }
 }
 
-void check_said_units(const Table& table, const ColumnMap& map, TableProblems& problems) {
-  for (const domain::Quantity& quantity : domain::quantities) {
+void check_said_units(const Table& table, const ColumnMap& map, const plant::Rig& rig,
+                      TableProblems& problems) {
+  for (const domain::Quantity& quantity : domain::quantities(rig.command_unit())) {
     const Table::Column* column = table.find(quantity.column);
-    const ColumnPlace& place = map.*quantity.place;
+    const ColumnPlace& place = map[quantity];
     if (column == nullptr || column->unit.empty() || column->is_date) continue;
     const bool is_command_of_another_name =
-        place.absent() && quantity.key == "current" && !map.command.absent();
+        place.absent() && quantity.is_old_current && !map[domain::command_key].absent();
     if (is_command_of_another_name || std::abs(place.factor) != 1.0 ||
         (!place.absent() && place.column != column->in_file))
       continue;
-    const std::string taken = place.absent() ? std::string(quantity.unit) : place.unit;
+    const std::string taken = place.absent() ? std::string(quantity.unit()) : place.unit;
     std::vector<double> one{1.0};
     const bool fits = taken == column->unit || unit_problem(column->unit, taken).empty();
     if (taken == column->unit || (fits && (convert_units(one, column->unit, taken), one.front() == 1.0)))
@@ -113,13 +104,12 @@ double ratio_per_unit(const ColumnPlace& contraction, const plant::Rig& rig) {
 }
 
 void convert_columns(Table& table, const ColumnMap& map, const plant::Rig& rig) {
+  const auto& all = domain::quantities(rig.command_unit());
   for (Table::Column& column : table.columns) {
-    const auto found =
-        std::find_if(domain::quantities.begin(), domain::quantities.end(), [&](const domain::Quantity& each) {
-          return each.column == column.name && !(map.*each.place).absent();
-        });
-    if (found == domain::quantities.end()) continue;
-    const ColumnPlace& place = map.*found->place;
+    const auto found = std::ranges::find_if(
+        all, [&](const domain::Quantity& each) { return each.column == column.name && !map[each].absent(); });
+    if (found == all.end()) continue;
+    const ColumnPlace& place = map[*found];
     if (place.zero != 0.0 || place.factor != 1.0)
       for (double& value : column.values) value = (value - place.zero) * place.factor;
     if (column.is_date) continue;  // was read in seconds
@@ -128,35 +118,25 @@ void convert_columns(Table& table, const ColumnMap& map, const plant::Rig& rig) 
     } else if (place.unit == counts_unit) {  // of the joint's angle
       const double count_rad = plant::count_height_m(rig) / rig.joint.wheel_radius_m;
       for (double& value : column.values) value *= count_rad;
-    } else if (is_command(*found) && !is_current(place.unit)) {
-      const plant::Valve& valve = found->key == "command_2" ? rig.pair()->opposite.valve : rig.valve;
-      convert_units(column.values, place.unit, plant::name_of(valve.zero_command.unit));
-      for (double& value : column.values) value = valve.current_for_mA(value);
     } else {
-      convert_units(column.values, place.unit, found->unit);
+      convert_units(column.values, place.unit, found->unit());
     }
   }
 }
 
 void check_numbers(const Table& table, const ColumnMap& map, const plant::Rig& rig, TableProblems& problems) {
   std::vector<data::ReadColumn> columns;
-  for (const Table::Column& column : table.columns) {
-    const bool own_command = std::ranges::any_of(domain::quantities, [&](const domain::Quantity& each) {
-      const ColumnPlace& place = map.*each.place;
-      return each.column == column.name && is_command(each) && !place.absent() && !is_current(place.unit);
-    });
-    columns.push_back({column.name, &column.values, own_command});
-  }
+  for (const Table::Column& column : table.columns) columns.push_back({column.name, &column.values});
   for (const data::WrongNumber& wrong : data::check_ranges(columns, map, rig))
     problems.add(table, table.columns[wrong.column], wrong.row, wrong.message);
 }
 
-void check_clock(const Table& table, const ColumnMap& map, double tick_s, TableProblems& problems) {
+void check_clock(const Table& table, const ColumnMap& map, const plant::Rig& rig, TableProblems& problems) {
   const Table::Column* column = table.find("time_s");
   if (column != nullptr && problems.count() == 0)
-    if (const auto wrong = data::check_clock(column->values, map, tick_s))
+    if (const auto wrong = data::check_clock(column->values, map, rig))
       problems.add(table, *column, wrong->row, wrong->message);
-  check_ticks(table, tick_s, problems, std::string("; ") + data::own_clock);
+  check_ticks(table, rig.tick_s, problems, std::string("; ") + data::own_clock);
 }
 
 }  // namespace mckibben::input

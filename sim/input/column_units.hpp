@@ -16,7 +16,8 @@ void check_units(const Source& source, const Node& map, Problems& problems);
 
 /// Checks that a file whose lines below the heading name units is read in these, where it is not a sensor's
 /// factor that makes another quantity of them. Before the table is converted.
-void check_said_units(const Table& table, const ColumnMap& map, TableProblems& problems);
+void check_said_units(const Table& table, const ColumnMap& map, const plant::Rig& rig,
+                      TableProblems& problems);
 
 /// Whether a command in this unit is a current.
 bool is_current(std::string_view unit);
@@ -24,14 +25,14 @@ bool is_current(std::string_view unit);
 /// What one of a column's unit is as a contraction ratio; 1 where none is said.
 double ratio_per_unit(const ColumnPlace& contraction, const plant::Rig& rig);
 
-/// Brings a table that was read with a map to our units: time_s, current_mA, contraction_ratio,
-/// muscle_pressure_bar. Lengths and angles become ratios by the rig's wheel and the muscle's rest length,
-/// commands of a valve that takes volts or a pressure the currents that would do the same.
+/// Brings a table that was read with a map to our units: time_s, current_mA (of a rig in volts command_V),
+/// contraction_ratio, muscle_pressure_bar. Lengths and angles become ratios by the rig's wheel and the
+/// muscle's rest length.
 void convert_columns(Table& table, const ColumnMap& map, const plant::Rig& rig);
 
 /// What is wrong with the numbers of a table that was brought to our units, at its place.
 void check_numbers(const Table& table, const ColumnMap& map, const plant::Rig& rig, TableProblems& problems);
 /// The same of a clock that is to tick as the rig does.
-void check_clock(const Table& table, const ColumnMap& map, double tick_s, TableProblems& problems);
+void check_clock(const Table& table, const ColumnMap& map, const plant::Rig& rig, TableProblems& problems);
 
 }  // namespace mckibben::input

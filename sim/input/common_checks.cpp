@@ -6,11 +6,12 @@
 
 #include <plant/geometry.hpp>
 #include <sim/input/common_checks.hpp>
-#include <sim/input/csv.hpp>
 #include <sim/input/current_checks.hpp>
 #include <sim/input/file_names.hpp>
 #include <sim/input/limits.hpp>
 #include <sim/input/quantity.hpp>
+#include <sim/input/readers.hpp>
+#include <sim/input/yaml_reader.hpp>
 
 namespace mckibben::input {
 
@@ -89,7 +90,9 @@ void check_loads(const YamlFile& file, const std::vector<double>& loads_kg, cons
 
 void load_recording(controllers::RecordedCurrent& recorded, const Source& source, const Node& node,
                     const plant::Rig& rig, Problems& problems) {
-  try {
+  const std::string ours = plant::Channel{&plant::command_of(rig.command_unit())}.name();
+  if (recorded.column == controllers::RecordedCurrent{}.column) recorded.column = ours;
+  read_other(source, node, problems, [&] {
     const Source table_source =
         Source::load((source.folder() / recorded.file).lexically_normal(), most_text_bytes);
     problems.opened(table_source);
@@ -99,11 +102,10 @@ void load_recording(controllers::RecordedCurrent& recorded, const Source& source
     const Table::Column* current = table.find(recorded.column);
     if (current == nullptr) return;
     check_ticks(table, rig.tick_s, found);
-    check_range(table, *current, 0.0, rig.dac.largest_current_mA, "range of the rig's DAC", found);
+    check_range(table, *current, rig.dac.lowest_command, rig.dac.largest_command, "range of the rig's DAC",
+                found);
     recorded.samples_mA = current->values;
-  } catch (const MissingInput& missing) {
-    problems.missing_file(source, node.place, missing.what());
-  }
+  });
 }
 
 void complete_current(domain::CampaignWaveform& waveform, const Source& source, const Node& node,

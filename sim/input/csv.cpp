@@ -7,11 +7,10 @@
 #include <fmt/format.h>
 
 #include <sim/input/cells.hpp>
-#include <sim/input/csv.hpp>
 #include <sim/input/csv_layout.hpp>
 #include <sim/input/dates.hpp>
 #include <sim/input/limits.hpp>
-#include <sim/input/number.hpp>
+#include <sim/input/readers.hpp>
 #include <sim/input/suggest.hpp>
 
 namespace mckibben::input {

@@ -1,5 +1,4 @@
 // Limits and currents of controllers and weighing; see the header.
-#include <optional>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -10,44 +9,50 @@
 namespace mckibben::input {
 namespace {
 
-std::string mA(double value_mA) {
-  return write_quantity(value_mA, "mA");
-}
+/// A command in words.
+class Say {
+ public:
+  explicit Say(const plant::Rig& rig) : unit_(name_of(rig.command_unit())) {}
+  std::string operator()(double command) const { return write_quantity(command, unit_); }
+
+ private:
+  std::string_view unit_;
+};
 
 class CurrentChecker {
  public:
   CurrentChecker(const Source& source, const Node& node, const plant::Rig& rig, Problems& problems)
-      : source_(source), node_(node), range_(working_range(rig)), problems_(problems) {
-    top_ = rig.dac.largest_current_mA < rig.valve.span_current_mA ? "the DAC's largest_current"
-                                                                  : "the valve's span_current";
+      : source_(source), node_(node), range_(working_range(rig)), say_(rig), problems_(problems) {
+    top_ = rig.dac.largest_command < rig.valve.span_command ? "the DAC's largest_command"
+                                                            : "the valve's span_command";
   }
 
-  /// Two ends, each given or not, of a current that is to move the valve. False if it cannot.
+  /// Two ends, each given or not, of a command that is to move the valve. False if it cannot.
   bool ends(std::string_view low_key, double low_mA, std::string_view high_key, double high_mA) {
     const bool below = high_mA <= range_.lowest_mA, above = low_mA >= range_.highest_mA;
     if (below || above || high_mA <= low_mA) {
       const bool low_is_at_fault = above || node_.find(high_key) == nullptr;
       const std::string_view key = low_is_at_fault ? low_key : high_key;
       problems_.error(source_, place(key),
-                      fmt::format("{} = {}: from {} to {} no current moves the rig's valve, "
+                      fmt::format("{} = {}: from {} to {} no command moves the rig's valve, "
                                   "which works from {} to {}",
-                                  key, mA(low_is_at_fault ? low_mA : high_mA), mA(low_mA), mA(high_mA),
-                                  mA(range_.lowest_mA), mA(range_.highest_mA)));
+                                  key, say_(low_is_at_fault ? low_mA : high_mA), say_(low_mA), say_(high_mA),
+                                  say_(range_.lowest_mA), say_(range_.highest_mA)));
       return false;
     }
     if (low_mA < range_.lowest_mA)
-      warn(low_key, low_mA, fmt::format("below the valve's zero_current, {}", mA(range_.lowest_mA)));
+      warn(low_key, low_mA, fmt::format("below the valve's zero_command, {}", say_(range_.lowest_mA)));
     if (high_mA > range_.highest_mA)
-      warn(high_key, high_mA, fmt::format("above {}, {}", top_, mA(range_.highest_mA)));
+      warn(high_key, high_mA, fmt::format("above {}, {}", top_, say_(range_.highest_mA)));
     return true;
   }
 
   void rest(double rest_mA, double low_mA, double high_mA) {
     if (rest_mA < low_mA || rest_mA > high_mA)
       problems_.error(
-          source_, place("rest_current"),
-          fmt::format("rest_current = {}: must lie between lowest_current and highest_current, {} and {}",
-                      mA(rest_mA), mA(low_mA), mA(high_mA)));
+          source_, place("rest_command"),
+          fmt::format("rest_command = {}: must lie between lowest_command and highest_command, {} and {}",
+                      say_(rest_mA), say_(low_mA), say_(high_mA)));
   }
 
  private:
@@ -58,30 +63,31 @@ class CurrentChecker {
   void warn(std::string_view key, double value_mA, const std::string& how) {
     problems_.warning(
         source_, place(key),
-        fmt::format("{} = {} is {}: from there on the pressure does not change", key, mA(value_mA), how));
+        fmt::format("{} = {} is {}: from there on the pressure does not change", key, say_(value_mA), how));
   }
 
   const Source& source_;
   const Node& node_;
   controllers::CurrentRange range_;
   std::string_view top_;
+  Say say_;
   Problems& problems_;
 };
 
 }  // namespace
 
 controllers::CurrentRange working_range(const plant::Rig& rig) {
-  return controllers::working_range({rig.valve.zero_current_mA, rig.valve.span_current_mA,
+  return controllers::working_range({rig.valve.zero_command, rig.valve.span_command,
                                      rig.valve.zero_pressure_Pa, rig.valve.span_pressure_Pa},
-                                    rig.dac.largest_current_mA);
+                                    rig.dac.largest_command);
 }
 
 void follow_valve(controllers::Settings& settings, const Source& source, const Node& node,
                   const plant::Rig& rig, Problems& problems) {
   controllers::follow(settings, working_range(rig));
-  if (const auto* terms = controllers::output_limits(settings)) {
+  if (const auto* terms = controllers::part_of<controllers::OutputLimits>(settings)) {
     CurrentChecker output(source, node, rig, problems);
-    const bool works = output.ends("lowest_current", *terms->lowest_current_mA, "highest_current",
+    const bool works = output.ends("lowest_command", *terms->lowest_current_mA, "highest_command",
                                    *terms->highest_current_mA);
     if (const auto* one = std::get_if<controllers::PidSettings>(&settings); one != nullptr && works)
       output.rest(*one->rest_current_mA, *terms->lowest_current_mA, *terms->highest_current_mA);
@@ -93,16 +99,22 @@ void follow_valve(controllers::Settings& settings, const Source& source, const N
 }
 
 void check_dac(const plant::Rig& rig, const Source& source, Place place, Problems& problems) {
-  const double largest_mA = rig.dac.largest_current_mA;
-  if (largest_mA <= rig.valve.zero_current_mA)
+  const Say say(rig);
+  const plant::Dac& dac = rig.dac;
+  if (dac.largest_command <= rig.valve.zero_command)
     problems.error(source, place,
-                   fmt::format("dac.largest_current = {}: cannot move the valve, whose zero_current is {}",
-                               mA(largest_mA), mA(rig.valve.zero_current_mA)));
-  else if (largest_mA < rig.valve.span_current_mA)
+                   fmt::format("dac.largest_command = {}: cannot move the valve, whose zero_command is {}",
+                               say(dac.largest_command), say(rig.valve.zero_command)));
+  else if (dac.largest_command < rig.valve.span_command)
     problems.warning(source, place,
-                     fmt::format("dac.largest_current = {} is below the valve's span_current, {}: the span "
+                     fmt::format("dac.largest_command = {} is below the valve's span_command, {}: the span "
                                  "pressure is never reached",
-                                 mA(largest_mA), mA(rig.valve.span_current_mA)));
+                                 say(dac.largest_command), say(rig.valve.span_command)));
+  if (dac.lowest_command > rig.valve.zero_command)
+    problems.warning(source, place,
+                     fmt::format("dac.lowest_command = {} is above the valve's zero_command, {}: the zero "
+                                 "pressure is never reached",
+                                 say(dac.lowest_command), say(rig.valve.zero_command)));
 }
 
 }  // namespace mckibben::input

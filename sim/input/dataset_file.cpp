@@ -20,12 +20,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Whether a load hangs on the muscle of a run.
-bool hangs(const Dataset& dataset, const Run& run) {
-  return dataset.rig.lifts_a_load() &&
-         merged(dataset.columns, run.columns).contraction.as != domain::Role::input;
-}
-
 void check_runs(const YamlFile& file, const Dataset& dataset, Problems& problems) {
   const Node& list = *file.root.find("runs");
   if (dataset.runs.empty()) problems.error(file.source, list.place, "runs: at least one run is needed");
@@ -41,58 +35,52 @@ void check_runs(const YamlFile& file, const Dataset& dataset, Problems& problems
                      fmt::format("id = {} is already that of the run in line {}", id, earlier->second));
     const Node* load = list.children[i].find("load");
     if (load == nullptr) continue;
-    if (!hangs(dataset, dataset.runs[i]))
-      problems.error(
-          file.source, load->place,
-          fmt::format("load = {}: {}", load->text,
-                      dataset.rig.pair() != nullptr ? "the rig's two muscles turn a link; nothing hangs there"
-                                                    : "the muscle's length is given; nothing hangs there"));
-    else if (const auto why = too_heavy(dataset.runs[i].load_kg, dataset.rig); !why.empty())
+    if (const auto why = too_heavy(dataset.runs[i].load_kg, dataset.rig); !why.empty())
       problems.error(file.source, load->place, fmt::format("load = {}: {}", load->text, why));
-    else if (dataset.runs[i].load_kg + dataset.rig.joint.load_offset_kg <= 0.0 && dataset.own_clock)
-      problems.error(file.source, load->place,
-                     fmt::format("load = {}: it and the rig's joint.load_offset leave no load", load->text));
   }
 }
 
-/// Settled points say themselves what went before, and what inputs do.
-void check_points(const YamlFile& file, const Dataset& dataset, const Run& run, Problems& problems) {
-  if (merged(dataset.columns, run.columns).settled.absent()) return;
-  if (dataset.recorded.start == domain::Start::moving)
-    problems.error(file.source, file.root.find("start")->place,
-                   fmt::format("start = moving: the rows of run {} are settled points", shortened(run.id)));
-  if (dataset.recorded.hold != domain::Hold::usual)
-    problems.error(file.source, file.root.find("hold")->place,
-                   fmt::format("hold: the rows of run {} are settled points: commands hold while a point is "
-                               "measured, pressures and lengths are there after half of it at most",
-                               shortened(run.id)));
+/// Shows a contradiction where the files say it.
+void show(const YamlFile& file, const Node& run, const domain::Contradiction& found, Problems& problems) {
+  const bool of_columns = domain::find_quantity(found.key) != nullptr;
+  const Node* said = nullptr;
+  for (const Node* in :
+       {of_columns ? run.find("columns") : &run, of_columns ? file.root.find("columns") : &file.root})
+    if (said == nullptr && in != nullptr) said = in->find(found.key);
+  const std::string what = of_columns        ? found.key + ": "
+                           : said != nullptr ? fmt::format("{} = {}: ", found.key, said->text)
+                                             : "";
+  problems.error(file.source, said != nullptr ? said->place : run.place, what + found.why);
 }
 
-/// Loads as they were given, and a clock. A run without a load is a problem, if one must hang there.
+/// Loads as they were given, and a clock; and what contradicts the rig, or itself: in columns only if they
+/// were read without errors.
 void check_kind(const YamlFile& file, Dataset& dataset, Problems& problems) {
   const Node* list = file.root.find("runs");
+  const bool well_read = problems.errors() == 0;
   for (const char* key : {"start", "skip", "hold"})
     dataset.own_clock = dataset.own_clock || file.root.find(key) != nullptr;
-  for (std::size_t i = 0; i < dataset.runs.size(); ++i) {
-    Run& run = dataset.runs[i];
+  for (Run& run : dataset.runs) {
     run.load_kg = run.given_load_kg.value_or(0.0);
     dataset.own_clock = dataset.own_clock || has_own_clock(merged(dataset.columns, run.columns), dataset.rig);
-    const Node& node = list->children[i];
-    const bool has_load = hangs(dataset, run);
-    check_points(file, dataset, run, problems);
-    if (dataset.recorded.hold == domain::Hold::previous &&
-        merged(dataset.columns, run.columns).contraction.as == domain::Role::input)
-      problems.error(
-          file.source, file.root.find("hold")->place,
-          fmt::format("hold = previous: the length of run {} is given, and cannot jump", shortened(run.id)));
-    if (node.kind == Node::Kind::map && node.find("load") == nullptr && has_load)
-      problems.error(file.source, node.place, "the key load is missing");
-    if (dataset.recorded.start == domain::Start::moving && !has_load)
-      problems.error(file.source, file.root.find("start")->place,
-                     fmt::format("start = moving: run {} has no load that hangs; only of such a run can the "
-                                 "first state be told",
-                                 shortened(run.id)));
   }
+  for (std::size_t i = 0; i < dataset.runs.size(); ++i) {
+    const Node& node = list->children[i];
+    const bool empty_load = !dataset.runs[i].given_load_kg && node.find("load") != nullptr;  // has been shown
+    if (node.kind == Node::Kind::map)
+      for (const domain::Contradiction& found : domain::contradictions(dataset, dataset.runs[i]))
+        if ((well_read || domain::find_quantity(found.key) == nullptr) &&
+            !(empty_load && found.key == "load"))
+          show(file, node, found, problems);
+  }
+}
+
+/// Whether a run's commands are in a unit of its valves.
+bool check_commands(const YamlFile& file, const Node& node, const Dataset& dataset, const Run& run,
+                    Problems& problems) {
+  const auto wrong = wrong_command_units(merged(dataset.columns, run.columns), dataset.rig);
+  for (const domain::Contradiction& found : wrong) show(file, node, found, problems);
+  return wrong.empty();
 }
 
 /// False if a unit is wrong: the numbers would be, too.
@@ -117,17 +105,18 @@ Dataset read_dataset(Source source) {
   const YamlFile file = parse_yaml(std::move(source));
   dataset.path = file.source.name();
   Problems problems;
-  problems.opened(file.source);
-  problems.adopt(file.found);
   constexpr std::string_view also_allowed[] = {"schema"};
-  if (check_schema(file, dataset_schema, problems))
+  if (begin_file(file, dataset_schema, problems))
     read_struct(file.source, file.root, dataset, problems, also_allowed);
   check_kind(file, dataset, problems);
   if (problems.errors() == 0) {
     check_runs(file, dataset, problems);
     if (check_columns(file, problems))
-      for (std::size_t i = 0; i < dataset.runs.size(); ++i)
-        read_run_file(file, file.root.find("runs")->children[i], dataset, dataset.runs[i], problems);
+      for (std::size_t i = 0; i < dataset.runs.size(); ++i) {
+        const Node& node = file.root.find("runs")->children[i];
+        if (check_commands(file, node, dataset, dataset.runs[i], problems))
+          read_run_file(file, node, dataset, dataset.runs[i], problems);
+      }
   }
   problems.raise();
   dataset.inputs = problems.inputs();
@@ -145,65 +134,24 @@ void require_ticks(const Dataset& dataset, std::string_view verb) {
           ""}});
 }
 
-namespace {
-
-/// Why a run is none of a hanging load whose contraction was read; empty if it is one.
-std::string_view why_not_one_load(const Run& run) {
-  if (!run.measured) return "";
-  if (run.measured->length_is_given) return "the muscle's length is given, and in others it is not";
-  return run.measured->contraction_ratio.empty() ? "contraction is not read" : "";
+void take_rig(Dataset& dataset, const std::string& called, Rig rig) {
+  if (const auto recorded = dataset.rig.command_unit(); rig.command_unit() != recorded)
+    throw BadInput({{Severity::error, called, nowhere,
+                     fmt::format("the data are of a valve that is commanded in {}, this rig's is in {}",
+                                 name_of(recorded), name_of(rig.command_unit())),
+                     ""}});
+  dataset.rig = std::move(rig);
 }
 
-/// Why a run at a given length has nothing to be judged by; empty if it has.
-std::string_view why_no_bench(const Run& run) {
-  const auto& read = run.measured->force_N;
-  const bool none = std::ranges::all_of(read, [](double force_N) { return std::isnan(force_N); });
-  return none ? "the muscle's length is given, and force is not read" : "";
-}
-
-/// Why a run of a pair has nothing to be judged by, or is driven in two ways; empty if neither.
-std::string_view why_no_pair(const Run& run) {
-  if (!run.measured) return "angle is not read";
-  const auto& read = run.measured->angle_rad;
-  if (std::ranges::all_of(read, [](double angle_rad) { return std::isnan(angle_rad); }))
-    return "angle is not read";
-  const auto& [one, two] = run.measured->sides;
-  return one.pressure_is_given == two.pressure_is_given
-             ? ""
-             : "the pressure of one muscle is given, and that of the other is not";
-}
-
-/// The same of any run.
-std::string_view why_not(const Dataset& dataset, const Run& run) {
-  switch (dataset.judged()) {
-    case domain::Judged::angle:
-      return why_no_pair(run);
-    case domain::Judged::force:
-      return why_no_bench(run);
-    case domain::Judged::contraction:
-      break;
-  }
-  return why_not_one_load(run);
-}
-
-}  // namespace
-
-bool has_one_load(const Dataset& dataset) {
-  return dataset.rig.lifts_a_load() &&
-         std::ranges::all_of(dataset.runs, [](const Run& run) { return why_not_one_load(run).empty(); });
-}
-
-std::string why_not_judged(const Dataset& dataset) {
+std::string why_unfit(domain::Purpose purpose, const Dataset& dataset) {
   if (dataset.judged() == domain::Judged::contraction)
     if (std::string why = no_load(dataset.rig); !why.empty()) return why;
-  for (const Run& run : dataset.runs)
-    if (const auto why = why_not(dataset, run); !why.empty())
-      return fmt::format("in run {} {}", shortened(run.id), why);
-  return "";
+  const auto found = domain::why_not(purpose, dataset);
+  return found ? fmt::format("in run {} {}", shortened(found->key), found->why) : "";
 }
 
 void require_judged(const Dataset& dataset, std::string_view verb) {
-  if (const std::string why = why_not_judged(dataset); !why.empty())
+  if (const std::string why = why_unfit(domain::Purpose::diagnosis, dataset); !why.empty())
     throw BadInput({{Severity::error, dataset.path.string(), nowhere,
                      fmt::format("{} cannot take it yet: {}", verb, why), ""}});
 }

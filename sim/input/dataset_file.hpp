@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <string_view>
 
+#include <sim/domain/combination.hpp>
 #include <sim/domain/dataset.hpp>
 #include <sim/input/rigs.hpp>
 #include <sim/input/source.hpp>
@@ -24,13 +25,13 @@ Dataset read_dataset(Source source);
 /// Throws BadInput unless a load hangs on the muscle and each run has a row each tick, as `verb` needs it.
 void require_ticks(const Dataset& dataset, std::string_view verb);
 
-/// Whether a load hangs on the muscle of each run, and contraction was read.
-bool has_one_load(const Dataset& dataset);
-/// Why runs have nothing that a model could be judged by; empty if they have.
-std::string why_not_judged(const Dataset& dataset);
-/// Throws BadInput unless `verb` has what it needs of each run: a load that hangs on one muscle and whose
-/// contraction was read, of all runs a given length and the muscle's force, or two muscles and their joint's
-/// angle.
+/// Another rig in place of the data set's, `called` so in messages. Throws BadInput where its valve takes
+/// other commands.
+void take_rig(Dataset& dataset, const std::string& called, Rig rig);
+
+/// Why its runs cannot serve; empty if they can.
+std::string why_unfit(domain::Purpose purpose, const Dataset& dataset);
+/// Throws BadInput unless they can serve a diagnosis, by `verb`.
 void require_judged(const Dataset& dataset, std::string_view verb);
 
 }  // namespace mckibben::input

@@ -4,17 +4,15 @@
 
 #include <algorithm>
 #include <concepts>
-#include <cstddef>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <type_traits>
-#include <utility>
 #include <variant>
 #include <vector>
 
 #include <controllers/target.hpp>
 #include <plant/command.hpp>
+#include <sim/domain/renamed.hpp>
 #include <sim/input/field_kinds.hpp>
 #include <sim/input/fields_json.hpp>
 #include <sim/input/sensors_file.hpp>
@@ -31,7 +29,6 @@ struct FieldInfo {
     choice,
     text,
     height,
-    command,
     draws,
     laws,
     named,  ///< a map of names; what each is stands in a group, or it is a text
@@ -112,6 +109,8 @@ class FieldLister {
     info.key = key;
     info.type = type;
     info.meaning = meaning;
+    for (const domain::Renamed& one : domain::renamed)
+      if (one.now == key) info.in_place_of.emplace_back(one.before);
     return info;
   }
   template <class T>
@@ -129,8 +128,6 @@ class FieldLister {
       info.highest = T::highest;
     } else if constexpr (is_optional<T>) {
       describe<typename T::value_type>(info);
-    } else if constexpr (std::same_as<T, plant::RatedCommand>) {
-      info.type = FieldInfo::Type::command;
     } else if constexpr (std::same_as<T, domain::Variation>) {
       info.type = FieldInfo::Type::draws;
       for (const std::string_view text : spellings<domain::Sampling>()) info.choices.emplace_back(text);
@@ -188,5 +185,14 @@ std::vector<FieldInfo> list_fields(const T& defaults) {
   T::fields(defaults, lister);
   return list;
 }
+
+/// For the documentation: a section titled `title` with the table of `fields`, then the sections of the
+/// structs inside, each titled by its path of keys. A table that has been there before is referred to, and so
+/// is that of a rig.
+std::string field_table(const std::string& title, const std::vector<FieldInfo>& fields);
+
+/// JSON Schema (draft 2020-12), for editors that complete and check while one types: of a file whose first
+/// line is `schema: NAME` and whose other keys are `fields`.
+Json json_schema(std::string_view schema, std::string_view title, const std::vector<FieldInfo>& fields);
 
 }  // namespace mckibben::input

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <sim/input/field_table.hpp>
+#include <sim/input/field_list.hpp>
 
 namespace mckibben::input {
 namespace {
@@ -29,8 +29,6 @@ std::string range_text(const FieldInfo& info) {
       return "true, false";
     case FieldInfo::Type::height:
       return "ratio or length";
-    case FieldInfo::Type::command:
-      return "in mA, V or bar";
     case FieldInfo::Type::draws:
       return "normal M ± D or uniform L .. H";
     case FieldInfo::Type::text:

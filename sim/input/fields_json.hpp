@@ -10,7 +10,6 @@
 #include <tuple>
 #include <utility>
 #include <variant>
-#include <vector>
 
 #include <nlohmann/json.hpp>
 
@@ -26,13 +25,15 @@
 
 namespace mckibben::input {
 
-/// How well values are known that stand inside the key `inside`.
-struct SpreadsOf {
+/// What is around a value: what the rig's valves are commanded in, which lists call mA; and how well values
+/// are known that stand inside the key `inside`.
+struct WriteContext {
+  plant::CommandUnit commands = plant::CommandUnit::mA;
   const plant::Spreads* list = nullptr;
   std::string inside{};
 
-  SpreadsOf below(std::string_view key) const {
-    return list == nullptr ? SpreadsOf{} : SpreadsOf{list, inside + std::string(key) + '.'};
+  WriteContext below(std::string_view key) const {
+    return {commands, list, list == nullptr ? "" : inside + std::string(key) + '.'};
   }
   std::optional<double> of(std::string_view key) const {
     if (list == nullptr) return std::nullopt;
@@ -43,7 +44,7 @@ struct SpreadsOf {
 
 /// Any value that a field list can hold.
 template <class T>
-Json to_json(const T& value, const SpreadsOf& spreads = {});
+Json to_json(const T& value, const WriteContext& context = {});
 
 /// What a rig file says of muscle 1 holds for both: effects that muscle 2 has not are said to be absent.
 template <class R>
@@ -69,19 +70,20 @@ Json hypothesis_json(const plant::OwnLawOf<double>& law);
 /// The visitor of a field list.
 class JsonWriter {
  public:
-  explicit JsonWriter(Json& object, const SpreadsOf& spreads = {}) : object_(object), spreads_(spreads) {}
+  explicit JsonWriter(Json& object, const WriteContext& context = {}) : object_(object), context_(context) {}
 
   void required(std::string_view key, const auto& value, const auto&... rest) {
     (*this)(key, value, rest...);
   }
 
   template <class T>
-  void operator()(std::string_view key, const T& value, std::string_view unit, double, double,
+  void operator()(std::string_view key, const T& value, std::string_view listed, double, double,
                   std::string_view) {
+    const std::string unit = in_unit(context_.commands, listed);
     if constexpr (std::same_as<T, double>) {
-      put(key, quantity_json(value, unit, spreads_.of(key)));
+      put(key, quantity_json(value, unit, context_.of(key)));
     } else if constexpr (std::same_as<T, std::optional<double>>) {
-      if (value) put(key, quantity_json(*value, unit, spreads_.of(key)));
+      if (value) put(key, quantity_json(*value, unit, context_.of(key)));
     } else {
       Json list = Json::array();
       for (const double each : value) list.push_back(quantity_json(each, unit));
@@ -95,21 +97,19 @@ class JsonWriter {
   template <class T>
   void operator()(std::string_view key, const T& value, std::string_view) {
     if (is_absent(value)) return;
-    if constexpr (std::same_as<T, plant::RatedCommand>)
-      put(key, quantity_json(value.value, plant::name_of(value.unit), spreads_.of(key)));
-    else
-      put(key, to_json(value, spreads_.below(key)));
+    put(key, to_json(value, context_.below(key)));
+    if constexpr (requires { value.command_unit(); }) context_.commands = value.command_unit();
   }
 
  private:
   void put(std::string_view key, Json value) { object_[std::string(key)] = std::move(value); }
 
   Json& object_;
-  SpreadsOf spreads_;
+  WriteContext context_;
 };
 
 template <class T>
-Json to_json(const T& value, const SpreadsOf& spreads) {
+Json to_json(const T& value, const WriteContext& context) {
   if constexpr (std::same_as<T, bool> || std::same_as<T, std::string>) {
     return value;
   } else if constexpr (std::same_as<T, controllers::Height>) {
@@ -117,9 +117,7 @@ Json to_json(const T& value, const SpreadsOf& spreads) {
   } else if constexpr (Measured<T>) {
     return quantity_json(value.value, T::unit);
   } else if constexpr (is_optional<T>) {
-    return to_json(*value, spreads);
-  } else if constexpr (std::same_as<T, plant::RatedCommand>) {
-    return quantity_json(value.value, plant::name_of(value.unit));
+    return to_json(*value, context);
   } else if constexpr (std::same_as<T, domain::Variation>) {
     Json object{{"sampling", std::string(plant::name_of(value.sampling))}};
     for (const auto& each : value.numbers)
@@ -138,37 +136,45 @@ Json to_json(const T& value, const SpreadsOf& spreads) {
     return std::string(plant::name_of(value));
   } else if constexpr (is_vector<T>) {
     Json list = Json::array();
-    for (const auto& each : value) list.push_back(to_json(each, spreads.below(std::to_string(list.size()))));
+    for (const auto& each : value) list.push_back(to_json(each, context.below(std::to_string(list.size()))));
     return list;
   } else if constexpr (std::same_as<T, plant::Sensors>) {
     Json list = Json::array();
     for (const plant::Sensor& sensor : value) {
       const std::string signal(name_of(sensor.signal));
       list.push_back({{"signal", signal}, {"kind", std::string(name_of(sensor.kind))}});
-      list.back().update(to_json(sensor, spreads.below(signal)));
+      list.back().update(to_json(sensor, context.below(signal)));
     }
     return list;
   } else if constexpr (is_variant<T>) {
     return std::visit(
         [&](const auto& alternative) {
           Json object{{"kind", std::string(alternative.kind)}};
-          object.update(to_json(alternative, spreads));
+          object.update(to_json(alternative, context));
           return object;
         },
         value);
   } else {
     Json object = Json::object();
     const auto own = [&] {
-      if constexpr (requires { value.spreads; })
-        return SpreadsOf{&value.spreads, {}};
-      else
-        return spreads;
+      WriteContext inside = context;
+      if constexpr (requires { value.command_unit(); }) inside.commands = value.command_unit();
+      if constexpr (requires { value.spreads; }) inside = {inside.commands, &value.spreads, {}};
+      return inside;
     };
     JsonWriter writer(object, own());
     T::fields(value, writer);
     if constexpr (requires { value.pair()->opposite.effects; }) say_absent_effects(value, object);
     return object;
   }
+}
+
+/// The contents of a file of that schema that holds every field.
+template <class T>
+Json file_json(std::string_view schema, const T& value, const WriteContext& context = {}) {
+  Json file{{"schema", schema}};
+  file.update(to_json(value, context));
+  return file;
 }
 
 }  // namespace mckibben::input

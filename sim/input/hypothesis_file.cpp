@@ -7,30 +7,23 @@
 #include <sim/input/fields_json.hpp>
 #include <sim/input/hypothesis_file.hpp>
 #include <sim/input/hypothesis_keys.hpp>
-#include <sim/input/law_reader.hpp>
 #include <sim/input/yaml_reader.hpp>
-#include <sim/input/yaml_writer.hpp>
 
 namespace mckibben::input {
 namespace {
 
 OwnLaw read_law_file(const YamlFile& file, Problems& problems) {
-  problems.opened(file.source);
-  problems.adopt(file.found);
-  if (!check_schema(file, hypothesis_schema, problems)) return {};
+  if (!begin_file(file, hypothesis_schema, problems)) return {};
   return read_law(file.source, file.root, problems);
 }
 
 /// A law named in another file.
 OwnLaw read_other_file(const Source& source, const Node& node, Problems& problems) {
-  try {
-    return read_law_file(load_yaml((source.folder() / node.text).lexically_normal()), problems);
-  } catch (const MissingInput& missing) {
-    problems.missing_file(source, node.place, missing.what());
-  } catch (const BadInput& bad) {
-    problems.adopt(bad.problems());
-  }
-  return {};
+  OwnLaw law;
+  read_other(source, node, problems, [&] {
+    law = read_law_file(load_yaml((source.folder() / node.text).lexically_normal()), problems);
+  });
+  return law;
 }
 
 }  // namespace
@@ -80,12 +73,6 @@ Json hypothesis_json(const OwnLaw& law) {
     if (!law.absent()) json["parameters"][p.name]["value"] = law.values[i];
   }
   return json;
-}
-
-std::string hypothesis_yaml(const OwnLaw& law) {
-  Json file{{"schema", hypothesis_schema}};
-  file.update(hypothesis_json(law));
-  return to_yaml(file);
 }
 
 std::vector<FieldInfo> hypothesis_fields() {

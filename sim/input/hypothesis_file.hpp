@@ -8,7 +8,6 @@
 
 #include <plant/effects/own_laws.hpp>
 #include <sim/input/field_list.hpp>
-#include <sim/input/json.hpp>
 #include <sim/input/yaml_file.hpp>
 
 namespace mckibben::input {
@@ -24,9 +23,6 @@ OwnLaw read_hypothesis(const std::string& path, std::vector<InputFile>& inputs);
 
 /// Reads a list of laws: paths relative to the folder of `source`, or what would stand in such files.
 void read_named(const Source& source, const Node& node, OwnLaws& into, Problems& problems);
-
-/// A hypothesis as YAML, with its schema.
-std::string hypothesis_yaml(const OwnLaw& law);
 
 /// The keys of such a file.
 std::vector<FieldInfo> hypothesis_fields();

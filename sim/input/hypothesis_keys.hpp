@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <plant/law.hpp>
+#include <sim/input/hypothesis_file.hpp>
 
 namespace mckibben::input {
 
@@ -52,5 +53,8 @@ struct WrittenLaw {
     visit.required("law", self.law, "what is added: an expression (docs/hypotheses.md)");
   }
 };
+
+/// Without text, with problems, if something is wrong.
+OwnLaw read_law(const Source& source, const Node& map, Problems& problems);
 
 }  // namespace mckibben::input

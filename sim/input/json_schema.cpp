@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include <sim/input/json_schema.hpp>
+#include <sim/input/field_list.hpp>
 
 namespace mckibben::input {
 namespace {
@@ -43,8 +43,6 @@ Json value_schema(const FieldInfo& info) {
       return {{"type", {"string", "number"}}};  // the reader takes 3 for a text as well
     case FieldInfo::Type::height:
       return {{"anyOf", {Json{{"type", "number"}}, with_unit("[^0-9 .,].*")}}};
-    case FieldInfo::Type::command:
-      return with_unit("[^0-9 .,].*");
     case FieldInfo::Type::draws:
       return {{"type", "object"},
               {"properties", {{"sampling", {{"enum", info.choices}}}}},
@@ -77,11 +75,13 @@ Json group_schema(const FieldInfo::Group& group) {
     if (info.is_list) schema = {{"type", "array"}, {"items", schema}};
     schema["description"] = description(info);
     if (!info.default_value.is_null()) schema["default"] = info.default_value;
+    for (const std::string& old : info.in_place_of) {
+      Json before = info.type == FieldInfo::Type::variant ? Json{{"type", "object"}} : schema;
+      before.update({{"deprecated", true},
+                     {"description", fmt::format("write it in {} (mckibben check --upgrade)", info.key)}});
+      properties[old] = std::move(before);
+    }
     properties[info.key] = std::move(schema);
-    for (const std::string& old : info.in_place_of)
-      properties[old] = {{"type", "object"},
-                         {"deprecated", true},
-                         {"description", fmt::format("write it in {} (mckibben check --upgrade)", info.key)}};
     if (info.required) required.push_back(info.key);
   }
   Json schema{{"type", "object"}, {"properties", properties}, {"additionalProperties", false}};

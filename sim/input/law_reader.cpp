@@ -12,10 +12,10 @@
 
 #include <plant/effects.hpp>
 #include <sim/input/hypothesis_keys.hpp>
-#include <sim/input/law_reader.hpp>
 #include <sim/input/quantity.hpp>
-#include <sim/input/scalar_place.hpp>
 #include <sim/input/suggest.hpp>
+#include <sim/input/utf8.hpp>
+#include <sim/input/yaml_file.hpp>
 #include <sim/input/yaml_reader.hpp>
 #include <sim/law/compile.hpp>
 #include <sim/law/names.hpp>

@@ -13,8 +13,8 @@
 
 #include <sim/input/cells.hpp>
 #include <sim/input/limits.hpp>
-#include <sim/input/lvm.hpp>
 #include <sim/input/number.hpp>
+#include <sim/input/readers.hpp>
 #include <sim/input/suggest.hpp>
 
 namespace mckibben::input {

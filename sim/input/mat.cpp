@@ -8,7 +8,7 @@
 
 #include <sim/formats/mat_file.hpp>
 #include <sim/input/limits.hpp>
-#include <sim/input/mat.hpp>
+#include <sim/input/readers.hpp>
 #include <sim/input/suggest.hpp>
 
 namespace mckibben::input {

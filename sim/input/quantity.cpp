@@ -9,7 +9,6 @@
 #include <memory>
 #include <mutex>
 #include <numbers>
-#include <optional>
 #include <system_error>
 
 #include <fmt/format.h>

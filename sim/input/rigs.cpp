@@ -4,12 +4,12 @@
 #include <array>
 #include <filesystem>
 #include <utility>
-#include <vector>
 
 #include <fmt/format.h>
 
 #include <sim/input/fields_json.hpp>
 #include <sim/input/muscles.hpp>
+#include <sim/input/quantity.hpp>
 #include <sim/input/rigs.hpp>
 #include <sim/input/sensors_file.hpp>
 #include <sim/input/suggest.hpp>
@@ -40,7 +40,7 @@ void read_changes(const Source& source, const Node& map, Rig& into, Problems& pr
 
 void read_rig_map(const YamlFile& file, Rig& into, Problems& problems, Chain& chain) {
   constexpr std::string_view also_allowed[] = {"schema", "base"};
-  if (check_schema(file, rig_schema, problems))
+  if (begin_file(file, rig_schema, problems))
     read_changes(file.source, file.root, into, problems, chain, also_allowed);
 }
 
@@ -73,16 +73,7 @@ void read_file(const Source& source, const Node& node, const fs::path& path, Rig
     return;
   }
   chain.push_back(real);
-  try {
-    const YamlFile file = load_yaml(path);
-    problems.opened(file.source);
-    problems.adopt(file.found);
-    read_rig_map(file, into, problems, chain);
-  } catch (const MissingInput& missing) {
-    problems.missing_file(source, node.place, missing.what());
-  } catch (const BadInput& bad) {
-    problems.adopt(bad.problems());
-  }
+  read_other(source, node, problems, [&] { read_rig_map(load_yaml(path), into, problems, chain); });
   chain.pop_back();
 }
 
@@ -111,8 +102,41 @@ plant::Mechanics with_both_sides(const Source& source, const Node& map, const Ri
   else
     both.opposite = plant::side_of(base);
   Problems of_muscle_1;  // is told of them when its own are read
-  read_struct(source, map, both.opposite, of_muscle_1);
+  read_struct(source, map, both.opposite, of_muscle_1, {}, {base.command_unit()});
   return both;
+}
+
+/// A number with one of the units of commands.
+std::optional<std::pair<plant::CommandUnit, double>> command_in(const Node* node) {
+  for (const plant::CommandUnit unit :
+       {plant::CommandUnit::mA, plant::CommandUnit::V, plant::CommandUnit::bar})
+    try {
+      if (node != nullptr) return {{unit, read_quantity(split_spread(node->text).value, name_of(unit))}};
+    } catch (const BadQuantity&) {
+    }
+  return std::nullopt;
+}
+
+/// What a valve is commanded in stands behind its zero_command and span_command: both, where the base's is
+/// another. All else that a rig measures in that unit is read with it.
+void read_command_unit(const Source& source, const Node& map, Rig& into, Problems& problems) {
+  const Node* valve = map.find("valve");
+  if (valve == nullptr) return;
+  const Node *zero = valve->find("zero_command"), *span = valve->find("span_command");
+  const auto from = command_in(zero), to = command_in(span);
+  if (!from && !to) return;
+  const plant::CommandUnit unit = (to ? to : from)->first, old = into.valve.command_unit;
+  const bool differ = from && to && from->first != to->first;
+  if (unit == old && !differ) return;
+  if (zero == nullptr || span == nullptr || differ)
+    problems.error(source, (to ? span : zero)->place,
+                   "zero_command and span_command are both in V, both in bar, or both in mA");
+  into.valve.command_unit = unit;
+  if (!from || !to || to->second <= from->second) return;  // is told of where they are read
+  plant::command_in(into, to->first, from->second, to->second);
+  into.dac = plant::dac_for(into.valve);
+  if (auto* pair = std::get_if<plant::Pair>(&into.mechanics))
+    plant::command_in(pair->opposite, to->first, from->second, to->second);
 }
 
 void read_changes(const Source& source, const Node& map, Rig& into, Problems& problems, Chain& chain,
@@ -125,12 +149,14 @@ void read_changes(const Source& source, const Node& map, Rig& into, Problems& pr
       problems.error(source, base->place,
                      fmt::format("base must be the name or the path of a rig, not {}", base->kind_name()));
   }
+  read_command_unit(source, map, into, problems);
   into.mechanics = with_both_sides(source, map, into);
   std::vector<std::string_view> allowed(also_allowed.begin(), also_allowed.end());
   for (const OldSensorKey& old : old_sensor_keys)
     if (map.find(old.key) != nullptr) allowed.push_back(old.key);
-  read_old_sensors(source, map, into.sensors, problems, {&into.spreads, "sensors."});
-  read_struct(source, map, into, problems, allowed, {&into.spreads});
+  const plant::CommandUnit commands = into.command_unit();
+  read_old_sensors(source, map, into.sensors, problems, {commands, &into.spreads, "sensors."});
+  read_struct(source, map, into, problems, allowed, {commands, &into.spreads});
 }
 
 }  // namespace
@@ -166,8 +192,6 @@ Rig read_rig(Source source, std::vector<InputFile>& inputs) {
   const YamlFile file = parse_yaml(std::move(source));
   std::error_code ignored;
   Chain chain{fs::weakly_canonical(file.source.name(), ignored)};
-  problems.opened(file.source);
-  problems.adopt(file.found);
   read_rig_map(file, rig, problems, chain);
   problems.raise();
   inputs.insert(inputs.end(), problems.inputs().begin(), problems.inputs().end());
@@ -175,9 +199,7 @@ Rig read_rig(Source source, std::vector<InputFile>& inputs) {
 }
 
 Json rig_json(const Rig& rig) {
-  Json file{{"schema", rig_schema}};
-  file.update(to_json(rig));
-  return file;
+  return file_json(rig_schema, rig);
 }
 
 }  // namespace mckibben::input

@@ -1,5 +1,4 @@
 // Formats of runs; see the header.
-#include <algorithm>
 #include <charconv>
 #include <optional>
 #include <string>
@@ -8,18 +7,13 @@
 
 #include <fmt/format.h>
 
-#include <sim/input/ascii.hpp>
 #include <sim/input/column_hints.hpp>
 #include <sim/input/column_units.hpp>
-#include <sim/input/csv.hpp>
 #include <sim/input/dates.hpp>
-#include <sim/input/format.hpp>
 #include <sim/input/limits.hpp>
-#include <sim/input/lvm.hpp>
-#include <sim/input/mat.hpp>
+#include <sim/input/readers.hpp>
 #include <sim/input/run_file.hpp>
 #include <sim/input/stamped_run.hpp>
-#include <sim/input/suggest.hpp>
 
 namespace mckibben::input {
 namespace {
@@ -29,16 +23,15 @@ class Wanted {
  public:
   Wanted(const YamlFile& file, const Node& run, Format format, const ColumnMap& map, const Dataset& dataset,
          Problems& problems)
-      : file_(file), run_(run), format_(format), problems_(problems) {
+      : file_(file), run_(run), format_(format), commands_(dataset.rig.command_unit()), problems_(problems) {
     add_time(map);
     if (dataset.own_clock) {
       for (const Wish& wish : stamped_quantities(map, dataset.rig))
         if (wish.quantity->key != "time") add(*wish.quantity, map, wish.drives, !wish.drives);
       return;
     }
-    for (const domain::Quantity& quantity : domain::quantities)
-      if (quantity.key == "current" || quantity.key == "contraction" || quantity.key == "muscle_pressure")
-        add(quantity, map, quantity.key != "muscle_pressure", false);
+    for (const char* key : {"current", "contraction", "muscle_pressure"})
+      add(domain::quantity_of(key, commands_), map, key != std::string_view("muscle_pressure"), false);
   }
   const std::vector<WantedColumn>& columns() const { return columns_; }
 
@@ -49,17 +42,17 @@ class Wanted {
       if (format_ == Format::csv || format_ == Format::mat) columns_.push_back({"time_s", "time_s", false});
       return;
     }
-    if (!map.time.absent() || format_ == Format::csv || format_ == Format::mat)
-      add(domain::quantities.front(), map, true, false);
+    if (!map["time"].absent() || format_ == Format::csv || format_ == Format::mat)
+      add(domain::quantity_of("time"), map, true, false);
     else if (format_ == Format::lvm)
       columns_.push_back({"time_s", "", true});
     else
-      missing(domain::quantities.front(), " (or rows_are_ticks: true, if it holds no time)");
+      missing(domain::quantity_of("time"), " (or rows_are_ticks: true, if it holds no time)");
   }
 
   void add(const domain::Quantity& quantity, const ColumnMap& map, bool needed, bool may_miss) {
-    const ColumnPlace& place = map.*quantity.place;
-    const std::string name(quantity.column);
+    const ColumnPlace& place = map[quantity];
+    const std::string& name = quantity.column;
     if (!place.absent()) {
       const bool is_date = quantity.key == "time" && place.unit == date_unit;
       columns_.push_back({name, place.column, true, may_miss, is_date});
@@ -77,7 +70,7 @@ class Wanted {
         file_.source, run_.find("file")->place,
         fmt::format("{} has no headings: columns must say where {} stands, for example {}: {{column: 1, "
                     "unit: {}}}{}",
-                    run_.find("file")->text, quantity.key, quantity.key, quantity.unit, otherwise));
+                    run_.find("file")->text, quantity.key, quantity.key, quantity.unit(), otherwise));
   }
 
   /// Where the map names the column of a quantity.
@@ -106,6 +99,7 @@ class Wanted {
   const YamlFile& file_;
   const Node& run_;
   Format format_;
+  plant::CommandUnit commands_;
   Problems& problems_;
   std::vector<WantedColumn> columns_;
 };
@@ -133,20 +127,21 @@ void read_table_of(Source source, Format format, const Wanted& wanted, const Col
   if (from_windows && source.first_bad_byte()) source.reread_as_latin1();
   TableProblems found(source, problems);
   Table table = read_as(format, source, wanted.columns(), static_cast<std::size_t>(run.segment), found);
-  Table::Column *current = table.find("current_mA"), *contraction = table.find("contraction_ratio");
+  const std::string command = plant::Channel{&plant::command_of(dataset.rig.command_unit())}.name();
+  Table::Column *current = table.find(command), *contraction = table.find("contraction_ratio");
   if (!dataset.own_clock && (current == nullptr || contraction == nullptr)) return;
   if (const Table::Column* time = table.find("time_s"); time != nullptr && map.rows_are_ticks)
     found.add(table, *time, 0, "rows_are_ticks is said, and yet the file holds time_s");
-  check_said_units(table, map, found);
+  check_said_units(table, map, dataset.rig, found);
   if (dataset.own_clock && (found.count() > 0 || table.columns.empty())) return;
   convert_columns(table, map, dataset.rig);
-  if (contraction != nullptr) run.ratio_per_unit = ratio_per_unit(map.contraction, dataset.rig);
+  if (contraction != nullptr) run.ratio_per_unit = ratio_per_unit(map["contraction"], dataset.rig);
   if (dataset.own_clock) {
     run.measured = measurement_of(table, map, dataset.rig, dataset.recorded, found);
     run.rest_length_m = dataset.rig.muscle.rest_length_m;
     return;
   }
-  check_clock(table, map, dataset.rig.tick_s, found);
+  check_clock(table, map, dataset.rig, found);
   check_numbers(table, map, dataset.rig, found);
   run.current_mA = std::move(current->values);
   run.contraction_ratio = std::move(contraction->values);
@@ -170,7 +165,6 @@ void read_run_file(const YamlFile& file, const Node& node, const Dataset& datase
     problems.error(file.source, node.find("segment")->place, "segment: only .lvm files have segments");
   const ColumnMap map = merged(dataset.columns, run.columns);
   const std::size_t errors = problems.errors();
-  if (dataset.own_clock) check_roles(file, node, map, dataset.rig, problems);
   const Wanted wanted(file, node, *format, map, dataset, problems);
   if (problems.errors() > errors) return;
   try {

@@ -14,9 +14,7 @@
 #include <sim/input/current_checks.hpp>
 #include <sim/input/fields_json.hpp>
 #include <sim/input/file_names.hpp>
-#include <sim/input/number.hpp>
 #include <sim/input/quantity.hpp>
-#include <sim/input/rigs.hpp>
 #include <sim/input/scenario_file.hpp>
 #include <sim/input/suggest.hpp>
 #include <sim/input/yaml_reader.hpp>
@@ -168,15 +166,15 @@ class ScenarioChecker {
       check_name_of(name, node, "controller", names);
       if (auto* recorded = std::get_if<controllers::RecordedCurrent>(&scenario_.controllers[i]))
         load_recording(*recorded, source_, *node.find("file"), scenario_.rig, problems_);
-      if (auto* guest = controllers::guest_terms(scenario_.controllers[i]))
+      if (auto* guest = controllers::part_of<controllers::GuestTerms>(scenario_.controllers[i]))
         guest->folder = source_.folder().string();
       if (const auto* plugin = std::get_if<controllers::PluginSettings>(&scenario_.controllers[i]))
         look_for_library(plugin->library, *node.find("library"));
       follow_valve(scenario_.controllers[i], source_, node, scenario_.rig, problems_);
-      if (const auto* terms = controllers::model_terms(scenario_.controllers[i]);
+      if (const auto* terms = controllers::part_of<controllers::PlansWithModel>(scenario_.controllers[i]);
           terms && !terms->rig.empty())
         load_believed_rig(name, *node.find("rig"));
-      if (auto* calibrated = controllers::calibrated(scenario_.controllers[i]))
+      if (auto* calibrated = controllers::part_of<controllers::CalibrationTerms>(scenario_.controllers[i]))
         load_calibration(*calibrated, controllers::weighing_of(scenario_.controllers[i]), node);
     }
   }
@@ -184,11 +182,9 @@ class ScenarioChecker {
   /// Reading a scenario runs nothing of it; what is in the library is seen when it is used.
   void look_for_library(const std::string& library, const Node& node) {
     constexpr std::size_t largest_library_bytes = 256U << 20U;
-    try {
+    read_other(source_, node, problems_, [&] {
       problems_.opened(Source::load((source_.folder() / library).lexically_normal(), largest_library_bytes));
-    } catch (const MissingInput& missing) {
-      problems_.missing_file(source_, node.place, missing.what());
-    }
+    });
   }
 
   void load_believed_rig(const std::string& controller, const Node& node) {
@@ -196,6 +192,10 @@ class ScenarioChecker {
     read_named(source_, node, rig, problems_);
     if (pair() != nullptr && problems_.errors() == 0 && rig.pair() == nullptr)
       problems_.error(source_, node.place, "rig: it has one muscle, a controller of a pair needs two");
+    if (problems_.errors() == 0 && rig.command_unit() != scenario_.rig.command_unit())
+      problems_.error(source_, node.place,
+                      fmt::format("rig: its valve is commanded in {}, the scenario's in {}",
+                                  name_of(rig.command_unit()), name_of(scenario_.rig.command_unit())));
     if (const std::string why = no_load(rig); pair() == nullptr && !why.empty())
       problems_.error(source_, node.place, "rig: " + why);
   }
@@ -205,13 +205,8 @@ class ScenarioChecker {
     const auto path = (source_.folder() / file).lexically_normal();
     const auto [entry, is_new] = calibrations_.try_emplace(path.string());
     if (!is_new) return entry->second;
-    try {
-      entry->second = read_calibration(path, scenario_.inputs);
-    } catch (const MissingInput& missing) {
-      problems_.missing_file(source_, node.place, missing.what());
-    } catch (const BadInput& bad) {
-      problems_.adopt(bad.problems());
-    }
+    read_other(source_, node, problems_,
+               [&, &read = entry->second] { read = read_calibration(path, scenario_.inputs); });
     return entry->second;
   }
 
@@ -219,6 +214,9 @@ class ScenarioChecker {
                         const controllers::WeighingSettings* contractions, const Node& node) {
     const auto& model = calibration(settings.calibration, *node.find("calibration"));
     if (!model) return;
+    if (const std::string why = wrong_commands(*model, scenario_.rig); !why.empty())
+      return problems_.error(source_, node.find("calibration")->place,
+                             fmt::format("calibration = {}: {}", settings.calibration, why));
     settings.model = *model;
     const controllers::CalibratedRange& range = settings.model.range;
     const auto check = [&](const Node* given, std::string_view key, double value, double lowest,
@@ -235,7 +233,8 @@ class ScenarioChecker {
     } else if (contractions != nullptr) {
       const Node* weighing = node.find("weighing");
       check(weighing != nullptr ? weighing->find("speed") : nullptr, "weighing.speed",
-            *contractions->speed_mA_per_s, range.lowest_speed_mA_per_s, range.highest_speed_mA_per_s, "mA/s");
+            *contractions->speed_mA_per_s, range.lowest_speed_mA_per_s, range.highest_speed_mA_per_s,
+            in_unit(scenario_.rig.command_unit(), "mA/s"));
     }
   }
 
@@ -317,14 +316,12 @@ bool begin_pair(const YamlFile& file, Scenario& scenario, Problems& problems) {
 Scenario read_scenario(Source source, std::vector<Problem>& warnings) {
   const YamlFile file = parse_yaml(std::move(source));
   Problems problems;
-  problems.opened(file.source);
-  problems.adopt(file.found);
   Scenario scenario;
   scenario.name = made_file_safe(fs::path(file.source.name()).stem().string());
   constexpr std::string_view also_allowed[] = {"schema"};
   const Node* schema = file.root.find("schema");
   const bool of_pair = schema != nullptr && schema->text == pair_schema;
-  if (check_schema(file, of_pair ? pair_schema : scenario_schema, problems) &&
+  if (begin_file(file, of_pair ? pair_schema : scenario_schema, problems) &&
       (!of_pair || begin_pair(file, scenario, problems)))
     read_struct(file.source, file.root, scenario, problems, also_allowed);
   if (problems.errors() == 0) ScenarioChecker(file, scenario, problems).check();
@@ -340,9 +337,7 @@ Scenario read_scenario(const std::filesystem::path& path, std::vector<Problem>& 
 }
 
 Json scenario_json(const Scenario& scenario) {
-  Json file{{"schema", scenario_schema}};
-  file.update(to_json(scenario));
-  return file;
+  return file_json(scenario_schema, scenario);
 }
 
 }  // namespace mckibben::input

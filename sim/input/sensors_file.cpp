@@ -33,7 +33,7 @@ class Element : public StructReader {
  public:
   using StructReader::StructReader;
 
-  void read(Sensors& into, std::vector<Sensed>& named, const SpreadsInto& spreads) {
+  void read(Sensors& into, std::vector<Sensed>& named, const ReadContext& context) {
     if (!is_map()) return;
     Sensor sensor;
     required("signal", sensor.signal, "");
@@ -56,11 +56,11 @@ class Element : public StructReader {
                                              kinds_that_read(sensor.signal)));
     if (const Sensor* before = into.of(sensor.signal); before != nullptr && before->kind == sensor.kind)
       sensor = *before;
-    numbers(sensor, spreads);
+    numbers(sensor, context);
     into.put(sensor);
   }
 
-  void read(const OldSensorKey& old, Sensors& into, const SpreadsInto& spreads) {
+  void read(const OldSensorKey& old, Sensors& into, const ReadContext& context) {
     if (!is_map()) return;
     const Sensor* before = into.of(old.signal);
     Sensor sensor = before != nullptr ? *before : Sensor{.signal = old.signal, .kind = old.kind};
@@ -75,7 +75,7 @@ class Element : public StructReader {
         return broken_rule("kind", "does not read the position; what does: " + kinds_that_read(old.signal));
     }
     sensor.kind = old.key == "encoder" ? SensorKind::encoder : kind;
-    numbers(sensor, spreads);
+    numbers(sensor, context);
     sensor.kind = kind;  // of an encoder that another sensor stands in for, the disk is kept
     if (fitted)
       into.put(sensor);
@@ -84,8 +84,8 @@ class Element : public StructReader {
   }
 
  private:
-  void numbers(Sensor& sensor, const SpreadsInto& spreads) {
-    spreads_ = spreads.below(name_of(sensor.signal));
+  void numbers(Sensor& sensor, const ReadContext& context) {
+    context_ = context.below(name_of(sensor.signal));
     Sensor::fields(sensor, *this);
     check_unknown({});
     const auto report = [this](std::string_view key, std::string_view message) { broken_rule(key, message); };
@@ -116,13 +116,13 @@ std::string element(const OldSensorKey& old, const Node& node) {
 }  // namespace
 
 void read_sensors(const Source& source, const Node& node, Sensors& into, Problems& problems,
-                  const SpreadsInto& spreads) {
+                  const ReadContext& context) {
   std::vector<Sensed> named;
-  for (const Node& one : node.children) Element(source, one, problems).read(into, named, spreads);
+  for (const Node& one : node.children) Element(source, one, problems).read(into, named, context);
 }
 
 void read_old_sensors(const Source& source, const Node& map, Sensors& into, Problems& problems,
-                      const SpreadsInto& spreads) {
+                      const ReadContext& context) {
   for (const OldSensorKey& old : old_sensor_keys) {
     const Node* node = map.find(old.key);
     if (node == nullptr) continue;
@@ -131,7 +131,7 @@ void read_old_sensors(const Source& source, const Node& map, Sensors& into, Prob
                      fmt::format("{}: the list sensors has one of {}, too; write only that", old.key,
                                  name_of(old.signal)));
     else
-      Element(source, *node, problems).read(old, into, spreads);
+      Element(source, *node, problems).read(old, into, context);
   }
 }
 

@@ -28,7 +28,7 @@ inline constexpr std::string_view no_sensor = "none";
 
 /// Reads the old keys of a rig's map on top of what is there.
 void read_old_sensors(const Source& source, const Node& map, plant::Sensors& into, Problems& problems,
-                      const SpreadsInto& spreads);
+                      const ReadContext& context);
 
 /// The list to write in place of a map's old keys; empty if it has none.
 std::string in_place_of_old_sensors(const Node& map);

@@ -19,63 +19,28 @@ using domain::ColumnMap, domain::ColumnPlace, domain::Measurement, domain::Quant
 
 constexpr long least_to_begin = 10;  // readings, for place, speed and acceleration of the first instant
 
-bool is_input(const ColumnPlace& place) {
-  return !place.absent() && place.as == Role::input;
-}
-
-/// What runs on a rig with so many muscles can be made of.
-bool belongs(const Quantity& quantity, bool pair) {
-  constexpr std::array of_one{"current", "command", "contraction", "force", "muscle_pressure"};
-  constexpr std::array of_two{"command_1", "command_2", "angle", "muscle_pressure_1", "muscle_pressure_2"};
-  const auto is = [&](const char* key) { return quantity.key == key; };
-  return quantity.key == "time" || (pair ? std::any_of(of_two.begin(), of_two.end(), is)
-                                         : std::any_of(of_one.begin(), of_one.end(), is));
-}
-
-/// The side of a muscle, from 0: what commands it, and its pressure.
-const ColumnPlace& command_of(const ColumnMap& map, bool pair, std::size_t side) {
-  if (pair) return side == 0 ? map.command_1 : map.command_2;
-  return map.command.absent() ? map.current : map.command;
-}
-const ColumnPlace& pressure_of(const ColumnMap& map, bool pair, std::size_t side) {
-  if (pair) return side == 0 ? map.muscle_pressure_1 : map.muscle_pressure_2;
-  return map.muscle_pressure;
-}
-
-const plant::Valve& valve_of(const plant::Rig& rig, std::size_t side) {
-  return side == 0 ? rig.valve : rig.pair()->opposite.valve;
-}
-
 /// What is wrong with the unit of a command to this valve, or nothing.
 std::string unit_of_command_problem(const ColumnPlace& command, const plant::Valve& valve) {
-  if (is_current(command.unit)) return "";
-  if (!valve.has_own_command())
-    return fmt::format(
-        "unit = {}: the rig's valve is commanded with a current; if it is not, its "
-        "zero_command and span_command must be said",
-        command.unit);
-  const std::string_view wanted = plant::name_of(valve.zero_command.unit);
-  return unit_problem(command.unit, wanted).empty()
-             ? ""
-             : fmt::format("unit = {}: the rig's valve is commanded in {}", command.unit, wanted);
+  const std::string_view wanted = name_of(valve.command_unit);
+  if (unit_problem(command.unit, wanted).empty()) return "";
+  return fmt::format("unit = {}: the rig's valve is commanded {}", command.unit,
+                     valve.command_unit == plant::CommandUnit::mA
+                         ? "with a current; if it is not, set zero_command and span_command"
+                         : fmt::format("in {}", wanted));
 }
 
 /// Whether the column must be there: what drives the rig must.
-bool drives(const Quantity& quantity, const ColumnMap& map, bool pair) {
-  const auto commands = [&](std::size_t side) { return !is_input(pressure_of(map, pair, side)); };
-  if (quantity.key == "time") return true;
-  if (quantity.key == "current" || quantity.key == "command" || quantity.key == "command_1")
-    return commands(0);
-  if (quantity.key == "command_2") return commands(1);
-  return is_input(map.*quantity.place);
+bool drives(const Quantity& quantity, const ColumnMap& map) {
+  if (quantity.key == "time" || map.gives(quantity)) return true;
+  return quantity.is_command() && map.given_pressure(quantity.channel.muscle) == plant::GivenPressure::none;
 }
 
 }  // namespace
 
 bool has_own_clock(const ColumnMap& map, const plant::Rig& rig) {
   if (!rig.lifts_a_load() || !map.settled.absent()) return true;
-  return std::any_of(domain::quantities.begin(), domain::quantities.end(), [&](const Quantity& quantity) {
-    const ColumnPlace& place = map.*quantity.place;
+  return std::ranges::any_of(domain::quantities(), [&](const Quantity& quantity) {
+    const ColumnPlace& place = map[quantity];
     constexpr std::array ticked{"time", "current", "contraction", "muscle_pressure"};
     return !place.absent() && (place.as != Role::reading ||
                                std::find(ticked.begin(), ticked.end(), quantity.key) == ticked.end());
@@ -85,57 +50,27 @@ bool has_own_clock(const ColumnMap& map, const plant::Rig& rig) {
 std::vector<Wish> stamped_quantities(const ColumnMap& map, const plant::Rig& rig) {
   const bool pair = rig.pair() != nullptr;
   std::vector<Wish> wishes;
-  for (const Quantity& quantity : domain::quantities) {
-    const ColumnPlace& place = map.*quantity.place;
-    if (!belongs(quantity, pair) || (!place.absent() && place.as == Role::ignored)) continue;
-    const bool is_command = quantity.unit == "mA", needed = drives(quantity, map, pair);
+  for (const Quantity& quantity : domain::quantities(rig.command_unit())) {
+    const ColumnPlace& place = map[quantity];
+    if (!quantity.belongs(pair) || (!place.absent() && place.as == Role::ignored)) continue;
+    if (place.absent() && quantity.channel.signal->must_be_named) continue;
+    const bool needed = drives(quantity, map), of_one = quantity.is_command() && !pair;
     const bool under_the_other_name =
-        quantity.key == "command" ? place.absent() : quantity.key == "current" && !map.command.absent();
-    if (!under_the_other_name && (needed || !is_command)) wishes.push_back({&quantity, needed});
+        of_one && (quantity.is_old_current ? !map[domain::command_key].absent() : place.absent());
+    if (!under_the_other_name && (needed || !quantity.is_command())) wishes.push_back({&quantity, needed});
   }
   return wishes;
 }
 
-void check_roles(const YamlFile& file, const Node& run, const ColumnMap& map, const plant::Rig& rig,
-                 Problems& problems) {
-  const bool pair = rig.pair() != nullptr;
-  const auto complain = [&](std::string_view key, const std::string& message) {
-    const Node *own = run.find("columns"), *shared = file.root.find("columns");
-    const Node* said = own != nullptr ? own->find(key) : nullptr;
-    if (said == nullptr && shared != nullptr) said = shared->find(key);
-    problems.error(file.source, said != nullptr ? said->place : run.place,
-                   fmt::format("{}: {}", key, message));
-  };
-  for (const Quantity& quantity : domain::quantities) {
-    const ColumnPlace& place = map.*quantity.place;
-    if (place.absent()) continue;
-    if (!belongs(quantity, pair))
-      complain(quantity.key, pair
-                                 ? "the rig has two muscles: command_1, command_2, angle, muscle_pressure_1, "
-                                   "muscle_pressure_2"
-                                 : "the rig has one muscle: command, contraction, force, muscle_pressure");
-    else if (place.as == Role::input && !quantity.may_be_given)
-      complain(quantity.key, "it can only be a reading");
+std::vector<domain::Contradiction> wrong_command_units(const ColumnMap& map, const plant::Rig& rig) {
+  std::vector<domain::Contradiction> found;
+  for (const Quantity& quantity : domain::quantities()) {
+    if (!quantity.is_command() || !quantity.belongs(rig.pair() != nullptr) || !map.gives(quantity)) continue;
+    const std::string why = unit_of_command_problem(
+        map[quantity], quantity.channel.muscle == 2 ? rig.pair()->opposite.valve : rig.valve);
+    if (!why.empty()) found.push_back({quantity.key, why});
   }
-  if (!pair && !map.current.absent() && !map.command.absent())
-    complain("command", "current is a command in mA; give one of the two");
-  for (std::size_t side = 0; side < (pair ? 2 : 1); ++side) {
-    const ColumnPlace& command = command_of(map, pair, side);
-    const char* single = map.command.absent() ? "current" : "command";
-    const char* key = !pair ? single : side == 0 ? "command_1" : "command_2";
-    if (is_input(pressure_of(map, pair, side)) && !command.absent() && command.as != Role::ignored)
-      complain(
-          key,
-          "the muscle's pressure is the input, so that there is no valve to be commanded; say as: ignored");
-    else if (!is_input(pressure_of(map, pair, side)) && !command.absent() && command.as == Role::ignored)
-      complain(key, "nothing else drives the muscle");
-    else if (!command.absent() && command.as != Role::ignored)
-      if (const std::string why = unit_of_command_problem(command, valve_of(rig, side)); !why.empty())
-        complain(key, why);
-  }
-  if (rig.holds_a_length() && !is_input(map.contraction))
-    complain("contraction",
-             "the rig's muscle is held (mechanics: {kind: held_length}): say which length, as: input");
+  return found;
 }
 
 namespace {
@@ -144,19 +79,18 @@ namespace {
 class Assembling {
  public:
   Assembling(const Table& table, const ColumnMap& map, const plant::Rig& rig, TableProblems& problems)
-      : table_(table), map_(map), rig_(rig), problems_(problems), pair_(rig.pair() != nullptr) {}
+      : table_(table), map_(map), rig_(rig), problems_(problems) {}
 
   Measurement operator()(const domain::Recorded& recorded) {
     measured_.recorded = recorded;
     time();
     check_numbers(table_, map_, rig_, problems_);
-    for (std::size_t side = 0; side < (pair_ ? 2 : 1); ++side) drive(side);
-    measured_.length_is_given = is_input(map_.contraction);
-    measured_.contraction_ratio = take("contraction_ratio");
-    measured_.angle_rad = take("angle_rad");
-    measured_.force_N = take("force_N");
-    measured_.angle_in_degrees = map_.angle.unit == "deg";
-    measured_.counted = (pair_ ? map_.angle : map_.contraction).unit == "count";
+    for (const Wish& wish : stamped_quantities(map_, rig_)) take(*wish.quantity);
+    // What is judged first, pressures last.
+    std::ranges::stable_partition(measured_.columns,
+                                  [](const auto& column) { return !column.is_pressure(); });
+    measured_.angle_in_degrees = map_["angle"].unit == "deg";
+    measured_.counted = map_[rig_.pair() != nullptr ? "angle" : "contraction"].unit == "count";
     beginning();
     return std::move(measured_);
   }
@@ -188,32 +122,26 @@ class Assembling {
     if (measured_.recorded.skip_s > 0.0 && measured_.recorded.skip_s >= lasting_s)
       problems_.add({}, fmt::format("skip = {} s leaves nothing of this run, which lasts {:.3f} s",
                                     domain::write_number(measured_.recorded.skip_s), lasting_s));
-    const auto& read = measured_.contraction_ratio;
+    const auto& read = measured_.values("contraction");
     const auto known = std::count_if(read.begin(), read.end(), [](double e) { return !std::isnan(e); });
     if (measured_.recorded.start == domain::Start::moving && known < least_to_begin)
       problems_.add({}, fmt::format("start = moving needs at least {} readings of contraction; there are {}",
                                     least_to_begin, known));
   }
 
-  void drive(std::size_t side) {
-    Measurement::Side& into = measured_.sides[side];
-    const std::string number = pair_ ? (side == 0 ? "_1" : "_2") : "";
-    into.pressure_is_given = is_input(pressure_of(map_, pair_, side));
-    into.muscle_pressure_Pa = take("muscle_pressure" + number + "_bar");
-    for (double& value : into.muscle_pressure_Pa) value *= plant::Pa_per_bar;
-    into.current_mA = take("current" + number + "_mA");
-  }
-
-  std::vector<double> take(std::string_view name) const {
-    const Table::Column* column = table_.find(name);
-    return column != nullptr ? column->values : std::vector<double>{};
+  void take(const Quantity& quantity) {
+    const Table::Column* column = quantity.key == "time" ? nullptr : table_.find(quantity.column);
+    if (column == nullptr) return;
+    const bool given = quantity.is_command() || map_.gives(quantity);
+    measured_.columns.push_back({quantity.channel, given, column->values});
+    if (const double size = quantity.channel.signal->unit.size; size != 1.0)
+      for (double& value : measured_.columns.back().values) value *= size;
   }
 
   const Table& table_;
   const ColumnMap& map_;
   const plant::Rig& rig_;
   TableProblems& problems_;
-  bool pair_;
   Measurement measured_;
 };
 

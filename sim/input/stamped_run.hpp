@@ -3,10 +3,9 @@
 
 #include <vector>
 
-#include <sim/domain/dataset.hpp>
+#include <sim/domain/combination.hpp>
 #include <sim/input/diagnostics.hpp>
 #include <sim/input/table.hpp>
-#include <sim/input/yaml_file.hpp>
 
 namespace mckibben::input {
 
@@ -20,9 +19,8 @@ struct Wish {
 };
 std::vector<Wish> stamped_quantities(const domain::ColumnMap& map, const plant::Rig& rig);
 
-/// What contradicts the rig, or itself, in the map of a run; shown where it is said.
-void check_roles(const YamlFile& file, const Node& run, const domain::ColumnMap& map, const plant::Rig& rig,
-                 Problems& problems);
+/// Columns of commands in a unit that their valve does not take.
+std::vector<domain::Contradiction> wrong_command_units(const domain::ColumnMap& map, const plant::Rig& rig);
 
 /// Checks a converted table and makes of it what drove the rig and what was read.
 domain::Measurement measurement_of(Table& table, const domain::ColumnMap& map, const plant::Rig& rig,

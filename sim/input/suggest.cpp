@@ -1,7 +1,6 @@
 // Nearest known word; see the header.
 #include <algorithm>
 #include <numeric>
-#include <string>
 #include <vector>
 
 #include <fmt/format.h>

@@ -1,6 +1,8 @@
 // Places and checks of tables; see the header.
 #include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <filesystem>
 #include <utility>
 
 #include <fmt/format.h>
@@ -8,6 +10,7 @@
 #include <sim/input/cells.hpp>
 #include <sim/input/limits.hpp>
 #include <sim/input/number.hpp>
+#include <sim/input/readers.hpp>
 #include <sim/input/table.hpp>
 
 namespace mckibben::input {
@@ -114,6 +117,33 @@ void check_range(const Table& table, const Table::Column& column, double lowest,
                    fmt::format("{} = {} is out of range: {:.6g} to {:.6g} ({})", column.name,
                                write_number(value), lowest, highest, meaning));
   }
+}
+
+std::size_t first_long_line(const Source& source, std::string& problem) {
+  for (std::size_t number = 1; number <= source.lines(); ++number) {
+    const std::size_t bytes = source.line(number).size();
+    if (bytes <= longest_line_bytes) continue;
+    problem = fmt::format("this line has {} bytes; at most {} are read", bytes, longest_line_bytes);
+    return number;
+  }
+  return 0;
+}
+
+bool check_columns(std::size_t count, Place place, TableProblems& problems) {
+  if (count > most_columns)
+    problems.add(place, fmt::format("there are {} columns; at most {} are read", count, most_columns));
+  return count <= most_columns;
+}
+
+std::optional<Format> format_of(const std::string& file) {
+  std::string ending = std::filesystem::path(file).extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  if (ending == ".csv" || ending == ".tsv") return Format::csv;
+  if (ending == ".lvm") return Format::lvm;
+  if (ending == ".mat") return Format::mat;
+  if (ending == ".txt" || ending == ".dat" || ending == ".asc") return Format::ascii;
+  return std::nullopt;
 }
 
 }  // namespace mckibben::input

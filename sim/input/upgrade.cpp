@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include <sim/domain/renamed.hpp>
 #include <sim/input/sensors_file.hpp>
 #include <sim/input/suggest.hpp>
 #include <sim/input/upgrade.hpp>
@@ -60,6 +61,8 @@ void look_through(const Node& node, std::string_view file, const Source& source,
       }
   const Node* kind = node.find("kind");
   for (const Node& child : node.children) {
+    if (const std::string_view now = domain::name_today(child.key); now != child.key)
+      found.warning(source, child.key_place, fmt::format("{}: write {}", child.key, now));
     for (const Gone& one : gone)
       if (one.file == file && one.key == child.key && kind != nullptr && kind->text == one.of_kind)
         found.warning(source, child.key_place, fmt::format("{}: {}", one.key, one.note));

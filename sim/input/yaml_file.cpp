@@ -1,6 +1,7 @@
 // YAML text to tree; see the header. yaml-cpp's marks count from 0 and its messages assume its source at
 // hand; both are translated.
 #include <algorithm>
+#include <cctype>
 #include <optional>
 #include <sstream>
 #include <tuple>
@@ -11,6 +12,7 @@
 #include <yaml-cpp/eventhandler.h>
 #include <yaml-cpp/yaml.h>
 
+#include <sim/domain/renamed.hpp>
 #include <sim/input/limits.hpp>
 #include <sim/input/utf8.hpp>
 #include <sim/input/yaml_file.hpp>
@@ -200,9 +202,11 @@ void check_bytes(const Source& source, Problems& problems) {
 
 const Node* Node::find(std::string_view wanted) const {
   if (kind != Kind::map) return nullptr;
-  const auto found =
-      std::find_if(children.begin(), children.end(), [&](const Node& child) { return child.key == wanted; });
-  return found == children.end() ? nullptr : &*found;
+  const auto found = std::ranges::find(children, wanted, &Node::key);
+  if (found != children.end()) return &*found;
+  const auto old = std::ranges::find_if(
+      children, [&](const Node& child) { return domain::name_today(child.key) == wanted; });
+  return old == children.end() ? nullptr : &*old;
 }
 
 std::string_view Node::kind_name() const {
@@ -256,6 +260,35 @@ YamlFile parse_yaml(Source source) {
 
 YamlFile load_yaml(const std::filesystem::path& path) {
   return parse_yaml(Source::load(path, largest_yaml_bytes));
+}
+
+Place place_in(const Source& source, const Node& scalar, std::size_t offset) {
+  // What is read holds the same characters as what is written, but for blanks, line ends and quotes.
+  const auto is_blank = [](char c) { return std::isspace(static_cast<unsigned char>(c)) != 0; };
+  const std::size_t end = std::min(offset, scalar.text.size());
+  auto left = std::count_if(scalar.text.begin(), scalar.text.begin() + static_cast<std::ptrdiff_t>(end),
+                            [&](char c) { return !is_blank(c); });
+  std::size_t line = scalar.place.line, byte = 0;
+  for (std::size_t column = 1; byte < source.line(line).size() && column < scalar.place.column; ++byte)
+    if (byte + 1 >= source.line(line).size() || !is_utf8_continuation(source.line(line)[byte + 1])) ++column;
+  if (scalar.quoted && byte < source.line(line).size()) {
+    const char first = source.line(line)[byte];
+    if (first == '|' || first == '>') {
+      ++line;
+      byte = 0;
+    } else if (first == '"' || first == '\'') {
+      ++byte;
+    }
+  }
+  for (; line <= source.lines(); ++line, byte = 0) {
+    const std::string_view text = source.line(line);
+    for (; byte < text.size(); ++byte) {
+      if (is_blank(text[byte])) continue;
+      if (left-- == 0) return source.place(line, byte);
+    }
+    if (left == 0 && offset >= scalar.text.size()) return source.place(line, text.size());
+  }
+  return scalar.place;
 }
 
 }  // namespace mckibben::input

@@ -26,7 +26,7 @@ struct Node {
   Place key_place;
   std::vector<Node> children;  ///< of a list or a map, in the order of the file
 
-  /// The value under `wanted`, or null.
+  /// The value under `wanted`, or under the key's earlier name; or null.
   const Node* find(std::string_view wanted) const;
   /// The kind in words: "a list".
   std::string_view kind_name() const;
@@ -42,5 +42,8 @@ struct YamlFile {
 /// syntax, and what this program does not accept of YAML.
 YamlFile load_yaml(const std::filesystem::path& path);
 YamlFile parse_yaml(Source source);
+
+/// Where byte `offset` of a scalar's text stands in its file, whatever lines the scalar is written in.
+Place place_in(const Source& source, const Node& scalar, std::size_t offset);
 
 }  // namespace mckibben::input

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <sim/domain/fill_in.hpp>
+#include <sim/domain/renamed.hpp>
 #include <sim/input/number.hpp>
 #include <sim/input/quantity.hpp>
 #include <sim/input/suggest.hpp>
@@ -64,7 +65,10 @@ void ValueReader::check_unknown(std::span<const std::string_view> also_allowed) 
   std::vector<std::string_view> allowed(also_allowed.begin(), also_allowed.end());
   allowed.insert(allowed.end(), known_.begin(), known_.end());
   for (const Node& child : map_.children) {
-    if (std::find(allowed.begin(), allowed.end(), child.key) != allowed.end()) continue;
+    const std::string_view today = domain::name_today(child.key);
+    if (std::ranges::find(allowed, today) != allowed.end() &&
+        (child.key == today || map_.find(today) == &child))  // not beside the key of today
+      continue;
     problems_.error(source_, child.key_place,
                     fmt::format("unknown key {}{} (allowed: {})", shortened(child.key),
                                 did_you_mean(child.key, allowed), join(allowed)));
@@ -95,14 +99,14 @@ bool ValueReader::is_list(std::string_view key, const Node& node) {
 
 void ValueReader::spread(std::string_view key, std::optional<std::string_view> said, double value,
                          std::string_view unit) {
-  if (spreads_.list == nullptr) {
+  if (context_.list == nullptr) {
     if (!said) return;
     throw BadQuantity(
         fmt::format("± {}: only values of a rig may say how well they are known", shortened(*said)));
   }
-  const std::string path = spreads_.inside + std::string(key);
-  spreads_.list->erase(path);  // what a base says is of the base's value
-  if (said) spreads_.list->emplace(path, read_spread(*said, value, unit));
+  const std::string path = context_.inside + std::string(key);
+  context_.list->erase(path);  // what a base says is of the base's value
+  if (said) context_.list->emplace(path, read_spread(*said, value, unit));
 }
 
 void ValueReader::quantity(std::string_view key, const Node& node, double& value, const Limits& limits) {
@@ -168,32 +172,6 @@ void ValueReader::height(std::string_view key, const Node& node, controllers::He
   }
 }
 
-void ValueReader::command(std::string_view key, const Node& node, plant::RatedCommand& value,
-                          std::string_view meaning) {
-  if (!is_scalar(key, node, "one value, for example 10 V")) return;
-  const WithSpread said = split_spread(node.text);
-  for (const auto& [unit, name, lowest, highest] : plant::command_units) {
-    double read = 0.0;
-    try {
-      read = read_quantity(said.value, name);
-    } catch (const BadQuantity&) {
-      continue;
-    }
-    if (!(read >= lowest && read <= highest))
-      return bad(node, fmt::format("{} = {} is out of range: {} to {} ({})", key, shortened(node.text),
-                                   show_limit(lowest, name, said.value),
-                                   show_limit(highest, name, said.value), meaning));
-    value = {read, unit};
-    try {
-      return spread(key, said.spread, read, name);
-    } catch (const BadQuantity& error) {
-      return bad(node, fmt::format("{} = {} ({})", key, error.what(), meaning));
-    }
-  }
-  bad(node, fmt::format("{} = {} must be a number of mA, V or bar, for example 10 V ({})", key,
-                        shortened(node.text), meaning));
-}
-
 std::optional<std::size_t> ValueReader::choice(std::string_view key, const Node& node,
                                                std::span<const std::string_view> choices) {
   if (!is_scalar(key, node, "one of: " + join(choices))) return std::nullopt;
@@ -218,7 +196,9 @@ std::optional<std::size_t> ValueReader::kind(std::string_view key, const Node& n
   return choice("kind", *given, kinds);
 }
 
-bool check_schema(const YamlFile& file, std::string_view schema, Problems& problems) {
+bool begin_file(const YamlFile& file, std::string_view schema, Problems& problems) {
+  problems.opened(file.source);
+  problems.adopt(file.found);
   const Node* given = file.root.find("schema");
   if (given == nullptr) {
     problems.error(file.source, file.root.place,

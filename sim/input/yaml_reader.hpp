@@ -6,7 +6,6 @@
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -28,14 +27,16 @@
 
 namespace mckibben::input {
 
-/// Where values may say how well they are known (`6 mm ± 0.1 mm`): into which list that goes, under the path
-/// `inside` and their key. Without a list it is a problem.
-struct SpreadsInto {
+/// What is around a value: what the rig's valves are commanded in, which lists call mA. And where values may
+/// say how well they are known (`6 mm ± 0.1 mm`): into which list that goes, under the path `inside` and
+/// their key. Without a list it is a problem.
+struct ReadContext {
+  plant::CommandUnit commands = plant::CommandUnit::mA;
   plant::Spreads* list = nullptr;
   std::string inside{};
 
-  SpreadsInto below(std::string_view key) const {
-    return list == nullptr ? SpreadsInto{} : SpreadsInto{list, inside + std::string(key) + '.'};
+  ReadContext below(std::string_view key) const {
+    return {commands, list, list == nullptr ? "" : inside + std::string(key) + '.'};
   }
 };
 
@@ -43,18 +44,30 @@ struct SpreadsInto {
 /// caller reads itself.
 template <Listed T>
 void read_struct(const Source& source, const Node& node, T& into, Problems& problems,
-                 std::span<const std::string_view> also_allowed = {}, const SpreadsInto& spreads = {});
+                 std::span<const std::string_view> also_allowed = {}, const ReadContext& context = {});
 
 /// Reads a list of a user's own laws (hypothesis_file.hpp).
 void read_named(const Source& source, const Node& node, plant::OwnLawsOf<double>& into, Problems& problems);
 
 /// Reads the list of a rig's sensors on top of what is there (sensors_file.hpp).
 void read_sensors(const Source& source, const Node& node, plant::Sensors& into, Problems& problems,
-                  const SpreadsInto& spreads);
+                  const ReadContext& context);
 
-/// Checks the line `schema: NAME/VERSION` of a file.
+/// Notes that a file was opened and what was found in it, and checks its line `schema: NAME/VERSION`.
 /// False if it is another kind of file, not worth reading on.
-bool check_schema(const YamlFile& file, std::string_view schema, Problems& problems);
+bool begin_file(const YamlFile& file, std::string_view schema, Problems& problems);
+
+/// Reads another file, which is named at `node`; what is wrong with it is a problem of this one.
+template <class Read>
+void read_other(const Source& source, const Node& node, Problems& problems, const Read& read) {
+  try {
+    read();
+  } catch (const MissingInput& missing) {
+    problems.missing_file(source, node.place, missing.what());
+  } catch (const BadInput& bad) {
+    problems.adopt(bad.problems());
+  }
+}
 
 /// Reads single values; says what is wrong with them. The same for all structs.
 class ValueReader {
@@ -65,11 +78,11 @@ class ValueReader {
     std::string_view meaning;
   };
 
-  ValueReader(const Source& source, const Node& map, Problems& problems, const SpreadsInto& spreads = {})
+  ValueReader(const Source& source, const Node& map, Problems& problems, const ReadContext& context = {})
       : source_(source),
         map_(map),
         problems_(problems),
-        spreads_(spreads),
+        context_(context),
         errors_before_(problems.errors()) {}
 
   bool is_map();
@@ -90,7 +103,6 @@ class ValueReader {
   void boolean(std::string_view key, const Node& node, bool& value);
   void text(std::string_view key, const Node& node, std::string& value);
   void height(std::string_view key, const Node& node, controllers::Height& value);
-  void command(std::string_view key, const Node& node, plant::RatedCommand& value, std::string_view meaning);
   /// Index of the spelling among `choices`.
   std::optional<std::size_t> choice(std::string_view key, const Node& node,
                                     std::span<const std::string_view> choices);
@@ -102,7 +114,7 @@ class ValueReader {
   const Source& source_;
   const Node& map_;
   Problems& problems_;
-  SpreadsInto spreads_;
+  ReadContext context_;
 
  private:
   /// Notes how well a value is known, or that nothing is said of it. Throws BadQuantity.
@@ -134,7 +146,9 @@ class StructReader : public ValueReader {
                   std::string_view meaning) {
     const Node* node = take(key);
     if (node == nullptr) return;
-    const Limits limits{unit, lowest, highest, meaning};
+    const auto [least, most] = in_unit(context_.commands, unit, plant::Limits{lowest, highest});
+    const std::string named = in_unit(context_.commands, unit);
+    const Limits limits{named, least, most, meaning};
     if constexpr (std::same_as<T, double>) {
       quantity(key, *node, value, limits);
     } else if constexpr (std::same_as<T, std::optional<double>>) {
@@ -164,14 +178,11 @@ class StructReader : public ValueReader {
     }
   }
 
-  void operator()(std::string_view key, plant::RatedCommand& value, std::string_view meaning) {
-    if (const Node* node = take(key)) command(key, *node, value, meaning);
-  }
-
-  /// Everything without unit and range.
+  /// Everything without unit and range. Of a rig all that follows has its unit of commands.
   template <class T>
   void operator()(std::string_view key, T& value, std::string_view) {
     if (const Node* node = take(key)) read(key, *node, value, std::string(key));
+    if constexpr (requires { value.command_unit(); }) context_.commands = value.command_unit();
   }
 
  private:
@@ -200,11 +211,11 @@ class StructReader : public ValueReader {
     } else if constexpr (std::same_as<T, domain::Variation>) {
       // Read once the rig is known whose numbers it names (variation_file.hpp).
     } else if constexpr (std::same_as<T, plant::Sensors>) {
-      if (is_list(key, node)) read_sensors(source_, node, value, problems_, spreads_.below(path));
+      if (is_list(key, node)) read_sensors(source_, node, value, problems_, context_.below(path));
     } else if constexpr (NamedStruct<T>) {
       read_named(source_, node, value, problems_);  // stands beside the reader of T
     } else {
-      read_struct(source_, node, value, problems_, {}, spreads_.below(path));
+      read_struct(source_, node, value, problems_, {}, context_.below(path));
     }
   }
 
@@ -216,15 +227,15 @@ class StructReader : public ValueReader {
       if (index != I) return read_alternative<I + 1>(node, value, index, path);
       if (value.index() != I) value.template emplace<I>();
       constexpr std::string_view also_allowed[] = {"kind"};
-      read_struct(source_, node, std::get<I>(value), problems_, also_allowed, spreads_.below(path));
+      read_struct(source_, node, std::get<I>(value), problems_, also_allowed, context_.below(path));
     }
   }
 };
 
 template <Listed T>
 void read_struct(const Source& source, const Node& node, T& into, Problems& problems,
-                 std::span<const std::string_view> also_allowed, const SpreadsInto& spreads) {
-  StructReader reader(source, node, problems, spreads);
+                 std::span<const std::string_view> also_allowed, const ReadContext& context) {
+  StructReader reader(source, node, problems, context);
   if (!reader.is_map()) return;
   T::fields(into, reader);
   reader.check_unknown(also_allowed);

@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include <sim/input/fields_json.hpp>
-#include <sim/input/utf8.hpp>
 #include <sim/live/commands.hpp>
 
 namespace mckibben::live {
@@ -69,7 +68,7 @@ Sweep sweep_of(Keys& keys) {
 }
 
 Command command_of(const std::string& what, Keys& keys) {
-  if (what == "current") return SetCurrent{keys.number("mA"), keys.which("muscle")};
+  if (what == "command") return SetCommand{keys.number("to"), keys.which("muscle")};
   if (what == "sweep") return sweep_of(keys);
   if (what == "load") return SetLoad{keys.number("kg")};
   if (what == "effect")
@@ -79,14 +78,14 @@ Command command_of(const std::string& what, Keys& keys) {
   if (what == "record") return Record{keys.yes("from_rest")};
   if (what == "stop") return StopRecording{};
   refuse(
-      fmt::format("do = {}: must be current, sweep, load, effect, again, run, record or stop", shown(what)));
+      fmt::format("do = {}: must be command, sweep, load, effect, again, run, record or stop", shown(what)));
 }
 
 }  // namespace
 
 Command read_command(std::string_view text) {
   const Json json = Json::parse(text, nullptr, false);
-  if (!json.is_object()) refuse("a command is a JSON object, such as {\"do\": \"current\", \"mA\": 9.5}");
+  if (!json.is_object()) refuse("a command is a JSON object, such as {\"do\": \"command\", \"to\": 9.5}");
   Keys keys(json);
   const std::string what = keys.text("do");
   Command command = command_of(what, keys);

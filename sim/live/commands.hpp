@@ -1,4 +1,4 @@
-// What the page asks for, as JSON texts: {"do": "current", "mA": 9.5}. A text that is none of these, or that
+// What the page asks for, as JSON texts: {"do": "command", "to": 9.5}. A text that is none of these, or that
 // asks for what cannot be, is refused with what is wrong with it, and changes nothing.
 #pragma once
 
@@ -11,8 +11,8 @@
 
 namespace mckibben::live {
 
-struct SetCurrent {
-  double mA;
+struct SetCommand {
+  double to;
   std::int64_t muscle = 1;  ///< of a pair, 1 or 2
 };
 struct SetLoad {
@@ -33,7 +33,7 @@ struct Record {
 struct StopRecording {};
 
 using Command =
-    std::variant<SetCurrent, Sweep, SetLoad, SetEffect, StartOver, SetRunning, Record, StopRecording>;
+    std::variant<SetCommand, Sweep, SetLoad, SetEffect, StartOver, SetRunning, Record, StopRecording>;
 
 /// Throws std::invalid_argument, whose text says what is wrong.
 Command read_command(std::string_view text);

@@ -9,7 +9,7 @@
 #include <sim/bench/device.hpp>
 #include <sim/input/fields_json.hpp>
 #include <sim/live/host.hpp>
-#include <sim/live/news.hpp>
+#include <sim/live/page.hpp>
 
 namespace mckibben::live {
 namespace {
@@ -149,7 +149,7 @@ std::string Host::obey(const Command& command) {
   };
   return std::visit(
       Overloaded{
-          [&](const SetCurrent& to) { return done(session_.set_current(to.mA, to.muscle)); },
+          [&](const SetCommand& it) { return done(session_.set_command(it.to, it.muscle)); },
           [&](const Sweep& sweep) { return done(session_.set_sweep(sweep)); },
           [&](const SetLoad& to) { return done(session_.set_load(to.kg), "another load was hung on"); },
           [&](const SetEffect& to) {
@@ -185,9 +185,9 @@ std::string Host::obey(const Command& command) {
 }
 
 std::string Host::state_json() const {
-  const auto& wanted_mA = session_.wanted_mA();
+  const auto& wanted = session_.wanted();
   Json state{{"running", running_},
-             {"wanted_mA", session_.pair() ? Json(wanted_mA) : Json{wanted_mA[0]}},
+             {"wanted", session_.pair() ? Json(wanted) : Json{wanted[0]}},
              {"sweep", session_.sweep() ? sweep_json(*session_.sweep()) : Json()},
              {"pace", std::round(100.0 * pace_) / 100.0},
              {"recording", recording_.has_value()},

@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include <sim/input/fields_json.hpp>
-#include <sim/live/news.hpp>
+#include <sim/live/page.hpp>
 #include <sim/output/diagnosis_words.hpp>
 
 namespace mckibben::live {

@@ -1,17 +1,14 @@
 // The skeleton, which script fills; style and script are those of reports with what is live.
-#include <algorithm>
 
 #include <fmt/format.h>
 
 #include <sim/input/fields_json.hpp>
 #include <sim/live/files.hpp>
-#include <sim/live/news.hpp>
 #include <sim/live/page.hpp>
 #include <sim/output/svg.hpp>
 #include <sim/report/files.hpp>
 #include <sim/report/in_script.hpp>
 #include <sim/report/length.hpp>
-#include <sim/report/rig_json.hpp>
 
 namespace mckibben::live {
 namespace {
@@ -33,7 +30,7 @@ std::string data_of(const plant::Rig& rig, const Session& session) {
   Json data{{"rig", report::drawn_rig_json(rig, rig.mechanics,
                                            rig.sensors.of(plant::Sensed::muscle_pressure) != nullptr)},
             {"tick_s", rig.tick_s},
-            {"largest_mA", rig.dac.largest_current_mA},
+            {"dac", {{"lowest", rig.dac.lowest_command}, {"largest", rig.dac.largest_command}}},
             {"signals", signals_json(rig)},
             {"switches", Json::array()}};
   if (!session.pair()) data["load_kg"] = session.load_kg();
@@ -41,8 +38,8 @@ std::string data_of(const plant::Rig& rig, const Session& session) {
   return report::in_script(data);
 }
 
-/// A slider and a number for the current of a muscle, which is named if there are two.
-std::string current_row(int muscle, bool named) {
+/// A slider and a number for the command of a muscle, which is named if there are two.
+std::string command_row(int muscle, bool named) {
   return fmt::format(
       "<div class='line'>{1}<input id='current-{0}' type='range' step='0.01' aria-label='Current{2} in mA'>\n"
       "<input id='current-{0}-number' type='number' step='0.1' aria-label='Current{2} in mA, as a number'> "
@@ -67,42 +64,15 @@ constexpr const char* load = R"html(<fieldset><legend>Load</legend>
 </fieldset>
 )html";
 
-constexpr const char* time_panel = R"html(<fieldset><legend>Time</legend>
-<div class='line'><output id='clock'>0.0 s</output>
-<button id='pause' type='button'>Pause</button>
-<button id='again' type='button'>Begin again</button>
-<span id='pace' class='small' hidden></span></div>
-<div class='line'><button id='record' type='button'>Record</button>
-<label><input id='from-rest' type='checkbox' checked> from rest</label>
-<span id='recording' class='small' hidden></span></div>
-<p id='message' class='small' role='status'></p>
-</fieldset>
-)html";
-
-constexpr const char* effects_panel = R"html(<fieldset id='effects'><legend>Effects</legend>
-<div class='line'><button id='all-off' type='button'>All off</button>
-<span class='small'>What a rig may have besides. Switch them while it moves.</span></div>
-<div id='switches'></div></fieldset>
-)html";
-
-constexpr const char* stage = R"html(<div class='shown'>
-<figure><svg id='rig' role='img' aria-label='The rig as it is now'></svg>
-<figcaption id='rig-caption'></figcaption></figure>
-<div id='loops'></div><div id='plots'></div>
-<div class='line'><button id='keep' type='button'>Keep these loops in grey</button>
-<button id='forget' type='button'>Forget the grey ones</button>
-<label>Plots show the last <select id='span'><option>5</option><option>10</option><option selected>20</option>
-<option>40</option></select> s</label></div></div>
-)html";
-
 std::string panel_of(const Session& session) {
   std::string panel = "<fieldset><legend>Current</legend>\n";
   if (session.pair())
-    panel += current_row(1, true) + current_row(2, true) + sweeps +
+    panel += command_row(1, true) + command_row(2, true) + sweeps +
              "<p class='small'>Sweeps: muscle 2 goes against muscle 1.</p>\n</fieldset>\n";
   else
-    panel += current_row(1, false) + sweeps + "</fieldset>\n" + load;
-  return panel + time_panel;
+    panel += command_row(1, false) + sweeps + "</fieldset>\n";
+  panel = in_unit(session.rig().command_unit(), panel);  // with its ids, as the script has them
+  return panel + (session.pair() ? "" : load) + std::string(time_html);
 }
 
 }  // namespace
@@ -118,15 +88,15 @@ Page page_of(const std::string& name, const plant::Rig& rig, const Session& sess
       "script.</p></noscript>\n"
       "<div id='alarm' class='warning' role='alert' hidden><p id='alarm-text'></p>\n"
       "<button id='alarm-again' type='button'>Begin again</button></div>\n"
-      "<div class='bench'>\n<div class='panel'>\n{2}</div>\n{3}{4}</div>\n"
-      "<p class='small'>mckibben {5}. This page is made on your machine, for this machine alone, and asks "
+      "<div class='bench'>\n<div class='panel'>\n{2}</div>\n{3}</div>\n"
+      "<p class='small'>mckibben {4}. This page is made on your machine, for this machine alone, and asks "
       "for "
       "nothing outside it. Space: pause.</p>\n"
       "<details class='small'><summary>Licence of uPlot, which draws the "
-      "plots</summary><pre>{6}</pre></details>\n"
-      "<script type='application/json' id='data'>{7}</script>\n<script "
+      "plots</summary><pre>{5}</pre></details>\n"
+      "<script type='application/json' id='data'>{6}</script>\n<script "
       "src='page.js'></script>\n</body>\n</html>\n",
-      escaped(name), session.pair() ? "" : report::unit_switch, panel_of(session), stage, effects_panel,
+      escaped(name), session.pair() ? "" : report::unit_switch, panel_of(session), stage_html,
       MCKIBBEN_VERSION, escaped(report::uplot_licence), data_of(rig, session));
   for (const auto& part : {report::uplot_css, report::page_css, live_css}) page.css += part;
   page.js = std::string(report::uplot_js) + "\n'use strict';\n";

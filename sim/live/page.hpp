@@ -3,7 +3,9 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
+#include <sim/input/json.hpp>
 #include <sim/live/session.hpp>
 
 namespace mckibben::live {
@@ -14,5 +16,15 @@ struct Page {
 
 /// `name`: of the rig, for the heading.
 Page page_of(const std::string& name, const plant::Rig& rig, const Session& session);
+
+/// What the page is sent of each instant, and what these signals are: key, unit.
+std::vector<plant::Channel> channels_of(const plant::Rig& rig);
+input::Json signals_json(const plant::Rig& rig);
+
+/// Appends a sample as a list of numbers, one for each channel; what is no number is null.
+void append(std::string& text, const std::vector<plant::Channel>& channels, const Sample& sample);
+
+input::Json effect_json(const Switch& one);
+input::Json sweep_json(const Sweep& sweep);
 
 }  // namespace mckibben::live

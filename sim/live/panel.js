@@ -44,13 +44,13 @@ const inUse = (element) => element === document.activeElement;
 const number = (id) => Number(byId(id).value);
 const effectOf = (name) => live.state.effects.find((one) => one.name === name);
 
-/** The slider and the number of a muscle's current. */
-const currentIds = (muscle) => [`current-${muscle}`, `current-${muscle}-number`];
+/** The slider and the number of a muscle's command. */
+const currentIds = (muscle) => [`${command.name}-${muscle}`, `${command.name}-${muscle}-number`];
 function setCurrent(muscle, from) {
   for (const id of currentIds(muscle))
     if (id !== from) byId(id).value = byId(from).value;
   if (byId(from).value !== '')
-    ask(muscle === 1 ? 'current' : 'current 2', {do: 'current', mA: number(from), muscle});
+    ask(muscle === 1 ? 'current' : 'current 2', {do: 'command', to: number(from), muscle});
 }
 function setLoad(from) {
   const kg = from === 'load' ? Number(number('load').toPrecision(3)) : number(from);
@@ -60,7 +60,7 @@ function setLoad(from) {
 }
 function setSweep(shape) {
   if (shape === '')
-    ask('current', {do: 'current', mA: live.state.wanted_mA[0]});
+    ask('current', {do: 'command', to: live.state.wanted[0]});
   else
     ask('current', {do: 'sweep', shape, low: number('low'), high: number('high'), period: number('period')});
 }
@@ -137,7 +137,7 @@ function showState(state) {
     button.setAttribute('aria-pressed', button.dataset.sweep === (state.sweep?.shape ?? ''));
   for (const id of pair ? [] : ['load', 'load-number'])
     if (!inUse(byId(id))) byId(id).value = state.load_kg;
-  if (!state.sweep && !before) showCurrents(state.wanted_mA);
+  if (!state.sweep && !before) showCurrents(state.wanted);
   byId('pause').textContent = state.running ? 'Pause' : 'Go on';
   byId('pace').hidden = state.pace > 0.9;
   byId('pace').textContent = `This machine makes ${state.pace.toFixed(2)} s of a second.`;
@@ -159,14 +159,14 @@ function showCurrents(values) {
 }
 
 function prepareControls() {
-  const {zero_mA, span_mA} = report.rig;
+  const {zero, span} = command, {lowest, largest} = report.dac;
   const muscles = currentColumns.map((_, i) => i + 1);
   for (const id of [...muscles.flatMap(currentIds), 'low', 'high']) {
-    byId(id).min = 0;
-    byId(id).max = report.largest_mA;
+    byId(id).min = lowest;
+    byId(id).max = largest;
   }
-  byId('low').value = zero_mA;
-  byId('high').value = Math.min(report.largest_mA, span_mA);
+  byId('low').value = zero;
+  byId('high').value = Math.min(largest, span);
   byId('from-rest').disabled = pair;  // what else their data sets cannot say
   makeSwitches();
   for (const muscle of muscles)

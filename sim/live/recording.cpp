@@ -1,6 +1,5 @@
 // dataset.yaml, rig.yaml, a CSV for each run, and the truth; see the header.
 #include <utility>
-#include <variant>
 
 #include <fmt/format.h>
 
@@ -10,7 +9,7 @@
 #include <sim/input/yaml_writer.hpp>
 #include <sim/live/recording.hpp>
 #include <sim/output/campaign_json.hpp>
-#include <sim/output/csv.hpp>
+#include <sim/output/run_files.hpp>
 
 namespace mckibben::live {
 namespace {

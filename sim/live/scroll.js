@@ -2,7 +2,7 @@
 // earlier one. Times are those of the simulation.
 const pair = report.rig.pair !== undefined;
 const columns = report.signals.map(({key}) => key);
-const currentColumns = columns.filter((key) => key.startsWith('current'));
+const currentColumns = columns.filter((key) => key.startsWith(command.name));
 const unitOf = Object.fromEntries(report.signals.map(({key, unit}) => [key, unit]));
 const kept = 60, gap = 1;  // seconds: that are kept; without samples, after which a line begins anew
 
@@ -67,7 +67,10 @@ const pairTimePlots = [
       ['muscle_pressure_2', 'muscle 2'], ['reference_pressure_2', 'asked of valve 2']
     ]
   },
-  {title: 'Currents', lines: [['current_1', 'of valve 1'], ['current_2', 'of valve 2']]},
+  {
+    title: `${command.title}s`,
+    lines: [[`${command.name}_1`, 'of valve 1'], [`${command.name}_2`, 'of valve 2']]
+  },
   {title: 'Forces of the cords', lines: [['tension_1', 'cord 1'], ['tension_2', 'cord 2']]},
 ];
 const singleTimePlots = [
@@ -78,7 +81,7 @@ const singleTimePlots = [
       ['muscle_pressure', 'muscle'], ['reference_pressure', 'asked of the valve'], ['valve_pressure', 'valve']
     ]
   },
-  {title: 'Current', lines: [['current', 'current']]},
+  {title: command.title, lines: [[command.name, command.name]]},
   {
     title: 'Forces on the load, upwards',
     lines:

@@ -18,11 +18,6 @@ namespace {
 
 constexpr double shortest_period_s = 0.1, longest_period_s = 1000.0;
 
-std::string out_of_range(std::string_view key, double value, double low, double high, std::string_view unit) {
-  if (std::isfinite(value) && value >= low && value <= high) return "";
-  return fmt::format("{} = {:g}: must be from {:g} to {:g} {}", key, value, low, high, unit);
-}
-
 ride::Ride ride_of(const plant::Rig& rig, double load_kg) {
   return {ride::Loaded{rig, load_kg}, rig.integrator};
 }
@@ -62,8 +57,8 @@ Session::Session(const plant::Rig& rig, double load_kg)
     : switches_(rig),
       rig_(switches_.rig()),
       load_kg_(load_kg),
-      currents_mA_{rig.valve.zero_current_mA,
-                   rig.pair() != nullptr ? rig.pair()->opposite.valve.zero_current_mA : 0.0},
+      commands_{rig.valve.zero_command,
+                rig.pair() != nullptr ? rig.pair()->opposite.valve.zero_command : 0.0},
       reader_(rig),
       ride_(ride_of(rig_, load_kg)) {
   start_over();
@@ -78,25 +73,31 @@ void Session::guarded(const Work& work) {
   }
 }
 
-std::string Session::set_current(double current_mA, std::int64_t muscle) {
-  std::string why = out_of_range("mA", current_mA, 0.0, rig_.dac.largest_current_mA, "mA");
+std::string Session::out_of_dac(const char* key, double command) const {
+  return out_of_range(key, command, rig_.dac.lowest_command, rig_.dac.largest_command,
+                      name_of(rig_.command_unit()));
+}
+
+std::string Session::set_command(double command, std::int64_t muscle) {
+  std::string why = out_of_dac("to", command);
   if (why.empty() && muscle != 1 && !(pair() && muscle == 2))
     why = fmt::format("muscle = {}: there is none of that number", muscle);
   if (!why.empty()) return why;
   sweep_.reset();
-  currents_mA_[muscle == 1 ? 0 : 1] = current_mA;
+  commands_[muscle == 1 ? 0 : 1] = command;
   return "";
 }
 
 std::string Session::set_sweep(const Sweep& sweep) {
-  std::string why = out_of_range("low", sweep.low_mA, 0.0, rig_.dac.largest_current_mA, "mA");
-  if (why.empty()) why = out_of_range("high", sweep.high_mA, 0.0, rig_.dac.largest_current_mA, "mA");
+  std::string why = out_of_dac("low", sweep.low_mA);
+  if (why.empty()) why = out_of_dac("high", sweep.high_mA);
   if (why.empty()) why = out_of_range("period", sweep.period_s, shortest_period_s, longest_period_s, "s");
   if (why.empty() && !(sweep.high_mA > sweep.low_mA))
-    why = fmt::format("high = {:g}: must be above low, which is {:g} mA", sweep.high_mA, sweep.low_mA);
+    why = fmt::format("high = {:g}: must be above low, which is {:g} {}", sweep.high_mA, sweep.low_mA,
+                      name_of(rig_.command_unit()));
   if (!why.empty()) return why;
   sweep_ = sweep;
-  sweep_begin_s_ = time_s() - sweep.when(currents_mA_[0]);
+  sweep_begin_s_ = time_s() - sweep.when(commands_[0]);
   return "";
 }
 
@@ -151,15 +152,15 @@ void Session::start_over() {
   measure();
 }
 
-Session::Currents Session::wanted_at(double time_s) const {
-  if (!sweep_) return currents_mA_;
+Session::Commands Session::wanted_at(double time_s) const {
+  if (!sweep_) return commands_;
   const double first_mA = sweep_->at(time_s - sweep_begin_s_);
   return {first_mA, pair() ? sweep_->low_mA + sweep_->high_mA - first_mA : 0.0};
 }
 
-void Session::hold(const Currents& wanted_mA) {
-  drive_.current_mA = plant::dac_output_mA(rig_.dac, wanted_mA[0]);
-  if (pair()) drive_.opposite.current_mA = plant::dac_output_mA(rig_.dac, wanted_mA[1]);
+void Session::hold(const Commands& wanted) {
+  drive_.current_mA = plant::dac_output_mA(rig_.dac, wanted[0]);
+  if (pair()) drive_.opposite.current_mA = plant::dac_output_mA(rig_.dac, wanted[1]);
 }
 
 /// Of the instant it is at.
@@ -171,10 +172,10 @@ void Session::measure() {
 const Sample& Session::step() {
   if (!failure_.empty()) return sample_;
   if (tick_ > 0) {  // the first one is under what it has settled under, so that a recording begins at rest
-    currents_mA_ = wanted_at(time_s());
-    const Currents before{drive_.current_mA, drive_.opposite.current_mA};
-    hold(currents_mA_);
-    if (before != Currents{drive_.current_mA, drive_.opposite.current_mA}) untouched_ = false;
+    commands_ = wanted_at(time_s());
+    const Commands before{drive_.current_mA, drive_.opposite.current_mA};
+    hold(commands_);
+    if (before != Commands{drive_.current_mA, drive_.opposite.current_mA}) untouched_ = false;
   }
   guarded([&] {
     sample_.counts = reader_.count(ride_.reading().wheel_m);

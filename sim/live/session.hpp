@@ -17,7 +17,7 @@ namespace mckibben::live {
 
 using plant::Sample;
 
-/// How the current goes by itself, between two ends, for ever.
+/// How the command goes by itself, between two ends, for ever.
 struct Sweep {
   enum class Shape { sine, triangle, stairs };
   Shape shape = Shape::sine;
@@ -25,27 +25,27 @@ struct Sweep {
 
   static constexpr int stairs_up = 8;  ///< and as many down
   double at(double time_s) const;
-  /// When it passes this current on its way up; of stairs, when they begin.
+  /// When it passes this command on its way up; of stairs, when they begin.
   double when(double current_mA) const;
 };
 
 class Session {
  public:
-  using Currents = std::array<double, 2>;  ///< [mA], the second of a pair
+  using Commands = std::array<double, 2>;  ///< in what the valve takes, the second of a pair
 
-  /// At rest at the current of no pressure. The rig must lift a load, and bear this one (input::too_heavy),
+  /// At rest at the command of no pressure. The rig must lift a load, and bear this one (input::too_heavy),
   /// or have two muscles; then the load means nothing.
   Session(const plant::Rig& rig, double load_kg);
 
   // What acts from the next tick on. These say why they refuse, and then nothing has changed; else they are
   // empty.
-  std::string set_current(double current_mA, std::int64_t muscle = 1);  ///< by hand: a sweep ends
-  /// Goes on from the present current, if it is within. Of a pair muscle 2 goes against muscle 1.
+  std::string set_command(double command, std::int64_t muscle = 1);  ///< by hand: a sweep ends
+  /// Goes on from the present command, if it is within. Of a pair muscle 2 goes against muscle 1.
   std::string set_sweep(const Sweep& sweep);
   std::string set_load(double load_kg);
   std::string set_effect(std::string_view name, bool on, double size, double shape);
 
-  /// At rest under the present current, or under a sweep's first one, for the rig's settling time; the time
+  /// At rest under the present command, or under a sweep's first one, for the rig's settling time; the time
   /// is 0.
   void start_over();
 
@@ -59,7 +59,7 @@ class Session {
   bool untouched() const { return untouched_; }
   double tick_s() const { return rig_.tick_s; }
   bool pair() const { return rig_.pair() != nullptr; }
-  const Currents& wanted_mA() const { return currents_mA_; }
+  const Commands& wanted() const { return commands_; }
   double load_kg() const { return load_kg_; }
   const std::optional<Sweep>& sweep() const { return sweep_; }
   const Switches& switches() const { return switches_; }
@@ -70,15 +70,16 @@ class Session {
   void go_on();
   template <class Work>
   void guarded(const Work& work);
-  Currents wanted_at(double time_s) const;
-  void hold(const Currents& wanted_mA);
+  std::string out_of_dac(const char* key, double command) const;
+  Commands wanted_at(double time_s) const;
+  void hold(const Commands& wanted);
   double time_s() const { return static_cast<double>(tick_) * rig_.tick_s; }
   void measure();
 
   Switches switches_;
   plant::Rig rig_;
   double load_kg_;
-  Currents currents_mA_;
+  Commands commands_;
   std::optional<Sweep> sweep_;
   double sweep_begin_s_ = 0.0;
   std::int64_t tick_ = 0;

@@ -1,9 +1,7 @@
 // From the plant's table, and what a diagnosis knows of typical sizes; see the header.
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <tuple>
-#include <type_traits>
 
 #include <fmt/format.h>
 
@@ -80,14 +78,13 @@ Switch switch_of(const diagnose::Candidate& candidate, const plant::Rig& file) {
   return one;
 }
 
-/// Why a number cannot be set on a dial; empty if it can.
-std::string refusal(std::string_view key, const Dial& dial, double value) {
-  if (std::isfinite(value) && value >= dial.lowest && value <= dial.highest) return "";
-  return fmt::format("{} = {:g}: must be from {:g} to {:g}{}", key, value, dial.lowest, dial.highest,
-                     dial.unit == "1" ? "" : " " + dial.unit);
-}
-
 }  // namespace
+
+std::string out_of_range(std::string_view key, double value, double low, double high, std::string_view unit) {
+  if (std::isfinite(value) && value >= low && value <= high) return "";
+  return fmt::format("{} = {:g}: must be from {:g} to {:g}{}{}", key, value, low, high,
+                     unit == "1" ? "" : " ", unit == "1" ? "" : unit);
+}
 
 Switches::Switches(const plant::Rig& rig) : bare_(rig), file_(rig) {
   for (const diagnose::Candidate& candidate : diagnose::catalogue()) {
@@ -108,6 +105,9 @@ const Switch* Switches::find(std::string_view name) const {
 std::string Switches::set(std::string_view name, bool on, double size, double shape) {
   const auto found = std::ranges::find(all_, name, &Switch::name);
   if (found == all_.end()) return fmt::format("name = {}: there is no such effect", name);
+  const auto refusal = [](std::string_view key, const Dial& dial, double value) {
+    return out_of_range(key, value, dial.lowest, dial.highest, dial.unit);
+  };
   std::string why = refusal("size", found->size, size);
   if (why.empty() && found->has_shape()) why = refusal("shape", found->shape, shape);
   if (!why.empty()) return why;

@@ -18,6 +18,9 @@ struct Dial {
   double value = 0.0;
 };
 
+/// Why a number cannot be set; empty if it can.
+std::string out_of_range(std::string_view key, double value, double low, double high, std::string_view unit);
+
 /// One law of one effect.
 struct Switch {
   std::string name;  ///< "muscle_leak", with the law's name "gauge_error gain", or "muscle_leak of muscle 2"

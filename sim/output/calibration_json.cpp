@@ -31,18 +31,19 @@ Json dropped_json(const thesis::Dropped& dropped) {
           {"before_the_current_moves", dropped.first_rows}};
 }
 
-Json friction_json(const thesis::FrictionFit& fit) {
+/// `named`: a key, in the unit of the rig's commands.
+Json friction_json(const thesis::FrictionFit& fit, const auto& named) {
   Json document{{"mean", fit.mean},
                 {"standard_deviation", fit.standard_deviation},
                 {"spread", fit.spread()},
                 {"f0", estimate_json(fit.f0)},
-                {"f1_s2_per_mA2", estimate_json(fit.f1)},
+                {named("f1_s2_per_mA2"), estimate_json(fit.f1)},
                 {"f2", estimate_json(fit.f2)},
                 {"f3", estimate_json(fit.f3)}};
   Json& speeds = document["speeds"] = Json::array();
   for (const auto& at : fit.speeds) {
     const auto n = static_cast<Eigen::Index>(speeds.size());
-    Json entry{{"current_speed_mA_per_s", at.speed_mA_per_s},
+    Json entry{{named("current_speed_mA_per_s"), at.speed_mA_per_s},
                {"samples", at.samples.size()},
                {"mean", at.mean},
                {"intercept", estimate_json(fit.common.estimate(n))},
@@ -70,7 +71,7 @@ Json stages_json(const thesis::Stages& stages) {
           {"in_load", stages.in_load}, {"joint", stages.joint}};
 }
 
-Json pressure_json(const thesis::PressureFit& fit, const std::vector<double>& loads_kg) {
+Json pressure_json(const thesis::PressureFit& fit, const std::vector<double>& loads_kg, const auto& named) {
   Json document{{"mean_Pa", fit.mean_Pa}, {"standard_deviation_Pa", stages_json(fit.deviation)}};
   Json& curves = document["coefficients"] = Json::object();
   for (std::size_t c = 0; c < fit.shape.curves.size(); ++c) {
@@ -95,7 +96,7 @@ Json pressure_json(const thesis::PressureFit& fit, const std::vector<double>& lo
     own.push_back(estimate_json(cell.own.parameter_estimate()));
     own.push_back(estimate_json(cell.own.estimate(3)));
     cells.push_back({{"load_kg", cell.load_kg},
-                     {"current_speed_mA_per_s", cell.speed_mA_per_s},
+                     {named("current_speed_mA_per_s"), cell.speed_mA_per_s},
                      {"mean_Pa", cell.mean_Pa},
                      {"own_fit", std::move(own)},
                      {"standard_deviation_Pa", stages_json(cell.deviation)}});
@@ -108,6 +109,7 @@ Json pressure_json(const thesis::PressureFit& fit, const std::vector<double>& lo
 std::string json_of(const domain::Dataset& dataset, const thesis::CalibrationResult& result,
                     const thesis::Options& options) {
   const auto& grid = result.grid;
+  const auto named = [&](const char* key) { return in_unit(result.command_unit(), key); };
   Json document = heading_json("mckibben-calibration-report/1", dataset.inputs);
   document["report"] = "report.html";
   document["options"] = {
@@ -122,7 +124,7 @@ std::string json_of(const domain::Dataset& dataset, const thesis::CalibrationRes
       {"lowest_counts", options.processing.lowest_counts}, {"window_ticks", options.processing.window_ticks},
       {"window_counts", options.processing.window_counts}, {"most_dots_in_a_figure", thesis::most_dots}};
   document["loads_kg"] = grid.loads_kg;
-  document["current_speeds_mA_per_s"] = grid.speeds_mA_per_s;
+  document[named("current_speeds_mA_per_s")] = grid.speeds_mA_per_s;
   document["spreads_mean"] = meanings_of(result, options);
   document["warnings"] = warnings_of(result, options);
   document["rows_dropped"] = dropped_json(grid.dropped);
@@ -131,8 +133,8 @@ std::string json_of(const domain::Dataset& dataset, const thesis::CalibrationRes
     document["runs_left_out"].push_back({{"id", run.id}, {"why", run.why}});
   for (const Direction direction : thesis::directions) {
     const std::string name(name_of(direction));
-    document["friction"][name] = friction_json(result.friction_of(direction));
-    document["pressure"][name] = pressure_json(result.pressure_of(direction), grid.loads_kg);
+    document["friction"][name] = friction_json(result.friction_of(direction), named);
+    document["pressure"][name] = pressure_json(result.pressure_of(direction), grid.loads_kg, named);
   }
   return text_of(document);
 }

@@ -5,7 +5,6 @@
 
 #include <sim/output/calibration_report.hpp>
 #include <sim/output/grid.hpp>
-#include <sim/thesis/figures.hpp>
 #include <sim/thesis/quality.hpp>
 
 namespace mckibben::output {
@@ -29,10 +28,10 @@ std::string heading(const domain::Dataset& dataset, const thesis::CalibrationRes
                     const thesis::Options& options) {
   const auto& grid = result.grid;
   std::string text = fmt::format(
-      "{}: {} of {} runs used; {} loads from {:g} to {:g} kg, {} current speeds from {:.3g} to {:.3g} mA/s\n",
-      dataset.path.string(), dataset.runs.size() - grid.left_out.size(), dataset.runs.size(),
-      grid.loads_kg.size(), grid.loads_kg.front(), grid.loads_kg.back(), grid.speeds_mA_per_s.size(),
-      grid.speeds_mA_per_s.front(), grid.speeds_mA_per_s.back());
+      "{} of {} runs used; {} loads from {:g} to {:g} kg, {} current speeds from {:.3g} to {:.3g} mA/s\n",
+      dataset.runs.size() - grid.left_out.size(), dataset.runs.size(), grid.loads_kg.size(),
+      grid.loads_kg.front(), grid.loads_kg.back(), grid.speeds_mA_per_s.size(), grid.speeds_mA_per_s.front(),
+      grid.speeds_mA_per_s.back());
   text += fmt::format(
       "pressure from the {}, acceleration {}, contact surface {}\n",
       options.processing.pressure == thesis::PressureSource::current ? "current by the valve's line (T 3.3)"
@@ -41,7 +40,7 @@ std::string heading(const domain::Dataset& dataset, const thesis::CalibrationRes
                                                                        : "neglected (T 4.3)",
       dataset.rig.muscle.contact_surface == plant::ContactSurface::squared ? "with the cosine squared"
                                                                            : "as printed (T 4.3)");
-  return text;
+  return dataset.path.string() + ": " + in_unit(result.command_unit(), text);
 }
 
 std::string rows_text(const thesis::Grid& grid) {
@@ -154,7 +153,8 @@ std::string report_of(const domain::Dataset& dataset, const thesis::CalibrationR
                       const thesis::Options& options, bool kgf) {
   std::string text = heading(dataset, result, options) + spreads(result) + "\nwhat the spreads mean\n";
   for (const auto& line : meanings_of(result, options)) text += "  " + line + "\n";
-  text += friction(result) + pressure(result, options, kgf) + rows_text(result.grid);
+  text += in_unit(result.command_unit(), friction(result)) + pressure(result, options, kgf) +
+          in_unit(result.command_unit(), rows_text(result.grid));
   if (!result.grid.left_out.empty()) text += "\nruns left out\n";
   for (const auto& run : result.grid.left_out) text += fmt::format("  {}: {}\n", run.id, run.why);
   const auto warnings = warnings_of(result, options);

@@ -7,6 +7,7 @@
 
 #include <sim/domain/dataset.hpp>
 #include <sim/thesis/calibrate.hpp>
+#include <sim/thesis/figures.hpp>
 
 namespace mckibben::output {
 
@@ -29,5 +30,10 @@ std::vector<std::string> warnings_of(const thesis::CalibrationResult& result, co
 /// throughout.
 std::string json_of(const domain::Dataset& dataset, const thesis::CalibrationResult& result,
                     const thesis::Options& options);
+
+/// A figure of the calibration as a picture: axes with round numbers, dots for data, lines for models.
+std::string chart_svg(const thesis::Figure& figure);
+/// The same as a table: header on line 1, shortest digits that read back exactly.
+std::string csv_of(const thesis::Figure& figure);
 
 }  // namespace mckibben::output

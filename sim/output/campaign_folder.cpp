@@ -20,7 +20,6 @@
 #include <sim/input/yaml_writer.hpp>
 #include <sim/output/campaign_folder.hpp>
 #include <sim/output/campaign_json.hpp>
-#include <sim/output/csv.hpp>
 #include <sim/output/run_files.hpp>
 #include <sim/run/simulate.hpp>
 
@@ -142,31 +141,26 @@ std::string shipped_name(const plant::Rig& rig) {
 
 CampaignFolder::CampaignFolder(const fs::path& destination, const domain::Campaign& campaign,
                                std::vector<std::string> formats, Say say)
-    : campaign_(campaign),
+    : ResumedFolder(destination, std::move(say)),
+      campaign_(campaign),
       formats_(std::move(formats)),
       jobs_(run::jobs_of(campaign)),
-      destination_(result_path(destination)),
-      truth_(result_path(destination.string() + "-truth")),
-      unfinished_(result_path(destination.string() + ".unfinished")),
-      say_(std::move(say)) {
+      truth_(result_path(destination_.string() + "-truth")) {
   std::erase(formats_, "csv");
   std::sort(formats_.begin(), formats_.end());
   formats_.erase(std::unique(formats_.begin(), formats_.end()), formats_.end());
-  plan_ = plan_of(campaign_, jobs_, formats_).dump(2) + "\n";
-  if (!say_) return;
-  for (const auto* place : {&destination_, &truth_, &unfinished_})
-    locks_.emplace_back(*place, "dataset " + campaign.name);
-  writing(unfinished_, [&] {
-    if (resume(unfinished_, plan_, files_in, say_)) remove_damaged();
-  });
+  open(plan_of(campaign_, jobs_, formats_).dump(2) + "\n", files_in, "dataset " + campaign.name, {truth_},
+       [this](bool kept) {
+         if (kept) remove_damaged();
+       });
 }
 
 bool CampaignFolder::has(const run::CampaignJob& job) const {
   return fs::exists(unfinished_ / RunFiles(job.id).entry);
 }
 
-std::string CampaignFolder::key() const {
-  return input::sha256_hex(plan_);
+std::size_t CampaignFolder::runs_there() const {
+  return static_cast<std::size_t>(std::ranges::count_if(jobs_, [this](const auto& job) { return has(job); }));
 }
 
 // A run that is not as it was written is made again: nothing else in the folder tells whether it was its rows
@@ -272,10 +266,9 @@ void CampaignFolder::publish(const std::vector<run::EndedRun>& runs, const Repor
       for (const auto& file : record.value("files", Json::array()))
         files[file.at("name").get<std::string>()] = file.at("sha256").get<std::string>();
     }
-    publish_resumed(unfinished_,
-                    {{"truth", truth_, "truth of " + campaign_.name},
-                     {"data", destination_, "dataset " + campaign_.name}},
-                    files, files_in, say_);
+    ResumedFolder::publish({{"truth", truth_, "truth of " + campaign_.name},
+                            {"data", destination_, "dataset " + campaign_.name}},
+                           files);
   });
 }
 

@@ -15,24 +15,18 @@
 
 namespace mckibben::output {
 
-class CampaignFolder {
+class CampaignFolder : public ResumedFolder {
  public:
-  /// Opens OUT.unfinished for `destination` = OUT. What is there is kept if it belongs to the same campaign
-  /// and program and is as it was written; an earlier campaign's is removed; anything else is moved aside.
-  /// `formats`: of the runs, besides CSV (run_formats). `say`: hears what became of what was there before;
-  /// null in a process that helps the one which has opened it: then nothing is locked, looked at or said.
-  /// Throws CannotWrite, at once if another program is writing there.
+  /// Opens OUT.unfinished. `formats`: of the runs, besides CSV (run_formats).
   CampaignFolder(const std::filesystem::path& destination, const domain::Campaign& campaign,
                  std::vector<std::string> formats, Say say);
 
   /// All runs of the campaign.
   const std::vector<run::CampaignJob>& jobs() const { return jobs_; }
-  std::filesystem::path unfinished() const { return unfinished_; }
-
   /// Whether a run is on disk, as it was written or since it was opened.
   bool has(const run::CampaignJob& job) const;
-  /// What the bytes of all runs depend on.
-  std::string key() const;
+  std::size_t runs_there() const;
+  std::size_t all_runs() const { return jobs_.size(); }
 
   /// Writes the files of one run; from any thread, one call for each run. Throws CannotWrite.
   void put(const run::CampaignRun& run) const;
@@ -46,8 +40,7 @@ class CampaignFolder {
   /// what was set aside. Throws CannotWrite.
   void publish(const std::vector<run::EndedRun>& runs, const Report& report) const;
 
-  /// The data set's folder, and that of the truth.
-  const std::filesystem::path& data() const { return destination_; }
+  /// The folder of the truth.
   const std::filesystem::path& truth() const { return truth_; }
 
  private:
@@ -62,10 +55,7 @@ class CampaignFolder {
   const domain::Campaign& campaign_;
   std::vector<std::string> formats_;
   std::vector<run::CampaignJob> jobs_;
-  std::filesystem::path destination_, truth_, unfinished_;
-  std::string plan_;
-  Say say_;
-  std::vector<Lock> locks_;
+  std::filesystem::path truth_;
 };
 
 /// The text of campaign.json: the campaign with every default, versions, hashes of the input files, and of

@@ -94,7 +94,7 @@ Json dataset_json(const plant::Rig& rig, const std::string& name, const std::vec
 Json truth_json(const domain::Campaign& campaign, const std::vector<run::EndedRun>& runs) {
   return {{"schema", "mckibben-truth/1"},
           {"seed", campaign.seed},
-          {"noise", input::to_json(campaign.noise)},
+          {"noise", input::to_json(campaign.noise, {campaign.rig.command_unit()})},
           {"rig", input::to_json(campaign.rig)},
           {"runs", runs_json(runs)}};
 }

@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include <sim/output/axes.hpp>
-#include <sim/output/chart.hpp>
+#include <sim/output/calibration_report.hpp>
 #include <sim/output/svg.hpp>
 
 namespace mckibben::output {

@@ -9,9 +9,29 @@
 #include <sim/diagnose/record.hpp>
 #include <sim/input/field_kinds.hpp>
 #include <sim/input/rigs.hpp>
-#include <sim/output/diagnosis_json.hpp>
+#include <sim/output/diagnosis_results.hpp>
 #include <sim/output/diagnosis_words.hpp>
 #include <sim/output/json_parts.hpp>
+
+namespace mckibben::diagnose {
+
+inline void to_json(input::Json& json, Explanation::Kind kind) {
+  json = std::string(plant::name_of(kind));
+}
+MCKIBBEN_MEMBERS_AS_JSON(Cell, factor, cell, share_of_gap, significant, rows, mean, rms, p_value)
+MCKIBBEN_MEMBERS_AS_JSON(BesideGap, reading, unit, noise_floor, nominal_rmse, recalibrated_rmse,
+                         corrected_rmse)
+MCKIBBEN_MEMBERS_AS_JSON(Start, lasting_s, share_of_gap, share_of_time, unsettled)
+MCKIBBEN_MEMBERS_AS_JSON(NextExperiment, separates, current, load_kg, expected_power, waveform)
+MCKIBBEN_MEMBERS_AS_JSON(RunGap, id, load_kg, held_out, left_out, nominal_rmse, recalibrated_rmse,
+                         corrected_rmse)
+MCKIBBEN_MEMBERS_AS_JSON(Ranked, round, name, variant, score, likeness, refitted, outcome)
+MCKIBBEN_MEMBERS_AS_JSON(Explanation, kind, effects, misfit, strain, held_out_rmse, as_good, chosen)
+MCKIBBEN_MEMBERS_AS_JSON(LeftOpen, parameters, known, words)
+MCKIBBEN_MEMBERS_AS_JSON(FaultyRun, run, kind, size, unit, action, common, words)
+MCKIBBEN_MEMBERS_AS_JSON(Begun, places, agree)
+
+}  // namespace mckibben::diagnose
 
 namespace mckibben::output {
 namespace {
@@ -167,52 +187,14 @@ Json law_json(const diagnose::Diagnosis& diagnosis) {
   return {{"terms", terms}, {"valid_for", diagnosis.law_valid_for}};
 }
 
-Json where_json(const diagnose::Diagnosis& diagnosis) {
-  Json list = Json::array();
-  for (const auto& cell : diagnosis.where)
-    list.push_back({{"factor", cell.factor},
-                    {"cell", cell.cell},
-                    {"share_of_gap", cell.share_of_gap},
-                    {"significant", cell.significant},
-                    {"rows", cell.rows},
-                    {"mean", cell.mean},
-                    {"rms", cell.rms},
-                    {"p_value", cell.p_value}});
-  return list;
-}
-
-std::string unit_of(diagnose::Judged judged) {
-  switch (judged) {
-    case diagnose::Judged::force:
-      return "N";
-    case diagnose::Judged::angle:
-      return "rad";
-    case diagnose::Judged::contraction:
-      break;
-  }
-  return "1";
-}
-
-Json beside_json(const diagnose::Gap& gap) {
-  Json list = Json::array();
-  for (const auto& one : gap.beside)
-    list.push_back({{"reading", one.reading},
-                    {"unit", one.unit},
-                    {"noise_floor", one.noise_floor},
-                    {"nominal_rmse", one.nominal_rmse},
-                    {"recalibrated_rmse", one.recalibrated_rmse},
-                    {"corrected_rmse", one.corrected_rmse}});
-  return list;
-}
-
 Json gap_json(const diagnose::Diagnosis& diagnosis) {
   const auto& gap = diagnosis.gap;
   Json all{{"held_out_runs", held_out(diagnosis)}, {"noise_floor", gap.noise_floor},
            {"nominal_rmse", gap.nominal_rmse},     {"recalibrated_rmse", gap.recalibrated_rmse},
            {"corrected_rmse", gap.corrected_rmse}, {"closed", gap.closed},
            {"encoder_jitter", gap.jitter},         {"reading", std::string(plant::name_of(gap.judged))},
-           {"unit", unit_of(gap.judged)}};
-  if (!gap.beside.empty()) all["beside"] = beside_json(gap);
+           {"unit", words_of(gap.judged).unit}};
+  if (!gap.beside.empty()) all["beside"] = gap.beside;
   return all;
 }
 
@@ -227,42 +209,10 @@ Json remaining_json(const diagnose::Remaining& remaining) {
   return {{"floors", remaining.floors}, {"share", remaining.share}, {"pattern", std::move(pattern)}};
 }
 
-Json start_json(const diagnose::Start& start) {
-  return {{"lasting_s", start.lasting_s},
-          {"share_of_gap", start.share_of_gap},
-          {"share_of_time", start.share_of_time},
-          {"unsettled", start.unsettled}};
-}
-
-Json next_json(const diagnose::Diagnosis& diagnosis) {
-  if (!diagnosis.next_experiment) return nullptr;
-  const auto& next = *diagnosis.next_experiment;
-  return {{"separates", next.separates},
-          {"current", next.current},
-          {"load_kg", next.load_kg},
-          {"expected_power", next.expected_power},
-          {"waveform", next.waveform}};
-}
-
-Json runs_json(const diagnose::Diagnosis& diagnosis) {
-  Json list = Json::array();
-  for (const auto& run : diagnosis.runs)
-    list.push_back({{"id", run.id},
-                    {"load_kg", run.load_kg},
-                    {"held_out", run.held_out},
-                    {"left_out", run.left_out},
-                    {"nominal_rmse", run.nominal_rmse},
-                    {"recalibrated_rmse", run.recalibrated_rmse},
-                    {"corrected_rmse", run.corrected_rmse}});
-  return list;
-}
-
 Json ranking_json(const diagnose::Diagnosis& diagnosis) {
   Json list = Json::array();
   for (const auto& one : diagnosis.ranking) {
-    Json entry{{"round", one.round},    {"name", one.name},         {"variant", one.variant},
-               {"score", one.score},    {"likeness", one.likeness}, {"refitted", one.refitted},
-               {"outcome", one.outcome}};
+    Json entry = one;
     if (one.refitted) {
       entry["training_rmse"] = one.training_rmse;
       entry["held_out_rmse"] = one.held_out_rmse;
@@ -274,43 +224,10 @@ Json ranking_json(const diagnose::Diagnosis& diagnosis) {
   return list;
 }
 
-Json explanations_json(const diagnose::Diagnosis& diagnosis) {
-  Json list = Json::array();
-  for (const auto& one : diagnosis.explanations)
-    list.push_back({{"kind", std::string(plant::name_of(one.kind))},
-                    {"effects", one.effects},
-                    {"misfit", one.misfit},
-                    {"strain", one.strain},
-                    {"held_out_rmse", one.held_out_rmse},
-                    {"as_good", one.as_good},
-                    {"chosen", one.chosen}});
-  return list;
-}
-
 Json absorbed_json(const diagnose::Diagnosis& diagnosis) {
   Json list = Json::array();
   for (const auto& one : diagnosis.absorbed)
     list.push_back({{"path", one.path}, {"deviations_without", one.without}, {"deviations_with", one.with}});
-  return list;
-}
-
-Json left_open_json(const diagnose::Diagnosis& diagnosis) {
-  Json list = Json::array();
-  for (const auto& one : diagnosis.left_open)
-    list.push_back({{"parameters", one.parameters}, {"known", one.known}, {"words", one.words}});
-  return list;
-}
-
-Json faults_json(const diagnose::Diagnosis& diagnosis) {
-  Json list = Json::array();
-  for (const auto& one : diagnosis.faults)
-    list.push_back({{"run", one.run},
-                    {"kind", one.kind},
-                    {"size", one.size},
-                    {"unit", one.unit},
-                    {"action", one.action},
-                    {"common", one.common},
-                    {"words", one.words}});
   return list;
 }
 
@@ -344,22 +261,22 @@ std::string json_of(const domain::Dataset& data, const diagnose::Diagnosis& diag
                 {"effects", effects_json(diagnosis, diagnosis.effects)},
                 {"stand_ins", effects_json(diagnosis, diagnosis.stand_ins)},
                 {"recalibrated", recalibrated_json(diagnosis, data.rig)},
-                {"left_open", left_open_json(diagnosis)},
-                {"begun", {{"places", diagnosis.begun.places}, {"agree", diagnosis.begun.agree}}},
+                {"left_open", diagnosis.left_open},
+                {"begun", diagnosis.begun},
                 {"residual_law", law_json(diagnosis)},
-                {"where", where_json(diagnosis)},
-                {"start_of_run", start_json(diagnosis.start)},
+                {"where", diagnosis.where},
+                {"start_of_run", diagnosis.start},
                 {"gap", gap_json(diagnosis)},
                 {"remaining", remaining_json(diagnosis.remaining)},
-                {"next_experiment", next_json(diagnosis)},
+                {"next_experiment", diagnosis.next_experiment ? Json(*diagnosis.next_experiment) : Json()},
                 {"search", search_json(diagnosis)},
                 {"false_alarm_rate", diagnosis.false_alarm_rate},
                 {"false_alarms", false_alarms_json()},
                 {"seed", diagnosis.seed},
                 {"warnings", diagnosis.warnings},
-                {"faults", faults_json(diagnosis)},
-                {"runs", runs_json(diagnosis)},
-                {"explanations", explanations_json(diagnosis)},
+                {"faults", diagnosis.faults},
+                {"runs", diagnosis.runs},
+                {"explanations", diagnosis.explanations},
                 {"ranking", ranking_json(diagnosis)},
                 {"confusion", {{"names", diagnosis.confusion_names}, {"likeness", diagnosis.confusion}}},
                 {"absorbed", absorbed_json(diagnosis)}};

@@ -12,7 +12,7 @@
 #include <sim/input/number.hpp>
 #include <sim/input/rigs.hpp>
 #include <sim/input/yaml_writer.hpp>
-#include <sim/output/diagnosis_rig.hpp>
+#include <sim/output/diagnosis_results.hpp>
 #include <sim/output/diagnosis_words.hpp>
 
 namespace mckibben::output {
@@ -177,7 +177,7 @@ std::string plan_yaml(const domain::Dataset& data, const diagnose::Diagnosis& di
   const Json file{{"schema", input::campaign_schema},
                   {"rig", corrected_rig(data, diagnosis)},
                   {"loads", Json::array({input::quantity_json(next.load_kg, "kg")})},
-                  {"currents", Json::array({input::to_json(next.measurement)})}};
+                  {"currents", Json::array({input::to_json(next.measurement, {data.rig.command_unit()})})}};
   return fmt::format("{} of {}.\n", plan_heading, name_of(data)) +
          comment(fmt::format("It separates {} with a probability of {:.0f} %: {}.", listed(next.separates),
                              100.0 * next.expected_power, next.current)) +

@@ -1,12 +1,11 @@
 // Layout of the text; see the header.
 #include <algorithm>
-#include <cmath>
 
 #include <fmt/format.h>
 
 #include <sim/diagnose/thresholds.hpp>
 #include <sim/input/field_kinds.hpp>
-#include <sim/output/diagnosis_table.hpp>
+#include <sim/output/diagnosis_results.hpp>
 #include <sim/output/diagnosis_words.hpp>
 #include <sim/output/grid.hpp>
 
@@ -114,19 +113,13 @@ std::string next(const Diagnosis& diagnosis) {
                      mass(next.load_kg), listed(next.separates), 100.0 * next.expected_power);
 }
 
-std::string unit_of(const domain::Dataset& data) {
-  if (data.judged() == diagnose::Judged::force) return "forces in N";
-  if (data.judged() == diagnose::Judged::angle) return "joint angles in deg";
-  return "heights of the load in mm";
-}
-
 }  // namespace
 
 std::string table_of(const domain::Dataset& data, const Diagnosis& diagnosis) {
   const auto unseen = held_out(diagnosis);
-  std::string text =
-      fmt::format("{}: {} run{}, {} held out; errors are {}\n", data.path.string(), data.runs.size(),
-                  data.runs.size() == 1 ? "" : "s", unseen.empty() ? "none" : listed(unseen), unit_of(data));
+  std::string text = fmt::format("{}: {} run{}, {} held out; errors are {}\n", data.path.string(),
+                                 data.runs.size(), data.runs.size() == 1 ? "" : "s",
+                                 unseen.empty() ? "none" : listed(unseen), words_of(data.judged()).errors);
   text += warnings(diagnosis);
   text += fmt::format("\n{}: {}\n", plant::name_of(diagnosis.verdict), title_of(diagnosis));
   if (!diagnosis.because.empty()) text += diagnosis.because + "\n";

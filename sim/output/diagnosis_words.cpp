@@ -85,6 +85,34 @@ std::string height(double ratio, const plant::Rig& rig) {
   return three_digits(ratio * rig.muscle.rest_length_m * 1e3) + " mm";
 }
 
+const JudgedWords& words_of(diagnose::Judged judged) {
+  static constexpr JudgedWords contraction{"contraction_ratio",
+                                           "1",
+                                           1.0,
+                                           "heights of the load in mm",
+                                           "height of the load",
+                                           "the load was higher",
+                                           "lower",
+                                           "Heights are heights of the load. "},
+      force{"force",
+            "N",
+            1.0,
+            "forces in N",
+            "force of the cord",
+            "the muscle pulled more",
+            "less",
+            "Forces are those of the cord. "},
+      angle{"angle",
+            "rad",
+            plant::degree_rad,
+            "joint angles in deg",
+            "angle of the joint",
+            "it stood further towards muscle 1",
+            "towards muscle 2",
+            "Angles are those of the joint, positive as muscle 1 contracts. "};
+  return judged == diagnose::Judged::force ? force : judged == diagnose::Judged::angle ? angle : contraction;
+}
+
 std::string amount(double value, diagnose::Judged judged, const plant::Rig& rig) {
   switch (judged) {
     case diagnose::Judged::force:

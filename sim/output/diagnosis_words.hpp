@@ -28,6 +28,16 @@ Readable readable(const diagnose::FittedNumber& number);
 /// A difference of contraction ratios as height of the load: "1.96 mm", never finer than a micrometre.
 std::string height(double ratio, const plant::Rig& rig);
 
+/// How the reading that models are judged by is called, and in which unit it is told.
+struct JudgedWords {
+  const char *signal, *unit;  ///< in SI
+  double size;                ///< of the unit of pages
+  const char* errors;         ///< what a table holds
+  const char *what, *more, *less;
+  const char* note;  ///< what a page says of its numbers
+};
+const JudgedWords& words_of(diagnose::Judged judged);
+
 /// A difference of the reading that was judged: such a height, "13.3 N", or "0.250 deg".
 std::string amount(double value, diagnose::Judged judged, const plant::Rig& rig);
 

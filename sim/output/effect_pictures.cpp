@@ -2,8 +2,6 @@
 #include <array>
 #include <cmath>
 #include <stdexcept>
-#include <utility>
-#include <vector>
 
 #include <fmt/format.h>
 

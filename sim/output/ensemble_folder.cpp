@@ -25,7 +25,7 @@ constexpr std::size_t most_failures_told = 20;
 
 /// Everything that the bytes depend on.
 Json plan_of(const domain::Campaign& campaign, const run::EnsembleShape& shape, run::Keep keep) {
-  return {{"schema", "mckibben-ensemble-plan/1"},
+  return {{"schema", "mckibben-ensemble-plan/2"},
           {"program", {{"mckibben", program_name()}, {"sundials", engine::sundials_version()}}},
           {"campaign_sha256", digest_of(campaign)},
           {"keep", keep == run::Keep::rows ? "rows" : "summary"},
@@ -87,30 +87,21 @@ double Moments::deviation() const {
 
 EnsembleFolder::EnsembleFolder(const fs::path& destination, const domain::Campaign& campaign, run::Keep keep,
                                Say say)
-    : campaign_(campaign),
+    : ResumedFolder(destination, std::move(say)),
+      campaign_(campaign),
       keep_(keep),
       shape_(campaign, keep),
-      destination_(result_path(destination)),
-      unfinished_(result_path(destination_.string() + ".unfinished")),
-      plan_(plan_of(campaign, shape_, keep).dump(2) + "\n"),
-      files_of_([this](const std::string& plan) { return files_in(unfinished_, plan); }),
-      say_(std::move(say)),
       moments_(shape_.of_run.size()) {
-  if (!say_) return;
-  for (const auto* place : {&destination_, &unfinished_})
-    locks_.emplace_back(*place, "ensemble " + campaign.name);
-  writing(unfinished_, [&] {
-    if (resume(unfinished_, plan_, files_of_, say_))
-      say_(fmt::format("{}: {} of {} runs are there already; going on", unfinished_.string(), runs_there(),
-                       shape_.runs));
-    fs::create_directories(unfinished_ / "blocks");
-    fs::create_directories(unfinished_ / "data");
-    file_.emplace(unfinished_ / "data" / ensemble_file, layout_of(campaign_, shape_));
-  });
-}
-
-std::string EnsembleFolder::key() const {
-  return input::sha256_hex(plan_);
+  const auto files = [this](const std::string& plan) { return files_in(unfinished_, plan); };
+  open(plan_of(campaign, shape_, keep).dump(2) + "\n", files, "ensemble " + campaign.name, {},
+       [&](bool kept) {
+         if (kept)
+           say_(fmt::format("{}: {} of {} runs are there already; going on", unfinished_.string(),
+                            runs_there(), shape_.runs));
+         fs::create_directories(unfinished_ / "blocks");
+         fs::create_directories(unfinished_ / "data");
+         file_.emplace(unfinished_ / "data" / ensemble_file, layout_of(campaign_, shape_));
+       });
 }
 
 fs::path EnsembleFolder::file_of(std::size_t block) const {
@@ -225,10 +216,9 @@ void EnsembleFolder::publish() {
   writing(unfinished_, [&] {
     const std::string text = document(), data = "data/";
     write_staged(unfinished_ / data / document_file, text);
-    publish_resumed(unfinished_, {{"data", destination_, "ensemble " + campaign_.name}},
-                    {{data + document_file, input::sha256_hex(text)},
-                     {data + ensemble_file, digest_of(unfinished_ / data / ensemble_file)}},
-                    files_of_, say_);
+    ResumedFolder::publish({{"data", destination_, "ensemble " + campaign_.name}},
+                           {{data + document_file, input::sha256_hex(text)},
+                            {data + ensemble_file, digest_of(unfinished_ / data / ensemble_file)}});
   });
 }
 

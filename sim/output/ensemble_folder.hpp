@@ -7,14 +7,13 @@
 //                  data/         what will be OUT
 #pragma once
 
-#include <array>
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include <sim/domain/campaign.hpp>
-#include <sim/formats/netcdf_runs.hpp>
+#include <sim/formats/netcdf.hpp>
 #include <sim/output/folder.hpp>
 #include <sim/run/ensemble.hpp>
 
@@ -30,18 +29,16 @@ struct Moments {
   double deviation() const;
 };
 
-class EnsembleFolder {
+class EnsembleFolder : public ResumedFolder {
  public:
-  /// Opens OUT.unfinished; with no `say`, as a helper. The same as CampaignFolder.
+  /// Opens OUT.unfinished.
   EnsembleFolder(const std::filesystem::path& destination, const domain::Campaign& campaign, run::Keep keep,
                  Say say);
   EnsembleFolder(const EnsembleFolder&) = delete;
   EnsembleFolder& operator=(const EnsembleFolder&) = delete;
 
   const run::EnsembleShape& shape() const { return shape_; }
-  std::string key() const;
-  std::filesystem::path unfinished() const { return unfinished_; }
-  const std::filesystem::path& data() const { return destination_; }
+  std::size_t all_runs() const { return shape_.runs; }
 
   /// Whether a block is on disk.
   bool has(std::size_t block) const;
@@ -74,11 +71,6 @@ class EnsembleFolder {
   const domain::Campaign& campaign_;
   run::Keep keep_;
   run::EnsembleShape shape_;
-  std::filesystem::path destination_, unfinished_;
-  std::string plan_;
-  FilesOf files_of_;
-  Say say_;
-  std::vector<Lock> locks_;
   std::optional<formats::NetcdfRuns> file_;
   std::size_t gathered_ = 0, failed_ = 0;
   std::vector<Moments> moments_;

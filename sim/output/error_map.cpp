@@ -140,7 +140,7 @@ std::string json_of(const run::MapPlan& plan, const run::ErrorMaps& maps,
   document["rig"] = input::rig_json(plan.rig);
   document["extrapolate_load"] = plan.extrapolate_load;
   document["extrapolate_target"] = plan.extrapolate_target;
-  document["calibrated"] = input::to_json(plan.calibration.range);
+  document["calibrated"] = input::to_json(plan.calibration.range, {plan.rig.command_unit()});
   document["target_ratios"] = plan.ratios;
   document["target_speeds_per_s"] = plan.speeds_per_s;
   document["loads"] = Json::array();

@@ -1,4 +1,4 @@
-// Error maps as a CSV file, as a table for people, as JSON.
+// Error maps as a CSV file, as a table for people, as JSON, and as pictures, one a load.
 #pragma once
 
 #include <string>
@@ -19,5 +19,13 @@ std::string table_of(const run::MapPlan& plan, const run::ErrorMaps& maps);
 /// read.
 std::string json_of(const run::MapPlan& plan, const run::ErrorMaps& maps,
                     const std::vector<domain::InputFile>& files);
+
+/// What its numbers are: contraction ratios and 1/s, or height of the load in mm and mm/s.
+enum class MapUnit { ratio, mm };
+
+/// One load's maps, `load` being one of the plan's that has some: up and down beside each other, errors of
+/// contraction ratio above those of speed, with the border of what the rig can reach.
+std::string heat_map_svg(const run::MapPlan& plan, const run::ErrorMaps& maps, const run::LoadMap& load,
+                         MapUnit unit = MapUnit::ratio);
 
 }  // namespace mckibben::output

@@ -81,18 +81,6 @@ fs::path result_path(const fs::path& wanted) {
   return path;
 }
 
-bool resume(const fs::path& container, const std::string& plan, const FilesOf& files_of, const Say& say) {
-  const bool finished = finish(container, say);
-  if (fs::exists(container) && !fs::is_empty(container)) {
-    const std::string found = read_regular(container / plan_name).value_or("");
-    if (found == plan && !finished) return true;
-    if (clear(container, files_of(found), {plan_name}, container, say) && !finished)
-      say(fmt::format("{} was of another campaign or version; starting anew", container.string()));
-  }
-  write_whole(container / plan_name, plan);
-  return false;
-}
-
 void publish(const fs::path& container, const std::vector<Move>& moves, const Digests& files,
              const Say& say) {
   for (const Move& move : moves) {
@@ -104,11 +92,41 @@ void publish(const fs::path& container, const std::vector<Move>& moves, const Di
   for (const Aside& aside : put_in_place(container, moves)) say(to_text(aside));
 }
 
-void publish_resumed(const fs::path& container, const std::vector<Move>& moves, const Digests& files,
-                     const FilesOf& files_of, const Say& say) {
-  publish(container, moves, files, say);
-  if (is_on_its_way(container)) return;
-  clear(container, files_of(read_regular(container / plan_name).value_or("")), {plan_name}, container, say);
+ResumedFolder::ResumedFolder(const fs::path& destination, Say say)
+    : destination_(result_path(destination)),
+      unfinished_(result_path(destination_.string() + ".unfinished")),
+      say_(std::move(say)) {}
+
+std::string ResumedFolder::key() const {
+  return input::sha256_hex(plan_);
+}
+
+void ResumedFolder::open(std::string plan, FilesOf files_of, const std::string& job,
+                         const std::vector<fs::path>& beside, const std::function<void(bool)>& opened) {
+  plan_ = std::move(plan);
+  files_of_ = std::move(files_of);
+  if (!say_) return;
+  locks_.emplace_back(destination_, job);
+  for (const fs::path& place : beside) locks_.emplace_back(place, job);
+  locks_.emplace_back(unfinished_, job);
+  writing(unfinished_, [&] {
+    const bool finished = finish(unfinished_, say_);
+    if (fs::exists(unfinished_) && !fs::is_empty(unfinished_)) {
+      const std::string found = read_regular(unfinished_ / plan_name).value_or("");
+      if (found == plan_ && !finished) return opened(true);
+      if (clear(unfinished_, files_of_(found), {plan_name}, unfinished_, say_) && !finished)
+        say_(fmt::format("{} was of another campaign or version; starting anew", unfinished_.string()));
+    }
+    write_whole(unfinished_ / plan_name, plan_);
+    opened(false);
+  });
+}
+
+void ResumedFolder::publish(const std::vector<Move>& moves, const Digests& files) const {
+  output::publish(unfinished_, moves, files, say_);
+  if (is_on_its_way(unfinished_)) return;
+  clear(unfinished_, files_of_(read_regular(unfinished_ / plan_name).value_or("")), {plan_name}, unfinished_,
+        say_);
 }
 
 ResultFolder::ResultFolder(std::string job, Say say) : job_(std::move(job)), say_(std::move(say)) {}

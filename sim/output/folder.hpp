@@ -28,20 +28,10 @@ using FilesOf = std::function<FileNames(const std::string& plan)>;
 
 inline constexpr const char* plan_name = "plan.json";  ///< in a container: whose pieces it holds
 
-/// Opens a container whose result is made piece by piece, so that a job that was interrupted resumes.
-/// Completes what a killed program was putting in place; keeps what is there if its plan is the same; removes
-/// what was made by another plan; renames what holds other files; says so. Whether anything was kept.
-bool resume(const std::filesystem::path& container, const std::string& plan, const FilesOf& files_of,
-            const Say& say);
-
 /// Lets folders of a container take their places: all or none. `files`: all that they hold, named from the
 /// container. Says what was set aside. Throws CannotWrite.
 void publish(const std::filesystem::path& container, const std::vector<Move>& moves, const Digests& files,
              const Say& say);
-
-/// The same of one that was resumed; then removes it, or renames it if it holds other files.
-void publish_resumed(const std::filesystem::path& container, const std::vector<Move>& moves,
-                     const Digests& files, const FilesOf& files_of, const Say& say);
 
 /// Does something with `path`; what the file system objects to becomes CannotWrite.
 template <class Work>
@@ -52,6 +42,38 @@ auto writing(const std::filesystem::path& path, const Work& work) {
     cannot_write(path, error.code().message());
   }
 }
+
+/// Folders that are made piece by piece in OUT.unfinished, so that a job that was interrupted resumes.
+class ResumedFolder {
+ public:
+  const std::filesystem::path& unfinished() const { return unfinished_; }
+  /// OUT.
+  const std::filesystem::path& data() const { return destination_; }
+  /// What the bytes of all pieces depend on.
+  std::string key() const;
+
+ protected:
+  /// For `destination` = OUT. `say`: hears what became of what was there before; null in a process that helps
+  /// the one which has opened it: then nothing is locked, looked at or said.
+  ResumedFolder(const std::filesystem::path& destination, Say say);
+
+  /// Opens OUT.unfinished, in which the files of `plan` may be. What a killed program was putting in place is
+  /// completed; what is there is kept if its plan is the same, an earlier plan's is removed, anything else
+  /// moved aside; and said. `opened` then hears whether anything was kept. OUT, OUT.unfinished and `beside`
+  /// are locked until the end: throws CannotWrite, at once if another program is writing there.
+  void open(std::string plan, FilesOf files_of, const std::string& job,
+            const std::vector<std::filesystem::path>& beside, const std::function<void(bool kept)>& opened);
+  /// Lets folders in it take their places and removes it, or renames it if it holds other files.
+  void publish(const std::vector<Move>& moves, const Digests& files) const;
+
+  std::filesystem::path destination_, unfinished_;
+  Say say_;
+
+ private:
+  std::string plan_;
+  FilesOf files_of_;
+  std::vector<Lock> locks_;
+};
 
 class ResultFolder {
  public:

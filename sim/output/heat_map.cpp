@@ -8,8 +8,7 @@
 #include <fmt/format.h>
 
 #include <sim/output/axes.hpp>
-#include <sim/output/heat_map.hpp>
-#include <sim/output/svg.hpp>
+#include <sim/output/error_map.hpp>
 
 namespace mckibben::output {
 namespace {

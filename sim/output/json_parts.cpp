@@ -66,17 +66,6 @@ Json span_json(const run::Span& span) {
   return {{"lowest", span.low}, {"highest", span.high}};
 }
 
-Json slack_json(const run::Recording& recording) {
-  Json list = Json::array();
-  for (const run::Slack& slack : recording.slack)
-    list.push_back({{"muscle", slack.muscle},
-                    {"from_s", slack.from_s},
-                    {"rows", slack.rows},
-                    {"lowest_N", slack.lowest_N},
-                    {"lowest_at_s", slack.lowest_at_s}});
-  return list;
-}
-
 std::string text_of(const Json& document) {
   return document.dump(2) + "\n";
 }

@@ -8,7 +8,7 @@
 #include <plant/signals.hpp>
 #include <sim/domain/number.hpp>
 #include <sim/output/axes.hpp>
-#include <sim/output/plot.hpp>
+#include <sim/output/run_results.hpp>
 #include <sim/output/svg.hpp>
 
 namespace mckibben::output {

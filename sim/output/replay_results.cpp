@@ -7,7 +7,7 @@
 #include <sim/output/grid.hpp>
 #include <sim/output/json_parts.hpp>
 #include <sim/output/replay_results.hpp>
-#include <sim/output/table.hpp>
+#include <sim/output/run_results.hpp>
 #include <sim/run/batch.hpp>
 
 namespace mckibben::output {
@@ -55,9 +55,10 @@ std::string json_of(const domain::Dataset& dataset, const std::vector<run::Repla
       entry["gaps"] = Json::array();
       for (const run::Gap& gap : run.gaps) entry["gaps"].push_back(gap_json(gap));
       entry["contraction"] = contraction_json(dataset.rig, run.recording);
-      entry["slack"] = slack_json(run.recording);
+      entry["slack"] = run.recording.slack;
       entry["ledger"] = ledger_json(dataset.rig, run.recording);
-      if (run.recording.driven.length) entry["ledger"]["bench_work_J"] = run.recording.ledger.bench_work_J;
+      if (run.recording.driven.length || run.recording.driven.joint_force)
+        entry["ledger"]["bench_work_J"] = run.recording.ledger.bench_work_J;
       entry["solver"] = solver_json(run.recording.solver);
     }
     document["runs"].push_back(std::move(entry));

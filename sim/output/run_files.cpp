@@ -1,15 +1,17 @@
 // Runs in several formats, and their data package; see the header.
 #include <algorithm>
 #include <cctype>
+#include <charconv>
 #include <set>
 
 #include <fmt/format.h>
 
+#include <plant/plant.hpp>
 #include <sim/formats/mat_file.hpp>
-#include <sim/formats/netcdf_file.hpp>
+#include <sim/formats/netcdf.hpp>
 #include <sim/input/fields_json.hpp>
-#include <sim/output/csv.hpp>
 #include <sim/output/run_files.hpp>
+#include <sim/run/simulate.hpp>
 
 namespace mckibben::output {
 namespace {
@@ -75,6 +77,112 @@ std::string datapackage(const Package& package) {
 
 std::string program_name() {
   return "mckibben " MCKIBBEN_VERSION;
+}
+
+namespace {
+
+void append(std::string& text, double value) {
+  char digits[32];
+  const auto end = std::to_chars(digits, digits + sizeof digits, value).ptr;
+  text.append(digits, end);
+}
+
+formats::Column column_of(const run::Recording& recording, const plant::Channel& channel, std::string name,
+                          std::string words) {
+  formats::Column column{std::move(name), std::string(channel.signal->unit.name), std::move(words), {}};
+  column.values.reserve(recording.samples.size());
+  for (const run::Sample& row : recording.samples) column.values.push_back(channel.value(row));
+  return column;
+}
+
+}  // namespace
+
+std::vector<formats::Column> columns_of(const run::Recording& recording, const plant::Rig& rig,
+                                        const Targets& targets) {
+  std::vector<formats::Column> columns;
+  const std::vector<plant::Channel> channels = plant::recorded_channels(rig, recording.driven);
+  for (const plant::Channel& channel : channels)
+    columns.push_back(column_of(recording, channel, channel.name(), channel.words()));
+  for (const auto& [key, values] : targets) {
+    if (values.empty()) continue;
+    const plant::Channel& channel = plant::channel_of(channels, key);
+    columns.push_back({"target_" + channel.name(), std::string(channel.signal->unit.name),
+                       std::string(channel.signal->words) + ", as it is wanted", values});
+    columns.back().values.resize(recording.samples.size());
+  }
+  return columns;
+}
+
+std::vector<formats::Column> measured_columns(const run::Recording& recording, const plant::Rig& rig) {
+  std::vector<formats::Column> columns;
+  for (const plant::Channel& channel : plant::measured_channels(rig, recording.driven))
+    columns.push_back(column_of(recording, channel, channel.name_in_dataset(), channel.words()));
+  return columns;
+}
+
+std::string table_of_signals() {
+  std::string text =
+      "## Columns\n\n| column | of a pair | unit | in files of runs | in a data set's `columns` | meaning |\n"
+      "|---|---|---|---|---|---|\n";
+  const auto code = [](const std::string& name) { return name.empty() ? "" : "`" + name + "`"; };
+  for (const plant::Signal& signal : plant::signals) {
+    using plant::InFiles, plant::Needs;
+    const bool each = signal.part == plant::Part::muscle;
+    const plant::Channel alone{&signal}, of_pair{&signal, each ? 1U : 0U};
+    const bool of_pair_only = signal.needs == Needs::pair || signal.needs == Needs::outer_torque,
+               of_one_only = signal.needs == Needs::one_muscle || signal.needs == Needs::outer_force;
+    const std::string one = of_pair_only ? "" : alone.name(), two = of_one_only ? "" : of_pair.name();
+    const char* in_files = signal.in_files == InFiles::yes  ? "yes"
+                           : signal.in_files == InFiles::no ? ""
+                                                            : "of a pair; where measured";
+    text += fmt::format("| {} | {} | {} | {} | {} | {} |\n", code(one), code(two), signal.unit.name, in_files,
+                        code(alone.key_in_dataset()), alone.words());
+  }
+  return text;
+}
+
+std::string csv_of(const std::vector<formats::Column>& columns) {
+  constexpr std::size_t usual_cell = 18;
+  const std::size_t rows = columns.front().values.size();
+  std::string text;
+  text.reserve((rows + 1) * columns.size() * usual_cell);
+  const auto end_cell = [&](const formats::Column& column) {
+    text += &column == &columns.back() ? '\n' : ',';
+  };
+  for (const auto& column : columns) {
+    text += column.name;
+    end_cell(column);
+  }
+  for (std::size_t k = 0; k < rows; ++k)
+    for (const auto& column : columns) {
+      append(text, column.values[k]);
+      end_cell(column);
+    }
+  return text;
+}
+
+std::string thesis_ascii(const run::Recording& recording, const plant::Rig& rig, double load_kg) {
+  const plant::Plant plant(rig, load_kg);
+  const double per_count = run::contraction_per_count(rig), tick_s = rig.tick_s;
+  const auto& samples = recording.samples;
+  // Before the first row the rig was at rest.
+  const auto counts = [&](std::size_t rows_ago, std::size_t k) {
+    return samples[k < rows_ago ? 0 : k - rows_ago].counts;
+  };
+  std::string text;
+  for (std::size_t k = 0; k < samples.size(); ++k) {
+    const auto last = counts(0, k), before = counts(1, k), earlier = counts(2, k);
+    append(text, samples[k].current_mA);
+    for (const double value :
+         {static_cast<double>(last) * per_count, static_cast<double>(last - before) * per_count / tick_s,
+          static_cast<double>(last - 2 * before + earlier) * per_count / (tick_s * tick_s),
+          plant.reference_pressure_Pa(samples[k].current_mA) / 1e5}) {
+      text += ' ';
+      append(text, value);
+    }
+    text += '\n';
+  }
+  return text;
 }
 
 }  // namespace mckibben::output

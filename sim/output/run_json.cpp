@@ -1,12 +1,10 @@
 // Layout of the JSON documents.
-#include <algorithm>
 #include <optional>
 
 #include <plant/geometry.hpp>
-#include <sim/input/rigs.hpp>
 #include <sim/input/scenario_file.hpp>
 #include <sim/output/json_parts.hpp>
-#include <sim/output/run_json.hpp>
+#include <sim/output/run_results.hpp>
 #include <sim/run/batch.hpp>
 #include <sim/run/remarks.hpp>
 
@@ -47,7 +45,7 @@ void put_joint(Json& entry, const run::TrackedRun& run) {
   entry["angle_rad"] = span_json(joint.angle_rad);
   entry["tension_1_N"] = span_json(joint.cord_force_N);
   entry["tension_2_N"] = span_json(joint.opposite_cord_force_N);
-  entry["slack"] = slack_json(run.recording);
+  entry["slack"] = run.recording.slack;
   if (!run.followed()) return;
   entry["stiffness_N_m_per_rad"] = {{"asked", or_null(joint.stiffness_asked)},
                                     {"had", joint.stiffness_had},
@@ -56,7 +54,7 @@ void put_joint(Json& entry, const run::TrackedRun& run) {
 }
 
 /// Errors of a joint are in rad, and their keys say so.
-void put_metrics(Json& entry, const run::Metrics& m, bool of_joint) {
+void put_metrics(Json& entry, const run::Metrics& m, bool of_joint, plant::CommandUnit commands) {
   const std::string unit = of_joint ? "_rad" : "";
   entry["rmse" + unit] = m.rmse;
   entry["mae" + unit] = m.mae;
@@ -65,10 +63,10 @@ void put_metrics(Json& entry, const run::Metrics& m, bool of_joint) {
   entry["time_lag_s"] = or_null(m.time_lag_s);
   entry["overshoot"] = or_null(m.overshoot);
   entry["settling_time_s"] = or_null(m.settling_time_s);
-  entry["current_travel_mA"] = m.current_travel_mA;
+  entry[in_unit(commands, "current_travel_mA")] = m.current_travel_mA;
   if (of_joint) return;
-  entry["at_lowest_current"] = or_null(m.at_lowest_current);
-  entry["at_highest_current"] = or_null(m.at_highest_current);
+  entry[in_unit(commands, "at_lowest_current")] = or_null(m.at_lowest_current);
+  entry[in_unit(commands, "at_highest_current")] = or_null(m.at_highest_current);
 }
 
 Json run_json(const domain::Scenario& scenario, const run::Comparison& comparison,
@@ -87,7 +85,7 @@ Json run_json(const domain::Scenario& scenario, const run::Comparison& compariso
     entry["failure"] = run.failure;
     return entry;
   }
-  if (run.followed()) put_metrics(entry, run.metrics, pair);
+  if (run.followed()) put_metrics(entry, run.metrics, pair, scenario.rig.command_unit());
   if (run.joint) put_joint(entry, run);
   entry["contraction"] = contraction_json(scenario.rig, run.recording);
   entry["ledger"] = ledger_json(scenario.rig, run.recording);
@@ -127,17 +125,18 @@ std::string json_of(const domain::Scenario& scenario, const run::Comparison& com
   const bool pair = scenario.rig.pair() != nullptr;
   for (const auto& row : comparison.tuned) {
     if (!row.failure.empty()) continue;
-    document["tuned"].push_back({{"controller", row.controller},
-                                 {"load_kg", row.load_kg},
-                                 {pair ? "proportional_mA_per_rad" : "proportional_mA",
-                                  row.tuned.gains.proportional_mA / run::per_ratio(scenario.rig)},
-                                 {"integral_time_s", row.tuned.gains.integral_time_s},
-                                 {"derivative_time_s", row.tuned.gains.derivative_time_s},
-                                 {"cost", row.tuned.cost},
-                                 {"cost_at_start", or_null(row.tuned.start_cost)},
-                                 {"cost_without_feedback", or_null(row.idle_cost)},
-                                 {"gained_nothing", run::gained_nothing(row)},
-                                 {"evaluations", row.tuned.evaluations}});
+    document["tuned"].push_back(
+        {{"controller", row.controller},
+         {"load_kg", row.load_kg},
+         {in_unit(scenario.rig.command_unit(), pair ? "proportional_mA_per_rad" : "proportional_mA"),
+          row.tuned.gains.proportional_mA / run::per_ratio(scenario.rig)},
+         {"integral_time_s", row.tuned.gains.integral_time_s},
+         {"derivative_time_s", row.tuned.gains.derivative_time_s},
+         {"cost", row.tuned.cost},
+         {"cost_at_start", or_null(row.tuned.start_cost)},
+         {"cost_without_feedback", or_null(row.idle_cost)},
+         {"gained_nothing", run::gained_nothing(row)},
+         {"evaluations", row.tuned.evaluations}});
   }
   if (!comparison.robustness.empty()) document["robustness"] = robustness_json(comparison);
   document["runs"] = Json::array();

@@ -43,6 +43,8 @@ class Batch {
     for (std::size_t i = 0; i < rigs_; ++i) {
       const plant::Rig& file = files[many ? i : 0];
       if (file.tick_s != files.front().tick_s) throw py::value_error("rigs of a batch have the same tick");
+      if (file.command_unit() != files.front().command_unit())
+        throw py::value_error("rigs of a batch are commanded in the same unit");
       if (file.pair() != nullptr) throw py::value_error("rigs of a batch have one muscle each");
       const double load_kg = loads_kg.data()[loads == 1 ? 0 : i];
       if (!(load_kg + file.joint.load_offset_kg > 0.0) || !(load_kg <= 500.0))
@@ -50,10 +52,11 @@ class Batch {
       hanging.push_back({file, load_kg});
       settings.push_back(file.integrator);
       per_count_.push_back(run::contraction_per_count(file));
-      zero_mA_.push_back(file.valve.zero_current_mA);
+      zero_.push_back(file.valve.zero_command);
       settling_ticks_ = std::max(settling_ticks_, std::lround(file.settling_time_s / file.tick_s));
     }
     tick_s_ = files.front().tick_s;
+    unit_ = files.front().command_unit();
     counts_.resize(rigs_);
     for (std::size_t first = 0; first < rigs_; first += most) {
       const std::size_t count = std::min(most, rigs_ - first);
@@ -63,42 +66,42 @@ class Batch {
     start(std::nullopt);
   }
 
-  void start(const std::optional<Numbers>& current_mA) {
+  void start(const std::optional<Numbers>& command) {
     const Turn turn(busy_);
-    const std::vector<double> currents = current_mA ? all(*current_mA) : zero_mA_;
+    const std::vector<double> commands = command ? all(*command) : zero_;
     const py::gil_scoped_release released;
     counters_.clear();
     for (std::size_t i = 0; i < rigs_; ++i) counters_.emplace_back(rider(i).plant().rig());
     ticks_ = -settling_ticks_;
     for_each_part([&](std::size_t p) {
-      const auto mine = of_part(currents, p);
+      const auto mine = of_part(commands, p);
       parts_[p]->start(mine, time_s(ticks_));
       for (long k = ticks_; k < 0; ++k) step(p, mine, k);
     });
     ticks_ = 0;
   }
 
-  void step(const Numbers& current_mA) {
+  void step(const Numbers& command) {
     const Turn turn(busy_);
-    const std::vector<double> currents = all(current_mA);
+    const std::vector<double> commands = all(command);
     const py::gil_scoped_release released;
-    for_each_part([&](std::size_t p) { step(p, of_part(currents, p), ticks_); });
+    for_each_part([&](std::size_t p) { step(p, of_part(commands, p), ticks_); });
     ++ticks_;
   }
 
-  py::dict follow(const Numbers& current_mA, const py::object& progress) {
+  py::dict follow(const Numbers& command, const py::object& progress) {
     const Turn turn(busy_);
-    if (current_mA.ndim() != 2 || static_cast<std::size_t>(current_mA.shape(1)) != rigs_)
-      throw py::value_error("current_mA has the shape (ticks, rigs)");
-    const auto ticks = static_cast<std::size_t>(current_mA.shape(0));
-    const std::span<const double> currents(current_mA.data(), ticks * rigs_);
-    require_finite(currents);
+    if (command.ndim() != 2 || static_cast<std::size_t>(command.shape(1)) != rigs_)
+      throw py::value_error("command has the shape (ticks, rigs)");
+    const auto ticks = static_cast<std::size_t>(command.shape(0));
+    const std::span<const double> commands(command.data(), ticks * rigs_);
+    require_finite(commands);
     auto rows = std::make_unique<Rows>();
     rows->state.resize(ticks * rigs_ * plant::single_size);
     rows->contraction_ratio.resize(ticks * rigs_);
     for (std::size_t k = 0; k < ticks; ++k) rows->time_s.push_back(time_s(ticks_ + static_cast<long>(k)));
     do_long(progress, [&](const run::ProgressHook& hook) {
-      for_each_part([&](std::size_t p) { follow(p, currents, *rows); },
+      for_each_part([&](std::size_t p) { follow(p, commands, *rows); },
                     [&](std::size_t done) { hook("following", done, parts_.size()); });
     });
     ticks_ += static_cast<long>(ticks);
@@ -123,22 +126,23 @@ class Batch {
     return all;
   }
   std::size_t rigs() const { return rigs_; }
+  plant::CommandUnit command_unit() const { return unit_; }
   double now_s() const { return time_s(ticks_); }
 
  private:
   static constexpr std::size_t most = engine::Batch::most_lanes;  // rigs of a part
 
-  static void require_finite(std::span<const double> currents) {
-    for (const double current_mA : currents)
-      if (!std::isfinite(current_mA)) throw py::value_error("current_mA holds what is no finite number");
+  static void require_finite(std::span<const double> commands) {
+    for (const double command : commands)
+      if (!std::isfinite(command)) throw py::value_error("command holds what is no finite number");
   }
-  std::vector<double> all(const Numbers& current_mA) const {
-    const auto given = static_cast<std::size_t>(current_mA.size());
-    if (given != 1 && given != rigs_) throw py::value_error("current_mA: one number, or one for each rig");
-    std::vector<double> currents(rigs_, current_mA.data()[0]);
-    if (given == rigs_) currents.assign(current_mA.data(), current_mA.data() + rigs_);
-    require_finite(currents);
-    return currents;
+  std::vector<double> all(const Numbers& command) const {
+    const auto given = static_cast<std::size_t>(command.size());
+    if (given != 1 && given != rigs_) throw py::value_error("command: one number, or one for each rig");
+    std::vector<double> commands(rigs_, command.data()[0]);
+    if (given == rigs_) commands.assign(command.data(), command.data() + rigs_);
+    require_finite(commands);
+    return commands;
   }
   std::span<const double> of_part(std::span<const double> all, std::size_t part) const {
     return all.subspan(part * most, parts_[part]->rigs());
@@ -153,7 +157,7 @@ class Batch {
   double read_ratio(std::size_t rig) const { return static_cast<double>(counts_[rig]) * per_count_[rig]; }
   double time_s(long ticks) const { return static_cast<double>(ticks) * tick_s_; }
 
-  void follow(std::size_t part, std::span<const double> currents, Rows& rows) {
+  void follow(std::size_t part, std::span<const double> commands, Rows& rows) {
     for (std::size_t k = 0; k < rows.time_s.size(); ++k) {
       if (run::interrupted()) throw run::Interrupted();
       const std::size_t first = k * rigs_ + part * most;
@@ -162,7 +166,7 @@ class Batch {
         std::copy_n(state_of(part * most + i), plant::single_size,
                     &rows.state[(first + i) * plant::single_size]);
       }
-      step(part, of_part(currents.subspan(k * rigs_, rigs_), part), ticks_ + static_cast<long>(k));
+      step(part, of_part(commands.subspan(k * rigs_, rigs_), part), ticks_ + static_cast<long>(k));
     }
   }
 
@@ -180,9 +184,9 @@ class Batch {
   }
 
   /// The tick `k` of a part.
-  void step(std::size_t part, std::span<const double> currents, long k) {
+  void step(std::size_t part, std::span<const double> commands, long k) {
     ride::VectorRide& rides = *parts_[part];
-    rides.step(currents, time_s(k + 1));
+    rides.step(commands, time_s(k + 1));
     for (std::size_t i = 0; i < rides.rigs(); ++i)
       counts_[part * most + i] = counters_[part * most + i].count(rides.rider(i).now.reading.wheel_m);
   }
@@ -192,7 +196,8 @@ class Batch {
   std::vector<std::unique_ptr<ride::VectorRide>> parts_;
   std::vector<plant::PositionReader> counters_;
   std::vector<std::int64_t> counts_;
-  std::vector<double> per_count_, zero_mA_;
+  std::vector<double> per_count_, zero_;
+  plant::CommandUnit unit_{};
   double tick_s_ = 0.0;
   long ticks_ = 0, settling_ticks_ = 0;
   Turn::Busy busy_{false};
@@ -201,8 +206,14 @@ class Batch {
 }  // namespace
 
 void add_batch(py::module_& module) {
+  using Some = std::optional<Numbers>;
+  const auto given = [](const Batch& batch, Some command, Some current_mA) {
+    command = either(command, current_mA, batch.command_unit());
+    if (!command) throw py::type_error("command is missing");
+    return *command;
+  };
   py::class_<Batch>(module, "Batch",
-                    "Many rigs with a load each, stepped together, each under its own current.")
+                    "Many rigs with a load each, stepped together, each under its own command.")
       .def(py::init<const py::object&, const Numbers&, unsigned>(), py::arg("rigs"), py::arg("loads_kg"),
            py::arg("threads") = 1,
            "One Rig (or what makes one) with a load [kg] each, shape (n,), or a list of n rigs with one "
@@ -211,16 +222,31 @@ void add_batch(py::module_& module) {
            "depends neither on the others nor on threads, to the bit. They stand settled at 0 s, the valves "
            "at "
            "the lower ends of their lines.")
-      .def("start", &Batch::start, py::arg("current_mA") = py::none(),
-           "Settled at 0 s under these currents [mA], one or n.")
-      .def("step", py::overload_cast<const Numbers&>(&Batch::step), py::arg("current_mA"),
-           "A tick with these currents [mA], one or n. A rig that cannot go on stays where it came to and is "
-           "in `failures`; the others go on.")
-      .def("follow", py::overload_cast<const Numbers&, const py::object&>(&Batch::follow),
-           py::arg("current_mA"), py::arg("progress") = py::none(),
-           "A tick for each row of currents [mA], shape (ticks, n), in one call. Gives a dict of time_s "
-           "(ticks,), state (ticks, n, 5) and contraction_ratio (ticks, n) as the encoder counts it, each as "
-           "it was before the tick, without copies.")
+      .def(
+          "start",
+          [](Batch& batch, Some command, Some current_mA) {
+            batch.start(either(command, current_mA, batch.command_unit()));
+          },
+          py::arg("command") = py::none(), py::kw_only(), py::arg("current_mA") = py::none(),
+          "Settled at 0 s under these commands, one or n, in what the rigs' valves take.")
+      .def(
+          "step",
+          [given](Batch& batch, Some command, Some current_mA) {
+            batch.step(given(batch, command, current_mA));
+          },
+          py::arg("command") = py::none(), py::kw_only(), py::arg("current_mA") = py::none(),
+          "A tick with these commands, one or n. A rig that cannot go on stays where it came to and is "
+          "in `failures`; the others go on.")
+      .def(
+          "follow",
+          [given](Batch& batch, Some command, const py::object& progress, Some current_mA) {
+            return batch.follow(given(batch, command, current_mA), progress);
+          },
+          py::arg("command") = py::none(), py::arg("progress") = py::none(), py::kw_only(),
+          py::arg("current_mA") = py::none(),
+          "A tick for each row of commands, shape (ticks, n), in one call. Gives a dict of time_s "
+          "(ticks,), state (ticks, n, 5) and contraction_ratio (ticks, n) as the encoder counts it, each as "
+          "it was before the tick, without copies.")
       .def_property_readonly("contraction_ratio", &Batch::contraction_ratio,
                              "As the encoders count it [1], shape (n,).")
       .def_property_readonly(

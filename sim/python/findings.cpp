@@ -1,22 +1,19 @@
 // calibrate and diagnose: what measured runs tell.
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <utility>
 
 #include <sim/input/calibration_file.hpp>
+#include <sim/input/dataset_file.hpp>
 #include <sim/input/field_kinds.hpp>
 #include <sim/output/calibration_report.hpp>
-#include <sim/output/diagnosis_json.hpp>
-#include <sim/output/diagnosis_rig.hpp>
-#include <sim/output/diagnosis_table.hpp>
+#include <sim/output/diagnosis_results.hpp>
 #include <sim/python/inputs.hpp>
 #include <sim/python/long_work.hpp>
 #include <sim/report/report.hpp>
 #include <sim/run/batch.hpp>
-#include <sim/tasks/calibrate.hpp>
-#include <sim/tasks/diagnose.hpp>
+#include <sim/tasks/tasks.hpp>
 #include <sim/thesis/figures.hpp>
 
 namespace mckibben::python {
@@ -104,7 +101,7 @@ Diagnosis diagnose(const domain::Dataset& dataset, const py::object& rig,
                    unsigned threads, const py::object& progress) {
   if (!(time_limit_s > 0.0)) throw py::value_error("time_limit_s is a time above 0 s");
   const auto data = std::make_shared<domain::Dataset>(dataset);
-  if (!rig.is_none()) data->rig = rig_of(rig).file;
+  if (!rig.is_none()) input::take_rig(*data, "rig", rig_of(rig).file);
   return long_work(progress, [&](const run::ProgressHook& hook) {
     const std::vector<std::string> warnings = tasks::prepare(*data, hypotheses);
     const diagnose::Settings settings{threads, seed, time_limit_s, warnings, [](const auto&) {}};

@@ -1,5 +1,4 @@
 // Rigs, scenarios and data sets: from files or dicts, by the readers of the command line.
-#include <filesystem>
 
 #include <nlohmann/json.hpp>
 #include <pybind11/stl/filesystem.h>
@@ -98,9 +97,19 @@ void add_inputs(py::module_& module) {
           "to_dict", [](const Rig& rig) { return from_json(json_of(rig.file)); },
           "Every field, as a rig file has it: quantities with their units. Reads back to the same bits.")
       .def(
-          "dac_output_mA",
+          "dac_output",
           [](const Rig& rig, double wanted) { return plant::dac_output_mA(rig.file.dac, wanted); },
-          py::arg("wanted_mA"), "The current [mA] that the rig's DAC gives where it is asked for one.")
+          py::arg("wanted"), "The command that the rig's DAC gives where it is asked for one.")
+      .def(
+          "dac_output_mA",
+          [](const Rig& rig, double wanted_mA) {
+            return plant::dac_output_mA(rig.file.dac,
+                                        *either<double>({}, wanted_mA, rig.file.command_unit()));
+          },
+          py::arg("wanted_mA"), "The same of a valve that takes mA.")
+      .def_property_readonly(
+          "command_unit", [](const Rig& rig) { return name_of(rig.file.command_unit()); },
+          "What the rig's valves are commanded in, and all commands here: mA, V or bar.")
       .def_property_readonly(
           "tick_s", [](const Rig& rig) { return rig.file.tick_s; }, "Period of controllers and tables [s].")
       .def_property_readonly(
@@ -117,12 +126,19 @@ void add_inputs(py::module_& module) {
           [](const Rig& rig) { return plant::Braid(rig.file.muscle).largest_contraction_ratio(); },
           "Where the muscle pulls no more (T 2.10) [1].")
       .def_property_readonly(
+          "command_range",
+          [](const Rig& rig) {
+            return std::make_pair(rig.file.valve.zero_command, rig.file.valve.span_command);
+          },
+          "Ends of the valve's line: no pressure, and most of it.")
+      .def_property_readonly(
           "current_range_mA",
           [](const Rig& rig) {
             const auto& valve = rig.file.valve;
-            return std::make_pair(valve.zero_current_mA, valve.span_current_mA);
+            return std::make_pair(*either<double>({}, valve.zero_command, valve.command_unit),
+                                  valve.span_command);
           },
-          "Ends of the valve's line [mA]: no pressure, and most of it.")
+          "The same of a valve that takes mA.")
       .def(
           "__eq__",
           [](const Rig& a, const py::object& b) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,17 @@ struct Scenario {
   domain::Scenario what;
   std::vector<std::string> warnings;  ///< of its reader
 };
+
+/// What was given as `current_mA` before valves could take anything else; still right where they take mA.
+template <class T>
+std::optional<T> either(std::optional<T> command, std::optional<T> current_mA, plant::CommandUnit unit) {
+  if (!current_mA) return command;
+  if (command) throw py::type_error("command and current_mA are the same; give one of them");
+  if (unit != plant::CommandUnit::mA)
+    throw py::value_error("the rig's valve is commanded in " + std::string(name_of(unit)) +
+                          ": say command, not current_mA");
+  return current_mA;
+}
 
 /// From a Rig, a name, a path or a dict, whose relative paths start at `folder`.
 Rig rig_of(const py::object& from, const std::filesystem::path& folder = ".");

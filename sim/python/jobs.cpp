@@ -1,12 +1,10 @@
 // run and replay: what the verbs of the same names calculate, without their files.
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <utility>
 
 #include <sim/output/replay_results.hpp>
-#include <sim/output/run_json.hpp>
-#include <sim/output/table.hpp>
+#include <sim/output/run_results.hpp>
 #include <sim/python/inputs.hpp>
 #include <sim/python/jobs.hpp>
 #include <sim/python/long_work.hpp>
@@ -14,7 +12,7 @@
 #include <sim/run/compare.hpp>
 #include <sim/run/replay.hpp>
 #include <sim/run/simulate.hpp>
-#include <sim/tasks/replay.hpp>
+#include <sim/tasks/tasks.hpp>
 
 namespace mckibben::python {
 namespace {
@@ -27,7 +25,8 @@ std::shared_ptr<const run::Recording> part_of(const std::shared_ptr<Whole>& whol
 }
 
 /// Errors of a joint are in rad, and their keys say so.
-std::vector<std::pair<std::string, std::optional<double>>> metrics_of(const run::TrackedRun& run) {
+std::vector<std::pair<std::string, std::optional<double>>> metrics_of(const run::TrackedRun& run,
+                                                                      plant::CommandUnit commands) {
   const run::Metrics& m = run.metrics;
   if (!run.failure.empty() || !run.followed()) return {};
   const std::string unit = run.joint ? "_rad" : "";
@@ -38,10 +37,10 @@ std::vector<std::pair<std::string, std::optional<double>>> metrics_of(const run:
           {"time_lag_s", m.time_lag_s},
           {"overshoot", m.overshoot},
           {"settling_time_s", m.settling_time_s},
-          {"current_travel_mA", m.current_travel_mA},
+          {in_unit(commands, "current_travel_mA"), m.current_travel_mA},
           {"air_kg", m.air_kg},
-          {"at_lowest_current", m.at_lowest_current},
-          {"at_highest_current", m.at_highest_current}};
+          {in_unit(commands, "at_lowest_current"), m.at_lowest_current},
+          {in_unit(commands, "at_highest_current"), m.at_highest_current}};
 }
 
 Result run_scenario(const Scenario& asked, unsigned threads, std::optional<std::uint64_t> seed,
@@ -64,9 +63,9 @@ Result run_scenario(const Scenario& asked, unsigned threads, std::optional<std::
     std::shared_ptr<const std::vector<double>> target;
     if (run.followed() && !run.joint) target = {whole, &whole->comparison.targets[run.target].values};
     const auto channels = plant::channels_of(whole->scenario.rig, run.recording.driven);
-    result.runs.push_back(std::make_shared<Simulated>(Simulated{part_of(whole, run.recording), channels,
-                                                                run.name, run.controller, run.failure,
-                                                                run.load_kg, target, metrics_of(run)}));
+    result.runs.push_back(std::make_shared<Simulated>(
+        Simulated{part_of(whole, run.recording), channels, run.name, run.controller, run.failure, run.load_kg,
+                  target, metrics_of(run, whole->scenario.rig.command_unit())}));
   }
   return result;
 }

@@ -2,7 +2,6 @@
 // import the package `mckibben` (the folder beside), which is made of it; docs/python.md is its page.
 #pragma once
 
-#include <memory>
 #include <string>
 #include <vector>
 

@@ -7,7 +7,6 @@
 #include <utility>
 #include <vector>
 
-#include <sim/python/module.hpp>
 #include <sim/run/gaps.hpp>
 #include <sim/run/recording.hpp>
 

@@ -29,8 +29,8 @@ ride::Ride ride_of(const plant::Rig& rig, std::optional<double> load_kg) {
 
 /// No pressure asked for.
 Given lowest(const plant::Rig& rig) {
-  Given given{.current_mA = rig.valve.zero_current_mA};
-  if (const plant::Pair* pair = rig.pair()) given.opposite_current_mA = pair->opposite.valve.zero_current_mA;
+  Given given{.command = rig.valve.zero_command};
+  if (const plant::Pair* pair = rig.pair()) given.opposite_command = pair->opposite.valve.zero_command;
   return given;
 }
 
@@ -81,17 +81,16 @@ Shown Ride::step(const Given& given, std::optional<double> dt_s) {
   return shown();
 }
 
-Simulated Ride::follow(const Currents& current_mA, const std::optional<Currents>& opposite) {
+Simulated Ride::follow(const Commands& command, const std::optional<Commands>& opposite) {
   const Turn turn(busy_);
-  const auto rows = static_cast<std::size_t>(current_mA.size());
-  if (current_mA.ndim() != 1 ||
-      (opposite && (opposite->ndim() != 1 || opposite->size() != current_mA.size())))
-    throw py::value_error("currents have the shape (ticks,), those of both muscles alike");
-  const double* one = current_mA.data();
+  const auto rows = static_cast<std::size_t>(command.size());
+  if (command.ndim() != 1 || (opposite && (opposite->ndim() != 1 || opposite->size() != command.size())))
+    throw py::value_error("commands have the shape (ticks,), those of both muscles alike");
+  const double* one = command.data();
   const double* two = opposite ? opposite->data() : nullptr;
   for (std::size_t k = 0; k < rows; ++k) {
-    finite(one[k], "current_mA");
-    if (two != nullptr) finite(two[k], "opposite_current_mA");
+    finite(one[k], "command");
+    if (two != nullptr) finite(two[k], "opposite_command");
   }
   const auto recording = std::make_shared<run::Recording>();
   recording->driven.pair = rig_.pair() != nullptr;
@@ -151,13 +150,13 @@ void Ride::take(const Given& given) {
   const auto put = [](const std::optional<double>& value, const char* name, auto& into) {
     if (value) into = finite(*value, name);
   };
-  if (!pair() && (given.opposite_current_mA.value_or(0.0) != 0.0 || given.opposite_muscle_pressure_Pa))
+  if (!pair() && (given.opposite_command.value_or(0.0) != 0.0 || given.opposite_muscle_pressure_Pa))
     throw py::value_error("the rig has one muscle; there is no opposite one");
   // A valve that has a command again keeps no pressure.
-  if (given.current_mA) drive_.muscle_pressure_Pa.reset();
-  if (given.opposite_current_mA) drive_.opposite.muscle_pressure_Pa.reset();
-  put(given.current_mA, "current_mA", drive_.current_mA);
-  put(given.opposite_current_mA, "opposite_current_mA", drive_.opposite.current_mA);
+  if (given.command) drive_.muscle_pressure_Pa.reset();
+  if (given.opposite_command) drive_.opposite.muscle_pressure_Pa.reset();
+  put(given.command, "command", drive_.current_mA);
+  put(given.opposite_command, "opposite_command", drive_.opposite.current_mA);
   put(given.muscle_pressure_Pa, "muscle_pressure_Pa", drive_.muscle_pressure_Pa);
   put(given.opposite_muscle_pressure_Pa, "opposite_muscle_pressure_Pa", drive_.opposite.muscle_pressure_Pa);
   put(given.contraction_ratio, "contraction_ratio", drive_.contraction_ratio);

@@ -21,13 +21,13 @@ struct Shown {
 
 /// What a step changes in the drive.
 struct Given {
-  std::optional<double> current_mA{}, opposite_current_mA{}, muscle_pressure_Pa{},
-      opposite_muscle_pressure_Pa{}, contraction_ratio{};
+  std::optional<double> command{}, opposite_command{}, muscle_pressure_Pa{}, opposite_muscle_pressure_Pa{},
+      contraction_ratio{};
 };
 
 class Ride {
  public:
-  using Currents = py::array_t<double, py::array::c_style | py::array::forcecast>;
+  using Commands = py::array_t<double, py::array::c_style | py::array::forcecast>;
 
   /// Settled at 0 s, no pressure asked for. Throws py::value_error without a load, or with one on two
   /// muscles.
@@ -37,7 +37,7 @@ class Ride {
   void start(const Given& given, double at_s, bool settle);
   /// A tick, or so long.
   Shown step(const Given& given, std::optional<double> dt_s);
-  Simulated follow(const Currents& current_mA, const std::optional<Currents>& opposite_mA);
+  Simulated follow(const Commands& command, const std::optional<Commands>& opposite);
 
   struct Saved {
     ride::Ride::Saved ride;
@@ -56,6 +56,7 @@ class Ride {
   const double* state() const { return &ride_.flow().state.joint.contraction_ratio; }
   bool pair() const { return rig_.pair() != nullptr; }
   Rig rig() const { return {rig_, {}}; }
+  plant::CommandUnit command_unit() const { return rig_.command_unit(); }
 
  private:
   void take(const Given& given);

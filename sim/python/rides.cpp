@@ -4,6 +4,7 @@
 
 #include <pybind11/eigen.h>
 
+#include <sim/python/inputs.hpp>
 #include <sim/python/ride.hpp>
 
 namespace mckibben::python {
@@ -82,14 +83,14 @@ void add_rides(py::module_& module) {
   const py::class_<Ride::Saved> saved(module, "SavedRide",
                                       "Where a ride was, whole: Ride.restore goes on from it.");
 
-  const auto given = [](std::optional<double> current_mA, std::optional<double> opposite_current_mA,
-                        std::optional<double> muscle_pressure_Pa,
-                        std::optional<double> opposite_muscle_pressure_Pa,
-                        std::optional<double> contraction_ratio) {
-    return Given{current_mA, opposite_current_mA, muscle_pressure_Pa, opposite_muscle_pressure_Pa,
-                 contraction_ratio};
-  };
   using Number = std::optional<double>;
+  const auto given = [](const Ride& ride, Number command, Number opposite_command, Number muscle_pressure_Pa,
+                        Number opposite_muscle_pressure_Pa, Number contraction_ratio, Number current_mA,
+                        Number opposite_current_mA) {
+    return Given{either(command, current_mA, ride.command_unit()),
+                 either(opposite_command, opposite_current_mA, ride.command_unit()), muscle_pressure_Pa,
+                 opposite_muscle_pressure_Pa, contraction_ratio};
+  };
   py::class_<Ride>(module, "Ride", "A rig that is stepped from outside.")
       .def(py::init<const py::object&, std::optional<double>>(), py::arg("rig") = "thesis",
            py::arg("load_kg") = py::none(),
@@ -97,35 +98,53 @@ void add_rides(py::module_& module) {
            "its valves at the lower ends of their lines.")
       .def(
           "start",
-          [given](Ride& ride, Number current_mA, Number opposite_current_mA, Number muscle_pressure_Pa,
-                  Number opposite_muscle_pressure_Pa, Number contraction_ratio, double at_s, bool settle) {
-            ride.start(given(current_mA, opposite_current_mA, muscle_pressure_Pa, opposite_muscle_pressure_Pa,
-                             contraction_ratio),
+          [given](Ride& ride, Number command, Number opposite_command, Number muscle_pressure_Pa,
+                  Number opposite_muscle_pressure_Pa, Number contraction_ratio, double at_s, bool settle,
+                  Number current_mA, Number opposite_current_mA) {
+            ride.start(given(ride, command, opposite_command, muscle_pressure_Pa, opposite_muscle_pressure_Pa,
+                             contraction_ratio, current_mA, opposite_current_mA),
                        at_s, settle);
           },
-          py::arg("current_mA") = py::none(), py::kw_only(), py::arg("opposite_current_mA") = py::none(),
+          py::arg("command") = py::none(), py::kw_only(), py::arg("opposite_command") = py::none(),
           py::arg("muscle_pressure_Pa") = py::none(), py::arg("opposite_muscle_pressure_Pa") = py::none(),
           py::arg("contraction_ratio") = py::none(), py::arg("at_s") = 0.0, py::arg("settle") = true,
+          py::arg("current_mA") = py::none(), py::arg("opposite_current_mA") = py::none(),
           "At rest, pressures as the drive asks for, the encoder at zero; `settle`: after the rig's settling "
           "time under this drive, which ends at `at_s` [s].")
       .def(
           "step",
-          [given](Ride& ride, Number current_mA, Number dt_s, Number opposite_current_mA,
-                  Number muscle_pressure_Pa, Number opposite_muscle_pressure_Pa, Number contraction_ratio) {
-            return ride.step(given(current_mA, opposite_current_mA, muscle_pressure_Pa,
-                                   opposite_muscle_pressure_Pa, contraction_ratio),
-                             dt_s);
+          [given](Ride& ride, Number command, Number dt_s, Number opposite_command, Number muscle_pressure_Pa,
+                  Number opposite_muscle_pressure_Pa, Number contraction_ratio, Number current_mA,
+                  Number opposite_current_mA) {
+            return ride.step(
+                given(ride, command, opposite_command, muscle_pressure_Pa, opposite_muscle_pressure_Pa,
+                      contraction_ratio, current_mA, opposite_current_mA),
+                dt_s);
           },
-          py::arg("current_mA") = py::none(), py::arg("dt_s") = py::none(), py::kw_only(),
-          py::arg("opposite_current_mA") = py::none(), py::arg("muscle_pressure_Pa") = py::none(),
+          py::arg("command") = py::none(), py::arg("dt_s") = py::none(), py::kw_only(),
+          py::arg("opposite_command") = py::none(), py::arg("muscle_pressure_Pa") = py::none(),
           py::arg("opposite_muscle_pressure_Pa") = py::none(), py::arg("contraction_ratio") = py::none(),
-          "Holds a current [mA] until dt_s [s] later (a tick if left out), and gives the Reading there. What "
-          "is not given stays. A muscle pressure [Pa, gauge] or a contraction ratio [1] that is given is "
-          "reached, straight, at the end of the step; without a valve then, or on a bench. Raises "
-          "NumericalFailure; the ride is then where it last came to.")
-      .def("follow", &Ride::follow, py::arg("current_mA"), py::arg("opposite_current_mA") = py::none(),
-           "A tick for each current [mA], shape (ticks,), in one call: a Run whose rows are what was there "
-           "before each tick.")
+          py::arg("current_mA") = py::none(), py::arg("opposite_current_mA") = py::none(),
+          "Holds a command, in what the rig's valve takes (`Rig.command_unit`), until dt_s [s] later (a tick "
+          "if "
+          "left out), and gives the Reading there. What is not given stays. A muscle pressure [Pa, gauge] or "
+          "a "
+          "contraction ratio [1] that is given is reached, straight, at the end of the step; without a valve "
+          "then, or on a bench. `current_mA`: the command of a valve that takes mA. Raises NumericalFailure; "
+          "the ride is then where it last came to.")
+      .def(
+          "follow",
+          [](Ride& ride, std::optional<Ride::Commands> command,
+             std::optional<Ride::Commands> opposite_command, std::optional<Ride::Commands> current_mA,
+             std::optional<Ride::Commands> opposite_current_mA) {
+            command = either(command, current_mA, ride.command_unit());
+            if (!command) throw py::type_error("command is missing");
+            return ride.follow(*command, either(opposite_command, opposite_current_mA, ride.command_unit()));
+          },
+          py::arg("command") = py::none(), py::arg("opposite_command") = py::none(), py::kw_only(),
+          py::arg("current_mA") = py::none(), py::arg("opposite_current_mA") = py::none(),
+          "A tick for each command, shape (ticks,), in one call: a Run whose rows are what was there before "
+          "each tick.")
       .def("save", &Ride::save, "All that changes on the way.")
       .def("restore", &Ride::restore, py::arg("saved"), "Goes on from what was saved, to the same bits.")
       .def(
@@ -137,7 +156,8 @@ void add_rides(py::module_& module) {
           "contraction_ratio, "
           "contraction_speed_per_s, then valve_pressure_Pa, muscle_pressure_Pa, bristle_m of each muscle, "
           "then "
-          "what effects remember. Inputs: current_mA and its speed of each muscle, last a force that lifts "
+          "what effects remember. Inputs: the command (current_mA, command_V, ...) and its speed of each "
+          "muscle, last a force that lifts "
           "the load [N], or a torque [N m]. Outputs: contraction_ratio or angle_rad, then muscle_pressure_Pa "
           "and force_N of the cord, of a pair tension_1_N, tension_2_N. Raises ValueError where there are no "
           "slopes.")

@@ -1,6 +1,5 @@
 // See the header.
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -33,7 +32,7 @@ Told unit_told(const Heading& heading) {
 /// The key under which a data set names it.
 const domain::Quantity* quantity_for(const domain::Quantity& quantity, const Told& unit) {
   const bool is_current = quantity.key == "command" && !unit.open() && input::is_current(unit.value);
-  return is_current ? &quantity_of("current") : &quantity;
+  return is_current ? &domain::quantity_of("current") : &quantity;
 }
 
 ColumnGuess guess_of(const domain::Quantity& quantity, const std::vector<const Named*>& candidates) {
@@ -112,7 +111,7 @@ std::vector<Named> with_time_by_numbers(const UnknownTable& table, std::vector<N
   for (Named& each : named) {
     const Clock clock = clock_of(each.column->values);
     if (!clock.ascends || clock.step_s <= 0.0) continue;
-    each.heading = {&quantity_of("time"), "", false, "it ascends from row to row"};
+    each.heading = {&domain::quantity_of("time"), "", false, "it ascends from row to row"};
     break;
   }
   return named;
@@ -159,7 +158,7 @@ MapGuess map_of(const std::vector<const UnknownTable*>& tables) {
                           (quantity == "command" && has_pressure) ||
                           (quantity == "contraction" && has_force) || quantity == "muscle_pressure" ||
                           quantity == "force";
-    if (!found.empty() || !may_lack) map.columns.push_back(guess_of(quantity_of(quantity), found));
+    if (!found.empty() || !may_lack) map.columns.push_back(guess_of(domain::quantity_of(quantity), found));
   }
   for (const Named& each : named)
     if (each.heading.quantity == nullptr)

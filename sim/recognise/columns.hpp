@@ -1,12 +1,14 @@
-// Which column of tables that look alike is what.
+// Which column of tables that look alike is what; and what numbers tell by themselves: a clock's step, which
+// way contraction counts and where it is zero, whether a run began at rest.
 #pragma once
 
 #include <vector>
 
-#include <sim/recognise/numbers.hpp>
 #include <sim/recognise/recognise.hpp>
 
 namespace mckibben::recognise {
+
+using Values = std::vector<double>;
 
 /// The map of tables whose columns have the same names.
 MapGuess map_of(const std::vector<const UnknownTable*>& tables);
@@ -16,5 +18,28 @@ const Values* column_of(const UnknownTable& table, const std::string& name);
 
 /// What commands the muscle in such tables, or its pressure as an input; null if nothing.
 const ColumnGuess* drive_of(const MapGuess& map);
+
+struct Clock {
+  double begin_s = 0.0, step_s = 0.0;  ///< the step in the middle of all
+  double jitter_s = 0.0;               ///< the furthest from even stamps
+  bool ascends = true;
+};
+Clock clock_of(const Values& time_s);
+
+/// Lowest and highest number; equal where there is none.
+struct Range {
+  double low = 0.0, high = 0.0;
+};
+Range range_of(const Values& values);
+
+/// How a reading goes along with what drives it, over all tables: correlation from -1 to 1.
+struct Together {
+  double correlation = 0.0;
+  double at_least_drive = 0.0;  ///< the reading's median where the drive is lowest, within 2 % of its range
+};
+Together together(const std::vector<const Values*>& drive, const std::vector<const Values*>& reading);
+
+/// Whether the first 5 rows of a run, or of a long one the first 200th, move by less than 1 % of `range`.
+bool begins_still(const Values& values, const Range& range);
 
 }  // namespace mckibben::recognise

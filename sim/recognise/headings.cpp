@@ -1,7 +1,7 @@
 // Words of headings; see the header.
 #include <algorithm>
-#include <array>
 #include <cctype>
+#include <regex>
 #include <vector>
 
 #include <fmt/format.h>
@@ -100,7 +100,7 @@ bool is_unit_of(std::string_view key, std::string_view unit) {
   if (key == "time") return unit == input::date_unit || fits("s");
   if (key == "command") return fits("mA") || fits("V") || fits("bar");
   if (key == "contraction") return unit == "1" || unit == "%" || unit == "count" || fits("m") || fits("rad");
-  return fits(quantity_of(key).unit);
+  return fits(domain::quantity_of(key).unit());
 }
 
 /// What a unit alone tells; a voltage may be anything.
@@ -116,14 +116,12 @@ std::string_view key_of_unit(std::string_view unit) {
 
 }  // namespace
 
-const domain::Quantity& quantity_of(std::string_view key) {
-  return *std::find_if(domain::quantities.begin(), domain::quantities.end(),
-                       [&](const domain::Quantity& each) { return each.key == key; });
-}
-
 Heading heading_of(const UnknownColumn& column) {
-  for (const domain::Quantity& each : domain::quantities)
-    if (column.name == each.column) return {&each, std::string(each.unit), true, "it has our own name"};
+  for (const auto& [commands, unit] : names(plant::CommandUnit{}))
+    for (const domain::Quantity& each : domain::quantities(commands))
+      if (column.name == each.column && !each.channel.signal->must_be_named &&
+          (!each.is_old_current || unit == "mA"))
+        return {&domain::quantity_of(each.key), std::string(each.unit()), true, "it has our own name"};
   const Split split = split_unit(column.name);
   Heading heading;
   heading.unit = !column.unit.empty() ? column.unit : input::unit_word(split.behind);
@@ -146,13 +144,34 @@ Heading heading_of(const UnknownColumn& column) {
   }
   if (column.is_date) told = "it holds dates";
   if (key.empty()) return {nullptr, heading.unit, false, "neither its words nor its unit tell"};
-  heading.quantity = &quantity_of(key);
+  heading.quantity = &domain::quantity_of(key);
   heading.unit_fits = is_unit_of(key, heading.unit);
   if (is_suffix && !heading.unit_fits) heading.unit.clear();
   heading.reason = std::move(told);
   static const Vocabulary lengths{"contraction", {"length", "länge", "laenge"}, {"länge"}};
   heading.is_length = !lengths.told_by(words).empty();
   return heading;
+}
+
+std::optional<std::string> load_in(const std::string& text) {
+  static const std::regex number_and_unit(
+      R"((^|[^0-9.,])([0-9]{1,6})([.,p]([0-9]{1,6}))?[ _-]?(kg|g|lb)(?![a-zA-Z]))", std::regex::icase);
+  std::smatch found;
+  if (text.size() > 500 || !std::regex_search(text, found, number_and_unit)) return std::nullopt;
+  std::string unit = found[5];
+  std::transform(unit.begin(), unit.end(), unit.begin(),
+                 [](char c) { return c < 'a' ? static_cast<char>(c + 'a' - 'A') : c; });
+  const std::string whole = std::to_string(std::stol(found[2])), fraction = found[4];
+  return fmt::format("{}{}{} {}", whole, fraction.empty() ? "" : ".", fraction, unit);
+}
+
+std::optional<LoadGuess> load_of(const UnknownTable& table) {
+  if (auto load = load_in(table.path.stem().string())) return LoadGuess{*load, "the file's name says so"};
+  for (const std::string& line : table.remarks)
+    if (auto load = load_in(line)) return LoadGuess{*load, "a line above its headings says so"};
+  if (auto load = load_in(table.path.parent_path().filename().string()))
+    return LoadGuess{*load, "the folder's name says so"};
+  return std::nullopt;
 }
 
 }  // namespace mckibben::recognise

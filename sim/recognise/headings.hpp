@@ -1,6 +1,8 @@
-// What the heading of a column speaks of: its words and its unit, in English, German and a little French.
+// What people write: in the heading of a column its words and its unit, in English, German and a little
+// French; loads in the names of files and folders, or above the headings.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -19,7 +21,15 @@ struct Heading {
 
 Heading heading_of(const UnknownColumn& column);
 
-/// The quantity of that key.
-const domain::Quantity& quantity_of(std::string_view key);
+struct LoadGuess {
+  std::string quantity;  ///< "5 kg"
+  std::string reason;
+};
+
+/// None if nothing tells the load of this run.
+std::optional<LoadGuess> load_of(const UnknownTable& table);
+
+/// "5 kg" in "load_5kg_run2", "5,5 kg" in "m5,5kg", with a decimal p as well: "5p5kg".
+std::optional<std::string> load_in(const std::string& text);
 
 }  // namespace mckibben::recognise

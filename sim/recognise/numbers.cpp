@@ -2,20 +2,14 @@
 #include <algorithm>
 #include <cmath>
 
-#include <sim/recognise/numbers.hpp>
+#include <sim/data/series.hpp>
+#include <sim/recognise/columns.hpp>
 
 namespace mckibben::recognise {
 namespace {
 
 constexpr double lowest_share = 0.02, still_share = 0.01;
 constexpr std::size_t rows_of_a_beginning = 5;
-
-double median(Values values) {
-  if (values.empty()) return 0.0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 }  // namespace
 
@@ -27,7 +21,7 @@ Clock clock_of(const Values& time_s) {
   clock.begin_s = time_s.front();
   clock.ascends = std::all_of(steps.begin(), steps.end(), [](double step) { return step > 0.0; });
   // The middle of all steps is not spoilt by a gap; the mean of the even ones has more digits.
-  const double middle = median(steps);
+  const double middle = data::upper_median(steps);
   double sum = 0.0, number = 0.0;
   for (const double step : steps)
     if (std::abs(step - middle) < 0.01 * std::abs(middle)) {
@@ -72,7 +66,7 @@ Together together(const std::vector<const Values*>& drive, const std::vector<con
     if (x <= range.low + lowest_share * (range.high - range.low)) lowest.push_back(y);
   });
   const double spread = std::sqrt(sxx * syy);
-  return {spread > 0.0 ? sxy / spread : 0.0, median(std::move(lowest))};
+  return {spread > 0.0 ? sxy / spread : 0.0, data::upper_median(std::move(lowest))};
 }
 
 bool begins_still(const Values& values, const Range& range) {

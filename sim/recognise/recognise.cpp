@@ -5,14 +5,12 @@
 
 #include <fmt/format.h>
 
-#include <sim/domain/number.hpp>
-#include <sim/input/column_units.hpp>
 #include <sim/input/dates.hpp>
 #include <sim/input/file_names.hpp>
 #include <sim/input/number.hpp>
 #include <sim/input/quantity.hpp>
 #include <sim/recognise/columns.hpp>
-#include <sim/recognise/names.hpp>
+#include <sim/recognise/headings.hpp>
 
 namespace mckibben::recognise {
 
@@ -240,8 +238,8 @@ class Recogniser {
       return;
     }
     if (unit == "mA" && range.high <= 20.0 * slack) {
-      set("valve.zero_current", {"4 mA", "4 to 20 mA is usual; " + recorded});
-      set("valve.span_current", {"20 mA", "4 to 20 mA is usual; " + recorded});
+      set("valve.zero_command", {"4 mA", "4 to 20 mA is usual; " + recorded});
+      set("valve.span_command", {"20 mA", "4 to 20 mA is usual; " + recorded});
     } else if (unit == "V" && range.high > 5.0 * slack && range.high <= 10.0 * slack) {
       command_range("0 V", "10 V", "0 to 10 V is usual; " + recorded);
     } else {

@@ -9,10 +9,9 @@
 #include <sim/input/csv_layout.hpp>
 #include <sim/input/dates.hpp>
 #include <sim/input/diagnostics.hpp>
-#include <sim/input/format.hpp>
 #include <sim/input/limits.hpp>
-#include <sim/input/lvm.hpp>
 #include <sim/input/number.hpp>
+#include <sim/input/readers.hpp>
 #include <sim/recognise/unknown_table.hpp>
 
 namespace mckibben::recognise {

@@ -9,7 +9,6 @@
 #include <sim/input/field_kinds.hpp>
 #include <sim/output/diagnosis_words.hpp>
 #include <sim/output/svg.hpp>
-#include <sim/report/by_load.hpp>
 #include <sim/report/diagnosis_chapters.hpp>
 #include <sim/report/diagnosis_pictures.hpp>
 #include <sim/report/html.hpp>
@@ -71,22 +70,6 @@ std::string concentration(const Diagnosis& diagnosis, const plant::Rig& rig) {
                      100.0 * dense.front().share_of_time);
 }
 
-/// The judged reading, what it is more of and what less.
-struct JudgedWords {
-  const char *what, *more, *less;
-};
-JudgedWords words_of(diagnose::Judged judged) {
-  switch (judged) {
-    case diagnose::Judged::force:
-      return {"force of the cord", "the muscle pulled more", "less"};
-    case diagnose::Judged::angle:
-      return {"angle of the joint", "it stood further towards muscle 1", "towards muscle 2"};
-    case diagnose::Judged::contraction:
-      break;
-  }
-  return {"height of the load", "the load was higher", "lower"};
-}
-
 /// "height", "force", "angle".
 std::string name_of(diagnose::Judged judged) {
   return judged == diagnose::Judged::contraction ? "height" : std::string(plant::name_of(judged));
@@ -94,14 +77,14 @@ std::string name_of(diagnose::Judged judged) {
 
 std::string where_html(const Diagnosis& diagnosis, const plant::Rig& rig) {
   if (diagnosis.where.empty()) return "";
-  const auto [what, more, less] = words_of(diagnosis.gap.judged);
+  const output::JudgedWords& judged = output::words_of(diagnosis.gap.judged);
   return paragraph(fmt::format(
              "Measured less recalibrated model, before anything was added, as {}, averaged "
              "over parts of the data. Orange: {} than the model says; blue: {}. Framed "
              "and marked with *: the mean of this part differs from the mean over all parts of its picture "
              "(where there is only one, from 0) by more than chance; of all marks {:g} % may be false. "
              "Dashed: the data never went there, so nothing is known of it.",
-             what, more, less, 100.0 * diagnose::thresholds.where.false_discoveries)) +
+             judged.what, judged.more, judged.less, 100.0 * diagnose::thresholds.where.false_discoveries)) +
          concentration(diagnosis, rig) + figures_html(where_pictures(diagnosis, rig));
 }
 

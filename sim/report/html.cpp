@@ -1,21 +1,16 @@
 // Order of the page, and what the script is told.
 #include <algorithm>
 #include <set>
-#include <string>
 
 #include <fmt/format.h>
 
-#include <sim/domain/number.hpp>
 #include <sim/input/fields_json.hpp>
 #include <sim/output/svg.hpp>
 #include <sim/report/files.hpp>
 #include <sim/report/html.hpp>
 #include <sim/report/in_script.hpp>
 #include <sim/report/length.hpp>
-#include <sim/report/own_commands.hpp>
 #include <sim/report/pack.hpp>
-#include <sim/report/rig_json.hpp>
-#include <sim/report/rig_words.hpp>
 #include <sim/report/still.hpp>
 
 namespace mckibben::report {
@@ -49,7 +44,7 @@ Json times_json(const std::vector<double>& time_s, std::size_t per_column) {
 /// Keys of what the page draws, in plots, loops and the picture of the rig.
 std::set<std::string> drawn_keys(const Contents& contents) {
   std::set<std::string> keys;
-  for (const char* key : {"angle", "contraction_ratio", "current", "force", "muscle_pressure",
+  for (const char* key : {"angle", "contraction_ratio", "current", "command", "force", "muscle_pressure",
                           "reference_pressure", "tension", "valve_pressure"})
     for (const char* muscle : {"", "_1", "_2"}) keys.insert(std::string(key) + muscle);
   for (const Plot& plot : contents.plots)
@@ -87,11 +82,6 @@ std::string data_of(const Contents& contents) {
   Json data{{"tick_s", contents.rig.tick_s},
             {"rig", drawn_rig_json(contents.rig, contents.mechanics, contents.gauge)},
             {"drawn", contents.drawn}};
-  if (const plant::Valve& valve = contents.rig.valve; shows_own_commands(contents))
-    data["rig"]["command"] = {{"name", "command"},
-                              {"unit", plant::name_of(valve.zero_command.unit)},
-                              {"zero", valve.zero_command.value},
-                              {"span", valve.span_command.value}};
   for (const auto& plot : contents.plots) data["plots"].push_back(plot_json(plot));
   const std::set<std::string> drawn = drawn_keys(contents);
   for (const auto& group : contents.groups)
@@ -191,8 +181,7 @@ std::string figures_html(const std::vector<Picture>& pictures, bool wide) {
   return html + "</div>\n";
 }
 
-std::string html_of(const Contents& as_calculated) {
-  const Contents contents = with_own_commands(as_calculated);
+std::string html_of(const Contents& contents) {
   const bool runs = !contents.groups.empty();
   std::string html = fmt::format(
       "<!DOCTYPE html>\n<html lang='en'>\n<head>\n<meta charset='utf-8'>\n"

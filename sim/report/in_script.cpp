@@ -1,4 +1,5 @@
-// See the header.
+// See the header. Lengths in m, pressures in bar.
+#include <sim/input/fields_json.hpp>
 #include <sim/report/in_script.hpp>
 
 namespace mckibben::report {
@@ -11,6 +12,32 @@ std::string in_script(const input::Json& data) {
     else
       text += c;
   return text;
+}
+
+namespace {
+
+input::Json muscle_json(const plant::Muscle& muscle) {
+  return {{"rest_length_m", muscle.rest_length_m},
+          {"rest_radius_m", muscle.rest_radius_m},
+          {"braid_angle_rad", muscle.braid_angle_rad}};
+}
+
+}  // namespace
+
+input::Json drawn_rig_json(const plant::Rig& rig, const plant::Mechanics& mechanics, bool gauge) {
+  input::Json json = muscle_json(rig.muscle);
+  json.update({{"wheel_radius_m", rig.joint.wheel_radius_m},
+               {"supply_bar", rig.valve.supply_pressure_Pa / 1e5},
+               {"gauge", gauge}});
+  json["command"] = {{"name", plant::command_key(rig)},
+                     {"title", in_unit(rig.command_unit(), "Current")},
+                     {"unit", name_of(rig.command_unit())},
+                     {"zero", rig.valve.zero_command},
+                     {"span", rig.valve.span_command}};
+  if (const auto* pair = std::get_if<plant::Pair>(&mechanics))
+    json["pair"] = {{"hangs_at_rad", pair->hangs_at_rad}, {"opposite", muscle_json(pair->opposite.muscle)}};
+  if (std::holds_alternative<plant::HeldLength>(mechanics)) json["bench"] = true;
+  return json;
 }
 
 }  // namespace mckibben::report

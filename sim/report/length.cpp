@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 #include <regex>
-#include <string>
 
 #include <fmt/format.h>
 

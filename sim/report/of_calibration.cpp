@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include <sim/output/calibration_report.hpp>
-#include <sim/output/chart.hpp>
 #include <sim/output/svg.hpp>
 #include <sim/report/html.hpp>
 #include <sim/report/report.hpp>

@@ -5,27 +5,22 @@
 #include <fmt/format.h>
 
 #include <sim/domain/number.hpp>
+#include <sim/output/run_results.hpp>
 #include <sim/output/svg.hpp>
-#include <sim/output/table.hpp>
-#include <sim/report/by_load.hpp>
 #include <sim/report/html.hpp>
 #include <sim/report/length.hpp>
 #include <sim/report/quantities.hpp>
 #include <sim/report/report.hpp>
+#include <sim/report/tables.hpp>
 
 namespace mckibben::report {
 namespace {
-
-struct Counted {
-  std::size_t runs = 0, rows = 0;
-  double largest = 0.0;
-};
 
 Run shown(const domain::Run& measured, std::size_t style, const plant::Plant& plant) {
   Run run{.name = measured.id, .style = style, .ticks = measured.current_mA.size()};
   run.quantities = {
       {"contraction_ratio", [&measured](std::size_t k) { return measured.contraction_ratio[k]; }},
-      {"current", [&measured](std::size_t k) { return measured.current_mA[k]; }},
+      {plant::command_key(plant.rig()), [&measured](std::size_t k) { return measured.current_mA[k]; }},
       {"reference_pressure", [&measured, plant](std::size_t k) {
          return plant.reference_pressure_Pa(measured.current_mA[k]) / 1e5;
        }}};
@@ -35,66 +30,13 @@ Run shown(const domain::Run& measured, std::size_t style, const plant::Plant& pl
   return run;
 }
 
-/// What there is to say of the runs of a load, or of a current of a pair: a row of the table, and a group if
-/// there are any. The cells of the row are those after its head.
-void add(Contents& contents, std::string& rows, Group group, const std::string& cells) {
-  const bool any = !group.runs.empty();
-  const std::size_t place = contents.groups.size();
-  rows +=
-      fmt::format("<tr{}><th scope='row'>{}</th>{}</tr>\n", any ? fmt::format(" data-group='{}'", place) : "",
-                  any ? link_html(place, group.name) : output::escaped(group.name), cells);
-  if (any) contents.groups.push_back(std::move(group));
-}
-
-std::string table_html(const std::string& group, const std::string& last, const std::string& rows) {
-  return fmt::format(
-      "<table><caption>What was measured</caption>\n<thead><tr><th scope='col'>{}</th><th "
-      "scope='col'>runs</th><th scope='col'>rows</th><th scope='col'>seconds</th><th "
-      "scope='col'>{}</th></tr></thead>\n<tbody>\n{}</tbody></table>\n",
-      group, last, rows);
-}
-
-std::string plural(std::size_t count, const char* what) {
-  return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
-}
-
-void add_loads(Contents& contents, const domain::Campaign& campaign, const domain::Dataset& dataset) {
-  std::string rows;
-  Counted all;
-  for (const double load_kg : campaign.loads_kg) {
-    const plant::Plant plant(dataset.rig, load_kg);
-    Group group{.name = domain::write_number(load_kg) + " kg", .load_kg = load_kg};
-    Counted load;
-    for (const domain::Run& measured : dataset.runs) {
-      if (measured.load_kg != load_kg) continue;
-      group.ticks = std::max(group.ticks, measured.current_mA.size());
-      group.runs.push_back(shown(measured, load.runs, plant));
-      ++load.runs;
-      load.rows += measured.current_mA.size();
-      load.largest = std::max(load.largest, *std::max_element(measured.contraction_ratio.begin(),
-                                                              measured.contraction_ratio.end()));
-    }
-    add(contents, rows, std::move(group),
-        fmt::format("<td>{}</td><td>{}</td><td>{:.1f}</td><td>{}</td>", load.runs, load.rows,
-                    static_cast<double>(load.rows) * dataset.rig.tick_s,
-                    length_html(load.largest, dataset.rig, 2)));
-    all.runs += load.runs;
-    all.rows += load.rows;
-    all.largest = std::max(all.largest, load.largest);
-  }
-  contents.sentence = fmt::format(
-      "{} with {} and {}, {:.1f} minutes in all; the muscle shortens by up to {}.", plural(all.runs, "run"),
-      plural(campaign.loads_kg.size(), "load"), plural(campaign.currents.size(), "current"),
-      static_cast<double>(all.rows) * dataset.rig.tick_s / 60.0,
-      full_length_html(all.largest, dataset.rig, 1));
-  contents.table = table_html("load", "largest contraction, " + length_unit_html(), rows);
-}
-
 /// Of a pair: its two currents, the pressures that they ask for, the angle and what follows from it.
 Run shown_of_pair(const domain::Run& measured, std::size_t style, const plant::Rig& rig) {
   const plant::Pair& pair = *rig.pair();
   const plant::Plant plant = plant::plant_of(rig);
-  const auto* sides = &measured.measured->sides;
+  const auto current_mA = [&measured](std::size_t muscle) {
+    return &measured.measured->given("command", muscle);
+  };
   const double radius_m = rig.joint.wheel_radius_m;
   const auto contraction = [&measured](double mounted, double per_rad) {
     return [&measured, mounted, per_rad](std::size_t k) { return mounted + per_rad * measured.angle_rad[k]; };
@@ -105,14 +47,14 @@ Run shown_of_pair(const domain::Run& measured, std::size_t style, const plant::R
       {"contraction_ratio_1", contraction(pair.contraction_ratio, radius_m / rig.muscle.rest_length_m)},
       {"contraction_ratio_2",
        contraction(pair.opposite_contraction_ratio, -radius_m / pair.opposite.muscle.rest_length_m)},
-      {"current_1", [sides](std::size_t k) { return (*sides)[0].current_mA[k]; }},
-      {"current_2", [sides](std::size_t k) { return (*sides)[1].current_mA[k]; }},
+      {plant::command_key(rig) + "_1", [commands = current_mA(1)](std::size_t k) { return (*commands)[k]; }},
+      {plant::command_key(rig) + "_2", [commands = current_mA(2)](std::size_t k) { return (*commands)[k]; }},
       {"reference_pressure_1",
-       [sides, plant](std::size_t k) {
-         return plant.reference_pressure_Pa((*sides)[0].current_mA[k]) / plant::Pa_per_bar;
+       [mA = current_mA(1), plant](std::size_t k) {
+         return plant.reference_pressure_Pa((*mA)[k]) / plant::Pa_per_bar;
        }},
-      {"reference_pressure_2", [sides, plant](std::size_t k) {
-         return plant.opposite()->reference_pressure_Pa((*sides)[1].current_mA[k]) / plant::Pa_per_bar;
+      {"reference_pressure_2", [mA = current_mA(2), plant](std::size_t k) {
+         return plant.opposite()->reference_pressure_Pa((*mA)[k]) / plant::Pa_per_bar;
        }}};
   const auto gauge = [&run](const char* key, const std::optional<std::vector<double>>& read) {
     if (read)
@@ -123,39 +65,72 @@ Run shown_of_pair(const domain::Run& measured, std::size_t style, const plant::R
   return run;
 }
 
-void add_currents(Contents& contents, const domain::Campaign& campaign,
-                  const std::vector<run::EndedRun>& ended, const domain::Dataset& dataset) {
+/// What runs that belong together come to, and how far: a contraction ratio, or angles of a pair.
+struct Counted {
+  std::size_t runs = 0, rows = 0;
+  run::Span span{};
+
+  void add(const Counted& other) {
+    runs += other.runs;
+    rows += other.rows;
+    span = {std::min(span.low, other.span.low), std::max(span.high, other.span.high)};
+  }
+};
+
+/// A row of the table, and a group if there are runs, of each load; of a pair, of each current.
+void add_parts(Contents& contents, const domain::Campaign& campaign, const std::vector<run::EndedRun>& ended,
+               const domain::Dataset& dataset) {
+  const plant::Rig& rig = dataset.rig;
+  const bool pair = rig.pair() != nullptr;
+  const auto seconds = [&](const Counted& of) { return static_cast<double>(of.rows) * rig.tick_s; };
   std::string rows;
   Counted all;
-  double lowest_deg = 0.0, highest_deg = 0.0;
-  for (std::size_t i = 0; i < campaign.currents.size(); ++i) {
-    Group group{.name = campaign.currents[i].name};
-    Counted current;
-    run::Span angle_rad{};
+  const std::size_t parts = pair ? campaign.currents.size() : campaign.loads_kg.size();
+  for (std::size_t i = 0; i < parts; ++i) {
+    const double load_kg = pair ? 0.0 : campaign.loads_kg[i];
+    Group group{.name = pair ? campaign.currents[i].name : domain::write_number(load_kg) + " kg",
+                .load_kg = load_kg};
+    Counted part;
     for (const run::EndedRun& run : ended) {
-      if (run.job.current != i || !run.failure.empty()) continue;
-      const auto& measured = *std::ranges::find(dataset.runs, run.job.id, &domain::Run::id);
-      group.ticks = std::max(group.ticks, measured.angle_rad.size());
-      group.runs.push_back(shown_of_pair(measured, current.runs, dataset.rig));
-      angle_rad = {std::min(angle_rad.low, run.angle_rad.low), std::max(angle_rad.high, run.angle_rad.high)};
-      ++current.runs;
-      current.rows += run.rows;
+      if (!run.failure.empty() || (pair ? run.job.current != i : run.job.load_kg != load_kg)) continue;
+      const domain::Run& measured = *std::ranges::find(dataset.runs, run.job.id, &domain::Run::id);
+      group.runs.push_back(pair ? shown_of_pair(measured, part.runs, rig)
+                                : shown(measured, part.runs, plant::Plant(rig, load_kg)));
+      group.ticks = std::max(group.ticks, group.runs.back().ticks);
+      part.add({1, group.runs.back().ticks,
+                pair ? run.angle_rad : run::Span{0.0, std::ranges::max(measured.contraction_ratio)}});
     }
-    add(contents, rows, std::move(group),
-        fmt::format("<td>{}</td><td>{}</td><td>{:.1f}</td><td>{:+.1f} to {:+.1f}</td>", current.runs,
-                    current.rows, static_cast<double>(current.rows) * dataset.rig.tick_s,
-                    in_degrees * angle_rad.low, in_degrees * angle_rad.high));
-    all.runs += current.runs;
-    all.rows += current.rows;
-    lowest_deg = std::min(lowest_deg, in_degrees * angle_rad.low);
-    highest_deg = std::max(highest_deg, in_degrees * angle_rad.high);
+    const bool any = !group.runs.empty();
+    const std::size_t place = contents.groups.size();
+    rows += fmt::format(
+        "<tr{}><th scope='row'>{}</th><td>{}</td><td>{}</td><td>{:.1f}</td><td>{}</td></tr>\n",
+        any ? fmt::format(" data-group='{}'", place) : "",
+        any ? link_html(place, group.name) : output::escaped(group.name), part.runs, part.rows, seconds(part),
+        pair ? fmt::format("{:+.1f} to {:+.1f}", in_degrees * part.span.low, in_degrees * part.span.high)
+             : length_html(part.span.high, rig, 2));
+    if (any) contents.groups.push_back(std::move(group));
+    all.add(part);
   }
-  contents.sentence = fmt::format(
-      "{} of two muscles under {} of currents, {:.1f} minutes in all; the joint turns between {:.1f}° and "
-      "{:.1f}°.",
-      plural(all.runs, "run"), plural(campaign.currents.size(), "pair"),
-      static_cast<double>(all.rows) * dataset.rig.tick_s / 60.0, lowest_deg, highest_deg);
-  contents.table = table_html("currents", "joint angle, deg", rows);
+  const auto plural = [](std::size_t count, const char* what) {
+    return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+  };
+  const double minutes = seconds(all) / 60.0;
+  contents.sentence =
+      pair ? fmt::format(
+                 "{} of two muscles under {} of currents, {:.1f} minutes in all; the joint turns between "
+                 "{:.1f}° and {:.1f}°.",
+                 plural(all.runs, "run"), plural(parts, "pair"), minutes, in_degrees * all.span.low,
+                 in_degrees * all.span.high)
+           : fmt::format("{} with {} and {}, {:.1f} minutes in all; the muscle shortens by up to {}.",
+                         plural(all.runs, "run"), plural(parts, "load"),
+                         plural(campaign.currents.size(), "current"), minutes,
+                         full_length_html(all.span.high, rig, 1));
+  contents.table = fmt::format(
+      "<table><caption>What was measured</caption>\n<thead><tr><th scope='col'>{}</th><th "
+      "scope='col'>runs</th><th scope='col'>rows</th><th scope='col'>seconds</th><th "
+      "scope='col'>{}</th></tr></thead>\n<tbody>\n{}</tbody></table>\n",
+      pair ? "currents" : "load", pair ? "joint angle, deg" : "largest contraction, " + length_unit_html(),
+      rows);
 }
 
 }  // namespace
@@ -175,12 +150,9 @@ std::string report_html(const domain::Campaign& campaign, const std::vector<run:
       .rig = dataset.rig,
       .mechanics = dataset.rig.mechanics,
       .gauge = dataset.rig.sensors.of(plant::Sensed::muscle_pressure) != nullptr,
-      .plots = measured_plots(pair),
+      .plots = measured_plots(dataset.rig, pair),
       .loops = measured_loops(pair)};
-  if (pair)
-    add_currents(contents, campaign, ended, dataset);
-  else
-    add_loads(contents, campaign, dataset);
+  add_parts(contents, campaign, ended, dataset);
   return html_of(contents);
 }
 

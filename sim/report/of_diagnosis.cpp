@@ -8,16 +8,16 @@
 
 #include <fmt/format.h>
 
-#include <sim/output/diagnosis_table.hpp>
+#include <sim/output/diagnosis_results.hpp>
 #include <sim/output/diagnosis_words.hpp>
 #include <sim/output/svg.hpp>
-#include <sim/report/by_load.hpp>
 #include <sim/report/diagnosis_chapters.hpp>
 #include <sim/report/html.hpp>
 #include <sim/report/length.hpp>
 #include <sim/report/opening.hpp>
 #include <sim/report/quantities.hpp>
 #include <sim/report/report.hpp>
+#include <sim/report/tables.hpp>
 
 namespace mckibben::report {
 namespace {
@@ -26,26 +26,15 @@ using diagnose::Diagnosis;
 using diagnose::RunGap;
 using run::ReplayedRun;
 
-double read_of(const domain::Dataset& data, const run::Sample& sample) {
-  switch (data.judged()) {
-    case diagnose::Judged::force:
-      return sample.cord_force_N;
-    case diagnose::Judged::angle:
-      return sample.angle_rad;
-    case diagnose::Judged::contraction:
-      break;
-  }
-  return sample.state.joint.contraction_ratio;
-}
-
 /// What is known where the diagnosis ended before its runs: measured, and the rig as described.
 std::vector<RunGap> as_described(const domain::Dataset& data, const std::vector<ReplayedRun>& nominal) {
   std::vector<RunGap> runs;
   for (std::size_t i = 0; i < std::min(data.runs.size(), nominal.size()); ++i) {
     runs.push_back({.id = data.runs[i].id, .load_kg = data.runs[i].load_kg});
     runs.back().measured = data.runs[i].judged();
+    const plant::Signal& read = plant::signal_of(output::words_of(data.judged()).signal);
     for (const auto& sample : nominal[i].recording.samples)
-      runs.back().nominal.push_back(read_of(data, sample));
+      runs.back().nominal.push_back(read.value(sample, 0));
   }
   return runs;
 }
@@ -72,22 +61,30 @@ auto by_id(const Runs& runs, const std::string& id) {
   return at == runs.end() ? nullptr : &*at;
 }
 
-/// One model's readings, and its pressures and forces where it was replayed.
-Run shown(const char* name, std::size_t style, const RunGap& gap, const std::vector<double>& readings,
-          const ReplayedRun* replayed, const domain::Run* recorded, const plant::Plant& plant) {
-  const bool bench = recorded != nullptr && recorded->length_is_given();
-  Run run{.name = name, .style = style, .ticks = std::min(readings.size(), gap.measured.size())};
-  const auto *model = &readings, *measured = &gap.measured;
-  run.quantities = {{bench ? "force" : "contraction_ratio", [model](std::size_t k) { return (*model)[k]; }},
-                    {"error", [=](std::size_t k) { return (*measured)[k] - (*model)[k]; }}};
-  if (replayed == nullptr || replayed->recording.samples.size() < run.ticks) return run;
+/// Whether a page draws this of a model beside the reading that was judged.
+bool is_shown(const std::string& key, diagnose::Judged judged) {
+  if (judged == diagnose::Judged::angle) return key != "angle";
   constexpr std::array<std::string_view, 5> wanted{"valve_pressure", "muscle_pressure", "braid_force",
                                                    "friction_force", "effects_pull"};
-  for (auto& quantity : quantities_of(replayed->recording, plant.rig()))
-    if ((bench && quantity.key == "contraction_ratio") ||
-        std::find(wanted.begin(), wanted.end(), quantity.key) != wanted.end())
-      run.quantities.push_back(std::move(quantity));
-  if (const auto* force_N = recorded == nullptr ? nullptr : recorded->beside(domain::Beside::force)) {
+  return (judged == diagnose::Judged::force && key == "contraction_ratio") ||
+         std::find(wanted.begin(), wanted.end(), key) != wanted.end();
+}
+
+/// One model's readings, and what else it did where it was replayed.
+Run shown(const char* name, std::size_t style, const RunGap& gap, const std::vector<double>& readings,
+          const ReplayedRun* replayed, const domain::Run* recorded, const plant::Rig& rig,
+          diagnose::Judged judged) {
+  Run run{.name = name, .style = style, .ticks = std::min(readings.size(), gap.measured.size())};
+  const auto *model = &readings, *measured = &gap.measured;
+  const output::JudgedWords& of = output::words_of(judged);
+  run.quantities = {
+      {of.signal, [model, size = of.size](std::size_t k) { return (*model)[k] / size; }},
+      {"error", [=, size = of.size](std::size_t k) { return ((*measured)[k] - (*model)[k]) / size; }}};
+  if (replayed == nullptr || replayed->recording.samples.size() < run.ticks) return run;
+  for (auto& quantity : quantities_of(replayed->recording, rig))
+    if (is_shown(quantity.key, judged)) run.quantities.push_back(std::move(quantity));
+  if (recorded == nullptr || judged == diagnose::Judged::angle) return run;
+  if (const auto* force_N = recorded->beside(domain::Beside::force)) {
     const auto pull_N = [replayed](std::size_t k) {
       return std::max(replayed->recording.samples[k].cord_force_N, 0.0);
     };
@@ -95,91 +92,70 @@ Run shown(const char* name, std::size_t style, const RunGap& gap, const std::vec
     run.quantities.push_back(
         {"force_error", [force_N, pull_N](std::size_t k) { return (*force_N)[k] - pull_N(k); }});
   }
-  if (recorded != nullptr && recorded->muscle_pressure_Pa)
+  if (recorded->muscle_pressure_Pa)
     run.quantities.push_back(
-        {"muscle_pressure_error", [replayed, recorded, effects = plant.rig().effects](std::size_t k) {
+        {"muscle_pressure_error", [replayed, recorded, effects = rig.effects](std::size_t k) {
            const double true_Pa = replayed->recording.samples[k].state.side.muscle_pressure_Pa;
            return ((*recorded->muscle_pressure_Pa)[k] - effects.shown_Pa(true_Pa)) / 1e5;
          }});
   return run;
 }
 
-std::string name_of(const RunGap& gap, const std::string& load) {
-  return fmt::format("{}{}{}", gap.id, load, gap.left_out ? ", left out" : gap.held_out ? ", held out" : "");
-}
-
-/// One model's angles, and what else two muscles did where they were replayed.
-Run shown_pair(const char* name, std::size_t style, const RunGap& gap, const std::vector<double>& angles,
-               const ReplayedRun* replayed, const plant::Rig& rig) {
-  Run run{.name = name, .style = style, .ticks = std::min(angles.size(), gap.measured.size())};
-  const auto *model = &angles, *measured = &gap.measured;
-  run.quantities = {
-      {"angle", [model](std::size_t k) { return (*model)[k] / plant::degree_rad; }},
-      {"error", [=](std::size_t k) { return ((*measured)[k] - (*model)[k]) / plant::degree_rad; }}};
-  if (replayed == nullptr || replayed->recording.samples.size() < run.ticks) return run;
-  for (auto& quantity : quantities_of(replayed->recording, rig))
-    if (quantity.key != "angle") run.quantities.push_back(std::move(quantity));
-  return run;
-}
-
-Group pair_group(const domain::Dataset& data, const Diagnosis& diagnosis, const RunGap& gap,
-                 const ReplayedRun* nominal, const ReplayedRun* corrected) {
-  Group group{.name = name_of(gap, ""), .ticks = gap.measured.size()};
-  group.given = {{"given_angle", [&gap](std::size_t k) { return gap.measured[k] / plant::degree_rad; }}};
-  const domain::Run* recorded = by_id(data.runs, gap.id);
-  if (recorded != nullptr && recorded->judged().size() >= group.ticks) {
-    group.time_s = recorded->time_s;
-    for (const domain::Beside which : domain::gauges)
-      if (const auto* read = recorded->beside(which))
-        group.given.push_back(
-            {which == domain::Beside::muscle_pressure ? "given_muscle_pressure_1" : "given_muscle_pressure_2",
-             [read](std::size_t k) { return (*read)[k] / plant::Pa_per_bar; }});
+/// What drove a run of one muscle and was read beside, in the order in which a page lists it.
+void add_given(Group& group, const domain::Run& recorded, const plant::Rig& rig) {
+  if (!recorded.current_mA.empty()) {
+    group.given.push_back(
+        {plant::command_key(rig), [&recorded](std::size_t k) { return recorded.current_mA[k]; }});
+    group.given.push_back(
+        {"reference_pressure", [&recorded, plant = plant::Plant(rig, recorded.load_kg)](std::size_t k) {
+           return plant.reference_pressure_Pa(recorded.current_mA[k]) / 1e5;
+         }});
   }
-  const auto add = [&](Run run) {
-    if (run.ticks > 0) group.runs.push_back(std::move(run));
-  };
-  add(shown_pair("nominal", 1, gap, gap.nominal, nominal, data.rig));
-  add(shown_pair("recalibrated", 3, gap, gap.recalibrated, nullptr, data.rig));
-  if (output::changed(diagnosis))
-    add(shown_pair("corrected", 0, gap, gap.corrected, corrected, diagnosis.corrected));
-  return group;
+  if (const auto* force_N = recorded.beside(domain::Beside::force))
+    group.given.push_back({"given_force", [force_N](std::size_t k) { return (*force_N)[k]; }});
 }
 
 Group group_of(const domain::Dataset& data, const Diagnosis& diagnosis, const RunGap& gap,
                const ReplayedRun* nominal, const ReplayedRun* corrected) {
-  const plant::Plant nominal_plant(data.rig, gap.load_kg), mended(diagnosis.corrected, gap.load_kg);
-  const bool bench = diagnosis.gap.judged == diagnose::Judged::force;
-  Group group{.name = name_of(gap, bench ? "" : ", " + output::mass(gap.load_kg)),
+  const diagnose::Judged judged = data.judged();
+  const bool hangs = judged == diagnose::Judged::contraction, pair = judged == diagnose::Judged::angle;
+  const output::JudgedWords& of = output::words_of(judged);
+  const bool changed = output::changed(diagnosis);
+  Group group{.name = fmt::format("{}{}{}", gap.id, hangs ? ", " + output::mass(gap.load_kg) : "",
+                                  gap.left_out   ? ", left out"
+                                  : gap.held_out ? ", held out"
+                                                 : ""),
               .load_kg = gap.load_kg,
               .ticks = gap.measured.size()};
-  group.given = {
-      {bench ? "given_force" : "given_contraction_ratio", [&gap](std::size_t k) { return gap.measured[k]; }}};
-  if (!bench)
-    group.given.push_back({"weight", [weight_N = mended.weight_N()](std::size_t) { return weight_N; }});
+  group.given = {{std::string("given_") + of.signal,
+                  [&gap, size = of.size](std::size_t k) { return gap.measured[k] / size; }}};
+  if (hangs) {
+    const double weight_N = plant::Plant(diagnosis.corrected, gap.load_kg).weight_N();
+    group.given.push_back({"weight", [weight_N](std::size_t) { return weight_N; }});
+  }
   const domain::Run* recorded = by_id(data.runs, gap.id);
   if (recorded != nullptr && recorded->judged().size() < group.ticks) recorded = nullptr;
-  if (const auto* run = recorded) {
-    group.time_s = run->time_s;
-    if (!run->current_mA.empty()) {
-      group.given.push_back({"current", [run](std::size_t k) { return run->current_mA[k]; }});
-      group.given.push_back({"reference_pressure", [run, nominal_plant](std::size_t k) {
-                               return nominal_plant.reference_pressure_Pa(run->current_mA[k]) / 1e5;
-                             }});
-    }
-    if (const auto* force_N = run->beside(domain::Beside::force))
-      group.given.push_back({"given_force", [force_N](std::size_t k) { return (*force_N)[k]; }});
-    if (run->muscle_pressure_Pa)
-      group.given.push_back(
-          {"given_muscle_pressure", [run](std::size_t k) { return (*run->muscle_pressure_Pa)[k] / 1e5; }});
+  if (recorded != nullptr) {
+    group.time_s = recorded->time_s;
+    if (!pair) add_given(group, *recorded, data.rig);
+    for (const domain::Beside which : domain::gauges)
+      if (const auto* read = recorded->beside(which))
+        group.given.push_back(
+            {std::string("given_muscle_pressure") + (!pair                                      ? ""
+                                                     : which == domain::Beside::muscle_pressure ? "_1"
+                                                                                                : "_2"),
+             [read](std::size_t k) { return (*read)[k] / plant::Pa_per_bar; }});
   }
-  if (const double left = left_of(gap, output::changed(diagnosis)); std::isfinite(left) && left > 0.0)
+  if (const double left = left_of(gap, changed); !pair && std::isfinite(left) && left > 0.0)
     group.rmse = left;
-  const auto add = [&](Run run) {
+  const auto add = [&](const char* name, std::size_t style, const std::vector<double>& readings,
+                       const ReplayedRun* replayed, const plant::Rig& rig) {
+    Run run = shown(name, style, gap, readings, replayed, recorded, rig, judged);
     if (run.ticks > 0) group.runs.push_back(std::move(run));
   };
-  add(shown("nominal", 1, gap, gap.nominal, nominal, recorded, nominal_plant));
-  add(shown("recalibrated", 3, gap, gap.recalibrated, nullptr, recorded, nominal_plant));
-  if (output::changed(diagnosis)) add(shown("corrected", 0, gap, gap.corrected, corrected, recorded, mended));
+  add("nominal", 1, gap.nominal, nominal, data.rig);
+  add("recalibrated", 3, gap.recalibrated, nullptr, data.rig);
+  if (changed) add("corrected", 0, gap.corrected, corrected, diagnosis.corrected);
   return group;
 }
 
@@ -187,15 +163,14 @@ Group group_of(const domain::Dataset& data, const Diagnosis& diagnosis, const Ru
 std::vector<Plot> plots(const domain::Dataset& data, const Diagnosis& diagnosis) {
   const bool bench = data.judged() == diagnose::Judged::force,
              pair = data.judged() == diagnose::Judged::angle;
-  const double floor = diagnosis.gap.noise_floor / (pair ? plant::degree_rad : 1.0);
+  const output::JudgedWords& of = output::words_of(data.judged());
+  const double floor = diagnosis.gap.noise_floor / of.size;
   const std::string error = "Error: measured less model";
   const auto cell = [](const domain::Run& run) { return run.beside(domain::Beside::force) != nullptr; };
   auto all = plots_of(
       diagnosis.corrected,
       {.driven = {.pair = pair, .length = bench},
-       .key = bench  ? "force"
-              : pair ? "angle"
-                     : "contraction_ratio",
+       .key = of.signal,
        .title = fmt::format("{}, measured and by each rig", bench  ? "Force"
                                                             : pair ? "Joint angle"
                                                                    : "Contraction"),
@@ -210,7 +185,8 @@ std::vector<Plot> plots(const domain::Dataset& data, const Diagnosis& diagnosis)
   for (Plot& plot : all) {
     if (plot.id == "error" && !bench) plot.still = true, plot.floor = floor;
     for (Line& line : plot.lines)  // one for all rigs
-      if (!pair && (line.key == "current" || line.key == "reference_pressure")) line.given = true;
+      if (!pair && (line.key == plant::command_key(data.rig) || line.key == "reference_pressure"))
+        line.given = true;
   }
   return all;
 }
@@ -224,18 +200,6 @@ std::vector<Loop> loops_of_runs(const domain::Dataset& data) {
            "pressure asked of the valve in bar", std::string(ratio_unit), false, "reference_pressure",
            "given_contraction_ratio"},
           loops_of({}).front()};
-}
-
-const char* of_what_is_judged(diagnose::Judged judged) {
-  switch (judged) {
-    case diagnose::Judged::force:
-      return "Forces are those of the cord. ";
-    case diagnose::Judged::angle:
-      return "Angles are those of the joint, positive as muscle 1 contracts. ";
-    case diagnose::Judged::contraction:
-      break;
-  }
-  return "Heights are heights of the load. ";
 }
 
 }  // namespace
@@ -262,7 +226,7 @@ std::string report_html(const domain::Dataset& data, const Diagnosis& diagnosis,
           "none is missing in {:.0f} % of data sets: a rate aimed at, not one measured on these data. Of "
           "simulated data sets with nothing missing an effect or a law was given to {} (measured {}, seeds "
           "{}). Seed {}. Every number is in diagnosis.json, the corrected rig in rig.yaml.",
-          of_what_is_judged(data.judged()),
+          output::words_of(data.judged()).note,
           output::amount(diagnosis.gap.jitter, diagnosis.gap.judged, data.rig),
           100.0 * diagnosis.false_alarm_rate, output::in_words(diagnose::record.false_alarms),
           diagnose::record.measured, diagnose::record.null_seeds, diagnosis.seed),
@@ -278,8 +242,7 @@ std::string report_html(const domain::Dataset& data, const Diagnosis& diagnosis,
       .drawn = output::changed(diagnosis) ? 2u : 0u};  // the corrected
   const RunGap* telling = telling_run(diagnosis);
   for (const RunGap* run : runs) {
-    const auto of = pair ? pair_group : group_of;
-    auto group = of(data, diagnosis, *run, by_id(nominal, run->id), by_id(corrected, run->id));
+    auto group = group_of(data, diagnosis, *run, by_id(nominal, run->id), by_id(corrected, run->id));
     if (run == telling && !group.runs.empty())
       contents.opening = opening_html(data, diagnosis, group, contents.plots, contents.loops.front());
     if (!group.runs.empty()) contents.groups.push_back(std::move(group));

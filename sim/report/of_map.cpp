@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include <sim/output/error_map.hpp>
-#include <sim/output/heat_map.hpp>
 #include <sim/report/html.hpp>
 #include <sim/report/length.hpp>
 #include <sim/report/report.hpp>

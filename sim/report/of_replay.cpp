@@ -11,11 +11,11 @@
 #include <sim/output/diagnosis_words.hpp>
 #include <sim/output/replay_results.hpp>
 #include <sim/output/svg.hpp>
-#include <sim/report/by_load.hpp>
 #include <sim/report/html.hpp>
 #include <sim/report/length.hpp>
 #include <sim/report/quantities.hpp>
 #include <sim/report/report.hpp>
+#include <sim/report/tables.hpp>
 
 namespace mckibben::report {
 namespace {
@@ -139,19 +139,22 @@ std::string report_html(const domain::Dataset& dataset, const std::vector<run::R
   contents.warnings = warnings;
   contents.sentence = sentence(dataset, runs);
   contents.table = gaps_table(dataset, runs);
-  contents.gauge = measured("muscle_pressure") || driven.pressure[0];
+  contents.gauge = measured("muscle_pressure") || driven.pressure[0] == plant::GivenPressure::muscle;
   contents.details = output::table_of(dataset, runs, warnings);
+  constexpr auto none = plant::GivenPressure::none;
   const bool position = measured(driven.pair ? "angle" : "contraction");
   const std::string title = driven.pair ? "Joint angle" : "Contraction";
-  contents.plots =
-      plots_of(dataset.rig, {.driven = driven,
-                             .key = driven.pair ? "angle" : "contraction_ratio",
-                             .title = title,
-                             .given = position ? "measured" : "",
-                             .error = position ? title + ": simulated less measured" : "",
-                             .commands = !driven.pressure[0] || (driven.pair && !driven.pressure[1]),
-                             .pressure = measured("muscle_pressure"),
-                             .force = measured("force")});
+  contents.plots = plots_of(
+      dataset.rig, {.driven = driven,
+                    .key = driven.pair ? "angle" : "contraction_ratio",
+                    .title = title,
+                    .given = position ? "measured" : "",
+                    .error = position ? title + ": simulated less measured" : "",
+                    .commands = driven.pressure[0] == none || (driven.pair && driven.pressure[1] == none),
+                    .pressure = measured("muscle_pressure"),
+                    .valve_pressure = measured("valve_pressure") || measured("valve_pressure_1") ||
+                                      measured("valve_pressure_2"),
+                    .force = measured("force")});
   for (const std::size_t i : order(runs)) {
     const run::ReplayedRun& run = runs[i];
     if (!drawn(run)) continue;

@@ -7,14 +7,14 @@
 
 #include <sim/domain/number.hpp>
 #include <sim/output/diagnosis_words.hpp>
+#include <sim/output/run_results.hpp>
 #include <sim/output/svg.hpp>
-#include <sim/output/table.hpp>
 #include <sim/report/bands.hpp>
-#include <sim/report/by_load.hpp>
 #include <sim/report/html.hpp>
 #include <sim/report/length.hpp>
 #include <sim/report/quantities.hpp>
 #include <sim/report/report.hpp>
+#include <sim/report/tables.hpp>
 #include <sim/run/remarks.hpp>
 
 namespace mckibben::report {
@@ -80,7 +80,7 @@ std::string sentence(const Scenario& scenario, const Comparison& comparison) {
                        run::in_doubt(comparison, best->controller) ? "errs least" : "follows the target best",
                        error, comparison.spreads.size(), escaped(worst->controller),
                        full_error_html(worst->rmse->mean, scenario));
-  if (const std::string stood = run::limit_words(comparison, best->controller); !stood.empty())
+  if (const std::string stood = run::limit_words(comparison, scenario.rig, best->controller); !stood.empty())
     text += fmt::format(" {} {}.", name, stood);
   if (std::any_of(comparison.tuned.begin(), comparison.tuned.end(), [&](const auto& tuned) {
         return tuned.controller == best->controller && run::gained_nothing(tuned);
@@ -190,11 +190,11 @@ std::string limits_table(const Scenario& scenario, const Comparison& comparison)
   }
   if (most < 0.01) return "";
   return fmt::format(
-      "<details class='limits'><summary>Controllers stood at a limit of their current for up to {:.0f} % of "
-      "the time</summary>\n<table><caption>Share of the time at the lowest or highest current, in "
-      "%</caption>\n<thead><tr>{}</tr></thead>\n<tbody>\n{}</tbody></table>\n"
+      "<details class='limits'><summary>Controllers stood at a limit of their {0} for up to {1:.0f} % of "
+      "the time</summary>\n<table><caption>Share of the time at the lowest or highest {0}, in "
+      "%</caption>\n<thead><tr>{2}</tr></thead>\n<tbody>\n{3}</tbody></table>\n"
       "</details>\n",
-      100.0 * most, heads(scenario), rows);
+      plant::command_key(scenario.rig), 100.0 * most, heads(scenario), rows);
 }
 
 Run shown(const Scenario& scenario, const run::TrackedRun& run, const std::string& name, std::size_t style) {

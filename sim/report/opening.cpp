@@ -135,9 +135,9 @@ double apart(const std::vector<std::pair<double, double>>& one,
 std::string what_it_does(const domain::Dataset& data, const Diagnosis& diagnosis, const Group& run,
                          output::Panel panel) {
   constexpr double plain = 0.12, period_s = 20.0;
-  const auto current = std::ranges::find(run.given, "current", &Quantity::key);
+  const auto current = std::ranges::find(run.given, plant::command_key(data.rig), &Quantity::key);
   if (current == run.given.end() || data.judged() != diagnose::Judged::contraction) return "";
-  controllers::TriangleCurrent up_and_down{.low_mA = data.rig.valve.zero_current_mA, .period_s = period_s};
+  controllers::TriangleCurrent up_and_down{.low_mA = data.rig.valve.zero_command, .period_s = period_s};
   up_and_down.high_mA = up_and_down.low_mA;
   for (std::size_t k = 0; k < run.ticks; ++k)
     up_and_down.high_mA = std::max(up_and_down.high_mA, current->at(k));
@@ -225,13 +225,13 @@ std::string opening_html(const domain::Dataset& data, const Diagnosis& diagnosis
                          const std::vector<Plot>& plots, const Loop& loop) {
   const Group run = before_and_after(whole);
   const auto error = std::ranges::find(plots, "error", &Plot::id);
-  const double unit = data.judged() == diagnose::Judged::angle ? plant::degree_rad : 1.0;
   std::string keys = key_of("given", "measured");
   for (const Run& one : run.runs)
     keys += key_of(fmt::format("run c{0} d{1}", one.style % 7, one.style % 4), one.name);
   return "<figure class='opening'>\n<p class='keys'>" + keys + "</p>\n<div>\n" +
          picture_of("Measured, before and after, over time",
-                    over_time(run, plots.front(), *error, diagnosis.gap.noise_floor / unit, data.rig)) +
+                    over_time(run, plots.front(), *error,
+                              diagnosis.gap.noise_floor / output::words_of(data.judged()).size, data.rig)) +
          picture_of("The same as a loop, and what was added", loop_and_rig(data, diagnosis, run, loop)) +
          fmt::format(
              "</div>\n<figcaption>{}. Below: measured less model, and the noise floor as a band.{}"

@@ -1,8 +1,10 @@
-// Decimation, quantisation, letters.
+// Decimation, quantisation; letters by OpenSSL.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
+
+#include <openssl/evp.h>
 
 #include <sim/report/pack.hpp>
 
@@ -79,15 +81,10 @@ Packed pack(const AtTick& at, std::size_t ticks, std::size_t present, std::size_
 }
 
 std::string base64(const std::vector<unsigned char>& bytes) {
-  constexpr const char* letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  text.reserve((bytes.size() + 2) / 3 * 4);
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    std::uint32_t three = 0;
-    const std::size_t held = std::min<std::size_t>(3, bytes.size() - i);
-    for (std::size_t j = 0; j < 3; ++j) three = three << 8 | (j < held ? bytes[i + j] : 0u);
-    for (std::size_t j = 0; j < 4; ++j) text += j <= held ? letters[three >> (18 - 6 * j) & 63] : '=';
-  }
+  std::string text((bytes.size() + 2) / 3 * 4 + 1, '\0');  // a last byte of zero is written, too
+  const int length = EVP_EncodeBlock(reinterpret_cast<unsigned char*>(text.data()), bytes.data(),
+                                     static_cast<int>(bytes.size()));
+  text.resize(static_cast<std::size_t>(length));
   return text;
 }
 

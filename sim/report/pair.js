@@ -55,7 +55,7 @@ class PairPicture {
           of('muscle_pressure') ?? of('reference_pressure');  // without a gauge, what is asked for
       picture.fill(pressure);
       cord.setAttribute('d', `M${end} ${axis}H${wheel.x}`);
-      const said = [[of('current'), 2, 'mA'], [pressure, 2, 'bar'], [of('tension'), 0, 'N']];
+      const said = [[of(command.name), 2, command.unit], [pressure, 2, 'bar'], [of('tension'), 0, 'N']];
       const known = said.filter(([value]) => value !== undefined && value !== null);
       const words = known.map(([value, digits, unit]) => `${value.toFixed(digits)} ${unit}`);
       write(text, `muscle ${i + 1}: ${words.join(', ')}`);

@@ -33,6 +33,15 @@ Plot plot_of(std::string id, std::string title, std::string_view key, std::vecto
   return {.id = std::move(id), .title = std::move(title), .unit = unit_of(key), .lines = std::move(lines)};
 }
 
+Plot commands_of(const plant::Rig& rig, bool pair) {
+  const plant::Signal& command = plant::command_of(rig.command_unit());
+  const std::string key(command.key);
+  return {.id = key,
+          .title = in_unit(rig.command_unit(), pair ? "Currents" : "Current"),
+          .unit = std::string(command.unit.name),
+          .lines = lines_of(pair, key, key)};
+}
+
 Plot error_of(const std::string& id, std::string title, std::string_view key) {
   return plot_of(id, std::move(title), key, {{.key = id, .label = "error", .main = true}});
 }
@@ -44,12 +53,16 @@ Plot pressures_of(const PlotsOf& of) {
   const auto add = [&](std::vector<Line> lines) {
     plot.lines.insert(plot.lines.end(), lines.begin(), lines.end());
   };
-  if (!pair && of.commands)
-    add({{.key = "valve_pressure", .label = "valve"},
-         {.key = "reference_pressure", .label = "asked of the valve"}});
-  std::vector<Line> given = lines_of(pair, "given_muscle_pressure", "measured", false, "measured, muscle");
-  for (Line& line : given) line.given = true;
-  if (pair || of.pressure) add(given);
+  if (of.valve_pressure || (!pair && (of.commands || of.driven.pressure[0] == plant::GivenPressure::valve)))
+    add(lines_of(pair, "valve_pressure", "valve", false, "valve of muscle"));
+  if (!pair && of.commands) add({{.key = "reference_pressure", .label = "asked of the valve"}});
+  const auto measured = [&](const std::string& key, const std::string& label, const std::string& each) {
+    std::vector<Line> lines = lines_of(pair, key, label, false, each);
+    for (Line& line : lines) line.given = true;
+    add(lines);
+  };
+  if (pair || of.pressure) measured("given_muscle_pressure", "measured", "measured, muscle");
+  if (of.valve_pressure) measured("given_valve_pressure", "measured, valve", "measured, valve of muscle");
   return plot;
 }
 
@@ -112,12 +125,18 @@ std::vector<Plot> plots_of(const plant::Rig& rig, const PlotsOf& of) {
                              {.key = "force", .label = "cord", .main = true}}));
     plots.push_back(error_of("force_error", "Force of the cord: " + of.off, "force"));
   }
-  if (of.commands)
-    plots.push_back(
-        plot_of("current", pair ? "Currents" : "Current", "current", lines_of(pair, "current", "current")));
+  if (of.commands) plots.push_back(commands_of(rig, pair));
   plots.push_back(pressures_of(of));
   if (!pair && of.pressure)
     plots.push_back(error_of("muscle_pressure_error", "Error of the pressure: " + of.off, "muscle_pressure"));
+  if (!pair && of.valve_pressure)
+    plots.push_back(
+        error_of("valve_pressure_error", "Error of the valve's pressure: " + of.off, "valve_pressure"));
+  if (of.driven.joint_force)
+    plots.push_back(pair ? plot_of("joint_torque", "Torque on the joint from outside", "joint_torque",
+                                   {{.key = "joint_torque", .label = "torque"}})
+                         : plot_of("joint_force", "Force on the cord from outside", "joint_force",
+                                   {{.key = "joint_force", .label = "force"}}));
   if (pair) {
     plots.push_back(plot_of("tensions", "Forces of the cords", "force", lines_of(true, "tension", "")));
     plots.push_back(plot_of("stiffness", "Stiffness of the joint", "stiffness",
@@ -159,12 +178,12 @@ std::vector<Loop> loops_of(const run::Driven& driven) {
        "contraction_ratio", "friction_coefficient", ratio, "friction coefficient", true}};
 }
 
-std::vector<Plot> measured_plots(bool pair) {
+std::vector<Plot> measured_plots(const plant::Rig& rig, bool pair) {
   const std::string at = position(pair);
   std::vector<Plot> plots{
       plot_of(pair ? "angle" : "height", pair ? "Joint angle, as counted" : "Contraction, as counted", at,
               lines_of(false, at, pair ? "angle" : "contraction")),
-      plot_of("current", pair ? "Currents" : "Current", "current", lines_of(pair, "current", "current")),
+      commands_of(rig, pair),
       plot_of("pressures", "Pressures", "muscle_pressure",
               lines_of(pair, "reference_pressure", "asked of the valve", true, "asked of valve"))};
   plots.front().still = true;

@@ -29,9 +29,9 @@ struct PlotsOf {
   /// What it is about: contraction_ratio, force, or of a pair angle; its title; what was measured or wanted
   /// of it, and the title of the error: none if empty.
   std::string key = "contraction_ratio", title{}, given{}, error{};
-  bool commands = true;                         ///< drove it, or a pressure did
-  bool pressure = false, force = false;         ///< were measured besides
-  std::string off = "simulated less measured";  ///< what their errors are
+  bool commands = true;                                          ///< drove it, or a pressure did
+  bool pressure = false, valve_pressure = false, force = false;  ///< were measured besides
+  std::string off = "simulated less measured";                   ///< what their errors are
 };
 
 /// What a page is about comes first, with its error; then what made it.
@@ -41,7 +41,7 @@ std::vector<Loop> loops_of(const run::Driven& driven);
 
 /// The same of what is measured alone: position, currents, the pressures asked for by the valves' lines, and
 /// those of gauges where there are any.
-std::vector<Plot> measured_plots(bool pair);
+std::vector<Plot> measured_plots(const plant::Rig& rig, bool pair);
 std::vector<Loop> measured_loops(bool pair);
 
 }  // namespace mckibben::report

@@ -36,8 +36,7 @@ function threadPaths(shape, phase, hand, left, axis, fitting) {
 }
 
 /** What drives the valve, and its range. */
-const command =
-    report.rig.command ?? {name: 'current', unit: 'mA', zero: report.rig.zero_mA, span: report.rig.span_mA};
+const {command} = report.rig;
 const short = (value) => String(+value.toPrecision(4));
 const share = (bar) => `${Math.round(10 + (70 * bar) / report.rig.supply_bar)}%`;
 
@@ -188,7 +187,9 @@ class RigPicture {
         wanted === undefined || wanted === null ?
             '' :
             `M${x - 62} ${wheel.y + 140 - wanted * report.rig.rest_length_m * mm}h124`);
-    write(this.current, 'current' in values ? `${fixed(values.current, 2)} ${command.unit}` : 'not used');
+    write(
+        this.current,
+        command.name in values ? `${fixed(values[command.name], 2)} ${command.unit}` : 'not used');
     for (const {key, name, frame, bar, text} of this.bars) {
       const absent = values[key] === undefined || values[key] === null;  // no gauge
       for (const part of [name, frame, bar, text]) part.style.display = absent ? 'none' : '';

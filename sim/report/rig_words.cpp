@@ -6,11 +6,10 @@
 #include <fmt/format.h>
 
 #include <plant/instruments.hpp>
-#include <sim/domain/number.hpp>
 #include <sim/output/diagnosis_words.hpp>
 #include <sim/output/svg.hpp>
+#include <sim/report/html.hpp>
 #include <sim/report/length.hpp>
-#include <sim/report/rig_words.hpp>
 
 namespace mckibben::report {
 namespace {
@@ -27,12 +26,9 @@ std::string muscle(const plant::Muscle& muscle) {
 }
 
 std::string valve(const plant::Valve& valve) {
-  std::string range = fmt::format("{:g} to {:g} mA", valve.zero_current_mA, valve.span_current_mA);
-  if (valve.has_own_command())
-    range = fmt::format("{:g} to {:g} {} (here as {})", valve.zero_command.value, valve.span_command.value,
-                        plant::name_of(valve.zero_command.unit), range);
   std::string says =
-      fmt::format("{} for {} to {}; supply {}", range, readable(valve.zero_pressure_Pa, "Pa"),
+      fmt::format("{:g} to {:g} {} for {} to {}; supply {}", valve.zero_command, valve.span_command,
+                  name_of(valve.command_unit), readable(valve.zero_pressure_Pa, "Pa"),
                   readable(valve.span_pressure_Pa, "Pa"), readable(valve.supply_pressure_Pa, "Pa"));
   if (valve.swings())
     says += fmt::format("; a regulator of {} and damping {:.3g}", readable(valve.natural_frequency_Hz, "Hz"),

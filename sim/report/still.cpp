@@ -1,12 +1,9 @@
 // Panels and lines; see the header.
 #include <algorithm>
 #include <cmath>
-#include <string_view>
-#include <utility>
 
 #include <fmt/format.h>
 
-#include <sim/output/axes.hpp>
 #include <sim/output/svg.hpp>
 #include <sim/report/length.hpp>
 #include <sim/report/still.hpp>

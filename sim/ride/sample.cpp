@@ -65,6 +65,8 @@ plant::Sample sample_of(const Rider& rider, std::int64_t counts, const SensorNoi
   row.counts = counts;
   row.misread_ratio = reading.misread_m / length_m;
   write(row, plant.side(), drive, state.joint.contraction_ratio, now);
+  row.joint_force_N = drive.joint_force_N;
+  row.joint_torque_N_m = -radius_m * drive.joint_force_N;
   show(rig.sensors, row, 1, reading, noise[0], row.shown);
   if (!plant.opposite()) {
     row.read_ratio = counted * (height_m / length_m);

@@ -1,7 +1,6 @@
 // Items that keep their lanes from instant to instant; see the header.
 #include <algorithm>
 #include <stdexcept>
-#include <utility>
 
 #include <sim/ride/vector_ride.hpp>
 

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <atomic>
 #include <csignal>
-#include <exception>
 #include <string_view>
 #include <system_error>
 #include <thread>
@@ -108,17 +107,6 @@ void for_each_job(std::size_t count, unsigned threads, const std::function<void(
   for (const auto& failure : failures)
     if (failure) std::rethrow_exception(failure);
   if (next < count) throw Interrupted();
-}
-
-bool for_each_result(std::size_t count, unsigned threads, const std::string& what,
-                     const ProgressHook& progress, const std::function<void(std::size_t)>& job) {
-  progress(what, 0, count);
-  try {
-    for_each_job(count, threads, job, [&](std::size_t done) { progress(what, done, count); });
-  } catch (const Interrupted&) {
-    return false;
-  }
-  return true;
 }
 
 }  // namespace mckibben::run

@@ -70,11 +70,6 @@ void for_each_job(std::size_t count, unsigned threads, const std::function<void(
 /// Hears of progress, from any thread: what is being done, how much of it is done.
 using ProgressHook = std::function<void(const std::string& what, std::size_t done, std::size_t total)>;
 
-/// The same for jobs whose results say themselves that they were not begun (`not_begun`) when the user
-/// stopped: then it returns false. The hook hears `what` is being done.
-bool for_each_result(std::size_t count, unsigned threads, const std::string& what,
-                     const ProgressHook& progress, const std::function<void(std::size_t)>& job);
-
 /// Lets other processes do some of the jobs of a stage (sim/cluster): `job` gives its result as bytes, and
 /// `take` is given all results, in order; of a stage that is not `for_all`, in one of the processes only.
 /// Throws Interrupted.

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <functional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -11,7 +10,6 @@
 #include <sim/run/batch.hpp>
 #include <sim/run/campaign.hpp>
 #include <sim/run/draws.hpp>
-#include <sim/run/simulate.hpp>
 #include <sim/run/two_currents.hpp>
 
 namespace mckibben::run {

@@ -1,10 +1,7 @@
 // Targets x loads x controllers; see the header.
-#include <algorithm>
 #include <atomic>
-#include <cmath>
 #include <cstring>
 #include <span>
-#include <stdexcept>
 #include <utility>
 #include <variant>
 
@@ -13,14 +10,11 @@
 #include <plant/geometry.hpp>
 #include <sim/data/warnings.hpp>
 #include <sim/domain/number.hpp>
-#include <sim/run/batch.hpp>
 #include <sim/run/briefing.hpp>
 #include <sim/run/compare.hpp>
 #include <sim/run/packed.hpp>
-#include <sim/run/reachable.hpp>
 #include <sim/run/remarks.hpp>
 #include <sim/run/simulate.hpp>
-#include <sim/run/track.hpp>
 #include <sim/run/two_currents.hpp>
 
 namespace mckibben::run {
@@ -31,6 +25,51 @@ using domain::Scenario;
 std::string id_of(const std::string& controller, double load_kg) {
   return fmt::format("{} at {} kg", controller, domain::write_number(load_kg));
 }
+
+constexpr auto findings_of = [](auto&& visit, auto& findings) {
+  if constexpr (requires { visit.size_of_list(1); })
+    findings.resize(visit.size_of_list(1));
+  else
+    visit(findings.size());
+  for (auto& finding : findings) {
+    visit(finding.name);
+    visit(finding.unit);
+    visit(finding.value);
+  }
+};
+
+constexpr auto members_of_run = [](auto&& visit, auto& of) {
+  visit(of.load_kg);
+  visit(of.controller);
+  auto& recording = of.recording;
+  visit(recording.samples);
+  visit(recording.ledger);
+  visit(recording.imbalance);
+  visit(recording.solver);
+  visit(recording.largest_contraction_ratio);
+  visit(recording.failure);
+  findings_of(visit, recording.findings);
+  visit(recording.driven);
+  visit(recording.slack);
+  visit(of.metrics);
+  visit(of.failure);
+  visit(of.unreachable);
+  visit(of.limits);
+  visit(of.id);
+  visit(of.name);
+  visit(of.target);
+  visit(of.joint);
+};
+
+constexpr auto members_of_tuning = [](auto&& visit, auto& of) {
+  visit(of.controller);
+  visit(of.load_kg);
+  visit(of.tuned);
+  visit(of.failure);
+  visit(of.idle_cost);
+  visit(of.metrics);
+  visit(of.limits);
+};
 
 class Comparing {
  public:
@@ -58,7 +97,8 @@ class Comparing {
   void tune_all() {
     std::vector<controllers::Settings*> open;
     for (auto& settings : settings_)
-      if (const auto* terms = controllers::feedback_of(settings); terms && terms->needs_tuning())
+      if (const auto* terms = controllers::part_of<controllers::PidForm>(settings);
+          terms && terms->needs_tuning())
         open.push_back(&settings);
     if (open.empty()) return;
     const std::size_t most = open.size() * static_cast<std::size_t>(TuningOptions{}.evaluations);
@@ -70,11 +110,12 @@ class Comparing {
       return;
     }
     const auto job = [&](std::size_t i) {
-      return packed(tune_controllers(scenario_, briefing_, std::span(&open[i], 1), 1, tried).front());
+      return packed(tune_controllers(scenario_, briefing_, std::span(&open[i], 1), 1, tried).front(),
+                    members_of_tuning);
     };
     result_.tuned.resize(open.size());
     sharing_("tuned", open.size(), true, job, [&](std::size_t i, const std::string& bytes) {
-      result_.tuned[i] = unpacked_tuning(bytes);
+      unpack(bytes, result_.tuned[i], members_of_tuning);
       if (result_.tuned[i].failure.empty()) set_gains(*open[i], result_.tuned[i].tuned.gains, scenario_.rig);
     });
   }
@@ -109,10 +150,10 @@ class Comparing {
   void share_runs(std::size_t total) {
     const auto job = [&](std::size_t i) {
       simulate_runs(i, 1, 1, [](const std::string&, std::size_t, std::size_t) {});
-      return packed(result_.runs[i]);
+      return packed(result_.runs[i], members_of_run);
     };
     sharing_("run", total, false, job, [&](std::size_t i, const std::string& bytes) {
-      result_.runs[i] = unpacked_run(bytes);
+      unpack(bytes, result_.runs[i], members_of_run);
       progress_("simulating", i + 1, total);
     });
   }
@@ -197,7 +238,8 @@ class Comparing {
       run.joint = joint_figures(scenario_.rig, run.recording, wanted);
     if (wanted == nullptr) return;
     const controllers::Settings& settings = settings_of(at);
-    if (controllers::calibrated(settings)) run.unreachable = unreachable_of(run, settings);
+    if (controllers::part_of<controllers::CalibrationTerms>(settings))
+      run.unreachable = unreachable_of(run, settings);
     if (!run.failure.empty()) return;
     run.limits = limits_of(settings, briefing_.knowledge[run.target], scenario_.rig);
     run.metrics = metrics_of(scenario_, *wanted, run.recording, run.limits);

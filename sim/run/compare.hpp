@@ -2,7 +2,6 @@
 // followed; of a pair also the runs under given currents.
 #pragma once
 
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>

@@ -1,6 +1,8 @@
 // Stamps to drives; see the header.
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <string_view>
 #include <utility>
 
 #include <sim/data/scatter.hpp>
@@ -9,33 +11,70 @@
 namespace mckibben::run {
 namespace {
 
-using domain::Hold, domain::Measurement;
+using domain::Hold, domain::MeasuredColumn, domain::Measurement;
 
 constexpr double jump_s = 1e-6;  // of a pressure that is held until its next stamp
 
-bool any_given(const Measurement& measured) {
-  return measured.sides[0].pressure_is_given || measured.sides[1].pressure_is_given;
-}
-bool any_command(const Measurement& measured) {
-  return !measured.sides[0].current_mA.empty() || !measured.sides[1].current_mA.empty();
-}
+/// What of a drive each signal is that may be given, by its key in data sets: of the muscle, or of all.
+struct Giving {
+  std::string_view key;
+  void (*put)(ride::Drive& drive, ride::Command& of_muscle, double value, const plant::Rig& rig);
+};
+constexpr auto givings = std::to_array<Giving>(
+    {{"command", [](auto&, auto& muscle, double mA, auto&) { muscle.current_mA = mA; }},
+     {"valve_pressure", [](auto&, auto& muscle, double Pa, auto&) { muscle.valve_pressure_Pa = Pa; }},
+     {"muscle_pressure", [](auto&, auto& muscle, double Pa, auto&) { muscle.muscle_pressure_Pa = Pa; }},
+     {"contraction", [](auto& drive, auto&, double ratio, auto&) { drive.contraction_ratio = ratio; }},
+     {"joint_force", [](auto& drive, auto&, double N, auto&) { drive.joint_force_N = N; }},
+     {"joint_torque", [](auto& drive, auto&, double N_m, auto& rig) {
+        drive.joint_force_N = -N_m / rig.joint.wheel_radius_m;
+      }}});
+static_assert(std::ranges::all_of(plant::signals, [](const plant::Signal& signal) {
+  return !signal.may_be_given || std::ranges::find(givings, signal.in_dataset, &Giving::key) != givings.end();
+}));
+
+/// How far on to the next stamp each kind of given column is: commands, which are held; forces, which are
+/// held as well, at their mean; what is what it is at an instant, and runs straight on.
+struct Shares {
+  double command = 0.0, force = 0.0, straight = 0.0;
+
+  double of(const MeasuredColumn& column) const {
+    if (column.is_command()) return command;
+    return is_force(column) ? force : straight;
+  }
+  static bool is_force(const MeasuredColumn& column) {
+    return column.channel.signal->kind == plant::Kind::input && !column.is_command();
+  }
+};
 
 class Drives {
  public:
-  Drives(const Measurement& measured, const plant::Rig& rig) : measured_(measured), rig_(rig) {}
+  Drives(const Measurement& measured, const plant::Rig& rig) : measured_(measured), rig_(rig) {
+    course_.outer_force = measured.gives_outer_force();
+    for (const MeasuredColumn& column : measured.columns)
+      if (column.given && !column.values.empty())
+        given_.emplace_back(&column,
+                            std::ranges::find(givings, column.channel.signal->in_dataset, &Giving::key)->put);
+  }
 
   Course operator()() { return measured_.point_s > 0.0 ? points() : stamped(); }
 
  private:
   Course stamped() {
     const std::size_t stamps = measured_.time_s.size();
-    const bool jumps = measured_.recorded.hold == Hold::previous && any_given(measured_);
-    const bool ramps = measured_.recorded.hold == Hold::linear && any_command(measured_);
+    const bool holds = measured_.recorded.hold == Hold::previous;
+    const bool linear = measured_.recorded.hold == Hold::linear;
+    bool jumps = false, ramps = false;
+    for (const auto& [column, put] : given_) {
+      const bool force = Shares::is_force(*column);
+      jumps = jumps || (holds && !force && !column->is_command());
+      ramps = ramps || (linear && column->is_command()) || (!holds && force);
+    }
     auto row = measured_.rows.begin();
     for (std::size_t k = 0; k < stamps; ++k) {
       const double now_s = measured_.time_s[k];
       if (jumps && k > 0)
-        add(now_s - std::min(jump_s, 0.5 * (now_s - measured_.time_s[k - 1])), at(k - 1, k - 1, 0.0));
+        add(now_s - std::min(jump_s, 0.5 * (now_s - measured_.time_s[k - 1])), at(k - 1, k - 1));
       if (measured_.rows.empty() || (row != measured_.rows.end() && *row == k)) {
         course_.rows.push_back(course_.time_s.size());
         if (!measured_.rows.empty()) ++row;
@@ -43,8 +82,11 @@ class Drives {
       const std::size_t next = std::min(k + 1, stamps - 1);
       const double gap_s = measured_.time_s[next] - now_s;
       const double parts = ramps ? std::max(1.0, std::ceil(gap_s / rig_.tick_s)) : 1.0;
-      for (double part = 0.0; part < parts; part += 1.0)
-        add(now_s + part / parts * gap_s, at(k, next, ramps ? (part + 0.5) / parts : 0.0, part / parts));
+      for (double part = 0.0; part < parts; part += 1.0) {
+        const double mean = (part + 0.5) / parts;
+        add(now_s + part / parts * gap_s,
+            at(k, next, {linear ? mean : 0.0, holds ? 0.0 : mean, part / parts}));
+      }
     }
     return std::move(course_);
   }
@@ -56,11 +98,11 @@ class Drives {
     };
     for (std::size_t k = 0; k < read_s.size(); ++k) {
       if (k > 0) {
-        add(read_s[k - 1] + jump_s, at(k - 1, k, 1.0));
-        add(read_s[k - 1] + 0.5 * measured_.point_s, at(k, k, 0.0));
+        add(read_s[k - 1] + jump_s, at(k - 1, k, {.command = 1.0, .force = 1.0}));
+        add(read_s[k - 1] + 0.5 * measured_.point_s, at(k, k));
       }
       if (is_judged(k)) course_.rows.push_back(course_.time_s.size());
-      add(read_s[k], at(k, k, 0.0));
+      add(read_s[k], at(k, k));
     }
     return std::move(course_);
   }
@@ -70,26 +112,21 @@ class Drives {
     course_.drives.push_back(drive);
   }
 
-  /// At stamp k, and as far on to another: commands by `held`, pressures and lengths by `on`.
-  ride::Drive at(std::size_t k, std::size_t next, double held, double on = 0.0) const {
-    const auto between = [&](const std::vector<double>& values, double share) {
-      return share == 0.0 ? values[k] : std::lerp(values[k], values[next], share);
-    };
+  /// At stamp k, and so far on to another.
+  ride::Drive at(std::size_t k, std::size_t next, const Shares& shares = {}) const {
     ride::Drive drive;
-    const auto act = [&](const Measurement::Side& side, ride::Command& command) {
-      if (side.pressure_is_given)
-        command.muscle_pressure_Pa = between(side.muscle_pressure_Pa, on);
-      else if (!side.current_mA.empty())
-        command.current_mA = between(side.current_mA, held);
-    };
-    act(measured_.sides[0], drive);
-    act(measured_.sides[1], drive.opposite);
-    if (measured_.length_is_given) drive.contraction_ratio = between(measured_.contraction_ratio, on);
+    for (const auto& [column, put] : given_) {
+      const double share = shares.of(*column);
+      const auto& values = column->values;
+      put(drive, column->channel.muscle == 2 ? drive.opposite : drive,
+          share == 0.0 ? values[k] : std::lerp(values[k], values[next], share), rig_);
+    }
     return drive;
   }
 
   const Measurement& measured_;
   const plant::Rig& rig_;
+  std::vector<std::pair<const MeasuredColumn*, decltype(Giving::put)>> given_;
   Course course_;
 };
 
@@ -103,8 +140,12 @@ ride::Drive Course::toward(std::size_t k) const {
   const auto go = [last](std::optional<double>& value, const std::optional<double>& other) {
     if (value) value = last ? 2.0 * *value - *other : *other;
   };
-  go(drive.muscle_pressure_Pa, next.muscle_pressure_Pa);
-  go(drive.opposite.muscle_pressure_Pa, next.opposite.muscle_pressure_Pa);
+  const auto go_on = [&](ride::Command& command, const ride::Command& other) {
+    go(command.muscle_pressure_Pa, other.muscle_pressure_Pa);
+    go(command.valve_pressure_Pa, other.valve_pressure_Pa);
+  };
+  go_on(drive, next);
+  go_on(drive.opposite, next.opposite);
   go(drive.contraction_ratio, next.contraction_ratio);
   return drive;
 }

@@ -1,12 +1,11 @@
 // What is kept of an ensemble's runs; see the header.
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <limits>
-#include <stdexcept>
 
 #include <sim/run/draws.hpp>
 #include <sim/run/ensemble.hpp>
+#include <sim/run/packed.hpp>
 #include <sim/run/simulate.hpp>
 
 namespace mckibben::run {
@@ -91,26 +90,6 @@ std::vector<Kept> kept_of_rows(const plant::Rig& rig) {
   return list;
 }
 
-class Bytes {
- public:
-  explicit Bytes(std::string_view bytes) : rest_(bytes) {}
-  template <class T>
-  void read(T* into, std::size_t count) {
-    if (rest_.size() < count * sizeof(T)) throw std::invalid_argument("a block of an ensemble is too short");
-    std::memcpy(into, rest_.data(), count * sizeof(T));
-    rest_.remove_prefix(count * sizeof(T));
-  }
-  bool end() const { return rest_.empty(); }
-
- private:
-  std::string_view rest_;
-};
-
-template <class T>
-void append(std::string& bytes, const T* from, std::size_t count) {
-  bytes.append(reinterpret_cast<const char*>(from), count * sizeof(T));
-}
-
 }  // namespace
 
 EnsembleShape::EnsembleShape(const domain::Campaign& campaign, Keep keep)
@@ -133,31 +112,11 @@ EnsembleBlock::EnsembleBlock(const EnsembleShape& shape, std::size_t block)
 
 EnsembleBlock::EnsembleBlock(const EnsembleShape& shape, std::size_t block, std::string_view bytes)
     : EnsembleBlock(shape, block) {
-  Bytes from(bytes);
-  from.read(done_.data(), done_.size());
-  for (auto& values : of_run_) from.read(values.data(), values.size());
-  for (auto& values : of_row_) from.read(values.data(), values.size());
-  for (auto& failure : failures_) {
-    std::uint32_t length = 0;
-    from.read(&length, 1);
-    if (length > bytes.size()) throw std::invalid_argument("a block of an ensemble is too short");
-    failure.resize(length);
-    from.read(failure.data(), length);
-  }
-  if (!from.end()) throw std::invalid_argument("a block of an ensemble is too long");
+  unpack(bytes, *this, members);
 }
 
 std::string EnsembleBlock::bytes() const {
-  std::string bytes;
-  append(bytes, done_.data(), done_.size());
-  for (const auto& values : of_run_) append(bytes, values.data(), values.size());
-  for (const auto& values : of_row_) append(bytes, values.data(), values.size());
-  for (const auto& failure : failures_) {
-    const auto length = static_cast<std::uint32_t>(failure.size());
-    append(bytes, &length, 1);
-    bytes += failure;
-  }
-  return bytes;
+  return packed(*this, members);
 }
 
 bool EnsembleBlock::whole() const {

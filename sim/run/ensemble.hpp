@@ -58,6 +58,13 @@ class EnsembleBlock {
   const std::vector<std::string>& failures() const { return failures_; }
 
  private:
+  static constexpr auto members = [](auto&& visit, auto& of) {
+    visit(std::span(of.done_));
+    for (auto& values : of.of_run_) visit(std::span(values));
+    for (auto& values : of.of_row_) visit(std::span(values));
+    for (auto& failure : of.failures_) visit(failure);
+  };
+
   std::size_t first_, rows_;
   std::vector<std::uint8_t> done_;
   std::vector<std::vector<double>> of_run_;

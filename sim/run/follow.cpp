@@ -1,4 +1,5 @@
 // Stamp after stamp; see the header.
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -44,10 +45,10 @@ bool Follower::go_on() {
 Following::Following(const plant::Rig& rig, double load_kg, Course course, Done done)
     : Follower({ride::Rider({rig, load_kg})}, rig, std::move(course)), counter_(rig), done_(std::move(done)) {
   const ride::Drive& first = this->course().drives.front();
-  recording_.driven = {
-      .pair = rig.pair() != nullptr,
-      .length = first.contraction_ratio.has_value(),
-      .pressure = {first.muscle_pressure_Pa.has_value(), first.opposite.muscle_pressure_Pa.has_value()}};
+  recording_.driven = {.pair = rig.pair() != nullptr,
+                       .length = first.contraction_ratio.has_value(),
+                       .pressure = {first.given(), first.opposite.given()},
+                       .joint_force = this->course().outer_force};
   recording_.samples.reserve(this->course().rows.size());
 }
 
@@ -67,7 +68,9 @@ void Following::end(const engine::Counters& solver, const engine::NumericalFailu
   if (!recording_.samples.empty()) {
     // Where values are given, only `erk` keeps an exact ledger (docs/architecture.md, An instant).
     const Driven& driven = recording_.driven;
-    const bool given = driven.length || driven.pressure[0] || driven.pressure[1];
+    const bool given = driven.length || std::ranges::any_of(driven.pressure, [](auto pressure) {
+                         return pressure != plant::GivenPressure::none;
+                       });
     const bool exact = rig().integrator.method != solver::Method::cvode && solver.stiff_from_tick < 0;
     if (exact || !given)
       recording_.imbalance =

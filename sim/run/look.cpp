@@ -16,8 +16,8 @@ domain::Run beginning_of(domain::Run run, std::size_t rows) {
   if (rows >= run.judged().size()) return run;
   for (auto* column : {&run.current_mA, &run.contraction_ratio, &run.force_N, &run.angle_rad})
     if (!column->empty()) column->resize(rows);
-  for (auto* column : {&run.muscle_pressure_Pa, &run.opposite_pressure_Pa})
-    if (*column) (*column)->resize(rows);
+  for (const domain::Beside which : domain::besides)
+    if (which != domain::Beside::force && run.gauge(which)) run.gauge(which)->resize(rows);
   if (!run.missing.empty()) run.missing.resize(rows);
   if (run.measured) run.measured->rows.resize(rows);
   return run;
@@ -41,6 +41,10 @@ std::vector<data::Expected> expected_of(const domain::Dataset& data,
       if (pair) list[i].opposite_pressure_Pa.push_back(sample.state.opposite.muscle_pressure_Pa);
       if (run.beside(domain::Beside::force) != nullptr)
         list[i].force_N.push_back(std::max(sample.cord_force_N, 0.0));
+      for (const domain::Beside which : domain::valve_gauges)
+        if (run.beside(which) != nullptr)
+          list[i].beside(which).push_back(
+              sample.side_state(domain::channel_of(which, true).muscle).valve_pressure_Pa);
     }
   }
   return list;

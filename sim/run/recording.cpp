@@ -1,6 +1,4 @@
 // What a run that came to its end should not be believed without a word.
-#include <algorithm>
-#include <cmath>
 
 #include <fmt/format.h>
 
@@ -36,7 +34,7 @@ Recording without_load() {
 
 void note_slack(Recording& recording) {
   const Driven& driven = recording.driven;
-  if (driven.pair || driven.length) note_slack_of(recording, 1);
+  if (driven.pair || driven.length || driven.joint_force) note_slack_of(recording, 1);
   if (driven.pair) note_slack_of(recording, 2);
 }
 
@@ -59,7 +57,8 @@ std::vector<std::string> doubts(const Recording& recording) {
       recording.samples.begin(), recording.samples.end(), [](const Sample& a, const Sample& b) {
         return a.state.side.muscle_pressure_Pa < b.state.side.muscle_pressure_Pa;
       });
-  if (!recording.driven.pressure[0] && lowest->state.side.muscle_pressure_Pa < -suction_Pa)
+  if (recording.driven.pressure[0] != plant::GivenPressure::muscle &&
+      lowest->state.side.muscle_pressure_Pa < -suction_Pa)
     found.push_back(fmt::format(
         "the muscle's pressure falls to {:.3g} bar below the atmosphere at {:.3f} s, because it grows faster "
         "than the hose fills it: a real tube would collapse there, while the braid law lets it push",

@@ -15,23 +15,28 @@ constexpr double worth_saying = 0.01;
 constexpr double no_gain = 0.95;  // of the cost without feedback
 
 /// Without the DAC's rounding, which would fill the text with digits.
-std::string current(double value_mA) {
-  return domain::write_number(std::round(100.0 * value_mA) / 100.0) + " mA";
+std::string command(double value, const plant::Rig& rig) {
+  return fmt::format("{} {}", domain::write_number(std::round(100.0 * value) / 100.0),
+                     name_of(rig.command_unit()));
 }
 
-std::string place_and_share(bool low, const controllers::CurrentRange& limits, double share) {
-  return fmt::format("at its {} current, {}, for {:.0f} % of the time", low ? "lowest" : "highest",
-                     current(low ? limits.lowest_mA : limits.highest_mA), 100.0 * share);
+std::string place_and_share(bool low, const controllers::CurrentRange& limits, const plant::Rig& rig,
+                            double share) {
+  return fmt::format("at its {} {}, {}, for {:.0f} % of the time", low ? "lowest" : "highest",
+                     plant::command_key(rig), command(low ? limits.lowest_mA : limits.highest_mA, rig),
+                     100.0 * share);
 }
 
 /// Why it stood there, and the key to change: the controller's own limit, or the valve's.
 std::string cause(bool low, const controllers::CurrentRange& limits, const plant::Rig& rig) {
   const auto valve = controllers::working_range(knowledge_of(rig, {}));
-  const double step_mA = rig.dac.largest_current_mA / std::ldexp(1.0, rig.dac.bits);
+  const double step_mA = (rig.dac.largest_command - rig.dac.lowest_command) / std::ldexp(1.0, rig.dac.bits);
   if (low && limits.lowest_mA > valve.lowest_mA + step_mA)
-    return fmt::format("the rig's valve goes down to {}: lower lowest_current", current(valve.lowest_mA));
+    return fmt::format("the rig's valve goes down to {}: lower lowest_command",
+                       command(valve.lowest_mA, rig));
   if (!low && limits.highest_mA < valve.highest_mA - step_mA)
-    return fmt::format("the rig's valve goes up to {}: raise highest_current", current(valve.highest_mA));
+    return fmt::format("the rig's valve goes up to {}: raise highest_command",
+                       command(valve.highest_mA, rig));
   return low ? "the target asks for less pressure than the valve gives: a target that stays higher, a "
                "heavier load or a lower valve.zero_pressure would help"
              : "the target asks for more pressure than the valve gives: a lower target, a lighter load or a "
@@ -44,7 +49,7 @@ std::string limit_warning(const Metrics& metrics, const std::optional<controller
   const double highest = metrics.at_highest_current.value_or(0.0);
   if (!limits || lowest + highest < mostly) return "";
   const bool low = lowest >= highest;
-  return fmt::format("it stood {}; {}", place_and_share(low, *limits, low ? lowest : highest),
+  return fmt::format("it stood {}; {}", place_and_share(low, *limits, rig, low ? lowest : highest),
                      cause(low, *limits, rig));
 }
 
@@ -55,7 +60,7 @@ double share_at_limit(const TrackedRun& run) {
   return run.metrics.at_lowest_current.value_or(0.0) + run.metrics.at_highest_current.value_or(0.0);
 }
 
-std::string limit_words(const Comparison& comparison, std::string_view controller) {
+std::string limit_words(const Comparison& comparison, const plant::Rig& rig, std::string_view controller) {
   const TrackedRun* most = nullptr;
   double lowest = 0.0, highest = 0.0, runs = 0.0;
   for (const TrackedRun& run : comparison.runs) {
@@ -67,9 +72,9 @@ std::string limit_words(const Comparison& comparison, std::string_view controlle
   }
   if (most == nullptr || (lowest + highest) / runs < worth_saying) return "";
   std::string words;
-  if (lowest > 0.0) words = place_and_share(true, *most->limits, lowest / runs);
+  if (lowest > 0.0) words = place_and_share(true, *most->limits, rig, lowest / runs);
   if (highest > 0.0)
-    words += (words.empty() ? "" : " and ") + place_and_share(false, *most->limits, highest / runs);
+    words += (words.empty() ? "" : " and ") + place_and_share(false, *most->limits, rig, highest / runs);
   if (runs > 1.0)
     words += fmt::format(" (with {} kg for {:.0f} %)", domain::write_number(most->load_kg),
                          100.0 * share_at_limit(*most));
@@ -79,10 +84,10 @@ std::string limit_words(const Comparison& comparison, std::string_view controlle
 std::string limit_warning(const TrackedRun& run, const plant::Rig& rig) {
   if (run.joint && run.followed() && run.failure.empty() && run.joint->at_limit >= mostly)
     return fmt::format(
-        "some current stood at an end of what its valve answers to for {:.0f} % of the time: the stiffness, "
+        "some {} stood at an end of what its valve answers to for {:.0f} % of the time: the stiffness, "
         "or "
         "co_contraction, leaves the angle nothing, or both ask for more than the valves have",
-        100.0 * run.joint->at_limit);
+        plant::command_key(rig), 100.0 * run.joint->at_limit);
   return limit_warning(run.metrics, run.limits, rig);
 }
 

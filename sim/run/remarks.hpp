@@ -19,7 +19,7 @@ double share_at_limit(const TrackedRun& run);
 
 /// How often a controller stood at a limit, over its runs: "stood at its lowest current, 4 mA, for 7 % of the
 /// time (with 8.87 kg for 31 %)". Empty below 1 %.
-std::string limit_words(const Comparison& comparison, std::string_view controller);
+std::string limit_words(const Comparison& comparison, const plant::Rig& rig, std::string_view controller);
 
 /// The same of one run, with what would help: for a warning. Empty unless it stood there `mostly`.
 std::string limit_warning(const TrackedRun& run, const plant::Rig& rig);

@@ -38,7 +38,7 @@ class Replaying {
     } else if (course.begins && dataset_.rig.remembers()) {
       const double from_s = course.time_s.front() + run.measured->recorded.skip_s;
       const auto& seen =
-          run.contraction_ratio.empty() ? run.measured->contraction_ratio : run.contraction_ratio;
+          run.contraction_ratio.empty() ? run.measured->read("contraction") : run.contraction_ratio;
       take(i,
            follow_as_seen(dataset_.rig, run.load_kg, std::move(course), {seen, run.rest_length_m, from_s}));
     } else {
@@ -53,6 +53,7 @@ class Replaying {
   /// No load, no motion.
   bool moves(const domain::Run& run) const {
     return !dataset_.rig.lifts_a_load() || run.length_is_given() ||
+           (run.measured && run.measured->gives_outer_force()) ||
            run.load_kg + dataset_.rig.joint.load_offset_kg > 0.0;
   }
 
@@ -60,7 +61,7 @@ class Replaying {
     const domain::Run& run = dataset_.runs[i];
     if (!run.measured)
       for (Sample& row : recording.samples) row.time_s = tidy_s(row.time_s);
-    recording.driven.force = !run.force_N.empty() || (run.measured && !run.measured->force_N.empty());
+    recording.driven.force = !run.force_N.empty() || (run.measured && !run.measured->read("force").empty());
     runs_[i].failure = recording.failure;
     if (recording.failure.empty()) runs_[i].gaps = gaps_of(run, dataset_.rig, recording);
     runs_[i].recording = std::move(recording);

@@ -7,7 +7,6 @@
 #include <sim/run/draws.hpp>
 #include <sim/run/robustness.hpp>
 #include <sim/run/simulate.hpp>
-#include <sim/run/track.hpp>
 
 namespace mckibben::run {
 namespace {

@@ -12,7 +12,6 @@
 
 #include <sim/domain/scenario.hpp>
 #include <sim/domain/variation.hpp>
-#include <sim/run/batch.hpp>
 #include <sim/run/metrics.hpp>
 #include <sim/run/track.hpp>
 

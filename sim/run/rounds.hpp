@@ -7,7 +7,6 @@
 #include <exception>
 #include <functional>
 #include <mutex>
-#include <span>
 #include <vector>
 
 #include <sim/run/simulate.hpp>

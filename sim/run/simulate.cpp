@@ -3,13 +3,11 @@
 #include <chrono>
 #include <cmath>
 #include <numbers>
-#include <optional>
 #include <random>
 #include <utility>
 
 #include <sim/ride/batch.hpp>
 #include <sim/ride/sample.hpp>
-#include <sim/run/run_batch.hpp>
 #include <sim/run/simulate.hpp>
 
 namespace mckibben::run {
@@ -114,6 +112,9 @@ class Run : public ride::BatchItem {
     recording_.solver = solver;
     if (recording_.solver.stiff_from_tick >= 0) recording_.solver.stiff_from_tick += begin_;
     recording_.findings = controller_.findings();
+    for (controllers::Finding& finding : recording_.findings)
+      for (std::string* text : {&finding.name, &finding.unit})
+        *text = in_unit(plan_.rig.command_unit(), *text);
     recording_.driven.pair = plan_.rig.pair() != nullptr;
     note_slack(recording_);
     done_(std::move(recording_));
@@ -260,7 +261,8 @@ controllers::ForceModel force_model(const plant::Muscle& muscle) {
 }
 
 controllers::ValveLine valve_line(const plant::Valve& valve) {
-  return {valve.zero_current_mA, valve.span_current_mA, valve.zero_pressure_Pa, valve.span_pressure_Pa};
+  return {valve.zero_command, valve.span_command, valve.zero_pressure_Pa, valve.span_pressure_Pa,
+          name_of(valve.command_unit)};
 }
 
 }  // namespace
@@ -269,7 +271,7 @@ controllers::Knowledge knowledge_of(const plant::Rig& rig, std::vector<double> t
   controllers::Knowledge known{.contraction_per_count = contraction_per_count(rig),
                                .middle_of_count = plant::middle_of_count(rig.sensors.position()),
                                .tick_s = rig.tick_s,
-                               .largest_current_mA = rig.dac.largest_current_mA,
+                               .largest_current_mA = rig.dac.largest_command,
                                .target = std::move(target),
                                .model = force_model(rig.muscle),
                                .valve = valve_line(rig.valve),

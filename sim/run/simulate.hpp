@@ -9,7 +9,6 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
-#include <optional>
 
 #include <controllers/controller.hpp>
 #include <plant/instruments.hpp>

@@ -1,5 +1,4 @@
 // See the header.
-#include <algorithm>
 #include <cmath>
 #include <numeric>
 
@@ -19,8 +18,8 @@ double mean_of(const std::vector<double>& values) {
 
 /// Whether a current is at an end of what the valve answers to, as the DAC gives it.
 bool is_at_end(double current_mA, const plant::Rig& rig) {
-  return current_mA <= plant::dac_output_mA(rig.dac, rig.valve.zero_current_mA) ||
-         current_mA >= plant::dac_output_mA(rig.dac, rig.valve.span_current_mA);
+  return current_mA <= plant::dac_output_mA(rig.dac, rig.valve.zero_command) ||
+         current_mA >= plant::dac_output_mA(rig.dac, rig.valve.span_command);
 }
 
 }  // namespace

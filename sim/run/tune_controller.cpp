@@ -5,11 +5,9 @@
 #include <initializer_list>
 #include <stdexcept>
 #include <utility>
-#include <vector>
 
 #include <sim/run/rounds.hpp>
 #include <sim/run/tune_controller.hpp>
-#include <sim/run/tuning_cost.hpp>
 
 namespace mckibben::run {
 
@@ -19,7 +17,7 @@ double lower_median(std::vector<double> values) {
 }
 
 void set_gains(controllers::Settings& settings, const Gains& gains, const plant::Rig& rig) {
-  controllers::PidForm& feedback = *controllers::feedback_of(settings);
+  controllers::PidForm& feedback = *controllers::part_of<controllers::PidForm>(settings);
   feedback.proportional_mA = gains.proportional_mA / per_ratio(rig);
   feedback.integral_time_s = gains.integral_time_s;
   feedback.derivative_time_s = gains.derivative_time_s;
@@ -99,7 +97,7 @@ controllers::Settings loop_alone(const controllers::Settings& settings) {
 TunedController tune_one(const domain::Scenario& scenario, const Briefing& briefing,
                          controllers::Settings& settings, Rounds& rounds,
                          const std::function<void()>& heard) {
-  const controllers::PidForm& pid = *controllers::feedback_of(settings);
+  const controllers::PidForm& pid = *controllers::part_of<controllers::PidForm>(settings);
   TunedController result{.controller = controllers::name_of(settings),
                          .load_kg = pid.tuning_load_kg.value_or(lower_median(scenario.loads_kg))};
   const controllers::Settings loop = loop_alone(settings);
@@ -140,6 +138,28 @@ std::vector<TunedController> tune_controllers(const domain::Scenario& scenario, 
     tuned[i] = tune_one(scenario, briefing, *open[i], rounds, tried);
   });
   return tuned;
+}
+
+namespace {
+
+// What a change of current costs in tuning [contraction ratio for each mA rms and tick, at the thesis's
+// span]: enough to keep gains from chasing single encoder counts,
+// too little to matter for how the target is followed.
+constexpr double effort_weight = 2e-4;
+
+double effort_mA(const Recording& recording) {
+  double sum_squared_mA = 0.0;
+  for (std::size_t k = 1; k < recording.samples.size(); ++k) {
+    const double change_mA = recording.samples[k].current_mA - recording.samples[k - 1].current_mA;
+    sum_squared_mA += change_mA * change_mA;
+  }
+  return std::sqrt(sum_squared_mA / static_cast<double>(recording.samples.size()));
+}
+
+}  // namespace
+
+double tuning_cost(double rmse, const Recording& recording, double span_mA) {
+  return rmse + effort_weight * (plant::thesis_span_mA / span_mA) * effort_mA(recording);
 }
 
 }  // namespace mckibben::run

@@ -11,6 +11,7 @@
 #include <sim/domain/scenario.hpp>
 #include <sim/run/briefing.hpp>
 #include <sim/run/metrics.hpp>
+#include <sim/run/recording.hpp>
 #include <sim/run/tune_pid.hpp>
 
 namespace mckibben::run {
@@ -39,5 +40,13 @@ void set_gains(controllers::Settings& settings, const Gains& gains, const plant:
 std::vector<TunedController> tune_controllers(const domain::Scenario& scenario, const Briefing& briefing,
                                               std::span<controllers::Settings* const> open, unsigned threads,
                                               const std::function<void()>& tried);
+
+/// Gains must also do with the proportional gain this much higher, so that they are not tuned to the edge of
+/// stability: the loop's own gain changes with load and contraction.
+inline constexpr double gain_margin = 2.0;
+
+/// [contraction ratio], for a run whose error is `rmse`; `span_mA`: of the controller's currents. Of a pair
+/// the current to muscle 1 tells of both.
+double tuning_cost(double rmse, const Recording& recording, double span_mA);
 
 }  // namespace mckibben::run

@@ -9,6 +9,7 @@
 
 #include <nlopt.hpp>
 
+#include <plant/valve.hpp>
 #include <sim/run/tune_pid.hpp>
 
 namespace mckibben::run {
@@ -74,7 +75,7 @@ void descend(nlopt::opt& simplex, std::vector<double> point, Search& search) {
 TuningOptions TuningOptions::for_span(double span_mA) {
   TuningOptions options;
   for (Gains* gains : {&options.start, &options.lowest, &options.highest})
-    gains->proportional_mA *= span_mA / thesis_span_mA;
+    gains->proportional_mA *= span_mA / plant::thesis_span_mA;
   return options;
 }
 

@@ -7,9 +7,6 @@
 
 namespace mckibben::run {
 
-/// From 4 to 20 mA: of what the tuning was set up with.
-inline constexpr double thesis_span_mA = 16.0;
-
 struct Gains {
   double proportional_mA = 0.0;
   double integral_time_s = 0.0;
@@ -23,7 +20,7 @@ struct GivenGains {
   std::optional<double> derivative_time_s = std::nullopt;
 };
 
-/// The proportional gains are those for a valve with `thesis_span_mA`.
+/// The proportional gains are those for a valve with `plant::thesis_span_mA`.
 struct TuningOptions {
   Gains start{60.0, 0.15, 0.05};
   Gains lowest{1.0, 0.01, 1e-3};

@@ -1,6 +1,5 @@
 // See the header.
 #include <algorithm>
-#include <cmath>
 
 #include <fmt/format.h>
 
@@ -26,7 +25,7 @@ std::string runs_left_out(const Grid& grid) {
 
 /// Too few for an order. If that is because nothing moved, more of the same would not help: the cause leads.
 [[noreturn]] void refuse_few(const domain::Dataset& dataset, const Grid& grid, const std::string& short_of,
-                             const char* more, const char* option, std::size_t order) {
+                             const std::string& more, const char* option, std::size_t order) {
   const std::string still = grid.still_runs(dataset.rig.valve);
   const std::string instead = fmt::format(", or ask for {} {}", option, order);
   if (!still.empty()) refuse(dataset, fmt::format("{}{}. Without these runs, {}", still, instead, short_of));
@@ -53,11 +52,13 @@ void check_grid(const domain::Dataset& dataset, const Grid& grid, const Options&
     if (found.size() < speeds)
       refuse_few(
           dataset, grid,
-          fmt::format("a polynomial of order {} in the current's speed (T 4.9 to 4.13) needs {} speeds, and "
+          in_unit(dataset.rig.command_unit(),
+                  fmt::format(
+                      "a polynomial of order {} in the current's speed (T 4.9 to 4.13) needs {} speeds, and "
                       "with {:g} kg there {} {} ({} mA/s)",
                       speeds - 1, speeds, load_kg, found.size() == 1 ? "is" : "are", found.size(),
-                      listed(found)),
-          "more periods of the current", "--speed-order", found.size() - 1);
+                      listed(found))),
+          "more periods of the " + plant::command_key(dataset.rig), "--speed-order", found.size() - 1);
   }
 }
 
@@ -145,6 +146,8 @@ CalibrationResult calibrate(const domain::Dataset& dataset, const Options& optio
   calibration.contraction = contraction_model(chosen(Direction::contraction));
   calibration.relaxation = relaxation_model(chosen(Direction::relaxation));
   calibration.range = range_of(result.grid);
+  if (const auto unit = dataset.rig.command_unit(); unit != plant::CommandUnit::mA)
+    calibration.command_unit = name_of(unit);
   return result;
 }
 

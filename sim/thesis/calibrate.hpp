@@ -28,6 +28,9 @@ struct CalibrationResult {
   std::array<PressureFit, 2> pressure;  ///< by Direction
   controllers::Calibration calibration;
 
+  plant::CommandUnit command_unit() const {
+    return plant::command_unit_of(calibration.command_unit.value_or("mA"));
+  }
   const FrictionFit& friction_of(Direction direction) const {
     return friction[static_cast<std::size_t>(direction)];
   }

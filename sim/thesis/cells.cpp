@@ -48,11 +48,13 @@ std::string Grid::still_runs(const plant::Valve& valve) const {
   }
   if (first == nullptr) return "";
   constexpr double nearly = 0.95;  // of the span current: there is hardly more to be had
-  return fmt::format("nothing moves enough in {} run{}, the first is {}: {}. What helps: {}", still,
-                     still == 1 ? "" : "s", first->id, first->why,
-                     largest_mA < nearly * valve.span_current_mA
-                         ? fmt::format("a larger current, up to the valve's {:g} mA", valve.span_current_mA)
-                         : "lighter loads or slower currents, if loads, rig and encoder are right");
+  return fmt::format(
+      "nothing moves enough in {} run{}, the first is {}: {}. What helps: {}", still, still == 1 ? "" : "s",
+      first->id, first->why,
+      largest_mA < nearly * valve.span_command
+          ? in_unit(valve.command_unit,
+                    fmt::format("a larger current, up to the valve's {:g} mA", valve.span_command))
+          : "lighter loads or slower currents, if loads, rig and encoder are right");
 }
 
 Grid make_grid(const domain::Dataset& dataset, const ProcessingOptions& options) {

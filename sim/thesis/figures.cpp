@@ -1,7 +1,6 @@
 // The friction figures are those of contraction, as the thesis's captions of 4.20 to 4.25 say, except 4.26.
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include <fmt/format.h>
 
@@ -32,12 +31,8 @@ template <class Model>
 Figure against_ratio(std::string number, const std::string& name, const FrictionAtSpeed& at,
                      const Model& model) {
   const Samples shown = thinned(at.samples);
-  Figure figure{std::move(number),
-                fmt::format("{}, contraction, {:.1f} mA/s", name, at.speed_mA_per_s),
-                "contraction ratio",
-                "coefficient of friction",
-                {},
-                {}};
+  Figure figure{std::move(number), fmt::format("{}, contraction, {:.1f} mA/s", name, at.speed_mA_per_s),
+                "contraction ratio", "coefficient of friction"};
   figure.columns = {{ratio_column, shown.contraction_ratio},
                     {coefficient, shown.coefficient},
                     {"model", list(model(vector(shown.contraction_ratio)))}};
@@ -60,18 +55,11 @@ void per_speed(const FrictionFit& fit, std::vector<Figure>& all) {
                                 [&](const VectorXd& e) { return fifth_order(e, at.fifth_order.values); }));
   }
   for (Index i = 0; i < 6; ++i) {
-    Figure figure{next(),
-                  fmt::format("Coefficient p{} of the fifth-order polynomial (T 4.5)", i),
-                  "current speed [mA/s]",
-                  fmt::format("p{}", i),
-                  {},
-                  {}};
+    Figure figure{next(), fmt::format("Coefficient p{} of the fifth-order polynomial (T 4.5)", i),
+                  "current speed [mA/s]", fmt::format("p{}", i)};
     figure.columns = {{speed_column, {}}, {fmt::format("p{}", i), {}}, {"standard_error", {}}};
-    for (const auto& at : fit.speeds) {
-      figure.columns[0].values.push_back(at.speed_mA_per_s);
-      figure.columns[1].values.push_back(at.fifth_order.values(i));
-      figure.columns[2].values.push_back(at.fifth_order.standard_errors(i));
-    }
+    for (const auto& at : fit.speeds)
+      figure.add_row({at.speed_mA_per_s, at.fifth_order.values(i), at.fifth_order.standard_errors(i)});
     figure.curves = {{"", 0, 1, true}};
     all.push_back(std::move(figure));
   }
@@ -82,12 +70,8 @@ Figure parts(const FrictionFit& fit) {
   const auto e = vector(at.samples.contraction_ratio);
   const VectorXd grid = VectorXd::LinSpaced(100, e.minCoeff(), e.maxCoeff());
   const double nu = at.speed_mA_per_s;
-  Figure figure{"4.18",
-                fmt::format("Superposition (T 4.6) at {:.1f} mA/s", nu),
-                "contraction ratio",
-                "coefficient of friction",
-                {},
-                {}};
+  Figure figure{"4.18", fmt::format("Superposition (T 4.6) at {:.1f} mA/s", nu), "contraction ratio",
+                "coefficient of friction"};
   const double constant_part = fit.f0.value + fit.f1.value * nu * nu;
   figure.columns = {{ratio_column, list(grid)},
                     {"constant", std::vector<double>(100, constant_part)},
@@ -99,7 +83,7 @@ Figure parts(const FrictionFit& fit) {
 }
 
 Figure on_speed(const FrictionFit& fit) {
-  Figure figure{"4.19", "f1(nu2) of the superposition (T 4.6)", "current speed [mA/s]", "f1(nu2)", {}, {}};
+  Figure figure{"4.19", "f1(nu2) of the superposition (T 4.6)", "current speed [mA/s]", "f1(nu2)"};
   figure.columns = {{speed_column, {}}, {"data", {}}, {"linear_in_square", {}}};
   figure.curves = {{"data", 0, 1, true}, {"linear in nu2", 0, 2}};
   const bool has_quadratic = fit.quadratic.values.size() > 0;
@@ -119,34 +103,23 @@ Figure on_speed(const FrictionFit& fit) {
 }
 
 Figure all_speeds(const FrictionFit& fit) {
-  Figure figure{"4.20",
-                "Superposition (T 4.6), contraction, all current speeds",
-                "contraction ratio",
-                "coefficient of friction",
-                {},
-                {}};
+  Figure figure{"4.20", "Superposition (T 4.6), contraction, all current speeds", "contraction ratio",
+                "coefficient of friction"};
   figure.columns = {{speed_column, {}}, {ratio_column, {}}, {coefficient, {}}, {"model", {}}};
   for (const auto& at : fit.speeds) {
     const Samples shown = thinned(at.samples, std::max<std::size_t>(1, most_dots / fit.speeds.size()));
     const VectorXd model = superposed(fit, vector(shown.contraction_ratio), at.speed_mA_per_s);
-    for (std::size_t i = 0; i < shown.size(); ++i) {
-      figure.columns[0].values.push_back(at.speed_mA_per_s);
-      figure.columns[1].values.push_back(shown.contraction_ratio[i]);
-      figure.columns[2].values.push_back(shown.coefficient[i]);
-      figure.columns[3].values.push_back(model(static_cast<Index>(i)));
-    }
+    for (std::size_t i = 0; i < shown.size(); ++i)
+      figure.add_row({at.speed_mA_per_s, shown.contraction_ratio[i], shown.coefficient[i],
+                      model(static_cast<Index>(i))});
   }
   figure.curves = {{"data", 1, 2, true}, {"model", 1, 3, true}};
   return figure;
 }
 
 Figure deviations(const FrictionFit& contraction, const FrictionFit& relaxation) {
-  Figure figure{"4.26",
-                "Standard deviation of the coefficient of friction from the model",
-                "current speed [mA/s]",
-                "standard deviation",
-                {},
-                {}};
+  Figure figure{"4.26", "Standard deviation of the coefficient of friction from the model",
+                "current speed [mA/s]", "standard deviation"};
   figure.columns = {{speed_column, {}}};
   for (const auto& at : contraction.speeds) figure.columns[0].values.push_back(at.speed_mA_per_s);
   const auto add = [&](const char* direction, const FrictionFit& fit) {
@@ -171,6 +144,11 @@ Figure deviations(const FrictionFit& contraction, const FrictionFit& relaxation)
 std::string Figure::file_name() const {
   const auto point = number.find('.');
   return fmt::format("figure_{}_{:0>2}", number.substr(0, point), number.substr(point + 1));
+}
+
+void Figure::add_row(std::initializer_list<double> values) {
+  auto column = columns.begin();
+  for (const double value : values) (column++)->values.push_back(value);
 }
 
 std::vector<double> list(const VectorXd& values) {
@@ -208,6 +186,12 @@ std::vector<Figure> figures(const CalibrationResult& result, bool kgf) {
   }
   all.push_back(deviations(fit, result.friction_of(Direction::relaxation)));
   add_pressure_figures(result, kgf, all);
+  const auto say = [&](std::string& text) { text = in_unit(result.command_unit(), text); };
+  for (Figure& figure : all) {
+    for (std::string* text : {&figure.title, &figure.x_label, &figure.y_label}) say(*text);
+    for (Column& column : figure.columns) say(column.name);
+    for (Curved& curve : figure.curves) say(curve.label);
+  }
   return all;
 }
 

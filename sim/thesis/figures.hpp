@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <initializer_list>
 #include <string>
 #include <vector>
 
@@ -25,11 +26,13 @@ struct Curved {
 struct Figure {
   std::string number;  ///< "4.2"; empty for a picture that is not the thesis's
   std::string title, x_label, y_label;
-  std::vector<Column> columns;  ///< all of one length
-  std::vector<Curved> curves;
+  std::vector<Column> columns{};  ///< all of one length
+  std::vector<Curved> curves{};
 
   /// figure_4_02
   std::string file_name() const;
+  /// One value more for each column.
+  void add_row(std::initializer_list<double> values);
 };
 
 /// All of them, in order. Pressures in Pa, or in kgf/m2 as the thesis prints them. Of clouds of samples every

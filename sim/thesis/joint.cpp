@@ -7,7 +7,6 @@
 #include <Eigen/QR>
 #include <nlopt.hpp>
 
-#include <sim/thesis/joint.hpp>
 #include <sim/thesis/pressure.hpp>
 
 namespace mckibben::thesis {

@@ -1,8 +1,6 @@
 // See the header.
 #include <cmath>
-#include <functional>
 
-#include <sim/thesis/joint.hpp>
 #include <sim/thesis/pressure.hpp>
 
 namespace mckibben::thesis {

@@ -1,6 +1,6 @@
 // Fits of the pressure models (T 4.7 to 4.28) in the thesis's order: each load and speed by itself; what does
 // not follow the speed averaged and fixed, the rest fitted again; that as polynomials in speed; all of it as
-// polynomials in load. Beside it the same equations fitted to all samples at once (ours; joint.hpp).
+// polynomials in load. Beside it the same equations fitted to all samples at once (ours; joint.cpp).
 #pragma once
 
 #include <vector>
@@ -45,5 +45,14 @@ PressureFit fit_pressure(const Grid& grid, Direction direction, const Orders& or
 
 /// Where exponents are searched.
 inline constexpr double lowest_exponent = 1.0, highest_exponent = 200.0;
+
+/// All of one direction's coefficients from all samples at once (ours): the thesis's equations are linear in
+/// everything but the exponent's line in load, so only that line is searched.
+struct JointFit {
+  PressureModel model;
+  std::vector<std::vector<Estimate>> estimates;  ///< of each curve's coefficients
+};
+
+JointFit fit_jointly(const Shape& shape, const std::vector<Cell>& cells);
 
 }  // namespace mckibben::thesis

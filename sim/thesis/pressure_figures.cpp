@@ -1,5 +1,4 @@
 // See the header. Where the thesis shows one load, it is its lightest.
-#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -33,9 +32,6 @@ class PressureFigures {
   }
 
  private:
-  Figure figure(std::string number, std::string title, std::string x, std::string y) const {
-    return {std::move(number), std::move(title), std::move(x), std::move(y), {}, {}};
-  }
   std::vector<double> scaled(const VectorXd& pressures) const { return list(factor_ * pressures); }
 
   std::vector<const Cell*> lightest(Direction direction) const {
@@ -53,10 +49,10 @@ class PressureFigures {
     const ProjectedFit& own = result_.pressure_of(Direction::contraction).cells[middle].own;
     const Eigen::MatrixXd basis = pressure_basis(e, own.parameter);
     const VectorXd& c = own.linear.values;
-    Figure f = figure("4.27",
-                      fmt::format("Superposition (T 4.7): contraction, {:g} kg, {:.1f} mA/s",
-                                  cells[middle]->load_kg, cells[middle]->speed_mA_per_s),
-                      "contraction ratio", fmt::format("pressure [{}]", label_));
+    Figure f{"4.27",
+             fmt::format("Superposition (T 4.7): contraction, {:g} kg, {:.1f} mA/s", cells[middle]->load_kg,
+                         cells[middle]->speed_mA_per_s),
+             "contraction ratio", fmt::format("pressure [{}]", label_)};
     f.columns = {{ratio_column, shown.contraction_ratio},
                  {"pressure_" + unit_, scaled(vector(shown.pressure_Pa))},
                  {"constant_" + unit_, scaled(c(0) * basis.col(0))},
@@ -71,8 +67,8 @@ class PressureFigures {
 
   /// The slowest and the fastest current, under the lightest and the heaviest load.
   void shift() {
-    Figure f = figure("4.28", "Shift of the pressure with load and current speed, contraction",
-                      "contraction ratio", fmt::format("pressure [{}]", label_));
+    Figure f{"4.28", "Shift of the pressure with load and current speed, contraction", "contraction ratio",
+             fmt::format("pressure [{}]", label_)};
     f.columns = {{"load_kg", {}}, {speed_column, {}}, {ratio_column, {}}, {"pressure_" + unit_, {}}};
     const auto& cells = result_.grid.of(Direction::contraction);
     std::vector<std::size_t> corners;
@@ -86,12 +82,9 @@ class PressureFigures {
     for (const std::size_t c : corners) {
       const Samples shown = thinned(cells[c].samples, most_dots / 4);
       const std::size_t begin = f.columns[0].values.size();
-      for (std::size_t i = 0; i < shown.size(); ++i) {
-        f.columns[0].values.push_back(cells[c].load_kg);
-        f.columns[1].values.push_back(cells[c].speed_mA_per_s);
-        f.columns[2].values.push_back(shown.contraction_ratio[i]);
-        f.columns[3].values.push_back(factor_ * shown.pressure_Pa[i]);
-      }
+      for (std::size_t i = 0; i < shown.size(); ++i)
+        f.add_row({cells[c].load_kg, cells[c].speed_mA_per_s, shown.contraction_ratio[i],
+                   factor_ * shown.pressure_Pa[i]});
       f.curves.push_back({fmt::format("{:g} kg, {:.1f} mA/s", cells[c].load_kg, cells[c].speed_mA_per_s), 2,
                           3, true, begin, f.columns[0].values.size()});
     }
@@ -100,10 +93,10 @@ class PressureFigures {
 
   void against_speed(std::string number, Direction direction, Part part, const std::string& name) {
     const PressureFit& fit = result_.pressure_of(direction);
-    Figure f = figure(std::move(number),
-                      fmt::format("{} against current speed, {}, {:g} kg", name, name_of(direction),
-                                  result_.grid.loads_kg.front()),
-                      "current speed [mA/s]", fmt::format("{} [{}]", name, label_));
+    Figure f{std::move(number),
+             fmt::format("{} against current speed, {}, {:g} kg", name, name_of(direction),
+                         result_.grid.loads_kg.front()),
+             "current speed [mA/s]", fmt::format("{} [{}]", name, label_)};
     f.columns = {{speed_column, {}}, {fmt::format("{}_{}", name, unit_), {}}, {"model_" + unit_, {}}};
     const std::size_t cells = lightest(direction).size();
     for (std::size_t c = 0; c < cells; ++c) {
@@ -112,19 +105,17 @@ class PressureFigures {
       for (std::size_t curve = 0; curve < fit.shape.curves.size(); ++curve)
         if (fit.shape.curves[curve].part == part)
           model += fit.at_load[curve](0) * std::pow(cell.speed_mA_per_s, fit.shape.curves[curve].power);
-      f.columns[0].values.push_back(cell.speed_mA_per_s);
-      f.columns[1].values.push_back(factor_ * cell.refitted(static_cast<Index>(part)));
-      f.columns[2].values.push_back(factor_ * model);
+      f.add_row({cell.speed_mA_per_s, factor_ * cell.refitted(static_cast<Index>(part)), factor_ * model});
     }
     f.curves = {{"data", 0, 1, true}, {"model", 0, 2}};
     all_.push_back(std::move(f));
   }
 
   void deviations(std::string number, Direction direction) {
-    Figure f = figure(std::move(number),
-                      fmt::format("Standard deviation of the pressure from the model, {}, {:g} kg",
-                                  name_of(direction), result_.grid.loads_kg.front()),
-                      "current speed [mA/s]", fmt::format("standard deviation [{}]", label_));
+    Figure f{std::move(number),
+             fmt::format("Standard deviation of the pressure from the model, {}, {:g} kg", name_of(direction),
+                         result_.grid.loads_kg.front()),
+             "current speed [mA/s]", fmt::format("standard deviation [{}]", label_)};
     f.columns = {{speed_column, {}}};
     const std::pair<const char*, double Stages::*> stages[] = {{"in_speed", &Stages::in_speed},
                                                                {"own_fit", &Stages::own},
@@ -152,9 +143,9 @@ class PressureFigures {
       const std::string of_speed = law.power == 0 ? "" : law.power == 1 ? "_s_per_mA" : "_s2_per_mA2";
       const std::string unit = is_exponent ? "" : "_" + unit_ + of_speed;
       const std::string shown = law.power == 0 ? "" : law.power == 1 ? " s/mA" : " (s/mA)2";
-      Figure f = figure(
-          law.figure, fmt::format("{} against load (T {}), {}", law.name, law.equation, name_of(direction)),
-          "load [kg]", is_exponent ? law.name : fmt::format("{} [{}{}]", law.name, label_, shown));
+      Figure f{law.figure,
+               fmt::format("{} against load (T {}), {}", law.name, law.equation, name_of(direction)),
+               "load [kg]", is_exponent ? law.name : fmt::format("{} [{}{}]", law.name, label_, shown)};
       const auto along = [&](const VectorXd& coefficients) {
         VectorXd values(loads.size());
         for (Index i = 0; i < loads.size(); ++i) values(i) = factor * polynomial(coefficients, loads(i));

@@ -33,7 +33,8 @@ struct Extreme {
 };
 
 /// Mean over the half periods; the first and the last may be cut short and count only if there are no others.
-double mean_speed_mA_per_s(const std::vector<HalfPeriod>& halves, double tick_s, std::string& unusable) {
+double mean_speed_mA_per_s(const std::vector<HalfPeriod>& halves, double tick_s, plant::CommandUnit commands,
+                           std::string& unusable) {
   const std::size_t cut = halves.size() > 2 ? 1 : 0;
   double sum = 0.0, slowest = 1e300, fastest = 0.0;
   for (std::size_t i = cut; i + cut < halves.size(); ++i) {
@@ -44,9 +45,10 @@ double mean_speed_mA_per_s(const std::vector<HalfPeriod>& halves, double tick_s,
   }
   const double mean = sum / static_cast<double>(halves.size() - 2 * cut);
   if (fastest - slowest > steady_speed * mean)
-    unusable = fmt::format(
-        "its current has no single speed ({:.3g} to {:.3g} mA/s): use sines or triangles of constant period",
-        slowest, fastest);
+    unusable =
+        in_unit(commands, fmt::format("its current has no single speed ({:.3g} to {:.3g} mA/s): use sines "
+                                      "or triangles of constant period",
+                                      slowest, fastest));
   return mean;
 }
 
@@ -71,7 +73,8 @@ class Processor {
       result.still = true;
       return result;
     }
-    result.current_speed_mA_per_s = mean_speed_mA_per_s(halves, rig_.tick_s, result.unusable);
+    result.current_speed_mA_per_s =
+        mean_speed_mA_per_s(halves, rig_.tick_s, rig_.command_unit(), result.unusable);
     if (!result.unusable.empty()) return result;
     for (const HalfPeriod& half : halves) take(half, result);
     result.dropped.first_rows = counts_.size() - taken_;
@@ -88,8 +91,9 @@ class Processor {
   std::string moved() const {
     const auto [low_mA, high_mA] = std::minmax_element(run_.current_mA.begin(), run_.current_mA.end());
     const auto [low, high] = std::minmax_element(counts_.begin(), counts_.end());
-    return fmt::format("by {:g} counts in all, with currents from {:.3g} to {:.3g} mA", *high - *low, *low_mA,
-                       *high_mA);
+    return in_unit(rig_.command_unit(),
+                   fmt::format("by {:g} counts in all, with currents from {:.3g} to {:.3g} mA", *high - *low,
+                               *low_mA, *high_mA));
   }
 
   void count() {
@@ -123,7 +127,7 @@ class Processor {
   /// Whether the rig has another sensor, or the data set names a unit of contraction that no encoder has.
   bool has_other_sensor() const {
     if (!rig_.sensors.position().counts_pulses()) return true;
-    const domain::ColumnPlace place = domain::merged(dataset_.columns, run_.columns).contraction;
+    const domain::ColumnPlace place = domain::merged(dataset_.columns, run_.columns)["contraction"];
     return !place.absent() && place.unit != "count" && place.unit != "1";
   }
 
@@ -144,7 +148,7 @@ class Processor {
       const std::size_t before = k > window ? k - window : 0,
                         after = std::min(k + window, counts_.size() - 1);
       const double current_mA = run_.current_mA[k];
-      if (current_mA <= rig_.valve.zero_current_mA || current_mA > rig_.valve.span_current_mA)
+      if (current_mA <= rig_.valve.zero_command || current_mA > rig_.valve.span_command)
         ++result.dropped.off_the_line;
       else if (counts_[k] < options_.lowest_counts)
         ++result.dropped.near_zero;
@@ -166,8 +170,7 @@ class Processor {
     if (options_.pressure == PressureSource::gauge) return (*run_.muscle_pressure_Pa)[k];
     const plant::Valve& v = rig_.valve;
     return v.zero_pressure_Pa + (v.span_pressure_Pa - v.zero_pressure_Pa) *
-                                    (run_.current_mA[k] - v.zero_current_mA) /
-                                    (v.span_current_mA - v.zero_current_mA);
+                                    (run_.current_mA[k] - v.zero_command) / (v.span_command - v.zero_command);
   }
 
   double acceleration_m_per_s2(std::size_t k) const {

@@ -1,7 +1,5 @@
 // Boards by Comedi, at the stand-in: a loop at one is a loop at the simulated bench, but for the output's
 // steps; wiring that cannot be is told.
-#include <cmath>
-#include <memory>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -21,9 +19,9 @@
 namespace mckibben::bench {
 namespace {
 
-std::string refusal(const std::string& file, const Wiring& wiring, double largest_mA = 20.0) {
+std::string refusal(const std::string& file, const Wiring& wiring, const plant::Rig& rig = {}) {
   try {
-    open_comedi(file, wiring, largest_mA);
+    open_comedi(file, wiring, rig);
   } catch (const DeviceFailure& failure) {
     return failure.what();
   }
@@ -49,7 +47,7 @@ TEST(ComediBench, IsDrivenAsTheSimulatedOneIs) {
   for (const bool in_mA : {false, true}) {
     PatientClock clock, other;
     stand_in() = {.clock = &clock, .in_mA = in_mA};
-    const auto board = open_comedi("/dev/comedi0", {.encoder = {{8, 10}}}, 20.0);
+    const auto board = open_comedi("/dev/comedi0", {.encoder = {{8, 10}}}, plant::Rig{});
     EXPECT_EQ(stand_in().line_of_a, static_cast<int>(NI_GPCT_PFI_OTHER_SELECT(8)));
     EXPECT_EQ(stand_in().line_of_b, static_cast<int>(NI_GPCT_PFI_OTHER_SELECT(10)));
     const Recorded recorded = driven(*board, clock);
@@ -67,10 +65,26 @@ TEST(ComediBench, IsDrivenAsTheSimulatedOneIs) {
   }
 }
 
+TEST(ComediBench, GivesAValveItsVoltsAsTheyAre) {
+  PatientClock clock;
+  stand_in() = {.clock = &clock};
+  plant::Rig volts;
+  plant::command_in(volts, plant::CommandUnit::V, -5.0, 5.0);
+  volts.dac = plant::dac_for(volts.valve);
+  const auto board = open_comedi("/dev/comedi0", {}, volts);
+  board->put(-5.0, 0.0);
+  EXPECT_EQ(stand_in().written, 0x4000U);  // of -10 to 10 V
+  board->put(5.0, 0.0);
+  EXPECT_EQ(stand_in().written, 0xBFFFU);
+  volts.dac.largest_command = 12.0;
+  EXPECT_EQ(refusal("/dev/comedi0", {}, volts), "/dev/comedi0: subdevice 1 has no range from -5 to 12 V");
+  stand_in() = {};
+}
+
 TEST(ComediBench, CountsDownThroughZero) {
   PatientClock clock;
   stand_in() = {.clock = &clock};
-  const auto board = open_comedi("/dev/comedi0", {}, 20.0);
+  const auto board = open_comedi("/dev/comedi0", {}, plant::Rig{});
   board->put(15.0, 0.0);
   clock.wait_until(3.0);
   const auto up = board->counts(3.0);

@@ -2,10 +2,8 @@
 // is a test's, so no machine is too slow for it.
 #include <algorithm>
 #include <atomic>
-#include <cmath>
 #include <cstdint>
 #include <limits>
-#include <memory>
 #include <mutex>
 #include <string>
 #include <thread>
@@ -101,7 +99,7 @@ TEST(Loop, LimitsEveryOutput) {
   EXPECT_EQ(*std::max_element(device.put_mA.begin(), device.put_mA.end()), 20.0);
   Told other;
   EXPECT_EQ(driven(other, std::numeric_limits<double>::quiet_NaN(), plan(3)).stopped,
-            "the controller's current is no number");
+            "the controller's command is no number");
   EXPECT_EQ(other.put_mA.back(), 0.0);
 }
 
@@ -223,8 +221,8 @@ class Board {
       const std::lock_guard lock(mutex_);
       heard_.push_back(line);
       std::string reply;
-      if (line.rfind("mckibben 1 ", 0) == 0)
-        reply = greeted ? "ready 1\r\n" : "what?\r\nready 1\r\n", greeted = true;
+      if (line.rfind("mckibben ", 0) == 0)
+        reply = (greeted ? "ready " : "what?\r\nready ") + line.substr(9, 1) + "\r\n", greeted = true;
       if (line == "?" && static_cast<int>(heard_.size()) < silent_after) reply = "42\r\n";
       if (!reply.empty()) std::ignore = write(master_, reply.data(), reply.size());
       line.clear();
@@ -240,7 +238,7 @@ class Board {
 TEST(SerialBench, SpeaksItsLines) {
   Board board;
   {
-    Serial serial(board.port, 0.012);
+    Serial serial(board.port, plant::Rig{});
     EXPECT_EQ(serial.counts(0.0), 42);
     serial.put(12.34567, 0.0);
     EXPECT_EQ(serial.counts(0.0), 42);
@@ -252,11 +250,19 @@ TEST(SerialBench, SpeaksItsLines) {
   EXPECT_EQ(all.front(), "mckibben 1 12");
 }
 
+TEST(SerialBench, SaysWhatItsCommandsAreInUnlessTheyAreMilliamperes) {
+  plant::Rig volts;
+  plant::command_in(volts, plant::CommandUnit::V, 0.0, 10.0);
+  Board board;
+  EXPECT_EQ(Serial(board.port, volts).counts(0.0), 42);
+  EXPECT_EQ(board.heard().front(), "mckibben 2 12 V");
+}
+
 TEST(SerialBench, SaysWhatIsWrong) {
-  EXPECT_THROW(Serial("/nowhere/port", 0.012), DeviceFailure);
+  EXPECT_THROW(Serial("/nowhere/port", plant::Rig{}), DeviceFailure);
   Board board;
   board.silent_after = 3;
-  Serial serial(board.port, 0.012);
+  Serial serial(board.port, plant::Rig{});
   EXPECT_THROW(
       {
         for (int i = 0; i < 5; ++i) serial.counts(0.0);

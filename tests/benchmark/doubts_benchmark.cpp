@@ -1,14 +1,12 @@
 // See the header.
 #include "doubts_benchmark.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <numeric>
 #include <optional>
 #include <random>
 #include <string>
-#include <vector>
 
 #include <fmt/format.h>
 

@@ -3,11 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <numbers>
 #include <random>
 #include <stdexcept>
-#include <string_view>
 #include <variant>
 
 #include <fmt/format.h>

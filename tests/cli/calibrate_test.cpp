@@ -23,12 +23,11 @@ TEST(Calibrate, TurnsADataSetIntoAFileForControllersAndFigures) {
   EXPECT_EQ(document.at("schema"), "mckibben-calibration-report/1");
   EXPECT_EQ(document.at("loads_kg").size(), 4u);
   EXPECT_EQ(said.out, read_text(folder / "calibration.json"));
-  EXPECT_NE(read_text(folder / "report.txt").find("spread (standard deviation over mean)"),
-            std::string::npos);
+  EXPECT_TRUE(holds(read_text(folder / "report.txt"), "spread (standard deviation over mean)"));
   for (const char* place : {"report.txt", "calibration.yaml", "calibration.json"}) {
     const std::string text = read_text(folder / place);
-    EXPECT_NE(text.find("the thesis reports below 10 % (T 5)"), std::string::npos) << place;
-    EXPECT_NE(text.find("pressure in relaxation: "), std::string::npos) << place;
+    EXPECT_TRUE(holds(text, "the thesis reports below 10 % (T 5)")) << place;
+    EXPECT_TRUE(holds(text, "pressure in relaxation: ")) << place;
   }
   for (int figure = 2; figure <= 49; ++figure) {
     const std::string name = fmt::format("figures/figure_4_{:02}", figure);
@@ -40,7 +39,7 @@ TEST(Calibrate, TurnsADataSetIntoAFileForControllersAndFigures) {
 
   ASSERT_EQ(mckibben("calibrate data --out kgf --kgf", scratch).status, 0);
   EXPECT_EQ(read_text(scratch / "kgf" / "calibration.yaml"), read_text(folder / "calibration.yaml"));
-  EXPECT_NE(read_text(scratch / "kgf" / "figures/figure_4_35.csv").find("kgf_per_m2"), std::string::npos);
+  EXPECT_TRUE(holds(read_text(scratch / "kgf" / "figures/figure_4_35.csv"), "kgf_per_m2"));
 }
 
 TEST(Calibrate, WarnsOfFitsThatCannotBeUsed) {
@@ -49,9 +48,8 @@ TEST(Calibrate, WarnsOfFitsThatCannotBeUsed) {
   ASSERT_EQ(mckibben("dataset noisy.yaml --out data", scratch).status, 0);
   const Said said = mckibben("calibrate data --out cal", scratch);
   EXPECT_EQ(said.status, 0) << said.err;
-  EXPECT_NE(said.err.find("mckibben: warning: friction in relaxation is not usable"), std::string::npos)
-      << said.err;
-  EXPECT_NE(said.out.find("not usable (above 100 %)"), std::string::npos) << said.out;
+  EXPECT_TRUE(holds(said.err, "mckibben: warning: friction in relaxation is not usable"));
+  EXPECT_TRUE(holds(said.out, "not usable (above 100 %)"));
   const auto document = input::Json::parse(read_text(scratch / "cal" / "calibration.json"));
   EXPECT_GT(document.at("friction").at("relaxation").at("spread").get<double>(), 1.0);
 }
@@ -62,7 +60,7 @@ TEST(Calibrate, RefusesTooFewLoadsAndSaysWhatHelps) {
   ASSERT_EQ(mckibben("dataset small.yaml --out data", scratch).status, 0);
   const Said said = mckibben("calibrate data --out cal", scratch);
   EXPECT_EQ(said.status, 65);
-  EXPECT_NE(said.err.find("needs 4 loads, and there are 2"), std::string::npos) << said.err;
+  EXPECT_TRUE(holds(said.err, "needs 4 loads, and there are 2"));
   EXPECT_FALSE(std::filesystem::exists(scratch / "cal"));
   EXPECT_EQ(mckibben("calibrate data --out cal --load-order 1", scratch).status, 0);
   const std::string data_set = read_text(scratch / "data" / "dataset.yaml");

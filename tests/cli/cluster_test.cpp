@@ -2,7 +2,6 @@
 // also when some of them die. The launcher's variables are set here as Slurm sets them; mpirun itself is
 // tried where it is installed.
 #include <cstdlib>
-#include <map>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -32,26 +31,16 @@ constexpr const char* ranks =
     "at_work() { until [ -e $1.ranks/rank-1 ] && ls $1.unfinished/runs/*.json; do sleep 0.01; done > "
     "/dev/null 2>&1; }\n";
 
-/// Every file below a folder with its content.
-std::map<std::string, std::string> files_in(const fs::path& folder) {
-  std::map<std::string, std::string> files;
-  for (const auto& entry : fs::recursive_directory_iterator(folder))
-    if (entry.is_regular_file())
-      files[entry.path().lexically_relative(folder).generic_string()] = read_text(entry.path());
-  return files;
-}
-
-class Cluster : public testing::Test {
+class Cluster : public InAFolder {
  protected:
   Said script(const std::string& words, const std::string& lines) {
     return shell("words='" + words + "'\n" + ranks + lines, scratch);
   }
   void expect_same(const std::string& one, const std::string& other) {
-    EXPECT_EQ(files_in(scratch / one), files_in(scratch / other));
+    EXPECT_EQ(contents(scratch / one), contents(scratch / other));
     EXPECT_FALSE(fs::exists(scratch / (other + ".ranks")));
     EXPECT_FALSE(fs::exists(scratch / (other + ".unfinished")));
   }
-  Scratch scratch;
 };
 
 TEST_F(Cluster, ADataSetIsTheSameFromThreeRanksAndFromOneAlone) {
@@ -99,8 +88,8 @@ TEST_F(Cluster, WithoutRank0TheOthersGoOnAndTheSameCommandCompletesIt) {
                            "ls three.unfinished/runs | wc -l\n"
                            "unset SLURM_STEP_ID; \"$M\" $words > said 2>&1; echo $?");
   EXPECT_EQ(said.out.find("0: 137\n1: 0\n"), 0u) << said.out << read_text(scratch / "err-1");
-  EXPECT_NE(said.out.find("\n0\n"), std::string::npos) << read_text(scratch / "said");
-  EXPECT_NE(read_text(scratch / "said").find("runs are there already; going on"), std::string::npos);
+  EXPECT_TRUE(holds(said.out, "\n0\n")) << read_text(scratch / "said");
+  EXPECT_TRUE(holds(read_text(scratch / "said"), "runs are there already; going on"));
   expect_same("alone", "three");
 }
 
@@ -110,7 +99,7 @@ TEST_F(Cluster, AnEarlierCallStillAtWorkIsNotDisturbed) {
                            "start 2; at_work three; kill -STOP $pid_1; kill -9 $pid_0; ended 0\n"
                            "unset SLURM_STEP_ID; \"$M\" $words > said 2>&1; echo $?; kill -9 $pid_1");
   EXPECT_EQ(said.out, "0: 137\n74\n") << read_text(scratch / "said");
-  EXPECT_NE(read_text(scratch / "said").find("an earlier call are still at work"), std::string::npos);
+  EXPECT_TRUE(holds(read_text(scratch / "said"), "an earlier call are still at work"));
 }
 
 TEST_F(Cluster, OtherInputInOneOfThemIsRefused) {
@@ -120,18 +109,16 @@ TEST_F(Cluster, OtherInputInOneOfThemIsRefused) {
              "export SLURM_STEP_NUM_TASKS=2; rank 0; words=\"$words --seed 9\"; rank 1; ended 1; "
              "ended 0");
   EXPECT_EQ(said.out, "1: 74\n0: 0\n");
-  EXPECT_NE(read_text(scratch / "err-1").find("mckibben (rank 1): rank 0 has read other input"),
-            std::string::npos);
+  EXPECT_TRUE(holds(read_text(scratch / "err-1"), "mckibben (rank 1): rank 0 has read other input"));
 }
 
 TEST_F(Cluster, Rank0AloneSpeaksAndDoesWhatIsNotShared) {
   write_text(scratch / "bad.yaml", campaign_with(0));
   EXPECT_EQ(script("dataset bad.yaml", "start 2; ended 0; ended 1").out, "0: 65\n1: 65\n");
-  EXPECT_NE(read_text(scratch / "err-0").find("repeats = 0"), std::string::npos);
+  EXPECT_TRUE(holds(read_text(scratch / "err-0"), "repeats = 0"));
   EXPECT_EQ(read_text(scratch / "err-1"), "");
   EXPECT_EQ(script("schema rig", "start 2; ended 0; ended 1").out, "0: 0\n1: 0\n");
-  EXPECT_NE(read_text(scratch / "err-0").find("schema is not shared out; one of 2 processes does all"),
-            std::string::npos);
+  EXPECT_TRUE(holds(read_text(scratch / "err-0"), "schema is not shared out; one of 2 processes does all"));
   EXPECT_EQ(read_text(scratch / "out-1"), "");
 }
 
@@ -153,7 +140,7 @@ TEST_F(Cluster, MpirunStartsThem) {
       "mpirun -n 2 --oversubscribe \"$M\" dataset c.yaml --out two",
       scratch);
   ASSERT_EQ(said.status, 0) << said.err;
-  EXPECT_EQ(said.err.find("rank 1"), std::string::npos) << said.err;
+  EXPECT_TRUE(lacks(said.err, "rank 1"));
   expect_same("alone", "two");
 }
 

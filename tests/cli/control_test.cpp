@@ -23,8 +23,7 @@ TEST(Control, ADryRunShowsWhatWouldBeSentAndWritesNothing) {
   write_text(scratch / "b.yaml", on_bench);
   const Said said = mckibben("control b.yaml --dry-run --device serial --port /nowhere", scratch);
   EXPECT_EQ(said.status, 0) << said.err;
-  EXPECT_NE(said.out.find("nothing is sent"), std::string::npos);
-  EXPECT_NE(said.out.find("b: 50 of 50 ticks of 12 ms"), std::string::npos) << said.out;
+  EXPECT_TRUE(holds(said.out, "nothing is sent", "b: 50 of 50 ticks of 12 ms"));
   EXPECT_FALSE(std::filesystem::exists(scratch / "out"));
   EXPECT_EQ(said.out, mckibben("control b.yaml --dry-run", scratch).out);
 }
@@ -51,7 +50,7 @@ TEST(Control, RefusesWhatCannotDriveABench) {
     write_text(scratch / "b.yaml", text);
     const Said said = mckibben("control b.yaml " + options, scratch);
     EXPECT_EQ(said.status, 65) << why;
-    EXPECT_NE(said.err.find(why), std::string::npos) << said.err;
+    EXPECT_TRUE(holds(said.err, why));
   };
   refused(on_bench, "[16.138 kg]", "[11 kg, 16 kg]", "one load hangs on a bench");
   refused(on_bench, "proportional: 60 mA, ", "", "its gains are missing");
@@ -61,8 +60,7 @@ TEST(Control, RefusesWhatCannotDriveABench) {
   write_text(scratch / "b.yaml", on_bench);
   const Said unreachable = mckibben("control b.yaml --device serial --port /nowhere/port", scratch);
   EXPECT_EQ(unreachable.status, 70);
-  EXPECT_NE(unreachable.err.find("/nowhere/port cannot be opened as a serial port: "), std::string::npos)
-      << unreachable.err;
+  EXPECT_TRUE(holds(unreachable.err, "/nowhere/port cannot be opened as a serial port: "));
 }
 
 TEST(Control, WhatEndsBeforeTheFirstTickLeavesNoDataSet) {
@@ -74,9 +72,7 @@ TEST(Control, WhatEndsBeforeTheFirstTickLeavesNoDataSet) {
   write_text(scratch / "b.yaml", dies);
   const Said said = mckibben("control b.yaml --most-missed 1000", scratch);
   EXPECT_EQ(said.status, 70);
-  EXPECT_NE(said.out.find("0 of 50 ticks of 12 ms; it ended before tick 0, and nothing was recorded"),
-            std::string::npos)
-      << said.out;
+  EXPECT_TRUE(holds(said.out, "0 of 50 ticks of 12 ms; it ended before tick 0, and nothing was recorded"));
   EXPECT_TRUE(std::filesystem::exists(scratch / "out/b-bench/control.json"));
   EXPECT_FALSE(std::filesystem::exists(scratch / "out/b-bench/dataset.yaml"));
 }
@@ -93,7 +89,7 @@ TEST(Control, ABoardByComediLeavesADataSetThatReplays) {
   const auto refused = [&](const char* wiring, int status, const char* why) {
     const Said refusal = shell(comedi + wiring, scratch);
     EXPECT_EQ(refusal.status, status) << wiring;
-    EXPECT_NE(refusal.err.find(why), std::string::npos) << refusal.err;
+    EXPECT_TRUE(holds(refusal.err, why));
   };
   refused("--output 0:0", 70, "/dev/comedi0: subdevice 0 is no analog output");
   refused("--output one", 64, "one is neither a number nor two with a colon");

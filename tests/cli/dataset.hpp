@@ -2,7 +2,6 @@
 #pragma once
 
 #include <filesystem>
-#include <map>
 #include <span>
 #include <string>
 #include <vector>
@@ -28,15 +27,6 @@ inline constexpr const char* small_campaign =
     "repeats: 2\n"
     "noise: {encoder_jitter: 1e-4, gauge: 4 mbar}\n";
 
-/// Every file below a folder with its content.
-inline std::map<std::string, std::string> contents(const fs::path& folder) {
-  std::map<std::string, std::string> files;
-  for (const auto& entry : fs::recursive_directory_iterator(folder))
-    if (entry.is_regular_file())
-      files[entry.path().lexically_relative(folder).generic_string()] = read_text(entry.path());
-  return files;
-}
-
 /// Leaves OUT.unfinished as a campaign does that was stopped after `runs` runs.
 inline void begin(const fs::path& out, const domain::Campaign& campaign, std::size_t runs,
                   const std::vector<std::string>& formats = {}) {
@@ -46,12 +36,10 @@ inline void begin(const fs::path& out, const domain::Campaign& campaign, std::si
       [](const auto&, auto, auto) {});
 }
 
-class Dataset : public testing::Test {
+class Dataset : public InAFolder {
  protected:
   void SetUp() override { write_text(scratch / "small.yaml", small_campaign); }
-  Said run(const std::string& arguments) { return mckibben(arguments, scratch); }
   bool exists(const std::string& name) { return fs::exists(scratch / name); }
-  Scratch scratch;
 };
 
 }  // namespace mckibben::cli

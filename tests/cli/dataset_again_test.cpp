@@ -25,7 +25,7 @@ TEST_F(Dataset, AnInterruptedOneGoesOnAndItsFilesAreTheSame) {
   const auto before = fs::last_write_time(finished);
   const auto said = run("dataset small.yaml --out parts --format mat,netcdf");
   ASSERT_EQ(said.status, 0) << said.err;
-  EXPECT_NE(said.err.find("3 of 8 runs are there already"), std::string::npos) << said.err;
+  EXPECT_TRUE(holds(said.err, "3 of 8 runs are there already"));
   EXPECT_EQ(fs::last_write_time(scratch / "parts/m1_c01_r1.nc"), before);  // not made again
   EXPECT_EQ(contents(scratch / "whole"), contents(scratch / "parts"));
   EXPECT_EQ(contents(scratch / "whole-truth"), contents(scratch / "parts-truth"));
@@ -36,7 +36,7 @@ TEST_F(Dataset, OtherFormatsStartAnewAndNothingIsLeftOver) {
   begin(scratch / "parts", input::read_campaign(scratch / "small.yaml"), 5, {"mat"});
   const auto said = run("dataset small.yaml --out parts");
   ASSERT_EQ(said.status, 0) << said.err;
-  EXPECT_NE(said.err.find("starting anew"), std::string::npos) << said.err;
+  EXPECT_TRUE(holds(said.err, "starting anew"));
   for (const auto& [name, text] : contents(scratch / "parts")) EXPECT_FALSE(name.ends_with(".mat")) << name;
   EXPECT_FALSE(exists("parts.unfinished.old-1"));
 }
@@ -59,9 +59,8 @@ TEST_F(Dataset, RunsThatSomebodyChangedAreMadeAgain) {
   const auto untouched = fs::last_write_time(unfinished / "data/m2_c01_r2.csv");
   const auto said = run("dataset small.yaml --out parts");
   ASSERT_EQ(said.status, 0) << said.err;
-  for (const char* words :
-       {"2 of 8 runs are there already", "5 runs are not as written, and made again: m1_c01_r1"})
-    EXPECT_NE(said.err.find(words), std::string::npos) << said.err;
+  EXPECT_TRUE(holds(said.err, "2 of 8 runs are there already",
+                    "5 runs are not as written, and made again: m1_c01_r1"));
   EXPECT_EQ(fs::last_write_time(scratch / "parts/m2_c01_r2.csv"), untouched);
   EXPECT_EQ(contents(scratch / "whole"), contents(scratch / "parts"));
   EXPECT_EQ(contents(scratch / "whole-truth"), contents(scratch / "parts-truth"));
@@ -71,7 +70,7 @@ TEST_F(Dataset, ACampaignThatChangedStartsAnew) {
   begin(scratch / "parts", input::read_campaign(scratch / "small.yaml"), 5);
   const auto said = run("dataset small.yaml --out parts --seed 9");
   ASSERT_EQ(said.status, 0) << said.err;
-  EXPECT_NE(said.err.find("starting anew"), std::string::npos) << said.err;
+  EXPECT_TRUE(holds(said.err, "starting anew"));
   ASSERT_EQ(run("dataset small.yaml --out whole --seed 9").status, 0);
   EXPECT_EQ(contents(scratch / "whole"), contents(scratch / "parts"));
 }
@@ -117,8 +116,7 @@ TEST_F(Dataset, CtrlCEndsWith130AndSaysHowToGoOn) {
   ASSERT_TRUE(WIFEXITED(status));
   EXPECT_EQ(WEXITSTATUS(status), 130);
   const std::string err = read_text(scratch / "err");
-  EXPECT_NE(err.find("interrupted; "), std::string::npos) << err;
-  EXPECT_NE(err.find("The same command goes on"), std::string::npos) << err;
+  EXPECT_TRUE(holds(err, "interrupted; ", "The same command goes on"));
   EXPECT_FALSE(exists("out/long"));
   EXPECT_TRUE(exists("out/long.unfinished/plan.json"));
 }

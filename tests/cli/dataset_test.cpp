@@ -31,8 +31,7 @@ std::vector<std::vector<double>> numbers(const std::string& text) {
 TEST_F(Dataset, WritesMeasurementsAndApartTheTruth) {
   const auto said = run("dataset small.yaml");
   ASSERT_EQ(said.status, 0) << said.err;
-  EXPECT_NE(said.out.find("small: 2 loads x 2 currents x 2, 1200 rows, 14.4 s simulated"), std::string::npos)
-      << said.out;
+  EXPECT_TRUE(holds(said.out, "small: 2 loads x 2 currents x 2, 1200 rows, 14.4 s simulated"));
   EXPECT_FALSE(exists("out/small.unfinished"));
   const auto dataset = input::read_dataset(scratch / "out/small");
   ASSERT_EQ(dataset.runs.size(), 8u);
@@ -51,8 +50,8 @@ TEST_F(Dataset, WritesMeasurementsAndApartTheTruth) {
     EXPECT_TRUE(exists("out/small/thesis/" + run.id + ".txt"));
   }
   for (const auto& [name, text] : contents(scratch / "out/small")) {
-    EXPECT_EQ(text.find("contraction_speed"), std::string::npos) << name;  // nothing true in it
-    EXPECT_EQ(name.find("truth"), std::string::npos);
+    EXPECT_TRUE(lacks(text, "contraction_speed")) << name;  // nothing true in it
+    EXPECT_TRUE(lacks(name, "truth"));
   }
   const auto truth = input::load_yaml(scratch / "out/small-truth/truth.yaml");
   EXPECT_EQ(truth.root.find("runs")->children.size(), 8u);
@@ -77,7 +76,7 @@ TEST_F(Dataset, NamesTheShippedRigWhenItIsTheOne) {
   text.replace(text.find("{gauge: {fitted: true}}"), 23, "thesis");
   write_text(scratch / "small.yaml", text);
   ASSERT_EQ(run("dataset small.yaml").status, 0);
-  EXPECT_NE(read_text(scratch / "out/small/dataset.yaml").find("rig: thesis\n"), std::string::npos);
+  EXPECT_TRUE(holds(read_text(scratch / "out/small/dataset.yaml"), "rig: thesis\n"));
   EXPECT_FALSE(exists("out/small/rig.yaml"));
   EXPECT_FALSE(input::read_dataset(scratch / "out/small").runs[0].muscle_pressure_Pa);
 }
@@ -132,7 +131,7 @@ TEST_F(Dataset, ARunThatFailsIs70AndTheOthersAreThere) {
              "currents: [{duration: 1 s, current: {kind: step_current, moves: []}}]\n");
   const auto said = run("dataset fall.yaml");
   EXPECT_EQ(said.status, 70);
-  EXPECT_NE(said.out.find("m1_c01: "), std::string::npos) << said.out;
+  EXPECT_TRUE(holds(said.out, "m1_c01: "));
   const auto dataset = input::read_dataset(scratch / "out/fall");
   ASSERT_EQ(dataset.runs.size(), 1u);
   EXPECT_EQ(dataset.runs[0].id, "m2_c01");

@@ -19,7 +19,7 @@ TEST(Diagnose, RefusesWhatIsNotADataSet) {
   for (const std::string name : {"dataset_gap", "dataset_nan", "dataset_current_range", "dataset_no_runs"}) {
     const Said said = mckibben("diagnose " + bad + name + ".yaml --out found", scratch);
     EXPECT_EQ(said.status, 65) << name;
-    EXPECT_NE(said.err.find(": error: "), std::string::npos) << said.err;
+    EXPECT_TRUE(holds(said.err, ": error: "));
     EXPECT_EQ(said.out, "");
   }
   EXPECT_EQ(mckibben("diagnose nowhere", scratch).status, 66);
@@ -45,12 +45,12 @@ TEST(Diagnose, WritesOverNothingThatItDidNotMake) {
   EXPECT_EQ(mckibben("diagnose data --out data", scratch).status, 74);
   const Said plan = mckibben("diagnose data --plan data/dataset.yaml", scratch);
   EXPECT_EQ(plan.status, 74);
-  EXPECT_NE(plan.err.find("not an earlier plan"), std::string::npos) << plan.err;
+  EXPECT_TRUE(holds(plan.err, "not an earlier plan"));
   EXPECT_EQ(read_text(scratch / "data/dataset.yaml"), data_set);
   // A pipe that nobody writes to would be read for ever.
   const Said pipe = shell("mkfifo p; \"$M\" diagnose data --plan p", scratch);
   EXPECT_EQ(pipe.status, 74);
-  EXPECT_NE(pipe.err.find("not an earlier plan"), std::string::npos) << pipe.err;
+  EXPECT_TRUE(holds(pipe.err, "not an earlier plan"));
   EXPECT_TRUE(std::filesystem::is_fifo(scratch / "p"));
   EXPECT_EQ(mckibben("diagnose data --rig nothing_like_it", scratch).status, 66);
   EXPECT_FALSE(std::filesystem::exists(scratch / "out"));
@@ -103,9 +103,9 @@ TEST(Diagnose, TakesAGivenPressureAndALaser) {
   EXPECT_EQ(document.at("verdict"), "nothing_missing") << document.at("because");
   EXPECT_EQ(document.at("rows").at("stamps"), 1200);
   EXPECT_FALSE(document.at("recalibrated").contains("valve_conductance"));
-  EXPECT_NE(document.at("warnings").dump().find("out of sight"), std::string::npos);
+  EXPECT_TRUE(holds(document.at("warnings").dump(), "out of sight"));
   for (const auto& one : document.at("ranking")) EXPECT_NE(one.at("name"), "muscle_leak");
-  EXPECT_NE(read_text(scratch / "found/report.html").find("out of sight"), std::string::npos);
+  EXPECT_TRUE(holds(read_text(scratch / "found/report.html"), "out of sight"));
 }
 
 }  // namespace

@@ -1,6 +1,5 @@
 // The verb diff: the same folder twice, a change that is seen in inputs, metrics and trajectories, and what
 // is no run folder.
-#include <cmath>
 #include <regex>
 #include <string>
 
@@ -16,26 +15,23 @@ namespace {
 namespace fs = std::filesystem;
 using input::Json;
 
-class Diff : public testing::Test {
+class Diff : public InAFolder {
  protected:
   void SetUp() override {
     write_text(scratch / "quick.yaml", quick_scenario);
     ASSERT_EQ(run("run quick.yaml --out a").status, 0);
   }
-  Said run(const std::string& arguments) { return mckibben(arguments, scratch); }
   /// A scenario with something else in one place, simulated into `folder`.
   void run_changed(const std::string& what, const std::string& by, const std::string& folder) {
     write_text(scratch / "quick.yaml", std::regex_replace(quick_scenario, std::regex(what), by));
     ASSERT_EQ(run("run quick.yaml --out " + folder).status, 0);
   }
-  Scratch scratch;
 };
 
 TEST_F(Diff, OfTheSameFindsNothing) {
   const Said said = run("diff a a --tolerance 0");
   EXPECT_EQ(said.status, 0) << said.err;
-  EXPECT_NE(said.out.find("The inputs are the same."), std::string::npos);
-  EXPECT_NE(said.out.find("All 4 runs are the same to the last digit."), std::string::npos) << said.out;
+  EXPECT_TRUE(holds(said.out, "The inputs are the same.", "All 4 runs are the same to the last digit."));
   const Json document = Json::parse(run("diff a a --json").out);
   EXPECT_EQ(document.at("same_inputs"), true);
   EXPECT_EQ(document.at("same_runs"), true);
@@ -71,9 +67,8 @@ TEST_F(Diff, TellsWhichInputDiffersAndWhatItDid) {
       EXPECT_EQ(metric.at("right"), right.at("runs")[1].at("rmse"));
     }
   const std::string text = run("diff a b").out;
-  for (const char* words : {"14 kg", "15 kg", "11.138 kg static_inverse", "rmse"})
-    EXPECT_NE(text.find(words), std::string::npos) << text;
-  EXPECT_EQ(text.find("sine_current"), std::string::npos) << "what is the same is not listed";
+  EXPECT_TRUE(holds(text, "14 kg", "15 kg", "11.138 kg static_inverse", "rmse"));
+  EXPECT_TRUE(lacks(text, "sine_current")) << "what is the same is not listed";
   EXPECT_EQ(run("diff a b --tolerance " + std::to_string(0.9 * largest)).status, 1);
   EXPECT_EQ(run("diff a b --tolerance " + std::to_string(1.1 * largest)).status, 0);
 }
@@ -105,7 +100,7 @@ TEST_F(Diff, OfReplays) {
   EXPECT_EQ(Json::parse(read_text(scratch / "d/diff.json")), document);
   const Said mixed = run("diff a p");
   EXPECT_EQ(mixed.status, 65);
-  EXPECT_NE(mixed.err.find("another kind, mckibben-replay/1"), std::string::npos) << mixed.err;
+  EXPECT_TRUE(holds(mixed.err, "another kind, mckibben-replay/1"));
   EXPECT_EQ(run("diff p q --out p").status, 74);
 }
 
@@ -115,7 +110,7 @@ TEST_F(Diff, RefusesWhatIsNoRunFolder) {
   EXPECT_EQ(run("diff a quick.yaml").status, 66);
   const Said empty = run("diff a empty");
   EXPECT_EQ(empty.status, 66);
-  EXPECT_NE(empty.err.find("empty: is not a folder that run or replay wrote"), std::string::npos);
+  EXPECT_TRUE(holds(empty.err, "empty: is not a folder that run or replay wrote"));
   for (const char* text :
        {"{\n\"schema\": ", "[]", "{\"schema\": \"mckibben-map/1\"}", "{\"schema\": 3}",
         "{\"schema\": \"mckibben-run/1\", \"runs\": [{}]}", "{\"schema\": \"mckibben-run/1\"}"}) {
@@ -124,7 +119,7 @@ TEST_F(Diff, RefusesWhatIsNoRunFolder) {
       const Said said = run(order);
       EXPECT_EQ(said.status, 65) << text << said.err;
       EXPECT_EQ(said.out, "");
-      EXPECT_NE(said.err.find("run.json:"), std::string::npos) << said.err;
+      EXPECT_TRUE(holds(said.err, "run.json:"));
     }
   }
   EXPECT_EQ(run("diff a").status, 64);

@@ -25,7 +25,7 @@ constexpr const char* hidden_campaign =
     "  - {duration: 2.4 s, current: {kind: sine_current, low: 4 mA, high: 18 mA, period: 2.4 s}}\n"
     "noise: {encoder_jitter: 1e-5, ripple: 200 Pa}\n";
 
-class EffectsVerb : public testing::Test {
+class EffectsVerb : public InAFolder {
  protected:
   void SetUp() override {
     write_text(scratch / "leaky.yaml",
@@ -37,8 +37,6 @@ class EffectsVerb : public testing::Test {
                "  encoder_backlash: {width: 1 mm}\n");
     write_text(scratch / "hidden.yaml", hidden_campaign);
   }
-  Said run(const std::string& arguments) { return mckibben(arguments, scratch); }
-  Scratch scratch;
 };
 
 TEST_F(EffectsVerb, ListsEveryEffectWithAllThereIsToSay) {
@@ -54,13 +52,13 @@ TEST_F(EffectsVerb, ListsEveryEffectWithAllThereIsToSay) {
     for (const char* key : {"name", "acts_on", "law", "meaning", "source"}) {
       const auto word = effect.at(key).get<std::string>();
       EXPECT_FALSE(word.empty());
-      EXPECT_NE(text.find(word), std::string::npos) << word;
+      EXPECT_TRUE(holds(text, word)) << word;
     }
-    EXPECT_NE(page.find(effect.at("name").get<std::string>() + '`'), std::string::npos)
+    EXPECT_TRUE(holds(page, effect.at("name").get<std::string>() + '`'))
         << "docs/effects.md lacks " << effect.at("name");
     bool has_size = false;
     for (const auto& parameter : effect.at("parameters")) {
-      EXPECT_NE(text.find(parameter.at("key").get<std::string>()), std::string::npos);
+      EXPECT_TRUE(holds(text, parameter.at("key").get<std::string>()));
       has_size = has_size || parameter.contains("absent");
     }
     EXPECT_TRUE(has_size) << effect.at("name");
@@ -87,15 +85,13 @@ TEST_F(EffectsVerb, ItsExamplesWork) {
 TEST_F(EffectsVerb, TellsOneByItsName) {
   const auto said = run("effects bladder_elasticity valve_lag");
   ASSERT_EQ(said.status, 0) << said.err;
-  EXPECT_NE(said.out.find("    effects:\n      bladder_elasticity:\n        variant: saturating\n"),
-            std::string::npos)
-      << said.out;
-  EXPECT_NE(said.out.find("valve_lag: "), std::string::npos);
-  EXPECT_EQ(said.out.find("muscle_leak"), std::string::npos);
+  EXPECT_TRUE(holds(said.out, "    effects:\n      bladder_elasticity:\n        variant: saturating\n",
+                    "valve_lag: "));
+  EXPECT_TRUE(lacks(said.out, "muscle_leak"));
   EXPECT_EQ(Json::parse(run("effects valve_lag --json").out).at("effects").size(), 1u);
   ASSERT_EQ(run("effects muscle_leak --out list --json").status, 0);
   EXPECT_EQ(read_text(scratch / "list/effects.json"), run("effects muscle_leak --json").out);
-  EXPECT_NE(read_text(scratch / "list/muscle_leak.svg").find("<svg"), std::string::npos);
+  EXPECT_TRUE(holds(read_text(scratch / "list/muscle_leak.svg"), "<svg"));
   EXPECT_FALSE(fs::exists(scratch / "list/valve_lag.svg"));
 }
 
@@ -105,8 +101,8 @@ TEST_F(EffectsVerb, SaysWhichLawOfOnesOwnIsTooMuchToBeDrawn) {
              "law: F\nparameters: {F: {unit: N, typical: 3000, range: [0, 5000]}}\n");
   const Said said = mckibben("effects --hypothesis push.yaml --out pictures", scratch);
   EXPECT_EQ(said.status, 70);
-  EXPECT_NE(said.err.find("push cannot be drawn"), std::string::npos) << said.err;
-  EXPECT_EQ(said.err.find("defect"), std::string::npos) << said.err;
+  EXPECT_TRUE(holds(said.err, "push cannot be drawn"));
+  EXPECT_TRUE(lacks(said.err, "defect"));
   EXPECT_FALSE(fs::exists(scratch / "pictures"));
 }
 
@@ -114,8 +110,7 @@ TEST_F(EffectsVerb, AnUnknownNameIsAUsageError) {
   const auto said = run("effects muscle_leek");
   EXPECT_EQ(said.status, 64);
   EXPECT_EQ(said.out, "");
-  EXPECT_NE(said.err.find("unknown effect muscle_leek; did you mean muscle_leak?"), std::string::npos)
-      << said.err;
+  EXPECT_TRUE(holds(said.err, "unknown effect muscle_leek; did you mean muscle_leak?"));
 }
 
 TEST_F(EffectsVerb, RunWorksWithThemAndRunJsonNamesThem) {
@@ -146,16 +141,15 @@ TEST_F(EffectsVerb, RunWorksWithThemAndRunJsonNamesThem) {
 TEST_F(EffectsVerb, ADatasetHidesThemAndTheTruthTells) {
   const auto said = run("dataset hidden.yaml --json");
   ASSERT_EQ(said.status, 0) << said.err;
-  EXPECT_NE(read_text(scratch / "out/hidden/dataset.yaml").find("rig: thesis\n"), std::string::npos);
+  EXPECT_TRUE(holds(read_text(scratch / "out/hidden/dataset.yaml"), "rig: thesis\n"));
   for (const auto& entry : fs::recursive_directory_iterator(scratch / "out/hidden")) {
     const std::string text = entry.is_regular_file() ? read_text(entry.path()) : "";
-    for (const char* secret : {"muscle_leak", "supply_droop", "encoder_backlash", "0.25 kg", "ripple"})
-      EXPECT_EQ(text.find(secret), std::string::npos) << entry.path() << ": " << secret;
+    EXPECT_TRUE(lacks(text, "muscle_leak", "supply_droop", "encoder_backlash", "0.25 kg", "ripple"))
+        << entry.path();
   }
   const std::string truth = read_text(scratch / "out/hidden-truth/truth.yaml");
-  for (const char* told :
-       {"muscle_leak", "supply_droop", "encoder_backlash", "load_offset: 0.25 kg", "ripple: 200 Pa"})
-    EXPECT_NE(truth.find(told), std::string::npos) << told;
+  EXPECT_TRUE(holds(truth, "muscle_leak", "supply_droop", "encoder_backlash", "load_offset: 0.25 kg",
+                    "ripple: 200 Pa"));
 
   // The nominal rig does not explain it; the true one does, to the jitter of a count.
   const auto rmse = [&](const std::string& options) {

@@ -51,12 +51,11 @@ TEST(Help, OfTheProgramTeaches) {
   const Scratch scratch;
   const Said said = mckibben("--help", scratch);
   EXPECT_EQ(said.status, 0);
-  EXPECT_NE(said.out.find("simulates a pneumatic muscle"), std::string::npos);
+  EXPECT_TRUE(holds(said.out, "simulates a pneumatic muscle"));
   EXPECT_GE(commands(said.out).size(), 3u);
   for (const std::string& command : commands(said.out)) EXPECT_EQ(refusal(command), "") << command;
-  for (const std::string& verb : verbs())
-    EXPECT_NE(said.out.find("\n  " + verb + " "), std::string::npos) << verb;
-  EXPECT_EQ(said.out.find("Subcommands"), std::string::npos) << "a verb is in no group";
+  for (const std::string& verb : verbs()) EXPECT_TRUE(holds(said.out, "\n  " + verb + " ")) << verb;
+  EXPECT_TRUE(lacks(said.out, "Subcommands")) << "a verb is in no group";
 }
 
 TEST(Help, TheReadmeNamesEveryVerb) {
@@ -71,7 +70,7 @@ TEST(Help, OfEveryVerbHasExamplesThatItTakes) {
     const Said said = mckibben(verb + " --help", scratch);
     EXPECT_EQ(said.status, 0) << verb;
     EXPECT_EQ(said.err, "") << verb;
-    EXPECT_NE(said.out.find("Examples:\n"), std::string::npos) << verb;
+    EXPECT_TRUE(holds(said.out, "Examples:\n")) << verb;
     EXPECT_GE(commands(said.out).size(), 2u) << said.out;
     for (const std::string& command : commands(said.out)) {
       EXPECT_EQ(command.rfind(verb, 0), 0u) << command;
@@ -112,12 +111,12 @@ TEST(DidYouMean, ForVerbsOptionsAndValues) {
     const Said said = mckibben(slip.arguments, scratch);
     EXPECT_EQ(said.status, 64) << slip.arguments;
     EXPECT_EQ(said.out, "") << slip.arguments;
-    EXPECT_NE(said.err.find(slip.said), std::string::npos) << said.err;
+    EXPECT_TRUE(holds(said.err, slip.said));
   }
-  EXPECT_EQ(mckibben("run -x", scratch).err.find("did you mean"), std::string::npos);
+  EXPECT_TRUE(lacks(mckibben("run -x", scratch).err, "did you mean"));
   const Said far = mckibben("quench x", scratch);
-  EXPECT_EQ(far.err.find("did you mean"), std::string::npos) << far.err;
-  EXPECT_NE(far.err.find("verbs: init, run, dataset, "), std::string::npos) << far.err;
+  EXPECT_TRUE(lacks(far.err, "did you mean"));
+  EXPECT_TRUE(holds(far.err, "verbs: init, run, dataset, "));
 }
 
 TEST(DidYouMean, ForEffectsInRigFiles) {
@@ -127,8 +126,7 @@ TEST(DidYouMean, ForEffectsInRigFiles) {
              "  valve_lag: {tmie: 20 ms}\n  hardening_braid: {}\n");
   const Said said = mckibben("check rig.yaml", scratch);
   EXPECT_EQ(said.status, 65);
-  EXPECT_NE(said.err.find("did you mean muscle_leak?"), std::string::npos) << said.err;
-  EXPECT_NE(said.err.find("did you mean time?"), std::string::npos) << said.err;
+  EXPECT_TRUE(holds(said.err, "did you mean muscle_leak?", "did you mean time?"));
 }
 
 }  // namespace

@@ -40,15 +40,11 @@ class Import : public ::testing::Test {
 TEST_F(Import, WhatIsOpenIsRefusedAndThenReplays) {
   const Said said = mckibben("import bench/load_5kg.csv --out mine", scratch_);
   ASSERT_EQ(said.status, 0) << said.err;
-  EXPECT_NE(said.out.find("6 values are to be filled in (FILL_IN) in mine; then: mckibben check mine"),
-            std::string::npos)
-      << said.out;
-  EXPECT_NE(read_text(scratch_ / "mine/understood.svg").find("contraction: Laser [mm] - 412"),
-            std::string::npos);
+  EXPECT_TRUE(holds(said.out, "6 values are to be filled in (FILL_IN) in mine; then: mckibben check mine"));
+  EXPECT_TRUE(holds(read_text(scratch_ / "mine/understood.svg"), "contraction: Laser [mm] - 412"));
   const Said refused = mckibben("check mine", scratch_);
   EXPECT_EQ(refused.status, 65);
-  EXPECT_NE(refused.err.find("rest_length = FILL_IN: nothing that was recorded tells it"), std::string::npos)
-      << refused.err;
+  EXPECT_TRUE(holds(refused.err, "rest_length = FILL_IN: nothing that was recorded tells it"));
 
   std::string rig = read_text(scratch_ / "mine/rig.yaml");
   for (const auto& [key, value] : {std::pair{"rest_length", "180 mm"},
@@ -68,7 +64,7 @@ TEST_F(Import, WhatIsOpenIsRefusedAndThenReplays) {
 
   const Said again = mckibben("import bench/load_5kg.csv --out mine", scratch_);
   EXPECT_EQ(again.status, 0);
-  EXPECT_NE(again.err.find("mine.old-1"), std::string::npos) << "it was edited: " << again.err;
+  EXPECT_TRUE(holds(again.err, "mine.old-1")) << "it was edited: " << again.err;
   EXPECT_EQ(read_text(scratch_ / "mine.old-1/rig.yaml"), rig);
 }
 
@@ -80,8 +76,7 @@ TEST_F(Import, TakesARigThatIsKnownAndLeavesTablesAlone) {
   EXPECT_EQ(document.at("open"), 0);
   EXPECT_FALSE(std::filesystem::exists(scratch_ / "sub/mine/rig.yaml"));
   const Said checked = mckibben("check sub/mine", scratch_);
-  EXPECT_NE(checked.err.find("the rig's valve is commanded with a current"), std::string::npos)
-      << checked.err;
+  EXPECT_TRUE(holds(checked.err, "the rig's valve is commanded with a current"));
 
   EXPECT_EQ(mckibben("import bench/load_5kg.csv --out bench", scratch_).status, 74) << "tables are there";
   EXPECT_EQ(mckibben("import bench/none.csv", scratch_).status, 66);

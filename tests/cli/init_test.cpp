@@ -25,7 +25,7 @@ TEST(Init, WritesAScenarioThatRuns) {
   const Scratch scratch;
   const Said said = mckibben("init mine.yaml", scratch);
   EXPECT_EQ(said.status, 0) << said.err;
-  EXPECT_NE(said.out.find("mckibben run mine.yaml"), std::string::npos);
+  EXPECT_TRUE(holds(said.out, "mckibben run mine.yaml"));
   EXPECT_EQ(mckibben("check mine.yaml", scratch).out, "mine.yaml: ok\n");
   write_text(scratch / "short.yaml", shortened(read_text(scratch / "mine.yaml")));
   const Said run = mckibben("run short.yaml", scratch);
@@ -54,7 +54,7 @@ TEST(Init, TellsOfEveryKey) {
   ASSERT_EQ(mckibben("init", scratch).status, 0);
   const std::string text = read_text(scratch / "scenario.yaml");
   for (const auto& info : input::list_fields<domain::Scenario>())
-    EXPECT_NE(text.find("# " + info.key + ": " + info.meaning), std::string::npos) << info.key;
+    EXPECT_TRUE(holds(text, "# " + info.key + ": " + info.meaning)) << info.key;
 }
 
 TEST(Init, TellsOfEveryMuscleByCatalogue) {

@@ -17,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 using input::Json;
 
-class Interrupt : public testing::Test {
+class Interrupt : public InAFolder {
  protected:
   /// Runs the verb on a terminal of its own and presses Ctrl-C once what it shows matches `shown`.
   Said stop(const std::string& arguments, const std::string& shown) {
@@ -39,7 +39,6 @@ class Interrupt : public testing::Test {
     return static_cast<std::size_t>(
         std::distance(fs::directory_iterator(scratch / folder), fs::directory_iterator()));
   }
-  Scratch scratch;
 };
 
 constexpr const char* some_done = "[]] [1-9][0-9]*/";
@@ -74,10 +73,9 @@ TEST_F(Interrupt, OfRunLeavesTheRunsThatAreFinished) {
   write_text(scratch / "out/long/notes.txt", "mine");
   const Said said = stop("run long.yaml --threads 1", some_done);
   EXPECT_EQ(said.status, 130);
-  for (const char* words :
-       {"long: simulating [", "stopping after what is under way", " of 40 runs are finished",
-        "in out/long.interrupted", "The same command makes all of them again"})
-    EXPECT_NE(said.err.find(words), std::string::npos) << words << said.err;
+  EXPECT_TRUE(holds(said.err, "long: simulating [", "stopping after what is under way",
+                    " of 40 runs are finished", "in out/long.interrupted",
+                    "The same command makes all of them again"));
   EXPECT_EQ(read_text(scratch / "out/long/notes.txt"), "mine");
   const Json document = Json::parse(read_text(scratch / "out/long.interrupted/run.json"));
   EXPECT_EQ(document.at("interrupted"), true);
@@ -89,7 +87,7 @@ TEST_F(Interrupt, OfRunLeavesTheRunsThatAreFinished) {
     }
   EXPECT_GT(finished, 0u);
   EXPECT_LT(finished, 40u);
-  EXPECT_NE(said.err.find("interrupted; " + std::to_string(finished) + " of 40"), std::string::npos);
+  EXPECT_TRUE(holds(said.err, "interrupted; " + std::to_string(finished) + " of 40"));
   EXPECT_EQ(entries("out"), 2u);
 }
 
@@ -97,8 +95,7 @@ TEST_F(Interrupt, OfReplayLeavesTheRunsThatAreFinished) {
   write_long_dataset(scratch / "data");
   const Said said = stop("replay data --threads 1 --json", some_done);
   EXPECT_EQ(said.status, 130);
-  EXPECT_NE(said.err.find("of 40 runs are finished and in out/data-replay.interrupted"), std::string::npos)
-      << said.err;
+  EXPECT_TRUE(holds(said.err, "of 40 runs are finished and in out/data-replay.interrupted"));
   const Json document = Json::parse(read_text(scratch / "out/data-replay.interrupted/run.json"));
   EXPECT_EQ(document.at("interrupted"), true);
   EXPECT_FALSE(document.at("runs")[0].contains("failure"));
@@ -113,8 +110,7 @@ TEST_F(Interrupt, OfMapLeavesTheTargetsThatAreFinished) {
            "/scenarios/thesis_calibration.yaml' --load '16.138 kg' --ratios 300 --speeds 20 --out m",
            "simulating .*[]] [1-9][0-9]*/");
   EXPECT_EQ(said.status, 130);
-  EXPECT_NE(said.err.find("of 12000 targets are finished and in m.interrupted"), std::string::npos)
-      << said.err;
+  EXPECT_TRUE(holds(said.err, "of 12000 targets are finished and in m.interrupted"));
   const Json document = Json::parse(read_text(scratch / "m.interrupted/map.json"));
   EXPECT_EQ(document.at("interrupted"), true);
   EXPECT_FALSE(exists("m"));
@@ -130,9 +126,8 @@ TEST_F(Interrupt, OfDiagnoseLeavesEarlierResultsAlone) {
   ASSERT_EQ(mckibben("dataset some.yaml --out data", scratch).status, 0);
   const Said said = stop("diagnose data", "recalibrating, step");
   EXPECT_EQ(said.status, 130) << said.err;
-  for (const char* words :
-       {"known so far:", "  the rig as described: ", "nothing was written", "The same command begins again"})
-    EXPECT_NE(said.err.find(words), std::string::npos) << said.err;
+  EXPECT_TRUE(holds(said.err, "known so far:", "  the rig as described: ", "nothing was written",
+                    "The same command begins again"));
   EXPECT_EQ(entries("out"), 0u);
 }
 
@@ -150,11 +145,10 @@ TEST_F(Interrupt, OfASearchKeepsWhatWasFound) {
   ASSERT_EQ(mckibben("dataset leak.yaml --out data", scratch).status, 0);
   const Said said = stop("diagnose data --threads 1", "screening, step");
   EXPECT_EQ(said.status, 130) << said.err;
-  EXPECT_NE(said.err.find("what was found by then is in out/diagnose-data.interrupted"), std::string::npos)
-      << said.err;
+  EXPECT_TRUE(holds(said.err, "what was found by then is in out/diagnose-data.interrupted"));
   const Json document = Json::parse(read_text(scratch / "out/diagnose-data.interrupted/diagnosis.json"));
   EXPECT_EQ(document.at("search").at("ended"), "by_user");
-  EXPECT_NE(document.at("because").get<std::string>().find("The search was ended by you"), std::string::npos);
+  EXPECT_TRUE(holds(document.at("because").get<std::string>(), "The search was ended by you"));
   EXPECT_FALSE(exists("out/diagnose-data"));
 }
 

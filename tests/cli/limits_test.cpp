@@ -16,8 +16,8 @@ using input::Json;
 std::string scenario(const std::string& controllers) {
   return "schema: mckibben-scenario/1\n"
          "rig:\n"
-         "  valve: {zero_current: 0 mA, span_current: 10 mA, zero_pressure: 0 bar}\n"
-         "  dac: {largest_current: 10 mA}\n"
+         "  valve: {zero_command: 0 mA, span_command: 10 mA, zero_pressure: 0 bar}\n"
+         "  dac: {largest_command: 10 mA}\n"
          "loads: [8 kg]\n"
          "duration: 2.5 s\n"
          "target: {kind: minimum_jerk, start: 0.03, moves: [{at: 0.5 s, lasting: 1.5 s, to: 0.06}]}\n"
@@ -31,7 +31,7 @@ TEST(Limits, FollowTheValve) {
   const Said said = mckibben("run own.yaml --json", scratch);
   ASSERT_EQ(said.status, 0) << said.err;
   const Json document = Json::parse(said.out);
-  EXPECT_EQ(document.at("scenario").at("controllers")[0].at("lowest_current"), "0 mA");
+  EXPECT_EQ(document.at("scenario").at("controllers")[0].at("lowest_command"), "0 mA");
   const Json& run = document.at("runs")[0];
   EXPECT_LT(run.at("rmse").get<double>(), 0.01);
   EXPECT_LT(run.at("at_lowest_current").get<double>() + run.at("at_highest_current").get<double>(), 0.5);
@@ -39,28 +39,82 @@ TEST(Limits, FollowTheValve) {
   EXPECT_TRUE(document.at("warnings").empty()) << document.at("warnings");
 }
 
+TEST(Limits, OfARigInVoltsAreInVoltsAndSoIsAllThatIsWritten) {
+  const Scratch scratch;
+  const std::string rig = "rig: {valve: {zero_command: 0 V, span_command: 10 V, zero_pressure: 0 bar}}\n";
+  const std::string rest =
+      "loads: [8 kg]\nduration: 2.5 s\n"
+      "target: {kind: minimum_jerk, start: 0.03, moves: [{at: 0.5 s, lasting: 1.5 s, to: 0.06}]}\n"
+      "controllers: [{kind: pid, lowest_current: 500 mV, highest_command: 9 V, largest_command_speed: 40 "
+      "V/s}]\n";
+  write_text(scratch / "volts.yaml", "schema: mckibben-scenario/1\n" + rig + rest);
+  const Said said = mckibben("run volts.yaml", scratch);
+  ASSERT_EQ(said.status, 0) << said.err;
+  EXPECT_NE(said.out.find(" V, integral_time"), std::string::npos) << said.out;
+  const Json document = Json::parse(read_text(scratch / "out/volts/run.json"));
+  const Json& pid = document.at("scenario").at("controllers")[0];
+  EXPECT_EQ(pid.at("lowest_command"), "0.5 V");
+  EXPECT_EQ(pid.at("largest_command_speed"), "40 V/s");
+  const double gain = document.at("tuned")[0].at("proportional_V").get<double>();
+  EXPECT_EQ(pid.contains("proportional"), false);
+  EXPECT_GT(gain, 0.0);
+  EXPECT_LT(document.at("runs")[0].at("rmse").get<double>(), 0.01);
+  EXPECT_GT(document.at("runs")[0].at("command_travel_V").get<double>(), 1.0);
+  EXPECT_EQ(read_text(scratch / "out/volts/8kg_pid.csv").find("time_s,command_V,contraction_ratio,"), 0u);
+  const std::string page = read_text(scratch / "out/volts/report.html");
+  EXPECT_NE(page.find("\"command\":{\"name\":\"command\",\"title\":\"Command\",\"unit\":\"V\""),
+            std::string::npos);
+
+  write_text(scratch / "mA.yaml", "schema: mckibben-scenario/1\n" + rig +
+                                      rest.substr(0, rest.find("[{kind")) +
+                                      "[{kind: pid, lowest_command: 4 mA}]\n");
+  const Said refused = mckibben("check mA.yaml", scratch);
+  EXPECT_EQ(refused.status, 65);
+  EXPECT_NE(refused.err.find("lowest_command = 4 mA: mA is the wrong kind of unit; wanted is V"),
+            std::string::npos)
+      << refused.err;
+}
+
+TEST(Limits, DataOfARigInVoltsAreWrittenAndReadInVolts) {
+  const Scratch scratch;
+  write_text(
+      scratch / "campaign.yaml",
+      "schema: mckibben-campaign/1\n"
+      "rig: {valve: {zero_command: 0 V, span_command: 10 V}}\nloads: [11 kg]\n"
+      "currents: [{duration: 3 s, current: {kind: sine_current, low: 0 V, high: 8 V, period: 3 s}}]\n");
+  ASSERT_EQ(mckibben("dataset campaign.yaml --out data", scratch).status, 0);
+  EXPECT_EQ(read_text(scratch / "data/m1_c01.csv").find("time_s,command_V,"), 0u);
+  const Said said = mckibben("replay data --json --out again", scratch);
+  ASSERT_EQ(said.status, 0) << said.err;
+  const Json gap = Json::parse(said.out).at("runs")[0];
+  EXPECT_LT(gap.at("rmse").get<double>(), 1e-3) << gap;
+  const Said other = mckibben("replay data --rig thesis --out other", scratch);
+  EXPECT_EQ(other.status, 65);
+  EXPECT_NE(other.err.find("the data are of a valve that is commanded in V, this rig's is in mA"),
+            std::string::npos)
+      << other.err;
+}
+
 TEST(Limits, AControllerAtItsLimitIsSaidEverywhere) {
   const Scratch scratch;
-  write_text(scratch / "held.yaml", scenario("  - {kind: pid, lowest_current: 4 mA}\n"
-                                             "  - {kind: pid, name: higher, lowest_current: 5 mA}\n"));
+  write_text(scratch / "held.yaml", scenario("  - {kind: pid, lowest_command: 4 mA}\n"
+                                             "  - {kind: pid, name: higher, lowest_command: 5 mA}\n"));
   const Said said = mckibben("run held.yaml", scratch);
   ASSERT_EQ(said.status, 0) << said.err;
   const Json document = Json::parse(read_text(scratch / "out/held/run.json"));
   EXPECT_EQ(document.at("runs")[0].at("at_lowest_current"), 1.0);
   EXPECT_TRUE(document.at("tuned")[0].at("gained_nothing").get<bool>());
-  for (const char* words :
-       {"run pid at 8 kg: it stood at its lowest current, 4 mA, for 100 % of the time; the rig's "
-        "valve goes down to 0 mA: lower lowest_current",
-        "run higher at 8 kg: it stood at its lowest current, 5 mA, ",
-        "run pid at 8 kg: its tuning gained nothing: the cost is "})
-    EXPECT_NE(said.err.find(words), std::string::npos) << words << said.err;
-  EXPECT_NE(said.out.find("at_limit_%"), std::string::npos) << said.out;
-  EXPECT_NE(said.out.find(": the tuning gained nothing\n"), std::string::npos) << said.out;
+  EXPECT_TRUE(holds(said.err,
+                    "run pid at 8 kg: it stood at its lowest current, 4 mA, for 100 % of the time; the rig's "
+                    "valve goes down to 0 mA: lower lowest_command",
+                    "run higher at 8 kg: it stood at its lowest current, 5 mA, ",
+                    "run pid at 8 kg: its tuning gained nothing: the cost is "));
+  EXPECT_TRUE(holds(said.out, "at_limit_%", ": the tuning gained nothing\n"));
   const std::string report = read_text(scratch / "out/held/report.html");
-  EXPECT_EQ(report.find("follows the target best"), std::string::npos);
-  EXPECT_NE(report.find("pid errs least: "), std::string::npos);
-  EXPECT_NE(report.find(" pid stood at its lowest current, 4 mA, for 100 % of the time."), std::string::npos);
-  EXPECT_NE(report.find("The tuning of pid gained nothing"), std::string::npos);
+  EXPECT_TRUE(lacks(report, "follows the target best"));
+  EXPECT_TRUE(holds(report,
+                    "pid errs least: ", " pid stood at its lowest current, 4 mA, for 100 % of the time.",
+                    "The tuning of pid gained nothing"));
 }
 
 }  // namespace

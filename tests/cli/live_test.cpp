@@ -78,7 +78,7 @@ TEST(Live, RefusesWhoeverLacksTheTokenOrComesFromElsewhere) {
 TEST(Live, NonsenseIsRefusedAndARecordingOutlivesCtrlC) {
   const Scratch scratch;
   const Said said = with_page(scratch,
-                              "expect(do(do='current', mA=99), 'mA = 99: must be from 0 to 20 mA')\n"
+                              "expect(do(do='command', to=99), 'to = 99: must be from 0 to 20 mA')\n"
                               "expect(do(do='load', kg='much'), 'kg = \"much\": must be a number')\n"
                               "expect(ask(f'/{token}/do', 'no json')[0], 400)\n"
                               "expect(do(do='record', from_rest=True), '')\n"
@@ -91,8 +91,7 @@ TEST(Live, NonsenseIsRefusedAndARecordingOutlivesCtrlC) {
                               "    if heard.startswith('data: '): last = max([s[0] for s in "
                               "json.loads(heard[6:]).get('samples', [])] + [last])\n");
   EXPECT_EQ(said.status, 0) << said.out << said.err;
-  EXPECT_NE(said.out.find("Recorded "), std::string::npos) << said.out;
-  EXPECT_NE(said.out.find("the program ended"), std::string::npos) << said.out;
+  EXPECT_TRUE(holds(said.out, "Recorded ", "the program ended"));
   EXPECT_EQ(mckibben("check out/thesis-live/dataset.yaml", scratch).status, 0);
   const Said replayed = mckibben("replay out/thesis-live", scratch);
   EXPECT_EQ(replayed.status, 0) << replayed.err;
@@ -103,12 +102,11 @@ TEST(Live, RefusesRigsThatItCannotShow) {
   write_text(scratch / "bad.yaml", "schema: mckibben-rig/1\nmuscle:\n  rest_length: 3 kg\n");
   const Said bad = mckibben("live bad.yaml", scratch);
   EXPECT_EQ(bad.status, 65);
-  EXPECT_NE(bad.err.find("bad.yaml:3:"), std::string::npos) << bad.err;
+  EXPECT_TRUE(holds(bad.err, "bad.yaml:3:"));
   write_text(scratch / "held.yaml", "schema: mckibben-rig/1\nmechanics: {kind: held_length}\n");
   const Said held = mckibben("live held.yaml", scratch);
   EXPECT_EQ(held.status, 65);
-  EXPECT_NE(held.err.find("live cannot take it yet: the rig's muscle is held"), std::string::npos)
-      << held.err;
+  EXPECT_TRUE(holds(held.err, "live cannot take it yet: the rig's muscle is held"));
   EXPECT_EQ(mckibben("live thesis_pair --load '5 kg'", scratch).status, 65);
   EXPECT_EQ(mckibben("live nowhere.yaml", scratch).status, 66);
   EXPECT_EQ(mckibben("live thesis --load much", scratch).status, 64);
@@ -116,7 +114,7 @@ TEST(Live, RefusesRigsThatItCannotShow) {
   write_text(scratch / "soft.yaml", "schema: mckibben-rig/1\nmuscle: {stop_stiffness: 10 kN/m}\n");
   const Said heavy = mckibben("live soft.yaml --load '400 kg'", scratch);
   EXPECT_EQ(heavy.status, 65);
-  EXPECT_NE(heavy.err.find("the taut threads of this muscle bear"), std::string::npos) << heavy.err;
+  EXPECT_TRUE(holds(heavy.err, "the taut threads of this muscle bear"));
 }
 
 }  // namespace

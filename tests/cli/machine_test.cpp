@@ -11,10 +11,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class Machine : public testing::Test {
+class Machine : public WithQuickScenario {
  protected:
-  void SetUp() override { write_text(scratch / "quick.yaml", quick_scenario); }
-  Said run(const std::string& arguments) { return mckibben(arguments, scratch); }
   Said sh(const std::string& script) { return shell(script, scratch); }
   bool is_whole(const std::string& folder) const { return fs::exists(scratch / folder / ".mckibben-files"); }
   /// A measured run as a MAT-file.
@@ -24,7 +22,6 @@ class Machine : public testing::Test {
     write_text(scratch / "dataset.yaml",
                "schema: mckibben-dataset/1\nruns: [{id: r1, file: r1.mat, load: 11.138 kg}]\n");
   }
-  Scratch scratch;
 };
 using Memory = Machine;
 
@@ -52,7 +49,7 @@ TEST_F(Machine, AReaderThatGoesAwayIsNoFailure) {
   for (const std::string arguments : {"--help", "schema", "run quick.yaml --json"}) {
     const Said said = sh("rm -f p; " + nobody + "\"$M\" " + arguments + " >&5");
     EXPECT_EQ(said.status, 0) << arguments;
-    EXPECT_EQ(said.err.find("cannot"), std::string::npos) << said.err;
+    EXPECT_TRUE(lacks(said.err, "cannot"));
   }
   EXPECT_TRUE(is_whole("out/quick"));
   write_text(scratch / "bad.yaml", "schema: mckibben-scenario/1\n");
@@ -73,7 +70,7 @@ TEST_F(Machine, NamesThatNoResultCanHoldAreRefusedAtOnce) {
        {"run 'bad\xff.yaml'", "run quick.yaml --out 'r\xff'", "run quick.yaml --out 'two\nlines'"}) {
     const Said said = run(arguments);
     EXPECT_EQ(said.status, 64) << arguments;
-    EXPECT_NE(said.err.find("holds control characters or is not UTF-8"), std::string::npos) << said.err;
+    EXPECT_TRUE(holds(said.err, "holds control characters or is not UTF-8"));
   }
   fs::create_directory(scratch / "\xff");
   EXPECT_EQ(sh("cd '\xff' && \"$M\" run ../quick.yaml").status, 64);
@@ -87,7 +84,7 @@ TEST_F(Machine, NamesThatAreTooLongAreSaid) {
   const auto is_said = [&](const std::string& arguments, int status, const char* what) {
     const Said said = run(arguments);
     EXPECT_EQ(said.status, status) << arguments;
-    EXPECT_NE(said.err.find(what), std::string::npos) << said.err;
+    EXPECT_TRUE(holds(said.err, what));
   };
   is_said("init " + name, 74, "File name too long");
   is_said("diagnose . --plan " + name, 74, "File name too long");
@@ -99,7 +96,7 @@ TEST_F(Machine, NamesThatAreTooLongAreSaid) {
 TEST_F(Machine, ALimitOnTheSizeOfFilesIs74) {
   const Said said = sh("ulimit -f 4; \"$M\" run quick.yaml --out r");
   EXPECT_EQ(said.status, 74);
-  EXPECT_NE(said.err.find("File too large"), std::string::npos) << said.err;
+  EXPECT_TRUE(holds(said.err, "File too large"));
   EXPECT_FALSE(fs::exists(scratch / "r"));
 }
 
@@ -110,9 +107,9 @@ TEST_F(Machine, TooFewDescriptorsAreNoFaultOfTheFile) {
     const Said said =
         sh("exec 3>&- 4>&- 5>&- 6>&-; ulimit -n " + descriptors + "; \"$M\" check dataset.yaml");
     EXPECT_NE(said.status, 65) << said.err;
-    EXPECT_EQ(said.err.find("defect"), std::string::npos) << said.err;
+    EXPECT_TRUE(lacks(said.err, "defect"));
     if (said.status != 0) {
-      EXPECT_NE(said.err.find("Too many open files"), std::string::npos) << said.err;
+      EXPECT_TRUE(holds(said.err, "Too many open files"));
     }
   }
 }
@@ -143,7 +140,7 @@ TEST_F(Memory, OfFilesThatAreRefused) {
 TEST_F(Machine, WithoutASecondThreadTheRunsAreMadeAllTheSame) {
   const Said said = sh("export M; bash -c 'ulimit -u 1; exec \"$M\" run quick.yaml --out r --threads 4'");
   EXPECT_EQ(said.status, 0) << said.err;
-  EXPECT_EQ(said.err.find("defect"), std::string::npos) << said.err;
+  EXPECT_TRUE(lacks(said.err, "defect"));
   EXPECT_TRUE(is_whole("r"));
 }
 

@@ -15,7 +15,7 @@
 namespace mckibben::cli {
 namespace {
 
-class Map : public testing::Test {
+class Map : public InAFolder {
  protected:
   void SetUp() override {
     write_text(scratch / "small.yaml", campaign_of_sines());
@@ -25,7 +25,6 @@ class Map : public testing::Test {
   Said run(const std::string& arguments) {
     return mckibben("map cal/calibration.yaml " + arguments, scratch);
   }
-  Scratch scratch;
 };
 
 TEST_F(Map, CoversTargetsAndDrawsThem) {
@@ -49,12 +48,12 @@ TEST_F(Map, CoversTargetsAndDrawsThem) {
   }
   const std::string csv = read_text(folder / "map.csv");
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + 2 * 2 * 36);
-  EXPECT_NE(read_text(folder / "table.txt").find("18.87"), std::string::npos);
+  EXPECT_TRUE(holds(read_text(folder / "table.txt"), "18.87"));
   for (const char* name : {"map_14kg.svg", "map_18.87kg.svg"}) {
     const std::string svg = read_text(folder / name);
     EXPECT_EQ(svg.rfind("<svg", 0), 0u) << name;
-    EXPECT_NE(svg.find("class='border'"), std::string::npos) << name;
-    EXPECT_EQ(svg.find("nan"), std::string::npos) << name;
+    EXPECT_TRUE(holds(svg, "class='border'")) << name;
+    EXPECT_TRUE(lacks(svg, "nan")) << name;
   }
 }
 
@@ -63,24 +62,22 @@ TEST_F(Map, OneBranchAloneAndOneTarget) {
   ASSERT_EQ(said.status, 0) << said.err;
   const std::string csv = read_text(scratch / "one" / "map.csv");
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 2);
-  EXPECT_NE(csv.find("\n14,"), std::string::npos);
-  EXPECT_NE(csv.find(",down,"), std::string::npos);
+  EXPECT_TRUE(holds(csv, "\n14,", ",down,"));
 }
 
 TEST_F(Map, LoadsBeyondTheCalibrationOnlyWhenAskedFor) {
   const Said refused = run("--load '8.87 kg'");
   EXPECT_EQ(refused.status, 65);
-  for (const char* words : {"11.138 to 23.406 kg", "8.87 kg lies outside", "--extrapolate-load"})
-    EXPECT_NE(refused.err.find(words), std::string::npos) << refused.err;
+  EXPECT_TRUE(holds(refused.err, "11.138 to 23.406 kg", "8.87 kg lies outside", "--extrapolate-load"));
   EXPECT_FALSE(std::filesystem::exists(scratch / "out"));
 
   const Said allowed = run("--load '8.87 kg' --ratios 4 --speeds 2 --extrapolate-load");
   EXPECT_EQ(allowed.status, 0) << allowed.err;
-  EXPECT_NE(allowed.out.find("8.87 kg: extrapolated"), std::string::npos) << allowed.out;
+  EXPECT_TRUE(holds(allowed.out, "8.87 kg: extrapolated"));
 
   const Said usual = run("--ratios 2 --speeds 1 --out usual");
   EXPECT_EQ(usual.status, 0) << usual.err;
-  EXPECT_NE(usual.err.find("8.87 kg"), std::string::npos) << usual.err;
+  EXPECT_TRUE(holds(usual.err, "8.87 kg"));
   EXPECT_FALSE(std::filesystem::exists(scratch / "usual" / "map_8.87kg.svg"));
   EXPECT_TRUE(std::filesystem::exists(scratch / "usual" / "map_23.406kg.svg"));
 }
@@ -89,13 +86,13 @@ TEST_F(Map, CalibrationForOtherLoadsIsMappedAtItsOwn) {
   std::string text = read_text(scratch / "cal/calibration.yaml");
   for (const auto& [was, is] : {std::pair{"lowest_load: 11.138 kg", "lowest_load: 12 kg"},
                                 std::pair{"highest_load: 23.406 kg", "highest_load: 13 kg"}}) {
-    ASSERT_NE(text.find(was), std::string::npos) << text;
+    ASSERT_TRUE(holds(text, was));
     text.replace(text.find(was), std::string(was).size(), is);
   }
   write_text(scratch / "other.yaml", text);
   const Said said = mckibben("map other.yaml --up --ratios 1 --speeds 1 --json", scratch);
   ASSERT_EQ(said.status, 0) << said.err;
-  EXPECT_EQ(said.err.find("8.87"), std::string::npos) << said.err;
+  EXPECT_TRUE(lacks(said.err, "8.87"));
   std::vector<double> loads_kg;
   const auto document = input::Json::parse(said.out);
   for (const auto& load : document.at("loads")) loads_kg.push_back(load.at("load_kg").get<double>());
@@ -103,14 +100,14 @@ TEST_F(Map, CalibrationForOtherLoadsIsMappedAtItsOwn) {
 }
 
 TEST_F(Map, BadInput) {
-  EXPECT_NE(mckibben("map --help", scratch).out.find("Example"), std::string::npos);
+  EXPECT_TRUE(holds(mckibben("map --help", scratch).out, "Example"));
   for (const char* arguments : {"--load '0 kg'", "--load '-3 kg'", "--load 16", "--load '16 m'",
                                 "--load '501 kg'", "--ratios 0", "--fastest '0 1/s'", "--fastest '1 m'"}) {
     const Said said = run(arguments);
     EXPECT_EQ(said.status, 64) << arguments << said.err;
     EXPECT_NE(said.err, "") << arguments;
   }
-  EXPECT_NE(run("--load '0 kg'").err.find("above 0 and at most 500 kg"), std::string::npos);
+  EXPECT_TRUE(holds(run("--load '0 kg'").err, "above 0 and at most 500 kg"));
   EXPECT_EQ(mckibben("map nowhere.yaml", scratch).status, 66);
   EXPECT_EQ(mckibben("map small.yaml", scratch).status, 65);
   const std::string before = read_text(scratch / "cal" / "calibration.yaml");
@@ -118,7 +115,7 @@ TEST_F(Map, BadInput) {
   EXPECT_EQ(read_text(scratch / "cal" / "calibration.yaml"), before);
   const Said heavy = run("--load '14 kg' --load '120 kg' --extrapolate-load --ratios 2 --speeds 1");
   EXPECT_EQ(heavy.status, 70);
-  EXPECT_NE(heavy.out.find("120 kg: no map: weighing"), std::string::npos) << heavy.out;
+  EXPECT_TRUE(holds(heavy.out, "120 kg: no map: weighing"));
 }
 
 }  // namespace

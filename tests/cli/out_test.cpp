@@ -30,12 +30,7 @@ class Holder {
   int file_;
 };
 
-class Out : public testing::Test {
- protected:
-  void SetUp() override { write_text(scratch / "quick.yaml", quick_scenario); }
-  Said run(const std::string& arguments) { return mckibben(arguments, scratch); }
-  Scratch scratch;
-};
+using Out = WithQuickScenario;
 
 TEST_F(Out, WhatIsReadIsNeverReplaced) {
   fs::create_directories(scratch / "f");
@@ -53,7 +48,7 @@ TEST_F(Out, WhatIsReadIsNeverReplaced) {
         "check f/rig.yaml"}) {
     const auto said = run(std::string(arguments) + " --out f");
     EXPECT_EQ(said.status, 74) << arguments << said.err;
-    EXPECT_NE(said.err.find(" is read from there; give another --out"), std::string::npos) << said.err;
+    EXPECT_TRUE(holds(said.err, " is read from there; give another --out"));
     EXPECT_TRUE(fs::exists(scratch / "f/rig.yaml")) << arguments;
   }
 }
@@ -68,7 +63,7 @@ TEST_F(Out, ASecondOneOnTheSameOutIsRefusedAtOnce) {
       const auto said = run(arguments);
       EXPECT_EQ(said.status, 74) << arguments;
       EXPECT_EQ(said.out, "");
-      EXPECT_NE(said.err.find("it is being written by another program"), std::string::npos) << said.err;
+      EXPECT_TRUE(holds(said.err, "it is being written by another program"));
     }
   }
   EXPECT_EQ(run("run quick.yaml --out r").status, 0);  // a lock that its holder left behind holds nobody
@@ -82,7 +77,7 @@ TEST_F(Out, ASecondOneOnTheSameOutIsRefusedAtOnce) {
 TEST_F(Out, AMountedFolderIsRefusedAtOnce) {
   const auto said = run("run quick.yaml --out /proc");
   EXPECT_EQ(said.status, 74);
-  EXPECT_NE(said.err.find("/proc: a file system is mounted there"), std::string::npos) << said.err;
+  EXPECT_TRUE(holds(said.err, "/proc: a file system is mounted there"));
 }
 
 TEST_F(Out, AFifoInAnOldResultIsNotWaitedFor) {

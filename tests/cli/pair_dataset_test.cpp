@@ -49,22 +49,19 @@ TEST_F(PairDataset, HasTwoCommandsAnAngleAndGaugesAndHidesWhatEitherSideHas) {
   EXPECT_EQ(dataset.runs[2].id, "c02_r1");
   const domain::Measurement& measured = dataset.runs[0].measured.value();
   EXPECT_TRUE(measured.counted);
-  EXPECT_EQ(measured.angle_rad.size(), 100u);
-  EXPECT_EQ(measured.sides[1].muscle_pressure_Pa.size(), 100u);
+  EXPECT_EQ(measured.read("angle").size(), 100u);
+  EXPECT_EQ(measured.read("muscle_pressure", 2).size(), 100u);
   EXPECT_TRUE(dataset.rig.effects.absent());
   EXPECT_TRUE(dataset.rig.pair()->opposite.effects.absent());
   for (const auto& [name, content] : contents(scratch / "out/pair")) {
-    EXPECT_EQ(content.find("muscle_leak"), std::string::npos) << name;
-    EXPECT_EQ(content.find("tension_1_N"), std::string::npos) << name;  // nothing true in it
-    EXPECT_EQ(name.find("thesis"), std::string::npos);
+    EXPECT_TRUE(lacks(content, "muscle_leak")) << name;
+    EXPECT_TRUE(lacks(content, "tension_1_N")) << name;  // nothing true in it
+    EXPECT_TRUE(lacks(name, "thesis"));
   }
   const std::string truth = read_text(scratch / "out/pair-truth/truth.yaml");
-  for (const char* words : {"muscle_leak", "damping: 40 N.s/m"})
-    EXPECT_NE(truth.find(words), std::string::npos) << truth;
-  EXPECT_NE(read_text(scratch / "out/pair-truth/against_r1.csv").find(",gauge_pressure_2_bar\n"),
-            std::string::npos);
-  EXPECT_NE(read_text(scratch / "out/pair/report.html").find("pressure asked of valve 2 in bar"),
-            std::string::npos);
+  EXPECT_TRUE(holds(truth, "muscle_leak", "damping: 40 N.s/m"));
+  EXPECT_TRUE(holds(read_text(scratch / "out/pair-truth/against_r1.csv"), ",gauge_pressure_2_bar\n"));
+  EXPECT_TRUE(holds(read_text(scratch / "out/pair/report.html"), "pressure asked of valve 2 in bar"));
 }
 
 TEST_F(PairDataset, ReplayedOnItsTrueRigItIsRightToACount) {
@@ -85,7 +82,7 @@ TEST_F(PairDataset, AnInterruptedOneGoesOnAndItsFilesAreTheSame) {
   begin(scratch / "parts", input::read_campaign(scratch / "pair.yaml"), 3, {"mat"});
   const auto said = run("dataset pair.yaml --out parts --format mat --threads 1");
   ASSERT_EQ(said.status, 0) << said.err;
-  EXPECT_NE(said.err.find("3 of 4 runs are there already"), std::string::npos) << said.err;
+  EXPECT_TRUE(holds(said.err, "3 of 4 runs are there already"));
   EXPECT_EQ(contents(scratch / "whole"), contents(scratch / "parts"));
   EXPECT_EQ(contents(scratch / "whole-truth"), contents(scratch / "parts-truth"));
 }
@@ -99,8 +96,7 @@ TEST_F(PairDataset, ACordThatWouldHaveToPushIsSaid) {
   const auto said = run("dataset slack.yaml");
   ASSERT_EQ(said.status, 0) << said.err;
   for (const std::string& told : {said.out, said.err, read_text(scratch / "out/slack/report.html")})
-    EXPECT_NE(told.find("the cord of muscle 2 would have to push"), std::string::npos)
-        << told.substr(0, 2000);
+    EXPECT_TRUE(holds(told, "the cord of muscle 2 would have to push")) << told.substr(0, 2000);
 }
 
 }  // namespace

@@ -2,7 +2,6 @@
 // program (tests/data/reference: fixed steps of 20 us, fourth order, same equations) replayed as
 // measurements; a pair run; what is refused.
 #include <cmath>
-#include <map>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -12,34 +11,14 @@
 #include <sim/input/fields_json.hpp>
 
 #include "program.hpp"
+#include "table_of.hpp"
 
 namespace mckibben::cli {
 namespace {
 
 using input::Json;
-using Table = std::map<std::string, std::vector<double>>;
 
 const std::string reference = MCKIBBEN_TEST_DATA "/reference/";
-
-std::vector<std::string> cells_of(const std::string& line) {
-  std::vector<std::string> cells;
-  std::istringstream stream(line);
-  for (std::string cell; std::getline(stream, cell, ',');) cells.push_back(cell);
-  return cells;
-}
-
-Table table_of(const std::filesystem::path& path) {
-  std::istringstream stream(read_text(path));
-  std::string line;
-  std::getline(stream, line);
-  const std::vector<std::string> head = cells_of(line);
-  Table table;
-  while (std::getline(stream, line)) {
-    const auto cells = cells_of(line);
-    for (std::size_t i = 0; i < head.size(); ++i) table[head[i]].push_back(std::stod(cells.at(i)));
-  }
-  return table;
-}
 
 std::string first_line(const std::filesystem::path& path) {
   const std::string text = read_text(path);
@@ -51,7 +30,7 @@ struct Columns {
   double most;
 };
 
-class Replayed : public testing::Test {
+class Replayed : public InAFolder {
  protected:
   /// Replays runs that lie beside each other with a rig; returns the status.
   Said replay(const std::string& rig, const std::string& columns, const std::string& runs) {
@@ -72,8 +51,6 @@ class Replayed : public testing::Test {
       }
   }
   Json document() { return Json::parse(read_text(scratch / "out/run.json")); }
-
-  Scratch scratch;
 };
 
 const std::string tightest = "integrator: {tolerance: 1e-12}}";
@@ -99,7 +76,7 @@ TEST_F(Replayed, PairsGoAsTheReferenceDoes) {
   EXPECT_EQ(gap.at("reading"), "angle");
   EXPECT_EQ(gap.at("unit"), "rad");
   EXPECT_LT(gap.at("largest_error").get<double>(), 2e-5);
-  EXPECT_NE(said.out.find("pair_opposed  angle"), std::string::npos) << said.out;
+  EXPECT_TRUE(holds(said.out, "pair_opposed  angle"));
 
   ASSERT_EQ(replay("{base: thesis_pair, " + tightest, "", runs).status, 0);
   for (const auto& name : names) expect_near(name, name, {{"angle_rad", 1e-7}});
@@ -123,8 +100,7 @@ TEST_F(Replayed, AGivenPressureLiftsTheLoadAsTheReferenceDoes) {
                            reference + "pressure_18.87kg_steps.csv, load: 18.87 kg}\n";
   ASSERT_EQ(replay("thesis", columns, runs).status, 0);
   const std::string head = first_line(scratch / "out/sine.csv");
-  for (const char* none : {"valve", "current", "force_N,enc"})
-    EXPECT_EQ(head.find(none), std::string::npos) << head;
+  EXPECT_TRUE(lacks(head, "valve", "current", "force_N,enc"));
   expect_near("sine", "pressure_12.5kg_sine", {{"contraction_ratio", 2e-6}, {"muscle_pressure_bar", 1e-12}});
   expect_near("steps", "pressure_18.87kg_steps", {{"contraction_ratio", 2e-6}});
   ASSERT_EQ(replay("{base: thesis, " + tightest, columns, runs).status, 0);
@@ -209,37 +185,51 @@ TEST_F(Replayed, InputsHoldOrRunStraightOn) {
   EXPECT_GT(ramp[2], rises("", current)[2] + 0.02);
 }
 
-TEST_F(Replayed, VoltsAndBarDoWhatTheirCurrentDoes) {
+TEST_F(Replayed, VoltsAndBarDoWhatACurrentDoes) {
   write_text(scratch / "r.csv",
              "t,mA,V,kPa,x\n0,6,1.25,62.5,0\n0.1,6,1.25,62.5,0\n0.2,9,3.125,156.25,0.1\n0.9,20,10,500,5\n"
              "1.9,4,0,0,9\n");
   const auto replayed = [&](const std::string& valve, const std::string& command) {
     const std::string columns = "columns: {time: {column: t, unit: s}, command: " + command +
                                 ", contraction: {column: x, unit: mm}}\n";
-    const Said said = replay("{valve: " + valve + "}", columns, "  - {id: r, file: r.csv, load: 11 kg}\n");
-    EXPECT_EQ(said.status, 0) << said.err;
-    return read_text(scratch / "out/r.csv");
+    return replay("{valve: " + valve + "}", columns, "  - {id: r, file: r.csv, load: 11 kg}\n");
   };
-  const std::string currents = replayed("{}", "{column: mA, unit: mA}");
+  const auto rises = [&] { return table_of(scratch / "out/r.csv").at("contraction_ratio"); };
+  ASSERT_EQ(replayed("{}", "{column: mA, unit: mA}").status, 0);
+  const std::vector<double> by_current = rises();
+  const auto same = [&] {
+    const std::vector<double> now = rises();
+    ASSERT_EQ(now.size(), by_current.size());
+    for (std::size_t k = 0; k < now.size(); ++k) EXPECT_NEAR(now[k], by_current[k], 1e-9) << k;
+  };
   const std::string volts = "{zero_command: 0 V, span_command: 10 V}";
-  EXPECT_EQ(replayed(volts, "{column: V, unit: V}"), currents);
-  EXPECT_NE(read_text(scratch / "out/report.html").find("0 to 10 V (here as 4 to 20 mA)"), std::string::npos);
+  ASSERT_EQ(replayed(volts, "{column: V, unit: V}").status, 0);
+  same();
+  EXPECT_EQ(table_of(scratch / "out/r.csv").at("command_V"), (std::vector<double>{1.25, 1.25, 3.125, 10, 0}));
+  EXPECT_TRUE(holds(read_text(scratch / "out/report.html"), "0 to 10 V for ",
+                    "\"title\":\"Command\",\"unit\":\"V\""));
   EXPECT_EQ(document().at("rig").at("valve").at("span_command"), "10 V");
-  EXPECT_EQ(replayed(volts, "{column: mA, unit: mA}"), currents);
-  EXPECT_EQ(replayed("{zero_command: 0 bar, span_command: 5 bar}", "{column: kPa, unit: kPa}"), currents);
+  EXPECT_EQ(document().at("rig").at("dac").at("largest_command"), "10 V");
+  ASSERT_EQ(replayed("{zero_command: 0 bar, span_command: 5 bar}", "{column: kPa, unit: kPa}").status, 0);
+  same();
+  const Said refused = replayed(volts, "{column: mA, unit: mA}");
+  EXPECT_EQ(refused.status, 65);
+  EXPECT_NE(refused.err.find("command: unit = mA: the rig's valve is commanded in V"), std::string::npos)
+      << refused.err;
 }
 
-TEST_F(Replayed, TheOppositeValveMayTakeOtherCommands) {
-  write_text(scratch / "r.csv", "time_s,I,V,mA\n0,12,5,12\n0.2,16,2.5,8\n0.7,16,2.5,8\n");
-  const std::string columns = "columns:\n  command_1: {column: I, unit: mA}\n  command_2: ";
-  const std::string runs = "  - {id: r, file: r.csv}\n";
-  ASSERT_EQ(replay("thesis_pair", columns + "{column: mA, unit: mA}\n", runs).status, 0);
-  const std::string currents = read_text(scratch / "out/r.csv");
-  const std::string volts = "{valve: {zero_command: 0 V, span_command: 10 V}}";
-  const Said said = replay("{base: thesis_pair, mechanics: {kind: pair, opposite: " + volts + "}}",
-                           columns + "{column: V, unit: V}\n", runs);
-  ASSERT_EQ(said.status, 0) << said.err;
-  EXPECT_EQ(read_text(scratch / "out/r.csv"), currents);
+TEST_F(Replayed, BothValvesOfAPairTakeTheSame) {
+  write_text(scratch / "r.csv", "time_s,I,V\n0,6,2\n0.2,8,4\n0.7,8,4\n");
+  const std::string columns =
+      "columns:\n  command_1: {column: I, unit: V}\n  command_2: {column: V, unit: V}\n";
+  const std::string runs = "  - {id: r, file: r.csv}\n",
+                    volts = "{valve: {zero_command: 0 V, span_command: 10 V}}";
+  const Said other =
+      replay("{base: thesis_pair, mechanics: {kind: pair, opposite: " + volts + "}}", columns, runs);
+  EXPECT_NE(other.err.find("V is the wrong kind of unit; wanted is mA"), std::string::npos) << other.err;
+  const Said both = replay("{base: thesis_pair, " + volts.substr(1), columns, runs);
+  ASSERT_EQ(both.status, 0) << both.err;
+  EXPECT_EQ(table_of(scratch / "out/r.csv").at("command_2_V"), (std::vector<double>{2, 4, 4}));
 }
 
 TEST_F(Replayed, ASlackCordIsSaid) {
@@ -250,9 +240,9 @@ TEST_F(Replayed, ASlackCordIsSaid) {
   const Said said = replay("thesis", columns, "  - {id: r, file: r.csv}\n");
   ASSERT_EQ(said.status, 0) << said.err;
   const std::string words = "the cord of muscle 1 would have to push, from 0.200 s on in 2 of 4 rows";
-  EXPECT_NE(said.err.find(words), std::string::npos) << said.err;
+  EXPECT_TRUE(holds(said.err, words));
   for (const char* file : {"table.txt", "run.json", "report.html"})
-    EXPECT_NE(read_text(scratch / "out" / file).find(words), std::string::npos) << file;
+    EXPECT_TRUE(holds(read_text(scratch / "out" / file), words)) << file;
   const Json slack = document().at("runs").at(0).at("slack").at(0);
   EXPECT_EQ(slack.at("muscle"), 1);
   EXPECT_LT(slack.at("lowest_N").get<double>(), 0.0);
@@ -262,9 +252,7 @@ TEST_F(Replayed, VerbsThatNeedTicksAndALoadRefuseTheRest) {
   ASSERT_EQ(replay("thesis_pair", "", "  - {id: a, file: " + reference + "pair_steps.csv}\n").status, 0);
   const Said said = mckibben("calibrate dataset.yaml --out other", scratch);
   EXPECT_EQ(said.status, 65);
-  EXPECT_NE(said.err.find("dataset.yaml: error: calibrate cannot take it yet: the rig's two muscles"),
-            std::string::npos)
-      << said.err;
+  EXPECT_TRUE(holds(said.err, "dataset.yaml: error: calibrate cannot take it yet: the rig's two muscles"));
   EXPECT_FALSE(std::filesystem::exists(scratch / "other"));
   EXPECT_EQ(mckibben("replay dataset.yaml --rig thesis", scratch).status, 65);
   EXPECT_EQ(mckibben("map '" MCKIBBEN_TEST_DATA "/calibration.yaml' --rig thesis_pair", scratch).status, 65);
@@ -282,9 +270,7 @@ TEST_F(Replayed, BothMusclesAreDrivenAlikeToBeDiagnosed) {
   ASSERT_EQ(replay("thesis_pair", columns, "  - {id: a, file: " + reference + "pair_steps.csv}\n").status, 0);
   const Said said = mckibben("diagnose dataset.yaml --out other", scratch);
   EXPECT_EQ(said.status, 65);
-  EXPECT_NE(said.err.find("in run a the pressure of one muscle is given, and that of the other is not"),
-            std::string::npos)
-      << said.err;
+  EXPECT_TRUE(holds(said.err, "in run a the pressure of one muscle is given, and that of the other is not"));
 }
 
 TEST(Pair, IsDiagnosedByItsAngleAndItsGauges) {
@@ -303,16 +289,15 @@ TEST(Pair, IsDiagnosedByItsAngleAndItsGauges) {
   write_text(scratch / "dataset.yaml", data);
   const Said said = mckibben("diagnose dataset.yaml --out found --threads 2", scratch);
   ASSERT_EQ(said.status, 0) << said.err;
-  EXPECT_NE(said.out.find("errors are joint angles in deg"), std::string::npos) << said.out;
+  EXPECT_TRUE(holds(said.out, "errors are joint angles in deg"));
   const Json found = Json::parse(read_text(scratch / "found/diagnosis.json"));
   EXPECT_EQ(found.at("verdict"), "nothing_missing") << found.at("because");
   EXPECT_EQ(found.at("gap").at("reading"), "angle");
   EXPECT_EQ(found.at("gap").at("unit"), "rad");
   const std::string page = read_text(scratch / "found/report.html");
-  for (const char* words : {"Joint angle, measured and by each rig", "given_muscle_pressure_2",
-                            "pressure of muscle 2", "two muscles turn the joint", "towards muscle 1"})
-    EXPECT_NE(page.find(words), std::string::npos) << words;
-  EXPECT_EQ(page.find("contraction ratio</label>"), std::string::npos);  // no lengths to choose the unit of
+  EXPECT_TRUE(holds(page, "Joint angle, measured and by each rig", "given_muscle_pressure_2",
+                    "pressure of muscle 2", "two muscles turn the joint", "towards muscle 1"));
+  EXPECT_TRUE(lacks(page, "contraction ratio</label>"));  // no lengths to choose the unit of
   EXPECT_EQ(mckibben("replay dataset.yaml --rig found/rig.yaml --out again", scratch).status, 0);
 }
 
@@ -332,9 +317,8 @@ TEST(Pair, FollowsItsTargetsUnderControllers) {
   ASSERT_EQ(mckibben("check arm.yaml", scratch).status, 0);
   const Said said = mckibben("run arm.yaml", scratch);
   ASSERT_EQ(said.status, 1) << said.err;
-  EXPECT_NE(said.out.find("sine_0.5kg_pid: rmse ="), std::string::npos) << said.out;
-  EXPECT_NE(said.out.find("under given currents"), std::string::npos) << said.out;
-  EXPECT_NE(said.out.find("  sine   0.5     model_inverse_feedback"), std::string::npos) << said.out;
+  EXPECT_TRUE(holds(said.out, "sine_0.5kg_pid: rmse =", "under given currents",
+                    "  sine   0.5     model_inverse_feedback"));
   const Json document = Json::parse(read_text(scratch / "out/arm/run.json"));
   ASSERT_EQ(document.at("runs").size(), 5u);
   const Json& run = document.at("runs").at(1);
@@ -353,12 +337,10 @@ TEST(Pair, FollowsItsTargetsUnderControllers) {
   EXPECT_EQ(columns(1), is.size());
   EXPECT_EQ(columns(0) + 2, columns(1));
   const std::string html = read_text(scratch / "out/arm/report.html");
-  for (const char* words :
-       {"sine, 0.5 kg in the hand", "given_stiffness", "Joint angle and torque of both muscles",
-        "Pressure and contraction of muscle 2", "angle less target"})
-    EXPECT_NE(html.find(words), std::string::npos) << words;
-  EXPECT_NE(read_text(scratch / "out/arm/tracking.svg").find(">sine, 0.5 kg: joint angle [deg]<"),
-            std::string::npos);
+  EXPECT_TRUE(holds(html, "sine, 0.5 kg in the hand", "given_stiffness",
+                    "Joint angle and torque of both muscles", "Pressure and contraction of muscle 2",
+                    "angle less target"));
+  EXPECT_TRUE(holds(read_text(scratch / "out/arm/tracking.svg"), ">sine, 0.5 kg: joint angle [deg]<"));
 }
 
 TEST(Pair, RunsUnderTwoCurrents) {
@@ -379,8 +361,7 @@ TEST(Pair, RunsUnderTwoCurrents) {
   EXPECT_LT(is.at("angle_rad").back(), -0.2);
   EXPECT_LT(document.at("runs").at(0).at("ledger").at("unexplained_share").at("energy").get<double>(), 1e-5);
   const std::string html = read_text(scratch / "out/pair/report.html");
-  EXPECT_NE(html.find("PairPicture"), std::string::npos);
-  EXPECT_NE(html.find("Joint angle"), std::string::npos);
+  EXPECT_TRUE(holds(html, "PairPicture", "Joint angle"));
   EXPECT_TRUE(std::filesystem::exists(scratch / "out/pair/triangle.mat"));
   EXPECT_FALSE(std::filesystem::exists(scratch / "out/pair/tracking.svg")) << "nothing is followed";
 

@@ -2,8 +2,12 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <string>
 
+#include <gtest/gtest.h>
+
+#include "says.hpp"
 #include "scratch.hpp"
 
 namespace mckibben::cli {
@@ -22,6 +26,9 @@ Said shell(const std::string& script, const std::filesystem::path& folder);
 std::string read_text(const std::filesystem::path& path);
 void write_text(const std::filesystem::path& path, const std::string& text);
 
+/// Every file below a folder with its content.
+std::map<std::string, std::string> contents(const std::filesystem::path& folder);
+
 /// A scenario that takes no time: one load, one waveform, one second.
 inline constexpr const char* quick_scenario =
     "schema: mckibben-scenario/1\n"
@@ -32,6 +39,17 @@ inline constexpr const char* quick_scenario =
     "  - {kind: sine_current, low: 5 mA, high: 9 mA, period: 1 s}\n"
     "  - {kind: static_inverse, assumed_load: 14 kg}\n"
     "noise: {encoder_jitter: 1e-4}\n";
+
+/// A test with a folder of its own, in which the program runs.
+class InAFolder : public testing::Test {
+ protected:
+  Said run(const std::string& arguments) { return mckibben(arguments, scratch); }
+  Scratch scratch;
+};
+class WithQuickScenario : public InAFolder {
+ protected:
+  void SetUp() override { write_text(scratch / "quick.yaml", quick_scenario); }
+};
 
 /// A campaign that is just enough for a calibration: three sines with each load.
 inline std::string campaign_of_sines(const std::string& loads = "[11.138 kg, 14 kg, 18.87 kg, 23.406 kg]") {

@@ -55,7 +55,7 @@ Json run_from(const fs::path& scenarios, const std::string& name) {
                         "muscle_pressure_bar,encoder_contraction_ratio",
                         0),
               0u);
-    EXPECT_EQ(csv.find("nan"), std::string::npos);
+    EXPECT_TRUE(lacks(csv, "nan"));
   }
   return document;
 }
@@ -95,12 +95,11 @@ TEST(RunWarnings, OfTheReaderAreInTheResultsToo) {
              "controllers: [{kind: triangle_current, low: 5 mA, high: 6 mA, period: 1 s}]\n");
   const Said said = mckibben("run w.yaml --json", scratch);
   ASSERT_EQ(said.status, 0) << said.err;
-  EXPECT_NE(said.err.find("w.yaml:4:8: warning: noise.gauge has no effect"), std::string::npos) << said.err;
+  EXPECT_TRUE(holds(said.err, "w.yaml:4:8: warning: noise.gauge has no effect"));
   EXPECT_EQ(Json::parse(said.out).at("warnings").at(0),
             "w.yaml:4:8: noise.gauge has no effect: the rig has no gauge (sensors: [{signal: "
             "muscle_pressure, kind: gauge}])");
-  EXPECT_NE(read_text(scratch / "out/w/report.html").find("w.yaml:4:8: noise.gauge has no"),
-            std::string::npos);
+  EXPECT_TRUE(holds(read_text(scratch / "out/w/report.html"), "w.yaml:4:8: noise.gauge has no"));
 }
 
 TEST(FiveLoads, AnswersTheThesissQuestion) {
@@ -172,21 +171,19 @@ TEST(Run, MarksWhatIsExtrapolatedAndWarnsOfWhatIsOutOfReach) {
              "  - {kind: step_current, moves: []}\n");
   const auto said = mckibben("run far.yaml", scratch);
   ASSERT_EQ(said.status, 0) << said.err;
-  for (const char* row : {"8.87    open_loop* ", "11.138  open_loop+ ", "16.138  open_loop ", "16.138  far* ",
-                          "  * extrapolated: ", "  + the load was weighed less than 10 % outside"})
-    EXPECT_NE(said.out.find(row), std::string::npos) << row << said.out;
-  EXPECT_EQ(said.out.find("step_current*"), std::string::npos);
-  for (const char* words : {"warning: 6 runs (open_loop at 8.87 kg, far at 8.87 kg, ",
-                            "2 more): for example ", "the target is out of reach at ", " of 167 ticks (",
-                            "the largest reachable speed there is ", "a slower target"})
-    EXPECT_NE(said.err.find(words), std::string::npos) << words << said.err;
-  EXPECT_EQ(said.err.find("step_current at"), std::string::npos) << said.err;
+  EXPECT_TRUE(holds(said.out, "8.87    open_loop* ", "11.138  open_loop+ ", "16.138  open_loop ",
+                    "16.138  far* ",
+                    "  * extrapolated: ", "  + the load was weighed less than 10 % outside"));
+  EXPECT_TRUE(lacks(said.out, "step_current*"));
+  EXPECT_TRUE(holds(said.err, "warning: 6 runs (open_loop at 8.87 kg, far at 8.87 kg, ",
+                    "2 more): for example ", "the target is out of reach at ", " of 167 ticks (",
+                    "the largest reachable speed there is ", "a slower target"));
+  EXPECT_TRUE(lacks(said.err, "step_current at"));
   const Json document = Json::parse(read_text(scratch / "out/far/run.json"));
   const Json& warnings = document.at("warnings");
   ASSERT_EQ(warnings.size(), 2u) << "the reader's, and one of one kind";
-  EXPECT_NE(warnings[0].get<std::string>().find("the target rises to a contraction ratio of 0.24"),
-            std::string::npos);
-  EXPECT_NE(said.err.find(warnings[1].get<std::string>()), std::string::npos);
+  EXPECT_TRUE(holds(warnings[0].get<std::string>(), "the target rises to a contraction ratio of 0.24"));
+  EXPECT_TRUE(holds(said.err, warnings[1].get<std::string>()));
   const Json& found = document.at("runs")[0].at("unreachable");
   EXPECT_GT(found.at("too_fast").at("asked_per_s").get<double>(),
             found.at("too_fast").at("largest_reachable_per_s").get<double>());
@@ -287,9 +284,7 @@ TEST(Replay, AndCheckRefuseDataThatAreNotWhatTheySay) {
     for (const char* verb : {"replay . --out back", "check .", "diagnose . --out back"}) {
       const auto said = mckibben(verb, scratch);
       EXPECT_EQ(said.status, 65) << verb << clock;
-      EXPECT_NE(said.err.find("dataset.yaml:3:"), std::string::npos) << said.err;
-      EXPECT_NE(said.err.find("this looks like a ratio, not millimetres (mm)"), std::string::npos)
-          << said.err;
+      EXPECT_TRUE(holds(said.err, "dataset.yaml:3:", "this looks like a ratio, not millimetres (mm)"));
     }
   }
   EXPECT_FALSE(fs::exists(scratch / "back"));
@@ -308,14 +303,13 @@ TEST(Replay, AndCheckNameLabelsThatLookExchanged) {
     write_text(scratch / "dataset.yaml", "schema: mckibben-dataset/1\nrig: thesis\n" + clock + runs);
     const auto said = mckibben("replay . --out back --json", scratch);
     ASSERT_EQ(said.status, 0) << said.err;
-    EXPECT_NE(said.err.find(words), std::string::npos) << said.err;
-    EXPECT_NE(Json::parse(said.out).at("warnings").at(0).get<std::string>().find(words), std::string::npos);
-    EXPECT_NE(read_text(scratch / "back/report.html").find(words), std::string::npos);
+    EXPECT_TRUE(holds(said.err, words));
+    EXPECT_TRUE(holds(Json::parse(said.out).at("warnings").at(0).get<std::string>(), words));
+    EXPECT_TRUE(holds(read_text(scratch / "back/report.html"), words));
   }
   const auto checked = mckibben("check .", scratch);
   EXPECT_EQ(checked.status, 0);
-  EXPECT_NE(checked.err.find("dataset.yaml:4:"), std::string::npos) << checked.err;
-  EXPECT_NE(checked.err.find(words), std::string::npos) << checked.err;
+  EXPECT_TRUE(holds(checked.err, "dataset.yaml:4:", words));
   EXPECT_EQ(
       checked.out,
       ".: ok (2 of 2 runs simulated: stroke, sign, units, order of loads)\n"

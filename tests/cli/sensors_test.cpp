@@ -1,6 +1,5 @@
 // A laser and a load cell from a rig file to `dataset` and back by `replay`.
 #include <cmath>
-#include <string>
 
 #include <gtest/gtest.h>
 
@@ -30,7 +29,7 @@ TEST(SensorsOfARig, AreWhatADatasetIsReadThrough) {
   const domain::Dataset dataset = input::read_dataset(scratch / "out/small");
   EXPECT_EQ(dataset.rig.sensors.position().kind, plant::SensorKind::laser);
   ASSERT_TRUE(dataset.runs[0].measured);
-  for (const double force_N : dataset.runs[0].measured->force_N)
+  for (const double force_N : dataset.runs[0].measured->read("force"))
     ASSERT_NEAR(force_N / 0.5, std::round(force_N / 0.5), 1e-6);
 
   const Said replayed = mckibben("replay out/small --json", scratch);

@@ -13,12 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class Program : public testing::Test {
- protected:
-  void SetUp() override { write_text(scratch / "quick.yaml", quick_scenario); }
-  Said run(const std::string& arguments) { return mckibben(arguments, scratch); }
-  Scratch scratch;
-};
+using Program = WithQuickScenario;
 
 TEST_F(Program, TellsItsVersion) {
   const std::string said = run("--version").out;
@@ -40,7 +35,7 @@ TEST_F(Program, UsageErrorsAre64) {
 }
 
 TEST_F(Program, AnUnknownVerbIsNamedWithWhatWasMeant) {
-  EXPECT_NE(run("replya x").err.find("unknown verb replya; did you mean replay?"), std::string::npos);
+  EXPECT_TRUE(holds(run("replya x").err, "unknown verb replya; did you mean replay?"));
 }
 
 TEST_F(Program, BadInputIs65AndNothingIsRun) {
@@ -48,9 +43,8 @@ TEST_F(Program, BadInputIs65AndNothingIsRun) {
   const auto said = run("run bad.yaml");
   EXPECT_EQ(said.status, 65);
   EXPECT_EQ(said.out, "");
-  EXPECT_NE(said.err.find("bad.yaml:9:1: error: "), std::string::npos) << said.err;
-  EXPECT_NE(said.err.find("did you mean seed"), std::string::npos) << said.err;
-  EXPECT_NE(said.err.find("bad.yaml:10:1: error: "), std::string::npos) << said.err;  // all errors at once
+  EXPECT_TRUE(holds(said.err, "bad.yaml:9:1: error: ", "did you mean seed",
+                    "bad.yaml:10:1: error: "));  // all errors at once
   EXPECT_FALSE(fs::exists(scratch / "out"));
 }
 
@@ -64,7 +58,7 @@ TEST_F(Program, AnUnmetCriterionIs1) {
   write_text(scratch / "strict.yaml", std::string(quick_scenario) + "criteria: [{rmse_below: 1e-9}]\n");
   const auto said = run("run strict.yaml");
   EXPECT_EQ(said.status, 1);
-  EXPECT_NE(said.out.find("criteria not met"), std::string::npos);
+  EXPECT_TRUE(holds(said.out, "criteria not met"));
   EXPECT_TRUE(fs::exists(scratch / "out/strict/run.json"));
 }
 
@@ -77,15 +71,12 @@ TEST_F(Program, ANumericalFailureIs70AndNamesTimeStateAndCause) {
              "controllers: [{kind: step_current, moves: []}]\n");
   const auto said = run("run fall.yaml");
   EXPECT_EQ(said.status, 70);
-  EXPECT_NE(said.out.find("integration failed at t = "), std::string::npos) << said.out;
-  EXPECT_NE(said.out.find("contraction_ratio = "), std::string::npos);
-  EXPECT_NE(said.out.find("(settling)"), std::string::npos);
+  EXPECT_TRUE(holds(said.out, "integration failed at t = ", "contraction_ratio = ", "(settling)"));
   EXPECT_TRUE(fs::exists(scratch / "out/fall/11.138kg_step_current.csv"));  // the sound run is not lost
   const std::string report = read_text(scratch / "out/fall/report.html");   // and the page leads to it alone
-  EXPECT_NE(report.find("<tr><th scope='row'>45 kg</th><td>no result</td>"), std::string::npos);
-  EXPECT_NE(
-      report.find("<tr data-group='0'><th scope='row'><a href='#group-0' data-group='0'>11.138 kg</a></th>"),
-      std::string::npos);
+  EXPECT_TRUE(
+      holds(report, "<tr><th scope='row'>45 kg</th><td>no result</td>",
+            "<tr data-group='0'><th scope='row'><a href='#group-0' data-group='0'>11.138 kg</a></th>"));
 }
 
 TEST_F(Program, WhatCannotBeWrittenIs74) {
@@ -114,7 +105,7 @@ TEST_F(Program, NothingOfTheUsersIsLost) {
   EXPECT_EQ(said.status, 0);
   EXPECT_EQ(read_text(scratch / "r.old-1/notes.txt"), "mine");
   EXPECT_FALSE(fs::exists(scratch / "r/notes.txt"));
-  EXPECT_NE(said.err.find("r.old-1"), std::string::npos);
+  EXPECT_TRUE(holds(said.err, "r.old-1"));
 }
 
 TEST_F(Program, AResultOfAnotherJobOrOneThatWasChangedIsSetAside) {
@@ -166,7 +157,7 @@ TEST_F(Program, ABrokenPipeLosesNoResult) {
   run("run quick.yaml --json --out r | true; true");
   EXPECT_TRUE(fs::exists(scratch / "r/run.json"));
   for (const auto& entry : fs::directory_iterator(static_cast<const fs::path&>(scratch)))
-    EXPECT_EQ(entry.path().filename().string().find(".writing"), std::string::npos) << entry.path();
+    EXPECT_TRUE(lacks(entry.path().filename().string(), ".writing")) << entry.path();
 }
 
 TEST_F(Program, LoadsThatDifferLittleGetFilesOfTheirOwn) {
@@ -186,7 +177,7 @@ TEST_F(Program, APidThatCannotBeTunedFailsAlone) {
              "controllers: [{kind: pid, tuning_load: 500 kg}, {kind: step_current, moves: []}]\n");
   const auto said = run("run heavy.yaml");
   EXPECT_EQ(said.status, 70);
-  EXPECT_NE(said.out.find("no gains gave a run that could be simulated"), std::string::npos) << said.out;
+  EXPECT_TRUE(holds(said.out, "no gains gave a run that could be simulated"));
   EXPECT_TRUE(fs::exists(scratch / "out/heavy/11.138kg_step_current.csv"));
   EXPECT_FALSE(fs::exists(scratch / "out/heavy/11.138kg_pid.csv"));
 }
@@ -224,7 +215,7 @@ TEST_F(Program, ShippedThesisRigIsTheBuiltInOne) {
   EXPECT_EQ(said.status, 0);
   // The shipped file is this text under a heading.
   const std::string shipped = read_text(MCKIBBEN_SOURCE_DIR "/scenarios/rigs/thesis.yaml");
-  EXPECT_NE(shipped.find(said.out), std::string::npos);
+  EXPECT_TRUE(holds(shipped, said.out));
   write_text(scratch / "thesis.yaml", said.out);
   EXPECT_EQ(run("check thesis.yaml").status, 0);
 }
@@ -232,7 +223,7 @@ TEST_F(Program, ShippedThesisRigIsTheBuiltInOne) {
 TEST_F(Program, TheReferencePageIsWhatTheProgramPrints) {
   const std::string page = read_text(MCKIBBEN_SOURCE_DIR "/docs/reference.md");
   for (const char* kind : {"scenario", "campaign", "rig", "dataset", "hypothesis", "columns"})
-    EXPECT_NE(page.find(run(std::string("schema ") + kind + " --format markdown").out), std::string::npos)
+    EXPECT_TRUE(holds(page, run(std::string("schema ") + kind + " --format markdown").out))
         << "docs/reference.md is out of date: see docs/testing.md";
 }
 
@@ -243,7 +234,7 @@ TEST(Check, SaysWhatIsToBeChangedForThisVersion) {
   write_text(scratch / "new.yaml", quick_scenario);
   const Said said = mckibben("check --upgrade old.yaml new.yaml", scratch);
   EXPECT_EQ(said.status, 65);
-  EXPECT_NE(said.err.find("old.yaml:3:29: warning: weighing: remove it"), std::string::npos) << said.err;
+  EXPECT_TRUE(holds(said.err, "old.yaml:3:29: warning: weighing: remove it"));
   EXPECT_EQ(said.out, "new.yaml: ok (as this version wants it)\n");
   EXPECT_EQ(mckibben("check --upgrade nowhere.yaml", scratch).status, 66);
 }

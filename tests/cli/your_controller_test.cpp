@@ -78,8 +78,8 @@ TEST(YourController, OneThatFailsTakesItsOwnRunAlong) {
     else
       EXPECT_FALSE(run.contains("failure")) << run;
   }
-  EXPECT_NE(said.out.find(death), std::string::npos) << said.out;
-  EXPECT_NE(read_text(scratch / "out/f/report.html").find("it ended with status 7"), std::string::npos);
+  EXPECT_TRUE(holds(said.out, death));
+  EXPECT_TRUE(holds(read_text(scratch / "out/f/report.html"), "it ended with status 7"));
 }
 
 TEST(YourController, CheckRunsNothingOfIt) {
@@ -96,7 +96,7 @@ TEST(YourController, CheckRunsNothingOfIt) {
              "controllers: [{kind: plugin, library: nowhere.so}]\n");
   const Said missing = mckibben("run p.yaml", scratch);
   EXPECT_EQ(missing.status, 66);
-  EXPECT_NE(missing.err.find("p.yaml:5:39: "), std::string::npos) << missing.err;
+  EXPECT_TRUE(holds(missing.err, "p.yaml:5:39: "));
 }
 
 }  // namespace

@@ -1,11 +1,8 @@
 // Controllers that are somebody else's: what they hear, how far they are obeyed, and that whatever becomes of
 // them is a failure with its reason.
-#include <cmath>
-#include <csignal>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
-#include <memory>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -75,10 +72,28 @@ TEST(External, HearsItsLinesAndIsObeyed) {
   EXPECT_EQ(text_of(scratch / "heard"),
             "{\"mckibben_controller\":1,\"period_s\":0.012,\"contraction_per_count\":4e-04,\"middle_of_"
             "count\":0.5,"
-            "\"rest_length_m\":0.3,\"lowest_mA\":4,\"highest_mA\":20,\"largest_current_speed_mA_per_s\":null,"
+            "\"rest_length_m\":0.3,\"command_unit\":\"mA\",\"lowest_mA\":4,\"highest_mA\":20,\"largest_"
+            "current_speed_mA_per_s\":null,"
             "\"load_kg\":11.5,\"preparation_ticks\":1,\"target\":[0.05,0.1,0.12]}\n"
             "{\"tick\":-1,\"time_s\":-0.012,\"counts\":0,\"counts_lost\":false,\"target\":0.05}\n"
             "{\"tick\":2,\"time_s\":0.024,\"counts\":1000000,\"counts_lost\":false,\"target\":0.12}\n");
+}
+
+TEST(External, OfARigInVoltsHearsAndGivesVolts) {
+  const Scratch scratch;
+  ExternalSettings settings = shell("while read line; do echo \"$line\" >> heard; echo 7.25; done");
+  settings.folder = (scratch / "").string();
+  settings.largest_current_speed_mA_per_s = 40.0;
+  Knowledge paper = known();
+  paper.largest_current_mA = 10.0;
+  paper.valve = {-5.0, 5.0, 0.5e5, 5e5, "V"};
+  EXPECT_EQ(settings.make(paper)->rest().current_mA, 5.0);
+  EXPECT_NE(text_of(scratch / "heard")
+                .find("\"command_unit\":\"V\",\"lowest_V\":-5,\"highest_V\":5,"
+                      "\"largest_command_speed_V_per_s\":40,"),
+            std::string::npos);
+  EXPECT_EQ(failure_of(*shell("echo six").make(paper)),
+            "before the run: its answer is no number of V: \"six\"");
 }
 
 TEST(External, IsObeyedWithinItsLimitsOnly) {
@@ -121,7 +136,7 @@ TEST(External, WhateverBecomesOfItIsAFailureWithItsReason) {
   says(answers + "echo six; cat > /dev/null", "tick 1 (0.012 s): its answer is no number of mA: \"six\"");
   says(answers + "echo; cat > /dev/null", "tick 1 (0.012 s): its answer is no number of mA: \"\"");
   says(answers + "echo 6,5; cat > /dev/null", "tick 1 (0.012 s): its answer is no number of mA: \"6,5\"");
-  says(answers + "echo nan; cat > /dev/null", "tick 1 (0.012 s): its current is no finite number");
+  says(answers + "echo nan; cat > /dev/null", "tick 1 (0.012 s): its command is no finite number");
   says(answers + "cat > /dev/null", "tick 1 (0.012 s): no answer within 0.2 s");
   says(answers + "printf 6; cat > /dev/null", "tick 1 (0.012 s): its answer is no line: \"6\"");
   says(answers + "printf '6\\n7\\n'; cat > /dev/null",
@@ -183,10 +198,17 @@ TEST(Plugin, WhateverIsWrongWithItIsAFailureWithItsReason) {
                 .rfind("before the run: its library cannot be used: /nowhere/plugin.so: ", 0),
             0U);
   EXPECT_EQ(failure_of(library(MCKIBBEN_LATER_PLUGIN)),
-            "before the run: its library is for version 2 of the interface, not 1");
+            "before the run: its library is for version 3 of the interface, not 2");
+  Knowledge in_volts = known();
+  in_volts.valve = {0.0, 10.0, 0.5e5, 5e5, "V"};
+  EXPECT_EQ(
+      failure_of(*library(MCKIBBEN_EARLIER_PLUGIN).make(in_volts)),
+      "before the run: its library is for version 1 of the interface, whose commands are in mA; here they "
+      "are in V");
+  EXPECT_EQ(failure_of(library(MCKIBBEN_EARLIER_PLUGIN)), "tick 0 (0 s): its command is no finite number");
   EXPECT_EQ(failure_of(library(MCKIBBEN_POOR_PLUGIN)),
             "before the run: its library has no mckibben_controller_rest");
-  EXPECT_EQ(failure_of(library(MCKIBBEN_SILENT_PLUGIN)), "tick 0 (0 s): its current is no finite number");
+  EXPECT_EQ(failure_of(library(MCKIBBEN_SILENT_PLUGIN)), "tick 0 (0 s): its command is no finite number");
 }
 
 }  // namespace

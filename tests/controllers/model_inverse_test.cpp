@@ -10,7 +10,6 @@
 
 #include <controllers/look_ahead.hpp>
 #include <controllers/model_inverse.hpp>
-#include <controllers/model_inverse_feedback.hpp>
 #include <controllers/rise_weighing.hpp>
 
 #include "believed.hpp"

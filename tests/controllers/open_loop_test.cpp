@@ -224,14 +224,14 @@ TEST(Safety, AWeighingIsNotMisledByCountsThatJumpAndEndsWhereTheyStandStill) {
 
 TEST(Settings, KnowWhichControllersHaveFeedbackAndWhichACalibration) {
   Settings settings = PidSettings{};
-  EXPECT_NE(feedback_of(settings), nullptr);
-  EXPECT_EQ(calibrated(settings), nullptr);
+  EXPECT_NE(part_of<PidForm>(settings), nullptr);
+  EXPECT_EQ(part_of<CalibrationTerms>(settings), nullptr);
   settings = FeedforwardPidSettings{};
-  EXPECT_NE(feedback_of(settings), nullptr);
-  EXPECT_NE(calibrated(settings), nullptr);
+  EXPECT_NE(part_of<PidForm>(settings), nullptr);
+  EXPECT_NE(part_of<CalibrationTerms>(settings), nullptr);
   settings = OpenLoopLimitedSettings{};
-  EXPECT_EQ(feedback_of(settings), nullptr);
-  EXPECT_NE(calibrated(settings), nullptr);
+  EXPECT_EQ(part_of<PidForm>(settings), nullptr);
+  EXPECT_NE(part_of<CalibrationTerms>(settings), nullptr);
 }
 
 }  // namespace

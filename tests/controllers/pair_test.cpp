@@ -2,7 +2,6 @@
 // and that a PID follows a joint as simple as a spring.
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <numbers>
 #include <stdexcept>
 #include <vector>

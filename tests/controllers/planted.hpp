@@ -1,7 +1,6 @@
 // A calibration with known coefficients, and data sheets, for the tests of what is built on them.
 #pragma once
 
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <numbers>

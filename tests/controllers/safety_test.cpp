@@ -1,13 +1,11 @@
 // Limits that every controller with feedback or a model keeps, and counts that stop or jump.
 #include <cmath>
 #include <cstdint>
-#include <memory>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include <controllers/model_inverse.hpp>
-#include <controllers/model_inverse_feedback.hpp>
 #include <controllers/pid.hpp>
 
 #include "believed.hpp"

@@ -2,28 +2,18 @@
 #include <cmath>
 #include <cstdint>
 #include <numbers>
-#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include <controllers/static_inverse.hpp>
 
+#include "planted.hpp"
+
 namespace mckibben::controllers {
 namespace {
 
 constexpr double alpha_rad = 20.0 * std::numbers::pi / 180.0;
-
-Knowledge given(std::vector<double> target) {
-  Knowledge knowledge;
-  knowledge.contraction_per_count = 4.363e-4;
-  knowledge.tick_s = 0.012;
-  knowledge.largest_current_mA = 20.0;
-  knowledge.target = std::move(target);
-  knowledge.model = {7.5e-3, 0.3, alpha_rad, 1.3};
-  knowledge.valve = {4.0, 20.0, 0.5e5, 5.0e5};
-  return knowledge;
-}
 
 double force_N(double current_mA, double e, double r0_m) {
   const double pressure_Pa = 0.5e5 + 4.5e5 * (current_mA - 4.0) / 16.0;
@@ -34,7 +24,7 @@ double force_N(double current_mA, double e, double r0_m) {
 
 TEST(StaticInverse, PressureItAsksForCarriesTheAssumedLoad) {
   const std::vector<double> target{0.02, 0.05, 0.1, 0.15, 0.2};
-  const auto controller = StaticInverseSettings{.assumed_load_kg = 16.138}.make(given(target));
+  const auto controller = StaticInverseSettings{.assumed_load_kg = 16.138}.make(data_sheets(target));
   EXPECT_EQ(controller->rest().current_mA, controller->step({0, 0.0, 0}).current_mA);
   for (std::size_t k = 0; k < target.size(); ++k) {
     const double current_mA = controller->step({static_cast<std::int64_t>(k), 0.0, 0}).current_mA;
@@ -46,19 +36,19 @@ TEST(StaticInverse, PressureItAsksForCarriesTheAssumedLoad) {
 
 TEST(StaticInverse, BelievesItsOwnRadiusIfGivenOne) {
   const StaticInverseSettings settings{.assumed_load_kg = 11.138, .rest_radius_m = 8.0e-3};
-  const double current_mA = settings.make(given({0.1}))->step({0, 0.0, 0}).current_mA;
+  const double current_mA = settings.make(data_sheets({0.1}))->step({0, 0.0, 0}).current_mA;
   EXPECT_NEAR(force_N(current_mA, 0.1, 8.0e-3), 11.138 * 9.80665, 1e-9);
 }
 
 TEST(StaticInverse, StaysOnTheValvesLine) {
-  const auto controller = StaticInverseSettings{.assumed_load_kg = 23.406}.make(given({0.297, 0.9}));
+  const auto controller = StaticInverseSettings{.assumed_load_kg = 23.406}.make(data_sheets({0.297, 0.9}));
   EXPECT_EQ(controller->step({0, 0.0, 0}).current_mA, 20.0) << "nearly e_max";
   EXPECT_EQ(controller->step({1, 0.012, 0}).current_mA, 20.0) << "beyond e_max";
-  EXPECT_EQ(StaticInverseSettings{.assumed_load_kg = 0.1}.make(given({0.0}))->rest().current_mA, 4.0);
+  EXPECT_EQ(StaticInverseSettings{.assumed_load_kg = 0.1}.make(data_sheets({0.0}))->rest().current_mA, 4.0);
 }
 
 TEST(StaticInverse, DoesNotLookAtTheCounts) {
-  const auto controller = StaticInverseSettings{.assumed_load_kg = 16.0}.make(given({0.1}));
+  const auto controller = StaticInverseSettings{.assumed_load_kg = 16.0}.make(data_sheets({0.1}));
   EXPECT_EQ(controller->step({0, 0.0, 0}).current_mA, controller->step({0, 0.0, 400}).current_mA);
 }
 

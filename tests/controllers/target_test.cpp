@@ -49,7 +49,7 @@ TEST(Steps, RoundingOfTheTickNeverMovesAStep) {
   for (const double tick_ms :
        {9.0, 11.0, 12.0}) {  // k * 0.009 falls below the written time for half of all k
     for (std::size_t k = 1; k < 1000; ++k) {
-      const Steps steps{ratio(0.0), {{static_cast<double>(k) * tick_ms / 1000.0, ratio(0.1)}}};
+      const Target steps = Steps{ratio(0.0), {{static_cast<double>(k) * tick_ms / 1000.0, ratio(0.1)}}};
       const auto heights = sample(steps, k + 1, tick_ms / 1000.0, rest_length_m);
       ASSERT_EQ(heights[k], 0.1) << k << " ticks of " << tick_ms << " ms";
       ASSERT_EQ(heights[k - 1], 0.0) << k << " ticks of " << tick_ms << " ms";
@@ -104,11 +104,11 @@ TEST(Points, AreJoinedByStraightLinesAndHeldOutside) {
 }
 
 TEST(Target, LastChangeIsTheEndOfTheLastMove) {
-  EXPECT_EQ(last_change_s(Steps{ratio(0.0), {{1.0, ratio(0.1)}, {2.5, ratio(0.0)}}}), 2.5);
-  EXPECT_EQ(last_change_s(Steps{ratio(0.1), {}}), 0.0);
-  EXPECT_EQ(last_change_s(MinimumJerk{ratio(0.0), {{1.0, 2.0, ratio(0.1)}}}), 3.0);
-  EXPECT_EQ(last_change_s(Points{{{1.0, ratio(0.1)}, {3.0, ratio(0.2)}}}), 3.0);
-  EXPECT_EQ(last_change_s(Sine{ratio(0.1), ratio(0.05), 1.0, 0.0}), std::nullopt);
+  EXPECT_EQ(last_change_s(Target(Steps{ratio(0.0), {{1.0, ratio(0.1)}, {2.5, ratio(0.0)}}})), 2.5);
+  EXPECT_EQ(last_change_s(Target(Steps{ratio(0.1), {}})), 0.0);
+  EXPECT_EQ(last_change_s(Target(MinimumJerk{ratio(0.0), {{1.0, 2.0, ratio(0.1)}}})), 3.0);
+  EXPECT_EQ(last_change_s(Target(Points{{{1.0, ratio(0.1)}, {3.0, ratio(0.2)}}})), 3.0);
+  EXPECT_EQ(last_change_s(Target(Sine{ratio(0.1), ratio(0.05), 1.0, 0.0})), std::nullopt);
 }
 
 TEST(Target, RangeSeesExtremesBetweenTicksAndStopsAtTheDuration) {

@@ -24,15 +24,14 @@ inline domain::Dataset on_a_bench(const plant::Rig& truth, double noise_N) {
     run.rest_length_m = truth.muscle.rest_length_m;
     domain::Measurement& measured = run.measured.emplace();
     measured.point_s = 5.0;
-    measured.length_is_given = measured.sides[0].pressure_is_given = true;
     for (double k = 0.0; k < 9.0; k += 1.0) {
       measured.time_s.push_back(measured.point_s * k);
-      measured.contraction_ratio.push_back(length);
-      measured.sides[0].muscle_pressure_Pa.push_back(5e4 * (k + 1.0));
+      measured.give("contraction").push_back(length);
+      measured.give("muscle_pressure").push_back(5e4 * (k + 1.0));
     }
     const Loaded held{truth, 0.0};
-    measured.force_N = predict(run, {&held, 1}).front().judged;
-    for (double& force_N : measured.force_N) force_N = std::max(0.0, force_N + noise(random));
+    measured.take("force") = predict(run, {&held, 1}).front().judged;
+    for (double& force_N : measured.take("force")) force_N = std::max(0.0, force_N + noise(random));
   }
   return data::with_rows(std::move(data));
 }

@@ -82,19 +82,19 @@ TEST(Faults, CurrentThatTheValveDidNotHave) {
 
 /// With a valve that takes 0 to 10 V.
 domain::Dataset in_volts(domain::Dataset data) {
-  data.rig.valve.zero_command = {0.0, plant::RatedCommand::Unit::V};
-  data.rig.valve.span_command = {10.0, plant::RatedCommand::Unit::V};
+  for (domain::Run& run : data.runs)
+    for (double& command : run.current_mA) command = 10.0 * (command - 4.0) / plant::thesis_span_mA;
+  plant::command_in(data.rig, plant::CommandUnit::V, 0.0, 10.0);
   return data;
 }
 
 TEST(Faults, VoltsThatTheValveDidNotHave) {
   auto data = in_volts(undisturbed());
-  const double zero_mA = data.rig.valve.zero_current_mA;
-  for (double& current_mA : data.runs[4].current_mA) current_mA = zero_mA + 1.05 * (current_mA - zero_mA);
+  for (double& command_V : data.runs[4].current_mA) command_V *= 1.05;
   expect_one(data, FaultKind::current_scale, 4, 0.05, 0.005);
   EXPECT_EQ(told(data, {4, FaultKind::current_scale, 0.05}).words,
             "has a command that is 1.050 times what the valve had");
-  EXPECT_EQ(told(data, {4, FaultKind::current_offset, 1.6}).words,
+  EXPECT_EQ(told(data, {4, FaultKind::current_offset, 1.0}).words,
             "has a command that is 1.00 V more than what the valve had");
 }
 
@@ -110,10 +110,9 @@ domain::Dataset driven_by_pressure(std::size_t run, double factor, double offset
     for (std::size_t k = 0; k < each.contraction_ratio.size(); ++k) {
       measured.time_s.push_back(static_cast<double>(k) * data.rig.tick_s);
       const double read_Pa = (*each.muscle_pressure_Pa)[k];
-      measured.sides[0].muscle_pressure_Pa.push_back(off ? factor * read_Pa + offset_Pa : read_Pa);
+      measured.give("muscle_pressure").push_back(off ? factor * read_Pa + offset_Pa : read_Pa);
     }
-    measured.sides[0].pressure_is_given = true;
-    measured.contraction_ratio = std::exchange(each.contraction_ratio, {});
+    measured.take("contraction") = std::exchange(each.contraction_ratio, {});
     each.current_mA.clear();
     each.muscle_pressure_Pa.reset();
   }

@@ -1,5 +1,4 @@
 // Numbers that depart further than they are stated to, in place of names.
-#include <cmath>
 #include <limits>
 
 #include <gtest/gtest.h>

@@ -51,19 +51,18 @@ inline domain::Dataset of_a_joint(const Rig& truth, bool commands = false, Joint
       measured.time_s.push_back(0.012 * static_cast<double>(k));
       const auto shares = shares_at(i, measured.time_s.back());
       for (std::size_t side = 0; side < 2; ++side) {
-        auto& [current_mA, pressure_Pa, given] = measured.sides[side];
-        given = !commands;
         if (commands)
-          current_mA.push_back(4.0 + 16.0 * shares[side]);
+          measured.give("command", side + 1).push_back(4.0 + 16.0 * shares[side]);
         else
-          pressure_Pa.push_back(5e5 * shares[side]);
+          measured.give("muscle_pressure", side + 1).push_back(5e5 * shares[side]);
       }
     }
     const Loaded pair{truth};
-    measured.angle_rad = predict(run, {&pair, 1}, noise.method).front().judged;
-    for (double& angle_rad : measured.angle_rad) angle_rad += noise.angle_rad * normal(random);
-    for (auto& side : measured.sides)
-      for (double& pressure_Pa : side.muscle_pressure_Pa) pressure_Pa += noise.pressure_Pa * normal(random);
+    measured.take("angle") = predict(run, {&pair, 1}, noise.method).front().judged;
+    for (double& angle_rad : measured.take("angle")) angle_rad += noise.angle_rad * normal(random);
+    for (domain::MeasuredColumn& column : measured.columns)
+      if (column.is_pressure())
+        for (double& pressure_Pa : column.values) pressure_Pa += noise.pressure_Pa * normal(random);
   }
   return data::with_rows(std::move(data));
 }
@@ -71,9 +70,9 @@ inline domain::Dataset of_a_joint(const Rig& truth, bool commands = false, Joint
 /// The same joint seen from behind: muscle 1 is muscle 2, and the angle turns the other way.
 inline domain::Dataset mirrored(domain::Dataset data) {
   for (domain::Run& run : data.runs) {
-    std::swap(run.measured->sides[0], run.measured->sides[1]);
-    for (auto* angles : {&run.measured->angle_rad, &run.angle_rad})
-      for (double& angle_rad : *angles) angle_rad = -angle_rad;
+    for (domain::MeasuredColumn& column : run.measured->columns)
+      if (column.channel.muscle > 0) column.channel.muscle = 3 - column.channel.muscle;
+    for (double& angle_rad : run.angle_rad) angle_rad = -angle_rad;
   }
   return data;
 }

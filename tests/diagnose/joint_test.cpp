@@ -121,11 +121,11 @@ TEST(Joint, ReadingsThatAreNotWhatTheirColumnsSayAreRefusedWithTheLineToWrite) {
       << refused(data, times(-1.0));
   EXPECT_NE(refused(data, times(1.0 / plant::degree_rad)).find("{angle: {column: angle_rad, unit: deg}}"),
             std::string::npos);
-  data.columns.angle = {.column = "elbow", .unit = "deg"};
+  data.columns["angle"] = {.column = "elbow", .unit = "deg"};
   EXPECT_NE(refused(data, times(plant::degree_rad)).find("{angle: {column: elbow, unit: rad}}"),
             std::string::npos);
   const auto exchange = [](domain::Run& run) {
-    std::swap(run.measured->sides[0].muscle_pressure_Pa, run.measured->sides[1].muscle_pressure_Pa);
+    run.measured->take("muscle_pressure", 1).swap(run.measured->take("muscle_pressure", 2));
   };
   EXPECT_NE(refused(data, exchange).find("exchange muscle 1 and muscle 2"), std::string::npos);
 }

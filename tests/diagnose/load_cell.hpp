@@ -7,7 +7,6 @@
 
 #include <fmt/format.h>
 
-#include <sim/data/judged.hpp>
 #include <sim/diagnose/predict.hpp>
 
 namespace mckibben::diagnose {
@@ -32,11 +31,10 @@ inline domain::Dataset with_a_cell(const plant::Rig& truth, CellNoise noise = {}
     run.load_kg = 10.0 + 6.0 * static_cast<double>(i / 2);
     run.rest_length_m = truth.muscle.rest_length_m;
     domain::Measurement& measured = run.measured.emplace();
-    measured.sides[0].pressure_is_given = true;
     for (std::size_t k = 0; k < rows_with_a_cell; ++k) {
       measured.time_s.push_back(0.012 * static_cast<double>(k));
       const double turn = 2.0 * std::numbers::pi * measured.time_s.back() / (i % 2 == 0 ? 1.2 : 0.7);
-      measured.sides[0].muscle_pressure_Pa.push_back(2.8e5 - (i % 2 == 0 ? 1.6e5 : 1e5) * std::cos(turn));
+      measured.give("muscle_pressure").push_back(2.8e5 - (i % 2 == 0 ? 1.6e5 : 1e5) * std::cos(turn));
     }
     // What is not given is not predicted: the column says that a cell is there.
     run.force_N.assign(rows_with_a_cell, 0.0);
@@ -45,8 +43,8 @@ inline domain::Dataset with_a_cell(const plant::Rig& truth, CellNoise noise = {}
     run.force_N.clear();
     for (double& ratio : readings.judged) ratio += noise.ratio * normal(random);
     for (double& force_N : readings.force_N) force_N += noise.force_N * normal(random);
-    measured.contraction_ratio = std::move(readings.judged);
-    measured.force_N = std::move(readings.force_N);
+    measured.take("contraction") = std::move(readings.judged);
+    measured.take("force") = std::move(readings.force_N);
   }
   return data;
 }

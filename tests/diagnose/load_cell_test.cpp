@@ -32,7 +32,7 @@ std::string refusal(domain::Dataset data) {
 domain::Dataset forces_times(double factor) {
   domain::Dataset data = with_a_cell({});
   for (domain::Run& run : data.runs)
-    for (double& force_N : run.measured->force_N) force_N *= factor;
+    for (double& force_N : run.measured->take("force")) force_N *= factor;
   return data;
 }
 
@@ -51,6 +51,36 @@ TEST(LoadCell, EachReadingWeighsByItsOwnFloor) {
   const double all = residuals.squaredNorm() / static_cast<double>(6 * rows_with_a_cell);
   EXPECT_GT(all, 1.4);  // one of each reading, or a little less
   EXPECT_LT(all, 2.1);
+}
+
+TEST(ValveGauge, WeighsByItsOwnFloor) {
+  constexpr double noise_Pa = 900.0;
+  std::mt19937_64 random(4);
+  std::normal_distribution<double> normal;
+  domain::Dataset data;
+  data.own_clock = true;
+  domain::Run& run = data.runs.emplace_back();
+  run.id = "r1";
+  run.load_kg = 12.0;
+  domain::Measurement& measured = run.measured.emplace();
+  for (int k = 0; k < 640; ++k) {
+    measured.time_s.push_back(0.012 * k);
+    measured.give("command").push_back(12.0 + 4.0 * std::sin(0.02 * k));
+  }
+  run.valve_pressure_Pa.emplace();  // says that a gauge is there
+  const Loaded hanging{data.rig, run.load_kg};
+  auto readings = predict(run, {&hanging, 1}).front();
+  run.valve_pressure_Pa.reset();
+  for (double& read_Pa : readings.valve_pressure_Pa) read_Pa += noise_Pa * normal(random);
+  measured.take("contraction") = std::move(readings.judged);
+  measured.take("valve_pressure") = std::move(readings.valve_pressure_Pa);
+  data = data::with_rows(std::move(data));
+  const Experiment experiment(data, {std::vector<bool>(640, false)}, 1, {0});
+  EXPECT_NEAR(experiment.floor().valve_Pa, noise_Pa, 0.25 * noise_Pa);
+  EXPECT_EQ(experiment.floor().pressure_Pa, 0.0);
+  EXPECT_EQ(experiment.rows(0), 1280u);
+  const auto residuals = experiment.residuals(data.rig, {0});
+  EXPECT_NEAR(*experiment.rmse(Beside::valve_pressure, residuals, {0}), noise_Pa, 0.25 * noise_Pa);
 }
 
 /// How much more the cord carries on the way up than on the way down, on average, over the weight.
@@ -89,7 +119,7 @@ TEST(LoadCell, AReadingThatIsMissingCostsNoOther) {
   domain::Dataset data = with_a_cell({});
   for (domain::Run& run : data.runs)
     for (std::size_t k = 0; k < rows_with_a_cell; ++k)
-      if (k % 10 != 0) run.measured->force_N[k] = std::nan("");
+      if (k % 10 != 0) run.measured->take("force")[k] = std::nan("");
   data = data::with_rows(std::move(data));
   const Checked checked = check(data, 2);
   EXPECT_TRUE(checked.left_out.empty());
@@ -105,7 +135,7 @@ TEST(LoadCell, BesideCountsOfAnEncoderHasAFloorToo) {
   const double count = data::reading_per_count(data.rig);
   for (domain::Run& run : data.runs) {
     run.measured->counted = true;
-    for (double& ratio : run.measured->contraction_ratio) ratio = count * std::floor(ratio / count);
+    for (double& ratio : run.measured->take("contraction")) ratio = count * std::floor(ratio / count);
   }
   data = data::with_rows(std::move(data));
   const Experiment experiment(data, check(data, 2).masked, 2, every_run);

@@ -74,7 +74,9 @@ TEST(NominalParameters, AreKnownAsWellAsTheRigSays) {
   EXPECT_DOUBLE_EQ(named(list, "muscle.rest_length")->scale, 1e-3);
   EXPECT_GT(named(list, "hose.conductance")->scale, 2.9 * named(usual, "hose.conductance")->scale);
   EXPECT_EQ(named(list, "friction.scale")->scale, named(usual, "friction.scale")->scale);
-  EXPECT_EQ(list.size(), usual.size());  // one more, one less
+  ASSERT_NE(named(list, "valve.zero_command"), list.end());
+  EXPECT_DOUBLE_EQ(named(list, "valve.zero_command")->scale, 0.1);
+  EXPECT_EQ(list.size(), usual.size() + 1);  // two more, one less
 }
 
 TEST(NominalParameters, IncludeTheSizesOfEffectsThatTheRigHas) {

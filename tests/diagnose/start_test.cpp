@@ -4,6 +4,7 @@
 #include <sim/diagnose/start.hpp>
 
 #include "planted.hpp"
+#include "says.hpp"
 
 namespace mckibben::diagnose {
 namespace {
@@ -32,10 +33,8 @@ TEST(Start, IsASuspectWhereRunsBeginInMotion) {
   EXPECT_GT(start.share_of_gap, 0.5);
   EXPECT_LT(start.share_of_time, 0.3);
   const std::string said = sentence_of(start, gap, domain::Start::settled);
-  EXPECT_NE(said.find("in the first 1 s"), std::string::npos) << said;
-  EXPECT_NE(said.find("Not settled at the start"), std::string::npos) << said;
-  EXPECT_NE(said.find("start: moving"), std::string::npos) << said;
-  EXPECT_EQ(sentence_of(start, gap, domain::Start::moving).find("settled"), std::string::npos);
+  EXPECT_TRUE(holds(said, "in the first 1 s", "Not settled at the start", "start: moving"));
+  EXPECT_TRUE(lacks(sentence_of(start, gap, domain::Start::moving), "settled"));
   EXPECT_EQ(sentence_of(start, {.noise_floor = 1e-3, .corrected_rmse = 1e-3}, domain::Start::settled), "");
 }
 

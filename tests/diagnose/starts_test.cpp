@@ -1,6 +1,5 @@
 // Where a recalibration begins if numbers are hardly known.
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include <gtest/gtest.h>

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <sim/diagnose/subsets.hpp>
-#include <sim/diagnose/thresholds.hpp>
 
 namespace mckibben::diagnose {
 namespace {

@@ -28,11 +28,10 @@ domain::Dataset begun_on_its_way(plant::Rig& creeping) {
   run.rest_length_m = data.rig.muscle.rest_length_m;
   domain::Measurement& measured = run.measured.emplace();
   measured.recorded = data.recorded;
-  measured.sides[0].pressure_is_given = true;
   measured.first = {0.19, 0.0, 0.0, {}};
   for (int k = 0; k < 150; ++k) {
     measured.time_s.push_back(0.02 * k);
-    measured.sides[0].muscle_pressure_Pa.push_back(2e5 - 5e4 * std::cos(0.1 * k));
+    measured.give("muscle_pressure").push_back(2e5 - 5e4 * std::cos(0.1 * k));
   }
   for (std::size_t k = 15; k < 150; ++k) measured.rows.push_back(k);
   const Loaded hanging{creeping, run.load_kg};
@@ -85,7 +84,7 @@ TEST(Underway, AReplayReadsWhatADiagnosisReads) {
 
 TEST(Underway, AGivenPressureLeavesValveHoseAndGasOutOfSight) {
   domain::Dataset given;
-  given.runs.emplace_back().measured.emplace().sides[0].pressure_is_given = true;
+  given.runs.emplace_back().measured.emplace().give("muscle_pressure");
   const auto all = catalogue(), seen = catalogue(given);
   const auto names = effects_out_of_sight();
   EXPECT_EQ(names.size(), 9u);

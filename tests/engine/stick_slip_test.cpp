@@ -1,5 +1,4 @@
 // Exact Coulomb friction: the load sticks without creeping, breaks away at the level, and needs few events.
-#include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>

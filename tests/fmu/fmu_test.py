@@ -233,9 +233,23 @@ class AnFmu(unittest.TestCase):
             self.assertEqual(fmu.answers(["0 step 0 0.012"])[-1], "failed")
             self.assertEqual(fmu.answers(["0 set 999999 1"])[-1], "failed")
             self.assertEqual(fmu.answers(["0 init 0"], token="{another}")[-1], "failed")
-            zero, span = fmu.reference["valve.zero_current"], fmu.reference["valve.span_current"]
+            zero, span = fmu.reference["valve.zero_command"], fmu.reference["valve.span_command"]
             broken = fmu.answers([f"0 set {zero} 12", f"0 set {span} 8", "0 init 0", "0 start"])
-            self.assertEqual(broken, ["valve.span_current: must be above zero_current", "failed"])
+            self.assertEqual(broken, ["valve.span_command: must be above zero_command", "failed"])
+
+    def test_of_a_rig_in_volts_takes_volts(self):
+        self.rig.write_text("schema: mckibben-rig/1\nvalve: {zero_command: -5 V, span_command: 5 V}\n")
+        for fmu in self.each():
+            command = next(each for each in fmu.variables if each.get("name") == "command")
+            said = fmu.typed(command)
+            self.assertEqual([said.get(key) for key in ("unit", "start", "min", "max")], ["V", "-5", "-5", "5"])
+            self.assertNotIn("current", fmu.reference)
+            zero = next(each for each in fmu.variables if each.get("name") == "valve.zero_command")
+            self.assertEqual(fmu.typed(zero).get("unit"), "V")
+            steps = [f"0 step {k * 0.012!r} 0.012" for k in range(100)]
+            risen = fmu.answers(["0 init 0", "0 start", f"0 set {fmu.reference['command']} 3", *steps,
+                                 f"0 get {fmu.reference['encoder_contraction_ratio']}"])
+            self.assertGreater(float(risen[0]), 0.05)
 
     def test_of_a_pair_has_two_currents(self):
         fmu = Fmu(self.folder, "thesis_pair", "2.0", "--true-states")

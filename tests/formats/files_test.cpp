@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <sim/formats/mat_file.hpp>
-#include <sim/formats/netcdf_file.hpp>
+#include <sim/formats/netcdf.hpp>
 
 namespace mckibben::formats {
 namespace {

@@ -9,15 +9,13 @@
 #include <vector>
 
 #include <sim/cli/run_folders.hpp>
-#include <sim/input/ascii.hpp>
 #include <sim/input/calibration_file.hpp>
 #include <sim/input/campaign_file.hpp>
-#include <sim/input/csv.hpp>
 #include <sim/input/dataset_file.hpp>
+#include <sim/input/fields_json.hpp>
 #include <sim/input/hypothesis_file.hpp>
-#include <sim/input/lvm.hpp>
-#include <sim/input/mat.hpp>
 #include <sim/input/quantity.hpp>
+#include <sim/input/readers.hpp>
 #include <sim/input/rigs.hpp>
 #include <sim/input/scenario_file.hpp>
 
@@ -55,16 +53,21 @@ const Scratch& folder() {
   return one;
 }
 
+/// What is read and written is the same when it is read again. `written`: of a text.
+template <class Written>
+void reads_back(const std::string& bytes, Written written) {
+  std::string once;
+  if (was_read([&] { once = written(bytes); }))
+    require(written(once) == once, "not the same when read again");
+}
+
 void scenario(const std::string& bytes) {
-  const auto written = [](const std::string& text) {
+  reads_back(bytes, [](const std::string& text) {
     std::vector<input::Problem> warnings;
     return input::scenario_json(
                input::read_scenario(input::Source("fuzz.yaml", text, "/nonexistent"), warnings))
         .dump();
-  };
-  std::string once;
-  if (was_read([&] { once = written(bytes); }))
-    require(written(once) == once, "not the same when read again");
+  });
 }
 
 void campaign(const std::string& bytes) {
@@ -73,33 +76,27 @@ void campaign(const std::string& bytes) {
 }
 
 void rig(const std::string& bytes) {
-  const auto written = [](const std::string& text) {
+  reads_back(bytes, [](const std::string& text) {
     std::vector<domain::InputFile> inputs;
     return input::rig_json(input::read_rig(folder().write("rig.yaml", text), inputs)).dump();
-  };
-  std::string once;
-  if (was_read([&] { once = written(bytes); }))
-    require(written(once) == once, "not the same when read again");
+  });
 }
 
 void calibration(const std::string& bytes) {
-  const auto written = [](const std::string& text) {
+  reads_back(bytes, [](const std::string& text) {
     std::vector<domain::InputFile> inputs;
     return input::calibration_yaml(input::read_calibration(folder().write("calibration.yaml", text), inputs));
-  };
-  std::string once;
-  if (was_read([&] { once = written(bytes); }))
-    require(written(once) == once, "not the same when read again");
+  });
 }
 
 void hypothesis(const std::string& bytes) {
-  const auto written = [](const std::string& text) {
+  reads_back(bytes, [](const std::string& text) {
     std::vector<domain::InputFile> inputs;
-    return input::hypothesis_yaml(input::read_hypothesis(folder().write("law.yaml", text).string(), inputs));
-  };
-  std::string once;
-  if (was_read([&] { once = written(bytes); }))
-    require(written(once) == once, "not the same when read again");
+    auto law =
+        input::hypothesis_json(input::read_hypothesis(folder().write("law.yaml", text).string(), inputs));
+    law["schema"] = input::hypothesis_schema;
+    return law.dump();
+  });
 }
 
 void dataset(const std::string& bytes) {

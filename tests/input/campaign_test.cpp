@@ -1,11 +1,10 @@
 // Campaigns: what is read, names of currents, round trips, and that the shipped one is the thesis's.
-#include <cmath>
 
 #include <gtest/gtest.h>
 
 #include <sim/input/campaign_file.hpp>
+#include <sim/input/field_list.hpp>
 #include <sim/input/fields_json.hpp>
-#include <sim/input/json_schema.hpp>
 #include <sim/input/yaml_writer.hpp>
 
 namespace mckibben::input {
@@ -45,7 +44,7 @@ TEST(Campaign, ReadsEveryKindOfField) {
 
 TEST(Campaign, StepsBeginAtTheValvesZeroCurrent) {
   const Campaign campaign = campaign_of(
-      "schema: mckibben-campaign/1\nrig: {valve: {zero_current: 1 mA}}\nloads: [11 kg]\n"
+      "schema: mckibben-campaign/1\nrig: {valve: {zero_command: 1 mA}}\nloads: [11 kg]\n"
       "currents: [{duration: 2 s, current: {kind: step_current, moves: [{at: 1 s, to: 9 mA}]}}]\n");
   EXPECT_EQ(std::get<controllers::StepCurrent>(*campaign.currents.at(0).current).start_mA, 1.0);
 }
@@ -53,7 +52,7 @@ TEST(Campaign, StepsBeginAtTheValvesZeroCurrent) {
 TEST(Campaign, APairHasTwoCurrentsEachThatFollowTheirValves) {
   const Campaign campaign = campaign_of(
       "schema: mckibben-campaign/1\n"
-      "rig: {base: thesis_pair, mechanics: {kind: pair, opposite: {valve: {zero_current: 1 mA}}}}\n"
+      "rig: {base: thesis_pair, mechanics: {kind: pair, opposite: {valve: {zero_command: 1 mA}}}}\n"
       "currents:\n"
       "  - duration: 2 s\n"
       "    current_1: {kind: step_current, moves: []}\n"

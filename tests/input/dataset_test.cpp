@@ -8,11 +8,10 @@
 
 #include <gtest/gtest.h>
 
-#include <sim/input/ascii.hpp>
-#include <sim/input/csv.hpp>
 #include <sim/input/dataset_file.hpp>
-#include <sim/input/lvm.hpp>
+#include <sim/input/readers.hpp>
 
+#include "says.hpp"
 #include "scratch.hpp"
 
 namespace mckibben::input {
@@ -66,12 +65,10 @@ std::string said_of(const char* text) {
 }
 
 TEST(Csv, DecimalSignsThatCannotBeAreSaid) {
-  EXPECT_NE(said_of("time_s,current_mA\n0,012,4,5\n")
-                .find("this row has 4 cells; the header has 2; with decimal "
-                      "commas columns must stand between semicolons or tabs"),
-            std::string::npos);
-  EXPECT_NE(said_of("time_s;current_mA\n0,012;4.5\n").find("the decimal sign of this file is a comma"),
-            std::string::npos);
+  EXPECT_TRUE(holds(said_of("time_s,current_mA\n0,012,4,5\n"),
+                    "this row has 4 cells; the header has 2; with decimal "
+                    "commas columns must stand between semicolons or tabs"));
+  EXPECT_TRUE(holds(said_of("time_s;current_mA\n0,012;4.5\n"), "the decimal sign of this file is a comma"));
 }
 
 TEST(Csv, TimesWithinAMicrosecondAreTicks) {
@@ -163,12 +160,12 @@ TEST_F(DatasetFolder, RunsWithAndWithoutGauge) {
   write("dataset.yaml",
         "schema: mckibben-dataset/1\nrig: my_rig.yaml\nruns:\n"
         "  - {id: r01, file: one.csv, load: 11.138 kg}\n  - {id: r02, file: two.csv, load: 5000 g}\n");
-  write("my_rig.yaml", "schema: mckibben-rig/1\ndac: {largest_current: 25 mA}\n");
+  write("my_rig.yaml", "schema: mckibben-rig/1\ndac: {largest_command: 25 mA}\n");
   write("one.csv", "contraction_ratio,time_s,current_mA\n0.001,0,4\n0.002,0.012,24\n");
   write("two.csv", "time_s,current_mA,contraction_ratio,muscle_pressure_bar\n0,4,0,0.5\n");
   for (const fs::path& path : {fs::path(folder_), folder_ / "dataset.yaml"}) {
     const Dataset dataset = read_dataset(path);
-    EXPECT_EQ(dataset.rig.dac.largest_current_mA, 25.0);
+    EXPECT_EQ(dataset.rig.dac.largest_command, 25.0);
     ASSERT_EQ(dataset.runs.size(), 2u);
     EXPECT_EQ(dataset.runs[0].current_mA, (std::vector<double>{4.0, 24.0}));
     EXPECT_EQ(dataset.runs[0].contraction_ratio, (std::vector<double>{0.001, 0.002}));

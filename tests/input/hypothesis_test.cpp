@@ -3,9 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <sim/domain/rig_number.hpp>
+#include <sim/input/field_list.hpp>
 #include <sim/input/fields_json.hpp>
 #include <sim/input/hypothesis_file.hpp>
-#include <sim/input/json_schema.hpp>
 
 #include "rig_text.hpp"
 #include "scratch.hpp"
@@ -60,7 +60,9 @@ TEST(Hypothesis, IsReadInSi) {
   ASSERT_EQ(text.memories.size(), 1u);
   EXPECT_EQ(text.memories[0].unit, "m");
   // What is written is the same law.
-  const OwnLaw again = read_hypothesis(scratch.write("again.yaml", hypothesis_yaml(law)).string(), inputs);
+  Json written = hypothesis_json(law);
+  written["schema"] = hypothesis_schema;
+  const OwnLaw again = read_hypothesis(scratch.write("again.yaml", written.dump()).string(), inputs);
   EXPECT_EQ(*again.text, text);
 }
 

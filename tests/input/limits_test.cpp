@@ -3,11 +3,10 @@
 
 #include <gtest/gtest.h>
 
-#include <sim/input/csv.hpp>
 #include <sim/input/json_file.hpp>
 #include <sim/input/limits.hpp>
-#include <sim/input/lvm.hpp>
 #include <sim/input/quantity.hpp>
+#include <sim/input/readers.hpp>
 #include <sim/input/yaml_file.hpp>
 
 namespace mckibben::input {

@@ -28,7 +28,7 @@ Scenario read() {
 TEST(OpenLoopScenario, LoadsTheCalibrationOfEachController) {
   Scenario scenario = read();
   for (auto& settings : scenario.controllers) {
-    const auto* calibrated = controllers::calibrated(settings);
+    const auto* calibrated = controllers::part_of<controllers::CalibrationTerms>(settings);
     ASSERT_NE(calibrated, nullptr);
     EXPECT_EQ(calibrated->model.contraction.a0, (controllers::InLoad{3e3, 2e4}));
     EXPECT_EQ(calibrated->model.range.highest_load_kg, 23.5);

@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <sim/input/csv.hpp>
 #include <sim/input/csv_layout.hpp>
 #include <sim/input/dataset_file.hpp>
 #include <sim/input/dates.hpp>

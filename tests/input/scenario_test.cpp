@@ -148,7 +148,7 @@ TEST(Rig, AValueSaidAnewIsKnownAsWellAsIsSaidAnew) {
   rig.spreads = {{"muscle.rest_radius", 1e-4}, {"muscle.rest_length", 1e-3}};
   const YamlFile file = parse_yaml(Source("rig.yaml", "muscle: {rest_radius: 7 mm}", ""));
   Problems problems;
-  read_struct(file.source, file.root, rig, problems, {}, {&rig.spreads});
+  read_struct(file.source, file.root, rig, problems, {}, {{}, &rig.spreads});
   EXPECT_EQ(problems.errors(), 0u);
   EXPECT_EQ(rig.spreads, (plant::Spreads{{"muscle.rest_length", 1e-3}}));
 }

@@ -5,10 +5,10 @@
 #include <gtest/gtest.h>
 
 #include <sim/input/dataset_file.hpp>
-#include <sim/input/field_table.hpp>
-#include <sim/input/json_schema.hpp>
+#include <sim/input/field_list.hpp>
 
 #include "good_scenario.hpp"
+#include "says.hpp"
 
 namespace mckibben::input {
 namespace {
@@ -71,13 +71,11 @@ TEST(JsonSchema, KnowsEachKindOfSensorAndTheKeysFromBefore) {
 
 TEST(FieldTable, HasARowForEachFieldAndASectionForEachPart) {
   const std::string table = field_table("Rig", list_fields<Rig>());
-  EXPECT_NE(table.find("| `tick` | s | 0.012 s | 0.0001 s to 1 s | time between two readings"),
-            std::string::npos);
-  EXPECT_NE(table.find("## Rig: muscle\n"), std::string::npos);
-  EXPECT_NE(table.find("| `bits` |  | 12 | 4 to 24 |"), std::string::npos);
+  EXPECT_TRUE(holds(table, "| `tick` | s | 0.012 s | 0.0001 s to 1 s | time between two readings",
+                    "## Rig: muscle\n", "| `bits` |  | 12 | 4 to 24 |"));
   const std::string runs = field_table("Data set", list_fields<Dataset>());
-  EXPECT_NE(runs.find("| `load` | kg |  | 0.01 kg to 500 kg | mass of the load; required where one hangs |"),
-            std::string::npos);
+  EXPECT_TRUE(
+      holds(runs, "| `load` | kg |  | 0.01 kg to 500 kg | mass of the load; required where one hangs |"));
 }
 
 }  // namespace

@@ -33,6 +33,16 @@ TEST(Upgrade, SaysWhichKeysAreGoneAndWhere) {
   EXPECT_TRUE(found[1].starts_with("old.yaml:6:5: extrapolate_target: remove it")) << found[1];
 }
 
+TEST(Upgrade, SaysWhatCommandsAreCalledToday) {
+  const auto found = notes(
+      "schema: mckibben-scenario/1\n"
+      "rig: {valve: {zero_current: 0 mA}, dac: {largest_current: 10 mA}}\n"
+      "controllers: [{kind: pid, lowest_current: 1 mA, highest_command: 9 mA}]\n");
+  ASSERT_EQ(found.size(), 3u);
+  EXPECT_EQ(found[0], "old.yaml:2:15: zero_current: write zero_command");
+  EXPECT_EQ(found[2], "old.yaml:3:27: lowest_current: write lowest_command");
+}
+
 TEST(Upgrade, ShowsTheListInPlaceOfEachSensorsOwnKey) {
   const auto found = notes(
       "schema: mckibben-scenario/1\n"

@@ -19,9 +19,9 @@ std::string refusal(std::string_view text) {
 }
 
 TEST(LiveCommands, EachIsRead) {
-  EXPECT_EQ(std::get<SetCurrent>(read_command(R"({"do": "current", "mA": 9.5})")).mA, 9.5);
-  EXPECT_EQ(std::get<SetCurrent>(read_command(R"({"do": "current", "mA": 9.5})")).muscle, 1);
-  EXPECT_EQ(std::get<SetCurrent>(read_command(R"({"do": "current", "mA": 9.5, "muscle": 2})")).muscle, 2);
+  EXPECT_EQ(std::get<SetCommand>(read_command(R"({"do": "command", "to": 9.5})")).to, 9.5);
+  EXPECT_EQ(std::get<SetCommand>(read_command(R"({"do": "command", "to": 9.5})")).muscle, 1);
+  EXPECT_EQ(std::get<SetCommand>(read_command(R"({"do": "command", "to": 9.5, "muscle": 2})")).muscle, 2);
   EXPECT_EQ(std::get<SetLoad>(read_command(R"({"do": "load", "kg": 3})")).kg, 3.0);
   const auto sweep = std::get<Sweep>(
       read_command(R"({"do": "sweep", "shape": "stairs", "low": 4, "high": 12, "period": 7})"));
@@ -38,24 +38,24 @@ TEST(LiveCommands, EachIsRead) {
 }
 
 TEST(LiveCommands, NonsenseIsRefusedWithWhatIsWrong) {
-  const std::string object = "a command is a JSON object, such as {\"do\": \"current\", \"mA\": 9.5}";
+  const std::string object = "a command is a JSON object, such as {\"do\": \"command\", \"to\": 9.5}";
   for (const char* text :
        {"", "current", "[1]", "{", "{\"do\": \"again\"", "null", "\xff\xfe", "{'do': 'again'}"})
     EXPECT_EQ(refusal(text), object) << text;
   EXPECT_EQ(refusal("{}"), "do: is missing");
   EXPECT_EQ(refusal(R"({"do": 3})"), "do = 3: must be a text");
   EXPECT_EQ(refusal(R"({"do": "explode"})"),
-            "do = \"explode\": must be current, sweep, load, effect, again, run, record or stop");
-  EXPECT_EQ(refusal(R"({"do": "current"})"), "mA: is missing");
-  EXPECT_EQ(refusal(R"({"do": "current", "mA": "9"})"), "mA = \"9\": must be a number");
-  EXPECT_EQ(refusal(R"({"do": "current", "mA": null})"), "mA = null: must be a number");
-  EXPECT_EQ(refusal(R"({"do": "current", "mA": 9, "volts": 3})"), "\"volts\": is no key of this command");
-  EXPECT_EQ(refusal(R"({"do": "current", "mA": 9, "muscle": 1.5})"), "muscle = 1.5: must be a whole number");
+            "do = \"explode\": must be command, sweep, load, effect, again, run, record or stop");
+  EXPECT_EQ(refusal(R"({"do": "command"})"), "to: is missing");
+  EXPECT_EQ(refusal(R"({"do": "command", "to": "9"})"), "to = \"9\": must be a number");
+  EXPECT_EQ(refusal(R"({"do": "command", "to": null})"), "to = null: must be a number");
+  EXPECT_EQ(refusal(R"({"do": "command", "to": 9, "volts": 3})"), "\"volts\": is no key of this command");
+  EXPECT_EQ(refusal(R"({"do": "command", "to": 9, "muscle": 1.5})"), "muscle = 1.5: must be a whole number");
   EXPECT_EQ(refusal(R"({"do": "run", "on": 1})"), "on = 1: must be true or false");
   EXPECT_EQ(refusal(R"({"do": "sweep", "shape": "saw", "low": 4, "high": 12, "period": 7})"),
             "shape = \"saw\": must be sine, triangle or stairs");
   EXPECT_LT(refusal("{\"do\": \"" + std::string(3000, 'x') + "\"}").size(), 120u) << "words are cut short";
-  EXPECT_NE(refusal("{\"do\": \"current\", \"mA\": " + std::string(400, '9') + "}"), "");
+  EXPECT_NE(refusal("{\"do\": \"command\", \"to\": " + std::string(400, '9') + "}"), "");
 }
 
 }  // namespace

@@ -2,9 +2,7 @@
 // it goes.
 #include <algorithm>
 #include <chrono>
-#include <fstream>
 #include <functional>
-#include <sstream>
 #include <string>
 #include <thread>
 
@@ -97,7 +95,7 @@ TEST_F(LiveHost, RefusesWhatIsNotTheTimeFor) {
   EXPECT_EQ(host.obey(StopRecording{}), "nothing is being recorded");
   ASSERT_EQ(host.obey(Record{false}), "");
   EXPECT_EQ(host.obey(Record{false}), "a recording is under way");
-  EXPECT_EQ(host.obey(SetCurrent{99.0}), "mA = 99: must be from 0 to 20 mA");
+  EXPECT_EQ(host.obey(SetCommand{99.0}), "to = 99: must be from 0 to 20 mA");
   ASSERT_EQ(host.obey(StopRecording{}), "");
   host.write_recordings(say);
   EXPECT_FALSE(fs::exists(scratch / "out")) << "a handful of rows is no run";
@@ -129,7 +127,7 @@ TEST_F(LiveHost, OfTwoMusclesWhatIsRecordedFromRestReplaysToTheCount) {
   rig = plant::thesis_pair();
   rig.sensors.put(plant::gauge());
   Host host(rig, 0.0, sets());
-  ASSERT_EQ(host.obey(SetCurrent{9.0, 2}), "");
+  ASSERT_EQ(host.obey(SetCommand{9.0, 2}), "");
   record(host, true, 150);
   EXPECT_EQ(host.obey(Record{false}),
             "of two muscles a recording begins from rest: their data sets cannot say otherwise");
@@ -139,7 +137,7 @@ TEST_F(LiveHost, OfTwoMusclesWhatIsRecordedFromRestReplaysToTheCount) {
   ASSERT_EQ(data.runs.size(), 1u);
   const auto replayed = run::replay(data, 1, [](const std::string&, std::size_t, std::size_t) {});
   const auto& samples = replayed.at(0).recording.samples;
-  const auto& read = data.runs[0].measured->angle_rad;
+  const auto& read = data.runs[0].measured->read("angle");
   ASSERT_EQ(samples.size(), read.size());
   const double per_count = plant::count_height_m(rig) / rig.joint.wheel_radius_m;
   for (std::size_t k = 0; k < samples.size(); ++k)

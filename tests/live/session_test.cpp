@@ -30,7 +30,7 @@ TEST(LiveSession, StepsAreThoseOfARideToTheBit) {
   ASSERT_EQ(session.set_sweep(up_and_down()), "");
   ride::Ride ride(ride::Loaded{rig, load_kg}, rig.integrator);
   ride::Drive drive;
-  drive.current_mA = plant::dac_output_mA(rig.dac, rig.valve.zero_current_mA);
+  drive.current_mA = plant::dac_output_mA(rig.dac, rig.valve.zero_command);
   const auto settling = std::lround(rig.settling_time_s / rig.tick_s);
   ride.start(drive, -static_cast<double>(settling) * rig.tick_s);
   for (auto k = -settling + 1; k <= 0; ++k) ride.step(drive, static_cast<double>(k) * rig.tick_s);
@@ -46,6 +46,19 @@ TEST(LiveSession, StepsAreThoseOfARideToTheBit) {
     highest = std::max(highest, now.contraction_ratio);
   }
   EXPECT_GT(highest, 0.05);
+}
+
+TEST(LiveSession, OfARigInVoltsIsMovedByVolts) {
+  plant::Rig rig;
+  plant::command_in(rig, plant::CommandUnit::V, -5.0, 5.0);
+  rig.dac = plant::dac_for(rig.valve);
+  Session session(rig, load_kg);
+  EXPECT_EQ(session.step().current_mA, -5.0);
+  EXPECT_EQ(session.set_command(9.0), "to = 9: must be from -5 to 5 V");
+  EXPECT_EQ(session.set_command(4.0), "");
+  go(session, 200);
+  EXPECT_NEAR(session.now().current_mA, 4.0, 10.0 / 4096.0);
+  EXPECT_GT(session.now().state.side.muscle_pressure_Pa, 4e5);
 }
 
 TEST(LiveSession, WhatIsSwitchedWhileItMovesLeavesTheStateAsItIs) {
@@ -85,7 +98,7 @@ TEST(LiveSession, WhatIsSwitchedWhileItMovesLeavesTheStateAsItIs) {
 
 TEST(LiveSession, AnotherLoadBeginsWhereTheFirstOneWas) {
   Session session(plant::Rig{}, load_kg);
-  ASSERT_EQ(session.set_current(10.0), "");
+  ASSERT_EQ(session.set_command(10.0), "");
   go(session, 300);
   const double before = session.now().contraction_ratio;
   ASSERT_EQ(session.set_load(0.5 * load_kg), "");
@@ -115,10 +128,10 @@ TEST(LiveSession, EffectsOfTheFileAreOnAtTheirSizes) {
 
 TEST(LiveSession, WhatCannotBeIsRefusedWithItsRuleAndChangesNothing) {
   Session session(plant::Rig{}, load_kg);
-  ASSERT_EQ(session.set_current(9.0), "");
+  ASSERT_EQ(session.set_command(9.0), "");
   const double nan = std::nan("");
-  EXPECT_EQ(session.set_current(20.5), "mA = 20.5: must be from 0 to 20 mA");
-  EXPECT_EQ(session.set_current(nan), "mA = nan: must be from 0 to 20 mA");
+  EXPECT_EQ(session.set_command(20.5), "to = 20.5: must be from 0 to 20 mA");
+  EXPECT_EQ(session.set_command(nan), "to = nan: must be from 0 to 20 mA");
   EXPECT_EQ(session.set_sweep({Sweep::Shape::sine, 9.0, 9.0, 5.0}),
             "high = 9: must be above low, which is 9 mA");
   EXPECT_EQ(session.set_sweep({Sweep::Shape::sine, 4.0, 9.0, 0.0}), "period = 0: must be from 0.1 to 1000 s");
@@ -127,8 +140,8 @@ TEST(LiveSession, WhatCannotBeIsRefusedWithItsRuleAndChangesNothing) {
   EXPECT_EQ(session.set_effect("muscle_leak", true, -1.0, 0.0),
             "size = -1: must be from 0 to 1e-08 m3/(s.Pa)");
   EXPECT_EQ(session.set_effect("bladder_creep", true, 100.0, 0.0), "shape = 0: must be from 0.02 to 1000 s");
-  EXPECT_EQ(session.set_current(9.0, 2), "muscle = 2: there is none of that number");
-  EXPECT_EQ(session.wanted_mA()[0], 9.0);
+  EXPECT_EQ(session.set_command(9.0, 2), "muscle = 2: there is none of that number");
+  EXPECT_EQ(session.wanted()[0], 9.0);
   EXPECT_EQ(session.load_kg(), load_kg);
   EXPECT_FALSE(session.sweep().has_value());
   EXPECT_TRUE(session.untouched());
@@ -150,7 +163,7 @@ TEST(LiveSession, WhereTheIntegrationGivesUpItSaysSoAndCanBeginAgain) {
       own_law(plant::LawTarget::force, "-F * sqrt(0.06 - e)", {{"F", law::newton, 5.0}})};
   Session session(rig, load_kg);
   ASSERT_EQ(session.failure(), "");
-  ASSERT_EQ(session.set_current(20.0), "");
+  ASSERT_EQ(session.set_command(20.0), "");
   for (int k = 0; k < 1000 && session.failure().empty(); ++k) session.step();
   ASSERT_NE(session.failure(), "");
   EXPECT_NE(session.failure().find("effects.hypotheses"), std::string::npos) << session.failure();
@@ -158,7 +171,7 @@ TEST(LiveSession, WhereTheIntegrationGivesUpItSaysSoAndCanBeginAgain) {
   EXPECT_EQ(session.step().time_s, stood) << "nothing moves any more";
   EXPECT_EQ(session.set_load(20.0), "");
   EXPECT_NE(session.failure(), "");
-  ASSERT_EQ(session.set_current(4.0), "");
+  ASSERT_EQ(session.set_command(4.0), "");
   session.start_over();
   EXPECT_EQ(session.failure(), "");
   EXPECT_EQ(session.now().time_s, 0.0);
@@ -169,7 +182,7 @@ TEST(LiveSession, WhereTheIntegrationGivesUpItSaysSoAndCanBeginAgain) {
 
 TEST(LiveSession, TheFirstTickIsUnderWhatItHasSettledUnder) {
   Session session(plant::Rig{}, load_kg);
-  ASSERT_EQ(session.set_current(12.0), "");
+  ASSERT_EQ(session.set_command(12.0), "");
   const double settled_mA = session.step().current_mA;
   EXPECT_NEAR(settled_mA, 4.0, 0.01);
   EXPECT_TRUE(session.untouched());
@@ -195,9 +208,9 @@ TEST(LivePair, StepsAreThoseOfARideToTheBitAndASweepSetsThemAgainstEachOther) {
     drive.current_mA = plant::dac_output_mA(rig.dac, one_mA);
     drive.opposite.current_mA = plant::dac_output_mA(rig.dac, two_mA);
   };
-  hold(rig.valve.zero_current_mA, rig.valve.zero_current_mA);
+  hold(rig.valve.zero_command, rig.valve.zero_command);
   ride::Ride ride = settled_pair(rig, drive);
-  ASSERT_EQ(session.set_current(9.0, 2), "");
+  ASSERT_EQ(session.set_command(9.0, 2), "");
   double highest = 0.0, lowest = 0.0;
   for (int k = 0; k < 400; ++k) {
     if (k == 100) {
@@ -207,9 +220,9 @@ TEST(LivePair, StepsAreThoseOfARideToTheBitAndASweepSetsThemAgainstEachOther) {
     EXPECT_EQ(now.contraction_ratio, ride.flow().state.joint.contraction_ratio) << k;
     EXPECT_EQ(now.state.opposite.muscle_pressure_Pa, ride.flow().state.opposite.muscle_pressure_Pa) << k;
     if (k < 100)
-      hold(rig.valve.zero_current_mA, k == 0 ? rig.valve.zero_current_mA : 9.0);
+      hold(rig.valve.zero_command, k == 0 ? rig.valve.zero_command : 9.0);
     else
-      hold(session.wanted_mA()[0], 18.0 - session.wanted_mA()[0]);
+      hold(session.wanted()[0], 18.0 - session.wanted()[0]);
     EXPECT_EQ(now.opposite.current_mA, drive.opposite.current_mA) << k;
     ride.step(drive, (k + 1) * rig.tick_s);
     highest = std::max(highest, now.angle_rad), lowest = std::min(lowest, now.angle_rad);

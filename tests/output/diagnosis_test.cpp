@@ -14,12 +14,11 @@
 #include <sim/input/fields_json.hpp>
 #include <sim/input/hypothesis_file.hpp>
 #include <sim/input/rigs.hpp>
-#include <sim/output/diagnosis_json.hpp>
-#include <sim/output/diagnosis_rig.hpp>
-#include <sim/output/diagnosis_table.hpp>
+#include <sim/output/diagnosis_results.hpp>
 #include <sim/output/diagnosis_words.hpp>
 
 #include "diagnosed.hpp"
+#include "says.hpp"
 #include "scratch.hpp"
 
 namespace mckibben::output {
@@ -100,7 +99,7 @@ TEST(DiagnosisJson, TellsHowOftenSuchNamesWereRight) {
   EXPECT_EQ(told(0).at("of"), right.of);
   EXPECT_EQ(told(0).at("right"), right.yes);
   EXPECT_EQ(told(0).at("ci95").at(0), right.interval()[0]);
-  EXPECT_NE(table_of(measured(), found).find("muscle_leak: " + in_words(right)), std::string::npos);
+  EXPECT_TRUE(holds(table_of(measured(), found), "muscle_leak: " + in_words(right)));
 }
 
 TEST(DiagnosisJson, TellsWhatWasReadBesideOnlyWhereSomethingWas) {
@@ -112,7 +111,7 @@ TEST(DiagnosisJson, TellsWhatWasReadBesideOnlyWhereSomethingWas) {
                    {"recalibrated_rmse", 4.0}, {"corrected_rmse", 0.6}};
   EXPECT_EQ(Json::parse(json_of(measured(), diagnosis)).at("gap").at("beside").at(0), force);
   const std::string table = table_of(measured(), diagnosis);
-  EXPECT_NE(table.find("each weighed by its own floor"), std::string::npos) << table;
+  EXPECT_TRUE(holds(table, "each weighed by its own floor"));
 }
 
 TEST(DiagnosisJson, TellsWhatSlopesWouldSayOnlyOfIntervalsByProfile) {
@@ -168,10 +167,10 @@ TEST(DiagnosisRig, ReadsBackToTheSameNumbers) {
   const diagnose::Diagnosis found = diagnosed();
   const std::string text = rig_yaml(measured(), found);
   EXPECT_EQ(input::rig_json(read_back(text)), input::rig_json(found.corrected)) << text;
-  EXPECT_NE(text.find("\nbase: thesis\n"), std::string::npos);
-  EXPECT_EQ(text.find("rest_length:"), std::string::npos) << "holds what did not change";
-  EXPECT_EQ(text.find("viscous_damping"), std::string::npos) << "holds an effect that is off";
-  EXPECT_NE(text.find("95 % interval 0.582 to 0.654 l/(min bar)"), std::string::npos) << text;
+  EXPECT_TRUE(holds(text, "\nbase: thesis\n"));
+  EXPECT_TRUE(lacks(text, "rest_length:")) << "holds what did not change";
+  EXPECT_TRUE(lacks(text, "viscous_damping")) << "holds an effect that is off";
+  EXPECT_TRUE(holds(text, "95 % interval 0.582 to 0.654 l/(min bar)"));
 }
 
 TEST(DiagnosisRig, HoldsEveryFieldOfARigThatIsNotShipped) {
@@ -180,8 +179,8 @@ TEST(DiagnosisRig, HoldsEveryFieldOfARigThatIsNotShipped) {
   diagnose::Diagnosis found = diagnosed();
   found.corrected.muscle.rest_length_m = 0.4;
   const std::string text = rig_yaml(data, found);
-  EXPECT_EQ(text.find("base:"), std::string::npos);
-  EXPECT_NE(text.find("settling_time:"), std::string::npos);
+  EXPECT_TRUE(lacks(text, "base:"));
+  EXPECT_TRUE(holds(text, "settling_time:"));
   EXPECT_EQ(input::rig_json(read_back(text)), input::rig_json(found.corrected)) << text;
 }
 
@@ -206,12 +205,10 @@ TEST(DiagnosisPlan, IsACampaignWithThatCurrentAndLoadOnTheCorrectedRig) {
 TEST(DiagnosisTable, SaysWhatCounts) {
   const std::string text = table_of(measured(), diagnosed());
   EXPECT_LT(text.find("warning: run r04"), text.find("missing_effect: "));
-  EXPECT_NE(text.find("0.619 l/(min bar)"), std::string::npos) << text;
-  EXPECT_NE(text.find("muscle.rest_radius"), std::string::npos);
-  EXPECT_EQ(text.find("muscle.braid_angle"), std::string::npos) << "moved by half a deviation only";
-  EXPECT_NE(text.find("valve_dead_band: valve_hysteresis"), std::string::npos);
-  EXPECT_NE(text.find("98.8 %"), std::string::npos);
-  EXPECT_NE(text.find("16.138 kg: separates valve_dead_band and valve_hysteresis"), std::string::npos);
+  EXPECT_TRUE(holds(text, "0.619 l/(min bar)", "muscle.rest_radius"));
+  EXPECT_TRUE(lacks(text, "muscle.braid_angle")) << "moved by half a deviation only";
+  EXPECT_TRUE(holds(text, "valve_dead_band: valve_hysteresis", "98.8 %",
+                    "16.138 kg: separates valve_dead_band and valve_hysteresis"));
 }
 
 TEST(DiagnosisWords, GiveAsManyDigitsAsTheIntervalAllows) {

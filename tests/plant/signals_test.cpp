@@ -30,12 +30,29 @@ TEST(Signals, TheFileOfARunBeginsWithTheColumnsThatOthersReadItBy) {
             0u);
 }
 
+TEST(Signals, CommandsAreInWhatTheValveTakes) {
+  Rig rig;
+  command_in(rig, CommandUnit::V, 0.0, 10.0);
+  EXPECT_EQ(names_of(measured_channels(rig, {})), "time_s,command_V,encoder_contraction_ratio");
+  EXPECT_EQ(names_of(recorded_channels(rig, {.pair = true})).find("time_s,command_1_V,command_2_V,"), 0u);
+  command_in(rig, CommandUnit::bar, 0.0, 5.0);
+  Sample row;
+  row.current_mA = 2.5;
+  const auto channels = channels_of(rig, {});
+  const Channel& command = channel_of(channels, "command");
+  EXPECT_EQ(command.name(), "command_bar");
+  EXPECT_EQ(command.value(row), 2.5);
+  EXPECT_EQ(in_unit(CommandUnit::V, "currents of 4 mA, 2 s2/mA2"), "commands of 4 V, 2 s2/V2");
+}
+
 TEST(Signals, WhatIsGivenHasNothingUpstreamAndALengthHasAForce) {
-  const std::string given = names_of(recorded_channels({}, {.length = true, .pressure = {true, false}}));
+  const std::string given =
+      names_of(recorded_channels({}, {.length = true, .pressure = {GivenPressure::muscle}}));
   EXPECT_EQ(given.find("time_s,contraction_ratio,contraction_speed_per_s,muscle_pressure_bar,force_N,"
                        "encoder_contraction_ratio"),
             0u);
-  const std::string one = names_of(recorded_channels({}, {.pair = true, .pressure = {false, true}}));
+  const std::string one = names_of(
+      recorded_channels({}, {.pair = true, .pressure = {GivenPressure::none, GivenPressure::muscle}}));
   EXPECT_NE(one.find("current_1_mA"), std::string::npos);
   EXPECT_EQ(one.find("current_2_mA"), std::string::npos);
   EXPECT_EQ(one.find("valve_pressure_2_bar"), std::string::npos);
@@ -79,7 +96,7 @@ TEST(Signals, AFurtherSensorIsAFurtherColumn) {
   const std::string one = names_of(recorded_channels(fitted, {}));
   EXPECT_TRUE(one.ends_with(",gauge_valve_pressure_bar")) << one;
   EXPECT_EQ(names_of(recorded_channels({}, {})), one.substr(0, one.rfind(',')));
-  EXPECT_TRUE(names_of(recorded_channels(fitted, {.pair = true, .pressure = {true, false}}))
+  EXPECT_TRUE(names_of(recorded_channels(fitted, {.pair = true, .pressure = {GivenPressure::muscle}}))
                   .ends_with(",gauge_valve_pressure_2_bar"));
   EXPECT_EQ(recorded_channels(fitted, {}).back().name_in_dataset(), "valve_pressure_bar");
   for (const auto& [sensed, key] : names(Sensed{}))

@@ -1,12 +1,14 @@
-/* Controllers in a library that are wrong in one way each (tests/controllers/guest_test.cpp): LATER is of
- * another version, POOR lacks functions, SILENT gives no current. */
+/* Controllers in a library that are wrong in one way each (tests/controllers/guest_test.cpp): LATER and EARLIER
+ * are of another version, POOR lacks functions, SILENT gives no current. */
 #include <math.h>
 
 #include <mckibben_controller.h>
 
 int mckibben_controller_version(void) {
 #ifdef LATER
-  return 2;
+  return 3;
+#elif defined EARLIER
+  return 1;
 #else
   return MCKIBBEN_CONTROLLER_VERSION;
 #endif

@@ -93,12 +93,32 @@ class Rides(unittest.TestCase):
         ride = mckibben.Ride(load_kg=11.138)
         for bad in (lambda: mckibben.Ride("thesis"), lambda: mckibben.Ride("thesis", load_kg=-1.0),
                     lambda: mckibben.Ride("thesis_pair", load_kg=1.0), lambda: ride.step(float("nan")),
-                    lambda: ride.step(9.0, dt_s=0.0), lambda: ride.step(9.0, opposite_current_mA=9.0),
+                    lambda: ride.step(9.0, dt_s=0.0), lambda: ride.step(9.0, opposite_command=9.0),
                     lambda: ride.follow(numpy.ones((2, 2))), lambda: ride.follow([numpy.inf])):
             with self.assertRaises(ValueError):
                 bad()
         with self.assertRaises(TypeError):
             ride.step("9 mA")
+
+    def test_commands_are_in_what_the_valve_takes(self):
+        rig = mckibben.Rig({"valve": {"zero_command": "0 V", "span_command": "10 V"}})
+        self.assertEqual((rig.command_unit, rig.command_range), ("V", (0.0, 10.0)))
+        volts, current = mckibben.Ride(rig, load_kg=14.0), mckibben.Ride(load_kg=14.0)
+        run = volts.follow((CURRENTS - 4.0) / 1.6)
+        self.assertEqual(run.units["command_V"], "V")
+        same = current.follow(current_mA=CURRENTS)
+        numpy.testing.assert_allclose(run["contraction_ratio"], same["contraction_ratio"], rtol=0, atol=1e-9)
+        self.assertIn(("command_V", "V"), volts.linearise().inputs)
+        batch = mckibben.Batch(rig, [14.0, 15.0])
+        for refused in (lambda: volts.step(current_mA=9.0), lambda: batch.step(current_mA=9.0),
+                        lambda: rig.dac_output_mA(9.0), lambda: mckibben.Batch([rig, mckibben.Rig()], [14.0, 15.0])):
+            with self.assertRaises(ValueError):
+                refused()
+        with self.assertRaises(TypeError):
+            current.step(9.0, current_mA=9.0)
+        env = mckibben.Env(rig, duration_s=0.6)
+        env.reset(seed=1)
+        self.assertIn("command_V", env.step([0.0])[4])
 
     def test_a_failure_says_why(self):
         soft = {"muscle": {"stop_stiffness": "1000 N/m", "stop_damping": "0 s/m"}}

@@ -9,7 +9,6 @@
 #include <sim/formats/mat_file.hpp>
 #include <sim/input/diagnostics.hpp>
 #include <sim/recognise/headings.hpp>
-#include <sim/recognise/names.hpp>
 #include <sim/recognise/recognise.hpp>
 
 #include "scratch.hpp"

@@ -1,7 +1,6 @@
 // The page of a diagnosis: its story in order, its pictures, its runs; with something in every part of it and
 // with next to nothing. How it looks and moves is tested in tests/browser.
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include <fmt/format.h>
@@ -12,6 +11,7 @@
 
 #include "count.hpp"
 #include "diagnosed.hpp"
+#include "says.hpp"
 
 namespace mckibben::report {
 namespace {
@@ -36,20 +36,20 @@ std::string visible(const std::string& html) {
 
 TEST(DiagnosisPage, TellsWhatSlopesWouldSayWhereAnIntervalIsByProfile) {
   auto found = diagnosed();
-  EXPECT_EQ(report_html(measured(), found, {}, {}).find("By profile:"), std::string::npos);
+  EXPECT_TRUE(lacks(report_html(measured(), found, {}, {}), "By profile:"));
   found.effects[0].parameters[0].quadratic = {0.98e-10, 1.2e-10};
   const std::string html = report_html(measured(), found, {}, {});
-  EXPECT_NE(html.find("0.582 to 0.654 l/(min bar), by profile"), std::string::npos);
-  EXPECT_NE(html.find("would be muscle_leak.conductance 0.588 to 0.720 l/(min bar)."), std::string::npos);
+  EXPECT_TRUE(holds(html, "0.582 to 0.654 l/(min bar), by profile",
+                    "would be muscle_leak.conductance 0.588 to 0.720 l/(min bar)."));
 }
 
 TEST(DiagnosisPage, TellsTheStoryInOrder) {
   const std::string html = report_html(measured(), diagnosed(), {}, {});
   EXPECT_EQ(count(html, "<script"), count(html, "</script>"));
-  EXPECT_EQ(html.find(" src="), std::string::npos);
+  EXPECT_TRUE(lacks(html, " src="));
   EXPECT_EQ(count(html, "href="), count(html, "href='#"));
-  EXPECT_EQ(html.find("<held out>"), std::string::npos);  // of the sentence, which tries to be a tag
-  EXPECT_EQ(visible(html).find("nan"), std::string::npos);
+  EXPECT_TRUE(lacks(html, "<held out>"));  // of the sentence, which tries to be a tag
+  EXPECT_TRUE(lacks(visible(html), "nan"));
   std::size_t at = 0;
   for (const char* part : {"<h1>Diagnosis of measured",
                            "runs &lt;held out&gt;",
@@ -88,11 +88,10 @@ TEST(DiagnosisPage, LeavesOutWhatThereIsNot) {
   diagnose::Diagnosis nothing;
   nothing.verdict = diagnose::Verdict::nothing_missing;
   const std::string html = report_html(measured(), nothing, {}, {});
-  EXPECT_NE(html.find("Nothing is missing."), std::string::npos);
-  for (const char* part : {"<h2>", "<svg", "<script", "nan"})
-    EXPECT_EQ(html.find(part), std::string::npos) << part;
+  EXPECT_TRUE(holds(html, "Nothing is missing."));
+  EXPECT_TRUE(lacks(html, "<h2>", "<svg", "<script", "nan"));
   nothing.runs = {{.id = "empty", .held_out = true}};
-  EXPECT_EQ(report_html(measured(), nothing, {}, {}).find("nan"), std::string::npos);
+  EXPECT_TRUE(lacks(report_html(measured(), nothing, {}, {}), "nan"));
 }
 
 TEST(DiagnosisPage, HasNoCorrectedRigWhereNothingWasChanged) {
@@ -102,9 +101,8 @@ TEST(DiagnosisPage, HasNoCorrectedRigWhereNothingWasChanged) {
   found.residual_law.clear();
   found.recalibrated.clear();
   const std::string html = report_html(measured(), found, {}, {});
-  EXPECT_NE(html.find("\"name\":\"recalibrated\""), std::string::npos);
-  EXPECT_EQ(html.find("\"name\":\"corrected\""), std::string::npos);
-  EXPECT_EQ(html.find("\u2192"), std::string::npos);  // nominal -> corrected
+  EXPECT_TRUE(holds(html, "\"name\":\"recalibrated\""));
+  EXPECT_TRUE(lacks(html, "\"name\":\"corrected\"", "\u2192"));  // nominal -> corrected
 }
 
 TEST(DiagnosisPictures, BarsOfAllRoundsHaveOneScaleAndNothingIsDrawnBelowChanceThatWasNotFitted) {
@@ -114,10 +112,10 @@ TEST(DiagnosisPictures, BarsOfAllRoundsHaveOneScaleAndNothingIsDrawnBelowChanceT
                    {"supply_line", "", 2, 5.9, 1.0, false, 0.0, 0.0, "score too small"}};
   const auto rounds = ranking_pictures(found, {});
   ASSERT_EQ(rounds.size(), 2u);
-  EXPECT_NE(rounds[0].svg.find("width='200.0' height='13.0' class='empty'"), std::string::npos);
-  EXPECT_NE(rounds[1].svg.find("width='100.0' height='13.0' class='empty'"), std::string::npos);
-  EXPECT_EQ(rounds[1].svg.find("supply_line"), std::string::npos);
-  EXPECT_NE(rounds[1].caption.find("supply_line"), std::string::npos);
+  EXPECT_TRUE(holds(rounds[0].svg, "width='200.0' height='13.0' class='empty'"));
+  EXPECT_TRUE(holds(rounds[1].svg, "width='100.0' height='13.0' class='empty'"));
+  EXPECT_TRUE(lacks(rounds[1].svg, "supply_line"));
+  EXPECT_TRUE(holds(rounds[1].caption, "supply_line"));
 }
 
 // The statistic by which an effect was taken is the one that is drawn: how far the misfit fell, not what the
@@ -126,8 +124,7 @@ TEST(DiagnosisPictures, WhatWasTakenLiesBeyondChance) {
   diagnose::Diagnosis found = diagnosed();
   found.ranking = {{"muscle_leak", "", 1, 9.0, 1.0, true, 0.0009, 0.0010, "taken: the best fit", 10000.0}};
   const std::string svg = ranking_pictures(found, {}).front().svg;
-  EXPECT_NE(svg.find("width='200.0' height='13.0' class='bar c0'"), std::string::npos) << svg;
-  EXPECT_NE(svg.find(">10000<"), std::string::npos) << svg;
+  EXPECT_TRUE(holds(svg, "width='200.0' height='13.0' class='bar c0'", ">10000<"));
 }
 
 TEST(DiagnosisPage, AsksForNothingMoreOnlyWhereNothingIsLeft) {
@@ -135,11 +132,11 @@ TEST(DiagnosisPage, AsksForNothingMoreOnlyWhereNothingIsLeft) {
   found.next_experiment.reset();
   found.effects.back().confusable_with.clear();
   const std::string enough = "No further measurement is needed";
-  EXPECT_NE(report_html(measured(), found, {}, {}).find(enough), std::string::npos);
+  EXPECT_TRUE(holds(report_html(measured(), found, {}, {}), enough));
   found.gap.corrected_rmse = 25.0 * found.gap.noise_floor;
   const std::string html = report_html(measured(), found, {}, {});
-  EXPECT_EQ(html.find(enough), std::string::npos);
-  EXPECT_NE(html.find("25.0 noise floors are left"), std::string::npos);
+  EXPECT_TRUE(lacks(html, enough));
+  EXPECT_TRUE(holds(html, "25.0 noise floors are left"));
 }
 
 TEST(DiagnosisPictures, FrameOnlyWhatIsSignificantAndStayPaleBelowTheNoiseFloor) {
@@ -149,10 +146,10 @@ TEST(DiagnosisPictures, FrameOnlyWhatIsSignificantAndStayPaleBelowTheNoiseFloor)
   EXPECT_EQ(count(factors[0].svg, "class='frame'"), 1u);
   EXPECT_EQ(count(factors[1].svg, "class='frame'"), 2u);
   EXPECT_EQ(count(factors[1].svg, "class='empty'"), 1u);
-  EXPECT_NE(factors[0].svg.find("<tspan class='mm'>+0.360 mm</tspan><tspan class='ratio'>+0.00120</tspan> *"),
-            std::string::npos);
+  EXPECT_TRUE(
+      holds(factors[0].svg, "<tspan class='mm'>+0.360 mm</tspan><tspan class='ratio'>+0.00120</tspan> *"));
   found.where = {{"direction", "contracting", 2000, 0.5 * found.gap.noise_floor, 1e-4, 1.0, 0.5, false}};
-  EXPECT_NE(where_pictures(found, {})[0].svg.find("fill-opacity='0.28'"), std::string::npos);  // half of 0.55
+  EXPECT_TRUE(holds(where_pictures(found, {})[0].svg, "fill-opacity='0.28'"));  // half of 0.55
 }
 
 TEST(DiagnosisPage, OfManyRunsNamesTheWorstOfEachLoadAndFoldsTheNamesOfThoseHeldOut) {
@@ -167,8 +164,8 @@ TEST(DiagnosisPage, OfManyRunsNamesTheWorstOfEachLoadAndFoldsTheNamesOfThoseHeld
     found.runs.back().corrected_rmse = 1e-4 * (i + 1);
   }
   const std::string html = visible(report_html(measured(), found, {}, {}));
-  EXPECT_NE(html.find("Error of height on the 10 runs held out, root"), std::string::npos);
-  EXPECT_NE(html.find("<details><summary>Which runs are held out</summary>"), std::string::npos);
+  EXPECT_TRUE(holds(html, "Error of height on the 10 runs held out, root",
+                    "<details><summary>Which runs are held out</summary>"));
   const auto loads = html.find("class='by-load'");
   ASSERT_NE(loads, std::string::npos);
   EXPECT_NE(html.find("data-group='10'>n19</a>", loads), std::string::npos);  // after the ten held out
@@ -200,7 +197,7 @@ TEST(DiagnosisPage, OfAHundredRunsStaysBelowTenMegabytes) {
   }
   const std::string html = report_html(data, found, replays, replays);
   EXPECT_LT(html.size(), 10'000'000u);
-  EXPECT_NE(html.find("effects_pull"), std::string::npos);
+  EXPECT_TRUE(holds(html, "effects_pull"));
 }
 
 }  // namespace

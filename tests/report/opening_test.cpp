@@ -12,6 +12,7 @@
 
 #include "count.hpp"
 #include "diagnosed.hpp"
+#include "says.hpp"
 
 namespace mckibben::report {
 namespace {
@@ -43,8 +44,8 @@ TEST(Opening, IsOfTheUnseenRunWhoseErrorShrankMost) {
   EXPECT_EQ(telling_run(found)->id, "r05");
   found.runs.clear();
   EXPECT_EQ(telling_run(found), nullptr);
-  EXPECT_EQ(opening(diagnosed()).find("r05"), std::string::npos);
-  EXPECT_NE(opening(diagnosed()).find("<figcaption>r06, 18.87 kg, held out."), std::string::npos);
+  EXPECT_TRUE(lacks(opening(diagnosed()), "r05"));
+  EXPECT_TRUE(holds(opening(diagnosed()), "<figcaption>r06, 18.87 kg, held out."));
 }
 
 TEST(Opening, ShowsMeasuredBeforeAndAfterButNotBetween) {
@@ -54,7 +55,7 @@ TEST(Opening, ShowsMeasuredBeforeAndAfterButNotBetween) {
   EXPECT_EQ(count(html, "<path class='given' d='"), 3u);               // over time, and as a loop
   EXPECT_EQ(count(html, "<path class='run c1 d1' data-run='1'"), 3u);  // and its error
   EXPECT_EQ(count(html, "<path class='run c0 d0' data-run='0'"), 3u);
-  EXPECT_EQ(html.find("recalibrated"), std::string::npos);
+  EXPECT_TRUE(lacks(html, "recalibrated"));
 }
 
 TEST(Opening, TheBandIsAsHighAsTheNoiseFloorOnEachSide) {
@@ -77,24 +78,22 @@ TEST(Opening, MarksWhatWasAddedWithItsSize) {
   diagnose::Diagnosis found = diagnosed();
   const std::string html = opening(found);
   EXPECT_EQ(count(html, "class='mark c0'"), 3u);  // leak, dead band, law
-  for (const char* part :
-       {"<circle class='mark c0' cx='64' cy='38'", ">1 muscle_leak<", ">0.619 l/(min bar)<",
-        "<circle class='mark c0' cx='46' cy='118'", ">2 valve_dead_band<", ">3 a law of force<"})
-    EXPECT_NE(html.find(part), std::string::npos) << part;
+  EXPECT_TRUE(holds(html, "<circle class='mark c0' cx='64' cy='38'", ">1 muscle_leak<", ">0.619 l/(min bar)<",
+                    "<circle class='mark c0' cx='46' cy='118'", ">2 valve_dead_band<", ">3 a law of force<"));
   EXPECT_EQ(count(html, "class='without'"), 1u);
   found.stand_ins = found.effects;
-  EXPECT_NE(opening(found).find(">and 2 more<"), std::string::npos);
+  EXPECT_TRUE(holds(opening(found), ">and 2 more<"));
 }
 
 TEST(Opening, WithoutEffectsMarksNumbersThatMovedAndElseNothing) {
   diagnose::Diagnosis found = diagnosed();
   found.effects.clear();
   found.residual_law.clear();
-  EXPECT_NE(opening(found).find(">1 muscle.rest_radius<"), std::string::npos);
+  EXPECT_TRUE(holds(opening(found), ">1 muscle.rest_radius<"));
   EXPECT_EQ(count(opening(found), "class='mark c0'"), 1u);  // the others moved less than is promised
   found.recalibrated.clear();
   EXPECT_EQ(count(opening(found), "class='mark c0'"), 0u);
-  EXPECT_EQ(opening(found).find("class='without'"), std::string::npos);
+  EXPECT_TRUE(lacks(opening(found), "class='without'"));
 }
 
 TEST(Opening, OfTwoMusclesNamesWhatWasFoundWithoutADrawing) {
@@ -103,10 +102,8 @@ TEST(Opening, OfTwoMusclesNamesWhatWasFoundWithoutADrawing) {
   domain::Dataset data = output::measured();
   data.rig = plant::thesis_pair();
   const std::string html = report_html(data, found, {}, {});
-  EXPECT_NE(html.find("<figure class='opening'>"), std::string::npos);
-  EXPECT_NE(html.find(">1 muscle_leak<"), std::string::npos);
-  EXPECT_EQ(html.find("class='mark c0' cx="), std::string::npos);
-  EXPECT_EQ(html.find("class='without'"), std::string::npos);
+  EXPECT_TRUE(holds(html, "<figure class='opening'>", ">1 muscle_leak<"));
+  EXPECT_TRUE(lacks(html, "class='mark c0' cx=", "class='without'"));
 }
 
 TEST(RigParts, EveryEffectAndEveryNumberHasAPlace) {
@@ -130,11 +127,10 @@ TEST(DiagnosisPage, PrintsItsStoryAndLeavesTheRestToTheScreen) {
   domain::Dataset data = output::measured();
   const std::string html = report_html(data, diagnosed(), {}, {});
   for (const char* chapter : {"Where they disagree", "What explains it", "What else it could be"})
-    EXPECT_NE(html.find("<section class='on-screen'><h2>" + std::string(chapter)), std::string::npos)
-        << chapter;
+    EXPECT_TRUE(holds(html, "<section class='on-screen'><h2>" + std::string(chapter))) << chapter;
   for (const char* chapter : {"What was added", "How far the gap shrank", "What to measure next"})
-    EXPECT_NE(html.find("<section><h2>" + std::string(chapter)), std::string::npos) << chapter;
-  EXPECT_NE(html.find("<section class='on-screen'><h2 id='runs'>"), std::string::npos);
+    EXPECT_TRUE(holds(html, "<section><h2>" + std::string(chapter))) << chapter;
+  EXPECT_TRUE(holds(html, "<section class='on-screen'><h2 id='runs'>"));
   EXPECT_EQ(count(html, "<section"), count(html, "</section>"));
 }
 

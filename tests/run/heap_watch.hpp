@@ -14,7 +14,7 @@ void start_heap_watch();
 /// Allocations since the start.
 long stop_heap_watch();
 
-/// Hands on to another controller and watches the heap from the first tick to the last.
+/// Hands on to another controller and watches the heap between the first tick and the last.
 class Watched final : public controllers::Controller {
  public:
   Watched(std::unique_ptr<controllers::Controller> inner, std::int64_t last)

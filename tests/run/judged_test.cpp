@@ -35,23 +35,21 @@ domain::Dataset recorded(double per_s, bool given) {
   run.load_kg = 12.0;
   run.rest_length_m = data.rig.muscle.rest_length_m;
   domain::Measurement& measured = run.measured.emplace();
-  domain::Measurement::Side& side = measured.sides[0];
-  side.pressure_is_given = given;
   for (double k = 0.0; k < 2.0 * per_s; k += 1.0) {
     const double at_s = 7.0 + (k + jitter(random)) / per_s;
     measured.time_s.push_back(at_s);
-    measured.contraction_ratio.push_back(truth(at_s) + noise_ratio * normal(random));
+    measured.take("contraction").push_back(truth(at_s) + noise_ratio * normal(random));
     if (given)
-      side.muscle_pressure_Pa.push_back(pressure_Pa(at_s) + noise_Pa * normal(random));
+      measured.give("muscle_pressure").push_back(pressure_Pa(at_s) + noise_Pa * normal(random));
     else
-      side.current_mA.push_back(at_s < 8.0007 ? 6.0 + at_s : 18.0);
+      measured.give("command").push_back(at_s < 8.0007 ? 6.0 + at_s : 18.0);
   }
   return data;
 }
 
 TEST(Judged, RowsSayWhatReadingsSayTogether) {
   domain::Dataset data = recorded(1000.0, false);
-  auto& ratio = data.runs[0].measured->contraction_ratio;
+  auto& ratio = data.runs[0].measured->take("contraction");
   std::fill(ratio.begin() + 500, ratio.begin() + 540, std::nan(""));
   data.recorded.skip_s = data.runs[0].measured->recorded.skip_s = 0.3;
   data = with_rows(std::move(data));
@@ -77,16 +75,16 @@ TEST(Judged, RowsSayWhatReadingsSayTogether) {
 TEST(Judged, AJumpOfTheCommandKeepsItsStamp) {
   domain::Dataset data = recorded(1000.0, false);
   const domain::Measurement raw = *data.runs[0].measured;
-  const auto jump = std::find(raw.sides[0].current_mA.begin(), raw.sides[0].current_mA.end(), 18.0);
-  const double jump_s = raw.time_s[static_cast<std::size_t>(jump - raw.sides[0].current_mA.begin())];
+  const auto jump = std::ranges::find(raw.given("command"), 18.0);
+  const double jump_s = raw.time_s[static_cast<std::size_t>(jump - raw.given("command").begin())];
   data = with_rows(std::move(data));
   const domain::Measurement& driving = *data.runs[0].measured;
   EXPECT_LT(driving.time_s.size(), 700u);
   const auto kept = std::find(driving.time_s.begin(), driving.time_s.end(), jump_s);
   ASSERT_NE(kept, driving.time_s.end());
   const auto at = static_cast<std::size_t>(kept - driving.time_s.begin());
-  EXPECT_EQ(driving.sides[0].current_mA[at], 18.0);
-  EXPECT_LT(driving.sides[0].current_mA[at - 1], 14.1);
+  EXPECT_EQ(driving.given("command")[at], 18.0);
+  EXPECT_LT(driving.given("command")[at - 1], 14.1);
 
   // What the load does is what it does from stamp to stamp.
   const auto end_of = [&](const domain::Measurement& measured) {
@@ -109,19 +107,54 @@ TEST(Judged, AGivenPressureIsSmoothedWhereItIsReadFast) {
   EXPECT_NEAR(data.rows_of_stamps->given_noise_Pa, noise_Pa, 0.1 * noise_Pa);
   double squares = 0.0, shaken = 0.0;
   for (std::size_t k = 0; k < driving.time_s.size(); ++k) {
-    const double given_Pa = driving.sides[0].muscle_pressure_Pa[k];
+    const double given_Pa = driving.given("muscle_pressure")[k];
     squares += std::pow(given_Pa - pressure_Pa(driving.time_s[k]), 2);
-    shaken += std::pow(given_Pa - data.runs[0].shaken->sides[0].muscle_pressure_Pa[k], 2);
+    shaken += std::pow(given_Pa - data.runs[0].shaken->given("muscle_pressure")[k], 2);
   }
   const auto rms = [&](double sum) { return std::sqrt(sum / static_cast<double>(driving.time_s.size())); };
   EXPECT_LT(rms(squares), 0.6 * noise_Pa);
   EXPECT_NEAR(rms(shaken), rms(squares), 0.2 * rms(squares));  // as much again
 }
 
+TEST(Judged, AGaugeOnTheValveHasANoiseOfItsOwn) {
+  std::mt19937_64 random(8);
+  std::normal_distribution<double> normal;
+  domain::Dataset data = recorded(1000.0, false);
+  domain::Measurement& measured = *data.runs[0].measured;
+  for (const double at_s : measured.time_s) {
+    measured.take("muscle_pressure").push_back(pressure_Pa(at_s) + 40.0 * normal(random));
+    measured.take("valve_pressure").push_back(pressure_Pa(at_s) + 400.0 * normal(random));
+  }
+  data = with_rows(std::move(data));
+  const domain::Rows& rows = *data.rows_of_stamps;
+  EXPECT_NEAR(rows.valve_noise_Pa / rows.pressure_noise_Pa, 10.0, 1.5);
+  EXPECT_EQ(data.runs[0].valve_pressure_Pa->size(), rows.rows);
+  EXPECT_FALSE(data.runs[0].opposite_valve_pressure_Pa);
+}
+
+// What drives a run, whatever it is, is there after rows were made of its stamps.
+TEST(Judged, AGivenForceAndValvePressureAreFollowed) {
+  domain::Dataset data = recorded(1000.0, false);
+  domain::Measurement& measured = *data.runs[0].measured;
+  std::erase_if(measured.columns, &domain::MeasuredColumn::is_command);
+  for (const double at_s : measured.time_s) {
+    measured.give("valve_pressure").push_back(pressure_Pa(at_s));
+    measured.give("joint_force").push_back(50.0 * std::sin(at_s));
+  }
+  data = with_rows(std::move(data));
+  const domain::Measurement& driving = *data.runs[0].measured;
+  ASSERT_EQ(driving.columns.size(), 2u);
+  for (std::size_t k = 0; k < driving.time_s.size(); ++k) {
+    EXPECT_NEAR(driving.given("valve_pressure")[k], pressure_Pa(driving.time_s[k]), 20.0);
+    EXPECT_NEAR(driving.given("joint_force")[k], 50.0 * std::sin(driving.time_s[k]), 0.05);
+  }
+  EXPECT_FALSE(data.pressure_is_given());  // that of the muscle
+}
+
 TEST(Judged, SlowReadingsStayAsTheyAre) {
   const domain::Dataset raw = recorded(50.0, true), data = with_rows(raw);
   EXPECT_FALSE(data.rows_of_stamps->smoothed);
-  EXPECT_EQ(data.runs[0].contraction_ratio, raw.runs[0].measured->contraction_ratio);
+  EXPECT_EQ(data.runs[0].contraction_ratio, raw.runs[0].measured->read("contraction"));
   EXPECT_EQ(data.runs[0].measured->time_s, raw.runs[0].measured->time_s);
   EXPECT_NEAR(data.row_s(), 0.02, 0.002);
   EXPECT_EQ(with_rows(data).runs[0].contraction_ratio, data.runs[0].contraction_ratio);  // once is enough

@@ -1,7 +1,5 @@
 // Two muscles under controllers on the rig itself: the stiffness that a row tells, models that are true and
 // wrong, delays, tuning, and no heap on the way.
-#include <algorithm>
-#include <cmath>
 #include <memory>
 #include <string>
 #include <utility>

@@ -1,6 +1,5 @@
 // Settled points: when their inputs act, what their readings scatter by, and cords that hang through.
 #include <algorithm>
-#include <cmath>
 #include <random>
 
 #include <gtest/gtest.h>
@@ -17,16 +16,15 @@ TEST(Points, AreReadAtTheEndOfTheirTime) {
   domain::Measurement measured;
   measured.point_s = 4.0;
   measured.time_s = {0.0, 4.0, 8.0};
-  measured.sides[0].current_mA = {5.0, 9.0, 7.0};
-  measured.length_is_given = true;
-  measured.contraction_ratio = {0.0, 0.1, 0.05};
+  measured.give("command") = {5.0, 9.0, 7.0};
+  measured.give("contraction") = {0.0, 0.1, 0.05};
   const Course course = course_of(measured, plant::Rig{});
   ASSERT_EQ(course.rows.size(), 3u);
   for (std::size_t k = 0; k < 3; ++k) {
     const std::size_t stamp = course.rows[k];
     EXPECT_EQ(course.time_s[stamp], measured.time_s[k]);
-    EXPECT_EQ(course.drives[stamp].current_mA, measured.sides[0].current_mA[k]);
-    EXPECT_EQ(*course.drives[stamp].contraction_ratio, measured.contraction_ratio[k]);
+    EXPECT_EQ(course.drives[stamp].current_mA, measured.given("command")[k]);
+    EXPECT_EQ(*course.drives[stamp].contraction_ratio, measured.given("contraction")[k]);
   }
   // The command of the next acts at once; its length is there after half of its time.
   EXPECT_EQ(course.drives[1].current_mA, 9.0);
@@ -41,12 +39,11 @@ TEST(Points, EvenStepsAreNoGrainOfTheSensor) {
   data.own_clock = true;
   domain::Measurement& measured = data.runs.emplace_back().measured.emplace();
   measured.point_s = 5.0;
-  measured.length_is_given = measured.sides[0].pressure_is_given = true;
   for (int k = 0; k < 10; ++k) {
     measured.time_s.push_back(5.0 * k);
-    measured.contraction_ratio.push_back(0.05);
-    measured.sides[0].muscle_pressure_Pa.push_back(5e4 * (k + 1));
-    measured.force_N.push_back(142.0 * (k + 1) + 0.5 * (k % 3));
+    measured.give("contraction").push_back(0.05);
+    measured.give("muscle_pressure").push_back(5e4 * (k + 1));
+    measured.take("force").push_back(142.0 * (k + 1) + 0.5 * (k % 3));
   }
   data = with_rows(std::move(data));
   EXPECT_EQ(data.rows_of_stamps->step, 0.0);
@@ -63,13 +60,12 @@ TEST(Points, ScatterIsWhatNeighboursDoNotExplain) {
   for (int length = 0; length < 4; ++length) {
     domain::Measurement& measured = data.runs.emplace_back().measured.emplace();
     measured.point_s = 1.0;
-    measured.length_is_given = measured.sides[0].pressure_is_given = true;
     for (int k = 0; k < 40; ++k) {  // up and down
       const double bar = 0.25 * (k < 20 ? k : 39 - k);
       measured.time_s.push_back(k);
-      measured.contraction_ratio.push_back(0.05 * length);
-      measured.sides[0].muscle_pressure_Pa.push_back(1e5 * bar);
-      measured.force_N.push_back(bar < 1.0 ? 0.0 : 300.0 * bar + 8.0 * bar * bar + noise(random));
+      measured.give("contraction").push_back(0.05 * length);
+      measured.give("muscle_pressure").push_back(1e5 * bar);
+      measured.take("force").push_back(bar < 1.0 ? 0.0 : 300.0 * bar + 8.0 * bar * bar + noise(random));
     }
   }
   data = with_rows(std::move(data));
@@ -81,7 +77,7 @@ TEST(Points, ScatterIsWhatNeighboursDoNotExplain) {
   EXPECT_EQ(std::count(run.missing.begin(), run.missing.end(), true), 8);
   EXPECT_EQ(run.judged().size(), 40u);
   EXPECT_TRUE(run.contraction_ratio.empty());
-  EXPECT_EQ(run.measured->contraction_ratio, std::vector<double>(40, 0.05));
+  EXPECT_EQ(run.measured->given("contraction"), std::vector<double>(40, 0.05));
 }
 
 }  // namespace

@@ -1,6 +1,4 @@
 // Ticks before tick 0: stepped in order, felt by the rig, left out of recording and ledger.
-#include <memory>
-#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>

@@ -23,13 +23,13 @@ Comparison of(const std::vector<TrackedRun>& runs) {
 }
 
 TEST(Remarks, SayHowLongAControllerStoodAtALimitAndWithWhichLoadMost) {
-  EXPECT_EQ(limit_words(of({stood(8.0, 0.3, 0.0)}), "pid"),
+  EXPECT_EQ(limit_words(of({stood(8.0, 0.3, 0.0)}), {}, "pid"),
             "stood at its lowest current, 4 mA, for 30 % of the time");
-  EXPECT_EQ(limit_words(of({stood(8.0, 0.3, 0.0), stood(9.5, 0.1, 0.1)}), "pid"),
+  EXPECT_EQ(limit_words(of({stood(8.0, 0.3, 0.0), stood(9.5, 0.1, 0.1)}), {}, "pid"),
             "stood at its lowest current, 4 mA, for 20 % of the time and at its highest current, 20 mA, "
             "for 5 % of the time (with 8 kg for 30 %)");
-  EXPECT_EQ(limit_words(of({stood(8.0, 0.005, 0.0)}), "pid"), "");
-  EXPECT_EQ(limit_words(of({stood(8.0, 0.5, 0.0)}), "other"), "");
+  EXPECT_EQ(limit_words(of({stood(8.0, 0.005, 0.0)}), {}, "pid"), "");
+  EXPECT_EQ(limit_words(of({stood(8.0, 0.5, 0.0)}), {}, "other"), "");
 }
 
 TEST(Remarks, NameTheKeyThatWouldHelp) {
@@ -37,8 +37,8 @@ TEST(Remarks, NameTheKeyThatWouldHelp) {
   EXPECT_EQ(limit_warning(stood(8.0, 0.4, 0.0), rig), "");
   EXPECT_NE(limit_warning(stood(8.0, 0.6, 0.0), rig).find("valve.zero_pressure"), std::string::npos);
   EXPECT_NE(limit_warning(stood(8.0, 0.0, 0.6), rig).find("valve.span_pressure"), std::string::npos);
-  rig.valve.zero_current_mA = 0.0;
-  EXPECT_NE(limit_warning(stood(8.0, 0.6, 0.0), rig).find("goes down to 0 mA: lower lowest_current"),
+  rig.valve.zero_command = 0.0;
+  EXPECT_NE(limit_warning(stood(8.0, 0.6, 0.0), rig).find("goes down to 0 mA: lower lowest_command"),
             std::string::npos);
 }
 

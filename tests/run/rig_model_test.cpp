@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <memory>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -11,7 +10,6 @@
 #include <gtest/gtest.h>
 
 #include <controllers/model_inverse.hpp>
-#include <controllers/model_inverse_feedback.hpp>
 #include <controllers/waveform.hpp>
 #include <sim/input/scenario_file.hpp>
 #include <sim/run/compare.hpp>

@@ -110,12 +110,12 @@ std::vector<controllers::Settings> one_of_each() {
   std::vector<domain::InputFile> inputs;
   const auto model = input::read_calibration(MCKIBBEN_TEST_DATA "/calibration.yaml", inputs);
   for (auto& settings : all) {
-    if (auto* terms = controllers::feedback_of(settings)) {
+    if (auto* terms = controllers::part_of<controllers::PidForm>(settings)) {
       terms->proportional_mA = 60.0;
       terms->integral_time_s = 0.2;
       terms->derivative_time_s = 0.05;
     }
-    if (auto* calibrated = controllers::calibrated(settings)) {
+    if (auto* calibrated = controllers::part_of<controllers::CalibrationTerms>(settings)) {
       calibrated->model = model;
       calibrated->extrapolate_load = true;
     }

@@ -70,12 +70,12 @@ TEST(Stamps, StartsAndStopsAreNotTakenForHum) {
   data.own_clock = true;
   domain::Measurement& measured = data.runs.emplace_back().measured.emplace();
   measured.time_s = stamps(1000.0);
-  measured.contraction_ratio = starting_and_stopping(measured.time_s, hum);
+  measured.take("contraction") = starting_and_stopping(measured.time_s, hum);
   ASSERT_EQ(mend_at_stamps(data).size(), 1u);
   const std::vector<double> clean = starting_and_stopping(measured.time_s, 0.0);
   double squares = 0.0;
   for (std::size_t k = 0; k < clean.size(); ++k)
-    squares += std::pow(measured.contraction_ratio[k] - clean[k], 2);
+    squares += std::pow(measured.read("contraction")[k] - clean[k], 2);
   EXPECT_LT(std::sqrt(squares / static_cast<double>(clean.size())), 0.04 * hum / std::sqrt(2.0));
 }
 
@@ -114,11 +114,10 @@ TEST(Stamps, WhatWasDoneIsTold) {
     run.id = id;
     domain::Measurement& measured = run.measured.emplace();
     measured.time_s = stamps(1000.0);
-    measured.contraction_ratio = contractions(1e-6, 1e-4);
-    measured.sides[0].pressure_is_given = true;
-    measured.sides[0].muscle_pressure_Pa = pressures(measured.time_s, 50.0, 3e3);
+    measured.take("contraction") = contractions(1e-6, 1e-4);
+    measured.give("muscle_pressure") = pressures(measured.time_s, 50.0, 3e3);
   }
-  for (double& ratio : data.runs[1].measured->contraction_ratio) ratio *= 0.9 + 1e-9 * ratio;
+  for (double& ratio : data.runs[1].measured->take("contraction")) ratio *= 0.9 + 1e-9 * ratio;
   std::vector<std::string> words;
   for (const Finding& one : mend_at_stamps(data))
     words.push_back(text_of(data, one).append(consequence_of(one)));
@@ -131,7 +130,7 @@ TEST(Stamps, WhatWasDoneIsTold) {
   const std::vector<double> clean = pressures(mended.time_s, 0.0, 0.0);
   double squares = 0.0;
   for (std::size_t k = 0; k < clean.size(); ++k)
-    squares += std::pow(mended.sides[0].muscle_pressure_Pa[k] - clean[k], 2);
+    squares += std::pow(mended.given("muscle_pressure")[k] - clean[k], 2);
   EXPECT_LT(std::sqrt(squares / static_cast<double>(clean.size())), 0.1 * 3e3 / std::sqrt(2.0));
 }
 

@@ -2,7 +2,6 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
-#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -74,7 +73,7 @@ TEST(Tune, StaysWithinItsBoundsAndItsNumberOfEvaluations) {
 }
 
 TEST(Tune, BeginsWithAGainThatFitsTheValvesSpan) {
-  const TuningOptions thesis, half = TuningOptions::for_span(0.5 * thesis_span_mA);
+  const TuningOptions thesis, half = TuningOptions::for_span(0.5 * plant::thesis_span_mA);
   EXPECT_EQ(half.start.proportional_mA, 0.5 * thesis.start.proportional_mA);
   EXPECT_EQ(half.highest.proportional_mA, 0.5 * thesis.highest.proportional_mA);
   EXPECT_EQ(half.start.integral_time_s, thesis.start.integral_time_s);

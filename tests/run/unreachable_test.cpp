@@ -1,11 +1,12 @@
 // Targets against the limits of a made-up rig: up at 0.5 /s,
 // down at 0.25 /s, from 0.01 (from above 0.03) to 0.2.
-#include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include <sim/run/unreachable.hpp>
+
+#include "says.hpp"
 
 namespace mckibben::run {
 namespace {
@@ -53,9 +54,7 @@ TEST(Unreachable, TooFastNamesTicksAndTheLargestSpeed) {
   EXPECT_EQ(found.too_fast.ticks, target.size() - 1);
   EXPECT_NEAR(found.too_fast.asked, 0.8, 1e-9);
   EXPECT_EQ(found.too_fast.limit, 0.5);
-  EXPECT_NE(found.text().find("the largest reachable speed there is 0.5 /s"), std::string::npos)
-      << found.text();
-  EXPECT_NE(found.text().find("a slower target"), std::string::npos);
+  EXPECT_TRUE(holds(found.text(), "the largest reachable speed there is 0.5 /s", "a slower target"));
 }
 
 TEST(Unreachable, HeightsDependOnTheDirectionTheyAreReachedFrom) {
@@ -66,8 +65,8 @@ TEST(Unreachable, HeightsDependOnTheDirectionTheyAreReachedFrom) {
   const Unreachable high = look({0.19, 0.195, 0.2, 0.205, 0.21});
   EXPECT_EQ(high.too_high.ticks, 2u);
   EXPECT_EQ(high.too_high.asked, 0.21);
-  EXPECT_NE(high.text().find("the largest reachable one is 0.200"), std::string::npos) << high.text();
-  EXPECT_EQ(high.text().find("slower"), std::string::npos) << "time does not lift it";
+  EXPECT_TRUE(holds(high.text(), "the largest reachable one is 0.200"));
+  EXPECT_TRUE(lacks(high.text(), "slower")) << "time does not lift it";
 }
 
 TEST(Unreachable, OnePointAtOneSpeed) {
@@ -83,8 +82,7 @@ TEST(Unreachable, AModelWithoutACurrentSpeedIsSaidToo) {
   Unreachable found = look({0.1, 0.1});
   found.ticks_without_current_speed = 3;
   EXPECT_TRUE(found.any());
-  EXPECT_NE(found.text().find("at 3 ticks the calibrated model has no current speed"), std::string::npos)
-      << found.text();
+  EXPECT_TRUE(holds(found.text(), "at 3 ticks the calibrated model has no current speed"));
 }
 
 }  // namespace

@@ -11,7 +11,6 @@
 #include <sim/input/calibration_file.hpp>
 #include <sim/input/fields_json.hpp>
 #include <sim/output/calibration_report.hpp>
-#include <sim/output/chart.hpp>
 #include <sim/thesis/calibrate.hpp>
 #include <sim/thesis/figures.hpp>
 #include <sim/thesis/quality.hpp>

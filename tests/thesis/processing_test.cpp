@@ -93,7 +93,7 @@ TEST(Processing, WhatALaserReadsIsNotTakenForCounts) {
   ProcessingOptions options;
   options.acceleration = Acceleration::neglected;
   EXPECT_THROW(process(run, dataset, options), data::UnfitData) << "they should be counts of this encoder";
-  dataset.columns.contraction = {"laser", "mm"};
+  dataset.columns["contraction"] = {"laser", "mm"};
   const ProcessedRun processed = process(run, dataset, options);
   ASSERT_EQ(processed.unusable, "");
   EXPECT_GT(processed.of(Direction::contraction).size(), 200u);

@@ -8,6 +8,7 @@
 
 #include "benchmark/hidden_effects.hpp"
 #include "diagnose/planted.hpp"
+#include "named.hpp"
 #include "own_law.hpp"
 
 namespace mckibben::diagnose {
@@ -19,14 +20,11 @@ TEST(Diagnose, NamesTheLeakThatIsHidden) {
   truth.muscle.rest_radius_m *= 1.003;
   const auto data = small(truth);
   const auto found = diagnosis_of(data, 2);
-  EXPECT_EQ(found.verdict, Verdict::missing_effect);
-  ASSERT_EQ(found.effects.size(), 1u);
-  EXPECT_EQ(found.effects[0].name, "muscle_leak");
+  ASSERT_TRUE(names_only(found, "muscle_leak"));
   ASSERT_EQ(found.effects[0].parameters.size(), 1u);
   const auto& conductance = found.effects[0].parameters[0];
   EXPECT_EQ(conductance.name, "conductance");
-  EXPECT_GT(2e-10, conductance.low);
-  EXPECT_LT(2e-10, conductance.high);
+  EXPECT_TRUE(surrounds(conductance, 2e-10));
   EXPECT_LT(conductance.high - conductance.low, 0.5e-10);
   EXPECT_GT(found.gap.nominal_rmse, 5.0 * found.gap.noise_floor);
   EXPECT_LT(found.gap.corrected_rmse, 1.3 * found.gap.noise_floor);
@@ -71,8 +69,7 @@ TEST(NightlyDiagnose, NamesTheLeakOfARigWithCoulombFrictionAndNothingWhereNothin
     ASSERT_EQ(found.effects.size(), leaks ? 1u : 0u) << found.because;
     if (!leaks) continue;
     EXPECT_EQ(found.effects[0].name, "muscle_leak");
-    EXPECT_GT(2e-10, found.effects[0].parameters[0].low);
-    EXPECT_LT(2e-10, found.effects[0].parameters[0].high);
+    EXPECT_TRUE(surrounds(found.effects[0].parameters[0], 2e-10));
     EXPECT_GT(found.gap.closed, 0.95);
   }
 }
@@ -81,9 +78,7 @@ TEST(NightlyDiagnose, NamesTheLeakOfARigWithCoulombFrictionAndNothingWhereNothin
 // more.
 TEST(NightlyDiagnose, TriesFurtherEffectsWhereThoseThatPromiseMostDoNotHelp) {
   const auto found = diagnosis_of(hide(kind_titled("guide_friction large"), 102).data, 0);
-  EXPECT_EQ(found.verdict, Verdict::missing_effect) << found.because;
-  ASSERT_EQ(found.effects.size(), 1u) << found.because;
-  EXPECT_EQ(found.effects[0].name, "guide_friction");
+  ASSERT_TRUE(names_only(found, "guide_friction"));
 }
 
 // While its motion is met badly, what a little friction of the guide promises is below chance; as a fit would
@@ -91,11 +86,8 @@ TEST(NightlyDiagnose, TriesFurtherEffectsWhereThoseThatPromiseMostDoNotHelp) {
 TEST(NightlyDiagnose, TriesWhatPromisesMoreThanChanceAsAFitWouldCountIt) {
   const auto found =
       diagnosis_of(hide(kind_titled("guide_friction small"), 812, {.bench = Bench::other_size}).data, 0);
-  EXPECT_EQ(found.verdict, Verdict::missing_effect) << found.because;
-  ASSERT_EQ(found.effects.size(), 1u) << found.because;
-  EXPECT_EQ(found.effects[0].name, "guide_friction");
-  EXPECT_LT(found.effects[0].parameters[0].low, 0.0083);
-  EXPECT_GT(found.effects[0].parameters[0].high, 0.0083);
+  ASSERT_TRUE(names_only(found, "guide_friction"));
+  EXPECT_TRUE(surrounds(found.effects[0].parameters[0], 0.0083));
 }
 
 // Beside the tube and the leak, friction that is three deviations off imitates the guide's, and stays there.
@@ -192,9 +184,7 @@ TEST(Diagnose, NamesALawOfTheUsersOwn) {
   suspected.values[2] = 0.0;
   data.rig.effects.laws.list = {suspected};
   const auto found = diagnosis_of(data, 0);
-  EXPECT_EQ(found.verdict, Verdict::missing_effect) << found.because;
-  ASSERT_EQ(found.effects.size(), 1u) << found.because;
-  EXPECT_EQ(found.effects[0].name, "own");
+  ASSERT_TRUE(names_only(found, "own"));
   EXPECT_NE(found.because.find("own"), std::string::npos) << found.because;
   ASSERT_EQ(found.effects[0].parameters.size(), 3u);
   EXPECT_NEAR(std::abs(found.effects[0].parameters[0].value), 6.0, 0.3);
@@ -208,9 +198,7 @@ void expect_gauge_error(const plant::GaugeError& wanted) {
   truth.sensors.put(plant::gauge());
   truth.effects.get<plant::GaugeError>() = wanted;
   const auto found = diagnosis_of(small(truth, 2.4), 0);
-  EXPECT_EQ(found.verdict, Verdict::missing_effect) << found.because;
-  ASSERT_EQ(found.effects.size(), 1u) << found.because;
-  EXPECT_EQ(found.effects[0].name, "gauge_error");
+  ASSERT_TRUE(names_only(found, "gauge_error"));
   EXPECT_EQ(found.corrected.effects.get<plant::GaugeError>().variant, wanted.variant);
   const auto& size = found.effects[0].parameters[0];
   EXPECT_NEAR(size.value, wanted.variant == plant::GaugeLaw::gain ? wanted.gain : wanted.offset_Pa,

@@ -85,9 +85,7 @@ TEST(Faults, OfAllRunsAreSuspectedBesideAnEffect) {
 
 TEST(Faults, ARunThatIsLateIsSaidInTheVerdictAndShifted) {
   auto data = small(plant::Rig{});
-  auto& ratios = data.runs[1].contraction_ratio;
-  ratios.insert(ratios.begin(), 3, ratios.front());
-  ratios.resize(data.runs[1].current_mA.size());
+  delay(data.runs[1], 3);
   const auto found = diagnosis_of(data, 0);
   EXPECT_TRUE(found.because.starts_with("Run r02 is 3 ticks late and was shifted. Apart from that"))
       << found.because;
@@ -102,9 +100,7 @@ TEST(NightlyFaults, ARunThatIsLateIsFoundBesideAnEffectThatIsMissing) {
   plant::Rig truth;
   truth.effects.get<plant::SpeedDependentFriction>().ratio = 0.4;
   auto data = small(truth);
-  auto& ratios = data.runs[1].contraction_ratio;
-  ratios.insert(ratios.begin(), 3, ratios.front());
-  ratios.resize(data.runs[1].current_mA.size());
+  delay(data.runs[1], 3);
   const auto found = diagnosis_of(data, 0);
   EXPECT_TRUE(found.because.starts_with("Run r02 is 3 ticks late and was shifted.")) << found.because;
   ASSERT_EQ(found.effects.size(), 1u);

@@ -10,6 +10,7 @@
 
 #include "benchmark/hidden_effects.hpp"
 #include "diagnose/planted.hpp"
+#include "says.hpp"
 
 namespace mckibben::diagnose {
 namespace {
@@ -22,9 +23,7 @@ TEST(Recalibrates, ANumberFarBeyondItsDataSheetBeforeItNamesAnEffect) {
   EXPECT_EQ(found.verdict, Verdict::recalibrate) << found.because;
   EXPECT_TRUE(found.effects.empty());
   EXPECT_NEAR(found.corrected.friction.scale, 1.46, 0.04);
-  EXPECT_NE(found.because.find("The ± of friction.scale, 0.1, is exceeded: it is off by 4."),
-            std::string::npos)
-      << found.because;
+  EXPECT_TRUE(holds(found.because, "The ± of friction.scale, 0.1, is exceeded: it is off by 4."));
   EXPECT_LT(found.gap.corrected_rmse, 1.3 * found.gap.noise_floor);
   for (const Ranked& one : found.ranking) EXPECT_FALSE(one.outcome.starts_with("taken")) << one.name;
 }
@@ -62,7 +61,7 @@ TEST(Recalibrates, AnEffectThatTheRigHasInVainToNone) {
   const auto found = diagnosis_of(data, 0);
   EXPECT_EQ(found.verdict, Verdict::recalibrate);
   EXPECT_LT(found.corrected.effects.get<plant::GuideFriction>().coefficient, 2e-3);
-  EXPECT_NE(found.because.find("effects.guide_friction.coefficient from 0.1 to"), std::string::npos);
+  EXPECT_TRUE(holds(found.because, "effects.guide_friction.coefficient from 0.1 to"));
 }
 
 TEST(NightlyRecalibrates, TheLagOfARegulatorThatIsNotThatOfTheDataSheet) {
@@ -77,7 +76,7 @@ TEST(NightlyRecalibrates, TheLagOfARegulatorThatIsNotThatOfTheDataSheet) {
   EXPECT_EQ(found.verdict, Verdict::recalibrate) << found.because;
   EXPECT_TRUE(found.effects.empty()) << found.because;
   EXPECT_NEAR(found.corrected.valve.time_constant_s, 0.14, 2e-3);
-  EXPECT_NE(found.because.find("valve.time_constant from 0.1 to"), std::string::npos) << found.because;
+  EXPECT_TRUE(holds(found.because, "valve.time_constant from 0.1 to"));
   EXPECT_GT(found.gap.closed, 0.95);
 }
 

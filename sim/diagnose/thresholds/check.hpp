@@ -43,7 +43,7 @@ struct FaultThresholds {
   double within_loads = 0.1;      ///< of their sum of squares, among runs of a load: loads tell them below
   double least_ticks = 0.6;       ///< sizes below are nothing to talk of: late, rows lost
   double least_scale = 0.004;     ///< of a current or of readings
-  double least_mA = 0.03;         ///< of a current's offset
+  double least_mA = 0.03;         ///< of a command's offset, of the thesis's valve (Valve::per_mA)
   double least_bar = 0.01;        ///< of a given pressure's
   double least_drift = 5e-4;      ///< contraction ratio
   double least_counts = 0.6;      ///< of a zero, of slipped counts
@@ -56,7 +56,7 @@ struct FaultThresholds {
   std::array<int, 6> lost_ticks{2, 5, 10, -2, -5, -10};  ///< rows that may be lost, or double
   long beginnings = 60;            ///< rows at which something may have begun, evenly spread
   double current_share = 0.02;     ///< of the current, for a slope
-  double current_mA = 0.1;         ///< for a slope
+  double current_mA = 0.1;         ///< for a slope, the same
   double pressure_bar = 0.03;      ///< for a slope
   double worth_suspecting = 0.75;  ///< of what any effect leaves of a run: one beside a fault must leave less
   std::size_t most_suspected = 3;  ///< effects beside faults of a few runs, and beside one of all

@@ -5,10 +5,8 @@
 #include <exception>
 #include <filesystem>
 #include <functional>
-#include <memory>
 #include <string>
 #include <string_view>
-#include <utility>
 
 #include <sim/fmu/model/slave.hpp>
 

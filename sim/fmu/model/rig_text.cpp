@@ -29,11 +29,6 @@ class Walk {
   void operator()(std::string_view key, T& value, const auto&...) {
     if constexpr (requires { T::fields(value, *this); })
       enter(key, [&] { T::fields(value, *this); });
-    else if constexpr (std::same_as<T, plant::RatedCommand>)
-      enter(key, [&] {
-        member("value", value.value);
-        member("unit", value.unit);
-      });
     else if constexpr (requires { T::value_type::fields(value.front(), *this); })
       enter(key, [&] {
         std::size_t size = value.size();
@@ -153,6 +148,7 @@ void become(plant::Mechanics& mechanics, std::size_t kind) {
 template <class Leaf>
 void walk(plant::Rig& rig, Leaf leaf) {
   Walk visitor(leaf);
+  visitor("command_unit", rig.valve.command_unit);
   LawWalk(leaf, "law")(rig.effects.laws);
   plant::Rig::parts(rig, visitor);
   visitor("integrator", rig.integrator);
@@ -160,6 +156,7 @@ void walk(plant::Rig& rig, Leaf leaf) {
   leaf("mechanics", kind);
   become(rig.mechanics, static_cast<std::size_t>(kind));
   if (auto* const both = std::get_if<plant::Pair>(&rig.mechanics)) {
+    both->opposite.valve.command_unit = rig.valve.command_unit;
     LawWalk(leaf, "law_2")(both->opposite.effects.laws);
     visitor("mechanics", *both);
   }

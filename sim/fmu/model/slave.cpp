@@ -21,9 +21,9 @@ Slave::Slave(plant::Rig rig)
     : rig_(std::move(rig)),
       paths_(parameter_paths(rig_)),
       channels_(channels_of(rig_)),
-      current_mA_(rig_.valve.zero_current_mA),
+      current_mA_(rig_.valve.zero_command),
       length_m_(rig_.muscle.rest_length_m) {
-  if (const plant::Pair* pair = rig_.pair()) opposite_current_mA_ = pair->opposite.valve.zero_current_mA;
+  if (const plant::Pair* pair = rig_.pair()) opposite_current_mA_ = pair->opposite.valve.zero_command;
   if (rig_.holds_a_length()) load_kg_ = 0.0;
 }
 

@@ -22,8 +22,9 @@ void add_inputs(std::vector<Variable>& list, const plant::Rig& rig) {
     if (channel.signal->kind != plant::Kind::input) continue;
     const bool second = channel.muscle == 2;
     list.push_back(of_channel(second ? opposite_current : current, channel, Role::input));
-    list.back().start = (second ? rig.pair()->opposite.valve : rig.valve).zero_current_mA;
-    list.back().highest = rig.dac.largest_current_mA;
+    list.back().start = (second ? rig.pair()->opposite.valve : rig.valve).zero_command;
+    list.back().lowest = rig.dac.lowest_command;
+    list.back().highest = rig.dac.largest_command;
   }
   if (rig.lifts_a_load())
     list.push_back(

@@ -2,11 +2,11 @@
 
     >>> import mckibben
     >>> ride = mckibben.Ride("thesis", load_kg=11.138)
-    >>> reading = ride.step(current_mA=9.0)
+    >>> reading = ride.step(command=9.0)
     >>> reading.time_s
     0.012
 
-Numbers are SI, gauge pressures, currents in mA; names end in their units. docs/python.md is the tutorial.
+Numbers are SI, gauge pressures, commands in what the valve takes (the thesis's: mA); names end in their units. docs/python.md is the tutorial.
 """
 from ._core import (Batch, Calibration, Dataset, Diagnosis, Linear, Reading, Result, Ride, Rig, Run, SavedRide,
                     Scenario)

@@ -62,9 +62,9 @@ except ImportError:
 class Env(Base):
     """Follow a target with a load that nobody tells: an episode is one run.
 
-    action       shape (1,), -1 to 1: the current, from the lower to the upper end of the valve's line
+    action       shape (1,), -1 to 1: the command, from the lower to the upper end of the valve's line
     observation  shape (4,): contraction ratio as the encoder counts it, its speed by these counts over the last
-                 tick [1/s], the target at this tick [1], the current of the last tick (-1 to 1)
+                 tick [1/s], the target at this tick [1], the command of the last tick (-1 to 1)
     reward       minus the absolute error of the counted contraction ratio, in per cent
     truncated    at the end of `duration`; terminated where the simulation cannot go on
 
@@ -90,13 +90,15 @@ class Env(Base):
             raise ValueError("loads_kg: the lightest and the heaviest load")
         lightest, heaviest = sorted(map(float, loads_kg))
         # Whoever is to follow it: a scenario wants a controller.
-        anybody = {"kind": "sine_current", "low": "0 mA", "high": "0.1 mA", "period": "1 s"}
+        unit = self.rig.command_unit
+        anybody = {"kind": "sine_current", "low": f"0 {unit}", "high": f"0.1 {unit}", "period": "1 s"}
         scenario = Scenario({"rig": self.rig, "loads": [f"{load!r} kg" for load in sorted({lightest, heaviest})],
                              "target": target or self.TARGET, "duration": f"{float(duration_s)!r} s",
                              "controllers": [anybody]})
         self.target = scenario.target
         self.loads_kg, self.jitter = (lightest, heaviest), float(jitter)
-        self.zero_mA, self.span_mA = self.rig.current_range_mA
+        self.zero, self.span = self.rig.command_range
+        self.given = "current_mA" if unit == "mA" else f"command_{unit}"
         self.action_space = Box(numpy.float32([-1.0]), numpy.float32([1.0]))
         most, fastest = self.rig.largest_contraction_ratio, 20.0
         self.observation_space = Box(numpy.float32([-most, -fastest, -1.0, -1.0]),
@@ -123,11 +125,11 @@ class Env(Base):
         if values.size != 1 or not math.isfinite(values[0]):
             raise ValueError("an action is one finite number")
         self.action = min(1.0, max(-1.0, float(values[0])))
-        wanted_mA = self.zero_mA + 0.5 * (self.action + 1.0) * (self.span_mA - self.zero_mA)
-        info = {"current_mA": self.rig.dac_output_mA(wanted_mA)}
+        command = self.rig.dac_output(self.zero + 0.5 * (self.action + 1.0) * (self.span - self.zero))
+        info = {self.given: command}
         terminated = False
         try:
-            self.ride.step(info["current_mA"])
+            self.ride.step(command)
         except NumericalFailure as failure:
             terminated, info["failure"] = True, str(failure)
         self.tick += 1

@@ -5,7 +5,6 @@
 #include <array>
 #include <cerrno>
 #include <cmath>
-#include <memory>
 #include <string_view>
 
 #include <comedilib.h>

@@ -1,0 +1,200 @@
+// The rules; see the header.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string_view>
+
+#include <sim/domain/combination.hpp>
+
+namespace mckibben::domain {
+namespace {
+
+using plant::GivenPressure;
+
+/// What the files say of a run, as rules ask for it.
+struct Said {
+  const Dataset& data;
+  const Run& run;
+  const plant::Rig& rig = data.rig;
+  ColumnMap map = merged(data.columns, run.columns);
+  std::size_t muscle = 1;  ///< that is asked about
+
+  bool pair() const { return rig.pair() != nullptr; }
+  /// `key` of the muscle that is asked about, where each has its own.
+  std::string own(std::string_view key) const {
+    const bool each = pair() && find_quantity(std::string(key) + "_1") != nullptr;
+    if (each) return std::string(key) + (muscle == 2 ? "_2" : "_1");
+    const bool old = key == command_key && map[command_key].absent() && !map["current"].absent();
+    return old ? "current" : std::string(key);
+  }
+  bool gives(std::string_view key) const { return map.gives(own(key)); }
+  bool has(std::string_view key) const { return !map[own(key)].absent() && !ignores(key); }
+  bool ignores(std::string_view key) const {
+    return !map[own(key)].absent() && map[own(key)].as == Role::ignored;
+  }
+  GivenPressure pressure() const { return map.given_pressure(pair() ? muscle : 0); }
+  bool hangs() const { return rig.lifts_a_load() && !gives("contraction"); }
+  bool has_load() const { return run.given_load_kg.has_value(); }
+  double hanging_kg() const { return run.given_load_kg.value_or(0.0) + rig.joint.load_offset_kg; }
+  bool points() const { return !map.settled.absent(); }
+};
+
+struct Rule {
+  std::string_view key;  ///< where it is shown; of either muscle, where each has its own
+  bool (*broken)(const Said& said);
+  std::string_view why;  ///< `{}`: the run
+};
+
+// What is given makes all that is upstream of it: nothing of that can be given or read beside it.
+constexpr auto rules = std::to_array<Rule>({
+    {"command", [](const Said& s) { return s.pressure() == GivenPressure::muscle && s.has("command"); },
+     "the muscle's pressure is the input, so that there is no valve to be commanded; say as: ignored"},
+    {"command", [](const Said& s) { return s.pressure() == GivenPressure::valve && s.has("command"); },
+     "the valve's pressure is the input, so that nothing is commanded; say as: ignored"},
+    {"command", [](const Said& s) { return s.pressure() == GivenPressure::none && s.ignores("command"); },
+     "nothing else drives the muscle"},
+    {"valve_pressure",
+     [](const Said& s) { return s.pressure() == GivenPressure::muscle && s.has("valve_pressure"); },
+     "the muscle's pressure is the input, so that there is no valve; say as: ignored"},
+    {"command",
+     [](const Said& s) {
+       return !s.pair() && s.has("command") && !s.map["current"].absent() && !s.map[command_key].absent();
+     },
+     "current is a command in mA; give one of the two"},
+    {"contraction", [](const Said& s) { return s.rig.holds_a_length() && !s.gives("contraction"); },
+     "the rig's muscle is held (mechanics: {kind: held_length}): say which length, as: input"},
+    {"joint_force", [](const Said& s) { return s.gives("contraction") && s.gives("joint_force"); },
+     "the muscle's length is the input, so that a force from outside moves nothing; say as: ignored"},
+    {"joint_force",
+     [](const Said& s) {
+       return s.hangs() && s.gives("joint_force") && !s.has_load() &&
+              !(s.hanging_kg() > 0.0 || (s.hanging_kg() == 0.0 && s.rig.joint.wheel_inertia_kg_m2 > 0.0));
+     },
+     "no load is given, and the rig's wheel has no inertia: a force alone moves nothing that has no mass; "
+     "give load of run {}, or joint.wheel_inertia of the rig"},
+    {"load", [](const Said& s) { return s.has_load() && s.pair(); },
+     "the rig's two muscles turn a link; nothing hangs there"},
+    {"load", [](const Said& s) { return s.has_load() && !s.pair() && !s.hangs(); },
+     "the muscle's length is given; nothing hangs there"},
+    {"load", [](const Said& s) { return s.hangs() && !s.has_load() && !s.gives("joint_force"); },
+     "the key load is missing"},
+    {"load",
+     [](const Said& s) { return s.hangs() && s.has_load() && s.data.own_clock && s.hanging_kg() <= 0.0; },
+     "it and the rig's joint.load_offset leave no load"},
+    {"start", [](const Said& s) { return s.points() && s.data.recorded.start == Start::moving; },
+     "the rows of run {} are settled points"},
+    {"start", [](const Said& s) { return !s.hangs() && s.data.recorded.start == Start::moving; },
+     "run {} has no load that hangs; only of such a run can the first state be told"},
+    {"hold", [](const Said& s) { return s.points() && s.data.recorded.hold != Hold::usual; },
+     "the rows of run {} are settled points: commands hold while a point is measured, pressures and lengths "
+     "are there after half of it at most"},
+    {"hold", [](const Said& s) { return s.gives("contraction") && s.data.recorded.hold == Hold::previous; },
+     "the length of run {} is given, and cannot jump"},
+});
+
+std::string with_run(std::string_view why, const Run& run) {
+  std::string text(why);
+  if (const auto at = text.find("{}"); at != std::string::npos) text.replace(at, 2, run.id);
+  return text;
+}
+
+/// The keys of columns of one muscle or of two, as a sentence lists them.
+std::string keys_of(bool pair) {
+  std::string list;
+  for (const Quantity& quantity : quantities())
+    if (quantity.belongs(pair) && !quantity.belongs(!pair) && !quantity.is_old_current)
+      list.append(list.empty() ? "" : ", ").append(quantity.key);
+  return list;
+}
+
+bool is_read(const std::vector<double>& values) {
+  return std::ranges::any_of(values, [](double value) { return !std::isnan(value); });
+}
+
+bool gives_a_pressure(const Run& run) {
+  return run.measured->given_pressure(1) != GivenPressure::none ||
+         run.measured->given_pressure(2) != GivenPressure::none;
+}
+
+/// What a purpose needs of a run that was read, with a clock of its own.
+struct Need {
+  Purpose purpose;  ///< judging: all of them
+  bool (*lacks)(const Run& run, Judged judged);
+  std::string_view why;
+};
+
+constexpr auto needs = std::to_array<Need>({
+    {Purpose::judging,
+     [](const Run& run, Judged judged) {
+       return judged == Judged::contraction && run.measured->gives_length();
+     },
+     "the muscle's length is given, and in others it is not"},
+    {Purpose::judging,
+     [](const Run& run, Judged judged) {
+       return judged == Judged::contraction && run.measured->values("contraction").empty();
+     },
+     "contraction is not read"},
+    {Purpose::judging,
+     [](const Run& run, Judged judged) {
+       return judged == Judged::force && !is_read(run.measured->read("force"));
+     },
+     "the muscle's length is given, and force is not read"},
+    {Purpose::judging,
+     [](const Run& run, Judged judged) {
+       return judged == Judged::angle && !is_read(run.measured->read("angle"));
+     },
+     "angle is not read"},
+    {Purpose::judging,
+     [](const Run& run, Judged judged) {
+       return judged == Judged::angle && run.measured->given_pressure(1) != run.measured->given_pressure(2);
+     },
+     "the pressure of one muscle is given, and that of the other is not"},
+    {Purpose::diagnosis,
+     [](const Run& run, Judged) {
+       return run.measured->gives("valve_pressure", 1) || run.measured->gives("valve_pressure", 2);
+     },
+     "the valve's pressure is given"},
+    {Purpose::diagnosis, [](const Run& run, Judged) { return run.measured->gives_outer_force(); },
+     "a force from outside is given"},
+    {Purpose::calibration,
+     [](const Run& run, Judged judged) {
+       return judged != Judged::contraction || gives_a_pressure(run) || run.measured->gives_outer_force();
+     },
+     "it is none of a load that a command lifts"},
+});
+
+}  // namespace
+
+std::vector<Contradiction> contradictions(const Dataset& data, const Run& run) {
+  std::vector<Contradiction> found;
+  Said said{data, run};
+  for (const Quantity& quantity : quantities()) {
+    if (said.map[quantity].absent()) continue;
+    if (!quantity.belongs(said.pair()))
+      found.push_back(
+          {quantity.key,
+           (said.pair() ? "the rig has two muscles: " : "the rig has one muscle: ") + keys_of(said.pair())});
+    else if (said.map[quantity].as == Role::input && !quantity.may_be_given())
+      found.push_back({quantity.key, "it can only be a reading"});
+  }
+  for (said.muscle = 1; said.muscle <= (said.pair() ? 2U : 1U); ++said.muscle)
+    for (const Rule& rule : rules) {
+      const std::string key = find_quantity(rule.key) == nullptr ? std::string(rule.key) : said.own(rule.key);
+      if ((said.muscle == 1 || key != rule.key) && rule.broken(said))
+        found.push_back({key, with_run(rule.why, run)});
+    }
+  return found;
+}
+
+std::optional<Contradiction> why_not(Purpose purpose, const Dataset& data) {
+  for (const Run& run : data.runs) {
+    if (!run.measured && data.judged() == Judged::angle) return Contradiction{run.id, "angle is not read"};
+    for (const Need& need : needs)
+      if (run.measured && (need.purpose == Purpose::judging || need.purpose == purpose) &&
+          need.lacks(run, data.judged()))
+        return Contradiction{run.id, std::string(need.why)};
+  }
+  return std::nullopt;
+}
+
+}  // namespace mckibben::domain

@@ -1,0 +1,56 @@
+// Columns by their signals; see the header.
+#include <algorithm>
+
+#include <sim/domain/measurement.hpp>
+
+namespace mckibben::domain {
+namespace {
+
+const std::vector<double> nothing;
+
+template <class Columns>
+auto find(Columns& columns, std::string_view key, std::size_t muscle) {
+  return std::ranges::find_if(columns, [&](const auto& column) { return column.is(key, muscle); });
+}
+
+std::vector<double>& column_of(Measurement& measured, std::string_view key, std::size_t muscle, bool given) {
+  auto at = find(measured.columns, key, muscle);
+  if (at == measured.columns.end())
+    at = measured.columns.insert(at, {{quantity_of(key).channel.signal, muscle}, given});
+  return at->values;
+}
+
+}  // namespace
+
+bool Measurement::gives(std::string_view key, std::size_t muscle) const {
+  const auto at = find(columns, key, muscle);
+  return at != columns.end() && at->given;
+}
+
+const std::vector<double>& Measurement::given(std::string_view key, std::size_t muscle) const {
+  return gives(key, muscle) ? values(key, muscle) : nothing;
+}
+
+const std::vector<double>& Measurement::read(std::string_view key, std::size_t muscle) const {
+  return gives(key, muscle) ? nothing : values(key, muscle);
+}
+
+const std::vector<double>& Measurement::values(std::string_view key, std::size_t muscle) const {
+  const auto at = find(columns, key, muscle);
+  return at != columns.end() ? at->values : nothing;
+}
+
+std::vector<double>& Measurement::give(std::string_view key, std::size_t muscle) {
+  return column_of(*this, key, muscle, true);
+}
+
+std::vector<double>& Measurement::take(std::string_view key, std::size_t muscle) {
+  return column_of(*this, key, muscle, false);
+}
+
+plant::GivenPressure Measurement::given_pressure(std::size_t muscle) const {
+  if (gives("muscle_pressure", muscle)) return plant::GivenPressure::muscle;
+  return gives("valve_pressure", muscle) ? plant::GivenPressure::valve : plant::GivenPressure::none;
+}
+
+}  // namespace mckibben::domain

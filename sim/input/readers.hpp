@@ -1,0 +1,67 @@
+// Readers of measured tables, one a format; the ending of a file's name tells which. Each reads the wanted
+// columns; those that are not needed only if they are there.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <sim/input/table.hpp>
+
+namespace mckibben::input {
+
+// Strict reader of CSV tables: a heading (csv_layout.hpp), one row each tick, plain finite numbers, in quotes
+// or not. Cells stand between commas, semicolons or tabs; numbers may have a decimal comma throughout.
+// Columns may come in any order and extra ones are ignored (and may hold text). Empty columns and rows at the
+// end are none.
+
+/// What to say of a column that is not among the headings `found`, besides that.
+using MissingHint = std::string (*)(const WantedColumn& column, std::span<const std::string_view> found);
+
+/// Reads the wanted columns; those that are not needed only if they are there.
+Table read_csv(const Source& source, std::span<const WantedColumn> wanted, TableProblems& problems,
+               MissingHint hint = nullptr);
+
+/// The same for columns under our own names.
+Table read_table(const Source& source, std::span<const std::string_view> required,
+                 std::span<const std::string_view> optional, TableProblems& problems);
+
+// LabVIEW Measurement files (.lvm), after National Instruments' specification of versions 1 and 2: a header,
+// then segments, each with a header of its own, a row of channel names, and rows with a tab (or a comma)
+// between the cells and perhaps a remark at the end.
+
+/// Reads the wanted channels. `in_file` is a channel's name, or its column's number from 1; left empty, it is
+/// the time of the other channels: their X column, or X0 and Delta_X where there is none. `segment`: which
+/// one, from 1; 0 for all of them, one after the other.
+Table read_lvm(const Source& source, std::span<const WantedColumn> wanted, std::size_t segment,
+               TableProblems& problems);
+
+/// The channels of the first segment, without those of time and of remarks; none if it cannot be read.
+std::vector<std::string> lvm_channels(const Source& source);
+
+// Tables in MATLAB's MAT-files: a vector for each column.
+
+/// Reads the wanted columns: variables (`current`), fields (`run.current`) or columns of a matrix
+/// (`data(:,2)`), all of one length, of finite numbers.
+Table read_mat_table(const Source& source, std::span<const WantedColumn> wanted, TableProblems& problems);
+
+// Tables of numbers alone, without a heading, as the thesis's program wrote them (T 3.3) and as `save -ascii`
+// does: blanks, tabs or semicolons between the numbers; a decimal point, or a decimal comma throughout. Lines
+// that begin with # or % are remarks.
+
+/// Reads the wanted columns, which are named by their numbers from 1.
+Table read_ascii(const Source& source, std::span<const WantedColumn> wanted, TableProblems& problems);
+
+enum class Format { csv, lvm, mat, ascii };
+
+/// None if the ending tells no format.
+std::optional<Format> format_of(const std::string& file);
+
+/// What is said then.
+inline constexpr const char* format_rule =
+    "its ending must tell its format: .csv, .lvm, .mat, or .txt, .dat, .asc for numbers without headings";
+
+}  // namespace mckibben::input

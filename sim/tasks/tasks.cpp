@@ -1,0 +1,112 @@
+// See the header.
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include <sim/data/judged.hpp>
+#include <sim/data/stamps.hpp>
+#include <sim/data/warnings.hpp>
+#include <sim/diagnose/candidate.hpp>
+#include <sim/input/common_checks.hpp>
+#include <sim/input/dataset_file.hpp>
+#include <sim/input/diagnostics.hpp>
+#include <sim/input/hypothesis_file.hpp>
+#include <sim/run/look.hpp>
+#include <sim/tasks/tasks.hpp>
+#include <sim/thesis/processing.hpp>
+
+namespace mckibben::tasks {
+void replace_rig(domain::Dataset& dataset, const std::string& called, plant::Rig rig) {
+  const bool pair = dataset.rig.pair() != nullptr;
+  if (!dataset.own_clock) input::require_load(rig, called, "a replay of data with a load");
+  if ((rig.pair() != nullptr) != pair)
+    throw input::BadInput({{input::Severity::error, called, input::nowhere,
+                            pair ? "the data are of two muscles, this rig has one"
+                                 : "the data are of one muscle, this rig has two",
+                            ""}});
+  input::take_rig(dataset, called, std::move(rig));
+}
+
+std::vector<std::string> warnings_of(const domain::Dataset& dataset,
+                                     const std::vector<run::ReplayedRun>& runs) {
+  std::vector<data::Finding> findings;
+  if (!dataset.own_clock)
+    findings = data::examine(dataset, run::expected_of(dataset, runs)).findings;
+  else if (input::why_unfit(domain::Purpose::judging, dataset).empty() && !run::interrupted())
+    findings = run::look(dataset).findings;
+  data::raise(dataset, findings);
+  std::vector<std::string> warnings;
+  for (const auto& finding : findings)
+    if (!data::only_limits_diagnosis(finding)) warnings.push_back(data::text_of(dataset, finding));
+  for (const auto& run : runs)
+    for (const auto& doubt : run::doubts(run.recording))
+      warnings.push_back(data::warning_of_run(run.id, doubt));
+  return dataset.own_clock ? data::grouped(std::move(warnings)) : warnings;
+}
+
+domain::Dataset ticked(domain::Dataset data, const std::function<void(const std::string&)>& say) {
+  if (!data.own_clock || !input::why_unfit(domain::Purpose::calibration, data).empty()) {
+    input::require_ticks(data, "calibrate");
+    return data;
+  }
+  data = data::with_rows(std::move(data));
+  data.rig.tick_s = data.row_s();
+  constexpr double uneven = 0.1;  // of a row
+  for (const domain::Run& run : data.runs)
+    for (std::size_t k = 1; k < run.time_s.size(); ++k)
+      if (const double step_s = run.time_s[k] - run.time_s[k - 1];
+          std::abs(step_s - data.row_s()) > uneven * data.row_s())
+        thesis::refuse(data, fmt::format("calibrate cannot take it: stamps of run {} are {:.6g} ms apart at "
+                                         "{:.6g} s, others {:.6g} ms, and too few to make even rows of them",
+                                         run.id, 1e3 * step_s, run.time_s[k], 1e3 * data.row_s()));
+  say(fmt::format("rows {:.6g} ms apart are made of the stamps", 1e3 * data.row_s()));
+  return data;
+}
+
+namespace {
+
+[[noreturn]] void refuse(const std::string& file, std::string message) {
+  throw input::BadInput({{input::Severity::error, file, input::nowhere, std::move(message), ""}});
+}
+
+void add_hypotheses(const std::vector<std::string>& files, domain::Dataset& data) {
+  for (const std::string& file : files) {
+    auto law = input::read_hypothesis(file, data.inputs);
+    law.values.front() = 0.0;  // whatever the file says: it is to be found
+    diagnose::each_side(data.rig, [&](plant::Effects& effects) {
+      auto& list = effects.laws.list;
+      const auto same = [&](const auto& other) { return other.text->name == law.text->name; };
+      if (std::ranges::any_of(list, same))
+        refuse(file, fmt::format("the rig has a law {} already", law.text->name));
+      if (list.size() == plant::most_written_laws)
+        refuse(file, fmt::format("a rig has at most {} laws", plant::most_written_laws));
+      list.push_back(law);
+    });
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> prepare(domain::Dataset& data, const std::vector<std::string>& hypotheses) {
+  add_hypotheses(hypotheses, data);
+  input::require_judged(data, "diagnose");
+  std::vector<std::string> warnings;
+  for (const data::Finding& finding : data::mend_at_stamps(data))
+    warnings.push_back(data::text_of(data, finding).append(data::consequence_of(finding)));
+  data = data::with_rows(std::move(data));
+  return warnings;
+}
+
+Found find(const domain::Dataset& data, const diagnose::Settings& settings,
+           const run::ProgressHook& progress) {
+  Found found{diagnose::diagnose(data, settings, progress), {}, {}};
+  found.nominal = run::replay(data, settings.threads, progress);
+  domain::Dataset mended = data;
+  mended.rig = found.diagnosis.corrected;
+  found.corrected = run::replay(mended, settings.threads, progress);
+  return found;
+}
+
+}  // namespace mckibben::tasks

@@ -1,0 +1,47 @@
+// What goes with a job, whoever asks for it: data made ready for it, and what is to be said of the result.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <sim/diagnose/diagnose.hpp>
+#include <sim/domain/dataset.hpp>
+#include <sim/run/replay.hpp>
+
+namespace mckibben::tasks {
+
+// A replay.
+
+/// Another rig for the data. `called`: as messages call it. Throws input::BadInput where the data are not of
+/// such a rig.
+void replace_rig(domain::Dataset& dataset, const std::string& called, plant::Rig rig);
+
+/// What looks wrong in the data, and what is doubtful in their simulation. Throws data::UnfitData where a
+/// comparison with them would mean nothing.
+std::vector<std::string> warnings_of(const domain::Dataset& dataset,
+                                     const std::vector<run::ReplayedRun>& runs);
+
+// A calibration.
+
+/// A data set with a row each tick: what it is, or rows made of its stamps; `say` hears that. Throws
+/// input::BadInput, data::UnfitData where it cannot be.
+domain::Dataset ticked(domain::Dataset data, const std::function<void(const std::string&)>& say);
+
+// A diagnosis.
+
+/// Adds the laws of hypothesis files to the rig, on both sides of a pair, checks that the data can be judged
+/// and makes rows of stamps. Gives what is to be warned of. Throws input::BadInput, input::MissingInput,
+/// data::UnfitData.
+std::vector<std::string> prepare(domain::Dataset& data, const std::vector<std::string>& hypotheses);
+
+/// What is found, and the runs replayed on the data set's rig and on
+/// the corrected one, for pressures and forces.
+struct Found {
+  diagnose::Diagnosis diagnosis;
+  std::vector<run::ReplayedRun> nominal, corrected;
+};
+Found find(const domain::Dataset& data, const diagnose::Settings& settings,
+           const run::ProgressHook& progress);
+
+}  // namespace mckibben::tasks

@@ -1,0 +1,55 @@
+// Given columns as what acts on a rig: what is held, what runs straight, and in which steps.
+#include <gtest/gtest.h>
+
+#include <sim/run/course.hpp>
+
+namespace mckibben::run {
+namespace {
+
+domain::Measurement two_stamps(domain::Hold hold) {
+  domain::Measurement measured;
+  measured.time_s = {0.0, 0.03};
+  measured.recorded.hold = hold;
+  measured.give("command") = {10.0, 13.0};
+  measured.give("joint_force") = {0.0, 30.0};
+  return measured;
+}
+
+TEST(Course, AForceRunsStraightInStepsOfATickAndACommandIsHeld) {
+  const Course course = course_of(two_stamps(domain::Hold::usual), plant::Rig{});
+  EXPECT_TRUE(course.outer_force);
+  ASSERT_EQ(course.drives.size(), 4u);
+  EXPECT_DOUBLE_EQ(course.time_s[1], 0.01);
+  EXPECT_EQ(course.drives[0].joint_force_N, 5.0);  // its mean on the way to the next
+  EXPECT_EQ(course.drives[2].joint_force_N, 25.0);
+  EXPECT_EQ(course.drives[2].current_mA, 10.0);
+  EXPECT_EQ(course.drives[3].joint_force_N, 30.0);
+  EXPECT_EQ(course.rows, (std::vector<std::size_t>{0, 3}));
+}
+
+TEST(Course, BothAreHeldOrRunStraightWhereTheDataSaySo) {
+  const Course held = course_of(two_stamps(domain::Hold::previous), plant::Rig{});
+  ASSERT_EQ(held.drives.size(), 2u);
+  EXPECT_EQ(held.drives[0].joint_force_N, 0.0);
+  EXPECT_EQ(held.drives[0].current_mA, 10.0);
+  const Course linear = course_of(two_stamps(domain::Hold::linear), plant::Rig{});
+  ASSERT_EQ(linear.drives.size(), 4u);
+  EXPECT_EQ(linear.drives[2].joint_force_N, 25.0);
+  EXPECT_EQ(linear.drives[2].current_mA, 12.5);
+}
+
+TEST(Course, AValvePressureIsWhatItIsAtAStampAndATorqueAForceOnTheRim) {
+  domain::Measurement measured;
+  measured.time_s = {0.0, 0.01, 0.02};
+  measured.give("valve_pressure", 2) = {1e5, 2e5, 3e5};
+  measured.give("joint_torque") = {3.0, 3.0, 3.0};
+  const Course course = course_of(measured, plant::Rig{});
+  EXPECT_EQ(*course.drives[1].opposite.valve_pressure_Pa, 2e5);
+  EXPECT_EQ(*course.toward(1).opposite.valve_pressure_Pa, 3e5);
+  EXPECT_EQ(*course.toward(2).opposite.valve_pressure_Pa, 4e5);  // it goes on as it came
+  EXPECT_FALSE(course.drives[1].valve_pressure_Pa);
+  EXPECT_DOUBLE_EQ(course.drives[1].joint_force_N, -3.0 / plant::Rig{}.joint.wheel_radius_m);
+}
+
+}  // namespace
+}  // namespace mckibben::run
