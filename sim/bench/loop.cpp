@@ -6,6 +6,7 @@
 
 #include <plant/instruments.hpp>
 #include <sim/bench/loop.hpp>
+#include <sim/run/simulate.hpp>
 
 namespace mckibben::bench {
 namespace {
@@ -43,10 +44,7 @@ class Loop {
       recorded_.stopped += fmt::format("{}and it could not be told to vent: {}",
                                        recorded_.stopped.empty() ? "" : "; ", failure.what());
     }
-    recorded_.findings = controller_.findings();
-    for (controllers::Finding& finding : recorded_.findings)
-      for (std::string* text : {&finding.name, &finding.unit})
-        *text = in_unit(plan_.rig.command_unit(), *text);
+    recorded_.findings = run::findings_for(controller_, plan_.rig);
     return std::move(recorded_);
   }
 

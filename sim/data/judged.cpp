@@ -13,7 +13,7 @@
 namespace mckibben::data {
 namespace {
 
-using domain::MeasuredColumn, domain::Measurement, domain::Rows;
+using domain::is_read, domain::MeasuredColumn, domain::Measurement, domain::Rows;
 
 constexpr double even_row_s = 0.012;     // no load bends within half of it by what a sensor could show
 constexpr double slack_share = 0.002;    // of a run's largest force: less is a cord that hangs through
@@ -191,9 +191,6 @@ class Judging {
     if (const auto& read_N = raw_.read("force"); !raw_.gives_length() && is_read(read_N))
       add(domain::Beside::force, read_N, run_.force_N, force_squares);
     return list;
-  }
-  static bool is_read(const std::vector<double>& values) {
-    return std::ranges::any_of(values, [](double value) { return !std::isnan(value); });
   }
 
   /// The reading that is judged, as it was recorded, and where its rows go.

@@ -14,8 +14,7 @@ namespace mckibben::diagnose {
 
 void each_side(Rig& rig, const std::function<void(plant::Effects& effects)>& visit, Side side) {
   if (side != Side::two) visit(rig.effects);
-  auto* pair = std::get_if<plant::Pair>(&rig.mechanics);
-  if (pair != nullptr && side != Side::one) visit(pair->opposite.effects);
+  if (plant::Pair* pair = rig.pair(); pair != nullptr && side != Side::one) visit(pair->opposite.effects);
 }
 
 namespace {

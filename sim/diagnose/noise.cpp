@@ -215,8 +215,7 @@ double of_command(const domain::Dataset& data, const Runs& runs) {
     };
     off_by(0, [](Rig& rig) -> plant::Valve& { return rig.valve; });
     if (data.rig.pair() != nullptr)
-      off_by(1,
-             [](Rig& rig) -> plant::Valve& { return std::get<plant::Pair>(rig.mechanics).opposite.valve; });
+      off_by(1, [](Rig& rig) -> plant::Valve& { return rig.pair()->opposite.valve; });
     if (rigs.size() == 1) continue;
     const auto readings = predict(run, rigs, data.rig.integrator.method);
     for (std::size_t rig = 1; rig < readings.size(); ++rig)

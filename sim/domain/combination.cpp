@@ -1,7 +1,6 @@
 // The rules; see the header.
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <string_view>
 
 #include <sim/domain/combination.hpp>
@@ -105,10 +104,6 @@ std::string keys_of(bool pair) {
     if (quantity.belongs(pair) && !quantity.belongs(!pair) && !quantity.is_old_current)
       list.append(list.empty() ? "" : ", ").append(quantity.key);
   return list;
-}
-
-bool is_read(const std::vector<double>& values) {
-  return std::ranges::any_of(values, [](double value) { return !std::isnan(value); });
 }
 
 bool gives_a_pressure(const Run& run) {

@@ -1,5 +1,6 @@
 // Columns by their signals; see the header.
 #include <algorithm>
+#include <cmath>
 
 #include <sim/domain/measurement.hpp>
 
@@ -21,6 +22,10 @@ std::vector<double>& column_of(Measurement& measured, std::string_view key, std:
 }
 
 }  // namespace
+
+bool is_read(const std::vector<double>& values) {
+  return std::ranges::any_of(values, [](double value) { return !std::isnan(value); });
+}
 
 bool Measurement::gives(std::string_view key, std::size_t muscle) const {
   const auto at = find(columns, key, muscle);

@@ -59,6 +59,9 @@ struct MeasuredColumn {
   bool is_pressure() const { return channel.signal->unit.name == plant::units::bar.name && !is_command(); }
 };
 
+/// Whether one of the values is there.
+bool is_read(const std::vector<double>& values);
+
 struct Measurement {
   std::vector<double> time_s;  ///< ascending
   double point_s = 0.0;        ///< rows are settled points, each read at the end of so long; 0: they are not

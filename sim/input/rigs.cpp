@@ -135,8 +135,7 @@ void read_command_unit(const Source& source, const Node& map, Rig& into, Problem
   if (!from || !to || to->second <= from->second) return;  // is told of where they are read
   plant::command_in(into, to->first, from->second, to->second);
   into.dac = plant::dac_for(into.valve);
-  if (auto* pair = std::get_if<plant::Pair>(&into.mechanics))
-    plant::command_in(pair->opposite, to->first, from->second, to->second);
+  if (plant::Pair* pair = into.pair()) plant::command_in(pair->opposite, to->first, from->second, to->second);
 }
 
 void read_changes(const Source& source, const Node& map, Rig& into, Problems& problems, Chain& chain,

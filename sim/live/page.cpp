@@ -27,8 +27,7 @@ Json switch_json(const Switch& one) {
 }
 
 std::string data_of(const plant::Rig& rig, const Session& session) {
-  Json data{{"rig", report::drawn_rig_json(rig, rig.mechanics,
-                                           rig.sensors.of(plant::Sensed::muscle_pressure) != nullptr)},
+  Json data{{"rig", report::drawn_rig_json(rig, rig.sensors.of(plant::Sensed::muscle_pressure) != nullptr)},
             {"tick_s", rig.tick_s},
             {"dac", {{"lowest", rig.dac.lowest_command}, {"largest", rig.dac.largest_command}}},
             {"signals", signals_json(rig)},

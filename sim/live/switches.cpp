@@ -133,8 +133,7 @@ void Switches::take_from_file(plant::Rig& rig, const Switch& one) const {
     with_effect_named(into, one.effect, [&]<class E>(E& effect) { effect = from.get<E>(); });
   };
   if (one.candidate.side != Side::two) take(rig.effects, file_.effects);
-  if (auto* const pair = std::get_if<plant::Pair>(&rig.mechanics);
-      pair != nullptr && one.candidate.side != Side::one)
+  if (plant::Pair* const pair = rig.pair(); pair != nullptr && one.candidate.side != Side::one)
     take(pair->opposite.effects, file_.pair()->opposite.effects);
 }
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include <plant/mechanics.hpp>
+#include <plant/rig.hpp>
 
 namespace mckibben::report {
 
@@ -86,9 +86,8 @@ struct Contents {
   std::vector<Chapter> later_chapters{};  ///< after them
   bool short_on_paper = false;            ///< runs are printed only where the reader asks for all
   bool lengths = true;                    ///< it has some, and the reader may choose their unit
-  plant::Rig rig{};
-  plant::Mechanics mechanics{};
-  bool gauge = false;  ///< muscle pressure was measured
+  plant::Rig rig{};                       ///< as it is drawn
+  bool gauge = false;                     ///< muscle pressure was measured
   std::vector<Plot> plots{};
   std::vector<Loop> loops{};
   std::vector<Group> groups{};

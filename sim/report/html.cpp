@@ -80,7 +80,7 @@ std::size_t runs_of(const Contents& contents) {
 
 std::string data_of(const Contents& contents) {
   Json data{{"tick_s", contents.rig.tick_s},
-            {"rig", drawn_rig_json(contents.rig, contents.mechanics, contents.gauge)},
+            {"rig", drawn_rig_json(contents.rig, contents.gauge)},
             {"drawn", contents.drawn}};
   for (const auto& plot : contents.plots) data["plots"].push_back(plot_json(plot));
   const std::set<std::string> drawn = drawn_keys(contents);

@@ -24,7 +24,7 @@ input::Json muscle_json(const plant::Muscle& muscle) {
 
 }  // namespace
 
-input::Json drawn_rig_json(const plant::Rig& rig, const plant::Mechanics& mechanics, bool gauge) {
+input::Json drawn_rig_json(const plant::Rig& rig, bool gauge) {
   input::Json json = muscle_json(rig.muscle);
   json.update({{"wheel_radius_m", rig.joint.wheel_radius_m},
                {"supply_bar", rig.valve.supply_pressure_Pa / 1e5},
@@ -34,9 +34,9 @@ input::Json drawn_rig_json(const plant::Rig& rig, const plant::Mechanics& mechan
                      {"unit", name_of(rig.command_unit())},
                      {"zero", rig.valve.zero_command},
                      {"span", rig.valve.span_command}};
-  if (const auto* pair = std::get_if<plant::Pair>(&mechanics))
+  if (const plant::Pair* pair = rig.pair())
     json["pair"] = {{"hangs_at_rad", pair->hangs_at_rad}, {"opposite", muscle_json(pair->opposite.muscle)}};
-  if (std::holds_alternative<plant::HeldLength>(mechanics)) json["bench"] = true;
+  if (rig.holds_a_length()) json["bench"] = true;
   return json;
 }
 

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include <plant/mechanics.hpp>
+#include <plant/rig.hpp>
 #include <sim/input/json.hpp>
 
 namespace mckibben::report {
@@ -13,6 +13,6 @@ namespace mckibben::report {
 std::string in_script(const input::Json& data);
 
 /// `gauge`: whether one is drawn.
-input::Json drawn_rig_json(const plant::Rig& rig, const plant::Mechanics& mechanics, bool gauge);
+input::Json drawn_rig_json(const plant::Rig& rig, bool gauge);
 
 }  // namespace mckibben::report

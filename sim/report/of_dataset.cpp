@@ -148,7 +148,6 @@ std::string report_html(const domain::Campaign& campaign, const std::vector<run:
           "hashes are in campaign.json, the truth in a folder of its own.",
       .lengths = !pair,
       .rig = dataset.rig,
-      .mechanics = dataset.rig.mechanics,
       .gauge = dataset.rig.sensors.of(plant::Sensed::muscle_pressure) != nullptr,
       .plots = measured_plots(dataset.rig, pair),
       .loops = measured_loops(pair)};

@@ -235,11 +235,11 @@ std::string report_html(const domain::Dataset& data, const Diagnosis& diagnosis,
       .short_on_paper = true,
       .lengths = !pair,
       .rig = diagnosis.corrected,
-      .mechanics = pair ? diagnosis.corrected.mechanics : plant::Mechanics{},
       .gauge = gauged(data) && !pair,
       .plots = plots(data, diagnosis),
       .loops = loops_of_runs(data),
       .drawn = output::changed(diagnosis) ? 2u : 0u};  // the corrected
+  if (!pair) contents.rig.mechanics = plant::HangingLoad{};
   const RunGap* telling = telling_run(diagnosis);
   for (const RunGap* run : runs) {
     auto group = group_of(data, diagnosis, *run, by_id(nominal, run->id), by_id(corrected, run->id));

@@ -112,8 +112,7 @@ std::string sentence(const domain::Dataset& dataset, const std::vector<run::Repl
 Contents contents_of(const plant::Rig& rig, const run::Driven& driven) {
   Contents contents;
   contents.rig = rig;
-  contents.mechanics = rig.mechanics;
-  if (driven.length) contents.mechanics = plant::HeldLength{};
+  if (driven.length) contents.rig.mechanics = plant::HeldLength{};
   contents.lengths = !driven.pair;
   contents.beside = std::string(beside_runs);
   contents.loops = loops_of(driven);

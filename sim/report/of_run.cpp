@@ -265,7 +265,6 @@ std::string report_html(const Scenario& scenario, const Comparison& comparison) 
                     .chapters = {robustness(scenario, comparison)},
                     .lengths = !pair,
                     .rig = scenario.rig,
-                    .mechanics = scenario.rig.mechanics,
                     .gauge = !pair && scenario.rig.sensors.of(plant::Sensed::muscle_pressure) != nullptr,
                     .plots = plots_of(scenario.rig, plots_for(scenario)),
                     .loops = loops_of({.pair = pair})};

@@ -82,7 +82,7 @@ std::string sensor(const plant::Sensor& sensor) {
 
 std::string rig_html(const Contents& contents) {
   const plant::Rig& rig = contents.rig;
-  const auto* pair = std::get_if<plant::Pair>(&contents.mechanics);
+  const plant::Pair* pair = rig.pair();
   std::string html = "<dl class='small'>";
   const auto part = [&](const char* name, const std::string& says) {
     html += fmt::format("<dt>{}</dt><dd>{}</dd>\n", name, output::escaped(says));

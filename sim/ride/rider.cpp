@@ -195,17 +195,16 @@ void Rider::look() {
   if (now.reads) rise_m += shift_m;
   const double wheel_m =
       plant_.rig().effects.wheel_m(rise_m, now.plays) + plant_.rig().joint.reading_offset_m;
-  const plant::Rig& other = plant_.opposite() ? plant_.opposite()->rig() : plant_.rig();
   using enum plant::Sensed;
-  now.reading = {.wheel_m = wheel_m,
-                 .misread_m = wheel_m - true_rise_m,
-                 .muscle_pressure_Pa =
-                     plant_.rig().effects.shown_Pa(seen(muscle_pressure, 0, state.side.muscle_pressure_Pa)),
-                 .opposite_pressure_Pa =
-                     other.effects.shown_Pa(seen(muscle_pressure, 1, state.opposite.muscle_pressure_Pa)),
-                 .valve_pressure_Pa = seen(valve_pressure, 0, state.side.valve_pressure_Pa),
-                 .opposite_valve_pressure_Pa = seen(valve_pressure, 1, state.opposite.valve_pressure_Pa),
-                 .late_force_N = now.reading.late_force_N};
+  now.reading.wheel_m = wheel_m;
+  now.reading.misread_m = wheel_m - true_rise_m;
+  now.reading.muscle_pressure_Pa =
+      plant_.rig().effects.shown_Pa(seen(muscle_pressure, 0, state.side.muscle_pressure_Pa));
+  now.reading.valve_pressure_Pa = seen(valve_pressure, 0, state.side.valve_pressure_Pa);
+  if (!plant_.opposite()) return;
+  now.reading.opposite_pressure_Pa =
+      plant_.opposite()->rig().effects.shown_Pa(seen(muscle_pressure, 1, state.opposite.muscle_pressure_Pa));
+  now.reading.opposite_valve_pressure_Pa = seen(valve_pressure, 1, state.opposite.valve_pressure_Pa);
 }
 
 double Rider::seen(plant::Sensed sensed, std::size_t muscle, double value) {

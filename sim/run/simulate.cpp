@@ -111,10 +111,7 @@ class Run : public ride::BatchItem {
           rider_.plant().imbalance(recording_.samples.front().state, last.state, last.ledger);
     recording_.solver = solver;
     if (recording_.solver.stiff_from_tick >= 0) recording_.solver.stiff_from_tick += begin_;
-    recording_.findings = controller_.findings();
-    for (controllers::Finding& finding : recording_.findings)
-      for (std::string* text : {&finding.name, &finding.unit})
-        *text = in_unit(plan_.rig.command_unit(), *text);
+    recording_.findings = findings_for(controller_, plan_.rig);
     recording_.driven.pair = plan_.rig.pair() != nullptr;
     note_slack(recording_);
     done_(std::move(recording_));
@@ -231,6 +228,14 @@ Prepare preparing(const Ordering& ordering, const Finished& finished) {
 }
 
 }  // namespace
+
+std::vector<controllers::Finding> findings_for(const controllers::Controller& controller,
+                                               const plant::Rig& rig) {
+  std::vector<controllers::Finding> found = controller.findings();
+  for (controllers::Finding& finding : found)
+    for (std::string* text : {&finding.name, &finding.unit}) *text = in_unit(rig.command_unit(), *text);
+  return found;
+}
 
 Recording simulate(const RunPlan& plan, controllers::Controller& controller) {
   if (!moves(plan)) return without_load();

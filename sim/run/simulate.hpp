@@ -31,6 +31,10 @@ struct RunPlan {
 /// Touches no heap between the first tick and the last.
 Recording simulate(const RunPlan& plan, controllers::Controller& controller);
 
+/// What a controller found out, named by what the rig's valve takes.
+std::vector<controllers::Finding> findings_for(const controllers::Controller& controller,
+                                               const plant::Rig& rig);
+
 /// A run that is asked for, and what drives it.
 struct Order {
   RunPlan plan;

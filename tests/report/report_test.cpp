@@ -332,7 +332,7 @@ TEST(RigWords, TellWhatTheRigHasAndWhatItHasNot) {
 
 TEST(RigWords, TellOfTwoMusclesAndTheirLink) {
   Contents contents;
-  contents.mechanics = plant::Pair{};
+  contents.rig.mechanics = plant::Pair{};
   const std::string html = rig_html(contents);
   EXPECT_TRUE(holds(html, "<dt>muscle 2", "2 kg whose centre of mass is 250 mm from the axis", "of angle"));
 }

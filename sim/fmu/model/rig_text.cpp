@@ -155,7 +155,7 @@ void walk(plant::Rig& rig, Leaf leaf) {
   double kind = static_cast<double>(rig.mechanics.index());
   leaf("mechanics", kind);
   become(rig.mechanics, static_cast<std::size_t>(kind));
-  if (auto* const both = std::get_if<plant::Pair>(&rig.mechanics)) {
+  if (plant::Pair* const both = rig.pair()) {
     both->opposite.valve.command_unit = rig.valve.command_unit;
     LawWalk(leaf, "law_2")(both->opposite.effects.laws);
     visitor("mechanics", *both);
