@@ -17,10 +17,9 @@ class Prediction final : public run::Follower {
  public:
   using Done = std::function<void(std::vector<Readings> readings, std::exception_ptr failure)>;
 
-  Prediction(const domain::Run& run, std::span<const Loaded> rigs, std::span<const double> memories,
-             Done done)
+  Prediction(const domain::Run& run, std::span<const Loaded> rigs, Done done, run::Disturbance disturbance)
       : Follower({rigs.begin(), rigs.end()}, rigs.front().rig, run::course_of(run, rigs.front().rig),
-                 memories),
+                 std::move(disturbance)),
         pair_(rigs.front().rig.pair() != nullptr),
         forces_(run.length_is_given()),
         force_beside_(run.beside(domain::Beside::force) != nullptr),
@@ -84,11 +83,16 @@ std::vector<Readings> predict(const domain::Run& run, std::span<const Loaded> ri
                               std::span<const double> memories) {
   std::vector<Readings> readings;
   std::exception_ptr failure;
+  run::Disturbance begun;
+  if (!memories.empty())
+    begun.begin = [&](std::size_t i, ride::Underway& begins) { begins.memories = memories[i]; };
   const auto prediction = std::make_shared<Prediction>(
-      run, rigs, memories, [&](std::vector<Readings> all, std::exception_ptr why) {
+      run, rigs,
+      [&](std::vector<Readings> all, std::exception_ptr why) {
         readings = std::move(all);
         failure = std::move(why);
-      });
+      },
+      std::move(begun));
   const ride::BatchKey key = prediction->key(settings_for(rigs, method), false);
   if (rigs.size() == 1 || !key.in_lanes) {
     ride::Alone(prediction->riders(), key).run(*prediction);
@@ -105,8 +109,8 @@ void predict_all(std::size_t count, std::size_t rigs, unsigned threads, solver::
                  const std::function<Wanted(std::size_t index)>& wanted, const Predicted& predicted) {
   run::run_batch(count, rigs, threads, [&](std::size_t index) {
     const Wanted one = wanted(index);
-    const auto prediction = std::make_shared<Prediction>(*one.run, one.rigs, std::span<const double>{},
-                                                         std::bind_front(predicted, index));
+    const auto prediction =
+        std::make_shared<Prediction>(*one.run, one.rigs, std::bind_front(predicted, index), one.disturbance);
     return run::BatchTask{prediction->key(settings_for(one.rigs, method), false), [=] { return prediction; }};
   });
 }

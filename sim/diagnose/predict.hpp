@@ -13,6 +13,7 @@
 #include <sim/data/examine.hpp>
 #include <sim/domain/dataset.hpp>
 #include <sim/ride/rider.hpp>
+#include <sim/run/follow.hpp>
 
 namespace mckibben::diagnose {
 
@@ -34,6 +35,7 @@ std::vector<Readings> predict(const domain::Run& run, std::span<const Loaded> ri
 struct Wanted {
   const domain::Run* run;
   std::vector<Loaded> rigs;
+  run::Disturbance disturbance{};
 };
 /// Hears of one: its readings, or why there are none (an engine::NumericalFailure).
 using Predicted =

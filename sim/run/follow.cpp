@@ -1,6 +1,7 @@
 // Stamp after stamp; see the header.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include <sim/engine/failure.hpp>
@@ -8,32 +9,47 @@
 #include <sim/run/follow.hpp>
 
 namespace mckibben::run {
+namespace {
+
+constexpr double never_s = -std::numeric_limits<double>::infinity();
+
+}  // namespace
 
 Follower::Follower(std::vector<ride::Rider> riders, const plant::Rig& rig, Course course,
-                   std::span<const double> memories)
-    : rig_(rig), course_(std::move(course)), riders_(std::move(riders)) {
+                   Disturbance disturbance)
+    : rig_(rig),
+      course_(std::move(course)),
+      disturbance_(std::move(disturbance)),
+      riders_(std::move(riders)) {
   if (!course_.begins) settling_ = std::lround(rig_.settling_time_s / rig_.tick_s);
   for (std::size_t i = 0; i < riders_.size(); ++i) {
-    riders_[i].start(course_.drives.front(), before_s(settling_));
+    riders_[i].start(disturbed(course_.drives.front(), i, never_s, never_s), before_s(settling_));
     if (!course_.begins) continue;
     ride::Underway begins = *course_.begins;
-    if (!memories.empty()) begins.memories = memories[i];
+    if (disturbance_.begin) disturbance_.begin(i, begins);
     ride::set_off(riders_[i], begins);
   }
 }
 
+ride::Drive Follower::disturbed(ride::Drive drive, std::size_t rider, double from_s, double to_s) const {
+  if (disturbance_.drive) disturbance_.drive(riders_[rider], rider, from_s, to_s, drive);
+  return drive;
+}
+
 bool Follower::go_on() {
-  const auto hold = [this](const ride::Drive& drive, double until_s) {
-    for (ride::Rider& rider : riders_) rider.hold(drive, until_s);
+  const auto hold = [this](const ride::Drive& drive, double from_s, double to_s, double until_s) {
+    for (std::size_t i = 0; i < riders_.size(); ++i)
+      riders_[i].hold(disturbed(drive, i, from_s, to_s), until_s);
   };
   if (has_settled_ && k_ == 0) settled_a_tick();
   if (settling_ > 0) {
     has_settled_ = true;
-    hold(course_.drives.front(), before_s(--settling_));
+    hold(course_.drives.front(), never_s, never_s, before_s(--settling_));
     return true;
   }
   if (k_ == 0) begin();
-  hold(course_.toward(k_), course_.until_s(k_, rig_.tick_s));  // forces are those of the way ahead
+  const double until_s = course_.until_s(k_, rig_.tick_s);
+  hold(course_.toward(k_), course_.time_s[k_], until_s, until_s);  // forces are those of the way ahead
   if (row_ < course_.rows.size() && course_.rows[row_] == k_) {
     look(k_);
     ++row_;

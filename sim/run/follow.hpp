@@ -18,13 +18,23 @@
 
 namespace mckibben::run {
 
+/// What is otherwise for one rider than the course says.
+struct Disturbance {
+  /// Changes what drives it between two instants; both are minus infinity for what it settles under. Commands
+  /// and forces are those of the first, pressures and lengths those of the second.
+  std::function<void(const ride::Rider& rider, std::size_t index, double from_s, double to_s,
+                     ride::Drive& drive)>
+      drive{};
+  /// Changes how it begins on its way.
+  std::function<void(std::size_t index, ride::Underway& begins)> begin{};
+};
+
 /// What follows a course, as an item of a batch.
 class Follower : public ride::BatchItem {
  public:
-  /// `rig`: whose ticks count. `memories`: of riders that begin on their way (ride::Underway), in place of
-  /// the course's.
+  /// `rig`: whose ticks count.
   Follower(std::vector<ride::Rider> riders, const plant::Rig& rig, Course course,
-           std::span<const double> memories = {});
+           Disturbance disturbance = {});
 
   ride::BatchKey key(const solver::Settings& settings, bool keep_ledger) const {
     return ride::batch_key(riders_, course_.drives.front(), settings, keep_ledger);
@@ -46,8 +56,11 @@ class Follower : public ride::BatchItem {
     return course_.time_s.front() - static_cast<double>(ticks) * rig_.tick_s;
   }
 
+  ride::Drive disturbed(ride::Drive drive, std::size_t rider, double from_s, double to_s) const;
+
   plant::Rig rig_;
   Course course_;
+  Disturbance disturbance_;
   std::vector<ride::Rider> riders_;
   long settling_ = 0;  // ticks that are left
   bool has_settled_ = false;
