@@ -1,0 +1,89 @@
+// See the header.
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+
+#include <sim/identify/decide.hpp>
+#include <sim/identify/decisive.hpp>
+
+namespace mckibben::identify {
+
+std::string_view name_of(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::nothing_missing:
+      return "nothing_missing";
+    case Verdict::recalibrate:
+      return "recalibrate";
+    case Verdict::missing_effect:
+      return "missing_effect";
+    case Verdict::unknown_effect:
+      return "unknown_effect";
+  }
+  return "";
+}
+
+Loss loss(const Eigen::VectorXd& of_better, const Eigen::VectorXd& of_worse) {
+  const Eigen::VectorXd d = of_better - of_worse;
+  const auto n = static_cast<double>(d.size());
+  if (d.size() < 2) return {d.sum(), 0.0};
+  const double scatter = (d.array() - d.mean()).square().sum() / (n - 1.0);
+  return {d.sum(), std::sqrt(n * scatter)};
+}
+
+double chi_square(double share, std::size_t degrees) {
+  const auto n = static_cast<double>(degrees);
+  // The normal quantile, by bisection.
+  double low = -8.0, high = 8.0;
+  for (int i = 0; i < 80; ++i) {
+    const double middle = 0.5 * (low + high);
+    (0.5 * std::erfc(-middle / std::sqrt(2.0)) < share ? low : high) = middle;
+  }
+  const double a = 2.0 / (9.0 * n), root = 1.0 - a + low * std::sqrt(a);
+  return n * root * root * root;
+}
+
+namespace {
+
+Verdict verdict_of(const Judged& model) {
+  if (model.described) return Verdict::nothing_missing;
+  if (model.general) return Verdict::unknown_effect;
+  return model.names.empty() ? Verdict::recalibrate : Verdict::missing_effect;
+}
+
+bool allowed(const Judged& model) {
+  return model.off_sheet < decisive.conflict;
+}
+
+int size_of(const Judged& model) {
+  return model.described ? -1 : static_cast<int>(model.names.size());
+}
+
+}  // namespace
+
+Decision decide(const std::vector<Judged>& table) {
+  Decision decision;
+  decision.best =
+      static_cast<std::size_t>(std::ranges::max_element(table, {}, &Judged::score) - table.begin());
+  double all = 0.0;
+  for (const Judged& model : table) {
+    decision.mass.push_back(std::exp(model.score - table[decision.best].score));
+    all += decision.mass.back();
+  }
+  for (double& one : decision.mass) one /= all;
+  decision.chosen = decision.best;
+  for (std::size_t i = 0; i < table.size(); ++i) {
+    if (i == decision.best || !std::isfinite(table[i].score)) continue;
+    if (decision.mass[i] > decisive.mass) decision.rivals.push_back(i);
+    const auto [nats, error] = loss(table[decision.best].held_out, table[i].held_out);
+    if (!(nats <= decisive.errors * error) || !allowed(table[i])) continue;
+    const Judged& chosen = table[decision.chosen];
+    if (size_of(table[i]) < size_of(chosen) ||
+        (size_of(table[i]) == size_of(chosen) && table[i].score > chosen.score))
+      decision.chosen = i;
+  }
+  decision.verdict = verdict_of(table[decision.chosen]);
+  decision.contradicts_sheet = !allowed(table[decision.chosen]);
+  return decision;
+}
+
+}  // namespace mckibben::identify

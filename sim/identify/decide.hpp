@@ -1,0 +1,44 @@
+// From the table of models to a verdict: the simplest model that predicts unseen runs as well as the most
+// probable one, with parameters that the sheet allows.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace mckibben::identify {
+
+enum class Verdict { nothing_missing, recalibrate, missing_effect, unknown_effect };
+std::string_view name_of(Verdict verdict);
+
+/// A model as the decision sees it.
+struct Judged {
+  std::vector<std::string> names{};  ///< that are at work
+  bool described = false;            ///< no parameter is free
+  bool general = false;              ///< it has general terms
+  double score = 0.0;                ///< log evidence and log prior of the set [nats]
+  Eigen::VectorXd held_out{};        ///< log density of each group of runs given the others
+  double off_sheet = 0.0;            ///< of the parameter that is furthest off [deviations]
+};
+
+struct Decision {
+  Verdict verdict{};
+  std::size_t chosen = 0, best = 0;   ///< in the table; the most probable one
+  bool contradicts_sheet = false;     ///< the one chosen has parameters that the sheet does not allow
+  std::vector<std::size_t> rivals{};  ///< with more than a twentieth of the mass
+  std::vector<double> mass{};         ///< of each model
+};
+
+Decision decide(const std::vector<Judged>& table);
+
+/// By how much a model predicts worse than another one [nats], and the standard error of that.
+struct Loss {
+  double nats, error;
+};
+Loss loss(const Eigen::VectorXd& of_better, const Eigen::VectorXd& of_worse);
+
+/// The quantile of chi^2 of so many degrees of freedom (Wilson & Hilferty 1931; within 1 % from 3 on).
+double chi_square(double share, std::size_t degrees);
+
+}  // namespace mckibben::identify

@@ -1,0 +1,232 @@
+// See the header.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <set>
+
+#include <plant/geometry.hpp>
+#include <sim/diagnose/catalogue.hpp>
+#include <sim/diagnose/diagnosis.hpp>
+#include <sim/diagnose/priors.hpp>
+#include <sim/identify/decisive.hpp>
+#include <sim/identify/dictionary.hpp>
+
+namespace mckibben::identify {
+namespace {
+
+constexpr std::array<BenchNumber, 3> bench_numbers{
+    {{"load_label", "offset", &Bench::load_offset_kg, 1.0, -8.0, 12.0},
+     {"load_label", "factor", &Bench::load_factor, 0.05, -0.6, 1.0},
+     {"reading_clock", "", &Bench::clock, 0.01, -0.3, 0.3}}};
+
+Entry entry_of(const diagnose::Candidate& c, const plant::Rig& rig) {
+  plant::Rig copy = c.chosen(rig);
+  const diagnose::Found size = diagnose::find(copy, c.amplitude);
+  Entry entry{.name = diagnose::full_name(c.effect, "", c.side),
+              .effect = c,
+              .absent = c.absent,
+              .typical = c.typical,
+              .either_sign = c.either_sign};
+  const double one = (size.lowest - c.absent) / c.typical, other = (size.highest - c.absent) / c.typical;
+  entry.lowest = std::min(one, other);
+  entry.highest = std::max(one, other);
+  if (!c.either_sign) entry.lowest = std::max(entry.lowest, decisive.least);
+  if (!c.shape.empty() && c.shapes.size() > 1) {
+    entry.shape_middle = c.shapes[c.shapes.size() / 2];
+    entry.shape_sd = std::log(c.shapes.back() / c.shapes.front()) / 4.0;
+    if (c.own) entry.shape_middle = std::sqrt(c.shapes.back() * c.shapes.front());
+  }
+  return entry;
+}
+
+constexpr std::size_t wave_pairs = 14, rub_places = 8;
+
+}  // namespace
+
+bool Point::has(std::size_t entry) const {
+  return std::ranges::any_of(effects, [&](const Added& one) { return one.entry == entry; });
+}
+bool Point::lets_differ(int which) const {
+  return std::ranges::find(differ, which) != differ.end();
+}
+
+Dictionary::Dictionary(const domain::Dataset& data, double written_coarsely)
+    : described_(data.rig), written_coarsely_(written_coarsely) {
+  for (diagnose::Parameter& p : diagnose::nominal_parameters(data.rig, data.rig.spreads)) {
+    if (data.pressure_is_given() && diagnose::out_of_sight(p)) continue;
+    const diagnose::Found found = diagnose::find(described_, p.path);
+    p.lowest = found.lowest;
+    p.highest = found.highest;
+    parameters.push_back({p});
+  }
+  for (std::size_t i = 0, shared = parameters.size(); i < shared; ++i) {
+    Free p = parameters[i];
+    if (!p.both_sides || p.path == "valve.supply_pressure") continue;
+    p.origin = 0.0;
+    p.lowest = -p.highest;
+    p.difference = true;
+    parameters.push_back(p);
+  }
+  if (written_coarsely_ > 0.0)
+    parameters.push_back(
+        {{.path = "bench.zero", .scale = 0.5 * written_coarsely_, .lowest = -1.0, .highest = 1.0}});
+  for (const diagnose::Candidate& c : diagnose::catalogue(data))
+    if (c.fits(described_)) entries.push_back(entry_of(c, described_));
+  if (data.judged() == domain::Judged::contraction)
+    for (const BenchNumber& number : bench_numbers)
+      entries.push_back({.name = std::string(number.name),
+                         .bench = &number,
+                         .typical = number.typical,
+                         .either_sign = true,
+                         .lowest = number.lowest / number.typical,
+                         .highest = number.highest / number.typical});
+  std::set<std::string> names;
+  for (const Entry& entry : entries) names.insert(entry.name);
+  all_names = names.size() + differing.size() + 3;
+  rest_length_m = described_.muscle.rest_length_m;
+  double reach = 0.0;
+  for (const domain::Run& run : data.runs)
+    for (const double read : run.judged()) reach = std::max(reach, std::abs(read));
+  reach_m = reach * rest_length_m;
+  if (data.judged() != domain::Judged::contraction) reach_m = 0.3 * rest_length_m;
+}
+
+std::size_t Dictionary::count_of_terms(Terms terms) const {
+  if (terms == Terms::none) return 0;
+  if (terms == Terms::smooth) return plant::names(plant::Basis{}).size() - 1;  // a sine is a wave
+  return terms == Terms::waves ? 2 * wave_pairs : rub_places;
+}
+
+std::size_t Dictionary::laws_of(const std::string& name) const {
+  return static_cast<std::size_t>(std::ranges::count(entries, name, &Entry::name));
+}
+
+std::vector<Coordinate> Dictionary::coordinates(const Point& point) const {
+  std::vector<Coordinate> list;
+  for (Eigen::Index j = 0; j < point.z.size(); ++j)
+    list.push_back({Kind::parameter, static_cast<std::size_t>(j)});
+  for (std::size_t i = 0; i < point.effects.size(); ++i) {
+    list.push_back({Kind::size, i});
+    if (entries[point.effects[i].entry].has_shape()) list.push_back({Kind::shape, i});
+  }
+  for (Eigen::Index j = 0; j < point.coefficients.size(); ++j)
+    list.push_back({Kind::term, static_cast<std::size_t>(j)});
+  return list;
+}
+
+Eigen::VectorXd Dictionary::vector(const Point& point) const {
+  const auto list = coordinates(point);
+  Eigen::VectorXd v(static_cast<Eigen::Index>(list.size()));
+  for (std::size_t j = 0; j < list.size(); ++j) {
+    const std::size_t of = list[j].of;
+    double& value = v[static_cast<Eigen::Index>(j)];
+    switch (list[j].kind) {
+      case Kind::parameter:
+        value = point.z[static_cast<Eigen::Index>(of)];
+        break;
+      case Kind::size:
+        value = point.effects[of].size;
+        break;
+      case Kind::shape:
+        value = point.effects[of].shape;
+        break;
+      case Kind::term:
+        value = point.coefficients[static_cast<Eigen::Index>(of)];
+        break;
+    }
+  }
+  return v;
+}
+
+Added Dictionary::clipped(Added added) const {
+  const Entry& entry = entries[added.entry];
+  added.size = std::clamp(added.size, entry.lowest, entry.highest);
+  added.shape = std::clamp(added.shape, -4.0, 4.0);
+  return added;
+}
+
+Point Dictionary::moved(const Point& point, const Eigen::VectorXd& v) const {
+  Point p = point;
+  const auto list = coordinates(point);
+  for (std::size_t j = 0; j < list.size(); ++j) {
+    const std::size_t of = list[j].of;
+    const double value = v[static_cast<Eigen::Index>(j)];
+    switch (list[j].kind) {
+      case Kind::parameter: {
+        const Free& par = parameters[of];
+        p.z[static_cast<Eigen::Index>(of)] =
+            std::clamp(value, (par.lowest - par.origin) / par.scale, (par.highest - par.origin) / par.scale);
+        break;
+      }
+      case Kind::size:
+        p.effects[of].size = value;
+        break;
+      case Kind::shape:
+        p.effects[of].shape = value;
+        break;
+      case Kind::term:
+        p.coefficients[static_cast<Eigen::Index>(of)] = value;
+        break;
+    }
+  }
+  for (Added& added : p.effects) added = clipped(added);
+  return p;
+}
+
+Setting Dictionary::setting(const Point& point) const {
+  Setting made{described_, {.run_loads_kg = point.run_loads_kg, .starts = point.starts}};
+  for (Eigen::Index j = 0; j < point.z.size(); ++j) {
+    const Free& p = parameters[static_cast<std::size_t>(j)];
+    const double value = p.origin + p.scale * point.z[j];
+    if (p.difference) {
+      const diagnose::Found of_2 = diagnose::find(made.rig, std::string(diagnose::of_muscle_2) + p.path);
+      *of_2.value = std::clamp(*of_2.value + value, of_2.lowest, of_2.highest);
+      continue;
+    }
+    if (p.path == "bench.zero")
+      made.bench.zero = value;
+    else if (point.z[j] != 0.0)
+      p.put(made.rig, std::clamp(value, p.lowest, p.highest));
+  }
+  for (const Added& added : point.effects) {
+    const Entry& entry = entries[added.entry];
+    const double size = entry.absent + entry.typical * added.size;
+    if (entry.bench != nullptr) {
+      made.bench.*(entry.bench->of) = size;
+    } else {
+      made.rig = entry.effect->chosen(std::move(made.rig));
+      entry.effect->put(made.rig, size, entry.shape_middle * std::exp(entry.shape_sd * added.shape));
+    }
+  }
+  put_terms(point, made.rig);
+  return made;
+}
+
+void Dictionary::put_terms(const Point& point, plant::Rig& rig) const {
+  const auto add = [&](const plant::ForceTerm& term) {
+    diagnose::each_side(
+        rig, [&](plant::Effects& effects) { effects.get<plant::ResidualForce>().terms.push_back(term); });
+  };
+  for (Eigen::Index j = 0; j < point.coefficients.size(); ++j) {
+    const double N = point.coefficients[j];
+    if (point.terms == Terms::smooth)
+      add({.of = static_cast<plant::Basis>(j), .coefficient_N = N});
+    else if (point.terms == Terms::waves)
+      add({.of = plant::Basis::sine,
+           .coefficient_N = N,
+           .wavelength_m = 1.2 * reach_m / static_cast<double>(1 + j / 2),
+           .phase_rad = std::numbers::pi / 2.0 * static_cast<double>(j % 2)});
+  }
+}
+
+std::vector<std::string> Dictionary::names(const Point& point) const {
+  std::set<std::string> set;
+  for (const Added& added : point.effects) set.insert(entries[added.entry].name);
+  for (const int which : point.differ)
+    set.insert(std::string(differing.at(static_cast<std::size_t>(which)).name));
+  constexpr std::array<std::string_view, 4> families{"", "smooth", "waves", "rubs"};
+  if (point.terms != Terms::none) set.insert(std::string(families.at(static_cast<std::size_t>(point.terms))));
+  return {set.begin(), set.end()};
+}
+
+}  // namespace mckibben::identify

@@ -1,0 +1,133 @@
+// All that may explain a reading: parameters of the rig, effects, faults of the bench, general terms. One
+// list, with priors; and a point: which of it is at work, with which numbers, in units of the priors.
+//
+//   parameter       z = (value - described) / deviation ~ Student t of 4 degrees; of a pair a shared value,
+//                   and muscle 2's less muscle 1's
+//   size            z = (value - absent) / typical ~ Student t of 4 degrees, half where it is one-sided
+//   shape           log-normal round its middle, its range is +-2 deviations
+//   general terms   force, ~ normal of a scale that is tried
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include <sim/diagnose/candidate.hpp>
+#include <sim/domain/dataset.hpp>
+
+namespace mckibben::identify {
+
+/// What a bench may have wrong: its part in a simulation. All 0: nothing.
+struct Bench {
+  double load_offset_kg = 0.0, load_factor = 0.0;  ///< of what is written as load
+  double clock = 0.0;                              ///< the recorder reads at t (1 + clock)
+  double zero = 0.0;                               ///< of the judged reading
+  std::vector<double> run_loads_kg{};              ///< of each run besides
+  std::vector<Eigen::VectorXd> starts{};           ///< of each run that began on its way, in deviations
+  double load_kg(double written, std::size_t run) const {
+    return written * (1.0 + load_factor) + load_offset_kg + (run_loads_kg.empty() ? 0.0 : run_loads_kg[run]);
+  }
+};
+
+/// A rig and a bench: what is simulated.
+struct Setting {
+  plant::Rig rig;
+  Bench bench{};
+};
+
+/// A number of the bench that is the same in all runs.
+struct BenchNumber {
+  std::string_view name, variant;
+  double Bench::*of;
+  double typical, lowest, highest;
+};
+
+/// An effect of the rig, with one of its laws, or a fault of the bench.
+struct Entry {
+  std::string name;                             ///< laws of one effect share it
+  std::optional<diagnose::Candidate> effect{};  ///< or
+  const BenchNumber* bench = nullptr;
+  double absent = 0.0, typical = 1.0;
+  bool either_sign = false;
+  double lowest = 0.0, highest = 0.0;         ///< sizes, in typical ones
+  double shape_middle = 0.0, shape_sd = 0.0;  ///< of its logarithm; 0: it has no shape
+  bool has_shape() const { return shape_sd > 0.0; }
+};
+
+/// What may differ from run to run, one value each, ~ normal with a scale that is log-normal round the
+/// typical one, a factor of e.
+struct Differing {
+  std::string_view name;
+  double typical;  ///< m (over the rest length), 1, kg
+};
+inline constexpr std::array<Differing, 3> differing{
+    {{"zeros_differ", 1e-3}, {"gains_differ", 0.03}, {"loads_differ", 0.5}}};
+inline constexpr int zeros = 0, gains = 1, loads = 2;
+
+/// Families of general terms of force.
+enum class Terms { none, smooth, waves, rubs };
+
+struct Added {
+  std::size_t entry = 0;
+  double size = 0.0, shape = 0.0;  ///< in units of their priors
+};
+
+struct Point {
+  Eigen::VectorXd z{};           ///< of the rig's parameters; empty: as described
+  std::vector<Added> effects{};  ///< by entry
+  Terms terms = Terms::none;
+  Eigen::VectorXd coefficients{};  ///< of these [N]
+  std::vector<int> differ{};       ///< of `differing`, ascending
+  // Where numbers of runs are simulated that are integrated out: their prior is round nothing.
+  std::vector<double> run_loads_kg{};
+  std::vector<Eigen::VectorXd> starts{};
+
+  bool has(std::size_t entry) const;
+  bool lets_differ(int which) const;
+};
+
+enum class Kind { parameter, size, shape, term };
+struct Coordinate {
+  Kind kind;
+  std::size_t of;  ///< parameter, or place among the point's effects, or term
+};
+
+class Dictionary {
+ public:
+  /// `written_coarsely`: in steps of so much, which may have been rounded or cut; 0: they are the sensor's.
+  Dictionary(const domain::Dataset& data, double written_coarsely);
+
+  std::vector<Coordinate> coordinates(const Point& point) const;
+  Eigen::VectorXd vector(const Point& point) const;
+  Point moved(const Point& point, const Eigen::VectorXd& vector) const;
+  Point described() const { return {}; }
+  Point nominal() const { return {.z = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(parameters.size()))}; }
+  Added clipped(Added added) const;
+
+  Setting setting(const Point& point) const;
+  /// The names of what is at work, in order.
+  std::vector<std::string> names(const Point& point) const;
+  std::size_t count_of_terms(Terms terms) const;
+  std::size_t laws_of(const std::string& name) const;
+
+  /// A parameter of the rig, or by how much muscle 2's is more than muscle 1's.
+  struct Free : diagnose::Parameter {
+    bool difference = false;
+  };
+  std::vector<Free> parameters;
+  std::vector<Entry> entries;
+  std::size_t all_names = 0;  ///< of which sets are made
+  double rest_length_m = 0.0, reach_m = 0.0;
+
+ private:
+  void put_terms(const Point& point, plant::Rig& rig) const;
+
+  plant::Rig described_;
+  double written_coarsely_;
+};
+
+}  // namespace mckibben::identify

@@ -1,0 +1,344 @@
+// See the header.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <Eigen/Cholesky>
+
+#include <sim/identify/decisive.hpp>
+#include <sim/identify/error.hpp>
+
+namespace mckibben::identify {
+
+using Eigen::Index;
+
+Eigen::MatrixXd Grams::sum() const {
+  Eigen::MatrixXd all = of_runs.front();
+  for (std::size_t run = 1; run < of_runs.size(); ++run) all += of_runs[run];
+  return all;
+}
+double Grams::log_det() const {
+  double all = 0.0;
+  for (const double one : log_dets) all += one;
+  return all;
+}
+
+Error::Error(const Rows& rows, const Wander& wander) : rows_(&rows) {
+  logs_ = {std::log(rows.count > 0.0 ? 0.1 * rows.count : rows.noise.front()), std::log(rows.unit), 0.0};
+  for (std::size_t kind = 1; kind < rows.kinds.size(); ++kind)
+    logs_.insert(logs_.end(), {std::log(rows.noise[kind]), std::log(rows.noise[kind])});
+  logs_.insert(logs_.end(), {std::log(1e-3), std::log(0.3)});
+  start_ = logs_;
+  // Kept from here on: how compliant the rig was when it was first looked at.
+  Eigen::VectorXd compliance = wander.together.cwiseAbs();
+  double square = 0.0, count = 0.0;
+  for (const Block& block : rows.blocks)
+    if (rows.is_judged(block)) {
+      square += compliance.segment(block.begin, block.rows).squaredNorm();
+      count += static_cast<double>(block.rows);
+    }
+  const double rms = std::sqrt(square / count);
+  if (rms > 0.0)
+    compliance /= rms;
+  else
+    compliance.setOnes();
+  for (const Block& block : rows.blocks)
+    if (!rows.is_judged(block)) compliance.segment(block.begin, block.rows).setOnes();
+  compliance_ = std::make_shared<const Eigen::VectorXd>(std::move(compliance));
+  take(wander);
+}
+
+void Error::take(const Wander& wander) {
+  const auto fixed = static_cast<Index>(differing.size());
+  RowMajor random(rows_->size(), fixed + wander.columns.cols());
+  random.setZero();
+  for (const Block& block : rows_->blocks)
+    if (rows_->is_judged(block)) {
+      random.col(zeros).segment(block.begin, block.rows).setOnes();
+      random.col(gains).segment(block.begin, block.rows) = wander.read.segment(block.begin, block.rows);
+      random.col(loads).segment(block.begin, block.rows) = wander.load.segment(block.begin, block.rows);
+    }
+  random.rightCols(wander.columns.cols()) = wander.columns;
+  std::vector<Eigen::MatrixXd> roots;
+  for (const auto& knots : wander.knots) {
+    const auto k = static_cast<Index>(knots.size());
+    Eigen::MatrixXd alike(k, k);
+    for (Index i = 0; i < k; ++i)
+      for (Index j = 0; j < k; ++j)
+        alike(i, j) =
+            std::exp(-std::abs(knots[static_cast<std::size_t>(i)] - knots[static_cast<std::size_t>(j)]) /
+                     decisive.wander_s);
+    roots.push_back(alike.llt().matrixL());
+  }
+  starts_ = wander.starts;
+  read_ = random.col(gains);
+  per_kg_ = random.col(loads);
+  random_ = std::make_shared<const RowMajor>(std::move(random));
+  roots_ = std::make_shared<const std::vector<Eigen::MatrixXd>>(std::move(roots));
+}
+
+Eigen::VectorXd Error::started(const Block& block, const Eigen::VectorXd& start) const {
+  const Index first = std::ssize(differing) + (*roots_)[block.run].rows();
+  return random_->block(block.begin, first, block.rows, start.size()) * start;
+}
+
+namespace {
+
+double typical_log(int which, double rest_length_m) {
+  const Differing& one = differing.at(static_cast<std::size_t>(which));
+  return std::log(which == zeros ? one.typical / rest_length_m : one.typical);
+}
+
+}  // namespace
+
+Error Error::with(const std::vector<int>& differ) const {
+  if (differ == differ_) return *this;
+  Error other = *this;
+  other.logs_.resize(base());
+  other.start_.resize(base());
+  const double rest_m = rows_->data().rig.muscle.rest_length_m;
+  for (const int which : differ) {
+    const auto known = std::ranges::find(differ_, which);
+    other.start_.push_back(typical_log(which, rest_m));
+    other.logs_.push_back(known == differ_.end()
+                              ? other.start_.back()
+                              : logs_[base() + static_cast<std::size_t>(known - differ_.begin())]);
+  }
+  other.differ_ = differ;
+  return other;
+}
+
+Error Error::forgetting() const {
+  Error other = *this;
+  other.logs_[2] = std::log(0.05);
+  return other;
+}
+Error Error::begun() const {
+  Error other = *this;
+  other.logs_ = start_;
+  return other;
+}
+
+double Error::white() const {
+  const double jitter = std::exp(logs_[0]);
+  return std::sqrt(rows_->count * rows_->count / 12.0 + jitter * jitter);
+}
+double Error::length_s() const {
+  return std::exp(logs_[2]);
+}
+double Error::wander_units() const {
+  return std::exp(logs_[wander_at()]);
+}
+double Error::gain(Index row) const {
+  return std::hypot((*compliance_)[row], std::exp(logs_[constant_at()]));
+}
+double Error::of_model() const {
+  double square = 0.0, count = 0.0;
+  for (const Block& block : rows_->blocks)
+    if (rows_->is_judged(block))
+      for (Index i = block.begin; i < block.begin + block.rows; ++i) {
+        square += gain(i) * gain(i);
+        count += 1.0;
+      }
+  return std::exp(logs_[1]) * std::sqrt(square / count);
+}
+
+RowMajor Error::rows_of(const Eigen::VectorXd& residual, const Eigen::MatrixXd& columns) const {
+  RowMajor all(residual.size(), 1 + columns.cols());
+  all.col(0) = residual;
+  all.rightCols(columns.cols()) = columns;
+  return all;
+}
+
+/// Of each run: of given columns, then of what differs, then of its wander.
+struct Error::Whitened {
+  std::vector<Eigen::MatrixXd> grams;
+  std::vector<double> log_dets;
+};
+
+Error::Whitened Error::whitened(const RowMajor& columns) const {
+  const Index p = columns.cols(), more = static_cast<Index>(differ_.size()), runs = std::ssize(rows_->runs);
+  Whitened result{std::vector<Eigen::MatrixXd>(static_cast<std::size_t>(runs)),
+                  std::vector<double>(static_cast<std::size_t>(runs), 0.0)};
+  const double jitter = std::exp(logs_[0]), q = rows_->count;
+  // Of what counting adds, what jitter does not wash out stays (Widrow & Kollar 2008).
+  double stays_square = 0.0;
+  if (q > 0.0)
+    for (int k = 1; k <= 5; ++k) {
+      const double turns = 2.0 * std::numbers::pi * k * jitter / q;
+      stays_square += q * q * std::exp(-turns * turns) / (2.0 * std::numbers::pi * std::numbers::pi * k * k);
+    }
+  const double white_square = white() * white() - std::min(stays_square, white() * white());
+  const double alike = std::exp(-rows_->row_s / length_s());
+  for (std::size_t b = 0; b < rows_->blocks.size(); ++b) {
+    const Block& block = rows_->blocks[b];
+    const Index wanders = (*roots_)[block.run].rows() + static_cast<Index>(starts_),
+                wide = p + more + wanders;
+    const bool judged = rows_->is_judged(block);
+    const std::size_t other = 3 + 2 * (block.kind - 1);
+    const double noise_square = judged ? white_square : std::exp(2.0 * logs_[other]);
+    const double model_square = std::exp(2.0 * (judged ? logs_[1] : logs_[other + 1]));
+    const double counting_square = judged ? stays_square : 0.0;
+    RowMajor white_rows(block.rows, wide);
+    Eigen::RowVectorXd d = Eigen::RowVectorXd::Zero(wide), c = d, v = d;
+    double dd = model_square, dc = 0.0, cc = counting_square, log_det = 0.0;
+    for (Index i = 0; i < block.rows; ++i) {
+      const Index row = block.begin + i;
+      auto out = white_rows.row(i);
+      const double g = judged ? gain(row) : 1.0;
+      if (rows_->known[static_cast<std::size_t>(row)] != 0) {
+        v.head(p) = columns.row(row);
+        for (Index j = 0; j < more; ++j) v[p + j] = (*random_)(row, differ_[static_cast<std::size_t>(j)]);
+        v.tail(wanders) = random_->row(row).segment(std::ssize(differing), wanders);
+        const double to_d = g * dd + dc, to_c = g * dc + cc, square = g * to_d + to_c + noise_square;
+        v -= g * d + c;
+        out = v / std::sqrt(square);
+        log_det += std::log(square);
+        const double gain_d = to_d / square, gain_c = to_c / square;
+        d += gain_d * v;
+        c += gain_c * v;
+        dd -= gain_d * to_d;
+        dc -= gain_d * to_c;
+        cc -= gain_c * to_c;
+      } else {
+        out.setZero();
+      }
+      const double stays = counting_square > 0.0 ? rows_->stays[row] : 0.0;
+      d *= alike;
+      c *= stays;
+      dd = alike * alike * dd + model_square * (1.0 - alike * alike);
+      dc *= alike * stays;
+      cc = stays * stays * cc + counting_square * (1.0 - stays * stays);
+    }
+    Eigen::MatrixXd& gram = result.grams[block.run];
+    if (gram.size() == 0) gram = Eigen::MatrixXd::Zero(wide, wide);
+    gram.selfadjointView<Eigen::Lower>().rankUpdate(white_rows.transpose());
+    result.log_dets[block.run] += log_det;
+  }
+  for (Eigen::MatrixXd& gram : result.grams) gram.triangularView<Eigen::StrictlyUpper>() = gram.transpose();
+  return result;
+}
+
+Grams Error::integrated(const Whitened& w, Index p) const {
+  Grams result;
+  result.log_dets = w.log_dets;
+  const auto more = static_cast<Index>(differ_.size());
+  for (std::size_t run = 0; run < w.grams.size(); ++run) {
+    const Eigen::MatrixXd& gram = w.grams[run];
+    const Index k = gram.rows() - p;
+    Eigen::MatrixXd root = Eigen::MatrixXd::Zero(k, k);
+    for (Index j = 0; j < more; ++j) root(j, j) = std::exp(logs_[base() + static_cast<std::size_t>(j)]);
+    const Index knots = (*roots_)[run].rows();
+    root.block(more, more, knots, knots) = (*roots_)[run] * wander_units();
+    root.bottomRightCorner(k - more - knots, k - more - knots).setIdentity();
+    const Eigen::MatrixXd inner =
+        Eigen::MatrixXd::Identity(k, k) + root.transpose() * gram.bottomRightCorner(k, k) * root;
+    const Eigen::LLT<Eigen::MatrixXd> low(inner);
+    const Eigen::MatrixXd half = low.matrixL().solve(root.transpose() * gram.bottomLeftCorner(k, p));
+    result.of_runs.emplace_back(gram.topLeftCorner(p, p) - half.transpose() * half);
+    result.log_dets[run] += 2.0 * low.matrixLLT().diagonal().array().log().sum();
+    const auto starts = static_cast<Index>(starts_);
+    if (more + starts > 0) {
+      const Eigen::MatrixXd whole = low.matrixL().solve(Eigen::MatrixXd(root.transpose()));
+      Eigen::MatrixXd back(k, more + starts);
+      back << whole.leftCols(more), whole.rightCols(starts);
+      result.means.emplace_back(back.transpose() * half.col(0));
+      result.deviations.emplace_back(back.colwise().norm().transpose());
+    }
+  }
+  return result;
+}
+
+Grams Error::grams(const Eigen::VectorXd& residual, const Eigen::MatrixXd& columns) const {
+  return integrated(whitened(rows_of(residual, columns)), 1 + columns.cols());
+}
+
+double log_evidence(const Eigen::MatrixXd& gram, double log_det, Index rows,
+                    const Eigen::VectorXd& variance) {
+  const Index k = gram.rows() - 1;
+  double value = -0.5 * (static_cast<double>(rows) * std::log(2.0 * std::numbers::pi) + log_det + gram(0, 0));
+  if (k == 0) return value;
+  const Eigen::VectorXd s = variance.cwiseSqrt();
+  const Eigen::MatrixXd inner =
+      Eigen::MatrixXd::Identity(k, k) + s.asDiagonal() * gram.bottomRightCorner(k, k) * s.asDiagonal();
+  const Eigen::LLT<Eigen::MatrixXd> low(inner);
+  const Eigen::VectorXd half = low.matrixL().solve(Eigen::VectorXd(s.cwiseProduct(gram.col(0).tail(k))));
+  return value - low.matrixLLT().diagonal().array().log().sum() + 0.5 * half.squaredNorm();
+}
+
+std::vector<double> Error::key() const {
+  std::vector<double> list(logs_.begin(), logs_.begin() + static_cast<std::ptrdiff_t>(base()));
+  list.erase(list.begin() + static_cast<std::ptrdiff_t>(wander_at()));
+  return list;
+}
+
+bool Error::allowed() const {
+  return logs_[0] >= std::log(0.02 * rows_->unit) && logs_[1] >= std::log(1e-3 * rows_->unit) &&
+         logs_[2] >= std::log(0.03) && logs_[2] <= std::log(20.0) &&
+         std::abs(logs_[constant_at()]) <= std::log(30.0) && logs_[wander_at()] > -9.2 &&
+         logs_[wander_at()] < 0.0;
+}
+
+double Error::log_prior() const {
+  const double length = (logs_[2] - std::log(decisive.error_length_s)) / decisive.error_length_sd;
+  double value = -0.5 * length * length;
+  for (std::size_t j = base(); j < logs_.size(); ++j)
+    value -= 0.5 * (logs_[j] - start_[j]) * (logs_[j] - start_[j]);
+  return value;
+}
+
+double Error::log_scales() const {
+  double value = 0.0;
+  for (std::size_t j = base(); j < logs_.size(); ++j) {
+    value -= 0.5 * (logs_[j] - start_[j]) * (logs_[j] - start_[j]);
+    // So many values fix a logarithm to 1/sqrt(2 runs).
+    value -= 0.5 * std::log(1.0 + 2.0 * static_cast<double>(rows_->runs.size()));
+  }
+  return value;
+}
+
+std::pair<Error, double> Error::fitted(const Eigen::VectorXd& residual, const Eigen::MatrixXd& columns,
+                                       const Eigen::VectorXd& variance, std::vector<double> steps,
+                                       std::vector<std::size_t> only) const {
+  const RowMajor all = rows_of(residual, columns);
+  std::map<std::vector<double>, Whitened> known;
+  std::map<std::vector<double>, double> values;
+  constexpr double impossible = -std::numeric_limits<double>::infinity();
+  const auto value_of = [&](const std::vector<double>& logs) {
+    if (const auto seen = values.find(logs); seen != values.end()) return seen->second;
+    Error there = *this;
+    there.logs_ = logs;
+    double value = impossible;
+    if (there.allowed()) {
+      auto& w = known[there.key()];
+      if (w.grams.empty()) w = there.whitened(all);
+      const Grams grams = there.integrated(w, all.cols());
+      value = log_evidence(grams.sum(), grams.log_det(), residual.size(), variance) + there.log_prior();
+    }
+    return values[logs] = value;
+  };
+  if (only.empty())
+    for (std::size_t j = 0; j < logs_.size(); ++j) only.push_back(j);
+  std::vector<double> here = logs_;
+  double best = value_of(here);
+  for (const double step : steps)
+    for (bool gained = true; gained;) {
+      gained = false;
+      for (const std::size_t j : only)
+        for (const double sign : {1.0, -1.0}) {
+          std::vector<double> there = here;
+          there[j] += sign * step;
+          if (const double value = value_of(there); value > best + 0.05) {
+            here = std::move(there);
+            best = value;
+            gained = true;
+            break;
+          }
+        }
+    }
+  Error result = *this;
+  result.logs_ = std::move(here);
+  return {std::move(result), best};
+}
+
+}  // namespace mckibben::identify

@@ -1,0 +1,16 @@
+// Runs predicted from the others, by the model made straight at its optimum: no simulation.
+#pragma once
+
+#include <vector>
+
+#include <sim/identify/model.hpp>
+
+namespace mckibben::identify {
+
+/// Runs that are held out together: those of one load, or each by itself where there are fewer than three.
+std::vector<std::vector<std::size_t>> groups_of(const Rows& rows);
+
+/// log p(rows of a group | all others), of each group; after the model's evidence.
+Eigen::VectorXd held_out(const Model& model, const std::vector<std::vector<std::size_t>>& groups);
+
+}  // namespace mckibben::identify

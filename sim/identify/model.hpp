@@ -1,0 +1,88 @@
+// One hypothesis: a point, what it reads, and how that changes with each of its numbers. Its descent to the
+// most probable numbers, and its evidence there.
+#pragma once
+
+#include <functional>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <sim/identify/error.hpp>
+
+namespace mckibben::identify {
+
+/// What stays the same throughout.
+struct Problem {
+  const Rows& rows;
+  const Dictionary& dictionary;
+  const Simulator& simulator;
+  std::function<void(const std::string&)> say{};
+};
+
+class Model {
+ public:
+  Model(const Problem& problem, Point point, const Error& error, double term_N = 1.0);
+
+  /// Readings and slopes at the point.
+  void look();
+  void fit_error(std::vector<double> steps, std::vector<std::size_t> only = {});
+
+  struct Effort {
+    int rounds = 20;
+    double enough = 0.5;  ///< nats that are promised: less is not worth a round
+    double beat = -std::numeric_limits<double>::infinity();  ///< hopeless far below
+  };
+  /// Damped Gauss-Newton in units of the priors, with a trust region, to the most probable numbers.
+  /// Whether it arrived, or there is no hope; false if the rounds were too few.
+  bool descend(const Effort& effort);
+  /// The same, numbers of runs placed.
+  bool settle(const Effort& effort);
+  /// Laplace's at the point, what a last straight step would gain included. Sets all that follows from it.
+  double evidence();
+  /// The same with general terms, straight from here.
+  Model with_terms(Terms terms, const Eigen::MatrixXd& columns, double term_N) const;
+
+  Eigen::VectorXd residual() const;
+  /// Root mean square of the judged reading's, in units of the rows.
+  double left() const;
+  /// Variances of the priors, of the normals that touch them.
+  Eigen::VectorXd variance() const;
+  double log_prior() const;
+
+  const Problem* problem;
+  Point point;
+  Error error;
+  double term_N;
+  Eigen::VectorXd read;
+  Eigen::MatrixXd slopes;
+
+  // of evidence()
+  Grams grams;
+  Eigen::MatrixXd covariance;
+  double log_evidence = 0.0;
+  // of the table
+  double score = 0.0;
+  Eigen::VectorXd held_out{};  ///< log density of each group of runs given the others
+
+ private:
+  Point perturbed(std::size_t coordinate, double& step, double times = 1.0) const;
+  /// `both`: by wider steps to both sides, where columns of several numbers all but cancel.
+  void look_again(const std::vector<std::size_t>& coordinates, bool both = false);
+  /// Whether the evidence, with three times what is promised, would be below this.
+  bool is_hopeless(double promised, double beat) const;
+  double cost(const Eigen::VectorXd& would_read, const Point& at) const;
+  /// Simulates numbers of runs, which are not straight, where they are most probable; whether any has moved.
+  bool place();
+  void look_at_wander();
+
+  std::optional<Eigen::VectorXd> deviation_;  ///< of each coordinate, as far as known
+};
+
+/// log density of Student's t of a size.
+double log_t(double z);
+/// log of the normal distribution function.
+double log_normal_cdf(double z);
+
+}  // namespace mckibben::identify

@@ -1,0 +1,50 @@
+// The quadratic that a fit stands on, in the axes of its curvature, and the steps that it proposes.
+#pragma once
+
+#include <cmath>
+#include <utility>
+
+#include <Eigen/Core>
+#include <Eigen/Eigenvalues>
+
+namespace mckibben::identify {
+
+/// Of the log density in units of the priors: `gram` with the residual's row and column first.
+struct Quadratic {
+  Eigen::VectorXd values, weight;
+  Eigen::MatrixXd axes;
+  Eigen::VectorXd pull;  ///< along the axes
+
+  Quadratic(const Eigen::MatrixXd& gram, Eigen::VectorXd prior_weight, const Eigen::VectorXd& at)
+      : weight(std::move(prior_weight)) {
+    const Eigen::Index k = at.size();
+    Eigen::MatrixXd curvature = gram.bottomRightCorner(k, k);
+    curvature.diagonal() += weight;
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(curvature);
+    values = solver.eigenvalues().cwiseMax(1e-12);
+    axes = solver.eigenvectors();
+    turn(gram.col(0).tail(k), at);
+  }
+  /// To another residual, by the same slopes.
+  void turn(const Eigen::VectorXd& along, const Eigen::VectorXd& at) {
+    pull = axes.transpose() * (along - weight.cwiseProduct(at));
+  }
+  double promised() const { return 0.5 * pull.cwiseAbs2().cwiseQuotient(values).sum(); }
+  double longest() const { return pull.cwiseQuotient(values).norm(); }
+  Eigen::VectorXd deviation() const { return (axes.cwiseAbs2() * values.cwiseInverse()).cwiseSqrt(); }
+  /// The step of a length, on Levenberg's path.
+  Eigen::VectorXd step(double length) const {
+    if (longest() <= length) return axes * pull.cwiseQuotient(values);
+    const auto damped = [&](double log_more) {
+      return Eigen::VectorXd(pull.cwiseQuotient((values.array() + std::exp(log_more)).matrix()));
+    };
+    double low = -20.0, high = 40.0;
+    for (int i = 0; i < 40; ++i) {
+      const double middle = 0.5 * (low + high);
+      (damped(middle).norm() > length ? low : high) = middle;
+    }
+    return axes * damped(high);
+  }
+};
+
+}  // namespace mckibben::identify

@@ -1,0 +1,112 @@
+// See the header.
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <numeric>
+
+#include <sim/diagnose/noise.hpp>
+#include <sim/identify/rows.hpp>
+
+namespace mckibben::identify {
+namespace {
+
+/// The step on which readings lie; 0: on none. Least squares: whole numbers of it.
+double grid_of(const std::vector<double>& readings) {
+  std::vector<double> levels = readings;
+  std::ranges::sort(levels);
+  levels.erase(std::unique(levels.begin(), levels.end()), levels.end());
+  double step = 0.0;
+  std::size_t steps = 0;
+  for (std::size_t i = 1; i < levels.size(); ++i)
+    if (const double d = levels[i] - levels[i - 1]; d > 1e-7) {
+      step = steps++ == 0 ? d : std::min(step, d);
+    }
+  if (steps < 5) return 0.0;
+  double furthest = 0.0;
+  for (int pass = 0; pass < 3; ++pass) {
+    double along = 0.0, square = 0.0;
+    furthest = 0.0;
+    for (const double level : levels) {
+      const double off = level - levels.front(), n = std::round(off / step);
+      along += n * off;
+      square += n * n;
+      furthest = std::max(furthest, std::abs(off - n * step));
+    }
+    step = along / square;
+  }
+  return furthest < 0.02 * step ? step : 0.0;
+}
+
+double median(std::vector<double> list) {
+  if (list.empty()) return 0.0;
+  std::ranges::sort(list);
+  const std::size_t half = list.size() / 2;
+  return list.size() % 2 == 1 ? list[half] : 0.5 * (list[half - 1] + list[half]);
+}
+
+}  // namespace
+
+Rows::Rows(const domain::Dataset& data, const std::vector<std::vector<bool>>& masked,
+           const std::vector<std::size_t>& which)
+    : runs(which), kinds{std::nullopt}, row_s(data.row_s()), data_(&data) {
+  const diagnose::NoiseFloor floor = diagnose::noise_floor(data, masked, runs);
+  noise.push_back(std::max(floor.jitter, floor.judged));
+  sensor_count = count = floor.count;
+  for (const domain::Beside beside : domain::besides)
+    if (std::ranges::any_of(runs,
+                            [&](std::size_t run) { return data.runs[run].beside(beside) != nullptr; })) {
+      kinds.push_back(beside);
+      noise.push_back(std::max(floor.beside(beside), 1e-12));
+    }
+  std::vector<double> values;
+  for (std::size_t kind = 0; kind < kinds.size(); ++kind)
+    for (std::size_t i = 0; i < runs.size(); ++i) {
+      const domain::Run& run = data.runs[runs[i]];
+      const std::vector<double>* list = kind == 0 ? &run.judged() : run.beside(*kinds[kind]);
+      if (list == nullptr) continue;
+      blocks.push_back({i, kind, static_cast<Eigen::Index>(values.size()), std::ssize(*list)});
+      for (std::size_t k = 0; k < list->size(); ++k) {
+        const bool missing =
+            kind == 0 ? !run.missing.empty() && run.missing[k] : run.is_missing(*kinds[kind], k);
+        known.push_back(!missing && !masked[runs[i]][k] ? 1 : 0);
+        values.push_back((*list)[k] + (kind == 0 ? floor.middle : 0.0));
+        if (!std::isfinite(values.back())) {
+          values.back() = 0.0;
+          known.back() = 0;
+        }
+      }
+    }
+  read = Eigen::Map<const Eigen::VectorXd>(values.data(), std::ssize(values));
+  find_counts();
+  find_what_stays();
+}
+
+void Rows::find_counts() {
+  std::vector<double> steps;
+  for (const std::size_t run : runs)
+    if (const double step = grid_of(data_->runs[run].judged()); step > 0.0) steps.push_back(step);
+  const double grid = 2 * steps.size() > runs.size() ? median(std::move(steps)) : 0.0;
+  // Readings that were written more coarsely than they were counted.
+  if (grid > 1.1 * sensor_count && grid > noise.front()) count = grid;
+  unit = count > 0.0 ? count : noise.front();
+}
+
+// What counting adds stays as long as the load does: E[r(x) r(x + s)]/E[r^2] = 1 - 6 s (1 - s), s in counts a
+// row, to its zero at 0.21 (of a phase within the count that is as likely as any other).
+void Rows::find_what_stays() {
+  stays = Eigen::VectorXd::Zero(size());
+  if (!(count > 0.0)) return;
+  constexpr Eigen::Index far = 25;  // rows, over which the speed is taken
+  for (const Block& block : blocks) {
+    if (!is_judged(block)) continue;
+    const auto y = read.segment(block.begin, block.rows) / count;
+    for (Eigen::Index i = 0; i < block.rows; ++i) {
+      const Eigen::Index up = std::min(i + far, block.rows - 1), low = std::max<Eigen::Index>(i - far, 0);
+      const double s =
+          std::max(std::abs(y[up] - y[low]), 0.5) / static_cast<double>(std::max<Eigen::Index>(up - low, 1));
+      if (s < 0.2113) stays[block.begin + i] = 1.0 - 6.0 * s * (1.0 - s);
+    }
+  }
+}
+
+}  // namespace mckibben::identify

@@ -1,0 +1,37 @@
+// Where a model stands: what each candidate would change, and which sets of them explain the rows, by one
+// Gram matrix.
+#pragma once
+
+#include <vector>
+
+#include <sim/identify/model.hpp>
+
+namespace mckibben::identify {
+
+/// A candidate of one size and shape; its column is the change of readings for one unit of size.
+struct Probe {
+  std::size_t entry;
+  double size, shape;
+};
+std::vector<Probe> probes(const Dictionary& dictionary, const Point& beside);
+
+/// Columns of these beside a model. Those that change nothing, or that no rig can have, go from the list.
+Eigen::MatrixXd columns_of(const Model& model, std::vector<Probe>& probes);
+/// The change by each term of a family, per newton.
+Eigen::MatrixXd columns_of(const Model& model, Terms terms);
+
+/// A set that may explain more: where its descent would begin, and its log evidence by straight lines.
+struct Start {
+  double value;
+  Point point;
+};
+
+/// log prior of a set of so many names.
+double log_prior_of_set(std::size_t size, std::size_t names);
+
+/// Sets made of the base and probes. `far`: parameters stay where they are, else they give way.
+std::vector<Start> sets(const Problem& problem, const Error& error, const Point& base, double term_N,
+                        const Eigen::VectorXd& residual, const Eigen::MatrixXd& slopes,
+                        const Eigen::MatrixXd& columns, const std::vector<Probe>& probes, bool far);
+
+}  // namespace mckibben::identify

@@ -1,0 +1,343 @@
+// Settings share lanes with the one that they are changes of; see the header.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <limits>
+
+#include <sim/diagnose/predict.hpp>
+#include <sim/engine/batch.hpp>
+#include <sim/identify/decisive.hpp>
+#include <sim/identify/simulator.hpp>
+
+namespace mckibben::identify {
+namespace {
+
+using diagnose::Readings;
+
+constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+constexpr std::size_t others = engine::Batch::width - 1;  // in the lanes beside the first
+constexpr std::size_t most_knots = 24;                    // of a run
+constexpr double step = 0.01, step_kg = 0.2;  // of an input or a start, of a load, for a difference
+
+/// Writes what one setting reads in a run.
+void write(const Rows& rows, std::size_t run, const Readings& readings, const Bench& bench,
+           Eigen::MatrixXd& to, Eigen::Index column) {
+  for (const Block& block : rows.blocks) {
+    if (block.run != run) continue;
+    const auto& list = block.kind == 0 ? readings.judged : readings.beside(*rows.kinds[block.kind]);
+    auto part = to.col(column).segment(block.begin, block.rows);
+    part = Eigen::Map<const Eigen::VectorXd>(list.data(), block.rows);
+    if (bench.clock != 0.0) part = clocked(part, bench.clock);
+    if (block.kind == 0) part.array() += bench.zero;
+  }
+}
+
+/// What is not known of a run that began on its way, and how well it is guessed from its first readings: the
+/// threads carry what its acceleration asks of them; nobody has seen what effects remember.
+struct StartNumber {
+  double ride::Underway::*of;
+  double deviation;
+};
+constexpr std::array<StartNumber, 4> start_numbers{{{&ride::Underway::rise_m, 2e-4},
+                                                    {&ride::Underway::speed_m_per_s, 5e-3},
+                                                    {&ride::Underway::acceleration_m_per_s2, 1.0},
+                                                    {&ride::Underway::memories, 1.0}}};
+
+/// How one begins on its way: by what is known, and by its setting.
+void begin(const Bench& bench, std::size_t run, ride::Underway& begins) {
+  if (bench.starts.empty()) return;
+  const Eigen::VectorXd& off = bench.starts[run];
+  for (Eigen::Index i = 0; i < off.size(); ++i) {
+    const StartNumber& number = start_numbers.at(static_cast<std::size_t>(i));
+    begins.*(number.of) += off[i] * number.deviation;
+  }
+}
+
+/// A prediction that is made of a run, and where its readings go.
+struct Job {
+  std::size_t run;
+  std::vector<std::size_t> settings;  ///< the first is the one whose changes others are
+  bool tells_first = true;            ///< one job of a run does
+};
+
+}  // namespace
+
+Eigen::VectorXd clocked(const Eigen::VectorXd& read, double rate) {
+  Eigen::VectorXd list(read.size());
+  for (Eigen::Index row = 0; row < read.size(); ++row) {
+    const double at = std::max(static_cast<double>(row) * (1.0 + rate), 0.0);
+    const auto before = std::min(static_cast<Eigen::Index>(at), read.size() - 1);
+    const Eigen::Index after = std::min(before + 1, read.size() - 1);
+    list[row] = std::lerp(read[before], read[after], std::min(at - static_cast<double>(before), 1.0));
+  }
+  return list;
+}
+
+Eigen::MatrixXd Simulator::read(std::span<const Setting> settings) const {
+  Eigen::MatrixXd list =
+      Eigen::MatrixXd::Constant(rows_.size(), static_cast<Eigen::Index>(settings.size()), nothing);
+  const std::size_t count = rows_.runs.size() * settings.size();
+  const auto loaded = [&](std::size_t run, std::size_t i) {
+    const domain::Run& measured = rows_.data().runs[rows_.runs[run]];
+    return diagnose::Loaded{settings[i].rig, settings[i].bench.load_kg(measured.load_kg, run)};
+  };
+  diagnose::predict_all(
+      count, count, threads_, rows_.data().rig.integrator.method,
+      [&](std::size_t index) {
+        const std::size_t run = index / settings.size(), i = index % settings.size();
+        diagnose::Wanted one{&rows_.data().runs[rows_.runs[run]], {loaded(run, i)}};
+        one.disturbance.begin = [bench = &settings[i].bench, run](std::size_t, ride::Underway& begins) {
+          begin(*bench, run, begins);
+        };
+        return one;
+      },
+      [&](std::size_t index, const std::vector<Readings>& readings, const std::exception_ptr& failure) {
+        const std::size_t run = index / settings.size(), i = index % settings.size();
+        if (!failure)
+          write(rows_, run, readings.front(), settings[i].bench, list, static_cast<Eigen::Index>(i));
+      });
+  passes_ += static_cast<long>(settings.size());
+  return list;
+}
+
+Eigen::MatrixXd Simulator::differences(std::span<const Setting> settings) const {
+  Eigen::MatrixXd list =
+      Eigen::MatrixXd::Constant(rows_.size(), static_cast<Eigen::Index>(settings.size()), nothing);
+  std::vector<Job> jobs;
+  for (std::size_t run = 0; run < rows_.runs.size(); ++run)
+    for (std::size_t first = 1; first == 1 || first < settings.size(); first += others) {
+      jobs.push_back({run, {0}, first == 1});
+      for (std::size_t i = first; i < std::min(first + others, settings.size()); ++i)
+        jobs.back().settings.push_back(i);
+    }
+  const auto wanted = [&](const Job& job) {
+    diagnose::Wanted one{&rows_.data().runs[rows_.runs[job.run]], {}};
+    for (const std::size_t i : job.settings)
+      one.rigs.push_back({settings[i].rig, settings[i].bench.load_kg(one.run->load_kg, job.run)});
+    one.disturbance.begin = [&settings, job](std::size_t i, ride::Underway& begins) {
+      begin(settings[job.settings[i]].bench, job.run, begins);
+    };
+    return one;
+  };
+  std::vector<std::vector<Job>> failed(jobs.size());
+  const auto take = [&](const Job& job, const std::vector<Readings>& readings) {
+    Eigen::MatrixXd base(rows_.size(), 1), changed(rows_.size(), 1);
+    write(rows_, job.run, readings.front(), settings[0].bench, base, 0);
+    for (std::size_t k = 0; k < job.settings.size(); ++k) {
+      const auto column = static_cast<Eigen::Index>(job.settings[k]);
+      if (k > 0) write(rows_, job.run, readings[k], settings[job.settings[k]].bench, changed, 0);
+      for (const Block& block : rows_.blocks) {
+        if (block.run != job.run) continue;
+        if (k == 0 && job.tells_first)
+          list.col(0).segment(block.begin, block.rows) = base.col(0).segment(block.begin, block.rows);
+        else if (k > 0)
+          list.col(column).segment(block.begin, block.rows) =
+              changed.col(0).segment(block.begin, block.rows) - base.col(0).segment(block.begin, block.rows);
+      }
+    }
+  };
+  const auto fly = [&](const std::vector<Job>& all, bool again) {
+    std::vector<char> missed(all.size(), 0);
+    diagnose::predict_all(
+        all.size(), all.size() * engine::Batch::width, threads_, rows_.data().rig.integrator.method,
+        [&](std::size_t index) { return wanted(all[index]); },
+        [&](std::size_t index, const std::vector<Readings>& readings, const std::exception_ptr& failure) {
+          if (!failure)
+            take(all[index], readings);
+          else if (!again)
+            missed[index] = 1;
+        });
+    // Some of a group could not go on: each by itself.
+    std::vector<Job> alone;
+    for (std::size_t i = 0; i < all.size(); ++i)
+      if (missed[i] != 0)
+        for (std::size_t k = all[i].settings.size() > 1 ? 1 : 0; k < all[i].settings.size(); ++k) {
+          alone.push_back({all[i].run, {0}, all[i].tells_first && k <= 1});
+          if (k > 0) alone.back().settings.push_back(all[i].settings[k]);
+        }
+    return alone;
+  };
+  if (const auto alone = fly(jobs, false); !alone.empty()) fly(alone, true);
+  passes_ += static_cast<long>(settings.size());
+  return list;
+}
+
+Eigen::MatrixXd Simulator::rubs(const Setting& setting, double reach_m, std::size_t places) const {
+  Eigen::MatrixXd list = Eigen::MatrixXd::Zero(rows_.size(), static_cast<Eigen::Index>(places));
+  constexpr double rub_N = 0.3, slip_m_per_s = 1e-3;
+  const double width_m = reach_m / static_cast<double>(places), rest_m = setting.rig.muscle.rest_length_m;
+  const std::size_t groups = (places + others - 1) / others;
+  diagnose::predict_all(
+      rows_.runs.size() * groups, rows_.runs.size() * groups * engine::Batch::width, threads_,
+      rows_.data().rig.integrator.method,
+      [&](std::size_t index) {
+        const std::size_t run = index / groups, first = index % groups * others;
+        diagnose::Wanted one{&rows_.data().runs[rows_.runs[run]], {}};
+        const std::size_t count = std::min(others, places - first);
+        one.rigs.assign(count + 1, {setting.rig, setting.bench.load_kg(one.run->load_kg, run)});
+        one.disturbance.begin = [&setting, run](std::size_t, ride::Underway& begins) {
+          begin(setting.bench, run, begins);
+        };
+        one.disturbance.drive = [=](const ride::Rider& rider, std::size_t i, double, double,
+                                    ride::Drive& drive) {
+          if (i == 0) return;
+          const auto& joint = rider.now.flow.state.joint;
+          const double centre_m = (static_cast<double>(first + i) - 0.5) * width_m;
+          const double near =
+              std::max(1.0 - std::abs(joint.contraction_ratio * rest_m - centre_m) / width_m, 0.0);
+          drive.joint_force_N +=
+              rub_N * std::tanh(joint.contraction_speed_per_s * rest_m / slip_m_per_s) * near;
+        };
+        return one;
+      },
+      [&](std::size_t index, const std::vector<Readings>& readings, const std::exception_ptr& failure) {
+        if (failure) return;
+        const std::size_t run = index / groups, first = index % groups * others;
+        Eigen::MatrixXd base(rows_.size(), 1), changed(rows_.size(), 1);
+        write(rows_, run, readings.front(), setting.bench, base, 0);
+        for (std::size_t i = 1; i < readings.size(); ++i) {
+          write(rows_, run, readings[i], setting.bench, changed, 0);
+          for (const Block& block : rows_.blocks)
+            if (block.run == run)
+              list.col(static_cast<Eigen::Index>(first + i - 1)).segment(block.begin, block.rows) =
+                  (changed.col(0) - base.col(0)).segment(block.begin, block.rows) / rub_N;
+        }
+      });
+  passes_ += static_cast<long>(places + 1);
+  return list;
+}
+
+namespace {
+
+/// Puts one unit of wander into what drives a rig: of muscle 1 or 2.
+void wander_by(double units, std::size_t muscle, const plant::Rig& rig, ride::Drive& drive) {
+  ride::Command& command = muscle == 0 ? static_cast<ride::Command&>(drive) : drive.opposite;
+  const double pressure_unit_Pa = rig.valve.span_pressure_Pa / 16.0;
+  if (command.muscle_pressure_Pa)
+    *command.muscle_pressure_Pa += units * pressure_unit_Pa;
+  else if (command.valve_pressure_Pa)
+    *command.valve_pressure_Pa += units * pressure_unit_Pa;
+  else
+    command.current_mA += units * (rig.valve.span_command - rig.valve.zero_command) / 16.0;
+}
+
+/// A hat of one unit at each knot, linear between.
+double hat(const std::vector<double>& knots, std::size_t knot, double at_s) {
+  const double width = knots[2] - knots[1];
+  return std::max(1.0 - std::abs(at_s - knots[knot]) / width, 0.0);
+}
+
+}  // namespace
+
+Wander Simulator::wander(const Setting& setting) const {
+  const domain::Dataset& data = rows_.data();
+  const std::size_t muscles = data.rig.pair() != nullptr ? 2 : 1;
+  Wander made;
+  struct Lane {
+    std::size_t knot = 0, muscle = 0;
+    bool load = false;
+    const StartNumber* start = nullptr;
+  };
+  std::vector<const StartNumber*> starts;
+  if (data.recorded.start == domain::Start::moving)
+    for (const StartNumber& number : start_numbers)
+      if (number.of != &ride::Underway::memories || setting.rig.remembers()) starts.push_back(&number);
+  made.starts = starts.size();
+  std::vector<std::vector<Lane>> lanes;
+  std::size_t most = 0;
+  for (const std::size_t run : rows_.runs) {
+    const domain::Run& measured = data.runs[run];
+    const double lasts_s =
+        std::max(rows_.row_s * static_cast<double>(measured.judged().size() - 1), rows_.row_s);
+    const auto pieces = static_cast<std::size_t>(
+        std::clamp(std::ceil(lasts_s / decisive.wander_knot_s), 1.0, static_cast<double>(most_knots)));
+    std::vector<double> knots{-lasts_s / static_cast<double>(pieces)};
+    for (std::size_t k = 0; k <= pieces; ++k)
+      knots.push_back(lasts_s * static_cast<double>(k) / static_cast<double>(pieces));
+    std::vector<Lane>& list = lanes.emplace_back();
+    std::vector<double> all;
+    for (std::size_t muscle = 0; muscle < muscles; ++muscle)
+      for (std::size_t k = 0; k < knots.size(); ++k) {
+        list.push_back({k, muscle});
+        all.push_back(knots[k] +
+                      1e9 * static_cast<double>(muscle));  // the muscles' wanders know nothing of each other
+      }
+    for (const StartNumber* number : starts) list.push_back({.start = number});
+    list.push_back({.load = true});
+    most = std::max(most, all.size() + starts.size());
+    made.knots.push_back(std::move(all));
+  }
+  made.columns = Eigen::MatrixXd::Zero(rows_.size(), static_cast<Eigen::Index>(most));
+  made.read = made.load = made.together = Eigen::VectorXd::Zero(rows_.size());
+  struct Group {
+    std::size_t run, first, last;
+  };
+  std::vector<Group> groups;
+  for (std::size_t run = 0; run < lanes.size(); ++run)
+    for (std::size_t first = 0; first < lanes[run].size(); first += others)
+      groups.push_back({run, first, std::min(first + others, lanes[run].size())});
+  diagnose::predict_all(
+      groups.size(), groups.size() * engine::Batch::width, threads_, data.rig.integrator.method,
+      [&](std::size_t index) {
+        const Group& g = groups[index];
+        diagnose::Wanted one{&data.runs[rows_.runs[g.run]], {}};
+        const double load_kg = setting.bench.load_kg(one.run->load_kg, g.run);
+        one.rigs.assign(g.last - g.first + 1, {setting.rig, load_kg});
+        for (std::size_t i = g.first; i < g.last; ++i)
+          if (lanes[g.run][i].load) one.rigs[i - g.first + 1].load_kg += step_kg;
+        one.disturbance.drive = [&, g,
+                                 begin_s = one.run->measured && !one.run->measured->time_s.empty()
+                                               ? one.run->measured->time_s.front()
+                                               : 0.0](const ride::Rider&, std::size_t i, double from_s,
+                                                      double to_s, ride::Drive& drive) {
+          if (i == 0) return;
+          const Lane& lane = lanes[g.run][g.first + i - 1];
+          if (lane.load || lane.start != nullptr) return;
+          const auto& knots = made.knots[g.run];
+          const bool given = lane.muscle == 0 ? drive.given() != plant::GivenPressure::none
+                                              : drive.opposite.given() != plant::GivenPressure::none;
+          const double at_s = (given ? to_s : from_s) - begin_s;
+          const double share = std::isinf(at_s) ? (lane.knot == 0 ? 1.0 : 0.0)
+                               : lane.knot == 0 ? 0.0
+                                                : hat(knots, lane.knot, at_s);
+          if (share != 0.0) wander_by(step * share, lane.muscle, data.rig, drive);
+        };
+        one.disturbance.begin = [&, g](std::size_t i, ride::Underway& begins) {
+          begin(setting.bench, g.run, begins);
+          const StartNumber* number = i == 0 ? nullptr : lanes[g.run][g.first + i - 1].start;
+          if (number != nullptr) begins.*(number->of) += step * number->deviation;
+        };
+        return one;
+      },
+      [&](std::size_t index, const std::vector<Readings>& readings, const std::exception_ptr& failure) {
+        if (failure) return;
+        const Group& g = groups[index];
+        Eigen::MatrixXd base(rows_.size(), 1), changed(rows_.size(), 1);
+        write(rows_, g.run, readings.front(), setting.bench, base, 0);
+        for (std::size_t i = g.first; i < g.last; ++i) {
+          write(rows_, g.run, readings[i - g.first + 1], setting.bench, changed, 0);
+          for (const Block& block : rows_.blocks) {
+            if (block.run != g.run) continue;
+            const auto change = (changed.col(0) - base.col(0)).segment(block.begin, block.rows);
+            if (lanes[g.run][i].load)
+              made.load.segment(block.begin, block.rows) = change / step_kg;
+            else
+              made.columns.col(static_cast<Eigen::Index>(i)).segment(block.begin, block.rows) = change / step;
+          }
+        }
+        if (g.first == 0)
+          for (const Block& block : rows_.blocks)
+            if (block.run == g.run)
+              made.read.segment(block.begin, block.rows) = base.col(0).segment(block.begin, block.rows);
+      });
+  for (const Block& block : rows_.blocks)
+    made.together.segment(block.begin, block.rows) = made.columns.middleRows(block.begin, block.rows)
+                                                         .leftCols(std::ssize(made.knots[block.run]))
+                                                         .rowwise()
+                                                         .sum();
+  passes_ += static_cast<long>(most + 2);
+  return made;
+}
+
+}  // namespace mckibben::identify

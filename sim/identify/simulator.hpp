@@ -1,0 +1,53 @@
+// What rigs and benches with other numbers would have read, row by row. One pass: one of them through all
+// runs.
+#pragma once
+
+#include <atomic>
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include <sim/identify/dictionary.hpp>
+#include <sim/identify/rows.hpp>
+
+namespace mckibben::identify {
+
+/// What wander of a run's input does to its readings, what it remembers of before, and what other loads
+/// would.
+struct Wander {
+  Eigen::MatrixXd columns{};  ///< [row, knot]: of one unit of input, of the run's own knots; then
+                              ///< of a run that began on its way, of each number of its start
+  std::vector<std::vector<double>> knots{};  ///< [run] when they are [s]; the first is the start's
+  std::size_t starts = 0;                    ///< numbers of a start, in deviations of what is known of them
+  Eigen::VectorXd read{}, load{};  ///< of the setting; how that changes by a kg, both 0 but for the judged
+  Eigen::VectorXd together{};      ///< by all knots of a run at once
+};
+
+/// What a recorder whose clock runs fast shows: it reads at t (1 + rate).
+Eigen::VectorXd clocked(const Eigen::VectorXd& read, double rate);
+
+class Simulator {
+ public:
+  Simulator(const Rows& rows, unsigned threads) : rows_(rows), threads_(threads) {}
+
+  /// [row, setting]; not a number where a setting cannot go on.
+  Eigen::MatrixXd read(std::span<const Setting> settings) const;
+  /// The first as it reads, the others less the first, in common steps with it.
+  Eigen::MatrixXd differences(std::span<const Setting> settings) const;
+  /// The change by friction of 1 N in each of so many places along the stroke (general terms).
+  Eigen::MatrixXd rubs(const Setting& setting, double reach_m, std::size_t places) const;
+
+  Wander wander(const Setting& setting) const;
+
+  long passes() const { return passes_; }
+  const Rows& rows() const { return rows_; }
+  unsigned threads() const { return threads_; }
+
+ private:
+  const Rows& rows_;
+  unsigned threads_;
+  mutable std::atomic<long> passes_{0};
+};
+
+}  // namespace mckibben::identify

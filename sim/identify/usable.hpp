@@ -1,0 +1,20 @@
+// What of measured data counts, before anything is fitted.
+#pragma once
+
+#include <vector>
+
+#include <sim/domain/dataset.hpp>
+
+namespace mckibben::identify {
+
+struct Usable {
+  std::vector<std::vector<bool>> masked;  ///< [run][row]: readings that are not the load's
+  std::vector<std::size_t> runs;
+};
+
+/// What the data show by themselves is not fitted: dead gauges, which go from `data`, copies, runs that never
+/// move, single odd readings. Labels of loads are the likelihood's. Throws data::UnfitData where a column is
+/// not what it is called; run::Interrupted.
+Usable usable(domain::Dataset& data, unsigned threads);
+
+}  // namespace mckibben::identify

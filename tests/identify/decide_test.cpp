@@ -1,0 +1,73 @@
+// The decision, from tables that are made up.
+#include <gtest/gtest.h>
+
+#include <sim/identify/decide.hpp>
+
+namespace mckibben::identify {
+namespace {
+
+/// A model whose predictions of four groups are worse than the best one's by so much each.
+Judged model(std::vector<std::string> names, double score, double worse, double scatter = 0.1) {
+  Judged one{.names = std::move(names), .score = score, .held_out = Eigen::VectorXd(4)};
+  one.held_out << -worse - scatter, -worse + scatter, -worse - scatter, -worse + scatter;
+  return one;
+}
+
+Judged described(double score, double worse) {
+  Judged one = model({}, score, worse);
+  one.described = true;
+  return one;
+}
+
+TEST(Decide, TakesTheMostProbableWhereOthersPredictWorse) {
+  const Decision d =
+      decide({described(-500.0, 100.0), model({}, -300.0, 60.0), model({"muscle_leak"}, 0.0, 0.0)});
+  EXPECT_EQ(d.verdict, Verdict::missing_effect);
+  EXPECT_EQ(d.chosen, 2U);
+  EXPECT_NEAR(d.mass[2], 1.0, 1e-9);
+  EXPECT_TRUE(d.rivals.empty());
+}
+
+TEST(Decide, PrefersTheSimplerThatPredictsAsWell) {
+  // 16 nats more probable, but only within this load: chance, where disturbances are not of the kind assumed.
+  Judged bigger = model({"pressure_threshold"}, 16.0, 0.0), numbers = model({}, 0.0, 0.0);
+  numbers.held_out << -40.0, 5.0, 10.0, 8.0;
+  const Decision d = decide({bigger, numbers});
+  EXPECT_EQ(d.best, 0U);
+  EXPECT_EQ(d.verdict, Verdict::recalibrate);
+}
+
+TEST(Decide, DoesNotTakeASimplerOneThatTheSheetForbids) {
+  Judged stretched = model({}, -1.0, 0.0);
+  stretched.off_sheet = 20.0;
+  const Decision d = decide({stretched, model({"viscous_damping"}, 0.0, 0.0)});
+  EXPECT_EQ(d.verdict, Verdict::missing_effect);
+  EXPECT_FALSE(d.contradicts_sheet);
+  ASSERT_EQ(d.rivals.size(), 1U);  // and it is told
+  EXPECT_EQ(d.rivals.front(), 0U);
+}
+
+TEST(Decide, SaysWhereTheAnswerItselfContradictsTheSheet) {
+  Judged only = model({"muscle_leak"}, 0.0, 0.0);
+  only.off_sheet = 9.0;
+  EXPECT_TRUE(decide({only, model({}, -300.0, 60.0)}).contradicts_sheet);
+}
+
+TEST(Decide, GeneralTermsAreUnknownAndNamesBesideThemNoFindings) {
+  Judged general = model({"waves"}, 0.0, 0.0);
+  general.general = true;
+  EXPECT_EQ(decide({general, model({"muscle_leak"}, -80.0, 30.0)}).verdict, Verdict::unknown_effect);
+}
+
+TEST(Decide, AsDescribedIsTheSimplest) {
+  EXPECT_EQ(decide({described(-4.0, 0.0), model({}, 0.0, 0.0)}).verdict, Verdict::nothing_missing);
+}
+
+TEST(Decide, KnowsQuantilesOfChiSquare) {
+  EXPECT_NEAR(chi_square(0.95, 11), 19.675, 0.1);
+  EXPECT_NEAR(chi_square(0.95, 3), 7.815, 0.1);
+  EXPECT_NEAR(chi_square(0.999, 20), 45.31, 0.2);
+}
+
+}  // namespace
+}  // namespace mckibben::identify
