@@ -23,8 +23,12 @@ class Board {
   /// The bytes with which it answers for the n-th time, from 0, with these true counts.
   using Answer = std::function<std::string(int n, long counts)>;
 
-  explicit Board(Answer answer = [](int, long) { return "42\r\n"; })
-      : master_(posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC)), answer_(std::move(answer)) {
+  /// `says_first`: before it answers the greeting.
+  explicit Board(
+      Answer answer = [](int, long) { return "42\r\n"; }, std::string says_first = "")
+      : master_(posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC)),
+        answer_(std::move(answer)),
+        says_first_(std::move(says_first)) {
     grantpt(master_);
     unlockpt(master_);
     port = ptsname(master_);
@@ -58,8 +62,6 @@ class Board {
   }
   /// In a process that was forked from its own.
   void leave() const { close(master_); }
-  /// Before the greeting is answered.
-  std::string says_first{};
   static constexpr const char* hang_up = "hang up";  ///< an answer: it does
 
   std::string port;
@@ -84,7 +86,7 @@ class Board {
     const std::lock_guard lock(mutex_);
     heard_.push_back(line);
     std::string reply;
-    if (line.starts_with("mckibben ")) reply = says_first + "ready " + line.substr(9, 1) + "\r\n";
+    if (line.starts_with("mckibben ")) reply = says_first_ + "ready " + line.substr(9, 1) + "\r\n";
     if (line == "?") reply = answer_(asked_++, static_cast<long>(position_));
     if (line.starts_with("=")) {  // a load that follows the command
       const double wanted = std::max(0.0, (std::strtod(line.c_str() + 1, nullptr) - 4.0) / 16.0 * 500.0);
@@ -104,6 +106,7 @@ class Board {
   int master_, asked_ = 0;
   double position_ = 0.0;
   Answer answer_;
+  std::string says_first_;
   std::mutex mutex_;
   std::vector<std::string> heard_;
   std::jthread works_;

@@ -190,8 +190,7 @@ TEST(SimulatedBench, IsBelievedWithAnyLoad) {
 }
 
 TEST(SerialBench, SpeaksItsLines) {
-  Board board;
-  board.says_first = "what?\r\n";
+  Board board([](int, long) { return "42\r\n"; }, "what?\r\n");
   {
     Serial serial(board.port, plant::Rig{});
     EXPECT_EQ(serial.counts(0.0), 42);
