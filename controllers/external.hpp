@@ -17,7 +17,7 @@ struct ExternalSettings : GuestTerms {
   static constexpr std::string_view kind = "external";
   std::string name{kind};
   std::string command;
-  double time_limit_s = 1.0, start_limit_s = 30.0;
+  double time_limit_s = 1.0, start_limit_s = 10.0;
 
   std::unique_ptr<Controller> make(const Knowledge& knowledge) const;
 

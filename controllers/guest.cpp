@@ -62,7 +62,7 @@ std::string at_tick(const Reading& reading) {
   std::string text = "tick ";
   append(text, reading.tick);
   text += " (";
-  append(text, reading.time_s);
+  append(text, std::round(1e9 * reading.time_s) / 1e9);  // k * 0.012 has digits of rounding
   return text + " s): ";
 }
 

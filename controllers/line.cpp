@@ -6,6 +6,7 @@
 #include <system_error>
 
 #include <controllers/line.hpp>
+#include <controllers/utf8.hpp>
 
 namespace mckibben::controllers {
 
@@ -48,11 +49,11 @@ std::optional<double> number_in(std::string_view line) {
 
 std::string in_quotes(std::string_view text) {
   constexpr std::size_t longest = 120;
-  std::string shown(text.substr(0, longest));
+  std::string shown = shortened(text, longest);
   std::replace_if(
       shown.begin(), shown.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; },
       ' ');
-  return '"' + shown + (text.size() > longest ? "...\"" : "\"");
+  return '"' + printable(shown) + '"';
 }
 
 }  // namespace mckibben::controllers

@@ -55,7 +55,7 @@ class LineWriter {
 /// A line that is a number and nothing else, but for blanks around it.
 std::optional<double> number_in(std::string_view line);
 
-/// For a message: quoted, without what a terminal would not show, cut where it is long.
+/// For a message: quoted, without what is no text or a terminal would not show, cut where it is long.
 std::string in_quotes(std::string_view text);
 
 }  // namespace mckibben::controllers

@@ -1,9 +1,12 @@
 // A shared library, opened once for each run; see the header.
 #include <array>
+#include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <limits>
 
 #include <dlfcn.h>
+#include <unistd.h>
 
 #include <controllers/line.hpp>
 #include <controllers/mckibben_controller.h>
@@ -13,6 +16,28 @@ namespace mckibben::controllers {
 namespace {
 
 constexpr int version_for_mA = 1;  // did not tell the unit
+
+/// While the code of a library runs. If it calls exit(), the program must not end as if all had gone well.
+class Inside {
+ public:
+  explicit Inside(const std::filesystem::path& library) {
+    static const int once = std::atexit([] {
+      if (library_ == nullptr) return;
+      std::fprintf(stderr, "mckibben: the library %s has called exit()\n", library_);
+      constexpr int defect = 70;
+      _exit(defect);
+    });
+    static_cast<void>(once);
+    library_ = library.c_str();
+  }
+  Inside(const Inside&) = delete;
+  Inside& operator=(const Inside&) = delete;
+  ~Inside() { library_ = nullptr; }
+
+ private:
+  static thread_local const char* library_;
+};
+thread_local const char* Inside::library_ = nullptr;
 
 /// A library as long as somebody uses it.
 class Library {
@@ -41,11 +66,14 @@ class Plugin final : public Guest {
         path_(std::filesystem::absolute(std::filesystem::path(settings.folder) / settings.library)),
         settings_(settings.settings) {}
   ~Plugin() override {
+    const Inside library(path_);
     if (self_ != nullptr) close_(self_);
+    library_.reset();
   }
 
  private:
   double begin_mA() override {
+    const Inside library(path_);
     load();
     const mckibben_controller_hello hello{
         .period_s = known().tick_s,
@@ -71,6 +99,7 @@ class Plugin final : public Guest {
     const mckibben_controller_reading reading{told.reading.tick, told.reading.time_s, told.reading.counts,
                                               told.counts_lost ? 1 : 0, told.target};
     double current_mA = std::numeric_limits<double>::quiet_NaN();
+    const Inside library(path_);
     if (step_(self_, &reading, &current_mA, why_.data()) != 0)
       throw ControllerFailure("its library gives up: " + why());
     return current_mA;

@@ -51,11 +51,14 @@ struct Spawning {
   Spawning() {
     posix_spawn_file_actions_init(&files);
     posix_spawnattr_init(&attributes);
-    sigset_t none;
+    sigset_t none, all;
     sigemptyset(&none);
+    sigfillset(&all);
     posix_spawnattr_setsigmask(&attributes, &none);
+    posix_spawnattr_setsigdefault(&attributes, &all);  // what we ignore it need not
     posix_spawnattr_setpgroup(&attributes, 0);
-    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK);
+    posix_spawnattr_setflags(&attributes,
+                             POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
   }
   Spawning(const Spawning&) = delete;
   Spawning& operator=(const Spawning&) = delete;
@@ -97,6 +100,7 @@ std::string_view Process::ask(std::string_view lines, double within_s) {
   const auto until =
       Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(within_s));
   for (;;) {
+    if (end_is_asked()) fail("the user stopped before it answered");
     if (!exchange(lines, until)) fail(how_it_ended());
     const std::size_t length = said_.find('\n');
     if (length != std::string::npos) {
@@ -117,7 +121,8 @@ bool Process::exchange(std::string_view& rest, Clock::time_point until) {
   std::array<pollfd, 3> ends{pollfd{from_, POLLIN, 0}, pollfd{complaints_, POLLIN, 0},
                              pollfd{rest.empty() ? -1 : to_, POLLOUT, 0}};
   const auto left = std::chrono::ceil<std::chrono::milliseconds>(until - Clock::now()).count();
-  poll(ends.data(), ends.size(), static_cast<int>(std::max<decltype(left)>(left, 0)));
+  constexpr decltype(left) longest_ms = 50;  // whoever waits looks up so often
+  poll(ends.data(), ends.size(), static_cast<int>(std::clamp<decltype(left)>(left, 0, longest_ms)));
   if (ends[1].revents != 0) take(complaints_, complained_, kept_of_complaints);
   if (ends[2].revents != 0) {
     const ssize_t sent = send(to_, rest.data(), rest.size(), MSG_NOSIGNAL);

@@ -10,6 +10,9 @@
 
 namespace mckibben::controllers {
 
+/// Whether the user asked this program to end: then nobody waits for a process any longer. Looked at often.
+inline bool (*end_is_asked)() = [] { return false; };
+
 class Process {
  public:
   /// Starts `command` with the shell, in `folder` (where we are if it is empty). Throws ControllerFailure.

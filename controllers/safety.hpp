@@ -81,7 +81,7 @@ class BelievedCounts {
 
   /// The counts, or those that were believed last.
   std::int64_t operator()(std::int64_t counts) {
-    lost_ = !first_ && std::abs(static_cast<double>(counts - last_)) > largest_step_;
+    lost_ = !first_ && std::abs(static_cast<double>(counts) - static_cast<double>(last_)) > largest_step_;
     first_ = false;
     if (lost_)
       ++lost_ticks_;

@@ -5,14 +5,18 @@
 #include <cmath>
 #include <cstring>
 #include <string_view>
+#include <utility>
 
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <poll.h>
+#include <sys/ioctl.h>
 #include <termios.h>
 #include <unistd.h>
 
+#include <controllers/line.hpp>
 #include <sim/bench/serial.hpp>
+#include <sim/run/batch.hpp>
 
 namespace mckibben::bench {
 namespace {
@@ -20,6 +24,7 @@ namespace {
 /// Boards restart when their port is opened, and take a while.
 constexpr double longest_start_s = 5.0;
 constexpr int most_tries = 5;
+constexpr std::size_t longest_line = 1024;
 
 }  // namespace
 
@@ -45,22 +50,42 @@ Serial::Serial(const std::string& port, const plant::Rig& rig) : port_(port), ti
       }
       return;
     } catch (const DeviceFailure&) {
-      if (tries < most_tries) continue;
+      if (tries < most_tries && !run::interrupted()) continue;
       close(line_);
+      if (run::interrupted()) throw DeviceFailure(port + ": stopped by the user");
       throw DeviceFailure(fmt::format("{}: nobody answers \"{}\" with \"{}\"", port, greeting, ready_));
     }
   }
 }
 
 Serial::~Serial() {
-  tcdrain(line_);  // the last command must arrive
+  int waiting = 0;  // the last command must arrive; a device that is deaf must not hold us
+  for (int looks = 0; looks < 100 && ioctl(line_, TIOCOUTQ, &waiting) == 0 && waiting > 0; ++looks)
+    poll(nullptr, 0, 1);
+  if (waiting > 0) tcflush(line_, TCOFLUSH);
   close(line_);
 }
 
+void Serial::fail(const std::string& what) const {
+  throw DeviceFailure(fmt::format("{}: {}", port_, what));
+}
+
 void Serial::say(const std::string& line) {
-  const std::string whole = line + "\n";
-  if (write(line_, whole.data(), whole.size()) != static_cast<ssize_t>(whole.size()))
-    throw DeviceFailure(fmt::format("{}: cannot write: {}", port_, std::strerror(errno)));
+  const std::string whole = (torn_ ? "\n" : "") + line + "\n";
+  torn_ = write(line_, whole.data(), whole.size()) != static_cast<ssize_t>(whole.size());
+  if (!torn_) return;
+  const std::string why = std::strerror(errno);
+  tcflush(line_, TCOFLUSH);  // makes room for what comes next: to vent
+  fail("cannot write: " + why);
+}
+
+/// Whether there was something.
+bool Serial::read_some() {
+  char bytes[256];
+  const ssize_t count = read(line_, bytes, sizeof bytes);
+  if (count > 0) received_.append(bytes, static_cast<std::size_t>(count));
+  if (count < 0 && errno != EAGAIN && errno != EINTR) fail(std::strerror(errno));
+  return count > 0;
 }
 
 std::string Serial::heard(double within_s) {
@@ -74,28 +99,34 @@ std::string Serial::heard(double within_s) {
       if (line.ends_with('\r')) line.pop_back();
       return line;
     }
+    if (received_.size() > longest_line)
+      fail("a line without end: " + controllers::in_quotes(std::exchange(received_, "")));
+    if (run::interrupted()) fail("stopped by the user");
     const auto left = std::chrono::ceil<std::chrono::milliseconds>(until - Time::now()).count();
-    if (left <= 0) throw DeviceFailure(fmt::format("{}: no answer within {:g} s", port_, within_s));
+    if (left <= 0) fail(fmt::format("no answer within {:g} s", within_s));
     pollfd one{line_, POLLIN, 0};
     poll(&one, 1, static_cast<int>(left));
-    char bytes[256];
-    const ssize_t count = one.revents != 0 ? read(line_, bytes, sizeof bytes) : 0;
-    if (count > 0) received_.append(bytes, static_cast<std::size_t>(count));
-    if (count < 0 && errno != EAGAIN && errno != EINTR)
-      throw DeviceFailure(fmt::format("{}: {}", port_, std::strerror(errno)));
+    if (one.revents != 0 && !read_some() && (one.revents & (POLLHUP | POLLERR)) != 0) fail("it has hung up");
   }
 }
 
 std::int64_t Serial::counts(double) {
+  while (received_.size() <= longest_line && read_some()) {
+  }
+  if (asked_ && !received_.empty())
+    fail("it says what nobody asked for, so its counts may be old ones: " +
+         controllers::in_quotes(received_));
+  received_.clear();
   say("?");
   std::string line;
   do {
     line = heard(10.0 * tick_s_);
-  } while (line == ready_);  // to an earlier greeting, which was not heard in time
+  } while (!asked_ && line == ready_);  // to an earlier greeting, which was not heard in time
+  asked_ = true;
   std::int64_t value = 0;
   const auto [end, error] = std::from_chars(line.data(), line.data() + line.size(), value);
   if (error != std::errc() || end != line.data() + line.size())
-    throw DeviceFailure(fmt::format("{}: \"{}\" is no number of counts", port_, line.substr(0, 40)));
+    fail(controllers::in_quotes(line) + " is no number of counts");
   return value;
 }
 

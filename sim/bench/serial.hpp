@@ -6,7 +6,9 @@
 //            =12.345         the current [mA] from now on
 //   from it  ready 1         to the first
 //            1234            to the second
-// To a valve that takes volts or a pressure: mckibben 2 12 V, ready 2, and the commands in that unit.
+// Each ? has one answer, and nothing else is said: a line that nobody asked for would be taken for an answer,
+// and each one after it would be too old. To a valve that takes volts or a pressure: mckibben 2 12 V, ready
+// 2, and the commands in that unit.
 #pragma once
 
 #include <string>
@@ -18,7 +20,7 @@ namespace mckibben::bench {
 
 class Serial final : public Device {
  public:
-  /// Opens the port and greets. Throws DeviceFailure.
+  /// Opens the port and greets. Throws DeviceFailure, also if the user stops meanwhile.
   Serial(const std::string& port, const plant::Rig& rig);
   ~Serial() override;
 
@@ -28,10 +30,13 @@ class Serial final : public Device {
  private:
   void say(const std::string& line);
   std::string heard(double within_s);
+  bool read_some();
+  [[noreturn]] void fail(const std::string& what) const;
 
   std::string port_;
   double tick_s_;
   int line_ = -1;
+  bool asked_ = false, torn_ = false;  ///< for counts before; a line was not written to its end
   std::string received_, ready_;
 };
 

@@ -2,6 +2,7 @@
 // as a data set.
 #include <algorithm>
 #include <filesystem>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <regex>
@@ -22,6 +23,7 @@
 #include <sim/input/fields_json.hpp>
 #include <sim/input/scenario_file.hpp>
 #include <sim/input/yaml_writer.hpp>
+#include <sim/output/unfinished.hpp>
 #include <sim/run/briefing.hpp>
 #include <sim/run/track.hpp>
 
@@ -30,6 +32,9 @@ namespace {
 
 using domain::Scenario;
 using input::Json;
+
+/// Beyond those that may be missed: a device may take ten to answer.
+constexpr int silent_ticks = 12;
 
 struct ControlOptions : Options {
   std::string scenario, device = "simulated", port;
@@ -66,9 +71,13 @@ bench::LoopPlan loop_of(const Scenario& scenario, const run::Briefing& briefing,
   bench::LoopPlan plan;
   plan.rig = scenario.rig;
   plan.ticks = static_cast<std::int64_t>(run::plan_of(scenario, 0.0, 0).ticks);
+  plan.load_kg = scenario.loads_kg.front();
   plan.most_missed_ticks = options.most_missed_ticks;
-  plan.stop = run::interrupted;
   const auto& settings = briefing.settings.front();
+  if (const auto* external = controllers::part_of<controllers::ExternalSettings>(settings))
+    plan.start_limit_s = external->start_limit_s + 1.0;  // says it first, and better
+  else if (controllers::part_of<controllers::GuestTerms>(settings) == nullptr)
+    plan.start_limit_s = std::numeric_limits<double>::infinity();  // ours may plan for long, but not for ever
   plan.limits = controllers::limits_of(settings, briefing.knowledge.front())
                     .value_or(controllers::CurrentRange{scenario.rig.dac.lowest_command,
                                                         scenario.rig.dac.largest_command});
@@ -137,14 +146,25 @@ std::string column_of(const Scenario& scenario) {
   return plant::Channel{&plant::command_of(scenario.rig.command_unit())}.name();
 }
 
-std::string csv_of(const Scenario& scenario, const run::Briefing& briefing, const bench::Recorded& recorded) {
-  const controllers::Knowledge& known = briefing.knowledge.front();
-  std::string csv = fmt::format("time_s,{},contraction_ratio,counts,target,late_ms\n", column_of(scenario));
-  for (const auto& row : recorded.rows)
-    csv += fmt::format("{},{},{},{},{},{:.3f}\n", static_cast<double>(row.tick) * scenario.rig.tick_s,
-                       row.current_mA, static_cast<double>(row.counts) * known.contraction_per_count,
-                       row.counts, known.target_at(row.tick), 1e3 * row.late_s);
-  return csv;
+std::string head_of(const Scenario& scenario) {
+  return fmt::format("time_s,{},contraction_ratio,counts,target,late_ms\n", column_of(scenario));
+}
+
+std::string line_of(const bench::Row& row, const controllers::Knowledge& known) {
+  return fmt::format("{},{},{},{},{},{:.3f}\n", static_cast<double>(row.tick) * known.tick_s, row.current_mA,
+                     static_cast<double>(row.counts) * known.contraction_per_count, row.counts,
+                     known.target_at(row.tick), 1e3 * row.late_s);
+}
+
+/// What goes with the rows: they are a data set of a rig with all that the scenario's has.
+template <class Folder>
+void describe(Folder& folder, const Scenario& scenario) {
+  Json dataset{{"schema", "mckibben-dataset/1"}, {"rig", "rig.yaml"}};
+  dataset["runs"] = Json::array({Json{{"id", "bench"},
+                                      {"file", "bench.csv"},
+                                      {"load", domain::write_number(scenario.loads_kg.front()) + " kg"}}});
+  folder.write("rig.yaml", input::to_yaml(input::rig_json(scenario.rig)));
+  folder.write("dataset.yaml", input::to_yaml(dataset));
 }
 
 std::string text_of(const Scenario& scenario, const bench::Recorded& recorded) {
@@ -189,6 +209,44 @@ int show(const ControlOptions& options, const Scenario& scenario, const bench::R
   return recorded.stopped.empty() ? done : failure;
 }
 
+/// Drives the device, and records: rows as they come, all as a data set at the end.
+int on_bench(const ControlOptions& options, const Scenario& scenario, const run::Briefing& briefing,
+             std::unique_ptr<controllers::Controller> controller, bench::LoopPlan plan) {
+  Job job(options, "control " + options.scenario, scenario.name + "-bench", scenario.inputs);
+  const controllers::Knowledge& known = briefing.knowledge.front();
+  output::Unfinished rows(job.where(), "bench.csv", head_of(scenario), say);
+  describe(rows, scenario);
+  plan.record = [&](const bench::Row& row) { rows.append(line_of(row, known)); };
+  plan.longest_silence_s = (options.most_missed_ticks + silent_ticks) * scenario.rig.tick_s;
+  bench::Recorded recorded;
+  try {
+    const auto device = device_of(scenario, options);
+    bench::RealClock clock;
+    recorded = bench::drive(*device, std::move(controller), plan, clock);
+  } catch (const bench::DeviceFailure& unreachable) {
+    say(unreachable.what());
+    return run::interrupted() ? static_cast<int>(interrupted) : static_cast<int>(failure);
+  }
+  try {
+    if (!recorded.rows.empty()) {
+      std::string csv = head_of(scenario);
+      for (const bench::Row& row : recorded.rows) csv += line_of(row, known);
+      job.write("bench.csv", csv);
+      describe(job, scenario);
+    }
+    const std::string document = document_of(scenario, options, recorded), text = text_of(scenario, recorded);
+    job.write("control.json", document);
+    job.write("table.txt", text);
+    const int status = job.finish({document, text}, recorded.stopped.empty() ? done : failure);
+    rows.remove();
+    return recorded.by_user && status == failure ? static_cast<int>(interrupted) : status;
+  } catch (const output::CannotWrite&) {
+    say(fmt::format("what was recorded{} is in {}", rows.complete() ? "" : " until the disk was full",
+                    rows.path().string()));
+    throw;
+  }
+}
+
 int control(const ControlOptions& options) {
   if (const std::string why = misplaced(options); !why.empty()) {
     say(why);
@@ -206,36 +264,12 @@ int control(const ControlOptions& options) {
     return usage_error;
   }
   const run::Briefing briefing = run::briefing_of(scenario);
-  const auto controller = briefing.make(briefing.settings.front(), 0, scenario.loads_kg.front());
+  auto controller = briefing.make(briefing.settings.front(), 0, scenario.loads_kg.front());
   const bench::LoopPlan plan = loop_of(scenario, briefing, options);
-  if (options.dry_run) {
-    bench::PatientClock clock;
-    return show(options, scenario, bench::drive(*device_of(scenario, options), *controller, plan, clock));
-  }
-  Job job(options, "control " + options.scenario, scenario.name + "-bench", scenario.inputs);
-  bench::Recorded recorded;
-  try {
-    const auto device = device_of(scenario, options);
-    bench::RealClock clock;
-    recorded = bench::drive(*device, *controller, plan, clock);
-  } catch (const bench::DeviceFailure& unreachable) {
-    say(unreachable.what());
-    return failure;
-  }
-  if (!recorded.rows.empty()) {
-    Json dataset{{"schema", "mckibben-dataset/1"}, {"rig", "rig.yaml"}};
-    dataset["runs"] = Json::array({Json{{"id", "bench"},
-                                        {"file", "bench.csv"},
-                                        {"load", domain::write_number(scenario.loads_kg.front()) + " kg"}}});
-    job.write("bench.csv", csv_of(scenario, briefing, recorded));
-    job.write("rig.yaml", input::to_yaml(input::rig_json(plant::nominal(scenario.rig))));
-    job.write("dataset.yaml", input::to_yaml(dataset));
-  }
-  const std::string document = document_of(scenario, options, recorded), text = text_of(scenario, recorded);
-  job.write("control.json", document);
-  job.write("table.txt", text);
-  const int status = job.finish({document, text}, recorded.stopped.empty() ? done : failure);
-  return recorded.by_user && status == failure ? static_cast<int>(interrupted) : status;
+  if (!options.dry_run) return on_bench(options, scenario, briefing, std::move(controller), plan);
+  bench::PatientClock clock;
+  return show(options, scenario,
+              bench::drive(*device_of(scenario, options), std::move(controller), plan, clock));
 }
 
 }  // namespace

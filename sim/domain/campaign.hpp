@@ -42,6 +42,7 @@ struct CampaignCurrent {
 struct Campaign {
   std::string name;
   plant::Rig rig;
+  plant::Rig known{};  ///< as its owner believes it to be: without the effects that are written over its base
   std::vector<double> loads_kg;  ///< none of a pair
   std::vector<CampaignCurrent> currents;
   int repeats = 1;

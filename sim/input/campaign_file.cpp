@@ -8,6 +8,7 @@
 #include <sim/input/common_checks.hpp>
 #include <sim/input/fields_json.hpp>
 #include <sim/input/file_names.hpp>
+#include <sim/input/rigs.hpp>
 #include <sim/input/variation_file.hpp>
 #include <sim/input/yaml_reader.hpp>
 
@@ -125,6 +126,18 @@ void check_repeats(const YamlFile& file, const Campaign& campaign, Problems& pro
                    fmt::format("repeats = {}: without vary at most {}", given->text, most_repeats));
 }
 
+/// What a campaign's rig has besides its base is there to be found.
+plant::Rig known_rig(const YamlFile& file, const plant::Rig& rig) {
+  const Node* node = file.root.find("rig");
+  const plant::Rig base = node == nullptr ? plant::Rig{} : read_base(file.source, *node);
+  plant::Rig known = rig;
+  known.effects = base.effects;
+  known.joint.load_offset_kg = base.joint.load_offset_kg;
+  if (plant::Pair* pair = known.pair())
+    pair->opposite.effects = base.pair() != nullptr ? base.pair()->opposite.effects : base.effects;
+  return known;
+}
+
 }  // namespace
 
 Campaign read_campaign(Source source) {
@@ -151,6 +164,7 @@ Campaign read_campaign(Source source) {
     check_repeats(file, campaign, problems);
   }
   problems.raise();
+  campaign.known = known_rig(file, campaign.rig);
   campaign.inputs = problems.inputs();
   return campaign;
 }

@@ -176,6 +176,23 @@ void read_named(const Source& source, const Node& node, Rig& into, Problems& pro
                    fmt::format("rig must be a name, a path or a map of changes, not {}", node.kind_name()));
 }
 
+Rig read_base(const Source& source, const Node& node) {
+  Rig rig;
+  Problems seen;  // when the rig itself was read
+  const auto read = [&](const Source& from, const Node& map) {
+    if (const Node* base = map.find("base")) read_named(from, *base, rig, seen);
+  };
+  if (node.kind == Node::Kind::map) {
+    read(source, node);
+  } else if (is_shipped(node.text)) {
+    rig = shipped_rig(node.text);
+  } else {
+    const YamlFile file = load_yaml((source.folder() / node.text).lexically_normal());
+    read(file.source, file.root);
+  }
+  return rig;
+}
+
 Rig read_rig(const std::string& name_or_path, std::vector<InputFile>& inputs) {
   if (is_shipped(name_or_path)) return shipped_rig(name_or_path);
   std::error_code ignored;

@@ -33,4 +33,7 @@ Json rig_json(const Rig& rig);
 /// a path relative to the folder of `source`, or a map of changes.
 void read_named(const Source& source, const Node& node, Rig& into, Problems& problems);
 
+/// The rig over which that writes: the base of a map or of a file; a shipped rig itself.
+Rig read_base(const Source& source, const Node& node);
+
 }  // namespace mckibben::input

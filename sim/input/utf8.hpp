@@ -1,20 +1,12 @@
-// UTF-8 by RFC 3629: no overlong forms, no surrogates, nothing above U+10FFFF.
+// What of other people's text can be shown; the text of controllers is the first that needs it.
 #pragma once
 
-#include <cstddef>
-#include <string>
-#include <string_view>
+#include <controllers/utf8.hpp>
 
 namespace mckibben::input {
 
-/// Length of the UTF-8 character at the start of `text`, 0 if it is none (or NUL).
-std::size_t utf8_length(std::string_view text);
-
-/// `text` as it can be shown: a ? for each byte that is not UTF-8 and for each control character but tab and
-/// line end, with which a file could make a terminal do things.
-std::string printable(std::string_view text);
-
-/// `text`, or its beginning and "..." where it has more than `longest` bytes: what a message quotes.
-std::string shortened(std::string_view text, std::size_t longest = 60);
+using controllers::printable;
+using controllers::shortened;
+using controllers::utf8_length;
 
 }  // namespace mckibben::input

@@ -59,8 +59,7 @@ void Host::end_recording(const std::string& why) {
   if (rows < least_rows)
     tell(fmt::format("The recording ended{}, after {} rows. It takes {} to make a run; nothing was written.",
                      why.empty() ? "" : ": " + why, rows, least_rows));
-  else
-    ended_.push_back(*std::move(recording_));
+  ended_.push_back(*std::move(recording_));
   recording_.reset();
   changed_state();
 }
@@ -170,7 +169,9 @@ std::string Host::obey(const Command& command) {
             if (record.from_rest) session_.start_over();
             if (!session_.failure().empty()) return "nothing moves: the integration gave up";
             recording_.emplace();
+            recording_->number = ++recordings_;
             recording_->rig = session_.rig();
+            recording_->known = session_.switches().known();
             recording_->load_kg = session_.load_kg();
             recording_->settled = session_.untouched();
             recording_->rows.driven.pair = session_.pair();
@@ -223,12 +224,18 @@ std::string Host::news(Heard& heard, milliseconds longest) {
 
 void Host::write_recordings(const output::Say& say) {
   std::deque<Recording> ended;
+  std::optional<Recording> goes_on;
   {
     std::unique_lock lock(mutex_);
     moved_.wait_for(lock, milliseconds(50), [&] { return stop_ || !ended_.empty(); });
     ended.swap(ended_);
+    if (recording_) goes_on = recording_->from(data_.rows_of(recording_->number));
   }
   for (Recording& each : ended) {
+    if (each.rows.samples.size() < least_rows) {
+      data_.drop(each.number);
+      continue;
+    }
     std::string text;
     const std::string why = each.ended.empty() ? "" : " (it ended: " + each.ended + ")";
     const double lasting_s = static_cast<double>(each.rows.samples.size()) * each.rig.tick_s;
@@ -244,6 +251,7 @@ void Host::write_recordings(const output::Say& say) {
     const std::lock_guard lock(mutex_);
     tell(text);
   }
+  if (goes_on) data_.follow(*goes_on);
 }
 
 void Host::finish(const output::Say& say) {

@@ -38,8 +38,8 @@ class Host {
   /// something new, or nothing. A new watcher hears the last seconds.
   std::string news(Heard& heard, std::chrono::milliseconds longest);
 
-  /// Waits a little for recordings that have ended, and writes them; `say` hears where. What cannot be
-  /// written is told in the page, too, and kept.
+  /// Waits a little for recordings that have ended, and writes them, and what there is of one that goes on;
+  /// `say` hears where. What cannot be written is told in the page, too, and kept.
   void write_recordings(const output::Say& say);
   /// Ends: nothing moves any more, and what was being recorded is written. Throws output::CannotWrite.
   void finish(const output::Say& say);
@@ -64,6 +64,7 @@ class Host {
   std::string message_;
   double pace_ = 1.0;  ///< simulated time by the clock's
   std::optional<Recording> recording_;
+  std::uint64_t recordings_ = 0;
   std::deque<Recording> ended_;
   std::thread thread_;
 };

@@ -137,6 +137,13 @@ void Switches::take_from_file(plant::Rig& rig, const Switch& one) const {
     take(pair->opposite.effects, file_.pair()->opposite.effects);
 }
 
+plant::Rig Switches::known() const {
+  plant::Rig rig = bare_;
+  for (const Switch& one : all_)
+    if (one.on && one.candidate.carried(file_)) take_from_file(rig, one);
+  return rig;
+}
+
 plant::Rig Switches::rig() const {
   plant::Rig rig = bare_;
   for (const Switch& one : all_) {

@@ -50,6 +50,8 @@ class Switches {
 
   /// The rig with what is on.
   plant::Rig rig() const;
+  /// The same as its owner knows it: of what is on, only what the file has, as the file has it.
+  plant::Rig known() const;
 
  private:
   void take_from_file(plant::Rig& rig, const Switch& one) const;

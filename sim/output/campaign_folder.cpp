@@ -241,11 +241,10 @@ Digests CampaignFolder::write_rest(const std::vector<run::EndedRun>& runs, const
     write_staged(unfinished_ / name, text);
     files[name] = input::sha256_hex(text);
   };
-  const plant::Rig known = plant::nominal(campaign_.rig);
-  std::string rig = shipped_name(known);
+  std::string rig = shipped_name(campaign_.known);
   if (rig.empty()) {
     rig = "rig.yaml";
-    write("data/" + rig, input::to_yaml(input::rig_json(known)));
+    write("data/" + rig, input::to_yaml(input::rig_json(campaign_.known)));
   }
   write("data/dataset.yaml", input::to_yaml(dataset_json(campaign_.rig, rig, runs)));
   write("data/campaign.json", json_of(campaign_, runs));

@@ -105,7 +105,7 @@ std::string json_of(const domain::Campaign& campaign, const std::vector<run::End
   document["tolerance"] = campaign.rig.integrator.tolerance;
   // As its owner knows it; what is hidden stands in truth.yaml.
   domain::Campaign known = campaign;
-  known.rig = plant::nominal(known.rig);
+  known.rig = known.known;
   document["campaign"] = input::campaign_json(known);
   document["campaign"].erase("noise");
   document["runs"] = Json::array();

@@ -1,7 +1,7 @@
 // Worker threads that take the next job until there is none.
 #include <algorithm>
 #include <atomic>
-#include <csignal>
+#include <cerrno>
 #include <string_view>
 #include <system_error>
 #include <thread>
@@ -11,6 +11,7 @@
 
 #include <unistd.h>
 
+#include <controllers/process.hpp>
 #include <sim/run/batch.hpp>
 
 namespace mckibben::run {
@@ -31,6 +32,7 @@ static_assert(std::atomic<bool>::is_always_lock_free);
 }  // namespace
 
 void catch_interrupts() {
+  controllers::end_is_asked = interrupted;
   for (const int signal : {SIGINT, SIGTERM, SIGHUP})
     std::signal(signal, [](int again) {
       of_the_program.asked = true;
@@ -39,6 +41,22 @@ void catch_interrupts() {
       if (again == SIGINT) std::ignore = write(STDERR_FILENO, notice.data(), notice.size());
       std::signal(again, SIG_DFL);  // a second one ends at once
     });
+}
+
+HeldInterrupts::HeldInterrupts() {
+  struct sigaction hold {};  // without SA_RESTART: who waits wakes up
+  hold.sa_handler = [](int signal) {
+    const int error = errno;
+    of_the_program.asked = true;
+    constexpr std::string_view notice = "\nmckibben: stopping\n";
+    if (signal == SIGINT) std::ignore = write(STDERR_FILENO, notice.data(), notice.size());
+    errno = error;
+  };
+  for (std::size_t i = 0; i < held.size(); ++i) sigaction(held[i], &hold, &before_[i]);
+}
+
+HeldInterrupts::~HeldInterrupts() {
+  for (std::size_t i = 0; i < held.size(); ++i) sigaction(held[i], &before_[i], nullptr);
 }
 
 bool interrupted() {

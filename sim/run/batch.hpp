@@ -2,7 +2,9 @@
 // so results do not depend on their number.
 #pragma once
 
+#include <array>
 #include <chrono>
+#include <csignal>
 #include <cstddef>
 #include <exception>
 #include <functional>
@@ -24,6 +26,22 @@ bool interrupted();
 /// Whether the user asked to stop. If so, that is forgotten, and what follows goes on; asked again the
 /// program ends at once.
 bool take_interrupt();
+
+/// While one lives, no signal that can be caught and is sent to end or to suspend the program does so,
+/// however often it comes: each asks it to stop. For where the program must do one thing more, such as to
+/// vent.
+class HeldInterrupts {
+ public:
+  HeldInterrupts();
+  HeldInterrupts(const HeldInterrupts&) = delete;
+  HeldInterrupts& operator=(const HeldInterrupts&) = delete;
+  ~HeldInterrupts();
+
+ private:
+  static constexpr std::array held{SIGINT,  SIGTERM, SIGHUP,  SIGQUIT,   SIGUSR1,
+                                   SIGUSR2, SIGALRM, SIGXCPU, SIGVTALRM, SIGTSTP};
+  std::array<struct sigaction, held.size()> before_{};
+};
 
 struct Stop;
 

@@ -38,8 +38,8 @@ Recorded driven(Device& device, Clock& clock) {
   LoopPlan plan;
   plan.ticks = 150;
   plan.limits = {4.0, 20.0};
-  const auto controller = settings.make(run::knowledge_of(plan.rig, std::vector<double>(150, 0.1)));
-  return drive(device, *controller, plan, clock);
+  auto controller = settings.make(run::knowledge_of(plan.rig, std::vector<double>(150, 0.1)));
+  return drive(device, std::move(controller), plan, clock);
 }
 
 TEST(ComediBench, IsDrivenAsTheSimulatedOneIs) {

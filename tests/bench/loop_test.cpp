@@ -1,27 +1,25 @@
 // The tick loop on a bench: what is put out and when, and that its watchdog vents whatever happens. Its clock
 // is a test's, so no machine is too slow for it.
 #include <algorithm>
-#include <atomic>
+#include <csignal>
 #include <cstdint>
 #include <limits>
-#include <mutex>
+#include <memory>
 #include <string>
-#include <thread>
-#include <tuple>
 #include <utility>
 #include <vector>
 
-#include <fcntl.h>
 #include <gtest/gtest.h>
-#include <stdlib.h>
-#include <termios.h>
 #include <unistd.h>
 
 #include <controllers/pid.hpp>
 #include <sim/bench/loop.hpp>
 #include <sim/bench/serial.hpp>
 #include <sim/bench/simulated.hpp>
+#include <sim/run/batch.hpp>
 #include <sim/run/simulate.hpp>
+
+#include "board.hpp"
 
 namespace mckibben::bench {
 namespace {
@@ -33,10 +31,13 @@ class Told final : public Device {
     if (fails_at == static_cast<int>(put_mA.size())) throw DeviceFailure("the plug is out");
     return jumps_at >= 0 && static_cast<int>(put_mA.size()) >= jumps_at ? 100000 : 5;
   }
-  void put(double current_mA, double) override { put_mA.push_back(current_mA); }
+  void put(double current_mA, double) override {
+    put_mA.push_back(current_mA);
+    if (raises != 0 && put_mA.size() >= 8) raise(raises);
+  }
 
   std::vector<double> put_mA;
-  int jumps_at = -1, fails_at = -1;
+  int jumps_at = -1, fails_at = -1, raises = 0;
 };
 
 class Asks final : public controllers::Controller {
@@ -76,8 +77,7 @@ LoopPlan plan(std::int64_t ticks) {
 }
 
 Recorded driven(Told& device, double asked_mA, const LoopPlan& all, Clock&& clock = PatientClock()) {
-  Asks controller(asked_mA);
-  return drive(device, controller, all, clock);
+  return drive(device, std::make_unique<Asks>(asked_mA), all, clock);
 }
 
 TEST(Loop, SettlesThenAsksEachTickAndVentsAtTheEnd) {
@@ -114,11 +114,10 @@ TEST(Loop, VentsWhenCountsJumpOrTheDeviceOrTheControllerFails) {
   EXPECT_EQ(driven(fails, 9.0, plan(20)).stopped, "the plug is out");
   EXPECT_EQ(fails.put_mA.back(), 0.0);
   Told sound;
-  Asks gives_up(9.0);
-  gives_up.gives_up_at = 4;
+  auto gives_up = std::make_unique<Asks>(9.0);
+  gives_up->gives_up_at = 4;
   PatientClock clock;
-  const LoopPlan all = plan(20);
-  const Recorded recorded = drive(sound, gives_up, all, clock);
+  const Recorded recorded = drive(sound, std::move(gives_up), plan(20), clock);
   EXPECT_EQ(recorded.stopped, "no more");
   EXPECT_EQ(recorded.rows.size(), 4U);
   EXPECT_EQ(sound.put_mA.back(), 0.0);
@@ -138,15 +137,17 @@ TEST(Loop, VentsOnceMoreTicksInARowAreMissedThanMayBe) {
   EXPECT_EQ(many.put_mA.back(), 0.0);
 }
 
-TEST(Loop, VentsWhenTheUserStopsIt) {
-  Told device;
-  LoopPlan all = plan(20);
-  int asked = 0;
-  all.stop = [&] { return ++asked > 8; };
-  const Recorded recorded = driven(device, 9.0, all);
-  EXPECT_TRUE(recorded.by_user);
-  EXPECT_EQ(recorded.rows.size(), 3U);
-  EXPECT_EQ(device.put_mA.back(), 0.0);
+TEST(Loop, VentsAtEachSignalThatCanBeCaughtHoweverOftenItComes) {
+  for (const int each : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGUSR1, SIGUSR2, SIGALRM, SIGXCPU, SIGTSTP}) {
+    Told device;
+    device.raises = each;  // again as it vents
+    const Recorded recorded = driven(device, 9.0, plan(20));
+    EXPECT_TRUE(run::take_interrupt()) << each;
+    EXPECT_TRUE(recorded.by_user) << each;
+    EXPECT_EQ(recorded.stopped, "stopped by the user") << each;
+    EXPECT_EQ(recorded.rows.size(), 3U) << each;
+    EXPECT_EQ(device.put_mA.back(), 0.0) << each;
+  }
 }
 
 controllers::PidSettings pid() {
@@ -161,13 +162,14 @@ TEST(SimulatedBench, IsTheRunThatIsSimulated) {
   const plant::Rig rig;
   std::vector<double> target(200, 0.1);
   const auto known = run::knowledge_of(rig, target);
-  const auto simulated = pid().make(known), driving = pid().make(known);
+  auto simulated = pid().make(known), driving = pid().make(known);
   const run::Recording expected = run::simulate({.rig = rig, .load_kg = 16.0, .ticks = 200}, *simulated);
   Simulated bench(rig, 16.0, {}, plant::dac_output_mA(rig.dac, 4.0));
   LoopPlan all = plan(200);
   all.rig = rig;
+  all.load_kg = 16.0;
   PatientClock clock;
-  const Recorded recorded = drive(bench, *driving, all, clock);
+  const Recorded recorded = drive(bench, std::move(driving), all, clock);
   ASSERT_EQ(recorded.rows.size(), 200U);
   for (std::size_t k = 0; k < 200; ++k) {
     EXPECT_EQ(recorded.rows[k].counts, expected.samples[k].counts) << k;
@@ -176,67 +178,19 @@ TEST(SimulatedBench, IsTheRunThatIsSimulated) {
   EXPECT_GT(recorded.rows.back().counts, 200);
 }
 
-/// The other end of a pseudo-terminal: a microcontroller with a simulated rig on it.
-class Board {
- public:
-  Board() : master_(posix_openpt(O_RDWR | O_NOCTTY)) {
-    grantpt(master_);
-    unlockpt(master_);
-    port = ptsname(master_);
-    termios raw{};
-    tcgetattr(master_, &raw);
-    cfmakeraw(&raw);
-    tcsetattr(master_, TCSANOW, &raw);
-    works_ = std::jthread([this] { answer(); });
+TEST(SimulatedBench, IsBelievedWithAnyLoad) {
+  for (const double load_kg : {0.5, 5.0, 45.0}) {
+    LoopPlan all = plan(300);
+    all.load_kg = load_kg;
+    Simulated bench(all.rig, load_kg, {}, all.rig.dac.lowest_command);
+    PatientClock clock;
+    auto controller = pid().make(run::knowledge_of(all.rig, std::vector<double>(300, 0.15)));
+    EXPECT_EQ(drive(bench, std::move(controller), all, clock).stopped, "") << load_kg;
   }
-  ~Board() {
-    works_.request_stop();
-    works_.join();
-    close(master_);
-  }
-
-  std::vector<std::string> heard() {
-    const std::lock_guard lock(mutex_);
-    return heard_;
-  }
-
-  std::string port;
-  std::atomic<int> silent_after{1000000};
-
- private:
-  void answer() {
-    std::string line;
-    bool greeted = false;
-    char c = 0;
-    fcntl(master_, F_SETFL, O_NONBLOCK);
-    while (!works_.get_stop_token().stop_requested()) {
-      if (read(master_, &c, 1) != 1) {
-        usleep(200);
-        continue;
-      }
-      if (c != '\n') {
-        line += c;
-        continue;
-      }
-      const std::lock_guard lock(mutex_);
-      heard_.push_back(line);
-      std::string reply;
-      if (line.rfind("mckibben ", 0) == 0)
-        reply = (greeted ? "ready " : "what?\r\nready ") + line.substr(9, 1) + "\r\n", greeted = true;
-      if (line == "?" && static_cast<int>(heard_.size()) < silent_after) reply = "42\r\n";
-      if (!reply.empty()) std::ignore = write(master_, reply.data(), reply.size());
-      line.clear();
-    }
-  }
-
-  int master_;
-  std::mutex mutex_;
-  std::vector<std::string> heard_;
-  std::jthread works_;
-};
+}
 
 TEST(SerialBench, SpeaksItsLines) {
-  Board board;
+  Board board([](int, long) { return "42\r\n"; }, "what?\r\n");
   {
     Serial serial(board.port, plant::Rig{});
     EXPECT_EQ(serial.counts(0.0), 42);
@@ -260,14 +214,6 @@ TEST(SerialBench, SaysWhatItsCommandsAreInUnlessTheyAreMilliamperes) {
 
 TEST(SerialBench, SaysWhatIsWrong) {
   EXPECT_THROW(Serial("/nowhere/port", plant::Rig{}), DeviceFailure);
-  Board board;
-  board.silent_after = 3;
-  Serial serial(board.port, plant::Rig{});
-  EXPECT_THROW(
-      {
-        for (int i = 0; i < 5; ++i) serial.counts(0.0);
-      },
-      DeviceFailure);
 }
 
 }  // namespace

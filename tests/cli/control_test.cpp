@@ -42,6 +42,54 @@ TEST(Control, ASimulatedBenchLeavesADataSetThatReplays) {
   EXPECT_EQ(mckibben("replay out/b-bench", scratch).status, 0);
 }
 
+TEST(Control, LeavesOutNoEffectOfItsRig) {
+  const Scratch scratch;
+  std::string text(on_bench);
+  text.replace(text.find("thesis"), 6, "festo_dmsp_20");
+  write_text(scratch / "b.yaml", text);
+  const Said said = mckibben("control b.yaml --most-missed 1000", scratch);
+  ASSERT_EQ(said.status, 0) << said.err;
+  EXPECT_TRUE(holds(read_text(scratch / "out/b-bench/rig.yaml"), "bladder_elasticity"));
+  EXPECT_EQ(mckibben("replay out/b-bench", scratch).status, 0);
+}
+
+TEST(Control, WhatWasRecordedOutlivesAKillAsADataSet) {
+  const Scratch scratch;
+  std::string text(on_bench);
+  text.replace(text.find("duration: 0.6 s"), 15, "duration: 600 s");
+  write_text(scratch / "b.yaml", text);
+  const Said killed = shell(
+      "$M control b.yaml --most-missed 1000 & "
+      "until [ $(cat out/b-bench.unfinished/bench.csv 2>/dev/null | wc -l) -gt 30 ]; do sleep 0.05; done; "
+      "kill -KILL $!",
+      scratch);
+  EXPECT_EQ(mckibben("check out/b-bench.unfinished/dataset.yaml", scratch).status, 0);
+  EXPECT_EQ(mckibben("replay out/b-bench.unfinished", scratch).status, 0);
+  const std::string kept = read_text(scratch / "out/b-bench.unfinished/bench.csv");
+  write_text(scratch / "b.yaml", on_bench);
+  const Said again = mckibben("control b.yaml --most-missed 1000", scratch);
+  EXPECT_EQ(again.status, 0) << again.err;
+  EXPECT_TRUE(
+      holds(again.err, "b-bench.unfinished is of an earlier recording that was not finished; it stays"));
+  EXPECT_EQ(read_text(scratch / "out/b-bench.unfinished/bench.csv"), kept);
+  EXPECT_FALSE(std::filesystem::exists(scratch / "out/b-bench.unfinished-2"));
+}
+
+TEST(Control, AFullDiskIs74AndKeepsWhatFoundRoom) {
+  const Scratch scratch;
+  std::string text(on_bench);
+  text.replace(text.find("duration: 0.6 s"), 15, "duration: 2.4 s");
+  write_text(scratch / "b.yaml", text);
+  // A limit to the size of files, in blocks of 512 bytes: room for the rig, not for all rows.
+  const Said said = shell("ulimit -f 12; $M control b.yaml --most-missed 1000", scratch);
+  EXPECT_EQ(said.status, 74) << said.err;
+  EXPECT_TRUE(holds(said.err, "what was recorded until the disk was full is in ", "out/b-bench.unfinished"));
+  const std::string rows = read_text(scratch / "out/b-bench.unfinished/bench.csv");
+  EXPECT_GT(rows.size(), 4000U);
+  EXPECT_EQ(rows.back(), '\n');
+  EXPECT_EQ(mckibben("replay out/b-bench.unfinished", scratch).status, 0);
+}
+
 TEST(Control, RefusesWhatCannotDriveABench) {
   const Scratch scratch;
   const auto refused = [&](std::string text, const std::string& from, const std::string& to, const char* why,

@@ -81,6 +81,16 @@ TEST_F(Dataset, NamesTheShippedRigWhenItIsTheOne) {
   EXPECT_FALSE(input::read_dataset(scratch / "out/small").runs[0].muscle_pressure_Pa);
 }
 
+TEST_F(Dataset, KeepsTheEffectsOfItsBase) {
+  std::string text = small_campaign;
+  text.replace(text.find("{gauge: {fitted: true}}"), 23,
+               "{base: festo_dmsp_20, effects: {muscle_leak: {conductance: 1e-10 m3/(s.Pa)}}}");
+  write_text(scratch / "small.yaml", text);
+  ASSERT_EQ(run("dataset small.yaml").status, 0);
+  EXPECT_TRUE(holds(read_text(scratch / "out/small/dataset.yaml"), "rig: festo_dmsp_20\n"));
+  EXPECT_TRUE(holds(read_text(scratch / "out/small-truth/truth.yaml"), "bladder_elasticity", "muscle_leak"));
+}
+
 TEST_F(Dataset, ReplayedItIsRightToACount) {
   std::string text = small_campaign;
   write_text(scratch / "quiet.yaml", text.erase(text.find("noise:")));

@@ -82,6 +82,21 @@ TEST(YourController, OneThatFailsTakesItsOwnRunAlong) {
   EXPECT_TRUE(holds(read_text(scratch / "out/f/report.html"), "it ended with status 7"));
 }
 
+TEST(YourController, LastWordsThatAreNoTextLoseNothingOfTheOthers) {
+  const Scratch scratch;
+  write_text(scratch / "f.yaml",
+             "schema: mckibben-scenario/1\nloads: [11 kg]\nduration: 0.5 s\n"
+             "target: {kind: minimum_jerk, start: 0.05, moves: []}\n"
+             "controllers:\n"
+             "  - {kind: external, name: last, command: \"read a; printf '\\\\377 bad' >&2; exit 2\"}\n"
+             "  - {kind: external, name: says, command: \"read a; printf '\\\\377\\\\n'\"}\n"
+             "  - {kind: sine_current, low: 5 mA, high: 9 mA, period: 1 s}\n");
+  const Said said = mckibben("run f.yaml", scratch);
+  EXPECT_EQ(said.status, 70) << said.err;
+  EXPECT_TRUE(holds(said.out, "its last words: \"? bad\"", "its answer is no number of mA: \"?\""));
+  EXPECT_TRUE(fs::exists(scratch / "out/f/11kg_sine_current.csv"));
+}
+
 TEST(YourController, CheckRunsNothingOfIt) {
   const Scratch scratch;
   write_text(scratch / "c.yaml",

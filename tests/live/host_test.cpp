@@ -174,6 +174,35 @@ TEST_F(LiveHost, SwitchingEndsARecordingAndBeginsAnotherDataSet) {
   EXPECT_EQ(truth.effects.get<plant::MuscleLeak>().conductance_m3_per_s_Pa, 3e-10);
 }
 
+TEST_F(LiveHost, OfEffectsOnlyThoseThatWereSwitchedOnAreHidden) {
+  rig.effects.get<plant::ViscousDamping>().damping_N_s_per_m = 40.0;
+  Host host(rig, 16.138, sets());
+  ASSERT_EQ(host.obey(SetEffect{"muscle_leak", true, 3e-10, 0.0}), "");
+  record(host, true, 120);
+  host.finish(say);
+  const plant::Rig known = input::read_dataset(scratch / "out").rig;
+  EXPECT_EQ(known.effects.get<plant::ViscousDamping>().damping_N_s_per_m, 40.0);
+  EXPECT_TRUE(known.effects.get<plant::MuscleLeak>().absent());
+}
+
+TEST_F(LiveHost, RowsAreOnDiskAsTheyCome) {
+  Host host(rig, 16.138, sets());
+  ASSERT_EQ(host.obey(Record{true}), "");
+  Watcher watcher(host);
+  watcher.until([](const Json& state) { return state.at("recording").get<bool>(); });
+  const std::size_t before = watcher.times.size();
+  for (std::size_t rows = 100; rows <= 200; rows += 100) {
+    watcher.until([&](const Json&) { return watcher.times.size() > before + rows; });
+    host.write_recordings(say);
+    EXPECT_GE(input::read_dataset(scratch / "out.unfinished").runs.at(0).current_mA.size(), rows);
+    EXPECT_TRUE(fs::exists(scratch / "out-truth.unfinished/truth.yaml"));
+  }
+  host.finish(say);
+  EXPECT_EQ(input::read_dataset(scratch / "out").runs.size(), 1u);
+  EXPECT_FALSE(fs::exists(scratch / "out.unfinished"));
+  EXPECT_FALSE(fs::exists(scratch / "out-truth.unfinished"));
+}
+
 TEST_F(LiveHost, AnEndFinishesARecording) {
   Host host(rig, 16.138, sets());
   ASSERT_EQ(host.obey(Record{true}), "");

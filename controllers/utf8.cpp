@@ -1,9 +1,9 @@
 // Characters of UTF-8; see the header.
 #include <algorithm>
 
-#include <sim/input/utf8.hpp>
+#include <controllers/utf8.hpp>
 
-namespace mckibben::input {
+namespace mckibben::controllers {
 
 std::size_t utf8_length(std::string_view text) {
   const auto byte = [&](std::size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0U; };
@@ -46,4 +46,4 @@ std::string shortened(std::string_view text, std::size_t longest) {
   return std::string(text.substr(0, longest)) + "...";
 }
 
-}  // namespace mckibben::input
+}  // namespace mckibben::controllers
