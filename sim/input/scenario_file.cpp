@@ -214,7 +214,9 @@ class ScenarioChecker {
                         const controllers::WeighingSettings* contractions, const Node& node) {
     const auto& model = calibration(settings.calibration, *node.find("calibration"));
     if (!model) return;
-    if (const std::string why = wrong_commands(*model, scenario_.rig); !why.empty())
+    if (const std::string why =
+            wrong_rig(*model, scenario_.rig, contractions != nullptr && !settings.assumed_load_kg);
+        !why.empty())
       return problems_.error(source_, node.find("calibration")->place,
                              fmt::format("calibration = {}: {}", settings.calibration, why));
     settings.model = *model;
