@@ -33,6 +33,8 @@ class ScenarioChecker {
   void check() {
     check_name(file_, scenario_.name, problems_);
     check_duration(file_, scenario_.duration_s, scenario_.rig, problems_);
+    if (const Node* skip = file_.root.find("skip"); skip && *scenario_.skip_s >= scenario_.duration_s)
+      problems_.error(file_.source, skip->place, "skip: must be shorter than the duration");
     check_noise();
     check_rig();
     if (pair() != nullptr) {

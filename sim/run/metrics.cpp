@@ -45,6 +45,22 @@ double share_of(std::span<const double> values, const auto& is_one) {
          static_cast<double>(values.size());
 }
 
+/// How often the current comes back to an end from a quarter of the range away.
+std::size_t returns_to_an_end(std::span<const double> current_mA, double lowest_mA, double highest_mA) {
+  const double far_mA = 0.25 * (highest_mA - lowest_mA);
+  std::size_t count = 0;
+  std::optional<double> end_mA;
+  double farthest_mA = 0.0;
+  for (const double i_mA : current_mA) {
+    if (end_mA) farthest_mA = std::max(farthest_mA, std::abs(i_mA - *end_mA));
+    if (i_mA > lowest_mA && i_mA < highest_mA) continue;
+    count += farthest_mA > far_mA ? 1 : 0;
+    end_mA = i_mA;
+    farthest_mA = 0.0;
+  }
+  return count;
+}
+
 }  // namespace
 
 std::optional<double> time_lag_s(const Followed& run) {
@@ -116,6 +132,9 @@ Metrics measure(const Followed& run) {
         run.current_mA, [least_mA = lowest_mA](double i_mA) { return i_mA <= least_mA + rounding_mA; });
     metrics.at_highest_current = share_of(
         run.current_mA, [most_mA = highest_mA](double i_mA) { return i_mA >= most_mA - rounding_mA; });
+    metrics.swings = static_cast<double>(returns_to_an_end(run.current_mA, lowest_mA + rounding_mA,
+                                                           highest_mA - rounding_mA)) >
+                     static_cast<double>(ticks) * run.tick_s;
   }
   return metrics;
 }
