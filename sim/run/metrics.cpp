@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <sim/run/metrics.hpp>
+#include <sim/run/recording.hpp>
 
 namespace mckibben::run {
 namespace {
@@ -104,7 +105,7 @@ std::optional<double> settling_time_s(const Followed& run) {
   while (settled > 0 && std::abs(run.contraction[settled - 1] - run.target[settled - 1]) <= band) --settled;
   const double end_s = static_cast<double>(run.target.size() - 1) * run.tick_s;
   if (settled == run.target.size() || end_s < *run.last_change_s - same_instant_s) return std::nullopt;
-  return std::max(0.0, static_cast<double>(settled) * run.tick_s - *run.last_change_s);
+  return std::max(0.0, tidy_s(static_cast<double>(settled) * run.tick_s - *run.last_change_s));
 }
 
 Metrics measure(const Followed& run) {
