@@ -87,7 +87,7 @@ void check_said_units(const Table& table, const ColumnMap& map, const plant::Rig
       continue;
     const std::string what =
         fmt::format("the line above says {}, and it is read in {}; ", column->unit, taken);
-    if (!unit_problem(column->unit, quantity.unit()).empty())
+    if (!problem_of(quantity, column->unit).empty())
       problems.add(
           table, *column, 0,
           fmt::format("{}write factor: how many {} are 1 {}, also if it is 1", what, taken, column->unit));
