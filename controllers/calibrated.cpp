@@ -15,9 +15,7 @@ constexpr double settling_s = 1.0;  // at the first current, before tick 0
 CalibratedController::CalibratedController(const CalibratedSettings& settings, const Knowledge& knowledge)
     : settings_(settings), knowledge_(knowledge) {
   settings_.follow(working_range(knowledge));
-  if (!settings.assumed_load_kg)
-    weighing_.emplace(settings.weighing, settings.model.contraction_friction, settings.model.range,
-                      knowledge);
+  if (!settings.assumed_load_kg) weighing_.emplace(settings.weighing, settings.model, knowledge);
 }
 
 Command CalibratedController::rest() {

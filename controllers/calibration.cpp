@@ -10,6 +10,11 @@ double FrictionModel::coefficient(double contraction_ratio, double current_speed
          f3 * std::log(contraction_ratio);
 }
 
+double TubePull::pull_N(double contraction_ratio, double rest_length_m) const {
+  return stiffness_N_per_m * rest_length_m * contraction_ratio -
+         force_N * std::expm1(-contraction_ratio / ratio);
+}
+
 double at_load(const InLoad& polynomial, double load_kg) {
   double value = 0.0;
   for (const double coefficient : polynomial) value = value * load_kg + coefficient;

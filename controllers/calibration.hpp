@@ -102,8 +102,24 @@ struct FittedCoefficient {
   }
 };
 
+/// What the rubber tube pulls back with, k_b l0 e + F_b (1 - exp(-e / e_b)): of muscles whose braid force
+/// alone (T 2.8) is not their pull.
+struct TubePull {
+  double stiffness_N_per_m = 0.0, force_N = 0.0, ratio = 0.05;
+
+  double pull_N(double contraction_ratio, double rest_length_m) const;
+
+  template <class Self, class Visitor>
+  static void fields(Self& self, Visitor& visit) {
+    visit("stiffness", self.stiffness_N_per_m, "N/m", 0.0, 1e4, "k_b");
+    visit("force", self.force_N, "N", 0.0, 1e3, "F_b");
+    visit("ratio", self.ratio, "1", 1e-3, 1.0, "e_b");
+  }
+};
+
 struct Calibration {
   std::optional<std::string> command_unit{};  ///< absent: mA
+  std::optional<TubePull> tube_pull{};
   FrictionModel contraction_friction, relaxation_friction;
   ContractionModel contraction;
   RelaxationModel relaxation;
@@ -114,6 +130,8 @@ struct Calibration {
   static void fields(Self& self, Visitor& visit) {
     visit("command_unit", self.command_unit,
           "what the rig's valve is commanded in, and what this has in place of mA: V or bar; mA if absent");
+    visit("tube_pull", self.tube_pull,
+          "the rig's bladder_elasticity, which was taken from the braid force; none if absent");
     visit.required("contraction_friction", self.contraction_friction,
                    "friction coefficient while contracting");
     visit.required("relaxation_friction", self.relaxation_friction, "friction coefficient while relaxing");

@@ -42,12 +42,13 @@ Command Guest::rest() {
 Command Guest::step(const Reading& reading) {
   if (!could_not_begin_.empty()) throw ControllerFailure("before the run: " + could_not_begin_);
   Told told{reading, false, known_.target_at(reading.tick)};
+  told.reading.time_s = std::round(reading.time_s * 1e9) / 1e9;  // without the rounding of k * 0.012
   told.reading.counts = believed_(reading.counts);
   told.counts_lost = believed_.lost();
   try {
     return {obeyed_mA(answer_mA(told), terms_.within_reach(range_, before_mA_, known_.tick_s))};
   } catch (const ControllerFailure& failure) {
-    throw ControllerFailure(at_tick(reading) + failure.what());
+    throw ControllerFailure(at_tick(told.reading) + failure.what());
   }
 }
 

@@ -1,6 +1,7 @@
 // One root by secants; see the header.
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 #include <controllers/look_ahead.hpp>
 
@@ -8,6 +9,7 @@ namespace mckibben::controllers {
 namespace {
 
 constexpr double close_enough = 2e-5;  // contraction ratio: a twentieth of the thesis's count
+constexpr double suspicious_rmse = 0.005;
 constexpr int most_trials = 4;
 constexpr double largest_step = 1.0 / 16.0;  // between two trials, of all currents
 constexpr double least_slope = 0.016;        // contraction ratio over all currents: a load that sticks
@@ -19,7 +21,8 @@ LookAhead::LookAhead(double width_mA, int ticks)
 
 double LookAhead::reached(RigModel& model, double current_mA) const {
   model.go_back();
-  for (int i = 0; i < ticks_; ++i) model.step({current_mA});
+  model.step({current_mA}, 1);  // the current changes within its first tick alone
+  if (ticks_ > 1) model.step({current_mA}, ticks_ - 1);
   return model.contraction_ratio();
 }
 
@@ -43,6 +46,19 @@ double LookAhead::current_mA(RigModel& model, double target, double before_mA, c
   }
   model.go_back();
   return best_mA;
+}
+
+void require_long_enough(int ticks, double tick_s, double rmse,
+                         const std::function<double(int ticks)>& rmse_with) {
+  if (rmse < suspicious_rmse) return;
+  const double twice = rmse_with(2 * ticks);
+  if (twice > 0.5 * rmse) return;
+  std::ostringstream text;
+  text << "look_ahead, " << 1e3 * ticks * tick_s
+       << " ms, is shorter than this rig takes to answer: on its own "
+       << "model the plan errs by a contraction ratio of " << rmse << " (rmse), with " << 2e3 * ticks * tick_s
+       << " ms by " << twice;
+  throw ControllerFailure(text.str());
 }
 
 }  // namespace mckibben::controllers

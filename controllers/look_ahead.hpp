@@ -3,6 +3,8 @@
 // inverted.
 #pragma once
 
+#include <functional>
+
 #include <controllers/current_range.hpp>
 #include <controllers/rig_model.hpp>
 
@@ -26,5 +28,11 @@ class LookAhead {
   double largest_step_mA_, least_slope_per_mA_;
   double slope_per_mA_ = 0.0;  // of what is reached over the current; as last found
 };
+
+/// Throws ControllerFailure if a plan follows its target badly only because it looks ahead by less than the
+/// rig takes to answer: looking twice as far halves its error. A target out of reach does not. `rmse_with`:
+/// error of a plan that looks ahead by so many ticks.
+void require_long_enough(int ticks, double tick_s, double rmse,
+                         const std::function<double(int ticks)>& rmse_with);
 
 }  // namespace mckibben::controllers

@@ -11,39 +11,53 @@
 namespace mckibben::controllers {
 namespace {
 
-/// The plan, and what it expects of itself.
+struct Plan {
+  std::vector<double> currents_mA;
+  double rmse = 0.0;  ///< on the model that it was made with
+};
+
 class ModelInverse final : public ModelledController {
  public:
   using ModelledController::ModelledController;
 
   std::vector<Finding> findings() const override {
     std::vector<Finding> found = ModelledController::findings();
-    found.push_back({"planned_rmse", "1", planned_rmse_});
+    found.push_back({"planned_rmse", "1", plan_.rmse});
     return found;
   }
 
  private:
   void begin(std::unique_ptr<RigModel> model, std::int64_t tick, double before_mA) override {
-    LookAhead look(range().width_mA(), terms().look_ahead_ticks);
+    begin_ = tick;
+    const std::unique_ptr<RigModel> again = model->copy();
+    plan_ = plan(*model, before_mA, look_ahead_ticks());
+    require_long_enough(look_ahead_ticks(), knowledge().tick_s, plan_.rmse,
+                        [&](int ticks) { return plan(*again, before_mA, ticks).rmse; });
+  }
+
+  Plan plan(RigModel& model, double before_mA, int ahead_ticks) const {
+    LookAhead look(range().width_mA(), ahead_ticks);
     const auto end = static_cast<std::int64_t>(knowledge().target.size());
+    Plan made;
     double squares = 0.0;
-    for (std::int64_t k = begin_ = tick; k < end; ++k) {
-      before_mA = model->given_mA(look.current_mA(*model, aim(k), before_mA, range_after(before_mA)));
-      if (k >= 0) squares += std::pow(model->contraction_ratio() - knowledge().target_at(k), 2);
-      model->step({before_mA});
-      plan_mA_.push_back(before_mA);
+    for (std::int64_t k = begin_; k < end; ++k) {
+      before_mA =
+          model.given_mA(look.current_mA(model, aim(k, ahead_ticks), before_mA, range_after(before_mA)));
+      if (k >= 0) squares += std::pow(model.contraction_ratio() - knowledge().target_at(k), 2);
+      model.step({before_mA}, 1);
+      made.currents_mA.push_back(before_mA);
     }
-    planned_rmse_ = std::sqrt(squares / static_cast<double>(std::max<std::int64_t>(end, 1)));
+    made.rmse = std::sqrt(squares / static_cast<double>(std::max<std::int64_t>(end, 1)));
+    return made;
   }
 
   double drive_mA(std::int64_t tick, std::int64_t) override {
-    const auto last = static_cast<std::int64_t>(plan_mA_.size()) - 1;
-    return plan_mA_[static_cast<std::size_t>(std::min(tick - begin_, last))];
+    const auto last = static_cast<std::int64_t>(plan_.currents_mA.size()) - 1;
+    return plan_.currents_mA[static_cast<std::size_t>(std::min(tick - begin_, last))];
   }
 
   std::int64_t begin_ = 0;
-  std::vector<double> plan_mA_;
-  double planned_rmse_ = 0.0;
+  Plan plan_;
 };
 
 /// One tick: what the counts say of the model, then the current that brings the model to the moved target.
@@ -51,7 +65,7 @@ class ModelInverseFeedback final : public ModelledController {
  public:
   ModelInverseFeedback(const ModelInverseFeedbackSettings& settings, const Knowledge& known)
       : ModelledController(settings, settings.name, settings.feedback_delay_ticks, known),
-        look_(range().width_mA(), settings.look_ahead_ticks),
+        look_(range().width_mA(), look_ahead_ticks()),
         observer_(settings, known) {}
 
   std::vector<Finding> findings() const override {
@@ -70,9 +84,9 @@ class ModelInverseFeedback final : public ModelledController {
   double drive_mA(std::int64_t tick, std::int64_t counts) override {
     observer_.look(model_->shown_ratio());
     if (!counts_are_lost()) observer_.learn(counts);
-    const double target = aim(tick) - observer_.unknown();
+    const double target = aim(tick, look_ahead_ticks()) - observer_.unknown();
     before_mA_ = model_->given_mA(look_.current_mA(*model_, target, before_mA_, range_after(before_mA_)));
-    model_->step({before_mA_});
+    model_->step({before_mA_}, 1);
     return before_mA_;
   }
 

@@ -7,6 +7,7 @@
 namespace mckibben::controllers {
 namespace {
 
+constexpr double usual_filter_s = 0.06;
 constexpr double counts_to_turn = 3.0;  // by which the model goes back before the way counts as the other
 constexpr double largest_news = 0.05;   // contraction ratio; more is not what a model lacks
 constexpr double share_of_way = 0.5;    // of what is new: believed to change its sign with the way
@@ -16,7 +17,8 @@ constexpr double share_of_way = 0.5;    // of what is new: believed to change it
 ModelObserver::ModelObserver(const ObserverTerms& terms, const Knowledge& known)
     : per_count_(known.contraction_per_count),
       middle_of_count_(known.middle_of_count),
-      gain_(-std::expm1(-1.0 / terms.filter_ticks.value_or(5.0 + terms.feedback_delay_ticks))),
+      gain_(-std::expm1(-known.tick_s / terms.filter_time_s.value_or(
+                                            usual_filter_s + terms.feedback_delay_ticks * known.tick_s))),
       past_(terms.feedback_delay_ticks) {}
 
 void ModelObserver::look(double shown) {

@@ -16,13 +16,13 @@ namespace mckibben::controllers {
 /// What feedback by a model says of its counts.
 struct ObserverTerms {
   int feedback_delay_ticks = 0;
-  std::optional<double> filter_ticks = std::nullopt;
+  std::optional<double> filter_time_s = std::nullopt;
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
     visit("feedback_delay_ticks", self.feedback_delay_ticks, 0, 1000, "age of the counts that are used");
-    visit("filter_ticks", self.filter_ticks, "1", 0.01, 1000.0,
-          "ticks in which 1 - 1/e of what the model does not know is believed; 5 and the delay's if absent");
+    visit("filter_time", self.filter_time_s, "s", 1e-4, 100.0,
+          "time constant with which the model's error is learned; 60 ms and the feedback delay if absent");
   }
 };
 

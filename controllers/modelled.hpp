@@ -27,14 +27,11 @@ struct ModelTerms : PlansWithModel, SafetyTerms {
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
-    visit("rig", self.rig,
-          "the rig that it believes in, by its name or the path of a rig file; the scenario's if left out");
+    PlansWithModel::fields(self, visit);
     visit("assumed_load", self.assumed_load_kg, "kg", 0.01, 500.0,
           "load it believes in; weighed before the run if absent");
     visit("weighing_speed", self.weighing_speed_mA_per_s, "mA/s", 1e-3, 1e5,
           "speed of the command while it weighs; 1/32 of the valve's span in a second if absent");
-    visit("look_ahead_ticks", self.look_ahead_ticks, 1, 1000,
-          "ticks after which a command is to have brought the load to the target");
     SafetyTerms::fields(self, visit);
   }
 };
@@ -60,9 +57,10 @@ class ModelledController : public Controller {
   const Knowledge& knowledge() const { return knowledge_; }
   const CurrentRange& range() const { return range_; }
   /// Where the load is to be when a current of `tick` has done its work.
-  double aim(std::int64_t tick) const {
-    return terms_.allowed(knowledge_.target_at(tick + terms_.look_ahead_ticks));
+  double aim(std::int64_t tick, int ahead_ticks) const {
+    return terms_.allowed(knowledge_.target_at(tick + ahead_ticks));
   }
+  int look_ahead_ticks() const { return terms_.look_ahead_ticks(knowledge_.tick_s); }
   /// Currents that may follow on that of the tick before.
   CurrentRange range_after(double before_mA) const {
     return terms_.within_reach(range_, before_mA, knowledge_.tick_s);

@@ -15,7 +15,8 @@
 namespace mckibben::controllers {
 namespace {
 
-constexpr double share_a_tick = 0.05;  // of the stiffness that is missing: slower than pressures follow
+constexpr double share_per_s =
+    0.05 / 0.012;  // of the stiffness that is missing: slower than pressures follow
 
 /// A pair as one muscle whose current is the difference.
 class AsOne final : public RigModel {
@@ -27,7 +28,9 @@ class AsOne final : public RigModel {
     return std::make_unique<AsOne>(pair_->copy(), co_contraction_);
   }
   double given_mA(double wanted_mA) const override { return wanted_mA; }
-  void step(const Command& difference) override { pair_->step(given(difference.current_mA)); }
+  void step(const Command& difference, int ticks) override {
+    pair_->step(given(difference.current_mA), ticks);
+  }
   double contraction_ratio() const override { return pair_->contraction_ratio(); }
   double shown_ratio() const override { return pair_->shown_ratio(); }
   double stiffness_N_m_per_rad() const override { return pair_->stiffness_N_m_per_rad(); }
@@ -52,13 +55,13 @@ class PairModelled : public Controller {
       : terms_(terms),
         known_(terms.within_angles(known)),
         co_contraction_(terms_, known_),
-        look_(co_contraction_.width_mA(), terms.look_ahead_ticks),
-        approach_ticks_(std::llround(approach_s / known.tick_s)) {
+        ahead_ticks_(terms.look_ahead_ticks(known.tick_s)),
+        look_(co_contraction_.width_mA(), ahead_ticks_) {
     if (!terms_.model) throw std::invalid_argument(name + ": there is no model");
   }
 
   Command rest() final { return co_contraction_.command(0.0); }
-  std::int64_t preparation_ticks() const final { return approach_ticks_; }
+  std::int64_t preparation_ticks() const final { return std::llround(approach_s / known_.tick_s); }
   Command step(const Reading& reading) final {
     try {
       return drive(reading);
@@ -72,6 +75,7 @@ class PairModelled : public Controller {
   virtual Command drive(const Reading& reading) = 0;
 
   const Knowledge& known() const { return known_; }
+  int ahead_ticks() const { return ahead_ticks_; }
   const CoContraction& co_contraction() const { return co_contraction_; }
   RigModel& model() { return *model_; }
   void begin() {
@@ -82,17 +86,18 @@ class PairModelled : public Controller {
 
   /// The currents of a tick whose target is moved by so much; the model goes on to the next one.
   Command next(std::int64_t tick, double moved) {
-    const std::int64_t ahead = tick + terms_.look_ahead_ticks;
+    const std::int64_t ahead = tick + ahead_ticks_;
     co_contraction_.begin_tick(ahead, difference_mA_, further_Pa_);
     const CurrentRange& limits = co_contraction_.differences();
     difference_mA_ =
         look_.current_mA(*model_, known_.target_at(ahead) + moved,
                          std::clamp(difference_mA_, limits.lowest_mA, limits.highest_mA), limits);
     if (const auto wanted = co_contraction_.wanted_N_m_per_rad(tick); wanted && !terms_.co_contraction_Pa)
-      further_Pa_ += share_a_tick * (*wanted - model_->stiffness_N_m_per_rad()) /
+      further_Pa_ += std::min(share_per_s * known_.tick_s, 1.0) *
+                     (*wanted - model_->stiffness_N_m_per_rad()) /
                      co_contraction_.stiffening(known_.target_at(tick));
     const Command command = model_->given(difference_mA_);
-    model_->step({difference_mA_});
+    model_->step({difference_mA_}, 1);
     co_contraction_.give(command);
     return command;
   }
@@ -101,8 +106,8 @@ class PairModelled : public Controller {
   PairModelTerms terms_;
   Knowledge known_;
   CoContraction co_contraction_;
+  int ahead_ticks_;
   LookAhead look_;
-  std::int64_t approach_ticks_;
   std::unique_ptr<AsOne> model_;
   double difference_mA_ = 0.0, further_Pa_ = 0.0;
 };
@@ -110,7 +115,7 @@ class PairModelled : public Controller {
 class PairModelInverse final : public PairModelled {
  public:
   PairModelInverse(const PairModelInverseSettings& settings, const Knowledge& known)
-      : PairModelled(settings, settings.name, known) {}
+      : PairModelled(settings, settings.name, known), settings_(settings) {}
 
   std::vector<Finding> findings() const override {
     std::vector<Finding> found{{"planned_rmse", "1", planned_rmse_}};
@@ -120,7 +125,16 @@ class PairModelInverse final : public PairModelled {
 
  private:
   Command drive(const Reading& reading) override {
-    if (!begun()) plan();
+    if (!begun()) {
+      plan();
+      require_long_enough(ahead_ticks(), known().tick_s, planned_rmse_, [this](int ticks) {
+        PairModelInverseSettings other = settings_;
+        other.look_ahead_s = ticks * known().tick_s;
+        PairModelInverse again(other, known());
+        again.plan();
+        return again.planned_rmse_;
+      });
+    }
     const auto last = static_cast<std::int64_t>(plan_.size()) - 1;
     return plan_[static_cast<std::size_t>(std::min(reading.tick + preparation_ticks(), last))];
   }
@@ -142,6 +156,7 @@ class PairModelInverse final : public PairModelled {
     if (co_contraction().wanted_N_m_per_rad(0)) planned_stiffness_ = std::sqrt(stiffness_squares / ticks);
   }
 
+  PairModelInverseSettings settings_;
   std::vector<Command> plan_;
   double planned_rmse_ = 0.0;
   std::optional<double> planned_stiffness_;

@@ -19,11 +19,8 @@ struct PairModelTerms : PlansWithModel, JointTerms {
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
-    visit("rig", self.rig,
-          "the rig that it believes in, by its name or the path of a rig file; the scenario's if left out");
+    PlansWithModel::fields(self, visit);
     visit("assumed_load", self.assumed_load_kg, "kg", 0.0, 500.0, "load in the hand that it believes in");
-    visit("look_ahead_ticks", self.look_ahead_ticks, 1, 1000,
-          "ticks after which currents are to have brought the joint to the target");
     JointTerms::fields(self, visit);
   }
 };

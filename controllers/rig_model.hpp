@@ -3,8 +3,11 @@
 // one. Of a pair, contraction ratios are those of muscle 1 from joint angle 0 (Knowledge).
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -33,8 +36,8 @@ class RigModel {
 
   /// What the DAC makes of a current.
   virtual double given_mA(double wanted_mA) const = 0;
-  /// Carries it through one tick under a current, as the DAC gives it or not. Throws ModelFailure.
-  virtual void step(const Command& command) = 0;
+  /// Carries it through some ticks under one current, as the DAC gives it or not. Throws ModelFailure.
+  virtual void step(const Command& command, int ticks) = 0;
   /// Where the load is, and what the encoder shows of that before it counts [contraction ratio].
   virtual double contraction_ratio() const = 0;
   virtual double shown_ratio() const = 0;
@@ -50,11 +53,27 @@ class RigModel {
 /// ModelFailure.
 using ModelMaker = std::function<std::unique_ptr<RigModel>(double load_kg, const Command& rest)>;
 
+/// About three times the lag of the thesis's valve and hose.
+inline constexpr double usual_look_ahead_s = 0.096;
+
 /// What every controller that plans with a model says of it.
 struct PlansWithModel {
   std::string rig;
   ModelMaker model;  ///< filled in by whoever can simulate `rig`, before make()
-  int look_ahead_ticks = 8;
+  std::optional<double> look_ahead_s;
+
+  int look_ahead_ticks(double tick_s) const {
+    return std::max(1, static_cast<int>(std::lround(look_ahead_s.value_or(usual_look_ahead_s) / tick_s)));
+  }
+
+  template <class Self, class Visitor>
+  static void fields(Self& self, Visitor& visit) {
+    visit("rig", self.rig,
+          "the rig that it believes in, by its name or the path of a rig file; the scenario's if left out");
+    visit("look_ahead", self.look_ahead_s, "s", 1e-4, 100.0,
+          "time after which a command is to have brought the load, or the joint, to the target; 96 ms and "
+          "the believed rig's command_delay if absent");
+  }
 };
 
 }  // namespace mckibben::controllers

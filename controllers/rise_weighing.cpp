@@ -54,7 +54,7 @@ RiseWeighing::Fit RiseWeighing::fit(const ModelMaker& maker, double load_kg) con
     const double misses = ratio(counts_[k]) - shown[k - std::min(k, delay_)];
     result.mean += misses;
     result.rms += misses * misses;
-    result.model->step({result.model->given_mA(currents_mA_[k])});
+    result.model->step({result.model->given_mA(currents_mA_[k])}, 1);
   }
   const auto n = static_cast<double>(counts_.size());
   result.mean /= n;

@@ -22,10 +22,10 @@ void WeighingSettings::follow(const CurrentRange& range) {
   if (!high_mA) high_mA = range.lowest_mA + 0.25 * range.width_mA();
 }
 
-Weighing::Weighing(WeighingSettings settings, const FrictionModel& friction, const CalibratedRange& range,
-                   const Knowledge& knowledge)
-    : friction_(friction),
-      range_(range),
+Weighing::Weighing(WeighingSettings settings, const Calibration& calibration, const Knowledge& knowledge)
+    : friction_(calibration.contraction_friction),
+      range_(calibration.range),
+      tube_(calibration.tube_pull.value_or(TubePull{})),
       braid_(knowledge.model),
       valve_(knowledge.valve),
       contraction_per_count_(knowledge.contraction_per_count),
@@ -64,7 +64,8 @@ void Weighing::see(std::int64_t tick, std::int64_t counts) {
   const double pressure_Pa = valve_.pressure_Pa(current_mA(tick));
   const double friction_N =
       friction_.coefficient(e, speed_mA_per_s_) * braid_.contact_surface_m2(e) * pressure_Pa;
-  one.sum_kg += (braid_.force_N(e, pressure_Pa) - friction_N) / gravity_m_per_s2;
+  const double pull_N = braid_.force_N(e, pressure_Pa) - tube_.pull_N(e, braid_.rest_length_m) - friction_N;
+  one.sum_kg += pull_N / gravity_m_per_s2;
   ++one.samples;
 }
 

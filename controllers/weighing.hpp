@@ -45,8 +45,7 @@ struct WeighedLoad {
 /// One weighing, tick by tick: `current_mA` is what the DAC is to give, `see` is told what came of it.
 class Weighing {
  public:
-  Weighing(WeighingSettings settings, const FrictionModel& friction, const CalibratedRange& range,
-           const Knowledge& knowledge);
+  Weighing(WeighingSettings settings, const Calibration& calibration, const Knowledge& knowledge);
 
   std::int64_t ticks() const { return contractions_ * ticks_each_; }
 
@@ -68,6 +67,7 @@ class Weighing {
 
   FrictionModel friction_;
   CalibratedRange range_;
+  TubePull tube_;
   ForceModel braid_;
   ValveLine valve_;
   double contraction_per_count_, middle_of_count_, tick_s_;

@@ -9,6 +9,7 @@
 #include <sim/cli/verbs.hpp>
 #include <sim/input/calibration_file.hpp>
 #include <sim/input/dataset_file.hpp>
+#include <sim/input/rigs.hpp>
 #include <sim/output/calibration_report.hpp>
 #include <sim/output/diagnosis_words.hpp>
 #include <sim/report/report.hpp>
@@ -21,7 +22,7 @@ namespace mckibben::cli {
 namespace {
 
 struct CalibrateOptions : Options {
-  std::string dataset;
+  std::string dataset, rig;  ///< rig: empty for the data set's
   thesis::Options fits;
   bool kgf = false;  ///< pressures of figures and report in kgf/m2
 };
@@ -37,7 +38,10 @@ void add_choice(CLI::App& verb, const char* name, T& value, const std::map<std::
 }
 
 int calibrate_dataset(const CalibrateOptions& options) {
-  const domain::Dataset dataset = tasks::ticked(input::read_dataset(options.dataset), say);
+  domain::Dataset measured = input::read_dataset(options.dataset);
+  if (!options.rig.empty())
+    tasks::replace_rig(measured, options.rig, input::read_rig(options.rig, measured.inputs));
+  const domain::Dataset dataset = tasks::ticked(std::move(measured), say);
   Job job(options, "calibrate " + options.dataset, output::name_of(dataset) + "-calibration", dataset.inputs);
   const thesis::CalibrationResult result = thesis::calibrate(dataset, options.fits);
   if (run::interrupted()) throw run::Interrupted();
@@ -68,6 +72,7 @@ void add_calibrate(CLI::App& app, Asked& asked) {
   CalibrateOptions& options = asked.when(verb, calibrate_dataset);
   add_measured(verb, options.dataset);
   add_common(verb, options);
+  add_rig(verb, options.rig, "instead of the data set's");
   verb.add_flag("--kgf", options.kgf, "Pressures of figures and report in kgf/m2, as the thesis prints them");
   add_choice(verb, "--pressure", options.fits.processing.pressure,
              {{"current", PressureSource::current}, {"gauge", PressureSource::gauge}},

@@ -34,6 +34,7 @@ constexpr Part scenario_parts[] = {
      "# mckibben effects lists what can be added\n"},
     {"loads", "loads: [11.138 kg, 16.138 kg]\n"},
     {"duration", "duration: 6 s\n"},
+    {"skip", "#skip: 0.5 s\n"},
     {"target",
      "target:                     # heights: contraction ratios (0.10), or lengths (30 mm)\n"
      "  kind: minimum_jerk\n"

@@ -91,7 +91,7 @@ run::MapPlan plan_of(const MapOptions& options, std::vector<domain::InputFile>& 
   plan.calibration = input::read_calibration(options.calibration, files);
   const plant::Rig rig = input::read_rig(options.rig.empty() ? "thesis" : options.rig, files);
   input::require_load(rig, options.rig, "map");
-  if (std::string why = input::wrong_commands(plan.calibration, rig); !why.empty())
+  if (std::string why = input::wrong_rig(plan.calibration, rig, true); !why.empty())
     throw input::BadInput({{input::Severity::error, options.calibration, {}, std::move(why), ""}});
   plan.rig = rig;
   plan.loads_kg = loads_of(plan.calibration.range, options);

@@ -134,6 +134,7 @@ struct Scenario {
   double hand_m = Hand{}.distance_m;  ///< of a pair: from the axis to the load
   std::vector<TwoCurrents> currents;  ///< of a pair: runs without a controller
   double duration_s = 0.0;
+  std::optional<double> skip_s;  ///< of errors and tuning; absent: until the target first moves
   std::vector<controllers::Settings> controllers;
   plant::Noise noise;
   std::uint64_t seed = 1;
@@ -162,7 +163,7 @@ struct Scenario {
   static void fields_of_one(Self& self, Visitor& visit) {
     visit.required("loads", self.loads_kg, "kg", 0.01, 500.0, "masses of the loads");
     visit.required("target", self.target, "the movement that is wanted");
-    visit.required("duration", self.duration_s, "s", 1e-4, 3600.0, "length of each run");
+    fields_of_time(self, visit);
     visit_controllers<controllers::SingleSettings>(self, [&](auto& controllers) {
       visit.required("controllers", controllers, "what is to follow the target");
     });
@@ -173,7 +174,7 @@ struct Scenario {
 
   template <class Self, class Visitor>
   static void fields_of_pair(Self& self, Visitor& visit) {
-    visit.required("duration", self.duration_s, "s", 1e-4, 3600.0, "length of each run");
+    fields_of_time(self, visit);
     visit("currents", self.currents, "runs under given currents, two each");
     visit("targets", self.targets, "what controllers are to do with the joint");
     Hand hand{self.hand_m, self.loads_kg.empty() ? Hand{}.loads_kg : self.loads_kg};
@@ -189,6 +190,15 @@ struct Scenario {
         self.criteria, [](const Criterion& one) { return JointCriterion{one}; },
         [](const JointCriterion& one) -> Criterion { return one; },
         [&](auto& criteria) { visit("criteria", criteria, "what counts as good enough"); });
+  }
+
+  template <class Self, class Visitor>
+  static void fields_of_time(Self& self, Visitor& visit) {
+    visit.required("duration", self.duration_s, "s", 1e-4, 3600.0, "length of each run");
+    visit(
+        "skip", self.skip_s, "s", 0.0, 3600.0,
+        "so much of each run is simulated, but counts neither in errors nor in tuning: the way from rest to "
+        "where the target begins; until the target first moves if absent");
   }
 
   template <class Self, class Visitor>

@@ -69,12 +69,17 @@ controllers::Calibration read_calibration(const std::filesystem::path& path, std
   return calibration;
 }
 
-std::string wrong_commands(const controllers::Calibration& calibration, const plant::Rig& rig) {
+std::string wrong_rig(const controllers::Calibration& calibration, const plant::Rig& rig, bool weighs) {
   const std::string made = calibration.command_unit.value_or("mA");
-  const std::string_view taken = name_of(rig.command_unit());
-  return made == taken
-             ? ""
-             : fmt::format("made with a rig that is commanded in {}, and this one is in {}", made, taken);
+  if (const std::string_view taken = name_of(rig.command_unit()); made != taken)
+    return fmt::format("made with a rig that is commanded in {}, and this one is in {}", made, taken);
+  const bool counted = calibration.tube_pull.has_value();
+  if (weighs && counted == rig.effects.get<plant::BladderElasticity>().absent())
+    return fmt::format(
+        "made with a rig that has {} bladder_elasticity, and this one has {}: it would weigh "
+        "the tube's pull as load; calibrate with this rig (calibrate --rig)",
+        counted ? "a" : "no", counted ? "none" : "one");
+  return "";
 }
 
 std::string calibration_yaml(const controllers::Calibration& calibration) {

@@ -18,9 +18,9 @@ inline constexpr std::string_view calibration_schema = "mckibben-calibration/1";
 /// Reads a calibration; the file read is added to `inputs`. Throws MissingInput, BadInput.
 controllers::Calibration read_calibration(const std::filesystem::path& path, std::vector<InputFile>& inputs);
 
-/// What is wrong with it for a rig that is commanded in another unit than the one it was made with, or
-/// nothing.
-std::string wrong_commands(const controllers::Calibration& calibration, const plant::Rig& rig);
+/// Why it is none of this rig's: commands in another unit, or, for a controller that weighs with it, a tube
+/// that pulls in one of them alone. Empty if it fits.
+std::string wrong_rig(const controllers::Calibration& calibration, const plant::Rig& rig, bool weighs);
 
 /// The text of a calibration file.
 std::string calibration_yaml(const controllers::Calibration& calibration);

@@ -69,6 +69,7 @@ void check_units(const Source& source, const Node& map, Problems& problems) {
 }
 
 void check_said_units(const Table& table, const ColumnMap& map, const plant::Rig& rig,
+                      const std::function<bool(std::string_view quantity)>& says_factor,
                       TableProblems& problems) {
   for (const domain::Quantity& quantity : domain::quantities(rig.command_unit())) {
     const Table::Column* column = table.find(quantity.column);
@@ -76,7 +77,7 @@ void check_said_units(const Table& table, const ColumnMap& map, const plant::Rig
     if (column == nullptr || column->unit.empty() || column->is_date) continue;
     const bool is_command_of_another_name =
         place.absent() && quantity.is_old_current && !map[domain::command_key].absent();
-    if (is_command_of_another_name || std::abs(place.factor) != 1.0 ||
+    if (is_command_of_another_name || (says_factor(quantity.key) && place.factor != -1.0) ||
         (!place.absent() && place.column != column->in_file))
       continue;
     const std::string taken = place.absent() ? std::string(quantity.unit()) : place.unit;
@@ -84,12 +85,17 @@ void check_said_units(const Table& table, const ColumnMap& map, const plant::Rig
     const bool fits = taken == column->unit || unit_problem(column->unit, taken).empty();
     if (taken == column->unit || (fits && (convert_units(one, column->unit, taken), one.front() == 1.0)))
       continue;
-    problems.add(
-        table, *column, 0,
-        fmt::format("the line above says {}, and it is read in {}; write columns: {{{}}}, if the line "
-                    "is right",
-                    column->unit, taken,
-                    line_of(quantity.key, {column->in_file, column->unit, place.zero, place.factor})));
+    const std::string what =
+        fmt::format("the line above says {}, and it is read in {}; ", column->unit, taken);
+    if (!problem_of(quantity, column->unit).empty())
+      problems.add(
+          table, *column, 0,
+          fmt::format("{}write factor: how many {} are 1 {}, also if it is 1", what, taken, column->unit));
+    else
+      problems.add(
+          table, *column, 0,
+          fmt::format("{}write columns: {{{}}}, if the line is right", what,
+                      line_of(quantity.key, {column->in_file, column->unit, place.zero, place.factor})));
   }
 }
 

@@ -2,6 +2,9 @@
 // whether they can be what they stand for, and tables brought to ours.
 #pragma once
 
+#include <functional>
+#include <string_view>
+
 #include <plant/rig.hpp>
 #include <sim/domain/columns.hpp>
 #include <sim/input/table.hpp>
@@ -15,8 +18,10 @@ using domain::ColumnMap, domain::ColumnPlace, domain::line_of;
 void check_units(const Source& source, const Node& map, Problems& problems);
 
 /// Checks that a file whose lines below the heading name units is read in these, where it is not a sensor's
-/// factor that makes another quantity of them. Before the table is converted.
+/// factor that makes another quantity of them. `says_factor`: whether one is written of a quantity, 1 too.
+/// Before the table is converted.
 void check_said_units(const Table& table, const ColumnMap& map, const plant::Rig& rig,
+                      const std::function<bool(std::string_view quantity)>& says_factor,
                       TableProblems& problems);
 
 /// Whether a command in this unit is a current.

@@ -120,7 +120,8 @@ Table read_as(Format format, const Source& source, const std::vector<WantedColum
 }
 
 void read_table_of(Source source, Format format, const Wanted& wanted, const ColumnMap& map,
-                   const Dataset& dataset, Run& run, Problems& problems) {
+                   const Dataset& dataset, Run& run, const std::function<bool(std::string_view)>& says_factor,
+                   Problems& problems) {
   problems.opened(source);
   const bool from_windows =
       format == Format::lvm || (format == Format::csv && source.text().find('\0') == std::string::npos);
@@ -132,7 +133,7 @@ void read_table_of(Source source, Format format, const Wanted& wanted, const Col
   if (!dataset.own_clock && (current == nullptr || contraction == nullptr)) return;
   if (const Table::Column* time = table.find("time_s"); time != nullptr && map.rows_are_ticks)
     found.add(table, *time, 0, "rows_are_ticks is said, and yet the file holds time_s");
-  check_said_units(table, map, dataset.rig, found);
+  check_said_units(table, map, dataset.rig, says_factor, found);
   if (dataset.own_clock && (found.count() > 0 || table.columns.empty())) return;
   convert_columns(table, map, dataset.rig);
   if (contraction != nullptr) run.ratio_per_unit = ratio_per_unit(map["contraction"], dataset.rig);
@@ -167,9 +168,15 @@ void read_run_file(const YamlFile& file, const Node& node, const Dataset& datase
   const std::size_t errors = problems.errors();
   const Wanted wanted(file, node, *format, map, dataset, problems);
   if (problems.errors() > errors) return;
+  const auto says_factor = [&](std::string_view quantity) {
+    for (const Node* said : {node.find("columns"), file.root.find("columns")})
+      if (const Node* place_of = said ? said->find(quantity) : nullptr)
+        return place_of->find("factor") != nullptr;
+    return false;
+  };
   try {
     read_table_of(Source::load((file.source.folder() / run.file).lexically_normal(), most_text_bytes),
-                  *format, wanted, map, dataset, run, problems);
+                  *format, wanted, map, dataset, run, says_factor, problems);
   } catch (const MissingInput& missing) {
     problems.missing_file(file.source, place, missing.what());
   }

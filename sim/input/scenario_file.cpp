@@ -33,6 +33,8 @@ class ScenarioChecker {
   void check() {
     check_name(file_, scenario_.name, problems_);
     check_duration(file_, scenario_.duration_s, scenario_.rig, problems_);
+    if (const Node* skip = file_.root.find("skip"); skip && *scenario_.skip_s >= scenario_.duration_s)
+      problems_.error(file_.source, skip->place, "skip: must be shorter than the duration");
     check_noise();
     check_rig();
     if (pair() != nullptr) {
@@ -214,7 +216,9 @@ class ScenarioChecker {
                         const controllers::WeighingSettings* contractions, const Node& node) {
     const auto& model = calibration(settings.calibration, *node.find("calibration"));
     if (!model) return;
-    if (const std::string why = wrong_commands(*model, scenario_.rig); !why.empty())
+    if (const std::string why =
+            wrong_rig(*model, scenario_.rig, contractions != nullptr && !settings.assumed_load_kg);
+        !why.empty())
       return problems_.error(source_, node.find("calibration")->place,
                              fmt::format("calibration = {}: {}", settings.calibration, why));
     settings.model = *model;

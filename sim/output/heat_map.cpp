@@ -9,14 +9,15 @@
 
 #include <sim/output/axes.hpp>
 #include <sim/output/error_map.hpp>
+#include <sim/output/svg.hpp>
 
 namespace mckibben::output {
 namespace {
 
 using controllers::Branch;
 
-constexpr double map_width = 390.0, map_height = 210.0, map_left = 62.0, map_top = 74.0;
-constexpr double between_x = 56.0, between_y = 66.0, scale_width = 14.0, map_right = 92.0, map_bottom = 104.0;
+constexpr double map_width = 390.0, map_height = 210.0, map_left = 62.0, title_px = 15.0;
+constexpr double between_x = 56.0, between_y = 66.0, scale_width = 14.0, map_right = 92.0;
 
 std::string colour(double share) {  // from -1 to 1
   constexpr double low[] = {0, 114, 178}, high[] = {213, 94, 0};
@@ -85,6 +86,7 @@ class MapPanel {
                   .to_px = y_px,
                   .low = speeds_.front(),
                   .high = speeds_.back()},
+            .words_px = 50.0,
             .with_grid = false} {}
 
   std::string cells(const run::BranchMap& map, const Measure& measure) const {
@@ -179,14 +181,23 @@ std::string heat_map_svg(const run::MapPlan& plan, const run::ErrorMaps& maps, c
                                limit_of(load, &run::MapCell::speed_error_per_s, words.factor)}};
   const auto columns = static_cast<double>(load.branches.size());
   const double width = map_left + columns * map_width + (columns - 1.0) * between_x + map_right;
-  const double height = map_top + 2.0 * map_height + between_y + map_bottom;
-  std::string svg = svg_begin(width, height);
-  svg += fmt::format(
-      "<text x='{}' y='26' font-size='15' font-weight='bold'>{:g} kg (weighed as {:.2f} kg, {:+.1f} %{}): "
-      "error at arrival, reached less target</text>\n",
-      map_left, load.load_kg, load.weighed_kg, 100.0 * load.weighing_error(),
-      load.extrapolated ? "; extrapolated" : "");
-  double y_px = map_top;
+  const double widest_px = width - map_left - 6.0;
+  const auto title = wrapped(
+      fmt::format("{:g} kg (weighed as {:.2f} kg, {:+.1f} %{}): error at arrival, reached less target",
+                  load.load_kg, load.weighed_kg, 100.0 * load.weighing_error(),
+                  load.extrapolated ? "; extrapolated" : ""),
+      widest_px, title_px, true);
+  std::vector<std::string> legend;
+  for (const char* text : {"line: border of what the rig can reach; positive errors: too high, too fast",
+                           "x: the inverse finds no current speed; dot: beyond its calibrated range or the "
+                           "valve's line; grey: no run"})
+    for (std::string& line : wrapped(text, widest_px, 12.0)) legend.push_back(std::move(line));
+  double y_px = 54.0 + 20.0 * static_cast<double>(title.size());
+  const double legend_px = y_px + 2.0 * map_height + between_y + 70.0;
+  const double height = legend_px + 18.0 * static_cast<double>(legend.size());
+  std::string svg = svg_begin(width, height) +
+                    lines_svg(title, map_left, 26.0, 20.0, " font-size='15' font-weight='bold'") +
+                    lines_svg(legend, map_left, legend_px, 18.0);
   for (const Measure& measure : measures) {
     double x_px = map_left;
     for (const auto& map : load.branches) {
@@ -198,14 +209,6 @@ std::string heat_map_svg(const run::MapPlan& plan, const run::ErrorMaps& maps, c
     }
     svg += scale_svg(measure, words.factor, x_px - between_x + 16.0, y_px);
     y_px += map_height + between_y;
-  }
-  const char* legend[] = {"line: border of what the rig can reach; positive errors: too high, too fast",
-                          "x: the inverse finds no current speed; dot: beyond its calibrated range or the "
-                          "valve's line; grey: no run"};
-  double legend_px = height - 34.0;
-  for (const char* text : legend) {
-    svg += fmt::format("<text x='{}' y='{}'>{}</text>\n", map_left, legend_px, text);
-    legend_px += 18.0;
   }
   return svg + "</svg>\n";
 }

@@ -71,18 +71,14 @@ struct Legend {
 /// Names beside their lines, in as many rows as they need.
 Legend make_legend(const domain::Scenario& scenario) {
   Legend legend;
-  double x = plot_left;
+  Rows rows(plot_left, plot_left + plot_width, legend.bottom_px);
   const auto add = [&](const std::string& name, const char* colour, const char* dash) {
-    const double needed = 40.0 + 7.5 * static_cast<double>(name.size());
-    if (x > plot_left && x + needed > plot_left + plot_width) {
-      x = plot_left;
-      legend.bottom_px += 18.0;
-    }
+    const auto [x, y] = rows.next(40.0 + width_px(name, 12.5));
     legend.svg += fmt::format(
         "<line x1='{0}' x2='{1}' y1='{2}' y2='{2}' stroke='{3}' stroke-dasharray='{4}' stroke-width='2.5'/>"
         "<text x='{5}' y='{6}'>{7}</text>\n",
-        x, x + 22, legend.bottom_px, colour, dash, x + 27, legend.bottom_px + 4, name);
-    x += needed;
+        x, x + 22, y, colour, dash, x + 27, y + 4, name);
+    legend.bottom_px = y;
   };
   add("target", "#000000", "none");
   for (std::size_t c = 0; c < scenario.controllers.size(); ++c)

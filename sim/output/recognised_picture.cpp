@@ -14,7 +14,7 @@ namespace {
 using recognise::ColumnGuess, recognise::Recognised;
 
 constexpr double drawn_width = 800.0, drawn_height = 150.0, drawn_left = 70.0, drawn_right = 20.0,
-                 drawn_gap = 56.0, drawn_top = 70.0;
+                 drawn_gap = 41.0;
 constexpr std::size_t most_points = 1600;  // two for each pixel
 
 /// A column of one run, over time or over rows.
@@ -54,10 +54,15 @@ std::string drawn(const Line& line, const Panel& panel) {
 }
 
 std::string words_of(const ColumnGuess& guess) {
-  std::string words = fmt::format("{}: {} [{}]", guess.quantity->key, guess.column.value, guess.unit.value);
+  std::string words = fmt::format("{} [{}]", guess.column.value, guess.unit.value);
   if (guess.zero) words += " - " + guess.zero->value;
+  if (guess.zero && guess.factor) words = "(" + words + ")";
   if (guess.factor) words += " x " + guess.factor->value;
-  return escaped(words + (guess.input ? ", drives the simulation" : ""));
+  return fmt::format("{}: {}{}", guess.quantity->key, words, guess.input ? ", drives the simulation" : "");
+}
+
+std::vector<std::string> heading_of(const ColumnGuess& guess) {
+  return wrapped(words_of(guess), drawn_width, 12.0, true);
 }
 
 std::string panel_svg(const Recognised& found, const ColumnGuess& guess, double top_px) {
@@ -71,21 +76,24 @@ std::string panel_svg(const Recognised& found, const ColumnGuess& guess, double 
   }
   panel.x.widen();
   panel.y.widen();
-  std::string svg = panel.heading(words_of(guess)) + panel.across(round_numbers(panel.x, 8), "") +
-                    panel.upwards(round_numbers(panel.y, 5), "") + panel.frame();
+  const std::vector<std::string> heading = heading_of(guess);
+  std::string svg =
+      lines_svg(heading, drawn_left, top_px - 8.0 - 15.0 * static_cast<double>(heading.size() - 1), 15.0,
+                " font-weight='bold'") +
+      panel.across(round_numbers(panel.x, 8), "") + panel.upwards(round_numbers(panel.y, 5), "") +
+      panel.frame();
   for (const Line& line : lines) svg += drawn(line, panel);
   return svg;
 }
 
-std::string legend(const Recognised& found) {
-  constexpr std::size_t most_names = 7;
+std::string legend(const Recognised& found, Rows& rows) {
   std::string svg;
-  double x_px = drawn_left;
-  for (std::size_t i = 0; i < std::min(found.runs.size(), most_names); ++i) {
+  for (std::size_t i = 0; i < found.runs.size(); ++i) {
+    if (found.runs[i].map != 0) continue;
     const std::string name = found.runs[i].id + (found.runs[i].load ? ", " + found.runs[i].load->value : "");
-    svg += fmt::format("<text x='{:.0f}' y='38' fill='{}'>{}</text>\n", x_px, colours[i % colours.size()],
-                       escaped(name));
-    x_px += 16.0 + 6.8 * static_cast<double>(name.size());
+    const auto [x_px, y_px] = rows.next(16.0 + width_px(name, 12.0));
+    svg += fmt::format("<text x='{:.0f}' y='{:.0f}' fill='{}'>{}</text>\n", x_px, y_px,
+                       colours[i % colours.size()], escaped(name));
   }
   return svg;
 }
@@ -97,20 +105,22 @@ std::string picture_of(const Recognised& found) {
   std::vector<const ColumnGuess*> drawn_ones;
   for (const ColumnGuess& guess : found.maps.front().columns)
     if (guess.quantity->key != "time" && !guess.column.open()) drawn_ones.push_back(&guess);
-  const double height = drawn_top + static_cast<double>(drawn_ones.size()) * (drawn_height + drawn_gap);
-  std::string svg = svg_begin(drawn_left + drawn_width + drawn_right, height);
+  Rows rows(drawn_left, drawn_left + drawn_width, 38.0);
+  const std::string names = legend(found, rows);
+  double top_px = rows.bottom_px() + 17.0;
   const std::string over = time == nullptr || time->column.open()
                                ? "rows"
                                : fmt::format("{} [{}]", time->column.value, time->unit.value);
-  svg += fmt::format("<text x='{}' y='20' font-weight='bold'>What was understood, over {}</text>\n",
-                     drawn_left, escaped(over)) +
-         legend(found);
-  double top_px = drawn_top;
+  std::string svg =
+      fmt::format("<text x='{}' y='20' font-weight='bold'>What was understood, over {}</text>\n", drawn_left,
+                  escaped(over)) +
+      names;
   for (const ColumnGuess* guess : drawn_ones) {
+    top_px += 15.0 * static_cast<double>(heading_of(*guess).size());
     svg += panel_svg(found, *guess, top_px);
     top_px += drawn_height + drawn_gap;
   }
-  return svg + "</svg>\n";
+  return svg_begin(drawn_left + drawn_width + drawn_right, top_px) + svg + "</svg>\n";
 }
 
 }  // namespace mckibben::output

@@ -85,6 +85,9 @@ Json run_json(const domain::Scenario& scenario, const run::Comparison& compariso
     entry["failure"] = run.failure;
     return entry;
   }
+  if (run.followed())
+    entry["skip_s"] =
+        run::tidy_s(static_cast<double>(comparison.targets[run.target].first) * scenario.rig.tick_s);
   if (run.followed()) put_metrics(entry, run.metrics, pair, scenario.rig.command_unit());
   if (run.joint) put_joint(entry, run);
   entry["contraction"] = contraction_json(scenario.rig, run.recording);

@@ -4,6 +4,7 @@
 #include <array>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -47,5 +48,39 @@ inline std::string svg_begin(double width, double height, int font_px = 12, std:
       "<rect class='ground' width='100%' height='100%' fill='white'/>\n",
       width, height, font_px, style);
 }
+
+/// About how wide a text is drawn [px]: as the widest usual fonts draw it, which no picture knows.
+double width_px(std::string_view text, double font_px, bool bold = false);
+
+/// The text in lines that are no wider, broken at spaces; a word that is wider stands alone.
+std::vector<std::string> wrapped(std::string_view text, double widest_px, double font_px, bool bold = false);
+
+/// Such lines one below the other; `y_px`: of the first.
+std::string lines_svg(const std::vector<std::string>& lines, double x_px, double y_px, double step_px,
+                      std::string_view attributes = "");
+
+/// Places names side by side, and in a further row where one is full.
+class Rows {
+ public:
+  Rows(double left_px, double right_px, double first_px)
+      : left_px_(left_px), right_px_(right_px), x_px_(left_px), y_px_(first_px) {}
+
+  struct Place {
+    double x_px, y_px;
+  };
+  Place next(double needed_px) {
+    if (x_px_ > left_px_ && x_px_ + needed_px > right_px_) {
+      x_px_ = left_px_;
+      y_px_ += 18.0;
+    }
+    const Place place{x_px_, y_px_};
+    x_px_ += needed_px;
+    return place;
+  }
+  double bottom_px() const { return y_px_; }
+
+ private:
+  double left_px_, right_px_, x_px_, y_px_;
+};
 
 }  // namespace mckibben::output

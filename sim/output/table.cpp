@@ -211,13 +211,17 @@ std::string plural(std::size_t count, const char* what) {
 }
 
 std::string heading(const domain::Scenario& scenario, const run::Comparison& comparison) {
-  if (scenario.rig.pair() != nullptr)
-    return fmt::format("{}: two muscles, {}, {:g} s each; joint angle positive as muscle 1 contracts\n",
-                       scenario.name, plural(comparison.runs.size(), "run"), scenario.duration_s);
-  return fmt::format("{}: {} x {}, {:g} s each; errors are contraction ratios (0.001 = {:g} mm)\n",
+  std::string counted = run::counted_words(scenario, comparison);
+  if (scenario.rig.pair() != nullptr) {
+    if (!counted.empty()) counted.erase(0, 1);
+    return fmt::format("{}: two muscles, {}, {:g} s each; joint angle positive as muscle 1 contracts{}{}\n",
+                       scenario.name, plural(comparison.runs.size(), "run"), scenario.duration_s,
+                       counted.empty() ? "" : "; errors count", counted);
+  }
+  return fmt::format("{}: {} x {}, {:g} s each; errors are contraction ratios (0.001 = {:g} mm){}\n",
                      scenario.name, plural(scenario.loads_kg.size(), "load"),
                      plural(scenario.controllers.size(), "controller"), scenario.duration_s,
-                     scenario.rig.muscle.rest_length_m);
+                     scenario.rig.muscle.rest_length_m, counted);
 }
 
 std::string lines(const std::vector<std::string>& texts) {

@@ -124,9 +124,10 @@ std::string table(const Scenario& scenario, const Comparison& comparison) {
   const std::size_t columns = scenario.controllers.size();
   if (columns == 0) return "";
   std::string html = fmt::format(
-      "<table><caption>Root mean square error{}{}</caption>\n<thead><tr>{}</tr></thead>\n<tbody>\n",
+      "<table><caption>Root mean square error{}{}{}</caption>\n<thead><tr>{}</tr></thead>\n<tbody>\n",
       of_pair(scenario) ? " of the joint angle, deg" : ", " + length_unit_html(),
-      columns > 1 ? "; the smallest of each row is bold" : "", heads(scenario));
+      run::counted_words(scenario, comparison), columns > 1 ? "; the smallest of each row is bold" : "",
+      heads(scenario));
   bool marked = false;
   const auto row = [&](const std::string& head, const auto& rmse_of, const auto& mark_of) {
     std::optional<double> least;

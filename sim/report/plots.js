@@ -75,6 +75,8 @@ class Plot {
     const axis = {stroke: colour('soft'), grid: {stroke: line, width: 1}, ticks: {stroke: line}};
     const seconds = (_, values) => values.map((v) => +v.toFixed(6) + ' s');
     const short = (_, values) => values.map((v) => String(+v.toPrecision(6)));
+    const wide = (_, values) =>
+        Math.max(62, 22 + 7.5 * Math.max(0, ...(values || []).map((v) => String(v).length)));
     const seriesOptions = (one) => {
       const run = one.run === null ? '' : ', ' + group.runs[one.run].name;
       const width = one.run === null ? 2 : 1.4;
@@ -97,7 +99,7 @@ class Plot {
       legend: {show: false},
       scales: {x: {time: false}, y: this.scale()},
       cursor: {x: false, y: false, points: {show: false}, drag: {x: true, y: false}},
-      axes: [{...axis, values: seconds}, {...axis, values: short, size: 62, ...this.steps()}],
+      axes: [{...axis, values: seconds}, {...axis, values: short, size: wide, ...this.steps()}],
       series: [{}, ...this.series.map(seriesOptions)],
       hooks: {setCursor: [moved], setScale: [scaled], draw: [(u) => this.markFloor(u)]},
     };

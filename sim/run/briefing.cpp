@@ -7,6 +7,14 @@
 #include <sim/run/simulate.hpp>
 
 namespace mckibben::run {
+namespace {
+
+double dead_time_s(const plant::Rig& rig) {
+  const plant::Pair* pair = rig.pair();
+  return std::max(rig.effects.command_delay_s(), pair ? pair->opposite.effects.command_delay_s() : 0.0);
+}
+
+}  // namespace
 
 Briefing briefing_of(const domain::Scenario& scenario) {
   Briefing all{scenario.controllers, wanted_of(scenario), {}};
@@ -19,6 +27,7 @@ Briefing briefing_of(const domain::Scenario& scenario) {
       const auto named = scenario.believed.find(controllers::name_of(settings));
       const plant::Rig& believed = named == scenario.believed.end() ? scenario.rig : named->second;
       terms->model = model_of(believed, scenario.rig.tick_s, scenario.hand_m);
+      if (!terms->look_ahead_s) terms->look_ahead_s = controllers::usual_look_ahead_s + dead_time_s(believed);
     }
   return all;
 }

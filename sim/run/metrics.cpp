@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <sim/run/metrics.hpp>
+#include <sim/run/recording.hpp>
 
 namespace mckibben::run {
 namespace {
@@ -43,6 +44,22 @@ double mean_square_at_shift(const Followed& run, std::size_t shift) {
 double share_of(std::span<const double> values, const auto& is_one) {
   return static_cast<double>(std::count_if(values.begin(), values.end(), is_one)) /
          static_cast<double>(values.size());
+}
+
+/// How often the current comes back to an end from a quarter of the range away.
+std::size_t returns_to_an_end(std::span<const double> current_mA, double lowest_mA, double highest_mA) {
+  const double far_mA = 0.25 * (highest_mA - lowest_mA);
+  std::size_t count = 0;
+  std::optional<double> end_mA;
+  double farthest_mA = 0.0;
+  for (const double i_mA : current_mA) {
+    if (end_mA) farthest_mA = std::max(farthest_mA, std::abs(i_mA - *end_mA));
+    if (i_mA > lowest_mA && i_mA < highest_mA) continue;
+    count += farthest_mA > far_mA ? 1 : 0;
+    end_mA = i_mA;
+    farthest_mA = 0.0;
+  }
+  return count;
 }
 
 }  // namespace
@@ -88,7 +105,7 @@ std::optional<double> settling_time_s(const Followed& run) {
   while (settled > 0 && std::abs(run.contraction[settled - 1] - run.target[settled - 1]) <= band) --settled;
   const double end_s = static_cast<double>(run.target.size() - 1) * run.tick_s;
   if (settled == run.target.size() || end_s < *run.last_change_s - same_instant_s) return std::nullopt;
-  return std::max(0.0, static_cast<double>(settled) * run.tick_s - *run.last_change_s);
+  return std::max(0.0, tidy_s(static_cast<double>(settled) * run.tick_s - *run.last_change_s));
 }
 
 Metrics measure(const Followed& run) {
@@ -116,6 +133,9 @@ Metrics measure(const Followed& run) {
         run.current_mA, [least_mA = lowest_mA](double i_mA) { return i_mA <= least_mA + rounding_mA; });
     metrics.at_highest_current = share_of(
         run.current_mA, [most_mA = highest_mA](double i_mA) { return i_mA >= most_mA - rounding_mA; });
+    metrics.swings = static_cast<double>(returns_to_an_end(run.current_mA, lowest_mA + rounding_mA,
+                                                           highest_mA - rounding_mA)) >
+                     static_cast<double>(ticks) * run.tick_s;
   }
   return metrics;
 }

@@ -34,6 +34,8 @@ struct Metrics {
   double air_kg = 0.0;
   /// Shares of the ticks at which the current is at an end of its limits; none without limits.
   std::optional<double> at_lowest_current, at_highest_current;
+  /// Whether it comes back to an end, from a quarter of the range away, more than once a second.
+  bool swings = false;
 };
 
 /// All metrics of a run. Throws std::invalid_argument if it is empty, its columns differ in length, or its

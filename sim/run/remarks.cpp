@@ -49,6 +49,11 @@ std::string limit_warning(const Metrics& metrics, const std::optional<controller
   const double highest = metrics.at_highest_current.value_or(0.0);
   if (!limits || lowest + highest < mostly) return "";
   const bool low = lowest >= highest;
+  if (metrics.swings)
+    return fmt::format(
+        "it swings to and from the ends of its {}, where it stood for {:.0f} % of the time; lower gains, a "
+        "longer look_ahead or a slower target would help",
+        plant::command_key(rig), 100.0 * (lowest + highest));
   return fmt::format("it stood {}; {}", place_and_share(low, *limits, rig, low ? lowest : highest),
                      cause(low, *limits, rig));
 }
@@ -79,6 +84,13 @@ std::string limit_words(const Comparison& comparison, const plant::Rig& rig, std
     words += fmt::format(" (with {} kg for {:.0f} %)", domain::write_number(most->load_kg),
                          100.0 * share_at_limit(*most));
   return "stood " + words;
+}
+
+std::string counted_words(const domain::Scenario& scenario, const Comparison& comparison) {
+  if (std::ranges::all_of(comparison.targets, [](const Wanted& target) { return target.first == 0; }))
+    return "";
+  return scenario.skip_s ? fmt::format(", from {:g} s on", *scenario.skip_s)
+                         : ", from the target's first move on";
 }
 
 std::string limit_warning(const TrackedRun& run, const plant::Rig& rig) {

@@ -21,6 +21,9 @@ double share_at_limit(const TrackedRun& run);
 /// time (with 8.87 kg for 31 %)". Empty below 1 %.
 std::string limit_words(const Comparison& comparison, const plant::Rig& rig, std::string_view controller);
 
+/// From when on errors count: ", from 1 s on"; empty where it is from the beginning.
+std::string counted_words(const domain::Scenario& scenario, const Comparison& comparison);
+
 /// The same of one run, with what would help: for a warning. Empty unless it stood there `mostly`.
 std::string limit_warning(const TrackedRun& run, const plant::Rig& rig);
 

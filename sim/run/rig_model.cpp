@@ -18,16 +18,16 @@ class RiddenModel final : public controllers::RigModel {
     if (ride_.plant().opposite()) mounted_ratio_ = ride_.plant().link().contraction_ratio;
     const controllers::Command given{given_mA(rest.current_mA), given_mA(rest.opposite_mA)};
     ride_.start(drive_of(given), 0.0);
-    for (auto ticks = std::lround(rig.settling_time_s / tick_s); ticks > 0; --ticks) step(given);
+    for (auto ticks = std::lround(rig.settling_time_s / tick_s); ticks > 0; --ticks) step(given, 1);
   }
 
   std::unique_ptr<RigModel> copy() const override {
     return std::unique_ptr<RigModel>(new RiddenModel(*this, ride_));
   }
   double given_mA(double wanted_mA) const override { return plant::dac_output_mA(dac_, wanted_mA); }
-  void step(const controllers::Command& command) override {
+  void step(const controllers::Command& command, int ticks) override {
     try {
-      ride_.step(drive_of(command), static_cast<double>(++tick_) * tick_s_);
+      ride_.step(drive_of(command), static_cast<double>(tick_ += ticks) * tick_s_);
     } catch (const engine::NumericalFailure& failure) {
       throw controllers::ModelFailure(failure.what());
     }

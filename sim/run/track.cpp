@@ -1,6 +1,9 @@
 // See the header.
+#include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numeric>
+#include <span>
 
 #include <plant/instruments.hpp>
 #include <sim/run/track.hpp>
@@ -14,6 +17,20 @@ std::size_t ticks_of(const domain::Scenario& scenario) {
 
 double mean_of(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+/// From which tick errors count: what the scenario skips, or where some value first differs from its first.
+std::size_t first_tick(const domain::Scenario& scenario, const Wanted& wanted) {
+  const std::size_t ticks = wanted.ratios.size();
+  if (scenario.skip_s)
+    return std::min(static_cast<std::size_t>(std::llround(*scenario.skip_s / scenario.rig.tick_s)),
+                    ticks - 1);
+  std::size_t first = ticks;
+  for (const auto* values : {&wanted.ratios, &wanted.stiffness_N_m_per_rad}) {
+    const auto moves = std::ranges::adjacent_find(*values, std::not_equal_to<>());
+    if (moves != values->end()) first = std::min(first, static_cast<std::size_t>(moves - values->begin()));
+  }
+  return first < ticks ? first : 0;  // a target that never moves counts whole
 }
 
 /// Whether a current is at an end of what the valve answers to, as the DAC gives it.
@@ -33,7 +50,9 @@ std::vector<Wanted> wanted_of(const domain::Scenario& scenario) {
   const std::size_t ticks = ticks_of(scenario);
   if (rig.pair() == nullptr) {
     const auto ratios = controllers::sample(scenario.target, ticks, rig.tick_s, rig.muscle.rest_length_m);
-    return {{"", ratios, ratios, {}, controllers::last_change_s(scenario.target)}};
+    Wanted wanted{"", ratios, ratios, {}, controllers::last_change_s(scenario.target)};
+    wanted.first = first_tick(scenario, wanted);
+    return {std::move(wanted)};
   }
   std::vector<Wanted> all;
   for (const domain::JointTarget& target : scenario.targets) {
@@ -45,6 +64,7 @@ std::vector<Wanted> wanted_of(const domain::Scenario& scenario) {
     for (const double ratio : wanted.ratios) wanted.values.push_back(ratio * per_ratio(rig));
     if (target.stiffness)
       wanted.stiffness_N_m_per_rad = controllers::sample(*target.stiffness, ticks, rig.tick_s, 1.0);
+    wanted.first = first_tick(scenario, wanted);
     all.push_back(std::move(wanted));
   }
   return all;
@@ -86,11 +106,14 @@ Metrics metrics_of(const domain::Scenario& scenario, const Wanted& wanted, const
     followed.push_back(pair ? sample.angle_rad : sample.state.joint.contraction_ratio);
     current_mA.push_back(sample.current_mA);
   }
-  return measure({.target = wanted.values,
-                  .contraction = followed,
-                  .current_mA = current_mA,
+  const double from_s = static_cast<double>(wanted.first) * scenario.rig.tick_s;
+  std::optional<double> last_change_s = wanted.last_change_s;
+  if (last_change_s) *last_change_s -= from_s;
+  return measure({.target = std::span(wanted.values).subspan(wanted.first),
+                  .contraction = std::span(followed).subspan(wanted.first),
+                  .current_mA = std::span(current_mA).subspan(wanted.first),
                   .tick_s = scenario.rig.tick_s,
-                  .last_change_s = wanted.last_change_s,
+                  .last_change_s = last_change_s,
                   .air_kg = recording.ledger.air_drawn_kg,
                   .limits = limits});
 }
@@ -102,20 +125,22 @@ JointFigures joint_figures(const plant::Rig& rig, const Recording& recording, co
       .cord_force_N = span_of(rows, [](const Sample& row) { return row.cord_force_N; }),
       .opposite_cord_force_N = span_of(rows, [](const Sample& row) { return row.opposite.cord_force_N; })};
   const plant::Rig opposite = plant::opposite_rig(rig);
+  const std::span counted = std::span(rows).subspan(std::min(wanted ? wanted->first : 0, rows.size() - 1));
   std::vector<double> stiffness;
   std::size_t at_end = 0;
-  for (const Sample& row : rows) {
+  for (const Sample& row : counted) {
     stiffness.push_back(row.stiffness_N_m_per_rad);
     if (is_at_end(row.current_mA, rig) || is_at_end(row.opposite.current_mA, opposite)) ++at_end;
   }
-  found.at_limit = static_cast<double>(at_end) / static_cast<double>(rows.size());
+  found.at_limit = static_cast<double>(at_end) / static_cast<double>(counted.size());
   found.stiffness_had = mean_of(stiffness);
   if (wanted == nullptr || wanted->stiffness_N_m_per_rad.empty()) return found;
-  found.stiffness_asked = mean_of(wanted->stiffness_N_m_per_rad);
+  const auto& asked = wanted->stiffness_N_m_per_rad;
+  const std::size_t first = rows.size() - counted.size();
+  found.stiffness_asked = mean_of({asked.begin() + static_cast<std::ptrdiff_t>(first), asked.end()});
   double squares = 0.0;
-  for (std::size_t k = 0; k < rows.size(); ++k)
-    squares += std::pow(stiffness[k] - wanted->stiffness_N_m_per_rad[k], 2);
-  found.stiffness_rmse = std::sqrt(squares / static_cast<double>(rows.size()));
+  for (std::size_t k = 0; k < stiffness.size(); ++k) squares += std::pow(stiffness[k] - asked[first + k], 2);
+  found.stiffness_rmse = std::sqrt(squares / static_cast<double>(stiffness.size()));
   return found;
 }
 

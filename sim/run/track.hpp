@@ -20,6 +20,7 @@ struct Wanted {
   std::vector<double> values;                 ///< the same as it is shown: ratios, or joint angles [rad]
   std::vector<double> stiffness_N_m_per_rad;  ///< of a pair; empty if none is asked for
   std::optional<double> last_change_s;
+  std::size_t first = 0;  ///< tick from which errors count
 };
 std::vector<Wanted> wanted_of(const domain::Scenario& scenario);
 
@@ -37,14 +38,14 @@ std::optional<controllers::CurrentRange> limits_of(const controllers::Settings& 
                                                    const controllers::Knowledge& knowledge,
                                                    const plant::Rig& rig);
 
-/// In the unit of what is wanted.
+/// In the unit of what is wanted, from its `first` tick on.
 Metrics metrics_of(const domain::Scenario& scenario, const Wanted& wanted, const Recording& recording,
                    const std::optional<controllers::CurrentRange>& limits);
 
 /// What else two muscles and their joint did.
 struct JointFigures {
   Span angle_rad{}, cord_force_N{}, opposite_cord_force_N{};
-  /// Means over the run, and the root mean square of what the stiffness missed.
+  /// Means over the ticks that count, and the root mean square of what the stiffness missed.
   std::optional<double> stiffness_asked{}, stiffness_rmse{};
   double stiffness_had = 0.0;
   /// Share of the ticks at which some current is at an end of what its valve answers to.

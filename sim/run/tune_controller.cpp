@@ -57,8 +57,9 @@ class Tuning {
     double sum = 0.0;
     for (std::size_t i = 0; i < recordings.size(); ++i) {
       if (!recordings[i].failure.empty()) throw std::runtime_error(recordings[i].failure);
-      const auto& known = briefing_.knowledge[i % briefing_.knowledge.size()];
-      sum += tuning_cost(rmse(recordings[i], known.target), recordings[i], span_mA_);
+      const Wanted& wanted = briefing_.targets[i % briefing_.targets.size()];
+      sum += tuning_cost(rmse(recordings[i], wanted), std::span(recordings[i].samples).subspan(wanted.first),
+                         span_mA_);
     }
     return sum / static_cast<double>(recordings.size());
   }
@@ -70,12 +71,13 @@ class Tuning {
   }
 
  private:
-  double rmse(const Recording& recording, const std::vector<double>& target) const {
+  double rmse(const Recording& recording, const Wanted& wanted) const {
     const double mounted_ratio = plan_.rig.pair() ? plan_.rig.pair()->contraction_ratio : 0.0;
     double squares = 0.0;
-    for (std::size_t k = 0; k < target.size(); ++k)
-      squares += std::pow(recording.samples[k].state.joint.contraction_ratio - mounted_ratio - target[k], 2);
-    return std::sqrt(squares / static_cast<double>(target.size()));
+    for (std::size_t k = wanted.first; k < wanted.ratios.size(); ++k)
+      squares +=
+          std::pow(recording.samples[k].state.joint.contraction_ratio - mounted_ratio - wanted.ratios[k], 2);
+    return std::sqrt(squares / static_cast<double>(wanted.ratios.size() - wanted.first));
   }
 
   const domain::Scenario& scenario_;
@@ -147,19 +149,19 @@ namespace {
 // too little to matter for how the target is followed.
 constexpr double effort_weight = 2e-4;
 
-double effort_mA(const Recording& recording) {
+double effort_mA(std::span<const Sample> rows) {
   double sum_squared_mA = 0.0;
-  for (std::size_t k = 1; k < recording.samples.size(); ++k) {
-    const double change_mA = recording.samples[k].current_mA - recording.samples[k - 1].current_mA;
+  for (std::size_t k = 1; k < rows.size(); ++k) {
+    const double change_mA = rows[k].current_mA - rows[k - 1].current_mA;
     sum_squared_mA += change_mA * change_mA;
   }
-  return std::sqrt(sum_squared_mA / static_cast<double>(recording.samples.size()));
+  return std::sqrt(sum_squared_mA / static_cast<double>(rows.size()));
 }
 
 }  // namespace
 
-double tuning_cost(double rmse, const Recording& recording, double span_mA) {
-  return rmse + effort_weight * (plant::thesis_span_mA / span_mA) * effort_mA(recording);
+double tuning_cost(double rmse, std::span<const Sample> rows, double span_mA) {
+  return rmse + effort_weight * (plant::thesis_span_mA / span_mA) * effort_mA(rows);
 }
 
 }  // namespace mckibben::run

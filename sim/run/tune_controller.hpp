@@ -45,8 +45,8 @@ std::vector<TunedController> tune_controllers(const domain::Scenario& scenario, 
 /// stability: the loop's own gain changes with load and contraction.
 inline constexpr double gain_margin = 2.0;
 
-/// [contraction ratio], for a run whose error is `rmse`; `span_mA`: of the controller's currents. Of a pair
-/// the current to muscle 1 tells of both.
-double tuning_cost(double rmse, const Recording& recording, double span_mA);
+/// [contraction ratio], for the rows of a run that count, whose error is `rmse`; `span_mA`: of the
+/// controller's currents. Of a pair the current to muscle 1 tells of both.
+double tuning_cost(double rmse, std::span<const Sample> rows, double span_mA);
 
 }  // namespace mckibben::run

@@ -32,6 +32,34 @@ std::string runs_left_out(const Grid& grid) {
   refuse(dataset, fmt::format("{}: measure {}{}{}", short_of, more, instead, runs_left_out(grid)));
 }
 
+/// Effects that change the pull otherwise than by what is counted, or friction: neither the force balance nor
+/// a weighing would see them.
+void check_effects(const domain::Dataset& dataset) {
+  std::string changed;
+  const auto add = [&](std::string_view name) {
+    changed += (changed.empty() ? "" : ", ") + std::string(name);
+  };
+  std::apply(
+      [&]<class... E>(const E&... effect) {
+        const auto look = [&]<class One>(const One& one) {
+          if constexpr (plant::declares<One>(plant::Hook::end_correction_shift) ||
+                        plant::declares<One>(plant::Hook::pressing_shift) ||
+                        std::same_as<One, plant::ResidualForce>)
+            if (!one.absent()) add(One::name);
+        };
+        (look(effect), ...);
+      },
+      dataset.rig.effects.all);
+  for (const auto& law : dataset.rig.effects.laws.list)
+    if (!law.absent() && law.text->adds == plant::LawTarget::force) add(law.text->name);
+  if (!changed.empty())
+    refuse(dataset,
+           fmt::format("the rig has {}, and the thesis's models know no muscle with it: friction (T 4.6) is "
+                       "computed from the braid force of T 2.8. Controllers with a model of the whole rig "
+                       "(model_inverse) count it; --rig names a rig without it",
+                       changed));
+}
+
 /// Enough loads and speeds for the orders that are asked for.
 void check_grid(const domain::Dataset& dataset, const Grid& grid, const Options& options) {
   constexpr int highest_speed_order = 2, highest_load_order = 3;  // T 4.13, T 4.15
@@ -71,9 +99,10 @@ void check_friction(const domain::Dataset& dataset, const Grid& grid) {
       refuse(dataset,
              fmt::format(
                  "in {} the muscle as computed (T 2.8) pulls {} than load and inertia explain, so friction "
-                 "comes out negative: wrong rig or loads? rest_radius, braid_angle, end_correction and "
-                 "the valve's line decide",
-                 name_of(direction), direction == Direction::contraction ? "less" : "more"));
+                 "comes out negative: wrong rig or loads? rest_radius, braid_angle, end_correction{} "
+                 "and the valve's line decide",
+                 name_of(direction), direction == Direction::contraction ? "less" : "more",
+                 tube_pull_of(dataset.rig) ? ", bladder_elasticity" : ""));
   }
 }
 
@@ -124,6 +153,7 @@ class Details {
 
 CalibrationResult calibrate(const domain::Dataset& dataset, const Options& options) {
   CalibrationResult result;
+  check_effects(dataset);
   result.grid = make_grid(dataset, options.processing);
   check_grid(dataset, result.grid, options);
   check_friction(dataset, result.grid);
@@ -146,6 +176,7 @@ CalibrationResult calibrate(const domain::Dataset& dataset, const Options& optio
   calibration.contraction = contraction_model(chosen(Direction::contraction));
   calibration.relaxation = relaxation_model(chosen(Direction::relaxation));
   calibration.range = range_of(result.grid);
+  calibration.tube_pull = tube_pull_of(dataset.rig);
   if (const auto unit = dataset.rig.command_unit(); unit != plant::CommandUnit::mA)
     calibration.command_unit = name_of(unit);
   return result;

@@ -60,6 +60,7 @@ class Processor {
         rig_(dataset.rig),
         options_(options),
         braid_(rig_.muscle),
+        tube_(tube_pull_of(rig_).value_or(controllers::TubePull{})),
         per_count_(plant::count_height_m(rig_) / rig_.muscle.rest_length_m) {}
 
   ProcessedRun operator()() {
@@ -167,7 +168,8 @@ class Processor {
   }
 
   double pressure_Pa(std::size_t k) const {
-    if (options_.pressure == PressureSource::gauge) return (*run_.muscle_pressure_Pa)[k];
+    if (options_.pressure == PressureSource::gauge)
+      return rig_.effects.true_Pa((*run_.muscle_pressure_Pa)[k]);
     const plant::Valve& v = rig_.valve;
     return v.zero_pressure_Pa + (v.span_pressure_Pa - v.zero_pressure_Pa) *
                                     (run_.current_mA[k] - v.zero_command) / (v.span_command - v.zero_command);
@@ -184,7 +186,7 @@ class Processor {
     Samples& samples = result.samples[direction];
     result.rows[direction].push_back(k);
     const double e = ratio(k), pressure = pressure_Pa(k);
-    const double generated_N = braid_.force_N(e, pressure);
+    const double generated_N = braid_.force_N(e, pressure) - tube_.pull_N(e, rig_.muscle.rest_length_m);
     const double friction_N =
         generated_N - run_.load_kg * (acceleration_m_per_s2(k) + plant::gravity_m_per_s2);
     samples.contraction_ratio.push_back(e);
@@ -197,6 +199,7 @@ class Processor {
   const plant::Rig& rig_;
   const ProcessingOptions& options_;
   plant::Braid braid_;
+  controllers::TubePull tube_;
   double per_count_;
   bool counted_ = true;
   std::vector<double> counts_;
@@ -259,6 +262,12 @@ std::vector<HalfPeriod> half_periods(const std::vector<double>& current_mA) {
   const Extreme& last = way > 0 ? high : low;
   halves.push_back({begin, static_cast<double>(last.first), last.value_mA - begin_mA});
   return halves;
+}
+
+std::optional<controllers::TubePull> tube_pull_of(const plant::Rig& rig) {
+  const auto& tube = rig.effects.get<plant::BladderElasticity>();
+  if (tube.absent()) return std::nullopt;
+  return controllers::TubePull{tube.spring_N_per_m(), tube.limit_N(), tube.ratio};
 }
 
 ProcessedRun process(const domain::Run& run, const domain::Dataset& dataset,

@@ -5,10 +5,12 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include <controllers/calibration.hpp>
 #include <plant/rig.hpp>
 #include <sim/domain/dataset.hpp>
 
@@ -75,6 +77,9 @@ struct HalfPeriod {
   double speed_mA_per_s(double tick_s) const;
 };
 std::vector<HalfPeriod> half_periods(const std::vector<double>& current_mA);
+
+/// The rig's bladder_elasticity, which counts in the force balance; none if it has none.
+std::optional<controllers::TubePull> tube_pull_of(const plant::Rig& rig);
 
 /// Throws data::UnfitData if the run cannot be of this rig or the gauge is missing.
 ProcessedRun process(const domain::Run& run, const domain::Dataset& dataset,

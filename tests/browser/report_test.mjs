@@ -323,3 +323,15 @@ test('a data set shows what was measured and nothing else; of many runs three at
   assert.deepEqual(requests, [url]);
   await done();
 });
+
+test('at 1280 px the readout and a table of all runs are whole', async () => {
+  for (const folder of ['short', 'pair', 'replayed']) {
+    const {page, close: done} = await open(folder, {viewport: {width: 1280, height: 900}});
+    const cut = await page.locator('.result').evaluateAll(
+        (boxes) =>
+            boxes.filter((box) => box.scrollWidth > box.clientWidth || box.scrollHeight > box.clientHeight)
+                .map((box) => box.textContent.slice(0, 80)));
+    assert.deepEqual(cut, [], folder);
+    await done();
+  }
+});

@@ -8,6 +8,7 @@
 #include <sim/input/fields_json.hpp>
 
 #include "program.hpp"
+#include "words_fit.hpp"
 
 namespace mckibben::cli {
 namespace {
@@ -37,11 +38,25 @@ class Import : public ::testing::Test {
   Scratch scratch_;
 };
 
+TEST_F(Import, ThePictureNamesEveryRun) {
+  ASSERT_EQ(
+      shell(
+          "for n in 1 2 3 4 5 6 7 8 9; do cp bench/load_5kg.csv bench/measured_with_load_5kg_run$n.csv; done",
+          scratch_)
+          .status,
+      0);
+  const Said said = mckibben("import bench/measured*.csv --out mine", scratch_);
+  ASSERT_EQ(said.status, 0) << said.err;
+  const std::string svg = read_text(scratch_ / "mine/understood.svg");
+  EXPECT_TRUE(words_fit(svg));
+  EXPECT_TRUE(holds(svg, "run9"));
+}
+
 TEST_F(Import, WhatIsOpenIsRefusedAndThenReplays) {
   const Said said = mckibben("import bench/load_5kg.csv --out mine", scratch_);
   ASSERT_EQ(said.status, 0) << said.err;
   EXPECT_TRUE(holds(said.out, "6 values are to be filled in (FILL_IN) in mine; then: mckibben check mine"));
-  EXPECT_TRUE(holds(read_text(scratch_ / "mine/understood.svg"), "contraction: Laser [mm] - 412"));
+  EXPECT_TRUE(holds(read_text(scratch_ / "mine/understood.svg"), "contraction: (Laser [mm] - 412"));
   const Said refused = mckibben("check mine", scratch_);
   EXPECT_EQ(refused.status, 65);
   EXPECT_TRUE(holds(refused.err, "rest_length = FILL_IN: nothing that was recorded tells it"));

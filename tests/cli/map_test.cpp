@@ -11,6 +11,7 @@
 #include <sim/input/fields_json.hpp>
 
 #include "program.hpp"
+#include "words_fit.hpp"
 
 namespace mckibben::cli {
 namespace {
@@ -55,6 +56,34 @@ TEST_F(Map, CoversTargetsAndDrawsThem) {
     EXPECT_TRUE(holds(svg, "class='border'")) << name;
     EXPECT_TRUE(lacks(svg, "nan")) << name;
   }
+}
+
+TEST_F(Map, ThePictureOfOneBranchHoldsItsWords) {
+  ASSERT_EQ(run("--load '14 kg' --ratios 3 --speeds 2 --up --out up").status, 0);
+  EXPECT_TRUE(words_fit(read_text(scratch / "up" / "map_14kg.svg")));
+}
+
+TEST_F(Map, ARigWithATubeIsCalibratedAndMappedWithIt) {
+  const std::string rig =
+      "schema: mckibben-rig/1\nbase: thesis\neffects: {bladder_elasticity: {variant: saturating, force: 80 "
+      "N, "
+      "ratio: 0.02}}\n";
+  write_text(scratch / "tube.yaml", rig);
+  write_text(scratch / "small.yaml", campaign_of_sines() + "rig: tube.yaml\n");
+  const Said made = mckibben("dataset small.yaml --out with", scratch);
+  ASSERT_EQ(made.status, 0) << made.err;
+  const Said said = mckibben("calibrate with --rig tube.yaml --out of_tube", scratch);
+  ASSERT_EQ(said.status, 0) << said.err;
+  EXPECT_TRUE(holds(read_text(scratch / "of_tube/calibration.yaml"), "tube_pull:"));
+  const Said other = mckibben("map of_tube/calibration.yaml --ratios 1 --speeds 1", scratch);
+  EXPECT_EQ(other.status, 65);
+  EXPECT_TRUE(holds(other.err, "made with a rig that has a bladder_elasticity, and this one has none"))
+      << other.err;
+  const Said mapped = mckibben(
+      "map of_tube/calibration.yaml --rig tube.yaml --load '14 kg' --ratios 2 --speeds 1 --json", scratch);
+  ASSERT_EQ(mapped.status, 0) << mapped.err;
+  const auto load = input::Json::parse(mapped.out).at("loads")[0];
+  EXPECT_LT(std::abs(load.at("weighing_error").get<double>()), 0.15);
 }
 
 TEST_F(Map, OneBranchAloneAndOneTarget) {

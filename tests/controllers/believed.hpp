@@ -29,18 +29,17 @@ class Believed final : public RigModel {
     return other;
   }
   double given_mA(double wanted_mA) const override { return std::round(wanted_mA * 256.0) / 256.0; }
-  void step(const Command& command) override {
-    ++steps;
-    now_.lagging += (height(command.current_mA) - now_.lagging) * -std::expm1(-1.0 / laws_.lag_ticks);
+  void step(const Command& command, int ticks) override {
+    for (; ticks > 0; --ticks) step(command.current_mA);
+  }
+  void step(double current_mA) {
+    now_.lagging += (height(current_mA) - now_.lagging) * -std::expm1(-1.0 / laws_.lag_ticks);
     now_.ratio = std::clamp(now_.ratio, now_.lagging - laws_.play, now_.lagging + laws_.play);
   }
-  void step(double current_mA) { step(Command{current_mA}); }
   double contraction_ratio() const override { return now_.ratio; }
   double shown_ratio() const override { return now_.ratio; }
   void keep() override { kept_ = now_; }
   void go_back() override { now_ = kept_; }
-
-  long steps = 0;
 
  private:
   struct State {

@@ -44,7 +44,8 @@ double rmse(Controller& controller, RigModel& rig, const Knowledge& known) {
   double squares = 0.0;
   for (std::int64_t k = -controller.preparation_ticks(); k < static_cast<std::int64_t>(run_ticks); ++k) {
     if (k >= 0) squares += std::pow(rig.contraction_ratio() - known.target_at(k), 2);
-    rig.step({rig.given_mA(controller.step({k, static_cast<double>(k) * 0.012, counted(rig)}).current_mA)});
+    rig.step({rig.given_mA(controller.step({k, static_cast<double>(k) * 0.012, counted(rig)}).current_mA)},
+             1);
   }
   return std::sqrt(squares / static_cast<double>(run_ticks));
 }

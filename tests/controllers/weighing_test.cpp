@@ -38,7 +38,7 @@ void weigh(Weighing& weighing, const Knowledge& knowledge, const Lift& lift) {
 TEST(Weighing, IsFiveTrianglesOfConstantSpeed) {
   const Knowledge knowledge = data_sheets({});
   const Calibration calibration = planted_calibration();
-  const Weighing weighing({}, calibration.contraction_friction, calibration.range, knowledge);
+  const Weighing weighing({}, calibration, knowledge);
   int turns_down = 0;
   for (std::int64_t k = 1; k + 1 < weighing.ticks(); ++k) {
     const double before = weighing.current_mA(k) - weighing.current_mA(k - 1);
@@ -56,7 +56,7 @@ TEST(Weighing, RecoversAPlantedLoad) {
   const Calibration calibration = planted_calibration();
   for (const double load_kg : {11.138, 16.138, 23.406}) {
     const WeighingSettings settings{.speed_mA_per_s = 6.0, .high_mA = 9.0};
-    Weighing weighing(settings, calibration.contraction_friction, calibration.range, knowledge);
+    Weighing weighing(settings, calibration, knowledge);
     weigh(weighing, knowledge, [&](double current_mA) {
       return rest_ratio(knowledge, calibration.contraction_friction, *settings.speed_mA_per_s, load_kg,
                         current_mA);
@@ -70,7 +70,7 @@ TEST(Weighing, SpreadIsTheStandardDeviationOverTheContractions) {
   const Knowledge knowledge = data_sheets({});
   const Calibration calibration = planted_calibration();
   const WeighingSettings settings{.contractions = 3, .speed_mA_per_s = 6.0};
-  Weighing weighing(settings, calibration.contraction_friction, calibration.range, knowledge);
+  Weighing weighing(settings, calibration, knowledge);
   const double loads_kg[] = {15.0, 16.0, 17.0};
   for (std::int64_t k = 0; k < weighing.ticks(); ++k) {
     const double load_kg = loads_kg[k / (weighing.ticks() / 3)];
@@ -85,7 +85,7 @@ TEST(Weighing, SpreadIsTheStandardDeviationOverTheContractions) {
 TEST(Weighing, OfALoadThatDoesNotMoveFailsAndSaysWhatHelps) {
   const Knowledge knowledge = data_sheets({});
   const Calibration calibration = planted_calibration();
-  Weighing weighing({}, calibration.contraction_friction, calibration.range, knowledge);
+  Weighing weighing({}, calibration, knowledge);
   weigh(weighing, knowledge, [](double) { return 0.0; });
   try {
     weighing.result();

@@ -2,7 +2,7 @@
 """Results that are never lost or stuck: one file operation of a verb after another goes wrong (faults.cpp), over an
 older result.
 
-    publish_test.py MCKIBBEN FAULTS_LIBRARY run|dataset|diagnose [every]
+    publish_test.py MCKIBBEN FAULTS_LIBRARY run|dataset|diagnose|import [every]
 
 Without `every` only the telling operations (`telling` below). For each of them, n: killed at the n-th operation, and
 the next run at another, the old or the new result is there, whole; the run after that ends well and leaves the same
@@ -40,7 +40,9 @@ noise: {{encoder_jitter: 1e-4}}
 DATASET = """schema: mckibben-dataset/1
 runs: [{{id: r{seed}, file: r.csv, load: 11.138 kg}}, {{id: s, file: r.csv, load: 16.138 kg}}]
 """
-INPUT = {"run": SCENARIO, "dataset": CAMPAIGN, "diagnose": DATASET}[VERB]
+INPUT = {"run": SCENARIO, "dataset": CAMPAIGN, "diagnose": DATASET,
+         "import": "t [s],I (mA),x_mm\n" + "".join(f"{k}.0,{{seed}},{k}.5\n" for k in range(40))}[VERB]
+FILE, OPTIONS = ("input.csv", []) if VERB == "import" else ("input.yaml", ["--threads", "1"])
 TABLE = "time_s,current_mA,contraction_ratio\n" + "".join(f"{0.012 * k:.3f},4,0.01\n" for k in range(40))
 ERRORS = [errno.ENOSPC, errno.EIO, errno.EDQUOT]
 
@@ -77,7 +79,7 @@ class Place:
         self.back()
 
     def seed(self, seed):
-        with open(os.path.join(self.root, "input.yaml"), "w") as file:
+        with open(os.path.join(self.root, FILE), "w") as file:
             file.write(INPUT.format(seed=seed))
 
     def back(self):
@@ -90,7 +92,7 @@ class Place:
             os.remove(self.log)
         settings = {"LD_PRELOAD": LIBRARY, "FAULT_BELOW": self.out, "FAULT_LOG": self.log} if faults else {}
         settings.update({f"FAULT_{key.upper()}": str(value) for key, value in faults.items()})
-        return subprocess.run([PROGRAM, VERB, "input.yaml", "--out", "out/o", "--threads", "1"], cwd=self.root,
+        return subprocess.run([PROGRAM, VERB, FILE, "--out", "out/o"] + OPTIONS, cwd=self.root,
                               env=os.environ | settings, capture_output=True, text=True, timeout=60)
 
     def operations(self):
@@ -153,7 +155,7 @@ def failing(place, n, _):
 def with_a_second(place, n, _):
     place.back()
     second = os.path.join(place.root, "second")
-    command = f"'{PROGRAM}' {VERB} input.yaml --out out/o > '{second}' 2>&1; echo $? >> '{second}'"
+    command = f"'{PROGRAM}' {VERB} {FILE} --out out/o > '{second}' 2>&1; echo $? >> '{second}'"
     place.expect(place.run(do="run", at=n, run=command), 0)
     with open(second) as file:
         lines = file.read().splitlines()

@@ -34,6 +34,10 @@ const Kind tables[] = {
      "contraction: {column: x_cm, unit: cm}}",
      "t [ms],I (A),x_cm\n0,0.004,0\n12,0.0045,0.3\n"},
     {"a_line_of_units", german, "Zeit;Strom;Weg\n[s];[mA];[mm]\n0;4;0\n0,012;4,5;3\n"},
+    {"a_sensor_whose_factor_is_1",
+     "{time: {column: Zeit, unit: s}, current: {column: Strom, unit: mA}, "
+     "contraction: {column: Weg, unit: mm, factor: 1}}",
+     "Zeit;Strom;Weg\n[s];[mA];[V]\n0;4;0\n0,012;4,5;3\n"},
     {"lines_above_and_below", german,
      "Rig 4; run 2\nby;me\n\nZeit;Strom;Weg;\nof recorder;of valve;laser\ns;mA;mm\n\n0;4;0\n0,012;4,5;3\n"},
     {"excel", german, "sep=;\r\nZeit;Strom;Weg;;\r\n0;4;0;;\r\n\"0,012\";\"4,5\";\" 3\"\r\n;;;;\r\n;;;;\r\n"},

@@ -51,6 +51,19 @@ TEST(Metrics, CountsTheTicksAtAnEndOfTheCurrent) {
   EXPECT_EQ(measure(view).at_highest_current, 0.25);
 }
 
+TEST(Metrics, ACurrentThatGoesToAndFroSwings) {
+  const auto swings = [](auto current_mA) {
+    Columns run{std::vector<double>(500, 0.1), std::vector<double>(500, 0.1), sampled(500, current_mA)};
+    Followed view = run.view();
+    view.limits = {4.0, 20.0};
+    return measure(view).swings;
+  };
+  EXPECT_TRUE(swings([](double t) { return std::fmod(t, 0.4) < 0.2 ? 4.0 : 20.0; }));
+  EXPECT_TRUE(swings([](double t) { return std::fmod(t, 0.4) < 0.2 ? 4.0 : 9.0; }));
+  EXPECT_FALSE(swings([](double t) { return t < 3.0 ? 4.0 : 9.0; }));
+  EXPECT_FALSE(swings([](double t) { return std::fmod(t, 0.4) < 0.2 ? 4.0 : 4.5; })) << "it waits at its end";
+}
+
 TEST(Metrics, ConstantTargetHasNoLagOvershootOrSettling) {
   const Columns run{{0.1, 0.1, 0.1}, {0.0, 0.2, 0.1}};
   Followed view = run.view();

@@ -42,6 +42,16 @@ TEST(Remarks, NameTheKeyThatWouldHelp) {
             std::string::npos);
 }
 
+TEST(Remarks, OneThatSwingsIsNotToldThatItsTargetIsOutOfReach) {
+  TrackedRun run = stood(8.0, 0.3, 0.3);
+  run.metrics.swings = true;
+  const std::string warning = limit_warning(run, {});
+  EXPECT_NE(warning.find("it swings to and from the ends of its current, where it stood for 60 %"),
+            std::string::npos)
+      << warning;
+  EXPECT_EQ(warning.find("asks for"), std::string::npos) << warning;
+}
+
 TEST(Remarks, ATuningMustBeatNoFeedback) {
   TunedController tuned{.controller = "pid", .load_kg = 8.0};
   tuned.tuned.cost = 0.02;

@@ -19,6 +19,8 @@
 namespace mckibben::run {
 namespace {
 
+using domain::Scenario;
+
 /// Up in a second to 0.12, a rest, and down again to 0.06.
 std::vector<double> there_and_back(std::size_t ticks) {
   std::vector<double> target(ticks, 0.02);
@@ -70,7 +72,7 @@ TEST(RigModel, GoesWhereTheRigGoesUnderTheSameCurrents) {
   const auto model = believed(rig)(16.138, {4.0});
   for (const auto& sample : recording.samples) {
     ASSERT_NEAR(model->contraction_ratio(), sample.state.joint.contraction_ratio, 1e-9) << sample.time_s;
-    model->step({sample.current_mA});
+    model->step({sample.current_mA}, 1);
   }
 }
 
@@ -78,10 +80,10 @@ TEST(RigModel, GoesBackAndTheSameWayAgain) {
   plant::Rig rig;
   rig.effects.get<plant::CommandDelay>().time_s = 0.03;
   const auto model = believed(rig)(16.138, {4.0});
-  model->step({12.0});
+  model->step({12.0}, 1);
   model->keep();
   const auto ten_on = [](controllers::RigModel& one) {
-    for (int i = 0; i < 10; ++i) one.step({15.0});
+    for (int i = 0; i < 10; ++i) one.step({15.0}, 1);
     return one.contraction_ratio();
   };
   const auto other = model->copy();
@@ -97,6 +99,75 @@ TEST(RigModel, WithoutFeedbackTheTrueModelFollowsToATenthOfAMillimetre) {
   controllers::ModelInverseSettings settings;
   settings.model = believed({});
   EXPECT_LT(rmse({}, settings), 0.0006);
+}
+
+/// From there and back within 4 s, at a tick of its own.
+Scenario at_tick(double period_s, const controllers::Settings& settings) {
+  Scenario scenario;
+  scenario.rig.tick_s = period_s;
+  scenario.loads_kg = {16.138};
+  scenario.duration_s = 4.0;
+  scenario.target =
+      controllers::MinimumJerk{{0.05, false}, {{0.5, 1.0, {0.12, false}}, {2.5, 1.0, {0.06, false}}}};
+  scenario.controllers = {settings};
+  return scenario;
+}
+
+Comparison compared(const Scenario& scenario) {
+  return compare(scenario, 0, [](const std::string&, std::size_t, std::size_t) {});
+}
+
+// A look-ahead of 8 ticks was an error of 30 mm at 2 ms.
+TEST(RigModel, FollowsAtAnyTick) {
+  controllers::ModelInverseSettings open;
+  controllers::ModelInverseFeedbackSettings closed;
+  open.assumed_load_kg = closed.assumed_load_kg = 16.138;
+  for (const double period_s : {0.0005, 0.002, 0.005, 0.012, 0.02, 0.05})
+    for (const controllers::Settings& settings :
+         {controllers::Settings(open), controllers::Settings(closed)}) {
+      const Comparison all = compared(at_tick(period_s, settings));
+      ASSERT_EQ(all.runs[0].failure, "") << period_s;
+      EXPECT_LT(all.runs[0].metrics.rmse, 0.001) << period_s << ' ' << all.runs[0].controller;
+    }
+}
+
+TEST(RigModel, LooksAheadBeyondTheDeadTimeThatItKnows) {
+  controllers::ModelInverseSettings open;
+  open.assumed_load_kg = 16.138;
+  Scenario scenario = at_tick(0.012, open);
+  scenario.rig.effects.get<plant::CommandDelay>().time_s = 0.1;
+  EXPECT_LT(compared(scenario).runs[0].metrics.rmse, 0.0006);
+}
+
+TEST(RigModel, RefusesALookAheadShorterThanTheRigsAnswer) {
+  controllers::ModelInverseSettings open;
+  open.assumed_load_kg = 16.138;
+  open.look_ahead_s = 0.016;
+  const std::string failure = compared(at_tick(0.002, open)).runs[0].failure;
+  EXPECT_NE(failure.find("look_ahead, 16 ms, is shorter than this rig takes to answer"), std::string::npos)
+      << failure;
+}
+
+// The way from rest to where the target begins is nobody's error, and no tuning's.
+TEST(Compare, ErrorsCountFromTheTargetsFirstMove) {
+  controllers::PidSettings pid;
+  pid.proportional_mA = 40.0;
+  pid.integral_time_s = 0.1;
+  pid.derivative_time_s = 0.05;
+  Scenario scenario = at_tick(0.012, pid);
+  const Comparison moved = compared(scenario);
+  EXPECT_EQ(moved.targets[0].first, 41u);
+  scenario.skip_s = 0.0;
+  const Comparison whole = compared(scenario);
+  EXPECT_EQ(whole.targets[0].first, 0u);
+  EXPECT_EQ(whole.runs[0].recording.samples.size(), moved.runs[0].recording.samples.size());
+  EXPECT_GT(whole.runs[0].metrics.largest_error, 0.045) << "the load rests at 0, the target at 0.05";
+  EXPECT_LT(moved.runs[0].metrics.largest_error, 0.03);
+  scenario.skip_s = 2.0;
+  EXPECT_EQ(compared(scenario).targets[0].first, 167u);
+  scenario.target = controllers::MinimumJerk{{0.05, false}, {}};
+  scenario.skip_s.reset();
+  EXPECT_EQ(compared(scenario).targets[0].first, 0u) << "a target that never moves counts whole";
 }
 
 TEST(RigModel, FeedbackMakesUpForAWrongModelAtEachDelay) {

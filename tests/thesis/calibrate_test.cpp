@@ -145,6 +145,38 @@ std::string refusal(const domain::Dataset& dataset, const Options& options = {})
   return "accepted";
 }
 
+plant::Rig with_a_tube() {
+  plant::Rig rig;
+  auto& tube = rig.effects.get<plant::BladderElasticity>();
+  tube.variant = plant::BladderLaw::saturating;
+  tube.force_N = 80.0;
+  tube.ratio = 0.02;
+  return rig;
+}
+
+TEST(Calibrate, CountsTheTubesPullAndHandsItOn) {
+  const domain::Dataset data = small_campaign({11.138, 16.138, 23.406}, {2.4, 4.8}, with_a_tube());
+  Options options;
+  options.orders = {.speed = 1, .load = 2};
+  options.processing.pressure = PressureSource::gauge;
+  const CalibrationResult found = calibrate(data, options);
+  const plant::Friction truth;  // per cent
+  EXPECT_NEAR(found.friction_of(Direction::contraction).f0.value, 0.01 * truth.f0, 0.1 * 0.01 * truth.f0);
+  ASSERT_TRUE(found.calibration.tube_pull);
+  EXPECT_NEAR(found.calibration.tube_pull->pull_N(0.1, 0.3), 80.0 * (1.0 - std::exp(-5.0)), 1e-9);
+  EXPECT_NE(input::calibration_yaml(found.calibration).find("tube_pull"), std::string::npos);
+  EXPECT_FALSE(calibrated().calibration.tube_pull);
+}
+
+TEST(Calibrate, NamesTheEffectsThatItsForceBalanceCannotCount) {
+  domain::Dataset data = campaign();
+  data.rig.effects.get<plant::EndCapCorrection>().slope = 0.05;
+  EXPECT_NE(
+      refusal(data).find("the rig has end_cap_correction, and the thesis's models know no muscle with it"),
+      std::string::npos)
+      << refusal(data);
+}
+
 testing::AssertionResult says(const std::string& text, const std::string& part) {
   if (text.find(part) != std::string::npos) return testing::AssertionSuccess();
   return testing::AssertionFailure() << "\"" << part << "\" is not in: " << text;

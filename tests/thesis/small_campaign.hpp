@@ -37,8 +37,9 @@ Grid planted_grid(const std::vector<double>& loads_kg, const std::vector<double>
 }
 
 /// A ride of the thesis's rig under a sine of 0 to 20 mA, as a data set would hold it.
-inline domain::Run ride(double load_kg, double period_s, double cycles = 3.0) {
+inline domain::Run ride(double load_kg, double period_s, double cycles = 3.0, const plant::Rig& rig = {}) {
   run::RunPlan plan;
+  plan.rig = rig;
   plan.load_kg = load_kg;
   plan.rig.sensors.put(plant::gauge());
   plan.ticks = static_cast<std::size_t>(std::llround(cycles * period_s / plan.rig.tick_s));
@@ -63,11 +64,13 @@ inline domain::Run ride(double load_kg, double period_s, double cycles = 3.0) {
 
 inline domain::Dataset small_campaign(const std::vector<double>& loads_kg = {11.138, 13.870, 16.138, 18.870,
                                                                              23.406},
-                                      const std::vector<double>& periods_s = {2.4, 3.6, 4.8, 6.0}) {
+                                      const std::vector<double>& periods_s = {2.4, 3.6, 4.8, 6.0},
+                                      const plant::Rig& rig = {}) {
   domain::Dataset dataset;
+  dataset.rig = rig;
   dataset.path = "small/dataset.yaml";
   for (const double load : loads_kg)
-    for (const double period : periods_s) dataset.runs.push_back(ride(load, period));
+    for (const double period : periods_s) dataset.runs.push_back(ride(load, period, 3.0, rig));
   return dataset;
 }
 
