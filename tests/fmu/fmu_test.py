@@ -8,6 +8,7 @@ import copy
 import csv
 import json
 import os
+import re
 import subprocess
 import sys
 import tempfile
@@ -394,6 +395,9 @@ class AnFmu(unittest.TestCase):
                     for each in json.loads((build / "compile_commands.json").read_text())}
         listed = ET.parse(fmu.folder / "sources/buildDescription.xml").getroot().iter("SourceFile")
         self.assertEqual(compiled, {Path(each.get("name")) for each in listed})
+        for file in (fmu.folder / "sources").rglob("*.?pp"):
+            for needed in re.findall(r"#include <((?:plant|sim)/[^>]+)>", file.read_text()):
+                self.assertTrue((fmu.folder / "sources" / needed).is_file(), f"{file} includes {needed}")
 
     def test_is_the_same_file_each_time(self):
         one = Fmu(self.folder, self.rig, "2.0").path.read_bytes()
