@@ -38,6 +38,7 @@ class Batch {
       files.push_back(rig_of(rigs).file);
     const auto loads = static_cast<std::size_t>(loads_kg.size());
     rigs_ = many ? files.size() : loads;
+    if (loads_kg.ndim() > 1) throw py::value_error("loads_kg has the shape (n,)");
     if (rigs_ == 0) throw py::value_error("a batch has one rig at least");
     if (loads != 1 && loads != rigs_) throw py::value_error("loads_kg: one number, or one for each rig");
     std::vector<ride::Loaded> hanging;
@@ -101,8 +102,8 @@ class Batch {
     const auto ticks = static_cast<std::size_t>(command.shape(0));
     const std::span<const double> commands(command.data(), ticks * rigs_);
     for (std::size_t i = 0; i < commands.size(); ++i)
-      command_within(commands[i], rider(i % rigs_).plant().rig(),
-                     fmt::format("command[{}, {}]", i / rigs_, i % rigs_));
+      if (const plant::Rig& rig = rider(i % rigs_).plant().rig(); !is_command(commands[i], rig))
+        command_within(commands[i], rig, fmt::format("command[{}, {}]", i / rigs_, i % rigs_));
     auto rows = std::make_unique<Rows>();
     rows->state.resize(ticks * rigs_ * plant::single_size);
     rows->contraction_ratio.resize(ticks * rigs_);
@@ -146,11 +147,13 @@ class Batch {
   }
   std::vector<double> all(const Numbers& command) const {
     const auto given = static_cast<std::size_t>(command.size());
-    if (given != 1 && given != rigs_) throw py::value_error("command: one number, or one for each rig");
+    if (command.ndim() > 1 || (given != 1 && given != rigs_))
+      throw py::value_error("command: one number, or one for each rig");
     std::vector<double> commands(rigs_, command.data()[0]);
     if (given == rigs_) commands.assign(command.data(), command.data() + rigs_);
     for (std::size_t i = 0; i < rigs_; ++i)
-      command_within(commands[i], rider(i).plant().rig(), fmt::format("command[{}]", i));
+      if (const plant::Rig& rig = rider(i).plant().rig(); !is_command(commands[i], rig))
+        command_within(commands[i], rig, fmt::format("command[{}]", i));
     return commands;
   }
   std::span<const double> of_part(std::span<const double> all, std::size_t part) const {

@@ -31,7 +31,11 @@ std::optional<T> either(std::optional<T> command, std::optional<T> current_mA, p
 
 /// `value`, if it is within; `unit` comes after a number. Throws py::value_error.
 double within(double value, double lowest, double highest, const std::string& name, const std::string& unit);
-/// A command that the rig's DAC can give.
+/// Whether the rig's DAC can give that command.
+inline bool is_command(double value, const plant::Rig& rig) {
+  return value >= rig.dac.lowest_command && value <= rig.dac.largest_command;
+}
+/// One that it can give. Throws py::value_error.
 double command_within(double value, const plant::Rig& rig, const std::string& name);
 
 /// Every field of a rig, as JSON; what has the same is the same rig.

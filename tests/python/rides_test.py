@@ -114,6 +114,8 @@ class Rides(unittest.TestCase):
                 ("contraction_ratio = 0.99", lambda: ride.step(contraction_ratio=0.99)),
                 ("no opposite one", lambda: ride.step(9.0, opposite_command=0.0)),
                 ("no opposite one", lambda: ride.follow([9.0], [9.0])),
+                (r"dt_s = 100000: must be above 0 and at most 60 s", lambda: ride.step(9.0, dt_s=1e5)),
+                (r"loads_kg has the shape \(n,\)", lambda: mckibben.Batch("thesis", [[8.0, 9.0], [8.0, 9.0]])),
                 ("at_s", lambda: ride.start(12.0, at_s=float("nan"))),
                 (r"command\[1\] = 21", lambda: ride.follow([9.0, 21.0])),
                 (r"command\[1\] = nan", lambda: mckibben.Batch("thesis", [8.0, 9.0]).step([9.0, numpy.nan])),
