@@ -165,7 +165,7 @@ std::filesystem::path place_of(const Options& options, const domain::Campaign& c
 
 int make_ensemble(const Options& options, const domain::Campaign& campaign, run::Keep keep) {
   const auto where = place_of(options, campaign, {"", ".unfinished", ".ranks"});
-  cluster::Workplace place(where.string() + ".ranks", cluster::crew());
+  cluster::Workplace place(where.string() + ".ranks", cluster::crew(), say);
   const bool leads = place.crew().leads();
   output::EnsembleFolder folder(where, campaign, keep, leads ? output::Say(say) : nullptr);
   const auto make = [&](unsigned threads, const run::ProgressHook& progress) {
@@ -183,7 +183,7 @@ int make_ensemble(const Options& options, const domain::Campaign& campaign, run:
 
 int make_campaign(const DatasetOptions& options, const domain::Campaign& campaign) {
   const auto where = place_of(options, campaign, {"", "-truth", ".unfinished", ".ranks"});
-  cluster::Workplace place(where.string() + ".ranks", cluster::crew());
+  cluster::Workplace place(where.string() + ".ranks", cluster::crew(), say);
   const output::CampaignFolder folder(where, campaign, options.formats,
                                       place.crew().leads() ? output::Say(say) : nullptr);
   const auto make = [&](unsigned threads, const run::ProgressHook& progress) {

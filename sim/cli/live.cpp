@@ -53,15 +53,13 @@ int show_live(const LiveOptions& options) {
   const fs::path where = destination(options, name + "-live");
   keep_apart(where, inputs);
   live::Host host(rig, load_kg, live::DataSets(where, "live " + options.rig + " " + live::new_token(), say));
-  {
-    const live::Server server(host, live::page_of(name, rig, live::Session(rig, load_kg)), options.port);
-    const input::Json document{{"schema", "mckibben-live/1"}, {"address", server.address()}};
-    print(options, {document.dump(2) + "\n", server.address() + "\n"});
-    std::fflush(stdout);  // whoever reads it through a pipe wants it now
-    say("the page is at this address, on this machine; Ctrl-C ends it");
-    while (!run::interrupted()) host.write_recordings(say);
-  }
-  host.finish(say);
+  const live::Server server(host, live::page_of(name, rig, live::Session(rig, load_kg)), options.port);
+  const input::Json document{{"schema", "mckibben-live/1"}, {"address", server.address()}};
+  print(options, {document.dump(2) + "\n", server.address() + "\n"});
+  std::fflush(stdout);  // whoever reads it through a pipe wants it now
+  say("the page is at this address, on this machine; Ctrl-C ends it");
+  while (!run::interrupted()) host.write_recordings(say);
+  host.finish(say);  // what was recorded is on disk before anybody is waited for
   return done;
 }
 

@@ -153,7 +153,7 @@ int run_scenario(const RunOptions& options) {
   if (options.seed) scenario.seed = *options.seed;
   const auto ranks = destination(options, scenario.name).string() + ".ranks";
   keep_apart(ranks, scenario.inputs);
-  cluster::Workplace place(ranks, crew);
+  cluster::Workplace place(ranks, crew, say);
   if (!crew.leads()) {
     place.begin(key_of(scenario));
     compare(scenario, options, place, [](const auto&, auto, auto) {});

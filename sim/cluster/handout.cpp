@@ -1,8 +1,6 @@
 // A number is claimed before it is looked whether its result is there: so whoever holds all claims (close)
 // knows that nobody begins anything more.
 #include <algorithm>
-#include <chrono>
-#include <thread>
 #include <utility>
 
 #include <sim/cluster/handout.hpp>
@@ -52,11 +50,11 @@ void Handout::done(std::size_t number) {
 }
 
 bool Handout::again() {
-  using namespace std::chrono_literals;
-  if (run::interrupted()) throw run::Interrupted();
   const std::lock_guard lock(mutex_);
   if (held_.empty()) return false;
-  std::this_thread::sleep_for(50ms);
+  if (!wait_ || there_ != there_before_) wait_.emplace(place_, "work that other ranks have begun");
+  there_before_ = there_;
+  wait_->rest();
   again_ = std::exchange(held_, {});
   return true;
 }

@@ -41,6 +41,8 @@ class Handout {
   std::uint64_t first_claim_;
   std::function<bool(std::size_t)> is_there_;
   std::vector<std::size_t> again_, held_;  ///< to be looked at again; seen in the hands of others since
+  std::optional<Workplace::Wait> wait_;
+  std::size_t there_before_ = 0;
   mutable std::mutex mutex_;
 };
 

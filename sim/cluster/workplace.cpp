@@ -1,11 +1,16 @@
 // Locks of open files (F_OFD_SETLK of Linux), and who waits for whom; see the header.
 #include <cerrno>
 #include <chrono>
+#include <climits>
 #include <cstring>
+#include <fstream>
+#include <iterator>
+#include <optional>
 #include <thread>
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <sim/cluster/workplace.hpp>
 #include <sim/output/folder.hpp>
@@ -57,11 +62,28 @@ void rest() {
   std::this_thread::sleep_for(pause);
 }
 
+std::string host() {
+  char name[HOST_NAME_MAX + 1]{};
+  gethostname(name, HOST_NAME_MAX);
+  return name;
+}
+
+/// Its letter in /proc, T if it is stopped; none if it has ended.
+std::optional<char> state_of(const std::string& process) {
+  std::ifstream file("/proc/" + process + "/stat");
+  const std::string said(std::istreambuf_iterator<char>(file), {});
+  const auto name_end = said.rfind(')');
+  return name_end + 2 < said.size() ? std::optional(said[name_end + 2]) : std::nullopt;
+}
+
 }  // namespace
 
-Workplace::Workplace(const fs::path& folder, Crew crew)
+Workplace::Workplace(const fs::path& folder, Crew crew, std::function<void(const std::string&)> say,
+                     std::chrono::milliseconds patience)
     : folder_(output::result_path(folder)),
       crew_(std::move(crew)),
+      say_(std::move(say)),
+      patience_(patience),
       used_(!crew_.alone() || fs::exists(folder_)) {
   if (!used_ || !crew_.leads()) return;
   std::error_code error;
@@ -112,7 +134,8 @@ bool Workplace::joins() const {
 
 void Workplace::wait_for_leader() {
   const auto began = Clock::now();
-  for (bool seen = false;; rest()) {
+  Wait wait(*this, "rank 0 to begin");
+  for (bool seen = false;; wait.rest()) {
     claims_ = output::open_file(folder_ / claims_file, O_RDWR);
     if (claims_ && joins()) return;
     const bool there = claims_ && !is_free(leader_byte);
@@ -131,7 +154,7 @@ void Workplace::begin(const std::string& key) {
   const std::string said = fmt::format("{}\n{}\n", crew_.call, key);
   if (!crew_.leads()) {
     wait_for_leader();
-    output::write_staged(folder_ / rank_file(crew_.rank), "");
+    sign();
     if (output::read_regular(folder_ / call_file) != said)
       throw CannotMeet("rank 0 has read other input, or is another version of the program");
     return;
@@ -143,7 +166,45 @@ void Workplace::begin(const std::string& key) {
     if (name != claims_file && (!same || name.starts_with("rank-") || name == call_file))
       fs::remove(entry.path());
   }
+  sign();
   output::write_staged(folder_ / call_file, said);
+}
+
+void Workplace::sign() const {
+  output::write_staged(folder_ / rank_file(crew_.rank), fmt::format("{} {}", host(), getpid()));
+}
+
+std::string Workplace::who_is_there() const {
+  std::string all;
+  for (int rank = 0; rank < crew_.size; ++rank) {
+    const std::string said = output::read_regular(folder_ / rank_file(rank)).value_or("");
+    const auto blank = said.rfind(' ');
+    if (rank == crew_.rank || blank == std::string::npos) continue;
+    const std::string place = said.substr(0, blank), process = said.substr(blank + 1);
+    const auto state = state_of(process);
+    if (place == host() && !state) continue;
+    const bool stopped = place == host() && (state == 'T' || state == 't');
+    all +=
+        fmt::format("; rank {} (process {}{}){}", rank, process, place == host() ? "" : " on " + place,
+                    stopped ? fmt::format(" is stopped: kill -CONT {0} lets it go on, kill -KILL {0} leaves "
+                                          "its work to the others",
+                                          process)
+                            : "");
+  }
+  return all;
+}
+
+Workplace::Wait::Wait(const Workplace& place, std::string what)
+    : place_(place), what_(std::move(what)), began_(Clock::now()), next_(began_ + place.patience_) {}
+
+void Workplace::Wait::rest() {
+  cluster::rest();
+  const auto now = Clock::now();
+  if (now < next_ || !place_.say_) return;
+  next_ = now + (now - began_);
+  place_.say_(fmt::format("waiting for {} since {} s{}", what_,
+                          std::chrono::duration_cast<std::chrono::seconds>(now - began_).count(),
+                          place_.who_is_there()));
 }
 
 bool Workplace::claim(std::uint64_t number) {
@@ -155,8 +216,9 @@ void Workplace::release(std::uint64_t number) {
 }
 
 void Workplace::close() {
+  Wait wait(*this, "others to let go of what is done");
   if (claims_)
-    while (!lock(Kind::exclusive, 0, work_bytes)) rest();
+    while (!lock(Kind::exclusive, 0, work_bytes)) wait.rest();
 }
 
 void Workplace::leave() {

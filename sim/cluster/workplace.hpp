@@ -4,14 +4,16 @@
 //
 //   FOLDER/call       which call of the launcher, and of what; written when rank 0 has prepared everything
 //          claims     nothing in it; locks on its bytes
-//          rank-N     rank N was here
+//          rank-N     rank N was here: its host and process
 //          STAGE-N    the result of a piece of work (share.hpp)
 //
 // A piece of work gives the same bytes whoever does it, so it would not matter if two did.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <string>
 
 #include <sim/cluster/crew.hpp>
@@ -28,11 +30,26 @@ class CannotMeet : public output::CannotWrite {
 class Workplace {
  public:
   /// Prepares the meeting at `folder`. A process that is alone needs none, unless an earlier crew left one.
-  /// Throws CannotMeet if processes of an earlier call are still at work there; CannotWrite.
-  Workplace(const std::filesystem::path& folder, Crew crew);
+  /// `say` hears whenever `patience` has gone by, and for whom. Throws CannotMeet if processes of an earlier
+  /// call are still at work there; CannotWrite.
+  Workplace(const std::filesystem::path& folder, Crew crew,
+            std::function<void(const std::string&)> say = nullptr,
+            std::chrono::milliseconds patience = std::chrono::minutes(1));
   Workplace(const Workplace&) = delete;
   Workplace& operator=(const Workplace&) = delete;
   ~Workplace();
+
+  /// A wait for others, in a loop: `rest` is a moment. Throws Interrupted.
+  class Wait {
+   public:
+    Wait(const Workplace& place, std::string what);
+    void rest();
+
+   private:
+    const Workplace& place_;
+    std::string what_;
+    std::chrono::steady_clock::time_point began_, next_;
+  };
 
   /// Rank 0: everything is prepared for the job that `key` stands for; results of another are removed. Others
   /// wait for that. Throws CannotMeet if rank 0 is not there, or does something else; Interrupted.
@@ -60,10 +77,14 @@ class Workplace {
   bool is_free(std::uint64_t byte) const;
   bool joins() const;
   void wait_for_leader();
+  void sign() const;
+  std::string who_is_there() const;
   void remove() const;
 
   std::filesystem::path folder_;
   Crew crew_;
+  std::function<void(const std::string&)> say_;
+  std::chrono::milliseconds patience_;
   bool used_, begun_ = false;
   std::uint64_t stage_ = 0;
   output::Descriptor claims_;

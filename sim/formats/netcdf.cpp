@@ -1,13 +1,20 @@
 // NetCDF-4 through the C API; see the header. A table's file is made in memory. Of many runs chunks of HDF5
 // are whole pieces, so each is deflated and written once.
+//
+// Where a disk is full, libnetcdf 4.9 and HDF5 1.10 crash: in nc_close, nc_abort and an exit handler. So a
+// file on disk is synchronised and then closed below libnetcdf; one that failed is left as it is, and its
+// memory goes with the program.
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <cstdlib>
+#include <cstring>
 #include <memory>
 #include <mutex>
 #include <utility>
 
 #include <fmt/format.h>
+#include <hdf5.h>
 #include <netcdf.h>
 #include <netcdf_mem.h>
 
@@ -20,13 +27,44 @@ namespace {
 /// The library is not safe in threads (nor is HDF5 below it): whoever calls it holds this.
 std::mutex& library() {
   static std::mutex mutex;
+  [[maybe_unused]] static const herr_t no_exit_handler = H5dont_atexit();
   return mutex;
 }
 
-/// Throws BadFile if a call failed.
+/// Throws BadFile if a call failed, with what the system objected to where that is known.
 void check(int status) {
   if (status != NC_NOERR)
-    throw BadFile(fmt::format("libnetcdf could not make the file: {}", nc_strerror(status)));
+    throw BadFile(fmt::format("libnetcdf: {}", errno != 0 ? std::strerror(errno) : nc_strerror(status)));
+}
+
+/// To be held for each piece of work.
+class Alone {
+ public:
+  Alone() : lock_(library()) { errno = 0; }
+
+ private:
+  std::lock_guard<std::mutex> lock_;
+};
+
+/// What is open of these kinds: of a file, or of all.
+std::vector<hid_t> open_in(hid_t file, unsigned kinds) {
+  std::vector<hid_t> ids(static_cast<std::size_t>(std::max<ssize_t>(0, H5Fget_obj_count(file, kinds))));
+  H5Fget_obj_ids(file, kinds, ids.size(), ids.data());
+  return ids;
+}
+
+/// Closes a file, and first what is open of it. libnetcdf must not be asked for it again.
+bool close_file(const std::string& path) {
+  for (const hid_t file : open_in(H5F_OBJ_ALL, H5F_OBJ_FILE)) {
+    std::string name(path.size() + 1, '\0');
+    if (H5Fget_name(file, name.data(), name.size()) != static_cast<ssize_t>(path.size()) ||
+        name.c_str() != path)
+      continue;
+    for (const hid_t object : open_in(file, H5F_OBJ_ALL & ~H5F_OBJ_FILE))
+      while (H5Iis_valid(object) > 0 && H5Idec_ref(object) > 0) continue;
+    return H5Fclose(file) >= 0;
+  }
+  return false;
 }
 
 /// A text attribute of a variable, and attributes of the file.
@@ -81,7 +119,7 @@ class Making {
 }  // namespace
 
 std::string netcdf_of(const Table& table) {
-  const std::lock_guard lock(netcdf::library());
+  const netcdf::Alone alone;
   Making file;
   file.put(NC_GLOBAL, "Conventions", "CF-1.8");
   file.put(NC_GLOBAL, "title", table.title);
@@ -126,15 +164,10 @@ int variable(int file, const Column& column, nc_type type, const std::array<int,
 }  // namespace
 
 NetcdfRuns::NetcdfRuns(const std::filesystem::path& path, const RunsLayout& layout)
-    : rows_(layout.time_s.size()) {
-  const std::lock_guard lock(netcdf::library());
+    : path_(path.string()), rows_(layout.time_s.size()) {
+  const netcdf::Alone alone;
   check(nc_create(path.c_str(), NC_NETCDF4 | NC_CLOBBER, &id_));
-  try {
-    define(layout);
-  } catch (const BadFile&) {
-    nc_abort(std::exchange(id_, -1));
-    throw;
-  }
+  define(layout);
 }
 
 void NetcdfRuns::define(const RunsLayout& layout) {
@@ -161,26 +194,22 @@ void NetcdfRuns::define(const RunsLayout& layout) {
   if (rows_ > 0) check(nc_put_var_double(id_, times, layout.time_s.data()));
 }
 
-NetcdfRuns::~NetcdfRuns() {
-  const std::lock_guard lock(netcdf::library());
-  if (id_ >= 0) nc_abort(id_);
-}
-
 void NetcdfRuns::put_of_run(std::size_t k, std::span<const double> values) {
-  const std::lock_guard lock(netcdf::library());
+  const netcdf::Alone alone;
   const std::size_t start = first_, count = values.size();
   check(nc_put_vara_double(id_, of_run_[k], &start, &count, values.data()));
 }
 
 void NetcdfRuns::put_of_row(std::size_t k, std::span<const float> values) {
-  const std::lock_guard lock(netcdf::library());
+  const netcdf::Alone alone;
   const std::array<std::size_t, 2> start{first_, 0}, count{values.size() / rows_, rows_};
   check(nc_put_vara_float(id_, of_row_[k], start.data(), count.data(), values.data()));
 }
 
-void NetcdfRuns::close() {
-  const std::lock_guard lock(netcdf::library());
-  check(nc_close(std::exchange(id_, -1)));
+void NetcdfRuns::finish() {
+  const netcdf::Alone alone;
+  check(nc_sync(id_));
+  if (!netcdf::close_file(path_)) check(NC_EHDFERR);
 }
 
 }  // namespace mckibben::formats

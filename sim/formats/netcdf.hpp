@@ -23,13 +23,13 @@ struct RunsLayout {
 };
 
 /// Written in the same pieces, the same numbers give the same bytes. Numbers of rows are kept as floats,
-/// shuffled and deflated. Safe beside other writers of NetCDF. Throws BadFile.
+/// shuffled and deflated. Safe beside other writers of NetCDF. Throws BadFile, and what was written then is
+/// no file.
 class NetcdfRuns {
  public:
   NetcdfRuns(const std::filesystem::path& path, const RunsLayout& layout);
   NetcdfRuns(const NetcdfRuns&) = delete;
   NetcdfRuns& operator=(const NetcdfRuns&) = delete;
-  ~NetcdfRuns();
 
   /// Column k of the next `count` runs: of each a number, or its rows one run after the other.
   void put_of_run(std::size_t k, std::span<const double> values);
@@ -37,12 +37,14 @@ class NetcdfRuns {
   /// The next runs begin after these.
   void next(std::size_t count) { first_ += count; }
 
-  void close();
+  /// All of it is in the file.
+  void finish();
 
  private:
   void define(const RunsLayout& layout);
 
-  int id_ = -1;
+  std::string path_;
+  int id_ = 0;
   std::size_t first_ = 0, rows_;
   std::vector<int> of_run_, of_row_;
 };

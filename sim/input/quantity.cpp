@@ -1,7 +1,7 @@
 // Quantities through UDUNITS-2; see the header. UDUNITS is neither thread-safe nor strict about where a
-// number may stand ("5 3 kg" would be 15 kg), so calls are serialised and the unit's spelling is checked
-// first. It counts radians as dimensionless;
-// a unit's definition still names them, which tells angles from ratios.
+// number may stand ("5 3 kg" would be 15 kg), and reads its own numbers by the locale. So calls are
+// serialised, under the locale C, and the unit's spelling is checked first. It counts radians as
+// dimensionless; a unit's definition still names them, which tells angles from ratios.
 #include <cctype>
 #include <cerrno>
 #include <cmath>
@@ -12,6 +12,7 @@
 #include <system_error>
 
 #include <fmt/format.h>
+#include <locale.h>  // of POSIX
 #include <udunits2.h>
 
 #include <sim/input/number.hpp>
@@ -33,9 +34,29 @@ using Converter = std::unique_ptr<cv_converter, FreeConverter>;
 constexpr std::size_t longest_quantity = 200;
 constexpr std::string_view unknown_spread = "unknown";
 
-std::mutex udunits_mutex;
+/// Whoever calls UDUNITS holds this: alone, and with a decimal point whatever the program's locale.
+class InUdunits {
+ public:
+  InUdunits() : lock_(mutex()), before_(uselocale(with_points())) {}
+  InUdunits(const InUdunits&) = delete;
+  InUdunits& operator=(const InUdunits&) = delete;
+  ~InUdunits() { uselocale(before_); }
 
-/// The unit database, read once. Call with the mutex held.
+ private:
+  static std::mutex& mutex() {
+    static std::mutex one;
+    return one;
+  }
+  static locale_t with_points() {
+    static const locale_t c = newlocale(LC_ALL_MASK, "C", nullptr);
+    return c;
+  }
+
+  std::lock_guard<std::mutex> lock_;
+  locale_t before_;
+};
+
+/// The unit database, read once. Call in UDUNITS.
 ut_system* unit_system() {
   struct FreeSystem {
     void operator()(ut_system* system) const { ut_free_system(system); }
@@ -90,7 +111,7 @@ enum class Fit { fits, unknown, wrong };
 Fit convert(std::span<double> values, std::string_view from, std::string_view to) {
   if (from == to) return Fit::fits;
   if (!spelt_like_a_unit(from)) return Fit::unknown;
-  const std::lock_guard lock(udunits_mutex);
+  const InUdunits here;
   const Unit given = parse_unit(from);
   if (!given) return Fit::unknown;
   const Unit wanted = parse_unit(to);
@@ -160,7 +181,7 @@ ut_status Definition::galilean(const ut_unit*, double scale, const ut_unit* unit
 std::optional<law::UnitSize> unit_size(std::string_view unit) {
   if (unit == "1") return law::UnitSize{};
   if (!spelt_like_a_unit(unit)) return std::nullopt;
-  const std::lock_guard lock(udunits_mutex);
+  const InUdunits here;
   const Unit given = parse_unit(unit);
   Definition found;
   if (!given || ut_accept_visitor(given.get(), &definition, &found) != UT_SUCCESS || !found.from_zero)

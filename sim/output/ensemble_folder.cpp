@@ -93,15 +93,15 @@ EnsembleFolder::EnsembleFolder(const fs::path& destination, const domain::Campai
       shape_(campaign, keep),
       moments_(shape_.of_run.size()) {
   const auto files = [this](const std::string& plan) { return files_in(unfinished_, plan); };
-  open(plan_of(campaign, shape_, keep).dump(2) + "\n", files, "ensemble " + campaign.name, {},
-       [&](bool kept) {
-         if (kept)
-           say_(fmt::format("{}: {} of {} runs are there already; going on", unfinished_.string(),
-                            runs_there(), shape_.runs));
-         fs::create_directories(unfinished_ / "blocks");
-         fs::create_directories(unfinished_ / "data");
-         file_.emplace(unfinished_ / "data" / ensemble_file, layout_of(campaign_, shape_));
-       });
+  open(
+      plan_of(campaign, shape_, keep).dump(2) + "\n", files, "ensemble " + campaign.name, {}, [&](bool kept) {
+        fs::create_directories(unfinished_ / "blocks");
+        fs::create_directories(unfinished_ / "data");
+        if (kept)
+          say_(fmt::format("{}: {} of {} runs are there already; going on", unfinished_.string(),
+                           runs_there(), shape_.runs));
+        into_file([&] { file_.emplace(unfinished_ / "data" / ensemble_file, layout_of(campaign_, shape_)); });
+      });
 }
 
 fs::path EnsembleFolder::file_of(std::size_t block) const {
@@ -138,10 +138,20 @@ void EnsembleFolder::gather() {
       say_(fmt::format("block {} is not as written, and made again", gathered_));
       return;
     }
-    for (std::size_t k = 0; k < shape_.of_run.size(); ++k) file_->put_of_run(k, block->of_run(k));
-    for (std::size_t k = 0; k < shape_.of_row.size(); ++k) file_->put_of_row(k, block->of_row(k));
+    into_file([&] {
+      for (std::size_t k = 0; k < shape_.of_run.size(); ++k) file_->put_of_run(k, block->of_run(k));
+      for (std::size_t k = 0; k < shape_.of_row.size(); ++k) file_->put_of_row(k, block->of_row(k));
+    });
     file_->next(block->size());
     count(*block);
+  }
+}
+
+void EnsembleFolder::into_file(const std::function<void()>& work) const {
+  try {
+    work();
+  } catch (const formats::BadFile& bad) {
+    cannot_write(unfinished_ / "data" / ensemble_file, bad.what());
   }
 }
 
@@ -212,7 +222,7 @@ std::string EnsembleFolder::table() const {
 }
 
 void EnsembleFolder::publish() {
-  file_->close();
+  into_file([&] { file_->finish(); });
   writing(unfinished_, [&] {
     const std::string text = document(), data = "data/";
     write_staged(unfinished_ / data / document_file, text);

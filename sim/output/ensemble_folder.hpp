@@ -8,6 +8,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -48,7 +49,7 @@ class EnsembleFolder : public ResumedFolder {
   void put(std::size_t block, const run::EnsembleBlock& runs) const;
 
   /// Enters all blocks that come next and are there into the file; rank 0 only, one thread at a time. Throws
-  /// formats::BadFile.
+  /// CannotWrite.
   void gather();
   /// Whether all are.
   bool gathered() const { return gathered_ == shape_.blocks(); }
@@ -66,6 +67,7 @@ class EnsembleFolder : public ResumedFolder {
  private:
   std::filesystem::path file_of(std::size_t block) const;
   std::optional<run::EnsembleBlock> read(const std::filesystem::path& path, std::size_t block) const;
+  void into_file(const std::function<void()>& work) const;
   void count(const run::EnsembleBlock& block);
 
   const domain::Campaign& campaign_;

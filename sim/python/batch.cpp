@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include <fmt/format.h>
+
 #include <plant/instruments.hpp>
 #include <sim/python/inputs.hpp>
 #include <sim/python/long_work.hpp>
@@ -36,6 +38,7 @@ class Batch {
       files.push_back(rig_of(rigs).file);
     const auto loads = static_cast<std::size_t>(loads_kg.size());
     rigs_ = many ? files.size() : loads;
+    if (loads_kg.ndim() > 1) throw py::value_error("loads_kg has the shape (n,)");
     if (rigs_ == 0) throw py::value_error("a batch has one rig at least");
     if (loads != 1 && loads != rigs_) throw py::value_error("loads_kg: one number, or one for each rig");
     std::vector<ride::Loaded> hanging;
@@ -72,6 +75,7 @@ class Batch {
     const py::gil_scoped_release released;
     counters_.clear();
     for (std::size_t i = 0; i < rigs_; ++i) counters_.emplace_back(rider(i).plant().rig());
+    whole_ = true;
     ticks_ = -settling_ticks_;
     for_each_part([&](std::size_t p) {
       const auto mine = of_part(commands, p);
@@ -83,6 +87,7 @@ class Batch {
 
   void step(const Numbers& command) {
     const Turn turn(busy_);
+    require_whole();
     const std::vector<double> commands = all(command);
     const py::gil_scoped_release released;
     for_each_part([&](std::size_t p) { step(p, of_part(commands, p), ticks_); });
@@ -91,19 +96,24 @@ class Batch {
 
   py::dict follow(const Numbers& command, const py::object& progress) {
     const Turn turn(busy_);
+    require_whole();
     if (command.ndim() != 2 || static_cast<std::size_t>(command.shape(1)) != rigs_)
       throw py::value_error("command has the shape (ticks, rigs)");
     const auto ticks = static_cast<std::size_t>(command.shape(0));
     const std::span<const double> commands(command.data(), ticks * rigs_);
-    require_finite(commands);
+    for (std::size_t i = 0; i < commands.size(); ++i)
+      if (const plant::Rig& rig = rider(i % rigs_).plant().rig(); !is_command(commands[i], rig))
+        command_within(commands[i], rig, fmt::format("command[{}, {}]", i / rigs_, i % rigs_));
     auto rows = std::make_unique<Rows>();
     rows->state.resize(ticks * rigs_ * plant::single_size);
     rows->contraction_ratio.resize(ticks * rigs_);
     for (std::size_t k = 0; k < ticks; ++k) rows->time_s.push_back(time_s(ticks_ + static_cast<long>(k)));
+    whole_ = false;  // where it ends on the way, parts have come to different instants
     do_long(progress, [&](const run::ProgressHook& hook) {
       for_each_part([&](std::size_t p) { follow(p, commands, *rows); },
                     [&](std::size_t done) { hook("following", done, parts_.size()); });
     });
+    whole_ = true;
     ticks_ += static_cast<long>(ticks);
     return as_dict(std::move(rows));
   }
@@ -132,16 +142,18 @@ class Batch {
  private:
   static constexpr std::size_t most = engine::Batch::most_lanes;  // rigs of a part
 
-  static void require_finite(std::span<const double> commands) {
-    for (const double command : commands)
-      if (!std::isfinite(command)) throw py::value_error("command holds what is no finite number");
+  void require_whole() const {
+    if (!whole_) throw std::runtime_error("it was interrupted on the way; start it again");
   }
   std::vector<double> all(const Numbers& command) const {
     const auto given = static_cast<std::size_t>(command.size());
-    if (given != 1 && given != rigs_) throw py::value_error("command: one number, or one for each rig");
+    if (command.ndim() > 1 || (given != 1 && given != rigs_))
+      throw py::value_error("command: one number, or one for each rig");
     std::vector<double> commands(rigs_, command.data()[0]);
     if (given == rigs_) commands.assign(command.data(), command.data() + rigs_);
-    require_finite(commands);
+    for (std::size_t i = 0; i < rigs_; ++i)
+      if (const plant::Rig& rig = rider(i).plant().rig(); !is_command(commands[i], rig))
+        command_within(commands[i], rig, fmt::format("command[{}]", i));
     return commands;
   }
   std::span<const double> of_part(std::span<const double> all, std::size_t part) const {
@@ -200,6 +212,7 @@ class Batch {
   plant::CommandUnit unit_{};
   double tick_s_ = 0.0;
   long ticks_ = 0, settling_ticks_ = 0;
+  bool whole_ = true;
   Turn::Busy busy_{false};
 };
 

@@ -1,6 +1,8 @@
 // Values as YAML in its plain part, which JSON is; see the header.
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <sim/input/limits.hpp>
 #include <sim/input/rigs.hpp>
 #include <sim/python/dicts.hpp>
 
@@ -19,11 +21,20 @@ std::string told(const std::vector<input::Problem>& problems, const BadDict::Pat
   return text;
 }
 
+/// A str as UTF-8. Throws UnicodeEncodeError, a ValueError, where it is none.
+std::string utf8_of(const py::handle& str) {
+  py::ssize_t size = 0;
+  const char* const text = PyUnicode_AsUTF8AndSize(str.ptr(), &size);
+  if (text == nullptr) throw py::error_already_set();
+  return {text, static_cast<std::size_t>(size)};
+}
+
 class Writer {
  public:
   explicit Writer(DictText& into) : into_(into) {}
 
   void map(const py::handle& dict, const std::string& path, const std::string& schema = {}) {
+    const Level level(*this, path);
     into_.text += '{';
     bool first = true;
     const auto item = [&](const std::string& key, const py::handle& item_value) {
@@ -35,12 +46,32 @@ class Writer {
     if (!schema.empty()) item("schema", py::str(schema));
     for (const auto& [key, item_value] : py::reinterpret_borrow<py::dict>(dict)) {
       if (!py::isinstance<py::str>(key)) throw py::type_error("keys are words, not " + word(key));
-      item(key.cast<std::string>(), item_value);
+      item(utf8_of(key), item_value);
     }
     into_.text += '}';
   }
 
  private:
+  /// One more bracket around what follows. Its reader would refuse as many; a dict in itself has no end.
+  class Level {
+   public:
+    Level(Writer& writer, const std::string& path) : writer_(writer) {
+      if (++writer_.depth_ > input::deepest_yaml)
+        throw BadDict({{input::Severity::error,
+                        writer_.into_.name,
+                        {},
+                        fmt::format("nested deeper than {} levels", input::deepest_yaml),
+                        ""}},
+                      {path});
+    }
+    Level(const Level&) = delete;
+    Level& operator=(const Level&) = delete;
+    ~Level() { --writer_.depth_; }
+
+   private:
+    Writer& writer_;
+  };
+
   void line(bool& first, const std::string& path) {
     into_.text += first ? "\n" : ",\n";
     into_.paths.push_back(path);
@@ -48,6 +79,7 @@ class Writer {
   }
 
   void list(const py::handle& items, const std::string& path) {
+    const Level level(*this, path);
     into_.text += '[';
     bool first = true;
     std::size_t index = 0;
@@ -71,15 +103,18 @@ class Writer {
     } else if (py::isinstance<py::bool_>(value_of)) {
       into_.text += value_of.cast<bool>() ? "true" : "false";
     } else if (py::isinstance<py::str>(value_of)) {
-      into_.text += input::Json(value_of.cast<std::string>()).dump();
-    } else if (py::isinstance<py::int_>(value_of) || py::isinstance<py::float_>(value_of)) {
-      into_.text += word(value_of);
+      into_.text += input::Json(utf8_of(value_of)).dump();
+    } else if (py::isinstance<py::int_>(value_of)) {
+      into_.text += number(value_of, PyLong_Type);
+    } else if (py::isinstance<py::float_>(value_of)) {
+      into_.text += number(value_of, PyFloat_Type);
     } else if (py::isinstance<py::list>(value_of) || py::isinstance<py::tuple>(value_of)) {
       list(value_of, path);
     } else if (py::hasattr(value_of, "tolist")) {  // NumPy's arrays and numbers
+      const Level level(*this, path);
       value(value_of.attr("tolist")(), path);
     } else if (py::hasattr(value_of, "__fspath__")) {
-      value(value_of.attr("__fspath__")(), path);
+      value(py::str(py::module_::import("os").attr("fspath")(value_of)), path);
     } else {
       throw py::type_error(path + ": no file can hold a " +
                            py::str(py::type::of(value_of).attr("__name__")).cast<std::string>());
@@ -88,7 +123,15 @@ class Writer {
 
   static std::string word(const py::handle& value) { return py::repr(value).cast<std::string>(); }
 
+  /// As int or float has it, whatever a class that is one of them prints.
+  static std::string number(const py::handle& value, const PyTypeObject& type) {
+    const auto digits = py::reinterpret_steal<py::object>(type.tp_repr(value.ptr()));
+    if (!digits) throw py::error_already_set();
+    return utf8_of(digits);
+  }
+
   DictText& into_;
+  std::size_t depth_ = 0;
 };
 
 }  // namespace
@@ -103,6 +146,12 @@ void DictText::refuse(const std::vector<input::Problem>& problems) const {
     at.push_back(line > 0 && line <= paths.size() ? std::optional(paths[line - 1]) : std::nullopt);
   }
   throw BadDict(problems, at);
+}
+
+std::string path_of(const py::object& from) {
+  std::string path = py::module_::import("os").attr("fsencode")(from).cast<std::string>();
+  if (path.find('\0') != std::string::npos) throw py::value_error("a path has no null characters");
+  return path;
 }
 
 DictText text_of(const py::dict& dict, const std::string& name, const std::string& schema) {

@@ -42,13 +42,16 @@ struct DictText {
 /// no file can hold.
 DictText text_of(const py::dict& dict, const std::string& name, const std::string& schema);
 
+/// The bytes of a path, or of whatever names one. Throws py::type_error, py::value_error for what no file can
+/// be called.
+std::string path_of(const py::object& from);
+
 /// What `read` makes of a dict's text or of a file. `from`: a dict, or a path; `folder`: where a dict's
 /// relative paths start.
 template <class FromText, class FromPath>
 auto read_either(const py::object& from, const std::filesystem::path& folder, const std::string& name,
                  const std::string& schema, const FromText& from_text, const FromPath& from_path) {
-  if (!py::isinstance<py::dict>(from))
-    return from_path(py::module_::import("os").attr("fspath")(from).cast<std::string>());
+  if (!py::isinstance<py::dict>(from)) return from_path(path_of(from));
   const DictText dict = text_of(from.cast<py::dict>(), name, schema);
   try {
     return from_text(input::Source(dict.name, dict.text, folder));

@@ -147,10 +147,7 @@ void add_diagnosis(py::module_& module) {
           "because", [](const Diagnosis& d) { return d.found->diagnosis.because; },
           "The verdict in a sentence.")
       .def_property_readonly(
-          "rig",
-          [](const Diagnosis& d) {
-            return Rig{d.found->diagnosis.corrected, {}};
-          },
+          "rig", [](const Diagnosis& d) { return Rig{d.found->diagnosis.corrected}; },
           "The corrected rig, to run or replay.")
       .def(
           "rig_yaml", [](const Diagnosis& d) { return output::rig_yaml(*d.data, d.found->diagnosis); },

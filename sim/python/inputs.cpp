@@ -1,5 +1,7 @@
 // Rigs, scenarios and data sets: from files or dicts, by the readers of the command line.
+#include <algorithm>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <pybind11/stl/filesystem.h>
 
@@ -9,6 +11,7 @@
 #include <sim/input/scenario_file.hpp>
 #include <sim/python/dicts.hpp>
 #include <sim/python/inputs.hpp>
+#include <sim/python/pickles.hpp>
 #include <sim/run/simulate.hpp>
 #include <sim/run/track.hpp>
 
@@ -16,25 +19,36 @@ namespace mckibben::python {
 
 Rig rig_of(const py::object& from, const std::filesystem::path& folder) {
   if (py::isinstance<Rig>(from)) return from.cast<Rig>();
-  Rig rig;
-  rig.file = read_either(
+  std::vector<domain::InputFile> inputs;
+  return {read_either(
       from, folder, "rig", std::string(input::rig_schema),
-      [&](input::Source source) { return input::read_rig(std::move(source), rig.inputs); },
-      [&](const std::string& name_or_path) { return input::read_rig(name_or_path, rig.inputs); });
-  return rig;
+      [&](input::Source source) { return input::read_rig(std::move(source), inputs); },
+      [&](const std::string& name_or_path) { return input::read_rig(name_or_path, inputs); })};
 }
 
-namespace {
+double within(double value, double lowest, double highest, const std::string& name, const std::string& unit) {
+  if (value >= lowest && value <= highest) return value;
+  throw py::value_error(
+      fmt::format("{} = {:g}: must be from {:g} to {:g} {}", name, value, lowest, highest, unit));
+}
 
-std::string json_of(const plant::Rig& rig) {
+double command_within(double value, const plant::Rig& rig, const std::string& name) {
+  return within(value, rig.dac.lowest_command, rig.dac.largest_command, name,
+                std::string(name_of(rig.command_unit())));
+}
+
+std::string fields_of(const plant::Rig& rig) {
   input::Json json = input::rig_json(rig);
   json.erase("schema");
   return json.dump();
 }
 
+namespace {
+
 std::string repr_of_rig(const Rig& rig) {
-  return std::string("<mckibben.Rig: ") + (rig.file.pair() != nullptr ? "two muscles" : "one muscle") +
-         ", rest length " + std::to_string(rig.file.muscle.rest_length_m) + " m>";
+  return fmt::format("<mckibben.Rig: {}, rest length {:.6f} m>",
+                     rig.file.pair() != nullptr ? "two muscles" : "one muscle",
+                     rig.file.muscle.rest_length_m);
 }
 
 /// The schema of a dict that does not say it.
@@ -45,14 +59,15 @@ std::string schema_for(const py::object& from) {
 
 Scenario scenario_of(const py::object& from, const std::filesystem::path& folder) {
   std::vector<input::Problem> problems;
-  Scenario scenario{
-      read_either(
-          from, folder, "scenario", schema_for(from),
-          [&](input::Source source) { return input::read_scenario(std::move(source), problems); },
-          [&](const std::string& path) {
-            return input::read_scenario(std::filesystem::path(path), problems);
-          }),
-      {}};
+  std::filesystem::path start = folder;
+  domain::Scenario read = read_either(
+      from, folder, "scenario", schema_for(from),
+      [&](input::Source source) { return input::read_scenario(std::move(source), problems); },
+      [&](const std::filesystem::path& path) {
+        start = path.parent_path();
+        return input::read_scenario(path, problems);
+      });
+  Scenario scenario{std::move(read), std::filesystem::absolute(start), {}};
   for (const auto& problem : problems)
     scenario.warnings.push_back(input::where(problem) + ": " + problem.message);
   warn(scenario.warnings);
@@ -69,32 +84,89 @@ domain::Dataset read_dataset(const py::object& from, const std::filesystem::path
   return read_either(
       from, folder, (folder / "dataset").lexically_normal().string(), std::string(input::dataset_schema),
       [](input::Source source) { return input::read_dataset(std::move(source)); },
-      [](const std::string& path) { return input::read_dataset(std::filesystem::path(path)); });
+      [](const std::filesystem::path& path) { return input::read_dataset(path); });
+}
+
+/// Where in the arrays a problem of the file is that was written of them: `written` is the run's place in the
+/// list, and the names of its columns.
+std::string place_in_arrays(const input::Problem& problem, const py::tuple& written) {
+  const std::string data = "runs[" + py::str(written[0]).cast<std::string>() + "].data";
+  if (problem.place.line < 2) return data;
+  const std::string row = "[" + std::to_string(problem.place.line - 2) + "]";
+  const std::string before = problem.source_line.substr(0, problem.place.column - 1);
+  const auto column = static_cast<std::size_t>(std::ranges::count(before, ','));
+  const py::list names = written[1];
+  if (problem.source_line.empty() || problem.place.column == 0 || column >= names.size()) return data + row;
+  return data + "[" + py::repr(names[column]).cast<std::string>() + "]" + row;
+}
+
+/// The same problems, those of files that were written of arrays with their place in these.
+BadDict of_arrays(const BadDict& bad, const py::dict& written) {
+  std::vector<input::Problem> problems = bad.problems();
+  BadDict::Paths paths = bad.paths();
+  for (std::size_t i = 0; i < problems.size(); ++i) {
+    if (!written.contains(problems[i].file)) continue;
+    paths[i] = place_in_arrays(problems[i], written[problems[i].file.c_str()]);
+    problems[i].file = "dataset";
+    problems[i].source_line.clear();
+  }
+  return {std::move(problems), std::move(paths)};
 }
 
 /// Tables at hand go the way of files, so that they are checked as these are.
 domain::Dataset dataset_of(const py::object& from, const std::filesystem::path& folder) {
   if (!py::isinstance<py::dict>(from)) return read_dataset(from, folder);
-  const py::tuple made = of_package("tables", "with_files")(from);  // and the folder of the files
+  const py::tuple made =
+      of_package("tables", "with_files")(from);  // the folder of the files, what is in them
   try {
     domain::Dataset data = read_dataset(made[0], folder);
     made[1].attr("cleanup")();
     return data;
+  } catch (const BadDict& bad) {
+    made[1].attr("cleanup")();
+    throw of_arrays(bad, made[2]);
   } catch (...) {
     made[1].attr("cleanup")();
     throw;
   }
 }
 
+/// What a pickle of a scenario has: its fields, and what is not among them. Files that it names are read
+/// again.
+py::tuple pickled_scenario(const Scenario& scenario) {
+  py::list inputs;
+  for (const domain::InputFile& input : scenario.what.inputs)
+    inputs.append(py::make_tuple(input.name, input.sha256));
+  return py::make_tuple(input::scenario_json(scenario.what).dump(), scenario.folder.string(),
+                        scenario.what.name, inputs, scenario.warnings);
+}
+
+Scenario unpickled_scenario(const py::tuple& state) {
+  std::vector<input::Problem> warned;
+  Scenario scenario{{}, state[1].cast<std::string>(), state[4].cast<std::vector<std::string>>()};
+  scenario.what =
+      input::read_scenario(input::Source("scenario", state[0].cast<std::string>(), scenario.folder), warned);
+  scenario.what.name = state[2].cast<std::string>();
+  scenario.what.inputs.clear();
+  for (const auto& input : state[3].cast<py::list>()) {
+    const auto pair = input.cast<py::tuple>();
+    scenario.what.inputs.push_back({pair[0].cast<std::string>(), pair[1].cast<std::string>()});
+  }
+  return scenario;
+}
+
 }  // namespace
 
 void add_inputs(py::module_& module) {
-  py::class_<Rig>(module, "Rig", "A rig and how its equations are solved, as a rig file describes it.")
+  py::class_<Rig> rigs(module, "Rig", "A rig and how its equations are solved, as a rig file describes it.");
+  never_changes(rigs);
+  rigs.def(py::pickle([](const Rig& it) { return py::make_tuple(fields_of(it.file)); },
+                      [](const py::tuple& state) { return rig_of(from_json(state[0].cast<std::string>())); }))
       .def(py::init(&rig_of), py::arg("source") = "thesis", py::arg("folder") = ".",
            "A shipped rig by its name, a rig file by its path, or a dict of what would stand in one. "
            "Relative paths in a dict start at `folder`. Raises InputError, MissingInput.")
       .def(
-          "to_dict", [](const Rig& rig) { return from_json(json_of(rig.file)); },
+          "to_dict", [](const Rig& rig) { return from_json(fields_of(rig.file)); },
           "Every field, as a rig file has it: quantities with their units. Reads back to the same bits.")
       .def(
           "dac_output",
@@ -142,13 +214,15 @@ void add_inputs(py::module_& module) {
       .def(
           "__eq__",
           [](const Rig& a, const py::object& b) {
-            return py::isinstance<Rig>(b) && json_of(a.file) == json_of(b.cast<const Rig&>().file);
+            return py::isinstance<Rig>(b) && fields_of(a.file) == fields_of(b.cast<const Rig&>().file);
           },
           py::is_operator())
       .def("__repr__", &repr_of_rig);
 
-  py::class_<Scenario>(module, "Scenario",
-                       "Which rig lifts which loads along which target, or two currents of a pair.")
+  py::class_<Scenario> scenarios(
+      module, "Scenario", "Which rig lifts which loads along which target, or two currents of a pair.");
+  never_changes(scenarios);
+  scenarios.def(py::pickle(&pickled_scenario, &unpickled_scenario))
       .def(py::init(&scenario_of), py::arg("source"), py::arg("folder") = ".",
            "A scenario file by its path, or a dict of what would stand in one (docs/scenarios.md). Where the "
            "dict has `currents` and no `schema`, it is one of a pair of muscles. `rig` may be a Rig. Raises "
@@ -160,18 +234,16 @@ void add_inputs(py::module_& module) {
       .def_property_readonly(
           "name", [](const Scenario& s) { return s.what.name; }, "What folders of its results are called.")
       .def_property_readonly(
-          "rig",
-          [](const Scenario& s) {
-            return Rig{s.what.rig, {}};
-          },
-          "Its rig.")
+          "rig", [](const Scenario& s) { return Rig{s.what.rig}; }, "Its rig.")
       .def_property_readonly(
           "target", &sampled_target,
           "Contraction ratio that is wanted at each tick [1], shape (ticks,); None for a pair.")
       .def_readonly("warnings", &Scenario::warnings, "What its reader warned of.");
 
-  py::class_<domain::Dataset, std::shared_ptr<domain::Dataset>>(module, "Dataset",
-                                                                "Measured runs, and the rig they are of.")
+  py::class_<domain::Dataset, std::shared_ptr<domain::Dataset>> datasets(
+      module, "Dataset", "Measured runs, and the rig they are of.");
+  never_changes(datasets);
+  datasets
       .def(py::init([](const py::object& from, const std::filesystem::path& folder) {
              return std::make_shared<domain::Dataset>(dataset_of(from, folder));
            }),
@@ -181,11 +253,7 @@ void add_inputs(py::module_& module) {
            "which a run may have `data` in place of `file`: its columns as arrays, in a dict, a structured "
            "array or a DataFrame. Raises InputError, MissingInput.")
       .def_property_readonly(
-          "rig",
-          [](const domain::Dataset& data) {
-            return Rig{data.rig, data.inputs};
-          },
-          "The nominal rig.")
+          "rig", [](const domain::Dataset& data) { return Rig{data.rig}; }, "The nominal rig.")
       .def_property_readonly(
           "ids",
           [](const domain::Dataset& data) {

@@ -14,6 +14,7 @@ namespace mckibben::python {
 
 struct Scenario {
   domain::Scenario what;
+  std::filesystem::path folder;       ///< where its relative paths start
   std::vector<std::string> warnings;  ///< of its reader
 };
 
@@ -27,6 +28,18 @@ std::optional<T> either(std::optional<T> command, std::optional<T> current_mA, p
                           ": say command, not current_mA");
   return current_mA;
 }
+
+/// `value`, if it is within; `unit` comes after a number. Throws py::value_error.
+double within(double value, double lowest, double highest, const std::string& name, const std::string& unit);
+/// Whether the rig's DAC can give that command.
+inline bool is_command(double value, const plant::Rig& rig) {
+  return value >= rig.dac.lowest_command && value <= rig.dac.largest_command;
+}
+/// One that it can give. Throws py::value_error.
+double command_within(double value, const plant::Rig& rig, const std::string& name);
+
+/// Every field of a rig, as JSON; what has the same is the same rig.
+std::string fields_of(const plant::Rig& rig);
 
 /// From a Rig, a name, a path or a dict, whose relative paths start at `folder`.
 Rig rig_of(const py::object& from, const std::filesystem::path& folder = ".");

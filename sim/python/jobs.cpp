@@ -8,6 +8,7 @@
 #include <sim/python/inputs.hpp>
 #include <sim/python/jobs.hpp>
 #include <sim/python/long_work.hpp>
+#include <sim/python/pickles.hpp>
 #include <sim/report/report.hpp>
 #include <sim/run/compare.hpp>
 #include <sim/run/replay.hpp>
@@ -109,7 +110,25 @@ std::shared_ptr<Simulated> run_at(const Result& result, py::ssize_t index) {
 }  // namespace
 
 void add_jobs(py::module_& module) {
-  py::class_<Result>(module, "Result", "Runs, and what is to be said of them.")
+  py::class_<Result> result_class(module, "Result", "Runs, and what is to be said of them.");
+  never_changes(result_class);
+  result_class
+      .def(py::pickle(
+          [](const Result& result) {
+            return py::make_tuple(result.runs, result.warnings, result.unmet, result.table(),
+                                  result.document(), result.report());
+          },
+          [](const py::tuple& state) {
+            const auto made = [&](std::size_t i) {
+              return [text = state[i].cast<std::string>()] { return text; };
+            };
+            return Result{state[0].cast<std::vector<std::shared_ptr<Simulated>>>(),
+                          state[1].cast<std::vector<std::string>>(),
+                          state[2].cast<std::vector<std::string>>(),
+                          made(3),
+                          made(4),
+                          made(5)};
+          }))
       .def_property_readonly(
           "runs", [](const Result& result) { return py::tuple(py::cast(result.runs)); }, "All runs.")
       .def("__len__", [](const Result& result) { return result.runs.size(); })

@@ -25,10 +25,9 @@ void add_findings(py::module_& module);
 void add_rides(py::module_& module);
 void add_batch(py::module_& module);
 
-/// A rig as it was read, and the text of a file that holds every field of it.
+/// A rig as it was read.
 struct Rig {
   plant::Rig file;
-  std::vector<domain::InputFile> inputs;
 };
 
 /// The document of a result as Python's dicts and lists.

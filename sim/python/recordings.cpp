@@ -1,4 +1,7 @@
 // Rows of a recording as NumPy arrays: the names and units of its file.
+#include <tuple>
+
+#include <sim/python/pickles.hpp>
 #include <sim/python/recordings.hpp>
 
 namespace mckibben::python {
@@ -74,6 +77,54 @@ py::dict solver_of(const Simulated& run) {
   return all;
 }
 
+using Pickled = std::tuple<std::string, std::string, std::string, double,
+                           std::vector<std::pair<std::string, std::optional<double>>>, py::list, py::list,
+                           std::vector<std::pair<std::size_t, std::size_t>>, py::bytes>;
+
+/// What can be seen of a run. A channel is its signal's place in the list of all, and its muscle.
+Pickled pickled_run(const Simulated& run) {
+  py::list gaps, findings;
+  for (const run::Gap& gap : run.gaps)
+    gaps.append(py::make_tuple(gap.reading, gap.unit, gap.rmse, gap.largest, gap.mean, gap.rows));
+  for (const auto& finding : run.recording->findings)
+    findings.append(py::make_tuple(finding.name, finding.unit, finding.value));
+  std::vector<std::pair<std::size_t, std::size_t>> channels;
+  for (const plant::Channel& channel : run.channels)
+    channels.emplace_back(channel.signal - plant::signals.data(), channel.muscle);
+  const std::vector<double> target = run.target ? *run.target : std::vector<double>{};
+  return {run.name,
+          run.controller,
+          run.failure,
+          run.load_kg,
+          run.metrics,
+          gaps,
+          findings,
+          channels,
+          bytes_of(run.recording->samples, run.recording->solver, target, run.target != nullptr)};
+}
+
+std::shared_ptr<Simulated> unpickled_run(const Pickled& state) {
+  const auto& [name, controller, failure, load_kg, metrics, gaps, findings, channels, rows] = state;
+  const auto recording = std::make_shared<run::Recording>();
+  std::vector<double> target;
+  bool has_target = false;
+  read_bytes(rows, recording->samples, recording->solver, target, has_target);
+  for (const auto& each : findings) {
+    const auto [called, unit, value] = each.cast<std::tuple<std::string, std::string, double>>();
+    recording->findings.push_back({called, unit, value});
+  }
+  const auto run = std::make_shared<Simulated>(Simulated{recording, {}, name, controller, failure, load_kg});
+  for (const auto& [signal, muscle] : channels) run->channels.push_back({&plant::signals.at(signal), muscle});
+  if (has_target) run->target = std::make_shared<const std::vector<double>>(std::move(target));
+  run->metrics = metrics;
+  for (const auto& each : gaps) {
+    const auto [reading, unit, rmse, largest, mean, count] =
+        each.cast<std::tuple<std::string, std::string, double, double, double, std::size_t>>();
+    run->gaps.push_back({reading, unit, rmse, largest, mean, count});
+  }
+  return run;
+}
+
 std::string repr_of_run(const Simulated& run) {
   return "<mckibben.Run " + run.name + ": " + std::to_string(run.recording->samples.size()) + " rows" +
          (run.failure.empty() ? ">" : ", failed>");
@@ -82,7 +133,10 @@ std::string repr_of_run(const Simulated& run) {
 }  // namespace
 
 void add_recordings(py::module_& module) {
-  py::class_<Simulated, std::shared_ptr<Simulated>>(module, "Run", "One simulated run: a row at each tick.")
+  py::class_<Simulated, std::shared_ptr<Simulated>> runs(module, "Run",
+                                                         "One simulated run: a row at each tick.");
+  never_changes(runs);
+  runs.def(py::pickle(&pickled_run, &unpickled_run))
       .def_readonly("name", &Simulated::name, "As files of results call it.")
       .def_readonly("controller", &Simulated::controller, "Name of the controller; empty of a replay.")
       .def_readonly("load_kg", &Simulated::load_kg, "Mass of the load [kg]; 0 where none hangs.")

@@ -5,7 +5,11 @@
 #include <stdexcept>
 #include <string>
 
+#include <fmt/format.h>
+
+#include <plant/geometry.hpp>
 #include <sim/python/inputs.hpp>
+#include <sim/python/long_work.hpp>
 #include <sim/python/ride.hpp>
 #include <sim/ride/sample.hpp>
 #include <sim/run/follow.hpp>
@@ -14,10 +18,9 @@
 namespace mckibben::python {
 namespace {
 
-double finite(double value, const char* name) {
-  if (!std::isfinite(value)) throw py::value_error(std::string(name) + " is not a finite number");
-  return value;
-}
+constexpr double longest_step_s = 60.0;  // longer ones can be taken in several
+// A vacuum; what no muscle holds.
+constexpr double lowest_pressure_Pa = -plant::Pa_per_bar, highest_pressure_Pa = 100.0 * plant::Pa_per_bar;
 
 ride::Ride ride_of(const plant::Rig& rig, std::optional<double> load_kg) {
   if (rig.pair() != nullptr && load_kg) throw py::value_error("two muscles turn a link; no load hangs there");
@@ -37,12 +40,16 @@ Given lowest(const plant::Rig& rig) {
 }  // namespace
 
 Ride::Ride(const py::object& rig, std::optional<double> load_kg)
-    : rig_(rig_of(rig).file), ride_(ride_of(rig_, load_kg)), counter_(rig_) {
-  start(lowest(rig_), 0.0, true);
+    : rig_(std::make_shared<const plant::Rig>(rig_of(rig).file)),
+      load_kg_(load_kg),
+      ride_(ride_of(*rig_, load_kg)),
+      counter_(*rig_) {
+  start(lowest(*rig_), 0.0, true);
 }
 
 Ride::Ride(const Ride& other)
     : rig_(other.rig_),
+      load_kg_(other.load_kg_),
       ride_(other.ride_),
       counter_(other.counter_),
       drive_(other.drive_),
@@ -52,13 +59,13 @@ Ride::Ride(const Ride& other)
 
 void Ride::start(const Given& given, double at_s, bool settle) {
   const Turn turn(busy_);
-  drive_ = {};
-  take(given);
-  finite(at_s, "at_s");
-  const long ticks = settle ? std::lround(rig_.settling_time_s / rig_.tick_s) : 0;
+  const ride::Drive drive = with(given, {});
+  if (!std::isfinite(at_s)) throw py::value_error("at_s is not a finite number");
+  drive_ = drive;
+  const long ticks = settle ? std::lround(rig_->settling_time_s / rig_->tick_s) : 0;
   begin_s_ = at_s;
   ticks_ = -ticks;
-  counter_ = plant::PositionReader(rig_);
+  counter_ = plant::PositionReader(*rig_);
   const py::gil_scoped_release released;
   ride_.start(drive_, time_after(0));
   look();
@@ -67,10 +74,12 @@ void Ride::start(const Given& given, double at_s, bool settle) {
 
 Shown Ride::step(const Given& given, std::optional<double> dt_s) {
   const Turn turn(busy_);
-  take(given);
+  if (dt_s && (!(*dt_s > 0.0) || !(*dt_s <= longest_step_s)))
+    throw py::value_error(
+        fmt::format("dt_s = {:g}: must be above 0 and at most {:g} s", *dt_s, longest_step_s));
+  drive_ = with(given, drive_);
   const py::gil_scoped_release released;
   if (dt_s) {
-    if (!(*dt_s > 0.0) || !std::isfinite(*dt_s)) throw std::invalid_argument("dt_s is a time above 0 s");
     begin_s_ = ride_.time_s() + *dt_s;
     ticks_ = 0;
     ride_.step(drive_, begin_s_);
@@ -86,18 +95,22 @@ Simulated Ride::follow(const Commands& command, const std::optional<Commands>& o
   const auto rows = static_cast<std::size_t>(command.size());
   if (command.ndim() != 1 || (opposite && (opposite->ndim() != 1 || opposite->size() != command.size())))
     throw py::value_error("commands have the shape (ticks,), those of both muscles alike");
+  if (opposite && !pair()) throw py::value_error("the rig has one muscle; there is no opposite one");
   const double* one = command.data();
   const double* two = opposite ? opposite->data() : nullptr;
   for (std::size_t k = 0; k < rows; ++k) {
-    finite(one[k], "command");
-    if (two != nullptr) finite(two[k], "opposite_command");
+    if (!is_command(one[k], *rig_)) command_within(one[k], *rig_, fmt::format("command[{}]", k));
+    if (two != nullptr && !is_command(two[k], *rig_))
+      command_within(two[k], *rig_, fmt::format("opposite_command[{}]", k));
   }
   const auto recording = std::make_shared<run::Recording>();
-  recording->driven.pair = rig_.pair() != nullptr;
-  {
-    const py::gil_scoped_release released;
-    recording->samples.reserve(rows);
+  recording->driven.pair = pair();
+  drive_.muscle_pressure_Pa.reset();
+  if (two != nullptr) drive_.opposite.muscle_pressure_Pa.reset();
+  recording->samples.reserve(rows);
+  do_long(py::none(), [&](const run::ProgressHook&) {
     for (std::size_t k = 0; k < rows; ++k) {
+      if (run::interrupted()) throw run::Interrupted();
       drive_.current_mA = one[k];
       if (two != nullptr) drive_.opposite.current_mA = two[k];
       ride_.hold(drive_, time_after(1));
@@ -106,18 +119,20 @@ Simulated Ride::follow(const Commands& command, const std::optional<Commands>& o
       ++ticks_;
       look();
     }
-    recording->solver = ride_.counters();
-  }
-  return {recording, plant::channels_of(rig_, recording->driven), "ride"};
+  });
+  recording->solver = ride_.counters();
+  return {recording, plant::channels_of(*rig_, recording->driven), "ride"};
 }
 
 Ride::Saved Ride::save() const {
   const Turn turn(busy_);
-  return {ride_.save(), counter_, drive_, begin_s_, ticks_, counts_};
+  return {rig_, ride_.save(), counter_, drive_, begin_s_, ticks_, counts_};
 }
 
 void Ride::restore(const Saved& saved) {
   const Turn turn(busy_);
+  if (saved.rig != rig_ && fields_of(*saved.rig) != fields_of(*rig_))
+    throw py::value_error("what was saved is of another rig");
   ride_.restore(saved.ride);
   counter_ = saved.counter;
   drive_ = saved.drive;
@@ -133,33 +148,48 @@ engine::Linear Ride::linearise() const {
 }
 
 Shown Ride::shown() const {
-  const double rise_m = static_cast<double>(counts_) * plant::count_height_m(rig_);
-  const bool pair = rig_.pair() != nullptr;
+  const double rise_m = static_cast<double>(counts_) * plant::count_height_m(*rig_);
+  const bool pair = this->pair();
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
   const ride::Reading& reading = ride_.reading();
-  const plant::Sensor* const gauge = rig_.sensors.of(plant::Sensed::muscle_pressure);
+  const plant::Sensor* const gauge = rig_->sensors.of(plant::Sensed::muscle_pressure);
   return {ride_.time_s(),
-          pair ? none : rise_m / rig_.muscle.rest_length_m,
-          pair ? rise_m / rig_.joint.wheel_radius_m : none,
+          pair ? none : rise_m / rig_->muscle.rest_length_m,
+          pair ? rise_m / rig_->joint.wheel_radius_m : none,
           plant::shown(gauge, reading.muscle_pressure_Pa),
           pair ? plant::shown(gauge, reading.opposite_pressure_Pa) : none,
           counts_};
 }
 
-void Ride::take(const Given& given) {
-  const auto put = [](const std::optional<double>& value, const char* name, auto& into) {
-    if (value) into = finite(*value, name);
-  };
-  if (!pair() && (given.opposite_command.value_or(0.0) != 0.0 || given.opposite_muscle_pressure_Pa))
+/// What acts from here on; throws py::value_error for what contradicts itself or leaves its range.
+ride::Drive Ride::with(const Given& given, const ride::Drive& before) const {
+  if (!pair() && (given.opposite_command || given.opposite_muscle_pressure_Pa))
     throw py::value_error("the rig has one muscle; there is no opposite one");
-  // A valve that has a command again keeps no pressure.
-  if (given.command) drive_.muscle_pressure_Pa.reset();
-  if (given.opposite_command) drive_.opposite.muscle_pressure_Pa.reset();
-  put(given.command, "command", drive_.current_mA);
-  put(given.opposite_command, "opposite_command", drive_.opposite.current_mA);
-  put(given.muscle_pressure_Pa, "muscle_pressure_Pa", drive_.muscle_pressure_Pa);
-  put(given.opposite_muscle_pressure_Pa, "opposite_muscle_pressure_Pa", drive_.opposite.muscle_pressure_Pa);
-  put(given.contraction_ratio, "contraction_ratio", drive_.contraction_ratio);
+  ride::Drive drive = before;
+  const auto put = [&](ride::Command& side, const std::optional<double>& command,
+                       const std::optional<double>& pressure_Pa, const std::string& prefix) {
+    if (command && pressure_Pa)
+      throw py::value_error(
+          fmt::format("{0}command and {0}muscle_pressure_Pa: give one, the valve's command "
+                      "or the pressure in its place",
+                      prefix));
+    if (command) {  // a valve that has one again keeps no pressure
+      side.current_mA = command_within(*command, *rig_, prefix + "command");
+      side.muscle_pressure_Pa.reset();
+    }
+    if (pressure_Pa)
+      side.muscle_pressure_Pa =
+          within(*pressure_Pa, lowest_pressure_Pa, highest_pressure_Pa, prefix + "muscle_pressure_Pa", "Pa");
+  };
+  put(drive, given.command, given.muscle_pressure_Pa, "");
+  put(drive.opposite, given.opposite_command, given.opposite_muscle_pressure_Pa, "opposite_");
+  if (given.contraction_ratio) {
+    if (!plant::Braid(rig_->muscle).in_domain(*given.contraction_ratio))
+      throw py::value_error(fmt::format("contraction_ratio = {:g}: this muscle cannot be held there",
+                                        *given.contraction_ratio));
+    drive.contraction_ratio = given.contraction_ratio;
+  }
+  return drive;
 }
 
 void Ride::advance() {

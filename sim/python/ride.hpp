@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 
 #include <plant/instruments.hpp>
@@ -37,9 +38,11 @@ class Ride {
   void start(const Given& given, double at_s, bool settle);
   /// A tick, or so long.
   Shown step(const Given& given, std::optional<double> dt_s);
+  /// Ctrl-C ends it where it is then.
   Simulated follow(const Commands& command, const std::optional<Commands>& opposite);
 
   struct Saved {
+    std::shared_ptr<const plant::Rig> rig;
     ride::Ride::Saved ride;
     plant::PositionReader counter;
     ride::Drive drive;
@@ -48,23 +51,28 @@ class Ride {
     std::int64_t counts;
   };
   Saved save() const;
+  /// Throws py::value_error if it is of another rig.
   void restore(const Saved& saved);
 
   engine::Linear linearise() const;
   Shown shown() const;
   plant::Moment<double> moment() const { return ride_.moment(); }
   const double* state() const { return &ride_.flow().state.joint.contraction_ratio; }
-  bool pair() const { return rig_.pair() != nullptr; }
-  Rig rig() const { return {rig_, {}}; }
-  plant::CommandUnit command_unit() const { return rig_.command_unit(); }
+  bool pair() const { return rig_->pair() != nullptr; }
+  Rig rig() const { return {*rig_}; }
+  std::optional<double> load_kg() const { return load_kg_; }
+  plant::CommandUnit command_unit() const { return rig_->command_unit(); }
 
  private:
-  void take(const Given& given);
+  ride::Drive with(const Given& given, const ride::Drive& before) const;
   void advance();
   void look() { counts_ = counter_.count(ride_.reading().wheel_m); }
-  double time_after(long ticks) const { return begin_s_ + static_cast<double>(ticks_ + ticks) * rig_.tick_s; }
+  double time_after(long ticks) const {
+    return begin_s_ + static_cast<double>(ticks_ + ticks) * rig_->tick_s;
+  }
 
-  plant::Rig rig_;
+  std::shared_ptr<const plant::Rig> rig_;
+  std::optional<double> load_kg_;
   ride::Ride ride_;
   plant::PositionReader counter_;
   ride::Drive drive_;

@@ -2,9 +2,11 @@
 #include <memory>
 #include <string>
 
+#include <fmt/format.h>
 #include <pybind11/eigen.h>
 
 #include <sim/python/inputs.hpp>
+#include <sim/python/pickles.hpp>
 #include <sim/python/ride.hpp>
 
 namespace mckibben::python {
@@ -64,11 +66,37 @@ void add_linear(py::module_& module) {
       .def_readonly("D", &Linear::D, "dy/du, shape (outputs, inputs).");
 }
 
+py::tuple pickled_ride(const Ride::Saved& saved) {
+  return py::make_tuple(Rig{*saved.rig}, bytes_of(saved.ride.rider, saved.ride.pace, saved.counter,
+                                                  saved.drive, saved.begin_s, saved.ticks, saved.counts));
+}
+
+Ride::Saved unpickled_ride(const py::tuple& state) {
+  Ride::Saved saved{std::make_shared<const plant::Rig>(state[0].cast<const Rig&>().file),
+                    {},
+                    plant::PositionReader(state[0].cast<const Rig&>().file),
+                    {},
+                    0.0,
+                    0,
+                    0};
+  read_bytes(state[1], saved.ride.rider, saved.ride.pace, saved.counter, saved.drive, saved.begin_s,
+             saved.ticks, saved.counts);
+  return saved;
+}
+
 }  // namespace
 
 void add_rides(py::module_& module) {
   add_linear(module);
-  py::class_<Shown>(module, "Reading", "What instruments show at an instant.")
+  py::class_<Shown> reading(module, "Reading", "What instruments show at an instant.");
+  never_changes(reading);
+  reading
+      .def(py::pickle([](const Shown& shown) { return bytes_of(shown); },
+                      [](const py::bytes& state) {
+                        Shown shown{};
+                        read_bytes(state, shown);
+                        return shown;
+                      }))
       .def_readonly("time_s", &Shown::time_s, "The instant [s].")
       .def_readonly("counts", &Shown::counts, "As the encoder counts.")
       .def_readonly("contraction_ratio", &Shown::contraction_ratio, "By these counts [1]; NaN of a pair.")
@@ -77,11 +105,12 @@ void add_rides(py::module_& module) {
       .def_readonly("opposite_gauge_pressure_Pa", &Shown::opposite_gauge_pressure_Pa,
                     "The same of muscle 2; NaN of one muscle.")
       .def("__repr__", [](const Shown& shown) {
-        return "<mckibben.Reading at " + std::to_string(shown.time_s) +
-               " s: " + std::to_string(shown.counts) + " counts>";
+        return fmt::format("<mckibben.Reading at {:.6f} s: {} counts>", shown.time_s, shown.counts);
       });
-  const py::class_<Ride::Saved> saved(module, "SavedRide",
-                                      "Where a ride was, whole: Ride.restore goes on from it.");
+  py::class_<Ride::Saved> saved(module, "SavedRide",
+                                "Where a ride was, whole: Ride.restore goes on from it.");
+  never_changes(saved);
+  saved.def(py::pickle(&pickled_ride, &unpickled_ride));
 
   using Number = std::optional<double>;
   const auto given = [](const Ride& ride, Number command, Number opposite_command, Number muscle_pressure_Pa,
@@ -91,7 +120,18 @@ void add_rides(py::module_& module) {
                  either(opposite_command, opposite_current_mA, ride.command_unit()), muscle_pressure_Pa,
                  opposite_muscle_pressure_Pa, contraction_ratio};
   };
+  const auto copy = [](const Ride& ride) { return std::make_unique<Ride>(ride); };
   py::class_<Ride>(module, "Ride", "A rig that is stepped from outside.")
+      .def(
+          py::pickle([](const Ride& ride) { return py::make_tuple(ride.rig(), ride.load_kg(), ride.save()); },
+                     [](const py::tuple& state) {
+                       auto ride = std::make_unique<Ride>(state[0], state[1].cast<std::optional<double>>());
+                       ride->restore(state[2].cast<const Ride::Saved&>());
+                       return ride;
+                     }))
+      .def("__copy__", copy)
+      .def(
+          "__deepcopy__", [copy](const Ride& ride, const py::dict&) { return copy(ride); }, py::arg("memo"))
       .def(py::init<const py::object&, std::optional<double>>(), py::arg("rig") = "thesis",
            py::arg("load_kg") = py::none(),
            "A Rig, or what makes one, with a load [kg] on it; none on two muscles. It stands settled at 0 s, "
@@ -144,12 +184,12 @@ void add_rides(py::module_& module) {
           py::arg("command") = py::none(), py::arg("opposite_command") = py::none(), py::kw_only(),
           py::arg("current_mA") = py::none(), py::arg("opposite_current_mA") = py::none(),
           "A tick for each command, shape (ticks,), in one call: a Run whose rows are what was there before "
-          "each tick.")
+          "each tick. Ctrl-C ends it; the ride is then where it came to.")
       .def("save", &Ride::save, "All that changes on the way.")
-      .def("restore", &Ride::restore, py::arg("saved"), "Goes on from what was saved, to the same bits.")
-      .def(
-          "copy", [](const Ride& ride) { return std::make_unique<Ride>(ride); },
-          "A ride of its own that goes on from here.")
+      .def("restore", &Ride::restore, py::arg("saved"),
+           "Goes on from what was saved, to the same bits. Raises ValueError for what was saved of another "
+           "rig.")
+      .def("copy", copy, "A ride of its own that goes on from here.")
       .def(
           "linearise", &Ride::linearise,
           "A, B, C, D at this instant, under what is held: exact, by dual numbers. States: "

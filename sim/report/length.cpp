@@ -1,5 +1,6 @@
 // Both units, side by side.
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <regex>
 
@@ -30,6 +31,14 @@ const std::regex& any_length() {
   return pattern;
 }
 
+/// The number that a text begins with; whatever the locale, its decimals stand behind a point.
+double number_in(std::string_view text) {
+  if (text.starts_with('+')) text.remove_prefix(1);
+  double value = 0.0;
+  std::from_chars(text.data(), text.data() + text.size(), value);
+  return value;
+}
+
 /// Every number of the text times `factor`.
 std::string scaled(const std::string& text, double factor) {
   static const std::regex any_number(number_like);
@@ -37,7 +46,7 @@ std::string scaled(const std::string& text, double factor) {
   auto from = text.begin();
   for (std::sregex_iterator at(text.begin(), text.end(), any_number), end; at != end; ++at) {
     result.append(from, (*at)[0].first);
-    result += fmt::format("{:.3g}", factor * std::stod(at->str()));
+    result += fmt::format("{:.3g}", factor * number_in(at->str()));
     from = (*at)[0].second;
   }
   return result.append(from, text.end());

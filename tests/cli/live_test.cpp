@@ -1,5 +1,6 @@
 // The verb live: a page for this machine alone. What lacks the token, names another host or comes from
-// another site is refused; nonsense is refused with its reason; Ctrl-C leaves a data set that replays.
+// another site is refused; nonsense is refused with its reason; whatever clients do or leave undone, the page
+// is there and Ctrl-C leaves a data set that replays.
 #include <string>
 
 #include <gtest/gtest.h>
@@ -13,7 +14,7 @@ namespace {
 /// body, headers)` gives status and text.
 Said with_page(const Scratch& scratch, const std::string& asks, const std::string& options = "") {
   write_text(scratch / "ask.py",
-             "import http.client, json, os, re, signal, socket, subprocess, sys, time\n"
+             "import http.client, json, os, re, signal, socket, subprocess, sys, threading, time\n"
              "M = os.environ['M']\n"
              "live = subprocess.Popen([M, 'live', 'thesis'] + " +
                  std::string(options.empty() ? "[]" : options) +
@@ -33,7 +34,7 @@ Said with_page(const Scratch& scratch, const std::string& asks, const std::strin
                  "    assert what == wanted, (what, wanted)\n" +
                  asks +
                  "live.send_signal(signal.SIGINT)\n"
-                 "out, err = live.communicate(timeout=600)\n"
+                 "out, err = live.communicate(timeout=120)\n"
                  "print(err)\n"
                  "sys.exit(live.returncode)\n");
   return shell("M=\"$M\" python3 ask.py", scratch);
@@ -95,6 +96,70 @@ TEST(Live, NonsenseIsRefusedAndARecordingOutlivesCtrlC) {
   EXPECT_EQ(mckibben("check out/thesis-live/dataset.yaml", scratch).status, 0);
   const Said replayed = mckibben("replay out/thesis-live", scratch);
   EXPECT_EQ(replayed.status, 0) << replayed.err;
+}
+
+/// Sends this text by the port.
+constexpr const char* clients =
+    "def client(text, size=None):\n"
+    "    line = socket.socket()\n"
+    "    if size: line.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, size)\n"
+    "    line.connect(('127.0.0.1', int(port)))\n"
+    "    line.sendall(text.replace('\\n', '\\r\\n').encode())\n"
+    "    return line\n"
+    "host = f'Host: 127.0.0.1:{port}\\n'\n"
+    "command = f'POST /{token}/do HTTP/1.1\\n{host}Content-Type: application/json\\n'\n";
+
+TEST(Live, StuckSlowAndIdleClientsKeepNobodyFromThePageAndCtrlCKeepsTheRecording) {
+  const Scratch scratch;
+  const Said said = with_page(
+      scratch, std::string(clients) +
+                   "expect(do(do='record', from_rest=True), '')\n"
+                   "stuck = [client(f'GET /{token}/news HTTP/1.1\\n{host}\\n', 4096) for _ in range(2)]\n"
+                   "stuck += [client('') for _ in range(20)]\n"
+                   "stuck += [client(command + 'Content-Length: 20\\n\\n{') for _ in range(20)]\n"
+                   "slow = [client('GET / HTTP/1.1\\nX: ') for _ in range(20)]\n"
+                   "slow += [client(command + 'Transfer-Encoding: chunked\\n\\n5;x=') for _ in range(2)]\n"
+                   "def dribble():\n"
+                   "    while True:\n"
+                   "        for each in slow:\n"
+                   "            try: each.sendall(b'a')\n"
+                   "            except OSError: pass\n"
+                   "        time.sleep(0.1)\n"
+                   "threading.Thread(target=dribble, daemon=True).start()\n"
+                   "time.sleep(2.0)\n"
+                   "expect(ask(f'/{token}/')[0], 200)\n"
+                   "expect(do(do='command', to=9.0), '')\n");
+  EXPECT_EQ(said.status, 0) << said.out << said.err;
+  EXPECT_TRUE(holds(said.out, "Recorded ", "the program ended")) << said.out;
+  EXPECT_EQ(mckibben("check out/thesis-live", scratch).status, 0);
+}
+
+TEST(Live, NoMoreOfARequestIsTakenThanACommandNeedsWhateverItsEncoding) {
+  const Scratch scratch;
+  const Said said = with_page(
+      scratch, std::string(clients) +
+                   "def first_line(text):\n"
+                   "    line, answer = client(''), b''\n"
+                   "    try: line.sendall(text.replace('\\n', '\\r\\n').encode())\n"
+                   "    except OSError: pass  # it has heard enough\n"
+                   "    try:\n"
+                   "        while True:\n"
+                   "            more = line.recv(4096)\n"
+                   "            if not more: break\n"
+                   "            answer += more\n"
+                   "    except OSError: pass\n"
+                   "    return answer.decode().split('\\r\\n')[0].split()[1:2]\n"
+                   "chunk = '400\\n' + 1024 * ' ' + '\\n'\n"
+                   "expect(first_line('GET / HTTP/1.1\\nX: ' + 20000 * 'a'), ['431'])\n"
+                   "expect(first_line('GET / HTTP/1.1\\n' + 2000 * 'X: abcdefg\\n'), ['431'])\n"
+                   "expect(first_line(command + 'Transfer-Encoding: chunked\\n\\n' + 8 * chunk), ['413'])\n"
+                   "expect(first_line(command + 'Content-Length: 99999999999\\n\\n'), ['413'])\n"
+                   "expect(first_line(command + 'Content-Length: 2\\nContent-Length: 3\\n\\n{}'), ['400'])\n"
+                   "expect(first_line('no request\\n\\n'), ['400'])\n"
+                   "chunk = '{\"do\": \"again\"}'\n"
+                   "expect(first_line(command + 'Connection: close\\nTransfer-Encoding: chunked\\n\\n' +\n"
+                   "                  f'{len(chunk):x}\\n{chunk}\\n0\\n\\n'), ['200'])\n");
+  EXPECT_EQ(said.status, 0) << said.out << said.err;
 }
 
 TEST(Live, RefusesRigsThatItCannotShow) {

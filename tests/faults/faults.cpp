@@ -5,6 +5,7 @@
 //   FAULT_DO=kill        the program is killed before it
 //   FAULT_DO=run         the shell runs FAULT_RUN first, without this library, and the program waits
 //   FAULT_DO=28          it fails with that errno; every renameat2 fails so if FAULT_AT is 0
+//   FAULT_ON=1           and so does whatever takes room after it, as on a disk that is full
 //
 // A letter for each operation is appended to FAULT_LOG; the file's size is their number.
 #include <atomic>
@@ -59,7 +60,10 @@ bool fails(const std::string& path, char letter) {
   static const long at = std::atol(setting("FAULT_AT").c_str());
   if (below.empty() || !path.starts_with(below + "/")) return false;
   log(letter);
-  if (++count != at && !(at == 0 && letter == 'x')) return false;
+  static const bool goes_on = !setting("FAULT_ON").empty();
+  const long number = ++count;
+  const bool full = goes_on && number > at && (letter == 'o' || letter == 'w' || letter == 'm');
+  if (number != at && !full && !(at == 0 && letter == 'x')) return false;
   if (what == "kill") raise(SIGKILL);
   if (what == "run") {
     unsetenv("LD_PRELOAD");
@@ -110,6 +114,11 @@ int open64(const char* path, int flags, ...) {
 ssize_t write(int fd, const void* data, size_t size) {
   if (fails(path_of(fd), 'w')) return -1;
   return syscall(SYS_write, fd, data, size);
+}
+
+ssize_t pwrite(int fd, const void* data, size_t size, off_t at) {
+  if (fails(path_of(fd), 'w')) return -1;
+  return syscall(SYS_pwrite64, fd, data, size, at);
 }
 
 int close(int fd) {

@@ -2,11 +2,11 @@
 """Results that are never lost or stuck: one file operation of a verb after another goes wrong (faults.cpp), over an
 older result.
 
-    publish_test.py MCKIBBEN FAULTS_LIBRARY run|dataset|diagnose|import [every]
+    publish_test.py MCKIBBEN FAULTS_LIBRARY run|dataset|ensemble|diagnose|import [every]
 
 Without `every` only the telling operations (`telling` below). For each of them, n: killed at the n-th operation, and
 the next run at another, the old or the new result is there, whole; the run after that ends well and leaves the same
-bytes as an undisturbed one and nothing else; failing there, the program says so (74) and the old result is as it was,
+bytes as an undisturbed one and nothing else; failing there, at this operation or as a full disk does, the program says so (74) and the old result is as it was,
 or it ends well with the new one. A second process on the same --out, started before the operation, is refused at once
 and spoils nothing. Where folders cannot be exchanged, the same holds.
 """
@@ -36,12 +36,14 @@ loads: [11.138 kg]
 currents: [{{duration: 0.3 s, current: {{kind: sine_current, low: 0 mA, high: 20 mA, period: 2.4 s}}}}]
 noise: {{encoder_jitter: 1e-4}}
 """
+ENSEMBLE = CAMPAIGN + "repeats: 70\nvary: {{muscle.rest_radius: normal 7.5 mm ± 1 %}}\n"
 # Two runs in which nothing moves: `diagnose` decides at once, and writes what it always writes.
 DATASET = """schema: mckibben-dataset/1
 runs: [{{id: r{seed}, file: r.csv, load: 11.138 kg}}, {{id: s, file: r.csv, load: 16.138 kg}}]
 """
-INPUT = {"run": SCENARIO, "dataset": CAMPAIGN, "diagnose": DATASET,
+INPUT = {"run": SCENARIO, "dataset": CAMPAIGN, "ensemble": ENSEMBLE, "diagnose": DATASET,
          "import": "t [s],I (mA),x_mm\n" + "".join(f"{k}.0,{{seed}},{k}.5\n" for k in range(40))}[VERB]
+COMMAND = "dataset" if VERB == "ensemble" else VERB
 FILE, OPTIONS = ("input.csv", []) if VERB == "import" else ("input.yaml", ["--threads", "1"])
 TABLE = "time_s,current_mA,contraction_ratio\n" + "".join(f"{0.012 * k:.3f},4,0.01\n" for k in range(40))
 ERRORS = [errno.ENOSPC, errno.EIO, errno.EDQUOT]
@@ -92,7 +94,7 @@ class Place:
             os.remove(self.log)
         settings = {"LD_PRELOAD": LIBRARY, "FAULT_BELOW": self.out, "FAULT_LOG": self.log} if faults else {}
         settings.update({f"FAULT_{key.upper()}": str(value) for key, value in faults.items()})
-        return subprocess.run([PROGRAM, VERB, FILE, "--out", "out/o"] + OPTIONS, cwd=self.root,
+        return subprocess.run([PROGRAM, COMMAND, FILE, "--out", "out/o"] + OPTIONS, cwd=self.root,
                               env=os.environ | settings, capture_output=True, text=True, timeout=60)
 
     def operations(self):
@@ -141,9 +143,9 @@ def killed(place, n, total):
     place.expect_only(place.new)
 
 
-def failing(place, n, _):
+def failing(place, n, _, **more):
     place.back()
-    said = place.run(do=ERRORS[n % 3], at=n)
+    said = place.run(do=ERRORS[n % 3], at=n, **more)
     place.expect(said, 0, 74)
     if said.returncode == 74:
         assert said.stderr.startswith("mckibben: cannot write"), said.stderr
@@ -152,10 +154,14 @@ def failing(place, n, _):
     place.expect_only(place.new)
 
 
+def full(place, n, total):
+    failing(place, n, total, on=1)
+
+
 def with_a_second(place, n, _):
     place.back()
     second = os.path.join(place.root, "second")
-    command = f"'{PROGRAM}' {VERB} {FILE} --out out/o > '{second}' 2>&1; echo $? >> '{second}'"
+    command = f"'{PROGRAM}' {COMMAND} {FILE} --out out/o > '{second}' 2>&1; echo $? >> '{second}'"
     place.expect(place.run(do="run", at=n, run=command), 0)
     with open(second) as file:
         lines = file.read().splitlines()
@@ -205,7 +211,7 @@ def main():
         chosen = range(1, len(letters) + 1) if EVERY else telling(letters)
         for n in chosen:
             where = f"{VERB}, operation {n} of {len(letters)} ({letters[n - 1]})"
-            for test in (killed, failing, with_a_second, kept_aside):
+            for test in (killed, failing, full, with_a_second, kept_aside):
                 try:
                     held += test(place, n, len(letters)) or 0
                 except AssertionError as wrong:

@@ -7,6 +7,8 @@ usage: fmu_test.py PROGRAM IMPORTER
 import copy
 import csv
 import json
+import os
+import re
 import subprocess
 import sys
 import tempfile
@@ -78,11 +80,12 @@ class Fmu:
         """The element that has unit, start, min and max, and its type."""
         return variable[0] if self.version == "2.0" else variable
 
-    def answers(self, commands, token=None):
+    def answers(self, commands, token=None, locale={}):
         resources = self.folder / "resources"
         resources = resources.as_uri() if self.version == "2.0" else f"{resources}/"
         done = subprocess.run([IMPORTER, self.library, self.version[0], token or self.token, resources], text=True,
-                              cwd=self.folder, input="\n".join(commands), capture_output=True, timeout=300)
+                              cwd=self.folder, input="\n".join(commands), capture_output=True, timeout=300,
+                              env={**os.environ, **locale})
         assert done.returncode == 0, done.stderr
         return done.stdout.splitlines()
 
@@ -237,6 +240,53 @@ class AnFmu(unittest.TestCase):
             broken = fmu.answers([f"0 set {zero} 12", f"0 set {span} 8", "0 init 0", "0 start"])
             self.assertEqual(broken, ["valve.span_command: must be above zero_command", "failed"])
 
+    def test_refuses_calls_out_of_order_and_they_change_nothing(self):
+        currents = [5 + 0.1 * k for k in range(40)]
+        for fmu in self.each("--true-states"):
+            load, height = fmu.reference["load"], fmu.reference["contraction_ratio"]
+            ride = fmu.ride(currents, ["contraction_ratio"])
+            alone = fmu.answers(ride)
+            step, late = "0 step 0 0.012", f"0 step {39 * 0.012!r} 0.012"
+            for early in ("0 start", "0 end", step, f"0 get {height}"):
+                self.assertEqual(fmu.answers([early])[-1], "failed", early)
+            self.assertEqual(fmu.answers(["0 init 0", "0 end"])[-1], "failed")
+            self.assertEqual(fmu.answers(["0 init nan"])[-1], "failed")
+            # In mid-run.
+            again = fmu.answers([*ride[:60], "0 init 100", "0 start", *ride[60:]])
+            self.assertEqual(again.count("failed"), 2)
+            self.assertEqual([said for said in again if said in alone], alone)
+            # After an initialisation that failed, there is nothing but a reset.
+            stuck = [f"0 set {load} 1e6", "0 init 0", "0 start"]
+            for then in ("0 start", step, f"0 get {height}", f"0 set {load} 10", "0 init 0"):
+                self.assertEqual(fmu.answers([*stuck, then]).count("failed"), 2, then)
+            self.assertEqual(fmu.answers([*stuck, "0 reset", *ride])[-len(alone):], alone)
+            # After a step that failed there is a state that was saved, too. A fall ends at the braid's end.
+            cut = 4 + 3 * 20
+            torn = [*ride[:cut], "0 save", f"0 set {load} 1e6", *(f"0 step {k * 0.012!r} 0.012" for k in range(20, 100))]
+            said = fmu.answers([*torn, f"0 set {load} 10", "0 init 0", "0 start", f"0 get {height}", "0 restore", *ride[cut:]])
+            fallen = [answer for answer in said[21:] if answer not in alone]
+            self.assertIn("a step before the initialisation has ended, or after a failure or the end", fallen)
+            self.assertEqual(fallen[-7:-1:2], ["nothing is set after a failure or the end",
+                                               "the experiment is set up before the initialisation",
+                                               "it is not being initialised"])
+            self.assertLess(float(fallen[-1]), 0.0)
+            self.assertEqual(said[:21] + said[-19:], alone)
+            # After the end.
+            for then in (late, f"0 set {load} 10", "0 init 0", "0 start", "0 end"):
+                self.assertEqual(fmu.answers([*ride, "0 end", then])[-1], "failed", then)
+            self.assertEqual(fmu.answers([*ride, "0 end", f"0 get {height}"])[-1], alone[-1])
+            self.assertEqual(fmu.answers([*ride, "0 end", "0 reset", *ride]), alone + alone)
+
+    def test_says_no_number_with_a_comma_whatever_the_locale(self):
+        locales = self.folder / "locales"
+        locales.mkdir()
+        subprocess.run(["localedef", "-i", "de_DE", "-f", "UTF-8", locales / "de_DE.UTF-8"], check=True)
+        comma = {"LOCPATH": str(locales), "LC_ALL": "de_DE.UTF-8"}
+        for fmu in self.each("--true-states"):
+            ride = fmu.ride([5 + 0.1 * k for k in range(20)], ["contraction_ratio"])
+            bad = f"0 set {fmu.reference['muscle.rest_radius']} 7.5"
+            self.assertEqual(fmu.answers([*ride, bad], locale=comma), fmu.answers([*ride, bad]))
+
     def test_of_a_rig_in_volts_takes_volts(self):
         self.rig.write_text("schema: mckibben-rig/1\nvalve: {zero_command: -5 V, span_command: 5 V}\n")
         for fmu in self.each():
@@ -283,7 +333,7 @@ class AnFmu(unittest.TestCase):
             spoilt[len(state) // 2] ^= 1
             for wrong in (spoilt, state[:-8], state + b"x", b""):
                 (fmu.folder / "wrong").write_bytes(wrong)
-                self.assertEqual(fmu.answers(["0 read wrong"]), ["these bytes are of no state of this FMU", "failed"])
+                self.assertEqual(fmu.answers(["0 read wrong"]), ["these bytes are not those that were written", "failed"])
         other = Fmu(self.folder, "thesis", fmu.version)
         (other.folder / "state").write_bytes(state)
         self.assertIn("another FMU", other.answers(["0 read state"])[0])
@@ -345,6 +395,9 @@ class AnFmu(unittest.TestCase):
                     for each in json.loads((build / "compile_commands.json").read_text())}
         listed = ET.parse(fmu.folder / "sources/buildDescription.xml").getroot().iter("SourceFile")
         self.assertEqual(compiled, {Path(each.get("name")) for each in listed})
+        for file in (fmu.folder / "sources").rglob("*.?pp"):
+            for needed in re.findall(r"#include <((?:plant|sim)/[^>]+)>", file.read_text()):
+                self.assertTrue((fmu.folder / "sources" / needed).is_file(), f"{file} includes {needed}")
 
     def test_is_the_same_file_each_time(self):
         one = Fmu(self.folder, self.rig, "2.0").path.read_bytes()

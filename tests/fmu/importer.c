@@ -2,9 +2,10 @@
  * and 3.0. It does what it reads, line by line, with up to four instances:
  *   importer LIBRARY 2|3 TOKEN RESOURCES
  *   I set REFERENCE VALUE | I get REFERENCE | I count REFERENCE | I init TIME | I start | I step TIME LENGTH
- *   I save | I restore | I reset | I write FILE | I read FILE
+ *   I save | I restore | I reset | I end | I write FILE | I read FILE
  * `save` keeps a state, `write` writes the kept one as bytes, `read` reads bytes as the kept one. I: the number of an instance. Of what was asked for it prints a line; what fails is `failed`, with the log. */
 #include <dlfcn.h>
+#include <locale.h>
 #include <stdbool.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -34,6 +35,7 @@ static void tell3(void* environment, int status, const char* category, const cha
 
 static void* library;
 static int version;
+static locale_t plain; /* of what is read and printed here; an FMU sees the user's */
 
 typedef void (*any_function)(void);
 
@@ -47,6 +49,7 @@ static any_function function(const char* name) {
     exit(2);
   }
   memcpy(&known, &found, sizeof known);
+  uselocale(LC_GLOBAL_LOCALE);
   return known;
 }
 #define CALL(name, ...) ((int (*)(__VA_ARGS__))function(name))
@@ -99,6 +102,11 @@ static int count(void* it, uint32_t reference, double* value) {
   return status;
 }
 
+static void show(double value) {
+  uselocale(plain);
+  printf("%.17g\n", value);
+}
+
 /* The kept state into a file; what is there as a state. */
 static int write_state(void* it, void* state, const char* path) {
   size_t size = 0;
@@ -132,6 +140,9 @@ int main(int argc, char** argv) {
     return 2;
   }
   version = atoi(argv[2]);
+  setlocale(LC_ALL, ""); /* as programs with windows do */
+  plain = newlocale(LC_ALL_MASK, "C", NULL);
+  uselocale(plain);
   const char* get_state = version == 2 ? "GetFMUstate" : "GetFMUState";
   const char* set_state = version == 2 ? "SetFMUstate" : "SetFMUState";
   while (scanf("%u %15s", &which, verb) == 2 && which < 4) {
@@ -139,6 +150,7 @@ int main(int argc, char** argv) {
     unsigned reference = 0;
     int failed = 0;
     if (instances[which] == NULL) instances[which] = made(argv[3], argv[4]);
+    uselocale(plain);
     void* it = instances[which];
     if (it == NULL) {
       printf("failed\n");
@@ -147,9 +159,9 @@ int main(int argc, char** argv) {
     if (strcmp(verb, "set") == 0 && scanf("%u %lf", &reference, &a) == 2)
       failed = set(it, reference, a);
     else if (strcmp(verb, "get") == 0 && scanf("%u", &reference) == 1 && !(failed = get(it, reference, &a)))
-      printf("%.17g\n", a);
+      show(a);
     else if (strcmp(verb, "count") == 0 && scanf("%u", &reference) == 1 && !(failed = count(it, reference, &a)))
-      printf("%.17g\n", a);
+      show(a);
     else if (strcmp(verb, "init") == 0 && scanf("%lf", &a) == 1)
       failed = initialise(it, a);
     else if (strcmp(verb, "start") == 0)
@@ -164,9 +176,12 @@ int main(int argc, char** argv) {
       failed = write_state(it, states[which], file);
     else if (strcmp(verb, "read") == 0 && scanf("%63s", file) == 1)
       failed = read_state(it, &states[which], file);
+    else if (strcmp(verb, "end") == 0)
+      failed = CALL("Terminate", void*)(it);
     else if (strcmp(verb, "reset") == 0)
       failed = CALL("Reset", void*)(it);
     if (failed) printf("failed\n");
+    uselocale(plain);
   }
   for (int i = 0; i < 4; ++i) {
     if (states[i] != NULL) CALL(version == 2 ? "FreeFMUstate" : "FreeFMUState", void*, void**)(instances[i], &states[i]);

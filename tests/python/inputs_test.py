@@ -1,4 +1,5 @@
 """Rigs, scenarios and data sets from files and dicts: the same readers, the same words."""
+import enum
 import pathlib
 import subprocess
 import sys
@@ -66,6 +67,36 @@ class Rigs(unittest.TestCase):
             mckibben.Rig({"a: b\n\"c": "x\ty"})
 
 
+    def test_dicts_without_an_end_are_refused(self):
+        def nested(kind, levels=100_000):
+            made = "12 ms"
+            for _ in range(levels):
+                made = {"tick": made} if kind is dict else [made]
+            return made
+
+        class Again:
+            def tolist(self):
+                return self
+
+        in_itself, in_its_list = {}, []
+        in_itself["muscle"], in_its_list[:] = in_itself, [in_its_list]
+        for endless in (in_itself, {"loads": in_its_list}, nested(dict), {"loads": nested(list)}, {"tick": Again()}):
+            for reader in (mckibben.Rig, mckibben.Scenario, mckibben.Dataset):
+                with self.assertRaisesRegex(mckibben.InputError, "nested deeper than 32 levels"):
+                    reader(endless)
+
+    def test_texts_that_no_file_can_hold_are_refused(self):
+        for nonsense in ({"name": "\ud800"}, {"\ud800": 1}, "the\0sis", "\ud800"):
+            with self.assertRaises(ValueError):
+                mckibben.Rig(nonsense)
+
+    def test_numbers_are_numbers_whatever_they_print(self):
+        class Seed(enum.IntEnum):
+            SEVEN = 7
+
+        self.assertEqual(mckibben.Scenario({**SCENARIO, "seed": Seed.SEVEN}).to_dict()["seed"], 7)
+
+
 class Scenarios(unittest.TestCase):
     def test_by_path_and_dict(self):
         path = ROOT / "scenarios/five_loads.yaml"
@@ -104,9 +135,18 @@ class Datasets(unittest.TestCase):
                    "contraction_ratio": numpy.full(300, 0.05)}
         data = mckibben.Dataset({"runs": [{"id": "a", "load": "11.138 kg", "data": columns}]})
         self.assertEqual(data.ids, ["a"])
-        with self.assertRaisesRegex(mckibben.InputError, "a.csv:4:"):
+        with self.assertRaises(mckibben.InputError) as caught:
             spoilt = {**columns, "current_mA": numpy.where(k == 2, 99.0, columns["current_mA"])}
-            mckibben.Dataset({"runs": [{"id": "a", "load": "11.138 kg", "data": spoilt}]})
+            mckibben.Dataset({"runs": [{"id": "a", "load": "11.138 kg", "data": columns},
+                                       {"id": "b", "load": "11.138 kg", "data": spoilt}]})
+        self.assertIn("runs[1].data['current_mA'][2]", [problem.path for problem in caught.exception.problems])
+        self.assertRegex(str(caught.exception), r"^dataset: runs\[1\].data\['current_mA'\]\[2\]: .*99")
+        self.assertNotIn("csv", str(caught.exception))
+        with self.assertRaisesRegex(mckibben.InputError, r"^dataset: runs\[0\].data: "):
+            mckibben.Dataset({"runs": [{"id": "a", "load": "11.138 kg", "data": {"time_s": [0.0, 0.012]}}]})
+        for bad, where in ((5, r"runs\[0\].data: "), ({"time_s": ["x"]}, r"runs\[0\].data\['time_s'\]: ")):
+            with self.assertRaisesRegex((TypeError, ValueError), where):
+                mckibben.Dataset({"runs": [{"id": "a", "load": "11.138 kg", "data": bad}]})
         with self.assertRaisesRegex(ValueError, "one length"):
             mckibben.Dataset({"runs": [{"id": "a", "load": "1 kg", "data": {"time_s": [0, 1], "current_mA": [1]}}]})
 

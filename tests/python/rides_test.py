@@ -1,4 +1,6 @@
 """Ride, batch and slopes: where they go, to the bit, whatever runs beside them."""
+import os
+import signal
 import threading
 import unittest
 
@@ -99,6 +101,63 @@ class Rides(unittest.TestCase):
                 bad()
         with self.assertRaises(TypeError):
             ride.step("9 mA")
+
+    def test_what_contradicts_itself_or_leaves_its_range_is_refused_and_changes_nothing(self):
+        ride, pair = mckibben.Ride(load_kg=11.138), mckibben.Ride("thesis_pair")
+        before = ride.copy()
+        for words, bad in (
+                ("command = 400: must be from 0 to 20 mA", lambda: ride.step(400)),
+                ("command and muscle_pressure_Pa: give one", lambda: ride.step(9.0, muscle_pressure_Pa=2e5)),
+                ("opposite_command and opposite_muscle_pressure_Pa: give one",
+                 lambda: pair.step(9.0, opposite_command=9.0, opposite_muscle_pressure_Pa=2e5)),
+                ("muscle_pressure_Pa = 1e\\+12: must be from -100000 to 1e\\+07 Pa", lambda: ride.step(muscle_pressure_Pa=1e12)),
+                ("contraction_ratio = 0.99", lambda: ride.step(contraction_ratio=0.99)),
+                ("no opposite one", lambda: ride.step(9.0, opposite_command=0.0)),
+                ("no opposite one", lambda: ride.follow([9.0], [9.0])),
+                (r"dt_s = 100000: must be above 0 and at most 60 s", lambda: ride.step(9.0, dt_s=1e5)),
+                (r"loads_kg has the shape \(n,\)", lambda: mckibben.Batch("thesis", [[8.0, 9.0], [8.0, 9.0]])),
+                ("at_s", lambda: ride.start(12.0, at_s=float("nan"))),
+                (r"command\[1\] = 21", lambda: ride.follow([9.0, 21.0])),
+                (r"command\[1\] = nan", lambda: mckibben.Batch("thesis", [8.0, 9.0]).step([9.0, numpy.nan])),
+                (r"command\[2, 1\] = -1", lambda: mckibben.Batch("thesis", [8.0, 9.0]).follow([[9, 9], [9, 9], [9, -1]]))):
+            with self.assertRaisesRegex(ValueError, words):
+                bad()
+        self.assertEqual(ride.step(9.0).counts, before.step(9.0).counts)
+        self.assertEqual(ride.state.tobytes(), before.state.tobytes())
+
+    def test_follow_ends_at_a_valves_command_what_was_given_in_its_place(self):
+        ride, same = mckibben.Ride(load_kg=11.138), mckibben.Ride(load_kg=11.138)
+        for each in (ride, same):
+            each.step(muscle_pressure_Pa=1e5)
+        ride.follow(CURRENTS)
+        reached(same, CURRENTS)
+        self.assertEqual(ride.state.tobytes(), same.state.tobytes())
+
+    def test_what_was_saved_of_another_rig_is_refused(self):
+        creep = mckibben.Rig({"effects": {"bladder_creep": {"stiffness": "400 N/m", "time": "2 s"}}})
+        rides = [mckibben.Ride("thesis_pair"), mckibben.Ride(load_kg=20.0), mckibben.Ride(creep, load_kg=20.0)]
+        for one in rides:
+            for other in rides:
+                if one is not other:
+                    with self.assertRaisesRegex(ValueError, "another rig"):
+                        one.restore(other.save())
+        rides[1].restore(mckibben.Ride("thesis", load_kg=20.0).save())
+
+    def test_follow_is_ended_by_ctrl_c(self):
+        long = numpy.tile(CURRENTS, 5_000)
+        ride, batch = mckibben.Ride(load_kg=11.138), mckibben.Batch("thesis", [11.0])
+        for follow in (lambda: ride.follow(long), lambda: batch.follow(long[:, None])):
+            threading.Timer(0.5, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
+            with self.assertRaises(KeyboardInterrupt):
+                follow()
+        came_to = ride.time_s
+        self.assertTrue(0.0 < came_to < 0.012 * len(long))
+        self.assertAlmostEqual(ride.step(9.0).time_s, came_to + 0.012, places=9)
+        with self.assertRaisesRegex(RuntimeError, "start it again"):
+            batch.step(9.0)
+        batch.start(9.0)
+        batch.step(9.0)
+        self.assertFalse(batch.failures)
 
     def test_commands_are_in_what_the_valve_takes(self):
         rig = mckibben.Rig({"valve": {"zero_command": "0 V", "span_command": "10 V"}})

@@ -81,16 +81,16 @@ EXPORTED void fmi2FreeInstance(Component instance) {
 }
 
 EXPORTED Status fmi2SetupExperiment(Component instance, int, double, double start_s, int, double) {
-  return as_status(instance->done([&] { instance->slave.initialise(start_s); }));
+  return as_status(instance->done([&] { instance->slave.set_up(start_s); }));
 }
-EXPORTED Status fmi2EnterInitializationMode(Component) {
-  return ok;
+EXPORTED Status fmi2EnterInitializationMode(Component instance) {
+  return as_status(instance->done([&] { instance->slave.initialise(); }));
 }
 EXPORTED Status fmi2ExitInitializationMode(Component instance) {
   return as_status(instance->done([&] { instance->slave.set_off(); }));
 }
-EXPORTED Status fmi2Terminate(Component) {
-  return ok;
+EXPORTED Status fmi2Terminate(Component instance) {
+  return as_status(instance->done([&] { instance->slave.terminate(); }));
 }
 EXPORTED Status fmi2Reset(Component instance) {
   return as_status(instance->done([&] { instance->slave = Slave(instance->rig); }));

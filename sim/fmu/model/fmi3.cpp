@@ -52,13 +52,16 @@ EXPORTED void fmi3FreeInstance(Instance* instance) {
 }
 
 EXPORTED Status fmi3EnterInitializationMode(Instance* instance, bool, double, double start_s, bool, double) {
-  return status_of(instance->done([&] { instance->slave.initialise(start_s); }));
+  return status_of(instance->done([&] {
+    instance->slave.set_up(start_s);
+    instance->slave.initialise();
+  }));
 }
 EXPORTED Status fmi3ExitInitializationMode(Instance* instance) {
   return status_of(instance->done([&] { instance->slave.set_off(); }));
 }
-EXPORTED Status fmi3Terminate(Instance*) {
-  return ok;
+EXPORTED Status fmi3Terminate(Instance* instance) {
+  return status_of(instance->done([&] { instance->slave.terminate(); }));
 }
 EXPORTED Status fmi3Reset(Instance* instance) {
   return status_of(instance->done([&] { instance->slave = Slave(instance->rig); }));

@@ -2,10 +2,13 @@
 #include <cmath>
 #include <stdexcept>
 
+#include <fmt/format.h>
+
 #include <plant/geometry.hpp>
 #include <sim/domain/rig_number.hpp>
-#include <sim/fmu/model/bytes.hpp>
+#include <sim/engine/failure.hpp>
 #include <sim/fmu/model/slave.hpp>
+#include <sim/ride/bytes.hpp>
 #include <sim/ride/sample.hpp>
 
 namespace mckibben::fmu {
@@ -28,7 +31,9 @@ Slave::Slave(plant::Rig rig)
 }
 
 void Slave::set(Reference reference, double value) {
-  if (!under_way_) ride_.reset();  // what has been shown of it is no longer so
+  if (mode_ > Mode::stepping) throw std::runtime_error("nothing is set after a failure or the end");
+  const bool steps = mode_ == Mode::stepping;
+  if (!steps) ride_.reset();  // what has been shown of it is no longer so
   if (!std::isfinite(value)) throw std::runtime_error("a value is no finite number");
   if (reference == current) {
     current_mA_ = value;
@@ -42,10 +47,10 @@ void Slave::set(Reference reference, double value) {
   } else if (reference >= first_parameter && reference - first_parameter < paths_.size()) {
     const std::string& path = paths_[reference - first_parameter];
     const domain::RigNumber number = domain::find_number(rig_, path);
-    if (under_way_) throw std::runtime_error(path + ": parameters are set before the start");
+    if (steps) throw std::runtime_error(path + ": parameters are set before the start");
     if (value < number.lowest || value > number.highest)
-      throw std::runtime_error(path + " = " + std::to_string(value) + " is outside its range, " +
-                               std::to_string(number.lowest) + " to " + std::to_string(number.highest));
+      throw std::runtime_error(fmt::format("{} = {:g} is outside its range, {:g} to {:g}", path, value,
+                                           number.lowest, number.highest));
     *number.value = value;
   } else {
     throw std::runtime_error("value reference " + std::to_string(reference) + " cannot be set");
@@ -59,21 +64,34 @@ ride::Drive Slave::drive() const {
   if (rig_.holds_a_length()) {
     now.contraction_ratio = 1.0 - length_m_ / rig_.muscle.rest_length_m;
     if (!plant::Braid(rig_.muscle).in_domain(*now.contraction_ratio))
-      throw std::runtime_error("length = " + std::to_string(length_m_) +
-                               " m is none that this muscle can have");
+      throw std::runtime_error(fmt::format("length = {:g} m is none that this muscle can have", length_m_));
   }
   return now;
 }
 
-void Slave::initialise(double at_s) {
-  initialised_ = true;
-  time_s_ = at_s;
+void Slave::set_up(double start_s) {
+  if (mode_ > Mode::set_up) throw std::runtime_error("the experiment is set up before the initialisation");
+  if (!std::isfinite(start_s)) throw std::runtime_error("the start time is no finite number");
+  mode_ = Mode::set_up;
+  time_s_ = start_s;
+}
+
+void Slave::initialise() {
+  if (mode_ != Mode::set_up)
+    throw std::runtime_error("an initialisation follows the set-up of the experiment, once");
+  mode_ = Mode::initialising;
 }
 
 void Slave::set_off() {
-  if (!initialised_) throw std::runtime_error("it is not being initialised");
+  if (mode_ != Mode::initialising) throw std::runtime_error("it is not being initialised");
+  mode_ = Mode::failed;
   if (!ride_) settle();
-  under_way_ = true;
+  mode_ = Mode::stepping;
+}
+
+void Slave::terminate() {
+  if (mode_ != Mode::stepping && mode_ != Mode::failed) throw std::runtime_error("it is not under way");
+  mode_ = Mode::terminated;
 }
 
 void Slave::make_ride() {
@@ -88,23 +106,37 @@ void Slave::settle() {
   make_ride();
   const auto ticks = std::lround(rig_.settling_time_s / rig_.tick_s);
   const auto before_s = [&](long k) { return time_s_ - static_cast<double>(k) * rig_.tick_s; };
-  ride_->start(at_first, before_s(ticks));
-  for (long k = ticks; k > 0; --k) {
-    ride_->step(at_first, before_s(k - 1));
-    look();
+  try {
+    ride_->start(at_first, before_s(ticks));
+    for (long k = ticks; k > 0; --k) {
+      ride_->step(at_first, before_s(k - 1));
+      look();
+    }
+  } catch (...) {
+    ride_.reset();  // nobody is shown where it came to
+    throw;
   }
   look();
 }
 
 void Slave::step(double from_s, double length_s) {
-  if (!under_way_) throw std::runtime_error("a step before the initialisation has ended");
+  if (mode_ != Mode::stepping || !ride_)
+    throw std::runtime_error("a step before the initialisation has ended, or after a failure or the end");
   if (std::abs(from_s - time_s_) > 1e-9 * std::max(1.0, std::abs(time_s_)))
     throw std::runtime_error("a step from another time than the last one reached");
   if (!(length_s > 0.0)) throw std::runtime_error("a step must have a length");
   if (load_kg_ != hanging_kg_) hang(load_kg_);
   const double until_s = from_s + length_s;
-  ride_->step(drive(), until_s);
-  time_s_ = until_s;
+  const ride::Drive now = drive();
+  try {
+    ride_->step(now, until_s);
+    time_s_ = until_s;
+  } catch (const engine::NumericalFailure&) {
+    mode_ = Mode::failed;
+    time_s_ = ride_->time_s();
+    look();
+    throw;
+  }
   look();
 }
 
@@ -119,11 +151,11 @@ void Slave::hang(double load_kg) {
 template <class Self, class Visitor>
 void Slave::members(Self& self, Visitor& visit) {
   visit(self.current_mA_, self.opposite_current_mA_, self.length_m_, self.load_kg_, self.hanging_kg_,
-        self.time_s_, self.initialised_, self.under_way_, self.counts_);
+        self.time_s_, self.mode_, self.counts_);
 }
 
 std::string Slave::bytes(const std::string& token) const {
-  BytesWriter write;
+  ride::BytesWriter write;
   write(token);
   members(*this, write);
   plant::Rig rig = rig_;
@@ -137,7 +169,7 @@ std::string Slave::bytes(const std::string& token) const {
 }
 
 void Slave::become(std::string_view bytes, const std::string& token) {
-  BytesReader read(bytes);
+  ride::BytesReader read(bytes);
   std::string of;
   read(of);
   if (of != token) throw std::runtime_error("these bytes are of a state of another FMU");
@@ -178,7 +210,8 @@ double Slave::get(Reference reference) {
   }
   if (reference >= first_parameter && reference - first_parameter < paths_.size())
     return *domain::find_number(rig_, paths_[reference - first_parameter]).value;
-  if (!initialised_) throw std::runtime_error("outputs are there once it is being initialised");
+  if (mode_ < Mode::initialising || (mode_ > Mode::stepping && !ride_))
+    throw std::runtime_error("outputs are there once it is being initialised, and has not failed then");
   if (!ride_) settle();
   if (reference < first_output || reference - first_output >= channels_.size()) unknown(reference);
   if (!sample_) sample_ = ride::sample_of(ride_->rider(), counts_);

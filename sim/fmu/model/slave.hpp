@@ -1,7 +1,9 @@
-// One instance of an FMU: a rig that an importer steps from one communication point to the next. Nothing here
-// knows which version of the standard asks (fmi2.cpp, fmi3.cpp), and nothing is shared between instances.
+// One instance of an FMU: a rig that an importer steps from one communication point to the next, and the
+// state machine of the standards, which calls out of order do not get past. Nothing here knows which version
+// of the standard asks (fmi2.cpp, fmi3.cpp), and nothing is shared between instances.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -21,15 +23,20 @@ class Slave {
   explicit Slave(plant::Rig rig);
 
   double get(Reference reference);
-  /// Parameters until it is under way, inputs at any time: they act from the next step on.
+  /// Parameters until it steps, inputs until it ends: they act from the next step on.
   void set(Reference reference, double value);
 
-  /// It will be at rest at that time, after its settling time under the inputs as they are; from here on
-  /// outputs can be asked for.
-  void initialise(double at_s);
+  // In this order; what comes out of it is refused and changes nothing.
+  void set_up(double start_s);
+  /// From here on outputs can be asked for.
+  void initialise();
+  /// At rest at the start, after its settling time under the inputs as they are. Where it cannot be, it has
+  /// failed.
   void set_off();
-  /// An instant and the way to the next. Throws engine::NumericalFailure too.
+  /// An instant and the way to the next. Throws engine::NumericalFailure too; it has failed then, and steps
+  /// no more.
   void step(double from_s, double length_s);
+  void terminate();
 
   /// Its state as bytes; one that is made of the same rig becomes the same by them, to the bit. `token`: of
   /// the FMU. Reading throws std::runtime_error if the bytes are of another one, or of none.
@@ -37,6 +44,8 @@ class Slave {
   void become(std::string_view bytes, const std::string& token);
 
  private:
+  enum class Mode : std::uint8_t { instantiated, set_up, initialising, stepping, failed, terminated };
+
   template <class Self, class Visitor>
   static void members(Self& self, Visitor& visit);
   void make_ride();
@@ -51,7 +60,7 @@ class Slave {
   double current_mA_, opposite_current_mA_ = 0.0, length_m_;
   double load_kg_ = usual_load_kg, hanging_kg_ = usual_load_kg;
   double time_s_ = 0.0;
-  bool initialised_ = false, under_way_ = false;
+  Mode mode_ = Mode::instantiated;
   std::int64_t counts_ = 0;
   std::optional<plant::PositionReader> counter_;
   std::optional<ride::Ride> ride_;

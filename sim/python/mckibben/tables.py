@@ -5,38 +5,52 @@ import tempfile
 
 
 def with_files(source):
-    """A data set's dict in which runs have `file` in place of `data`, and the folder of these files, which is gone
-    with `cleanup()`."""
-    folder = tempfile.TemporaryDirectory(prefix="mckibben-")
+    """A data set's dict in which runs have `file` in place of `data`; the folder of these files, which is gone with
+    `cleanup()`; and of each file the run's place in the list, and the names of its columns."""
+    folder, written = tempfile.TemporaryDirectory(prefix="mckibben-"), {}
     runs = source.get("runs")
     if not isinstance(runs, (list, tuple)):
-        return source, folder
+        return source, folder, written
     try:
-        return {**source, "runs": [with_file(run, pathlib.Path(folder.name)) for run in runs]}, folder
+        with_file = [in_file(run, i, pathlib.Path(folder.name), written) for i, run in enumerate(runs)]
     except BaseException:
         folder.cleanup()
         raise
+    return {**source, "runs": with_file}, folder, written
 
 
-def with_file(run, folder):
+def in_file(run, place, folder, written):
     if not isinstance(run, dict) or "data" not in run:
         return run
     if "file" in run:
-        raise ValueError(f"run {run.get('id')}: `data` or `file`, not both")
-    name = "".join(letter if letter.isalnum() or letter in "-_" else "_" for letter in str(run.get("id", "run")))
-    path = folder / f"{name}.csv"
-    path.write_text(text_of(columns_of(run["data"])))
+        raise ValueError(f"runs[{place}]: `data` or `file`, not both")
+    columns = columns_of(run["data"], f"runs[{place}].data")
+    path = folder / f"{place}.csv"
+    path.write_text(text_of(columns), encoding="utf-8")
+    written[str(path)] = place, list(columns)
     return {**{key: value for key, value in run.items() if key != "data"}, "file": str(path)}
 
 
-def columns_of(data):
+def columns_of(data, called):
     """Of a dict, a structured array or a DataFrame: lists of numbers by name."""
-    names = getattr(getattr(data, "dtype", None), "names", None) or list(data)
-    columns = {str(name): [float(value) for value in data[name]] for name in names}
+    try:
+        names = getattr(getattr(data, "dtype", None), "names", None) or list(data)
+        columns = {str(name): data[name] for name in names}
+    except (TypeError, IndexError, KeyError):
+        raise TypeError(f"{called}: columns by name, in a dict, a structured array or a DataFrame, "
+                        f"not {type(data).__name__}") from None
+    columns = {name: numbers_of(column, f"{called}[{name!r}]") for name, column in columns.items()}
     if len({len(column) for column in columns.values()}) != 1:
-        raise ValueError("the columns of `data` have one length: "
+        raise ValueError(f"{called}: columns have one length: "
                          + ", ".join(f"{name} has {len(column)}" for name, column in columns.items()))
     return columns
+
+
+def numbers_of(column, called):
+    try:
+        return [float(value) for value in column]
+    except (TypeError, ValueError) as error:
+        raise type(error)(f"{called}: {error}") from None
 
 
 def text_of(columns):

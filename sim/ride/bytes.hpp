@@ -1,5 +1,6 @@
-// The state of an instance as bytes and back (FMI 2.0 section 2.1.8, and 3.0 alike): each member in turn,
-// as it lies in memory. So bytes are of one FMU, on machines of one kind; a sum at their end tells others.
+// A state as bytes and back, of FMUs (FMI 2.0 section 2.1.8, and 3.0 alike) and of Python's pickles: each
+// member in turn, as it lies in memory. So bytes are of one build, on machines of one kind; a sum at their
+// end shows others.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +12,7 @@
 #include <type_traits>
 #include <utility>
 
-namespace mckibben::fmu {
+namespace mckibben::ride {
 
 /// What is made of members, what grows, and what lies in memory as it is.
 template <class T, class Visitor>
@@ -92,9 +93,9 @@ class BytesReader {
     }
   }
 
-  [[noreturn]] static void fail() { throw std::runtime_error("these bytes are of no state of this FMU"); }
+  [[noreturn]] static void fail() { throw std::runtime_error("these bytes are not those that were written"); }
 
   std::string_view rest_;
 };
 
-}  // namespace mckibben::fmu
+}  // namespace mckibben::ride
