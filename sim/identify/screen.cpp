@@ -20,6 +20,10 @@ constexpr std::array shapes{0.0, -2.0, 2.0};
 constexpr std::size_t beam = 60;
 constexpr double size_variance = 4.0;  // of a size, while sets are compared
 
+bool is_clock(const Entry& entry) {
+  return entry.bench != nullptr && entry.bench->of == &Bench::clock;
+}
+
 }  // namespace
 
 std::vector<Probe> probes(const Dictionary& dictionary, const Point& beside) {
@@ -27,7 +31,7 @@ std::vector<Probe> probes(const Dictionary& dictionary, const Point& beside) {
   for (std::size_t k = 0; k < dictionary.entries.size(); ++k) {
     const Entry& entry = dictionary.entries[k];
     if (beside.has(k)) continue;
-    if (entry.bench != nullptr) {
+    if (is_clock(entry)) {
       list.push_back({k, 1.0, 0.0});
       continue;
     }
@@ -43,20 +47,12 @@ std::vector<Probe> probes(const Dictionary& dictionary, const Point& beside) {
 
 namespace {
 
-/// The change by a fault of the bench: by that of a kg, by readings at other times.
-Eigen::VectorXd column_of(const Model& model, const BenchNumber& bench, const Probe& probe) {
-  const Rows& rows = model.problem->rows;
-  Eigen::VectorXd column = Eigen::VectorXd::Zero(rows.size());
-  for (const Block& block : rows.blocks) {
-    auto part = column.segment(block.begin, block.rows);
-    if (bench.of == &Bench::clock)
-      part = (clocked(model.read.segment(block.begin, block.rows), probe.size * bench.typical) -
-              model.read.segment(block.begin, block.rows)) /
-             probe.size;
-    else
-      part = model.error.per_kg().segment(block.begin, block.rows) *
-             (bench.of == &Bench::load_factor ? bench.typical * rows.data().runs[rows.runs[block.run]].load_kg
-                                              : bench.typical);
+/// The change by a recorder's clock: readings at other times, which needs no simulation.
+Eigen::VectorXd column_of_clock(const Model& model, const BenchNumber& clock, const Probe& probe) {
+  Eigen::VectorXd column(model.read.size());
+  for (const Block& block : model.problem->rows.blocks) {
+    const Eigen::VectorXd read = model.read.segment(block.begin, block.rows);
+    column.segment(block.begin, block.rows) = (clocked(read, probe.size * clock.typical) - read) / probe.size;
   }
   return column;
 }
@@ -70,8 +66,8 @@ Eigen::MatrixXd columns_of(const Model& model, std::vector<Probe>& list) {
   Eigen::MatrixXd columns(model.problem->rows.size(), std::ssize(list));
   for (std::size_t first = 0; first < list.size();) {
     std::size_t last = first;
-    if (const BenchNumber* bench = dictionary.entries[list[first].entry].bench; bench != nullptr) {
-      columns.col(static_cast<Index>(first)) = column_of(model, *bench, list[first]);
+    if (const Entry& entry = dictionary.entries[list[first].entry]; is_clock(entry)) {
+      columns.col(static_cast<Index>(first)) = column_of_clock(model, *entry.bench, list[first]);
       ++first;
       continue;
     }
