@@ -25,6 +25,7 @@
 #include <sim/input/yaml_writer.hpp>
 #include <sim/output/unfinished.hpp>
 #include <sim/run/briefing.hpp>
+#include <sim/run/recording.hpp>
 #include <sim/run/track.hpp>
 
 namespace mckibben::cli {
@@ -151,9 +152,9 @@ std::string head_of(const Scenario& scenario) {
 }
 
 std::string line_of(const bench::Row& row, const controllers::Knowledge& known) {
-  return fmt::format("{},{},{},{},{},{:.3f}\n", static_cast<double>(row.tick) * known.tick_s, row.current_mA,
-                     static_cast<double>(row.counts) * known.contraction_per_count, row.counts,
-                     known.target_at(row.tick), 1e3 * row.late_s);
+  return fmt::format("{},{},{},{},{},{:.3f}\n", run::tidy_s(static_cast<double>(row.tick) * known.tick_s),
+                     row.current_mA, static_cast<double>(row.counts) * known.contraction_per_count,
+                     row.counts, known.target_at(row.tick), 1e3 * row.late_s);
 }
 
 /// What goes with the rows: they are a data set of a rig with all that the scenario's has.
