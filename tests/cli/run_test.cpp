@@ -134,8 +134,9 @@ TEST(FiveLoads, AnswersTheThesissQuestion) {
     }
     EXPECT_EQ(run.contains("unreachable"), unknown);
   }
-  // The model helps PID, by 9 % on the mean of the calibrated loads; threads that stick and slip scatter by 2
-  // %.
+  // The model helps PID, on the mean of the calibrated loads and under four of the five at least: threads
+  // that stick and slip make a few per cent out of another last digit in the gains (docs/five_loads.md).
+  int helped = 0;
   double pid_sum = 0.0, feedforward_sum = 0.0;
   std::map<double, double> pid_rmse;
   for (const auto& run : document.at("runs"))
@@ -144,12 +145,13 @@ TEST(FiveLoads, AnswersTheThesissQuestion) {
   for (const auto& run : document.at("runs")) {
     if (run.at("controller") != "feedforward_pid") continue;
     const double load_kg = run.at("load_kg").get<double>(), rmse = run.at("rmse").get<double>();
-    EXPECT_LT(rmse, 1.02 * pid_rmse.at(load_kg)) << load_kg;
     EXPECT_NEAR(run.at("findings").at("found_load").at("value").get<double>(), load_kg, 0.05 * load_kg);
     if (load_kg == 8.87) continue;
+    helped += rmse < pid_rmse.at(load_kg) ? 1 : 0;
     pid_sum += pid_rmse.at(load_kg);
     feedforward_sum += rmse;
   }
+  EXPECT_GE(helped, 4);
   EXPECT_LT(feedforward_sum, 0.95 * pid_sum);
   for (const auto& run : document.at("runs")) {
     if (run.at("controller") != "open_loop") continue;
