@@ -70,14 +70,14 @@ Decision decide(const std::vector<Judged>& table) {
     all += decision.mass.back();
   }
   for (double& one : decision.mass) one /= all;
-  decision.chosen = decision.best;
+  decision.chosen = decision.best;  // where no other will do
   for (std::size_t i = 0; i < table.size(); ++i) {
-    if (i == decision.best || !std::isfinite(table[i].score)) continue;
-    if (decision.mass[i] > decisive.mass) decision.rivals.push_back(i);
+    if (!std::isfinite(table[i].score)) continue;
+    if (i != decision.best && decision.mass[i] > decisive.mass) decision.rivals.push_back(i);
     const auto [nats, error] = loss(table[decision.best].held_out, table[i].held_out);
     if (!(nats <= decisive.errors * error) || !allowed(table[i])) continue;
     const Judged& chosen = table[decision.chosen];
-    if (size_of(table[i]) < size_of(chosen) ||
+    if (!allowed(chosen) || size_of(table[i]) < size_of(chosen) ||
         (size_of(table[i]) == size_of(chosen) && table[i].score > chosen.score))
       decision.chosen = i;
   }

@@ -10,6 +10,7 @@
 #include <fmt/ranges.h>
 
 #include <sim/identify/decisive.hpp>
+#include <sim/identify/estimates.hpp>
 #include <sim/identify/held_out.hpp>
 #include <sim/identify/identify.hpp>
 #include <sim/identify/screen.hpp>
@@ -40,10 +41,6 @@ class Search {
   Identified operator()();
 
  private:
-  struct Kept {
-    Model model;
-    bool described;
-  };
   using Key = std::pair<bool, Names>;  // described; names
 
   void say(const std::string& what) const {
@@ -67,12 +64,11 @@ class Search {
   bool look_from(Model base, bool far, bool first);
   void prune();
   void try_terms();
-  Identified told(const Decision& decision, std::vector<Judged> table, const Model& chosen) const;
 
   const Problem& problem_;
   const Dictionary& dictionary_;
   const Rows& rows_;
-  std::map<Key, Kept> table_;
+  std::map<Key, Model> table_;
   std::optional<Model> here_, at_;
   std::set<std::pair<Names, std::vector<double>>> begun_;
   std::set<Names> hills_;
@@ -87,9 +83,9 @@ double Search::enter(Model& model, bool described) {
   const Key key{described, names};
   const auto known = table_.find(key);
   if (known == table_.end())
-    table_.emplace(key, Kept{model, described});
-  else if (model.score > known->second.model.score)
-    known->second.model = model;
+    table_.emplace(key, model);
+  else if (model.score > known->second.score)
+    known->second = model;
   if (problem_.say) {
     say(fmt::format(
         "  {}: {:.1f}  model error {:.3f} of {:.3f}, {:.2f} s; wander {:.4f}; left {:.3f}; z'z {:.1f}; {} "
@@ -106,7 +102,7 @@ double Search::enter(Model& model, bool described) {
 
 double Search::best_score() const {
   double best = -std::numeric_limits<double>::infinity();
-  for (const auto& [key, kept] : table_) best = std::max(best, kept.model.score);
+  for (const auto& [key, model] : table_) best = std::max(best, model.score);
   return best;
 }
 
@@ -238,7 +234,7 @@ bool Search::look_from(Model base, bool far, bool first) {
     const Names names = dictionary_.names(start.point);
     if (seen.contains(names) || ((far || first) && names.size() > size_of_base + 1)) continue;
     const auto known = table_.find({false, names});
-    if (known != table_.end() && (far || known->second.model.score > base.score + start.value - own - worth))
+    if (known != table_.end() && (far || known->second.score > base.score + start.value - own - worth))
       continue;
     seen.insert(names);
     if (far || start.value > own + (names.size() >= size_of_base ? worth : -worth)) chosen.push_back(start);
@@ -257,6 +253,7 @@ bool Search::look_from(Model base, bool far, bool first) {
     }
     if (gained && here_->error.explains()) break;
   }
+  if (gained) prune();
   return gained;
 }
 
@@ -296,7 +293,7 @@ void Search::prune() {
 
 /// Is it a law outside the catalogue?
 void Search::try_terms() {
-  std::vector<Model> bases{table_.at({false, {}}).model};
+  std::vector<Model> bases{table_.at({false, {}})};
   if (!dictionary_.names(here_->point).empty()) bases.push_back(*here_);
   for (const Model& base : bases)
     for (const Terms terms : {Terms::smooth, Terms::waves, Terms::rubs}) {
@@ -333,12 +330,7 @@ Identified Search::operator()() {
   // missing (unless these explain all), and from where they were fitted; then from wherever the best stands,
   // and from its effects with the parameters as described where these had to bend.
   std::set<Names> looked{{}};
-  const auto look = [&](const Model& base, bool far, bool first) {
-    const bool gained = look_from(base, far, first);
-    if (gained) prune();
-    return gained;
-  };
-  if (bent(parameters) || !parameters.error.explains()) look(*at_, true, true);
+  if (bent(parameters) || !parameters.error.explains()) look_from(*at_, true, true);
   if (!arrived) {
     parameters.settle({.beat = best_score() - clear});
     parameters.evidence();
@@ -346,7 +338,7 @@ Identified Search::operator()() {
   }
   const bool contends = parameters.score > here_->score - clear;
   if (dictionary_.names(here_->point).empty() || !here_->error.explains() || (bent(parameters) && contends))
-    look(table_.at({false, {}}).model, false, true);
+    look_from(table_.at({false, {}}), false, true);
   for (int round = 0; round < rounds; ++round) {
     const Names names = dictionary_.names(here_->point);
     if (bent(*here_) && looked.insert(names).second) {
@@ -354,8 +346,8 @@ Identified Search::operator()() {
       q.z.setZero();
       Model base(problem_, std::move(q), here_->error);
       base.look();
-      if (base.read.allFinite()) look(base, true, false);
-    } else if (!look(*here_, false, false)) {
+      if (base.read.allFinite()) look_from(base, true, false);
+    } else if (!look_from(*here_, false, false)) {
       break;
     }
   }
@@ -370,11 +362,10 @@ Identified Search::operator()() {
   const auto groups = groups_of(rows_);
   std::vector<Judged> table;
   std::vector<const Model*> models;
-  for (const auto& [key, kept] : table_) {
-    const Model& m = kept.model;
+  for (const auto& [key, m] : table_) {
     if (!std::isfinite(m.score)) continue;
     table.push_back({.names = key.second,
-                     .described = kept.described,
+                     .described = key.first,
                      .general = m.point.terms != Terms::none,
                      .score = m.score,
                      .held_out = held_out(m, groups),
@@ -382,36 +373,15 @@ Identified Search::operator()() {
     models.push_back(&m);
   }
   const Decision decision = decide(table);
-  return told(decision, std::move(table), *models[decision.chosen]);
-}
-
-Identified Search::told(const Decision& decision, std::vector<Judged> table, const Model& chosen) const {
-  Identified result{.decision = decision, .table = std::move(table), .passes = problem_.simulator.passes()};
-  Index j = 0;
-  const Eigen::VectorXd v = dictionary_.vector(chosen.point);
-  for (const Coordinate& one : dictionary_.coordinates(chosen.point)) {
-    const double sd = std::sqrt(chosen.covariance(j, j)), z = v[j];
-    ++j;
-    if (one.kind == Kind::parameter) {
-      const auto& p = dictionary_.parameters[one.of];
-      result.parameters.push_back({p.difference ? p.path + ", difference" : p.path, "deviations", z, sd});
-    } else if (one.kind != Kind::term) {
-      const Entry& entry = dictionary_.entries[chosen.point.effects[one.of].entry];
-      const std::string path = entry.bench != nullptr ? fmt::format("{}.{}", entry.name, entry.bench->variant)
-                               : one.kind == Kind::size ? entry.effect->amplitude
-                                                        : entry.effect->shape;
-      if (one.kind == Kind::size) {
-        result.sizes.push_back({path, "", entry.absent + entry.typical * z, std::abs(entry.typical) * sd});
-      } else {
-        const double shape = entry.shape_middle * std::exp(entry.shape_sd * z);
-        result.sizes.push_back({path, "", shape, shape * entry.shape_sd * sd});
-      }
-    }
-  }
-  result.left = chosen.left();
-  result.white = chosen.error.white() / rows_.unit;
-  result.model_error = chosen.error.of_model() / rows_.unit;
-  return result;
+  const Model& chosen = *models[decision.chosen];
+  return {.decision = decision,
+          .table = std::move(table),
+          .sizes = sizes_of(chosen),
+          .parameters = parameters_of(chosen),
+          .left = chosen.left(),
+          .white = chosen.error.white() / rows_.unit,
+          .model_error = chosen.error.of_model() / rows_.unit,
+          .passes = problem_.simulator.passes()};
 }
 
 }  // namespace

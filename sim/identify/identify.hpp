@@ -14,6 +14,7 @@
 #include <vector>
 
 #include <sim/identify/decide.hpp>
+#include <sim/identify/estimates.hpp>
 #include <sim/identify/model.hpp>
 
 namespace mckibben::identify {
@@ -21,12 +22,6 @@ namespace mckibben::identify {
 struct Settings {
   unsigned threads = 0;
   std::function<void(const std::string&)> say{};  ///< hears of each step
-};
-
-/// A number of what is at work, and its deviation.
-struct Estimate {
-  std::string name, unit;
-  double value = 0.0, deviation = 0.0;
 };
 
 struct Identified {

@@ -47,6 +47,14 @@ TEST(Decide, DoesNotTakeASimplerOneThatTheSheetForbids) {
   EXPECT_EQ(d.rivals.front(), 0U);
 }
 
+TEST(Decide, TakesWhatStandsForAStretchedParameterThoughItIsLessProbable) {
+  Judged stretched = model({}, 3.0, 0.0);
+  stretched.off_sheet = 20.0;
+  const Decision d = decide({stretched, model({"load_label"}, 0.0, 0.0)});
+  EXPECT_EQ(d.chosen, 1U);
+  EXPECT_FALSE(d.contradicts_sheet);
+}
+
 TEST(Decide, SaysWhereTheAnswerItselfContradictsTheSheet) {
   Judged only = model({"muscle_leak"}, 0.0, 0.0);
   only.off_sheet = 9.0;
