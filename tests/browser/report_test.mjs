@@ -291,7 +291,7 @@ test('a replay shows measured against simulated, run by run', async () => {
   const measured = table('measured/two.csv').contraction_ratio, simulated = table('replayed/two.csv');
   await page.click('tr[data-group=\'1\'] th');
   const series = await seriesOf(page, 'height');
-  near(series.Measured.values, mm(measured), rangeOf(mm(measured)), 'measured');
+  near(series.measured.values, mm(measured), rangeOf(mm(measured)), 'measured');
   near(
       series['contraction, simulated'].values, mm(simulated.contraction_ratio),
       rangeOf(mm(simulated.contraction_ratio)), 'simulated');
