@@ -1,26 +1,11 @@
 // See the header.
 #include <algorithm>
 #include <cmath>
-#include <string_view>
 
 #include <sim/identify/decide.hpp>
 #include <sim/identify/decisive.hpp>
 
 namespace mckibben::identify {
-
-std::string_view name_of(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::nothing_missing:
-      return "nothing_missing";
-    case Verdict::recalibrate:
-      return "recalibrate";
-    case Verdict::missing_effect:
-      return "missing_effect";
-    case Verdict::unknown_effect:
-      return "unknown_effect";
-  }
-  return "";
-}
 
 Loss loss(const Eigen::VectorXd& of_better, const Eigen::VectorXd& of_worse) {
   const Eigen::VectorXd d = of_better - of_worse;

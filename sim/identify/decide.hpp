@@ -7,10 +7,11 @@
 
 #include <Eigen/Core>
 
+#include <sim/diagnose/diagnosis.hpp>
+
 namespace mckibben::identify {
 
-enum class Verdict { nothing_missing, recalibrate, missing_effect, unknown_effect };
-std::string_view name_of(Verdict verdict);
+using diagnose::Verdict;
 
 /// A model as the decision sees it.
 struct Judged {

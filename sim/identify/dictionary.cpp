@@ -50,8 +50,7 @@ bool Point::lets_differ(int which) const {
   return std::ranges::find(differ, which) != differ.end();
 }
 
-Dictionary::Dictionary(const domain::Dataset& data, double written_coarsely)
-    : described_(data.rig), written_coarsely_(written_coarsely) {
+Dictionary::Dictionary(const domain::Dataset& data, double written_coarsely) : described_(data.rig) {
   for (diagnose::Parameter& p : diagnose::nominal_parameters(data.rig, data.rig.spreads)) {
     if (data.pressure_is_given() && diagnose::out_of_sight(p)) continue;
     const diagnose::Found found = diagnose::find(described_, p.path);
@@ -67,9 +66,9 @@ Dictionary::Dictionary(const domain::Dataset& data, double written_coarsely)
     p.difference = true;
     parameters.push_back(p);
   }
-  if (written_coarsely_ > 0.0)
+  if (written_coarsely > 0.0)
     parameters.push_back(
-        {{.path = "bench.zero", .scale = 0.5 * written_coarsely_, .lowest = -1.0, .highest = 1.0}});
+        {{.path = "bench.zero", .scale = 0.5 * written_coarsely, .lowest = -1.0, .highest = 1.0}});
   for (const diagnose::Candidate& c : diagnose::catalogue(data))
     if (c.fits(described_)) entries.push_back(entry_of(c, described_));
   if (data.judged() == domain::Judged::contraction)
@@ -83,7 +82,7 @@ Dictionary::Dictionary(const domain::Dataset& data, double written_coarsely)
   std::set<std::string> names;
   for (const Entry& entry : entries) names.insert(entry.name);
   all_names = names.size() + differing.size() + 3;
-  rest_length_m = described_.muscle.rest_length_m;
+  const double rest_length_m = described_.muscle.rest_length_m;
   double reach = 0.0;
   for (const domain::Run& run : data.runs)
     for (const double read : run.judged()) reach = std::max(reach, std::abs(read));

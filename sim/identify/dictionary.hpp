@@ -121,13 +121,12 @@ class Dictionary {
   std::vector<Free> parameters;
   std::vector<Entry> entries;
   std::size_t all_names = 0;  ///< of which sets are made
-  double rest_length_m = 0.0, reach_m = 0.0;
+  double reach_m = 0.0;       ///< how far the load was seen to rise
 
  private:
   void put_terms(const Point& point, plant::Rig& rig) const;
 
   plant::Rig described_;
-  double written_coarsely_;
 };
 
 }  // namespace mckibben::identify

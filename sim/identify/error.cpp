@@ -71,8 +71,6 @@ void Error::take(const Wander& wander) {
     roots.push_back(alike.llt().matrixL());
   }
   starts_ = wander.starts;
-  read_ = random.col(gains);
-  per_kg_ = random.col(loads);
   random_ = std::make_shared<const RowMajor>(std::move(random));
   roots_ = std::make_shared<const std::vector<Eigen::MatrixXd>>(std::move(roots));
 }

@@ -46,7 +46,6 @@ class Error {
   void take(const Wander& wander);
   /// With these differing from run to run; scales that were known stay.
   Error with(const std::vector<int>& differ) const;
-  const std::vector<int>& differ() const { return differ_; }
 
   Grams grams(const Eigen::VectorXd& residual, const Eigen::MatrixXd& columns) const;
 
@@ -69,8 +68,10 @@ class Error {
   double wander_units() const;
   /// The model errs less than readings do.
   bool explains() const { return of_model() < white(); }
-  const Eigen::VectorXd& read() const { return read_; }
-  const Eigen::VectorXd& per_kg() const { return per_kg_; }
+  /// What another load does to a block's rows, a kg.
+  Eigen::VectorXd per_kg(const Block& block) const {
+    return random_->col(loads).segment(block.begin, block.rows);
+  }
   std::size_t starts() const { return starts_; }
   /// What a run's start does to a block's rows.
   Eigen::VectorXd started(const Block& block, const Eigen::VectorXd& start) const;
@@ -100,7 +101,6 @@ class Error {
   std::shared_ptr<const std::vector<Eigen::MatrixXd>> roots_;  ///< [run] of the wander's correlation
   std::size_t starts_ = 0;  ///< columns of a run's start, after its wander's
   std::shared_ptr<const Eigen::VectorXd> compliance_;
-  Eigen::VectorXd read_, per_kg_;
 };
 
 /// Log evidence of a linear model with independent normal priors; the Gram matrix's first row and column are

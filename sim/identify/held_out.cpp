@@ -4,6 +4,7 @@
 #include <Eigen/Cholesky>
 
 #include <sim/identify/held_out.hpp>
+#include <sim/identify/quadratic.hpp>
 
 namespace mckibben::identify {
 
@@ -40,8 +41,7 @@ Eigen::VectorXd held_out(const Model& model, const std::vector<std::vector<std::
       value -= 0.5 * mine(0, 0);
     } else {
       // The posterior of the others, as a normal in numbers less the optimum.
-      Eigen::MatrixXd of_others = (whole - mine).bottomRightCorner(k, k);
-      of_others.diagonal() += weight;
+      const Eigen::MatrixXd of_others = curvature(whole - mine, weight);
       const Eigen::LLT<Eigen::MatrixXd> others(of_others);
       const Eigen::VectorXd m =
           others.solve(Eigen::VectorXd((whole - mine).col(0).tail(k) - weight.cwiseProduct(v)));

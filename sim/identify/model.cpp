@@ -34,8 +34,7 @@ Eigen::VectorXd Model::residual() const {
   // The prior of numbers of runs is round nothing: what they did where they are simulated is given back.
   for (const Block& block : problem->rows.blocks) {
     auto part = left.segment(block.begin, block.rows);
-    if (!point.run_loads_kg.empty())
-      part += point.run_loads_kg[block.run] * error.per_kg().segment(block.begin, block.rows);
+    if (!point.run_loads_kg.empty()) part += point.run_loads_kg[block.run] * error.per_kg(block);
     if (!point.starts.empty()) part += error.started(block, point.starts[block.run]);
   }
   return left;
@@ -117,10 +116,10 @@ void Model::look_at_wander() {
   error.take(problem->simulator.wander(problem->dictionary.setting(point)));
 }
 
-void Model::look() {
+void Model::look(bool both) {
   std::vector<std::size_t> all(problem->dictionary.coordinates(point).size());
   std::iota(all.begin(), all.end(), std::size_t{0});
-  look_again(all);
+  look_again(all, both);
 }
 
 /// Readings here, and these slopes anew.
@@ -156,12 +155,11 @@ bool Model::is_hopeless(double promised, double beat) const {
   const Error fair = error.begun().fitted(left, slopes, of_prior, {1.0, 0.5}).first;
   const Grams at = fair.grams(left, slopes);
   const Eigen::MatrixXd gram = at.sum();
-  Eigen::MatrixXd curvature = gram.bottomRightCorner(slopes.cols(), slopes.cols());
-  curvature.diagonal() += of_prior.cwiseInverse();
   const double evidence_here =
       log_prior() +
       0.5 * static_cast<double>(slopes.cols() - left.size()) * std::log(2.0 * std::numbers::pi) -
-      0.5 * (at.log_det() + gram(0, 0)) - curvature.llt().matrixLLT().diagonal().array().log().sum();
+      0.5 * (at.log_det() + gram(0, 0)) -
+      curvature(gram, of_prior.cwiseInverse()).llt().matrixLLT().diagonal().array().log().sum();
   return evidence_here + 3.0 * promised < beat;
 }
 
@@ -252,9 +250,7 @@ bool Model::descend(const Effort& effort) {
       if (finely) return true;
       finely = true;
       reach = 0.3;
-      std::vector<std::size_t> all(dictionary.coordinates(point).size());
-      std::iota(all.begin(), all.end(), std::size_t{0});
-      look_again(all, true);
+      look(true);
       continue;
     }
     std::vector<std::size_t> again;
@@ -281,10 +277,8 @@ bool Model::place() {
     const Eigen::VectorXd weight = variance().cwiseInverse(), v = problem->dictionary.vector(point);
     const Index k = v.size();
     const Eigen::MatrixXd gram = error.grams(residual(), slopes).sum();
-    Eigen::MatrixXd curvature = gram.bottomRightCorner(k, k);
-    curvature.diagonal() += weight;
     const Eigen::VectorXd step =
-        curvature.llt().solve(Eigen::VectorXd(gram.col(0).tail(k) - weight.cwiseProduct(v)));
+        curvature(gram, weight).llt().solve(Eigen::VectorXd(gram.col(0).tail(k) - weight.cwiseProduct(v)));
     const Grams left = error.grams(residual() - slopes * step, Eigen::MatrixXd(read.size(), 0));
     Point there = point;
     there.run_loads_kg.clear();
@@ -340,9 +334,7 @@ double Model::evidence() {
   const Eigen::MatrixXd gram = grams.sum();
   const Eigen::VectorXd v = problem->dictionary.vector(point), weight = prior_variance.cwiseInverse();
   const Index k = v.size();
-  Eigen::MatrixXd curvature = gram.bottomRightCorner(k, k);
-  curvature.diagonal() += weight;
-  const Eigen::LLT<Eigen::MatrixXd> low(curvature);
+  const Eigen::LLT<Eigen::MatrixXd> low(curvature(gram, weight));
   covariance = low.solve(Eigen::MatrixXd::Identity(k, k));
   const Eigen::VectorXd pull = gram.col(0).tail(k) - weight.cwiseProduct(v);
   double value = log_prior() + error.log_scales() -

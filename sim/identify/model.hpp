@@ -25,8 +25,9 @@ class Model {
  public:
   Model(const Problem& problem, Point point, const Error& error, double term_N = 1.0);
 
-  /// Readings and slopes at the point.
-  void look();
+  /// Readings and slopes at the point. `both`: by wider steps to both sides, where columns of several numbers
+  /// all but cancel.
+  void look(bool both = false);
   void fit_error(std::vector<double> steps, std::vector<std::size_t> only = {});
 
   struct Effort {
@@ -68,7 +69,6 @@ class Model {
 
  private:
   Point perturbed(std::size_t coordinate, double& step, double times = 1.0) const;
-  /// `both`: by wider steps to both sides, where columns of several numbers all but cancel.
   void look_again(const std::vector<std::size_t>& coordinates, bool both = false);
   /// Whether the evidence, with three times what is promised, would be below this.
   bool is_hopeless(double promised, double beat) const;

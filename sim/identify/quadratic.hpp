@@ -9,6 +9,14 @@
 
 namespace mckibben::identify {
 
+/// Minus the second derivative of the log density, of a Gram matrix with the residual's row and column first
+/// and the priors' precisions.
+inline Eigen::MatrixXd curvature(const Eigen::MatrixXd& gram, const Eigen::VectorXd& weight) {
+  Eigen::MatrixXd list = gram.bottomRightCorner(weight.size(), weight.size());
+  list.diagonal() += weight;
+  return list;
+}
+
 /// Of the log density in units of the priors: `gram` with the residual's row and column first.
 struct Quadratic {
   Eigen::VectorXd values, weight;
@@ -17,17 +25,10 @@ struct Quadratic {
 
   Quadratic(const Eigen::MatrixXd& gram, Eigen::VectorXd prior_weight, const Eigen::VectorXd& at)
       : weight(std::move(prior_weight)) {
-    const Eigen::Index k = at.size();
-    Eigen::MatrixXd curvature = gram.bottomRightCorner(k, k);
-    curvature.diagonal() += weight;
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(curvature);
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(curvature(gram, weight));
     values = solver.eigenvalues().cwiseMax(1e-12);
     axes = solver.eigenvectors();
-    turn(gram.col(0).tail(k), at);
-  }
-  /// To another residual, by the same slopes.
-  void turn(const Eigen::VectorXd& along, const Eigen::VectorXd& at) {
-    pull = axes.transpose() * (along - weight.cwiseProduct(at));
+    pull = axes.transpose() * (gram.col(0).tail(at.size()) - weight.cwiseProduct(at));
   }
   double promised() const { return 0.5 * pull.cwiseAbs2().cwiseQuotient(values).sum(); }
   double longest() const { return pull.cwiseQuotient(values).norm(); }

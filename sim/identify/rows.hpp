@@ -25,7 +25,6 @@ class Rows {
 
   const domain::Dataset& data() const { return *data_; }
   Eigen::Index size() const { return read.size(); }
-  double at_s(Eigen::Index row_of_block) const { return row_s * static_cast<double>(row_of_block); }
   bool is_judged(const Block& block) const { return block.kind == 0; }
 
   std::vector<std::size_t> runs;

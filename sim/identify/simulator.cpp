@@ -20,17 +20,20 @@ constexpr std::size_t others = engine::Batch::width - 1;  // in the lanes beside
 constexpr std::size_t most_knots = 24;                    // of a run
 constexpr double step = 0.01, step_kg = 0.2;  // of an input or a start, of a load, for a difference
 
-/// Writes what one setting reads in a run.
-void write(const Rows& rows, std::size_t run, const Readings& readings, const Bench& bench,
-           Eigen::MatrixXd& to, Eigen::Index column) {
-  for (const Block& block : rows.blocks) {
-    if (block.run != run) continue;
-    const auto& list = block.kind == 0 ? readings.judged : readings.beside(*rows.kinds[block.kind]);
-    auto part = to.col(column).segment(block.begin, block.rows);
-    part = Eigen::Map<const Eigen::VectorXd>(list.data(), block.rows);
-    if (bench.clock != 0.0) part = clocked(part, bench.clock);
-    if (block.kind == 0) part.array() += bench.zero;
-  }
+/// What one setting reads in a block's rows.
+Eigen::VectorXd seen(const Rows& rows, const Block& block, const Readings& readings, const Bench& bench) {
+  const auto& list = block.kind == 0 ? readings.judged : readings.beside(*rows.kinds[block.kind]);
+  Eigen::VectorXd part = Eigen::Map<const Eigen::VectorXd>(list.data(), block.rows);
+  if (bench.clock != 0.0) part = clocked(part, bench.clock);
+  if (block.kind == 0) part.array() += bench.zero;
+  return part;
+}
+
+/// Calls `visit` with each of a run's blocks, and the part of a column that is its.
+template <class Visit>
+void each_block(const Rows& rows, std::size_t run, const Visit& visit) {
+  for (const Block& block : rows.blocks)
+    if (block.run == run) visit(block, Eigen::seqN(block.begin, block.rows));
 }
 
 /// What is not known of a run that began on its way, and how well it is guessed from its first readings: the
@@ -94,8 +97,10 @@ Eigen::MatrixXd Simulator::read(std::span<const Setting> settings) const {
       },
       [&](std::size_t index, const std::vector<Readings>& readings, const std::exception_ptr& failure) {
         const std::size_t run = index / settings.size(), i = index % settings.size();
-        if (!failure)
-          write(rows_, run, readings.front(), settings[i].bench, list, static_cast<Eigen::Index>(i));
+        if (failure) return;
+        each_block(rows_, run, [&](const Block& block, const auto& part) {
+          list(part, static_cast<Eigen::Index>(i)) = seen(rows_, block, readings.front(), settings[i].bench);
+        });
       });
   passes_ += static_cast<long>(settings.size());
   return list;
@@ -120,22 +125,14 @@ Eigen::MatrixXd Simulator::differences(std::span<const Setting> settings) const 
     };
     return one;
   };
-  std::vector<std::vector<Job>> failed(jobs.size());
   const auto take = [&](const Job& job, const std::vector<Readings>& readings) {
-    Eigen::MatrixXd base(rows_.size(), 1), changed(rows_.size(), 1);
-    write(rows_, job.run, readings.front(), settings[0].bench, base, 0);
-    for (std::size_t k = 0; k < job.settings.size(); ++k) {
-      const auto column = static_cast<Eigen::Index>(job.settings[k]);
-      if (k > 0) write(rows_, job.run, readings[k], settings[job.settings[k]].bench, changed, 0);
-      for (const Block& block : rows_.blocks) {
-        if (block.run != job.run) continue;
-        if (k == 0 && job.tells_first)
-          list.col(0).segment(block.begin, block.rows) = base.col(0).segment(block.begin, block.rows);
-        else if (k > 0)
-          list.col(column).segment(block.begin, block.rows) =
-              changed.col(0).segment(block.begin, block.rows) - base.col(0).segment(block.begin, block.rows);
-      }
-    }
+    each_block(rows_, job.run, [&](const Block& block, const auto& part) {
+      const Eigen::VectorXd base = seen(rows_, block, readings.front(), settings[0].bench);
+      if (job.tells_first) list(part, 0) = base;
+      for (std::size_t k = 1; k < job.settings.size(); ++k)
+        list(part, static_cast<Eigen::Index>(job.settings[k])) =
+            seen(rows_, block, readings[k], settings[job.settings[k]].bench) - base;
+    });
   };
   const auto fly = [&](const std::vector<Job>& all, bool again) {
     std::vector<char> missed(all.size(), 0);
@@ -194,15 +191,12 @@ Eigen::MatrixXd Simulator::rubs(const Setting& setting, double reach_m, std::siz
       [&](std::size_t index, const std::vector<Readings>& readings, const std::exception_ptr& failure) {
         if (failure) return;
         const std::size_t run = index / groups, first = index % groups * others;
-        Eigen::MatrixXd base(rows_.size(), 1), changed(rows_.size(), 1);
-        write(rows_, run, readings.front(), setting.bench, base, 0);
-        for (std::size_t i = 1; i < readings.size(); ++i) {
-          write(rows_, run, readings[i], setting.bench, changed, 0);
-          for (const Block& block : rows_.blocks)
-            if (block.run == run)
-              list.col(static_cast<Eigen::Index>(first + i - 1)).segment(block.begin, block.rows) =
-                  (changed.col(0) - base.col(0)).segment(block.begin, block.rows) / rub_N;
-        }
+        each_block(rows_, run, [&](const Block& block, const auto& part) {
+          const Eigen::VectorXd base = seen(rows_, block, readings.front(), setting.bench);
+          for (std::size_t i = 1; i < readings.size(); ++i)
+            list(part, static_cast<Eigen::Index>(first + i - 1)) =
+                (seen(rows_, block, readings[i], setting.bench) - base) / rub_N;
+        });
       });
   passes_ += static_cast<long>(places + 1);
   return list;
@@ -313,23 +307,18 @@ Wander Simulator::wander(const Setting& setting) const {
       [&](std::size_t index, const std::vector<Readings>& readings, const std::exception_ptr& failure) {
         if (failure) return;
         const Group& g = groups[index];
-        Eigen::MatrixXd base(rows_.size(), 1), changed(rows_.size(), 1);
-        write(rows_, g.run, readings.front(), setting.bench, base, 0);
-        for (std::size_t i = g.first; i < g.last; ++i) {
-          write(rows_, g.run, readings[i - g.first + 1], setting.bench, changed, 0);
-          for (const Block& block : rows_.blocks) {
-            if (block.run != g.run) continue;
-            const auto change = (changed.col(0) - base.col(0)).segment(block.begin, block.rows);
+        each_block(rows_, g.run, [&](const Block& block, const auto& part) {
+          const Eigen::VectorXd base = seen(rows_, block, readings.front(), setting.bench);
+          if (g.first == 0) made.read(part) = base;
+          for (std::size_t i = g.first; i < g.last; ++i) {
+            const Eigen::VectorXd change =
+                seen(rows_, block, readings[i - g.first + 1], setting.bench) - base;
             if (lanes[g.run][i].load)
-              made.load.segment(block.begin, block.rows) = change / step_kg;
+              made.load(part) = change / step_kg;
             else
-              made.columns.col(static_cast<Eigen::Index>(i)).segment(block.begin, block.rows) = change / step;
+              made.columns(part, static_cast<Eigen::Index>(i)) = change / step;
           }
-        }
-        if (g.first == 0)
-          for (const Block& block : rows_.blocks)
-            if (block.run == g.run)
-              made.read.segment(block.begin, block.rows) = base.col(0).segment(block.begin, block.rows);
+        });
       });
   for (const Block& block : rows_.blocks)
     made.together.segment(block.begin, block.rows) = made.columns.middleRows(block.begin, block.rows)

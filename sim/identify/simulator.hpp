@@ -41,8 +41,6 @@ class Simulator {
   Wander wander(const Setting& setting) const;
 
   long passes() const { return passes_; }
-  const Rows& rows() const { return rows_; }
-  unsigned threads() const { return threads_; }
 
  private:
   const Rows& rows_;

@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <plant/names.hpp>
 #include <sim/data/judged.hpp>
 #include <sim/data/stamps.hpp>
 #include <sim/identify/identify.hpp>
@@ -42,7 +43,7 @@ void identify_one(const std::string& title, domain::Dataset data, bool verbose) 
   fmt::print(
       "{} {} [{}]{} best [{}] {:.1f} mass {:.3f} left {:.3f} white {:.3f} model {:.3f} passes {} cpu "
       "{:.1f}\n",
-      title, identify::name_of(found.decision.verdict), fmt::join(chosen.names, " "),
+      title, plant::name_of(found.decision.verdict), fmt::join(chosen.names, " "),
       found.decision.contradicts_sheet ? " !sheet" : "",
       best.described ? "as described" : fmt::format("{}", fmt::join(best.names, " ")), best.score,
       found.decision.mass[found.decision.best], found.left, found.white, found.model_error, found.passes,
