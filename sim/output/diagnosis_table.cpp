@@ -22,6 +22,16 @@ std::string warnings(const Diagnosis& diagnosis) {
   return text;
 }
 
+std::string bench(const Diagnosis& diagnosis) {
+  Grid grid({"fault", "runs", "size", "95 % interval", "in the data set"}, 5);
+  for (const auto& fault : diagnosis.bench) {
+    const Readable shown = readable(fault);
+    grid.add({fault.name, fault.runs.size() == diagnosis.runs.size() ? "all" : listed(fault.runs),
+              shown.value, shown.interval, fault.write});
+  }
+  return grid.empty() ? "" : grid.text();
+}
+
 std::string added(const Diagnosis& diagnosis) {
   Grid grid({"effect", "parameter", "value", "95 % interval"}, 4);
   const auto add = [&](const std::string& effect, const std::string& name,
@@ -117,12 +127,13 @@ std::string next(const Diagnosis& diagnosis) {
 
 std::string table_of(const domain::Dataset& data, const Diagnosis& diagnosis) {
   const auto unseen = held_out(diagnosis);
-  std::string text = fmt::format("{}: {} run{}, {} held out; errors are {}\n", data.path.string(),
-                                 data.runs.size(), data.runs.size() == 1 ? "" : "s",
-                                 unseen.empty() ? "none" : listed(unseen), words_of(data.judged()).errors);
+  std::string text = fmt::format("{}: {} run{}, {}; errors are {}\n", data.path.string(), data.runs.size(),
+                                 data.runs.size() == 1 ? "" : "s", held_out_in_words(diagnosis),
+                                 words_of(data.judged()).errors);
   text += warnings(diagnosis);
   text += fmt::format("\n{}: {}\n", plant::name_of(diagnosis.verdict), title_of(diagnosis));
   if (!diagnosis.because.empty()) text += diagnosis.because + "\n";
+  text += section("faults of the bench, no effects of the rig", bench(diagnosis));
   text += section("added to the rig", added(diagnosis));
   if (!diagnosis.residual_law.empty() && !diagnosis.law_valid_for.empty())
     text += "  residual_law is valid for " + diagnosis.law_valid_for + "\n";

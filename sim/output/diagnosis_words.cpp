@@ -71,6 +71,19 @@ Readable readable(const diagnose::FittedNumber& number) {
               (number.quadratic ? ", by profile" : "")};
 }
 
+Readable readable(const diagnose::BenchFault& fault) {
+  diagnose::FittedNumber size = fault.size;
+  const bool share = size.unit == "1" && fault.name != "zeros_differ";
+  if (share)
+    for (double* number : {&size.value, &size.low, &size.high}) *number *= 100.0;
+  Readable shown = readable(size);
+  if (share) {
+    shown.value += " %";
+    shown.interval += " %";
+  }
+  return shown;
+}
+
 namespace {
 
 std::string three_digits(double value) {
@@ -200,6 +213,8 @@ std::string explained_by(const diagnose::Explanation& explanation) {
 
 std::string what_next(const diagnose::Diagnosis& diagnosis) {
   using enum diagnose::Verdict;
+  if (diagnosis.ended != diagnose::Ended::no)
+    return "The search was stopped: let it finish before anything else is measured.";
   const double floors = diagnosis.gap.floors_left();
   if (floors > diagnose::thresholds.start.explained_floors)
     return fmt::format(
@@ -226,6 +241,17 @@ std::vector<std::string> held_out(const diagnose::Diagnosis& diagnosis) {
   for (const auto& run : diagnosis.runs)
     if (run.held_out) ids.push_back(run.id);
   return ids;
+}
+
+bool each_is_held_out(const diagnose::Diagnosis& diagnosis) {
+  return !diagnosis.runs.empty() &&
+         std::ranges::all_of(diagnosis.runs, [](const auto& run) { return run.held_out || run.left_out; });
+}
+
+std::string held_out_in_words(const diagnose::Diagnosis& diagnosis) {
+  const auto ids = held_out(diagnosis);
+  if (ids.empty()) return "none held out";
+  return each_is_held_out(diagnosis) ? "each predicted from the others" : listed(ids) + " held out";
 }
 
 bool changed(const diagnose::Diagnosis& diagnosis) {

@@ -25,6 +25,9 @@ struct Readable {
 };
 Readable readable(const diagnose::FittedNumber& number);
 
+/// The size of a fault of the bench, as its name tells: "-1.00 kg", "-5.0 %".
+Readable readable(const diagnose::BenchFault& fault);
+
 /// A difference of contraction ratios as height of the load: "1.96 mm", never finer than a micrometre.
 std::string height(double ratio, const plant::Rig& rig);
 
@@ -71,6 +74,10 @@ std::string what_next(const diagnose::Diagnosis& diagnosis);
 
 /// Ids of the runs held out.
 std::vector<std::string> held_out(const diagnose::Diagnosis& diagnosis);
+/// Every run that was used is held out in turn.
+bool each_is_held_out(const diagnose::Diagnosis& diagnosis);
+/// "r07 and r08 held out", "each predicted from the others".
+std::string held_out_in_words(const diagnose::Diagnosis& diagnosis);
 
 /// Whether the corrected rig is another than the nominal one.
 bool changed(const diagnose::Diagnosis& diagnosis);

@@ -228,8 +228,9 @@ std::string errors_svg(const std::vector<const diagnose::RunGap*>& runs, const d
   const double noise_floor = gap.noise_floor;
   const auto shown = std::span(compared_models).first(changed ? 3 : 2);
   constexpr double x1 = 330.0, pitch = 24.0;
-  const auto name_of = [](const diagnose::RunGap& run) {
-    return run.id + (run.left_out ? ", left out" : run.held_out ? ", held out" : "");
+  const bool each = std::ranges::all_of(runs, [](const auto* run) { return run->held_out || run->left_out; });
+  const auto name_of = [each](const diagnose::RunGap& run) {
+    return run.id + (run.left_out ? ", left out" : run.held_out && !each ? ", held out" : "");
   };
   std::size_t longest = 0;
   for (const auto* run : runs) longest = std::max(longest, name_of(*run).size());

@@ -122,9 +122,9 @@ Group group_of(const domain::Dataset& data, const Diagnosis& diagnosis, const Ru
   const output::JudgedWords& of = output::words_of(judged);
   const bool changed = output::changed(diagnosis);
   Group group{.name = fmt::format("{}{}{}", gap.id, hangs ? ", " + output::mass(gap.load_kg) : "",
-                                  gap.left_out   ? ", left out"
-                                  : gap.held_out ? ", held out"
-                                                 : ""),
+                                  gap.left_out                                           ? ", left out"
+                                  : gap.held_out && !output::each_is_held_out(diagnosis) ? ", held out"
+                                                                                         : ""),
               .load_kg = gap.load_kg,
               .ticks = gap.measured.size()};
   group.given = {{std::string("given_") + of.signal,
@@ -212,8 +212,10 @@ std::string report_html(const domain::Dataset& data, const Diagnosis& diagnosis,
   const bool pair = data.judged() == diagnose::Judged::angle;
   Contents contents{
       .title = "Diagnosis of " + output::name_of(data),
-      .about = fmt::format("{} run{}, {} held out", data.runs.size(), data.runs.size() == 1 ? "" : "s",
-                           output::held_out(diagnosis).size()),
+      .about = fmt::format("{} run{}, {}", data.runs.size(), data.runs.size() == 1 ? "" : "s",
+                           output::each_is_held_out(diagnosis)
+                               ? output::held_out_in_words(diagnosis)
+                               : fmt::format("{} held out", output::held_out(diagnosis).size())),
       .warnings = diagnosis.warnings,
       .sentence = text_html(diagnosis.because.empty() ? output::title_of(diagnosis) + "." : diagnosis.because,
                             data.rig),
