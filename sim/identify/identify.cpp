@@ -25,11 +25,13 @@ namespace {
 // How far the search goes.
 constexpr int rounds = 4;
 constexpr int first_rounds = 4;       // of the parameters, before effects are looked for
-constexpr std::size_t tries = 2;      // a look
+constexpr std::size_t tries = 6;      // that are begun, of a look
 const double worth = std::log(20.0);  // nats, of another try (Kass & Raftery 1995: strong)
 constexpr double clear = 20.0;        // nats behind: hopeless
 constexpr double far_off = 3.0;       // deviations of a parameter: something may stand in its place
 constexpr double alike = 0.9;         // squared cosine of what both change
+
+constexpr std::array families{Terms::smooth, Terms::waves, Terms::rubs};
 
 using Names = std::vector<std::string>;
 
@@ -48,12 +50,16 @@ class Search {
   }
   double enter(Model& model, bool described = false);
   double best_score() const;
+  Model begun(Point point) const;
+  Model refined(Model begun);
   Model refined(Point point);
-  /// By more than chance.
+  /// By more than chance; where all is explained, a parameter by itself.
   static bool bent(const Model& model) {
     const Eigen::VectorXd& z = model.point.z;
-    return z.size() > 0 && (z.cwiseAbs().maxCoeff() > far_off ||
-                            z.squaredNorm() > chi_square(decisive.bent, static_cast<std::size_t>(z.size())));
+    return z.size() > 0 &&
+           (z.cwiseAbs().maxCoeff() > far_off ||
+            (!model.error.explains() &&
+             z.squaredNorm() > chi_square(decisive.bent, static_cast<std::size_t>(z.size()))));
   }
   std::vector<Start> starts_from(const Model& base, const Eigen::MatrixXd& columns,
                                  const std::vector<Probe>& probes, const Point& point,
@@ -63,6 +69,7 @@ class Search {
                            const std::vector<Probe>& probes, double own) const;
   bool look_from(Model base, bool far, bool first);
   void prune();
+  double gain_of_terms(const Model& base) const;
   void try_terms();
 
   const Problem& problem_;
@@ -72,6 +79,7 @@ class Search {
   std::optional<Model> here_, at_;
   std::set<std::pair<Names, std::vector<double>>> begun_;
   std::set<Names> hills_;
+  bool outside_ = false;  ///< general terms explain more than any set of the catalogue
 };
 
 double Search::enter(Model& model, bool described) {
@@ -84,7 +92,7 @@ double Search::enter(Model& model, bool described) {
   const auto known = table_.find(key);
   if (known == table_.end())
     table_.emplace(key, model);
-  else if (model.score > known->second.score)
+  else if (known->second.hopeless || (!model.hopeless && model.score > known->second.score))
     known->second = model;
   if (problem_.say) {
     say(fmt::format(
@@ -106,13 +114,28 @@ double Search::best_score() const {
   return best;
 }
 
-Model Search::refined(Point point) {
-  Model m(problem_, std::move(point), at_->error.begun());  // no descent depends on those before it
+/// One round of the descent to the most probable numbers. No descent depends on those before it.
+Model Search::begun(Point point) const {
+  Model m(problem_, std::move(point), at_->error.begun());
   m.look();
+  m.descend({.rounds = 1});
+  return m;
+}
+
+Model Search::refined(Model m) {
   m.settle({.beat = best_score() - clear});
-  m.evidence();
+  if (m.hopeless)
+    m.log_evidence = m.here().evidence;
+  else
+    m.evidence();
   enter(m);
   return m;
+}
+
+Model Search::refined(Point point) {
+  Model m(problem_, std::move(point), at_->error.begun());
+  m.look();
+  return refined(std::move(m));
 }
 
 std::vector<Start> Search::starts_from(const Model& base, const Eigen::MatrixXd& columns,
@@ -206,8 +229,7 @@ bool Search::look_from(Model base, bool far, bool first) {
     for (std::size_t i = 0; i < base.point.effects.size(); ++i) {
       Point q = base.point;
       q.effects.erase(q.effects.begin() + static_cast<std::ptrdiff_t>(i));
-      const std::vector<Setting> setting{dictionary_.setting(q)};
-      const Eigen::VectorXd without = problem_.simulator.read(setting).col(0);
+      const Eigen::VectorXd without = problem_.simulator.read(dictionary_.setting(q));
       if (!without.allFinite()) continue;
       std::vector<Index> kept;
       for (std::size_t j = 0; j < coordinates.size(); ++j)
@@ -218,6 +240,12 @@ bool Search::look_from(Model base, bool far, bool first) {
     }
   }
   std::ranges::stable_sort(starts, std::greater{}, &Start::value);
+  if (!first && !outside_ && !here_->error.explains()) {
+    const double terms = gain_of_terms(base), sets = starts.front().value - own;
+    say(fmt::format("   general terms promise {:.1f}, sets {:.1f}", terms, sets));
+    outside_ = terms > sets;
+  }
+  if (outside_) return false;
   const std::size_t size_of_base = dictionary_.names(base.point).size();
   std::vector<Start> chosen;
   std::set<Names> seen;
@@ -242,22 +270,30 @@ bool Search::look_from(Model base, bool far, bool first) {
   }
   say(fmt::format(" from {}{}: {} tries", fmt::join(dictionary_.names(base.point), " + "),
                   far ? " on the rig as described" : "", chosen.size()));
-  bool gained = false;
+  // The one that is best after a round; the first that explains all.
+  std::optional<Model> best;
+  double of_best = -std::numeric_limits<double>::infinity();
   for (const Start& start : chosen) {
-    say(fmt::format("   try {} promised {:.1f}", fmt::join(dictionary_.names(start.point), " + "),
-                    start.value - own));
-    Model m = refined(start.point);
-    if (m.score > here_->score) {
-      here_ = std::move(m);
-      gained = true;
+    Model m = begun(start.point);
+    const auto [evidence, explains] = m.read.allFinite() ? m.here() : Model::Here{of_best, false};
+    say(fmt::format("   a round of {}, promised {:.1f}: {:.1f}{}",
+                    fmt::join(dictionary_.names(start.point), " + "), start.value - own, evidence,
+                    explains ? " explains" : ""));
+    if (evidence > of_best) {
+      of_best = evidence;
+      best = std::move(m);
     }
-    if (gained && here_->error.explains()) break;
+    if (explains && evidence > here_->score) break;
   }
-  if (gained) prune();
-  return gained;
+  if (!best) return false;
+  best = refined(std::move(*best));
+  if (!(best->score > here_->score)) return false;
+  here_ = std::move(best);
+  prune();
+  return true;
 }
 
-/// Is each needed? Without it, from the rig as described and from these parameters.
+/// Is each needed? Without it, from these parameters and, where they are bent, from the rig as described.
 void Search::prune() {
   for (bool pruned = true; pruned && dictionary_.names(here_->point).size() > 1;) {
     pruned = false;
@@ -274,7 +310,8 @@ void Search::prune() {
       smaller.push_back(q);
     }
     for (const Point& q : smaller) {
-      for (const bool described : {true, false}) {
+      for (const bool described : {false, true}) {
+        if (described && !bent(*here_)) continue;
         Point from = q;
         if (described) from.z.setZero();
         std::vector<double> z(from.z.begin(), from.z.end());
@@ -291,12 +328,34 @@ void Search::prune() {
   }
 }
 
+/// By straight lines from a model, its error as it is: as sets are compared.
+double Search::gain_of_terms(const Model& base) const {
+  const Eigen::VectorXd left = base.residual(), of_rig = base.variance();
+  double best = 0.0;
+  for (const Terms terms : families) {
+    const Eigen::MatrixXd columns = columns_of(base, terms);
+    Eigen::MatrixXd both(left.size(), base.slopes.cols() + columns.cols());
+    both << base.slopes, columns;
+    const Grams grams = base.error.grams(left, both);
+    const Eigen::MatrixXd gram = grams.sum();
+    const Index n = base.slopes.cols();
+    const double without =
+        log_evidence(gram.topLeftCorner(n + 1, n + 1), grams.log_det(), left.size(), of_rig);
+    for (const double scale_N : decisive.terms_N) {
+      Eigen::VectorXd variance(gram.rows() - 1);
+      variance << of_rig, Eigen::VectorXd::Constant(columns.cols(), scale_N * scale_N);
+      best = std::max(best, log_evidence(gram, grams.log_det(), left.size(), variance) - without);
+    }
+  }
+  return best;
+}
+
 /// Is it a law outside the catalogue?
 void Search::try_terms() {
   std::vector<Model> bases{table_.at({false, {}})};
   if (!dictionary_.names(here_->point).empty()) bases.push_back(*here_);
   for (const Model& base : bases)
-    for (const Terms terms : {Terms::smooth, Terms::waves, Terms::rubs}) {
+    for (const Terms terms : families) {
       const Eigen::MatrixXd columns = columns_of(base, terms);
       for (const double scale_N : decisive.terms_N) {
         Model m = base.with_terms(terms, columns, scale_N);
@@ -322,7 +381,7 @@ Identified Search::operator()() {
   enter(described, true);
   at_->error = described.error;
   Model parameters = *at_;
-  const bool arrived = parameters.settle({.rounds = first_rounds});
+  parameters.settle({.rounds = first_rounds});
   parameters.evidence();
   enter(parameters);
   here_ = parameters;
@@ -330,40 +389,52 @@ Identified Search::operator()() {
   // missing (unless these explain all), and from where they were fitted; then from wherever the best stands,
   // and from its effects with the parameters as described where these had to bend.
   std::set<Names> looked{{}};
-  if (bent(parameters) || !parameters.error.explains()) look_from(*at_, true, true);
-  if (!arrived) {
+  if (!parameters.arrived || bent(parameters) || !parameters.error.explains()) look_from(*at_, true, true);
+  if (!parameters.arrived) {
     parameters.settle({.beat = best_score() - clear});
+    parameters.hopeless = false;  // it is told whatever it is
     parameters.evidence();
     if (enter(parameters) > here_->score) here_ = parameters;
   }
-  const bool contends = parameters.score > here_->score - clear;
-  if (dictionary_.names(here_->point).empty() || !here_->error.explains() || (bent(parameters) && contends))
-    look_from(table_.at({false, {}}), false, true);
-  for (int round = 0; round < rounds; ++round) {
-    const Names names = dictionary_.names(here_->point);
-    if (bent(*here_) && looked.insert(names).second) {
-      Point q = here_->point;
-      q.z.setZero();
-      Model base(problem_, std::move(q), here_->error);
-      base.look();
-      if (base.read.allFinite()) look_from(base, true, false);
-    } else if (!look_from(*here_, false, false)) {
-      break;
+  const auto look_on = [&] {
+    for (int round = 0; round < rounds && !outside_; ++round) {
+      const Names names = dictionary_.names(here_->point);
+      if (bent(*here_) && looked.insert(names).second) {
+        Point q = here_->point;
+        q.z.setZero();
+        Model base(problem_, q, here_->error);
+        base.look();
+        if (!base.read.allFinite()) continue;
+        if (here_->error.explains()) {  // the same, on this side of the valley
+          Model m = refined(std::move(q));
+          if (m.score > here_->score) here_ = std::move(m);
+        }
+        look_from(base, true, false);
+      } else if (!look_from(*here_, false, names.empty())) {
+        break;
+      }
     }
+  };
+  const bool contends = bent(parameters) && parameters.score > here_->score - clear;
+  if (contends && !dictionary_.names(here_->point).empty()) look_from(table_.at({false, {}}), false, true);
+  look_on();
+  if (!outside_ && !here_->error.explains() && !contends && look_from(table_.at({false, {}}), false, true))
+    look_on();
+  if (!here_->arrived) {  // to the end, for intervals
+    Model last(problem_, here_->point, here_->error);
+    last.look();
+    last.settle({});
+    last.evidence();
+    enter(last);
+    if (last.score > here_->score) here_ = std::move(last);
   }
-  Model last(problem_, here_->point, here_->error);  // to the end, for intervals
-  last.look();
-  last.settle({.rounds = 12, .enough = 0.1});
-  last.evidence();
-  enter(last);
-  if (last.score > here_->score) here_ = std::move(last);
   if (!here_->error.explains()) try_terms();
   // decide
   const auto groups = groups_of(rows_);
   std::vector<Judged> table;
   std::vector<const Model*> models;
   for (const auto& [key, m] : table_) {
-    if (!std::isfinite(m.score)) continue;
+    if (!std::isfinite(m.score) || m.hopeless) continue;
     table.push_back({.names = key.second,
                      .described = key.first,
                      .general = m.point.terms != Terms::none,
