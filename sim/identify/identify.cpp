@@ -79,7 +79,8 @@ class Search {
   std::optional<Model> here_, at_;
   std::set<std::pair<Names, std::vector<double>>> begun_;
   std::set<Names> hills_;
-  bool outside_ = false;  ///< general terms explain more than any set of the catalogue
+  bool explained_ = false;  ///< all, by what was begun last
+  bool outside_ = false;    ///< general terms explain more than any set of the catalogue
 };
 
 double Search::enter(Model& model, bool described) {
@@ -283,7 +284,8 @@ bool Search::look_from(Model base, bool far, bool first) {
       of_best = evidence;
       best = std::move(m);
     }
-    if (explains && evidence > here_->score) break;
+    explained_ = explains && evidence > here_->score;
+    if (explained_) break;
   }
   if (!best) return false;
   best = refined(std::move(*best));
@@ -396,30 +398,26 @@ Identified Search::operator()() {
     parameters.evidence();
     if (enter(parameters) > here_->score) here_ = parameters;
   }
-  const auto look_on = [&] {
-    for (int round = 0; round < rounds && !outside_; ++round) {
-      const Names names = dictionary_.names(here_->point);
-      if (bent(*here_) && looked.insert(names).second) {
-        Point q = here_->point;
-        q.z.setZero();
-        Model base(problem_, q, here_->error);
-        base.look();
-        if (!base.read.allFinite()) continue;
-        if (here_->error.explains()) {  // the same, on this side of the valley
-          Model m = refined(std::move(q));
-          if (m.score > here_->score) here_ = std::move(m);
-        }
-        look_from(base, true, false);
-      } else if (!look_from(*here_, false, names.empty())) {
-        break;
-      }
-    }
-  };
   const bool contends = bent(parameters) && parameters.score > here_->score - clear;
-  if (contends && !dictionary_.names(here_->point).empty()) look_from(table_.at({false, {}}), false, true);
-  look_on();
-  if (!outside_ && !here_->error.explains() && !contends && look_from(table_.at({false, {}}), false, true))
-    look_on();
+  if ((contends || !explained_) && !dictionary_.names(here_->point).empty())
+    look_from(table_.at({false, {}}), false, true);
+  for (int round = 0; round < rounds && !outside_; ++round) {
+    const Names names = dictionary_.names(here_->point);
+    if (bent(*here_) && looked.insert(names).second) {
+      Point q = here_->point;
+      q.z.setZero();
+      Model base(problem_, q, here_->error);
+      base.look();
+      if (!base.read.allFinite()) continue;
+      if (here_->error.explains()) {  // the same, on this side of the valley
+        Model m = refined(std::move(q));
+        if (m.score > here_->score) here_ = std::move(m);
+      }
+      look_from(base, true, false);
+    } else if (!look_from(*here_, false, names.empty())) {
+      break;
+    }
+  }
   if (!here_->arrived) {  // to the end, for intervals
     Model last(problem_, here_->point, here_->error);
     last.look();
