@@ -4,7 +4,7 @@ older result.
 
     publish_test.py MCKIBBEN FAULTS_LIBRARY run|dataset|ensemble|diagnose|import [every]
 
-Without `every` only the telling operations (`telling` below). For each of them, n: killed at the n-th operation, and
+Without `every` only the telling operations (letters.py). For each of them, n: killed at the n-th operation, and
 the next run at another, the old or the new result is there, whole; the run after that ends well and leaves the same
 bytes as an undisturbed one and nothing else; failing there, at this operation or as a full disk does, the program says so (74) and the old result is as it was,
 or it ends well with the new one. A second process on the same --out, started before the operation, is refused at once
@@ -17,6 +17,8 @@ import shutil
 import subprocess
 import sys
 import tempfile
+
+from letters import telling
 
 PROGRAM, LIBRARY, VERB = sys.argv[1:4]
 EVERY = sys.argv[4:] == ["every"]
@@ -190,13 +192,6 @@ def kept_aside(place, n, _):
     assert notes == ["o.old-1/notes.txt"], notes
     old = {name.replace("o/", "o.old-1/", 1): data for name, data in parts(place.old)[0].items()}
     place.expect_only(place.new | old | {"o.old-1/notes.txt": b"mine"})
-
-
-def telling(letters):
-    """First and last of each kind of operation, and those before, at and after an exchange of folders; from 1 on."""
-    told = {find(kind) for kind in set(letters) for find in (letters.index, letters.rindex)}
-    told |= {n + beside for n, kind in enumerate(letters) if kind == "x" for beside in (-1, 0, 1)}
-    return sorted(n + 1 for n in told if 0 <= n < len(letters))
 
 
 def main():
