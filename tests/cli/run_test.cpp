@@ -179,7 +179,8 @@ TEST(FiveLoads, FeedforwardHelpsUnderEachLoad) {
   }
   write_text(scratch / "s/gains.yaml", text);
   std::map<double, std::array<double, 2>> sums;  // without, with
-  for (const auto& run : run_from(scratch / "s", "gains").at("runs"))
+  const Json document = run_from(scratch / "s", "gains");
+  for (const auto& run : document.at("runs"))
     sums[run.at("load_kg").get<double>()][run.at("controller").get<std::string>().starts_with("with")] +=
         run.at("rmse").get<double>();
   ASSERT_EQ(sums.size(), 6U);
