@@ -87,8 +87,8 @@ class Assembling {
     check_numbers(table_, map_, rig_, problems_);
     for (const Wish& wish : stamped_quantities(map_, rig_)) take(*wish.quantity);
     // What is judged first, pressures last.
-    std::ranges::stable_partition(measured_.columns,
-                                  [](const auto& column) { return !column.is_pressure(); });
+    std::stable_partition(measured_.columns.begin(), measured_.columns.end(),
+                          [](const auto& column) { return !column.is_pressure(); });
     measured_.angle_in_degrees = map_["angle"].unit == "deg";
     measured_.counted = map_[rig_.pair() != nullptr ? "angle" : "contraction"].unit == "count";
     beginning();
