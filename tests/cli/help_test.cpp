@@ -58,10 +58,17 @@ TEST(Help, OfTheProgramTeaches) {
   EXPECT_TRUE(lacks(said.out, "Subcommands")) << "a verb is in no group";
 }
 
-TEST(Help, TheReadmeNamesEveryVerb) {
-  const std::string readme = read_text(MCKIBBEN_SOURCE_DIR "/README.md");
-  for (const std::string& verb : verbs())
-    EXPECT_TRUE(std::regex_search(readme, std::regex("\n\\| `" + verb + "[ `]"))) << verb;
+TEST(Help, ThePageOfTheCommandLineHasEveryVerbUnderItsGroup) {
+  const std::string page = read_text(MCKIBBEN_SOURCE_DIR "/docs/command_line.md");
+  CLI::App app("", "mckibben");
+  Asked asked;
+  build(app, asked);
+  for (const auto* verb : app.get_subcommands({})) {
+    const std::size_t group = page.find("\n## " + verb->get_group() + "\n");
+    ASSERT_NE(group, std::string::npos) << verb->get_group();
+    const std::string part = page.substr(group, page.find("\n## ", group + 1) - group);
+    EXPECT_TRUE(std::regex_search(part, std::regex("\n\\| `" + verb->get_name() + "[ `]"))) << verb->get_name();
+  }
 }
 
 TEST(Help, OfEveryVerbHasExamplesThatItTakes) {
