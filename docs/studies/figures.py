@@ -1,4 +1,4 @@
-"""The figures that the thesis prints for its accuracy (T 4.3, 5) beside the same ones of the simulated rig. Writes
+"""The figures that the thesis prints for its accuracy (T 4.3, 5) and the same ones of the simulated rig. Writes
 figures.md and figures.svg; see index.md."""
 import pathlib
 import tempfile
@@ -110,7 +110,7 @@ def page(evidence, ours):
     friction = [[way, *(spread_text(spreads[d]) for d in DIRECTIONS)] for way, spreads in ours.friction.items()]
     return (
         heading(evidence, "figures", "The thesis's figures and ours")
-        + "What the thesis prints about its accuracy (T 4.3, T 5) beside the same numbers of the simulated rig, calibrated as "
+        + "What the thesis prints about its accuracy (T 4.3, T 5) and the same numbers of the simulated rig, calibrated as "
         "the thesis did: pressure from the current, accelerations by counts.\n\n" + side_by_side(evidence, ours)
         + "## Weighed loads\n\nEach by the thesis's controller, five contractions, mean and standard deviation of their means.\n\n"
         + table(["load [kg]", "weighed [kg]", "spread [kg]", "error", "error with friction from the true pressure"], loads)
