@@ -87,8 +87,8 @@ def why_load(evidence, ours):
     errors = lag.load_errors(evidence)
     runs = counting.means_of_runs(evidence, counting.load_errors(evidence, False))
     return ("- **Load.** While the current rises, the pressure taken from it is too high. Over the rows of the calibration that "
-            f"alone would make loads wrong by {errors['true_friction'].mean():+.2f} kg, but the friction calibrated with it is wrong "
-            f"as well, and {errors['from_current'].mean():+.2f} kg are left ([lag](lag.md)). The same in the weighing, at 6 mA/s: with "
+            f"alone would make loads wrong by {errors['true_friction'].mean():+.2f} kg. The friction calibrated with it is wrong "
+            f"as well, which leaves {errors['from_current'].mean():+.2f} kg ([lag](lag.md)). The same in the weighing, at 6 mA/s: with "
             f"the calibrated friction errors reach {per_cent(largest(ours.weighed))}, with the friction found with the true "
             f"pressure, which has no lag in it, {per_cent(largest(ours.without_lag))}. Counting shifts the mean of a whole run by "
             f"{runs[0].mean() - runs[2].mean():+.2f} kg ([counting](counting.md)).\n")
