@@ -60,7 +60,7 @@ def messages(source):
             if " " in text.strip():
                 yield line, text
             text, line = "", source.count("\n", 0, found.start()) + 1
-        text, place = text + re.sub(r"^ *mckibben .*", "", found[0][1:-1]).replace("\\n", "\n"), found.end()
+        text, place = text + re.sub(r"^ *mckibben .*|`[^`]*`", "", found[0][1:-1]).replace("\\n", "\n"), found.end()
     if " " in text.strip():
         yield line, text
 
