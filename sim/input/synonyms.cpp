@@ -6,7 +6,7 @@
 namespace mckibben::input {
 namespace {
 
-constexpr Synonym table[] = {
+constexpr Synonym terms_of_the_field[] = {
     {"leak", "muscle_leak"},
     {"leakage", "muscle_leak"},
     {"hysteresis", "bladder_hysteresis"},
@@ -70,7 +70,7 @@ std::string spelled_alike(std::string_view word) {
 std::vector<std::string_view> names_here(std::string_view term) {
   const std::string wanted = spelled_alike(term);
   std::vector<std::string_view> names;
-  for (const Synonym& one : table)
+  for (const Synonym& one : terms_of_the_field)
     if (one.term == wanted) names.push_back(one.here);
   return names;
 }
