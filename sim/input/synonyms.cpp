@@ -57,7 +57,7 @@ constexpr Synonym terms_of_the_field[] = {
 }  // namespace
 
 std::span<const Synonym> synonyms() {
-  return table;
+  return terms_of_the_field;
 }
 
 std::string spelled_alike(std::string_view word) {
