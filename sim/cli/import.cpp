@@ -73,7 +73,7 @@ void add_import(CLI::App& app, Asked& asked) {
       "Examples:\n"
       "  mckibben import bench/*.csv --out my_bench\n"
       "  mckibben import load_5kg_run2.csv --rig my_rig.yaml\n"
-      "Every guess stands with its reason; what nothing tells is FILL_IN, which `check` refuses.\n");
+      "Every guess has its reason; unknown values are FILL_IN, which `check` refuses.\n");
 }
 
 }  // namespace mckibben::cli

@@ -95,7 +95,7 @@ struct Run {
     visit.required("id", self.id, "name of the run; results are written under it");
     visit.required(
         "file", self.file,
-        "its table, relative to this file; the ending tells the format: .csv, .lvm, .mat, or .txt, .dat, "
+        "its table, relative to this file; the ending is the format: .csv, .lvm, .mat, or .txt, .dat, "
         ".asc for numbers without headings");
     visit("load", self.given_load_kg, "kg", 0.01, 500.0, "mass of the load; required where one hangs");
     visit("columns", self.columns, "where this run's file differs from the data set's columns");
@@ -159,7 +159,7 @@ struct Dataset {
     visit("start", self.recorded.start,
           "settled: at rest with the first input; moving: recorded from some instant on, the first state is "
           "estimated from the first readings");
-    visit("skip", self.recorded.skip_s, "s", 0.0, 1e4, "so much of each run is simulated but not judged");
+    visit("skip", self.recorded.skip_s, "s", 0.0, 1e4, "so much of each run is simulated but not compared");
     visit("hold", self.recorded.hold,
           "what inputs do between stamps: previous (usual for commands) or linear (usual for pressures and "
           "lengths)");

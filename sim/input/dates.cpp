@@ -102,8 +102,8 @@ std::optional<double> ClockReader::read(std::string_view name, const Cell& cell,
   if (!first_) first_ = stamp;
   if (stamp->date == first_->date) return stamp->second - first_->second;
   if (!stamp->day || !first_->day) {
-    problem = fmt::format("{}: {} is another day than {}, and it cannot be told which number is the month",
-                          name, shown, first_->date);
+    problem = fmt::format("{}: {} is another day than {}, and which number is the month is ambiguous", name,
+                          shown, first_->date);
     return std::nullopt;
   }
   return static_cast<double>(*stamp->day - *first_->day) * day_s + stamp->second - first_->second;

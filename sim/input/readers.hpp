@@ -62,6 +62,6 @@ std::optional<Format> format_of(const std::string& file);
 
 /// What is said then.
 inline constexpr const char* format_rule =
-    "its ending must tell its format: .csv, .lvm, .mat, or .txt, .dat, .asc for numbers without headings";
+    "its ending must be a format: .csv, .lvm, .mat, or .txt, .dat, .asc for numbers without headings";
 
 }  // namespace mckibben::input

@@ -18,8 +18,8 @@ using recognise::ColumnGuess, recognise::MapGuess, recognise::Recognised, recogn
     recognise::Setting, recognise::Told;
 
 constexpr const char* how_to_go_on =
-    "# Each comment says what told the value below it. Correct what is wrong. FILL_IN stands where nothing "
-    "told it:\n"
+    "# Each comment gives the source of the value below it. Correct what is wrong. FILL_IN marks unknown "
+    "values:\n"
     "# `mckibben check` shows each place, and nothing is simulated before all are filled in.\n";
 
 /// A comment in a line of YAML: headings may hold anything.
@@ -99,7 +99,7 @@ std::string dataset_yaml(const Recognised& found, const std::filesystem::path& f
 
 std::string rig_yaml(const Recognised& found) {
   std::string text = fmt::format(
-      "# The rig as far as its tables tell, written by `mckibben import`.\n{}"
+      "# The rig as far as its tables say, written by `mckibben import`.\n{}"
       "# What is not said here is the base's: mckibben schema rig --format yaml shows every value.\n"
       "schema: {}\nbase: thesis\n",
       how_to_go_on, input::rig_schema);

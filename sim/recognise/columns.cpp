@@ -66,7 +66,7 @@ void sign_and_zero(ColumnGuess& contraction, const ColumnGuess& drive,
   const std::string along = fmt::format("correlation with {} {:.2f}", drive.column.value, found.correlation);
   if (std::abs(found.correlation) < least_correlation) {
     contraction.factor =
-        left_open(along + ": too little to tell its sign; 1 if it grows as the muscle contracts, else -1");
+        left_open(along + ": too weak to decide its sign; 1 if it grows as the muscle contracts, else -1");
     contraction.zero = left_open("what it reads with the muscle at its rest length");
     return;
   }

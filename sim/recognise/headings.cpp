@@ -143,7 +143,7 @@ Heading heading_of(const UnknownColumn& column) {
     if (!key.empty()) told = fmt::format("its unit {}", heading.unit);
   }
   if (column.is_date) told = "it holds dates";
-  if (key.empty()) return {nullptr, heading.unit, false, "neither its words nor its unit tell"};
+  if (key.empty()) return {nullptr, heading.unit, false, "neither its words nor its unit are known"};
   heading.quantity = &domain::quantity_of(key);
   heading.unit_fits = is_unit_of(key, heading.unit);
   if (is_suffix && !heading.unit_fits) heading.unit.clear();

@@ -75,7 +75,7 @@ Board::Answer later_of(long (*lie)(int n, long counts)) {
 
 constexpr std::int64_t lowest = std::numeric_limits<std::int64_t>::min(),
                        highest = std::numeric_limits<std::int64_t>::max();
-constexpr const char *unasked = "it says what nobody asked for", *no_number = " is no number of counts",
+constexpr const char *unasked = "it sent an unrequested line", *no_number = " is no number of counts",
                      *jump = "watchdog: counts jump from ", *beyond = "the muscle can do ",
                      *begin = "watchdog: counts begin at ", *still = "watchdog: counts stay at ",
                      *apart = "further apart than half of what the muscle can do";
@@ -132,7 +132,7 @@ const Lie lies[] = {
     {"no_end_of_line", later(std::string(5000, '1')), "a line without end"},
     {"begins_again", [](int n, long counts) { return (n < then ? "" : "ready 1\n") + line(counts); },
      no_number},
-    {"hangs_up", later(Board::hang_up), "could not be told to vent", false},
+    {"hangs_up", later(Board::hang_up), "could not be vented", false},
 };
 
 class Lies : public testing::TestWithParam<Lie> {};

@@ -59,7 +59,7 @@ TEST_F(Import, WhatIsOpenIsRefusedAndThenReplays) {
   EXPECT_TRUE(holds(read_text(scratch_ / "mine/understood.svg"), "contraction: (Laser [mm] - 412"));
   const Said refused = mckibben("check mine", scratch_);
   EXPECT_EQ(refused.status, 65);
-  EXPECT_TRUE(holds(refused.err, "rest_length = FILL_IN: nothing that was recorded tells it"));
+  EXPECT_TRUE(holds(refused.err, "rest_length = FILL_IN: the recorded data do not contain it"));
 
   std::string rig = read_text(scratch_ / "mine/rig.yaml");
   for (const auto& [key, value] : {std::pair{"rest_length", "180 mm"},

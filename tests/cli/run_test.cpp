@@ -343,7 +343,7 @@ TEST(Replay, AndCheckNameLabelsThatLookExchanged) {
   EXPECT_EQ(
       checked.out,
       ".: ok (2 of 2 runs simulated: stroke, sign, units, order of loads)\n"
-      "  diagnose: 2 usable runs: too few to choose on some and judge on others; at least four runs would "
+      "  diagnose: 2 usable runs: too few to choose on some and test on others; at least four runs would "
       "help, with two loads and two kinds of current.\n");
 }
 
