@@ -91,8 +91,8 @@ void check_said_units(const Table& table, const ColumnMap& map, const plant::Rig
     const bool in_heading = column->unit.empty();
     const std::string said = in_heading ? unit_in_heading(column->in_file, quantity) : column->unit;
     if (said.empty()) continue;
-    const bool is_command_of_another_name =
-        place.absent() && quantity.is_old_current && !map[domain::command_key].absent();
+    const bool is_command_of_another_name = place.absent() && quantity.is_command() &&
+                                            (!map["current"].absent() || !map[domain::command_key].absent());
     if (is_command_of_another_name || (says_factor(quantity.key) && place.factor != -1.0) ||
         (!place.absent() && place.column != column->in_file))
       continue;
