@@ -10,6 +10,7 @@
 
 #include <sim/cli/results.hpp>
 #include <sim/cli/verbs.hpp>
+#include <sim/data/plausible.hpp>
 #include <sim/input/calibration_file.hpp>
 #include <sim/input/campaign_file.hpp>
 #include <sim/input/dataset_file.hpp>
@@ -45,19 +46,28 @@ struct Looked {
 /// Reads a data set and looks at what it says; adds warnings. Throws what is wrong with it.
 Looked read_measured(const std::filesystem::path& path, std::vector<Problem>& warnings) {
   const domain::Dataset data = input::read_dataset(path);
+  for (const std::string& remark : data.remarks)
+    warnings.push_back({input::Severity::warning, data.path.string(), input::nowhere, remark, ""});
+  const auto say = [&](const std::vector<data::Finding>& findings) {
+    for (Problem& one : input::problems_of(data.path, with_runs_named(data, findings)))
+      warnings.push_back(std::move(one));
+    if (std::ranges::any_of(warnings,
+                            [](const Problem& one) { return one.severity == input::Severity::error; }))
+      throw input::BadInput(warnings);
+  };
+  say(data::implausible(data));
   if (std::string why = input::why_unfit(domain::Purpose::judging, data); !why.empty())
     return {fmt::format("{} runs read; none simulated", data.runs.size()), {"cannot take it yet: " + why}};
   run::Look look = run::look(data);
   Looked looked{fmt::format("{} of {} runs simulated: stroke, sign, units, order of loads", look.runs,
                             data.runs.size())};
+  if (std::string why = input::why_unfit(domain::Purpose::diagnosis, data); !why.empty())
+    looked.diagnose.push_back("cannot take it yet: " + why);
   std::erase_if(look.findings, [&](const data::Finding& one) {
     if (data::only_limits_diagnosis(one)) looked.diagnose.push_back(one.message);
     return data::only_limits_diagnosis(one);
   });
-  warnings = input::problems_of(data.path, with_runs_named(data, look.findings));
-  if (std::ranges::any_of(warnings,
-                          [](const Problem& one) { return one.severity == input::Severity::error; }))
-    throw input::BadInput(warnings);
+  say(look.findings);
   return looked;
 }
 

@@ -128,6 +128,8 @@ class FieldLister {
       info.highest = T::highest;
     } else if constexpr (is_optional<T>) {
       describe<typename T::value_type>(info);
+    } else if constexpr (std::same_as<T, domain::RowFilter>) {
+      info.type = FieldInfo::Type::named;
     } else if constexpr (std::same_as<T, domain::Variation>) {
       info.type = FieldInfo::Type::draws;
       for (const std::string_view text : spellings<domain::Sampling>()) info.choices.emplace_back(text);

@@ -1,0 +1,20 @@
+// The file of a table as text, whatever it is: UTF-16, old line ends and code pages become UTF-8 in lines; a
+// spreadsheet becomes lines with tabs between the cells. What cannot be read says what it is and what to do.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <sim/input/source.hpp>
+
+namespace mckibben::input {
+
+/// Throws MissingInput; BadInput for what is no table. MAT-files stay as they are. `sheet`: of a spreadsheet
+/// that has several with numbers.
+Source load_table(const std::filesystem::path& path, const std::string& sheet = "");
+
+/// Names of those, of a spreadsheet; else one that is empty. Throws as load_table.
+std::vector<std::string> sheets_in(const std::filesystem::path& path);
+
+}  // namespace mckibben::input
