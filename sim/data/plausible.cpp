@@ -229,16 +229,15 @@ class Plausible {
         const domain::Run &one = data_.runs[k], &other = data_.runs[i];
         if (!same(one, other)) continue;
         const bool loads = one.given_load_kg != other.given_load_kg;
-        found_.push_back(
-            {.quantity = loads ? "load" : "",
-             .runs = {i},
-             .message = fmt::format(
-                 "holds the same rows as run {}{}: {}", one.id,
-                 loads
-                     ? fmt::format(", under another load ({:.6g} and {:.6g} kg)", one.load_kg, other.load_kg)
-                     : "",
-                 one.file == other.file ? "name its own file" : "is one a copy of the other?"),
-             .severity = loads && one.file == other.file ? Severity::refused : Severity::doubtful});
+        found_.push_back({.quantity = loads ? "load" : "",
+                          .runs = {i},
+                          .message = fmt::format(
+                              "holds the same rows as run {}{}: {}", one.id,
+                              loads ? fmt::format(", under another load ({:.6g} and {:.6g} kg)", one.load_kg,
+                                                  other.load_kg)
+                                    : "",
+                              one.file == other.file ? "name its own file" : "is one a copy of the other?"),
+                          .severity = Severity::doubtful});
         kinds_.emplace_back("same");
         break;
       }
