@@ -35,6 +35,16 @@ double typical_step_s(const Series& time_s) {
   return steps.empty() ? 0.0 : upper_median(std::move(steps));
 }
 
+std::optional<double> size_Pa(std::string_view unit) {
+  for (const auto& [name, size] : {std::pair<std::string_view, double>{"bar", 1e5},
+                                   {"kPa", 1e3},
+                                   {"mbar", 1e2},
+                                   {"psi", 6894.757},
+                                   {"Pa", 1.0}})
+    if (unit == name) return size;
+  return std::nullopt;
+}
+
 class Plausible {
  public:
   explicit Plausible(const domain::Dataset& data) : data_(data) {}
@@ -74,26 +84,21 @@ class Plausible {
     const double lasts_s = time_s.back() - time_s.front(), step_s = typical_step_s(time_s);
     ColumnPlace meant = map_["time"];
     if (lasts_s < limits.shortest_run_s && step_s < limits.shortest_step_s) {
-      const std::string unit = meant.unit == "ms"   ? "s"
-                               : meant.unit == "us" ? "ms"
-                               : meant.unit == "ns" ? "us"
-                                                    : "s";
       const std::string said = meant.unit;
-      meant.unit = unit;
+      meant.unit = said == "ms" ? "s" : said == "us" ? "ms" : said == "ns" ? "us" : "s";
       find("time", "short",
            fmt::format(
                "lasts {:.3g} ms, its {} rows are {:.3g} us apart: is its time in {}, not in {}? Then {}",
-               1e3 * lasts_s, time_s.size(), 1e6 * step_s, unit, said, line("time", meant)),
+               1e3 * lasts_s, time_s.size(), 1e6 * step_s, meant.unit, said, line("time", meant)),
            Severity::refused);
       return;
     }
     if (step_s >= limits.longest_step_s && lasts_s > limits.longest_run_s) {
-      const std::string unit = meant.unit == "s" ? "ms" : meant.unit == "ms" ? "us" : "ns";
       const std::string said = meant.unit;
-      meant.unit = unit;
+      meant.unit = said == "s" ? "ms" : said == "ms" ? "us" : "ns";
       find("time", "long",
            fmt::format("lasts {:.3g} h, its rows are {:.3g} s apart: is its time in {}, not in {}? Then {}",
-                       lasts_s / 3600.0, step_s, unit, said, line("time", meant)),
+                       lasts_s / 3600.0, step_s, meant.unit, said, line("time", meant)),
            Severity::doubtful);
     }
     std::size_t gaps = 0, widest = 1;
@@ -152,16 +157,13 @@ class Plausible {
     if (high > limits.beyond_supply * supply_Pa && high > limits.high_Pa) {
       ColumnPlace meant = said;
       meant.unit = said.unit == "bar" ? "psi" : said.unit == "psi" ? "kPa" : "the unit of its gauge";
+      const auto is = size_Pa(said.unit), of = size_Pa(meant.unit);
       find(key, "high",
            fmt::format(
                "{} is up to {:.4g} bar, and the rig's supply has {:.3g} bar; as {} it would be {:.3g} bar; "
                "if that is right, {}, otherwise set valve.supply_pressure of the rig",
                key, high / plant::Pa_per_bar, supply_Pa / plant::Pa_per_bar, meant.unit,
-               high / plant::Pa_per_bar *
-                   (said.unit == "bar"   ? 0.0689476
-                    : said.unit == "psi" ? 0.145038
-                                         : 1.0),
-               line(key, meant)),
+               high / plant::Pa_per_bar * (of && is ? *of / *is : 1.0), line(key, meant)),
            Severity::refused);
       return;
     }
@@ -179,25 +181,20 @@ class Plausible {
         std::ranges::count_if(values, [&](double value) { return value < low + limits.rests * low; });
     if (low > limits.least_atmosphere_Pa && low < limits.most_atmosphere_Pa && said.zero == 0.0 &&
         static_cast<double>(rests) > limits.resting_share * static_cast<double>(values.size())) {
-      ColumnPlace meant = said;
-      const double per_unit = plant::Pa_per_bar;
       find(
           key, "absolute",
           fmt::format(
               "{} rests at {:.4g} bar: is it absolute? Then zero is what its gauge reads in open air, {:.6g} "
               "bar in its unit ({}): columns: {{{}}}",
-              key, low / per_unit, data_.rig.gas.atmosphere_Pa / per_unit, said.unit,
-              line_of(key, {meant.column, meant.unit, zero_of_atmosphere(said), meant.factor})),
+              key, low / plant::Pa_per_bar, data_.rig.gas.atmosphere_Pa / plant::Pa_per_bar, said.unit,
+              line_of(key, {said.column, said.unit, zero_of_atmosphere(said), said.factor})),
           Severity::doubtful);
     }
   }
 
   double zero_of_atmosphere(const ColumnPlace& said) const {
-    const double atmosphere_Pa = data_.rig.gas.atmosphere_Pa;
-    for (const auto& [unit, size_Pa] :
-         {std::pair{"bar", 1e5}, {"kPa", 1e3}, {"mbar", 1e2}, {"psi", 6894.757}, {"Pa", 1.0}})
-      if (said.unit == unit) return atmosphere_Pa / size_Pa / said.factor;
-    return 1.01325;
+    const std::optional<double> unit_Pa = size_Pa(said.unit);
+    return unit_Pa ? data_.rig.gas.atmosphere_Pa / *unit_Pa / said.factor : 1.01325;
   }
 
   bool moves_far() const {

@@ -35,15 +35,11 @@ std::string_view kind_of(const MatArray& array) {
 
 /// The numeric arrays in a variable: its own, or those of its fields, of each of several structs.
 void list(const MatArray& array, const std::string& name, const std::string& label, MatContents& contents) {
-  constexpr std::size_t most_structs = 1000, most_columns = 100;
+  constexpr std::size_t most_structs = 1000;
   if (contents.names.size() >= most_names) return;
   if (array.is_numeric()) {
-    contents.names.push_back(name);
-    const bool matrix = array.sizes.size() == 2 && array.sizes[0] > 1 && array.sizes[1] > 1;
-    for (std::size_t k = 1; matrix && k <= std::min(array.sizes[1], most_columns); ++k)
-      contents.vectors.push_back(
-          {fmt::format("{}(:,{})", name, k), label.empty() ? "" : fmt::format("{} {}", label, k)});
-    if (!matrix) contents.vectors.push_back({name, label});
+    const bool flat = array.sizes.size() == 2;
+    contents.add(name, label, flat ? array.sizes[0] : 0, flat ? array.sizes[1] : 0);
   }
   if (!array.is_struct()) return;
   const std::size_t count = std::min(array.count(), most_structs);
@@ -129,6 +125,17 @@ std::vector<double> values(const MatVariables& variables, std::string_view where
 }
 
 }  // namespace
+
+void MatContents::add(const std::string& name, const std::string& label, std::size_t rows,
+                      std::size_t columns) {
+  constexpr std::size_t most_columns = 100;
+  names.push_back(name);
+  const bool matrix = rows > 1 && columns > 1;
+  for (std::size_t k = 1; matrix && k <= std::min(columns, most_columns); ++k)
+    vectors.push_back(
+        {fmt::format("{}(:,{})", name, k), label.empty() ? "" : fmt::format("{} {}", label, k)});
+  if (!matrix) vectors.push_back({name, label});
+}
 
 MatContents read_mat(const std::string& bytes, const std::vector<std::string>& wanted) {
   if (is_mat_hdf5(bytes)) return read_mat_hdf5(bytes, wanted);

@@ -21,6 +21,8 @@ struct MatContents {
     std::string name, label;
   };
   std::vector<Vector> vectors;
+
+  void add(const std::string& name, const std::string& label, std::size_t rows, std::size_t columns);
   std::vector<Found> found;  ///< one for each that was asked for
 };
 

@@ -13,8 +13,7 @@
 namespace mckibben::formats {
 namespace {
 
-constexpr std::size_t most_found = 10000, most_structs = 1000, most_matrix_columns = 100,
-                      before_hdf5_bytes = 512;
+constexpr std::size_t most_found = 10000, most_structs = 1000, before_hdf5_bytes = 512;
 constexpr int deepest_group = 20;
 
 /// An identifier of HDF5 and how it is given back.
@@ -131,12 +130,7 @@ class Reader {
     Matrix matrix{rows, columns, std::vector<double>(rows * columns)};
     if (H5Dread(object, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, matrix.values.data()) < 0)
       throw BadFile(fmt::format("{} cannot be read: the file is damaged or cut off", path));
-    contents.names.push_back(path);
-    const bool is_matrix = rows > 1 && columns > 1;
-    for (std::size_t k = 1; is_matrix && k <= std::min(columns, most_matrix_columns); ++k)
-      contents.vectors.push_back(
-          {fmt::format("{}(:,{})", path, k), label.empty() ? "" : fmt::format("{} {}", label, k)});
-    if (!is_matrix) contents.vectors.push_back({path, label});
+    contents.add(path, label, rows, columns);
     matrices.emplace(path, std::move(matrix));
   }
 

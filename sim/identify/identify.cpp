@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Cholesky>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -55,10 +54,15 @@ double Search::best_score() const {
   return best;
 }
 
-/// One round of the descent to the most probable numbers. No descent depends on those before it.
-Model Search::begun(Point point) const {
+/// At the beginning of a descent. None depends on those before it.
+Model Search::started(Point point) const {
   Model m(problem_, std::move(point), at_->error.begun());
   m.look();
+  return m;
+}
+
+Model Search::begun(Point point) const {
+  Model m = started(std::move(point));
   m.descend({.rounds = 1});
   return m;
 }
@@ -74,9 +78,7 @@ Model Search::refined(Model m) {
 }
 
 Model Search::refined(Point point) {
-  Model m(problem_, std::move(point), at_->error.begun());
-  m.look();
-  return refined(std::move(m));
+  return refined(started(std::move(point)));
 }
 
 /// By straight lines from a model, its error as it is: as sets are compared.

@@ -93,15 +93,14 @@ bool Search::look_from(Model base, bool far, bool first) {
   if (!far) {
     other_hills = twins(base, columns, list, own);
     for (const int g : base.point.differ) {
+      if (g == loads) continue;  // these are in the simulation
       Point q = base.point;
       std::erase(q.differ, g);
-      if (g == loads) continue;  // these are in the simulation
       add(starts_from(base, columns, list, q, left, base.slopes, false, false));
     }
     const auto coordinates = dictionary_.coordinates(base.point);
     for (std::size_t i = 0; i < base.point.effects.size(); ++i) {
-      Point q = base.point;
-      q.effects.erase(q.effects.begin() + static_cast<std::ptrdiff_t>(i));
+      const Point q = base.point.without(i);
       const Eigen::VectorXd without = problem_.simulator.read(dictionary_.setting(q));
       if (!without.allFinite()) continue;
       std::vector<Index> kept;
@@ -172,11 +171,7 @@ void Search::prune() {
   for (bool pruned = true; pruned && dictionary_.names(here_->point).size() > 1;) {
     pruned = false;
     std::vector<Point> smaller;
-    for (std::size_t i = 0; i < here_->point.effects.size(); ++i) {
-      Point q = here_->point;
-      q.effects.erase(q.effects.begin() + static_cast<std::ptrdiff_t>(i));
-      smaller.push_back(q);
-    }
+    for (std::size_t i = 0; i < here_->point.effects.size(); ++i) smaller.push_back(here_->point.without(i));
     for (const int g : here_->point.differ) {
       Point q = here_->point;
       std::erase(q.differ, g);

@@ -43,8 +43,10 @@ class Search {
   }
   double enter(Model& model, bool described = false);
   double best_score() const;
+  Model started(Point point) const;
+  /// After one round of the descent to the most probable numbers.
   Model begun(Point point) const;
-  Model refined(Model begun);
+  Model refined(Model started);
   Model refined(Point point);
   /// By more than chance; where all is explained, a parameter by itself.
   static bool bent(const Model& model) {

@@ -211,7 +211,7 @@ void spread_stamps(Table& table, TableProblems& problems) {
                   time->in_file, repeats, stamps.size()));
 }
 
-void merge_clocks(Table& table, const ColumnMap& map, const Run&) {
+void merge_clocks(Table& table, const ColumnMap& map) {
   struct Series {
     Table::Column* column;
     std::vector<std::pair<double, std::size_t>> stamps;  ///< and their rows

@@ -26,7 +26,7 @@ void spread_stamps(Table& table, TableProblems& problems);
 
 /// Quantities with a clock, or rows, of their own at the stamps of all of them; what is not read at one is
 /// NaN. In seconds.
-void merge_clocks(Table& table, const domain::ColumnMap& map, const domain::Run& run);
+void merge_clocks(Table& table, const domain::ColumnMap& map);
 
 /// Rows from `from` to `to` since the first. In seconds.
 void keep_window(Table& table, const domain::Run& run, TableProblems& problems);

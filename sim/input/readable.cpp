@@ -134,23 +134,9 @@ std::string text_of_sheet(const std::filesystem::path& path, std::string_view by
                            did_you_mean(wanted, names), join_few(names)));
 }
 
-}  // namespace
-
-std::vector<std::string> sheets_in(const std::filesystem::path& path) {
-  const Source source = Source::load(path, most_text_bytes);
-  if (!has_sheets(source.text())) return {""};
-  std::vector<std::string> names;
-  for (const formats::Sheet& sheet : sheets_of(path, source.text())) names.push_back(sheet.name);
-  return names;
-}
-
-Source load_table(const std::filesystem::path& path, const std::string& sheet) {
-  Source source = Source::load(path, most_text_bytes);
+/// What is no spreadsheet, as text.
+Source as_text(Source source, const std::filesystem::path& path) {
   const std::string_view bytes = source.text();
-  if (has_sheets(bytes)) {
-    source.replace_text(text_of_sheet(path, bytes, sheet));
-    return source;
-  }
   for (const Unread& one : unread)
     if (bytes.starts_with(one.begin)) refuse(path, std::string(one.what));
   if (bytes.starts_with("MATLAB ") || path.extension() == ".mat") return source;
@@ -165,6 +151,26 @@ Source load_table(const std::filesystem::path& path, const std::string& sheet) {
     if (text != source.text()) source.replace_text(std::move(text));
   }
   if (source.text().find('\0') == std::string::npos && source.first_bad_byte()) source.reread_as_latin1();
+  return source;
+}
+
+}  // namespace
+
+std::vector<LoadedSheet> load_tables(const std::filesystem::path& path) {
+  Source source = Source::load(path, most_text_bytes);
+  if (!has_sheets(source.text())) return {{"", as_text(std::move(source), path)}};
+  std::vector<LoadedSheet> all;
+  for (formats::Sheet& sheet : sheets_of(path, source.text())) {
+    all.push_back({std::move(sheet.name), source});
+    all.back().source.replace_text(std::move(sheet.text));
+  }
+  return all;
+}
+
+Source load_table(const std::filesystem::path& path, const std::string& sheet) {
+  Source source = Source::load(path, most_text_bytes);
+  if (!has_sheets(source.text())) return as_text(std::move(source), path);
+  source.replace_text(text_of_sheet(path, source.text(), sheet));
   return source;
 }
 

@@ -14,7 +14,11 @@ namespace mckibben::input {
 /// that has several with numbers.
 Source load_table(const std::filesystem::path& path, const std::string& sheet = "");
 
-/// Names of those, of a spreadsheet; else one that is empty. Throws as load_table.
-std::vector<std::string> sheets_in(const std::filesystem::path& path);
+/// All of those, of a spreadsheet; else one without a name. Throws as load_table.
+struct LoadedSheet {
+  std::string name;
+  Source source;
+};
+std::vector<LoadedSheet> load_tables(const std::filesystem::path& path);
 
 }  // namespace mckibben::input

@@ -96,7 +96,7 @@ void read_table_of(const Source& source, const ColumnMap& map, const Dataset& da
   check_said_units(table, map, dataset.rig, says_factor, found);
   if (dataset.own_clock && (found.count() > 0 || table.columns.empty())) return;
   convert_columns(table, map, dataset.rig);
-  if (found.count() == 0) merge_clocks(table, map, run);
+  if (found.count() == 0) merge_clocks(table, map);
   if (found.count() == 0) keep_window(table, run, found);
   if (Table::Column* time = table.find("time_s"); time != nullptr && !dataset.own_clock && run.from_s > 0.0)
     for (double& at_s : time->values) at_s -= run.from_s;  // its first row is tick 0

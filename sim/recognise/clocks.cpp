@@ -94,23 +94,22 @@ TimeGuess time_of(const UnknownTable& table) {
   for (const UnknownColumn& column : table.columns)
     if (Heading heading = heading_of(column); heading.quantity != nullptr && heading.quantity->key == "time")
       candidates.emplace_back(&column, std::move(heading));
-  for (const UnknownColumn& column : table.columns)
-    if (candidates.empty() && counts_rows(column.values) &&
-        (!table.has_headings || names_rows(column.name))) {
-      found.row_numbers = &column;
-      break;
-    }
-  if (found.row_numbers != nullptr) {
+  const auto numbers = std::ranges::find_if(table.columns, [&](const UnknownColumn& column) {
+    return counts_rows(column.values) && (!table.has_headings || names_rows(column.name));
+  });
+  if (candidates.empty() && numbers != table.columns.end()) {
     const SaidStep said = said_step(table);
-    if (said.step_s <= 0.0) return found;
+    if (said.step_s <= 0.0) {
+      found.row_numbers = &*numbers;
+      return found;
+    }
     found.guess = ColumnGuess{&domain::quantity_of("time"),
-                              {found.row_numbers->name, "it counts the rows"},
+                              {numbers->name, "it counts the rows"},
                               {"s", said.reason},
                               {},
                               Told{domain::write_number(said.step_s), said.reason},
                               {},
                               {}};
-    found.row_numbers = nullptr;
     return found;
   }
   if (candidates.empty() && !table.has_headings)

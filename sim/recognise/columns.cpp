@@ -142,17 +142,15 @@ const UnknownColumn* scaled_of(const UnknownColumn& raw, const std::vector<Named
 }
 
 /// Row numbers and raw readings are nothing that is compared.
-void leave_out_others(const UnknownTable& table, const TimeGuess& time, std::vector<Named>& named) {
+void leave_out_others(const TimeGuess& time, std::vector<Named>& named) {
   for (Named& each : named) {
     if (each.heading.quantity == nullptr || each.heading.quantity->key == "time") continue;
-    if (each.column == time.row_numbers || (time.guess && each.column->name == time.guess->column.value))
-      each.heading = {nullptr, "", false, "it counts the rows"};
-    else if (names_rows(each.column->name) && counts_rows(each.column->values))
+    if (each.column == time.row_numbers || (time.guess && each.column->name == time.guess->column.value) ||
+        (names_rows(each.column->name) && counts_rows(each.column->values)))
       each.heading = {nullptr, "", false, "it counts the rows"};
     else if (const UnknownColumn* scaled = scaled_of(*each.column, named))
       each.heading = {nullptr, "", false, fmt::format("the raw reading of {}", scaled->name)};
   }
-  (void)table;
 }
 
 /// The clock that stands before a quantity's column, where each has its own.
@@ -190,7 +188,7 @@ MapGuess map_of(const std::vector<const UnknownTable*>& tables) {
   std::vector<Named> named;
   for (const UnknownColumn& column : table.columns) named.push_back({&column, heading_of(column)});
   const TimeGuess time = time_of(table);
-  leave_out_others(table, time, named);
+  leave_out_others(time, named);
   const auto candidates = [&](std::string_view key) {
     std::vector<const Named*> list;
     for (const Named& each : named)

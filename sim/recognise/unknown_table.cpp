@@ -144,10 +144,9 @@ void read_matlab(const Source& source, UnknownTable& table) {
   }
 }
 
-UnknownTable read_one(const std::filesystem::path& path, const std::string& sheet) {
+UnknownTable read_one(const std::filesystem::path& path, const Source& source) {
   UnknownTable table;
   table.path = path;
-  const Source source = input::load_table(path, sheet);
   table.input = {source.name(), source.sha256()};
   const auto format = input::format_of(path.string(), source.text());
   if (format != input::Format::mat) {
@@ -185,10 +184,10 @@ UnknownTable UnknownTable::rows(const std::vector<std::size_t>& which, const std
 
 std::vector<UnknownTable> read_unknown(const std::filesystem::path& path) {
   std::vector<UnknownTable> tables;
-  const std::vector<std::string> sheets = input::sheets_in(path);
-  for (const std::string& sheet : sheets) {
-    tables.push_back(read_one(path, sheet));
-    if (sheets.size() > 1) tables.back().part.push_back("sheet: " + domain::yaml_scalar(sheet));
+  const std::vector<input::LoadedSheet> sheets = input::load_tables(path);
+  for (const auto& [name, source] : sheets) {
+    tables.push_back(read_one(path, source));
+    if (sheets.size() > 1) tables.back().part.push_back("sheet: " + domain::yaml_scalar(name));
   }
   return tables;
 }
