@@ -37,7 +37,7 @@ struct JointTerms {
     visit("highest_angle", self.highest_angle_rad, "rad", -turn_rad, turn_rad,
           "joint angle at which a higher target is cut");
     visit("fastest_joint", self.fastest_joint_rad_per_s, "rad/s", 1e-2, 1e4,
-          "speed that the joint never has: counts that jump further from tick to tick are not believed");
+          "speed that the joint never has: counts that jump further from tick to tick are rejected");
   }
   template <class Report>
   void rules(Report& report) const {

@@ -20,9 +20,9 @@ struct GuestTerms : SafetyTerms, OutputLimits {
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
-    visit("tell_load", self.tell_load, "whether it is told the load of its run");
+    visit("tell_load", self.tell_load, "whether it gets the load of its run");
     visit("preparation_ticks", self.preparation_ticks, 0, 1000000,
-          "ticks that it is given before tick 0, which are not recorded: to weigh the load, for instance");
+          "ticks before tick 0 that are not recorded: to weigh the load, for instance");
     OutputLimits::fields(self, visit);
     SafetyTerms::fields(self, visit);
   }

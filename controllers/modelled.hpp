@@ -29,7 +29,7 @@ struct ModelTerms : PlansWithModel, SafetyTerms {
   static void fields(Self& self, Visitor& visit) {
     PlansWithModel::fields(self, visit);
     visit("assumed_load", self.assumed_load_kg, "kg", 0.01, 500.0,
-          "load it believes in; weighed before the run if absent");
+          "load of its model; weighed before the run if absent");
     visit("weighing_speed", self.weighing_speed_mA_per_s, "mA/s", 1e-3, 1e5,
           "speed of the command while it weighs; 1/32 of the valve's span in a second if absent");
     SafetyTerms::fields(self, visit);

@@ -20,7 +20,7 @@ struct PairModelTerms : PlansWithModel, JointTerms {
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
     PlansWithModel::fields(self, visit);
-    visit("assumed_load", self.assumed_load_kg, "kg", 0.0, 500.0, "load in the hand that it believes in");
+    visit("assumed_load", self.assumed_load_kg, "kg", 0.0, 500.0, "load in the hand of its model");
     JointTerms::fields(self, visit);
   }
 };

@@ -91,7 +91,7 @@ class Plugin final : public Guest {
         .settings = settings_.c_str(),
         .command_unit = known().valve.unit.data()};
     self_ = open_(&hello, why_.data());
-    if (self_ == nullptr) throw ControllerFailure("its library gives up: " + why());
+    if (self_ == nullptr) throw ControllerFailure("its library refuses: " + why());
     return rest_(self_);
   }
 
@@ -101,7 +101,7 @@ class Plugin final : public Guest {
     double current_mA = std::numeric_limits<double>::quiet_NaN();
     const Inside library(path_);
     if (step_(self_, &reading, &current_mA, why_.data()) != 0)
-      throw ControllerFailure("its library gives up: " + why());
+      throw ControllerFailure("its library refuses: " + why());
     return current_mA;
   }
 

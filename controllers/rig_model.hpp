@@ -69,10 +69,10 @@ struct PlansWithModel {
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
     visit("rig", self.rig,
-          "the rig that it believes in, by its name or the path of a rig file; the scenario's if left out");
+          "rig of its model, a shipped name or the path of a rig file; the scenario's if left out");
     visit("look_ahead", self.look_ahead_s, "s", 1e-4, 100.0,
           "time after which a command is to have brought the load, or the joint, to the target; 96 ms and "
-          "the believed rig's command_delay if absent");
+          "the model's command_delay if absent");
   }
 };
 

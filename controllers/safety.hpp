@@ -36,9 +36,8 @@ struct SafetyTerms {
           "how fast the command may change; at once if absent");
     visit("highest_target", self.highest_target, "1", 0.0, 1.0,
           "contraction ratio at which a higher target is cut (T 2.3: above 0.20 the muscle is at risk)");
-    visit(
-        "fastest_load", self.fastest_load_per_s, "1/s", 1e-3, 1e6,
-        "speed of contraction that no load has: counts that jump further from tick to tick are not believed");
+    visit("fastest_load", self.fastest_load_per_s, "1/s", 1e-3, 1e6,
+          "speed of contraction that no load has: counts that jump further from tick to tick are rejected");
   }
 };
 

@@ -29,14 +29,12 @@ struct StaticInverseSettings {
   static void fields(Self& self, Visitor& visit) {
     constexpr double degree_rad = std::numbers::pi / 180.0;
     visit("name", self.name, "name in tables and file names");
-    visit.required("assumed_load", self.assumed_load_kg, "kg", 0.0, 500.0,
-                   "load the controller believes in, m");
-    visit("rest_radius", self.rest_radius_m, "m", 5e-4, 0.2,
-          "radius it believes in, r0; the rig's if absent");
+    visit.required("assumed_load", self.assumed_load_kg, "kg", 0.0, 500.0, "load of its model, m");
+    visit("rest_radius", self.rest_radius_m, "m", 5e-4, 0.2, "radius of its model, r0; the rig's if absent");
     visit("braid_angle", self.braid_angle_rad, "rad", 5.0 * degree_rad, 50.0 * degree_rad,
-          "braid angle it believes in, alpha0; the rig's if absent");
+          "braid angle of its model, alpha0; the rig's if absent");
     visit("end_correction", self.end_correction, "1", 1.0, 2.5,
-          "end correction it believes in, k; the rig's if absent");
+          "end correction of its model, k; the rig's if absent");
     SafetyTerms::fields(self.limits, visit);
   }
 };

@@ -59,7 +59,7 @@ struct JointOf {
     visit("guide_damping", self.guide_damping_N_s_per_m, "N.s/m", 0.0, 1e5,
           "viscous friction of the load guide, c");
     visit("load_offset", self.load_offset_kg, "kg", -5.0, 5.0,
-          "what hangs on the wheel beside the load: hook, cord, error of the scales");
+          "mass on the wheel in addition to the load: hook, cord, error of the scales");
     visit("length_offset", self.length_offset_m, "m", -0.1, 0.1,
           "by how much a muscle whose length is given is shorter than is said: zero of the bench, clamps");
     visit("reading_offset", self.reading_offset_m, "m", -0.1, 0.1,

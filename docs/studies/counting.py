@@ -57,11 +57,11 @@ def page(evidence):
     return (
         heading(evidence, "counting", "Speed and acceleration from counts")
         + f"One count more or less in a tick of {1e3 * rig.tick_s:g} ms changes the contraction speed by {speed_step:.3f} 1/s "
-        f"and its acceleration by {speed_step / rig.tick_s:.2f} 1/s2, which is {rig.rest_length_m * speed_step / rig.tick_s:.2f} "
-        "m/s2 of the load. So the picture's dots stand on lines that far apart.\n\n"
+        f"and its acceleration by {speed_step / rig.tick_s:.2f} 1/s2. For the load that is {rig.rest_length_m * speed_step / rig.tick_s:.2f} "
+        "m/s2. So the picture's dots stand on lines that far apart.\n\n"
         "## Speed and acceleration\n\nRoot mean squares over the rows that the calibration uses. Rounding is what whole "
-        "counts add to the difference of true positions; lateness is what that difference, which is a mean over the last "
-        "ticks, differs from the value at the instant.\n\nContraction speed [1/s]:\n\n"
+        "counts add to the difference of true positions; lateness is how far that difference, a mean over the last "
+        "ticks, is from the value at the instant.\n\nContraction speed [1/s]:\n\n"
         + differences(evidence, "v") + "Acceleration of the load [m/s2]:\n\n" + differences(evidence, "a")
         + f"The counted speed is wrong by {100 * ratio(evidence.rows, 'v'):.0f} % of the speed itself, the counted acceleration "
         f"by {slow:.1f} times the acceleration itself with the slowest current and {fast:.1f} times with the fastest. "

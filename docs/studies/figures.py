@@ -1,4 +1,4 @@
-"""The figures that the thesis prints for its accuracy (T 4.3, 5) beside the same ones of the simulated rig. Writes
+"""The figures that the thesis prints for its accuracy (T 4.3, 5) and the same ones of the simulated rig. Writes
 figures.md and figures.svg; see index.md."""
 import pathlib
 import tempfile
@@ -87,8 +87,8 @@ def why_load(evidence, ours):
     errors = lag.load_errors(evidence)
     runs = counting.means_of_runs(evidence, counting.load_errors(evidence, False))
     return ("- **Load.** While the current rises, the pressure taken from it is too high. Over the rows of the calibration that "
-            f"alone would make loads wrong by {errors['true_friction'].mean():+.2f} kg, but the friction calibrated with it is wrong "
-            f"as well, and {errors['from_current'].mean():+.2f} kg are left ([lag](lag.md)). The same in the weighing, at 6 mA/s: with "
+            f"alone would make loads wrong by {errors['true_friction'].mean():+.2f} kg. The friction calibrated with it is wrong "
+            f"as well, which leaves {errors['from_current'].mean():+.2f} kg ([lag](lag.md)). The same in the weighing, at 6 mA/s: with "
             f"the calibrated friction errors reach {per_cent(largest(ours.weighed))}, with the friction found with the true "
             f"pressure, which has no lag in it, {per_cent(largest(ours.without_lag))}. Counting shifts the mean of a whole run by "
             f"{runs[0].mean() - runs[2].mean():+.2f} kg ([counting](counting.md)).\n")
@@ -110,7 +110,7 @@ def page(evidence, ours):
     friction = [[way, *(spread_text(spreads[d]) for d in DIRECTIONS)] for way, spreads in ours.friction.items()]
     return (
         heading(evidence, "figures", "The thesis's figures and ours")
-        + "What the thesis prints about its accuracy (T 4.3, T 5) beside the same numbers of the simulated rig, calibrated as "
+        + "What the thesis prints about its accuracy (T 4.3, T 5) and the same numbers of the simulated rig, calibrated as "
         "the thesis did: pressure from the current, accelerations by counts.\n\n" + side_by_side(evidence, ours)
         + "## Weighed loads\n\nEach by the thesis's controller, five contractions, mean and standard deviation of their means.\n\n"
         + table(["load [kg]", "weighed [kg]", "spread [kg]", "error", "error with friction from the true pressure"], loads)

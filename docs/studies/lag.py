@@ -37,8 +37,8 @@ def in_disguise(evidence, direction):
     if current <= 0.0:
         return f"- {direction}: f1 is not positive with the pressure from the current; there is nothing to explain.\n"
     zero = "not_determined" in evidence.found["gauge"]["friction"][direction]["f1_s2_per_mA2"]
-    return (f"- {direction}: {100 * (1 - gauge / current):.1f} +- {100 * error / current:.1f} % of f1 nu2 is the lag; what is "
-            f"left {'cannot be told from' if zero else 'is not'} zero.\n")
+    return (f"- {direction}: {100 * (1 - gauge / current):.1f} +- {100 * error / current:.1f} % of f1 nu2 is the lag; the rest "
+            f"is {'not significant' if zero else 'significant'}.\n")
 
 
 def at_speeds(evidence, direction):

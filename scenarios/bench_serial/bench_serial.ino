@@ -1,7 +1,7 @@
 // A bench for `mckibben control --device serial`: encoder and valve on a microcontroller (Arduino and alike).
 // docs/control.md says which lines go to and fro. Change what stands between the lines of signs to your wiring.
 //
-// It vents by itself: when it starts, and when it has heard nothing for ten ticks.
+// It vents by itself: when it starts, and after ten ticks without a line.
 
 // --------------------------------------------------------------------------------------------------------
 const int channel_a = 2, channel_b = 3;  // of the encoder; pins that can interrupt
@@ -22,7 +22,7 @@ unsigned long heard_ms = 0, patience_ms = 120;
 char line[32];
 unsigned int length = 0;
 
-// A rising edge of A, with B telling the direction.
+// A rising edge of A, B gives the direction.
 void edge_of_a() { counts += digitalRead(channel_b) == HIGH ? 1 : -1; }
 
 long counts_now() {

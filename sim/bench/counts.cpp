@@ -21,6 +21,9 @@ constexpr double faster_than_fall = 1.5;  // than a load that falls the whole st
 constexpr std::int64_t no_movement = 2;   // counts
 /// Of the valve's range: less a rig may need that sticks, or lifts its load later than its file says.
 constexpr double far_command = 0.4;
+/// Of the stroke, between the counts and those of the simulated rig, and for how long: effects that a rig
+/// file lacks make less (a bladder's elasticity two fifths).
+constexpr double far_apart = 0.5, apart_for_s = 1.0;
 
 }  // namespace
 
@@ -34,6 +37,7 @@ CountsWatch::CountsWatch(const plant::Rig& rig, double load_kg)
   const double length_m = rig.muscle.rest_length_m;
   const double stroke = run::knowledge_of(rig, {}).model.largest_contraction_ratio();
   highest_ratio_ = stroke + margin;
+  most_apart_ = far_apart * stroke;
   const double fastest_per_s =
       faster_than_fall * std::sqrt(2.0 * controllers::gravity_m_per_s2 * stroke / length_m);
   largest_jump_ = std::ceil(fastest_per_s * tick_s_ / per_count_);
@@ -64,6 +68,15 @@ void CountsWatch::look(std::int64_t counts, std::int64_t tick, int ticks) {
   }
   last_ = counts;
   if (!expected_now || !expected_then_) return;
+  if (!offset_) offset_ = now - *expected_now;
+  const double should_be = *expected_now + *offset_;
+  if (std::abs(ratio_of(now - should_be)) <= most_apart_) near_until_ = tick;
+  if (static_cast<double>(tick - near_until_) * tick_s_ > apart_for_s)
+    refuse(fmt::format(
+        "counts are {} at tick {} where those of the scenario's rig would be {:.0f}; for {:g} s they "
+        "were further apart than half of what the muscle can do: wrong counts, a load that is held, or "
+        "another rig than the file says",
+        counts, tick, should_be, apart_for_s));
   const double moved = ratio_of(*expected_now - *expected_then_);
   if (std::abs(moved) > must_be_seen &&
       std::abs(command_ - command_then_) > far_command * (span_command_ - zero_command_))

@@ -173,7 +173,7 @@ std::string Hosted::how_it_ended() const {
   if (WIFSIGNALED(status_))
     return std::string("the controller's process was ended by a signal: ") + strsignal(WTERMSIG(status_));
   if (WEXITSTATUS(status_) == loop_was_silent)
-    return "the controller's process heard nothing from the loop, which was suspended or hung, and has "
+    return "the controller's process received nothing from the loop, which was suspended or hung, and has "
            "vented";
   return fmt::format("the controller's process ended with status {}", WEXITSTATUS(status_));
 }

@@ -49,7 +49,7 @@ class Loop {
     try {
       vent();
     } catch (const DeviceFailure& failure) {
-      recorded_.stopped += fmt::format("{}and it could not be told to vent: {}",
+      recorded_.stopped += fmt::format("{}and it could not be vented: {}",
                                        recorded_.stopped.empty() ? "" : "; ", failure.what());
     }
     try {

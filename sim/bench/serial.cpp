@@ -114,8 +114,7 @@ std::int64_t Serial::counts(double) {
   while (received_.size() <= longest_line && read_some()) {
   }
   if (asked_ && !received_.empty())
-    fail("it says what nobody asked for, so its counts may be old ones: " +
-         controllers::in_quotes(received_));
+    fail("it sent an unrequested line, so its counts may be old: " + controllers::in_quotes(received_));
   received_.clear();
   say("?");
   std::string line;

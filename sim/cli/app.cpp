@@ -14,13 +14,13 @@ namespace {
 constexpr const char* what_it_is =
     "McKibben simulates a pneumatic muscle that lifts a load: "
     "servo valve, hose, gas, braid, thread friction,\n"
-    "encoder, and the controllers that move the load along a target. Given measurements of a real rig, it\n"
-    "finds what that rig has and the simulated one lacks.\n"
+    "encoder and controllers. Given measurements of a real rig, it names the effects (leaks, hysteresis,\n"
+    "creep, ...) that the rig shows and the model lacks.\n"
     "\n"
     "Do these three first:\n"
     "  mckibben init my.yaml        writes a scenario with comments, to change as you like\n"
     "  mckibben run my.yaml         simulates it: a table of tracking errors, a plot, CSV files\n"
-    "  mckibben diagnose measured/  takes your measurements and names what your rig has besides\n";
+    "  mckibben diagnose measured/  names the effects that your rig shows and the model lacks\n";
 
 constexpr const char* last_words =
     "mckibben VERB --help explains a verb, with examples. In a checkout, ./mckibben test runs its tests.\n"

@@ -38,7 +38,7 @@ void write_plan(const std::string& plan, const domain::Dataset& data, const diag
   if (plan.empty()) return;
   if (!found.next_experiment) {
     const std::string instead = output::what_next(found);
-    fmt::print(stderr, "mckibben: no plan is written: no measurement of the menu is asked for{}{}\n",
+    fmt::print(stderr, "mckibben: no plan written: none of the candidate experiments would help{}{}\n",
                instead.empty() ? "" : ". ", instead);
     return;
   }
@@ -88,17 +88,16 @@ int diagnose_dataset(const DiagnoseOptions& options) {
 }  // namespace
 
 void add_diagnose(CLI::App& app, Asked& asked) {
-  CLI::App& verb =
-      add_verb(app, "diagnose", to_compare,
-               "Find where model and data disagree; name the missing effect, add it, show the gap shrink");
+  CLI::App& verb = add_verb(
+      app, "diagnose", to_compare,
+      "Find where model and data disagree; name the missing effect, add it, show the error before and after");
   DiagnoseOptions& options = asked.when(verb, diagnose_dataset);
   add_measured(verb, options.dataset);
   add_common(verb, options);
   add_rig(verb, options.rig, "instead of the data set's");
   add_hypotheses_option(verb, options.hypotheses, "join the catalogue");
   add_seed(verb, options, "the resampling (default: 1)");
-  verb.add_option("--plan", options.plan,
-                  "Write the measurement that would tell more, if one would, as a campaign")
+  verb.add_option("--plan", options.plan, "Write the most useful next measurement, if any, as a campaign")
       ->type_name("FILE");
   add_quantity(
       verb, "--time-limit", options.time_limit_s, "s", 1e6,

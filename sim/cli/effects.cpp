@@ -4,6 +4,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <tuple>
 #include <type_traits>
 #include <vector>
@@ -17,6 +18,7 @@
 #include <sim/diagnose/parameter.hpp>
 #include <sim/input/field_list.hpp>
 #include <sim/input/hypothesis_file.hpp>
+#include <sim/input/synonyms.hpp>
 #include <sim/input/yaml_writer.hpp>
 #include <sim/output/effect_pictures.hpp>
 #include <sim/output/grid.hpp>
@@ -202,10 +204,12 @@ std::string overview(const std::vector<Entry>& all) {
       grid.add({std::string(entry.name), entry.acts_on, size, std::string(entry.sentence)});
   }
   std::string text = fmt::format(
-      "What a rig may have besides the nominal rig; absent unless its size is given in the rig file.\n\n{}\n",
+      "Effects that a rig may have in addition to the nominal model; absent unless the rig file gives a "
+      "size.\n\n{}\n",
       grid.text());
   for (const Entry& entry : all)
-    text += (is_residual(entry) ? "Besides, where no name fits:\n\n" : "") + details(entry) + "\n";
+    text += (is_residual(entry) ? "A force without a name, as diagnose writes it:\n\n" : "") +
+            details(entry) + "\n";
   return text + "How to switch one on: mckibben effects NAME\n";
 }
 
@@ -215,8 +219,24 @@ std::vector<std::string> names_of_effects() {
   return names;
 }
 
+/// Whether the effect has this name, here or in the field: `hysteresis` is two of them.
+bool is_called(const Entry& entry, std::string_view name) {
+  return entry.name == name || std::ranges::count(input::names_here(name), entry.name) > 0;
+}
+
+/// Takes names of effects, and terms of the field that are some.
+CLI::Validator known_effect() {
+  const CLI::Validator by_name = one_of("effect", names_of_effects());
+  const auto check = [by_name](std::string& text) {
+    const auto all = catalogue();
+    const bool known = std::ranges::any_of(all, [&](const Entry& entry) { return is_called(entry, text); });
+    return known ? std::string{} : by_name(text);
+  };
+  return {check, by_name.get_description()};
+}
+
 struct EffectsOptions : Options {
-  std::vector<std::string> names;  ///< of effects that are known; none for all
+  std::vector<std::string> names;  ///< of effects, here or in the field; none for all
   std::vector<std::string> hypotheses;
 };
 
@@ -225,8 +245,8 @@ int list_effects(const EffectsOptions& options) {
   std::vector<Entry> named;
   named.reserve(options.names.size());
   for (const auto& name : options.names)
-    named.push_back(
-        *std::find_if(all.begin(), all.end(), [&name](const Entry& entry) { return entry.name == name; }));
+    for (const Entry& entry : all)
+      if (is_called(entry, name)) named.push_back(entry);
   plant::Rig rig;
   std::vector<domain::InputFile> inputs;
   for (const std::string& file : options.hypotheses)
@@ -270,7 +290,7 @@ void add_effects(CLI::App& app, Asked& asked) {
                             "The catalogue of effects that a rig may have: laws, parameters, sources");
   EffectsOptions& options = asked.when(verb, list_effects);
   verb.add_option("names", options.names, "Only these, with how to switch them on")
-      ->check(one_of("effect", names_of_effects()))
+      ->check(known_effect())
       ->type_name("");
   add_common(verb, options, "nothing is written");
   add_hypotheses_option(verb, options.hypotheses, "are shown likewise");
@@ -278,6 +298,7 @@ void add_effects(CLI::App& app, Asked& asked) {
       "Examples:\n"
       "  mckibben effects                                 all of them\n"
       "  mckibben effects muscle_leak                     its law, and what to write into a rig file\n"
+      "  mckibben effects hysteresis                      the field's terms too: docs/your_words.md\n"
       "  mckibben effects --out pictures                  effects.json, and a picture of what each does\n"
       "  mckibben effects --hypothesis my_law.yaml --out pictures\n");
 }

@@ -10,6 +10,7 @@
 
 #include <sim/cli/results.hpp>
 #include <sim/cli/verbs.hpp>
+#include <sim/data/plausible.hpp>
 #include <sim/input/calibration_file.hpp>
 #include <sim/input/campaign_file.hpp>
 #include <sim/input/dataset_file.hpp>
@@ -45,19 +46,28 @@ struct Looked {
 /// Reads a data set and looks at what it says; adds warnings. Throws what is wrong with it.
 Looked read_measured(const std::filesystem::path& path, std::vector<Problem>& warnings) {
   const domain::Dataset data = input::read_dataset(path);
+  for (const std::string& remark : data.remarks)
+    warnings.push_back({input::Severity::warning, data.path.string(), input::nowhere, remark, ""});
+  const auto say = [&](const std::vector<data::Finding>& findings) {
+    for (Problem& one : input::problems_of(data.path, with_runs_named(data, findings)))
+      warnings.push_back(std::move(one));
+    if (std::ranges::any_of(warnings,
+                            [](const Problem& one) { return one.severity == input::Severity::error; }))
+      throw input::BadInput(warnings);
+  };
+  say(data::implausible(data));
   if (std::string why = input::why_unfit(domain::Purpose::judging, data); !why.empty())
     return {fmt::format("{} runs read; none simulated", data.runs.size()), {"cannot take it yet: " + why}};
   run::Look look = run::look(data);
   Looked looked{fmt::format("{} of {} runs simulated: stroke, sign, units, order of loads", look.runs,
                             data.runs.size())};
+  if (std::string why = input::why_unfit(domain::Purpose::diagnosis, data); !why.empty())
+    looked.diagnose.push_back("cannot take it yet: " + why);
   std::erase_if(look.findings, [&](const data::Finding& one) {
     if (data::only_limits_diagnosis(one)) looked.diagnose.push_back(one.message);
     return data::only_limits_diagnosis(one);
   });
-  warnings = input::problems_of(data.path, with_runs_named(data, look.findings));
-  if (std::ranges::any_of(warnings,
-                          [](const Problem& one) { return one.severity == input::Severity::error; }))
-    throw input::BadInput(warnings);
+  say(look.findings);
   return looked;
 }
 
@@ -116,7 +126,7 @@ int print_kind(std::string_view schema, const char* title, const Schema& fields,
   if (format == "json")
     print(input::json_schema(schema, title, fields).dump(2) + "\n");
   else
-    print(input::field_table(title, fields));
+    print(input::field_lists({{title, fields}}));
   return done;
 }
 
@@ -190,9 +200,25 @@ int check_files(const CheckOptions& options) {
   return job.finish({document, ""}, status);
 }
 
+/// docs/reference.md.
+std::string reference_page() {
+  return "# Every key\n\n"
+         "Printed by `mckibben schema all --format markdown`: range and default of every key, by kind of "
+         "file. "
+         "Where a command is in mA, the unit is the valve's: V or bar in rigs that take these. "
+         "[Scenarios](scenarios.md) and [Data sets](datasets.md) explain the files.\n\n" +
+         input::field_lists({{"Scenario", input::list_fields<domain::Scenario>()},
+                             {"Campaign", input::list_fields<domain::Campaign>()},
+                             {"Rig", input::list_fields<plant::Rig>()},
+                             {"Data set", input::list_fields<domain::Dataset>()},
+                             {"Pair", input::list_fields(domain::pair_scenario())},
+                             {"Hypothesis", input::hypothesis_fields()}}) +
+         output::table_of_signals();
+}
+
 struct SchemaOptions : Options {
-  std::string kind = "scenario";  ///< scenario, campaign, rig, dataset, pair, hypothesis or columns
-  std::string format = "json";    ///< JSON Schema; markdown: a table; yaml: the rig `thesis`
+  std::string kind = "scenario";  ///< scenario, campaign, rig, dataset, pair, hypothesis, columns or all
+  std::string format = "json";    ///< JSON Schema; markdown: a list; yaml: the rig `thesis`
 };
 
 int print_schema(const SchemaOptions& options) {
@@ -203,6 +229,14 @@ int print_schema(const SchemaOptions& options) {
   }
   if (format == "yaml") {
     print(input::to_yaml(input::rig_json(plant::Rig{})));
+    return done;
+  }
+  if (kind == "all") {
+    if (format != "markdown") {
+      say("schema all applies to --format markdown only: each kind of file has a JSON Schema of its own");
+      return usage_error;
+    }
+    print(reference_page());
     return done;
   }
   if (kind == "columns") {
@@ -224,9 +258,9 @@ int print_schema(const SchemaOptions& options) {
 }  // namespace
 
 void add_check(CLI::App& app, Asked& asked) {
-  CLI::App& verb =
-      add_verb(app, "check", to_find_out,
-               "Validate scenario, campaign, rig, data set and hypothesis files; nothing is run");
+  CLI::App& verb = add_verb(
+      app, "check", to_find_out,
+      "Validate scenario, campaign, rig, data set and hypothesis files; measured runs by a short simulation");
   CheckOptions& options = asked.when(verb, check_files);
   verb.add_option("files", options.files, "Files to check")->required()->type_name("FILE");
   verb.add_flag("--upgrade", options.upgrade,
@@ -242,10 +276,12 @@ void add_check(CLI::App& app, Asked& asked) {
 
 void add_schema(CLI::App& app, Asked& asked) {
   CLI::App& verb =
-      add_verb(app, "schema", to_find_out, "Print the keys of a kind of file, as JSON Schema or as a table");
+      add_verb(app, "schema", to_find_out, "Print the keys of a kind of file, as JSON Schema or as a list");
   SchemaOptions& options = asked.when(verb, print_schema);
-  verb.add_option("kind", options.kind, "Kind of file (default: scenario); columns: what tables have")
-      ->check(one_of("kind", {"scenario", "campaign", "rig", "dataset", "pair", "hypothesis", "columns"}))
+  verb.add_option("kind", options.kind,
+                  "Kind of file (default: scenario); columns: what tables have; all: the reference page")
+      ->check(
+          one_of("kind", {"scenario", "campaign", "rig", "dataset", "pair", "hypothesis", "columns", "all"}))
       ->type_name("");
   CLI::Option* format = verb.add_option("--format", options.format,
                                         "How to print it (default: json); yaml, of a rig only, prints "
@@ -256,7 +292,8 @@ void add_schema(CLI::App& app, Asked& asked) {
   verb.footer(
       "Examples:\n"
       "  mckibben schema scenario --format markdown       every key with unit, default and range\n"
-      "  mckibben schema rig --format yaml > my_rig.yaml  a rig to change\n");
+      "  mckibben schema rig --format yaml > my_rig.yaml  a rig to change\n"
+      "  mckibben schema all --format markdown            docs/reference.md\n");
 }
 
 }  // namespace mckibben::cli

@@ -59,7 +59,7 @@ void add_fmu(CLI::App& app, Asked& asked) {
   verb.add_option("--fmi", options.version, "Version of the standard (default: 2.0)")
       ->check(one_of("version", {"2.0", "3.0"}))
       ->type_name("");
-  verb.add_flag("--true-states", options.true_states, "Outputs that no instrument shows, besides");
+  verb.add_flag("--true-states", options.true_states, "Also outputs that no instrument shows");
   add_json(verb, options);
   verb.footer(
       "Examples:\n"

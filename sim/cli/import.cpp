@@ -1,4 +1,7 @@
 // The verb `import`: tables that nobody has described yet, as a data set and a rig to correct.
+#include <algorithm>
+#include <array>
+#include <cctype>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -7,6 +10,7 @@
 #include <sim/cli/verbs.hpp>
 #include <sim/input/file_names.hpp>
 #include <sim/input/rigs.hpp>
+#include <sim/input/source.hpp>
 #include <sim/output/folder.hpp>
 #include <sim/output/recognised.hpp>
 
@@ -19,6 +23,34 @@ struct ImportOptions : Options {
   std::vector<std::string> files;
   std::string rig;
 };
+
+/// The tables of a folder, by their names; other files are none.
+std::vector<fs::path> tables_of(const std::vector<std::string>& files) {
+  constexpr std::array endings{".csv", ".tsv", ".txt",  ".dat", ".asc",  ".log",
+                               ".lvm", ".mat", ".xlsx", ".xls", ".tdms", ""};
+  std::vector<fs::path> tables;
+  for (const fs::path file : files) {
+    std::error_code ignored;
+    if (!fs::is_directory(file, ignored)) {
+      tables.push_back(file);
+      continue;
+    }
+    std::vector<fs::path> inside;
+    for (const auto& entry : fs::directory_iterator(file)) {
+      std::string ending = entry.path().extension().string();
+      std::ranges::transform(ending, ending.begin(),
+                             [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+      const std::string name = entry.path().stem().string();
+      if (entry.is_regular_file() && !name.starts_with('.') && !name.starts_with("README") &&
+          !name.starts_with("LICENSE") && std::ranges::find(endings, ending) != endings.end())
+        inside.push_back(entry.path());
+    }
+    if (inside.empty()) throw input::MissingInput(file.string() + ": no table is in this folder");
+    std::ranges::sort(inside);
+    tables.insert(tables.end(), inside.begin(), inside.end());
+  }
+  return tables;
+}
 
 /// The name of what the files are: their folder's, or that of a single file.
 std::string name_of(const std::vector<std::string>& files) {
@@ -38,7 +70,7 @@ std::string rig_from(const fs::path& folder, const std::string& rig) {
 int import_tables(const ImportOptions& options) {
   std::vector<domain::InputFile> read;
   if (!options.rig.empty()) input::read_rig(options.rig, read);
-  const auto found = recognise::recognise({options.files.begin(), options.files.end()}, !options.rig.empty());
+  const auto found = recognise::recognise(tables_of(options.files), !options.rig.empty());
   for (const auto& table : found.tables) read.push_back(table.input);
   std::string words = "import";
   for (const auto& file : options.files) words += " " + file;
@@ -62,8 +94,7 @@ void add_import(CLI::App& app, Asked& asked) {
       add_verb(app, "import", to_compare,
                "Look at measured tables and write a data set and a rig of them, to be corrected");
   ImportOptions& options = asked.when(verb, import_tables);
-  verb.add_option("files", options.files,
-                  "Tables: .csv, .tsv, .lvm, .mat, .txt, .dat, .asc; one for each run")
+  verb.add_option("files", options.files, "Tables, or folders of them: text, .lvm, .mat")
       ->required()
       ->type_name("FILE");
   add_rig(verb, options.rig, "they were measured on (default: one is written, to be filled in)");
@@ -73,7 +104,7 @@ void add_import(CLI::App& app, Asked& asked) {
       "Examples:\n"
       "  mckibben import bench/*.csv --out my_bench\n"
       "  mckibben import load_5kg_run2.csv --rig my_rig.yaml\n"
-      "Every guess stands with its reason; what nothing tells is FILL_IN, which `check` refuses.\n");
+      "Every guess has its reason; unknown values are FILL_IN, which `check` refuses.\n");
 }
 
 }  // namespace mckibben::cli

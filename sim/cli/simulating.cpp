@@ -222,7 +222,7 @@ void add_run(CLI::App& app, Asked& asked) {
       "  mckibben run scenarios/five_loads.yaml\n"
       "  mckibben run my.yaml --out results --seed 2      somewhere else, with other noise\n"
       "  mckibben run my.yaml --json > result.json        for a script\n"
-      "  mckibben run my.yaml --format mat,netcdf         for MATLAB, Octave, Python besides\n"
+      "  mckibben run my.yaml --format mat,netcdf         also for MATLAB, Octave, Python\n"
       "Writes table.txt, run.json, report.html, tracking.svg and a CSV for each run.\n");
 }
 

@@ -146,6 +146,7 @@ class Columns {
       judged(i, all);
       read_beside(i, Beside::force, beside);
     }
+    if (data_.judged() == domain::Judged::contraction && findings_.empty()) halved(all);
     if (data_.judged() == domain::Judged::angle) angle(all);
     if (data_.judged() == domain::Judged::force) force(all, false);
     force(beside, true);
@@ -189,6 +190,33 @@ class Columns {
                     .most = plant::Braid(rig.muscle).largest_contraction_ratio()};
     if (judged.place.unit == "1") judged.units.push_back({divided_twice, 1e3 * rig.muscle.rest_length_m});
     return judged;
+  }
+  /// A decoder that counts every second edge, or every edge twice: nothing but the scale differs.
+  void halved(const Compared& rows) {
+    if (rows.measured.size() < 2 || range(rows.model) <= moving()) return;
+    const Line line(rows.measured, rows.model);
+    for (const double factor : {0.5, 2.0}) {
+      if (std::abs(std::log(line.slope / factor)) > std::log(of_columns.halved) ||
+          line.correlation < of_columns.alike)
+        continue;
+      double left = 0.0, all = 0.0;
+      for (std::size_t k = 0; k < rows.model.size(); ++k) {
+        left += std::pow(rows.measured[k] / factor - rows.model[k], 2);
+        all += std::pow(rows.model[k], 2);
+      }
+      if (left > of_columns.halved_share * all) continue;
+      ColumnPlace meant = map_["contraction"];
+      meant.factor /= factor;
+      findings_.push_back(
+          {.quantity = "contraction",
+           .runs = rows.runs,
+           .message =
+               fmt::format("contraction is {:.2f} times what pressure and load say, everywhere: are counts "
+                           "per turn {}, as by a decoder that sees other edges? Then columns: {{{}}}, or "
+                           "pulses_per_turn of the rig's encoder",
+                           line.slope, factor < 1.0 ? "halved" : "doubled", line_of("contraction", meant)),
+           .severity = Severity::doubtful});
+    }
   }
   double moving() const {
     return of_columns.moving_counts * plant::count_height_m(data_.rig) / data_.rig.muscle.rest_length_m;

@@ -103,7 +103,7 @@ class Readings {
   void pulls(std::size_t i) {
     const std::vector<bool>& masked = result_.masked[i];
     if (std::find(masked.begin(), masked.end(), false) == masked.end())
-      leave_out(i, "the cord hangs through all the time: no force was read");
+      leave_out(i, "the cord was slack all the time: no force was read");
   }
 
   bool moves(std::size_t i) {
@@ -257,17 +257,17 @@ void require_enough(const domain::Dataset& data, const std::vector<bool>& left_o
   if (loads_kg.size() < of_readings.least_runs)
     findings.push_back(
         {.message = fmt::format(
-             "{} usable run{}: too few to choose on some and judge on others; at least four runs would help, "
+             "{} usable run{}: too few to choose on some and test on others; at least four runs would help, "
              "with {}.",
              loads_kg.size(), loads_kg.size() == 1 ? "" : "s",
              judged == domain::Judged::force   ? "each its own length"
-             : judged == domain::Judged::angle ? "each another course of the two pressures"
+             : judged == domain::Judged::angle ? "each with other trajectories of the two pressures"
                                                : "two loads and two kinds of current"),
          .severity = Severity::undecidable});
   else if (judged == domain::Judged::contraction &&
            range(loads_kg) < of_readings.same_load * loads_kg.front())
-    findings.push_back({.message = fmt::format("all runs have the same load, {:.6g} kg: what grows with the "
-                                               "load cannot be told from what does not",
+    findings.push_back({.message = fmt::format("all runs have the same load, {:.6g} kg: effects that grow "
+                                               "with the load cannot be separated from others",
                                                loads_kg.front()),
                         .severity = Severity::limited});
 }

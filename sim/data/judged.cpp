@@ -22,6 +22,7 @@ constexpr double noises_in_a_grain = 4.0;
 constexpr std::size_t quarters = 4;  // of a row, in which inputs are followed
 constexpr double straight = 5e-3;    // of an input's range: it neither jumps nor bends by less
 constexpr double outlying = 6.0;     // deviations
+constexpr double apart = 1e-6;       // of a row: nearer instants are one, but for rounding
 
 double median_gap_s(const std::vector<double>& time_s) {
   std::vector<double> gaps;
@@ -138,7 +139,8 @@ class Judging {
     double at_s = from_s;
     if (std::ranges::find(uneven, true) != uneven.end())
       for (const double stamp_s : inputs.front().column.stamps(from_s, to_s))
-        put(std::exchange(at_s, stamp_s), stamp_s);
+        if (stamp_s - at_s > apart * row_s_ && to_s - stamp_s > apart * row_s_)
+          put(std::exchange(at_s, stamp_s), stamp_s);
     put(at_s, to_s);
   }
 

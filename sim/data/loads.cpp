@@ -91,7 +91,9 @@ std::optional<Finding> other_unit(const std::vector<Weighed>& list) {
       {1e3, of_loads.near_grams, of_loads.near_grams, "kg that are written in g: write kg"},
       {1.0 / plant::gravity_m_per_s2, of_loads.near_newtons, of_loads.near_newtons,
        "N, not kg: write the mass, N / 9.81"},
-      {pound_kg, of_loads.near_pounds, of_loads.sure_pounds, "pounds, not kg: write lb"}};
+      {pound_kg, of_loads.near_pounds, of_loads.sure_pounds, "pounds, not kg: write lb"},
+      {10.0, of_loads.near_grams, of_loads.sure_tenth,
+       "a tenth of what hung: is a digit missing, or a point wrong?"}};
   const double ratio = common_ratio(list);
   if (ratio <= 0.0) return std::nullopt;
   for (const LoadUnit& unit : units) {

@@ -38,7 +38,8 @@ struct ColumnThresholds {
   double same_kilo = 2.7;                                  ///< and so are N and kN
   double gauge_bar = 0.3;  ///< that the model's pressure must move to judge a gauge's unit
   double least_gauge_slope = 0.5, most_gauge_slope = 2.0;  ///< of a gauge in the right unit
-  double atmosphere = 0.2;                                 ///< relative: an offset so near to it is it
+  double halved = 1.12, halved_share = 0.005;  ///< of a factor 2; left of the sum of squares with it
+  double atmosphere = 0.2;                     ///< relative: an offset so near to it is it
 };
 
 /// Loads, weighed by the muscle.
@@ -55,6 +56,7 @@ struct LoadThresholds {
   double near_grams = 2.0;     ///< factors, round kg written in g, N and pounds; a muscle of half or twice
   double near_newtons = 1.25;  ///< the force comes near to pounds, none to the others
   double near_pounds = 1.2, sure_pounds = 1.08;
+  double sure_tenth = 1.4;  ///< a tenth is surely one within this factor
 };
 
 /// Single readings, and runs by themselves. Counts are the encoder's.
@@ -93,7 +95,23 @@ struct ReadingThresholds {
   double same_load = 0.01;  ///< relative: one load
 };
 
+/// What is asked about before anything is simulated.
+struct PlausibleThresholds {
+  double shortest_run_s = 0.02, shortest_step_s = 1e-3;  ///< no muscle does anything in so short a time
+  double longest_run_s = 600.0, longest_step_s = 0.5;    ///< slower records are of leaks, not of motion
+  double gap_steps = 10.0, gap_s = 0.1;                  ///< a gap is longer than so many steps, and so long
+  double most_gaps = 0.02;                               ///< of all rows: more are how it was recorded
+  std::size_t least_rows = 10;
+  double beyond_supply = 1.5, high_Pa = 1e6;  ///< that a given pressure reaches at most
+  double lifts_nothing_Pa = 0.15e5, moves_far = 0.02;
+  double least_atmosphere_Pa = 0.95e5, most_atmosphere_Pa = 1.06e5;
+  double rests = 3e-3, resting_share = 0.05;  ///< relative; of the rows
+  double stays = 0.2;                         ///< of the readings that are on a grid
+  double coarser = 2.0, coarsest = 0.05;      ///< steps of a reading: times the sensor's; contraction ratio
+};
+
 struct Thresholds {
+  PlausibleThresholds plausible{};
   LookThresholds look{};
   ColumnThresholds column{};
   LoadThresholds load{};

@@ -111,7 +111,9 @@ void predict_all(std::size_t count, std::size_t rigs, unsigned threads, solver::
     const Wanted one = wanted(index);
     const auto prediction =
         std::make_shared<Prediction>(*one.run, one.rigs, std::bind_front(predicted, index), one.disturbance);
-    return run::BatchTask{prediction->key(settings_for(one.rigs, method), false), [=] { return prediction; }};
+    solver::Settings settings = settings_for(one.rigs, method);
+    if (one.finely) settings.tolerance = thresholds.predict.tolerance_alone;
+    return run::BatchTask{prediction->key(settings, false), [=] { return prediction; }};
   });
 }
 

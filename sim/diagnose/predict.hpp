@@ -36,6 +36,7 @@ struct Wanted {
   const domain::Run* run;
   std::vector<Loaded> rigs;
   run::Disturbance disturbance{};
+  bool finely = false;  ///< as if it were alone
 };
 /// Hears of one: its readings, or why there are none (an engine::NumericalFailure).
 using Predicted =

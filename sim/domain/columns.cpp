@@ -83,6 +83,8 @@ std::string line_of(std::string_view quantity, const ColumnPlace& place) {
   line += ": {column: " + yaml_scalar(place.column) + ", unit: " + yaml_scalar(place.unit);
   if (place.zero != 0.0) line += ", zero: " + write_number(place.zero);
   if (place.factor != 1.0) line += ", factor: " + write_number(place.factor);
+  if (place.as != Role::reading) line += ", as: " + std::string(plant::name_of(place.as));
+  if (!place.time.empty()) line += ", time: " + yaml_scalar(place.time);
   return line + '}';
 }
 

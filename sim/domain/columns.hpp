@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <map>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -13,13 +14,20 @@
 namespace mckibben::domain {
 
 /// What a column is to a simulation.
-enum class Role { reading, input, ignored };
+enum class Role { reading, input, ignored, interval };
 constexpr auto names(Role) {
   using enum Role;
-  return std::array{std::pair{reading, std::string_view{"reading"}},
-                    std::pair{input, std::string_view{"input"}},
-                    std::pair{ignored, std::string_view{"ignored"}}};
+  return std::array{
+      std::pair{reading, std::string_view{"reading"}}, std::pair{input, std::string_view{"input"}},
+      std::pair{ignored, std::string_view{"ignored"}}, std::pair{interval, std::string_view{"interval"}}};
 }
+
+/// Which rows of a table count: those with these texts in these columns.
+struct RowFilter {
+  std::map<std::string, std::string> cells;
+
+  bool absent() const { return cells.empty(); }
+};
 
 /// One quantity: where it stands and how its numbers are to be read.
 struct ColumnPlace {
@@ -27,6 +35,8 @@ struct ColumnPlace {
   std::string unit;
   double zero = 0.0, factor = 1.0;
   Role as = Role::reading;
+  std::string time{};  ///< the column of its own stamps; empty: those of all
+  RowFilter where{};
 
   bool absent() const { return column.empty(); }
 
@@ -41,9 +51,15 @@ struct ColumnPlace {
         "unit of its numbers; 1 for a ratio, count for encoder counts, date for times of the day in a .csv");
     visit("zero", self.zero, "1", -1e12, 1e12, "taken from each number, in that unit, first of all");
     visit("factor", self.factor, "1", -1e12, 1e12, "each is multiplied by it then: a gear, a sensor, a sign");
-    visit("as", self.as,
-          "a reading to be compared with, an input that drives the simulation (a given pressure or length; "
-          "commands, and forces and torques from outside, always are), or ignored");
+    visit(
+        "as", self.as,
+        "a reading to be compared with, an input that drives the simulation (a given pressure or length; "
+        "commands, and forces and torques from outside, always are), or ignored; of time also interval: each "
+        "number is the time since the row before");
+    visit("time", self.time,
+          "column of its own stamps, where it has a clock of its own; in the unit of `time`");
+    visit("where", self.where,
+          "a table with one reading a row: the rows that hold this one, as {sensor: laser}");
   }
 
   template <class Report>
@@ -127,10 +143,13 @@ struct ColumnMap {
     if (!settled.absent() && (rows_are_ticks || !(*this)["time"].absent()))
       report("settled", "and yet the file's rows are said to be ticks, or to have times");
     for (const Quantity& quantity : quantities())
+      if (quantity.key != "time" && (*this)[quantity].as == Role::interval)
+        report(quantity.key, "only time is read as intervals");
+    for (const Quantity& quantity : quantities())
       for (const Quantity& other : quantities()) {
         if (other.at == quantity.at) break;
         if (const ColumnPlace& place = (*this)[quantity];
-            !place.absent() && place.column == (*this)[other].column)
+            !place.absent() && place.column == (*this)[other].column && place.where.absent())
           report(quantity.key, std::string("it stands in the same column as ").append(other.key));
       }
   }

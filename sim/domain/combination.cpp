@@ -83,7 +83,7 @@ constexpr auto rules = std::to_array<Rule>({
     {"start", [](const Said& s) { return s.points() && s.data.recorded.start == Start::moving; },
      "the rows of run {} are settled points"},
     {"start", [](const Said& s) { return !s.hangs() && s.data.recorded.start == Start::moving; },
-     "run {} has no load that hangs; only of such a run can the first state be told"},
+     "run {} has no hanging load; the first state can be estimated of such runs only"},
     {"hold", [](const Said& s) { return s.points() && s.data.recorded.hold != Hold::usual; },
      "the rows of run {} are settled points: commands hold while a point is measured, pressures and lengths "
      "are there after half of it at most"},

@@ -47,6 +47,10 @@ struct Run {
   double load_kg = 0.0;  ///< 0 where none hangs
   ColumnMap columns;
   int segment = 0;
+  std::string sheet;  ///< of a spreadsheet
+  std::string cut;    ///< a column; where it changes, the next segment begins
+  RowFilter where;
+  double from_s = 0.0, to_s = 0.0;  ///< since the first of its rows; 0: to the end
 
   std::vector<double> current_mA;  ///< held from its row to the next
   std::vector<double> contraction_ratio;
@@ -93,14 +97,20 @@ struct Run {
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
     visit.required("id", self.id, "name of the run; results are written under it");
-    visit.required(
-        "file", self.file,
-        "its table, relative to this file; the ending tells the format: .csv, .lvm, .mat, or .txt, .dat, "
-        ".asc for numbers without headings");
+    visit.required("file", self.file,
+                   "its table, relative to this file: text (.csv, .txt or any other ending), .lvm, .mat, "
+                   ".xlsx, .xls, .tdms");
     visit("load", self.given_load_kg, "kg", 0.01, 500.0, "mass of the load; required where one hangs");
     visit("columns", self.columns, "where this run's file differs from the data set's columns");
     visit("segment", self.segment, 0, 100000,
-          "which segment of an .lvm; 0: all of them, one after the other");
+          "which part of a file that holds several: where its clock begins again, `cut` changes, or an .lvm "
+          "has a "
+          "segment; 0: all of them, one after the other");
+    visit("sheet", self.sheet, "which sheet of an .xlsx or .xls, if several hold numbers");
+    visit("cut", self.cut, "column that marks cycles or phases: where it changes, the next segment begins");
+    visit("where", self.where, "rows that are this run, as {cycle: 3}: those with this text in that column");
+    visit("from", self.from_s, "s", 0.0, 1e6, "where the run begins, since the first row");
+    visit("to", self.to_s, "s", 0.0, 1e6, "where it ends, since the first row; 0: with the last");
   }
 };
 
@@ -127,6 +137,7 @@ struct Dataset {
   std::vector<Run> runs;
   bool own_clock = false;  ///< runs are `measured`, stamp by stamp
   std::optional<Rows> rows_of_stamps;
+  std::vector<std::string> remarks;  ///< how tables were read, where it could be done in another way
 
   double row_s() const { return rows_of_stamps ? rows_of_stamps->row_s : rig.tick_s; }
   double readings_in_a_row() const { return rows_of_stamps ? rows_of_stamps->readings : 1.0; }
@@ -159,10 +170,12 @@ struct Dataset {
     visit("start", self.recorded.start,
           "settled: at rest with the first input; moving: recorded from some instant on, the first state is "
           "estimated from the first readings");
-    visit("skip", self.recorded.skip_s, "s", 0.0, 1e4, "so much of each run is simulated but not judged");
+    visit("skip", self.recorded.skip_s, "s", 0.0, 1e4, "so much of each run is simulated but not compared");
     visit("hold", self.recorded.hold,
           "what inputs do between stamps: previous (usual for commands) or linear (usual for pressures and "
           "lengths)");
+    visit("bridge", self.recorded.bridge_s, "s", 0.0, 1e4,
+          "rows without a given input are bridged as `hold` says, for so long at most");
     visit.required("runs", self.runs, "the runs");
   }
 };

@@ -36,6 +36,7 @@ struct Recorded {
   Start start = Start::settled;
   double skip_s = 0.0;  ///< so much of it is simulated but not judged
   Hold hold = Hold::usual;
+  double bridge_s = 0.25;  ///< that a given input may lack
 };
 
 /// The first state of a run that began on its way, as its first readings have it.

@@ -94,9 +94,8 @@ struct JointTarget {
   static void fields(Self& self, Visitor& visit) {
     visit("name", self.name, "part of the names of its runs; if left out, t and its place in the list");
     visit.required("angle", self.angle, "the movement that is wanted");
-    visit(
-        "stiffness", self.stiffness,
-        "stiffness of the joint that is wanted besides; if left out, controllers hold their co-contraction");
+    visit("stiffness", self.stiffness,
+          "wanted stiffness of the joint; if left out, controllers hold their co-contraction");
   }
 };
 

@@ -50,7 +50,7 @@ std::string cause_of(Trouble trouble, const char* solver, const std::string& mes
           "the rig is probably stiff (bristle_stiffness, braid stop, hose)";
       break;
     case Trouble::too_accurate:
-      likely = "the tolerance asks for more digits than double precision has - loosen it";
+      likely = "the tolerance needs more digits than double precision has - loosen it";
       break;
     case Trouble::error_test:
       likely =

@@ -122,12 +122,9 @@ std::string inflated(std::string_view compressed, std::size_t most) {
 
 /// What MATLAB and Octave write besides.
 void refuse_relatives(std::string_view bytes) {
-  constexpr std::string_view hdf5 = "\x89HDF\r\n\x1A\n";
   constexpr const char* what_to_do = "in MATLAB or Octave, save it with -v7: save('run.mat', '-v7')";
-  if (bytes.starts_with("MATLAB 7.3") || bytes.starts_with(hdf5) ||
-      (bytes.size() > 512 && bytes.substr(512).starts_with(hdf5)))
-    throw BadFile(
-        fmt::format("this is HDF5 (what MATLAB's save -v7.3 writes), which is not read; {}", what_to_do));
+  if (bytes.starts_with("MATLAB 7.3"))
+    throw BadFile(fmt::format("this is the heading of a file of -v7.3 without what follows; {}", what_to_do));
   if (bytes.starts_with("# Created by Octave") || bytes.starts_with("Octave-1"))
     throw BadFile(fmt::format("this is Octave's own format; {}", what_to_do));
 }
@@ -195,11 +192,25 @@ bool MatArray::is_numeric() const {
   return kind >= MatClass::first_number && kind <= MatClass::last_number && !is_complex;
 }
 
-std::vector<std::pair<std::string, MatArray>> MatArray::fields() const {
+std::string MatArray::text() const {
+  constexpr std::size_t longest = 200;
+  MatElements rest = parts;
+  const MatElements::Element letters = rest.next();
+  const std::size_t step = letters.type == 17 || letters.type == 4 ? 2 : 1;
+  std::string text;
+  for (std::size_t at = 0; at + step <= letters.content.size() && text.size() < longest; at += step) {
+    const char low = letters.content[at + (step == 2 && rest.big_endian() ? 1 : 0)];
+    text += low >= ' ' && low < 0x7F ? low : '?';
+  }
+  return text;
+}
+
+std::vector<std::pair<std::string, MatArray>> MatArray::fields(std::size_t element) const {
   MatElements rest = parts;
   const std::size_t length = word(rest.next().content, 0, rest.big_endian());
   const std::string_view names = rest.next().content;
   std::vector<std::pair<std::string, MatArray>> list;
+  for (std::size_t skip = length == 0 ? 0 : element * (names.size() / length); skip > 0; --skip) rest.next();
   for (std::size_t at = 0; length > 0 && at + length <= names.size() && list.size() < most_fields;
        at += length) {
     const std::string_view padded = names.substr(at, length);

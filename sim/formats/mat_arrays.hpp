@@ -60,10 +60,12 @@ struct MatArray {
 
   std::size_t count() const;  ///< how many elements the sizes make
   bool is_numeric() const;    ///< of real numbers
-  bool is_one_struct() const { return kind == MatClass::structure && count() == 1; }
+  bool is_struct() const { return kind == MatClass::structure; }
 
-  /// Of one struct.
-  std::vector<std::pair<std::string, MatArray>> fields() const;
+  /// Of the struct, or of that element of an array of structs, from 0.
+  std::vector<std::pair<std::string, MatArray>> fields(std::size_t element = 0) const;
+  /// Of an array of letters; others than those of ASCII are ?.
+  std::string text() const;
   /// Of a numeric array, column by column.
   std::vector<double> numbers(std::size_t from, std::size_t how_many) const;
 };

@@ -7,6 +7,7 @@
 
 #include <sim/formats/mat_arrays.hpp>
 #include <sim/formats/mat_file.hpp>
+#include <sim/formats/mat_hdf5.hpp>
 
 namespace mckibben::formats {
 namespace {
@@ -32,11 +33,25 @@ std::string_view kind_of(const MatArray& array) {
   }
 }
 
-/// Names of the numeric arrays in a variable: its own, or those of its fields.
-void list(const MatArray& array, const std::string& name, std::vector<std::string>& names) {
-  if (array.is_numeric() && names.size() < most_names) names.push_back(name);
-  if (!array.is_one_struct()) return;
-  for (const auto& [field, inside] : array.fields()) list(inside, name + "." + field, names);
+/// The numeric arrays in a variable: its own, or those of its fields, of each of several structs.
+void list(const MatArray& array, const std::string& name, const std::string& label, MatContents& contents) {
+  constexpr std::size_t most_structs = 1000;
+  if (contents.names.size() >= most_names) return;
+  if (array.is_numeric()) {
+    const bool flat = array.sizes.size() == 2;
+    contents.add(name, label, flat ? array.sizes[0] : 0, flat ? array.sizes[1] : 0);
+  }
+  if (!array.is_struct()) return;
+  const std::size_t count = std::min(array.count(), most_structs);
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto fields = array.fields(i);
+    std::string own = label;  // as Simulink calls a signal
+    for (const auto& [field, inside] : fields)
+      if ((field == "label" || field == "signalName") && inside.kind == MatClass::text) own = inside.text();
+    for (const auto& [field, inside] : fields)
+      list(inside, fmt::format("{}{}.{}", name, count > 1 ? fmt::format("({})", i + 1) : "", field),
+           field == "time" ? "" : own, contents);
+  }
 }
 
 /// `data(:,2)` as `data` and 2; 0 where no column is named.
@@ -58,13 +73,29 @@ MatArray variable(const MatVariables& variables, std::string_view name) {
   throw BadFile(fmt::format("there is no variable {}", name));
 }
 
+/// `signals(2)` as `signals` and 2; 0 where no element is named.
+std::pair<std::string_view, std::size_t> split_element(std::string_view name) {
+  const auto open_at = name.find('(');
+  if (open_at == std::string_view::npos || !name.ends_with(')')) return {name, 0};
+  std::size_t element = 0;
+  std::from_chars(name.data() + open_at + 1, name.data() + name.size() - 1, element);
+  return {name.substr(0, open_at), element};
+}
+
 MatArray array_at(const MatVariables& variables, std::string_view path) {
-  MatArray array = variable(variables, path.substr(0, path.find('.')));
+  auto [first, element] = split_element(path.substr(0, path.find('.')));
+  MatArray array = variable(variables, first);
   for (std::size_t dot = path.find('.'); dot != std::string_view::npos;) {
     const std::size_t next = std::min(path.find('.', dot + 1), path.size());
-    const std::string_view field = path.substr(dot + 1, next - dot - 1), of = path.substr(0, dot);
-    if (!array.is_one_struct()) throw BadFile(fmt::format("{} is not a struct", of));
-    auto fields = array.fields();
+    const auto [field, element_of_field] = split_element(path.substr(dot + 1, next - dot - 1));
+    const std::string_view of = path.substr(0, dot);
+    if (!array.is_struct()) throw BadFile(fmt::format("{} is not a struct", of));
+    const std::size_t count = array.count();
+    if (element > count || count == 0 || (element == 0 && count != 1))
+      throw BadFile(fmt::format("{} is an array of {} structs; name one: {}(1)", of, count,
+                                of.substr(0, of.find_last_of('('))));
+    auto fields = array.fields(element == 0 ? 0 : element - 1);
+    element = element_of_field;
     const auto found =
         std::find_if(fields.begin(), fields.end(), [&](const auto& one) { return one.first == field; });
     if (found == fields.end()) throw BadFile(fmt::format("{} has no field {}", of, field));
@@ -95,7 +126,19 @@ std::vector<double> values(const MatVariables& variables, std::string_view where
 
 }  // namespace
 
+void MatContents::add(const std::string& name, const std::string& label, std::size_t rows,
+                      std::size_t columns) {
+  constexpr std::size_t most_columns = 100;
+  names.push_back(name);
+  const bool matrix = rows > 1 && columns > 1;
+  for (std::size_t k = 1; matrix && k <= std::min(columns, most_columns); ++k)
+    vectors.push_back(
+        {fmt::format("{}(:,{})", name, k), label.empty() ? "" : fmt::format("{} {}", label, k)});
+  if (!matrix) vectors.push_back({name, label});
+}
+
 MatContents read_mat(const std::string& bytes, const std::vector<std::string>& wanted) {
+  if (is_mat_hdf5(bytes)) return read_mat_hdf5(bytes, wanted);
   const MatVariables variables(bytes);
   MatContents contents;
   for (const std::string& where : wanted) {
@@ -107,7 +150,7 @@ MatContents read_mat(const std::string& bytes, const std::vector<std::string>& w
     }
   }
   for (std::size_t i = 0; i < variables.size() && contents.names.size() < most_names; ++i)
-    list(variables[i], variables[i].name, contents.names);
+    list(variables[i], variables[i].name, "", contents);
   return contents;
 }
 

@@ -16,11 +16,19 @@ struct Found {
 
 struct MatContents {
   std::vector<std::string> names;  ///< every vector or matrix of real numbers: `current`, `run.current`
-  std::vector<Found> found;        ///< one for each that was asked for
+  /// Every vector, and every column of a matrix: by which it is asked for, and how the file calls it besides.
+  struct Vector {
+    std::string name, label;
+  };
+  std::vector<Vector> vectors;
+
+  void add(const std::string& name, const std::string& label, std::size_t rows, std::size_t columns);
+  std::vector<Found> found;  ///< one for each that was asked for
 };
 
 /// Looks for vectors in the bytes of a MAT-file: a variable (`current`), a field of a struct (`run.current`),
-/// a column of a matrix (`data(:,2)`). Throws BadFile: not a MAT-file, of another version, damaged.
+/// one of several structs (`scope.signals(2).values`), a column of a matrix (`data(:,2)`). Throws BadFile:
+/// not a MAT-file, of another version, damaged.
 MatContents read_mat(const std::string& bytes, const std::vector<std::string>& wanted);
 
 /// A MAT-file with a vector for each column, `units` and `descriptions` (structs with a text for each), and a

@@ -55,12 +55,17 @@ Decision decide(const std::vector<Judged>& table) {
     all += decision.mass.back();
   }
   for (double& one : decision.mass) one /= all;
-  decision.chosen = decision.best;  // where no other will do
-  for (std::size_t i = 0; i < table.size(); ++i) {
-    if (!std::isfinite(table[i].score)) continue;
+  for (std::size_t i = 0; i < table.size(); ++i)
     if (i != decision.best && decision.mass[i] > decisive.mass) decision.rivals.push_back(i);
-    const auto [nats, error] = loss(table[decision.best].held_out, table[i].held_out);
-    if (!(nats <= decisive.errors * error) || !allowed(table[i])) continue;
+  // A rival that the sheet allows stands for a best one that it does not.
+  std::size_t reference = decision.best;
+  for (const std::size_t i : decision.rivals)
+    if (allowed(table[i]) && (!allowed(table[reference]) || table[i].score > table[reference].score))
+      reference = i;
+  decision.chosen = reference;
+  for (std::size_t i = 0; i < table.size(); ++i) {
+    const auto [nats, error] = loss(table[reference].held_out, table[i].held_out);
+    if (!std::isfinite(table[i].score) || !(nats <= decisive.errors * error) || !allowed(table[i])) continue;
     const Judged& chosen = table[decision.chosen];
     if (!allowed(chosen) || size_of(table[i]) < size_of(chosen) ||
         (size_of(table[i]) == size_of(chosen) && table[i].score > chosen.score))

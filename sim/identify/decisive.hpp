@@ -9,7 +9,7 @@ struct Decisive {
   double errors = 2.0;  ///< standard errors of a paired held-out difference (Vehtari, Gelman, Gabry 2017)
   double bent = 0.95;   ///< of chi^2: parameters further off may imitate what is missing; convention
   double conflict =
-      8.61;            ///< deviations: one in a thousand of the prior is further off (Evans & Moshonov 2006)
+      4.6;             ///< deviations: one in a hundred of the prior is further off (Evans & Moshonov 2006)
   double mass = 0.05;  ///< of the posterior mass: rivals that are shown; convention
   int most_together =
       4;  ///< effects and bench faults in one set; all numbers of them alike (Scott & Berger 2010)

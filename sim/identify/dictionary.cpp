@@ -49,6 +49,11 @@ bool Point::has(std::size_t entry) const {
 bool Point::lets_differ(int which) const {
   return std::ranges::find(differ, which) != differ.end();
 }
+Point Point::without(std::size_t place) const {
+  Point fewer = *this;
+  fewer.effects.erase(fewer.effects.begin() + static_cast<std::ptrdiff_t>(place));
+  return fewer;
+}
 
 Dictionary::Dictionary(const domain::Dataset& data, double written_coarsely) : described_(data.rig) {
   for (diagnose::Parameter& p : diagnose::nominal_parameters(data.rig, data.rig.spreads)) {

@@ -88,6 +88,8 @@ struct Point {
 
   bool has(std::size_t entry) const;
   bool lets_differ(int which) const;
+  /// The same without the effect at a place among its own.
+  Point without(std::size_t place) const;
 };
 
 enum class Kind { parameter, size, shape, term };

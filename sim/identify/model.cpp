@@ -134,7 +134,7 @@ void Model::look_again(const std::vector<std::size_t>& which, bool both) {
                                                              : i % 2 == 0 ? wider
                                                                           : -wider)));
   const Eigen::MatrixXd seen = problem->simulator.differences(settings);
-  read = seen.col(0);
+  if (read.size() == 0) read = seen.col(0);  // else they stay: changes are known better than where they begin
   const auto count = static_cast<Index>(problem->dictionary.coordinates(point).size());
   if (slopes.cols() != count) slopes = Eigen::MatrixXd::Zero(seen.rows(), count);
   for (std::size_t i = 0; i < which.size(); ++i) {
@@ -149,18 +149,17 @@ void Model::look_again(const std::vector<std::size_t>& which, bool both) {
   }
 }
 
-bool Model::is_hopeless(double promised, double beat) const {
-  if (!std::isfinite(beat)) return false;
+Model::Here Model::here() const {
   const Eigen::VectorXd left = residual(), of_prior = variance();
   const Error fair = error.begun().fitted(left, slopes, of_prior, {1.0, 0.5}).first;
   const Grams at = fair.grams(left, slopes);
   const Eigen::MatrixXd gram = at.sum();
-  const double evidence_here =
+  const double whole =
       log_prior() +
       0.5 * static_cast<double>(slopes.cols() - left.size()) * std::log(2.0 * std::numbers::pi) -
       0.5 * (at.log_det() + gram(0, 0)) -
       curvature(gram, of_prior.cwiseInverse()).llt().matrixLLT().diagonal().array().log().sum();
-  return evidence_here + 3.0 * promised < beat;
+  return {whole, fair.explains()};
 }
 
 void Model::fit_error(std::vector<double> steps, std::vector<std::size_t> only) {
@@ -181,12 +180,15 @@ constexpr int chords = 3;                     // steps by the same slopes
 
 }  // namespace
 
-bool Model::descend(const Effort& effort) {
+void Model::descend(const Effort& effort) {
   const Dictionary& dictionary = problem->dictionary;
   double reach = 3.0;
   bool far = true;
   bool finely = false;
-  if (!read.allFinite()) return true;
+  constexpr double again = 5.0;  // times as much as in the last round
+  double evidence_before = -std::numeric_limits<double>::infinity();
+  arrived = hopeless = false;
+  if (!read.allFinite()) return;
   error = error.forgetting();
   for (int round = 0; round < effort.rounds; ++round) {
     fit_error(round == 0 ? std::vector{1.0, 0.5} : std::vector{0.5},
@@ -199,7 +201,16 @@ bool Model::descend(const Effort& effort) {
       far = false;
       continue;
     }
-    if (promised < effort.enough || (round > 0 && is_hopeless(promised, effort.beat))) return true;
+    if (promised < effort.enough) {
+      arrived = true;
+      return;
+    }
+    if (std::isfinite(effort.beat)) {
+      const double evidence = here().evidence;
+      hopeless = evidence + again * (evidence - evidence_before) < effort.beat;
+      if (hopeless) return;
+      evidence_before = evidence;
+    }
     // Steps by the same slopes, as long as they serve.
     double here = before;
     for (int chord = 0; chord < chords; ++chord) {
@@ -207,12 +218,13 @@ bool Model::descend(const Effort& effort) {
       const double wanted = quadratic.promised();
       reach = std::min(reach, quadratic.longest());
       std::vector<Point> tried;
-      std::vector<Setting> settings;
+      std::vector<Setting> settings{dictionary.setting(point)};
       for (const double length : lengths) {
         tried.push_back(dictionary.moved(point, v + quadratic.step(length * reach)));
         settings.push_back(dictionary.setting(tried.back()));
       }
-      const Eigen::MatrixXd reads = problem->simulator.read(settings);
+      Eigen::MatrixXd reads = problem->simulator.differences(settings).rightCols(std::ssize(lengths));
+      reads.colwise() += read;
       std::size_t best = 0;
       std::array<double, lengths.size()> costs{};
       for (std::size_t i = 0; i < tried.size(); ++i) {
@@ -247,21 +259,23 @@ bool Model::descend(const Effort& effort) {
       if (quadratic.promised() < effort.enough) break;
     }
     if (before - here < effort.enough) {  // kinks promise what no step finds
-      if (finely) return true;
+      if (finely) {
+        arrived = true;
+        return;
+      }
       finely = true;
       reach = 0.3;
       look(true);
       continue;
     }
-    std::vector<std::size_t> again;
+    std::vector<std::size_t> anew;
     const bool all_anew = promised > 10.0 || !(before - here > 0.3 * promised);
     const auto coordinates = dictionary.coordinates(point);
     for (std::size_t j = 0; j < coordinates.size(); ++j)
       if (all_anew || coordinates[j].kind == Kind::size || coordinates[j].kind == Kind::shape)
-        again.push_back(j);
-    if (!again.empty()) look_again(again);
+        anew.push_back(j);
+    if (!anew.empty()) look_again(anew);
   }
-  return false;
 }
 
 bool Model::place() {
@@ -300,30 +314,32 @@ bool Model::place() {
       }
     }
     if (furthest < 0.1) break;
-    const std::vector<Setting> setting{problem->dictionary.setting(there)};
-    const Eigen::MatrixXd would_read = problem->simulator.read(setting);
+    Eigen::VectorXd would_read = problem->simulator.read(problem->dictionary.setting(there));
     if (!would_read.allFinite()) break;
     point = std::move(there);
-    read = would_read.col(0);
+    read = std::move(would_read);
     look_at_wander();
     moved = true;
   }
   return moved;
 }
 
-bool Model::settle(const Effort& effort) {
-  bool arrived = false;
+void Model::settle(const Effort& effort) {
   place();
   for (int pass = 0; pass < 3; ++pass) {
-    arrived = descend(effort);
-    if (!place()) break;
+    descend(effort);
+    if (hopeless || !place()) break;
   }
-  return arrived;
 }
 
 double Model::evidence() {
   if (!read.allFinite()) return score = log_evidence = -std::numeric_limits<double>::infinity();
-  if (point.terms == Terms::none) look_at_wander();
+  if (point.terms == Terms::none) {
+    if (const Eigen::VectorXd finely = problem->simulator.read(problem->dictionary.setting(point));
+        finely.allFinite())
+      read = finely;
+    look_at_wander();
+  }
   const Eigen::VectorXd prior_variance = variance(), left = residual();
   // The error has several optima.
   auto [one, value_of_one] = error.fitted(left, slopes, prior_variance, {0.5});

@@ -36,12 +36,18 @@ class Model {
     double beat = -std::numeric_limits<double>::infinity();  ///< hopeless far below
   };
   /// Damped Gauss-Newton in units of the priors, with a trust region, to the most probable numbers.
-  /// Whether it arrived, or there is no hope; false if the rounds were too few.
-  bool descend(const Effort& effort);
+  /// Stops where it has arrived, where there is no hope, or when the rounds are over.
+  void descend(const Effort& effort);
   /// The same, numbers of runs placed.
-  bool settle(const Effort& effort);
+  void settle(const Effort& effort);
   /// Laplace's at the point, what a last straight step would gain included. Sets all that follows from it.
   double evidence();
+  /// The evidence by the slopes as they are, the error fitted afresh.
+  struct Here {
+    double evidence;
+    bool explains;  ///< as Error's
+  };
+  Here here() const;
   /// The same with general terms, straight from here.
   Model with_terms(Terms terms, const Eigen::MatrixXd& columns, double term_N) const;
 
@@ -59,6 +65,8 @@ class Model {
   Eigen::VectorXd read;
   Eigen::MatrixXd slopes;
 
+  bool arrived = false;   ///< at the most probable numbers
+  bool hopeless = false;  ///< it would not have come near what it was to beat
   // of evidence()
   Grams grams;
   Eigen::MatrixXd covariance;
@@ -70,8 +78,6 @@ class Model {
  private:
   Point perturbed(std::size_t coordinate, double& step, double times = 1.0) const;
   void look_again(const std::vector<std::size_t>& coordinates, bool both = false);
-  /// Whether the evidence, with three times what is promised, would be below this.
-  bool is_hopeless(double promised, double beat) const;
   double cost(const Eigen::VectorXd& would_read, const Point& at) const;
   /// Simulates numbers of runs, which are not straight, where they are most probable; whether any has moved.
   bool place();

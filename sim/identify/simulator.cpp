@@ -77,32 +77,27 @@ Eigen::VectorXd clocked(const Eigen::VectorXd& read, double rate) {
   return list;
 }
 
-Eigen::MatrixXd Simulator::read(std::span<const Setting> settings) const {
-  Eigen::MatrixXd list =
-      Eigen::MatrixXd::Constant(rows_.size(), static_cast<Eigen::Index>(settings.size()), nothing);
-  const std::size_t count = rows_.runs.size() * settings.size();
-  const auto loaded = [&](std::size_t run, std::size_t i) {
-    const domain::Run& measured = rows_.data().runs[rows_.runs[run]];
-    return diagnose::Loaded{settings[i].rig, settings[i].bench.load_kg(measured.load_kg, run)};
-  };
+Eigen::VectorXd Simulator::read(const Setting& setting) const {
+  Eigen::VectorXd list = Eigen::VectorXd::Constant(rows_.size(), nothing);
+  const std::size_t runs = rows_.runs.size();
   diagnose::predict_all(
-      count, count, threads_, rows_.data().rig.integrator.method,
-      [&](std::size_t index) {
-        const std::size_t run = index / settings.size(), i = index % settings.size();
-        diagnose::Wanted one{&rows_.data().runs[rows_.runs[run]], {loaded(run, i)}};
-        one.disturbance.begin = [bench = &settings[i].bench, run](std::size_t, ride::Underway& begins) {
-          begin(*bench, run, begins);
+      runs, runs, threads_, rows_.data().rig.integrator.method,
+      [&](std::size_t run) {
+        const domain::Run& measured = rows_.data().runs[rows_.runs[run]];
+        diagnose::Wanted one{&measured, {{setting.rig, setting.bench.load_kg(measured.load_kg, run)}}};
+        one.disturbance.begin = [&setting, run](std::size_t, ride::Underway& begins) {
+          begin(setting.bench, run, begins);
         };
+        one.finely = true;
         return one;
       },
-      [&](std::size_t index, const std::vector<Readings>& readings, const std::exception_ptr& failure) {
-        const std::size_t run = index / settings.size(), i = index % settings.size();
+      [&](std::size_t run, const std::vector<Readings>& readings, const std::exception_ptr& failure) {
         if (failure) return;
         each_block(rows_, run, [&](const Block& block, const auto& part) {
-          list(part, static_cast<Eigen::Index>(i)) = seen(rows_, block, readings.front(), settings[i].bench);
+          list(part) = seen(rows_, block, readings.front(), setting.bench);
         });
       });
-  passes_ += static_cast<long>(settings.size());
+  ++passes_;
   return list;
 }
 

@@ -31,8 +31,9 @@ class Simulator {
  public:
   Simulator(const Rows& rows, unsigned threads) : rows_(rows), threads_(threads) {}
 
-  /// [row, setting]; not a number where a setting cannot go on.
-  Eigen::MatrixXd read(std::span<const Setting> settings) const;
+  /// As a setting reads, integrated finely: so that others can be compared with it; not a number where it
+  /// cannot go on.
+  Eigen::VectorXd read(const Setting& setting) const;
   /// The first as it reads, the others less the first, in common steps with it.
   Eigen::MatrixXd differences(std::span<const Setting> settings) const;
   /// The change by friction of 1 N in each of so many places along the stroke (general terms).

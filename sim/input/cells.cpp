@@ -1,15 +1,40 @@
 // Cells and their numbers; see the header.
 #include <algorithm>
+#include <array>
+#include <charconv>
 
 #include <fmt/format.h>
 
 #include <sim/input/cells.hpp>
+#include <sim/input/number.hpp>
+#include <sim/input/quantity.hpp>
 
 namespace mckibben::input {
 namespace {
 
 constexpr std::string_view blanks = " \t";
 constexpr std::size_t longest_shown = 40;
+
+bool is_number_digit(char c) {
+  return c >= '0' && c <= '9';
+}
+
+bool is_sign(char c) {
+  return c == '.' || c == ',';
+}
+
+/// One decimal sign, groups of three digits, or a date such as 03.05.2024; "1,2,3" are three numbers.
+bool signs_fit(std::string_view digits) {
+  const auto points = std::ranges::count(digits, '.'), commas = std::ranges::count(digits, ',');
+  if (points <= 1 && commas <= 1) return true;
+  if (points == 2 && commas <= 1) return true;
+  if (points > 1 && commas > 1) return false;
+  const char sign = points > 1 ? '.' : ',';
+  for (std::size_t at = digits.find(sign); at != std::string_view::npos; at = digits.find(sign, at + 1))
+    if (const std::size_t next = std::min(digits.find_first_of(".,", at + 1), digits.size()); next - at != 4)
+      return false;
+  return true;
+}
 
 std::vector<Cell> split_at_blanks(std::string_view line) {
   std::vector<Cell> cells;
@@ -22,7 +47,69 @@ std::vector<Cell> split_at_blanks(std::string_view line) {
   return cells;
 }
 
+/// The value of 1,234.5 or 1.234.567,8: groups of three digits, then the other sign.
+std::optional<double> with_thousands(std::string_view text) {
+  const std::size_t decimal = text.find_last_of(".,"), first = text.find_first_of(".,");
+  if (decimal == std::string_view::npos || first == decimal || text[first] == text[decimal])
+    return std::nullopt;
+  std::string plain;
+  std::size_t group = 0;
+  for (std::size_t i = 0; i < decimal; ++i) {
+    if (text[i] != text[first]) {
+      plain += text[i];
+      ++group;
+      continue;
+    }
+    if (i > first && group != 3) return std::nullopt;
+    group = 0;
+  }
+  if (group != 3) return std::nullopt;
+  return parse_number(plain + '.' + std::string(text.substr(decimal + 1)));
+}
+
 }  // namespace
+
+bool is_number_like(std::string_view text) {
+  if (text.empty()) return false;
+  std::string_view bare = text;
+  if (bare.front() == '+' || bare.front() == '-') bare.remove_prefix(1);
+  if (bare == "inf" || bare == "Inf" || bare == "INF") return true;
+  const bool begins =
+      !bare.empty() && (is_number_digit(bare.front()) ||
+                        (bare.size() > 1 && is_sign(bare.front()) && is_number_digit(bare[1])));
+  if (!begins || bare.ends_with(',')) return false;
+  const std::size_t end = std::min(bare.find_first_not_of("0123456789.,'"), bare.size());
+  if (!signs_fit(bare.substr(0, end))) return false;
+  std::string_view rest = bare.substr(end);
+  if (rest.starts_with('e') || rest.starts_with('E')) {
+    const std::size_t from = rest.size() > 1 && (rest[1] == '+' || rest[1] == '-') ? 2 : 1;
+    if (rest.size() > from && is_number_digit(rest[from]))
+      rest.remove_prefix(std::min(rest.find_first_not_of("0123456789", from), rest.size()));
+  }
+  if (rest.empty()) return true;
+  constexpr std::size_t longest_stamp = 40;
+  if (text.size() <= longest_stamp &&
+      text.find_first_not_of("0123456789:-/., +TZAPMapm") == std::string_view::npos &&
+      text.find_first_of(":-/") != std::string_view::npos)
+    return true;
+  return std::ranges::none_of(rest, is_number_digit) && !unit_word(trimmed(rest)).empty();
+}
+
+std::string unit_word(std::string_view text) {
+  if (text.size() > 2 && std::string_view("[(<").find(text.front()) != std::string_view::npos) {
+    text.remove_prefix(1);
+    text.remove_suffix(1);
+  }
+  if (text.empty() || (text != "1" && text.find_first_of("0123456789+-.") == 0)) return "";
+  if (text == "°") return "deg";
+  if (text == "counts") return "count";
+  constexpr std::array itself{"%", "count", "date", "1"};
+  constexpr std::array measured{"s", "mA", "V", "bar", "N", "m", "rad", "kg", "K"};
+  const bool known = std::find(itself.begin(), itself.end(), text) != itself.end() ||
+                     std::any_of(measured.begin(), measured.end(),
+                                 [&](const char* wanted) { return unit_problem(text, wanted).empty(); });
+  return known ? std::string(text) : "";
+}
 
 std::vector<Cell> split_cells(std::string_view line, char separator) {
   if (separator == ' ') return split_at_blanks(line);
@@ -47,6 +134,36 @@ bool is_missing(const Cell& cell) {
   return cell.text.empty() || cell.text == "nan" || cell.text == "NaN" || cell.text == "NAN";
 }
 
+std::optional<double> EpochReader::read(std::string_view name, const Cell& cell, NumberReader& numbers,
+                                        std::string& problem) {
+  constexpr std::size_t long_ago = 9;  // digits
+  const std::string_view text = cell.text;
+  const std::size_t digits = std::min(text.find_first_not_of("0123456789"), text.size());
+  const bool counts = digits >= long_ago && digits <= 19 &&
+                      (digits == text.size() || text[digits] == '.' || text[digits] == ',');
+  const bool is_first = !began_ && !is_missing(cell);
+  if (is_first) began_ = true;
+  if (!counts || (!is_first && !first_text_)) {
+    auto value = numbers.read(name, cell, problem);
+    if (value && first_text_) *value -= static_cast<double>(first_);
+    return value;
+  }
+  std::int64_t whole = 0;
+  std::from_chars(text.data(), text.data() + digits, whole);
+  double part = 0.0;
+  if (digits < text.size()) {
+    std::string decimals = "0" + std::string(text.substr(digits));
+    const auto value = numbers.read(name, {decimals, cell.offset}, problem);
+    if (!value) return std::nullopt;
+    part = *value;
+  }
+  if (is_first) {
+    first_ = whole;
+    first_text_ = text;
+  }
+  return static_cast<double>(whole - first_) + part;
+}
+
 std::optional<double> NumberReader::read(std::string_view name, const Cell& cell, std::string& problem) {
   const std::string_view shown = cell.text.substr(0, longest_shown);
   problem.clear();
@@ -55,6 +172,12 @@ std::optional<double> NumberReader::read(std::string_view name, const Cell& cell
     return std::nullopt;
   }
   const std::size_t at = cell.text.find_first_of(".,");
+  if (const auto value = with_thousands(cell.text)) {  // which sign is which stands in the number itself
+    if (const char decimal = cell.text[cell.text.find_last_of(".,")]; sign_ == '\0' || sign_ == decimal) {
+      sign_ = decimal;
+      return value;
+    }
+  }
   const char sign = at == std::string_view::npos ? '\0' : cell.text[at];
   if (sign_ == '\0') sign_ = sign;
   if (sign_ != ',' || sign == '\0') {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -21,6 +22,12 @@ std::vector<Cell> split_cells(std::string_view line, char separator);
 /// Whether a cell says that there is no number: it is empty, or NaN.
 bool is_missing(const Cell& cell);
 
+/// Whether a cell holds a number, perhaps with a unit behind it, or a stamp of date or time.
+bool is_number_like(std::string_view text);
+
+/// A unit as a heading shows it, "[mA]" or "mA"; empty if it is none that anything here is measured in.
+std::string unit_word(std::string_view text);
+
 /// Reads the numbers of one table, all with the same decimal sign.
 class NumberReader {
  public:
@@ -31,6 +38,21 @@ class NumberReader {
 
  private:
   char sign_;
+};
+
+/// Reads the stamps of one table. If the first is so large that it counts since 1970, or since the recorder
+/// was switched on long ago, all are read as those since the first, without losing a digit.
+class EpochReader {
+ public:
+  std::optional<double> read(std::string_view name, const Cell& cell, NumberReader& numbers,
+                             std::string& problem);
+  /// What was taken off, as it stands in the file; none if nothing.
+  const std::optional<std::string>& taken_off() const { return first_text_; }
+
+ private:
+  bool began_ = false;
+  std::int64_t first_ = 0;
+  std::optional<std::string> first_text_;
 };
 
 }  // namespace mckibben::input

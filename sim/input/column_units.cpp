@@ -9,6 +9,7 @@
 #include <sim/input/column_units.hpp>
 #include <sim/input/dates.hpp>
 #include <sim/input/quantity.hpp>
+#include <sim/input/text_layout.hpp>
 
 namespace mckibben::input {
 namespace {
@@ -39,6 +40,18 @@ void to_ratio(std::vector<double>& values, const std::string& unit, const plant:
     ratio = rig.joint.wheel_radius_m / rig.muscle.rest_length_m;
   }
   for (double& value : values) value *= ratio;
+}
+
+/// The unit at the end of a heading, as in t_ms, `p [kPa]`; empty if none can be told.
+std::string unit_in_heading(std::string_view heading, const domain::Quantity& quantity) {
+  const bool closed = heading.ends_with(']') || heading.ends_with(')');
+  const std::size_t from = heading.find_last_of(closed ? "[(" : "_");
+  if (from == std::string_view::npos || from == 0) return "";
+  std::string_view unit = heading.substr(from + 1);
+  if (closed) unit.remove_suffix(1);
+  // A bare letter behind _ may be anything, but for seconds of a time.
+  if (!closed && unit.size() < 2 && !(quantity.key == "time" && unit == "s")) return "";
+  return unit_word(unit);
 }
 
 /// Which of them the rig's valve takes is asked once the rig is known.
@@ -74,28 +87,31 @@ void check_said_units(const Table& table, const ColumnMap& map, const plant::Rig
   for (const domain::Quantity& quantity : domain::quantities(rig.command_unit())) {
     const Table::Column* column = table.find(quantity.column);
     const ColumnPlace& place = map[quantity];
-    if (column == nullptr || column->unit.empty() || column->is_date) continue;
-    const bool is_command_of_another_name =
-        place.absent() && quantity.is_old_current && !map[domain::command_key].absent();
+    if (column == nullptr || column->kind == CellKind::date) continue;
+    const bool in_heading = column->unit.empty();
+    const std::string said = in_heading ? unit_in_heading(column->in_file, quantity) : column->unit;
+    if (said.empty()) continue;
+    const bool is_command_of_another_name = place.absent() && quantity.is_command() &&
+                                            (!map["current"].absent() || !map[domain::command_key].absent());
     if (is_command_of_another_name || (says_factor(quantity.key) && place.factor != -1.0) ||
         (!place.absent() && place.column != column->in_file))
       continue;
     const std::string taken = place.absent() ? std::string(quantity.unit()) : place.unit;
     std::vector<double> one{1.0};
-    const bool fits = taken == column->unit || unit_problem(column->unit, taken).empty();
-    if (taken == column->unit || (fits && (convert_units(one, column->unit, taken), one.front() == 1.0)))
-      continue;
-    const std::string what =
-        fmt::format("the line above says {}, and it is read in {}; ", column->unit, taken);
-    if (!problem_of(quantity, column->unit).empty())
-      problems.add(
-          table, *column, 0,
-          fmt::format("{}write factor: how many {} are 1 {}, also if it is 1", what, taken, column->unit));
+    const bool fits = taken == said || unit_problem(said, taken).empty();
+    if (in_heading && !fits) continue;  // it may be no unit at all
+    if (taken == said || (fits && (convert_units(one, said, taken), one.front() == 1.0))) continue;
+    const std::string what = fmt::format("{} says {}, and it is read in {}; ",
+                                         in_heading ? "its heading" : "the line above", said, taken);
+    if (!problem_of(quantity, said).empty())
+      problems.add(table, *column, 0,
+                   fmt::format("{}write factor: how many {} are 1 {}, also if it is 1", what, taken, said));
     else
       problems.add(
           table, *column, 0,
-          fmt::format("{}write columns: {{{}}}, if the line is right", what,
-                      line_of(quantity.key, {column->in_file, column->unit, place.zero, place.factor})));
+          fmt::format("{}write columns: {{{}}}, if {} is right{}", what,
+                      line_of(quantity.key, {column->in_file, said, place.zero, place.factor}),
+                      in_heading ? "it" : "the line", in_heading ? ", or factor: 1 if it is not" : ""));
   }
 }
 
@@ -109,6 +125,18 @@ double ratio_per_unit(const ColumnPlace& contraction, const plant::Rig& rig) {
   return one.front();
 }
 
+namespace {
+
+/// Stamps of a quantity that has its own, in seconds as those of all.
+void convert_own_clock(Table& table, const domain::Quantity& quantity, const ColumnPlace& time) {
+  Table::Column* own = table.find("time of " + quantity.key);
+  if (own == nullptr) return;
+  for (double& value : own->values) value = (value - time.zero) * time.factor;
+  convert_units(own->values, time.unit, "s");
+}
+
+}  // namespace
+
 void convert_columns(Table& table, const ColumnMap& map, const plant::Rig& rig) {
   const auto& all = domain::quantities(rig.command_unit());
   for (Table::Column& column : table.columns) {
@@ -116,9 +144,10 @@ void convert_columns(Table& table, const ColumnMap& map, const plant::Rig& rig) 
         all, [&](const domain::Quantity& each) { return each.column == column.name && !map[each].absent(); });
     if (found == all.end()) continue;
     const ColumnPlace& place = map[*found];
+    convert_own_clock(table, *found, map["time"]);
     if (place.zero != 0.0 || place.factor != 1.0)
       for (double& value : column.values) value = (value - place.zero) * place.factor;
-    if (column.is_date) continue;  // was read in seconds
+    if (column.kind == CellKind::date) continue;  // was read in seconds
     if (found->key == "contraction") {
       to_ratio(column.values, place.unit, rig);
     } else if (place.unit == counts_unit) {  // of the joint's angle

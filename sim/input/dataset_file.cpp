@@ -119,6 +119,8 @@ Dataset read_dataset(Source source) {
       }
   }
   problems.raise();
+  for (const Problem& each : problems.warnings())
+    dataset.remarks.push_back(where(each) + ": " + each.message);
   dataset.inputs = problems.inputs();
   return dataset;
 }

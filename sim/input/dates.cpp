@@ -100,10 +100,15 @@ std::optional<double> ClockReader::read(std::string_view name, const Cell& cell,
         parse_number(cell.text) ? "; a number has another unit: s, ms, or d for Excel's days" : "");
   if (!stamp) return std::nullopt;
   if (!first_) first_ = stamp;
+  if (stamp->date.empty() && first_->date.empty()) {  // a time of the day that falls is of the next one
+    if (stamp->second < last_ - 0.5 * day_s) midnights_ += 1.0;
+    last_ = stamp->second;
+    return midnights_ * day_s + stamp->second - first_->second;
+  }
   if (stamp->date == first_->date) return stamp->second - first_->second;
   if (!stamp->day || !first_->day) {
-    problem = fmt::format("{}: {} is another day than {}, and it cannot be told which number is the month",
-                          name, shown, first_->date);
+    problem = fmt::format("{}: {} is another day than {}, and which number is the month is ambiguous", name,
+                          shown, first_->date);
     return std::nullopt;
   }
   return static_cast<double>(*stamp->day - *first_->day) * day_s + stamp->second - first_->second;

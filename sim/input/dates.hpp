@@ -29,6 +29,7 @@ class ClockReader {
   static std::optional<Stamp> stamp_of(std::string_view text);
 
   std::optional<Stamp> first_;
+  double last_ = 0.0, midnights_ = 0.0;  ///< of stamps without a date
 };
 
 }  // namespace mckibben::input

@@ -128,6 +128,8 @@ class FieldLister {
       info.highest = T::highest;
     } else if constexpr (is_optional<T>) {
       describe<typename T::value_type>(info);
+    } else if constexpr (std::same_as<T, domain::RowFilter>) {
+      info.type = FieldInfo::Type::named;
     } else if constexpr (std::same_as<T, domain::Variation>) {
       info.type = FieldInfo::Type::draws;
       for (const std::string_view text : spellings<domain::Sampling>()) info.choices.emplace_back(text);
@@ -186,10 +188,14 @@ std::vector<FieldInfo> list_fields(const T& defaults) {
   return list;
 }
 
-/// For the documentation: a section titled `title` with the table of `fields`, then the sections of the
-/// structs inside, each titled by its path of keys. A table that has been there before is referred to, and so
-/// is that of a rig.
-std::string field_table(const std::string& title, const std::vector<FieldInfo>& fields);
+struct KindOfFile {
+  std::string title;
+  std::vector<FieldInfo> fields;
+};
+
+/// For the documentation: for each kind of file a section with a line for each key, then a section for each
+/// alternative of a variant, titled by its path of keys. What has been there before is referred to.
+std::string field_lists(const std::vector<KindOfFile>& kinds);
 
 /// JSON Schema (draft 2020-12), for editors that complete and check while one types: of a file whose first
 /// line is `schema: NAME` and whose other keys are `fields`.

@@ -1,6 +1,9 @@
-// Field lists to Markdown; see the header.
+// Field lists as Markdown; see the header.
 #include <cctype>
+#include <cstddef>
 #include <map>
+#include <string>
+#include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -10,106 +13,161 @@
 namespace mckibben::input {
 namespace {
 
-std::string default_text(const FieldInfo& info) {
-  if (info.required) return "required";
-  if (info.default_value.is_null()) return "";
-  return info.default_value.is_string() ? info.default_value.get<std::string>() : info.default_value.dump();
+std::string default_text(const FieldInfo& info, const std::string& kind) {
+  if (info.required || info.default_value.is_null()) return "";
+  const std::string value =
+      info.default_value.is_string() ? info.default_value.get<std::string>() : info.default_value.dump();
+  if (value.empty()) return "";
+  return "default " + (!kind.empty() && value == kind ? "the kind" : value);
+}
+
+/// `0 to 20 mA`, the unit once if both ends have the same.
+std::string from_to(std::string lowest, const std::string& highest) {
+  const std::size_t unit = highest.find(' ');
+  if (unit != std::string::npos && lowest.ends_with(highest.substr(unit)))
+    lowest.resize(lowest.size() - (highest.size() - unit));
+  return fmt::format("{} to {}", lowest, highest);
 }
 
 std::string range_text(const FieldInfo& info) {
   switch (info.type) {
     case FieldInfo::Type::quantity:
-      return fmt::format("{} to {}", show_limit(info.lowest.get<double>(), info.unit),
-                         show_limit(info.highest.get<double>(), info.unit));
+      return from_to(show_limit(info.lowest.get<double>(), info.unit),
+                     show_limit(info.highest.get<double>(), info.unit));
     case FieldInfo::Type::integer:
-      return fmt::format("{} to {}", info.lowest.dump(), info.highest.dump());
+      return from_to(info.lowest.dump(), info.highest.dump());
     case FieldInfo::Type::choice:
       return fmt::format("{}", fmt::join(info.choices, ", "));
-    case FieldInfo::Type::boolean:
-      return "true, false";
     case FieldInfo::Type::height:
       return "ratio or length";
     case FieldInfo::Type::draws:
       return "normal M ± D or uniform L .. H";
-    case FieldInfo::Type::text:
-      return "text";
     case FieldInfo::Type::laws:
-      return "list; each a file, or its contents";
+      return "each a file, or its contents";
     case FieldInfo::Type::named:
-      return info.groups.empty() ? "for each name a text" : "for each name: see below";
+      return "for each name";
+    case FieldInfo::Type::boolean:
+      return info.default_value.is_null() ? "true, false" : "";
+    case FieldInfo::Type::text:
     case FieldInfo::Type::structure:
-      return "";
     case FieldInfo::Type::variant:
-      break;
+      return "";
   }
-  std::vector<std::string> kinds;
-  for (const FieldInfo::Group& group : info.groups) kinds.push_back(group.kind);
-  return fmt::format("kind: {}", fmt::join(kinds, ", "));
+  return "";
 }
 
-/// All that tables of these fields say, whatever their titles.
-std::string all_of(const std::vector<FieldInfo>& fields) {
+/// All that the lines of these fields say, whatever their titles.
+std::string all_of(const std::vector<FieldInfo>& fields, const std::string& kind) {
   std::string text;
   for (const FieldInfo& info : fields) {
-    text += fmt::format("{} {} {} {} {} {}\n", info.key, info.unit, default_text(info), info.is_list,
-                        range_text(info), info.meaning);
-    for (const FieldInfo::Group& group : info.groups) text += all_of(group.fields);
+    text += fmt::format("{} {} {} {} {} {}\n", info.key, info.required, default_text(info, kind),
+                        info.is_list, range_text(info), info.meaning);
+    for (const FieldInfo::Group& group : info.groups) text += group.kind + '\n' + all_of(group.fields, "");
   }
   return text;
 }
 
-/// The anchor that Markdown gives a title.
-std::string link_to(const std::string& title) {
-  std::string anchor;
+std::string link_to(const std::string& words, const std::string& title) {
+  std::string anchor;  // as Markdown makes it of a title
   for (const char c : title)
     if (c != ':') anchor += c == ' ' ? '-' : static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return fmt::format("[{}](#{})", title, anchor);
+  return fmt::format("[{}](#{})", words, anchor);
 }
 
-/// The tables of one kind of file; what one has shown, another refers to.
-class Tables {
+/// The sections of all kinds of files; what one has shown, another refers to.
+class Sections {
  public:
   std::string operator()(const std::string& title, const std::vector<FieldInfo>& fields) {
-    std::string text = fmt::format("## {}\n\n", title);
-    if (fields.empty()) return text + "No further keys.\n";
-    if (const std::string& earlier = shown_.try_emplace(all_of(fields), title).first->second;
-        earlier != title)
-      return text + fmt::format("The keys of {}.\n", link_to(earlier));
-    text += "| key | unit | default | range | meaning |\n|---|---|---|---|---|\n";
-    std::string below;
-    for (const FieldInfo& info : fields) {
-      const std::string inside = fmt::format("{}: {}", title, info.key);
-      std::string range = range_text(info);
-      if (info.type == FieldInfo::Type::structure) {
-        const std::string place = info.by_name ? "Rig" : place_of(info, inside);
-        range = place == inside ? "see below" : "see " + link_to(place);
-        if (place == inside) below += '\n' + (*this)(inside, info.groups.front().fields);
-      }
-      if (info.type == FieldInfo::Type::named && !info.groups.empty())
-        below += '\n' + (*this)(inside, info.groups.front().fields);
-      for (const FieldInfo::Group& group : info.groups)
-        if (!group.kind.empty())
-          below += '\n' + (*this)(fmt::format("{} of kind {}", inside, group.kind), group.fields);
-      text += fmt::format("| `{}` | {} | {} | {}{} | {} |\n", info.key, info.unit == "1" ? "" : info.unit,
-                          default_text(info), info.is_list ? "list; each " : "", range, info.meaning);
-    }
-    return text + below;
+    return section("##", title, "", fields);
   }
 
  private:
-  /// The title of the table that has this struct's fields, or will have them.
-  std::string place_of(const FieldInfo& info, const std::string& title) {
-    const auto found = shown_.find(all_of(info.groups.front().fields));
-    return found == shown_.end() ? title : found->second;
+  std::string section(const char* level, const std::string& title, const std::string& kind,
+                      const std::vector<FieldInfo>& fields) {
+    std::string below;
+    const std::string text = lines(title, kind, fields, 0, below);
+    return fmt::format("{} {}\n\n{}{}", level, title, text, below);
   }
 
-  std::map<std::string, std::string> shown_;  ///< titles by what stands in the tables
+  std::string lines(const std::string& title, const std::string& kind, const std::vector<FieldInfo>& fields,
+                    std::size_t indent, std::string& below) {
+    std::string text;
+    std::map<std::string, std::string> elsewhere;  // keys by the section that has the same
+    for (const FieldInfo& info : fields) {
+      if (indent == 0) {
+        const std::string& shown = fields_.try_emplace(all_of({info}, kind), title).first->second;
+        if (shown != title) {
+          std::string& keys = elsewhere[shown];
+          keys += fmt::format("{}`{}`", keys.empty() ? "" : ", ", info.key);
+          continue;
+        }
+      }
+      text += fmt::format("{:{}}- `{}`", "", indent, info.key);
+      std::string inside;
+      std::vector<std::string> notes;
+      if (info.required) notes.emplace_back("required");
+      const std::string range = info.type == FieldInfo::Type::structure
+                                    ? structure(title, info, indent, inside, below)
+                                    : kinds(title, info, below);
+      if (info.is_list)
+        notes.push_back(range.empty() ? "list" : "list of " + range);
+      else if (!range.empty())
+        notes.push_back(range);
+      if (const std::string usual = default_text(info, kind); !usual.empty()) notes.push_back(usual);
+      if (info.type == FieldInfo::Type::named && !info.groups.empty())
+        inside = lines(title, "", info.groups.front().fields, indent + indented, below);
+      text += fmt::format("{}: {}\n{}", notes.empty() ? "" : fmt::format(" ({})", fmt::join(notes, "; ")),
+                          info.meaning, inside);
+    }
+    for (const auto& [shown, keys] : elsewhere)
+      text += fmt::format("- {}: as in {}\n", keys, link_to(shown, shown));
+    return text + (indent == 0 ? "\n" : "");
+  }
+
+  /// Where the keys of a struct are: in lines below its own, or in an earlier section.
+  std::string structure(const std::string& title, const FieldInfo& info, std::size_t indent,
+                        std::string& inside, std::string& below) {
+    if (info.by_name) return link_to("Rig", "Rig");
+    const std::vector<FieldInfo>& fields = info.groups.front().fields;
+    const auto [place, is_new] = structures_.try_emplace(all_of(fields, ""), Shown{title, info.key});
+    const Shown& shown = place->second;
+    if (!is_new && shown.title != title) return "keys as in " + link_to(shown.title, shown.title);
+    if (!is_new) return fmt::format("keys as of `{}`", shown.key);
+    inside = lines(title, "", fields, indent + indented, below);
+    return "";
+  }
+
+  /// The kinds of a variant, each with its section; the range of any other field.
+  std::string kinds(const std::string& title, const FieldInfo& info, std::string& below) {
+    if (info.type != FieldInfo::Type::variant) return range_text(info);
+    std::vector<std::string> names;
+    for (const FieldInfo::Group& group : info.groups) {
+      const std::string own = fmt::format("{}: {} {}", title, info.key, group.kind);
+      const auto [place, is_new] =
+          structures_.try_emplace(group.kind + '\n' + all_of(group.fields, ""), Shown{own, info.key});
+      if (is_new && !group.fields.empty()) below += section("###", own, group.kind, group.fields);
+      names.push_back(group.fields.empty() ? group.kind : link_to(group.kind, place->second.title));
+    }
+    return fmt::format("kind {}", fmt::join(names, ", "));
+  }
+
+  /// Where the lines of a struct stand: in a section, below a key.
+  struct Shown {
+    std::string title, key;
+  };
+
+  static constexpr std::size_t indented = 4;   ///< blanks before the lines of a struct
+  std::map<std::string, std::string> fields_;  ///< titles by what a line says
+  std::map<std::string, Shown> structures_;    ///< by what the lines of a struct say
 };
 
 }  // namespace
 
-std::string field_table(const std::string& title, const std::vector<FieldInfo>& fields) {
-  return Tables()(title, fields);
+std::string field_lists(const std::vector<KindOfFile>& kinds) {
+  Sections sections;
+  std::string text;
+  for (const KindOfFile& kind : kinds) text += sections(kind.title, kind.fields);
+  return text;
 }
 
 }  // namespace mckibben::input

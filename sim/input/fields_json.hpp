@@ -18,6 +18,7 @@
 #include <plant/effects/own_laws.hpp>
 #include <plant/rig.hpp>
 #include <plant/sensors.hpp>
+#include <sim/domain/columns.hpp>
 #include <sim/domain/variation.hpp>
 #include <sim/input/field_kinds.hpp>
 #include <sim/input/json.hpp>
@@ -118,6 +119,8 @@ Json to_json(const T& value, const WriteContext& context) {
     return quantity_json(value.value, T::unit);
   } else if constexpr (is_optional<T>) {
     return to_json(*value, context);
+  } else if constexpr (std::same_as<T, domain::RowFilter>) {
+    return value.cells;
   } else if constexpr (std::same_as<T, domain::Variation>) {
     Json object{{"sampling", std::string(plant::name_of(value.sampling))}};
     for (const auto& each : value.numbers)

@@ -2,6 +2,8 @@
 // number may stand ("5 3 kg" would be 15 kg), and reads its own numbers by the locale. So calls are
 // serialised, under the locale C, and the unit's spelling is checked first. It counts radians as
 // dimensionless; a unit's definition still names them, which tells angles from ratios.
+#include <algorithm>
+#include <array>
 #include <cctype>
 #include <cerrno>
 #include <cmath>
@@ -94,7 +96,28 @@ bool spelt_like_a_unit(std::string_view text) {
   return !text.empty();
 }
 
+/// Spellings that headings have and UDUNITS has not; gauge or absolute is not the unit's business.
+std::string_view known_as(std::string_view text) {
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 11> spellings{{{"psi", "psi"},
+                                                                                     {"psig", "psi"},
+                                                                                     {"psia", "psi"},
+                                                                                     {"barg", "bar"},
+                                                                                     {"bara", "bar"},
+                                                                                     {"kpa", "kPa"},
+                                                                                     {"lbf", "lbf"},
+                                                                                     {"lbs", "lb"},
+                                                                                     {"deg", "deg"},
+                                                                                     {"mm", "mm"},
+                                                                                     {"kn", "kN"}}};
+  for (const auto& [lower, unit] : spellings)
+    if (std::ranges::equal(text, lower, {},
+                           [](char c) { return std::tolower(static_cast<unsigned char>(c)); }))
+      return unit;
+  return text;
+}
+
 Unit parse_unit(std::string_view text) {
+  text = known_as(text);
   return Unit(ut_parse(unit_system(), std::string(text).c_str(), UT_UTF8));
 }
 

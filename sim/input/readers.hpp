@@ -1,9 +1,9 @@
-// Readers of measured tables, one a format; the ending of a file's name tells which. Each reads the wanted
-// columns; those that are not needed only if they are there.
+// Readers of measured tables: of text, of LabVIEW's and MATLAB's files. Each reads the wanted columns; those
+// that are not needed only if they are there.
+
 #pragma once
 
 #include <cstddef>
-#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -13,17 +13,16 @@
 
 namespace mckibben::input {
 
-// Strict reader of CSV tables: a heading (csv_layout.hpp), one row each tick, plain finite numbers, in quotes
-// or not. Cells stand between commas, semicolons or tabs; numbers may have a decimal comma throughout.
-// Columns may come in any order and extra ones are ignored (and may hold text). Empty columns and rows at the
-// end are none.
+// Tables in text, whatever the file's ending: text_layout.hpp finds them. Numbers are finite, in quotes or
+// not, with a decimal point or a decimal comma throughout. Columns are named by their heading or by their
+// number. Extra ones are ignored (and may hold text); cells that lack at the end of a row are empty.
 
 /// What to say of a column that is not among the headings `found`, besides that.
 using MissingHint = std::string (*)(const WantedColumn& column, std::span<const std::string_view> found);
 
 /// Reads the wanted columns; those that are not needed only if they are there.
-Table read_csv(const Source& source, std::span<const WantedColumn> wanted, TableProblems& problems,
-               MissingHint hint = nullptr);
+Table read_text(const Source& source, std::span<const WantedColumn> wanted, TableProblems& problems,
+                MissingHint hint = nullptr);
 
 /// The same for columns under our own names.
 Table read_table(const Source& source, std::span<const std::string_view> required,
@@ -48,20 +47,9 @@ std::vector<std::string> lvm_channels(const Source& source);
 /// (`data(:,2)`), all of one length, of finite numbers.
 Table read_mat_table(const Source& source, std::span<const WantedColumn> wanted, TableProblems& problems);
 
-// Tables of numbers alone, without a heading, as the thesis's program wrote them (T 3.3) and as `save -ascii`
-// does: blanks, tabs or semicolons between the numbers; a decimal point, or a decimal comma throughout. Lines
-// that begin with # or % are remarks.
+enum class Format { text, lvm, mat };
 
-/// Reads the wanted columns, which are named by their numbers from 1.
-Table read_ascii(const Source& source, std::span<const WantedColumn> wanted, TableProblems& problems);
-
-enum class Format { csv, lvm, mat, ascii };
-
-/// None if the ending tells no format.
-std::optional<Format> format_of(const std::string& file);
-
-/// What is said then.
-inline constexpr const char* format_rule =
-    "its ending must tell its format: .csv, .lvm, .mat, or .txt, .dat, .asc for numbers without headings";
+/// By its ending, and by how it begins.
+Format format_of(const std::string& file, std::string_view text);
 
 }  // namespace mckibben::input

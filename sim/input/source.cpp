@@ -70,6 +70,11 @@ Place Source::place(std::size_t number, std::size_t offset) const {
   return {number, static_cast<std::size_t>(characters) + 1};
 }
 
+void Source::replace_text(std::string text) {
+  text_ = std::move(text);
+  find_lines();
+}
+
 void Source::reread_as_latin1() {
   std::string utf8;
   utf8.reserve(text_.size() + static_cast<std::size_t>(std::count_if(
@@ -79,8 +84,7 @@ void Source::reread_as_latin1() {
     if (byte >= 0x80) utf8 += static_cast<char>(0xC0U | byte >> 6U);
     utf8 += byte >= 0x80 ? static_cast<char>(0x80U | (byte & 0x3FU)) : c;
   }
-  text_ = std::move(utf8);
-  find_lines();
+  replace_text(std::move(utf8));
 }
 
 std::optional<Place> Source::first_bad_byte() const {

@@ -51,6 +51,8 @@ class Source {
   Place place(std::size_t number, std::size_t offset) const;
   /// Place of the first byte that is NUL or not UTF-8, if any.
   std::optional<Place> first_bad_byte() const;
+  /// What its bytes say in UTF-8, where they are in another form; the digest stays theirs.
+  void replace_text(std::string text);
   /// Takes the bytes for Latin-1, as Windows programs write, not for UTF-8.
   void reread_as_latin1();
 

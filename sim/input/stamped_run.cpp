@@ -42,6 +42,7 @@ bool has_own_clock(const ColumnMap& map, const plant::Rig& rig) {
   return std::ranges::any_of(domain::quantities(), [&](const Quantity& quantity) {
     const ColumnPlace& place = map[quantity];
     constexpr std::array ticked{"time", "current", "contraction", "muscle_pressure"};
+    if (!place.time.empty() || !place.where.absent()) return true;
     return !place.absent() && (place.as != Role::reading ||
                                std::find(ticked.begin(), ticked.end(), quantity.key) == ticked.end());
   });
@@ -87,8 +88,8 @@ class Assembling {
     check_numbers(table_, map_, rig_, problems_);
     for (const Wish& wish : stamped_quantities(map_, rig_)) take(*wish.quantity);
     // What is judged first, pressures last.
-    std::ranges::stable_partition(measured_.columns,
-                                  [](const auto& column) { return !column.is_pressure(); });
+    std::stable_partition(measured_.columns.begin(), measured_.columns.end(),
+                          [](const auto& column) { return !column.is_pressure(); });
     measured_.angle_in_degrees = map_["angle"].unit == "deg";
     measured_.counted = map_[rig_.pair() != nullptr ? "angle" : "contraction"].unit == "count";
     beginning();
@@ -110,8 +111,9 @@ class Assembling {
       const double now_s = measured_.time_s[k], before_s = measured_.time_s[k - 1];
       if (now_s > before_s || std::isnan(now_s) || std::isnan(before_s)) continue;
       problems_.add(table_, *column, k,
-                    fmt::format("time_s = {} {}: stamps must ascend", domain::write_number(now_s),
-                                now_s == before_s ? "is repeated" : "runs backwards"));
+                    fmt::format("time_s = {} {}: stamps must ascend{}", domain::write_number(now_s),
+                                now_s == before_s ? "is repeated" : "runs backwards",
+                                now_s == before_s ? "; take out the row that is there twice" : ""));
       return;  // all later rows would repeat it
     }
   }
@@ -129,11 +131,49 @@ class Assembling {
                                     least_to_begin, known));
   }
 
+  /// What can be done about rows that lack what drives the rig.
+  std::string way_out(std::size_t row, std::size_t next, double gap_s) const {
+    const std::vector<double>& time_s = measured_.time_s;
+    const auto since = [&](std::size_t k) { return domain::write_number(time_s[k] - time_s.front()); };
+    if (measured_.point_s > 0.0 || (row == 0 && next == time_s.size())) return "";
+    if (row == 0) return fmt::format("; the run could begin later: from: {} s", since(next));
+    if (next == time_s.size()) return fmt::format("; the run could end before: to: {} s", since(row - 1));
+    return fmt::format(", for {:.4g} s; up to {} s are bridged, and bridge: of the data set may say more",
+                       gap_s, domain::write_number(measured_.recorded.bridge_s));
+  }
+
+  /// What is given goes on between its stamps as it is held; a longer gap, or one at an end, is a problem.
+  void bridge(const Quantity& quantity, const Table::Column& column, std::vector<double>& values) {
+    const bool stays = measured_.recorded.hold == domain::Hold::previous ||
+                       (measured_.recorded.hold == domain::Hold::usual && quantity.is_command());
+    const std::vector<double>& time_s = measured_.time_s;
+    for (std::size_t row = 0; row < values.size(); ++row) {
+      if (!std::isnan(values[row])) continue;
+      std::size_t next = row;
+      while (next < values.size() && std::isnan(values[next])) ++next;
+      const bool at_end = row == 0 || next == values.size();
+      const double gap_s = at_end ? 0.0 : time_s[next] - time_s[row - 1];
+      if (at_end || gap_s > measured_.recorded.bridge_s || measured_.point_s > 0.0) {
+        problems_.add(
+            table_, column, row,
+            fmt::format("{} missing here{}", column.in_file == column.name ? column.name + " is" : "it is",
+                        way_out(row, next, gap_s)));
+        return;
+      }
+      for (std::size_t k = row; k < next; ++k)
+        values[k] = stays ? values[row - 1]
+                          : values[row - 1] +
+                                (values[next] - values[row - 1]) * (time_s[k] - time_s[row - 1]) / gap_s;
+      row = next;
+    }
+  }
+
   void take(const Quantity& quantity) {
     const Table::Column* column = quantity.key == "time" ? nullptr : table_.find(quantity.column);
     if (column == nullptr) return;
     const bool given = quantity.is_command() || map_.gives(quantity);
     measured_.columns.push_back({quantity.channel, given, column->values});
+    if (given) bridge(quantity, *column, measured_.columns.back().values);
     if (const double size = quantity.channel.signal->unit.size; size != 1.0)
       for (double& value : measured_.columns.back().values) value *= size;
   }

@@ -7,6 +7,7 @@
 #include <fmt/ranges.h>
 
 #include <sim/input/suggest.hpp>
+#include <sim/input/synonyms.hpp>
 #include <sim/input/utf8.hpp>
 
 namespace mckibben::input {
@@ -36,11 +37,12 @@ std::size_t edit_distance(std::string_view left, std::string_view right) {
 
 std::optional<std::string_view> nearest(std::string_view word, std::span<const std::string_view> known) {
   if (word.empty() || word.size() > longest_word) return std::nullopt;
+  const std::string wanted = spelled_alike(word);
   std::optional<std::string_view> best;
   std::size_t least = std::max<std::size_t>(1, (word.size() + 2) / 3) + 1;
   for (const std::string_view candidate : known) {
     if (candidate.size() > longest_word) continue;
-    const std::size_t distance = edit_distance(word, candidate);
+    const std::size_t distance = std::min(edit_distance(word, candidate), edit_distance(wanted, candidate));
     if (distance < least && distance < candidate.size()) {
       least = distance;
       best = candidate;
@@ -50,6 +52,10 @@ std::optional<std::string_view> nearest(std::string_view word, std::span<const s
 }
 
 std::string did_you_mean(std::string_view word, std::span<const std::string_view> known) {
+  std::vector<std::string_view> meant =
+      word.size() > longest_word ? std::vector<std::string_view>{} : names_here(word);
+  std::erase_if(meant, [&](std::string_view name) { return std::ranges::find(known, name) == known.end(); });
+  if (!meant.empty()) return fmt::format("; did you mean {}?", fmt::join(meant, " or "));
   const auto best = nearest(word, known);
   return best ? fmt::format("; did you mean {}?", *best) : std::string{};
 }

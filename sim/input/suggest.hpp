@@ -12,10 +12,12 @@ namespace mckibben::input {
 
 std::size_t edit_distance(std::string_view left, std::string_view right);
 
-/// The nearest of `known`, if near enough to be worth saying: up to one edit for each three characters.
+/// The nearest of `known`, if near enough to be worth saying: up to one edit for each three characters,
+/// whatever the case.
 std::optional<std::string_view> nearest(std::string_view word, std::span<const std::string_view> known);
 
-/// `; did you mean WORD?` or nothing, to hang on a message.
+/// `; did you mean WORD?` or nothing, to hang on a message: the known words that the field calls so
+/// (synonyms.hpp), else the nearest one.
 std::string did_you_mean(std::string_view word, std::span<const std::string_view> known);
 
 /// The words separated by commas.

@@ -32,6 +32,16 @@ Table::Column* Table::find(std::string_view name) {
   return const_cast<Column*>(std::as_const(*this).find(name));
 }
 
+double Table::Column::label(std::string_view text) {
+  const auto known = labels.find(text);
+  if (known != labels.end()) return known->second;
+  return labels.emplace(text, static_cast<double>(labels.size())).first->second;
+}
+
+void Table::begin_part() {
+  if (!lines.empty() && (parts.empty() || parts.back() != lines.size())) parts.push_back(lines.size());
+}
+
 Place Table::place(const Source& source, const Column& column, std::size_t row) const {
   if (lines.empty()) return nowhere;
   const std::vector<Cell> cells = split_cells(source.line(lines[row]), separator);
@@ -135,15 +145,12 @@ bool check_columns(std::size_t count, Place place, TableProblems& problems) {
   return count <= most_columns;
 }
 
-std::optional<Format> format_of(const std::string& file) {
+Format format_of(const std::string& file, std::string_view text) {
   std::string ending = std::filesystem::path(file).extension().string();
   std::transform(ending.begin(), ending.end(), ending.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  if (ending == ".csv" || ending == ".tsv") return Format::csv;
-  if (ending == ".lvm") return Format::lvm;
-  if (ending == ".mat") return Format::mat;
-  if (ending == ".txt" || ending == ".dat" || ending == ".asc") return Format::ascii;
-  return std::nullopt;
+  if (ending == ".lvm" || text.starts_with("LabVIEW Measurement")) return Format::lvm;
+  return ending == ".mat" || text.starts_with("MATLAB 5.0 MAT-file") ? Format::mat : Format::text;
 }
 
 }  // namespace mckibben::input

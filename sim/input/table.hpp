@@ -4,13 +4,24 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
+#include <map>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <sim/input/diagnostics.hpp>
 
 namespace mckibben::input {
+
+/// What the cells of a column hold.
+enum class CellKind {
+  number,
+  stamp,  ///< a time; one that counts since 1970 is read as that since the first
+  date,   ///< wall-clock time, read as seconds since the first row
+  label   ///< any text, read as its number in `Column::labels`
+};
 
 /// A column that is looked for.
 struct WantedColumn {
@@ -18,7 +29,7 @@ struct WantedColumn {
   std::string in_file;  ///< as the file calls it: a heading, a channel, a number, a variable
   bool needed = true;
   bool may_miss = false;  ///< a row may lack it: empty, NaN
-  bool is_date = false;   ///< wall-clock time, read as seconds since the first row
+  CellKind kind = CellKind::number;
 };
 
 /// The wanted columns of a table.
@@ -28,12 +39,21 @@ struct Table {
     std::size_t index = 0;  ///< in the file
     std::vector<double> values;
     bool may_miss = false;
-    bool is_date = false;
+    CellKind kind = CellKind::number;
     std::string unit{};  ///< that the file says in a line below the heading; empty: none
+    std::map<std::string, double, std::less<>> labels{};
+
+    /// The number of a text.
+    double label(std::string_view text);
   };
   std::vector<Column> columns;
-  std::vector<std::size_t> lines;  ///< of each row; empty in files that are no text
-  char separator = ',';            ///< of cells; a blank stands for any number of them
+  std::vector<std::size_t> lines;    ///< of each row; empty in files that are no text
+  std::vector<std::size_t> parts{};  ///< rows before which a recorder began anew, but for the first
+  char separator = ',';              ///< of cells; a blank stands for any number of them
+
+  std::size_t rows() const { return columns.empty() ? lines.size() : columns.front().values.size(); }
+  /// The next row is the first of another part.
+  void begin_part();
 
   /// Null if the column was optional and is not there.
   const Column* find(std::string_view name) const;
@@ -54,6 +74,8 @@ class TableProblems {
   void add(Place place, std::string message);
   /// A problem with one number: shown at its place, or with the name and number that it has in the file.
   void add(const Table& table, const Table::Column& column, std::size_t row, const std::string& message);
+  /// How something was read that could be read in another way.
+  void note(Place place, std::string message) { problems_.warning(source_, place, std::move(message)); }
   std::size_t count() const { return count_; }
 
  private:

@@ -49,7 +49,7 @@ const Node* ValueReader::take(std::string_view key) {
   const Node* node = map_.find(key);
   if (node == nullptr) return nullptr;
   if (node->text == domain::fill_in)
-    bad(*node, fmt::format("{} = {}: nothing that was recorded tells it; write what it is", key, node->text));
+    bad(*node, fmt::format("{} = {}: the recorded data do not contain it; write its value", key, node->text));
   else if (node->kind == Node::Kind::null)
     bad(*node, fmt::format("{} has no value", key));
   else

@@ -20,6 +20,7 @@
 #include <plant/effects/own_laws.hpp>
 #include <plant/rig.hpp>
 #include <plant/sensors.hpp>
+#include <sim/domain/columns.hpp>
 #include <sim/domain/variation.hpp>
 #include <sim/input/diagnostics.hpp>
 #include <sim/input/field_kinds.hpp>
@@ -208,6 +209,9 @@ class StructReader : public ValueReader {
         read(key, node.children[i], value[i], std::string(key) + '.' + std::to_string(i));
     } else if constexpr (is_variant<T>) {
       if (const auto index = kind(key, node, kinds<T>)) read_alternative(node, value, *index, path);
+    } else if constexpr (std::same_as<T, domain::RowFilter>) {
+      if (ValueReader(source_, node, problems_).is_map())
+        for (const Node& each : node.children) text(each.key, each, value.cells[each.key]);
     } else if constexpr (std::same_as<T, domain::Variation>) {
       // Read once the rig is known whose numbers it names (variation_file.hpp).
     } else if constexpr (std::same_as<T, plant::Sensors>) {

@@ -34,7 +34,7 @@ class Compiler {
       const auto& memory = wording_.memories[i];
       auto& into = programs.memories.emplace_back();
       if (!memories_[i]) {
-        faults_.push_back({{0, fmt::format("what {} measures cannot be told: add it to something, or compare "
+        faults_.push_back({{0, fmt::format("the unit of {} is unknown: add it to something, or compare "
                                            "it with something, whose unit is known",
                                            memory.name)},
                            i});

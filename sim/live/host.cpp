@@ -78,7 +78,7 @@ void Host::step() {
       end_recording(fmt::format("{} rows are the most", most_rows));
   }
   if (moved && !session_.failure().empty()) {
-    end_recording("the integration gave up");
+    end_recording("the integration failed");
     changed_state();
     return;
   }
@@ -167,7 +167,7 @@ std::string Host::obey(const Command& command) {
             if (session_.pair() && !record.from_rest && !session_.untouched())
               return "of two muscles a recording begins from rest: their data sets cannot say otherwise";
             if (record.from_rest) session_.start_over();
-            if (!session_.failure().empty()) return "nothing moves: the integration gave up";
+            if (!session_.failure().empty()) return "nothing moves: the integration failed";
             recording_.emplace();
             recording_->number = ++recordings_;
             recording_->rig = session_.rig();

@@ -146,7 +146,7 @@ function showState(state) {
   byId('record').setAttribute('aria-pressed', state.recording);
   byId('recording').hidden = !state.recording;
   byId('alarm').hidden = state.failure === '';
-  byId('alarm-text').textContent = state.failure === '' ? '' : 'The integration gave up. ' + state.failure;
+  byId('alarm-text').textContent = state.failure === '' ? '' : 'The integration failed. ' + state.failure;
   if (state.message.number > 0 && state.message.number !== before?.message.number) say(state.message.text);
 }
 

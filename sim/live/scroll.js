@@ -63,8 +63,8 @@ const pairTimePlots = [
   {
     title: 'Pressures',
     lines: [
-      ['muscle_pressure_1', 'muscle 1'], ['reference_pressure_1', 'asked of valve 1'],
-      ['muscle_pressure_2', 'muscle 2'], ['reference_pressure_2', 'asked of valve 2']
+      ['muscle_pressure_1', 'muscle 1'], ['reference_pressure_1', 'commanded 1'],
+      ['muscle_pressure_2', 'muscle 2'], ['reference_pressure_2', 'commanded 2']
     ]
   },
   {
@@ -77,9 +77,7 @@ const singleTimePlots = [
   {title: 'Contraction', lines: [['contraction_ratio', 'true'], [read, 'as counted']]},
   {
     title: 'Pressures',
-    lines: [
-      ['muscle_pressure', 'muscle'], ['reference_pressure', 'asked of the valve'], ['valve_pressure', 'valve']
-    ]
+    lines: [['muscle_pressure', 'muscle'], ['reference_pressure', 'commanded'], ['valve_pressure', 'valve']]
   },
   {title: command.title, lines: [[command.name, command.name]]},
   {
@@ -92,7 +90,7 @@ const timePlots = pair ? pairTimePlots : singleTimePlots;
 /** Differences are those of muscle 1 less muscle 2. */
 const pairLoopPlots = [
   {
-    title: 'Difference of pressures asked for, and angle as counted',
+    title: 'Difference of commanded pressures, and counted angle',
     x: 'reference_pressure_1 - reference_pressure_2',
     y: read
   },
@@ -100,7 +98,7 @@ const pairLoopPlots = [
   {title: 'Angle and difference of forces', x: 'angle', y: 'tension_1 - tension_2'},
 ];
 const singleLoopPlots = [
-  {title: 'Pressure asked for, and contraction as counted', x: 'reference_pressure', y: read},
+  {title: 'Commanded pressure, and counted contraction', x: 'reference_pressure', y: read},
   {title: 'Contraction and pressure of the muscle', x: 'contraction_ratio', y: 'muscle_pressure'},
   {title: 'Contraction and force of the braid', x: 'contraction_ratio', y: 'braid_force'},
 ];

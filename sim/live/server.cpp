@@ -97,9 +97,9 @@ struct Site {
       return "this is not the address that the program printed";
     const std::string_view origin = as_std(request[http::field::origin]);
     if (!origin.empty() && !(origin.starts_with("http://") && is_ours(origin.substr(7))))
-      return "another site asked for it";
+      return "another site sent it";
     const std::string_view site = as_std(request["Sec-Fetch-Site"]);
-    if (!site.empty() && site != "same-origin" && site != "none") return "another site asked for it";
+    if (!site.empty() && site != "same-origin" && site != "none") return "another site sent it";
     if (!behind_token(as_std(request.target())))
       return "the address lacks the token; take the whole address that the program printed";
     return "";

@@ -16,7 +16,7 @@ std::string number_of(const thesis::Estimate& estimate, double factor) {
   if (estimate.determined())
     return fmt::format("{:.5g} +- {:.1g}", factor * estimate.value, factor * estimate.standard_error);
   const double bound = factor * (std::abs(estimate.value) + 2.0 * estimate.standard_error);
-  const bool bounded = estimate.why_not == "not told from 0";
+  const bool bounded = estimate.why_not == "not significant";
   return "not determined: " + estimate.why_not + (bounded ? fmt::format(", below {:.2g}", bound) : "");
 }
 

@@ -82,7 +82,7 @@ std::string axes(const Ride& ride, bool gauge) {
     for (Tick& tick : ratios) tick.text.clear();
   return fmt::format("<text x='{}' y='{}'>{}</text>\n", ride.left_px, loop_top - 8, ride.title) +
          panel.across(round_numbers(panel.x, 4),
-                      gauge ? "pressure the gauge shows [bar]" : "pressure the current asks for [bar]") +
+                      gauge ? "pressure the gauge shows [bar]" : "commanded pressure [bar]") +
          panel.upwards(ratios, first ? "contraction ratio" : "") + panel.frame();
 }
 

@@ -18,8 +18,8 @@ using recognise::ColumnGuess, recognise::MapGuess, recognise::Recognised, recogn
     recognise::Setting, recognise::Told;
 
 constexpr const char* how_to_go_on =
-    "# Each comment says what told the value below it. Correct what is wrong. FILL_IN stands where nothing "
-    "told it:\n"
+    "# Each comment gives the source of the value below it. Correct what is wrong. FILL_IN marks unknown "
+    "values:\n"
     "# `mckibben check` shows each place, and nothing is simulated before all are filled in.\n";
 
 /// A comment in a line of YAML: headings may hold anything.
@@ -31,11 +31,12 @@ std::string as_comment(std::string text) {
 
 std::string reasons_of(const ColumnGuess& guess) {
   std::string text = guess.column.reason + "; " + guess.unit.reason;
-  for (const auto* told : {&guess.zero, &guess.factor, &guess.input})
+  for (const auto* told : {&guess.zero, &guess.factor, &guess.input, &guess.time})
     if (*told)
       text += "; " +
               std::string(told == &guess.zero     ? "zero: "
                           : told == &guess.factor ? "factor: "
+                          : told == &guess.time   ? "time: "
                                                   : "") +
               (*told)->reason;
   return text;
@@ -48,6 +49,7 @@ std::string place_of(const ColumnGuess& guess) {
   if (guess.zero) text += ", zero: " + guess.zero->value;
   if (guess.factor) text += ", factor: " + guess.factor->value;
   if (guess.input) text += ", as: " + guess.input->value;
+  if (guess.time) text += ", time: " + domain::yaml_scalar(guess.time->value);
   return text + "}";
 }
 
@@ -71,6 +73,7 @@ std::string run_yaml(const Recognised& found, std::size_t i, const std::filesyst
   std::string text;
   if (run.load) text += fmt::format("  {}\n", as_comment(run.load->reason));
   text += fmt::format("  - id: {}\n    file: {}\n", domain::yaml_scalar(run.id), domain::yaml_scalar(file));
+  for (const std::string& part : found.tables[i].part) text += "    " + part + "\n";
   if (run.load) text += fmt::format("    load: {}\n", run.load->value);
   if (run.map > 0)
     text +=
@@ -99,7 +102,7 @@ std::string dataset_yaml(const Recognised& found, const std::filesystem::path& f
 
 std::string rig_yaml(const Recognised& found) {
   std::string text = fmt::format(
-      "# The rig as far as its tables tell, written by `mckibben import`.\n{}"
+      "# The rig as far as its tables say, written by `mckibben import`.\n{}"
       "# What is not said here is the base's: mckibben schema rig --format yaml shows every value.\n"
       "schema: {}\nbase: thesis\n",
       how_to_go_on, input::rig_schema);
@@ -166,6 +169,7 @@ input::Json map_json(const MapGuess& map) {
     if (guess.zero) column["zero"] = told_json(*guess.zero);
     if (guess.factor) column["factor"] = told_json(*guess.factor);
     if (guess.input) column["as"] = told_json(*guess.input);
+    if (guess.time) column["time"] = told_json(*guess.time);
   }
   for (const Told& each : map.ignored) json["not_used"][each.value] = each.reason;
   if (map.rows) json[map.rows->key] = told_json(map.rows->told);
@@ -182,6 +186,7 @@ std::string json_of(const Recognised& found) {
   for (const MapGuess& map : found.maps) json["maps"].push_back(map_json(map));
   for (const RunGuess& run : found.runs) {
     input::Json each{{"id", run.id}, {"map", run.map}};
+    for (const std::string& part : found.tables[json["runs"].size()].part) each["part"].push_back(part);
     if (run.load) each["load"] = told_json(*run.load);
     json["runs"].push_back(std::move(each));
   }

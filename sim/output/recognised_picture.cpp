@@ -23,9 +23,12 @@ struct Line {
   std::vector<double> x, y;
 };
 
-std::vector<double> times_of(const Recognised& found, std::size_t run) {
-  const ColumnGuess* time = found.maps.front().find("time");
-  if (time != nullptr && !time->column.open()) return recognise::shown(found.tables[run], *time);
+std::vector<double> times_of(const Recognised& found, std::size_t run, const ColumnGuess& guess) {
+  if (const ColumnGuess* time = found.maps.front().find("time"); time != nullptr && !time->column.open()) {
+    ColumnGuess clock = *time;
+    if (guess.time) clock.column = *guess.time;
+    return recognise::shown(found.tables[run], clock);
+  }
   std::vector<double> rows(found.tables[run].columns.front().values.size());
   for (std::size_t k = 0; k < rows.size(); ++k) rows[k] = static_cast<double>(k);
   return rows;
@@ -35,7 +38,7 @@ std::vector<Line> lines_of(const Recognised& found, const ColumnGuess& guess) {
   std::vector<Line> lines;
   for (std::size_t i = 0; i < found.runs.size(); ++i)
     if (found.runs[i].map == 0)
-      lines.push_back({i, times_of(found, i), recognise::shown(found.tables[i], guess)});
+      lines.push_back({i, times_of(found, i, guess), recognise::shown(found.tables[i], guess)});
   return lines;
 }
 

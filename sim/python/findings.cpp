@@ -159,7 +159,7 @@ void add_diagnosis(py::module_& module) {
             if (!d.found->diagnosis.next_experiment) return std::nullopt;
             return output::plan_yaml(*d.data, d.found->diagnosis);
           },
-          "The measurement that would tell more, as a campaign file; None if none is asked for.")
+          "The most useful next measurement, as a campaign file; None if none would help.")
       .def(
           "to_dict",
           [](const Diagnosis& d) { return from_json(output::json_of(*d.data, d.found->diagnosis)); },

@@ -171,7 +171,7 @@ void add_inputs(py::module_& module) {
       .def(
           "dac_output",
           [](const Rig& rig, double wanted) { return plant::dac_output_mA(rig.file.dac, wanted); },
-          py::arg("wanted"), "The command that the rig's DAC gives where it is asked for one.")
+          py::arg("wanted"), "The command as the rig's DAC gives it.")
       .def(
           "dac_output_mA",
           [](const Rig& rig, double wanted_mA) {

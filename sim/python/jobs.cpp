@@ -133,8 +133,8 @@ void add_jobs(py::module_& module) {
           "runs", [](const Result& result) { return py::tuple(py::cast(result.runs)); }, "All runs.")
       .def("__len__", [](const Result& result) { return result.runs.size(); })
       .def("__getitem__", &run_at, py::arg("index"))
-      .def_readonly("warnings", &Result::warnings, "What should be known of the result, in words.")
-      .def_readonly("unmet", &Result::unmet, "Criteria of the scenario that are not met, in words.")
+      .def_readonly("warnings", &Result::warnings, "Warnings, as texts.")
+      .def_readonly("unmet", &Result::unmet, "Criteria of the scenario that are not met, as texts.")
       .def(
           "to_dict", [](const Result& result) { return from_json(result.document()); },
           "What the command line writes as run.json.")
@@ -163,7 +163,7 @@ void add_jobs(py::module_& module) {
       "run", &run_scenario, py::arg("threads") = 0, py::arg("seed") = py::none(),
       py::arg("progress") = py::none(),
       "Simulates every load under every controller, on so many threads (0: all the machine has); the result "
-      "does not depend on their number. `progress(what, done, total)` is told how far it is. Ctrl-C ends it, "
+      "does not depend on their number. `progress(what, done, total)` is called on the way. Ctrl-C ends it, "
       "as does an exception of `progress`. A run that fails says so in `failure`; the others go on.");
   py::reinterpret_borrow<py::class_<domain::Dataset, std::shared_ptr<domain::Dataset>>>(dataset).def(
       "replay", &replay, py::arg("rig") = py::none(), py::arg("threads") = 0,

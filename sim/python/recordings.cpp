@@ -167,7 +167,7 @@ void add_recordings(py::module_& module) {
           [](const Simulated& run) {
             return by_column(run, [](const plant::Channel& c) { return c.words(); });
           },
-          "What each column is, in words.")
+          "The meaning of each column.")
       .def_property_readonly("target", &target_of,
                              "Contraction ratio that was wanted, shape (rows,), or None; without a copy.")
       .def_property_readonly(

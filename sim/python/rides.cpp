@@ -108,7 +108,7 @@ void add_rides(py::module_& module) {
         return fmt::format("<mckibben.Reading at {:.6f} s: {} counts>", shown.time_s, shown.counts);
       });
   py::class_<Ride::Saved> saved(module, "SavedRide",
-                                "Where a ride was, whole: Ride.restore goes on from it.");
+                                "The whole state of a `Ride`; `Ride.restore` continues from it.");
   never_changes(saved);
   saved.def(py::pickle(&pickled_ride, &unpickled_ride));
 
@@ -149,8 +149,8 @@ void add_rides(py::module_& module) {
           py::arg("muscle_pressure_Pa") = py::none(), py::arg("opposite_muscle_pressure_Pa") = py::none(),
           py::arg("contraction_ratio") = py::none(), py::arg("at_s") = 0.0, py::arg("settle") = true,
           py::arg("current_mA") = py::none(), py::arg("opposite_current_mA") = py::none(),
-          "At rest, pressures as the drive asks for, the encoder at zero; `settle`: after the rig's settling "
-          "time under this drive, which ends at `at_s` [s].")
+          "At rest, pressures as commanded, the encoder at zero; `settle`: after the rig's settling "
+          "time under this input, which ends at `at_s` [s].")
       .def(
           "step",
           [given](Ride& ride, Number command, Number dt_s, Number opposite_command, Number muscle_pressure_Pa,
@@ -171,7 +171,7 @@ void add_rides(py::module_& module) {
           "a "
           "contraction ratio [1] that is given is reached, straight, at the end of the step; without a valve "
           "then, or on a bench. `current_mA`: the command of a valve that takes mA. Raises NumericalFailure; "
-          "the ride is then where it last came to.")
+          "the `Ride` is then where it stopped.")
       .def(
           "follow",
           [](Ride& ride, std::optional<Ride::Commands> command,
@@ -184,12 +184,12 @@ void add_rides(py::module_& module) {
           py::arg("command") = py::none(), py::arg("opposite_command") = py::none(), py::kw_only(),
           py::arg("current_mA") = py::none(), py::arg("opposite_current_mA") = py::none(),
           "A tick for each command, shape (ticks,), in one call: a Run whose rows are what was there before "
-          "each tick. Ctrl-C ends it; the ride is then where it came to.")
-      .def("save", &Ride::save, "All that changes on the way.")
+          "each tick. Ctrl-C ends it; the `Ride` is then where it stopped.")
+      .def("save", &Ride::save, "The whole state.")
       .def("restore", &Ride::restore, py::arg("saved"),
            "Goes on from what was saved, to the same bits. Raises ValueError for what was saved of another "
            "rig.")
-      .def("copy", copy, "A ride of its own that goes on from here.")
+      .def("copy", copy, "An independent copy that continues from here.")
       .def(
           "linearise", &Ride::linearise,
           "A, B, C, D at this instant, under what is held: exact, by dual numbers. States: "

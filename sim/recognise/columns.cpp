@@ -40,13 +40,13 @@ ColumnGuess guess_of(const domain::Quantity& quantity, const std::vector<const N
   for (const Named* each : candidates) {
     if (each->column->name == quantity.column || candidates.size() == 1) {
       const Told unit = unit_told(each->heading);
-      return {quantity_for(quantity, unit), {each->column->name, each->heading.reason}, unit, {}, {}, {}};
+      return {quantity_for(quantity, unit), {each->column->name, each->heading.reason}, unit, {}, {}, {}, {}};
     }
     names.push_back(each->column->name);
   }
   const std::string why = names.empty() ? "no column seems to hold it"
                                         : fmt::format("it may be any of: {}", fmt::join(names, "; "));
-  return {&quantity, left_open(why), left_open("it goes with the column"), {}, {}, {}};
+  return {&quantity, left_open(why), left_open("it goes with the column"), {}, {}, {}, {}};
 }
 
 /// Sign and zero of a contraction, by how it goes along with what drives the muscle.
@@ -66,7 +66,7 @@ void sign_and_zero(ColumnGuess& contraction, const ColumnGuess& drive,
   const std::string along = fmt::format("correlation with {} {:.2f}", drive.column.value, found.correlation);
   if (std::abs(found.correlation) < least_correlation) {
     contraction.factor =
-        left_open(along + ": too little to tell its sign; 1 if it grows as the muscle contracts, else -1");
+        left_open(along + ": too weak to decide its sign; 1 if it grows as the muscle contracts, else -1");
     contraction.zero = left_open("what it reads with the muscle at its rest length");
     return;
   }
@@ -105,16 +105,63 @@ void given_length(ColumnGuess& contraction, bool is_length) {
                                  : left_open("1 if it grows as the muscle contracts, else -1");
 }
 
-/// Numbers without headings: a column that ascends by itself is the time.
-std::vector<Named> with_time_by_numbers(const UnknownTable& table, std::vector<Named> named) {
-  if (table.has_headings) return named;
+/// What a gauge of absolute pressure reads at rest [kPa].
+constexpr double atmosphere_kPa = 101.325, least_atmosphere_kPa = 95.0, most_atmosphere_kPa = 105.0;
+
+/// Gauge or absolute: by its words, else asked where it rests near one atmosphere.
+void zero_of_pressure(ColumnGuess& pressure, const std::vector<const UnknownTable*>& tables) {
+  if (pressure.column.open() || pressure.unit.open()) return;
+  double lowest = 1e300;
+  for (const UnknownTable* table : tables)
+    if (const Values* values = column_of(*table, pressure.column.value))
+      lowest = std::min(lowest, range_of(*values).low);
+  Values in_kPa{lowest}, atmosphere{atmosphere_kPa};
+  if (!input::unit_problem(pressure.unit.value, "kPa").empty()) return;
+  input::convert_units(in_kPa, pressure.unit.value, "kPa");
+  input::convert_units(atmosphere, "kPa", pressure.unit.value);
+  const bool said = is_absolute(pressure.column.value) || is_absolute(pressure.unit.value);
+  if (said)
+    pressure.zero = Told{fmt::format("{:.6g}", atmosphere.front()),
+                         "its heading says absolute: the atmosphere is taken off"};
+  else if (in_kPa.front() > least_atmosphere_kPa && in_kPa.front() < most_atmosphere_kPa)
+    pressure.zero =
+        left_open(fmt::format("its lowest is {:.4g} {}: {:.6g} if it is absolute, 0 if it is gauge", lowest,
+                              pressure.unit.value, atmosphere.front()));
+}
+
+/// A column that holds the numbers of another before they were scaled.
+const UnknownColumn* scaled_of(const UnknownColumn& raw, const std::vector<Named>& named) {
+  constexpr double same = 0.999;
+  if (!names_raw(raw.name) && raw.unit != "count") return nullptr;
+  for (const Named& each : named)
+    if (each.column != &raw && each.heading.quantity != nullptr && each.heading.unit_fits &&
+        each.heading.unit != "count" && each.heading.quantity->key != "time" &&
+        std::abs(together({&each.column->values}, {&raw.values}).correlation) > same)
+      return each.column;
+  return nullptr;
+}
+
+/// Row numbers and raw readings are nothing that is compared.
+void leave_out_others(const TimeGuess& time, std::vector<Named>& named) {
   for (Named& each : named) {
-    const Clock clock = clock_of(each.column->values);
-    if (!clock.ascends || clock.step_s <= 0.0) continue;
-    each.heading = {&domain::quantity_of("time"), "", false, "it ascends from row to row"};
-    break;
+    if (each.heading.quantity == nullptr || each.heading.quantity->key == "time") continue;
+    if (each.column == time.row_numbers || (time.guess && each.column->name == time.guess->column.value) ||
+        (names_rows(each.column->name) && counts_rows(each.column->values)))
+      each.heading = {nullptr, "", false, "it counts the rows"};
+    else if (const UnknownColumn* scaled = scaled_of(*each.column, named))
+      each.heading = {nullptr, "", false, fmt::format("the raw reading of {}", scaled->name)};
   }
-  return named;
+}
+
+/// The clock that stands before a quantity's column, where each has its own.
+void own_clock(const UnknownTable& table, const TimeGuess& time, ColumnGuess& guess) {
+  if (time.clocks.empty() || guess.column.open()) return;
+  const UnknownColumn* const column = table.find(guess.column.value);
+  const UnknownColumn* clock = nullptr;
+  for (const UnknownColumn* each : time.clocks)
+    if (each < column) clock = each;
+  if (clock != nullptr && clock != time.clocks.front())
+    guess.time = Told{clock->name, "it stands behind that clock"};
 }
 
 std::string range_in_words(const UnknownColumn& column) {
@@ -140,7 +187,8 @@ MapGuess map_of(const std::vector<const UnknownTable*>& tables) {
   const UnknownTable& table = *tables.front();
   std::vector<Named> named;
   for (const UnknownColumn& column : table.columns) named.push_back({&column, heading_of(column)});
-  named = with_time_by_numbers(table, std::move(named));
+  const TimeGuess time = time_of(table);
+  leave_out_others(time, named);
   const auto candidates = [&](std::string_view key) {
     std::vector<const Named*> list;
     for (const Named& each : named)
@@ -151,17 +199,23 @@ MapGuess map_of(const std::vector<const UnknownTable*>& tables) {
   };
   MapGuess map;
   const bool has_pressure = !candidates("muscle_pressure").empty(), has_force = !candidates("force").empty();
-  for (const char* key : {"time", "command", "contraction", "muscle_pressure", "force"}) {
+  if (time.guess) map.columns.push_back(*time.guess);
+  for (const char* key : {"command", "contraction", "muscle_pressure", "force"}) {
     const std::string_view quantity = key;
     const auto found = candidates(quantity);
-    const bool may_lack = (quantity == "time" && (table.time_is_inside || table.has_headings)) ||
-                          (quantity == "command" && has_pressure) ||
+    const bool may_lack = (quantity == "command" && has_pressure) ||
                           (quantity == "contraction" && has_force) || quantity == "muscle_pressure" ||
                           quantity == "force";
     if (!found.empty() || !may_lack) map.columns.push_back(guess_of(domain::quantity_of(quantity), found));
+    if (!found.empty()) own_clock(table, time, map.columns.back());
+    if (quantity == "muscle_pressure" && !found.empty()) zero_of_pressure(map.columns.back(), tables);
   }
+  if (time.row_numbers != nullptr)
+    map.ignored.push_back(
+        {time.row_numbers->name, "it counts the rows; " + range_in_words(*time.row_numbers)});
   for (const Named& each : named)
-    if (each.heading.quantity == nullptr)
+    if (each.heading.quantity == nullptr && each.column != time.row_numbers &&
+        !(time.guess && each.column->name == time.guess->column.value))
       map.ignored.push_back(
           {each.column->name, fmt::format("{}; {}", each.heading.reason, range_in_words(*each.column))});
   for (const std::string& words : table.words)
@@ -180,7 +234,7 @@ MapGuess map_of(const std::vector<const UnknownTable*>& tables) {
       else
         sign_and_zero(guess, *drive, tables);
     }
-  if (candidates("time").empty() && !table.time_is_inside && table.has_headings)
+  if (!time.guess && !table.time_is_inside)
     map.rows = held
                    ? Setting{"settled",
                              left_open("no column seems to hold time, and each table stays at one length: "

@@ -2,6 +2,7 @@
 // way contraction counts and where it is zero, whether a run began at rest.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include <sim/recognise/recognise.hpp>
@@ -18,6 +19,23 @@ const Values* column_of(const UnknownTable& table, const std::string& name);
 
 /// What commands the muscle in such tables, or its pressure as an input; null if nothing.
 const ColumnGuess* drive_of(const MapGuess& map);
+
+/// Time as a table seems to hold it.
+struct TimeGuess {
+  std::optional<ColumnGuess> guess;            ///< none: no column holds it
+  std::vector<const UnknownColumn*> clocks;    ///< of several quantities, in the order of columns; else empty
+  const UnknownColumn* row_numbers = nullptr;  ///< a column that holds nothing else
+};
+/// Whole numbers, each one more than the one before.
+bool counts_rows(const Values& values);
+TimeGuess time_of(const UnknownTable& table);
+
+/// Its stamps in seconds; empty where they are not known.
+Values seconds_of(const UnknownTable& table, const ColumnGuess& time);
+
+/// The parts of a table that are runs of their own: by a column that says which, by a clock that begins
+/// again.
+std::vector<UnknownTable> runs_in(const UnknownTable& table);
 
 struct Clock {
   double begin_s = 0.0, step_s = 0.0;  ///< the step in the middle of all

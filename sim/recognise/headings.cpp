@@ -1,5 +1,6 @@
 // Words of headings; see the header.
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <regex>
 #include <vector>
@@ -7,9 +8,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <sim/input/csv_layout.hpp>
 #include <sim/input/dates.hpp>
 #include <sim/input/quantity.hpp>
+#include <sim/input/text_layout.hpp>
 #include <sim/recognise/headings.hpp>
 
 namespace mckibben::recognise {
@@ -38,25 +39,32 @@ struct Vocabulary {
 const std::vector<Vocabulary>& vocabularies() {
   static const std::vector<Vocabulary> all{
       {"",
-       {"supply", "tank", "versorgung", "speise", "ambient", "temperature", "temperatur", "temp", "index"},
+       {"supply", "tank",  "versorgung", "speise", "ambient", "temperature", "temperatur",
+        "temp",   "index", "error",      "err",    "fehler",  "pwm",         "status",
+        "flag",   "kp",    "ki",         "kd",     "seq",     "battery",     "humidity"},
        {"versorgung", "speise", "umgebung", "temperatur"}},
       {"command",
-       {"set", "setpoint", "soll", "sollwert", "ref", "reference", "command", "cmd", "demand", "desired",
-        "target", "stellgröße", "stellgroesse", "consigne", "ao0", "ao1", "dac"},
+       {"set",  "setpoint", "soll",    "sollwert", "ref",        "reference",    "command",
+        "cmd",  "demand",   "desired", "target",   "stellgröße", "stellgroesse", "consigne",
+        "ao0",  "ao1",      "dac",     "pd",       "pdes",       "pset",         "psoll",
+        "pref", "sp",       "goal",    "vorgabe",  "commanded",  "wanted"},
        {"soll", "stell"}},
       {"time",
-       {"t", "time", "zeit", "temps", "timestamp", "stamp", "date", "datetime", "datum", "uhrzeit", "clock",
-        "elapsed"},
+       {"t",        "time",    "zeit",    "temps", "timestamp", "stamp",  "date",
+        "datetime", "datum",   "uhrzeit", "clock", "elapsed",   "millis", "micros",
+        "sec",      "seconds", "msec",    "usec",  "nsec",      "dt",     "interval"},
        {"zeit"}},
-      {"force", {"f", "force", "kraft", "loadcell"}, {"kraft"}},
+      {"force", {"f", "force", "kraft", "loadcell", "cell", "tension", "zugkraft"}, {"kraft"}},
       {"muscle_pressure",
-       {"p", "pressure", "druck", "pm", "gauge", "manometer", "manometre", "pression", "pmuscle"},
+       {"p", "pressure", "druck", "pm", "gauge", "manometer", "manometre", "pression", "pmuscle", "pact",
+        "pist", "istdruck", "feedback", "pabs"},
        {"druck"}},
       {"contraction",
-       {"contraction", "kontraktion", "strain", "eps",     "epsilon", "laser",       "distance", "abstand",
-        "position",    "pos",         "weg",    "hub",     "travel",  "length",      "länge",    "laenge",
-        "x",           "y",           "stroke", "encoder", "counts",  "wheel",       "angle",    "winkel",
-        "rope",        "height",      "höhe",   "lvdt",    "poti",    "displacement"},
+       {"contraction", "kontraktion",  "strain",    "eps",       "epsilon", "laser",   "distance",
+        "abstand",     "position",     "pos",       "weg",       "hub",     "travel",  "length",
+        "länge",       "laenge",       "x",         "y",         "stroke",  "encoder", "counts",
+        "wheel",       "angle",        "winkel",    "rope",      "height",  "höhe",    "lvdt",
+        "poti",        "displacement", "stringpot", "elongation"},
        {"laser", "abstand", "weg", "winkel", "länge", "höhe"}},
       {"command",
        {"u", "i", "current", "strom", "voltage", "spannung", "valve", "ventil"},
@@ -116,18 +124,73 @@ std::string_view key_of_unit(std::string_view unit) {
 
 }  // namespace
 
+namespace {
+
+/// What a word of time says of its unit.
+std::string unit_of_time_word(const Words& words) {
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 8> units{{{"millis", "ms"},
+                                                                                {"msec", "ms"},
+                                                                                {"micros", "us"},
+                                                                                {"usec", "us"},
+                                                                                {"nsec", "ns"},
+                                                                                {"sec", "s"},
+                                                                                {"seconds", "s"},
+                                                                                {"secs", "s"}}};
+  for (const auto& [word, unit] : units)
+    if (std::ranges::find(words, word) != words.end()) return std::string(unit);
+  return "";
+}
+
+/// How far what a heading says can be trusted.
+std::string_view trust(bool by_word, bool by_unit) {
+  return by_word && by_unit ? "sure" : by_word ? "likely" : "perhaps";
+}
+
+}  // namespace
+
+bool is_absolute(const std::string& name) {
+  const Words words = words_of(name);
+  constexpr std::array<std::string_view, 7> said{"abs",  "absolute", "absolut", "absolu",
+                                                 "pabs", "psia",     "bara"};
+  return std::ranges::any_of(
+      words, [&](const std::string& word) { return std::ranges::find(said, word) != said.end(); });
+}
+
+bool names_a_run(const std::string& name) {
+  const Words words = words_of(name);
+  constexpr std::array<std::string_view, 12> said{"run",    "trial",   "test",       "cycle",
+                                                  "zyklus", "versuch", "lauf",       "experiment",
+                                                  "rep",    "repeat",  "repetition", "messung"};
+  return !words.empty() && std::ranges::find(said, words.front()) != said.end();
+}
+
+bool names_rows(const std::string& name) {
+  const Words words = words_of(name);
+  constexpr std::array<std::string_view, 16> said{"x",   "index", "sample", "samples", "n",       "nr",
+                                                  "no",  "frame", "count",  "tick",    "counter", "seq",
+                                                  "row", "i",     "point",  "id"};
+  return words.empty() || std::ranges::find(said, words.front()) != said.end() || words.back() == "seq";
+}
+
+bool names_raw(const std::string& name) {
+  const Words words = words_of(name);
+  constexpr std::array<std::string_view, 7> said{"counts", "count", "raw", "adc", "digits", "lsb", "bits"};
+  return std::ranges::any_of(
+      words, [&](const std::string& word) { return std::ranges::find(said, word) != said.end(); });
+}
+
 Heading heading_of(const UnknownColumn& column) {
   for (const auto& [commands, unit] : names(plant::CommandUnit{}))
     for (const domain::Quantity& each : domain::quantities(commands))
       if (column.name == each.column && !each.channel.signal->must_be_named &&
           (!each.is_old_current || unit == "mA"))
         return {&domain::quantity_of(each.key), std::string(each.unit()), true, "it has our own name"};
-  const Split split = split_unit(column.name);
+  const Split split = split_unit(column.heading());
   Heading heading;
   heading.unit = !column.unit.empty() ? column.unit : input::unit_word(split.behind);
   if (column.is_date) heading.unit = input::date_unit;
   const bool is_suffix = column.unit.empty() && !split.in_brackets && !column.is_date;
-  const Words words = words_of(split.in_brackets ? split.before : std::string_view(column.name));
+  const Words words = words_of(split.in_brackets ? split.before : std::string_view(column.heading()));
   std::string_view key;
   std::string told;
   for (const Vocabulary& each : vocabularies()) {
@@ -143,11 +206,12 @@ Heading heading_of(const UnknownColumn& column) {
     if (!key.empty()) told = fmt::format("its unit {}", heading.unit);
   }
   if (column.is_date) told = "it holds dates";
-  if (key.empty()) return {nullptr, heading.unit, false, "neither its words nor its unit tell"};
+  if (key.empty()) return {nullptr, heading.unit, false, "neither its words nor its unit are known"};
   heading.quantity = &domain::quantity_of(key);
+  if (key == "time" && heading.unit.empty()) heading.unit = unit_of_time_word(words);
   heading.unit_fits = is_unit_of(key, heading.unit);
   if (is_suffix && !heading.unit_fits) heading.unit.clear();
-  heading.reason = std::move(told);
+  heading.reason = fmt::format("{} ({})", told, trust(!told.starts_with("its unit"), heading.unit_fits));
   static const Vocabulary lengths{"contraction", {"length", "länge", "laenge"}, {"länge"}};
   heading.is_length = !lengths.told_by(words).empty();
   return heading;

@@ -21,6 +21,12 @@ struct Heading {
 
 Heading heading_of(const UnknownColumn& column);
 
+/// Words of absolute pressures; of columns whose value is another for each run; of row numbers; of an ADC.
+bool is_absolute(const std::string& name);
+bool names_a_run(const std::string& name);
+bool names_rows(const std::string& name);
+bool names_raw(const std::string& name);
+
 struct LoadGuess {
   std::string quantity;  ///< "5 kg"
   std::string reason;

@@ -29,6 +29,7 @@ std::size_t Recognised::open() const {
       add(guess.unit);
       if (guess.zero) add(*guess.zero);
       if (guess.factor) add(*guess.factor);
+      if (guess.time) add(*guess.time);
     }
   for (const MapGuess& map : maps)
     if (map.rows) add(map.rows->told);
@@ -43,6 +44,7 @@ std::vector<double> shown(const UnknownTable& table, const ColumnGuess& guess) {
   const Values* values = column_of(table, guess.column.value);
   if (values == nullptr) return {};
   Values brought = *values;
+  if (guess.input && guess.input->value == "interval") brought = seconds_of(table, guess);
   const auto number = [](const std::optional<Told>& told, double otherwise) {
     return told ? input::parse_number(told->value).value_or(otherwise) : otherwise;
   };
@@ -54,7 +56,6 @@ namespace {
 
 constexpr double even_s = 1e-6, even_ratio = 2e-7;  // as readers have it of ticks
 constexpr double shortest_tick_s = 1e-4, longest_tick_s = 1.0;
-constexpr double atmosphere_bar = 1.0133;
 
 /// Understands tables that have been read.
 class Recogniser {
@@ -109,11 +110,7 @@ class Recogniser {
   Values time_s(std::size_t run) const {
     const ColumnGuess* time = map_of_run(run).find("time");
     if (time == nullptr || time->unit.open()) return {};
-    const Values* stamps = column_of(all_.tables[run], time->column.value);
-    if (stamps == nullptr) return {};
-    Values seconds = *stamps;
-    if (time->unit.value != input::date_unit) input::convert_units(seconds, time->unit.value, "s");
-    return seconds;
+    return seconds_of(all_.tables[run], *time);
   }
 
   void clocks() {
@@ -131,6 +128,7 @@ class Recogniser {
       first_s = clock.begin_s != 0.0 ? clock.begin_s : first_s;
     }
     even_ = even && step_s_ >= shortest_tick_s && step_s_ <= longest_tick_s;
+    if (step_s_ == 0.0) return;
     clock_ = fmt::format("stamps {:.6g} ms apart", 1e3 * step_s_);
     if (jitter_s > even_s) clock_ = fmt::format("{}, uneven by up to {:.3g} ms", clock_, 1e3 * jitter_s);
     if (first_s != 0.0) clock_ += fmt::format(", begin at {:.6g} s and not at 0", first_s);
@@ -153,11 +151,12 @@ class Recogniser {
     if (moving.empty() && even_ && commanded) return;  // a row each tick, from rest
     if (moving.empty() && first_map().find("time") == nullptr) return;
     all_.dataset.push_back(
-        {"start", moving.empty()
-                      ? Told{"settled", "each run begins with nothing moving; " + clock_}
-                      : Told{"moving", fmt::format("{} run{} on the way, such as {}; {}", moving.size(),
-                                                   moving.size() == 1 ? " begins" : "s begin", moving.front(),
-                                                   clock_)}});
+        {"start",
+         moving.empty()
+             ? Told{"settled", "each run begins with nothing moving" + (clock_.empty() ? "" : "; " + clock_)}
+             : Told{"moving", fmt::format("{} run{} on the way, such as {}{}{}", moving.size(),
+                                          moving.size() == 1 ? " begins" : "s begin", moving.front(),
+                                          clock_.empty() ? "" : "; ", clock_)}});
   }
 
   void set(const char* key, Told told) { all_.rig.push_back({key, std::move(told)}); }
@@ -183,7 +182,7 @@ class Recogniser {
     }
     if (const ColumnGuess* pressure = first_map().find("muscle_pressure");
         pressure != nullptr && !pressure->input)
-      set("sensors.muscle_pressure.kind", {"gauge", "a muscle pressure was recorded" + absolute(*pressure)});
+      set("sensors.muscle_pressure.kind", {"gauge", "a muscle pressure was recorded"});
     if (held_ && contraction != nullptr && contraction->input)
       set("mechanics", {"{kind: held_length}", "a force was read, at lengths that stay"});
     else if (held_)
@@ -192,22 +191,18 @@ class Recogniser {
               "no load is named, and a force was read: {kind: held_length}, and contraction with as: input; "
               "or leave this out, and give each run its load"));
     if (first_map().rows && first_map().rows->key == "rows_are_ticks")
-      set("tick", left_open("time between two rows"));
+      set("tick", said_tick());
     else if (step_s_ > 0.0)
       set("tick",
           {fmt::format("{:.6g} ms", 1e3 * std::clamp(step_s_, shortest_tick_s, longest_tick_s)), clock_});
   }
 
-  /// What speaks for absolute pressures.
-  std::string absolute(const ColumnGuess& pressure) const {
-    const Values* values = column_of(all_.tables.front(), pressure.column.value);
-    if (values == nullptr || pressure.unit.open()) return "";
-    Values low{range_of(*values).low};
-    input::convert_units(low, pressure.unit.value, "bar");
-    if (low.front() < 0.95 * atmosphere_bar || low.front() > 1.05 * atmosphere_bar) return "";
-    return fmt::format(
-        "; its lowest is {:.4g} bar: if it is absolute, give the column zero: 1.013 bar in its unit",
-        low.front());
+  /// Time between rows that have no stamps.
+  Told said_tick() const {
+    const SaidStep said = said_step(all_.tables.front());
+    if (said.step_s < shortest_tick_s || said.step_s > longest_tick_s)
+      return left_open("time between two rows");
+    return {fmt::format("{:.6g} ms", 1e3 * said.step_s), said.reason};
   }
 
   void valve() {
@@ -270,7 +265,9 @@ class Recogniser {
 
 Recognised recognise(const std::vector<std::filesystem::path>& files, bool rig_is_known) {
   Recognised all;
-  for (const auto& file : files) all.tables.push_back(read_unknown(file));
+  for (const auto& file : files)
+    for (const UnknownTable& table : read_unknown(file))
+      for (UnknownTable& run : runs_in(table)) all.tables.push_back(std::move(run));
   Recogniser{all}(rig_is_known);
   return all;
 }

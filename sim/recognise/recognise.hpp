@@ -27,7 +27,8 @@ struct ColumnGuess {
   const domain::Quantity* quantity = nullptr;
   Told column, unit;
   std::optional<Told> zero, factor;  ///< none: 0 and 1
-  std::optional<Told> input;         ///< it drives the simulation
+  std::optional<Told> input;         ///< what it is read as: it drives the simulation; of time: interval
+  std::optional<Told> time;          ///< the column of its own clock
 };
 
 /// A key of a file: `valve.span_command`.
@@ -52,10 +53,10 @@ struct RunGuess {
 };
 
 struct Recognised {
-  std::vector<UnknownTable> tables;
-  std::vector<RunGuess> runs;    ///< one for each table
-  std::vector<MapGuess> maps;    ///< the first is that of the data set
-  std::vector<Setting> dataset;  ///< its keys besides rig, columns and runs
+  std::vector<UnknownTable> tables;  ///< one that holds several runs once for each
+  std::vector<RunGuess> runs;        ///< one for each table, or part of one
+  std::vector<MapGuess> maps;        ///< the first is that of the data set
+  std::vector<Setting> dataset;      ///< its keys besides rig, columns and runs
   std::vector<Setting> rig;
 
   /// How many values are left to be filled in.

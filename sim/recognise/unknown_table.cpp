@@ -5,13 +5,16 @@
 
 #include <fmt/format.h>
 
+#include <sim/domain/columns.hpp>
 #include <sim/formats/mat_file.hpp>
-#include <sim/input/csv_layout.hpp>
 #include <sim/input/dates.hpp>
 #include <sim/input/diagnostics.hpp>
 #include <sim/input/limits.hpp>
 #include <sim/input/number.hpp>
+#include <sim/input/readable.hpp>
 #include <sim/input/readers.hpp>
+#include <sim/input/text_layout.hpp>
+#include <sim/recognise/settings.hpp>
 #include <sim/recognise/unknown_table.hpp>
 
 namespace mckibben::recognise {
@@ -23,23 +26,27 @@ using input::Cell, input::Source;
 struct Growing {
   UnknownColumn column;
   input::ClockReader clock;
+  input::EpochReader epoch;
   std::size_t numbers = 0, dates = 0, words = 0;
   std::vector<double> times;
 
   void add(const Cell& cell, input::NumberReader& reader) {
     std::string problem;
-    const auto number = reader.read("", cell, problem);
+    const auto number = epoch.read("", cell, reader, problem);
     const auto time = number ? std::nullopt : clock.read("", cell, problem);
     numbers += number ? 1 : 0;
     dates += time ? 1 : 0;
     words += !number && !time && !input::is_missing(cell) ? 1 : 0;
     column.values.push_back(number.value_or(std::nan("")));
-    times.push_back(time.value_or(std::nan("")));
+    if (dates > 0) times.resize(column.values.size(), std::nan(""));
+    if (time) times.back() = *time;
   }
   /// Numbers, or dates, for the most part.
   bool is_of_use() {
+    column.epoch = epoch.taken_off().value_or("");
     if (dates > numbers && dates > words) {
       column.is_date = true;
+      times.resize(column.values.size(), std::nan(""));
       column.values = std::move(times);
       return true;
     }
@@ -56,38 +63,45 @@ void keep(std::vector<Growing>& all, UnknownTable& table) {
   }
 }
 
-void read_headed(const Source& source, UnknownTable& table) {
-  const input::CsvLayout layout = input::layout_of(source, {});
-  for (std::size_t line = 1; line < layout.heading; ++line) table.remarks.emplace_back(source.line(line));
+[[noreturn]] void refuse(const Source& source, input::Place place, std::string why) {
+  throw input::BadInput({{input::Severity::error, source.name(), place, std::move(why), ""}});
+}
+
+/// Headings beyond the rows with a number in the line below, as an oscilloscope has `Start` and `Increment`.
+void add_settings_beside(const Source& source, const input::TextLayout& layout, UnknownTable& table) {
+  if (layout.heading == 0) return;
+  const auto names = input::split_cells(source.line(layout.heading), layout.separator),
+             values = input::split_cells(source.line(layout.heading + 1), layout.separator);
+  for (std::size_t i = layout.headings.size(); i < std::min(names.size(), values.size()); ++i)
+    if (!names[i].text.empty() && input::is_number_like(values[i].text))
+      table.settings.push_back({std::string(names[i].text), std::string(values[i].text)});
+}
+
+void read_text(const Source& source, UnknownTable& table) {
+  const input::TextLayout layout = input::layout_of(source, {});
+  if (!layout.problem.empty()) refuse(source, {layout.problem_line, 1}, layout.problem);
+  table.has_headings = layout.heading > 0;
+  for (std::size_t line = 1; line < layout.head; ++line) {
+    if (input::trimmed(source.line(line)).empty()) continue;
+    table.remarks.emplace_back(source.line(line));
+    if (const auto said = setting_in(source.line(line))) table.settings.push_back(*said);
+  }
+  if (layout.unread > 0) table.words.push_back(fmt::format("line {}", layout.unread));
+  add_settings_beside(source, layout, table);
   std::vector<Growing> all(layout.headings.size());
   for (std::size_t i = 0; i < all.size(); ++i) {
-    all[i].column.name = layout.headings[i];
+    const std::string& heading = layout.headings[i];
+    const bool again = std::count(layout.headings.begin(), layout.headings.end(), heading) > 1;
+    all[i].column.name = heading.empty() || again ? std::to_string(i + 1) : heading;
     all[i].column.unit = layout.units[i];
   }
   input::NumberReader reader('\0');
-  for (std::size_t line = layout.first_row; line <= input::last_row_line(source); ++line) {
+  for (std::size_t line = layout.first_row; line <= layout.last_row; ++line) {
+    if (input::kind_of(source, layout, line) != input::Line::row) continue;
     const std::vector<Cell> cells = input::row_cells(source, layout, line);
-    for (std::size_t i = 0; i < all.size(); ++i) all[i].add(i < cells.size() ? cells[i] : Cell{}, reader);
-  }
-  keep(all, table);
-}
-
-void read_numbers(const Source& source, UnknownTable& table) {
-  table.has_headings = false;
-  std::vector<Growing> all;
-  input::NumberReader reader('\0');
-  for (std::size_t line = 1; line <= source.lines(); ++line) {
-    const std::string_view text = input::trimmed(source.line(line));
-    if (text.empty()) continue;
-    if (text.starts_with('#') || text.starts_with('%')) {
-      table.remarks.emplace_back(text);
-      continue;
-    }
-    const std::vector<Cell> cells = input::split_cells(text, ' ');
-    for (std::size_t i = all.size(); all.empty() && i < cells.size(); ++i) {
-      all.resize(cells.size());
-      for (std::size_t k = 0; k < all.size(); ++k) all[k].column.name = std::to_string(k + 1);
-    }
+    if (cells.size() > all.size())
+      refuse(source, {line, 1},
+             fmt::format("this row has {} cells; those above have {}", cells.size(), all.size()));
     for (std::size_t i = 0; i < all.size(); ++i) all[i].add(i < cells.size() ? cells[i] : Cell{}, reader);
   }
   keep(all, table);
@@ -105,48 +119,37 @@ void read_labview(const Source& source, UnknownTable& table) {
   }
   problems.raise();
   for (input::Table::Column& column : found.columns)
-    table.columns.push_back({column.name, "", false, std::move(column.values)});
+    table.columns.push_back({column.name, "", false, "", std::move(column.values)});
 }
 
 /// Vectors of the greatest length; shorter ones are settings.
 void read_matlab(const Source& source, UnknownTable& table) {
   std::vector<std::string> names;
+  std::vector<formats::MatContents::Vector> vectors;
   std::vector<formats::Found> found;
   try {
-    names = formats::read_mat(source.text(), {}).names;
+    vectors = formats::read_mat(source.text(), {}).vectors;
+    for (const auto& each : vectors) names.push_back(each.name);
     found = formats::read_mat(source.text(), names).found;
   } catch (const formats::BadFile& bad) {
-    throw input::BadInput({{input::Severity::error, source.name(), input::nowhere, bad.what(), ""}});
+    refuse(source, input::nowhere, bad.what());
   }
   std::size_t rows = 0;
   for (const formats::Found& each : found) rows = std::max(rows, each.values.size());
   for (std::size_t i = 0; i < found.size() && rows > 1; ++i) {
     if (found[i].values.size() == rows)
-      table.columns.push_back({names[i], "", false, std::move(found[i].values)});
+      table.columns.push_back({names[i], "", false, "", std::move(found[i].values), vectors[i].label});
     else
       table.words.push_back(names[i]);
   }
 }
 
-}  // namespace
-
-UnknownTable read_unknown(const std::filesystem::path& path) {
+UnknownTable read_one(const std::filesystem::path& path, const Source& source) {
   UnknownTable table;
   table.path = path;
-  const auto format = input::format_of(path.string());
-  const auto refuse = [&](std::string why) {
-    throw input::BadInput({{input::Severity::error, path.string(), input::nowhere, std::move(why), ""}});
-  };
-  if (!format) {
-    const std::string ending = path.extension().string();
-    const bool is_sheet = ending == ".xlsx" || ending == ".xls" || ending == ".ods";
-    refuse(std::string(input::format_rule) + (is_sheet ? "; save the sheet as CSV" : ""));
-  }
-  Source source = Source::load(path, input::most_text_bytes);
   table.input = {source.name(), source.sha256()};
-  if (*format != input::Format::mat) {
-    const bool is_text = source.text().find('\0') == std::string::npos;
-    if (is_text && source.first_bad_byte()) source.reread_as_latin1();
+  const auto format = input::format_of(path.string(), source.text());
+  if (format != input::Format::mat) {
     input::Problems problems;
     {
       input::TableProblems said(source, problems);
@@ -154,12 +157,39 @@ UnknownTable read_unknown(const std::filesystem::path& path) {
     }
     problems.raise();
   }
-  if (*format == input::Format::csv) read_headed(source, table);
-  if (*format == input::Format::ascii) read_numbers(source, table);
-  if (*format == input::Format::lvm) read_labview(source, table);
-  if (*format == input::Format::mat) read_matlab(source, table);
-  if (table.columns.empty()) refuse("no column of numbers is found in it");
+  if (format == input::Format::text) read_text(source, table);
+  if (format == input::Format::lvm) read_labview(source, table);
+  if (format == input::Format::mat) read_matlab(source, table);
+  if (table.columns.empty()) refuse(source, input::nowhere, "no column of numbers is found in it");
   return table;
+}
+
+}  // namespace
+
+const UnknownColumn* UnknownTable::find(const std::string& name) const {
+  const auto found = std::ranges::find(columns, name, &UnknownColumn::name);
+  return found == columns.end() ? nullptr : &*found;
+}
+
+UnknownTable UnknownTable::rows(const std::vector<std::size_t>& which, const std::string& says) const {
+  UnknownTable some = *this;
+  some.part.push_back(says);
+  for (UnknownColumn& column : some.columns) {
+    std::vector<double> values;
+    for (const std::size_t row : which) values.push_back(column.values[row]);
+    column.values = std::move(values);
+  }
+  return some;
+}
+
+std::vector<UnknownTable> read_unknown(const std::filesystem::path& path) {
+  std::vector<UnknownTable> tables;
+  const std::vector<input::LoadedSheet> sheets = input::load_tables(path);
+  for (const auto& [name, source] : sheets) {
+    tables.push_back(read_one(path, source));
+    if (sheets.size() > 1) tables.back().part.push_back("sheet: " + domain::yaml_scalar(name));
+  }
+  return tables;
 }
 
 }  // namespace mckibben::recognise

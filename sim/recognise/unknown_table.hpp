@@ -1,4 +1,5 @@
-// A measured table of which nobody has said what its columns are: all that can be read of it as numbers.
+// A measured table of which nobody has said what its columns are: all that can be read of it as numbers, and
+// what its file says of the recording.
 #pragma once
 
 #include <filesystem>
@@ -13,20 +14,43 @@ struct UnknownColumn {
   std::string name;  ///< by which a data set names it: heading, channel, variable, number
   std::string unit;  ///< that a line below the headings says; empty: none
   bool is_date = false;
-  std::vector<double> values;  ///< NaN where there is no number; of dates seconds since the first
+  std::string epoch{};           ///< the first number, where all are those since it: stamps since 1970
+  std::vector<double> values{};  ///< NaN where there is no number; of dates seconds since the first
+  std::string label{};           ///< how the file calls it besides; empty: only by its name
+
+  const std::string& heading() const { return label.empty() ? name : label; }
+};
+
+/// A line above the table such as `Fs = 1000 Hz`.
+struct Remark {
+  std::string key, value;
 };
 
 struct UnknownTable {
   std::filesystem::path path;
   domain::InputFile input;
   std::vector<std::string> remarks;    ///< lines above the headings
+  std::vector<Remark> settings;        ///< those of them that say a value
   std::vector<UnknownColumn> columns;  ///< of numbers; `time_is_inside` of an .lvm comes without one
   std::vector<std::string> words;      ///< columns that hold none
   bool time_is_inside = false;         ///< an .lvm, which needs no column of time
   bool has_headings = true;
+  std::vector<std::string> part{};  ///< which of the file it is, as a run says it: `segment: 2`
+
+  const UnknownColumn* find(const std::string& name) const;
+  /// Only these rows of it.
+  UnknownTable rows(const std::vector<std::size_t>& which, const std::string& says) const;
 };
 
-/// Throws MissingInput; BadInput for an ending that tells no format, and for a file without numbers.
-UnknownTable read_unknown(const std::filesystem::path& path);
+/// One, or one for each sheet. Throws MissingInput; BadInput for a file without a table, or one that can be
+/// taken in two ways.
+std::vector<UnknownTable> read_unknown(const std::filesystem::path& path);
+
+/// Time between two rows that the settings say [s]; 0 if they say none, or two.
+struct SaidStep {
+  double step_s = 0.0;
+  std::string reason;
+};
+SaidStep said_step(const UnknownTable& table);
 
 }  // namespace mckibben::recognise

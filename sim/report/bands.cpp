@@ -100,7 +100,7 @@ Chapter robustness(const domain::Scenario& scenario, const run::Comparison& comp
   if (comparison.robustness.empty()) return {};
   return {
       "On rigs that are not quite as described",
-      fmt::format("<p>{} rigs were drawn within the ± of {}. Each controller was told what it is told of the "
+      fmt::format("<p>{} rigs were drawn within the ± of {}. Each controller was made for the "
                   "described rig. A limit cycle, an end of the current for more than {:.0f} % of the time, a "
                   "contraction above {:.2f} or no result is a failure.</p>\n",
                   scenario.robustness.rigs, escaped(fmt::format("{}", fmt::join(comparison.drawn, ", "))),

@@ -146,8 +146,8 @@ std::string profiles_html(const Diagnosis& diagnosis) {
   const auto intervals = output::quadratic_intervals(diagnosis);
   if (intervals.empty()) return "";
   return paragraph(
-      "By profile: how the misfit rises along this number, all others fitted anew, is no parabola. From the "
-      "slopes at the fit alone the interval would be " +
+      "By profile: the misfit along this parameter, with all others refitted, is not a parabola. From the "
+      "curvature at the fit alone the interval would be " +
       output::listed(intervals) + ".");
 }
 
@@ -155,11 +155,11 @@ std::string left_open_html(const Diagnosis& diagnosis) {
   if (diagnosis.left_open.empty()) return "";
   std::string items;
   for (const auto& open : diagnosis.left_open) items += "<li>" + escaped(open.words) + "</li>\n";
-  return "<h3>What these data leave open</h3>\n" +
+  return "<h3>Not identifiable from these data</h3>\n" +
          paragraph(
-             "The readings say little more of these than was known before. There the corrected rig stands "
-             "nearest "
-             "to the values that it was described with; others on the same line explain the data as well.") +
+             "The readings add little to what was known of these. The corrected rig has the values nearest "
+             "to "
+             "its description; others along the same line explain the data equally well.") +
          "<ul>\n" + items + "</ul>\n";
 }
 
@@ -204,7 +204,7 @@ std::string constancy_html(const Diagnosis& diagnosis, const plant::Rig& rig) {
   return folded(
       "Is it the same everywhere?",
       paragraph("The size of each effect from parts of the data alone, each with its standard error. "
-                "A real effect has one size; one that stands in for something else has not.") +
+                "A real effect has one size; a proxy for something else has not.") +
           "<div class='wide'>" +
           table("Sizes in parts of the data", {"effect", "along", "size", "differs for certain"}, rows) +
           "</div>\n");
@@ -219,8 +219,7 @@ std::string added_html(const Diagnosis& diagnosis, const plant::Rig& rig) {
     html += fmt::format("<h3>{}</h3>\n<p>{}.<br>Law: <code>{}</code><br><span class='small'>{}</span></p>\n",
                         escaped(full_name(effect)), escaped(says), escaped(words.law), escaped(words.source));
     if (effect.stands_in)
-      html += paragraph(
-          "It stands in for something else: it makes the gap smaller, but is not the same everywhere.");
+      html += paragraph("A proxy for something else: it reduces the error, but is not the same everywhere.");
   };
   for (const auto& effect : diagnosis.effects) add(effect);
   for (const auto& effect : diagnosis.stand_ins) add(effect);
@@ -265,7 +264,7 @@ std::string beside_html(const diagnose::Gap& gap) {
     rows += row(one.reading, {readable(one.nominal_rmse, one.unit), readable(one.recalibrated_rmse, one.unit),
                               readable(one.corrected_rmse, one.unit), readable(one.noise_floor, one.unit)});
   if (rows.empty()) return "";
-  return table("The same of what was read beside it; each counts by its own floor.",
+  return table("The same of the auxiliary readings, each with its own noise floor.",
                {"reading", "nominal", "recalibrated", "corrected", "noise floor"}, rows);
 }
 

@@ -38,9 +38,10 @@ std::string support_html(const Diagnosis& diagnosis) {
   if (rows.empty()) return "";
   return "<div class='wide'>" +
          table(
-             "What speaks for each name: by how much the misfit falls with it, how much more the best of the "
-             "others leaves that does not do as well, runs whose own misfit falls or rises by more than "
-             "chance, and how many names were right that were given with such evidence to simulated data",
+             "Evidence for each name: the fall of the misfit, the larger misfit of the best candidate that "
+             "is "
+             "not equivalent, runs whose own misfit falls or rises by more than chance, and the share of "
+             "right names with such evidence on simulated data",
              {"name", "fall", "next best leaves", "runs for it", "runs against it", "right"}, rows) +
          "</div>\n";
 }
@@ -59,12 +60,12 @@ std::string competition_html(const Diagnosis& diagnosis, const plant::Rig& rig) 
   if (rows.empty()) return "";
   return folded(
       "What competed",
-      paragraph("Every explanation that was fitted, or the best of its kind. The misfit is the sum of "
-                "squares of the fitted runs over their long-term variance, and the strain: the squares "
-                "of the deviations by which the rig's numbers had to move (further off: of wider ones, by "
-                "5/3). Other numbers come before names, names before a law, if they do as well.") +
+      paragraph("Every candidate model that was fitted, or the best of its kind. The misfit is the sum of "
+                "squares of the fitted runs over their long-term variance, and the prior penalty: the "
+                "squared deviations by which the rig's parameters moved (further off: of wider ones, by "
+                "5/3). If equivalent, parameters are preferred to names, names to a law.") +
           "<div class='wide'>" +
-          table("Explanations", {"by", "misfit", "of it strain", "error held out", "does as well"}, rows) +
+          table("Candidate models", {"by", "misfit", "prior penalty", "error held out", "equivalent"}, rows) +
           "</div>\n");
 }
 
@@ -75,7 +76,7 @@ std::string twins_html(const domain::Dataset& data, const Diagnosis& diagnosis) 
         paragraph(effect.confusable_with.empty()
                       ? fmt::format("{}: no other effect of the catalogue explains these data as well.",
                                     effect.who().words())
-                      : fmt::format("{} could as well be {}: these data cannot tell them apart.",
+                      : fmt::format("{} could as well be {}: these data do not separate them.",
                                     effect.who().words(), output::listed(words_of(effect.confusable_with))));
   if (!gauged(data) && !data.pressure_is_given() &&
       (!diagnosis.effects.empty() || !diagnosis.residual_law.empty()))
@@ -87,8 +88,8 @@ std::string twins_html(const domain::Dataset& data, const Diagnosis& diagnosis) 
   const std::string likeness = confusion_svg(diagnosis);
   if (likeness.empty()) return html;
   return html + figures_html({{"Likeness of what the best candidates change in these data, before anything "
-                               "was added: at 1 they look the same, above 0.9 (framed) a little of the one "
-                               "cannot be told from a little of the other, at 0 they have nothing in common.",
+                               "was added: at 1 they look the same, above 0.9 (framed) small sizes are "
+                               "not separable, at 0 they have nothing in common.",
                                likeness}});
 }
 
@@ -99,7 +100,7 @@ std::string next_html(const Diagnosis& diagnosis) {
   }
   const auto& next = *diagnosis.next_experiment;
   return fmt::format(
-      "<p><b>{}</b>, with a load of {}. It would tell {} apart with a probability of {:.0f} %. "
+      "<p><b>{}</b>, with a load of {}. It would separate {} with a probability of {:.0f} %. "
       "The option <code>--plan FILE</code> writes it as a campaign.</p>\n",
       escaped(next.current), output::mass(next.load_kg), escaped(output::listed(next.separates)),
       100.0 * next.expected_power);

@@ -196,8 +196,8 @@ std::vector<Loop> loops_of_runs(const domain::Dataset& data) {
   if (data.force_is_judged())
     return {{"force", "Force and pressure", "muscle_pressure", "force", "muscle pressure in bar",
              "force in N", false, "muscle_pressure", "given_force"}};
-  return {{"asked", "Contraction and pressure asked of the valve", "reference_pressure", "contraction_ratio",
-           "pressure asked of the valve in bar", std::string(ratio_unit), false, "reference_pressure",
+  return {{"asked", "Contraction and commanded pressure", "reference_pressure", "contraction_ratio",
+           "commanded pressure in bar", std::string(ratio_unit), false, "reference_pressure",
            "given_contraction_ratio"},
           loops_of({}).front()};
 }

@@ -238,8 +238,8 @@ std::string opening_html(const domain::Dataset& data, const Diagnosis& diagnosis
              "</figcaption>\n</figure>\n",
              escaped(run.name),
              found_in(diagnosis).empty() ? ""
-                                         : " Right: where it sits that was found, and the loop of a slow "
-                                           "ride without it (wide) and with it.");
+                                         : " Right: where the effect acts, and a slow loop without it "
+                                           "(wide) and with it.");
 }
 
 }  // namespace mckibben::report

@@ -55,7 +55,7 @@ Plot pressures_of(const PlotsOf& of) {
   };
   if (of.valve_pressure || (!pair && (of.commands || of.driven.pressure[0] == plant::GivenPressure::valve)))
     add(lines_of(pair, "valve_pressure", "valve", false, "valve of muscle"));
-  if (!pair && of.commands) add({{.key = "reference_pressure", .label = "asked of the valve"}});
+  if (!pair && of.commands) add({{.key = "reference_pressure", .label = "commanded"}});
   const auto measured = [&](const std::string& key, const std::string& label, const std::string& each) {
     std::vector<Line> lines = lines_of(pair, key, label, false, each);
     for (Line& line : lines) line.given = true;
@@ -185,7 +185,7 @@ std::vector<Plot> measured_plots(const plant::Rig& rig, bool pair) {
               lines_of(false, at, pair ? "angle" : "contraction")),
       commands_of(rig, pair),
       plot_of("pressures", "Pressures", "muscle_pressure",
-              lines_of(pair, "reference_pressure", "asked of the valve", true, "asked of valve"))};
+              lines_of(pair, "reference_pressure", "commanded", true, "commanded"))};
   plots.front().still = true;
   for (Line& line : lines_of(pair, "muscle_pressure", "gauge on the muscle", false, "gauge on muscle"))
     plots.back().lines.push_back(std::move(line));
@@ -195,15 +195,15 @@ std::vector<Plot> measured_plots(const plant::Rig& rig, bool pair) {
 std::vector<Loop> measured_loops(bool pair) {
   const auto asked = [](const std::string& muscle) {
     return Loop{"reference_" + muscle,
-                "Joint angle and pressure asked of valve " + muscle,
+                "Joint angle and commanded pressure " + muscle,
                 "reference_pressure_" + muscle,
                 "angle",
-                "pressure asked of valve " + muscle + " in bar",
+                "commanded pressure " + muscle + " in bar",
                 "joint angle in deg"};
   };
   if (pair) return {asked("1"), asked("2"), pressure_loop("1"), pressure_loop("2")};
-  return {{"current", "Contraction and pressure asked of the valve", "reference_pressure",
-           "contraction_ratio", "pressure asked of the valve in bar", std::string(ratio_unit)},
+  return {{"current", "Contraction and commanded pressure", "reference_pressure", "contraction_ratio",
+           "commanded pressure in bar", std::string(ratio_unit)},
           pressure_loop()};
 }
 

@@ -17,7 +17,7 @@ inline constexpr double in_degrees = 1.0 / plant::degree_rad;
 
 /// What lies beside the page in a folder of runs.
 inline constexpr std::string_view beside_runs =
-    "Every number of every tick is in the CSV files beside this page; "
+    "Every number of every tick is in the CSV files of this folder; "
     "input, versions and hashes are in run.json.";
 
 /// Every signal of a recording. Refers to it.

@@ -91,9 +91,9 @@ std::string rig_html(const Contents& contents) {
   if (pair != nullptr) part("muscle 2", muscle(pair->opposite.muscle));
   if (pair != nullptr) part("link", link(*pair));
   part("wheel", mm(rig.joint.wheel_radius_m) + " in radius" +
-                    (rig.joint.load_offset_kg == 0.0
-                         ? ""
-                         : "; " + readable(rig.joint.load_offset_kg, "kg") + " hang on it besides the load"));
+                    (rig.joint.load_offset_kg == 0.0 ? ""
+                                                     : "; " + readable(rig.joint.load_offset_kg, "kg") +
+                                                           " hang on it in addition to the load"));
   html += fmt::format("<dt>{}</dt><dd>{}</dd>\n", in_words(name_of(rig.sensors.position().kind)),
                       text_html(encoder(rig, pair != nullptr), rig));
   part("valve", valve(rig.valve));

@@ -101,7 +101,7 @@ void Rider::start(const Drive& given, double at_s) {
 }
 
 void Rider::hold(const Drive& given, double until_s) {
-  if (!(until_s > now.time_s)) throw std::invalid_argument("a ride goes forward in time");
+  if (!(until_s > now.time_s)) throw std::invalid_argument("time must increase");
   const Drive drive = corrected(plant_, given);
   const double length_s = until_s - now.time_s;
   plant::Held& held = now.held;

@@ -37,9 +37,9 @@ std::string cause(bool low, const controllers::CurrentRange& limits, const plant
   if (!low && limits.highest_mA < valve.highest_mA - step_mA)
     return fmt::format("the rig's valve goes up to {}: raise highest_command",
                        command(valve.highest_mA, rig));
-  return low ? "the target asks for less pressure than the valve gives: a target that stays higher, a "
+  return low ? "the target needs less pressure than the valve gives: a target that stays higher, a "
                "heavier load or a lower valve.zero_pressure would help"
-             : "the target asks for more pressure than the valve gives: a lower target, a lighter load or a "
+             : "the target needs more pressure than the valve gives: a lower target, a lighter load or a "
                "higher valve.span_pressure (and supply_pressure) would help";
 }
 
@@ -98,7 +98,7 @@ std::string limit_warning(const TrackedRun& run, const plant::Rig& rig) {
     return fmt::format(
         "some {} stood at an end of what its valve answers to for {:.0f} % of the time: the stiffness, "
         "or "
-        "co_contraction, leaves the angle nothing, or both ask for more than the valves have",
+        "co_contraction, leaves the angle nothing, or both need more than the valves have",
         plant::command_key(rig), 100.0 * run.joint->at_limit);
   return limit_warning(run.metrics, run.limits, rig);
 }

@@ -1,11 +1,13 @@
 // See the header.
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include <sim/data/judged.hpp>
+#include <sim/data/plausible.hpp>
 #include <sim/data/stamps.hpp>
 #include <sim/data/warnings.hpp>
 #include <sim/diagnose/candidate.hpp>
@@ -30,17 +32,48 @@ void replace_rig(domain::Dataset& dataset, const std::string& called, plant::Rig
   input::take_rig(dataset, called, std::move(rig));
 }
 
+namespace {
+
+/// What a run is said to begin at rest with, and does not: it swings on longer than it was given.
+std::vector<std::string> not_at_rest(const domain::Dataset& dataset,
+                                     const std::vector<run::ReplayedRun>& runs) {
+  constexpr double still_per_s = 2e-3, still_rad_per_s = 0.02;
+  std::vector<std::string> warnings;
+  if (dataset.recorded.start != domain::Start::settled || dataset.recorded.skip_s > 0.0) return warnings;
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    if (runs[i].recording.samples.empty() || dataset.runs[i].length_is_given()) continue;
+    const run::Sample& first = runs[i].recording.samples.front();
+    const bool pair = dataset.rig.pair() != nullptr;
+    const double speed =
+        std::abs(pair ? first.angle_speed_rad_per_s : first.state.joint.contraction_speed_per_s);
+    if (speed <= (pair ? still_rad_per_s : still_per_s)) continue;
+    warnings.push_back(data::warning_of_run(
+        runs[i].id,
+        fmt::format("is to begin at rest, and after settling_time ({:.4g} s) still moves at {:.2g} {}: a "
+                    "longer settling_time of the rig{}",
+                    dataset.rig.settling_time_s, speed, pair ? "rad/s" : "of its length a second",
+                    pair ? "" : ", or start: moving")));
+  }
+  return warnings;
+}
+
+}  // namespace
+
 std::vector<std::string> warnings_of(const domain::Dataset& dataset,
                                      const std::vector<run::ReplayedRun>& runs) {
-  std::vector<data::Finding> findings;
-  if (!dataset.own_clock)
-    findings = data::examine(dataset, run::expected_of(dataset, runs)).findings;
-  else if (input::why_unfit(domain::Purpose::judging, dataset).empty() && !run::interrupted())
-    findings = run::look(dataset).findings;
+  std::vector<data::Finding> findings = data::implausible(dataset);
   data::raise(dataset, findings);
-  std::vector<std::string> warnings;
+  std::vector<data::Finding> looked;
+  if (!dataset.own_clock)
+    looked = data::examine(dataset, run::expected_of(dataset, runs)).findings;
+  else if (input::why_unfit(domain::Purpose::judging, dataset).empty() && !run::interrupted())
+    looked = run::look(dataset).findings;
+  std::ranges::move(looked, std::back_inserter(findings));
+  data::raise(dataset, findings);
+  std::vector<std::string> warnings = dataset.remarks;
   for (const auto& finding : findings)
     if (!data::only_limits_diagnosis(finding)) warnings.push_back(data::text_of(dataset, finding));
+  for (std::string& warning : not_at_rest(dataset, runs)) warnings.push_back(std::move(warning));
   for (const auto& run : runs)
     for (const auto& doubt : run::doubts(run.recording))
       warnings.push_back(data::warning_of_run(run.id, doubt));
@@ -92,8 +125,11 @@ void add_hypotheses(const std::vector<std::string>& files, domain::Dataset& data
 
 std::vector<std::string> prepare(domain::Dataset& data, const std::vector<std::string>& hypotheses) {
   add_hypotheses(hypotheses, data);
+  const std::vector<data::Finding> first = data::implausible(data);
+  data::raise(data, first);
   input::require_judged(data, "diagnose");
-  std::vector<std::string> warnings;
+  std::vector<std::string> warnings = data.remarks;
+  for (const data::Finding& finding : first) warnings.push_back(data::text_of(data, finding));
   for (const data::Finding& finding : data::mend_at_stamps(data))
     warnings.push_back(data::text_of(data, finding).append(data::consequence_of(finding)));
   data = data::with_rows(std::move(data));

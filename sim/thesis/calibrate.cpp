@@ -27,7 +27,7 @@ std::string runs_left_out(const Grid& grid) {
 [[noreturn]] void refuse_few(const domain::Dataset& dataset, const Grid& grid, const std::string& short_of,
                              const std::string& more, const char* option, std::size_t order) {
   const std::string still = grid.still_runs(dataset.rig.valve);
-  const std::string instead = fmt::format(", or ask for {} {}", option, order);
+  const std::string instead = fmt::format(", or set {} {}", option, order);
   if (!still.empty()) refuse(dataset, fmt::format("{}{}. Without these runs, {}", still, instead, short_of));
   refuse(dataset, fmt::format("{}: measure {}{}{}", short_of, more, instead, runs_left_out(grid)));
 }

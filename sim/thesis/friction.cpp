@@ -111,7 +111,7 @@ FrictionFit fit_friction(const Grid& grid, Direction direction, int order) {
   if (order > 0)
     fit.f1 = on_line(fit, squared, 0);
   else
-    fit.f1.why_not = "no order in speed was asked for";
+    fit.f1.why_not = "the order in speed is 0";
   fit.f2 = fit.common.estimate(n);
   fit.f3 = fit.common.estimate(n + 1);
   if (n >= 3) fit.quadratic = fit_polynomial(squared, fit.common.values.head(n), 2);

@@ -54,9 +54,9 @@ void judge(Estimate& estimate) {
   if (estimate.condition > largest_condition)
     estimate.why_not = fmt::format("ill-conditioned ({:.1e})", estimate.condition);
   else if (!std::isfinite(estimate.standard_error))
-    estimate.why_not = "no spare data to judge it by";
+    estimate.why_not = "no more data than coefficients";
   else if (std::abs(estimate.value) < 2.0 * estimate.standard_error)
-    estimate.why_not = "not told from 0";
+    estimate.why_not = "not significant";
 }
 
 Estimate LinearFit::estimate(Index i) const {

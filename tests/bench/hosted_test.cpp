@@ -117,9 +117,9 @@ const Breaking plugins[] = {
     {"nan", "nan", no_finite},
     {"infinite", "infinite", no_finite},
     {"rests_at_nan", "rests_at_nan", no_finite, 0},
-    {"no_text", "no_text", "its library gives up: \"????"},
-    {"half_a_letter", "half_a_letter", "its library gives up: \"\xc3\xa4"},
-    {"refuses", "refuses", "before the run: its library gives up: \"????", 0},
+    {"no_text", "no_text", "its library refuses: \"????"},
+    {"half_a_letter", "half_a_letter", "its library refuses: \"\xc3\xa4"},
+    {"refuses", "refuses", "before the run: its library refuses: \"????", 0},
     {"exits", "exits", ended},
     {"exits_at_once", "exits_at_once", ended},
     {"crashes", "crashes", "the controller's process "},  // AddressSanitizer makes a status of it

@@ -75,9 +75,10 @@ Board::Answer later_of(long (*lie)(int n, long counts)) {
 
 constexpr std::int64_t lowest = std::numeric_limits<std::int64_t>::min(),
                        highest = std::numeric_limits<std::int64_t>::max();
-constexpr const char *unasked = "it says what nobody asked for", *no_number = " is no number of counts",
+constexpr const char *unasked = "it sent an unrequested line", *no_number = " is no number of counts",
                      *jump = "watchdog: counts jump from ", *beyond = "the muscle can do ",
-                     *begin = "watchdog: counts begin at ", *still = "watchdog: counts stay at ";
+                     *begin = "watchdog: counts begin at ", *still = "watchdog: counts stay at ",
+                     *apart = "further apart than half of what the muscle can do";
 
 const Lie lies[] = {
     {"the_truth", [](int, long counts) { return line(counts); }, ""},
@@ -109,6 +110,8 @@ const Lie lies[] = {
      },
      still},
     {"trembling_but_dead", [](int n, long) { return line(n % 3); }, still},
+    {"noise_of_a_dead_one", [](int n, long) { return line(7 * n % 11); }, apart},
+    {"a_quarter", [](int, long counts) { return line(counts / 4); }, apart},
     {"begins_at_a_million", [](int, long counts) { return line(counts + 1000000); }, begin},
     {"begins_where_it_was_left", [](int, long counts) { return line(counts + 200); }, begin},
     {"begins_at_the_end", [](int n, long) { return line(n == 0 ? highest : lowest); }, begin},
@@ -129,7 +132,7 @@ const Lie lies[] = {
     {"no_end_of_line", later(std::string(5000, '1')), "a line without end"},
     {"begins_again", [](int n, long counts) { return (n < then ? "" : "ready 1\n") + line(counts); },
      no_number},
-    {"hangs_up", later(Board::hang_up), "could not be told to vent", false},
+    {"hangs_up", later(Board::hang_up), "could not be vented", false},
 };
 
 class Lies : public testing::TestWithParam<Lie> {};

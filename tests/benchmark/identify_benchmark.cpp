@@ -1,12 +1,14 @@
 // Identifies data sets by one likelihood (sim/identify) and says what it found, a line each.
 //
-//   benchmark_identify [-v] DATASET...       data sets of files; -v: each step
-//   benchmark_identify --own KIND SEED [SEEDS]   of the diagnosis's own suite (hidden_effects.hpp), with a
-//   title that begins so
-#include <chrono>
+//   benchmark_identify [-v] DATASET...                         data sets of files; -v: each step
+//   benchmark_identify [-v] --descents FIRST SEEDS STARTS [TITLE]   of the suite (data_sets.hpp), what has a
+//                                title that begins so: do descents from random starts end in the same place?
+#include <cstdlib>
 #include <cstring>
 #include <ctime>
 #include <exception>
+#include <map>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -17,7 +19,11 @@
 #include <sim/data/judged.hpp>
 #include <sim/data/stamps.hpp>
 #include <sim/identify/diagnosis.hpp>
+#include <sim/identify/usable.hpp>
 #include <sim/input/dataset_file.hpp>
+
+#include "data_sets.hpp"
+#include "tally.hpp"
 
 namespace {
 
@@ -84,6 +90,62 @@ void identify_one(const std::string& title, domain::Dataset data, bool verbose) 
   std::fflush(stdout);
 }
 
+/// A point with these effects, drawn from the priors.
+identify::Point drawn(const identify::Dictionary& dictionary, const std::vector<std::string>& effects,
+                      std::mt19937_64& random) {
+  std::normal_distribution<double> normal;
+  identify::Point point = dictionary.nominal();
+  for (double& z : point.z) z = normal(random);
+  for (const std::string& name : effects) {
+    std::vector<std::size_t> laws;
+    for (std::size_t k = 0; k < dictionary.entries.size(); ++k)
+      if (dictionary.entries[k].name == name) laws.push_back(k);
+    const std::size_t k = laws[random() % laws.size()];
+    const double size = normal(random), shape = normal(random);
+    point.effects.push_back(dictionary.clipped({k, dictionary.entries[k].either_sign ? size : std::abs(size),
+                                                dictionary.entries[k].has_shape() ? shape : 0.0}));
+  }
+  std::ranges::sort(point.effects, {}, &identify::Added::entry);
+  return point;
+}
+
+void descend_all(const std::vector<diagnose::DataSet>& sets, std::size_t starts, bool verbose) {
+  Tally tally;
+  for (const diagnose::DataSet& set : sets) {
+    diagnose::Hidden hidden = diagnose::hide(set.kind, set.seed, set.surroundings);
+    if (hidden.effects.empty()) continue;
+    domain::Dataset data = data::with_rows(std::move(hidden.data));
+    const identify::Usable counts = identify::usable(data, 0);
+    const identify::Rows rows(data, counts.masked, counts.runs);
+    const identify::Dictionary dictionary(data, rows.count > rows.sensor_count ? rows.count : 0.0);
+    const identify::Simulator simulator(rows, 0);
+    const identify::Error error(rows, simulator.wander(dictionary.setting(dictionary.described())));
+    const identify::Problem problem{rows, dictionary, simulator,
+                                    verbose ? [](const std::string& what) { fmt::print("{}\n", what); }
+                                            : std::function<void(const std::string&)>()};
+    std::mt19937_64 random(set.seed);
+    std::map<std::vector<std::size_t>, std::vector<double>> ends;  // by law
+    for (std::size_t i = 0; i < starts; ++i) {
+      identify::Model model(problem, drawn(dictionary, hidden.effects, random), error);
+      model.look();
+      const long before = simulator.passes();
+      model.settle({});
+      const long took = simulator.passes() - before;
+      const double value = model.evidence();
+      std::vector<std::size_t> laws;
+      for (const auto& added : model.point.effects) laws.push_back(added.entry);
+      ends[laws].push_back(value);
+      fmt::print("  {} {} start {}: {:.1f}{} z'z {:.1f} left {:.3f} {} passes\n", hidden.title,
+                 fmt::join(laws, " "), i, value, model.arrived ? "" : " not there",
+                 model.point.z.squaredNorm(), model.left(), took);
+      std::fflush(stdout);
+    }
+    for (const auto& [laws, values] : ends)
+      for (const double value : values) tally.count(value > std::ranges::max(values) - 0.5);
+    tally.print("starts that reach the best");
+  }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -92,6 +154,13 @@ int main(int argc, char** argv) {
     if (std::strcmp(argv[i], "-v") == 0) {
       verbose = true;
       continue;
+    }
+    if (argv[i] == std::string_view("--descents") && i + 3 < argc) {
+      const auto first = std::strtoull(argv[i + 1], nullptr, 10),
+                 seeds = std::strtoull(argv[i + 2], nullptr, 10);
+      descend_all(diagnose::all_sets(first, seeds, i + 4 < argc ? argv[i + 4] : ""),
+                  std::strtoull(argv[i + 3], nullptr, 10), verbose);
+      return 0;
     }
     try {
       identify_one(argv[i], input::read_dataset(std::filesystem::path(argv[i])), verbose);

@@ -115,6 +115,7 @@ constexpr Case cases[] = {
     {64, "effects nothing"},
     {64, "schema kitchen"},
     {64, "schema rig --json --format yaml"},
+    {64, "schema all"},
     {64, "schema campaign --format yaml"},
     {64, "dataset campaign.yaml --keep summary --out r17"},
     {64, "init one.yaml two.yaml"},

@@ -8,6 +8,7 @@
 #include <plant/effects.hpp>
 #include <sim/input/dataset_file.hpp>
 #include <sim/input/fields_json.hpp>
+#include <sim/input/synonyms.hpp>
 
 #include "program.hpp"
 
@@ -93,6 +94,20 @@ TEST_F(EffectsVerb, TellsOneByItsName) {
   EXPECT_EQ(read_text(scratch / "list/effects.json"), run("effects muscle_leak --json").out);
   EXPECT_TRUE(holds(read_text(scratch / "list/muscle_leak.svg"), "<svg"));
   EXPECT_FALSE(fs::exists(scratch / "list/valve_lag.svg"));
+}
+
+TEST_F(EffectsVerb, TakesTermsOfTheField) {
+  EXPECT_EQ(run("effects Hysteresis").out, run("effects bladder_hysteresis valve_hysteresis").out);
+  EXPECT_EQ(run("effects 'dead zone'").out, run("effects valve_dead_band").out);
+}
+
+TEST_F(EffectsVerb, ItsPageOfTermsHasEachOfThem) {
+  const std::string page = input::spelled_alike(read_text(MCKIBBEN_SOURCE_DIR "/docs/your_words.md"));
+  const std::string known = run("effects").out + read_text(MCKIBBEN_SOURCE_DIR "/docs/scenarios.md");
+  for (const input::Synonym& one : input::synonyms()) {
+    EXPECT_TRUE(holds(page, std::string(one.term), std::string(one.here) + "`"));
+    EXPECT_TRUE(holds(known, std::string(one.here)));
+  }
 }
 
 TEST_F(EffectsVerb, SaysWhichLawOfOnesOwnIsTooMuchToBeDrawn) {

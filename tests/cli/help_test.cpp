@@ -58,10 +58,18 @@ TEST(Help, OfTheProgramTeaches) {
   EXPECT_TRUE(lacks(said.out, "Subcommands")) << "a verb is in no group";
 }
 
-TEST(Help, TheReadmeNamesEveryVerb) {
-  const std::string readme = read_text(MCKIBBEN_SOURCE_DIR "/README.md");
-  for (const std::string& verb : verbs())
-    EXPECT_TRUE(std::regex_search(readme, std::regex("\n\\| `" + verb + "[ `]"))) << verb;
+TEST(Help, ThePageOfTheCommandLineHasEveryVerbUnderItsGroup) {
+  const std::string page = read_text(MCKIBBEN_SOURCE_DIR "/docs/command_line.md");
+  CLI::App app("", "mckibben");
+  Asked asked;
+  build(app, asked);
+  for (const auto* verb : app.get_subcommands({})) {
+    const std::size_t group = page.find("\n## " + verb->get_group() + "\n");
+    ASSERT_NE(group, std::string::npos) << verb->get_group();
+    const std::string part = page.substr(group, page.find("\n## ", group + 1) - group);
+    EXPECT_TRUE(std::regex_search(part, std::regex("\n\\| `" + verb->get_name() + "[ `]")))
+        << verb->get_name();
+  }
 }
 
 TEST(Help, OfEveryVerbHasExamplesThatItTakes) {
@@ -107,6 +115,7 @@ TEST(DidYouMean, ForVerbsOptionsAndValues) {
            {"schema senario", "unknown kind senario; did you mean scenario?"},
            {"schema rig --format yml", "unknown format yml; did you mean yaml?"},
            {"effects muscle_leek", "unknown effect muscle_leek; did you mean muscle_leak?"},
+           {"effects lqr", "unknown effect lqr (known: "},
        }) {
     const Said said = mckibben(slip.arguments, scratch);
     EXPECT_EQ(said.status, 64) << slip.arguments;
@@ -117,6 +126,22 @@ TEST(DidYouMean, ForVerbsOptionsAndValues) {
   const Said far = mckibben("quench x", scratch);
   EXPECT_TRUE(lacks(far.err, "did you mean"));
   EXPECT_TRUE(holds(far.err, "verbs: init, run, dataset, "));
+}
+
+TEST(DidYouMean, ForTermsOfTheField) {
+  const Scratch scratch;
+  write_text(scratch / "rig.yaml",
+             "schema: mckibben-rig/1\neffects:\n  leak: {}\n  hysteresis: {}\n  creep: {}\n  Coulomb: {}\n"
+             "  stribeck: {}\n  dead-band: {}\n");
+  EXPECT_TRUE(holds(mckibben("check rig.yaml", scratch).err, "did you mean muscle_leak?",
+                    "did you mean bladder_hysteresis or valve_hysteresis?", "did you mean bladder_creep?",
+                    "did you mean guide_friction?", "did you mean speed_dependent_friction?",
+                    "did you mean valve_dead_band?"));
+  write_text(scratch / "scenario.yaml",
+             "schema: mckibben-scenario/1\nloads: [9 kg]\nduration: 1 s\ntarget: {kind: steps, moves: []}\n"
+             "controllers:\n  - {kind: PID}\n  - {kind: lqr}\n");
+  EXPECT_TRUE(holds(mckibben("check scenario.yaml", scratch).err, "did you mean pid?",
+                    "did you mean external or plugin?"));
 }
 
 TEST(DidYouMean, ForEffectsInRigFiles) {

@@ -59,7 +59,7 @@ TEST_F(Import, WhatIsOpenIsRefusedAndThenReplays) {
   EXPECT_TRUE(holds(read_text(scratch_ / "mine/understood.svg"), "contraction: (Laser [mm] - 412"));
   const Said refused = mckibben("check mine", scratch_);
   EXPECT_EQ(refused.status, 65);
-  EXPECT_TRUE(holds(refused.err, "rest_length = FILL_IN: nothing that was recorded tells it"));
+  EXPECT_TRUE(holds(refused.err, "rest_length = FILL_IN: the recorded data do not contain it"));
 
   std::string rig = read_text(scratch_ / "mine/rig.yaml");
   for (const auto& [key, value] : {std::pair{"rest_length", "180 mm"},
@@ -81,6 +81,34 @@ TEST_F(Import, WhatIsOpenIsRefusedAndThenReplays) {
   EXPECT_EQ(again.status, 0);
   EXPECT_TRUE(holds(again.err, "mine.old-1")) << "it was edited: " << again.err;
   EXPECT_EQ(read_text(scratch_ / "mine.old-1/rig.yaml"), rig);
+}
+
+TEST_F(Import, AFolderIsItsTables) {
+  ASSERT_EQ(
+      shell("cp bench/load_5kg.csv bench/load_5kg_2.csv && echo notes > bench/README && mkdir none", scratch_)
+          .status,
+      0);
+  const Said said = mckibben("import bench --out mine", scratch_);
+  ASSERT_EQ(said.status, 0) << said.err;
+  EXPECT_TRUE(holds(said.out, "2 tables read", "load_5kg_2"));
+  const Said none = mckibben("import none", scratch_);
+  EXPECT_EQ(none.status, 66);
+  EXPECT_TRUE(holds(none.err, "no table is in this folder"));
+}
+
+TEST_F(Import, ARunOfNoTimeIsRefusedByEveryVerb) {
+  write_text(scratch_ / "fast.csv",
+             "t,p,x\n0,1,0\n10,1.1,1\n20,1.2,2\n30,1.3,3\n40,1.4,4\n50,1.5,5\n60,1.6,6\n");
+  write_text(scratch_ / "dataset.yaml",
+             "schema: mckibben-dataset/1\nrig: rig.yaml\ncolumns: {time: {column: t, unit: us}, "
+             "muscle_pressure: {column: p, "
+             "unit: bar, as: input}, contraction: {column: x, unit: mm}}\nruns: [{id: r, file: fast.csv, "
+             "load: 5 kg}]\n");
+  for (const char* verb : {"check", "replay", "diagnose"}) {
+    const Said said = mckibben(std::string(verb) + " dataset.yaml", scratch_);
+    EXPECT_EQ(said.status, 65) << verb << said.err;
+    EXPECT_TRUE(holds(said.err, "lasts 0.06 ms", "unit: ms")) << verb;
+  }
 }
 
 TEST_F(Import, TakesARigThatIsKnownAndLeavesTablesAlone) {

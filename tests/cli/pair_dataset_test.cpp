@@ -61,7 +61,7 @@ TEST_F(PairDataset, HasTwoCommandsAnAngleAndGaugesAndHidesWhatEitherSideHas) {
   const std::string truth = read_text(scratch / "out/pair-truth/truth.yaml");
   EXPECT_TRUE(holds(truth, "muscle_leak", "damping: 40 N.s/m"));
   EXPECT_TRUE(holds(read_text(scratch / "out/pair-truth/against_r1.csv"), ",gauge_pressure_2_bar\n"));
-  EXPECT_TRUE(holds(read_text(scratch / "out/pair/report.html"), "pressure asked of valve 2 in bar"));
+  EXPECT_TRUE(holds(read_text(scratch / "out/pair/report.html"), "commanded pressure 2 in bar"));
 }
 
 TEST_F(PairDataset, ReplayedOnItsTrueRigItIsRightToACount) {

@@ -191,7 +191,7 @@ TEST(Plugin, WhateverIsWrongWithItIsAFailureWithItsReason) {
   PluginSettings settings = library(MCKIBBEN_EXAMPLE_PLUGIN);
   settings.settings = "nonsense";
   EXPECT_EQ(failure_of(settings),
-            "before the run: its library gives up: \"settings are gain=MA Ti=S, not: nonsense\"");
+            "before the run: its library refuses: \"settings are gain=MA Ti=S, not: nonsense\"");
   settings.settings = "gain=20 Ti=0.5";
   EXPECT_EQ(failure_of(settings), "");
   EXPECT_EQ(failure_of(library("/nowhere/plugin.so"))

@@ -91,15 +91,20 @@ class Fmu:
 
     def ride(self, currents, outputs, before=(), instance=0, tick=0.012):
         """Commands of a ride under these currents; outputs are asked for at each tick."""
-        def look():
-            return [f"{instance} {'count' if name == 'counts' else 'get'} {self.reference[name]}" for name in outputs]
         commands = [f"{instance} {line}" for line in before]
         commands += [f"{instance} set {self.reference['current']} {currents[0]}", f"{instance} init 0",
-                     f"{instance} start", *look()]
+                     f"{instance} start", *self.look(outputs, instance)]
         for k, current in enumerate(currents[:-1]):
             commands += [f"{instance} set {self.reference['current']} {current}",
-                         f"{instance} step {k * tick!r} {tick}", *look()]
+                         f"{instance} step {k * tick!r} {tick}", *self.look(outputs, instance)]
         return commands
+
+    def look(self, outputs, instance=0):
+        return [f"{instance} {'count' if name == 'counts' else 'get'} {self.reference[name]}" for name in outputs]
+
+    def on(self, ticks, outputs=()):
+        """Further ticks."""
+        return [line for k in ticks for line in (f"0 step {k * 0.012!r} 0.012", *self.look(outputs))]
 
 
 def table(folder, rig):
@@ -169,7 +174,7 @@ class AnFmu(unittest.TestCase):
         for fmu in self.each():
             needed = subprocess.run(["readelf", "-d", fmu.library], text=True, capture_output=True, check=True).stdout
             self.assertEqual({line.split("[")[1].rstrip("]").split(".")[0] for line in needed.splitlines() if "NEEDED" in line}
-                             - {"ld-linux-x86-64"}, {"libc", "libm"})
+                             - {"ld-linux-x86-64", "libasan", "libubsan"}, {"libc", "libm"})
             shown = subprocess.run(["nm", "-D", "--defined-only", fmu.library], text=True, capture_output=True, check=True)
             self.assertEqual([line for line in shown.stdout.splitlines() if not line.split()[-1].startswith("fmi")], [])
             for source in ("CMakeLists.txt", "LICENSE"):
@@ -200,10 +205,7 @@ class AnFmu(unittest.TestCase):
         for fmu in self.each("--true-states"):
             outputs = ["contraction_ratio", "muscle_pressure", "counts"]
             first = fmu.ride([5 + 0.1 * k for k in range(60)], outputs)
-            on = [f"0 set {fmu.reference['current']} 12"]
-            for k in range(59, 120):
-                on += [f"0 step {k * 0.012!r} 0.012", *(f"0 {'count' if name == 'counts' else 'get'} {fmu.reference[name]}"
-                                                      for name in outputs)]
+            on = [f"0 set {fmu.reference['current']} 12", *fmu.on(range(59, 120), outputs)]
             answers = fmu.answers([*first, "0 save", *on, "0 restore", *on])
             length = 61 * len(outputs)
             self.assertEqual(len(answers), 60 * len(outputs) + 2 * length)
@@ -221,7 +223,7 @@ class AnFmu(unittest.TestCase):
     def test_another_load_hangs_from_the_next_step_on(self):
         for fmu in self.each("--true-states"):
             ride = fmu.ride([10] * 200, ["contraction_ratio"])
-            heavier = [line for k, line in enumerate(ride)]
+            heavier = list(ride)
             heavier[-201] = heavier[-201] + f"\n0 set {fmu.reference['load']} 20"
             self.assertLess(float(fmu.answers(heavier)[-1]), float(fmu.answers(ride)[-1]) - 0.01)
 
@@ -251,6 +253,8 @@ class AnFmu(unittest.TestCase):
                 self.assertEqual(fmu.answers([early])[-1], "failed", early)
             self.assertEqual(fmu.answers(["0 init 0", "0 end"])[-1], "failed")
             self.assertEqual(fmu.answers(["0 init nan"])[-1], "failed")
+            for early in ("0 restore", "0 write state"):
+                self.assertEqual(fmu.answers([early]), ["no state was saved", "failed"])
             # In mid-run.
             again = fmu.answers([*ride[:60], "0 init 100", "0 start", *ride[60:]])
             self.assertEqual(again.count("failed"), 2)
@@ -262,7 +266,7 @@ class AnFmu(unittest.TestCase):
             self.assertEqual(fmu.answers([*stuck, "0 reset", *ride])[-len(alone):], alone)
             # After a step that failed there is a state that was saved, too. A fall ends at the braid's end.
             cut = 4 + 3 * 20
-            torn = [*ride[:cut], "0 save", f"0 set {load} 1e6", *(f"0 step {k * 0.012!r} 0.012" for k in range(20, 100))]
+            torn = [*ride[:cut], "0 save", f"0 set {load} 1e6", *fmu.on(range(20, 100))]
             said = fmu.answers([*torn, f"0 set {load} 10", "0 init 0", "0 start", f"0 get {height}", "0 restore", *ride[cut:]])
             fallen = [answer for answer in said[21:] if answer not in alone]
             self.assertIn("a step before the initialisation has ended, or after a failure or the end", fallen)
@@ -296,8 +300,7 @@ class AnFmu(unittest.TestCase):
             self.assertNotIn("current", fmu.reference)
             zero = next(each for each in fmu.variables if each.get("name") == "valve.zero_command")
             self.assertEqual(fmu.typed(zero).get("unit"), "V")
-            steps = [f"0 step {k * 0.012!r} 0.012" for k in range(100)]
-            risen = fmu.answers(["0 init 0", "0 start", f"0 set {fmu.reference['command']} 3", *steps,
+            risen = fmu.answers(["0 init 0", "0 start", f"0 set {fmu.reference['command']} 3", *fmu.on(range(100)),
                                  f"0 get {fmu.reference['encoder_contraction_ratio']}"])
             self.assertGreater(float(risen[0]), 0.05)
 
@@ -305,11 +308,9 @@ class AnFmu(unittest.TestCase):
         fmu = Fmu(self.folder, "thesis_pair", "2.0", "--true-states")
         self.assertNotIn("load", fmu.reference)
         one, two, angle = (fmu.reference[name] for name in ("current_1", "current_2", "encoder_angle"))
-        steps = [f"0 step {k * 0.012!r} 0.012" for k in range(100)]
-        answers = fmu.answers([f"0 set {one} 12", f"0 set {two} 8", "0 init 0", "0 start", f"0 set {one} 16", *steps,
-                               f"0 get {angle}", f"0 set {one} 6", f"0 set {two} 14",
-                               *(line.replace("step", "step") for line in
-                                 (f"0 step {k * 0.012!r} 0.012" for k in range(100, 250))), f"0 get {angle}"])
+        answers = fmu.answers([f"0 set {one} 12", f"0 set {two} 8", "0 init 0", "0 start", f"0 set {one} 16",
+                               *fmu.on(range(100)), f"0 get {angle}", f"0 set {one} 6", f"0 set {two} 14",
+                               *fmu.on(range(100, 250)), f"0 get {angle}"])
         self.assertGreater(float(answers[0]), 0.1)
         self.assertLess(float(answers[1]), 0.0)
 
@@ -320,10 +321,7 @@ class AnFmu(unittest.TestCase):
         for fmu in self.each("--true-states"):
             thick = f"set {fmu.reference['muscle.rest_radius']} 0.0079"
             begin = fmu.ride([5 + 0.1 * k for k in range(60)], outputs, [thick])
-            on = [f"0 set {fmu.reference['current']} 12"]
-            for k in range(59, 90):
-                on += [f"0 step {k * 0.012!r} 0.012", *(f"0 {'count' if name == 'counts' else 'get'} {fmu.reference[name]}"
-                                                      for name in outputs)]
+            on = [f"0 set {fmu.reference['current']} 12", *fmu.on(range(59, 90), outputs)]
             first = fmu.answers([*begin, "0 save", "0 write state", *on])[60 * len(outputs):]
             self.assertEqual(fmu.answers(["0 read state", "0 restore", *on]), first)
             self.assertEqual(fmu.answers(["0 read state", "0 restore", "0 save", "0 write again", "0 read again", "0 restore",

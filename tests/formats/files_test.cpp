@@ -1,5 +1,8 @@
 // MAT-files and NetCDF files from the inside: round trip, refusals, damage. That other programs read them,
 // and that we read theirs, is tested beside this with scipy, ncdump and Octave.
+#include <algorithm>
+#include <fstream>
+#include <sstream>
 #include <string>
 #include <thread>
 #include <vector>
@@ -48,6 +51,21 @@ TEST(MatFile, SaysWhatIsNotAVector) {
   const MatContents read = read_mat(mat_of(table()), wanted);
   for (std::size_t i = 0; i < wanted.size(); ++i)
     EXPECT_TRUE(read.found[i].problem.starts_with(said[i])) << read.found[i].problem;
+}
+
+TEST(MatFile, WhatSimulinkLogsIsReadByItsLabels) {
+  std::ostringstream bytes;
+  bytes << std::ifstream(MCKIBBEN_TEST_DATA "/structure_with_time.mat", std::ios::binary).rdbuf();
+  const MatContents read = read_mat(
+      bytes.str(), {"Data.time", "Data.signals(2).values", "Data.signals.values", "Data.signals(3).values"});
+  EXPECT_EQ(read.found[0].problem, "");
+  EXPECT_EQ(read.found[1].problem, "");
+  EXPECT_EQ(read.found[1].values.size(), read.found[0].values.size());
+  EXPECT_EQ(read.found[2].problem, "Data.signals is an array of 2 structs; name one: Data.signals(1)");
+  EXPECT_TRUE(read.found[3].problem.starts_with("Data.signals")) << read.found[3].problem;
+  const auto labelled = std::ranges::find(read.vectors, "Data.signals(1).values", &MatContents::Vector::name);
+  ASSERT_NE(labelled, read.vectors.end());
+  EXPECT_EQ(labelled->label, "pressure");
 }
 
 TEST(MatFile, TellsItsRelatives) {

@@ -140,7 +140,7 @@ const std::vector<input::WantedColumn> by_name{{"time_s", "time_s", true},
 void csv(const std::string& bytes) {
   table(bytes, by_name,
         [](const input::Source& source, std::span<const input::WantedColumn> wanted,
-           input::TableProblems& problems) { return input::read_csv(source, wanted, problems); });
+           input::TableProblems& problems) { return input::read_text(source, wanted, problems); });
 }
 
 void lvm(const std::string& bytes) {
@@ -154,7 +154,9 @@ void lvm(const std::string& bytes) {
 
 void ascii(const std::string& bytes) {
   const std::vector<input::WantedColumn> wanted{{"current_mA", "2", true}, {"contraction_ratio", "1", true}};
-  table(bytes, wanted, input::read_ascii);
+  table(bytes, wanted,
+        [](const input::Source& source, std::span<const input::WantedColumn> columns,
+           input::TableProblems& problems) { return input::read_text(source, columns, problems); });
 }
 
 void mat(const std::string& bytes) {

@@ -55,6 +55,14 @@ TEST(Decide, TakesWhatStandsForAStretchedParameterThoughItIsLessProbable) {
   EXPECT_FALSE(d.contradicts_sheet);
 }
 
+TEST(Decide, TakesARivalThatTheSheetAllowsThoughItPredictsALittleWorse) {
+  Judged stretched = model({}, 1.0, 0.0);
+  stretched.off_sheet = 6.0;
+  const Judged twin = model({"viscous_damping"}, 0.0, 1.0);  // by more than two standard errors
+  EXPECT_EQ(decide({stretched, twin}).chosen, 1U);
+  EXPECT_EQ(decide({stretched, model({"viscous_damping"}, -30.0, 1.0)}).chosen, 0U);  // no rival
+}
+
 TEST(Decide, SaysWhereTheAnswerItselfContradictsTheSheet) {
   Judged only = model({"muscle_leak"}, 0.0, 0.0);
   only.off_sheet = 9.0;

@@ -107,7 +107,7 @@ std::pair<std::size_t, bool> read_as_run(const std::string& text, bool lvm) {
   const std::vector<WantedColumn> channels{
       {"time_s", ""}, {"current_mA", "I"}, {"contraction_ratio", "ratio"}};
   const std::vector<WantedColumn> numbers{{"time_s", "1"}, {"current_mA", "2"}, {"contraction_ratio", "3"}};
-  const Table table = lvm ? read_lvm(source, channels, 0, found) : read_ascii(source, numbers, found);
+  const Table table = lvm ? read_lvm(source, channels, 0, found) : read_text(source, numbers, found);
   check_ticks(table, 0.012, found);
   bool sound = !table.columns.empty();
   for (const auto& column : table.columns)

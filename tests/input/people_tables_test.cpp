@@ -3,9 +3,9 @@
 
 #include <gtest/gtest.h>
 
-#include <sim/input/csv_layout.hpp>
 #include <sim/input/dataset_file.hpp>
 #include <sim/input/dates.hpp>
+#include <sim/input/text_layout.hpp>
 
 #include "scratch.hpp"
 
@@ -27,6 +27,26 @@ constexpr const char* dated =
 
 const Kind tables[] = {
     {"plain", german, "Zeit,Strom,Weg\n0,4,0\n0.012,4.5,3\n"},
+    {"by_number",
+     "{time: {column: 1, unit: s}, current: {column: 2, unit: mA}, contraction: {column: 3, unit: mm}}",
+     "0, 4, 0\n0.012, 4.5, 3\n"},
+    {"headings_behind_a_mark", german, "# Rig 4\n# Zeit Strom Weg\n0 4 0\n0.012 4.5 3\n"},
+    {"settings_above", german, "KP;0,72\nSample rate;500,000000\n\nZeit;Strom;Weg\n0;4;0\n0,012;4,5;3\n"},
+    {"a_sheet_with_as_many_cells_in_each_line", german,
+     "Load;5;;\nKP;0,7;;\nZeit;Strom;Weg;\n0;4;0;\n0,012;4,5;3;\n"},
+    {"blank_lines_and_remarks_between", german, "Zeit,Strom,Weg\n0,4,0\n\n# a remark\n0.012,4.5,3\n"},
+    {"thousands",
+     "{time: {column: Zeit, unit: us}, current: {column: Strom, unit: mA}, contraction: {column: Weg, unit: "
+     "mm}}",
+     "Zeit;Strom;Weg\n0.0;4;0\n12,000.0;4.5;3\n"},
+    {"rows_that_lack_their_last_cells", german, "Zeit,Strom,Weg,note\n0,4,0\n0.012,4.5,3,7\n"},
+    {"headings_again", german, "Zeit,Strom,Weg\n0,4,0\nZeit,Strom,Weg\n0.012,4.5,3\n"},
+    {"names_of_several_words",
+     "{time: {column: Elapsed time, unit: s}, current: {column: Valve current, unit: mA}, contraction: "
+     "{column: Weg, unit: mm}}",
+     "Elapsed time   Valve current   Weg\n0 4 0\n0.012 4.5 3\n"},
+    {"keys_and_values_above_two_blanks", german, "KP 0.72\nKI 0.1\nZeit Strom Weg\n0 4 0\n0.012 4.5 3\n"},
+    {"carriage_returns_alone", german, "Zeit,Strom,Weg\r0,4,0\r0.012,4.5,3\r"},
     {"semicolons_and_decimal_commas", german, "Zeit;Strom;Weg\n0;4;0\n0,012;4,5;3\n"},
     {"byte_order_mark_and_crlf", german, "\xEF\xBB\xBFZeit;Strom;Weg\r\n0;4;0\r\n0,012;4,5;3\r\n"},
     {"units_in_headings",
@@ -72,10 +92,10 @@ TEST_P(PeopleTables, ReadToTheSameNumbers) {
 INSTANTIATE_TEST_SUITE_P(Each, PeopleTables, ::testing::ValuesIn(tables),
                          [](const auto& each) { return std::string(each.param.name); });
 
-TEST(CsvLayout, WhatIsNoUnitIsARow) {
+TEST(TextLayout, WhatIsNoUnitIsARow) {
   for (const char* text : {"a,b\n0 s,4 mA\n0,4\n", "a,b\nERR,ERR\n0,4\n", "a,b\n1,1\n0,4\n"})
     EXPECT_EQ(layout_of(Source("a.csv", text, ""), {}).first_row, 2u) << text;
-  const CsvLayout layout = layout_of(Source("a.csv", "remark\na,b\nmA,°\n0,4\n", ""), {});
+  const TextLayout layout = layout_of(Source("a.csv", "remark\na,b\nmA,°\n0,4\n", ""), {});
   EXPECT_EQ(layout.heading, 2u);
   EXPECT_EQ(layout.first_row, 4u);
   EXPECT_EQ(layout.units, (std::vector<std::string>{"mA", "deg"}));

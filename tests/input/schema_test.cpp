@@ -69,13 +69,20 @@ TEST(JsonSchema, KnowsEachKindOfSensorAndTheKeysFromBefore) {
   EXPECT_EQ(properties["gauge"]["deprecated"], true);
 }
 
-TEST(FieldTable, HasARowForEachFieldAndASectionForEachPart) {
-  const std::string table = field_table("Rig", list_fields<Rig>());
-  EXPECT_TRUE(holds(table, "| `tick` | s | 0.012 s | 0.0001 s to 1 s | time between two readings",
-                    "## Rig: muscle\n", "| `bits` |  | 12 | 4 to 24 |"));
-  const std::string runs = field_table("Data set", list_fields<Dataset>());
-  EXPECT_TRUE(
-      holds(runs, "| `load` | kg |  | 0.01 kg to 500 kg | mass of the load; required where one hangs |"));
+TEST(FieldLists, HaveALineForEachFieldAndASectionForEachKind) {
+  const std::string rig = field_lists({{"Rig", list_fields<Rig>()}});
+  EXPECT_TRUE(holds(rig, "- `tick` (0.0001 to 1 s; default 0.012 s): time between two readings",
+                    "\n    - `bits` (4 to 24; default 12): ", "[laser](#rig-sensors-laser)",
+                    "\n### Rig: sensors laser\n"));
+  EXPECT_TRUE(holds(field_lists({{"Data set", list_fields<Dataset>()}}),
+                    "    - `load` (0.01 to 500 kg): mass of the load; required where one hangs\n"));
+}
+
+TEST(FieldLists, ReferToWhatWasShownBefore) {
+  const std::vector<FieldInfo> fields = list_fields<Rig>();
+  const std::string twice = field_lists({{"First", fields}, {"Second", fields}});
+  EXPECT_TRUE(holds(twice, "- `muscle`, `friction`, ", ": as in [First](#first)\n"));
+  EXPECT_EQ(twice.find("time between two readings"), twice.rfind("time between two readings"));
 }
 
 }  // namespace

@@ -126,7 +126,7 @@ TEST(Law, MemoriesMeasureWhatTheyMeet) {
   EXPECT_EQ(units("k * q / tau", {{"q", "x"}}), "m.s ");
   EXPECT_TRUE(holds(units("-k * (x - q)", {{"q", "(x - q) * 2"}}), "q is in m, so that its rate is m/s"));
   faults.clear();
-  EXPECT_TRUE(holds(units("k * x * q", {{"q", "q / tau"}}), "what q measures cannot be told"));
+  EXPECT_TRUE(holds(units("k * x * q", {{"q", "q / tau"}}), "the unit of q is unknown"));
 }
 
 TEST(Law, WhatIsNoExpressionIsShownWhereItEnds) {

@@ -49,7 +49,7 @@ TEST(Remarks, OneThatSwingsIsNotToldThatItsTargetIsOutOfReach) {
   EXPECT_NE(warning.find("it swings to and from the ends of its current, where it stood for 60 %"),
             std::string::npos)
       << warning;
-  EXPECT_EQ(warning.find("asks for"), std::string::npos) << warning;
+  EXPECT_EQ(warning.find("the target needs"), std::string::npos) << warning;
 }
 
 TEST(Remarks, ATuningMustBeatNoFeedback) {

@@ -84,12 +84,12 @@ TEST(Calibrate, WhatIsNotDeterminedIsNamedAndNotPrinted) {
   f1 = {0.0123456, 0.02, 5.0, {}};
   judge(f1);
   const std::string report = output::report_of(campaign(), result, {}, false);
-  EXPECT_NE(report.find("f1  not determined: not told from 0"), std::string::npos);
+  EXPECT_NE(report.find("f1  not determined: not significant"), std::string::npos);
   EXPECT_EQ(report.find("0.0123456"), std::string::npos);
   const auto document = input::Json::parse(output::json_of(campaign(), result, {}));
   const auto& entry = document.at("friction").at("contraction").at("f1_s2_per_mA2");
   EXPECT_TRUE(entry.at("value").is_null());
-  EXPECT_EQ(entry.at("not_determined"), "not told from 0");
+  EXPECT_EQ(entry.at("not_determined"), "not significant");
 }
 
 TEST(Figures, AreAllThereWithEqualColumns) {

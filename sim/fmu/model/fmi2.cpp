@@ -129,17 +129,17 @@ EXPORTED Status fmi2GetFMUstate(Component instance, State* state) {
   }));
 }
 EXPORTED Status fmi2SetFMUstate(Component instance, State state) {
-  return as_status(instance->done([&] { instance->slave = Slave(*state); }));
+  return as_status(instance->done([&] { instance->slave = Slave(saved(state)); }));
 }
 EXPORTED Status fmi2FreeFMUstate(Component, State* state) {
   if (state != nullptr) delete std::exchange(*state, nullptr);
   return ok;
 }
 EXPORTED Status fmi2SerializedFMUstateSize(Component instance, State state, std::size_t* size) {
-  return as_status(instance->done([&] { *size = instance->bytes_of(*state).size(); }));
+  return as_status(instance->done([&] { *size = instance->bytes_of(saved(state)).size(); }));
 }
 EXPORTED Status fmi2SerializeFMUstate(Component instance, State state, char* bytes, std::size_t size) {
-  return as_status(instance->done([&] { instance->write(*state, bytes, size); }));
+  return as_status(instance->done([&] { instance->write(saved(state), bytes, size); }));
 }
 EXPORTED Status fmi2DeSerializeFMUstate(Component instance, const char* bytes, std::size_t size,
                                         State* state) {

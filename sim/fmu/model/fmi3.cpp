@@ -89,7 +89,7 @@ EXPORTED Status fmi3GetFMUState(Instance* instance, Slave** state) {
   }));
 }
 EXPORTED Status fmi3SetFMUState(Instance* instance, Slave* state) {
-  return status_of(instance->done([&] { instance->slave = Slave(*state); }));
+  return status_of(instance->done([&] { instance->slave = Slave(saved(state)); }));
 }
 EXPORTED Status fmi3FreeFMUState(Instance*, Slave** state) {
   if (state != nullptr) delete std::exchange(*state, nullptr);
@@ -97,10 +97,10 @@ EXPORTED Status fmi3FreeFMUState(Instance*, Slave** state) {
 }
 
 EXPORTED Status fmi3SerializedFMUStateSize(Instance* instance, Slave* state, std::size_t* size) {
-  return status_of(instance->done([&] { *size = instance->bytes_of(*state).size(); }));
+  return status_of(instance->done([&] { *size = instance->bytes_of(saved(state)).size(); }));
 }
 EXPORTED Status fmi3SerializeFMUState(Instance* instance, Slave* state, char* bytes, std::size_t size) {
-  return status_of(instance->done([&] { instance->write(*state, bytes, size); }));
+  return status_of(instance->done([&] { instance->write(saved(state), bytes, size); }));
 }
 EXPORTED Status fmi3DeserializeFMUState(Instance* instance, const char* bytes, std::size_t size,
                                         Slave** state) {

@@ -5,6 +5,7 @@
 #include <exception>
 #include <filesystem>
 #include <functional>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 
@@ -36,6 +37,12 @@ struct Instance {
   /// `state`: null, or one that is given up. Throws as Slave::become.
   void read(std::string_view bytes, Slave*& state) const;
 };
+
+/// What an importer has as a state. Throws std::invalid_argument where it has none.
+inline const Slave& saved(const Slave* state) {
+  if (state == nullptr) throw std::invalid_argument("no state was saved");
+  return *state;
+}
 
 /// Null if the token is another's or the folder lacks what it must hold, and the log says why.
 Instance* instance_in(const std::filesystem::path& resources, std::string_view token,

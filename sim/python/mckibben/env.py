@@ -60,7 +60,7 @@ except ImportError:
 
 
 class Env(Base):
-    """Follow a target with a load that nobody tells: an episode is one run.
+    """Follow a target with an unknown load: an episode is one run.
 
     action       shape (1,), -1 to 1: the command, from the lower to the upper end of the valve's line
     observation  shape (4,): contraction ratio as the encoder counts it, its speed by these counts over the last

@@ -1,0 +1,78 @@
+// Excel 97 to 2003 by libfreexl, which reads files by their path; see sheet.hpp.
+#include <array>
+#include <charconv>
+#include <memory>
+
+#include <fmt/format.h>
+#include <freexl.h>
+
+#include <sim/formats/sheet.hpp>
+#include <sim/formats/sheet_text.hpp>
+#include <sim/formats/table.hpp>
+
+namespace mckibben::formats {
+namespace {
+
+struct CloseXls {
+  void operator()(const void* handle) const { freexl_close(handle); }
+};
+
+/// What a cell shows; whether it is a number.
+std::pair<std::string, bool> shown(const FreeXL_CellValue& cell) {
+  switch (cell.type) {
+    case FREEXL_CELL_INT:
+      return {std::to_string(cell.value.int_value), true};
+    case FREEXL_CELL_DOUBLE:
+      return {fmt::format("{}", cell.value.double_value), true};
+    case FREEXL_CELL_TEXT:
+    case FREEXL_CELL_SST_TEXT:
+    case FREEXL_CELL_DATE:
+    case FREEXL_CELL_DATETIME:
+    case FREEXL_CELL_TIME:
+      return {cell.value.text_value == nullptr ? "" : cell.value.text_value,
+              cell.type != FREEXL_CELL_TEXT && cell.type != FREEXL_CELL_SST_TEXT};
+    default:
+      return {"", false};
+  }
+}
+
+}  // namespace
+
+std::vector<Sheet> sheets_of_xls(const std::string& path) {
+  const void* opened = nullptr;
+  if (const int status = freexl_open(path.c_str(), &opened); status != FREEXL_OK)
+    throw BadFile(
+        status == FREEXL_BIFF_OBFUSCATED
+            ? "it has a password; save it without, or save the sheet as CSV"
+            : fmt::format("it cannot be read as .xls (libfreexl: {}); save the sheet as CSV", status));
+  const std::unique_ptr<const void, CloseXls> handle(opened);
+  unsigned count = 0;
+  freexl_get_info(opened, FREEXL_BIFF_SHEET_COUNT, &count);
+  std::vector<Sheet> sheets;
+  for (unsigned i = 0; i < count; ++i) {
+    const char* name = nullptr;
+    unsigned rows = 0;
+    unsigned short columns = 0;
+    if (freexl_get_worksheet_name(opened, static_cast<unsigned short>(i), &name) != FREEXL_OK ||
+        freexl_select_active_worksheet(opened, static_cast<unsigned short>(i)) != FREEXL_OK ||
+        freexl_worksheet_dimensions(opened, &rows, &columns) != FREEXL_OK)
+      continue;
+    Sheet sheet{name == nullptr ? "" : name, "", 0};
+    SheetText text;
+    for (unsigned row = 0; row < rows; ++row) {
+      text.begin_row(row + 1);
+      for (unsigned short column = 0; column < columns; ++column) {
+        FreeXL_CellValue cell{};
+        if (freexl_get_cell_value(opened, row, column, &cell) != FREEXL_OK) continue;
+        const auto [value, number] = shown(cell);
+        text.add(column, value);
+        sheet.numbers += number ? 1 : 0;
+      }
+    }
+    sheet.text = text.take();
+    sheets.push_back(std::move(sheet));
+  }
+  return sheets;
+}
+
+}  // namespace mckibben::formats

@@ -1,0 +1,34 @@
+// A table as it stands in its file, made that of one run: which of its rows are the run's, and clocks that
+// are no ascending stamps: intervals, stamps that a coarse clock repeats, a clock for each quantity.
+#pragma once
+
+#include <vector>
+
+#include <sim/domain/dataset.hpp>
+#include <sim/input/table.hpp>
+
+namespace mckibben::input {
+
+/// What has to be read besides the quantities: columns that `where` and `cut` name, clocks of single
+/// quantities.
+std::vector<WantedColumn> wanted_besides(const domain::ColumnMap& map, const domain::Run& run);
+
+/// Where the parts of a table begin: where its recorder began anew, its clock falls back, or `cut` changes.
+/// The first is 0.
+std::vector<std::size_t> parts_of(const Table& table);
+
+/// The rows of `where` and of the segment; intervals added up. In the units of the file.
+void keep_rows(Table& table, const domain::ColumnMap& map, const domain::Run& run, TableProblems& problems);
+
+/// Stamps that repeat because the clock is coarse lie evenly up to the next; what was done is noted. None of
+/// a clock that repeats single stamps.
+void spread_stamps(Table& table, TableProblems& problems);
+
+/// Quantities with a clock, or rows, of their own at the stamps of all of them; what is not read at one is
+/// NaN. In seconds.
+void merge_clocks(Table& table, const domain::ColumnMap& map);
+
+/// Rows from `from` to `to` since the first. In seconds.
+void keep_window(Table& table, const domain::Run& run, TableProblems& problems);
+
+}  // namespace mckibben::input

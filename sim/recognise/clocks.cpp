@@ -1,0 +1,206 @@
+// Clocks of tables that nobody described; see columns.hpp.
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <sim/domain/number.hpp>
+#include <sim/input/arranged.hpp>
+#include <sim/input/dates.hpp>
+#include <sim/input/number.hpp>
+#include <sim/input/quantity.hpp>
+#include <sim/recognise/columns.hpp>
+#include <sim/recognise/headings.hpp>
+
+namespace mckibben::recognise {
+namespace {
+
+/// Positive numbers that are alike, and as often smaller as larger than the one before.
+bool are_intervals(const Values& values) {
+  Values sorted;
+  std::size_t falls = 0;
+  for (const double value : values) {
+    if (std::isnan(value)) continue;
+    if (!sorted.empty() && value <= sorted.back()) ++falls;
+    sorted.push_back(value);
+  }
+  const bool ascend = std::ranges::is_sorted(sorted) && sorted.front() != sorted.back();
+  if (sorted.size() < 3 || ascend || 5 * falls < sorted.size()) return false;
+  std::ranges::sort(sorted);
+  constexpr double alike = 5.0;
+  const std::size_t n = sorted.size();
+  return sorted[n / 20] > 0.0 && sorted[n - 1 - n / 20] < alike * sorted[n / 2] &&
+         sorted[n / 20] > sorted[n / 2] / alike;
+}
+
+/// The unit in which a stamp of so many digits counts since 1970.
+std::string unit_of_epoch(const std::string& first) {
+  switch (std::min(first.find_first_not_of("0123456789"), first.size())) {
+    case 10:
+      return "s";
+    case 13:
+      return "ms";
+    case 16:
+      return "us";
+    case 19:
+      return "ns";
+    default:
+      return "";
+  }
+}
+
+/// Clocks that say the same, such as a stamp and the time at which its message came.
+bool alike(const Values& a, const Values& b) {
+  const double whole_a = a.back() - a.front(), whole_b = b.back() - b.front();
+  return whole_a > 0.0 && std::abs(whole_b / whole_a - 1.0) < 1e-3 && std::isfinite(whole_b);
+}
+
+Told unit_of(const UnknownColumn& column, const Heading& heading) {
+  if (column.is_date) return {std::string(input::date_unit), "it holds dates"};
+  const std::string unit = unit_of_epoch(column.epoch);
+  if (heading.unit_fits && (unit.empty() || unit == heading.unit))
+    return {heading.unit, fmt::format("the table says {}", heading.unit)};
+  if (heading.unit_fits)
+    return left_open(fmt::format("the table says {}; stamps such as {} are in {} since 1970", heading.unit,
+                                 column.epoch, unit));
+  if (!unit.empty()) return {unit, fmt::format("{} counts {} since 1970", column.epoch, unit)};
+  const Clock clock = clock_of(column.values);
+  return left_open(
+      fmt::format("the table says no unit; rows are {:.6g} of it apart: s, ms, us?", clock.step_s));
+}
+
+ColumnGuess guess_of_time(const UnknownColumn& column, const Heading& heading) {
+  ColumnGuess guess{
+      &domain::quantity_of("time"), {column.name, heading.reason}, unit_of(column, heading), {}, {}, {}, {}};
+  if (!column.is_date && are_intervals(column.values))
+    guess.input = Told{"interval", "its numbers are alike and do not ascend: the time since the row before"};
+  return guess;
+}
+
+}  // namespace
+
+bool counts_rows(const Values& values) {
+  if (values.size() < 3) return false;
+  for (std::size_t k = 0; k < values.size(); ++k)
+    if (values[k] != std::floor(values[k]) || (k > 0 && values[k] != values[k - 1] + 1.0)) return false;
+  return true;
+}
+
+TimeGuess time_of(const UnknownTable& table) {
+  TimeGuess found;
+  std::vector<std::pair<const UnknownColumn*, Heading>> candidates;
+  for (const UnknownColumn& column : table.columns)
+    if (Heading heading = heading_of(column); heading.quantity != nullptr && heading.quantity->key == "time")
+      candidates.emplace_back(&column, std::move(heading));
+  const auto numbers = std::ranges::find_if(table.columns, [&](const UnknownColumn& column) {
+    return counts_rows(column.values) && (!table.has_headings || names_rows(column.name));
+  });
+  if (candidates.empty() && numbers != table.columns.end()) {
+    const SaidStep said = said_step(table);
+    if (said.step_s <= 0.0) {
+      found.row_numbers = &*numbers;
+      return found;
+    }
+    found.guess = ColumnGuess{&domain::quantity_of("time"),
+                              {numbers->name, "it counts the rows"},
+                              {"s", said.reason},
+                              {},
+                              Told{domain::write_number(said.step_s), said.reason},
+                              {},
+                              {}};
+    return found;
+  }
+  if (candidates.empty() && !table.has_headings)
+    for (const UnknownColumn& column : table.columns)
+      if (const Clock clock = clock_of(column.values); clock.ascends && clock.step_s > 0.0) {
+        candidates.push_back({&column, {nullptr, "", false, "it ascends from row to row (perhaps)"}});
+        break;
+      }
+  if (candidates.empty()) return found;
+  const auto& [first, heading] = candidates.front();
+  const bool same = std::ranges::all_of(
+      candidates, [&](const auto& one) { return alike(first->values, one.first->values); });
+  found.guess = guess_of_time(*first, heading);
+  if (candidates.size() == 1) return found;
+  if (same) {
+    found.guess->column.reason += "; the other columns of time say the same";
+    return found;
+  }
+  // A clock that stands before each quantity, with another between.
+  bool paired = candidates.front().first == &table.columns.front();
+  for (std::size_t i = 1; i < candidates.size(); ++i)
+    paired = paired && candidates[i].first - candidates[i - 1].first > 1;
+  paired = paired && candidates.back().first != &table.columns.back();
+  if (paired) {
+    for (const auto& [column, words] : candidates) found.clocks.push_back(column);
+    found.guess->column.reason += "; each quantity stands behind a clock of its own";
+    return found;
+  }
+  std::vector<std::string> names;
+  for (const auto& [column, words] : candidates) names.push_back(column->name);
+  found.guess->column = left_open(fmt::format("it may be any of: {}", fmt::join(names, "; ")));
+  found.guess->unit = left_open("it goes with the column");
+  return found;
+}
+
+Values seconds_of(const UnknownTable& table, const ColumnGuess& time) {
+  const Values* stamps = time.unit.open() ? nullptr : column_of(table, time.column.value);
+  if (stamps == nullptr || stamps->empty()) return {};
+  input::Table one;
+  one.columns.push_back({"time_s", time.column.value, 0, *stamps});
+  if (time.input) {
+    double sum = 0.0;
+    for (std::size_t k = 1; k < stamps->size(); ++k) one.columns[0].values[k] = sum += (*stamps)[k];
+    one.columns[0].values.front() = 0.0;
+  }
+  const input::Source source("", "", "");
+  input::Problems ignored;
+  input::TableProblems said(source, ignored);
+  input::spread_stamps(one, said);
+  Values seconds = std::move(one.columns[0].values);
+  if (time.factor)
+    for (double& value : seconds) value *= input::parse_number(time.factor->value).value_or(1.0);
+  if (time.unit.value != input::date_unit) input::convert_units(seconds, time.unit.value, "s");
+  return seconds;
+}
+
+std::vector<UnknownTable> runs_in(const UnknownTable& table) {
+  std::vector<UnknownTable> labelled, runs;
+  constexpr std::size_t most_labels = 200, least_rows = 3;
+  for (const UnknownColumn& column : table.columns) {
+    if (!names_a_run(column.name) || !labelled.empty()) continue;
+    std::map<double, std::vector<std::size_t>> rows;
+    for (std::size_t row = 0; row < column.values.size() && rows.size() <= most_labels; ++row)
+      if (!std::isnan(column.values[row])) rows[column.values[row]].push_back(row);
+    if (rows.size() < 2 || rows.size() > most_labels ||
+        std::ranges::any_of(rows, [&](const auto& one) { return one.second.size() < least_rows; }))
+      continue;
+    for (const auto& [label, which] : rows)
+      labelled.push_back(table.rows(which, fmt::format("where: {{{}: {}}}", domain::yaml_scalar(column.name),
+                                                       domain::write_number(label))));
+  }
+  if (labelled.empty()) labelled.push_back(table);
+  for (UnknownTable& one : labelled) {
+    const TimeGuess time = time_of(one);
+    const Values* stamps =
+        time.guess && !time.guess->input ? column_of(one, time.guess->column.value) : nullptr;
+    input::Table whole;
+    if (stamps != nullptr) whole.columns.push_back({"time_s", "", 0, *stamps});
+    const std::vector<std::size_t> parts = input::parts_of(whole);
+    if (parts.size() == 1) {
+      runs.push_back(std::move(one));
+      continue;
+    }
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      std::vector<std::size_t> rows;
+      for (std::size_t row = parts[i]; row < (i + 1 < parts.size() ? parts[i + 1] : stamps->size()); ++row)
+        rows.push_back(row);
+      runs.push_back(one.rows(rows, fmt::format("segment: {}", i + 1)));
+    }
+  }
+  return runs;
+}
+
+}  // namespace mckibben::recognise

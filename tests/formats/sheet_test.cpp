@@ -1,0 +1,134 @@
+// Spreadsheets and .tdms as text: what is where, dates, and what damaged ones say.
+#include <bit>
+#include <cstdint>
+#include <cstring>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <zip.h>
+
+#include <sim/formats/sheet.hpp>
+#include <sim/formats/sheet_text.hpp>
+#include <sim/formats/table.hpp>
+
+#include "scratch.hpp"
+
+namespace mckibben::formats {
+namespace {
+
+std::string xlsx(const std::vector<std::pair<std::string, std::string>>& parts) {
+  const Scratch folder;
+  const std::string path = folder / "a.xlsx";
+  zip_t* archive = zip_open(path.c_str(), ZIP_CREATE, nullptr);
+  for (const auto& [name, text] : parts)
+    zip_file_add(archive, name.c_str(), zip_source_buffer(archive, text.data(), text.size(), 0),
+                 ZIP_FL_OVERWRITE);
+  EXPECT_EQ(zip_close(archive), 0);
+  std::ostringstream bytes;
+  bytes << std::ifstream(path, std::ios::binary).rdbuf();
+  return bytes.str();
+}
+
+const std::vector<std::pair<std::string, std::string>> workbook{
+    {"xl/workbook.xml",
+     "<workbook xmlns:r='r'><sheets><sheet name='one' r:id='a'/><sheet name='two' "
+     "r:id='b'/></sheets></workbook>"},
+    {"xl/_rels/workbook.xml.rels",
+     "<Relationships><Relationship Id='a' Target='worksheets/sheet1.xml'/><Relationship Id='b' "
+     "Target='/xl/worksheets/sheet2.xml'/></Relationships>"},
+    {"xl/sharedStrings.xml", "<sst><si><t>Zeit</t></si><si><r><t>We</t></r><r><t>g</t></r></si></sst>"},
+    {"xl/styles.xml",
+     "<styleSheet><numFmts><numFmt numFmtId='170' formatCode='yyyy\\-mm\\-dd'/><numFmt numFmtId='171' "
+     "formatCode='0.0 \"days\"'/></numFmts><cellXfs><xf numFmtId='0'/><xf numFmtId='170'/><xf "
+     "numFmtId='171'/></cellXfs></styleSheet>"},
+    {"xl/worksheets/sheet1.xml",
+     "<worksheet><sheetData><row r='1'><c r='A1' t='s'><v>0</v></c><c r='C1' t='s'><v>1</v></c></row><row "
+     "r='3'><c r='A3'><v>0.02</v></c><c r='B3' s='1'><v>45415.5</v></c><c r='C3' s='2'><v>1.5</v></c></row>"
+     "</sheetData></worksheet>"},
+    {"xl/worksheets/sheet2.xml",
+     "<x:worksheet><x:sheetData><x:row><x:c t='inlineStr'><x:is><x:t>a&lt;b</x:t></x:is></x:c></x:row></"
+     "x:sheetData></x:worksheet>"}};
+
+TEST(Xlsx, CellsStandWhereTheyAre) {
+  const auto sheets = sheets_of_xlsx(xlsx(workbook));
+  ASSERT_EQ(sheets.size(), 2u);
+  EXPECT_EQ(sheets[0].name, "one");
+  EXPECT_EQ(sheets[0].text, "Zeit\t\tWeg\t\n\n0.02\t2024-05-03 12:00:00.000000\t1.5\t\n");
+  EXPECT_EQ(sheets[0].numbers, 3u);
+  EXPECT_EQ(sheets[1].text, "a<b\t\n");
+}
+
+TEST(Xlsx, WhatIsNoneOrDamagedIsSaid) {
+  const std::string whole = xlsx(workbook);
+  EXPECT_THROW(sheets_of_xlsx(xlsx({{"content.xml", "<a/>"}})), BadFile);
+  auto broken = workbook;
+  broken[4].second = "<worksheet><sheetData>";
+  EXPECT_THROW(sheets_of_xlsx(xlsx(broken)), BadFile);
+  for (std::size_t size = 0; size < whole.size(); size += 97)
+    EXPECT_THROW(sheets_of_xlsx(whole.substr(0, size)), BadFile) << size;
+}
+
+TEST(Sheets, SerialsAreDates) {
+  EXPECT_EQ(date_of_serial(45415.598), "2024-05-03 14:21:07.200000");
+  EXPECT_EQ(date_of_serial(0.25), "06:00:00.000000");
+  EXPECT_EQ(date_of_serial(-1.0), "");
+}
+
+template <class T>
+std::string raw(T value) {
+  std::string bytes(sizeof(T), '\0');
+  std::memcpy(bytes.data(), &value, sizeof(T));
+  return bytes;
+}
+std::string text(const std::string& value) {
+  return raw(static_cast<std::uint32_t>(value.size())) + value;
+}
+
+/// Two channels of three doubles, with a rate and units.
+std::string tdms(double second_increment) {
+  std::string objects = raw(std::uint32_t{3}) + text("/'b'") + raw(0xFFFFFFFFU) + raw(std::uint32_t{0});
+  for (const auto& [name, unit, increment] : {std::tuple{"p", "bar", 0.5}, {"it''s", "mm", second_increment}})
+    objects += text(fmt::format("/'b'/'{}'", name)) + raw(std::uint32_t{20}) + raw(std::uint32_t{10}) +
+               raw(std::uint32_t{1}) + raw(std::uint64_t{3}) + raw(std::uint32_t{2}) + text("unit_string") +
+               raw(std::uint32_t{0x20}) + text(unit) + text("wf_increment") + raw(std::uint32_t{10}) +
+               raw(increment);
+  std::string values;
+  for (const double value : {1.0, 2.0, 3.0, 4.0, 5.0, 6.0}) values += raw(value);
+  const auto segment = [&](std::uint32_t contents, const std::string& meta) {
+    return "TDSm" + raw(contents) + raw(std::uint32_t{4713}) +
+           raw(std::uint64_t{meta.size() + values.size()}) + raw(std::uint64_t{meta.size()}) + meta + values;
+  };
+  return segment(2 | 4 | 8, objects) + segment(8, "");
+}
+
+TEST(Tdms, ChannelsSegmentsUnitsAndRates) {
+  const auto sheets = sheets_of_tdms(tdms(0.5));
+  ASSERT_EQ(sheets.size(), 1u);
+  EXPECT_EQ(sheets[0].text,
+            "time\tp\tit's\ns\tbar\tmm\n0\t1\t4\n0.5\t2\t5\n1\t3\t6\n1.5\t1\t4\n2\t2\t5\n2.5\t3\t6\n");
+  EXPECT_TRUE(sheets_of_tdms(tdms(0.25))[0].text.starts_with("time\tp\ttime of it's\tit's\n"))
+      << "rates differ";
+}
+
+TEST(Tdms, DamagedOnesAreRefusedOrRead) {
+  const std::string whole = tdms(0.5);
+  for (std::size_t size = 1; size < 150; ++size)
+    EXPECT_THROW(sheets_of_tdms(whole.substr(0, size)), BadFile) << size;
+  for (std::size_t at = 0; at < whole.size(); ++at) {
+    std::string spoilt = whole;
+    spoilt[at] = '\xFF';
+    try {
+      sheets_of_tdms(spoilt);
+    } catch (const BadFile&) {
+    }
+  }
+}
+
+}  // namespace
+}  // namespace mckibben::formats

@@ -1,0 +1,142 @@
+// Tables that hold several runs, or several clocks: which rows are a run's, and at which times.
+#include <cmath>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include <sim/input/dataset_file.hpp>
+
+#include "says.hpp"
+#include "scratch.hpp"
+
+namespace mckibben::input {
+namespace {
+
+class Arranged : public ::testing::Test {
+ protected:
+  /// The first run of a data set of `table`; its line of time and of contraction, and what the run says
+  /// besides.
+  Dataset read(const std::string& table, const std::string& time, const std::string& contraction,
+               const std::string& run = "", const std::string& more = "") const {
+    place_.write("r.csv", table);
+    place_.write("dataset.yaml",
+                 "schema: mckibben-dataset/1\nrig: thesis\nstart: settled\n" + more + "columns:\n  time: {" +
+                     time + "}\n  muscle_pressure: {column: p, unit: bar, as: input}\n  contraction: {" +
+                     contraction + "}\nruns:\n  - {id: r, file: r.csv, load: 5 kg" + run + "}\n");
+    return read_dataset(place_);
+  }
+  std::string refused(const std::string& table, const std::string& time, const std::string& run = "",
+                      const std::string& more = "") const {
+    try {
+      read(table, time, "column: x, unit: mm", run, more);
+    } catch (const BadInput& bad) {
+      return bad.what();
+    }
+    return "accepted";
+  }
+  static std::vector<double> times(const Dataset& data) { return data.runs[0].measured->time_s; }
+  static std::vector<double> pressures(const Dataset& data) {
+    return data.runs[0].measured->given("muscle_pressure");
+  }
+
+  Scratch place_;
+};
+
+constexpr const char* in_ms = "column: t, unit: ms";
+constexpr const char* x_mm = "column: x, unit: mm";
+constexpr const char* fills = "t,p,x\n0,1,0\n10,2,1\n20,3,2\n30,4,3\n0,1,5\n10,2,6\n20,3,7\n30,4,8\n";
+
+TEST_F(Arranged, AClockThatBeginsAgainIsAnotherRun) {
+  EXPECT_TRUE(holds(refused(fills, in_ms), "r.csv:6:1", "holds 2 runs", "segment: 1 to segment: 2"));
+  const Dataset data = read(fills, in_ms, x_mm, ", segment: 2");
+  EXPECT_EQ(times(data), (std::vector<double>{0, 0.01, 0.02, 0.03}));
+  EXPECT_NEAR(data.runs[0].measured->read("contraction")[0] * data.rig.muscle.rest_length_m, 0.005, 1e-12);
+  EXPECT_TRUE(holds(refused(fills, in_ms, ", segment: 3"), "segment = 3: the file has 2"));
+}
+
+TEST_F(Arranged, AColumnSaysWhichRowsAreARun) {
+  const std::string table = "t,p,x,cycle\n0,1,0,1\n10,2,1,1\n20,3,2,2\n30,4,3,2\n40,4,3,2\n";
+  EXPECT_EQ(times(read(table, in_ms, x_mm, ", where: {cycle: 2}")), (std::vector<double>{0.02, 0.03, 0.04}));
+  EXPECT_EQ(times(read(table, in_ms, x_mm, ", cut: cycle, segment: 2")),
+            (std::vector<double>{0.02, 0.03, 0.04}));
+  EXPECT_TRUE(holds(refused(table, in_ms, ", where: {cycle: 3}"), "no row has 3 in cycle (found: 1, 2)"));
+}
+
+TEST_F(Arranged, AMarkOfOneRowBeginsAPart) {
+  const std::string table = "t,p,x,start\n0,1,0,1\n10,2,1,0\n20,3,2,0\n30,4,3,1\n40,4,3,0\n50,4,3,0\n";
+  EXPECT_EQ(times(read(table, in_ms, x_mm, ", cut: start, segment: 2")),
+            (std::vector<double>{0.03, 0.04, 0.05}));
+}
+
+TEST_F(Arranged, AWindowOfTime) {
+  const Dataset data =
+      read("t,p,x\n100,1,0\n110,2,1\n120,3,2\n130,4,3\n", in_ms, x_mm, ", from: 10 ms, to: 20 ms");
+  EXPECT_EQ(times(data), (std::vector<double>{0.11, 0.12}));
+}
+
+TEST_F(Arranged, ReadingsWithAClockOfTheirOwn) {
+  const Dataset data = read("tp,p,tx,x\n0,1,5,1\n20,2,25,2\n40,3,45,3\n60,4,65,4\n", "column: tp, unit: ms",
+                            "column: x, unit: mm, time: tx");
+  EXPECT_EQ(times(data), (std::vector<double>{0, 0.005, 0.02, 0.025, 0.04, 0.045, 0.06}));
+  EXPECT_NEAR(pressures(data)[1], 1.25e5, 1e-6) << "a given pressure runs straight";
+  EXPECT_TRUE(std::isnan(data.runs[0].measured->read("contraction")[0]));
+}
+
+TEST_F(Arranged, ALongTableIsTurned) {
+  place_.write("r.csv", "t,what,value\n0,p,1\n5,x,1\n20,p,2\n25,x,2\n40,p,3\n");
+  place_.write("dataset.yaml",
+               "schema: mckibben-dataset/1\nrig: thesis\ncolumns:\n  time: {column: t, unit: ms}\n  "
+               "muscle_pressure: {column: "
+               "value, unit: bar, as: input, where: {what: p}}\n  contraction: {column: value, unit: mm, "
+               "where: {what: "
+               "x}}\nruns: [{id: r, file: r.csv, load: 5 kg}]\n");
+  const Dataset data = read_dataset(place_);
+  EXPECT_EQ(times(data), (std::vector<double>{0, 0.005, 0.02, 0.025, 0.04}));
+  EXPECT_NEAR(pressures(data)[3], 2.25e5, 1e-6);
+}
+
+TEST_F(Arranged, GapsOfAGivenPressureAreBridgedSoFar) {
+  const std::string gap = "t,p,x\n0,1,0\n100,,1\n200,3,2\n300,4,3\n";
+  EXPECT_NEAR(pressures(read(gap, in_ms, x_mm))[1], 2e5, 1e-6);
+  EXPECT_NEAR(pressures(read(gap, in_ms, x_mm, "", "hold: previous\n"))[1], 1e5, 1e-6);
+  EXPECT_TRUE(holds(refused(gap, in_ms, "", "bridge: 0.1 s\n"), "r.csv:3:5",
+                    "p: it is missing here, for 0.2 s", "bridge"));
+  EXPECT_TRUE(holds(refused("t,p,x\n0,,0\n10,2,1\n20,3,1\n", in_ms), "r.csv:2:3",
+                    "p: it is missing here; the run could begin later: from: 0.01 s"));
+}
+
+TEST_F(Arranged, IntervalsAddUp) {
+  EXPECT_EQ(times(read("dt,p,x\n20,1,0\n20,2,1\n30,3,2\n", "column: dt, unit: ms, as: interval", x_mm)),
+            (std::vector<double>{0, 0.02, 0.05}));
+}
+
+TEST_F(Arranged, StampsOfACoarseClockLieEvenly) {
+  std::string table = "t,p,x\n";
+  for (int k = 0; k < 20; ++k) table += std::to_string(k / 2) + ",1,0\n";
+  const Dataset data = read(table, in_ms, x_mm);
+  EXPECT_NEAR(times(data)[1], 0.0005, 1e-12);
+  EXPECT_NEAR(times(data)[19], 0.0095, 1e-12);
+  ASSERT_EQ(data.remarks.size(), 1u);
+  EXPECT_TRUE(holds(data.remarks[0], "repeats 10 of 20 stamps"));
+  EXPECT_TRUE(holds(refused("t,p,x\n0,1,0\n10,2,1\n10,3,1\n20,3,1\n", in_ms), "is repeated"))
+      << "one row twice";
+}
+
+TEST_F(Arranged, StampsSince1970LoseNoDigit) {
+  const Dataset data =
+      read("t,p,x\n1700000000123456789,1,0\n1700000000123456889,2,1\n1700000000143456789,3,2\n",
+           "column: t, unit: ns", x_mm);
+  EXPECT_DOUBLE_EQ(times(data)[1], 1e-7);
+  EXPECT_DOUBLE_EQ(times(data)[2], 0.02);
+  EXPECT_TRUE(holds(data.remarks.at(0), "stamps begin at 1700000000123456789"));
+}
+
+TEST_F(Arranged, AHeadingThatContradictsTheMapIsAsked) {
+  EXPECT_TRUE(holds(refused("t_ms,p,x\n0,1,0\n10,2,1\n20,3,2\n", "column: t_ms, unit: s"),
+                    "its heading says ms, and it is read in s", "time: {column: t_ms, unit: ms}",
+                    "factor: 1"));
+  EXPECT_EQ(refused("t_ms,p,x\n0,1,0\n10,2,1\n20,3,2\n", "column: t_ms, unit: s, factor: 1"), "accepted");
+}
+
+}  // namespace
+}  // namespace mckibben::input

@@ -1,0 +1,101 @@
+// What cannot be in measured data is said before anything is simulated, with the line to write.
+#include <functional>
+#include <string>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <sim/data/plausible.hpp>
+#include <sim/input/dataset_file.hpp>
+
+#include "says.hpp"
+#include "scratch.hpp"
+
+namespace mckibben::data {
+namespace {
+
+class PlausibleData : public ::testing::Test {
+ protected:
+  using Row = std::function<std::string(int)>;
+  static std::string good(int k) {
+    return fmt::format("{},{:.3f},{:.2f}", 10 * k, 0.3 + 0.01 * k, 0.157 * k);
+  }
+
+  /// Of two runs the first of which has these rows.
+  std::vector<Finding> find(const Row& row, const std::string& time = "ms",
+                            const std::string& pressure = "bar", const std::string& second = "b.csv") const {
+    std::string text = "t,p,x\n", other = text;
+    for (int k = 0; k < 200; ++k) text += row(k) + "\n";
+    for (int k = 0; k < 200; ++k)
+      other += fmt::format("{},{:.3f},{:.2f}\n", 10 * k, 0.2 + 0.011 * k, 0.163 * k);
+    place_.write("a.csv", text);
+    place_.write("b.csv", other);
+    place_.write(
+        "dataset.yaml",
+        fmt::format(
+            "schema: mckibben-dataset/1\nrig: festo_dmsp_10\ncolumns:\n  time: {{column: t, unit: ms}}\n"
+            "  muscle_pressure: {{column: p, unit: bar, as: input}}\n  contraction: {{column: x, unit: mm}}\n"
+            "runs:\n  - {{id: a, file: a.csv, load: 5 kg, columns: {{time: {{column: t, unit: {}}}, "
+            "muscle_pressure: {{column: p, unit: {}, as: input}}}}}}\n"
+            "  - {{id: b, file: {}, load: 9 kg}}\n",
+            time, pressure, second));
+    return implausible(input::read_dataset(place_));
+  }
+  static std::string said(const std::vector<Finding>& findings) {
+    std::string text;
+    for (const Finding& one : findings)
+      text += (one.severity == Severity::refused ? "refused: " : "doubtful: ") + one.message + "\n";
+    return text;
+  }
+
+  Scratch place_;
+};
+
+TEST_F(PlausibleData, WhatIsSoundIsSilent) {
+  EXPECT_EQ(said(find(good)), "");
+}
+
+TEST_F(PlausibleData, RunsThatLastNextToNothingOrHours) {
+  EXPECT_TRUE(
+      holds(said(find(good, "us")), "refused: lasts 1.99 ms, its 200 rows are 10 us apart", "unit: ms"));
+  EXPECT_TRUE(
+      holds(said(find([](int k) { return fmt::format("{},{},{}", 1000 * k, 0.3 + 0.01 * k, k); }, "s")),
+            "doubtful: lasts 55.3 h, its rows are 1e+03 s apart", "unit: ms"));
+}
+
+TEST_F(PlausibleData, AGapInTheStamps) {
+  EXPECT_TRUE(holds(said(find([](int k) {
+                      return fmt::format("{},{},{}", 10 * k + (k > 50 ? 500 : 0), 0.3 + 0.01 * k, k);
+                    })),
+                    "doubtful: no rows from 0.5 s to 1.01 s", "from: or to:"));
+}
+
+TEST_F(PlausibleData, AReadingThatNeverMoves) {
+  EXPECT_TRUE(holds(said(find([](int k) { return fmt::format("{},{},7.5", 10 * k, 0.3 + 0.01 * k); })),
+                    "doubtful: contraction never moves", "is x the right column"));
+}
+
+TEST_F(PlausibleData, PressuresThatCannotBe) {
+  EXPECT_TRUE(holds(said(find([](int k) { return fmt::format("{},{},{}", 10 * k, 4.0 + 0.4 * k, k); })),
+                    "refused: muscle_pressure is up to 83.6 bar", "unit: psi"));
+  EXPECT_TRUE(holds(said(find(good, "ms", "mbar")), "refused: muscle_pressure is never above 0.00229 bar",
+                    "unit: bar"));
+  EXPECT_TRUE(holds(said(find([](int k) {
+                      return fmt::format("{},{},{}", 10 * k, k < 40 ? 1.012 : 1.012 + 0.02 * (k - 40), k);
+                    })),
+                    "doubtful: muscle_pressure rests at 1.012 bar: is it absolute?", "zero: 1.013"));
+}
+
+TEST_F(PlausibleData, OneFileUnderTwoLoads) {
+  EXPECT_TRUE(holds(said(find(good, "ms", "bar", "a.csv")),
+                    "doubtful: holds the same rows as run a, under another load (5 and 9 kg)"));
+}
+
+TEST_F(PlausibleData, StepsCoarserThanTheSensor) {
+  EXPECT_TRUE(
+      holds(said(find([](int k) { return fmt::format("{},{},{}", 10 * k, 0.3 + 0.01 * k, k / 20 * 2); })),
+            "doubtful: contraction is in steps", "resolution"));
+}
+
+}  // namespace
+}  // namespace mckibben::data
