@@ -1,15 +1,15 @@
 // The verb `diagnose`: what a rig lacks, found in measured runs.
 #include <cstdio>
 #include <filesystem>
+#include <limits>
 #include <string>
 #include <vector>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <sim/cli/results.hpp>
 #include <sim/cli/verbs.hpp>
-#include <sim/diagnose/diagnose.hpp>
+#include <sim/diagnose/diagnosis.hpp>
 #include <sim/engine/failure.hpp>
 #include <sim/input/dataset_file.hpp>
 #include <sim/input/rigs.hpp>
@@ -51,22 +51,8 @@ struct DiagnoseOptions : Options {
   std::string rig;                      ///< replaces the data set's; empty for none
   std::vector<std::string> hypotheses;  ///< files of laws that join the catalogue
   std::string plan;  ///< where to write the next experiment as a campaign; empty for nowhere
-  double time_limit_s = 300.0;
+  double time_limit_s = std::numeric_limits<double>::infinity();
 };
-
-/// Says what is known so far where it is interrupted.
-tasks::Found find(const domain::Dataset& data, const DiagnoseOptions& options,
-                  const std::vector<std::string>& warnings, const run::ProgressHook& hook) {
-  std::vector<std::string> known;
-  const diagnose::Settings settings{options.threads, options.seed.value_or(1), options.time_limit_s, warnings,
-                                    [&](const std::string& what) { known.push_back(what); }};
-  try {
-    return tasks::find(data, settings, hook);
-  } catch (const run::Interrupted&) {
-    if (!known.empty()) fmt::print(stderr, "known so far:\n  {}\n", fmt::join(known, "\n  "));
-    throw;
-  }
-}
 
 int diagnose_dataset(const DiagnoseOptions& options) {
   domain::Dataset data = input::read_dataset(options.dataset);
@@ -77,7 +63,8 @@ int diagnose_dataset(const DiagnoseOptions& options) {
   Job job(options, "diagnose " + options.dataset, "diagnose-" + name, data.inputs);
   tasks::Found found;
   try {
-    found = with_progress(name, [&](const auto& hook) { return find(data, options, warnings, hook); });
+    const tasks::Diagnosing how{options.threads, options.seed.value_or(1), options.time_limit_s, warnings};
+    found = with_progress(name, [&](const auto& hook) { return tasks::find(data, how, hook); });
   } catch (const engine::NumericalFailure& error) {
     say(fmt::format("the data cannot be simulated on this rig: {}", error.what()));
     return failure;
@@ -113,9 +100,10 @@ void add_diagnose(CLI::App& app, Asked& asked) {
   verb.add_option("--plan", options.plan,
                   "Write the measurement that would tell more, if one would, as a campaign")
       ->type_name("FILE");
-  add_quantity(verb, "--time-limit", options.time_limit_s, "s", 1e6,
-               "When the search ends with what it has found (default: 5 min); Ctrl-C ends it as well",
-               "TIME");
+  add_quantity(
+      verb, "--time-limit", options.time_limit_s, "s", 1e6,
+      "End the search then, with the best so far (default: when it is through); Ctrl-C ends it as well",
+      "TIME");
   verb.footer(
       "Examples:\n"
       "  mckibben diagnose measured/\n"

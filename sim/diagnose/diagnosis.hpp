@@ -213,6 +213,10 @@ struct Explanation {
   double held_out_rmse = 0.0;
   bool as_good = false;  ///< as the one that is chosen, or better; if none is, as the best
   bool chosen = false;
+  double nats = 0.0;  ///< behind the most probable one
+  double held_out_nats = 0.0,
+         held_out_error = 0.0;  ///< predicts unseen runs worse by, with its standard error
+  double mass = 0.0;            ///< of the posterior
 };
 constexpr auto names(Explanation::Kind) {
   using enum Explanation::Kind;
@@ -239,6 +243,16 @@ struct FaultyRun {
   std::string action;   ///< corrected, left out
   std::string words;    ///< after the run's name: "is 3 ticks late and was shifted"
   bool common = false;  ///< all runs have it
+};
+
+/// A mistake of the bench or of the recorder: no effect of the rig.
+struct BenchFault {
+  std::string name;                 ///< load_label, loads_differ, zeros_differ, gains_differ, reading_clock
+  std::vector<std::string> runs{};  ///< that have it
+  FittedNumber size{};  ///< a load: what to add to it, or its factor less 1; a reading: what it is
+                        ///< too high by, or its factor less 1; a clock: what it is slow by, of 1
+  std::string write{};  ///< what mends it in the data set
+  std::string words{};  ///< a clause: "the load of run r05 is 2.1 kg less than written"
 };
 
 /// The error of a reading beside the one that is judged, on the runs held out; in its SI unit.
@@ -288,6 +302,7 @@ struct NextExperiment {
 struct Diagnosis {
   Verdict verdict = Verdict::cannot_tell;
   std::string because;  ///< the verdict in a sentence
+  std::vector<BenchFault> bench{};
   std::vector<NamedEffect> effects{};
   std::vector<NamedEffect> stand_ins{};  ///< in the corrected rig, but no names
   std::vector<Moved> recalibrated{};     ///< as in the corrected rig
@@ -311,6 +326,8 @@ struct Diagnosis {
   Ended ended = Ended::no;          ///< the search, before it was through
   double time_limit_s = 0.0;
   std::vector<std::string> not_done{};  ///< of it
+  std::string cannot_tell{};            ///< why data cannot decide, where that is known before
+  bool contradicts_sheet = false;       ///< the answer needs parameters that the sheet all but rules out
   std::string unexplained{};            ///< runs that no model comes near, in words
   plant::Rig corrected{};
   double false_alarm_rate = 0.0;  ///< that the thresholds were set for

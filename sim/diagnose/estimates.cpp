@@ -14,6 +14,8 @@ namespace {
 
 constexpr std::string_view law_terms = "effects.residual_law.terms.";
 
+}  // namespace
+
 std::string words(const plant::ForceTerm& term) {
   if (term.of == plant::Basis::sine) {
     const bool shifted = std::abs(term.phase_rad) >= thresholds.law.told_phase;
@@ -24,8 +26,6 @@ std::string words(const plant::ForceTerm& term) {
   }
   return std::string(plant::name_of(term.of));
 }
-
-}  // namespace
 
 void tell_parameters(Diagnosis& diagnosis, const Model& model, const std::vector<Bounds>& bounds,
                      const Rig& recalibrated) {

@@ -2,6 +2,7 @@
 // or what has moved and what absorbed what.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include <sim/diagnose/diagnosis.hpp>
@@ -9,6 +10,9 @@
 #include <sim/diagnose/interval.hpp>
 
 namespace mckibben::diagnose {
+
+/// What a term of a law stands for: "P e", "sin(2 pi x / 12.000 mm + 0.40 rad)".
+std::string words(const plant::ForceTerm& term);
 
 /// Files the free parameters of the final fit under effects, law and nominal parameters. `bounds`: one for
 /// each free parameter; `recalibrated`: the rig fitted without effects.

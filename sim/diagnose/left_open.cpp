@@ -117,12 +117,6 @@ std::vector<Group> grouped(const std::vector<Direction>& directions) {
   return groups;
 }
 
-/// A number of the rig as it was fitted.
-struct FittedOne {
-  std::string path, unit;
-  double value, scale;  ///< the latter of the value; of one that counts in logarithms the value itself
-};
-
 /// The one combination of a group's numbers that is known: the weights of their changes, the largest 1.
 /// `relative`: changes over the numbers themselves.
 Eigen::VectorXd known_combination(const Group& group, const std::vector<FittedOne>& all, bool relative) {
@@ -203,6 +197,12 @@ LeftOpen told(const Group& group, const std::vector<FittedOne>& all) {
 
 }  // namespace
 
+std::vector<LeftOpen> left_open(const Eigen::MatrixXd& information, const std::vector<FittedOne>& numbers) {
+  std::vector<LeftOpen> list;
+  for (const Group& group : grouped(open_directions(information))) list.push_back(told(group, numbers));
+  return list;
+}
+
 std::vector<LeftOpen> left_open(const Fitted& fitted, double inflation) {
   const Eigen::MatrixXd information = fitted.columns.transpose() * fitted.columns / inflation;
   std::vector<FittedOne> numbers;
@@ -211,9 +211,7 @@ std::vector<LeftOpen> left_open(const Fitted& fitted, double inflation) {
     const Found found = find(rig, p.path);
     numbers.push_back({p.path, found.unit, *found.value, p.logarithmic ? *found.value : p.scale});
   }
-  std::vector<LeftOpen> list;
-  for (const Group& group : grouped(open_directions(information))) list.push_back(told(group, numbers));
-  return list;
+  return left_open(information, numbers);
 }
 
 }  // namespace mckibben::diagnose

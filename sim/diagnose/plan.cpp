@@ -192,18 +192,18 @@ std::vector<std::size_t> largest(const std::vector<double>& values, std::size_t 
 
 }  // namespace
 
-std::optional<NextExperiment> plan(const Experiment& experiment, const Fitted& one, const Fitted& other,
-                                   std::vector<std::string> names, double inflation, double long_variance) {
-  const std::vector<Item> items = menu(one.model.rig);
-  const std::vector<double> loads = loads_kg(experiment.data(), one.model.rig);
+std::optional<NextExperiment> plan(const domain::Dataset& data, unsigned threads, const Rig& one,
+                                   const Rig& other, std::vector<std::string> names, const Power& power_of) {
+  const std::vector<Item> items = menu(one);
+  const std::vector<double> loads = loads_kg(data, one);
   const auto run_of = [&](std::size_t job) {
-    return played(items[job % items.size()], one.model.rig, loads[job / items.size()]);
+    return played(items[job % items.size()], one, loads[job / items.size()]);
   };
   // What cannot be simulated stays at 0.
   const auto for_each = [&](std::size_t count, const std::function<double(std::size_t)>& value) {
     std::vector<double> values(count, 0.0);
     run::for_each_job(
-        count, experiment.threads(),
+        count, threads,
         [&](std::size_t i) {
           try {
             values[i] = value(i);
@@ -216,21 +216,13 @@ std::optional<NextExperiment> plan(const Experiment& experiment, const Fitted& o
   };
   const auto apart = for_each(items.size() * loads.size(), [&](std::size_t job) {
     const auto run = run_of(job);
-    const Loaded both[] = {{one.model.rig, run.load_kg}, {other.model.rig, run.load_kg}};
-    const auto readings = predict(run, both, experiment.data().rig.integrator.method);
+    const Loaded both[] = {{one, run.load_kg}, {other, run.load_kg}};
+    const auto readings = predict(run, both, data.rig.integrator.method);
     return unexplained(readings[0].judged, readings[1].judged);
   });
   const auto promising = largest(apart, thresholds.plan.refitted);
-  const auto powers = for_each(promising.size(), [&](std::size_t i) {
-    const auto run = run_of(promising[i]);
-    const Foretold by_one = foretold(experiment, one.model, run),
-                   by_other = foretold(experiment, other.model, run);
-    const double more = static_cast<double>(by_one.readings.size()) / inflation;
-    return std::min(power(misfit_beside(other, by_other, by_one.readings, inflation), one.cost + more,
-                          inflation, long_variance),
-                    power(misfit_beside(one, by_one, by_other.readings, inflation), other.cost + more,
-                          inflation, long_variance));
-  });
+  const auto powers =
+      for_each(promising.size(), [&](std::size_t i) { return power_of(run_of(promising[i])); });
   const auto best = std::ranges::max_element(powers);
   if (best == powers.end() || *best < thresholds.plan.least_power) return std::nullopt;
   const std::size_t job = promising[static_cast<std::size_t>(best - powers.begin())];
@@ -243,6 +235,20 @@ std::optional<NextExperiment> plan(const Experiment& experiment, const Fitted& o
       .load_kg = loads[job / items.size()],
       .expected_power = *best,
       .measurement = chosen.current};
+}
+
+std::optional<NextExperiment> plan(const Experiment& experiment, const Fitted& one, const Fitted& other,
+                                   std::vector<std::string> names, double inflation, double long_variance) {
+  return plan(experiment.data(), experiment.threads(), one.model.rig, other.model.rig, std::move(names),
+              [&](const domain::Run& run) {
+                const Foretold by_one = foretold(experiment, one.model, run),
+                               by_other = foretold(experiment, other.model, run);
+                const double more = static_cast<double>(by_one.readings.size()) / inflation;
+                return std::min(power(misfit_beside(other, by_other, by_one.readings, inflation),
+                                      one.cost + more, inflation, long_variance),
+                                power(misfit_beside(one, by_one, by_other.readings, inflation),
+                                      other.cost + more, inflation, long_variance));
+              });
 }
 
 }  // namespace mckibben::diagnose

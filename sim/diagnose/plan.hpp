@@ -3,6 +3,7 @@
 // the rival fitted again to each).
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,6 +12,14 @@
 #include <sim/diagnose/fit.hpp>
 
 namespace mckibben::diagnose {
+
+/// Probability that a measurement ends a doubt: a run with a current and a load, nothing read.
+using Power = std::function<double(const domain::Run& run)>;
+
+/// The measurement of a menu of currents, under loads of the data set, of which that is highest, looked for
+/// among those in which two rigs differ most; none if even that is below 10 %. Throws run::Interrupted.
+std::optional<NextExperiment> plan(const domain::Dataset& data, unsigned threads, const Rig& one,
+                                   const Rig& other, std::vector<std::string> names, const Power& power);
 
 /// From a menu of currents of 10 s, under the data set's loads and half and 1.3 times these as far as the rig
 /// lifts them, the experiment that most probably ends the doubt between two fits to the same runs.

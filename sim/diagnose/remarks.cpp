@@ -26,6 +26,20 @@ std::string noise_of_given_pressure(const domain::Dataset& data, const NoiseFloo
 
 }  // namespace
 
+std::vector<std::string> noise_in_words(const domain::Dataset& data, const NoiseFloor& floor) {
+  if (floor.repeats >= floor.judged)
+    return {
+        fmt::format("equal runs differ by {:.2g} {} (rms over sqrt 2), more than a count "
+                    "and its jitter explain: this is taken for the noise floor",
+                    floor.repeats, data::unit_in_words(data.judged()))};
+  if (floor.noisy)
+    return {
+        fmt::format("{} scatters by {:.2g} from tick to tick (rms), far more than counts "
+                    "do: this is taken for the noise floor",
+                    data.judged() == Judged::angle ? "angle_rad" : "contraction_ratio", floor.jitter)};
+  return {};
+}
+
 std::vector<std::string> sheets_in_words(const domain::Dataset& data, const NoiseFloor& floor) {
   std::vector<std::string> words;
   if (floor.command > 0.0)

@@ -12,6 +12,9 @@
 
 namespace mckibben::diagnose {
 
+/// Where more than counts makes the noise floor.
+std::vector<std::string> noise_in_words(const domain::Dataset& data, const NoiseFloor& floor);
+
 /// What data sheets add to the noise floor.
 std::vector<std::string> sheets_in_words(const domain::Dataset& data, const NoiseFloor& floor);
 

@@ -11,7 +11,7 @@
 
 namespace mckibben::diagnose {
 
-enum class Ended { no, by_time, by_user };
+enum class Ended { no, by_time, by_user, by_work };
 
 class Search {
  public:

@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <functional>
+#include <span>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -62,6 +64,17 @@ std::string what_is_judged(const Diagnosis& d) {
   return "the load's height";
 }
 
+std::string bench_in_words(const Diagnosis& d) {
+  constexpr std::size_t short_enough = 60;
+  std::string text;
+  for (const BenchFault& fault : d.bench) {
+    text += capitalised(fault.words);
+    if (fault.write.size() < short_enough) text += fmt::format(" (in the data set: {})", fault.write);
+    text += ". ";
+  }
+  return text;
+}
+
 std::string gap_in_words(const Diagnosis& d) {
   return fmt::format(
       "On runs that the fit has not seen the error of {} falls from {} to {}; the instruments cannot see "
@@ -82,6 +95,7 @@ std::string exceeded_in_words(const Diagnosis& d) {
         "where the value comes from. ",
         m.fitted.name, deviation, m.fitted.unit == "1" ? "" : " " + m.fitted.unit, std::abs(m.deviations));
   }
+  if (d.contradicts_sheet) text += "So far off that something else may be missing in their place. ";
   return text;
 }
 
@@ -182,12 +196,19 @@ std::string counted_in_words(const std::vector<LawTerm>& law) {
 }
 
 std::string law_in_words(const Diagnosis& d) {
+  constexpr std::size_t most = 4;  // terms in a sentence, the largest
+  std::vector<LawTerm> terms = d.residual_law;
+  std::ranges::stable_sort(terms, std::greater{},
+                           [](const LawTerm& term) { return std::abs(term.coefficient.value); });
+  const std::size_t more = terms.size() > most ? terms.size() - most : 0;
+  if (more == 0) terms = d.residual_law;
   std::string law;
-  for (const LawTerm& term : d.residual_law) {
+  for (const LawTerm& term : std::span(terms).first(terms.size() - more)) {
     const double force_N = domain::significant(term.coefficient.value, 3);
     const char* sign = law.empty() ? "" : force_N < 0.0 ? " - " : " + ";
     law += fmt::format("{}{} N x {}", sign, law.empty() ? force_N : std::abs(force_N), term.term);
   }
+  if (more > 0) law += fmt::format(" and {} smaller terms", more);
   law += counted_in_words(d.residual_law);
   if (law.empty() && !d.stand_ins.empty())
     return fmt::format("Something real is missing that no effect of the catalogue explains.{} {}",
@@ -201,8 +222,11 @@ std::string law_in_words(const Diagnosis& d) {
 }
 
 std::string cannot_tell_in_words(const Diagnosis& d) {
+  const std::string nearer =
+      d.gap.corrected_rmse < d.gap.nominal_rmse ? " " + gap_in_words(d) : std::string();
+  if (!d.cannot_tell.empty()) return d.cannot_tell + nearer;
   if (d.ended != Ended::no)
-    return "Nothing that was found until then tells what is missing, or that nothing is.";
+    return "Nothing that was found until then tells what is missing, or that nothing is." + nearer;
   if (!d.unexplained.empty())
     return fmt::format(
         "Something is wrong that these data do not settle: no model comes near every run (in noise floors: "
@@ -219,10 +243,11 @@ std::string cannot_tell_in_words(const Diagnosis& d) {
 /// Empty if it was through.
 std::string search_in_words(const Diagnosis& d) {
   if (d.ended == Ended::no) return {};
-  return fmt::format(
-      "The search was ended {} before it was through; not done to the end: {}. ",
-      d.ended == Ended::by_user ? "by you" : fmt::format("by its time limit of {:g} s", d.time_limit_s),
-      fmt::join(d.not_done, "; "));
+  return fmt::format(" The search was ended {} before it was through; not done to the end: {}.",
+                     d.ended == Ended::by_user   ? "by you"
+                     : d.ended == Ended::by_work ? "after as many simulations as it may make"
+                                                 : fmt::format("by its time limit of {:g} s", d.time_limit_s),
+                     fmt::join(d.not_done, "; "));
 }
 
 std::string verdict_in_words(const Diagnosis& d) {
@@ -248,7 +273,9 @@ std::string verdict_in_words(const Diagnosis& d) {
 }  // namespace
 
 std::string because(const Diagnosis& diagnosis) {
-  return search_in_words(diagnosis) + faults_in_words(diagnosis) + verdict_in_words(diagnosis);
+  return bench_in_words(diagnosis) + faults_in_words(diagnosis) +
+         (diagnosis.ended == Ended::no ? "" : "So far: ") + verdict_in_words(diagnosis) +
+         search_in_words(diagnosis);
 }
 
 }  // namespace mckibben::diagnose

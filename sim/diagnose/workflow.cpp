@@ -107,16 +107,7 @@ void Workflow::tell_check() {
   evidence_.common_fault = std::any_of(checked_.faulty.begin(), checked_.faulty.end(),
                                        [](const FaultyRun& faulty) { return faulty.common; });
   const NoiseFloor& floor = experiment_.floor();
-  if (floor.repeats >= floor.judged)
-    warn(
-        fmt::format("equal runs differ by {:.2g} {} (rms over sqrt 2), more than a count "
-                    "and its jitter explain: this is taken for the noise floor",
-                    floor.repeats, data::unit_in_words(judged())));
-  else if (floor.noisy)
-    warn(
-        fmt::format("{} scatters by {:.2g} from tick to tick (rms), far more than counts "
-                    "do: this is taken for the noise floor",
-                    judged() == Judged::angle ? "angle_rad" : "contraction_ratio", floor.jitter));
+  for (const std::string& what : noise_in_words(data_, floor)) warn(what);
   for (const std::string& what : sheets_in_words(data_, floor)) warn(what);
   for (const std::string& what : rows_in_words(data_, floor)) warn(what);
   if (carries(nominal_, plant::ResidualForce::name))

@@ -1,52 +1,254 @@
 // See the header.
+#include <algorithm>
 #include <cmath>
+#include <functional>
+#include <limits>
+#include <map>
+#include <utility>
 
-#include <fmt/format.h>
+#include <Eigen/Cholesky>
 
+#include <sim/diagnose/estimates.hpp>
+#include <sim/diagnose/left_open.hpp>
+#include <sim/diagnose/thresholds.hpp>
+#include <sim/domain/number.hpp>
 #include <sim/identify/estimates.hpp>
+#include <sim/identify/quadratic.hpp>
 
 namespace mckibben::identify {
+
+using diagnose::FittedNumber, Eigen::Index;
+
 namespace {
 
-/// Calls `visit` with each number of a kind: its coordinate, where it is, its deviation, in units of its
-/// prior.
-template <class Visit>
-void each(const Model& model, const Visit& visit) {
+constexpr double half_95 = diagnose::thresholds.interval.normal;
+constexpr double unknown = 0.8;  // of the prior's variance: the data have hardly narrowed it
+constexpr double fine = 0.2;     // of what a number alone may be off by: a digit that is worth writing
+
+Eigen::VectorXd step_to_most_probable(const Model& model) {
   const Eigen::VectorXd v = model.problem->dictionary.vector(model.point);
-  Eigen::Index j = 0;
-  for (const Coordinate& one : model.problem->dictionary.coordinates(model.point)) {
-    visit(one, v[j], std::sqrt(model.covariance(j, j)));
-    ++j;
-  }
+  const Eigen::VectorXd pull =
+      model.grams.sum().col(0).tail(v.size()) - model.variance().cwiseInverse().cwiseProduct(v);
+  return model.covariance * pull;
 }
+
+/// The nearest that has only the digits that a deviation of so much leaves.
+double with_digits(double value, double deviation) {
+  if (value == 0.0 || !(deviation > 0.0) || !std::isfinite(deviation)) return value;
+  const double digits =
+      std::floor(std::log10(std::abs(value))) - std::floor(std::log10(fine * deviation)) + 1.0;
+  return digits > 9.0 ? value : domain::significant(value, static_cast<int>(std::max(digits, 1.0)));
+}
+
+/// Gathers what is reported of one model.
+class Estimating {
+ public:
+  explicit Estimating(const Model& model)
+      : model_(model),
+        dictionary_(model.problem->dictionary),
+        point_(most_probable(model)),
+        v_(dictionary_.vector(point_)),
+        variance_(model.variance()),
+        curvature_(curvature(model.grams.sum(), variance_.cwiseInverse())),
+        list_(dictionary_.coordinates(point_)) {}
+
+  Estimates operator()() {
+    result_.rig = dictionary_.setting(point_).rig;
+    round_parameters();
+    for (std::size_t i = 0; i < point_.effects.size(); ++i) add(i);
+    for (Index j = 0; j < std::ssize(list_); ++j)
+      if (list_[static_cast<std::size_t>(j)].kind == Kind::parameter) move(j);
+    find_law();
+    find_left_open();
+    return std::move(result_);
+  }
+
+ private:
+  double deviation(Index j) const { return std::sqrt(model_.covariance(j, j)); }
+  /// Where all others stand.
+  double alone(Index j) const { return 1.0 / std::sqrt(curvature_(j, j)); }
+  bool determined(Index j) const { return model_.covariance(j, j) < unknown * variance_[j]; }
+  const Dictionary::Free& parameter(Index j) const {
+    return dictionary_.parameters[list_[static_cast<std::size_t>(j)].of];
+  }
+  static bool of_bench(const Dictionary::Free& p) { return p.path == "bench.zero"; }
+
+  std::vector<std::string> paths_of(const Dictionary::Free& p) const {
+    const std::string other = std::string(diagnose::of_muscle_2) + p.path;
+    if (p.difference) return {other};
+    return p.both_sides ? std::vector{p.path, other} : std::vector{p.path};
+  }
+
+  void round_parameters() {
+    std::map<std::string, double> finest;
+    for (Index j = 0; j < std::ssize(list_); ++j) {
+      if (list_[static_cast<std::size_t>(j)].kind != Kind::parameter || v_[j] == 0.0) continue;
+      const auto& p = parameter(j);
+      if (of_bench(p)) continue;
+      for (const std::string& path : paths_of(p)) {
+        const auto known = finest.emplace(path, p.scale * alone(j)).first;
+        known->second = std::min(known->second, p.scale * alone(j));
+      }
+    }
+    for (const auto& [path, off] : finest) {
+      const diagnose::Found found = diagnose::find(result_.rig, path);
+      *found.value = std::clamp(with_digits(*found.value, off), found.lowest, found.highest);
+    }
+  }
+
+  /// `value`: of z, ascending or descending.
+  FittedNumber number(std::string name, std::string unit, Index j, double lowest, double highest,
+                      const std::function<double(double)>& value) const {
+    const double z = v_[j], half = of_95 * deviation(j);
+    const auto [low, high] =
+        std::minmax(value(std::max(z - half, lowest)), value(std::min(z + half, highest)));
+    return {.name = std::move(name),
+            .unit = std::move(unit),
+            .value = value(z),
+            .low = low,
+            .high = high,
+            .determined = determined(j)};
+  }
+
+  Index place_of(Kind kind, std::size_t of) const {
+    const auto at =
+        std::ranges::find_if(list_, [&](const Coordinate& one) { return one.kind == kind && one.of == of; });
+    return at - list_.begin();
+  }
+
+  void add(std::size_t i) {
+    const Added& added = point_.effects[i];
+    const Entry& entry = dictionary_.entries[added.entry];
+    const Index of_size = place_of(Kind::size, i);
+    const auto size = [&](double z) { return entry.absent + entry.typical * z; };
+    const double lowest = entry.either_sign ? entry.lowest : 0.0;
+    if (entry.bench != nullptr) {
+      const bool mass = entry.bench->of == &Bench::load_offset_kg;
+      result_.bench.push_back(
+          number(std::string(entry.bench->variant), mass ? "kg" : "1", of_size, lowest, entry.highest, size));
+      return;
+    }
+    const diagnose::Candidate& effect = *entry.effect;
+    diagnose::NamedEffect named{.name = effect.effect, .variant = effect.variant, .side = effect.side};
+    const auto take = [&](const std::string& path, FittedNumber fitted, double off) {
+      const diagnose::Found found = diagnose::find(result_.rig, path);
+      fitted.unit = found.unit;
+      fitted.value = std::clamp(with_digits(fitted.value, off), found.lowest, found.highest);
+      named.parameters.push_back(std::move(fitted));
+      return named.parameters.back().value;
+    };
+    const auto key = [](const std::string& path) { return path.substr(path.rfind('.') + 1); };
+    const double rounded =
+        take(effect.amplitude, number(key(effect.amplitude), "", of_size, lowest, entry.highest, size),
+             std::abs(entry.typical) * alone(of_size));
+    if (entry.has_shape()) {
+      const Index of_shape = place_of(Kind::shape, i);
+      const auto shape = [&](double z) { return entry.shape_middle * std::exp(entry.shape_sd * z); };
+      const double with =
+          take(effect.shape, number(key(effect.shape), "", of_shape, -infinite, infinite, shape),
+               shape(added.shape) * entry.shape_sd * alone(of_shape));
+      effect.put(result_.rig, rounded, with);
+    } else {
+      effect.put(result_.rig, rounded);
+    }
+    result_.effects.push_back(std::move(named));
+  }
+
+  void move(Index j) {
+    const auto& p = parameter(j);
+    if (of_bench(p)) return;
+    const std::string path = paths_of(p).front();
+    double off = deviation(j), from = p.origin, z = v_[j];
+    if (p.difference) {  // as muscle 2's own, of which the shared one is a part
+      const auto shared = std::ranges::find_if(list_, [&](const Coordinate& one) {
+        return one.kind == Kind::parameter && !dictionary_.parameters[one.of].difference &&
+               dictionary_.parameters[one.of].path == p.path;
+      });
+      const Index i = shared - list_.begin();
+      from = parameter(i).origin;
+      z += v_[i];
+      off = std::sqrt(
+          std::max(model_.covariance(i, i) + model_.covariance(j, j) + 2.0 * model_.covariance(i, j), 0.0));
+    }
+    const diagnose::Found found = diagnose::find(result_.rig, path);
+    const double value = *found.value, half = of_95 * p.scale * off;
+    diagnose::Moved moved{.fitted = {.name = path,
+                                     .unit = std::string(found.unit),
+                                     .value = value,
+                                     .low = std::max(from + p.scale * z - half, found.lowest),
+                                     .high = std::min(from + p.scale * z + half, found.highest),
+                                     .determined = determined(j)},
+                          .nominal = from,
+                          .deviations = z,
+                          .at_the_edge = value <= found.lowest || value >= found.highest};
+    if (const auto stated = result_.rig.spreads.find(path); stated != result_.rig.spreads.end())
+      stated->second = domain::significant(p.scale * off, 2);  // as well as these runs tell it, where the file told it
+    result_.moved.push_back(std::move(moved));
+  }
+
+  void find_law() {
+    if (point_.terms == Terms::none || point_.terms == Terms::rubs) return;  // no rig file carries rubs
+    diagnose::each_side(result_.rig, [&](plant::Effects& effects) {
+      auto& terms = effects.get<plant::ResidualForce>().terms;
+      const auto found =
+          std::min<std::size_t>(terms.size(), static_cast<std::size_t>(point_.coefficients.size()));
+      const bool first = result_.law.empty();
+      for (std::size_t i = 0; i < found; ++i) {
+        plant::ForceTerm& term = terms[terms.size() - found + i];
+        const Index j = place_of(Kind::term, i);
+        term.coefficient_N = with_digits(term.coefficient_N, alone(j));
+        if (!first) continue;
+        const double half = of_95 * deviation(j);
+        const std::string words = diagnose::words(term);
+        result_.law.push_back({words,
+                               {.name = words,
+                                .unit = "N",
+                                .value = term.coefficient_N,
+                                .low = v_[j] - half,
+                                .high = v_[j] + half,
+                                .determined = determined(j)}});
+      }
+    });
+  }
+
+  void find_left_open() {
+    std::vector<diagnose::FittedOne> numbers;
+    for (const diagnose::Moved& moved : result_.moved)  // these coordinates come first, in this order
+      numbers.push_back(
+          {moved.fitted.name, moved.fitted.unit, moved.fitted.value, parameter(std::ssize(numbers)).scale});
+    if (numbers.empty()) return;
+    const Index k = std::ssize(numbers), others = v_.size() - k;
+    const Eigen::MatrixXd gram = model_.grams.sum().bottomRightCorner(v_.size(), v_.size());
+    Eigen::MatrixXd information = gram.topLeftCorner(k, k);
+    if (others > 0)
+      information -=
+          gram.topRightCorner(k, others) * Eigen::MatrixXd(curvature_.bottomRightCorner(others, others))
+                                               .llt()
+                                               .solve(Eigen::MatrixXd(gram.bottomLeftCorner(others, k)));
+    result_.left_open = diagnose::left_open(information, numbers);
+  }
+
+  static constexpr double infinite = std::numeric_limits<double>::infinity();
+
+  const Model& model_;
+  const Dictionary& dictionary_;
+  const Point point_;
+  const Eigen::VectorXd v_, variance_;
+  const Eigen::MatrixXd curvature_;
+  const std::vector<Coordinate> list_;
+  Estimates result_;
+};
 
 }  // namespace
 
-std::vector<Estimate> sizes_of(const Model& model) {
-  std::vector<Estimate> list;
-  each(model, [&](const Coordinate& one, double z, double deviation) {
-    if (one.kind != Kind::size && one.kind != Kind::shape) return;
-    const Entry& entry = model.problem->dictionary.entries[model.point.effects[one.of].entry];
-    if (one.kind == Kind::shape) {
-      const double shape = entry.shape_middle * std::exp(entry.shape_sd * z);
-      list.push_back({entry.effect->shape, "", shape, shape * entry.shape_sd * deviation});
-    } else {
-      list.push_back({entry.bench != nullptr ? fmt::format("{}.{}", entry.name, entry.bench->variant)
-                                             : entry.effect->amplitude,
-                      "", entry.absent + entry.typical * z, std::abs(entry.typical) * deviation});
-    }
-  });
-  return list;
+Point most_probable(const Model& model) {
+  if (model.point.terms == Terms::none) return model.point;
+  const Dictionary& dictionary = model.problem->dictionary;
+  return dictionary.moved(model.point, dictionary.vector(model.point) + step_to_most_probable(model));
 }
 
-std::vector<Estimate> parameters_of(const Model& model) {
-  std::vector<Estimate> list;
-  each(model, [&](const Coordinate& one, double z, double deviation) {
-    if (one.kind != Kind::parameter) return;
-    const auto& p = model.problem->dictionary.parameters[one.of];
-    list.push_back({p.difference ? p.path + ", difference" : p.path, "deviations", z, deviation});
-  });
-  return list;
+Estimates estimates_of(const Model& model) {
+  return Estimating(model)();
 }
 
 }  // namespace mckibben::identify

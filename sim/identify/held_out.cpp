@@ -1,4 +1,5 @@
 // See the header.
+#include <algorithm>
 #include <map>
 
 #include <Eigen/Cholesky>
@@ -23,38 +24,93 @@ std::vector<std::vector<std::size_t>> groups_of(const Rows& rows) {
   return groups;
 }
 
-Eigen::VectorXd held_out(const Model& model, const std::vector<std::vector<std::size_t>>& groups) {
-  const Eigen::VectorXd weight = model.variance().cwiseInverse(),
-                        v = model.problem->dictionary.vector(model.point);
-  const Eigen::MatrixXd whole = model.grams.sum();
-  const Index k = v.size();
-  Eigen::VectorXd list(std::ssize(groups));
-  for (std::size_t i = 0; i < groups.size(); ++i) {
-    Eigen::MatrixXd mine = Eigen::MatrixXd::Zero(k + 1, k + 1);
-    double log_det = 0.0;
-    for (const std::size_t run : groups[i]) {
+namespace {
+
+/// A model's quadratic without the runs of a group: in numbers less where the model stands.
+struct Others {
+  Eigen::MatrixXd mine;  ///< Gram matrix of the group
+  double log_det = 0.0;
+  Eigen::MatrixXd curvature_;
+  Eigen::LLT<Eigen::MatrixXd> factor;
+  Eigen::VectorXd most_probable;
+
+  Others(const Model& model, const std::vector<std::size_t>& group) {
+    const Eigen::VectorXd weight = model.variance().cwiseInverse(),
+                          v = model.problem->dictionary.vector(model.point);
+    const Index k = v.size();
+    mine = Eigen::MatrixXd::Zero(k + 1, k + 1);
+    for (const std::size_t run : group) {
       mine += model.grams.of_runs[run];
       log_det += model.grams.log_dets[run];
     }
-    double value = -0.5 * log_det;
+    if (k == 0) return;
+    const Eigen::MatrixXd rest = model.grams.sum() - mine;
+    curvature_ = curvature(rest, weight);
+    factor.compute(curvature_);
+    most_probable = factor.solve(Eigen::VectorXd(rest.col(0).tail(k) - weight.cwiseProduct(v)));
+  }
+};
+
+}  // namespace
+
+Eigen::VectorXd held_out(const Model& model, const std::vector<std::vector<std::size_t>>& groups) {
+  const Index k = model.grams.of_runs.front().cols() - 1;
+  Eigen::VectorXd list(std::ssize(groups));
+  for (std::size_t i = 0; i < groups.size(); ++i) {
+    const Others others(model, groups[i]);
+    const Eigen::MatrixXd& mine = others.mine;
+    double value = -0.5 * others.log_det;
     if (k == 0) {
       value -= 0.5 * mine(0, 0);
     } else {
-      // The posterior of the others, as a normal in numbers less the optimum.
-      const Eigen::MatrixXd of_others = curvature(whole - mine, weight);
-      const Eigen::LLT<Eigen::MatrixXd> others(of_others);
-      const Eigen::VectorXd m =
-          others.solve(Eigen::VectorXd((whole - mine).col(0).tail(k) - weight.cwiseProduct(v)));
+      const Eigen::VectorXd& m = others.most_probable;
       const Eigen::MatrixXd g = mine.bottomRightCorner(k, k);
       const Eigen::VectorXd along = mine.col(0).tail(k);
       const double square = mine(0, 0) - 2.0 * m.dot(along) + m.dot(g * m);
       const Eigen::VectorXd u = along - g * m;
-      const Eigen::LLT<Eigen::MatrixXd> all(Eigen::MatrixXd(of_others + g));
+      const Eigen::LLT<Eigen::MatrixXd> all(Eigen::MatrixXd(others.curvature_ + g));
       value -= 0.5 * (square - u.dot(all.solve(u)));
-      value -=
-          all.matrixLLT().diagonal().array().log().sum() - others.matrixLLT().diagonal().array().log().sum();
+      value -= all.matrixLLT().diagonal().array().log().sum() -
+               others.factor.matrixLLT().diagonal().array().log().sum();
     }
     list[static_cast<Index>(i)] = value;
+  }
+  return list;
+}
+
+Eigen::VectorXd unpredicted(const Model& model, const std::vector<std::vector<std::size_t>>& groups) {
+  const Rows& rows = model.problem->rows;
+  Eigen::VectorXd left = model.residual();
+  if (model.slopes.cols() > 0)
+    for (const auto& group : groups) {
+      const Eigen::VectorXd step = Others(model, group).most_probable;
+      for (const Block& block : rows.blocks)
+        if (std::ranges::find(group, block.run) != group.end())
+          left.segment(block.begin, block.rows) -= model.slopes.middleRows(block.begin, block.rows) * step;
+    }
+  return left - of_runs(model, left);
+}
+
+Eigen::VectorXd of_runs(const Model& model, const Eigen::VectorXd& left) {
+  const Rows& rows = model.problem->rows;
+  Eigen::VectorXd list = Eigen::VectorXd::Zero(left.size());
+  const std::vector<Eigen::VectorXd> means = model.error.grams(left, Eigen::MatrixXd(left.size(), 0)).means;
+  if (means.empty()) return list;
+  for (const Block& block : rows.blocks) {
+    const Eigen::VectorXd& mean = means[block.run];
+    auto part = list.segment(block.begin, block.rows);
+    for (std::size_t i = 0; i < model.point.differ.size() && rows.is_judged(block); ++i) {
+      const double value = mean[static_cast<Index>(i)];
+      const int which = model.point.differ[i];
+      if (which == zeros)
+        part.array() += value;
+      else if (which == gains)
+        part += value * model.read.segment(block.begin, block.rows);
+      else
+        part += value * model.error.per_kg(block);
+    }
+    if (model.error.starts() > 0)
+      part += model.error.started(block, mean.tail(static_cast<Index>(model.error.starts())));
   }
   return list;
 }

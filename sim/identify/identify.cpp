@@ -1,5 +1,6 @@
 // See the header.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <numeric>
@@ -10,11 +11,10 @@
 #include <fmt/ranges.h>
 
 #include <sim/identify/decisive.hpp>
-#include <sim/identify/estimates.hpp>
 #include <sim/identify/held_out.hpp>
 #include <sim/identify/identify.hpp>
 #include <sim/identify/screen.hpp>
-#include <sim/identify/usable.hpp>
+#include <sim/run/batch.hpp>
 
 namespace mckibben::identify {
 
@@ -33,18 +33,39 @@ constexpr double alike = 0.9;         // squared cosine of what both change
 
 using Names = std::vector<std::string>;
 
+/// The budget is used up.
+struct OutOfWork : run::Interrupted {};
+
+/// What a search does one after the other, as it is told where it was ended.
+constexpr std::array stages{"the rig's parameters", "effects and bench faults",
+                            "general terms, for what is outside the catalogue"};
+
 class Search {
  public:
-  explicit Search(const Problem& problem)
-      : problem_(problem), dictionary_(problem.dictionary), rows_(problem.rows) {}
+  Search(const Problem& problem, const Settings& settings)
+      : problem_(problem), settings_(settings), dictionary_(problem.dictionary), rows_(problem.rows) {}
 
-  Identified operator()();
+  /// The rig as described: there is a result from here on.
+  void begin();
+  /// Until nothing gains any more. Throws run::Interrupted; what was found by then stands.
+  void go_on();
+
+  bool is_out_of_work() const { return problem_.simulator.passes() > settings_.most_passes; }
+  /// What `go_on` has not done to its end.
+  std::vector<std::string> not_done() const;
+  /// Decides on the table.
+  Identified found() &&;
 
  private:
   using Key = std::pair<bool, Names>;  // described; names
 
   void say(const std::string& what) const {
     if (problem_.say) problem_.say(what);
+  }
+  /// Begins something that takes a while.
+  void step(const std::string& what) const {
+    if (settings_.trying) settings_.trying(what);
+    if (is_out_of_work()) throw OutOfWork();
   }
   double enter(Model& model, bool described = false);
   double best_score() const;
@@ -66,12 +87,16 @@ class Search {
   void try_terms();
 
   const Problem& problem_;
+  const Settings& settings_;
   const Dictionary& dictionary_;
   const Rows& rows_;
   std::map<Key, Model> table_;
   std::optional<Model> here_, at_;
   std::set<std::pair<Names, std::vector<double>>> begun_;
   std::set<Names> hills_;
+  std::size_t stage_ = 0;
+  std::vector<Names> untried_;                ///< of the look that is under way
+  std::map<std::string, double> promised_{};  ///< nats that a look saw in a name alone, the most of them
 };
 
 double Search::enter(Model& model, bool described) {
@@ -107,6 +132,7 @@ double Search::best_score() const {
 }
 
 Model Search::refined(Point point) {
+  step(fmt::format("trying {}", fmt::join(dictionary_.names(point), " + ")));
   Model m(problem_, std::move(point), at_->error.begun());  // no descent depends on those before it
   m.look();
   m.settle({.beat = best_score() - clear});
@@ -176,6 +202,7 @@ std::vector<Start> Search::twins(const Model& base, const Eigen::MatrixXd& colum
 /// Sets from a model: with more, and of its own with one less. `far`: of a rig as described. `first`: nothing
 /// has been tried yet. Whether one of them became the best.
 bool Search::look_from(Model base, bool far, bool first) {
+  step("looking for what would explain more");
   std::vector<Probe> list = probes(dictionary_, base.point);
   const Eigen::MatrixXd columns = columns_of(base, list);
   const Eigen::VectorXd left = base.residual();
@@ -218,7 +245,13 @@ bool Search::look_from(Model base, bool far, bool first) {
     }
   }
   std::ranges::stable_sort(starts, std::greater{}, &Start::value);
-  const std::size_t size_of_base = dictionary_.names(base.point).size();
+  const Names of_base = dictionary_.names(base.point);
+  const std::size_t size_of_base = of_base.size();
+  for (const Start& start : starts)
+    for (const std::string& name : dictionary_.names(start.point))
+      if (dictionary_.names(start.point).size() == size_of_base + 1 &&
+          !std::ranges::binary_search(of_base, name))
+        promised_[name] = std::max(promised_[name], start.value - own);
   std::vector<Start> chosen;
   std::set<Names> seen;
   // The best of other hills first: straight lines say nothing of it.
@@ -243,16 +276,19 @@ bool Search::look_from(Model base, bool far, bool first) {
   say(fmt::format(" from {}{}: {} tries", fmt::join(dictionary_.names(base.point), " + "),
                   far ? " on the rig as described" : "", chosen.size()));
   bool gained = false;
+  for (const Start& start : chosen) untried_.push_back(dictionary_.names(start.point));
   for (const Start& start : chosen) {
     say(fmt::format("   try {} promised {:.1f}", fmt::join(dictionary_.names(start.point), " + "),
                     start.value - own));
     Model m = refined(start.point);
+    untried_.erase(untried_.begin());
     if (m.score > here_->score) {
       here_ = std::move(m);
       gained = true;
     }
     if (gained && here_->error.explains()) break;
   }
+  untried_.clear();
   if (gained) prune();
   return gained;
 }
@@ -297,6 +333,7 @@ void Search::try_terms() {
   if (!dictionary_.names(here_->point).empty()) bases.push_back(*here_);
   for (const Model& base : bases)
     for (const Terms terms : {Terms::smooth, Terms::waves, Terms::rubs}) {
+      step("trying general terms");
       const Eigen::MatrixXd columns = columns_of(base, terms);
       for (const double scale_N : decisive.terms_N) {
         Model m = base.with_terms(terms, columns, scale_N);
@@ -305,8 +342,9 @@ void Search::try_terms() {
     }
 }
 
-Identified Search::operator()() {
+void Search::begin() {
   // rows
+  step("simulating the rig as described");
   say(fmt::format(" {} rows, {:.4g} s apart, of {} runs; unit {:.3g}, count {:.3g}, noise {:.3g}",
                   rows_.size(), rows_.row_s, rows_.runs.size(), rows_.unit, rows_.count,
                   fmt::join(rows_.noise, " ")));
@@ -321,11 +359,16 @@ Identified Search::operator()() {
   described.evidence();
   enter(described, true);
   at_->error = described.error;
+}
+
+void Search::go_on() {
+  step("fitting the rig's parameters");
   Model parameters = *at_;
   const bool arrived = parameters.settle({.rounds = first_rounds});
   parameters.evidence();
   enter(parameters);
   here_ = parameters;
+  stage_ = 1;
   // screen and descend: as seen from the rig as described, whose parameters have not bent to imitate what is
   // missing (unless these explain all), and from where they were fitted; then from wherever the best stands,
   // and from its effects with the parameters as described where these had to bend.
@@ -351,48 +394,62 @@ Identified Search::operator()() {
       break;
     }
   }
+  step("fitting what was found to the end");
   Model last(problem_, here_->point, here_->error);  // to the end, for intervals
   last.look();
   last.settle({.rounds = 12, .enough = 0.1});
   last.evidence();
   enter(last);
   if (last.score > here_->score) here_ = std::move(last);
+  stage_ = 2;
   if (!here_->error.explains()) try_terms();
-  // decide
+  stage_ = stages.size();
+}
+
+std::vector<std::string> Search::not_done() const {
+  std::vector<std::string> list;
+  for (std::size_t i = stage_; i < stages.size(); ++i) list.emplace_back(stages.at(i));
+  for (const Names& names : untried_) list.push_back(fmt::format("trying {}", fmt::join(names, " + ")));
+  return list;
+}
+
+Identified Search::found() && {
+  Identified result;
   const auto groups = groups_of(rows_);
-  std::vector<Judged> table;
-  std::vector<const Model*> models;
-  for (const auto& [key, m] : table_) {
+  for (auto& [key, m] : table_) {
     if (!std::isfinite(m.score)) continue;
-    table.push_back({.names = key.second,
-                     .described = key.first,
-                     .general = m.point.terms != Terms::none,
-                     .score = m.score,
-                     .held_out = held_out(m, groups),
-                     .off_sheet = m.point.z.size() > 0 ? m.point.z.cwiseAbs().maxCoeff() : 0.0});
-    models.push_back(&m);
+    result.table.push_back({.names = key.second,
+                            .described = key.first,
+                            .general = m.point.terms != Terms::none,
+                            .score = m.score,
+                            .held_out = held_out(m, groups),
+                            .off_sheet = m.point.z.size() > 0 ? m.point.z.cwiseAbs().maxCoeff() : 0.0});
+    result.models.push_back(std::move(m));
   }
-  const Decision decision = decide(table);
-  const Model& chosen = *models[decision.chosen];
-  return {.decision = decision,
-          .table = std::move(table),
-          .sizes = sizes_of(chosen),
-          .parameters = parameters_of(chosen),
-          .left = chosen.left(),
-          .white = chosen.error.white() / rows_.unit,
-          .model_error = chosen.error.of_model() / rows_.unit,
-          .passes = problem_.simulator.passes()};
+  result.decision = decide(result.table);
+  result.promised = std::move(promised_);
+  result.passes = problem_.simulator.passes();
+  return result;
 }
 
 }  // namespace
 
 Identified identify(domain::Dataset data, const Settings& settings) {
-  const Usable counts = usable(data, settings.threads);
-  const Rows rows(data, counts.masked, counts.runs);
-  const Dictionary dictionary(data, rows.count > rows.sensor_count ? rows.count : 0.0);
-  const Simulator simulator(rows, settings.threads);
-  const Problem problem{rows, dictionary, simulator, settings.say};
-  return Search(problem)();
+  diagnose::Search limit(settings.time_limit_s);
+  auto study = std::make_shared<const Study>(std::move(data), settings);
+  Search search(study->problem, settings);
+  search.begin();
+  limit.part("", [&] { search.go_on(); });
+  const bool worked = search.is_out_of_work();
+  std::vector<std::string> not_done = search.not_done();
+  Identified found = std::move(search).found();
+  found.study = std::move(study);
+  found.ended = limit.ended();
+  if (found.ended != Ended::no) {
+    if (found.ended == Ended::by_time && worked) found.ended = Ended::by_work;
+    found.not_done = std::move(not_done);
+  }
+  return found;
 }
 
 }  // namespace mckibben::identify

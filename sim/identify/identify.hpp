@@ -10,31 +10,71 @@
 #pragma once
 
 #include <functional>
+#include <limits>
+#include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include <sim/diagnose/search.hpp>
 #include <sim/identify/decide.hpp>
-#include <sim/identify/estimates.hpp>
 #include <sim/identify/model.hpp>
+#include <sim/identify/usable.hpp>
 
 namespace mckibben::identify {
 
+using diagnose::Ended;
+
 struct Settings {
   unsigned threads = 0;
-  std::function<void(const std::string&)> say{};  ///< hears of each step
+  std::function<void(const std::string&)> say{};     ///< hears of each step, for who works on the search
+  std::function<void(const std::string&)> trying{};  ///< hears what begins, for users
+  /// Of the search: simulations of the set, which every machine counts alike, and a time that only stops it.
+  long most_passes = 10000;
+  double time_limit_s = std::numeric_limits<double>::infinity();
+};
+
+/// What a search stands on, and its models with it.
+struct Study {
+  Study(domain::Dataset measured, const Settings& settings)
+      : data(std::move(measured)),
+        usable(identify::usable(data, settings.threads)),
+        rows(data, usable.masked, usable.runs),
+        dictionary(data, rows.count > rows.sensor_count ? rows.count : 0.0),
+        simulator(rows, settings.threads),
+        problem{rows, dictionary, simulator, settings.say} {}
+  Study(const Study&) = delete;
+  Study& operator=(const Study&) = delete;
+
+  domain::Dataset data;
+  Usable usable;
+  Rows rows;
+  Dictionary dictionary;
+  Simulator simulator;
+  Problem problem;
 };
 
 struct Identified {
+  std::shared_ptr<const Study> study;
+  std::vector<Judged> table{};  ///< of models, and the models themselves, in the same order
+  std::vector<Model> models{};
   Decision decision{};
-  std::vector<Judged> table{};
-  std::vector<Estimate> sizes{};       ///< of effects and bench faults of the one chosen
-  std::vector<Estimate> parameters{};  ///< of its rig, in deviations of the sheet
-  double left = 0.0, white = 0.0,
-         model_error = 0.0;  ///< rms of the judged reading; in units of a count or the noise
+  std::map<std::string, double> promised{};  ///< nats that a look saw in a name
+  Ended ended = Ended::no;                   ///< before the search was through,
+  std::vector<std::string> not_done{};       ///< without these
   long passes = 0;
+
+  const Model& chosen() const { return models[decision.chosen]; }
+  /// The model of the rig as described, or of its parameters alone; null if there is none.
+  const Model* of(bool described) const {
+    for (std::size_t i = 0; i < table.size(); ++i)
+      if (table[i].names.empty() && table[i].described == described) return &models[i];
+    return nullptr;
+  }
 };
 
-/// Of data with rows (data::with_rows). Throws data::UnfitData, run::Interrupted.
+/// Of data with rows (data::with_rows). Throws data::UnfitData; run::Interrupted before there is anything to
+/// hand over.
 Identified identify(domain::Dataset data, const Settings& settings);
 
 }  // namespace mckibben::identify

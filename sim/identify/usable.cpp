@@ -1,4 +1,5 @@
 // See the header.
+#include <numeric>
 #include <utility>
 
 #include <sim/data/examine.hpp>
@@ -7,8 +8,9 @@
 #include <sim/run/batch.hpp>
 
 namespace mckibben::identify {
+namespace {
 
-Usable usable(domain::Dataset& data, unsigned threads) {
+std::vector<data::Expected> expected_of(const domain::Dataset& data, unsigned threads) {
   std::vector<data::Expected> expected(data.runs.size());
   run::for_each_job(
       data.runs.size(), threads,
@@ -18,18 +20,48 @@ Usable usable(domain::Dataset& data, unsigned threads) {
             std::move(diagnose::predict(data.runs[i], {&loaded, 1}, data.rig.integrator.method).front());
       },
       [](std::size_t) {});
-  data::Examined examined = data::examine(data, expected);
-  std::vector<char> doubted(data.runs.size(), 0);  // for its load alone
+  return expected;
+}
+
+/// As a warning, and as a fault of its runs where it is one.
+void report(const domain::Dataset& data, const data::Finding& finding, Usable& result) {
+  const std::string_view consequence = data::consequence_of(finding);
+  result.warnings.push_back(data::text_of(data, finding).append(consequence));
+  if (finding.kind.empty()) return;
+  const bool left_out = finding.severity == data::Severity::left_out;
+  for (const std::size_t run : finding.runs)
+    result.faulty.push_back({.run = data.runs[run].id,
+                             .kind = finding.kind,
+                             .action = left_out ? "left out" : "masked",
+                             .words = left_out ? "was left out: " + finding.message
+                                               : finding.message + std::string(consequence)});
+}
+
+}  // namespace
+
+Usable usable(domain::Dataset& data, unsigned threads) {
+  data::Examined examined = data::examine(data, expected_of(data, threads));
+  std::vector<bool> left_out = examined.left_out;
   for (const data::Finding& finding : examined.findings)
     if (finding.quantity == "load")
-      for (const std::size_t run : finding.runs) doubted[run] = 1;
+      for (const std::size_t run : finding.runs) left_out[run] = false;  // doubted for its load alone
   std::erase_if(examined.findings, [](const data::Finding& one) { return one.quantity == "load"; });
   data::raise(data, examined.findings);
   for (const std::size_t run : examined.dead_gauges) data.runs[run].muscle_pressure_Pa.reset();
   for (const std::size_t run : examined.dead_opposite_gauges) data.runs[run].opposite_pressure_Pa.reset();
-  Usable result{std::move(examined.masked), {}};
+  Usable result{.masked = std::move(examined.masked), .runs = {}};
+  data::require_enough(data, left_out, examined.findings);
+  for (const data::Finding& finding : examined.findings)
+    if (finding.severity == data::Severity::undecidable)
+      result.cannot_tell = finding.message;
+    else
+      report(data, finding, result);
   for (std::size_t run = 0; run < data.runs.size(); ++run)
-    if (!examined.left_out[run] || doubted[run] != 0) result.runs.push_back(run);
+    if (!left_out[run]) result.runs.push_back(run);
+  if (result.runs.empty()) {  // something to show all the same
+    result.runs.resize(data.runs.size());
+    std::iota(result.runs.begin(), result.runs.end(), std::size_t{0});
+  }
   return result;
 }
 

@@ -26,7 +26,8 @@ MCKIBBEN_MEMBERS_AS_JSON(NextExperiment, separates, current, load_kg, expected_p
 MCKIBBEN_MEMBERS_AS_JSON(RunGap, id, load_kg, held_out, left_out, nominal_rmse, recalibrated_rmse,
                          corrected_rmse)
 MCKIBBEN_MEMBERS_AS_JSON(Ranked, round, name, variant, score, likeness, refitted, outcome)
-MCKIBBEN_MEMBERS_AS_JSON(Explanation, kind, effects, misfit, strain, held_out_rmse, as_good, chosen)
+MCKIBBEN_MEMBERS_AS_JSON(Explanation, kind, effects, misfit, strain, held_out_rmse, nats, held_out_nats,
+                         held_out_error, mass, as_good, chosen)
 MCKIBBEN_MEMBERS_AS_JSON(LeftOpen, parameters, known, words)
 MCKIBBEN_MEMBERS_AS_JSON(FaultyRun, run, kind, size, unit, action, common, words)
 MCKIBBEN_MEMBERS_AS_JSON(Begun, places, agree)
@@ -162,6 +163,19 @@ Json effects_json(const diagnose::Diagnosis& diagnosis, const std::vector<diagno
   return list;
 }
 
+Json bench_json(const diagnose::Diagnosis& diagnosis) {
+  Json list = Json::array();
+  for (const auto& fault : diagnosis.bench)
+    list.push_back({{"name", fault.name},
+                    {"runs", fault.runs},
+                    {"value", fault.size.value},
+                    {"unit", fault.size.unit},
+                    {"ci95", ci95(fault.size)},
+                    {"write", fault.write},
+                    {"words", fault.words}});
+  return list;
+}
+
 Json recalibrated_json(const diagnose::Diagnosis& diagnosis, const plant::Rig& nominal) {
   Json all = Json::object();
   for (const auto& moved : diagnosis.recalibrated) {
@@ -247,6 +261,7 @@ Json search_json(const diagnose::Diagnosis& diagnosis) {
   const double limit_s = diagnosis.time_limit_s;
   return {{"ended", diagnosis.ended == Ended::no        ? Json()
                     : diagnosis.ended == Ended::by_time ? Json("by_time")
+                    : diagnosis.ended == Ended::by_work ? Json("by_work")
                                                         : Json("by_user")},
           {"time_limit_s", std::isfinite(limit_s) ? Json(limit_s) : Json()},
           {"not_done", diagnosis.not_done}};
@@ -258,6 +273,7 @@ std::string json_of(const domain::Dataset& data, const diagnose::Diagnosis& diag
   Json document{{"schema", "mckibben-diagnosis/1"},
                 {"verdict", std::string(plant::name_of(diagnosis.verdict))},
                 {"because", diagnosis.because},
+                {"bench", bench_json(diagnosis)},
                 {"effects", effects_json(diagnosis, diagnosis.effects)},
                 {"stand_ins", effects_json(diagnosis, diagnosis.stand_ins)},
                 {"recalibrated", recalibrated_json(diagnosis, data.rig)},

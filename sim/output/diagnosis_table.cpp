@@ -22,6 +22,16 @@ std::string warnings(const Diagnosis& diagnosis) {
   return text;
 }
 
+std::string bench(const Diagnosis& diagnosis) {
+  Grid grid({"fault", "runs", "size", "95 % interval", "in the data set"}, 5);
+  for (const auto& fault : diagnosis.bench) {
+    const Readable shown = readable(fault);
+    grid.add({fault.name, fault.runs.size() == diagnosis.runs.size() ? "all" : listed(fault.runs),
+              shown.value, shown.interval, fault.write});
+  }
+  return grid.empty() ? "" : grid.text();
+}
+
 std::string added(const Diagnosis& diagnosis) {
   Grid grid({"effect", "parameter", "value", "95 % interval"}, 4);
   const auto add = [&](const std::string& effect, const std::string& name,
@@ -123,6 +133,7 @@ std::string table_of(const domain::Dataset& data, const Diagnosis& diagnosis) {
   text += warnings(diagnosis);
   text += fmt::format("\n{}: {}\n", plant::name_of(diagnosis.verdict), title_of(diagnosis));
   if (!diagnosis.because.empty()) text += diagnosis.because + "\n";
+  text += section("faults of the bench, no effects of the rig", bench(diagnosis));
   text += section("added to the rig", added(diagnosis));
   if (!diagnosis.residual_law.empty() && !diagnosis.law_valid_for.empty())
     text += "  residual_law is valid for " + diagnosis.law_valid_for + "\n";

@@ -71,6 +71,19 @@ Readable readable(const diagnose::FittedNumber& number) {
               (number.quadratic ? ", by profile" : "")};
 }
 
+Readable readable(const diagnose::BenchFault& fault) {
+  diagnose::FittedNumber size = fault.size;
+  const bool share = size.unit == "1" && fault.name != "zeros_differ";
+  if (share)
+    for (double* number : {&size.value, &size.low, &size.high}) *number *= 100.0;
+  Readable shown = readable(size);
+  if (share) {
+    shown.value += " %";
+    shown.interval += " %";
+  }
+  return shown;
+}
+
 namespace {
 
 std::string three_digits(double value) {

@@ -18,7 +18,7 @@ std::string progress_line(const std::string& title, const std::string& what, std
 class Progress {
  public:
   /// Shows that line on stderr while it is a terminal; else once in `every`.
-  explicit Progress(std::string title, std::chrono::milliseconds every = std::chrono::minutes(1));
+  explicit Progress(std::string title, std::chrono::milliseconds every = std::chrono::seconds(10));
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
   /// Clears the line.

@@ -97,15 +97,16 @@ struct Diagnosis {
 };
 
 Diagnosis diagnose(const domain::Dataset& dataset, const py::object& rig,
-                   const std::vector<std::string>& hypotheses, double time_limit_s, std::uint64_t seed,
-                   unsigned threads, const py::object& progress) {
-  if (!(time_limit_s > 0.0)) throw py::value_error("time_limit_s is a time above 0 s");
+                   const std::vector<std::string>& hypotheses, std::optional<double> time_limit_s,
+                   std::uint64_t seed, unsigned threads, const py::object& progress) {
+  if (time_limit_s && !(*time_limit_s > 0.0)) throw py::value_error("time_limit_s is a time above 0 s");
   const auto data = std::make_shared<domain::Dataset>(dataset);
   if (!rig.is_none()) input::take_rig(*data, "rig", rig_of(rig).file);
   return long_work(progress, [&](const run::ProgressHook& hook) {
     const std::vector<std::string> warnings = tasks::prepare(*data, hypotheses);
-    const diagnose::Settings settings{threads, seed, time_limit_s, warnings, [](const auto&) {}};
-    return Diagnosis{data, std::make_shared<const tasks::Found>(tasks::find(*data, settings, hook))};
+    tasks::Diagnosing how{.threads = threads, .seed = seed, .warnings = warnings};
+    if (time_limit_s) how.time_limit_s = *time_limit_s;
+    return Diagnosis{data, std::make_shared<const tasks::Found>(tasks::find(*data, how, hook))};
   });
 }
 
@@ -190,11 +191,11 @@ void add_findings(py::module_& module) {
            "'sequence', orders in load (0 to 3) and in the current's speed (0 to 2). Raises UnfitData.")
       .def(
           "diagnose", &diagnose, py::arg("rig") = py::none(),
-          py::arg("hypotheses") = std::vector<std::string>{}, py::arg("time_limit_s") = 300.0,
+          py::arg("hypotheses") = std::vector<std::string>{}, py::arg("time_limit_s") = py::none(),
           py::arg("seed") = 1, py::arg("threads") = 0, py::arg("progress") = py::none(),
           "Finds where the runs and the rig disagree, names what the rig lacks, adds it (docs/diagnosis.md). "
           "`rig`: in place of the data set's; `hypotheses`: files of laws that join the catalogue; "
-          "`time_limit_s` [s] ends the search with what was found by then. Of `progress` the total may be 0: "
+          "`time_limit_s` [s] ends the search with the best so far. Of `progress` the total may be 0: "
           "not known. Raises UnfitData, NumericalFailure. Ctrl-C ends it, without a result.");
 }
 

@@ -33,6 +33,10 @@ std::string found_row(const std::string& of, const std::string& name, const Fitt
 /// What was added; or else what was recalibrated by more than a data sheet promises.
 std::string found(const Diagnosis& diagnosis) {
   std::string rows;
+  for (const auto& fault : diagnosis.bench) {
+    const auto shown = readable(fault);
+    rows += row(fault.name, {fault.words, shown.value, shown.interval});
+  }
   for (const auto& effect : diagnosis.effects)
     for (const auto& parameter : effect.parameters)
       rows += found_row(full_name(effect), parameter.name, parameter);
@@ -48,6 +52,14 @@ std::string found(const Diagnosis& diagnosis) {
   const std::string verdict = fmt::format("Verdict: {}", plant::name_of(diagnosis.verdict));
   if (rows.empty()) return "<p><b>" + escaped(verdict) + "</b></p>\n";
   return table(verdict, {"found", "parameter", "value", "95 % interval"}, rows);
+}
+
+/// What to write in the data set where the bench is at fault.
+std::string lines_that_mend(const Diagnosis& diagnosis) {
+  std::string rows;
+  for (const auto& fault : diagnosis.bench)
+    rows += row(fault.name, {output::listed(fault.runs), fault.write});
+  return rows.empty() ? "" : table("Mended in the data set by", {"fault", "runs", "line"}, rows);
 }
 
 std::string gap_row(const char* name, double rmse, const diagnose::Gap& gap, const plant::Rig& rig) {
@@ -271,7 +283,7 @@ double left_of(const diagnose::RunGap& run, bool changed) {
 std::string result_table(const domain::Dataset& data, const Diagnosis& diagnosis) {
   const auto& gap = diagnosis.gap;
   const auto unseen = output::held_out(diagnosis);
-  std::string html = "<div class='tables'>\n" + found(diagnosis);
+  std::string html = "<div class='tables'>\n" + found(diagnosis) + lines_that_mend(diagnosis);
   if (unseen.empty()) return html + "</div>\n";
   const bool few = unseen.size() <= 6;
   std::string caption = fmt::format("Error of {} on the {}, root mean square.", name_of(gap.judged),

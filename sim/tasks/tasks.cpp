@@ -9,6 +9,7 @@
 #include <sim/data/stamps.hpp>
 #include <sim/data/warnings.hpp>
 #include <sim/diagnose/candidate.hpp>
+#include <sim/identify/diagnosis.hpp>
 #include <sim/input/common_checks.hpp>
 #include <sim/input/dataset_file.hpp>
 #include <sim/input/diagnostics.hpp>
@@ -99,13 +100,17 @@ std::vector<std::string> prepare(domain::Dataset& data, const std::vector<std::s
   return warnings;
 }
 
-Found find(const domain::Dataset& data, const diagnose::Settings& settings,
-           const run::ProgressHook& progress) {
-  Found found{diagnose::diagnose(data, settings, progress), {}, {}};
-  found.nominal = run::replay(data, settings.threads, progress);
+Found find(const domain::Dataset& data, const Diagnosing& how, const run::ProgressHook& progress) {
+  std::size_t steps = 0;
+  const identify::Settings settings{.threads = how.threads,
+                                    .trying = [&](const std::string& what) { progress(what, ++steps, 0); },
+                                    .time_limit_s = how.time_limit_s};
+  Found found{
+      identify::diagnosis_of(identify::identify(data, settings), settings, {how.seed, how.warnings}), {}, {}};
+  found.nominal = run::replay(data, how.threads, progress);
   domain::Dataset mended = data;
   mended.rig = found.diagnosis.corrected;
-  found.corrected = run::replay(mended, settings.threads, progress);
+  found.corrected = run::replay(mended, how.threads, progress);
   return found;
 }
 

@@ -1,11 +1,13 @@
 // What goes with a job, whoever asks for it: data made ready for it, and what is to be said of the result.
 #pragma once
 
+#include <cstdint>
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
-#include <sim/diagnose/diagnose.hpp>
+#include <sim/diagnose/diagnosis.hpp>
 #include <sim/domain/dataset.hpp>
 #include <sim/run/replay.hpp>
 
@@ -35,13 +37,21 @@ domain::Dataset ticked(domain::Dataset data, const std::function<void(const std:
 /// data::UnfitData.
 std::vector<std::string> prepare(domain::Dataset& data, const std::vector<std::string>& hypotheses);
 
+struct Diagnosing {
+  unsigned threads = 0;
+  std::uint64_t seed = 1;
+  double time_limit_s = std::numeric_limits<double>::infinity();  ///< of the search, which it only stops
+  std::vector<std::string> warnings{};                            ///< that `prepare` gave
+};
+
 /// What is found, and the runs replayed on the data set's rig and on
 /// the corrected one, for pressures and forces.
 struct Found {
   diagnose::Diagnosis diagnosis;
   std::vector<run::ReplayedRun> nominal, corrected;
 };
-Found find(const domain::Dataset& data, const diagnose::Settings& settings,
-           const run::ProgressHook& progress);
+/// Progress counts steps and has no total. Throws run::Interrupted where the user stops it before there is
+/// anything to hand over, or again after that; data::UnfitData; engine::NumericalFailure.
+Found find(const domain::Dataset& data, const Diagnosing& how, const run::ProgressHook& progress);
 
 }  // namespace mckibben::tasks

@@ -35,7 +35,7 @@ bool is_open(const NamedEffect& effect) {
 
 }  // namespace
 
-Advice follow(const Hidden& hidden, const Diagnosis& found, const Settings& settings, std::string& words) {
+Advice follow(const Hidden& hidden, const Diagnosis& found, const Asked& asked, std::string& words) {
   Advice advice{.open = found.next_experiment || std::ranges::any_of(found.effects, is_open)};
   if (!advice.open) return advice;
   advice.right_before = names_are_right(found, hidden);
@@ -48,7 +48,7 @@ Advice follow(const Hidden& hidden, const Diagnosis& found, const Settings& sett
   advice.power = next.expected_power;
   Hidden more = hidden;
   more.data.runs.push_back(measured_as(next, hidden));
-  const Diagnosis again = whole_diagnosis(more.data, settings);
+  const Diagnosis again = whole_diagnosis(more.data, asked);
   advice.right = names_are_right(again, hidden);
   const auto still_as_good = [&](const NamedEffect& effect) {
     return std::ranges::any_of(words_of(effect.confusable_with), [&](const std::string& rival) {

@@ -4,10 +4,9 @@
 
 #include <string>
 
-#include <sim/diagnose/diagnose.hpp>
-
 #include "hidden_effects.hpp"
 #include "tally.hpp"
+#include "whole.hpp"
 
 namespace mckibben::diagnose {
 
@@ -21,7 +20,7 @@ struct Advice {
 };
 
 /// `words` tells what came of it; empty where nothing is open.
-Advice follow(const Hidden& hidden, const Diagnosis& found, const Settings& settings, std::string& words);
+Advice follow(const Hidden& hidden, const Diagnosis& found, const Asked& asked, std::string& words);
 
 class AdviceScore {
  public:

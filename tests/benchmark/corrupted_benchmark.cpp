@@ -7,10 +7,10 @@
 #include <fmt/format.h>
 
 #include <sim/data/finding.hpp>
-#include <sim/diagnose/diagnose.hpp>
 #include <sim/engine/failure.hpp>
 
 #include "corruptions.hpp"
+#include "whole.hpp"
 
 namespace mckibben::diagnose {
 namespace {
@@ -22,7 +22,7 @@ struct Said {
 
 Said said_of(const domain::Dataset& data, std::uint64_t seed) {
   try {
-    const auto found = diagnose(data, {.threads = 0, .seed = seed}, [](auto, auto, auto) {});
+    const auto found = whole_diagnosis(data, {.threads = 0, .seed = seed});
     Said said{.verdict = {}, .sentence = found.because};
     for (const auto& [value, name] : names(found.verdict))
       if (value == found.verdict) said.verdict = name;

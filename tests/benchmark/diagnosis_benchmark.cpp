@@ -79,13 +79,13 @@ std::string left_in_words(const diagnose::Diagnosis& found) {
 std::string diagnose_one(const DataSet& set) {
   const auto hidden = diagnose::hide(set.kind, set.seed, set.surroundings);
   const auto start = std::chrono::steady_clock::now();
-  const diagnose::Settings settings{.threads = cluster::crew().threads, .seed = set.seed};
-  const auto found = diagnose::whole_diagnosis(hidden.data, settings);
+  const diagnose::Asked asked{.threads = cluster::crew().threads, .seed = set.seed};
+  const auto found = diagnose::whole_diagnosis(hidden.data, asked);
   const diagnose::Answer answer(hidden, found);
   Outcome outcome(hidden, found, answer);
   outcome.took_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   std::string advised;
-  if (set.advised) outcome.advice = diagnose::follow(hidden, found, settings, advised);
+  if (set.advised) outcome.advice = diagnose::follow(hidden, found, asked, advised);
   const bool right = found.verdict == hidden.verdict && answer.right;
   return bytes_of(
       outcome,

@@ -12,11 +12,11 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <sim/diagnose/diagnose.hpp>
 #include <sim/diagnose/priors.hpp>
 
 #include "diagnose/joint.hpp"
 #include "tally.hpp"
+#include "whole.hpp"
 
 namespace mckibben::diagnose {
 namespace {
@@ -56,8 +56,7 @@ void score_pairs(std::uint64_t first, std::uint64_t seeds, unsigned threads) {
   for (std::uint64_t seed = first; seed < first + seeds; ++seed)
     for (const Kind& kind : kinds) {
       double size = 0.0;
-      const Diagnosis found =
-          diagnose(hide(kind, seed, size), {.threads = threads, .seed = seed}, [](auto, auto, auto) {});
+      const Diagnosis found = whole_diagnosis(hide(kind, seed, size), {.threads = threads, .seed = seed});
       std::vector<std::string> said;
       bool right = false, right_muscle = false, other = false;
       for (const NamedEffect& effect : found.effects) {

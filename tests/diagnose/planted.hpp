@@ -67,8 +67,4 @@ inline domain::Dataset small(const plant::Rig& truth, double duration_s = 4.0) {
   return planted(truth, {11.138, 16.138, 23.406}, currents, 7);
 }
 
-inline Diagnosis diagnosis_of(const domain::Dataset& data, unsigned threads) {
-  return diagnose(data, {.threads = threads, .seed = 3}, [](const auto&, auto, auto) {});
-}
-
 }  // namespace mckibben::diagnose

@@ -34,6 +34,28 @@ TEST(Story, NamesTheRunsThatSpeakForANameAndAgainstIt) {
   EXPECT_TRUE(says(none, "No single run speaks for muscle_leak.")) << none;
 }
 
+TEST(Story, NamesFaultsOfTheBenchFirstAndSaysWhereASearchWasEnded) {
+  Diagnosis d;
+  d.verdict = Verdict::recalibrate;
+  d.bench = {{.name = "loads_differ",
+              .runs = {"r05"},
+              .write = "load: 11.1 kg",
+              .words = "the load of run r05 is 2.8 kg less than written"}};
+  const std::string whole = because(d);
+  EXPECT_TRUE(
+      whole.starts_with("The load of run r05 is 2.8 kg less than written (in the data set: load: 11.1 "
+                        "kg). No effect is missing"))
+      << whole;
+  d.ended = Ended::by_work;
+  d.not_done = {"effects"};
+  const std::string cut = because(d);
+  EXPECT_NE(cut.find(" So far: No effect is missing"), std::string::npos) << cut;
+  EXPECT_TRUE(
+      cut.ends_with("The search was ended after as many simulations as it may make before it was "
+                    "through; not done to the end: effects."))
+      << cut;
+}
+
 TEST(Story, WritesALawAsASumAndSaysInWhatItCounts) {
   Diagnosis d;
   d.verdict = Verdict::unknown_effect;

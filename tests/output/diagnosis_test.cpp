@@ -87,6 +87,31 @@ TEST(DiagnosisJson, HoldsWhatIsPromised) {
   EXPECT_TRUE(document.at("program").contains("ceres"));
 }
 
+TEST(DiagnosisJson, HoldsFaultsOfTheBenchWithTheLineThatMendsThem) {
+  diagnose::Diagnosis found = diagnosed();
+  EXPECT_EQ(Json::parse(json_of(measured(), found)).at("bench"), Json::array());
+  found.bench = {{.name = "loads_differ",
+                  .runs = {"r05"},
+                  .size = {"", "kg", -2.75, -2.95, -2.55},
+                  .write = "load: 11.1 kg",
+                  .words = "the load of run r05 is 2.75 kg less than written"},
+                 {.name = "reading_clock",
+                  .runs = {"r01", "r02", "r03", "r04", "r05", "r06"},
+                  .size = {"", "1", 0.01, 0.009, 0.011},
+                  .write = "multiply the stamps of the readings by 1.01",
+                  .words = "the clock of the readings runs 1 % slow"}};
+  const Json load = Json::parse(json_of(measured(), found)).at("bench").at(0);
+  EXPECT_EQ(load.at("name"), "loads_differ");
+  EXPECT_EQ(load.at("runs"), Json::array({"r05"}));
+  EXPECT_EQ(load.at("value"), -2.75);
+  EXPECT_EQ(load.at("unit"), "kg");
+  EXPECT_EQ(load.at("ci95"), Json::array({-2.95, -2.55}));
+  EXPECT_EQ(load.at("write"), "load: 11.1 kg");
+  const std::string text = table_of(measured(), found);
+  EXPECT_TRUE(holds(text, "faults of the bench", "-2.75 kg", "load: 11.1 kg", "0.90 to 1.10 %"));
+  EXPECT_LT(text.find("faults of the bench"), text.find("added to the rig"));
+}
+
 TEST(DiagnosisJson, TellsHowOftenSuchNamesWereRight) {
   diagnose::Diagnosis found = diagnosed();
   const auto told = [&](std::size_t effect) {

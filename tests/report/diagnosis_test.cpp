@@ -84,6 +84,19 @@ TEST(DiagnosisPage, TellsTheStoryInOrder) {
   }
 }
 
+TEST(DiagnosisPage, NamesFaultsOfTheBenchBeforeEffectsAndSaysWhatMendsThem) {
+  diagnose::Diagnosis found = diagnosed();
+  EXPECT_TRUE(lacks(report_html(measured(), found, {}, {}), "Mended in the data set by"));
+  found.bench = {{.name = "loads_differ",
+                  .runs = {"r05"},
+                  .size = {"", "kg", -2.75, -2.95, -2.55},
+                  .write = "load: 11.1 kg",
+                  .words = "the load of run r05 is 2.75 kg less than written"}};
+  const std::string html = report_html(measured(), found, {}, {});
+  EXPECT_TRUE(holds(html, "Mended in the data set by", "load: 11.1 kg", "-2.95 to -2.55 kg"));
+  EXPECT_LT(html.find("2.75 kg less than written"), html.find("0.619 l/(min bar)"));
+}
+
 TEST(DiagnosisPage, LeavesOutWhatThereIsNot) {
   diagnose::Diagnosis nothing;
   nothing.verdict = diagnose::Verdict::nothing_missing;

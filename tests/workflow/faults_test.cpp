@@ -17,6 +17,7 @@
 #include <sim/run/simulate.hpp>
 
 #include "diagnose/examined.hpp"
+#include "named.hpp"
 
 namespace mckibben::diagnose {
 namespace {
@@ -48,17 +49,6 @@ TEST(Faults, WhatAllRunsHaveInCommonIsTheRecorders) {
       EXPECT_TRUE(fault.common);
     }
   }
-}
-
-// What a model leaves that was not looked for to the end says nothing of a run.
-TEST(Faults, ASearchThatWasCutAccusesNoRun) {
-  auto data = small(plant::Rig{}, 2.0);
-  delay(data.runs[1], 3);
-  const Diagnosis cut = diagnose(data, {.threads = 2, .time_limit_s = 0.0}, [](const auto&, auto, auto) {});
-  EXPECT_EQ(cut.ended, Ended::by_time);
-  EXPECT_TRUE(cut.faults.empty());
-  EXPECT_TRUE(std::ranges::count(cut.not_done, "faults of runs")) << cut.because;
-  EXPECT_TRUE(std::ranges::count(cut.not_done, "faults of runs beside what was found")) << cut.because;
 }
 
 // No effect alone, and no earliness alone, comes near: with both there is something to fit.

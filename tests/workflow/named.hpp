@@ -5,9 +5,14 @@
 
 #include <gtest/gtest.h>
 
-#include <sim/diagnose/diagnose.hpp>
+#include <sim/identify/diagnosis.hpp>
 
 namespace mckibben::diagnose {
+
+inline Diagnosis diagnosis_of(const domain::Dataset& data, unsigned threads) {
+  const identify::Settings settings{.threads = threads};
+  return identify::diagnosis_of(identify::identify(data, settings), settings, {.seed = 3});
+}
 
 inline testing::AssertionResult names_only(const Diagnosis& found, std::string_view effect) {
   if (found.verdict == Verdict::missing_effect && found.effects.size() == 1u &&

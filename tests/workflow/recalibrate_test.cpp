@@ -10,6 +10,7 @@
 
 #include "benchmark/hidden_effects.hpp"
 #include "diagnose/planted.hpp"
+#include "named.hpp"
 #include "says.hpp"
 
 namespace mckibben::diagnose {

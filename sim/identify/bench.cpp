@@ -1,0 +1,230 @@
+// See the header.
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <span>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <sim/data/amount.hpp>
+#include <sim/diagnose/thresholds.hpp>
+#include <sim/domain/number.hpp>
+#include <sim/identify/bench.hpp>
+
+namespace mckibben::identify {
+
+using diagnose::BenchFault, diagnose::FittedNumber;
+
+namespace {
+
+constexpr double of_95 = diagnose::thresholds.interval.normal;
+constexpr double stands_out = 3.0;  // deviations of a run's own value: it is reported
+
+double middle_of(std::vector<double> list) {
+  std::ranges::sort(list);
+  const std::size_t half = list.size() / 2;
+  return list.size() % 2 == 1 ? list[half] : 0.5 * (list[half - 1] + list[half]);
+}
+
+/// In so many digits that the last is about a tenth of the deviation.
+std::string number_of(double value, double deviation) {
+  if (!(deviation > 0.0) || value == 0.0) return fmt::format("{:.4g}", value);
+  const double digits = std::floor(std::log10(std::abs(value))) - std::floor(std::log10(deviation)) + 2.0;
+  return domain::write_number(domain::significant(value, std::clamp(static_cast<int>(digits), 2, 6)));
+}
+
+std::string more_or_less(double value, const char* more = "more", const char* less = "less") {
+  return value < 0.0 ? less : more;
+}
+
+/// Numbers of runs of one model: value and deviation of each run, of one kind of fault.
+struct OfRuns {
+  std::vector<double> values, deviations;
+};
+OfRuns of_runs(const Model& model, std::size_t place) {
+  OfRuns list;
+  const auto i = static_cast<Eigen::Index>(place);
+  for (std::size_t run = 0; run < model.grams.means.size(); ++run) {
+    list.values.push_back(model.grams.means[run][i]);
+    list.deviations.push_back(model.grams.deviations[run][i]);
+  }
+  return list;
+}
+
+class FaultReport {
+ public:
+  FaultReport(const Model& model, const Estimates& estimates)
+      : model_(model), estimates_(estimates), rows_(model.problem->rows), data_(rows_.data()) {}
+
+  std::vector<BenchFault> operator()() {
+    std::size_t at = 0;
+    for (const Added& added : model_.point.effects) {
+      const Entry& entry = model_.problem->dictionary.entries[added.entry];
+      if (entry.bench != nullptr) common(entry, estimates_.bench[at++]);
+    }
+    for (std::size_t i = 0; i < model_.point.differ.size(); ++i) differing_runs(i);
+    return std::move(list_);
+  }
+
+ private:
+  const domain::Run& run(std::size_t place) const { return data_.runs[rows_.runs[place]]; }
+
+  void common(const Entry& entry, const FittedNumber& size) {
+    BenchFault fault{.name = entry.name, .runs = {}, .size = size, .write = {}, .words = {}};
+    const double deviation = (size.high - size.low) / (2.0 * of_95);
+    for (std::size_t i = 0; i < rows_.runs.size(); ++i) fault.runs.push_back(run(i).id);
+    if (entry.bench->of == &Bench::clock) {
+      fault.words = fmt::format("the clock of the readings runs {} % {}",
+                                number_of(100.0 * std::abs(size.value), 100.0 * deviation),
+                                more_or_less(size.value, "slow", "fast"));
+      fault.write =
+          fmt::format("multiply the stamps of the readings by {}", number_of(1.0 + size.value, deviation));
+    } else {
+      const bool factor = entry.bench->of == &Bench::load_factor;
+      fault.words = fmt::format(
+          "all loads are {} {} {} than written",
+          number_of((factor ? 100.0 : 1.0) * std::abs(size.value), (factor ? 100.0 : 1.0) * deviation),
+          factor ? "%" : "kg", more_or_less(size.value));
+      std::map<double, std::vector<std::string>> by_load;
+      for (std::size_t i = 0; i < rows_.runs.size(); ++i) by_load[run(i).load_kg].push_back(run(i).id);
+      std::vector<std::string> lines;
+      for (const auto& [written, ids] : by_load) {
+        const double is = factor ? written * (1.0 + size.value) : written + size.value;
+        lines.push_back(fmt::format("{}: load: {} kg", fmt::join(ids, ", "),
+                                    number_of(is, factor ? written * deviation : deviation)));
+      }
+      fault.write = fmt::format("{}", fmt::join(lines, "; "));
+    }
+    list_.push_back(std::move(fault));
+  }
+
+  /// What all runs have in common is not determined: each is reported less the median.
+  void differing_runs(std::size_t place) {
+    const int which = model_.point.differ[place];
+    OfRuns of = of_runs(model_, place);
+    const double middle = middle_of(of.values);
+    std::size_t furthest = 0;
+    const auto off = [&](std::size_t i) { return std::abs(of.values[i] - middle) / of.deviations[i]; };
+    for (std::size_t i = 0; i < of.values.size(); ++i)
+      if (off(i) > off(furthest)) furthest = i;
+    for (std::size_t i = 0; i < of.values.size(); ++i)
+      if (off(i) > stands_out || i == furthest) report(which, i, of.values[i] - middle, of.deviations[i]);
+  }
+
+  void report(int which, std::size_t place, double value, double deviation) {
+    const domain::Run& of = run(place);
+    const bool of_loads = which == loads, of_zeros = which == zeros;
+    BenchFault fault{.name = std::string(differing.at(static_cast<std::size_t>(which)).name),
+                     .runs = {of.id},
+                     .size = {.name = "",
+                              .unit = of_loads   ? "kg"
+                                      : of_zeros ? unit_of_reading()
+                                                 : "1",
+                              .value = value,
+                              .low = value - of_95 * deviation,
+                              .high = value + of_95 * deviation}};
+    if (of_loads) {
+      fault.words = fmt::format("the load of run {} is {} kg {} than written", of.id,
+                                number_of(std::abs(value), deviation), more_or_less(value));
+      fault.write = fmt::format(
+          "load: {} kg",
+          number_of(model_.problem->dictionary.setting(model_.point).bench.load_kg(of.load_kg, place),
+                    deviation));
+    } else if (of_zeros) {
+      fault.words = fmt::format("the zero of run {} is {} too {}", of.id,
+                                data::amount_of(data_.judged(), std::abs(value), data_.rig),
+                                more_or_less(value, "high", "low"));
+      fault.write = column_line(of, value, 1.0, deviation);
+    } else {
+      fault.words = fmt::format("the readings of run {} are {} % too {}", of.id,
+                                number_of(100.0 * std::abs(value), 100.0 * deviation),
+                                more_or_less(value, "large", "small"));
+      fault.write = column_line(of, 0.0, 1.0 / (1.0 + value), deviation);
+    }
+    list_.push_back(std::move(fault));
+  }
+
+  std::string unit_of_reading() const {
+    return data_.judged() == domain::Judged::angle   ? "rad"
+           : data_.judged() == domain::Judged::force ? "N"
+                                                     : "1";
+  }
+
+  /// A run's own place for the judged reading, with what is off taken out.
+  std::string column_line(const domain::Run& of, double zero, double factor, double deviation) const {
+    const std::string key(plant::name_of(data_.judged()));
+    domain::ColumnPlace place = of.columns[key];
+    if (place.absent()) place = data_.columns[key];
+    const auto judged_by = [&](double per_unit) {
+      place.zero += zero / (place.factor * per_unit);
+      place.factor *= factor;
+    };
+    if (place.absent()) {
+      place.column = key == "contraction" ? "contraction_ratio" : key == "angle" ? "angle_rad" : "force_N";
+      place.unit = unit_of_reading();
+      judged_by(1.0);
+    } else {
+      judged_by(key == "contraction" ? of.ratio_per_unit : place.unit == "deg" ? plant::degree_rad : 1.0);
+    }
+    const double per =
+        deviation /
+        std::max(std::abs(place.factor * (key == "contraction" ? of.ratio_per_unit : 1.0)), 1e-300);
+    std::string text = fmt::format("columns: {{{}: {{column: {}, unit: {}", key, place.column, place.unit);
+    if (place.zero != 0.0) text += ", zero: " + number_of(place.zero, zero == 0.0 ? 0.0 : per);
+    if (place.factor != 1.0)
+      text += ", factor: " + number_of(place.factor, 0.1 * std::abs(place.factor) * deviation);
+    return text + "}}";
+  }
+
+  const Model& model_;
+  const Estimates& estimates_;
+  const Rows& rows_;
+  const domain::Dataset& data_;
+  std::vector<BenchFault> list_;
+};
+
+std::vector<double>& judged_of(domain::Run& run) {
+  switch (run.kind_of_judged()) {
+    case domain::Judged::angle:
+      return run.angle_rad;
+    case domain::Judged::force:
+      return run.force_N;
+    case domain::Judged::contraction:
+      break;
+  }
+  return run.contraction_ratio;
+}
+
+}  // namespace
+
+std::vector<BenchFault> bench_faults(const Model& model, const Estimates& estimates) {
+  return FaultReport(model, estimates)();
+}
+
+domain::Dataset without_faults(const Model& model) {
+  const Rows& rows = model.problem->rows;
+  domain::Dataset data = rows.data();
+  const Bench bench = model.problem->dictionary.setting(model.point).bench;
+  for (std::size_t i = 0; i < rows.runs.size(); ++i) {
+    domain::Run& run = data.runs[rows.runs[i]];
+    run.load_kg = bench.load_kg(run.load_kg, i);
+    std::vector<double>& read = judged_of(run);
+    double zero = bench.zero, gain = 0.0;
+    for (std::size_t place = 0; place < model.point.differ.size(); ++place) {
+      const double own = of_runs(model, place).values[i];
+      if (model.point.differ[place] == zeros) zero += own;
+      if (model.point.differ[place] == gains) gain += own;
+    }
+    for (double& one : read) one = (one - zero) / (1.0 + gain);
+    if (bench.clock != 0.0) {
+      const Eigen::VectorXd right = clocked(Eigen::Map<const Eigen::VectorXd>(read.data(), std::ssize(read)),
+                                            1.0 / (1.0 + bench.clock) - 1.0);
+      std::ranges::copy(right, read.begin());
+    }
+  }
+  return data;
+}
+
+}  // namespace mckibben::identify

@@ -1,0 +1,214 @@
+// See the header.
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <sim/data/warnings.hpp>
+#include <sim/diagnose/candidate.hpp>
+#include <sim/diagnose/experiment.hpp>
+#include <sim/diagnose/remaining.hpp>
+#include <sim/diagnose/remarks.hpp>
+#include <sim/diagnose/run_gaps.hpp>
+#include <sim/diagnose/start.hpp>
+#include <sim/diagnose/story.hpp>
+#include <sim/diagnose/thresholds.hpp>
+#include <sim/diagnose/where.hpp>
+#include <sim/identify/bench.hpp>
+#include <sim/identify/diagnosis.hpp>
+#include <sim/identify/estimates.hpp>
+#include <sim/identify/gaps.hpp>
+#include <sim/identify/next.hpp>
+#include <sim/identify/rivals.hpp>
+#include <sim/identify/visible.hpp>
+
+namespace mckibben::identify {
+
+using diagnose::Diagnosis, diagnose::Experiment;
+
+namespace {
+
+class HandingOver {
+ public:
+  HandingOver(const Identified& found, const Settings& settings, const Reporting& reporting)
+      : found_(found),
+        settings_(settings),
+        reporting_(reporting),
+        data_(found.study->data),
+        usable_(found.study->usable),
+        left_(unpredicted_by_all(found)),
+        experiment_(data_, usable_.masked, settings.threads, usable_.runs) {
+    for (const Eigen::VectorXd& one : left_) rms_.push_back(rms(found.study->rows, one));
+  }
+
+  Diagnosis operator()() {
+    result_.seed = reporting_.seed;
+    result_.false_alarm_rate = diagnose::thresholds.decide.false_alarm_rate;
+    report_data();
+    result_.verdict = verdict();
+    result_.contradicts_sheet = found_.decision.contradicts_sheet;
+    const std::size_t handed = handed_over();
+    report_model(handed);
+    result_.explanations = explanations(found_, rms_);
+    result_.ranking = ranking(found_, rms_);
+    step("where model and data disagree");
+    report_gap(handed);
+    plan_next();
+    report_verdict();
+    return std::move(result_);
+  }
+
+ private:
+  void step(const std::string& what) const {
+    if (settings_.trying) settings_.trying(what);
+  }
+  void warn(std::string what) { result_.warnings.push_back(std::move(what)); }
+  const Judged& chosen() const { return found_.table[found_.decision.chosen]; }
+
+  void report_data() {
+    result_.warnings = reporting_.warnings;
+    for (std::string& what : data::grouped(usable_.warnings)) warn(std::move(what));
+    result_.faults = usable_.faulty;
+    const diagnose::NoiseFloor& floor = experiment_.floor();
+    for (const std::string& what : diagnose::noise_in_words(data_, floor)) warn(what);
+    for (const std::string& what : diagnose::sheets_in_words(data_, floor)) warn(what);
+    for (const std::string& what : diagnose::rows_in_words(data_, floor)) warn(what);
+    if (diagnose::carries(data_.rig, plant::ResidualForce::name))
+      warn("the rig's residual_law is kept as it is: if it is wrong, take it out");
+  }
+
+  /// What the decision says, as far as the data and a search that was ended allow.
+  Verdict verdict() {
+    result_.cannot_tell = usable_.cannot_tell;
+    if (!result_.cannot_tell.empty()) return Verdict::cannot_tell;
+    const Verdict decided = found_.decision.verdict;
+    if (found_.ended != Ended::no && decided != Verdict::missing_effect) return Verdict::cannot_tell;
+    const Model* parameters = found_.of(false);
+    if (decided != Verdict::nothing_missing || parameters == nullptr) return decided;
+    step("what of the catalogue these data would show");
+    const Visible seen = visible(*parameters);
+    if (seen.hidden.empty()) return decided;
+    warn(
+        fmt::format("these data would not show, even at their usual size: {}", fmt::join(seen.hidden, ", ")));
+    const double most = diagnose::thresholds.decide.invisible * static_cast<double>(seen.all);
+    return static_cast<double>(seen.hidden.size()) > most ? Verdict::cannot_tell : decided;
+  }
+
+  /// The model whose rig is handed over: the chosen one, or one that a rig file can carry; the rig's
+  /// parameters where nothing is decided and they predict better.
+  std::size_t handed_over() {
+    std::size_t handed = found_.decision.chosen;
+    const auto rig_can_carry = [&](std::size_t i) { return found_.models[i].point.terms != Terms::rubs; };
+    if (!rig_can_carry(handed)) {
+      warn(
+          "what is left acts like friction that depends on the place along the stroke: no rig file can carry "
+          "that");
+      std::optional<std::size_t> best;
+      for (std::size_t i = 0; i < found_.table.size(); ++i)
+        if (rig_can_carry(i) && !found_.table[i].described && (!best || rms_[i] < rms_[*best])) best = i;
+      if (best) handed = *best;
+    }
+    const bool decided =
+        result_.verdict != Verdict::cannot_tell && result_.verdict != Verdict::unknown_effect;
+    for (std::size_t i = 0; i < found_.table.size() && !decided; ++i)
+      if (found_.table[i].names.empty() && rms_[i] < rms_[handed]) handed = i;
+    return handed;
+  }
+
+  void report_model(std::size_t handed) {
+    const Model& model = found_.models[handed];
+    Estimates estimates = estimates_of(model);
+    result_.corrected = estimates.rig;
+    result_.recalibrated = std::move(estimates.moved);
+    result_.left_open = std::move(estimates.left_open);
+    result_.bench = bench_faults(model, estimates);
+    result_.residual_law = std::move(estimates.law);
+    if (result_.verdict == Verdict::unknown_effect)
+      result_.law_valid_for = diagnose::visited(data_, usable_.runs);
+    if (result_.verdict == Verdict::missing_effect) {
+      result_.effects = std::move(estimates.effects);
+      support(found_, result_.effects);
+    } else {  // names beside general terms, or of an open search, are no findings
+      result_.stand_ins = std::move(estimates.effects);
+      for (diagnose::NamedEffect& one : result_.stand_ins) one.stands_in = true;
+    }
+    if (const Model* parameters = found_.of(false))
+      for (std::size_t j = 0; j < result_.recalibrated.size(); ++j)
+        result_.absorbed.push_back({result_.recalibrated[j].fitted.name,
+                                    parameters->point.z[static_cast<Eigen::Index>(j)],
+                                    model.point.z[static_cast<Eigen::Index>(j)]});
+    const auto unknown = [&](const std::string& path) {
+      const auto stated = data_.rig.spreads.find(path);
+      return stated != data_.rig.spreads.end() && !std::isfinite(stated->second);
+    };
+    for (const diagnose::LeftOpen& open : result_.left_open)
+      if (std::ranges::any_of(open.parameters, unknown)) warn("left open by these data: " + open.words);
+  }
+
+  void report_gap(std::size_t handed) {
+    const auto place = [&](bool described) {
+      for (std::size_t i = 0; i < found_.table.size(); ++i)
+        if (found_.table[i].names.empty() && found_.table[i].described == described) return i;
+      return handed;  // ended before there was one
+    };
+    const std::size_t nominal = place(true),
+                      recalibrated = found_.of(false) != nullptr ? place(false) : nominal;
+    const Three three{found_.models[nominal], found_.models[recalibrated], found_.models[handed],
+                      left_[nominal],         left_[recalibrated],         left_[handed]};
+    result_.gap = gap_of(found_, three, experiment_.floor());
+    result_.runs = gaps_of_runs(found_, three, experiment_);
+    const auto rig_of = [&](std::size_t i) {
+      const Model& model = found_.models[i];
+      return model.problem->dictionary.setting(model.point).rig;
+    };
+    result_.where = diagnose::where(experiment_, rig_of(recalibrated), usable_.runs, reporting_.seed);
+    const domain::Dataset mended = without_faults(found_.models[handed]);
+    const Experiment of_mended(mended, usable_.masked, settings_.threads, usable_.runs);
+    result_.start = look_at_start(of_mended, result_.corrected, usable_.runs);
+    result_.remaining = remaining(of_mended, result_.corrected, usable_.runs, result_.gap, reporting_.seed);
+  }
+
+  /// What would separate the chosen model from the best that does as well.
+  void plan_next() {
+    if (data_.pressure_is_given() || data_.judged() != domain::Judged::contraction)
+      return;  // no currents, loads
+    const Model* rival = doubt(found_);
+    if (rival == nullptr || chosen().general || found_.ended != Ended::no) return;
+    step("planning the measurement that would tell more");
+    const auto words = [&](const Model& model) {
+      const auto names = model.problem->dictionary.names(model.point);
+      return names.empty() ? std::string("other parameters") : fmt::format("{}", fmt::join(names, " with "));
+    };
+    result_.next_experiment =
+        next_measurement(found_.chosen(), *rival, {words(found_.chosen()), words(*rival)}, settings_.threads);
+  }
+
+  void report_verdict() {
+    result_.ended = found_.ended;
+    result_.time_limit_s = settings_.time_limit_s;
+    result_.not_done = found_.not_done;
+    result_.because = because(result_);
+    if (result_.verdict != Verdict::nothing_missing)
+      result_.because +=
+          sentence_of(result_.remaining) + sentence_of(result_.start, result_.gap, data_.recorded.start);
+  }
+
+  const Identified& found_;
+  const Settings& settings_;
+  const Reporting& reporting_;
+  const domain::Dataset& data_;
+  const Usable& usable_;
+  std::vector<Eigen::VectorXd> left_;  ///< by each model of the table, where runs are held out
+  std::vector<double> rms_;
+  Experiment experiment_;
+  Diagnosis result_;
+};
+
+}  // namespace
+
+Diagnosis diagnosis_of(const Identified& found, const Settings& settings, const Reporting& reporting) {
+  return HandingOver(found, settings, reporting)();
+}
+
+}  // namespace mckibben::identify

@@ -1,0 +1,166 @@
+// What is handed over of small data sets whose answer is known.
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+#include <sim/identify/diagnosis.hpp>
+
+#include "diagnose/planted.hpp"
+#include "says.hpp"
+
+namespace mckibben::identify {
+namespace {
+
+using diagnose::Diagnosis, diagnose::FittedNumber;
+
+Diagnosis handed_over(const domain::Dataset& data, const Settings& settings = {.threads = 2}) {
+  return diagnosis_of(identify(data, settings), settings);
+}
+
+testing::AssertionResult surrounds(const FittedNumber& number, double truth) {
+  if (number.low < truth && truth < number.high) return testing::AssertionSuccess();
+  return testing::AssertionFailure() << truth << " is not in " << number.low << " to " << number.high;
+}
+
+plant::Rig with_a_leak() {
+  plant::Rig rig;
+  rig.effects.get<plant::MuscleLeak>().conductance_m3_per_s_Pa = 2e-10;
+  return rig;
+}
+
+const diagnose::Moved* moved(const Diagnosis& found, const std::string& path) {
+  const auto at =
+      std::ranges::find_if(found.recalibrated, [&](const auto& one) { return one.fitted.name == path; });
+  return at == found.recalibrated.end() ? nullptr : &*at;
+}
+
+TEST(HandedOver, AnEffectWithItsIntervalTheRigWithItAndTheGapThatItCloses) {
+  const Diagnosis found = handed_over(diagnose::small(with_a_leak()));
+  ASSERT_EQ(found.effects.size(), 1U) << found.because;
+  EXPECT_EQ(found.effects[0].name, "muscle_leak");
+  EXPECT_TRUE(found.effects[0].confusable_with.empty());
+  EXPECT_EQ(found.effects[0].support.by.size(), 6U);
+  ASSERT_EQ(found.effects[0].parameters.size(), 1U);
+  const FittedNumber& conductance = found.effects[0].parameters[0];
+  EXPECT_EQ(conductance.name, "conductance");
+  EXPECT_EQ(conductance.unit, "m3/(s.Pa)");
+  EXPECT_TRUE(surrounds(conductance, 2e-10));
+  EXPECT_LT(conductance.high - conductance.low, 0.4e-10);
+  EXPECT_TRUE(conductance.determined);
+  EXPECT_EQ(found.corrected.effects.get<plant::MuscleLeak>().conductance_m3_per_s_Pa, conductance.value);
+  EXPECT_TRUE(found.because.starts_with("Missing: muscle_leak")) << found.because;
+  EXPECT_TRUE(found.bench.empty());
+
+  EXPECT_GT(found.gap.nominal_rmse, 5.0 * found.gap.noise_floor);
+  EXPECT_LT(found.gap.corrected_rmse, 1.3 * found.gap.noise_floor);
+  EXPECT_LT(found.gap.corrected_rmse, found.gap.recalibrated_rmse);
+  EXPECT_GT(found.gap.closed, 0.95);
+  ASSERT_EQ(found.runs.size(), 6U);
+  for (const diagnose::RunGap& run : found.runs) {  // each is predicted from those of other loads
+    EXPECT_TRUE(run.held_out);
+    ASSERT_EQ(run.corrected.size(), run.measured.size());
+    double square = 0.0;
+    for (std::size_t k = 0; k < run.measured.size(); ++k)
+      square += std::pow(run.measured[k] - run.corrected[k], 2);
+    EXPECT_NEAR(std::sqrt(square / static_cast<double>(run.measured.size())), run.corrected_rmse,
+                0.05 * run.corrected_rmse);
+  }
+
+  ASSERT_FALSE(found.ranking.empty());
+  EXPECT_EQ(found.ranking[0].name, "muscle_leak");
+  EXPECT_EQ(found.ranking[0].outcome, "chosen");
+  ASSERT_FALSE(found.explanations.empty());
+  EXPECT_EQ(std::ranges::count_if(found.explanations, &diagnose::Explanation::chosen), 1);
+  EXPECT_TRUE(found.explanations[0].chosen);
+  EXPECT_EQ(found.explanations[0].nats, 0.0);
+  EXPECT_FALSE(found.where.empty());
+  EXPECT_FALSE(found.recalibrated.empty());
+}
+
+TEST(HandedOver, TheRigAsDescribedWhereNothingIsMissing) {
+  const Diagnosis found = handed_over(diagnose::small({}));
+  EXPECT_EQ(found.verdict, Verdict::nothing_missing) << found.because;
+  EXPECT_TRUE(found.recalibrated.empty());
+  EXPECT_TRUE(found.bench.empty());
+  EXPECT_LT(found.gap.corrected_rmse, 1.3 * found.gap.noise_floor);
+}
+
+TEST(HandedOver, AFaultOfTheBenchFirstWithTheLinesThatMendIt) {
+  domain::Dataset data = diagnose::small(with_a_leak());
+  for (domain::Run& run : data.runs) run.load_kg += 1.0;  // a hook that was weighed twice
+  const Diagnosis found = handed_over(data);
+  ASSERT_EQ(found.bench.size(), 1U) << found.because;
+  const diagnose::BenchFault& label = found.bench[0];
+  EXPECT_EQ(label.name, "load_label");
+  EXPECT_EQ(label.runs.size(), 6U);
+  EXPECT_EQ(label.size.unit, "kg");
+  EXPECT_TRUE(surrounds(label.size, -1.0));
+  EXPECT_TRUE(found.because.starts_with("All loads are ")) << found.because;
+  EXPECT_TRUE(holds(found.because, "kg less than written", "Missing: muscle_leak"));
+  EXPECT_TRUE(holds(label.write, "r01, r02: load: 11.1", "; r05, r06: load: 23.")) << label.write;
+  ASSERT_EQ(found.effects.size(), 1U);
+  EXPECT_TRUE(surrounds(found.effects[0].parameters[0], 2e-10));
+  EXPECT_LT(found.gap.corrected_rmse, 1.3 * found.gap.noise_floor);
+}
+
+TEST(HandedOver, WhichRunHasAnotherLoadAndWhichItIs) {
+  domain::Dataset data = diagnose::small({});
+  data.runs[2].load_kg += 2.0;
+  const Diagnosis found = handed_over(data);
+  ASSERT_FALSE(found.bench.empty()) << found.because;
+  const diagnose::BenchFault& load = found.bench[0];
+  EXPECT_EQ(load.name, "loads_differ");
+  EXPECT_EQ(load.runs, std::vector<std::string>{"r03"});
+  EXPECT_NEAR(load.size.value, -2.0, 0.3);
+  EXPECT_TRUE(load.write.starts_with("load: 16.")) << load.write;
+  EXPECT_TRUE(found.effects.empty());
+}
+
+TEST(HandedOver, ParametersThatMovedInTheUnitsOfTheRig) {
+  plant::Rig truth;
+  truth.friction.scale = 1.25;
+  const Diagnosis found = handed_over(diagnose::small(truth));
+  EXPECT_EQ(found.verdict, Verdict::recalibrate) << found.because;
+  const diagnose::Moved* scale = moved(found, "friction.scale");
+  ASSERT_NE(scale, nullptr);
+  EXPECT_TRUE(surrounds(scale->fitted, 1.25));
+  EXPECT_EQ(scale->nominal, 1.0);
+  EXPECT_NEAR(scale->deviations, 2.5, 0.5);
+  EXPECT_EQ(found.corrected.friction.scale, scale->fitted.value);
+  EXPECT_GT(found.gap.closed, 0.95);
+}
+
+TEST(HandedOver, ALawOutsideTheCatalogueThatTheRigCarries) {
+  plant::Rig truth;
+  truth.effects.get<plant::ResidualForce>().terms = {
+      {.of = plant::Basis::sine, .coefficient_N = 15.0, .wavelength_m = 0.012}};
+  const Diagnosis found = handed_over(diagnose::small(truth));
+  EXPECT_EQ(found.verdict, Verdict::unknown_effect) << found.because;
+  EXPECT_TRUE(found.effects.empty());
+  ASSERT_FALSE(found.residual_law.empty()) << found.because;
+  EXPECT_EQ(found.corrected.effects.get<plant::ResidualForce>().terms.size(), found.residual_law.size());
+  EXPECT_FALSE(found.law_valid_for.empty());
+  EXPECT_LT(found.gap.corrected_rmse, 0.5 * found.gap.nominal_rmse);
+}
+
+TEST(HandedOver, TheBestSoFarOfASearchThatWasEnded) {
+  const domain::Dataset data = diagnose::small(with_a_leak(), 2.0);
+  const Diagnosis at_once = handed_over(data, {.threads = 2, .time_limit_s = 0.0});
+  EXPECT_EQ(at_once.verdict, Verdict::cannot_tell);
+  EXPECT_EQ(at_once.ended, Ended::by_time);
+  EXPECT_TRUE(at_once.because.starts_with("So far: ")) << at_once.because;
+  EXPECT_TRUE(holds(at_once.because, "not done to the end: the rig's parameters; effects"));
+
+  // Work, not time: alike on every machine.
+  const Diagnosis later = handed_over(data, {.threads = 1, .most_passes = 120});
+  EXPECT_EQ(later.ended, Ended::by_work);
+  EXPECT_EQ(later.verdict, Verdict::cannot_tell);
+  EXPECT_LT(later.gap.corrected_rmse, later.gap.nominal_rmse);  // never less than what was found
+  EXPECT_FALSE(later.recalibrated.empty());
+  const Diagnosis again = handed_over(data, {.threads = 2, .most_passes = 120});
+  EXPECT_EQ(again.gap.corrected_rmse, later.gap.corrected_rmse);
+  EXPECT_EQ(again.because, later.because);
+}
+
+}  // namespace
+}  // namespace mckibben::identify
