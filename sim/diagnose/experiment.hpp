@@ -30,32 +30,8 @@ class Experiment {
   const NoiseFloor& floor() const { return floor_; }
   std::size_t rows(std::size_t run) const;
 
-  /// Measured minus predicted, each over its floor, for each row of each run: the reading that is judged,
-  /// then those beside it. Masked rows are 0.
-  Eigen::VectorXd residuals(const Rig& rig, const Runs& runs) const;
-
-  /// The same, and the derivative of the prediction with respect to each parameter's scaled value (rows: as
-  /// the residuals; columns: as the parameters).
-  struct Slopes {
-    Eigen::VectorXd residuals;
-    Eigen::MatrixXd columns;
-  };
-  Slopes slopes(const Rig& rig, std::span<const Parameter> parameters, const Runs& runs) const;
-  /// The same from wider steps to both sides, at twice the cost: where columns of several parameters all but
-  /// cancel, what one side's bend adds to each is as large as what they leave.
-  Slopes fine_slopes(const Rig& rig, std::span<const Parameter> parameters, const Runs& runs) const;
-  /// The derivative with respect to other changes: each makes a changed rig and load from the given ones, for
-  /// a change of `size` in the units of its choice.
-  struct Change {
-    std::function<void(Loaded&)> apply;
-    double size = 1.0;
-    bool may_fail = false;  ///< a rig that cannot be simulated with it gets a column of zeros
-  };
-  Slopes slopes(const Rig& rig, std::span<const Change> changes, const Runs& runs) const;
-  /// Those of which slopes of parameters are taken.
-  static std::vector<Change> changes_of(const Rig& rig, std::span<const Parameter> parameters);
-
-  /// The same of one run whose readings are known.
+  /// Measured minus predicted, each over its floor, for each row of a run: the reading that is judged, then
+  /// those beside it. Masked rows are 0.
   Eigen::VectorXd residuals(const Readings& readings, std::size_t run) const;
 
   /// Readings of each of these runs. Throws engine::NumericalFailure, run::Interrupted.
@@ -80,20 +56,6 @@ class Experiment {
   void compare(const Readings& readings, std::size_t run, double* residuals) const;
   /// Whether what the rig's effects remember when a run begins is to be found out.
   bool seeks_memories(const Rig& rig) const;
-  /// Changes [first, last) of one run, which fly beside the rig itself.
-  struct Group {
-    Part part;
-    std::size_t first, last;
-  };
-  /// Those that could not fly, though they might have.
-  std::vector<Group> fly(const Rig& rig, std::span<const Change> changes, const std::vector<Group>& groups,
-                         Slopes& result, bool alone) const;
-  Wanted wanted(const Rig& rig, std::span<const Change> changes, std::size_t run) const;
-  /// Writes their columns after the first `before`, and with `base` the rig's own residuals if there are
-  /// none.
-  void note(const std::vector<Readings>& readings, std::span<const Change> changes, std::size_t before,
-            bool base, const Part& part, Slopes& result) const;
-
   const domain::Dataset& data_;
   std::vector<std::vector<bool>> masked_;
   unsigned threads_;

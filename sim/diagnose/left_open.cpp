@@ -203,15 +203,4 @@ std::vector<LeftOpen> left_open(const Eigen::MatrixXd& information, const std::v
   return list;
 }
 
-std::vector<LeftOpen> left_open(const Fitted& fitted, double inflation) {
-  const Eigen::MatrixXd information = fitted.columns.transpose() * fitted.columns / inflation;
-  std::vector<FittedOne> numbers;
-  Rig rig = fitted.model.rig;
-  for (const Parameter& p : fitted.model.free) {
-    const Found found = find(rig, p.path);
-    numbers.push_back({p.path, found.unit, *found.value, p.logarithmic ? *found.value : p.scale});
-  }
-  return left_open(information, numbers);
-}
-
 }  // namespace mckibben::diagnose

@@ -6,8 +6,9 @@
 #include <string>
 #include <vector>
 
+#include <Eigen/Core>
+
 #include <sim/diagnose/diagnosis.hpp>
-#include <sim/diagnose/fit.hpp>
 
 namespace mckibben::diagnose {
 
@@ -17,11 +18,8 @@ struct FittedOne {
   double value, scale;  ///< the latter of the value; of one that counts in logarithms the value itself
 };
 
-/// Of numbers of which the data alone have this curvature, in their scales.
+/// Of numbers of which the data alone, without the priors, have this curvature, in their scales. A number
+/// that nothing was said of counts in what is typical of it.
 std::vector<LeftOpen> left_open(const Eigen::MatrixXd& information, const std::vector<FittedOne>& numbers);
-
-/// Of the free parameters of a fit, by the curvature that its residuals alone have, without the priors. A
-/// number that nothing was said of counts in what is typical of it.
-std::vector<LeftOpen> left_open(const Fitted& fitted, double inflation);
 
 }  // namespace mckibben::diagnose

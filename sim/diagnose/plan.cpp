@@ -10,9 +10,8 @@
 
 #include <plant/instruments.hpp>
 #include <sim/diagnose/plan.hpp>
-#include <sim/diagnose/screen.hpp>
+#include <sim/diagnose/predict.hpp>
 #include <sim/diagnose/thresholds.hpp>
-#include <sim/engine/batch.hpp>
 #include <sim/engine/failure.hpp>
 #include <sim/run/batch.hpp>
 #include <sim/run/simulate.hpp>
@@ -131,56 +130,6 @@ double unexplained(const std::vector<double>& one, const std::vector<double>& ot
   return difference.squaredNorm();
 }
 
-/// What a model reads in a run, and how that changes with what is free in it; in floors.
-struct Foretold {
-  Eigen::VectorXd readings;
-  Eigen::MatrixXd columns;
-};
-
-Foretold foretold(const Experiment& experiment, const Model& model, const domain::Run& run) {
-  const auto changes = Experiment::changes_of(model.rig, model.free);
-  Foretold result;
-  constexpr std::size_t width = engine::Batch::width - 1;
-  for (std::size_t first = 0; first == 0 || first < changes.size(); first += width) {
-    const std::size_t count = std::min(width, changes.size() - first);
-    std::vector<Loaded> rigs(1 + count, {model.rig, run.load_kg});
-    for (std::size_t i = 0; i < count; ++i) changes[first + i].apply(rigs[1 + i]);
-    const auto readings = predict(run, rigs, experiment.data().rig.integrator.method);
-    const auto of = [&](std::size_t i) {
-      return Eigen::Map<const Eigen::VectorXd>(readings[i].judged.data(),
-                                               static_cast<Eigen::Index>(readings[i].judged.size()));
-    };
-    if (first == 0) {
-      result.readings = of(0) / experiment.floor().judged;
-      result.columns.resize(of(0).size(), static_cast<Eigen::Index>(changes.size()));
-    }
-    for (std::size_t i = 0; i < count; ++i)
-      result.columns.col(static_cast<Eigen::Index>(first + i)) =
-          (of(1 + i) - of(0)) / (experiment.floor().judged * changes[first + i].size);
-  }
-  return result;
-}
-
-/// By how much the misfit of a model grows that is fitted again, where a run is added that reads `truth`.
-double misfit_beside(const Fitted& fitted, const Foretold& foretold, const Eigen::VectorXd& truth,
-                     double inflation) {
-  Fitted all{.model = fitted.model,
-             .residuals = Eigen::VectorXd::Zero(fitted.columns.rows() + truth.size()),
-             .columns = Eigen::MatrixXd(fitted.columns.rows() + truth.size(), fitted.columns.cols())};
-  all.residuals.tail(truth.size()) = truth - foretold.readings;
-  all.columns << fitted.columns, foretold.columns;
-  return Projector(all, inflation)(all.residuals).squaredNorm();
-}
-
-/// Probability that the misfit of the one that is wrong grows by more than what still counts as doing as
-/// well: it scatters normally round `growth` as noise of that long-term variance makes it. `cost`: of the
-/// right one.
-double power(double growth, double cost, double inflation, double long_variance) {
-  const double limit = std::max(thresholds.near.clear, thresholds.name.as_good_cost * cost);
-  const double deviation = 2.0 * std::sqrt(growth * long_variance / inflation);
-  return growth > 0.0 ? 0.5 * std::erfc((limit - growth) / (std::sqrt(2.0) * deviation)) : 0.0;
-}
-
 /// The places of the largest values, largest first.
 std::vector<std::size_t> largest(const std::vector<double>& values, std::size_t most) {
   std::vector<std::size_t> places(values.size());
@@ -235,20 +184,6 @@ std::optional<NextExperiment> plan(const domain::Dataset& data, unsigned threads
       .load_kg = loads[job / items.size()],
       .expected_power = *best,
       .measurement = chosen.current};
-}
-
-std::optional<NextExperiment> plan(const Experiment& experiment, const Fitted& one, const Fitted& other,
-                                   std::vector<std::string> names, double inflation, double long_variance) {
-  return plan(experiment.data(), experiment.threads(), one.model.rig, other.model.rig, std::move(names),
-              [&](const domain::Run& run) {
-                const Foretold by_one = foretold(experiment, one.model, run),
-                               by_other = foretold(experiment, other.model, run);
-                const double more = static_cast<double>(by_one.readings.size()) / inflation;
-                return std::min(power(misfit_beside(other, by_other, by_one.readings, inflation),
-                                      one.cost + more, inflation, long_variance),
-                                power(misfit_beside(one, by_one, by_other.readings, inflation),
-                                      other.cost + more, inflation, long_variance));
-              });
 }
 
 }  // namespace mckibben::diagnose

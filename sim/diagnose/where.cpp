@@ -9,7 +9,6 @@
 
 #include <fmt/format.h>
 
-#include <sim/diagnose/held_out.hpp>
 #include <sim/diagnose/thresholds.hpp>
 #include <sim/diagnose/where.hpp>
 #include <sim/run/simulate.hpp>

@@ -10,10 +10,10 @@
 #include <sim/diagnose/experiment.hpp>
 #include <sim/diagnose/remaining.hpp>
 #include <sim/diagnose/remarks.hpp>
-#include <sim/diagnose/run_gaps.hpp>
 #include <sim/diagnose/start.hpp>
 #include <sim/diagnose/story.hpp>
 #include <sim/diagnose/thresholds.hpp>
+#include <sim/diagnose/visited.hpp>
 #include <sim/diagnose/where.hpp>
 #include <sim/identify/bench.hpp>
 #include <sim/identify/diagnosis.hpp>

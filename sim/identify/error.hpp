@@ -76,6 +76,8 @@ class Error {
   /// What a run's start does to a block's rows.
   Eigen::VectorXd started(const Block& block, const Eigen::VectorXd& start) const;
   std::size_t scale_of_differing(std::size_t place) const { return base() + place; }
+  /// Of what differs, at a place of the point's list.
+  double scale(std::size_t place) const { return std::exp(logs_[base() + place]); }
   static constexpr std::size_t model_sd = 1;
 
  private:

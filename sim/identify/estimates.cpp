@@ -8,7 +8,7 @@
 
 #include <Eigen/Cholesky>
 
-#include <sim/diagnose/estimates.hpp>
+#include <sim/diagnose/force_term.hpp>
 #include <sim/diagnose/left_open.hpp>
 #include <sim/diagnose/thresholds.hpp>
 #include <sim/domain/number.hpp>

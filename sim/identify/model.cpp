@@ -324,10 +324,30 @@ bool Model::place() {
   return moved;
 }
 
+void Model::share_common_load() {
+  const Dictionary& dictionary = problem->dictionary;
+  const auto offset = std::ranges::find(dictionary.parameters, "joint.load_offset", &Dictionary::Free::path);
+  if (point.run_loads_kg.empty() || point.z.size() == 0 || offset == dictionary.parameters.end()) return;
+  const auto place = static_cast<std::size_t>(std::ranges::find(point.differ, loads) - point.differ.begin());
+  const double of_runs = std::pow(error.scale(place), -2.0), unit_kg = offset->scale;
+  double& z = point.z[offset - dictionary.parameters.begin()];
+  for (int pass = 0; pass < 50; ++pass) {  // normals that touch Student's t
+    const double weight = (decisive.tails + 1.0) / (decisive.tails + z * z);
+    double sum_kg = 0.0;
+    for (const double load_kg : point.run_loads_kg) sum_kg += load_kg;
+    const double runs = static_cast<double>(point.run_loads_kg.size());
+    const double to_runs_kg =
+        (weight * z / unit_kg - of_runs * sum_kg) / (weight / (unit_kg * unit_kg) + runs * of_runs);
+    z -= to_runs_kg / unit_kg;
+    for (double& load_kg : point.run_loads_kg) load_kg += to_runs_kg;
+  }
+}
+
 void Model::settle(const Effort& effort) {
   place();
   for (int pass = 0; pass < 3; ++pass) {
     descend(effort);
+    share_common_load();
     if (hopeless || !place()) break;
   }
 }

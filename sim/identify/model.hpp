@@ -81,6 +81,9 @@ class Model {
   double cost(const Eigen::VectorXd& would_read, const Point& at) const;
   /// Simulates numbers of runs, which are not straight, where they are most probable; whether any has moved.
   bool place();
+  /// What the loads of all runs have in common is the rig's offset as well: the readings are the same, and
+  /// the priors say whose it is.
+  void share_common_load();
   void look_at_wander();
 
   std::optional<Eigen::VectorXd> deviation_;  ///< of each coordinate, as far as known

@@ -3,8 +3,6 @@
 #include <optional>
 #include <string>
 
-#include <ceres/version.h>
-
 #include <sim/diagnose/priors.hpp>
 #include <sim/diagnose/record.hpp>
 #include <sim/input/field_kinds.hpp>
@@ -298,7 +296,6 @@ std::string json_of(const domain::Dataset& data, const diagnose::Diagnosis& diag
                 {"absorbed", absorbed_json(diagnosis)}};
   if (data.rows_of_stamps) document["rows"] = rows_json(*data.rows_of_stamps);
   Json heading = heading_json("mckibben-diagnosis/1", data.inputs);
-  heading["program"]["ceres"] = CERES_VERSION_STRING;
   document["program"] = heading["program"];
   document["input_files"] = heading["input_files"];
   document["tolerance"] = data.rig.integrator.tolerance;

@@ -10,14 +10,11 @@
 //                                                little of an effect that has relatives: where a name is
 //                                                open, the measurement that is asked for is made, and all is
 //                                                diagnosed again
-//   benchmark_diagnosis --doubts [SEED [SETS]]   the same between two explanations alone, numbers in
-//                                                place of an effect among them (default 30 data sets)
 //   benchmark_diagnosis --pairs [SEED [SEEDS]]   two muscles on one wheel, an effect in one, both or none
 //   benchmark_diagnosis --corrupted [SEED [only=NAME]]   the same for data that were spoilt on purpose
 //
 // Every third data set is of the thesis's rig, of one of another size, of one that is badly known.
 // Started by mpirun or srun, its processes share the data sets out and meet in out/bench-diagnosis.ranks.
-// Thresholds of the workflow were set on seeds below 100.
 #include <algorithm>
 #include <array>
 #include <chrono>
@@ -32,13 +29,11 @@
 #include <fmt/ranges.h>
 
 #include <sim/cluster/share.hpp>
-#include <sim/diagnose/diagnose.hpp>
 #include <sim/input/hash.hpp>
 #include <sim/run/batch.hpp>
 
 #include "corrupted_benchmark.hpp"
 #include "data_sets.hpp"
-#include "doubts_benchmark.hpp"
 #include "pairs_benchmark.hpp"
 #include "score.hpp"
 #include "whole.hpp"
@@ -156,7 +151,7 @@ void score_corrupted(const std::vector<std::string>& words) {
   diagnose::score_corrupted(seed, only);
 }
 
-constexpr std::array suites{"", "--nulls", "--weak", "--advice", "--doubts", "--pairs", "--corrupted"};
+constexpr std::array suites{"", "--nulls", "--weak", "--advice", "--pairs", "--corrupted"};
 
 bool is_number(const std::string& word) {
   return !word.empty() && word.find_first_not_of("0123456789") == std::string::npos;
@@ -191,13 +186,8 @@ int main(int argc, char** argv) {
     return words.size() > at ? std::strtoull(words[at].c_str(), nullptr, 10) : otherwise;
   };
   const std::uint64_t first = number(0, 101), seeds = number(1, 3);
-  if (suite == "--pairs" || suite == "--doubts") {
-    const unsigned threads = cluster::crew().threads;
-    if (!cluster::crew().leads()) return 0;
-    if (suite == "--pairs")
-      diagnose::score_pairs(first, number(1, 1), threads);
-    else
-      diagnose::score_doubts(first, number(1, 30), threads);
+  if (suite == "--pairs") {
+    if (cluster::crew().leads()) diagnose::score_pairs(first, number(1, 1), cluster::crew().threads);
     return 0;
   }
   try {

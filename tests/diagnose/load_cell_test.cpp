@@ -1,4 +1,4 @@
-// A force that was read beside the contraction: what it is, what it weighs, and forces that are none.
+// A force that was read beside the contraction: what it is, and what it weighs.
 #include "load_cell.hpp"
 
 #include <algorithm>
@@ -6,11 +6,11 @@
 
 #include <gtest/gtest.h>
 
-#include <sim/data/finding.hpp>
-#include <sim/diagnose/check.hpp>
 #include <sim/diagnose/experiment.hpp>
-#include <sim/diagnose/remarks.hpp>
 #include <sim/run/replay.hpp>
+
+#include "planted.hpp"
+#include "residuals.hpp"
 
 namespace mckibben::diagnose {
 namespace {
@@ -19,32 +19,13 @@ using domain::Beside;
 
 const Runs every_run{0, 1, 2, 3, 4, 5};
 
-/// The words that the data are refused with; empty if they are not.
-std::string refusal(domain::Dataset data) {
-  try {
-    check(data::with_rows(std::move(data)), 2);
-  } catch (const data::UnfitData& unfit) {
-    return unfit.what();
-  }
-  return "";
-}
-
-domain::Dataset forces_times(double factor) {
-  domain::Dataset data = with_a_cell({});
-  for (domain::Run& run : data.runs)
-    for (double& force_N : run.measured->take("force")) force_N *= factor;
-  return data;
-}
-
 TEST(LoadCell, EachReadingWeighsByItsOwnFloor) {
   const domain::Dataset data = data::with_rows(with_a_cell({}));
   EXPECT_EQ(data.judged(), domain::Judged::contraction);
-  const Checked checked = check(data, 2);
-  EXPECT_TRUE(checked.warnings.empty()) << checked.warnings.front();
-  const Experiment experiment(data, checked.masked, 2, every_run);
+  const Experiment experiment(data, nothing_masked(data), 2, every_run);
   EXPECT_NEAR(experiment.floor().force_N, 2.0, 0.3);
   EXPECT_EQ(experiment.rows(0), 2 * rows_with_a_cell);
-  const auto residuals = experiment.residuals(data.rig, every_run);
+  const auto residuals = residuals_of(experiment, data.rig, every_run);
   EXPECT_NEAR(*experiment.rmse(Beside::force, residuals, every_run), 2.0, 0.2);
   EXPECT_FALSE(experiment.rmse(Beside::muscle_pressure, residuals, every_run));
   EXPECT_NEAR(experiment.rmse(residuals, every_run), experiment.floor().judged, 1e-5);
@@ -79,7 +60,7 @@ TEST(ValveGauge, WeighsByItsOwnFloor) {
   EXPECT_NEAR(experiment.floor().valve_Pa, noise_Pa, 0.25 * noise_Pa);
   EXPECT_EQ(experiment.floor().pressure_Pa, 0.0);
   EXPECT_EQ(experiment.rows(0), 1280u);
-  const auto residuals = experiment.residuals(data.rig, {0});
+  const auto residuals = residuals_of(experiment, data.rig, {0});
   EXPECT_NEAR(*experiment.rmse(Beside::valve_pressure, residuals, {0}), noise_Pa, 0.25 * noise_Pa);
 }
 
@@ -104,28 +85,14 @@ TEST(LoadCell, FeelsThatTheGuideHoldsTheLoad) {
   EXPECT_NEAR(more_on_the_way_up(0.05) - more_on_the_way_up(0.0), 0.1, 0.02);
 }
 
-TEST(LoadCell, ThatIsIgnoredIsNamed) {
-  domain::Dataset data = data::with_rows(with_a_cell({}));
-  EXPECT_TRUE(
-      ignored_in_words(data).starts_with("force_N is ignored: no model meets both it and the motion"));
-  data.runs[2].muscle_pressure_Pa.emplace();
-  const std::string words = ignored_in_words(data);
-  EXPECT_TRUE(words.starts_with("muscle_pressure_bar and force_N are ignored: no model meets both them"))
-      << words;
-  EXPECT_NE(words.find("has the gauge or the load cell an offset"), std::string::npos) << words;
-}
-
 TEST(LoadCell, AReadingThatIsMissingCostsNoOther) {
   domain::Dataset data = with_a_cell({});
   for (domain::Run& run : data.runs)
     for (std::size_t k = 0; k < rows_with_a_cell; ++k)
       if (k % 10 != 0) run.measured->take("force")[k] = std::nan("");
   data = data::with_rows(std::move(data));
-  const Checked checked = check(data, 2);
-  EXPECT_TRUE(checked.left_out.empty());
-  EXPECT_EQ(std::ranges::count(checked.masked[0], true), 0);
-  const Experiment experiment(data, checked.masked, 2, every_run);
-  const auto residuals = experiment.residuals(data.rig, every_run);
+  const Experiment experiment(data, nothing_masked(data), 2, every_run);
+  const auto residuals = residuals_of(experiment, data.rig, every_run);
   EXPECT_EQ((residuals.segment(rows_with_a_cell, rows_with_a_cell).array() != 0.0).count(), 16);
   EXPECT_NEAR(*experiment.rmse(Beside::force, residuals, every_run), 2.0, 0.4);
 }
@@ -138,16 +105,9 @@ TEST(LoadCell, BesideCountsOfAnEncoderHasAFloorToo) {
     for (double& ratio : run.measured->take("contraction")) ratio = count * std::floor(ratio / count);
   }
   data = data::with_rows(std::move(data));
-  const Experiment experiment(data, check(data, 2).masked, 2, every_run);
+  const Experiment experiment(data, nothing_masked(data), 2, every_run);
   EXPECT_GT(experiment.floor().count, 0.0);
   EXPECT_NEAR(experiment.floor().force_N, 2.0, 0.3);
-}
-
-TEST(LoadCell, ForcesInAnotherUnitOrOfAnotherSignAreRefused) {
-  EXPECT_EQ(refusal(forces_times(1.0)), "");
-  EXPECT_NE(refusal(forces_times(1e-3)).find("kN"), std::string::npos);
-  EXPECT_NE(refusal(forces_times(1.0 / plant::gravity_m_per_s2)).find("kg"), std::string::npos);
-  EXPECT_NE(refusal(forces_times(-1.0)).find("factor: -1"), std::string::npos);
 }
 
 }  // namespace

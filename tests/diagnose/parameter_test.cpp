@@ -1,6 +1,5 @@
 // Parameters by path, and what the catalogue says of each effect.
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <set>
 #include <stdexcept>
@@ -12,7 +11,6 @@
 #include <sim/diagnose/parameter.hpp>
 #include <sim/diagnose/priors.hpp>
 #include <sim/diagnose/thresholds.hpp>
-#include <sim/diagnose/trial.hpp>
 
 namespace mckibben::diagnose {
 namespace {
@@ -103,51 +101,6 @@ TEST(NominalParameters, IncludeTheSizesOfEffectsThatTheRigHas) {
   EXPECT_TRUE(carries(rig, "valve_dead_band"));
   EXPECT_FALSE(carries(rig, "muscle_leak"));
   EXPECT_EQ(nominal_parameters(plant::Rig{}).size() + 3, list.size());
-}
-
-/// Four readings, and a damping that each of them says to be less.
-class Damping {
- public:
-  Damping() {
-    fitted_.model = {.rig = plant::Rig{}, .free = nominal_parameters(plant::Rig{})};
-    fitted_.columns = Eigen::MatrixXd::Zero(4, std::ssize(fitted_.model.free));
-    fitted_.columns.col(&damping() - fitted_.model.free.data()).setConstant(2.0);
-  }
-
-  Parameter& damping() {
-    return *std::ranges::find(fitted_.model.free, "joint.guide_damping", &Parameter::path);
-  }
-
-  /// Whether the numbers are bent if the damping has this value and each reading this much to say.
-  bool bent_at(double value, double each) {
-    Parameter& p = damping();
-    p.put(fitted_.model.rig, value);
-    fitted_.residuals = Eigen::VectorXd::Constant(4, -each);
-    fitted_.cost = each * each + std::pow(p.scaled(value), 2.0);
-    return bent(fitted_, 4.0);
-  }
-
- private:
-  Fitted fitted_;
-};
-
-TEST(NominalParameters, AreBentAtTheEdgeOfWhatIsBelievedNotWhereNatureEndsThem) {
-  Damping rig;
-  Parameter& damping = rig.damping();
-  EXPECT_FALSE(rig.bent_at(damping.origin, 20.0));
-  EXPECT_TRUE(rig.bent_at(damping.lowest, 20.0));
-  damping.scale = 0.6 * damping.origin;  // known to 60 %: nought is less than two deviations off
-  damping.lowest = 0.0;
-  EXPECT_FALSE(rig.bent_at(0.0, 20.0));
-}
-
-TEST(NominalParameters, AreNotBentWhereAFitEndsAtTheEdgeByChance) {
-  Damping rig;
-  const double lowest = rig.damping().lowest;
-  // Of s more deviations: 4 (each + 2 s)^2 / 4 + (s - 3)^2, which is least at s = (3 - 2 each) / 5.
-  EXPECT_FALSE(rig.bent_at(lowest, 1.5));  // there
-  EXPECT_FALSE(rig.bent_at(lowest, 5.0));  // 7^2 / 5 less: scatter does that
-  EXPECT_TRUE(rig.bent_at(lowest, 6.0));   // 9^2 / 5
 }
 
 TEST(Catalogue, ALawWithATermMoreIsLookedForWhereTheShorterOneIs) {

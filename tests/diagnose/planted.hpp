@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include <sim/diagnose/diagnose.hpp>
+#include <sim/diagnose/diagnosis.hpp>
 #include <sim/domain/campaign.hpp>
 #include <sim/domain/dataset.hpp>
 #include <sim/run/campaign.hpp>

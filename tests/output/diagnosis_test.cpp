@@ -84,7 +84,7 @@ TEST(DiagnosisJson, HoldsWhatIsPromised) {
   EXPECT_FALSE(document.at("ranking").at(2).contains("held_out_rmse"));  // was not refitted
   EXPECT_EQ(document.at("confusion").at("likeness").at(1).at(2), 0.93);
   EXPECT_EQ(document.at("input_files").at(0).at("file"), "measured/dataset.yaml");
-  EXPECT_TRUE(document.at("program").contains("ceres"));
+  EXPECT_TRUE(document.contains("program"));
 }
 
 TEST(DiagnosisJson, HoldsFaultsOfTheBenchWithTheLineThatMendsThem) {

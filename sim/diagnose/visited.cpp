@@ -1,41 +1,12 @@
 // See the header.
 #include <algorithm>
 #include <limits>
-#include <numeric>
 
 #include <fmt/format.h>
 
-#include <sim/diagnose/run_gaps.hpp>
+#include <sim/diagnose/visited.hpp>
 
 namespace mckibben::diagnose {
-
-std::vector<RunGap> gaps_of_runs(const Experiment& experiment, const Runs& held_out, const Runs& usable,
-                                 const ThreeRigs& rigs) {
-  const auto& runs = experiment.data().runs;
-  std::vector<RunGap> gaps(runs.size());
-  for (std::size_t run = 0; run < runs.size(); ++run) {
-    RunGap& gap = gaps[run];
-    gap.id = runs[run].id;
-    gap.load_kg = runs[run].load_kg;
-    gap.held_out = std::binary_search(held_out.begin(), held_out.end(), run);
-    gap.left_out = !std::binary_search(usable.begin(), usable.end(), run);
-    gap.measured = runs[run].judged();
-    for (double& read : gap.measured) read += experiment.floor().middle;
-  }
-  Runs all(runs.size());
-  std::iota(all.begin(), all.end(), 0);
-  const auto tell = [&](const Rig& rig, double RunGap::*rmse, std::vector<double> RunGap::*simulated) {
-    auto readings = experiment.readings(rig, all);
-    for (const std::size_t run : all) {
-      gaps[run].*rmse = experiment.rmse(experiment.residuals(readings[run], run), {run});
-      gaps[run].*simulated = std::move(readings[run].judged);
-    }
-  };
-  tell(rigs.nominal, &RunGap::nominal_rmse, &RunGap::nominal);
-  tell(rigs.recalibrated, &RunGap::recalibrated_rmse, &RunGap::recalibrated);
-  tell(rigs.corrected, &RunGap::corrected_rmse, &RunGap::corrected);
-  return gaps;
-}
 
 namespace {
 

@@ -1,0 +1,110 @@
+// What counts of measured data, and what is refused with the line that mends it.
+#include <algorithm>
+#include <functional>
+#include <utility>
+
+#include <gtest/gtest.h>
+
+#include <plant/constants.hpp>
+#include <sim/data/finding.hpp>
+#include <sim/data/judged.hpp>
+#include <sim/identify/usable.hpp>
+
+#include "diagnose/bench.hpp"
+#include "diagnose/joint.hpp"
+#include "diagnose/load_cell.hpp"
+#include "diagnose/planted.hpp"
+#include "says.hpp"
+
+namespace mckibben::identify {
+namespace {
+
+TEST(Usable, ForcesOfABenchInAnotherUnitAreRefused) {
+  domain::Dataset data = diagnose::on_a_bench({}, 0.0);
+  for (domain::Run& run : data.runs)
+    for (double& force_N : run.force_N) force_N *= 1e-3;
+  EXPECT_THROW(usable(data, 1), data::UnfitData);
+  for (domain::Run& run : data.runs)
+    for (double& force_N : run.force_N) force_N *= -1e3;
+  EXPECT_THROW(usable(data, 1), data::UnfitData);
+}
+
+TEST(Usable, RowsAtTheEndOfTheRangeDoNotCount) {
+  plant::Rig rig;
+  rig.sensors.position().kind = plant::SensorKind::laser;
+  rig.sensors.position().resolution = 2e-4;
+  rig.sensors.position().noise = 1e-4;
+  rig.sensors.position().highest = 0.03;
+  auto currents = diagnose::three_kinds();
+  currents.resize(1);
+  currents[0].duration_s = 2.5;
+  domain::Dataset data = diagnose::planted(rig, {11.138, 16.138}, currents, 5, rig);
+  const Usable found = usable(data, 2);
+  std::ptrdiff_t ended = 0;
+  for (const double ratio : data.runs[0].contraction_ratio)
+    ended += ratio * rig.muscle.rest_length_m > 0.0299 ? 1 : 0;
+  ASSERT_GT(ended, 10);
+  EXPECT_GE(std::ranges::count(found.masked[0], true), ended);
+  ASSERT_FALSE(found.warnings.empty());
+  EXPECT_TRUE(holds(found.warnings[0], "at the end of the sensor's range"));
+}
+
+/// The words that the data are refused with; empty if they are not.
+std::string refusal(domain::Dataset data) {
+  try {
+    data = data::with_rows(std::move(data));
+    usable(data, 2);
+  } catch (const data::UnfitData& unfit) {
+    return unfit.what();
+  }
+  return "";
+}
+
+domain::Dataset forces_times(double factor) {
+  domain::Dataset data = diagnose::with_a_cell({});
+  for (domain::Run& run : data.runs)
+    for (double& force_N : run.measured->take("force")) force_N *= factor;
+  return data;
+}
+
+
+TEST(Usable, ForcesOfALoadCellInAnotherUnitOrOfAnotherSignAreRefused) {
+  EXPECT_EQ(refusal(forces_times(1.0)), "");
+  EXPECT_NE(refusal(forces_times(1e-3)).find("kN"), std::string::npos);
+  EXPECT_NE(refusal(forces_times(1.0 / plant::gravity_m_per_s2)).find("kg"), std::string::npos);
+  EXPECT_NE(refusal(forces_times(-1.0)).find("factor: -1"), std::string::npos);
+}
+
+std::string refused(domain::Dataset data, const std::function<void(domain::Run& run)>& spoil) {
+  for (domain::Run& run : data.runs) spoil(run);
+  return refusal(std::move(data));
+}
+
+TEST(Usable, AnglesAndPressuresThatAreNotWhatTheirColumnsSayAreRefusedWithTheLineToWrite) {
+  domain::Dataset data = diagnose::of_a_joint(plant::thesis_pair());
+  const auto times = [](double factor) {
+    return [factor](domain::Run& run) {
+      for (double& angle_rad : run.angle_rad) angle_rad *= factor;
+    };
+  };
+  EXPECT_EQ(refused(data, times(1.0)), "");
+  EXPECT_EQ(refused(data, times(0.7)), "");
+  EXPECT_NE(refused(data, times(-1.0))
+                .find("write columns: {angle: {column: angle_rad, unit: rad, factor: -1}}, "
+                      "or exchange muscle 1 and muscle 2"),
+            std::string::npos)
+      << refused(data, times(-1.0));
+  EXPECT_NE(refused(data, times(1.0 / plant::degree_rad)).find("{angle: {column: angle_rad, unit: deg}}"),
+            std::string::npos);
+  data.columns["angle"] = {.column = "elbow", .unit = "deg"};
+  EXPECT_NE(refused(data, times(plant::degree_rad)).find("{angle: {column: elbow, unit: rad}}"),
+            std::string::npos);
+  const auto exchange = [](domain::Run& run) {
+    run.measured->take("muscle_pressure", 1).swap(run.measured->take("muscle_pressure", 2));
+  };
+  EXPECT_NE(refused(data, exchange).find("exchange muscle 1 and muscle 2"), std::string::npos);
+}
+
+
+}  // namespace
+}  // namespace mckibben::identify
