@@ -225,17 +225,10 @@ std::string cannot_tell_in_words(const Diagnosis& d) {
   const std::string nearer =
       d.gap.corrected_rmse < d.gap.nominal_rmse ? " " + gap_in_words(d) : std::string();
   if (!d.cannot_tell.empty()) return d.cannot_tell + nearer;
-  if (d.ended != Ended::no)
-    return "The search ended before it could decide." + nearer;
-  if (!d.unexplained.empty())
-    return fmt::format(
-        "Something is wrong that these data do not settle: no model comes near every run (in noise floors: "
-        "{}), and no effect "
-        "convinces on the runs held out.",
-        d.unexplained);
-  if (std::any_of(d.faults.begin(), d.faults.end(), [](const FaultyRun& f) { return f.common; }))
-    return "Apart from that model and data agree, but whether the recorder does it or the rig, these data "
-           "cannot tell.";
+  if (d.ended != Ended::no) return "The search ended before it could decide." + nearer;
+  if (d.gap.floors_left() > thresholds.start.explained_floors)
+    return "More is left than noise, and nothing that was tried predicts unseen runs convincingly better." +
+           nearer;
   return "Nothing was found, but these data would not show more than half of the effects of the catalogue at "
          "their usual size: whether one is missing they cannot tell.";
 }

@@ -41,11 +41,11 @@ std::string more_or_less(double value, const char* more = "more", const char* le
 }
 
 /// Numbers of runs of one model: value and deviation of each run, of one kind of fault.
-struct OfRuns {
+struct EachRun {
   std::vector<double> values, deviations;
 };
-OfRuns of_runs(const Model& model, std::size_t place) {
-  OfRuns list;
+EachRun each_run(const Model& model, std::size_t place) {
+  EachRun list;
   const auto i = static_cast<Eigen::Index>(place);
   for (std::size_t run = 0; run < model.grams.means.size(); ++run) {
     list.values.push_back(model.grams.means[run][i]);
@@ -76,7 +76,11 @@ class FaultReport {
     BenchFault fault{.name = entry.name, .runs = {}, .size = size, .write = {}, .words = {}};
     const double deviation = (size.high - size.low) / (2.0 * of_95);
     for (std::size_t i = 0; i < rows_.runs.size(); ++i) fault.runs.push_back(run(i).id);
-    if (entry.bench->of == &Bench::clock) {
+    if (entry.bench->of == &Bench::ahead_s) {
+      const std::string ms = number_of(1e3 * size.value, 1e3 * deviation);
+      fault.words = fmt::format("the clock of the readings is {} ms ahead of that of the input", ms);
+      fault.write = fmt::format("add {} ms to the stamps of the readings", ms);
+    } else if (entry.bench->of == &Bench::clock) {
       fault.words = fmt::format("the clock of the readings runs {} % {}",
                                 number_of(100.0 * std::abs(size.value), 100.0 * deviation),
                                 more_or_less(size.value, "slow", "fast"));
@@ -101,11 +105,13 @@ class FaultReport {
     list_.push_back(std::move(fault));
   }
 
-  /// What all runs have in common is not determined: each is reported less the median.
+  /// What all runs have in common is not determined, but for their clocks: each is reported less the median.
   void differing_runs(std::size_t place) {
     const int which = model_.point.differ[place];
-    OfRuns of = of_runs(model_, place);
-    const double middle = middle_of(of.values);
+    const EachRun of = each_run(model_, place);
+    const bool of_time = which == delays || which == drifts;
+    const double middle = of_time ? 0.0 : middle_of(of.values);
+    if (of_time && same_in_all(of)) return report_common(which, of);
     const auto by = [&](std::size_t i) { return std::abs(of.values[i] - middle); };
     std::size_t furthest = 0;
     for (std::size_t i = 0; i < of.values.size(); ++i)
@@ -115,30 +121,69 @@ class FaultReport {
         report(which, i, of.values[i] - middle, of.deviations[i]);
   }
 
+  static bool same_in_all(const EachRun& of) {
+    const double middle = middle_of(of.values);
+    for (std::size_t i = 0; i < of.values.size(); ++i)
+      if (std::abs(of.values[i] - middle) >
+          std::max(stands_out * of.deviations[i], matters * std::abs(middle)))
+        return false;
+    return std::abs(middle) > stands_out * middle_of(of.deviations);
+  }
+
+  BenchFault fault_of(int which, double value, double deviation) const {
+    const std::string per = unit_of_reading() == "1" ? "1/s" : unit_of_reading() + "/s";
+    return {.name = std::string(differing.at(static_cast<std::size_t>(which)).name),
+            .size = {.name = "",
+                     .unit = which == loads    ? "kg"
+                             : which == zeros  ? unit_of_reading()
+                             : which == delays ? "s"
+                             : which == drifts ? per
+                                               : "1",
+                     .value = value,
+                     .low = value - of_95 * deviation,
+                     .high = value + of_95 * deviation}};
+  }
+
+  /// Of delays and drifts: what is wrong with readings, and what mends them.
+  void tell_of_time(BenchFault& fault, int which, const std::string& readings, double deviation) const {
+    const double value = fault.size.value;
+    if (which == delays) {
+      const std::string ms = number_of(1e3 * std::abs(value), 1e3 * deviation);
+      fault.words = fmt::format("{} come {} ms {}", readings, ms, more_or_less(value, "late", "early"));
+      fault.write = fmt::format("shift their stamps by {}{} ms", value < 0.0 ? "+" : "-", ms);
+    } else {
+      const std::string rate = data::amount_of(data_.judged(), std::abs(value), data_.rig);
+      fault.words =
+          fmt::format("{} drift by {} {} a second", readings, rate, more_or_less(value, "up", "down"));
+      fault.write = "take the drift out of the column, or measure again";
+    }
+  }
+
+  void report_common(int which, const EachRun& of) {
+    BenchFault fault = fault_of(which, middle_of(of.values), middle_of(of.deviations));
+    for (std::size_t i = 0; i < rows_.runs.size(); ++i) fault.runs.push_back(run(i).id);
+    tell_of_time(fault, which, "the readings of every run", middle_of(of.deviations));
+    list_.push_back(std::move(fault));
+  }
+
   void report(int which, std::size_t place, double value, double deviation) {
     const domain::Run& of = run(place);
-    const bool of_loads = which == loads, of_zeros = which == zeros;
-    BenchFault fault{.name = std::string(differing.at(static_cast<std::size_t>(which)).name),
-                     .runs = {of.id},
-                     .size = {.name = "",
-                              .unit = of_loads   ? "kg"
-                                      : of_zeros ? unit_of_reading()
-                                                 : "1",
-                              .value = value,
-                              .low = value - of_95 * deviation,
-                              .high = value + of_95 * deviation}};
-    if (of_loads) {
+    BenchFault fault = fault_of(which, value, deviation);
+    fault.runs = {of.id};
+    if (which == loads) {
       fault.words = fmt::format("the load of run {} is {} kg {} than written", of.id,
                                 number_of(std::abs(value), deviation), more_or_less(value));
       Bench bench = model_.problem->dictionary.setting(model_.point).bench;
-      bench.run_loads_kg.clear();
+      bench.of_runs[loads].clear();
       fault.write =
           fmt::format("load: {} kg", number_of(bench.load_kg(of.load_kg, place) + value, deviation));
-    } else if (of_zeros) {
+    } else if (which == zeros) {
       fault.words = fmt::format("the zero of run {} is {} too {}", of.id,
                                 data::amount_of(data_.judged(), std::abs(value), data_.rig),
                                 more_or_less(value, "high", "low"));
       fault.write = column_line(of, value, 1.0, deviation);
+    } else if (which == delays || which == drifts) {
+      tell_of_time(fault, which, "the readings of run " + of.id, deviation);
     } else {
       fault.words = fmt::format("the readings of run {} are {} % too {}", of.id,
                                 number_of(100.0 * std::abs(value), 100.0 * deviation),
@@ -213,16 +258,20 @@ domain::Dataset without_faults(const Model& model) {
     domain::Run& run = data.runs[rows.runs[i]];
     run.load_kg = bench.load_kg(run.load_kg, i);
     std::vector<double>& read = judged_of(run);
-    double zero = bench.zero, gain = 0.0;
+    double zero = bench.zero, gain = 0.0, drift_per_s = 0.0, late_s = 0.0;
     for (std::size_t place = 0; place < model.point.differ.size(); ++place) {
-      const double own = of_runs(model, place).values[i];
+      const double own = each_run(model, place).values[i];
       if (model.point.differ[place] == zeros) zero += own;
       if (model.point.differ[place] == gains) gain += own;
+      if (model.point.differ[place] == delays) late_s += own;
+      if (model.point.differ[place] == drifts) drift_per_s += own;
     }
-    for (double& one : read) one = (one - zero) / (1.0 + gain);
-    if (bench.clock != 0.0) {
+    for (std::size_t k = 0; k < read.size(); ++k)
+      read[k] = (read[k] - zero - drift_per_s * rows.row_s * static_cast<double>(k)) / (1.0 + gain);
+    late_s -= bench.ahead_s;
+    if (bench.clock != 0.0 || late_s != 0.0) {
       const Eigen::VectorXd right = clocked(Eigen::Map<const Eigen::VectorXd>(read.data(), std::ssize(read)),
-                                            1.0 / (1.0 + bench.clock) - 1.0);
+                                            1.0 / (1.0 + bench.clock) - 1.0, late_s / rows.row_s);
       std::ranges::copy(right, read.begin());
     }
   }

@@ -40,7 +40,7 @@ bool allowed(const Judged& model) {
 }
 
 int size_of(const Judged& model) {
-  return model.described ? -1 : static_cast<int>(model.names.size());
+  return static_cast<int>(model.names.size()) - (model.described ? 1 : 0);
 }
 
 }  // namespace

@@ -98,6 +98,7 @@ class HandingOver {
     if (found_.ended != Ended::no && decided != Verdict::missing_effect) return Verdict::cannot_tell;
     const Model* parameters = found_.of(false);
     if (decided != Verdict::nothing_missing || parameters == nullptr) return decided;
+    if (!found_.chosen().error.explains()) return Verdict::cannot_tell;
     step("what of the catalogue these data would show");
     const Visible seen = visible(*parameters);
     if (seen.hidden.empty()) return decided;

@@ -14,10 +14,11 @@
 namespace mckibben::identify {
 namespace {
 
-constexpr std::array<BenchNumber, 3> bench_numbers{
+constexpr std::array<BenchNumber, 4> bench_numbers{
     {{"load_label", "offset", &Bench::load_offset_kg, 1.0, -8.0, 12.0},
      {"load_label", "factor", &Bench::load_factor, 0.05, -0.6, 1.0},
-     {"reading_clock", "", &Bench::clock, 0.01, -0.3, 0.3}}};
+     {"reading_clock", "rate", &Bench::clock, 0.01, -0.3, 0.3},
+     {"reading_clock", "offset", &Bench::ahead_s, 0.02, 0.0, 1.0}}};  // late readings are the rig's
 
 Entry entry_of(const diagnose::Candidate& c, const plant::Rig& rig) {
   plant::Rig copy = c.chosen(rig);
@@ -81,8 +82,8 @@ Dictionary::Dictionary(const domain::Dataset& data, double written_coarsely) : d
       entries.push_back({.name = std::string(number.name),
                          .bench = &number,
                          .typical = number.typical,
-                         .either_sign = true,
-                         .lowest = number.lowest / number.typical,
+                         .either_sign = number.lowest < 0.0,
+                         .lowest = number.lowest < 0.0 ? number.lowest / number.typical : decisive.least,
                          .highest = number.highest / number.typical});
   std::set<std::string> names;
   for (const Entry& entry : entries) names.insert(entry.name);
@@ -178,7 +179,7 @@ Point Dictionary::moved(const Point& point, const Eigen::VectorXd& v) const {
 }
 
 Setting Dictionary::setting(const Point& point) const {
-  Setting made{described_, {.run_loads_kg = point.run_loads_kg, .starts = point.starts}};
+  Setting made{described_, {.of_runs = point.of_runs, .starts = point.starts}};
   for (Eigen::Index j = 0; j < point.z.size(); ++j) {
     const Free& p = parameters[static_cast<std::size_t>(j)];
     const double value = p.origin + p.scale * point.z[j];

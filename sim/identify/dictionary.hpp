@@ -21,15 +21,38 @@
 
 namespace mckibben::identify {
 
+/// What may differ from run to run, one value each, ~ normal with a scale that is log-normal round the
+/// typical one, a factor of e.
+struct Differing {
+  std::string_view name;
+  double typical;  ///< m (over the rest length), 1, kg, s, m/s (over the rest length)
+};
+inline constexpr std::array<Differing, 5> differing{{{"zeros_differ", 1e-3},
+                                                     {"gains_differ", 0.03},
+                                                     {"loads_differ", 0.5},
+                                                     {"delays_differ", 0.02},
+                                                     {"drifts_differ", 1e-4}}};
+inline constexpr int zeros = 0, gains = 1, loads = 2, delays = 3, drifts = 4;
+/// Values of each run of what is simulated where it is most probable, as it is not straight: loads and
+/// delays.
+using OfRuns = std::array<std::vector<double>, differing.size()>;
+constexpr bool is_simulated(int which) {
+  return which == loads || which == delays;
+}
+
 /// What a bench may have wrong: its part in a simulation. All 0: nothing.
 struct Bench {
   double load_offset_kg = 0.0, load_factor = 0.0;  ///< of what is written as load
-  double clock = 0.0;                              ///< the recorder reads at t (1 + clock)
+  double clock = 0.0, ahead_s = 0.0;               ///< the recorder reads at t (1 + clock) + ahead
   double zero = 0.0;                               ///< of the judged reading
-  std::vector<double> run_loads_kg{};              ///< of each run besides
+  OfRuns of_runs{};                                ///< besides
   std::vector<Eigen::VectorXd> starts{};           ///< of each run that began on its way, in deviations
+  double of_run(int which, std::size_t run) const {
+    const std::vector<double>& values = of_runs[static_cast<std::size_t>(which)];
+    return values.empty() ? 0.0 : values[run];
+  }
   double load_kg(double written, std::size_t run) const {
-    return written * (1.0 + load_factor) + load_offset_kg + (run_loads_kg.empty() ? 0.0 : run_loads_kg[run]);
+    return written * (1.0 + load_factor) + load_offset_kg + of_run(loads, run);
   }
 };
 
@@ -58,16 +81,6 @@ struct Entry {
   bool has_shape() const { return shape_sd > 0.0; }
 };
 
-/// What may differ from run to run, one value each, ~ normal with a scale that is log-normal round the
-/// typical one, a factor of e.
-struct Differing {
-  std::string_view name;
-  double typical;  ///< m (over the rest length), 1, kg
-};
-inline constexpr std::array<Differing, 3> differing{
-    {{"zeros_differ", 1e-3}, {"gains_differ", 0.03}, {"loads_differ", 0.5}}};
-inline constexpr int zeros = 0, gains = 1, loads = 2;
-
 /// Families of general terms of force.
 enum class Terms { none, smooth, waves, rubs };
 
@@ -83,7 +96,7 @@ struct Point {
   Eigen::VectorXd coefficients{};  ///< of these [N]
   std::vector<int> differ{};       ///< of `differing`, ascending
   // Where numbers of runs are simulated that are integrated out: their prior is round nothing.
-  std::vector<double> run_loads_kg{};
+  OfRuns of_runs{};
   std::vector<Eigen::VectorXd> starts{};
 
   bool has(std::size_t entry) const;

@@ -57,6 +57,14 @@ void Error::take(const Wander& wander) {
       random.col(zeros).segment(block.begin, block.rows).setOnes();
       random.col(gains).segment(block.begin, block.rows) = wander.read.segment(block.begin, block.rows);
       random.col(loads).segment(block.begin, block.rows) = wander.load.segment(block.begin, block.rows);
+      const auto read = wander.read.segment(block.begin, block.rows);
+      for (Index i = 0; i < block.rows; ++i) {
+        const Index before = std::max<Index>(i - 1, 0), after = std::min(i + 1, block.rows - 1);
+        if (after > before)
+          random(block.begin + i, delays) =
+              (read[before] - read[after]) / (static_cast<double>(after - before) * rows_->row_s);
+        random(block.begin + i, drifts) = static_cast<double>(i) * rows_->row_s;
+      }
     }
   random.rightCols(wander.columns.cols()) = wander.columns;
   std::vector<Eigen::MatrixXd> roots;
@@ -84,7 +92,7 @@ namespace {
 
 double typical_log(int which, double rest_length_m) {
   const Differing& one = differing.at(static_cast<std::size_t>(which));
-  return std::log(which == zeros ? one.typical / rest_length_m : one.typical);
+  return std::log(which == zeros || which == drifts ? one.typical / rest_length_m : one.typical);
 }
 
 }  // namespace

@@ -68,9 +68,9 @@ class Error {
   double wander_units() const;
   /// The model errs less than readings do.
   bool explains() const { return of_model() < white(); }
-  /// What another load does to a block's rows, a kg.
-  Eigen::VectorXd per_kg(const Block& block) const {
-    return random_->col(loads).segment(block.begin, block.rows);
+  /// What one unit of what may differ does to a block's rows.
+  Eigen::VectorXd per_unit(int which, const Block& block) const {
+    return random_->col(which).segment(block.begin, block.rows);
   }
   std::size_t starts() const { return starts_; }
   /// What a run's start does to a block's rows.

@@ -123,9 +123,11 @@ class Estimating {
     const auto size = [&](double z) { return entry.absent + entry.typical * z; };
     const double lowest = entry.either_sign ? entry.lowest : 0.0;
     if (entry.bench != nullptr) {
-      const bool mass = entry.bench->of == &Bench::load_offset_kg;
+      const std::string unit = entry.bench->of == &Bench::load_offset_kg ? "kg"
+                               : entry.bench->of == &Bench::ahead_s      ? "s"
+                                                                         : "1";
       result_.bench.push_back(
-          number(std::string(entry.bench->variant), mass ? "kg" : "1", of_size, lowest, entry.highest, size));
+          number(std::string(entry.bench->variant), unit, of_size, lowest, entry.highest, size));
       return;
     }
     const diagnose::Candidate& effect = *entry.effect;

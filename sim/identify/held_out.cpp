@@ -101,13 +101,7 @@ Eigen::VectorXd of_runs(const Model& model, const Eigen::VectorXd& left) {
     auto part = list.segment(block.begin, block.rows);
     for (std::size_t i = 0; i < model.point.differ.size() && rows.is_judged(block); ++i) {
       const double value = mean[static_cast<Index>(i)];
-      const int which = model.point.differ[i];
-      if (which == zeros)
-        part.array() += value;
-      else if (which == gains)
-        part += value * model.read.segment(block.begin, block.rows);
-      else
-        part += value * model.error.per_kg(block);
+      part += value * model.error.per_unit(model.point.differ[i], block);
     }
     if (model.error.starts() > 0)
       part += model.error.started(block, mean.tail(static_cast<Index>(model.error.starts())));

@@ -28,7 +28,7 @@ constexpr std::array stages{"the rig's parameters", "effects and bench faults",
 double Search::enter(Model& model, bool described) {
   const Names names = dictionary_.names(model.point);
   model.score = model.log_evidence + log_prior_of_set(names.size(), dictionary_.all_names) +
-                (names.empty() ? std::log(0.5) : 0.0);
+                (names.empty() || described ? std::log(0.5) : 0.0);
   for (const Added& added : model.point.effects)
     model.score -= std::log(static_cast<double>(dictionary_.laws_of(dictionary_.entries[added.entry].name)));
   const Key key{described, names};
@@ -105,6 +105,22 @@ double Search::gain_of_terms(const Model& base) const {
     }
   }
   return best;
+}
+
+/// Where the bench alone is wrong, the rig may be as described.
+void Search::describe_bench() {
+  const Names names = dictionary_.names(here_->point);
+  const bool of_rig = std::ranges::any_of(here_->point.effects, [&](const Added& one) {
+    return dictionary_.entries[one.entry].effect.has_value();
+  });
+  if (names.empty() || of_rig) return;
+  Point point = here_->point;
+  point.z.resize(0);
+  Model m(problem_, std::move(point), here_->error);
+  m.look();
+  m.settle({});
+  m.evidence();
+  enter(m, true);
 }
 
 /// Is it a law outside the catalogue?
@@ -190,6 +206,7 @@ void Search::go_on() {
     if (last.score > here_->score) here_ = std::move(last);
   }
   stage_ = 2;
+  describe_bench();
   if (!here_->error.explains()) try_terms();
   stage_ = stages.size();
 }

@@ -14,19 +14,14 @@ using Eigen::Index;
 std::vector<Start> Search::starts_from(const Model& base, const Eigen::MatrixXd& columns,
                                        const std::vector<Probe>& list, const Point& point,
                                        const Eigen::VectorXd& residual, const Eigen::MatrixXd& slopes,
-                                       bool far, bool single) const {
+                                       bool far) const {
   std::vector<std::vector<int>> extras{{}};
   for (int g = 0; g < static_cast<int>(differing.size()); ++g)
     if (!point.lets_differ(g)) extras.push_back({g});
-  const std::size_t singles = extras.size();
-  for (std::size_t i = 1; i < singles; ++i)
-    for (std::size_t j = i + 1; j < singles; ++j) extras.push_back({extras[i][0], extras[j][0]});
   std::vector<Start> all;
   const std::size_t taken = dictionary_.names(point).size();
   for (const auto& extra : extras) {
-    if (taken + extra.size() > static_cast<std::size_t>(decisive.most_together) ||
-        (single && extra.size() > 1))
-      continue;
+    if (taken + extra.size() > static_cast<std::size_t>(decisive.most_together)) continue;
     Point q = point;
     q.differ.insert(q.differ.end(), extra.begin(), extra.end());
     std::ranges::sort(q.differ);
@@ -41,30 +36,43 @@ std::vector<Start> Search::starts_from(const Model& base, const Eigen::MatrixXd&
   return all;
 }
 
+/// What changes the readings like a part of a model does, in its place. Straight lines say nothing of whether
+/// it is better: `value` is for comparison among these.
+std::vector<Start> Search::alike_to(const Model& base, const Part& part, const Eigen::MatrixXd& columns,
+                                    const std::vector<Probe>& list) const {
+  std::vector<Start> starts;
+  const Names names = dictionary_.names(part.rest);
+  if (names.size() == static_cast<std::size_t>(decisive.most_together)) return starts;
+  const Eigen::MatrixXd gram = base.error.grams(part.change, columns).sum();
+  for (Index c = 0; c < columns.cols(); ++c) {
+    const Probe& probe = list[static_cast<std::size_t>(c)];
+    const double along = gram(0, c + 1), square = gram(c + 1, c + 1);
+    if (along * along < alike * gram(0, 0) * square || part.rest.has(probe.entry)) continue;
+    const Added added = dictionary_.clipped({probe.entry, along / square, probe.shape});
+    Start start{log_t(added.size) - part.log_prior, part.rest};
+    start.point.effects.push_back(added);
+    std::ranges::sort(start.point.effects, {}, &Added::entry);
+    start.value += log_prior_of_set(dictionary_.names(start.point).size(), dictionary_.all_names) -
+                   log_prior_of_set(dictionary_.names(base.point).size(), dictionary_.all_names);
+    if (!(start.value > -worth)) continue;
+    start.value -= 0.5 * (gram(0, 0) - along * along / square);
+    starts.push_back(std::move(start));
+  }
+  std::ranges::stable_sort(starts, std::greater{}, &Start::value);
+  return starts;
+}
+
 /// A parameter far off its sheet and an effect or fault that changes the readings alike are two hills of one
 /// ridge, with nothing to be seen between them: the other one is looked at as well.
 std::vector<Start> Search::twins(const Model& base, const Eigen::MatrixXd& columns,
-                                 const std::vector<Probe>& list, double own) const {
+                                 const std::vector<Probe>& list) const {
   std::vector<Start> starts;
-  if (dictionary_.names(base.point).size() == static_cast<std::size_t>(decisive.most_together)) return starts;
   for (Index j = 0; j < base.point.z.size(); ++j) {
     const double z = base.point.z[j];
     if (std::abs(z) < far_off) continue;
-    const Eigen::MatrixXd gram = base.error.grams(z * base.slopes.col(j), columns).sum();
-    for (Index c = 0; c < columns.cols(); ++c) {
-      const Probe& probe = list[static_cast<std::size_t>(c)];
-      const double along = gram(0, c + 1), square = gram(c + 1, c + 1);
-      if (along * along < alike * gram(0, 0) * square) continue;
-      const Added added = dictionary_.clipped({probe.entry, along / square, probe.shape});
-      Point q = base.point;
-      q.z[j] = 0.0;
-      q.effects.push_back(added);
-      std::ranges::sort(q.effects, {}, &Added::entry);
-      starts.push_back({own + log_t(0.0) - log_t(z) + log_t(added.size) +
-                            log_prior_of_set(dictionary_.names(q).size(), dictionary_.all_names) -
-                            log_prior_of_set(dictionary_.names(base.point).size(), dictionary_.all_names),
-                        std::move(q)});
-    }
+    Part part{base.point, z * base.slopes.col(j), log_t(z) - log_t(0.0)};
+    part.rest.z[j] = 0.0;
+    std::ranges::move(alike_to(base, part, columns, list), std::back_inserter(starts));
   }
   return starts;
 }
@@ -86,30 +94,32 @@ bool Search::look_from(Model base, bool far, bool first) {
     variance << base.variance(), Eigen::VectorXd::Constant(std::ssize(thin), 4.0);
     base.error = base.error.fitted(left, both, variance, {1.0, 0.5}).first;
   }
-  std::vector<Start> starts =
-      starts_from(base, columns, list, base.point, left, base.slopes, far, far || first);
+  std::vector<Start> starts = starts_from(base, columns, list, base.point, left, base.slopes, far);
   const double own = starts.front().value;
   const auto add = [&](std::vector<Start> more) { std::ranges::move(more, std::back_inserter(starts)); };
   std::vector<Start> other_hills;
+  std::vector<Part> parts;
   if (!far) {
-    other_hills = twins(base, columns, list, own);
+    other_hills = twins(base, columns, list);
     for (const int g : base.point.differ) {
-      if (g == loads) continue;  // these are in the simulation
+      if (is_simulated(g)) continue;  // these are in the simulation
       Point q = base.point;
       std::erase(q.differ, g);
-      add(starts_from(base, columns, list, q, left, base.slopes, false, false));
+      add(starts_from(base, columns, list, q, left, base.slopes, false));
     }
     const auto coordinates = dictionary_.coordinates(base.point);
     for (std::size_t i = 0; i < base.point.effects.size(); ++i) {
-      const Point q = base.point.without(i);
-      const Eigen::VectorXd without = problem_.simulator.read(dictionary_.setting(q));
+      Part part{base.point.without(i), {}, log_t(base.point.effects[i].size)};
+      const Eigen::VectorXd without = problem_.simulator.read(dictionary_.setting(part.rest));
       if (!without.allFinite()) continue;
+      part.change = base.read - without;
       std::vector<Index> kept;
       for (std::size_t j = 0; j < coordinates.size(); ++j)
         if (coordinates[j].kind == Kind::parameter || coordinates[j].of != i)
           kept.push_back(static_cast<Index>(j));
-      add(starts_from(base, columns, list, q, left + base.read - without, base.slopes(Eigen::all, kept),
-                      false, false));
+      add(starts_from(base, columns, list, part.rest, left + part.change, base.slopes(Eigen::all, kept),
+                      false));
+      parts.push_back(std::move(part));
     }
   }
   std::ranges::stable_sort(starts, std::greater{}, &Start::value);
@@ -128,11 +138,11 @@ bool Search::look_from(Model base, bool far, bool first) {
         promised_[name] = std::max(promised_[name], start.value - own);
   std::vector<Start> chosen;
   std::set<Names> seen;
-  // The best of other hills first: straight lines say nothing of it.
+  // The best of other hills first: straight lines say nothing of whether it is higher.
   if (!other_hills.empty()) {
     const Start& best = *std::ranges::max_element(other_hills, {}, &Start::value);
     const Names names = dictionary_.names(best.point);
-    if (best.value > own - worth && hills_.insert(names).second) {
+    if (hills_.insert(names).second) {
       chosen.push_back(best);
       seen.insert(names);
     }
@@ -168,12 +178,57 @@ bool Search::look_from(Model base, bool far, bool first) {
     if (explained_) break;
   }
   untried_.clear();
-  if (!best) return false;
-  best = refined(std::move(*best));
-  if (!(best->score > here_->score)) return false;
-  here_ = std::move(best);
-  prune();
-  return true;
+  if (best) {
+    best = refined(std::move(*best));
+    if (best->score > here_->score) {
+      here_ = std::move(best);
+      prune();
+      return true;
+    }
+  }
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    std::vector<Start> rivals = of_other_sides(base, i, parts[i]);
+    std::ranges::move(alike_to(base, parts[i], columns, list), std::back_inserter(rivals));
+    try_rivals(rivals);
+  }
+  return false;
+}
+
+/// Of a pair, the same law as an effect at work, of another muscle or of both, where that changes the
+/// readings alike; sizes add up.
+std::vector<Start> Search::of_other_sides(const Model& base, std::size_t place, const Part& part) const {
+  using diagnose::Side;
+  std::vector<Start> starts;
+  const Added& added = base.point.effects[place];
+  const auto& of = dictionary_.entries[added.entry].effect;
+  for (std::size_t k = 0; of && k < dictionary_.entries.size(); ++k) {
+    const auto& other = dictionary_.entries[k].effect;
+    if (!other || other->effect != of->effect || other->variant != of->variant || other->side == of->side)
+      continue;
+    const double share = of->side == Side::both ? 2.0 : other->side == Side::both ? 0.5 : 1.0;
+    Start start{0.0, part.rest};
+    start.point.effects.push_back(dictionary_.clipped({k, share * added.size, added.shape}));
+    std::ranges::sort(start.point.effects, {}, &Added::entry);
+    const Eigen::VectorXd read = problem_.simulator.read(dictionary_.setting(start.point));
+    if (!read.allFinite()) continue;
+    const Eigen::MatrixXd change = read - (base.read - part.change);
+    const Eigen::MatrixXd gram = base.error.grams(part.change, change).sum();
+    if (gram(0, 1) > 0.0 && gram(0, 1) * gram(0, 1) > alike * gram(0, 0) * gram(1, 1))
+      starts.push_back(std::move(start));
+  }
+  return starts;
+}
+
+/// What may stand for one of the names as well: told beside it, or better after all.
+void Search::try_rivals(const std::vector<Start>& starts) {
+  std::set<Names> tried;
+  for (const Start& start : starts) {
+    const Names names = dictionary_.names(start.point);
+    if (tried.size() == most_rivals) break;
+    if (table_.contains({false, names}) || !tried.insert(names).second) continue;
+    Model m = refined(start.point);
+    if (m.score > here_->score) here_ = std::move(m);
+  }
 }
 
 /// Is each needed? Without it, from these parameters and, where they are bent, from the rig as described.
@@ -185,7 +240,7 @@ void Search::prune() {
     for (const int g : here_->point.differ) {
       Point q = here_->point;
       std::erase(q.differ, g);
-      if (g == loads) q.run_loads_kg.clear();
+      q.of_runs[static_cast<std::size_t>(g)].clear();
       smaller.push_back(q);
     }
     for (const Point& q : smaller) {

@@ -34,7 +34,9 @@ Eigen::VectorXd Model::residual() const {
   // The prior of numbers of runs is round nothing: what they did where they are simulated is given back.
   for (const Block& block : problem->rows.blocks) {
     auto part = left.segment(block.begin, block.rows);
-    if (!point.run_loads_kg.empty()) part += point.run_loads_kg[block.run] * error.per_kg(block);
+    for (const int which : point.differ)
+      if (const auto& values = point.of_runs[static_cast<std::size_t>(which)]; !values.empty())
+        part += values[block.run] * error.per_unit(which, block);
     if (!point.starts.empty()) part += error.started(block, point.starts[block.run]);
   }
   return left;
@@ -189,6 +191,10 @@ void Model::descend(const Effort& effort) {
   double evidence_before = -std::numeric_limits<double>::infinity();
   arrived = hopeless = false;
   if (!read.allFinite()) return;
+  if (slopes.cols() == 0) {  // nothing to move
+    arrived = true;
+    return;
+  }
   error = error.forgetting();
   for (int round = 0; round < effort.rounds; ++round) {
     fit_error(round == 0 ? std::vector{1.0, 0.5} : std::vector{0.5},
@@ -279,41 +285,48 @@ void Model::descend(const Effort& effort) {
 }
 
 bool Model::place() {
-  const bool has_loads = point.lets_differ(loads);
-  if (!(has_loads || error.starts() > 0) || point.terms != Terms::none || !read.allFinite()) return false;
-  const auto of_loads =
-      static_cast<std::size_t>(std::ranges::find(point.differ, loads) - point.differ.begin());
+  std::vector<std::size_t> placed;
+  for (std::size_t i = 0; i < point.differ.size(); ++i)
+    if (is_simulated(point.differ[i])) placed.push_back(i);
+  if ((placed.empty() && error.starts() == 0) || point.terms != Terms::none || !read.allFinite())
+    return false;
+  constexpr double matters = 0.2, of_start = 0.1;  // of what is typical, of a deviation
   bool moved = false;
   for (int pass = 0; pass < 3; ++pass) {
     std::vector<std::size_t> scales{Error::model_sd};
-    if (has_loads) scales.push_back(error.scale_of_differing(of_loads));
+    for (const std::size_t i : placed) scales.push_back(error.scale_of_differing(i));
     fit_error({1.0, 0.5}, scales);
     const Eigen::VectorXd weight = variance().cwiseInverse(), v = problem->dictionary.vector(point);
     const Index k = v.size();
     const Eigen::MatrixXd gram = error.grams(residual(), slopes).sum();
-    const Eigen::VectorXd step =
-        curvature(gram, weight).llt().solve(Eigen::VectorXd(gram.col(0).tail(k) - weight.cwiseProduct(v)));
-    const Grams left = error.grams(residual() - slopes * step, Eigen::MatrixXd(read.size(), 0));
+    Eigen::VectorXd still = residual();
+    if (k > 0)
+      still -=
+          slopes *
+          curvature(gram, weight).llt().solve(Eigen::VectorXd(gram.col(0).tail(k) - weight.cwiseProduct(v)));
+    const Grams left = error.grams(still, Eigen::MatrixXd(read.size(), 0));
     Point there = point;
-    there.run_loads_kg.clear();
+    there.of_runs = {};
     there.starts.clear();
-    double furthest = 0.0;  // of what matters: 0.1 kg, a tenth of a deviation
+    double furthest = 0.0;  // of what matters
     for (std::size_t run = 0; run < left.means.size(); ++run) {
       const Eigen::VectorXd& mean = left.means[run];
-      if (has_loads) {
-        there.run_loads_kg.push_back(mean[static_cast<Index>(of_loads)]);
-        furthest = std::max(furthest, std::abs(there.run_loads_kg.back() -
-                                               (point.run_loads_kg.empty() ? 0.0 : point.run_loads_kg[run])));
+      for (const std::size_t i : placed) {
+        const auto which = static_cast<std::size_t>(point.differ[i]);
+        const auto& before = point.of_runs[which];
+        there.of_runs[which].push_back(mean[static_cast<Index>(i)]);
+        const double by = there.of_runs[which].back() - (before.empty() ? 0.0 : before[run]);
+        furthest = std::max(furthest, std::abs(by) / (matters * differing[which].typical));
       }
       if (error.starts() > 0) {
         there.starts.emplace_back(mean.tail(static_cast<Index>(error.starts())));
         const Eigen::VectorXd before = point.starts.empty()
                                            ? Eigen::VectorXd::Zero(there.starts.back().size()).eval()
                                            : point.starts[run];
-        furthest = std::max(furthest, (there.starts.back() - before).cwiseAbs().maxCoeff());
+        furthest = std::max(furthest, (there.starts.back() - before).cwiseAbs().maxCoeff() / of_start);
       }
     }
-    if (furthest < 0.1) break;
+    if (furthest < 1.0) break;
     Eigen::VectorXd would_read = problem->simulator.read(problem->dictionary.setting(there));
     if (!would_read.allFinite()) break;
     point = std::move(there);
@@ -327,19 +340,20 @@ bool Model::place() {
 void Model::share_common_load() {
   const Dictionary& dictionary = problem->dictionary;
   const auto offset = std::ranges::find(dictionary.parameters, "joint.load_offset", &Dictionary::Free::path);
-  if (point.run_loads_kg.empty() || point.z.size() == 0 || offset == dictionary.parameters.end()) return;
+  std::vector<double>& loads_kg = point.of_runs[loads];
+  if (loads_kg.empty() || point.z.size() == 0 || offset == dictionary.parameters.end()) return;
   const auto place = static_cast<std::size_t>(std::ranges::find(point.differ, loads) - point.differ.begin());
   const double of_runs = std::pow(error.scale(place), -2.0), unit_kg = offset->scale;
   double& z = point.z[offset - dictionary.parameters.begin()];
   for (int pass = 0; pass < 50; ++pass) {  // normals that touch Student's t
     const double weight = (decisive.tails + 1.0) / (decisive.tails + z * z);
     double sum_kg = 0.0;
-    for (const double load_kg : point.run_loads_kg) sum_kg += load_kg;
-    const double runs = static_cast<double>(point.run_loads_kg.size());
+    for (const double load_kg : loads_kg) sum_kg += load_kg;
+    const double runs = static_cast<double>(loads_kg.size());
     const double to_runs_kg =
         (weight * z / unit_kg - of_runs * sum_kg) / (weight / (unit_kg * unit_kg) + runs * of_runs);
     z -= to_runs_kg / unit_kg;
-    for (double& load_kg : point.run_loads_kg) load_kg += to_runs_kg;
+    for (double& load_kg : loads_kg) load_kg += to_runs_kg;
   }
 }
 

@@ -30,7 +30,8 @@ bool has(const Names& names, const std::string& name) {
 bool rivals_chosen(const Identified& found, std::size_t i) {
   const Judged &chosen = found.table[found.decision.chosen], &other = found.table[i];
   const auto [nats, error] = loss(chosen.held_out, other.held_out);
-  return nats <= decisive.errors * error && other.score > chosen.score + std::log(decisive.mass);
+  return nats <= std::max(decisive.errors * error, clear_nats) &&
+         other.score > chosen.score + std::log(decisive.mass);
 }
 
 EffectName who(const Dictionary& dictionary, const std::string& name) {

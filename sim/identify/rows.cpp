@@ -21,7 +21,7 @@ double grid_of(const std::vector<double>& readings) {
     if (const double d = levels[i] - levels[i - 1]; d > 1e-7) {
       step = steps++ == 0 ? d : std::min(step, d);
     }
-  if (steps < 5) return 0.0;
+  if (steps < 5 || 2 * levels.size() > readings.size()) return 0.0;  // what is rounded repeats
   double furthest = 0.0;
   for (int pass = 0; pass < 3; ++pass) {
     double along = 0.0, square = 0.0;

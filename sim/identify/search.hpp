@@ -19,11 +19,12 @@
 namespace mckibben::identify {
 
 // How far the search goes.
-inline constexpr std::size_t tries = 6;      // that are begun, of a look
-inline const double worth = std::log(20.0);  // nats, of another try (Kass & Raftery 1995: strong)
-inline constexpr double clear = 20.0;        // nats behind: hopeless
-inline constexpr double far_off = 3.0;       // deviations of a parameter: something may stand in its place
-inline constexpr double alike = 0.9;         // squared cosine of what both change
+inline constexpr std::size_t tries = 6;        // that are begun, of a look
+inline constexpr std::size_t most_rivals = 3;  // of a name
+inline const double worth = std::log(20.0);    // nats, of another try (Kass & Raftery 1995: strong)
+inline constexpr double clear = 20.0;          // nats behind: hopeless
+inline constexpr double far_off = 3.0;         // deviations of a parameter: something may stand in its place
+inline constexpr double alike = 0.9;           // squared cosine of what both change
 
 inline constexpr std::array families{Terms::smooth, Terms::waves, Terms::rubs};
 
@@ -76,12 +77,23 @@ class Search {
   }
   std::vector<Start> starts_from(const Model& base, const Eigen::MatrixXd& columns,
                                  const std::vector<Probe>& probes, const Point& point,
-                                 const Eigen::VectorXd& residual, const Eigen::MatrixXd& slopes, bool far,
-                                 bool single) const;
+                                 const Eigen::VectorXd& residual, const Eigen::MatrixXd& slopes,
+                                 bool far) const;
+  /// What a part of a model changes, and the rest.
+  struct Part {
+    Point rest;
+    Eigen::VectorXd change;
+    double log_prior;  ///< of its size
+  };
+  std::vector<Start> alike_to(const Model& base, const Part& part, const Eigen::MatrixXd& columns,
+                              const std::vector<Probe>& probes) const;
   std::vector<Start> twins(const Model& base, const Eigen::MatrixXd& columns,
-                           const std::vector<Probe>& probes, double own) const;
+                           const std::vector<Probe>& probes) const;
   bool look_from(Model base, bool far, bool first);
   void prune();
+  std::vector<Start> of_other_sides(const Model& base, std::size_t place, const Part& part) const;
+  void try_rivals(const std::vector<Start>& starts);
+  void describe_bench();
   double gain_of_terms(const Model& base) const;
   void try_terms();
 
@@ -96,8 +108,8 @@ class Search {
   std::size_t stage_ = 0;
   std::vector<Names> untried_;                ///< of the look that is under way
   std::map<std::string, double> promised_{};  ///< nats that a look saw in a name alone, the most of them
-  bool explained_ = false;  ///< all, by what was begun last
-  bool outside_ = false;    ///< general terms explain more than any set of the catalogue
+  bool explained_ = false;                    ///< all, by what was begun last
+  bool outside_ = false;                      ///< general terms explain more than any set of the catalogue
 };
 
 }  // namespace mckibben::identify

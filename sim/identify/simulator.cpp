@@ -24,7 +24,8 @@ constexpr double step = 0.01, step_kg = 0.2;  // of an input or a start, of a lo
 Eigen::VectorXd seen(const Rows& rows, const Block& block, const Readings& readings, const Bench& bench) {
   const auto& list = block.kind == 0 ? readings.judged : readings.beside(*rows.kinds[block.kind]);
   Eigen::VectorXd part = Eigen::Map<const Eigen::VectorXd>(list.data(), block.rows);
-  if (bench.clock != 0.0) part = clocked(part, bench.clock);
+  const double ahead_s = bench.ahead_s - (block.kind == 0 ? bench.of_run(delays, block.run) : 0.0);
+  if (bench.clock != 0.0 || ahead_s != 0.0) part = clocked(part, bench.clock, ahead_s / rows.row_s);
   if (block.kind == 0) part.array() += bench.zero;
   return part;
 }
@@ -66,10 +67,10 @@ struct Job {
 
 }  // namespace
 
-Eigen::VectorXd clocked(const Eigen::VectorXd& read, double rate) {
+Eigen::VectorXd clocked(const Eigen::VectorXd& read, double rate, double later_rows) {
   Eigen::VectorXd list(read.size());
   for (Eigen::Index row = 0; row < read.size(); ++row) {
-    const double at = std::max(static_cast<double>(row) * (1.0 + rate), 0.0);
+    const double at = std::max(static_cast<double>(row) * (1.0 + rate) + later_rows, 0.0);
     const auto before = std::min(static_cast<Eigen::Index>(at), read.size() - 1);
     const Eigen::Index after = std::min(before + 1, read.size() - 1);
     list[row] = std::lerp(read[before], read[after], std::min(at - static_cast<double>(before), 1.0));

@@ -24,8 +24,9 @@ struct Wander {
   Eigen::VectorXd together{};      ///< by all knots of a run at once
 };
 
-/// What a recorder whose clock runs fast shows: it reads at t (1 + rate).
-Eigen::VectorXd clocked(const Eigen::VectorXd& read, double rate);
+/// What a recorder whose clock runs fast, and is ahead by so many rows, shows: it reads at t (1 + rate) +
+/// later.
+Eigen::VectorXd clocked(const Eigen::VectorXd& read, double rate, double later_rows = 0.0);
 
 class Simulator {
  public:

@@ -67,7 +67,6 @@ domain::Dataset forces_times(double factor) {
   return data;
 }
 
-
 TEST(Usable, ForcesOfALoadCellInAnotherUnitOrOfAnotherSignAreRefused) {
   EXPECT_EQ(refusal(forces_times(1.0)), "");
   EXPECT_NE(refusal(forces_times(1e-3)).find("kN"), std::string::npos);
@@ -104,7 +103,6 @@ TEST(Usable, AnglesAndPressuresThatAreNotWhatTheirColumnsSayAreRefusedWithTheLin
   };
   EXPECT_NE(refused(data, exchange).find("exchange muscle 1 and muscle 2"), std::string::npos);
 }
-
 
 }  // namespace
 }  // namespace mckibben::identify

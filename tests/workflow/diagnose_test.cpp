@@ -30,7 +30,7 @@ TEST(Diagnose, NamesTheLeakThatIsHidden) {
   EXPECT_LT(found.gap.corrected_rmse, 1.3 * found.gap.noise_floor);
   EXPECT_GT(found.gap.closed, 0.95);
   EXPECT_EQ(found.corrected.effects.get<plant::MuscleLeak>().conductance_m3_per_s_Pa, conductance.value);
-  for (const auto& run : found.runs) EXPECT_EQ(run.held_out, run.load_kg == 16.138) << run.id;
+  for (const auto& run : found.runs) EXPECT_TRUE(run.held_out) << run.id;  // each from those of other loads
 }
 
 TEST(Diagnose, SaysThatNothingIsMissingWhereNothingIs) {
