@@ -58,8 +58,6 @@ inline void locate_and_rank(diagnose::Diagnosis& d) {
       {"bladder_creep", "", 1, 0.1, 0.1, false, 0.0, 0.0, "no influence, or the wrong sign"},
       {"valve_dead_band", "", 2, 100.0, 1.0, true, 0.00015, 0.00016, "taken"},
       {"valve_hysteresis", "", 2, 98.0, 0.97, true, 0.00015, 0.00016, "not told apart from the best"}};
-  d.confusion_names = {"muscle_leak", "valve_lag", "bladder_elasticity"};
-  d.confusion = {{1.0, 0.74, -0.31}, {0.74, 1.0, 0.93}, {-0.31, 0.93, 1.0}};
 }
 
 /// Two effects, one of which has a twin, and a law of two terms.

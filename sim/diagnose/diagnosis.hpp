@@ -42,8 +42,6 @@ struct FittedNumber {
   std::string unit;
   double value = 0.0, low = 0.0, high = 0.0;
   bool determined = true;  ///< false: the interval is all that is allowed, or a whole turn of an angle
-  /// Where the interval is by profile: what slopes at the fit would say, and are not to be trusted with.
-  std::optional<std::array<double, 2>> quadratic{};
 };
 
 /// As it is told: "valve_dead_band", "bladder_elasticity (linear)", "muscle_leak of muscle 2".
@@ -57,40 +55,6 @@ inline std::vector<std::string> words_of(const std::vector<EffectName>& effects)
   for (const EffectName& effect : effects) list.push_back(effect.words());
   return list;
 }
-
-/// The size of an effect in a part of the data alone, with its standard error, in the unit of its amplitude.
-struct SizeIn {
-  std::string part;
-  double value = 0.0, error = 0.0;  ///< infinite: this part knows nothing of it
-};
-
-/// An effect's sizes in parts of the data, and how far apart those two are that differ most of those that
-/// differ for certain.
-struct Drift {
-  std::string along;  ///< load, length, motion, speed
-  std::vector<SizeIn> sizes{};
-  double share = 0.0;       ///< of the size
-  double deviations = 0.0;  ///< standard errors of the difference; 0: none differ for certain
-  std::size_t known = 0;    ///< parts that know the size
-  bool drifts() const { return share > thresholds.constancy.share; }
-};
-
-/// Of one effect, along all that its data can be parted by.
-struct Constancy : std::vector<Drift> {
-  using std::vector<Drift>::vector;
-
-  /// The worst; null if the effect is the same everywhere.
-  const Drift* drift() const {
-    const Drift* worst = nullptr;
-    for (const Drift& one : *this)
-      if (one.drifts() && (worst == nullptr || one.share > worst->share)) worst = &one;
-    return worst;
-  }
-  /// Two parts of the data know its size, along one way at least.
-  bool is_shown() const {
-    return std::any_of(begin(), end(), [](const Drift& one) { return one.known > 1; });
-  }
-};
 
 /// What speaks for a name and what against it. Misfits are sums of squares over their long-term variance.
 struct Support {
@@ -107,9 +71,8 @@ struct NamedEffect {
   Side side = Side::both;                     ///< of a pair: whose it is
   std::vector<EffectName> confusable_with{};  ///< effects that explain these data as well
   std::vector<FittedNumber> parameters{};
-  Constancy constancy{};
   Support support{};
-  bool stands_in = false;  ///< for something else: its size is not the same everywhere, or not shown to be
+  bool stands_in = false;  ///< beside general terms: no finding
 
   EffectName who() const { return {name, side}; }
 };
@@ -189,12 +152,6 @@ inline std::string full_name(const Ranked& one) {
   return full_name(one.name, one.variant, one.side);
 }
 
-/// From how many places the recalibration was begun: several if numbers are hardly known.
-struct Begun {
-  std::size_t places = 1;
-  bool agree = true;  ///< all ended alike
-};
-
 /// A nominal parameter that imitates the effect found: moved by so many prior deviations without it, by so
 /// many with it.
 struct Absorbed {
@@ -240,9 +197,8 @@ struct FaultyRun {
   std::string kind;  ///< late, drift, another_rig and so on
   double size = 0.0;
   std::string unit{};
-  std::string action;   ///< corrected, left out
-  std::string words;    ///< after the run's name: "is 3 ticks late and was shifted"
-  bool common = false;  ///< all runs have it
+  std::string action;  ///< corrected, left out
+  std::string words;   ///< after the run's name: "is 3 ticks late and was shifted"
 };
 
 /// A mistake of the bench or of the recorder: no effect of the rig.
@@ -307,7 +263,6 @@ struct Diagnosis {
   std::vector<NamedEffect> stand_ins{};  ///< in the corrected rig, but no names
   std::vector<Moved> recalibrated{};     ///< as in the corrected rig
   std::vector<LeftOpen> left_open{};
-  Begun begun{};
   std::vector<Absorbed> absorbed{};
   std::vector<LawTerm> residual_law{};
   std::string law_valid_for{};
@@ -316,8 +271,6 @@ struct Diagnosis {
   Remaining remaining{};
   std::vector<Explanation> explanations{};  ///< that competed; least misfit first
   std::vector<Ranked> ranking{};
-  std::vector<std::string> confusion_names{};    ///< best candidates of the first round
-  std::vector<std::vector<double>> confusion{};  ///< likeness among them
   Gap gap{};
   std::vector<RunGap> runs{};
   std::optional<NextExperiment> next_experiment{};
@@ -328,7 +281,6 @@ struct Diagnosis {
   std::vector<std::string> not_done{};  ///< of it
   std::string cannot_tell{};            ///< why data cannot decide, where that is known before
   bool contradicts_sheet = false;       ///< the answer needs parameters that the sheet all but rules out
-  std::string unexplained{};            ///< runs that no model comes near, in words
   plant::Rig corrected{};
   double false_alarm_rate = 0.0;  ///< that the thresholds were set for
   std::uint64_t seed = 1;

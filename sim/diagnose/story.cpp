@@ -30,9 +30,7 @@ std::string capitalised(std::string text) {
 std::string faults_in_words(const Diagnosis& d) {
   std::string text;
   for (const FaultyRun& faulty : d.faults) {
-    if (faulty.common && &faulty != &d.faults.front() && faulty.kind == d.faults.front().kind) continue;
-    text += fmt::format("{}{} {}", text.empty() ? "" : "; ",
-                        faulty.common ? "every run" : "run " + faulty.run, faulty.words);
+    text += fmt::format("{}run {} {}", text.empty() ? "" : "; ", faulty.run, faulty.words);
   }
   if (text.empty()) return text;
   return capitalised(std::move(text)) + ". ";
@@ -110,29 +108,13 @@ std::string numbers_in_words(const Diagnosis& d) {
                      moved.empty() ? "" : ": ", moved, exceeded_in_words(d), gap_in_words(d));
 }
 
-/// What is not the same everywhere, and how; empty if nothing is.
+/// Effects beside general terms.
 std::string stand_ins_in_words(const Diagnosis& d) {
-  std::string said;
-  for (const NamedEffect& effect : d.stand_ins) {
-    const Drift* drift = effect.constancy.drift();
-    said += fmt::format(" {} stands in for it: ", full_name(effect));
-    if (drift == nullptr || effect.parameters.empty()) {
-      said += "much is left, and no two parts of the data show its size.";
-      continue;
-    }
-    said += fmt::format("along the {} its size differs by {:.0f} % for certain (", drift->along,
-                        100.0 * drift->share);
-    bool first = true;
-    for (const SizeIn& size : drift->sizes) {
-      if (!std::isfinite(size.error)) continue;
-      const std::string& unit = effect.parameters.front().unit;
-      said += fmt::format("{}{:.3g}{} at {}", first ? "" : ", ", size.value, unit == "1" ? "" : " " + unit,
-                          size.part);
-      first = false;
-    }
-    said += "), as no real effect's does.";
-  }
-  return said;
+  std::vector<std::string> names;
+  for (const NamedEffect& effect : d.stand_ins) names.push_back(full_name(effect));
+  if (names.empty()) return {};
+  return fmt::format(" The corrected rig has {} besides: no finding, beside what is unknown.",
+                     fmt::join(names, " and "));
 }
 
 /// Of which muscle it is, if that is open; what else it may be.
@@ -159,7 +141,7 @@ std::string support_in_words(const NamedEffect& effect) {
   };
   const std::string by = s.by.empty()            ? "No single run"
                          : s.by.size() == s.runs ? fmt::format("All {} runs", s.runs)
-                         : s.by.size() > thresholds.name.few_runs
+                         : s.by.size() > thresholds.tell.few_runs
                              ? fmt::format("{} of {} runs", s.by.size(), s.runs)
                              : ids(s.by);
   std::string said = fmt::format("{} speak{} for {}", by, s.by.size() < 2 ? "s" : "", effect.who().words());

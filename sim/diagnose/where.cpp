@@ -79,8 +79,8 @@ std::vector<Row> rows_of(const Experiment& experiment, const Rig& rig, const Run
                          std::size_t& segments) {
   const auto readings = experiment.readings(rig, runs);
   std::vector<Row> rows;
-  const auto per_segment = static_cast<std::size_t>(
-      std::lround(std::ceil(thresholds.scatter.segment_s / experiment.data().row_s())));
+  const auto per_segment =
+      static_cast<std::size_t>(std::lround(std::ceil(thresholds.tell.segment_s / experiment.data().row_s())));
   for (std::size_t i = 0; i < runs.size(); ++i) {
     const auto& states = readings[i].states;
     const Eigen::VectorXd residuals = experiment.residuals(readings[i], runs[i]);

@@ -19,7 +19,7 @@ using diagnose::BenchFault, diagnose::FittedNumber;
 
 namespace {
 
-constexpr double of_95 = diagnose::thresholds.interval.normal;
+constexpr double of_95 = diagnose::thresholds.tell.normal;
 constexpr double stands_out = 3.0;  // deviations of a run's own value: it is reported,
 constexpr double matters = 0.1;     // and of the largest of all
 

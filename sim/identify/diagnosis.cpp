@@ -44,7 +44,7 @@ class HandingOver {
 
   Diagnosis operator()() {
     result_.seed = reporting_.seed;
-    result_.false_alarm_rate = diagnose::thresholds.decide.false_alarm_rate;
+    result_.false_alarm_rate = diagnose::thresholds.tell.false_alarm_rate;
     report_data();
     result_.verdict = verdict();
     result_.contradicts_sheet = found_.decision.contradicts_sheet;
@@ -104,7 +104,7 @@ class HandingOver {
     if (seen.hidden.empty()) return decided;
     warn(
         fmt::format("these data would not show, even at their usual size: {}", fmt::join(seen.hidden, ", ")));
-    const double most = diagnose::thresholds.decide.invisible * static_cast<double>(seen.all);
+    const double most = diagnose::thresholds.tell.invisible * static_cast<double>(seen.all);
     return static_cast<double>(seen.hidden.size()) > most ? Verdict::cannot_tell : decided;
   }
 

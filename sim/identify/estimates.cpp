@@ -21,7 +21,7 @@ using diagnose::FittedNumber, Eigen::Index;
 
 namespace {
 
-constexpr double half_95 = diagnose::thresholds.interval.normal;
+constexpr double half_95 = diagnose::thresholds.tell.normal;
 constexpr double unknown = 0.8;  // of the prior's variance: the data have hardly narrowed it
 constexpr double fine = 0.2;     // of what a number alone may be off by: a digit that is worth writing
 

@@ -4,7 +4,6 @@
 #include <string>
 
 #include <sim/diagnose/priors.hpp>
-#include <sim/diagnose/record.hpp>
 #include <sim/input/field_kinds.hpp>
 #include <sim/input/rigs.hpp>
 #include <sim/output/diagnosis_results.hpp>
@@ -27,8 +26,7 @@ MCKIBBEN_MEMBERS_AS_JSON(Ranked, round, name, variant, score, likeness, refitted
 MCKIBBEN_MEMBERS_AS_JSON(Explanation, kind, effects, misfit, strain, held_out_rmse, nats, held_out_nats,
                          held_out_error, mass, as_good, chosen)
 MCKIBBEN_MEMBERS_AS_JSON(LeftOpen, parameters, known, words)
-MCKIBBEN_MEMBERS_AS_JSON(FaultyRun, run, kind, size, unit, action, common, words)
-MCKIBBEN_MEMBERS_AS_JSON(Begun, places, agree)
+MCKIBBEN_MEMBERS_AS_JSON(FaultyRun, run, kind, size, unit, action, words)
 
 }  // namespace mckibben::diagnose
 
@@ -41,15 +39,9 @@ Json ci95(const diagnose::FittedNumber& number) {
   return {number.low, number.high};
 }
 
-/// Only of an interval by profile.
-void tell_quadratic(Json& json, const diagnose::FittedNumber& number) {
-  if (number.quadratic) json["quadratic_ci95"] = *number.quadratic;
-}
-
 Json value_json(const diagnose::FittedNumber& number) {
   Json json{{"value", number.value}, {"unit", number.unit}, {"ci95", ci95(number)}};
   if (!number.determined) json["determined"] = false;
-  tell_quadratic(json, number);
   return json;
 }
 
@@ -69,44 +61,6 @@ std::string short_key(const std::string& path, const plant::Rig& nominal) {
   std::string key = path.starts_with(mechanics) ? path.substr(mechanics.size()) : path;
   std::replace(key.begin(), key.end(), '.', '_');
   return key;
-}
-
-/// Sizes of an effect in parts of the data; null for the error where a part knows nothing of it.
-Json constancy_json(const diagnose::Constancy& constancy) {
-  Json list = Json::array();
-  for (const auto& drift : constancy) {
-    Json sizes = Json::array();
-    for (const auto& size : drift.sizes) {
-      const bool known = std::isfinite(size.error);
-      sizes.push_back({{"part", size.part},
-                       {"value", known ? Json(size.value) : Json()},
-                       {"standard_error", known ? Json(size.error) : Json()}});
-    }
-    list.push_back({{"along", drift.along},
-                    {"differs_by", drift.share},
-                    {"deviations", drift.deviations},
-                    {"sizes", std::move(sizes)}});
-  }
-  return list;
-}
-
-Json ci95(const diagnose::Share& share) {
-  return share.interval();
-}
-
-/// How often a name was right that was given with such evidence; null where that was not measured.
-Json confidence_json(const std::optional<diagnose::Share>& share) {
-  if (!share) return nullptr;
-  return {{"right", share->yes}, {"of", share->of}, {"ci95", ci95(*share)}};
-}
-
-Json false_alarms_json() {
-  const diagnose::Record& record = diagnose::record;
-  return {{"alarms", record.false_alarms.yes},
-          {"of", record.false_alarms.of},
-          {"ci95", ci95(record.false_alarms)},
-          {"seeds", record.null_seeds},
-          {"measured", record.measured}};
 }
 
 Json support_json(const diagnose::Support& support) {
@@ -142,7 +96,7 @@ Json sides_json(const diagnose::NamedEffect& effect) {
   return list;
 }
 
-Json effects_json(const diagnose::Diagnosis& diagnosis, const std::vector<diagnose::NamedEffect>& effects) {
+Json effects_json(const std::vector<diagnose::NamedEffect>& effects) {
   Json list = Json::array();
   for (const auto& effect : effects) {
     Json parameters = Json::object();
@@ -152,9 +106,7 @@ Json effects_json(const diagnose::Diagnosis& diagnosis, const std::vector<diagno
                     {"confusable_with", other_names(effect)},
                     {"parameters", parameters},
                     {"stands_in", effect.stands_in},
-                    {"support", support_json(effect.support)},
-                    {"confidence", confidence_json(diagnose::confidence(diagnosis, effect))},
-                    {"constancy", constancy_json(effect.constancy)}});
+                    {"support", support_json(effect.support)}});
     tell_side(list.back(), effect.side);
     if (Json sides = sides_json(effect); !sides.empty()) list.back()["confusable_sides"] = std::move(sides);
   }
@@ -180,7 +132,6 @@ Json recalibrated_json(const diagnose::Diagnosis& diagnosis, const plant::Rig& n
     Json& json = all[short_key(moved.fitted.name, nominal)];
     json = {{"path", moved.fitted.name}, {"nominal", moved.nominal},   {"fitted", moved.fitted.value},
             {"unit", moved.fitted.unit}, {"ci95", ci95(moved.fitted)}, {"deviations", moved.deviations}};
-    tell_quadratic(json, moved.fitted);
   }
   return all;
 }
@@ -272,11 +223,10 @@ std::string json_of(const domain::Dataset& data, const diagnose::Diagnosis& diag
                 {"verdict", std::string(plant::name_of(diagnosis.verdict))},
                 {"because", diagnosis.because},
                 {"bench", bench_json(diagnosis)},
-                {"effects", effects_json(diagnosis, diagnosis.effects)},
-                {"stand_ins", effects_json(diagnosis, diagnosis.stand_ins)},
+                {"effects", effects_json(diagnosis.effects)},
+                {"stand_ins", effects_json(diagnosis.stand_ins)},
                 {"recalibrated", recalibrated_json(diagnosis, data.rig)},
                 {"left_open", diagnosis.left_open},
-                {"begun", diagnosis.begun},
                 {"residual_law", law_json(diagnosis)},
                 {"where", diagnosis.where},
                 {"start_of_run", diagnosis.start},
@@ -285,14 +235,12 @@ std::string json_of(const domain::Dataset& data, const diagnose::Diagnosis& diag
                 {"next_experiment", diagnosis.next_experiment ? Json(*diagnosis.next_experiment) : Json()},
                 {"search", search_json(diagnosis)},
                 {"false_alarm_rate", diagnosis.false_alarm_rate},
-                {"false_alarms", false_alarms_json()},
                 {"seed", diagnosis.seed},
                 {"warnings", diagnosis.warnings},
                 {"faults", diagnosis.faults},
                 {"runs", diagnosis.runs},
                 {"explanations", diagnosis.explanations},
                 {"ranking", ranking_json(diagnosis)},
-                {"confusion", {{"names", diagnosis.confusion_names}, {"likeness", diagnosis.confusion}}},
                 {"absorbed", absorbed_json(diagnosis)}};
   if (data.rows_of_stamps) document["rows"] = rows_json(*data.rows_of_stamps);
   Json heading = heading_json("mckibben-diagnosis/1", data.inputs);

@@ -105,14 +105,6 @@ std::string twins(const Diagnosis& diagnosis) {
   return text;
 }
 
-std::string confidence(const Diagnosis& diagnosis) {
-  std::string text;
-  for (const auto& effect : diagnosis.effects)
-    if (const auto share = diagnose::confidence(diagnosis, effect))
-      text += fmt::format("  {}: {}\n", full_name(effect), in_words(*share));
-  return text;
-}
-
 std::string next(const Diagnosis& diagnosis) {
   if (!diagnosis.next_experiment) {
     const bool unexplained = diagnosis.gap.floors_left() > diagnose::thresholds.start.explained_floors;
@@ -142,7 +134,6 @@ std::string table_of(const domain::Dataset& data, const Diagnosis& diagnosis) {
   text += section("rmse of what was read beside it, each weighed by its own floor", beside(diagnosis));
   const bool undecided = std::ranges::none_of(diagnosis.explanations, &diagnose::Explanation::chosen);
   text += section(undecided ? "come nearest to these data" : "explain these data as well", twins(diagnosis));
-  text += section("names given with such evidence to simulated data were right", confidence(diagnosis));
   return text + section("to measure next", next(diagnosis));
 }
 

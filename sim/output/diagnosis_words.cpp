@@ -67,8 +67,7 @@ Readable readable(const diagnose::FittedNumber& number) {
   if (!std::isfinite(half) || half <= 0.0) return {readable(number.value, number.unit), "unknown"};
   const int decimals = std::clamp(1 - static_cast<int>(std::floor(std::log10(half))), 0, 9);
   return {with_unit(digits(value, decimals), unit),
-          with_unit(digits(low, decimals) + " to " + digits(high, decimals), unit) +
-              (number.quadratic ? ", by profile" : "")};
+          with_unit(digits(low, decimals) + " to " + digits(high, decimals), unit)};
 }
 
 Readable readable(const diagnose::BenchFault& fault) {
@@ -149,11 +148,6 @@ std::string rounded(double value, int decimals, bool sign) {
   return sign && value > 0.0 && !nothing ? "+" + text : text;
 }
 
-std::string in_words(const diagnose::Share& share) {
-  const auto [low, high] = share.interval();
-  return fmt::format("{} of {} ({:.0f} to {:.0f} %)", share.yes, share.of, 100.0 * low, 100.0 * high);
-}
-
 std::string listed(const std::vector<std::string>& names) {
   if (names.size() < 2) return names.empty() ? "" : names.front();
   return fmt::format("{} and {}", fmt::join(names.begin(), names.end() - 1, ", "), names.back());
@@ -175,23 +169,6 @@ std::string title_of(const diagnose::Diagnosis& diagnosis) {
       break;
   }
   return "These data cannot tell";
-}
-
-std::vector<std::string> quadratic_intervals(const diagnose::Diagnosis& diagnosis) {
-  std::vector<std::string> list;
-  const auto tell = [&](const std::string& of, diagnose::FittedNumber number) {
-    if (!number.quadratic) return;
-    number.low = number.quadratic->front();
-    number.high = number.quadratic->back();
-    number.quadratic.reset();
-    number.determined = true;
-    list.push_back(of + number.name + " " + readable(number).interval);
-  };
-  for (const auto* effects : {&diagnosis.effects, &diagnosis.stand_ins})
-    for (const auto& effect : *effects)
-      for (const auto& number : effect.parameters) tell(effect.name + ".", number);
-  for (const auto& moved : diagnosis.recalibrated) tell("", moved.fitted);
-  return list;
 }
 
 std::string explained_by(const diagnose::Explanation& explanation) {

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include <sim/diagnose/diagnosis.hpp>
-#include <sim/diagnose/record.hpp>
 #include <sim/domain/dataset.hpp>
 
 namespace mckibben::output {
@@ -19,7 +18,7 @@ std::string name_of(const domain::Dataset& data);
 std::string readable(double value, std::string_view si_unit);
 
 /// A fitted number and its 95 % interval, both with the digits that the interval allows: "7.68 mm",
-/// "7.66 to 7.70 mm". An interval that is not known is "unknown"; one by profile says so.
+/// "7.66 to 7.70 mm". An interval that is not known is "unknown".
 struct Readable {
   std::string value, interval;
 };
@@ -50,9 +49,6 @@ std::string mass(double kg);
 /// With so many decimals, without the sign of a rounded nothing; `sign`: "+" before what is above 0.
 std::string rounded(double value, int decimals, bool sign = false);
 
-/// A share that was measured, with its interval: "57 of 60 (86 to 98 %)".
-std::string in_words(const diagnose::Share& share);
-
 /// "a", "a and b", "a, b and c".
 std::string listed(const std::vector<std::string>& names);
 
@@ -60,9 +56,6 @@ std::string listed(const std::vector<std::string>& names);
 std::string title_of(const diagnose::Diagnosis& diagnosis);
 
 using diagnose::full_name;
-
-/// Of intervals by profile, what slopes at the fit would have said: "bladder_creep.time 1.2 to 4.1 s".
-std::vector<std::string> quadratic_intervals(const diagnose::Diagnosis& diagnosis);
 
 /// What an explanation that competed explains the data by: "muscle_leak with valve_lag", "numbers further off
 /// than they are stated to be".

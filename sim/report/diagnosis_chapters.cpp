@@ -142,15 +142,6 @@ std::string recalibrated_html(const Diagnosis& diagnosis) {
          "</div>\n";
 }
 
-std::string profiles_html(const Diagnosis& diagnosis) {
-  const auto intervals = output::quadratic_intervals(diagnosis);
-  if (intervals.empty()) return "";
-  return paragraph(
-      "By profile: the misfit along this parameter, with all others refitted, is not a parabola. From the "
-      "curvature at the fit alone the interval would be " +
-      output::listed(intervals) + ".");
-}
-
 std::string left_open_html(const Diagnosis& diagnosis) {
   if (diagnosis.left_open.empty()) return "";
   std::string items;
@@ -177,39 +168,6 @@ std::string absorbed_html(const Diagnosis& diagnosis) {
          "</div>\n";
 }
 
-/// "12.3 N, +- 0.4 N".
-std::string size_in_words(const diagnose::SizeIn& size, const std::string& unit) {
-  if (!std::isfinite(size.error)) return "unknown";
-  return readable(size.value, unit) + " \u00b1 " + readable(size.error, unit);
-}
-
-/// The size of each effect in parts of the data: what a name is earned by, or lost.
-std::string constancy_html(const Diagnosis& diagnosis, const plant::Rig& rig) {
-  std::string rows;
-  for (const auto* effects : {&diagnosis.effects, &diagnosis.stand_ins})
-    for (const auto& effect : *effects)
-      for (const auto& drift : effect.constancy) {
-        std::string sizes;
-        for (const auto& size : drift.sizes)
-          sizes += fmt::format(
-              "{}{}: {}", sizes.empty() ? "" : "; ", size.part,
-              size_in_words(size, effect.parameters.empty() ? "1" : effect.parameters.front().unit));
-        rows += fmt::format("<tr><th scope='row'>{}</th><td>{}</td><td>{}</td><td>{}</td></tr>\n",
-                            escaped(full_name(effect)), drift.along, text_html(sizes, rig),
-                            drift.deviations == 0.0 ? "no"
-                                                    : fmt::format("by {:.0f} %{}", 100.0 * drift.share,
-                                                                  drift.drifts() ? "" : ", which is little"));
-      }
-  if (rows.empty()) return "";
-  return folded(
-      "Is it the same everywhere?",
-      paragraph("The size of each effect from parts of the data alone, each with its standard error. "
-                "A real effect has one size; a proxy for something else has not.") +
-          "<div class='wide'>" +
-          table("Sizes in parts of the data", {"effect", "along", "size", "differs for certain"}, rows) +
-          "</div>\n");
-}
-
 std::string added_html(const Diagnosis& diagnosis, const plant::Rig& rig) {
   std::string html;
   const auto add = [&](const diagnose::NamedEffect& effect) {
@@ -218,13 +176,12 @@ std::string added_html(const Diagnosis& diagnosis, const plant::Rig& rig) {
     if (!says.empty() && says[0] >= 'a' && says[0] <= 'z') says[0] = static_cast<char>(says[0] - 'a' + 'A');
     html += fmt::format("<h3>{}</h3>\n<p>{}.<br>Law: <code>{}</code><br><span class='small'>{}</span></p>\n",
                         escaped(full_name(effect)), escaped(says), escaped(words.law), escaped(words.source));
-    if (effect.stands_in)
-      html += paragraph("A proxy for something else: it reduces the error, but is not the same everywhere.");
+    if (effect.stands_in) html += paragraph("Beside what is outside the catalogue: no finding.");
   };
   for (const auto& effect : diagnosis.effects) add(effect);
   for (const auto& effect : diagnosis.stand_ins) add(effect);
-  return html + constancy_html(diagnosis, rig) + law_html(diagnosis, rig) + recalibrated_html(diagnosis) +
-         profiles_html(diagnosis) + left_open_html(diagnosis) + absorbed_html(diagnosis);
+  return html + law_html(diagnosis, rig) + recalibrated_html(diagnosis) + left_open_html(diagnosis) +
+         absorbed_html(diagnosis);
 }
 
 /// Errors that are left, by load.

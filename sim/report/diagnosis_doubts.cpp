@@ -27,22 +27,18 @@ std::string support_html(const Diagnosis& diagnosis) {
       const auto runs = [](const std::vector<std::string>& ids) {
         return ids.empty() ? std::string("none") : output::listed(ids);
       };
-      const auto share = diagnose::confidence(diagnosis, effect);
       rows += row(full_name(effect),
                   {fmt::format("{:.0f}", support.fall),
                    std::isfinite(support.before_rivals) ? fmt::format("{:.0f}", support.before_rivals)
                                                         : std::string("none tried"),
-                   runs(support.by), runs(support.against),
-                   share ? output::in_words(*share) : std::string("not measured")});
+                   runs(support.by), runs(support.against)});
     }
   if (rows.empty()) return "";
   return "<div class='wide'>" +
          table(
              "Evidence for each name: the fall of the misfit, the larger misfit of the best candidate that "
-             "is "
-             "not equivalent, runs whose own misfit falls or rises by more than chance, and the share of "
-             "right names with such evidence on simulated data",
-             {"name", "fall", "next best leaves", "runs for it", "runs against it", "right"}, rows) +
+             "is not equivalent, and runs whose own misfit falls or rises by more than chance",
+             {"name", "fall", "next best leaves", "runs for it", "runs against it"}, rows) +
          "</div>\n";
 }
 
@@ -84,13 +80,7 @@ std::string twins_html(const domain::Dataset& data, const Diagnosis& diagnosis) 
         "The data hold no muscle pressure. One measured quantity can show one unknown only: what looks like "
         "a missing force could be a missing flow of gas that has the same consequences for the load. A "
         "pressure gauge on the muscle decides it.");
-  html += support_html(diagnosis) + competition_html(diagnosis, data.rig);
-  const std::string likeness = confusion_svg(diagnosis);
-  if (likeness.empty()) return html;
-  return html + figures_html({{"Likeness of what the best candidates change in these data, before anything "
-                               "was added: at 1 they look the same, above 0.9 (framed) small sizes are "
-                               "not separable, at 0 they have nothing in common.",
-                               likeness}});
+  return html + support_html(diagnosis) + competition_html(diagnosis, data.rig);
 }
 
 std::string next_html(const Diagnosis& diagnosis) {

@@ -132,7 +132,7 @@ std::vector<Picture> ranking_pictures(const Diagnosis& diagnosis, const plant::R
   constexpr double x0 = 212.0, span = 200.0, least_share = 0.01;
   // What a fit made of it; where there is none, what the score promises.
   const auto fall = [](const diagnose::Ranked& one) { return one.refitted ? one.fall : one.score; };
-  double most = 10.0 * diagnose::thresholds.near.chance;
+  double most = 10.0 * diagnose::thresholds.tell.chance;
   for (const auto& one : diagnosis.ranking) most = std::max(most, fall(one));
   const auto length = [&](double value) { return span * std::log(std::max(value, 1.0)) / std::log(most); };
   const auto rounds = grouped(diagnosis.ranking, [](const auto& one) { return one.round; });
@@ -143,12 +143,12 @@ std::vector<Picture> ranking_pictures(const Diagnosis& diagnosis, const plant::R
     if (rounds.size() > 1) svg += label(0, 14, "start", heading, "strong");
     const double begin = rounds.size() > 1 ? 20.0 : 0.0;
     double y = begin;
-    const double limit = x0 + length(diagnose::thresholds.near.chance);
+    const double limit = x0 + length(diagnose::thresholds.tell.chance);
     std::string bars;
     std::map<std::string, std::vector<std::string>> others;  // by outcome
     for (const auto* one : all) {
       if (!one->refitted &&
-          (one->score < diagnose::thresholds.near.chance || one->score < least_share * most)) {
+          (one->score < diagnose::thresholds.tell.chance || one->score < least_share * most)) {
         others[one->outcome].push_back(full_name(*one));
         continue;
       }
@@ -174,27 +174,6 @@ std::vector<Picture> ranking_pictures(const Diagnosis& diagnosis, const plant::R
     if (y > begin) pictures.push_back({caption, picture(y + 16, "Candidates, " + heading, svg)});
   }
   return pictures;
-}
-
-std::string confusion_svg(const Diagnosis& diagnosis) {
-  const auto& names = diagnosis.confusion_names;
-  if (names.empty()) return "";
-  constexpr double x0 = 222.0;
-  const double cell = std::min(29.0, (width - x0) / static_cast<double>(names.size()));
-  std::string svg;
-  double y = 20.0;
-  for (std::size_t i = 0; i < std::min(names.size(), diagnosis.confusion.size()); ++i, y += cell) {
-    const double middle = 0.5 * cell + 4.0;
-    svg += label(x0 - 8, y + middle, "end", fmt::format("{}  {}", names[i], i + 1));
-    svg += label(x0 + cell * (static_cast<double>(i) + 0.5), 13, "middle", std::to_string(i + 1));
-    for (std::size_t j = 0; j < std::min(names.size(), diagnosis.confusion[i].size()); ++j) {
-      const double likeness = diagnosis.confusion[i][j], x = x0 + cell * static_cast<double>(j);
-      svg += heat(x, y, cell - 1, cell - 1, std::abs(likeness));
-      if (i != j && std::abs(likeness) > 0.9) svg += bar(x + 1, y + 1, cell - 3, cell - 3, "frame");
-      svg += label(x + 0.5 * cell - 0.5, y + middle, "middle", i == j ? "" : rounded(likeness, 2), "tiny");
-    }
-  }
-  return picture(y + 2, "How alike candidates are", svg);
 }
 
 std::string absorbed_svg(const Diagnosis& diagnosis) {

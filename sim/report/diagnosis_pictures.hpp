@@ -22,9 +22,6 @@ std::vector<Picture> where_pictures(const diagnose::Diagnosis& diagnosis, const 
 /// Candidates, a picture for each round, their bars on one scale.
 std::vector<Picture> ranking_pictures(const diagnose::Diagnosis& diagnosis, const plant::Rig& rig);
 
-/// How alike the best candidates are; empty if there are none.
-std::string confusion_svg(const diagnose::Diagnosis& diagnosis);
-
 /// Prior deviations by which nominal parameters are moved without and with the effects.
 std::string absorbed_svg(const diagnose::Diagnosis& diagnosis);
 

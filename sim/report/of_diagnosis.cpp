@@ -221,17 +221,13 @@ std::string report_html(const domain::Dataset& data, const Diagnosis& diagnosis,
                             data.rig),
       .table = result_table(data, diagnosis),
       .details = output::table_of(data, diagnosis),
-      .beside = fmt::format(
-          "{}The noise floor is what counting and jitter of the readings "
-          "(here "
-          "{}) let nobody see, or what equal runs differ by. The thresholds were set to name an effect where "
-          "none is missing in {:.0f} % of data sets: a rate aimed at, not one measured on these data. Of "
-          "simulated data sets with nothing missing an effect or a law was given to {} (measured {}, seeds "
-          "{}). Seed {}. Every number is in diagnosis.json, the corrected rig in rig.yaml.",
-          output::words_of(data.judged()).note,
-          output::amount(diagnosis.gap.jitter, diagnosis.gap.judged, data.rig),
-          100.0 * diagnosis.false_alarm_rate, output::in_words(diagnose::record.false_alarms),
-          diagnose::record.measured, diagnose::record.null_seeds, diagnosis.seed),
+      .beside =
+          fmt::format("{}The noise floor is what counting and jitter of the readings "
+                      "(here "
+                      "{}) let nobody see, or what equal runs differ by. Seed {}. Every number is in "
+                      "diagnosis.json, the corrected rig in rig.yaml.",
+                      output::words_of(data.judged()).note,
+                      output::amount(diagnosis.gap.jitter, diagnosis.gap.judged, data.rig), diagnosis.seed),
       .chapters = story(data, diagnosis, ordered(diagnosis.runs, output::changed(diagnosis))),
       .later_chapters = doubts_and_plan(data, diagnosis),
       .short_on_paper = true,

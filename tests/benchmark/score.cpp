@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <sim/diagnose/record.hpp>
 
 namespace mckibben::diagnose {
 
@@ -78,7 +77,7 @@ Given::Given(const NamedEffect& effect, const std::vector<std::string>& truth)
       alone(effect.confusable_with.empty()),
       among(right || std::ranges::any_of(effect.confusable_with,
                                          [&](const auto& rival) { return is_in(truth, rival.effect); })),
-      margin(diagnose::margin(effect.support)) {}
+      margin(std::min(effect.support.fall, effect.support.before_rivals)) {}
 
 Outcome::Outcome(const Hidden& truth, const Diagnosis& diagnosis, const Answer& answer)
     : hidden(truth.verdict),
@@ -138,17 +137,11 @@ void Score::print() const {
   fmt::print("slowest diagnosis {:.1f} s\n", slowest_s_);
 }
 
-/// How often names were right, by how far they were ahead, and what is told of such names.
 void Score::print_reliability() const {
-  const auto& bins = record.names;
-  for (auto bin = bins.begin(); bin != bins.end(); ++bin) {
-    const auto next = std::next(bin);
-    Tally right;
-    for (const Given& one : given_)
-      if (one.alone && one.margin >= bin->margin && (next == bins.end() || one.margin < next->margin))
-        right.count(one.right);
-    right.print(fmt::format("names ahead by {:g} (told {:.1f} %)", bin->margin, 100.0 * bin->right.value()));
-  }
+  Tally alone;
+  for (const Given& one : given_)
+    if (one.alone) alone.count(one.right);
+  alone.print("names that no other does as well as: right");
   Tally first, among;
   for (const Given& one : given_) {
     if (!one.alone) first.count(one.right);

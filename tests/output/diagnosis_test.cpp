@@ -70,19 +70,15 @@ TEST(DiagnosisJson, HoldsWhatIsPromised) {
                   {"known", "product"},
                   {"words", "only the product of hose.conductance and valve.conductance is known"}};
   EXPECT_EQ(document.at("left_open"), Json::array({open}));
-  const Json begun{{"places", 1}, {"agree", true}};
-  EXPECT_EQ(document.at("begun"), begun);
   const Json& next = document.at("next_experiment");
   EXPECT_EQ(next.at("separates").size(), 2u);
   EXPECT_EQ(next.at("current"), "stairs from 4 to 20 mA, 2 s each");
   EXPECT_EQ(next.at("load_kg"), 16.138);
   EXPECT_EQ(next.at("expected_power"), 0.93);
   EXPECT_EQ(document.at("false_alarm_rate"), 0.03);
-  EXPECT_EQ(document.at("false_alarms").at("of"), diagnose::record.false_alarms.of);
   EXPECT_EQ(document.at("seed"), 7);
   EXPECT_EQ(document.at("runs").at(3).at("left_out"), true);
   EXPECT_FALSE(document.at("ranking").at(2).contains("held_out_rmse"));  // was not refitted
-  EXPECT_EQ(document.at("confusion").at("likeness").at(1).at(2), 0.93);
   EXPECT_EQ(document.at("input_files").at(0).at("file"), "measured/dataset.yaml");
   EXPECT_TRUE(document.contains("program"));
 }
@@ -112,21 +108,6 @@ TEST(DiagnosisJson, HoldsFaultsOfTheBenchWithTheLineThatMendsThem) {
   EXPECT_LT(text.find("faults of the bench"), text.find("added to the rig"));
 }
 
-TEST(DiagnosisJson, TellsHowOftenSuchNamesWereRight) {
-  diagnose::Diagnosis found = diagnosed();
-  const auto told = [&](std::size_t effect) {
-    return Json::parse(json_of(measured(), found)).at("effects").at(effect).at("confidence");
-  };
-  EXPECT_TRUE(told(0).is_null()) << "more than noise is left";
-  found.remaining.floors = 1.0;
-  found.effects[0].support = {.fall = 1e9, .before_rivals = 1e9};
-  const diagnose::Share right = diagnose::record.names.back().right;
-  EXPECT_EQ(told(0).at("of"), right.of);
-  EXPECT_EQ(told(0).at("right"), right.yes);
-  EXPECT_EQ(told(0).at("ci95").at(0), right.interval()[0]);
-  EXPECT_TRUE(holds(table_of(measured(), found), "muscle_leak: " + in_words(right)));
-}
-
 TEST(DiagnosisJson, TellsWhatWasReadBesideOnlyWhereSomethingWas) {
   auto diagnosis = diagnosed();
   EXPECT_FALSE(Json::parse(json_of(measured(), diagnosis)).at("gap").contains("beside"));
@@ -137,22 +118,6 @@ TEST(DiagnosisJson, TellsWhatWasReadBesideOnlyWhereSomethingWas) {
   EXPECT_EQ(Json::parse(json_of(measured(), diagnosis)).at("gap").at("beside").at(0), force);
   const std::string table = table_of(measured(), diagnosis);
   EXPECT_TRUE(holds(table, "each weighed by its own floor"));
-}
-
-TEST(DiagnosisJson, TellsWhatSlopesWouldSayOnlyOfIntervalsByProfile) {
-  auto diagnosis = diagnosed();
-  const std::array by_slopes{0.98e-10, 1.2e-10};
-  diagnosis.effects[0].parameters[0].quadratic = by_slopes;
-  diagnosis.recalibrated[0].fitted.quadratic = {0.00765, 0.0077};
-  const Json document = Json::parse(json_of(measured(), diagnosis));
-  const Json& leak = document.at("effects").at(0).at("parameters").at("conductance");
-  EXPECT_EQ(leak.at("ci95"), Json::array({0.97e-10, 1.09e-10}));
-  EXPECT_EQ(leak.at("quadratic_ci95"), Json(by_slopes));
-  EXPECT_EQ(document.at("recalibrated").at("rest_radius").at("quadratic_ci95").at(0), 0.00765);
-  EXPECT_FALSE(document.at("recalibrated").at("braid_angle").contains("quadratic_ci95"));
-  EXPECT_EQ(readable(diagnosis.effects[0].parameters[0]).interval, "0.582 to 0.654 l/(min bar), by profile");
-  EXPECT_EQ(listed(quadratic_intervals(diagnosis)),
-            "muscle_leak.conductance 0.588 to 0.720 l/(min bar) and muscle.rest_radius 7.650 to 7.700 mm");
 }
 
 TEST(DiagnosisJson, NamesAParameterByItsPartOnlyWhereTheLastWordIsNotEnough) {

@@ -34,15 +34,6 @@ std::string visible(const std::string& html) {
   return html.substr(html.find("<body>"), html.find("Licence of uPlot") - html.find("<body>"));
 }
 
-TEST(DiagnosisPage, TellsWhatSlopesWouldSayWhereAnIntervalIsByProfile) {
-  auto found = diagnosed();
-  EXPECT_TRUE(lacks(report_html(measured(), found, {}, {}), "By profile:"));
-  found.effects[0].parameters[0].quadratic = {0.98e-10, 1.2e-10};
-  const std::string html = report_html(measured(), found, {}, {});
-  EXPECT_TRUE(holds(html, "0.582 to 0.654 l/(min bar), by profile",
-                    "would be muscle_leak.conductance 0.588 to 0.720 l/(min bar)."));
-}
-
 TEST(DiagnosisPage, TellsTheStoryInOrder) {
   const std::string html = report_html(measured(), diagnosed(), {}, {});
   EXPECT_EQ(count(html, "<script"), count(html, "</script>"));
