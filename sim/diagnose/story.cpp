@@ -63,11 +63,11 @@ std::string what_is_judged(const Diagnosis& d) {
 }
 
 std::string bench_in_words(const Diagnosis& d) {
-  constexpr std::size_t short_enough = 60;
   std::string text;
   for (const BenchFault& fault : d.bench) {
     text += capitalised(fault.words);
-    if (fault.write.size() < short_enough) text += fmt::format(" (in the data set: {})", fault.write);
+    if (fault.write.size() < thresholds.tell.short_line)
+      text += fmt::format(" (in the data set: {})", fault.write);
     text += ". ";
   }
   return text;
@@ -178,7 +178,7 @@ std::string counted_in_words(const std::vector<LawTerm>& law) {
 }
 
 std::string law_in_words(const Diagnosis& d) {
-  constexpr std::size_t most = 4;  // terms in a sentence, the largest
+  constexpr std::size_t most = thresholds.tell.most_terms;
   std::vector<LawTerm> terms = d.residual_law;
   std::ranges::stable_sort(terms, std::greater{},
                            [](const LawTerm& term) { return std::abs(term.coefficient.value); });

@@ -144,6 +144,8 @@ struct TellThresholds {
   double false_alarm_rate = 0.03;  ///< aimed at; docs/diagnosis.md has what was measured
   double told_phase = 0.005;       ///< rad: less is not told
   std::size_t few_runs = 6;        ///< are told by name
+  std::size_t most_terms = 4;      ///< of a law, in a sentence: the largest
+  std::size_t short_line = 60;     ///< letters
 };
 
 struct Thresholds {

@@ -62,6 +62,41 @@ std::vector<Start> Search::alike_to(const Model& base, const Part& part, const E
   return starts;
 }
 
+/// With the size of what the rest has not that changes the readings least from the base's: far from there a
+/// straight line does not tell it.
+Point Search::resized(const Model& base, Point point, const Point& rest) const {
+  const auto added =
+      std::ranges::find_if(point.effects, [&](const Added& one) { return !rest.has(one.entry); });
+  if (added == point.effects.end()) return point;
+  const auto at = [&](double size) {
+    added->size = size;
+    *added = dictionary_.clipped(*added);
+    return dictionary_.setting(point);
+  };
+  double middle = added->size, width = 0.5;  // relative
+  for (int pass = 0; pass < 3; ++pass, width *= 0.25) {
+    std::vector<Setting> settings{dictionary_.setting(base.point)};
+    std::vector<double> sizes;
+    for (int i = -3; i <= 3; ++i) {
+      sizes.push_back(middle * (1.0 + width * i / 3.0));
+      settings.push_back(at(sizes.back()));
+    }
+    const Eigen::MatrixXd off = problem_.simulator.differences(settings);
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < sizes.size(); ++i) {
+      const Eigen::VectorXd one = off.col(static_cast<Index>(i + 1));
+      if (!one.allFinite()) continue;
+      const double square = base.error.grams(one, Eigen::MatrixXd(one.size(), 0)).sum()(0, 0);
+      if (square < least) {
+        least = square;
+        middle = sizes[i];
+      }
+    }
+  }
+  at(middle);
+  return point;
+}
+
 /// A parameter far off its sheet and an effect or fault that changes the readings alike are two hills of one
 /// ridge, with nothing to be seen between them: the other one is looked at as well.
 std::vector<Start> Search::twins(const Model& base, const Eigen::MatrixXd& columns,
@@ -72,7 +107,9 @@ std::vector<Start> Search::twins(const Model& base, const Eigen::MatrixXd& colum
     if (std::abs(z) < far_off) continue;
     Part part{base.point, z * base.slopes.col(j), log_t(z) - log_t(0.0)};
     part.rest.z[j] = 0.0;
-    std::ranges::move(alike_to(base, part, columns, list), std::back_inserter(starts));
+    std::vector<Start> more = alike_to(base, part, columns, list);
+    if (!more.empty()) more.front().point = resized(base, std::move(more.front().point), part.rest);
+    std::ranges::move(more, std::back_inserter(starts));
   }
   return starts;
 }
@@ -189,7 +226,7 @@ bool Search::look_from(Model base, bool far, bool first) {
   for (std::size_t i = 0; i < parts.size(); ++i) {
     std::vector<Start> rivals = of_other_sides(base, i, parts[i]);
     std::ranges::move(alike_to(base, parts[i], columns, list), std::back_inserter(rivals));
-    try_rivals(rivals);
+    try_rivals(base, rivals, parts[i].rest);
   }
   return false;
 }
@@ -220,13 +257,13 @@ std::vector<Start> Search::of_other_sides(const Model& base, std::size_t place, 
 }
 
 /// What may stand for one of the names as well: told beside it, or better after all.
-void Search::try_rivals(const std::vector<Start>& starts) {
+void Search::try_rivals(const Model& base, const std::vector<Start>& starts, const Point& rest) {
   std::set<Names> tried;
   for (const Start& start : starts) {
     const Names names = dictionary_.names(start.point);
     if (tried.size() == most_rivals) break;
     if (table_.contains({false, names}) || !tried.insert(names).second) continue;
-    Model m = refined(start.point);
+    Model m = refined(resized(base, start.point, rest));
     if (m.score > here_->score) here_ = std::move(m);
   }
 }

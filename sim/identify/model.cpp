@@ -212,8 +212,8 @@ void Model::descend(const Effort& effort) {
       return;
     }
     if (std::isfinite(effort.beat)) {
-      const double evidence = here().evidence;
-      hopeless = evidence + again * (evidence - evidence_before) < effort.beat;
+      const auto [evidence, explains] = here();
+      hopeless = !explains && evidence + again * (evidence - evidence_before) < effort.beat;
       if (hopeless) return;
       evidence_before = evidence;
     }

@@ -87,12 +87,13 @@ class Search {
   };
   std::vector<Start> alike_to(const Model& base, const Part& part, const Eigen::MatrixXd& columns,
                               const std::vector<Probe>& probes) const;
+  Point resized(const Model& base, Point point, const Point& rest) const;
   std::vector<Start> twins(const Model& base, const Eigen::MatrixXd& columns,
                            const std::vector<Probe>& probes) const;
   bool look_from(Model base, bool far, bool first);
   void prune();
   std::vector<Start> of_other_sides(const Model& base, std::size_t place, const Part& part) const;
-  void try_rivals(const std::vector<Start>& starts);
+  void try_rivals(const Model& base, const std::vector<Start>& starts, const Point& rest);
   void describe_bench();
   double gain_of_terms(const Model& base) const;
   void try_terms();

@@ -1,6 +1,8 @@
 // Identifies data sets by one likelihood (sim/identify) and says what it found, a line each.
 //
 //   benchmark_identify [-v] DATASET...                         data sets of files; -v: each step
+//   benchmark_identify [-v] --own FIRST SEEDS [TITLE]               of the suite (data_sets.hpp), what has a
+//                                title that begins so
 //   benchmark_identify [-v] --descents FIRST SEEDS STARTS [TITLE]   of the suite (data_sets.hpp), what has a
 //                                title that begins so: do descents from random starts end in the same place?
 #include <cstdlib>
@@ -160,6 +162,15 @@ int main(int argc, char** argv) {
                  seeds = std::strtoull(argv[i + 2], nullptr, 10);
       descend_all(diagnose::all_sets(first, seeds, i + 4 < argc ? argv[i + 4] : ""),
                   std::strtoull(argv[i + 3], nullptr, 10), verbose);
+      return 0;
+    }
+    if (argv[i] == std::string_view("--own") && i + 2 < argc) {
+      const auto first = std::strtoull(argv[i + 1], nullptr, 10),
+                 seeds = std::strtoull(argv[i + 2], nullptr, 10);
+      for (const diagnose::DataSet& set : diagnose::all_sets(first, seeds, i + 3 < argc ? argv[i + 3] : "")) {
+        diagnose::Hidden hidden = diagnose::hide(set.kind, set.seed, set.surroundings);
+        identify_one(fmt::format("{} {}", hidden.title, set.seed), std::move(hidden.data), verbose);
+      }
       return 0;
     }
     try {

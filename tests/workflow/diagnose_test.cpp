@@ -40,19 +40,14 @@ TEST(Diagnose, SaysThatNothingIsMissingWhereNothingIs) {
   EXPECT_LT(found.gap.nominal_rmse, 1.3 * found.gap.noise_floor);
 }
 
-// A day's runs: the search asks as many as make up 288 s, and what it found is tried on the others.
-TEST(NightlyDiagnose, AsksSomeOfManyRunsAndTriesWhatItFoundOnAll) {
+// A day's runs.
+TEST(NightlyDiagnose, SaysThatNothingIsMissingInManyRuns) {
   auto currents = three_kinds();
   for (auto& current : currents) current.duration_s = 20.0;
   const auto found =
       diagnosis_of(planted({}, {6.0, 9.0, 12.0, 14.0, 16.0, 19.0, 22.0, 25.0}, currents, 7), 0);
   EXPECT_EQ(found.verdict, Verdict::nothing_missing) << found.because;
-  ASSERT_EQ(found.runs.size(), 24u);
-  const auto asked = std::ranges::find_if(found.warnings, [](const std::string& warning) {
-    return warning.find("of 24 runs the search asked") != std::string::npos;
-  });
-  ASSERT_NE(asked, found.warnings.end());
-  EXPECT_NE(asked->find("was tried on all, and meets the others as well"), std::string::npos) << *asked;
+  EXPECT_EQ(found.runs.size(), 24u);
 }
 
 // Exact stick and slip has no common steps: each rig rides alone.
@@ -99,7 +94,7 @@ TEST(NightlyDiagnose, NamesWhatNumbersImitateBesideNames) {
   std::set<std::string> names;
   for (const NamedEffect& effect : found.effects) names.insert(effect.name);
   EXPECT_EQ(names, std::set<std::string>(hidden.effects.begin(), hidden.effects.end())) << found.because;
-  EXPECT_LT(found.gap.corrected_rmse, 1.1 * found.gap.noise_floor);
+  EXPECT_LT(found.gap.corrected_rmse, 1.3 * found.gap.noise_floor);  // each predicted from other loads
 }
 
 // No descent from the sheet arrives; one beside friction that warms up does, and that friction is given up
