@@ -103,23 +103,26 @@ def drawing(page, label):
 
 def as_it_is(page, folder):
     """What the page, and each picture, should be."""
-    pictures, names = {}, {}
+    drawn, names = [], {}
 
     def truth(part):
         if part["cell"]:
             printed = cell(part["cell"], names)
             return f"```python\n{part['cell']}```" + (f"\n\n```text\n{printed}```" if printed else "")
         if part["picture"]:
-            report, time = folder / part["report"], part["time"]
-            shown = as_a_browser_shows(report, time) if time else report.read_text()
-            pictures[page.parent / part["picture"]] = drawing(shown, part["label"])
+            drawn.append(part)
         elif part["name"]:
             (folder / part["name"]).write_text(part["body"])
         else:
             return f"```console\n{play(part['body'], folder)}```"
         return part[0]
 
-    return {page: PART.sub(truth, page.read_text())} | pictures
+    made = {page: PART.sub(truth, page.read_text())}
+    for part in drawn:  # at the end: a page may open with a picture of what it does
+        report, time = folder / part["report"], part["time"]
+        shown = as_a_browser_shows(report, time) if time else report.read_text()
+        made[page.parent / part["picture"]] = drawing(shown, part["label"])
+    return made
 
 
 def last_place(number):
