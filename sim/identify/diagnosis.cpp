@@ -157,7 +157,7 @@ class HandingOver {
       return stated != data_.rig.spreads.end() && !std::isfinite(stated->second);
     };
     for (const diagnose::LeftOpen& open : result_.left_open)
-      if (std::ranges::any_of(open.parameters, unknown)) warn("left open by these data: " + open.words);
+      if (std::ranges::any_of(open.parameters, unknown)) warn("not determined by these data: " + open.words);
   }
 
   void report_gap(std::size_t handed) {
@@ -189,7 +189,7 @@ class HandingOver {
       return;  // no currents, loads
     const Model* rival = doubt(found_);
     if (rival == nullptr || chosen().general || found_.ended != Ended::no) return;
-    step("planning the measurement that would tell more");
+    step("planning the next measurement");
     const auto words = [&](const Model& model) {
       const auto names = model.problem->dictionary.names(model.point);
       return names.empty() ? std::string("other parameters") : fmt::format("{}", fmt::join(names, " with "));
