@@ -262,7 +262,9 @@ void Search::try_rivals(const Model& base, const std::vector<Start>& starts, con
   for (const Start& start : starts) {
     const Names names = dictionary_.names(start.point);
     if (tried.size() == most_rivals) break;
-    if (table_.contains({false, names}) || !tried.insert(names).second) continue;
+    const auto known = table_.find({false, names});
+    if (known != table_.end() && known->second.score > here_->score - clear) continue;
+    if (!tried.insert(names).second) continue;
     Model m = refined(resized(base, start.point, rest));
     if (m.score > here_->score) here_ = std::move(m);
   }
