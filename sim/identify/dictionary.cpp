@@ -19,6 +19,33 @@ constexpr std::array<BenchNumber, 3> bench_numbers{
      {"load_label", "factor", &Bench::load_factor, 0.05, -0.6, 1.0},
      {"reading_clock", "", &Bench::clock, 0.01, -0.3, 0.3}}};
 
+/// Of a law of the user's own: each further number alone, beside each value of the first.
+void add_shapes_of_own(Entry& entry) {
+  const diagnose::Candidate& c = *entry.effect;
+  const auto add = [&](const std::string& path, double lowest, double highest) {
+    const bool positive = lowest > 0.0;
+    entry.shapes.push_back({.path = path,
+                            .middle = positive ? std::sqrt(highest * lowest) : 0.5 * (lowest + highest),
+                            .deviation = (positive ? std::log(highest / lowest) : highest - lowest) / 4.0,
+                            .logarithmic = positive,
+                            .furthest = 2.0});
+  };
+  if (!c.shape.empty()) add(c.shape, c.shapes.front(), c.shapes.back());
+  for (const diagnose::Further& one : c.further) add(one.path, one.lowest, one.highest);
+  entry.begin.clear();
+  const std::vector<diagnose::Candidate> variations = c.variations();
+  for (const double first : c.shape.empty() ? std::vector{0.0} : c.shapes)
+    for (const diagnose::Candidate& one : variations) {
+      std::vector<double> values;
+      if (!c.shape.empty()) values.push_back(first);
+      for (const diagnose::Further& further : one.further) values.push_back(further.value);
+      for (std::size_t i = 0; i < values.size(); ++i) values[i] = entry.shapes[i].z(values[i]);
+      entry.begin.push_back(std::move(values));
+    }
+  if (!c.shape.empty())  // the typical one first
+    std::rotate(entry.begin.begin(), entry.begin.begin() + std::ssize(variations), entry.begin.end());
+}
+
 Entry entry_of(const diagnose::Candidate& c, const plant::Rig& rig) {
   plant::Rig copy = c.chosen(rig);
   const diagnose::Found size = diagnose::find(copy, c.amplitude);
@@ -31,10 +58,12 @@ Entry entry_of(const diagnose::Candidate& c, const plant::Rig& rig) {
   entry.lowest = std::min(one, other);
   entry.highest = std::max(one, other);
   if (!c.either_sign) entry.lowest = std::max(entry.lowest, decisive.least);
-  if (!c.shape.empty() && c.shapes.size() > 1) {
-    entry.shape_middle = c.shapes[c.shapes.size() / 2];
-    entry.shape_sd = std::log(c.shapes.back() / c.shapes.front()) / 4.0;
-    if (c.own) entry.shape_middle = std::sqrt(c.shapes.back() * c.shapes.front());
+  if (c.own) {
+    add_shapes_of_own(entry);
+  } else if (!c.shape.empty()) {
+    entry.shapes = {
+        {c.shape, c.shapes[c.shapes.size() / 2], std::log(c.shapes.back() / c.shapes.front()) / 4.0}};
+    entry.begin = {{0.0}, {-2.0}, {2.0}};
   }
   return entry;
 }
@@ -42,6 +71,13 @@ Entry entry_of(const diagnose::Candidate& c, const plant::Rig& rig) {
 constexpr std::size_t wave_pairs = 14, rub_places = 8;
 
 }  // namespace
+
+void Entry::put(plant::Rig& rig, double size, const std::vector<double>& with) const {
+  const bool both = rig.pair() != nullptr && effect->side == diagnose::Side::both;
+  for (std::size_t i = 0; i < shapes.size(); ++i)
+    diagnose::Parameter{.path = shapes[i].path, .both_sides = both}.put(rig, with[i]);
+  effect->put(rig, size);
+}
 
 bool Point::has(std::size_t entry) const {
   return std::ranges::any_of(effects, [&](const Added& one) { return one.entry == entry; });
@@ -111,7 +147,7 @@ std::vector<Coordinate> Dictionary::coordinates(const Point& point) const {
     list.push_back({Kind::parameter, static_cast<std::size_t>(j)});
   for (std::size_t i = 0; i < point.effects.size(); ++i) {
     list.push_back({Kind::size, i});
-    if (entries[point.effects[i].entry].has_shape()) list.push_back({Kind::shape, i});
+    for (std::size_t k = 0; k < point.effects[i].shapes.size(); ++k) list.push_back({Kind::shape, i, k});
   }
   for (Eigen::Index j = 0; j < point.coefficients.size(); ++j)
     list.push_back({Kind::term, static_cast<std::size_t>(j)});
@@ -132,7 +168,7 @@ Eigen::VectorXd Dictionary::vector(const Point& point) const {
         value = point.effects[of].size;
         break;
       case Kind::shape:
-        value = point.effects[of].shape;
+        value = point.effects[of].shapes[list[j].which];
         break;
       case Kind::term:
         value = point.coefficients[static_cast<Eigen::Index>(of)];
@@ -145,7 +181,8 @@ Eigen::VectorXd Dictionary::vector(const Point& point) const {
 Added Dictionary::clipped(Added added) const {
   const Entry& entry = entries[added.entry];
   added.size = std::clamp(added.size, entry.lowest, entry.highest);
-  added.shape = std::clamp(added.shape, -4.0, 4.0);
+  for (std::size_t i = 0; i < added.shapes.size(); ++i)
+    added.shapes[i] = std::clamp(added.shapes[i], -entry.shapes[i].furthest, entry.shapes[i].furthest);
   return added;
 }
 
@@ -166,7 +203,7 @@ Point Dictionary::moved(const Point& point, const Eigen::VectorXd& v) const {
         p.effects[of].size = value;
         break;
       case Kind::shape:
-        p.effects[of].shape = value;
+        p.effects[of].shapes[list[j].which] = value;
         break;
       case Kind::term:
         p.coefficients[static_cast<Eigen::Index>(of)] = value;
@@ -199,7 +236,10 @@ Setting Dictionary::setting(const Point& point) const {
       made.bench.*(entry.bench->of) = size;
     } else {
       made.rig = entry.effect->chosen(std::move(made.rig));
-      entry.effect->put(made.rig, size, entry.shape_middle * std::exp(entry.shape_sd * added.shape));
+      std::vector<double> with;
+      for (std::size_t i = 0; i < added.shapes.size(); ++i)
+        with.push_back(entry.shapes[i].value(added.shapes[i]));
+      entry.put(made.rig, size, with);
     }
   }
   put_terms(point, made.rig);

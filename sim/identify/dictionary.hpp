@@ -4,11 +4,13 @@
 //   parameter       z = (value - described) / deviation ~ Student t of 4 degrees; of a pair a shared value,
 //                   and muscle 2's less muscle 1's
 //   size            z = (value - absent) / typical ~ Student t of 4 degrees, half where it is one-sided
-//   shape           log-normal round its middle, its range is +-2 deviations
+//   shape           log-normal round its middle, or normal where it may be negative: its range is +-2
+//                   deviations
 //   general terms   force, ~ normal of a scale that is tried
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -46,6 +48,20 @@ struct BenchNumber {
   double typical, lowest, highest;
 };
 
+/// A number of a law besides its size.
+struct Shape {
+  std::string path;
+  double middle, deviation;  ///< of its logarithm, or
+  bool logarithmic = true;   ///< of itself
+  double furthest = 4.0;     ///< deviations
+  double value(double z) const {
+    return logarithmic ? middle * std::exp(deviation * z) : middle + deviation * z;
+  }
+  double z(double value) const {
+    return (logarithmic ? std::log(value / middle) : value - middle) / deviation;
+  }
+};
+
 /// An effect of the rig, with one of its laws, or a fault of the bench.
 struct Entry {
   std::string name;                             ///< laws of one effect share it
@@ -53,9 +69,11 @@ struct Entry {
   const BenchNumber* bench = nullptr;
   double absent = 0.0, typical = 1.0;
   bool either_sign = false;
-  double lowest = 0.0, highest = 0.0;         ///< sizes, in typical ones
-  double shape_middle = 0.0, shape_sd = 0.0;  ///< of its logarithm; 0: it has no shape
-  bool has_shape() const { return shape_sd > 0.0; }
+  double lowest = 0.0, highest = 0.0;  ///< sizes, in typical ones
+  std::vector<Shape> shapes{};
+  std::vector<std::vector<double>> begin{{}};  ///< shapes that a search begins from, in their deviations
+  /// The effect in a rig that has its law, with this size and these shapes.
+  void put(plant::Rig& rig, double size, const std::vector<double>& with) const;
 };
 
 /// What may differ from run to run, one value each, ~ normal with a scale that is log-normal round the
@@ -73,7 +91,8 @@ enum class Terms { none, smooth, waves, rubs };
 
 struct Added {
   std::size_t entry = 0;
-  double size = 0.0, shape = 0.0;  ///< in units of their priors
+  double size = 0.0;  ///< in units of its prior, like the
+  std::vector<double> shapes{};
 };
 
 struct Point {
@@ -95,7 +114,8 @@ struct Point {
 enum class Kind { parameter, size, shape, term };
 struct Coordinate {
   Kind kind;
-  std::size_t of;  ///< parameter, or place among the point's effects, or term
+  std::size_t of;         ///< parameter, or place among the point's effects, or term
+  std::size_t which = 0;  ///< of its shapes
 };
 
 class Dictionary {

@@ -110,9 +110,9 @@ class Estimating {
             .determined = determined(j)};
   }
 
-  Index place_of(Kind kind, std::size_t of) const {
-    const auto at =
-        std::ranges::find_if(list_, [&](const Coordinate& one) { return one.kind == kind && one.of == of; });
+  Index place_of(Kind kind, std::size_t of, std::size_t which = 0) const {
+    const auto at = std::ranges::find_if(
+        list_, [&](const Coordinate& one) { return one.kind == kind && one.of == of && one.which == which; });
     return at - list_.begin();
   }
 
@@ -141,16 +141,16 @@ class Estimating {
     const double rounded =
         take(effect.amplitude, number(key(effect.amplitude), "", of_size, lowest, entry.highest, size),
              std::abs(entry.typical) * alone(of_size));
-    if (entry.has_shape()) {
-      const Index of_shape = place_of(Kind::shape, i);
-      const auto shape = [&](double z) { return entry.shape_middle * std::exp(entry.shape_sd * z); };
-      const double with =
-          take(effect.shape, number(key(effect.shape), "", of_shape, -infinite, infinite, shape),
-               shape(added.shape) * entry.shape_sd * alone(of_shape));
-      effect.put(result_.rig, rounded, with);
-    } else {
-      effect.put(result_.rig, rounded);
+    std::vector<double> with;
+    for (std::size_t k = 0; k < entry.shapes.size(); ++k) {
+      const Shape& shape = entry.shapes[k];
+      const Index of_shape = place_of(Kind::shape, i, k);
+      const auto value = [&](double z) { return shape.value(z); };
+      with.push_back(
+          take(shape.path, number(key(shape.path), "", of_shape, -infinite, infinite, value),
+               (shape.logarithmic ? value(added.shapes[k]) : 1.0) * shape.deviation * alone(of_shape)));
     }
+    entry.put(result_.rig, rounded, with);
     result_.effects.push_back(std::move(named));
   }
 

@@ -55,7 +55,7 @@ std::vector<Start> Search::twins(const Model& base, const Eigen::MatrixXd& colum
       const Probe& probe = list[static_cast<std::size_t>(c)];
       const double along = gram(0, c + 1), square = gram(c + 1, c + 1);
       if (along * along < alike * gram(0, 0) * square) continue;
-      const Added added = dictionary_.clipped({probe.entry, along / square, probe.shape});
+      const Added added = dictionary_.clipped({probe.entry, along / square, probe.shapes});
       Point q = base.point;
       q.z[j] = 0.0;
       q.effects.push_back(added);

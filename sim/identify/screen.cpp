@@ -16,7 +16,6 @@ using Eigen::Index;
 namespace {
 
 constexpr std::array sizes{1.0, 0.1, 3.0};  // a slope, and secants for what has a kink
-constexpr std::array shapes{0.0, -2.0, 2.0};
 constexpr std::size_t beam = 60;
 constexpr double size_variance = 4.0;  // of a size, while sets are compared
 
@@ -32,14 +31,14 @@ std::vector<Probe> probes(const Dictionary& dictionary, const Point& beside) {
     const Entry& entry = dictionary.entries[k];
     if (beside.has(k)) continue;
     if (is_clock(entry)) {
-      list.push_back({k, 1.0, 0.0});
+      list.push_back({k, 1.0});
       continue;
     }
-    for (const double shape : shapes) {
-      if (shape != 0.0 && !entry.has_shape()) continue;
+    for (const auto& shapes : entry.begin) {
+      const bool first = &shapes == &entry.begin.front();
       for (const double size : sizes)
-        if (shape == 0.0 || size == 1.0) list.push_back({k, size, shape});
-      if (entry.either_sign && shape == 0.0) list.push_back({k, -1.0, shape});
+        if (first || size == 1.0) list.push_back({k, size, shapes});
+      if (entry.either_sign && first) list.push_back({k, -1.0, shapes});
     }
   }
   return list;
@@ -74,7 +73,7 @@ Eigen::MatrixXd columns_of(const Model& model, std::vector<Probe>& list) {
     settings.assign(1, dictionary.setting(model.point));
     while (last < list.size() && list[last].entry == list[first].entry) {
       Point q = model.point;
-      q.effects.push_back({list[last].entry, list[last].size, list[last].shape});
+      q.effects.push_back({list[last].entry, list[last].size, list[last].shapes});
       std::ranges::sort(q.effects, {}, &Added::entry);
       settings.push_back(dictionary.setting(q));
       ++last;
@@ -193,7 +192,7 @@ class Lattice {
     for (Index i = 0; i < k; ++i) {
       const Entry& one = entry(columns[static_cast<std::size_t>(i)]);
       value -= std::log(static_cast<double>(dictionary_.laws_of(one.name))) +
-               (one.has_shape() ? std::log(3.0) : 0.0);
+               std::log(static_cast<double>(one.begin.size()));
       if (!one.either_sign)
         value += std::numbers::ln2 + log_normal_cdf((mean[i] * s - decisive.least) /
                                                     (s * std::sqrt(std::max(inverse(i, i), 1e-12))));
@@ -268,7 +267,7 @@ std::vector<Start> sets(const Problem& problem, const Error& error, const Point&
       const Probe& probe = list[static_cast<std::size_t>(free[static_cast<std::size_t>(found.columns[i])])];
       const double size = found.sizes[static_cast<Index>(i)];
       const bool may_be = dictionary.entries[probe.entry].either_sign || size > 0.0;
-      q.effects.push_back(dictionary.clipped({probe.entry, may_be ? size : 0.1, probe.shape}));
+      q.effects.push_back(dictionary.clipped({probe.entry, may_be ? size : 0.1, probe.shapes}));
     }
     std::ranges::sort(q.effects, {}, &Added::entry);
     starts.push_back({found.value + offset, std::move(q)});

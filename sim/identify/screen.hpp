@@ -8,10 +8,11 @@
 
 namespace mckibben::identify {
 
-/// A candidate of one size and shape; its column is the change of readings for one unit of size.
+/// A candidate of one size and one shape; its column is the change of readings for one unit of size.
 struct Probe {
   std::size_t entry;
-  double size, shape;
+  double size;
+  std::vector<double> shapes{};
 };
 std::vector<Probe> probes(const Dictionary& dictionary, const Point& beside);
 
