@@ -18,7 +18,9 @@ struct Decisive {
   double error_length_s = 1.0;           ///< of the model error: log-normal round it,
   double error_length_sd = 1.5;          ///< of its logarithm
   double terms_N[3] = {1.0, 5.0, 25.0};  ///< scales of general terms
-  double least = 0.05;                   ///< of an effect's typical size: as good as absent, and may be stiff
+  double stretch_sd = 0.3;  ///< of the logarithm of a wave's wavelength, round its family's, whose
+                            ///< neighbours are 0.7 to 0.07 apart; convention
+  double least = 0.05;      ///< of an effect's typical size: as good as absent, and may be stiff
 };
 inline constexpr Decisive decisive;
 

@@ -4,6 +4,8 @@
 #include <numbers>
 #include <set>
 
+#include <fmt/format.h>
+
 #include <plant/geometry.hpp>
 #include <sim/diagnose/catalogue.hpp>
 #include <sim/diagnose/diagnosis.hpp>
@@ -151,6 +153,8 @@ std::vector<Coordinate> Dictionary::coordinates(const Point& point) const {
   }
   for (Eigen::Index j = 0; j < point.coefficients.size(); ++j)
     list.push_back({Kind::term, static_cast<std::size_t>(j)});
+  for (Eigen::Index j = 0; j < point.stretches.size(); ++j)
+    list.push_back({Kind::stretch, static_cast<std::size_t>(j)});
   return list;
 }
 
@@ -172,6 +176,9 @@ Eigen::VectorXd Dictionary::vector(const Point& point) const {
         break;
       case Kind::term:
         value = point.coefficients[static_cast<Eigen::Index>(of)];
+        break;
+      case Kind::stretch:
+        value = point.stretches[static_cast<Eigen::Index>(of)];
         break;
     }
   }
@@ -207,6 +214,9 @@ Point Dictionary::moved(const Point& point, const Eigen::VectorXd& v) const {
         break;
       case Kind::term:
         p.coefficients[static_cast<Eigen::Index>(of)] = value;
+        break;
+      case Kind::stretch:
+        p.stretches[static_cast<Eigen::Index>(of)] = value;
         break;
     }
   }
@@ -253,13 +263,17 @@ void Dictionary::put_terms(const Point& point, plant::Rig& rig) const {
   };
   for (Eigen::Index j = 0; j < point.coefficients.size(); ++j) {
     const double N = point.coefficients[j];
+    const std::size_t member =
+        point.members.empty() ? static_cast<std::size_t>(j) : point.members[static_cast<std::size_t>(j)];
+    const double stretch = point.stretches.size() > 0 ? point.stretches[j / 2] : 0.0;
     if (point.terms == Terms::smooth)
-      add({.of = static_cast<plant::Basis>(j), .coefficient_N = N});
+      add({.of = static_cast<plant::Basis>(member), .coefficient_N = N});
     else if (point.terms == Terms::waves)
       add({.of = plant::Basis::sine,
            .coefficient_N = N,
-           .wavelength_m = 1.2 * reach_m / static_cast<double>(1 + j / 2),
-           .phase_rad = std::numbers::pi / 2.0 * static_cast<double>(j % 2)});
+           .wavelength_m =
+               1.2 * reach_m / static_cast<double>(1 + member / 2) * std::exp(decisive.stretch_sd * stretch),
+           .phase_rad = std::numbers::pi / 2.0 * static_cast<double>(member % 2)});
   }
 }
 
@@ -269,7 +283,12 @@ std::vector<std::string> Dictionary::names(const Point& point) const {
   for (const int which : point.differ)
     set.insert(std::string(differing.at(static_cast<std::size_t>(which)).name));
   constexpr std::array<std::string_view, 4> families{"", "smooth", "waves", "rubs"};
-  if (point.terms != Terms::none) set.insert(std::string(families.at(static_cast<std::size_t>(point.terms))));
+  if (point.terms != Terms::none) {
+    const std::string_view family = families.at(static_cast<std::size_t>(point.terms));
+    set.insert(point.members.empty()
+                   ? std::string(family)
+                   : fmt::format("{} of {}", point.members.size() / together(point.terms), family));
+  }
   return {set.begin(), set.end()};
 }
 

@@ -6,7 +6,9 @@
 //   size            z = (value - absent) / typical ~ Student t of 4 degrees, half where it is one-sided
 //   shape           log-normal round its middle, or normal where it may be negative: its range is +-2
 //                   deviations
-//   general terms   force, ~ normal of a scale that is tried
+//   general terms   force, ~ normal of a scale that is tried: a whole family of them, or a few of its
+//   members,
+//                   where waves have log-normal wavelengths
 #pragma once
 
 #include <array>
@@ -88,6 +90,10 @@ inline constexpr int zeros = 0, gains = 1, loads = 2;
 
 /// Families of general terms of force.
 enum class Terms { none, smooth, waves, rubs };
+/// Members that come together: a sine and a cosine.
+constexpr std::size_t together(Terms terms) {
+  return terms == Terms::waves ? 2 : 1;
+}
 
 struct Added {
   std::size_t entry = 0;
@@ -99,22 +105,26 @@ struct Point {
   Eigen::VectorXd z{};           ///< of the rig's parameters; empty: as described
   std::vector<Added> effects{};  ///< by entry
   Terms terms = Terms::none;
-  Eigen::VectorXd coefficients{};  ///< of these [N]
-  std::vector<int> differ{};       ///< of `differing`, ascending
+  std::vector<std::size_t> members{};  ///< of the family; empty: all
+  Eigen::VectorXd coefficients{};      ///< of these [N]
+  Eigen::VectorXd stretches{};         ///< of the wavelengths of members, of their logarithms, in deviations
+  std::vector<int> differ{};           ///< of `differing`, ascending
   // Where numbers of runs are simulated that are integrated out: their prior is round nothing.
   std::vector<double> run_loads_kg{};
   std::vector<Eigen::VectorXd> starts{};
 
+  /// A whole family of terms is straight lines from where the rest stands; all else is simulated.
+  bool has_lines() const { return terms != Terms::none && members.empty(); }
   bool has(std::size_t entry) const;
   bool lets_differ(int which) const;
   /// The same without the effect at a place among its own.
   Point without(std::size_t place) const;
 };
 
-enum class Kind { parameter, size, shape, term };
+enum class Kind { parameter, size, shape, term, stretch };
 struct Coordinate {
   Kind kind;
-  std::size_t of;         ///< parameter, or place among the point's effects, or term
+  std::size_t of;         ///< parameter, or place among the point's effects, or term, or wave
   std::size_t which = 0;  ///< of its shapes
 };
 

@@ -91,7 +91,9 @@ Eigen::VectorXd Model::variance() const {
     if (one.kind == Kind::term)
       value = term_N * term_N;
     else
-      value = one.kind != Kind::shape ? (decisive.tails + value * value) / (decisive.tails + 1.0) : 1.0;
+      value = one.kind == Kind::parameter || one.kind == Kind::size
+                  ? (decisive.tails + value * value) / (decisive.tails + 1.0)
+                  : 1.0;
   }
   return list;
 }
@@ -272,8 +274,7 @@ void Model::descend(const Effort& effort) {
     const bool all_anew = promised > 10.0 || !(before - here > 0.3 * promised);
     const auto coordinates = dictionary.coordinates(point);
     for (std::size_t j = 0; j < coordinates.size(); ++j)
-      if (all_anew || coordinates[j].kind == Kind::size || coordinates[j].kind == Kind::shape)
-        anew.push_back(j);
+      if (all_anew || coordinates[j].kind != Kind::parameter) anew.push_back(j);
     if (!anew.empty()) look_again(anew);
   }
 }
@@ -354,7 +355,7 @@ void Model::settle(const Effort& effort) {
 
 double Model::evidence() {
   if (!read.allFinite()) return score = log_evidence = -std::numeric_limits<double>::infinity();
-  if (point.terms == Terms::none) {
+  if (!point.has_lines()) {
     if (const Eigen::VectorXd finely = problem->simulator.read(problem->dictionary.setting(point));
         finely.allFinite())
       read = finely;

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <set>
 
 #include <Eigen/Cholesky>
@@ -124,6 +125,57 @@ double log_prior_of_set(std::size_t size, std::size_t names) {
   const double n = static_cast<double>(names), k = static_cast<double>(size);
   return -std::log(decisive.most_together + 1.0) -
          (std::lgamma(n + 1.0) - std::lgamma(k + 1.0) - std::lgamma(n - k + 1.0));
+}
+
+std::vector<Few> few_of(const Model& all) {
+  const Dictionary& dictionary = all.problem->dictionary;
+  const auto step = static_cast<Index>(together(all.point.terms));
+  const Index count = all.point.coefficients.size() / step, n = all.slopes.cols() - step * count;
+  const Eigen::VectorXd variance = all.variance(), v = dictionary.vector(all.point),
+                        pull = v.cwiseQuotient(variance);
+  Eigen::MatrixXd gram = all.grams.sum();
+  gram.col(0).tail(v.size()) -= pull;
+  gram.row(0).tail(v.size()) -= pull.transpose();
+  const auto value = [&](const std::vector<Index>& kept) {
+    std::vector<Index> rows{0};
+    for (const Index j : kept) rows.push_back(j + 1);
+    return log_evidence(gram(rows, rows), all.grams.log_det(), all.read.size(), variance(kept));
+  };
+  std::vector<Index> kept(static_cast<std::size_t>(v.size()));
+  std::iota(kept.begin(), kept.end(), Index{0});
+  const double of_all = value(kept);
+  kept.resize(static_cast<std::size_t>(n));
+  std::vector<Few> list;
+  for (Index k = 1; k <= count; ++k) {
+    std::vector<Index> best;
+    double most = -std::numeric_limits<double>::infinity();
+    for (Index j = n; j < v.size(); j += step) {
+      if (std::ranges::find(kept, j) != kept.end()) continue;
+      std::vector<Index> more = kept;
+      for (Index i = 0; i < step; ++i) more.push_back(j + i);
+      if (const double with = value(more); with > most) {
+        most = with;
+        best = std::move(more);
+      }
+    }
+    kept = std::move(best);
+    const double score = all.score + most - of_all +
+                         log_prior_of_set(static_cast<std::size_t>(k), static_cast<std::size_t>(count));
+    if (k > 2 && !(score > list.back().value)) break;
+    list.resize(std::min<std::size_t>(list.size(), 1));
+    Point q = all.point;
+    q.coefficients = Eigen::VectorXd::Zero(k * step);
+    if (q.terms == Terms::waves) q.stretches = Eigen::VectorXd::Zero(k);
+    for (std::size_t i = static_cast<std::size_t>(n); i < kept.size(); ++i)
+      q.members.push_back(static_cast<std::size_t>(kept[i] - n));
+    Eigen::MatrixXd curvature = gram.bottomRightCorner(v.size(), v.size())(kept, kept);
+    curvature.diagonal() += variance(kept).cwiseInverse();
+    Eigen::VectorXd there = dictionary.vector(q);
+    there.head(std::ssize(kept)) =
+        v(kept) + curvature.llt().solve(Eigen::VectorXd(gram.col(0).tail(v.size())(kept)));
+    list.push_back({score, all.term_N, dictionary.moved(q, there)});
+  }
+  return list;
 }
 
 namespace {

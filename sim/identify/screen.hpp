@@ -30,6 +30,17 @@ struct Start {
 /// log prior of a set of so many names.
 double log_prior_of_set(std::size_t size, std::size_t names);
 
+/// A few members of a family of general terms.
+struct Few {
+  double value;  ///< as the score of the model with all of them
+  double term_N;
+  Point point;
+  bool is_one() const { return point.members.size() == together(point.terms); }
+};
+/// The one member that explains most, and the best of several, each taken for what it adds to those before it
+/// (forward selection), by straight lines from a model with all of them.
+std::vector<Few> few_of(const Model& all);
+
 /// Sets made of the base and probes. `far`: parameters stay where they are, else they give way.
 std::vector<Start> sets(const Problem& problem, const Error& error, const Point& base, double term_N,
                         const Eigen::VectorXd& residual, const Eigen::MatrixXd& slopes,

@@ -61,7 +61,7 @@ class Search {
   }
   double enter(Model& model, bool described = false);
   double best_score() const;
-  Model started(Point point) const;
+  Model started(Point point, double term_N = 1.0) const;
   /// After one round of the descent to the most probable numbers.
   Model begun(Point point) const;
   Model refined(Model started);
@@ -96,8 +96,8 @@ class Search {
   std::size_t stage_ = 0;
   std::vector<Names> untried_;                ///< of the look that is under way
   std::map<std::string, double> promised_{};  ///< nats that a look saw in a name alone, the most of them
-  bool explained_ = false;  ///< all, by what was begun last
-  bool outside_ = false;    ///< general terms explain more than any set of the catalogue
+  bool explained_ = false;                    ///< all, by what was begun last
+  bool outside_ = false;                      ///< general terms explain more than any set of the catalogue
 };
 
 }  // namespace mckibben::identify
