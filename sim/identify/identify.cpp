@@ -123,14 +123,15 @@ void Search::try_terms() {
       for (const double scale_N : decisive.terms_N) {
         Model m = base.with_terms(terms, columns, scale_N);
         enter(m);
-        if (terms == Terms::rubs) continue;  // no rig carries them
-        for (Few& few : few_of(m))
-          if (std::optional<Few>& best = few.is_one() ? one : several; !best || few.value > best->value)
-            best = std::move(few);
+        if (terms == Terms::rubs || !std::isfinite(m.score)) continue;  // no rig carries rubs
+        for (const double few_N : decisive.few_N)
+          for (Few& few : few_of(m, few_N))
+            if (std::optional<Few>& best = few.is_one() ? one : several; !best || few.value > best->value)
+              best = std::move(few);
       }
     }
-  refined(started(one->point, one->term_N));
-  if (several->value > one->value) refined(started(several->point, several->term_N));
+  if (one) refined(started(one->point, one->term_N));
+  if (several && several->value > one->value) refined(started(several->point, several->term_N));
 }
 
 void Search::begin() {

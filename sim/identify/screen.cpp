@@ -127,12 +127,12 @@ double log_prior_of_set(std::size_t size, std::size_t names) {
          (std::lgamma(n + 1.0) - std::lgamma(k + 1.0) - std::lgamma(n - k + 1.0));
 }
 
-std::vector<Few> few_of(const Model& all) {
+std::vector<Few> few_of(const Model& all, double term_N) {
   const Dictionary& dictionary = all.problem->dictionary;
   const auto step = static_cast<Index>(together(all.point.terms));
   const Index count = all.point.coefficients.size() / step, n = all.slopes.cols() - step * count;
-  const Eigen::VectorXd variance = all.variance(), v = dictionary.vector(all.point),
-                        pull = v.cwiseQuotient(variance);
+  Eigen::VectorXd variance = all.variance();
+  const Eigen::VectorXd v = dictionary.vector(all.point), pull = v.cwiseQuotient(variance);
   Eigen::MatrixXd gram = all.grams.sum();
   gram.col(0).tail(v.size()) -= pull;
   gram.row(0).tail(v.size()) -= pull.transpose();
@@ -144,6 +144,7 @@ std::vector<Few> few_of(const Model& all) {
   std::vector<Index> kept(static_cast<std::size_t>(v.size()));
   std::iota(kept.begin(), kept.end(), Index{0});
   const double of_all = value(kept);
+  variance.tail(v.size() - n).setConstant(term_N * term_N);
   kept.resize(static_cast<std::size_t>(n));
   std::vector<Few> list;
   for (Index k = 1; k <= count; ++k) {
@@ -173,7 +174,7 @@ std::vector<Few> few_of(const Model& all) {
     Eigen::VectorXd there = dictionary.vector(q);
     there.head(std::ssize(kept)) =
         v(kept) + curvature.llt().solve(Eigen::VectorXd(gram.col(0).tail(v.size())(kept)));
-    list.push_back({score, all.term_N, dictionary.moved(q, there)});
+    list.push_back({score, term_N, dictionary.moved(q, there)});
   }
   return list;
 }

@@ -38,8 +38,8 @@ struct Few {
   bool is_one() const { return point.members.size() == together(point.terms); }
 };
 /// The one member that explains most, and the best of several, each taken for what it adds to those before it
-/// (forward selection), by straight lines from a model with all of them.
-std::vector<Few> few_of(const Model& all);
+/// (forward selection), of a scale, by straight lines from a model with all of them.
+std::vector<Few> few_of(const Model& all, double term_N);
 
 /// Sets made of the base and probes. `far`: parameters stay where they are, else they give way.
 std::vector<Start> sets(const Problem& problem, const Error& error, const Point& base, double term_N,

@@ -154,7 +154,7 @@ Identified with_general_terms(domain::Dataset data, const Settings& settings, Te
   parameters.evidence();
   Model general = parameters.with_terms(terms, columns_of(parameters, terms), term_N);
   if (one) {
-    general = Model(study.problem, few_of(general).front().point, error, term_N);
+    general = Model(study.problem, few_of(general, term_N).front().point, error, term_N);
     general.look();
     general.settle({});
     general.evidence();
