@@ -171,6 +171,12 @@ class HandingOver {
     const Three three{found_.models[nominal], found_.models[recalibrated], found_.models[handed],
                       left_[nominal],         left_[recalibrated],         left_[handed]};
     result_.gap = gap_of(found_, three, experiment_.floor());
+    for (const diagnose::BesideGap& one : result_.gap.beside)
+      if (one.corrected_rmse > diagnose::thresholds.start.explained_floors * one.noise_floor)
+        warn(fmt::format(
+            "{} is not met: {:.3g} {} off, where its noise is {:.3g} {}; no model that was tried meets "
+            "both it and what is judged. Is it this muscle's, and near it?",
+            one.reading, one.corrected_rmse, one.unit, one.noise_floor, one.unit));
     result_.runs = gaps_of_runs(found_, three, experiment_);
     const auto rig_of = [&](std::size_t i) {
       const Model& model = found_.models[i];

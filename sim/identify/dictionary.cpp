@@ -4,6 +4,8 @@
 #include <numbers>
 #include <set>
 
+#include <fmt/format.h>
+
 #include <plant/geometry.hpp>
 #include <sim/diagnose/catalogue.hpp>
 #include <sim/diagnose/diagnosis.hpp>
@@ -20,6 +22,33 @@ constexpr std::array<BenchNumber, 4> bench_numbers{
      {"reading_clock", "rate", &Bench::clock, 0.01, -0.3, 0.3},
      {"reading_clock", "offset", &Bench::ahead_s, 0.02, 0.0, 1.0}}};  // late readings are the rig's
 
+/// Of a law of the user's own: each further number alone, beside each value of the first.
+void add_shapes_of_own(Entry& entry) {
+  const diagnose::Candidate& c = *entry.effect;
+  const auto add = [&](const std::string& path, double lowest, double highest) {
+    const bool positive = lowest > 0.0;
+    entry.shapes.push_back({.path = path,
+                            .middle = positive ? std::sqrt(highest * lowest) : 0.5 * (lowest + highest),
+                            .deviation = (positive ? std::log(highest / lowest) : highest - lowest) / 4.0,
+                            .logarithmic = positive,
+                            .furthest = 2.0});
+  };
+  if (!c.shape.empty()) add(c.shape, c.shapes.front(), c.shapes.back());
+  for (const diagnose::Further& one : c.further) add(one.path, one.lowest, one.highest);
+  entry.begin.clear();
+  const std::vector<diagnose::Candidate> variations = c.variations();
+  for (const double first : c.shape.empty() ? std::vector{0.0} : c.shapes)
+    for (const diagnose::Candidate& one : variations) {
+      std::vector<double> values;
+      if (!c.shape.empty()) values.push_back(first);
+      for (const diagnose::Further& further : one.further) values.push_back(further.value);
+      for (std::size_t i = 0; i < values.size(); ++i) values[i] = entry.shapes[i].z(values[i]);
+      entry.begin.push_back(std::move(values));
+    }
+  if (!c.shape.empty())  // the typical one first
+    std::rotate(entry.begin.begin(), entry.begin.begin() + std::ssize(variations), entry.begin.end());
+}
+
 Entry entry_of(const diagnose::Candidate& c, const plant::Rig& rig) {
   plant::Rig copy = c.chosen(rig);
   const diagnose::Found size = diagnose::find(copy, c.amplitude);
@@ -32,10 +61,12 @@ Entry entry_of(const diagnose::Candidate& c, const plant::Rig& rig) {
   entry.lowest = std::min(one, other);
   entry.highest = std::max(one, other);
   if (!c.either_sign) entry.lowest = std::max(entry.lowest, decisive.least);
-  if (!c.shape.empty() && c.shapes.size() > 1) {
-    entry.shape_middle = c.shapes[c.shapes.size() / 2];
-    entry.shape_sd = std::log(c.shapes.back() / c.shapes.front()) / 4.0;
-    if (c.own) entry.shape_middle = std::sqrt(c.shapes.back() * c.shapes.front());
+  if (c.own) {
+    add_shapes_of_own(entry);
+  } else if (!c.shape.empty()) {
+    entry.shapes = {
+        {c.shape, c.shapes[c.shapes.size() / 2], std::log(c.shapes.back() / c.shapes.front()) / 4.0}};
+    entry.begin = {{0.0}, {-2.0}, {2.0}};
   }
   return entry;
 }
@@ -43,6 +74,13 @@ Entry entry_of(const diagnose::Candidate& c, const plant::Rig& rig) {
 constexpr std::size_t wave_pairs = 14, rub_places = 8;
 
 }  // namespace
+
+void Entry::put(plant::Rig& rig, double size, const std::vector<double>& with) const {
+  const bool both = rig.pair() != nullptr && effect->side == diagnose::Side::both;
+  for (std::size_t i = 0; i < shapes.size(); ++i)
+    diagnose::Parameter{.path = shapes[i].path, .both_sides = both}.put(rig, with[i]);
+  effect->put(rig, size);
+}
 
 bool Point::has(std::size_t entry) const {
   return std::ranges::any_of(effects, [&](const Added& one) { return one.entry == entry; });
@@ -112,10 +150,12 @@ std::vector<Coordinate> Dictionary::coordinates(const Point& point) const {
     list.push_back({Kind::parameter, static_cast<std::size_t>(j)});
   for (std::size_t i = 0; i < point.effects.size(); ++i) {
     list.push_back({Kind::size, i});
-    if (entries[point.effects[i].entry].has_shape()) list.push_back({Kind::shape, i});
+    for (std::size_t k = 0; k < point.effects[i].shapes.size(); ++k) list.push_back({Kind::shape, i, k});
   }
   for (Eigen::Index j = 0; j < point.coefficients.size(); ++j)
     list.push_back({Kind::term, static_cast<std::size_t>(j)});
+  for (Eigen::Index j = 0; j < point.stretches.size(); ++j)
+    list.push_back({Kind::stretch, static_cast<std::size_t>(j)});
   return list;
 }
 
@@ -133,10 +173,13 @@ Eigen::VectorXd Dictionary::vector(const Point& point) const {
         value = point.effects[of].size;
         break;
       case Kind::shape:
-        value = point.effects[of].shape;
+        value = point.effects[of].shapes[list[j].which];
         break;
       case Kind::term:
         value = point.coefficients[static_cast<Eigen::Index>(of)];
+        break;
+      case Kind::stretch:
+        value = point.stretches[static_cast<Eigen::Index>(of)];
         break;
     }
   }
@@ -146,7 +189,8 @@ Eigen::VectorXd Dictionary::vector(const Point& point) const {
 Added Dictionary::clipped(Added added) const {
   const Entry& entry = entries[added.entry];
   added.size = std::clamp(added.size, entry.lowest, entry.highest);
-  added.shape = std::clamp(added.shape, -4.0, 4.0);
+  for (std::size_t i = 0; i < added.shapes.size(); ++i)
+    added.shapes[i] = std::clamp(added.shapes[i], -entry.shapes[i].furthest, entry.shapes[i].furthest);
   return added;
 }
 
@@ -167,10 +211,13 @@ Point Dictionary::moved(const Point& point, const Eigen::VectorXd& v) const {
         p.effects[of].size = value;
         break;
       case Kind::shape:
-        p.effects[of].shape = value;
+        p.effects[of].shapes[list[j].which] = value;
         break;
       case Kind::term:
         p.coefficients[static_cast<Eigen::Index>(of)] = value;
+        break;
+      case Kind::stretch:
+        p.stretches[static_cast<Eigen::Index>(of)] = value;
         break;
     }
   }
@@ -200,7 +247,10 @@ Setting Dictionary::setting(const Point& point) const {
       made.bench.*(entry.bench->of) = size;
     } else {
       made.rig = entry.effect->chosen(std::move(made.rig));
-      entry.effect->put(made.rig, size, entry.shape_middle * std::exp(entry.shape_sd * added.shape));
+      std::vector<double> with;
+      for (std::size_t i = 0; i < added.shapes.size(); ++i)
+        with.push_back(entry.shapes[i].value(added.shapes[i]));
+      entry.put(made.rig, size, with);
     }
   }
   put_terms(point, made.rig);
@@ -214,13 +264,17 @@ void Dictionary::put_terms(const Point& point, plant::Rig& rig) const {
   };
   for (Eigen::Index j = 0; j < point.coefficients.size(); ++j) {
     const double N = point.coefficients[j];
+    const std::size_t member =
+        point.members.empty() ? static_cast<std::size_t>(j) : point.members[static_cast<std::size_t>(j)];
+    const double stretch = point.stretches.size() > 0 ? point.stretches[j / 2] : 0.0;
     if (point.terms == Terms::smooth)
-      add({.of = static_cast<plant::Basis>(j), .coefficient_N = N});
+      add({.of = static_cast<plant::Basis>(member), .coefficient_N = N});
     else if (point.terms == Terms::waves)
       add({.of = plant::Basis::sine,
            .coefficient_N = N,
-           .wavelength_m = 1.2 * reach_m / static_cast<double>(1 + j / 2),
-           .phase_rad = std::numbers::pi / 2.0 * static_cast<double>(j % 2)});
+           .wavelength_m =
+               1.2 * reach_m / static_cast<double>(1 + member / 2) * std::exp(decisive.stretch_sd * stretch),
+           .phase_rad = std::numbers::pi / 2.0 * static_cast<double>(member % 2)});
   }
 }
 
@@ -230,7 +284,12 @@ std::vector<std::string> Dictionary::names(const Point& point) const {
   for (const int which : point.differ)
     set.insert(std::string(differing.at(static_cast<std::size_t>(which)).name));
   constexpr std::array<std::string_view, 4> families{"", "smooth", "waves", "rubs"};
-  if (point.terms != Terms::none) set.insert(std::string(families.at(static_cast<std::size_t>(point.terms))));
+  if (point.terms != Terms::none) {
+    const std::string_view family = families.at(static_cast<std::size_t>(point.terms));
+    set.insert(point.members.empty()
+                   ? std::string(family)
+                   : fmt::format("{} of {}", point.members.size() / together(point.terms), family));
+  }
   return {set.begin(), set.end()};
 }
 

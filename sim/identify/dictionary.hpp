@@ -4,11 +4,15 @@
 //   parameter       z = (value - described) / deviation ~ Student t of 4 degrees; of a pair a shared value,
 //                   and muscle 2's less muscle 1's
 //   size            z = (value - absent) / typical ~ Student t of 4 degrees, half where it is one-sided
-//   shape           log-normal round its middle, its range is +-2 deviations
-//   general terms   force, ~ normal of a scale that is tried
+//   shape           log-normal round its middle, or normal where it may be negative: its range is +-2
+//                   deviations
+//   general terms   force, ~ normal of a scale that is tried: a whole family of them, or a few of its
+//   members,
+//                   where waves have log-normal wavelengths
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -69,6 +73,20 @@ struct BenchNumber {
   double typical, lowest, highest;
 };
 
+/// A number of a law besides its size.
+struct Shape {
+  std::string path;
+  double middle, deviation;  ///< of its logarithm, or
+  bool logarithmic = true;   ///< of itself
+  double furthest = 4.0;     ///< deviations
+  double value(double z) const {
+    return logarithmic ? middle * std::exp(deviation * z) : middle + deviation * z;
+  }
+  double z(double value) const {
+    return (logarithmic ? std::log(value / middle) : value - middle) / deviation;
+  }
+};
+
 /// An effect of the rig, with one of its laws, or a fault of the bench.
 struct Entry {
   std::string name;                             ///< laws of one effect share it
@@ -76,39 +94,51 @@ struct Entry {
   const BenchNumber* bench = nullptr;
   double absent = 0.0, typical = 1.0;
   bool either_sign = false;
-  double lowest = 0.0, highest = 0.0;         ///< sizes, in typical ones
-  double shape_middle = 0.0, shape_sd = 0.0;  ///< of its logarithm; 0: it has no shape
-  bool has_shape() const { return shape_sd > 0.0; }
+  double lowest = 0.0, highest = 0.0;  ///< sizes, in typical ones
+  std::vector<Shape> shapes{};
+  std::vector<std::vector<double>> begin{{}};  ///< shapes that a search begins from, in their deviations
+  /// The effect in a rig that has its law, with this size and these shapes.
+  void put(plant::Rig& rig, double size, const std::vector<double>& with) const;
 };
 
 /// Families of general terms of force.
 enum class Terms { none, smooth, waves, rubs };
+/// Members that come together: a sine and a cosine.
+constexpr std::size_t together(Terms terms) {
+  return terms == Terms::waves ? 2 : 1;
+}
 
 struct Added {
   std::size_t entry = 0;
-  double size = 0.0, shape = 0.0;  ///< in units of their priors
+  double size = 0.0;  ///< in units of its prior, like the
+  std::vector<double> shapes{};
 };
 
 struct Point {
   Eigen::VectorXd z{};           ///< of the rig's parameters; empty: as described
   std::vector<Added> effects{};  ///< by entry
   Terms terms = Terms::none;
-  Eigen::VectorXd coefficients{};  ///< of these [N]
-  std::vector<int> differ{};       ///< of `differing`, ascending
+  std::vector<std::size_t> members{};  ///< of the family; empty: all
+  Eigen::VectorXd coefficients{};      ///< of these [N]
+  Eigen::VectorXd stretches{};         ///< of the wavelengths of members, of their logarithms, in deviations
+  std::vector<int> differ{};           ///< of `differing`, ascending
   // Where numbers of runs are simulated that are integrated out: their prior is round nothing.
   OfRuns of_runs{};
   std::vector<Eigen::VectorXd> starts{};
 
+  /// A whole family of terms is straight lines from where the rest stands; all else is simulated.
+  bool has_lines() const { return terms != Terms::none && members.empty(); }
   bool has(std::size_t entry) const;
   bool lets_differ(int which) const;
   /// The same without the effect at a place among its own.
   Point without(std::size_t place) const;
 };
 
-enum class Kind { parameter, size, shape, term };
+enum class Kind { parameter, size, shape, term, stretch };
 struct Coordinate {
   Kind kind;
-  std::size_t of;  ///< parameter, or place among the point's effects, or term
+  std::size_t of;         ///< parameter, or place among the point's effects, or term, or wave
+  std::size_t which = 0;  ///< of its shapes
 };
 
 class Dictionary {

@@ -4,6 +4,7 @@
 #include <functional>
 #include <limits>
 #include <map>
+#include <numbers>
 #include <utility>
 
 #include <Eigen/Cholesky>
@@ -12,6 +13,7 @@
 #include <sim/diagnose/left_open.hpp>
 #include <sim/diagnose/thresholds.hpp>
 #include <sim/domain/number.hpp>
+#include <sim/identify/decisive.hpp>
 #include <sim/identify/estimates.hpp>
 #include <sim/identify/quadratic.hpp>
 
@@ -110,9 +112,9 @@ class Estimating {
             .determined = determined(j)};
   }
 
-  Index place_of(Kind kind, std::size_t of) const {
-    const auto at =
-        std::ranges::find_if(list_, [&](const Coordinate& one) { return one.kind == kind && one.of == of; });
+  Index place_of(Kind kind, std::size_t of, std::size_t which = 0) const {
+    const auto at = std::ranges::find_if(
+        list_, [&](const Coordinate& one) { return one.kind == kind && one.of == of && one.which == which; });
     return at - list_.begin();
   }
 
@@ -143,16 +145,16 @@ class Estimating {
     const double rounded =
         take(effect.amplitude, number(key(effect.amplitude), "", of_size, lowest, entry.highest, size),
              std::abs(entry.typical) * alone(of_size));
-    if (entry.has_shape()) {
-      const Index of_shape = place_of(Kind::shape, i);
-      const auto shape = [&](double z) { return entry.shape_middle * std::exp(entry.shape_sd * z); };
-      const double with =
-          take(effect.shape, number(key(effect.shape), "", of_shape, -infinite, infinite, shape),
-               shape(added.shape) * entry.shape_sd * alone(of_shape));
-      effect.put(result_.rig, rounded, with);
-    } else {
-      effect.put(result_.rig, rounded);
+    std::vector<double> with;
+    for (std::size_t k = 0; k < entry.shapes.size(); ++k) {
+      const Shape& shape = entry.shapes[k];
+      const Index of_shape = place_of(Kind::shape, i, k);
+      const auto value = [&](double z) { return shape.value(z); };
+      with.push_back(
+          take(shape.path, number(key(shape.path), "", of_shape, -infinite, infinite, value),
+               (shape.logarithmic ? value(added.shapes[k]) : 1.0) * shape.deviation * alone(of_shape)));
     }
+    entry.put(result_.rig, rounded, with);
     result_.effects.push_back(std::move(named));
   }
 
@@ -191,27 +193,61 @@ class Estimating {
 
   void find_law() {
     if (point_.terms == Terms::none || point_.terms == Terms::rubs) return;  // no rig file carries rubs
+    const auto& in_rig = result_.rig.effects.get<plant::ResidualForce>().terms;
+    std::vector<plant::ForceTerm> found(in_rig.end() - point_.coefficients.size(), in_rig.end()), law;
+    for (std::size_t i = 0; i < found.size(); i += together(point_.terms))
+      law.push_back(point_.terms == Terms::waves ? wave(found[i], i) : term(found[i], i));
     diagnose::each_side(result_.rig, [&](plant::Effects& effects) {
       auto& terms = effects.get<plant::ResidualForce>().terms;
-      const auto found =
-          std::min<std::size_t>(terms.size(), static_cast<std::size_t>(point_.coefficients.size()));
-      const bool first = result_.law.empty();
-      for (std::size_t i = 0; i < found; ++i) {
-        plant::ForceTerm& term = terms[terms.size() - found + i];
-        const Index j = place_of(Kind::term, i);
-        term.coefficient_N = with_digits(term.coefficient_N, alone(j));
-        if (!first) continue;
-        const double half = half_95 * deviation(j);
-        const std::string words = diagnose::words(term);
-        result_.law.push_back({words,
-                               {.name = words,
-                                .unit = "N",
-                                .value = term.coefficient_N,
-                                .low = v_[j] - half,
-                                .high = v_[j] + half,
-                                .determined = determined(j)}});
-      }
+      terms.resize(terms.size() - found.size());
+      terms.insert(terms.end(), law.begin(), law.end());
     });
+  }
+
+  static FittedNumber around(std::string name, std::string unit, double value, double off, bool determined) {
+    const double half = half_95 * off;
+    return {std::move(name), std::move(unit), value, value - half, value + half, determined};
+  }
+
+  plant::ForceTerm term(plant::ForceTerm found, std::size_t i) {
+    const Index j = place_of(Kind::term, i);
+    FittedNumber size = around(diagnose::words(found), "N", v_[j], deviation(j), determined(j));
+    size.value = found.coefficient_N = with_digits(v_[j], alone(j));
+    result_.law.push_back({size.name, size});
+    return found;
+  }
+
+  /// A sine and a cosine of one wavelength are one sine with a phase.
+  plant::ForceTerm wave(plant::ForceTerm found, std::size_t i) {
+    const Index j = place_of(Kind::term, i), of_length = place_of(Kind::stretch, i / 2);
+    const double N = v_.segment<2>(j).norm(), turn = 2.0 * std::numbers::pi;
+    const Eigen::Vector2d along = v_.segment<2>(j) / N, across(-along[1], along[0]);
+    const auto variance = [&](const Eigen::Vector2d& way) {
+      return way.dot(model_.covariance.block<2, 2>(j, j) * way);
+    };
+    const auto alone_along = [&](const Eigen::Vector2d& way) {
+      return 1.0 / std::sqrt(way.dot(curvature_.block<2, 2>(j, j) * way));
+    };
+    std::vector<FittedNumber> shape;
+    if (of_length < v_.size()) {
+      const double length_m = found.wavelength_m;
+      shape.push_back(number("wavelength", "m", of_length, -infinite, infinite, [&](double z) {
+        return length_m * std::exp(decisive.stretch_sd * (z - v_[of_length]));
+      }));
+      shape.back().value = found.wavelength_m =
+          with_digits(length_m, length_m * decisive.stretch_sd * alone(of_length));
+    }
+    const double half = half_95 * std::sqrt(variance(across)) / N;
+    FittedNumber phase = around("phase", "rad", std::atan2(along[1], along[0]),
+                                std::min(half, 0.5 * turn) / half_95, half < 0.5 * turn);
+    phase.value = found.phase_rad = with_digits(phase.value, alone_along(across) / N);
+    shape.push_back(std::move(phase));
+    found.coefficient_N = with_digits(N, alone_along(along));
+    FittedNumber size = around(diagnose::words(found), "N", N, std::sqrt(variance(along)),
+                               variance(along) < unknown * model_.term_N * model_.term_N);
+    size.value = found.coefficient_N;
+    result_.law.push_back({size.name, size, std::move(shape)});
+    return found;
   }
 
   void find_left_open() {
@@ -245,7 +281,7 @@ class Estimating {
 }  // namespace
 
 Point most_probable(const Model& model) {
-  if (model.point.terms == Terms::none) return model.point;
+  if (!model.point.has_lines()) return model.point;
   const Dictionary& dictionary = model.problem->dictionary;
   return dictionary.moved(model.point, dictionary.vector(model.point) + step_to_most_probable(model));
 }

@@ -31,6 +31,9 @@ double Search::enter(Model& model, bool described) {
                 (names.empty() || described ? std::log(0.5) : 0.0);
   for (const Added& added : model.point.effects)
     model.score -= std::log(static_cast<double>(dictionary_.laws_of(dictionary_.entries[added.entry].name)));
+  if (const std::size_t few = model.point.members.size() / together(model.point.terms); few > 0)
+    model.score +=
+        log_prior_of_set(few, dictionary_.count_of_terms(model.point.terms) / together(model.point.terms));
   const Key key{described, names};
   const auto known = table_.find(key);
   if (known == table_.end())
@@ -58,9 +61,9 @@ double Search::best_score() const {
 }
 
 /// At the beginning of a descent. None depends on those before it.
-Model Search::started(Point point) const {
+Model Search::started(Point point, double term_N) const {
   step(fmt::format("trying {}", fmt::join(dictionary_.names(point), " + ")));
-  Model m(problem_, std::move(point), at_->error.begun());
+  Model m(problem_, std::move(point), at_->error.begun(), term_N);
   m.look();
   return m;
 }
@@ -123,10 +126,12 @@ void Search::describe_bench() {
   enter(m, true);
 }
 
-/// Is it a law outside the catalogue?
+/// Is it a law outside the catalogue? Of families of terms, as straight lines; then of the few of them that
+/// promise most, descended.
 void Search::try_terms() {
   std::vector<Model> bases{table_.at({false, {}})};
   if (!dictionary_.names(here_->point).empty()) bases.push_back(*here_);
+  std::optional<Few> one, several;
   for (const Model& base : bases)
     for (const Terms terms : families) {
       step("trying general terms");
@@ -134,8 +139,15 @@ void Search::try_terms() {
       for (const double scale_N : decisive.terms_N) {
         Model m = base.with_terms(terms, columns, scale_N);
         enter(m);
+        if (terms == Terms::rubs || !std::isfinite(m.score)) continue;  // no rig carries rubs
+        for (const double few_N : decisive.few_N)
+          for (Few& few : few_of(m, few_N))
+            if (std::optional<Few>& best = few.is_one() ? one : several; !best || few.value > best->value)
+              best = std::move(few);
       }
     }
+  if (one) refined(started(one->point, one->term_N));
+  if (several && several->value > one->value) refined(started(several->point, several->term_N));
 }
 
 void Search::begin() {

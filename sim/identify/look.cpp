@@ -48,7 +48,7 @@ std::vector<Start> Search::alike_to(const Model& base, const Part& part, const E
     const Probe& probe = list[static_cast<std::size_t>(c)];
     const double along = gram(0, c + 1), square = gram(c + 1, c + 1);
     if (along * along < alike * gram(0, 0) * square || part.rest.has(probe.entry)) continue;
-    const Added added = dictionary_.clipped({probe.entry, along / square, probe.shape});
+    const Added added = dictionary_.clipped({probe.entry, along / square, probe.shapes});
     Start start{log_t(added.size) - part.log_prior, part.rest};
     start.point.effects.push_back(added);
     std::ranges::sort(start.point.effects, {}, &Added::entry);
@@ -244,7 +244,7 @@ std::vector<Start> Search::of_other_sides(const Model& base, std::size_t place, 
       continue;
     const double share = of->side == Side::both ? 2.0 : other->side == Side::both ? 0.5 : 1.0;
     Start start{0.0, part.rest};
-    start.point.effects.push_back(dictionary_.clipped({k, share * added.size, added.shape}));
+    start.point.effects.push_back(dictionary_.clipped({k, share * added.size, added.shapes}));
     std::ranges::sort(start.point.effects, {}, &Added::entry);
     const Eigen::VectorXd read = problem_.simulator.read(dictionary_.setting(start.point));
     if (!read.allFinite()) continue;
@@ -262,7 +262,9 @@ void Search::try_rivals(const Model& base, const std::vector<Start>& starts, con
   for (const Start& start : starts) {
     const Names names = dictionary_.names(start.point);
     if (tried.size() == most_rivals) break;
-    if (table_.contains({false, names}) || !tried.insert(names).second) continue;
+    const auto known = table_.find({false, names});
+    if (known != table_.end() && known->second.score > here_->score - clear) continue;
+    if (!tried.insert(names).second) continue;
     Model m = refined(resized(base, start.point, rest));
     if (m.score > here_->score) here_ = std::move(m);
   }

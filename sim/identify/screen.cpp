@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <set>
 
 #include <Eigen/Cholesky>
@@ -16,7 +17,6 @@ using Eigen::Index;
 namespace {
 
 constexpr std::array sizes{1.0, 0.1, 3.0};  // a slope, and secants for what has a kink
-constexpr std::array shapes{0.0, -2.0, 2.0};
 constexpr std::size_t beam = 60;
 constexpr double size_variance = 4.0;  // of a size, while sets are compared
 
@@ -32,14 +32,14 @@ std::vector<Probe> probes(const Dictionary& dictionary, const Point& beside) {
     const Entry& entry = dictionary.entries[k];
     if (beside.has(k)) continue;
     if (is_clock(entry)) {
-      list.push_back({k, 1.0, 0.0});
+      list.push_back({k, 1.0});
       continue;
     }
-    for (const double shape : shapes) {
-      if (shape != 0.0 && !entry.has_shape()) continue;
+    for (const auto& shapes : entry.begin) {
+      const bool first = &shapes == &entry.begin.front();
       for (const double size : sizes)
-        if (shape == 0.0 || size == 1.0) list.push_back({k, size, shape});
-      if (entry.either_sign && shape == 0.0) list.push_back({k, -1.0, shape});
+        if (first || size == 1.0) list.push_back({k, size, shapes});
+      if (entry.either_sign && first) list.push_back({k, -1.0, shapes});
     }
   }
   return list;
@@ -77,7 +77,7 @@ Eigen::MatrixXd columns_of(const Model& model, std::vector<Probe>& list) {
     settings.assign(1, dictionary.setting(model.point));
     while (last < list.size() && list[last].entry == list[first].entry) {
       Point q = model.point;
-      q.effects.push_back({list[last].entry, list[last].size, list[last].shape});
+      q.effects.push_back({list[last].entry, list[last].size, list[last].shapes});
       std::ranges::sort(q.effects, {}, &Added::entry);
       settings.push_back(dictionary.setting(q));
       ++last;
@@ -128,6 +128,58 @@ double log_prior_of_set(std::size_t size, std::size_t names) {
   const double n = static_cast<double>(names), k = static_cast<double>(size);
   return -std::log(decisive.most_together + 1.0) -
          (std::lgamma(n + 1.0) - std::lgamma(k + 1.0) - std::lgamma(n - k + 1.0));
+}
+
+std::vector<Few> few_of(const Model& all, double term_N) {
+  const Dictionary& dictionary = all.problem->dictionary;
+  const auto step = static_cast<Index>(together(all.point.terms));
+  const Index count = all.point.coefficients.size() / step, n = all.slopes.cols() - step * count;
+  Eigen::VectorXd variance = all.variance();
+  const Eigen::VectorXd v = dictionary.vector(all.point), pull = v.cwiseQuotient(variance);
+  Eigen::MatrixXd gram = all.grams.sum();
+  gram.col(0).tail(v.size()) -= pull;
+  gram.row(0).tail(v.size()) -= pull.transpose();
+  const auto value = [&](const std::vector<Index>& kept) {
+    std::vector<Index> rows{0};
+    for (const Index j : kept) rows.push_back(j + 1);
+    return log_evidence(gram(rows, rows), all.grams.log_det(), all.read.size(), variance(kept));
+  };
+  std::vector<Index> kept(static_cast<std::size_t>(v.size()));
+  std::iota(kept.begin(), kept.end(), Index{0});
+  const double of_all = value(kept);
+  variance.tail(v.size() - n).setConstant(term_N * term_N);
+  kept.resize(static_cast<std::size_t>(n));
+  std::vector<Few> list;
+  for (Index k = 1; k <= count; ++k) {
+    std::vector<Index> best;
+    double most = -std::numeric_limits<double>::infinity();
+    for (Index j = n; j < v.size(); j += step) {
+      if (std::ranges::find(kept, j) != kept.end()) continue;
+      std::vector<Index> more = kept;
+      for (Index i = 0; i < step; ++i) more.push_back(j + i);
+      if (const double with = value(more); with > most) {
+        most = with;
+        best = std::move(more);
+      }
+    }
+    kept = std::move(best);
+    const double score = all.score + most - of_all +
+                         log_prior_of_set(static_cast<std::size_t>(k), static_cast<std::size_t>(count));
+    if (k > 2 && !(score > list.back().value)) break;
+    list.resize(std::min<std::size_t>(list.size(), 1));
+    Point q = all.point;
+    q.coefficients = Eigen::VectorXd::Zero(k * step);
+    if (q.terms == Terms::waves) q.stretches = Eigen::VectorXd::Zero(k);
+    for (std::size_t i = static_cast<std::size_t>(n); i < kept.size(); ++i)
+      q.members.push_back(static_cast<std::size_t>(kept[i] - n));
+    Eigen::MatrixXd curvature = gram.bottomRightCorner(v.size(), v.size())(kept, kept);
+    curvature.diagonal() += variance(kept).cwiseInverse();
+    Eigen::VectorXd there = dictionary.vector(q);
+    there.head(std::ssize(kept)) =
+        v(kept) + curvature.llt().solve(Eigen::VectorXd(gram.col(0).tail(v.size())(kept)));
+    list.push_back({score, term_N, dictionary.moved(q, there)});
+  }
+  return list;
 }
 
 namespace {
@@ -196,7 +248,7 @@ class Lattice {
     for (Index i = 0; i < k; ++i) {
       const Entry& one = entry(columns[static_cast<std::size_t>(i)]);
       value -= std::log(static_cast<double>(dictionary_.laws_of(one.name))) +
-               (one.has_shape() ? std::log(3.0) : 0.0);
+               std::log(static_cast<double>(one.begin.size()));
       if (!one.either_sign)
         value += std::numbers::ln2 + log_normal_cdf((mean[i] * s - decisive.least) /
                                                     (s * std::sqrt(std::max(inverse(i, i), 1e-12))));
@@ -271,7 +323,7 @@ std::vector<Start> sets(const Problem& problem, const Error& error, const Point&
       const Probe& probe = list[static_cast<std::size_t>(free[static_cast<std::size_t>(found.columns[i])])];
       const double size = found.sizes[static_cast<Index>(i)];
       const bool may_be = dictionary.entries[probe.entry].either_sign || size > 0.0;
-      q.effects.push_back(dictionary.clipped({probe.entry, may_be ? size : 0.1, probe.shape}));
+      q.effects.push_back(dictionary.clipped({probe.entry, may_be ? size : 0.1, probe.shapes}));
     }
     std::ranges::sort(q.effects, {}, &Added::entry);
     starts.push_back({found.value + offset, std::move(q)});

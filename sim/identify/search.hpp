@@ -62,7 +62,7 @@ class Search {
   }
   double enter(Model& model, bool described = false);
   double best_score() const;
-  Model started(Point point) const;
+  Model started(Point point, double term_N = 1.0) const;
   /// After one round of the descent to the most probable numbers.
   Model begun(Point point) const;
   Model refined(Model started);

@@ -19,7 +19,8 @@ Visible visible(const Model& model) {
   const Dictionary& dictionary = model.problem->dictionary;
   std::vector<Probe> list = probes(dictionary, model.point);
   std::erase_if(list, [&](const Probe& one) {
-    return one.size != 1.0 || one.shape != 0.0 || !dictionary.entries[one.entry].effect;
+    const Entry& entry = dictionary.entries[one.entry];
+    return one.size != 1.0 || one.shapes != entry.begin.front() || !entry.effect;
   });
   std::map<std::string, bool> shown;
   for (const Probe& one : list) shown[dictionary.entries[one.entry].effect->effect] = false;

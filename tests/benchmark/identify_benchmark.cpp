@@ -103,9 +103,11 @@ identify::Point drawn(const identify::Dictionary& dictionary, const std::vector<
     for (std::size_t k = 0; k < dictionary.entries.size(); ++k)
       if (dictionary.entries[k].name == name) laws.push_back(k);
     const std::size_t k = laws[random() % laws.size()];
-    const double size = normal(random), shape = normal(random);
-    point.effects.push_back(dictionary.clipped({k, dictionary.entries[k].either_sign ? size : std::abs(size),
-                                                dictionary.entries[k].has_shape() ? shape : 0.0}));
+    const identify::Entry& entry = dictionary.entries[k];
+    const double size = normal(random);
+    std::vector<double> shapes;
+    for (std::size_t i = 0; i < entry.shapes.size(); ++i) shapes.push_back(normal(random));
+    point.effects.push_back(dictionary.clipped({k, entry.either_sign ? size : std::abs(size), shapes}));
   }
   std::ranges::sort(point.effects, {}, &identify::Added::entry);
   return point;

@@ -138,8 +138,9 @@ TEST(HandedOver, ParametersThatMovedInTheUnitsOfTheRig) {
   EXPECT_GT(found.gap.closed, 0.95);
 }
 
-/// The rig as described, its parameters, and general terms: as a search finds them.
-Identified with_general_terms(domain::Dataset data, const Settings& settings) {
+/// The rig as described, its parameters, and general terms, all of a family or one: as a search finds them.
+Identified with_general_terms(domain::Dataset data, const Settings& settings, Terms terms, double term_N,
+                              bool one = false) {
   Identified found;
   found.study = std::make_shared<const Study>(std::move(data), settings);
   const Study& study = *found.study;
@@ -151,7 +152,13 @@ Identified with_general_terms(domain::Dataset data, const Settings& settings) {
   described.evidence();
   parameters.settle({.rounds = 2});
   parameters.evidence();
-  const Model general = parameters.with_terms(Terms::smooth, columns_of(parameters, Terms::smooth), 25.0);
+  Model general = parameters.with_terms(terms, columns_of(parameters, terms), term_N);
+  if (one) {
+    general = Model(study.problem, few_of(general, term_N).front().point, error, term_N);
+    general.look();
+    general.settle({});
+    general.evidence();
+  }
   for (const Model& model : {described, parameters, general}) {
     found.models.push_back(model);
     found.models.back().score = model.log_evidence;
@@ -170,7 +177,8 @@ TEST(HandedOver, ALawOutsideTheCatalogueThatTheRigCarries) {
   truth.effects.get<plant::ResidualForce>().terms = {
       {.of = plant::Basis::pressure_ratio, .coefficient_N = 30.0}};
   const Settings settings{.threads = 2};
-  const Diagnosis found = diagnosis_of(with_general_terms(diagnose::small(truth, 2.5), settings), settings);
+  const Diagnosis found =
+      diagnosis_of(with_general_terms(diagnose::small(truth, 2.5), settings, Terms::smooth, 25.0), settings);
   EXPECT_EQ(found.verdict, Verdict::unknown_effect) << found.because;
   EXPECT_TRUE(found.effects.empty());
   ASSERT_FALSE(found.residual_law.empty()) << found.because;
@@ -180,6 +188,30 @@ TEST(HandedOver, ALawOutsideTheCatalogueThatTheRigCarries) {
   EXPECT_FALSE(found.law_valid_for.empty());
   EXPECT_TRUE(holds(found.because, "as a force on the load it is", "smaller terms"));
   EXPECT_LT(found.gap.corrected_rmse, 0.5 * found.gap.nominal_rmse);
+}
+
+// A sine and a cosine whose wavelength is none of the family's.
+TEST(HandedOver, OneWaveWithItsWavelengthAndPhase) {
+  plant::Rig truth;
+  truth.effects.get<plant::ResidualForce>().terms = {
+      {.of = plant::Basis::sine, .coefficient_N = 6.0, .wavelength_m = 0.012, .phase_rad = 0.8}};
+  const Settings settings{.threads = 2};
+  const Diagnosis found = diagnosis_of(
+      with_general_terms(diagnose::small(truth, 2.5), settings, Terms::waves, 5.0, true), settings);
+  EXPECT_EQ(found.verdict, Verdict::unknown_effect) << found.because;
+  ASSERT_EQ(found.residual_law.size(), 1u) << found.because;
+  const diagnose::LawTerm& wave = found.residual_law[0];
+  EXPECT_TRUE(surrounds(wave.coefficient, 6.0));
+  ASSERT_EQ(wave.shape.size(), 2u);
+  EXPECT_EQ(wave.shape[0].name, "wavelength");
+  EXPECT_NEAR(wave.shape[0].value, 0.012, 5e-5);
+  EXPECT_LT(wave.shape[0].high - wave.shape[0].low, 5e-5);
+  EXPECT_EQ(wave.shape[1].name, "phase");
+  EXPECT_NEAR(wave.shape[1].value, 0.8, 0.05);
+  const auto& terms = found.corrected.effects.get<plant::ResidualForce>().terms;
+  ASSERT_EQ(terms.size(), 1u);
+  EXPECT_EQ(terms[0].wavelength_m, wave.shape[0].value);
+  EXPECT_GT(found.gap.closed, 0.9);
 }
 
 TEST(HandedOver, TheBestSoFarOfASearchThatWasEnded) {
