@@ -175,7 +175,7 @@ class HandingOver {
       if (one.corrected_rmse > diagnose::thresholds.start.explained_floors * one.noise_floor)
         warn(fmt::format(
             "{} is not met: {:.3g} {} off, where its noise is {:.3g} {}; no model that was tried meets "
-            "both it and what is judged. Is it this muscle's, and near it?",
+            "both it and the first reading. Is it this muscle's, and near it?",
             one.reading, one.corrected_rmse, one.unit, one.noise_floor, one.unit));
     result_.runs = gaps_of_runs(found_, three, experiment_);
     const auto rig_of = [&](std::size_t i) {
