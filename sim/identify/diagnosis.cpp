@@ -175,8 +175,9 @@ class HandingOver {
       if (one.corrected_rmse > diagnose::thresholds.start.explained_floors * one.noise_floor)
         warn(fmt::format(
             "{} is not met: {:.3g} {} off, where its noise is {:.3g} {}; no model that was tried meets "
-            "both it and the first reading. Is it this muscle's, and near it?",
-            one.reading, one.corrected_rmse, one.unit, one.noise_floor, one.unit));
+            "both it and the {}. Is it this muscle's, and near it?",
+            one.reading, one.corrected_rmse, one.unit, one.noise_floor, one.unit,
+            plant::name_of(result_.gap.judged)));
     result_.runs = gaps_of_runs(found_, three, experiment_);
     const auto rig_of = [&](std::size_t i) {
       const Model& model = found_.models[i];

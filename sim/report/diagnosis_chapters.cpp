@@ -176,7 +176,7 @@ std::string added_html(const Diagnosis& diagnosis, const plant::Rig& rig) {
     if (!says.empty() && says[0] >= 'a' && says[0] <= 'z') says[0] = static_cast<char>(says[0] - 'a' + 'A');
     html += fmt::format("<h3>{}</h3>\n<p>{}.<br>Law: <code>{}</code><br><span class='small'>{}</span></p>\n",
                         escaped(full_name(effect)), escaped(says), escaped(words.law), escaped(words.source));
-    if (effect.stands_in) html += paragraph("Something outside the catalogue is missing as well, so this is no finding.");
+    if (effect.stands_in) html += paragraph("No finding: something outside the catalogue is missing.");
   };
   for (const auto& effect : diagnosis.effects) add(effect);
   for (const auto& effect : diagnosis.stand_ins) add(effect);
