@@ -1,6 +1,7 @@
 // See the header.
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include <sim/identify/decide.hpp>
 #include <sim/identify/decisive.hpp>
@@ -57,15 +58,20 @@ Decision decide(const std::vector<Judged>& table) {
   for (double& one : decision.mass) one /= all;
   for (std::size_t i = 0; i < table.size(); ++i)
     if (i != decision.best && decision.mass[i] > decisive.mass) decision.rivals.push_back(i);
-  // A rival that the sheet allows stands for a best one that it does not.
+  std::ranges::sort(decision.rivals, std::greater{}, [&](std::size_t i) { return table[i].score; });
+  // A rival that the sheet allows stands for a best one that it does not, and one that predicts better for
+  // one that does not.
   std::size_t reference = decision.best;
-  for (const std::size_t i : decision.rivals)
-    if (allowed(table[i]) && (!allowed(table[reference]) || table[i].score > table[reference].score))
-      reference = i;
+  for (const std::size_t i : decision.rivals) {
+    if (!allowed(table[i])) continue;
+    const auto [nats, error] = loss(table[i].held_out, table[reference].held_out);
+    if (!allowed(table[reference]) || nats > decisive.errors * error) reference = i;
+  }
   decision.chosen = reference;
   for (std::size_t i = 0; i < table.size(); ++i) {
     const auto [nats, error] = loss(table[reference].held_out, table[i].held_out);
     if (!std::isfinite(table[i].score) || !(nats <= decisive.errors * error) || !allowed(table[i])) continue;
+    if (table[i].general) continue;  // many terms are not simple
     const Judged& chosen = table[decision.chosen];
     if (!allowed(chosen) || size_of(table[i]) < size_of(chosen) ||
         (size_of(table[i]) == size_of(chosen) && table[i].score > chosen.score))

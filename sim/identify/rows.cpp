@@ -21,7 +21,7 @@ double grid_of(const std::vector<double>& readings) {
     if (const double d = levels[i] - levels[i - 1]; d > 1e-7) {
       step = steps++ == 0 ? d : std::min(step, d);
     }
-  if (steps < 5 || 2 * levels.size() > readings.size()) return 0.0;  // what is rounded repeats
+  if (steps < 5) return 0.0;
   double furthest = 0.0;
   for (int pass = 0; pass < 3; ++pass) {
     double along = 0.0, square = 0.0;
@@ -83,8 +83,12 @@ Rows::Rows(const domain::Dataset& data, const std::vector<std::vector<bool>>& ma
 
 void Rows::find_counts() {
   std::vector<double> steps;
-  for (const std::size_t run : runs)
-    if (const double step = grid_of(data_->runs[run].judged()); step > 0.0) steps.push_back(step);
+  for (const std::size_t run : runs) {
+    const domain::Run& one = data_->runs[run];
+    if (one.measured && one.measured->point_s > 0.0)
+      continue;  // even steps of what was set make even readings
+    if (const double step = grid_of(one.judged()); step > 0.0) steps.push_back(step);
+  }
   const double grid = 2 * steps.size() > runs.size() ? median(std::move(steps)) : 0.0;
   // Readings that were written more coarsely than they were counted.
   if (grid > 1.1 * sensor_count && grid > noise.front()) count = grid;

@@ -75,6 +75,19 @@ TEST(Decide, GeneralTermsAreUnknownAndNamesBesideThemNoFindings) {
   EXPECT_EQ(decide({general, model({"muscle_leak"}, -80.0, 30.0)}).verdict, Verdict::unknown_effect);
 }
 
+TEST(Decide, GeneralTermsAreNeverTheSimplerAnswer) {
+  Judged general = model({"smooth"}, -60.0, 0.0);
+  general.general = true;
+  const Decision d = decide({general, model({"bladder_hysteresis", "gains_differ"}, 0.0, 0.0)});
+  EXPECT_EQ(d.chosen, 1U);
+}
+
+TEST(Decide, TakesARivalThatPredictsBetter) {
+  Judged general = model({"waves"}, 1.7, 12.9);  // 12.9 nats worse by every load
+  general.general = true;
+  EXPECT_EQ(decide({general, model({"bladder_elasticity", "gains_differ"}, 0.0, 0.0)}).chosen, 1U);
+}
+
 TEST(Decide, AsDescribedIsTheSimplest) {
   EXPECT_EQ(decide({described(-4.0, 0.0), model({}, 0.0, 0.0)}).verdict, Verdict::nothing_missing);
 }
