@@ -35,13 +35,16 @@ double typical_step_s(const Series& time_s) {
   return steps.empty() ? 0.0 : upper_median(std::move(steps));
 }
 
+struct PressureUnit {
+  std::string_view name;
+  double size_Pa;
+};
+constexpr PressureUnit pressure_units[] = {{"MPa", 1e6}, {"bar", 1e5},  {"psi", 6894.757}, {"kPa", 1e3},
+                                           {"hPa", 1e2}, {"mbar", 1e2}, {"Pa", 1.0}};
+
 std::optional<double> size_Pa(std::string_view unit) {
-  for (const auto& [name, size] : {std::pair<std::string_view, double>{"bar", 1e5},
-                                   {"kPa", 1e3},
-                                   {"mbar", 1e2},
-                                   {"psi", 6894.757},
-                                   {"Pa", 1.0}})
-    if (unit == name) return size;
+  for (const PressureUnit& one : pressure_units)
+    if (unit == one.name) return one.size_Pa;
   return std::nullopt;
 }
 
@@ -151,19 +154,24 @@ class Plausible {
   void given_pressure(const std::string& key, const Series& values_Pa) {
     const Series values = known(values_Pa);
     if (values.size() < limits.least_rows) return;
-    const auto [low, high] = std::ranges::minmax(values);
+    const double low = std::ranges::min(values), high = std::ranges::max(values);
     const double supply_Pa = data_.rig.valve.supply_pressure_Pa;
     const ColumnPlace& said = map_[key];
     if (high > limits.beyond_supply * supply_Pa && high > limits.high_Pa) {
-      ColumnPlace meant = said;
-      meant.unit = said.unit == "bar" ? "psi" : said.unit == "psi" ? "kPa" : "the unit of its gauge";
-      const auto is = size_Pa(said.unit), of = size_Pa(meant.unit);
+      std::string meant;  // the largest unit in which the supply would do
+      for (const PressureUnit& one : pressure_units) {
+        const double would_be_Pa = high * one.size_Pa / size_Pa(said.unit).value_or(0.0);
+        if (would_be_Pa > limits.beyond_supply * supply_Pa) continue;
+        ColumnPlace place = said;
+        place.unit = one.name;
+        meant = fmt::format("as {} it would be {:.3g} bar; if that is right, {}, otherwise ", one.name,
+                            would_be_Pa / plant::Pa_per_bar, line(key, place));
+        break;
+      }
       find(key, "high",
-           fmt::format(
-               "{} is up to {:.4g} bar, and the rig's supply has {:.3g} bar; as {} it would be {:.3g} bar; "
-               "if that is right, {}, otherwise set valve.supply_pressure of the rig",
-               key, high / plant::Pa_per_bar, supply_Pa / plant::Pa_per_bar, meant.unit,
-               high / plant::Pa_per_bar * (of && is ? *of / *is : 1.0), line(key, meant)),
+           fmt::format("{} is up to {:.4g} bar, and the rig's supply has {:.3g} bar; {}set "
+                       "valve.supply_pressure of the rig",
+                       key, high / plant::Pa_per_bar, supply_Pa / plant::Pa_per_bar, meant),
            Severity::refused);
       return;
     }

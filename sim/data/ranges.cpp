@@ -152,7 +152,7 @@ class Ranges {
     const bool given = meant.as == domain::Role::input;
     const char* can = quantity.channel.signal->key == "muscle_pressure" ? "what a muscle can be given"
                                                                         : "what a valve can give";
-    if (meant.unit == "bar") meant.unit = "kPa";
+    meant.unit = meant.unit == "kPa" ? "Pa" : "kPa";
     look(given ? lowest_given_bar : lowest_read_bar, highest_bar, given ? can : "what a gauge can show",
          fmt::format("is it in another unit (kPa, mbar, Pa, psi)? Then write so, as in columns: {{{}}}",
                      line_of(quantity.key, meant)));

@@ -87,7 +87,7 @@ MatArray array_at(const MatVariables& variables, std::string_view path) {
   MatArray array = variable(variables, first);
   for (std::size_t dot = path.find('.'); dot != std::string_view::npos;) {
     const std::size_t next = std::min(path.find('.', dot + 1), path.size());
-    const auto [field, element_of_field] = split_element(path.substr(dot + 1, next - dot - 1));
+    const auto part = split_element(path.substr(dot + 1, next - dot - 1));
     const std::string_view of = path.substr(0, dot);
     if (!array.is_struct()) throw BadFile(fmt::format("{} is not a struct", of));
     const std::size_t count = array.count();
@@ -95,10 +95,10 @@ MatArray array_at(const MatVariables& variables, std::string_view path) {
       throw BadFile(fmt::format("{} is an array of {} structs; name one: {}(1)", of, count,
                                 of.substr(0, of.find_last_of('('))));
     auto fields = array.fields(element == 0 ? 0 : element - 1);
-    element = element_of_field;
+    element = part.second;
     const auto found =
-        std::find_if(fields.begin(), fields.end(), [&](const auto& one) { return one.first == field; });
-    if (found == fields.end()) throw BadFile(fmt::format("{} has no field {}", of, field));
+        std::find_if(fields.begin(), fields.end(), [&](const auto& one) { return one.first == part.first; });
+    if (found == fields.end()) throw BadFile(fmt::format("{} has no field {}", of, part.first));
     array = std::move(found->second);
     dot = next == path.size() ? std::string_view::npos : next;
   }

@@ -1,5 +1,5 @@
-// By HDF5's C library, from the bytes at hand; see the header. Structs are groups, arrays of structs are
-// datasets of references, texts are numbers with the class `char`.
+// By HDF5's C library, from the bytes at hand, in a process of its own; see the header. Structs are groups,
+// arrays of structs are datasets of references, texts are numbers with the class `char`.
 #include <algorithm>
 #include <map>
 #include <utility>
@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <hdf5.h>
 
+#include <sim/formats/isolated.hpp>
 #include <sim/formats/mat_arrays.hpp>
 #include <sim/formats/mat_hdf5.hpp>
 
@@ -30,22 +31,6 @@ class Handle {
  private:
   hid_t id_;
   herr_t (*close_)(hid_t);
-};
-
-/// Errors of damaged files are ours to tell.
-class Silent {
- public:
-  Silent() {
-    H5Eget_auto2(H5E_DEFAULT, &function_, &data_);
-    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
-  }
-  Silent(const Silent&) = delete;
-  Silent& operator=(const Silent&) = delete;
-  ~Silent() { H5Eset_auto2(H5E_DEFAULT, function_, data_); }
-
- private:
-  H5E_auto2_t function_ = nullptr;
-  void* data_ = nullptr;
 };
 
 /// A numeric dataset: rows and columns as MATLAB has them.
@@ -180,7 +165,6 @@ class Reader {
     return text;
   }
 
-  Silent silent_;
   Handle access_, file_;
   std::map<std::string, std::string> labels_;
   std::size_t total_ = 0;
@@ -212,9 +196,33 @@ bool is_mat_hdf5(const std::string& bytes) {
 }
 
 MatContents read_mat_hdf5(const std::string& bytes, const std::vector<std::string>& wanted) {
-  Reader reader(bytes);
-  for (const std::string& where : wanted) reader.contents.found.push_back(found_in(reader, where));
-  return std::move(reader.contents);
+  const std::vector<std::string> parts = isolated([&] {
+    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // errors of damaged files are ours to tell
+    const Reader reader(bytes);
+    std::vector<std::string> all;
+    for (const std::string& where : wanted) {
+      const Found found = found_in(reader, where);
+      all.emplace_back(reinterpret_cast<const char*>(found.values.data()),
+                       found.values.size() * sizeof(double));
+      all.push_back(found.problem);
+    }
+    all.push_back(std::to_string(reader.contents.names.size()));
+    all.insert(all.end(), reader.contents.names.begin(), reader.contents.names.end());
+    for (const auto& [name, label] : reader.contents.vectors) all.insert(all.end(), {name, label});
+    return all;
+  });
+  MatContents contents;
+  auto part = parts.begin();
+  for (std::size_t i = 0; i < wanted.size(); ++i) {
+    Found& found = contents.found.emplace_back();
+    found.values.resize(part->size() / sizeof(double));
+    std::ranges::copy(*part++, reinterpret_cast<char*>(found.values.data()));
+    found.problem = *part++;
+  }
+  const auto names = part + 1, end_of_names = names + std::stol(*part);
+  contents.names.assign(names, end_of_names);
+  for (part = end_of_names; part != parts.end(); part += 2) contents.vectors.push_back({part[0], part[1]});
+  return contents;
 }
 
 }  // namespace mckibben::formats

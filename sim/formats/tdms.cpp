@@ -16,7 +16,8 @@
 namespace mckibben::formats {
 namespace {
 
-constexpr std::size_t lead_in_bytes = 28, most_objects = 10000, most_values = 1U << 24U;
+constexpr std::size_t lead_in_bytes = 28, most_objects = 10000, most_values = 1U << 24U,
+                      most_cells = 1U << 27U;  // of a group: short channels have empty ones
 constexpr std::uint32_t has_metadata = 1U << 1U, new_list = 1U << 2U, has_values = 1U << 3U,
                         interleaved = 1U << 5U, big = 1U << 6U, daqmx = 1U << 7U;
 constexpr std::uint32_t type_text = 0x20, type_bool = 0x21, type_stamp = 0x44;
@@ -238,6 +239,7 @@ Sheet sheet_of(const std::string& group, const std::vector<Written>& columns) {
   Sheet sheet{group, "", 0};
   std::size_t rows = 0;
   for (const Written& column : columns) rows = std::max(rows, column.rows);
+  if (rows * columns.size() > most_cells) throw BadFile("it has more values than are read");
   const auto line = [&](const auto& cell) {
     for (std::size_t i = 0; i < columns.size(); ++i) {
       std::string text = cell(columns[i]);

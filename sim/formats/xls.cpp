@@ -1,4 +1,4 @@
-// Excel 97 to 2003 by libfreexl, which reads files by their path; see sheet.hpp.
+// Excel 97 to 2003 by libfreexl, which reads files by their path, in a process of its own; see sheet.hpp.
 #include <array>
 #include <charconv>
 #include <memory>
@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <freexl.h>
 
+#include <sim/formats/isolated.hpp>
 #include <sim/formats/sheet.hpp>
 #include <sim/formats/sheet_text.hpp>
 #include <sim/formats/table.hpp>
@@ -36,9 +37,8 @@ std::pair<std::string, bool> shown(const FreeXL_CellValue& cell) {
   }
 }
 
-}  // namespace
-
-std::vector<Sheet> sheets_of_xls(const std::string& path) {
+/// Of each sheet name, text and how many numbers.
+std::vector<std::string> parts_of_xls(const std::string& path) {
   const void* opened = nullptr;
   if (const int status = freexl_open(path.c_str(), &opened); status != FREEXL_OK)
     throw BadFile(
@@ -48,7 +48,7 @@ std::vector<Sheet> sheets_of_xls(const std::string& path) {
   const std::unique_ptr<const void, CloseXls> handle(opened);
   unsigned count = 0;
   freexl_get_info(opened, FREEXL_BIFF_SHEET_COUNT, &count);
-  std::vector<Sheet> sheets;
+  std::vector<std::string> parts;
   for (unsigned i = 0; i < count; ++i) {
     const char* name = nullptr;
     unsigned rows = 0;
@@ -57,7 +57,7 @@ std::vector<Sheet> sheets_of_xls(const std::string& path) {
         freexl_select_active_worksheet(opened, static_cast<unsigned short>(i)) != FREEXL_OK ||
         freexl_worksheet_dimensions(opened, &rows, &columns) != FREEXL_OK)
       continue;
-    Sheet sheet{name == nullptr ? "" : name, "", 0};
+    std::size_t numbers = 0;
     SheetText text;
     for (unsigned row = 0; row < rows; ++row) {
       text.begin_row(row + 1);
@@ -66,12 +66,21 @@ std::vector<Sheet> sheets_of_xls(const std::string& path) {
         if (freexl_get_cell_value(opened, row, column, &cell) != FREEXL_OK) continue;
         const auto [value, number] = shown(cell);
         text.add(column, value);
-        sheet.numbers += number ? 1 : 0;
+        numbers += number ? 1 : 0;
       }
     }
-    sheet.text = text.take();
-    sheets.push_back(std::move(sheet));
+    parts.insert(parts.end(), {name == nullptr ? "" : name, text.take(), std::to_string(numbers)});
   }
+  return parts;
+}
+
+}  // namespace
+
+std::vector<Sheet> sheets_of_xls(const std::string& path) {
+  const std::vector<std::string> parts = isolated([&] { return parts_of_xls(path); });
+  std::vector<Sheet> sheets;
+  for (std::size_t i = 0; i < parts.size(); i += 3)
+    sheets.push_back({parts[i], parts[i + 1], std::stoul(parts[i + 2])});
   return sheets;
 }
 

@@ -73,11 +73,11 @@ pugi::xml_node child(const pugi::xml_node& of, std::string_view name) {
   return {};
 }
 
-/// All text inside, but for how it is pronounced.
+/// All text inside, and in its runs of one font, but for how it is pronounced.
 void append_text(const pugi::xml_node& node, std::string& text) {
   for (const pugi::xml_node& inside : node.children()) {
     if (is(inside, "t")) text += inside.text().get();
-    if (is(inside, "r")) append_text(inside, text);
+    if (is(inside, "r")) text += child(inside, "t").text().get();
   }
 }
 

@@ -119,10 +119,10 @@ TimeGuess time_of(const UnknownTable& table) {
         break;
       }
   if (candidates.empty()) return found;
-  const auto& [first, heading] = candidates.front();
+  const UnknownColumn* first = candidates.front().first;
   const bool same = std::ranges::all_of(
       candidates, [&](const auto& one) { return alike(first->values, one.first->values); });
-  found.guess = guess_of_time(*first, heading);
+  found.guess = guess_of_time(*first, candidates.front().second);
   if (candidates.size() == 1) return found;
   if (same) {
     found.guess->column.reason += "; the other columns of time say the same";

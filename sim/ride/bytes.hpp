@@ -50,7 +50,11 @@ class BytesWriter {
       for (const auto& each : value) write(each);
     } else {
       static_assert(std::is_trivially_copyable_v<T>);
-      bytes_.append(reinterpret_cast<const char*>(&value), sizeof value);
+      T plain = value;
+#if defined(__GNUC__) && !defined(__clang__)
+      __builtin_clear_padding(&plain);  // else the same state has other bytes each time
+#endif
+      bytes_.append(reinterpret_cast<const char*>(&plain), sizeof plain);
     }
   }
 

@@ -74,6 +74,22 @@ TEST(Xlsx, WhatIsNoneOrDamagedIsSaid) {
     EXPECT_THROW(sheets_of_xlsx(whole.substr(0, size)), BadFile) << size;
 }
 
+// 100 000 levels ended the program.
+TEST(Xlsx, RunsOfTextDoNotNest) {
+  const auto deep = [&](std::size_t levels) {
+    std::string open, close;
+    for (std::size_t k = 0; k < levels; ++k) {
+      open += "<r>";
+      close += "</r>";
+    }
+    auto nested = workbook;
+    nested[2].second = "<sst><si>" + open + "<t>Zeit</t>" + close + "</si><si><t>Weg</t></si></sst>";
+    return sheets_of_xlsx(xlsx(nested))[0].text;
+  };
+  EXPECT_TRUE(deep(1).starts_with("Zeit\t\tWeg\t\n"));
+  EXPECT_TRUE(deep(1'000'000).starts_with("\t\tWeg\t\n"));
+}
+
 TEST(Sheets, SerialsAreDates) {
   EXPECT_EQ(date_of_serial(45415.598), "2024-05-03 14:21:07.200000");
   EXPECT_EQ(date_of_serial(0.25), "06:00:00.000000");
@@ -114,6 +130,28 @@ TEST(Tdms, ChannelsSegmentsUnitsAndRates) {
             "time\tp\tit's\ns\tbar\tmm\n0\t1\t4\n0.5\t2\t5\n1\t3\t6\n1.5\t1\t4\n2\t2\t5\n2.5\t3\t6\n");
   EXPECT_TRUE(sheets_of_tdms(tdms(0.25))[0].text.starts_with("time\tp\ttime of it's\tit's\n"))
       << "rates differ";
+}
+
+/// Channels of bytes, so many in each.
+std::string tdms_of(const std::vector<std::size_t>& lengths) {
+  std::string objects = raw(static_cast<std::uint32_t>(lengths.size()));
+  std::size_t bytes = 0;
+  for (std::size_t k = 0; k < lengths.size(); ++k) {
+    objects += text(fmt::format("/'b'/'{}'", k)) + raw(std::uint32_t{20}) + raw(std::uint32_t{5}) +
+               raw(std::uint32_t{1}) + raw(std::uint64_t{lengths[k]}) + raw(std::uint32_t{0});
+    bytes += lengths[k];
+  }
+  return "TDSm" + raw(std::uint32_t{2 | 4 | 8}) + raw(std::uint32_t{4713}) +
+         raw(std::uint64_t{objects.size() + bytes}) + raw(std::uint64_t{objects.size()}) + objects +
+         std::string(bytes, '\1');
+}
+
+// 1.4 MB became 10 GB of empty cells.
+TEST(Tdms, ManyChannelsBesideALongOneAreRefused) {
+  std::vector<std::size_t> lengths(9000, 1);
+  lengths.front() = 20'000;
+  EXPECT_THROW(sheets_of_tdms(tdms_of(lengths)), BadFile);
+  EXPECT_EQ(sheets_of_tdms(tdms_of({2, 1}))[0].text, "0\t1\n-\t-\n1\t1\n1\t\n");
 }
 
 TEST(Tdms, DamagedOnesAreRefusedOrRead) {

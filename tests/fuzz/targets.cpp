@@ -18,6 +18,7 @@
 #include <sim/input/readers.hpp>
 #include <sim/input/rigs.hpp>
 #include <sim/input/scenario_file.hpp>
+#include <sim/recognise/recognise.hpp>
 
 #include "scratch.hpp"
 
@@ -165,6 +166,17 @@ void mat(const std::string& bytes) {
   table(bytes, wanted, input::read_mat_table);
 }
 
+/// A file of any kind, as `import` reads it: spreadsheets, TDMS, MAT-files of both versions, text.
+void import(const std::string& bytes) {
+  const fs::path file = folder().write("import/load_5kg", bytes);
+  was_read([&] {
+    for (const recognise::UnknownTable& table : recognise::read_unknown(file))
+      for (const recognise::UnknownColumn& column : table.columns)
+        require(column.values.size() == table.columns.front().values.size(), "columns of different lengths");
+    recognise::recognise({file}, false);
+  });
+}
+
 void run_json(const std::string& bytes) {
   static const fs::path sound =
       folder()
@@ -198,6 +210,7 @@ constexpr std::pair<std::string_view, Target> targets[] = {
     {"scenario", scenario}, {"campaign", campaign}, {"rig", rig},           {"calibration", calibration},
     {"dataset", dataset},   {"csv", csv},           {"lvm", lvm},           {"ascii", ascii},
     {"mat", mat},           {"run_json", run_json}, {"quantity", quantity}, {"hypothesis", hypothesis},
+    {"import", import},
 };
 
 }  // namespace

@@ -7,6 +7,7 @@
 
 #include <sim/data/plausible.hpp>
 #include <sim/input/dataset_file.hpp>
+#include <sim/input/diagnostics.hpp>
 
 #include "says.hpp"
 #include "scratch.hpp"
@@ -76,8 +77,17 @@ TEST_F(PlausibleData, AReadingThatNeverMoves) {
 }
 
 TEST_F(PlausibleData, PressuresThatCannotBe) {
-  EXPECT_TRUE(holds(said(find([](int k) { return fmt::format("{},{},{}", 10 * k, 4.0 + 0.4 * k, k); })),
-                    "refused: muscle_pressure is up to 83.6 bar", "unit: psi"));
+  const auto high = [](int k) { return fmt::format("{},{},{}", 10 * k, 4.0 + 0.4 * k, k); };
+  const auto ten_times = [](int k) { return fmt::format("{},{},{}", 10 * k, 40.0 + 4.0 * k, k); };
+  EXPECT_TRUE(holds(said(find(high)), "refused: muscle_pressure is up to 83.6 bar", "unit: psi"));
+  EXPECT_FALSE(holds(said(find(high, "ms", "atm")), "columns:")) << "no line that no reader takes";
+  EXPECT_TRUE(holds(said(find(ten_times, "ms", "psi")), "as kPa it would be 8.36 bar", "unit: kPa"));
+  try {
+    find(ten_times, "ms", "atm");
+    ADD_FAILURE() << "847 bar";
+  } catch (const input::BadInput& bad) {
+    EXPECT_TRUE(holds(bad.problems().front().message, "is it in another unit", "unit: kPa"));
+  }
   EXPECT_TRUE(holds(said(find(good, "ms", "mbar")), "refused: muscle_pressure is never above 0.00229 bar",
                     "unit: bar"));
   EXPECT_TRUE(holds(said(find([](int k) {
