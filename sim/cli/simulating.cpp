@@ -192,10 +192,14 @@ int replay_dataset(const ReplayOptions& options) {
     tasks::replace_rig(dataset, options.rig, input::read_rig(options.rig, dataset.inputs));
   const std::string name = output::name_of(dataset);
   Job job(options, "replay " + options.dataset, name + "-replay", dataset.inputs);
+  const auto first = tasks::asked_first(dataset);
+  warn(first);
   const auto runs =
       with_progress(name, [&](const auto& hook) { return run::replay(dataset, options.threads, hook); });
   const auto warnings = tasks::warnings_of(dataset, runs);
-  warn(warnings);
+  auto others = warnings;
+  std::erase_if(others, [&](const auto& one) { return std::ranges::find(first, one) != first.end(); });
+  warn(others);
   if (begun(runs) < runs.size()) job.interrupted(begun(runs), runs.size(), "runs");
 
   const std::string document = output::json_of(dataset, runs, warnings);

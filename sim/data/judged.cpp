@@ -96,33 +96,36 @@ class Judging {
     return same;
   }
 
+  /// What drives the rig, as it was recorded.
+  struct Input {
+    const MeasuredColumn& of;
+    Column column;
+    double range;  ///< of its values
+  };
+
   Measurement thinned() {
     Measurement thin = bare();
     if (std::ranges::any_of(thin.columns, &MeasuredColumn::is_command))
       thin.recorded.hold = domain::Hold::usual;  // means are held
+    std::vector<Input> inputs;
+    for (const MeasuredColumn& column : raw_.columns)
+      if (column.given)
+        inputs.push_back({column, Column(raw_.time_s, column.values), range_of(column.values)});
     const double quarter_s = row_s_ / static_cast<double>(quarters);
     const auto skipped = static_cast<std::size_t>(std::ceil(raw_.recorded.skip_s / row_s_ - 1e-9));
     const auto rows = static_cast<std::size_t>(std::floor((end_s() - begin_s()) / row_s_));
     for (std::size_t j = 0; j <= rows * quarters; ++j) {
       const double now_s = begin_s() + static_cast<double>(j) * quarter_s;
       if (j % quarters == quarters / 2 && j / quarters >= skipped) thin.rows.push_back(thin.time_s.size());
-      follow(thin, now_s, now_s + quarter_s);
+      follow(thin, inputs, now_s, now_s + quarter_s);
     }
     return thin;
   }
 
-  /// What drives the rig, as it was recorded.
-  struct Input {
-    const MeasuredColumn& of;
-    Column column;
-  };
   static bool is_length(const MeasuredColumn& column) { return column.is("contraction", 1); }
 
   /// Adds the inputs of a quarter, at every stamp where one of them jumps or bends.
-  void follow(Measurement& thin, double from_s, double to_s) const {
-    std::vector<Input> inputs;
-    for (const MeasuredColumn& column : raw_.columns)
-      if (column.given) inputs.push_back({column, Column(raw_.time_s, column.values)});
+  void follow(Measurement& thin, const std::vector<Input>& inputs, double from_s, double to_s) const {
     std::vector<bool> uneven;
     for (const Input& input : inputs)
       uneven.push_back(!is_length(input.of) &&
@@ -154,12 +157,12 @@ class Judging {
       bend = std::max(bend, std::abs(column[k] - std::lerp(column[first], column[last], share)));
       if (k > first) bend = std::max(bend, 0.5 * std::abs(column[k] - column[k - 1]));
     }
-    return bend > straight * range_of(of.of.values);
+    return bend > straight * of.range;
   }
 
   bool jumps(const Input& of, double at_s) const {
     const Together here = of.column.near(at_s, 0.5 * row_s_);
-    return here.worst > std::max(straight * range_of(of.of.values), outlying * std::sqrt(here.squares)) ||
+    return here.worst > std::max(straight * of.range, outlying * std::sqrt(here.squares)) ||
            std::isnan(here.value);
   }
 

@@ -1,6 +1,8 @@
 // See the header.
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -21,6 +23,7 @@ using domain::ColumnPlace, domain::line_of;
 using Series = std::vector<double>;
 
 constexpr const PlausibleThresholds& limits = thresholds.plausible;
+constexpr double lowest_share = 0.01;  // of the rows: a run's lowest pressure but for noise
 
 Series known(const Series& values) {
   Series list;
@@ -29,23 +32,33 @@ Series known(const Series& values) {
   return list;
 }
 
+/// Below which that share of them lies.
+double lower_share(Series values, double share) {
+  const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size()));
+  std::ranges::nth_element(values, at);
+  return *at;
+}
+
 double typical_step_s(const Series& time_s) {
   Series steps;
   for (std::size_t k = 1; k < time_s.size(); ++k) steps.push_back(time_s[k] - time_s[k - 1]);
   return steps.empty() ? 0.0 : upper_median(std::move(steps));
 }
 
-struct PressureUnit {
-  std::string_view name;
-  double size_Pa;
-};
-constexpr PressureUnit pressure_units[] = {{"MPa", 1e6}, {"bar", 1e5},  {"psi", 6894.757}, {"kPa", 1e3},
-                                           {"hPa", 1e2}, {"mbar", 1e2}, {"Pa", 1.0}};
+constexpr std::array<std::pair<std::string_view, double>, 6> pressure_units{
+    {{"MPa", 1e6}, {"bar", 1e5}, {"psi", 6894.757}, {"kPa", 1e3}, {"mbar", 1e2}, {"Pa", 1.0}}};
 
 std::optional<double> size_Pa(std::string_view unit) {
-  for (const PressureUnit& one : pressure_units)
-    if (unit == one.name) return one.size_Pa;
+  for (const auto& [name, size] : pressure_units)
+    if (unit == name) return size;
   return std::nullopt;
+}
+
+/// The unit in which a number comes nearest to what a supply gives, without going beyond.
+std::string unit_below(double number, double most_Pa) {
+  for (const auto& [name, size] : pressure_units)
+    if (number * size <= most_Pa) return std::string(name);
+  return "Pa";
 }
 
 class Plausible {
@@ -58,9 +71,12 @@ class Plausible {
       if (run().measured && run().measured->point_s == 0.0) clock(run().measured->time_s);
       if (run().measured)
         for (const domain::MeasuredColumn& column : run().measured->columns) look_at(column);
-      else
+      else {
         never_moves("contraction", run().contraction_ratio);
+        grid("contraction", run().contraction_ratio);
+      }
     }
+    absolute();
     same_rows();
     return std::move(found_);
   }
@@ -86,16 +102,8 @@ class Plausible {
     if (time_s.size() < 3) return;
     const double lasts_s = time_s.back() - time_s.front(), step_s = typical_step_s(time_s);
     ColumnPlace meant = map_["time"];
-    if (lasts_s < limits.shortest_run_s && step_s < limits.shortest_step_s) {
-      const std::string said = meant.unit;
-      meant.unit = said == "ms" ? "s" : said == "us" ? "ms" : said == "ns" ? "us" : "s";
-      find("time", "short",
-           fmt::format(
-               "lasts {:.3g} ms, its {} rows are {:.3g} us apart: is its time in {}, not in {}? Then {}",
-               1e3 * lasts_s, time_s.size(), 1e6 * step_s, meant.unit, said, line("time", meant)),
-           Severity::refused);
-      return;
-    }
+    if (const std::string why = too_short(time_s, meant); !why.empty())
+      return find("time", "short", why, Severity::refused);
     if (step_s >= limits.longest_step_s && lasts_s > limits.longest_run_s) {
       const std::string said = meant.unit;
       meant.unit = said == "s" ? "ms" : said == "ms" ? "us" : "ns";
@@ -156,47 +164,72 @@ class Plausible {
     if (values.size() < limits.least_rows) return;
     const double low = std::ranges::min(values), high = std::ranges::max(values);
     const double supply_Pa = data_.rig.valve.supply_pressure_Pa;
-    const ColumnPlace& said = map_[key];
     if (high > limits.beyond_supply * supply_Pa && high > limits.high_Pa) {
-      std::string meant;  // the largest unit in which the supply would do
-      for (const PressureUnit& one : pressure_units) {
-        const double would_be_Pa = high * one.size_Pa / size_Pa(said.unit).value_or(0.0);
-        if (would_be_Pa > limits.beyond_supply * supply_Pa) continue;
-        ColumnPlace place = said;
-        place.unit = one.name;
-        meant = fmt::format("as {} it would be {:.3g} bar; if that is right, {}, otherwise ", one.name,
-                            would_be_Pa / plant::Pa_per_bar, line(key, place));
-        break;
-      }
       find(key, "high",
-           fmt::format("{} is up to {:.4g} bar, and the rig's supply has {:.3g} bar; {}set "
-                       "valve.supply_pressure of the rig",
-                       key, high / plant::Pa_per_bar, supply_Pa / plant::Pa_per_bar, meant),
+           other_unit(key,
+                      fmt::format("up to {:.4g} bar, and the rig's supply has {:.3g} bar",
+                                  high / plant::Pa_per_bar, supply_Pa / plant::Pa_per_bar),
+                      high),
            Severity::refused);
       return;
     }
     if (high < limits.lifts_nothing_Pa && moves_far()) {
       find(key, "low",
-           fmt::format(
-               "{} is never above {:.3g} bar, which moves no muscle, and yet it moves: is it in another unit "
-               "than {}? Then write so, as in columns: {{{}}}",
-               key, high / plant::Pa_per_bar, said.unit,
-               line_of(key, {said.column, "bar", said.zero, said.factor})),
+           other_unit(key,
+                      fmt::format("never above {:.3g} bar, which moves no muscle, and yet it moves",
+                                  high / plant::Pa_per_bar),
+                      high),
            Severity::refused);
       return;
     }
     const auto rests =
         std::ranges::count_if(values, [&](double value) { return value < low + limits.rests * low; });
-    if (low > limits.least_atmosphere_Pa && low < limits.most_atmosphere_Pa && said.zero == 0.0 &&
-        static_cast<double>(rests) > limits.resting_share * static_cast<double>(values.size())) {
-      find(
-          key, "absolute",
-          fmt::format(
-              "{} rests at {:.4g} bar: is it absolute? Then zero is what its gauge reads in open air, {:.6g} "
-              "bar in its unit ({}): columns: {{{}}}",
-              key, low / plant::Pa_per_bar, data_.rig.gas.atmosphere_Pa / plant::Pa_per_bar, said.unit,
-              line_of(key, {said.column, said.unit, zero_of_atmosphere(said), said.factor})),
-          Severity::doubtful);
+    lows_[key].push_back(
+        {run_, lower_share(values, lowest_share),
+         static_cast<double>(rests) > limits.resting_share * static_cast<double>(values.size())});
+  }
+
+  /// What it would be in another unit, and the line that says so.
+  std::string other_unit(const std::string& key, const std::string& seen, double high_Pa) {
+    const std::optional<double> is = size_Pa(map_[key].unit);
+    ColumnPlace meant = map_[key];
+    const double most_Pa = limits.beyond_supply * data_.rig.valve.supply_pressure_Pa;
+    if (is) meant.unit = unit_below(high_Pa / *is, most_Pa);
+    if (!is || meant.unit == map_[key].unit)
+      return fmt::format(
+          "{} is {}: write the unit, zero and factor of its gauge in columns: {{{}}}, or set "
+          "valve.supply_pressure of the rig",
+          key, seen, line_of(key, meant));
+    return fmt::format(
+        "{} is {}; as {} it would be {:.3g} bar; if that is right, {}, otherwise set "
+        "valve.supply_pressure of the rig",
+        key, seen, meant.unit, high_Pa / *is * *size_Pa(meant.unit) / plant::Pa_per_bar, line(key, meant));
+  }
+
+  /// Gauges of open air: no run goes below its pressure, or one rests there.
+  void absolute() {
+    const auto near = [](const Low& one) {
+      return one.low_Pa > limits.least_atmosphere_Pa && one.low_Pa < limits.most_atmosphere_Pa;
+    };
+    for (auto& [key, lows] : lows_) {
+      if (!near(std::ranges::min(lows, {}, &Low::low_Pa)))
+        std::erase_if(lows, [&](const Low& one) { return !one.rests || !near(one); });
+      if (lows.empty()) continue;
+      const Low& lowest = std::ranges::min(lows, {}, &Low::low_Pa);
+      map_ = with_our_names(domain::merged(data_.columns, data_.runs[lowest.run].columns),
+                            data_.rig.command_unit());
+      ColumnPlace meant = map_[key];
+      if (meant.zero != 0.0) continue;
+      meant.zero = zero_of_atmosphere(meant);
+      found_.push_back({.quantity = key,
+                        .message = fmt::format(
+                            "{} rests at {:.4g} bar: is it absolute? Then zero is what its gauge reads in "
+                            "open air, {:.6g} bar in its unit ({}): columns: {{{}}}",
+                            key, lowest.low_Pa / plant::Pa_per_bar,
+                            data_.rig.gas.atmosphere_Pa / plant::Pa_per_bar, meant.unit, line_of(key, meant)),
+                        .severity = Severity::doubtful});
+      for (const Low& one : lows) found_.back().runs.push_back(one.run);
+      kinds_.push_back(key + "absolute");
     }
   }
 
@@ -211,7 +244,7 @@ class Plausible {
   }
 
   void grid(const std::string& key, const Series& values) {
-    if (run().measured->counted || run().measured->point_s > 0.0) return;
+    if (run().measured && (run().measured->counted || run().measured->point_s > 0.0)) return;
     const plant::Sensor& sensor = data_.rig.sensors.position();
     const Series readings = known(values);
     std::size_t stays = 0;  // a slow motion on a grid stays where it is; an even one has even moves as well
@@ -219,12 +252,20 @@ class Plausible {
     if (static_cast<double>(stays) < limits.stays * static_cast<double>(readings.size())) return;
     const double said = reading_per_count(data_.rig), step = step_of(readings);
     if (step < limits.coarser * said || step > limits.coarsest) return;
-    find(key, "grid",
-         fmt::format(
-             "{} is in steps {:.3g} times what the rig's sensor resolves: sensors: [{{signal: {}, kind: {}, "
-             "resolution: ...}}] of the rig should say the larger one",
-             key, step / said, key, name_of(sensor.kind)),
-         Severity::doubtful);
+    const bool turns = key == "angle" || sensor.kind == plant::SensorKind::potentiometer;
+    const double size = turns ? step * (sensor.counts_pulses() ? 1.0 : sensor.resolution / said)
+                              : 1e3 * step * data_.rig.muscle.rest_length_m;
+    find(
+        key, "grid",
+        fmt::format(
+            "{} is in steps {:.3g} times what the rig's sensor resolves; if they are its readings', write in "
+            "the rig sensors: [{{signal: contraction, kind: {}, resolution: {:.3g} {}}}]",
+            key, step / said,
+            turns                    ? "potentiometer"
+            : sensor.counts_pulses() ? "laser"
+                                     : name_of(sensor.kind),
+            size, turns ? "rad" : "mm"),
+        Severity::doubtful);
   }
 
   /// The same rows of one file, or the same numbers under another name.
@@ -268,9 +309,32 @@ class Plausible {
   domain::ColumnMap map_;
   std::vector<Finding> found_;
   std::vector<std::string> kinds_;  ///< of each finding
+  struct Low {
+    std::size_t run;
+    double low_Pa;
+    bool rests;
+  };
+  std::map<std::string, std::vector<Low>> lows_;  ///< of given pressures
 };
 
 }  // namespace
+
+std::string too_short(const std::vector<double>& time_s, ColumnPlace time) {
+  const double lasts_s = time_s.empty() ? 0.0 : time_s.back() - time_s.front(),
+               step_s = typical_step_s(time_s);
+  if (time_s.size() < 3 || lasts_s >= limits.shortest_run_s || step_s >= limits.shortest_step_s) return "";
+  const std::string said = time.absent() ? "s" : time.unit;
+  if (said == "s" || said == "date")
+    return fmt::format(
+        "lasts {:.3g} ms, its {} rows are {:.3g} us apart: is that its clock? unit and factor in "
+        "columns: time say so",
+        1e3 * lasts_s, time_s.size(), 1e6 * step_s);
+  time.unit = said == "us" ? "ms" : said == "ns" ? "us" : "s";
+  return fmt::format(
+      "lasts {:.3g} ms, its {} rows are {:.3g} us apart: is its time in {}, not in {}? Then write "
+      "columns: {{{}}}",
+      1e3 * lasts_s, time_s.size(), 1e6 * step_s, time.unit, said, line_of("time", time));
+}
 
 std::vector<Finding> implausible(const domain::Dataset& data) {
   return Plausible(data)();

@@ -2,6 +2,7 @@
 // ask it first. Each finding says the line to write.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include <sim/data/finding.hpp>
@@ -13,5 +14,8 @@ namespace mckibben::data {
 /// under two names, given pressures that no supply has, that are absolute, or that could lift nothing, steps
 /// coarser than the sensor's.
 std::vector<Finding> implausible(const domain::Dataset& data);
+
+/// That stamps last next to nothing, and the unit that they may be in; empty if they do not.
+std::string too_short(const std::vector<double>& time_s, domain::ColumnPlace time);
 
 }  // namespace mckibben::data

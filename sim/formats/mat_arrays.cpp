@@ -205,6 +205,16 @@ std::string MatArray::text() const {
   return text;
 }
 
+std::string MatArray::object_class() const {
+  constexpr std::size_t longest = 100;
+  MatElements rest = parts;
+  if (kind != MatClass::opaque || rest.empty()) return "";
+  rest.next();  // MCOS
+  std::string called(rest.empty() ? std::string_view() : rest.next().content.substr(0, longest));
+  called.resize(std::min(called.size(), called.find('\0')));
+  return called;
+}
+
 std::vector<std::pair<std::string, MatArray>> MatArray::fields(std::size_t element) const {
   MatElements rest = parts;
   const std::size_t length = word(rest.next().content, 0, rest.big_endian());

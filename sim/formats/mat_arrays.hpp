@@ -66,9 +66,17 @@ struct MatArray {
   std::vector<std::pair<std::string, MatArray>> fields(std::size_t element = 0) const;
   /// Of an array of letters; others than those of ASCII are ?.
   std::string text() const;
+  /// Of an object, as MATLAB calls it: timeseries.
+  std::string object_class() const;
   /// Of a numeric array, column by column.
   std::vector<double> numbers(std::size_t from, std::size_t how_many) const;
 };
+
+/// `data(:,2)` as `data` and 2; 0 where no column is named. Throws BadFile for (:,x).
+std::pair<std::string_view, std::size_t> split_column(std::string_view where);
+
+/// What an object is that only MATLAB opens, and what to write there to have its numbers.
+std::string about_object(std::string_view name, std::string_view kind);
 
 /// The variables of a MAT-file, all found whole.
 class MatVariables {

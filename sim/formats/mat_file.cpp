@@ -41,6 +41,8 @@ void list(const MatArray& array, const std::string& name, const std::string& lab
     const bool flat = array.sizes.size() == 2;
     contents.add(name, label, flat ? array.sizes[0] : 0, flat ? array.sizes[1] : 0);
   }
+  if (const std::string kind = array.object_class(); !kind.empty() && !name.empty())
+    contents.objects.push_back(about_object(name, kind));
   if (!array.is_struct()) return;
   const std::size_t count = std::min(array.count(), most_structs);
   for (std::size_t i = 0; i < count; ++i) {
@@ -52,19 +54,6 @@ void list(const MatArray& array, const std::string& name, const std::string& lab
       list(inside, fmt::format("{}{}.{}", name, count > 1 ? fmt::format("({})", i + 1) : "", field),
            field == "time" ? "" : own, contents);
   }
-}
-
-/// `data(:,2)` as `data` and 2; 0 where no column is named.
-std::pair<std::string_view, std::size_t> split_column(std::string_view where) {
-  const auto open_at = where.find("(:,");
-  if (open_at == std::string_view::npos || !where.ends_with(')')) return {where, 0};
-  const std::string_view digits = where.substr(open_at + 3, where.size() - open_at - 4);
-  std::size_t column = 0;
-  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), column);
-  if (error != std::errc{} || end != digits.data() + digits.size() || column == 0)
-    throw BadFile(
-        fmt::format("{} is no column: write {}(:,2) for the second", where, where.substr(0, open_at)));
-  return {where.substr(0, open_at), column};
 }
 
 MatArray variable(const MatVariables& variables, std::string_view name) {
@@ -89,6 +78,7 @@ MatArray array_at(const MatVariables& variables, std::string_view path) {
     const std::size_t next = std::min(path.find('.', dot + 1), path.size());
     const auto part = split_element(path.substr(dot + 1, next - dot - 1));
     const std::string_view of = path.substr(0, dot);
+    if (const std::string kind = array.object_class(); !kind.empty()) throw BadFile(about_object(of, kind));
     if (!array.is_struct()) throw BadFile(fmt::format("{} is not a struct", of));
     const std::size_t count = array.count();
     if (element > count || count == 0 || (element == 0 && count != 1))
@@ -108,6 +98,7 @@ MatArray array_at(const MatVariables& variables, std::string_view path) {
 std::vector<double> values(const MatVariables& variables, std::string_view where) {
   const auto [path, column] = split_column(where);
   const MatArray array = array_at(variables, path);
+  if (const std::string kind = array.object_class(); !kind.empty()) throw BadFile(about_object(path, kind));
   if (!array.is_numeric())
     throw BadFile(fmt::format("{} is {}; wanted is a vector of real numbers", path, kind_of(array)));
   if (array.count() > most_numbers)
@@ -125,6 +116,35 @@ std::vector<double> values(const MatVariables& variables, std::string_view where
 }
 
 }  // namespace
+
+std::pair<std::string_view, std::size_t> split_column(std::string_view where) {
+  const auto open_at = where.find("(:,");
+  if (open_at == std::string_view::npos || !where.ends_with(')')) return {where, 0};
+  const std::string_view digits = where.substr(open_at + 3, where.size() - open_at - 4);
+  std::size_t column = 0;
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), column);
+  if (error != std::errc{} || end != digits.data() + digits.size() || column == 0)
+    throw BadFile(
+        fmt::format("{} is no column: write {}(:,2) for the second", where, where.substr(0, open_at)));
+  return {where.substr(0, open_at), column};
+}
+
+std::string about_object(std::string_view name, std::string_view kind) {
+  std::string there;
+  if (kind == "timeseries")
+    there = fmt::format("t = {0}.Time; x = squeeze({0}.Data); save('run.mat', 't', 'x', '-v7')", name);
+  else if (kind == "table" || kind == "timetable")
+    there = fmt::format("write{}({}, 'run.csv')", kind, name);
+  else if (kind.starts_with("Simulink."))
+    there = fmt::format(
+        "take each signal's timeseries, such as ts = {}.get(1).Values, then t = ts.Time; x = "
+        "squeeze(ts.Data); "
+        "save('run.mat', 't', 'x', '-v7')",
+        name);
+  else
+    there = "save its numbers as vectors with -v7";
+  return fmt::format("{} is an object of class {}, which only MATLAB opens; there: {}", name, kind, there);
+}
 
 void MatContents::add(const std::string& name, const std::string& label, std::size_t rows,
                       std::size_t columns) {

@@ -21,6 +21,7 @@ struct MatContents {
     std::string name, label;
   };
   std::vector<Vector> vectors;
+  std::vector<std::string> objects{};  ///< what is in it that cannot be read, and what to do
 
   void add(const std::string& name, const std::string& label, std::size_t rows, std::size_t columns);
   std::vector<Found> found;  ///< one for each that was asked for

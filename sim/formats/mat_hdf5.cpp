@@ -89,6 +89,10 @@ class Reader {
 
   void take(hid_t object, const std::string& path, const std::string& label, int depth) {
     const H5I_type_t kind = H5Iget_type(object);
+    if (H5Aexists(object, "MATLAB_object_decode") > 0) {
+      contents.objects.push_back(about_object(path, class_of(object)));
+      return;
+    }
     if (kind == H5I_GROUP) return group(object, path, label, depth);
     if (kind != H5I_DATASET) return;
     const Handle type(H5Dget_type(object), H5Tclose);
@@ -171,18 +175,18 @@ class Reader {
 };
 
 Found found_in(const Reader& reader, const std::string& where) {
-  const std::size_t open_at = where.find("(:,");
-  const std::string path = where.substr(0, open_at);
+  const auto [name, column] = split_column(where);
+  const std::string path(name);
+  for (const std::string& object : reader.contents.objects)
+    if (const std::string of = object.substr(0, object.find(' ')); path == of || path.starts_with(of + "."))
+      return {{}, object};
   const auto matrix = reader.matrices.find(path);
   if (matrix == reader.matrices.end()) return {{}, fmt::format("there is no variable {} of numbers", path)};
   const auto& [rows, columns, values] = matrix->second;
-  if (open_at == std::string::npos) {
-    if (rows > 1 && columns > 1)
-      return {{}, fmt::format("{} has {} rows and {} columns; name one: {}(:,1)", path, rows, columns, path)};
-    return {values, ""};
-  }
-  const std::size_t column = std::strtoul(where.c_str() + open_at + 3, nullptr, 10);
-  if (column < 1 || column > columns) return {{}, fmt::format("{} has {} columns", path, columns)};
+  if (column > columns) return {{}, fmt::format("{} has {} columns", path, columns)};
+  if (column == 0 && rows > 1 && columns > 1)
+    return {{}, fmt::format("{} has {} rows and {} columns; name one: {}(:,1)", path, rows, columns, path)};
+  if (column == 0) return {values, ""};
   const auto begin = values.begin() + static_cast<std::ptrdiff_t>((column - 1) * rows);
   return {{begin, begin + static_cast<std::ptrdiff_t>(rows)}, ""};
 }
@@ -201,7 +205,12 @@ MatContents read_mat_hdf5(const std::string& bytes, const std::vector<std::strin
     const Reader reader(bytes);
     std::vector<std::string> all;
     for (const std::string& where : wanted) {
-      const Found found = found_in(reader, where);
+      Found found;
+      try {
+        found = found_in(reader, where);
+      } catch (const BadFile& bad) {
+        found.problem = bad.what();
+      }
       all.emplace_back(reinterpret_cast<const char*>(found.values.data()),
                        found.values.size() * sizeof(double));
       all.push_back(found.problem);

@@ -89,11 +89,38 @@ bool begins_anew(const std::vector<double>& time, std::size_t begin, std::size_t
   return passed > 0.0 && time[row - 1] - time[row] > falls_back * passed;
 }
 
-std::string list_of(const Table& table, const std::vector<std::size_t>& parts) {
+/// The rows of each quantity that a long table holds one below the other; none if it is no long one.
+std::vector<std::vector<std::size_t>> rows_of_quantities(const Table& table, const ColumnMap& map) {
+  std::vector<std::vector<std::size_t>> all;
+  for (const domain::Quantity& quantity : domain::quantities()) {
+    const ColumnPlace& place = map[quantity];
+    if (place.absent() || place.where.absent()) continue;
+    const Filter counts(table, quantity.key, place.where);
+    auto& rows = all.emplace_back();
+    for (std::size_t row = 0; row < table.rows(); ++row)
+      if (counts(row)) rows.push_back(row);
+  }
+  return all;
+}
+
+/// Whether each quantity of a long table has a clock that goes on.
+bool goes_on(const Table& table, const ColumnMap& map) {
+  const Table::Column* time = table.find(stamps_name);
+  const auto all = rows_of_quantities(table, map);
+  return time != nullptr && !all.empty() && std::ranges::all_of(all, [&](const auto& rows) {
+           Table own;
+           own.columns.push_back(*time);
+           take_rows(own, rows);
+           return parts_of(own).size() == 1;
+         });
+}
+
+std::string list_of(const Table& table, const std::vector<std::size_t>& parts,
+                    const TableProblems& problems) {
   std::string text;
   for (std::size_t i = 1; i < std::min<std::size_t>(parts.size(), 5); ++i)
-    text +=
-        fmt::format("{}{}", i > 1 ? ", " : "", table.lines.empty() ? parts[i] + 1 : table.lines[parts[i]]);
+    text += fmt::format("{}{}", i > 1 ? ", " : "",
+                        table.lines.empty() ? parts[i] + 1 : problems.line_in_file(table.lines[parts[i]]));
   return text + (parts.size() > 5 ? ", ..." : "");
 }
 
@@ -149,14 +176,14 @@ void keep_rows(Table& table, const ColumnMap& map, const Run& run, TableProblems
   }
   const bool intervals = map["time"].as == domain::Role::interval;
   const std::vector<std::size_t> parts =
-      intervals && run.cut.empty() ? std::vector<std::size_t>{0} : parts_of(table);
+      run.cut.empty() && (intervals || goes_on(table, map)) ? std::vector<std::size_t>{0} : parts_of(table);
   if (run.segment == 0 && parts.size() > 1) {
     const std::string mark = run.cut.empty() ? std::string("the clock begins again") : run.cut + " changes";
     return problems.add(
         table.lines.empty() ? nowhere : Place{table.lines[parts[1]], 1},
         fmt::format("{} here, so that the file holds {} runs (they begin at lines {}); name each in "
                     "a run of its own: segment: 1 to segment: {}",
-                    mark, parts.size(), list_of(table, parts), parts.size()));
+                    mark, parts.size(), list_of(table, parts, problems), parts.size()));
   }
   const auto segment = static_cast<std::size_t>(run.segment);
   if (segment > parts.size())
@@ -178,21 +205,21 @@ void keep_rows(Table& table, const ColumnMap& map, const Run& run, TableProblems
   }
 }
 
-void spread_stamps(Table& table, TableProblems& problems) {
+namespace {
+
+/// How many of them repeat the one before; they lie evenly then. 0 if the clock is not coarse.
+std::size_t spread(std::vector<double>& stamps) {
   constexpr std::size_t least_repeats = 5;
   constexpr double least_share = 0.1;
-  Table::Column* time = table.find(stamps_name);
-  if (time == nullptr || time->values.size() < 2) return;
-  std::vector<double>& stamps = time->values;
   std::size_t repeats = 0;
   for (std::size_t row = 1; row < stamps.size(); ++row) {
-    if (stamps[row] < stamps[row - 1]) return;
+    if (stamps[row] < stamps[row - 1]) return 0;
     repeats += stamps[row] == stamps[row - 1] ? 1 : 0;
   }
   if (repeats < least_repeats ||
       static_cast<double>(repeats) < least_share * static_cast<double>(stamps.size()) ||
       stamps.front() == stamps.back())
-    return;
+    return 0;
   for (std::size_t row = 0; row < stamps.size();) {
     std::size_t end = row + 1;
     while (end < stamps.size() && stamps[end] == stamps[row]) ++end;
@@ -204,14 +231,32 @@ void spread_stamps(Table& table, TableProblems& problems) {
       stamps[k] = begin + gap * static_cast<double>(k - row) / static_cast<double>(rows);
     row = end;
   }
+  return repeats;
+}
+
+}  // namespace
+
+void spread_stamps(Table& table, const ColumnMap& map, TableProblems& problems) {
+  Table::Column* time = table.find(stamps_name);
+  if (time == nullptr) return;
+  std::size_t repeats = 0;
+  const auto all = rows_of_quantities(table, map);
+  if (all.empty()) repeats = spread(time->values);
+  for (const std::vector<std::size_t>& rows : all) {
+    std::vector<double> stamps;
+    for (const std::size_t row : rows) stamps.push_back(time->values[row]);
+    repeats += spread(stamps);
+    for (std::size_t k = 0; k < rows.size(); ++k) time->values[rows[k]] = stamps[k];
+  }
+  if (repeats == 0) return;
   problems.note(
       table.lines.empty() ? nowhere : Place{table.lines.front(), 1},
       fmt::format("{} repeats {} of {} stamps: a coarse clock; rows of one stamp are taken to lie evenly up "
                   "to the next",
-                  time->in_file, repeats, stamps.size()));
+                  time->in_file, repeats, time->values.size()));
 }
 
-void merge_clocks(Table& table, const ColumnMap& map) {
+void merge_clocks(Table& table, const ColumnMap& map, plant::CommandUnit commands) {
   struct Series {
     Table::Column* column;
     std::vector<std::pair<double, std::size_t>> stamps;  ///< and their rows
@@ -227,7 +272,7 @@ void merge_clocks(Table& table, const ColumnMap& map) {
   if (!own || common == nullptr) return;
   std::vector<double> instants;
   for (Table::Column& column : table.columns) {
-    const auto& quantities = domain::quantities();
+    const auto& quantities = domain::quantities(commands);
     const auto found = std::ranges::find(quantities, column.name, &domain::Quantity::column);
     if (column.name == stamps_name || column.kind == CellKind::label || found == quantities.end()) continue;
     const ColumnPlace& place = map[*found];

@@ -22,11 +22,11 @@ void keep_rows(Table& table, const domain::ColumnMap& map, const domain::Run& ru
 
 /// Stamps that repeat because the clock is coarse lie evenly up to the next; what was done is noted. None of
 /// a clock that repeats single stamps.
-void spread_stamps(Table& table, TableProblems& problems);
+void spread_stamps(Table& table, const domain::ColumnMap& map, TableProblems& problems);
 
 /// Quantities with a clock, or rows, of their own at the stamps of all of them; what is not read at one is
-/// NaN. In seconds.
-void merge_clocks(Table& table, const domain::ColumnMap& map);
+/// NaN. In seconds. `commands`: in which the rig's valve takes them, as columns are called.
+void merge_clocks(Table& table, const domain::ColumnMap& map, plant::CommandUnit commands);
 
 /// Rows from `from` to `to` since the first. In seconds.
 void keep_window(Table& table, const domain::Run& run, TableProblems& problems);

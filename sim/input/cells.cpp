@@ -67,6 +67,13 @@ std::optional<double> with_thousands(std::string_view text) {
   return parse_number(plain + '.' + std::string(text.substr(decimal + 1)));
 }
 
+/// The value of 12,345: groups of three digits, where the decimal sign is known to be a point.
+std::optional<double> in_thousands(std::string_view text) {
+  if (text.find(',') == std::string_view::npos || text.find('.') != std::string_view::npos)
+    return std::nullopt;
+  return with_thousands(std::string(text) + ".0");
+}
+
 }  // namespace
 
 bool is_number_like(std::string_view text) {
@@ -178,6 +185,8 @@ std::optional<double> NumberReader::read(std::string_view name, const Cell& cell
       return value;
     }
   }
+  if (sign_ == '.')
+    if (const auto value = in_thousands(cell.text)) return value;
   const char sign = at == std::string_view::npos ? '\0' : cell.text[at];
   if (sign_ == '\0') sign_ = sign;
   if (sign_ != ',' || sign == '\0') {

@@ -1,5 +1,6 @@
 // See the header.
 #include <algorithm>
+#include <cctype>
 
 #include <fmt/format.h>
 
@@ -22,6 +23,29 @@ std::string unit_in(std::string_view heading, const Quantity& quantity) {
 }
 
 }  // namespace
+
+Words words_of(std::string_view text) {
+  Words words{""};
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte >= 0x80 || std::isalnum(byte) != 0)
+      words.back() += byte >= 0x80 ? c : static_cast<char>(std::tolower(byte));
+    else if (!words.back().empty())
+      words.emplace_back();
+  }
+  if (words.back().empty()) words.pop_back();
+  return words;
+}
+
+const Words time_words{"t",        "time",    "zeit",    "temps", "timestamp", "stamp",  "date",
+                       "datetime", "datum",   "uhrzeit", "clock", "elapsed",   "millis", "micros",
+                       "sec",      "seconds", "msec",    "usec",  "nsec",      "dt",     "interval"};
+
+bool names_time(std::string_view heading) {
+  return std::ranges::any_of(words_of(heading), [](const std::string& word) {
+    return std::ranges::find(time_words, word) != time_words.end();
+  });
+}
 
 std::string hint_of_missing(const WantedColumn& column, std::span<const std::string_view> found) {
   for (const auto& [commands, name] : names(plant::CommandUnit{}))

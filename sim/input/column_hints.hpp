@@ -9,6 +9,13 @@
 
 namespace mckibben::input {
 
+using Words = std::vector<std::string>;
+/// Words of a heading, in lower case; bytes of UTF-8 stay as they are.
+Words words_of(std::string_view text);
+/// By which a heading says that its column is a clock.
+extern const Words time_words;
+bool names_time(std::string_view heading);
+
 /// To hang on the message that a column is not among the headings `found`: which line says where it stands.
 std::string hint_of_missing(const WantedColumn& column, std::span<const std::string_view> found);
 

@@ -69,6 +69,7 @@ void Problems::adopt(const std::vector<Problem>& found) {
 void Problems::add(Severity severity, const Source& source, Place place, std::string message) {
   std::string_view line = source.line(place.line);
   if (line.size() > longest_line_shown || printable(line) != line) line = {};
+  place.line = source.line_in_file(place.line);
   message = printable(shortened(message, longest_message));
   add({severity, source.name(), place, std::move(message), std::string(line)});
 }

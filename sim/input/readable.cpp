@@ -13,6 +13,7 @@
 #include <sim/input/limits.hpp>
 #include <sim/input/readable.hpp>
 #include <sim/input/suggest.hpp>
+#include <sim/input/thinned.hpp>
 
 namespace mckibben::input {
 namespace {
@@ -154,10 +155,18 @@ Source as_text(Source source, const std::filesystem::path& path) {
   return source;
 }
 
+Source loaded(const std::filesystem::path& path) {
+  if (auto thinned = load_thinned(path)) return std::move(*thinned);
+  Source source = Source::load(path, most_text_bytes);
+  if (source.text().size() > most_text_bytes)
+    refuse(path, fmt::format("larger than {} MB; save parts of it, or as CSV", most_text_bytes >> 20U));
+  return source;
+}
+
 }  // namespace
 
 std::vector<LoadedSheet> load_tables(const std::filesystem::path& path) {
-  Source source = Source::load(path, most_text_bytes);
+  Source source = loaded(path);
   if (!has_sheets(source.text())) return {{"", as_text(std::move(source), path)}};
   std::vector<LoadedSheet> all;
   for (formats::Sheet& sheet : sheets_of(path, source.text())) {
@@ -168,7 +177,7 @@ std::vector<LoadedSheet> load_tables(const std::filesystem::path& path) {
 }
 
 Source load_table(const std::filesystem::path& path, const std::string& sheet) {
-  Source source = Source::load(path, most_text_bytes);
+  Source source = loaded(path);
   if (!has_sheets(source.text())) return as_text(std::move(source), path);
   source.replace_text(text_of_sheet(path, source.text(), sheet));
   return source;

@@ -20,6 +20,9 @@ namespace mckibben::input {
 /// What to say of a column that is not among the headings `found`, besides that.
 using MissingHint = std::string (*)(const WantedColumn& column, std::span<const std::string_view> found);
 
+/// That a file was too large for all of its lines; empty if it was not.
+std::string note_of_thinned(const Source& source);
+
 /// Reads the wanted columns; those that are not needed only if they are there.
 Table read_text(const Source& source, std::span<const WantedColumn> wanted, TableProblems& problems,
                 MissingHint hint = nullptr);

@@ -12,6 +12,7 @@
 #include <sim/input/column_hints.hpp>
 #include <sim/input/column_units.hpp>
 #include <sim/input/dates.hpp>
+#include <sim/input/limits.hpp>
 #include <sim/input/readable.hpp>
 #include <sim/input/readers.hpp>
 #include <sim/input/run_file.hpp>
@@ -34,7 +35,7 @@ std::vector<WantedColumn> wanted_of(const ColumnMap& map, const Dataset& dataset
     if (place.absent())
       wanted.push_back({quantity.column, quantity.column, needed, may_miss, kind});
     else
-      wanted.push_back({quantity.column, place.column, true, may_miss, kind});
+      wanted.push_back({quantity.column, place.column, true, may_miss, kind, !place.time.empty()});
   };
   const bool single_clocks =
       std::ranges::any_of(map.places, [](const ColumnPlace& place) { return !place.time.empty(); });
@@ -77,17 +78,28 @@ Table read_as(Format format, const Source& source, const std::vector<WantedColum
   return table;
 }
 
+/// What every row counts for, so that none may be left out.
+bool needs_all_rows(const ColumnMap& map, const Dataset& dataset, const Run& run) {
+  return !dataset.own_clock || map.rows_are_ticks || !map.settled.absent() || !run.cut.empty() ||
+         map["time"].as == domain::Role::interval;
+}
+
 void read_table_of(const Source& source, const ColumnMap& map, const Dataset& dataset, Run& run,
                    const std::function<bool(std::string_view)>& says_factor, Problems& problems) {
   problems.opened(source);
   const Format format = format_of(run.file, source.text());
   TableProblems found(source, problems);
+  if (source.thinned().step > 1 && (format != Format::text || needs_all_rows(map, dataset, run)))
+    return found.add(
+        {}, fmt::format("larger than {} MB or {} rows, so that only some rows are read; rows without stamps, "
+                        "intervals and cut: need all: put each run into a file of its own",
+                        most_text_bytes >> 20U, most_rows));
   Table table = read_as(format, source, wanted_of(map, dataset, run, format), run, found);
   Run chosen = run;  // an .lvm has found its segment
   if (format == Format::lvm && run.cut.empty()) chosen.segment = 0;
   if (found.count() == 0) keep_rows(table, map, chosen, found);
   if (found.count() > 0 && table.columns.empty()) return;
-  if (dataset.own_clock && found.count() == 0) spread_stamps(table, found);
+  if (dataset.own_clock && found.count() == 0) spread_stamps(table, map, found);
   const std::string command = plant::Channel{&plant::command_of(dataset.rig.command_unit())}.name();
   Table::Column *current = table.find(command), *contraction = table.find("contraction_ratio");
   if (!dataset.own_clock && (current == nullptr || contraction == nullptr)) return;
@@ -96,7 +108,7 @@ void read_table_of(const Source& source, const ColumnMap& map, const Dataset& da
   check_said_units(table, map, dataset.rig, says_factor, found);
   if (dataset.own_clock && (found.count() > 0 || table.columns.empty())) return;
   convert_columns(table, map, dataset.rig);
-  if (found.count() == 0) merge_clocks(table, map);
+  if (found.count() == 0) merge_clocks(table, map, dataset.rig.command_unit());
   if (found.count() == 0) keep_window(table, run, found);
   if (Table::Column* time = table.find("time_s"); time != nullptr && !dataset.own_clock && run.from_s > 0.0)
     for (double& at_s : time->values) at_s -= run.from_s;  // its first row is tick 0

@@ -23,6 +23,17 @@ Source::Source(std::string name, std::string text, std::filesystem::path folder)
   find_lines();
 }
 
+Source::Source(std::string name, std::string text, std::filesystem::path folder, std::string sha256,
+               Thinned thinned)
+    : name_(std::move(name)),
+      text_(std::move(text)),
+      sha256_(std::move(sha256)),
+      folder_(std::move(folder)),
+      thinned_(std::move(thinned)) {
+  if (text_.starts_with("\xEF\xBB\xBF")) text_.erase(0, 3);
+  find_lines();
+}
+
 void Source::find_lines() {
   starts_.assign(1, 0);
   for (std::size_t at = text_.find('\n'); at != std::string::npos && at + 1 < text_.size();

@@ -31,10 +31,20 @@ constexpr bool is_utf8_continuation(char c) {
   return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U;
 }
 
+/// Which lines of a file are kept.
+struct Thinned {
+  std::size_t step = 1;  ///< every so many-th; 1: all
+  std::size_t lines = 0;
+  std::vector<std::size_t> numbers{};  ///< of those that are kept; none: all
+};
+
 class Source {
  public:
   /// `name` is what messages show; `folder` is where relative paths inside the text start.
   Source(std::string name, std::string text, std::filesystem::path folder);
+  /// Of some of a file's lines; the digest is of all.
+  Source(std::string name, std::string text, std::filesystem::path folder, std::string sha256,
+         Thinned thinned);
   /// Reads a file; at most one byte more than `largest_bytes`,
   /// so that the caller sees it is too large. Throws MissingInput.
   static Source load(const std::filesystem::path& path, std::size_t largest_bytes);
@@ -47,6 +57,11 @@ class Source {
   std::size_t lines() const { return starts_.size(); }
   /// Line `number` (from 1) without its line end; empty when there is no such line.
   std::string_view line(std::size_t number) const;
+  const Thinned& thinned() const { return thinned_; }
+  /// That line's number in the file.
+  std::size_t line_in_file(std::size_t number) const {
+    return number > 0 && number <= thinned_.numbers.size() ? thinned_.numbers[number - 1] : number;
+  }
   /// The place of byte `offset` of line `number`.
   Place place(std::size_t number, std::size_t offset) const;
   /// Place of the first byte that is NUL or not UTF-8, if any.
@@ -62,6 +77,7 @@ class Source {
   std::string name_, text_, sha256_;
   std::filesystem::path folder_;
   std::vector<std::size_t> starts_;
+  Thinned thinned_;
 };
 
 }  // namespace mckibben::input

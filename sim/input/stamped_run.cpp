@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include <sim/data/plausible.hpp>
 #include <sim/domain/number.hpp>
 #include <sim/input/column_units.hpp>
 #include <sim/input/quantity.hpp>
@@ -121,9 +122,12 @@ class Assembling {
   /// What is judged, and what a first state is told from.
   void beginning() {
     const double lasting_s = measured_.time_s.back() - measured_.time_s.front();
+    const std::string short_run = data::too_short(measured_.time_s, map_["time"]);
     if (measured_.recorded.skip_s > 0.0 && measured_.recorded.skip_s >= lasting_s)
-      problems_.add({}, fmt::format("skip = {} s leaves nothing of this run, which lasts {:.3f} s",
-                                    domain::write_number(measured_.recorded.skip_s), lasting_s));
+      problems_.add({},
+                    fmt::format("skip = {} s leaves nothing of this run, which {}",
+                                domain::write_number(measured_.recorded.skip_s),
+                                short_run.empty() ? fmt::format("lasts {:.3f} s", lasting_s) : short_run));
     const auto& read = measured_.values("contraction");
     const auto known = std::count_if(read.begin(), read.end(), [](double e) { return !std::isnan(e); });
     if (measured_.recorded.start == domain::Start::moving && known < least_to_begin)

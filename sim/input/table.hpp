@@ -30,6 +30,7 @@ struct WantedColumn {
   bool needed = true;
   bool may_miss = false;  ///< a row may lack it: empty, NaN
   CellKind kind = CellKind::number;
+  bool own_clock = false;  ///< its stamps are in a column of their own
 };
 
 /// The wanted columns of a table.
@@ -42,6 +43,7 @@ struct Table {
     CellKind kind = CellKind::number;
     std::string unit{};  ///< that the file says in a line below the heading; empty: none
     std::map<std::string, double, std::less<>> labels{};
+    bool own_clock = false;
 
     /// The number of a text.
     double label(std::string_view text);
@@ -77,6 +79,7 @@ class TableProblems {
   /// How something was read that could be read in another way.
   void note(Place place, std::string message) { problems_.warning(source_, place, std::move(message)); }
   std::size_t count() const { return count_; }
+  std::size_t line_in_file(std::size_t line) const { return source_.line_in_file(line); }
 
  private:
   const Source& source_;

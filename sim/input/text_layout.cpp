@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include <sim/input/column_hints.hpp>
 #include <sim/input/limits.hpp>
 #include <sim/input/number.hpp>
 #include <sim/input/text_block.hpp>
@@ -67,6 +68,8 @@ struct Head {
   std::size_t line;
   std::vector<Cell> cells;
   bool names_all = false;  ///< a different word for each column
+  bool fits = false;       ///< as many as there are columns
+  bool clock = false;      ///< one of them names the time
   bool units = false;      ///< nothing but units
   std::size_t wanted = 0;  ///< names that are looked for
 };
@@ -88,8 +91,8 @@ class Heads {
   }
 
   const std::vector<Head>& list() const { return list_; }
-  /// The heading among them: what is looked for, then the first that names each column, then the last of
-  /// words.
+  /// The heading among them: what is looked for, then the first that names each column, with time among them,
+  /// then the last of words.
   const Head* heading() const {
     const Head* best = nullptr;
     for (const Head& head : list_)
@@ -98,7 +101,9 @@ class Heads {
   }
 
  private:
-  static std::size_t rank(const Head& head) { return 2 * head.wanted + (head.names_all ? 1 : 0); }
+  static std::size_t rank(const Head& head) {
+    return 8 * head.wanted + (head.names_all ? 4 : 0) + (head.clock ? 2 : 0) + (head.fits ? 1 : 0);
+  }
 
   bool take(std::size_t line) {
     Head head{line, heading_cells(source_->line(line), block_.separator, block_.width)};
@@ -121,6 +126,8 @@ class Heads {
         return column.in_file == names.back() || column.in_file == without_mark(names.back());
       }));
     }
+    head.fits = size == block_.width;
+    head.clock = std::ranges::any_of(names, names_time);
     std::ranges::sort(names);
     head.names_all = names.size() == block_.width && !names.front().empty() &&
                      std::ranges::adjacent_find(names) == names.end();

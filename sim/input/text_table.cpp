@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <sim/input/cells.hpp>
+#include <sim/input/column_hints.hpp>
 #include <sim/input/dates.hpp>
 #include <sim/input/limits.hpp>
 #include <sim/input/number.hpp>
@@ -46,7 +47,8 @@ Table find_columns(const Source& source, const TextLayout& layout, std::span<con
                              .values = {},
                              .may_miss = column.may_miss,
                              .kind = column.kind,
-                             .unit = layout.units[index]});
+                             .unit = layout.units[index],
+                             .own_clock = column.own_clock});
   }
   return table;
 }
@@ -93,7 +95,77 @@ std::string width_problem(const std::vector<Cell>& cells, const TextLayout& layo
       layout.separator == ',' ? "; with decimal commas columns must stand between semicolons or tabs" : "");
 }
 
+/// The numbers of a column in the rows of a table; NaN where there is none.
+std::vector<double> numbers_of(const Source& source, const TextLayout& layout, const Table& table,
+                               std::size_t index) {
+  NumberReader numbers('\0');
+  EpochReader epoch;
+  std::string problem;
+  std::vector<double> values;
+  for (const std::size_t line : table.lines) {
+    const std::vector<Cell> cells = row_cells(source, layout, line);
+    const auto value = index < cells.size() ? epoch.read("", cells[index], numbers, problem) : std::nullopt;
+    values.push_back(value.value_or(std::nan("")));
+  }
+  return values;
+}
+
+/// Whether stamps say another time than these, in whatever unit.
+bool differ(const std::vector<double>& stamps, const std::vector<double>& others) {
+  constexpr double same = 1e-3, least_rows = 3.0;
+  double first = std::nan(""), last = first, own = 0.0, other = 0.0, step = 0.0, rows = 0.0, rises = 0.0;
+  for (std::size_t k = 0; k < stamps.size(); ++k) {
+    if (std::isnan(stamps[k]) || std::isnan(others[k])) continue;
+    if (std::isnan(first)) first = stamps[k], last = others[k], own = stamps[k], other = others[k];
+    if (others[k] < last || stamps[k] < first) return false;  // no clock, or a new run
+    step = std::max(step, others[k] - last);
+    rises += others[k] > last ? 1.0 : 0.0;
+    last = others[k];
+    first = stamps[k];
+    ++rows;
+  }
+  own = first - own;
+  other = last - other;
+  if (rows < least_rows || 2.0 * rises < rows || !(own > 0.0) || !(other > 0.0)) return false;
+  const double power = std::pow(1000.0, std::round(std::log10(other / own) / 3.0));
+  return std::abs(other - power * own) > same * other + step;
+}
+
+/// The clock that stands before a quantity is that quantity's, or says the same as the one that is read.
+void check_clocks(const Source& source, const TextLayout& layout, const Table& table,
+                  TableProblems& problems) {
+  const Table::Column* time = table.find("time_s");
+  if (time == nullptr || time->kind == CellKind::date || problems.count() > 0) return;
+  const auto clock_of = [&](const Table::Column& column) {
+    std::size_t clock = time->index;
+    for (std::size_t k = 0; k < column.index; ++k)
+      if (k == time->index || names_time(layout.headings[k])) clock = k;
+    return clock;
+  };
+  for (const Table::Column& column : table.columns) {
+    if (&column == time || column.kind != CellKind::number) continue;
+    const std::size_t clock = clock_of(column);
+    if (clock == time->index || column.own_clock ||
+        !differ(time->values, numbers_of(source, layout, table, clock)))
+      continue;
+    problems.add(
+        source.place(layout.heading, layout.offsets[clock]),
+        fmt::format("{0} is another clock than {1}, and stands before {2}: write time: {0} in the place "
+                    "of {2}, or time: {1} if its stamps are those",
+                    layout.headings[clock], time->in_file, column.in_file));
+  }
+}
+
 }  // namespace
+
+std::string note_of_thinned(const Source& source) {
+  if (source.thinned().step == 1) return "";
+  return fmt::format(
+      "{} lines are more than are read at once: every {}th is; for all rows of a part, put it into a file of "
+      "its "
+      "own",
+      source.thinned().lines, source.thinned().step);
+}
 
 Table read_text(const Source& source, std::span<const WantedColumn> wanted, TableProblems& problems,
                 MissingHint hint) {
@@ -138,6 +210,9 @@ Table read_text(const Source& source, std::span<const WantedColumn> wanted, Tabl
   if (table.lines.empty())
     problems.add({},
                  layout.heading > 0 ? "there are no rows below the header" : "there are no numbers in it");
+  check_clocks(source, layout, table, problems);
+  if (const std::string note = note_of_thinned(source); !note.empty() && problems.count() == 0)
+    problems.note({table.lines.front(), 1}, note);
   if (epoch.taken_off() && problems.count() == 0)
     problems.note(
         {table.lines.front(), 1},

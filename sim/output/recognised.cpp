@@ -44,8 +44,10 @@ std::string reasons_of(const ColumnGuess& guess) {
 
 std::string place_of(const ColumnGuess& guess) {
   std::string text =
-      fmt::format("{}: {{column: {}, unit: {}", guess.quantity->key, domain::yaml_scalar(guess.column.value),
+      fmt::format("{}: {{column: {}, unit: {}", guess.quantity->key,
+                  domain::yaml_scalar(guess.in_file.empty() ? guess.column.value : guess.in_file),
                   domain::yaml_scalar(guess.unit.value));
+  if (!guess.where.empty()) text += ", where: " + guess.where;
   if (guess.zero) text += ", zero: " + guess.zero->value;
   if (guess.factor) text += ", factor: " + guess.factor->value;
   if (guess.input) text += ", as: " + guess.input->value;
@@ -60,6 +62,7 @@ std::string columns_yaml(const MapGuess& map, const std::string& indent) {
   if (map.rows)
     text += fmt::format("{0}{1}\n{0}{2}: {3}\n", indent, as_comment(map.rows->told.reason), map.rows->key,
                         map.rows->told.value);
+  for (const std::string& remark : map.remarks) text += fmt::format("{}{}\n", indent, as_comment(remark));
   for (const Told& each : map.ignored)
     text +=
         fmt::format("{}{}\n", indent, as_comment(fmt::format("not used: {}: {}", each.value, each.reason)));
@@ -136,6 +139,7 @@ std::string table_of(const Recognised& found, const std::string& where) {
     text += "\n";
     for (const ColumnGuess& guess : found.maps[m].columns)
       text += fmt::format("  {}\n      {}\n", place_of(guess), reasons_of(guess));
+    for (const std::string& remark : found.maps[m].remarks) text += fmt::format("  {}\n", remark);
     for (const Told& each : found.maps[m].ignored)
       text += fmt::format("  not used: {}: {}\n", each.value, each.reason);
     if (const auto& rows = found.maps[m].rows)
@@ -170,6 +174,7 @@ input::Json map_json(const MapGuess& map) {
     if (guess.factor) column["factor"] = told_json(*guess.factor);
     if (guess.input) column["as"] = told_json(*guess.input);
     if (guess.time) column["time"] = told_json(*guess.time);
+    if (!guess.where.empty()) column["where"] = guess.where;
   }
   for (const Told& each : map.ignored) json["not_used"][each.value] = each.reason;
   if (map.rows) json[map.rows->key] = told_json(map.rows->told);

@@ -43,15 +43,13 @@ std::vector<Line> lines_of(const Recognised& found, const ColumnGuess& guess) {
 }
 
 std::string drawn(const Line& line, const Panel& panel) {
-  const std::size_t rows = std::min(line.x.size(), line.y.size()), step = 1 + rows / most_points;
+  std::vector<std::size_t> rows;  // others lack it: the line goes on
+  for (std::size_t k = 0; k < std::min(line.x.size(), line.y.size()); ++k)
+    if (std::isfinite(line.x[k]) && std::isfinite(line.y[k])) rows.push_back(k);
   std::string path;
-  bool down = false;
-  for (std::size_t k = 0; k < rows; k += step) {
-    const bool is_number = std::isfinite(line.x[k]) && std::isfinite(line.y[k]);
-    if (is_number)
-      path += fmt::format("{}{:.1f} {:.1f}", down ? "L" : "M", panel.x.px(line.x[k]), panel.y.px(line.y[k]));
-    down = is_number;
-  }
+  for (std::size_t i = 0; i < rows.size(); i += 1 + rows.size() / most_points)
+    path += fmt::format("{}{:.1f} {:.1f}", i > 0 ? "L" : "M", panel.x.px(line.x[rows[i]]),
+                        panel.y.px(line.y[rows[i]]));
   return fmt::format("<path fill='none' stroke='{}' stroke-width='1.3' d='{}'/>\n",
                      colours[line.run % colours.size()], path);
 }

@@ -1,7 +1,6 @@
 // Clocks of tables that nobody described; see columns.hpp.
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -88,6 +87,22 @@ bool counts_rows(const Values& values) {
   return true;
 }
 
+namespace {
+
+/// The same, several times from the first number on.
+bool counts_again(const Values& values) {
+  std::size_t begin = 0, times = 1;
+  for (std::size_t k = 1; k < values.size(); ++k) {
+    if (values[k] == values[k - 1] + 1.0) continue;
+    if (values[k] != values.front() || k - begin < 3) return false;
+    begin = k;
+    ++times;
+  }
+  return times > 1 && !values.empty() && values.front() == std::floor(values.front());
+}
+
+}  // namespace
+
 TimeGuess time_of(const UnknownTable& table) {
   TimeGuess found;
   std::vector<std::pair<const UnknownColumn*, Heading>> candidates;
@@ -95,19 +110,25 @@ TimeGuess time_of(const UnknownTable& table) {
     if (Heading heading = heading_of(column); heading.quantity != nullptr && heading.quantity->key == "time")
       candidates.emplace_back(&column, std::move(heading));
   const auto numbers = std::ranges::find_if(table.columns, [&](const UnknownColumn& column) {
-    return counts_rows(column.values) && (!table.has_headings || names_rows(column.name));
+    return (counts_rows(column.values) || counts_again(column.values)) &&
+           (!table.has_headings || names_rows(column.name));
   });
   if (candidates.empty() && numbers != table.columns.end()) {
     const SaidStep said = said_step(table);
-    if (said.step_s <= 0.0) {
+    const bool of_several =
+        counts_again(numbers->values) ||
+        std::ranges::any_of(table.part, [](const std::string& part) { return part.starts_with("segment:"); });
+    if (said.step_s <= 0.0 && !of_several) {
       found.row_numbers = &*numbers;
       return found;
     }
+    const Told step = said.step_s > 0.0 ? Told{domain::write_number(said.step_s), said.reason}
+                                        : left_open("time between two rows, in s");
     found.guess = ColumnGuess{&domain::quantity_of("time"),
                               {numbers->name, "it counts the rows"},
-                              {"s", said.reason},
+                              {"s", step.reason},
                               {},
-                              Told{domain::write_number(said.step_s), said.reason},
+                              step,
                               {},
                               {}};
     return found;
@@ -147,7 +168,7 @@ TimeGuess time_of(const UnknownTable& table) {
 
 Values seconds_of(const UnknownTable& table, const ColumnGuess& time) {
   const Values* stamps = time.unit.open() ? nullptr : column_of(table, time.column.value);
-  if (stamps == nullptr || stamps->empty()) return {};
+  if (stamps == nullptr || stamps->empty() || (time.factor && time.factor->open())) return {};
   input::Table one;
   one.columns.push_back({"time_s", time.column.value, 0, *stamps});
   if (time.input) {
@@ -158,49 +179,12 @@ Values seconds_of(const UnknownTable& table, const ColumnGuess& time) {
   const input::Source source("", "", "");
   input::Problems ignored;
   input::TableProblems said(source, ignored);
-  input::spread_stamps(one, said);
+  input::spread_stamps(one, {}, said);
   Values seconds = std::move(one.columns[0].values);
   if (time.factor)
     for (double& value : seconds) value *= input::parse_number(time.factor->value).value_or(1.0);
   if (time.unit.value != input::date_unit) input::convert_units(seconds, time.unit.value, "s");
   return seconds;
-}
-
-std::vector<UnknownTable> runs_in(const UnknownTable& table) {
-  std::vector<UnknownTable> labelled, runs;
-  constexpr std::size_t most_labels = 200, least_rows = 3;
-  for (const UnknownColumn& column : table.columns) {
-    if (!names_a_run(column.name) || !labelled.empty()) continue;
-    std::map<double, std::vector<std::size_t>> rows;
-    for (std::size_t row = 0; row < column.values.size() && rows.size() <= most_labels; ++row)
-      if (!std::isnan(column.values[row])) rows[column.values[row]].push_back(row);
-    if (rows.size() < 2 || rows.size() > most_labels ||
-        std::ranges::any_of(rows, [&](const auto& one) { return one.second.size() < least_rows; }))
-      continue;
-    for (const auto& [label, which] : rows)
-      labelled.push_back(table.rows(which, fmt::format("where: {{{}: {}}}", domain::yaml_scalar(column.name),
-                                                       domain::write_number(label))));
-  }
-  if (labelled.empty()) labelled.push_back(table);
-  for (UnknownTable& one : labelled) {
-    const TimeGuess time = time_of(one);
-    const Values* stamps =
-        time.guess && !time.guess->input ? column_of(one, time.guess->column.value) : nullptr;
-    input::Table whole;
-    if (stamps != nullptr) whole.columns.push_back({"time_s", "", 0, *stamps});
-    const std::vector<std::size_t> parts = input::parts_of(whole);
-    if (parts.size() == 1) {
-      runs.push_back(std::move(one));
-      continue;
-    }
-    for (std::size_t i = 0; i < parts.size(); ++i) {
-      std::vector<std::size_t> rows;
-      for (std::size_t row = parts[i]; row < (i + 1 < parts.size() ? parts[i + 1] : stamps->size()); ++row)
-        rows.push_back(row);
-      runs.push_back(one.rows(rows, fmt::format("segment: {}", i + 1)));
-    }
-  }
-  return runs;
 }
 
 }  // namespace mckibben::recognise

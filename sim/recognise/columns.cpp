@@ -35,17 +35,20 @@ const domain::Quantity* quantity_for(const domain::Quantity& quantity, const Tol
   return is_current ? &domain::quantity_of("current") : &quantity;
 }
 
-ColumnGuess guess_of(const domain::Quantity& quantity, const std::vector<const Named*>& candidates) {
+/// `others`: columns that no word names.
+ColumnGuess guess_of(const domain::Quantity& quantity, const std::vector<const Named*>& candidates,
+                     const std::string& others) {
   std::vector<std::string> names;
   for (const Named* each : candidates) {
     if (each->column->name == quantity.column || candidates.size() == 1) {
       const Told unit = unit_told(each->heading);
       return {quantity_for(quantity, unit), {each->column->name, each->heading.reason}, unit, {}, {}, {}, {}};
     }
-    names.push_back(each->column->name);
+    names.push_back(each->column->where.empty() ? each->column->name : "where: " + each->column->where);
   }
-  const std::string why = names.empty() ? "no column seems to hold it"
-                                        : fmt::format("it may be any of: {}", fmt::join(names, "; "));
+  const std::string why = !names.empty()   ? fmt::format("it may be any of: {}", fmt::join(names, "; "))
+                          : others.empty() ? "no column seems to hold it"
+                                           : "no heading names it; perhaps one of: " + others;
   return {&quantity, left_open(why), left_open("it goes with the column"), {}, {}, {}, {}};
 }
 
@@ -164,9 +167,58 @@ void own_clock(const UnknownTable& table, const TimeGuess& time, ColumnGuess& gu
     guess.time = Told{clock->name, "it stands behind that clock"};
 }
 
-std::string range_in_words(const UnknownColumn& column) {
-  const Range range = range_of(column.values);
-  return fmt::format("{:.4g} to {:.4g}", range.low, range.high);
+std::string range_in_words(const Named& of) {
+  const Range range = range_of(of.column->values);
+  return fmt::format("{:.4g} to {:.4g}{}{}", range.low, range.high, of.heading.unit.empty() ? "" : " ",
+                     of.heading.unit);
+}
+
+/// Columns that may be anything.
+std::string nameless(const TimeGuess& time, const std::vector<Named>& named) {
+  std::vector<std::string> list;
+  for (const Named& each : named)
+    if (each.heading.quantity == nullptr && each.heading.reason == no_word &&
+        each.column != time.row_numbers && !(time.guess && each.column->name == time.guess->column.value))
+      list.push_back(fmt::format(
+          "{} ({})", each.column->where.empty() ? each.column->name : "where: " + each.column->where,
+          range_in_words(each)));
+  return fmt::format("{}", fmt::join(list, "; "));
+}
+
+/// In a long table a quantity is the rows that hold it.
+void say_rows(const UnknownTable& table, ColumnGuess& guess) {
+  if (table.columns.size() < 2 || table.columns[1].where.empty()) return;
+  const UnknownColumn* column = table.find(guess.column.value);
+  guess.in_file = table.columns[1].in_file;
+  guess.where = column != nullptr ? column->where
+                                  : table.columns[1].where.substr(0, table.columns[1].where.find(": ")) +
+                                        ": " + std::string(domain::fill_in) + "}";
+}
+
+/// Words that come again, and lines above the table.
+void remark_on(const UnknownTable& table, MapGuess& map) {
+  if (!table.note.empty()) map.remarks.push_back(table.note);
+  if (!table.has_headings)
+    map.remarks.emplace_back("no line names the columns: they are called 1, 2, 3, ... from the left");
+  std::vector<std::string> said;
+  constexpr std::size_t most_said = 12;
+  for (const Remark& each : table.settings)
+    if (said.size() < most_said) said.push_back(each.key + " " + each.value);
+  if (!said.empty()) map.remarks.push_back(fmt::format("the file says: {}", fmt::join(said, "; ")));
+  for (const UnknownColumn& column : table.texts) {
+    constexpr std::size_t most_shown = 5;
+    const std::size_t count = column.texts.size();
+    std::vector<std::string> shown(
+        column.texts.begin(),
+        column.texts.begin() + static_cast<std::ptrdiff_t>(std::min(count, most_shown)));
+    map.remarks.push_back(fmt::format(
+        "not used: {0}: words, {1}{2}{3}", column.name, fmt::join(shown, ", "),
+        count > most_shown ? ", ..." : "",
+        count > 1
+            ? fmt::format("; where they are runs, write where: {{{}: {}}} of each, or cut: and segment:",
+                          domain::yaml_scalar(column.name), domain::yaml_scalar(shown.front()))
+            : ""));
+  }
 }
 
 }  // namespace
@@ -183,7 +235,22 @@ const ColumnGuess* drive_of(const MapGuess& map) {
   return nullptr;
 }
 
-MapGuess map_of(const std::vector<const UnknownTable*>& tables) {
+namespace {
+
+/// Rows without stamps; whether a rig that is known has such ticks, nobody has said.
+Setting rows_of_ticks(const UnknownTable& table, bool rig_is_known) {
+  std::string why =
+      "no column seems to hold time; of settled points write settled: {each: 5 s} in its place, "
+      "with what one took";
+  if (!rig_is_known) return {"rows_are_ticks", {"true", why}};
+  const SaidStep said = said_step(table);
+  return {"rows_are_ticks", left_open(fmt::format("{}; true if rows are the rig's tick apart{}", why,
+                                                  said.reason.empty() ? "" : ": " + said.reason))};
+}
+
+}  // namespace
+
+MapGuess map_of(const std::vector<const UnknownTable*>& tables, bool rig_is_known) {
   const UnknownTable& table = *tables.front();
   std::vector<Named> named;
   for (const UnknownColumn& column : table.columns) named.push_back({&column, heading_of(column)});
@@ -198,6 +265,8 @@ MapGuess map_of(const std::vector<const UnknownTable*>& tables) {
     return list;
   };
   MapGuess map;
+  const std::string others = nameless(time, named);
+  remark_on(table, map);
   const bool has_pressure = !candidates("muscle_pressure").empty(), has_force = !candidates("force").empty();
   if (time.guess) map.columns.push_back(*time.guess);
   for (const char* key : {"command", "contraction", "muscle_pressure", "force"}) {
@@ -206,18 +275,21 @@ MapGuess map_of(const std::vector<const UnknownTable*>& tables) {
     const bool may_lack = (quantity == "command" && has_pressure) ||
                           (quantity == "contraction" && has_force) || quantity == "muscle_pressure" ||
                           quantity == "force";
-    if (!found.empty() || !may_lack) map.columns.push_back(guess_of(domain::quantity_of(quantity), found));
+    if (!found.empty() || !may_lack)
+      map.columns.push_back(guess_of(domain::quantity_of(quantity), found, others));
     if (!found.empty()) own_clock(table, time, map.columns.back());
     if (quantity == "muscle_pressure" && !found.empty()) zero_of_pressure(map.columns.back(), tables);
   }
   if (time.row_numbers != nullptr)
     map.ignored.push_back(
-        {time.row_numbers->name, "it counts the rows; " + range_in_words(*time.row_numbers)});
+        {time.row_numbers->name, "it counts the rows; " + range_in_words({time.row_numbers, {}})});
   for (const Named& each : named)
     if (each.heading.quantity == nullptr && each.column != time.row_numbers &&
         !(time.guess && each.column->name == time.guess->column.value))
       map.ignored.push_back(
-          {each.column->name, fmt::format("{}; {}", each.heading.reason, range_in_words(*each.column))});
+          {each.column->name, fmt::format("{}; {}", each.heading.reason, range_in_words(each))});
+  for (ColumnGuess& guess : map.columns)
+    if (guess.quantity->key != "time") say_rows(table, guess);
   for (const std::string& words : table.words)
     map.ignored.push_back({words, "it holds no numbers, or not one for each row"});
   if (candidates("command").empty())
@@ -239,10 +311,7 @@ MapGuess map_of(const std::vector<const UnknownTable*>& tables) {
                    ? Setting{"settled",
                              left_open("no column seems to hold time, and each table stays at one length: "
                                        "its rows seem to be settled points; {each: 5 s}, with what one took")}
-                   : Setting{"rows_are_ticks",
-                             {"true",
-                              "no column seems to hold time; of settled points write settled: {each: 5 s} "
-                              "in its place, with what one took"}};
+                   : rows_of_ticks(table, rig_is_known);
   return map;
 }
 

@@ -12,7 +12,7 @@ namespace mckibben::recognise {
 using Values = std::vector<double>;
 
 /// The map of tables whose columns have the same names.
-MapGuess map_of(const std::vector<const UnknownTable*>& tables);
+MapGuess map_of(const std::vector<const UnknownTable*>& tables, bool rig_is_known);
 
 /// The numbers of a column as they stand in the file; null if there is none of that name.
 const Values* column_of(const UnknownTable& table, const std::string& name);

@@ -1,13 +1,13 @@
 // Words of headings; see the header.
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <regex>
 #include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <sim/input/column_hints.hpp>
 #include <sim/input/dates.hpp>
 #include <sim/input/quantity.hpp>
 #include <sim/input/text_layout.hpp>
@@ -16,7 +16,7 @@
 namespace mckibben::recognise {
 namespace {
 
-using Words = std::vector<std::string>;
+using input::words_of, input::Words;
 
 struct Vocabulary {
   std::string_view key;
@@ -49,41 +49,23 @@ const std::vector<Vocabulary>& vocabularies() {
         "ao0",  "ao1",      "dac",     "pd",       "pdes",       "pset",         "psoll",
         "pref", "sp",       "goal",    "vorgabe",  "commanded",  "wanted"},
        {"soll", "stell"}},
-      {"time",
-       {"t",        "time",    "zeit",    "temps", "timestamp", "stamp",  "date",
-        "datetime", "datum",   "uhrzeit", "clock", "elapsed",   "millis", "micros",
-        "sec",      "seconds", "msec",    "usec",  "nsec",      "dt",     "interval"},
-       {"zeit"}},
+      {"time", input::time_words, {"zeit"}},
       {"force", {"f", "force", "kraft", "loadcell", "cell", "tension", "zugkraft"}, {"kraft"}},
       {"muscle_pressure",
        {"p", "pressure", "druck", "pm", "gauge", "manometer", "manometre", "pression", "pmuscle", "pact",
         "pist", "istdruck", "feedback", "pabs"},
        {"druck"}},
       {"contraction",
-       {"contraction", "kontraktion",  "strain",    "eps",       "epsilon", "laser",   "distance",
-        "abstand",     "position",     "pos",       "weg",       "hub",     "travel",  "length",
-        "länge",       "laenge",       "x",         "y",         "stroke",  "encoder", "counts",
-        "wheel",       "angle",        "winkel",    "rope",      "height",  "höhe",    "lvdt",
-        "poti",        "displacement", "stringpot", "elongation"},
+       {"contraction", "kontraktion", "strain", "eps",     "epsilon", "laser",  "distance", "abstand",
+        "position",    "pos",         "weg",    "hub",     "travel",  "length", "länge",    "laenge",
+        "x",           "y",           "stroke", "encoder", "counts",  "wheel",  "angle",    "theta",
+        "phi",         "winkel",      "rope",   "height",  "höhe",    "lvdt",   "poti",     "displacement",
+        "stringpot",   "elongation"},
        {"laser", "abstand", "weg", "winkel", "länge", "höhe"}},
       {"command",
        {"u", "i", "current", "strom", "voltage", "spannung", "valve", "ventil"},
        {"strom", "spannung", "ventil"}}};
   return all;
-}
-
-/// Letters of a word, in lower case; bytes of UTF-8 stay as they are, but for umlauts.
-Words words_of(std::string_view text) {
-  Words words{""};
-  for (const char c : text) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (byte >= 0x80 || std::isalnum(byte) != 0)
-      words.back() += byte >= 0x80 ? c : static_cast<char>(std::tolower(byte));
-    else if (!words.back().empty())
-      words.emplace_back();
-  }
-  if (words.back().empty()) words.pop_back();
-  return words;
 }
 
 /// What stands in brackets, or behind the last _, blank or slash; and what stands before.
@@ -148,35 +130,59 @@ std::string_view trust(bool by_word, bool by_unit) {
 
 }  // namespace
 
-bool is_absolute(const std::string& name) {
+namespace {
+
+using List = std::initializer_list<std::string_view>;
+
+bool has_word(const std::string& name, List said) {
   const Words words = words_of(name);
-  constexpr std::array<std::string_view, 7> said{"abs",  "absolute", "absolut", "absolu",
-                                                 "pabs", "psia",     "bara"};
   return std::ranges::any_of(
       words, [&](const std::string& word) { return std::ranges::find(said, word) != said.end(); });
 }
+bool begins_with_word(const std::string& name, List said) {
+  const Words words = words_of(name);
+  return !words.empty() && std::ranges::find(said, words.front()) != said.end();
+}
+
+}  // namespace
+
+bool is_absolute(const std::string& name) {
+  return has_word(name, {"abs", "absolute", "absolut", "absolu", "pabs", "psia", "bara"});
+}
 
 bool names_a_run(const std::string& name) {
-  const Words words = words_of(name);
-  constexpr std::array<std::string_view, 12> said{"run",    "trial",   "test",       "cycle",
-                                                  "zyklus", "versuch", "lauf",       "experiment",
-                                                  "rep",    "repeat",  "repetition", "messung"};
-  return !words.empty() && std::ranges::find(said, words.front()) != said.end();
+  return begins_with_word(name, {"run", "trial", "test", "cycle", "zyklus", "versuch", "lauf", "experiment",
+                                 "rep", "repeat", "repetition", "messung"});
+}
+
+bool names_a_start(const std::string& name) {
+  return has_word(name, {"start", "begin", "new", "beginn"});
+}
+
+bool names_a_phase(const std::string& name) {
+  return has_word(name, {"phase", "state", "stage", "step", "direction", "mode", "branch", "richtung",
+                         "zustand", "status", "comment", "note", "remark", "kommentar"});
+}
+
+bool names_a_load(const std::string& name) {
+  return begins_with_word(name, {"load", "mass", "weight", "last", "masse", "gewicht", "payload"}) &&
+         !has_word(name, {"cell"});
+}
+
+bool names_a_key(const std::string& name) {
+  return has_word(name, {"sensor", "channel", "signal", "variable", "quantity", "name", "key", "what",
+                         "kanal", "parameter", "field", "series", "topic", "tag", "groesse", "größe"});
 }
 
 bool names_rows(const std::string& name) {
   const Words words = words_of(name);
-  constexpr std::array<std::string_view, 16> said{"x",   "index", "sample", "samples", "n",       "nr",
-                                                  "no",  "frame", "count",  "tick",    "counter", "seq",
-                                                  "row", "i",     "point",  "id"};
-  return words.empty() || std::ranges::find(said, words.front()) != said.end() || words.back() == "seq";
+  return words.empty() || words.back() == "seq" ||
+         begins_with_word(name, {"x", "index", "sample", "samples", "n", "nr", "no", "frame", "count", "tick",
+                                 "counter", "seq", "row", "i", "point", "id"});
 }
 
 bool names_raw(const std::string& name) {
-  const Words words = words_of(name);
-  constexpr std::array<std::string_view, 7> said{"counts", "count", "raw", "adc", "digits", "lsb", "bits"};
-  return std::ranges::any_of(
-      words, [&](const std::string& word) { return std::ranges::find(said, word) != said.end(); });
+  return has_word(name, {"counts", "count", "raw", "adc", "digits", "lsb", "bits"});
 }
 
 Heading heading_of(const UnknownColumn& column) {
@@ -188,6 +194,9 @@ Heading heading_of(const UnknownColumn& column) {
   const Split split = split_unit(column.heading());
   Heading heading;
   heading.unit = !column.unit.empty() ? column.unit : input::unit_word(split.behind);
+  if (heading.unit.empty() && split.behind.empty() && column.heading().size() > 1 &&
+      column.heading() != "in" && column.heading() != "min")
+    heading.unit = input::unit_word(column.heading());  // a heading that is a unit
   if (column.is_date) heading.unit = input::date_unit;
   const bool is_suffix = column.unit.empty() && !split.in_brackets && !column.is_date;
   const Words words = words_of(split.in_brackets ? split.before : std::string_view(column.heading()));
@@ -206,7 +215,7 @@ Heading heading_of(const UnknownColumn& column) {
     if (!key.empty()) told = fmt::format("its unit {}", heading.unit);
   }
   if (column.is_date) told = "it holds dates";
-  if (key.empty()) return {nullptr, heading.unit, false, "neither its words nor its unit are known"};
+  if (key.empty()) return {nullptr, heading.unit, false, std::string(no_word)};
   heading.quantity = &domain::quantity_of(key);
   if (key == "time" && heading.unit.empty()) heading.unit = unit_of_time_word(words);
   heading.unit_fits = is_unit_of(key, heading.unit);
@@ -230,6 +239,7 @@ std::optional<std::string> load_in(const std::string& text) {
 }
 
 std::optional<LoadGuess> load_of(const UnknownTable& table) {
+  if (table.load) return table.load;
   if (auto load = load_in(table.path.stem().string())) return LoadGuess{*load, "the file's name says so"};
   for (const std::string& line : table.remarks)
     if (auto load = load_in(line)) return LoadGuess{*load, "a line above its headings says so"};

@@ -20,17 +20,19 @@ struct Heading {
 };
 
 Heading heading_of(const UnknownColumn& column);
+/// The reason of one that nothing tells.
+inline constexpr std::string_view no_word = "neither its words nor its unit are known";
 
-/// Words of absolute pressures; of columns whose value is another for each run; of row numbers; of an ADC.
+/// Words of absolute pressures; of columns whose value is another for each run, that mark its first row, that
+/// change within a run; of loads; of columns that say which quantity a row holds; of row numbers; of an ADC.
 bool is_absolute(const std::string& name);
 bool names_a_run(const std::string& name);
+bool names_a_start(const std::string& name);
+bool names_a_phase(const std::string& name);
+bool names_a_load(const std::string& name);
+bool names_a_key(const std::string& name);
 bool names_rows(const std::string& name);
 bool names_raw(const std::string& name);
-
-struct LoadGuess {
-  std::string quantity;  ///< "5 kg"
-  std::string reason;
-};
 
 /// None if nothing tells the load of this run.
 std::optional<LoadGuess> load_of(const UnknownTable& table);

@@ -11,6 +11,19 @@ namespace {
 constexpr double lowest_share = 0.02, still_share = 0.01;
 constexpr std::size_t rows_of_a_beginning = 5;
 
+/// Where a row lacks it, on the straight line between the rows that have it.
+Values bridged(Values values) {
+  std::size_t known = values.size();
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    if (std::isnan(values[k])) continue;
+    for (std::size_t gap = known + 1; known < values.size() && gap < k; ++gap)
+      values[gap] = std::lerp(values[known], values[k],
+                              static_cast<double>(gap - known) / static_cast<double>(k - known));
+    known = k;
+  }
+  return values;
+}
+
 }  // namespace
 
 Clock clock_of(const Values& time_s) {
@@ -43,13 +56,14 @@ Range range_of(const Values& values) {
 }
 
 Together together(const std::vector<const Values*>& drive, const std::vector<const Values*>& reading) {
+  std::vector<Values> drives;
+  for (const Values* values : drive) drives.push_back(bridged(*values));
   Range range{1e300, -1e300};
   double n = 0.0, sx = 0.0, sy = 0.0, sxx = 0.0, syy = 0.0, sxy = 0.0;
   const auto each = [&](const auto& use) {
     for (std::size_t i = 0; i < drive.size(); ++i)
-      for (std::size_t k = 0; k < std::min(drive[i]->size(), reading[i]->size()); ++k)
-        if (const double x = (*drive[i])[k], y = (*reading[i])[k]; !std::isnan(x) && !std::isnan(y))
-          use(x, y);
+      for (std::size_t k = 0; k < std::min(drives[i].size(), reading[i]->size()); ++k)
+        if (const double x = drives[i][k], y = (*reading[i])[k]; !std::isnan(x) && !std::isnan(y)) use(x, y);
   };
   each([&](double x, double y) {
     range = {std::min(range.low, x), std::max(range.high, x)};

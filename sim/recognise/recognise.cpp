@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <sim/domain/measurement.hpp>
 #include <sim/input/dates.hpp>
 #include <sim/input/file_names.hpp>
 #include <sim/input/number.hpp>
@@ -63,9 +64,10 @@ class Recogniser {
   explicit Recogniser(Recognised& all) : all_(all) {}
 
   void operator()(bool rig_is_known) {
-    maps();
+    maps(rig_is_known);
     runs();
     clocks();
+    gaps();
     start();
     if (!rig_is_known) rig();
   }
@@ -74,7 +76,7 @@ class Recogniser {
   const MapGuess& map_of_run(std::size_t run) const { return all_.maps[all_.runs[run].map]; }
   const MapGuess& first_map() const { return all_.maps.front(); }
 
-  void maps() {
+  void maps(bool rig_is_known) {
     std::map<std::string, std::size_t> known;
     std::vector<std::vector<const UnknownTable*>> groups;
     for (const UnknownTable& table : all_.tables) {
@@ -86,7 +88,7 @@ class Recogniser {
       groups[place->second].push_back(&table);
       all_.runs.push_back({"", place->second, {}});
     }
-    for (const auto& group : groups) all_.maps.push_back(map_of(group));
+    for (const auto& group : groups) all_.maps.push_back(map_of(group, rig_is_known));
   }
 
   void runs() {
@@ -133,6 +135,40 @@ class Recogniser {
     if (jitter_s > even_s) clock_ = fmt::format("{}, uneven by up to {:.3g} ms", clock_, 1e3 * jitter_s);
     if (first_s != 0.0) clock_ += fmt::format(", begin at {:.6g} s and not at 0", first_s);
     if (even_) clock_ = fmt::format("all stamps are {:.6g} ms apart", 1e3 * step_s_);
+  }
+
+  /// What drives the rig must be known from a run's first row to its last, but for short gaps.
+  void gaps() {
+    constexpr double slack = 1.01, longest_s = 1.0;
+    double widest_s = 0.0;
+    for (std::size_t i = 0; i < all_.runs.size(); ++i) {
+      const ColumnGuess* drive = drive_of(map_of_run(i));
+      const Values* values = drive == nullptr ? nullptr : column_of(all_.tables[i], drive->column.value);
+      const Values seconds = time_s(i);
+      if (values == nullptr || seconds.size() != values->size() || drive->time || !drive->where.empty())
+        continue;
+      const auto lacks = [](double value) { return std::isnan(value); };
+      const auto first = std::ranges::find_if_not(*values, lacks);
+      if (first == values->end()) continue;
+      const auto last = std::find_if_not(values->rbegin(), values->rend(), lacks).base() - 1;
+      const auto since = [&](auto at) {
+        return seconds[static_cast<std::size_t>(at - values->begin())] - seconds[0];
+      };
+      const auto limit = [&](const char* key, double at_s) {
+        all_.tables[i].part.push_back(fmt::format("{}: {:.9g} s", key, at_s));
+      };
+      if (first != values->begin()) limit("from", since(first));
+      if (last + 1 != values->end()) limit("to", since(last));
+      for (auto at = first; at < last; ++at)
+        if (lacks(*at))
+          widest_s = std::max(widest_s, since(std::find_if_not(at, last, lacks)) - since(at - 1));
+    }
+    if (widest_s <= domain::Recorded{}.bridge_s) return;
+    const std::string why = fmt::format("rows lack what drives the rig for up to {:.4g} s", widest_s);
+    all_.dataset.push_back(
+        {"bridge", widest_s > longest_s
+                       ? left_open(why + ": so long a gap may be bridged, or cut out by runs' from: and to:")
+                       : Told{fmt::format("{:.3g} s", slack * widest_s), why}});
   }
 
   void start() {

@@ -29,6 +29,7 @@ struct ColumnGuess {
   std::optional<Told> zero, factor;  ///< none: 0 and 1
   std::optional<Told> input;         ///< what it is read as: it drives the simulation; of time: interval
   std::optional<Told> time;          ///< the column of its own clock
+  std::string in_file{}, where{};    ///< in a long table: the column of all readings, and which rows are its
 };
 
 /// A key of a file: `valve.span_command`.
@@ -40,8 +41,9 @@ struct Setting {
 /// A map from quantities to columns, for tables whose columns have the same names.
 struct MapGuess {
   std::vector<ColumnGuess> columns;
-  std::vector<Told> ignored;    ///< names of columns, and why
-  std::optional<Setting> rows;  ///< where no column holds time: `rows_are_ticks` or `settled`
+  std::vector<Told> ignored;           ///< names of columns, and why
+  std::vector<std::string> remarks{};  ///< what else the tables say
+  std::optional<Setting> rows;         ///< where no column holds time: `rows_are_ticks` or `settled`
 
   const ColumnGuess* find(std::string_view key) const;
 };

@@ -54,7 +54,8 @@ double step_in(const Remark& remark) {
   const auto has = [&](std::string_view word) { return key.find(word) != std::string::npos; };
   const bool rate = has("samplerate") || has("samplingrate") || has("abtastrate") || has("samplefreq") ||
                     has("samplingfreq") || has("abtastfrequenz") || key == "fs" || key == "rate" ||
-                    key == "fshz" || has("samplespersec") || has("scanrate") || has("framerate");
+                    key == "fshz" || has("samplespersec") || has("scanrate") || has("framerate") ||
+                    has("fps") || has("framespersec");
   const bool step = has("sampleinterval") || has("samplinginterval") || has("sampleperiod") ||
                     has("samplingperiod") || has("sampletime") || has("increment") || key == "dt" ||
                     key == "ts" || key == "deltat" || has("abtastzeit") || has("deltax") ||

@@ -1,6 +1,7 @@
 // By the readers that data sets are read with; see the header.
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <utility>
 
 #include <fmt/format.h>
@@ -28,7 +29,9 @@ struct Growing {
   input::ClockReader clock;
   input::EpochReader epoch;
   std::size_t numbers = 0, dates = 0, words = 0;
-  std::vector<double> times;
+  std::vector<double> times, texts;                  ///< of `known`, by their places
+  std::map<std::string, double, std::less<>> known;  ///< none: there are too many
+  bool few_words = true;
 
   void add(const Cell& cell, input::NumberReader& reader) {
     std::string problem;
@@ -40,6 +43,24 @@ struct Growing {
     column.values.push_back(number.value_or(std::nan("")));
     if (dates > 0) times.resize(column.values.size(), std::nan(""));
     if (time) times.back() = *time;
+    word(cell.text);
+  }
+  /// Words that come again may be labels.
+  void word(std::string_view text) {
+    constexpr std::size_t most_words = 200, longest = 60;
+    if (!few_words) return;
+    auto found = known.find(text);
+    if (found == known.end() && !text.empty()) {
+      few_words = known.size() < most_words && text.size() <= longest;
+      if (!few_words) {
+        known.clear();
+        texts = {};
+        return;
+      }
+      found = known.emplace(text, static_cast<double>(known.size())).first;
+      column.texts.emplace_back(text);
+    }
+    texts.push_back(text.empty() ? std::nan("") : found->second);
   }
   /// Numbers, or dates, for the most part.
   bool is_of_use() {
@@ -48,18 +69,25 @@ struct Growing {
       column.is_date = true;
       times.resize(column.values.size(), std::nan(""));
       column.values = std::move(times);
+      column.texts.clear();
       return true;
     }
-    return numbers > 0 && numbers >= words;
+    if (numbers == 0 || numbers < words) return false;
+    column.texts.clear();
+    return true;
   }
 };
 
 void keep(std::vector<Growing>& all, UnknownTable& table) {
   for (Growing& each : all) {
-    if (each.is_of_use())
+    if (each.is_of_use()) {
       table.columns.push_back(std::move(each.column));
-    else if (!each.column.name.empty())
+    } else if (each.few_words && !each.known.empty()) {
+      each.column.values = std::move(each.texts);
+      table.texts.push_back(std::move(each.column));
+    } else if (!each.column.name.empty())
       table.words.push_back(each.column.name);
+    each = {};
   }
 }
 
@@ -81,6 +109,7 @@ void read_text(const Source& source, UnknownTable& table) {
   const input::TextLayout layout = input::layout_of(source, {});
   if (!layout.problem.empty()) refuse(source, {layout.problem_line, 1}, layout.problem);
   table.has_headings = layout.heading > 0;
+  table.note = input::note_of_thinned(source);
   for (std::size_t line = 1; line < layout.head; ++line) {
     if (input::trimmed(source.line(line)).empty()) continue;
     table.remarks.emplace_back(source.line(line));
@@ -128,7 +157,11 @@ void read_matlab(const Source& source, UnknownTable& table) {
   std::vector<formats::MatContents::Vector> vectors;
   std::vector<formats::Found> found;
   try {
-    vectors = formats::read_mat(source.text(), {}).vectors;
+    const formats::MatContents contents = formats::read_mat(source.text(), {});
+    vectors = contents.vectors;
+    if (vectors.empty() && !contents.objects.empty())
+      refuse(source, input::nowhere, contents.objects.front());
+    for (const std::string& object : contents.objects) table.words.push_back(object);
     for (const auto& each : vectors) names.push_back(each.name);
     found = formats::read_mat(source.text(), names).found;
   } catch (const formats::BadFile& bad) {
@@ -157,6 +190,8 @@ UnknownTable read_one(const std::filesystem::path& path, const Source& source) {
     }
     problems.raise();
   }
+  if (format != input::Format::text && source.thinned().step > 1)
+    refuse(source, input::nowhere, "too large to be read; save each run in a file of its own");
   if (format == input::Format::text) read_text(source, table);
   if (format == input::Format::lvm) read_labview(source, table);
   if (format == input::Format::mat) read_matlab(source, table);
@@ -174,11 +209,12 @@ const UnknownColumn* UnknownTable::find(const std::string& name) const {
 UnknownTable UnknownTable::rows(const std::vector<std::size_t>& which, const std::string& says) const {
   UnknownTable some = *this;
   some.part.push_back(says);
-  for (UnknownColumn& column : some.columns) {
-    std::vector<double> values;
-    for (const std::size_t row : which) values.push_back(column.values[row]);
-    column.values = std::move(values);
-  }
+  for (auto* list : {&some.columns, &some.texts})
+    for (UnknownColumn& column : *list) {
+      std::vector<double> values;
+      for (const std::size_t row : which) values.push_back(column.values[row]);
+      column.values = std::move(values);
+    }
   return some;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,9 +15,11 @@ struct UnknownColumn {
   std::string name;  ///< by which a data set names it: heading, channel, variable, number
   std::string unit;  ///< that a line below the headings says; empty: none
   bool is_date = false;
-  std::string epoch{};           ///< the first number, where all are those since it: stamps since 1970
-  std::vector<double> values{};  ///< NaN where there is no number; of dates seconds since the first
-  std::string label{};           ///< how the file calls it besides; empty: only by its name
+  std::string epoch{};               ///< the first number, where all are those since it: stamps since 1970
+  std::vector<double> values{};      ///< NaN where there is no number; of dates seconds since the first
+  std::string label{};               ///< how the file calls it besides; empty: only by its name
+  std::vector<std::string> texts{};  ///< of a column of words: its values are their places in this list
+  std::string in_file{}, where{};    ///< of a quantity in a long table: its column, and which rows are its
 
   const std::string& heading() const { return label.empty() ? name : label; }
 };
@@ -26,18 +29,27 @@ struct Remark {
   std::string key, value;
 };
 
+struct LoadGuess {
+  std::string quantity;  ///< "5 kg", or FILL_IN
+  std::string reason;
+};
+
 struct UnknownTable {
   std::filesystem::path path;
   domain::InputFile input;
   std::vector<std::string> remarks;    ///< lines above the headings
   std::vector<Remark> settings;        ///< those of them that say a value
+  std::string note{};                  ///< that it is too large for all of its rows; empty if it is not
   std::vector<UnknownColumn> columns;  ///< of numbers; `time_is_inside` of an .lvm comes without one
-  std::vector<std::string> words;      ///< columns that hold none
+  std::vector<UnknownColumn> texts;    ///< of a few words that come again
+  std::vector<std::string> words;      ///< columns that hold neither
   bool time_is_inside = false;         ///< an .lvm, which needs no column of time
   bool has_headings = true;
   std::vector<std::string> part{};  ///< which of the file it is, as a run says it: `segment: 2`
+  std::optional<LoadGuess> load{};  ///< that a column of it says
 
   const UnknownColumn* find(const std::string& name) const;
+  std::size_t rows() const { return columns.empty() ? 0 : columns.front().values.size(); }
   /// Only these rows of it.
   UnknownTable rows(const std::vector<std::size_t>& which, const std::string& says) const;
 };

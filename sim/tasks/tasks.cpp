@@ -1,7 +1,6 @@
 // See the header.
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <utility>
 
 #include <fmt/format.h>
@@ -59,19 +58,24 @@ std::vector<std::string> not_at_rest(const domain::Dataset& dataset,
 
 }  // namespace
 
+std::vector<std::string> asked_first(const domain::Dataset& dataset) {
+  const std::vector<data::Finding> findings = data::implausible(dataset);
+  data::raise(dataset, findings);
+  std::vector<std::string> warnings = dataset.remarks;
+  for (const data::Finding& finding : findings) warnings.push_back(data::text_of(dataset, finding));
+  return warnings;
+}
+
 std::vector<std::string> warnings_of(const domain::Dataset& dataset,
                                      const std::vector<run::ReplayedRun>& runs) {
-  std::vector<data::Finding> findings = data::implausible(dataset);
-  data::raise(dataset, findings);
+  std::vector<std::string> warnings = asked_first(dataset);
   std::vector<data::Finding> looked;
   if (!dataset.own_clock)
     looked = data::examine(dataset, run::expected_of(dataset, runs)).findings;
   else if (input::why_unfit(domain::Purpose::judging, dataset).empty() && !run::interrupted())
     looked = run::look(dataset).findings;
-  std::ranges::move(looked, std::back_inserter(findings));
-  data::raise(dataset, findings);
-  std::vector<std::string> warnings = dataset.remarks;
-  for (const auto& finding : findings)
+  data::raise(dataset, looked);
+  for (const auto& finding : looked)
     if (!data::only_limits_diagnosis(finding)) warnings.push_back(data::text_of(dataset, finding));
   for (std::string& warning : not_at_rest(dataset, runs)) warnings.push_back(std::move(warning));
   for (const auto& run : runs)
@@ -125,11 +129,8 @@ void add_hypotheses(const std::vector<std::string>& files, domain::Dataset& data
 
 std::vector<std::string> prepare(domain::Dataset& data, const std::vector<std::string>& hypotheses) {
   add_hypotheses(hypotheses, data);
-  const std::vector<data::Finding> first = data::implausible(data);
-  data::raise(data, first);
+  std::vector<std::string> warnings = asked_first(data);
   input::require_judged(data, "diagnose");
-  std::vector<std::string> warnings = data.remarks;
-  for (const data::Finding& finding : first) warnings.push_back(data::text_of(data, finding));
   for (const data::Finding& finding : data::mend_at_stamps(data))
     warnings.push_back(data::text_of(data, finding).append(data::consequence_of(finding)));
   data = data::with_rows(std::move(data));

@@ -19,8 +19,12 @@ namespace mckibben::tasks {
 /// such a rig.
 void replace_rig(domain::Dataset& dataset, const std::string& called, plant::Rig rig);
 
-/// What looks wrong in the data, and what is doubtful in their simulation. Throws data::UnfitData where a
-/// comparison with them would mean nothing.
+/// How the data were read, and what in them can hardly be, before anything is simulated. Throws
+/// data::UnfitData.
+std::vector<std::string> asked_first(const domain::Dataset& dataset);
+
+/// That, what looks wrong in the data, and what is doubtful in their simulation. Throws data::UnfitData where
+/// a comparison with them would mean nothing.
 std::vector<std::string> warnings_of(const domain::Dataset& dataset,
                                      const std::vector<run::ReplayedRun>& runs);
 

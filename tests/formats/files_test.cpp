@@ -1,6 +1,8 @@
 // MAT-files and NetCDF files from the inside: round trip, refusals, damage. That other programs read them,
 // and that we read theirs, is tested beside this with scipy, ncdump and Octave.
 #include <algorithm>
+#include <cstdint>
+#include <cstring>
 #include <fstream>
 #include <sstream>
 #include <string>
@@ -66,6 +68,30 @@ TEST(MatFile, WhatSimulinkLogsIsReadByItsLabels) {
   const auto labelled = std::ranges::find(read.vectors, "Data.signals(1).values", &MatContents::Vector::name);
   ASSERT_NE(labelled, read.vectors.end());
   EXPECT_EQ(labelled->label, "pressure");
+}
+
+/// An element of a MAT-file: type, size, content, filled up to eight bytes.
+std::string element(std::uint32_t type, std::string content) {
+  std::string bytes(8, '\0');
+  const auto size = static_cast<std::uint32_t>(content.size());
+  std::memcpy(bytes.data(), &type, 4);
+  std::memcpy(bytes.data() + 4, &size, 4);
+  content.resize((content.size() + 7) / 8 * 8);
+  return bytes + content;
+}
+
+TEST(MatFile, ObjectsSayWhatToWriteInMatlab) {
+  const std::string flags("\x11\0\0\0\0\0\0\0", 8);
+  const std::string bytes =
+      mat_of(table()) + element(14, element(6, flags) + element(1, "ts") + element(1, "MCOS") +
+                                        element(1, "timeseries") + element(14, ""));
+  const MatContents read = read_mat(bytes, {"ts.Data", "ts", "time_s"});
+  for (const std::size_t i : {0U, 1U})
+    EXPECT_NE(read.found[i].problem.find("ts is an object of class timeseries"), std::string::npos)
+        << read.found[i].problem;
+  EXPECT_NE(read.found[0].problem.find("t = ts.Time; x = squeeze(ts.Data)"), std::string::npos);
+  EXPECT_EQ(read.found[2].problem, "");
+  ASSERT_EQ(read.objects.size(), 1u);
 }
 
 TEST(MatFile, TellsItsRelatives) {

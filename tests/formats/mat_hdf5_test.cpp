@@ -37,6 +37,20 @@ std::string file() {
   const hid_t group = H5Gcreate2(made, "run", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
   write(group, "pressure", 3, 1, {7, 8, 9});
   H5Gclose(group);
+  write(made, "ts", 1, 6, {3707764736, 2, 1, 1, 1, 1});  // as MATLAB writes an object: numbers that are none
+  const hid_t object = H5Dopen2(made, "ts", H5P_DEFAULT), text = H5Tcopy(H5T_C_S1),
+              one = H5Screate(H5S_SCALAR);
+  H5Tset_size(text, 10);
+  const hid_t kind = H5Acreate2(object, "MATLAB_class", text, one, H5P_DEFAULT, H5P_DEFAULT);
+  H5Awrite(kind, text, "timeseries");
+  const hid_t decode =
+      H5Acreate2(object, "MATLAB_object_decode", H5T_NATIVE_INT, one, H5P_DEFAULT, H5P_DEFAULT);
+  const int how = 3;
+  H5Awrite(decode, H5T_NATIVE_INT, &how);
+  for (const hid_t attribute : {kind, decode}) H5Aclose(attribute);
+  H5Sclose(one);
+  H5Tclose(text);
+  H5Dclose(object);
   H5Fclose(made);
   H5Pclose(creation);
   std::ostringstream bytes;
@@ -45,13 +59,14 @@ std::string file() {
 }
 
 TEST(MatHdf5, VectorsFieldsAndColumnsOfMatrices) {
-  const MatContents read = read_mat(file(), {"t", "run.pressure", "data(:,2)", "data", "none"});
+  const MatContents read = read_mat(file(), {"t", "run.pressure", "data(:,2)", "data", "none", "ts.Data"});
   EXPECT_EQ(read.found[0].values, (std::vector<double>{0, 1, 2})) << read.found[0].problem;
   EXPECT_EQ(read.found[1].values, (std::vector<double>{7, 8, 9}));
   EXPECT_EQ(read.found[2].values, (std::vector<double>{4, 5, 6}));
   EXPECT_EQ(read.found[3].problem, "data has 3 rows and 2 columns; name one: data(:,1)");
   EXPECT_NE(read.found[4].problem, "");
-  EXPECT_EQ(read.vectors.size(), 4u);
+  EXPECT_NE(read.found[5].problem.find("ts is an object of class timeseries"), std::string::npos);
+  EXPECT_EQ(read.vectors.size(), 4u) << "an object's numbers are none";
 }
 
 TEST(MatHdf5, CutOffOnesAreRefused) {

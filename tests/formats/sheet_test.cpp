@@ -90,6 +90,26 @@ TEST(Xlsx, RunsOfTextDoNotNest) {
   EXPECT_TRUE(deep(1'000'000).starts_with("\t\tWeg\t\n"));
 }
 
+TEST(Xls, NumbersTextsAndDatesStandWhereTheyAre) {
+  const auto sheets = sheets_of_xls(MCKIBBEN_TEST_DATA "/two_sheets.xls");
+  ASSERT_EQ(sheets.size(), 2u);
+  EXPECT_EQ(sheets[0].name, "one");
+  EXPECT_EQ(sheets[0].text,
+            "Zeit\tDruck\tDatum\tWeg\t\ns\tbar\t\tmm\t\n0\t0.5\t2024-05-03 12:00:00\t3\t\n"
+            "0.02\t1.25\t2024-05-03 12:00:01\t\t\n0.04\t-2\t2024-05-03 12:00:02\t7.125\t\n");
+  EXPECT_EQ(sheets[0].numbers, 11u);
+  EXPECT_EQ(sheets[1].text, "\t\t\n\tnur Text\t\n");
+  EXPECT_EQ(sheets[1].numbers, 0u);
+}
+
+TEST(Xls, WhatIsDamagedIsRefused) {
+  std::ostringstream bytes;
+  bytes << std::ifstream(MCKIBBEN_TEST_DATA "/two_sheets.xls", std::ios::binary).rdbuf();
+  const Scratch folder;
+  for (const std::size_t size : {0U, 8U, 600U, 2000U})
+    EXPECT_THROW(sheets_of_xls(folder.write("a.xls", bytes.str().substr(0, size))), BadFile) << size;
+}
+
 TEST(Sheets, SerialsAreDates) {
   EXPECT_EQ(date_of_serial(45415.598), "2024-05-03 14:21:07.200000");
   EXPECT_EQ(date_of_serial(0.25), "06:00:00.000000");

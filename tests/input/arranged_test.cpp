@@ -2,6 +2,7 @@
 #include <cmath>
 #include <string>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <sim/input/dataset_file.hpp>
@@ -26,9 +27,10 @@ class Arranged : public ::testing::Test {
     return read_dataset(place_);
   }
   std::string refused(const std::string& table, const std::string& time, const std::string& run = "",
-                      const std::string& more = "") const {
+                      const std::string& more = "",
+                      const std::string& contraction = "column: x, unit: mm") const {
     try {
-      read(table, time, "column: x, unit: mm", run, more);
+      read(table, time, contraction, run, more);
     } catch (const BadInput& bad) {
       return bad.what();
     }
@@ -80,6 +82,53 @@ TEST_F(Arranged, ReadingsWithAClockOfTheirOwn) {
   EXPECT_EQ(times(data), (std::vector<double>{0, 0.005, 0.02, 0.025, 0.04, 0.045, 0.06}));
   EXPECT_NEAR(pressures(data)[1], 1.25e5, 1e-6) << "a given pressure runs straight";
   EXPECT_TRUE(std::isnan(data.runs[0].measured->read("contraction")[0]));
+}
+
+TEST_F(Arranged, AnotherClockBeforeAQuantityIsAsked) {
+  const std::string two = "tp,p,time_x,x\n0,1,0,1\n20,2,12,2\n40,3,24,3\n60,4,36,4\n";
+  EXPECT_TRUE(holds(refused(two, "column: tp, unit: ms"), "r.csv:1:6",
+                    "time_x is another clock than tp, and stands before x", "time: time_x"));
+  EXPECT_EQ(refused(two, "column: tp, unit: ms", "", "", "column: x, unit: mm, time: time_x"), "accepted");
+  EXPECT_EQ(refused(two, "column: tp, unit: ms", "", "", "column: x, unit: mm, time: tp"), "accepted");
+  EXPECT_EQ(
+      refused("tp,p,time_x,x\n0,1,0,1\n20,2,0.02,2\n40,3,0.04,3\n60,4,0.06,4\n", "column: tp, unit: ms"),
+      "accepted")
+      << "the same in s";
+}
+
+TEST_F(Arranged, CommandsInVoltsStayBesideReadingsWithAClockOfTheirOwn) {
+  place_.write("r.csv", "tp,u,tx,x\n0,1,5,1\n20,2,25,2\n40,3,45,3\n60,4,65,4\n");
+  place_.write(
+      "dataset.yaml",
+      "schema: mckibben-dataset/1\nrig: {base: thesis, valve: {zero_command: 0 V, span_command: 10 V}}\n"
+      "columns:\n  time: {column: tp, unit: ms}\n  command: {column: u, unit: V}\n"
+      "  contraction: {column: x, unit: mm, time: tx}\nruns: [{id: r, file: r.csv, load: 5 kg}]\n");
+  const Dataset data = read_dataset(place_);
+  EXPECT_EQ(data.runs[0].measured->given("command"), (std::vector<double>{1, 1, 2, 2, 3, 3, 4}));
+}
+
+TEST_F(Arranged, StampsOfALongTableMayRepeat) {
+  std::string above, below, side_by_side;
+  for (int k = 0; k < 20; ++k) {
+    const std::string p = fmt::format("{},p,{}\n", 20 * k, 1 + 0.1 * k),
+                      x = fmt::format("{},x,{}\n", 20 * k, k);
+    above += p;
+    below += x;
+    side_by_side += p + x;
+  }
+  for (const std::string& text : {above + below, side_by_side}) {
+    place_.write("r.csv", "t,what,value\n" + text);
+    place_.write("dataset.yaml",
+                 "schema: mckibben-dataset/1\nrig: thesis\ncolumns:\n  time: {column: t, unit: ms}\n"
+                 "  muscle_pressure: {column: value, unit: bar, as: input, where: {what: p}}\n"
+                 "  contraction: {column: value, unit: mm, where: {what: x}}\n"
+                 "runs: [{id: r, file: r.csv, load: 5 kg}]\n");
+    const Dataset data = read_dataset(place_);
+    ASSERT_EQ(times(data).size(), 20u);
+    EXPECT_NEAR(times(data)[7], 0.14, 1e-12);
+    EXPECT_NEAR(pressures(data)[7], 1.7e5, 1e-6);
+    EXPECT_TRUE(data.remarks.empty());
+  }
 }
 
 TEST_F(Arranged, ALongTableIsTurned) {

@@ -39,6 +39,10 @@ const Kind tables[] = {
      "{time: {column: Zeit, unit: us}, current: {column: Strom, unit: mA}, contraction: {column: Weg, unit: "
      "mm}}",
      "Zeit;Strom;Weg\n0.0;4;0\n12,000.0;4.5;3\n"},
+    {"thousands_without_a_point",
+     "{time: {column: Zeit, unit: us}, current: {column: Strom, unit: mA}, contraction: {column: Weg, unit: "
+     "mm}}",
+     "Zeit;Strom;Weg\n0;4.0;0\n12,000;4.5;3\n"},
     {"rows_that_lack_their_last_cells", german, "Zeit,Strom,Weg,note\n0,4,0\n0.012,4.5,3,7\n"},
     {"headings_again", german, "Zeit,Strom,Weg\n0,4,0\nZeit,Strom,Weg\n0.012,4.5,3\n"},
     {"names_of_several_words",

@@ -1,6 +1,9 @@
 // What cannot be in measured data is said before anything is simulated, with the line to write.
+#include <fstream>
 #include <functional>
+#include <iterator>
 #include <string>
+#include <tuple>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -64,6 +67,20 @@ TEST_F(PlausibleData, RunsThatLastNextToNothingOrHours) {
             "doubtful: lasts 55.3 h, its rows are 1e+03 s apart", "unit: ms"));
 }
 
+TEST_F(PlausibleData, ASkipBeyondAShortRunIsAskedToo) {
+  find(good, "us");
+  std::ifstream file(place_ / "dataset.yaml");
+  std::string text((std::istreambuf_iterator<char>(file)), {});
+  place_.write("dataset.yaml", text + "skip: 0.3 s\nstart: settled\n");
+  try {
+    input::read_dataset(place_);
+    ADD_FAILURE();
+  } catch (const input::BadInput& bad) {
+    EXPECT_TRUE(
+        holds(bad.what(), "skip = 0.3 s leaves nothing of this run, which lasts 1.99 ms", "unit: ms"));
+  }
+}
+
 TEST_F(PlausibleData, AGapInTheStamps) {
   EXPECT_TRUE(holds(said(find([](int k) {
                       return fmt::format("{},{},{}", 10 * k + (k > 50 ? 500 : 0), 0.3 + 0.01 * k, k);
@@ -96,6 +113,33 @@ TEST_F(PlausibleData, PressuresThatCannotBe) {
                     "doubtful: muscle_pressure rests at 1.012 bar: is it absolute?", "zero: 1.013"));
 }
 
+TEST_F(PlausibleData, AbsolutePressuresThatNeverRest) {
+  const auto above = [](int k) {
+    return fmt::format("{},{:.3f},{:.2f}", 10 * k, 1.013 + 0.01 * k + 0.004 * (k % 3), k * 0.1);
+  };
+  EXPECT_EQ(said(find(above)), "") << "the other run goes below one atmosphere";
+  EXPECT_TRUE(
+      holds(said(find(above, "ms", "bar", "a.csv")), "muscle_pressure rests at 1.0", "is it absolute?"));
+}
+
+TEST_F(PlausibleData, PressuresInOtherUnitsProposeOneThatIsRead) {
+  const auto up_to = [](double most) {
+    return [=](int k) { return fmt::format("{},{},{}", 10 * k, most * (0.1 + 0.0045 * k), 0.1 * k); };
+  };
+  for (const auto& [number, unit, meant] : {std::tuple{90.0, "bar", "psi"},
+                                            {600.0, "psi", "kPa"},
+                                            {6000.0, "kPa", "mbar"},
+                                            {6.0, "MPa", "bar"},
+                                            {0.06, "bar", "MPa"}}) {
+    const std::string text = said(find(up_to(number), "ms", unit));
+    EXPECT_TRUE(
+        holds(text, "refused: muscle_pressure is", fmt::format("unit: {}, as: input", meant).c_str()));
+    EXPECT_EQ(text.find("refused"), 0u);
+  }
+  const std::string unknown = said(find(up_to(60.0), "ms", "kgf/cm2"));
+  EXPECT_TRUE(holds(unknown, "write the unit, zero and factor of its gauge", "unit: kgf/cm2"));
+}
+
 TEST_F(PlausibleData, OneFileUnderTwoLoads) {
   EXPECT_TRUE(holds(said(find(good, "ms", "bar", "a.csv")),
                     "doubtful: holds the same rows as run a, under another load (5 and 9 kg)"));
@@ -104,7 +148,18 @@ TEST_F(PlausibleData, OneFileUnderTwoLoads) {
 TEST_F(PlausibleData, StepsCoarserThanTheSensor) {
   EXPECT_TRUE(
       holds(said(find([](int k) { return fmt::format("{},{},{}", 10 * k, 0.3 + 0.01 * k, k / 20 * 2); })),
-            "doubtful: contraction is in steps", "resolution"));
+            "doubtful: contraction is in steps",
+            "sensors: [{signal: contraction, kind: laser, resolution: 2 mm}]"));
+}
+
+TEST_F(PlausibleData, StepsOfRowsEachTick) {
+  std::string text = "time_s,current_mA,contraction_ratio\n";
+  for (int k = 0; k < 200; ++k) text += fmt::format("{:.3f},{},{}\n", 0.012 * k, 0.05 * k, k / 20 * 0.005);
+  place_.write("a.csv", text);
+  place_.write("dataset.yaml",
+               "schema: mckibben-dataset/1\nrig: thesis\nruns: [{id: a, file: a.csv, load: 5 kg}]\n");
+  EXPECT_TRUE(holds(said(implausible(input::read_dataset(place_))), "doubtful: contraction is in steps",
+                    "kind: laser, resolution: 1.5 mm"));
 }
 
 }  // namespace

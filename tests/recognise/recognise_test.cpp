@@ -11,6 +11,7 @@
 #include <sim/recognise/headings.hpp>
 #include <sim/recognise/recognise.hpp>
 
+#include "says.hpp"
 #include "scratch.hpp"
 
 namespace mckibben::recognise {
@@ -166,6 +167,62 @@ TEST_F(Recognise, RunsThatBeginOnTheirWay) {
   };
   const Recognised found = recognise({run("5kg.csv", "time_s,current_mA,contraction_ratio\n", row)}, true);
   EXPECT_EQ(setting(found.dataset, "start")->told.value, "moving");
+}
+
+TEST_F(Recognise, HeadingsThatAreUnitsAndCountsBeside) {
+  const auto row = [](int k) {
+    return fmt::format("{},{:.0f},{:.3f},{:.2f}", 20 * k, 100 + 400 * drive(k), 14.5 * drive(k),
+                       30 * drive(k));
+  };
+  const Recognised found = recognise({run("a.csv", "ms,counts,PSI,x_mm\n", row)}, true);
+  EXPECT_EQ(found.maps[0].find("muscle_pressure")->column.value, "PSI");
+  EXPECT_EQ(found.maps[0].find("muscle_pressure")->unit.value, "PSI");
+  EXPECT_EQ(found.maps[0].find("time")->unit.value, "ms");
+  EXPECT_EQ(found.maps[0].find("contraction")->column.value, "x_mm");
+}
+
+TEST_F(Recognise, TheLineThatNamesTimeIsTheHeading) {
+  const auto row = [](int k) { return fmt::format("{:.3f},{:.3f}", 0.02 * k, drive(k)); };
+  for (const char* above :
+       {"Labels,pressure\nTIME,CH1\n", "LECROY,1,Waveform\nSegment,TrigTime,Since\nTime,Ampl\n"})
+    EXPECT_NE(recognise({run("a.csv", above, row)}, true).maps[0].find("time"), nullptr) << above;
+}
+
+TEST_F(Recognise, CountersThatBeginAgainAreRuns) {
+  const auto row = [](int k) {
+    return fmt::format("{},{:.3f},{:.2f}", k % 100, 5 * drive(k), 30 * drive(k));
+  };
+  const Recognised found = recognise({run("a.csv", "n,p_bar,x_mm\n", row)}, true);
+  ASSERT_EQ(found.runs.size(), 2u);
+  EXPECT_EQ(found.tables[1].part, std::vector<std::string>{"segment: 2"});
+  EXPECT_TRUE(found.maps[0].find("time")->factor->open());
+  const Recognised rate = recognise({run("b.csv", "fps: 240\nn,p_bar,x_mm\n", row)}, true);
+  EXPECT_NEAR(std::stod(rate.maps[0].find("time")->factor->value), 1.0 / 240.0, 1e-9);
+}
+
+TEST_F(Recognise, RowsOfAKnownRigWithoutStampsAreAsked) {
+  const auto row = [](int k) { return fmt::format("{:.3f},{:.2f}", 5 * drive(k), 30 * drive(k)); };
+  const fs::path file = run("a.csv", "p_bar,x_mm\n", row);
+  EXPECT_TRUE(recognise({file}, true).maps[0].rows->told.open());
+  EXPECT_EQ(recognise({file}, false).maps[0].rows->told.value, "true") << "its tick is asked";
+}
+
+TEST_F(Recognise, WhatNoHeadingNamesHasCandidates) {
+  const auto row = [](int k) { return fmt::format("{},{:.3f},{:.2f}", 20 * k, drive(k), 3 * drive(k)); };
+  const Recognised found =
+      recognise({run("a.csv", "KP 0.72\nTime,Channel A,Channel B\n(ms),(V),(V)\n\n", row)}, true);
+  EXPECT_TRUE(holds(found.maps[0].find("contraction")->column.reason, "Channel A (0 to 1 V)", "Channel B"));
+  EXPECT_TRUE(holds(found.maps[0].remarks.at(0), "KP 0.72"));
+}
+
+TEST_F(Recognise, ReadingsBetweenThoseOfThePressureHaveASign) {
+  const auto row = [](int k) {
+    return k % 2 == 0 ? fmt::format("{},{:.3f},", 10 * k, drive(k))
+                      : fmt::format("{},,{:.2f}", 10 * k, 50 - 30 * drive(k));
+  };
+  EXPECT_EQ(
+      recognise({run("a.csv", "t_ms,p_bar,x_mm\n", row)}, true).maps[0].find("contraction")->factor->value,
+      "-1");
 }
 
 TEST_F(Recognise, OtherFormats) {
