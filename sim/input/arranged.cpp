@@ -84,7 +84,7 @@ void add_cuts(const std::vector<double>& labels, std::vector<std::size_t>& parts
 /// Whether stamps fall back here by most of what has passed, and go on from there.
 bool begins_anew(const std::vector<double>& time, std::size_t begin, std::size_t row) {
   constexpr std::size_t least_rows = 3;
-  if (row < begin + least_rows || row + 1 >= time.size() || !(time[row + 1] > time[row])) return false;
+  if (row < begin + least_rows || row + 1 >= time.size() || time[row + 1] < time[row]) return false;
   const double passed = time[row - 1] - time[begin];
   return passed > 0.0 && time[row - 1] - time[row] > falls_back * passed;
 }

@@ -195,7 +195,7 @@ Heading heading_of(const UnknownColumn& column) {
   Heading heading;
   heading.unit = !column.unit.empty() ? column.unit : input::unit_word(split.behind);
   if (heading.unit.empty() && split.behind.empty() && column.heading().size() > 1 &&
-      column.heading() != "in" && column.heading() != "min")
+      column.heading() != "in" && column.heading() != "min" && !names_a_run(column.heading()))
     heading.unit = input::unit_word(column.heading());  // a heading that is a unit
   if (column.is_date) heading.unit = input::date_unit;
   const bool is_suffix = column.unit.empty() && !split.in_brackets && !column.is_date;
