@@ -65,7 +65,8 @@ Decision decide(const std::vector<Judged>& table) {
   for (const std::size_t i : decision.rivals) {
     if (!allowed(table[i])) continue;
     const auto [nats, error] = loss(table[i].held_out, table[reference].held_out);
-    if (!allowed(table[reference]) || nats > decisive.errors * error) reference = i;
+    if (!allowed(table[reference]) || nats > std::max(decisive.errors * error, decisive.strong))
+      reference = i;
   }
   decision.chosen = reference;
   for (std::size_t i = 0; i < table.size(); ++i) {

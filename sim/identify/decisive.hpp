@@ -7,6 +7,7 @@ struct Decisive {
   double tails =
       4.0;  ///< degrees of freedom of Student's t, of sizes and parameters; a convention for heavy tails
   double errors = 2.0;  ///< standard errors of a paired held-out difference (Vehtari, Gelman, Gabry 2017)
+  double strong = 3.0;  ///< nats: strong evidence is above log 20 (Kass & Raftery 1995)
   double bent = 0.95;   ///< of chi^2: parameters further off may imitate what is missing; convention
   double conflict =
       4.6;             ///< deviations: one in a hundred of the prior is further off (Evans & Moshonov 2006)

@@ -8,6 +8,7 @@
 #include <sim/diagnose/plan.hpp>
 #include <sim/diagnose/predict.hpp>
 #include <sim/engine/batch.hpp>
+#include <sim/identify/decisive.hpp>
 #include <sim/identify/next.hpp>
 #include <sim/identify/quadratic.hpp>
 
@@ -16,8 +17,6 @@ namespace mckibben::identify {
 using Eigen::Index;
 
 namespace {
-
-const double tells = std::log(20.0);  // nats: strong evidence (Kass & Raftery 1995)
 
 /// What a model reads in a run, and how that changes with its numbers.
 struct Foreseen {
@@ -76,7 +75,7 @@ double power(const Model& model, const Foreseen& by, const Eigen::VectorXd& trut
     square -= along.dot(known.llt().solve(along));
   }
   const double growth = std::max(square / variance, 0.0);
-  return growth > 0.0 ? 0.5 * std::erfc((tells - 0.5 * growth) / std::sqrt(2.0 * growth)) : 0.0;
+  return growth > 0.0 ? 0.5 * std::erfc((decisive.strong - 0.5 * growth) / std::sqrt(2.0 * growth)) : 0.0;
 }
 
 }  // namespace

@@ -20,8 +20,6 @@ using Names = std::vector<std::string>;
 
 namespace {
 
-constexpr double clear_nats = 3.0;  // log 20: of a group of runs, more than chance (Kass & Raftery 1995)
-
 bool has(const Names& names, const std::string& name) {
   return std::ranges::binary_search(names, name);
 }
@@ -30,7 +28,7 @@ bool has(const Names& names, const std::string& name) {
 bool rivals_chosen(const Identified& found, std::size_t i) {
   const Judged &chosen = found.table[found.decision.chosen], &other = found.table[i];
   const auto [nats, error] = loss(chosen.held_out, other.held_out);
-  return nats <= std::max(decisive.errors * error, clear_nats) &&
+  return nats <= std::max(decisive.errors * error, decisive.strong) &&
          other.score > chosen.score + std::log(decisive.mass);
 }
 
@@ -72,7 +70,7 @@ void support(const Identified& found, std::vector<NamedEffect>& effects) {
       for (std::size_t group = 0; group < groups.size(); ++group) {
         const auto at = static_cast<Eigen::Index>(group);
         const double gain = chosen.held_out[at] - rest->held_out[at];
-        if (std::abs(gain) < clear_nats) continue;
+        if (std::abs(gain) < decisive.strong) continue;
         for (const std::size_t run : groups[group])
           (gain > 0.0 ? effect.support.by : effect.support.against)
               .push_back(study.data.runs[study.rows.runs[run]].id);
@@ -179,7 +177,7 @@ std::vector<diagnose::Ranked> ranking(const Identified& found, const std::vector
     diagnose::Ranked one{
         .name = of.effect,
         .score = promised == found.promised.end() ? 0.0 : std::max(0.0, 2.0 * promised->second),
-        .outcome = promised != found.promised.end() && promised->second > clear_nats
+        .outcome = promised != found.promised.end() && promised->second > decisive.strong
                        ? "not tried: others promised more"
                        : "promises too little",
         .side = of.side};

@@ -19,12 +19,12 @@
 namespace mckibben::identify {
 
 // How far the search goes.
-inline constexpr std::size_t tries = 6;        // that are begun, of a look
-inline constexpr std::size_t most_rivals = 3;  // of a name
-inline const double worth = std::log(20.0);    // nats, of another try (Kass & Raftery 1995: strong)
-inline constexpr double clear = 20.0;          // nats behind: hopeless
-inline constexpr double far_off = 3.0;         // deviations of a parameter: something may stand in its place
-inline constexpr double alike = 0.9;           // squared cosine of what both change
+inline constexpr std::size_t tries = 6;           // that are begun, of a look
+inline constexpr std::size_t most_rivals = 3;     // of a name
+inline constexpr double worth = decisive.strong;  // nats, of another try
+inline constexpr double clear = 20.0;             // nats behind: hopeless
+inline constexpr double far_off = 3.0;  // deviations of a parameter: something may stand in its place
+inline constexpr double alike = 0.9;    // squared cosine of what both change
 
 inline constexpr std::array families{Terms::smooth, Terms::waves, Terms::rubs};
 

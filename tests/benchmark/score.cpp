@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-
 namespace mckibben::diagnose {
 
 std::string_view name_of(Verdict verdict) {

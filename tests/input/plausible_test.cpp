@@ -97,7 +97,7 @@ TEST_F(PlausibleData, PressuresThatCannotBe) {
   const auto high = [](int k) { return fmt::format("{},{},{}", 10 * k, 4.0 + 0.4 * k, k); };
   const auto ten_times = [](int k) { return fmt::format("{},{},{}", 10 * k, 40.0 + 4.0 * k, k); };
   EXPECT_TRUE(holds(said(find(high)), "refused: muscle_pressure is up to 83.6 bar", "unit: psi"));
-  EXPECT_FALSE(holds(said(find(high, "ms", "atm")), "columns:")) << "no line that no reader takes";
+  EXPECT_TRUE(holds(said(find(high, "ms", "atm")), "write the unit, zero and factor of its gauge"));
   EXPECT_TRUE(holds(said(find(ten_times, "ms", "psi")), "as kPa it would be 8.36 bar", "unit: kPa"));
   try {
     find(ten_times, "ms", "atm");
@@ -137,7 +137,7 @@ TEST_F(PlausibleData, PressuresInOtherUnitsProposeOneThatIsRead) {
     EXPECT_EQ(text.find("refused"), 0u);
   }
   const std::string unknown = said(find(up_to(60.0), "ms", "kgf/cm2"));
-  EXPECT_TRUE(holds(unknown, "write the unit, zero and factor of its gauge", "unit: kgf/cm2"));
+  EXPECT_TRUE(holds(unknown, "write the unit, zero and factor of its gauge", "unit: \"kgf/cm2\""));
 }
 
 TEST_F(PlausibleData, OneFileUnderTwoLoads) {
