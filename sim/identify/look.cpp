@@ -180,8 +180,13 @@ bool Search::look_from(Model base, bool far, bool first) {
     const Start& best = *std::ranges::max_element(other_hills, {}, &Start::value);
     const Names names = dictionary_.names(best.point);
     if (hills_.insert(names).second) {
-      chosen.push_back(best);
       seen.insert(names);
+      Model m = refined(best.point);
+      if (m.score > here_->score) {
+        here_ = std::move(m);
+        prune();
+        return true;
+      }
     }
   }
   for (const Start& start : starts) {
