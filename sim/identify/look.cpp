@@ -15,26 +15,31 @@ std::vector<Start> Search::starts_from(const Model& base, const Eigen::MatrixXd&
                                        const std::vector<Probe>& list, const Point& point,
                                        const Eigen::VectorXd& residual, const Eigen::MatrixXd& slopes,
                                        bool far) const {
-  std::vector<std::vector<int>> extras{{}};
-  for (int g = 0; g < static_cast<int>(differing.size()); ++g)
-    if (!point.lets_differ(g)) extras.push_back({g});
-  std::vector<Start> all;
-  const std::size_t taken = dictionary_.names(point).size();
-  for (const auto& extra : extras) {
-    if (taken + extra.size() > static_cast<std::size_t>(decisive.most_together)) continue;
+  std::vector<Start> all =
+      sets(problem_, base.error.with(point.differ), point, base.term_N, residual, slopes, columns, list, far);
+  if (dictionary_.names(point).size() >= static_cast<std::size_t>(decisive.most_together)) return all;
+  const Eigen::VectorXd variance = Model(problem_, point, base.error, base.term_N).variance();
+  for (int g = 0; g < static_cast<int>(differing.size()); ++g) {
+    if (point.lets_differ(g)) continue;
     Point q = point;
-    q.differ.insert(q.differ.end(), extra.begin(), extra.end());
+    q.differ.push_back(g);
     std::ranges::sort(q.differ);
-    Error error = base.error.with(q.differ);
-    if (extra.size() == 1) {  // its scale, and the rest beside it, by evidence
-      const Model probe(problem_, point, base.error, base.term_N);
-      error = error.fitted(residual, slopes, probe.variance(), {1.0}).first;
-    }
-    auto more = sets(problem_, error, q, base.term_N, residual, slopes, columns, list, far);
-    std::ranges::move(more, std::back_inserter(all));
+    // Its scale, and the rest with it, by evidence.
+    const Error error = base.error.with(q.differ).fitted(residual, slopes, variance, {1.0}).first;
+    std::ranges::move(sets(problem_, error, q, base.term_N, residual, slopes, columns, list, far),
+                      std::back_inserter(all));
   }
   return all;
 }
+
+namespace {
+
+/// Whether two changes have nearly one direction, of their products.
+bool are_alike(double along, double square, double other_square) {
+  return along * along >= alike * square * other_square;
+}
+
+}  // namespace
 
 /// What changes the readings like a part of a model does, in its place. Straight lines say nothing of whether
 /// it is better: `value` is for comparison among these.
@@ -47,7 +52,7 @@ std::vector<Start> Search::alike_to(const Model& base, const Part& part, const E
   for (Index c = 0; c < columns.cols(); ++c) {
     const Probe& probe = list[static_cast<std::size_t>(c)];
     const double along = gram(0, c + 1), square = gram(c + 1, c + 1);
-    if (along * along < alike * gram(0, 0) * square || part.rest.has(probe.entry)) continue;
+    if (!are_alike(along, gram(0, 0), square) || part.rest.has(probe.entry)) continue;
     const Added added = dictionary_.clipped({probe.entry, along / square, probe.shapes});
     Start start{log_t(added.size) - part.log_prior, part.rest};
     start.point.effects.push_back(added);
@@ -255,8 +260,7 @@ std::vector<Start> Search::of_other_sides(const Model& base, std::size_t place, 
     if (!read.allFinite()) continue;
     const Eigen::MatrixXd change = read - (base.read - part.change);
     const Eigen::MatrixXd gram = base.error.grams(part.change, change).sum();
-    if (gram(0, 1) > 0.0 && gram(0, 1) * gram(0, 1) > alike * gram(0, 0) * gram(1, 1))
-      starts.push_back(std::move(start));
+    if (gram(0, 1) > 0.0 && are_alike(gram(0, 1), gram(0, 0), gram(1, 1))) starts.push_back(std::move(start));
   }
   return starts;
 }
