@@ -130,7 +130,6 @@ Parameter moved(const Further& one, bool both_sides) {
   if (one.lowest > 0.0)
     return {.path = one.path,
             .scale = 1.0,
-            .step = thresholds.parameter.shape_step,
             .lowest = one.lowest,
             .highest = one.highest,
             .logarithmic = true,
@@ -139,7 +138,6 @@ Parameter moved(const Further& one, bool both_sides) {
   return {.path = one.path,
           .origin = one.value,
           .scale = 0.25 * reach,
-          .step = thresholds.parameter.shape_step * reach,
           .lowest = one.lowest,
           .highest = one.highest,
           .both_sides = both_sides};
@@ -157,7 +155,6 @@ std::vector<Parameter> Candidate::parameters(const Rig& rig) const {
   std::vector<Parameter> list{{.path = amplitude,
                                .origin = absent,
                                .scale = std::abs(typical),
-                               .step = step,
                                .lowest = either_sign || typical < 0.0 ? size.lowest : least,
                                .highest = either_sign || typical > 0.0 ? size.highest : least,
                                .both_sides = both}};
@@ -165,7 +162,6 @@ std::vector<Parameter> Candidate::parameters(const Rig& rig) const {
     const Found form = find(copy, shape);
     list.push_back({.path = shape,
                     .scale = 1.0,
-                    .step = thresholds.parameter.shape_step,
                     .lowest = own ? form.lowest
                                   : std::max(form.lowest, shapes.front() / thresholds.parameter.shape_range),
                     .highest = own ? form.highest
@@ -175,11 +171,6 @@ std::vector<Parameter> Candidate::parameters(const Rig& rig) const {
   }
   for (const Further& one : further) list.push_back(moved(one, both));
   return list;
-}
-
-bool Candidate::moves(std::string_view path) const {
-  return path == amplitude || path == shape ||
-         std::ranges::any_of(further, [&](const Further& one) { return one.path == path; });
 }
 
 std::vector<Candidate> Candidate::variations() const {

@@ -31,7 +31,7 @@ struct Candidate {
   std::string effect;            ///< its name
   std::string variant;           ///< of the law; empty if there is one only
   std::string amplitude, shape;  ///< paths; `shape` empty if there is none
-  double absent = 0.0, typical = 0.0, step = 0.0;
+  double absent = 0.0, typical = 0.0;
   bool either_sign = false;
   std::vector<double> shapes;      ///< to begin from
   std::string adds_to{};           ///< the law that this one is with a term more; empty if it stands alone
@@ -55,7 +55,6 @@ struct Candidate {
   Rig removed(Rig rig) const;
   /// What a fit moves: amplitude and, if any, shape and further parameters.
   std::vector<Parameter> parameters(const Rig& rig) const;
-  bool moves(std::string_view path) const;
   /// Itself, and with each further parameter at each of its other values: what is scored.
   std::vector<Candidate> variations() const;
 };

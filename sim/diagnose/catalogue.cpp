@@ -22,7 +22,6 @@ Candidate candidate_of(const plant::LawText& law) {
               .amplitude = prefix + size.name,
               .shape = "",
               .typical = size.typical,
-              .step = 1e-3 * std::abs(size.typical),
               .either_sign = size.lowest < 0.0 && size.highest > 0.0,
               .shapes = {},
               .own = true};
@@ -110,7 +109,6 @@ std::vector<Candidate> in_sight(const Sight& sight) {
                   .shape = law.shape.empty() ? "" : prefix + std::string(law.shape),
                   .absent = law.absent,
                   .typical = law.typical,
-                  .step = law.step,
                   .either_sign = law.sign == plant::Sign::either,
                   .shapes = {},
                   .adds_to = std::string(law.adds_to)};

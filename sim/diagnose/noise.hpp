@@ -30,7 +30,6 @@ struct NoiseFloor {
   }
   /// What scatters, together with what data sheets say is off.
   double with_sheets(double scatter) const { return std::hypot(scatter, command, accuracy); }
-  bool any_beside() const { return pressure_Pa > 0.0 || force_N > 0.0 || valve_Pa > 0.0; }
 };
 
 /// `masked[run][row]` rows do not count. `trusted` runs are looked at, and compared where they are equal;

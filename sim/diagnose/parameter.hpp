@@ -37,20 +37,15 @@ struct Parameter {
   std::string path;
   double origin = 0.0;  ///< where the fit counts from: the nominal value, or that of an absent effect
   double scale = 1.0;   ///< what it counts in: a prior deviation, or a size that matters
-  double step = 0.0;    ///< for differences
   double lowest = 0.0, highest = 0.0;
   bool has_prior = false;    ///< normal round `origin`, with `scale` as deviation
   bool logarithmic = false;  ///< counts in logarithms, from 1 in its unit
-  double period = 0.0;       ///< values so far apart are the same, an angle; 0: none are
-  double widened = 1.0;      ///< `scale` over the deviation that is stated, of a prior that was made wider
   bool both_sides = false;   ///< of a pair: the number of muscle 2's side is the same one
 
   bool of_effect() const { return path.find("effects.") != std::string::npos; }
   void put(Rig& rig, double value) const;
   double unscaled(double number) const;
   double scaled(double value) const;
-  /// From the origin, of the prior that is stated.
-  double deviations(double value) const { return scaled(value) * widened; }
 };
 
 }  // namespace mckibben::diagnose

@@ -71,7 +71,6 @@ Parameter normal(const std::string& path, const Found& found, double deviation) 
   return {.path = path,
           .origin = *found.value,
           .scale = deviation,
-          .step = thresholds.parameter.step * deviation,
           .lowest = std::max(found.lowest, *found.value - most),
           .highest = std::min(found.highest, *found.value + most),
           .has_prior = true};
@@ -83,10 +82,7 @@ Parameter size_of(const Candidate& candidate, bool is_size, Parameter p, const R
   p.origin = value_of(nominal, p.path);
   const double size = p.origin - (is_size ? candidate.absent : 0.0);
   p.scale = std::abs(size);
-  if (p.logarithmic)
-    p.step *= p.scale;
-  else
-    p.scale = std::max(p.scale, std::abs(candidate.typical));
+  if (!p.logarithmic) p.scale = std::max(p.scale, std::abs(candidate.typical));
   p.scale = deviation_of(stated, p.path, p.origin, p.scale).value_or(p.scale);
   p.logarithmic = false;
   p.has_prior = true;

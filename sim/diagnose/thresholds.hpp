@@ -54,9 +54,7 @@ struct ParameterThresholds {
   double unknown_usual = 3.0;    ///< or so many of those above, if that is more
   double most_deviations = 3.0;  ///< of its prior: further it is not the rig that was described
   double notable = 1.0;          ///< deviations that are worth telling
-  double step = 0.02;            ///< deviations, for a slope
   double least_size = 0.01;      ///< of an effect's typical size: as good as absent, and may be stiff
-  double shape_step = 0.01;      ///< logarithm of a shape, for a slope
   int law_places = 12;           ///< over the range of a number of one's own law, from which fits begin
   double shape_range = 4.0;      ///< factor: so far outside those tried a shape may go
 };
