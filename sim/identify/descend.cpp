@@ -26,7 +26,6 @@ void Model::descend(const Effort& effort) {
   const Dictionary& dictionary = problem->dictionary;
   double reach = 3.0;
   bool far = true;
-  bool finely = false;
   constexpr double again = 5.0;  // times as much as in the last round
   double evidence_before = -std::numeric_limits<double>::infinity();
   arrived = hopeless = false;
@@ -41,7 +40,7 @@ void Model::descend(const Effort& effort) {
               far ? std::vector<std::size_t>{Error::model_sd} : std::vector<std::size_t>{});
     const Grams now = error.grams(residual(), slopes);
     Quadratic quadratic(now.sum(), variance().cwiseInverse(), dictionary.vector(point));
-    deviation_ = quadratic.deviation();
+    open_ = quadratic.open();
     const double promised = quadratic.promised(), before = cost(read, point);
     if (far && promised < 1.0) {
       far = false;
@@ -105,21 +104,11 @@ void Model::descend(const Effort& effort) {
       if (quadratic.promised() < effort.enough) break;
     }
     if (before - here < effort.enough) {  // kinks promise what no step finds
-      if (finely) {
-        arrived = true;
-        return;
-      }
-      finely = true;
-      reach = 0.3;
-      look(true);
-      continue;
+      arrived = true;
+      return;
     }
-    std::vector<std::size_t> anew;
-    const bool all_anew = promised > 10.0 || !(before - here > 0.3 * promised);
-    const auto coordinates = dictionary.coordinates(point);
-    for (std::size_t j = 0; j < coordinates.size(); ++j)
-      if (all_anew || coordinates[j].kind != Kind::parameter) anew.push_back(j);
-    if (!anew.empty()) look_again(anew);
+    open_ = quadratic.open();
+    look();
   }
 }
 

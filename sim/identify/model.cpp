@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <numeric>
 
 #include <Eigen/Cholesky>
 #include <fmt/format.h>
@@ -100,57 +99,41 @@ Eigen::VectorXd Model::variance() const {
   return list;
 }
 
-Point Model::perturbed(std::size_t coordinate, double& step, double times) const {
-  Eigen::VectorXd v = problem->dictionary.vector(point);
-  const auto j = static_cast<Index>(coordinate);
-  step = times *
-         (deviation_ ? std::clamp((*deviation_)[j], 0.01, 0.1) : 0.1);  // as far as the data leave it open
-  const double from = v[j];
-  v[j] += step;
-  Point there = problem->dictionary.moved(point, v);
-  if (problem->dictionary.vector(there)[j] == from) {  // over the edge of its range
-    v[j] = from - step;
-    step = -step;
-    there = problem->dictionary.moved(point, v);
-  }
-  return there;
-}
-
 void Model::look_at_wander() {
   error.take(problem->simulator.wander(problem->dictionary.setting(point)));
 }
 
-void Model::look(bool both) {
-  std::vector<std::size_t> all(problem->dictionary.coordinates(point).size());
-  std::iota(all.begin(), all.end(), std::size_t{0});
-  look_again(all, both);
-}
-
-/// Readings here, and these slopes anew.
-void Model::look_again(const std::vector<std::size_t>& which, bool both) {
-  constexpr double wider = 3.0;
-  const std::size_t sides = both ? 2 : 1;
-  std::vector<Setting> settings{problem->dictionary.setting(point)};
-  std::vector<double> steps(sides * which.size());
-  for (std::size_t i = 0; i < steps.size(); ++i)
-    settings.push_back(problem->dictionary.setting(perturbed(which[i / sides], steps[i],
-                                                             !both        ? 1.0
-                                                             : i % 2 == 0 ? wider
-                                                                          : -wider)));
+void Model::look() {
+  const Dictionary& dictionary = problem->dictionary;
+  const Eigen::VectorXd v = dictionary.vector(point);
+  const Index k = v.size();
+  constexpr double first = 0.1;
+  const Eigen::MatrixXd axes = open_.cols() == k ? open_ : first * Eigen::MatrixXd::Identity(k, k);
+  std::vector<Setting> settings{dictionary.setting(point)};
+  Eigen::MatrixXd moved(k, k);
+  for (Index i = 0; i < k; ++i) {
+    Point there = dictionary.moved(point, v + axes.col(i));
+    moved.col(i) = dictionary.vector(there) - v;
+    if (moved.col(i) != axes.col(i)) {  // over the edge of a range
+      const Point other = dictionary.moved(point, v - axes.col(i));
+      if (const Eigen::VectorXd by = dictionary.vector(other) - v; by.norm() > moved.col(i).norm()) {
+        moved.col(i) = by;
+        there = other;
+      }
+    }
+    settings.push_back(dictionary.setting(there));
+  }
   const Eigen::MatrixXd seen = problem->simulator.differences(settings);
   if (read.size() == 0) read = seen.col(0);  // else they stay: changes are known better than where they begin
-  const auto count = static_cast<Index>(problem->dictionary.coordinates(point).size());
-  if (slopes.cols() != count) slopes = Eigen::MatrixXd::Zero(seen.rows(), count);
-  for (std::size_t i = 0; i < which.size(); ++i) {
-    Eigen::VectorXd slope = Eigen::VectorXd::Zero(seen.rows());
-    double good = 0.0;
-    for (std::size_t side = sides * i; side < sides * (i + 1); ++side)
-      if (const auto column = seen.col(static_cast<Index>(side + 1)); column.allFinite()) {
-        slope += column / steps[side];
-        good += 1.0;
-      }
-    if (good > 0.0) slopes.col(static_cast<Index>(which[i])) = slope / good;
-  }
+  if (slopes.cols() != k) slopes = Eigen::MatrixXd::Zero(seen.rows(), k);
+  std::vector<Index> good;
+  for (Index i = 0; i < k; ++i)
+    if (seen.col(i + 1).allFinite() && !moved.col(i).isZero(0.0)) good.push_back(i);
+  if (good.empty()) return;
+  const Eigen::MatrixXd by = moved(Eigen::all, good);
+  const Eigen::VectorXd scale = by.colwise().norm().cwiseInverse();  // a short axis is not nothing
+  slopes += (seen.rightCols(k)(Eigen::all, good) - slopes * by) * scale.asDiagonal() *
+            (by * scale.asDiagonal()).completeOrthogonalDecomposition().pseudoInverse();
 }
 
 Model::Here Model::here() const {

@@ -25,9 +25,10 @@ class Model {
  public:
   Model(const Problem& problem, Point point, const Error& error, double term_N = 1.0);
 
-  /// Readings and slopes at the point. `both`: by wider steps to both sides, where columns of several numbers
-  /// all but cancel.
-  void look(bool both = false);
+  /// Readings and slopes at the point, by differences along the axes of the curvature, each as long as the
+  /// data leave it open: in a curved valley large slopes of its numbers cancel, and the errors of differences
+  /// along these would hide that.
+  void look();
   void fit_error(std::vector<double> steps, std::vector<std::size_t> only = {});
 
   struct Effort {
@@ -76,8 +77,6 @@ class Model {
   Eigen::VectorXd held_out{};  ///< log density of each group of runs given the others
 
  private:
-  Point perturbed(std::size_t coordinate, double& step, double times = 1.0) const;
-  void look_again(const std::vector<std::size_t>& coordinates, bool both = false);
   double cost(const Eigen::VectorXd& would_read, const Point& at) const;
   /// Simulates numbers of runs, which are not straight, where they are most probable; whether any has moved.
   bool place();
@@ -86,7 +85,7 @@ class Model {
   void share_common_load();
   void look_at_wander();
 
-  std::optional<Eigen::VectorXd> deviation_;  ///< of each coordinate, as far as known
+  Eigen::MatrixXd open_{};  ///< axes of the curvature, as long as the data leave them open, where known
 };
 
 /// log density of Student's t of a size.

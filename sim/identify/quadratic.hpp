@@ -19,6 +19,7 @@ inline Eigen::MatrixXd curvature(const Eigen::MatrixXd& gram, const Eigen::Vecto
 
 /// Of the log density in units of the priors: `gram` with the residual's row and column first.
 struct Quadratic {
+  static constexpr double shortest = 0.005, furthest = 0.3;  ///< of a difference, in deviations of the priors
   Eigen::VectorXd values, weight;
   Eigen::MatrixXd axes;
   Eigen::VectorXd pull;  ///< along the axes
@@ -32,7 +33,10 @@ struct Quadratic {
   }
   double promised() const { return 0.5 * pull.cwiseAbs2().cwiseQuotient(values).sum(); }
   double longest() const { return pull.cwiseQuotient(values).norm(); }
-  Eigen::VectorXd deviation() const { return (axes.cwiseAbs2() * values.cwiseInverse()).cwiseSqrt(); }
+  /// The axes, each as long as the data leave it open.
+  Eigen::MatrixXd open() const {
+    return axes * values.cwiseSqrt().cwiseInverse().cwiseMax(shortest).cwiseMin(furthest).asDiagonal();
+  }
   /// The step of a length, on Levenberg's path.
   Eigen::VectorXd step(double length) const {
     if (longest() <= length) return axes * pull.cwiseQuotient(values);

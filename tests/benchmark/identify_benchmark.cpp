@@ -35,7 +35,8 @@ double cpu_s() {
   return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
 }
 
-void identify_one(const std::string& title, domain::Dataset data, bool verbose) {
+void identify_one(const std::string& title, domain::Dataset data, bool verbose,
+                  const diagnose::Hidden* hidden = nullptr) {
   const double begin_s = cpu_s();
   data::mend_at_stamps(data);
   data = data::with_rows(std::move(data));
@@ -77,6 +78,11 @@ void identify_one(const std::string& title, domain::Dataset data, bool verbose) 
     for (const auto& one : diagnosis.recalibrated) {
       fmt::print("    {:.3f} ", one.deviations);
       print(one.fitted);
+      if (hidden == nullptr) continue;
+      for (const auto& number : hidden->numbers)  // half a 95 % interval is 1
+        if (number.path == one.fitted.name)
+          fmt::print("      true {:.6g}: off by {:.2f} of its half interval\n", number.value,
+                     2.0 * (one.fitted.value - number.value) / (one.fitted.high - one.fitted.low));
     }
     for (const auto& one : diagnosis.ranking)
       fmt::print("    {} {} {:.1f} {:.1f}: {}\n", one.name, one.variant, one.score, one.fall, one.outcome);
@@ -171,7 +177,8 @@ int main(int argc, char** argv) {
                  seeds = std::strtoull(argv[i + 2], nullptr, 10);
       for (const diagnose::DataSet& set : diagnose::all_sets(first, seeds, i + 3 < argc ? argv[i + 3] : "")) {
         diagnose::Hidden hidden = diagnose::hide(set.kind, set.seed, set.surroundings);
-        identify_one(fmt::format("{} {}", hidden.title, set.seed), std::move(hidden.data), verbose);
+        domain::Dataset data = hidden.data;
+        identify_one(fmt::format("{} {}", hidden.title, set.seed), std::move(data), verbose, &hidden);
       }
       return 0;
     }
